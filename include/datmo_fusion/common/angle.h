@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cmath>
+
+namespace datmo_fusion {
+
+inline constexpr double kPi = 3.14159265358979323846;
+
+/// Degrees to radians.
+constexpr double degrees(double value) { return value * kPi / 180.0; }
+
+/// Radians to degrees.
+constexpr double toDegrees(double radians) { return radians * 180.0 / kPi; }
+
+/// The same direction in (-pi, pi]. `angle` in rad, any finite value.
+inline double normalizeAngle(double angle) {
+  const double wrapped = std::remainder(angle, 2.0 * kPi);
+  return wrapped <= -kPi ? kPi : wrapped;
+}
+
+/// Shortest rotation from one direction to another, rad in (-pi, pi].
+inline double angleBetween(double from, double to) { return normalizeAngle(to - from); }
+
+}  // namespace datmo_fusion

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <array>
+
+#include "datmo_fusion/common/pose2.h"
+
+namespace datmo_fusion {
+
+/// A rectangle on the ground: its centre and heading, its length along the heading and its width.
+struct Box2 {
+  Pose2 centre;
+  double length = 0.0;  ///< m, at least 0
+  double width = 0.0;   ///< m, at least 0
+
+  /// Front left, rear left, rear right, front right.
+  std::array<Point2, 4> corners() const;
+
+  /// Border points count as inside.
+  bool contains(const Point2& point) const;
+
+  /// From the point to the nearest point of the rectangle, m; 0 inside.
+  double distanceTo(const Point2& point) const;
+};
+
+}  // namespace datmo_fusion

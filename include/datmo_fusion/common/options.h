@@ -1,0 +1,66 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace datmo_fusion {
+
+/// What a person who sets an option must know about it; stands once, where the option is declared.
+struct OptionInfo {
+  std::string name;         ///< key in the yaml file
+  std::string unit;         ///< "m", "s", "1" for a pure number, "" for text and switches
+  std::string description;  ///< what it does, and its source: thesis section or paper
+};
+
+/// Closed interval of the values that an option may take.
+struct Bounds {
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
+};
+
+/// An option that has no valid value: the message names it, its value and what was expected.
+class OptionError : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
+/// Walks over the options of a stage. Each `Options` struct of the core declares its members to a
+/// visitor in one function, `void visit(OptionVisitor&)`; reading, checking and documenting them are
+/// visitors, so that nothing is said twice.
+class OptionVisitor {
+ public:
+  virtual ~OptionVisitor() = default;
+
+  virtual void number(const OptionInfo& info, double& value, const Bounds& bounds) = 0;
+  virtual void integer(const OptionInfo& info, int& value, const Bounds& bounds) = 0;
+  virtual void toggle(const OptionInfo& info, bool& value) = 0;
+  /// Text; `allowed` empty: any text.
+  virtual void text(const OptionInfo& info, std::string& value,
+                    const std::vector<std::string>& allowed) = 0;
+
+  /// Options that stand under a common key: `name/…`.
+  void group(const std::string& name, const std::function<void()>& visit_members);
+
+ protected:
+  /// The full key of an option: the names of the groups around it, and its own.
+  std::string key(const OptionInfo& info) const;
+
+ private:
+  std::vector<std::string> groups_;
+};
+
+namespace detail {
+void checkAll(const std::function<void(OptionVisitor&)>& visit);
+}
+
+/// Throws OptionError for the first option whose value is not finite, out of bounds or not allowed.
+template <typename Options>
+void checkOptions(const Options& options) {
+  Options copy = options;
+  detail::checkAll([&copy](OptionVisitor& visitor) { copy.visit(visitor); });
+}
+
+}  // namespace datmo_fusion

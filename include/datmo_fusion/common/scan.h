@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "datmo_fusion/common/pose2.h"
+#include "datmo_fusion/common/stamp.h"
+
+namespace datmo_fusion {
+
+/// One beam of a scan in the vehicle's frame (base_link), at the scan's stamp.
+struct Ray {
+  Point2 origin = Point2::Zero();  ///< m, where the beam starts: the scanner
+  Point2 end = Point2::Zero();     ///< m, the obstacle; without one, as far as the beam is known free
+  double range = 0.0;              ///< m, from origin to end
+  double bearing = 0.0;            ///< rad, of the beam about the scanner, from its x axis
+  std::uint32_t beam = 0;          ///< index of the beam in the scan
+  bool hit = false;                ///< false: nothing was seen up to `end`
+};
+
+/// A planar scan, checked and brought to the vehicle's frame. Beams without a valid measurement (NaN,
+/// below the least range) have no ray.
+struct Scan {
+  Stamp stamp;
+  Pose2 scanner_in_base;
+  double beam_spacing = 0.0;  ///< rad, between neighbouring beams, more than 0
+  std::vector<Ray> rays;      ///< by rising beam index
+};
+
+/// What the map says of the place where a beam ends (thesis 3.1.2, 3.3.1).
+enum class PointState : std::uint8_t {
+  kStatic = 0,   ///< an obstacle is known there
+  kMoving = 1,   ///< it has been seen free: whatever is there came in
+  kUnknown = 2,  ///< nothing is known of it yet
+};
+
+/// One end point of a scan in the vehicle's frame, judged against the map.
+struct ScanPoint {
+  Point2 position = Point2::Zero();  ///< m, base frame
+  double range = 0.0;                ///< m, from the scanner
+  double bearing = 0.0;              ///< rad, about the scanner
+  std::uint32_t beam = 0;
+  PointState state = PointState::kUnknown;
+};
+
+/// A scan split into static and moving points, and the pose from which it was seen.
+struct SplitScan {
+  Stamp stamp;
+  PoseWithCovariance base_in_map;
+  Pose2 scanner_in_base;
+  std::vector<ScanPoint> points;  ///< by rising beam index; beams without a hit are left out
+};
+
+}  // namespace datmo_fusion

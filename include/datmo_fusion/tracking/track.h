@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "datmo_fusion/common/object.h"
+
+namespace datmo_fusion {
+
+/// The four motion models of thesis 3.3.4, in the order of all mode vectors and matrices.
+enum class MotionMode : std::uint8_t {
+  kConstantVelocity,
+  kConstantAcceleration,
+  kLeftTurn,
+  kRightTurn
+};
+inline constexpr int kMotionModes = 4;
+
+/// State of a tracked object in the fixed frame: x, y (m), vx, vy (m/s), ax, ay (m/s^2).
+inline constexpr int kTrackState = 6;
+using TrackState = Eigen::Matrix<double, kTrackState, 1>;
+using TrackCovariance = Eigen::Matrix<double, kTrackState, kTrackState>;
+
+/// One confirmed moving object, followed over time, in the fixed frame.
+struct Track {
+  std::uint32_t id = 0;  ///< from 1; stable for the track's life, never reused
+  TrackState state = TrackState::Zero();
+  TrackCovariance covariance = TrackCovariance::Identity();
+  std::array<double, kMotionModes> mode_probabilities{};
+  Box2 box;               ///< centre is the state's position
+  double height = 0.0;    ///< m, 0: not measured
+  double yaw_rate = 0.0;  ///< rad/s
+  bool moving = false;    ///< false: it has moved, and stands now
+  ObjectClass object_class = ObjectClass::kUnknown;
+  double class_probability = 0.0;
+  double age = 0.0;           ///< s, since the first object
+  double since_update = 0.0;  ///< s, since the last object; more than 0: coasting
+  std::uint32_t hits = 0;
+  std::vector<std::string> sensors;
+};
+
+struct TrackList {
+  Stamp stamp;
+  std::vector<Track> tracks;  ///< by rising id
+};
+
+}  // namespace datmo_fusion

@@ -1,0 +1,64 @@
+#include "datmo_fusion/common/options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace datmo_fusion {
+
+namespace {
+
+class Checker : public OptionVisitor {
+ public:
+  void number(const OptionInfo& info, double& value, const Bounds& bounds) override {
+    if (std::isfinite(value) && value >= bounds.least && value <= bounds.most) {
+      return;
+    }
+    std::ostringstream message;
+    message << key(info) << " = " << value << ": expected a number from " << bounds.least << " to "
+            << bounds.most << " " << info.unit << " (" << info.description << ")";
+    throw OptionError(message.str());
+  }
+
+  void integer(const OptionInfo& info, int& value, const Bounds& bounds) override {
+    double as_number = value;
+    number(info, as_number, bounds);
+  }
+
+  void toggle(const OptionInfo& /*info*/, bool& /*value*/) override {}
+
+  void text(const OptionInfo& info, std::string& value,
+            const std::vector<std::string>& allowed) override {
+    if (allowed.empty() || std::find(allowed.begin(), allowed.end(), value) != allowed.end()) {
+      return;
+    }
+    std::string message = key(info) + " = '" + value + "': expected one of";
+    for (const std::string& choice : allowed) {
+      message += " '" + choice + "'";
+    }
+    throw OptionError(message + " (" + info.description + ")");
+  }
+};
+
+}  // namespace
+
+void OptionVisitor::group(const std::string& name, const std::function<void()>& visit_members) {
+  groups_.push_back(name);
+  visit_members();
+  groups_.pop_back();
+}
+
+std::string OptionVisitor::key(const OptionInfo& info) const {
+  std::string full;
+  for (const std::string& group : groups_) {
+    full += group + "/";
+  }
+  return full + info.name;
+}
+
+void detail::checkAll(const std::function<void(OptionVisitor&)>& visit) {
+  Checker checker;
+  visit(checker);
+}
+
+}  // namespace datmo_fusion

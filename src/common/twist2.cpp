@@ -1,0 +1,32 @@
+#include "datmo_fusion/common/twist2.h"
+
+#include <cmath>
+
+namespace datmo_fusion {
+
+namespace {
+
+/// Below this turn (rad) the arc's chord differs from its length by less than double precision.
+constexpr double kStraight = 1e-9;
+
+}  // namespace
+
+Pose2 arc(const Twist2& twist, double seconds) {
+  const double length = twist.forward_speed * seconds;
+  const double turn = twist.yaw_rate * seconds;
+  if (std::abs(turn) < kStraight) {
+    return {length, 0.0, turn};
+  }
+  const double radius = length / turn;
+  return {radius * std::sin(turn), radius * (1.0 - std::cos(turn)), turn};
+}
+
+Twist2 twistOf(const Pose2& motion, double seconds) {
+  const double turn = motion.heading();
+  const double half = 0.5 * turn;
+  const double chord = motion.x() * std::cos(half) + motion.y() * std::sin(half);
+  const double length = std::abs(half) < kStraight ? chord : chord * half / std::sin(half);
+  return {length / seconds, turn / seconds};
+}
+
+}  // namespace datmo_fusion
