@@ -56,7 +56,7 @@ std::string OptionVisitor::key(const OptionInfo& info) const {
   return full + info.name;
 }
 
-void detail::checkAll(const std::function<void(OptionVisitor&)>& visit) {
+void detail::checkAll(const OptionWalk& visit) {
   Checker checker;
   visit(checker);
 }

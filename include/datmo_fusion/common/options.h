@@ -2,8 +2,10 @@
 
 #include <functional>
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace datmo_fusion {
@@ -28,8 +30,8 @@ class OptionError : public std::invalid_argument {
 };
 
 /// Walks over the options of a stage. Each `Options` struct of the core declares its members to a
-/// visitor in one function, `void visit(OptionVisitor&)`; reading, checking and documenting them are
-/// visitors, so that nothing is said twice.
+/// visitor in one function, `void visit(OptionVisitor&)`; reading, checking and documenting them
+/// are visitors, so that nothing is said twice.
 class OptionVisitor {
  public:
   virtual ~OptionVisitor() = default;
@@ -52,15 +54,37 @@ class OptionVisitor {
   std::vector<std::string> groups_;
 };
 
+/// What somebody has set, by full key (`map/cell_size`), wherever it was read from.
+using OptionValue = std::variant<bool, int, double, std::string>;
+using OptionValues = std::map<std::string, OptionValue>;
+
+/// As in a yaml file; text in quotes.
+std::string toText(const OptionValue& value);
+
 namespace detail {
-void checkAll(const std::function<void(OptionVisitor&)>& visit);
-}
+using OptionWalk = std::function<void(OptionVisitor&)>;
+void checkAll(const OptionWalk& visit);
+void readAll(const OptionValues& values, const OptionWalk& visit);
+}  // namespace detail
 
 /// Throws OptionError for the first option whose value is not finite, out of bounds or not allowed.
 template <typename Options>
 void checkOptions(const Options& options) {
   Options copy = options;
   detail::checkAll([&copy](OptionVisitor& visitor) { copy.visit(visitor); });
+}
+
+/// The defaults of the options, overridden by `values`, checked. A whole number serves where a
+/// number is wanted.
+///
+/// Throws OptionError for a value of the wrong type, one that checkOptions refuses, and a key that
+/// no option has (a misspelt one): the message names the nearest key there is.
+template <typename Options>
+Options readOptions(const OptionValues& values) {
+  Options options;
+  detail::readAll(values, [&options](OptionVisitor& visitor) { options.visit(visitor); });
+  checkOptions(options);
+  return options;
 }
 
 }  // namespace datmo_fusion

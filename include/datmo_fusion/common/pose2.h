@@ -1,8 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include <cmath>
+
+#include <Eigen/Core>
 
 #include "datmo_fusion/common/angle.h"
 

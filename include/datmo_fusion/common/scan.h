@@ -11,15 +11,15 @@ namespace datmo_fusion {
 /// One beam of a scan in the vehicle's frame (base_link), at the scan's stamp.
 struct Ray {
   Point2 origin = Point2::Zero();  ///< m, where the beam starts: the scanner
-  Point2 end = Point2::Zero();     ///< m, the obstacle; without one, as far as the beam is known free
-  double range = 0.0;              ///< m, from origin to end
-  double bearing = 0.0;            ///< rad, of the beam about the scanner, from its x axis
-  std::uint32_t beam = 0;          ///< index of the beam in the scan
-  bool hit = false;                ///< false: nothing was seen up to `end`
+  Point2 end = Point2::Zero();  ///< m, the obstacle; without one, as far as the beam is known free
+  double range = 0.0;           ///< m, from origin to end
+  double bearing = 0.0;         ///< rad, of the beam about the scanner, from its x axis
+  std::uint32_t beam = 0;       ///< index of the beam in the scan
+  bool hit = false;             ///< false: nothing was seen up to `end`
 };
 
-/// A planar scan, checked and brought to the vehicle's frame. Beams without a valid measurement (NaN,
-/// below the least range) have no ray.
+/// A planar scan, checked and brought to the vehicle's frame. Beams without a valid measurement
+/// (NaN, below the least range) have no ray.
 struct Scan {
   Stamp stamp;
   Pose2 scanner_in_base;

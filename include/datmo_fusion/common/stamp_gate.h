@@ -14,12 +14,12 @@ enum class StampVerdict {
   kRestart,   ///< the clock jumped back (a looped bag): forget all state, then accept
 };
 
-/// Holds the newest stamp of a stream and judges each further one, so that time in a stage only goes
-/// forward.
+/// Holds the newest stamp of a stream and judges each further one, so that time in a stage only
+/// goes forward.
 class StampGate {
  public:
-  /// `restart_after`: a stamp older than the newest by this much (s, more than 0) is a restart of the
-  /// clock, not a late message.
+  /// `restart_after`: a stamp older than the newest by this much (s, more than 0) is a restart of
+  /// the clock, not a late message.
   explicit StampGate(double restart_after = 1.0) : restart_after_(restart_after) {}
 
   StampVerdict judge(Stamp stamp);

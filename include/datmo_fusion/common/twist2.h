@@ -14,8 +14,8 @@ struct Twist2 {
 /// of a circle (Thrun, Burgard, Fox, Probabilistic Robotics, 2005, eq. 5.9).
 Pose2 arc(const Twist2& twist, double seconds);
 
-/// The constant twist that leads to `motion` in `seconds` (more than 0); sideways motion that no such
-/// twist explains is left out.
+/// The constant twist that leads to `motion` in `seconds` (more than 0); sideways motion that no
+/// such twist explains is left out.
 Twist2 twistOf(const Pose2& motion, double seconds);
 
 }  // namespace datmo_fusion

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "datmo_fusion/common/options.h"
+
+namespace datmo_fusion {
+
+namespace detail {
+std::string tableOf(const OptionWalk& visit);
+}
+
+/// All options of a stage as a Markdown table: key, unit, default, range, description.
+template <typename Options>
+std::string optionTable() {
+  Options defaults;
+  return detail::tableOf([&defaults](OptionVisitor& visitor) { defaults.visit(visitor); });
+}
+
+}  // namespace datmo_fusion

@@ -1,0 +1,124 @@
+#include <algorithm>
+#include <numeric>
+#include <set>
+#include <sstream>
+
+#include "datmo_fusion/common/options.h"
+
+namespace datmo_fusion {
+
+namespace {
+
+/// Sets options from values and remembers which keys there are.
+class Reader : public OptionVisitor {
+ public:
+  explicit Reader(const OptionValues& values) : values_(values) {}
+
+  void number(const OptionInfo& info, double& value, const Bounds& /*bounds*/) override {
+    if (const OptionValue* given = find(info)) {
+      if (const int* whole = std::get_if<int>(given)) {
+        value = *whole;
+      } else {
+        value = as<double>(info, *given, "a number");
+      }
+    }
+  }
+
+  void integer(const OptionInfo& info, int& value, const Bounds& /*bounds*/) override {
+    set(info, value, "a whole number");
+  }
+
+  void toggle(const OptionInfo& info, bool& value) override { set(info, value, "true or false"); }
+
+  void text(const OptionInfo& info, std::string& value,
+            const std::vector<std::string>& /*allowed*/) override {
+    set(info, value, "text");
+  }
+
+  const std::set<std::string>& keys() const { return keys_; }
+
+ private:
+  template <typename Type>
+  void set(const OptionInfo& info, Type& value, const std::string& expected) {
+    if (const OptionValue* given = find(info)) {
+      value = as<Type>(info, *given, expected);
+    }
+  }
+
+  template <typename Type>
+  Type as(const OptionInfo& info, const OptionValue& given, const std::string& expected) {
+    if (const Type* value = std::get_if<Type>(&given)) {
+      return *value;
+    }
+    throw OptionError(key(info) + " = " + toText(given) + ": expected " + expected + " (" +
+                      info.description + ")");
+  }
+
+  const OptionValue* find(const OptionInfo& info) {
+    const std::string full_key = key(info);
+    if (!keys_.insert(full_key).second) {
+      throw std::logic_error("two options are named " + full_key);
+    }
+    const auto found = values_.find(full_key);
+    return found == values_.end() ? nullptr : &found->second;
+  }
+
+  const OptionValues& values_;
+  std::set<std::string> keys_;
+};
+
+/// Least number of letters to change, leave out or put in (Levenshtein 1966).
+std::size_t editDistance(const std::string& from, const std::string& to) {
+  std::vector<std::size_t> row(to.size() + 1);
+  std::iota(row.begin(), row.end(), 0U);
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < to.size(); ++j) {
+      const std::size_t changed = diagonal + (from[i] == to[j] ? 0U : 1U);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({changed, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.at(to.size());
+}
+
+std::string nearest(const std::string& key, const std::set<std::string>& keys) {
+  return *std::min_element(keys.begin(), keys.end(),
+                           [&key](const std::string& a, const std::string& b) {
+                             return editDistance(key, a) < editDistance(key, b);
+                           });
+}
+
+}  // namespace
+
+std::string toText(const OptionValue& value) {
+  if (const bool* toggle = std::get_if<bool>(&value)) {
+    return *toggle ? "true" : "false";
+  }
+  if (const std::string* text = std::get_if<std::string>(&value)) {
+    return "'" + *text + "'";
+  }
+  std::ostringstream out;
+  if (const int* whole = std::get_if<int>(&value)) {
+    out << *whole;
+  } else {
+    out << std::get<double>(value);
+  }
+  return out.str();
+}
+
+void detail::readAll(const OptionValues& values, const OptionWalk& visit) {
+  Reader reader(values);
+  visit(reader);
+  for (const auto& [key, value] : values) {
+    if (reader.keys().count(key) == 0) {
+      const std::string hint =
+          reader.keys().empty() ? "no option at all" : nearest(key, reader.keys());
+      throw OptionError(key + " = " + toText(value) +
+                        ": expected a key that is read; the nearest one is " + hint);
+    }
+  }
+}
+
+}  // namespace datmo_fusion

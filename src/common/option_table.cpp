@@ -1,0 +1,76 @@
+#include "datmo_fusion/common/option_table.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace datmo_fusion {
+
+namespace {
+
+class TableWriter : public OptionVisitor {
+ public:
+  TableWriter() {
+    table_ << "| parameter | unit | default | range | description |\n"
+           << "|---|---|---|---|---|\n";
+  }
+
+  void number(const OptionInfo& info, double& value, const Bounds& bounds) override {
+    row(info, toText(value), range(bounds));
+  }
+
+  void integer(const OptionInfo& info, int& value, const Bounds& bounds) override {
+    row(info, toText(value), range(bounds));
+  }
+
+  void toggle(const OptionInfo& info, bool& value) override {
+    row(info, toText(value), "true, false");
+  }
+
+  void text(const OptionInfo& info, std::string& value,
+            const std::vector<std::string>& allowed) override {
+    std::string choices;
+    for (const std::string& choice : allowed) {
+      choices += (choices.empty() ? "" : ", ") + choice;
+    }
+    row(info, toText(value), choices.empty() ? "any text" : choices);
+  }
+
+  std::string table() const { return table_.str(); }
+
+ private:
+  static std::string range(const Bounds& bounds) {
+    const bool from = std::isfinite(bounds.least);
+    const bool to = std::isfinite(bounds.most);
+    if (from && to) {
+      return toText(bounds.least) + " to " + toText(bounds.most);
+    }
+    return from ? "at least " + toText(bounds.least)
+           : to ? "at most " + toText(bounds.most)
+                : "any number";
+  }
+
+  static std::string cell(const std::string& text) {
+    std::string escaped;
+    for (const char letter : text) {
+      escaped += letter == '|' ? "\\|" : std::string(1, letter);
+    }
+    return escaped;
+  }
+
+  void row(const OptionInfo& info, const std::string& value, const std::string& range) {
+    table_ << "| `" << key(info) << "` | " << info.unit << " | " << cell(value) << " | "
+           << cell(range) << " | " << cell(info.description) << " |\n";
+  }
+
+  std::ostringstream table_;
+};
+
+}  // namespace
+
+std::string detail::tableOf(const OptionWalk& visit) {
+  TableWriter writer;
+  visit(writer);
+  return writer.table();
+}
+
+}  // namespace datmo_fusion

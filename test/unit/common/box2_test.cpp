@@ -1,0 +1,51 @@
+#include "datmo_fusion/common/box2.h"
+
+#include <algorithm>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace datmo_fusion {
+namespace {
+
+/// 4 m x 2 m, heading left: it reaches from x 9 to 11 and from y 3 to 7.
+const Box2 kCar{{10.0, 5.0, kPi / 2.0}, 4.0, 2.0};
+
+TEST(Box2, CornersGoRoundFromFrontLeft) {
+  const auto corners = kCar.corners();
+  const std::array<Point2, 4> expected{Point2(9, 7), Point2(9, 3), Point2(11, 3), Point2(11, 7)};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR((corners.at(i) - expected.at(i)).norm(), 0.0, 1e-12) << i;
+  }
+}
+
+TEST(Box2, ContainsInsideAndBorder) {
+  const Box2 straight{{0.0, 0.0, 0.0}, 4.0, 2.0};
+  EXPECT_TRUE(straight.contains({1.9, -0.9}));
+  EXPECT_TRUE(straight.contains({2.0, 1.0}));
+  EXPECT_FALSE(straight.contains({2.1, 0.0}));
+  EXPECT_FALSE(straight.contains({0.0, 1.1}));
+}
+
+TEST(Box2, DistanceToSideCornerAndInside) {
+  EXPECT_NEAR(kCar.distanceTo({13.0, 5.0}), 2.0, 1e-12);
+  EXPECT_NEAR(kCar.distanceTo({14.0, 11.0}), 5.0, 1e-12) << "3 m and 4 m from the corner";
+  EXPECT_EQ(kCar.distanceTo({10.0, 6.0}), 0.0);
+}
+
+TEST(Box2, NoPointIsFartherFromTheBoxThanFromItsCorners) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> metres(-30.0, 30.0);
+  for (int i = 0; i < 200; ++i) {
+    const Point2 point(metres(random), metres(random));
+    double to_corner = std::numeric_limits<double>::infinity();
+    for (const Point2& corner : kCar.corners()) {
+      to_corner = std::min(to_corner, (corner - point).norm());
+    }
+    EXPECT_LE(kCar.distanceTo(point), to_corner + 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace datmo_fusion
