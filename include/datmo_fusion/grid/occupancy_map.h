@@ -1,13 +1,106 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
 #include "datmo_fusion/common/options.h"
+#include "datmo_fusion/common/scan.h"
+#include "datmo_fusion/grid/rolling_grid.h"
 
 namespace datmo_fusion {
 
 struct OccupancyMapOptions {
+  double length = 90.0;             ///< m, along x
+  double width = 108.0;             ///< m, along y
+  double cell_size = 0.3;           ///< m
+  double hit_probability = 0.8;     ///< of a cell in which a beam ends
+  double free_probability = 0.4;    ///< of a cell that a beam passes
+  double least_probability = 0.02;  ///< to which a cell is clamped; 1 - it at the other end
+  double beam_width = 0.0;          ///< rad, in which a beam is free up to its end
+  double moving_below = 0.3;        ///< occupancy that counts as seen free
+  double static_above = 0.7;        ///< occupancy that counts as occupied
+  double static_after = 0.8;        ///< s, between first and last hit of a static cell
+  int static_neighbourhood = 1;     ///< cells around an end point that vouch for it
+
   void visit(OptionVisitor& visitor);
 };
 
-class OccupancyMap {};
+/// Where the hits around a place lie: the local surface with more than the grid's resolution.
+struct HitDistribution {
+  double hits = 0.0;
+  Point2 mean = Point2::Zero();                          ///< m, map frame
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< m^2
+};
+
+/// The map of what stands still: a rolling grid of log-odds occupancy (thesis 3.1.1, eq. 3.1.13).
+///
+/// Beyond the thesis, each cell also keeps the mean and spread of the hits in it, so that a scan
+/// can be matched below the size of a cell, and since when it has been hit, so that the trail of a
+/// slow mover in unknown space is not mistaken for a wall. Within one scan a cell is updated once,
+/// and a hit wins over a beam that passes (as in Cartographer, Hess et al. 2016).
+class OccupancyMap {
+ public:
+  /// Throws OptionError.
+  explicit OccupancyMap(const OccupancyMapOptions& options);
+
+  const GridWindow& window() const { return cells_.window(); }
+
+  /// Moves the window with the vehicle (m, map frame).
+  void centreOn(const Point2& position) { cells_.centreOn(position); }
+
+  /// Occupancy probability of a cell, 0 to 1; 0.5 where nothing is known.
+  double occupancy(CellIndex cell) const;
+
+  /// Occupancy at a point of the map frame, bilinear between the centres of the cells.
+  double interpolatedOccupancy(const Point2& point) const;
+
+  /// What the map says of a beam that ends at this point (thesis 3.3.1; there without kUnknown, the
+  /// neighbourhood and the age).
+  PointState judge(const Point2& point) const;
+
+  /// Hits in the 3 x 3 occupied cells around a point; none where there are no occupied ones.
+  std::optional<HitDistribution> hitsAround(const Point2& point) const;
+
+  /// Takes in a scan seen from `base_in_map`: its beams are free up to their ends; ends are
+  /// occupied but for those whose state is kMoving. `states` holds a state for each ray of the
+  /// scan, in order; those of beams without a hit are not read.
+  void update(const Scan& scan, const std::vector<PointState>& states, const Pose2& base_in_map);
+
+  /// Row by row from the lower left corner: 0 to 100 percent, -1 where nothing is known
+  /// (nav_msgs/OccupancyGrid).
+  std::vector<std::int8_t> occupancyImage() const;
+
+  /// Empties the map.
+  void clear();
+
+ private:
+  struct Cell {
+    float log_odds = 0.0F;
+    std::uint32_t updated = 0;  ///< number of the update that touched it last; 0: never
+    float first_hit = 0.0F;     ///< s since the first update; of the present occupant
+    float last_hit = 0.0F;
+    // Sums over the hits, relative to the cell's centre so that floats do.
+    float hits = 0.0F;
+    Eigen::Vector2f sum = Eigen::Vector2f::Zero();
+    Eigen::Vector3f squares = Eigen::Vector3f::Zero();  ///< xx, xy, yy
+  };
+
+  void hit(const Point2& point);
+  void pass(CellIndex cell);
+  void passBeam(const Ray& ray, const Pose2& base_in_map);
+  bool isStatic(const Cell& cell) const;
+
+  OccupancyMapOptions options_;
+  float hit_log_odds_;
+  float free_log_odds_;
+  float log_odds_limit_;
+  RollingGrid<Cell> cells_;
+  std::uint32_t update_ = 0;
+  std::optional<Stamp> first_stamp_;
+  float now_ = 0.0F;  ///< s since the first update
+};
 
 }  // namespace datmo_fusion

@@ -1,12 +1,13 @@
 #pragma once
 
-#include <memory>
+#include <optional>
 
 #include "datmo_fusion/common/options.h"
+#include "datmo_fusion/common/random.h"
 #include "datmo_fusion/common/scan.h"
-#include "datmo_fusion/common/twist2.h"
 #include "datmo_fusion/grid/occupancy_map.h"
 #include "datmo_fusion/slam/motion_model.h"
+#include "datmo_fusion/slam/odometry_buffer.h"
 #include "datmo_fusion/slam/scan_matcher.h"
 
 namespace datmo_fusion {
@@ -15,27 +16,22 @@ struct GridSlamOptions {
   OccupancyMapOptions map;
   MotionModelOptions motion;
   ScanMatcherOptions matcher;
-  int seed = 1;  ///< of the motion model's samples
+  double odometry_hold = 0.5;  ///< s
+  int seed = 1;
 
   void visit(OptionVisitor& visitor);
 };
 
-/// Speed and turn rate as the vehicle measured them at one time.
-struct OdometrySample {
-  Stamp stamp;
-  Twist2 twist;
-};
-
 /// What one scan led to.
 struct SlamResult {
-  SplitScan split;              ///< the scan's end points, judged against the map, and the pose
-  bool odometry_used = false;   ///< false: predicted with the last estimated velocity
-  MatchQuality match;           ///< how well the scan fits the map
+  SplitScan split;             ///< the scan's end points, judged against the map, and the pose
+  bool odometry_used = false;  ///< false: predicted with the last estimated velocity
+  MatchQuality match;          ///< how well the scan fits the map
 };
 
 /// Maximum-likelihood SLAM on a rolling occupancy grid (thesis 3.1.1, 3.3.1): predict with the
-/// vehicle's own motion, match the scan to the map, split the scan into static and moving points, and
-/// update the map with what stands still.
+/// vehicle's own motion, match the scan to the map, split the scan into static and moving points,
+/// and update the map with what stands still.
 ///
 /// Map frame: the vehicle's first pose is its origin. Not thread safe; scans in rising stamp order,
 /// which the caller ensures (StampGate).
@@ -43,23 +39,31 @@ class GridSlam {
  public:
   /// Throws OptionError.
   explicit GridSlam(const GridSlamOptions& options);
-  ~GridSlam();
 
   /// Odometry in rising stamp order; it may come before or after the scans that it serves. Only a
   /// bounded time of it is kept.
-  void addOdometry(const OdometrySample& sample);
+  void addOdometry(const OdometrySample& sample) { odometry_.add(sample); }
 
   /// Takes the next scan. A scan without rays moves the pose by odometry alone.
   SlamResult process(const Scan& scan);
 
-  const OccupancyMap& map() const;
+  const OccupancyMap& map() const { return map_; }
 
   /// Forgets everything, as after construction.
   void reset();
 
  private:
-  class State;
-  std::unique_ptr<State> state_;
+  PoseWithCovariance predict(Stamp stamp, bool& odometry_used) const;
+
+  GridSlamOptions options_;
+  VelocityMotionModel motion_model_;
+  ScanMatcher matcher_;
+  OccupancyMap map_;
+  OdometryBuffer odometry_;
+  Random random_;
+  PoseWithCovariance base_in_map_;
+  Twist2 velocity_;             ///< estimated from the last two poses
+  std::optional<Stamp> stamp_;  ///< of the last scan
 };
 
 }  // namespace datmo_fusion

@@ -1,11 +1,34 @@
 #pragma once
 
 #include "datmo_fusion/common/options.h"
+#include "datmo_fusion/common/twist2.h"
 
 namespace datmo_fusion {
 
 struct MotionModelOptions {
+  double speed_noise = 0.1;         ///< m/s
+  double speed_noise_ratio = 0.05;  ///< of the speed
+  double yaw_rate_noise = 0.02;     ///< rad/s
+  double yaw_rate_noise_ratio = 0.1;
+  double side_slip_noise = 0.05;  ///< m/s, sideways
+
   void visit(OptionVisitor& visitor);
+};
+
+/// How a vehicle may have moved, given what its odometry says: p(x_t | u_t, x_t-1) of thesis 3.1.1,
+/// figure 3.1; the velocity motion model of Probabilistic Robotics (Thrun et al. 2005, 5.3) with
+/// noise of its own for side slip.
+class VelocityMotionModel {
+ public:
+  /// Throws OptionError.
+  explicit VelocityMotionModel(const MotionModelOptions& options);
+
+  /// Covariance of x, y (m), heading (rad) of the motion after `seconds` of this twist, in the
+  /// frame of the pose that it leads to.
+  Eigen::Matrix3d covariance(const Twist2& twist, double seconds) const;
+
+ private:
+  MotionModelOptions options_;
 };
 
 }  // namespace datmo_fusion

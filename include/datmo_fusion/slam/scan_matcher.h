@@ -1,18 +1,66 @@
 #pragma once
 
+#include <vector>
+
+#include <Eigen/Core>
+
 #include "datmo_fusion/common/options.h"
+#include "datmo_fusion/common/random.h"
+#include "datmo_fusion/grid/occupancy_map.h"
 
 namespace datmo_fusion {
 
 struct ScanMatcherOptions {
+  int samples = 300;               ///< poses drawn for each scan
+  int refinement_steps = 10;       ///< at the most
+  double point_sigma = 0.15;       ///< m
+  double information_share = 0.2;  ///< 0 to 1
+  int least_points = 5;            ///< for a match
+
   void visit(OptionVisitor& visitor);
 };
 
 /// How well a scan fits the map.
 struct MatchQuality {
-  int matched_points = 0;  ///< end points that took part
-  double score = 0.0;      ///< 0 to 1, mean occupancy of the map where they end
+  int matched_points = 0;  ///< end points that lie on surfaces of the map
+  double score = 0.0;      ///< 0 to 1, mean occupancy of the map where the scan's beams end
   bool accepted = false;   ///< false: the pose is the prediction alone
+};
+
+struct MatchResult {
+  PoseWithCovariance pose;
+  MatchQuality quality;
+};
+
+/// Finds the pose from which a scan fits the map best, around a predicted one.
+///
+/// First the thesis's way (3.1.1, eq. 3.1.15 and 3.1.17): poses are drawn from the prediction, each
+/// is scored by the map's occupancy at the beams' ends, and the best one is taken. From there the
+/// pose is refined below the size of a cell by Gauss-Newton on the distances of the end points to
+/// the mean of the hits around them, weighed with their spread (the normal distributions transform:
+/// Biber & Strasser, 2003; Stoyanov et al. 2012), with the prediction as prior. What the match does
+/// not see (a direction along a wall) therefore stays with the prediction, and shows in the
+/// covariance.
+class ScanMatcher {
+ public:
+  /// Throws OptionError.
+  explicit ScanMatcher(const ScanMatcherOptions& options);
+
+  /// `points`: end points in the base frame, m. `prediction`: of the base in the map, with a
+  /// positive definite covariance.
+  MatchResult match(const OccupancyMap& map, const std::vector<Point2>& points,
+                    const PoseWithCovariance& prediction, Random& random) const;
+
+ private:
+  struct Normal;
+
+  double score(const OccupancyMap& map, const std::vector<Point2>& points, const Pose2& pose) const;
+  Pose2 bestSample(const OccupancyMap& map, const std::vector<Point2>& points,
+                   const PoseWithCovariance& prediction, Random& random) const;
+  Normal linearise(const OccupancyMap& map, const std::vector<Point2>& points,
+                   const Pose2& pose) const;
+
+  ScanMatcherOptions options_;
 };
 
 }  // namespace datmo_fusion

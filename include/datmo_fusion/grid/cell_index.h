@@ -1,0 +1,16 @@
+#pragma once
+
+namespace datmo_fusion {
+
+/// A cell of the infinite lattice that is fixed to the map frame: column along x, row along y. The
+/// cell (0, 0) has its lower left corner at the frame's origin. A rolling window shows a part of
+/// the lattice; a cell keeps its index while the window moves.
+struct CellIndex {
+  int column = 0;
+  int row = 0;
+};
+
+inline bool operator==(CellIndex a, CellIndex b) { return a.column == b.column && a.row == b.row; }
+inline bool operator!=(CellIndex a, CellIndex b) { return !(a == b); }
+
+}  // namespace datmo_fusion

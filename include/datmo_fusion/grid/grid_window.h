@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cmath>
+
+#include "datmo_fusion/common/pose2.h"
+#include "datmo_fusion/grid/cell_index.h"
+
+namespace datmo_fusion {
+
+/// Which part of the lattice a grid shows: `columns` x `rows` cells from `corner` on.
+///
+///        y ^   rows
+///          |  +--+--+--+
+///          |  |  |  |  |      corner: the cell at the lower left,
+///          |  +--+--+--+      with the least column and row
+///          |  |XX|  |  |
+///          |  +--+--+--+ columns
+///          +----------------> x
+struct GridWindow {
+  double cell_size = 0.0;  ///< m
+  int columns = 0;
+  int rows = 0;
+  CellIndex corner;
+
+  /// The cell that holds a point of the map frame; it may lie outside of the window.
+  CellIndex cellAt(const Point2& point) const {
+    return {static_cast<int>(std::floor(point.x() / cell_size)),
+            static_cast<int>(std::floor(point.y() / cell_size))};
+  }
+
+  /// Centre of a cell in the map frame, m.
+  Point2 centreOf(CellIndex cell) const {
+    return {(cell.column + 0.5) * cell_size, (cell.row + 0.5) * cell_size};
+  }
+
+  /// Lower left corner of the window in the map frame, m.
+  Point2 origin() const { return {corner.column * cell_size, corner.row * cell_size}; }
+
+  bool contains(CellIndex cell) const {
+    return cell.column >= corner.column && cell.column < corner.column + columns &&
+           cell.row >= corner.row && cell.row < corner.row + rows;
+  }
+};
+
+}  // namespace datmo_fusion

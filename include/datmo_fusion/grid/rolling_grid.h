@@ -1,0 +1,78 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "datmo_fusion/grid/grid_window.h"
+
+namespace datmo_fusion {
+
+/// A window of cells that moves over the lattice with the vehicle. Cells that stay inside keep
+/// their content and are not copied (a circular buffer in both directions); those that come in are
+/// empty.
+template <typename Cell>
+class RollingGrid {
+ public:
+  /// `columns` and `rows` more than 0, `cell_size` (m) more than 0. The window's centre is the
+  /// origin of the map frame.
+  RollingGrid(int columns, int rows, double cell_size, const Cell& empty)
+      : window_{cell_size, columns, rows, {-columns / 2, -rows / 2}},
+        empty_(empty),
+        cells_(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), empty) {}
+
+  const GridWindow& window() const { return window_; }
+
+  /// The cell must be inside of the window.
+  const Cell& at(CellIndex cell) const { return cells_[slot(cell)]; }
+  Cell& at(CellIndex cell) { return cells_[slot(cell)]; }
+
+  /// What lies outside of the window is as empty as what was never touched.
+  const Cell& atOrEmpty(CellIndex cell) const {
+    return window_.contains(cell) ? cells_[slot(cell)] : empty_;
+  }
+
+  /// Moves the window so that `centre` (m, map frame) lies in its middle cell.
+  void centreOn(const Point2& centre) {
+    const CellIndex middle = window_.cellAt(centre);
+    const CellIndex corner{middle.column - window_.columns / 2, middle.row - window_.rows / 2};
+    const CellIndex old = window_.corner;
+    window_.corner = corner;
+    for (int column = corner.column; column < corner.column + window_.columns; ++column) {
+      const bool column_is_new = column < old.column || column >= old.column + window_.columns;
+      if (column_is_new) {
+        clear(column, corner.row, corner.row + window_.rows);
+      } else {
+        clear(column, corner.row, std::min(old.row, corner.row + window_.rows));
+        clear(column, std::max(old.row + window_.rows, corner.row), corner.row + window_.rows);
+      }
+    }
+  }
+
+  /// Empties every cell; the window stays.
+  void clear() { std::fill(cells_.begin(), cells_.end(), empty_); }
+
+ private:
+  static int wrap(int value, int size) {
+    const int rest = value % size;
+    return rest < 0 ? rest + size : rest;
+  }
+
+  std::size_t slot(CellIndex cell) const {
+    return static_cast<std::size_t>(wrap(cell.row, window_.rows)) *
+               static_cast<std::size_t>(window_.columns) +
+           static_cast<std::size_t>(wrap(cell.column, window_.columns));
+  }
+
+  void clear(int column, int first_row, int end_row) {
+    for (int row = first_row; row < end_row; ++row) {
+      at({column, row}) = empty_;
+    }
+  }
+
+  GridWindow window_;
+  Cell empty_;
+  std::vector<Cell> cells_;
+};
+
+}  // namespace datmo_fusion

@@ -1,0 +1,56 @@
+#include "datmo_fusion/detection/segmentation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace datmo_fusion {
+
+namespace {
+
+double gapBetween(const ScanPoint& first, const ScanPoint& second,
+                  const SegmentationOptions& options) {
+  if (!options.adaptive) {
+    return options.longest_gap;
+  }
+  const double angle = std::abs(angleBetween(first.bearing, second.bearing));
+  if (angle >= options.least_incidence) {
+    return options.longest_gap;
+  }
+  const double range = std::min(first.range, second.range);
+  const double reach = range * std::sin(angle) / std::sin(options.least_incidence - angle);
+  return std::clamp(options.shortest_gap + reach, options.shortest_gap, options.longest_gap);
+}
+
+}  // namespace
+
+void SegmentationOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"longest_gap", "m", "points further apart are two objects (thesis 3.3.1: 2 m)"},
+                 longest_gap, {0.05, 20.0});
+  visitor.number(
+      {"shortest_gap", "m", "adaptive: points nearer than this are one object, whatever the range"},
+      shortest_gap, {0.0, 20.0});
+  visitor.toggle({"adaptive", "",
+                  "let the gap grow with range and beam spacing (Borges & Aldon 2004); false: "
+                  "longest_gap everywhere (thesis)"},
+                 adaptive);
+  visitor.number(
+      {"least_incidence", "rad",
+       "adaptive: flattest angle between a beam and a surface that is kept in one piece"},
+      least_incidence, {0.05, 1.5});
+}
+
+std::vector<Segment> segmentPoints(const std::vector<ScanPoint>& points,
+                                   const SegmentationOptions& options) {
+  std::vector<Segment> segments;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool joins = i > 0 && (points[i].position - points[i - 1].position).norm() <
+                                    gapBetween(points[i - 1], points[i], options);
+    if (!joins) {
+      segments.emplace_back();
+    }
+    segments.back().push_back(i);
+  }
+  return segments;
+}
+
+}  // namespace datmo_fusion

@@ -1,0 +1,252 @@
+#include "datmo_fusion/grid/occupancy_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "datmo_fusion/grid/ray_walk.h"
+
+namespace datmo_fusion {
+
+namespace {
+
+float logOdds(double probability) {
+  return static_cast<float>(std::log(probability / (1.0 - probability)));
+}
+
+double probability(float log_odds) {
+  return 1.0 / (1.0 + std::exp(-static_cast<double>(log_odds)));
+}
+
+int cellsAlong(double length, double cell_size) {
+  return std::max(1, static_cast<int>(std::lround(length / cell_size)));
+}
+
+const OccupancyMapOptions& checked(const OccupancyMapOptions& options) {
+  checkOptions(options);
+  return options;
+}
+
+/// A cell that is occupied holds its hits to this many at the most, so that the surface follows
+/// what is seen now.
+constexpr float kMostHits = 50.0F;
+
+}  // namespace
+
+void OccupancyMapOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"length", "m", "extent of the rolling window along x (thesis 3.3.1)"}, length,
+                 {1.0, 2000.0});
+  visitor.number({"width", "m", "extent of the rolling window along y (thesis 3.3.1)"}, width,
+                 {1.0, 2000.0});
+  visitor.number({"cell_size", "m", "side of a cell (thesis 3.3.1)"}, cell_size, {0.02, 5.0});
+  visitor.number(
+      {"hit_probability", "1", "occupancy of a cell in which a beam ends (thesis 3.2.1: 0.8)"},
+      hit_probability, {0.51, 0.99});
+  visitor.number({"free_probability", "1",
+                  "occupancy of a cell that a beam passes (thesis 3.2.1: 0.2; weaker here, because "
+                  "a beam of a poor scanner passes close to obstacles that it does not see)"},
+                 free_probability, {0.01, 0.49});
+  visitor.number({"least_probability", "1",
+                  "a cell's occupancy stays between this and 1 - this, so that the map can change "
+                  "its mind (Hess et al. 2016)"},
+                 least_probability, {0.0001, 0.3});
+  visitor.number(
+      {"beam_width", "rad",
+       "opening angle in which a beam is free up to its end (thesis 3.2.1: the spacing of "
+       "the beams); 0: along the beam alone"},
+      beam_width, {0.0, 0.2});
+  visitor.number({"moving_below", "1",
+                  "an end point in a cell less occupied than this is moving (thesis 3.3.1: 0.5)"},
+                 moving_below, {0.01, 0.5});
+  visitor.number(
+      {"static_above", "1", "a cell more occupied than this, for long enough, is static"},
+      static_above, {0.5, 0.99});
+  visitor.number(
+      {"static_after", "s",
+       "between the first and the last hit of a static cell: longer than a mover takes to "
+       "pass over it (thesis: 0)"},
+      static_after, {0.0, 60.0});
+  visitor.integer({"static_neighbourhood", "cells",
+                   "a static cell this near to an end point makes it static: range noise and pose "
+                   "error (thesis: 0)"},
+                  static_neighbourhood, {0, 5});
+}
+
+OccupancyMap::OccupancyMap(const OccupancyMapOptions& options)
+    : options_(checked(options)),
+      hit_log_odds_(logOdds(options.hit_probability)),
+      free_log_odds_(logOdds(options.free_probability)),
+      log_odds_limit_(-logOdds(options.least_probability)),
+      cells_(cellsAlong(options.length, options.cell_size),
+             cellsAlong(options.width, options.cell_size), options.cell_size, Cell{}) {}
+
+double OccupancyMap::occupancy(CellIndex cell) const {
+  return probability(cells_.atOrEmpty(cell).log_odds);
+}
+
+double OccupancyMap::interpolatedOccupancy(const Point2& point) const {
+  const double half = 0.5 * window().cell_size;
+  const CellIndex low = window().cellAt(point - Point2(half, half));
+  const Point2 part = (point - window().centreOf(low)) / window().cell_size;
+  const double lower =
+      (1.0 - part.x()) * occupancy(low) + part.x() * occupancy({low.column + 1, low.row});
+  const double upper = (1.0 - part.x()) * occupancy({low.column, low.row + 1}) +
+                       part.x() * occupancy({low.column + 1, low.row + 1});
+  return (1.0 - part.y()) * lower + part.y() * upper;
+}
+
+bool OccupancyMap::isStatic(const Cell& cell) const {
+  return cell.hits > 0.0F && cell.last_hit - cell.first_hit >= options_.static_after &&
+         probability(cell.log_odds) >= options_.static_above;
+}
+
+PointState OccupancyMap::judge(const Point2& point) const {
+  const CellIndex centre = window().cellAt(point);
+  const int reach = options_.static_neighbourhood;
+  for (int row = centre.row - reach; row <= centre.row + reach; ++row) {
+    for (int column = centre.column - reach; column <= centre.column + reach; ++column) {
+      if (isStatic(cells_.atOrEmpty({column, row}))) {
+        return PointState::kStatic;
+      }
+    }
+  }
+  return occupancy(centre) < options_.moving_below ? PointState::kMoving : PointState::kUnknown;
+}
+
+std::optional<HitDistribution> OccupancyMap::hitsAround(const Point2& point) const {
+  const CellIndex centre = window().cellAt(point);
+  const Point2 reference = window().centreOf(centre);
+  HitDistribution all;
+  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+  for (int row = centre.row - 1; row <= centre.row + 1; ++row) {
+    for (int column = centre.column - 1; column <= centre.column + 1; ++column) {
+      const Cell& cell = cells_.atOrEmpty({column, row});
+      if (cell.hits <= 0.0F || cell.log_odds <= 0.0F) {
+        continue;
+      }
+      const double hits = cell.hits;
+      const Point2 shift = window().centreOf({column, row}) - reference;
+      const Point2 sum = cell.sum.cast<double>();
+      Eigen::Matrix2d own;
+      own << cell.squares[0], cell.squares[1], cell.squares[1], cell.squares[2];
+      all.hits += hits;
+      all.mean += sum + hits * shift;
+      squares += own + shift * sum.transpose() + sum * shift.transpose() +
+                 hits * shift * shift.transpose();
+    }
+  }
+  if (all.hits <= 0.0) {
+    return std::nullopt;
+  }
+  all.mean /= all.hits;
+  all.covariance = squares / all.hits - all.mean * all.mean.transpose();
+  all.mean += reference;
+  return all;
+}
+
+void OccupancyMap::update(const Scan& scan, const std::vector<PointState>& states,
+                          const Pose2& base_in_map) {
+  if (!first_stamp_) {
+    first_stamp_ = scan.stamp;
+  }
+  now_ = static_cast<float>(secondsBetween(*first_stamp_, scan.stamp));
+  ++update_;
+  for (std::size_t i = 0; i < scan.rays.size(); ++i) {
+    if (scan.rays[i].hit && states[i] != PointState::kMoving) {
+      hit(base_in_map * scan.rays[i].end);
+    }
+  }
+  for (const Ray& ray : scan.rays) {
+    passBeam(ray, base_in_map);
+  }
+}
+
+void OccupancyMap::hit(const Point2& point) {
+  const CellIndex index = window().cellAt(point);
+  if (!window().contains(index)) {
+    return;
+  }
+  Cell& cell = cells_.at(index);
+  if (cell.log_odds <= 0.0F || cell.hits <= 0.0F) {
+    cell.hits = 0.0F;
+    cell.sum.setZero();
+    cell.squares.setZero();
+    cell.first_hit = now_;
+  }
+  if (cell.updated != update_) {
+    cell.log_odds = std::min(log_odds_limit_, cell.log_odds + hit_log_odds_);
+    cell.updated = update_;
+    cell.last_hit = now_;
+  }
+  if (cell.hits >= kMostHits) {
+    const float keep = (kMostHits - 1.0F) / cell.hits;
+    cell.hits *= keep;
+    cell.sum *= keep;
+    cell.squares *= keep;
+  }
+  const Eigen::Vector2f offset = (point - window().centreOf(index)).cast<float>();
+  cell.hits += 1.0F;
+  cell.sum += offset;
+  cell.squares +=
+      Eigen::Vector3f(offset.x() * offset.x(), offset.x() * offset.y(), offset.y() * offset.y());
+}
+
+void OccupancyMap::pass(CellIndex index) {
+  if (!window().contains(index)) {
+    return;
+  }
+  Cell& cell = cells_.at(index);
+  if (cell.updated == update_) {
+    return;
+  }
+  cell.updated = update_;
+  cell.log_odds = std::max(-log_odds_limit_, cell.log_odds + free_log_odds_);
+}
+
+void OccupancyMap::passBeam(const Ray& ray, const Pose2& base_in_map) {
+  const Point2 from = base_in_map * ray.origin;
+  const Point2 along = base_in_map * ray.end - from;
+  const CellIndex end = window().cellAt(from + along);
+  const double spread = options_.beam_width * ray.range;
+  const int lines = 1 + static_cast<int>(std::ceil(spread / window().cell_size));
+  for (int line = 0; line < lines; ++line) {
+    const double turn =
+        lines == 1 ? 0.0 : options_.beam_width * (static_cast<double>(line) / (lines - 1) - 0.5);
+    const Point2 to = from + Eigen::Rotation2Dd(turn) * along;
+    const CellIndex last = window().cellAt(to);
+    walkRay(window(), from, to, [&](CellIndex cell) {
+      // The cell in which a beam ends is not free, whatever the reason that it was not marked as
+      // hit.
+      if (!ray.hit || (cell != end && cell != last)) {
+        pass(cell);
+      }
+    });
+  }
+}
+
+std::vector<std::int8_t> OccupancyMap::occupancyImage() const {
+  constexpr std::int8_t kNothingKnown = -1;
+  std::vector<std::int8_t> image;
+  image.reserve(static_cast<std::size_t>(window().columns) *
+                static_cast<std::size_t>(window().rows));
+  const CellIndex corner = window().corner;
+  for (int row = corner.row; row < corner.row + window().rows; ++row) {
+    for (int column = corner.column; column < corner.column + window().columns; ++column) {
+      const Cell& cell = cells_.at({column, row});
+      image.push_back(cell.updated == 0 ? kNothingKnown
+                                        : static_cast<std::int8_t>(
+                                              std::lround(100.0 * probability(cell.log_odds))));
+    }
+  }
+  return image;
+}
+
+void OccupancyMap::clear() {
+  cells_.clear();
+  update_ = 0;
+  first_stamp_.reset();
+  now_ = 0.0F;
+}
+
+}  // namespace datmo_fusion

@@ -1,0 +1,135 @@
+#include "datmo_fusion/slam/scan_matcher.h"
+
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+namespace datmo_fusion {
+
+namespace {
+
+/// A refinement that moves less than this (m, rad) has converged.
+constexpr double kConverged = 1e-4;
+
+/// The shift of a pose by a small x, y (map frame) and heading.
+Pose2 shifted(const Pose2& pose, const Eigen::Vector3d& by) {
+  return {pose.x() + by[0], pose.y() + by[1], pose.heading() + by[2]};
+}
+
+Eigen::Vector3d difference(const Pose2& from, const Pose2& to) {
+  return {to.x() - from.x(), to.y() - from.y(), angleBetween(from.heading(), to.heading())};
+}
+
+}  // namespace
+
+/// Normal equations of a match around a pose: information * step = gradient.
+struct ScanMatcher::Normal {
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  int points = 0;
+};
+
+void ScanMatcherOptions::visit(OptionVisitor& visitor) {
+  visitor.integer({"samples", "1", "poses drawn for each scan (thesis 3.3.1: 300)"}, samples,
+                  {1, 100000});
+  visitor.integer({"refinement_steps", "1",
+                   "Gauss-Newton steps at the most; 0: the best sample as it is (thesis)"},
+                  refinement_steps, {0, 100});
+  visitor.number(
+      {"point_sigma", "m", "standard deviation of an end point about the surface it hit"},
+      point_sigma, {0.005, 2.0});
+  visitor.number({"information_share", "1",
+                  "share of the end points' information that counts: their errors are not "
+                  "independent (shape of the surface, pose of earlier scans)"},
+                 information_share, {0.001, 1.0});
+  visitor.integer({"least_points", "1", "end points on known surfaces that make a match"},
+                  least_points, {1, 10000});
+}
+
+ScanMatcher::ScanMatcher(const ScanMatcherOptions& options) : options_(options) {
+  checkOptions(options);
+}
+
+double ScanMatcher::score(const OccupancyMap& map, const std::vector<Point2>& points,
+                          const Pose2& pose) const {
+  double sum = 0.0;
+  for (const Point2& point : points) {
+    sum += map.interpolatedOccupancy(pose * point);
+  }
+  return points.empty() ? 0.0 : sum / static_cast<double>(points.size());
+}
+
+Pose2 ScanMatcher::bestSample(const OccupancyMap& map, const std::vector<Point2>& points,
+                              const PoseWithCovariance& prediction, Random& random) const {
+  const Eigen::Matrix3d spread = prediction.covariance.llt().matrixL();
+  Pose2 best = prediction.pose;
+  double best_score = score(map, points, best);
+  for (int i = 1; i < options_.samples; ++i) {
+    const Eigen::Vector3d standard(random.normal(1.0), random.normal(1.0), random.normal(1.0));
+    const Pose2 sample = shifted(prediction.pose, spread * standard);
+    const double sample_score = score(map, points, sample);
+    if (sample_score > best_score) {
+      best = sample;
+      best_score = sample_score;
+    }
+  }
+  return best;
+}
+
+ScanMatcher::Normal ScanMatcher::linearise(const OccupancyMap& map,
+                                           const std::vector<Point2>& points,
+                                           const Pose2& pose) const {
+  Normal normal;
+  const Eigen::Matrix2d noise =
+      options_.point_sigma * options_.point_sigma * Eigen::Matrix2d::Identity();
+  for (const Point2& point : points) {
+    const Point2 turned = pose.rotate(point);
+    const Point2 end = pose.position() + turned;
+    const auto surface = map.hitsAround(end);
+    if (!surface) {
+      continue;
+    }
+    const Eigen::Matrix2d information = (surface->covariance + noise).inverse();
+    const Point2 error = surface->mean - end;
+    const double distance = error.dot(information * error);
+    // Points that do not fit fade out (the score of Biber & Strasser is this Gaussian).
+    const double weight = std::exp(-0.5 * distance);
+    Eigen::Matrix<double, 2, 3> jacobian;
+    jacobian << 1.0, 0.0, -turned.y(), 0.0, 1.0, turned.x();
+    normal.information += weight * jacobian.transpose() * information * jacobian;
+    normal.gradient += weight * jacobian.transpose() * information * error;
+    ++normal.points;
+  }
+  normal.information *= options_.information_share;
+  normal.gradient *= options_.information_share;
+  return normal;
+}
+
+MatchResult ScanMatcher::match(const OccupancyMap& map, const std::vector<Point2>& points,
+                               const PoseWithCovariance& prediction, Random& random) const {
+  const Eigen::Matrix3d prior = prediction.covariance.inverse();
+  Pose2 pose = bestSample(map, points, prediction, random);
+  Normal normal = linearise(map, points, pose);
+  MatchResult result{prediction, {normal.points, 0.0, false}};
+  if (normal.points < options_.least_points) {
+    return result;
+  }
+  for (int step = 0; step < options_.refinement_steps; ++step) {
+    const Eigen::Vector3d move =
+        (normal.information + prior)
+            .ldlt()
+            .solve(normal.gradient + prior * difference(pose, prediction.pose));
+    pose = shifted(pose, move);
+    normal = linearise(map, points, pose);
+    if (move.cwiseAbs().maxCoeff() < kConverged) {
+      break;
+    }
+  }
+  result.pose.pose = pose;
+  result.pose.covariance = (normal.information + prior).inverse();
+  result.quality = {normal.points, score(map, points, pose), true};
+  return result;
+}
+
+}  // namespace datmo_fusion
