@@ -1,0 +1,47 @@
+# Shared by the scripts beside this file; sourced, not run.
+
+repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build_dir=$repository/build
+log_dir=$build_dir/log
+
+# Debian's ROS belongs to Debian's Python: another python3 that comes first on PATH breaks it.
+export PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin
+
+say() { printf '== %s\n' "$*"; }
+
+fail() {
+  printf 'error: %s\n' "$*" >&2
+  exit 1
+}
+
+# run_logged NAME COMMAND...: what the command prints goes to a log; only a failure shows its end.
+# Returns the command's own exit code.
+run_logged() {
+  local name=$1 log started=$SECONDS code=0
+  shift
+  mkdir -p "$log_dir"
+  log=$log_dir/${name// /_}.log
+  printf '== %s ... ' "$name"
+  "$@" >"$log" 2>&1 || code=$?
+  if ((code == 0)); then
+    printf 'ok (%d s)\n' $((SECONDS - started))
+  else
+    printf 'FAILED (%d s)\n' $((SECONDS - started))
+    tail -n 40 "$log" >&2
+    printf "error: step '%s' failed with exit code %d; all it said: %s\n" "$name" "$code" "$log" >&2
+  fi
+  return "$code"
+}
+
+# The environment of a built tree, for everything that talks ROS. A master of its own on a free port
+# leaves one that runs already alone.
+use_ros() {
+  set +u # catkin's setup.bash reads unset variables
+  # shellcheck disable=SC1091
+  source "$build_dir/devel/setup.bash"
+  set -u
+  local port
+  port=$(/usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("", 0)); print(s.getsockname()[1])')
+  export ROS_MASTER_URI=http://localhost:$port ROS_HOSTNAME=localhost ROS_LOG_DIR=$log_dir/ros
+  mkdir -p "$ROS_LOG_DIR"
+}
