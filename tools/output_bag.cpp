@@ -1,0 +1,41 @@
+#include "output_bag.h"
+
+#include <filesystem>
+#include <stdexcept>
+
+#include <rosbag/exceptions.h>
+#include <rosbag/message_instance.h>
+
+namespace datmo_fusion {
+
+OutputBag::OutputBag(const std::string& file) : file_(file), part_(file + ".part") {
+  try {
+    bag_.open(part_, rosbag::bagmode::Write);
+    bag_.setCompression(rosbag::compression::LZ4);
+  } catch (const rosbag::BagException& error) {
+    throw std::runtime_error(file_ + ": cannot be written (" + error.what() + ")");
+  }
+}
+
+OutputBag::~OutputBag() {
+  std::error_code ignored;
+  if (std::filesystem::exists(part_, ignored)) {
+    bag_.close();
+    std::filesystem::remove(part_, ignored);
+  }
+}
+
+void OutputBag::copy(const rosbag::MessageInstance& message) {
+  bag_.write(message.getTopic(), message.getTime(), message, message.getConnectionHeader());
+}
+
+void OutputBag::finish() {
+  try {
+    bag_.close();
+    std::filesystem::rename(part_, file_);
+  } catch (const std::exception& error) {
+    throw std::runtime_error(file_ + ": cannot be written (" + error.what() + ")");
+  }
+}
+
+}  // namespace datmo_fusion

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+
+#include <ros/time.h>
+#include <rosbag/bag.h>
+
+namespace datmo_fusion {
+
+/// A bag that appears under its name when it is complete, and not at all otherwise: it is written
+/// beside it as `<file>.part`, which goes away unless finish() is reached.
+class OutputBag {
+ public:
+  /// Throws std::runtime_error that names the file if it cannot be written.
+  explicit OutputBag(const std::string& file);
+  ~OutputBag();
+  OutputBag(const OutputBag&) = delete;
+  OutputBag& operator=(const OutputBag&) = delete;
+
+  /// Stamps before the first that a bag can hold (ros::TIME_MIN) are raised to it.
+  template <typename Message>
+  void write(const std::string& topic, const ros::Time& time, const Message& message) {
+    bag_.write(topic, time < ros::TIME_MIN ? ros::TIME_MIN : time, message);
+  }
+
+  /// A message as it stands in another bag, latched connection and all.
+  void copy(const rosbag::MessageInstance& message);
+
+  /// Closes the bag and gives it its name. Throws std::runtime_error that names the file.
+  void finish();
+
+ private:
+  std::string file_;
+  std::string part_;
+  rosbag::Bag bag_;
+};
+
+}  // namespace datmo_fusion

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <chrono>
+#include <iosfwd>
+#include <string>
+
+namespace datmo_fusion {
+
+/// One line on a terminal that shows how far a job is, drawn over again a few times a second.
+class ProgressBar {
+ public:
+  /// `out` null: draws nothing.
+  explicit ProgressBar(std::ostream* out);
+
+  /// `share` of the job that is done, 0 to 1; `note` stands behind the bar.
+  void show(double share, const std::string& note);
+
+  /// Clears the line.
+  void clear();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::ostream* out_;
+  Clock::time_point drawn_;
+};
+
+}  // namespace datmo_fusion
