@@ -18,11 +18,9 @@ OutputBag::OutputBag(const std::string& file) : file_(file), part_(file + ".part
 }
 
 OutputBag::~OutputBag() {
+  // After finish() there is none. A bag that is still open closes into a file without a name.
   std::error_code ignored;
-  if (std::filesystem::exists(part_, ignored)) {
-    bag_.close();
-    std::filesystem::remove(part_, ignored);
-  }
+  std::filesystem::remove(part_, ignored);
 }
 
 void OutputBag::copy(const rosbag::MessageInstance& message) {
