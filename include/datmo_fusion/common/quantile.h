@@ -1,0 +1,23 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace datmo_fusion {
+
+/// The least of the values that at least `share` (0 to 1) of them do not exceed (nearest rank); 0
+/// for no values.
+inline double quantile(std::vector<double> values, double share) {
+  if (values.empty()) {
+    return 0.0;
+  }
+  const double rank = std::ceil(share * static_cast<double>(values.size()));
+  const auto index = std::min(static_cast<std::size_t>(std::max(1.0, rank)), values.size()) - 1;
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(index);
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
+
+}  // namespace datmo_fusion

@@ -1,0 +1,24 @@
+#include "datmo_fusion/common/quantile.h"
+
+#include <gtest/gtest.h>
+
+namespace datmo_fusion {
+namespace {
+
+TEST(Quantile, IsTheNearestRank) {
+  const std::vector<double> values = {5.0, 1.0, 4.0, 2.0, 3.0};
+  EXPECT_DOUBLE_EQ(quantile(values, 0.5), 3.0);
+  EXPECT_DOUBLE_EQ(quantile(values, 0.2), 1.0);
+  EXPECT_DOUBLE_EQ(quantile(values, 0.21), 2.0);
+}
+
+TEST(Quantile, EndsAreTheLeastAndTheMost) {
+  const std::vector<double> values = {5.0, 1.0, 4.0};
+  EXPECT_DOUBLE_EQ(quantile(values, 0.0), 1.0);
+  EXPECT_DOUBLE_EQ(quantile(values, 1.0), 5.0);
+}
+
+TEST(Quantile, OfNoValuesIsZero) { EXPECT_DOUBLE_EQ(quantile({}, 0.5), 0.0); }
+
+}  // namespace
+}  // namespace datmo_fusion
