@@ -81,10 +81,6 @@ OccupancyMap::OccupancyMap(const OccupancyMapOptions& options)
       cells_(cellsAlong(options.length, options.cell_size),
              cellsAlong(options.width, options.cell_size), options.cell_size, Cell{}) {}
 
-double OccupancyMap::occupancy(CellIndex cell) const {
-  return probability(cells_.atOrEmpty(cell).log_odds);
-}
-
 double OccupancyMap::interpolatedOccupancy(const Point2& point) const {
   const double half = 0.5 * window().cell_size;
   const CellIndex low = window().cellAt(point - Point2(half, half));
@@ -98,7 +94,7 @@ double OccupancyMap::interpolatedOccupancy(const Point2& point) const {
 
 bool OccupancyMap::isStatic(const Cell& cell) const {
   return cell.hits > 0.0F && cell.last_hit - cell.first_hit >= options_.static_after &&
-         probability(cell.log_odds) >= options_.static_above;
+         static_cast<double>(cell.occupancy) >= options_.static_above;
 }
 
 PointState OccupancyMap::judge(const Point2& point) const {
@@ -162,6 +158,11 @@ void OccupancyMap::update(const Scan& scan, const std::vector<PointState>& state
   }
 }
 
+void OccupancyMap::change(Cell& cell, float log_odds_step) const {
+  cell.log_odds = std::clamp(cell.log_odds + log_odds_step, -log_odds_limit_, log_odds_limit_);
+  cell.occupancy = 1.0F / (1.0F + std::exp(-cell.log_odds));
+}
+
 void OccupancyMap::hit(const Point2& point) {
   const CellIndex index = window().cellAt(point);
   if (!window().contains(index)) {
@@ -175,7 +176,7 @@ void OccupancyMap::hit(const Point2& point) {
     cell.first_hit = now_;
   }
   if (cell.updated != update_) {
-    cell.log_odds = std::min(log_odds_limit_, cell.log_odds + hit_log_odds_);
+    change(cell, hit_log_odds_);
     cell.updated = update_;
     cell.last_hit = now_;
   }
@@ -201,7 +202,7 @@ void OccupancyMap::pass(CellIndex index) {
     return;
   }
   cell.updated = update_;
-  cell.log_odds = std::max(-log_odds_limit_, cell.log_odds + free_log_odds_);
+  change(cell, free_log_odds_);
 }
 
 void OccupancyMap::passBeam(const Ray& ray, const Pose2& base_in_map) {
@@ -234,9 +235,9 @@ std::vector<std::int8_t> OccupancyMap::occupancyImage() const {
   for (int row = corner.row; row < corner.row + window().rows; ++row) {
     for (int column = corner.column; column < corner.column + window().columns; ++column) {
       const Cell& cell = cells_.at({column, row});
-      image.push_back(cell.updated == 0 ? kNothingKnown
-                                        : static_cast<std::int8_t>(
-                                              std::lround(100.0 * probability(cell.log_odds))));
+      image.push_back(cell.updated == 0
+                          ? kNothingKnown
+                          : static_cast<std::int8_t>(std::lround(100.0F * cell.occupancy)));
     }
   }
   return image;

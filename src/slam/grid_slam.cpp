@@ -47,6 +47,7 @@ SplitScan split(const Scan& scan, const std::vector<PointState>& states,
 void GridSlamOptions::visit(OptionVisitor& visitor) {
   visitor.group("map", [&] { map.visit(visitor); });
   visitor.group("motion", [&] { motion.visit(visitor); });
+  visitor.group("pose", [&] { pose.visit(visitor); });
   visitor.group("matcher", [&] { matcher.visit(visitor); });
   visitor.number(
       {"odometry_hold", "s",
@@ -59,60 +60,45 @@ void GridSlamOptions::visit(OptionVisitor& visitor) {
 
 GridSlam::GridSlam(const GridSlamOptions& options)
     : options_(options),
-      motion_model_(options.motion),
       matcher_(options.matcher),
       map_(options.map),
       odometry_(options.odometry_hold, kOdometryMemory),
-      random_(static_cast<std::uint64_t>(options.seed)) {
+      random_(static_cast<std::uint64_t>(options.seed)),
+      filter_(options.pose, options.motion) {
   checkOptions(options);
 }
 
-PoseWithCovariance GridSlam::predict(Stamp stamp, bool& odometry_used) const {
-  if (!stamp_) {
-    return base_in_map_;
-  }
+bool GridSlam::predict(Stamp stamp) {
   const double seconds = secondsBetween(*stamp_, stamp);
-  const auto measured = odometry_.motion(*stamp_, stamp);
-  odometry_used = measured.has_value();
-  const Pose2 motion = measured ? *measured : arc(velocity_, seconds);
-  const Pose2 pose = base_in_map_.pose * motion;
-  // The heading's error turns the motion; the motion's own noise comes on top.
-  Eigen::Matrix3d transport = Eigen::Matrix3d::Identity();
-  transport(0, 2) = base_in_map_.pose.y() - pose.y();
-  transport(1, 2) = pose.x() - base_in_map_.pose.x();
-  Eigen::Matrix3d to_map = Eigen::Matrix3d::Identity();
-  to_map.topLeftCorner<2, 2>() = pose.rotation();
-  const Eigen::Matrix3d noise = motion_model_.covariance(twistOf(motion, seconds), seconds);
-  return {pose, transport * base_in_map_.covariance * transport.transpose() +
-                    to_map * noise * to_map.transpose()};
+  const auto measured = odometry_.motion(*stamp_, stamp, filter_.errors());
+  if (measured) {
+    filter_.predictMeasured(*measured, seconds);
+  } else {
+    filter_.predictUnmeasured(arc(velocity_, seconds), seconds);
+  }
+  return measured.has_value();
 }
 
 SlamResult GridSlam::process(const Scan& scan) {
   SlamResult result;
-  PoseWithCovariance pose = predict(scan.stamp, result.odometry_used);
-  map_.centreOn(pose.pose.position());
   if (stamp_) {
-    const MatchResult match = matcher_.match(map_, endPoints(scan), pose, random_);
+    const Pose2 before = filter_.pose().pose;
+    result.odometry_used = predict(scan.stamp);
+    map_.centreOn(filter_.pose().pose.position());
+    const MatchResult match = matcher_.match(map_, endPoints(scan), filter_.pose(), random_);
+    filter_.correct(match.pose);
     result.match = match.quality;
-    velocity_ =
-        twistOf(base_in_map_.pose.inverse() * match.pose.pose, secondsBetween(*stamp_, scan.stamp));
-    pose = match.pose;
+    velocity_ = twistOf(before.inverse() * match.pose.pose, secondsBetween(*stamp_, scan.stamp));
   }
-  const std::vector<PointState> states = judge(scan, map_, pose.pose);
-  map_.update(scan, states, pose.pose);
-  base_in_map_ = pose;
+  const PoseWithCovariance base_in_map = filter_.pose();
+  const std::vector<PointState> states = judge(scan, map_, base_in_map.pose);
+  map_.update(scan, states, base_in_map.pose);
   stamp_ = scan.stamp;
-  result.split = split(scan, states, pose);
+  result.odometry_errors = filter_.errors();
+  result.split = split(scan, states, base_in_map);
   return result;
 }
 
-void GridSlam::reset() {
-  map_.clear();
-  odometry_.clear();
-  random_ = Random(static_cast<std::uint64_t>(options_.seed));
-  base_in_map_ = {};
-  velocity_ = {};
-  stamp_.reset();
-}
+void GridSlam::reset() { *this = GridSlam(options_); }
 
 }  // namespace datmo_fusion

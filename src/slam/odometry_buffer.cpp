@@ -14,7 +14,8 @@ void OdometryBuffer::add(const OdometrySample& sample) {
   }
 }
 
-std::optional<Pose2> OdometryBuffer::motion(Stamp from, Stamp to) const {
+std::optional<Pose2> OdometryBuffer::motion(Stamp from, Stamp to,
+                                            const OdometryErrors& errors) const {
   const auto later = std::upper_bound(
       samples_.begin(), samples_.end(), from,
       [](Stamp stamp, const OdometrySample& sample) { return stamp < sample.stamp; });
@@ -31,7 +32,7 @@ std::optional<Pose2> OdometryBuffer::motion(Stamp from, Stamp to) const {
     if (secondsBetween(sample->stamp, until) > longest_hold_) {
       return std::nullopt;
     }
-    motion = motion * arc(sample->twist, secondsBetween(at, until));
+    motion = motion * arc(errors.correct(sample->twist), secondsBetween(at, until));
     at = until;
     if (next == samples_.end()) {
       break;

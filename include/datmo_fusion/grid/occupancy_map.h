@@ -52,7 +52,9 @@ class OccupancyMap {
   void centreOn(const Point2& position) { cells_.centreOn(position); }
 
   /// Occupancy probability of a cell, 0 to 1; 0.5 where nothing is known.
-  double occupancy(CellIndex cell) const;
+  double occupancy(CellIndex cell) const {
+    return static_cast<double>(cells_.atOrEmpty(cell).occupancy);
+  }
 
   /// Occupancy at a point of the map frame, bilinear between the centres of the cells.
   double interpolatedOccupancy(const Point2& point) const;
@@ -79,6 +81,7 @@ class OccupancyMap {
  private:
   struct Cell {
     float log_odds = 0.0F;
+    float occupancy = 0.5F;     ///< of log_odds; read far more often than changed
     std::uint32_t updated = 0;  ///< number of the update that touched it last; 0: never
     float first_hit = 0.0F;     ///< s since the first update; of the present occupant
     float last_hit = 0.0F;
@@ -88,6 +91,7 @@ class OccupancyMap {
     Eigen::Vector3f squares = Eigen::Vector3f::Zero();  ///< xx, xy, yy
   };
 
+  void change(Cell& cell, float log_odds_step) const;
   void hit(const Point2& point);
   void pass(CellIndex cell);
   void passBeam(const Ray& ray, const Pose2& base_in_map);

@@ -17,9 +17,11 @@ class RollingGrid {
   /// `columns` and `rows` more than 0, `cell_size` (m) more than 0. The window's centre is the
   /// origin of the map frame.
   RollingGrid(int columns, int rows, double cell_size, const Cell& empty)
-      : window_{cell_size, columns, rows, {-columns / 2, -rows / 2}},
+      : window_{cell_size, columns, rows, {}},
         empty_(empty),
-        cells_(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), empty) {}
+        cells_(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), empty) {
+    moveTo({-columns / 2, -rows / 2});
+  }
 
   const GridWindow& window() const { return window_; }
 
@@ -37,7 +39,7 @@ class RollingGrid {
     const CellIndex middle = window_.cellAt(centre);
     const CellIndex corner{middle.column - window_.columns / 2, middle.row - window_.rows / 2};
     const CellIndex old = window_.corner;
-    window_.corner = corner;
+    moveTo(corner);
     for (int column = corner.column; column < corner.column + window_.columns; ++column) {
       const bool column_is_new = column < old.column || column >= old.column + window_.columns;
       if (column_is_new) {
@@ -53,15 +55,28 @@ class RollingGrid {
   void clear() { std::fill(cells_.begin(), cells_.end(), empty_); }
 
  private:
-  static int wrap(int value, int size) {
+  static int modulo(int value, int size) {
     const int rest = value % size;
     return rest < 0 ? rest + size : rest;
   }
 
+  /// `index` lies in the window, so that one subtraction replaces the division of a modulo.
+  static int wrap(int index, int corner, int corner_slot, int size) {
+    const int slot = index - corner + corner_slot;
+    return slot < size ? slot : slot - size;
+  }
+
   std::size_t slot(CellIndex cell) const {
-    return static_cast<std::size_t>(wrap(cell.row, window_.rows)) *
-               static_cast<std::size_t>(window_.columns) +
-           static_cast<std::size_t>(wrap(cell.column, window_.columns));
+    const int column =
+        wrap(cell.column, window_.corner.column, corner_slot_.column, window_.columns);
+    const int row = wrap(cell.row, window_.corner.row, corner_slot_.row, window_.rows);
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(window_.columns) +
+           static_cast<std::size_t>(column);
+  }
+
+  void moveTo(CellIndex corner) {
+    window_.corner = corner;
+    corner_slot_ = {modulo(corner.column, window_.columns), modulo(corner.row, window_.rows)};
   }
 
   void clear(int column, int first_row, int end_row) {
@@ -71,6 +86,7 @@ class RollingGrid {
   }
 
   GridWindow window_;
+  CellIndex corner_slot_;  ///< where in `cells_` the window's corner is held
   Cell empty_;
   std::vector<Cell> cells_;
 };

@@ -6,8 +6,8 @@
 #include "datmo_fusion/common/random.h"
 #include "datmo_fusion/common/scan.h"
 #include "datmo_fusion/grid/occupancy_map.h"
-#include "datmo_fusion/slam/motion_model.h"
 #include "datmo_fusion/slam/odometry_buffer.h"
+#include "datmo_fusion/slam/pose_filter.h"
 #include "datmo_fusion/slam/scan_matcher.h"
 
 namespace datmo_fusion {
@@ -15,6 +15,7 @@ namespace datmo_fusion {
 struct GridSlamOptions {
   OccupancyMapOptions map;
   MotionModelOptions motion;
+  PoseFilterOptions pose;
   ScanMatcherOptions matcher;
   double odometry_hold = 0.5;  ///< s
   int seed = 1;
@@ -24,9 +25,10 @@ struct GridSlamOptions {
 
 /// What one scan led to.
 struct SlamResult {
-  SplitScan split;             ///< the scan's end points, judged against the map, and the pose
-  bool odometry_used = false;  ///< false: predicted with the last estimated velocity
-  MatchQuality match;          ///< how well the scan fits the map
+  SplitScan split;                 ///< the scan's end points, judged against the map, and the pose
+  bool odometry_used = false;      ///< false: predicted with the last estimated velocity
+  MatchQuality match;              ///< how well the scan fits the map
+  OdometryErrors odometry_errors;  ///< as estimated so far
 };
 
 /// Maximum-likelihood SLAM on a rolling occupancy grid (thesis 3.1.1, 3.3.1): predict with the
@@ -53,15 +55,15 @@ class GridSlam {
   void reset();
 
  private:
-  PoseWithCovariance predict(Stamp stamp, bool& odometry_used) const;
+  /// Returns whether odometry served.
+  bool predict(Stamp stamp);
 
   GridSlamOptions options_;
-  VelocityMotionModel motion_model_;
   ScanMatcher matcher_;
   OccupancyMap map_;
   OdometryBuffer odometry_;
   Random random_;
-  PoseWithCovariance base_in_map_;
+  PoseFilter filter_;
   Twist2 velocity_;             ///< estimated from the last two poses
   std::optional<Stamp> stamp_;  ///< of the last scan
 };

@@ -10,7 +10,9 @@ struct MotionModelOptions {
   double speed_noise_ratio = 0.05;  ///< of the speed
   double yaw_rate_noise = 0.02;     ///< rad/s
   double yaw_rate_noise_ratio = 0.1;
-  double side_slip_noise = 0.05;  ///< m/s, sideways
+  double side_slip_noise = 0.05;        ///< m/s, sideways
+  double acceleration_noise = 3.0;      ///< m/s^2
+  double yaw_acceleration_noise = 0.5;  ///< rad/s^2
 
   void visit(OptionVisitor& visitor);
 };
@@ -27,7 +29,14 @@ class VelocityMotionModel {
   /// frame of the pose that it leads to.
   Eigen::Matrix3d covariance(const Twist2& twist, double seconds) const;
 
+  /// The same where there is no odometry and `twist` is only the last known one: it may have
+  /// changed since.
+  Eigen::Matrix3d covarianceWithoutOdometry(const Twist2& twist, double seconds) const;
+
  private:
+  Eigen::Matrix3d covariance(const Twist2& twist, double seconds, double speed_sigma,
+                             double yaw_rate_sigma) const;
+
   MotionModelOptions options_;
 };
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "datmo_fusion/common/stamp.h"
-#include "datmo_fusion/common/twist2.h"
+#include "datmo_fusion/slam/pose_filter.h"
 
 namespace datmo_fusion {
 
@@ -28,7 +28,7 @@ class OdometryBuffer {
   /// The vehicle's motion from one stamp to a later one: each sample's twist holds from its stamp
   /// to the next one's. None if the samples do not reach `to` within the longest hold, or begin
   /// later than `from`.
-  std::optional<Pose2> motion(Stamp from, Stamp to) const;
+  std::optional<Pose2> motion(Stamp from, Stamp to, const OdometryErrors& errors = {}) const;
 
   void clear() { samples_.clear(); }
 

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/common/twist2.h"
+#include "datmo_fusion/slam/motion_model.h"
+
+namespace datmo_fusion {
+
+struct PoseFilterOptions {
+  bool calibrate_odometry = true;
+  double speed_scale_sigma = 0.05;      ///< 1
+  double yaw_rate_bias_sigma = 0.02;    ///< rad/s
+  double yaw_rate_bias_drift = 0.0005;  ///< rad/s per square root of s
+  double speed_scale_drift = 0.0005;    ///< 1 per square root of s
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// What odometry gets wrong all the time.
+struct OdometryErrors {
+  double speed_scale = 0.0;    ///< measured speed = (1 + speed_scale) * true speed
+  double yaw_rate_bias = 0.0;  ///< rad/s; measured yaw rate = true yaw rate + yaw_rate_bias
+
+  Twist2 correct(const Twist2& measured) const {
+    return {measured.forward_speed / (1.0 + speed_scale), measured.yaw_rate - yaw_rate_bias};
+  }
+};
+
+/// Extended Kalman filter over the vehicle's pose in the map and the systematic errors of its
+/// odometry (wheel radius, bias of the yaw-rate sensor), which the scan matches make observable.
+/// The thesis takes odometry as unbiased; a bias that each match has to take out again leaves a
+/// part of itself in the map at every scan.
+///
+/// Called by GridSlam: predict, match, correct.
+class PoseFilter {
+ public:
+  /// Throws OptionError.
+  PoseFilter(const PoseFilterOptions& options, const MotionModelOptions& motion);
+
+  const OdometryErrors& errors() const { return errors_; }
+  PoseWithCovariance pose() const;
+
+  /// After `seconds` (more than 0) of `motion`, measured by odometry and corrected by errors().
+  void predictMeasured(const Pose2& motion, double seconds);
+
+  /// After `seconds` (more than 0) of `motion`, which only carries on the last velocity.
+  void predictUnmeasured(const Pose2& motion, double seconds);
+
+  /// Takes the pose that a match found from pose() as its prior.
+  void correct(const PoseWithCovariance& matched);
+
+ private:
+  static constexpr int kStates = 5;  ///< x, y, heading, speed scale, yaw-rate bias
+  using Covariance = Eigen::Matrix<double, kStates, kStates>;
+
+  void predict(const Pose2& motion, const Eigen::Matrix3d& motion_noise);
+
+  PoseFilterOptions options_;
+  VelocityMotionModel motion_model_;
+  Pose2 pose_;
+  OdometryErrors errors_;
+  Covariance covariance_ = Covariance::Zero();
+};
+
+}  // namespace datmo_fusion
