@@ -1,0 +1,5 @@
+"""The error that a tool shows to its user instead of a traceback."""
+
+
+class InputError(Exception):
+    """A file or a value that cannot be used: the text says which, its state, and what was expected."""

@@ -1,0 +1,91 @@
+"""Calibration files of a KITTI raw recording day -> mounts and camera matrices.
+
+Source: Geiger et al., "Vision meets robotics: the KITTI dataset", 2013, section IV and its devkit.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from datmo_tools import transforms
+from datmo_tools.errors import InputError
+
+VELODYNE_HEIGHT = 1.73  # m above the road (Geiger et al. 2013, figure 3)
+
+
+class Camera(NamedTuple):
+    """A rectified camera: `projection` (3 x 4, pixels; the left rectified camera's frame), size in pixels."""
+
+    projection: np.ndarray
+    width: int
+    height: int
+
+
+class Calibration(NamedTuple):
+    """Mounts on the car (4 x 4, named target_from_source) and the rectified gray stereo pair."""
+
+    base_from_velodyne: np.ndarray
+    base_from_imu: np.ndarray
+    left_from_velodyne: np.ndarray  # into the rectified left camera, optical axes
+    left: Camera
+    right: Camera
+
+    @property
+    def baseline(self):
+        """Distance (m) from the left to the right rectified camera, along the left one's x axis."""
+        return -self.right.projection[0, 3] / self.right.projection[0, 0]
+
+
+def read_calibration(folder):
+    """Reads the three calib_*.txt of `folder` (Path). Raises InputError where one is missing or broken."""
+    cameras = _KeyedFile(folder / "calib_cam_to_cam.txt")
+    velodyne_from_imu = _KeyedFile(folder / "calib_imu_to_velo.txt").rigid()
+    camera_from_velodyne = _KeyedFile(folder / "calib_velo_to_cam.txt").rigid()
+    rectification = transforms.rigid(cameras.values("R_rect_00", 9).reshape(3, 3), np.zeros(3))
+    base_from_imu = _base_from_imu(velodyne_from_imu)
+    return Calibration(
+        base_from_velodyne=base_from_imu @ transforms.inverse(velodyne_from_imu),
+        base_from_imu=base_from_imu,
+        left_from_velodyne=rectification @ camera_from_velodyne,
+        left=_camera(cameras, "00"),
+        right=_camera(cameras, "01"),
+    )
+
+
+def _base_from_imu(velodyne_from_imu):
+    """base_link: on the road below the IMU, so that the Velodyne is VELODYNE_HEIGHT above it."""
+    velodyne_above_imu = transforms.inverse(velodyne_from_imu)[2, 3]
+    return transforms.rigid(np.eye(3), [0.0, 0.0, VELODYNE_HEIGHT - velodyne_above_imu])
+
+
+def _camera(cameras, number):
+    width, height = cameras.values(f"S_rect_{number}", 2)
+    return Camera(cameras.values(f"P_rect_{number}", 12).reshape(3, 4), int(width), int(height))
+
+
+class _KeyedFile:
+    """A text file of lines `key: values`."""
+
+    def __init__(self, path):
+        self._path = path
+        try:
+            lines = path.read_text(encoding="ascii").splitlines()
+        except (OSError, UnicodeDecodeError) as error:
+            raise InputError(f"{path}: expected a calibration file, a text file ({error})") from error
+        self._entries = dict(line.split(":", 1) for line in lines if ":" in line)
+
+    def values(self, key, count):
+        """The `count` numbers after `key`."""
+        if key not in self._entries:
+            raise InputError(f"{self._path}: key {key} is missing, expected {count} numbers")
+        try:
+            values = np.array([float(word) for word in self._entries[key].split()])
+        except ValueError as error:
+            raise InputError(f"{self._path}: {key}: {error}, expected {count} numbers") from error
+        if values.size != count or not np.all(np.isfinite(values)):
+            raise InputError(f"{self._path}: {key} has {values.size} numbers, expected {count}, finite")
+        return values
+
+    def rigid(self):
+        """The transform that the keys R and T hold."""
+        return transforms.rigid(self.values("R", 9).reshape(3, 3), self.values("T", 3))

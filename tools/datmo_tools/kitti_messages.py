@@ -1,0 +1,158 @@
+"""What kitti_to_bag writes, as ROS messages. Frames and topics: the data contract of the stack's bags."""
+
+import numpy as np
+from geometry_msgs.msg import Point, Quaternion, TransformStamped, Vector3
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import CameraInfo, Image, LaserScan, PointCloud2, PointField
+from std_msgs.msg import Header
+from tf2_msgs.msg import TFMessage
+
+from datmo_fusion.msg import Object, TrueObject, TrueObjectArray
+from datmo_tools import transforms
+from datmo_tools.stamps import to_ros_time
+
+MAP, ODOM, BASE, TRUE_BASE = "map", "odom", "base_link", "base_link_ground_truth"
+SCANNER, VELODYNE, IMU = "scanner", "velodyne", "imu"
+LEFT_CAMERA, RIGHT_CAMERA = "stereo_left_optical", "stereo_right_optical"
+
+# rad^2 and m^2 of what is not measured, as a large number: an infinite one upsets matrix code.
+NOT_MEASURED = 1e6
+
+CLASSES = {
+    "Car": Object.CLASS_VEHICLE,
+    "Van": Object.CLASS_VEHICLE,
+    "Truck": Object.CLASS_VEHICLE,
+    "Tram": Object.CLASS_VEHICLE,
+    "Pedestrian": Object.CLASS_PEDESTRIAN,
+    "Person_sitting": Object.CLASS_PEDESTRIAN,
+    "Person (sitting)": Object.CLASS_PEDESTRIAN,  # the same class in tracklet_labels.xml
+    "Cyclist": Object.CLASS_CYCLIST,
+}
+
+
+def header(stamp, frame):
+    """Header at `stamp` (ns); sequence numbers stay 0, so that a bag's bytes depend on its content only."""
+    return Header(stamp=to_ros_time(stamp), frame_id=frame)
+
+
+def laser_scan(stamp, scan, options):
+    """LaserScan of an EmulatedScan; all beams at one stamp: the Velodyne looks ahead at it."""
+    return LaserScan(
+        header=header(stamp, SCANNER),
+        angle_min=options.angle_min,
+        angle_max=-options.angle_min,
+        angle_increment=options.angle_increment,
+        range_min=options.range_min,
+        range_max=options.range_max,
+        ranges=scan.ranges.astype(np.float32).tolist(),
+    )
+
+
+def point_cloud(stamp, cloud):
+    """PointCloud2 (x, y, z, intensity: float32) of a Velodyne cloud (n x 4)."""
+    fields = [PointField(name, 4 * i, PointField.FLOAT32, 1)
+              for i, name in enumerate(("x", "y", "z", "intensity"))]
+    return PointCloud2(header=header(stamp, VELODYNE), height=1, width=len(cloud), fields=fields,
+                       is_bigendian=False, point_step=16, row_step=16 * len(cloud),
+                       data=np.ascontiguousarray(cloud, dtype="<f4").tobytes(), is_dense=True)
+
+
+def gray_image(stamp, pixels):
+    """mono8 Image (height x width) in the left rectified camera's frame."""
+    height, width = pixels.shape
+    return Image(header=header(stamp, LEFT_CAMERA), height=height, width=width, encoding="mono8",
+                 is_bigendian=0, step=width, data=pixels.tobytes())
+
+
+def camera_info(stamp, camera):
+    """CameraInfo of a camera whose images are rectified: no distortion, no rotation, K out of P."""
+    projection = camera.projection
+    return CameraInfo(header=header(stamp, LEFT_CAMERA), height=camera.height, width=camera.width,
+                      distortion_model="plumb_bob", D=[0.0] * 5, K=projection[:, :3].ravel().tolist(),
+                      R=np.eye(3).ravel().tolist(), P=projection.ravel().tolist())
+
+
+def odometry(sample):
+    """Odometry of an OdometrySample: pose in odom, rates in base_link."""
+    message = _odometry(sample.stamp, ODOM, BASE, sample.pose, sample.speed, sample.yaw_rate)
+    pose_covariance = np.diag([0.0, 0.0, NOT_MEASURED, NOT_MEASURED, NOT_MEASURED, 0.0])
+    planar = np.ix_([0, 1, 5], [0, 1, 5])
+    pose_covariance[planar] = sample.pose_covariance
+    message.pose.covariance = pose_covariance.ravel().tolist()
+    message.twist.covariance = np.diag([sample.speed_variance, NOT_MEASURED, NOT_MEASURED, NOT_MEASURED,
+                                        NOT_MEASURED, sample.yaw_rate_variance]).ravel().tolist()
+    return message
+
+
+def odometry_transform(sample):
+    """TFMessage odom -> base_link of an OdometrySample."""
+    x, y, yaw = sample.pose
+    transform = transforms.rigid(np.eye(3), [x, y, 0.0])
+    return TFMessage([_transform(sample.stamp, ODOM, BASE, transform, transforms.quaternion_of_yaw(yaw))])
+
+
+def true_pose(stamp, pose, record):
+    """Odometry of the true pose (x, y, yaw) in the map, with the GPS/IMU's rates."""
+    return _odometry(stamp, MAP, TRUE_BASE, pose, record.forward_speed, record.yaw_rate)
+
+
+def _odometry(stamp, frame, child, pose, speed, yaw_rate):
+    message = Odometry(header=header(stamp, frame), child_frame_id=child)
+    message.pose.pose.position = Point(pose[0], pose[1], 0.0)
+    message.pose.pose.orientation = Quaternion(*transforms.quaternion_of_yaw(pose[2]))
+    message.twist.twist.linear.x = speed
+    message.twist.twist.angular.z = yaw_rate
+    return message
+
+
+def true_objects(stamp, objects, beam_counts):
+    """TrueObjectArray of MapObjects, with the number of beams that end on each."""
+    items = [_true_object(item, beams) for item, beams in zip(objects, beam_counts)]
+    return TrueObjectArray(header=header(stamp, MAP), objects=items)
+
+
+def _true_object(item, beams):
+    message = TrueObject(
+        id=item.source.number,
+        label=item.source.label,
+        classification=CLASSES.get(item.source.label, Object.CLASS_UNKNOWN),
+        size=Vector3(item.source.length, item.source.width, item.source.height),
+        velocity=Vector3(item.velocity[0], item.velocity[1], 0.0),
+        moving=item.moving,
+        visible_to=[SCANNER] if beams > 0 else [],
+        lidar_beams=beams,
+        occlusion=item.box.occlusion,
+    )
+    message.pose.position = Point(item.pose[0], item.pose[1], item.z)
+    message.pose.orientation = Quaternion(*transforms.quaternion_of_yaw(item.pose[2]))
+    return message
+
+
+def static_transforms(stamp, calibration, scanner_height):
+    """TFMessage base_link -> every sensor."""
+    velodyne = calibration.base_from_velodyne
+    left = velodyne @ transforms.inverse(calibration.left_from_velodyne)
+    right = left @ transforms.rigid(np.eye(3), [calibration.baseline, 0.0, 0.0])
+    mounts = (
+        (SCANNER, scanner_mount(velodyne, scanner_height)),
+        (VELODYNE, velodyne),
+        (IMU, calibration.base_from_imu),
+        (LEFT_CAMERA, left),
+        (RIGHT_CAMERA, right),
+    )
+    return TFMessage([_transform(stamp, BASE, frame, mount, transforms.quaternion_of(mount[:3, :3]))
+                      for frame, mount in mounts])
+
+
+def scanner_mount(base_from_velodyne, height):
+    """base_link -> scanner (4 x 4): below the Velodyne at `height` (m) above the road, level."""
+    yaw = transforms.yaw_of(base_from_velodyne)
+    rotation = [[np.cos(yaw), -np.sin(yaw), 0.0], [np.sin(yaw), np.cos(yaw), 0.0], [0.0, 0.0, 1.0]]
+    return transforms.rigid(rotation, [*base_from_velodyne[:2, 3], height])
+
+
+def _transform(stamp, parent, child, transform, quaternion):
+    message = TransformStamped(header=header(stamp, parent), child_frame_id=child)
+    message.transform.translation = Vector3(*transform[:3, 3])
+    message.transform.rotation = Quaternion(*quaternion)
+    return message

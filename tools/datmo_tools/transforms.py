@@ -1,0 +1,81 @@
+"""Rigid transforms in space (4 x 4 matrices) and in the plane (x, y, yaw)."""
+
+import math
+
+import numpy as np
+
+
+def normalise_angle(angle):
+    """Angle(s) in rad, brought to [-pi, pi)."""
+    return (np.asarray(angle) + math.pi) % (2.0 * math.pi) - math.pi
+
+
+def rigid(rotation, translation):
+    """4 x 4 transform from a 3 x 3 rotation and a translation (3, m)."""
+    transform = np.eye(4)
+    transform[:3, :3] = rotation
+    transform[:3, 3] = translation
+    return transform
+
+
+def inverse(transform):
+    """Inverse of a rigid 4 x 4 transform."""
+    rotation = transform[:3, :3].T
+    return rigid(rotation, -rotation @ transform[:3, 3])
+
+
+def apply(transform, points):
+    """`points` (n x 3) through a 4 x 4 transform."""
+    return points @ transform[:3, :3].T + transform[:3, 3]
+
+
+def yaw_of(transform):
+    """Heading (rad) of the transform's x axis in the target's xy plane."""
+    return math.atan2(transform[1, 0], transform[0, 0])
+
+
+def quaternion_of_yaw(yaw):
+    """Quaternion (x, y, z, w) of a rotation by `yaw` (rad) about z."""
+    return (0.0, 0.0, math.sin(0.5 * yaw), math.cos(0.5 * yaw))
+
+
+def quaternion_of(rotation):
+    """Quaternion (x, y, z, w), w >= 0, of a 3 x 3 rotation.
+
+    Source: Bar-Itzhack, "New method for extracting the quaternion from a rotation matrix", 2000:
+    the eigenvector of the largest eigenvalue, which has no special cases and stands rounding.
+    """
+    r = rotation
+    symmetric = np.array([
+        [r[0, 0] - r[1, 1] - r[2, 2], r[0, 1] + r[1, 0], r[0, 2] + r[2, 0], r[2, 1] - r[1, 2]],
+        [r[0, 1] + r[1, 0], r[1, 1] - r[0, 0] - r[2, 2], r[1, 2] + r[2, 1], r[0, 2] - r[2, 0]],
+        [r[0, 2] + r[2, 0], r[1, 2] + r[2, 1], r[2, 2] - r[0, 0] - r[1, 1], r[1, 0] - r[0, 1]],
+        [r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1], r[0, 0] + r[1, 1] + r[2, 2]],
+    ])
+    quaternion = np.linalg.eigh(symmetric)[1][:, -1]
+    return tuple(quaternion if quaternion[3] >= 0.0 else -quaternion)
+
+
+def compose(pose, local):
+    """Planar pose(s) `local` (..., 3: x, y, yaw), given in the frame of `pose` (3), in its parent."""
+    local = np.asarray(local, dtype=float)
+    cosine, sine = math.cos(pose[2]), math.sin(pose[2])
+    x = pose[0] + cosine * local[..., 0] - sine * local[..., 1]
+    y = pose[1] + sine * local[..., 0] + cosine * local[..., 1]
+    return np.stack([x, y, normalise_angle(pose[2] + local[..., 2])], axis=-1)
+
+
+def relative(origin, pose):
+    """Planar pose(s) `pose` (..., 3), seen from the planar pose `origin` (3) in the same frame."""
+    pose = np.asarray(pose, dtype=float)
+    cosine, sine = math.cos(origin[2]), math.sin(origin[2])
+    dx, dy = pose[..., 0] - origin[0], pose[..., 1] - origin[1]
+    yaw = normalise_angle(pose[..., 2] - origin[2])
+    return np.stack([cosine * dx + sine * dy, -sine * dx + cosine * dy, yaw], axis=-1)
+
+
+def arc(speed, yaw_rate, duration):
+    """Planar motion (x, y, yaw) at constant `speed` (m/s) and `yaw_rate` (rad/s) for `duration` (s)."""
+    yaw = yaw_rate * duration
+    chord = speed * duration * np.sinc(0.5 * yaw / math.pi)
+    return np.array([chord * math.cos(0.5 * yaw), chord * math.sin(0.5 * yaw), yaw])

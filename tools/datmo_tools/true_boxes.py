@@ -1,0 +1,34 @@
+"""The boxes that the two KITTI truth readers hand on, before they are moved into the map."""
+
+from typing import NamedTuple
+
+UNKNOWN_OCCLUSION = -1.0
+
+# KITTI's levels (visible, partly, largely or fully hidden) as shares; any other level is not known.
+_OCCLUSION_SHARES = {0: 0.0, 1: 0.5, 2: 1.0}
+
+
+class TrueBox(NamedTuple):
+    """A box of one frame, upright in the Velodyne's frame."""
+
+    x: float  # m, centre
+    y: float  # m
+    z: float  # m, centre
+    yaw: float  # rad
+    occlusion: float  # 0 to 1 in the annotator's view, negative: not known
+
+
+class TrueObject(NamedTuple):
+    """One labelled object: its boxes by frame."""
+
+    number: int
+    label: str  # KITTI's name of the class
+    length: float  # m
+    width: float  # m
+    height: float  # m
+    boxes: dict  # frame -> TrueBox
+
+
+def occlusion_share(level):
+    """KITTI's occlusion level as a share from 0 to 1; negative where it is not known."""
+    return _OCCLUSION_SHARES.get(int(level), UNKNOWN_OCCLUSION)
