@@ -5,7 +5,7 @@ from typing import NamedTuple, Optional
 
 from datmo_tools import ground_truth, kitti_messages, odometry, road_plane, scanner_emulation
 from datmo_tools.bag_file import whole_bag
-from datmo_tools.ego_pose import EgoMotion
+from datmo_tools.ego_pose import EgoMotion, poses_from_gps, poses_from_velocity
 from datmo_tools.errors import InputError
 from datmo_tools.kitti_calibration import read_calibration
 from datmo_tools.kitti_labels import read_labels
@@ -21,6 +21,7 @@ class Options(NamedTuple):
 
     scanner: ScannerOptions = ScannerOptions()
     fit_road: bool = True  # else the road is the plane that the calibrated height gives
+    gps_position: bool = False  # truth of the position: else the integrated velocity (see ego_pose)
     points: bool = False
     images: bool = False
     odometry_errors: OdometryErrors = OdometryErrors()
@@ -69,11 +70,12 @@ class _Conversion:
         stamps = [self._drive.oxts_stamps[frame] for frame in self._frames]
         self._records = dict(zip(self._frames, (self._drive.oxts(frame) for frame in self._frames)))
         records = list(self._records.values())
-        self._ego = EgoMotion(stamps, records)
+        poses = poses_from_gps(records) if options.gps_position else poses_from_velocity(stamps, records)
+        self._ego = EgoMotion(stamps, records, poses)
         rates = odometry.degraded_rates(records, options.odometry_errors, options.seed)
         samples = odometry.integrate(stamps, *rates, options.odometry_errors)
         self._samples = dict(zip(self._frames, samples))
-        self._poses = dict(zip(self._frames, self._ego.poses))
+        self._poses = dict(zip(self._frames, poses))
         self._truth = self._read_truth(folder)
 
     def events(self):

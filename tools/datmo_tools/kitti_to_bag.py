@@ -56,6 +56,9 @@ def _parser():
     add("--road", choices=("fit", "flat"), default="fit",
         help="the band is above the plane fitted to the road in each scan, or above the plane 1.73 m "
              "below the Velodyne, which pitches with the car (default %(default)s)")
+    add("--true-position", choices=("velocity", "gps"), default="velocity",
+        help="true position from the integrated velocity of the GPS/IMU, or from latitude and longitude, "
+             "which may walk by metres within a drive (default %(default)s)")
     add("--points", action="store_true", help="write the Velodyne's points too")
     add("--images", action="store_true", help="write the gray stereo images too")
     add("--odometry-scale-error", type=_number, default=errors.scale_error, metavar="SHARE",
@@ -91,6 +94,7 @@ def _options(values):
         scanner=ScannerOptions(values.scan_resolution, values.scan_fov, *values.scan_range,
                                *values.scan_band, values.beam_width),
         fit_road=values.road == "fit",
+        gps_position=values.true_position == "gps",
         points=values.points,
         images=values.images,
         odometry_errors=OdometryErrors(values.odometry_scale_error,
