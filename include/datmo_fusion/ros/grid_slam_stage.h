@@ -1,0 +1,88 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <nav_msgs/Odometry.h>
+
+#include "datmo_fusion/ros/messages.h"
+#include "datmo_fusion/ros/scan_conversion.h"
+#include "datmo_fusion/ros/stage_monitor.h"
+#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/transform_buffer.h"
+#include "datmo_fusion/slam/grid_slam.h"
+
+namespace datmo_fusion {
+
+struct GridSlamStageOptions {
+  std::string map_frame = "map";
+  std::string odom_frame = "odom";
+  std::string base_frame = "base_link";
+  bool odometry = true;
+  double map_period = 1.0;          ///< s
+  double most_tilt = degrees(5.0);  ///< rad
+  StreamOptions input;
+  ScanConversionOptions scan;
+  GridSlamOptions slam;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// What one scan led to, ready to be published.
+struct GridSlamOutput {
+  SplitScanPtr split_scan;
+  geometry_msgs::PoseWithCovarianceStampedPtr pose;
+  std::vector<geometry_msgs::TransformStamped> transforms;
+  nav_msgs::OccupancyGridPtr map;  ///< null if it is not its turn
+};
+
+/// GridSlam between messages: the same one serves the nodelet and the bag runner.
+///
+/// Bad input is dropped or warned of through the monitor, never thrown. When the clock jumps back
+/// all state is forgotten.
+///
+/// With odometry, map -> odom is chosen so that odom -> base_link, at the scan's stamp, leads to
+/// the pose; odom -> base_link itself comes from whoever makes the odometry. It is left out while
+/// odometry is silent. Without odometry, map and odom are the same, and odom -> base_link is the
+/// pose.
+class GridSlamStage {
+ public:
+  /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
+  GridSlamStage(const GridSlamStageOptions& options, const TransformBuffer& transforms,
+                StageMonitor& monitor);
+
+  void takeOdometry(const nav_msgs::Odometry& message);
+
+  /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan. None if it was dropped.
+  template <typename Message>
+  std::optional<GridSlamOutput> takeScan(const Message& message);
+
+ private:
+  /// Speed, yaw rate and pose of the vehicle as its odometry knows them.
+  struct OdometryPose {
+    OdometrySample sample;
+    Pose2 base_in_odom;
+  };
+
+  void checkFrames(const nav_msgs::Odometry& message) const;
+  void restart();
+  void warnOf(const ScannerMount& mount, const BeamCounts& beams);
+  GridSlamOutput outputOf(const SlamResult& result);
+  std::vector<geometry_msgs::TransformStamped> transformsTo(const Pose2& base_in_map, Stamp stamp);
+  nav_msgs::OccupancyGridPtr mapIfDue(Stamp stamp);
+
+  GridSlamStageOptions options_;
+  const TransformBuffer& transforms_;
+  StageMonitor& monitor_;
+  GridSlam slam_;
+  StampCheck scan_stamps_;
+  StampCheck odometry_stamps_;
+  std::optional<OdometryPose> odometry_;  ///< the newest
+  std::optional<Stamp> last_map_;
+};
+
+}  // namespace datmo_fusion

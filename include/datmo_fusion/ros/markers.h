@@ -1,0 +1,61 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+#include <datmo_fusion/TrueObjectArray.h>
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/ros/messages.h"
+
+namespace datmo_fusion {
+
+struct MarkersOptions {
+  double point_size = 0.25;     ///< m
+  double line_width = 0.12;     ///< m
+  double text_height = 1.8;     ///< m
+  double least_size = 0.3;      ///< m
+  double default_height = 1.5;  ///< m
+  double arrow_time = 1.0;      ///< s
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Messages -> what rviz draws. One namespace for each kind of marker, ids that stay with what they
+/// stand for; the frame is the message's own unless said otherwise.
+
+/// The end points of a scan, coloured by state, in the map frame of the pose they were seen from.
+visualization_msgs::MarkerArray markersOf(const SplitScanMessage& scan,
+                                          const MarkersOptions& options);
+
+/// Outlines of the objects' boxes, coloured by dynamic state.
+visualization_msgs::MarkerArray markersOf(const ObjectArray& objects,
+                                          const MarkersOptions& options);
+
+/// For each track a box, an arrow as long as the way of `arrow_time`, and "#id speed".
+visualization_msgs::MarkerArray markersOf(const TrackArray& tracks, const MarkersOptions& options);
+
+/// Outlines of the true objects that move.
+visualization_msgs::MarkerArray markersOf(const TrueObjectArray& objects,
+                                          const MarkersOptions& options);
+
+/// Brings markers from the vehicle's frame to the map by the pose of the scan they were made
+/// from. Throws InputError (`bad_pose`).
+void placeInMap(const SplitScanMessage& scan, visualization_msgs::MarkerArray& markers);
+
+/// Knows what is drawn, so that what is gone is deleted.
+class StaleMarkers {
+ public:
+  /// Appends a DELETE for each marker of the last call with this `source` that is not drawn again.
+  void replace(const std::string& source, visualization_msgs::MarkerArray& markers);
+
+ private:
+  using Key = std::pair<std::string, int>;  ///< namespace and id
+  std::map<std::string, std::set<Key>> drawn_;
+};
+
+}  // namespace datmo_fusion

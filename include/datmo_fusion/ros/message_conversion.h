@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+
+#include <geometry_msgs/Pose.h>
+#include <geometry_msgs/PoseWithCovariance.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <nav_msgs/Odometry.h>
+
+#include "datmo_fusion/common/object.h"
+#include "datmo_fusion/common/scan.h"
+#include "datmo_fusion/grid/occupancy_map.h"
+#include "datmo_fusion/ros/messages.h"
+#include "datmo_fusion/slam/odometry_buffer.h"
+#include "datmo_fusion/tracking/track.h"
+
+namespace datmo_fusion {
+
+geometry_msgs::Pose toMessage(const Pose2& pose);
+geometry_msgs::PoseWithCovariance toMessage(const PoseWithCovariance& pose);
+
+/// The pose seen from above; roll and pitch are left out. Throws InputError (`bad_pose`) if it is
+/// not finite or its quaternion is not of length 1.
+Pose2 fromMessage(const geometry_msgs::Pose& pose);
+
+geometry_msgs::TransformStamped toTransform(const Pose2& child_in_parent, Stamp stamp,
+                                            const std::string& parent_frame,
+                                            const std::string& child_frame);
+
+/// Throws InputError (`bad_odometry`) if speed or yaw rate is not finite.
+OdometrySample toSample(const nav_msgs::Odometry& message);
+
+SplitScanMessage toMessage(const SplitScan& scan, const std::string& base_frame,
+                           const std::string& map_frame);
+
+/// Throws InputError: `bad_pose`, `bad_point` for points that are not finite or of no known state.
+SplitScan fromMessage(const SplitScanMessage& message);
+
+ObjectArray toMessage(const ObjectList& list, const std::string& base_frame);
+
+/// No check beyond the enumerations: a value without a name becomes kUnknown. The tracker judges
+/// the numbers of each object by itself.
+ObjectList fromMessage(const ObjectArray& message);
+
+TrackArray toMessage(const TrackList& list, const std::string& fixed_frame);
+
+/// The window of the map as it lies now: cell (0, 0) of the message is the window's lower left one.
+nav_msgs::OccupancyGrid toMessage(const OccupancyMap& map, Stamp stamp,
+                                  const std::string& map_frame);
+
+}  // namespace datmo_fusion

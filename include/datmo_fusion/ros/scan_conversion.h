@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+
+#include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/MultiEchoLaserScan.h>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/common/scan.h"
+#include "datmo_fusion/ros/frames.h"
+
+namespace datmo_fusion {
+
+struct ScanConversionOptions {
+  double free_range = 40.0;  ///< m
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Beams of one scan, by what became of them.
+struct BeamCounts {
+  std::size_t hits = 0;
+  std::size_t no_return = 0;  ///< +inf or beyond range_max (REP 117)
+  std::size_t dropped = 0;    ///< NaN, -inf, negative or below range_min: no ray
+};
+
+struct ConvertedScan {
+  Scan scan;
+  BeamCounts beams;
+};
+
+/// A scan, brought to the vehicle's frame. A beam without return is free up to `free_range` or
+/// range_max, whichever is nearer.
+///
+/// Throws InputError: `empty_scan` (no beams), `bad_geometry` (angles or range limits that are not
+/// finite, no angle increment, limits the wrong way round), `wrong_size` (more than one beam more
+/// or less than the angles say; drivers disagree whether angle_max is the last beam or one beyond).
+ConvertedScan toScan(const sensor_msgs::LaserScan& message, const ScannerMount& mount,
+                     const ScanConversionOptions& options);
+
+/// The same for several echoes a beam: the nearest valid one counts.
+ConvertedScan toScan(const sensor_msgs::MultiEchoLaserScan& message, const ScannerMount& mount,
+                     const ScanConversionOptions& options);
+
+}  // namespace datmo_fusion

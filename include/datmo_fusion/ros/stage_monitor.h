@@ -1,0 +1,101 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "datmo_fusion/common/stamp.h"
+#include "datmo_fusion/ros/input_error.h"
+
+namespace datmo_fusion {
+
+/// One input of a stage, as its receiver sees it.
+struct InputStatus {
+  std::uint64_t received = 0;
+  double rate = 0.0;              ///< Hz, over the last messages
+  std::optional<double> silence;  ///< s since the last message; none before the first
+};
+
+/// One message that has led to a result.
+struct Processed {
+  Stamp stamp;           ///< of the measurement
+  double seconds = 0.0;  ///< it took
+};
+
+/// Processing times over the last messages, s; 0 before the first.
+struct TimingStatus {
+  double median = 0.0;
+  double percentile_99 = 0.0;
+  double most = 0.0;
+};
+
+/// Keeps count of what a stage takes in, drops and needs in time; says on the console what is
+/// wrong, once a second at most. Not thread safe.
+class StageMonitor {
+ public:
+  explicit StageMonitor(std::string stage) : stage_(std::move(stage)) {}
+
+  const std::string& stage() const { return stage_; }
+
+  /// A message has come. `now`: ROS time.
+  void received(const std::string& input, Stamp now);
+
+  /// A message has led to a result.
+  void processed(const Processed& message);
+
+  /// A message was dropped.
+  void dropped(const InputError& error);
+
+  /// Something is wrong with a message or missing, but the stage goes on with it.
+  void warned(const InputError& error);
+
+  InputStatus input(const std::string& name, Stamp now) const;
+  TimingStatus timing() const;
+  std::uint64_t processedCount() const { return processed_; }
+  const Processed& lastProcessed() const { return last_processed_; }
+  std::uint64_t droppedCount() const;
+  std::uint64_t warningCount() const;
+
+  /// By reason.
+  const std::map<std::string, std::uint64_t>& drops() const { return drops_; }
+  const std::map<std::string, std::uint64_t>& warnings() const { return warnings_; }
+
+  /// The newest of both kinds; empty before the first.
+  const std::string& lastError() const { return last_error_; }
+
+ private:
+  struct Input {
+    std::uint64_t count = 0;
+    std::deque<Stamp> arrivals;  ///< the last ones
+  };
+
+  void say(const InputError& error);
+
+  std::string stage_;
+  std::map<std::string, Input> inputs_;
+  std::map<std::string, std::uint64_t> drops_;
+  std::map<std::string, std::uint64_t> warnings_;
+  std::deque<double> times_;  ///< s, the last ones
+  std::uint64_t processed_ = 0;
+  Processed last_processed_;
+  std::string last_error_;
+  std::optional<std::chrono::steady_clock::time_point> last_said_;
+  std::uint64_t unsaid_ = 0;  ///< errors since then
+};
+
+/// Seconds since construction, for Processed::seconds.
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace datmo_fusion

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <ros/time.h>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/common/stamp_gate.h"
+
+namespace datmo_fusion {
+
+Stamp toStamp(const ros::Time& time);
+ros::Time toTime(Stamp stamp);
+
+/// How a stage judges the time of its inputs.
+struct StreamOptions {
+  double restart_after = 1.0;  ///< s
+  double silence_after = 1.0;  ///< s
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Whether a message goes on with the stream or begins a new run of the clock (a looped bag).
+enum class Arrival { kNext, kRestart };
+
+/// The door of a stream of stamped messages: time behind it only goes forward.
+class StampCheck {
+ public:
+  explicit StampCheck(double restart_after) : gate_(restart_after) {}
+
+  /// Throws InputError for a stamp of zero (`zero_stamp`), one that was there before
+  /// (`repeated_stamp`), and one that comes too late (`old_stamp`).
+  Arrival check(const ros::Time& time);
+
+ private:
+  StampGate gate_;
+};
+
+}  // namespace datmo_fusion

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <deque>
+#include <string>
+
+#include "datmo_fusion/ros/messages.h"
+#include "datmo_fusion/ros/stage_monitor.h"
+#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/transform_buffer.h"
+#include "datmo_fusion/tracking/tracker.h"
+
+namespace datmo_fusion {
+
+struct TrackerStageOptions {
+  std::string fixed_frame = "map";
+  double transform_wait = 0.3;  ///< s
+  StreamOptions input;
+  TrackerOptions tracker;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Tracker between messages: the same one serves the nodelet and the bag runner.
+///
+/// Objects wait in a bounded queue until tf knows the vehicle's pose at their stamp; nothing
+/// blocks. Bad input is dropped through the monitor, never thrown. When the clock jumps back all
+/// tracks are forgotten.
+class TrackerStage {
+ public:
+  /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
+  TrackerStage(const TrackerStageOptions& options, const TransformBuffer& transforms,
+               StageMonitor& monitor);
+
+  /// Puts objects into the queue. `now`: ROS time.
+  void takeObjects(const ObjectArrayConstPtr& message, Stamp now);
+
+  /// The tracks at the stamp of the next objects in the queue whose transform is there; null if
+  /// there are none. Objects that have waited for longer than transform_wait are dropped. To be
+  /// called until null, after new objects and after new transforms.
+  TrackArrayPtr next(Stamp now);
+
+ private:
+  struct Waiting {
+    ObjectArrayConstPtr objects;
+    Stamp since;
+  };
+
+  void restart();
+  TrackArrayPtr track(const ObjectArray& objects, const Pose2& base_in_fixed);
+  bool hasWaitedTooLong(const Waiting& waiting, Stamp now) const;
+
+  TrackerStageOptions options_;
+  const TransformBuffer& transforms_;
+  StageMonitor& monitor_;
+  Tracker tracker_;
+  StampCheck stamps_;
+  std::deque<Waiting> queue_;
+};
+
+}  // namespace datmo_fusion

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include <tf2_msgs/TFMessage.h>
+
+#include <tf2/buffer_core.h>
+
+#include "datmo_fusion/common/stamp_gate.h"
+
+namespace datmo_fusion {
+
+/// The transforms of tf, fed by its owner, so that a stage sees them in the order of its other
+/// messages: live from the nodelet's callback queue, in batch from the bag.
+///
+/// When the clock jumps back (a looped bag) all but the static transforms are forgotten, so that no
+/// pose is interpolated between two runs. Not thread safe beyond what tf2::BufferCore is.
+class TransformBuffer {
+ public:
+  explicit TransformBuffer(double restart_after) : restart_after_(restart_after) {}
+
+  void add(const tf2_msgs::TFMessage& message);
+  void addStatic(const tf2_msgs::TFMessage& message);
+
+  const tf2::BufferCore& core() const { return core_; }
+
+ private:
+  void noticeRestart(const geometry_msgs::TransformStamped& transform);
+
+  double restart_after_;
+  tf2::BufferCore core_;
+  std::map<std::string, StampGate> gates_;  ///< by child frame
+};
+
+}  // namespace datmo_fusion

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <functional>
+
+#include <ros/node_handle.h>
+
+#include "datmo_fusion/ros/transform_buffer.h"
+
+namespace datmo_fusion {
+
+/// Feeds a TransformBuffer from /tf and /tf_static, in the callback queue of `node` (unlike
+/// tf2_ros::TransformListener, which has a thread of its own), so that whoever waits for a
+/// transform is told in the moment it is there.
+class TransformSubscription {
+ public:
+  /// `buffer` must outlive the subscription; `changed` is called after each message.
+  TransformSubscription(
+      ros::NodeHandle node, TransformBuffer& buffer, std::function<void()> changed = [] {});
+
+ private:
+  ros::Subscriber transforms_;
+  ros::Subscriber static_transforms_;
+};
+
+}  // namespace datmo_fusion

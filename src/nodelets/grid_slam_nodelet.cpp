@@ -1,0 +1,94 @@
+#include <memory>
+
+#include <nodelet/nodelet.h>
+#include <pluginlib/class_list_macros.hpp>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include "datmo_fusion/ros/grid_slam_stage.h"
+#include "datmo_fusion/ros/parameters.h"
+#include "datmo_fusion/ros/stage_reporter.h"
+#include "datmo_fusion/ros/transform_subscription.h"
+
+namespace datmo_fusion {
+
+/// The door to GridSlamStage. In: scan or echoes, odometry, tf. Out: map, pose, split_scan, tf.
+class GridSlamNodelet : public nodelet::Nodelet {
+ private:
+  void onInit() override {
+    const auto options = loadOptions<GridSlamStageOptions>(getPrivateNodeHandle());
+    monitor_ = std::make_unique<StageMonitor>(getName());
+    transforms_ = std::make_unique<TransformBuffer>(options.input.restart_after);
+    stage_ = std::make_unique<GridSlamStage>(options, *transforms_, *monitor_);
+    std::vector<std::string> inputs{"scan"};
+    if (options.odometry) {
+      inputs.emplace_back("odometry");
+    }
+    reporter_ = std::make_unique<StageReporter>(getNodeHandle(), getPrivateNodeHandle(), *monitor_,
+                                                inputs, options.input.silence_after);
+    advertise();
+    subscribe(options.odometry);
+  }
+
+  void advertise() {
+    ros::NodeHandle& node = getNodeHandle();
+    map_ = node.advertise<nav_msgs::OccupancyGrid>("map", 1, true);
+    pose_ = node.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", kQueue);
+    split_scan_ = node.advertise<SplitScanMessage>("split_scan", kQueue);
+  }
+
+  void subscribe(bool with_odometry) {
+    ros::NodeHandle& node = getNodeHandle();
+    const auto hints = ros::TransportHints().tcpNoDelay();
+    transform_subscription_ = std::make_unique<TransformSubscription>(node, *transforms_);
+    if (with_odometry) {
+      odometry_ = node.subscribe("odometry", kQueue, &GridSlamNodelet::takeOdometry, this, hints);
+    }
+    scan_ = node.subscribe("scan", kQueue, &GridSlamNodelet::takeScan<sensor_msgs::LaserScan>, this,
+                           hints);
+    echoes_ = node.subscribe(
+        "echoes", kQueue, &GridSlamNodelet::takeScan<sensor_msgs::MultiEchoLaserScan>, this, hints);
+  }
+
+  void takeOdometry(const nav_msgs::OdometryConstPtr& message) {
+    monitor_->received("odometry", toStamp(ros::Time::now()));
+    stage_->takeOdometry(*message);
+  }
+
+  template <typename Message>
+  void takeScan(const boost::shared_ptr<const Message>& message) {
+    monitor_->received("scan", toStamp(ros::Time::now()));
+    if (const auto output = stage_->takeScan(*message)) {
+      publish(*output);
+    }
+  }
+
+  void publish(const GridSlamOutput& output) {
+    broadcaster_.sendTransform(output.transforms);
+    pose_.publish(output.pose);
+    split_scan_.publish(output.split_scan);
+    if (output.map) {
+      map_.publish(output.map);
+    }
+    reporter_->publishTiming();
+  }
+
+  /// A second of scans or odometry: enough for a hiccup, and bounded.
+  static constexpr std::uint32_t kQueue = 20;
+
+  std::unique_ptr<StageMonitor> monitor_;
+  std::unique_ptr<TransformBuffer> transforms_;
+  std::unique_ptr<GridSlamStage> stage_;
+  std::unique_ptr<StageReporter> reporter_;
+  std::unique_ptr<TransformSubscription> transform_subscription_;
+  tf2_ros::TransformBroadcaster broadcaster_;
+  ros::Publisher map_;
+  ros::Publisher pose_;
+  ros::Publisher split_scan_;
+  ros::Subscriber odometry_;
+  ros::Subscriber scan_;
+  ros::Subscriber echoes_;
+};
+
+}  // namespace datmo_fusion
+
+PLUGINLIB_EXPORT_CLASS(datmo_fusion::GridSlamNodelet, nodelet::Nodelet)

@@ -1,0 +1,60 @@
+#include <memory>
+
+#include <nodelet/nodelet.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "datmo_fusion/ros/parameters.h"
+#include "datmo_fusion/ros/stage_reporter.h"
+#include "datmo_fusion/ros/tracker_stage.h"
+#include "datmo_fusion/ros/transform_subscription.h"
+
+namespace datmo_fusion {
+
+/// The door to TrackerStage. In: objects, tf. Out: tracks.
+class TrackerNodelet : public nodelet::Nodelet {
+ private:
+  void onInit() override {
+    const auto options = loadOptions<TrackerStageOptions>(getPrivateNodeHandle());
+    monitor_ = std::make_unique<StageMonitor>(getName());
+    transforms_ = std::make_unique<TransformBuffer>(options.input.restart_after);
+    stage_ = std::make_unique<TrackerStage>(options, *transforms_, *monitor_);
+    ros::NodeHandle& node = getNodeHandle();
+    reporter_ = std::make_unique<StageReporter>(node, getPrivateNodeHandle(), *monitor_,
+                                                std::vector<std::string>{"objects"},
+                                                options.input.silence_after);
+    tracks_ = node.advertise<TrackArray>("tracks", kQueue);
+    transform_subscription_ =
+        std::make_unique<TransformSubscription>(node, *transforms_, [this] { publishTracks(); });
+    objects_ = node.subscribe("objects", kQueue, &TrackerNodelet::takeObjects, this,
+                              ros::TransportHints().tcpNoDelay());
+  }
+
+  void takeObjects(const ObjectArrayConstPtr& message) {
+    const Stamp now = toStamp(ros::Time::now());
+    monitor_->received("objects", now);
+    stage_->takeObjects(message, now);
+    publishTracks();
+  }
+
+  void publishTracks() {
+    while (const auto tracks = stage_->next(toStamp(ros::Time::now()))) {
+      tracks_.publish(tracks);
+      reporter_->publishTiming();
+    }
+  }
+
+  /// A second of objects: enough for a hiccup, and bounded.
+  static constexpr std::uint32_t kQueue = 20;
+
+  std::unique_ptr<StageMonitor> monitor_;
+  std::unique_ptr<TransformBuffer> transforms_;
+  std::unique_ptr<TrackerStage> stage_;
+  std::unique_ptr<StageReporter> reporter_;
+  ros::Publisher tracks_;
+  std::unique_ptr<TransformSubscription> transform_subscription_;
+  ros::Subscriber objects_;
+};
+
+}  // namespace datmo_fusion
+
+PLUGINLIB_EXPORT_CLASS(datmo_fusion::TrackerNodelet, nodelet::Nodelet)

@@ -1,0 +1,56 @@
+#include "datmo_fusion/ros/frames.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <geometry_msgs/TransformStamped.h>
+#include <tf2/LinearMath/Matrix3x3.h>
+#include <tf2/exceptions.h>
+
+#include "datmo_fusion/ros/input_error.h"
+
+namespace datmo_fusion {
+
+namespace {
+
+geometry_msgs::Transform lookUp(const tf2::BufferCore& transforms, const std::string& parent_frame,
+                                const std::string& child_frame, const ros::Time& time) {
+  try {
+    return transforms.lookupTransform(parent_frame, child_frame, time).transform;
+  } catch (const tf2::TransformException& error) {
+    throw InputError("missing_transform", "transform " + parent_frame + " -> " + child_frame +
+                                              ": expected on tf (" + error.what() + ")");
+  }
+}
+
+/// Columns: the child's axes in the parent frame.
+tf2::Matrix3x3 axes(const geometry_msgs::Transform& transform) {
+  const auto& q = transform.rotation;
+  return tf2::Matrix3x3(tf2::Quaternion(q.x, q.y, q.z, q.w));
+}
+
+/// Place and direction of the x axis, seen from above.
+Pose2 fromAbove(const geometry_msgs::Transform& transform) {
+  const tf2::Vector3 forward = axes(transform).getColumn(0);
+  return {transform.translation.x, transform.translation.y, std::atan2(forward.y(), forward.x())};
+}
+
+}  // namespace
+
+ScannerMount scannerMount(const tf2::BufferCore& transforms, const std::string& base_frame,
+                          const std::string& scanner_frame) {
+  const auto transform = lookUp(transforms, base_frame, scanner_frame, ros::Time(0));
+  const double up = axes(transform).getColumn(2).z();
+  ScannerMount mount;
+  mount.scanner_in_base = fromAbove(transform);
+  mount.upside_down = up < 0.0;
+  mount.tilt = std::acos(std::min(1.0, std::abs(up)));
+  return mount;
+}
+
+Pose2 planarPose(const tf2::BufferCore& transforms, const std::string& parent_frame,
+                 const std::string& child_frame, const ros::Time& time) {
+  return fromAbove(lookUp(transforms, parent_frame, child_frame, time));
+}
+
+}  // namespace datmo_fusion

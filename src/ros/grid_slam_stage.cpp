@@ -1,0 +1,151 @@
+#include "datmo_fusion/ros/grid_slam_stage.h"
+
+#include <boost/make_shared.hpp>
+
+#include "datmo_fusion/ros/message_conversion.h"
+
+namespace datmo_fusion {
+
+void GridSlamStageOptions::visit(OptionVisitor& visitor) {
+  visitor.text({"map_frame", "", "frame of the map and the pose"}, map_frame, {});
+  visitor.text({"odom_frame", "", "frame of the odometry"}, odom_frame, {});
+  visitor.text({"base_frame", "", "frame of the vehicle"}, base_frame, {});
+  visitor.toggle(
+      {"odometry", "",
+       "the vehicle has odometry; false: predict with constant velocity, and publish odom "
+       "-> base_link too"},
+      odometry);
+  visitor.number({"map_period", "s", "least time between two maps, of the scans' stamps"},
+                 map_period, {0.0, 3600.0});
+  visitor.number({"most_tilt", "rad", "a scan plane tilted by more than this is warned of"},
+                 most_tilt, {0.0, kPi / 2.0});
+  visitor.group("input", [&] { input.visit(visitor); });
+  visitor.group("scan", [&] { scan.visit(visitor); });
+  slam.visit(visitor);
+}
+
+GridSlamStage::GridSlamStage(const GridSlamStageOptions& options, const TransformBuffer& transforms,
+                             StageMonitor& monitor)
+    : options_(options),
+      transforms_(transforms),
+      monitor_(monitor),
+      slam_(options.slam),
+      scan_stamps_(options.input.restart_after),
+      odometry_stamps_(options.input.restart_after) {
+  checkOptions(options);
+}
+
+void GridSlamStage::takeOdometry(const nav_msgs::Odometry& message) {
+  try {
+    checkFrames(message);
+    const OdometryPose odometry{toSample(message), fromMessage(message.pose.pose)};
+    if (odometry_stamps_.check(message.header.stamp) == Arrival::kRestart) {
+      restart();
+    }
+    slam_.addOdometry(odometry.sample);
+    odometry_ = odometry;
+  } catch (const InputError& error) {
+    monitor_.dropped(error);
+  }
+}
+
+template <typename Message>
+std::optional<GridSlamOutput> GridSlamStage::takeScan(const Message& message) {
+  try {
+    const Stopwatch watch;
+    const ScannerMount mount =
+        scannerMount(transforms_.core(), options_.base_frame, message.header.frame_id);
+    const ConvertedScan converted = toScan(message, mount, options_.scan);
+    if (scan_stamps_.check(message.header.stamp) == Arrival::kRestart) {
+      restart();
+    }
+    warnOf(mount, converted.beams);
+    GridSlamOutput output = outputOf(slam_.process(converted.scan));
+    monitor_.processed({converted.scan.stamp, watch.seconds()});
+    return output;
+  } catch (const InputError& error) {
+    monitor_.dropped(error);
+    return std::nullopt;
+  }
+}
+
+template std::optional<GridSlamOutput> GridSlamStage::takeScan(const sensor_msgs::LaserScan&);
+template std::optional<GridSlamOutput> GridSlamStage::takeScan(
+    const sensor_msgs::MultiEchoLaserScan&);
+
+void GridSlamStage::checkFrames(const nav_msgs::Odometry& message) const {
+  if (message.header.frame_id != options_.odom_frame ||
+      message.child_frame_id != options_.base_frame) {
+    throw InputError("wrong_frame", "odometry of '" + message.child_frame_id + "' in '" +
+                                        message.header.frame_id + "': expected '" +
+                                        options_.base_frame + "' in '" + options_.odom_frame + "'");
+  }
+}
+
+void GridSlamStage::restart() {
+  monitor_.warned(InputError("clock_restart", "the clock jumped back: starts with a new map"));
+  slam_.reset();
+  odometry_.reset();
+  last_map_.reset();
+}
+
+void GridSlamStage::warnOf(const ScannerMount& mount, const BeamCounts& beams) {
+  if (mount.tilt > options_.most_tilt) {
+    monitor_.warned(InputError("tilted_scanner",
+                               "scan plane tilted by " + std::to_string(toDegrees(mount.tilt)) +
+                                   " degrees: expected at most " +
+                                   std::to_string(toDegrees(options_.most_tilt))));
+  }
+  if (beams.hits == 0 && beams.no_return == 0) {
+    monitor_.warned(InputError("no_valid_beam", "scan with " + std::to_string(beams.dropped) +
+                                                    " beams, none of them valid: goes on with the "
+                                                    "predicted pose"));
+  }
+}
+
+GridSlamOutput GridSlamStage::outputOf(const SlamResult& result) {
+  const Stamp stamp = result.split.stamp;
+  GridSlamOutput output;
+  output.split_scan = boost::make_shared<SplitScanMessage>(
+      toMessage(result.split, options_.base_frame, options_.map_frame));
+  output.pose = boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>();
+  output.pose->header.stamp = toTime(stamp);
+  output.pose->header.frame_id = options_.map_frame;
+  output.pose->pose = output.split_scan->pose;
+  output.transforms = transformsTo(result.split.base_in_map.pose, stamp);
+  output.map = mapIfDue(stamp);
+  return output;
+}
+
+std::vector<geometry_msgs::TransformStamped> GridSlamStage::transformsTo(const Pose2& base_in_map,
+                                                                         Stamp stamp) {
+  const auto odom_in_map = [&](const Pose2& pose) {
+    return toTransform(pose, stamp, options_.map_frame, options_.odom_frame);
+  };
+  if (!options_.odometry) {
+    return {odom_in_map({}),
+            toTransform(base_in_map, stamp, options_.odom_frame, options_.base_frame)};
+  }
+  const double age = odometry_ ? secondsBetween(odometry_->sample.stamp, stamp) : 0.0;
+  if (!odometry_ || age > options_.slam.odometry_hold) {
+    monitor_.warned(InputError("silent_odometry",
+                               "no odometry up to the scan's stamp: goes on with constant velocity "
+                               "and without " +
+                                   options_.map_frame + " -> " + options_.odom_frame +
+                                   " (a vehicle without odometry: set odometry to false)"));
+    return {};
+  }
+  const Pose2 base_in_odom = odometry_->base_in_odom * arc(odometry_->sample.twist, age);
+  return {odom_in_map(base_in_map * base_in_odom.inverse())};
+}
+
+nav_msgs::OccupancyGridPtr GridSlamStage::mapIfDue(Stamp stamp) {
+  if (last_map_ && secondsBetween(*last_map_, stamp) < options_.map_period) {
+    return nullptr;
+  }
+  last_map_ = stamp;
+  return boost::make_shared<nav_msgs::OccupancyGrid>(
+      toMessage(slam_.map(), stamp, options_.map_frame));
+}
+
+}  // namespace datmo_fusion

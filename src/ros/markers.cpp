@@ -1,0 +1,230 @@
+#include "datmo_fusion/ros/markers.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "datmo_fusion/common/pose2.h"
+#include "datmo_fusion/ros/message_conversion.h"
+
+namespace datmo_fusion {
+
+namespace {
+
+using visualization_msgs::Marker;
+using visualization_msgs::MarkerArray;
+
+std_msgs::ColorRGBA colour(float red, float green, float blue, float alpha = 1.0F) {
+  std_msgs::ColorRGBA result;
+  result.r = red;
+  result.g = green;
+  result.b = blue;
+  result.a = alpha;
+  return result;
+}
+
+std_msgs::ColorRGBA colourOfPoint(std::uint8_t state) {
+  switch (state) {
+    case ScanPointMessage::STATIC:
+      return colour(0.2F, 0.5F, 1.0F);
+    case ScanPointMessage::MOVING:
+      return colour(1.0F, 0.2F, 0.1F);
+    default:
+      return colour(0.6F, 0.6F, 0.6F);
+  }
+}
+
+std_msgs::ColorRGBA colourOfObject(std::uint8_t dynamic_state) {
+  return dynamic_state == ObjectMessage::STATE_MOVING ? colour(1.0F, 0.6F, 0.0F)
+                                                      : colour(0.6F, 0.6F, 0.6F);
+}
+
+/// Neighbouring ids look different: hues a golden section apart, those of a standing track pale.
+std_msgs::ColorRGBA colourOfTrack(std::uint32_t id, bool moving) {
+  constexpr double kGoldenSection = 0.618033988749895;
+  const double hue = std::fmod(id * kGoldenSection, 1.0);
+  const auto channel = [&](double shift) {
+    const double wave = 0.5 + 0.5 * std::cos(2.0 * kPi * (hue - shift));
+    return static_cast<float>(moving ? wave : 0.5 + 0.25 * wave);
+  };
+  return colour(channel(0.0), channel(1.0 / 3.0), channel(2.0 / 3.0), 0.6F);
+}
+
+Marker makeMarker(const std_msgs::Header& header, const std::string& name, int type) {
+  Marker marker;
+  marker.header = header;
+  marker.ns = name;
+  marker.type = type;
+  marker.action = Marker::ADD;
+  marker.pose.orientation.w = 1.0;
+  return marker;
+}
+
+geometry_msgs::Point pointAt(double x, double y, double z = 0.0) {
+  geometry_msgs::Point point;
+  point.x = x;
+  point.y = y;
+  point.z = z;
+  return point;
+}
+
+/// A rectangle on the ground, about `pose`.
+Marker outline(const std_msgs::Header& header, const std::string& name,
+               const geometry_msgs::Pose& pose, const geometry_msgs::Vector3& size,
+               const MarkersOptions& options) {
+  Marker marker = makeMarker(header, name, Marker::LINE_STRIP);
+  marker.pose = pose;
+  marker.scale.x = options.line_width;
+  const double x = 0.5 * std::max(size.x, options.least_size);
+  const double y = 0.5 * std::max(size.y, options.least_size);
+  marker.points = {pointAt(x, y), pointAt(-x, y), pointAt(-x, -y), pointAt(x, -y), pointAt(x, y)};
+  return marker;
+}
+
+double heightOf(const TrackMessage& track, const MarkersOptions& options) {
+  return track.size.z > 0.0 ? track.size.z : options.default_height;
+}
+
+Marker boxOf(const std_msgs::Header& header, const TrackMessage& track,
+             const MarkersOptions& options) {
+  Marker marker = makeMarker(header, "track boxes", Marker::CUBE);
+  marker.pose = track.pose;
+  marker.scale.x = std::max(track.size.x, options.least_size);
+  marker.scale.y = std::max(track.size.y, options.least_size);
+  marker.scale.z = heightOf(track, options);
+  marker.pose.position.z = 0.5 * marker.scale.z;
+  return marker;
+}
+
+Marker arrowOf(const std_msgs::Header& header, const TrackMessage& track,
+               const MarkersOptions& options) {
+  Marker marker = makeMarker(header, "track velocities", Marker::ARROW);
+  marker.scale.x = 2.0 * options.line_width;  // shaft
+  marker.scale.y = 5.0 * options.line_width;  // head
+  const geometry_msgs::Point& from = track.pose.position;
+  const double z = heightOf(track, options);
+  marker.points = {pointAt(from.x, from.y, z),
+                   pointAt(from.x + track.velocity.x * options.arrow_time,
+                           from.y + track.velocity.y * options.arrow_time, z)};
+  return marker;
+}
+
+Marker labelOf(const std_msgs::Header& header, const TrackMessage& track,
+               const MarkersOptions& options) {
+  Marker marker = makeMarker(header, "track labels", Marker::TEXT_VIEW_FACING);
+  marker.pose.position = track.pose.position;
+  marker.pose.position.z = heightOf(track, options) + options.text_height;
+  marker.scale.z = options.text_height;
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "#%u %.1f m/s", track.id,
+                std::hypot(track.velocity.x, track.velocity.y));
+  marker.text = text.data();
+  return marker;
+}
+
+}  // namespace
+
+void MarkersOptions::visit(OptionVisitor& visitor) {
+  const Bounds size{0.01, 10.0};
+  visitor.number({"point_size", "m", "edge of a scan point"}, point_size, size);
+  visitor.number({"line_width", "m", "width of outlines; arrows go by it"}, line_width, size);
+  visitor.number({"text_height", "m", "height of the letters of a track"}, text_height, size);
+  visitor.number({"least_size", "m", "a box that was seen smaller is drawn this long and wide"},
+                 least_size, size);
+  visitor.number({"default_height", "m", "of a box whose height is not measured"}, default_height,
+                 size);
+  visitor.number({"arrow_time", "s", "a track's arrow is the way of this time"}, arrow_time,
+                 {0.0, 10.0});
+}
+
+MarkerArray markersOf(const SplitScanMessage& scan, const MarkersOptions& options) {
+  std_msgs::Header header = scan.header;
+  header.frame_id = scan.map_frame;
+  Marker marker = makeMarker(header, "scan", Marker::POINTS);
+  marker.pose = scan.pose.pose;
+  marker.scale.x = options.point_size;
+  marker.scale.y = options.point_size;
+  marker.points.reserve(scan.points.size());
+  marker.colors.reserve(scan.points.size());
+  for (const ScanPointMessage& point : scan.points) {
+    marker.points.push_back(pointAt(point.x, point.y));
+    marker.colors.push_back(colourOfPoint(point.state));
+  }
+  MarkerArray markers;
+  if (!marker.points.empty()) {  // rviz takes an empty list for a mistake
+    markers.markers.push_back(marker);
+  }
+  return markers;
+}
+
+MarkerArray markersOf(const ObjectArray& objects, const MarkersOptions& options) {
+  MarkerArray markers;
+  for (const ObjectMessage& object : objects.objects) {
+    Marker marker = outline(objects.header, "objects", object.pose, object.size, options);
+    marker.id = static_cast<int>(markers.markers.size());
+    marker.color = colourOfObject(object.dynamic_state);
+    markers.markers.push_back(marker);
+  }
+  return markers;
+}
+
+MarkerArray markersOf(const TrackArray& tracks, const MarkersOptions& options) {
+  MarkerArray markers;
+  for (const TrackMessage& track : tracks.tracks) {
+    std_msgs::ColorRGBA body = colourOfTrack(track.id, track.moving);
+    for (Marker marker :
+         {boxOf(tracks.header, track, options), arrowOf(tracks.header, track, options),
+          labelOf(tracks.header, track, options)}) {
+      marker.id = static_cast<int>(track.id);
+      marker.color = body;
+      markers.markers.push_back(marker);
+      body.a = 1.0F;  // only the box is translucent
+    }
+  }
+  return markers;
+}
+
+MarkerArray markersOf(const TrueObjectArray& objects, const MarkersOptions& options) {
+  MarkerArray markers;
+  for (const TrueObject& object : objects.objects) {
+    if (object.moving) {
+      Marker marker = outline(objects.header, "ground truth", object.pose, object.size, options);
+      marker.id = static_cast<int>(object.id);
+      marker.color = colour(0.1F, 0.8F, 0.2F);
+      markers.markers.push_back(marker);
+    }
+  }
+  return markers;
+}
+
+void placeInMap(const SplitScanMessage& scan, MarkerArray& markers) {
+  const Pose2 base_in_map = fromMessage(scan.pose.pose);
+  for (Marker& marker : markers.markers) {
+    const double z = marker.pose.position.z;
+    marker.header.frame_id = scan.map_frame;
+    marker.pose = toMessage(base_in_map * fromMessage(marker.pose));
+    marker.pose.position.z = z;
+  }
+}
+
+void StaleMarkers::replace(const std::string& source, MarkerArray& markers) {
+  std::set<Key> now;
+  for (const Marker& marker : markers.markers) {
+    now.emplace(marker.ns, marker.id);
+  }
+  std::set<Key>& before = drawn_[source];
+  for (const Key& key : before) {
+    if (now.count(key) == 0) {
+      Marker gone;
+      gone.ns = key.first;
+      gone.id = key.second;
+      gone.action = Marker::DELETE;
+      markers.markers.push_back(gone);
+    }
+  }
+  before = std::move(now);
+}
+
+}  // namespace datmo_fusion

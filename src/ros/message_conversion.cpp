@@ -1,0 +1,285 @@
+#include "datmo_fusion/ros/message_conversion.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "datmo_fusion/ros/input_error.h"
+#include "datmo_fusion/ros/stamp_check.h"
+
+namespace datmo_fusion {
+
+namespace {
+
+/// Quaternions travel as doubles; one that is off by more than this was never normalised.
+constexpr double kUnitLengthTolerance = 1e-3;
+
+/// Where the 6 x 6 covariances of ROS (x, y, z, roll, pitch, yaw) hold ours over x, y and heading.
+std::size_t indexInSix(int row, int column) {
+  constexpr std::array<std::size_t, 3> kPlanar = {0, 1, 5};
+  return 6 * kPlanar.at(static_cast<std::size_t>(row)) +
+         kPlanar.at(static_cast<std::size_t>(column));
+}
+
+std_msgs::Header header(Stamp stamp, const std::string& frame) {
+  std_msgs::Header result;
+  result.stamp = toTime(stamp);
+  result.frame_id = frame;
+  return result;
+}
+
+PoseWithCovariance poseWithCovariance(const geometry_msgs::PoseWithCovariance& message) {
+  PoseWithCovariance pose;
+  pose.pose = fromMessage(message.pose);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      pose.covariance(row, column) = message.covariance.at(indexInSix(row, column));
+    }
+  }
+  return pose;
+}
+
+ScanPointMessage toMessage(const ScanPoint& point) {
+  ScanPointMessage message;
+  message.x = static_cast<float>(point.position.x());
+  message.y = static_cast<float>(point.position.y());
+  message.range = static_cast<float>(point.range);
+  message.bearing = static_cast<float>(point.bearing);
+  message.beam = static_cast<std::uint16_t>(point.beam);
+  message.state = static_cast<std::uint8_t>(point.state);
+  return message;
+}
+
+ScanPoint fromMessage(const ScanPointMessage& message) {
+  ScanPoint point;
+  point.position = Point2(message.x, message.y);
+  point.range = message.range;
+  point.bearing = message.bearing;
+  point.beam = message.beam;
+  point.state = static_cast<PointState>(message.state);
+  const bool finite =
+      point.position.allFinite() && std::isfinite(point.range) && std::isfinite(point.bearing);
+  if (!finite || message.state > ScanPointMessage::UNKNOWN) {
+    throw InputError("bad_point", "split scan with beam " + std::to_string(message.beam) + " at " +
+                                      std::to_string(message.x) + ", " + std::to_string(message.y) +
+                                      " in state " + std::to_string(message.state) +
+                                      ": expected finite numbers and a state from 0 to 2");
+  }
+  return point;
+}
+
+geometry_msgs::Vector3 size(const Box2& box, double height) {
+  geometry_msgs::Vector3 result;
+  result.x = box.length;
+  result.y = box.width;
+  result.z = height;
+  return result;
+}
+
+ObjectMessage toMessage(const Object& object) {
+  ObjectMessage message;
+  message.pose = toMessage(object.box.centre);
+  message.size = size(object.box, object.height);
+  Eigen::Map<Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(message.position_covariance.data()) =
+      object.position_covariance;
+  message.heading_variance = object.heading_variance;
+  message.classification = static_cast<std::uint8_t>(object.object_class);
+  message.class_probability = static_cast<float>(object.class_probability);
+  message.dynamic_state = static_cast<std::uint8_t>(object.dynamic_state);
+  message.moving_fraction = static_cast<float>(object.moving_fraction);
+  message.sensors = object.sensors;
+  for (const Point2& point : object.points) {
+    geometry_msgs::Point32 end;
+    end.x = static_cast<float>(point.x());
+    end.y = static_cast<float>(point.y());
+    message.points.push_back(end);
+  }
+  return message;
+}
+
+/// A value beyond the last one that has a name is not known (zero in both enumerations).
+template <typename Enumeration>
+Enumeration named(std::uint8_t value, Enumeration last) {
+  return value <= static_cast<std::uint8_t>(last) ? static_cast<Enumeration>(value)
+                                                  : Enumeration::kUnknown;
+}
+
+Pose2 boxCentre(const geometry_msgs::Pose& pose) {
+  const auto& q = pose.orientation;
+  return {pose.position.x, pose.position.y, 2.0 * std::atan2(q.z, q.w)};
+}
+
+Object fromMessage(const ObjectMessage& message) {
+  Object object;
+  object.box = {boxCentre(message.pose), message.size.x, message.size.y};
+  object.position_covariance = Eigen::Map<const Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(
+      message.position_covariance.data());
+  object.heading_variance = message.heading_variance;
+  object.height = message.size.z;
+  object.object_class = named(message.classification, ObjectClass::kPole);
+  object.class_probability = message.class_probability;
+  object.dynamic_state = named(message.dynamic_state, DynamicState::kMoving);
+  object.moving_fraction = message.moving_fraction;
+  object.sensors = message.sensors;
+  for (const auto& point : message.points) {
+    object.points.emplace_back(point.x, point.y);
+  }
+  return object;
+}
+
+geometry_msgs::Vector3 planar(double x, double y) {
+  geometry_msgs::Vector3 vector;
+  vector.x = x;
+  vector.y = y;
+  return vector;
+}
+
+TrackMessage toMessage(const Track& track) {
+  TrackMessage message;
+  message.id = track.id;
+  message.pose = toMessage(track.box.centre);
+  message.size = size(track.box, track.height);
+  message.velocity = planar(track.state(2), track.state(3));
+  message.acceleration = planar(track.state(4), track.state(5));
+  message.yaw_rate = track.yaw_rate;
+  Eigen::Map<Eigen::Matrix<double, kTrackState, kTrackState, Eigen::RowMajor>>(
+      message.covariance.data()) = track.covariance;
+  message.moving = track.moving;
+  for (const double probability : track.mode_probabilities) {
+    message.mode_probabilities.push_back(static_cast<float>(probability));
+  }
+  message.classification = static_cast<std::uint8_t>(track.object_class);
+  message.class_probability = static_cast<float>(track.class_probability);
+  message.age = ros::Duration(track.age);
+  message.since_update = ros::Duration(track.since_update);
+  message.hits = track.hits;
+  message.sensors = track.sensors;
+  return message;
+}
+
+}  // namespace
+
+geometry_msgs::Pose toMessage(const Pose2& pose) {
+  geometry_msgs::Pose message;
+  message.position.x = pose.x();
+  message.position.y = pose.y();
+  message.orientation.z = std::sin(0.5 * pose.heading());
+  message.orientation.w = std::cos(0.5 * pose.heading());
+  return message;
+}
+
+geometry_msgs::PoseWithCovariance toMessage(const PoseWithCovariance& pose) {
+  geometry_msgs::PoseWithCovariance message;
+  message.pose = toMessage(pose.pose);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      message.covariance.at(indexInSix(row, column)) = pose.covariance(row, column);
+    }
+  }
+  return message;
+}
+
+Pose2 fromMessage(const geometry_msgs::Pose& pose) {
+  const auto& p = pose.position;
+  const auto& q = pose.orientation;
+  const double length = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
+  const bool finite = std::isfinite(p.x) && std::isfinite(p.y);
+  if (!finite || !(std::abs(length - 1.0) < kUnitLengthTolerance)) {
+    throw InputError("bad_pose", "pose at " + std::to_string(p.x) + ", " + std::to_string(p.y) +
+                                     " with a quaternion of length " + std::to_string(length) +
+                                     ": expected finite numbers and length 1");
+  }
+  const double heading =
+      std::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z));
+  return {p.x, p.y, heading};
+}
+
+geometry_msgs::TransformStamped toTransform(const Pose2& child_in_parent, Stamp stamp,
+                                            const std::string& parent_frame,
+                                            const std::string& child_frame) {
+  geometry_msgs::TransformStamped message;
+  message.header = header(stamp, parent_frame);
+  message.child_frame_id = child_frame;
+  message.transform.translation = planar(child_in_parent.x(), child_in_parent.y());
+  message.transform.rotation = toMessage(child_in_parent).orientation;
+  return message;
+}
+
+OdometrySample toSample(const nav_msgs::Odometry& message) {
+  const Twist2 twist{message.twist.twist.linear.x, message.twist.twist.angular.z};
+  if (!std::isfinite(twist.forward_speed) || !std::isfinite(twist.yaw_rate)) {
+    throw InputError("bad_odometry", "odometry with speed " + std::to_string(twist.forward_speed) +
+                                         " m/s and yaw rate " + std::to_string(twist.yaw_rate) +
+                                         " rad/s: expected finite numbers");
+  }
+  return {toStamp(message.header.stamp), twist};
+}
+
+SplitScanMessage toMessage(const SplitScan& scan, const std::string& base_frame,
+                           const std::string& map_frame) {
+  SplitScanMessage message;
+  message.header = header(scan.stamp, base_frame);
+  message.map_frame = map_frame;
+  message.pose = toMessage(scan.base_in_map);
+  message.scanner.x = scan.scanner_in_base.x();
+  message.scanner.y = scan.scanner_in_base.y();
+  message.scanner.theta = scan.scanner_in_base.heading();
+  for (const ScanPoint& point : scan.points) {
+    message.points.push_back(toMessage(point));
+  }
+  return message;
+}
+
+SplitScan fromMessage(const SplitScanMessage& message) {
+  SplitScan scan;
+  scan.stamp = toStamp(message.header.stamp);
+  scan.base_in_map = poseWithCovariance(message.pose);
+  scan.scanner_in_base = Pose2(message.scanner.x, message.scanner.y, message.scanner.theta);
+  for (const ScanPointMessage& point : message.points) {
+    scan.points.push_back(fromMessage(point));
+  }
+  return scan;
+}
+
+ObjectArray toMessage(const ObjectList& list, const std::string& base_frame) {
+  ObjectArray message;
+  message.header = header(list.stamp, base_frame);
+  for (const Object& object : list.objects) {
+    message.objects.push_back(toMessage(object));
+  }
+  return message;
+}
+
+ObjectList fromMessage(const ObjectArray& message) {
+  ObjectList list;
+  list.stamp = toStamp(message.header.stamp);
+  for (const ObjectMessage& object : message.objects) {
+    list.objects.push_back(fromMessage(object));
+  }
+  return list;
+}
+
+TrackArray toMessage(const TrackList& list, const std::string& fixed_frame) {
+  TrackArray message;
+  message.header = header(list.stamp, fixed_frame);
+  for (const Track& track : list.tracks) {
+    message.tracks.push_back(toMessage(track));
+  }
+  return message;
+}
+
+nav_msgs::OccupancyGrid toMessage(const OccupancyMap& map, Stamp stamp,
+                                  const std::string& map_frame) {
+  const GridWindow& window = map.window();
+  nav_msgs::OccupancyGrid message;
+  message.header = header(stamp, map_frame);
+  message.info.map_load_time = message.header.stamp;
+  message.info.resolution = static_cast<float>(window.cell_size);
+  message.info.width = static_cast<std::uint32_t>(window.columns);
+  message.info.height = static_cast<std::uint32_t>(window.rows);
+  message.info.origin = toMessage(Pose2(window.origin(), 0.0));
+  message.data = map.occupancyImage();
+  return message;
+}
+
+}  // namespace datmo_fusion

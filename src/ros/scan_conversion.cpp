@@ -1,0 +1,135 @@
+#include "datmo_fusion/ros/scan_conversion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "datmo_fusion/ros/input_error.h"
+#include "datmo_fusion/ros/stamp_check.h"
+
+namespace datmo_fusion {
+
+namespace {
+
+/// Stands for a beam that saw nothing (REP 117).
+constexpr float kNoReturn = std::numeric_limits<float>::infinity();
+
+template <typename Message>
+void checkGeometry(const Message& message) {
+  for (const float value : {message.angle_min, message.angle_max, message.angle_increment,
+                            message.range_min, message.range_max}) {
+    if (!std::isfinite(value)) {
+      throw InputError("bad_geometry", "scan with an angle or range limit of " +
+                                           std::to_string(value) + ": expected finite ones");
+    }
+  }
+  if (message.angle_increment == 0.0F) {
+    throw InputError("bad_geometry", "scan with an angle increment of 0: expected another");
+  }
+  if (message.range_min < 0.0F || message.range_max <= message.range_min) {
+    throw InputError("bad_geometry", "scan with ranges from " + std::to_string(message.range_min) +
+                                         " to " + std::to_string(message.range_max) +
+                                         " m: expected 0 <= range_min < range_max");
+  }
+}
+
+template <typename Message>
+void checkSize(const Message& message) {
+  if (message.ranges.empty()) {
+    throw InputError("empty_scan", "scan without beams: expected at least one");
+  }
+  const double steps =
+      (static_cast<double>(message.angle_max) - message.angle_min) / message.angle_increment;
+  const double expected = std::round(steps) + 1.0;
+  if (std::abs(static_cast<double>(message.ranges.size()) - expected) > 1.0) {
+    throw InputError("wrong_size", "scan with " + std::to_string(message.ranges.size()) +
+                                       " beams: expected " + std::to_string(std::lround(expected)) +
+                                       " from its angles");
+  }
+}
+
+/// NaN compares false with everything, and so is never valid.
+bool isHit(float range, float range_min, float range_max) {
+  return range >= range_min && range <= range_max;
+}
+
+float rangeOf(float range, float /*range_min*/, float /*range_max*/) { return range; }
+
+/// The nearest valid echo; without one, no return if there was no echo or one says so.
+float rangeOf(const sensor_msgs::LaserEcho& beam, float range_min, float range_max) {
+  float nearest = kNoReturn;
+  bool no_return = beam.echoes.empty();
+  for (const float echo : beam.echoes) {
+    if (isHit(echo, range_min, range_max)) {
+      nearest = std::min(nearest, echo);
+    }
+    no_return = no_return || echo > range_max;
+  }
+  const bool hit = nearest != kNoReturn;
+  return hit || no_return ? nearest : std::numeric_limits<float>::quiet_NaN();
+}
+
+Ray rayAt(double bearing, double range, const ScannerMount& mount) {
+  Ray ray;
+  const Pose2& scanner = mount.scanner_in_base;
+  ray.origin = scanner.position();
+  ray.end = scanner * Point2(range * std::cos(bearing), range * std::sin(bearing));
+  ray.range = range;
+  ray.bearing = bearing;
+  return ray;
+}
+
+template <typename Message>
+ConvertedScan convert(const Message& message, const ScannerMount& mount,
+                      const ScanConversionOptions& options) {
+  checkGeometry(message);
+  checkSize(message);
+  ConvertedScan converted;
+  Scan& scan = converted.scan;
+  scan.stamp = toStamp(message.header.stamp);
+  scan.scanner_in_base = mount.scanner_in_base;
+  scan.beam_spacing = std::abs(static_cast<double>(message.angle_increment));
+  scan.rays.reserve(message.ranges.size());
+  const double free_range = std::min<double>(options.free_range, message.range_max);
+  const double side = mount.upside_down ? -1.0 : 1.0;
+  for (std::uint32_t beam = 0; beam < message.ranges.size(); ++beam) {
+    const float range = rangeOf(message.ranges[beam], message.range_min, message.range_max);
+    const bool hit = isHit(range, message.range_min, message.range_max);
+    if (!hit && !(range > message.range_max)) {
+      ++converted.beams.dropped;
+      continue;
+    }
+    ++(hit ? converted.beams.hits : converted.beams.no_return);
+    if (!hit && free_range == 0.0) {
+      continue;
+    }
+    const double angle = message.angle_min + static_cast<double>(message.angle_increment) * beam;
+    scan.rays.push_back(rayAt(normalizeAngle(side * angle), hit ? range : free_range, mount));
+    scan.rays.back().hit = hit;
+    scan.rays.back().beam = beam;
+  }
+  return converted;
+}
+
+}  // namespace
+
+void ScanConversionOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"free_range", "m",
+                  "a beam without return is taken as free up to here (or the scanner's range_max); "
+                  "less than the scanner's reach, since dark things far away return nothing; 0: "
+                  "such beams say nothing"},
+                 free_range, {0.0, 500.0});
+}
+
+ConvertedScan toScan(const sensor_msgs::LaserScan& message, const ScannerMount& mount,
+                     const ScanConversionOptions& options) {
+  return convert(message, mount, options);
+}
+
+ConvertedScan toScan(const sensor_msgs::MultiEchoLaserScan& message, const ScannerMount& mount,
+                     const ScanConversionOptions& options) {
+  return convert(message, mount, options);
+}
+
+}  // namespace datmo_fusion

@@ -1,0 +1,108 @@
+#include "datmo_fusion/ros/stage_monitor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <ros/console.h>
+
+namespace datmo_fusion {
+
+namespace {
+
+/// Messages over which a rate is taken: a few seconds of a scanner.
+constexpr std::size_t kRateWindow = 50;
+
+/// Messages over which processing times are taken, so that a 99th percentile has a meaning.
+constexpr std::size_t kTimingWindow = 1000;
+
+constexpr std::chrono::seconds kConsolePeriod{1};
+
+template <typename Value>
+void pushBounded(std::deque<Value>& values, const Value& value, std::size_t most) {
+  values.push_back(value);
+  if (values.size() > most) {
+    values.pop_front();
+  }
+}
+
+std::uint64_t total(const std::map<std::string, std::uint64_t>& counts) {
+  return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0},
+                         [](std::uint64_t sum, const auto& count) { return sum + count.second; });
+}
+
+/// Nearest rank: the least value that this share (0 to 1) of all does not exceed.
+double percentile(const std::vector<double>& sorted, double share) {
+  const double rank = std::ceil(share * static_cast<double>(sorted.size()));
+  return sorted.at(static_cast<std::size_t>(std::max(1.0, rank)) - 1);
+}
+
+}  // namespace
+
+void StageMonitor::received(const std::string& input, Stamp now) {
+  Input& entry = inputs_[input];
+  ++entry.count;
+  if (!entry.arrivals.empty() && now < entry.arrivals.back()) {
+    entry.arrivals.clear();  // the clock was set back
+  }
+  pushBounded(entry.arrivals, now, kRateWindow);
+}
+
+void StageMonitor::processed(const Processed& message) {
+  ++processed_;
+  last_processed_ = message;
+  pushBounded(times_, message.seconds, kTimingWindow);
+}
+
+void StageMonitor::dropped(const InputError& error) {
+  ++drops_[error.reason()];
+  say(error);
+}
+
+void StageMonitor::warned(const InputError& error) {
+  ++warnings_[error.reason()];
+  say(error);
+}
+
+void StageMonitor::say(const InputError& error) {
+  last_error_ = error.what();
+  const auto now = std::chrono::steady_clock::now();
+  if (last_said_ && now - *last_said_ < kConsolePeriod) {
+    ++unsaid_;
+    return;
+  }
+  const std::string more =
+      unsaid_ == 0 ? "" : " (and " + std::to_string(unsaid_) + " more of any kind before)";
+  ROS_WARN("%s: %s%s", stage_.c_str(), error.what(), more.c_str());
+  last_said_ = now;
+  unsaid_ = 0;
+}
+
+InputStatus StageMonitor::input(const std::string& name, Stamp now) const {
+  InputStatus status;
+  const auto found = inputs_.find(name);
+  if (found == inputs_.end()) {
+    return status;
+  }
+  const auto& arrivals = found->second.arrivals;
+  status.received = found->second.count;
+  status.silence = std::max(0.0, secondsBetween(arrivals.back(), now));
+  const double span = secondsBetween(arrivals.front(), arrivals.back());
+  status.rate = span > 0.0 ? static_cast<double>(arrivals.size() - 1) / span : 0.0;
+  return status;
+}
+
+TimingStatus StageMonitor::timing() const {
+  if (times_.empty()) {
+    return {};
+  }
+  std::vector<double> sorted(times_.begin(), times_.end());
+  std::sort(sorted.begin(), sorted.end());
+  return {percentile(sorted, 0.5), percentile(sorted, 0.99), sorted.back()};
+}
+
+std::uint64_t StageMonitor::droppedCount() const { return total(drops_); }
+
+std::uint64_t StageMonitor::warningCount() const { return total(warnings_); }
+
+}  // namespace datmo_fusion

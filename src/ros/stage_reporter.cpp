@@ -1,0 +1,94 @@
+#include "datmo_fusion/ros/stage_reporter.h"
+
+#include <boost/make_shared.hpp>
+#include <datmo_fusion/StageTiming.h>
+
+#include <diagnostic_msgs/DiagnosticStatus.h>
+
+#include "datmo_fusion/ros/stamp_check.h"
+
+namespace datmo_fusion {
+
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+using diagnostic_updater::DiagnosticStatusWrapper;
+
+constexpr double kDiagnosticsPeriod = 1.0;  // s, the custom of /diagnostics
+constexpr std::uint32_t kTimingQueue = 50;  // several stages for a second or so
+
+double milliseconds(double seconds) { return 1e3 * seconds; }
+
+}  // namespace
+
+StageReporter::StageReporter(ros::NodeHandle node, ros::NodeHandle private_node,
+                             const StageMonitor& monitor, std::vector<std::string> inputs,
+                             double silence_after)
+    : monitor_(monitor),
+      inputs_(std::move(inputs)),
+      silence_after_(silence_after),
+      timing_(node.advertise<StageTiming>("timing", kTimingQueue)),
+      updater_(node, private_node, monitor.stage()) {
+  updater_.setHardwareID("none");
+  updater_.add("stage", [this](DiagnosticStatusWrapper& status) { diagnose(status); });
+  timer_ =
+      node.createSteadyTimer(ros::WallDuration(kDiagnosticsPeriod),
+                             [this](const ros::SteadyTimerEvent&) { updater_.force_update(); });
+}
+
+void StageReporter::publishTiming() {
+  const Processed& last = monitor_.lastProcessed();
+  const auto message = boost::make_shared<StageTiming>();
+  message->header.stamp = toTime(last.stamp);
+  message->stage = monitor_.stage();
+  message->processing_time = last.seconds;
+  message->latency = secondsBetween(last.stamp, toStamp(ros::Time::now()));
+  timing_.publish(message);
+}
+
+void StageReporter::diagnose(DiagnosticStatusWrapper& status) {
+  status.summary(DiagnosticStatus::OK, "runs");
+  diagnoseInputs(status);
+  diagnoseErrors(status);
+  listCounts(status);
+}
+
+void StageReporter::diagnoseErrors(DiagnosticStatusWrapper& status) {
+  const std::uint64_t errors = monitor_.droppedCount() + monitor_.warningCount();
+  if (errors > reported_errors_) {
+    status.mergeSummary(DiagnosticStatus::WARN, monitor_.lastError());
+  }
+  reported_errors_ = errors;
+}
+
+void StageReporter::diagnoseInputs(DiagnosticStatusWrapper& status) const {
+  for (const std::string& name : inputs_) {
+    const InputStatus input = monitor_.input(name, toStamp(ros::Time::now()));
+    status.add(name + " received", input.received);
+    status.addf(name + " rate [Hz]", "%.1f", input.rate);
+    if (!input.silence) {
+      status.mergeSummaryf(DiagnosticStatus::WARN, "no %s yet", name.c_str());
+    } else if (*input.silence > silence_after_) {
+      status.mergeSummaryf(DiagnosticStatus::WARN, "no %s for %.1f s", name.c_str(),
+                           *input.silence);
+    }
+  }
+}
+
+void StageReporter::listCounts(DiagnosticStatusWrapper& status) const {
+  const TimingStatus timing = monitor_.timing();
+  status.add("processed", monitor_.processedCount());
+  status.addf("processing time, median [ms]", "%.2f", milliseconds(timing.median));
+  status.addf("processing time, 99th percentile [ms]", "%.2f", milliseconds(timing.percentile_99));
+  status.addf("processing time, most [ms]", "%.2f", milliseconds(timing.most));
+  status.add("dropped", monitor_.droppedCount());
+  for (const auto& [reason, count] : monitor_.drops()) {
+    status.add("dropped: " + reason, count);
+  }
+  for (const auto& [reason, count] : monitor_.warnings()) {
+    status.add("warned: " + reason, count);
+  }
+  status.add("last error", monitor_.lastError());
+}
+
+}  // namespace datmo_fusion

@@ -1,0 +1,99 @@
+#include "datmo_fusion/ros/tracker_stage.h"
+
+#include <boost/make_shared.hpp>
+
+#include "datmo_fusion/ros/frames.h"
+#include "datmo_fusion/ros/message_conversion.h"
+
+namespace datmo_fusion {
+
+namespace {
+
+/// Three seconds of a fast scanner: more than any transform is worth waiting for.
+constexpr std::size_t kMostWaiting = 50;
+
+}  // namespace
+
+void TrackerStageOptions::visit(OptionVisitor& visitor) {
+  visitor.text({"fixed_frame", "", "frame that does not move, in which tracks are published"},
+               fixed_frame, {});
+  visitor.number({"transform_wait", "s", "longest time that objects wait for their transform"},
+                 transform_wait, {0.0, 5.0});
+  visitor.group("input", [&] { input.visit(visitor); });
+  tracker.visit(visitor);
+}
+
+TrackerStage::TrackerStage(const TrackerStageOptions& options, const TransformBuffer& transforms,
+                           StageMonitor& monitor)
+    : options_(options),
+      transforms_(transforms),
+      monitor_(monitor),
+      tracker_(options.tracker),
+      stamps_(options.input.restart_after) {
+  checkOptions(options);
+}
+
+void TrackerStage::takeObjects(const ObjectArrayConstPtr& message, Stamp now) {
+  try {
+    if (stamps_.check(message->header.stamp) == Arrival::kRestart) {
+      restart();
+    }
+    if (queue_.size() >= kMostWaiting) {
+      queue_.pop_front();
+      monitor_.dropped(InputError("queue_full", "more than " + std::to_string(kMostWaiting) +
+                                                    " messages wait for a transform: dropped the "
+                                                    "oldest"));
+    }
+    queue_.push_back({message, now});
+  } catch (const InputError& error) {
+    monitor_.dropped(error);
+  }
+}
+
+TrackArrayPtr TrackerStage::next(Stamp now) {
+  while (!queue_.empty()) {
+    const Waiting waiting = queue_.front();
+    try {
+      const auto& header = waiting.objects->header;
+      const Pose2 base_in_fixed =
+          planarPose(transforms_.core(), options_.fixed_frame, header.frame_id, header.stamp);
+      queue_.pop_front();
+      return track(*waiting.objects, base_in_fixed);
+    } catch (const InputError& error) {
+      if (!hasWaitedTooLong(waiting, now)) {
+        return nullptr;
+      }
+      queue_.pop_front();
+      monitor_.dropped(error);
+    }
+  }
+  return nullptr;
+}
+
+TrackArrayPtr TrackerStage::track(const ObjectArray& objects, const Pose2& base_in_fixed) {
+  const Stopwatch watch;
+  const std::uint64_t rejected = tracker_.counts().rejected_objects;
+  const ObjectList list = fromMessage(objects);
+  const auto tracks = boost::make_shared<TrackArray>(
+      toMessage(tracker_.process(list, base_in_fixed), options_.fixed_frame));
+  if (tracker_.counts().rejected_objects > rejected) {
+    monitor_.warned(InputError("bad_object",
+                               "objects with numbers that are not finite, or a covariance that is "
+                               "not positive definite: left out"));
+  }
+  monitor_.processed({list.stamp, watch.seconds()});
+  return tracks;
+}
+
+bool TrackerStage::hasWaitedTooLong(const Waiting& waiting, Stamp now) const {
+  const double waited = secondsBetween(waiting.since, now);
+  return waited > options_.transform_wait || waited < 0.0;
+}
+
+void TrackerStage::restart() {
+  monitor_.warned(InputError("clock_restart", "the clock jumped back: forgets all tracks"));
+  tracker_.reset();
+  queue_.clear();
+}
+
+}  // namespace datmo_fusion
