@@ -1,0 +1,30 @@
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace datmo_fusion {
+
+/// Cost of giving a column to a row; infinity: forbidden. NaN and minus infinity are not allowed.
+using CostMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+inline constexpr double kForbidden = std::numeric_limits<double>::infinity();
+inline constexpr int kUnassigned = -1;
+
+struct Assignment {
+  std::vector<int> column_of_row;  ///< kUnassigned: the row has none
+  double cost = 0.0;               ///< of all rows
+};
+
+/// The assignment of least total cost, where a column goes to at most one row, and each row has one
+/// column or pays its cost of having none (finite, one for each row). Costs may be negative.
+///
+/// Shortest augmenting paths (Jonker and Volgenant 1987; Crouse, On implementing 2D rectangular
+/// assignment algorithms, 2016), O(rows^2 columns). The column of staying unassigned, which every
+/// row has to itself, is never stored. Equal costs: the earlier column, and a column rather than
+/// none. Throws std::invalid_argument on sizes that do not match.
+Assignment solveAssignment(const CostMatrix& cost, const Eigen::VectorXd& unassigned_cost);
+
+}  // namespace datmo_fusion

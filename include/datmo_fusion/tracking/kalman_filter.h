@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "datmo_fusion/common/pose2.h"
+#include "datmo_fusion/tracking/target_motion.h"
+#include "datmo_fusion/tracking/track.h"
+
+namespace datmo_fusion {
+
+/// A normal distribution over the state of a track.
+struct StateEstimate {
+  TrackState mean = TrackState::Zero();
+  TrackCovariance covariance = TrackCovariance::Identity();
+};
+
+/// Where an object was seen: m, fixed frame; covariance m^2, positive definite.
+struct PositionMeasurement {
+  Point2 position = Point2::Zero();
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
+};
+
+/// What a measurement tells that was not expected.
+struct Innovation {
+  Eigen::Vector2d residual;    ///< m, measured minus predicted
+  Eigen::Matrix2d covariance;  ///< m^2, of the residual
+
+  /// Mahalanobis distance squared; chi-square with two degrees of freedom where the models hold.
+  double squaredDistance() const;
+
+  /// Logarithm of the normal density of the residual, of 1/m^2.
+  double logLikelihood() const;
+};
+
+Innovation innovationOf(const StateEstimate& predicted, const PositionMeasurement& measured);
+
+StateEstimate predict(const StateEstimate& estimate, const LinearMotion& motion);
+
+/// The update of the Kalman filter in Joseph's form, which keeps the covariance symmetric and
+/// positive (Bar-Shalom, Li, Kirubarajan 2001, 5.2.3).
+StateEstimate update(const StateEstimate& predicted, const PositionMeasurement& measured);
+
+}  // namespace datmo_fusion

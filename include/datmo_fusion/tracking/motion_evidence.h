@@ -1,0 +1,73 @@
+#pragma once
+
+#include "datmo_fusion/common/object.h"
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/tracking/kalman_filter.h"
+
+namespace datmo_fusion {
+
+struct MotionEvidenceOptions {
+  double standing_drift = 0.5;       ///< m^2/s
+  double scan_limit = 2.0;           ///< 1
+  double free_space_evidence = 1.0;  ///< 1
+  double required_evidence = 3.0;    ///< 1
+  double least_gap = 0.5;            ///< m
+  double gap_significance = 2.0;     ///< 1
+  double least_speed = 0.8;          ///< m/s
+  double speed_significance = 5.99;  ///< 1
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Whether v' P^-1 v of a velocity exceeds a chi-square quantile, and its norm a least speed (m/s).
+bool velocityIsSignificant(const StateEstimate& estimate, double significance, double least_speed);
+
+/// Decides whether a followed object moves over ground, or stands and only seems to move: its
+/// visible part grows and slides while the vehicle passes, and noise gives anything a speed.
+///
+/// Three witnesses must agree:
+/// 1. The measurements so far are likelier for a moving object than for a standing one whose
+/// visible
+///    centre drifts as a random walk. The log-likelihood ratio is summed up, but never below 0
+///    (CUSUM: Page, Continuous inspection schemes, 1954), so that one that starts to move after a
+///    long rest is found as quickly. One scan counts for a limited amount, so that no outlier
+///    decides. Points where the map is free count for motion, a place that the map knows as static
+///    against it.
+/// 2. It left its place: a gap, more than its uncertainty, lies between its box and the one it had
+/// when
+///    the sum was last 0. A side that comes into view little by little touches its earlier box.
+/// 3. Its estimated velocity is significant.
+class MotionEvidence {
+ public:
+  /// Of an object in the fixed frame, at its first sight.
+  explicit MotionEvidence(const Object& object);
+
+  void predict(double seconds, const MotionEvidenceOptions& options);
+
+  /// Takes in an object in the fixed frame, its place, and how likely that place was by the motion
+  /// filter before its update: logarithm of a density of 1/m^2.
+  void update(const Object& object, const PositionMeasurement& measured,
+              double moving_log_likelihood, const MotionEvidenceOptions& options);
+
+  /// All three witnesses agree; `estimate` is that of the motion filter.
+  bool suffices(const StateEstimate& estimate, const MotionEvidenceOptions& options) const;
+
+  /// The summed log-likelihood ratio of moving against standing, at least 0.
+  double sum() const { return sum_; }
+
+ private:
+  /// Where the object was seen at one time.
+  struct Place {
+    Box2 box;
+    Eigen::Matrix2d covariance;
+  };
+
+  bool leftItsPlace(const MotionEvidenceOptions& options) const;
+
+  double sum_ = 0.0;
+  Place anchor_;
+  Place present_;
+  PositionMeasurement standing_;
+};
+
+}  // namespace datmo_fusion

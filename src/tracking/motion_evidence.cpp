@@ -1,0 +1,104 @@
+#include "datmo_fusion/tracking/motion_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+
+#include "datmo_fusion/tracking/box_gap.h"
+
+namespace datmo_fusion {
+
+namespace {
+
+double clamp(double value, double limit) { return std::max(-limit, std::min(limit, value)); }
+
+/// What the map says of the object's place, as a log-likelihood ratio of moving against standing.
+double mapEvidence(const Object& object, double weight) {
+  return object.dynamic_state == DynamicState::kStatic ? -weight : weight * object.moving_fraction;
+}
+
+}  // namespace
+
+void MotionEvidenceOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"standing_drift", "m^2/s",
+                  "random walk of the visible centre of an object that stands: its root is how far "
+                  "it slides in one second"},
+                 standing_drift, {1e-6, 100.0});
+  visitor.number({"scan_limit", "1",
+                  "most that the place in one scan may add to the log-likelihood ratio of moving "
+                  "against standing, or take from it"},
+                 scan_limit, {0.1, 100.0});
+  visitor.number({"free_space_evidence", "1",
+                  "log-likelihood ratio that a scan adds when all points of the object lie where "
+                  "the map is free (thesis 3.3.1)"},
+                 free_space_evidence, {0.0, 100.0});
+  visitor.number({"required_evidence", "1",
+                  "sum of log-likelihood ratios from which an object counts as moving (Wald 1947: "
+                  "about the logarithm of the inverse rate of false alarms)"},
+                 required_evidence, {0.0, 100.0});
+  visitor.number({"least_gap", "m", "gap between its box now and where it stood"}, least_gap,
+                 {0.0, 100.0});
+  visitor.number({"gap_significance", "1", "the same gap in standard deviations"}, gap_significance,
+                 {0.0, 100.0});
+  visitor.number({"least_speed", "m/s", "slower than this nothing counts as moving"}, least_speed,
+                 {0.0, 100.0});
+  visitor.number({"speed_significance", "1",
+                  "least Mahalanobis distance squared of the velocity from zero: 5.99 is the 95 % "
+                  "quantile of chi-square with two degrees of freedom"},
+                 speed_significance, {0.0, 1000.0});
+}
+
+bool velocityIsSignificant(const StateEstimate& estimate, double significance, double least_speed) {
+  const Eigen::Vector2d velocity = estimate.mean.segment<2>(2);
+  const Eigen::Matrix2d covariance = estimate.covariance.block<2, 2>(2, 2);
+  return velocity.norm() >= least_speed &&
+         velocity.dot(covariance.inverse() * velocity) >= significance;
+}
+
+MotionEvidence::MotionEvidence(const Object& object)
+    : anchor_{object.box, object.position_covariance},
+      present_(anchor_),
+      standing_{object.box.centre.position(), object.position_covariance} {}
+
+void MotionEvidence::predict(double seconds, const MotionEvidenceOptions& options) {
+  standing_.covariance += Eigen::Matrix2d::Identity() * (options.standing_drift * seconds);
+}
+
+void MotionEvidence::update(const Object& object, const PositionMeasurement& measured,
+                            double moving_log_likelihood, const MotionEvidenceOptions& options) {
+  const Innovation innovation{measured.position - standing_.position,
+                              standing_.covariance + measured.covariance};
+  const double ratio = moving_log_likelihood - innovation.logLikelihood();
+  sum_ = std::max(0.0, sum_ + clamp(ratio, options.scan_limit) +
+                           mapEvidence(object, options.free_space_evidence));
+
+  const Eigen::Matrix2d gain = standing_.covariance * innovation.covariance.inverse();
+  standing_.position += gain * innovation.residual;
+  standing_.covariance = gain * measured.covariance;
+
+  present_ = {object.box, object.position_covariance};
+  if (sum_ == 0.0) {
+    anchor_ = present_;
+  }
+}
+
+bool MotionEvidence::suffices(const StateEstimate& estimate,
+                              const MotionEvidenceOptions& options) const {
+  return sum_ >= options.required_evidence && leftItsPlace(options) &&
+         velocityIsSignificant(estimate, options.speed_significance, options.least_speed);
+}
+
+bool MotionEvidence::leftItsPlace(const MotionEvidenceOptions& options) const {
+  const Eigen::Vector2d way = present_.box.centre.position() - anchor_.box.centre.position();
+  const double gap = gapBetween(anchor_.box, present_.box);
+  if (gap <= 0.0) {
+    return false;
+  }
+  const Eigen::Vector2d direction = way.normalized();
+  const double deviation =
+      std::sqrt(direction.dot((present_.covariance + anchor_.covariance) * direction));
+  return gap >= options.least_gap && gap >= options.gap_significance * deviation;
+}
+
+}  // namespace datmo_fusion

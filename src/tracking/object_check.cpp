@@ -1,0 +1,46 @@
+#include "datmo_fusion/tracking/object_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace datmo_fusion {
+
+namespace {
+
+/// A larger difference, relative to the variances, is not rounding: the matrix is not a covariance.
+constexpr double kAsymmetry = 1e-6;
+
+/// Finite, and not negative.
+bool isAmount(double value) { return std::isfinite(value) && value >= 0.0; }
+
+bool isCovariance(const Eigen::Matrix2d& matrix) {
+  const double trace = matrix.trace();
+  return std::isfinite(matrix.sum()) && matrix(0, 0) > 0.0 &&
+         std::abs(matrix(0, 1) - matrix(1, 0)) <= kAsymmetry * trace &&
+         matrix(0, 0) * matrix(1, 1) - matrix(0, 1) * matrix(1, 0) > 0.0;
+}
+
+}  // namespace
+
+bool isValid(const Object& object) {
+  const Pose2& centre = object.box.centre;
+  return std::isfinite(centre.x()) && std::isfinite(centre.y()) &&
+         std::isfinite(centre.heading()) && isAmount(object.box.length) &&
+         isAmount(object.box.width) && isAmount(object.heading_variance) &&
+         isAmount(object.height) && isAmount(object.moving_fraction) &&
+         isAmount(object.class_probability) && isCovariance(object.position_covariance);
+}
+
+Object transformed(const Pose2& frame_in_parent, const Object& object) {
+  Object result = object;
+  result.box.centre = frame_in_parent * object.box.centre;
+  const Eigen::Matrix2d rotation = frame_in_parent.rotation();
+  const Eigen::Matrix2d turned = rotation * object.position_covariance * rotation.transpose();
+  result.position_covariance = 0.5 * (turned + turned.transpose());
+  for (Point2& point : result.points) {
+    point = frame_in_parent * point;
+  }
+  return result;
+}
+
+}  // namespace datmo_fusion
