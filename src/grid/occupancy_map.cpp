@@ -15,10 +15,6 @@ float logOdds(double probability) {
   return static_cast<float>(std::log(probability / (1.0 - probability)));
 }
 
-double probability(float log_odds) {
-  return 1.0 / (1.0 + std::exp(-static_cast<double>(log_odds)));
-}
-
 int cellsAlong(double length, double cell_size) {
   return std::max(1, static_cast<int>(std::lround(length / cell_size)));
 }
@@ -80,17 +76,6 @@ OccupancyMap::OccupancyMap(const OccupancyMapOptions& options)
       log_odds_limit_(-logOdds(options.least_probability)),
       cells_(cellsAlong(options.length, options.cell_size),
              cellsAlong(options.width, options.cell_size), options.cell_size, Cell{}) {}
-
-double OccupancyMap::interpolatedOccupancy(const Point2& point) const {
-  const double half = 0.5 * window().cell_size;
-  const CellIndex low = window().cellAt(point - Point2(half, half));
-  const Point2 part = (point - window().centreOf(low)) / window().cell_size;
-  const double lower =
-      (1.0 - part.x()) * occupancy(low) + part.x() * occupancy({low.column + 1, low.row});
-  const double upper = (1.0 - part.x()) * occupancy({low.column, low.row + 1}) +
-                       part.x() * occupancy({low.column + 1, low.row + 1});
-  return (1.0 - part.y()) * lower + part.y() * upper;
-}
 
 bool OccupancyMap::isStatic(const Cell& cell) const {
   return cell.hits > 0.0F && cell.last_hit - cell.first_hit >= options_.static_after &&

@@ -53,9 +53,10 @@ ScanMatcher::ScanMatcher(const ScanMatcherOptions& options) : options_(options) 
 
 double ScanMatcher::score(const OccupancyMap& map, const std::vector<Point2>& points,
                           const Pose2& pose) const {
+  const Eigen::Matrix2d rotation = pose.rotation();
   double sum = 0.0;
   for (const Point2& point : points) {
-    sum += map.interpolatedOccupancy(pose * point);
+    sum += map.occupancy(map.window().cellAt(pose.position() + rotation * point));
   }
   return points.empty() ? 0.0 : sum / static_cast<double>(points.size());
 }
@@ -83,8 +84,9 @@ ScanMatcher::Normal ScanMatcher::linearise(const OccupancyMap& map,
   Normal normal;
   const Eigen::Matrix2d noise =
       options_.point_sigma * options_.point_sigma * Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d rotation = pose.rotation();
   for (const Point2& point : points) {
-    const Point2 turned = pose.rotate(point);
+    const Point2 turned = rotation * point;
     const Point2 end = pose.position() + turned;
     const auto surface = map.hitsAround(end);
     if (!surface) {

@@ -56,9 +56,6 @@ class OccupancyMap {
     return static_cast<double>(cells_.atOrEmpty(cell).occupancy);
   }
 
-  /// Occupancy at a point of the map frame, bilinear between the centres of the cells.
-  double interpolatedOccupancy(const Point2& point) const;
-
   /// What the map says of a beam that ends at this point (thesis 3.3.1; there without kUnknown, the
   /// neighbourhood and the age).
   PointState judge(const Point2& point) const;
