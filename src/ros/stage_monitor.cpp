@@ -1,10 +1,11 @@
 #include "datmo_fusion/ros/stage_monitor.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include <ros/console.h>
+
+#include "datmo_fusion/common/quantile.h"
 
 namespace datmo_fusion {
 
@@ -29,12 +30,6 @@ void pushBounded(std::deque<Value>& values, const Value& value, std::size_t most
 std::uint64_t total(const std::map<std::string, std::uint64_t>& counts) {
   return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0},
                          [](std::uint64_t sum, const auto& count) { return sum + count.second; });
-}
-
-/// Nearest rank: the least value that this share (0 to 1) of all does not exceed.
-double percentile(const std::vector<double>& sorted, double share) {
-  const double rank = std::ceil(share * static_cast<double>(sorted.size()));
-  return sorted.at(static_cast<std::size_t>(std::max(1.0, rank)) - 1);
 }
 
 }  // namespace
@@ -93,12 +88,8 @@ InputStatus StageMonitor::input(const std::string& name, Stamp now) const {
 }
 
 TimingStatus StageMonitor::timing() const {
-  if (times_.empty()) {
-    return {};
-  }
-  std::vector<double> sorted(times_.begin(), times_.end());
-  std::sort(sorted.begin(), sorted.end());
-  return {percentile(sorted, 0.5), percentile(sorted, 0.99), sorted.back()};
+  const std::vector<double> times(times_.begin(), times_.end());
+  return {quantile(times, 0.5), quantile(times, 0.99), quantile(times, 1.0)};
 }
 
 std::uint64_t StageMonitor::droppedCount() const { return total(drops_); }

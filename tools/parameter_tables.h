@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string>
+
+namespace datmo_fusion {
+
+/// The parameters of all nodelets: for each a heading and a Markdown table.
+std::string parameterTables();
+
+}  // namespace datmo_fusion
