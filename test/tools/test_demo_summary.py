@@ -1,0 +1,55 @@
+#!/usr/bin/python3
+"""The figures of tools/demo_summary on drives that are worked out by hand."""
+
+import importlib.util
+import unittest
+from importlib.machinery import SourceFileLoader
+from pathlib import Path
+
+LOADER = SourceFileLoader(
+    "demo_summary", str(Path(__file__).resolve().parents[2] / "tools" / "demo_summary"))
+demo_summary = importlib.util.module_from_spec(
+    importlib.util.spec_from_loader("demo_summary", LOADER))
+LOADER.exec_module(demo_summary)
+
+
+class Quantile(unittest.TestCase):
+    def test_nearest_rank(self):
+        values = [5.0, 1.0, 4.0, 2.0, 3.0]
+        self.assertEqual(demo_summary.quantile(values, 0.5), 3.0)
+        self.assertEqual(demo_summary.quantile(values, 0.99), 5.0)
+        self.assertEqual(demo_summary.quantile(values, 0.0), 1.0)
+
+    def test_no_values(self):
+        self.assertEqual(demo_summary.quantile([], 0.5), 0.0)
+
+
+class DriveSummary(unittest.TestCase):
+    def setUp(self):
+        self.summary = demo_summary.DriveSummary()
+
+    def test_distance_goes_along_the_way(self):
+        for x, y in [(0.0, 0.0), (3.0, 4.0), (3.0, 10.0)]:
+            self.summary.add_pose(x, y)
+        self.assertEqual(self.summary.scans, 3)
+        self.assertAlmostEqual(self.summary.distance, 11.0)
+
+    def test_each_track_counts_once(self):
+        self.summary.add_tracks([1, 2])
+        self.summary.add_tracks([2, 5])
+        self.assertIn("tracks confirmed                         3", self.summary.table())
+
+    def test_time_per_scan_is_that_of_all_its_stages(self):
+        self.summary.add_timing(stamp=100, seconds=0.001)
+        self.summary.add_timing(stamp=100, seconds=0.002)
+        self.summary.add_timing(stamp=200, seconds=0.005)
+        table = self.summary.table()
+        self.assertIn("median               3.0 ms", table)
+        self.assertIn("99th percentile      5.0 ms", table)
+
+    def test_empty_drive_has_a_table(self):
+        self.assertIn("scans processed                          0", self.summary.table())
+
+
+if __name__ == "__main__":
+    unittest.main()

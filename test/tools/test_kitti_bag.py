@@ -1,0 +1,251 @@
+#!/usr/bin/python3
+"""kitti_to_bag on a made-up drive: what stands in the bag, errors, determinism."""
+
+import contextlib
+import io
+import math
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+import rosbag
+import tiny_drive
+from datmo_fusion.msg import Object
+from datmo_tools.kitti_to_bag import main
+from datmo_tools.progress import Progress
+
+
+class Conversion(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.root = Path(temporary.name)
+        # The van's rear is 10 m ahead of the Velodyne in every frame, and the cloud's point is on it.
+        self.drive = tiny_drive.make_drive(temporary.name)
+        self.bag = self.root / "out.bag"
+
+    def run_tool(self, *options, expected_code=0):
+        """Runs the tool without a subprocess; returns what it said on standard error."""
+        errors = io.StringIO()
+        with contextlib.redirect_stderr(errors):
+            code = main([str(self.drive), str(self.bag), *options])
+        self.assertEqual(code, expected_code, errors.getvalue())
+        return errors.getvalue()
+
+    def messages(self, topic):
+        with rosbag.Bag(str(self.bag)) as bag:
+            return [message for _, message, _ in bag.read_messages([topic])]
+
+
+class Contents(Conversion):
+    def test_scan(self):
+        self.run_tool()
+        scans = self.messages("/scan")
+        self.assertEqual(len(scans), tiny_drive.FRAMES)
+        scan = scans[1]
+        self.assertEqual((scan.header.frame_id, scan.header.stamp.to_nsec()), ("scanner", 1317042272_100000000))
+        self.assertAlmostEqual(scan.angle_min, math.radians(-80.0), places=6)
+        self.assertAlmostEqual(scan.angle_max, math.radians(80.0), places=6)
+        self.assertAlmostEqual(scan.angle_increment, math.radians(2.0), places=6)
+        self.assertEqual((scan.range_min, scan.range_max, len(scan.ranges)), (1.0, 50.0, 81))
+        self.assertAlmostEqual(scan.ranges[40], 10.0, places=5)
+        self.assertEqual(sum(math.isinf(distance) for distance in scan.ranges), 80)
+
+    def test_scan_options(self):
+        self.run_tool("--scan-resolution", "1", "--scan-range", "11", "40", "--scan-fov", "90")
+        scan = self.messages("/scan")[0]
+        self.assertEqual((len(scan.ranges), scan.range_min, scan.range_max), (91, 11.0, 40.0))
+        self.assertTrue(all(math.isinf(distance) for distance in scan.ranges))
+        self.run_tool("--scan-band", "0.6", "1")  # the point is 0.5 m above the road
+        self.assertTrue(all(math.isinf(distance) for distance in self.messages("/scan")[0].ranges))
+
+    def test_truth(self):
+        self.run_tool()
+        pose = self.messages("/ground_truth/pose")[3]
+        self.assertEqual((pose.header.frame_id, pose.child_frame_id), ("map", "base_link_ground_truth"))
+        self.assertAlmostEqual(pose.pose.pose.position.x, 3.0, places=6)
+        self.assertEqual(pose.twist.twist.linear.x, 10.0)
+        arrays = self.messages("/ground_truth/objects")
+        self.assertEqual([array.header.stamp for array in arrays],
+                         [scan.header.stamp for scan in self.messages("/scan")])
+        van = arrays[2].objects[0]
+        self.assertAlmostEqual(van.pose.position.x, 2.0 + 0.8 + 12.0, places=6)
+        self.assertAlmostEqual(van.pose.position.z, 1.0, places=6)
+        self.assertEqual((van.label, van.classification, van.moving), ("Van", Object.CLASS_VEHICLE, True))
+        self.assertAlmostEqual(van.velocity.x, 10.0, places=5)
+        self.assertEqual((van.size.x, van.size.y, van.size.z), (4.0, 2.0, 2.0))
+        self.assertEqual((van.lidar_beams, van.visible_to, van.occlusion), (1, ["scanner"], 0.5))
+
+    def test_gps_position(self):
+        """The same drive with a speed of 20 m/s: only the velocity's position follows it."""
+        for frame in range(tiny_drive.FRAMES):
+            line = tiny_drive.oxts_line(frame, speed=20.0)
+            (self.drive / "oxts" / "data" / f"{frame:010d}.txt").write_text(line)
+        for source, x in (("velocity", 6.0), ("gps", 3.0)):
+            self.run_tool("--true-position", source)
+            self.assertAlmostEqual(self.messages("/ground_truth/pose")[3].pose.pose.position.x, x, places=5)
+
+    def test_odometry_and_its_transform(self):
+        self.run_tool("--odometry-scale-error", "0.1", "--odometry-yaw-bias", "1")
+        odometry = self.messages("/odometry")[3]
+        self.assertEqual((odometry.header.frame_id, odometry.child_frame_id), ("odom", "base_link"))
+        self.assertAlmostEqual(odometry.twist.twist.linear.x, 11.0)
+        self.assertAlmostEqual(odometry.twist.twist.angular.z, math.radians(1.0))
+        self.assertAlmostEqual(odometry.pose.pose.position.x, 3.3, places=4)
+        self.assertGreater(odometry.twist.covariance[0], 0.0)
+        self.assertGreater(odometry.pose.covariance[0], 0.0)
+        transform = self.messages("/tf")[3].transforms[0]
+        self.assertEqual((transform.header.frame_id, transform.child_frame_id), ("odom", "base_link"))
+        self.assertEqual(transform.transform.translation.x, odometry.pose.pose.position.x)
+        self.assertEqual(transform.transform.rotation, odometry.pose.pose.orientation)
+
+    def test_mounts(self):
+        self.run_tool()
+        with rosbag.Bag(str(self.bag)) as bag:
+            topic, message, _, header = next(bag.read_messages(["/tf_static"], return_connection_header=True))
+        self.assertEqual(header["latching"], b"1")
+        mounts = {item.child_frame_id: item.transform.translation for item in message.transforms}
+        places = {frame: (round(at.x, 6), round(at.y, 6), round(at.z, 6)) for frame, at in mounts.items()}
+        self.assertEqual(places, {
+            "scanner": (0.8, 0.0, 0.6), "velodyne": (0.8, 0.0, 1.73), "imu": (0.0, 0.0, 0.93),
+            "stereo_left_optical": (0.8, 0.0, 1.73), "stereo_right_optical": (0.8, -0.5, 1.73)})
+        left = next(item for item in message.transforms if item.child_frame_id == "stereo_left_optical")
+        rotation = left.transform.rotation  # optical axes: x to the right, y down, z ahead
+        np.testing.assert_allclose([rotation.x, rotation.y, rotation.z, rotation.w], [-0.5, 0.5, -0.5, 0.5])
+
+    def test_points_and_images_on_demand(self):
+        self.run_tool()
+        self.assertEqual(self.messages("/points") + self.messages("/stereo/left/image_rect"), [])
+        self.run_tool("--points", "--images")
+        cloud = self.messages("/points")[0]
+        self.assertEqual((cloud.header.frame_id, cloud.width, cloud.point_step), ("velodyne", 1, 16))
+        self.assertEqual([field.name for field in cloud.fields], ["x", "y", "z", "intensity"])
+        np.testing.assert_allclose(np.frombuffer(cloud.data, "<f4"), [10.0, 0.0, -1.23, 0.5], rtol=1e-6)
+        image = self.messages("/stereo/right/image_rect")[2]
+        self.assertEqual((image.encoding, image.width, image.height, image.step), ("mono8", 8, 4, 8))
+        self.assertEqual(list(image.data), [0] + [22] * 31)
+        right = self.messages("/stereo/right/camera_info")[2]
+        self.assertEqual(right.header, image.header)
+        self.assertEqual(right.P[3], -10.0 * 0.5)
+        self.assertEqual(right.K, (10.0, 0.0, 4.0, 0.0, 10.0, 2.0, 0.0, 0.0, 1.0))
+        self.assertEqual(self.messages("/stereo/left/camera_info")[0].P[3], 0.0)
+
+    def test_labels_instead_of_tracklets(self):
+        path = self.root / "labels.txt"
+        path.write_text("0 7 Pedestrian 0 0 0 1 2 3 4 1.8 0.6 2.0 0.0 1.5 11.0 0.0\n")
+        self.run_tool("--labels", str(path))
+        arrays = self.messages("/ground_truth/objects")
+        self.assertEqual([len(array.objects) for array in arrays], [1, 0, 0, 0])
+        self.assertEqual((arrays[0].objects[0].id, arrays[0].objects[0].classification),
+                         (7, Object.CLASS_PEDESTRIAN))
+
+    def test_part_of_a_drive_starts_at_its_own_origin(self):
+        self.run_tool("--start", "1", "--end", "3")
+        self.assertEqual(len(self.messages("/scan")), 2)
+        self.assertAlmostEqual(self.messages("/ground_truth/pose")[0].pose.pose.position.x, 0.0)
+        van = self.messages("/ground_truth/objects")[0].objects[0]
+        self.assertAlmostEqual(van.pose.position.x, 12.8, places=6)
+
+    def test_drive_without_labels(self):
+        (self.drive / "tracklet_labels.xml").unlink()
+        self.run_tool()
+        self.assertEqual(self.messages("/ground_truth/objects"), [])
+        self.assertEqual(len(self.messages("/scan")), 4)
+
+    def test_missing_scans_on_demand(self):
+        (self.drive / "velodyne_points" / "data" / "0000000001.bin").unlink()
+        self.run_tool("--allow-missing-scans")
+        self.assertEqual([scan.header.stamp.nsecs for scan in self.messages("/scan")],
+                         [0, 200_000_000, 300_000_000])
+        self.assertEqual(len(self.messages("/odometry")), 4)
+
+
+class Determinism(Conversion):
+    NOISE = ("--odometry-speed-noise", "0.2", "--odometry-yaw-noise", "1", "--images")
+
+    def bytes_of(self, *options):
+        self.run_tool(*self.NOISE, *options)
+        return self.bag.read_bytes()
+
+    def test_same_seed_same_bytes(self):
+        self.assertEqual(self.bytes_of("--seed", "5"), self.bytes_of("--seed", "5"))
+
+    def test_other_seed_other_bytes(self):
+        self.assertNotEqual(self.bytes_of("--seed", "5"), self.bytes_of("--seed", "6"))
+
+
+class Errors(Conversion):
+    def assert_refused(self, *texts, options=()):
+        """Exit code 1, all texts in the message, and no file left behind."""
+        said = self.run_tool(*options, expected_code=1)
+        for text in texts:
+            self.assertIn(text, said)
+        self.assertEqual([path.name for path in self.root.iterdir()], ["2011_09_26"])
+
+    def test_file_that_breaks_half_way(self):
+        path = self.drive / "velodyne_points" / "data" / "0000000003.bin"
+        path.write_bytes(path.read_bytes()[:-1])
+        self.assert_refused(str(path), "15 bytes, expected a multiple of 16")
+
+    def test_unreadable_image(self):
+        path = self.drive / "image_01" / "data" / "0000000002.png"
+        path.write_bytes(b"no image")
+        self.assert_refused(str(path), "expected a gray PNG of 8 x 4", options=["--images"])
+
+    def test_missing_scan(self):
+        (self.drive / "velodyne_points" / "data" / "0000000001.bin").unlink()
+        self.assert_refused("0000000001.bin is missing", "--allow-missing-scans")
+
+    def test_counts_that_do_not_match(self):
+        (self.drive / "oxts" / "data" / "0000000003.txt").unlink()
+        stamps = self.drive / "oxts" / "timestamps.txt"
+        stamps.write_text("".join(stamps.read_text().splitlines(keepends=True)[:3]))
+        self.assert_refused(str(stamps), "3 stamps, expected 4")
+
+    def test_frames_that_the_drive_does_not_have(self):
+        self.assert_refused("expected 0 <= START < END <= 4", options=["--end", "5"])
+        self.assert_refused("frames 3 to 3", options=["--start", "3", "--end", "3"])
+
+    def test_options(self):
+        self.assert_refused("--scan-resolution is -1", options=["--scan-resolution", "-1"])
+        self.assert_refused("expected 0 or more", options=["--odometry-yaw-noise", "-1"])
+        self.assert_refused("--seed is -1", options=["--seed", "-1"])
+
+    def test_bag_that_cannot_be_written(self):
+        self.bag = self.root / "no" / "out.bag"
+        self.assert_refused(str(self.bag), "cannot be written")
+
+    def test_earlier_bag_survives_a_failure(self):
+        self.run_tool()
+        before = self.bag.read_bytes()
+        (self.drive / "velodyne_points" / "data" / "0000000003.bin").write_bytes(b"1")
+        self.run_tool(expected_code=1)
+        self.assertEqual(self.bag.read_bytes(), before)
+        self.assertEqual(sorted(path.name for path in self.root.iterdir()), ["2011_09_26", "out.bag"])
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+class ProgressBar(unittest.TestCase):
+    def test_bar_on_a_terminal(self):
+        stream = Terminal()
+        progress = Progress(200, "work", stream)
+        for done in range(1, 201):
+            progress.update(done)
+        self.assertTrue(stream.getvalue().endswith(f"\rwork [{'#' * 40}] 100 %\n"))
+        self.assertEqual(stream.getvalue().count("\r"), 41)
+
+    def test_few_lines_in_a_log(self):
+        stream = io.StringIO()
+        progress = Progress(200, "work", stream)
+        for done in range(1, 201):
+            progress.update(done)
+        self.assertEqual(stream.getvalue(), "work: 0 %\nwork: 25 %\nwork: 50 %\nwork: 75 %\nwork: 100 %\n")
+
+
+if __name__ == "__main__":
+    unittest.main()

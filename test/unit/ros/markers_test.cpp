@@ -1,0 +1,163 @@
+#include "datmo_fusion/ros/markers.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/ros/input_error.h"
+#include "datmo_fusion/ros/message_conversion.h"
+
+namespace datmo_fusion {
+namespace {
+
+using visualization_msgs::Marker;
+using visualization_msgs::MarkerArray;
+
+TrackMessage makeTrack(std::uint32_t id) {
+  TrackMessage track;
+  track.id = id;
+  track.pose = toMessage(Pose2(10.0, 5.0, 0.5));
+  track.size.x = 4.0;
+  track.size.y = 2.0;
+  track.velocity.x = 3.0;
+  track.velocity.y = 4.0;
+  track.moving = true;
+  return track;
+}
+
+const Marker* find(const MarkerArray& markers, const std::string& name, int id) {
+  for (const Marker& marker : markers.markers) {
+    if (marker.ns == name && marker.id == id) {
+      return &marker;
+    }
+  }
+  return nullptr;
+}
+
+TEST(Markers, TrackHasBoxArrowAndLabel) {
+  TrackArray tracks;
+  tracks.header.frame_id = "map";
+  tracks.tracks = {makeTrack(7)};
+  MarkersOptions options;
+  options.arrow_time = 2.0;
+  const MarkerArray markers = markersOf(tracks, options);
+
+  const Marker* box = find(markers, "track boxes", 7);
+  ASSERT_NE(box, nullptr);
+  EXPECT_EQ(box->header.frame_id, "map");
+  EXPECT_DOUBLE_EQ(box->scale.x, 4.0);
+  EXPECT_DOUBLE_EQ(box->scale.z, options.default_height);
+
+  const Marker* arrow = find(markers, "track velocities", 7);
+  ASSERT_NE(arrow, nullptr);
+  ASSERT_EQ(arrow->points.size(), 2U);
+  EXPECT_DOUBLE_EQ(arrow->points[1].x - arrow->points[0].x, 6.0);
+  EXPECT_DOUBLE_EQ(arrow->points[1].y - arrow->points[0].y, 8.0);
+
+  const Marker* label = find(markers, "track labels", 7);
+  ASSERT_NE(label, nullptr);
+  EXPECT_EQ(label->text, "#7 5.0 m/s");
+}
+
+TEST(Markers, ScanPointsAreColouredByStateInTheMap) {
+  SplitScanMessage scan;
+  scan.header.frame_id = "base_link";
+  scan.map_frame = "map";
+  scan.pose.pose = toMessage(Pose2(1.0, 2.0, 0.0));
+  scan.points.resize(2);
+  scan.points[0].state = ScanPointMessage::STATIC;
+  scan.points[1].state = ScanPointMessage::MOVING;
+  const MarkerArray markers = markersOf(scan, MarkersOptions());
+  ASSERT_EQ(markers.markers.size(), 1U);
+  const Marker& points = markers.markers[0];
+  EXPECT_EQ(points.header.frame_id, "map");
+  EXPECT_DOUBLE_EQ(points.pose.position.x, 1.0);
+  ASSERT_EQ(points.colors.size(), 2U);
+  EXPECT_GT(points.colors[0].b, points.colors[0].r);
+  EXPECT_GT(points.colors[1].r, points.colors[1].b);
+}
+
+TEST(Markers, ScanWithoutPointsDrawsNothing) {
+  EXPECT_TRUE(markersOf(SplitScanMessage(), MarkersOptions()).markers.empty());
+}
+
+TEST(Markers, BoxSeenAsAPointIsDrawnInLeastSize) {
+  ObjectArray objects;
+  objects.objects.resize(1);
+  const MarkersOptions options;
+  const MarkerArray markers = markersOf(objects, options);
+  ASSERT_EQ(markers.markers.size(), 1U);
+  EXPECT_DOUBLE_EQ(markers.markers[0].points[0].x, 0.5 * options.least_size);
+}
+
+TEST(Markers, OnlyMovingTruthIsDrawn) {
+  TrueObjectArray truth;
+  truth.objects.resize(2);
+  truth.objects[1].id = 9;
+  truth.objects[1].moving = true;
+  const MarkerArray markers = markersOf(truth, MarkersOptions());
+  ASSERT_EQ(markers.markers.size(), 1U);
+  EXPECT_EQ(markers.markers[0].id, 9);
+}
+
+TEST(Markers, ObjectsArePlacedWhereTheScanWasSeenFrom) {
+  SplitScanMessage scan;
+  scan.map_frame = "map";
+  scan.pose.pose = toMessage(Pose2(100.0, 50.0, kPi / 2.0));
+  ObjectArray objects;
+  objects.header.frame_id = "base_link";
+  objects.objects.resize(1);
+  objects.objects[0].pose = toMessage(Pose2(10.0, 0.0, 0.25));
+  MarkerArray markers = markersOf(objects, MarkersOptions());
+  placeInMap(scan, markers);
+  EXPECT_EQ(markers.markers[0].header.frame_id, "map");
+  const Pose2 pose = fromMessage(markers.markers[0].pose);
+  EXPECT_NEAR(pose.x(), 100.0, 1e-9);
+  EXPECT_NEAR(pose.y(), 60.0, 1e-9);
+  EXPECT_NEAR(pose.heading(), kPi / 2.0 + 0.25, 1e-9);
+}
+
+TEST(Markers, PoseThatIsNotFiniteIsRefused) {
+  SplitScanMessage scan;
+  scan.pose.pose = toMessage(Pose2());
+  scan.pose.pose.position.x = std::nan("");
+  MarkerArray markers;
+  EXPECT_THROW(placeInMap(scan, markers), InputError);
+}
+
+TEST(StaleMarkers, WhatIsNotDrawnAgainIsDeletedOnce) {
+  TrackArray both;
+  both.tracks = {makeTrack(1), makeTrack(2)};
+  TrackArray one;
+  one.tracks = {makeTrack(2)};
+  StaleMarkers stale;
+  MarkerArray first = markersOf(both, MarkersOptions());
+  const std::size_t drawn = first.markers.size();
+  stale.replace("tracks", first);
+  EXPECT_EQ(first.markers.size(), drawn);
+
+  MarkerArray second = markersOf(one, MarkersOptions());
+  stale.replace("tracks", second);
+  ASSERT_EQ(second.markers.size(), 6U);
+  const Marker* gone = find(second, "track labels", 1);
+  ASSERT_NE(gone, nullptr);
+  EXPECT_EQ(gone->action, Marker::DELETE);
+
+  MarkerArray third = markersOf(one, MarkersOptions());
+  stale.replace("tracks", third);
+  EXPECT_EQ(third.markers.size(), 3U);
+}
+
+TEST(StaleMarkers, SourcesDoNotDeleteEachOther) {
+  TrackArray tracks;
+  tracks.tracks = {makeTrack(1)};
+  StaleMarkers stale;
+  MarkerArray drawn = markersOf(tracks, MarkersOptions());
+  stale.replace("tracks", drawn);
+  MarkerArray nothing;
+  stale.replace("objects", nothing);
+  EXPECT_TRUE(nothing.markers.empty());
+}
+
+}  // namespace
+}  // namespace datmo_fusion

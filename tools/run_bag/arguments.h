@@ -1,0 +1,35 @@
+#pragma once
+
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace datmo_fusion {
+
+/// The command line cannot be understood; the message says what and how it should be.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What `run_bag` is asked to do.
+struct Arguments {
+  std::string input;   ///< bag
+  std::string output;  ///< bag
+  std::string config;  ///< yaml file of a sensor set
+  bool with_truth = false;
+  bool quiet = false;
+  std::map<std::string, std::string> remappings;  ///< our topic (`scan`) -> the input's
+
+  /// The name of one of our topics in the input bag, with a leading slash.
+  std::string inputTopic(const std::string& topic) const;
+};
+
+/// How `run_bag` is called.
+std::string usage();
+
+/// Throws UsageError.
+Arguments parseArguments(const std::vector<std::string>& words);
+
+}  // namespace datmo_fusion

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <iosfwd>
+
+#include "arguments.h"
+
+namespace datmo_fusion {
+
+/// Takes a bag through the pipeline, in the order of the messages' record times, as fast as it
+/// goes, and writes what comes out to a bag: /pose, /map, /split_scan, /objects, /tracks, /tf.
+/// Prints a table to `out` at the end and, where it is a person's terminal (`with_progress`), a bar
+/// on the way; with --quiet neither.
+///
+/// Throws std::exception with a message for people: a bag that cannot be read, a topic or an option
+/// that is wrong, no scan that could be used. No output bag is left behind then.
+void runBag(const Arguments& arguments, std::ostream& out, bool with_progress);
+
+}  // namespace datmo_fusion

@@ -1,0 +1,67 @@
+#include "drive_summary.h"
+
+#include <iomanip>
+#include <ostream>
+#include <string>
+
+namespace datmo_fusion {
+
+namespace {
+
+constexpr int kNameWidth = 34;
+constexpr int kValueWidth = 9;
+
+std::ostream& line(std::ostream& out, const std::string& name) {
+  return out << std::left << std::setw(kNameWidth) << name << std::right << std::setw(kValueWidth);
+}
+
+void printTimes(std::ostream& out, const StageTimes& times) {
+  out << std::setprecision(3);
+  line(out, "time per message") << "median" << std::setw(kValueWidth + 3) << "99 %\n";
+  for (const StageTimes::Summary& stage : times.summaries()) {
+    line(out, "  " + stage.stage) << 1e3 * stage.median << " ms" << std::setw(kValueWidth)
+                                  << 1e3 * stage.percentile_99 << " ms\n";
+  }
+}
+
+void printCounts(std::ostream& out, const std::string& what, const StageMonitor& monitor,
+                 const std::map<std::string, std::uint64_t>& counts) {
+  for (const auto& [reason, count] : counts) {
+    line(out, what + " by " + monitor.stage() + ", " + reason) << count << '\n';
+  }
+}
+
+}  // namespace
+
+void DriveSummary::add(const Pipeline::Output& output) {
+  if (output.slam) {
+    const geometry_msgs::Point& at = output.slam->pose->pose.pose.position;
+    const Point2 position(at.x, at.y);
+    distance_ += position_ ? (position - *position_).norm() : 0.0;
+    position_ = position;
+    ++scans_;
+  }
+  for (const TrackArrayPtr& tracks : output.tracks) {
+    for (const TrackMessage& track : tracks->tracks) {
+      track_ids_.insert(track.id);
+    }
+  }
+}
+
+void printTable(std::ostream& out, const DriveSummary& drive, const Pipeline& pipeline,
+                double data_seconds, double wall_seconds) {
+  out << std::fixed << std::setprecision(1);
+  line(out, "scans processed") << drive.scans() << '\n';
+  line(out, "distance driven") << drive.distance() << " m\n";
+  line(out, "tracks confirmed") << drive.tracks() << '\n';
+  line(out, "data") << data_seconds << " s\n";
+  line(out, "took") << wall_seconds << " s\n";
+  line(out, "speed") << data_seconds / wall_seconds << " x real time\n";
+  printTimes(out, pipeline.times());
+  for (const StageMonitor* monitor : pipeline.monitors()) {
+    printCounts(out, "dropped", *monitor, monitor->drops());
+    printCounts(out, "warned", *monitor, monitor->warnings());
+  }
+}
+
+}  // namespace datmo_fusion

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <iosfwd>
+#include <optional>
+#include <set>
+
+#include "pipeline.h"
+
+#include "datmo_fusion/common/pose2.h"
+
+namespace datmo_fusion {
+
+/// What a drive came to, scan by scan.
+class DriveSummary {
+ public:
+  /// Takes what the pipeline made of one message.
+  void add(const Pipeline::Output& output);
+
+  std::size_t scans() const { return scans_; }
+  double distance() const { return distance_; }  ///< m, along the estimated poses
+  std::size_t tracks() const { return track_ids_.size(); }
+
+ private:
+  std::size_t scans_ = 0;
+  double distance_ = 0.0;
+  std::optional<Point2> position_;  ///< m, map frame, after the last scan
+  std::set<std::uint32_t> track_ids_;
+};
+
+/// The table at the end: the drive, the time of each stage, speed, and what was dropped and why.
+/// `data_seconds`: length of the bag; `wall_seconds`: what it took.
+void printTable(std::ostream& out, const DriveSummary& drive, const Pipeline& pipeline,
+                double data_seconds, double wall_seconds);
+
+}  // namespace datmo_fusion

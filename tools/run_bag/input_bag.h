@@ -1,0 +1,32 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <rosbag/bag.h>
+#include <rosbag/message_instance.h>
+
+namespace datmo_fusion {
+
+/// Opens a bag for reading. Throws std::runtime_error that says what is wrong with which file: not
+/// there, cut short, no bag.
+void openInput(const std::string& file, rosbag::Bag& bag);
+
+/// The topics of a bag and their types, "topic (type)", sorted.
+std::vector<std::string> topicsOf(const rosbag::Bag& bag);
+
+bool holdsTopic(const rosbag::Bag& bag, const std::string& topic);
+
+/// The message itself. Throws std::runtime_error that names topic and types if it is none of
+/// `Message`.
+template <typename Message>
+boost::shared_ptr<Message> read(const rosbag::MessageInstance& message) {
+  if (const auto content = message.instantiate<Message>()) {
+    return content;
+  }
+  throw std::runtime_error(message.getTopic() + " is " + message.getDataType() + ", expected " +
+                           ros::message_traits::datatype<Message>());
+}
+
+}  // namespace datmo_fusion

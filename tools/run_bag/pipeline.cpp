@@ -1,0 +1,56 @@
+#include "pipeline.h"
+
+#include <algorithm>
+
+namespace datmo_fusion {
+
+Pipeline::Pipeline(const PipelineOptions& options)
+    : options_(options),
+      transforms_(options.grid_slam.input.restart_after),
+      slam_(options.grid_slam, transforms_, slam_monitor_),
+      detector_(options.moving_objects, detector_monitor_),
+      tracker_(options.tracker, transforms_, tracker_monitor_) {}
+
+void Pipeline::takeStaticTransforms(const tf2_msgs::TFMessage& message) {
+  transforms_.addStatic(message);
+}
+
+Pipeline::Output Pipeline::takeTransforms(const tf2_msgs::TFMessage& message, Stamp now) {
+  tf2_msgs::TFMessage others;
+  std::copy_if(message.transforms.begin(), message.transforms.end(),
+               std::back_inserter(others.transforms), [&](const auto& transform) {
+                 return transform.child_frame_id != options_.grid_slam.odom_frame;
+               });
+  transforms_.add(others);
+  Output output;
+  drainTracker(now, output);
+  return output;
+}
+
+void Pipeline::takeOdometry(const nav_msgs::Odometry& message) { slam_.takeOdometry(message); }
+
+void Pipeline::followSlam(Stamp now, Output& output) {
+  bookTime(slam_monitor_);
+  tf2_msgs::TFMessage map_to_odom;
+  map_to_odom.transforms = output.slam->transforms;
+  transforms_.add(map_to_odom);
+  output.objects = detector_.takeSplitScan(*output.slam->split_scan);
+  if (output.objects) {
+    bookTime(detector_monitor_);
+    tracker_.takeObjects(output.objects, now);
+  }
+  drainTracker(now, output);
+}
+
+void Pipeline::drainTracker(Stamp now, Output& output) {
+  while (const TrackArrayPtr tracks = tracker_.next(now)) {
+    bookTime(tracker_monitor_);
+    output.tracks.push_back(tracks);
+  }
+}
+
+void Pipeline::bookTime(const StageMonitor& monitor) {
+  times_.add(monitor.stage(), monitor.lastProcessed().seconds);
+}
+
+}  // namespace datmo_fusion

@@ -1,0 +1,49 @@
+#include "pipeline_options.h"
+
+#include <algorithm>
+#include <array>
+
+#include "yaml_options.h"
+#include <yaml-cpp/yaml.h>
+
+namespace datmo_fusion {
+
+namespace {
+
+/// One for each nodelet; those without a stage in the pipeline are for live use alone.
+const std::array<std::string, 4> kSections = {"grid_slam", "moving_objects", "tracker", "markers"};
+
+void checkSections(const std::string& file, const YAML::Node& root) {
+  for (const auto& entry : root) {
+    const auto name = entry.first.as<std::string>();
+    if (std::find(kSections.begin(), kSections.end(), name) == kSections.end()) {
+      throw OptionError(file + ": " + name +
+                        ": expected grid_slam, moving_objects, tracker or markers");
+    }
+  }
+}
+
+template <typename Options>
+Options readSection(const std::string& file, const YAML::Node& root, const std::string& section) {
+  try {
+    const YAML::Node node = root[section];
+    return node ? readOptions<Options>(optionValues(node)) : Options();
+  } catch (const OptionError& error) {
+    throw OptionError(file + ": " + section + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+PipelineOptions readPipelineOptions(const std::string& file) {
+  const YAML::Node root = loadYaml(file);
+  if (!root.IsMap()) {
+    throw OptionError(file + ": expected sections: grid_slam, moving_objects, tracker");
+  }
+  checkSections(file, root);
+  return {readSection<GridSlamStageOptions>(file, root, "grid_slam"),
+          readSection<MovingObjectsStageOptions>(file, root, "moving_objects"),
+          readSection<TrackerStageOptions>(file, root, "tracker")};
+}
+
+}  // namespace datmo_fusion

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace datmo_fusion {
+
+/// How long each stage took for each message: for people to read, never for the stages.
+class StageTimes {
+ public:
+  void add(const std::string& stage, double seconds);
+
+  struct Summary {
+    std::string stage;
+    std::size_t runs = 0;
+    double median = 0.0;         ///< s
+    double percentile_99 = 0.0;  ///< s
+  };
+
+  /// One for each stage, by their first run.
+  std::vector<Summary> summaries() const;
+
+ private:
+  std::vector<std::pair<std::string, std::vector<double>>> seconds_;
+};
+
+}  // namespace datmo_fusion
