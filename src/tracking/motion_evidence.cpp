@@ -5,8 +5,6 @@
 
 #include <Eigen/LU>
 
-#include "datmo_fusion/tracking/box_gap.h"
-
 namespace datmo_fusion {
 
 namespace {
@@ -18,9 +16,20 @@ double mapEvidence(const Object& object, double weight) {
   return object.dynamic_state == DynamicState::kStatic ? -weight : weight * object.moving_fraction;
 }
 
+/// Length of the box's shadow on a line of this direction (a unit vector), m.
+double extentAlong(const Box2& box, const Eigen::Vector2d& direction) {
+  const Eigen::Vector2d local = box.centre.rotation().transpose() * direction;
+  return box.length * std::abs(local.x()) + box.width * std::abs(local.y());
+}
+
 }  // namespace
 
 void MotionEvidenceOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"detection_probability", "1", "chance that an object is seen in one scan"},
+                 detection_probability, {0.01, 0.999});
+  visitor.number({"false_density", "1/m^2",
+                  "objects in one scan that belong to nothing that moves, where there are many"},
+                 false_density, {1e-6, 10.0});
   visitor.number({"standing_drift", "m^2/s",
                   "random walk of the visible centre of an object that stands: its root is how far "
                   "it slides in one second"},
@@ -37,10 +46,11 @@ void MotionEvidenceOptions::visit(OptionVisitor& visitor) {
                   "sum of log-likelihood ratios from which an object counts as moving (Wald 1947: "
                   "about the logarithm of the inverse rate of false alarms)"},
                  required_evidence, {0.0, 100.0});
-  visitor.number({"least_gap", "m", "gap between its box now and where it stood"}, least_gap,
-                 {0.0, 100.0});
-  visitor.number({"gap_significance", "1", "the same gap in standard deviations"}, gap_significance,
-                 {0.0, 100.0});
+  visitor.number({"least_overrun", "m",
+                  "how much farther than its own length an object reaches from where it stood"},
+                 least_overrun, {0.0, 100.0});
+  visitor.number({"overrun_significance", "1", "the same in standard deviations"},
+                 overrun_significance, {0.0, 100.0});
   visitor.number({"least_speed", "m/s", "slower than this nothing counts as moving"}, least_speed,
                  {0.0, 100.0});
   visitor.number({"speed_significance", "1",
@@ -59,6 +69,7 @@ bool velocityIsSignificant(const StateEstimate& estimate, double significance, d
 MotionEvidence::MotionEvidence(const Object& object)
     : anchor_{object.box, object.position_covariance},
       present_(anchor_),
+      longest_(object.box),
       standing_{object.box.centre.position(), object.position_covariance} {}
 
 void MotionEvidence::predict(double seconds, const MotionEvidenceOptions& options) {
@@ -70,35 +81,48 @@ void MotionEvidence::update(const Object& object, const PositionMeasurement& mea
   const Innovation innovation{measured.position - standing_.position,
                               standing_.covariance + measured.covariance};
   const double ratio = moving_log_likelihood - innovation.logLikelihood();
-  sum_ = std::max(0.0, sum_ + clamp(ratio, options.scan_limit) +
-                           mapEvidence(object, options.free_space_evidence));
+  const double map = mapEvidence(object, options.free_space_evidence);
+  against_standing_ = std::max(0.0, against_standing_ + clamp(ratio, options.scan_limit) + map);
+  const double chance =
+      moving_log_likelihood + std::log(options.detection_probability / options.false_density);
+  against_chance_ = std::max(0.0, against_chance_ + clamp(chance, options.scan_limit) + map);
 
   const Eigen::Matrix2d gain = standing_.covariance * innovation.covariance.inverse();
   standing_.position += gain * innovation.residual;
   standing_.covariance = gain * measured.covariance;
 
   present_ = {object.box, object.position_covariance};
-  if (sum_ == 0.0) {
+  if (object.box.length > longest_.length) {
+    longest_ = object.box;
+  }
+  if (against_standing_ == 0.0) {
     anchor_ = present_;
   }
 }
 
+void MotionEvidence::miss(const MotionEvidenceOptions& options) {
+  against_chance_ = std::max(0.0, against_chance_ + std::log(1.0 - options.detection_probability));
+}
+
 bool MotionEvidence::suffices(const StateEstimate& estimate,
                               const MotionEvidenceOptions& options) const {
-  return sum_ >= options.required_evidence && leftItsPlace(options) &&
+  return sum() >= options.required_evidence && leftItsPlace(options) &&
          velocityIsSignificant(estimate, options.speed_significance, options.least_speed);
 }
 
 bool MotionEvidence::leftItsPlace(const MotionEvidenceOptions& options) const {
   const Eigen::Vector2d way = present_.box.centre.position() - anchor_.box.centre.position();
-  const double gap = gapBetween(anchor_.box, present_.box);
-  if (gap <= 0.0) {
+  const double distance = way.norm();
+  if (distance == 0.0) {
     return false;
   }
-  const Eigen::Vector2d direction = way.normalized();
+  const Eigen::Vector2d direction = way / distance;
+  const double swept =
+      distance + 0.5 * (extentAlong(present_.box, direction) + extentAlong(anchor_.box, direction));
+  const double overrun = swept - extentAlong(longest_, direction);
   const double deviation =
       std::sqrt(direction.dot((present_.covariance + anchor_.covariance) * direction));
-  return gap >= options.least_gap && gap >= options.gap_significance * deviation;
+  return overrun >= options.least_overrun && overrun >= options.overrun_significance * deviation;
 }
 
 }  // namespace datmo_fusion

@@ -69,6 +69,9 @@ class Tracker::State {
     for (const Association::Pair& pair : association.pairs) {
       targets_[pair.target].update(objects[pair.object], options_.target);
     }
+    for (const std::size_t index : association.missed) {
+      targets_[index].miss(options_.target);
+    }
     for (const std::size_t index : association.unexplained) {
       startTarget(objects[index]);
     }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/tracking/kalman_filter.h"
@@ -7,14 +9,16 @@
 namespace datmo_fusion {
 
 struct MotionEvidenceOptions {
-  double standing_drift = 0.5;       ///< m^2/s
-  double scan_limit = 2.0;           ///< 1
-  double free_space_evidence = 1.0;  ///< 1
-  double required_evidence = 3.0;    ///< 1
-  double least_gap = 0.5;            ///< m
-  double gap_significance = 2.0;     ///< 1
-  double least_speed = 0.8;          ///< m/s
-  double speed_significance = 5.99;  ///< 1
+  double detection_probability = 0.8;  ///< 1
+  double false_density = 0.02;         ///< 1/m^2
+  double standing_drift = 0.5;         ///< m^2/s
+  double scan_limit = 2.0;             ///< 1
+  double free_space_evidence = 1.0;    ///< 1
+  double required_evidence = 3.0;      ///< 1
+  double least_overrun = 1.0;          ///< m
+  double overrun_significance = 3.0;   ///< 1
+  double least_speed = 0.8;            ///< m/s
+  double speed_significance = 5.99;    ///< 1
 
   void visit(OptionVisitor& visitor);
 };
@@ -33,9 +37,9 @@ bool velocityIsSignificant(const StateEstimate& estimate, double significance, d
 ///    long rest is found as quickly. One scan counts for a limited amount, so that no outlier
 ///    decides. Points where the map is free count for motion, a place that the map knows as static
 ///    against it.
-/// 2. It left its place: a gap, more than its uncertainty, lies between its box and the one it had
-/// when
-///    the sum was last 0. A side that comes into view little by little touches its earlier box.
+/// 2. It left its place: from where it was when the sum was last 0 to where it is now it reaches
+///    farther than it was ever seen long. So a side that comes into view little by little, and goes
+///    out of view again, is not motion.
 /// 3. Its estimated velocity is significant.
 class MotionEvidence {
  public:
@@ -49,11 +53,14 @@ class MotionEvidence {
   void update(const Object& object, const PositionMeasurement& measured,
               double moving_log_likelihood, const MotionEvidenceOptions& options);
 
+  /// The present scan shows no object of this target.
+  void miss(const MotionEvidenceOptions& options);
+
   /// All three witnesses agree; `estimate` is that of the motion filter.
   bool suffices(const StateEstimate& estimate, const MotionEvidenceOptions& options) const;
 
   /// The summed log-likelihood ratio of moving against standing, at least 0.
-  double sum() const { return sum_; }
+  double sum() const { return std::min(against_standing_, against_chance_); }
 
  private:
   /// Where the object was seen at one time.
@@ -64,9 +71,11 @@ class MotionEvidence {
 
   bool leftItsPlace(const MotionEvidenceOptions& options) const;
 
-  double sum_ = 0.0;
+  double against_standing_ = 0.0;
+  double against_chance_ = 0.0;
   Place anchor_;
   Place present_;
+  Box2 longest_;
   PositionMeasurement standing_;
 };
 

@@ -37,6 +37,9 @@ class Target {
   /// Takes in an object of the present scan.
   void update(const Object& object, const TargetOptions& options);
 
+  /// The present scan shows no object of this target.
+  void miss(const TargetOptions& options) { evidence_.miss(options.evidence); }
+
   /// The object as a measurement of this target's position.
   PositionMeasurement measurementOf(const Object& object) const {
     return box_.measurementOf(object);
