@@ -8,10 +8,11 @@
 
 namespace datmo_fusion {
 
-OutputBag::OutputBag(const std::string& file) : file_(file), part_(file + ".part") {
+OutputBag::OutputBag(const std::string& file, rosbag::CompressionType compression)
+    : file_(file), part_(file + ".part") {
   try {
     bag_.open(part_, rosbag::bagmode::Write);
-    bag_.setCompression(rosbag::compression::LZ4);
+    bag_.setCompression(compression);
   } catch (const rosbag::BagException& error) {
     throw std::runtime_error(file_ + ": cannot be written (" + error.what() + ")");
   }

@@ -2,6 +2,9 @@
 
 #include <string>
 
+#include <boost/make_shared.hpp>
+
+#include <ros/message_traits.h>
 #include <ros/time.h>
 #include <rosbag/bag.h>
 
@@ -12,7 +15,8 @@ namespace datmo_fusion {
 class OutputBag {
  public:
   /// Throws std::runtime_error that names the file if it cannot be written.
-  explicit OutputBag(const std::string& file);
+  explicit OutputBag(const std::string& file,
+                     rosbag::CompressionType compression = rosbag::compression::LZ4);
   ~OutputBag();
   OutputBag(const OutputBag&) = delete;
   OutputBag& operator=(const OutputBag&) = delete;
@@ -21,6 +25,17 @@ class OutputBag {
   template <typename Message>
   void write(const std::string& topic, const ros::Time& time, const Message& message) {
     bag_.write(topic, time < ros::TIME_MIN ? ros::TIME_MIN : time, message);
+  }
+
+  /// The same for a latched topic: players publish it latched again.
+  template <typename Message>
+  void writeLatched(const std::string& topic, const ros::Time& time, const Message& message) {
+    const auto header = boost::make_shared<ros::M_string>();
+    (*header)["latching"] = "1";
+    (*header)["type"] = ros::message_traits::datatype(message);
+    (*header)["md5sum"] = ros::message_traits::md5sum(message);
+    (*header)["message_definition"] = ros::message_traits::definition(message);
+    bag_.write(topic, time, message, header);
   }
 
   /// A message as it stands in another bag, latched connection and all.

@@ -1,0 +1,80 @@
+#include "yaml_options.h"
+
+namespace datmo_fusion {
+
+namespace {
+
+/// yaml-cpp's mark of a plain scalar; quoted text has the tag "!".
+const char* const kPlainTag = "?";
+
+void flatten(const std::string& prefix, const YAML::Node& section, OptionValues& values) {
+  for (const auto& entry : section) {
+    const std::string key = prefix + entry.first.as<std::string>();
+    if (entry.second.IsMap()) {
+      flatten(key + "/", entry.second, values);
+    } else if (!values.emplace(key, optionValue(key, entry.second)).second) {
+      throw OptionError(key + " is given twice: expected once");
+    }
+  }
+}
+
+}  // namespace
+
+YAML::Node loadYaml(const std::string& file) {
+  try {
+    return YAML::LoadFile(file);
+  } catch (const YAML::BadFile&) {
+    throw OptionError(file + ": expected a yaml file that can be read");
+  } catch (const YAML::ParserException& error) {
+    throw OptionError(file + ":" + std::to_string(error.mark.line + 1) + ": expected yaml, but " +
+                      error.msg);
+  }
+}
+
+OptionValue optionValue(const std::string& key, const YAML::Node& node) {
+  if (!node.IsScalar()) {
+    throw OptionError(key + (node.IsSequence() ? " is a list" : " is empty") +
+                      ": expected one value");
+  }
+  bool toggle = false;
+  int whole = 0;
+  double number = 0.0;
+  if (node.Tag() != kPlainTag) {
+    return node.Scalar();
+  }
+  if (YAML::convert<bool>::decode(node, toggle)) {
+    return toggle;
+  }
+  if (YAML::convert<int>::decode(node, whole)) {
+    return whole;
+  }
+  if (YAML::convert<double>::decode(node, number)) {
+    return number;
+  }
+  return node.Scalar();
+}
+
+OptionValues optionValues(const YAML::Node& section) {
+  OptionValues values;
+  if (!section.IsDefined() || section.IsNull()) {
+    return values;
+  }
+  if (!section.IsMap()) {
+    throw OptionError("a section of options is a " +
+                      std::string(section.IsSequence() ? "list" : "single value") +
+                      ": expected keys with values");
+  }
+  flatten("", section, values);
+  return values;
+}
+
+OptionValue parseOptionValue(const std::string& key, const std::string& text) {
+  try {
+    return optionValue(key, YAML::Load(text));
+  } catch (const YAML::ParserException& error) {
+    throw OptionError(key + " = " + text + ": expected a value as in a yaml file, but " +
+                      error.msg);
+  }
+}
+
+}  // namespace datmo_fusion

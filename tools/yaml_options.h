@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include <yaml-cpp/yaml.h>
+
+#include "datmo_fusion/common/options.h"
+
+namespace datmo_fusion {
+
+/// Parses a yaml file. Throws OptionError that names the file, and the line where it is no yaml.
+YAML::Node loadYaml(const std::string& file);
+
+/// One plain value: true or false, a whole number, a number, or text (always where it is quoted).
+/// Throws OptionError unless `node` is a scalar; `key` is named in the message.
+OptionValue optionValue(const std::string& key, const YAML::Node& node);
+
+/// All values of a section, flattened: `{map: {cell_size: 0.3}}` is `map/cell_size`. An empty
+/// section has none. Throws OptionError for a list, a key without value and a key given twice.
+OptionValues optionValues(const YAML::Node& section);
+
+/// Parses `text` as the value of one option, as if it stood in a yaml file. Throws OptionError.
+OptionValue parseOptionValue(const std::string& key, const std::string& text);
+
+}  // namespace datmo_fusion
