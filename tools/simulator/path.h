@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include "datmo_fusion/common/pose2.h"
+
+namespace datmo_fusion::simulator {
+
+using Polyline = std::vector<Point2>;
+
+/// Where a path leads to after some way.
+struct PathPoint {
+  Pose2 pose;              ///< on the path, heading along it
+  double curvature = 0.0;  ///< 1/m, positive to the left
+};
+
+/// A polyline whose corners are rounded by circular arcs, measured by the way along it.
+class Path {
+ public:
+  /// `points`: at least two, m, no two neighbours the same and no turning back on the spot.
+  /// `corner_radius`: m, at least 0; where a leg is too short for it, the arc is made smaller.
+  /// Throws std::invalid_argument on other input.
+  Path(const Polyline& points, double corner_radius);
+
+  double length() const { return length_; }
+
+  /// `way`: m from the start; beyond the ends the path goes straight on.
+  PathPoint at(double way) const;
+
+  /// Points along the path: the ends of the legs, and the arcs in steps of at most `arc_step` (m).
+  Polyline points(double arc_step) const;
+
+ private:
+  struct Piece {
+    Pose2 start;
+    double curvature = 0.0;
+    double length = 0.0;
+    double way = 0.0;  ///< m along the path at the start of the piece
+  };
+
+  void append(const Pose2& start, double curvature, double length);
+
+  std::vector<Piece> pieces_;
+  double length_ = 0.0;
+};
+
+}  // namespace datmo_fusion::simulator

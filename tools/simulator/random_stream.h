@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <string>
+
+namespace datmo_fusion::simulator {
+
+/// Random numbers of one sensor. Each sensor has a stream of its own, seeded from the run's seed
+/// and the sensor's name, so that a further sensor does not change what the others measure.
+///
+/// The distributions are written out here because the standard fixes the engines only: with those
+/// of the library another compiler would make another bag from the same seed.
+class RandomStream {
+ public:
+  RandomStream(std::uint64_t seed, const std::string& name);
+
+  /// From 0 to below 1.
+  double uniform();
+
+  /// Zero mean; `sigma` at least 0, in the unit of the result.
+  double normal(double sigma);
+
+  /// True with the given probability, 0 to 1.
+  bool chance(double probability) { return uniform() < probability; }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+}  // namespace datmo_fusion::simulator

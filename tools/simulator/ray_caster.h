@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "simulator/world.h"
+
+namespace datmo_fusion::simulator {
+
+/// The heights that a beam lights at each range: between two planes through the sensor.
+struct HeightBand {
+  double sensor_height = 0.0;  ///< m above the road
+  double low_slope = 0.0;      ///< tangent of the lower edge's angle above the horizon
+  double high_slope = 0.0;     ///< of the upper edge's
+
+  /// Whether a thing of this height (m), standing on the road at this range (m), is lit.
+  bool lights(double height, double range) const {
+    return sensor_height + low_slope * range <= height && sensor_height + high_slope * range >= 0.0;
+  }
+};
+
+/// Where a ray meets a solid.
+struct RayHit {
+  double range = 0.0;  ///< m
+  std::uint32_t object = kNoObject;
+};
+
+/// Sends rays from one place into the world at one time; only what is within reach is looked at.
+class RayCaster {
+ public:
+  /// `reach`: m, the longest ray that will be asked for. Keeps references to both: they must live
+  /// as long as the caster.
+  RayCaster(const World& world, const WorldState& state, const Point2& origin, double reach);
+
+  /// The nearest lit solid of a surface at a heading (rad, world frame), not farther than `reach`.
+  std::optional<RayHit> nearest(double heading, const HeightBand& band, Surface surface,
+                                double reach) const;
+
+ private:
+  struct Candidate {
+    const Solid* solid = nullptr;
+    Circle bound;
+  };
+
+  void addWithin(const std::vector<Solid>& solids, double reach);
+
+  Point2 origin_;
+  std::vector<Candidate> candidates_;
+};
+
+}  // namespace datmo_fusion::simulator

@@ -1,0 +1,168 @@
+#include "simulator/scene.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <vector>
+
+#include "simulator/collision.h"
+#include "simulator/scene_items.h"
+#include "simulator/scene_reader.h"
+
+namespace datmo_fusion::simulator {
+
+namespace {
+
+std::size_t findRoad(const std::string& name, const std::vector<Road>& roads) {
+  std::string names;
+  for (std::size_t i = 0; i < roads.size(); ++i) {
+    if (roads[i].name == name) {
+      return i;
+    }
+    names += " '" + roads[i].name + "'";
+  }
+  throw OptionError("road = '" + name + "': expected one of" + names);
+}
+
+RoadNetwork readRoads(const YAML::Node& scene) {
+  std::vector<Road> roads;
+  readList(scene, "roads", [&roads](const YAML::Node& entry) {
+    const auto item = readItem<RoadItem>(entry, {"points"});
+    roads.push_back({item.name, Path(readPoints(entry, "points"), item.corner_radius), item.width,
+                     item.corner_radius, item.dash_length, item.dash_gap, item.paint_width});
+  });
+  std::vector<Crossing> crossings;
+  readList(scene, "crossings", [&roads, &crossings](const YAML::Node& entry) {
+    const auto item = readItem<CrossingItem>(entry);
+    crossings.push_back({findRoad(item.road, roads), item.at, item.length});
+  });
+  return {roads, crossings};
+}
+
+/// m to the left of the road's middle line.
+double leftOf(const Road& road, const std::string& side, double from_kerb) {
+  const double from_middle = 0.5 * road.width + from_kerb;
+  return side == "left" ? from_middle : -from_middle;
+}
+
+std::vector<std::string> readKinds(const YAML::Node& entry) {
+  const YAML::Node list = entry["kinds"];
+  if (!list.IsDefined() || !list.IsSequence() || list.size() == 0) {
+    throw OptionError("kinds: expected a list of at least one kind of object");
+  }
+  std::vector<std::string> kinds;
+  for (const YAML::Node& kind : list) {
+    ActorItem named;
+    named.kind = kind.as<std::string>("");
+    checkOptions(named);
+    kinds.push_back(named.kind);
+  }
+  return kinds;
+}
+
+std::set<int> readLeftOut(const YAML::Node& entry) {
+  if (!entry["leave_out"].IsDefined()) {
+    return {};
+  }
+  try {
+    const auto numbers = entry["leave_out"].as<std::vector<int>>();
+    return {numbers.begin(), numbers.end()};
+  } catch (const YAML::Exception&) {
+    throw OptionError("leave_out: expected a list of whole numbers, 0 for the first place");
+  }
+}
+
+/// What stands on another road, or in the bend of its kerb, is left out.
+void addRow(const YAML::Node& entry, World& world) {
+  const auto item = readItem<RowItem>(entry, {"kinds", "leave_out"});
+  const std::vector<std::string> kinds = readKinds(entry);
+  const std::set<int> left_out = readLeftOut(entry);
+  const std::size_t road_index = findRoad(item.road, world.roads().roads());
+  const Road& road = world.roads().roads()[road_index];
+  const double left = leftOf(road, item.side, item.from_kerb);
+  const Pose2 turned(0.0, 0.0, item.side == "left" ? kPi : 0.0);
+  int place = 0;
+  for (double way = item.from; way <= item.to; way = item.from + place * item.spacing) {
+    const std::string& kind = kinds[static_cast<std::size_t>(place) % kinds.size()];
+    const Pose2 pose = world.roads().beside(road_index, way, left) * turned;
+    if (left_out.count(place) == 0 &&
+        !world.roads().onOtherRoad(road_index, pose.position(), road.corner_radius)) {
+      world.addStanding(objectKind(kind), pose);
+    }
+    ++place;
+  }
+}
+
+void addFront(const YAML::Node& entry, World& world) {
+  const auto item = readItem<FrontItem>(entry);
+  const std::size_t road_index = findRoad(item.road, world.roads().roads());
+  const double left = leftOf(world.roads().roads()[road_index], item.side, item.from_kerb);
+  for (double from = item.from; from < item.to; from += item.piece + item.gap) {
+    const double to = std::min(from + item.piece, item.to);
+    for (const Polyline& line :
+         world.roads().sideLines(road_index, left, from, to, item.from_kerb)) {
+      for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        world.addSolid({Segment{line[i], line[i + 1]}, item.height, Surface::kBody, kNoObject});
+      }
+    }
+  }
+}
+
+Mover readMover(const YAML::Node& entry, double duration) {
+  const auto item = readItem<ActorItem>(entry, {"path", "speed"});
+  const Mover mover{objectKind(item.kind), Path(readPoints(entry, "path"), item.corner_radius),
+                    readSpeed(entry), item.start};
+  const double way = mover.start + mover.speed.way(duration);
+  if (way > mover.path.length()) {
+    std::ostringstream message;
+    message << "path of " << mover.path.length() << " m: expected at least the " << way
+            << " m of start and speed in " << duration << " s";
+    throw OptionError(message.str());
+  }
+  return mover;
+}
+
+World readWorld(const YAML::Node& scene, double duration) {
+  if (!scene["ego"].IsDefined()) {
+    throw OptionError("ego is missing: expected the ego vehicle's path and speed");
+  }
+  std::optional<World> world;
+  const RoadNetwork roads = readRoads(scene);
+  readAt("ego", [&] { world.emplace(roads, readMover(scene["ego"], duration)); });
+  readList(scene, "rows", [&](const YAML::Node& entry) { addRow(entry, *world); });
+  readList(scene, "fronts", [&](const YAML::Node& entry) { addFront(entry, *world); });
+  readList(scene, "actors",
+           [&](const YAML::Node& entry) { world->addMover(readMover(entry, duration)); });
+  return *world;
+}
+
+void refuseCollisions(const World& world, double duration) {
+  if (const auto collision = firstCollision(world, duration)) {
+    std::ostringstream message;
+    message << collision->mover << " and " << collision->other << " collide at ["
+            << collision->place.x() << ", " << collision->place.y() << "] after " << collision->time
+            << " s: expected free ways";
+    throw OptionError(message.str());
+  }
+}
+
+}  // namespace
+
+Scene readScene(const std::string& file, const OptionValues& overrides) {
+  const YAML::Node yaml = loadYaml(file);
+  std::optional<Scene> scene;
+  readAt(file, [&] {
+    expectKeys(yaml, {"options", "ego", "roads", "crossings", "rows", "fronts", "actors"});
+    OptionValues values = optionValues(yaml["options"]);
+    for (const auto& [key, value] : overrides) {
+      values[key] = value;
+    }
+    const auto options = readOptions<SimulationOptions>(values);
+    scene.emplace(Scene{options, readWorld(yaml, options.duration)});
+    refuseCollisions(scene->world, options.duration);
+  });
+  return *scene;
+}
+
+}  // namespace datmo_fusion::simulator

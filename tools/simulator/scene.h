@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+
+#include "simulator/ground_truth.h"
+#include "simulator/laser_scanner.h"
+#include "simulator/odometer.h"
+#include "simulator/world.h"
+
+#include "datmo_fusion/common/options.h"
+
+namespace datmo_fusion::simulator {
+
+/// All that can be set about a run besides the scene itself.
+struct SimulationOptions {
+  int seed = 1;
+  double duration = 20.0;  ///< s
+  std::string compression = "none";
+  LaserScannerOptions scanner;
+  OdometerOptions odometer;
+  GroundTruthOptions ground_truth;
+
+  void visit(OptionVisitor& visitor);
+};
+
+struct Scene {
+  SimulationOptions options;
+  World world;
+};
+
+/// Reads a scene file (rosbag_fixtures/README.md says what is in one). `overrides` replace options
+/// of its section `options`, by full key.
+///
+/// Throws OptionError that names the file, the place in it, the value and what was expected: for a
+/// key that nobody reads, a value out of bounds, a path that is too short for its speeds, and
+/// bodies that run into each other.
+Scene readScene(const std::string& file, const OptionValues& overrides = {});
+
+}  // namespace datmo_fusion::simulator

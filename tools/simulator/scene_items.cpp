@@ -1,0 +1,72 @@
+#include "simulator/scene_items.h"
+
+#include "simulator/scene.h"
+#include "simulator/world.h"
+
+namespace datmo_fusion::simulator {
+
+namespace {
+
+constexpr Bounds kWay{-1e5, 1e5};
+
+void visitStretch(OptionVisitor& visitor, std::string& road, std::string& side, double& from,
+                  double& to) {
+  visitor.text({"road", "", "name of the road beside which it is"}, road, {});
+  visitor.text({"side", "", "of the road, looking along it"}, side, {"left", "right"});
+  visitor.number({"from", "m", "start along the road's middle line"}, from, kWay);
+  visitor.number({"to", "m", "end along the road's middle line"}, to, kWay);
+}
+
+}  // namespace
+
+void RoadItem::visit(OptionVisitor& visitor) {
+  visitor.text({"name", "", "by which other entries call the road"}, name, {});
+  visitor.number({"width", "m", "from kerb to kerb"}, width, {2.0, 100.0});
+  visitor.number({"corner_radius", "m", "of the middle line's bends and of the kerbs at junctions"},
+                 corner_radius, {0.5, 50.0});
+  visitor.number({"dash_length", "m", "of the white middle line; 0: none"}, dash_length,
+                 {0.0, 1000.0});
+  visitor.number({"dash_gap", "m", "between dashes"}, dash_gap, {0.1, 1000.0});
+  visitor.number({"paint_width", "m", "of the white middle line"}, paint_width, {0.05, 1.0});
+}
+
+void CrossingItem::visit(OptionVisitor& visitor) {
+  visitor.text({"road", "", "name of the road that has the zebra crossing"}, road, {});
+  visitor.number({"at", "m", "its middle along the road's middle line"}, at, kWay);
+  visitor.number({"length", "m", "of the stripes, along the road"}, length, {1.0, 20.0});
+}
+
+void RowItem::visit(OptionVisitor& visitor) {
+  visitStretch(visitor, road, side, from, to);
+  visitor.number({"spacing", "m", "from the middle of one thing to that of the next"}, spacing,
+                 {0.5, 1000.0});
+  visitor.number({"from_kerb", "m", "from the kerb to the middle; negative: on the carriageway"},
+                 from_kerb, {-50.0, 50.0});
+}
+
+void FrontItem::visit(OptionVisitor& visitor) {
+  visitStretch(visitor, road, side, from, to);
+  visitor.number({"from_kerb", "m", "from the kerb outwards"}, from_kerb, {0.5, 100.0});
+  visitor.number({"piece", "m", "length of an unbroken piece"}, piece, {0.5, 1000.0});
+  visitor.number({"gap", "m", "between pieces; 0: unbroken"}, gap, {0.0, 1000.0});
+  visitor.number({"height", "m", "8 for a building, 1 for a fence"}, height, {0.1, 100.0});
+}
+
+void ActorItem::visit(OptionVisitor& visitor) {
+  visitor.text({"kind", "", "what it is"}, kind, objectKindKeys());
+  visitor.number({"corner_radius", "m", "of the arcs at the corners of its path"}, corner_radius,
+                 {0.0, 200.0});
+  visitor.number({"start", "m", "where it is on its path at the start"}, start, {0.0, 1e5});
+}
+
+void SimulationOptions::visit(OptionVisitor& visitor) {
+  constexpr double kMostSeed = 2147483647.0;
+  visitor.integer({"seed", "1", "of all random numbers"}, seed, {0.0, kMostSeed});
+  visitor.number({"duration", "s", "of the bag"}, duration, {0.1, 36000.0});
+  visitor.text({"compression", "", "of the bag"}, compression, {"none", "bz2", "lz4"});
+  visitor.group("scanner", [&] { scanner.visit(visitor); });
+  visitor.group("odometer", [&] { odometer.visit(visitor); });
+  visitor.group("ground_truth", [&] { ground_truth.visit(visitor); });
+}
+
+}  // namespace datmo_fusion::simulator

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "datmo_fusion/common/box2.h"
+
+namespace datmo_fusion::simulator {
+
+struct Circle {
+  Point2 centre = Point2::Zero();
+  double radius = 0.0;  ///< m
+};
+
+struct Segment {
+  Point2 start = Point2::Zero();
+  Point2 end = Point2::Zero();
+};
+
+/// Outline of a thing on the ground, m, world frame.
+using Shape = std::variant<Box2, Circle, Segment>;
+
+/// A half line; `direction` has length 1.
+struct HalfLine {
+  Point2 origin = Point2::Zero();
+  Point2 direction = Point2::UnitX();
+};
+
+/// The half line from a point at a heading (rad).
+HalfLine halfLine(const Point2& origin, double heading);
+
+/// The smallest circle about the shape's middle that holds all of it.
+Circle boundingCircle(const Shape& shape);
+
+/// Range (m) at which the half line first meets the outline; from inside, where it leaves.
+std::optional<double> rangeTo(const Shape& shape, const HalfLine& ray);
+
+/// From the point to the nearest point of the shape, m; 0 inside.
+double distanceTo(const Shape& shape, const Point2& point);
+
+/// Whether two shapes have points in common; touching counts.
+bool overlap(const Shape& a, const Shape& b);
+
+}  // namespace datmo_fusion::simulator

@@ -1,0 +1,122 @@
+// simulate scene.yaml out.bag [--seed N] [--set key=value]... [--quiet]
+// A scene file becomes a bag of the demonstrator's sensors with ground truth.
+
+#include <csignal>
+#include <exception>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "progress_bar.h"
+#include "simulator/simulation_bag.h"
+#include "yaml_options.h"
+#include <unistd.h>
+
+#include "datmo_fusion/common/option_table.h"
+
+namespace {
+
+using datmo_fusion::OptionError;
+using datmo_fusion::ProgressBar;
+using datmo_fusion::simulator::Scene;
+using datmo_fusion::simulator::SimulationOptions;
+
+constexpr const char* kUsage =
+    "usage: simulate scene.yaml out.bag [--seed N] [--set key=value]... [--quiet]\n"
+    "       simulate --options\n"
+    "  --seed N         of all random numbers, instead of the scene's\n"
+    "  --set key=value  an option instead of the scene's, e.g. --set scanner/beam_spacing=1\n"
+    "  --quiet          no progress bar\n"
+    "  --options        print all options as a table\n";
+
+volatile std::sig_atomic_t interrupted = 0;
+
+struct Arguments {
+  std::vector<std::string> files;  ///< scene, bag
+  datmo_fusion::OptionValues overrides;
+  bool quiet = false;
+};
+
+void setOption(const std::string& assignment, datmo_fusion::OptionValues& overrides) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos) {
+    throw OptionError("--set " + assignment + ": expected key=value");
+  }
+  const std::string key = assignment.substr(0, equals);
+  overrides[key] = datmo_fusion::parseOptionValue(key, assignment.substr(equals + 1));
+}
+
+Arguments parse(const std::vector<std::string>& words) {
+  Arguments arguments;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    const bool takes_value = word == "--seed" || word == "--set";
+    if (takes_value && i + 1 == words.size()) {
+      throw OptionError(word + ": expected a value behind it");
+    }
+    if (word == "--seed") {
+      setOption("seed=" + words[++i], arguments.overrides);
+    } else if (word == "--set") {
+      setOption(words[++i], arguments.overrides);
+    } else if (word == "--quiet") {
+      arguments.quiet = true;
+    } else if (word.rfind("--", 0) == 0) {
+      throw OptionError(word + ": expected --seed, --set, --quiet or --options");
+    } else {
+      arguments.files.push_back(word);
+    }
+  }
+  if (arguments.files.size() != 2) {
+    throw OptionError(std::to_string(arguments.files.size()) +
+                      " files are named: expected a scene and a bag\n" + kUsage);
+  }
+  return arguments;
+}
+
+std::string note(double time, double duration) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1) << time << " of " << duration << " s";
+  return text.str();
+}
+
+/// False: interrupted.
+bool simulate(const Arguments& arguments) {
+  const Scene scene = datmo_fusion::simulator::readScene(arguments.files[0], arguments.overrides);
+  ProgressBar bar(!arguments.quiet && isatty(STDERR_FILENO) != 0 ? &std::cerr : nullptr);
+  const double duration = scene.options.duration;
+  const bool complete = datmo_fusion::simulator::writeSimulationBag(
+      scene, arguments.files[1], [&bar, duration](double time) {
+        bar.show(time / duration, note(time, duration));
+        return interrupted == 0;
+      });
+  bar.clear();
+  return complete;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (words == std::vector<std::string>{"--help"}) {
+    std::cout << kUsage;
+    return 0;
+  }
+  if (words == std::vector<std::string>{"--options"}) {
+    std::cout << datmo_fusion::optionTable<SimulationOptions>();
+    return 0;
+  }
+  std::signal(SIGINT, [](int) { interrupted = 1; });
+  std::signal(SIGTERM, [](int) { interrupted = 1; });
+  try {
+    if (!simulate(parse(words))) {
+      std::cerr << "simulate: interrupted, no bag written\n";
+      return 1;
+    }
+  } catch (const std::exception& error) {
+    std::cerr << "simulate: " << error.what() << "\n";
+    return 1;
+  }
+  return 0;
+}

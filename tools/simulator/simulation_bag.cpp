@@ -1,0 +1,135 @@
+#include "simulator/simulation_bag.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "output_bag.h"
+#include "simulator/simulation_messages.h"
+#include <tf2_msgs/TFMessage.h>
+
+#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/stamp_check.h"
+
+namespace datmo_fusion::simulator {
+
+namespace {
+
+/// s of ROS time at the start; well above 0, which ROS takes for "no time".
+constexpr double kEpoch = 1000.0;
+
+/// A sensor that measures at a rate and records what it measures.
+struct Source {
+  double rate = 1.0;                            ///< Hz
+  std::function<void(double time, Stamp)> run;  ///< `time` in s since the start
+  int runs = 0;                                 ///< so far
+
+  double nextTime() const { return runs / rate; }
+};
+
+/// Holds the sensors of a run and the bag they write to.
+class Recording {
+ public:
+  Recording(const Scene& scene, OutputBag& bag)
+      : scene_(scene),
+        bag_(bag),
+        map_in_world_(scene.world.at(0.0).base),
+        scanner_(scene.options.scanner, stream("scanner")),
+        odometer_(scene.options.odometer, stream("odometer")) {}
+
+  void recordMounts() {
+    const Viewpoint view = scanner_.viewpoint();
+    const Stamp start = Stamp::fromSeconds(kEpoch);
+    tf2_msgs::TFMessage message;
+    message.transforms.push_back(toTransform(view.sensor_in_base, start, "base_link", view.sensor));
+    message.transforms.back().transform.translation.z = view.height;
+    bag_.writeLatched("/tf_static", toTime(start), message);
+  }
+
+  /// In the order in which measurements of the same time are recorded.
+  std::vector<Source> sources() {
+    return {{scene_.options.odometer.rate,
+             [this](double time, Stamp stamp) { recordOdometry(time, stamp); }},
+            {scene_.options.scanner.scan_rate,
+             [this](double time, Stamp stamp) { recordScan(time, stamp); }}};
+  }
+
+ private:
+  RandomStream stream(const std::string& sensor) const {
+    return {static_cast<std::uint64_t>(scene_.options.seed), sensor};
+  }
+
+  template <typename Message>
+  void write(const std::string& topic, Stamp stamp, const Message& message) {
+    bag_.write(topic, toTime(stamp), message);
+  }
+
+  void recordOdometry(double time, Stamp stamp) {
+    const Odometry odometry = odometer_.measure(scene_.world.at(time));
+    tf2_msgs::TFMessage transform;
+    transform.transforms.push_back(toTransform(odometry.pose.pose, stamp, "odom", "base_link"));
+    write("/odometry", stamp, toMessage(odometry, stamp));
+    write("/tf", stamp, transform);
+  }
+
+  void recordScan(double time, Stamp stamp) {
+    const EchoScan scan = scanner_.measure(scene_.world, time);
+    const WorldState state = scene_.world.at(time);
+    if (scene_.options.scanner.echoes == 1) {
+      write("/scan", stamp, toLaserScan(scan, scene_.options.scanner, stamp));
+    } else {
+      write("/echoes", stamp, toMultiEchoScan(scan, scene_.options.scanner, stamp));
+    }
+    recordTruth(state, scan, stamp);
+  }
+
+  void recordTruth(const WorldState& state, const EchoScan& scan, Stamp stamp) {
+    const auto objects = objectTruths(scene_.world, state, scan, {scanner_.viewpoint()},
+                                      scene_.options.ground_truth);
+    write("/ground_truth/pose", stamp, toTruePose(state, map_in_world_, stamp));
+    write("/ground_truth/objects", stamp, toMessage(objects, map_in_world_, stamp));
+    write("/ground_truth/road_borders", stamp,
+          toTrueBorders(scene_.world.roads(), state, map_in_world_, stamp));
+  }
+
+  const Scene& scene_;
+  OutputBag& bag_;
+  Pose2 map_in_world_;
+  LaserScanner scanner_;
+  Odometer odometer_;
+};
+
+rosbag::CompressionType compressionType(const std::string& name) {
+  static const std::map<std::string, rosbag::CompressionType> types{
+      {"none", rosbag::compression::Uncompressed},
+      {"bz2", rosbag::compression::BZ2},
+      {"lz4", rosbag::compression::LZ4}};
+  return types.at(name);
+}
+
+}  // namespace
+
+bool writeSimulationBag(const Scene& scene, const std::string& file, const Progress& progress) {
+  OutputBag bag(file, compressionType(scene.options.compression));
+  Recording recording(scene, bag);
+  recording.recordMounts();
+  std::vector<Source> sources = recording.sources();
+  while (true) {
+    Source& next = *std::min_element(
+        sources.begin(), sources.end(),
+        [](const Source& a, const Source& b) { return a.nextTime() < b.nextTime(); });
+    const double time = next.nextTime();
+    if (time >= scene.options.duration) {
+      break;
+    }
+    if (!progress(time)) {
+      return false;
+    }
+    next.run(time, Stamp::fromSeconds(kEpoch + time));
+    ++next.runs;
+  }
+  bag.finish();
+  return true;
+}
+
+}  // namespace datmo_fusion::simulator

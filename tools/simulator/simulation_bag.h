@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "simulator/scene.h"
+
+namespace datmo_fusion::simulator {
+
+/// Called with the simulated time so far, s; returns false to break off.
+using Progress = std::function<bool(double)>;
+
+/// Runs the scene and writes what its sensors measure and what is true into a bag: `/scan` or
+/// `/echoes`, `/odometry`, `/tf`, `/tf_static`, `/ground_truth/...` (rosbag_fixtures/README.md).
+/// The same scene gives the same bytes. The clock starts at 1000 s of ROS time; messages are
+/// recorded at their stamps.
+///
+/// Returns false, and leaves no bag, if `progress` breaks it off. Throws std::runtime_error that
+/// names the file if it cannot be written.
+bool writeSimulationBag(const Scene& scene, const std::string& file, const Progress& progress);
+
+}  // namespace datmo_fusion::simulator

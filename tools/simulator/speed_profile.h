@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+namespace datmo_fusion::simulator {
+
+/// A speed that is to be reached at a time; in between it changes evenly.
+struct SpeedPoint {
+  double time = 0.0;   ///< s
+  double speed = 0.0;  ///< m/s, at least 0
+};
+
+/// Speed over time by key points: constant before the first and after the last, and a constant
+/// acceleration from each to the next.
+class SpeedProfile {
+ public:
+  /// Throws std::invalid_argument without points, for times that do not rise and for a speed that
+  /// is negative or not finite.
+  explicit SpeedProfile(std::vector<SpeedPoint> points);
+
+  /// m/s at a time (s).
+  double speed(double time) const;
+
+  /// Way driven since time 0, m.
+  double way(double time) const;
+
+ private:
+  double wayBetween(double from, double to) const;
+
+  std::vector<SpeedPoint> points_;
+};
+
+}  // namespace datmo_fusion::simulator

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "datmo_fusion/common/pose2.h"
+
+namespace datmo_fusion::simulator {
+
+/// Where a sensor sits and how far round it looks: what the ground truth must know of each sensor
+/// to say which objects it can see.
+struct Viewpoint {
+  std::string sensor;          ///< name, as in visible_to
+  Pose2 sensor_in_base;        ///< m, rad
+  double height = 0.0;         ///< m above the road
+  double field_of_view = 0.0;  ///< rad, about the sensor's x axis
+  double range = 0.0;          ///< m
+};
+
+}  // namespace datmo_fusion::simulator
