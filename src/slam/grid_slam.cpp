@@ -9,17 +9,6 @@ namespace {
 /// Odometry this old (s) serves no scan any more.
 constexpr double kOdometryMemory = 10.0;
 
-std::vector<Point2> endPoints(const Scan& scan) {
-  std::vector<Point2> points;
-  points.reserve(scan.rays.size());
-  for (const Ray& ray : scan.rays) {
-    if (ray.hit) {
-      points.push_back(ray.end);
-    }
-  }
-  return points;
-}
-
 /// State of each ray, in order; kUnknown for beams without a hit.
 std::vector<PointState> judge(const Scan& scan, const OccupancyMap& map, const Pose2& base_in_map) {
   std::vector<PointState> states;
@@ -54,6 +43,9 @@ void GridSlamOptions::visit(OptionVisitor& visitor) {
        "how long the last odometry serves when no newer one comes; after that the pose is "
        "predicted with the last estimated velocity"},
       odometry_hold, {0.0, 10.0});
+  visitor.number(
+      {"longest_step", "m", "neighbouring end points further apart are on different surfaces"},
+      longest_step, {0.05, 20.0});
   visitor.integer({"seed", "1", "of the random numbers with which poses are drawn"}, seed,
                   {0, 2147483647});
 }
@@ -73,8 +65,10 @@ bool GridSlam::predict(Stamp stamp) {
   const auto measured = odometry_.motion(*stamp_, stamp, filter_.errors());
   if (measured) {
     filter_.predictMeasured(*measured, seconds);
+  } else if (velocity_) {
+    filter_.predictUnmeasured(arc(*velocity_, seconds), seconds);
   } else {
-    filter_.predictUnmeasured(arc(velocity_, seconds), seconds);
+    filter_.predictUnknown(seconds);
   }
   return measured.has_value();
 }
@@ -85,10 +79,13 @@ SlamResult GridSlam::process(const Scan& scan) {
     const Pose2 before = filter_.pose().pose;
     result.odometry_used = predict(scan.stamp);
     map_.centreOn(filter_.pose().pose.position());
-    const MatchResult match = matcher_.match(map_, endPoints(scan), filter_.pose(), random_);
+    const MatchResult match =
+        matcher_.match(map_, endPoints(scan, options_.longest_step), filter_.pose(), random_);
     filter_.correct(match.pose);
     result.match = match.quality;
-    velocity_ = twistOf(before.inverse() * match.pose.pose, secondsBetween(*stamp_, scan.stamp));
+    if (result.odometry_used || match.quality.accepted) {
+      velocity_ = twistOf(before.inverse() * match.pose.pose, secondsBetween(*stamp_, scan.stamp));
+    }
   }
   const PoseWithCovariance base_in_map = filter_.pose();
   const std::vector<PointState> states = judge(scan, map_, base_in_map.pose);

@@ -50,4 +50,8 @@ Eigen::Matrix3d VelocityMotionModel::covarianceWithoutOdometry(const Twist2& twi
                     options_.yaw_rate_noise + options_.yaw_acceleration_noise * seconds);
 }
 
+Eigen::Matrix3d VelocityMotionModel::covarianceOfUnknownMotion(double seconds) const {
+  return covariance({}, seconds, options_.initial_speed_sigma, options_.initial_yaw_rate_sigma);
+}
+
 }  // namespace datmo_fusion

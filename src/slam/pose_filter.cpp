@@ -68,6 +68,10 @@ void PoseFilter::predictUnmeasured(const Pose2& motion, double seconds) {
   predict(motion, motion_model_.covarianceWithoutOdometry(twistOf(motion, seconds), seconds));
 }
 
+void PoseFilter::predictUnknown(double seconds) {
+  predict(Pose2(), motion_model_.covarianceOfUnknownMotion(seconds));
+}
+
 void PoseFilter::correct(const PoseWithCovariance& matched) {
   const Eigen::Matrix3d prior = covariance_.topLeftCorner<3, 3>();
   // What the pose learned, carried over to what is correlated with it.

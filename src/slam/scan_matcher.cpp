@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 namespace datmo_fusion {
@@ -11,6 +12,23 @@ namespace {
 
 /// A refinement that moves less than this (m, rad) has converged.
 constexpr double kConverged = 1e-4;
+
+/// Spread (of cells) beyond which hits are a wall that goes on outside of the neighbourhood they
+/// were gathered from; those of a wall through 3 cells have 3 / sqrt(12) = 0.87.
+constexpr double kWallSpread = 0.5;
+
+/// What an end point near these hits tells of its place, 1/m^2. Along a wall it tells nothing: the
+/// hits' mean is only the middle of the neighbourhood.
+Eigen::Matrix2d informationOf(const Eigen::Matrix2d& spread, double point_variance,
+                              double cell_size) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread);
+  Point2 information = (axes.eigenvalues().array().max(0.0) + point_variance).inverse();
+  const double longest = kWallSpread * cell_size;
+  if (axes.eigenvalues()[1] > longest * longest) {
+    information[1] = 0.0;
+  }
+  return axes.eigenvectors() * information.asDiagonal() * axes.eigenvectors().transpose();
+}
 
 /// The shift of a pose by a small x, y (map frame) and heading.
 Pose2 shifted(const Pose2& pose, const Eigen::Vector3d& by) {
@@ -51,17 +69,17 @@ ScanMatcher::ScanMatcher(const ScanMatcherOptions& options) : options_(options) 
   checkOptions(options);
 }
 
-double ScanMatcher::score(const OccupancyMap& map, const std::vector<Point2>& points,
+double ScanMatcher::score(const OccupancyMap& map, const std::vector<EndPoint>& points,
                           const Pose2& pose) const {
   const Eigen::Matrix2d rotation = pose.rotation();
   double sum = 0.0;
-  for (const Point2& point : points) {
-    sum += map.occupancy(map.window().cellAt(pose.position() + rotation * point));
+  for (const EndPoint& point : points) {
+    sum += map.occupancy(map.window().cellAt(pose.position() + rotation * point.position));
   }
   return points.empty() ? 0.0 : sum / static_cast<double>(points.size());
 }
 
-Pose2 ScanMatcher::bestSample(const OccupancyMap& map, const std::vector<Point2>& points,
+Pose2 ScanMatcher::bestSample(const OccupancyMap& map, const std::vector<EndPoint>& points,
                               const PoseWithCovariance& prediction, Random& random) const {
   const Eigen::Matrix3d spread = prediction.covariance.llt().matrixL();
   Pose2 best = prediction.pose;
@@ -79,20 +97,21 @@ Pose2 ScanMatcher::bestSample(const OccupancyMap& map, const std::vector<Point2>
 }
 
 ScanMatcher::Normal ScanMatcher::linearise(const OccupancyMap& map,
-                                           const std::vector<Point2>& points,
+                                           const std::vector<EndPoint>& points,
                                            const Pose2& pose) const {
   Normal normal;
-  const Eigen::Matrix2d noise =
-      options_.point_sigma * options_.point_sigma * Eigen::Matrix2d::Identity();
+  const double variance = options_.point_sigma * options_.point_sigma;
   const Eigen::Matrix2d rotation = pose.rotation();
-  for (const Point2& point : points) {
-    const Point2 turned = rotation * point;
+  for (const EndPoint& point : points) {
+    const Point2 turned = rotation * point.position;
     const Point2 end = pose.position() + turned;
     const auto surface = map.hitsAround(end);
     if (!surface) {
       continue;
     }
-    const Eigen::Matrix2d information = (surface->covariance + noise).inverse();
+    const Eigen::Matrix2d information =
+        informationOf(surface->covariance + rotation * point.sampling * rotation.transpose(),
+                      variance, map.window().cell_size);
     const Point2 error = surface->mean - end;
     const double distance = error.dot(information * error);
     // Points that do not fit fade out (the score of Biber & Strasser is this Gaussian).
@@ -108,7 +127,7 @@ ScanMatcher::Normal ScanMatcher::linearise(const OccupancyMap& map,
   return normal;
 }
 
-MatchResult ScanMatcher::match(const OccupancyMap& map, const std::vector<Point2>& points,
+MatchResult ScanMatcher::match(const OccupancyMap& map, const std::vector<EndPoint>& points,
                                const PoseWithCovariance& prediction, Random& random) const {
   const Eigen::Matrix3d prior = prediction.covariance.inverse();
   Pose2 pose = bestSample(map, points, prediction, random);

@@ -18,6 +18,7 @@ struct GridSlamOptions {
   PoseFilterOptions pose;
   ScanMatcherOptions matcher;
   double odometry_hold = 0.5;  ///< s
+  double longest_step = 5.0;   ///< m
   int seed = 1;
 
   void visit(OptionVisitor& visitor);
@@ -64,8 +65,8 @@ class GridSlam {
   OdometryBuffer odometry_;
   Random random_;
   PoseFilter filter_;
-  Twist2 velocity_;             ///< estimated from the last two poses
-  std::optional<Stamp> stamp_;  ///< of the last scan
+  std::optional<Twist2> velocity_;  ///< estimated from the last two poses
+  std::optional<Stamp> stamp_;      ///< of the last scan
 };
 
 }  // namespace datmo_fusion

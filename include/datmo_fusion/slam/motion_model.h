@@ -13,6 +13,8 @@ struct MotionModelOptions {
   double side_slip_noise = 0.05;        ///< m/s, sideways
   double acceleration_noise = 3.0;      ///< m/s^2
   double yaw_acceleration_noise = 0.5;  ///< rad/s^2
+  double initial_speed_sigma = 10.0;    ///< m/s
+  double initial_yaw_rate_sigma = 0.3;  ///< rad/s
 
   void visit(OptionVisitor& visitor);
 };
@@ -32,6 +34,10 @@ class VelocityMotionModel {
   /// The same where there is no odometry and `twist` is only the last known one: it may have
   /// changed since.
   Eigen::Matrix3d covarianceWithoutOdometry(const Twist2& twist, double seconds) const;
+
+  /// The same where nothing is known of the motion yet: the second scan of a vehicle without
+  /// odometry.
+  Eigen::Matrix3d covarianceOfUnknownMotion(double seconds) const;
 
  private:
   Eigen::Matrix3d covariance(const Twist2& twist, double seconds, double speed_sigma,

@@ -48,6 +48,9 @@ class PoseFilter {
   /// After `seconds` (more than 0) of `motion`, which only carries on the last velocity.
   void predictUnmeasured(const Pose2& motion, double seconds);
 
+  /// After `seconds` (more than 0) of a motion of which nothing is known.
+  void predictUnknown(double seconds);
+
   /// Takes the pose that a match found from pose() as its prior.
   void correct(const PoseWithCovariance& matched);
 

@@ -7,14 +7,15 @@
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/random.h"
 #include "datmo_fusion/grid/occupancy_map.h"
+#include "datmo_fusion/slam/end_points.h"
 
 namespace datmo_fusion {
 
 struct ScanMatcherOptions {
   int samples = 300;               ///< poses drawn for each scan
   int refinement_steps = 10;       ///< at the most
-  double point_sigma = 0.15;       ///< m
-  double information_share = 0.2;  ///< 0 to 1
+  double point_sigma = 0.2;        ///< m
+  double information_share = 0.5;  ///< 0 to 1
   int least_points = 5;            ///< for a match
 
   void visit(OptionVisitor& visitor);
@@ -46,18 +47,19 @@ class ScanMatcher {
   /// Throws OptionError.
   explicit ScanMatcher(const ScanMatcherOptions& options);
 
-  /// `points`: end points in the base frame, m. `prediction`: of the base in the map, with a
+  /// `prediction`: of the base in the map, with a
   /// positive definite covariance.
-  MatchResult match(const OccupancyMap& map, const std::vector<Point2>& points,
+  MatchResult match(const OccupancyMap& map, const std::vector<EndPoint>& points,
                     const PoseWithCovariance& prediction, Random& random) const;
 
  private:
   struct Normal;
 
-  double score(const OccupancyMap& map, const std::vector<Point2>& points, const Pose2& pose) const;
-  Pose2 bestSample(const OccupancyMap& map, const std::vector<Point2>& points,
+  double score(const OccupancyMap& map, const std::vector<EndPoint>& points,
+               const Pose2& pose) const;
+  Pose2 bestSample(const OccupancyMap& map, const std::vector<EndPoint>& points,
                    const PoseWithCovariance& prediction, Random& random) const;
-  Normal linearise(const OccupancyMap& map, const std::vector<Point2>& points,
+  Normal linearise(const OccupancyMap& map, const std::vector<EndPoint>& points,
                    const Pose2& pose) const;
 
   ScanMatcherOptions options_;

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "datmo_fusion/common/scan.h"
+
+namespace datmo_fusion {
+
+/// Where a beam ends, as a sample of the surface that it hit.
+struct EndPoint {
+  Point2 position = Point2::Zero();                    ///< m, base frame
+  Eigen::Matrix2d sampling = Eigen::Matrix2d::Zero();  ///< m^2, base frame
+};
+
+/// The ends of a scan's beams that hit something, by rising beam index.
+///
+/// Beams hit a surface at arbitrary places: the same surface, seen from a little further on, is
+/// sampled anywhere between two of them. `sampling` is this uncertainty: a uniform distribution
+/// over the step to the neighbouring end points, or, where none is nearer than `longest_step` (m),
+/// over the spacing of the beams across the line of sight.
+std::vector<EndPoint> endPoints(const Scan& scan, double longest_step);
+
+}  // namespace datmo_fusion

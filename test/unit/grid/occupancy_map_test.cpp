@@ -1,0 +1,221 @@
+#include "datmo_fusion/grid/occupancy_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace datmo_fusion {
+namespace {
+
+OccupancyMapOptions smallMap() {
+  OccupancyMapOptions options;
+  options.length = 20.0;
+  options.width = 20.0;
+  options.cell_size = 1.0;
+  return options;
+}
+
+/// Beams from the origin of the base frame to these ends.
+Scan scanTo(const std::vector<Point2>& ends, double seconds = 0.0, bool hit = true) {
+  Scan scan;
+  scan.stamp = Stamp::fromSeconds(100.0 + seconds);
+  scan.beam_spacing = degrees(2.0);
+  for (const Point2& end : ends) {
+    Ray ray;
+    ray.end = end;
+    ray.range = end.norm();
+    ray.bearing = std::atan2(end.y(), end.x());
+    ray.hit = hit;
+    scan.rays.push_back(ray);
+  }
+  return scan;
+}
+
+void updateWith(OccupancyMap& map, const Scan& scan, PointState state = PointState::kUnknown,
+                const Pose2& pose = {}) {
+  map.update(scan, std::vector<PointState>(scan.rays.size(), state), pose);
+}
+
+TEST(OccupancyMapTest, NothingIsKnownAtFirst) {
+  const OccupancyMap map(smallMap());
+  EXPECT_DOUBLE_EQ(map.occupancy({3, 3}), 0.5);
+  EXPECT_DOUBLE_EQ(map.occupancy({3000, 3}), 0.5);
+  EXPECT_EQ(map.judge({3.5, 3.5}), PointState::kUnknown);
+  EXPECT_FALSE(map.hitsAround({3.5, 3.5}));
+}
+
+TEST(OccupancyMapTest, OneBeamGivesTheInverseSensorModel) {
+  OccupancyMap map(smallMap());
+  updateWith(map, scanTo({{4.5, 0.5}}), PointState::kUnknown, Pose2(0.5, 0.0, 0.0));
+  EXPECT_NEAR(map.occupancy({5, 0}), 0.8, 1e-6);
+  for (int column = 0; column < 5; ++column) {
+    EXPECT_NEAR(map.occupancy({column, 0}), 0.4, 1e-6) << column;
+  }
+  EXPECT_DOUBLE_EQ(map.occupancy({6, 0}), 0.5);
+}
+
+TEST(OccupancyMapTest, LogOddsOfIndependentScansAdd) {
+  OccupancyMap map(smallMap());
+  updateWith(map, scanTo({{4.5, 0.5}}, 0.0));
+  updateWith(map, scanTo({{4.5, 0.5}}, 0.1));
+  // Odds of 4 squared (eq. 3.1.11 with a prior of 1/2).
+  EXPECT_NEAR(map.occupancy({4, 0}), 16.0 / 17.0, 1e-6);
+}
+
+TEST(OccupancyMapTest, OccupancyIsClampedOnBothSidesAlike) {
+  OccupancyMap map(smallMap());
+  for (int i = 0; i < 200; ++i) {
+    updateWith(map, scanTo({{4.5, 0.5}}, 0.1 * i));
+  }
+  EXPECT_NEAR(map.occupancy({4, 0}), 0.98, 1e-5);
+  EXPECT_NEAR(map.occupancy({2, 0}), 0.02, 1e-5);
+}
+
+TEST(OccupancyMapTest, AHitWinsOverABeamThatPassesInTheSameScan) {
+  for (const bool hit_first : {true, false}) {
+    OccupancyMap map(smallMap());
+    const Point2 near(4.5, 0.5);
+    const Point2 far(8.5, 0.5);
+    updateWith(map, hit_first ? scanTo({near, far}) : scanTo({far, near}));
+    EXPECT_NEAR(map.occupancy({4, 0}), 0.8, 1e-6);
+  }
+}
+
+TEST(OccupancyMapTest, ACellCountsOnceInAScan) {
+  OccupancyMap map(smallMap());
+  updateWith(map, scanTo({{4.5, 0.5}, {4.6, 0.55}, {4.4, 0.45}}));
+  EXPECT_NEAR(map.occupancy({4, 0}), 0.8, 1e-6);
+  EXPECT_NEAR(map.occupancy({1, 0}), 0.4, 1e-6);
+}
+
+TEST(OccupancyMapTest, AMovingEndIsNotMapped) {
+  OccupancyMap map(smallMap());
+  updateWith(map, scanTo({{4.5, 0.5}}), PointState::kMoving);
+  EXPECT_DOUBLE_EQ(map.occupancy({4, 0}), 0.5);
+  EXPECT_NEAR(map.occupancy({2, 0}), 0.4, 1e-6);
+}
+
+TEST(OccupancyMapTest, ABeamWithoutReturnIsFreeToItsEnd) {
+  OccupancyMap map(smallMap());
+  updateWith(map, scanTo({{4.5, 0.5}}, 0.0, false));
+  EXPECT_NEAR(map.occupancy({4, 0}), 0.4, 1e-6);
+  EXPECT_DOUBLE_EQ(map.occupancy({5, 0}), 0.5);
+}
+
+TEST(OccupancyMapTest, AWideBeamFreesItsWholeSector) {
+  OccupancyMapOptions options = smallMap();
+  options.beam_width = 0.2;
+  options.cell_size = 0.1;
+  OccupancyMap map(options);
+  updateWith(map, scanTo({{5.0, 0.05}}));
+  for (double bearing = -0.09; bearing < 0.1; bearing += 0.01) {
+    const Point2 point = 4.0 * Point2(std::cos(bearing), std::sin(bearing));
+    EXPECT_LT(map.occupancy(map.window().cellAt(point)), 0.45) << bearing;
+  }
+  EXPECT_DOUBLE_EQ(map.occupancy(map.window().cellAt(4.0 * Point2(std::cos(0.2), std::sin(0.2)))),
+                   0.5);
+}
+
+TEST(OccupancyMapTest, JudgesFreeStaticAndUnknown) {
+  OccupancyMap map(smallMap());
+  for (int i = 0; i <= 10; ++i) {
+    updateWith(map, scanTo({{7.5, 0.5}}, 0.1 * i));
+  }
+  EXPECT_EQ(map.judge({7.5, 0.5}), PointState::kStatic);
+  EXPECT_EQ(map.judge({3.5, 0.2}), PointState::kMoving);
+  EXPECT_EQ(map.judge({3.5, 5.5}), PointState::kUnknown);
+}
+
+TEST(OccupancyMapTest, AStaticCellVouchesForItsNeighbours) {
+  OccupancyMapOptions options = smallMap();
+  for (const int reach : {0, 1}) {
+    options.static_neighbourhood = reach;
+    OccupancyMap map(options);
+    for (int i = 0; i <= 10; ++i) {
+      updateWith(map, scanTo({{7.5, 0.5}}, 0.1 * i));
+    }
+    EXPECT_EQ(map.judge({6.5, 0.5}), reach == 1 ? PointState::kStatic : PointState::kMoving);
+  }
+}
+
+TEST(OccupancyMapTest, WhatWasHitForAShortTimeIsNotStatic) {
+  OccupancyMap map(smallMap());
+  for (int i = 0; i <= 7; ++i) {
+    updateWith(map, scanTo({{7.5, 0.5}}, 0.1 * i));
+  }
+  EXPECT_EQ(map.judge({7.5, 0.5}), PointState::kUnknown);  // 0.7 s; static after 0.8 s
+  updateWith(map, scanTo({{7.5, 0.5}}, 0.9));
+  EXPECT_EQ(map.judge({7.5, 0.5}), PointState::kStatic);
+}
+
+TEST(OccupancyMapTest, ANewOccupantOfAFreedCellIsYoungAgain) {
+  OccupancyMap map(smallMap());
+  for (int i = 0; i <= 10; ++i) {
+    updateWith(map, scanTo({{7.5, 0.5}}, 0.1 * i));
+  }
+  for (int i = 11; i <= 40; ++i) {
+    updateWith(map, scanTo({{9.5, 0.5}}, 0.1 * i));
+  }
+  EXPECT_EQ(map.judge({7.5, 0.5}), PointState::kMoving);
+  for (int i = 41; i <= 44; ++i) {
+    updateWith(map, scanTo({{7.5, 0.5}}, 0.1 * i));
+  }
+  EXPECT_NE(map.judge({7.5, 0.5}), PointState::kStatic);
+}
+
+TEST(OccupancyMapTest, HitsKeepTheirPlaceBelowACell) {
+  OccupancyMap map(smallMap());
+  updateWith(map, scanTo({{4.9, 0.2}, {5.1, 0.2}, {4.9, 0.4}, {5.1, 0.4}}));
+  const auto hits = map.hitsAround({4.5, 0.5});
+  ASSERT_TRUE(hits);
+  EXPECT_DOUBLE_EQ(hits->hits, 4.0);
+  EXPECT_TRUE(hits->mean.isApprox(Point2(5.0, 0.3), 1e-6));
+  EXPECT_NEAR(hits->covariance(0, 0), 0.01, 1e-6);
+  EXPECT_NEAR(hits->covariance(1, 1), 0.01, 1e-6);
+  EXPECT_NEAR(hits->covariance(0, 1), 0.0, 1e-6);
+}
+
+TEST(OccupancyMapTest, TheImageOfAMovedWindowShowsTheSamePlaces) {
+  OccupancyMap map(smallMap());
+  updateWith(map, scanTo({{4.5, 0.5}}));
+  map.centreOn({3.0, -2.0});
+  const GridWindow window = map.window();
+  const std::vector<std::int8_t> image = map.occupancyImage();
+  ASSERT_EQ(image.size(), static_cast<std::size_t>(window.columns * window.rows));
+  const auto pixel = [&](int column, int row) {
+    return image[static_cast<std::size_t>((row - window.corner.row) * window.columns + column -
+                                          window.corner.column)];
+  };
+  EXPECT_EQ(pixel(4, 0), 80);
+  EXPECT_EQ(pixel(2, 0), 40);
+  EXPECT_EQ(pixel(4, 1), -1);
+  EXPECT_EQ(std::count(image.begin(), image.end(), 80), 1);
+}
+
+TEST(OccupancyMapTest, BeamsThatLeaveTheWindowAreCut) {
+  OccupancyMap map(smallMap());
+  updateWith(map, scanTo({{400.0, 0.5}, {-400.0, 300.0}}));
+  EXPECT_NEAR(map.occupancy({9, 0}), 0.4, 0.15);
+}
+
+TEST(OccupancyMapTest, ClearForgets) {
+  OccupancyMap map(smallMap());
+  updateWith(map, scanTo({{4.5, 0.5}}));
+  map.clear();
+  EXPECT_DOUBLE_EQ(map.occupancy({4, 0}), 0.5);
+  updateWith(map, scanTo({{4.5, 0.5}}, -50.0));
+  EXPECT_NEAR(map.occupancy({4, 0}), 0.8, 1e-6);
+}
+
+TEST(OccupancyMapTest, RefusesBadOptions) {
+  OccupancyMapOptions options = smallMap();
+  options.cell_size = 0.0;
+  EXPECT_THROW(OccupancyMap{options}, OptionError);
+  options = smallMap();
+  options.free_probability = 0.6;
+  EXPECT_THROW(OccupancyMap{options}, OptionError);
+}
+
+}  // namespace
+}  // namespace datmo_fusion

@@ -1,0 +1,84 @@
+#include "datmo_fusion/grid/rolling_grid.h"
+
+#include <gtest/gtest.h>
+
+namespace datmo_fusion {
+namespace {
+
+/// Every cell of the window holds its own index, so that a cell can be told from any other.
+int tag(CellIndex cell) { return 1000 * cell.column + cell.row; }
+
+constexpr int kEmpty = -999999;
+
+class RollingGridTest : public ::testing::Test {
+ protected:
+  RollingGrid<int> grid_{7, 5, 0.5, kEmpty};
+
+  template <typename Visit>
+  void forEachCell(Visit&& visit) {
+    const GridWindow window = grid_.window();
+    for (int column = 0; column < window.columns; ++column) {
+      for (int row = 0; row < window.rows; ++row) {
+        visit(CellIndex{window.corner.column + column, window.corner.row + row});
+      }
+    }
+  }
+
+  void fill() {
+    forEachCell([this](CellIndex cell) { grid_.at(cell) = tag(cell); });
+  }
+
+  /// After a move: cells that stayed keep their content, the others are empty.
+  void expectMoved(const Point2& centre) {
+    fill();
+    const GridWindow before = grid_.window();
+    grid_.centreOn(centre);
+    forEachCell([&](CellIndex cell) {
+      EXPECT_EQ(grid_.at(cell), before.contains(cell) ? tag(cell) : kEmpty)
+          << "cell " << cell.column << ", " << cell.row;
+    });
+  }
+};
+
+TEST_F(RollingGridTest, StartsEmptyRoundTheOrigin) {
+  forEachCell([this](CellIndex cell) { EXPECT_EQ(grid_.at(cell), kEmpty); });
+  EXPECT_TRUE(grid_.window().contains(grid_.window().cellAt({0.0, 0.0})));
+}
+
+TEST_F(RollingGridTest, ACellHoldsItsLowerLeftBorder) {
+  const GridWindow& window = grid_.window();
+  EXPECT_EQ(window.cellAt({0.0, 0.0}), (CellIndex{0, 0}));
+  EXPECT_EQ(window.cellAt({0.4999, 0.5}), (CellIndex{0, 1}));
+  EXPECT_EQ(window.cellAt({-0.0001, -0.5}), (CellIndex{-1, -1}));
+  EXPECT_TRUE(window.centreOf({-1, 2}).isApprox(Point2(-0.25, 1.25)));
+}
+
+TEST_F(RollingGridTest, MovesInEveryDirectionKeepWhatStaysInside) {
+  for (int x = -9; x <= 9; ++x) {
+    for (int y = -7; y <= 7; ++y) {
+      expectMoved(Point2(0.5 * x, 0.5 * y));
+    }
+  }
+}
+
+TEST_F(RollingGridTest, AMoveByLessThanACellKeepsAll) {
+  grid_.centreOn({0.25, 0.25});
+  fill();
+  grid_.centreOn({0.49, 0.01});
+  forEachCell([this](CellIndex cell) { EXPECT_EQ(grid_.at(cell), tag(cell)); });
+}
+
+TEST_F(RollingGridTest, AFarMoveEmptiesAll) {
+  fill();
+  grid_.centreOn({1.0e6, -1.0e6});
+  forEachCell([this](CellIndex cell) { EXPECT_EQ(grid_.at(cell), kEmpty); });
+}
+
+TEST_F(RollingGridTest, OutsideReadsAsEmpty) {
+  fill();
+  EXPECT_EQ(grid_.atOrEmpty({1000, 0}), kEmpty);
+  EXPECT_EQ(grid_.atOrEmpty({1, 1}), tag({1, 1}));
+}
+
+}  // namespace
+}  // namespace datmo_fusion

@@ -1,0 +1,46 @@
+#include "datmo_fusion/slam/end_points.h"
+
+#include <gtest/gtest.h>
+
+namespace datmo_fusion {
+namespace {
+
+Scan scanOf(const std::vector<Point2>& ends) {
+  Scan scan;
+  scan.beam_spacing = 0.1;
+  for (const Point2& end : ends) {
+    Ray ray;
+    ray.end = end;
+    ray.hit = true;
+    scan.rays.push_back(ray);
+  }
+  return scan;
+}
+
+TEST(EndPointsTest, LeavesOutBeamsWithoutAHit) {
+  Scan scan = scanOf({{5.0, 0.0}, {6.0, 1.0}});
+  scan.rays[0].hit = false;
+  const auto points = endPoints(scan, 3.0);
+  ASSERT_EQ(points.size(), 1U);
+  EXPECT_EQ(points[0].position, Point2(6.0, 1.0));
+}
+
+TEST(EndPointsTest, ASurfaceIsSampledBetweenItsPoints) {
+  // A wall along y, hit every 0.6 m.
+  const auto points = endPoints(scanOf({{5.0, -0.6}, {5.0, 0.0}, {5.0, 0.6}}), 3.0);
+  for (const EndPoint& point : points) {
+    EXPECT_NEAR(point.sampling(1, 1), 0.6 * 0.6 / 12.0, 1e-12);
+    EXPECT_NEAR(point.sampling(0, 0), 0.0, 1e-12);
+  }
+}
+
+TEST(EndPointsTest, APointAloneIsSampledByTheBeamsSpacing) {
+  const auto points = endPoints(scanOf({{10.0, 0.0}, {30.0, 3.0}}), 3.0);
+  EXPECT_NEAR(points[0].sampling(1, 1), 1.0 / 12.0, 1e-12);
+  EXPECT_NEAR(points[0].sampling(0, 0), 0.0, 1e-12);
+}
+
+TEST(EndPointsTest, NoBeamsNoPoints) { EXPECT_TRUE(endPoints(Scan{}, 3.0).empty()); }
+
+}  // namespace
+}  // namespace datmo_fusion

@@ -1,0 +1,201 @@
+#include "datmo_fusion/slam/grid_slam.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/common/box2.h"
+
+namespace datmo_fusion {
+namespace {
+
+/// A walled yard of 50 m x 30 m with pillars, in which a car drives; rays by hand.
+class Yard {
+ public:
+  /// A scan with 2-degree beams over 160 degrees from this pose, at this time. `box`: something
+  /// that stands in the yard in this scan only.
+  Scan scan(const Pose2& base_in_map, double seconds, const Box2* box = nullptr) const {
+    Scan scan;
+    scan.stamp = Stamp::fromSeconds(1000.0 + seconds);
+    scan.scanner_in_base = Pose2(1.0, 0.0, 0.0);
+    scan.beam_spacing = degrees(2.0);
+    const Pose2 scanner = base_in_map * scan.scanner_in_base;
+    for (std::uint32_t beam = 0; beam < 81; ++beam) {
+      Ray ray;
+      ray.beam = beam;
+      ray.bearing = degrees(-80.0 + 2.0 * beam);
+      const double direction = scanner.heading() + ray.bearing;
+      double range = rangeTo(scanner.position(), direction);
+      if (box != nullptr) {
+        range = std::min(range, rangeToBox(*box, scanner.position(), direction));
+      }
+      ray.range = range;
+      ray.hit = true;
+      ray.origin = scan.scanner_in_base.position();
+      ray.end = scan.scanner_in_base *
+                Point2(range * std::cos(ray.bearing), range * std::sin(ray.bearing));
+      scan.rays.push_back(ray);
+    }
+    return scan;
+  }
+
+ private:
+  static double rangeToSide(const Point2& a, const Point2& b, const Point2& from,
+                            double direction) {
+    const Point2 ray(std::cos(direction), std::sin(direction));
+    const Point2 side = b - a;
+    const double cross = ray.x() * side.y() - ray.y() * side.x();
+    if (std::abs(cross) < 1e-12) {
+      return std::numeric_limits<double>::infinity();
+    }
+    const Point2 to_a = a - from;
+    const double range = (to_a.x() * side.y() - to_a.y() * side.x()) / cross;
+    const double part = (to_a.x() * ray.y() - to_a.y() * ray.x()) / cross;
+    return range > 0.0 && part >= 0.0 && part <= 1.0 ? range
+                                                     : std::numeric_limits<double>::infinity();
+  }
+
+  static double rangeToBox(const Box2& box, const Point2& from, double direction) {
+    const auto corners = box.corners();
+    double range = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      range = std::min(range, rangeToSide(corners[i], corners[(i + 1) % 4], from, direction));
+    }
+    return range;
+  }
+
+  static double rangeTo(const Point2& from, double direction) {
+    double range = rangeToBox({Pose2(15.0, 0.0, 0.0), 50.0, 30.0}, from, direction);
+    for (const double x : {5.0, 14.0, 23.0, 32.0}) {
+      range = std::min(range, rangeToBox({Pose2(x, 7.3, 0.0), 1.5, 1.0}, from, direction));
+      range = std::min(range, rangeToBox({Pose2(x + 4.0, -8.1, 0.3), 2.5, 1.0}, from, direction));
+    }
+    return range;
+  }
+};
+
+/// Drives a gentle curve at 4 m/s, 10 scans a second; returns the last result and the true pose.
+struct Drive {
+  SlamResult result;
+  Pose2 truth;
+};
+
+Drive drive(GridSlam& slam, const Twist2& odometry_error, bool with_odometry, int scans = 60) {
+  const Yard yard;
+  Drive drive;
+  const Twist2 twist{4.0, 0.05};
+  for (int i = 0; i < scans; ++i) {
+    const double seconds = 0.1 * i;
+    if (with_odometry) {
+      slam.addOdometry({Stamp::fromSeconds(1000.0 + seconds),
+                        {twist.forward_speed + odometry_error.forward_speed,
+                         twist.yaw_rate + odometry_error.yaw_rate}});
+    }
+    drive.truth = arc(twist, seconds);
+    drive.result = slam.process(yard.scan(drive.truth, seconds));
+  }
+  return drive;
+}
+
+double positionError(const Drive& drive) {
+  return (drive.result.split.base_in_map.pose.position() - drive.truth.position()).norm();
+}
+
+TEST(GridSlamTest, TheFirstPoseIsTheOrigin) {
+  GridSlam slam{GridSlamOptions{}};
+  const SlamResult result = slam.process(Yard().scan(Pose2(), 0.0));
+  EXPECT_EQ(result.split.base_in_map.pose.position(), Point2::Zero());
+  EXPECT_FALSE(result.match.accepted);
+  EXPECT_EQ(result.split.points.size(), 81U);
+}
+
+TEST(GridSlamTest, CorrectsBiasedOdometry) {
+  GridSlam slam{GridSlamOptions{}};
+  const Drive end = drive(slam, {0.2, degrees(1.0)}, true);
+  EXPECT_LT(positionError(end), 0.15);  // odometry alone: 1.2 m and 6 degrees
+  EXPECT_NEAR(angleBetween(end.truth.heading(), end.result.split.base_in_map.pose.heading()), 0.0,
+              degrees(0.5));
+}
+
+TEST(GridSlamTest, WorksWithoutOdometry) {
+  GridSlam slam{GridSlamOptions{}};
+  const Drive end = drive(slam, {}, false);
+  EXPECT_FALSE(end.result.odometry_used);
+  EXPECT_LT(positionError(end), 0.3);
+}
+
+TEST(GridSlamTest, SomethingThatComesIntoFreeSpaceIsMovingAndNotMapped) {
+  GridSlam slam{GridSlamOptions{}};
+  const Yard yard;
+  for (int i = 0; i < 20; ++i) {
+    slam.process(yard.scan(Pose2(), 0.1 * i));
+  }
+  const Box2 box{Pose2(9.0, 0.0, 0.0), 1.0, 2.0};
+  const SlamResult result = slam.process(yard.scan(Pose2(), 2.0, &box));
+  int on_box = 0;
+  for (const ScanPoint& point : result.split.points) {
+    const bool is_on_box = box.distanceTo(point.position) < 0.01;
+    on_box += is_on_box ? 1 : 0;
+    EXPECT_EQ(point.state, is_on_box ? PointState::kMoving : PointState::kStatic)
+        << "beam " << point.beam << " at " << point.position.transpose();
+  }
+  EXPECT_GE(on_box, 5);
+  EXPECT_LT(slam.map().occupancy(slam.map().window().cellAt({8.5, 0.0})), 0.3);
+}
+
+TEST(GridSlamTest, AScanWithoutRaysMovesByOdometryAlone) {
+  GridSlam slam{GridSlamOptions{}};
+  slam.addOdometry({Stamp::fromSeconds(1000.0), {4.0, 0.0}});
+  slam.process(Yard().scan(Pose2(), 0.0));
+  Scan empty;
+  empty.stamp = Stamp::fromSeconds(1000.1);
+  const SlamResult result = slam.process(empty);
+  EXPECT_FALSE(result.match.accepted);
+  EXPECT_NEAR(result.split.base_in_map.pose.x(), 0.4, 1e-9);
+  EXPECT_TRUE(result.split.points.empty());
+}
+
+TEST(GridSlamTest, TheSameInputGivesTheSameOutput) {
+  GridSlam first{GridSlamOptions{}};
+  GridSlam second{GridSlamOptions{}};
+  const Pose2 a = drive(first, {0.1, 0.01}, true).result.split.base_in_map.pose;
+  const Pose2 b = drive(second, {0.1, 0.01}, true).result.split.base_in_map.pose;
+  EXPECT_EQ(a.position(), b.position());
+  EXPECT_EQ(a.heading(), b.heading());
+  first.reset();
+  const Pose2 again = drive(first, {0.1, 0.01}, true).result.split.base_in_map.pose;
+  EXPECT_EQ(again.position(), b.position()) << "after a reset it runs as if it were new";
+}
+
+TEST(GridSlamTest, AGapOfThreeSecondsIsBridgedByOdometry) {
+  GridSlam slam{GridSlamOptions{}};
+  const Yard yard;
+  const Twist2 twist{2.0, 0.0};
+  Drive end;
+  for (int i = 0; i < 70; ++i) {
+    const double seconds = 0.1 * i;
+    slam.addOdometry({Stamp::fromSeconds(1000.0 + seconds), {2.0, 0.003}});
+    end.truth = arc(twist, seconds);
+    if (i < 20 || i >= 50) {
+      end.result = slam.process(yard.scan(end.truth, seconds));
+    }
+  }
+  EXPECT_TRUE(end.result.odometry_used);
+  EXPECT_LT(positionError(end), 0.15);
+}
+
+TEST(GridSlamTest, RefusesBadOptionsByTheirFullName) {
+  GridSlamOptions options;
+  options.map.cell_size = -1.0;
+  try {
+    GridSlam slam(options);
+    FAIL() << "no exception";
+  } catch (const OptionError& error) {
+    EXPECT_NE(std::string(error.what()).find("cell_size = -1"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace datmo_fusion

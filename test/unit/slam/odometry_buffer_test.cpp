@@ -1,0 +1,71 @@
+#include "datmo_fusion/slam/odometry_buffer.h"
+
+#include <gtest/gtest.h>
+
+namespace datmo_fusion {
+namespace {
+
+Stamp at(double seconds) { return Stamp::fromSeconds(seconds); }
+
+class OdometryBufferTest : public ::testing::Test {
+ protected:
+  OdometryBuffer buffer_{0.5, 10.0};
+};
+
+TEST_F(OdometryBufferTest, IsEmptyAtFirst) { EXPECT_FALSE(buffer_.motion(at(1.0), at(1.1))); }
+
+TEST_F(OdometryBufferTest, EachTwistHoldsUntilTheNext) {
+  buffer_.add({at(1.0), {1.0, 0.0}});
+  buffer_.add({at(1.2), {2.0, 0.0}});
+  buffer_.add({at(1.4), {4.0, 0.0}});
+  const auto motion = buffer_.motion(at(1.1), at(1.5));
+  ASSERT_TRUE(motion);
+  EXPECT_NEAR(motion->x(), 0.1 * 1.0 + 0.2 * 2.0 + 0.1 * 4.0, 1e-9);
+}
+
+TEST_F(OdometryBufferTest, PartsOfAMotionComposeToTheWhole) {
+  for (int i = 0; i < 20; ++i) {
+    buffer_.add({at(0.1 * i), {1.0 + i, 0.3 * i}});
+  }
+  const auto whole = buffer_.motion(at(0.25), at(1.75));
+  const auto first = buffer_.motion(at(0.25), at(0.9));
+  const auto second = buffer_.motion(at(0.9), at(1.75));
+  ASSERT_TRUE(whole && first && second);
+  const Pose2 composed = *first * *second;
+  EXPECT_TRUE(composed.position().isApprox(whole->position(), 1e-9));
+  EXPECT_NEAR(angleBetween(composed.heading(), whole->heading()), 0.0, 1e-9);
+}
+
+TEST_F(OdometryBufferTest, TheFirstSampleServesTheTimeJustBeforeIt) {
+  buffer_.add({at(1.0), {2.0, 0.0}});
+  const auto motion = buffer_.motion(at(0.9), at(1.1));
+  ASSERT_TRUE(motion);
+  EXPECT_NEAR(motion->x(), 0.4, 1e-9);
+}
+
+TEST_F(OdometryBufferTest, SilenceLongerThanTheHoldGivesNothing) {
+  buffer_.add({at(1.0), {1.0, 0.0}});
+  EXPECT_TRUE(buffer_.motion(at(1.0), at(1.5)));
+  EXPECT_FALSE(buffer_.motion(at(1.0), at(1.6)));
+  EXPECT_FALSE(buffer_.motion(at(0.3), at(1.1)));
+  buffer_.add({at(4.0), {1.0, 0.0}});
+  EXPECT_FALSE(buffer_.motion(at(1.2), at(4.1))) << "a gap in the middle";
+}
+
+TEST_F(OdometryBufferTest, LeavesOutWhatIsNotNewer) {
+  buffer_.add({at(1.0), {1.0, 0.0}});
+  buffer_.add({at(1.0), {50.0, 0.0}});
+  buffer_.add({at(0.5), {50.0, 0.0}});
+  EXPECT_NEAR(buffer_.motion(at(1.0), at(1.1))->x(), 0.1, 1e-9);
+}
+
+TEST_F(OdometryBufferTest, KnownErrorsAreTakenOut) {
+  buffer_.add({at(1.0), {1.1, 0.25}});
+  const auto motion = buffer_.motion(at(1.0), at(1.2), {0.1, 0.25});
+  ASSERT_TRUE(motion);
+  EXPECT_NEAR(motion->x(), 0.2, 1e-9);
+  EXPECT_NEAR(motion->heading(), 0.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace datmo_fusion

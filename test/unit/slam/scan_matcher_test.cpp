@@ -1,0 +1,165 @@
+#include "datmo_fusion/slam/scan_matcher.h"
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+namespace datmo_fusion {
+namespace {
+
+/// Points along a wall, every 0.2 m.
+void addWall(std::vector<Point2>& points, const Point2& from, const Point2& to) {
+  const int count = static_cast<int>((to - from).norm() / 0.2);
+  for (int i = 0; i <= count; ++i) {
+    points.push_back(from + (to - from) * (static_cast<double>(i) / count));
+  }
+}
+
+/// Two walls that meet in a corner, ahead of the origin and to the left.
+std::vector<Point2> corner() {
+  std::vector<Point2> points;
+  addWall(points, {8.13, -6.0}, {8.13, 6.07});
+  addWall(points, {-6.0, 6.07}, {8.13, 6.07});
+  return points;
+}
+
+std::vector<Point2> corridor() {
+  std::vector<Point2> points;
+  addWall(points, {-12.0, 3.04}, {12.0, 3.04});
+  addWall(points, {-12.0, -3.11}, {12.0, -3.11});
+  return points;
+}
+
+/// The map after the points were seen from the origin several times.
+OccupancyMap mapOf(const std::vector<Point2>& points) {
+  OccupancyMapOptions options;
+  options.length = 40.0;
+  options.width = 40.0;
+  OccupancyMap map(options);
+  Scan scan;
+  for (const Point2& point : points) {
+    Ray ray;
+    ray.end = point;
+    ray.range = point.norm();
+    ray.hit = true;
+    scan.rays.push_back(ray);
+  }
+  for (int i = 0; i < 5; ++i) {
+    scan.stamp = Stamp::fromSeconds(10.0 + 0.1 * i);
+    map.update(scan, std::vector<PointState>(points.size(), PointState::kUnknown), {});
+  }
+  return map;
+}
+
+std::vector<EndPoint> seenFrom(const std::vector<Point2>& points, const Pose2& pose) {
+  std::vector<EndPoint> seen;
+  for (const Point2& point : points) {
+    seen.push_back({pose.inverse() * point, Eigen::Matrix2d::Zero()});
+  }
+  return seen;
+}
+
+Eigen::Matrix3d priorCovariance() {
+  return Eigen::Vector3d(0.3 * 0.3, 0.3 * 0.3, 0.05 * 0.05).asDiagonal();
+}
+
+TEST(ScanMatcherTest, FindsTheShiftFromAllSidesBelowACell) {
+  const std::vector<Point2> points = corner();
+  const OccupancyMap map = mapOf(points);
+  const ScanMatcher matcher(ScanMatcherOptions{});
+  Random random(1);
+  for (const double x : {-0.4, 0.0, 0.4}) {
+    for (const double y : {-0.4, 0.0, 0.4}) {
+      for (const double heading : {-0.04, 0.0, 0.04}) {
+        const Pose2 truth(x, y, heading);
+        const MatchResult result =
+            matcher.match(map, seenFrom(points, truth), {Pose2(), priorCovariance()}, random);
+        ASSERT_TRUE(result.quality.accepted);
+        EXPECT_NEAR(result.pose.pose.x(), x, 0.05);
+        EXPECT_NEAR(result.pose.pose.y(), y, 0.05);
+        EXPECT_NEAR(result.pose.pose.heading(), heading, 0.01);
+      }
+    }
+  }
+}
+
+TEST(ScanMatcherTest, RefinementIsBetterThanTheBestSample) {
+  const std::vector<Point2> points = corner();
+  const OccupancyMap map = mapOf(points);
+  ScanMatcherOptions plain;
+  plain.refinement_steps = 0;
+  double plain_error = 0.0;
+  double refined_error = 0.0;
+  Random random(1);
+  for (int i = 0; i < 20; ++i) {
+    const Pose2 truth(0.02 * i, -0.015 * i, 0.001 * i);
+    const auto seen = seenFrom(points, truth);
+    const auto error = [&](const ScanMatcherOptions& options) {
+      const MatchResult result =
+          ScanMatcher(options).match(map, seen, {Pose2(), priorCovariance()}, random);
+      return (result.pose.pose.position() - truth.position()).norm();
+    };
+    plain_error += error(plain);
+    refined_error += error(ScanMatcherOptions{});
+  }
+  EXPECT_LT(refined_error, 0.5 * plain_error);
+}
+
+TEST(ScanMatcherTest, AlongACorridorThePredictionStaysAndTheCovarianceSaysSo) {
+  const std::vector<Point2> points = corridor();
+  const OccupancyMap map = mapOf(points);
+  Random random(1);
+  const Pose2 truth(0.0, 0.25, 0.01);
+  const MatchResult result =
+      ScanMatcher(ScanMatcherOptions{})
+          .match(map, seenFrom(points, truth), {Pose2(), priorCovariance()}, random);
+  EXPECT_NEAR(result.pose.pose.y(), 0.25, 0.05);
+  EXPECT_GT(std::sqrt(result.pose.covariance(0, 0)), 2.0 * std::sqrt(result.pose.covariance(1, 1)));
+}
+
+TEST(ScanMatcherTest, MoversInTheScanDoNotPullThePose) {
+  const std::vector<Point2> points = corner();
+  const OccupancyMap map = mapOf(points);
+  std::vector<Point2> seen = points;
+  addWall(seen, {3.0, -1.0}, {3.0, 1.0});
+  addWall(seen, {7.2, -5.0}, {7.2, -3.5});
+  Random random(1);
+  const MatchResult result =
+      ScanMatcher(ScanMatcherOptions{})
+          .match(map, seenFrom(seen, {}), {Pose2(), priorCovariance()}, random);
+  EXPECT_LT(result.pose.pose.position().norm(), 0.05);
+}
+
+TEST(ScanMatcherTest, WithoutAMapThePredictionIsTheAnswer) {
+  const OccupancyMap map{OccupancyMapOptions{}};
+  Random random(1);
+  const PoseWithCovariance prediction{Pose2(1.0, 2.0, 0.3), priorCovariance()};
+  const MatchResult result =
+      ScanMatcher(ScanMatcherOptions{}).match(map, seenFrom(corner(), {}), prediction, random);
+  EXPECT_FALSE(result.quality.accepted);
+  EXPECT_EQ(result.pose.pose.position(), prediction.pose.position());
+  EXPECT_TRUE(result.pose.covariance.isApprox(prediction.covariance));
+}
+
+TEST(ScanMatcherTest, AScanWithoutPointsIsNoMatch) {
+  const OccupancyMap map = mapOf(corner());
+  Random random(1);
+  EXPECT_FALSE(ScanMatcher(ScanMatcherOptions{})
+                   .match(map, {}, {Pose2(), priorCovariance()}, random)
+                   .quality.accepted);
+}
+
+TEST(ScanMatcherTest, TheCovarianceIsPositiveDefiniteAndBelowThePrior) {
+  const std::vector<Point2> points = corner();
+  const OccupancyMap map = mapOf(points);
+  Random random(1);
+  const Eigen::Matrix3d covariance =
+      ScanMatcher(ScanMatcherOptions{})
+          .match(map, seenFrom(points, {}), {Pose2(), priorCovariance()}, random)
+          .pose.covariance;
+  EXPECT_GT(covariance.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0.0);
+  const Eigen::Matrix3d gain = priorCovariance() - covariance;
+  EXPECT_GT(gain.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0.0);
+}
+
+}  // namespace
+}  // namespace datmo_fusion
