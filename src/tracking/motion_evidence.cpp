@@ -25,30 +25,40 @@ double extentAlong(const Box2& box, const Eigen::Vector2d& direction) {
 }  // namespace
 
 void MotionEvidenceOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"detection_probability", "1", "chance that an object is seen in one scan"},
-                 detection_probability, {0.01, 0.999});
+  visitor.number({"detection_probability", "1", "chance that a moving object is seen in one scan"},
+                 detection_probability, {0.01, 0.99});
   visitor.number({"false_density", "1/m^2",
                   "objects in one scan that belong to nothing that moves, where there are many"},
                  false_density, {1e-6, 10.0});
+  visitor.number({"echo_density", "1/m^2", "the same of objects with a single point"}, echo_density,
+                 {1e-6, 10.0});
+  constexpr Bounds kEvidence{0.0, 100.0};
+  visitor.number({"required_against_chance", "1",
+                  "sum of log-likelihood ratios from which the objects of a target belong together "
+                  "(Wald 1947: the logarithm of the inverse rate of false alarms)"},
+                 required_against_chance, kEvidence);
+  visitor.number({"most_against_chance", "1",
+                  "to which this sum is limited, so that a track that lost its object ends"},
+                 most_against_chance, kEvidence);
   visitor.number({"standing_drift", "m^2/s",
                   "random walk of the visible centre of an object that stands: its root is how far "
                   "it slides in one second"},
                  standing_drift, {1e-6, 100.0});
-  visitor.number({"scan_limit", "1",
-                  "most that the place in one scan may add to the log-likelihood ratio of moving "
-                  "against standing, or take from it"},
+  visitor.number({"required_against_standing", "1",
+                  "sum of log-likelihood ratios from which a target does not stand"},
+                 required_against_standing, kEvidence);
+  visitor.number({"scan_limit", "1", "most that one scan may add to a sum, or take from it"},
                  scan_limit, {0.1, 100.0});
   visitor.number({"free_space_evidence", "1",
                   "log-likelihood ratio that a scan adds when all points of the object lie where "
                   "the map is free (thesis 3.3.1)"},
-                 free_space_evidence, {0.0, 100.0});
-  visitor.number({"required_evidence", "1",
-                  "sum of log-likelihood ratios from which an object counts as moving (Wald 1947: "
-                  "about the logarithm of the inverse rate of false alarms)"},
-                 required_evidence, {0.0, 100.0});
+                 free_space_evidence, kEvidence);
   visitor.number({"least_overrun", "m",
                   "how much farther than its own length an object reaches from where it stood"},
                  least_overrun, {0.0, 100.0});
+  visitor.number({"unseen_share", "1",
+                  "an object that stands may be longer than it was ever seen by this share"},
+                 unseen_share, {0.0, 10.0});
   visitor.number({"overrun_significance", "1", "the same in standard deviations"},
                  overrun_significance, {0.0, 100.0});
   visitor.number({"least_speed", "m/s", "slower than this nothing counts as moving"}, least_speed,
@@ -83,9 +93,11 @@ void MotionEvidence::update(const Object& object, const PositionMeasurement& mea
   const double ratio = moving_log_likelihood - innovation.logLikelihood();
   const double map = mapEvidence(object, options.free_space_evidence);
   against_standing_ = std::max(0.0, against_standing_ + clamp(ratio, options.scan_limit) + map);
+  const double false_density =
+      object.points.size() == 1 ? options.echo_density : options.false_density;
   const double chance =
-      moving_log_likelihood + std::log(options.detection_probability / options.false_density);
-  against_chance_ = std::max(0.0, against_chance_ + clamp(chance, options.scan_limit) + map);
+      moving_log_likelihood + std::log(options.detection_probability / false_density);
+  addAgainstChance(clamp(chance, options.scan_limit) + map, options);
 
   const Eigen::Matrix2d gain = standing_.covariance * innovation.covariance.inverse();
   standing_.position += gain * innovation.residual;
@@ -101,12 +113,17 @@ void MotionEvidence::update(const Object& object, const PositionMeasurement& mea
 }
 
 void MotionEvidence::miss(const MotionEvidenceOptions& options) {
-  against_chance_ = std::max(0.0, against_chance_ + std::log(1.0 - options.detection_probability));
+  addAgainstChance(std::log(1.0 - options.detection_probability), options);
+}
+
+void MotionEvidence::addAgainstChance(double ratio, const MotionEvidenceOptions& options) {
+  against_chance_ = std::min(options.most_against_chance, std::max(0.0, against_chance_ + ratio));
 }
 
 bool MotionEvidence::suffices(const StateEstimate& estimate,
                               const MotionEvidenceOptions& options) const {
-  return sum() >= options.required_evidence && leftItsPlace(options) &&
+  return against_chance_ >= options.required_against_chance &&
+         against_standing_ >= options.required_against_standing && leftItsPlace(options) &&
          velocityIsSignificant(estimate, options.speed_significance, options.least_speed);
 }
 
@@ -119,7 +136,7 @@ bool MotionEvidence::leftItsPlace(const MotionEvidenceOptions& options) const {
   const Eigen::Vector2d direction = way / distance;
   const double swept =
       distance + 0.5 * (extentAlong(present_.box, direction) + extentAlong(anchor_.box, direction));
-  const double overrun = swept - extentAlong(longest_, direction);
+  const double overrun = swept - (1.0 + options.unseen_share) * extentAlong(longest_, direction);
   const double deviation =
       std::sqrt(direction.dot((present_.covariance + anchor_.covariance) * direction));
   return overrun >= options.least_overrun && overrun >= options.overrun_significance * deviation;

@@ -136,7 +136,8 @@ class Tracker::State {
                                ? std::min(options_.confirmed_silence,
                                           std::max(options_.tentative_silence, target.followed()))
                                : options_.tentative_silence;
-    return target.sinceUpdate() > allowed || positionStd(target) > options_.most_position_std;
+    return (target.confirmed() && target.isSpent()) || target.sinceUpdate() > allowed ||
+           positionStd(target) > options_.most_position_std;
   }
 
   void confirm() {

@@ -9,16 +9,20 @@
 namespace datmo_fusion {
 
 struct MotionEvidenceOptions {
-  double detection_probability = 0.8;  ///< 1
-  double false_density = 0.02;         ///< 1/m^2
-  double standing_drift = 0.5;         ///< m^2/s
-  double scan_limit = 2.0;             ///< 1
-  double free_space_evidence = 1.0;    ///< 1
-  double required_evidence = 3.0;      ///< 1
-  double least_overrun = 1.0;          ///< m
-  double overrun_significance = 3.0;   ///< 1
-  double least_speed = 0.8;            ///< m/s
-  double speed_significance = 5.99;    ///< 1
+  double detection_probability = 0.5;      ///< 1
+  double false_density = 0.02;             ///< 1/m^2
+  double echo_density = 0.2;               ///< 1/m^2
+  double required_against_chance = 7.0;    ///< 1
+  double most_against_chance = 15.0;       ///< 1
+  double standing_drift = 1.0;             ///< m^2/s
+  double required_against_standing = 3.0;  ///< 1
+  double scan_limit = 2.0;                 ///< 1
+  double free_space_evidence = 1.0;        ///< 1
+  double least_overrun = 1.0;              ///< m
+  double unseen_share = 0.5;               ///< 1
+  double overrun_significance = 3.0;       ///< 1
+  double least_speed = 0.8;                ///< m/s
+  double speed_significance = 5.99;        ///< 1
 
   void visit(OptionVisitor& visitor);
 };
@@ -59,8 +63,8 @@ class MotionEvidence {
   /// All three witnesses agree; `estimate` is that of the motion filter.
   bool suffices(const StateEstimate& estimate, const MotionEvidenceOptions& options) const;
 
-  /// The summed log-likelihood ratio of moving against standing, at least 0.
-  double sum() const { return std::min(against_standing_, against_chance_); }
+  /// It is no likelier than chance that its objects belong together.
+  bool isSpent() const { return against_chance_ == 0.0; }
 
  private:
   /// Where the object was seen at one time.
@@ -69,6 +73,7 @@ class MotionEvidence {
     Eigen::Matrix2d covariance;
   };
 
+  void addAgainstChance(double ratio, const MotionEvidenceOptions& options);
   bool leftItsPlace(const MotionEvidenceOptions& options) const;
 
   double against_standing_ = 0.0;

@@ -52,6 +52,9 @@ class Target {
     return evidence_.suffices(filter_.estimate(), options.evidence);
   }
 
+  /// Nothing speaks for it any more.
+  bool isSpent() const { return evidence_.isSpent(); }
+
   void confirm(std::uint32_t id);
   bool confirmed() const { return id_ != 0; }
   std::uint32_t id() const { return id_; }
