@@ -1,0 +1,72 @@
+#include <string>
+
+#include <nodelet/nodelet.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "datmo_fusion/ros/input_error.h"
+#include "datmo_fusion/ros/markers.h"
+#include "datmo_fusion/ros/parameters.h"
+
+namespace datmo_fusion {
+
+/// Draws for rviz. In: split_scan, objects, tracks, ground_truth/objects. Out: markers.
+class MarkersNodelet : public nodelet::Nodelet {
+ private:
+  void onInit() override {
+    options_ = loadOptions<MarkersOptions>(getPrivateNodeHandle());
+    ros::NodeHandle& node = getNodeHandle();
+    markers_ = node.advertise<visualization_msgs::MarkerArray>("markers", kQueue);
+    split_scan_ = node.subscribe("split_scan", kQueue, &MarkersNodelet::takeSplitScan, this);
+    objects_ = node.subscribe("objects", kQueue, &MarkersNodelet::takeObjects, this);
+    tracks_ = node.subscribe("tracks", kQueue, &MarkersNodelet::takeTracks, this);
+    truth_ = node.subscribe("ground_truth/objects", kQueue, &MarkersNodelet::takeTruth, this);
+  }
+
+  void takeSplitScan(const SplitScanConstPtr& message) {
+    last_scan_ = message;
+    publish("split_scan", markersOf(*message, options_));
+  }
+
+  /// Objects of the last scan go where the scan was seen from: tf may not know yet.
+  void takeObjects(const ObjectArrayConstPtr& message) {
+    visualization_msgs::MarkerArray markers = markersOf(*message, options_);
+    if (last_scan_ && last_scan_->header.stamp == message->header.stamp) {
+      try {
+        placeInMap(*last_scan_, markers);
+      } catch (const InputError& error) {
+        NODELET_WARN_THROTTLE(1.0, "objects are not drawn: %s", error.what());
+        return;
+      }
+    }
+    publish("objects", markers);
+  }
+
+  void takeTracks(const TrackArrayConstPtr& message) {
+    publish("tracks", markersOf(*message, options_));
+  }
+
+  void takeTruth(const TrueObjectArrayConstPtr& message) {
+    publish("truth", markersOf(*message, options_));
+  }
+
+  void publish(const std::string& source, visualization_msgs::MarkerArray markers) {
+    stale_.replace(source, markers);
+    markers_.publish(markers);
+  }
+
+  /// A second of messages: enough for a hiccup, and bounded.
+  static constexpr std::uint32_t kQueue = 20;
+
+  MarkersOptions options_;
+  StaleMarkers stale_;
+  SplitScanConstPtr last_scan_;
+  ros::Publisher markers_;
+  ros::Subscriber split_scan_;
+  ros::Subscriber objects_;
+  ros::Subscriber tracks_;
+  ros::Subscriber truth_;
+};
+
+}  // namespace datmo_fusion
+
+PLUGINLIB_EXPORT_CLASS(datmo_fusion::MarkersNodelet, nodelet::Nodelet)
