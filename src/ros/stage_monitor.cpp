@@ -34,6 +34,9 @@ std::uint64_t total(const std::map<std::string, std::uint64_t>& counts) {
 
 }  // namespace
 
+StageMonitor::StageMonitor(const std::string& stage)
+    : stage_(stage.substr(stage.find_first_not_of('/'))) {}
+
 void StageMonitor::received(const std::string& input, Stamp now) {
   Input& entry = inputs_[input];
   ++entry.count;

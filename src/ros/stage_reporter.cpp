@@ -28,7 +28,7 @@ StageReporter::StageReporter(ros::NodeHandle node, ros::NodeHandle private_node,
       inputs_(std::move(inputs)),
       silence_after_(silence_after),
       timing_(node.advertise<StageTiming>("timing", kTimingQueue)),
-      updater_(node, private_node, monitor.stage()) {
+      updater_(node, private_node, private_node.getNamespace()) {
   updater_.setHardwareID("none");
   updater_.add("stage", [this](DiagnosticStatusWrapper& status) { diagnose(status); });
   timer_ =

@@ -37,7 +37,8 @@ struct TimingStatus {
 /// wrong, once a second at most. Not thread safe.
 class StageMonitor {
  public:
-  explicit StageMonitor(std::string stage) : stage_(std::move(stage)) {}
+  /// `stage`: the nodelet's name; a slash at its front is left out.
+  explicit StageMonitor(const std::string& stage);
 
   const std::string& stage() const { return stage_; }
 

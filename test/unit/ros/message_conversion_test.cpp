@@ -1,0 +1,214 @@
+#include "datmo_fusion/ros/message_conversion.h"
+
+#include <limits>
+
+#include "message_samples.h"
+#include <gtest/gtest.h>
+
+namespace datmo_fusion {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+const Stamp kStamp = Stamp::fromSeconds(samples::kStart);
+
+TEST(PoseConversion, ThereAndBack) {
+  for (const double heading : {0.0, 1.0, -2.5, kPi}) {
+    const Pose2 back = fromMessage(toMessage(Pose2(3.0, -4.0, heading)));
+    EXPECT_EQ(back.position(), Point2(3.0, -4.0));
+    EXPECT_NEAR(angleBetween(back.heading(), heading), 0.0, 1e-12);
+  }
+}
+
+TEST(PoseConversion, WhatIsNoPoseIsRefused) {
+  geometry_msgs::Pose pose = toMessage(Pose2());
+  pose.orientation.w = 0.0;
+  EXPECT_EQ(samples::reasonOf([&] { fromMessage(pose); }), "bad_pose") << "quaternion of zeros";
+  pose = toMessage(Pose2());
+  pose.position.x = kNan;
+  EXPECT_EQ(samples::reasonOf([&] { fromMessage(pose); }), "bad_pose");
+  pose = toMessage(Pose2());
+  pose.orientation.z = kNan;
+  EXPECT_EQ(samples::reasonOf([&] { fromMessage(pose); }), "bad_pose");
+}
+
+TEST(PoseConversion, CovarianceStandsAtXYAndYaw) {
+  PoseWithCovariance pose;
+  pose.covariance << 1, 2, 3, 2, 4, 5, 3, 5, 6;
+  const auto message = toMessage(pose);
+  EXPECT_EQ(message.covariance[0], 1.0);
+  EXPECT_EQ(message.covariance[1], 2.0);
+  EXPECT_EQ(message.covariance[5], 3.0);
+  EXPECT_EQ(message.covariance[7], 4.0);
+  EXPECT_EQ(message.covariance[11], 5.0);
+  EXPECT_EQ(message.covariance[35], 6.0);
+  EXPECT_EQ(message.covariance[14], 0.0) << "z";
+}
+
+TEST(OdometryConversion, TakesSpeedAndYawRateAndRefusesNan) {
+  nav_msgs::Odometry message;
+  message.header.stamp = ros::Time(samples::kStart);
+  message.twist.twist.linear.x = 8.0;
+  message.twist.twist.angular.z = 0.1;
+  const OdometrySample sample = toSample(message);
+  EXPECT_EQ(sample.stamp, kStamp);
+  EXPECT_EQ(sample.twist.forward_speed, 8.0);
+  EXPECT_EQ(sample.twist.yaw_rate, 0.1);
+  message.twist.twist.angular.z = kNan;
+  EXPECT_EQ(samples::reasonOf([&] { toSample(message); }), "bad_odometry");
+}
+
+SplitScan splitScan() {
+  SplitScan scan;
+  scan.stamp = kStamp;
+  scan.base_in_map.pose = Pose2(10.0, 20.0, 0.5);
+  scan.base_in_map.covariance.diagonal() << 0.1, 0.2, 0.3;
+  scan.scanner_in_base = Pose2(3.5, 0.0, 0.25);
+  scan.points.push_back({Point2(5.0, 1.0), 1.5, 0.75, 7, PointState::kMoving});
+  return scan;
+}
+
+TEST(SplitScanConversion, ThereAndBack) {
+  const SplitScanMessage message = toMessage(splitScan(), "base_link", "map");
+  EXPECT_EQ(message.header.frame_id, "base_link");
+  EXPECT_EQ(message.map_frame, "map");
+  const SplitScan back = fromMessage(message);
+  EXPECT_EQ(back.stamp, kStamp);
+  EXPECT_NEAR(back.base_in_map.pose.heading(), 0.5, 1e-12);
+  EXPECT_EQ(back.base_in_map.covariance, splitScan().base_in_map.covariance);
+  EXPECT_NEAR(back.scanner_in_base.heading(), 0.25, 1e-12);
+  ASSERT_EQ(back.points.size(), 1U);
+  EXPECT_EQ(back.points[0].position, Point2(5.0, 1.0));
+  EXPECT_EQ(back.points[0].range, 1.5);
+  EXPECT_EQ(back.points[0].bearing, 0.75);
+  EXPECT_EQ(back.points[0].beam, 7U);
+  EXPECT_EQ(back.points[0].state, PointState::kMoving);
+}
+
+TEST(SplitScanConversion, BadPointsAreRefused) {
+  SplitScanMessage message = toMessage(splitScan(), "base_link", "map");
+  message.points[0].state = 3;
+  EXPECT_EQ(samples::reasonOf([&] { fromMessage(message); }), "bad_point");
+  message.points[0].state = 0;
+  message.points[0].y = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(samples::reasonOf([&] { fromMessage(message); }), "bad_point");
+}
+
+TEST(ObjectConversion, ThereAndBack) {
+  Object object;
+  object.box = {{5.0, 6.0, 0.5}, 4.0, 2.0};
+  object.position_covariance << 0.5, 0.1, 0.1, 0.25;
+  object.heading_variance = 0.04;
+  object.height = 1.5;
+  object.object_class = ObjectClass::kVehicle;
+  object.class_probability = 0.75;
+  object.dynamic_state = DynamicState::kMoving;
+  object.moving_fraction = 0.5;
+  object.sensors = {"lidar"};
+  object.points = {Point2(4.0, 5.0)};
+  const ObjectList back = fromMessage(toMessage(ObjectList{kStamp, {object}}, "base_link"));
+  EXPECT_EQ(back.stamp, kStamp);
+  ASSERT_EQ(back.objects.size(), 1U);
+  const Object& got = back.objects[0];
+  EXPECT_NEAR(got.box.centre.heading(), 0.5, 1e-12);
+  EXPECT_EQ(got.box.length, 4.0);
+  EXPECT_EQ(got.box.width, 2.0);
+  EXPECT_EQ(got.position_covariance, object.position_covariance);
+  EXPECT_EQ(got.heading_variance, 0.04);
+  EXPECT_EQ(got.height, 1.5);
+  EXPECT_EQ(got.object_class, ObjectClass::kVehicle);
+  EXPECT_EQ(got.class_probability, 0.75);
+  EXPECT_EQ(got.dynamic_state, DynamicState::kMoving);
+  EXPECT_EQ(got.moving_fraction, 0.5);
+  EXPECT_EQ(got.sensors, object.sensors);
+  EXPECT_EQ(got.points.at(0), Point2(4.0, 5.0));
+}
+
+TEST(ObjectConversion, AnUnknownClassBecomesUnknown) {
+  ObjectArray message;
+  message.objects.resize(1);
+  message.objects[0].classification = 200;
+  message.objects[0].dynamic_state = 200;
+  const ObjectList list = fromMessage(message);
+  EXPECT_EQ(list.objects[0].object_class, ObjectClass::kUnknown);
+  EXPECT_EQ(list.objects[0].dynamic_state, DynamicState::kUnknown);
+}
+
+TEST(TrackConversion, FillsEveryField) {
+  Track track;
+  track.id = 5;
+  track.state << 1, 2, 3, 4, 5, 6;
+  track.covariance(0, 1) = 0.5;
+  track.mode_probabilities = {0.5, 0.25, 0.125, 0.125};
+  track.box = {{1.0, 2.0, 0.5}, 4.0, 2.0};
+  track.yaw_rate = 0.25;
+  track.moving = true;
+  track.age = 2.5;
+  track.since_update = 0.5;
+  track.hits = 9;
+  const TrackArray message = toMessage(TrackList{kStamp, {track}}, "map");
+  EXPECT_EQ(message.header.frame_id, "map");
+  const TrackMessage& got = message.tracks.at(0);
+  EXPECT_EQ(got.id, 5U);
+  EXPECT_EQ(got.pose.position.x, 1.0);
+  EXPECT_EQ(got.velocity.x, 3.0);
+  EXPECT_EQ(got.velocity.y, 4.0);
+  EXPECT_EQ(got.acceleration.x, 5.0);
+  EXPECT_EQ(got.acceleration.y, 6.0);
+  EXPECT_EQ(got.covariance[1], 0.5) << "row 0, column 1";
+  EXPECT_EQ(got.covariance[6], 0.0) << "row 1, column 0";
+  EXPECT_EQ(got.mode_probabilities, (std::vector<float>{0.5F, 0.25F, 0.125F, 0.125F}));
+  EXPECT_EQ(got.size.x, 4.0);
+  EXPECT_EQ(got.size.y, 2.0);
+  EXPECT_EQ(got.yaw_rate, 0.25);
+  EXPECT_TRUE(got.moving);
+  EXPECT_EQ(got.age, ros::Duration(2.5));
+  EXPECT_EQ(got.since_update, ros::Duration(0.5));
+  EXPECT_EQ(got.hits, 9U);
+}
+
+/// A beam from the vehicle's origin, `length` ahead.
+Scan beamAhead(double length, Stamp stamp) {
+  Scan scan;
+  scan.stamp = stamp;
+  scan.beam_spacing = degrees(2.0);
+  Ray ray;
+  ray.end = Point2(length, 0.0);
+  ray.range = length;
+  ray.hit = true;
+  scan.rays.push_back(ray);
+  return scan;
+}
+
+/// Percent of the cell that holds a point of the map frame, by the message alone.
+int occupancyAt(const nav_msgs::OccupancyGrid& grid, const Point2& point) {
+  const auto& origin = grid.info.origin.position;
+  const double size = grid.info.resolution;
+  const auto column = static_cast<std::size_t>((point.x() - origin.x) / size);
+  const auto row = static_cast<std::size_t>((point.y() - origin.y) / size);
+  return grid.data.at(row * grid.info.width + column);
+}
+
+TEST(MapConversion, HoldsAfterTheWindowHasMoved) {
+  OccupancyMapOptions options;
+  options.length = 30.0;
+  options.width = 60.0;
+  OccupancyMap map(options);
+  for (const double x : {0.1, 7.3, 14.5}) {
+    map.centreOn(Point2(x, -x));
+    const Pose2 base_in_map(x, -x, kPi / 2.0);
+    map.update(beamAhead(6.05, kStamp + x), {PointState::kStatic}, base_in_map);
+    const auto grid = toMessage(map, kStamp, "map");
+    EXPECT_EQ(grid.header.frame_id, "map");
+    EXPECT_EQ(grid.data.size(), grid.info.width * grid.info.height);
+    EXPECT_EQ(grid.info.width, 100U) << "30 m of 0.3 m";
+    EXPECT_EQ(grid.info.height, 200U);
+    EXPECT_NEAR(grid.info.origin.position.x + 15.0, x, 2.0 * options.cell_size);
+    EXPECT_GT(occupancyAt(grid, base_in_map * Point2(6.05, 0.0)), 50) << "the end";
+    const int passed = occupancyAt(grid, base_in_map * Point2(3.0, 0.0));
+    EXPECT_TRUE(passed >= 0 && passed < 50) << passed << ": the way there";
+    EXPECT_EQ(occupancyAt(grid, base_in_map * Point2(8.0, 0.0)), -1) << "behind it";
+  }
+}
+
+}  // namespace
+}  // namespace datmo_fusion

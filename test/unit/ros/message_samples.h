@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <geometry_msgs/TransformStamped.h>
+#include <sensor_msgs/LaserScan.h>
+
+#include "datmo_fusion/ros/input_error.h"
+
+/// Small valid messages, from which tests make others.
+namespace datmo_fusion::samples {
+
+inline constexpr double kStart = 100.0;  // s
+
+/// Three beams: to the right, ahead, to the left; 1 to 20 m.
+inline sensor_msgs::LaserScan laserScan(const std::vector<float>& ranges = {2.0F, 3.0F, 4.0F}) {
+  sensor_msgs::LaserScan scan;
+  scan.header.frame_id = "scanner";
+  scan.header.stamp = ros::Time(kStart);
+  scan.angle_min = static_cast<float>(-M_PI_2);
+  scan.angle_max = static_cast<float>(M_PI_2);
+  scan.angle_increment = static_cast<float>(M_PI_2);
+  scan.range_min = 1.0F;
+  scan.range_max = 20.0F;
+  scan.ranges = ranges;
+  return scan;
+}
+
+/// From parent to child, along x, turned by roll, pitch or yaw alone.
+inline geometry_msgs::TransformStamped transform(const std::string& parent,
+                                                 const std::string& child, double x,
+                                                 double seconds = kStart) {
+  geometry_msgs::TransformStamped result;
+  result.header.frame_id = parent;
+  result.header.stamp = ros::Time(seconds);
+  result.child_frame_id = child;
+  result.transform.translation.x = x;
+  result.transform.rotation.w = 1.0;
+  return result;
+}
+
+/// Reason of the InputError that `call` throws; empty if it throws none.
+inline std::string reasonOf(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    return error.reason();
+  }
+  return "";
+}
+
+}  // namespace datmo_fusion::samples

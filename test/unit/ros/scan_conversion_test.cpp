@@ -1,0 +1,177 @@
+#include "datmo_fusion/ros/scan_conversion.h"
+
+#include <limits>
+
+#include "message_samples.h"
+#include <gtest/gtest.h>
+
+namespace datmo_fusion {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+/// One metre ahead of the vehicle's origin, looking ahead.
+ScannerMount bumper() {
+  ScannerMount mount;
+  mount.scanner_in_base = Pose2(1.0, 0.0, 0.0);
+  return mount;
+}
+
+ConvertedScan convert(const sensor_msgs::LaserScan& message) {
+  return toScan(message, bumper(), ScanConversionOptions());
+}
+
+void expectEnd(const Ray& ray, double x, double y) {
+  EXPECT_NEAR(ray.end.x(), x, 1e-6);
+  EXPECT_NEAR(ray.end.y(), y, 1e-6);
+}
+
+TEST(ScanConversion, BeamsEndWhereTheScannerPoints) {
+  const Scan scan = convert(samples::laserScan()).scan;
+  ASSERT_EQ(scan.rays.size(), 3U);
+  expectEnd(scan.rays[0], 1.0, -2.0);
+  expectEnd(scan.rays[1], 4.0, 0.0);
+  expectEnd(scan.rays[2], 1.0, 4.0);
+  EXPECT_NEAR(scan.rays[2].bearing, kPi / 2.0, 1e-6);
+  EXPECT_EQ(scan.rays[2].beam, 2U);
+  EXPECT_TRUE(scan.rays[2].hit);
+  EXPECT_NEAR(scan.beam_spacing, kPi / 2.0, 1e-6);
+  EXPECT_EQ(scan.stamp, Stamp::fromSeconds(samples::kStart));
+  EXPECT_EQ(scan.rays[0].origin, Point2(1.0, 0.0));
+}
+
+TEST(ScanConversion, ATurnedScannerTurnsItsBeams) {
+  ScannerMount mount;
+  mount.scanner_in_base = Pose2(0.0, 0.0, kPi / 2.0);
+  const Scan scan = toScan(samples::laserScan(), mount, {}).scan;
+  expectEnd(scan.rays[0], 2.0, 0.0);
+  expectEnd(scan.rays[1], 0.0, 3.0);
+}
+
+TEST(ScanConversion, UpsideDownMirrorsTheBeams) {
+  ScannerMount mount;
+  mount.upside_down = true;
+  const Scan scan = toScan(samples::laserScan(), mount, {}).scan;
+  expectEnd(scan.rays[0], 0.0, 2.0);
+  expectEnd(scan.rays[2], 0.0, -4.0);
+  EXPECT_NEAR(scan.rays[0].bearing, kPi / 2.0, 1e-6);
+}
+
+TEST(ScanConversion, AScannerThatTurnsTheOtherWayRound) {
+  auto message = samples::laserScan();
+  std::swap(message.angle_min, message.angle_max);
+  message.angle_increment = -message.angle_increment;
+  const Scan scan = convert(message).scan;
+  expectEnd(scan.rays[0], 1.0, 2.0);
+  EXPECT_GT(scan.beam_spacing, 0.0);
+}
+
+TEST(ScanConversion, NoReturnIsFreeUpToTheFreeRange) {
+  ScanConversionOptions options;
+  options.free_range = 5.0;
+  const auto converted = toScan(samples::laserScan({kInfinity, 21.0F, 3.0F}), bumper(), options);
+  EXPECT_EQ(converted.beams.no_return, 2U);
+  EXPECT_EQ(converted.beams.hits, 1U);
+  ASSERT_EQ(converted.scan.rays.size(), 3U);
+  EXPECT_FALSE(converted.scan.rays[0].hit);
+  EXPECT_DOUBLE_EQ(converted.scan.rays[0].range, 5.0);
+  expectEnd(converted.scan.rays[1], 6.0, 0.0);
+}
+
+TEST(ScanConversion, NothingIsFreeBeyondTheScannersReach) {
+  ScanConversionOptions options;
+  options.free_range = 100.0;
+  const auto converted = toScan(samples::laserScan({kInfinity, 3.0F, 3.0F}), bumper(), options);
+  EXPECT_DOUBLE_EQ(converted.scan.rays[0].range, 20.0);
+}
+
+TEST(ScanConversion, AFreeRangeOfZeroMakesNoRays) {
+  ScanConversionOptions options;
+  options.free_range = 0.0;
+  const auto converted = toScan(samples::laserScan({kInfinity, 3.0F, 3.0F}), bumper(), options);
+  EXPECT_EQ(converted.scan.rays.size(), 2U);
+  EXPECT_EQ(converted.beams.no_return, 1U);
+}
+
+TEST(ScanConversion, InvalidBeamsHaveNoRayAndKeepTheOthersIndex) {
+  auto message = samples::laserScan({kNan, -1.0F, 0.5F});
+  EXPECT_EQ(convert(message).beams.dropped, 3U);
+  EXPECT_TRUE(convert(message).scan.rays.empty());
+  message.ranges = {-kInfinity, 0.0F, 3.0F};
+  const auto converted = convert(message);
+  EXPECT_EQ(converted.beams.dropped, 2U);
+  ASSERT_EQ(converted.scan.rays.size(), 1U);
+  EXPECT_EQ(converted.scan.rays[0].beam, 2U);
+}
+
+TEST(ScanConversion, LimitsOfTheRangeAreValid) {
+  EXPECT_EQ(convert(samples::laserScan({1.0F, 20.0F, 3.0F})).beams.hits, 3U);
+}
+
+struct BadScan {
+  std::string reason;
+  std::function<void(sensor_msgs::LaserScan&)> spoil;
+};
+
+class BadScans : public testing::TestWithParam<BadScan> {};
+
+TEST_P(BadScans, AreRefused) {
+  auto message = samples::laserScan();
+  GetParam().spoil(message);
+  EXPECT_EQ(samples::reasonOf([&] { convert(message); }), GetParam().reason);
+}
+
+using ScanMessage = sensor_msgs::LaserScan;
+INSTANTIATE_TEST_SUITE_P(
+    ScanConversion, BadScans,
+    testing::Values(BadScan{"empty_scan", [](ScanMessage& m) { m.ranges.clear(); }},
+                    BadScan{"wrong_size", [](ScanMessage& m) { m.ranges.resize(5); }},
+                    BadScan{"wrong_size", [](ScanMessage& m) { m.ranges.resize(1); }},
+                    BadScan{"bad_geometry", [](ScanMessage& m) { m.angle_increment = 0.0F; }},
+                    BadScan{"bad_geometry", [](ScanMessage& m) { m.angle_increment = kNan; }},
+                    BadScan{"bad_geometry", [](ScanMessage& m) { m.angle_min = -kInfinity; }},
+                    BadScan{"bad_geometry", [](ScanMessage& m) { m.range_max = kNan; }},
+                    BadScan{"bad_geometry", [](ScanMessage& m) { m.range_max = 0.5F; }},
+                    BadScan{"bad_geometry", [](ScanMessage& m) { m.range_min = -1.0F; }},
+                    BadScan{"wrong_size",
+                            [](ScanMessage& m) { m.angle_increment = -m.angle_increment; }}));
+
+TEST(ScanConversion, OneBeamMoreOrLessIsTheDriversHabit) {
+  EXPECT_EQ(convert(samples::laserScan({2.0F, 3.0F})).scan.rays.size(), 2U);
+  EXPECT_EQ(convert(samples::laserScan({2.0F, 3.0F, 4.0F, 5.0F})).scan.rays.size(), 4U);
+}
+
+sensor_msgs::MultiEchoLaserScan echoes(const std::vector<std::vector<float>>& beams) {
+  const auto single = samples::laserScan();
+  sensor_msgs::MultiEchoLaserScan message;
+  message.header = single.header;
+  message.angle_min = single.angle_min;
+  message.angle_max = single.angle_max;
+  message.angle_increment = single.angle_increment;
+  message.range_min = single.range_min;
+  message.range_max = single.range_max;
+  for (const auto& beam : beams) {
+    message.ranges.emplace_back();
+    message.ranges.back().echoes = beam;
+  }
+  return message;
+}
+
+TEST(MultiEchoConversion, TheNearestValidEchoCounts) {
+  const auto message = echoes({{9.0F, 4.0F}, {0.5F, 6.0F}, {kNan, kInfinity, 7.0F}});
+  const auto converted = toScan(message, bumper(), {});
+  ASSERT_EQ(converted.beams.hits, 3U);
+  EXPECT_DOUBLE_EQ(converted.scan.rays[0].range, 4.0);
+  EXPECT_DOUBLE_EQ(converted.scan.rays[1].range, 6.0);
+  EXPECT_DOUBLE_EQ(converted.scan.rays[2].range, 7.0);
+}
+
+TEST(MultiEchoConversion, NoEchoIsNoReturnAndABadOneIsDropped) {
+  const auto converted = toScan(echoes({{}, {kInfinity}, {kNan, 0.2F}}), bumper(), {});
+  EXPECT_EQ(converted.beams.no_return, 2U);
+  EXPECT_EQ(converted.beams.dropped, 1U);
+}
+
+}  // namespace
+}  // namespace datmo_fusion

@@ -1,0 +1,257 @@
+#include <limits>
+
+#include "message_samples.h"
+#include <boost/make_shared.hpp>
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/ros/frames.h"
+#include "datmo_fusion/ros/grid_slam_stage.h"
+#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/moving_objects_stage.h"
+#include "datmo_fusion/ros/tracker_stage.h"
+
+namespace datmo_fusion {
+namespace {
+
+tf2_msgs::TFMessage transforms(std::vector<geometry_msgs::TransformStamped> list) {
+  tf2_msgs::TFMessage message;
+  message.transforms = std::move(list);
+  return message;
+}
+
+class GridSlamStageTest : public testing::Test {
+ protected:
+  void mountScanner() {
+    buffer_.addStatic(transforms({samples::transform("base_link", "scanner", 3.6)}));
+  }
+
+  std::optional<GridSlamOutput> scanAt(double seconds) {
+    auto scan = samples::laserScan();
+    scan.header.stamp = ros::Time(seconds);
+    return stage_.takeScan(scan);
+  }
+
+  /// The vehicle drives ahead with 8 m/s; it is at x = 0 at the start.
+  void odometryAt(double seconds) {
+    nav_msgs::Odometry message;
+    message.header.stamp = ros::Time(seconds);
+    message.header.frame_id = "odom";
+    message.child_frame_id = "base_link";
+    message.pose.pose = toMessage(Pose2(8.0 * (seconds - samples::kStart), 0.0, 0.0));
+    message.twist.twist.linear.x = 8.0;
+    stage_.takeOdometry(message);
+  }
+
+  std::uint64_t drops(const std::string& reason) const {
+    const auto found = monitor_.drops().find(reason);
+    return found == monitor_.drops().end() ? 0 : found->second;
+  }
+
+  std::uint64_t warnings(const std::string& reason) const {
+    const auto found = monitor_.warnings().find(reason);
+    return found == monitor_.warnings().end() ? 0 : found->second;
+  }
+
+  TransformBuffer buffer_{1.0};
+  StageMonitor monitor_{"grid_slam"};
+  GridSlamStageOptions options_;
+  GridSlamStage stage_{options_, buffer_, monitor_};
+};
+
+TEST_F(GridSlamStageTest, AScanMakesAllOutputs) {
+  mountScanner();
+  odometryAt(100.0);
+  const auto output = scanAt(100.0);
+  ASSERT_TRUE(output);
+  EXPECT_EQ(output->split_scan->header.frame_id, "base_link");
+  EXPECT_EQ(output->split_scan->points.size(), 3U);
+  EXPECT_EQ(output->pose->header.frame_id, "map");
+  EXPECT_EQ(output->pose->header.stamp, ros::Time(100.0));
+  ASSERT_TRUE(output->map);
+  ASSERT_EQ(output->transforms.size(), 1U);
+  EXPECT_EQ(monitor_.processedCount(), 1U);
+  EXPECT_EQ(monitor_.droppedCount(), 0U);
+}
+
+TEST_F(GridSlamStageTest, MapToOdomTimesOdomToBaseIsThePose) {
+  mountScanner();
+  odometryAt(100.0);
+  scanAt(100.0);
+  odometryAt(100.05);
+  const auto output = scanAt(100.06);
+  ASSERT_TRUE(output);
+  buffer_.add(transforms(output->transforms));
+  buffer_.add(transforms({samples::transform("odom", "base_link", 8.0 * 0.06, 100.06)}));
+  const Pose2 through_tf = planarPose(buffer_.core(), "map", "base_link", ros::Time(100.06));
+  const Pose2 pose = fromMessage(output->pose->pose.pose);
+  EXPECT_NEAR((through_tf.position() - pose.position()).norm(), 0.0, 1e-6);
+  EXPECT_NEAR(angleBetween(through_tf.heading(), pose.heading()), 0.0, 1e-6);
+}
+
+TEST_F(GridSlamStageTest, AMapOnlyWhenItIsItsTurn) {
+  mountScanner();
+  EXPECT_TRUE(scanAt(100.0)->map);
+  EXPECT_FALSE(scanAt(100.5)->map);
+  EXPECT_TRUE(scanAt(101.0)->map);
+}
+
+TEST_F(GridSlamStageTest, SilentOdometryIsWarnedOfAndTheRestGoesOn) {
+  mountScanner();
+  odometryAt(100.0);
+  EXPECT_EQ(scanAt(100.1)->transforms.size(), 1U);
+  const auto output = scanAt(102.0);
+  ASSERT_TRUE(output);
+  EXPECT_TRUE(output->transforms.empty());
+  EXPECT_EQ(warnings("silent_odometry"), 1U);
+}
+
+TEST_F(GridSlamStageTest, WithoutOdometryThePoseIsOdomToBase) {
+  GridSlamStageOptions options;
+  options.odometry = false;
+  GridSlamStage stage(options, buffer_, monitor_);
+  mountScanner();
+  const auto output = stage.takeScan(samples::laserScan());
+  ASSERT_TRUE(output);
+  ASSERT_EQ(output->transforms.size(), 2U);
+  EXPECT_EQ(output->transforms[0].child_frame_id, "odom");
+  EXPECT_EQ(output->transforms[0].transform.translation.x, 0.0);
+  EXPECT_EQ(output->transforms[1].child_frame_id, "base_link");
+  EXPECT_EQ(monitor_.warningCount(), 0U);
+}
+
+TEST_F(GridSlamStageTest, AMissingMountIsCountedUntilItComes) {
+  EXPECT_FALSE(scanAt(100.0));
+  EXPECT_EQ(drops("missing_transform"), 1U);
+  mountScanner();
+  EXPECT_TRUE(scanAt(100.0)) << "the dropped scan has not moved the time";
+}
+
+TEST_F(GridSlamStageTest, RepeatedOldAndTimelessScansAreDropped) {
+  mountScanner();
+  EXPECT_TRUE(scanAt(100.0));
+  EXPECT_FALSE(scanAt(100.0));
+  EXPECT_FALSE(scanAt(99.5));
+  EXPECT_FALSE(scanAt(0.0));
+  EXPECT_EQ(drops("repeated_stamp"), 1U);
+  EXPECT_EQ(drops("old_stamp"), 1U);
+  EXPECT_EQ(drops("zero_stamp"), 1U);
+  EXPECT_TRUE(scanAt(100.1));
+}
+
+TEST_F(GridSlamStageTest, AJumpBackStartsAnew) {
+  mountScanner();
+  for (double t = 100.0; t < 102.0; t += 0.1) {
+    odometryAt(t);
+    scanAt(t);
+  }
+  EXPECT_GT(scanAt(102.0)->pose->pose.pose.position.x, 5.0);
+  odometryAt(100.0);
+  const auto output = scanAt(100.0);
+  ASSERT_TRUE(output);
+  EXPECT_EQ(output->pose->pose.pose.position.x, 0.0);
+  EXPECT_TRUE(output->map);
+  EXPECT_GE(warnings("clock_restart"), 1U);
+}
+
+TEST_F(GridSlamStageTest, AScanWithoutAValidBeamMovesByOdometry) {
+  mountScanner();
+  odometryAt(100.0);
+  scanAt(100.0);
+  odometryAt(100.1);
+  auto blind = samples::laserScan(std::vector<float>(3, std::numeric_limits<float>::quiet_NaN()));
+  blind.header.stamp = ros::Time(100.1);
+  const auto output = stage_.takeScan(blind);
+  ASSERT_TRUE(output);
+  EXPECT_NEAR(output->pose->pose.pose.position.x, 0.8, 0.1);
+  EXPECT_EQ(warnings("no_valid_beam"), 1U);
+}
+
+TEST_F(GridSlamStageTest, OdometryOfOtherFramesIsDropped) {
+  nav_msgs::Odometry message;
+  message.header.frame_id = "world";
+  message.child_frame_id = "base_link";
+  stage_.takeOdometry(message);
+  EXPECT_EQ(drops("wrong_frame"), 1U);
+}
+
+class TrackerStageTest : public testing::Test {
+ protected:
+  void objectsAt(double seconds) {
+    const auto message = boost::make_shared<ObjectArray>();
+    message->header.stamp = ros::Time(seconds);
+    message->header.frame_id = "base_link";
+    stage_.takeObjects(message, Stamp::fromSeconds(seconds));
+  }
+
+  void poseAt(double seconds) {
+    buffer_.add(transforms({samples::transform("map", "base_link", 0.0, seconds)}));
+  }
+
+  TrackArrayPtr nextAt(double seconds) { return stage_.next(Stamp::fromSeconds(seconds)); }
+
+  TransformBuffer buffer_{1.0};
+  StageMonitor monitor_{"tracker"};
+  TrackerStage stage_{TrackerStageOptions(), buffer_, monitor_};
+};
+
+TEST_F(TrackerStageTest, ObjectsWaitForTheirTransform) {
+  poseAt(99.9);
+  objectsAt(100.0);
+  EXPECT_FALSE(nextAt(100.1));
+  poseAt(100.02);
+  const auto tracks = nextAt(100.1);
+  ASSERT_TRUE(tracks);
+  EXPECT_EQ(tracks->header.stamp, ros::Time(100.0));
+  EXPECT_EQ(tracks->header.frame_id, "map");
+  EXPECT_FALSE(nextAt(100.1));
+  EXPECT_EQ(monitor_.droppedCount(), 0U);
+}
+
+TEST_F(TrackerStageTest, AfterTheLongestWaitTheyAreDroppedAndTheNextServed) {
+  objectsAt(100.0);
+  objectsAt(101.0);
+  poseAt(100.9);
+  poseAt(101.1);
+  const auto tracks = nextAt(101.1);
+  ASSERT_TRUE(tracks);
+  EXPECT_EQ(tracks->header.stamp, ros::Time(101.0));
+  EXPECT_EQ(monitor_.drops().at("missing_transform"), 1U);
+}
+
+TEST_F(TrackerStageTest, TheQueueIsBounded) {
+  for (int i = 0; i < 200; ++i) {
+    objectsAt(100.0 + 0.001 * i);
+  }
+  EXPECT_EQ(monitor_.drops().at("queue_full"), 150U);
+}
+
+TEST_F(TrackerStageTest, AJumpBackForgetsWhatWaits) {
+  objectsAt(110.0);
+  objectsAt(100.0);
+  poseAt(100.0);
+  const auto tracks = nextAt(100.0);
+  ASSERT_TRUE(tracks);
+  EXPECT_EQ(tracks->header.stamp, ros::Time(100.0));
+  EXPECT_EQ(monitor_.warnings().at("clock_restart"), 1U);
+}
+
+TEST(MovingObjectsStageTest, ServesASplitScanOnceAndDropsBadOnes) {
+  StageMonitor monitor("moving_objects");
+  MovingObjectsStage stage({}, monitor);
+  SplitScan scan;
+  scan.stamp = Stamp::fromSeconds(samples::kStart);
+  const SplitScanMessage message = toMessage(scan, "base_link", "map");
+  const auto objects = stage.takeSplitScan(message);
+  ASSERT_TRUE(objects);
+  EXPECT_EQ(objects->header.frame_id, "base_link");
+  EXPECT_EQ(objects->header.stamp, message.header.stamp);
+  EXPECT_FALSE(stage.takeSplitScan(message));
+  EXPECT_EQ(monitor.drops().at("repeated_stamp"), 1U);
+  SplitScanMessage bad = message;
+  bad.pose.pose.orientation.w = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(stage.takeSplitScan(bad));
+  EXPECT_EQ(monitor.drops().at("bad_pose"), 1U);
+}
+
+}  // namespace
+}  // namespace datmo_fusion

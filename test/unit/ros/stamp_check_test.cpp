@@ -1,0 +1,30 @@
+#include "datmo_fusion/ros/stamp_check.h"
+
+#include "message_samples.h"
+#include <gtest/gtest.h>
+
+namespace datmo_fusion {
+namespace {
+
+std::string reasonAt(StampCheck& check, double seconds) {
+  return samples::reasonOf([&] { check.check(ros::Time(seconds)); });
+}
+
+TEST(StampCheck, NamesWhatIsWrong) {
+  StampCheck check(1.0);
+  EXPECT_EQ(reasonAt(check, 0.0), "zero_stamp");
+  EXPECT_EQ(reasonAt(check, 10.0), "");
+  EXPECT_EQ(reasonAt(check, 10.0), "repeated_stamp");
+  EXPECT_EQ(reasonAt(check, 9.5), "old_stamp");
+  EXPECT_EQ(check.check(ros::Time(10.1)), Arrival::kNext);
+  EXPECT_EQ(check.check(ros::Time(5.0)), Arrival::kRestart);
+  EXPECT_EQ(check.check(ros::Time(5.1)), Arrival::kNext);
+}
+
+TEST(StampCheck, TimesGoThereAndBackToTheNanosecond) {
+  const ros::Time time(1700000000, 123456789);
+  EXPECT_EQ(toTime(toStamp(time)), time);
+}
+
+}  // namespace
+}  // namespace datmo_fusion
