@@ -35,10 +35,11 @@ void AssociationOptions::visit(OptionVisitor& visitor) {
                   "largest Mahalanobis distance squared between an object and a target: 13.8 is "
                   "the 99.9 % quantile of chi-square with two degrees of freedom"},
                  gate, {0.1, 1000.0});
-  visitor.number({"detection_probability", "1", "chance that a target is seen in one scan"},
-                 detection_probability, {0.01, 0.999});
-  visitor.number({"birth_density", "1/m^2", "objects of no target, in one scan"}, birth_density,
-                 {1e-9, 10.0});
+  visitor.number(
+      {"birth_density", "1/m^2",
+       "objects of no target in one scan, over the odds that a target is seen: an object "
+       "must be likelier for its target"},
+      birth_density, {1e-9, 10.0});
 }
 
 Association GlobalNearestNeighbour::associate(const std::vector<Target>& targets,
@@ -63,8 +64,7 @@ double GlobalNearestNeighbour::cost(const Target& target, const Object& object) 
   if (innovationOf(target.filter().estimate(), measured).squaredDistance() > options_.gate) {
     return kForbidden;
   }
-  const double odds = options_.detection_probability / (1.0 - options_.detection_probability);
-  return -(target.filter().logLikelihood(measured) + std::log(odds / options_.birth_density));
+  return std::log(options_.birth_density) - target.filter().logLikelihood(measured);
 }
 
 }  // namespace datmo_fusion

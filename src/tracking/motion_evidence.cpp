@@ -37,9 +37,11 @@ void MotionEvidenceOptions::visit(OptionVisitor& visitor) {
                   "sum of log-likelihood ratios from which the objects of a target belong together "
                   "(Wald 1947: the logarithm of the inverse rate of false alarms)"},
                  required_against_chance, kEvidence);
-  visitor.number({"most_against_chance", "1",
-                  "to which this sum is limited, so that a track that lost its object ends"},
-                 most_against_chance, kEvidence);
+  visitor.number(
+      {"most_evidence", "1",
+       "to which both sums are limited, so that a track that lost its object ends, and one that "
+       "stops stands"},
+      most_evidence, kEvidence);
   visitor.number({"standing_drift", "m^2/s",
                   "random walk of the visible centre of an object that stands: its root is how far "
                   "it slides in one second"},
@@ -91,8 +93,9 @@ void MotionEvidence::update(const Object& object, const PositionMeasurement& mea
   const Innovation innovation{measured.position - standing_.position,
                               standing_.covariance + measured.covariance};
   const double ratio = moving_log_likelihood - innovation.logLikelihood();
+  present_ = {object.box, object.position_covariance};
   const double map = mapEvidence(object, options.free_space_evidence);
-  against_standing_ = std::max(0.0, against_standing_ + clamp(ratio, options.scan_limit) + map);
+  addAgainstStanding(clamp(ratio, options.scan_limit) + map, options);
   const double false_density =
       object.points.size() == 1 ? options.echo_density : options.false_density;
   const double chance =
@@ -102,13 +105,8 @@ void MotionEvidence::update(const Object& object, const PositionMeasurement& mea
   const Eigen::Matrix2d gain = standing_.covariance * innovation.covariance.inverse();
   standing_.position += gain * innovation.residual;
   standing_.covariance = gain * measured.covariance;
-
-  present_ = {object.box, object.position_covariance};
   if (object.box.length > longest_.length) {
     longest_ = object.box;
-  }
-  if (against_standing_ == 0.0) {
-    anchor_ = present_;
   }
 }
 
@@ -116,8 +114,16 @@ void MotionEvidence::miss(const MotionEvidenceOptions& options) {
   addAgainstChance(std::log(1.0 - options.detection_probability), options);
 }
 
+void MotionEvidence::addAgainstStanding(double ratio, const MotionEvidenceOptions& options) {
+  const bool came_to_rest = against_standing_ > 0.0 && against_standing_ + ratio <= 0.0;
+  if (came_to_rest) {
+    anchor_ = present_;
+  }
+  against_standing_ = std::min(options.most_evidence, std::max(0.0, against_standing_ + ratio));
+}
+
 void MotionEvidence::addAgainstChance(double ratio, const MotionEvidenceOptions& options) {
-  against_chance_ = std::min(options.most_against_chance, std::max(0.0, against_chance_ + ratio));
+  against_chance_ = std::min(options.most_evidence, std::max(0.0, against_chance_ + ratio));
 }
 
 bool MotionEvidence::suffices(const StateEstimate& estimate,

@@ -80,11 +80,11 @@ void Target::confirm(std::uint32_t id) {
 /// Between the two speeds it stays as it was.
 void Target::judgeMotion(const TargetOptions& options) {
   const StateEstimate& estimate = filter_.estimate();
-  if (velocityIsSignificant(estimate, options.evidence.speed_significance,
-                            options.evidence.least_speed)) {
-    moving_ = true;
-  } else if (estimate.mean.segment<2>(2).norm() < options.stop_speed) {
+  if (evidence_.seemsToStand() || estimate.mean.segment<2>(2).norm() < options.stop_speed) {
     moving_ = false;
+  } else if (velocityIsSignificant(estimate, options.evidence.speed_significance,
+                                   options.evidence.least_speed)) {
+    moving_ = true;
   }
 }
 

@@ -6,7 +6,6 @@
 #include <tuple>
 #include <vector>
 
-#include "datmo_fusion/tracking/duplicates.h"
 #include "datmo_fusion/tracking/object_check.h"
 
 namespace datmo_fusion {
@@ -32,6 +31,7 @@ double positionStd(const Target& target) {
 void TrackerOptions::visit(OptionVisitor& visitor) {
   visitor.group("target", [&] { target.visit(visitor); });
   visitor.group("association", [&] { association.visit(visitor); });
+  visitor.group("duplicates", [&] { duplicates.visit(visitor); });
   visitor.integer(
       {"confirmation_hits", "1", "objects before a track is published (thesis 3.3.4: three steps)"},
       confirmation_hits, {1, 100});
@@ -47,11 +47,6 @@ void TrackerOptions::visit(OptionVisitor& visitor) {
   visitor.number({"most_position_std", "m",
                   "a target is deleted when the standard deviation of its position is larger"},
                  most_position_std, {0.1, 100.0});
-  visitor.number(
-      {"same_velocity_gate", "1",
-       "a target inside the box of an older track is part of it if their velocities are "
-       "within this Mahalanobis distance squared (5.99: 95 % of chi-square, two degrees)"},
-      same_velocity_gate, {0.0, 1000.0});
   visitor.integer({"most_targets", "1", "targets followed at a time; bounds the time of a step"},
                   most_targets, {1, 5000});
 }
@@ -75,7 +70,7 @@ class Tracker::State {
     for (const std::size_t index : association.unexplained) {
       startTarget(objects[index]);
     }
-    counts_.merged_tracks += removeDuplicates(targets_, options_.same_velocity_gate);
+    counts_.merged_tracks += removeDuplicates(targets_, options_.duplicates);
     removeLost();
     confirm();
     return published(list.stamp);

@@ -10,9 +10,8 @@
 namespace datmo_fusion {
 
 struct AssociationOptions {
-  double gate = 13.8;                  ///< 1
-  double detection_probability = 0.8;  ///< 1
-  double birth_density = 1e-3;         ///< 1/m^2
+  double gate = 13.8;             ///< 1
+  double birth_density = 2.5e-4;  ///< 1/m^2
 
   void visit(OptionVisitor& visitor);
 };

@@ -13,7 +13,7 @@ struct MotionEvidenceOptions {
   double false_density = 0.02;             ///< 1/m^2
   double echo_density = 0.2;               ///< 1/m^2
   double required_against_chance = 7.0;    ///< 1
-  double most_against_chance = 15.0;       ///< 1
+  double most_evidence = 20.0;             ///< 1
   double standing_drift = 1.0;             ///< m^2/s
   double required_against_standing = 3.0;  ///< 1
   double scan_limit = 2.0;                 ///< 1
@@ -30,21 +30,25 @@ struct MotionEvidenceOptions {
 /// Whether v' P^-1 v of a velocity exceeds a chi-square quantile, and its norm a least speed (m/s).
 bool velocityIsSignificant(const StateEstimate& estimate, double significance, double least_speed);
 
-/// Decides whether a followed object moves over ground, or stands and only seems to move: its
-/// visible part grows and slides while the vehicle passes, and noise gives anything a speed.
-///
-/// Three witnesses must agree:
-/// 1. The measurements so far are likelier for a moving object than for a standing one whose
-/// visible
-///    centre drifts as a random walk. The log-likelihood ratio is summed up, but never below 0
+/// Decides whether a followed object moves over ground. There are two other explanations: it
+/// stands, and only its visible part slides while the vehicle passes; or its objects do not belong
+/// together, and chance put them in a row. Motion is accepted when four tests agree:
+/// 1. Moving against standing: the log-likelihood ratio of the measurements by the motion filter
+/// and by
+///    a standing object whose visible centre drifts as a random walk, summed up but never below 0
 ///    (CUSUM: Page, Continuous inspection schemes, 1954), so that one that starts to move after a
-///    long rest is found as quickly. One scan counts for a limited amount, so that no outlier
-///    decides. Points where the map is free count for motion, a place that the map knows as static
-///    against it.
-/// 2. It left its place: from where it was when the sum was last 0 to where it is now it reaches
-///    farther than it was ever seen long. So a side that comes into view little by little, and goes
+///    rest is found as quickly.
+/// 2. One object against chance: the track score (Sittler 1964; Blackman 2004), from the likelihood
+/// of
+///    each object in the motion filter, the density of false objects, and the misses. Objects of a
+///    single point are mostly false, so their density is higher.
+/// 3. It left its place: from where the first sum began to where it is now it reaches farther than
+///    something of its length that stands. A side that comes into view little by little, and goes
 ///    out of view again, is not motion.
-/// 3. Its estimated velocity is significant.
+/// 4. Its estimated velocity is significant.
+///
+/// In both sums one scan counts for a limited amount, so that no outlier decides; points where the
+/// map is free count for motion, and a place that the map knows as static counts against it.
 class MotionEvidence {
  public:
   /// Of an object in the fixed frame, at its first sight.
@@ -60,8 +64,11 @@ class MotionEvidence {
   /// The present scan shows no object of this target.
   void miss(const MotionEvidenceOptions& options);
 
-  /// All three witnesses agree; `estimate` is that of the motion filter.
+  /// All four tests agree; `estimate` is that of the motion filter.
   bool suffices(const StateEstimate& estimate, const MotionEvidenceOptions& options) const;
+
+  /// What it did of late is no likelier for a moving object than for a standing one.
+  bool seemsToStand() const { return against_standing_ == 0.0; }
 
   /// It is no likelier than chance that its objects belong together.
   bool isSpent() const { return against_chance_ == 0.0; }
@@ -73,6 +80,7 @@ class MotionEvidence {
     Eigen::Matrix2d covariance;
   };
 
+  void addAgainstStanding(double ratio, const MotionEvidenceOptions& options);
   void addAgainstChance(double ratio, const MotionEvidenceOptions& options);
   bool leftItsPlace(const MotionEvidenceOptions& options) const;
 

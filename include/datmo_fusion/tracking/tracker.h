@@ -6,6 +6,7 @@
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/tracking/association.h"
+#include "datmo_fusion/tracking/duplicates.h"
 #include "datmo_fusion/tracking/target.h"
 #include "datmo_fusion/tracking/track.h"
 
@@ -14,12 +15,12 @@ namespace datmo_fusion {
 struct TrackerOptions {
   TargetOptions target;
   AssociationOptions association;
+  DuplicateOptions duplicates;
   int confirmation_hits = 3;
-  double tentative_silence = 0.5;    ///< s
-  double confirmed_silence = 3.0;    ///< s
-  double published_silence = 1.5;    ///< s
-  double most_position_std = 5.0;    ///< m
-  double same_velocity_gate = 5.99;  ///< 1
+  double tentative_silence = 0.5;  ///< s
+  double confirmed_silence = 3.0;  ///< s
+  double published_silence = 1.5;  ///< s
+  double most_position_std = 5.0;  ///< m
   int most_targets = 300;
 
   void visit(OptionVisitor& visitor);

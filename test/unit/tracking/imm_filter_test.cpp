@@ -1,0 +1,181 @@
+#include "datmo_fusion/tracking/imm_filter.h"
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+namespace datmo_fusion {
+namespace {
+
+constexpr double kPeriod = 0.1;
+constexpr double kSigma = 0.1;
+
+StateEstimate startAt(const Point2& position) {
+  StateEstimate start;
+  start.mean.head<2>() = position;
+  start.covariance.diagonal() << 0.01, 0.01, 64.0, 64.0, 0.25, 0.25;
+  return start;
+}
+
+/// Follows a path (m, by time in s) with noisy measurements for `seconds`.
+ImmFilter follow(const std::function<Point2(double)>& path, double seconds,
+                 const ImmOptions& options = ImmOptions()) {
+  std::mt19937_64 engine(23);
+  std::normal_distribution<double> noise(0.0, kSigma);
+  ImmFilter filter(startAt(path(0.0)), priorModeProbabilities(options));
+  const ImmStep step = immStep(options, kPeriod);
+  for (double time = kPeriod; time < seconds; time += kPeriod) {
+    filter.predict(step);
+    const Point2 seen = path(time) + Point2(noise(engine), noise(engine));
+    filter.update({seen, Eigen::Matrix2d::Identity() * kSigma * kSigma}, options.least_probability);
+  }
+  return filter;
+}
+
+MotionMode likeliest(const ImmFilter& filter) {
+  int mode = 0;
+  filter.modeProbabilities().maxCoeff(&mode);
+  return static_cast<MotionMode>(mode);
+}
+
+TEST(ImmStep, RowsSumToOneAndSojournIsKept) {
+  ImmOptions options;
+  options.straight_sojourn = 5.0;
+  for (const double seconds : {0.0, 0.06, 0.1, 2.0, 1000.0}) {
+    const ImmStep step = immStep(options, seconds);
+    EXPECT_TRUE(step.transition.rowwise().sum().isOnes(1e-12));
+    EXPECT_GE(step.transition.minCoeff(), 0.0);
+    EXPECT_NEAR(step.transition(0, 0), std::exp(-seconds / 5.0), 1e-12);
+  }
+}
+
+TEST(ImmFilter, ChoosesTheModeOfTheMotion) {
+  EXPECT_EQ(likeliest(follow([](double t) { return Point2(5.0 * t, -2.0 * t); }, 6.0)),
+            MotionMode::kConstantVelocity);
+  EXPECT_EQ(likeliest(follow([](double t) { return Point2(2.0 * t + 1.5 * t * t, 0.0); }, 4.0)),
+            MotionMode::kConstantAcceleration);
+  const double rate = ImmOptions().motion.turn_rate;
+  const auto turn = [rate](double sign) {
+    return [rate, sign](double t) {
+      return Point2(10.0 / rate * std::sin(rate * t),
+                    sign * 10.0 / rate * (1.0 - std::cos(rate * t)));
+    };
+  };
+  EXPECT_EQ(likeliest(follow(turn(1.0), 4.0)), MotionMode::kLeftTurn);
+  EXPECT_EQ(likeliest(follow(turn(-1.0), 4.0)), MotionMode::kRightTurn);
+}
+
+TEST(ImmFilter, EstimatesVelocityAndAccelerationOfABrakingCar) {
+  const ImmFilter filter = follow([](double t) { return Point2(12.0 * t - t * t, 3.0); }, 4.0);
+  EXPECT_NEAR(filter.estimate().mean[2], 12.0 - 2.0 * 3.9, 0.4);
+  EXPECT_NEAR(filter.estimate().mean[4], -2.0, 0.7);
+}
+
+TEST(ImmFilter, MissesGrowTheCovarianceAndTendToThePriorModes) {
+  const ImmOptions options;
+  ImmFilter filter = follow([](double t) { return Point2(5.0 * t, 0.0); }, 4.0);
+  double trace = filter.estimate().covariance.topLeftCorner<4, 4>().trace();
+  for (int i = 0; i < 20; ++i) {
+    const ModeVector expected =
+        immStep(options, kPeriod).transition.transpose() * filter.modeProbabilities();
+    filter.predict(immStep(options, kPeriod));
+    EXPECT_TRUE(filter.modeProbabilities().isApprox(expected, 1e-12));
+    const double grown = filter.estimate().covariance.topLeftCorner<4, 4>().trace();
+    EXPECT_GT(grown, trace);
+    trace = grown;
+  }
+}
+
+TEST(ImmFilter, OneMixingByHand) {
+  // Two steps of no time: only the mixing is left, and of equal modes it changes nothing.
+  const ImmOptions options;
+  ImmFilter filter(startAt(Point2(1.0, 2.0)), priorModeProbabilities(options));
+  filter.predict(immStep(options, 0.0));
+  EXPECT_TRUE(filter.estimate().mean.isApprox(startAt(Point2(1.0, 2.0)).mean, 1e-12));
+  EXPECT_TRUE(filter.estimate().covariance.isApprox(startAt(Point2::Zero()).covariance, 1e-12));
+  EXPECT_TRUE(filter.modeProbabilities().isApprox(priorModeProbabilities(options), 1e-12));
+}
+
+TEST(ImmFilter, WithEqualModesItIsOneKalmanFilter) {
+  ImmStep step = immStep(ImmOptions(), kPeriod);
+  step.motions.fill(step.motions[0]);
+  ImmFilter filter(startAt(Point2::Zero()), priorModeProbabilities(ImmOptions()));
+  StateEstimate single = startAt(Point2::Zero());
+  for (int i = 1; i < 30; ++i) {
+    const PositionMeasurement seen{Point2(0.3 * i, std::sin(0.2 * i)),
+                                   Eigen::Matrix2d::Identity() * 0.01};
+    filter.predict(step);
+    single = predict(single, step.motions[0]);
+    EXPECT_NEAR(filter.logLikelihood(seen), innovationOf(single, seen).logLikelihood(), 1e-9);
+    filter.update(seen, 0.0);
+    single = update(single, seen);
+  }
+  EXPECT_TRUE(filter.estimate().mean.isApprox(single.mean, 1e-9));
+  EXPECT_TRUE(filter.estimate().covariance.isApprox(single.covariance, 1e-9));
+  // Shares of time stay as they are, but for the discretisation of the jumps.
+  EXPECT_TRUE(filter.modeProbabilities().isApprox(priorModeProbabilities(ImmOptions()), 0.02));
+}
+
+TEST(ImmFilter, AMeasurementFarAwayUnderflowsNothing) {
+  const ImmOptions options;
+  ImmFilter filter = follow([](double t) { return Point2(5.0 * t, 0.0); }, 4.0);
+  filter.predict(immStep(options, kPeriod));
+  const PositionMeasurement far{Point2(1e4, -1e4), Eigen::Matrix2d::Identity() * 1e-4};
+  EXPECT_TRUE(std::isfinite(filter.logLikelihood(far)));
+  filter.update(far, options.least_probability);
+  EXPECT_NEAR(filter.modeProbabilities().sum(), 1.0, 1e-12);
+  EXPECT_GE(filter.modeProbabilities().minCoeff(), 0.9 * options.least_probability);
+  EXPECT_TRUE(filter.estimate().mean.allFinite());
+  EXPECT_TRUE(filter.estimate().covariance.allFinite());
+}
+
+TEST(ImmFilter, PositionAndVelocityErrorsAreConsistentOnJumpingModes) {
+  // Objects that jump between the four models with the filter's own transition probabilities.
+  constexpr int kRuns = 300;
+  constexpr int kSteps = 60;
+  const ImmOptions options;
+  const ImmStep step = immStep(options, kPeriod);
+  const ModeVector prior = priorModeProbabilities(options);
+  std::mt19937_64 engine(29);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  const auto drawn = [&](const TrackCovariance& covariance) {
+    const Eigen::SelfAdjointEigenSolver<TrackCovariance> solver(covariance);
+    TrackState values;
+    for (int i = 0; i < kTrackState; ++i) {
+      values[i] = std::sqrt(std::max(0.0, solver.eigenvalues()[i])) * normal(engine);
+    }
+    return TrackState(solver.eigenvectors() * values);
+  };
+  const auto drawnMode = [&](const ModeVector& probabilities) {
+    std::discrete_distribution<int> pick(probabilities.data(), probabilities.data() + kMotionModes);
+    return pick(engine);
+  };
+  double sum = 0.0;
+  for (int run = 0; run < kRuns; ++run) {
+    StateEstimate start = startAt(Point2::Zero());
+    start.covariance.diagonal().segment<2>(2).setConstant(25.0);
+    TrackState truth = drawn(start.covariance);
+    ImmFilter filter(start, prior);
+    int mode = drawnMode(prior);
+    for (int i = 0; i < kSteps; ++i) {
+      mode = drawnMode(step.transition.row(mode).transpose());
+      const LinearMotion& motion = step.motions[static_cast<std::size_t>(mode)];
+      truth = motion.transition * truth + drawn(motion.noise);
+      filter.predict(step);
+      const Point2 seen = truth.head<2>() + kSigma * Point2(normal(engine), normal(engine));
+      filter.update({seen, Eigen::Matrix2d::Identity() * kSigma * kSigma}, 0.0);
+    }
+    const Eigen::Vector4d error = (truth - filter.estimate().mean).head<4>();
+    const Eigen::Matrix4d covariance = filter.estimate().covariance.topLeftCorner<4, 4>();
+    sum += error.dot(covariance.ldlt().solve(error));
+  }
+  // A mixture is not normal, so the chi-square bounds of 95 % are only near; 4 degrees of freedom.
+  const double bound = 1.96 * std::sqrt(2.0 * 4.0 / kRuns);
+  EXPECT_NEAR(sum / kRuns, 4.0, bound);
+}
+
+}  // namespace
+}  // namespace datmo_fusion

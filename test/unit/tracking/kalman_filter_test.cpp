@@ -1,0 +1,117 @@
+#include "datmo_fusion/tracking/kalman_filter.h"
+
+#include <cmath>
+#include <random>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+namespace datmo_fusion {
+namespace {
+
+/// 95 % bounds of the mean of `count` chi-square values with `degrees` degrees of freedom; normal
+/// for the large counts used here.
+struct ChiSquareMean {
+  double least;
+  double most;
+  ChiSquareMean(int degrees, int count)
+      : least(degrees - 1.96 * std::sqrt(2.0 * degrees / count)),
+        most(degrees + 1.96 * std::sqrt(2.0 * degrees / count)) {}
+};
+
+TEST(KalmanFilter, UpdateByHand) {
+  StateEstimate predicted;
+  predicted.mean << 10.0, 0.0, 2.0, 0.0, 0.0, 0.0;
+  predicted.covariance.setIdentity();
+  predicted.covariance.diagonal().head<2>().setConstant(3.0);
+  predicted.covariance(0, 2) = predicted.covariance(2, 0) = 1.5;
+  const StateEstimate updated = update(predicted, {Point2(14.0, 0.0), Eigen::Matrix2d::Identity()});
+  // Gain 3/4 on the position, 1.5/4 on the velocity.
+  EXPECT_NEAR(updated.mean[0], 13.0, 1e-12);
+  EXPECT_NEAR(updated.mean[2], 3.5, 1e-12);
+  EXPECT_NEAR(updated.covariance(0, 0), 0.75, 1e-12);
+  EXPECT_NEAR(updated.covariance(2, 2), 1.0 - 1.5 * 1.5 / 4.0, 1e-12);
+  EXPECT_NEAR(updated.covariance(0, 2), 1.5 / 4.0, 1e-12);
+}
+
+TEST(KalmanFilter, InnovationByHand) {
+  StateEstimate predicted;
+  predicted.covariance = 3.0 * TrackCovariance::Identity();
+  const Innovation innovation =
+      innovationOf(predicted, {Point2(2.0, -4.0), Eigen::Matrix2d::Identity()});
+  EXPECT_NEAR(innovation.squaredDistance(), 20.0 / 4.0, 1e-12);
+  EXPECT_NEAR(innovation.logLikelihood(), std::log(std::exp(-2.5) / (2.0 * kPi * 4.0)), 1e-12);
+}
+
+TEST(KalmanFilter, CovarianceStaysSymmetricAndPositiveWithExtremeMeasurements) {
+  StateEstimate estimate;
+  estimate.covariance *= 1e6;
+  for (int i = 0; i < 1000; ++i) {
+    const double variance = i % 2 == 0 ? 1e-8 : 1e8;
+    estimate = predict(estimate, constantAcceleration(TargetMotionOptions(), 0.05));
+    estimate = update(estimate, {Point2::Zero(), Eigen::Matrix2d::Identity() * variance});
+  }
+  EXPECT_TRUE(estimate.covariance.isApprox(estimate.covariance.transpose(), 1e-12));
+  const Eigen::SelfAdjointEigenSolver<TrackCovariance> solver(estimate.covariance);
+  EXPECT_GT(solver.eigenvalues().minCoeff(), 0.0);
+}
+
+/// Objects that move as each model says are tracked by the same model with honest covariances.
+class Consistency : public testing::TestWithParam<int> {
+ protected:
+  Eigen::VectorXd normal(Eigen::Index size) {
+    Eigen::VectorXd values(size);
+    for (Eigen::Index i = 0; i < size; ++i) {
+      values[i] = distribution_(engine_);
+    }
+    return values;
+  }
+
+  TrackState drawn(const TrackCovariance& covariance) {
+    // The semi-definite noise of a short step is not safe for LLT.
+    const Eigen::SelfAdjointEigenSolver<TrackCovariance> solver(covariance);
+    return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
+           normal(kTrackState);
+  }
+
+ private:
+  std::mt19937_64 engine_{17};
+  std::normal_distribution<double> distribution_{0.0, 1.0};
+};
+
+TEST_P(Consistency, NormalisedErrorsAreChiSquare) {
+  constexpr int kRuns = 400;
+  constexpr int kSteps = 50;
+  const LinearMotion motion =
+      targetMotions(TargetMotionOptions(), 0.1)[static_cast<std::size_t>(GetParam())];
+  const Eigen::Matrix2d noise = Eigen::Vector2d(0.04, 0.25).asDiagonal();
+  StateEstimate start;
+  start.covariance.diagonal() << 1.0, 1.0, 25.0, 25.0, 0.25, 0.25;
+  double error_sum = 0.0;       // NEES at the last step
+  double innovation_sum = 0.0;  // NIS over all steps
+  for (int run = 0; run < kRuns; ++run) {
+    TrackState truth = drawn(start.covariance);
+    StateEstimate estimate = start;
+    for (int step = 0; step < kSteps; ++step) {
+      truth = motion.transition * truth + drawn(motion.noise);
+      const Point2 seen = truth.head<2>() + noise.llt().matrixL() * normal(2);
+      estimate = predict(estimate, motion);
+      innovation_sum += innovationOf(estimate, {seen, noise}).squaredDistance();
+      estimate = update(estimate, {seen, noise});
+    }
+    const TrackState error = truth - estimate.mean;
+    error_sum += error.dot(estimate.covariance.ldlt().solve(error));
+  }
+  const ChiSquareMean nees(kTrackState, kRuns);
+  EXPECT_GT(error_sum / kRuns, nees.least);
+  EXPECT_LT(error_sum / kRuns, nees.most);
+  const ChiSquareMean nis(2, kRuns * kSteps);
+  EXPECT_GT(innovation_sum / (kRuns * kSteps), nis.least);
+  EXPECT_LT(innovation_sum / (kRuns * kSteps), nis.most);
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes, Consistency, testing::Range(0, kMotionModes));
+
+}  // namespace
+}  // namespace datmo_fusion

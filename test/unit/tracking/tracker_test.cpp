@@ -1,0 +1,322 @@
+#include "datmo_fusion/tracking/tracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "tracking_scene.h"
+#include <gtest/gtest.h>
+
+namespace datmo_fusion {
+namespace {
+
+std::set<std::uint32_t> idsOf(const TrackList& list) {
+  std::set<std::uint32_t> ids;
+  for (const Track& track : list.tracks) {
+    ids.insert(track.id);
+  }
+  return ids;
+}
+
+/// Scans until the first track is published; -1: never.
+int scansUntilConfirmed(TrackingScene& scene, double speed, int most, DynamicState state) {
+  for (int scan = 1; scan <= most; ++scan) {
+    const double x = 15.0 + speed * scene.nextTime();
+    if (!scene.scan({objectAt(x + scene.noise(0.1), 2.0 + scene.noise(0.1), state)})
+             .tracks.empty()) {
+      return scan;
+    }
+  }
+  return -1;
+}
+
+TEST(Tracker, ConfirmsACyclistInUnknownSpaceWithinSixScansAt10Hz) {
+  TrackingScene scene;
+  const int scans = scansUntilConfirmed(scene, 4.4, 20, DynamicState::kUnknown);
+  EXPECT_GE(scans, 3);
+  EXPECT_LE(scans, 6);
+  EXPECT_EQ(scene.tracks().tracks.front().id, 1U);
+  EXPECT_TRUE(scene.tracks().tracks.front().moving);
+}
+
+TEST(Tracker, ConfirmsWithinTheSameTimeAtTheScannersRate) {
+  TrackingScene scene(TrackerOptions(), 0.06);
+  const int scans = scansUntilConfirmed(scene, 4.4, 30, DynamicState::kUnknown);
+  EXPECT_GE(scans, 3);
+  EXPECT_LE(scans, 11);
+}
+
+TEST(Tracker, FreeSpaceBehindAnObjectConfirmsItNoLater) {
+  TrackingScene unknown;
+  TrackingScene moving;
+  EXPECT_LE(scansUntilConfirmed(moving, 2.0, 40, DynamicState::kMoving),
+            scansUntilConfirmed(unknown, 2.0, 40, DynamicState::kUnknown));
+}
+
+TEST(Tracker, EstimatesStateInTheFixedFrameFromAMovingVehicle) {
+  TrackingScene scene;
+  for (int i = 0; i < 40; ++i) {
+    const double time = scene.nextTime() - 100.0;
+    const Pose2 base(5.0 * time, 1.0, 0.2 * time);
+    const Point2 truth(20.0, -10.0 + 3.0 * time);
+    const Point2 seen = base.inverse() * truth;
+    scene.scan({objectAt(seen.x() + scene.noise(0.1), seen.y() + scene.noise(0.1))}, base);
+  }
+  ASSERT_EQ(scene.tracks().tracks.size(), 1U);
+  const Track& track = scene.tracks().tracks.front();
+  EXPECT_NEAR(track.state[0], 20.0, 0.3);
+  EXPECT_NEAR(track.state[1], -10.0 + 3.0 * 4.0, 0.3);
+  EXPECT_NEAR(track.state[2], 0.0, 0.5);
+  EXPECT_NEAR(track.state[3], 3.0, 0.5);
+  EXPECT_NEAR(angleBetween(track.box.centre.heading(), 0.5 * kPi), 0.0, 0.2);
+  EXPECT_EQ(track.box.centre.position(), Point2(track.state.head<2>()));
+  EXPECT_NEAR(track.age, 3.9, 1e-6);
+  EXPECT_EQ(track.hits, 40U);
+}
+
+TEST(Tracker, NeverPublishesWhatStandsAndOnlySeemsToMove) {
+  TrackingScene scene;
+  for (int i = 0; i < 100; ++i) {
+    scene.scan({objectAt(12.0 + scene.noise(0.2), 3.0 + scene.noise(0.2))});
+    EXPECT_TRUE(scene.tracks().tracks.empty()) << "scan " << i;
+  }
+}
+
+/// A parked car comes into view: first its rear, then more of its side, then only its front.
+TEST(Tracker, NeverPublishesAParkedCarWhoseVisiblePartSlides) {
+  for (const double speed : {2.0, 5.0, 10.0}) {
+    TrackingScene scene;
+    for (double passed = 0.0; passed < 7.0; passed += 0.1 * speed) {
+      const double front = std::min(4.5, 0.5 + passed);
+      const double rear = std::min(std::max(0.0, passed - 2.5), 4.0);
+      Object object = objectAt(10.0 + 0.5 * (front + rear), 3.0 + scene.noise(0.05));
+      object.box.length = front - rear;
+      object.box.width = 0.2;
+      scene.scan({object});
+      EXPECT_TRUE(scene.tracks().tracks.empty()) << speed << " m/s, after " << passed << " m";
+    }
+  }
+}
+
+TEST(Tracker, NeverStartsFromAStaticObjectButFollowsOneThatIsTracked) {
+  TrackingScene scene;
+  for (int i = 0; i < 20; ++i) {
+    scene.scan({objectAt(5.0 * scene.nextTime(), 0.0, DynamicState::kStatic)});
+    EXPECT_TRUE(scene.tracks().tracks.empty());
+  }
+  for (int i = 0; i < 20; ++i) {
+    const auto state = i < 10 ? DynamicState::kMoving : DynamicState::kStatic;
+    scene.scan({objectAt(5.0 * scene.nextTime(), 0.0, state)});
+  }
+  ASSERT_EQ(scene.tracks().tracks.size(), 1U);
+  EXPECT_EQ(scene.tracks().tracks.front().since_update, 0.0);
+}
+
+TEST(Tracker, KeepsTheIdThroughMissedScansAndCoastsOnTheWay) {
+  TrackingScene scene;
+  for (int i = 0; i < 60; ++i) {
+    const double x = 6.0 * (scene.nextTime() - 100.0);
+    const bool seen = i < 20 || i >= 28;
+    scene.scan(seen ? std::vector<Object>{objectAt(x + scene.noise(0.2), scene.noise(0.2))}
+                    : std::vector<Object>{});
+    if (!seen) {
+      ASSERT_EQ(scene.tracks().tracks.size(), 1U) << "scan " << i;
+      EXPECT_GT(scene.tracks().tracks.front().since_update, 0.0);
+      EXPECT_TRUE(scene.tracks().tracks.front().moving);
+      EXPECT_NEAR(scene.tracks().tracks.front().state[0], x, 1.0);
+    }
+  }
+  EXPECT_EQ(idsOf(scene.tracks()), std::set<std::uint32_t>{1});
+}
+
+TEST(Tracker, CoastingIsPublishedForALimitedTimeThenTheTrackDies) {
+  TrackerOptions options;
+  TrackingScene scene(options);
+  for (int i = 0; i < 60; ++i) {
+    scene.scan({objectAt(5.0 * scene.nextTime(), 0.0)});
+  }
+  ASSERT_EQ(scene.tracks().tracks.size(), 1U);
+  double silent = 0.0;
+  while (!scene.scan({}).tracks.empty()) {
+    silent += 0.1;
+    ASSERT_LT(silent, 10.0);
+  }
+  EXPECT_NEAR(silent, options.published_silence, 0.11);
+}
+
+TEST(Tracker, CrossingTargetsKeepTheirIds) {
+  TrackingScene scene;
+  for (int i = 0; i < 60; ++i) {
+    const double time = scene.nextTime() - 100.0;
+    const double a = -15.0 + 5.0 * time;
+    scene.scan({objectAt(a + scene.noise(0.1), 0.0 + scene.noise(0.1)),
+                objectAt(scene.noise(0.1), -14.0 + 5.0 * time + scene.noise(0.1))});
+  }
+  ASSERT_EQ(idsOf(scene.tracks()), (std::set<std::uint32_t>{1, 2}));
+  int along_x = 0;
+  for (const Track& track : scene.tracks().tracks) {
+    EXPECT_NEAR(track.state.segment<2>(2).norm(), 5.0, 0.7);
+    along_x += track.state[2] > 4.0 ? 1 : 0;
+  }
+  EXPECT_EQ(along_x, 1);
+  EXPECT_EQ(scene.tracker().counts().confirmed_tracks, 2U);
+}
+
+TEST(Tracker, ClutterIsNotPublished) {
+  TrackingScene scene;
+  std::mt19937_64 engine(3);
+  std::uniform_real_distribution<double> place(-40.0, 40.0);
+  for (int i = 0; i < 200; ++i) {
+    std::vector<Object> objects;
+    for (int k = 0; k < 5; ++k) {
+      objects.push_back(objectAt(place(engine), place(engine)));
+    }
+    scene.scan(objects);
+  }
+  EXPECT_LE(scene.tracker().counts().confirmed_tracks, 2U);
+}
+
+TEST(Tracker, AnObjectThatStopsStaysATrackThatStands) {
+  TrackingScene scene;
+  double x = 10.0;
+  for (int i = 0; i < 100; ++i) {
+    const double speed = i < 30 ? 4.0 : std::max(0.0, 4.0 - 0.2 * (i - 30));
+    x += 0.1 * speed;
+    scene.scan({objectAt(x + scene.noise(0.05), scene.noise(0.05))});
+  }
+  ASSERT_EQ(idsOf(scene.tracks()), std::set<std::uint32_t>{1});
+  EXPECT_FALSE(scene.tracks().tracks.front().moving);
+  EXPECT_NEAR(scene.tracks().tracks.front().box.centre.heading(), 0.0, 0.2);
+}
+
+TEST(Tracker, IdsRiseAndAreNotReusedAfterDeathOrReset) {
+  TrackingScene scene;
+  std::uint32_t last = 0;
+  for (int life = 0; life < 4; ++life) {
+    for (int i = 0; i < 20; ++i) {
+      scene.scan({objectAt(5.0 * scene.nextTime(), 0.0)});
+    }
+    ASSERT_EQ(scene.tracks().tracks.size(), 1U);
+    EXPECT_GT(scene.tracks().tracks.front().id, last);
+    last = scene.tracks().tracks.front().id;
+    if (life % 2 == 0) {
+      scene.wait(20.0);
+    } else {
+      scene.tracker().reset();
+      EXPECT_EQ(scene.tracker().counts().objects, 0U);
+    }
+    EXPECT_TRUE(scene.scan({}).tracks.empty());
+  }
+}
+
+TEST(Tracker, AGapOfTenSecondsEndsAllTracks) {
+  TrackingScene scene;
+  for (int i = 0; i < 20; ++i) {
+    scene.scan({objectAt(5.0 * scene.nextTime(), 0.0)});
+  }
+  scene.wait(10.0);
+  EXPECT_TRUE(scene.scan({objectAt(5.0 * scene.nextTime(), 0.0)}).tracks.empty());
+}
+
+TEST(Tracker, TheSameTimeTwiceChangesNoStateWithoutObjects) {
+  TrackingScene scene(TrackerOptions(), 0.1);
+  for (int i = 0; i < 20; ++i) {
+    scene.scan({objectAt(5.0 * scene.nextTime(), 0.0)});
+  }
+  const Track before = scene.tracks().tracks.at(0);
+  const TrackList after = scene.tracker().process({scene.tracks().stamp, {}}, Pose2());
+  ASSERT_EQ(after.tracks.size(), 1U);
+  EXPECT_TRUE(after.tracks[0].state.isApprox(before.state, 1e-9));
+  EXPECT_TRUE(after.tracks[0].covariance.isApprox(before.covariance, 1e-9));
+}
+
+TEST(Tracker, RejectsBrokenObjectsAndTakesTheRest) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  std::vector<Object> broken(8, objectAt(3.0, 3.0));
+  broken[0].box.centre = Pose2(nan, 0.0, 0.0);
+  broken[1].box.centre = Pose2(0.0, -inf, 0.0);
+  broken[2].box.length = nan;
+  broken[3].box.width = -1.0;
+  broken[4].position_covariance.setZero();
+  broken[5].position_covariance << 1.0, 2.0, 2.0, 1.0;
+  broken[6].position_covariance(0, 1) = nan;
+  broken[7].heading_variance = inf;
+  TrackingScene scene;
+  for (int i = 0; i < 20; ++i) {
+    std::vector<Object> objects = broken;
+    objects.push_back(objectAt(5.0 * scene.nextTime(), 0.0));
+    scene.scan(objects);
+  }
+  EXPECT_EQ(scene.tracker().counts().rejected_objects, 20U * 8U);
+  EXPECT_EQ(scene.tracker().counts().objects, 20U);
+  ASSERT_EQ(scene.tracks().tracks.size(), 1U);
+  EXPECT_TRUE(scene.tracks().tracks[0].state.allFinite());
+}
+
+TEST(Tracker, AVehiclePoseThatIsNotFiniteRejectsTheObjectsOnly) {
+  TrackingScene scene;
+  scene.scan({objectAt(1.0, 1.0)}, Pose2(std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0));
+  EXPECT_EQ(scene.tracker().counts().rejected_objects, 1U);
+}
+
+TEST(Tracker, AThousandObjectsAtOnePointAreBounded) {
+  TrackerOptions options;
+  options.most_targets = 50;
+  TrackingScene scene(options);
+  for (int i = 0; i < 3; ++i) {
+    scene.scan(std::vector<Object>(1000, objectAt(10.0, 0.0)));
+  }
+  EXPECT_GE(scene.tracker().counts().refused_births, 950U);
+  EXPECT_EQ(scene.tracker().counts().confirmed_tracks, 0U);
+}
+
+TEST(Tracker, TheOrderOfTheObjectsDoesNotMatter) {
+  TrackingScene forward;
+  TrackingScene shuffled;
+  std::mt19937_64 engine(5);
+  for (int i = 0; i < 40; ++i) {
+    const double t = forward.nextTime() - 100.0;
+    std::vector<Object> objects;
+    for (int k = 0; k < 6; ++k) {
+      objects.push_back(objectAt(4.0 * t + forward.noise(0.1), 3.0 * k + forward.noise(0.1)));
+    }
+    forward.scan(objects);
+    std::shuffle(objects.begin(), objects.end(), engine);
+    shuffled.scan(objects);
+    ASSERT_EQ(idsOf(forward.tracks()), idsOf(shuffled.tracks()));
+    for (std::size_t k = 0; k < forward.tracks().tracks.size(); ++k) {
+      EXPECT_EQ(forward.tracks().tracks[k].state, shuffled.tracks().tracks[k].state);
+    }
+  }
+  EXPECT_EQ(forward.tracks().tracks.size(), 6U);
+}
+
+TEST(Tracker, TwoPartsOfOneVanBecomeOneTrack) {
+  TrackingScene scene;
+  for (int i = 0; i < 60; ++i) {
+    const double x = 5.0 * (scene.nextTime() - 100.0);
+    Object whole = objectAt(x + scene.noise(0.05), scene.noise(0.05));
+    whole.box.length = 5.0;
+    whole.box.width = 2.0;
+    Object rear = objectAt(x - 2.0 + scene.noise(0.05), scene.noise(0.05));
+    rear.box.length = 0.8;
+    std::vector<Object> objects{whole};
+    if (i >= 20) {
+      objects.push_back(rear);
+    }
+    scene.scan(objects);
+  }
+  EXPECT_EQ(scene.tracker().counts().confirmed_tracks, 1U);
+  EXPECT_GT(scene.tracker().counts().merged_tracks, 0U);
+}
+
+TEST(Tracker, BadOptionsAreRefused) {
+  TrackerOptions options;
+  options.target.filter.motion.turn_rate = -1.0;
+  EXPECT_THROW(Tracker{options}, OptionError);
+}
+
+}  // namespace
+}  // namespace datmo_fusion
