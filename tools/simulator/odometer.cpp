@@ -24,16 +24,19 @@ Odometry Odometer::measure(const WorldState& state) {
   const double scale = options_.speed_scale_error;
   const double bias = degrees(options_.yaw_rate_bias);
   const double yaw_rate_noise = degrees(options_.yaw_rate_noise);
+  const Twist2 truth =
+      last_ ? twistOf(last_base_.inverse() * state.base, state.time - last_->time) : state.twist;
   Odometry now;
   now.time = state.time;
   now.twist.forward_speed =
-      state.twist.forward_speed * (1.0 + scale) + random_.normal(options_.speed_noise);
-  now.twist.yaw_rate = state.twist.yaw_rate + bias + random_.normal(yaw_rate_noise);
+      truth.forward_speed * (1.0 + scale) + random_.normal(options_.speed_noise);
+  now.twist.yaw_rate = truth.yaw_rate + bias + random_.normal(yaw_rate_noise);
   now.speed_variance = options_.speed_noise * options_.speed_noise +
                        scale * scale * now.twist.forward_speed * now.twist.forward_speed;
   now.yaw_rate_variance = yaw_rate_noise * yaw_rate_noise + bias * bias;
   integrate(now);
   last_ = now;
+  last_base_ = state.base;
   return now;
 }
 

@@ -34,7 +34,8 @@ struct Odometry {
   PoseWithCovariance pose;  ///< of the vehicle in the odometry's frame: where it was at first
 };
 
-/// Measures the ego vehicle's motion and integrates it.
+/// Measures the ego vehicle's mean motion since the measurement before, as wheel counts do, and
+/// integrates it.
 class Odometer {
  public:
   /// Throws OptionError.
@@ -49,6 +50,7 @@ class Odometer {
   OdometerOptions options_;
   RandomStream random_;
   std::optional<Odometry> last_;
+  Pose2 last_base_;  // true, at the last measurement
 };
 
 }  // namespace datmo_fusion::simulator

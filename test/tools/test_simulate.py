@@ -1,0 +1,142 @@
+#!/usr/bin/python3
+"""The simulator as a program: exit codes, messages, and bags that are the same byte for byte."""
+
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import rosbag
+
+SIMULATE = os.environ["DATMO_FUSION_SIMULATE"]
+FIXTURES = Path(__file__).resolve().parents[2] / "rosbag_fixtures"
+SCENE = FIXTURES / "scenes" / "intersection.yaml"
+
+
+class Simulate(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.bag = self.folder / "out.bag"
+
+    def run_tool(self, *arguments):
+        return subprocess.run([SIMULATE, *map(str, arguments)], stderr=subprocess.PIPE,
+                              stdout=subprocess.PIPE, universal_newlines=True)
+
+    def simulate(self, *options):
+        done = self.run_tool(SCENE, self.bag, *options)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return self.bag.read_bytes()
+
+    def assert_refused(self, *arguments, expected):
+        done = self.run_tool(*arguments)
+        self.assertEqual(done.returncode, 1)
+        for part in expected:
+            self.assertIn(part, done.stderr)
+        self.assertEqual([path.suffix for path in self.folder.iterdir()
+                          if path.suffix != ".yaml"], [])
+
+    def test_committed_bag_is_what_the_scene_makes(self):
+        self.assertTrue(self.simulate() == (FIXTURES / "intersection.bag").read_bytes(),
+                        "make it anew as rosbag_fixtures/README.md says")
+
+    def test_same_seed_same_bytes_and_other_seed_others(self):
+        short = ["--set", "duration=2", "--seed"]
+        first = self.simulate(*short, 5)
+        self.assertTrue(first == self.simulate(*short, 5))
+        self.assertFalse(first == self.simulate(*short, 6))
+
+    def test_one_echo_is_a_laser_scan_at_the_given_resolution(self):
+        self.simulate("--set", "duration=1", "--set", "scanner/echoes=1",
+                      "--set", "scanner/beam_spacing=1.0")
+        with rosbag.Bag(str(self.bag)) as bag:
+            scans = [message for _, message, _ in bag.read_messages("/scan")]
+        self.assertEqual(len(scans), 17)
+        self.assertEqual(len(scans[0].ranges), 161)
+
+    def test_unknown_option_and_bad_value(self):
+        self.assert_refused(SCENE, self.bag, "--set", "scanner/range_noize=1",
+                            expected=["intersection.yaml", "scanner/range_noize", "range_noise"])
+        self.assert_refused(SCENE, self.bag, "--set", "scanner/range_noise=-1",
+                            expected=["intersection.yaml", "scanner/range_noise = -1",
+                                      "expected a number from 0"])
+        self.assert_refused(SCENE, self.bag, "--seed", "x", expected=["seed = 'x'"])
+
+    def test_bad_scene(self):
+        scene = self.folder / "bad.yaml"
+        scene.write_text("roads: 3\nego: {}\n")
+        self.assert_refused(scene, self.bag, expected=["bad.yaml: roads: expected a list"])
+        self.assert_refused(self.folder / "none.yaml", self.bag, expected=["none.yaml"])
+
+    def test_bag_that_cannot_be_written(self):
+        self.assert_refused(SCENE, self.folder / "none" / "out.bag", expected=["none/out.bag"])
+
+    def test_wrong_usage(self):
+        self.assert_refused(SCENE, expected=["expected a scene and a bag"])
+        self.assert_refused(SCENE, self.bag, "--fast", expected=["--fast"])
+
+
+class Contract(unittest.TestCase):
+    """What readers of the committed bag rely on."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.messages = {}
+        with rosbag.Bag(str(FIXTURES / "intersection.bag")) as bag:
+            for topic, message, time in bag.read_messages():
+                cls.messages.setdefault(topic, []).append((message, time))
+            cls.latched = [c.header for c in bag._get_connections()
+                           if c.topic == "/tf_static"][0].get("latching")
+
+    def test_topics(self):
+        self.assertEqual(sorted(self.messages), [
+            "/echoes", "/ground_truth/objects", "/ground_truth/pose",
+            "/ground_truth/road_borders", "/odometry", "/tf", "/tf_static"])
+        self.assertEqual(self.latched, b"1")
+
+    def test_record_times_are_stamps(self):
+        for topic in ("/echoes", "/ground_truth/objects", "/ground_truth/pose", "/odometry"):
+            for message, time in self.messages[topic]:
+                self.assertEqual(message.header.stamp, time)
+
+    def test_truth_stands_at_the_scans_stamps(self):
+        stamps = [time for _, time in self.messages["/echoes"]]
+        for topic in ("/ground_truth/objects", "/ground_truth/pose"):
+            self.assertEqual([time for _, time in self.messages[topic]], stamps)
+
+    def test_map_starts_at_the_vehicle(self):
+        pose = self.messages["/ground_truth/pose"][0][0].pose.pose
+        self.assertEqual((pose.position.x, pose.position.y, pose.orientation.w), (0.0, 0.0, 1.0))
+
+    def test_velocity_is_the_change_of_position(self):
+        # To 5 cm per scan in a turn, and only where an object keeps its motion.
+        last = {}
+        checked = 0
+        for message, time in self.messages["/ground_truth/objects"]:
+            for item in message.objects:
+                place = (item.pose.position.x, item.pose.position.y)
+                if item.id in last and (time - last[item.id][1]).to_sec() < 0.07:
+                    seconds = (time - last[item.id][1]).to_sec()
+                    before = last[item.id][0]
+                    self.assertAlmostEqual(place[0], before[0] + seconds * item.velocity.x,
+                                           delta=0.05)
+                    self.assertAlmostEqual(place[1], before[1] + seconds * item.velocity.y,
+                                           delta=0.05)
+                    checked += item.moving
+                last[item.id] = (place, time)
+        self.assertGreater(checked, 500)
+
+    def test_echoes_are_ordered_and_in_range(self):
+        for message, _ in self.messages["/echoes"]:
+            self.assertEqual(len(message.ranges), 81)
+            for beam in message.ranges:
+                echoes = list(beam.echoes)
+                self.assertEqual(echoes, sorted(echoes))
+                for echo in echoes:
+                    self.assertTrue(message.range_min <= echo <= message.range_max)
+
+
+if __name__ == "__main__":
+    unittest.main()
