@@ -104,7 +104,8 @@ class Contents(Conversion):
         self.run_tool()
         with rosbag.Bag(str(self.bag)) as bag:
             topic, message, _, header = next(bag.read_messages(["/tf_static"], return_connection_header=True))
-        self.assertEqual(header["latching"], b"1")
+            first = next(bag.read_messages()).topic
+        self.assertEqual((header["latching"], first), (b"1", "/tf_static"))
         mounts = {item.child_frame_id: item.transform.translation for item in message.transforms}
         places = {frame: (round(at.x, 6), round(at.y, 6), round(at.z, 6)) for frame, at in mounts.items()}
         self.assertEqual(places, {

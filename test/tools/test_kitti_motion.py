@@ -6,7 +6,7 @@ import unittest
 
 import numpy as np
 from datmo_tools import odometry, transforms
-from datmo_tools.ego_pose import EgoMotion, poses_from_gps, poses_from_velocity
+from datmo_tools.ego_pose import EgoMotion, course_offset, poses_from_gps, poses_from_velocity
 from datmo_tools.kitti_raw import Oxts
 from datmo_tools.odometry import OdometryErrors
 from tiny_drive import METRE_IN_LONGITUDE
@@ -15,10 +15,11 @@ SECOND = 10**9
 RIGHT_ANGLE = math.pi / 2
 
 
-def driving(count, speed=10.0, yaw_rate=0.0, yaw=0.0, step=SECOND):
+def driving(count, speed=10.0, yaw_rate=0.0, yaw=0.0, step=SECOND, leftward=0.0):
     """Stamps (ns) and records of constant speed and yaw rate; longitude as if it drove east."""
     seconds = [i * step / SECOND for i in range(count)]
-    records = [Oxts(0.0, 8.0 + speed * t * METRE_IN_LONGITUDE, yaw + yaw_rate * t, speed, yaw_rate) for t in seconds]
+    records = [Oxts(0.0, 8.0 + speed * t * METRE_IN_LONGITUDE, yaw + yaw_rate * t, speed, leftward, yaw_rate)
+               for t in seconds]
     return [i * step for i in range(count)], records
 
 
@@ -62,7 +63,7 @@ class EgoPose(unittest.TestCase):
         np.testing.assert_allclose(poses_from_velocity(stamps, records)[2], [20.0, 0.0, 0.0], atol=1e-9)
 
     def test_gps_at_latitude_60_is_half_as_wide(self):
-        records = [Oxts(60.0, 8.0 + 2.0 * i * METRE_IN_LONGITUDE, 0.0, 0.0, 0.0) for i in range(2)]
+        records = [Oxts(60.0, 8.0 + 2.0 * i * METRE_IN_LONGITUDE, 0.0, 0.0, 0.0, 0.0) for i in range(2)]
         np.testing.assert_allclose(poses_from_gps(records)[1], [1.0, 0.0, 0.0], atol=1e-6)
 
     def test_circle_closes(self):
@@ -70,6 +71,15 @@ class EgoPose(unittest.TestCase):
         poses = poses_from_velocity(stamps, records)
         np.testing.assert_allclose(poses[-1, :2], [0.0, 0.0], atol=1e-6)
         np.testing.assert_allclose(poses[500, :2], [0.0, 1000.0 / math.pi], atol=0.01)
+
+    def test_gps_unit_that_is_mounted_askew(self):
+        """It says 10 m/s ahead and 1 m/s to the left: it looks to the right of where the car goes."""
+        for speed, leftward in ((10.0, 1.0), (-10.0, -1.0)):
+            stamps, records = driving(2, speed=speed, leftward=leftward)
+            self.assertAlmostEqual(course_offset(records), math.atan(0.1))
+            expected = transforms.compose(np.array([0.0, 0.0, math.atan(0.1)]), [speed, 0.0, 0.0])[:2]
+            np.testing.assert_allclose(poses_from_velocity(stamps, records)[1], [*expected, 0.0], atol=1e-9)
+        self.assertEqual(course_offset(driving(3, speed=0.0)[1]), 0.0)
 
     def test_between_and_beyond_the_records(self):
         stamps, records = driving(3)

@@ -16,6 +16,10 @@ from datmo_tools.progress import Progress
 from datmo_tools.scanner_emulation import ScannerOptions
 
 
+# The mounts stand in the bag this much before the first measurement, so that no reader meets a scan first.
+MOUNTS_LEAD = 1_000_000  # ns
+
+
 class Options(NamedTuple):
     """What to convert and how."""
 
@@ -43,7 +47,7 @@ def convert(folder, bag_path, options, stream=None):
     progress = Progress(len(events), "kitti_to_bag", stream)
     try:
         with whole_bag(bag_path) as bag:
-            conversion.write_mounts(bag, events[0].stamp)
+            conversion.write_mounts(bag, events[0].stamp - MOUNTS_LEAD)
             for done, event in enumerate(events, 1):
                 event.write(bag, event.stamp, event.frame)
                 progress.update(done)

@@ -17,12 +17,13 @@ NANOSECONDS = 10**9
 
 
 class Oxts(NamedTuple):
-    """One record of the GPS/IMU: position, heading (0 = east, to the left), speed ahead, yaw rate."""
+    """One record of the GPS/IMU: position, heading (0 = east, to the left), speeds, yaw rate."""
 
     latitude: float  # degrees
     longitude: float  # degrees
     yaw: float  # rad
     forward_speed: float  # m/s
+    leftward_speed: float  # m/s
     yaw_rate: float  # rad/s, about the upward axis
 
 
@@ -52,9 +53,9 @@ class Drive:
             values = np.array([float(word) for word in words])
         except ValueError as error:
             raise InputError(f"{path}: {error}, expected {OXTS_FIELDS} numbers") from error
-        record = Oxts(*values[[0, 1, 5, 8, 22]])
+        record = Oxts(*values[[0, 1, 5, 8, 9, 22]])
         if not np.all(np.isfinite(record)):
-            raise InputError(f"{path}: not a finite number among latitude, longitude, yaw, vf, wu")
+            raise InputError(f"{path}: not a finite number among latitude, longitude, yaw, vf, vl, wu")
         return record
 
     def has_cloud(self, frame):
