@@ -1,4 +1,4 @@
-"""How good a run on a drive with truth was: end point of the pose, objects tracked, tracks of nothing."""
+"""How good a run on a drive with truth was: end point, objects tracked, tracks of nothing."""
 
 import math
 from typing import NamedTuple
@@ -28,7 +28,7 @@ class TrackState(NamedTuple):
 
 
 class PosePath:
-    """Planar poses over time, interpolated between stamps and carried on beyond the first and the last."""
+    """Planar poses over time, interpolated between stamps and carried on beyond them."""
 
     def __init__(self, stamps, poses):
         """stamps: ns, rising, two or more; poses: n x 3 (x, y in m, yaw in rad)."""
@@ -48,13 +48,13 @@ class PosePath:
 
 
 def alignment(path, truth):
-    """Planar pose of the path's frame in the truth's, so that both agree at the path's first stamp."""
+    """Planar pose of the path's frame in the truth's: both agree at the path's first stamp."""
     first = transforms.relative(path.poses[0], np.zeros(3))
     return transforms.compose(truth.at(path.stamps[0]), first)
 
 
 def end_point_error(path, truth):
-    """Distance (m) between the ends of an aligned path and of the truth, at the path's last stamp."""
+    """Distance (m) of an aligned path from the truth at the path's last stamp."""
     end = transforms.compose(alignment(path, truth), path.poses[-1])
     return float(np.hypot(*(end - truth.at(path.stamps[-1]))[:2]))
 
@@ -134,8 +134,9 @@ class TrackingScore(NamedTuple):
 def score_tracking(truth, tracks, in_view, gate):
     """TrackingScore.
 
-    truth: stamp -> list of TrueBox; tracks: stamp -> list of TrackState (a stamp without tracks counts as
-    none); in_view: function of (stamp, position), true where the truth would hold an object.
+    truth: stamp -> list of TrueBox; tracks: stamp -> list of TrackState (a stamp without tracks
+    counts as none); in_view: function of (stamp, position), true where the truth would hold an
+    object.
     """
     scores, false_frames = {}, {}
     for stamp, boxes in truth.items():

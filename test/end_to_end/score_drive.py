@@ -3,10 +3,11 @@
 
 usage: score_drive.py TRUTH.bag OUTPUT.bag [--gate M] [--label-view DEG]
 
-TRUTH.bag holds /ground_truth/pose, /ground_truth/objects and /odometry, OUTPUT.bag /pose and /tracks. The
-map of the run is laid on the truth's at its first pose. A track counts for the true object whose box is
-nearest to its centre, one to one, within the gate. Tracks on no labelled object are counted only where
-KITTI labels: in the camera's view. Not everything there is labelled, so their number is an upper bound.
+TRUTH.bag holds /ground_truth/pose, /ground_truth/objects and /odometry, OUTPUT.bag /pose and
+/tracks. The map of the run is laid on the truth's at its first pose. A track counts for the true
+object whose box is nearest to its centre, one to one, within the gate. Tracks on no labelled object
+are counted only where KITTI labels: in the camera's view. Not everything there is labelled, so
+their number is an upper bound.
 """
 
 import argparse
@@ -20,8 +21,15 @@ import rosbag
 
 from datmo_fusion.msg import Object
 from datmo_tools import transforms
-from drive_score import (PosePath, TrackingScore, TrackState, TrueBox, alignment, end_point_error,
-                         score_tracking)
+from drive_score import (
+    PosePath,
+    TrackingScore,
+    TrackState,
+    TrueBox,
+    alignment,
+    end_point_error,
+    score_tracking,
+)
 
 DEFAULT_GATE = 2.5  # m from the track's centre to the box
 DEFAULT_LABEL_VIEW = 40.0  # degrees to either side of straight ahead: what KITTI's cameras see
@@ -44,36 +52,53 @@ def score(truth_bag, output_bag, gate=DEFAULT_GATE, label_view=DEFAULT_LABEL_VIE
     truth = _path(recorded["/ground_truth/pose"])
     estimate = _path(computed["/pose"])
     map_in_truth = alignment(estimate, truth)
-    boxes = {m.header.stamp.to_nsec(): [_box(item) for item in m.objects]
-             for m in recorded["/ground_truth/objects"]}
-    tracks = {m.header.stamp.to_nsec(): [_track(item, map_in_truth) for item in m.tracks]
-              for m in computed["/tracks"]}
+    boxes = {
+        m.header.stamp.to_nsec(): [_box(item) for item in m.objects]
+        for m in recorded["/ground_truth/objects"]
+    }
+    tracks = {
+        m.header.stamp.to_nsec(): [_track(item, map_in_truth) for item in m.tracks]
+        for m in computed["/tracks"]
+    }
 
     def in_view(stamp, position):
         seen = transforms.relative(truth.at(stamp), [*position, 0.0])
-        return (abs(math.atan2(seen[1], seen[0])) <= math.radians(label_view)
-                and math.hypot(seen[0], seen[1]) <= LABEL_RANGE)
+        return (
+            abs(math.atan2(seen[1], seen[0])) <= math.radians(label_view)
+            and math.hypot(seen[0], seen[1]) <= LABEL_RANGE
+        )
 
-    return DriveScore(truth.length(), end_point_error(estimate, truth),
-                      end_point_error(_path(recorded["/odometry"]), truth),
-                      score_tracking(boxes, tracks, in_view, gate))
+    return DriveScore(
+        truth.length(),
+        end_point_error(estimate, truth),
+        end_point_error(_path(recorded["/odometry"]), truth),
+        score_tracking(boxes, tracks, in_view, gate),
+    )
 
 
 def table(result):
     """The score as text."""
     share = 100.0 / result.distance
-    lines = [f"distance {result.distance:.1f} m",
-             f"end point error of the pose      {result.pose_error:6.2f} m {result.pose_error * share:5.1f} %",
-             f"end point error of the odometry  {result.odometry_error:6.2f} m "
-             f"{result.odometry_error * share:5.1f} %",
-             "", "   id label          frames   moving  tracked       share  ids  reported moving"]
+    lines = [
+        f"distance {result.distance:.1f} m",
+        f"end point error of the pose      {result.pose_error:6.2f} m "
+        f"{result.pose_error * share:5.1f} %",
+        f"end point error of the odometry  {result.odometry_error:6.2f} m "
+        f"{result.odometry_error * share:5.1f} %",
+        "",
+        "   id label          frames   moving  tracked       share  ids  reported moving",
+    ]
     for item in result.tracking.objects:
-        lines.append(f"{item.number:5d} {item.label:15s}{item.frames:6d}{item.moving_frames:9d}"
-                     f"{item.tracked_frames:9d}{100.0 * item.tracked_share:10.1f} %"
-                     f"{len(item.track_numbers):5d}{100.0 * item.reported_moving_share:15.1f} %")
+        lines.append(
+            f"{item.number:5d} {item.label:15s}{item.frames:6d}{item.moving_frames:9d}"
+            f"{item.tracked_frames:9d}{100.0 * item.tracked_share:10.1f} %"
+            f"{len(item.track_numbers):5d}{100.0 * item.reported_moving_share:15.1f} %"
+        )
     false_frames = result.tracking.false_track_frames
-    lines.append(f"tracks on no labelled object, in the labels' view: {len(false_frames)}, "
-                 f"{sum(false_frames.values())} times in {result.tracking.frames} frames")
+    lines.append(
+        f"tracks on no labelled object, in the labels' view: {len(false_frames)}, "
+        f"{sum(false_frames.values())} times in {result.tracking.frames} frames"
+    )
     return "\n".join(lines)
 
 
@@ -91,7 +116,10 @@ def _read(path, topics):
 
 def _path(messages):
     """PosePath of Odometry or PoseWithCovarianceStamped messages."""
-    poses = [[m.pose.pose.position.x, m.pose.pose.position.y, _yaw(m.pose.pose.orientation)] for m in messages]
+    poses = [
+        [m.pose.pose.position.x, m.pose.pose.position.y, _yaw(m.pose.pose.orientation)]
+        for m in messages
+    ]
     return PosePath([m.header.stamp.to_nsec() for m in messages], poses)
 
 
@@ -106,13 +134,17 @@ def _box(item):
 
 
 def _track(item, map_in_truth):
-    position = transforms.compose(map_in_truth, [item.pose.position.x, item.pose.position.y, 0.0])[:2]
+    position = transforms.compose(map_in_truth, [item.pose.position.x, item.pose.position.y, 0.0])[
+        :2
+    ]
     return TrackState(item.id, position, item.moving)
 
 
 def main():
     """Command line."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("truth", type=Path, metavar="TRUTH.bag")
     parser.add_argument("output", type=Path, metavar="OUTPUT.bag")
     parser.add_argument("--gate", type=float, default=DEFAULT_GATE, metavar="M")

@@ -5,8 +5,16 @@ import math
 import unittest
 
 import numpy as np
-from drive_score import (PosePath, TrackState, TrueBox, alignment, assign, distance_to_box, end_point_error,
-                         score_tracking)
+from drive_score import (
+    PosePath,
+    TrackState,
+    TrueBox,
+    alignment,
+    assign,
+    distance_to_box,
+    end_point_error,
+    score_tracking,
+)
 
 SECOND = 10**9
 STRAIGHT = PosePath([0, SECOND, 2 * SECOND], [[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [20.0, 0.0, 0.0]])
@@ -31,14 +39,18 @@ class Poses(unittest.TestCase):
         self.assertAlmostEqual(STRAIGHT.length(), 20.0)
 
     def test_frame_that_starts_later_and_turned(self):
-        """A path that starts at its own origin, 1 s after the truth, where the truth heads to the left."""
-        truth = PosePath(STRAIGHT.stamps, [[0.0, 0.0, 0.0], [10.0, 0.0, math.pi / 2], [10.0, 10.0, math.pi / 2]])
+        """A path from its own origin, 1 s after the truth, where the truth heads to the left."""
+        truth = PosePath(
+            STRAIGHT.stamps, [[0.0, 0.0, 0.0], [10.0, 0.0, math.pi / 2], [10.0, 10.0, math.pi / 2]]
+        )
         path = PosePath([SECOND, 2 * SECOND], [[0.0, 0.0, 0.0], [9.0, 1.0, 0.0]])
         np.testing.assert_allclose(alignment(path, truth), [10.0, 0.0, math.pi / 2], atol=1e-12)
         self.assertAlmostEqual(end_point_error(path, truth), math.sqrt(2.0))
 
     def test_perfect_path(self):
-        moved = PosePath(STRAIGHT.stamps, [[5.0, 1.0, math.pi], [-5.0, 1.0, math.pi], [-15.0, 1.0, math.pi]])
+        moved = PosePath(
+            STRAIGHT.stamps, [[5.0, 1.0, math.pi], [-5.0, 1.0, math.pi], [-15.0, 1.0, math.pi]]
+        )
         self.assertAlmostEqual(end_point_error(moved, STRAIGHT), 0.0)
 
 
@@ -86,7 +98,10 @@ class Tracking(unittest.TestCase):
 
     def test_tracks_of_nothing(self):
         truth = {0: [car(3, 0.0)], 1: []}
-        tracks = {0: [track(7, 0.0), track(8, 1.0), track(9, 20.0)], 1: [track(9, 20.0), track(7, -30.0)]}
+        tracks = {
+            0: [track(7, 0.0), track(8, 1.0), track(9, 20.0)],
+            1: [track(9, 20.0), track(7, -30.0)],
+        }
         result = score_tracking(truth, tracks, lambda _, position: position[0] > 0.0, 2.5)
         self.assertEqual(result.false_track_frames, {9: 2})
 

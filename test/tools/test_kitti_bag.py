@@ -21,7 +21,8 @@ class Conversion(unittest.TestCase):
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
         self.root = Path(temporary.name)
-        # The van's rear is 10 m ahead of the Velodyne in every frame, and the cloud's point is on it.
+        # The van's rear is 10 m ahead of the Velodyne in every frame, and the cloud's point is on
+        # it.
         self.drive = tiny_drive.make_drive(temporary.name)
         self.bag = self.root / "out.bag"
 
@@ -44,7 +45,9 @@ class Contents(Conversion):
         scans = self.messages("/scan")
         self.assertEqual(len(scans), tiny_drive.FRAMES)
         scan = scans[1]
-        self.assertEqual((scan.header.frame_id, scan.header.stamp.to_nsec()), ("scanner", 1317042272_100000000))
+        self.assertEqual(
+            (scan.header.frame_id, scan.header.stamp.to_nsec()), ("scanner", 1317042272_100000000)
+        )
         self.assertAlmostEqual(scan.angle_min, math.radians(-80.0), places=6)
         self.assertAlmostEqual(scan.angle_max, math.radians(80.0), places=6)
         self.assertAlmostEqual(scan.angle_increment, math.radians(2.0), places=6)
@@ -63,16 +66,22 @@ class Contents(Conversion):
     def test_truth(self):
         self.run_tool()
         pose = self.messages("/ground_truth/pose")[3]
-        self.assertEqual((pose.header.frame_id, pose.child_frame_id), ("map", "base_link_ground_truth"))
+        self.assertEqual(
+            (pose.header.frame_id, pose.child_frame_id), ("map", "base_link_ground_truth")
+        )
         self.assertAlmostEqual(pose.pose.pose.position.x, 3.0, places=6)
         self.assertEqual(pose.twist.twist.linear.x, 10.0)
         arrays = self.messages("/ground_truth/objects")
-        self.assertEqual([array.header.stamp for array in arrays],
-                         [scan.header.stamp for scan in self.messages("/scan")])
+        self.assertEqual(
+            [array.header.stamp for array in arrays],
+            [scan.header.stamp for scan in self.messages("/scan")],
+        )
         van = arrays[2].objects[0]
         self.assertAlmostEqual(van.pose.position.x, 2.0 + 0.8 + 12.0, places=6)
         self.assertAlmostEqual(van.pose.position.z, 1.0, places=6)
-        self.assertEqual((van.label, van.classification, van.moving), ("Van", Object.CLASS_VEHICLE, True))
+        self.assertEqual(
+            (van.label, van.classification, van.moving), ("Van", Object.CLASS_VEHICLE, True)
+        )
         self.assertAlmostEqual(van.velocity.x, 10.0, places=5)
         self.assertEqual((van.size.x, van.size.y, van.size.z), (4.0, 2.0, 2.0))
         self.assertEqual((van.lidar_beams, van.visible_to, van.occlusion), (1, ["scanner"], 0.5))
@@ -84,7 +93,9 @@ class Contents(Conversion):
             (self.drive / "oxts" / "data" / f"{frame:010d}.txt").write_text(line)
         for source, x in (("velocity", 6.0), ("gps", 3.0)):
             self.run_tool("--true-position", source)
-            self.assertAlmostEqual(self.messages("/ground_truth/pose")[3].pose.pose.position.x, x, places=5)
+            self.assertAlmostEqual(
+                self.messages("/ground_truth/pose")[3].pose.pose.position.x, x, places=5
+            )
 
     def test_odometry_and_its_transform(self):
         self.run_tool("--odometry-scale-error", "0.1", "--odometry-yaw-bias", "1")
@@ -96,38 +107,63 @@ class Contents(Conversion):
         self.assertGreater(odometry.twist.covariance[0], 0.0)
         self.assertGreater(odometry.pose.covariance[0], 0.0)
         transform = self.messages("/tf")[3].transforms[0]
-        self.assertEqual((transform.header.frame_id, transform.child_frame_id), ("odom", "base_link"))
+        self.assertEqual(
+            (transform.header.frame_id, transform.child_frame_id), ("odom", "base_link")
+        )
         self.assertEqual(transform.transform.translation.x, odometry.pose.pose.position.x)
         self.assertEqual(transform.transform.rotation.z, odometry.pose.pose.orientation.z)
 
     def test_mounts(self):
         self.run_tool()
         with rosbag.Bag(str(self.bag)) as bag:
-            topic, message, _, header = next(bag.read_messages(["/tf_static"], return_connection_header=True))
+            topic, message, _, header = next(
+                bag.read_messages(["/tf_static"], return_connection_header=True)
+            )
             first = next(bag.read_messages()).topic
         self.assertEqual((header["latching"], first), (b"1", "/tf_static"))
         mounts = {item.child_frame_id: item.transform.translation for item in message.transforms}
-        places = {frame: (round(at.x, 6), round(at.y, 6), round(at.z, 6)) for frame, at in mounts.items()}
-        self.assertEqual(places, {
-            "scanner": (0.8, 0.0, 0.6), "velodyne": (0.8, 0.0, 1.73), "imu": (0.0, 0.0, 0.93),
-            "stereo_left_optical": (0.8, 0.0, 1.73), "stereo_right_optical": (0.8, -0.5, 1.73)})
-        left = next(item for item in message.transforms if item.child_frame_id == "stereo_left_optical")
+        places = {
+            frame: (round(at.x, 6), round(at.y, 6), round(at.z, 6)) for frame, at in mounts.items()
+        }
+        self.assertEqual(
+            places,
+            {
+                "scanner": (0.8, 0.0, 0.6),
+                "velodyne": (0.8, 0.0, 1.73),
+                "imu": (0.0, 0.0, 0.93),
+                "stereo_left_optical": (0.8, 0.0, 1.73),
+                "stereo_right_optical": (0.8, -0.5, 1.73),
+            },
+        )
+        left = next(
+            item for item in message.transforms if item.child_frame_id == "stereo_left_optical"
+        )
         rotation = left.transform.rotation  # optical axes: x to the right, y down, z ahead
-        np.testing.assert_allclose([rotation.x, rotation.y, rotation.z, rotation.w], [-0.5, 0.5, -0.5, 0.5])
+        np.testing.assert_allclose(
+            [rotation.x, rotation.y, rotation.z, rotation.w], [-0.5, 0.5, -0.5, 0.5]
+        )
 
     def test_points_and_images_on_demand(self):
         self.run_tool()
         self.assertEqual(self.messages("/points") + self.messages("/stereo/left/image_rect"), [])
         self.run_tool("--points", "--images")
         cloud = self.messages("/points")[0]
-        self.assertEqual((cloud.header.frame_id, cloud.width, cloud.point_step), ("velodyne", 1, 16))
+        self.assertEqual(
+            (cloud.header.frame_id, cloud.width, cloud.point_step), ("velodyne", 1, 16)
+        )
         self.assertEqual([field.name for field in cloud.fields], ["x", "y", "z", "intensity"])
-        np.testing.assert_allclose(np.frombuffer(cloud.data, "<f4"), [10.0, 0.0, -1.23, 0.5], rtol=1e-6)
+        np.testing.assert_allclose(
+            np.frombuffer(cloud.data, "<f4"), [10.0, 0.0, -1.23, 0.5], rtol=1e-6
+        )
         image = self.messages("/stereo/right/image_rect")[2]
-        self.assertEqual((image.encoding, image.width, image.height, image.step), ("mono8", 8, 4, 8))
+        self.assertEqual(
+            (image.encoding, image.width, image.height, image.step), ("mono8", 8, 4, 8)
+        )
         self.assertEqual(list(image.data), [0] + [22] * 31)
         right = self.messages("/stereo/right/camera_info")[2]
-        self.assertEqual((right.header.stamp, right.header.frame_id), (image.header.stamp, "stereo_left_optical"))
+        self.assertEqual(
+            (right.header.stamp, right.header.frame_id), (image.header.stamp, "stereo_left_optical")
+        )
         self.assertEqual(right.P[3], -10.0 * 0.5)
         self.assertEqual(right.K, (10.0, 0.0, 4.0, 0.0, 10.0, 2.0, 0.0, 0.0, 1.0))
         self.assertEqual(self.messages("/stereo/left/camera_info")[0].P[3], 0.0)
@@ -138,8 +174,10 @@ class Contents(Conversion):
         self.run_tool("--labels", str(path))
         arrays = self.messages("/ground_truth/objects")
         self.assertEqual([len(array.objects) for array in arrays], [1, 0, 0, 0])
-        self.assertEqual((arrays[0].objects[0].id, arrays[0].objects[0].classification),
-                         (7, Object.CLASS_PEDESTRIAN))
+        self.assertEqual(
+            (arrays[0].objects[0].id, arrays[0].objects[0].classification),
+            (7, Object.CLASS_PEDESTRIAN),
+        )
 
     def test_part_of_a_drive_starts_at_its_own_origin(self):
         self.run_tool("--start", "1", "--end", "3")
@@ -157,8 +195,10 @@ class Contents(Conversion):
     def test_missing_scans_on_demand(self):
         (self.drive / "velodyne_points" / "data" / "0000000001.bin").unlink()
         self.run_tool("--allow-missing-scans")
-        self.assertEqual([scan.header.stamp.nsecs for scan in self.messages("/scan")],
-                         [0, 200_000_000, 300_000_000])
+        self.assertEqual(
+            [scan.header.stamp.nsecs for scan in self.messages("/scan")],
+            [0, 200_000_000, 300_000_000],
+        )
         self.assertEqual(len(self.messages("/odometry")), 4)
 
 
@@ -223,7 +263,9 @@ class Errors(Conversion):
         (self.drive / "velodyne_points" / "data" / "0000000003.bin").write_bytes(b"1")
         self.run_tool(expected_code=1)
         self.assertEqual(self.bag.read_bytes(), before)
-        self.assertEqual(sorted(path.name for path in self.root.iterdir()), ["2011_09_26", "out.bag"])
+        self.assertEqual(
+            sorted(path.name for path in self.root.iterdir()), ["2011_09_26", "out.bag"]
+        )
 
 
 class Terminal(io.StringIO):
@@ -245,7 +287,9 @@ class ProgressBar(unittest.TestCase):
         progress = Progress(200, "work", stream)
         for done in range(1, 201):
             progress.update(done)
-        self.assertEqual(stream.getvalue(), "work: 0 %\nwork: 25 %\nwork: 50 %\nwork: 75 %\nwork: 100 %\n")
+        self.assertEqual(
+            stream.getvalue(), "work: 0 %\nwork: 25 %\nwork: 50 %\nwork: 75 %\nwork: 100 %\n"
+        )
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""kitti_to_bag on the recorded drive: the emulated beams lie on the labelled objects, the truth is sane."""
+"""kitti_to_bag on the recorded drive: beams lie on the labelled objects, the truth is sane."""
 
 import contextlib
 import io
@@ -46,14 +46,21 @@ class Drive0005(unittest.TestCase):
         self.assertGreater(ranges[:, 38:43].min(), 2.7)
 
     def test_way(self):
-        """The integrated speed is 71.3 m; the GPS says 69.4 m, and the Velodyne against walls 71.5 m."""
-        places = np.array([[m.pose.pose.position.x, m.pose.pose.position.y]
-                           for m in self.by_topic["/ground_truth/pose"]])
+        """The speed makes 71.3 m; the GPS says 69.4 m, and the Velodyne against walls 71.5 m."""
+        places = np.array(
+            [
+                [m.pose.pose.position.x, m.pose.pose.position.y]
+                for m in self.by_topic["/ground_truth/pose"]
+            ]
+        )
         self.assertAlmostEqual(np.hypot(*np.diff(places, axis=0).T).sum(), 71.3, delta=0.1)
 
     def test_clean_odometry_follows_the_true_pose(self):
-        """They share the speed, and differ by the heading: the gyroscope's against the GPS/IMU's."""
-        end, true_end = (self.by_topic[topic][-1].pose.pose.position for topic in ("/odometry", "/ground_truth/pose"))
+        """They share the speed, not the course: the gyroscope's against the GPS/IMU's."""
+        end, true_end = (
+            self.by_topic[topic][-1].pose.pose.position
+            for topic in ("/odometry", "/ground_truth/pose")
+        )
         self.assertLess(math.hypot(end.x - true_end.x, end.y - true_end.y), 1.5)
 
     def test_who_moves(self):
@@ -63,30 +70,42 @@ class Drive0005(unittest.TestCase):
         self.assertEqual(labels, ["Car", "Cyclist", "Pedestrian", "Pedestrian", "Van"])
         parked = [seen for number, seen in tracklets.items() if number not in moving]
         self.assertEqual(len(parked), 10)
-        self.assertTrue(all(item.classification == Object.CLASS_VEHICLE for seen in parked for item in seen))
+        self.assertTrue(
+            all(item.classification == Object.CLASS_VEHICLE for seen in parked for item in seen)
+        )
 
     def test_beams_on_the_moving_van_and_on_the_cyclist(self):
-        """The issue counts no beam on the van in a quarter of the frames, over the flat road plane."""
+        """With two degrees the van, 44 m ahead in the end, slips through now and then."""
         van, cyclist = (self.through_the_whole_drive(label) for label in ("Van", "Cyclist"))
         without = np.mean([item.lidar_beams == 0 for item in van])
         self.assertTrue(0.1 < without < 0.3, without)
         self.assertTrue(all(item.lidar_beams >= 2 for item in cyclist))
 
     def test_both_sources_of_truth_agree(self):
-        """label_02 was made from the tracklets, so that the same boxes must come out of both frames."""
+        """label_02 was made from the tracklets: both frames must give the same boxes."""
         for number, seen in self.labels.items():
             for stamp, item in seen.items():
                 other = self.tracklets[number][stamp]
                 self.assertEqual(item.label, other.label)
                 at, other_at = item.pose.position, other.pose.position
-                self.assertLess(math.dist((at.x, at.y, at.z), (other_at.x, other_at.y, other_at.z)), 0.05)
-                self.assertGreater(abs(item.pose.orientation.w * other.pose.orientation.w
-                                       + item.pose.orientation.z * other.pose.orientation.z), 0.9995)
+                self.assertLess(
+                    math.dist((at.x, at.y, at.z), (other_at.x, other_at.y, other_at.z)), 0.05
+                )
+                self.assertGreater(
+                    abs(
+                        item.pose.orientation.w * other.pose.orientation.w
+                        + item.pose.orientation.z * other.pose.orientation.z
+                    ),
+                    0.9995,
+                )
 
     def through_the_whole_drive(self, label):
         """The object of that label which moves and is labelled in every frame."""
-        found = [seen for seen in (list(seen.values()) for seen in self.tracklets.values())
-                 if seen[0].label == label and len(seen) == 154 and all(item.moving for item in seen)]
+        found = [
+            seen
+            for seen in (list(seen.values()) for seen in self.tracklets.values())
+            if seen[0].label == label and len(seen) == 154 and all(item.moving for item in seen)
+        ]
         self.assertEqual(len(found), 1)
         return found[0]
 

@@ -13,8 +13,12 @@ TENTH = 10**8  # ns
 
 
 def in_map(positions, ego_positions):
-    """Objects by frame for a car at `positions` (x in the Velodyne's frame, one a frame) at 10 Hz."""
-    boxes = {frame: TrueBox(x, 2.0, -0.73, 0.1, 0.0) for frame, x in enumerate(positions) if x is not None}
+    """Objects by frame for a car at `positions` (x in the Velodyne's frame) at 10 Hz."""
+    boxes = {
+        frame: TrueBox(x, 2.0, -0.73, 0.1, 0.0)
+        for frame, x in enumerate(positions)
+        if x is not None
+    }
     source = TrueObject(3, "Car", 4.0, 2.0, 1.5, boxes)
     stamps = [frame * TENTH for frame in range(len(positions))]
     poses = np.array([[x, 0.0, 0.0] for x in ego_positions])
@@ -54,7 +58,9 @@ class InTheMap(unittest.TestCase):
 
     def test_turned_vehicle(self):
         source = TrueObject(0, "Car", 4.0, 2.0, 1.5, {0: TrueBox(10.0, 2.0, -0.73, 0.0, 0.0)})
-        frames = objects_by_frame([source], BASE_FROM_VELODYNE, [0], np.array([[5.0, 0.0, np.pi / 2]]))
+        frames = objects_by_frame(
+            [source], BASE_FROM_VELODYNE, [0], np.array([[5.0, 0.0, np.pi / 2]])
+        )
         np.testing.assert_allclose(frames[0][0].pose, [3.0, 10.8, np.pi / 2], atol=1e-12)
 
 
@@ -62,23 +68,31 @@ class Velocities(unittest.TestCase):
     def test_line_is_followed_exactly_with_uneven_times(self):
         seconds = np.array([0.0, 0.1, 0.25, 0.3, 0.5])
         positions = np.column_stack([1.0 + 3.0 * seconds, 2.0 - seconds])
-        np.testing.assert_allclose(fitted_velocities(seconds, positions, 0.2), [[3.0, -1.0]] * 5, atol=1e-12)
+        np.testing.assert_allclose(
+            fitted_velocities(seconds, positions, 0.2), [[3.0, -1.0]] * 5, atol=1e-12
+        )
 
     def test_alone_in_its_window(self):
-        np.testing.assert_array_equal(fitted_velocities(np.array([0.0, 9.0]), np.eye(2), 0.5), np.zeros((2, 2)))
+        np.testing.assert_array_equal(
+            fitted_velocities(np.array([0.0, 9.0]), np.eye(2), 0.5), np.zeros((2, 2))
+        )
 
 
 class Beams(unittest.TestCase):
     def test_points_in_a_turned_box(self):
         source = TrueObject(0, "Car", 4.0, 2.0, 1.5, {})
         box = TrueBox(10.0, 0.0, 0.0, np.pi / 2, 0.0)  # 2 m along x, 4 m along y
-        points = np.array([[9.1, 0.0], [10.0, 1.9], [8.9, 0.0], [8.7, 0.0], [10.0, 2.3], [10.0, -2.1]])
+        points = np.array(
+            [[9.1, 0.0], [10.0, 1.9], [8.9, 0.0], [8.7, 0.0], [10.0, 2.3], [10.0, -2.1]]
+        )
         self.assertEqual(points_in_box(points, source, box, tolerance=0.0), 2)
         self.assertEqual(points_in_box(points, source, box, tolerance=0.2), 4)
         self.assertEqual(points_in_box(np.zeros((0, 4)), source, box), 0)
 
     def test_occlusion_levels(self):
-        self.assertEqual([occlusion_share(level) for level in (0, 1, 2, 3, -1)], [0.0, 0.5, 1.0, -1.0, -1.0])
+        self.assertEqual(
+            [occlusion_share(level) for level in (0, 1, 2, 3, -1)], [0.0, 0.5, 1.0, -1.0, -1.0]
+        )
 
 
 if __name__ == "__main__":

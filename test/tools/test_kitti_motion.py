@@ -18,8 +18,12 @@ RIGHT_ANGLE = math.pi / 2
 def driving(count, speed=10.0, yaw_rate=0.0, yaw=0.0, step=SECOND, leftward=0.0):
     """Stamps (ns) and records of constant speed and yaw rate; longitude as if it drove east."""
     seconds = [i * step / SECOND for i in range(count)]
-    records = [Oxts(0.0, 8.0 + speed * t * METRE_IN_LONGITUDE, yaw + yaw_rate * t, speed, leftward, yaw_rate)
-               for t in seconds]
+    records = [
+        Oxts(
+            0.0, 8.0 + speed * t * METRE_IN_LONGITUDE, yaw + yaw_rate * t, speed, leftward, yaw_rate
+        )
+        for t in seconds
+    ]
     return [i * step for i in range(count)], records
 
 
@@ -38,11 +42,17 @@ class Transforms(unittest.TestCase):
         np.testing.assert_allclose(quarter, [5.0, 5.0, RIGHT_ANGLE], atol=1e-12)
 
     def test_quaternion_turns_as_its_matrix(self):
-        for rotation in (np.eye(3), [[0, -1, 0], [0, 0, -1], [1, 0, 0]], [[1, 0, 0], [0, -1, 0], [0, 0, -1]]):
+        for rotation in (
+            np.eye(3),
+            [[0, -1, 0], [0, 0, -1], [1, 0, 0]],
+            [[1, 0, 0], [0, -1, 0], [0, 0, -1]],
+        ):
             x, y, z, w = transforms.quaternion_of(np.array(rotation, dtype=float))
-            matrix = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                      [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                      [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
+            matrix = [
+                [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+            ]
             np.testing.assert_allclose(matrix, rotation, atol=1e-12)
 
     def test_inverse(self):
@@ -58,33 +68,53 @@ class EgoPose(unittest.TestCase):
         np.testing.assert_allclose(poses_from_gps(records), expected, atol=1e-6)
 
     def test_first_heading_is_the_maps_x_axis(self):
-        stamps, records = driving(3, yaw=RIGHT_ANGLE)  # faces north, the GPS walks east: to its right
+        stamps, records = driving(
+            3, yaw=RIGHT_ANGLE
+        )  # faces north, the GPS walks east: to its right
         np.testing.assert_allclose(poses_from_gps(records)[2], [0.0, -20.0, 0.0], atol=1e-6)
-        np.testing.assert_allclose(poses_from_velocity(stamps, records)[2], [20.0, 0.0, 0.0], atol=1e-9)
+        np.testing.assert_allclose(
+            poses_from_velocity(stamps, records)[2], [20.0, 0.0, 0.0], atol=1e-9
+        )
 
     def test_gps_at_latitude_60_is_half_as_wide(self):
-        records = [Oxts(60.0, 8.0 + 2.0 * i * METRE_IN_LONGITUDE, 0.0, 0.0, 0.0, 0.0) for i in range(2)]
+        records = [
+            Oxts(60.0, 8.0 + 2.0 * i * METRE_IN_LONGITUDE, 0.0, 0.0, 0.0, 0.0) for i in range(2)
+        ]
         np.testing.assert_allclose(poses_from_gps(records)[1], [1.0, 0.0, 0.0], atol=1e-6)
 
     def test_circle_closes(self):
-        stamps, records = driving(1001, speed=10.0, yaw_rate=2.0 * math.pi / 100.0, step=SECOND // 10)
+        stamps, records = driving(
+            1001, speed=10.0, yaw_rate=2.0 * math.pi / 100.0, step=SECOND // 10
+        )
         poses = poses_from_velocity(stamps, records)
         np.testing.assert_allclose(poses[-1, :2], [0.0, 0.0], atol=1e-6)
         np.testing.assert_allclose(poses[500, :2], [0.0, 1000.0 / math.pi], atol=0.01)
 
     def test_gps_unit_that_is_mounted_askew(self):
-        """It says 10 m/s ahead and 1 m/s to the left: it looks to the right of where the car goes."""
+        """10 m/s ahead and 1 m/s to the left: it looks to the right of where the car goes."""
         for speed, leftward in ((10.0, 1.0), (-10.0, -1.0)):
             stamps, records = driving(2, speed=speed, leftward=leftward)
             self.assertAlmostEqual(course_offset(records), math.atan(0.1))
-            expected = transforms.compose(np.array([0.0, 0.0, math.atan(0.1)]), [speed, 0.0, 0.0])[:2]
-            np.testing.assert_allclose(poses_from_velocity(stamps, records)[1], [*expected, 0.0], atol=1e-9)
+            expected = transforms.compose(np.array([0.0, 0.0, math.atan(0.1)]), [speed, 0.0, 0.0])[
+                :2
+            ]
+            np.testing.assert_allclose(
+                poses_from_velocity(stamps, records)[1], [*expected, 0.0], atol=1e-9
+            )
         self.assertEqual(course_offset(driving(3, speed=0.0)[1]), 0.0)
 
     def test_between_and_beyond_the_records(self):
         stamps, records = driving(3)
         ego = EgoMotion(stamps, records, poses_from_velocity(stamps, records))
-        for seconds, x in ((0.0, 0.0), (0.25, 2.5), (1.0, 10.0), (1.5, 15.0), (2.0, 20.0), (2.1, 21.0), (-0.1, -1.0)):
+        for seconds, x in (
+            (0.0, 0.0),
+            (0.25, 2.5),
+            (1.0, 10.0),
+            (1.5, 15.0),
+            (2.0, 20.0),
+            (2.1, 21.0),
+            (-0.1, -1.0),
+        ):
             pose = ego.pose_at(int(seconds * SECOND))
             np.testing.assert_allclose(pose, [x, 0.0, 0.0], atol=1e-9, err_msg=f"at {seconds} s")
 
@@ -96,7 +126,9 @@ class Odometry(unittest.TestCase):
 
     def test_without_errors_it_is_the_truth(self):
         samples = self.integrated(5, OdometryErrors(), yaw_rate=0.2)
-        np.testing.assert_allclose(samples[-1].pose, [50.0 * math.sin(0.8), 50.0 * (1 - math.cos(0.8)), 0.8])
+        np.testing.assert_allclose(
+            samples[-1].pose, [50.0 * math.sin(0.8), 50.0 * (1 - math.cos(0.8)), 0.8]
+        )
 
     def test_scale_error_and_yaw_bias(self):
         samples = self.integrated(2, OdometryErrors(scale_error=0.03))
@@ -117,20 +149,26 @@ class Odometry(unittest.TestCase):
         self.assertTrue(np.all(speeds != other))
 
     def test_covariance_is_what_many_drives_scatter(self):
-        errors = OdometryErrors(speed_noise=math.sqrt(0.5**2 - odometry.NOMINAL_SPEED_SIGMA**2),
-                                yaw_rate_noise=math.sqrt(0.02**2 - odometry.NOMINAL_YAW_RATE_SIGMA**2))
+        errors = OdometryErrors(
+            speed_noise=math.sqrt(0.5**2 - odometry.NOMINAL_SPEED_SIGMA**2),
+            yaw_rate_noise=math.sqrt(0.02**2 - odometry.NOMINAL_YAW_RATE_SIGMA**2),
+        )
         stated = self.integrated(11, errors)[-1]
         self.assertAlmostEqual(stated.speed_variance, 0.25)
         generator = np.random.default_rng(1)
         ends = []
         for _ in range(1500):  # one draw for each step, as the propagation takes it
             poses = np.zeros(3)
-            for speed, yaw_rate in zip(10.0 + 0.5 * generator.standard_normal(10),
-                                       0.02 * generator.standard_normal(10)):
+            for speed, yaw_rate in zip(
+                10.0 + 0.5 * generator.standard_normal(10), 0.02 * generator.standard_normal(10)
+            ):
                 poses = transforms.compose(poses, transforms.arc(speed, yaw_rate, 1.0))
             ends.append(poses)
-        np.testing.assert_allclose(np.sqrt(np.diag(np.cov(np.array(ends).T))),
-                                   np.sqrt(np.diag(stated.pose_covariance)), rtol=0.1)
+        np.testing.assert_allclose(
+            np.sqrt(np.diag(np.cov(np.array(ends).T))),
+            np.sqrt(np.diag(stated.pose_covariance)),
+            rtol=0.1,
+        )
 
 
 if __name__ == "__main__":

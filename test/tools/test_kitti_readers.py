@@ -44,7 +44,11 @@ class Calibration(TinyDrive):
 
     def test_rectification_follows_the_camera(self):
         path = self.folder.parent / "calib_cam_to_cam.txt"
-        path.write_text(path.read_text().replace("R_rect_00: 1 0 0 0 1 0 0 0 1", "R_rect_00: 0 -1 0 1 0 0 0 0 1"))
+        path.write_text(
+            path.read_text().replace(
+                "R_rect_00: 1 0 0 0 1 0 0 0 1", "R_rect_00: 0 -1 0 1 0 0 0 0 1"
+            )
+        )
         calibration = read_calibration(self.folder.parent)
         ahead = transforms.apply(calibration.left_from_velodyne, np.array([[5.0, 1.0, 2.0]]))
         np.testing.assert_allclose(ahead, [[2.0, -1.0, 5.0]])
@@ -57,7 +61,9 @@ class Calibration(TinyDrive):
     def test_missing_key_and_short_line(self):
         path = self.folder.parent / "calib_imu_to_velo.txt"
         path.write_text("R: 1 0 0 0 1 0 0 0 1\n")
-        self.assert_named(path, "key T is missing, expected 3", read_calibration, self.folder.parent)
+        self.assert_named(
+            path, "key T is missing, expected 3", read_calibration, self.folder.parent
+        )
         path.write_text("R: 1 0 0 0 1 0 0 0 1\nT: 1 2\n")
         self.assert_named(path, "T has 2 numbers, expected 3", read_calibration, self.folder.parent)
         path.write_text("R: 1 0 0 0 1 0 0 0 1\nT: 1 2 x\n")
@@ -75,13 +81,20 @@ class RawDrive(TinyDrive):
         self.assertEqual(drive.image(1, 3, 8, 4)[1, 1], 23)
 
     def test_no_folder(self):
-        self.assert_named(self.folder / "no", "expected the folder of a KITTI raw drive", Drive,
-                          self.folder / "no")
+        self.assert_named(
+            self.folder / "no",
+            "expected the folder of a KITTI raw drive",
+            Drive,
+            self.folder / "no",
+        )
 
     def test_oxts(self):
         path = self.folder / "oxts" / "data" / "0000000001.txt"
-        for text, expected in (("1 2 3", "3 fields, expected 30"), ("x " * 30, "expected 30 numbers"),
-                               ("nan " * 30, "not a finite number")):
+        for text, expected in (
+            ("1 2 3", "3 fields, expected 30"),
+            ("x " * 30, "expected 30 numbers"),
+            ("nan " * 30, "not a finite number"),
+        ):
             path.write_text(text)
             self.assert_named(path, expected, Drive(self.folder).oxts, 1)
 
@@ -89,7 +102,9 @@ class RawDrive(TinyDrive):
         path = self.folder / "velodyne_points" / "data" / "0000000002.bin"
         for size in (0, 15, 17):
             path.write_bytes(b"\0" * size)
-            self.assert_named(path, f"{size} bytes, expected a multiple of 16", Drive(self.folder).cloud, 2)
+            self.assert_named(
+                path, f"{size} bytes, expected a multiple of 16", Drive(self.folder).cloud, 2
+            )
 
     def test_images(self):
         drive = Drive(self.folder)
@@ -99,7 +114,9 @@ class RawDrive(TinyDrive):
         self.assert_named(path, "cannot be read", drive.image, 0, 0, 8, 4)
         path.unlink()
         self.assert_named(path, "missing", drive.image, 0, 0, 8, 4)
-        self.assert_named(self.folder / "image_00", "3 files .png, expected 4", drive.image_stamps, 0)
+        self.assert_named(
+            self.folder / "image_00", "3 files .png, expected 4", drive.image_stamps, 0
+        )
 
     def test_stamps(self):
         path = self.folder / "oxts" / "timestamps.txt"
@@ -126,10 +143,12 @@ class Tracklets(TinyDrive):
     def test_broken(self):
         path = self.folder / "tracklet_labels.xml"
         good = path.read_text()
-        for text, expected in ((good[:200], "expected KITTI's tracklet XML"),
-                               (good.replace("<count>1<", "<count>2<"), "1 tracklets, expected 2"),
-                               (good.replace("<tx>12.0</tx>", "", 1), "tracklet 0, pose 0: <tx> is None"),
-                               (good.replace("<w>2</w>", "<w>nan</w>"), "expected a finite number")):
+        for text, expected in (
+            (good[:200], "expected KITTI's tracklet XML"),
+            (good.replace("<count>1<", "<count>2<"), "1 tracklets, expected 2"),
+            (good.replace("<tx>12.0</tx>", "", 1), "tracklet 0, pose 0: <tx> is None"),
+            (good.replace("<w>2</w>", "<w>nan</w>"), "expected a finite number"),
+        ):
             path.write_text(text)
             self.assert_named(path, expected, read_tracklets, path)
 
@@ -146,15 +165,19 @@ class Labels(TinyDrive):
         return read_labels(self.path, self.left_from_velodyne)
 
     def test_camera_box_in_the_velodyne_frame(self):
-        """Bottom centre 3 m left of, 1.5 m below and 10 m ahead of the camera, heading to the right."""
-        self.path.write_text("0 -1 DontCare -1 -1 -10 1 2 3 4 -1000 -1000 -1000 -10 -1 -1 -1\n" + self.LINE)
+        """Bottom centre 3 m left of, 1.5 m below, 10 m ahead of the camera, heading right."""
+        self.path.write_text(
+            "0 -1 DontCare -1 -1 -10 1 2 3 4 -1000 -1000 -1000 -10 -1 -1 -1\n" + self.LINE
+        )
         objects = self.read()
         self.assertEqual(len(objects), 1)
         cyclist = objects[0]
         self.assertEqual((cyclist.number, cyclist.label), (7, "Cyclist"))
         self.assertEqual((cyclist.length, cyclist.width, cyclist.height), (2.0, 0.6, 1.8))
         box = cyclist.boxes[1]
-        np.testing.assert_allclose([box.x, box.y, box.z, box.yaw], [10.0, 3.0, -0.6, -math.pi / 2], atol=1e-12)
+        np.testing.assert_allclose(
+            [box.x, box.y, box.z, box.yaw], [10.0, 3.0, -0.6, -math.pi / 2], atol=1e-12
+        )
         self.assertEqual(box.occlusion, 1.0)
 
     def test_heading_ahead(self):
@@ -162,9 +185,11 @@ class Labels(TinyDrive):
         self.assertAlmostEqual(self.read()[0].boxes[1].yaw, 0.0)
 
     def test_broken(self):
-        for text, expected in (("0 0 Car 0\n", "4 fields, expected 17"),
-                               (self.LINE.replace("10.0", "far"), "expected KITTI's 17 fields"),
-                               (self.LINE.replace("10.0", "inf"), "not finite")):
+        for text, expected in (
+            ("0 0 Car 0\n", "4 fields, expected 17"),
+            (self.LINE.replace("10.0", "far"), "expected KITTI's 17 fields"),
+            (self.LINE.replace("10.0", "inf"), "not finite"),
+        ):
             self.path.write_text(self.LINE + text)
             self.assert_named(f"{self.path}:2", expected, self.read)
         self.path.unlink()

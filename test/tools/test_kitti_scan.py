@@ -14,7 +14,7 @@ AHEAD = 40  # beam of the default scanner that looks straight ahead
 
 
 def scan(polar, options=ScannerOptions(), height=0.5):
-    """Scan of points given as (distance in m, bearing in degrees), all at one height above the road."""
+    """Scan of points given as (distance in m, bearing in degrees), all at one height."""
     bearing = np.radians([point[1] for point in polar])
     distance = np.array([point[0] for point in polar])
     points = np.column_stack([distance * np.cos(bearing), distance * np.sin(bearing)])
@@ -30,13 +30,25 @@ class EmulatedScanner(unittest.TestCase):
         self.assertEqual(options._replace(resolution=0.25).beams, 641)
 
     def test_beams_are_centred_on_their_bearings(self):
-        for bearing, beam in ((0.0, 40), (0.9, 40), (-0.9, 40), (1.1, 41), (-80.0, 0), (80.9, 80), (-45.0, 18)):
+        for bearing, beam in (
+            (0.0, 40),
+            (0.9, 40),
+            (-0.9, 40),
+            (1.1, 41),
+            (-80.0, 0),
+            (80.9, 80),
+            (-45.0, 18),
+        ):
             ranges = scan([(10.0, bearing)]).ranges
-            self.assertEqual(np.flatnonzero(np.isfinite(ranges)).tolist(), [beam], f"bearing {bearing}")
+            self.assertEqual(
+                np.flatnonzero(np.isfinite(ranges)).tolist(), [beam], f"bearing {bearing}"
+            )
             self.assertAlmostEqual(ranges[beam], 10.0)
 
     def test_outside_the_field_of_view(self):
-        self.assertFalse(np.any(np.isfinite(scan([(10.0, 81.1), (10.0, -81.1), (10.0, 180.0)]).ranges)))
+        self.assertFalse(
+            np.any(np.isfinite(scan([(10.0, 81.1), (10.0, -81.1), (10.0, 180.0)]).ranges))
+        )
 
     def test_nearest_of_a_beam_and_where_it_came_from(self):
         result = scan([(20.0, 0.0), (10.0, 0.5), (15.0, -0.5), (30.0, 20.0)])
@@ -53,11 +65,15 @@ class EmulatedScanner(unittest.TestCase):
     def test_range_limits(self):
         side = 60.0  # degrees, clear of the car itself
         for distance, seen in ((0.9, False), (4.0, True), (49.9, True), (50.1, False)):
-            self.assertEqual(np.any(np.isfinite(scan([(distance, side)]).ranges)), seen, f"{distance} m")
+            self.assertEqual(
+                np.any(np.isfinite(scan([(distance, side)]).ranges)), seen, f"{distance} m"
+            )
 
     def test_height_band(self):
         for height, seen in ((0.29, False), (0.3, True), (0.9, True), (0.91, False)):
-            self.assertEqual(np.isfinite(scan([(10.0, 0.0)], height=height).ranges[AHEAD]), seen, f"{height} m")
+            self.assertEqual(
+                np.isfinite(scan([(10.0, 0.0)], height=height).ranges[AHEAD]), seen, f"{height} m"
+            )
 
     def test_own_car_is_not_seen(self):
         self.assertFalse(np.any(np.isfinite(scan([(2.5, 10.0), (1.8, -35.0)]).ranges)))
@@ -69,19 +85,23 @@ class EmulatedScanner(unittest.TestCase):
     def test_options_that_describe_no_scanner(self):
         good = ScannerOptions()
         scanner_emulation.check(good)
-        for bad, name in ((good._replace(resolution=0.0), "--scan-resolution is 0"),
-                          (good._replace(resolution=3.0), "no whole number of steps of 3"),
-                          (good._replace(field_of_view=360.0), "--scan-fov is 360"),
-                          (good._replace(range_min=50.0), "--scan-range is 50 50"),
-                          (good._replace(band_low=1.0), "--scan-band is 1 0.9"),
-                          (good._replace(beam_width=2.5), "--beam-width is 2.5")):
+        for bad, name in (
+            (good._replace(resolution=0.0), "--scan-resolution is 0"),
+            (good._replace(resolution=3.0), "no multiple of 3"),
+            (good._replace(field_of_view=360.0), "--scan-fov is 360"),
+            (good._replace(range_min=50.0), "--scan-range is 50 50"),
+            (good._replace(band_low=1.0), "--scan-band is 1 0.9"),
+            (good._replace(beam_width=2.5), "--beam-width is 2.5"),
+        ):
             with self.assertRaisesRegex(InputError, name):
                 scanner_emulation.check(bad)
 
 
 def road(plane, step=0.5):
     """Points of a plane, 40 m ahead and 16 m wide."""
-    x, y = (axis.ravel() for axis in np.meshgrid(np.arange(3.0, 40.0, step), np.arange(-8.0, 8.0, step)))
+    x, y = (
+        axis.ravel() for axis in np.meshgrid(np.arange(3.0, 40.0, step), np.arange(-8.0, 8.0, step))
+    )
     return np.column_stack([x, y, plane.offset + plane.slope_x * x + plane.slope_y * y])
 
 
@@ -97,7 +117,11 @@ class Road(unittest.TestCase):
     def test_cars_and_walls_do_not_lift_it(self):
         plane = RoadPlane(-1.70, 0.005, 0.0)
         points = road(plane)
-        car = points[(points[:, 0] > 8.0) & (points[:, 0] < 12.0) & (points[:, 1] > 2.0)] + [0.0, 0.0, 0.8]
+        car = points[(points[:, 0] > 8.0) & (points[:, 0] < 12.0) & (points[:, 1] > 2.0)] + [
+            0.0,
+            0.0,
+            0.8,
+        ]
         wall = road(RoadPlane(0.5, 0.0, 0.0))
         found = fit_road_plane(np.vstack([points, car, wall]))
         np.testing.assert_allclose(found, plane, atol=0.01)

@@ -1,7 +1,7 @@
 """A KITTI raw drive of a few frames, made up so that everything in it can be worked out by hand.
 
-The car drives 1 m a frame (10 m/s, 10 Hz) straight east. All mounts are plain: the Velodyne is 0.8 m ahead
-of the IMU and 0.8 m above it, the camera looks ahead from the Velodyne's place.
+The car drives 1 m a frame (10 m/s, 10 Hz) straight east. All mounts are plain: the Velodyne is 0.8
+m ahead of the IMU and 0.8 m above it, the camera looks ahead from the Velodyne's place.
 """
 
 import struct
@@ -29,8 +29,10 @@ TRACKLET = """\
 <objectType>Van</objectType><h>2</h><w>2</w><l>4</l><first_frame>0</first_frame>
 <poses><count>{count}</count>{poses}</poses></item></tracklets></boost_serialization>
 """
-TRACKLET_POSE = ("<item><tx>{x}</tx><ty>0</ty><tz>-1.73</tz><rx>0</rx><ry>0</ry><rz>0</rz>"
-                 "<state>2</state><occlusion>1</occlusion><truncation>0</truncation></item>")
+TRACKLET_POSE = (
+    "<item><tx>{x}</tx><ty>0</ty><tz>-1.73</tz><rx>0</rx><ry>0</ry><rz>0</rz>"
+    "<state>2</state><occlusion>1</occlusion><truncation>0</truncation></item>"
+)
 
 
 def make_drive(root, frames=FRAMES, points=((10.0, 0.0, -1.23, 0.5),), van_x=12.0, van_step=0.0):

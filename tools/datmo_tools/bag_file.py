@@ -20,19 +20,24 @@ class BagFile:
 
     def write_latched(self, topic, stamp, message):
         """As write, and marks the topic's connection as latched, so that rosbag play latches it."""
-        self._bag.write(topic, message, to_ros_time(stamp), connection_header={
-            "topic": topic,
-            "type": message._type,  # pylint: disable=protected-access
-            "md5sum": message._md5sum,  # pylint: disable=protected-access
-            "message_definition": message._full_text,  # pylint: disable=protected-access
-            "callerid": "/kitti_to_bag",
-            "latching": "1",
-        })
+        self._bag.write(
+            topic,
+            message,
+            to_ros_time(stamp),
+            connection_header={
+                "topic": topic,
+                "type": message._type,  # pylint: disable=protected-access
+                "md5sum": message._md5sum,  # pylint: disable=protected-access
+                "message_definition": message._full_text,  # pylint: disable=protected-access
+                "callerid": "/kitti_to_bag",
+                "latching": "1",
+            },
+        )
 
 
 @contextlib.contextmanager
 def whole_bag(path):
-    """Context of a BagFile that takes the name `path` (Path) when all went well, and is gone otherwise."""
+    """Context of a BagFile that is named `path` (Path) when all went well, and gone otherwise."""
     part = path.with_name(path.name + ".part")
     try:
         with rosbag.Bag(str(part), "w") as bag:

@@ -1,9 +1,9 @@
 """GPS/IMU records -> planar poses of base_link in the map, and the pose at any time between.
 
-The heading is the GPS/IMU's. For the position there are two sources: its velocity, integrated, is smooth
-and drifts slowly; its latitude and longitude are absolute, but walk by metres where few satellites are
-seen. Full Velodyne clouds of drive 0005, aligned scan to map, say how far: after 71 m the velocity is
-0.4 m off, the latitude and longitude 2.7 m. A map of one drive needs the first.
+The heading is the GPS/IMU's. For the position there are two sources: its velocity, integrated, is
+smooth and drifts slowly; its latitude and longitude are absolute, but walk by metres where few
+satellites are seen. Full Velodyne clouds of drive 0005, aligned scan to map, say how far: after 71
+m the velocity is 0.4 m off, the latitude and longitude 2.7 m. A map of one drive needs the first.
 """
 
 import math
@@ -16,7 +16,7 @@ EARTH_RADIUS = 6378137.0  # m, WGS-84 equator, as the KITTI devkit has it
 
 
 def poses_from_velocity(stamps, records):
-    """Planar poses (n x 3: x, y in m, yaw in rad) in the frame of the first record, from the speed ahead.
+    """Planar poses (n x 3: x, y in m, yaw in rad) in the first record's frame, from the speed.
 
     stamps: ns, rising. Speed and heading between two records are the means of theirs.
     """
@@ -33,8 +33,8 @@ def poses_from_velocity(stamps, records):
 def course_offset(records):
     """Constant angle (rad, to the left) from the GPS/IMU's x axis to where the car goes.
 
-    A car does not drive sideways: what the leftward speed shares with the speed ahead is how the unit is
-    mounted (0.8 degrees on drive 0005), and the rest of it is noise.
+    A car does not drive sideways: what the leftward speed shares with the speed ahead is how the
+    unit is mounted (0.8 degrees on drive 0005), and the rest of it is noise.
     """
     ahead = np.array([record.forward_speed for record in records])
     left = np.array([record.leftward_speed for record in records])
@@ -43,7 +43,7 @@ def course_offset(records):
 
 
 def poses_from_gps(records):
-    """Planar poses (n x 3: x, y in m, yaw in rad) in the frame of the first record, from latitude and longitude.
+    """Planar poses (n x 3: x, y in m, yaw in rad) in the first record's frame, from the GPS.
 
     Mercator projection scaled at the first latitude, as the KITTI devkit does.
     """
@@ -59,12 +59,13 @@ def poses_from_gps(records):
 class EgoMotion:
     """True pose of base_link in the map at any stamp near the drive.
 
-    Between two records the pose is interpolated; before the first and after the last one it follows the
-    arc of that record's speed and yaw rate. The sensors start within a few hundredths of a second.
+    Between two records the pose is interpolated; before the first and after the last one it follows
+    the arc of that record's speed and yaw rate. The sensors start within a few hundredths of a
+    second.
     """
 
     def __init__(self, stamps, records, poses):
-        """stamps: ns, rising; records: Oxts; poses: n x 3, of base_link in the map; one for each stamp."""
+        """stamps: ns, rising; records: Oxts; poses: n x 3, base_link in the map; of each stamp."""
         self._stamps = stamps
         self._records = records
         self._poses = poses

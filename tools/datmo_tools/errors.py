@@ -2,4 +2,4 @@
 
 
 class InputError(Exception):
-    """A file or a value that cannot be used: the text says which, its state, and what was expected."""
+    """A file or a value that cannot be used: which, its state, and what was expected."""

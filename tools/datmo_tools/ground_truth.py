@@ -6,17 +6,17 @@ import numpy as np
 
 from datmo_tools import transforms
 
-# Half the time over which a line is fitted to the positions: short for the velocity, long for the question
-# whether the object moves at all.
+# Half the time over which a line is fitted to the positions: short for the velocity, long for the
+# question whether the object moves at all.
 VELOCITY_HALF_WINDOW = 0.5  # s
 MOVING_HALF_WINDOW = 1.0  # s
 
-# Labels of parked cars drift by a few tenths of a metre as the car drives past; nothing that takes part in
-# traffic is slower than half a slow walk.
+# Labels of parked cars drift by a few tenths of a metre as the car drives past; nothing that takes
+# part in traffic is slower than half a slow walk.
 MOVING_SPEED = 0.5  # m/s
 
-# A beam is counted for an object where its cloud point lies within this of the box: the labels are about
-# as exact.
+# A beam is counted for an object where its cloud point lies within this of the box: the labels are
+# about as exact.
 BOX_TOLERANCE = 0.2  # m
 
 
@@ -34,21 +34,25 @@ class MapObject(NamedTuple):
 def objects_by_frame(objects, base_from_velodyne, stamps, poses):
     """Dictionary frame -> list of MapObject.
 
-    objects: TrueObject list; stamps: ns of all frames; poses: n x 3, base_link in the map at the stamps.
-    Boxes of frames that the drive does not have are left out.
+    objects: TrueObject list; stamps: ns of all frames; poses: n x 3, base_link in the map at the
+    stamps. Boxes of frames that the drive does not have are left out.
     """
     frames = {frame: [] for frame in range(len(stamps))}
     for source in objects:
         known = sorted(frame for frame in source.boxes if frame in frames)
         if known:
-            for frame, item in zip(known, _moved_to_map(source, known, base_from_velodyne, stamps, poses)):
+            for frame, item in zip(
+                known, _moved_to_map(source, known, base_from_velodyne, stamps, poses)
+            ):
                 frames[frame].append(item)
     return frames
 
 
 def _moved_to_map(source, known, base_from_velodyne, stamps, poses):
     boxes = [source.boxes[frame] for frame in known]
-    in_base = transforms.apply(base_from_velodyne, np.array([[box.x, box.y, box.z] for box in boxes]))
+    in_base = transforms.apply(
+        base_from_velodyne, np.array([[box.x, box.y, box.z] for box in boxes])
+    )
     yaw = np.array([box.yaw for box in boxes]) + transforms.yaw_of(base_from_velodyne)
     local = np.column_stack([in_base[:, :2], yaw])
     in_map = np.array([transforms.compose(poses[frame], pose) for frame, pose in zip(known, local)])
@@ -56,12 +60,16 @@ def _moved_to_map(source, known, base_from_velodyne, stamps, poses):
     velocity = fitted_velocities(seconds, in_map[:, :2], VELOCITY_HALF_WINDOW)
     steady = fitted_velocities(seconds, in_map[:, :2], MOVING_HALF_WINDOW)
     moving = np.hypot(steady[:, 0], steady[:, 1]) > MOVING_SPEED
-    return [MapObject(source, boxes[i], in_map[i], in_base[i, 2], velocity[i] * moving[i], bool(moving[i]))
-            for i in range(len(known))]
+    return [
+        MapObject(
+            source, boxes[i], in_map[i], in_base[i, 2], velocity[i] * moving[i], bool(moving[i])
+        )
+        for i in range(len(known))
+    ]
 
 
 def fitted_velocities(seconds, positions, half_window):
-    """Velocities (n x 2, m/s): slope of the line fitted to the positions (n x 2, m) around each instant.
+    """Velocities (n x 2, m/s): slope of the line fitted to positions (n x 2, m) near each instant.
 
     seconds: n, rising. An instant with no other one within the window gets 0.
     """
@@ -76,9 +84,10 @@ def fitted_velocities(seconds, positions, half_window):
 
 
 def points_in_box(points, source, box, tolerance=BOX_TOLERANCE):
-    """How many of the points (n x 2 or more columns, the Velodyne's frame) lie in the box, seen from above."""
-    local = transforms.relative(np.array([box.x, box.y, box.yaw]),
-                                np.column_stack([points[:, :2], np.zeros(len(points))]))
-    inside = (np.abs(local[:, 0]) <= 0.5 * source.length + tolerance)
+    """How many points (n x 2 or more columns, the Velodyne's frame) lie in the box from above."""
+    local = transforms.relative(
+        np.array([box.x, box.y, box.yaw]), np.column_stack([points[:, :2], np.zeros(len(points))])
+    )
+    inside = np.abs(local[:, 0]) <= 0.5 * source.length + tolerance
     inside &= np.abs(local[:, 1]) <= 0.5 * source.width + tolerance
     return int(np.count_nonzero(inside))

@@ -16,7 +16,8 @@ from datmo_tools.progress import Progress
 from datmo_tools.scanner_emulation import ScannerOptions
 
 
-# The mounts stand in the bag this much before the first measurement, so that no reader meets a scan first.
+# The mounts stand in the bag this much before the first measurement, so that no reader meets a scan
+# first.
 MOUNTS_LEAD = 1_000_000  # ns
 
 
@@ -37,13 +38,15 @@ class Options(NamedTuple):
 
 
 def convert(folder, bag_path, options, stream=None):
-    """Converts the drive in `folder` (Path) to the bag `bag_path` (Path); progress goes to `stream`.
+    """Converts the drive in `folder` (Path) to `bag_path` (Path); progress goes to `stream`.
 
     Raises InputError, and leaves no bag behind, where a file or an option cannot be used.
     """
     scanner_emulation.check(options.scanner)
     conversion = _Conversion(folder, options)
-    events = sorted(conversion.events(), key=lambda event: event.stamp)  # stable: equal stamps keep order
+    events = sorted(
+        conversion.events(), key=lambda event: event.stamp
+    )  # stable: equal stamps keep order
     progress = Progress(len(events), "kitti_to_bag", stream)
     try:
         with whole_bag(bag_path) as bag:
@@ -74,7 +77,11 @@ class _Conversion:
         stamps = [self._drive.oxts_stamps[frame] for frame in self._frames]
         self._records = dict(zip(self._frames, (self._drive.oxts(frame) for frame in self._frames)))
         records = list(self._records.values())
-        poses = poses_from_gps(records) if options.gps_position else poses_from_velocity(stamps, records)
+        poses = (
+            poses_from_gps(records)
+            if options.gps_position
+            else poses_from_velocity(stamps, records)
+        )
         self._ego = EgoMotion(stamps, records, poses)
         rates = odometry.degraded_rates(records, options.odometry_errors, options.seed)
         samples = odometry.integrate(stamps, *rates, options.odometry_errors)
@@ -94,7 +101,9 @@ class _Conversion:
 
     def write_mounts(self, bag, stamp):
         """Writes /tf_static."""
-        message = kitti_messages.static_transforms(stamp, self._calibration, self._options.scanner.height)
+        message = kitti_messages.static_transforms(
+            stamp, self._calibration, self._options.scanner.height
+        )
         bag.write_latched("/tf_static", stamp, message)
 
     def _read_truth(self, folder):
@@ -106,10 +115,16 @@ class _Conversion:
         else:
             return None
         stamps = self._drive.scan_stamps
-        chosen = [source._replace(boxes={frame: box for frame, box in source.boxes.items()
-                                         if frame in self._poses}) for source in objects]
+        chosen = [
+            source._replace(
+                boxes={frame: box for frame, box in source.boxes.items() if frame in self._poses}
+            )
+            for source in objects
+        ]
         poses = [self._ego.pose_at(stamp) for stamp in stamps]
-        return ground_truth.objects_by_frame(chosen, self._calibration.base_from_velodyne, stamps, poses)
+        return ground_truth.objects_by_frame(
+            chosen, self._calibration.base_from_velodyne, stamps, poses
+        )
 
     def _image_events(self, camera, side, parameters):
         stamps = self._drive.image_stamps(camera)
@@ -140,21 +155,29 @@ class _Conversion:
             hits = cloud[scan.sources[scan.sources >= 0]]
             objects = self._truth[frame]
             beams = [ground_truth.points_in_box(hits, item.source, item.box) for item in objects]
-            bag.write("/ground_truth/objects", stamp, kitti_messages.true_objects(stamp, objects, beams))
+            bag.write(
+                "/ground_truth/objects", stamp, kitti_messages.true_objects(stamp, objects, beams)
+            )
 
 
 def _chosen_frames(drive, options):
-    """Frame numbers from --start to --end, all of them with a scan unless missing ones are allowed."""
+    """Frame numbers from --start to --end, all with a scan unless missing ones are allowed."""
     end = drive.frames if options.end is None else options.end
     if not 0 <= options.start < end <= drive.frames:
-        raise InputError(f"frames {options.start} to {end}, expected 0 <= START < END <= {drive.frames}")
+        raise InputError(
+            f"frames {options.start} to {end}, expected 0 <= START < END <= {drive.frames}"
+        )
     if len(drive.oxts_stamps) != drive.frames:
-        raise InputError(f"{drive.folder / 'oxts' / 'timestamps.txt'}: {len(drive.oxts_stamps)} stamps, "
-                         f"expected {drive.frames}, as the Velodyne has")
+        raise InputError(
+            f"{drive.folder / 'oxts' / 'timestamps.txt'}: {len(drive.oxts_stamps)} stamps, "
+            f"expected {drive.frames}, as the Velodyne has"
+        )
     frames = range(options.start, end)
     missing = [frame for frame in frames if not drive.has_cloud(frame)]
     if missing and not options.allow_missing_scans:
-        raise InputError(f"{drive.folder / 'velodyne_points' / 'data'}: {missing[0]:010d}.bin is missing "
-                         f"({len(missing)} of {len(frames)}), expected one for each frame; "
-                         "--allow-missing-scans leaves them out")
+        raise InputError(
+            f"{drive.folder / 'velodyne_points' / 'data'}: {missing[0]:010d}.bin is missing "
+            f"({len(missing)} of {len(frames)}), expected one for each frame; "
+            "--allow-missing-scans leaves them out"
+        )
     return frames

@@ -14,7 +14,7 @@ VELODYNE_HEIGHT = 1.73  # m above the road (Geiger et al. 2013, figure 3)
 
 
 class Camera(NamedTuple):
-    """A rectified camera: `projection` (3 x 4, pixels; the left rectified camera's frame), size in pixels."""
+    """A rectified camera: `projection` (3 x 4, from the left one's frame), size; in pixels."""
 
     projection: np.ndarray
     width: int
@@ -37,7 +37,7 @@ class Calibration(NamedTuple):
 
 
 def read_calibration(folder):
-    """Reads the three calib_*.txt of `folder` (Path). Raises InputError where one is missing or broken."""
+    """Reads the three calib_*.txt of `folder` (Path). Raises InputError where one is broken."""
     cameras = _KeyedFile(folder / "calib_cam_to_cam.txt")
     velodyne_from_imu = _KeyedFile(folder / "calib_imu_to_velo.txt").rigid()
     camera_from_velodyne = _KeyedFile(folder / "calib_velo_to_cam.txt").rigid()
@@ -71,7 +71,9 @@ class _KeyedFile:
         try:
             lines = path.read_text(encoding="ascii").splitlines()
         except (OSError, UnicodeDecodeError) as error:
-            raise InputError(f"{path}: expected a calibration file, a text file ({error})") from error
+            raise InputError(
+                f"{path}: expected a calibration file, a text file ({error})"
+            ) from error
         self._entries = dict(line.split(":", 1) for line in lines if ":" in line)
 
     def values(self, key, count):
@@ -83,7 +85,9 @@ class _KeyedFile:
         except ValueError as error:
             raise InputError(f"{self._path}: {key}: {error}, expected {count} numbers") from error
         if values.size != count or not np.all(np.isfinite(values)):
-            raise InputError(f"{self._path}: {key} has {values.size} numbers, expected {count}, finite")
+            raise InputError(
+                f"{self._path}: {key} has {values.size} numbers, expected {count}, finite"
+            )
         return values
 
     def rigid(self):

@@ -17,7 +17,7 @@ DONT_CARE = "DontCare"
 
 
 def read_labels(path, left_from_velodyne):
-    """List of TrueObject of the file at `path`, numbered by track id; DontCare regions are left out.
+    """List of TrueObject in the file at `path`, by track id; DontCare regions are left out.
 
     left_from_velodyne: 4 x 4, into the rectified left camera. Raises InputError with the line.
     """
@@ -39,7 +39,9 @@ def _fields(where, words):
     if len(words) < FIELDS:
         raise InputError(f"{where}: {len(words)} fields, expected {FIELDS}")
     try:
-        values = [int(words[0]), int(words[1]), words[2]] + [float(word) for word in words[3:FIELDS]]
+        values = [int(words[0]), int(words[1]), words[2]] + [
+            float(word) for word in words[3:FIELDS]
+        ]
     except ValueError as error:
         raise InputError(f"{where}: {error}, expected KITTI's {FIELDS} fields") from error
     if not all(math.isfinite(value) for value in values[3:]):

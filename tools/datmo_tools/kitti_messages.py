@@ -1,4 +1,4 @@
-"""What kitti_to_bag writes, as ROS messages. Frames and topics: the data contract of the stack's bags."""
+"""What kitti_to_bag writes, as ROS messages in the frames of the stack's data contract."""
 
 import numpy as np
 from geometry_msgs.msg import Point, Quaternion, TransformStamped, Vector3
@@ -31,7 +31,7 @@ CLASSES = {
 
 
 def header(stamp, frame):
-    """Header at `stamp` (ns); sequence numbers stay 0, so that a bag's bytes depend on its content only."""
+    """Header at `stamp` (ns); its sequence number stays 0: only the content makes the bytes."""
     return Header(stamp=to_ros_time(stamp), frame_id=frame)
 
 
@@ -50,26 +50,50 @@ def laser_scan(stamp, scan, options):
 
 def point_cloud(stamp, cloud):
     """PointCloud2 (x, y, z, intensity: float32) of a Velodyne cloud (n x 4)."""
-    fields = [PointField(name, 4 * i, PointField.FLOAT32, 1)
-              for i, name in enumerate(("x", "y", "z", "intensity"))]
-    return PointCloud2(header=header(stamp, VELODYNE), height=1, width=len(cloud), fields=fields,
-                       is_bigendian=False, point_step=16, row_step=16 * len(cloud),
-                       data=np.ascontiguousarray(cloud, dtype="<f4").tobytes(), is_dense=True)
+    fields = [
+        PointField(name, 4 * i, PointField.FLOAT32, 1)
+        for i, name in enumerate(("x", "y", "z", "intensity"))
+    ]
+    return PointCloud2(
+        header=header(stamp, VELODYNE),
+        height=1,
+        width=len(cloud),
+        fields=fields,
+        is_bigendian=False,
+        point_step=16,
+        row_step=16 * len(cloud),
+        data=np.ascontiguousarray(cloud, dtype="<f4").tobytes(),
+        is_dense=True,
+    )
 
 
 def gray_image(stamp, pixels):
     """mono8 Image (height x width) in the left rectified camera's frame."""
     height, width = pixels.shape
-    return Image(header=header(stamp, LEFT_CAMERA), height=height, width=width, encoding="mono8",
-                 is_bigendian=0, step=width, data=pixels.tobytes())
+    return Image(
+        header=header(stamp, LEFT_CAMERA),
+        height=height,
+        width=width,
+        encoding="mono8",
+        is_bigendian=0,
+        step=width,
+        data=pixels.tobytes(),
+    )
 
 
 def camera_info(stamp, camera):
     """CameraInfo of a camera whose images are rectified: no distortion, no rotation, K out of P."""
     projection = camera.projection
-    return CameraInfo(header=header(stamp, LEFT_CAMERA), height=camera.height, width=camera.width,
-                      distortion_model="plumb_bob", D=[0.0] * 5, K=projection[:, :3].ravel().tolist(),
-                      R=np.eye(3).ravel().tolist(), P=projection.ravel().tolist())
+    return CameraInfo(
+        header=header(stamp, LEFT_CAMERA),
+        height=camera.height,
+        width=camera.width,
+        distortion_model="plumb_bob",
+        D=[0.0] * 5,
+        K=projection[:, :3].ravel().tolist(),
+        R=np.eye(3).ravel().tolist(),
+        P=projection.ravel().tolist(),
+    )
 
 
 def odometry(sample):
@@ -79,8 +103,20 @@ def odometry(sample):
     planar = np.ix_([0, 1, 5], [0, 1, 5])
     pose_covariance[planar] = sample.pose_covariance
     message.pose.covariance = pose_covariance.ravel().tolist()
-    message.twist.covariance = np.diag([sample.speed_variance, NOT_MEASURED, NOT_MEASURED, NOT_MEASURED,
-                                        NOT_MEASURED, sample.yaw_rate_variance]).ravel().tolist()
+    message.twist.covariance = (
+        np.diag(
+            [
+                sample.speed_variance,
+                NOT_MEASURED,
+                NOT_MEASURED,
+                NOT_MEASURED,
+                NOT_MEASURED,
+                sample.yaw_rate_variance,
+            ]
+        )
+        .ravel()
+        .tolist()
+    )
     return message
 
 
@@ -88,7 +124,9 @@ def odometry_transform(sample):
     """TFMessage odom -> base_link of an OdometrySample."""
     x, y, yaw = sample.pose
     transform = transforms.rigid(np.eye(3), [x, y, 0.0])
-    return TFMessage([_transform(sample.stamp, ODOM, BASE, transform, transforms.quaternion_of_yaw(yaw))])
+    return TFMessage(
+        [_transform(sample.stamp, ODOM, BASE, transform, transforms.quaternion_of_yaw(yaw))]
+    )
 
 
 def true_pose(stamp, pose, record):
@@ -140,8 +178,12 @@ def static_transforms(stamp, calibration, scanner_height):
         (LEFT_CAMERA, left),
         (RIGHT_CAMERA, right),
     )
-    return TFMessage([_transform(stamp, BASE, frame, mount, transforms.quaternion_of(mount[:3, :3]))
-                      for frame, mount in mounts])
+    return TFMessage(
+        [
+            _transform(stamp, BASE, frame, mount, transforms.quaternion_of(mount[:3, :3]))
+            for frame, mount in mounts
+        ]
+    )
 
 
 def scanner_mount(base_from_velodyne, height):

@@ -1,7 +1,7 @@
-"""A KITTI raw drive folder (`2011_09_26/2011_09_26_drive_XXXX_sync`) -> its frames, checked while read.
+"""A KITTI raw drive folder (`2011_09_26_drive_XXXX_sync`) -> its frames, checked while read.
 
-Source: Geiger et al., "Vision meets robotics: the KITTI dataset", 2013; the oxts fields stand in the
-drive's own oxts/dataformat.txt.
+Source: Geiger et al., "Vision meets robotics: the KITTI dataset", 2013; the oxts fields stand in
+the drive's own oxts/dataformat.txt.
 """
 
 import calendar
@@ -34,7 +34,9 @@ class Drive:
         """folder: pathlib.Path of the drive; the calib_*.txt are in its parent."""
         self.folder = folder
         if not folder.is_dir():
-            raise InputError(f"{folder}: expected the folder of a KITTI raw drive (..._drive_XXXX_sync)")
+            raise InputError(
+                f"{folder}: expected the folder of a KITTI raw drive (..._drive_XXXX_sync)"
+            )
         self.oxts_stamps = self._stamps("oxts", ".txt")
         self.scan_stamps = self._stamps("velodyne_points", ".bin", gaps_allowed=True)
 
@@ -55,7 +57,9 @@ class Drive:
             raise InputError(f"{path}: {error}, expected {OXTS_FIELDS} numbers") from error
         record = Oxts(*values[[0, 1, 5, 8, 9, 22]])
         if not np.all(np.isfinite(record)):
-            raise InputError(f"{path}: not a finite number among latitude, longitude, yaw, vf, vl, wu")
+            raise InputError(
+                f"{path}: not a finite number among latitude, longitude, yaw, vf, vl, wu"
+            )
         return record
 
     def has_cloud(self, frame):
@@ -63,7 +67,7 @@ class Drive:
         return self._file("velodyne_points", frame, ".bin").is_file()
 
     def cloud(self, frame):
-        """Velodyne points of a frame: n x 4 float32 (x, y, z in m in the Velodyne's frame; reflectance)."""
+        """Velodyne points of a frame: n x 4 float32 (x, y, z in m, its frame; reflectance)."""
         path = self._file("velodyne_points", frame, ".bin")
         try:
             values = np.fromfile(path, dtype="<f4")
@@ -71,7 +75,9 @@ class Drive:
         except OSError as error:
             raise InputError(f"{path}: expected a Velodyne scan ({error})") from error
         if size == 0 or size % 16 != 0:
-            raise InputError(f"{path}: {size} bytes, expected a multiple of 16 (x, y, z, reflectance)")
+            raise InputError(
+                f"{path}: {size} bytes, expected a multiple of 16 (x, y, z, reflectance)"
+            )
         return values.reshape(-1, 4)
 
     def image_stamps(self, camera):
@@ -99,18 +105,27 @@ class Drive:
     def _stamps(self, kind, suffix, length=None, gaps_allowed=False):
         """Checked timestamps.txt of `kind`, in ns: rising, one for each data file."""
         path = self.folder / kind / "timestamps.txt"
-        stamps = [_parse_stamp(path, number, line)
-                  for number, line in enumerate(_read_text(path).splitlines(), 1) if line.strip()]
+        stamps = [
+            _parse_stamp(path, number, line)
+            for number, line in enumerate(_read_text(path).splitlines(), 1)
+            if line.strip()
+        ]
         if not stamps:
             raise InputError(f"{path}: empty, expected one stamp for each frame")
         if any(b <= a for a, b in zip(stamps, stamps[1:])):
-            raise InputError(f"{path}: stamps do not rise, expected them in the order of the frames")
+            raise InputError(
+                f"{path}: stamps do not rise, expected them in the order of the frames"
+            )
         files = len(list((self.folder / kind / "data").glob(f"*{suffix}")))
         if files > len(stamps) or (files < len(stamps) and not gaps_allowed):
-            raise InputError(f"{path.parent / 'data'}: {files} files {suffix}, expected {len(stamps)}, "
-                             "one for each line of timestamps.txt")
+            raise InputError(
+                f"{path.parent / 'data'}: {files} files {suffix}, expected {len(stamps)}, "
+                "one for each line of timestamps.txt"
+            )
         if length is not None and length != len(stamps):
-            raise InputError(f"{path}: {len(stamps)} stamps, expected {length}, as the Velodyne has")
+            raise InputError(
+                f"{path}: {len(stamps)} stamps, expected {length}, as the Velodyne has"
+            )
         return stamps
 
 
@@ -128,4 +143,6 @@ def _parse_stamp(path, number, line):
         parsed = time.strptime(seconds, "%Y-%m-%d %H:%M:%S")
         return calendar.timegm(parsed) * NANOSECONDS + int(fraction.ljust(9, "0")[:9] or 0)
     except ValueError as error:
-        raise InputError(f"{path}:{number}: '{line}', expected YYYY-MM-DD HH:MM:SS.fraction") from error
+        raise InputError(
+            f"{path}:{number}: '{line}', expected YYYY-MM-DD HH:MM:SS.fraction"
+        ) from error

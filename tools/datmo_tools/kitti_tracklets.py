@@ -31,14 +31,18 @@ def _object(path, number, item):
         length=_number(path, item, "l", where),
         width=_number(path, item, "w", where),
         height=height,
-        boxes={first + i: _box(path, pose, height, f"{where}, pose {i}") for i, pose in enumerate(poses)},
+        boxes={
+            first + i: _box(path, pose, height, f"{where}, pose {i}")
+            for i, pose in enumerate(poses)
+        },
     )
 
 
 def _box(path, pose, height, where):
     """tz is the bottom of the box: rest it on its middle."""
-    x, y, bottom, yaw, level = (_number(path, pose, key, where)
-                                for key in ("tx", "ty", "tz", "rz", "occlusion"))
+    x, y, bottom, yaw, level = (
+        _number(path, pose, key, where) for key in ("tx", "ty", "tz", "rz", "occlusion")
+    )
     return TrueBox(x, y, bottom + 0.5 * height, yaw, occlusion_share(level))
 
 

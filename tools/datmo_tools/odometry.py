@@ -7,8 +7,8 @@ import numpy as np
 
 from datmo_tools import transforms
 
-# Standard deviations that the messages state before any added noise: a production car's wheel speed and
-# yaw-rate sensor.
+# Standard deviations that the messages state before any added noise: a production car's wheel speed
+# and yaw-rate sensor.
 NOMINAL_SPEED_SIGMA = 0.1  # m/s
 NOMINAL_YAW_RATE_SIGMA = 0.01  # rad/s
 
@@ -35,13 +35,15 @@ class OdometrySample(NamedTuple):
 
 
 def degraded_rates(records, errors, seed):
-    """Measured speeds (n, m/s) and yaw rates (n, rad/s) of the records; the same seed gives the same."""
+    """Measured speeds (n, m/s) and yaw rates (n, rad/s); the same seed gives the same."""
     generator = np.random.Generator(np.random.PCG64(seed))
     noise = generator.standard_normal((len(records), 2))
     speed = np.array([record.forward_speed for record in records])
     yaw_rate = np.array([record.yaw_rate for record in records])
-    return (speed * (1.0 + errors.scale_error) + errors.speed_noise * noise[:, 0],
-            yaw_rate + errors.yaw_bias + errors.yaw_rate_noise * noise[:, 1])
+    return (
+        speed * (1.0 + errors.scale_error) + errors.speed_noise * noise[:, 0],
+        yaw_rate + errors.yaw_bias + errors.yaw_rate_noise * noise[:, 1],
+    )
 
 
 def integrate(stamps, speeds, yaw_rates, errors):
@@ -49,14 +51,18 @@ def integrate(stamps, speeds, yaw_rates, errors):
 
     The covariance is propagated to first order (Thrun et al., "Probabilistic Robotics", 2005, 7.4).
     """
-    variances = (NOMINAL_SPEED_SIGMA**2 + errors.speed_noise**2,
-                 NOMINAL_YAW_RATE_SIGMA**2 + errors.yaw_rate_noise**2)
+    variances = (
+        NOMINAL_SPEED_SIGMA**2 + errors.speed_noise**2,
+        NOMINAL_YAW_RATE_SIGMA**2 + errors.yaw_rate_noise**2,
+    )
     pose, covariance = np.zeros(3), np.zeros((3, 3))
     samples = []
     for i, stamp in enumerate(stamps):
         if i > 0:
             duration = (stamp - stamps[i - 1]) * 1e-9
-            speed, yaw_rate = 0.5 * (speeds[i - 1] + speeds[i]), 0.5 * (yaw_rates[i - 1] + yaw_rates[i])
+            speed, yaw_rate = 0.5 * (speeds[i - 1] + speeds[i]), 0.5 * (
+                yaw_rates[i - 1] + yaw_rates[i]
+            )
             covariance = _propagated(covariance, pose, speed, yaw_rate, duration, variances)
             pose = transforms.compose(pose, transforms.arc(speed, yaw_rate, duration))
         samples.append(OdometrySample(stamp, speeds[i], yaw_rates[i], pose, covariance, *variances))
@@ -68,7 +74,10 @@ def _propagated(covariance, pose, speed, yaw_rate, duration, variances):
     middle = pose[2] + 0.5 * yaw_rate * duration
     cosine, sine = math.cos(middle), math.sin(middle)
     travelled = speed * duration
-    by_pose = np.array([[1.0, 0.0, -travelled * sine], [0.0, 1.0, travelled * cosine], [0.0, 0.0, 1.0]])
-    by_rates = duration * np.array([[cosine, -0.5 * travelled * sine], [sine, 0.5 * travelled * cosine],
-                                    [0.0, 1.0]])
+    by_pose = np.array(
+        [[1.0, 0.0, -travelled * sine], [0.0, 1.0, travelled * cosine], [0.0, 0.0, 1.0]]
+    )
+    by_rates = duration * np.array(
+        [[cosine, -0.5 * travelled * sine], [sine, 0.5 * travelled * cosine], [0.0, 1.0]]
+    )
     return by_pose @ covariance @ by_pose.T + by_rates @ np.diag(variances) @ by_rates.T

@@ -1,4 +1,4 @@
-"""The road's plane in one Velodyne scan, so that a height band above it follows slopes and pitching."""
+"""The road's plane in a Velodyne scan, so that a band above it follows slopes and pitching."""
 
 from typing import NamedTuple
 
@@ -29,16 +29,19 @@ class RoadPlane(NamedTuple):
 
     def heights(self, points):
         """Heights (n, m) above the road of `points` (n x 3 or more columns)."""
-        return points[:, 2] - (self.offset + self.slope_x * points[:, 0] + self.slope_y * points[:, 1])
+        return points[:, 2] - (
+            self.offset + self.slope_x * points[:, 0] + self.slope_y * points[:, 1]
+        )
 
 
 FLAT = RoadPlane(-VELODYNE_HEIGHT, 0.0, 0.0)
 
 
 def fit_road_plane(points):
-    """Plane through the floor of `points` (n x 3 or more columns); FLAT where no credible one is found.
+    """Plane through the floor of `points` (n x 3 or more columns); FLAT where none is credible.
 
-    Trimmed least squares from the flat plane on: no random samples, so the same scan gives the same plane.
+    Trimmed least squares from the flat plane on: no random samples, so the same scan gives the same
+    plane.
     """
     floor = _floor(points)
     plane = np.array(FLAT)
@@ -58,7 +61,12 @@ def _is_credible(plane):
 def _floor(points):
     """One low point (3) for each cell of the road ahead."""
     x, y, z = points[:, 0], points[:, 1], points[:, 2]
-    ahead = (x > NEAR) & (x < FAR) & (np.abs(y) < HALF_WIDTH) & (np.abs(z + VELODYNE_HEIGHT) < TOLERANCES[0] + 0.5)
+    ahead = (
+        (x > NEAR)
+        & (x < FAR)
+        & (np.abs(y) < HALF_WIDTH)
+        & (np.abs(z + VELODYNE_HEIGHT) < TOLERANCES[0] + 0.5)
+    )
     candidates = points[ahead, :3].astype(float)
     column = np.floor(candidates[:, 0] / CELL).astype(int)
     row = np.floor((candidates[:, 1] + HALF_WIDTH) / CELL).astype(int)

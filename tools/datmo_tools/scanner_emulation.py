@@ -1,7 +1,8 @@
-"""A planar scanner emulated from a Velodyne cloud: the nearest obstacle of each beam in a height band.
+"""A planar scanner emulated from a Velodyne cloud: each beam's nearest obstacle in a band.
 
-It is an emulation. The Velodyne looks down from 1.73 m, so it sees over low obstacles into places that a
-scanner at the bumper would not see; and a band of several rows stands in for the scanner's opening angle.
+It is an emulation. The Velodyne looks down from 1.73 m, so it sees over low obstacles into places
+that a scanner at the bumper would not see; and a band of several rows stands in for the scanner's
+opening angle.
 """
 
 import math
@@ -11,8 +12,9 @@ import numpy as np
 
 from datmo_tools.errors import InputError
 
-# The recording car itself in the Velodyne's frame (m): its bonnet and mirrors return too, and a scanner
-# at the bumper does not see them. A VW Passat, with mirrors; the bonnet's returns lie up to 2.53 m ahead.
+# The recording car itself in the Velodyne's frame (m): its bonnet and mirrors return too, and a
+# scanner at the bumper does not see them. A VW Passat, with mirrors; the bonnet's returns lie up to
+# 2.53 m ahead.
 CAR_REAR, CAR_FRONT, CAR_HALF_WIDTH = -2.7, 2.7, 1.15
 
 
@@ -24,7 +26,9 @@ class ScannerOptions(NamedTuple):
     range_min: float = 1.0  # m
     range_max: float = 50.0  # m: beyond, one beam at most meets an object (thesis 1.3.3)
     band_low: float = 0.3  # m above the road: over kerbs and over what the road plane misses
-    band_high: float = 0.9  # m: two rows of the Velodyne (0.4 degrees) at 40 m, under bonnets and bumpers
+    band_high: float = (
+        0.9  # m: two rows of the Velodyne (0.4 degrees) at 40 m, under bonnets and bumpers
+    )
     beam_width: float = 0.0  # degrees that a beam covers; 0: the whole way to the next beams
 
     @property
@@ -57,17 +61,30 @@ def check(options):
     """Raises InputError where the options describe no scanner."""
     steps = options.field_of_view / options.resolution if options.resolution > 0.0 else 0.0
     rules = (
-        (options.resolution > 0.0, f"--scan-resolution is {options.resolution:g}, expected more than 0"),
-        (0.0 < options.field_of_view < 360.0,
-         f"--scan-fov is {options.field_of_view:g}, expected between 0 and 360 degrees"),
-        (steps >= 1.0 and abs(steps - round(steps)) < 1e-6,
-         f"--scan-fov {options.field_of_view:g} is no whole number of steps of {options.resolution:g}"),
-        (0.0 <= options.range_min < options.range_max,
-         f"--scan-range is {options.range_min:g} {options.range_max:g}, expected 0 <= MIN < MAX"),
-        (options.band_low < options.band_high,
-         f"--scan-band is {options.band_low:g} {options.band_high:g}, expected LOW < HIGH"),
-        (0.0 <= options.beam_width <= options.resolution,
-         f"--beam-width is {options.beam_width:g}, expected 0 to the resolution {options.resolution:g}"),
+        (
+            options.resolution > 0.0,
+            f"--scan-resolution is {options.resolution:g}, expected more than 0",
+        ),
+        (
+            0.0 < options.field_of_view < 360.0,
+            f"--scan-fov is {options.field_of_view:g}, expected between 0 and 360 degrees",
+        ),
+        (
+            steps >= 1.0 and abs(steps - round(steps)) < 1e-6,
+            f"--scan-fov {options.field_of_view:g} is no multiple of {options.resolution:g}",
+        ),
+        (
+            0.0 <= options.range_min < options.range_max,
+            f"--scan-range is {options.range_min:g} {options.range_max:g}, expected 0 <= MIN < MAX",
+        ),
+        (
+            options.band_low < options.band_high,
+            f"--scan-band is {options.band_low:g} {options.band_high:g}, expected LOW < HIGH",
+        ),
+        (
+            0.0 <= options.beam_width <= options.resolution,
+            f"--beam-width is {options.beam_width:g}, expected 0 to {options.resolution:g}",
+        ),
     )
     for holds, message in rules:
         if not holds:
@@ -75,17 +92,17 @@ def check(options):
 
 
 class EmulatedScan(NamedTuple):
-    """Ranges (m, +inf: no return) of the beams, and the cloud point that each stands for (-1: none)."""
+    """Ranges (m, +inf: no return) of the beams, and the cloud point of each (-1: none)."""
 
     ranges: np.ndarray
     sources: np.ndarray
 
 
 def emulate_scan(cloud, heights, options):
-    """The scan that the emulated scanner makes of `cloud` (n x 3 or more columns, the Velodyne's frame).
+    """The scanner's view of `cloud` (n x 3 or more columns, the Velodyne's frame).
 
-    heights: of the points above the road (n, m). The range is the distance in the plane, and the beam's
-    own bearing is reported for it, wherever in the beam the point lies.
+    heights: of the points above the road (n, m). The range is the distance in the plane, and the
+    beam's own bearing is reported for it, wherever in the beam the point lies.
     """
     x, y = cloud[:, 0].astype(float), cloud[:, 1].astype(float)
     distance = np.hypot(x, y)

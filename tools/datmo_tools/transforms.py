@@ -46,18 +46,20 @@ def quaternion_of(rotation):
     the eigenvector of the largest eigenvalue, which has no special cases and stands rounding.
     """
     r = rotation
-    symmetric = np.array([
-        [r[0, 0] - r[1, 1] - r[2, 2], r[0, 1] + r[1, 0], r[0, 2] + r[2, 0], r[2, 1] - r[1, 2]],
-        [r[0, 1] + r[1, 0], r[1, 1] - r[0, 0] - r[2, 2], r[1, 2] + r[2, 1], r[0, 2] - r[2, 0]],
-        [r[0, 2] + r[2, 0], r[1, 2] + r[2, 1], r[2, 2] - r[0, 0] - r[1, 1], r[1, 0] - r[0, 1]],
-        [r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1], r[0, 0] + r[1, 1] + r[2, 2]],
-    ])
+    symmetric = np.array(
+        [
+            [r[0, 0] - r[1, 1] - r[2, 2], r[0, 1] + r[1, 0], r[0, 2] + r[2, 0], r[2, 1] - r[1, 2]],
+            [r[0, 1] + r[1, 0], r[1, 1] - r[0, 0] - r[2, 2], r[1, 2] + r[2, 1], r[0, 2] - r[2, 0]],
+            [r[0, 2] + r[2, 0], r[1, 2] + r[2, 1], r[2, 2] - r[0, 0] - r[1, 1], r[1, 0] - r[0, 1]],
+            [r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1], r[0, 0] + r[1, 1] + r[2, 2]],
+        ]
+    )
     quaternion = np.linalg.eigh(symmetric)[1][:, -1]
     return tuple(quaternion if quaternion[3] >= 0.0 else -quaternion)
 
 
 def compose(pose, local):
-    """Planar pose(s) `local` (..., 3: x, y, yaw), given in the frame of `pose` (3), in its parent."""
+    """Planar pose(s) `local` (..., 3: x, y, yaw) in the frame of `pose` (3), in its parent."""
     local = np.asarray(local, dtype=float)
     cosine, sine = math.cos(pose[2]), math.sin(pose[2])
     x = pose[0] + cosine * local[..., 0] - sine * local[..., 1]
@@ -75,7 +77,7 @@ def relative(origin, pose):
 
 
 def arc(speed, yaw_rate, duration):
-    """Planar motion (x, y, yaw) at constant `speed` (m/s) and `yaw_rate` (rad/s) for `duration` (s)."""
+    """Motion (x, y, yaw) at constant `speed` (m/s) and `yaw_rate` (rad/s) for `duration` (s)."""
     yaw = yaw_rate * duration
     chord = speed * duration * np.sinc(0.5 * yaw / math.pi)
     return np.array([chord * math.cos(0.5 * yaw), chord * math.sin(0.5 * yaw), yaw])
