@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace datmo_fusion {
 
@@ -13,6 +14,17 @@ constexpr double kUnknownHeading = kPi * kPi / 12.0;
 /// Of the two directions of a line, the one nearer to `reference`.
 double nearerDirection(double direction, double reference) {
   return std::cos(direction - reference) < 0.0 ? normalizeAngle(direction + kPi) : direction;
+}
+
+/// The two sides of a rectangle cross: whether two directions are nearer to a right angle than to a
+/// line.
+bool isAcross(double a, double b) { return std::abs(std::cos(a - b)) < std::abs(std::sin(a - b)); }
+
+/// The direction of the object's side that runs along `heading`: the longer one seen may be its
+/// rear.
+double sideAlong(const Object& object, double heading) {
+  const double longer = object.box.centre.heading();
+  return nearerDirection(isAcross(longer, heading) ? longer + 0.5 * kPi : longer, heading);
 }
 
 double share(double seconds, double time_constant) {
@@ -44,7 +56,7 @@ void TrackedBox::predict(double seconds, const TrackedBoxOptions& options) {
 }
 
 void TrackedBox::update(const Object& object, double seconds, const TrackedBoxOptions& options) {
-  updateHeading(nearerDirection(object.box.centre.heading(), heading_), object.heading_variance);
+  updateHeading(sideAlong(object, heading_), object.heading_variance);
   const Eigen::Vector2d measured = sizeOf(object);
   for (int side = 0; side < 2; ++side) {
     const bool larger = measured[side] > size_[side];
@@ -57,6 +69,10 @@ void TrackedBox::followVelocity(const Eigen::Vector2d& velocity, const Eigen::Ma
                                 const TrackedBoxOptions& options) {
   const double speed = velocity.norm();
   const double direction = std::atan2(velocity.y(), velocity.x());
+  if (!sign_known_ && isAcross(heading_, direction)) {
+    heading_ = normalizeAngle(heading_ + 0.5 * kPi);
+    std::swap(size_.x(), size_.y());
+  }
   if (!sign_known_ || speed > options.reverse_speed) {
     heading_ = nearerDirection(heading_, direction);
     sign_known_ = true;
@@ -92,10 +108,9 @@ void TrackedBox::updateHeading(double measured, double variance) {
 /// Along the axis of this box that is nearest to the object's, so that no side grows by a turn
 /// alone.
 Eigen::Vector2d TrackedBox::sizeOf(const Object& object) const {
-  const double turn = object.box.centre.heading() - heading_;
-  const bool along = std::abs(std::cos(turn)) >= std::abs(std::sin(turn));
-  return along ? Eigen::Vector2d(object.box.length, object.box.width)
-               : Eigen::Vector2d(object.box.width, object.box.length);
+  return isAcross(object.box.centre.heading(), heading_)
+             ? Eigen::Vector2d(object.box.width, object.box.length)
+             : Eigen::Vector2d(object.box.length, object.box.width);
 }
 
 }  // namespace datmo_fusion

@@ -18,7 +18,8 @@ struct TrackedBoxOptions {
 /// Heading and size of a tracked object; its position is the filter's.
 ///
 /// One measurement shows a part of the object, so the size follows larger ones quickly and smaller
-/// ones slowly. A rectangle has a heading modulo pi; the sign comes from the motion, and stays.
+/// ones slowly. The sides seen do not tell front from rear, nor length from width; the first
+/// significant motion does, and later objects turn the box no farther than to their nearest side.
 /// Shape models (thesis 4.2.4) take the place of this class in a later issue.
 class TrackedBox {
  public:

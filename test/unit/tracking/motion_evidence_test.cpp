@@ -1,0 +1,141 @@
+#include "datmo_fusion/tracking/motion_evidence.h"
+
+#include "tracking_scene.h"
+#include <gtest/gtest.h>
+
+namespace datmo_fusion {
+namespace {
+
+/// Well known, so that it never is what decides: 5 m/s, with a variance of 0.01 m^2/s^2.
+StateEstimate movingEstimate() {
+  StateEstimate estimate;
+  estimate.mean[2] = 5.0;
+  estimate.covariance *= 0.01;
+  return estimate;
+}
+
+/// Log-density of a measurement that the motion filter predicted well: it always hits.
+constexpr double kWellPredicted = 0.0;
+
+Object seenAt(double x, double length, std::size_t points = 3) {
+  Object object = objectAt(x, 0.0);
+  object.box.length = length;
+  object.points.assign(points, Point2(x, 0.0));
+  return object;
+}
+
+PositionMeasurement placeOf(const Object& object) {
+  return {object.box.centre.position(), object.position_covariance};
+}
+
+class MotionEvidenceTest : public testing::Test {
+ protected:
+  void see(const Object& object, int times = 1) {
+    for (int i = 0; i < times; ++i) {
+      evidence_.predict(0.1, options_);
+      evidence_.update(object, placeOf(object), kWellPredicted, options_);
+    }
+  }
+  bool suffices() const { return evidence_.suffices(movingEstimate(), options_); }
+
+  MotionEvidenceOptions options_;
+  MotionEvidence evidence_{seenAt(0.0, 1.0)};
+};
+
+TEST_F(MotionEvidenceTest, AnObjectThatLeavesItsPlaceMoves) {
+  for (int i = 1; i <= 10; ++i) {
+    see(seenAt(0.5 * i, 1.0));
+  }
+  EXPECT_TRUE(suffices());
+}
+
+TEST_F(MotionEvidenceTest, NoneOfItWithoutASpeed) {
+  for (int i = 1; i <= 10; ++i) {
+    see(seenAt(0.5 * i, 1.0));
+  }
+  StateEstimate slow = movingEstimate();
+  slow.mean[2] = 0.9 * options_.least_speed;
+  EXPECT_FALSE(evidence_.suffices(slow, options_));
+  StateEstimate uncertain = movingEstimate();
+  uncertain.covariance *= 1e4;
+  EXPECT_FALSE(evidence_.suffices(uncertain, options_));
+}
+
+TEST_F(MotionEvidenceTest, AGrowingSideDoesNotLeaveItsPlace) {
+  for (int i = 1; i <= 10; ++i) {
+    see(seenAt(0.25 * i, 1.0 + 0.5 * i));
+  }
+  EXPECT_FALSE(suffices());
+}
+
+TEST_F(MotionEvidenceTest, ASideThatComesIntoViewAndGoesOutAgainDoesNotLeaveItsPlace) {
+  for (int i = 1; i <= 6; ++i) {
+    see(seenAt(0.25 * i, 1.0 + 0.5 * i));  // 4 m long from -0.5 m on
+  }
+  for (int i = 1; i <= 6; ++i) {
+    see(seenAt(1.5 + 0.25 * i, 4.0 - 0.5 * i));  // its last metre
+  }
+  EXPECT_FALSE(suffices());
+}
+
+TEST_F(MotionEvidenceTest, OneJumpIsNoMotion) {
+  see(seenAt(0.0, 1.0), 10);
+  see(seenAt(10.0, 1.0));
+  EXPECT_FALSE(suffices());
+}
+
+TEST_F(MotionEvidenceTest, IsolatedEchoesNeedMoreScansThanObjects) {
+  const auto scansNeeded = [this](std::size_t points) {
+    MotionEvidence evidence(seenAt(0.0, 0.0, points));
+    int scans = 0;
+    while (!evidence.suffices(movingEstimate(), options_) && scans < 100) {
+      ++scans;
+      const Object object = seenAt(0.8 * scans, 0.0, points);
+      evidence.predict(0.1, options_);
+      evidence.update(object, placeOf(object), kWellPredicted, options_);
+    }
+    return scans;
+  };
+  EXPECT_LT(scansNeeded(2), scansNeeded(1));
+  EXPECT_LT(scansNeeded(1), 100);
+}
+
+TEST_F(MotionEvidenceTest, MissesAndBadlyPredictedObjectsSpendIt) {
+  EXPECT_TRUE(evidence_.isSpent());
+  see(seenAt(0.0, 1.0), 3);
+  EXPECT_FALSE(evidence_.isSpent());
+  for (int i = 0; i < 100; ++i) {
+    evidence_.miss(options_);
+  }
+  EXPECT_TRUE(evidence_.isSpent());
+
+  see(seenAt(0.0, 1.0));
+  constexpr double kFarOff = -20.0;
+  evidence_.update(seenAt(0.0, 1.0), placeOf(seenAt(0.0, 1.0)), kFarOff, options_);
+  EXPECT_TRUE(evidence_.isSpent());
+}
+
+TEST_F(MotionEvidenceTest, FreeSpaceSpeaksForMotionAndAStaticPlaceAgainst) {
+  // Just as likely by both filters: only the map decides.
+  const auto seemsToStandAfter = [this](const Object& object) {
+    MotionEvidence evidence(object);
+    const Innovation standing{Eigen::Vector2d::Zero(), 2.0 * object.position_covariance};
+    evidence.update(object, placeOf(object), standing.logLikelihood(), options_);
+    return evidence.seemsToStand();
+  };
+  EXPECT_FALSE(seemsToStandAfter(objectAt(0.0, 0.0, DynamicState::kMoving)));
+  EXPECT_TRUE(seemsToStandAfter(objectAt(0.0, 0.0, DynamicState::kStatic)));
+}
+
+TEST_F(MotionEvidenceTest, AfterALongRestMotionIsFoundAsQuickly) {
+  see(seenAt(0.0, 1.0), 600);
+  int scans = 0;
+  while (!suffices() && scans < 100) {
+    ++scans;
+    see(seenAt(0.5 * scans, 1.0));
+  }
+  EXPECT_LE(scans, 8);
+}
+
+}  // namespace
+}  // namespace datmo_fusion

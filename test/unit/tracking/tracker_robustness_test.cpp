@@ -1,0 +1,81 @@
+#include <limits>
+#include <vector>
+
+#include "tracking_scene.h"
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/tracking/tracker.h"
+
+namespace datmo_fusion {
+namespace {
+
+TEST(TrackerRobustness, AGapOfTenSecondsEndsAllTracks) {
+  TrackingScene scene;
+  for (int i = 0; i < 20; ++i) {
+    scene.scan({objectAt(5.0 * scene.nextTime(), 0.0)});
+  }
+  scene.wait(10.0);
+  EXPECT_TRUE(scene.scan({objectAt(5.0 * scene.nextTime(), 0.0)}).tracks.empty());
+}
+
+TEST(TrackerRobustness, TheSameTimeTwiceChangesNoStateWithoutObjects) {
+  TrackingScene scene(TrackerOptions(), 0.1);
+  for (int i = 0; i < 20; ++i) {
+    scene.scan({objectAt(5.0 * scene.nextTime(), 0.0)});
+  }
+  const Track before = scene.tracks().tracks.at(0);
+  const TrackList after = scene.tracker().process({scene.tracks().stamp, {}}, Pose2());
+  ASSERT_EQ(after.tracks.size(), 1U);
+  EXPECT_TRUE(after.tracks[0].state.isApprox(before.state, 1e-9));
+  EXPECT_TRUE(after.tracks[0].covariance.isApprox(before.covariance, 1e-9));
+}
+
+TEST(TrackerRobustness, RejectsBrokenObjectsAndTakesTheRest) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  std::vector<Object> broken(8, objectAt(3.0, 3.0));
+  broken[0].box.centre = Pose2(nan, 0.0, 0.0);
+  broken[1].box.centre = Pose2(0.0, -inf, 0.0);
+  broken[2].box.length = nan;
+  broken[3].box.width = -1.0;
+  broken[4].position_covariance.setZero();
+  broken[5].position_covariance << 1.0, 2.0, 2.0, 1.0;
+  broken[6].position_covariance(0, 1) = nan;
+  broken[7].heading_variance = inf;
+  TrackingScene scene;
+  for (int i = 0; i < 20; ++i) {
+    std::vector<Object> objects = broken;
+    objects.push_back(objectAt(5.0 * scene.nextTime(), 0.0));
+    scene.scan(objects);
+  }
+  EXPECT_EQ(scene.tracker().counts().rejected_objects, 20U * 8U);
+  EXPECT_EQ(scene.tracker().counts().objects, 20U);
+  ASSERT_EQ(scene.tracks().tracks.size(), 1U);
+  EXPECT_TRUE(scene.tracks().tracks[0].state.allFinite());
+}
+
+TEST(TrackerRobustness, AVehiclePoseThatIsNotFiniteRejectsTheObjectsOnly) {
+  TrackingScene scene;
+  scene.scan({objectAt(1.0, 1.0)}, Pose2(std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0));
+  EXPECT_EQ(scene.tracker().counts().rejected_objects, 1U);
+}
+
+TEST(TrackerRobustness, AThousandObjectsAtOnePointAreBounded) {
+  TrackerOptions options;
+  options.most_targets = 50;
+  TrackingScene scene(options);
+  for (int i = 0; i < 3; ++i) {
+    scene.scan(std::vector<Object>(1000, objectAt(10.0, 0.0)));
+  }
+  EXPECT_GE(scene.tracker().counts().refused_births, 950U);
+  EXPECT_EQ(scene.tracker().counts().confirmed_tracks, 0U);
+}
+
+TEST(TrackerRobustness, BadOptionsAreRefused) {
+  TrackerOptions options;
+  options.target.filter.motion.turn_rate = -1.0;
+  EXPECT_THROW(Tracker{options}, OptionError);
+}
+
+}  // namespace
+}  // namespace datmo_fusion
