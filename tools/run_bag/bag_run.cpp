@@ -1,8 +1,11 @@
 #include "bag_run.h"
 
+#include <map>
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "drive_summary.h"
 #include "input_bag.h"
@@ -29,7 +32,7 @@ struct InputTopics {
 
   std::vector<std::string> all() const {
     std::vector<std::string> topics = truth;
-    topics.insert(topics.end(), {scan, echoes, odometry, "/tf", "/tf_static"});
+    topics.insert(topics.end(), {scan, echoes, odometry, "/tf"});
     return topics;
   }
 };
@@ -81,13 +84,19 @@ class BagRun {
   BagRun(const InputTopics& topics, Pipeline& pipeline, DriveSummary& drive, OutputBag& output)
       : topics_(topics), pipeline_(pipeline), drive_(drive), output_(output) {}
 
+  /// They hold for the whole bag, wherever in it they stand.
+  void takeStaticTransforms(const rosbag::Bag& bag) {
+    rosbag::View view(bag, rosbag::TopicQuery("/tf_static"));
+    for (const rosbag::MessageInstance& message : view) {
+      pipeline_.takeStaticTransforms(*read<tf2_msgs::TFMessage>(message));
+    }
+  }
+
   void take(const rosbag::MessageInstance& message) {
     const std::string& topic = message.getTopic();
     const ros::Time& time = message.getTime();
     const Stamp now = toStamp(time);
-    if (topic == "/tf_static") {
-      pipeline_.takeStaticTransforms(*read<tf2_msgs::TFMessage>(message));
-    } else if (topic == "/tf") {
+    if (topic == "/tf") {
       write(time, pipeline_.takeTransforms(*read<tf2_msgs::TFMessage>(message), now));
     } else if (topic == topics_.odometry) {
       pipeline_.takeOdometry(*read<nav_msgs::Odometry>(message));
@@ -140,12 +149,25 @@ std::string speedNote(double data_seconds, double wall_seconds) {
 
 double lengthOf(rosbag::View& view) { return (view.getEndTime() - view.getBeginTime()).toSec(); }
 
-void carry(rosbag::View& view, BagRun& run, ProgressBar& bar) {
+/// Messages by record time, and within one time transforms and odometry (false) before the scans
+/// that need them (true).
+using OrderedMessages = std::multimap<std::pair<ros::Time, bool>, rosbag::MessageInstance>;
+
+OrderedMessages inOrder(rosbag::View& view, const InputTopics& topics) {
+  OrderedMessages messages;
+  for (const rosbag::MessageInstance& message : view) {
+    const bool scan = message.getTopic() == topics.scan || message.getTopic() == topics.echoes;
+    messages.emplace(std::make_pair(message.getTime(), scan), message);
+  }
+  return messages;
+}
+
+void carry(rosbag::View& view, const InputTopics& topics, BagRun& run, ProgressBar& bar) {
   const double length = lengthOf(view);
   const Stopwatch watch;
-  for (const rosbag::MessageInstance& message : view) {
+  for (const auto& [order, message] : inOrder(view, topics)) {
     run.take(message);
-    const double done = (message.getTime() - view.getBeginTime()).toSec();
+    const double done = (order.first - view.getBeginTime()).toSec();
     bar.show(length > 0.0 ? done / length : 1.0, speedNote(done, watch.seconds()));
   }
   bar.clear();
@@ -177,9 +199,10 @@ void runBag(const Arguments& arguments, std::ostream& out, bool with_progress) {
   BagRun run(topics, pipeline, drive, output);
   ProgressBar bar(with_progress && !arguments.quiet ? &out : nullptr);
 
+  run.takeStaticTransforms(bag);
   rosbag::View view(bag, rosbag::TopicQuery(topics.all()));
   const Stopwatch watch;
-  carry(view, run, bar);
+  carry(view, topics, run, bar);
   const double took = watch.seconds();
   checkScans(arguments.input, drive, pipeline);
   output.finish();

@@ -15,12 +15,18 @@ void Pipeline::takeStaticTransforms(const tf2_msgs::TFMessage& message) {
   transforms_.addStatic(message);
 }
 
+bool Pipeline::isFromSlam(const geometry_msgs::TransformStamped& transform) const {
+  const GridSlamStageOptions& slam = options_.grid_slam;
+  return transform.child_frame_id == slam.odom_frame ||
+         (!slam.odometry && transform.child_frame_id == slam.base_frame);
+}
+
 Pipeline::Output Pipeline::takeTransforms(const tf2_msgs::TFMessage& message, Stamp now) {
-  tf2_msgs::TFMessage others;
-  std::copy_if(message.transforms.begin(), message.transforms.end(),
-               std::back_inserter(others.transforms), [&](const auto& transform) {
-                 return transform.child_frame_id != options_.grid_slam.odom_frame;
-               });
+  tf2_msgs::TFMessage others = message;
+  auto& transforms = others.transforms;
+  transforms.erase(std::remove_if(transforms.begin(), transforms.end(),
+                                  [&](const auto& transform) { return isFromSlam(transform); }),
+                   transforms.end());
   transforms_.add(others);
   Output output;
   drainTracker(now, output);

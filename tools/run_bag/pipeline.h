@@ -34,8 +34,8 @@ class Pipeline {
 
   void takeStaticTransforms(const tf2_msgs::TFMessage& message);
 
-  /// Objects may have waited for a transform, so that there may be tracks. A recorded map -> odom
-  /// is left out: it is grid_slam's.
+  /// Objects may have waited for a transform, so that there may be tracks. What grid_slam
+  /// publishes itself is left out: a bag of an earlier run may hold it.
   Output takeTransforms(const tf2_msgs::TFMessage& message, Stamp now);
 
   void takeOdometry(const nav_msgs::Odometry& message);
@@ -57,6 +57,7 @@ class Pipeline {
   }
 
  private:
+  bool isFromSlam(const geometry_msgs::TransformStamped& transform) const;
   void followSlam(Stamp now, Output& output);
   void drainTracker(Stamp now, Output& output);
   void bookTime(const StageMonitor& monitor);
