@@ -85,18 +85,7 @@ std::vector<Echo> LaserScanner::measureBeam(const RayCaster& caster, const Pose2
 
 void LaserScanner::addTargets(const RayCaster& caster, double heading, double plane_pitch,
                               const BeamFaults& faults, std::vector<Echo>& targets) {
-  const double pitch = plane_pitch + faults.pitch;
-  const double half_opening = 0.5 * degrees(options_.vertical_opening);
-  const HeightBand band{options_.mount_height, std::tan(pitch - half_opening),
-                        std::tan(pitch + half_opening)};
-  std::vector<Echo> hits;
-  for (int i = 0; i < options_.sub_rays; ++i) {
-    const double offset = degrees(options_.horizontal_opening) * middleOfPart(i, options_.sub_rays);
-    if (const std::optional<RayHit> hit = castSubRay(caster, heading + offset, band, faults)) {
-      hits.push_back({hit->range, hit->object});
-    }
-  }
-  std::sort(hits.begin(), hits.end(), nearer);
+  const std::vector<Echo> hits = castBeam(caster, heading, plane_pitch, faults);
   for (auto first = hits.cbegin(); first != hits.cend();) {
     auto last = std::next(first);
     while (last != hits.cend() &&
@@ -109,6 +98,23 @@ void LaserScanner::addTargets(const RayCaster& caster, double heading, double pl
     }
     first = last;
   }
+}
+
+std::vector<Echo> LaserScanner::castBeam(const RayCaster& caster, double heading,
+                                         double plane_pitch, const BeamFaults& faults) const {
+  const double pitch = plane_pitch + faults.pitch;
+  const double half_opening = 0.5 * degrees(options_.vertical_opening);
+  const HeightBand band{options_.mount_height, std::tan(pitch - half_opening),
+                        std::tan(pitch + half_opening)};
+  std::vector<Echo> hits;
+  for (int i = 0; i < options_.sub_rays; ++i) {
+    const double offset = degrees(options_.horizontal_opening) * middleOfPart(i, options_.sub_rays);
+    if (const std::optional<RayHit> hit = castSubRay(caster, heading + offset, band, faults)) {
+      hits.push_back({hit->range, hit->object});
+    }
+  }
+  std::sort(hits.begin(), hits.end(), nearer);
+  return hits;
 }
 
 std::optional<RayHit> LaserScanner::castSubRay(const RayCaster& caster, double heading,

@@ -86,10 +86,15 @@ class LaserScanner {
 
   std::vector<Echo> measureBeam(const RayCaster& caster, const Pose2& scanner, double bearing,
                                 const BeamFaults& faults);
+  /// Groups the hits of one plane by range into targets, and loses some of the thin ones.
   void addTargets(const RayCaster& caster, double heading, double plane_pitch,
                   const BeamFaults& faults, std::vector<Echo>& targets);
+  /// What the sub-rays meet in one plane, by rising range.
+  std::vector<Echo> castBeam(const RayCaster& caster, double heading, double plane_pitch,
+                             const BeamFaults& faults) const;
   std::optional<RayHit> castSubRay(const RayCaster& caster, double heading, const HeightBand& band,
                                    const BeamFaults& faults) const;
+  /// The nearest targets that differ enough, with noise and within the ranges.
   std::vector<Echo> reported(std::vector<Echo> targets);
 
   LaserScannerOptions options_;

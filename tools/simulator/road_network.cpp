@@ -127,20 +127,7 @@ void RoadNetwork::addCorners() {
 std::vector<Box2> RoadNetwork::paint() const {
   std::vector<Box2> boxes;
   for (std::size_t i = 0; i < roads_.size(); ++i) {
-    const Road& road = roads_[i];
-    const double period = road.dash_length + road.dash_gap;
-    for (double way = 0.5 * period; road.dash_length > 0.0 && way < road.middle.length();
-         way += period) {
-      const bool on_crossing =
-          std::any_of(crossings_.begin(), crossings_.end(), [&](const Crossing& crossing) {
-            return crossing.road == i &&
-                   std::abs(crossing.way - way) < 0.5 * (crossing.length + road.dash_length);
-          });
-      const Pose2 middle = beside(i, way, 0.0);
-      if (!on_crossing && !onOtherRoad(i, middle.position(), road.corner_radius)) {
-        boxes.push_back({middle, road.dash_length, road.paint_width});
-      }
-    }
+    addDashes(i, boxes);
   }
   for (const Crossing& crossing : crossings_) {
     const double half = 0.5 * roads_[crossing.road].width;
@@ -149,6 +136,25 @@ std::vector<Box2> RoadNetwork::paint() const {
     }
   }
   return boxes;
+}
+
+void RoadNetwork::addDashes(std::size_t road, std::vector<Box2>& boxes) const {
+  const Road& street = roads_[road];
+  if (street.dash_length == 0.0) {
+    return;
+  }
+  const double period = street.dash_length + street.dash_gap;
+  for (double way = 0.5 * period; way < street.middle.length(); way += period) {
+    const bool on_crossing =
+        std::any_of(crossings_.begin(), crossings_.end(), [&](const Crossing& crossing) {
+          return crossing.road == road &&
+                 std::abs(crossing.way - way) < 0.5 * (crossing.length + street.dash_length);
+        });
+    const Pose2 middle = beside(road, way, 0.0);
+    if (!on_crossing && !onOtherRoad(road, middle.position(), street.corner_radius)) {
+      boxes.push_back({middle, street.dash_length, street.paint_width});
+    }
+  }
 }
 
 Pose2 RoadNetwork::beside(std::size_t road, double way, double left) const {

@@ -59,6 +59,7 @@ class RoadNetwork {
  private:
   void addKerbs(std::size_t road);
   void addCorners();
+  void addDashes(std::size_t road, std::vector<Box2>& boxes) const;
 
   /// Where a kerb stops for a junction.
   struct KerbEnd {

@@ -18,7 +18,8 @@ namespace {
 /// s of ROS time at the start; well above 0, which ROS takes for "no time".
 constexpr double kEpoch = 1000.0;
 
-/// A sensor that measures at a rate and records what it measures.
+/// A sensor that measures at a rate and records what it measures. A further sensor (stereo) is one
+/// more class that measures a World with a random stream of its own name, and one more source.
 struct Source {
   double rate = 1.0;                            ///< Hz
   std::function<void(double time, Stamp)> run;  ///< `time` in s since the start
