@@ -1,7 +1,7 @@
 # Shared by the scripts beside this file; sourced, not run.
 
 repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-build_dir=$repository/build
+build_dir=${DATMO_FUSION_BUILD_DIR:-$repository/build}
 log_dir=$build_dir/log
 
 # Debian's ROS belongs to Debian's Python: another python3 that comes first on PATH breaks it.
