@@ -39,9 +39,7 @@ void GridSlamStage::takeOdometry(const nav_msgs::Odometry& message) {
   try {
     checkFrames(message);
     const OdometryPose odometry{toSample(message), fromMessage(message.pose.pose)};
-    if (odometry_stamps_.check(message.header.stamp) == Arrival::kRestart) {
-      restart();
-    }
+    checkStamp(odometry_stamps_, message.header.stamp);
     slam_.addOdometry(odometry.sample);
     odometry_ = odometry;
   } catch (const InputError& error) {
@@ -56,9 +54,7 @@ std::optional<GridSlamOutput> GridSlamStage::takeScan(const Message& message) {
     const ScannerMount mount =
         scannerMount(transforms_.core(), options_.base_frame, message.header.frame_id);
     const ConvertedScan converted = toScan(message, mount, options_.scan);
-    if (scan_stamps_.check(message.header.stamp) == Arrival::kRestart) {
-      restart();
-    }
+    checkStamp(scan_stamps_, message.header.stamp);
     warnOf(mount, converted.beams);
     GridSlamOutput output = outputOf(slam_.process(converted.scan));
     monitor_.processed({converted.scan.stamp, watch.seconds()});
@@ -82,9 +78,18 @@ void GridSlamStage::checkFrames(const nav_msgs::Odometry& message) const {
   }
 }
 
+void GridSlamStage::checkStamp(StampCheck& stamps, const ros::Time& stamp) {
+  if (stamps.check(stamp) == Arrival::kRestart) {
+    restart();
+    stamps.check(stamp);
+  }
+}
+
 void GridSlamStage::restart() {
   monitor_.warned(InputError("clock_restart", "the clock jumped back: starts with a new map"));
   slam_.reset();
+  scan_stamps_ = StampCheck(options_.input.restart_after);
+  odometry_stamps_ = StampCheck(options_.input.restart_after);
   odometry_.reset();
   last_map_.reset();
 }

@@ -13,8 +13,9 @@ const std::string kAuthority = "tf";
 
 void TransformBuffer::add(const tf2_msgs::TFMessage& message) {
   for (const auto& transform : message.transforms) {
-    noticeRestart(transform);
-    core_.setTransform(transform, kAuthority, false);
+    if (isNew(transform)) {
+      core_.setTransform(transform, kAuthority, false);
+    }
   }
 }
 
@@ -24,11 +25,16 @@ void TransformBuffer::addStatic(const tf2_msgs::TFMessage& message) {
   }
 }
 
-void TransformBuffer::noticeRestart(const geometry_msgs::TransformStamped& transform) {
-  auto& gate = gates_.try_emplace(transform.child_frame_id, restart_after_).first->second;
-  if (gate.judge(toStamp(transform.header.stamp)) == StampVerdict::kRestart) {
+bool TransformBuffer::isNew(const geometry_msgs::TransformStamped& transform) {
+  const Stamp stamp = toStamp(transform.header.stamp);
+  const auto gate = gates_.try_emplace(transform.child_frame_id, restart_after_).first;
+  const StampVerdict verdict = gate->second.judge(stamp);
+  if (verdict == StampVerdict::kRestart) {
     core_.clear();
+    gates_.clear();  // so that the first transform of another frame does not clear this one
+    gates_.try_emplace(transform.child_frame_id, restart_after_).first->second.judge(stamp);
   }
+  return verdict != StampVerdict::kRepeated;
 }
 
 }  // namespace datmo_fusion

@@ -69,6 +69,9 @@ class GridSlamStage {
   };
 
   void checkFrames(const nav_msgs::Odometry& message) const;
+
+  /// Whichever stream jumps back first, both begin anew. Throws InputError.
+  void checkStamp(StampCheck& stamps, const ros::Time& stamp);
   void restart();
   void warnOf(const ScannerMount& mount, const BeamCounts& beams);
   GridSlamOutput outputOf(const SlamResult& result);

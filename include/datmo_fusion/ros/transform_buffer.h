@@ -26,7 +26,8 @@ class TransformBuffer {
   const tf2::BufferCore& core() const { return core_; }
 
  private:
-  void noticeRestart(const geometry_msgs::TransformStamped& transform);
+  /// Not the one that was there last; forgets the old run if the clock has jumped back.
+  bool isNew(const geometry_msgs::TransformStamped& transform);
 
   double restart_after_;
   tf2::BufferCore core_;

@@ -72,6 +72,20 @@ TEST(TransformBuffer, InterpolatesWithinARun) {
   EXPECT_NEAR(planarPose(buffer.core(), "odom", "base_link", ros::Time(10.25)).x(), 0.5, 1e-9);
 }
 
+TEST(TransformBuffer, FramesThatJumpBackOneAfterTheOtherDoNotClearEachOther) {
+  TransformBuffer buffer(1.0);
+  const auto map = [](double seconds) {
+    tf2_msgs::TFMessage message;
+    message.transforms.push_back(samples::transform("map", "odom", 0.0, seconds));
+    return message;
+  };
+  buffer.add(odometry(5.0, 20.0));
+  buffer.add(map(20.0));
+  buffer.add(odometry(1.0, 10.0));
+  buffer.add(map(10.0));
+  EXPECT_NEAR(planarPose(buffer.core(), "map", "base_link", ros::Time(10.0)).x(), 1.0, 1e-9);
+}
+
 TEST(TransformBuffer, ForgetsTheOldRunWhenTheClockJumpsBack) {
   TransformBuffer buffer(1.0);
   tf2_msgs::TFMessage mount;

@@ -150,7 +150,8 @@ TEST_F(GridSlamStageTest, AJumpBackStartsAnew) {
   ASSERT_TRUE(output);
   EXPECT_EQ(output->pose->pose.pose.position.x, 0.0);
   EXPECT_TRUE(output->map);
-  EXPECT_GE(warnings("clock_restart"), 1U);
+  EXPECT_EQ(output->transforms.size(), 1U) << "the odometry of the new run serves it";
+  EXPECT_EQ(warnings("clock_restart"), 1U);
 }
 
 TEST_F(GridSlamStageTest, AScanWithoutAValidBeamMovesByOdometry) {

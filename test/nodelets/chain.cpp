@@ -1,0 +1,133 @@
+#include "chain.h"
+
+#include <cmath>
+#include <cstdlib>
+
+#include <tf2_msgs/TFMessage.h>
+
+#include <ros/callback_queue.h>
+#include <rosgraph_msgs/Clock.h>
+
+namespace datmo_fusion {
+
+namespace {
+
+constexpr std::uint32_t kQueue = 1000;  // whatever comes while the test looks elsewhere
+constexpr double kStep = 1.0 / 16.0;    // s
+
+tf2_msgs::TFMessage message(const geometry_msgs::TransformStamped& transform) {
+  tf2_msgs::TFMessage result;
+  result.transforms.push_back(transform);
+  return result;
+}
+
+}  // namespace
+
+Chain::Chain()
+    : clock_(node_.advertise<rosgraph_msgs::Clock>("/clock", kQueue, true)),
+      scan_(node_.advertise<sensor_msgs::LaserScan>("scan", kQueue)),
+      odometry_(node_.advertise<nav_msgs::Odometry>("odometry", kQueue)),
+      tf_(node_.advertise<tf2_msgs::TFMessage>("/tf", kQueue)),
+      tf_static_(node_.advertise<tf2_msgs::TFMessage>("/tf_static", kQueue, true)) {
+  subscribers_ = {keep("pose", poses), keep("map", maps), keep("split_scan", split_scans),
+                  keep("objects", objects), keep("tracks", tracks)};
+  subscribers_.push_back(node_.subscribe<StageTiming>(
+      "timing", kQueue, [this](const StageTimingConstPtr& timing) { ++timings[timing->stage]; }));
+  subscribers_.push_back(node_.subscribe<tf2_msgs::TFMessage>(
+      "/tf", kQueue, [this](const tf2_msgs::TFMessageConstPtr& list) { transforms.add(*list); }));
+  subscribers_.push_back(node_.subscribe<diagnostic_msgs::DiagnosticArray>(
+      "/diagnostics", kQueue, [this](const diagnostic_msgs::DiagnosticArrayConstPtr& list) {
+        for (const auto& status : list->status) {
+          diagnostics_[status.name.substr(0, status.name.find(':'))] = status;
+        }
+      }));
+}
+
+template <typename Message>
+ros::Subscriber Chain::keep(const std::string& topic,
+                            std::vector<boost::shared_ptr<const Message>>& kept) {
+  return node_.subscribe<Message>(
+      topic, kQueue,
+      [&kept](const boost::shared_ptr<const Message>& arrived) { kept.push_back(arrived); });
+}
+
+bool Chain::waitFor(const std::function<bool()>& condition, double most_seconds) {
+  const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(most_seconds);
+  while (!condition()) {
+    if (ros::SteadyTime::now() > end || !ros::ok()) {
+      return false;
+    }
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
+  }
+  return true;
+}
+
+bool Chain::waitForNodelets() {
+  setClock(0.0);
+  return waitFor([this] {
+    // All nodelets of a process share one connection for tf; the other one is this test's.
+    bool connected = scan_.getNumSubscribers() >= 1 && odometry_.getNumSubscribers() >= 1 &&
+                     tf_.getNumSubscribers() >= 2;
+    for (const ros::Subscriber& subscriber : subscribers_) {
+      connected = connected && subscriber.getNumPublishers() >= 1;
+    }
+    return connected && diagnostics_.size() >= 3;
+  });
+}
+
+void Chain::mountScanner() { tf_static_.publish(message(world_.scannerInBase())); }
+
+bool Chain::prepareMotion(double seconds) {
+  const double known = diagnostic("grid_slam", "odometry received");
+  sendMotion(seconds - kStep);
+  return waitFor([&] { return diagnostic("grid_slam", "odometry received") > known; });
+}
+
+void Chain::setClock(double seconds) {
+  rosgraph_msgs::Clock clock;
+  clock.clock = ros::Time(World::kStart + seconds);
+  clock_.publish(clock);
+}
+
+void Chain::sendMotion(double seconds) {
+  setClock(seconds);
+  tf_.publish(message(world_.baseInOdom(seconds)));
+  odometry_.publish(world_.odometry(seconds));
+}
+
+bool Chain::step(double seconds) {
+  sendMotion(seconds);
+  const auto scan = world_.scan(seconds);
+  sendScan(scan);
+  return waitFor(
+      [&] { return !tracks.empty() && tracks.back()->header.stamp == scan.header.stamp; });
+}
+
+bool Chain::drive(double from, double to) {
+  const int steps = static_cast<int>(std::lround((to - from) / kStep));
+  for (int i = 0; i < steps; ++i) {
+    if (!step(from + kStep * i)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+double Chain::diagnostic(const std::string& nodelet, const std::string& key) const {
+  const auto found = diagnostics_.find(nodelet);
+  if (found != diagnostics_.end()) {
+    for (const auto& value : found->second.values) {
+      if (value.key == key) {
+        return std::strtod(value.value.c_str(), nullptr);
+      }
+    }
+  }
+  return 0.0;
+}
+
+std::string Chain::diagnosticMessage(const std::string& nodelet) const {
+  const auto found = diagnostics_.find(nodelet);
+  return found == diagnostics_.end() ? "" : found->second.message;
+}
+
+}  // namespace datmo_fusion

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "world.h"
+#include <datmo_fusion/StageTiming.h>
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <ros/ros.h>
+#include <sensor_msgs/LaserScan.h>
+
+#include "datmo_fusion/ros/messages.h"
+#include "datmo_fusion/ros/transform_buffer.h"
+
+namespace datmo_fusion {
+
+/// The running nodelets, seen from outside: sends them a drive through a World, with the clock, and
+/// keeps what comes back. Waits for conditions, each for a bounded time; nothing sleeps.
+class Chain {
+ public:
+  Chain();
+
+  /// Until the condition holds; false if it does not within `most_seconds` of the computer's clock.
+  bool waitFor(const std::function<bool()>& condition, double most_seconds = 20.0);
+
+  /// Until the three nodelets are connected with this test.
+  bool waitForNodelets();
+
+  void mountScanner();
+
+  /// Motion just before a time of the drive, until grid_slam knows it: a scan may overtake its
+  /// odometry, and the first one has no older to go by.
+  bool prepareMotion(double seconds);
+
+  void setClock(double seconds);
+
+  /// Clock, tf and odometry at a time of the drive.
+  void sendMotion(double seconds);
+
+  void sendScan(const sensor_msgs::LaserScan& scan) { scan_.publish(scan); }
+
+  /// A step of the drive: motion and scan; waits until the tracks of that scan are there.
+  bool step(double seconds);
+
+  /// Steps at 16 Hz from one time of the drive to another. False if one did not come through.
+  bool drive(double from, double to);
+
+  /// Value of a key in the diagnostics of a nodelet; 0 before it is there.
+  double diagnostic(const std::string& nodelet, const std::string& key) const;
+  std::string diagnosticMessage(const std::string& nodelet) const;
+
+  std::vector<geometry_msgs::PoseWithCovarianceStampedConstPtr> poses;
+  std::vector<nav_msgs::OccupancyGridConstPtr> maps;
+  std::vector<SplitScanConstPtr> split_scans;
+  std::vector<ObjectArrayConstPtr> objects;
+  std::vector<TrackArrayConstPtr> tracks;
+  std::map<std::string, int> timings;  ///< by stage
+  TransformBuffer transforms{1.0};
+
+ private:
+  template <typename Message>
+  ros::Subscriber keep(const std::string& topic,
+                       std::vector<boost::shared_ptr<const Message>>& kept);
+
+  ros::NodeHandle node_;
+  World world_;
+  ros::Publisher clock_;
+  ros::Publisher scan_;
+  ros::Publisher odometry_;
+  ros::Publisher tf_;
+  ros::Publisher tf_static_;
+  std::vector<ros::Subscriber> subscribers_;
+  std::map<std::string, diagnostic_msgs::DiagnosticStatus> diagnostics_;  ///< by nodelet
+};
+
+}  // namespace datmo_fusion

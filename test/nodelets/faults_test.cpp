@@ -1,0 +1,139 @@
+// What goes wrong on the road: each fault is counted and named in the diagnostics, nothing crashes,
+// and the chain is right again afterwards. The tests go through one drive, in this order.
+#include <functional>
+#include <limits>
+
+#include "chain.h"
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/ros/message_conversion.h"
+
+namespace datmo_fusion {
+namespace {
+
+constexpr double kStep = 1.0 / 16.0;  // s, between scans
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+class FaultsTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    chain_ = new Chain();
+    ASSERT_TRUE(chain_->waitForNodelets());
+  }
+
+  static void TearDownTestSuite() { delete chain_; }
+
+  /// The next part of the drive.
+  void driveOn(double seconds) {
+    ASSERT_TRUE(chain_->drive(now_, now_ + seconds))
+        << chain_->diagnosticMessage("grid_slam") << chain_->diagnosticMessage("tracker");
+    now_ += seconds;
+  }
+
+  void expectRightPose() {
+    const Pose2 pose = fromMessage(chain_->poses.back()->pose.pose);
+    const double then = chain_->poses.back()->header.stamp.toSec() - World::kStart;
+    const Point2 truth = world_.baseInMap(then).position() - world_.baseInMap(start_).position();
+    EXPECT_NEAR((pose.position() - truth).norm(), 0.0, 0.5);
+  }
+
+  /// Sends the world's scan of now after `spoil`; expects that grid_slam counts it under `key`.
+  void expectCounted(const std::string& key,
+                     const std::function<void(sensor_msgs::LaserScan&)>& spoil) {
+    const double before = chain_->diagnostic("grid_slam", key);
+    auto scan = world_.scan(now_);
+    spoil(scan);
+    chain_->sendMotion(now_);
+    chain_->sendScan(scan);
+    EXPECT_TRUE(chain_->waitFor([&] { return chain_->diagnostic("grid_slam", key) > before; }))
+        << key;
+    now_ += kStep;
+  }
+
+  static Chain* chain_;
+  static double now_;    // s, of the drive
+  static double start_;  // s, where the present map begins
+  World world_;
+};
+
+Chain* FaultsTest::chain_ = nullptr;
+double FaultsTest::now_ = 0.0;
+double FaultsTest::start_ = 0.0;
+
+TEST_F(FaultsTest, AMissingTransformThatComesLater) {
+  expectCounted("dropped: missing_transform", [](auto&) {});
+  EXPECT_NE(chain_->diagnosticMessage("grid_slam").find("base_link -> scanner"), std::string::npos);
+  EXPECT_TRUE(chain_->poses.empty());
+  chain_->mountScanner();
+  ASSERT_TRUE(chain_->prepareMotion(now_));
+  start_ = now_;
+  driveOn(1.0);
+  expectRightPose();
+}
+
+TEST_F(FaultsTest, ScansThatAreNone) {
+  expectCounted("dropped: empty_scan", [](auto& scan) { scan.ranges.clear(); });
+  expectCounted("dropped: wrong_size", [](auto& scan) { scan.ranges.resize(7); });
+  expectCounted("dropped: bad_geometry", [](auto& scan) { scan.angle_increment = 0.0F; });
+  expectCounted("dropped: bad_geometry", [](auto& scan) { scan.range_max = kNan; });
+  expectCounted("dropped: zero_stamp", [](auto& scan) { scan.header.stamp = ros::Time(); });
+  expectCounted("dropped: missing_transform", [](auto& scan) { scan.header.frame_id = ""; });
+  driveOn(0.5);
+  expectRightPose();
+}
+
+TEST_F(FaultsTest, ScansWithoutAValidBeam) {
+  for (const float range : {kNan, -kInfinity, -1.0F, 0.0F}) {
+    expectCounted("warned: no_valid_beam", [range](auto& scan) {
+      std::fill(scan.ranges.begin(), scan.ranges.end(), range);
+    });
+  }
+  driveOn(0.5);
+  expectRightPose();
+}
+
+TEST_F(FaultsTest, AScanIntoTheOpenIsNoFault) {
+  expectCounted("processed",
+                [](auto& scan) { std::fill(scan.ranges.begin(), scan.ranges.end(), kInfinity); });
+  driveOn(0.5);
+  expectRightPose();
+}
+
+TEST_F(FaultsTest, ScansThatComeTwiceOrLate) {
+  const double last = now_ - kStep;
+  const auto scan_of = [&](double then) {
+    return [this, then](sensor_msgs::LaserScan& scan) { scan = world_.scan(then); };
+  };
+  expectCounted("dropped: repeated_stamp", scan_of(last));
+  expectCounted("dropped: old_stamp", scan_of(last - 0.5));
+  driveOn(0.5);
+  expectRightPose();
+}
+
+TEST_F(FaultsTest, AGapOfThreeSeconds) {
+  now_ += 3.0;
+  ASSERT_TRUE(chain_->prepareMotion(now_));
+  driveOn(1.0);
+  expectRightPose();
+}
+
+TEST_F(FaultsTest, ALoopedBag) {
+  now_ = start_;
+  chain_->sendMotion(now_ - kStep);
+  ASSERT_TRUE(chain_->waitFor(
+      [] { return chain_->diagnostic("grid_slam", "warned: clock_restart") > 0.0; }));
+  driveOn(2.0);
+  expectRightPose();
+  EXPECT_TRUE(chain_->waitFor(
+      [] { return chain_->diagnostic("tracker", "warned: clock_restart") == 1.0; }));
+}
+
+}  // namespace
+}  // namespace datmo_fusion
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "faults_test");
+  return RUN_ALL_TESTS();
+}

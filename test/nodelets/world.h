@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <geometry_msgs/TransformStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/LaserScan.h>
+
+#include "datmo_fusion/common/box2.h"
+
+namespace datmo_fusion {
+
+/// A street with a wall on each side and pillars along them. The car drives along the x axis with
+/// 5 m/s; 15 m ahead of it another one drives as fast, and drifts from left to right with 4 m/s.
+/// Times count from the start of the drive.
+class World {
+ public:
+  /// Stamp of the start, s.
+  static constexpr double kStart = 1000.0;
+
+  Pose2 baseInMap(double seconds) const;
+  Box2 otherCar(double seconds) const;
+
+  sensor_msgs::LaserScan scan(double seconds) const;
+  nav_msgs::Odometry odometry(double seconds) const;
+  geometry_msgs::TransformStamped baseInOdom(double seconds) const;
+  geometry_msgs::TransformStamped scannerInBase() const;
+
+ private:
+  double rangeAlong(const Pose2& scanner, double bearing, const std::vector<Box2>& boxes) const;
+};
+
+}  // namespace datmo_fusion
