@@ -96,7 +96,7 @@ class ObjectScore:
         self.moving_frames = 0  # in which it truly moves
         self.tracked_frames = 0
         self.reported_moving_frames = 0  # in which its track says that it moves
-        self.track_numbers = set()
+        self.track_frames = {}  # track number -> frames in which it was on the object
 
     @property
     def tracked_share(self):
@@ -120,7 +120,7 @@ class ObjectScore:
         if track is not None:
             self.tracked_frames += 1
             self.reported_moving_frames += track.moving
-            self.track_numbers.add(track.number)
+            self.track_frames[track.number] = self.track_frames.get(track.number, 0) + 1
 
 
 class TrackingScore(NamedTuple):

@@ -86,13 +86,14 @@ def table(result):
         f"end point error of the odometry  {result.odometry_error:6.2f} m "
         f"{result.odometry_error * share:5.1f} %",
         "",
-        "   id label          frames   moving  tracked       share  ids  reported moving",
+        "   id label          frames   moving  tracked       share  reported moving  ids x frames",
     ]
     for item in result.tracking.objects:
+        ids = " ".join(f"{number}x{frames}" for number, frames in item.track_frames.items())
         lines.append(
             f"{item.number:5d} {item.label:15s}{item.frames:6d}{item.moving_frames:9d}"
             f"{item.tracked_frames:9d}{100.0 * item.tracked_share:10.1f} %"
-            f"{len(item.track_numbers):5d}{100.0 * item.reported_moving_share:15.1f} %"
+            f"{100.0 * item.reported_moving_share:15.1f} %  {ids}"
         )
     false_frames = result.tracking.false_track_frames
     lines.append(

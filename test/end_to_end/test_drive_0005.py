@@ -78,12 +78,12 @@ class Figures:
     def test_cyclist_is_tracked(self):
         for item in self.whole_drive(lambda item: item.label == "Cyclist"):
             self.assertGreaterEqual(item.tracked_share, MIN_CYCLIST_SHARE)
-            self.assertLessEqual(len(item.track_numbers), MAX_IDS)
+            self.assertLessEqual(len(item.track_frames), MAX_IDS)
 
     def test_vehicle_is_tracked(self):
         for item in self.whole_drive(lambda item: item.is_vehicle):
             self.assertGreaterEqual(item.tracked_share, self.min_vehicle_share)
-            self.assertLessEqual(len(item.track_numbers), MAX_IDS)
+            self.assertLessEqual(len(item.track_frames), MAX_IDS)
 
     def test_parked_cars_do_not_move(self):
         parked = [item for item in self.result.tracking.objects if item.is_parked]

@@ -80,7 +80,7 @@ class Tracking(unittest.TestCase):
         van = result.objects[0]
         self.assertEqual((van.frames, van.moving_frames, van.tracked_frames), (10, 10, 8))
         self.assertAlmostEqual(van.tracked_share, 0.8)
-        self.assertEqual(van.track_numbers, {7, 9})
+        self.assertEqual(van.track_frames, {7: 4, 9: 4})
         self.assertFalse(van.is_parked)
         self.assertEqual(result.false_track_frames, {})
 
