@@ -16,8 +16,7 @@ double nearerDirection(double direction, double reference) {
   return std::cos(direction - reference) < 0.0 ? normalizeAngle(direction + kPi) : direction;
 }
 
-/// The two sides of a rectangle cross: whether two directions are nearer to a right angle than to a
-/// line.
+/// Whether two directions, as lines, are nearer to a right angle than to each other.
 bool isAcross(double a, double b) { return std::abs(std::cos(a - b)) < std::abs(std::sin(a - b)); }
 
 /// The direction of the object's side that runs along `heading`: the longer one seen may be its

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/tracking/kalman_filter.h"
@@ -34,14 +32,12 @@ bool velocityIsSignificant(const StateEstimate& estimate, double significance, d
 /// stands, and only its visible part slides while the vehicle passes; or its objects do not belong
 /// together, and chance put them in a row. Motion is accepted when four tests agree:
 /// 1. Moving against standing: the log-likelihood ratio of the measurements by the motion filter
-/// and by
-///    a standing object whose visible centre drifts as a random walk, summed up but never below 0
-///    (CUSUM: Page, Continuous inspection schemes, 1954), so that one that starts to move after a
-///    rest is found as quickly.
+///    and by a standing object whose visible centre drifts as a random walk, summed up but never
+///    below 0 (CUSUM: Page, Continuous inspection schemes, 1954), so that one that starts to move
+///    after a rest is found as quickly.
 /// 2. One object against chance: the track score (Sittler 1964; Blackman 2004), from the likelihood
-/// of
-///    each object in the motion filter, the density of false objects, and the misses. Objects of a
-///    single point are mostly false, so their density is higher.
+///    of each object in the motion filter, the density of false objects, and the misses. Objects of
+///    a single point are mostly false, so their density is higher.
 /// 3. It left its place: from where the first sum began to where it is now it reaches farther than
 ///    something of its length that stands. A side that comes into view little by little, and goes
 ///    out of view again, is not motion.
