@@ -23,12 +23,7 @@ tf2_msgs::TFMessage message(const geometry_msgs::TransformStamped& transform) {
 
 }  // namespace
 
-Chain::Chain()
-    : clock_(node_.advertise<rosgraph_msgs::Clock>("/clock", kQueue, true)),
-      scan_(node_.advertise<sensor_msgs::LaserScan>("scan", kQueue)),
-      odometry_(node_.advertise<nav_msgs::Odometry>("odometry", kQueue)),
-      tf_(node_.advertise<tf2_msgs::TFMessage>("/tf", kQueue)),
-      tf_static_(node_.advertise<tf2_msgs::TFMessage>("/tf_static", kQueue, true)) {
+Listener::Listener() {
   subscribers_ = {keep("pose", poses), keep("map", maps), keep("split_scan", split_scans),
                   keep("objects", objects), keep("tracks", tracks)};
   subscribers_.push_back(node_.subscribe<StageTiming>(
@@ -44,14 +39,14 @@ Chain::Chain()
 }
 
 template <typename Message>
-ros::Subscriber Chain::keep(const std::string& topic,
-                            std::vector<boost::shared_ptr<const Message>>& kept) {
+ros::Subscriber Listener::keep(const std::string& topic,
+                               std::vector<boost::shared_ptr<const Message>>& kept) {
   return node_.subscribe<Message>(
       topic, kQueue,
       [&kept](const boost::shared_ptr<const Message>& arrived) { kept.push_back(arrived); });
 }
 
-bool Chain::waitFor(const std::function<bool()>& condition, double most_seconds) {
+bool Listener::waitFor(const std::function<bool()>& condition, double most_seconds) {
   const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(most_seconds);
   while (!condition()) {
     if (ros::SteadyTime::now() > end || !ros::ok()) {
@@ -62,17 +57,47 @@ bool Chain::waitFor(const std::function<bool()>& condition, double most_seconds)
   return true;
 }
 
-bool Chain::waitForNodelets() {
-  setClock(0.0);
+bool Listener::waitForNodelets() {
   return waitFor([this] {
-    // All nodelets of a process share one connection for tf; the other one is this test's.
-    bool connected = scan_.getNumSubscribers() >= 1 && odometry_.getNumSubscribers() >= 1 &&
-                     tf_.getNumSubscribers() >= 2;
+    bool connected = diagnostics_.size() >= 3;
     for (const ros::Subscriber& subscriber : subscribers_) {
       connected = connected && subscriber.getNumPublishers() >= 1;
     }
-    return connected && diagnostics_.size() >= 3;
+    return connected;
   });
+}
+
+double Listener::diagnostic(const std::string& nodelet, const std::string& key) const {
+  const auto found = diagnostics_.find(nodelet);
+  if (found != diagnostics_.end()) {
+    for (const auto& value : found->second.values) {
+      if (value.key == key) {
+        return std::strtod(value.value.c_str(), nullptr);
+      }
+    }
+  }
+  return 0.0;
+}
+
+std::string Listener::diagnosticMessage(const std::string& nodelet) const {
+  const auto found = diagnostics_.find(nodelet);
+  return found == diagnostics_.end() ? "" : found->second.message;
+}
+
+Chain::Chain()
+    : clock_(node_.advertise<rosgraph_msgs::Clock>("/clock", kQueue, true)),
+      scan_(node_.advertise<sensor_msgs::LaserScan>("scan", kQueue)),
+      odometry_(node_.advertise<nav_msgs::Odometry>("odometry", kQueue)),
+      tf_(node_.advertise<tf2_msgs::TFMessage>("/tf", kQueue)),
+      tf_static_(node_.advertise<tf2_msgs::TFMessage>("/tf_static", kQueue, true)) {}
+
+bool Chain::waitForNodelets() {
+  setClock(0.0);
+  return Listener::waitForNodelets() && waitFor([this] {
+           // All nodelets of a process share one connection for tf; the other one is this test's.
+           return scan_.getNumSubscribers() >= 1 && odometry_.getNumSubscribers() >= 1 &&
+                  tf_.getNumSubscribers() >= 2;
+         });
 }
 
 void Chain::mountScanner() { tf_static_.publish(message(world_.scannerInBase())); }
@@ -111,23 +136,6 @@ bool Chain::drive(double from, double to) {
     }
   }
   return true;
-}
-
-double Chain::diagnostic(const std::string& nodelet, const std::string& key) const {
-  const auto found = diagnostics_.find(nodelet);
-  if (found != diagnostics_.end()) {
-    for (const auto& value : found->second.values) {
-      if (value.key == key) {
-        return std::strtod(value.value.c_str(), nullptr);
-      }
-    }
-  }
-  return 0.0;
-}
-
-std::string Chain::diagnosticMessage(const std::string& nodelet) const {
-  const auto found = diagnostics_.find(nodelet);
-  return found == diagnostics_.end() ? "" : found->second.message;
 }
 
 }  // namespace datmo_fusion

@@ -19,16 +19,46 @@
 
 namespace datmo_fusion {
 
-/// The running nodelets, seen from outside: sends them a drive through a World, with the clock, and
-/// keeps what comes back. Waits for conditions, each for a bounded time; nothing sleeps.
-class Chain {
+/// The running nodelets, seen from outside: keeps what comes back. Waits for conditions, each for a
+/// bounded time; nothing sleeps.
+class Listener {
  public:
-  Chain();
+  Listener();
 
   /// Until the condition holds; false if it does not within `most_seconds` of the computer's clock.
   bool waitFor(const std::function<bool()>& condition, double most_seconds = 20.0);
 
-  /// Until the three nodelets are connected with this test.
+  /// Until the three nodelets are connected with this test, and have reported.
+  bool waitForNodelets();
+
+  /// Value of a key in the diagnostics of a nodelet; 0 before it is there.
+  double diagnostic(const std::string& nodelet, const std::string& key) const;
+  std::string diagnosticMessage(const std::string& nodelet) const;
+
+  std::vector<geometry_msgs::PoseWithCovarianceStampedConstPtr> poses;
+  std::vector<nav_msgs::OccupancyGridConstPtr> maps;
+  std::vector<SplitScanConstPtr> split_scans;
+  std::vector<ObjectArrayConstPtr> objects;
+  std::vector<TrackArrayConstPtr> tracks;
+  std::map<std::string, int> timings;  ///< by stage
+  TransformBuffer transforms{1.0};
+
+ private:
+  template <typename Message>
+  ros::Subscriber keep(const std::string& topic,
+                       std::vector<boost::shared_ptr<const Message>>& kept);
+
+  ros::NodeHandle node_;
+  std::vector<ros::Subscriber> subscribers_;
+  std::map<std::string, diagnostic_msgs::DiagnosticStatus> diagnostics_;  ///< by nodelet
+};
+
+/// Sends the nodelets a drive through a World, with the clock.
+class Chain : public Listener {
+ public:
+  Chain();
+
+  /// Until the nodelets listen to this test, too.
   bool waitForNodelets();
 
   void mountScanner();
@@ -50,23 +80,7 @@ class Chain {
   /// Steps at 16 Hz from one time of the drive to another. False if one did not come through.
   bool drive(double from, double to);
 
-  /// Value of a key in the diagnostics of a nodelet; 0 before it is there.
-  double diagnostic(const std::string& nodelet, const std::string& key) const;
-  std::string diagnosticMessage(const std::string& nodelet) const;
-
-  std::vector<geometry_msgs::PoseWithCovarianceStampedConstPtr> poses;
-  std::vector<nav_msgs::OccupancyGridConstPtr> maps;
-  std::vector<SplitScanConstPtr> split_scans;
-  std::vector<ObjectArrayConstPtr> objects;
-  std::vector<TrackArrayConstPtr> tracks;
-  std::map<std::string, int> timings;  ///< by stage
-  TransformBuffer transforms{1.0};
-
  private:
-  template <typename Message>
-  ros::Subscriber keep(const std::string& topic,
-                       std::vector<boost::shared_ptr<const Message>>& kept);
-
   ros::NodeHandle node_;
   World world_;
   ros::Publisher clock_;
@@ -74,8 +88,6 @@ class Chain {
   ros::Publisher odometry_;
   ros::Publisher tf_;
   ros::Publisher tf_static_;
-  std::vector<ros::Subscriber> subscribers_;
-  std::map<std::string, diagnostic_msgs::DiagnosticStatus> diagnostics_;  ///< by nodelet
 };
 
 }  // namespace datmo_fusion
