@@ -2,15 +2,25 @@
 
 #include "datmo_fusion/common/option_table.h"
 #include "datmo_fusion/ros/grid_slam_stage.h"
+#include "datmo_fusion/ros/markers.h"
 #include "datmo_fusion/ros/moving_objects_stage.h"
 #include "datmo_fusion/ros/tracker_stage.h"
 
 namespace datmo_fusion {
 
+namespace {
+
+template <typename Options>
+std::string section(const std::string& nodelet) {
+  return "### `" + nodelet + "`\n\n" + optionTable<Options>();
+}
+
+}  // namespace
+
 std::string parameterTables() {
-  return "### `grid_slam`\n\n" + optionTable<GridSlamStageOptions>() +
-         "\n### `moving_objects`\n\n" + optionTable<MovingObjectsStageOptions>() +
-         "\n### `tracker`\n\n" + optionTable<TrackerStageOptions>();
+  return section<GridSlamStageOptions>("grid_slam") + "\n" +
+         section<MovingObjectsStageOptions>("moving_objects") + "\n" +
+         section<TrackerStageOptions>("tracker") + "\n" + section<MarkersOptions>("markers");
 }
 
 }  // namespace datmo_fusion

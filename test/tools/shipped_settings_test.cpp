@@ -1,0 +1,59 @@
+// What the package ships says the same as the code: the sensor sets and the README.
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "parameter_tables.h"
+#include "run_bag/pipeline_options.h"
+#include "yaml_options.h"
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/ros/markers.h"
+
+namespace datmo_fusion {
+namespace {
+
+const std::filesystem::path kPackage = DATMO_FUSION_SOURCE_DIR;
+
+std::vector<std::string> sensorSets() {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(kPackage / "config")) {
+    if (entry.path().extension() == ".yaml") {
+      files.push_back(entry.path().string());
+    }
+  }
+  return files;
+}
+
+TEST(SensorSets, AreReadWithoutAnUnknownKeyOrABadValue) {
+  const auto files = sensorSets();
+  EXPECT_GE(files.size(), 2U);
+  for (const std::string& file : files) {
+    EXPECT_NO_THROW(readPipelineOptions(file)) << file;
+    if (const YAML::Node markers = loadYaml(file)["markers"]) {
+      EXPECT_NO_THROW(readOptions<MarkersOptions>(optionValues(markers))) << file;
+    }
+  }
+}
+
+TEST(Readme, ListsTheParametersAsTheyAre) {
+  std::ifstream file(kPackage / "README.md");
+  if (!file) {
+    GTEST_SKIP() << "no README.md in " << kPackage;
+  }
+  std::stringstream readme;
+  readme << file.rdbuf();
+  const std::string text = readme.str();
+  const std::string begin = "<!-- parameters:begin -->\n";
+  const auto from = text.find(begin);
+  const auto to = text.find("<!-- parameters:end -->");
+  ASSERT_NE(from, std::string::npos);
+  ASSERT_NE(to, std::string::npos);
+  const auto start = from + begin.size();
+  EXPECT_EQ(text.substr(start, to - start), "\n" + parameterTables() + "\n")
+      << "put the output of list_parameters between the two marks, with an empty line before and "
+         "after it";
+}
+
+}  // namespace
+}  // namespace datmo_fusion
