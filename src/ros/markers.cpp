@@ -115,6 +115,7 @@ Marker labelOf(const std_msgs::Header& header, const TrackMessage& track,
                const MarkersOptions& options) {
   Marker marker = makeMarker(header, "track labels", Marker::TEXT_VIEW_FACING);
   marker.pose.position = track.pose.position;
+  marker.pose.position.y += options.text_height;  // beside the arrow, seen from above
   marker.pose.position.z = heightOf(track, options) + options.text_height;
   marker.scale.z = options.text_height;
   std::array<char, 32> text{};

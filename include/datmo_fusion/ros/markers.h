@@ -15,7 +15,7 @@
 namespace datmo_fusion {
 
 struct MarkersOptions {
-  double point_size = 0.25;     ///< m
+  double point_size = 0.4;      ///< m
   double line_width = 0.12;     ///< m
   double text_height = 1.8;     ///< m
   double least_size = 0.3;      ///< m
