@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "datmo_fusion/detection/box_fit.h"
 
@@ -15,10 +14,14 @@ constexpr char kSensor[] = "lidar";
 /// Variance of a value that is only known to lie in an interval of length 1.
 constexpr double kUniformVariance = 1.0 / 12.0;
 
-std::vector<ScanPoint> notStatic(const std::vector<ScanPoint>& points) {
+/// The points of one segment of the scan that the map does not know as static.
+std::vector<ScanPoint> notStatic(const std::vector<ScanPoint>& points, const Segment& segment) {
   std::vector<ScanPoint> result;
-  std::copy_if(points.begin(), points.end(), std::back_inserter(result),
-               [](const ScanPoint& point) { return point.state != PointState::kStatic; });
+  for (const std::size_t i : segment) {
+    if (points[i].state != PointState::kStatic) {
+      result.push_back(points[i]);
+    }
+  }
   return result;
 }
 
@@ -70,14 +73,22 @@ MovingObjectDetector::MovingObjectDetector(const MovingObjectDetectorOptions& op
 
 ObjectList MovingObjectDetector::detect(const SplitScan& scan) const {
   ObjectList list{scan.stamp, {}};
-  const std::vector<ScanPoint> points = notStatic(scan.points);
   const double spacing = beamSpacing(scan.points);
-  for (const Segment& segment : segmentPoints(points, options_.segmentation)) {
-    if (segment.size() < static_cast<std::size_t>(options_.least_points)) {
-      continue;
-    }
-    Object object = makeObject(points, segment, scan.scanner_in_base, spacing);
-    if (object.box.length <= options_.largest_size) {
+  for (const Segment& whole : segmentPoints(scan.points, options_.segmentation)) {
+    const std::vector<ScanPoint> points = notStatic(scan.points, whole);
+    const bool touches_static = points.size() < whole.size();
+    for (const Segment& segment : segmentPoints(points, options_.segmentation)) {
+      if (segment.size() < static_cast<std::size_t>(options_.least_points)) {
+        continue;
+      }
+      Object object = makeObject(points, segment, scan.scanner_in_base, spacing);
+      if (object.box.length > options_.largest_size) {
+        continue;
+      }
+      if (touches_static && object.dynamic_state == DynamicState::kUnknown) {
+        // A wall comes into view piece by piece: what joins on to it belongs to it.
+        object.dynamic_state = DynamicState::kStatic;
+      }
       list.objects.push_back(std::move(object));
     }
   }
