@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Shared by the scripts beside this file; sourced, not run.
 
 repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
