@@ -82,17 +82,29 @@ bool OccupancyMap::isStatic(const Cell& cell) const {
          static_cast<double>(cell.occupancy) >= options_.static_above;
 }
 
-PointState OccupancyMap::judge(const Point2& point) const {
-  const CellIndex centre = window().cellAt(point);
+bool OccupancyMap::isNearStatic(CellIndex cell) const {
   const int reach = options_.static_neighbourhood;
-  for (int row = centre.row - reach; row <= centre.row + reach; ++row) {
-    for (int column = centre.column - reach; column <= centre.column + reach; ++column) {
+  for (int row = cell.row - reach; row <= cell.row + reach; ++row) {
+    for (int column = cell.column - reach; column <= cell.column + reach; ++column) {
       if (isStatic(cells_.atOrEmpty({column, row}))) {
-        return PointState::kStatic;
+        return true;
       }
     }
   }
-  return occupancy(centre) < options_.moving_below ? PointState::kMoving : PointState::kUnknown;
+  return false;
+}
+
+PointState OccupancyMap::judge(const Point2& point, const Point2& half_footprint) const {
+  bool is_static = false;
+  bool is_free = true;
+  walkRay(window(), point - half_footprint, point + half_footprint, [&](CellIndex cell) {
+    is_static = is_static || isNearStatic(cell);
+    is_free = is_free && occupancy(cell) < options_.moving_below;
+  });
+  if (is_static) {
+    return PointState::kStatic;
+  }
+  return is_free ? PointState::kMoving : PointState::kUnknown;
 }
 
 std::optional<HitDistribution> OccupancyMap::hitsAround(const Point2& point) const {

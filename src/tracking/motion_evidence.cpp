@@ -79,9 +79,10 @@ bool velocityIsSignificant(const StateEstimate& estimate, double significance, d
 }
 
 MotionEvidence::MotionEvidence(const Object& object)
-    : anchor_{object.box, object.position_covariance},
+    : anchor_{object.box, object.position_covariance, object.moving_fraction},
       present_(anchor_),
       longest_(object.box),
+      free_share_(object.moving_fraction),
       standing_{object.box.centre.position(), object.position_covariance} {}
 
 void MotionEvidence::predict(double seconds, const MotionEvidenceOptions& options) {
@@ -93,7 +94,9 @@ void MotionEvidence::update(const Object& object, const PositionMeasurement& mea
   const Innovation innovation{measured.position - standing_.position,
                               standing_.covariance + measured.covariance};
   const double ratio = moving_log_likelihood - innovation.logLikelihood();
-  present_ = {object.box, object.position_covariance};
+  present_ = {object.box, object.position_covariance, object.moving_fraction};
+  ++objects_;
+  free_share_ += (object.moving_fraction - free_share_) / objects_;
   const double map = mapEvidence(object, options.free_space_evidence);
   addAgainstStanding(clamp(ratio, options.scan_limit) + map, options);
   const double false_density =
@@ -118,6 +121,8 @@ void MotionEvidence::addAgainstStanding(double ratio, const MotionEvidenceOption
   const bool came_to_rest = against_standing_ > 0.0 && against_standing_ + ratio <= 0.0;
   if (came_to_rest) {
     anchor_ = present_;
+    objects_ = 1;
+    free_share_ = present_.free_share;
   }
   against_standing_ = std::min(options.most_evidence, std::max(0.0, against_standing_ + ratio));
 }
@@ -140,9 +145,10 @@ bool MotionEvidence::leftItsPlace(const MotionEvidenceOptions& options) const {
     return false;
   }
   const Eigen::Vector2d direction = way / distance;
-  const double swept =
-      distance + 0.5 * (extentAlong(present_.box, direction) + extentAlong(anchor_.box, direction));
-  const double overrun = swept - (1.0 + options.unseen_share) * extentAlong(longest_, direction);
+  const double seen =
+      0.5 * (extentAlong(present_.box, direction) + extentAlong(anchor_.box, direction));
+  const double standing_length = (1.0 + options.unseen_share) * extentAlong(longest_, direction);
+  const double overrun = distance - (1.0 - free_share_) * (standing_length - seen);
   const double deviation =
       std::sqrt(direction.dot((present_.covariance + anchor_.covariance) * direction));
   return overrun >= options.least_overrun && overrun >= options.overrun_significance * deviation;

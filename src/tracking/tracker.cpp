@@ -42,7 +42,9 @@ void TrackerOptions::visit(OptionVisitor& visitor) {
                   "a confirmed track not seen for longer is deleted; sooner if it was followed for "
                   "a shorter time, but no sooner than an unconfirmed one"},
                  confirmed_silence, kSilence);
-  visitor.number({"published_silence", "s", "a track not seen for longer is not published"},
+  visitor.number({"published_silence", "s",
+                  "a track not seen for longer is not published; less long if it was followed for "
+                  "less than twice that, but no less than an unconfirmed one is kept"},
                  published_silence, kSilence);
   visitor.number({"most_position_std", "m",
                   "a target is deleted when the standard deviation of its position is larger"},
@@ -126,13 +128,22 @@ class Tracker::State {
                    targets_.end());
   }
 
+  /// How long a track that was followed for this time may go unseen.
+  double silenceAfter(double followed, double most) const {
+    return std::min(most, std::max(options_.tentative_silence, followed));
+  }
+
   bool isLost(const Target& target) const {
     const double allowed = target.confirmed()
-                               ? std::min(options_.confirmed_silence,
-                                          std::max(options_.tentative_silence, target.followed()))
+                               ? silenceAfter(target.followed(), options_.confirmed_silence)
                                : options_.tentative_silence;
     return (target.confirmed() && target.isSpent()) || target.sinceUpdate() > allowed ||
            positionStd(target) > options_.most_position_std;
+  }
+
+  bool isPublished(const Target& target) const {
+    return target.confirmed() && target.sinceUpdate() <= silenceAfter(0.5 * target.followed(),
+                                                                      options_.published_silence);
   }
 
   void confirm() {
@@ -149,7 +160,7 @@ class Tracker::State {
   TrackList published(Stamp stamp) const {
     TrackList list{stamp, {}};
     for (const Target& target : targets_) {
-      if (target.confirmed() && target.sinceUpdate() <= options_.published_silence) {
+      if (isPublished(target)) {
         list.tracks.push_back(target.track(options_.target));
       }
     }

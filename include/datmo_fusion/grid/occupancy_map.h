@@ -56,9 +56,11 @@ class OccupancyMap {
     return static_cast<double>(cells_.atOrEmpty(cell).occupancy);
   }
 
-  /// What the map says of a beam that ends at this point (thesis 3.3.1; there without kUnknown, the
-  /// neighbourhood and the age).
-  PointState judge(const Point2& point) const;
+  /// What the map says of a beam that ends at this point, m (thesis 3.3.1; there without kUnknown,
+  /// footprint, neighbourhood and age). `half_footprint`: from the beam's axis to its edge at this
+  /// range, m; what it hit may lie anywhere between. One static cell there makes the point static;
+  /// it is moving only if the whole footprint has been seen free.
+  PointState judge(const Point2& point, const Point2& half_footprint = Point2::Zero()) const;
 
   /// Hits in the 3 x 3 occupied cells around a point; none where there are no occupied ones.
   std::optional<HitDistribution> hitsAround(const Point2& point) const;
@@ -93,6 +95,7 @@ class OccupancyMap {
   void pass(CellIndex cell);
   void passBeam(const Ray& ray, const Pose2& base_in_map);
   bool isStatic(const Cell& cell) const;
+  bool isNearStatic(CellIndex cell) const;
 
   OccupancyMapOptions options_;
   float hit_log_odds_;

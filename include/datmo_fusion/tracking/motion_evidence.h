@@ -10,7 +10,7 @@ struct MotionEvidenceOptions {
   double detection_probability = 0.5;      ///< 1
   double false_density = 0.02;             ///< 1/m^2
   double echo_density = 0.2;               ///< 1/m^2
-  double required_against_chance = 7.0;    ///< 1
+  double required_against_chance = 9.0;    ///< 1
   double most_evidence = 20.0;             ///< 1
   double standing_drift = 1.0;             ///< m^2/s
   double required_against_standing = 3.0;  ///< 1
@@ -18,7 +18,7 @@ struct MotionEvidenceOptions {
   double free_space_evidence = 1.0;        ///< 1
   double least_overrun = 1.0;              ///< m
   double unseen_share = 0.5;               ///< 1
-  double overrun_significance = 3.0;       ///< 1
+  double overrun_significance = 2.0;       ///< 1
   double least_speed = 0.8;                ///< m/s
   double speed_significance = 5.99;        ///< 1
 
@@ -40,7 +40,8 @@ bool velocityIsSignificant(const StateEstimate& estimate, double significance, d
 ///    a single point are mostly false, so their density is higher.
 /// 3. It left its place: from where the first sum began to where it is now it reaches farther than
 ///    something of its length that stands. A side that comes into view little by little, and goes
-///    out of view again, is not motion.
+///    out of view again, is not motion. The more of its points lie where the map was free, the
+///    less it can have stood there half hidden: then the way alone counts.
 /// 4. Its estimated velocity is significant.
 ///
 /// In both sums one scan counts for a limited amount, so that no outlier decides; points where the
@@ -74,6 +75,7 @@ class MotionEvidence {
   struct Place {
     Box2 box;
     Eigen::Matrix2d covariance;
+    double free_share;  ///< 0 to 1, of its points: those that lie where the map is free
   };
 
   void addAgainstStanding(double ratio, const MotionEvidenceOptions& options);
@@ -85,6 +87,8 @@ class MotionEvidence {
   Place anchor_;
   Place present_;
   Box2 longest_;
+  int objects_ = 1;    ///< since the anchor
+  double free_share_;  ///< mean over them
   PositionMeasurement standing_;
 };
 

@@ -74,6 +74,21 @@ TEST(MovingObjectDetectorTest, AStaticPointNextToAMoverDoesNotHideIt) {
   EXPECT_EQ(list.objects[0].points.size(), 2U);
 }
 
+TEST(MovingObjectDetectorTest, WhatJoinsOnToAWallIsPartOfIt) {
+  const ObjectList list =
+      detect(splitScan({{10.0, 40, kU}, {10.0, 41, kU}, {10.0, 42, kS}, {10.0, 43, kS}}));
+  ASSERT_EQ(list.objects.size(), 1U);
+  EXPECT_EQ(list.objects[0].dynamic_state, DynamicState::kStatic);
+  EXPECT_EQ(list.objects[0].points.size(), 2U);
+}
+
+TEST(MovingObjectDetectorTest, WhatMovesNextToAWallStillMoves) {
+  const ObjectList list =
+      detect(splitScan({{10.0, 40, kM}, {10.0, 41, kM}, {10.0, 42, kS}, {10.0, 43, kS}}));
+  ASSERT_EQ(list.objects.size(), 1U);
+  EXPECT_EQ(list.objects[0].dynamic_state, DynamicState::kMoving);
+}
+
 TEST(MovingObjectDetectorTest, AHedgeIsNoObject) {
   std::vector<End> hedge;
   for (std::uint32_t beam = 0; beam < 81; ++beam) {

@@ -139,6 +139,20 @@ TEST(OccupancyMapTest, AStaticCellVouchesForItsNeighbours) {
   }
 }
 
+TEST(OccupancyMapTest, AWideBeamIsMovingOnlyIfItsWholeFootprintWasFree) {
+  OccupancyMapOptions options = smallMap();
+  options.static_neighbourhood = 0;
+  OccupancyMap map(options);
+  for (int i = 0; i <= 10; ++i) {
+    updateWith(map, scanTo({{9.5, 0.5}, {9.5, 1.5}, {4.5, 3.5}}, 0.1 * i));
+  }
+  // Rows 0 and 1 are free at column 4; row 2 is free in part of it, row 3 holds an obstacle.
+  EXPECT_EQ(map.judge({4.5, 0.5}), PointState::kMoving);
+  EXPECT_EQ(map.judge({4.5, 0.5}, {0.0, 0.4}), PointState::kMoving);
+  EXPECT_EQ(map.judge({4.5, 0.5}, {0.0, 1.4}), PointState::kUnknown) << "row -1 is not known";
+  EXPECT_EQ(map.judge({4.5, 2.0}, {0.0, 1.6}), PointState::kStatic) << "row 3 is within reach";
+}
+
 TEST(OccupancyMapTest, WhatWasHitForAShortTimeIsNotStatic) {
   OccupancyMap map(smallMap());
   for (int i = 0; i <= 7; ++i) {

@@ -68,6 +68,24 @@ TEST_F(MotionEvidenceTest, AGrowingSideDoesNotLeaveItsPlace) {
   EXPECT_FALSE(suffices());
 }
 
+TEST_F(MotionEvidenceTest, InFreeSpaceAShorterWayIsEnough) {
+  // A box of 4 m goes 2.5 m: it could have stood there half hidden, but not where the map was free.
+  MotionEvidence in_unknown_space(seenAt(0.0, 4.0));
+  Object free_object = seenAt(0.0, 4.0);
+  free_object.moving_fraction = 1.0;
+  MotionEvidence in_free_space(free_object);
+  for (int i = 1; i <= 10; ++i) {
+    for (MotionEvidence* evidence : {&in_unknown_space, &in_free_space}) {
+      Object object = seenAt(0.25 * i, 4.0);
+      object.moving_fraction = evidence == &in_free_space ? 1.0 : 0.0;
+      evidence->predict(0.1, options_);
+      evidence->update(object, placeOf(object), kWellPredicted, options_);
+    }
+  }
+  EXPECT_FALSE(in_unknown_space.suffices(movingEstimate(), options_));
+  EXPECT_TRUE(in_free_space.suffices(movingEstimate(), options_));
+}
+
 TEST_F(MotionEvidenceTest, ASideThatComesIntoViewAndGoesOutAgainDoesNotLeaveItsPlace) {
   for (int i = 1; i <= 6; ++i) {
     see(seenAt(0.25 * i, 1.0 + 0.5 * i));  // 4 m long from -0.5 m on

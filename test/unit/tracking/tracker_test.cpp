@@ -144,6 +144,22 @@ TEST(Tracker, CoastingIsPublishedForALimitedTimeThenTheTrackDies) {
   EXPECT_NEAR(silent, options.published_silence, 0.11);
 }
 
+TEST(Tracker, AYoungTrackCoastsForAShorterTime) {
+  TrackerOptions options;
+  TrackingScene scene(options);
+  for (int i = 0; i < 12; ++i) {  // 1.1 s
+    scene.scan({objectAt(10.0 + 0.5 * i, 0.0)});
+  }
+  ASSERT_EQ(scene.tracks().tracks.size(), 1U);
+  int published = 0;
+  while (!scene.scan({}).tracks.empty()) {
+    ++published;
+    ASSERT_LT(published, 100);
+  }
+  EXPECT_GE(published, 4);
+  EXPECT_LE(published, 6) << "half of the time that it was followed";
+}
+
 TEST(Tracker, CrossingTargetsKeepTheirIds) {
   TrackingScene scene;
   for (int i = 0; i < 60; ++i) {
