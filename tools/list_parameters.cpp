@@ -3,4 +3,4 @@
 
 #include "parameter_tables.h"
 
-int main() { std::cout << datmo_fusion::parameterTables(); }
+int main() { std::cout << datmo::parameterTables(); }

@@ -6,7 +6,7 @@
 #include <rosbag/exceptions.h>
 #include <rosbag/message_instance.h>
 
-namespace datmo_fusion {
+namespace datmo {
 
 OutputBag::OutputBag(const std::string& file, rosbag::CompressionType compression)
     : file_(file), part_(file + ".part") {
@@ -37,4 +37,4 @@ void OutputBag::finish() {
   }
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -8,7 +8,7 @@
 #include <ros/time.h>
 #include <rosbag/bag.h>
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// A bag that appears under its name when it is complete, and not at all otherwise: it is written
 /// beside it as `<file>.part`, which goes away unless finish() is reached.
@@ -50,4 +50,4 @@ class OutputBag {
   rosbag::Bag bag_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -6,7 +6,7 @@
 #include "datmo_fusion/ros/moving_objects_stage.h"
 #include "datmo_fusion/ros/tracker_stage.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -23,4 +23,4 @@ std::string parameterTables() {
          section<TrackerStageOptions>("tracker") + "\n" + section<MarkersOptions>("markers");
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -2,9 +2,9 @@
 
 #include <string>
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// The parameters of all nodelets: for each a heading and a Markdown table.
 std::string parameterTables();
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -5,7 +5,7 @@
 #include <iomanip>
 #include <ostream>
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -34,4 +34,4 @@ void ProgressBar::clear() {
   }
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -4,7 +4,7 @@
 #include <iosfwd>
 #include <string>
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// One line on a terminal that shows how far a job is, drawn over again a few times a second.
 class ProgressBar {
@@ -25,4 +25,4 @@ class ProgressBar {
   Clock::time_point drawn_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

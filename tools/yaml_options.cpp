@@ -1,6 +1,6 @@
 #include "yaml_options.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -77,4 +77,4 @@ OptionValue parseOptionValue(const std::string& key, const std::string& text) {
   }
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -6,7 +6,7 @@
 
 #include "datmo_fusion/common/options.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// Parses a yaml file. Throws OptionError that names the file, and the line where it is no yaml.
 YAML::Node loadYaml(const std::string& file);
@@ -22,4 +22,4 @@ OptionValues optionValues(const YAML::Node& section);
 /// Parses `text` as the value of one option, as if it stood in a yaml file. Throws OptionError.
 OptionValue parseOptionValue(const std::string& key, const std::string& text);
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace datmo_fusion {
+namespace datmo {
 
 std::array<Point2, 4> Box2::corners() const {
   const double x = 0.5 * length;
@@ -21,4 +21,4 @@ double Box2::distanceTo(const Point2& point) const {
   return std::hypot(dx, dy);
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

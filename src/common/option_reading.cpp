@@ -5,7 +5,7 @@
 
 #include "datmo_fusion/common/options.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -121,4 +121,4 @@ void detail::readAll(const OptionValues& values, const OptionWalk& visit) {
   }
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

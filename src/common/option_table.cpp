@@ -3,7 +3,7 @@
 #include <cmath>
 #include <sstream>
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -73,4 +73,4 @@ std::string detail::tableOf(const OptionWalk& visit) {
   return writer.table();
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

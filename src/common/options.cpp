@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -61,4 +61,4 @@ void detail::checkAll(const OptionWalk& visit) {
   visit(checker);
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -1,6 +1,6 @@
 #include "datmo_fusion/common/stamp_gate.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 StampVerdict StampGate::judge(Stamp stamp) {
   if (newest_ && stamp <= *newest_) {
@@ -17,4 +17,4 @@ StampVerdict StampGate::judge(Stamp stamp) {
   return StampVerdict::kAccept;
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -29,4 +29,4 @@ Twist2 twistOf(const Pose2& motion, double seconds) {
   return {length / seconds, turn / seconds};
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

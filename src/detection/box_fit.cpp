@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -85,4 +85,4 @@ Box2 fitBox(const std::vector<Point2>& points) {
   return boxOf(extentOf(turned(points, best_heading)), best_heading);
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -5,7 +5,7 @@
 
 #include "datmo_fusion/detection/box_fit.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -122,4 +122,4 @@ Object MovingObjectDetector::makeObject(const std::vector<ScanPoint>& points,
   return object;
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -53,4 +53,4 @@ std::vector<Segment> segmentPoints(const std::vector<ScanPoint>& points,
   return segments;
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

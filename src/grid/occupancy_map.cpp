@@ -7,7 +7,7 @@
 
 #include "datmo_fusion/grid/ray_walk.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -247,4 +247,4 @@ void OccupancyMap::clear() {
   now_ = 0.0F;
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -9,7 +9,7 @@
 #include "datmo_fusion/ros/stage_reporter.h"
 #include "datmo_fusion/ros/transform_subscription.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// The door to GridSlamStage. In: scan or echoes, odometry, tf. Out: map, pose, split_scan, tf.
 class GridSlamNodelet : public nodelet::Nodelet {
@@ -89,6 +89,6 @@ class GridSlamNodelet : public nodelet::Nodelet {
   ros::Subscriber echoes_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo
 
-PLUGINLIB_EXPORT_CLASS(datmo_fusion::GridSlamNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(datmo::GridSlamNodelet, nodelet::Nodelet)

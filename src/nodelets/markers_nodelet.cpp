@@ -7,7 +7,7 @@
 #include "datmo_fusion/ros/markers.h"
 #include "datmo_fusion/ros/parameters.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// Draws for rviz. In: split_scan, objects, tracks, ground_truth/objects. Out: markers.
 class MarkersNodelet : public nodelet::Nodelet {
@@ -67,6 +67,6 @@ class MarkersNodelet : public nodelet::Nodelet {
   ros::Subscriber truth_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo
 
-PLUGINLIB_EXPORT_CLASS(datmo_fusion::MarkersNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(datmo::MarkersNodelet, nodelet::Nodelet)

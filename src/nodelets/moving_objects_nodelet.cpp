@@ -7,7 +7,7 @@
 #include "datmo_fusion/ros/parameters.h"
 #include "datmo_fusion/ros/stage_reporter.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// The door to MovingObjectsStage. In: split_scan. Out: objects.
 class MovingObjectsNodelet : public nodelet::Nodelet {
@@ -43,6 +43,6 @@ class MovingObjectsNodelet : public nodelet::Nodelet {
   ros::Subscriber split_scan_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo
 
-PLUGINLIB_EXPORT_CLASS(datmo_fusion::MovingObjectsNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(datmo::MovingObjectsNodelet, nodelet::Nodelet)

@@ -8,7 +8,7 @@
 #include "datmo_fusion/ros/tracker_stage.h"
 #include "datmo_fusion/ros/transform_subscription.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// The door to TrackerStage. In: objects, tf. Out: tracks.
 class TrackerNodelet : public nodelet::Nodelet {
@@ -55,6 +55,6 @@ class TrackerNodelet : public nodelet::Nodelet {
   ros::Subscriber objects_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo
 
-PLUGINLIB_EXPORT_CLASS(datmo_fusion::TrackerNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(datmo::TrackerNodelet, nodelet::Nodelet)

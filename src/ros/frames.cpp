@@ -9,7 +9,7 @@
 
 #include "datmo_fusion/ros/input_error.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -53,4 +53,4 @@ Pose2 planarPose(const tf2::BufferCore& transforms, const std::string& parent_fr
   return fromAbove(lookUp(transforms, parent_frame, child_frame, time));
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -4,7 +4,7 @@
 
 #include "datmo_fusion/ros/message_conversion.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 void GridSlamStageOptions::visit(OptionVisitor& visitor) {
   visitor.text({"map_frame", "", "frame of the map and the pose"}, map_frame, {});
@@ -153,4 +153,4 @@ nav_msgs::OccupancyGridPtr GridSlamStage::mapIfDue(Stamp stamp) {
       toMessage(slam_.map(), stamp, options_.map_frame));
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -9,7 +9,7 @@
 #include "datmo_fusion/common/pose2.h"
 #include "datmo_fusion/ros/message_conversion.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -228,4 +228,4 @@ void StaleMarkers::replace(const std::string& source, MarkerArray& markers) {
   before = std::move(now);
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -7,7 +7,7 @@
 #include "datmo_fusion/ros/input_error.h"
 #include "datmo_fusion/ros/stamp_check.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -282,4 +282,4 @@ nav_msgs::OccupancyGrid toMessage(const OccupancyMap& map, Stamp stamp,
   return message;
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

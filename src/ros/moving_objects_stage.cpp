@@ -4,7 +4,7 @@
 
 #include "datmo_fusion/ros/message_conversion.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 void MovingObjectsStageOptions::visit(OptionVisitor& visitor) {
   visitor.group("input", [&] { input.visit(visitor); });
@@ -33,4 +33,4 @@ ObjectArrayPtr MovingObjectsStage::takeSplitScan(const SplitScanMessage& message
   }
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -1,6 +1,6 @@
 #include "datmo_fusion/ros/parameters.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -51,4 +51,4 @@ OptionValues readParameters(const ros::NodeHandle& node) {
   return flattenParameters(tree, node.getNamespace());
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -8,7 +8,7 @@
 #include "datmo_fusion/ros/input_error.h"
 #include "datmo_fusion/ros/stamp_check.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -132,4 +132,4 @@ ConvertedScan toScan(const sensor_msgs::MultiEchoLaserScan& message, const Scann
   return convert(message, mount, options);
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

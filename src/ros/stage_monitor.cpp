@@ -7,7 +7,7 @@
 
 #include "datmo_fusion/common/quantile.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -99,4 +99,4 @@ std::uint64_t StageMonitor::droppedCount() const { return total(drops_); }
 
 std::uint64_t StageMonitor::warningCount() const { return total(warnings_); }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

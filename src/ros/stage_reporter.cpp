@@ -1,13 +1,13 @@
 #include "datmo_fusion/ros/stage_reporter.h"
 
 #include <boost/make_shared.hpp>
-#include <datmo_fusion/StageTiming.h>
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
 
+#include "datmo_fusion/ros/messages.h"
 #include "datmo_fusion/ros/stamp_check.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -91,4 +91,4 @@ void StageReporter::listCounts(DiagnosticStatusWrapper& status) const {
   status.add("last error", monitor_.lastError());
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

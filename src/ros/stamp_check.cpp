@@ -4,7 +4,7 @@
 
 #include "datmo_fusion/ros/input_error.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 Stamp toStamp(const ros::Time& time) { return {static_cast<std::int64_t>(time.toNSec())}; }
 
@@ -44,4 +44,4 @@ Arrival StampCheck::check(const ros::Time& time) {
   return Arrival::kNext;
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

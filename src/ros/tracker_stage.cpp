@@ -5,7 +5,7 @@
 #include "datmo_fusion/ros/frames.h"
 #include "datmo_fusion/ros/message_conversion.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -96,4 +96,4 @@ void TrackerStage::restart() {
   queue_.clear();
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -2,7 +2,7 @@
 
 #include "datmo_fusion/ros/stamp_check.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -37,4 +37,4 @@ bool TransformBuffer::isNew(const geometry_msgs::TransformStamped& transform) {
   return verdict != StampVerdict::kRepeated;
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -1,6 +1,6 @@
 #include "datmo_fusion/ros/transform_subscription.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -27,4 +27,4 @@ TransformSubscription::TransformSubscription(ros::NodeHandle node, TransformBuff
       node.subscribe<tf2_msgs::TFMessage>("/tf_static", kQueue, add_static, untracked, hints);
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

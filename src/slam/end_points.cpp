@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -51,4 +51,4 @@ std::vector<EndPoint> endPoints(const Scan& scan, double longest_step) {
   return points;
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -101,4 +101,4 @@ SlamResult GridSlam::process(const Scan& scan) {
 
 void GridSlam::reset() { *this = GridSlam(options_); }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace datmo_fusion {
+namespace datmo {
 
 void MotionModelOptions::visit(OptionVisitor& visitor) {
   visitor.number({"speed_noise", "m/s", "standard deviation of the speed"}, speed_noise,
@@ -54,4 +54,4 @@ Eigen::Matrix3d VelocityMotionModel::covarianceOfUnknownMotion(double seconds) c
   return covariance({}, seconds, options_.initial_speed_sigma, options_.initial_yaw_rate_sigma);
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace datmo_fusion {
+namespace datmo {
 
 void OdometryBuffer::add(const OdometrySample& sample) {
   if (!samples_.empty() && sample.stamp <= samples_.back().stamp) {
@@ -42,4 +42,4 @@ std::optional<Pose2> OdometryBuffer::motion(Stamp from, Stamp to,
   return motion;
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

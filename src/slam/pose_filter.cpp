@@ -2,7 +2,7 @@
 
 #include <Eigen/LU>
 
-namespace datmo_fusion {
+namespace datmo {
 
 void PoseFilterOptions::visit(OptionVisitor& visitor) {
   visitor.toggle(
@@ -86,4 +86,4 @@ void PoseFilter::correct(const PoseWithCovariance& matched) {
   pose_ = matched.pose;
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

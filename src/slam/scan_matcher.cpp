@@ -6,7 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -153,4 +153,4 @@ MatchResult ScanMatcher::match(const OccupancyMap& map, const std::vector<EndPoi
   return result;
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

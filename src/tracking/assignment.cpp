@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -154,4 +154,4 @@ Assignment solveAssignment(const CostMatrix& cost, const Eigen::VectorXd& unassi
   return Solver(cost, unassigned_cost).solve();
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -4,7 +4,7 @@
 
 #include "datmo_fusion/tracking/assignment.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -67,4 +67,4 @@ double GlobalNearestNeighbour::cost(const Target& target, const Object& object) 
   return std::log(options_.birth_density) - target.filter().logLikelihood(measured);
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -4,7 +4,7 @@
 
 #include <Eigen/LU>
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -54,4 +54,4 @@ std::size_t removeDuplicates(std::vector<Target>& targets, const DuplicateOption
   return removed;
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -61,7 +61,7 @@ void ImmFilter::predict(const ImmStep& step) {
             ? ModeVector(step.transition.col(to).cwiseProduct(probabilities_) / predicted[to])
             : probabilities_;
     const auto mode = static_cast<std::size_t>(to);
-    next[mode] = datmo_fusion::predict(mixture(weights), step.motions[mode]);
+    next[mode] = datmo::predict(mixture(weights), step.motions[mode]);
   }
   modes_ = next;
   probabilities_ = predicted;
@@ -71,7 +71,7 @@ void ImmFilter::predict(const ImmStep& step) {
 void ImmFilter::update(const PositionMeasurement& measured, double least_probability) {
   const ModeVector log_weights = logWeights(measured);
   for (StateEstimate& mode : modes_) {
-    mode = datmo_fusion::update(mode, measured);
+    mode = datmo::update(mode, measured);
   }
   const ModeVector weights = (log_weights.array() - log_weights.maxCoeff()).exp();
   probabilities_ = (weights / weights.sum()).cwiseMax(least_probability);
@@ -107,4 +107,4 @@ StateEstimate ImmFilter::mixture(const ModeVector& weights) const {
   return result;
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -4,7 +4,7 @@
 
 #include <Eigen/LU>
 
-namespace datmo_fusion {
+namespace datmo {
 
 double Innovation::squaredDistance() const { return residual.dot(covariance.inverse() * residual); }
 
@@ -34,4 +34,4 @@ StateEstimate update(const StateEstimate& predicted, const PositionMeasurement& 
   return {predicted.mean + gain * innovation.residual, 0.5 * (covariance + covariance.transpose())};
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

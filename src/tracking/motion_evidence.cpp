@@ -5,7 +5,7 @@
 
 #include <Eigen/LU>
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -154,4 +154,4 @@ bool MotionEvidence::leftItsPlace(const MotionEvidenceOptions& options) const {
   return overrun >= options.least_overrun && overrun >= options.overrun_significance * deviation;
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -43,4 +43,4 @@ Object transformed(const Pose2& frame_in_parent, const Object& object) {
   return result;
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -1,6 +1,6 @@
 #include "datmo_fusion/tracking/target.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -120,4 +120,4 @@ Track Target::track(const TargetOptions& options) const {
   return track;
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

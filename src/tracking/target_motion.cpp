@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -117,4 +117,4 @@ std::array<LinearMotion, kMotionModes> targetMotions(const TargetMotionOptions& 
           coordinatedTurn(-options.turn_rate, options, seconds)};
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

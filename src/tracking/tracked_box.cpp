@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -112,4 +112,4 @@ Eigen::Vector2d TrackedBox::sizeOf(const Object& object) const {
              : Eigen::Vector2d(object.box.length, object.box.width);
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -8,7 +8,7 @@
 
 #include "datmo_fusion/tracking/object_check.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -192,4 +192,4 @@ const TrackerCounts& Tracker::counts() const { return state_->counts(); }
 
 void Tracker::reset() { state_->reset(); }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -8,7 +8,7 @@
 #include <ros/callback_queue.h>
 #include <rosgraph_msgs/Clock.h>
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -138,4 +138,4 @@ bool Chain::drive(double from, double to) {
   return true;
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "world.h"
-#include <datmo_fusion/StageTiming.h>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
@@ -17,7 +16,7 @@
 #include "datmo_fusion/ros/messages.h"
 #include "datmo_fusion/ros/transform_buffer.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// The running nodelets, seen from outside: keeps what comes back. Waits for conditions, each for a
 /// bounded time; nothing sleeps.
@@ -90,4 +89,4 @@ class Chain : public Listener {
   ros::Publisher tf_static_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -9,7 +9,7 @@
 #include "datmo_fusion/ros/input_error.h"
 #include "datmo_fusion/ros/message_conversion.h"
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 constexpr double kDrive = 3.5;  // s
@@ -99,7 +99,7 @@ TEST_F(ChainTest, TheOtherCarIsTracked) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);

@@ -8,7 +8,7 @@
 
 #include "datmo_fusion/ros/message_conversion.h"
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 constexpr double kStep = 1.0 / 16.0;  // s, between scans
@@ -130,7 +130,7 @@ TEST_F(FaultsTest, ALoopedBag) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);

@@ -9,7 +9,7 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 /// Scans at the start that may overtake the scanner's mount or the first odometry.
@@ -51,7 +51,7 @@ TEST(ReplayTest, EveryScanOfTheBagLeadsToTracks) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);

@@ -6,7 +6,7 @@
 #include "datmo_fusion/ros/message_conversion.h"
 #include "datmo_fusion/ros/stamp_check.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -101,4 +101,4 @@ double World::rangeAlong(const Pose2& scanner, double bearing,
   return nearest;
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

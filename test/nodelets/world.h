@@ -9,7 +9,7 @@
 
 #include "datmo_fusion/common/box2.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// A street with a wall on each side and pillars along them. The car drives along the x axis with
 /// 5 m/s; 15 m ahead of it another one drives as fast, and drifts from left to right with 4 m/s.
@@ -31,4 +31,4 @@ class World {
   double rangeAlong(const Pose2& scanner, double bearing, const std::vector<Box2>& boxes) const;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

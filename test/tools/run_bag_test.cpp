@@ -21,7 +21,7 @@
 #include "datmo_fusion/ros/message_conversion.h"
 #include "datmo_fusion/ros/stamp_check.h"
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 constexpr double kSpeed = 5.0;    // m/s
@@ -277,4 +277,4 @@ TEST(StageTimes, SummariesComeInTheOrderOfTheFirstRuns) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -10,7 +10,7 @@
 
 #include "datmo_fusion/ros/markers.h"
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 const std::filesystem::path kPackage = DATMO_FUSION_SOURCE_DIR;
@@ -56,4 +56,4 @@ TEST(Readme, ListsTheParametersAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -85,4 +85,4 @@ Arguments parseArguments(const std::vector<std::string>& words) {
   return arguments;
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// The command line cannot be understood; the message says what and how it should be.
 class UsageError : public std::runtime_error {
@@ -32,4 +32,4 @@ std::string usage();
 /// Throws UsageError.
 Arguments parseArguments(const std::vector<std::string>& words);
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -17,7 +17,7 @@
 
 #include "datmo_fusion/ros/stamp_check.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -211,4 +211,4 @@ void runBag(const Arguments& arguments, std::ostream& out, bool with_progress) {
   }
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -4,7 +4,7 @@
 
 #include "arguments.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// Takes a bag through the pipeline, in the order of the messages' record times, as fast as it
 /// goes, and writes what comes out to a bag: /pose, /map, /split_scan, /objects, /tracks, /tf.
@@ -15,4 +15,4 @@ namespace datmo_fusion {
 /// that is wrong, no scan that could be used. No output bag is left behind then.
 void runBag(const Arguments& arguments, std::ostream& out, bool with_progress);
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -4,7 +4,7 @@
 #include <ostream>
 #include <string>
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -64,4 +64,4 @@ void printTable(std::ostream& out, const DriveSummary& drive, const Pipeline& pi
   }
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

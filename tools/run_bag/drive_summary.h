@@ -10,7 +10,7 @@
 
 #include "datmo_fusion/common/pose2.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// What a drive came to, scan by scan.
 class DriveSummary {
@@ -34,4 +34,4 @@ class DriveSummary {
 void printTable(std::ostream& out, const DriveSummary& drive, const Pipeline& pipeline,
                 double data_seconds, double wall_seconds);
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -7,7 +7,7 @@
 #include <rosbag/exceptions.h>
 #include <rosbag/view.h>
 
-namespace datmo_fusion {
+namespace datmo {
 
 void openInput(const std::string& file, rosbag::Bag& bag) {
   if (!std::filesystem::is_regular_file(file)) {
@@ -37,4 +37,4 @@ bool holdsTopic(const rosbag::Bag& bag, const std::string& topic) {
   return rosbag::View(bag, rosbag::TopicQuery(topic)).size() > 0;
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -7,7 +7,7 @@
 #include <rosbag/bag.h>
 #include <rosbag/message_instance.h>
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// Opens a bag for reading. Throws std::runtime_error that says what is wrong with which file: not
 /// there, cut short, no bag.
@@ -29,4 +29,4 @@ boost::shared_ptr<Message> read(const rosbag::MessageInstance& message) {
                            ros::message_traits::datatype<Message>());
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

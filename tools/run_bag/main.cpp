@@ -10,7 +10,7 @@
 #include <rosbag/exceptions.h>
 
 int main(int count, char** words) {
-  using namespace datmo_fusion;
+  using namespace datmo;
   try {
     const Arguments arguments = parseArguments({words + 1, words + count});
     ros::Time::init();

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace datmo_fusion {
+namespace datmo {
 
 Pipeline::Pipeline(const PipelineOptions& options)
     : options_(options),
@@ -59,4 +59,4 @@ void Pipeline::bookTime(const StageMonitor& monitor) {
   times_.add(monitor.stage(), monitor.lastProcessed().seconds);
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

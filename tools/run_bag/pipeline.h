@@ -11,7 +11,7 @@
 #include "datmo_fusion/ros/stage_monitor.h"
 #include "datmo_fusion/ros/transform_buffer.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// The stages of perception.launch, wired without a master:
 ///
@@ -73,4 +73,4 @@ class Pipeline {
   StageTimes times_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

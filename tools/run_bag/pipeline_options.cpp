@@ -6,7 +6,7 @@
 #include "yaml_options.h"
 #include <yaml-cpp/yaml.h>
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace {
 
@@ -46,4 +46,4 @@ PipelineOptions readPipelineOptions(const std::string& file) {
           readSection<TrackerStageOptions>(file, root, "tracker")};
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

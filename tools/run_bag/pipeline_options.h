@@ -6,7 +6,7 @@
 #include "datmo_fusion/ros/moving_objects_stage.h"
 #include "datmo_fusion/ros/tracker_stage.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// The options of all stages, as in the sections of a sensor set's yaml file.
 struct PipelineOptions {
@@ -18,4 +18,4 @@ struct PipelineOptions {
 /// Reads config/<sensor set>.yaml. Throws OptionError that names file, section and key.
 PipelineOptions readPipelineOptions(const std::string& file);
 
-}  // namespace datmo_fusion
+}  // namespace datmo

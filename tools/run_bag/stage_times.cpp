@@ -4,7 +4,7 @@
 
 #include "datmo_fusion/common/quantile.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 void StageTimes::add(const std::string& stage, double seconds) {
   const auto known = std::find_if(seconds_.begin(), seconds_.end(),
@@ -24,4 +24,4 @@ std::vector<StageTimes::Summary> StageTimes::summaries() const {
   return summaries;
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

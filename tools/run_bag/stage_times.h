@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// How long each stage took for each message: for people to read, never for the stages.
 class StageTimes {
@@ -26,4 +26,4 @@ class StageTimes {
   std::vector<std::pair<std::string, std::vector<double>>> seconds_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 namespace {
 
@@ -78,4 +78,4 @@ std::optional<Collision> firstCollision(const World& world, double duration) {
   return std::nullopt;
 }
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

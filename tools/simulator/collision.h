@@ -5,7 +5,7 @@
 
 #include "simulator/world.h"
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 /// Two things that are in the same place.
 struct Collision {
@@ -19,4 +19,4 @@ struct Collision {
 /// ground with another body; kerbs and paint do not count.
 std::optional<Collision> firstCollision(const World& world, double duration);
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 namespace {
 
@@ -101,4 +101,4 @@ std::vector<ObjectTruth> objectTruths(const World& world, const WorldState& stat
   return truths;
 }
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

@@ -9,7 +9,7 @@
 
 #include "datmo_fusion/common/options.h"
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 struct GroundTruthOptions {
   double radius = 60.0;              ///< m
@@ -42,4 +42,4 @@ std::vector<ObjectTruth> objectTruths(const World& world, const WorldState& stat
                                       const EchoScan& scan, const std::vector<Viewpoint>& views,
                                       const GroundTruthOptions& options);
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

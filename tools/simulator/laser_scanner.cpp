@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 namespace {
 
@@ -160,4 +160,4 @@ std::vector<Echo> LaserScanner::reported(std::vector<Echo> targets) {
   return echoes;
 }
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

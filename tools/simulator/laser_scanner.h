@@ -9,7 +9,7 @@
 
 #include "datmo_fusion/common/options.h"
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 /// The demonstrator's scanner, a Hella IDIS 2.0 (thesis 1.3.3), and its faults.
 struct LaserScannerOptions {
@@ -101,4 +101,4 @@ class LaserScanner {
   RandomStream random_;
 };
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

@@ -2,7 +2,7 @@
 
 #include "simulator/laser_scanner.h"
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 namespace {
 
@@ -91,4 +91,4 @@ int LaserScannerOptions::beamCount() const {
   return static_cast<int>(std::lround(field_of_view / beam_spacing)) + 1;
 }
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

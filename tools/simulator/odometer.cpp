@@ -1,6 +1,6 @@
 #include "simulator/odometer.h"
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 void OdometerOptions::visit(OptionVisitor& visitor) {
   visitor.number({"rate", "Hz", "measurements of speed and yaw rate; assumed"}, rate,
@@ -61,4 +61,4 @@ void Odometer::integrate(Odometry& now) const {
                         now.yaw_rate_variance * by_yaw_rate * by_yaw_rate.transpose();
 }
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

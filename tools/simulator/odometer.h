@@ -8,7 +8,7 @@
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/twist2.h"
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 /// The vehicle's own measurement of speed and yaw rate, and its errors. The defaults are assumed:
 /// a passenger car's wheel speeds and yaw-rate sensor.
@@ -53,4 +53,4 @@ class Odometer {
   Pose2 last_base_;  // true, at the last measurement
 };
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

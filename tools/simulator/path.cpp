@@ -7,7 +7,7 @@
 
 #include "datmo_fusion/common/twist2.h"
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 namespace {
 
@@ -105,4 +105,4 @@ Polyline Path::points(double arc_step) const {
   return line;
 }
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

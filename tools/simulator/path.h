@@ -4,7 +4,7 @@
 
 #include "datmo_fusion/common/pose2.h"
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 using Polyline = std::vector<Point2>;
 
@@ -44,4 +44,4 @@ class Path {
   double length_ = 0.0;
 };
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

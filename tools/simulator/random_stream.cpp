@@ -4,7 +4,7 @@
 
 #include "datmo_fusion/common/angle.h"
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 namespace {
 
@@ -43,4 +43,4 @@ double RandomStream::normal(double sigma) {
   return sigma * radius * std::cos(2.0 * kPi * uniform());
 }
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

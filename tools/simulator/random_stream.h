@@ -4,7 +4,7 @@
 #include <random>
 #include <string>
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 /// Random numbers of one sensor. Each sensor has a stream of its own, seeded from the run's seed
 /// and the sensor's name, so that a further sensor does not change what the others measure.
@@ -28,4 +28,4 @@ class RandomStream {
   std::mt19937_64 engine_;
 };
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 RayCaster::RayCaster(const World& world, const WorldState& state, const Point2& origin,
                      double reach)
@@ -41,4 +41,4 @@ std::optional<RayHit> RayCaster::nearest(double heading, const HeightBand& band,
   return best;
 }
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

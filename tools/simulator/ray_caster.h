@@ -5,7 +5,7 @@
 
 #include "simulator/world.h"
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 /// The heights that a beam lights at each range: between two planes through the sensor.
 struct HeightBand {
@@ -48,4 +48,4 @@ class RayCaster {
   std::vector<Candidate> candidates_;
 };
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

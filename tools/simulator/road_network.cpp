@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 namespace {
 
@@ -203,4 +203,4 @@ bool RoadNetwork::atIntersection(const Point2& point) const {
   return false;
 }
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

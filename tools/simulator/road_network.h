@@ -7,7 +7,7 @@
 
 #include "datmo_fusion/common/box2.h"
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 /// A street: its middle line, its measures and its white paint.
 struct Road {
@@ -74,4 +74,4 @@ class RoadNetwork {
   std::vector<KerbEnd> kerb_ends_;
 };
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

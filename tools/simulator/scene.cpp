@@ -10,7 +10,7 @@
 #include "simulator/scene_items.h"
 #include "simulator/scene_reader.h"
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 namespace {
 
@@ -165,4 +165,4 @@ Scene readScene(const std::string& file, const OptionValues& overrides) {
   return *scene;
 }
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

@@ -9,7 +9,7 @@
 
 #include "datmo_fusion/common/options.h"
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 /// All that can be set about a run besides the scene itself.
 struct SimulationOptions {
@@ -36,4 +36,4 @@ struct Scene {
 /// bodies that run into each other.
 Scene readScene(const std::string& file, const OptionValues& overrides = {});
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

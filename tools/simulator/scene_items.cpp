@@ -3,7 +3,7 @@
 #include "simulator/scene.h"
 #include "simulator/world.h"
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 namespace {
 
@@ -69,4 +69,4 @@ void SimulationOptions::visit(OptionVisitor& visitor) {
   visitor.group("ground_truth", [&] { ground_truth.visit(visitor); });
 }
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

@@ -4,7 +4,7 @@
 
 #include "datmo_fusion/common/options.h"
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 /// Single values of the entries of a scene file; lists (points, speeds) are read beside them.
 
@@ -62,4 +62,4 @@ struct ActorItem {
   void visit(OptionVisitor& visitor);
 };
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

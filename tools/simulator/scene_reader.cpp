@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 void readAt(const std::string& place, const std::function<void()>& read) {
   try {
@@ -80,4 +80,4 @@ void expectKeys(const YAML::Node& node, const std::set<std::string>& known) {
   }
 }
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

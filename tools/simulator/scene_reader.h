@@ -12,7 +12,7 @@
 
 #include "datmo_fusion/common/options.h"
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 /// Runs `read` and puts `place` before the message of what it throws.
 void readAt(const std::string& place, const std::function<void()>& read);
@@ -50,4 +50,4 @@ Item readItem(const YAML::Node& entry, const std::set<std::string>& lists = {}) 
   return readOptions<Item>(optionValues(values));
 }
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

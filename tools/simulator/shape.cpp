@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 namespace {
 
@@ -168,4 +168,4 @@ bool overlap(const Shape& a, const Shape& b) {
   return !separatedByEdgesOf(corners_a, corners_b) && !separatedByEdgesOf(corners_b, corners_a);
 }
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

@@ -6,7 +6,7 @@
 
 #include "datmo_fusion/common/box2.h"
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 struct Circle {
   Point2 centre = Point2::Zero();
@@ -42,4 +42,4 @@ double distanceTo(const Shape& shape, const Point2& point);
 /// Whether two shapes have points in common; touching counts.
 bool overlap(const Shape& a, const Shape& b);
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

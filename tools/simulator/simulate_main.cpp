@@ -18,10 +18,10 @@
 
 namespace {
 
-using datmo_fusion::OptionError;
-using datmo_fusion::ProgressBar;
-using datmo_fusion::simulator::Scene;
-using datmo_fusion::simulator::SimulationOptions;
+using datmo::OptionError;
+using datmo::ProgressBar;
+using datmo::simulator::Scene;
+using datmo::simulator::SimulationOptions;
 
 constexpr const char* kUsage =
     "usage: simulate scene.yaml out.bag [--seed N] [--set key=value]... [--quiet]\n"
@@ -35,17 +35,17 @@ volatile std::sig_atomic_t interrupted = 0;
 
 struct Arguments {
   std::vector<std::string> files;  ///< scene, bag
-  datmo_fusion::OptionValues overrides;
+  datmo::OptionValues overrides;
   bool quiet = false;
 };
 
-void setOption(const std::string& assignment, datmo_fusion::OptionValues& overrides) {
+void setOption(const std::string& assignment, datmo::OptionValues& overrides) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos) {
     throw OptionError("--set " + assignment + ": expected key=value");
   }
   const std::string key = assignment.substr(0, equals);
-  overrides[key] = datmo_fusion::parseOptionValue(key, assignment.substr(equals + 1));
+  overrides[key] = datmo::parseOptionValue(key, assignment.substr(equals + 1));
 }
 
 Arguments parse(const std::vector<std::string>& words) {
@@ -83,10 +83,10 @@ std::string note(double time, double duration) {
 
 /// False: interrupted.
 bool simulate(const Arguments& arguments) {
-  const Scene scene = datmo_fusion::simulator::readScene(arguments.files[0], arguments.overrides);
+  const Scene scene = datmo::simulator::readScene(arguments.files[0], arguments.overrides);
   ProgressBar bar(!arguments.quiet && isatty(STDERR_FILENO) != 0 ? &std::cerr : nullptr);
   const double duration = scene.options.duration;
-  const bool complete = datmo_fusion::simulator::writeSimulationBag(
+  const bool complete = datmo::simulator::writeSimulationBag(
       scene, arguments.files[1], [&bar, duration](double time) {
         bar.show(time / duration, note(time, duration));
         return interrupted == 0;
@@ -104,7 +104,7 @@ int main(int argc, char** argv) {
     return 0;
   }
   if (words == std::vector<std::string>{"--options"}) {
-    std::cout << datmo_fusion::optionTable<SimulationOptions>();
+    std::cout << datmo::optionTable<SimulationOptions>();
     return 0;
   }
   std::signal(SIGINT, [](int) { interrupted = 1; });

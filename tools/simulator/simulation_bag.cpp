@@ -11,7 +11,7 @@
 #include "datmo_fusion/ros/message_conversion.h"
 #include "datmo_fusion/ros/stamp_check.h"
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 namespace {
 
@@ -133,4 +133,4 @@ bool writeSimulationBag(const Scene& scene, const std::string& file, const Progr
   return true;
 }
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

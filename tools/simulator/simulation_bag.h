@@ -5,7 +5,7 @@
 
 #include "simulator/scene.h"
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 /// Called with the simulated time so far, s; returns false to break off.
 using Progress = std::function<bool(double)>;
@@ -19,4 +19,4 @@ using Progress = std::function<bool(double)>;
 /// names the file if it cannot be written.
 bool writeSimulationBag(const Scene& scene, const std::string& file, const Progress& progress);
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

@@ -7,7 +7,7 @@
 #include "datmo_fusion/ros/message_conversion.h"
 #include "datmo_fusion/ros/stamp_check.h"
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 namespace {
 
@@ -52,7 +52,7 @@ TrueObject toMessage(const ObjectTruth& truth, const Pose2& world_in_map) {
   message.id = truth.state.id;
   message.label = kind.label;
   message.classification = static_cast<std::uint8_t>(kind.object_class);
-  message.pose = datmo_fusion::toMessage(world_in_map * truth.state.centre);
+  message.pose = datmo::toMessage(world_in_map * truth.state.centre);
   message.pose.position.z = 0.5 * kind.height;
   message.size.x = kind.length;
   message.size.y = kind.width;
@@ -97,7 +97,7 @@ nav_msgs::Odometry toMessage(const Odometry& odometry, Stamp stamp) {
   nav_msgs::Odometry message;
   message.header = header(stamp, "odom");
   message.child_frame_id = "base_link";
-  message.pose = datmo_fusion::toMessage(odometry.pose);
+  message.pose = datmo::toMessage(odometry.pose);
   message.twist.twist.linear.x = odometry.twist.forward_speed;
   message.twist.twist.angular.z = odometry.twist.yaw_rate;
   message.twist.covariance[kSpeed] = odometry.speed_variance;
@@ -109,7 +109,7 @@ nav_msgs::Odometry toTruePose(const WorldState& state, const Pose2& map_in_world
   nav_msgs::Odometry message;
   message.header = header(stamp, kMapFrame);
   message.child_frame_id = "base_link_ground_truth";
-  message.pose.pose = datmo_fusion::toMessage(map_in_world.inverse() * state.base);
+  message.pose.pose = datmo::toMessage(map_in_world.inverse() * state.base);
   message.twist.twist.linear.x = state.twist.forward_speed;
   message.twist.twist.angular.z = state.twist.yaw_rate;
   return message;
@@ -141,4 +141,4 @@ TrueRoadBorders toTrueBorders(const RoadNetwork& roads, const WorldState& state,
   return message;
 }
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

@@ -6,16 +6,15 @@
 #include "simulator/laser_scanner.h"
 #include "simulator/odometer.h"
 #include "simulator/world.h"
-#include <datmo_fusion/TrueObjectArray.h>
-#include <datmo_fusion/TrueRoadBorders.h>
 
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/MultiEchoLaserScan.h>
 
 #include "datmo_fusion/common/stamp.h"
+#include "datmo_fusion/ros/messages.h"
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 /// Nearest echoes; infinite: none (REP 117).
 sensor_msgs::LaserScan toLaserScan(const EchoScan& scan, const LaserScannerOptions& options,
@@ -34,4 +33,4 @@ TrueObjectArray toMessage(const std::vector<ObjectTruth>& objects, const Pose2& 
 TrueRoadBorders toTrueBorders(const RoadNetwork& roads, const WorldState& state,
                               const Pose2& map_in_world, Stamp stamp);
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

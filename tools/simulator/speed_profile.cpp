@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 SpeedProfile::SpeedProfile(std::vector<SpeedPoint> points) : points_(std::move(points)) {
   if (points_.empty()) {
@@ -58,4 +58,4 @@ double SpeedProfile::wayBetween(double from, double to) const {
   return 0.5 * (speed(from) + speed(to)) * (to - from);
 }
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

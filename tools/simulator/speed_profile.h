@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 /// A speed that is to be reached at a time; in between it changes evenly.
 struct SpeedPoint {
@@ -30,4 +30,4 @@ class SpeedProfile {
   std::vector<SpeedPoint> points_;
 };
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

@@ -4,7 +4,7 @@
 
 #include "datmo_fusion/common/pose2.h"
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 /// Where a sensor sits and how far round it looks: what the ground truth must know of each sensor
 /// to say which objects it can see.
@@ -16,4 +16,4 @@ struct Viewpoint {
   double range = 0.0;          ///< m
 };
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 namespace {
 
@@ -100,4 +100,4 @@ WorldState World::at(double time) const {
   return state;
 }
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

@@ -12,7 +12,7 @@
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/twist2.h"
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 /// How a solid answers a beam of light.
 enum class Surface {
@@ -117,4 +117,4 @@ class World {
   std::vector<Mover> movers_;
 };
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

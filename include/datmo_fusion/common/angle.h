@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace datmo_fusion {
+namespace datmo {
 
 inline constexpr double kPi = 3.14159265358979323846;
 
@@ -21,4 +21,4 @@ inline double normalizeAngle(double angle) {
 /// Shortest rotation from one direction to another, rad in (-pi, pi].
 inline double angleBetween(double from, double to) { return normalizeAngle(to - from); }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -4,7 +4,7 @@
 
 #include "datmo_fusion/common/pose2.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// A rectangle on the ground: its centre and heading, its length along the heading and its width.
 struct Box2 {
@@ -22,4 +22,4 @@ struct Box2 {
   double distanceTo(const Point2& point) const;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

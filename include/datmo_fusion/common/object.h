@@ -9,7 +9,7 @@
 #include "datmo_fusion/common/box2.h"
 #include "datmo_fusion/common/stamp.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// What an object is (thesis 3.3.2); values as in Object.msg.
 enum class ObjectClass : std::uint8_t { kUnknown, kPedestrian, kCyclist, kVehicle, kPole };
@@ -37,4 +37,4 @@ struct ObjectList {
   std::vector<Object> objects;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -4,7 +4,7 @@
 
 #include "datmo_fusion/common/options.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace detail {
 std::string tableOf(const OptionWalk& visit);
@@ -17,4 +17,4 @@ std::string optionTable() {
   return detail::tableOf([&defaults](OptionVisitor& visitor) { defaults.visit(visitor); });
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

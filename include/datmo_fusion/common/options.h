@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// What a person who sets an option must know about it; stands once, where the option is declared.
 struct OptionInfo {
@@ -87,4 +87,4 @@ Options readOptions(const OptionValues& values) {
   return options;
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

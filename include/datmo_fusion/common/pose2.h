@@ -6,7 +6,7 @@
 
 #include "datmo_fusion/common/angle.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 using Point2 = Eigen::Vector2d;
 
@@ -66,4 +66,4 @@ struct PoseWithCovariance {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

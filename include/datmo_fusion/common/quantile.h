@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// The least of the values that at least `share` (0 to 1) of them do not exceed (nearest rank); 0
 /// for no values.
@@ -20,4 +20,4 @@ inline double quantile(std::vector<double> values, double share) {
   return *nth;
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

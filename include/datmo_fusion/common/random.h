@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <random>
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// Seeded random numbers: the same seed gives the same numbers.
 class Random {
@@ -26,4 +26,4 @@ class Random {
   std::normal_distribution<double> standard_normal_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -6,7 +6,7 @@
 #include "datmo_fusion/common/pose2.h"
 #include "datmo_fusion/common/stamp.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// One beam of a scan in the vehicle's frame (base_link), at the scan's stamp.
 struct Ray {
@@ -51,4 +51,4 @@ struct SplitScan {
   std::vector<ScanPoint> points;  ///< by rising beam index; beams without a hit are left out
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// A point in time of the data (never of the wall clock), in nanoseconds since the clock's epoch.
 struct Stamp {
@@ -31,4 +31,4 @@ inline Stamp operator+(Stamp stamp, double seconds) {
   return {stamp.nanoseconds + static_cast<std::int64_t>(std::llround(seconds * 1e9))};
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -4,7 +4,7 @@
 
 #include "datmo_fusion/common/stamp.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// What to do with a message, by its stamp alone.
 enum class StampVerdict {
@@ -32,4 +32,4 @@ class StampGate {
   std::optional<Stamp> newest_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -2,7 +2,7 @@
 
 #include "datmo_fusion/common/pose2.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// Motion of a vehicle that does not slip sideways: speed along its heading, and turn rate.
 struct Twist2 {
@@ -18,4 +18,4 @@ Pose2 arc(const Twist2& twist, double seconds);
 /// such twist explains is left out.
 Twist2 twistOf(const Pose2& motion, double seconds);
 
-}  // namespace datmo_fusion
+}  // namespace datmo

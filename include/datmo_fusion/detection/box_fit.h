@@ -4,7 +4,7 @@
 
 #include "datmo_fusion/common/box2.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// The rectangle that points on the near sides of an object fit best: search over headings by the
 /// closeness criterion (Zhang, Xu, Dong, Dolan, Efficient L-shape fitting for vehicle detection
@@ -13,4 +13,4 @@ namespace datmo_fusion {
 /// std::invalid_argument.
 Box2 fitBox(const std::vector<Point2>& points);
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -5,7 +5,7 @@
 #include "datmo_fusion/common/scan.h"
 #include "datmo_fusion/detection/segmentation.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 struct MovingObjectDetectorOptions {
   SegmentationOptions segmentation;
@@ -22,9 +22,9 @@ struct MovingObjectDetectorOptions {
 /// neighbouring end points that the map does not know as static, each with a box and its
 /// covariance.
 ///
-/// Objects come with dynamic state kMoving (the map has seen their place free), kUnknown (nothing was
-/// known of their place: a tracker finds out) or kStatic (nothing was known of their place, but it
-/// joins on to something static). Objects by rising beam index. No state from scan to scan.
+/// Objects come with dynamic state kMoving (the map has seen their place free), kUnknown (nothing
+/// was known of their place: a tracker finds out) or kStatic (nothing was known of their place, but
+/// it joins on to something static). Objects by rising beam index. No state from scan to scan.
 class MovingObjectDetector {
  public:
   /// Throws OptionError.
@@ -40,4 +40,4 @@ class MovingObjectDetector {
   MovingObjectDetectorOptions options_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

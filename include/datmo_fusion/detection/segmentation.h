@@ -6,7 +6,7 @@
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/scan.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 struct SegmentationOptions {
   double longest_gap = 2.0;   ///< m
@@ -29,4 +29,4 @@ using Segment = std::vector<std::size_t>;
 std::vector<Segment> segmentPoints(const std::vector<ScanPoint>& points,
                                    const SegmentationOptions& options);
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// A cell of the infinite lattice that is fixed to the map frame: column along x, row along y. The
 /// cell (0, 0) has its lower left corner at the frame's origin. A rolling window shows a part of
@@ -13,4 +13,4 @@ struct CellIndex {
 inline bool operator==(CellIndex a, CellIndex b) { return a.column == b.column && a.row == b.row; }
 inline bool operator!=(CellIndex a, CellIndex b) { return !(a == b); }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

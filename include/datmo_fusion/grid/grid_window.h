@@ -5,7 +5,7 @@
 #include "datmo_fusion/common/pose2.h"
 #include "datmo_fusion/grid/cell_index.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// Which part of the lattice a grid shows: `columns` x `rows` cells from `corner` on.
 ///
@@ -42,4 +42,4 @@ struct GridWindow {
   }
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -10,7 +10,7 @@
 #include "datmo_fusion/common/scan.h"
 #include "datmo_fusion/grid/rolling_grid.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 struct OccupancyMapOptions {
   double length = 90.0;             ///< m, along x
@@ -107,4 +107,4 @@ class OccupancyMap {
   float now_ = 0.0F;  ///< s since the first update
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -6,7 +6,7 @@
 
 #include "datmo_fusion/grid/grid_window.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 namespace detail {
 
@@ -56,4 +56,4 @@ void walkRay(const GridWindow& window, const Point2& from, const Point2& to, Vis
   }
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -6,7 +6,7 @@
 
 #include "datmo_fusion/grid/grid_window.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// A window of cells that moves over the lattice with the vehicle. Cells that stay inside keep
 /// their content and are not copied (a circular buffer in both directions); those that come in are
@@ -91,4 +91,4 @@ class RollingGrid {
   std::vector<Cell> cells_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

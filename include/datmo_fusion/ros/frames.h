@@ -7,7 +7,7 @@
 
 #include "datmo_fusion/common/pose2.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// How a planar scanner is mounted on the vehicle.
 struct ScannerMount {
@@ -25,4 +25,4 @@ ScannerMount scannerMount(const tf2::BufferCore& transforms, const std::string& 
 Pose2 planarPose(const tf2::BufferCore& transforms, const std::string& parent_frame,
                  const std::string& child_frame, const ros::Time& time);
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -16,7 +16,7 @@
 #include "datmo_fusion/ros/transform_buffer.h"
 #include "datmo_fusion/slam/grid_slam.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 struct GridSlamStageOptions {
   std::string map_frame = "map";
@@ -88,4 +88,4 @@ class GridSlamStage {
   std::optional<Stamp> last_map_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

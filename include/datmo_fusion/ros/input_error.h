@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// A message that cannot be served: dropped and counted by its reason.
 class InputError : public std::runtime_error {
@@ -19,4 +19,4 @@ class InputError : public std::runtime_error {
   std::string reason_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -5,14 +5,12 @@
 #include <string>
 #include <utility>
 
-#include <datmo_fusion/TrueObjectArray.h>
-
 #include <visualization_msgs/MarkerArray.h>
 
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/ros/messages.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 struct MarkersOptions {
   double point_size = 0.4;      ///< m
@@ -58,4 +56,4 @@ class StaleMarkers {
   std::map<std::string, std::set<Key>> drawn_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

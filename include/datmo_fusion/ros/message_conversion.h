@@ -15,7 +15,7 @@
 #include "datmo_fusion/slam/odometry_buffer.h"
 #include "datmo_fusion/tracking/track.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 geometry_msgs::Pose toMessage(const Pose2& pose);
 geometry_msgs::PoseWithCovariance toMessage(const PoseWithCovariance& pose);
@@ -49,4 +49,4 @@ TrackArray toMessage(const TrackList& list, const std::string& fixed_frame);
 nav_msgs::OccupancyGrid toMessage(const OccupancyMap& map, Stamp stamp,
                                   const std::string& map_frame);
 
-}  // namespace datmo_fusion
+}  // namespace datmo

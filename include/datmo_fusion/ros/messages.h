@@ -1,16 +1,34 @@
 #pragma once
 
-// The messages that have a struct of the same name in the core: generated code puts them into the
-// namespace of the package, which is the core's. Here, and in every file that needs both, they are
-// called <Name>Message; their Ptr and ConstPtr types keep their names.
-#define Object ObjectMessage
-#define ScanPoint ScanPointMessage
-#define SplitScan SplitScanMessage
-#define Track TrackMessage
 #include <datmo_fusion/ObjectArray.h>
 #include <datmo_fusion/SplitScan.h>
+#include <datmo_fusion/StageTiming.h>
 #include <datmo_fusion/TrackArray.h>
-#undef Object
-#undef ScanPoint
-#undef SplitScan
-#undef Track
+#include <datmo_fusion/TrueObjectArray.h>
+#include <datmo_fusion/TrueRoadBorders.h>
+
+namespace datmo {
+
+// The package's messages under the names that the code uses: generated code puts them into a
+// namespace of the package's name. Those that have a struct of the same name in the core end in
+// Message.
+using ObjectMessage = datmo_fusion::Object;
+using ScanPointMessage = datmo_fusion::ScanPoint;
+using SplitScanMessage = datmo_fusion::SplitScan;
+using TrackMessage = datmo_fusion::Track;
+using datmo_fusion::ObjectArray;
+using datmo_fusion::ObjectArrayConstPtr;
+using datmo_fusion::ObjectArrayPtr;
+using datmo_fusion::SplitScanConstPtr;
+using datmo_fusion::SplitScanPtr;
+using datmo_fusion::StageTiming;
+using datmo_fusion::StageTimingConstPtr;
+using datmo_fusion::TrackArray;
+using datmo_fusion::TrackArrayConstPtr;
+using datmo_fusion::TrackArrayPtr;
+using datmo_fusion::TrueObject;
+using datmo_fusion::TrueObjectArray;
+using datmo_fusion::TrueObjectArrayConstPtr;
+using datmo_fusion::TrueRoadBorders;
+
+}  // namespace datmo

@@ -5,7 +5,7 @@
 #include "datmo_fusion/ros/stage_monitor.h"
 #include "datmo_fusion/ros/stamp_check.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 struct MovingObjectsStageOptions {
   StreamOptions input;
@@ -30,4 +30,4 @@ class MovingObjectsStage {
   StampCheck stamps_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -9,7 +9,7 @@
 
 #include "datmo_fusion/common/options.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// All values of a namespace on the parameter server, keys relative to it.
 ///
@@ -31,4 +31,4 @@ Options loadOptions(const ros::NodeHandle& private_node) {
   }
 }
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -9,7 +9,7 @@
 #include "datmo_fusion/common/scan.h"
 #include "datmo_fusion/ros/frames.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 struct ScanConversionOptions {
   double free_range = 40.0;  ///< m
@@ -42,4 +42,4 @@ ConvertedScan toScan(const sensor_msgs::LaserScan& message, const ScannerMount& 
 ConvertedScan toScan(const sensor_msgs::MultiEchoLaserScan& message, const ScannerMount& mount,
                      const ScanConversionOptions& options);
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -11,7 +11,7 @@
 #include "datmo_fusion/common/stamp.h"
 #include "datmo_fusion/ros/input_error.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// One input of a stage, as its receiver sees it.
 struct InputStatus {
@@ -99,4 +99,4 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

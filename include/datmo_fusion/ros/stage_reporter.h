@@ -9,7 +9,7 @@
 
 #include "datmo_fusion/ros/stage_monitor.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// Publishes what a StageMonitor knows: diagnostics once a second, whether messages come or not,
 /// and a StageTiming on the topic `timing`, which all stages share, for each result.
@@ -42,4 +42,4 @@ class StageReporter {
   ros::SteadyTimer timer_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -5,7 +5,7 @@
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/stamp_gate.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 Stamp toStamp(const ros::Time& time);
 ros::Time toTime(Stamp stamp);
@@ -34,4 +34,4 @@ class StampCheck {
   StampGate gate_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

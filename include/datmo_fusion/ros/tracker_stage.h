@@ -9,7 +9,7 @@
 #include "datmo_fusion/ros/transform_buffer.h"
 #include "datmo_fusion/tracking/tracker.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 struct TrackerStageOptions {
   std::string fixed_frame = "map";
@@ -57,4 +57,4 @@ class TrackerStage {
   std::deque<Waiting> queue_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -9,7 +9,7 @@
 
 #include "datmo_fusion/common/stamp_gate.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// The transforms of tf, fed by its owner, so that a stage sees them in the order of its other
 /// messages: live from the nodelet's callback queue, in batch from the bag.
@@ -34,4 +34,4 @@ class TransformBuffer {
   std::map<std::string, StampGate> gates_;  ///< by child frame
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

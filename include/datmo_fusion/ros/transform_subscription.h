@@ -6,7 +6,7 @@
 
 #include "datmo_fusion/ros/transform_buffer.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// Feeds a TransformBuffer from /tf and /tf_static, in the callback queue of `node` (unlike
 /// tf2_ros::TransformListener, which has a thread of its own), so that whoever waits for a
@@ -22,4 +22,4 @@ class TransformSubscription {
   ros::Subscriber static_transforms_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -6,7 +6,7 @@
 
 #include "datmo_fusion/common/scan.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// Where a beam ends, as a sample of the surface that it hit.
 struct EndPoint {
@@ -22,4 +22,4 @@ struct EndPoint {
 /// over the spacing of the beams across the line of sight.
 std::vector<EndPoint> endPoints(const Scan& scan, double longest_step);
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -10,7 +10,7 @@
 #include "datmo_fusion/slam/pose_filter.h"
 #include "datmo_fusion/slam/scan_matcher.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 struct GridSlamOptions {
   OccupancyMapOptions map;
@@ -69,4 +69,4 @@ class GridSlam {
   std::optional<Stamp> stamp_;      ///< of the last scan
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -3,7 +3,7 @@
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/twist2.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 struct MotionModelOptions {
   double speed_noise = 0.1;         ///< m/s
@@ -46,4 +46,4 @@ class VelocityMotionModel {
   MotionModelOptions options_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -6,7 +6,7 @@
 #include "datmo_fusion/common/stamp.h"
 #include "datmo_fusion/slam/pose_filter.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// Speed and turn rate as the vehicle measured them at one time.
 struct OdometrySample {
@@ -38,4 +38,4 @@ class OdometryBuffer {
   std::deque<OdometrySample> samples_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

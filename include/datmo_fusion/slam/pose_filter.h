@@ -6,7 +6,7 @@
 #include "datmo_fusion/common/twist2.h"
 #include "datmo_fusion/slam/motion_model.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 struct PoseFilterOptions {
   bool calibrate_odometry = true;
@@ -67,4 +67,4 @@ class PoseFilter {
   Covariance covariance_ = Covariance::Zero();
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -9,7 +9,7 @@
 #include "datmo_fusion/grid/occupancy_map.h"
 #include "datmo_fusion/slam/end_points.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 struct ScanMatcherOptions {
   int samples = 300;               ///< poses drawn for each scan
@@ -65,4 +65,4 @@ class ScanMatcher {
   ScanMatcherOptions options_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

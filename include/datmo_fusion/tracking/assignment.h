@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// Cost of giving a column to a row; infinity: forbidden. NaN and minus infinity are not allowed.
 using CostMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -27,4 +27,4 @@ struct Assignment {
 /// none. Throws std::invalid_argument on sizes that do not match.
 Assignment solveAssignment(const CostMatrix& cost, const Eigen::VectorXd& unassigned_cost);
 
-}  // namespace datmo_fusion
+}  // namespace datmo

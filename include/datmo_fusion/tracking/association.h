@@ -7,7 +7,7 @@
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/tracking/target.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 struct AssociationOptions {
   double gate = 13.8;             ///< 1
@@ -55,4 +55,4 @@ class GlobalNearestNeighbour : public Associator {
   AssociationOptions options_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

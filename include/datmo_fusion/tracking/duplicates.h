@@ -6,7 +6,7 @@
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/tracking/target.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 struct DuplicateOptions {
   double reach = 2.0;           ///< 1
@@ -22,4 +22,4 @@ struct DuplicateOptions {
 /// Split and merge hypotheses (thesis figure 4.11) will take its place in a later issue.
 std::size_t removeDuplicates(std::vector<Target>& targets, const DuplicateOptions& options);
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -6,7 +6,7 @@
 
 #include "datmo_fusion/tracking/kalman_filter.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 struct ImmOptions {
   TargetMotionOptions motion;
@@ -65,4 +65,4 @@ class ImmFilter {
   StateEstimate combined_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

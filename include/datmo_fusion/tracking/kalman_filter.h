@@ -6,7 +6,7 @@
 #include "datmo_fusion/tracking/target_motion.h"
 #include "datmo_fusion/tracking/track.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// A normal distribution over the state of a track.
 struct StateEstimate {
@@ -40,4 +40,4 @@ StateEstimate predict(const StateEstimate& estimate, const LinearMotion& motion)
 /// positive (Bar-Shalom, Li, Kirubarajan 2001, 5.2.3).
 StateEstimate update(const StateEstimate& predicted, const PositionMeasurement& measured);
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -4,7 +4,7 @@
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/tracking/kalman_filter.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 struct MotionEvidenceOptions {
   double detection_probability = 0.5;      ///< 1
@@ -92,4 +92,4 @@ class MotionEvidence {
   PositionMeasurement standing_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -3,7 +3,7 @@
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/pose2.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// Whether an object can be tracked: all its numbers are finite, sizes and variances at least 0,
 /// the covariance of its position symmetric and positive definite.
@@ -12,4 +12,4 @@ bool isValid(const Object& object);
 /// The object seen from the parent frame of `frame_in_parent`.
 Object transformed(const Pose2& frame_in_parent, const Object& object);
 
-}  // namespace datmo_fusion
+}  // namespace datmo

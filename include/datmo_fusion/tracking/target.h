@@ -11,7 +11,7 @@
 #include "datmo_fusion/tracking/track.h"
 #include "datmo_fusion/tracking/tracked_box.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 struct TargetOptions {
   ImmOptions filter;
@@ -87,4 +87,4 @@ class Target {
   std::vector<std::string> sensors_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

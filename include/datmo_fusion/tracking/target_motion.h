@@ -5,7 +5,7 @@
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/tracking/track.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// How tracked objects move, the same for all of them.
 struct TargetMotionOptions {
@@ -41,4 +41,4 @@ LinearMotion constantAcceleration(const TargetMotionOptions& options, double sec
 std::array<LinearMotion, kMotionModes> targetMotions(const TargetMotionOptions& options,
                                                      double seconds);
 
-}  // namespace datmo_fusion
+}  // namespace datmo

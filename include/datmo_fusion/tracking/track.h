@@ -9,7 +9,7 @@
 
 #include "datmo_fusion/common/object.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// The four motion models of thesis 3.3.4, in the order of all mode vectors and matrices.
 enum class MotionMode : std::uint8_t {
@@ -48,4 +48,4 @@ struct TrackList {
   std::vector<Track> tracks;  ///< by rising id
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

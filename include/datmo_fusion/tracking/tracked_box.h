@@ -4,7 +4,7 @@
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/tracking/kalman_filter.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 struct TrackedBoxOptions {
   double growth_time = 0.2;     ///< s
@@ -52,4 +52,4 @@ class TrackedBox {
   Eigen::Vector2d size_;  ///< m, along the heading and across
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -10,7 +10,7 @@
 #include "datmo_fusion/tracking/target.h"
 #include "datmo_fusion/tracking/track.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 struct TrackerOptions {
   TargetOptions target;
@@ -64,4 +64,4 @@ class Tracker {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo

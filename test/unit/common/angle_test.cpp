@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 TEST(Angle, DegreesAndBack) {
@@ -38,4 +38,4 @@ TEST(Angle, BetweenGoesTheShortWay) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

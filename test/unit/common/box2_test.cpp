@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 /// 4 m x 2 m, heading left: it reaches from x 9 to 11 and from y 3 to 7.
@@ -48,4 +48,4 @@ TEST(Box2, NoPointIsFartherFromTheBoxThanFromItsCorners) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -6,7 +6,7 @@
 
 #include "datmo_fusion/common/option_table.h"
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 struct MapOptions {
@@ -140,4 +140,4 @@ TEST(OptionTable, HalfOpenRangesSaySo) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

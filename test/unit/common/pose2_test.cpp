@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 class RandomPoses {
@@ -68,4 +68,4 @@ TEST(Pose2, RotationMatrixTurnsAsRotateDoes) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 TEST(Quantile, IsTheNearestRank) {
@@ -21,4 +21,4 @@ TEST(Quantile, EndsAreTheLeastAndTheMost) {
 TEST(Quantile, OfNoValuesIsZero) { EXPECT_DOUBLE_EQ(quantile({}, 0.5), 0.0); }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 StampVerdict judge(StampGate& gate, double seconds) {
@@ -37,4 +37,4 @@ TEST(StampGate, AJumpBackIsARestartFromItsThresholdOn) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

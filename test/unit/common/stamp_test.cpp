@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 TEST(Stamp, SecondsAndBack) {
@@ -27,4 +27,4 @@ TEST(Stamp, Order) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 TEST(Arc, StraightAhead) {
@@ -63,4 +63,4 @@ TEST(TwistOf, LeavesSidewaysMotionOut) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

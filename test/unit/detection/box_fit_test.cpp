@@ -6,7 +6,7 @@
 
 #include "datmo_fusion/common/random.h"
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 /// Points every 0.25 m on the rear and the right side of a rectangle.
@@ -77,4 +77,4 @@ TEST(BoxFitTest, CoincidingPointsDoNotMatter) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

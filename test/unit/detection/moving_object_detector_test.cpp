@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 /// A scan of 2-degree beams; each entry is range, beam index and state.
@@ -129,4 +129,4 @@ TEST(MovingObjectDetectorTest, RefusesBadOptions) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 ScanPoint polar(double range, double bearing_degrees) {
@@ -86,4 +86,4 @@ TEST(SegmentationTest, AdaptiveGapFollowsItsFormulaAndItsLimits) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 OccupancyMapOptions smallMap() {
@@ -232,4 +232,4 @@ TEST(OccupancyMapTest, RefusesBadOptions) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

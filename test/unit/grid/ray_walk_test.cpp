@@ -7,7 +7,7 @@
 
 #include "datmo_fusion/common/random.h"
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 const GridWindow kWindow{1.0, 10, 10, {-5, -5}};
@@ -68,4 +68,4 @@ TEST(RayWalkTest, ThroughCornersAndAlongBordersItStillArrives) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 /// Every cell of the window holds its own index, so that a cell can be told from any other.
@@ -81,4 +81,4 @@ TEST_F(RollingGridTest, OutsideReadsAsEmpty) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -7,7 +7,7 @@
 
 #include "datmo_fusion/ros/transform_buffer.h"
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 class MountTest : public testing::Test {
@@ -102,4 +102,4 @@ TEST(TransformBuffer, ForgetsTheOldRunWhenTheClockJumpsBack) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -7,7 +7,7 @@
 #include "datmo_fusion/ros/input_error.h"
 #include "datmo_fusion/ros/message_conversion.h"
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 using visualization_msgs::Marker;
@@ -160,4 +160,4 @@ TEST(StaleMarkers, SourcesDoNotDeleteEachOther) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -5,7 +5,7 @@
 #include "message_samples.h"
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -211,4 +211,4 @@ TEST(MapConversion, HoldsAfterTheWindowHasMoved) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

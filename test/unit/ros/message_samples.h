@@ -13,7 +13,7 @@
 #include "datmo_fusion/ros/input_error.h"
 
 /// Small valid messages, from which tests make others.
-namespace datmo_fusion::samples {
+namespace datmo::samples {
 
 inline constexpr double kStart = 100.0;  // s
 
@@ -54,4 +54,4 @@ inline std::string reasonOf(const std::function<void()>& call) {
   return "";
 }
 
-}  // namespace datmo_fusion::samples
+}  // namespace datmo::samples

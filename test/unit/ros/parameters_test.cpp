@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 using XmlRpc::XmlRpcValue;
@@ -36,4 +36,4 @@ TEST(Parameters, AValueInPlaceOfTheNamespaceIsRefused) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -5,7 +5,7 @@
 #include "message_samples.h"
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -174,4 +174,4 @@ TEST(MultiEchoConversion, NoEchoIsNoReturnAndABadOneIsDropped) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 TEST(StageMonitor, CountsByReason) {
@@ -52,4 +52,4 @@ TEST(StageMonitor, TimingOfAHundredMessages) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

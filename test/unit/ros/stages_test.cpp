@@ -10,7 +10,7 @@
 #include "datmo_fusion/ros/moving_objects_stage.h"
 #include "datmo_fusion/ros/tracker_stage.h"
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 tf2_msgs::TFMessage transforms(std::vector<geometry_msgs::TransformStamped> list) {
@@ -255,4 +255,4 @@ TEST(MovingObjectsStageTest, ServesASplitScanOnceAndDropsBadOnes) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -3,7 +3,7 @@
 #include "message_samples.h"
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 std::string reasonAt(StampCheck& check, double seconds) {
@@ -27,4 +27,4 @@ TEST(StampCheck, TimesGoThereAndBackToTheNanosecond) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

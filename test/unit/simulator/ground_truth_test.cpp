@@ -3,7 +3,7 @@
 #include "made_worlds.h"
 #include <gtest/gtest.h>
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 namespace {
 
 const Viewpoint kView{"scanner", Pose2(), 0.45, degrees(160.0), 50.0};
@@ -101,4 +101,4 @@ TEST(World, MoverTurnsAboutItsRearAxle) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

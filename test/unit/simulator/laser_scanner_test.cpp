@@ -5,7 +5,7 @@
 #include "made_worlds.h"
 #include <gtest/gtest.h>
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 namespace {
 
 LaserScanner scannerWith(const LaserScannerOptions& options) {
@@ -220,4 +220,4 @@ TEST(LaserScanner, ContradictionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

@@ -5,7 +5,7 @@
 #include "simulator/laser_scanner.h"
 #include "simulator/world.h"
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 
 /// An ego vehicle that starts at the origin and drives along x at a constant speed (m/s).
 inline Mover egoAlongX(double speed) {
@@ -42,4 +42,4 @@ inline const std::vector<Echo>& middleBeam(const EchoScan& scan) {
   return scan.beams[scan.beams.size() / 2];
 }
 
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

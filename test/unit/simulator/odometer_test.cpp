@@ -5,7 +5,7 @@
 #include "made_worlds.h"
 #include <gtest/gtest.h>
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 namespace {
 
 OdometerOptions idealOdometer() {
@@ -80,4 +80,4 @@ TEST(Odometer, UncertaintyOfThePoseGrows) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

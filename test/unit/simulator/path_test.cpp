@@ -6,7 +6,7 @@
 #include "simulator/speed_profile.h"
 #include <gtest/gtest.h>
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 namespace {
 
 TEST(Path, StraightLine) {
@@ -92,4 +92,4 @@ TEST(SpeedProfile, BadInputIsRefused) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 namespace {
 
 constexpr int kDraws = 100000;
@@ -70,4 +70,4 @@ TEST(RandomStream, ChanceIsAsLikelyAsItSays) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

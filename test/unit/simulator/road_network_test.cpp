@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 namespace {
 
 /// A road of 10 m width along x, and one of 8 m along y that crosses it in the origin.
@@ -94,4 +94,4 @@ TEST(RoadNetwork, PlacesBesideARoadFollowItsDirection) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

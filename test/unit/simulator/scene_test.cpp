@@ -9,7 +9,7 @@
 #include "simulator/collision.h"
 #include <gtest/gtest.h>
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 namespace {
 
 const char* const kSmallScene = R"(
@@ -175,4 +175,4 @@ TEST(Intersection, HasWhatTheDemoNeeds) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

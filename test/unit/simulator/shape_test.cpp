@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo_fusion::simulator {
+namespace datmo::simulator {
 namespace {
 
 const HalfLine kAlongX = {{0.0, 0.0}, {1.0, 0.0}};
@@ -91,4 +91,4 @@ TEST(BoundingCircle, HoldsTheCorners) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion::simulator
+}  // namespace datmo::simulator

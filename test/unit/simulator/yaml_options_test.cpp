@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 OptionValues valuesOf(const std::string& text) { return optionValues(YAML::Load(text)); }
@@ -44,4 +44,4 @@ TEST(ParseOptionValue, IsReadAsYaml) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 Scan scanOf(const std::vector<Point2>& ends) {
@@ -43,4 +43,4 @@ TEST(EndPointsTest, APointAloneIsSampledByTheBeamsSpacing) {
 TEST(EndPointsTest, NoBeamsNoPoints) { EXPECT_TRUE(endPoints(Scan{}, 3.0).empty()); }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

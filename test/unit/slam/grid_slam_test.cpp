@@ -8,7 +8,7 @@
 
 #include "datmo_fusion/common/box2.h"
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 /// A walled yard of 50 m x 30 m with pillars, in which a car drives; rays by hand.
@@ -198,4 +198,4 @@ TEST(GridSlamTest, RefusesBadOptionsByTheirFullName) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -4,7 +4,7 @@
 
 #include "datmo_fusion/common/random.h"
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 TEST(VelocityMotionModelTest, StandardDeviationsGrowWithTimeAndSpeed) {
@@ -56,4 +56,4 @@ TEST(VelocityMotionModelTest, RefusesBadOptions) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

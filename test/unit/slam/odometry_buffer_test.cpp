@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 Stamp at(double seconds) { return Stamp::fromSeconds(seconds); }
@@ -68,4 +68,4 @@ TEST_F(OdometryBufferTest, KnownErrorsAreTakenOut) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

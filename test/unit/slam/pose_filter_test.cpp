@@ -5,7 +5,7 @@
 
 #include "datmo_fusion/common/random.h"
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 /// What a match with this noise makes of a prior: the product of the two normal distributions.
@@ -108,4 +108,4 @@ TEST(PoseFilterTest, AMatchThatOnlyRepeatsThePriorChangesNothing) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -3,7 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 /// Points along a wall, every 0.2 m.
@@ -162,4 +162,4 @@ TEST(ScanMatcherTest, TheCovarianceIsPositiveDefiniteAndBelowThePrior) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

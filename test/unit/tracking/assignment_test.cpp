@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 /// Least cost of the rows from `row` on, by trying everything.
@@ -131,4 +131,4 @@ TEST(Assignment, HundredsOfRowsWithTheSameColumnsEndUpOptimal) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -3,7 +3,7 @@
 #include "tracking_scene.h"
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 std::vector<Target> targetsAt(const std::vector<double>& places) {
@@ -71,4 +71,4 @@ TEST(GlobalNearestNeighbour, OutsideOfTheGateIsAnother) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

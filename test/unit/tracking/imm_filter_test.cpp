@@ -7,7 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 constexpr double kPeriod = 0.1;
@@ -178,4 +178,4 @@ TEST(ImmFilter, PositionAndVelocityErrorsAreConsistentOnJumpingModes) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

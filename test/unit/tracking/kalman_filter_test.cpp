@@ -7,7 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 /// 95 % bounds of the mean of `count` chi-square values with `degrees` degrees of freedom; normal
@@ -114,4 +114,4 @@ TEST_P(Consistency, NormalisedErrorsAreChiSquare) {
 INSTANTIATE_TEST_SUITE_P(Modes, Consistency, testing::Range(0, kMotionModes));
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -3,7 +3,7 @@
 #include "tracking_scene.h"
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 /// Well known, so that it never is what decides: 5 m/s, with a variance of 0.01 m^2/s^2.
@@ -156,4 +156,4 @@ TEST_F(MotionEvidenceTest, AfterALongRestMotionIsFoundAsQuickly) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

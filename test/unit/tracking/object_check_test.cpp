@@ -3,7 +3,7 @@
 #include "tracking_scene.h"
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 TEST(ObjectCheck, TransformTurnsPlaceCovarianceAndPoints) {
@@ -28,4 +28,4 @@ TEST(ObjectCheck, TakesAGoodObjectAndRefusesASkewCovariance) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

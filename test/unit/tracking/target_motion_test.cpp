@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 TrackState state(double x, double y, double vx, double vy, double ax, double ay) {
@@ -127,4 +127,4 @@ TEST_P(EveryMotion, NoiseIsSymmetricAndPositive) {
 INSTANTIATE_TEST_SUITE_P(Modes, EveryMotion, testing::Range(0, kMotionModes));
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

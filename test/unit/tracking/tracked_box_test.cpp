@@ -5,7 +5,7 @@
 #include "tracking_scene.h"
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 Object boxOf(double heading, double length, double width) {
@@ -79,4 +79,4 @@ TEST(TrackedBox, MotionGivesTheSignAndReversingKeepsIt) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -6,7 +6,7 @@
 
 #include "datmo_fusion/tracking/tracker.h"
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 TEST(TrackerRobustness, AGapOfTenSecondsEndsAllTracks) {
@@ -78,4 +78,4 @@ TEST(TrackerRobustness, BadOptionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

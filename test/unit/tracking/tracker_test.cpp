@@ -7,7 +7,7 @@
 #include "tracking_scene.h"
 #include <gtest/gtest.h>
 
-namespace datmo_fusion {
+namespace datmo {
 namespace {
 
 std::set<std::uint32_t> idsOf(const TrackList& list) {
@@ -265,4 +265,4 @@ TEST(Tracker, TwoPartsOfOneVanBecomeOneTrack) {
   EXPECT_GT(scene.tracker().counts().merged_tracks, 0U);
 }
 }  // namespace
-}  // namespace datmo_fusion
+}  // namespace datmo

@@ -7,7 +7,7 @@
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/tracking/tracker.h"
 
-namespace datmo_fusion {
+namespace datmo {
 
 /// An object as a scanner would report it: a box of a cyclist's size at (x, y) in m.
 inline Object objectAt(double x, double y, DynamicState state = DynamicState::kUnknown) {
@@ -52,4 +52,4 @@ class TrackingScene {
   std::mt19937_64 engine_{11};
 };
 
-}  // namespace datmo_fusion
+}  // namespace datmo
