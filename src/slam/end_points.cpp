@@ -1,6 +1,8 @@
 #include "datmo_fusion/slam/end_points.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <optional>
 
 namespace datmo {
 
@@ -9,44 +11,67 @@ namespace {
 /// Variance of a uniform distribution over an interval of length 1.
 constexpr double kUniformVariance = 1.0 / 12.0;
 
-/// Mean step from the previous and to the next end point, as far as they lie on the same surface;
-/// zero where neither does.
-Point2 stepAlongSurface(const std::vector<EndPoint>& points, std::size_t index,
-                        double longest_step) {
+/// The end point of a beam, and what its neighbours are compared by.
+struct End {
+  Point2 position;
+  double range;
+  Point2 across;  ///< from this beam to the next one at this range, m
+};
+
+/// Step along the surface that the beam hit, as its neighbours show it: the mean of the steps to
+/// those nearer than `longest_step`. If neither is, the surface is met at a flat angle, and the
+/// shorter step tells its direction; but what stands out in front of both is a thing of its own:
+/// none.
+std::optional<Point2> stepAlongSurface(const End* previous, const End& end, const End* next,
+                                       double longest_step) {
   Point2 sum = Point2::Zero();
   int steps = 0;
-  const auto add = [&](std::size_t from, std::size_t to) {
-    const Point2 step = points[to].position - points[from].position;
+  std::optional<Point2> shortest;
+  bool stands_out = true;
+  for (const End* neighbour : {previous, next}) {
+    if (neighbour == nullptr) {
+      continue;
+    }
+    const double sign = neighbour == next ? 1.0 : -1.0;
+    const Point2 step = sign * (neighbour->position - end.position);
     if (step.norm() < longest_step) {
       sum += step;
       ++steps;
     }
-  };
-  if (index > 0) {
-    add(index - 1, index);
+    if (!shortest || step.norm() < shortest->norm()) {
+      shortest = step;
+    }
+    stands_out = stands_out && end.range < neighbour->range;
   }
-  if (index + 1 < points.size()) {
-    add(index, index + 1);
+  if (steps > 0) {
+    return Point2(sum / steps);
   }
-  return steps == 0 ? sum : Point2(sum / steps);
+  return stands_out ? std::nullopt : shortest;
+}
+
+std::vector<End> endsOf(const Scan& scan) {
+  std::vector<End> ends;
+  for (const Ray& ray : scan.rays) {
+    if (ray.hit) {
+      const Point2 along = ray.end - ray.origin;
+      ends.push_back({ray.end, ray.range, scan.beam_spacing * Point2(-along.y(), along.x())});
+    }
+  }
+  return ends;
 }
 
 }  // namespace
 
 std::vector<EndPoint> endPoints(const Scan& scan, double longest_step) {
+  const std::vector<End> ends = endsOf(scan);
   std::vector<EndPoint> points;
-  std::vector<Point2> across;
-  for (const Ray& ray : scan.rays) {
-    if (ray.hit) {
-      points.push_back({ray.end, Eigen::Matrix2d::Zero()});
-      const Point2 along = ray.end - ray.origin;
-      across.push_back(scan.beam_spacing * Point2(-along.y(), along.x()));
-    }
-  }
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Point2 step = stepAlongSurface(points, i, longest_step);
-    const Point2& interval = step.isZero() ? across[i] : step;
-    points[i].sampling = kUniformVariance * interval * interval.transpose();
+  points.reserve(ends.size());
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const End* previous = i > 0 ? &ends[i - 1] : nullptr;
+    const End* next = i + 1 < ends.size() ? &ends[i + 1] : nullptr;
+    const Point2 interval =
+        stepAlongSurface(previous, ends[i], next, longest_step).value_or(ends[i].across);
+    points.push_back({ends[i].position, kUniformVariance * interval * interval.transpose()});
   }
   return points;
 }

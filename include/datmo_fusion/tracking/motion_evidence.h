@@ -15,7 +15,7 @@ struct MotionEvidenceOptions {
   double standing_drift = 1.0;             ///< m^2/s
   double required_against_standing = 3.0;  ///< 1
   double scan_limit = 2.0;                 ///< 1
-  double free_space_evidence = 1.0;        ///< 1
+  double free_space_evidence = 0.7;        ///< 1
   double least_overrun = 1.0;              ///< m
   double unseen_share = 0.5;               ///< 1
   double overrun_significance = 2.0;       ///< 1

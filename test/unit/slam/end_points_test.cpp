@@ -11,6 +11,7 @@ Scan scanOf(const std::vector<Point2>& ends) {
   for (const Point2& end : ends) {
     Ray ray;
     ray.end = end;
+    ray.range = end.norm();
     ray.hit = true;
     scan.rays.push_back(ray);
   }
@@ -34,10 +35,18 @@ TEST(EndPointsTest, ASurfaceIsSampledBetweenItsPoints) {
   }
 }
 
-TEST(EndPointsTest, APointAloneIsSampledByTheBeamsSpacing) {
-  const auto points = endPoints(scanOf({{10.0, 0.0}, {30.0, 3.0}}), 3.0);
-  EXPECT_NEAR(points[0].sampling(1, 1), 1.0 / 12.0, 1e-12);
-  EXPECT_NEAR(points[0].sampling(0, 0), 0.0, 1e-12);
+TEST(EndPointsTest, AWallAtAFlatAngleIsSampledAlongItselfHoweverFarTheStep) {
+  // A wall along x, 2 m to the left: the beams end further and further apart.
+  const auto points = endPoints(scanOf({{28.0, 2.0}, {20.0, 2.0}, {15.0, 2.0}}), 3.0);
+  EXPECT_NEAR(points[0].sampling(0, 0), 8.0 * 8.0 / 12.0, 1e-12);
+  EXPECT_NEAR(points[1].sampling(0, 0), 5.0 * 5.0 / 12.0, 1e-12);
+  EXPECT_NEAR(points[1].sampling(1, 1), 0.0, 1e-12);
+}
+
+TEST(EndPointsTest, WhatStandsOutIsSampledByTheBeamsSpacing) {
+  const auto points = endPoints(scanOf({{30.0, -3.0}, {10.0, 0.0}, {30.0, 3.0}}), 3.0);
+  EXPECT_NEAR(points[1].sampling(1, 1), 1.0 / 12.0, 1e-12);
+  EXPECT_NEAR(points[1].sampling(0, 0), 0.0, 1e-12);
 }
 
 TEST(EndPointsTest, NoBeamsNoPoints) { EXPECT_TRUE(endPoints(Scan{}, 3.0).empty()); }

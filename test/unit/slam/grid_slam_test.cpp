@@ -157,6 +157,39 @@ TEST(GridSlamTest, AScanWithoutRaysMovesByOdometryAlone) {
   EXPECT_TRUE(result.split.points.empty());
 }
 
+/// Between two walls without an end, 4 m to the left and 5 m to the right.
+Scan corridorScan(double seconds) {
+  Scan scan;
+  scan.stamp = Stamp::fromSeconds(1000.0 + seconds);
+  scan.beam_spacing = degrees(2.0);
+  for (std::uint32_t beam = 0; beam < 81; ++beam) {
+    Ray ray;
+    ray.beam = beam;
+    ray.bearing = degrees(-80.0 + 2.0 * beam);
+    const double across = std::sin(ray.bearing);
+    constexpr double kFarthest = 50.0;
+    ray.range = std::min(kFarthest, std::abs((across > 0.0 ? 4.0 : 5.0) / across));
+    ray.hit = ray.range < kFarthest;
+    ray.end = ray.range * Point2(std::cos(ray.bearing), across);
+    scan.rays.push_back(ray);
+  }
+  return scan;
+}
+
+TEST(GridSlamTest, BetweenEndlessWallsTheWayIsLeftToTheOdometry) {
+  // The scans are all alike. Standing still would fit them best; the odometry knows better.
+  GridSlam slam{GridSlamOptions{}};
+  SlamResult result;
+  for (int i = 0; i <= 40; ++i) {
+    slam.addOdometry({Stamp::fromSeconds(1000.0 + 0.1 * i), {5.0, 0.0}});
+    result = slam.process(corridorScan(0.1 * i));
+  }
+  const PoseWithCovariance& pose = result.split.base_in_map;
+  EXPECT_NEAR(pose.pose.x(), 20.0, 0.5);
+  EXPECT_NEAR(pose.pose.y(), 0.0, 0.1);
+  EXPECT_GT(std::sqrt(pose.covariance(0, 0)), 4.0 * std::sqrt(pose.covariance(1, 1)));
+}
+
 TEST(GridSlamTest, TheSameInputGivesTheSameOutput) {
   GridSlam first{GridSlamOptions{}};
   GridSlam second{GridSlamOptions{}};
