@@ -43,7 +43,10 @@ double beamSpacing(const std::vector<ScanPoint>& points) {
   if (points.size() < 2 || points.back().beam == points.front().beam) {
     return 0.0;
   }
-  const double angle = std::abs(angleBetween(points.front().bearing, points.back().bearing));
+  double angle = 0.0;  // point by point: the whole scan may span more than half a turn
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    angle += std::abs(angleBetween(points[i - 1].bearing, points[i].bearing));
+  }
   return angle / static_cast<double>(points.back().beam - points.front().beam);
 }
 

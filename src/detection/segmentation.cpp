@@ -18,7 +18,7 @@ double gapBetween(const ScanPoint& first, const ScanPoint& second,
   }
   const double range = std::min(first.range, second.range);
   const double reach = range * std::sin(angle) / std::sin(options.least_incidence - angle);
-  return std::clamp(options.shortest_gap + reach, options.shortest_gap, options.longest_gap);
+  return std::min(options.shortest_gap + reach, options.longest_gap);
 }
 
 }  // namespace

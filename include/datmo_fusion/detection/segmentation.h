@@ -25,7 +25,8 @@ using Segment = std::vector<std::size_t>;
 /// Fixed: apart by more than `longest_gap` (thesis 3.3.1: 2 m). Adaptive: the breakpoint of Borges
 /// & Aldon (Line extraction in 2D range images, 2004): on a surface that a beam meets at
 /// `least_incidence` or more, the next beam ends within r sin(a) / sin(incidence - a), for the
-/// angle a between the two; between `shortest_gap` and `longest_gap`.
+/// angle a between the two; `shortest_gap` more than that, for its noise, and at most
+/// `longest_gap`.
 std::vector<Segment> segmentPoints(const std::vector<ScanPoint>& points,
                                    const SegmentationOptions& options);
 

@@ -38,6 +38,22 @@ ObjectList detect(const SplitScan& scan, const MovingObjectDetectorOptions& opti
   return MovingObjectDetector(options).detect(scan);
 }
 
+/// Variance across the line of sight of the first object of a scan.
+double varianceAcross(const SplitScan& scan) {
+  const Object object = detect(scan).objects.at(0);
+  const Point2 sight = object.box.centre.position().normalized();
+  const Point2 across(-sight.y(), sight.x());
+  return across.dot(object.position_covariance * across);
+}
+
+TEST(MovingObjectDetectorTest, AScanOfMoreThanHalfATurnHasTheSameBeamSpacing) {
+  const End object{40.0, 10, kM};
+  const double narrow = varianceAcross(splitScan({object, {20.0, 60, kS}, {20.0, 80, kS}}));
+  const double wide = varianceAcross(
+      splitScan({object, {20.0, 60, kS}, {20.0, 110, kS}, {20.0, 160, kS}}));  // 300 degrees
+  EXPECT_NEAR(wide, narrow, 1e-9);
+}
+
 TEST(MovingObjectDetectorTest, AnEmptyScanHasNoObjects) {
   const ObjectList list = detect(splitScan({}));
   EXPECT_TRUE(list.objects.empty());

@@ -26,6 +26,14 @@ TEST(SegmentationTest, NoPointsNoSegments) {
   EXPECT_TRUE(segmentPoints({}, SegmentationOptions{}).empty());
 }
 
+TEST(SegmentationTest, TheLongestGapHoldsWhereTheShortestIsSetLonger) {
+  SegmentationOptions options;
+  options.longest_gap = 0.3;
+  options.shortest_gap = 0.6;
+  EXPECT_EQ(segmentPoints({polar(10.0, 0.0), polar(10.4, 0.0)}, options).size(), 2U);
+  EXPECT_EQ(segmentPoints({polar(10.0, 0.0), polar(10.2, 0.0)}, options).size(), 1U);
+}
+
 TEST(SegmentationTest, CutsWhereNeighboursAreTooFarApart) {
   const std::vector<ScanPoint> points = {polar(10.0, 0.0), polar(10.0, 2.0), polar(13.0, 4.0),
                                          polar(13.0, 6.0)};
