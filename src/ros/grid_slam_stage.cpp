@@ -36,6 +36,9 @@ GridSlamStage::GridSlamStage(const GridSlamStageOptions& options, const Transfor
 }
 
 void GridSlamStage::takeOdometry(const nav_msgs::Odometry& message) {
+  if (!options_.odometry) {
+    return;
+  }
   try {
     checkFrames(message);
     const OdometryPose odometry{toSample(message), fromMessage(message.pose.pose)};

@@ -55,6 +55,7 @@ class GridSlamStage {
   GridSlamStage(const GridSlamStageOptions& options, const TransformBuffer& transforms,
                 StageMonitor& monitor);
 
+  /// Newest odometry; not read where the options say that the vehicle has none.
   void takeOdometry(const nav_msgs::Odometry& message);
 
   /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan. None if it was dropped.

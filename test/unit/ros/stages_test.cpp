@@ -19,6 +19,17 @@ tf2_msgs::TFMessage transforms(std::vector<geometry_msgs::TransformStamped> list
   return message;
 }
 
+/// Of a vehicle that drives at 8 m/s since the start.
+nav_msgs::Odometry odometry(double seconds) {
+  nav_msgs::Odometry message;
+  message.header.stamp = ros::Time(seconds);
+  message.header.frame_id = "odom";
+  message.child_frame_id = "base_link";
+  message.pose.pose = toMessage(Pose2(8.0 * (seconds - samples::kStart), 0.0, 0.0));
+  message.twist.twist.linear.x = 8.0;
+  return message;
+}
+
 class GridSlamStageTest : public testing::Test {
  protected:
   void mountScanner() {
@@ -32,15 +43,7 @@ class GridSlamStageTest : public testing::Test {
   }
 
   /// The vehicle drives ahead with 8 m/s; it is at x = 0 at the start.
-  void odometryAt(double seconds) {
-    nav_msgs::Odometry message;
-    message.header.stamp = ros::Time(seconds);
-    message.header.frame_id = "odom";
-    message.child_frame_id = "base_link";
-    message.pose.pose = toMessage(Pose2(8.0 * (seconds - samples::kStart), 0.0, 0.0));
-    message.twist.twist.linear.x = 8.0;
-    stage_.takeOdometry(message);
-  }
+  void odometryAt(double seconds) { stage_.takeOdometry(odometry(seconds)); }
 
   std::uint64_t drops(const std::string& reason) const {
     const auto found = monitor_.drops().find(reason);
@@ -117,6 +120,21 @@ TEST_F(GridSlamStageTest, WithoutOdometryThePoseIsOdomToBase) {
   EXPECT_EQ(output->transforms[0].transform.translation.x, 0.0);
   EXPECT_EQ(output->transforms[1].child_frame_id, "base_link");
   EXPECT_EQ(monitor_.warningCount(), 0U);
+}
+
+TEST_F(GridSlamStageTest, OdometryThatTheVehicleDoesNotHaveIsNotRead) {
+  GridSlamStageOptions options;
+  options.odometry = false;
+  GridSlamStage stage(options, buffer_, monitor_);
+  mountScanner();
+  stage.takeOdometry(odometry(100.0));
+  sensor_msgs::LaserScan scan = samples::laserScan();
+  scan.header.stamp = ros::Time(100.0);
+  ASSERT_TRUE(stage.takeScan(scan));
+  scan.header.stamp = ros::Time(100.1);
+  const auto output = stage.takeScan(scan);
+  ASSERT_TRUE(output);
+  EXPECT_EQ(output->pose->pose.pose.position.x, 0.0) << "the odometry would say 0.8 m";
 }
 
 TEST_F(GridSlamStageTest, AMissingMountIsCountedUntilItComes) {
