@@ -14,6 +14,10 @@ namespace {
 /// Quaternions travel as doubles; one that is off by more than this was never normalised.
 constexpr double kUnitLengthTolerance = 1e-3;
 
+/// No vehicle on a road is faster (m/s) or spins faster (rad/s): what says so is broken.
+constexpr double kMostSpeed = 150.0;
+constexpr double kMostYawRate = 20.0;
+
 /// Where the 6 x 6 covariances of ROS (x, y, z, roll, pitch, yaw) hold ours over x, y and heading.
 std::size_t indexInSix(int row, int column) {
   constexpr std::array<std::size_t, 3> kPlanar = {0, 1, 5};
@@ -207,10 +211,13 @@ geometry_msgs::TransformStamped toTransform(const Pose2& child_in_parent, Stamp 
 
 OdometrySample toSample(const nav_msgs::Odometry& message) {
   const Twist2 twist{message.twist.twist.linear.x, message.twist.twist.angular.z};
-  if (!std::isfinite(twist.forward_speed) || !std::isfinite(twist.yaw_rate)) {
+  const bool plausible =
+      std::abs(twist.forward_speed) <= kMostSpeed && std::abs(twist.yaw_rate) <= kMostYawRate;
+  if (!plausible) {  // NaN is not plausible either
     throw InputError("bad_odometry", "odometry with speed " + std::to_string(twist.forward_speed) +
                                          " m/s and yaw rate " + std::to_string(twist.yaw_rate) +
-                                         " rad/s: expected finite numbers");
+                                         " rad/s: expected at most " + std::to_string(kMostSpeed) +
+                                         " m/s and " + std::to_string(kMostYawRate) + " rad/s");
   }
   return {toStamp(message.header.stamp), twist};
 }
@@ -234,7 +241,13 @@ SplitScan fromMessage(const SplitScanMessage& message) {
   SplitScan scan;
   scan.stamp = toStamp(message.header.stamp);
   scan.base_in_map = poseWithCovariance(message.pose);
-  scan.scanner_in_base = Pose2(message.scanner.x, message.scanner.y, message.scanner.theta);
+  const geometry_msgs::Pose2D& scanner = message.scanner;
+  if (!std::isfinite(scanner.x + scanner.y + scanner.theta)) {
+    throw InputError("bad_pose", "scanner at " + std::to_string(scanner.x) + ", " +
+                                     std::to_string(scanner.y) + ", heading " +
+                                     std::to_string(scanner.theta) + ": expected finite numbers");
+  }
+  scan.scanner_in_base = Pose2(scanner.x, scanner.y, scanner.theta);
   for (const ScanPointMessage& point : message.points) {
     scan.points.push_back(fromMessage(point));
   }

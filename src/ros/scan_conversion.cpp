@@ -15,6 +15,13 @@ namespace {
 /// Stands for a beam that saw nothing (REP 117).
 constexpr float kNoReturn = std::numeric_limits<float>::infinity();
 
+/// No scanner of a vehicle sees farther (m); drivers also say "no limit" and "no return" with
+/// numbers of any size.
+constexpr float kLongestReach = 1000.0F;
+
+/// More do not fit the beam index of SplitScan.
+constexpr std::size_t kMostBeams = 65536;
+
 template <typename Message>
 void checkGeometry(const Message& message) {
   for (const float value : {message.angle_min, message.angle_max, message.angle_increment,
@@ -39,32 +46,36 @@ void checkSize(const Message& message) {
   if (message.ranges.empty()) {
     throw InputError("empty_scan", "scan without beams: expected at least one");
   }
+  if (message.ranges.size() > kMostBeams) {
+    throw InputError("wrong_size", "scan with " + std::to_string(message.ranges.size()) +
+                                       " beams: expected at most " + std::to_string(kMostBeams));
+  }
   const double steps =
       (static_cast<double>(message.angle_max) - message.angle_min) / message.angle_increment;
   const double expected = std::round(steps) + 1.0;
   if (std::abs(static_cast<double>(message.ranges.size()) - expected) > 1.0) {
     throw InputError("wrong_size", "scan with " + std::to_string(message.ranges.size()) +
-                                       " beams: expected " + std::to_string(std::lround(expected)) +
+                                       " beams: expected " + std::to_string(expected) +
                                        " from its angles");
   }
 }
 
 /// NaN compares false with everything, and so is never valid.
-bool isHit(float range, float range_min, float range_max) {
-  return range >= range_min && range <= range_max;
+bool isHit(float range, float range_min, float reach) {
+  return range >= range_min && range <= reach;
 }
 
-float rangeOf(float range, float /*range_min*/, float /*range_max*/) { return range; }
+float rangeOf(float range, float /*range_min*/, float /*reach*/) { return range; }
 
 /// The nearest valid echo; without one, no return if there was no echo or one says so.
-float rangeOf(const sensor_msgs::LaserEcho& beam, float range_min, float range_max) {
+float rangeOf(const sensor_msgs::LaserEcho& beam, float range_min, float reach) {
   float nearest = kNoReturn;
   bool no_return = beam.echoes.empty();
   for (const float echo : beam.echoes) {
-    if (isHit(echo, range_min, range_max)) {
+    if (isHit(echo, range_min, reach)) {
       nearest = std::min(nearest, echo);
     }
-    no_return = no_return || echo > range_max;
+    no_return = no_return || echo > reach;
   }
   const bool hit = nearest != kNoReturn;
   return hit || no_return ? nearest : std::numeric_limits<float>::quiet_NaN();
@@ -91,12 +102,13 @@ ConvertedScan convert(const Message& message, const ScannerMount& mount,
   scan.scanner_in_base = mount.scanner_in_base;
   scan.beam_spacing = std::abs(static_cast<double>(message.angle_increment));
   scan.rays.reserve(message.ranges.size());
-  const double free_range = std::min<double>(options.free_range, message.range_max);
+  const float reach = std::min(message.range_max, kLongestReach);
+  const double free_range = std::min<double>(options.free_range, reach);
   const double side = mount.upside_down ? -1.0 : 1.0;
   for (std::uint32_t beam = 0; beam < message.ranges.size(); ++beam) {
-    const float range = rangeOf(message.ranges[beam], message.range_min, message.range_max);
-    const bool hit = isHit(range, message.range_min, message.range_max);
-    if (!hit && !(range > message.range_max)) {
+    const float range = rangeOf(message.ranges[beam], message.range_min, reach);
+    const bool hit = isHit(range, message.range_min, reach);
+    if (!hit && !(range > reach)) {
       ++converted.beams.dropped;
       continue;
     }

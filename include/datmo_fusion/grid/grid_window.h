@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "datmo_fusion/common/pose2.h"
@@ -22,11 +23,9 @@ struct GridWindow {
   int rows = 0;
   CellIndex corner;
 
-  /// The cell that holds a point of the map frame; it may lie outside of the window.
-  CellIndex cellAt(const Point2& point) const {
-    return {static_cast<int>(std::floor(point.x() / cell_size)),
-            static_cast<int>(std::floor(point.y() / cell_size))};
-  }
+  /// The cell that holds a point of the map frame; it may lie outside of the window. What is
+  /// farther than kFarthestCell, or not a number, is at that limit.
+  CellIndex cellAt(const Point2& point) const { return {indexAt(point.x()), indexAt(point.y())}; }
 
   /// Centre of a cell in the map frame, m.
   Point2 centreOf(CellIndex cell) const {
@@ -39,6 +38,17 @@ struct GridWindow {
   bool contains(CellIndex cell) const {
     return cell.column >= corner.column && cell.column < corner.column + columns &&
            cell.row >= corner.row && cell.row < corner.row + rows;
+  }
+
+  /// Cells from the frame's origin: sums and differences of two indices stay within an int.
+  static constexpr int kFarthestCell = 1 << 28;
+
+ private:
+  int indexAt(double coordinate) const {
+    constexpr double kFarthest = kFarthestCell;
+    // In this order NaN becomes the lower limit.
+    const double index = std::max(-kFarthest, std::floor(coordinate / cell_size));
+    return static_cast<int>(std::min(kFarthest, index));
   }
 };
 

@@ -28,13 +28,15 @@ geometry_msgs::TransformStamped toTransform(const Pose2& child_in_parent, Stamp 
                                             const std::string& parent_frame,
                                             const std::string& child_frame);
 
-/// Throws InputError (`bad_odometry`) if speed or yaw rate is not finite.
+/// Throws InputError (`bad_odometry`) if speed or yaw rate is not finite, or beyond that of any
+/// vehicle.
 OdometrySample toSample(const nav_msgs::Odometry& message);
 
 SplitScanMessage toMessage(const SplitScan& scan, const std::string& base_frame,
                            const std::string& map_frame);
 
-/// Throws InputError: `bad_pose`, `bad_point` for points that are not finite or of no known state.
+/// Throws InputError: `bad_pose` for one of the vehicle or the scanner, `bad_point` for points that
+/// are not finite or of no known state.
 SplitScan fromMessage(const SplitScanMessage& message);
 
 ObjectArray toMessage(const ObjectList& list, const std::string& base_frame);

@@ -20,7 +20,7 @@ struct ScanConversionOptions {
 /// Beams of one scan, by what became of them.
 struct BeamCounts {
   std::size_t hits = 0;
-  std::size_t no_return = 0;  ///< +inf or beyond range_max (REP 117)
+  std::size_t no_return = 0;  ///< +inf or beyond range_max (REP 117), or beyond 1 km
   std::size_t dropped = 0;    ///< NaN, -inf, negative or below range_min: no ray
 };
 
@@ -34,7 +34,8 @@ struct ConvertedScan {
 ///
 /// Throws InputError: `empty_scan` (no beams), `bad_geometry` (angles or range limits that are not
 /// finite, no angle increment, limits the wrong way round), `wrong_size` (more than one beam more
-/// or less than the angles say; drivers disagree whether angle_max is the last beam or one beyond).
+/// or less than the angles say; drivers disagree whether angle_max is the last beam or one beyond;
+/// or more than 65536).
 ConvertedScan toScan(const sensor_msgs::LaserScan& message, const ScannerMount& mount,
                      const ScanConversionOptions& options);
 

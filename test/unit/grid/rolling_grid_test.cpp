@@ -1,5 +1,7 @@
 #include "datmo_fusion/grid/rolling_grid.h"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 namespace datmo {
@@ -71,6 +73,19 @@ TEST_F(RollingGridTest, AMoveByLessThanACellKeepsAll) {
 TEST_F(RollingGridTest, AFarMoveEmptiesAll) {
   fill();
   grid_.centreOn({1.0e6, -1.0e6});
+  forEachCell([this](CellIndex cell) { EXPECT_EQ(grid_.at(cell), kEmpty); });
+}
+
+TEST_F(RollingGridTest, WhatIsTooFarForAnIndexIsAtTheLimit) {
+  constexpr int kLimit = GridWindow::kFarthestCell;
+  const GridWindow& window = grid_.window();
+  EXPECT_EQ(window.cellAt({1.0e300, -1.0e300}), (CellIndex{kLimit, -kLimit}));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(window.cellAt({nan, std::numeric_limits<double>::infinity()}),
+            (CellIndex{-kLimit, kLimit}));
+  expectMoved({1.0e12, -1.0e12});
+  grid_.at(window.corner) = 1;
+  grid_.centreOn({0.0, 0.0});
   forEachCell([this](CellIndex cell) { EXPECT_EQ(grid_.at(cell), kEmpty); });
 }
 

@@ -44,7 +44,7 @@ TEST(PoseConversion, CovarianceStandsAtXYAndYaw) {
   EXPECT_EQ(message.covariance[14], 0.0) << "z";
 }
 
-TEST(OdometryConversion, TakesSpeedAndYawRateAndRefusesNan) {
+TEST(OdometryConversion, TakesSpeedAndYawRateAndRefusesNanAndTheImpossible) {
   nav_msgs::Odometry message;
   message.header.stamp = ros::Time(samples::kStart);
   message.twist.twist.linear.x = 8.0;
@@ -54,6 +54,9 @@ TEST(OdometryConversion, TakesSpeedAndYawRateAndRefusesNan) {
   EXPECT_EQ(sample.twist.forward_speed, 8.0);
   EXPECT_EQ(sample.twist.yaw_rate, 0.1);
   message.twist.twist.angular.z = kNan;
+  EXPECT_EQ(samples::reasonOf([&] { toSample(message); }), "bad_odometry");
+  message.twist.twist.angular.z = 0.1;
+  message.twist.twist.linear.x = -1.0e30;
   EXPECT_EQ(samples::reasonOf([&] { toSample(message); }), "bad_odometry");
 }
 
@@ -91,6 +94,12 @@ TEST(SplitScanConversion, BadPointsAreRefused) {
   message.points[0].state = 0;
   message.points[0].y = std::numeric_limits<float>::infinity();
   EXPECT_EQ(samples::reasonOf([&] { fromMessage(message); }), "bad_point");
+}
+
+TEST(SplitScanConversion, AScannerNowhereIsRefused) {
+  SplitScanMessage message = toMessage(splitScan(), "base_link", "map");
+  message.scanner.theta = kNan;
+  EXPECT_EQ(samples::reasonOf([&] { fromMessage(message); }), "bad_pose");
 }
 
 TEST(ObjectConversion, ThereAndBack) {

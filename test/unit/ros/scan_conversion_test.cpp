@@ -105,6 +105,15 @@ TEST(ScanConversion, InvalidBeamsHaveNoRayAndKeepTheOthersIndex) {
   EXPECT_EQ(converted.scan.rays[0].beam, 2U);
 }
 
+TEST(ScanConversion, AnAbsurdRangeIsNoReturnHoweverFarTheDriverClaimsToSee) {
+  auto message = samples::laserScan({std::numeric_limits<float>::max(), 1.0e6F, 3.0F});
+  message.range_max = std::numeric_limits<float>::max();
+  const auto converted = convert(message);
+  EXPECT_EQ(converted.beams.no_return, 2U);
+  EXPECT_EQ(converted.beams.hits, 1U);
+  EXPECT_DOUBLE_EQ(converted.scan.rays[0].range, ScanConversionOptions().free_range);
+}
+
 TEST(ScanConversion, LimitsOfTheRangeAreValid) {
   EXPECT_EQ(convert(samples::laserScan({1.0F, 20.0F, 3.0F})).beams.hits, 3U);
 }
@@ -128,6 +137,12 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(BadScan{"empty_scan", [](ScanMessage& m) { m.ranges.clear(); }},
                     BadScan{"wrong_size", [](ScanMessage& m) { m.ranges.resize(5); }},
                     BadScan{"wrong_size", [](ScanMessage& m) { m.ranges.resize(1); }},
+                    BadScan{"wrong_size",
+                            [](ScanMessage& m) {
+                              m.ranges.resize(70000);
+                              m.angle_increment = static_cast<float>(kPi / 69999.0);
+                            }},
+                    BadScan{"wrong_size", [](ScanMessage& m) { m.angle_increment = 1e-40F; }},
                     BadScan{"bad_geometry", [](ScanMessage& m) { m.angle_increment = 0.0F; }},
                     BadScan{"bad_geometry", [](ScanMessage& m) { m.angle_increment = kNan; }},
                     BadScan{"bad_geometry", [](ScanMessage& m) { m.angle_min = -kInfinity; }},
