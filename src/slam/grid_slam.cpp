@@ -9,6 +9,9 @@ namespace {
 /// Odometry this old (s) serves no scan any more.
 constexpr double kOdometryMemory = 10.0;
 
+/// Between two poses nearer in time than this (s) their errors outweigh the way.
+constexpr double kLeastVelocityTime = 0.02;
+
 /// State of each ray, in order; kUnknown for beams without a hit.
 std::vector<PointState> judge(const Scan& scan, const OccupancyMap& map, const Pose2& base_in_map) {
   std::vector<PointState> states;
@@ -79,24 +82,34 @@ bool GridSlam::predict(Stamp stamp) {
 SlamResult GridSlam::process(const Scan& scan) {
   SlamResult result;
   if (stamp_) {
-    const Pose2 before = filter_.pose().pose;
     result.odometry_used = predict(scan.stamp);
     map_.centreOn(filter_.pose().pose.position());
     const MatchResult match =
         matcher_.match(map_, endPoints(scan, options_.longest_step), filter_.pose(), random_);
     filter_.correct(match.pose);
     result.match = match.quality;
-    if (result.odometry_used || match.quality.accepted) {
-      velocity_ = twistOf(before.inverse() * match.pose.pose, secondsBetween(*stamp_, scan.stamp));
-    }
   }
   const PoseWithCovariance base_in_map = filter_.pose();
+  estimateVelocity({scan.stamp, base_in_map.pose}, result.odometry_used || result.match.accepted);
   const std::vector<PointState> states = judge(scan, map_, base_in_map.pose);
   map_.update(scan, states, base_in_map.pose);
   stamp_ = scan.stamp;
   result.odometry_errors = filter_.errors();
   result.split = split(scan, states, base_in_map);
   return result;
+}
+
+void GridSlam::estimateVelocity(const StampedPose& now, bool pose_is_known) {
+  if (velocity_from_) {
+    const double seconds = secondsBetween(velocity_from_->stamp, now.stamp);
+    if (seconds < kLeastVelocityTime) {
+      return;
+    }
+    if (pose_is_known) {
+      velocity_ = twistOf(velocity_from_->pose.inverse() * now.pose, seconds);
+    }
+  }
+  velocity_from_ = now;
 }
 
 void GridSlam::reset() { *this = GridSlam(options_); }

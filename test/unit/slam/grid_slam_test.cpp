@@ -126,6 +126,20 @@ TEST(GridSlamTest, WorksWithoutOdometry) {
   EXPECT_LT(positionError(end), 0.3);
 }
 
+TEST(GridSlamTest, ScansAlmostAtOnceDoNotMakeAVelocity) {
+  // A driver that stamps on arrival: two scans come within a microsecond, then nothing for 0.2 s.
+  GridSlam slam{GridSlamOptions{}};
+  const Yard yard;
+  Drive end;
+  for (int i = 0; i < 30; ++i) {
+    const double seconds = 0.2 * i;
+    end.truth = arc({2.0, 0.05}, seconds);
+    slam.process(yard.scan(end.truth, seconds));
+    end.result = slam.process(yard.scan(end.truth, seconds + 1e-6));
+  }
+  EXPECT_LT(positionError(end), 0.3);
+}
+
 TEST(GridSlamTest, SomethingThatComesIntoFreeSpaceIsMovingAndNotMapped) {
   GridSlam slam{GridSlamOptions{}};
   const Yard yard;
