@@ -9,9 +9,6 @@ namespace {
 /// Odometry this old (s) serves no scan any more.
 constexpr double kOdometryMemory = 10.0;
 
-/// Between two poses nearer in time than this (s) their errors outweigh the way.
-constexpr double kLeastVelocityTime = 0.02;
-
 /// State of each ray, in order; kUnknown for beams without a hit.
 std::vector<PointState> judge(const Scan& scan, const OccupancyMap& map, const Pose2& base_in_map) {
   std::vector<PointState> states;
@@ -71,10 +68,8 @@ bool GridSlam::predict(Stamp stamp) {
   const auto measured = odometry_.motion(*stamp_, stamp, filter_.errors());
   if (measured) {
     filter_.predictMeasured(*measured, seconds);
-  } else if (velocity_) {
-    filter_.predictUnmeasured(arc(*velocity_, seconds), seconds);
   } else {
-    filter_.predictUnknown(seconds);
+    filter_.predictUnmeasured(seconds);
   }
   return measured.has_value();
 }
@@ -90,26 +85,12 @@ SlamResult GridSlam::process(const Scan& scan) {
     result.match = match.quality;
   }
   const PoseWithCovariance base_in_map = filter_.pose();
-  estimateVelocity({scan.stamp, base_in_map.pose}, result.odometry_used || result.match.accepted);
   const std::vector<PointState> states = judge(scan, map_, base_in_map.pose);
   map_.update(scan, states, base_in_map.pose);
   stamp_ = scan.stamp;
   result.odometry_errors = filter_.errors();
   result.split = split(scan, states, base_in_map);
   return result;
-}
-
-void GridSlam::estimateVelocity(const StampedPose& now, bool pose_is_known) {
-  if (velocity_from_) {
-    const double seconds = secondsBetween(velocity_from_->stamp, now.stamp);
-    if (seconds < kLeastVelocityTime) {
-      return;
-    }
-    if (pose_is_known) {
-      velocity_ = twistOf(velocity_from_->pose.inverse() * now.pose, seconds);
-    }
-  }
-  velocity_from_ = now;
 }
 
 void GridSlam::reset() { *this = GridSlam(options_); }

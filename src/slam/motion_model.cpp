@@ -15,43 +15,56 @@ void MotionModelOptions::visit(OptionVisitor& visitor) {
                  yaw_rate_noise_ratio, {0.0, 1.0});
   visitor.number({"side_slip_noise", "m/s", "standard deviation of the speed sideways"},
                  side_slip_noise, {0.0001, 5.0});
-  visitor.number({"acceleration_noise", "m/s^2",
-                  "without odometry: standard deviation of the acceleration since the last scan"},
+  visitor.number({"acceleration_noise", "m/s^1.5", "without odometry: random walk of the speed"},
                  acceleration_noise, {0.001, 50.0});
   visitor.number(
-      {"yaw_acceleration_noise", "rad/s^2",
-       "without odometry: standard deviation of the yaw acceleration since the last scan"},
+      {"yaw_acceleration_noise", "rad/s^1.5", "without odometry: random walk of the yaw rate"},
       yaw_acceleration_noise, {0.001, 50.0});
+  visitor.number({"initial_speed_sigma", "m/s",
+                  "without odometry: standard deviation of the speed at the start"},
+                 initial_speed_sigma, {0.001, 100.0});
+  visitor.number({"initial_yaw_rate_sigma", "rad/s",
+                  "without odometry: standard deviation of the yaw rate at the start"},
+                 initial_yaw_rate_sigma, {0.0001, 10.0});
 }
 
 VelocityMotionModel::VelocityMotionModel(const MotionModelOptions& options) : options_(options) {
   checkOptions(options);
 }
 
-Eigen::Matrix3d VelocityMotionModel::covariance(const Twist2& twist, double seconds,
-                                                double speed_sigma, double yaw_rate_sigma) const {
-  // A turn that goes wrong at a constant rate also bends the path: half of it, sideways.
-  Eigen::Matrix3d noise_to_motion = seconds * Eigen::Matrix3d::Identity();
-  noise_to_motion(1, 2) = 0.5 * twist.forward_speed * seconds * seconds;
-  const Eigen::Vector3d sigma(speed_sigma, options_.side_slip_noise, yaw_rate_sigma);
-  return noise_to_motion * sigma.cwiseAbs2().asDiagonal() * noise_to_motion.transpose();
-}
-
 Eigen::Matrix3d VelocityMotionModel::covariance(const Twist2& twist, double seconds) const {
-  return covariance(
-      twist, seconds,
-      options_.speed_noise + options_.speed_noise_ratio * std::abs(twist.forward_speed),
-      options_.yaw_rate_noise + options_.yaw_rate_noise_ratio * std::abs(twist.yaw_rate));
+  // A turn that goes wrong at a constant rate also bends the path: half of it, sideways.
+  Eigen::Matrix<double, 3, 2> velocity_to_motion = Eigen::Matrix<double, 3, 2>::Zero();
+  velocity_to_motion(0, 0) = seconds;
+  velocity_to_motion(1, 1) = 0.5 * twist.forward_speed * seconds * seconds;
+  velocity_to_motion(2, 1) = seconds;
+  return velocity_to_motion * velocityCovariance(twist) * velocity_to_motion.transpose() +
+         sideSlip(seconds);
 }
 
-Eigen::Matrix3d VelocityMotionModel::covarianceWithoutOdometry(const Twist2& twist,
-                                                               double seconds) const {
-  return covariance(twist, seconds, options_.speed_noise + options_.acceleration_noise * seconds,
-                    options_.yaw_rate_noise + options_.yaw_acceleration_noise * seconds);
+Eigen::Matrix3d VelocityMotionModel::sideSlip(double seconds) const {
+  const double sigma = options_.side_slip_noise * seconds;
+  return Eigen::Vector3d(0.0, sigma * sigma, 0.0).asDiagonal();
 }
 
-Eigen::Matrix3d VelocityMotionModel::covarianceOfUnknownMotion(double seconds) const {
-  return covariance({}, seconds, options_.initial_speed_sigma, options_.initial_yaw_rate_sigma);
+Eigen::Matrix2d VelocityMotionModel::velocityCovariance(const Twist2& twist) const {
+  const double speed =
+      options_.speed_noise + options_.speed_noise_ratio * std::abs(twist.forward_speed);
+  const double yaw_rate =
+      options_.yaw_rate_noise + options_.yaw_rate_noise_ratio * std::abs(twist.yaw_rate);
+  return Eigen::Vector2d(speed * speed, yaw_rate * yaw_rate).asDiagonal();
+}
+
+Eigen::Matrix2d VelocityMotionModel::velocityChange(double seconds) const {
+  const double speed = options_.acceleration_noise * options_.acceleration_noise;
+  const double yaw_rate = options_.yaw_acceleration_noise * options_.yaw_acceleration_noise;
+  return (seconds * Eigen::Vector2d(speed, yaw_rate)).asDiagonal();
+}
+
+Eigen::Matrix2d VelocityMotionModel::initialVelocityCovariance() const {
+  const double speed = options_.initial_speed_sigma * options_.initial_speed_sigma;
+  const double yaw_rate = options_.initial_yaw_rate_sigma * options_.initial_yaw_rate_sigma;
+  return Eigen::Vector2d(speed, yaw_rate).asDiagonal();
 }
 
 }  // namespace datmo

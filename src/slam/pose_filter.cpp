@@ -24,52 +24,63 @@ void PoseFilterOptions::visit(OptionVisitor& visitor) {
 PoseFilter::PoseFilter(const PoseFilterOptions& options, const MotionModelOptions& motion)
     : options_(options), motion_model_(motion) {
   checkOptions(options);
+  covariance_.block<2, 2>(kSpeed, kSpeed) = motion_model_.initialVelocityCovariance();
   if (options_.calibrate_odometry) {
-    covariance_(3, 3) = options_.speed_scale_sigma * options_.speed_scale_sigma;
-    covariance_(4, 4) = options_.yaw_rate_bias_sigma * options_.yaw_rate_bias_sigma;
+    covariance_(kSpeedScale, kSpeedScale) = options_.speed_scale_sigma * options_.speed_scale_sigma;
+    covariance_(kYawRateBias, kYawRateBias) =
+        options_.yaw_rate_bias_sigma * options_.yaw_rate_bias_sigma;
   }
 }
 
 PoseWithCovariance PoseFilter::pose() const { return {pose_, covariance_.topLeftCorner<3, 3>()}; }
 
-void PoseFilter::predict(const Pose2& motion, const Eigen::Matrix3d& motion_noise) {
+void PoseFilter::move(const Pose2& motion, double seconds, State speed, double speed_factor,
+                      State yaw_rate, double yaw_rate_factor) {
   const Pose2 next = pose_ * motion;
-  // The heading's error turns the motion; the motion's own noise comes on top.
-  Covariance transport = Covariance::Identity();
-  transport(0, 2) = pose_.y() - next.y();
-  transport(1, 2) = next.x() - pose_.x();
-  covariance_ = transport * covariance_ * transport.transpose();
-  Eigen::Matrix3d to_map = Eigen::Matrix3d::Identity();
-  to_map.topLeftCorner<2, 2>() = next.rotation();
-  covariance_.topLeftCorner<3, 3>() += to_map * motion_noise * to_map.transpose();
+  const Point2 along = next.rotate(Point2(1.0, 0.0));
+  const Point2 aside = next.rotate(Point2(0.0, 1.0));
+  Covariance transition = Covariance::Identity();
+  // The heading's error turns the motion.
+  transition(kX, kHeading) = pose_.y() - next.y();
+  transition(kY, kHeading) = next.x() - pose_.x();
+  transition.block<2, 1>(kX, speed) = speed_factor * seconds * along;
+  // A turn bends the path, so that half of it also moves the vehicle sideways.
+  const double length = twistOf(motion, seconds).forward_speed * seconds;
+  transition.block<2, 1>(kX, yaw_rate) = 0.5 * yaw_rate_factor * length * seconds * aside;
+  transition(kHeading, yaw_rate) = yaw_rate_factor * seconds;
+  covariance_ = transition * covariance_ * transition.transpose();
   pose_ = next;
+}
+
+void PoseFilter::addPoseNoise(const Eigen::Matrix3d& motion_noise) {
+  Eigen::Matrix3d to_map = Eigen::Matrix3d::Identity();
+  to_map.topLeftCorner<2, 2>() = pose_.rotation();
+  covariance_.topLeftCorner<3, 3>() += to_map * motion_noise * to_map.transpose();
 }
 
 void PoseFilter::predictMeasured(const Pose2& motion, double seconds) {
   const Twist2 twist = twistOf(motion, seconds);
-  // A larger scale or bias would have meant a shorter motion, and less of a turn; the turn bends
-  // the path, so that half of it also moves the vehicle sideways.
-  const Point2 along = (pose_ * motion).rotate(Point2(1.0, 0.0));
-  const Point2 aside = (pose_ * motion).rotate(Point2(0.0, 1.0));
-  const double length = twist.forward_speed * seconds;
-  Covariance calibration = Covariance::Identity();
-  calibration.block<2, 1>(0, 3) = -length * along / (1.0 + errors_.speed_scale);
-  calibration.block<2, 1>(0, 4) = -0.5 * length * seconds * aside;
-  calibration(2, 4) = -seconds;
-  predict(motion, motion_model_.covariance(twist, seconds));
-  covariance_ = calibration * covariance_ * calibration.transpose();
+  // A larger scale or bias would have meant a shorter motion, and less of a turn.
+  const double speed_factor = -twist.forward_speed / (1.0 + errors_.speed_scale);
+  move(motion, seconds, kSpeedScale, speed_factor, kYawRateBias, -1.0);
+  addPoseNoise(motion_model_.covariance(twist, seconds));
   if (options_.calibrate_odometry) {
-    covariance_(3, 3) += options_.speed_scale_drift * options_.speed_scale_drift * seconds;
-    covariance_(4, 4) += options_.yaw_rate_bias_drift * options_.yaw_rate_bias_drift * seconds;
+    covariance_(kSpeedScale, kSpeedScale) +=
+        options_.speed_scale_drift * options_.speed_scale_drift * seconds;
+    covariance_(kYawRateBias, kYawRateBias) +=
+        options_.yaw_rate_bias_drift * options_.yaw_rate_bias_drift * seconds;
   }
+  // The odometry tells the velocity, whatever was known of it before.
+  velocity_ = twist;
+  covariance_.middleRows<2>(kSpeed).setZero();
+  covariance_.middleCols<2>(kSpeed).setZero();
+  covariance_.block<2, 2>(kSpeed, kSpeed) = motion_model_.velocityCovariance(twist);
 }
 
-void PoseFilter::predictUnmeasured(const Pose2& motion, double seconds) {
-  predict(motion, motion_model_.covarianceWithoutOdometry(twistOf(motion, seconds), seconds));
-}
-
-void PoseFilter::predictUnknown(double seconds) {
-  predict(Pose2(), motion_model_.covarianceOfUnknownMotion(seconds));
+void PoseFilter::predictUnmeasured(double seconds) {
+  covariance_.block<2, 2>(kSpeed, kSpeed) += motion_model_.velocityChange(seconds);
+  move(arc(velocity_, seconds), seconds, kSpeed, 1.0, kYawRate, 1.0);
+  addPoseNoise(motion_model_.sideSlip(seconds));
 }
 
 void PoseFilter::correct(const PoseWithCovariance& matched) {
@@ -79,8 +90,10 @@ void PoseFilter::correct(const PoseWithCovariance& matched) {
   const Eigen::Vector3d learned(matched.pose.x() - pose_.x(), matched.pose.y() - pose_.y(),
                                 angleBetween(pose_.heading(), matched.pose.heading()));
   const Eigen::Matrix<double, kStates, 1> step = gain * learned;
-  errors_.speed_scale += step[3];
-  errors_.yaw_rate_bias += step[4];
+  velocity_.forward_speed += step[kSpeed];
+  velocity_.yaw_rate += step[kYawRate];
+  errors_.speed_scale += step[kSpeedScale];
+  errors_.yaw_rate_bias += step[kYawRateBias];
   covariance_ -= gain * (prior - matched.covariance) * gain.transpose();
   covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();
   pose_ = matched.pose;

@@ -56,17 +56,8 @@ class GridSlam {
   void reset();
 
  private:
-  /// Where the vehicle was at one time.
-  struct StampedPose {
-    Stamp stamp;
-    Pose2 pose;
-  };
-
   /// Returns whether odometry served.
   bool predict(Stamp stamp);
-
-  /// From the way since the velocity's last estimate, if that was long enough ago.
-  void estimateVelocity(const StampedPose& now, bool pose_is_known);
 
   GridSlamOptions options_;
   ScanMatcher matcher_;
@@ -74,9 +65,7 @@ class GridSlam {
   OdometryBuffer odometry_;
   Random random_;
   PoseFilter filter_;
-  std::optional<Twist2> velocity_;            ///< as estimated last
-  std::optional<StampedPose> velocity_from_;  ///< at that time
-  std::optional<Stamp> stamp_;                ///< of the last scan
+  std::optional<Stamp> stamp_;  ///< of the last scan
 };
 
 }  // namespace datmo

@@ -11,8 +11,8 @@ struct MotionModelOptions {
   double yaw_rate_noise = 0.02;     ///< rad/s
   double yaw_rate_noise_ratio = 0.1;
   double side_slip_noise = 0.05;        ///< m/s, sideways
-  double acceleration_noise = 3.0;      ///< m/s^2
-  double yaw_acceleration_noise = 0.5;  ///< rad/s^2
+  double acceleration_noise = 3.0;      ///< m/s per square root of s
+  double yaw_acceleration_noise = 0.5;  ///< rad/s per square root of s
   double initial_speed_sigma = 10.0;    ///< m/s
   double initial_yaw_rate_sigma = 0.3;  ///< rad/s
 
@@ -31,18 +31,19 @@ class VelocityMotionModel {
   /// frame of the pose that it leads to.
   Eigen::Matrix3d covariance(const Twist2& twist, double seconds) const;
 
-  /// The same where there is no odometry and `twist` is only the last known one: it may have
-  /// changed since.
-  Eigen::Matrix3d covarianceWithoutOdometry(const Twist2& twist, double seconds) const;
+  /// The part of it that neither speed nor yaw rate makes.
+  Eigen::Matrix3d sideSlip(double seconds) const;
 
-  /// The same where nothing is known of the motion yet: the second scan of a vehicle without
-  /// odometry.
-  Eigen::Matrix3d covarianceOfUnknownMotion(double seconds) const;
+  /// Covariance of speed (m/s) and yaw rate (rad/s) that odometry measured as this.
+  Eigen::Matrix2d velocityCovariance(const Twist2& twist) const;
+
+  /// How much they may have changed in this time, where there is no odometry.
+  Eigen::Matrix2d velocityChange(double seconds) const;
+
+  /// Before anything is known of them.
+  Eigen::Matrix2d initialVelocityCovariance() const;
 
  private:
-  Eigen::Matrix3d covariance(const Twist2& twist, double seconds, double speed_sigma,
-                             double yaw_rate_sigma) const;
-
   MotionModelOptions options_;
 };
 

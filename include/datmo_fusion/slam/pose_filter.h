@@ -28,15 +28,16 @@ struct OdometryErrors {
   }
 };
 
-/// Extended Kalman filter over the vehicle's pose in the map and the systematic errors of its
-/// odometry (wheel radius, bias of the yaw-rate sensor), which the scan matches make observable.
-/// The thesis takes odometry as unbiased; a bias that each match has to take out again leaves a
-/// part of itself in the map at every scan.
+/// Extended Kalman filter over the vehicle's pose in the map, its velocity, and the systematic
+/// errors of its odometry (wheel radius, bias of the yaw-rate sensor), which the scan matches make
+/// observable. The thesis takes odometry as unbiased; a bias that each match has to take out again
+/// leaves a part of itself in the map at every scan. Without odometry the velocity is a state that
+/// the matches tell, and that changes by a random walk.
 ///
 /// Called by GridSlam: predict, match, correct.
 class PoseFilter {
  public:
-  /// Throws OptionError.
+  /// At the origin, with a velocity of which little is known. Throws OptionError.
   PoseFilter(const PoseFilterOptions& options, const MotionModelOptions& motion);
 
   const OdometryErrors& errors() const { return errors_; }
@@ -45,24 +46,27 @@ class PoseFilter {
   /// After `seconds` (more than 0) of `motion`, measured by odometry and corrected by errors().
   void predictMeasured(const Pose2& motion, double seconds);
 
-  /// After `seconds` (more than 0) of `motion`, which only carries on the last velocity.
-  void predictUnmeasured(const Pose2& motion, double seconds);
-
-  /// After `seconds` (more than 0) of a motion of which nothing is known.
-  void predictUnknown(double seconds);
+  /// After `seconds` (more than 0) without odometry.
+  void predictUnmeasured(double seconds);
 
   /// Takes the pose that a match found from pose() as its prior.
   void correct(const PoseWithCovariance& matched);
 
  private:
-  static constexpr int kStates = 5;  ///< x, y, heading, speed scale, yaw-rate bias
+  /// Order of the states: pose (x, y, heading), velocity, errors of the odometry.
+  enum State { kX, kY, kHeading, kSpeed, kYawRate, kSpeedScale, kYawRateBias, kStates };
   using Covariance = Eigen::Matrix<double, kStates, kStates>;
 
-  void predict(const Pose2& motion, const Eigen::Matrix3d& motion_noise);
+  /// Moves the pose; `speed` and `yaw_rate` are the states that, by these factors, make the motion
+  /// longer and turn it more.
+  void move(const Pose2& motion, double seconds, State speed, double speed_factor, State yaw_rate,
+            double yaw_rate_factor);
+  void addPoseNoise(const Eigen::Matrix3d& motion_noise);
 
   PoseFilterOptions options_;
   VelocityMotionModel motion_model_;
   Pose2 pose_;
+  Twist2 velocity_;
   OdometryErrors errors_;
   Covariance covariance_ = Covariance::Zero();
 };

@@ -40,13 +40,19 @@ TEST(VelocityMotionModelTest, AgreesWithArcsOfNoisyTwists) {
   EXPECT_NEAR(sampled(1, 2) / expected(1, 2), 1.0, 0.05);
 }
 
-TEST(VelocityMotionModelTest, WithoutOdometryMoreIsPossible) {
+TEST(VelocityMotionModelTest, WithoutOdometryTheVelocityIsARandomWalk) {
   const VelocityMotionModel model(MotionModelOptions{});
-  const Twist2 twist{1.0, 0.0};
-  const Eigen::Matrix3d with = model.covariance(twist, 0.5);
-  const Eigen::Matrix3d without = model.covarianceWithoutOdometry(twist, 0.5);
-  EXPECT_GT(without(0, 0), with(0, 0));
-  EXPECT_GT(without(2, 2), with(2, 2));
+  EXPECT_TRUE(
+      (model.velocityChange(0.2) + model.velocityChange(0.3)).isApprox(model.velocityChange(0.5)));
+  EXPECT_NEAR(model.velocityChange(0.25)(0, 0), 3.0 * 3.0 * 0.25, 1e-12);
+}
+
+TEST(VelocityMotionModelTest, WhatIsAssumedOfTheStartIsAnOption) {
+  const auto options = readOptions<MotionModelOptions>(
+      {{"initial_speed_sigma", 2.0}, {"initial_yaw_rate_sigma", 0.5}});
+  const Eigen::Matrix2d start = VelocityMotionModel(options).initialVelocityCovariance();
+  EXPECT_NEAR(start(0, 0), 2.0 * 2.0, 1e-12);
+  EXPECT_NEAR(start(1, 1), 0.5 * 0.5, 1e-12);
 }
 
 TEST(VelocityMotionModelTest, RefusesBadOptions) {

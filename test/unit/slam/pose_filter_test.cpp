@@ -90,11 +90,31 @@ TEST(PoseFilterTest, PredictionAloneGrowsTheCovariance) {
   PoseFilter filter({}, {});
   double last = -1.0;
   for (int i = 0; i < 20; ++i) {
-    filter.predictUnmeasured(arc({5.0, 0.1}, 0.1), 0.1);
+    filter.predictUnmeasured(0.1);
     const double now = filter.pose().covariance.determinant();
     EXPECT_GT(now, last);
     last = now;
   }
+}
+
+TEST(PoseFilterTest, WithoutOdometryTheVelocityIsLearnedFromTheMatches) {
+  PoseFilter filter({}, {});
+  const Eigen::Matrix3d noise =
+      Eigen::Vector3d(0.03 * 0.03, 0.03 * 0.03, 0.004 * 0.004).asDiagonal();
+  Pose2 truth;
+  Random random(3);
+  for (int i = 0; i < 30; ++i) {
+    truth = truth * arc({8.0, 0.2}, 0.1);
+    filter.predictUnmeasured(0.1);
+    const Pose2 seen(truth.x() + random.normal(0.03), truth.y() + random.normal(0.03),
+                     truth.heading() + random.normal(0.004));
+    filter.correct(fuse(filter.pose(), seen, noise));
+  }
+  // Half a second without a match: the velocity carries it on.
+  filter.predictUnmeasured(0.5);
+  truth = truth * arc({8.0, 0.2}, 0.5);
+  EXPECT_LT((filter.pose().pose.position() - truth.position()).norm(), 0.3);
+  EXPECT_DOUBLE_EQ(filter.errors().speed_scale, 0.0);
 }
 
 TEST(PoseFilterTest, AMatchThatOnlyRepeatsThePriorChangesNothing) {
