@@ -7,6 +7,7 @@ import math
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 import rosbag
@@ -257,6 +258,28 @@ class Errors(Conversion):
         self.bag = self.root / "no" / "out.bag"
         self.assert_refused(str(self.bag), "cannot be written")
 
+    def test_folder_is_no_bag_to_write(self):
+        self.bag = self.drive
+        self.assert_refused(f"{self.drive}: is a folder")
+
+    def test_no_scan_at_all(self):
+        for path in (self.drive / "velodyne_points" / "data").iterdir():
+            path.unlink()
+        self.assert_refused("(4 of 4)", options=["--allow-missing-scans"])
+
+    def test_interruption(self):
+        with mock.patch("datmo_tools.kitti_raw.Drive.cloud", side_effect=KeyboardInterrupt):
+            self.assert_refused("interrupted, no bag written")
+
+    def test_number_that_is_none(self):
+        with contextlib.redirect_stderr(io.StringIO()) as said, self.assertRaises(SystemExit):
+            main([str(self.drive), str(self.bag), "--scan-resolution", "fine"])
+        self.assertIn("--scan-resolution: 'fine', expected a finite number", said.getvalue())
+
+    def test_images_without_opencv(self):
+        with mock.patch.dict("sys.modules", cv2=None):
+            self.assert_refused("expected Debian's python3-opencv", options=["--images"])
+
     def test_earlier_bag_survives_a_failure(self):
         self.run_tool()
         before = self.bag.read_bytes()
@@ -281,6 +304,13 @@ class ProgressBar(unittest.TestCase):
             progress.update(done)
         self.assertTrue(stream.getvalue().endswith(f"\rwork [{'#' * 40}] 100 %\n"))
         self.assertEqual(stream.getvalue().count("\r"), 41)
+
+    def test_bar_that_is_broken_off_leaves_the_line(self):
+        stream = Terminal()
+        with self.assertRaises(ValueError), Progress(200, "work", stream) as progress:
+            progress.update(100)
+            raise ValueError
+        self.assertTrue(stream.getvalue().endswith(" 50 %\n"))
 
     def test_few_lines_in_a_log(self):
         stream = io.StringIO()

@@ -87,7 +87,7 @@ class EmulatedScanner(unittest.TestCase):
         scanner_emulation.check(good)
         for bad, name in (
             (good._replace(resolution=0.0), "--scan-resolution is 0"),
-            (good._replace(resolution=3.0), "no multiple of 3"),
+            (good._replace(resolution=3.0), "no multiple of --scan-resolution 3"),
             (good._replace(field_of_view=360.0), "--scan-fov is 360"),
             (good._replace(range_min=50.0), "--scan-range is 50 50"),
             (good._replace(band_low=1.0), "--scan-band is 1 0.9"),

@@ -43,13 +43,14 @@ def convert(folder, bag_path, options, stream=None):
     Raises InputError, and leaves no bag behind, where a file or an option cannot be used.
     """
     scanner_emulation.check(options.scanner)
+    if bag_path.is_dir():
+        raise InputError(f"{bag_path}: is a folder, expected the name of a bag")
     conversion = _Conversion(folder, options)
     events = sorted(
         conversion.events(), key=lambda event: event.stamp
     )  # stable: equal stamps keep order
-    progress = Progress(len(events), "kitti_to_bag", stream)
     try:
-        with whole_bag(bag_path) as bag:
+        with whole_bag(bag_path) as bag, Progress(len(events), "kitti_to_bag", stream) as progress:
             conversion.write_mounts(bag, events[0].stamp - MOUNTS_LEAD)
             for done, event in enumerate(events, 1):
                 event.write(bag, event.stamp, event.frame)
@@ -174,10 +175,10 @@ def _chosen_frames(drive, options):
         )
     frames = range(options.start, end)
     missing = [frame for frame in frames if not drive.has_cloud(frame)]
-    if missing and not options.allow_missing_scans:
+    if missing and (not options.allow_missing_scans or len(missing) == len(frames)):
         raise InputError(
             f"{drive.folder / 'velodyne_points' / 'data'}: {missing[0]:010d}.bin is missing "
             f"({len(missing)} of {len(frames)}), expected one for each frame; "
-            "--allow-missing-scans leaves them out"
+            "--allow-missing-scans leaves a few out"
         )
     return frames

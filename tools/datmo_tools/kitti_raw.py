@@ -86,8 +86,7 @@ class Drive:
 
     def image(self, camera, frame, width, height):
         """Gray image (height x width, uint8) of a camera."""
-        import cv2  # only needed with images, and slow to load
-
+        cv2 = _image_library()
         path = self._file(f"image_{camera:02d}", frame, ".png")
         expected = f"expected a gray PNG of {width} x {height}"
         if not path.is_file():
@@ -127,6 +126,15 @@ class Drive:
                 f"{path}: {len(stamps)} stamps, expected {length}, as the Velodyne has"
             )
         return stamps
+
+
+def _image_library():
+    """OpenCV: only needed with images, and slow to load."""
+    try:
+        import cv2
+    except ImportError as error:
+        raise InputError(f"images need OpenCV, expected Debian's python3-opencv ({error})") from error
+    return cv2
 
 
 def _read_text(path):

@@ -2,6 +2,7 @@
 
 import argparse
 import math
+import signal
 import sys
 from pathlib import Path
 
@@ -27,10 +28,14 @@ def main(arguments=None):
     """Runs the command line; returns its exit code."""
     parser = _parser()
     values = parser.parse_args(arguments)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl-C: cleans up on the way out
     try:
         kitti_bag.convert(values.drive, values.bag, _options(values))
     except InputError as error:
         print(f"kitti_to_bag: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("kitti_to_bag: interrupted, no bag written", file=sys.stderr)
         return 1
     return 0
 
@@ -117,9 +122,12 @@ def _add_number(group, name, default, metavar, description):
 
 def _number(text):
     """A finite number; argparse names the option where it is none."""
-    value = float(text)
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
     if not math.isfinite(value):
-        raise ValueError(text)
+        raise argparse.ArgumentTypeError(f"'{text}', expected a finite number")
     return value
 
 

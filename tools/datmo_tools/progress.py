@@ -19,6 +19,14 @@ class Progress:
         self._is_terminal = self._stream.isatty()
         self._shown = -1
 
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        """Leaves a bar that did not come to its end on a line of its own."""
+        if self._is_terminal and 0 <= self._shown < BAR_WIDTH:
+            self._stream.write("\n")
+
     def update(self, done):
         """Shows `done` steps (0 to total), unless the same text stands there already."""
         steps = BAR_WIDTH if self._is_terminal else LINES_IN_A_LOG

@@ -18,6 +18,9 @@ from datmo_tools.errors import InputError
 CAR_REAR, CAR_FRONT, CAR_HALF_WIDTH = -2.7, 2.7, 1.15
 
 
+FINEST_RESOLUTION = 0.01  # degrees: a tenth of the Velodyne's own, and not too many beams to hold
+
+
 class ScannerOptions(NamedTuple):
     """Geometry of the emulated scanner; the defaults are the demonstrator's (thesis 1.3.3)."""
 
@@ -62,8 +65,8 @@ def check(options):
     steps = options.field_of_view / options.resolution if options.resolution > 0.0 else 0.0
     rules = (
         (
-            options.resolution > 0.0,
-            f"--scan-resolution is {options.resolution:g}, expected more than 0",
+            options.resolution >= FINEST_RESOLUTION,
+            f"--scan-resolution is {options.resolution:g}, expected {FINEST_RESOLUTION:g} or more",
         ),
         (
             0.0 < options.field_of_view < 360.0,
@@ -71,7 +74,8 @@ def check(options):
         ),
         (
             steps >= 1.0 and abs(steps - round(steps)) < 1e-6,
-            f"--scan-fov {options.field_of_view:g} is no multiple of {options.resolution:g}",
+            f"--scan-fov {options.field_of_view:g} is no multiple of "
+            f"--scan-resolution {options.resolution:g}, expected one",
         ),
         (
             0.0 <= options.range_min < options.range_max,
