@@ -6,9 +6,6 @@ namespace datmo {
 
 namespace {
 
-/// Odometry this old (s) serves no scan any more.
-constexpr double kOdometryMemory = 10.0;
-
 /// State of each ray, in order; kUnknown for beams without a hit.
 std::vector<PointState> judge(const Scan& scan, const OccupancyMap& map, const Pose2& base_in_map) {
   std::vector<PointState> states;

@@ -8,6 +8,9 @@
 
 namespace datmo {
 
+/// Odometry this much older (s) than the newest serves no scan any more.
+inline constexpr double kOdometryMemory = 10.0;
+
 /// Speed and turn rate as the vehicle measured them at one time.
 struct OdometrySample {
   Stamp stamp;
