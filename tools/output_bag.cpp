@@ -8,8 +8,16 @@
 
 namespace datmo {
 
+bool isSameFile(const std::string& a, const std::string& b) {
+  std::error_code not_there;  // then they are not the same, unless they are spelt the same
+  return a == b || std::filesystem::equivalent(a, b, not_there);
+}
+
 OutputBag::OutputBag(const std::string& file, rosbag::CompressionType compression)
     : file_(file), part_(file + ".part") {
+  if (std::filesystem::is_directory(file_)) {
+    throw std::runtime_error(file_ + ": is a folder, expected the name of a bag");
+  }
   try {
     bag_.open(part_, rosbag::bagmode::Write);
     bag_.setCompression(compression);

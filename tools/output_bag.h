@@ -10,11 +10,14 @@
 
 namespace datmo {
 
+/// Whether both names lead to one file, which writing the one would then take from the other.
+bool isSameFile(const std::string& a, const std::string& b);
+
 /// A bag that appears under its name when it is complete, and not at all otherwise: it is written
 /// beside it as `<file>.part`, which goes away unless finish() is reached.
 class OutputBag {
  public:
-  /// Throws std::runtime_error that names the file if it cannot be written.
+  /// Throws std::runtime_error that names the file if it cannot be written: a folder, no rights.
   explicit OutputBag(const std::string& file,
                      rosbag::CompressionType compression = rosbag::compression::LZ4);
   ~OutputBag();

@@ -28,7 +28,7 @@ void ProgressBar::show(double share, const std::string& note) {
         << std::setw(3) << std::lround(100.0 * done) << " % " << note << std::flush;
 }
 
-void ProgressBar::clear() {
+ProgressBar::~ProgressBar() {
   if (out_ != nullptr) {
     *out_ << "\r\033[K" << std::flush;
   }

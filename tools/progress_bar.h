@@ -11,12 +11,13 @@ class ProgressBar {
  public:
   /// `out` null: draws nothing.
   explicit ProgressBar(std::ostream* out);
+  /// Clears the line, so that what is printed next, be it an error, has it for itself.
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
 
   /// `share` of the job that is done, 0 to 1; `note` stands behind the bar.
   void show(double share, const std::string& note);
-
-  /// Clears the line.
-  void clear();
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -1,15 +1,19 @@
 #include "yaml_options.h"
 
+#include <ios>
+
 namespace datmo {
 
 namespace {
+
+const char* const kNoFile = ": expected a yaml file that can be read";
 
 /// yaml-cpp's mark of a plain scalar; quoted text has the tag "!".
 const char* const kPlainTag = "?";
 
 void flatten(const std::string& prefix, const YAML::Node& section, OptionValues& values) {
   for (const auto& entry : section) {
-    const std::string key = prefix + entry.first.as<std::string>();
+    const std::string key = prefix + keyOf(entry.first);
     if (entry.second.IsMap()) {
       flatten(key + "/", entry.second, values);
     } else if (!values.emplace(key, optionValue(key, entry.second)).second) {
@@ -24,11 +28,21 @@ YAML::Node loadYaml(const std::string& file) {
   try {
     return YAML::LoadFile(file);
   } catch (const YAML::BadFile&) {
-    throw OptionError(file + ": expected a yaml file that can be read");
+    throw OptionError(file + kNoFile);
+  } catch (const std::ios_base::failure&) {  // a folder
+    throw OptionError(file + kNoFile);
   } catch (const YAML::ParserException& error) {
     throw OptionError(file + ":" + std::to_string(error.mark.line + 1) + ": expected yaml, but " +
                       error.msg);
   }
+}
+
+std::string keyOf(const YAML::Node& node) {
+  if (!node.IsScalar()) {
+    throw OptionError("a key in line " + std::to_string(node.Mark().line + 1) +
+                      " is no plain text: expected a name");
+  }
+  return node.Scalar();
 }
 
 OptionValue optionValue(const std::string& key, const YAML::Node& node) {

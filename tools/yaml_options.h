@@ -11,6 +11,9 @@ namespace datmo {
 /// Parses a yaml file. Throws OptionError that names the file, and the line where it is no yaml.
 YAML::Node loadYaml(const std::string& file);
 
+/// A key of a map as text. Throws OptionError that names the line if it is a list or a map.
+std::string keyOf(const YAML::Node& node);
+
 /// One plain value: true or false, a whole number, a number, or text (always where it is quoted).
 /// Throws OptionError unless `node` is a scalar; `key` is named in the message.
 OptionValue optionValue(const std::string& key, const YAML::Node& node);

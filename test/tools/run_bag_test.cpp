@@ -1,10 +1,12 @@
 // The bag runner on a small drive that is written here: a car between two walls, at 5 m/s
 // towards a third.
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
+#include "interruption.h"
 #include "run_bag/bag_run.h"
 #include "run_bag/input_bag.h"
 #include "run_bag/stage_times.h"
@@ -108,7 +110,7 @@ class RunBag : public testing::Test {
 
   std::string run() const {
     std::ostringstream out;
-    runBag(arguments_, out, false);
+    runBag(arguments_, out, nullptr);
     return out.str();
   }
 
@@ -237,6 +239,32 @@ TEST_F(RunBag, MisspeltKeyIsNamedWithItsSection) {
 TEST_F(RunBag, UnknownSectionIsNamed) {
   writeConfig("grid_slm: {map_period: 1.0}\n");
   EXPECT_TRUE(holds(failure(), arguments_.config + ": grid_slm"));
+}
+
+TEST_F(RunBag, InterruptionLeavesNoBag) {
+  writeDrive();
+  noteInterruptions();
+  std::raise(SIGINT);
+  EXPECT_TRUE(holds(failure(), "interrupted"));
+  noteInterruptions();
+  EXPECT_FALSE(run().empty());
+}
+
+TEST_F(RunBag, FolderIsNoBagToWrite) {
+  writeDrive();
+  std::filesystem::create_directory(arguments_.output);
+  EXPECT_THROW(run(), std::runtime_error);
+  EXPECT_TRUE(std::filesystem::is_directory(arguments_.output));
+  EXPECT_FALSE(std::filesystem::exists(arguments_.output + ".part"));
+}
+
+TEST_F(RunBag, InputIsNotOverwrittenUnderWhateverName) {
+  writeDrive();
+  const std::string other_name = (folder_ / "." / "in.bag").string();
+  EXPECT_THROW(parseArguments({arguments_.input, other_name, "--config", arguments_.config}),
+               UsageError);
+  EXPECT_THROW(parseArguments({arguments_.input, arguments_.config, "--config", arguments_.config}),
+               UsageError);
 }
 
 TEST(RunBagArguments, AreReadInAnyOrder) {

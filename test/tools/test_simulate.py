@@ -73,6 +73,21 @@ class Simulate(unittest.TestCase):
     def test_bag_that_cannot_be_written(self):
         self.assert_refused(SCENE, self.folder / "none" / "out.bag", expected=["none/out.bag"])
 
+    def test_scene_is_not_overwritten(self):
+        scene = self.folder / "scene.yaml"
+        scene.write_text("ego: {}\n")
+        self.assert_refused(scene, self.folder / "." / "scene.yaml", expected=["scene.yaml"])
+        self.assertEqual(scene.read_text(), "ego: {}\n")
+
+    def test_folders(self):
+        self.assert_refused(self.folder, self.bag, expected=[f"{self.folder}: expected a yaml"])
+        self.assert_refused(SCENE, self.folder, expected=[f"{self.folder}: is a folder"])
+
+    def test_key_that_is_no_name(self):
+        scene = self.folder / "bad.yaml"
+        scene.write_text("ego: {}\n? [a]\n: b\n")
+        self.assert_refused(scene, self.bag, expected=["bad.yaml: a key in line 2"])
+
     def test_wrong_usage(self):
         self.assert_refused(SCENE, expected=["expected a scene and a bag"])
         self.assert_refused(SCENE, self.bag, "--fast", expected=["--fast"])

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "output_bag.h"
+
 namespace datmo {
 
 namespace {
@@ -38,8 +40,10 @@ void checkFiles(const Arguments& arguments) {
   if (arguments.output.empty()) {
     throw UsageError("expected an input and an output bag");
   }
-  if (arguments.input == arguments.output) {
-    throw UsageError("'" + arguments.output + "': the output must not be the input");
+  for (const std::string& input : {arguments.input, arguments.config}) {
+    if (isSameFile(arguments.output, input)) {
+      throw UsageError("'" + arguments.output + "': the output must not be an input");
+    }
   }
   if (arguments.config.empty()) {
     throw UsageError("expected --config and a yaml file");
@@ -56,6 +60,9 @@ std::string Arguments::inputTopic(const std::string& topic) const {
 std::string usage() {
   return "usage: run_bag IN.bag OUT.bag --config CONFIG.yaml [--with-truth] [--quiet]"
          " [TOPIC:=TOPIC_OF_THE_BAG ...]\n"
+         "Takes the scans and the odometry of a bag through the stack, as fast as it goes, and "
+         "writes\n"
+         "/pose, /map, /split_scan, /objects, /tracks and /tf to another bag.\n"
          "  --config CONFIG.yaml  the sensor set, e.g. config/demonstrator.yaml\n"
          "  --with-truth          copies /ground_truth/* along\n"
          "  --quiet               no progress bar and no table\n"

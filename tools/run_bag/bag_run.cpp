@@ -9,6 +9,7 @@
 
 #include "drive_summary.h"
 #include "input_bag.h"
+#include "interruption.h"
 #include "output_bag.h"
 #include "pipeline.h"
 #include "progress_bar.h"
@@ -162,15 +163,18 @@ OrderedMessages inOrder(rosbag::View& view, const InputTopics& topics) {
   return messages;
 }
 
-void carry(rosbag::View& view, const InputTopics& topics, BagRun& run, ProgressBar& bar) {
+void carry(rosbag::View& view, const InputTopics& topics, BagRun& run, std::ostream* progress) {
   const double length = lengthOf(view);
+  ProgressBar bar(progress);
   const Stopwatch watch;
   for (const auto& [order, message] : inOrder(view, topics)) {
+    if (interrupted()) {
+      throw std::runtime_error("interrupted, so that no bag is written");
+    }
     run.take(message);
     const double done = (order.first - view.getBeginTime()).toSec();
     bar.show(length > 0.0 ? done / length : 1.0, speedNote(done, watch.seconds()));
   }
-  bar.clear();
 }
 
 void checkScans(const std::string& file, const DriveSummary& drive, const Pipeline& pipeline) {
@@ -188,7 +192,7 @@ void checkScans(const std::string& file, const DriveSummary& drive, const Pipeli
 
 }  // namespace
 
-void runBag(const Arguments& arguments, std::ostream& out, bool with_progress) {
+void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progress) {
   const PipelineOptions options = readPipelineOptions(arguments.config);
   rosbag::Bag bag;
   openInput(arguments.input, bag);
@@ -197,12 +201,15 @@ void runBag(const Arguments& arguments, std::ostream& out, bool with_progress) {
   Pipeline pipeline(options);
   DriveSummary drive;
   BagRun run(topics, pipeline, drive, output);
-  ProgressBar bar(with_progress && !arguments.quiet ? &out : nullptr);
 
   run.takeStaticTransforms(bag);
   rosbag::View view(bag, rosbag::TopicQuery(topics.all()));
   const Stopwatch watch;
-  carry(view, topics, run, bar);
+  try {
+    carry(view, topics, run, arguments.quiet ? nullptr : progress);
+  } catch (const std::exception& error) {
+    throw std::runtime_error(arguments.input + " to " + arguments.output + ": " + error.what());
+  }
   const double took = watch.seconds();
   checkScans(arguments.input, drive, pipeline);
   output.finish();

@@ -1,26 +1,31 @@
 // The stack on a bag, without a master: see usage() and bag_run.h.
 #include <cstdlib>
 #include <iostream>
+#include <string>
+#include <vector>
 
 #include "arguments.h"
 #include "bag_run.h"
+#include "interruption.h"
 #include <unistd.h>
 
 #include <ros/time.h>
-#include <rosbag/exceptions.h>
 
 int main(int count, char** words) {
   using namespace datmo;
+  const std::vector<std::string> arguments_given(words + 1, words + count);
+  if (arguments_given == std::vector<std::string>{"--help"} ||
+      arguments_given == std::vector<std::string>{"-h"}) {
+    std::cout << usage();
+    return EXIT_SUCCESS;
+  }
   try {
-    const Arguments arguments = parseArguments({words + 1, words + count});
+    const Arguments arguments = parseArguments(arguments_given);
     ros::Time::init();
-    runBag(arguments, std::cout, isatty(STDOUT_FILENO) != 0);
+    noteInterruptions();
+    runBag(arguments, std::cout, isatty(STDERR_FILENO) != 0 ? &std::cerr : nullptr);
   } catch (const UsageError& error) {
     std::cerr << "run_bag: " << error.what() << '\n' << usage();
-    return EXIT_FAILURE;
-  } catch (const rosbag::BagException& error) {
-    std::cerr << "run_bag: the input cannot be read to its end, or the output not be written: "
-              << error.what() << '\n';
     return EXIT_FAILURE;
   } catch (const std::exception& error) {
     std::cerr << "run_bag: " << error.what() << '\n';

@@ -15,7 +15,7 @@ const std::array<std::string, 4> kSections = {"grid_slam", "moving_objects", "tr
 
 void checkSections(const std::string& file, const YAML::Node& root) {
   for (const auto& entry : root) {
-    const auto name = entry.first.as<std::string>();
+    const std::string name = keyOf(entry.first);
     if (std::find(kSections.begin(), kSections.end(), name) == kSections.end()) {
       throw OptionError(file + ": " + name +
                         ": expected grid_slam, moving_objects, tracker or markers");

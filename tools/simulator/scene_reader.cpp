@@ -73,7 +73,7 @@ void expectKeys(const YAML::Node& node, const std::set<std::string>& known) {
     throw OptionError("expected the sections " + names);
   }
   for (const auto& entry : node) {
-    const auto key = entry.first.as<std::string>();
+    const std::string key = keyOf(entry.first);
     if (known.count(key) == 0) {
       throw OptionError(key + ": expected one of the sections " + names);
     }

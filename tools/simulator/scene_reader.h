@@ -43,7 +43,7 @@ Item readItem(const YAML::Node& entry, const std::set<std::string>& lists = {}) 
   }
   YAML::Node values(YAML::NodeType::Map);
   for (const auto& pair : entry) {
-    if (lists.count(pair.first.as<std::string>()) == 0) {
+    if (lists.count(keyOf(pair.first)) == 0) {
       values.force_insert(pair.first, pair.second);
     }
   }

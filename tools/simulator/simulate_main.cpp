@@ -1,7 +1,6 @@
 // simulate scene.yaml out.bag [--seed N] [--set key=value]... [--quiet]
 // A scene file becomes a bag of the demonstrator's sensors with ground truth.
 
-#include <csignal>
 #include <exception>
 #include <iomanip>
 #include <iostream>
@@ -9,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "interruption.h"
+#include "output_bag.h"
 #include "progress_bar.h"
 #include "simulator/simulation_bag.h"
 #include "yaml_options.h"
@@ -30,8 +31,6 @@ constexpr const char* kUsage =
     "  --set key=value  an option instead of the scene's, e.g. --set scanner/beam_spacing=1\n"
     "  --quiet          no progress bar\n"
     "  --options        print all options as a table\n";
-
-volatile std::sig_atomic_t interrupted = 0;
 
 struct Arguments {
   std::vector<std::string> files;  ///< scene, bag
@@ -62,7 +61,7 @@ Arguments parse(const std::vector<std::string>& words) {
       setOption(words[++i], arguments.overrides);
     } else if (word == "--quiet") {
       arguments.quiet = true;
-    } else if (word.rfind("--", 0) == 0) {
+    } else if (word.rfind('-', 0) == 0) {
       throw OptionError(word + ": expected --seed, --set, --quiet or --options");
     } else {
       arguments.files.push_back(word);
@@ -70,7 +69,10 @@ Arguments parse(const std::vector<std::string>& words) {
   }
   if (arguments.files.size() != 2) {
     throw OptionError(std::to_string(arguments.files.size()) +
-                      " files are named: expected a scene and a bag\n" + kUsage);
+                      " files are named: expected a scene and a bag; simulate --help");
+  }
+  if (datmo::isSameFile(arguments.files[0], arguments.files[1])) {
+    throw OptionError(arguments.files[1] + ": the bag must not be the scene");
   }
   return arguments;
 }
@@ -89,9 +91,8 @@ bool simulate(const Arguments& arguments) {
   const bool complete = datmo::simulator::writeSimulationBag(
       scene, arguments.files[1], [&bar, duration](double time) {
         bar.show(time / duration, note(time, duration));
-        return interrupted == 0;
+        return !datmo::interrupted();
       });
-  bar.clear();
   return complete;
 }
 
@@ -99,7 +100,7 @@ bool simulate(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
-  if (words == std::vector<std::string>{"--help"}) {
+  if (words == std::vector<std::string>{"--help"} || words == std::vector<std::string>{"-h"}) {
     std::cout << kUsage;
     return 0;
   }
@@ -107,8 +108,7 @@ int main(int argc, char** argv) {
     std::cout << datmo::optionTable<SimulationOptions>();
     return 0;
   }
-  std::signal(SIGINT, [](int) { interrupted = 1; });
-  std::signal(SIGTERM, [](int) { interrupted = 1; });
+  datmo::noteInterruptions();
   try {
     if (!simulate(parse(words))) {
       std::cerr << "simulate: interrupted, no bag written\n";
