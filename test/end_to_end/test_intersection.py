@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """The simulated intersection through the whole chain, against what is asked: every object that the
 scanner sees moving for more than a second is tracked. With the seed of the committed bag and with
-others, so that it is no matter of luck.
+others, so that it is no matter of luck. And without odometry: the pose holds all the same.
 """
 
 import os
@@ -11,6 +11,7 @@ import unittest
 from pathlib import Path
 
 import rosbag
+import yaml
 
 from score_drive import score, table
 
@@ -22,6 +23,7 @@ SIMULATE = os.environ.get("SIMULATE", "simulate")
 
 LEAST_VISIBLE = 1.0  # s
 MAX_POSE_ERROR = 0.01  # of the distance
+MAX_POSE_ERROR_WITHOUT_ODOMETRY = 0.02
 SEEDS = (1, 2, 3)
 
 
@@ -41,13 +43,13 @@ def seen_moving(bag_path):
 
 
 class Intersection(unittest.TestCase):
-    def run_seed(self, folder, seed):
+    def run_seed(self, folder, seed, config=CONFIG):
         recorded, computed = Path(folder) / "drive.bag", Path(folder) / "output.bag"
         subprocess.run(
             [SIMULATE, str(SCENE), str(recorded), "--seed", str(seed), "--quiet"], check=True
         )
         subprocess.run(
-            [RUN_BAG, str(recorded), str(computed), "--config", str(CONFIG), "--quiet"], check=True
+            [RUN_BAG, str(recorded), str(computed), "--config", str(config), "--quiet"], check=True
         )
         return seen_moving(recorded), score(recorded, computed)
 
@@ -62,6 +64,18 @@ class Intersection(unittest.TestCase):
                 }
                 self.assertEqual(movers - tracked, set())
                 self.assertLessEqual(result.pose_error, MAX_POSE_ERROR * result.distance)
+
+    def test_pose_without_odometry(self):
+        settings = yaml.safe_load(CONFIG.read_text())
+        settings["grid_slam"]["odometry"] = False
+        for seed in SEEDS:
+            with self.subTest(seed=seed), tempfile.TemporaryDirectory() as folder:
+                config = Path(folder) / "without_odometry.yaml"
+                config.write_text(yaml.safe_dump(settings))
+                _, result = self.run_seed(folder, seed, config)
+                self.assertLessEqual(
+                    result.pose_error, MAX_POSE_ERROR_WITHOUT_ODOMETRY * result.distance
+                )
 
 
 if __name__ == "__main__":
