@@ -1,10 +1,29 @@
 #include "datmo_fusion/ros/grid_slam_stage.h"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
 #include <boost/make_shared.hpp>
 
 #include "datmo_fusion/ros/message_conversion.h"
 
 namespace datmo {
+
+namespace {
+
+/// tf takes no frame without a name, and none that is its own parent.
+void checkNames(const GridSlamStageOptions& options) {
+  const std::string& map = options.map_frame;
+  const std::string& odom = options.odom_frame;
+  const std::string& base = options.base_frame;
+  if (map.empty() || odom.empty() || base.empty() || map == odom || odom == base || base == map) {
+    throw OptionError("map_frame = '" + map + "', odom_frame = '" + odom + "', base_frame = '" +
+                      base + "': expected three different names");
+  }
+}
+
+}  // namespace
 
 void GridSlamStageOptions::visit(OptionVisitor& visitor) {
   visitor.text({"map_frame", "", "frame of the map and the pose"}, map_frame, {});
@@ -33,6 +52,7 @@ GridSlamStage::GridSlamStage(const GridSlamStageOptions& options, const Transfor
       scan_stamps_(options.input.restart_after),
       odometry_stamps_(options.input.restart_after) {
   checkOptions(options);
+  checkNames(options);
 }
 
 void GridSlamStage::takeOdometry(const nav_msgs::Odometry& message) {
@@ -44,10 +64,32 @@ void GridSlamStage::takeOdometry(const nav_msgs::Odometry& message) {
     const OdometryPose odometry{toSample(message), fromMessage(message.pose.pose)};
     checkStamp(odometry_stamps_, message.header.stamp);
     slam_.addOdometry(odometry.sample);
-    odometry_ = odometry;
+    keep(odometry);
   } catch (const InputError& error) {
     monitor_.dropped(error);
   }
+}
+
+void GridSlamStage::keep(const OdometryPose& odometry) {
+  odometry_.push_back(odometry);
+  while (secondsBetween(odometry_.front().sample.stamp, odometry.sample.stamp) > kOdometryMemory) {
+    odometry_.pop_front();
+  }
+}
+
+std::optional<Pose2> GridSlamStage::baseInOdom(Stamp stamp) const {
+  const auto later = std::upper_bound(
+      odometry_.begin(), odometry_.end(), stamp,
+      [](Stamp at, const OdometryPose& odometry) { return at < odometry.sample.stamp; });
+  const auto nearest = later == odometry_.begin() ? later : std::prev(later);
+  if (nearest == odometry_.end()) {
+    return std::nullopt;
+  }
+  const double seconds = secondsBetween(nearest->sample.stamp, stamp);
+  if (std::abs(seconds) > options_.slam.odometry_hold) {
+    return std::nullopt;
+  }
+  return nearest->base_in_odom * arc(nearest->sample.twist, seconds);
 }
 
 template <typename Message>
@@ -93,7 +135,7 @@ void GridSlamStage::restart() {
   slam_.reset();
   scan_stamps_ = StampCheck(options_.input.restart_after);
   odometry_stamps_ = StampCheck(options_.input.restart_after);
-  odometry_.reset();
+  odometry_.clear();
   last_map_.reset();
 }
 
@@ -134,17 +176,16 @@ std::vector<geometry_msgs::TransformStamped> GridSlamStage::transformsTo(const P
     return {odom_in_map({}),
             toTransform(base_in_map, stamp, options_.odom_frame, options_.base_frame)};
   }
-  const double age = odometry_ ? secondsBetween(odometry_->sample.stamp, stamp) : 0.0;
-  if (!odometry_ || age > options_.slam.odometry_hold) {
+  const std::optional<Pose2> base_in_odom = baseInOdom(stamp);
+  if (!base_in_odom) {
     monitor_.warned(InputError("silent_odometry",
-                               "no odometry up to the scan's stamp: goes on with constant velocity "
+                               "no odometry at the scan's stamp: goes on with constant velocity "
                                "and without " +
                                    options_.map_frame + " -> " + options_.odom_frame +
                                    " (a vehicle without odometry: set odometry to false)"));
     return {};
   }
-  const Pose2 base_in_odom = odometry_->base_in_odom * arc(odometry_->sample.twist, age);
-  return {odom_in_map(base_in_map * base_in_odom.inverse())};
+  return {odom_in_map(base_in_map * base_in_odom->inverse())};
 }
 
 nav_msgs::OccupancyGridPtr GridSlamStage::mapIfDue(Stamp stamp) {

@@ -1,6 +1,7 @@
 #include "datmo_fusion/slam/odometry_buffer.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace datmo {
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,9 +47,9 @@ struct GridSlamOutput {
 /// all state is forgotten.
 ///
 /// With odometry, map -> odom is chosen so that odom -> base_link, at the scan's stamp, leads to
-/// the pose; odom -> base_link itself comes from whoever makes the odometry. It is left out while
-/// odometry is silent. Without odometry, map and odom are the same, and odom -> base_link is the
-/// pose.
+/// the pose; odom -> base_link itself comes from whoever makes the odometry, and may be ahead of
+/// the scan. It is left out while odometry is silent. Without odometry, map and odom are the same,
+/// and odom -> base_link is the pose.
 class GridSlamStage {
  public:
   /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
@@ -69,6 +70,12 @@ class GridSlamStage {
     Pose2 base_in_odom;
   };
 
+  void keep(const OdometryPose& odometry);
+
+  /// The vehicle in the odometry's frame, from the last odometry up to the stamp or else the first
+  /// one after it; none if that is too far away in time.
+  std::optional<Pose2> baseInOdom(Stamp stamp) const;
+
   void checkFrames(const nav_msgs::Odometry& message) const;
 
   /// Whichever stream jumps back first, both begin anew. Throws InputError.
@@ -85,7 +92,7 @@ class GridSlamStage {
   GridSlam slam_;
   StampCheck scan_stamps_;
   StampCheck odometry_stamps_;
-  std::optional<OdometryPose> odometry_;  ///< the newest
+  std::deque<OdometryPose> odometry_;  ///< of the last seconds, by rising stamp
   std::optional<Stamp> last_map_;
 };
 

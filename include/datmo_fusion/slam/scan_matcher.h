@@ -47,8 +47,8 @@ class ScanMatcher {
   /// Throws OptionError.
   explicit ScanMatcher(const ScanMatcherOptions& options);
 
-  /// `prediction`: of the base in the map, with a
-  /// positive definite covariance.
+  /// `prediction`: of the base in the map, with a positive definite covariance. Where too few
+  /// points lie on known surfaces it is returned as it is, not accepted.
   MatchResult match(const OccupancyMap& map, const std::vector<EndPoint>& points,
                     const PoseWithCovariance& prediction, Random& random) const;
 

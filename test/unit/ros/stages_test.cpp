@@ -91,6 +91,29 @@ TEST_F(GridSlamStageTest, MapToOdomTimesOdomToBaseIsThePose) {
   EXPECT_NEAR(angleBetween(through_tf.heading(), pose.heading()), 0.0, 1e-6);
 }
 
+TEST_F(GridSlamStageTest, AScanThatComesLateIsGivenTheOdometryOfItsTime) {
+  mountScanner();
+  odometryAt(100.0);
+  nav_msgs::Odometry stopped = odometry(100.4);
+  stopped.twist.twist.linear.x = 0.0;
+  stage_.takeOdometry(stopped);
+  const auto output = scanAt(100.1);
+  ASSERT_TRUE(output);
+  ASSERT_EQ(output->transforms.size(), 1U);
+  EXPECT_NEAR(output->transforms[0].transform.translation.x, -8.0 * 0.1, 1e-6);
+}
+
+TEST_F(GridSlamStageTest, FramesOfTheSameOrNoNameAreRefused) {
+  const auto stageOf = [this](const std::string& odom_frame) {
+    GridSlamStageOptions options;
+    options.odom_frame = odom_frame;
+    GridSlamStage stage(options, buffer_, monitor_);
+  };
+  EXPECT_THROW(stageOf("map"), OptionError);
+  EXPECT_THROW(stageOf(""), OptionError);
+  EXPECT_NO_THROW(stageOf("wheels"));
+}
+
 TEST_F(GridSlamStageTest, AMapOnlyWhenItIsItsTurn) {
   mountScanner();
   EXPECT_TRUE(scanAt(100.0)->map);
