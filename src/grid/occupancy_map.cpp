@@ -19,8 +19,16 @@ int cellsAlong(double length, double cell_size) {
   return std::max(1, static_cast<int>(std::lround(length / cell_size)));
 }
 
+/// Cells of about 50 bytes: more do not fit the memory of a vehicle's computer.
+constexpr double kMostCells = 2.5e7;
+
 const OccupancyMapOptions& checked(const OccupancyMapOptions& options) {
   checkOptions(options);
+  const double cells = options.length / options.cell_size * (options.width / options.cell_size);
+  if (cells > kMostCells) {
+    throw OptionError("length, width and cell_size of the map make " + toText(cells) +
+                      " cells: expected at most " + toText(kMostCells));
+  }
   return options;
 }
 

@@ -78,8 +78,8 @@ TrackArrayPtr TrackerStage::track(const ObjectArray& objects, const Pose2& base_
       toMessage(tracker_.process(list, base_in_fixed), options_.fixed_frame));
   if (tracker_.counts().rejected_objects > rejected) {
     monitor_.warned(InputError("bad_object",
-                               "objects with numbers that are not finite, or a covariance that is "
-                               "not positive definite: left out"));
+                               "objects with numbers that are not finite or out of range, or a "
+                               "covariance that is not positive definite: left out"));
   }
   monitor_.processed({list.stamp, watch.seconds()});
   return tracks;

@@ -13,6 +13,8 @@ constexpr double kAsymmetry = 1e-6;
 /// Finite, and not negative.
 bool isAmount(double value) { return std::isfinite(value) && value >= 0.0; }
 
+bool isShare(double value) { return value >= 0.0 && value <= 1.0; }
+
 bool isCovariance(const Eigen::Matrix2d& matrix) {
   const double trace = matrix.trace();
   return std::isfinite(matrix.sum()) && matrix(0, 0) > 0.0 &&
@@ -27,8 +29,8 @@ bool isValid(const Object& object) {
   return std::isfinite(centre.x()) && std::isfinite(centre.y()) &&
          std::isfinite(centre.heading()) && isAmount(object.box.length) &&
          isAmount(object.box.width) && isAmount(object.heading_variance) &&
-         isAmount(object.height) && isAmount(object.moving_fraction) &&
-         isAmount(object.class_probability) && isCovariance(object.position_covariance);
+         isAmount(object.height) && isShare(object.moving_fraction) &&
+         isShare(object.class_probability) && isCovariance(object.position_covariance);
 }
 
 Object transformed(const Pose2& frame_in_parent, const Object& object) {

@@ -43,7 +43,7 @@ struct HitDistribution {
 /// and a hit wins over a beam that passes (as in Cartographer, Hess et al. 2016).
 class OccupancyMap {
  public:
-  /// Throws OptionError.
+  /// Throws OptionError, also for more cells than any memory holds.
   explicit OccupancyMap(const OccupancyMapOptions& options);
 
   const GridWindow& window() const { return cells_.window(); }

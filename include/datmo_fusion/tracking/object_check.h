@@ -6,7 +6,7 @@
 namespace datmo {
 
 /// Whether an object can be tracked: all its numbers are finite, sizes and variances at least 0,
-/// the covariance of its position symmetric and positive definite.
+/// shares from 0 to 1, the covariance of its position symmetric and positive definite.
 bool isValid(const Object& object);
 
 /// The object seen from the parent frame of `frame_in_parent`.

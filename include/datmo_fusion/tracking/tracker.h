@@ -29,7 +29,7 @@ struct TrackerOptions {
 /// Counts since construction or reset(), for diagnostics.
 struct TrackerCounts {
   std::uint64_t objects = 0;           ///< taken in
-  std::uint64_t rejected_objects = 0;  ///< not finite, or covariance not positive definite
+  std::uint64_t rejected_objects = 0;  ///< see isValid()
   std::uint64_t confirmed_tracks = 0;  ///< ids given out
   std::uint64_t refused_births = 0;    ///< new objects that found no room
   std::uint64_t merged_tracks = 0;     ///< removed as another view of a confirmed track

@@ -231,5 +231,13 @@ TEST(OccupancyMapTest, RefusesBadOptions) {
   EXPECT_THROW(OccupancyMap{options}, OptionError);
 }
 
+TEST(OccupancyMapTest, RefusesMoreCellsThanMemoryHolds) {
+  OccupancyMapOptions options;
+  options.length = 2000.0;
+  options.width = 2000.0;
+  options.cell_size = 0.02;
+  EXPECT_THROW(OccupancyMap{options}, OptionError);
+}
+
 }  // namespace
 }  // namespace datmo

@@ -27,5 +27,17 @@ TEST(ObjectCheck, TakesAGoodObjectAndRefusesASkewCovariance) {
   EXPECT_FALSE(isValid(object));
 }
 
+TEST(ObjectCheck, SharesAreFromZeroToOne) {
+  Object object = objectAt(1.0, 2.0);
+  object.moving_fraction = 1.0;
+  object.class_probability = 1.0;
+  EXPECT_TRUE(isValid(object));
+  object.moving_fraction = 1000.0;  // would outweigh all other evidence of motion
+  EXPECT_FALSE(isValid(object));
+  object.moving_fraction = 1.0;
+  object.class_probability = -0.5;
+  EXPECT_FALSE(isValid(object));
+}
+
 }  // namespace
 }  // namespace datmo
