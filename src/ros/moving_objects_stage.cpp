@@ -21,8 +21,8 @@ ObjectArrayPtr MovingObjectsStage::takeSplitScan(const SplitScanMessage& message
   try {
     const Stopwatch watch;
     const SplitScan scan = fromMessage(message);
-    stamps_.check(
-        message.header.stamp);  // without memory from scan to scan, a restart needs nothing
+    // Without memory from scan to scan, a restart of the clock needs nothing.
+    stamps_.check(message.header.stamp);
     auto objects =
         boost::make_shared<ObjectArray>(toMessage(detector_.detect(scan), message.header.frame_id));
     monitor_.processed({scan.stamp, watch.seconds()});

@@ -1,6 +1,7 @@
 #include "datmo_fusion/tracking/duplicates.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include <Eigen/LU>
 

@@ -63,9 +63,8 @@ class Target {
   Box2 box() const { return box_.at(filter_.estimate().mean.head<2>()); }
   std::uint32_t hits() const { return hits_; }
   double sinceUpdate() const { return since_update_; }  ///< s
-  double followed() const {
-    return age_ - since_update_;
-  }  ///< s, from the first to the last object
+  /// s, from the first to the last object.
+  double followed() const { return age_ - since_update_; }
 
   Track track(const TargetOptions& options) const;
 
