@@ -29,7 +29,7 @@ void TargetOptions::visit(OptionVisitor& visitor) {
   visitor.number({"stop_speed", "m/s",
                   "a moving object stands when it is slower; below evidence/least_speed, so that "
                   "noise does not switch it"},
-                 stop_speed, {0.0, 100.0});
+                 stop_speed, {0.01, 100.0});
 }
 
 Target::Target(const Object& object, const TargetOptions& options)
