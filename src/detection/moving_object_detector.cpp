@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "datmo_fusion/common/uniform.h"
 #include "datmo_fusion/detection/box_fit.h"
 
 namespace datmo {
@@ -10,9 +11,6 @@ namespace datmo {
 namespace {
 
 constexpr char kSensor[] = "lidar";
-
-/// Variance of a value that is only known to lie in an interval of length 1.
-constexpr double kUniformVariance = 1.0 / 12.0;
 
 /// The points of one segment of the scan that the map does not know as static.
 std::vector<ScanPoint> notStatic(const std::vector<ScanPoint>& points, const Segment& segment) {

@@ -248,11 +248,4 @@ std::vector<std::int8_t> OccupancyMap::occupancyImage() const {
   return image;
 }
 
-void OccupancyMap::clear() {
-  cells_.clear();
-  update_ = 0;
-  first_stamp_.reset();
-  now_ = 0.0F;
-}
-
 }  // namespace datmo

@@ -4,12 +4,11 @@
 #include <cstddef>
 #include <optional>
 
+#include "datmo_fusion/common/uniform.h"
+
 namespace datmo {
 
 namespace {
-
-/// Variance of a uniform distribution over an interval of length 1.
-constexpr double kUniformVariance = 1.0 / 12.0;
 
 /// The end point of a beam, and what its neighbours are compared by.
 struct End {
@@ -53,8 +52,7 @@ std::vector<End> endsOf(const Scan& scan) {
   std::vector<End> ends;
   for (const Ray& ray : scan.rays) {
     if (ray.hit) {
-      const Point2 along = ray.end - ray.origin;
-      ends.push_back({ray.end, ray.range, scan.beam_spacing * Point2(-along.y(), along.x())});
+      ends.push_back({ray.end, ray.range, stepAcross(ray, scan.beam_spacing)});
     }
   }
   return ends;

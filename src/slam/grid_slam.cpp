@@ -11,8 +11,7 @@ std::vector<PointState> judge(const Scan& scan, const OccupancyMap& map, const P
   std::vector<PointState> states;
   states.reserve(scan.rays.size());
   for (const Ray& ray : scan.rays) {
-    const Point2 along = ray.end - ray.origin;
-    const Point2 half_footprint = 0.5 * scan.beam_spacing * Point2(-along.y(), along.x());
+    const Point2 half_footprint = 0.5 * stepAcross(ray, scan.beam_spacing);
     states.push_back(ray.hit ? map.judge(base_in_map * ray.end, base_in_map.rotate(half_footprint))
                              : PointState::kUnknown);
   }

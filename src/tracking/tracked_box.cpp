@@ -8,9 +8,6 @@ namespace datmo {
 
 namespace {
 
-/// Variance of a heading modulo pi of which nothing is known, rad^2.
-constexpr double kUnknownHeading = kPi * kPi / 12.0;
-
 /// Of the two directions of a line, the one nearer to `reference`.
 double nearerDirection(double direction, double reference) {
   return std::cos(direction - reference) < 0.0 ? normalizeAngle(direction + kPi) : direction;
@@ -51,7 +48,7 @@ TrackedBox::TrackedBox(const Object& object)
 
 void TrackedBox::predict(double seconds, const TrackedBoxOptions& options) {
   heading_variance_ =
-      std::min(kUnknownHeading, heading_variance_ + options.heading_drift * seconds);
+      std::min(kUnknownHeadingVariance, heading_variance_ + options.heading_drift * seconds);
 }
 
 void TrackedBox::update(const Object& object, double seconds, const TrackedBoxOptions& options) {
@@ -84,8 +81,8 @@ void TrackedBox::followVelocity(const Eigen::Vector2d& velocity, const Eigen::Ma
 PositionMeasurement TrackedBox::measurementOf(const Object& object) const {
   const Eigen::Vector2d hidden = (size_ - sizeOf(object)).cwiseMax(0.0);
   const Eigen::Matrix2d axes = Pose2(Point2::Zero(), heading_).rotation();
-  // The variance of a place that is equally likely anywhere on a length is its square over 12.
-  const Eigen::Vector2d variance = hidden.cwiseAbs2() / 12.0;
+  // What is hidden may lie on either side, anywhere.
+  const Eigen::Vector2d variance = kUniformVariance * hidden.cwiseAbs2();
   return {object.box.centre.position(),
           object.position_covariance + axes * variance.asDiagonal() * axes.transpose()};
 }

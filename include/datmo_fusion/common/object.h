@@ -8,6 +8,7 @@
 
 #include "datmo_fusion/common/box2.h"
 #include "datmo_fusion/common/stamp.h"
+#include "datmo_fusion/common/uniform.h"
 
 namespace datmo {
 
@@ -17,12 +18,15 @@ enum class ObjectClass : std::uint8_t { kUnknown, kPedestrian, kCyclist, kVehicl
 /// Whether an object moves over ground, as one measurement shows it; values as in Object.msg.
 enum class DynamicState : std::uint8_t { kUnknown, kStatic, kMoving };
 
+/// Variance of a heading modulo pi of which nothing is known, rad^2.
+inline constexpr double kUnknownHeadingVariance = kPi * kPi * kUniformVariance;
+
 /// One object that a sensor sees in one measurement, without memory of earlier ones.
 struct Object {
   Box2 box;                                                           ///< frame of the list
   Eigen::Matrix2d position_covariance = Eigen::Matrix2d::Identity();  ///< m^2, of the box's centre
-  double heading_variance = kPi * kPi / 12.0;  ///< rad^2, modulo pi; the default knows nothing
-  double height = 0.0;                         ///< m, 0: not measured
+  double heading_variance = kUnknownHeadingVariance;                  ///< rad^2, modulo pi
+  double height = 0.0;                                                ///< m, 0: not measured
   ObjectClass object_class = ObjectClass::kUnknown;
   double class_probability = 0.0;  ///< 0 to 1
   DynamicState dynamic_state = DynamicState::kUnknown;

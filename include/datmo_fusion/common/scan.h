@@ -27,6 +27,13 @@ struct Scan {
   std::vector<Ray> rays;      ///< by rising beam index
 };
 
+/// Step from a beam's end to that of the next beam to the left at the same range, m, for this
+/// spacing (rad) of the beams.
+inline Point2 stepAcross(const Ray& ray, double beam_spacing) {
+  const Point2 along = ray.end - ray.origin;
+  return beam_spacing * Point2(-along.y(), along.x());
+}
+
 /// What the map says of the place where a beam ends (thesis 3.1.2, 3.3.1).
 enum class PointState : std::uint8_t {
   kStatic = 0,   ///< an obstacle is known there

@@ -74,9 +74,6 @@ class OccupancyMap {
   /// (nav_msgs/OccupancyGrid).
   std::vector<std::int8_t> occupancyImage() const;
 
-  /// Empties the map.
-  void clear();
-
  private:
   struct Cell {
     float log_odds = 0.0F;

@@ -51,9 +51,6 @@ class RollingGrid {
     }
   }
 
-  /// Empties every cell; the window stays.
-  void clear() { std::fill(cells_.begin(), cells_.end(), empty_); }
-
  private:
   static int modulo(int value, int size) {
     const int rest = value % size;

@@ -33,8 +33,6 @@ class OdometryBuffer {
   /// later than `from`.
   std::optional<Pose2> motion(Stamp from, Stamp to, const OdometryErrors& errors = {}) const;
 
-  void clear() { samples_.clear(); }
-
  private:
   double longest_hold_;
   double memory_;

@@ -213,15 +213,6 @@ TEST(OccupancyMapTest, BeamsThatLeaveTheWindowAreCut) {
   EXPECT_NEAR(map.occupancy({9, 0}), 0.4, 0.15);
 }
 
-TEST(OccupancyMapTest, ClearForgets) {
-  OccupancyMap map(smallMap());
-  updateWith(map, scanTo({{4.5, 0.5}}));
-  map.clear();
-  EXPECT_DOUBLE_EQ(map.occupancy({4, 0}), 0.5);
-  updateWith(map, scanTo({{4.5, 0.5}}, -50.0));
-  EXPECT_NEAR(map.occupancy({4, 0}), 0.8, 1e-6);
-}
-
 TEST(OccupancyMapTest, RefusesBadOptions) {
   OccupancyMapOptions options = smallMap();
   options.cell_size = 0.0;
