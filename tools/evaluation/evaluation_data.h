@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "datmo_fusion/common/box2.h"
+#include "datmo_fusion/common/object.h"
+#include "datmo_fusion/common/stamp.h"
+
+namespace datmo::evaluation {
+
+/// Does a true object have to be found?
+enum class Duty : std::uint8_t {
+  kRequired,  ///< it moves, is seen, and lies in the region that is scored
+  kOptional,  ///< it is out of these limits: a track on it is neither right nor wrong
+};
+
+/// One true object at one stamp; map frame of the truth.
+struct TrueState {
+  std::uint32_t id = 0;
+  ObjectClass classification = ObjectClass::kUnknown;
+  Box2 box;                          ///< m, rad
+  Point2 velocity = Point2::Zero();  ///< m/s
+  Duty duty = Duty::kRequired;
+};
+
+/// One published track at one stamp, brought into the map frame of the truth.
+struct TrackState {
+  std::uint32_t id = 0;
+  ObjectClass classification = ObjectClass::kUnknown;
+  Box2 box;                                              ///< m, rad
+  Point2 velocity = Point2::Zero();                      ///< m/s
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();  ///< of x, y (m), vx, vy (m/s)
+  std::size_t sensors = 1;                               ///< that saw it last
+};
+
+/// What was true and what was published at one stamp.
+struct Frame {
+  Stamp stamp;
+  std::vector<TrueState> truths;
+  std::vector<TrackState> tracks;
+};
+
+/// A run, by rising stamp. No id twice in one frame.
+using Frames = std::vector<Frame>;
+
+}  // namespace datmo::evaluation
