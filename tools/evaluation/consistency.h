@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "evaluation/matching.h"
+
+namespace datmo::evaluation {
+
+/// Are the covariances honest? The normalised estimation error squared, e^T P^-1 e, of an honest
+/// filter is chi-square distributed with the error's dimension as degrees of freedom (Bar-Shalom,
+/// Li and Kirubarajan, Estimation with Applications to Tracking and Navigation, 2001, section
+/// 5.4). Above the bounds the filter is too sure of itself, below them not sure enough.
+struct Consistency {
+  std::optional<double> mean_nees;  ///< none: no sample
+  /// The mean of an honest filter is between them with a probability of 95 %, if its samples are
+  /// independent. Those of one track are not quite: the true interval is somewhat wider.
+  std::optional<double> lower;
+  std::optional<double> upper;
+  std::optional<double> inside_share;  ///< samples below the 95 % quantile of a single one
+  std::size_t samples = 0;
+  std::size_t unusable = 0;  ///< covariances that are not positive definite; no samples
+  int degrees_of_freedom = 2;
+};
+
+struct TrackConsistency {
+  Consistency position;  ///< x and y
+  Consistency velocity;  ///< vx and vy
+};
+
+/// Quantile of the chi-square distribution; `probability` in (0, 1), degrees of freedom above 0.
+double chiSquareQuantile(double probability, double degrees_of_freedom);
+
+/// Collects the errors of one quantity with two components.
+class NeesSum {
+ public:
+  void add(const Eigen::Vector2d& error, const Eigen::Matrix2d& covariance);
+  Consistency result() const;
+
+ private:
+  double sum_ = 0.0;
+  std::size_t inside_ = 0;
+  std::size_t samples_ = 0;
+  std::size_t unusable_ = 0;
+};
+
+/// Of the tracks that are matched to required truths. `matching` is of these frames.
+TrackConsistency scoreConsistency(const Frames& frames, const Matching& matching);
+
+}  // namespace datmo::evaluation

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "evaluation/evaluation_data.h"
+
+#include "datmo_fusion/common/options.h"
+
+namespace datmo::evaluation {
+
+/// When a track may be of a true object.
+struct MatchOptions {
+  double gate = 2.0;                ///< m
+  std::string distance = "to_box";  ///< or "to_centre"
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// A track and a true object of one frame, by their indices in it, that are near enough.
+struct Candidate {
+  std::size_t truth = 0;
+  std::size_t track = 0;
+  double distance = 0.0;  ///< m, at most the gate
+};
+
+/// From the track's centre to the true object as the options want it, m: to the nearest point of
+/// its box (0 inside), or to its centre.
+double matchDistance(const TrueState& truth, const TrackState& track, const MatchOptions& options);
+
+/// All pairs of a frame within the gate, by rising truth, then rising track.
+std::vector<Candidate> candidatesOf(const Frame& frame, const MatchOptions& options);
+
+/// What a track is at one stamp.
+enum class Verdict : std::uint8_t {
+  kHit,      ///< matched to a required truth
+  kNeutral,  ///< matched to an optional truth: left out of every metric
+  kFalse,    ///< neither
+};
+
+/// Who is whom in one frame.
+struct FrameMatching {
+  std::vector<int> track_of_truth;  ///< index in Frame::tracks, kUnassigned: none
+  std::vector<Verdict> verdicts;    ///< of each track of the frame
+};
+
+/// One for each frame.
+using Matching = std::vector<FrameMatching>;
+
+/// Gives each true object at most one track, and each track at most one true object, within the
+/// gate (Bernardin and Stiefelhagen 2008, section 2.1.4). In each frame first come the pairs that
+/// were matched when each of the two was last matched (over a gap as well); of what is left, as
+/// many pairs as possible, and of these the least sum of distances. Equal sums: the earlier track.
+/// Required truths take their tracks before optional ones do.
+Matching matchFrames(const Frames& frames, const MatchOptions& options);
+
+}  // namespace datmo::evaluation
