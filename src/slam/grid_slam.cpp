@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "datmo_fusion/slam/motion_compensation.h"
+
 namespace datmo {
 
 namespace {
@@ -42,6 +44,10 @@ void GridSlamOptions::visit(OptionVisitor& visitor) {
        "how long the last odometry serves when no newer one comes; after that the pose is "
        "predicted with the last estimated velocity"},
       odometry_hold, {0.0, 10.0});
+  visitor.toggle({"motion_compensation", "",
+                  "bring each beam from its own time to the scan's stamp; false: take all beams of "
+                  "a scan as measured at once (thesis)"},
+                 motion_compensation);
   visitor.number(
       {"longest_step", "m", "neighbouring end points further apart are on different surfaces"},
       longest_step, {0.05, 20.0});
@@ -70,7 +76,17 @@ bool GridSlam::predict(Stamp stamp) {
   return measured.has_value();
 }
 
-SlamResult GridSlam::process(const Scan& scan) {
+Scan GridSlam::compensated(const Scan& scan) const {
+  const double duration = sweepDuration(scan);
+  if (!options_.motion_compensation || duration == 0.0) {
+    return scan;
+  }
+  const auto measured = odometry_.motion(scan.stamp, scan.stamp + duration, filter_.errors());
+  return compensateMotion(scan, measured ? twistOf(*measured, duration) : filter_.velocity());
+}
+
+SlamResult GridSlam::process(const Scan& measured) {
+  const Scan scan = compensated(measured);
   SlamResult result;
   if (stamp_) {
     result.odometry_used = predict(scan.stamp);

@@ -8,7 +8,7 @@
 
 namespace datmo {
 
-/// One beam of a scan in the vehicle's frame (base_link), at the scan's stamp.
+/// One beam of a scan in the vehicle's frame (base_link) at the time of the beam.
 struct Ray {
   Point2 origin = Point2::Zero();  ///< m, where the beam starts: the scanner
   Point2 end = Point2::Zero();  ///< m, the obstacle; without one, as far as the beam is known free
@@ -16,6 +16,7 @@ struct Ray {
   double bearing = 0.0;         ///< rad, of the beam about the scanner, from its x axis
   std::uint32_t beam = 0;       ///< index of the beam in the scan
   bool hit = false;             ///< false: nothing was seen up to `end`
+  double time = 0.0;            ///< s after the scan's stamp, 0 or more
 };
 
 /// A planar scan, checked and brought to the vehicle's frame. Beams without a valid measurement

@@ -18,7 +18,8 @@ struct GridSlamOptions {
   PoseFilterOptions pose;
   ScanMatcherOptions matcher;
   double odometry_hold = 0.5;  ///< s
-  double longest_step = 5.0;   ///< m
+  bool motion_compensation = true;
+  double longest_step = 5.0;  ///< m
   int seed = 1;
 
   void visit(OptionVisitor& visitor);
@@ -47,7 +48,8 @@ class GridSlam {
   /// bounded time of it is kept.
   void addOdometry(const OdometrySample& sample) { odometry_.add(sample); }
 
-  /// Takes the next scan. A scan without rays moves the pose by odometry alone.
+  /// Takes the next scan, and splits it as compensated for the vehicle's motion. A scan without
+  /// rays moves the pose by odometry alone.
   SlamResult process(const Scan& scan);
 
   const OccupancyMap& map() const { return map_; }
@@ -56,6 +58,9 @@ class GridSlam {
   void reset();
 
  private:
+  /// The scan as seen at its stamp, by the newest odometry or else the estimated velocity.
+  Scan compensated(const Scan& scan) const;
+
   /// Returns whether odometry served.
   bool predict(Stamp stamp);
 

@@ -43,6 +43,9 @@ class PoseFilter {
   const OdometryErrors& errors() const { return errors_; }
   PoseWithCovariance pose() const;
 
+  /// As odometry measured it last, or else as the matches tell.
+  const Twist2& velocity() const { return velocity_; }
+
   /// After `seconds` (more than 0) of `motion`, measured by odometry and corrected by errors().
   void predictMeasured(const Pose2& motion, double seconds);
 

@@ -1,0 +1,29 @@
+#include "datmo_fusion/slam/motion_compensation.h"
+
+#include <algorithm>
+
+namespace datmo {
+
+double sweepDuration(const Scan& scan) {
+  double duration = 0.0;
+  for (const Ray& ray : scan.rays) {
+    duration = std::max(duration, ray.time);
+  }
+  return duration;
+}
+
+Scan compensateMotion(Scan scan, const Twist2& twist) {
+  for (Ray& ray : scan.rays) {
+    if (ray.time == 0.0) {
+      continue;
+    }
+    const Pose2 base_then = arc(twist, ray.time);
+    ray.origin = base_then * ray.origin;
+    ray.end = base_then * ray.end;
+    ray.bearing = normalizeAngle(ray.bearing + base_then.heading());
+    ray.time = 0.0;
+  }
+  return scan;
+}
+
+}  // namespace datmo
