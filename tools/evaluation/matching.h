@@ -8,6 +8,7 @@
 #include "evaluation/evaluation_data.h"
 
 #include "datmo_fusion/common/options.h"
+#include "datmo_fusion/tracking/assignment.h"
 
 namespace datmo::evaluation {
 
@@ -36,14 +37,17 @@ std::vector<Candidate> candidatesOf(const Frame& frame, const MatchOptions& opti
 /// What a track is at one stamp.
 enum class Verdict : std::uint8_t {
   kHit,      ///< matched to a required truth
-  kNeutral,  ///< matched to an optional truth: left out of every metric
+  kNeutral,  ///< within the gate of an optional truth, and no hit: left out of every metric
   kFalse,    ///< neither
 };
 
 /// Who is whom in one frame.
 struct FrameMatching {
-  std::vector<int> track_of_truth;  ///< index in Frame::tracks, kUnassigned: none
-  std::vector<Verdict> verdicts;    ///< of each track of the frame
+  std::vector<Candidate> candidates;  ///< all pairs within the gate
+  std::vector<int> track_of_truth;    ///< index in Frame::tracks, kUnassigned: none
+  std::vector<Verdict> verdicts;      ///< of each track of the frame
+
+  std::size_t falseTracks() const;
 };
 
 /// One for each frame.
@@ -55,5 +59,16 @@ using Matching = std::vector<FrameMatching>;
 /// many pairs as possible, and of these the least sum of distances. Equal sums: the earlier track.
 /// Required truths take their tracks before optional ones do.
 Matching matchFrames(const Frames& frames, const MatchOptions& options);
+
+/// Calls `use(truth, track)` for each match of a required truth in a frame.
+template <typename Use>
+void forEachHit(const Frame& frame, const FrameMatching& matching, const Use& use) {
+  for (std::size_t truth = 0; truth < frame.truths.size(); ++truth) {
+    const int track = matching.track_of_truth[truth];
+    if (frame.truths[truth].duty == Duty::kRequired && track != kUnassigned) {
+      use(frame.truths[truth], frame.tracks[static_cast<std::size_t>(track)]);
+    }
+  }
+}
 
 }  // namespace datmo::evaluation

@@ -7,23 +7,33 @@
 
 namespace datmo::evaluation {
 
-/// What counts in one frame: required truths and tracks that are not neutral, as numbers of the
-/// run's objects and tracks, and the pairs of them within the gate.
-struct ScoredFrame {
-  std::vector<std::size_t> objects;  ///< each at most once
-  std::vector<std::size_t> tracks;   ///< each at most once
-  std::vector<Candidate> pairs;      ///< indices in the two lists above
+/// An object and a track that were within the gate of each other at least once, by their numbers in
+/// the run.
+struct Encounter {
+  std::size_t object = 0;
+  std::size_t track = 0;
 };
 
-/// A run as the metrics of whole trajectories need it: ids are numbered from 0 on, by first
-/// appearance.
+/// An encounter in one frame.
+struct ScoredPair {
+  std::size_t encounter = 0;  ///< index in ScoredRun::encounters
+  double distance = 0.0;      ///< m, at most the gate
+};
+
+/// What the metrics of whole trajectories need of a run: its required truths (the objects) and its
+/// tracks that are not neutral, numbered from 0 on by first appearance.
 struct ScoredRun {
-  std::vector<ScoredFrame> frames;
-  std::vector<std::size_t> object_frames;  ///< in how many frames each object is
-  std::vector<std::size_t> track_frames;   ///< in how many frames each track is
+  std::vector<std::vector<ScoredPair>> frames;  ///< all pairs within the gate, of each frame
+  std::vector<Encounter> encounters;            ///< each object and track once
+  std::vector<std::size_t> object_frames;       ///< in how many frames each object is
+  std::vector<std::size_t> track_frames;        ///< in how many frames each track is
+
+  /// Objects, and tracks, summed over the frames.
+  double required() const;
+  double published() const;
 };
 
-/// `matching` is of these frames and options.
-ScoredRun scoredRun(const Frames& frames, const Matching& matching, const MatchOptions& options);
+/// `matching` is of these frames.
+ScoredRun scoredRun(const Frames& frames, const Matching& matching);
 
 }  // namespace datmo::evaluation

@@ -1,0 +1,30 @@
+#include "evaluation/track_scores.h"
+
+#include "evaluation/scored_run.h"
+
+namespace datmo::evaluation {
+
+void TrackScoreOptions::visit(OptionVisitor& visitor) {
+  visitor.group("matching", [&] { matching.visit(visitor); });
+  visitor.group("gospa", [&] { gospa.visit(visitor); });
+}
+
+TrackScores scoreTracks(const Frames& frames, const TrackScoreOptions& options) {
+  checkOptions(options);
+  TrackScores scores;
+  scores.matching = matchFrames(frames, options.matching);
+  scores.frames = scoreFrames(frames, scores.matching);
+  scores.clear_mot = scoreClearMot(frames, scores.matching, options.matching);
+  const ScoredRun run = scoredRun(frames, scores.matching);
+  scores.identity = scoreIdentity(run);
+  scores.hota = scoreHota(run, options.matching.gate);
+  scores.gospa_frames = gospaOfFrames(frames, scores.matching, options.gospa);
+  scores.gospa = meanGospa(scores.gospa_frames);
+  scores.errors = scoreStateErrors(frames, scores.matching);
+  scores.consistency = scoreConsistency(frames, scores.matching);
+  scores.objects = scoreObjects(frames, scores.matching);
+  scores.thesis = countAsThesis(frames, scores.matching);
+  return scores;
+}
+
+}  // namespace datmo::evaluation
