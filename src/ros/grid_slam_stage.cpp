@@ -100,7 +100,7 @@ std::optional<GridSlamOutput> GridSlamStage::takeScan(const Message& message) {
         scannerMount(transforms_.core(), options_.base_frame, message.header.frame_id);
     const ConvertedScan converted = toScan(message, mount, options_.scan);
     checkStamp(scan_stamps_, message.header.stamp);
-    warnOf(mount, converted.beams);
+    warnOf(mount, converted);
     GridSlamOutput output = outputOf(slam_.process(converted.scan));
     monitor_.processed({converted.scan.stamp, watch.seconds()});
     return output;
@@ -139,13 +139,17 @@ void GridSlamStage::restart() {
   last_map_.reset();
 }
 
-void GridSlamStage::warnOf(const ScannerMount& mount, const BeamCounts& beams) {
+void GridSlamStage::warnOf(const ScannerMount& mount, const ConvertedScan& converted) {
+  if (converted.unusable_times) {
+    monitor_.warned(*converted.unusable_times);
+  }
   if (mount.tilt > options_.most_tilt) {
     monitor_.warned(InputError("tilted_scanner",
                                "scan plane tilted by " + std::to_string(toDegrees(mount.tilt)) +
                                    " degrees: expected at most " +
                                    std::to_string(toDegrees(options_.most_tilt))));
   }
+  const BeamCounts& beams = converted.beams;
   if (beams.hits == 0 && beams.no_return == 0) {
     monitor_.warned(InputError("no_valid_beam", "scan with " + std::to_string(beams.dropped) +
                                                     " beams, none of them valid: goes on with the "

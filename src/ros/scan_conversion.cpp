@@ -60,6 +60,22 @@ void checkSize(const Message& message) {
   }
 }
 
+/// What is wrong with the time increment; NaN compares false with everything, and so is never
+/// right.
+template <typename Message>
+std::optional<InputError> faultOfTimes(const Message& message, double longest_sweep) {
+  const double sweep =
+      static_cast<double>(message.time_increment) * static_cast<double>(message.ranges.size() - 1);
+  if (message.time_increment >= 0.0F && sweep <= longest_sweep) {
+    return std::nullopt;
+  }
+  return InputError("bad_beam_times",
+                    "scan with " + std::to_string(message.ranges.size()) +
+                        " beams and a time increment of " + std::to_string(message.time_increment) +
+                        " s: expected 0 or more, and at most " + std::to_string(longest_sweep) +
+                        " s for all beams; takes them as measured at once");
+}
+
 /// NaN compares false with everything, and so is never valid.
 bool isHit(float range, float range_min, float reach) {
   return range >= range_min && range <= reach;
@@ -97,6 +113,9 @@ ConvertedScan convert(const Message& message, const ScannerMount& mount,
   checkGeometry(message);
   checkSize(message);
   ConvertedScan converted;
+  converted.unusable_times = faultOfTimes(message, options.longest_sweep);
+  const double time_increment =
+      converted.unusable_times ? 0.0 : static_cast<double>(message.time_increment);
   Scan& scan = converted.scan;
   scan.stamp = toStamp(message.header.stamp);
   scan.scanner_in_base = mount.scanner_in_base;
@@ -120,6 +139,7 @@ ConvertedScan convert(const Message& message, const ScannerMount& mount,
     scan.rays.push_back(rayAt(normalizeAngle(side * angle), hit ? range : free_range, mount));
     scan.rays.back().hit = hit;
     scan.rays.back().beam = beam;
+    scan.rays.back().time = time_increment * beam;
   }
   return converted;
 }
@@ -132,6 +152,10 @@ void ScanConversionOptions::visit(OptionVisitor& visitor) {
                   "less than the scanner's reach, since dark things far away return nothing; 0: "
                   "such beams say nothing"},
                  free_range, {0.0, 500.0});
+  visitor.number({"longest_sweep", "s",
+                  "from the first to the last beam; a scan that says more (slow rotating scanners "
+                  "turn 5 times a second) has no usable beam times and is not motion-compensated"},
+                 longest_sweep, {0.0, 2.0});
 }
 
 ConvertedScan toScan(const sensor_msgs::LaserScan& message, const ScannerMount& mount,

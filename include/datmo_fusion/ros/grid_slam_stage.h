@@ -81,7 +81,7 @@ class GridSlamStage {
   /// Whichever stream jumps back first, both begin anew. Throws InputError.
   void checkStamp(StampCheck& stamps, const ros::Time& stamp);
   void restart();
-  void warnOf(const ScannerMount& mount, const BeamCounts& beams);
+  void warnOf(const ScannerMount& mount, const ConvertedScan& converted);
   GridSlamOutput outputOf(const SlamResult& result);
   std::vector<geometry_msgs::TransformStamped> transformsTo(const Pose2& base_in_map, Stamp stamp);
   nav_msgs::OccupancyGridPtr mapIfDue(Stamp stamp);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/MultiEchoLaserScan.h>
@@ -8,11 +9,13 @@
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/scan.h"
 #include "datmo_fusion/ros/frames.h"
+#include "datmo_fusion/ros/input_error.h"
 
 namespace datmo {
 
 struct ScanConversionOptions {
-  double free_range = 40.0;  ///< m
+  double free_range = 40.0;     ///< m
+  double longest_sweep = 0.25;  ///< s
 
   void visit(OptionVisitor& visitor);
 };
@@ -27,10 +30,16 @@ struct BeamCounts {
 struct ConvertedScan {
   Scan scan;
   BeamCounts beams;
+  /// `bad_beam_times`: why all beams are taken as measured at the stamp.
+  std::optional<InputError> unusable_times;
 };
 
-/// A scan, brought to the vehicle's frame. A beam without return is free up to `free_range` or
-/// range_max, whichever is nearer.
+/// A scan, brought to the vehicle's frame at each beam's own time: `time_increment` after that of
+/// the beam before it, the first one's at the header's stamp. A beam without return is free up to
+/// `free_range` or range_max, whichever is nearer.
+///
+/// A time increment that is not finite, negative or makes the sweep longer than `longest_sweep`
+/// does not cost the scan.
 ///
 /// Throws InputError: `empty_scan` (no beams), `bad_geometry` (angles or range limits that are not
 /// finite, no angle increment, limits the wrong way round), `wrong_size` (more than one beam more
