@@ -5,14 +5,21 @@ import os
 
 import rosbag
 
+from datmo_tools.errors import InputError
 from datmo_tools.stamps import to_ros_time
+
+# The mounts stand in a bag this much before the first measurement, so that no reader meets a scan
+# first.
+MOUNTS_LEAD = 1_000_000  # ns
 
 
 class BagFile:
     """Writes messages to an open rosbag.Bag, each recorded at the stamp given with it."""
 
-    def __init__(self, bag):
+    def __init__(self, bag, writer):
+        """writer: name of the tool that writes."""
         self._bag = bag
+        self._writer = writer
 
     def write(self, topic, stamp, message):
         """Writes `message` at `stamp` (ns)."""
@@ -29,21 +36,27 @@ class BagFile:
                 "type": message._type,  # pylint: disable=protected-access
                 "md5sum": message._md5sum,  # pylint: disable=protected-access
                 "message_definition": message._full_text,  # pylint: disable=protected-access
-                "callerid": "/kitti_to_bag",
+                "callerid": f"/{self._writer}",
                 "latching": "1",
             },
         )
 
 
 @contextlib.contextmanager
-def whole_bag(path):
-    """Context of a BagFile that is named `path` (Path) when all went well, and gone otherwise."""
+def whole_bag(path, writer):
+    """Context of a BagFile that is named `path` (Path) when all went well, and gone otherwise.
+
+    writer: name of the tool. Raises InputError where the file cannot be written.
+    """
+    if path.is_dir():
+        raise InputError(f"{path}: is a folder, expected the name of a bag")
     part = path.with_name(path.name + ".part")
     try:
         with rosbag.Bag(str(part), "w") as bag:
-            yield BagFile(bag)
+            yield BagFile(bag, writer)
         os.replace(part, path)
-    except BaseException:
-        with contextlib.suppress(FileNotFoundError):
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written ({error})") from error
+    finally:
+        with contextlib.suppress(FileNotFoundError, NotADirectoryError):
             part.unlink()
-        raise

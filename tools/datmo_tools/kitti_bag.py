@@ -3,8 +3,15 @@
 from pathlib import Path
 from typing import NamedTuple, Optional
 
-from datmo_tools import ground_truth, kitti_messages, odometry, road_plane, scanner_emulation
-from datmo_tools.bag_file import whole_bag
+from datmo_tools import (
+    bag_messages,
+    ground_truth,
+    kitti_messages,
+    odometry,
+    road_plane,
+    scanner_emulation,
+)
+from datmo_tools.bag_file import MOUNTS_LEAD, whole_bag
 from datmo_tools.ego_pose import EgoMotion, poses_from_gps, poses_from_velocity
 from datmo_tools.errors import InputError
 from datmo_tools.kitti_calibration import read_calibration
@@ -14,11 +21,6 @@ from datmo_tools.kitti_tracklets import read_tracklets
 from datmo_tools.odometry import OdometryErrors
 from datmo_tools.progress import Progress
 from datmo_tools.scanner_emulation import ScannerOptions
-
-
-# The mounts stand in the bag this much before the first measurement, so that no reader meets a scan
-# first.
-MOUNTS_LEAD = 1_000_000  # ns
 
 
 class Options(NamedTuple):
@@ -43,20 +45,17 @@ def convert(folder, bag_path, options, stream=None):
     Raises InputError, and leaves no bag behind, where a file or an option cannot be used.
     """
     scanner_emulation.check(options.scanner)
-    if bag_path.is_dir():
-        raise InputError(f"{bag_path}: is a folder, expected the name of a bag")
     conversion = _Conversion(folder, options)
     events = sorted(
         conversion.events(), key=lambda event: event.stamp
     )  # stable: equal stamps keep order
-    try:
-        with whole_bag(bag_path) as bag, Progress(len(events), "kitti_to_bag", stream) as progress:
-            conversion.write_mounts(bag, events[0].stamp - MOUNTS_LEAD)
-            for done, event in enumerate(events, 1):
-                event.write(bag, event.stamp, event.frame)
-                progress.update(done)
-    except OSError as error:
-        raise InputError(f"{bag_path}: cannot be written ({error})") from error
+    with whole_bag(bag_path, "kitti_to_bag") as bag, Progress(
+        len(events), "kitti_to_bag", stream
+    ) as progress:
+        conversion.write_mounts(bag, events[0].stamp - MOUNTS_LEAD)
+        for done, event in enumerate(events, 1):
+            event.write(bag, event.stamp, event.frame)
+            progress.update(done)
 
 
 class _Event(NamedTuple):
@@ -140,8 +139,8 @@ class _Conversion:
 
     def _write_motion(self, bag, stamp, frame):
         sample = self._samples[frame]
-        bag.write("/tf", stamp, kitti_messages.odometry_transform(sample))
-        bag.write("/odometry", stamp, kitti_messages.odometry(sample))
+        bag.write("/tf", stamp, bag_messages.odometry_transform(sample))
+        bag.write("/odometry", stamp, bag_messages.odometry(sample))
         pose = kitti_messages.true_pose(stamp, self._poses[frame], self._records[frame])
         bag.write("/ground_truth/pose", stamp, pose)
 

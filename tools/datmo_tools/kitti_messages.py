@@ -1,22 +1,17 @@
 """What kitti_to_bag writes, as ROS messages in the frames of the stack's data contract."""
 
 import numpy as np
-from geometry_msgs.msg import Point, Quaternion, TransformStamped, Vector3
-from nav_msgs.msg import Odometry
+from geometry_msgs.msg import Point, Quaternion, Vector3
 from sensor_msgs.msg import CameraInfo, Image, LaserScan, PointCloud2, PointField
-from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
 
 from datmo_fusion.msg import Object, TrueObject, TrueObjectArray
 from datmo_tools import transforms
-from datmo_tools.stamps import to_ros_time
+from datmo_tools.bag_messages import BASE, MAP, SCANNER, header, planar_odometry, transform
 
-MAP, ODOM, BASE, TRUE_BASE = "map", "odom", "base_link", "base_link_ground_truth"
-SCANNER, VELODYNE, IMU = "scanner", "velodyne", "imu"
+TRUE_BASE = "base_link_ground_truth"
+VELODYNE, IMU = "velodyne", "imu"
 LEFT_CAMERA, RIGHT_CAMERA = "stereo_left_optical", "stereo_right_optical"
-
-# rad^2 and m^2 of what is not measured, as a large number: an infinite one upsets matrix code.
-NOT_MEASURED = 1e6
 
 CLASSES = {
     "Car": Object.CLASS_VEHICLE,
@@ -28,11 +23,6 @@ CLASSES = {
     "Person (sitting)": Object.CLASS_PEDESTRIAN,  # the same class in tracklet_labels.xml
     "Cyclist": Object.CLASS_CYCLIST,
 }
-
-
-def header(stamp, frame):
-    """Header at `stamp` (ns); its sequence number stays 0: only the content makes the bytes."""
-    return Header(stamp=to_ros_time(stamp), frame_id=frame)
 
 
 def laser_scan(stamp, scan, options):
@@ -96,51 +86,9 @@ def camera_info(stamp, camera):
     )
 
 
-def odometry(sample):
-    """Odometry of an OdometrySample: pose in odom, rates in base_link."""
-    message = _odometry(sample.stamp, ODOM, BASE, sample.pose, sample.speed, sample.yaw_rate)
-    pose_covariance = np.diag([0.0, 0.0, NOT_MEASURED, NOT_MEASURED, NOT_MEASURED, 0.0])
-    planar = np.ix_([0, 1, 5], [0, 1, 5])
-    pose_covariance[planar] = sample.pose_covariance
-    message.pose.covariance = pose_covariance.ravel().tolist()
-    message.twist.covariance = (
-        np.diag(
-            [
-                sample.speed_variance,
-                NOT_MEASURED,
-                NOT_MEASURED,
-                NOT_MEASURED,
-                NOT_MEASURED,
-                sample.yaw_rate_variance,
-            ]
-        )
-        .ravel()
-        .tolist()
-    )
-    return message
-
-
-def odometry_transform(sample):
-    """TFMessage odom -> base_link of an OdometrySample."""
-    x, y, yaw = sample.pose
-    transform = transforms.rigid(np.eye(3), [x, y, 0.0])
-    return TFMessage(
-        [_transform(sample.stamp, ODOM, BASE, transform, transforms.quaternion_of_yaw(yaw))]
-    )
-
-
 def true_pose(stamp, pose, record):
     """Odometry of the true pose (x, y, yaw) in the map, with the GPS/IMU's rates."""
-    return _odometry(stamp, MAP, TRUE_BASE, pose, record.forward_speed, record.yaw_rate)
-
-
-def _odometry(stamp, frame, child, pose, speed, yaw_rate):
-    message = Odometry(header=header(stamp, frame), child_frame_id=child)
-    message.pose.pose.position = Point(pose[0], pose[1], 0.0)
-    message.pose.pose.orientation = Quaternion(*transforms.quaternion_of_yaw(pose[2]))
-    message.twist.twist.linear.x = speed
-    message.twist.twist.angular.z = yaw_rate
-    return message
+    return planar_odometry(stamp, MAP, TRUE_BASE, pose, record.forward_speed, record.yaw_rate)
 
 
 def true_objects(stamp, objects, beam_counts):
@@ -180,7 +128,7 @@ def static_transforms(stamp, calibration, scanner_height):
     )
     return TFMessage(
         [
-            _transform(stamp, BASE, frame, mount, transforms.quaternion_of(mount[:3, :3]))
+            transform(stamp, BASE, frame, mount, transforms.quaternion_of(mount[:3, :3]))
             for frame, mount in mounts
         ]
     )
@@ -191,10 +139,3 @@ def scanner_mount(base_from_velodyne, height):
     yaw = transforms.yaw_of(base_from_velodyne)
     rotation = [[np.cos(yaw), -np.sin(yaw), 0.0], [np.sin(yaw), np.cos(yaw), 0.0], [0.0, 0.0, 1.0]]
     return transforms.rigid(rotation, [*base_from_velodyne[:2, 3], height])
-
-
-def _transform(stamp, parent, child, transform, quaternion):
-    message = TransformStamped(header=header(stamp, parent), child_frame_id=child)
-    message.transform.translation = Vector3(*transform[:3, 3])
-    message.transform.rotation = Quaternion(*quaternion)
-    return message

@@ -2,11 +2,10 @@
 
 import argparse
 import math
-import signal
-import sys
 from pathlib import Path
 
-from datmo_tools import kitti_bag
+from datmo_tools import command_line, kitti_bag
+from datmo_tools.command_line import add_number
 from datmo_tools.errors import InputError
 from datmo_tools.odometry import OdometryErrors
 from datmo_tools.scanner_emulation import ScannerOptions
@@ -26,18 +25,10 @@ seed give the same bytes."""
 
 def main(arguments=None):
     """Runs the command line; returns its exit code."""
-    parser = _parser()
-    values = parser.parse_args(arguments)
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl-C: cleans up on the way out
-    try:
-        kitti_bag.convert(values.drive, values.bag, _options(values))
-    except InputError as error:
-        print(f"kitti_to_bag: {error}", file=sys.stderr)
-        return 1
-    except KeyboardInterrupt:
-        print("kitti_to_bag: interrupted, no bag written", file=sys.stderr)
-        return 1
-    return 0
+    values = _parser().parse_args(arguments)
+    return command_line.run(
+        "kitti_to_bag", lambda: kitti_bag.convert(values.drive, values.bag, _options(values))
+    )
 
 
 def _parser():
@@ -68,12 +59,12 @@ def _add_contents(group):
 def _add_scanner(group, scanner):
     limits = [scanner.range_min, scanner.range_max]
     band = [scanner.band_low, scanner.band_high]
-    _add_number(group, "--scan-resolution", scanner.resolution, "DEG", "angle between beams")
-    _add_number(group, "--scan-fov", scanner.field_of_view, "DEG", "first to last beam")
-    _add_number(group, "--scan-range", limits, ("MIN", "MAX"), "m")
-    _add_number(group, "--scan-band", band, ("LOW", "HIGH"), "m above the road")
+    add_number(group, "--scan-resolution", scanner.resolution, "DEG", "angle between beams")
+    add_number(group, "--scan-fov", scanner.field_of_view, "DEG", "first to last beam")
+    add_number(group, "--scan-range", limits, ("MIN", "MAX"), "m")
+    add_number(group, "--scan-band", band, ("LOW", "HIGH"), "m above the road")
     width = "width of a beam; 0: the whole resolution"
-    _add_number(group, "--beam-width", scanner.beam_width, "DEG", width)
+    add_number(group, "--beam-width", scanner.beam_width, "DEG", width)
     group.add_argument(
         "--road",
         choices=("fit", "flat"),
@@ -84,11 +75,11 @@ def _add_scanner(group, scanner):
 
 
 def _add_odometry(group):
-    _add_number(group, "--odometry-scale-error", 0.0, "SHARE", "0.03: speed 3 %% too high")
-    _add_number(group, "--odometry-yaw-bias", 0.0, "DEG_PER_S", "added to the yaw rate")
+    add_number(group, "--odometry-scale-error", 0.0, "SHARE", "0.03: speed 3 %% too high")
+    add_number(group, "--odometry-yaw-bias", 0.0, "DEG_PER_S", "added to the yaw rate")
     noise = "standard deviation of the noise of"
-    _add_number(group, "--odometry-speed-noise", 0.0, "M_PER_S", f"{noise} the speed")
-    _add_number(group, "--odometry-yaw-noise", 0.0, "DEG_PER_S", f"{noise} the yaw rate")
+    add_number(group, "--odometry-speed-noise", 0.0, "M_PER_S", f"{noise} the speed")
+    add_number(group, "--odometry-yaw-noise", 0.0, "DEG_PER_S", f"{noise} the yaw rate")
     group.add_argument("--seed", type=int, default=0, help="of the noise (default %(default)s)")
 
 
@@ -106,29 +97,6 @@ def _add_truth(group):
         help="from the integrated velocity of the GPS/IMU, or from latitude and longitude, "
         "which may walk by metres within a drive (default %(default)s)",
     )
-
-
-def _add_number(group, name, default, metavar, description):
-    """An option of one number, or of as many as the default has."""
-    group.add_argument(
-        name,
-        type=_number,
-        nargs=len(default) if isinstance(default, list) else None,
-        default=default,
-        metavar=metavar,
-        help=f"{description} (default %(default)s)",
-    )
-
-
-def _number(text):
-    """A finite number; argparse names the option where it is none."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
-        raise argparse.ArgumentTypeError(f"'{text}', expected a finite number")
-    return value
 
 
 def _options(values):

@@ -63,14 +63,17 @@ def integrate(stamps, speeds, yaw_rates, errors):
             speed, yaw_rate = 0.5 * (speeds[i - 1] + speeds[i]), 0.5 * (
                 yaw_rates[i - 1] + yaw_rates[i]
             )
-            covariance = _propagated(covariance, pose, speed, yaw_rate, duration, variances)
+            covariance = propagated(covariance, pose, speed, yaw_rate, duration, variances)
             pose = transforms.compose(pose, transforms.arc(speed, yaw_rate, duration))
         samples.append(OdometrySample(stamp, speeds[i], yaw_rates[i], pose, covariance, *variances))
     return samples
 
 
-def _propagated(covariance, pose, speed, yaw_rate, duration, variances):
-    """Covariance (3 x 3) after one arc from `pose`, linearised at the arc's middle."""
+def propagated(covariance, pose, speed, yaw_rate, duration, variances):
+    """Covariance (3 x 3) of the pose after one arc from `pose`, linearised at the arc's middle.
+
+    variances: of the speed and of the yaw rate during the arc.
+    """
     middle = pose[2] + 0.5 * yaw_rate * duration
     cosine, sine = math.cos(middle), math.sin(middle)
     travelled = speed * duration

@@ -81,3 +81,13 @@ def arc(speed, yaw_rate, duration):
     yaw = yaw_rate * duration
     chord = speed * duration * np.sinc(0.5 * yaw / math.pi)
     return np.array([chord * math.cos(0.5 * yaw), chord * math.sin(0.5 * yaw), yaw])
+
+
+def rates_of(motion, duration):
+    """Speed (m/s) and yaw rate (rad/s) of the arc that a planar `motion` in `duration` (s) is.
+
+    What the motion has across the arc's chord is left out: a vehicle does not slip sideways.
+    """
+    x, y, yaw = motion
+    chord = x * math.cos(0.5 * yaw) + y * math.sin(0.5 * yaw)
+    return chord / (duration * np.sinc(0.5 * yaw / math.pi)), yaw / duration

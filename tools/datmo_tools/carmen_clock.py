@@ -1,0 +1,115 @@
+"""The records of a CARMEN log in an order of rising stamps, which a bag needs.
+
+Old logs carry the time at which a message reached the logger, not the time of the measurement: with
+a busy computer the stamps of the lines come in bursts, and mixed up. There are two ways to make them
+rise, and neither is the truth:
+
+log:   every record keeps its stamp, and the records are sorted by it. Scans may change places.
+order: the records keep the order of the file, in which they were measured; the scans' stamps are
+       moved, all together by as little as possible, until they rise. What was right stays as it is.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from datmo_tools.carmen_lines import OdometryLine
+from datmo_tools.carmen_log import Record
+
+CLOCKS = ("log", "order")
+
+# The typical time between two scans is measured over so many: bursts even out, pauses stand out.
+TYPICAL_OVER = 10
+# A scan follows the one before after this share of the typical time, or later.
+LEAST_SHARE = 0.5
+
+# Odometry this close to a scan or to earlier odometry tells no speed, for its stamps and digits are
+# too coarse, and no news.
+LEAST_STEP = 20_000_000  # ns
+
+
+class TimedRecord(NamedTuple):
+    """A record at its place in time."""
+
+    stamp: int  # ns
+    record: Record
+
+    @property
+    def is_scan(self):
+        """A scan, else odometry."""
+        return not isinstance(self.record.line, OdometryLine)
+
+
+def timeline(records, clock):
+    """TimedRecords in rising order of stamps; `clock`: one of CLOCKS.
+
+    records: in the order of the file. All scans are there, but with the clock `log` those with a
+    stamp that was there before. Odometry lines are there where they fit in (LEAST_STEP).
+    """
+    timed = _by_stamp(records) if clock == "log" else _by_order(records)
+    return _thinned(timed)
+
+
+def rising(stamps, least_step):
+    """Stamps (ns) that rise by `least_step` (ns) or more, nearest to `stamps` in least squares.
+
+    Isotonic regression by pooling adjacent violators (Barlow et al., "Statistical inference under
+    order restrictions", 1972), of what the stamps have beyond the least steps.
+    """
+    pools = []  # mean and number of stamps that are moved to one line
+    for i, stamp in enumerate(stamps):
+        mean, count = float(stamp - stamps[0] - i * least_step), 1
+        while pools and pools[-1][0] > mean:
+            before, more = pools.pop()
+            mean = (before * more + mean * count) / (more + count)
+            count += more
+        pools.append((mean, count))
+    slack = np.repeat([mean for mean, _ in pools], [count for _, count in pools])
+    return [stamps[0] + round(extra) + i * least_step for i, extra in enumerate(slack)]
+
+
+def typical_step(stamps):
+    """Typical time (ns) between neighbours of `stamps` (ns, roughly rising, two or more)."""
+    over = min(TYPICAL_OVER, len(stamps) - 1)
+    spans = np.asarray(stamps[over:]) - np.asarray(stamps[:-over])
+    return max(int(np.median(spans)) // over, 2)
+
+
+def _by_stamp(records):
+    timed = sorted(
+        (TimedRecord(record.line.stamp, record) for record in records),
+        key=lambda item: (item.stamp, not item.is_scan),
+    )
+    return [timed[0]] + [b for a, b in zip(timed, timed[1:]) if b.stamp > a.stamp]
+
+
+def _by_order(records):
+    timed = [TimedRecord(record.line.stamp, record) for record in records]
+    places = [i for i, item in enumerate(timed) if item.is_scan]
+    stamps = [timed[i].stamp for i in places]
+    if len(stamps) > 1:
+        stamps = rising(stamps, int(LEAST_SHARE * typical_step(stamps)))
+    for i, stamp in zip(places, stamps):
+        timed[i] = timed[i]._replace(stamp=stamp)
+    return timed
+
+
+def _thinned(timed):
+    """Without the odometry that does not fit between its neighbours."""
+    kept = []
+    next_scan = _next_scans(timed)
+    for item, scan in zip(timed, next_scan):
+        after = not kept or item.stamp >= kept[-1].stamp + LEAST_STEP
+        before = scan is None or item.stamp <= scan - LEAST_STEP
+        if item.is_scan or (after and before):
+            kept.append(item)
+    return kept
+
+
+def _next_scans(timed):
+    """For each record the stamp of the first scan from it on; None after the last."""
+    upcoming, found = None, []
+    for item in reversed(timed):
+        upcoming = item.stamp if item.is_scan else upcoming
+        found.append(upcoming)
+    return found[::-1]

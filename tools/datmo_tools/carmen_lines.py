@@ -1,0 +1,171 @@
+"""One line of a CARMEN log -> the record it holds.
+
+Source: the format that CARMEN's logger states in the head of its files and in its manual: a line's
+kind, its fields, and then the time at which the message was sent (ipc time, s), the host, and the
+logger's own time. Lengths in m, angles in rad.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from datmo_tools.stamps import parse_seconds
+
+OLD_LASERS = ("FLASER", "RLASER")  # ranges and poses
+NEW_LASERS = ("ROBOTLASER1", "ROBOTLASER2")  # the scanner's angles and limits as well
+LASERS = OLD_LASERS + NEW_LASERS
+MOST_READINGS = 100_000  # more is a broken line, not a scanner
+
+
+class LaserLine(NamedTuple):
+    """A scan with the poses that CARMEN logged with it."""
+
+    stamp: int  # ns
+    ranges: np.ndarray  # m, from right to left; +inf where the log says so
+    first_bearing: float  # rad in the scanner's frame; NaN: the line does not tell
+    step: float  # rad between beams; NaN: the line does not tell
+    range_max: float  # m, +inf: the line does not tell
+    laser_pose: np.ndarray  # x, y, yaw of the scanner, in the odometry's frame
+    robot_pose: np.ndarray  # x, y, yaw of the robot by its odometry
+
+
+class OdometryLine(NamedTuple):
+    """The robot's pose by its odometry."""
+
+    stamp: int  # ns
+    pose: np.ndarray  # x, y, yaw
+
+
+class ParameterLine(NamedTuple):
+    """A setting of CARMEN's."""
+
+    name: str
+    value: str
+
+
+def parse_line(words):
+    """The record of a line that is split into words; None: a kind of line that is not used.
+
+    Raises ValueError that says what is wrong.
+    """
+    kind = words[0]
+    if kind in OLD_LASERS:
+        return _old_laser(_Fields(words))
+    if kind in NEW_LASERS:
+        return _new_laser(_Fields(words))
+    if kind == "ODOM":
+        return _odometry(_Fields(words))
+    if kind == "PARAM":
+        fields = _Fields(words)
+        return ParameterLine(fields.text("a name"), fields.text("a value"))
+    return None
+
+
+class _Fields:
+    """Takes the fields of a line one after the other."""
+
+    def __init__(self, words):
+        self._kind = words[0]
+        self._words = words[1:]
+        self._at = 0
+
+    def text(self, name):
+        """The next field. Raises ValueError, as all of these do, if the line ends before it."""
+        return self._next(1, name)[0]
+
+    def number(self, name):
+        """The next field, finite."""
+        return float(self.numbers(1, name)[0])
+
+    def count(self, name):
+        """The next field, a number of readings."""
+        text = self.text(name)
+        if not text.isdigit() or int(text) > MOST_READINGS:
+            raise ValueError(f"{name} is '{text}', expected 0 to {MOST_READINGS}")
+        return int(text)
+
+    def numbers(self, count, name):
+        """The next `count` fields, all finite."""
+        values = self._numbers(count, name)
+        if not np.all(np.isfinite(values)):
+            raise ValueError(f"{name}: {_first(values, ~np.isfinite(values))}, expected a number")
+        return values
+
+    def ranges(self, count):
+        """The next `count` fields: 0 or more, or +inf."""
+        values = self._numbers(count, "readings")
+        bad = ~(values >= 0.0)  # NaN too
+        if np.any(bad):
+            raise ValueError(f"a reading is {_first(values, bad)}, expected 0 m or more")
+        return values
+
+    def skip(self, count, name):
+        """Leaves `count` fields out."""
+        self._next(count, name)
+
+    def stamp(self):
+        """The next field as a stamp (ns)."""
+        return parse_seconds(self.text("the ipc time"))
+
+    def _numbers(self, count, name):
+        words = self._next(count, name)
+        try:
+            return np.array(words, dtype=float)
+        except ValueError as error:
+            raise ValueError(f"{name}: {error}, expected numbers") from error
+
+    def _next(self, count, name):
+        end = self._at + count
+        if end > len(self._words):
+            raise ValueError(
+                f"{self._kind} with {len(self._words)} fields ends before {name}, "
+                f"expected {end} or more"
+            )
+        taken = self._words[self._at : end]
+        self._at = end
+        return taken
+
+
+def _first(values, where):
+    return values[np.argmax(where)]
+
+
+def _old_laser(fields):
+    ranges = fields.ranges(fields.count("the number of readings"))
+    laser, robot = fields.numbers(3, "the laser's pose"), fields.numbers(3, "the robot's pose")
+    return _checked(
+        LaserLine(fields.stamp(), ranges, math.nan, math.nan, math.inf, laser, robot)
+    )
+
+
+def _new_laser(fields):
+    fields.skip(1, "the laser's type")
+    first_bearing = fields.number("the start angle")
+    fields.skip(1, "the field of view")
+    step = fields.number("the angular resolution")
+    range_max = fields.number("the maximum range")
+    fields.skip(2, "accuracy and remission mode")
+    ranges = fields.ranges(fields.count("the number of readings"))
+    fields.skip(fields.count("the number of remissions"), "remissions")
+    laser, robot = fields.numbers(3, "the laser's pose"), fields.numbers(3, "the robot's pose")
+    fields.skip(5, "speeds and safety distances")
+    if not 0.0 < step * len(ranges) < 2.0 * math.pi + 2.0 * step:
+        raise ValueError(
+            f"{len(ranges)} readings every {step} rad, expected them within one turn"
+        )
+    if range_max <= 0.0:
+        raise ValueError(f"the maximum range is {range_max} m, expected more than 0")
+    return _checked(LaserLine(fields.stamp(), ranges, first_bearing, step, range_max, laser, robot))
+
+
+def _odometry(fields):
+    pose = fields.numbers(3, "the pose")
+    fields.numbers(3, "speeds and acceleration")
+    return OdometryLine(fields.stamp(), pose)
+
+
+def _checked(line):
+    if len(line.ranges) < 2:
+        raise ValueError(f"{len(line.ranges)} readings, expected two or more")
+    return line

@@ -1,0 +1,49 @@
+"""What the command lines of the tools share: how they end, and options that are numbers."""
+
+import argparse
+import math
+import signal
+import sys
+
+from datmo_tools.errors import InputError
+
+
+def run(name, work, product="bag"):
+    """Calls `work()`, which writes a `product`; returns the exit code of the tool `name`.
+
+    An InputError and an interruption end with one line on standard error and the code 1. A kill
+    counts as Ctrl-C, so that `work` cleans up on the way out.
+    """
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        work()
+    except InputError as error:
+        print(f"{name}: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print(f"{name}: interrupted, no {product} written", file=sys.stderr)
+        return 1
+    return 0
+
+
+def add_number(group, name, default, metavar, description):
+    """An option of one number, or of as many as the default (a list) has."""
+    group.add_argument(
+        name,
+        type=number,
+        nargs=len(default) if isinstance(default, list) else None,
+        default=default,
+        metavar=metavar,
+        help=f"{description} (default %(default)s)",
+    )
+
+
+def number(text):
+    """A finite number; argparse names the option where it is none."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"'{text}', expected a finite number")
+    return value

@@ -1,0 +1,78 @@
+"""Planar poses over time: reading them from a bag, and the pose at any stamp."""
+
+import math
+
+import numpy as np
+import rosbag
+
+from datmo_tools import transforms
+from datmo_tools.errors import InputError
+
+# Message types with a stamped pose, and how to get at the geometry_msgs/Pose in each.
+POSE_OF = {
+    "nav_msgs/Odometry": lambda message: message.pose.pose,
+    "geometry_msgs/PoseWithCovarianceStamped": lambda message: message.pose.pose,
+    "geometry_msgs/PoseStamped": lambda message: message.pose,
+}
+
+
+class PosePath:
+    """Planar poses over time, interpolated between stamps and carried on beyond them."""
+
+    def __init__(self, stamps, poses):
+        """stamps: ns, rising, two or more; poses: n x 3 (x, y in m, yaw in rad)."""
+        self.stamps = np.asarray(stamps)
+        self.poses = np.asarray(poses, dtype=float)
+
+    def at(self, stamp):
+        """Pose at `stamp` (ns)."""
+        after = int(np.clip(np.searchsorted(self.stamps, stamp), 1, len(self.stamps) - 1))
+        begin, end = self.stamps[after - 1], self.stamps[after]
+        step = transforms.relative(self.poses[after - 1], self.poses[after])
+        return transforms.compose(self.poses[after - 1], step * ((stamp - begin) / (end - begin)))
+
+    def distance_from(self, stamp):
+        """Time (ns) from `stamp` to the nearest pose."""
+        after = int(np.clip(np.searchsorted(self.stamps, stamp), 1, len(self.stamps) - 1))
+        return int(np.abs(self.stamps[after - 1 : after + 1] - stamp).min())
+
+    def length(self):
+        """Distance driven, m."""
+        return float(np.hypot(*np.diff(self.poses[:, :2], axis=0).T).sum())
+
+
+def read_path(bag_path, topic):
+    """PosePath of the poses on `topic`, by their header stamps; of equal stamps the first counts.
+
+    Raises InputError: no such file, no bag, fewer than two poses, a type without a stamped pose.
+    """
+    by_stamp = {}
+    for message, kind in read_messages(bag_path, topic):
+        if kind not in POSE_OF:
+            raise InputError(
+                f"{bag_path}: {topic} is {kind}, expected one of {', '.join(sorted(POSE_OF))}"
+            )
+        by_stamp.setdefault(message.header.stamp.to_nsec(), planar(POSE_OF[kind](message)))
+    if len(by_stamp) < 2:
+        raise InputError(f"{bag_path}: {len(by_stamp)} poses on {topic}, expected two or more")
+    stamps = sorted(by_stamp)
+    return PosePath(stamps, [by_stamp[stamp] for stamp in stamps])
+
+
+def read_messages(bag_path, topic):
+    """List of (message, its type's name) on `topic`. Raises InputError if it is no readable bag."""
+    try:
+        with rosbag.Bag(str(bag_path)) as bag:
+            return [
+                (message, message._type)  # pylint: disable=protected-access
+                for _, message, _ in bag.read_messages([topic])
+            ]
+    except (OSError, rosbag.ROSBagException) as error:
+        raise InputError(f"{bag_path}: cannot be read as a bag ({error})") from error
+
+
+def planar(pose):
+    """x, y (m) and yaw (rad) of a geometry_msgs/Pose."""
+    q = pose.orientation
+    yaw = math.atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z))
+    return [pose.position.x, pose.position.y, yaw]
