@@ -91,4 +91,13 @@ OptionValue parseOptionValue(const std::string& key, const std::string& text) {
   }
 }
 
+void setOption(const std::string& assignment, OptionValues& values) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos) {
+    throw OptionError("--set " + assignment + ": expected key=value");
+  }
+  const std::string key = assignment.substr(0, equals);
+  values[key] = parseOptionValue(key, assignment.substr(equals + 1));
+}
+
 }  // namespace datmo

@@ -25,4 +25,8 @@ OptionValues optionValues(const YAML::Node& section);
 /// Parses `text` as the value of one option, as if it stood in a yaml file. Throws OptionError.
 OptionValue parseOptionValue(const std::string& key, const std::string& text);
 
+/// Takes `key=value`, as it stands on a command line, in place of what `values` hold for the key.
+/// Throws OptionError.
+void setOption(const std::string& assignment, OptionValues& values);
+
 }  // namespace datmo

@@ -32,17 +32,6 @@ std_msgs::Header header(Stamp stamp, const std::string& frame) {
   return result;
 }
 
-PoseWithCovariance poseWithCovariance(const geometry_msgs::PoseWithCovariance& message) {
-  PoseWithCovariance pose;
-  pose.pose = fromMessage(message.pose);
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      pose.covariance(row, column) = message.covariance.at(indexInSix(row, column));
-    }
-  }
-  return pose;
-}
-
 ScanPointMessage toMessage(const ScanPoint& point) {
   ScanPointMessage message;
   message.x = static_cast<float>(point.position.x());
@@ -120,7 +109,7 @@ Object fromMessage(const ObjectMessage& message) {
       message.position_covariance.data());
   object.heading_variance = message.heading_variance;
   object.height = message.size.z;
-  object.object_class = named(message.classification, ObjectClass::kPole);
+  object.object_class = classFromMessage(message.classification);
   object.class_probability = message.class_probability;
   object.dynamic_state = named(message.dynamic_state, DynamicState::kMoving);
   object.moving_fraction = message.moving_fraction;
@@ -198,6 +187,17 @@ Pose2 fromMessage(const geometry_msgs::Pose& pose) {
   return {p.x, p.y, heading};
 }
 
+PoseWithCovariance fromMessage(const geometry_msgs::PoseWithCovariance& message) {
+  PoseWithCovariance pose;
+  pose.pose = fromMessage(message.pose);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      pose.covariance(row, column) = message.covariance.at(indexInSix(row, column));
+    }
+  }
+  return pose;
+}
+
 geometry_msgs::TransformStamped toTransform(const Pose2& child_in_parent, Stamp stamp,
                                             const std::string& parent_frame,
                                             const std::string& child_frame) {
@@ -222,6 +222,8 @@ OdometrySample toSample(const nav_msgs::Odometry& message) {
   return {toStamp(message.header.stamp), twist};
 }
 
+ObjectClass classFromMessage(std::uint8_t value) { return named(value, ObjectClass::kPole); }
+
 SplitScanMessage toMessage(const SplitScan& scan, const std::string& base_frame,
                            const std::string& map_frame) {
   SplitScanMessage message;
@@ -240,7 +242,7 @@ SplitScanMessage toMessage(const SplitScan& scan, const std::string& base_frame,
 SplitScan fromMessage(const SplitScanMessage& message) {
   SplitScan scan;
   scan.stamp = toStamp(message.header.stamp);
-  scan.base_in_map = poseWithCovariance(message.pose);
+  scan.base_in_map = fromMessage(message.pose);
   const geometry_msgs::Pose2D& scanner = message.scanner;
   if (!std::isfinite(scanner.x + scanner.y + scanner.theta)) {
     throw InputError("bad_pose", "scanner at " + std::to_string(scanner.x) + ", " +

@@ -6,9 +6,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "input_bag.h"
 #include "interruption.h"
 #include "run_bag/bag_run.h"
-#include "run_bag/input_bag.h"
 #include "run_bag/stage_times.h"
 #include <gtest/gtest.h>
 #include <tf2_msgs/TFMessage.h>

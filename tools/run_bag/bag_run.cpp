@@ -49,14 +49,6 @@ std::vector<std::string> truthTopics(const rosbag::Bag& bag) {
   return topics;
 }
 
-[[noreturn]] void failForTopic(const rosbag::Bag& bag, const std::string& missing) {
-  std::string message = bag.getFileName() + ": " + missing + "; the bag holds:";
-  for (const std::string& topic : topicsOf(bag)) {
-    message += "\n  " + topic;
-  }
-  throw std::runtime_error(message);
-}
-
 InputTopics findTopics(const rosbag::Bag& bag, const Arguments& arguments, bool odometry_wanted) {
   InputTopics topics{arguments.inputTopic("scan"),
                      arguments.inputTopic("echoes"),

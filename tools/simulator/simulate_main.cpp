@@ -38,15 +38,6 @@ struct Arguments {
   bool quiet = false;
 };
 
-void setOption(const std::string& assignment, datmo::OptionValues& overrides) {
-  const std::size_t equals = assignment.find('=');
-  if (equals == std::string::npos) {
-    throw OptionError("--set " + assignment + ": expected key=value");
-  }
-  const std::string key = assignment.substr(0, equals);
-  overrides[key] = datmo::parseOptionValue(key, assignment.substr(equals + 1));
-}
-
 Arguments parse(const std::vector<std::string>& words) {
   Arguments arguments;
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -56,9 +47,9 @@ Arguments parse(const std::vector<std::string>& words) {
       throw OptionError(word + ": expected a value behind it");
     }
     if (word == "--seed") {
-      setOption("seed=" + words[++i], arguments.overrides);
+      datmo::setOption("seed=" + words[++i], arguments.overrides);
     } else if (word == "--set") {
-      setOption(words[++i], arguments.overrides);
+      datmo::setOption(words[++i], arguments.overrides);
     } else if (word == "--quiet") {
       arguments.quiet = true;
     } else if (word.rfind('-', 0) == 0) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include <geometry_msgs/Pose.h>
@@ -24,6 +25,9 @@ geometry_msgs::PoseWithCovariance toMessage(const PoseWithCovariance& pose);
 /// not finite or its quaternion is not of length 1.
 Pose2 fromMessage(const geometry_msgs::Pose& pose);
 
+/// The same with the covariance of what is seen from above, which is not checked.
+PoseWithCovariance fromMessage(const geometry_msgs::PoseWithCovariance& pose);
+
 geometry_msgs::TransformStamped toTransform(const Pose2& child_in_parent, Stamp stamp,
                                             const std::string& parent_frame,
                                             const std::string& child_frame);
@@ -31,6 +35,9 @@ geometry_msgs::TransformStamped toTransform(const Pose2& child_in_parent, Stamp 
 /// Throws InputError (`bad_odometry`) if speed or yaw rate is not finite, or beyond that of any
 /// vehicle.
 OdometrySample toSample(const nav_msgs::Odometry& message);
+
+/// A value without a name is kUnknown.
+ObjectClass classFromMessage(std::uint8_t value);
 
 SplitScanMessage toMessage(const SplitScan& scan, const std::string& base_frame,
                            const std::string& map_frame);

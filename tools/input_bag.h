@@ -18,6 +18,10 @@ std::vector<std::string> topicsOf(const rosbag::Bag& bag);
 
 bool holdsTopic(const rosbag::Bag& bag, const std::string& topic);
 
+/// Throws std::runtime_error that names the file, says what is `missing` in it, and lists what it
+/// holds.
+[[noreturn]] void failForTopic(const rosbag::Bag& bag, const std::string& missing);
+
 /// The message itself. Throws std::runtime_error that names topic and types if it is none of
 /// `Message`.
 template <typename Message>

@@ -37,4 +37,12 @@ bool holdsTopic(const rosbag::Bag& bag, const std::string& topic) {
   return rosbag::View(bag, rosbag::TopicQuery(topic)).size() > 0;
 }
 
+void failForTopic(const rosbag::Bag& bag, const std::string& missing) {
+  std::string message = bag.getFileName() + ": " + missing + "; the bag holds:";
+  for (const std::string& topic : topicsOf(bag)) {
+    message += "\n  " + topic;
+  }
+  throw std::runtime_error(message);
+}
+
 }  // namespace datmo

@@ -1,0 +1,92 @@
+#include "evaluation/false_detections.h"
+
+#include <algorithm>
+
+namespace datmo::evaluation {
+
+namespace {
+
+/// A place in the map where something was last seen to move that does not.
+struct Episode {
+  Stamp last;
+  Point2 place;
+};
+
+/// Counts places, not detections.
+class Episodes {
+ public:
+  Episodes(double gate, double longest_gap) : gate_(gate), longest_gap_(longest_gap) {}
+
+  void add(Stamp stamp, const Point2& place) {
+    const auto known = std::find_if(open_.begin(), open_.end(), [&](const Episode& episode) {
+      return (episode.place - place).norm() <= gate_;
+    });
+    if (known != open_.end()) {
+      *known = {stamp, place};
+    } else {
+      open_.push_back({stamp, place});
+      ++count_;
+    }
+  }
+
+  void closeOld(Stamp now) {
+    open_.erase(std::remove_if(open_.begin(), open_.end(),
+                               [&](const Episode& episode) {
+                                 return secondsBetween(episode.last, now) > longest_gap_;
+                               }),
+                open_.end());
+  }
+
+  std::size_t count() const { return count_; }
+
+ private:
+  double gate_;
+  double longest_gap_;
+  std::vector<Episode> open_;
+  std::size_t count_ = 0;
+};
+
+bool isOnObject(const Point2& place, const std::vector<TrueState>& objects,
+                const MatchOptions& options) {
+  TrackState at_place;
+  at_place.box.centre = Pose2(place, 0.0);
+  return std::any_of(objects.begin(), objects.end(), [&](const TrueState& object) {
+    return matchDistance(object, at_place, options) <= options.gate;
+  });
+}
+
+}  // namespace
+
+std::optional<double> FalseDetections::perFrame() const {
+  if (frames == 0) {
+    return std::nullopt;
+  }
+  return static_cast<double>(detections) / static_cast<double>(frames);
+}
+
+FalseDetections countFalseDetections(const std::vector<RecordedDetections>& recorded,
+                                     const TrueScene& scene, const ScoreOptions& options) {
+  const MatchOptions& matching = options.metrics.matching;
+  FalseDetections result;
+  Episodes episodes(matching.gate, options.detection_gap);
+  for (const RecordedDetections& detections : recorded) {
+    const auto view = scene.at(detections.stamp);
+    if (!view) {
+      continue;
+    }
+    ++result.frames;
+    episodes.closeOld(detections.stamp);
+    for (const Point2& seen : detections.moving) {
+      const Point2 place = view->base_in_map * seen;
+      if (scene.isInRegion(view->base_in_map, place) &&
+          !isOnObject(place, view->objects, matching)) {
+        ++result.detections;
+        episodes.add(detections.stamp, place);
+      }
+    }
+  }
+  result.episodes = episodes.count();
+  return result;
+}
+
+}  // namespace datmo::evaluation

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "evaluation/trajectory.h"
+
+namespace datmo::evaluation {
+
+/// Mean error of the motion between poses that lie this far apart on the true way.
+struct RelativePoseError {
+  double distance = 0.0;              ///< m
+  std::optional<double> translation;  ///< m; none: the way is shorter
+  std::optional<double> rotation;     ///< rad
+  std::size_t pairs = 0;
+};
+
+/// How good the estimated pose of the vehicle is; the maps are laid on each other at the first
+/// pose. Scored is every estimated pose whose truth is known.
+struct PoseScore {
+  double end_error = 0.0;           ///< m, at the last pose
+  double end_heading_error = 0.0;   ///< rad, 0 to pi
+  double way = 0.0;                 ///< m, true, from the first to the last pose
+  std::optional<double> end_share;  ///< end error by way; none: it stood
+  double position_rmse = 0.0;       ///< m
+  double heading_rmse = 0.0;        ///< rad
+  double largest_jump = 0.0;        ///< m, see kJumpTime
+  std::vector<RelativePoseError> relative;
+  std::optional<double> mean_nees;  ///< over x, y and heading; none: no covariance is usable
+  std::size_t nees_samples = 0;
+};
+
+/// A jump is the change of the position's error, as the vehicle sees it, within this time: short
+/// against drift, long against a match that goes wrong over a few scans.
+inline constexpr double kJumpTime = 1.0;  // s
+
+/// Degrees of freedom of the pose's NEES: x, y, heading.
+inline constexpr int kPoseDegreesOfFreedom = 3;
+
+/// Scores the estimate against the truth: end point; root mean square errors; the largest jump;
+/// the error of relative poses 10 m and 70 m apart (Kuemmerle et al., On measuring the accuracy of
+/// SLAM algorithms, Autonomous Robots 27(4), 2009, equation 4, with the true poses as relations);
+/// NEES (Bar-Shalom, Li and Kirubarajan 2001, section 5.4). None if the two do not overlap.
+std::optional<PoseScore> scorePoses(const Trajectory& estimated, const Trajectory& truth);
+
+}  // namespace datmo::evaluation

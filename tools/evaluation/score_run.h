@@ -1,0 +1,15 @@
+#pragma once
+
+#include <iosfwd>
+
+#include "evaluation/score_run_arguments.h"
+
+namespace datmo::evaluation {
+
+/// Loads the bags, scores the run and writes the report, to `out` where no file is named.
+///
+/// Throws std::exception with a message for people (loadRun, loadTruth, scoreRun); no report is
+/// left behind then, and one that was there before is as it was.
+void writeScore(const ScoreRunArguments& arguments, std::ostream& out);
+
+}  // namespace datmo::evaluation

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "evaluation/run_score.h"
+#include <nlohmann/json.hpp>
+
+namespace datmo::evaluation {
+
+/// What plots over time and over the ground are drawn from: one value for each frame, and the paths
+/// of true objects, tracks and the vehicle. Places and times are rounded to what a plot can show.
+nlohmann::json seriesJson(const RunScore& score);
+
+}  // namespace datmo::evaluation
