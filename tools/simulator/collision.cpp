@@ -31,17 +31,17 @@ std::vector<Body> standingBodies(const World& world) {
   return bodies;
 }
 
+Body bodyAt(const Mover& mover, const std::string& label, double time) {
+  ObjectState object;
+  object.kind = mover.kind;
+  object.centre = mover.centre(time);
+  return bodyOf(object.solid(), label);
+}
+
 std::vector<Body> movingBodies(const World& world, double time) {
-  std::vector<Body> bodies;
-  ObjectState ego;
-  ego.kind = world.ego().kind;
-  ego.centre = world.ego().centre(time);
-  bodies.push_back(bodyOf(ego.solid(), "ego vehicle"));
+  std::vector<Body> bodies{bodyAt(world.ego(), "ego vehicle", time)};
   for (const Mover& mover : world.movers()) {
-    ObjectState object;
-    object.kind = mover.kind;
-    object.centre = mover.centre(time);
-    bodies.push_back(bodyOf(object.solid(), mover.kind.label));
+    bodies.push_back(bodyAt(mover, mover.kind.label, time));
   }
   return bodies;
 }
@@ -60,7 +60,27 @@ const Body* firstMet(const Body& body, BodyIterator first, BodyIterator last) {
   return met == last ? nullptr : &*met;
 }
 
+Collision collisionOf(const Body& body, const Body& other, double time) {
+  return {time, body.label, other.label, body.bound.centre};
+}
+
 }  // namespace
+
+std::optional<Collision> firstCollision(const World& world, const Mover& newcomer,
+                                        double duration) {
+  const std::vector<Body> standing = standingBodies(world);
+  for (int step = 0; step * kStep <= duration; ++step) {
+    const double time = step * kStep;
+    const std::vector<Body> moving = movingBodies(world, time);
+    const Body body = bodyAt(newcomer, newcomer.kind.label, time);
+    const Body* other = firstMet(body, moving.begin(), moving.end());
+    other = other ? other : firstMet(body, standing.begin(), standing.end());
+    if (other) {
+      return collisionOf(body, *other, time);
+    }
+  }
+  return std::nullopt;
+}
 
 std::optional<Collision> firstCollision(const World& world, double duration) {
   const std::vector<Body> standing = standingBodies(world);
@@ -71,7 +91,7 @@ std::optional<Collision> firstCollision(const World& world, double duration) {
       const Body* other = firstMet(*body, standing.begin(), standing.end());
       other = other ? other : firstMet(*body, std::next(body), moving.end());
       if (other) {
-        return Collision{time, body->label, other->label, body->bound.centre};
+        return collisionOf(*body, *other, time);
       }
     }
   }

@@ -19,4 +19,7 @@ struct Collision {
 /// ground with another body; kerbs and paint do not count.
 std::optional<Collision> firstCollision(const World& world, double duration);
 
+/// The same for one more mover, which is not among the world's.
+std::optional<Collision> firstCollision(const World& world, const Mover& newcomer, double duration);
+
 }  // namespace datmo::simulator

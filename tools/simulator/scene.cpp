@@ -123,7 +123,38 @@ Mover readMover(const YAML::Node& entry, double duration) {
   return mover;
 }
 
-World readWorld(const YAML::Node& scene, double duration) {
+void checkOrder(const std::string& what, double least, double most) {
+  if (least > most) {
+    throw OptionError("least_" + what + " = " + std::to_string(least) + ": expected at most most_" +
+                      what + ", " + std::to_string(most));
+  }
+}
+
+Lane readLane(const YAML::Node& entry) {
+  const auto item = readItem<LaneItem>(entry, {"path", "kinds"});
+  checkOrder("speed", item.least_speed, item.most_speed);
+  checkOrder("ahead", item.least_ahead, item.most_ahead);
+  Lane lane{Path(readPoints(entry, "path"), item.corner_radius),
+            {},
+            item.least_speed,
+            item.most_speed,
+            item.least_ahead,
+            item.most_ahead};
+  for (const std::string& kind : readKinds(entry)) {
+    lane.kinds.push_back(objectKind(kind));
+  }
+  return lane;
+}
+
+void readTraffic(const YAML::Node& scene, const SimulationOptions& options, World& world) {
+  std::vector<Lane> lanes;
+  readList(scene, "lanes", [&](const YAML::Node& entry) { lanes.push_back(readLane(entry)); });
+  addTraffic(lanes, options.traffic, options.duration,
+             RandomStream(static_cast<std::uint64_t>(options.seed), "traffic"), world);
+}
+
+World readWorld(const YAML::Node& scene, const SimulationOptions& options) {
+  const double duration = options.duration;
   if (!scene["ego"].IsDefined()) {
     throw OptionError("ego is missing: expected the ego vehicle's path and speed");
   }
@@ -134,6 +165,7 @@ World readWorld(const YAML::Node& scene, double duration) {
   readList(scene, "fronts", [&](const YAML::Node& entry) { addFront(entry, *world); });
   readList(scene, "actors",
            [&](const YAML::Node& entry) { world->addMover(readMover(entry, duration)); });
+  readTraffic(scene, options, *world);
   return *world;
 }
 
@@ -153,13 +185,13 @@ Scene readScene(const std::string& file, const OptionValues& overrides) {
   const YAML::Node yaml = loadYaml(file);
   std::optional<Scene> scene;
   readAt(file, [&] {
-    expectKeys(yaml, {"options", "ego", "roads", "crossings", "rows", "fronts", "actors"});
+    expectKeys(yaml, {"options", "ego", "roads", "crossings", "rows", "fronts", "actors", "lanes"});
     OptionValues values = optionValues(yaml["options"]);
     for (const auto& [key, value] : overrides) {
       values[key] = value;
     }
     const auto options = readOptions<SimulationOptions>(values);
-    scene.emplace(Scene{options, readWorld(yaml, options.duration)});
+    scene.emplace(Scene{options, readWorld(yaml, options)});
     refuseCollisions(scene->world, options.duration);
   });
   return *scene;

@@ -5,6 +5,7 @@
 #include "simulator/ground_truth.h"
 #include "simulator/laser_scanner.h"
 #include "simulator/odometer.h"
+#include "simulator/traffic.h"
 #include "simulator/world.h"
 
 #include "datmo_fusion/common/options.h"
@@ -19,6 +20,7 @@ struct SimulationOptions {
   LaserScannerOptions scanner;
   OdometerOptions odometer;
   GroundTruthOptions ground_truth;
+  TrafficOptions traffic;
 
   void visit(OptionVisitor& visitor);
 };

@@ -59,6 +59,17 @@ void ActorItem::visit(OptionVisitor& visitor) {
   visitor.number({"start", "m", "where it is on its path at the start"}, start, {0.0, 1e5});
 }
 
+void LaneItem::visit(OptionVisitor& visitor) {
+  visitor.number({"corner_radius", "m", "of the arcs at the corners of its path"}, corner_radius,
+                 {0.0, 200.0});
+  visitor.number({"least_speed", "m/s", "of the movers in it"}, least_speed, {0.1, 100.0});
+  visitor.number({"most_speed", "m/s", "of the movers in it"}, most_speed, {0.1, 100.0});
+  visitor.number({"least_ahead", "m", "along the lane, of the ego vehicle when they meet"},
+                 least_ahead, {-500.0, 500.0});
+  visitor.number({"most_ahead", "m", "along the lane, of the ego vehicle when they meet"},
+                 most_ahead, {-500.0, 500.0});
+}
+
 void SimulationOptions::visit(OptionVisitor& visitor) {
   constexpr double kMostSeed = 2147483647.0;
   visitor.integer({"seed", "1", "of all random numbers"}, seed, {0.0, kMostSeed});
@@ -67,6 +78,7 @@ void SimulationOptions::visit(OptionVisitor& visitor) {
   visitor.group("scanner", [&] { scanner.visit(visitor); });
   visitor.group("odometer", [&] { odometer.visit(visitor); });
   visitor.group("ground_truth", [&] { ground_truth.visit(visitor); });
+  visitor.group("traffic", [&] { traffic.visit(visitor); });
 }
 
 }  // namespace datmo::simulator

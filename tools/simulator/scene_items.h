@@ -62,4 +62,15 @@ struct ActorItem {
   void visit(OptionVisitor& visitor);
 };
 
+/// A path for random traffic.
+struct LaneItem {
+  double corner_radius = 6.0;
+  double least_speed = 10.0;
+  double most_speed = 15.0;
+  double least_ahead = 0.0;
+  double most_ahead = 0.0;
+
+  void visit(OptionVisitor& visitor);
+};
+
 }  // namespace datmo::simulator

@@ -1,0 +1,86 @@
+#include "simulator/traffic.h"
+
+#include <string>
+
+#include "simulator/collision.h"
+
+namespace datmo::simulator {
+
+namespace {
+
+/// Draws after which a mover is given up; lanes that are not full need a few.
+constexpr int kMostDraws = 1000;
+/// m; how finely a lane is searched for its place beside the ego vehicle.
+constexpr double kSearchStep = 1.0;
+
+double between(double least, double most, double share) { return least + share * (most - least); }
+
+template <typename Item>
+const Item& oneOf(const std::vector<Item>& items, RandomStream& random) {
+  return items[static_cast<std::size_t>(random.uniform() * static_cast<double>(items.size()))];
+}
+
+/// m along the path, of its place nearest to a point.
+double wayBeside(const Path& path, const Point2& point) {
+  double nearest = 0.0;
+  for (double way = 0.0; way <= path.length(); way += kSearchStep) {
+    if ((path.at(way).pose.position() - point).norm() <
+        (path.at(nearest).pose.position() - point).norm()) {
+      nearest = way;
+    }
+  }
+  return nearest;
+}
+
+Mover draw(const std::vector<Lane>& lanes, double duration, const Mover& ego,
+           RandomStream& random) {
+  const Lane& lane = oneOf(lanes, random);
+  const ObjectKind& kind = oneOf(lane.kinds, random);
+  const double speed = between(lane.least_speed, lane.most_speed, random.uniform());
+  const double meeting = between(0.0, duration, random.uniform());
+  const double ahead = between(lane.least_ahead, lane.most_ahead, random.uniform());
+  const double start = wayBeside(lane.path, ego.axle(meeting).position()) + ahead - speed * meeting;
+  return {kind, lane.path, SpeedProfile({{0.0, speed}}), start};
+}
+
+bool isFree(const World& world, Mover mover, double gap, double duration) {
+  mover.kind.length += 2.0 * gap;
+  return !firstCollision(world, mover, duration);
+}
+
+bool addMover(const std::vector<Lane>& lanes, const TrafficOptions& options, double duration,
+              RandomStream& random, World& world) {
+  for (int i = 0; i < kMostDraws; ++i) {
+    const Mover mover = draw(lanes, duration, world.ego(), random);
+    if (isFree(world, mover, options.gap, duration)) {
+      world.addMover(mover);
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+void TrafficOptions::visit(OptionVisitor& visitor) {
+  visitor.integer({"movers", "1", "that drive at random in the scene's lanes"}, movers,
+                  {0.0, 1000.0});
+  visitor.number({"gap", "m", "that each of them keeps at least to what is ahead and behind"}, gap,
+                 {0.0, 100.0});
+}
+
+void addTraffic(const std::vector<Lane>& lanes, const TrafficOptions& options, double duration,
+                RandomStream random, World& world) {
+  const std::string given = "traffic/movers = " + std::to_string(options.movers);
+  if (options.movers > 0 && lanes.empty()) {
+    throw OptionError(given + ": expected lanes in the scene for them");
+  }
+  for (int i = 0; i < options.movers; ++i) {
+    if (!addMover(lanes, options, duration, random, world)) {
+      throw OptionError(given + ": expected at most the " + std::to_string(i) +
+                        " for which the lanes have room");
+    }
+  }
+}
+
+}  // namespace datmo::simulator

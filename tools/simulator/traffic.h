@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "simulator/path.h"
+#include "simulator/random_stream.h"
+#include "simulator/world.h"
+
+#include "datmo_fusion/common/options.h"
+
+namespace datmo::simulator {
+
+/// How much random traffic there is. With the same seed, more of it leaves the first movers and the
+/// ego vehicle's odometry as they are.
+struct TrafficOptions {
+  int movers = 0;
+  double gap = 3.0;  ///< m
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Where random traffic drives, and how.
+struct Lane {
+  Path path;
+  std::vector<ObjectKind> kinds;  ///< at least one
+  double least_speed = 0.0;       ///< m/s
+  double most_speed = 0.0;        ///< m/s, at least `least_speed`
+  double least_ahead = 0.0;       ///< m along the lane, of the ego vehicle when it is met
+  double most_ahead = 0.0;        ///< m, at least `least_ahead`
+};
+
+/// Adds movers to the world, each drawn from the stream: its lane, kind and constant speed, the
+/// time at which it meets the ego vehicle, from 0 to `duration` (s), and how far ahead of it in the
+/// lane it is then; so all of them come near. What would come nearer than the gap to a body ahead
+/// or behind is drawn again.
+///
+/// Throws OptionError where there is no lane, or where no free way is found for a mover.
+void addTraffic(const std::vector<Lane>& lanes, const TrafficOptions& options, double duration,
+                RandomStream random, World& world);
+
+}  // namespace datmo::simulator
