@@ -1,0 +1,104 @@
+"""What the runs of the robustness benchmark come to."""
+
+import statistics
+
+LARGEST_JUMP = 1.0  # m; more is a failure
+
+COLUMNS = (
+    ("scene", "{scene:<16}"),
+    ("movers", "{movers:>8}"),
+    ("runs", "{runs:>6}"),
+    ("failed", "{failed:>8}"),
+    ("rate", "{failure_rate:>8.0%}"),
+    ("worst jump", "{worst_jump_m:>10.2f} m"),
+)
+
+
+def summarise(runs):
+    """One dictionary for each scene and number of movers, in the order of their first run.
+
+    runs: dictionaries with scene, movers, seed and pose (as in score_run's JSON; None: no score,
+    which counts as neither good nor failed). Error and ratio are None where nothing was scored;
+    the ratio is that of the mean to the one of the same scene without movers.
+    """
+    groups = {}
+    for run in runs:
+        groups.setdefault((run["scene"], run["movers"]), []).append(run)
+    rows = [_row(scene, movers, group) for (scene, movers), group in groups.items()]
+    for row in rows:
+        still = next((r for r in rows if r["scene"] == row["scene"] and r["movers"] == 0), None)
+        for error in row["relative"]:
+            error["ratio"] = _ratio(error, still)
+    return rows
+
+
+def table(summary):
+    """Text of a summary."""
+    lines = [_heading(summary)]
+    for row in summary:
+        cells = [form.format(**_printable(row)) for _, form in COLUMNS]
+        cells += [_error_cell(error) for error in row["relative"]]
+        lines.append("".join(cells))
+    return "\n".join(lines)
+
+
+def _row(scene, movers, runs):
+    poses = [run["pose"] for run in runs if run["pose"] is not None]
+    jumps = [pose["largest_jump_m"] for pose in poses]
+    failed = [run["seed"] for run in runs
+              if run["pose"] is not None and run["pose"]["largest_jump_m"] > LARGEST_JUMP]  # fmt: skip
+    return {
+        "scene": scene,
+        "movers": movers,
+        "runs": len(poses),
+        "without_score": len(runs) - len(poses),
+        "failed": len(failed),
+        "failed_seeds": failed,
+        "failure_rate": len(failed) / len(poses) if poses else None,
+        "worst_jump_m": max(jumps, default=None),
+        "relative": _relative(poses),
+    }
+
+
+def _relative(poses):
+    """Mean over the runs of the error of relative poses, for each distance."""
+    errors = {}
+    for pose in poses:
+        for error in pose["relative"]:
+            if error["translation_m"] is not None:
+                errors.setdefault(error["distance_m"], []).append(error)
+    return [
+        {
+            "distance_m": distance,
+            "translation_m": statistics.mean(error["translation_m"] for error in same),
+            "rotation_deg": statistics.mean(error["rotation_deg"] for error in same),
+        }
+        for distance, same in sorted(errors.items())
+    ]
+
+
+def _ratio(error, still):
+    for other in still["relative"] if still else []:
+        if other["distance_m"] == error["distance_m"] and other["translation_m"] > 0.0:
+            return error["translation_m"] / other["translation_m"]
+    return None
+
+
+def _printable(row):
+    """The row with numbers in place of what is not defined."""
+    return {key: float("nan") if value is None else value for key, value in row.items()}
+
+
+def _heading(summary):
+    widths = [len(form.format(**_printable(summary[0]))) for _, form in COLUMNS]
+    names = [name for name, _ in COLUMNS]
+    heading = f"{names[0]:<{widths[0]}}"
+    heading += "".join(f"{name:>{width}}" for name, width in zip(names[1:], widths[1:]))
+    distances = max((row["relative"] for row in summary), key=len)
+    texts = [f"error at {error['distance_m']:.0f} m" for error in distances]
+    return heading + "".join(f"{text:>18}  ratio" for text in texts)
+
+
+def _error_cell(error):
+    ratio = "      -" if error["ratio"] is None else f"{error['ratio']:>7.2f}"
+    return f"{error['translation_m']:>16.3f} m{ratio}"
