@@ -1,0 +1,160 @@
+#!/usr/bin/python3
+"""The command line of evaluate, with a stand-in for score_run that copies what it shall have scored."""
+
+import contextlib
+import io
+import json
+import os
+import tempfile
+import unittest
+from pathlib import Path
+
+from datmo_tools.errors import InputError
+from datmo_tools.evaluate import main
+from datmo_tools.score_run import find_score_run
+from datmo_tools.whole_files import write_whole
+from evaluation_sample import sample_run
+
+# Notes its words; a run's file holds what scoring it gives, or a complaint and an exit code.
+STAND_IN = """#!/usr/bin/python3
+import json, sys
+from pathlib import Path
+words = sys.argv[1:]
+with open(Path(__file__).with_name("calls"), "a") as calls:
+    calls.write(json.dumps(words[:-1]) + chr(10))
+scored = Path(words[0]).read_text()
+if scored.startswith("fail"):
+    print("stand-in: no /tracks", file=sys.stderr)
+    sys.exit(int(scored.split()[1]))
+assert words[-2] == "--out"
+Path(words[-1]).write_text(scored)
+"""
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        self.program = self.folder / "score_run"
+        self.program.write_text(STAND_IN)
+        self.program.chmod(0o755)
+        self.out = self.folder / "report"
+
+    def bag(self, name, **changes):
+        path = self.folder / name
+        path.write_text(json.dumps(sample_run(str(path), **changes)))
+        return path
+
+    def evaluate(self, *words):
+        """Exit code, standard output, standard error."""
+        out, err = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            try:
+                code = main([*map(str, words), "--out", str(self.out)], str(self.program))
+            except SystemExit as ending:
+                code = ending.code
+        return code, out.getvalue(), err.getvalue()
+
+    def calls(self):
+        return [json.loads(line) for line in (self.folder / "calls").read_text().splitlines()]
+
+    def test_one_run(self):
+        bag = self.bag("a.bag")
+        code, out, _ = self.evaluate(bag)
+        self.assertEqual(code, 0)
+        self.assertIn("MOTA", out)
+        self.assertIn(str(self.out / "report.html"), out)
+        self.assertEqual(sorted(path.name for path in self.out.iterdir()),
+                         ["report.html", "report.json"])
+        report = json.loads((self.out / "report.json").read_text())
+        self.assertEqual(report, {"format": 1, "runs": [sample_run(str(bag))]})
+        self.assertEqual(self.calls(), [[str(bag), "--out"]])
+
+    def test_truth_and_options_are_passed_on(self):
+        bag = self.bag("a.bag")
+        self.evaluate(bag, "--truth", "t.bag", "--options", "o.yaml", "--set", "region/range=30",
+                      "--set", "align=none")
+        self.assertEqual(self.calls(), [[
+            str(bag), "t.bag", "--options", "o.yaml", "--set", "region/range=30",
+            "--set", "align=none", "--out"]])
+
+    def test_runs_side_by_side(self):
+        better = self.bag("b.bag", clear_mot={"mota": 0.6})
+        code, out, _ = self.evaluate("--compare", self.bag("a.bag"), better)
+        self.assertEqual(code, 0)
+        mota = next(line for line in out.splitlines() if line.startswith("  MOTA"))
+        self.assertEqual(mota.split(), ["MOTA", "%", "40.0", "60.0*"])
+        report = json.loads((self.out / "report.json").read_text())
+        self.assertEqual([run["clear_mot"]["mota"] for run in report["runs"]], [0.4, 0.6])
+
+    def test_failure_of_score_run_is_ours_and_leaves_nothing(self):
+        bad = self.folder / "bad.bag"
+        for code in (2, 7):
+            bad.write_text(f"fail {code}")
+            self.assertEqual(self.evaluate("--compare", self.bag("a.bag"), bad)[:2], (code, ""))
+            self.assertFalse(self.out.exists())
+
+    def test_failure_leaves_the_report_of_before(self):
+        self.evaluate(self.bag("a.bag"))
+        before = (self.out / "report.html").read_bytes()
+        bad = self.folder / "bad.bag"
+        bad.write_text("fail 2")
+        self.evaluate(bad)
+        self.assertEqual((self.out / "report.html").read_bytes(), before)
+
+    def test_same_input_same_bytes(self):
+        pages = []
+        for _ in range(2):
+            self.evaluate(self.bag("a.bag"))
+            pages.append((self.out / "report.html").read_bytes())
+        self.assertTrue(pages[0] == pages[1])
+
+    def test_wrong_usage(self):
+        for words in ([], ["a.bag", "--compare", "b.bag"], ["a.bag", "--fast"]):
+            code, out, err = self.evaluate(*words)
+            self.assertEqual((code, out), (2, ""))
+            self.assertIn("usage: evaluate", err)
+
+    def test_format_of_another_time(self):
+        code, _, err = self.evaluate(self.bag("a.bag", format=9))
+        self.assertEqual(code, 1)
+        self.assertIn("format 9, expected 1", err)
+        self.assertFalse(self.out.exists())
+
+    def test_folder_that_is_a_file(self):
+        self.out.write_text("mine")
+        code, out, err = self.evaluate(self.bag("a.bag"))
+        self.assertEqual((code, out), (1, ""))
+        self.assertIn(str(self.out), err)
+        self.assertEqual(self.out.read_text(), "mine")
+
+
+class FindScoreRun(unittest.TestCase):
+    def test_beside_the_tool_and_nowhere(self):
+        with tempfile.TemporaryDirectory() as folder:
+            tool, neighbour = Path(folder) / "evaluate", Path(folder) / "score_run"
+            path = os.environ["PATH"]
+            self.addCleanup(os.environ.__setitem__, "PATH", path)
+            os.environ["PATH"] = folder + "/none"
+            with self.assertRaisesRegex(InputError, "score_run is not on PATH"):
+                find_score_run(tool)
+            neighbour.touch()
+            self.assertEqual(find_score_run(tool), str(neighbour))
+
+
+class WholeFiles(unittest.TestCase):
+    def test_all_or_none(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name) / "new"
+            write_whole(folder, {"a": "1", "b": "2"})
+            self.assertEqual((folder / "a").read_text() + (folder / "b").read_text(), "12")
+            (folder / "c.part").mkdir()  # c cannot be written
+            with self.assertRaisesRegex(InputError, "new: cannot be written"):
+                write_whole(folder, {"a": "changed", "c": "3"})
+            self.assertEqual((folder / "a").read_text(), "1")
+            self.assertEqual(sorted(path.name for path in folder.iterdir()), ["a", "b", "c.part"])
+
+
+if __name__ == "__main__":
+    unittest.main()

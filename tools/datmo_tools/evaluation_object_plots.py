@@ -1,0 +1,127 @@
+"""Plots of evaluate of one run's objects: who was tracked when and by which id, and where.
+
+Each function returns an SVG element.
+"""
+
+import numpy as np
+
+from datmo_tools.evaluation_style import FALSE, INK, MISSED, TRUTH, WIDTH, colour, drawing, plain
+
+ROW = 0.2  # inch
+BAR = 0.76  # of a row
+MIN_HEIGHT, MAX_HEIGHT = 3.0, 9.0  # inch, of the map
+ID_SHARE = 0.025  # of the time shown: a shorter bar has no room for its id
+JITTER = 0.5  # of a period: a later frame is not the next one
+
+
+def timeline(run):
+    """A row for each object; its bar changes colour where another track takes over."""
+    paths = sorted(run["series"]["true_paths"], key=lambda path: path["id"])
+    period = _period(run)
+
+    def draw(ax):
+        for y, path in enumerate(paths):
+            _draw_row(ax, y, path, period, ID_SHARE * run["duration_s"])
+        ax.set(yticks=range(len(paths)), ylim=(len(paths) - 0.4, -0.6), xlabel="time (s)")
+        ax.set_yticklabels([plain(f"{path['label']} {path['id']}") for path in paths], fontsize=8)
+        ax.set_xlim(0.0, run["duration_s"])
+        ax.grid(False, axis="y")
+
+    return drawing(0.6 + ROW * max(len(paths), 1), draw, left=1.3, top=0.05)
+
+
+def _draw_row(ax, y, path, period, room):
+    times = path["time_s"]
+    required = [True if duty else None for duty in path["required"]]
+    _draw_bars(ax, y, spans(times, required, period), MISSED)
+    tracked = spans(times, path["track_id"], period)
+    for i, number in enumerate(dict.fromkeys(number for _, _, number in tracked)):
+        _draw_bars(ax, y, [span for span in tracked if span[2] == number], colour(i))
+    for begin, end, number in tracked:
+        if end - begin > room:
+            ax.text(begin + 0.1 * room, y, str(number), color="white", fontsize=6.5, va="center")
+
+
+def _draw_bars(ax, y, bars, shade):
+    """bars: as of spans. One call for all: each is slow."""
+    where = [(begin, end - begin) for begin, end, _ in bars]
+    ax.broken_barh(where, (y - 0.5 * BAR, BAR), facecolors=shade, linewidth=0)
+
+
+def spans(times, keys, period):
+    """Stretches of one key: list of (begin, end, key); a sample lasts one `period`.
+
+    times: rising; keys: of the samples, None where there is nothing to show.
+    """
+    found = []
+    for time, key in zip(times, keys):
+        if key is None:
+            continue
+        if found and found[-1][2] == key and time - found[-1][1] <= JITTER * period:
+            found[-1] = (found[-1][0], time + period, key)
+        else:
+            found.append((time, time + period, key))
+    return found
+
+
+def birds_eye(run):
+    """Paths of the vehicle, of the true objects and of the tracks, x to the right."""
+    series = run["series"]
+    on_truth = {number for path in series["true_paths"] for number in path["track_id"]}
+    xy = [_xy(path) for path in [series["ego_true"], *series["true_paths"]]]
+    height = _map_height(np.concatenate(xy, axis=1))
+
+    def draw(ax):
+        for path in series["true_paths"]:
+            _line(ax, path, "path of a true object", color=TRUTH, linewidth=4.0, alpha=0.55)
+            _write_number(ax, path)
+        for path in series["track_paths"]:
+            if path["id"] in on_truth:
+                _line(ax, path, "track", color=colour(0), linewidth=1.1)
+            else:
+                _line(ax, path, "track on no true object", color=FALSE, linewidth=1.4)
+        _line(ax, series["ego_true"], "vehicle, true", color=INK, linewidth=1.4)
+        _line(ax, series["ego_estimated"], "vehicle, estimated", color=colour(1), linestyle="--")
+        ax.set_aspect("equal", adjustable="datalim")
+        ax.set(xlabel="x (m)", ylabel="y (m)")
+        _legend_of_kinds(ax)
+
+    return drawing(height, draw)
+
+
+def _map_height(xy):
+    """Height (inch) at which the map fills the figure's width, within limits."""
+    finite = xy[:, np.isfinite(xy).all(axis=0)]
+    if finite.size == 0:
+        return MIN_HEIGHT
+    width, depth = np.maximum(finite.max(axis=1) - finite.min(axis=1), 1.0)
+    return float(np.clip(1.0 + WIDTH * depth / width, MIN_HEIGHT, MAX_HEIGHT))
+
+
+def _line(ax, path, label, **style):
+    ax.plot(*_xy(path), label=label, **style)
+
+
+def _write_number(ax, path):
+    """The object's id where it is first seen."""
+    if path["x_m"]:
+        place = (path["x_m"][0], path["y_m"][0])
+        ax.annotate(str(path["id"]), place, fontsize=7, color="#475569", clip_on=True)
+
+
+def _legend_of_kinds(ax):
+    """One entry a kind of line, above the map."""
+    handles = dict(zip(*reversed(ax.get_legend_handles_labels())))
+    place = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.2}
+    ax.legend(handles.values(), handles.keys(), ncol=len(handles), **place)
+
+
+def _xy(path):
+    """Array of 2 x n, m."""
+    return np.array([path["x_m"], path["y_m"]], dtype=float)
+
+
+def _period(run):
+    """Median time between two frames, s."""
+    steps = np.diff(run["series"]["time_s"])
+    return float(np.median(steps)) if len(steps) else run["duration_s"]

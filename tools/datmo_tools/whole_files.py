@@ -1,0 +1,27 @@
+"""Files that are written all together or not at all."""
+
+import contextlib
+import os
+
+from datmo_tools.errors import InputError
+
+
+def write_whole(folder, texts):
+    """Writes files to `folder` (Path), which is made if need be.
+
+    texts: name -> text. Each gets its name only when all of them are on the disk; what was there
+    under a name stays until then.
+    """
+    parts = {name: folder / (name + ".part") for name in texts}
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, text in texts.items():
+            parts[name].write_text(text, encoding="utf-8")
+        for name, part in parts.items():
+            os.replace(part, folder / name)
+    except OSError as error:
+        raise InputError(f"{folder}: cannot be written: {error}") from error
+    finally:
+        for part in parts.values():
+            with contextlib.suppress(OSError):
+                part.unlink()
