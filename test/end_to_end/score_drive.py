@@ -34,6 +34,7 @@ from drive_score import (
 DEFAULT_GATE = 2.5  # m from the track's centre to the box
 DEFAULT_LABEL_VIEW = 40.0  # degrees to either side of straight ahead: what KITTI's cameras see
 LABEL_RANGE = 50.0  # m, the emulated scanner's
+MAX_SCAN_TO_TRUTH = 50_000_000  # ns: half a turn of the Velodyne
 
 
 class DriveScore(NamedTuple):
@@ -52,14 +53,15 @@ def score(truth_bag, output_bag, gate=DEFAULT_GATE, label_view=DEFAULT_LABEL_VIE
     truth = _path(recorded["/ground_truth/pose"])
     estimate = _path(computed["/pose"])
     map_in_truth = alignment(estimate, truth)
-    boxes = {
-        m.header.stamp.to_nsec(): [_box(item) for item in m.objects]
-        for m in recorded["/ground_truth/objects"]
-    }
     tracks = {
         m.header.stamp.to_nsec(): [_track(item, map_in_truth) for item in m.tracks]
         for m in computed["/tracks"]
     }
+    boxes = {}
+    for message in recorded["/ground_truth/objects"]:
+        stamp = message.header.stamp.to_nsec()
+        scan = _near(stamp, tracks)
+        boxes[scan] = [_box(item, (scan - stamp) * 1e-9) for item in message.objects]
 
     def in_view(stamp, position):
         seen = transforms.relative(truth.at(stamp), [*position, 0.0])
@@ -128,8 +130,22 @@ def _yaw(quaternion):
     return 2.0 * math.atan2(quaternion.z, quaternion.w)
 
 
-def _box(item):
-    pose = np.array([item.pose.position.x, item.pose.position.y, _yaw(item.pose.orientation)])
+def _near(stamp, stamps):
+    """The nearest of `stamps` within half a scan; `stamp` itself where there is none."""
+    nearest = min(stamps, key=lambda other: abs(other - stamp))
+    return nearest if abs(nearest - stamp) <= MAX_SCAN_TO_TRUTH else stamp
+
+
+def _box(item, seconds):
+    """TrueBox of a TrueObject `seconds` after its stamp."""
+    position, velocity = item.pose.position, item.velocity
+    pose = np.array(
+        [
+            position.x + velocity.x * seconds,
+            position.y + velocity.y * seconds,
+            _yaw(item.pose.orientation),
+        ]
+    )
     is_vehicle = item.classification == Object.CLASS_VEHICLE
     return TrueBox(item.id, item.label, is_vehicle, item.moving, pose, item.size.x, item.size.y)
 

@@ -46,15 +46,25 @@ class Contents(Conversion):
         scans = self.messages("/scan")
         self.assertEqual(len(scans), tiny_drive.FRAMES)
         scan = scans[1]
-        self.assertEqual(
-            (scan.header.frame_id, scan.header.stamp.to_nsec()), ("scanner", 1317042272_100000000)
-        )
-        self.assertAlmostEqual(scan.angle_min, math.radians(-80.0), places=6)
-        self.assertAlmostEqual(scan.angle_max, math.radians(80.0), places=6)
-        self.assertAlmostEqual(scan.angle_increment, math.radians(2.0), places=6)
+        self.assertEqual(scan.header.frame_id, "scanner")
+        self.assertAlmostEqual(scan.angle_min, math.radians(80.0), places=6)
+        self.assertAlmostEqual(scan.angle_max, math.radians(-80.0), places=6)
+        self.assertAlmostEqual(scan.angle_increment, math.radians(-2.0), places=6)
         self.assertEqual((scan.range_min, scan.range_max, len(scan.ranges)), (1.0, 50.0, 81))
         self.assertAlmostEqual(scan.ranges[40], 10.0, places=5)
         self.assertEqual(sum(math.isinf(distance) for distance in scan.ranges), 80)
+
+    def test_beams_have_their_own_times(self):
+        """A turn takes 0.1 s, 160 of 360 degrees of it 44.4 ms, and the middle is at the stamp."""
+        self.run_tool()
+        with rosbag.Bag(str(self.bag)) as bag:
+            _, scan, recorded = list(bag.read_messages(["/scan"]))[1]
+        self.assertEqual(scan.header.stamp.to_nsec(), 1317042272_100000000 - 22222222)
+        self.assertAlmostEqual(80 * scan.time_increment, 0.1 * 160 / 360, places=7)
+        self.assertAlmostEqual(scan.scan_time, 0.1, places=7)
+        self.assertEqual(recorded.to_nsec(), 1317042272_100000000 + 22222222)
+        stamp = self.messages("/ground_truth/objects")[1].header.stamp
+        self.assertEqual(stamp.to_nsec(), 1317042272_100000000)
 
     def test_scan_options(self):
         self.run_tool("--scan-resolution", "1", "--scan-range", "11", "40", "--scan-fov", "90")
@@ -74,8 +84,8 @@ class Contents(Conversion):
         self.assertEqual(pose.twist.twist.linear.x, 10.0)
         arrays = self.messages("/ground_truth/objects")
         self.assertEqual(
-            [array.header.stamp for array in arrays],
-            [scan.header.stamp for scan in self.messages("/scan")],
+            [array.header.stamp.nsecs for array in arrays],
+            [frame * 100_000_000 for frame in range(tiny_drive.FRAMES)],
         )
         van = arrays[2].objects[0]
         self.assertAlmostEqual(van.pose.position.x, 2.0 + 0.8 + 12.0, places=6)
@@ -197,9 +207,10 @@ class Contents(Conversion):
         (self.drive / "velodyne_points" / "data" / "0000000001.bin").unlink()
         self.run_tool("--allow-missing-scans")
         self.assertEqual(
-            [scan.header.stamp.nsecs for scan in self.messages("/scan")],
+            [array.header.stamp.nsecs for array in self.messages("/ground_truth/objects")],
             [0, 200_000_000, 300_000_000],
         )
+        self.assertEqual(len(self.messages("/scan")), 3)
         self.assertEqual(len(self.messages("/odometry")), 4)
 
 

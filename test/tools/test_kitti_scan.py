@@ -25,19 +25,19 @@ class EmulatedScanner(unittest.TestCase):
     def test_demonstrator_has_81_beams(self):
         options = ScannerOptions()
         self.assertEqual(options.beams, 81)
-        self.assertAlmostEqual(options.angle_min + 80 * options.angle_increment, math.radians(80.0))
+        self.assertAlmostEqual(options.angle_min + 80 * options.angle_increment, -math.radians(80.0))
         self.assertEqual(options._replace(resolution=1.0).beams, 161)
         self.assertEqual(options._replace(resolution=0.25).beams, 641)
 
-    def test_beams_are_centred_on_their_bearings(self):
+    def test_beams_are_centred_on_their_bearings_from_left_to_right(self):
         for bearing, beam in (
             (0.0, 40),
             (0.9, 40),
             (-0.9, 40),
-            (1.1, 41),
-            (-80.0, 0),
-            (80.9, 80),
-            (-45.0, 18),
+            (1.1, 39),
+            (80.0, 0),
+            (-80.9, 80),
+            (45.0, 18),
         ):
             ranges = scan([(10.0, bearing)]).ranges
             self.assertEqual(
@@ -53,7 +53,7 @@ class EmulatedScanner(unittest.TestCase):
     def test_nearest_of_a_beam_and_where_it_came_from(self):
         result = scan([(20.0, 0.0), (10.0, 0.5), (15.0, -0.5), (30.0, 20.0)])
         self.assertAlmostEqual(result.ranges[AHEAD], 10.0)
-        self.assertEqual((result.sources[AHEAD], result.sources[AHEAD + 10]), (1, 3))
+        self.assertEqual((result.sources[AHEAD], result.sources[AHEAD - 10]), (1, 3))
         self.assertEqual(np.count_nonzero(result.sources >= 0), 2)
         self.assertTrue(np.all(np.isinf(result.ranges[result.sources < 0])))
 

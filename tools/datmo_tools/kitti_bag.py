@@ -148,7 +148,7 @@ class _Conversion:
         cloud = self._drive.cloud(frame)
         plane = road_plane.fit_road_plane(cloud) if self._options.fit_road else road_plane.FLAT
         scan = scanner_emulation.emulate_scan(cloud, plane.heights(cloud), self._options.scanner)
-        bag.write("/scan", stamp, kitti_messages.laser_scan(stamp, scan, self._options.scanner))
+        self._write_beams(bag, stamp, scan)
         if self._options.points:
             bag.write("/points", stamp, kitti_messages.point_cloud(stamp, cloud))
         if self._truth is not None:
@@ -158,6 +158,16 @@ class _Conversion:
             bag.write(
                 "/ground_truth/objects", stamp, kitti_messages.true_objects(stamp, objects, beams)
             )
+
+    def _write_beams(self, bag, stamp, scan):
+        """Writes /scan: stamped with its first beam's time, recorded when its last one is there.
+
+        The Velodyne looks ahead at `stamp`, in the middle of the field of view.
+        """
+        scanner, turn_duration = self._options.scanner, self._drive.turn_duration
+        half_sweep = round(0.5 * turn_duration * scanner.turn_share)
+        message = kitti_messages.laser_scan(stamp - half_sweep, scan, scanner, turn_duration)
+        bag.write("/scan", stamp + half_sweep, message)
 
 
 def _chosen_frames(drive, options):

@@ -25,13 +25,19 @@ CLASSES = {
 }
 
 
-def laser_scan(stamp, scan, options):
-    """LaserScan of an EmulatedScan; all beams at one stamp: the Velodyne looks ahead at it."""
+def laser_scan(stamp, scan, options, turn_duration):
+    """LaserScan of an EmulatedScan with beams at their own times.
+
+    stamp: of the first beam (ns); turn_duration: of the Velodyne (ns).
+    """
+    sweep = turn_duration * options.turn_share
     return LaserScan(
         header=header(stamp, SCANNER),
         angle_min=options.angle_min,
         angle_max=-options.angle_min,
         angle_increment=options.angle_increment,
+        time_increment=sweep / (options.beams - 1) * 1e-9,
+        scan_time=turn_duration * 1e-9,
         range_min=options.range_min,
         range_max=options.range_max,
         ranges=scan.ranges.astype(np.float32).tolist(),

@@ -14,6 +14,7 @@ from datmo_tools.errors import InputError
 
 OXTS_FIELDS = 30
 NANOSECONDS = 10**9
+NOMINAL_TURN = NANOSECONDS // 10  # of the Velodyne, where a single scan does not tell it
 
 
 class Oxts(NamedTuple):
@@ -44,6 +45,12 @@ class Drive:
     def frames(self):
         """How many frames the drive has."""
         return len(self.scan_stamps)
+
+    @property
+    def turn_duration(self):
+        """Duration (ns) of one turn of the Velodyne: from one scan's stamp to the next one's."""
+        steps = np.diff(self.scan_stamps)
+        return int(np.median(steps)) if len(steps) > 0 else NOMINAL_TURN
 
     def oxts(self, frame):
         """The GPS/IMU record (Oxts) of a frame."""

@@ -18,9 +18,10 @@ Converts a KITTI raw drive, as it is downloaded (calib_*.txt in its parent), to 
 The scan is an EMULATION of a planar scanner at the bumper: the nearest Velodyne point of each beam
 in a height band above the road. The Velodyne looks down from 1.73 m and so sees over low obstacles.
 Returns from the recording car itself are left out. A beam covers the whole way to its neighbours
-unless --beam-width makes it thinner; its range is reported at its own bearing. All beams carry the
-stamp at which the Velodyne looks ahead; those at the side are up to 25 ms off. The same options and
-seed give the same bytes."""
+unless --beam-width makes it thinner; its range is reported at its own bearing. The Velodyne turns
+to the right, and so does the scan: its first beam is the leftmost, each beam has its own time, and
+the middle one that of the drive's stamp, which is also that of points and true objects. The scan is
+recorded when its last beam is there. The same options and seed give the same bytes."""
 
 
 def main(arguments=None):
