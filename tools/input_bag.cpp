@@ -19,7 +19,7 @@ void openInput(const std::string& file, rosbag::Bag& bag) {
     throw std::runtime_error(file +
                              ": has no index, so it was cut short while it was written;"
                              " 'rosbag reindex' saves what is there");
-  } catch (const rosbag::BagException& error) {
+  } catch (const std::exception& error) {  // of rosbag, and of ros::Time for a broken stamp
     throw std::runtime_error(file + ": cannot be read as a bag (" + error.what() + ")");
   }
 }

@@ -1,28 +1,16 @@
 #include "evaluation/bag_loading.h"
 
 #include <algorithm>
-#include <functional>
 #include <stdexcept>
 
 #include "evaluation/topic_reader.h"
 #include "input_bag.h"
 
-#include <rosbag/exceptions.h>
+#include <rosbag/bag.h>
 
 namespace datmo::evaluation {
 
 namespace {
-
-/// Opens the bag and reads from it; says of which file it is if rosbag finds it broken on the way.
-void withBag(const std::string& file, const std::function<void(const rosbag::Bag&)>& read) {
-  rosbag::Bag bag;
-  openInput(file, bag);
-  try {
-    read(bag);
-  } catch (const rosbag::BagException& error) {
-    throw std::runtime_error(file + ": cannot be read to its end (" + error.what() + ")");
-  }
-}
 
 void checkSameFrame(const std::string& file, const TopicReader& a, const TopicReader& b) {
   if (a.frame() != b.frame()) {
@@ -64,30 +52,30 @@ bool isEmpty(const RecordedObjects& objects) { return objects.objects.empty(); }
 
 RecordedRun loadRun(const std::string& file, const ScoreOptions& options) {
   const TopicOptions& topics = options.topics;
+  rosbag::Bag bag;
+  openInput(file, bag);
   RecordedRun run;
-  withBag(file, [&](const rosbag::Bag& bag) {
-    TopicReader tracks(bag, topics.tracks);
-    run.tracks = tracks.readAll<TrackArray>();
-    readPoses(bag, options, tracks, run);
-    run.detections = TopicReader(bag, topics.objects).readIfThere<ObjectArray>();
-    run.intersections =
-        TopicReader(bag, topics.road_borders).readIfThere<datmo_fusion::RoadBorders>();
-    run.durations = readDurations(TopicReader(bag, topics.timing));
-  });
+  TopicReader tracks(bag, topics.tracks);
+  run.tracks = tracks.readAll<TrackArray>();
+  readPoses(bag, options, tracks, run);
+  run.detections = TopicReader(bag, topics.objects).readIfThere<ObjectArray>();
+  run.intersections =
+      TopicReader(bag, topics.road_borders).readIfThere<datmo_fusion::RoadBorders>();
+  run.durations = readDurations(TopicReader(bag, topics.timing));
   return run;
 }
 
 RecordedTruth loadTruth(const std::string& file, const ScoreOptions& options) {
   const TopicOptions& topics = options.topics;
+  rosbag::Bag bag;
+  openInput(file, bag);
   RecordedTruth truth;
-  withBag(file, [&](const rosbag::Bag& bag) {
-    TopicReader objects(bag, topics.true_objects);
-    TopicReader poses(bag, topics.true_pose);
-    truth.objects = objects.readAll<TrueObjectArray>();
-    truth.poses = poses.readAll<nav_msgs::Odometry>();
-    checkSameFrame(file, objects, poses);
-    truth.intersections = TopicReader(bag, topics.true_road_borders).readIfThere<TrueRoadBorders>();
-  });
+  TopicReader objects(bag, topics.true_objects);
+  TopicReader poses(bag, topics.true_pose);
+  truth.objects = objects.readAll<TrueObjectArray>();
+  truth.poses = poses.readAll<nav_msgs::Odometry>();
+  checkSameFrame(file, objects, poses);
+  truth.intersections = TopicReader(bag, topics.true_road_borders).readIfThere<TrueRoadBorders>();
   if (std::all_of(truth.objects.begin(), truth.objects.end(), isEmpty)) {
     throw std::runtime_error(file + ": " + topics.true_objects + " holds no object in " +
                              std::to_string(truth.objects.size()) +

@@ -31,21 +31,22 @@ class TopicReader {
   /// passed on with the place. Throws where there is none, and after an interruption.
   template <typename Message, typename Take>
   void forEach(const Take& take) {
-    rosbag::View view(bag_, rosbag::TopicQuery(topic_));
-    if (view.size() == 0) {
+    if (!isThere()) {
       failForTopic(bag_,
                    std::string("no ") + ros::message_traits::datatype<Message>() + " on " + topic_);
     }
-    for (const rosbag::MessageInstance& instance : view) {
-      std::string place = topic_;
-      try {
+    std::string place = topic_;
+    try {
+      rosbag::View view(bag_, rosbag::TopicQuery(topic_));
+      for (const rosbag::MessageInstance& instance : view) {
+        failIfInterrupted();
+        place = topic_;
         const auto message = read<Message>(instance);
         place += " at " + std::to_string(message->header.stamp.toSec()) + " s";
         take(*message);
-      } catch (const std::exception& error) {
-        fail(place, error.what());
       }
-      failIfInterrupted();
+    } catch (const std::exception& error) {
+      fail(place, error.what());
     }
   }
 

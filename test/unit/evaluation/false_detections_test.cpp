@@ -1,8 +1,7 @@
 #include "evaluation/false_detections.h"
 
-#include <gtest/gtest.h>
-
 #include "evaluation/made_recordings.h"
+#include <gtest/gtest.h>
 
 namespace datmo::evaluation {
 namespace {
@@ -36,7 +35,8 @@ TEST(CountFalseDetections, WhatIsWithinTheGateOfAMoverIsRight) {
 }
 
 TEST(CountFalseDetections, WhatIsBeyondTheGateOrOnAParkedCarIsFalse) {
-  const FalseDetections result = countOf({{1.0, {Point2(24.1, 0.0), Point2(20.0, 5.0)}}, {1.1, {}}});
+  const FalseDetections result =
+      countOf({{1.0, {Point2(24.1, 0.0), Point2(20.0, 5.0)}}, {1.1, {}}});
   EXPECT_EQ(result.detections, 2U);
   EXPECT_EQ(result.episodes, 2U);
   EXPECT_EQ(result.perFrame(), 1.0);

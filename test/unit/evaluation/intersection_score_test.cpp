@@ -10,7 +10,8 @@ namespace {
 constexpr double kMergeGap = 1.0;  // s
 
 /// A state every 0.5 s for 30 s, true within the stretches (first and last second).
-std::vector<RecordedIntersection> statesOf(const std::vector<std::pair<double, double>>& stretches) {
+std::vector<RecordedIntersection> statesOf(
+    const std::vector<std::pair<double, double>>& stretches) {
   std::vector<RecordedIntersection> states;
   for (int i = 0; i <= 60; ++i) {
     const double seconds = 0.5 * i;
@@ -32,8 +33,7 @@ TEST(ScoreIntersections, FoundMissedAndFalse) {
 }
 
 TEST(ScoreIntersections, OneLongReportOfTwoFindsBoth) {
-  const auto score =
-      scoreIntersections(statesOf({{2, 5}, {8, 9}}), statesOf({{1, 20}}), kMergeGap);
+  const auto score = scoreIntersections(statesOf({{2, 5}, {8, 9}}), statesOf({{1, 20}}), kMergeGap);
   EXPECT_EQ(score.found, 2U);
   EXPECT_EQ(score.wrong, 0U);
 }

@@ -1,8 +1,7 @@
 #include "evaluation/score_json.h"
 
-#include <gtest/gtest.h>
-
 #include "evaluation/made_recordings.h"
+#include <gtest/gtest.h>
 
 namespace datmo::evaluation {
 namespace {
@@ -80,9 +79,8 @@ TEST(ScoreJson, SeriesHaveAValueForEachFrame) {
 TEST(ScoreJson, PartsThatTheRunDoesNotHaveAreNull) {
   const auto report = Drive().report();
   EXPECT_TRUE(report["timing"].is_null());
-  for (const char* name :
-       {"false_moving_objects_frames", "false_moving_objects_episodes", "intersections",
-        "intersections_found", "intersections_false"}) {
+  for (const char* name : {"false_moving_objects_frames", "false_moving_objects_episodes",
+                           "intersections", "intersections_found", "intersections_false"}) {
     EXPECT_TRUE(report["thesis"][name].is_null()) << name;
   }
   EXPECT_TRUE(report["pose"]["end_error_share"].is_null());  // it stands

@@ -1,8 +1,7 @@
 #include "evaluation/trajectory.h"
 
-#include <gtest/gtest.h>
-
 #include "evaluation/made_recordings.h"
+#include <gtest/gtest.h>
 
 namespace datmo::evaluation {
 namespace {
