@@ -45,7 +45,7 @@ class LevelScorer {
   }
 
  private:
-  double similarity(const ScoredPair& pair) const { return 1.0 - pair.distance / gate_; }
+  double similarity(const ScoredPair& pair) const { return 1.0 - pair.candidate.distance / gate_; }
   bool mayMatch(const ScoredPair& pair) const { return similarity(pair) >= alpha_ - kRounding; }
 
   /// Frames in which each encounter could be matched, were there no others.
@@ -75,12 +75,13 @@ class LevelScorer {
                   std::vector<double>& matches, Level& level) const {
     std::vector<ScoredPair> able;
     std::vector<PairGain> gains;
+    able.reserve(frame.size());
+    gains.reserve(frame.size());
     for (const ScoredPair& pair : frame) {
       if (mayMatch(pair)) {
-        const Encounter& encounter = run_.encounters[pair.encounter];
         able.push_back(pair);
         gains.push_back(
-            {encounter.object, encounter.track,
+            {pair.candidate.truth, pair.candidate.track,
              kMatchGain + potential[pair.encounter] + kLocalisationGain * similarity(pair)});
       }
     }

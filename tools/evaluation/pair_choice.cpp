@@ -10,9 +10,12 @@ namespace {
 
 /// How many of the pairs have each row (or column).
 std::vector<std::size_t> counts(const std::vector<PairGain>& pairs, std::size_t PairGain::*side) {
-  std::vector<std::size_t> result;
+  std::size_t size = 0;
   for (const PairGain& pair : pairs) {
-    result.resize(std::max(result.size(), pair.*side + 1), 0);
+    size = std::max(size, pair.*side + 1);
+  }
+  std::vector<std::size_t> result(size, 0);
+  for (const PairGain& pair : pairs) {
     ++result[pair.*side];
   }
   return result;
@@ -63,6 +66,7 @@ std::vector<std::size_t> choosePairs(const std::vector<PairGain>& pairs) {
   const std::vector<std::size_t> of_column = counts(pairs, &PairGain::column);
   std::vector<std::size_t> chosen;
   std::vector<std::size_t> contested;
+  chosen.reserve(pairs.size());
   for (std::size_t index = 0; index < pairs.size(); ++index) {
     const bool alone = of_row[pairs[index].row] == 1 && of_column[pairs[index].column] == 1;
     (alone ? chosen : contested).push_back(index);

@@ -13,8 +13,8 @@ struct PairGain {
 };
 
 /// Chooses pairs such that no row and no column is in two of them and the sum of the gains is
-/// greatest; returns their indices, rising. No row and column may be given twice. Pairs that share
-/// nothing with others cost nothing: most frames have hardly any conflict.
+/// greatest; returns their indices, rising. No row and column may be given twice. Memory grows with
+/// the greatest row and column; pairs that share nothing with others cost no search.
 std::vector<std::size_t> choosePairs(const std::vector<PairGain>& pairs);
 
 }  // namespace datmo::evaluation

@@ -49,8 +49,7 @@ class RunBuilder {
     for (const Candidate& pair : matching.candidates) {
       if (frame.truths[pair.truth].duty == Duty::kRequired &&
           matching.verdicts[pair.track] != Verdict::kNeutral) {
-        run_.frames.back().push_back(
-            {encounter(objects[pair.truth], tracks[pair.track]), pair.distance});
+        run_.frames.back().push_back({encounter(objects[pair.truth], tracks[pair.track]), pair});
       }
     }
   }

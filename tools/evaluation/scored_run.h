@@ -17,7 +17,7 @@ struct Encounter {
 /// An encounter in one frame.
 struct ScoredPair {
   std::size_t encounter = 0;  ///< index in ScoredRun::encounters
-  double distance = 0.0;      ///< m, at most the gate
+  Candidate candidate;        ///< the two, by their indices in the frame
 };
 
 /// What the metrics of whole trajectories need of a run: its required truths (the objects) and its
