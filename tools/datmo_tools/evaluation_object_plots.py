@@ -9,14 +9,19 @@ from datmo_tools.evaluation_style import FALSE, INK, MISSED, TRUTH, WIDTH, colou
 
 ROW = 0.2  # inch
 BAR = 0.76  # of a row
+PALE = 0.3  # opacity of what does not count
 MIN_HEIGHT, MAX_HEIGHT = 3.0, 9.0  # inch, of the map
 ID_SHARE = 0.025  # of the time shown: a shorter bar has no room for its id
 JITTER = 0.5  # of a period: a later frame is not the next one
 
 
 def timeline(run):
-    """A row for each object; its bar changes colour where another track takes over."""
-    paths = sorted(run["series"]["true_paths"], key=lambda path: path["id"])
+    """A row for each object; its bar changes colour where another track takes over.
+
+    Pale is a track on an object that did not have to be found then. Objects that neither had to be
+    found nor have a track are left out.
+    """
+    paths = sorted(filter(_concerns, run["series"]["true_paths"]), key=_first_concern)
     period = _period(run)
 
     def draw(ax):
@@ -24,28 +29,43 @@ def timeline(run):
             _draw_row(ax, y, path, period, ID_SHARE * run["duration_s"])
         ax.set(yticks=range(len(paths)), ylim=(len(paths) - 0.4, -0.6), xlabel="time (s)")
         ax.set_yticklabels([plain(f"{path['label']} {path['id']}") for path in paths], fontsize=8)
-        ax.set_xlim(0.0, run["duration_s"])
+        ax.set_xlim(0.0, run["duration_s"] or 1.0)
         ax.grid(False, axis="y")
 
     return drawing(0.6 + ROW * max(len(paths), 1), draw, left=1.3, top=0.05)
 
 
+def _concerns(path):
+    """Whether the object ever has to be found or has a track."""
+    return any(path["required"]) or any(number is not None for number in path["track_id"])
+
+
+def _first_concern(path):
+    """When it first has to be found or has a track, s."""
+    samples = zip(path["time_s"], path["required"], path["track_id"])
+    return next(time for time, required, number in samples if required or number is not None)
+
+
 def _draw_row(ax, y, path, period, room):
-    times = path["time_s"]
-    required = [True if duty else None for duty in path["required"]]
-    _draw_bars(ax, y, spans(times, required, period), MISSED)
-    tracked = spans(times, path["track_id"], period)
-    for i, number in enumerate(dict.fromkeys(number for _, _, number in tracked)):
-        _draw_bars(ax, y, [span for span in tracked if span[2] == number], colour(i))
-    for begin, end, number in tracked:
-        if end - begin > room:
+    times, required = path["time_s"], path["required"]
+    missed = [duty or None for duty in required]
+    _draw_bars(ax, y, spans(times, missed, period), facecolors=MISSED)
+    tracked = [None if number is None else (number, duty)
+               for number, duty in zip(path["track_id"], required)]  # fmt: skip
+    bars = spans(times, tracked, period)
+    shades = {number: colour(i) for i, number in enumerate(dict.fromkeys(k[0] for *_, k in bars))}
+    for number, duty in dict.fromkeys(key for *_, key in bars):
+        chosen = [bar for bar in bars if bar[2] == (number, duty)]
+        _draw_bars(ax, y, chosen, facecolors=shades[number], alpha=1.0 if duty else PALE)
+    for begin, end, (number, duty) in bars:
+        if duty and end - begin > room:
             ax.text(begin + 0.1 * room, y, str(number), color="white", fontsize=6.5, va="center")
 
 
-def _draw_bars(ax, y, bars, shade):
+def _draw_bars(ax, y, bars, **style):
     """bars: as of spans. One call for all: each is slow."""
     where = [(begin, end - begin) for begin, end, _ in bars]
-    ax.broken_barh(where, (y - 0.5 * BAR, BAR), facecolors=shade, linewidth=0)
+    ax.broken_barh(where, (y - 0.5 * BAR, BAR), linewidth=0, **style)
 
 
 def spans(times, keys, period):
@@ -72,8 +92,9 @@ def birds_eye(run):
     height = _map_height(np.concatenate(xy, axis=1))
 
     def draw(ax):
-        for path in series["true_paths"]:
-            _line(ax, path, "path of a true object", color=TRUTH, linewidth=4.0, alpha=0.55)
+        for path in filter(_concerns, series["true_paths"]):
+            _line(ax, path, "true object", color=TRUTH, linewidth=4.0, alpha=PALE)
+            _line(ax, _required_part(path), "has to be found", color=TRUTH, linewidth=4.0)
             _write_number(ax, path)
         for path in series["track_paths"]:
             if path["id"] in on_truth:
@@ -100,6 +121,14 @@ def _map_height(xy):
 
 def _line(ax, path, label, **style):
     ax.plot(*_xy(path), label=label, **style)
+
+
+def _required_part(path):
+    """The path, interrupted where the object does not have to be found."""
+    return {
+        key: [value if duty else None for value, duty in zip(path[key], path["required"])]
+        for key in ("x_m", "y_m")
+    }
 
 
 def _write_number(ax, path):

@@ -81,15 +81,15 @@ def _of_one_run(run, name, runs):
     of = f": {name}" if len(runs) > 1 else ""
     yield _block(
         "Who was tracked when" + of,
-        "A bar is the time in which a true object has to be found; pale red: no track on it. The "
-        "colour changes where another track takes over; the number is the track's id.",
+        "When a true object has to be found: with a track on it (blue; another colour where another "
+        "track takes over; the number is its id), or without (red). Pale: a track on it while it "
+        "does not have to be found.",
         object_plots.timeline(run),
     )
     yield _block("Tracked, missed, false" + of, "", plots.counts_over_time(run))
     yield _block(
         "Seen from above" + of,
-        "In the map of the truth. Wide and grey: true objects, with their id where they are first "
-        "seen.",
+        "In the map of the truth. Wide and grey: true objects, with their id where they come up.",
         object_plots.birds_eye(run),
     )
     yield _block(
