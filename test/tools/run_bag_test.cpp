@@ -11,6 +11,7 @@
 #include "run_bag/bag_run.h"
 #include "run_bag/stage_times.h"
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <tf2_msgs/TFMessage.h>
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
@@ -187,6 +188,26 @@ TEST_F(RunBag, QuietPrintsNothing) {
   EXPECT_EQ(run(), "");
 }
 
+TEST_F(RunBag, StagesAfterTheLastOneAreLeftOut) {
+  arguments_.last_stage = LastStage::kGridSlam;
+  const std::string table = run();
+  EXPECT_EQ(count(arguments_.output, "/pose"), static_cast<std::size_t>(kScans));
+  EXPECT_EQ(count(arguments_.output, "/objects"), 0U);
+  EXPECT_FALSE(holds(table, "moving_objects")) << table;
+  arguments_.last_stage = LastStage::kMovingObjects;
+  run();
+  EXPECT_EQ(count(arguments_.output, "/objects"), static_cast<std::size_t>(kScans));
+  EXPECT_EQ(count(arguments_.output, "/tracks"), 0U);
+}
+
+TEST_F(RunBag, TimesOfTheStagesAreWrittenOnDemand) {
+  arguments_.times = path("times.json");
+  run();
+  const auto times = nlohmann::json::parse(bytes(arguments_.times));
+  EXPECT_EQ(times.at("grid_slam").at("runs"), kScans);
+  EXPECT_GT(times.at("tracker").at("mean_s"), 0.0);
+}
+
 TEST_F(RunBag, MissingBagIsNamed) {
   arguments_.input = path("nowhere.bag");
   EXPECT_EQ(failure(), path("nowhere.bag") + ": no such file");
@@ -275,6 +296,7 @@ TEST(RunBagArguments, AreReadInAnyOrder) {
   EXPECT_EQ(arguments.config, "c.yaml");
   EXPECT_TRUE(arguments.quiet);
   EXPECT_FALSE(arguments.with_truth);
+  EXPECT_EQ(arguments.last_stage, LastStage::kTracker);
   EXPECT_EQ(arguments.inputTopic("scan"), "/front");
   EXPECT_EQ(arguments.inputTopic("odometry"), "/odometry");
 }
@@ -287,6 +309,10 @@ TEST(RunBagArguments, WhatIsNotUnderstoodIsRefused) {
   EXPECT_THROW(parseArguments({"a.bag", "a.bag", "--config", "c.yaml"}), UsageError);
   EXPECT_THROW(parseArguments({"a", "b", "c", "--config", "c.yaml"}), UsageError);
   EXPECT_THROW(parseArguments({"a", "b", "--config", "c.yaml", "pose:=/x"}), UsageError);
+  EXPECT_THROW(parseArguments({"a", "b", "--config", "c.yaml", "--until", "slam"}), UsageError);
+  EXPECT_THROW(parseArguments({"a", "b", "--config", "c.yaml", "--times", "b"}), UsageError);
+  EXPECT_EQ(parseArguments({"a", "b", "--config", "c", "--until", "grid_slam"}).last_stage,
+            LastStage::kGridSlam);
 }
 
 TEST(StageTimes, SummariesComeInTheOrderOfTheFirstRuns) {
@@ -299,6 +325,7 @@ TEST(StageTimes, SummariesComeInTheOrderOfTheFirstRuns) {
   ASSERT_EQ(summaries.size(), 2U);
   EXPECT_EQ(summaries[0].stage, "b");
   EXPECT_EQ(summaries[0].runs, 3U);
+  EXPECT_DOUBLE_EQ(summaries[0].mean, 2.0);
   EXPECT_DOUBLE_EQ(summaries[0].median, 2.0);
   EXPECT_DOUBLE_EQ(summaries[0].percentile_99, 3.0);
   EXPECT_EQ(summaries[1].stage, "a");

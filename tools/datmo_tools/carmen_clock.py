@@ -1,8 +1,8 @@
 """The records of a CARMEN log in an order of rising stamps, which a bag needs.
 
-Old logs carry the time at which a message reached the logger, not the time of the measurement: with
-a busy computer the stamps of the lines come in bursts, and mixed up. There are two ways to make them
-rise, and neither is the truth:
+Old logs carry the time at which a message reached the logger, not the time of the measurement:
+with a busy computer the stamps of the lines come in bursts, and mixed up. There are two ways to
+make them rise, and neither is the truth:
 
 log:   every record keeps its stamp, and the records are sorted by it. Scans may change places.
 order: the records keep the order of the file, in which they were measured; the scans' stamps are

@@ -16,6 +16,7 @@ OLD_LASERS = ("FLASER", "RLASER")  # ranges and poses
 NEW_LASERS = ("ROBOTLASER1", "ROBOTLASER2")  # the scanner's angles and limits as well
 LASERS = OLD_LASERS + NEW_LASERS
 MOST_READINGS = 100_000  # more is a broken line, not a scanner
+MOST_FIELD_OF_VIEW = 2.0 * math.pi + 1e-3  # rad: a turn, however it was rounded
 
 
 class LaserLine(NamedTuple):
@@ -134,9 +135,7 @@ def _first(values, where):
 def _old_laser(fields):
     ranges = fields.ranges(fields.count("the number of readings"))
     laser, robot = fields.numbers(3, "the laser's pose"), fields.numbers(3, "the robot's pose")
-    return _checked(
-        LaserLine(fields.stamp(), ranges, math.nan, math.nan, math.inf, laser, robot)
-    )
+    return _checked(LaserLine(fields.stamp(), ranges, math.nan, math.nan, math.inf, laser, robot))
 
 
 def _new_laser(fields):
@@ -150,10 +149,8 @@ def _new_laser(fields):
     fields.skip(fields.count("the number of remissions"), "remissions")
     laser, robot = fields.numbers(3, "the laser's pose"), fields.numbers(3, "the robot's pose")
     fields.skip(5, "speeds and safety distances")
-    if not 0.0 < step * len(ranges) < 2.0 * math.pi + 2.0 * step:
-        raise ValueError(
-            f"{len(ranges)} readings every {step} rad, expected them within one turn"
-        )
+    if not 0.0 < step * (len(ranges) - 1) <= MOST_FIELD_OF_VIEW:
+        raise ValueError(f"{len(ranges)} readings every {step} rad, expected them within one turn")
     if range_max <= 0.0:
         raise ValueError(f"the maximum range is {range_max} m, expected more than 0")
     return _checked(LaserLine(fields.stamp(), ranges, first_bearing, step, range_max, laser, robot))

@@ -22,9 +22,7 @@ def samples(stamps, poses):
     covariance = np.zeros((3, 3))
     for i, (speed, yaw_rate) in enumerate(rates):
         variances = _variances(speed, yaw_rate)
-        result.append(
-            OdometrySample(stamps[i], speed, yaw_rate, poses[i], covariance, *variances)
-        )
+        result.append(OdometrySample(stamps[i], speed, yaw_rate, poses[i], covariance, *variances))
         if i + 1 < len(stamps):
             duration = (stamps[i + 1] - stamps[i]) * 1e-9
             covariance = odometry.propagated(
@@ -36,8 +34,8 @@ def samples(stamps, poses):
 def _rates(stamps, poses):
     """(speed, yaw rate) at each stamp; at the end those before go on."""
     rates = []
-    for i, stamp in enumerate(stamps):
-        j = int(np.searchsorted(stamps, stamp + LEAST_STEP))
+    later = np.searchsorted(np.asarray(stamps), np.asarray(stamps) + LEAST_STEP)
+    for i, (stamp, j) in enumerate(zip(stamps, later)):
         if j < len(stamps):
             motion = transforms.relative(poses[i], poses[j])
             rates.append(transforms.rates_of(motion, (stamps[j] - stamp) * 1e-9))

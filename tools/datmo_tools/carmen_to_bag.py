@@ -45,7 +45,9 @@ def _parser():
     add("bag", type=Path, help="bag to write")
     add("--laser", choices=LASERS, help="kind of line (default: the first of these that there is)")
     add("--clock", choices=CLOCKS, default=defaults.clock, help="(default %(default)s)")
-    field = "first to last beam (default: what the line tells; a SICK's half turn where it does not)"
+    field = (
+        "first to last beam (default: what the line tells; a SICK's half turn where it does not)"
+    )
     add("--field-of-view", type=command_line.number, metavar="DEG", help=field)
     reach = "no return from here on, in m, or from the line's own maximum"
     command_line.add_number(parser, "--range-max", defaults.range_max, "M", reach)

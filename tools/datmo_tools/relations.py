@@ -2,8 +2,8 @@
 
 Source: Kuemmerle et al., "On measuring the accuracy of SLAM algorithms", Autonomous Robots 27(4),
 2009, equations 4 to 6. A relation says where the robot was at one time, seen from where it was at
-another; the error of a path is what its own relation between these times differs by. No frame has to
-be laid on another, and an error at one place counts only where places are compared across it.
+another; the error of a path is what its own relation between these times differs by. No frame has
+to be laid on another, and an error at one place counts only where places are compared across it.
 """
 
 from typing import NamedTuple

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from datmo_tools import command_line, simulated_run
 from datmo_tools.errors import InputError
+from datmo_tools.programs import StepFailed
 from datmo_tools.progress import Progress
 from datmo_tools.robustness_summary import summarise, table
 from datmo_tools.whole_files import write_whole
@@ -87,7 +88,7 @@ def _run_case(case, values):
     with tempfile.TemporaryDirectory(prefix="robustness_") as folder:
         try:
             score = simulated_run.run(drive, values.programs, values.config, Path(folder))
-        except simulated_run.StepFailed as error:
+        except StepFailed as error:
             return {**run, "error": str(error), "pose": None}
     return {**run, "error": None, "pose": score["pose"]}
 

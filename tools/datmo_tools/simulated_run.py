@@ -1,21 +1,13 @@
 """A scene through simulator, stack and score: what the benchmarks on simulated drives share."""
 
 import json
-import subprocess
 from pathlib import Path
 from typing import NamedTuple
 
-from datmo_tools.errors import InputError
+from datmo_tools import programs as built
+from datmo_tools.programs import call
 
 STEPS = ("simulate", "run_bag", "score_run")
-
-
-class StepFailed(Exception):
-    """A program that gave up: which one, and the last that it said."""
-
-    def __init__(self, step, said):
-        lines = said.strip().splitlines()
-        super().__init__(lines[-1] if lines else f"{step}: failed and said nothing")
 
 
 class SimulatedDrive(NamedTuple):
@@ -26,10 +18,8 @@ class SimulatedDrive(NamedTuple):
 
 
 def check_programs(folder):
-    """Throws InputError unless the programs of all steps are in the folder (Path)."""
-    for step in STEPS:
-        if not (folder / step).is_file():
-            raise InputError(f"{folder / step}: no such program, expected the built {step}")
+    """Raises InputError unless the programs of all steps are in the folder (Path)."""
+    built.check(folder, STEPS)
 
 
 def run(drive, programs, config, folder, score_options=()):
@@ -41,24 +31,11 @@ def run(drive, programs, config, folder, score_options=()):
     """
     recorded, computed = folder / "drive.bag", folder / "result.bag"
     score = folder / "score.json"
-    _call(programs / "simulate", drive.scene, recorded, "--quiet", *_settings(drive.options))
-    _call(programs / "run_bag", recorded, computed, "--config", config, "--with-truth", "--quiet")
-    _call(programs / "score_run", computed, *_settings(score_options), "--out", score)
+    call(programs / "simulate", drive.scene, recorded, "--quiet", *_settings(drive.options))
+    call(programs / "run_bag", recorded, computed, "--config", config, "--with-truth", "--quiet")
+    call(programs / "score_run", computed, *_settings(score_options), "--out", score)
     return json.loads(score.read_text(encoding="utf-8"))
 
 
 def _settings(assignments):
     return [word for assignment in assignments for word in ("--set", assignment)]
-
-
-def _call(program, *words):
-    done = subprocess.run(
-        [str(program), *map(str, words)],
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.PIPE,
-        encoding="utf-8",
-        errors="replace",
-        check=False,
-    )
-    if done.returncode != 0:
-        raise StepFailed(program.name, done.stderr)

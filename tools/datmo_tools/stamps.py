@@ -20,7 +20,7 @@ def parse_seconds(text):
     """
     try:
         stamp = int(Decimal(text) * NANOSECONDS)
-    except (InvalidOperation, OverflowError) as error:
+    except (InvalidOperation, OverflowError, ValueError) as error:
         raise ValueError(f"'{text}' is not a number of seconds") from error
     if not 0 < stamp < LATEST:
         raise ValueError(f"{text} s is not a time after 1970 that a ROS stamp can hold")

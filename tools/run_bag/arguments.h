@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "last_stage.h"
+
 namespace datmo {
 
 /// The command line cannot be understood; the message says what and how it should be.
@@ -20,6 +22,8 @@ struct Arguments {
   std::string config;  ///< yaml file of a sensor set
   bool with_truth = false;
   bool quiet = false;
+  LastStage last_stage = LastStage::kTracker;
+  std::string times;                              ///< JSON file for the stages' times; empty: none
   std::map<std::string, std::string> remappings;  ///< our topic (`scan`) -> the input's
 
   /// The name of one of our topics in the input bag, with a leading slash.

@@ -13,6 +13,7 @@
 #include "output_bag.h"
 #include "pipeline.h"
 #include "progress_bar.h"
+#include "whole_file.h"
 
 #include <rosbag/view.h>
 
@@ -190,7 +191,7 @@ void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progres
   openInput(arguments.input, bag);
   const InputTopics topics = findTopics(bag, arguments, options.grid_slam.odometry);
   OutputBag output(arguments.output);
-  Pipeline pipeline(options);
+  Pipeline pipeline(options, arguments.last_stage);
   DriveSummary drive;
   BagRun run(topics, pipeline, drive, output);
 
@@ -204,6 +205,9 @@ void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progres
   }
   const double took = watch.seconds();
   checkScans(arguments.input, drive, pipeline);
+  if (!arguments.times.empty()) {
+    writeWholeFile(arguments.times, toJson(pipeline.times()));
+  }
   output.finish();
   if (!arguments.quiet) {
     printTable(out, drive, pipeline, lengthOf(view), took);

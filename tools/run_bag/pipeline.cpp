@@ -4,8 +4,9 @@
 
 namespace datmo {
 
-Pipeline::Pipeline(const PipelineOptions& options)
+Pipeline::Pipeline(const PipelineOptions& options, LastStage last)
     : options_(options),
+      last_(last),
       transforms_(options.grid_slam.input.restart_after),
       slam_(options.grid_slam, transforms_, slam_monitor_),
       detector_(options.moving_objects, detector_monitor_),
@@ -40,9 +41,14 @@ void Pipeline::followSlam(Stamp now, Output& output) {
   tf2_msgs::TFMessage map_to_odom;
   map_to_odom.transforms = output.slam->transforms;
   transforms_.add(map_to_odom);
+  if (last_ == LastStage::kGridSlam) {
+    return;
+  }
   output.objects = detector_.takeSplitScan(*output.slam->split_scan);
   if (output.objects) {
     bookTime(detector_monitor_);
+  }
+  if (output.objects && last_ == LastStage::kTracker) {
     tracker_.takeObjects(output.objects, now);
   }
   drainTracker(now, output);

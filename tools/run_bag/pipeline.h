@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "last_stage.h"
 #include "pipeline_options.h"
 #include "stage_times.h"
 #include <tf2_msgs/TFMessage.h>
@@ -22,8 +23,8 @@ namespace datmo {
 /// for bit.
 class Pipeline {
  public:
-  /// Throws OptionError.
-  explicit Pipeline(const PipelineOptions& options);
+  /// `last`: the stages after it are left out. Throws OptionError.
+  explicit Pipeline(const PipelineOptions& options, LastStage last = LastStage::kTracker);
 
   /// What one message led to, in the order in which it came to be.
   struct Output {
@@ -63,6 +64,7 @@ class Pipeline {
   void bookTime(const StageMonitor& monitor);
 
   PipelineOptions options_;
+  LastStage last_;
   TransformBuffer transforms_;
   StageMonitor slam_monitor_{"grid_slam"};
   StageMonitor detector_monitor_{"moving_objects"};

@@ -15,6 +15,7 @@ class StageTimes {
   struct Summary {
     std::string stage;
     std::size_t runs = 0;
+    double mean = 0.0;           ///< s
     double median = 0.0;         ///< s
     double percentile_99 = 0.0;  ///< s
   };
@@ -25,5 +26,8 @@ class StageTimes {
  private:
   std::vector<std::pair<std::string, std::vector<double>>> seconds_;
 };
+
+/// A JSON object: stage -> {runs, mean_s, median_s, percentile_99_s}.
+std::string toJson(const StageTimes& times);
 
 }  // namespace datmo

@@ -1,0 +1,34 @@
+"""The programs of the package that the benchmarks call."""
+
+import subprocess
+
+from datmo_tools.errors import InputError
+
+
+class StepFailed(Exception):
+    """A program that gave up: which one, and the last that it said."""
+
+    def __init__(self, step, said):
+        lines = said.strip().splitlines()
+        super().__init__(lines[-1] if lines else f"{step}: failed and said nothing")
+
+
+def check(folder, names):
+    """Raises InputError unless the programs are in the folder (Path)."""
+    for name in names:
+        if not (folder / name).is_file():
+            raise InputError(f"{folder / name}: no such program, expected the built {name}")
+
+
+def call(program, *words):
+    """Runs a program (Path) to its end, in silence. Raises StepFailed."""
+    done = subprocess.run(
+        [str(program), *map(str, words)],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        encoding="utf-8",
+        errors="replace",
+        check=False,
+    )
+    if done.returncode != 0:
+        raise StepFailed(program.name, done.stderr)

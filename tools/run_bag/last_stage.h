@@ -1,0 +1,8 @@
+#pragma once
+
+namespace datmo {
+
+/// How far the chain of stages goes; each of them feeds the next.
+enum class LastStage { kGridSlam, kMovingObjects, kTracker };
+
+}  // namespace datmo
