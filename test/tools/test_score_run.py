@@ -218,6 +218,13 @@ class WholeRun(ScoreRun):
         self.assertEqual(report["options"]["matching/gate"], 0.4)
         self.assertEqual(report["options"]["region/range"], 30.0)
 
+    def test_what_no_sensor_sees_need_not_be_found_unless_wanted(self):
+        for message in self.truth_messages["/ground_truth/objects"]:
+            message.objects[0].visible_to = []
+        self.assertEqual(self.score()["clear_mot"]["required"], 0)
+        report = self.score("--set", "truth/visible_to=none")
+        self.assertEqual(report["clear_mot"]["required"], FRAMES)
+
     def test_topics_of_another_name(self):
         self.run_messages["/tracker/tracks"] = self.run_messages.pop("/tracks")
         report = self.score("--set", "topics/tracks=/tracker/tracks")

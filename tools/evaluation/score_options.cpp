@@ -46,7 +46,7 @@ void TruthOptions::visit(OptionVisitor& visitor) {
   visitor.group("classes", [&] { classes.visit(visitor); });
   visitor.text({"visible_to", "",
                 "sensor that must have the object in sight, e.g. scanner; any: one at least; "
-                "empty: also what no sensor sees has to be found"},
+                "none: also what no sensor sees has to be found"},
                visible_to, {});
   visitor.integer({"least_beams", "1", "of the scan that end on the object"}, least_beams,
                   {0.0, 10000.0});

@@ -44,7 +44,7 @@ struct ClassOptions {
 /// Which true objects have to be found, of those that move at the stamp and lie in the region.
 struct TruthOptions {
   ClassOptions classes;
-  std::string visible_to = "any";  ///< sensor; "any": one at least; "": not asked
+  std::string visible_to = "any";  ///< sensor; "any": one at least; "none": not asked
   int least_beams = 0;
   double least_speed = 0.0;      ///< m/s
   double least_time_seen = 1.0;  ///< s

@@ -133,7 +133,7 @@ Duty TrueScene::dutyOf(const RecordedObject& object, const Pose2& base_in_map) c
 bool TrueScene::isSeen(const RecordedObject& object) const {
   const std::string& sensor = options_.truth.visible_to;
   const auto& sensors = object.visible_to;
-  return sensor.empty() || (sensor == "any" && !sensors.empty()) ||
+  return sensor == "none" || (sensor == "any" && !sensors.empty()) ||
          std::find(sensors.begin(), sensors.end(), sensor) != sensors.end();
 }
 

@@ -96,7 +96,7 @@ TEST(TrueScene, SensorsInSightAreAskedFor) {
   EXPECT_TRUE(isRequired(car, options));
   car.visible_to = {};
   EXPECT_FALSE(isRequired(car));
-  options.truth.visible_to = "";
+  options.truth.visible_to = "none";
   EXPECT_TRUE(isRequired(car, options));
 }
 
