@@ -21,7 +21,7 @@ struct ClearMot {
   /// Mean distance of the matches as the gate measures it, m; none: no match.
   std::optional<double> motp;
   /// Share of the objects that are matched in at least 80 %, and in less than 20 %, of the frames
-  /// they are required in (Milan et al., MOT16, 2016, section 4.1.4); none: nothing required.
+  /// they are required in (Milan et al., MOT16, 2016); none: nothing required.
   std::optional<double> mostly_tracked;
   std::optional<double> mostly_lost;
 };

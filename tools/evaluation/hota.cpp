@@ -9,12 +9,12 @@ namespace datmo::evaluation {
 
 namespace {
 
-constexpr int kAlphas = 19;  // Luiten et al. 2021, section 4.3
+constexpr int kAlphas = 19;  // Luiten et al. 2021
 constexpr double kAlphaStep = 0.05;
 // Similarities are differences of rounded numbers; one that equals alpha must count.
 constexpr double kRounding = 1e-9;
-// Weights of matching, association and localisation in the choice of matches (Luiten et al. 2021,
-// section 5.3), so far apart that what comes first decides.
+// Weights of matching, association and localisation in the choice of matches (Luiten et al.
+// 2021), so far apart that what comes first decides.
 constexpr double kMatchGain = 1e4;
 constexpr double kLocalisationGain = 1e-6;
 

@@ -7,7 +7,7 @@
 namespace datmo::evaluation {
 
 /// The identity metrics (Ristani et al., Performance measures and a data set for multi-target,
-/// multi-camera tracking, ECCV workshops, 2016, section 3).
+/// multi-camera tracking, ECCV workshops, 2016).
 struct IdentityScores {
   std::optional<double> idf1;  ///< 0 to 1; none: neither objects nor tracks
   std::optional<double> idp;   ///< precision, 0 to 1; none: no tracks

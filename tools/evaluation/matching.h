@@ -54,10 +54,10 @@ struct FrameMatching {
 using Matching = std::vector<FrameMatching>;
 
 /// Gives each true object at most one track, and each track at most one true object, within the
-/// gate (Bernardin and Stiefelhagen 2008, section 2.1.4). In each frame first come the pairs that
-/// were matched when each of the two was last matched (over a gap as well); of what is left, as
-/// many pairs as possible, and of these the least sum of distances. Equal sums: the earlier track.
-/// Required truths take their tracks before optional ones do.
+/// gate (mapping procedure of Bernardin and Stiefelhagen 2008). In each frame first come the pairs
+/// of a truth and a track that were last matched to each other (over a gap as well); of what is
+/// left, as many pairs as possible, and of these the least sum of distances. Equal sums: the
+/// earlier track. Required truths take their tracks before optional ones do.
 Matching matchFrames(const Frames& frames, const MatchOptions& options);
 
 /// Calls `use(truth, track)` for each match of a required truth in a frame.
