@@ -1,0 +1,64 @@
+// Detection of moving objects in one scan: the most there can be, since everything in it may move.
+
+#include <vector>
+
+#include "street.h"
+#include <benchmark/benchmark.h>
+
+#include "datmo_fusion/common/random.h"
+#include "datmo_fusion/detection/box_fit.h"
+#include "datmo_fusion/detection/moving_object_detector.h"
+#include "datmo_fusion/detection/segmentation.h"
+
+namespace datmo {
+namespace {
+
+SplitScan scanOfMovers(benchmark::State& state) {
+  StreetDrive drive({static_cast<int>(state.range(0))});
+  return splitScan(drive.next(), PointState::kMoving);
+}
+
+void segmentation(benchmark::State& state) {
+  const SplitScan scan = scanOfMovers(state);
+  const SegmentationOptions options;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(segmentPoints(scan.points, options));
+  }
+}
+BENCHMARK(segmentation)->ArgName("beams")->Arg(81)->Arg(641)->Unit(benchmark::kMicrosecond);
+
+/// Two sides of a car, as a scanner sees them.
+std::vector<Point2> cornerOfCar(int points) {
+  constexpr double kLength = 4.5;
+  constexpr double kWidth = 1.8;
+  constexpr double kNoise = 0.05;
+  Random random(1);
+  std::vector<Point2> corner;
+  for (int i = 0; i < points; ++i) {
+    const double way = (kLength + kWidth) * i / points;
+    const Point2 place = way < kWidth ? Point2(0.0, kWidth - way) : Point2(way - kWidth, 0.0);
+    corner.emplace_back(place + Point2(random.normal(kNoise), random.normal(kNoise)));
+  }
+  return corner;
+}
+
+void boxFit(benchmark::State& state) {
+  const std::vector<Point2> points = cornerOfCar(static_cast<int>(state.range(0)));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(fitBox(points));
+  }
+}
+BENCHMARK(boxFit)->ArgName("points")->Arg(3)->Arg(10)->Arg(100)->Unit(benchmark::kMicrosecond);
+
+void detection(benchmark::State& state) {
+  const SplitScan scan = scanOfMovers(state);
+  const MovingObjectDetector detector{MovingObjectDetectorOptions{}};
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(detector.detect(scan));
+  }
+  state.counters["objects"] = static_cast<double>(detector.detect(scan).objects.size());
+}
+BENCHMARK(detection)->ArgName("beams")->Arg(81)->Arg(641)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace datmo

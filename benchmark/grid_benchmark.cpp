@@ -1,0 +1,47 @@
+// The occupancy map: taking in a scan, and moving its window.
+
+#include "settings.h"
+#include "street.h"
+#include <benchmark/benchmark.h>
+
+#include "datmo_fusion/grid/occupancy_map.h"
+
+namespace datmo {
+namespace {
+
+void gridUpdate(benchmark::State& state, Settings (*settings_of)()) {
+  const Settings settings = settings_of();
+  OccupancyMap map(settings.slam.map);
+  StreetDrive drive({settings.beams, 0.0});
+  const std::vector<PointState> states(static_cast<std::size_t>(settings.beams),
+                                       PointState::kStatic);
+  for (auto _ : state) {
+    map.update(drive.next(), states, Pose2());
+  }
+  benchmark::DoNotOptimize(map.occupancy({0, 0}));
+}
+BENCHMARK_CAPTURE(gridUpdate, demonstrator, demonstratorSettings)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(gridUpdate, heavy, heavySettings)->Unit(benchmark::kMicrosecond);
+
+/// The window moves by this many cells along both axes with each step; 0: it stands.
+void gridScroll(benchmark::State& state) {
+  OccupancyMapOptions options;
+  options.length = static_cast<double>(state.range(0));
+  options.width = options.length;
+  const double step = options.cell_size * static_cast<double>(state.range(1));
+  OccupancyMap map(options);
+  Point2 position = Point2::Zero();
+  for (auto _ : state) {
+    position += Point2(step, step);
+    map.centreOn(position);
+  }
+  benchmark::DoNotOptimize(map.occupancy({0, 0}));
+  state.counters["edge_cells"] = map.window().columns;
+}
+BENCHMARK(gridScroll)
+    ->ArgNames({"metres", "cells"})
+    ->ArgsProduct({{50, 100, 200, 400}, {0, 1, 2}})
+    ->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace datmo

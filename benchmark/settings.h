@@ -1,0 +1,20 @@
+#pragma once
+
+#include "datmo_fusion/slam/grid_slam.h"
+
+namespace datmo {
+
+/// The settings that speed is stated for.
+struct Settings {
+  int beams;
+  GridSlamOptions slam;
+};
+
+/// The demonstrator (thesis 1.3.3, 3.3.1): a beam every 2 degrees over 160, and
+/// config/demonstrator.yaml. Throws OptionError, as heavySettings does.
+Settings demonstratorSettings();
+
+/// A beam every 0.25 degrees over 160, and benchmark/heavy.yaml.
+Settings heavySettings();
+
+}  // namespace datmo

@@ -1,0 +1,113 @@
+// Grid SLAM: one pose of the scan matcher, and one scan through all of it; how the cost grows with
+// beams, poses and the map's size.
+
+#include "settings.h"
+#include "street.h"
+#include <benchmark/benchmark.h>
+
+#include "datmo_fusion/slam/end_points.h"
+#include "datmo_fusion/slam/grid_slam.h"
+
+namespace datmo {
+namespace {
+
+/// Scans before the clock runs: the map is filled, and its memory has been touched.
+constexpr int kWarmUp = 100;
+
+/// Grid SLAM in the middle of a drive.
+class RunningSlam {
+ public:
+  RunningSlam(const GridSlamOptions& options, const StreetOptions& street)
+      : slam_(options), drive_(street) {
+    for (int i = 0; i < kWarmUp; ++i) {
+      step();
+    }
+  }
+
+  SlamResult step() {
+    scan_ = &drive_.next();
+    slam_.addOdometry(drive_.odometry());
+    return slam_.process(*scan_);
+  }
+
+  const OccupancyMap& map() const { return slam_.map(); }
+  const Scan& lastScan() const { return *scan_; }
+
+ private:
+  GridSlam slam_;
+  StreetDrive drive_;
+  const Scan* scan_ = nullptr;
+};
+
+void timeSteps(benchmark::State& state, const GridSlamOptions& options,
+               const StreetOptions& street) {
+  RunningSlam slam(options, street);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(slam.step());
+  }
+}
+
+/// Drawing and scoring poses alone; `per_pose` is the time of one.
+void scorePoses(benchmark::State& state) {
+  const auto poses = static_cast<int>(state.range(1));
+  RunningSlam slam({}, {static_cast<int>(state.range(0))});
+  const PoseWithCovariance prediction = slam.step().split.base_in_map;
+  const auto points = endPoints(slam.lastScan(), GridSlamOptions{}.longest_step);
+  ScanMatcherOptions options;
+  options.samples = poses;
+  options.refinement_steps = 0;
+  const ScanMatcher matcher(options);
+  Random random(1);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(matcher.match(slam.map(), points, prediction, random));
+  }
+  using benchmark::Counter;
+  state.counters["per_pose"] =
+      Counter(poses, Counter::kIsIterationInvariantRate | Counter::kInvert);
+}
+BENCHMARK(scorePoses)
+    ->ArgNames({"beams", "poses"})
+    ->Args({81, 300})
+    ->Args({641, 1000})
+    ->Unit(benchmark::kMicrosecond);
+
+void slamStep(benchmark::State& state, Settings (*settings_of)()) {
+  const Settings settings = settings_of();
+  timeSteps(state, settings.slam, {settings.beams});
+}
+BENCHMARK_CAPTURE(slamStep, demonstrator, demonstratorSettings)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(slamStep, heavy, heavySettings)->Unit(benchmark::kMicrosecond);
+
+/// The cost is linear in the beams for each number of poses (BigO: the fit, RMS: its error), and so
+/// is what a beam costs in the poses.
+void slamStepByBeams(benchmark::State& state, int poses) {
+  GridSlamOptions options;
+  options.matcher.samples = poses;
+  timeSteps(state, options, {static_cast<int>(state.range(0))});
+  state.SetComplexityN(state.range(0));
+}
+
+void setBeams(benchmark::internal::Benchmark* benchmark) {
+  benchmark->ArgName("beams")->Unit(benchmark::kMicrosecond)->Complexity(benchmark::oN);
+  for (const int beams : {81, 181, 361, 721, 1441}) {
+    benchmark->Arg(beams);
+  }
+}
+BENCHMARK_CAPTURE(slamStepByBeams, poses_100, 100)->Apply(setBeams);
+BENCHMARK_CAPTURE(slamStepByBeams, poses_300, 300)->Apply(setBeams);
+BENCHMARK_CAPTURE(slamStepByBeams, poses_1000, 1000)->Apply(setBeams);
+
+/// The map's size costs only when its window moves with the vehicle, and no more than its edge.
+void slamStepInWindow(benchmark::State& state) {
+  GridSlamOptions options;
+  options.map.length = static_cast<double>(state.range(0));
+  options.map.width = options.map.length;
+  timeSteps(state, options, {StreetOptions{}.beams, static_cast<double>(state.range(1))});
+}
+BENCHMARK(slamStepInWindow)
+    ->ArgNames({"metres", "speed"})
+    ->ArgsProduct({{50, 100, 200, 400}, {0, 8}})
+    ->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace datmo

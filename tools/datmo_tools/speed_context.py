@@ -1,0 +1,48 @@
+"""Where figures come from: the code, the compiler and the machine."""
+
+import datetime
+import os
+import subprocess
+from pathlib import Path
+
+
+def describe(source, build):
+    """Context of what is built from the folder `source` in the folder `build` (Paths)."""
+    cache = cmake_cache((build / "CMakeCache.txt").read_text(encoding="utf-8"))
+    return {
+        "date": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
+        "commit": _commit(source),
+        "machine": f"{_processor(Path('/proc/cpuinfo').read_text())} x {os.cpu_count()}",
+        "compiler": _first_line([cache["CMAKE_CXX_COMPILER"], "--version"]),
+        "build_type": cache["CMAKE_BUILD_TYPE"],
+        "load_average": os.getloadavg()[0],  # of the minute before: others at work
+    }
+
+
+def cmake_cache(text):
+    """Name -> value of a CMakeCache.txt."""
+    entries = {}
+    for line in text.splitlines():
+        name, equals, value = line.partition("=")
+        if equals and not line.startswith(("#", "//")):
+            entries[name.partition(":")[0]] = value
+    return entries
+
+
+def _commit(source):
+    """Short hash, with a mark behind it if the tree differs from the commit."""
+    return _first_line(["git", "-C", str(source), "describe", "--always", "--dirty"])
+
+
+def _processor(cpuinfo):
+    names = [
+        line.partition(":")[2] for line in cpuinfo.splitlines() if line.startswith("model name")
+    ]
+    return names[0].strip() if names else "unknown processor"
+
+
+def _first_line(command):
+    """What a command says; "unknown" where it fails (a tree without git)."""
+    done = subprocess.run(command, check=False, capture_output=True, encoding="utf-8")
+    lines = done.stdout.splitlines()
+    return lines[0] if done.returncode == 0 and lines else "unknown"

@@ -1,0 +1,53 @@
+"""Runs the hot paths under Google Benchmark, and picks what is worth keeping of its JSON."""
+
+import json
+import subprocess
+
+from datmo_tools.errors import InputError
+
+MICROSECONDS = {"ns": 1e-3, "us": 1.0, "ms": 1e3, "s": 1e6}
+REPETITIONS = 5  # of which the median counts
+
+
+def measure(program, folder, quick=False):
+    """Median times by benchmark (see `summarise`); `program`: benchmark_hot_paths."""
+    output = folder / "micro.json"
+    options = ["--benchmark_out_format=json", f"--benchmark_out={output}"]
+    options += [f"--benchmark_repetitions={1 if quick else REPETITIONS}"]
+    options += [f"--benchmark_min_time={0.001 if quick else 0.2}"]
+    done = subprocess.run([str(program), *options], check=False, stdout=subprocess.DEVNULL)
+    if done.returncode != 0:
+        raise InputError(f"{program}: failed with exit code {done.returncode}")
+    return summarise(json.loads(output.read_text(encoding="utf-8")))
+
+
+def summarise(report):
+    """Name -> figures, from Google Benchmark's JSON: the median of a benchmark's repetitions.
+
+    CPU time, because others may use the machine meanwhile. A fitted growth is NAME/fit.
+    """
+    runs = {}
+    for run in report["benchmarks"]:
+        wanted = "iteration" if run.get("repetitions", 1) == 1 else "aggregate"
+        if run.get("error_occurred"):
+            raise InputError(f"{run['name']}: {run['error_message']}")
+        aggregate = run.get("aggregate_name", "median")
+        if aggregate in ("BigO", "RMS"):
+            runs.setdefault(run["run_name"] + "/fit", {}).update(_fit(run))
+        elif run["run_type"] == wanted and aggregate == "median":
+            runs[run["run_name"]] = _figures(run)
+    return runs
+
+
+def _fit(run):
+    """Of a linear growth: time of one unit, and the fit's error as a share of the mean time."""
+    if run["aggregate_name"] == "RMS":
+        return {"error": run["rms"]}
+    return {"cpu_us": run["cpu_coefficient"] * MICROSECONDS[run["time_unit"]]}
+
+
+def _figures(run):
+    figures = {"cpu_us": run["cpu_time"] * MICROSECONDS[run["time_unit"]]}
+    if "per_pose" in run:
+        figures["per_pose_us"] = run["per_pose"] * MICROSECONDS["s"]
+    return figures

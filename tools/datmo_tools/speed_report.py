@@ -1,0 +1,81 @@
+"""The figures of a benchmark as a table, alone or beside those of another one."""
+
+import json
+import statistics
+
+from datmo_tools.errors import InputError
+
+FORMAT = 1  # of the JSON file
+MEASURED = ("micro", "live")  # sections of figures; the others say where they come from
+NUMBER = "{:>12.4g}"
+
+
+def read(file):
+    """The report of a file (Path); InputError if it is none."""
+    try:
+        report = json.loads(file.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise InputError(f"{file}: cannot be read as a benchmark's JSON: {error}") from error
+    if not isinstance(report, dict) or report.get("format") != FORMAT:
+        raise InputError(f"{file}: no benchmark of format {FORMAT}")
+    return report
+
+
+def medians(runs):
+    """One figure for each of equal nested dicts: the median over the runs."""
+    if isinstance(runs[0], dict):
+        return {key: medians([run[key] for run in runs]) for key in runs[0]}
+    return statistics.median(runs)
+
+
+def figures(report):
+    """Name with slashes -> number, of all that was measured."""
+    flat = {}
+    for section in MEASURED:
+        _flatten(report.get(section, {}), (section,), flat)
+    return flat
+
+
+def _flatten(value, path, flat):
+    if isinstance(value, dict):
+        for key, inner in value.items():
+            _flatten(inner, (*path, key), flat)
+    else:
+        flat["/".join(path)] = value
+
+
+def table(report):
+    """A line for each figure."""
+    rows = figures(report)
+    width = max(map(len, rows), default=0)
+    return "\n".join(f"{name:<{width}}" + NUMBER.format(value) for name, value in rows.items())
+
+
+def comparison(old, new):
+    """A line for each figure that both have, with new/old; then what only one of them has.
+
+    Less than 1 is faster or smaller. Nothing in common is an InputError.
+    """
+    before, after = figures(old), figures(new)
+    common = [name for name in before if name in after]
+    if not common:
+        raise InputError("the two benchmarks have no figure in common")
+    width = max(map(len, common))
+    lines = [f"{'':<{width}}{'old':>12}{'new':>12}{'new/old':>10}"]
+    for name in common:
+        ratio = f"{after[name] / before[name]:>10.2f}" if before[name] else f"{'-':>10}"
+        lines.append(
+            f"{name:<{width}}" + NUMBER.format(before[name]) + NUMBER.format(after[name]) + ratio
+        )
+    lines += [f"only in the old one: {name}" for name in before if name not in after]
+    lines += [f"only in the new one: {name}" for name in after if name not in before]
+    return "\n".join([*_differences(old, new), *lines])
+
+
+def _differences(old, new):
+    """What makes the figures hard to compare, besides the code."""
+    return [
+        f"{name}: {old['context'].get(name)} -> {new['context'].get(name)}"
+        for name in ("commit", "machine", "compiler", "build_type")
+        if old["context"].get(name) != new["context"].get(name)
+    ]
