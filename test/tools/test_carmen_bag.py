@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import rosbag
 from datmo_tools import carmen_odometry
-from datmo_tools.carmen_clock import rising, typical_step
+from datmo_tools.carmen_clock import rising, typical_steps
 from datmo_tools.carmen_to_bag import main
 from tiny_log import START, flaser, odom, robot_laser, write_log
 
@@ -158,11 +158,15 @@ class Clocks(Conversion):
         self.assertIn("sorted by stamp", said)
 
     def test_order(self):
-        """Typical is 0.2 s, the least step 0.1 s: 0.9, 0.4, 0.6 are pooled around their mean."""
+        """Typical is 0.2 s, the least step 0.18 s.
+
+        Beyond the least steps the scans are stamped 0, 0.72, 0.04, 0.06 s: the last three are pooled
+        around their mean, 0.273333 s.
+        """
         said = self.convert(*self.LINES, options=["--clock", "order"])
         self.assertEqual(self.places(), [0.0, 1.0, 2.0, 3.0])
         np.testing.assert_allclose(
-            self.times("/scan"), [0.0, 0.533333, 0.633333, 0.733333], atol=2e-6
+            self.times("/scan"), [0.0, 0.453333, 0.633333, 0.813333], atol=2e-6
         )
         logged = [round(m.time_ref.to_sec() - START, 6) for m in self.messages("/log_stamps")]
         self.assertEqual(logged, [0.0, 0.9, 0.4, 0.6])
@@ -183,22 +187,28 @@ class Clocks(Conversion):
         self.assertEqual(len(self.times("/scan")), 4)
 
     def test_rising(self):
-        self.assertEqual(rising([5, 20, 35], 10), [5, 20, 35])
-        self.assertEqual(rising([0, 100, 50, 200], 10), [0, 70, 80, 200])
+        self.assertEqual(rising([5, 20, 35], [10, 10]), [5, 20, 35])
+        self.assertEqual(rising([0, 100, 50, 200], [10, 10, 10]), [0, 70, 80, 200])
+        self.assertEqual(rising([0, 10, 20], [5, 20]), [0, 5, 25])
         generator = np.random.Generator(np.random.PCG64(1))
         stamps = [int(s) for s in 1000 * np.arange(500) + generator.normal(0, 2000, 500)]
-        moved = rising(stamps, 300)
+        moved = rising(stamps, [300] * 499)
         self.assertGreaterEqual(min(np.diff(moved)), 299)  # rounded
         # No feasible neighbour is nearer: the residuals of each run of moved stamps cancel.
         self.assertAlmostEqual(float(np.mean(np.subtract(moved, stamps))), 0.0, delta=1.0)
 
-    def test_typical_step_stands_bursts_and_pauses(self):
+    def test_typical_steps_stand_bursts_and_pauses(self):
         even = [200 * i for i in range(100)]
-        self.assertEqual(typical_step(even), 200)
-        self.assertEqual(typical_step(even + [10**6 + 200 * i for i in range(50)]), 200)
+        self.assertEqual(set(typical_steps(even)), {200})
+        self.assertEqual(set(typical_steps(even + [10**6 + s for s in even])), {200})
         bursts = [s + (150 if i % 2 else 0) for i, s in enumerate(even)]
-        self.assertEqual(typical_step(bursts), 200)
-        self.assertEqual(typical_step([0, 60]), 60)
+        self.assertEqual(set(typical_steps(bursts)), {200})
+        self.assertEqual(typical_steps([0, 60]), [60])
+
+    def test_typical_steps_follow_the_rate(self):
+        slow = [200 * i for i in range(500)]
+        steps = typical_steps(slow + [slow[-1] + 100 * i for i in range(1, 501)])
+        self.assertEqual((steps[0], steps[-1], len(steps)), (200, 100, 999))
 
     def test_rates_stand_stamps_that_nearly_fall_together(self):
         """0.2 m/s all along, though two stamps are 1 ms apart: 20 m/s between them."""

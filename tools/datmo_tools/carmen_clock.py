@@ -6,7 +6,8 @@ make them rise, and neither is the truth:
 
 log:   every record keeps its stamp, and the records are sorted by it. Scans may change places.
 order: the records keep the order of the file, in which they were measured; the scans' stamps are
-       moved, all together by as little as possible, until they rise. What was right stays as it is.
+       moved, all together by as little as possible, until they rise nearly as evenly as the scanner
+       turns. Stamps that do already stay as they are.
 """
 
 from typing import NamedTuple
@@ -18,10 +19,12 @@ from datmo_tools.carmen_log import Record
 
 CLOCKS = ("log", "order")
 
-# The typical time between two scans is measured over so many: bursts even out, pauses stand out.
+# The typical time between two scans is the median, over a neighbourhood of scans to both sides, of
+# spans of so many scans: bursts even out, pauses do not count, and the rate may change.
 TYPICAL_OVER = 10
-# A scan follows the one before after this share of the typical time, or later.
-LEAST_SHARE = 0.5
+NEIGHBOURHOOD = 100
+# A scan follows the one before after this share of the typical time, or later: scanners turn evenly.
+LEAST_SHARE = 0.9
 
 # Odometry this close to a scan or to earlier odometry tells no speed, for its stamps and digits are
 # too coarse, and no news.
@@ -50,29 +53,36 @@ def timeline(records, clock):
     return _thinned(timed)
 
 
-def rising(stamps, least_step):
-    """Stamps (ns) that rise by `least_step` (ns) or more, nearest to `stamps` in least squares.
+def rising(stamps, least_steps):
+    """Stamps (ns) nearest to `stamps` in least squares of which each follows the one before by
+    `least_steps` (ns, one for each pair of neighbours) or more.
 
     Isotonic regression by pooling adjacent violators (Barlow et al., "Statistical inference under
     order restrictions", 1972), of what the stamps have beyond the least steps.
     """
+    least = np.concatenate([[0], np.cumsum(least_steps, dtype=np.int64)])
     pools = []  # mean and number of stamps that are moved to one line
-    for i, stamp in enumerate(stamps):
-        mean, count = float(stamp - stamps[0] - i * least_step), 1
+    for stamp, offset in zip(stamps, least):
+        mean, count = float(stamp - stamps[0] - offset), 1
         while pools and pools[-1][0] > mean:
             before, more = pools.pop()
             mean = (before * more + mean * count) / (more + count)
             count += more
         pools.append((mean, count))
     slack = np.repeat([mean for mean, _ in pools], [count for _, count in pools])
-    return [stamps[0] + round(extra) + i * least_step for i, extra in enumerate(slack)]
+    return [stamps[0] + round(extra) + int(offset) for extra, offset in zip(slack, least)]
 
 
-def typical_step(stamps):
-    """Typical time (ns) between neighbours of `stamps` (ns, roughly rising, two or more)."""
+def typical_steps(stamps):
+    """Typical time (ns) to the next stamp at each of `stamps` (ns, roughly rising) but the last."""
     over = min(TYPICAL_OVER, len(stamps) - 1)
     spans = np.asarray(stamps[over:]) - np.asarray(stamps[:-over])
-    return max(int(np.median(spans)) // over, 2)
+    steps = []
+    for i in range(len(stamps) - 1):
+        centre = min(max(i - over // 2, 0), len(spans) - 1)
+        near = spans[max(centre - NEIGHBOURHOOD, 0) : centre + NEIGHBOURHOOD + 1]
+        steps.append(max(int(np.median(near)) // over, 2))
+    return steps
 
 
 def _by_stamp(records):
@@ -88,7 +98,7 @@ def _by_order(records):
     places = [i for i, item in enumerate(timed) if item.is_scan]
     stamps = [timed[i].stamp for i in places]
     if len(stamps) > 1:
-        stamps = rising(stamps, int(LEAST_SHARE * typical_step(stamps)))
+        stamps = rising(stamps, [int(LEAST_SHARE * step) for step in typical_steps(stamps)])
     for i, stamp in zip(places, stamps):
         timed[i] = timed[i]._replace(stamp=stamp)
     return timed
