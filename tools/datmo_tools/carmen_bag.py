@@ -27,7 +27,7 @@ class Options(NamedTuple):
     """What to convert and how."""
 
     laser: Optional[str] = None  # kind of line; None: the first that the log holds
-    clock: str = "log"  # see carmen_clock
+    clock: Optional[str] = None  # see carmen_clock; None: "log" if the stamps rise, else "order"
     field_of_view: Optional[float] = None  # rad, first to last beam; None: see _bearings
     range_max: float = 80.0  # m; SICK scanners log codes above it where nothing returns
     mount: Optional[np.ndarray] = None  # x, y, yaw in base_link; None: from the log
@@ -45,6 +45,8 @@ def convert(log_path, bag_path, options, stream=None):
         raise InputError(f"{bag_path}: the bag must not be the log")
     log = read_log(log_path, options.laser, options.skip_malformed)
     scans = scans_of(log)
+    if options.clock is None:
+        options = options._replace(clock="order" if out_of_order(scans) else "log")
     mount, note = options.mount, None
     if mount is None:
         mount, note = scanner_mount(log_path, log, [record.line for record in scans])

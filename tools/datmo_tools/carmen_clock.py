@@ -23,7 +23,8 @@ CLOCKS = ("log", "order")
 # spans of so many scans: bursts even out, pauses do not count, and the rate may change.
 TYPICAL_OVER = 10
 NEIGHBOURHOOD = 100
-# A scan follows the one before after this share of the typical time, or later: scanners turn evenly.
+# A scanner turns evenly: a scan follows the one before after this share of the typical time, or
+# later.
 LEAST_SHARE = 0.9
 
 # Odometry this close to a scan or to earlier odometry tells no speed, for its stamps and digits are

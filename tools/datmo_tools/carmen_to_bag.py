@@ -19,10 +19,10 @@ The scanner's mount is where the log says that the laser is on the robot; a log 
 height. Readings at or beyond the greatest range become +inf: no return. The odometry is what stands
 in the scans' lines, and ODOM lines between them; its twist is the mean motion to the next pose.
 
-Stamps are the log's ipc times, to which relations files refer. Where they do not rise, the scans
-are sorted by them; --clock order keeps the scans in the order of the file instead, in which they
-were measured, moves the stamps as little as that needs, and tells the log's stamps on /log_stamps
-for score_relations."""
+Stamps are the log's ipc times, to which relations files refer. If those of the scans do not rise,
+the scans stay in the order of the file, in which they were measured; their stamps are moved as
+little as it needs to make them rise evenly, and /log_stamps tells the log's, for score_relations
+(--clock order). With --clock log the scans are sorted by the log's stamps instead."""
 
 
 def main(arguments=None):
@@ -44,7 +44,8 @@ def _parser():
     add("log", type=Path, help="CARMEN log")
     add("bag", type=Path, help="bag to write")
     add("--laser", choices=LASERS, help="kind of line (default: the first of these that there is)")
-    add("--clock", choices=CLOCKS, default=defaults.clock, help="(default %(default)s)")
+    clock = "whose order counts (default: log if the stamps of the scans rise, else order)"
+    add("--clock", choices=CLOCKS, help=clock)
     field = (
         "first to last beam (default: what the line tells; a SICK's half turn where it does not)"
     )
