@@ -12,6 +12,7 @@ from datmo_tools.errors import InputError
 from datmo_tools.pose_path import PosePath, read_messages, read_path
 from datmo_tools.relations import errors_of, read_relations, statistics
 from datmo_tools.stamps import NANOSECONDS
+from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
 Scores the poses in a bag with the relations of the SLAM benchmark (Kuemmerle et al., "On measuring
@@ -116,10 +117,8 @@ def _run(values):
         )
     print(table(result))
     if values.json is not None:
-        try:
-            values.json.write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
-        except OSError as error:
-            raise InputError(f"{values.json}: cannot be written ({error})") from error
+        text = json.dumps(result, indent=2) + "\n"
+        write_whole(values.json.parent, {values.json.name: text})
 
 
 def _parser():
