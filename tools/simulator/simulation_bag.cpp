@@ -76,10 +76,11 @@ class Recording {
   void recordScan(double time, Stamp stamp) {
     const EchoScan scan = scanner_.measure(scene_.world, time);
     const WorldState state = scene_.world.at(time);
+    const Stamp last_beam = stamp + scene_.options.scanner.sweep_duration;
     if (scene_.options.scanner.echoes == 1) {
-      write("/scan", stamp, toLaserScan(scan, scene_.options.scanner, stamp));
+      write("/scan", last_beam, toLaserScan(scan, scene_.options.scanner, stamp));
     } else {
-      write("/echoes", stamp, toMultiEchoScan(scan, scene_.options.scanner, stamp));
+      write("/echoes", last_beam, toMultiEchoScan(scan, scene_.options.scanner, stamp));
     }
     recordTruth(state, scan, stamp);
   }
