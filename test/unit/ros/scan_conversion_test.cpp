@@ -67,6 +67,44 @@ TEST(ScanConversion, AScannerThatTurnsTheOtherWayRound) {
   EXPECT_GT(scan.beam_spacing, 0.0);
 }
 
+TEST(ScanConversion, EachBeamHasItsTimeWhicheverWayTheScannerTurns) {
+  for (const bool to_the_right : {false, true}) {
+    auto message = samples::laserScan({2.0F, kNan, 4.0F});
+    message.time_increment = 0.01F;
+    if (to_the_right) {
+      std::swap(message.angle_min, message.angle_max);
+      message.angle_increment = -message.angle_increment;
+    }
+    const auto converted = convert(message);
+    EXPECT_FALSE(converted.unusable_times);
+    ASSERT_EQ(converted.scan.rays.size(), 2U);
+    EXPECT_EQ(converted.scan.rays[0].time, 0.0);
+    EXPECT_NEAR(converted.scan.rays[1].time, 0.02, 1e-8);
+  }
+}
+
+TEST(ScanConversion, BadBeamTimesDoNotCostTheScan) {
+  for (const float bad : {-0.001F, 0.2F, kInfinity, kNan}) {
+    auto message = samples::laserScan();
+    message.time_increment = bad;
+    const auto converted = convert(message);
+    EXPECT_EQ(converted.beams.hits, 3U);
+    EXPECT_EQ(converted.scan.rays.back().time, 0.0);
+    ASSERT_TRUE(converted.unusable_times) << bad;
+    EXPECT_EQ(converted.unusable_times->reason(), "bad_beam_times");
+    EXPECT_NE(std::string(converted.unusable_times->what()).find(std::to_string(bad)),
+              std::string::npos);
+  }
+}
+
+TEST(ScanConversion, ASweepMayLastAsLongAsTheOptionSays) {
+  auto message = samples::laserScan();
+  message.time_increment = 0.2F;  // two steps: 0.4 s
+  ScanConversionOptions options;
+  options.longest_sweep = 0.5;
+  EXPECT_FALSE(toScan(message, bumper(), options).unusable_times);
+}
+
 TEST(ScanConversion, NoReturnIsFreeUpToTheFreeRange) {
   ScanConversionOptions options;
   options.free_range = 5.0;

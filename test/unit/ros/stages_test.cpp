@@ -42,6 +42,11 @@ class GridSlamStageTest : public testing::Test {
     return stage_.takeScan(scan);
   }
 
+  nav_msgs::OccupancyGridPtr mapAfterScanAt(double seconds) {
+    scanAt(seconds);
+    return stage_.mapIfDue(Stamp::fromSeconds(seconds));
+  }
+
   /// The vehicle drives ahead with 8 m/s; it is at x = 0 at the start.
   void odometryAt(double seconds) { stage_.takeOdometry(odometry(seconds)); }
 
@@ -70,7 +75,6 @@ TEST_F(GridSlamStageTest, AScanMakesAllOutputs) {
   EXPECT_EQ(output->split_scan->points.size(), 3U);
   EXPECT_EQ(output->pose->header.frame_id, "map");
   EXPECT_EQ(output->pose->header.stamp, ros::Time(100.0));
-  ASSERT_TRUE(output->map);
   ASSERT_EQ(output->transforms.size(), 1U);
   EXPECT_EQ(monitor_.processedCount(), 1U);
   EXPECT_EQ(monitor_.droppedCount(), 0U);
@@ -116,9 +120,9 @@ TEST_F(GridSlamStageTest, FramesOfTheSameOrNoNameAreRefused) {
 
 TEST_F(GridSlamStageTest, AMapOnlyWhenItIsItsTurn) {
   mountScanner();
-  EXPECT_TRUE(scanAt(100.0)->map);
-  EXPECT_FALSE(scanAt(100.5)->map);
-  EXPECT_TRUE(scanAt(101.0)->map);
+  EXPECT_TRUE(mapAfterScanAt(100.0));
+  EXPECT_FALSE(mapAfterScanAt(100.5));
+  EXPECT_TRUE(mapAfterScanAt(101.0));
 }
 
 TEST_F(GridSlamStageTest, SilentOdometryIsWarnedOfAndTheRestGoesOn) {
@@ -186,11 +190,12 @@ TEST_F(GridSlamStageTest, AJumpBackStartsAnew) {
     scanAt(t);
   }
   EXPECT_GT(scanAt(102.0)->pose->pose.pose.position.x, 5.0);
+  EXPECT_TRUE(stage_.mapIfDue(Stamp::fromSeconds(102.0)));
   odometryAt(100.0);
   const auto output = scanAt(100.0);
   ASSERT_TRUE(output);
   EXPECT_EQ(output->pose->pose.pose.position.x, 0.0);
-  EXPECT_TRUE(output->map);
+  EXPECT_TRUE(stage_.mapIfDue(Stamp::fromSeconds(100.0)));
   EXPECT_EQ(output->transforms.size(), 1U) << "the odometry of the new run serves it";
   EXPECT_EQ(warnings("clock_restart"), 1U);
 }
@@ -206,6 +211,31 @@ TEST_F(GridSlamStageTest, AScanWithoutAValidBeamMovesByOdometry) {
   ASSERT_TRUE(output);
   EXPECT_NEAR(output->pose->pose.pose.position.x, 0.8, 0.1);
   EXPECT_EQ(warnings("no_valid_beam"), 1U);
+}
+
+TEST_F(GridSlamStageTest, BeamsAreBroughtToTheStampOfTheScan) {
+  mountScanner();
+  odometryAt(100.0);
+  auto scan = samples::laserScan();
+  scan.time_increment = 0.01F;
+  const auto output = stage_.takeScan(scan);
+  ASSERT_TRUE(output);
+  // At 8 m/s the beam ahead starts 0.08 m further on, and the last one 0.16 m.
+  const auto& points = output->split_scan->points;
+  ASSERT_EQ(points.size(), 3U);
+  EXPECT_NEAR(points[0].x, 3.6, 1e-6);
+  EXPECT_NEAR(points[1].x, 3.6 + 3.0 + 0.08, 1e-6);
+  EXPECT_NEAR(points[2].x, 3.6 + 0.16, 1e-6);
+  EXPECT_EQ(monitor_.warningCount(), 0U);
+}
+
+TEST_F(GridSlamStageTest, BadBeamTimesAreWarnedOf) {
+  mountScanner();
+  odometryAt(100.0);
+  auto scan = samples::laserScan();
+  scan.time_increment = -1.0F;
+  EXPECT_TRUE(stage_.takeScan(scan));
+  EXPECT_EQ(warnings("bad_beam_times"), 1U);
 }
 
 TEST_F(GridSlamStageTest, OdometryOfOtherFramesIsDropped) {
@@ -229,6 +259,12 @@ class TrackerStageTest : public testing::Test {
     buffer_.add(transforms({samples::transform("map", "base_link", 0.0, seconds)}));
   }
 
+  void scanPoseAt(double seconds, const std::string& map_frame = "map") {
+    SplitScan scan;
+    scan.stamp = Stamp::fromSeconds(seconds);
+    stage_.takeSplitScan(toMessage(scan, "base_link", map_frame));
+  }
+
   TrackArrayPtr nextAt(double seconds) { return stage_.next(Stamp::fromSeconds(seconds)); }
 
   TransformBuffer buffer_{1.0};
@@ -247,6 +283,26 @@ TEST_F(TrackerStageTest, ObjectsWaitForTheirTransform) {
   EXPECT_EQ(tracks->header.frame_id, "map");
   EXPECT_FALSE(nextAt(100.1));
   EXPECT_EQ(monitor_.droppedCount(), 0U);
+}
+
+TEST_F(TrackerStageTest, ThePoseOfTheirScanServesBeforeTfDoes) {
+  poseAt(99.9);
+  objectsAt(100.0);
+  scanPoseAt(99.94);
+  EXPECT_FALSE(nextAt(100.0)) << "only the pose at their own stamp counts";
+  scanPoseAt(100.0, "world");
+  EXPECT_FALSE(nextAt(100.0)) << "and only in the frame of the tracks";
+  scanPoseAt(100.0);
+  const auto tracks = nextAt(100.0);
+  ASSERT_TRUE(tracks);
+  EXPECT_EQ(tracks->header.stamp, ros::Time(100.0));
+}
+
+TEST_F(TrackerStageTest, ABadPoseOfAScanIsDropped) {
+  SplitScanMessage scan = toMessage(SplitScan(), "base_link", "map");
+  scan.pose.pose.orientation.w = std::numeric_limits<double>::quiet_NaN();
+  stage_.takeSplitScan(scan);
+  EXPECT_EQ(monitor_.drops().at("bad_pose"), 1U);
 }
 
 TEST_F(TrackerStageTest, AfterTheLongestWaitTheyAreDroppedAndTheNextServed) {
