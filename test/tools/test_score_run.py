@@ -210,6 +210,22 @@ class WholeRun(ScoreRun):
         self.assertAlmostEqual(report["timing"]["tracker"]["latency"]["median_ms"], 4.0)
         self.assertIsNone(report["timing"]["grid_slam"]["latency"])
 
+    def test_a_track_on_a_parked_car_is_false(self):
+        for i, message in enumerate(self.truth_messages["/ground_truth/objects"]):
+            parked = car_at(2, 30.0, 8.0)
+            parked.moving = False
+            message.objects.append(parked)
+            if i < 5:
+                self.run_messages["/tracks"][i].tracks.append(track_at(8, 30.0, 7.0))
+        report = self.score()
+        self.assertEqual(report["clear_mot"]["false_positives"], 5)
+        self.assertEqual(report["thesis"]["false_tracks"], 1)
+        self.assertEqual(report["truth_objects"], 1)
+        self.assertEqual(
+            report["standing_objects"],
+            [{"id": 2, "label": "Car", "class": "vehicle", "frames": FRAMES, "tracked_frames": 5}],
+        )
+
     def test_options_from_file_and_command_line(self):
         options = self.folder / "options.yaml"
         options.write_text("matching: {gate: 0.4, distance: to_centre}\nregion: {range: 40.0}\n")

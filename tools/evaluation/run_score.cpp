@@ -83,6 +83,8 @@ RunScore scoreRun(const RecordedRun& run, const RecordedTruth& truth, const Scor
   score.ego = egoPoses(built.frames, scene.trajectory(), estimated, alignment);
   score.left_out = built.left_out;
   score.tracks = scoreTracks(built.frames, options.metrics);
+  score.standing_objects =
+      scoreStandingObjects(built.frames, score.tracks.matching, scene, options.metrics.matching);
   score.frames = std::move(built.frames);
   score.pose = scorePoses(estimated, scene.trajectory());
   if (run.detections) {

@@ -13,6 +13,7 @@
 #include "evaluation/pose_score.h"
 #include "evaluation/recorded_data.h"
 #include "evaluation/score_options.h"
+#include "evaluation/standing_objects.h"
 #include "evaluation/track_scores.h"
 
 namespace datmo::evaluation {
@@ -48,6 +49,7 @@ struct RunScore {
   std::vector<EgoPoses> ego;  ///< of each frame
   std::size_t left_out = 0;   ///< messages with tracks outside of the truth or of the poses
   TrackScores tracks;
+  std::vector<StandingObject> standing_objects;
   std::optional<PoseScore> pose;                      ///< none: the run has no poses
   std::optional<FalseDetections> false_detections;    ///< none: the run has no detections
   std::optional<IntersectionScore> intersections;     ///< none: the truth knows of no roads

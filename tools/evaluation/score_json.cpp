@@ -134,6 +134,18 @@ json objectsJson(const RunScore& score) {
   return objects;
 }
 
+json standingJson(const RunScore& score) {
+  json objects = json::array();
+  for (const StandingObject& object : score.standing_objects) {
+    objects.push_back({{"id", object.id},
+                       {"label", score.truth_labels.at(object.id)},
+                       {"class", className(object.classification)},
+                       {"frames", object.frames},
+                       {"tracked_frames", object.tracked_frames}});
+  }
+  return objects;
+}
+
 json thesisJson(const RunScore& score) {
   const ThesisCounts& counts = score.tracks.thesis;
   const auto& detections = score.false_detections;
@@ -218,6 +230,7 @@ json toJson(const RunScore& score, const ScoreOptions& options, const ScoredFile
            {{"position", toJson(tracks.consistency.position)},
             {"velocity", toJson(tracks.consistency.velocity)}}},
           {"objects", objectsJson(score)},
+          {"standing_objects", standingJson(score)},
           {"thesis", thesisJson(score)},
           {"pose", poseJson(score.pose)},
           {"timing", timingJson(score.stages)},

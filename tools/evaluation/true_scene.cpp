@@ -20,16 +20,18 @@ std::set<std::uint32_t> idsOfMovers(const std::vector<RecordedObjects>& recorded
   return ids;
 }
 
-std::vector<RecordedObjects> moversOf(const std::vector<RecordedObjects>& recorded) {
-  const std::set<std::uint32_t> ids = idsOfMovers(recorded);
-  std::vector<RecordedObjects> movers;
+/// The objects whose ids are, or are not (`wanted`), among these.
+std::vector<RecordedObjects> selected(const std::vector<RecordedObjects>& recorded,
+                                      const std::set<std::uint32_t>& ids, bool wanted) {
+  std::vector<RecordedObjects> selection;
   for (const RecordedObjects& objects : recorded) {
-    movers.push_back({objects.stamp, {}});
+    selection.push_back({objects.stamp, {}});
     std::copy_if(objects.objects.begin(), objects.objects.end(),
-                 std::back_inserter(movers.back().objects),
-                 [&ids](const RecordedObject& object) { return ids.count(object.state.id) > 0; });
+                 std::back_inserter(selection.back().objects), [&](const RecordedObject& object) {
+                   return (ids.count(object.state.id) > 0) == wanted;
+                 });
   }
-  return movers;
+  return selection;
 }
 
 const RecordedObject* find(const RecordedObjects& objects, std::uint32_t id) {
@@ -77,18 +79,35 @@ std::vector<RecordedObject> between(const RecordedObjects& from, const RecordedO
   return result;
 }
 
+/// What is recorded at the stamp, or between its neighbours; none outside, and in a gap.
+std::optional<std::vector<RecordedObject>> objectsAt(const std::vector<RecordedObjects>& recorded,
+                                                     Stamp stamp, double longest_gap) {
+  const auto after =
+      std::lower_bound(recorded.begin(), recorded.end(), stamp,
+                       [](const RecordedObjects& objects, Stamp s) { return objects.stamp < s; });
+  if (after != recorded.end() && after->stamp == stamp) {
+    return after->objects;
+  }
+  if (after == recorded.begin() || after == recorded.end() ||
+      secondsBetween((after - 1)->stamp, after->stamp) > longest_gap) {
+    return std::nullopt;
+  }
+  return between(*(after - 1), *after, stamp);
+}
+
 }  // namespace
 
 TrueScene::TrueScene(const RecordedTruth& truth, const ScoreOptions& options)
-    : options_(options),
-      trajectory_(truth.poses, options.longest_gap),
-      movers_(moversOf(truth.objects)) {
+    : options_(options), trajectory_(truth.poses, options.longest_gap) {
+  const std::set<std::uint32_t> movers = idsOfMovers(truth.objects);
+  movers_ = selected(truth.objects, movers, true);
+  standing_ = selected(truth.objects, movers, false);
   std::transform(movers_.begin(), movers_.end(), std::back_inserter(stamps_),
                  [](const RecordedObjects& objects) { return objects.stamp; });
 }
 
 std::optional<TrueScene::View> TrueScene::at(Stamp stamp) const {
-  const auto objects = objectsAt(stamp);
+  const auto objects = objectsAt(movers_, stamp, options_.longest_gap);
   const auto base_in_map = trajectory_.at(stamp);
   if (!objects || !base_in_map) {
     return std::nullopt;
@@ -101,18 +120,18 @@ std::optional<TrueScene::View> TrueScene::at(Stamp stamp) const {
   return view;
 }
 
-std::optional<std::vector<RecordedObject>> TrueScene::objectsAt(Stamp stamp) const {
-  const auto after =
-      std::lower_bound(movers_.begin(), movers_.end(), stamp,
-                       [](const RecordedObjects& objects, Stamp s) { return objects.stamp < s; });
-  if (after != movers_.end() && after->stamp == stamp) {
-    return after->objects;
+std::vector<TrueState> TrueScene::standingAt(Stamp stamp) const {
+  const auto objects = objectsAt(standing_, stamp, options_.longest_gap);
+  const auto base_in_map = trajectory_.at(stamp);
+  std::vector<TrueState> standing;
+  if (objects && base_in_map) {
+    for (const RecordedObject& object : *objects) {
+      if (isWanted(object, *base_in_map)) {
+        standing.push_back(object.state);
+      }
+    }
   }
-  if (after == movers_.begin() || after == movers_.end() ||
-      secondsBetween((after - 1)->stamp, after->stamp) > options_.longest_gap) {
-    return std::nullopt;
-  }
-  return between(*(after - 1), *after, stamp);
+  return standing;
 }
 
 bool TrueScene::isInRegion(const Pose2& base_in_map, const Point2& point) const {
@@ -122,12 +141,14 @@ bool TrueScene::isInRegion(const Pose2& base_in_map, const Point2& point) const 
 }
 
 Duty TrueScene::dutyOf(const RecordedObject& object, const Pose2& base_in_map) const {
-  const TruthOptions& wanted = options_.truth;
-  const bool required = object.moving && object.state.velocity.norm() >= wanted.least_speed &&
-                        object.lidar_beams >= wanted.least_beams && isSeen(object) &&
-                        isWantedClass(object.state.classification) &&
-                        isInRegion(base_in_map, object.state.box.centre.position());
-  return required ? Duty::kRequired : Duty::kOptional;
+  const bool moves = object.moving && object.state.velocity.norm() >= options_.truth.least_speed;
+  return moves && isWanted(object, base_in_map) ? Duty::kRequired : Duty::kOptional;
+}
+
+bool TrueScene::isWanted(const RecordedObject& object, const Pose2& base_in_map) const {
+  return object.lidar_beams >= options_.truth.least_beams && isSeen(object) &&
+         isWantedClass(object.state.classification) &&
+         isInRegion(base_in_map, object.state.box.centre.position());
 }
 
 bool TrueScene::isSeen(const RecordedObject& object) const {
