@@ -66,10 +66,10 @@ class GridSlamNodelet : public nodelet::Nodelet {
     broadcaster_.sendTransform(output.transforms);
     pose_.publish(output.pose);
     split_scan_.publish(output.split_scan);
-    if (output.map) {
-      map_.publish(output.map);
-    }
     reporter_->publishTiming();
+    if (const auto map = stage_->mapIfDue(toStamp(output.split_scan->header.stamp))) {
+      map_.publish(map);
+    }
   }
 
   /// A second of scans or odometry: enough for a hiccup, and bounded.

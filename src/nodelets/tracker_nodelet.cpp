@@ -10,7 +10,7 @@
 
 namespace datmo {
 
-/// The door to TrackerStage. In: objects, tf. Out: tracks.
+/// The door to TrackerStage. In: objects, split_scan, tf. Out: tracks.
 class TrackerNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
@@ -25,8 +25,14 @@ class TrackerNodelet : public nodelet::Nodelet {
     tracks_ = node.advertise<TrackArray>("tracks", kQueue);
     transform_subscription_ =
         std::make_unique<TransformSubscription>(node, *transforms_, [this] { publishTracks(); });
-    objects_ = node.subscribe("objects", kQueue, &TrackerNodelet::takeObjects, this,
-                              ros::TransportHints().tcpNoDelay());
+    const auto hints = ros::TransportHints().tcpNoDelay();
+    split_scan_ = node.subscribe("split_scan", kQueue, &TrackerNodelet::takeSplitScan, this, hints);
+    objects_ = node.subscribe("objects", kQueue, &TrackerNodelet::takeObjects, this, hints);
+  }
+
+  void takeSplitScan(const SplitScanConstPtr& message) {
+    stage_->takeSplitScan(*message);
+    publishTracks();
   }
 
   void takeObjects(const ObjectArrayConstPtr& message) {
@@ -52,6 +58,7 @@ class TrackerNodelet : public nodelet::Nodelet {
   std::unique_ptr<StageReporter> reporter_;
   ros::Publisher tracks_;
   std::unique_ptr<TransformSubscription> transform_subscription_;
+  ros::Subscriber split_scan_;
   ros::Subscriber objects_;
 };
 

@@ -167,7 +167,6 @@ GridSlamOutput GridSlamStage::outputOf(const SlamResult& result) {
   output.pose->header.frame_id = options_.map_frame;
   output.pose->pose = output.split_scan->pose;
   output.transforms = transformsTo(result.split.base_in_map.pose, stamp);
-  output.map = mapIfDue(stamp);
   return output;
 }
 

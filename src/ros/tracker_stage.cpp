@@ -33,6 +33,14 @@ TrackerStage::TrackerStage(const TrackerStageOptions& options, const TransformBu
   checkOptions(options);
 }
 
+void TrackerStage::takeSplitScan(const SplitScanMessage& message) {
+  try {
+    scan_poses_.add(message);
+  } catch (const InputError& error) {
+    monitor_.dropped(error);
+  }
+}
+
 void TrackerStage::takeObjects(const ObjectArrayConstPtr& message, Stamp now) {
   try {
     if (stamps_.check(message->header.stamp) == Arrival::kRestart) {
@@ -54,9 +62,7 @@ TrackArrayPtr TrackerStage::next(Stamp now) {
   while (!queue_.empty()) {
     const Waiting waiting = queue_.front();
     try {
-      const auto& header = waiting.objects->header;
-      const Pose2 base_in_fixed =
-          planarPose(transforms_.core(), options_.fixed_frame, header.frame_id, header.stamp);
+      const Pose2 base_in_fixed = baseInFixed(waiting.objects->header);
       queue_.pop_front();
       return track(*waiting.objects, base_in_fixed);
     } catch (const InputError& error) {
@@ -68,6 +74,13 @@ TrackArrayPtr TrackerStage::next(Stamp now) {
     }
   }
   return nullptr;
+}
+
+Pose2 TrackerStage::baseInFixed(const std_msgs::Header& base) const {
+  if (const auto pose = scan_poses_.find(base, options_.fixed_frame)) {
+    return *pose;
+  }
+  return planarPose(transforms_.core(), options_.fixed_frame, base.frame_id, base.stamp);
 }
 
 TrackArrayPtr TrackerStage::track(const ObjectArray& objects, const Pose2& base_in_fixed) {

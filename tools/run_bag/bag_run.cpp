@@ -115,6 +115,9 @@ class BagRun {
     for (const TrackArrayPtr& tracks : results.tracks) {
       output_.write("/tracks", time, *tracks);
     }
+    if (results.map) {
+      output_.write("/map", time, *results.map);
+    }
   }
 
   void writeSlam(const ros::Time& time, const GridSlamOutput& slam) {
@@ -123,9 +126,6 @@ class BagRun {
     output_.write("/tf", time, transforms);
     output_.write("/pose", time, *slam.pose);
     output_.write("/split_scan", time, *slam.split_scan);
-    if (slam.map) {
-      output_.write("/map", time, *slam.map);
-    }
   }
 
   const InputTopics& topics_;

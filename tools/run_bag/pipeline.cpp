@@ -49,6 +49,7 @@ void Pipeline::followSlam(Stamp now, Output& output) {
     bookTime(detector_monitor_);
   }
   if (output.objects && last_ == LastStage::kTracker) {
+    tracker_.takeSplitScan(*output.slam->split_scan);
     tracker_.takeObjects(output.objects, now);
   }
   drainTracker(now, output);

@@ -17,7 +17,7 @@ namespace datmo {
 /// The stages of perception.launch, wired without a master:
 ///
 ///     scan, odometry, tf ─► grid_slam ─ split scan ─► moving_objects ─ objects ─► tracker ─ tracks
-///                               └───────────── map -> odom ──────────────────────────┘
+///                               └───────── split scan, map -> odom ──────────────────┘
 ///
 /// Messages go in one after the other, as they came; the same messages give the same results, bit
 /// for bit.
@@ -31,6 +31,7 @@ class Pipeline {
     std::optional<GridSlamOutput> slam;
     ObjectArrayPtr objects;
     std::vector<TrackArrayPtr> tracks;
+    nav_msgs::OccupancyGridPtr map;  ///< null if it is not its turn
   };
 
   void takeStaticTransforms(const tf2_msgs::TFMessage& message);
@@ -48,6 +49,7 @@ class Pipeline {
     output.slam = slam_.takeScan(message);
     if (output.slam) {
       followSlam(now, output);
+      output.map = slam_.mapIfDue(toStamp(output.slam->pose->header.stamp));
     }
     return output;
   }

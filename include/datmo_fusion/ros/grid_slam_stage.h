@@ -38,7 +38,6 @@ struct GridSlamOutput {
   SplitScanPtr split_scan;
   geometry_msgs::PoseWithCovarianceStampedPtr pose;
   std::vector<geometry_msgs::TransformStamped> transforms;
-  nav_msgs::OccupancyGridPtr map;  ///< null if it is not its turn
 };
 
 /// GridSlam between messages: the same one serves the nodelet and the bag runner.
@@ -63,6 +62,11 @@ class GridSlamStage {
   template <typename Message>
   std::optional<GridSlamOutput> takeScan(const Message& message);
 
+  /// The map after the last scan, whose stamp this is; null if it is not its turn. To be asked for
+  /// when the scan's results are on their way: the chain waits for them, and nobody for the map,
+  /// which may take as long to write as all stages need for the scan.
+  nav_msgs::OccupancyGridPtr mapIfDue(Stamp stamp);
+
  private:
   /// Speed, yaw rate and pose of the vehicle as its odometry knows them.
   struct OdometryPose {
@@ -84,7 +88,6 @@ class GridSlamStage {
   void warnOf(const ScannerMount& mount, const ConvertedScan& converted);
   GridSlamOutput outputOf(const SlamResult& result);
   std::vector<geometry_msgs::TransformStamped> transformsTo(const Pose2& base_in_map, Stamp stamp);
-  nav_msgs::OccupancyGridPtr mapIfDue(Stamp stamp);
 
   GridSlamStageOptions options_;
   const TransformBuffer& transforms_;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "datmo_fusion/ros/messages.h"
+#include "datmo_fusion/ros/scan_poses.h"
 #include "datmo_fusion/ros/stage_monitor.h"
 #include "datmo_fusion/ros/stamp_check.h"
 #include "datmo_fusion/ros/transform_buffer.h"
@@ -22,21 +23,24 @@ struct TrackerStageOptions {
 
 /// Tracker between messages: the same one serves the nodelet and the bag runner.
 ///
-/// Objects wait in a bounded queue until tf knows the vehicle's pose at their stamp; nothing
-/// blocks. Bad input is dropped through the monitor, never thrown. When the clock jumps back all
-/// tracks are forgotten.
+/// Objects wait in a bounded queue until the vehicle's pose at their stamp is known, from the split
+/// scan in which they were found, or else from tf; nothing blocks. Bad input is dropped through the
+/// monitor, never thrown. When the clock jumps back all tracks are forgotten.
 class TrackerStage {
  public:
   /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
   TrackerStage(const TrackerStageOptions& options, const TransformBuffer& transforms,
                StageMonitor& monitor);
 
+  /// Where the vehicle was at this scan. It may come before or after the scan's objects.
+  void takeSplitScan(const SplitScanMessage& message);
+
   /// Puts objects into the queue. `now`: ROS time.
   void takeObjects(const ObjectArrayConstPtr& message, Stamp now);
 
-  /// The tracks at the stamp of the next objects in the queue whose transform is there; null if
-  /// there are none. Objects that have waited for longer than transform_wait are dropped. To be
-  /// called until null, after new objects and after new transforms.
+  /// The tracks at the stamp of the next objects in the queue whose pose is known; null if there
+  /// are none. Objects that have waited for longer than transform_wait are dropped. To be called
+  /// until null, after each new input and after new transforms.
   TrackArrayPtr next(Stamp now);
 
  private:
@@ -46,6 +50,9 @@ class TrackerStage {
   };
 
   void restart();
+
+  /// Throws InputError (`missing_transform`).
+  Pose2 baseInFixed(const std_msgs::Header& base) const;
   TrackArrayPtr track(const ObjectArray& objects, const Pose2& base_in_fixed);
   bool hasWaitedTooLong(const Waiting& waiting, Stamp now) const;
 
@@ -54,6 +61,7 @@ class TrackerStage {
   StageMonitor& monitor_;
   Tracker tracker_;
   StampCheck stamps_;
+  ScanPoses scan_poses_;
   std::deque<Waiting> queue_;
 };
 
