@@ -60,6 +60,11 @@ void OccupancyMapOptions::visit(OptionVisitor& visitor) {
        "opening angle in which a beam is free up to its end (thesis 3.2.1: the spacing of "
        "the beams); 0: along the beam alone"},
       beam_width, {0.0, 0.2});
+  visitor.number({"surface_sigma", "m",
+                  "a beam that passes a cell beside the surface in it makes it free only as far as "
+                  "it would have hit that surface, which is known to within this (normal "
+                  "distributions occupancy map: Saarinen et al. 2013); 0: always (thesis)"},
+                 surface_sigma, {0.0, 2.0});
   visitor.number({"moving_below", "1",
                   "an end point in a cell less occupied than this is moving (thesis 3.3.1: 0.5)"},
                  moving_below, {0.01, 0.5});
@@ -115,35 +120,43 @@ PointState OccupancyMap::judge(const Point2& point, const Point2& half_footprint
   return is_free ? PointState::kMoving : PointState::kUnknown;
 }
 
+/// Hits of several cells, put together about one reference point.
+struct OccupancyMap::HitSums {
+  double hits = 0.0;
+  Point2 sum = Point2::Zero();
+  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+
+  /// `shift`: of the cell's centre from the reference, m.
+  void add(const Cell& cell, const Point2& shift) {
+    const double count = cell.hits;
+    const Point2 offset = cell.sum.cast<double>();
+    Eigen::Matrix2d own;
+    own << cell.squares[0], cell.squares[1], cell.squares[1], cell.squares[2];
+    hits += count;
+    sum += offset + count * shift;
+    squares += own + shift * offset.transpose() + offset * shift.transpose() +
+               count * shift * shift.transpose();
+  }
+
+  HitDistribution about(const Point2& reference) const {
+    const Point2 mean = sum / hits;
+    return {hits, reference + mean, squares / hits - mean * mean.transpose()};
+  }
+};
+
 std::optional<HitDistribution> OccupancyMap::hitsAround(const Point2& point) const {
   const CellIndex centre = window().cellAt(point);
   const Point2 reference = window().centreOf(centre);
-  HitDistribution all;
-  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+  HitSums all;
   for (int row = centre.row - 1; row <= centre.row + 1; ++row) {
     for (int column = centre.column - 1; column <= centre.column + 1; ++column) {
       const Cell& cell = cells_.atOrEmpty({column, row});
-      if (cell.hits <= 0.0F || cell.log_odds <= 0.0F) {
-        continue;
+      if (isOccupied(cell)) {
+        all.add(cell, window().centreOf({column, row}) - reference);
       }
-      const double hits = cell.hits;
-      const Point2 shift = window().centreOf({column, row}) - reference;
-      const Point2 sum = cell.sum.cast<double>();
-      Eigen::Matrix2d own;
-      own << cell.squares[0], cell.squares[1], cell.squares[1], cell.squares[2];
-      all.hits += hits;
-      all.mean += sum + hits * shift;
-      squares += own + shift * sum.transpose() + sum * shift.transpose() +
-                 hits * shift * shift.transpose();
     }
   }
-  if (all.hits <= 0.0) {
-    return std::nullopt;
-  }
-  all.mean /= all.hits;
-  all.covariance = squares / all.hits - all.mean * all.mean.transpose();
-  all.mean += reference;
-  return all;
+  return all.hits > 0.0 ? std::make_optional(all.about(reference)) : std::nullopt;
 }
 
 void OccupancyMap::update(const Scan& scan, const std::vector<PointState>& states,
@@ -174,7 +187,7 @@ void OccupancyMap::hit(const Point2& point) {
     return;
   }
   Cell& cell = cells_.at(index);
-  if (cell.log_odds <= 0.0F || cell.hits <= 0.0F) {
+  if (!isOccupied(cell)) {
     cell.hits = 0.0F;
     cell.sum.setZero();
     cell.squares.setZero();
@@ -198,7 +211,22 @@ void OccupancyMap::hit(const Point2& point) {
       Eigen::Vector3f(offset.x() * offset.x(), offset.x() * offset.y(), offset.y() * offset.y());
 }
 
-void OccupancyMap::pass(CellIndex index) {
+float OccupancyMap::contradiction(const Cell& cell, CellIndex index, const Point2& from,
+                                  const Point2& direction) const {
+  if (options_.surface_sigma == 0.0 || !isOccupied(cell)) {
+    return 1.0F;
+  }
+  HitSums sums;
+  sums.add(cell, Point2::Zero());
+  const HitDistribution surface = sums.about(window().centreOf(index));
+  const Point2 across(-direction.y(), direction.x());
+  const double distance = across.dot(surface.mean - from);
+  const double variance =
+      across.dot(surface.covariance * across) + options_.surface_sigma * options_.surface_sigma;
+  return static_cast<float>(std::exp(-0.5 * distance * distance / variance));
+}
+
+void OccupancyMap::pass(CellIndex index, const Point2& from, const Point2& direction) {
   if (!window().contains(index)) {
     return;
   }
@@ -207,7 +235,7 @@ void OccupancyMap::pass(CellIndex index) {
     return;
   }
   cell.updated = update_;
-  change(cell, free_log_odds_);
+  change(cell, free_log_odds_ * contradiction(cell, index, from, direction));
 }
 
 void OccupancyMap::passBeam(const Ray& ray, const Pose2& base_in_map) {
@@ -221,11 +249,12 @@ void OccupancyMap::passBeam(const Ray& ray, const Pose2& base_in_map) {
         lines == 1 ? 0.0 : options_.beam_width * (static_cast<double>(line) / (lines - 1) - 0.5);
     const Point2 to = from + Eigen::Rotation2Dd(turn) * along;
     const CellIndex last = window().cellAt(to);
+    const Point2 direction = (to - from).normalized();
     walkRay(window(), from, to, [&](CellIndex cell) {
       // The cell in which a beam ends is not free, whatever the reason that it was not marked as
       // hit.
       if (!ray.hit || (cell != end && cell != last)) {
-        pass(cell);
+        pass(cell, from, direction);
       }
     });
   }

@@ -1,6 +1,7 @@
 #include "datmo_fusion/slam/scan_matcher.h"
 
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -46,6 +47,30 @@ struct ScanMatcher::Normal {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   int points = 0;
+  double weakest_sigma = std::numeric_limits<double>::infinity();  ///< m, of the position
+  bool degenerate = false;
+
+  /// Leaves out the direction of the position that is known worse than `limit` (m).
+  void leaveOutWeakest(double limit) {
+    if (information(2, 2) <= 0.0) {
+      return;
+    }
+    // Of the position alone: the heading is estimated with it.
+    const Eigen::Matrix2d position = information.topLeftCorner<2, 2>() -
+                                     information.topRightCorner<2, 1>() *
+                                         information.bottomLeftCorner<1, 2>() / information(2, 2);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(position);
+    const double weakest = axes.eigenvalues()[0];
+    weakest_sigma = weakest > 0.0 ? 1.0 / std::sqrt(weakest) : weakest_sigma;
+    degenerate = weakest_sigma > limit;
+    if (degenerate) {
+      Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+      direction.head<2>() = axes.eigenvectors().col(0);
+      const Eigen::Matrix3d keep = Eigen::Matrix3d::Identity() - direction * direction.transpose();
+      information = (keep * information * keep).eval();
+      gradient = (keep * gradient).eval();
+    }
+  }
 };
 
 void ScanMatcherOptions::visit(OptionVisitor& visitor) {
@@ -61,6 +86,10 @@ void ScanMatcherOptions::visit(OptionVisitor& visitor) {
                   "share of the end points' information that counts: their errors are not "
                   "independent (shape of the surface, pose of earlier scans)"},
                  information_share, {0.001, 1.0});
+  visitor.number({"degenerate_sigma", "m",
+                  "a direction in which the scan alone would place the vehicle worse than this "
+                  "(along a corridor, a guard rail) is left to the prediction"},
+                 degenerate_sigma, {0.01, 1000.0});
   visitor.integer({"least_points", "1", "end points on known surfaces that make a match"},
                   least_points, {1, 10000});
 }
@@ -96,9 +125,8 @@ Pose2 ScanMatcher::bestSample(const OccupancyMap& map, const std::vector<EndPoin
   return best;
 }
 
-ScanMatcher::Normal ScanMatcher::linearise(const OccupancyMap& map,
-                                           const std::vector<EndPoint>& points,
-                                           const Pose2& pose) const {
+ScanMatcher::Normal ScanMatcher::sumOf(const OccupancyMap& map, const std::vector<EndPoint>& points,
+                                       const Pose2& pose) const {
   Normal normal;
   const double variance = options_.point_sigma * options_.point_sigma;
   const Eigen::Matrix2d rotation = pose.rotation();
@@ -127,12 +155,21 @@ ScanMatcher::Normal ScanMatcher::linearise(const OccupancyMap& map,
   return normal;
 }
 
+ScanMatcher::Normal ScanMatcher::linearise(const OccupancyMap& map,
+                                           const std::vector<EndPoint>& points,
+                                           const Pose2& pose) const {
+  Normal normal = sumOf(map, points, pose);
+  normal.leaveOutWeakest(options_.degenerate_sigma);
+  return normal;
+}
+
 MatchResult ScanMatcher::match(const OccupancyMap& map, const std::vector<EndPoint>& points,
                                const PoseWithCovariance& prediction, Random& random) const {
   const Eigen::Matrix3d prior = prediction.covariance.inverse();
   Pose2 pose = bestSample(map, points, prediction, random);
   Normal normal = linearise(map, points, pose);
-  MatchResult result{prediction, {normal.points, 0.0, false}};
+  MatchResult result{prediction, {}};
+  result.quality.matched_points = normal.points;
   if (normal.points < options_.least_points) {
     return result;
   }
@@ -149,7 +186,8 @@ MatchResult ScanMatcher::match(const OccupancyMap& map, const std::vector<EndPoi
   }
   result.pose.pose = pose;
   result.pose.covariance = (normal.information + prior).inverse();
-  result.quality = {normal.points, score(map, points, pose), true};
+  result.quality = {normal.points, score(map, points, pose), true, normal.weakest_sigma,
+                    normal.degenerate};
   return result;
 }
 

@@ -20,6 +20,7 @@ struct OccupancyMapOptions {
   double free_probability = 0.4;    ///< of a cell that a beam passes
   double least_probability = 0.02;  ///< to which a cell is clamped; 1 - it at the other end
   double beam_width = 0.0;          ///< rad, in which a beam is free up to its end
+  double surface_sigma = 0.2;       ///< m, 0: a beam frees each cell that it passes
   double moving_below = 0.3;        ///< occupancy that counts as seen free
   double static_above = 0.7;        ///< occupancy that counts as occupied
   double static_after = 0.8;        ///< s, between first and last hit of a static cell
@@ -87,9 +88,18 @@ class OccupancyMap {
     Eigen::Vector3f squares = Eigen::Vector3f::Zero();  ///< xx, xy, yy
   };
 
+  struct HitSums;
+
+  /// Whether the hits in a cell stand for a surface.
+  static bool isOccupied(const Cell& cell) { return cell.hits > 0.0F && cell.log_odds > 0.0F; }
+
   void change(Cell& cell, float log_odds_step) const;
   void hit(const Point2& point);
-  void pass(CellIndex cell);
+  void pass(CellIndex cell, const Point2& from, const Point2& direction);
+
+  /// How much a beam through a cell speaks against the surface in it, 0 to 1.
+  float contradiction(const Cell& cell, CellIndex index, const Point2& from,
+                      const Point2& direction) const;
   void passBeam(const Ray& ray, const Pose2& base_in_map);
   bool isStatic(const Cell& cell) const;
   bool isNearStatic(CellIndex cell) const;

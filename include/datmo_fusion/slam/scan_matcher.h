@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -16,6 +17,7 @@ struct ScanMatcherOptions {
   int refinement_steps = 10;       ///< at the most
   double point_sigma = 0.2;        ///< m
   double information_share = 0.5;  ///< 0 to 1
+  double degenerate_sigma = 0.5;   ///< m
   int least_points = 5;            ///< for a match
 
   void visit(OptionVisitor& visitor);
@@ -26,6 +28,10 @@ struct MatchQuality {
   int matched_points = 0;  ///< end points that lie on surfaces of the map
   double score = 0.0;      ///< 0 to 1, mean occupancy of the map where the scan's beams end
   bool accepted = false;   ///< false: the pose is the prediction alone
+  /// m, standard deviation of the position that the match alone would give, in the direction that
+  /// it tells least of; infinite where it tells nothing (a corridor, a guard rail).
+  double weakest_sigma = std::numeric_limits<double>::infinity();
+  bool degenerate = false;  ///< that direction was left to the prediction
 };
 
 struct MatchResult {
@@ -39,9 +45,9 @@ struct MatchResult {
 /// is scored by the map's occupancy at the beams' ends, and the best one is taken. From there the
 /// pose is refined below the size of a cell by Gauss-Newton on the distances of the end points to
 /// the mean of the hits around them, weighed with their spread (the normal distributions transform:
-/// Biber & Strasser, 2003; Stoyanov et al. 2012), with the prediction as prior. What the match does
-/// not see (a direction along a wall) therefore stays with the prediction, and shows in the
-/// covariance.
+/// Biber & Strasser, 2003; Stoyanov et al. 2012), with the prediction as prior. A direction of
+/// which the match tells next to nothing (along a corridor, a guard rail) is left to the prediction
+/// (solution remapping: Zhang, Kaess & Singh 2016), and shows in the covariance.
 class ScanMatcher {
  public:
   /// Throws OptionError.
@@ -57,10 +63,13 @@ class ScanMatcher {
 
   double score(const OccupancyMap& map, const std::vector<EndPoint>& points,
                const Pose2& pose) const;
-  Pose2 bestSample(const OccupancyMap& map, const std::vector<EndPoint>& points,
-                   const PoseWithCovariance& prediction, Random& random) const;
+  /// The match around this pose, without the direction of which it tells next to nothing.
   Normal linearise(const OccupancyMap& map, const std::vector<EndPoint>& points,
                    const Pose2& pose) const;
+  Pose2 bestSample(const OccupancyMap& map, const std::vector<EndPoint>& points,
+                   const PoseWithCovariance& prediction, Random& random) const;
+  Normal sumOf(const OccupancyMap& map, const std::vector<EndPoint>& points,
+               const Pose2& pose) const;
 
   ScanMatcherOptions options_;
 };

@@ -190,6 +190,36 @@ TEST(OccupancyMapTest, HitsKeepTheirPlaceBelowACell) {
   EXPECT_NEAR(hits->covariance(0, 1), 0.0, 1e-6);
 }
 
+/// A wall along x through the middle of the cells of row 5, seen from the origin, and a beam from
+/// one point to another, without return, through the cell {3, 5} of it.
+double occupancyAfterABeam(double surface_sigma, const Point2& from, const Point2& to) {
+  OccupancyMapOptions options = smallMap();
+  options.surface_sigma = surface_sigma;
+  OccupancyMap map(options);
+  updateWith(map, scanTo({{3.1, 5.5}, {3.3, 5.5}, {3.5, 5.5}, {3.7, 5.5}, {3.9, 5.5}}));
+  Scan passing = scanTo({to}, 0.1, false);
+  passing.rays.front().origin = from;
+  updateWith(map, passing);
+  return map.occupancy({3, 5});
+}
+
+TEST(OccupancyMapTest, ABeamThatPassesBesideASurfaceDoesNotFreeIt) {
+  // In the wall's cells, but 0.3 m in front of it: 6 standard deviations.
+  EXPECT_NEAR(occupancyAfterABeam(0.05, {0.0, 5.2}, {9.0, 5.2}), 0.8, 1e-6);
+  // One standard deviation beside it: the step counts by exp(-1/2).
+  const double hit = std::log(0.8 / 0.2);
+  const double pass = std::log(0.4 / 0.6);
+  const double log_odds = hit + std::exp(-0.5) * pass;
+  EXPECT_NEAR(occupancyAfterABeam(0.05, {0.0, 5.45}, {9.0, 5.45}),
+              1.0 / (1.0 + std::exp(-log_odds)), 1e-5);
+}
+
+TEST(OccupancyMapTest, ABeamThroughASurfaceFreesItsCell) {
+  const double through = 1.0 / (1.0 + std::exp(-std::log(0.8 / 0.2) - std::log(0.4 / 0.6)));
+  EXPECT_NEAR(occupancyAfterABeam(0.05, {3.5, 0.0}, {3.5, 9.0}), through, 1e-5);
+  EXPECT_NEAR(occupancyAfterABeam(0.0, {0.0, 5.2}, {9.0, 5.2}), through, 1e-5);
+}
+
 TEST(OccupancyMapTest, TheImageOfAMovedWindowShowsTheSamePlaces) {
   OccupancyMap map(smallMap());
   updateWith(map, scanTo({{4.5, 0.5}}));

@@ -116,6 +116,38 @@ TEST(ScanMatcherTest, AlongACorridorThePredictionStaysAndTheCovarianceSaysSo) {
   EXPECT_GT(std::sqrt(result.pose.covariance(0, 0)), 2.0 * std::sqrt(result.pose.covariance(1, 1)));
 }
 
+TEST(ScanMatcherTest, ACorridorsDirectionIsLeftToThePrediction) {
+  // The map knows another piece of the corridor's walls than the scan sees: only the walls' sides
+  // tell anything.
+  const OccupancyMap map = mapOf(corridor());
+  std::vector<Point2> seen;
+  addWall(seen, {-5.0, 3.04}, {4.3, 3.04});
+  addWall(seen, {-4.1, -3.11}, {5.2, -3.11});
+  Random random(1);
+  const MatchResult result =
+      ScanMatcher(ScanMatcherOptions{})
+          .match(map, seenFrom(seen, {0.3, 0.2, 0.0}), {Pose2(), priorCovariance()}, random);
+  EXPECT_TRUE(result.quality.accepted);
+  EXPECT_TRUE(result.quality.degenerate);
+  EXPECT_GT(result.quality.weakest_sigma, ScanMatcherOptions{}.degenerate_sigma);
+  EXPECT_NEAR(result.pose.pose.x(), 0.0, 1e-3);
+  EXPECT_NEAR(result.pose.pose.y(), 0.2, 0.05);
+  EXPECT_NEAR(result.pose.covariance(0, 0), priorCovariance()(0, 0), 1e-3);
+  EXPECT_LT(result.pose.covariance(1, 1), 0.1 * priorCovariance()(1, 1));
+}
+
+TEST(ScanMatcherTest, ACornerTellsAllDirections) {
+  const std::vector<Point2> points = corner();
+  const OccupancyMap map = mapOf(points);
+  Random random(1);
+  const MatchQuality quality =
+      ScanMatcher(ScanMatcherOptions{})
+          .match(map, seenFrom(points, {}), {Pose2(), priorCovariance()}, random)
+          .quality;
+  EXPECT_FALSE(quality.degenerate);
+  EXPECT_LT(quality.weakest_sigma, 0.1);
+}
+
 TEST(ScanMatcherTest, MoversInTheScanDoNotPullThePose) {
   const std::vector<Point2> points = corner();
   const OccupancyMap map = mapOf(points);
