@@ -56,6 +56,8 @@ Box2 boxOf(const Extent& extent, double heading) {
   double direction = along ? heading : heading + 0.5 * kPi;
   if (direction > 0.5 * kPi) {
     direction -= kPi;
+  } else if (direction <= -0.5 * kPi) {
+    direction += kPi;
   }
   return {{centre, direction}, std::max(size.x(), size.y()), std::min(size.x(), size.y())};
 }

@@ -41,6 +41,19 @@ TEST(BoxFitTest, TwoPointsAreALine) {
   EXPECT_TRUE(box.centre.position().isApprox(Point2(1.5, 1.5)));
 }
 
+TEST(BoxFitTest, TheOrderOfThePointsDoesNotMatter) {
+  // Scanners sweep to the left or to the right.
+  for (double heading = -85.0; heading <= 90.0; heading += 7.0) {
+    const Point2 from(20.0, 5.0);
+    const Point2 to = Pose2(from, degrees(heading)) * Point2(1.5, 0.0);
+    const Box2 one = fitBox({from, to});
+    const Box2 other = fitBox({to, from});
+    EXPECT_NEAR(one.centre.heading(), degrees(heading), 1e-9);
+    EXPECT_NEAR(other.centre.heading(), degrees(heading), 1e-9);
+    EXPECT_TRUE(one.centre.position().isApprox(other.centre.position(), 1e-12));
+  }
+}
+
 TEST(BoxFitTest, AnLShapeGivesTheWholeRectangleAtAnyHeading) {
   for (double heading = -88.0; heading <= 90.0; heading += 7.0) {
     const Box2 truth{Pose2(12.0, -3.0, degrees(heading)), 4.4, 1.8};

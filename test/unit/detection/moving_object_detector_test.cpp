@@ -1,5 +1,6 @@
 #include "datmo_fusion/detection/moving_object_detector.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
@@ -73,6 +74,34 @@ TEST(MovingObjectDetectorTest, MovingAndUnknownSegmentsAreTold) {
   EXPECT_EQ(list.objects[1].dynamic_state, DynamicState::kUnknown);
   EXPECT_EQ(list.objects[0].points.size(), 2U);
   EXPECT_EQ(list.objects[0].sensors, std::vector<std::string>{"lidar"});
+}
+
+TEST(MovingObjectDetectorTest, AScannerThatTurnsToTheRightSeesTheSameObjects) {
+  const SplitScan left = splitScan({{12.0, 10, kM},
+                                    {11.9, 11, kM},
+                                    {20.0, 40, kU},
+                                    {20.5, 41, kU},
+                                    {21.2, 42, kM},
+                                    {30.0, 60, kS}});
+  SplitScan right = left;
+  std::reverse(right.points.begin(), right.points.end());
+  for (ScanPoint& point : right.points) {
+    point.beam = 80 - point.beam;
+  }
+  const ObjectList expected = detect(left);
+  ObjectList list = detect(right);
+  ASSERT_EQ(expected.objects.size(), 2U);
+  ASSERT_EQ(list.objects.size(), 2U);
+  std::reverse(list.objects.begin(), list.objects.end());
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Object& one = expected.objects[i];
+    const Object& other = list.objects[i];
+    EXPECT_EQ(one.dynamic_state, other.dynamic_state);
+    EXPECT_TRUE(one.box.centre.position().isApprox(other.box.centre.position(), 1e-9));
+    EXPECT_NEAR(one.box.centre.heading(), other.box.centre.heading(), 1e-9);
+    EXPECT_NEAR(one.box.length, other.box.length, 1e-9);
+    EXPECT_TRUE(one.position_covariance.isApprox(other.position_covariance, 1e-9));
+  }
 }
 
 TEST(MovingObjectDetectorTest, TheThesisTakesAnyMovingPoint) {
