@@ -7,8 +7,14 @@ PERIOD = 0.06  # s
 
 def whole(key):
     """Consistency of a state with `key` as its mean NEES."""
-    return {"mean_nees": key, "dof": 2, "samples": 8, "lower": 1.0, "upper": 3.3,
-            "inside_share": 0.9}
+    return {
+        "mean_nees": key,
+        "dof": 2,
+        "samples": 8,
+        "lower": 1.0,
+        "upper": 3.3,
+        "inside_share": 0.9,
+    }
 
 
 def sample_object(number, found=True, label="Car"):
@@ -67,6 +73,7 @@ def sample_run(name="drive.bag", objects=2, frames=10, label="Car", **changes):
         "format": 1, "run": name, "truth": "truth.bag",
         "options": {"gate": 2.0, "region/range": 50.0, "classes": ""},
         "duration_s": frames * PERIOD, "frames": frames, "truth_objects": objects, "tracks": 3,
+        "messages_left_out": 0,
         "clear_mot": {"mota": 0.4, "motp_m": 0.25, "misses": 12, "false_positives": 5,
                       "id_switches": 1, "fragmentations": 0, "required": 20, "matches": 8,
                       "mostly_tracked": 0.5, "mostly_lost": 0.5},
@@ -80,6 +87,8 @@ def sample_run(name="drive.bag", objects=2, frames=10, label="Car", **changes):
                    "heading_modulo_pi_rmse_rad": 0.05, "samples": 8},
         "consistency": {"position": whole(2.2), "velocity": whole(7.5)},
         "objects": items,
+        "standing_objects": [{"id": 50, "label": label, "class": "vehicle", "frames": 9,
+                              "tracked_frames": 4}],
         "thesis": {"moving_objects": objects, "missed_objects": 1, "tracks": 3, "false_tracks": 1,
                    "confirmed_tracks": 0, "confirmed_true_tracks": 0,
                    "false_moving_objects_frames": 0.5, "false_moving_objects_episodes": 2,
@@ -90,7 +99,10 @@ def sample_run(name="drive.bag", objects=2, frames=10, label="Car", **changes):
                  "relative": [{"distance_m": 10.0, "translation_m": 0.05, "rotation_deg": 0.1,
                                "pairs": 4}],
                  "mean_nees": 2.5, "dof": 3},
-        "timing": {"grid_slam": {"median_ms": 0.4, "p99_ms": 0.9, "worst_ms": 1.7}},
+        "timing": {"grid_slam": {"median_ms": 0.4, "p99_ms": 0.9, "worst_ms": 1.7,
+                                 "latency": None},
+                   "tracker": {"median_ms": 0.1, "p99_ms": 0.2, "worst_ms": 0.3,
+                               "latency": {"median_ms": 1.1, "p99_ms": 2.2, "worst_ms": 3.3}}},
         "series": sample_series(items, frames),
     }  # fmt: skip
     for section, values in changes.items():

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The command line of evaluate, with a stand-in for score_run that copies what it shall have scored."""
+"""The command line of evaluate, with a stand-in for score_run that copies a score."""
 
 import contextlib
 import io
@@ -65,19 +65,42 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(code, 0)
         self.assertIn("MOTA", out)
         self.assertIn(str(self.out / "report.html"), out)
-        self.assertEqual(sorted(path.name for path in self.out.iterdir()),
-                         ["report.html", "report.json"])
+        self.assertEqual(
+            sorted(path.name for path in self.out.iterdir()), ["report.html", "report.json"]
+        )
         report = json.loads((self.out / "report.json").read_text())
         self.assertEqual(report, {"format": 1, "runs": [sample_run(str(bag))]})
         self.assertEqual(self.calls(), [[str(bag), "--out"]])
 
     def test_truth_and_options_are_passed_on(self):
         bag = self.bag("a.bag")
-        self.evaluate(bag, "--truth", "t.bag", "--options", "o.yaml", "--set", "region/range=30",
-                      "--set", "align=none")
-        self.assertEqual(self.calls(), [[
-            str(bag), "t.bag", "--options", "o.yaml", "--set", "region/range=30",
-            "--set", "align=none", "--out"]])
+        self.evaluate(
+            bag,
+            "--truth",
+            "t.bag",
+            "--options",
+            "o.yaml",
+            "--set",
+            "region/range=30",
+            "--set",
+            "align=none",
+        )
+        self.assertEqual(
+            self.calls(),
+            [
+                [
+                    str(bag),
+                    "t.bag",
+                    "--options",
+                    "o.yaml",
+                    "--set",
+                    "region/range=30",
+                    "--set",
+                    "align=none",
+                    "--out",
+                ]
+            ],
+        )
 
     def test_runs_side_by_side(self):
         better = self.bag("b.bag", clear_mot={"mota": 0.6})
@@ -87,6 +110,13 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(mota.split(), ["MOTA", "%", "40.0", "60.0*"])
         report = json.loads((self.out / "report.json").read_text())
         self.assertEqual([run["clear_mot"]["mota"] for run in report["runs"]], [0.4, 0.6])
+
+    def test_runs_on_different_drives(self):
+        other = self.bag("b.bag", objects=3)
+        code, out, err = self.evaluate("--compare", self.bag("a.bag"), other)
+        self.assertEqual((code, out), (1, ""))
+        self.assertIn("b.bag: 3 true objects, others than the 2 of", err)
+        self.assertFalse(self.out.exists())
 
     def test_failure_of_score_run_is_ours_and_leaves_nothing(self):
         bad = self.folder / "bad.bag"

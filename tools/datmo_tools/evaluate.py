@@ -34,11 +34,23 @@ def _evaluate(values, score_run):
     program = score_run or find_score_run()
     bags = values.compare or [values.run]
     runs = [score(program, bag, values.truth, _settings(values)) for bag in bags]
+    _check_same_drive(runs)
     report = {"format": 1, "runs": runs}
     texts = {"report.json": json.dumps(report) + "\n", "report.html": page(runs)}
     write_whole(values.out, texts)
     print(table(runs))
     print(f"\nreport: {values.out / 'report.html'}, {values.out / 'report.json'}")
+
+
+def _check_same_drive(runs):
+    """Figures of different drives say nothing side by side."""
+    objects = [{(item["id"], item["label"]) for item in run["objects"]} for run in runs]
+    for run, seen in zip(runs, objects):
+        if seen != objects[0]:
+            raise InputError(
+                f"{run['run']}: {len(seen)} true objects, others than the {len(objects[0])} of "
+                f"{runs[0]['run']}, expected runs on the same drive"
+            )
 
 
 def _page_maker():
@@ -69,8 +81,13 @@ def _parser():
     bags.add_argument("--compare", nargs="+", type=Path, metavar="BAG", help="bags of several runs")
     add = parser.add_argument
     add("--truth", type=Path, metavar="TRUTH.bag", help="default: the truth in each run's bag")
-    add("--out", type=Path, default=Path("evaluation"), metavar="DIR",
-        help="folder of the report (default %(default)s)")  # fmt: skip
+    add(
+        "--out",
+        type=Path,
+        default=Path("evaluation"),
+        metavar="DIR",
+        help="folder of the report (default %(default)s)",
+    )
     add("--options", type=Path, metavar="FILE.yaml", help="options of score_run")
     add("--set", action="append", default=[], metavar="KEY=VALUE", help="one option of score_run")
     return parser

@@ -50,8 +50,10 @@ def _draw_row(ax, y, path, period, room):
     times, required = path["time_s"], path["required"]
     missed = [duty or None for duty in required]
     _draw_bars(ax, y, spans(times, missed, period), facecolors=MISSED)
-    tracked = [None if number is None else (number, duty)
-               for number, duty in zip(path["track_id"], required)]  # fmt: skip
+    tracked = [
+        None if number is None else (number, duty)
+        for number, duty in zip(path["track_id"], required)
+    ]
     bars = spans(times, tracked, period)
     shades = {number: colour(i) for i, number in enumerate(dict.fromkeys(k[0] for *_, k in bars))}
     for number, duty in dict.fromkeys(key for *_, key in bars):
@@ -65,7 +67,8 @@ def _draw_row(ax, y, path, period, room):
 def _draw_bars(ax, y, bars, **style):
     """bars: as of spans. One call for all: each is slow."""
     where = [(begin, end - begin) for begin, end, _ in bars]
-    ax.broken_barh(where, (y - 0.5 * BAR, BAR), linewidth=0, **style)
+    if where:
+        ax.broken_barh(where, (y - 0.5 * BAR, BAR), linewidth=0, **style)
 
 
 def spans(times, keys, period):
@@ -142,7 +145,7 @@ def _legend_of_kinds(ax):
     """One entry a kind of line, above the map."""
     handles = dict(zip(*reversed(ax.get_legend_handles_labels())))
     place = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.2}
-    ax.legend(handles.values(), handles.keys(), ncol=len(handles), **place)
+    ax.legend(list(handles.values()), list(handles), ncol=len(handles), **place)
 
 
 def _xy(path):

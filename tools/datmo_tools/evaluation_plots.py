@@ -75,8 +75,14 @@ def consistency(runs, names):
     def draw(ax):
         for y, (_, item, shade) in enumerate(rows):
             if item.get("lower") and item.get("upper"):
-                ax.barh(y, item["upper"] - item["lower"], left=item["lower"], height=0.7,
-                        color=TRUTH, alpha=0.5)  # fmt: skip
+                ax.barh(
+                    y,
+                    item["upper"] - item["lower"],
+                    left=item["lower"],
+                    height=0.7,
+                    color=TRUTH,
+                    alpha=0.5,
+                )
             ax.plot([item["dof"]] * 2, [y - 0.35, y + 0.35], color=INK, linewidth=1.2)
             if item["mean_nees"]:
                 ax.plot(item["mean_nees"], y, "o", color=shade, markersize=8)
@@ -144,8 +150,14 @@ def _name_rows(ax, rows, label):
 def _plot_series(ax, runs, names, key):
     for i, (run, name) in enumerate(zip(runs, names)):
         series = run["series"]
-        ax.plot(_numbers(series["time_s"]), _numbers(series[key]), color=colour(i),
-                linewidth=1.0, alpha=0.9, label=plain(name))  # fmt: skip
+        ax.plot(
+            _numbers(series["time_s"]),
+            _numbers(series[key]),
+            color=colour(i),
+            linewidth=1.0,
+            alpha=0.9,
+            label=plain(name),
+        )
 
 
 def _legend_of_runs(ax, runs):

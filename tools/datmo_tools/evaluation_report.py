@@ -5,29 +5,32 @@ from html import escape
 
 from datmo_tools import evaluation_object_plots as object_plots
 from datmo_tools import evaluation_plots as plots
-from datmo_tools.evaluation_metrics import (
-    OBJECT_METRICS,
-    SECTIONS,
-    best_runs,
-    sections_of,
-    short_names,
-)
+from datmo_tools.evaluation_metrics import best_runs, extent, short_names
+from datmo_tools.evaluation_sections import OBJECT_METRICS, SECTIONS, STANDING_METRICS, sections_of
 from datmo_tools.evaluation_style import PAGE_STYLE, colour
 
-TILES = ("HOTA", "MOTA", "IDF1", "position", "velocity", "end point")
+TILES = {
+    "hota.hota": "HOTA",
+    "clear_mot.mota": "MOTA",
+    "identity.idf1": "IDF1",
+    "errors.position_rmse_m": "error of position",
+    "errors.velocity_rmse_mps": "error of velocity",
+    "pose.end_error_m": "pose at the end",
+}
 
 
 def page(runs):
     """HTML of the report on runs that score_run has scored."""
     names = short_names([run["run"] for run in runs])
     title = escape("Evaluation of " + ", ".join(names))
+    of_each = [block for run, name in zip(runs, names) for block in _of_one_run(run, name, runs)]
+    of_all = list(_of_all_runs(runs, names))
     blocks = [
         f"<h1>{title}</h1>",
         _summary(runs, names),
         _tiles(runs[0]) if len(runs) == 1 else "",
         _block("Figures", _hint_of_best(runs), _metrics(runs, names)),
-        *(block for run, name in zip(runs, names) for block in _of_one_run(run, name, runs)),
-        *_of_all_runs(runs, names),
+        *(of_each + of_all if len(runs) == 1 else of_all + of_each),
         _block("Options", "As score_run was told, or its defaults.", _options(runs[0])),
     ]
     return (
@@ -47,19 +50,20 @@ def _of_all_runs(runs, names):
     )
     yield _block(
         "HOTA by threshold",
-        "How the score falls as matches have to be closer; a steep fall says that tracks are on the "
-        "objects, but not accurate.",
+        "How the score falls as matches have to be closer; a steep fall says that tracks are on "
+        "the objects, but not accurate.",
         plots.hota_over_alpha(runs, names),
     )
     yield _block(
         "Is the covariance honest?",
-        "Mean NEES (dot) against its expectation (line) and the 95 % bounds of the mean of an honest "
-        "filter (bar, where given). To the right the covariance is too small, to the left too large.",
+        "Mean NEES (dot) against its expectation (line) and the 95 % bounds of the mean of an "
+        "honest filter (bar, where given). To the right the covariance is too small, to the left "
+        "too large.",
         plots.consistency(runs, names),
     )
     yield _block(
         "Pose of the vehicle",
-        "The run's map laid on the truth's as the options say.",
+        "The maps of the run and of the truth laid on each other at the first pose.",
         plots.pose_over_time(runs, names),
     )
     if any(run.get("timing") for run in runs):
@@ -81,9 +85,9 @@ def _of_one_run(run, name, runs):
     of = f": {name}" if len(runs) > 1 else ""
     yield _block(
         "Who was tracked when" + of,
-        "When a true object has to be found: with a track on it (blue; another colour where another "
-        "track takes over; the number is its id), or without (red). Pale: a track on it while it "
-        "does not have to be found.",
+        "When a true object has to be found: with a track on it (blue; another colour where "
+        "another track takes over; the number is its id), or without (red). Pale: a track on it "
+        "while it does not have to be found.",
         object_plots.timeline(run),
     )
     yield _block("Tracked, missed, false" + of, "", plots.counts_over_time(run))
@@ -97,6 +101,12 @@ def _of_one_run(run, name, runs):
         "Delay: from the first frame in which the object has to be found to its first track.",
         _objects(run),
     )
+    yield _block(
+        "Tracks on objects that never move" + of,
+        f"Of {len(run['standing_objects'])} parked cars and the like that the truth knows, these "
+        "had a track at times, which is false.",
+        _standing(run),
+    )
 
 
 def _block(title, hint, content):
@@ -107,8 +117,7 @@ def _block(title, hint, content):
 def _summary(runs, names):
     lines = [
         f"<li><span class='dot' style='background:{colour(i)}'></span><b>{escape(name)}</b> "
-        f"{escape(run['run'])}: {run['duration_s']:.1f} s, {run['frames']} frames, "
-        f"{run['tracks']} tracks</li>"
+        f"{escape(run['run'])}: {extent(run)}</li>"
         for i, (run, name) in enumerate(zip(runs, names))
     ]
     truth = f"{escape(runs[0]['truth'])}: {runs[0]['truth_objects']} objects"
@@ -119,9 +128,10 @@ def _tiles(run):
     """The figures that most readers look for first."""
     found = sum(item["found"] for item in run["objects"])
     tiles = [("objects found", f"{found} of {len(run['objects'])}", "")]
-    for name in TILES:
-        metric = next(m for section in SECTIONS for m in section.metrics if m.name.startswith(name))
-        tiles.append((metric.name, metric.text(metric.value(run)), metric.unit))
+    metrics = {metric.path: metric for section in SECTIONS for metric in section.metrics}
+    for path, name in TILES.items():
+        metric = metrics[path]
+        tiles.append((name, metric.text(metric.value(run)), metric.unit))
     return (
         "<div class='tiles'>"
         + "".join(
@@ -160,11 +170,20 @@ def _objects(run):
     return _table("objects", rows)
 
 
+def _standing(run):
+    heads = ["id", "object", "class", *(m.name for m in STANDING_METRICS)]
+    units = ["", "", "", *(m.unit for m in STANDING_METRICS)]
+    rows = [_row("th", heads), _row("th", units, ["unit"] * len(units))]
+    for item in run["standing_objects"]:
+        if item["tracked_frames"] > 0:
+            texts = [item["id"], item["label"], item["class"]]
+            texts += [metric.text(metric.value(item)) for metric in STANDING_METRICS]
+            rows.append(_row("td", texts))
+    return _table("objects standing", rows)
+
+
 def _options(run):
-    rows = [
-        _row("td", [key, json.dumps(value)])
-        for key, value in sorted(run["options"].items())
-    ]
+    rows = [_row("td", [key, json.dumps(value)]) for key, value in sorted(run["options"].items())]
     return _table("options", rows)
 
 

@@ -118,6 +118,8 @@ th { font-weight: 600; }
 .metrics .best { font-weight: 700; color: #047857; background: #ecfdf5; }
 .objects td:nth-child(-n+3), .objects th:nth-child(-n+3) { text-align: left; }
 .objects td:last-child { max-width: 180px; }
+.standing { width: auto; }
+.standing td, .standing th { padding-right: 24px; }
 .missed { background: #fef2f2; color: #b91c1c; }
 .options { width: auto; }
 .options td { padding-right: 30px; text-align: left; }

@@ -1,12 +1,7 @@
 """The table of evaluate on the terminal: metrics by section, then object by object."""
 
-from datmo_tools.evaluation_metrics import (
-    NO_VALUE,
-    OBJECT_METRICS,
-    best_runs,
-    sections_of,
-    short_names,
-)
+from datmo_tools.evaluation_metrics import NO_VALUE, best_runs, extent, short_names
+from datmo_tools.evaluation_sections import OBJECT_METRICS, sections_of
 
 BEST = "*"
 NAME_WIDTH = 39  # the longest name of a metric
@@ -20,17 +15,14 @@ def table(runs):
     blocks = [_heading(runs)]
     blocks.append(_metrics(runs, names))
     blocks.append(_objects(runs[0]) if len(runs) == 1 else _objects_compared(runs, names))
+    blocks.append(_standing(runs, names))
     if len(runs) > 1:
         blocks.append(f"{BEST} best of the runs")
     return "\n\n".join(blocks)
 
 
 def _heading(runs):
-    lines = [
-        f"run    {run['run']}: {run['duration_s']:.1f} s, {run['frames']} frames, "
-        f"{run['tracks']} tracks"
-        for run in runs
-    ]
+    lines = [f"run    {run['run']}: {extent(run)}" for run in runs]
     lines.append(f"truth  {runs[0]['truth']}: {runs[0]['truth_objects']} objects")
     return "\n".join(lines)
 
@@ -83,7 +75,20 @@ def _objects_compared(runs, names):
     for number in sorted(set().union(*by_run)):
         items = [items.get(number) for items in by_run]
         name = _name(next(item for item in items if item))
-        lines.append(f"{number:5d}  {name:14}" + _cells([_outcome(item) for item in items], width))
+        outcomes = _cells([_outcome(item) for item in items], width)
+        lines.append(f"{number:5d}  {name:14}{outcomes}")
+    return "\n".join(lines)
+
+
+def _standing(runs, names):
+    """One line a run: a list of parked cars is for the page."""
+    lines = []
+    for run, name in zip(runs, names):
+        standing = run["standing_objects"]
+        tracked = sum(item["tracked_frames"] > 0 for item in standing)
+        lines.append(
+            f"{name}: of {len(standing)} objects that never move {tracked} had a track at times"
+        )
     return "\n".join(lines)
 
 
