@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "datmo_fusion/common/uniform.h"
 #include "datmo_fusion/tracking/assignment.h"
 
 namespace datmo {
@@ -28,6 +29,16 @@ Association named(const std::vector<int>& object_of_target, std::size_t objects)
   return result;
 }
 
+/// Most that the target adds to the variance of an innovation along any direction, m^2: a
+/// covariance has no more than its trace, and a box no more hidden than all of it
+/// (TrackedBox::measurementOf).
+double mostVariance(const Target& target) {
+  const Box2 box = target.box();
+  const double hidden = box.length * box.length + box.width * box.width;
+  return target.filter().estimate().covariance.topLeftCorner<2, 2>().trace() +
+         kUniformVariance * hidden;
+}
+
 }  // namespace
 
 void AssociationOptions::visit(OptionVisitor& visitor) {
@@ -45,10 +56,17 @@ void AssociationOptions::visit(OptionVisitor& visitor) {
 Association GlobalNearestNeighbour::associate(const std::vector<Target>& targets,
                                               const std::vector<Object>& objects) const {
   CostMatrix costs(targets.size(), objects.size());
+  costs.setConstant(kForbidden);
   for (std::size_t target = 0; target < targets.size(); ++target) {
+    const Point2 place = targets[target].filter().estimate().mean.head<2>();
+    const double variance = mostVariance(targets[target]);
     for (std::size_t object = 0; object < objects.size(); ++object) {
-      costs(static_cast<Eigen::Index>(target), static_cast<Eigen::Index>(object)) =
-          cost(targets[target], objects[object]);
+      // Most pairs are so far apart that nothing more needs to be known of them.
+      const double distance2 = (objects[object].box.centre.position() - place).squaredNorm();
+      if (distance2 <= options_.gate * (variance + objects[object].position_covariance.trace())) {
+        costs(static_cast<Eigen::Index>(target), static_cast<Eigen::Index>(object)) =
+            cost(targets[target], objects[object]);
+      }
     }
   }
   // Costs are relative to a miss and a birth, which so cost nothing.

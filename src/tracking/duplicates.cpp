@@ -1,7 +1,6 @@
 #include "datmo_fusion/tracking/duplicates.h"
 
 #include <algorithm>
-#include <iterator>
 
 #include <Eigen/LU>
 
@@ -13,17 +12,27 @@ namespace {
 bool reaches(Box2 box, const Box2& other, double scale) {
   box.length *= scale;
   box.width *= scale;
-  return box.contains(other.centre.position());
+  const Point2& point = other.centre.position();
+  const double diagonal = box.length + box.width;  // at least: a quick answer for most pairs
+  return (point - box.centre.position()).squaredNorm() <= diagonal * diagonal &&
+         box.contains(point);
 }
 
-bool isPartOf(const Target& part, const Target& whole, const DuplicateOptions& options) {
-  const bool older = whole.confirmed() && (!part.confirmed() || whole.id() < part.id());
-  if (!older || !(reaches(whole.box(), part.box(), options.reach) ||
-                  reaches(part.box(), whole.box(), options.reach))) {
+/// A target with its box, which takes longer to ask for than most pairs need.
+struct Placed {
+  const Target& target;
+  Box2 box;
+};
+
+bool isPartOf(const Placed& part, const Placed& whole, const DuplicateOptions& options) {
+  const bool older = whole.target.confirmed() &&
+                     (!part.target.confirmed() || whole.target.id() < part.target.id());
+  if (!older || !(reaches(whole.box, part.box, options.reach) ||
+                  reaches(part.box, whole.box, options.reach))) {
     return false;
   }
-  const StateEstimate& a = part.filter().estimate();
-  const StateEstimate& b = whole.filter().estimate();
+  const StateEstimate& a = part.target.filter().estimate();
+  const StateEstimate& b = whole.target.filter().estimate();
   const Eigen::Vector2d difference = a.mean.segment<2>(2) - b.mean.segment<2>(2);
   const Eigen::Matrix2d covariance =
       a.covariance.block<2, 2>(2, 2) + b.covariance.block<2, 2>(2, 2);
@@ -44,12 +53,19 @@ void DuplicateOptions::visit(OptionVisitor& visitor) {
 }
 
 std::size_t removeDuplicates(std::vector<Target>& targets, const DuplicateOptions& options) {
+  std::vector<Placed> all;
+  all.reserve(targets.size());
+  for (const Target& target : targets) {
+    all.push_back({target, target.box()});
+  }
   std::vector<Target> kept;
   kept.reserve(targets.size());
-  std::copy_if(targets.begin(), targets.end(), std::back_inserter(kept), [&](const Target& part) {
-    return std::none_of(targets.begin(), targets.end(),
-                        [&](const Target& whole) { return isPartOf(part, whole, options); });
-  });
+  for (const Placed& part : all) {
+    if (std::none_of(all.begin(), all.end(),
+                     [&](const Placed& whole) { return isPartOf(part, whole, options); })) {
+      kept.push_back(part.target);
+    }
+  }
   const std::size_t removed = targets.size() - kept.size();
   targets.swap(kept);
   return removed;

@@ -70,5 +70,18 @@ TEST(GlobalNearestNeighbour, OutsideOfTheGateIsAnother) {
   EXPECT_TRUE(GlobalNearestNeighbour(tight).associate(targets, objects).pairs.empty());
 }
 
+TEST(GlobalNearestNeighbour, WhatIsHiddenWidensTheGate) {
+  const TargetOptions options;
+  Object lorry = objectAt(0.0, 0.0);
+  const auto associated = [&](const Object& first) {
+    std::vector<Target> targets{Target(first, options)};
+    targets[0].predict(0.1, immStep(options.filter, 0.1), options);
+    return !kAssociator.associate(targets, objectsAt({5.5})).pairs.empty();
+  };
+  EXPECT_FALSE(associated(lorry));
+  lorry.box.length = 10.0;
+  EXPECT_TRUE(associated(lorry)) << "its end, seen alone";
+}
+
 }  // namespace
 }  // namespace datmo
