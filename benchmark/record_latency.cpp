@@ -1,11 +1,11 @@
 // record_latency _output:=FILE.json
-// How long the live chain takes, as another process sees it: from a scan's arrival here to the
-// arrival of the tracks of the same stamp. The scan comes to the chain as it comes here, so that
-// its transport cancels out; that of the tracks is counted. The map is listened to as rviz does, so
-// that its way out is part of what the chain does. Times are the computer's.
+// How long the live chain takes, as another process sees it: hands on each scan that comes on
+// recorded/scan or recorded/echoes, and measures from then until the tracks of the same stamp are
+// here. The way of the scan to the chain and that of the tracks back, over TCP, are part of it. The
+// map is listened to as rviz does, so that the chain has to send it. Times are the computer's.
 //
 // The file is written when the node ends:
-//   first_scan, last_scan  s of the computer's monotonic clock, when they came
+//   first_scan, last_scan  s of the computer's monotonic clock, when they were handed on
 //   latency                s, one for each scan that led to tracks, in their order
 //   unanswered             number of scans that did not
 //   stages                 s, processing time of each message, by stage (StageTiming)
@@ -31,22 +31,20 @@ namespace {
 class LatencyRecorder {
  public:
   LatencyRecorder() {
-    const auto hints = ros::TransportHints().tcpNoDelay();
-    const auto listen = [&](const std::string& topic, auto callback) {
-      subscribers_.push_back(node_.subscribe(topic, kQueue, callback, this, hints));
-    };
-    listen("scan", &LatencyRecorder::takeScan<sensor_msgs::LaserScan>);
-    listen("echoes", &LatencyRecorder::takeScan<sensor_msgs::MultiEchoLaserScan>);
-    listen("tracks", &LatencyRecorder::takeTracks);
-    listen("timing", &LatencyRecorder::takeTiming);
-    listen("map", &LatencyRecorder::takeMap);
+    handOn<sensor_msgs::LaserScan>("scan");
+    handOn<sensor_msgs::MultiEchoLaserScan>("echoes");
+    listen<TrackArray>("tracks", [this](const auto& tracks) { takeTracks(*tracks); });
+    listen<StageTiming>("timing", [this](const auto& timing) {
+      stages_[timing->stage].push_back(timing->processing_time);
+    });
+    listen<nav_msgs::OccupancyGrid>("map", [](const auto& /*map*/) {});
   }
 
   void write(std::ostream& out) const {
     out << std::setprecision(9) << "{\"first_scan\": " << secondsOf(first_scan_)
         << ", \"last_scan\": " << secondsOf(last_scan_) << ", \"latency\": ";
     writeList(out, latency_);
-    out << ", \"unanswered\": " << arrivals_.size() << ", \"stages\": {";
+    out << ", \"unanswered\": " << departures_.size() << ", \"stages\": {";
     const char* separator = "";
     for (const auto& [stage, seconds] : stages_) {
       out << separator << '"' << stage << "\": ";
@@ -73,31 +71,40 @@ class LatencyRecorder {
   }
 
   template <typename Message>
-  void takeScan(const boost::shared_ptr<const Message>& message) {
+  void listen(const std::string& topic,
+              const boost::function<void(const boost::shared_ptr<const Message>&)>& callback) {
+    subscribers_.push_back(node_.subscribe<Message>(topic, kQueue, callback, ros::VoidConstPtr(),
+                                                    ros::TransportHints().tcpNoDelay()));
+  }
+
+  template <typename Message>
+  void handOn(const std::string& topic) {
+    const ros::Publisher publisher = node_.advertise<Message>(topic, kQueue);
+    listen<Message>("recorded/" + topic, [this, publisher](const auto& scan) {
+      noteDeparture(scan->header.stamp);
+      publisher.publish(scan);
+    });
+  }
+
+  void noteDeparture(const ros::Time& stamp) {
     last_scan_ = Clock::now();
     first_scan_ = first_scan_ == Clock::time_point() ? last_scan_ : first_scan_;
-    arrivals_[message->header.stamp] = last_scan_;
+    departures_[stamp] = last_scan_;
   }
 
-  void takeTracks(const TrackArrayConstPtr& message) {
-    const auto scan = arrivals_.find(message->header.stamp);
-    if (scan != arrivals_.end()) {
+  void takeTracks(const TrackArray& tracks) {
+    const auto scan = departures_.find(tracks.header.stamp);
+    if (scan != departures_.end()) {
       latency_.push_back(std::chrono::duration<double>(Clock::now() - scan->second).count());
-      arrivals_.erase(scan);
+      departures_.erase(scan);
     }
   }
-
-  void takeTiming(const StageTimingConstPtr& message) {
-    stages_[message->stage].push_back(message->processing_time);
-  }
-
-  void takeMap(const nav_msgs::OccupancyGridConstPtr& /*message*/) {}
 
   static constexpr std::uint32_t kQueue = 100;
 
   ros::NodeHandle node_;
   std::vector<ros::Subscriber> subscribers_;
-  std::map<ros::Time, Clock::time_point> arrivals_;  ///< of scans that wait for their tracks
+  std::map<ros::Time, Clock::time_point> departures_;  ///< of scans that wait for their tracks
   Clock::time_point first_scan_;
   Clock::time_point last_scan_;
   std::vector<double> latency_;

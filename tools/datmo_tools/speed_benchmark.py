@@ -14,11 +14,11 @@ from datmo_tools.progress import Progress
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
-Measures how fast the stack is. micro: the hot paths, each alone. live: the nodelets on a drive that is
-played at its own pace, at the demonstrator's settings and at heavy ones: latency from a scan's
-arrival to that of its tracks, at a process beside the nodelets; processor time and memory of theirs.
-Each live figure is the median over the runs. The last figures go to a JSON file; --compare prints
-two such files side by side."""
+Measures how fast the stack is. micro: the hot paths, each alone, in processor time. live: the nodelets
+on a drive that is played at its own pace, at the demonstrator's settings and at heavy ones: latency
+from a scan's departure at another process to the arrival of its tracks there, both transports
+included; processor time and memory of the nodelets' process. Each live figure is the median over the
+runs. All figures go to a JSON file; --compare prints two such files side by side."""
 
 QUICK = "--duration=3"  # s of a drive
 HEAVY_SCANNER = ("scanner/beam_spacing=0.25", "scanner/horizontal_opening=0.25")
