@@ -59,7 +59,7 @@ void scorePoses(benchmark::State& state) {
   const ScanMatcher matcher(options);
   Random random(1);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(matcher.match(slam.map(), points, prediction, random));
+    benchmark::DoNotOptimize(matcher.match(slam.map(), points, {prediction}, random));
   }
   using benchmark::Counter;
   state.counters["per_pose"] =

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Geometry>
 
@@ -91,8 +92,13 @@ OccupancyMap::OccupancyMap(const OccupancyMapOptions& options)
              cellsAlong(options.width, options.cell_size), options.cell_size, Cell{}) {}
 
 bool OccupancyMap::isStatic(const Cell& cell) const {
-  return cell.hits > 0.0F && cell.last_hit - cell.first_hit >= options_.static_after &&
+  return cell.hits.count > 0.0F && maturity(cell) >= 1.0 &&
          static_cast<double>(cell.occupancy) >= options_.static_above;
+}
+
+double OccupancyMap::maturity(const Cell& cell) const {
+  const double age = cell.last_hit - cell.first_hit;
+  return age >= options_.static_after ? 1.0 : age / options_.static_after;
 }
 
 bool OccupancyMap::isNearStatic(CellIndex cell) const {
@@ -120,43 +126,46 @@ PointState OccupancyMap::judge(const Point2& point, const Point2& half_footprint
   return is_free ? PointState::kMoving : PointState::kUnknown;
 }
 
-/// Hits of several cells, put together about one reference point.
-struct OccupancyMap::HitSums {
-  double hits = 0.0;
-  Point2 sum = Point2::Zero();
-  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
-
-  /// `shift`: of the cell's centre from the reference, m.
-  void add(const Cell& cell, const Point2& shift) {
-    const double count = cell.hits;
-    const Point2 offset = cell.sum.cast<double>();
-    Eigen::Matrix2d own;
-    own << cell.squares[0], cell.squares[1], cell.squares[1], cell.squares[2];
-    hits += count;
-    sum += offset + count * shift;
-    squares += own + shift * offset.transpose() + offset * shift.transpose() +
-               count * shift * shift.transpose();
-  }
-
-  HitDistribution about(const Point2& reference) const {
-    const Point2 mean = sum / hits;
-    return {hits, reference + mean, squares / hits - mean * mean.transpose()};
-  }
-};
-
-std::optional<HitDistribution> OccupancyMap::hitsAround(const Point2& point) const {
+template <typename Visit>
+void OccupancyMap::forEachOccupiedAround(const Point2& point, Visit&& visit) const {
   const CellIndex centre = window().cellAt(point);
-  const Point2 reference = window().centreOf(centre);
-  HitSums all;
   for (int row = centre.row - 1; row <= centre.row + 1; ++row) {
     for (int column = centre.column - 1; column <= centre.column + 1; ++column) {
       const Cell& cell = cells_.atOrEmpty({column, row});
       if (isOccupied(cell)) {
-        all.add(cell, window().centreOf({column, row}) - reference);
+        visit(cell, CellIndex{column, row});
       }
     }
   }
-  return all.hits > 0.0 ? std::make_optional(all.about(reference)) : std::nullopt;
+}
+
+std::optional<HitDistribution> OccupancyMap::hitsAround(const Point2& point) const {
+  HitSums sums;
+  forEachOccupiedAround(point, [&](const Cell& cell, CellIndex index) {
+    sums.add(cell.hits, window().centreOf(index) - point, maturity(cell));
+  });
+  return sums.empty() ? std::nullopt : std::make_optional(sums.about(point));
+}
+
+std::optional<HitDistribution> OccupancyMap::nearestHits(const Point2& point) const {
+  const Cell* nearest = nullptr;
+  Point2 place;
+  double least_distance = std::numeric_limits<double>::infinity();
+  forEachOccupiedAround(point, [&](const Cell& cell, CellIndex index) {
+    const Point2 centre = window().centreOf(index);
+    const double distance = (centre + cell.hits.mean() - point).squaredNorm();
+    if (distance < least_distance) {
+      least_distance = distance;
+      nearest = &cell;
+      place = centre;
+    }
+  });
+  if (nearest == nullptr) {
+    return std::nullopt;
+  }
+  HitSums sums;
+  sums.add(nearest->hits, Point2::Zero(), maturity(*nearest));
+  return sums.about(place);
 }
 
 void OccupancyMap::update(const Scan& scan, const std::vector<PointState>& states,
@@ -188,9 +197,7 @@ void OccupancyMap::hit(const Point2& point) {
   }
   Cell& cell = cells_.at(index);
   if (!isOccupied(cell)) {
-    cell.hits = 0.0F;
-    cell.sum.setZero();
-    cell.squares.setZero();
+    cell.hits = {};
     cell.first_hit = now_;
   }
   if (cell.updated != update_) {
@@ -198,17 +205,7 @@ void OccupancyMap::hit(const Point2& point) {
     cell.updated = update_;
     cell.last_hit = now_;
   }
-  if (cell.hits >= kMostHits) {
-    const float keep = (kMostHits - 1.0F) / cell.hits;
-    cell.hits *= keep;
-    cell.sum *= keep;
-    cell.squares *= keep;
-  }
-  const Eigen::Vector2f offset = (point - window().centreOf(index)).cast<float>();
-  cell.hits += 1.0F;
-  cell.sum += offset;
-  cell.squares +=
-      Eigen::Vector3f(offset.x() * offset.x(), offset.x() * offset.y(), offset.y() * offset.y());
+  cell.hits.add((point - window().centreOf(index)).cast<float>(), kMostHits);
 }
 
 float OccupancyMap::contradiction(const Cell& cell, CellIndex index, const Point2& from,
@@ -217,7 +214,7 @@ float OccupancyMap::contradiction(const Cell& cell, CellIndex index, const Point
     return 1.0F;
   }
   HitSums sums;
-  sums.add(cell, Point2::Zero());
+  sums.add(cell.hits, Point2::Zero(), maturity(cell));
   const HitDistribution surface = sums.about(window().centreOf(index));
   const Point2 across(-direction.y(), direction.x());
   const double distance = across.dot(surface.mean - from);

@@ -34,6 +34,10 @@ void GridSlamStageOptions::visit(OptionVisitor& visitor) {
        "the vehicle has odometry; false: predict with constant velocity, and publish odom "
        "-> base_link too"},
       odometry);
+  visitor.toggle({"odometry_pose", "",
+                  "the odometry's poses tell the motion, as a robot's wheel encoders count it; "
+                  "false: its speed and yaw rate do"},
+                 odometry_pose);
   visitor.number({"map_period", "s", "least time between two maps, of the scans' stamps"},
                  map_period, {0.0, 3600.0});
   visitor.number({"most_tilt", "rad", "a scan plane tilted by more than this is warned of"},
@@ -61,7 +65,10 @@ void GridSlamStage::takeOdometry(const nav_msgs::Odometry& message) {
   }
   try {
     checkFrames(message);
-    const OdometryPose odometry{toSample(message), fromMessage(message.pose.pose)};
+    OdometryPose odometry{toSample(message), fromMessage(message.pose.pose)};
+    if (options_.odometry_pose) {
+      odometry.sample.base_in_odom = odometry.base_in_odom;
+    }
     checkStamp(odometry_stamps_, message.header.stamp);
     slam_.addOdometry(odometry.sample);
     keep(odometry);

@@ -14,10 +14,6 @@ namespace {
 /// Quaternions travel as doubles; one that is off by more than this was never normalised.
 constexpr double kUnitLengthTolerance = 1e-3;
 
-/// No vehicle on a road is faster (m/s) or spins faster (rad/s): what says so is broken.
-constexpr double kMostSpeed = 150.0;
-constexpr double kMostYawRate = 20.0;
-
 /// Where the 6 x 6 covariances of ROS (x, y, z, roll, pitch, yaw) hold ours over x, y and heading.
 std::size_t indexInSix(int row, int column) {
   constexpr std::array<std::size_t, 3> kPlanar = {0, 1, 5};
@@ -211,9 +207,7 @@ geometry_msgs::TransformStamped toTransform(const Pose2& child_in_parent, Stamp 
 
 OdometrySample toSample(const nav_msgs::Odometry& message) {
   const Twist2 twist{message.twist.twist.linear.x, message.twist.twist.angular.z};
-  const bool plausible =
-      std::abs(twist.forward_speed) <= kMostSpeed && std::abs(twist.yaw_rate) <= kMostYawRate;
-  if (!plausible) {  // NaN is not plausible either
+  if (!isPlausible(twist)) {
     throw InputError("bad_odometry", "odometry with speed " + std::to_string(twist.forward_speed) +
                                          " m/s and yaw rate " + std::to_string(twist.yaw_rate) +
                                          " rad/s: expected at most " + std::to_string(kMostSpeed) +

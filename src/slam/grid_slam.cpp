@@ -91,8 +91,8 @@ SlamResult GridSlam::process(const Scan& measured) {
   if (stamp_) {
     result.odometry_used = predict(scan.stamp);
     map_.centreOn(filter_.pose().pose.position());
-    const MatchResult match =
-        matcher_.match(map_, endPoints(scan, options_.longest_step), filter_.pose(), random_);
+    const MatchResult match = matcher_.match(map_, endPoints(scan, options_.longest_step),
+                                             {filter_.pose(), result.odometry_used}, random_);
     filter_.correct(match.pose);
     result.match = match.quality;
   }

@@ -5,40 +5,55 @@
 
 namespace datmo {
 
-void OdometryBuffer::add(const OdometrySample& sample) {
-  if (!samples_.empty() && sample.stamp <= samples_.back().stamp) {
+void OdometryBuffer::connect(Piece& from, const OdometrySample& to) {
+  if (!from.sample.base_in_odom || !to.base_in_odom) {
     return;
   }
-  samples_.push_back(sample);
-  while (secondsBetween(samples_.front().stamp, sample.stamp) > memory_) {
-    samples_.pop_front();
+  const Twist2 mean = twistOf(from.sample.base_in_odom->inverse() * *to.base_in_odom,
+                              secondsBetween(from.sample.stamp, to.stamp));
+  if (isPlausible(mean)) {
+    from.sample.twist = mean;
+    from.to_next = true;
+  }
+}
+
+void OdometryBuffer::add(const OdometrySample& sample) {
+  if (!pieces_.empty()) {
+    if (sample.stamp <= pieces_.back().sample.stamp) {
+      return;
+    }
+    connect(pieces_.back(), sample);
+  }
+  pieces_.push_back({sample});
+  while (secondsBetween(pieces_.front().sample.stamp, sample.stamp) > memory_) {
+    pieces_.pop_front();
   }
 }
 
 std::optional<Pose2> OdometryBuffer::motion(Stamp from, Stamp to,
                                             const OdometryErrors& errors) const {
-  const auto later = std::upper_bound(
-      samples_.begin(), samples_.end(), from,
-      [](Stamp stamp, const OdometrySample& sample) { return stamp < sample.stamp; });
+  const auto later =
+      std::upper_bound(pieces_.begin(), pieces_.end(), from,
+                       [](Stamp stamp, const Piece& piece) { return stamp < piece.sample.stamp; });
   // The first sample also serves for the time just before it.
-  auto sample = later == samples_.begin() ? later : std::prev(later);
-  if (sample == samples_.end() || secondsBetween(from, sample->stamp) > longest_hold_) {
+  auto piece = later == pieces_.begin() ? later : std::prev(later);
+  if (piece == pieces_.end() || secondsBetween(from, piece->sample.stamp) > longest_hold_) {
     return std::nullopt;
   }
   Pose2 motion;
   Stamp at = from;
   while (at < to) {
-    const auto next = std::next(sample);
-    const Stamp until = next == samples_.end() ? to : std::min(to, next->stamp);
-    if (secondsBetween(sample->stamp, until) > longest_hold_) {
+    const auto next = std::next(piece);
+    const Stamp until = next == pieces_.end() ? to : std::min(to, next->sample.stamp);
+    if (!piece->to_next && secondsBetween(piece->sample.stamp, until) > longest_hold_) {
       return std::nullopt;
     }
-    motion = motion * arc(errors.correct(sample->twist), secondsBetween(at, until));
+    motion = motion * arc(errors.correct(piece->sample.twist), secondsBetween(at, until));
     at = until;
-    if (next == samples_.end()) {
+    if (next == pieces_.end()) {
       break;
     }
-    sample = next;
+    piece = next;
   }
   return motion;
 }

@@ -1,11 +1,14 @@
 #include "datmo_fusion/slam/scan_matcher.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+
+#include "datmo_fusion/common/uniform.h"
 
 namespace datmo {
 
@@ -14,18 +17,21 @@ namespace {
 /// A refinement that moves less than this (m, rad) has converged.
 constexpr double kConverged = 1e-4;
 
-/// Spread (of cells) beyond which hits are a wall that goes on outside of the neighbourhood they
-/// were gathered from; those of a wall through 3 cells have 3 / sqrt(12) = 0.87.
-constexpr double kWallSpread = 0.5;
+/// Hits spread wider than this share of a uniform distribution through the cells that they were
+/// gathered from, and this many times as wide as thick, are a wall that goes on outside of them.
+constexpr double kWallShare = 0.6;
+constexpr double kWallElongation = 2.0;
 
 /// What an end point near these hits tells of its place, 1/m^2. Along a wall it tells nothing: the
-/// hits' mean is only the middle of the neighbourhood.
+/// hits' mean is only the middle of the `aperture` (m) that they were gathered from.
 Eigen::Matrix2d informationOf(const Eigen::Matrix2d& spread, double point_variance,
-                              double cell_size) {
+                              double aperture) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread);
   Point2 information = (axes.eigenvalues().array().max(0.0) + point_variance).inverse();
-  const double longest = kWallSpread * cell_size;
-  if (axes.eigenvalues()[1] > longest * longest) {
+  const double across = axes.eigenvalues()[0];
+  const double along = axes.eigenvalues()[1];
+  if (along > kUniformVariance * std::pow(kWallShare * aperture, 2) &&
+      along > kWallElongation * kWallElongation * across) {
     information[1] = 0.0;
   }
   return axes.eigenvectors() * information.asDiagonal() * axes.eigenvectors().transpose();
@@ -42,11 +48,20 @@ Eigen::Vector3d difference(const Pose2& from, const Pose2& to) {
 
 }  // namespace
 
+/// What is to be matched.
+struct ScanMatcher::Task {
+  const OccupancyMap& map;
+  const std::vector<EndPoint>& points;
+  const PoseWithCovariance& prediction;
+  double full_maturity = 1.0;  ///< of surfaces, that counts fully
+};
+
 /// Normal equations of a match around a pose: information * step = gradient.
 struct ScanMatcher::Normal {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   int points = 0;
+  double most_maturity = 0.0;
   double weakest_sigma = std::numeric_limits<double>::infinity();  ///< m, of the position
   bool degenerate = false;
 
@@ -76,9 +91,10 @@ struct ScanMatcher::Normal {
 void ScanMatcherOptions::visit(OptionVisitor& visitor) {
   visitor.integer({"samples", "1", "poses drawn for each scan (thesis 3.3.1: 300)"}, samples,
                   {1, 100000});
-  visitor.integer({"refinement_steps", "1",
-                   "Gauss-Newton steps at the most; 0: the best sample as it is (thesis)"},
-                  refinement_steps, {0, 100});
+  visitor.integer(
+      {"refinement_steps", "1",
+       "Gauss-Newton steps at each resolution at the most; 0: the best sample as it is (thesis)"},
+      refinement_steps, {0, 100});
   visitor.number(
       {"point_sigma", "m", "standard deviation of an end point about the surface it hit"},
       point_sigma, {0.005, 2.0});
@@ -90,6 +106,11 @@ void ScanMatcherOptions::visit(OptionVisitor& visitor) {
                   "a direction in which the scan alone would place the vehicle worse than this "
                   "(along a corridor, a guard rail) is left to the prediction"},
                  degenerate_sigma, {0.01, 1000.0});
+  visitor.number(
+      {"least_maturity", "1",
+       "weight of surfaces that have just come into view, where those that have been hit "
+       "for the map's static_after have 1: they may move; 1: all alike"},
+      least_maturity, {0.001, 1.0});
   visitor.integer({"least_points", "1", "end points on known surfaces that make a match"},
                   least_points, {1, 10000});
 }
@@ -98,25 +119,25 @@ ScanMatcher::ScanMatcher(const ScanMatcherOptions& options) : options_(options) 
   checkOptions(options);
 }
 
-double ScanMatcher::score(const OccupancyMap& map, const std::vector<EndPoint>& points,
-                          const Pose2& pose) const {
+double ScanMatcher::score(const Task& task, const Pose2& pose) const {
+  const OccupancyMap& map = task.map;
   const Eigen::Matrix2d rotation = pose.rotation();
   double sum = 0.0;
-  for (const EndPoint& point : points) {
+  for (const EndPoint& point : task.points) {
     sum += map.occupancy(map.window().cellAt(pose.position() + rotation * point.position));
   }
-  return points.empty() ? 0.0 : sum / static_cast<double>(points.size());
+  return task.points.empty() ? 0.0 : sum / static_cast<double>(task.points.size());
 }
 
-Pose2 ScanMatcher::bestSample(const OccupancyMap& map, const std::vector<EndPoint>& points,
-                              const PoseWithCovariance& prediction, Random& random) const {
+Pose2 ScanMatcher::bestSample(const Task& task, Random& random) const {
+  const PoseWithCovariance& prediction = task.prediction;
   const Eigen::Matrix3d spread = prediction.covariance.llt().matrixL();
   Pose2 best = prediction.pose;
-  double best_score = score(map, points, best);
+  double best_score = score(task, best);
   for (int i = 1; i < options_.samples; ++i) {
     const Eigen::Vector3d standard(random.normal(1.0), random.normal(1.0), random.normal(1.0));
     const Pose2 sample = shifted(prediction.pose, spread * standard);
-    const double sample_score = score(map, points, sample);
+    const double sample_score = score(task, sample);
     if (sample_score > best_score) {
       best = sample;
       best_score = sample_score;
@@ -125,25 +146,31 @@ Pose2 ScanMatcher::bestSample(const OccupancyMap& map, const std::vector<EndPoin
   return best;
 }
 
-ScanMatcher::Normal ScanMatcher::sumOf(const OccupancyMap& map, const std::vector<EndPoint>& points,
-                                       const Pose2& pose) const {
+ScanMatcher::Normal ScanMatcher::sumOf(const Task& task, const Pose2& pose,
+                                       Resolution resolution) const {
+  const OccupancyMap& map = task.map;
   Normal normal;
   const double variance = options_.point_sigma * options_.point_sigma;
+  const double aperture = (resolution == Resolution::kCell ? 1.0 : 3.0) * map.window().cell_size;
   const Eigen::Matrix2d rotation = pose.rotation();
-  for (const EndPoint& point : points) {
+  for (const EndPoint& point : task.points) {
     const Point2 turned = rotation * point.position;
     const Point2 end = pose.position() + turned;
-    const auto surface = map.hitsAround(end);
+    const auto surface =
+        resolution == Resolution::kCell ? map.nearestHits(end) : map.hitsAround(end);
     if (!surface) {
       continue;
     }
-    const Eigen::Matrix2d information =
-        informationOf(surface->covariance + rotation * point.sampling * rotation.transpose(),
-                      variance, map.window().cell_size);
+    const Eigen::Matrix2d information = informationOf(
+        surface->covariance + rotation * point.sampling * rotation.transpose(), variance, aperture);
     const Point2 error = surface->mean - end;
     const double distance = error.dot(information * error);
-    // Points that do not fit fade out (the score of Biber & Strasser is this Gaussian).
-    const double weight = std::exp(-0.5 * distance);
+    // Points that do not fit fade out (the score of Biber & Strasser is this Gaussian). What has
+    // not been there for long may be a mover: a platoon that keeps pace would take the pose along.
+    const double maturity =
+        surface->maturity < task.full_maturity ? surface->maturity / task.full_maturity : 1.0;
+    const double weight = std::exp(-0.5 * distance) * std::max(options_.least_maturity, maturity);
+    normal.most_maturity = std::max(normal.most_maturity, surface->maturity);
     Eigen::Matrix<double, 2, 3> jacobian;
     jacobian << 1.0, 0.0, -turned.y(), 0.0, 1.0, turned.x();
     normal.information += weight * jacobian.transpose() * information * jacobian;
@@ -155,38 +182,49 @@ ScanMatcher::Normal ScanMatcher::sumOf(const OccupancyMap& map, const std::vecto
   return normal;
 }
 
-ScanMatcher::Normal ScanMatcher::linearise(const OccupancyMap& map,
-                                           const std::vector<EndPoint>& points,
-                                           const Pose2& pose) const {
-  Normal normal = sumOf(map, points, pose);
+ScanMatcher::Normal ScanMatcher::linearise(const Task& task, const Pose2& pose,
+                                           Resolution resolution) const {
+  Normal normal = sumOf(task, pose, resolution);
   normal.leaveOutWeakest(options_.degenerate_sigma);
   return normal;
 }
 
-MatchResult ScanMatcher::match(const OccupancyMap& map, const std::vector<EndPoint>& points,
-                               const PoseWithCovariance& prediction, Random& random) const {
-  const Eigen::Matrix3d prior = prediction.covariance.inverse();
-  Pose2 pose = bestSample(map, points, prediction, random);
-  Normal normal = linearise(map, points, pose);
-  MatchResult result{prediction, {}};
-  result.quality.matched_points = normal.points;
-  if (normal.points < options_.least_points) {
-    return result;
-  }
+Pose2 ScanMatcher::refine(const Task& task, Resolution resolution, Pose2 pose) const {
+  const Eigen::Matrix3d prior = task.prediction.covariance.inverse();
   for (int step = 0; step < options_.refinement_steps; ++step) {
+    const Normal normal = linearise(task, pose, resolution);
     const Eigen::Vector3d move =
         (normal.information + prior)
             .ldlt()
-            .solve(normal.gradient + prior * difference(pose, prediction.pose));
+            .solve(normal.gradient + prior * difference(pose, task.prediction.pose));
     pose = shifted(pose, move);
-    normal = linearise(map, points, pose);
     if (move.cwiseAbs().maxCoeff() < kConverged) {
       break;
     }
   }
+  return pose;
+}
+
+MatchResult ScanMatcher::match(const OccupancyMap& map, const std::vector<EndPoint>& points,
+                               const Prediction& prediction, Random& random) const {
+  MatchResult result{prediction.pose, {}};
+  Task task{map, points, prediction.pose};
+  Pose2 pose = bestSample(task, random);
+  const Normal coarse = sumOf(task, pose, Resolution::kNeighbourhood);
+  result.quality.matched_points = coarse.points;
+  if (coarse.points < options_.least_points) {
+    return result;
+  }
+  // In a map that has just begun nothing is mature yet.
+  task.full_maturity =
+      prediction.measured ? std::max(coarse.most_maturity, options_.least_maturity) : 0.0;
+  for (const Resolution resolution : {Resolution::kNeighbourhood, Resolution::kCell}) {
+    pose = refine(task, resolution, pose);
+  }
+  const Normal normal = linearise(task, pose, Resolution::kCell);
   result.pose.pose = pose;
-  result.pose.covariance = (normal.information + prior).inverse();
-  result.quality = {normal.points, score(map, points, pose), true, normal.weakest_sigma,
+  result.pose.covariance = (normal.information + prediction.pose.covariance.inverse()).inverse();
+  result.quality = {normal.points, score(task, pose), true, normal.weakest_sigma,
                     normal.degenerate};
   return result;
 }

@@ -8,6 +8,7 @@
 
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/scan.h"
+#include "datmo_fusion/grid/hit_distribution.h"
 #include "datmo_fusion/grid/rolling_grid.h"
 
 namespace datmo {
@@ -27,13 +28,6 @@ struct OccupancyMapOptions {
   int static_neighbourhood = 1;     ///< cells around an end point that vouch for it
 
   void visit(OptionVisitor& visitor);
-};
-
-/// Where the hits around a place lie: the local surface with more than the grid's resolution.
-struct HitDistribution {
-  double hits = 0.0;
-  Point2 mean = Point2::Zero();                          ///< m, map frame
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< m^2
 };
 
 /// The map of what stands still: a rolling grid of log-odds occupancy (thesis 3.1.1, eq. 3.1.13).
@@ -66,6 +60,9 @@ class OccupancyMap {
   /// Hits in the 3 x 3 occupied cells around a point; none where there are no occupied ones.
   std::optional<HitDistribution> hitsAround(const Point2& point) const;
 
+  /// Hits of that one of these cells whose mean is nearest to the point.
+  std::optional<HitDistribution> nearestHits(const Point2& point) const;
+
   /// Takes in a scan seen from `base_in_map`: its beams are free up to their ends; ends are
   /// occupied but for those whose state is kMoving. `states` holds a state for each ray of the
   /// scan, in order; those of beams without a hit are not read.
@@ -82,16 +79,13 @@ class OccupancyMap {
     std::uint32_t updated = 0;  ///< number of the update that touched it last; 0: never
     float first_hit = 0.0F;     ///< s since the first update; of the present occupant
     float last_hit = 0.0F;
-    // Sums over the hits, relative to the cell's centre so that floats do.
-    float hits = 0.0F;
-    Eigen::Vector2f sum = Eigen::Vector2f::Zero();
-    Eigen::Vector3f squares = Eigen::Vector3f::Zero();  ///< xx, xy, yy
+    CellHits hits;
   };
 
-  struct HitSums;
-
   /// Whether the hits in a cell stand for a surface.
-  static bool isOccupied(const Cell& cell) { return cell.hits > 0.0F && cell.log_odds > 0.0F; }
+  static bool isOccupied(const Cell& cell) {
+    return cell.hits.count > 0.0F && cell.log_odds > 0.0F;
+  }
 
   void change(Cell& cell, float log_odds_step) const;
   void hit(const Point2& point);
@@ -102,6 +96,13 @@ class OccupancyMap {
                       const Point2& direction) const;
   void passBeam(const Ray& ray, const Pose2& base_in_map);
   bool isStatic(const Cell& cell) const;
+
+  /// How much of static_after lies between a cell's first and last hit, 0 to 1.
+  double maturity(const Cell& cell) const;
+
+  /// `visit(cell, index)` for each occupied one of the 3 x 3 cells around a point.
+  template <typename Visit>
+  void forEachOccupiedAround(const Point2& point, Visit&& visit) const;
   bool isNearStatic(CellIndex cell) const;
 
   OccupancyMapOptions options_;

@@ -24,6 +24,7 @@ struct GridSlamStageOptions {
   std::string odom_frame = "odom";
   std::string base_frame = "base_link";
   bool odometry = true;
+  bool odometry_pose = false;
   double map_period = 1.0;          ///< s
   double most_tilt = degrees(5.0);  ///< rad
   StreamOptions input;

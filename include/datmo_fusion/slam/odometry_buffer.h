@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cmath>
 #include <deque>
 #include <optional>
 
 #include "datmo_fusion/common/stamp.h"
+#include "datmo_fusion/common/twist2.h"
 #include "datmo_fusion/slam/pose_filter.h"
 
 namespace datmo {
@@ -15,7 +17,19 @@ inline constexpr double kOdometryMemory = 10.0;
 struct OdometrySample {
   Stamp stamp;
   Twist2 twist;
+  /// Where the odometry has come to, if that is to tell the motion; without it the twist does.
+  std::optional<Pose2> base_in_odom = std::nullopt;
 };
+
+/// No vehicle is faster (m/s) or spins faster (rad/s): what says so is broken, or a pose that
+/// jumped.
+inline constexpr double kMostSpeed = 150.0;
+inline constexpr double kMostYawRate = 20.0;
+
+/// Also false for NaN.
+inline bool isPlausible(const Twist2& twist) {
+  return std::abs(twist.forward_speed) <= kMostSpeed && std::abs(twist.yaw_rate) <= kMostYawRate;
+}
 
 /// A short time of odometry, from which the motion between two scans is put together.
 class OdometryBuffer {
@@ -28,15 +42,25 @@ class OdometryBuffer {
   /// Samples in rising stamp order; one that is not newer than the last is left out.
   void add(const OdometrySample& sample);
 
-  /// The vehicle's motion from one stamp to a later one: each sample's twist holds from its stamp
-  /// to the next one's. None if the samples do not reach `to` within the longest hold, or begin
-  /// later than `from`.
+  /// The vehicle's motion from one stamp to a later one. Between two samples with poses it is what
+  /// leads from one to the other, evenly; else each sample's twist holds from its stamp to the next
+  /// one's. None if the samples do not reach `to` within the longest hold, or begin later than
+  /// `from`.
   std::optional<Pose2> motion(Stamp from, Stamp to, const OdometryErrors& errors = {}) const;
 
  private:
   double longest_hold_;
   double memory_;
-  std::deque<OdometrySample> samples_;
+  /// What is known of the motion from one sample on.
+  struct Piece {
+    OdometrySample sample;
+    bool to_next = false;  ///< the twist is the measured motion to the next sample
+  };
+
+  /// Takes the mean motion between two samples from their poses, if they have any.
+  static void connect(Piece& from, const OdometrySample& to);
+
+  std::deque<Piece> pieces_;
 };
 
 }  // namespace datmo

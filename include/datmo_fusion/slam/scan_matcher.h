@@ -18,9 +18,18 @@ struct ScanMatcherOptions {
   double point_sigma = 0.2;        ///< m
   double information_share = 0.5;  ///< 0 to 1
   double degenerate_sigma = 0.5;   ///< m
+  double least_maturity = 0.02;    ///< 0 to 1
   int least_points = 5;            ///< for a match
 
   void visit(OptionVisitor& visitor);
+};
+
+/// A predicted pose of the base in the map.
+struct Prediction {
+  PoseWithCovariance pose;  ///< its covariance positive definite
+  /// By odometry. It tells movers from what stands; without it, surfaces that have just come into
+  /// view count in full, because in a turn there may be no others.
+  bool measured = true;
 };
 
 /// How well a scan fits the map.
@@ -45,7 +54,9 @@ struct MatchResult {
 /// is scored by the map's occupancy at the beams' ends, and the best one is taken. From there the
 /// pose is refined below the size of a cell by Gauss-Newton on the distances of the end points to
 /// the mean of the hits around them, weighed with their spread (the normal distributions transform:
-/// Biber & Strasser, 2003; Stoyanov et al. 2012), with the prediction as prior. A direction of
+/// Biber & Strasser, 2003; Stoyanov et al. 2012), with the prediction as prior: first with all hits
+/// in the 3 x 3 cells around a point, which finds the way from afar but rounds off corners, then
+/// with those of the nearest cell. A direction of
 /// which the match tells next to nothing (along a corridor, a guard rail) is left to the prediction
 /// (solution remapping: Zhang, Kaess & Singh 2016), and shows in the covariance.
 class ScanMatcher {
@@ -53,23 +64,27 @@ class ScanMatcher {
   /// Throws OptionError.
   explicit ScanMatcher(const ScanMatcherOptions& options);
 
-  /// `prediction`: of the base in the map, with a positive definite covariance. Where too few
-  /// points lie on known surfaces it is returned as it is, not accepted.
+  /// Where too few points lie on known surfaces, the prediction is returned as it is, not accepted.
   MatchResult match(const OccupancyMap& map, const std::vector<EndPoint>& points,
-                    const PoseWithCovariance& prediction, Random& random) const;
+                    const Prediction& prediction, Random& random) const;
 
  private:
   struct Normal;
 
-  double score(const OccupancyMap& map, const std::vector<EndPoint>& points,
-               const Pose2& pose) const;
+  /// Which hits of the map an end point is compared with.
+  enum class Resolution {
+    kNeighbourhood,  ///< all in 3 x 3 cells: found from afar
+    kCell,           ///< those of the nearest cell: exact
+  };
+
+  struct Task;
+
   /// The match around this pose, without the direction of which it tells next to nothing.
-  Normal linearise(const OccupancyMap& map, const std::vector<EndPoint>& points,
-                   const Pose2& pose) const;
-  Pose2 bestSample(const OccupancyMap& map, const std::vector<EndPoint>& points,
-                   const PoseWithCovariance& prediction, Random& random) const;
-  Normal sumOf(const OccupancyMap& map, const std::vector<EndPoint>& points,
-               const Pose2& pose) const;
+  Normal linearise(const Task& task, const Pose2& pose, Resolution resolution) const;
+  Normal sumOf(const Task& task, const Pose2& pose, Resolution resolution) const;
+  double score(const Task& task, const Pose2& pose) const;
+  Pose2 bestSample(const Task& task, Random& random) const;
+  Pose2 refine(const Task& task, Resolution resolution, Pose2 pose) const;
 
   ScanMatcherOptions options_;
 };

@@ -52,6 +52,32 @@ TEST_F(OdometryBufferTest, SilenceLongerThanTheHoldGivesNothing) {
   EXPECT_FALSE(buffer_.motion(at(1.2), at(4.1))) << "a gap in the middle";
 }
 
+TEST_F(OdometryBufferTest, PosesTellTheMotionBetweenThemAlsoOverAGap) {
+  const Pose2 first(5.0, -2.0, 0.4);
+  const Pose2 motion = arc({1.5, 0.2}, 3.0);
+  buffer_.add({at(1.0), {0.0, 0.0}, first});
+  buffer_.add({at(4.0), {0.0, 0.0}, first * motion});
+  const auto whole = buffer_.motion(at(1.0), at(4.0));
+  ASSERT_TRUE(whole);
+  EXPECT_TRUE(whole->position().isApprox(motion.position(), 1e-9));
+  EXPECT_NEAR(angleBetween(whole->heading(), motion.heading()), 0.0, 1e-9);
+  const auto third = buffer_.motion(at(2.0), at(3.0));
+  ASSERT_TRUE(third);
+  EXPECT_NEAR(third->heading(), 0.2, 1e-9);
+}
+
+TEST_F(OdometryBufferTest, APoseThatJumpsIsNoMotion) {
+  buffer_.add({at(1.0), {1.0, 0.0}, Pose2(0.0, 0.0, 0.0)});
+  buffer_.add({at(1.1), {1.0, 0.0}, Pose2(500.0, 0.0, 0.0)});
+  EXPECT_NEAR(buffer_.motion(at(1.0), at(1.1))->x(), 0.1, 1e-9);
+}
+
+TEST_F(OdometryBufferTest, AfterTheLastPoseTheTwistHolds) {
+  buffer_.add({at(1.0), {1.0, 0.0}, Pose2()});
+  buffer_.add({at(1.1), {2.0, 0.0}, Pose2(0.05, 0.0, 0.0)});
+  EXPECT_NEAR(buffer_.motion(at(1.0), at(1.2))->x(), 0.05 + 0.2, 1e-9);
+}
+
 TEST_F(OdometryBufferTest, LeavesOutWhatIsNotNewer) {
   buffer_.add({at(1.0), {1.0, 0.0}});
   buffer_.add({at(1.0), {50.0, 0.0}});

@@ -29,20 +29,27 @@ std::vector<Point2> corridor() {
   return points;
 }
 
+/// One scan of the points from this pose.
+Scan scanOf(const std::vector<Point2>& points, const Pose2& pose) {
+  Scan scan;
+  scan.beam_spacing = degrees(1.0);
+  for (const Point2& point : points) {
+    Ray ray;
+    ray.end = pose.inverse() * point;
+    ray.range = ray.end.norm();
+    ray.hit = true;
+    scan.rays.push_back(ray);
+  }
+  return scan;
+}
+
 /// The map after the points were seen from the origin several times.
 OccupancyMap mapOf(const std::vector<Point2>& points) {
   OccupancyMapOptions options;
   options.length = 40.0;
   options.width = 40.0;
   OccupancyMap map(options);
-  Scan scan;
-  for (const Point2& point : points) {
-    Ray ray;
-    ray.end = point;
-    ray.range = point.norm();
-    ray.hit = true;
-    scan.rays.push_back(ray);
-  }
+  Scan scan = scanOf(points, {});
   for (int i = 0; i < 5; ++i) {
     scan.stamp = Stamp::fromSeconds(10.0 + 0.1 * i);
     map.update(scan, std::vector<PointState>(points.size(), PointState::kUnknown), {});
@@ -51,16 +58,14 @@ OccupancyMap mapOf(const std::vector<Point2>& points) {
 }
 
 std::vector<EndPoint> seenFrom(const std::vector<Point2>& points, const Pose2& pose) {
-  std::vector<EndPoint> seen;
-  for (const Point2& point : points) {
-    seen.push_back({pose.inverse() * point, Eigen::Matrix2d::Zero()});
-  }
-  return seen;
+  return endPoints(scanOf(points, pose), 1.0);
 }
 
 Eigen::Matrix3d priorCovariance() {
   return Eigen::Vector3d(0.3 * 0.3, 0.3 * 0.3, 0.05 * 0.05).asDiagonal();
 }
+
+Prediction prior() { return {{Pose2(), priorCovariance()}}; }
 
 TEST(ScanMatcherTest, FindsTheShiftFromAllSidesBelowACell) {
   const std::vector<Point2> points = corner();
@@ -71,8 +76,7 @@ TEST(ScanMatcherTest, FindsTheShiftFromAllSidesBelowACell) {
     for (const double y : {-0.4, 0.0, 0.4}) {
       for (const double heading : {-0.04, 0.0, 0.04}) {
         const Pose2 truth(x, y, heading);
-        const MatchResult result =
-            matcher.match(map, seenFrom(points, truth), {Pose2(), priorCovariance()}, random);
+        const MatchResult result = matcher.match(map, seenFrom(points, truth), prior(), random);
         ASSERT_TRUE(result.quality.accepted);
         EXPECT_NEAR(result.pose.pose.x(), x, 0.05);
         EXPECT_NEAR(result.pose.pose.y(), y, 0.05);
@@ -94,8 +98,7 @@ TEST(ScanMatcherTest, RefinementIsBetterThanTheBestSample) {
     const Pose2 truth(0.02 * i, -0.015 * i, 0.001 * i);
     const auto seen = seenFrom(points, truth);
     const auto error = [&](const ScanMatcherOptions& options) {
-      const MatchResult result =
-          ScanMatcher(options).match(map, seen, {Pose2(), priorCovariance()}, random);
+      const MatchResult result = ScanMatcher(options).match(map, seen, prior(), random);
       return (result.pose.pose.position() - truth.position()).norm();
     };
     plain_error += error(plain);
@@ -110,8 +113,7 @@ TEST(ScanMatcherTest, AlongACorridorThePredictionStaysAndTheCovarianceSaysSo) {
   Random random(1);
   const Pose2 truth(0.0, 0.25, 0.01);
   const MatchResult result =
-      ScanMatcher(ScanMatcherOptions{})
-          .match(map, seenFrom(points, truth), {Pose2(), priorCovariance()}, random);
+      ScanMatcher(ScanMatcherOptions{}).match(map, seenFrom(points, truth), prior(), random);
   EXPECT_NEAR(result.pose.pose.y(), 0.25, 0.05);
   EXPECT_GT(std::sqrt(result.pose.covariance(0, 0)), 2.0 * std::sqrt(result.pose.covariance(1, 1)));
 }
@@ -124,9 +126,8 @@ TEST(ScanMatcherTest, ACorridorsDirectionIsLeftToThePrediction) {
   addWall(seen, {-5.0, 3.04}, {4.3, 3.04});
   addWall(seen, {-4.1, -3.11}, {5.2, -3.11});
   Random random(1);
-  const MatchResult result =
-      ScanMatcher(ScanMatcherOptions{})
-          .match(map, seenFrom(seen, {0.3, 0.2, 0.0}), {Pose2(), priorCovariance()}, random);
+  const MatchResult result = ScanMatcher(ScanMatcherOptions{})
+                                 .match(map, seenFrom(seen, {0.3, 0.2, 0.0}), prior(), random);
   EXPECT_TRUE(result.quality.accepted);
   EXPECT_TRUE(result.quality.degenerate);
   EXPECT_GT(result.quality.weakest_sigma, ScanMatcherOptions{}.degenerate_sigma);
@@ -141,9 +142,7 @@ TEST(ScanMatcherTest, ACornerTellsAllDirections) {
   const OccupancyMap map = mapOf(points);
   Random random(1);
   const MatchQuality quality =
-      ScanMatcher(ScanMatcherOptions{})
-          .match(map, seenFrom(points, {}), {Pose2(), priorCovariance()}, random)
-          .quality;
+      ScanMatcher(ScanMatcherOptions{}).match(map, seenFrom(points, {}), prior(), random).quality;
   EXPECT_FALSE(quality.degenerate);
   EXPECT_LT(quality.weakest_sigma, 0.1);
 }
@@ -156,8 +155,7 @@ TEST(ScanMatcherTest, MoversInTheScanDoNotPullThePose) {
   addWall(seen, {7.2, -5.0}, {7.2, -3.5});
   Random random(1);
   const MatchResult result =
-      ScanMatcher(ScanMatcherOptions{})
-          .match(map, seenFrom(seen, {}), {Pose2(), priorCovariance()}, random);
+      ScanMatcher(ScanMatcherOptions{}).match(map, seenFrom(seen, {}), prior(), random);
   EXPECT_LT(result.pose.pose.position().norm(), 0.05);
 }
 
@@ -166,7 +164,7 @@ TEST(ScanMatcherTest, WithoutAMapThePredictionIsTheAnswer) {
   Random random(1);
   const PoseWithCovariance prediction{Pose2(1.0, 2.0, 0.3), priorCovariance()};
   const MatchResult result =
-      ScanMatcher(ScanMatcherOptions{}).match(map, seenFrom(corner(), {}), prediction, random);
+      ScanMatcher(ScanMatcherOptions{}).match(map, seenFrom(corner(), {}), {prediction}, random);
   EXPECT_FALSE(result.quality.accepted);
   EXPECT_EQ(result.pose.pose.position(), prediction.pose.position());
   EXPECT_TRUE(result.pose.covariance.isApprox(prediction.covariance));
@@ -175,19 +173,16 @@ TEST(ScanMatcherTest, WithoutAMapThePredictionIsTheAnswer) {
 TEST(ScanMatcherTest, AScanWithoutPointsIsNoMatch) {
   const OccupancyMap map = mapOf(corner());
   Random random(1);
-  EXPECT_FALSE(ScanMatcher(ScanMatcherOptions{})
-                   .match(map, {}, {Pose2(), priorCovariance()}, random)
-                   .quality.accepted);
+  EXPECT_FALSE(ScanMatcher(ScanMatcherOptions{}).match(map, {}, prior(), random).quality.accepted);
 }
 
 TEST(ScanMatcherTest, TheCovarianceIsPositiveDefiniteAndBelowThePrior) {
   const std::vector<Point2> points = corner();
   const OccupancyMap map = mapOf(points);
   Random random(1);
-  const Eigen::Matrix3d covariance =
-      ScanMatcher(ScanMatcherOptions{})
-          .match(map, seenFrom(points, {}), {Pose2(), priorCovariance()}, random)
-          .pose.covariance;
+  const Eigen::Matrix3d covariance = ScanMatcher(ScanMatcherOptions{})
+                                         .match(map, seenFrom(points, {}), prior(), random)
+                                         .pose.covariance;
   EXPECT_GT(covariance.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0.0);
   const Eigen::Matrix3d gain = priorCovariance() - covariance;
   EXPECT_GT(gain.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0.0);

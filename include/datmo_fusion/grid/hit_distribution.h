@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "datmo_fusion/common/pose2.h"
+
+namespace datmo {
+
+/// Where the hits around a place lie: the local surface with more than the grid's resolution.
+struct HitDistribution {
+  double hits = 0.0;
+  Point2 mean = Point2::Zero();                          ///< m, map frame
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< m^2
+  double maturity = 0.0;  ///< 0 to 1, 1: hit for as long as what stands still
+};
+
+/// The hits in one cell, as sums relative to the cell's centre, so that floats do.
+struct CellHits {
+  float count = 0.0F;
+  Eigen::Vector2f sum = Eigen::Vector2f::Zero();      ///< m
+  Eigen::Vector3f squares = Eigen::Vector3f::Zero();  ///< m^2: xx, xy, yy
+
+  /// One more, `offset` (m) from the centre; older ones fade so that there are `most` at the most,
+  /// and the surface follows what is seen now.
+  void add(const Eigen::Vector2f& offset, float most);
+
+  /// m, from the centre; there must be hits.
+  Point2 mean() const { return (sum / count).cast<double>(); }
+};
+
+/// The hits of several cells, put together.
+class HitSums {
+ public:
+  /// `shift`: of the cell's centre from the common reference, m. `maturity`: of the cell, 0 to 1.
+  void add(const CellHits& cell, const Point2& shift, double maturity);
+
+  bool empty() const { return hits_ <= 0.0; }
+
+  /// `reference`: in the map, m. There must be hits.
+  HitDistribution about(const Point2& reference) const;
+
+ private:
+  double hits_ = 0.0;
+  double maturity_ = 0.0;
+  Point2 sum_ = Point2::Zero();
+  Eigen::Matrix2d squares_ = Eigen::Matrix2d::Zero();
+};
+
+}  // namespace datmo
