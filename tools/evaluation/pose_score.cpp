@@ -52,13 +52,18 @@ double rootMeanSquare(const PosePairs& pairs, const Value& value) {
   return std::sqrt(sum / static_cast<double>(pairs.size()));
 }
 
+/// The error of the estimated motion from one time to another.
+Pose2 motionError(const PosePair& from, const PosePair& to) {
+  const Pose2 true_motion = from.truth.inverse() * to.truth;
+  return true_motion.inverse() * (from.estimated.inverse() * to.estimated);
+}
+
 double largestJump(const PosePairs& pairs) {
   double largest = 0.0;
   for (auto from = pairs.begin(); from != pairs.end(); ++from) {
-    const Point2 error = from->error().position();
     for (auto to = from; to != pairs.end() && secondsBetween(from->stamp, to->stamp) <= kJumpTime;
          ++to) {
-      largest = std::max(largest, (to->error().position() - error).norm());
+      largest = std::max(largest, motionError(*from, *to).position().norm());
     }
   }
   return largest;
@@ -76,8 +81,7 @@ RelativePoseError relativeError(const PosePairs& pairs, double distance) {
     if (to == pairs.end()) {
       break;
     }
-    const Pose2 true_motion = from->truth.inverse() * to->truth;
-    const Pose2 error = true_motion.inverse() * (from->estimated.inverse() * to->estimated);
+    const Pose2 error = motionError(*from, *to);
     translation += error.position().norm();
     rotation += std::abs(error.heading());
     ++result.pairs;

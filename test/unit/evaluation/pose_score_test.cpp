@@ -1,5 +1,6 @@
 #include "evaluation/pose_score.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -79,6 +80,19 @@ TEST(ScorePoses, ErrorsAreOfOneSizeWhereverTheVehicleHeads) {
   const auto score = scorePoses(estimated, driveOf(turning));
   ASSERT_TRUE(score);
   EXPECT_NEAR(score->largest_jump, 1.0, 1e-9);
+}
+
+TEST(ScorePoses, AnOldDriftIsNoJumpWhenTheVehicleTurns) {
+  // 50 m with a scale error, and then a turn on the spot.
+  const auto driven = [](double scale) {
+    return driveOf([scale](double way) {
+      return Pose2(scale * std::min(way, 50.0), 0.0, 0.05 * std::max(0.0, way - 50.0));
+    });
+  };
+  const auto score = scorePoses(driven(1.02), driven(1.0));
+  ASSERT_TRUE(score);
+  EXPECT_NEAR(score->end_error, 1.0, 1e-9);
+  EXPECT_NEAR(score->largest_jump, 0.2, 1e-9);
 }
 
 TEST(ScorePoses, AStandingVehicleHasNoShareAndNoRelations) {
