@@ -108,7 +108,9 @@ std::optional<GridSlamOutput> GridSlamStage::takeScan(const Message& message) {
     const ConvertedScan converted = toScan(message, mount, options_.scan);
     checkStamp(scan_stamps_, message.header.stamp);
     warnOf(mount, converted);
-    GridSlamOutput output = outputOf(slam_.process(converted.scan));
+    const SlamResult result = slam_.process(converted.scan);
+    showMatch(result);
+    GridSlamOutput output = outputOf(result);
     monitor_.processed({converted.scan.stamp, watch.seconds()});
     return output;
   } catch (const InputError& error) {
@@ -144,6 +146,7 @@ void GridSlamStage::restart() {
   odometry_stamps_ = StampCheck(options_.input.restart_after);
   odometry_.clear();
   last_map_.reset();
+  degenerate_scans_ = 0;
 }
 
 void GridSlamStage::warnOf(const ScannerMount& mount, const ConvertedScan& converted) {
@@ -162,6 +165,18 @@ void GridSlamStage::warnOf(const ScannerMount& mount, const ConvertedScan& conve
                                                     " beams, none of them valid: goes on with the "
                                                     "predicted pose"));
   }
+}
+
+void GridSlamStage::showMatch(const SlamResult& result) {
+  const MatchQuality& match = result.match;
+  degenerate_scans_ += match.degenerate ? 1 : 0;
+  monitor_.figure("points matched", match.matched_points);
+  monitor_.figure("match score, 0 to 1", match.score);
+  monitor_.figure("weakest direction of the match [m]", match.weakest_sigma);
+  monitor_.figure("scans with a direction left to the odometry",
+                  static_cast<double>(degenerate_scans_));
+  monitor_.figure("odometry's scale error", result.odometry_errors.speed_scale);
+  monitor_.figure("odometry's yaw rate bias [rad/s]", result.odometry_errors.yaw_rate_bias);
 }
 
 GridSlamOutput GridSlamStage::outputOf(const SlamResult& result) {

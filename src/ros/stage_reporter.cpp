@@ -81,6 +81,9 @@ void StageReporter::listCounts(DiagnosticStatusWrapper& status) const {
   status.addf("processing time, median [ms]", "%.2f", milliseconds(timing.median));
   status.addf("processing time, 99th percentile [ms]", "%.2f", milliseconds(timing.percentile_99));
   status.addf("processing time, most [ms]", "%.2f", milliseconds(timing.most));
+  for (const auto& [name, value] : monitor_.figures()) {
+    status.addf(name, "%.4g", value);
+  }
   status.add("dropped", monitor_.droppedCount());
   for (const auto& [reason, count] : monitor_.drops()) {
     status.add("dropped: " + reason, count);

@@ -46,6 +46,13 @@ TEST_F(ChainTest, NoScanIsDropped) {
   }
 }
 
+TEST_F(ChainTest, DiagnosticsTellHowWellTheScanFits) {
+  EXPECT_TRUE(
+      chain_->waitFor([&] { return chain_->diagnostic("grid_slam", "points matched") > 0.0; }));
+  EXPECT_GT(chain_->diagnostic("grid_slam", "match score, 0 to 1"), 0.0);
+  EXPECT_GT(chain_->diagnostic("grid_slam", "weakest direction of the match [m]"), 0.0);
+}
+
 TEST_F(ChainTest, ThePoseFollowsTheVehicle) {
   const Pose2 pose = fromMessage(chain_->poses.back()->pose.pose);
   const Pose2 truth = world_.baseInMap(endOfDrive());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <optional>
 #include <string>
@@ -87,6 +88,9 @@ class GridSlamStage {
   void checkStamp(StampCheck& stamps, const ros::Time& stamp);
   void restart();
   void warnOf(const ScannerMount& mount, const ConvertedScan& converted);
+
+  /// For diagnostics.
+  void showMatch(const SlamResult& result);
   GridSlamOutput outputOf(const SlamResult& result);
   std::vector<geometry_msgs::TransformStamped> transformsTo(const Pose2& base_in_map, Stamp stamp);
 
@@ -98,6 +102,7 @@ class GridSlamStage {
   StampCheck odometry_stamps_;
   std::deque<OdometryPose> odometry_;  ///< of the last seconds, by rising stamp
   std::optional<Stamp> last_map_;
+  std::uint64_t degenerate_scans_ = 0;
 };
 
 }  // namespace datmo

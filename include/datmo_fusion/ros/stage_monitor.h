@@ -54,6 +54,10 @@ class StageMonitor {
   /// Something is wrong with a message or missing, but the stage goes on with it.
   void warned(const InputError& error);
 
+  /// A figure of the last result that tells its reader how well the stage does, with its unit:
+  /// "weakest direction [m]".
+  void figure(const std::string& name, double value) { figures_[name] = value; }
+
   InputStatus input(const std::string& name, Stamp now) const;
   TimingStatus timing() const;
   std::uint64_t processedCount() const { return processed_; }
@@ -64,6 +68,8 @@ class StageMonitor {
   /// By reason.
   const std::map<std::string, std::uint64_t>& drops() const { return drops_; }
   const std::map<std::string, std::uint64_t>& warnings() const { return warnings_; }
+
+  const std::map<std::string, double>& figures() const { return figures_; }
 
   /// The newest of both kinds; empty before the first.
   const std::string& lastError() const { return last_error_; }
@@ -80,6 +86,7 @@ class StageMonitor {
   std::map<std::string, Input> inputs_;
   std::map<std::string, std::uint64_t> drops_;
   std::map<std::string, std::uint64_t> warnings_;
+  std::map<std::string, double> figures_;
   std::deque<double> times_;  ///< s, the last ones
   std::uint64_t processed_ = 0;
   Processed last_processed_;

@@ -229,6 +229,25 @@ TEST_F(GridSlamStageTest, BeamsAreBroughtToTheStampOfTheScan) {
   EXPECT_EQ(monitor_.warningCount(), 0U);
 }
 
+TEST_F(GridSlamStageTest, OdometryPosesTellTheMotionIfTheyAreAskedFor) {
+  options_.odometry_pose = true;
+  GridSlamStage stage(options_, buffer_, monitor_);
+  mountScanner();
+  nav_msgs::Odometry counted = odometry(100.0);
+  counted.twist.twist.linear.x = 0.0;
+  stage.takeOdometry(counted);
+  auto blind = samples::laserScan(std::vector<float>(3, std::numeric_limits<float>::infinity()));
+  blind.header.stamp = ros::Time(100.0);
+  stage.takeScan(blind);
+  counted.header.stamp = ros::Time(100.1);
+  counted.pose.pose.position.x += 0.5;
+  stage.takeOdometry(counted);
+  blind.header.stamp = ros::Time(100.1);
+  const auto output = stage.takeScan(blind);
+  ASSERT_TRUE(output);
+  EXPECT_NEAR(output->pose->pose.pose.position.x, 0.5, 0.05);
+}
+
 TEST_F(GridSlamStageTest, BadBeamTimesAreWarnedOf) {
   mountScanner();
   odometryAt(100.0);

@@ -202,6 +202,7 @@ TEST(GridSlamTest, BetweenEndlessWallsTheWayIsLeftToTheOdometry) {
   EXPECT_NEAR(pose.pose.x(), 20.0, 0.5);
   EXPECT_NEAR(pose.pose.y(), 0.0, 0.1);
   EXPECT_GT(std::sqrt(pose.covariance(0, 0)), 4.0 * std::sqrt(pose.covariance(1, 1)));
+  EXPECT_TRUE(result.match.degenerate);
 }
 
 TEST(GridSlamTest, TheSameInputGivesTheSameOutput) {
