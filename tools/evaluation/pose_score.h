@@ -31,8 +31,8 @@ struct PoseScore {
   std::size_t nees_samples = 0;
 };
 
-/// A jump is the error of the estimated motion within this time: short against drift, long against a
-/// match that goes wrong over a few scans.
+/// A jump is the error of the estimated motion within this time: short against drift, long against
+/// a match that goes wrong over a few scans.
 inline constexpr double kJumpTime = 1.0;  // s
 
 /// Degrees of freedom of the pose's NEES: x, y, heading.
