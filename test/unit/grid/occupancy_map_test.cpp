@@ -190,6 +190,40 @@ TEST(OccupancyMapTest, HitsKeepTheirPlaceBelowACell) {
   EXPECT_NEAR(hits->covariance(0, 1), 0.0, 1e-6);
 }
 
+TEST(OccupancyMapTest, TheNearestCellsHitsAreThoseWhoseMeanIsNearest) {
+  OccupancyMap map(smallMap());
+  updateWith(map, scanTo({{4.9, 0.5}, {5.8, 0.5}}));
+  // In the cell of the second one, but nearer to the first one.
+  const auto hits = map.nearestHits({5.2, 0.5});
+  ASSERT_TRUE(hits);
+  EXPECT_DOUBLE_EQ(hits->hits, 1.0);
+  EXPECT_TRUE(hits->mean.isApprox(Point2(4.9, 0.5), 1e-6));
+  EXPECT_FALSE(map.nearestHits({5.2, 8.5}));
+}
+
+TEST(OccupancyMapTest, HitsMatureInTheTimeOfStaticAfter) {
+  OccupancyMap map(smallMap());
+  const auto maturity = [&] { return map.hitsAround({4.5, 0.5})->maturity; };
+  updateWith(map, scanTo({{4.5, 0.5}}));
+  EXPECT_DOUBLE_EQ(maturity(), 0.0);
+  updateWith(map, scanTo({{4.5, 0.5}}, 0.2));
+  EXPECT_NEAR(maturity(), 0.25, 1e-6);
+  // Two hits of a cell that is new, beside two of 0.25.
+  updateWith(map, scanTo({{5.5, 0.5}, {5.5, 0.5}}, 0.9));
+  EXPECT_NEAR(maturity(), 0.125, 1e-6);
+  // Three hits that are mature, two that are not.
+  updateWith(map, scanTo({{4.5, 0.5}}, 1.0));
+  EXPECT_NEAR(maturity(), 0.6, 1e-6);
+}
+
+TEST(OccupancyMapTest, WithoutStaticAfterAllHitsAreMature) {
+  OccupancyMapOptions options = smallMap();
+  options.static_after = 0.0;
+  OccupancyMap map(options);
+  updateWith(map, scanTo({{4.5, 0.5}}));
+  EXPECT_DOUBLE_EQ(map.hitsAround({4.5, 0.5})->maturity, 1.0);
+}
+
 /// A wall along x through the middle of the cells of row 5, seen from the origin, and a beam from
 /// one point to another, without return, through the cell {3, 5} of it.
 double occupancyAfterABeam(double surface_sigma, const Point2& from, const Point2& to) {

@@ -43,17 +43,26 @@ Scan scanOf(const std::vector<Point2>& points, const Pose2& pose) {
   return scan;
 }
 
-/// The map after the points were seen from the origin several times.
-OccupancyMap mapOf(const std::vector<Point2>& points) {
+OccupancyMap emptyMap() {
   OccupancyMapOptions options;
   options.length = 40.0;
   options.width = 40.0;
-  OccupancyMap map(options);
+  return OccupancyMap(options);
+}
+
+/// The points are seen from the origin, `times` times from this time on, every 0.1 s.
+void see(OccupancyMap& map, const std::vector<Point2>& points, double from, int times) {
   Scan scan = scanOf(points, {});
-  for (int i = 0; i < 5; ++i) {
-    scan.stamp = Stamp::fromSeconds(10.0 + 0.1 * i);
+  for (int i = 0; i < times; ++i) {
+    scan.stamp = Stamp::fromSeconds(from + 0.1 * i);
     map.update(scan, std::vector<PointState>(points.size(), PointState::kUnknown), {});
   }
+}
+
+/// The map after the points were seen several times.
+OccupancyMap mapOf(const std::vector<Point2>& points) {
+  OccupancyMap map = emptyMap();
+  see(map, points, 10.0, 5);
   return map;
 }
 
@@ -157,6 +166,35 @@ TEST(ScanMatcherTest, MoversInTheScanDoNotPullThePose) {
   const MatchResult result =
       ScanMatcher(ScanMatcherOptions{}).match(map, seenFrom(seen, {}), prior(), random);
   EXPECT_LT(result.pose.pose.position().norm(), 0.05);
+}
+
+/// Where the pose goes along a corridor, m, when the rear of a car that has just come into view is
+/// 0.3 m further than the map has it: 0.3 m back if it is taken for standing.
+double shiftByNewcomer(double least_maturity, bool measured) {
+  OccupancyMap map = emptyMap();
+  see(map, corridor(), 10.0, 12);
+  std::vector<Point2> rear;
+  addWall(rear, {6.1, -1.0}, {6.1, 1.0});
+  see(map, rear, 11.2, 1);
+  std::vector<Point2> seen;
+  addWall(seen, {-5.0, 3.04}, {4.3, 3.04});
+  addWall(seen, {6.4, -1.0}, {6.4, 1.0});
+  addWall(seen, {-4.1, -3.11}, {5.2, -3.11});
+  ScanMatcherOptions options;
+  options.least_maturity = least_maturity;
+  Prediction prediction = prior();
+  prediction.measured = measured;
+  Random random(1);
+  return ScanMatcher(options).match(map, seenFrom(seen, {}), prediction, random).pose.pose.x();
+}
+
+TEST(ScanMatcherTest, WhatHasJustComeIntoViewDoesNotTakeThePoseAlong) {
+  EXPECT_NEAR(shiftByNewcomer(ScanMatcherOptions{}.least_maturity, true), 0.0, 0.02);
+  EXPECT_LT(shiftByNewcomer(1.0, true), -0.15) << "all alike";
+}
+
+TEST(ScanMatcherTest, WithoutOdometryWhatHasJustComeIntoViewCounts) {
+  EXPECT_LT(shiftByNewcomer(ScanMatcherOptions{}.least_maturity, false), -0.15);
 }
 
 TEST(ScanMatcherTest, WithoutAMapThePredictionIsTheAnswer) {
