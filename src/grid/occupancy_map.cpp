@@ -218,8 +218,9 @@ float OccupancyMap::contradiction(const Cell& cell, CellIndex index, const Point
   const HitDistribution surface = sums.about(window().centreOf(index));
   const Point2 across(-direction.y(), direction.x());
   const double distance = across.dot(surface.mean - from);
-  const double variance =
-      across.dot(surface.covariance * across) + options_.surface_sigma * options_.surface_sigma;
+  // The spread of hits at one place may be rounded to below 0.
+  const double variance = std::max(0.0, across.dot(surface.covariance * across)) +
+                          options_.surface_sigma * options_.surface_sigma;
   return static_cast<float>(std::exp(-0.5 * distance * distance / variance));
 }
 

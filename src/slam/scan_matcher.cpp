@@ -68,6 +68,7 @@ struct ScanMatcher::Normal {
   /// Leaves out the direction of the position that is known worse than `limit` (m).
   void leaveOutWeakest(double limit) {
     if (information(2, 2) <= 0.0) {
+      degenerate = true;
       return;
     }
     // Of the position alone: the heading is estimated with it.

@@ -49,8 +49,6 @@ class OdometryBuffer {
   std::optional<Pose2> motion(Stamp from, Stamp to, const OdometryErrors& errors = {}) const;
 
  private:
-  double longest_hold_;
-  double memory_;
   /// What is known of the motion from one sample on.
   struct Piece {
     OdometrySample sample;
@@ -60,6 +58,8 @@ class OdometryBuffer {
   /// Takes the mean motion between two samples from their poses, if they have any.
   static void connect(Piece& from, const OdometrySample& to);
 
+  double longest_hold_;
+  double memory_;
   std::deque<Piece> pieces_;
 };
 

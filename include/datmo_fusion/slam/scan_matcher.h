@@ -56,9 +56,9 @@ struct MatchResult {
 /// the mean of the hits around them, weighed with their spread (the normal distributions transform:
 /// Biber & Strasser, 2003; Stoyanov et al. 2012), with the prediction as prior: first with all hits
 /// in the 3 x 3 cells around a point, which finds the way from afar but rounds off corners, then
-/// with those of the nearest cell. A direction of
-/// which the match tells next to nothing (along a corridor, a guard rail) is left to the prediction
-/// (solution remapping: Zhang, Kaess & Singh 2016), and shows in the covariance.
+/// with those of the nearest cell. A direction of which the match tells next to nothing (along a
+/// corridor, a guard rail) is left to the prediction (solution remapping: Zhang, Kaess & Singh
+/// 2016), and shows in the covariance.
 class ScanMatcher {
  public:
   /// Throws OptionError.
