@@ -106,11 +106,10 @@ std::map<std::uint32_t, double> requiredTimes(const Frames& frames, double longe
 }
 
 void excuseBriefObjects(Frames& frames, const ScoreOptions& options) {
-  const auto times = requiredTimes(frames, options.longest_gap);
+  auto times = requiredTimes(frames, options.longest_gap);
   for (Frame& frame : frames) {
     for (TrueState& object : frame.truths) {
-      const auto time = times.find(object.id);
-      if (time == times.end() || time->second < options.truth.least_time_seen) {
+      if (times[object.id] < options.truth.least_time_seen) {
         object.duty = Duty::kOptional;
       }
     }

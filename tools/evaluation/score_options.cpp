@@ -1,14 +1,13 @@
 #include "evaluation/score_options.h"
 
+#include "datmo_fusion/slam/odometry_buffer.h"
+
 namespace datmo::evaluation {
 
 namespace {
 
 /// No sensor of a car sees further.
 constexpr double kMostRange = 500.0;  // m
-
-/// As in the checks of odometry: no vehicle on a road is faster.
-constexpr double kMostSpeed = 150.0;  // m/s
 
 }  // namespace
 

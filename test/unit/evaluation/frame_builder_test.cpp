@@ -105,6 +105,18 @@ TEST(BuildFrames, BriefObjectsNeedNotBeFound) {
   EXPECT_EQ(framesOf(tracks, drivingCar(), options).at(5).truths.at(0).duty, Duty::kOptional);
 }
 
+TEST(BuildFrames, InASingleFrameObjectsAreThereForNoTime) {
+  const auto duty = [](double least_time_seen) {
+    ScoreOptions options;
+    options.truth.least_time_seen = least_time_seen;
+    const auto frames = framesOf({tracksAt(0.1, {})}, drivingCar(0.2), options);
+    EXPECT_EQ(frames.size(), 1U);
+    return frames.at(0).truths.at(0).duty;
+  };
+  EXPECT_EQ(duty(0.0), Duty::kRequired);
+  EXPECT_EQ(duty(0.1), Duty::kOptional);
+}
+
 /// A run whose map is turned by 90 degrees against the truth's, and drifts by 3 m along the way
 /// until 1 s.
 std::vector<StampedPose> turnedAndDrifting() {
