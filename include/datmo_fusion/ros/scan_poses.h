@@ -25,8 +25,6 @@ class ScanPoses {
   /// names the vehicle's frame; none if no split scan said so.
   std::optional<Pose2> find(const std_msgs::Header& base, const std::string& fixed_frame) const;
 
-  void clear() { poses_.clear(); }
-
  private:
   struct ScanPose {
     std_msgs::Header base;
