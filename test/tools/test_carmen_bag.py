@@ -154,7 +154,7 @@ class Clocks(Conversion):
         self.assertEqual(self.times("/scan"), [0.0, 0.4, 0.6, 0.9])
         self.assertEqual(self.places(), [0.0, 2.0, 3.0, 1.0])
         self.assertEqual(self.messages("/log_stamps"), [])
-        self.assertIn(f"{self.log}:3: stamped no later than the scan before it", said)
+        self.assertIn(f"{self.log}: 1 of 4 scans, the first in line 3, are stamped no later", said)
         self.assertIn("sorted by stamp", said)
 
     def test_order(self):

@@ -135,6 +135,22 @@ class Logs(unittest.TestCase):
             with self.assertRaisesRegex(InputError, f"drive{suffix}: expected a CARMEN log"):
                 read_log(path)
 
+    def test_broken_archive(self):
+        path = self.path.with_suffix(".gz")
+        packed = bytearray(gzip.compress(flaser(0, ORIGIN).encode()))
+        packed[10] = 0b111  # behind the head: a last block, of the type that there is not
+        path.write_bytes(packed)
+        with self.assertRaisesRegex(InputError, "drive.gz: expected a CARMEN log .*block type"):
+            read_log(path)
+
+    def test_file_that_is_no_log(self):
+        kinds = [f"{i:02}\x1b{'x' * 100}" for i in range(20)]
+        with self.assertRaises(InputError) as caught:
+            self.read(*kinds)
+        self.assertTrue(str(caught.exception).endswith(", ..."))
+        self.assertIn("holds 00\\x1bxxx", str(caught.exception))
+        self.assertLess(len(str(caught.exception)), 1000)
+
     def test_malformed_lines_stop_or_are_left_out(self):
         lines = flaser(0, ORIGIN), "ODOM 1 2", flaser(1, ORIGIN), "ODOM"
         self.assert_refused(

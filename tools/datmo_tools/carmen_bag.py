@@ -132,12 +132,12 @@ def _notes(path, log, scans, timed, options):
             "order": f"their stamps moved; {LOG_STAMPS_TOPIC} tells the log's",
         }
         notes.append(
-            f"{path}:{late[0].number}: stamped no later than the scan before it, and "
-            f"{len(late) - 1} more of {len(scans)} scans: {done[options.clock]}"
+            f"{path}: {len(late)} of {len(scans)} scans, the first in line {late[0].number}, are "
+            f"stamped no later than the scan before: {done[options.clock]}"
         )
     if log.skipped:
         kinds = ", ".join(f"{count} {kind}" for kind, count in sorted(log.skipped.items()))
-        notes.append(f"lines of other kinds, not used: {kinds}")
+        notes.append(f"{path}: lines of other kinds, not used: {kinds}")
     if log.malformed:
         notes.append(
             f"{len(log.malformed)} malformed lines left out, the first: {log.malformed[0]}"

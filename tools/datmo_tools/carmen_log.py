@@ -2,6 +2,7 @@
 
 import bz2
 import gzip
+import zlib
 from collections import Counter
 from typing import NamedTuple
 
@@ -13,6 +14,9 @@ OPENERS = {".bz2": bz2.open, ".gz": gzip.open}
 # Stamps of neighbouring lines may be mixed up by as much, as messages waited on their way to the
 # logger; a clock that jumps back further was set, or the file holds two recordings.
 MOST_DISORDER = 10.0  # s
+
+# A message on a file that is no log names so many kinds of its lines, by so many letters.
+MOST_NAMES, MOST_LETTERS = 10, 30
 
 
 class Record(NamedTuple):
@@ -42,7 +46,7 @@ def read_log(path, laser=None, skip_malformed=False):
     lines = _Lines(path, skip_malformed)
     chosen = laser or next((kind for kind in LASERS if kind in lines.records), None)
     if chosen not in lines.records:
-        kinds = ", ".join(sorted({*lines.records, *lines.unknown})) or "nothing"
+        kinds = _names({*lines.records, *lines.unknown}) or "nothing"
         raise InputError(f"{path}: no line of {laser or ' or '.join(LASERS)}; it holds {kinds}")
     used = {chosen, "ODOM"}
     for kind in used & set(lines.records):
@@ -67,7 +71,7 @@ class _Lines:
             with OPENERS.get(path.suffix, open)(path, "rt", encoding="latin-1") as stream:
                 for number, text in enumerate(stream, 1):
                     self._take(f"{path}:{number}", number, text.split())
-        except (OSError, EOFError) as error:
+        except (OSError, EOFError, zlib.error) as error:
             raise InputError(f"{path}: expected a CARMEN log ({error})") from error
 
     def _take(self, where, number, words):
@@ -99,6 +103,12 @@ def scans_of(log):
 def out_of_order(records):
     """Records that are stamped no later than the one before them."""
     return [b for a, b in zip(records, records[1:]) if b.line.stamp <= a.line.stamp]
+
+
+def _names(kinds):
+    """Kinds of lines for a message, without control characters."""
+    names = [ascii(kind[:MOST_LETTERS])[1:-1] for kind in sorted(kinds)]
+    return ", ".join(names[:MOST_NAMES] + (["..."] if len(names) > MOST_NAMES else []))
 
 
 def _check_order(path, kind, records):
