@@ -109,6 +109,12 @@ class Runs(unittest.TestCase):
         self.assertEqual(code, 0)
         self.assertIn("0.50 m", out)
 
+    def test_no_seeds_and_no_jobs_are_refused(self):
+        for name in ("--seeds", "--jobs"):
+            with self.assertRaises(SystemExit) as ended:
+                self.benchmark(name, "0")
+            self.assertEqual(ended.exception.code, 2)
+
     def test_missing_files_are_named(self):
         (self.folder / "run_bag").unlink()
         code, _, err = self.benchmark()

@@ -41,7 +41,7 @@ class Benchmark(unittest.TestCase):
     def assert_refused(self, *files, text):
         said = io.StringIO()
         with contextlib.redirect_stderr(said):
-            options = ["--programs", str(self.root), "--config", "indoor.yaml"]
+            options = ["--programs", str(self.root), "--config", str(self.root / "indoor.yaml")]
             self.assertEqual(main([*map(str, files), *options]), 1)
         self.assertIn(text, said.getvalue())
 
@@ -70,6 +70,10 @@ class Benchmark(unittest.TestCase):
         self.assert_refused(self.root, text="run_bag: no such program")
         self.make("run_bag")
         pair = self.root / "a.clf", self.root / "a.relations"
+        self.assert_refused(*pair, text="indoor.yaml: no such file")
+        self.make("indoor.yaml")
+        self.assert_refused(*pair, text=f"{pair[1]}: no relation in it")
+        pair[1].write_text("1 2 0 0 0 0 0 0\n", encoding="ascii")
         self.assert_refused(*pair, text=f"{pair[0]}: no line of FLASER")
 
 

@@ -171,6 +171,19 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(code, 1)
         self.assertIn("mirco", errors)
 
+    def test_a_folder_without_a_build_is_named(self):
+        output = self.folder / "x.json"
+        code, _, errors = self.run_tool("micro", "--build", self.folder, "--out", output)
+        self.assertEqual(code, 1)
+        self.assertIn(f"{self.folder / 'CMakeCache.txt'}: expected a build folder", errors)
+        self.assertFalse(output.exists())
+
+    def test_no_runs_are_refused(self):
+        for runs in ("0", "-1", "1.5", "x"):
+            with self.assertRaises(SystemExit) as ended:
+                self.run_tool("--runs", runs)
+            self.assertEqual(ended.exception.code, 2)
+
 
 class CmakeCache(unittest.TestCase):
     def test_entries(self):

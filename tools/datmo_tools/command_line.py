@@ -38,6 +38,13 @@ def add_number(group, name, default, metavar, description):
     )
 
 
+def count(text):
+    """A whole number of 1 or more; argparse names the option where it is none."""
+    if not (text.isascii() and text.isdigit() and int(text) > 0):
+        raise argparse.ArgumentTypeError(f"'{text}', expected a whole number of 1 or more")
+    return int(text)
+
+
 def number(text):
     """A finite number; argparse names the option where it is none."""
     try:

@@ -106,8 +106,9 @@ def _parser():
         help="folder of simulate, run_bag and score_run")  # fmt: skip
     add("--movers", nargs="+", type=int, default=[0, 8, 16], metavar="N",
         help="numbers of moving vehicles (default 0 8 16)")  # fmt: skip
-    add("--seeds", type=int, default=50, metavar="N", help="seeds from 1 (default %(default)s)")
-    add("--jobs", type=int, default=os.cpu_count(), metavar="N",
+    add("--seeds", type=command_line.count, default=50, metavar="N",
+        help="seeds from 1 (default %(default)s)")  # fmt: skip
+    add("--jobs", type=command_line.count, default=os.cpu_count(), metavar="N",
         help="runs at a time (default: all cores)")  # fmt: skip
     add("--out", type=Path, default=Path("robustness.json"), metavar="FILE.json",
         help="all runs (default %(default)s)")  # fmt: skip

@@ -8,6 +8,7 @@ from pathlib import Path
 from datmo_tools import carmen_bag, command_line, programs
 from datmo_tools.carmen_clock import CLOCKS
 from datmo_tools.errors import InputError
+from datmo_tools.relations import read_relations
 from datmo_tools.score_relations import score
 from datmo_tools.whole_files import write_whole
 
@@ -113,6 +114,7 @@ def _without_files(scored):
 def _run(values):
     pairs = _pairs(values.files)
     programs.check(values.programs, PROGRAMS)
+    _check_files(pairs, values.config)
     options = carmen_bag.Options(clock=values.clock)
     try:
         results = [
@@ -125,6 +127,15 @@ def _run(values):
     if values.out is not None:
         report = {"format": FORMAT, "clock": values.clock, "results": results}
         write_whole(values.out.parent, {values.out.name: json.dumps(report, indent=2) + "\n"})
+
+
+def _check_files(pairs, config):
+    """Raises InputError for what would end the last log's run after minutes."""
+    for file in [config, *(log for log, _ in pairs)]:
+        if not file.is_file():
+            raise InputError(f"{file}: no such file")
+    for _, relations in pairs:
+        read_relations(relations)
 
 
 def _pairs(files):

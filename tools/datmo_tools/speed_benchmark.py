@@ -106,7 +106,8 @@ def _parser():
     add("parts", nargs="*", metavar="micro|live", help="what to measure (default: both)")
     add("--compare", nargs=2, type=Path, metavar=("OLD.json", "NEW.json"),
         help="print two results side by side instead")  # fmt: skip
-    add("--runs", type=int, default=3, metavar="N", help="live runs (default %(default)s)")
+    add("--runs", type=command_line.count, default=3, metavar="N",
+        help="live runs (default %(default)s)")  # fmt: skip
     add("--quick", action="store_true", help="one short run of everything: does it work?")
     add("--source", type=Path, default=Path.cwd(), metavar="DIR", help="sources (default: here)")
     add("--build", type=Path, default=Path("build"), metavar="DIR",

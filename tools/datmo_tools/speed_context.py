@@ -5,10 +5,19 @@ import os
 import subprocess
 from pathlib import Path
 
+from datmo_tools.errors import InputError
+
 
 def describe(source, build):
-    """Context of what is built from the folder `source` in the folder `build` (Paths)."""
-    cache = cmake_cache((build / "CMakeCache.txt").read_text(encoding="utf-8"))
+    """Context of what is built from the folder `source` in the folder `build` (Paths).
+
+    Raises InputError where nothing is built.
+    """
+    cache_file = build / "CMakeCache.txt"
+    try:
+        cache = cmake_cache(cache_file.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"{cache_file}: expected a build folder ({error})") from error
     return {
         "date": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
         "commit": _commit(source),

@@ -85,6 +85,8 @@ def _run(drive, launch_file, recorded, log):
 
 
 def _master_port():
+    if "ROS_MASTER_URI" not in os.environ:
+        raise InputError("ROS_MASTER_URI is not set, expected the environment of a built tree")
     return os.environ["ROS_MASTER_URI"].rstrip("/").rpartition(":")[2]
 
 
