@@ -8,6 +8,12 @@ log_dir=$build_dir/log
 # Debian's ROS belongs to Debian's Python: another python3 that comes first on PATH breaks it.
 export PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin
 
+# What the script that sources this file is for, and how it is called, stands at its head.
+if [[ ${1:-} == -h || ${1:-} == --help ]]; then
+  sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$0"
+  exit
+fi
+
 say() { printf '== %s\n' "$*"; }
 
 fail() {
