@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Figures of tools/speed_benchmark from small samples that are worked out by hand. Nothing is timed."""
+"""Figures of speed_benchmark from small samples that are worked out by hand. Nothing is timed."""
 
 import contextlib
 import io

@@ -11,10 +11,10 @@ from datmo_tools.programs import StepFailed
 from datmo_tools.thesis_tables import PUBLISHED, thesis_tables
 
 DESCRIPTION = """\
-Drives the scenes data_set_1 to data_set_3 through simulator, stack and score, and prints the thesis's
-tables 3.1 to 3.5 with our counts beside the thesis's. Bags and scores of each set stay in a folder of
-its own, for evaluate. A run that gives no score is reported, and the others go on; the exit code is
-then 1."""
+Drives the scenes data_set_1 to data_set_3 through simulator, stack and score, and prints the
+thesis's tables 3.1 to 3.5 with our counts beside the thesis's. Bags and scores of each set stay in
+a folder of its own, for evaluate. A run that gives no score is reported, and the others go on; the
+exit code is then 1."""
 
 # All objects count that the scanner saw moving, as in the thesis, also those gone in a moment.
 SCORE_OPTIONS = ("truth/least_time_seen=0", "truth/visible_to=scanner")

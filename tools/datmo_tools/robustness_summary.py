@@ -45,8 +45,11 @@ def table(summary):
 def _row(scene, movers, runs):
     poses = [run["pose"] for run in runs if run["pose"] is not None]
     jumps = [pose["largest_jump_m"] for pose in poses]
-    failed = [run["seed"] for run in runs
-              if run["pose"] is not None and run["pose"]["largest_jump_m"] > LARGEST_JUMP]  # fmt: skip
+    failed = [
+        run["seed"]
+        for run in runs
+        if run["pose"] is not None and run["pose"]["largest_jump_m"] > LARGEST_JUMP
+    ]
     return {
         "scene": scene,
         "movers": movers,

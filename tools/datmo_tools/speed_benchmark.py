@@ -6,19 +6,19 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from datmo_tools import speed_live, speed_micro, speed_report, command_line
-from datmo_tools.speed_context import describe
-from datmo_tools.speed_live import LiveDrive
+from datmo_tools import command_line, programs, speed_live, speed_micro, speed_report
 from datmo_tools.errors import InputError
 from datmo_tools.progress import Progress
+from datmo_tools.speed_context import describe
+from datmo_tools.speed_live import LiveDrive
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
-Measures how fast the stack is. micro: the hot paths, each alone, in processor time. live: the nodelets
-on a drive that is played at its own pace, at the demonstrator's settings and at heavy ones: latency
-from a scan's departure at another process to the arrival of its tracks there, both transports
-included; processor time and memory of the nodelets' process. Each live figure is the median over the
-runs. All figures go to a JSON file; --compare prints two such files side by side."""
+Measures how fast the stack is. micro: the hot paths, each alone, in processor time. live: the
+nodelets on a drive that is played at its own pace, at the demonstrator's settings and at heavy
+ones: latency from a scan's departure at another process to the arrival of its tracks there, both
+transports included; processor time and memory of the nodelets' process. Each live figure is the
+median over the runs. All figures go to a JSON file; --compare prints two such files side by side."""
 
 QUICK = "--duration=3"  # s of a drive
 HEAVY_SCANNER = ("scanner/beam_spacing=0.25", "scanner/horizontal_opening=0.25")
@@ -90,10 +90,9 @@ def _simulate(values, scene, bag, options):
 
 
 def _program(values, name):
-    program = values.build / "devel" / "lib" / "datmo_fusion" / name
-    if not program.is_file():
-        raise InputError(f"{program}: no such program, expected the built {name}")
-    return program
+    folder = values.build / "devel" / "lib" / "datmo_fusion"
+    programs.check(folder, (name,))
+    return folder / name
 
 
 def _parser():
