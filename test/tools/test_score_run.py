@@ -346,6 +346,19 @@ class BadBags(ScoreRun):
         self.assert_change_refused(self.truth_messages, "/ground_truth/pose", shift_pose, "nan")
         self.assert_change_refused(self.run_messages, "/pose", shift_pose, "nan")
 
+        def lose_covariance(message):
+            message.pose.covariance = covariance
+
+        self.assert_change_refused(self.run_messages, "/pose", lose_covariance, "covariance", "nan")
+        self.run_messages["/timing"] = [
+            StageTiming(header=header("map", i), stage="tracker") for i in range(FRAMES)
+        ]
+
+        def lose_time(message):
+            message.processing_time = NAN
+
+        self.assert_change_refused(self.run_messages, "/timing", lose_time, "tracker", "nan")
+
     def test_poses_and_boxes_that_are_none(self):
         def lose_rotation(message):
             message.tracks[0].pose.orientation = Quaternion()

@@ -1,12 +1,15 @@
 #include "evaluation/bag_loading.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "evaluation/topic_reader.h"
 #include "input_bag.h"
 
 #include <rosbag/bag.h>
+
+#include "datmo_fusion/ros/input_error.h"
 
 namespace datmo::evaluation {
 
@@ -19,10 +22,20 @@ void checkSameFrame(const std::string& file, const TopicReader& a, const TopicRe
   }
 }
 
+void checkFinite(const StageTiming& message) {
+  if (!std::isfinite(message.processing_time) || !std::isfinite(message.latency)) {
+    throw InputError("not_finite", "stage " + message.stage + " took " +
+                                       std::to_string(message.processing_time) +
+                                       " s, with a latency of " + std::to_string(message.latency) +
+                                       " s: expected finite numbers");
+  }
+}
+
 std::map<std::string, StageDurations> readDurations(TopicReader timing) {
   std::map<std::string, StageDurations> durations;
   if (timing.isThere()) {
     timing.forEach<StageTiming>([&durations](const StageTiming& message) {
+      checkFinite(message);
       StageDurations& stage = durations[message.stage];
       stage.processing.push_back(message.processing_time);
       if (message.latency >= 0.0) {

@@ -25,6 +25,14 @@ void checkFinite(const std::string& what, const Vector& values) {
   }
 }
 
+/// Says the variances alone where it is they that are wrong.
+template <typename Matrix>
+void checkCovariance(const Matrix& covariance) {
+  checkFinite("diagonal of the covariance", covariance.diagonal());
+  checkFinite("covariance",
+              Eigen::Map<const Eigen::VectorXd>(covariance.data(), covariance.size()));
+}
+
 Point2 planar(const std::string& what, const geometry_msgs::Vector3& message) {
   const Point2 vector(message.x, message.y);
   checkFinite(what, vector);
@@ -49,9 +57,7 @@ TrackState stateOf(const TrackMessage& message) {
   state.velocity = planar("velocity", message.velocity);
   state.covariance = Eigen::Map<const Covariance>(message.covariance.data())
                          .topLeftCorner<kScoredState, kScoredState>();
-  checkFinite("diagonal of the covariance", state.covariance.diagonal());
-  checkFinite("covariance",
-              Eigen::Map<const Eigen::VectorXd>(state.covariance.data(), state.covariance.size()));
+  checkCovariance(state.covariance);
   state.sensors = message.sensors.size();
   return state;
 }
@@ -113,7 +119,7 @@ RecordedDetections toRecorded(const ObjectArray& message) {
 
 StampedPose toRecorded(const geometry_msgs::PoseWithCovarianceStamped& message) {
   const StampedPose recorded{toStamp(message.header.stamp), fromMessage(message.pose)};
-  checkFinite("diagonal of the covariance", recorded.pose.covariance.diagonal());
+  checkCovariance(recorded.pose.covariance);
   return recorded;
 }
 
