@@ -181,6 +181,15 @@ class Tool(Files):
         self.bag.unlink()
         self.assertIn("cannot be read as a bag", self.run_tool(expected_code=1)[1])
 
+    def test_pose_that_is_no_number(self):
+        self.write_bag("/pose", pose(0, 0.0), pose(1, math.nan), pose(2, 1.0))
+        self.write_relations("1000 1002 1 0 0 0 0 0")
+        report = self.root / "score.json"
+        out, errors = self.run_tool("--json", str(report), expected_code=1)
+        self.assertIn(f"{self.bag}: /pose at 1001.000000 s", errors)
+        self.assertEqual(out, "")
+        self.assertFalse(report.exists())
+
     def test_topic_without_poses(self):
         write_log(self.root / "drive.clf", *(flaser(time, (0.0, 0.0, 0.0)) for time in (0, 1)))
         self.convert("log")

@@ -11,9 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from datmo_tools.errors import InputError
+from datmo_tools.stamps import NANOSECONDS
 
 OXTS_FIELDS = 30
-NANOSECONDS = 10**9
 NOMINAL_TURN = NANOSECONDS // 10  # of the Velodyne, where a single scan does not tell it
 
 
@@ -140,7 +140,9 @@ def _image_library():
     try:
         import cv2
     except ImportError as error:
-        raise InputError(f"images need OpenCV, expected Debian's python3-opencv ({error})") from error
+        raise InputError(
+            f"images need OpenCV, expected Debian's python3-opencv ({error})"
+        ) from error
     return cv2
 
 

@@ -44,7 +44,8 @@ class PosePath:
 def read_path(bag_path, topic):
     """PosePath of the poses on `topic`, by their header stamps; of equal stamps the first counts.
 
-    Raises InputError: no such file, no bag, fewer than two poses, a type without a stamped pose.
+    Raises InputError: no such file, no bag, fewer than two poses, a type without a stamped pose, a
+    pose that is not finite.
     """
     by_stamp = {}
     for message, kind in read_messages(bag_path, topic):
@@ -52,7 +53,13 @@ def read_path(bag_path, topic):
             raise InputError(
                 f"{bag_path}: {topic} is {kind}, expected one of {', '.join(sorted(POSE_OF))}"
             )
-        by_stamp.setdefault(message.header.stamp.to_nsec(), planar(POSE_OF[kind](message)))
+        stamp, pose = message.header.stamp, planar(POSE_OF[kind](message))
+        if not np.all(np.isfinite(pose)):
+            raise InputError(
+                f"{bag_path}: {topic} at {stamp.to_sec():.6f} s: pose {pose} (x, y, "
+                "yaw), expected finite numbers"
+            )
+        by_stamp.setdefault(stamp.to_nsec(), pose)
     if len(by_stamp) < 2:
         raise InputError(f"{bag_path}: {len(by_stamp)} poses on {topic}, expected two or more")
     stamps = sorted(by_stamp)
