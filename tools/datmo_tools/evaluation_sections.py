@@ -67,7 +67,7 @@ SECTIONS = (
     ),
     Section(
         "Errors of matched tracks",
-        "root mean square",
+        "root mean square, position of the centres",
         (
             Metric("position", "errors.position_rmse_m", "m", 1.0, 2, lower),
             Metric("velocity", "errors.velocity_rmse_mps", "m/s", 1.0, 2, lower),
