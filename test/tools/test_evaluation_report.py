@@ -190,7 +190,7 @@ class Page(unittest.TestCase):
         run = sample_run(objects=0, frames=1, pose=None, timing=None)
         for section in ("hota", "gospa", "errors", "clear_mot", "identity"):
             run[section] = {key: None for key in run[section]}
-        run["hota"].update(alphas=[0.5], hota_alpha=[None])
+        run["hota"].update(alphas=[0.5], hota_alpha=[])  # as score_run writes it
         for state in run["consistency"].values():
             state.update(mean_nees=None, lower=None, upper=None, inside_share=None)
         run["series"]["pose_error_m"] = [None]

@@ -60,7 +60,8 @@ def hota_over_alpha(runs, names):
             values = 100.0 * _numbers(hota["hota_alpha"])
             mean = "-" if hota["hota"] is None else f"{100.0 * hota['hota']:.1f} %"
             label = f"{plain(name)}: mean {mean}"
-            ax.plot(_numbers(hota["alphas"]), values, "o-", color=colour(i), ms=3.5, label=label)
+            alphas = _numbers(hota["alphas"])[: len(values)]  # no values where nothing was scored
+            ax.plot(alphas, values, "o-", color=colour(i), ms=3.5, label=label)
         ax.set(xlim=(0.0, 1.0), ylim=(0.0, 100.0), ylabel="HOTA (%)")
         ax.set_xlabel("alpha: similarity that is asked of a match")
         ax.legend(loc="lower left")
