@@ -203,6 +203,7 @@ void OccupancyMap::hit(const Point2& point) {
   if (cell.updated != update_) {
     change(cell, hit_log_odds_);
     cell.updated = update_;
+    cell.freed = 1.0F;  // no beam frees it in this scan
     cell.last_hit = now_;
   }
   cell.hits.add((point - window().centreOf(index)).cast<float>(), kMostHits);
@@ -229,11 +230,19 @@ void OccupancyMap::pass(CellIndex index, const Point2& from, const Point2& direc
     return;
   }
   Cell& cell = cells_.at(index);
-  if (cell.updated == update_) {
+  if (cell.updated != update_) {
+    cell.updated = update_;
+    cell.freed = 0.0F;
+  }
+  if (cell.freed >= 1.0F) {
     return;
   }
-  cell.updated = update_;
-  change(cell, free_log_odds_ * contradiction(cell, index, from, direction));
+  // Of all beams of the scan the one that contradicts most counts, whatever their order.
+  const float freed = contradiction(cell, index, from, direction);
+  if (freed > cell.freed) {
+    change(cell, free_log_odds_ * (freed - cell.freed));
+    cell.freed = freed;
+  }
 }
 
 void OccupancyMap::passBeam(const Ray& ray, const Pose2& base_in_map) {

@@ -65,8 +65,8 @@ struct ScanMatcher::Normal {
   double weakest_sigma = std::numeric_limits<double>::infinity();  ///< m, of the position
   bool degenerate = false;
 
-  /// Leaves out the direction of the position that is known worse than `limit` (m).
-  void leaveOutWeakest(double limit) {
+  /// Leaves out directions of the position that are known worse than `limit` (m).
+  void leaveOutWeak(double limit) {
     if (information(2, 2) <= 0.0) {
       degenerate = true;
       return;
@@ -76,16 +76,23 @@ struct ScanMatcher::Normal {
                                      information.topRightCorner<2, 1>() *
                                          information.bottomLeftCorner<1, 2>() / information(2, 2);
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(position);
-    const double weakest = axes.eigenvalues()[0];
-    weakest_sigma = weakest > 0.0 ? 1.0 / std::sqrt(weakest) : weakest_sigma;
-    degenerate = weakest_sigma > limit;
-    if (degenerate) {
-      Eigen::Vector3d direction = Eigen::Vector3d::Zero();
-      direction.head<2>() = axes.eigenvectors().col(0);
-      const Eigen::Matrix3d keep = Eigen::Matrix3d::Identity() - direction * direction.transpose();
-      information = (keep * information * keep).eval();
-      gradient = (keep * gradient).eval();
+    for (int axis = 0; axis < 2; ++axis) {
+      const double known = axes.eigenvalues()[axis];
+      const double sigma =
+          known > 0.0 ? 1.0 / std::sqrt(known) : std::numeric_limits<double>::infinity();
+      weakest_sigma = axis == 0 ? sigma : weakest_sigma;
+      if (sigma > limit) {
+        degenerate = true;
+        leaveOut(axes.eigenvectors().col(axis));
+      }
     }
+  }
+
+  void leaveOut(const Eigen::Vector2d& direction) {
+    Eigen::Matrix3d keep = Eigen::Matrix3d::Identity();
+    keep.topLeftCorner<2, 2>() -= direction * direction.transpose();
+    information = (keep * information * keep).eval();
+    gradient = (keep * gradient).eval();
   }
 };
 
@@ -109,8 +116,9 @@ void ScanMatcherOptions::visit(OptionVisitor& visitor) {
                  degenerate_sigma, {0.01, 1000.0});
   visitor.number(
       {"least_maturity", "1",
-       "weight of surfaces that have just come into view, where those that have been hit "
-       "for the map's static_after have 1: they may move; 1: all alike"},
+       "with odometry: weight of surfaces that have just come into view, and so may move, "
+       "where those in sight that have been hit longest, up to static_after, have 1; "
+       "1: all alike (thesis)"},
       least_maturity, {0.001, 1.0});
   visitor.integer({"least_points", "1", "end points on known surfaces that make a match"},
                   least_points, {1, 10000});
@@ -186,7 +194,7 @@ ScanMatcher::Normal ScanMatcher::sumOf(const Task& task, const Pose2& pose,
 ScanMatcher::Normal ScanMatcher::linearise(const Task& task, const Pose2& pose,
                                            Resolution resolution) const {
   Normal normal = sumOf(task, pose, resolution);
-  normal.leaveOutWeakest(options_.degenerate_sigma);
+  normal.leaveOutWeak(options_.degenerate_sigma);
   return normal;
 }
 
@@ -223,6 +231,9 @@ MatchResult ScanMatcher::match(const OccupancyMap& map, const std::vector<EndPoi
     pose = refine(task, resolution, pose);
   }
   const Normal normal = linearise(task, pose, Resolution::kCell);
+  if (normal.points < options_.least_points) {
+    return result;
+  }
   result.pose.pose = pose;
   result.pose.covariance = (normal.information + prediction.pose.covariance.inverse()).inverse();
   result.quality = {normal.points, score(task, pose), true, normal.weakest_sigma,

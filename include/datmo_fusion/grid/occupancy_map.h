@@ -77,6 +77,7 @@ class OccupancyMap {
     float log_odds = 0.0F;
     float occupancy = 0.5F;     ///< of log_odds; read far more often than changed
     std::uint32_t updated = 0;  ///< number of the update that touched it last; 0: never
+    float freed = 0.0F;         ///< share of free_log_odds_ that this update has given it
     float first_hit = 0.0F;     ///< s since the first update; of the present occupant
     float last_hit = 0.0F;
     CellHits hits;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -246,6 +248,26 @@ TEST(OccupancyMapTest, ABeamThatPassesBesideASurfaceDoesNotFreeIt) {
   const double log_odds = hit + std::exp(-0.5) * pass;
   EXPECT_NEAR(occupancyAfterABeam(0.05, {0.0, 5.45}, {9.0, 5.45}),
               1.0 / (1.0 + std::exp(-log_odds)), 1e-5);
+}
+
+TEST(OccupancyMapTest, TheOrderOfTheBeamsDoesNotMatter) {
+  // One beam passes beside the wall, one through it.
+  const auto occupancyAfter = [](const std::vector<std::pair<Point2, Point2>>& beams) {
+    OccupancyMapOptions options = smallMap();
+    options.surface_sigma = 0.05;
+    OccupancyMap map(options);
+    updateWith(map, scanTo({{3.1, 5.5}, {3.3, 5.5}, {3.5, 5.5}, {3.7, 5.5}, {3.9, 5.5}}));
+    Scan scan = scanTo({beams[0].second, beams[1].second}, 0.1, false);
+    scan.rays[0].origin = beams[0].first;
+    scan.rays[1].origin = beams[1].first;
+    updateWith(map, scan);
+    return map.occupancy({3, 5});
+  };
+  const std::pair<Point2, Point2> beside{{0.0, 5.2}, {9.0, 5.2}};
+  const std::pair<Point2, Point2> through{{3.5, 0.0}, {3.5, 9.0}};
+  const double freed = 1.0 / (1.0 + std::exp(-std::log(0.8 / 0.2) - std::log(0.4 / 0.6)));
+  EXPECT_NEAR(occupancyAfter({beside, through}), freed, 1e-5);
+  EXPECT_NEAR(occupancyAfter({through, beside}), freed, 1e-5);
 }
 
 TEST(OccupancyMapTest, ABeamThroughASurfaceFreesItsCell) {
