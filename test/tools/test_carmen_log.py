@@ -55,7 +55,9 @@ class Lines(unittest.TestCase):
         self.assertEqual(line, ("robot_frontlaser_offset", "0.3"))
 
     def test_other_kinds(self):
-        self.assertIsNone(self.parse("SYNC tag 1 host 0"))
+        for kind in ("SYNC", "TRUEPOS", "RAWLASER1", "NMEA-GGA", "GPSGGA", "ROBOTLASER5"):
+            self.assertIsNone(self.parse(f"{kind} tag 1 host 0"), kind)
+        self.assert_refused("WHATSIT 1 2 3", "WHATSIT is no kind of line of a CARMEN log")
 
     def test_no_return_may_be_infinite(self):
         self.assertEqual(self.parse(flaser(0, ORIGIN, ranges=(1, "inf"))).ranges[1], np.inf)
@@ -144,12 +146,14 @@ class Logs(unittest.TestCase):
             read_log(path)
 
     def test_file_that_is_no_log(self):
-        kinds = [f"{i:02}\x1b{'x' * 100}" for i in range(20)]
+        self.path.write_bytes(bytes(range(1, 256)) * 100)
         with self.assertRaises(InputError) as caught:
-            self.read(*kinds)
-        self.assertTrue(str(caught.exception).endswith(", ..."))
-        self.assertIn("holds 00\\x1bxxx", str(caught.exception))
-        self.assertLess(len(str(caught.exception)), 1000)
+            read_log(self.path)
+        message = str(caught.exception)
+        self.assertIn(f"{self.path}:1: ", message)
+        self.assertIn("is no kind of line of a CARMEN log", message)
+        self.assertTrue(message.isascii() and message.isprintable())
+        self.assertLess(len(message) - len(str(self.path)), 300)
 
     def test_malformed_lines_stop_or_are_left_out(self):
         lines = flaser(0, ORIGIN), "ODOM 1 2", flaser(1, ORIGIN), "ODOM"

@@ -6,6 +6,7 @@ logger's own time. Lengths in m, angles in rad.
 """
 
 import math
+import re
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +16,14 @@ from datmo_tools.stamps import parse_seconds
 OLD_LASERS = ("FLASER", "RLASER")  # ranges and poses
 NEW_LASERS = ("ROBOTLASER1", "ROBOTLASER2")  # the scanner's angles and limits as well
 LASERS = OLD_LASERS + NEW_LASERS
+# Kinds of lines that CARMEN's loggers also write, and of which nothing is used here.
+OTHER_KINDS = re.compile(
+    r"SYNC|TRUEPOS|POSITION|SCANMARK|MARKER|SONAR|BUMPER|IMU|ARM|WIFI|VISUAL|CELLSIZE|CAMERA\w*"
+    r"|GPS\w*|NMEA[-\w]*|[A-Z]*LASER\d*|BASE\w*|ROBOT\w*|NAVIGATOR\w*|MOTION\w*"
+)
 MOST_READINGS = 100_000  # more is a broken line, not a scanner
+# A message on a file that is no log names a kind of its lines by so many letters.
+MOST_LETTERS = 30
 MOST_FIELD_OF_VIEW = 2.0 * math.pi + 1e-3  # rad: a turn, however it was rounded
 
 
@@ -60,7 +68,14 @@ def parse_line(words):
     if kind == "PARAM":
         fields = _Fields(words)
         return ParameterLine(fields.text("a name"), fields.text("a value"))
+    if not OTHER_KINDS.fullmatch(kind):
+        raise ValueError(f"{shown(kind)} is no kind of line of a CARMEN log")
     return None
+
+
+def shown(kind):
+    """The name of a kind for a message, without control characters."""
+    return ascii(kind[:MOST_LETTERS])[1:-1]
 
 
 class _Fields:

@@ -6,7 +6,7 @@ import zlib
 from collections import Counter
 from typing import NamedTuple
 
-from datmo_tools.carmen_lines import LASERS, OdometryLine, ParameterLine, parse_line
+from datmo_tools.carmen_lines import LASERS, OdometryLine, ParameterLine, parse_line, shown
 from datmo_tools.errors import InputError
 
 OPENERS = {".bz2": bz2.open, ".gz": gzip.open}
@@ -14,9 +14,6 @@ OPENERS = {".bz2": bz2.open, ".gz": gzip.open}
 # Stamps of neighbouring lines may be mixed up by as much, as messages waited on their way to the
 # logger; a clock that jumps back further was set, or the file holds two recordings.
 MOST_DISORDER = 10.0  # s
-
-# A message on a file that is no log names so many kinds of its lines, by so many letters.
-MOST_NAMES, MOST_LETTERS = 10, 30
 
 
 class Record(NamedTuple):
@@ -40,8 +37,8 @@ def read_log(path, laser=None, skip_malformed=False):
     """CarmenLog of the file at `path` (Path; .bz2 and .gz are unpacked on the way).
 
     laser: kind of the laser's lines; None: the first of LASERS that the log holds. Raises
-    InputError with file and line: what cannot be read, a broken line of a known kind (with
-    `skip_malformed` it is left out), a clock that is set back, no scan.
+    InputError with file and line: what cannot be read, a broken line or one of an unknown kind
+    (with `skip_malformed` they are left out), a clock that is set back, no scan.
     """
     lines = _Lines(path, skip_malformed)
     chosen = laser or next((kind for kind in LASERS if kind in lines.records), None)
@@ -106,9 +103,8 @@ def out_of_order(records):
 
 
 def _names(kinds):
-    """Kinds of lines for a message, without control characters."""
-    names = [ascii(kind[:MOST_LETTERS])[1:-1] for kind in sorted(kinds)]
-    return ", ".join(names[:MOST_NAMES] + (["..."] if len(names) > MOST_NAMES else []))
+    """Kinds of lines for a message."""
+    return ", ".join(shown(kind) for kind in sorted(kinds))
 
 
 def _check_order(path, kind, records):

@@ -56,7 +56,7 @@ def _parser():
     add("--mount", type=command_line.number, nargs=3, metavar=("X", "Y", "YAW"), help=place)
     sweep = "s from the first beam to the last; a SICK LMS takes 1/150 for half a turn"
     command_line.add_number(parser, "--sweep-time", defaults.sweep_time, "S", sweep)
-    add("--skip-malformed", action="store_true", help="leave broken lines out, and count them")
+    add("--skip-malformed", action="store_true", help="leave broken and unknown lines out")
     return parser
 
 
