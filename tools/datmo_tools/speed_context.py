@@ -51,7 +51,10 @@ def _processor(cpuinfo):
 
 
 def _first_line(command):
-    """What a command says; "unknown" where it fails (a tree without git)."""
-    done = subprocess.run(command, check=False, capture_output=True, encoding="utf-8")
+    """What a command says; "unknown" where it fails or is not there (no git, no tree of git's)."""
+    try:
+        done = subprocess.run(command, check=False, capture_output=True, encoding="utf-8")
+    except OSError:
+        return "unknown"
     lines = done.stdout.splitlines()
     return lines[0] if done.returncode == 0 and lines else "unknown"
