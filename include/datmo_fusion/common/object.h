@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,6 +17,7 @@ namespace datmo {
 
 /// What an object is (thesis 3.3.2); values as in Object.msg.
 enum class ObjectClass : std::uint8_t { kUnknown, kPedestrian, kCyclist, kVehicle, kPole };
+inline constexpr std::size_t kObjectClasses = 5;
 
 /// Whether an object moves over ground, as one measurement shows it; values as in Object.msg.
 enum class DynamicState : std::uint8_t { kUnknown, kStatic, kMoving };
@@ -21,16 +25,29 @@ enum class DynamicState : std::uint8_t { kUnknown, kStatic, kMoving };
 /// Variance of a heading modulo pi of which nothing is known, rad^2.
 inline constexpr double kUnknownHeadingVariance = kPi * kPi * kUniformVariance;
 
+/// The sides of a box, in the order of all arrays of sides: front is ahead along its heading.
+enum class BoxSide : std::uint8_t { kFront, kRear, kLeft, kRight };
+inline constexpr std::size_t kBoxSides = 4;
+
+/// Variance of a side that was not seen: the object may reach farther, out of sight.
+inline constexpr double kHiddenSide = std::numeric_limits<double>::infinity();
+
 /// One object that a sensor sees in one measurement, without memory of earlier ones.
 struct Object {
   Box2 box;                                                           ///< frame of the list
   Eigen::Matrix2d position_covariance = Eigen::Matrix2d::Identity();  ///< m^2, of the box's centre
   double heading_variance = kUnknownHeadingVariance;                  ///< rad^2, modulo pi
-  double height = 0.0;                                                ///< m, 0: not measured
+  /// m^2, of each side along its normal, by itself: on top of the position's covariance, which
+  /// moves the box as a whole. 0 or more, or kHiddenSide.
+  std::array<double, kBoxSides> side_variance{};
+  double height = 0.0;  ///< m, 0: not measured
   ObjectClass object_class = ObjectClass::kUnknown;
   double class_probability = 0.0;  ///< 0 to 1
   DynamicState dynamic_state = DynamicState::kUnknown;
-  double moving_fraction = 0.0;      ///< 0 to 1, share of the points where the map is free
+  double moving_fraction = 0.0;  ///< 0 to 1, share of the points where the map is free
+  /// Logarithm of the odds that it is an object at all, over those of the average detection, by
+  /// what its detector says of it; 0: the detector says nothing.
+  double log_odds = 0.0;
   std::vector<std::string> sensors;  ///< who saw it
   std::vector<Point2> points;        ///< m, frame of the list
 };

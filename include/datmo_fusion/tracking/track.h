@@ -11,19 +11,30 @@
 
 namespace datmo {
 
-/// The four motion models of thesis 3.3.4, in the order of all mode vectors and matrices.
+/// The four motion models of thesis 3.3.4, and standing still, in the order of all mode vectors and
+/// matrices.
 enum class MotionMode : std::uint8_t {
   kConstantVelocity,
   kConstantAcceleration,
   kLeftTurn,
-  kRightTurn
+  kRightTurn,
+  kStanding
 };
-inline constexpr int kMotionModes = 4;
+inline constexpr int kMotionModes = 5;
 
 /// State of a tracked object in the fixed frame: x, y (m), vx, vy (m/s), ax, ay (m/s^2).
 inline constexpr int kTrackState = 6;
 using TrackState = Eigen::Matrix<double, kTrackState, 1>;
 using TrackCovariance = Eigen::Matrix<double, kTrackState, kTrackState>;
+
+/// Probability of each ObjectClass; they sum to 1.
+using ClassProbabilities = std::array<double, kObjectClasses>;
+
+/// Where a track was at one time, as it was published then.
+struct PathPoint {
+  Stamp stamp;
+  Pose2 pose;  ///< of the box, fixed frame
+};
 
 /// One confirmed moving object, followed over time, in the fixed frame.
 struct Track {
@@ -35,12 +46,14 @@ struct Track {
   double height = 0.0;    ///< m, 0: not measured
   double yaw_rate = 0.0;  ///< rad/s
   bool moving = false;    ///< false: it has moved, and stands now
-  ObjectClass object_class = ObjectClass::kUnknown;
-  double class_probability = 0.0;
-  double age = 0.0;           ///< s, since the first object
-  double since_update = 0.0;  ///< s, since the last object; more than 0: coasting
+  ClassProbabilities class_probabilities{};
+  double existence_probability = 0.0;  ///< over all hypotheses
+  double age = 0.0;                    ///< s, since the first object
+  double since_update = 0.0;           ///< s, since the last object; more than 0: coasting
   std::uint32_t hits = 0;
   std::vector<std::string> sensors;
+  std::vector<std::size_t> objects;  ///< of the present list, that it was made of; coasting: none
+  std::vector<PathPoint> history;    ///< oldest first, the present last
 };
 
 struct TrackList {
