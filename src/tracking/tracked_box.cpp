@@ -2,93 +2,231 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace datmo {
 
 namespace {
+
+constexpr double kQuarter = 0.5 * kPi;
+
+/// Variance of a heading modulo a quarter turn of which nothing is known, rad^2.
+constexpr double kUnknownSideVariance = kQuarter * kQuarter * kUniformVariance;
+
+/// Velocities of successive scans are nearly the same information: logarithm of odds of one.
+constexpr double kMostOddsOfOneVelocity = 2.0;
+
+/// The other axis must be as likely as this to become the forward one: no flips to and fro.
+constexpr double kSureOfOtherAxis = 0.7;
 
 /// Of the two directions of a line, the one nearer to `reference`.
 double nearerDirection(double direction, double reference) {
   return std::cos(direction - reference) < 0.0 ? normalizeAngle(direction + kPi) : direction;
 }
 
-/// Whether two directions, as lines, are nearer to a right angle than to each other.
-bool isAcross(double a, double b) { return std::abs(std::cos(a - b)) < std::abs(std::sin(a - b)); }
-
-/// The direction of the object's side that runs along `heading`: the longer one seen may be its
-/// rear.
-double sideAlong(const Object& object, double heading) {
-  const double longer = object.box.centre.heading();
-  return nearerDirection(isAcross(longer, heading) ? longer + 0.5 * kPi : longer, heading);
+/// Quarter turns to the left that bring one direction nearest to another, 0 to 3.
+int quartersBetween(double from, double to) {
+  return (static_cast<int>(std::lround(angleBetween(from, to) / kQuarter)) + 4) % 4;
 }
 
-double share(double seconds, double time_constant) {
-  return 1.0 - std::exp(-seconds / time_constant);
+/// An object's sides along one axis of the box.
+struct SeenAxis {
+  double extent;  ///< m
+  double ahead;   ///< m^2, variance of the side at the positive end
+  double behind;  ///< m^2, of the one at the negative end
+  bool isSeenAhead() const { return std::isfinite(ahead); }
+  bool isSeenBehind() const { return std::isfinite(behind); }
+
+  VisibleExtent visible() const {
+    return {extent, (isSeenAhead() ? ahead : 0.0) + (isSeenBehind() ? behind : 0.0),
+            isSeenAhead() && isSeenBehind()};
+  }
+};
+
+/// An object, told in the axes of the box that are nearest to its own.
+struct SeenBox {
+  double heading;  ///< rad, of the object's axis that is nearest to the box's heading
+  std::array<SeenAxis, 2> axes;
+};
+
+SeenBox seenFrom(double heading, const Object& object) {
+  constexpr std::array<BoxSide, kBoxSides> kToTheLeft = {BoxSide::kFront, BoxSide::kLeft,
+                                                         BoxSide::kRear, BoxSide::kRight};
+  const Box2& box = object.box;
+  const auto turn = static_cast<std::size_t>(quartersBetween(box.centre.heading(), heading));
+  const auto variance = [&](std::size_t quarter) {
+    const BoxSide side = kToTheLeft[(turn + quarter) % kBoxSides];
+    return object.side_variance[static_cast<std::size_t>(side)];
+  };
+  const bool across = turn % 2 == 1;
+  return {normalizeAngle(box.centre.heading() + static_cast<double>(turn) * kQuarter),
+          {SeenAxis{across ? box.width : box.length, variance(0), variance(2)},
+           SeenAxis{across ? box.length : box.width, variance(1), variance(3)}}};
+}
+
+/// The centre along one axis is best told by `middle of the sides seen + share * (size - extent)`.
+struct AxisMeasurement {
+  double share;     ///< -0.5 to 0.5
+  double variance;  ///< m^2, of what is independent from scan to scan
+};
+
+/// Least squares over both sides and the size as it is known, whose error moves the centre away
+/// from either side: C = [a + P/4, -P/4; -P/4, b + P/4].
+AxisMeasurement measured(const SeenAxis& seen, double size, double size_variance,
+                         double last_share) {
+  if (!seen.isSeenAhead() && !seen.isSeenBehind()) {
+    const double hidden = std::max(0.0, size - seen.extent);
+    return {last_share, kUniformVariance * (hidden * hidden + size_variance)};
+  }
+  if (!seen.isSeenBehind()) {
+    return {-0.5, seen.ahead};
+  }
+  if (!seen.isSeenAhead()) {
+    return {0.5, seen.behind};
+  }
+  const double total = seen.ahead + seen.behind + size_variance;
+  const double share = total > 0.0 ? 0.5 * (seen.ahead - seen.behind) / total : 0.0;
+  const double weight_ahead = 0.5 - share;
+  const double weight_behind = 0.5 + share;
+  return {share,
+          weight_ahead * weight_ahead * seen.ahead + weight_behind * weight_behind * seen.behind};
+}
+
+Eigen::Vector2d turned(double heading, const Eigen::Vector2d& vector) {
+  return Pose2(Point2::Zero(), heading).rotate(vector);
+}
+
+Eigen::Matrix2d alongAxes(double heading, const Eigen::Vector2d& variance) {
+  const Eigen::Matrix2d axes = Pose2(Point2::Zero(), heading).rotation();
+  return axes * variance.asDiagonal() * axes.transpose();
 }
 
 }  // namespace
 
 void TrackedBoxOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"growth_time", "s", "time constant with which the size follows a larger object"},
-                 growth_time, {1e-3, 10.0});
-  visitor.number({"shrink_time", "s",
-                  "time constant with which it follows a smaller one: most often a part of it"},
-                 shrink_time, {1e-3, 1000.0});
+  visitor.group("size", [&] { size.visit(visitor); });
   visitor.number({"heading_drift", "rad^2/s", "growth of the heading's variance while not seen"},
                  heading_drift, {0.0, 10.0});
+  visitor.number({"slip_std", "rad",
+                  "standard deviation of the angle between heading and velocity of the centre: it "
+                  "is not zero in bends"},
+                 slip_std, {0.0, 1.0});
   visitor.number({"reverse_speed", "m/s", "faster than this nothing moves backwards"},
                  reverse_speed, {0.0, 100.0});
 }
 
-TrackedBox::TrackedBox(const Object& object)
+TrackedBox::TrackedBox(const Object& object, const TrackedBoxOptions& options)
     : heading_(object.box.centre.heading()),
-      heading_variance_(object.heading_variance),
-      size_(object.box.length, object.box.width) {}
+      heading_variance_(kUnknownHeadingVariance),
+      size_(options.size) {
+  update(object, 0.0, options);
+}
 
 void TrackedBox::predict(double seconds, const TrackedBoxOptions& options) {
   heading_variance_ =
       std::min(kUnknownHeadingVariance, heading_variance_ + options.heading_drift * seconds);
 }
 
-void TrackedBox::update(const Object& object, double seconds, const TrackedBoxOptions& options) {
-  updateHeading(sideAlong(object, heading_), object.heading_variance);
-  const Eigen::Vector2d measured = sizeOf(object);
-  for (int side = 0; side < 2; ++side) {
-    const bool larger = measured[side] > size_[side];
-    size_[side] += (measured[side] - size_[side]) *
-                   share(seconds, larger ? options.growth_time : options.shrink_time);
-  }
-}
-
-void TrackedBox::followVelocity(const Eigen::Vector2d& velocity, const Eigen::Matrix2d& covariance,
-                                const TrackedBoxOptions& options) {
-  const double speed = velocity.norm();
-  const double direction = std::atan2(velocity.y(), velocity.x());
-  if (!sign_known_ && isAcross(heading_, direction)) {
-    heading_ = normalizeAngle(heading_ + 0.5 * kPi);
-    std::swap(size_.x(), size_.y());
-  }
-  if (!sign_known_ || speed > options.reverse_speed) {
-    heading_ = nearerDirection(heading_, direction);
-    sign_known_ = true;
-  }
-  const Eigen::Vector2d across(-velocity.y() / speed, velocity.x() / speed);
-  const double variance = across.dot(covariance * across) / (speed * speed);
-  updateHeading(nearerDirection(direction, heading_), variance);
-}
-
 PositionMeasurement TrackedBox::measurementOf(const Object& object) const {
-  const Eigen::Vector2d hidden = (size_ - sizeOf(object)).cwiseMax(0.0);
-  const Eigen::Matrix2d axes = Pose2(Point2::Zero(), heading_).rotation();
-  // What is hidden may lie on either side, anywhere.
-  const Eigen::Vector2d variance = kUniformVariance * hidden.cwiseAbs2();
-  return {object.box.centre.position(),
-          object.position_covariance + axes * variance.asDiagonal() * axes.transpose()};
+  const SeenBox seen = seenFrom(heading_, object);
+  Eigen::Vector2d share;
+  Eigen::Vector2d extent;
+  Eigen::Vector2d variance;
+  for (int axis = 0; axis < 2; ++axis) {
+    const SeenAxis& sides = seen.axes[static_cast<std::size_t>(axis)];
+    const double size_variance = size_.variance()[axis];
+    const AxisMeasurement along =
+        measured(sides, size_.mean()[axis], size_variance, anchor_share_[axis]);
+    const double change = along.share - anchor_share_[axis];
+    share[axis] = along.share;
+    extent[axis] = sides.extent;
+    variance[axis] = along.variance + change * change * size_variance;
+  }
+  return {object.box.centre.position() - turned(seen.heading, share.cwiseProduct(extent)) +
+              turned(heading_, share.cwiseProduct(size_.mean())),
+          object.position_covariance + alongAxes(seen.heading, variance)};
+}
+
+Point2 TrackedBox::update(const Object& object, double seconds, const TrackedBoxOptions& options) {
+  const SeenBox seen = seenFrom(heading_, object);
+  for (int axis = 0; axis < 2; ++axis) {
+    anchor_share_[axis] = measured(seen.axes[static_cast<std::size_t>(axis)], size_.mean()[axis],
+                                   size_.variance()[axis], anchor_share_[axis])
+                              .share;
+  }
+  const Point2 before = offset();
+  size_.classify(object.object_class, object.class_probability);
+  size_.update({seen.axes[0].visible(), seen.axes[1].visible()}, seconds, options.size);
+  if (object.heading_variance < kUnknownSideVariance) {
+    updateHeading(seen.heading, object.heading_variance);
+  }
+  if (!sign_known_ && size_.probabilityAlongFirst() < 1.0 - kSureOfOtherAxis) {
+    turnByQuarters(1);
+  }
+  return offset() - before;
+}
+
+Point2 TrackedBox::followVelocity(const Eigen::Vector2d& velocity,
+                                  const Eigen::Matrix2d& covariance,
+                                  const TrackedBoxOptions& options) {
+  const double speed = velocity.norm();
+  if (speed <= 0.0) {
+    return Point2::Zero();
+  }
+  const Point2 before = offset();
+  const double direction = std::atan2(velocity.y(), velocity.x());
+  const Eigen::Vector2d across(-velocity.y() / speed, velocity.x() / speed);
+  const double variance =
+      across.dot(covariance * across) / (speed * speed) + options.slip_std * options.slip_std;
+  // Things move along their length: how much farther is the velocity from the other axis?
+  const double apart = std::abs(angleBetween(heading_, nearerDirection(direction, heading_)));
+  const double odds = 0.5 * kQuarter * (kQuarter - 2.0 * apart) /
+                      (variance + std::min(heading_variance_, kUnknownSideVariance));
+  size_.addOddsAlongFirst(std::clamp(odds, -kMostOddsOfOneVelocity, kMostOddsOfOneVelocity));
+  if (size_.probabilityAlongFirst() < 1.0 - kSureOfOtherAxis) {
+    turnByQuarters(1);
+    sign_known_ = false;
+  }
+  if ((!sign_known_ || speed > options.reverse_speed) && std::cos(direction - heading_) < 0.0) {
+    turnByQuarters(2);
+  }
+  sign_known_ = true;
+  // Velocities of successive scans are no independent news of the heading: the surer one counts.
+  if (variance < heading_variance_) {
+    heading_ = nearerDirection(direction, heading_);
+    heading_variance_ = variance;
+  }
+  return offset() - before;
+}
+
+Eigen::Matrix2d TrackedBox::centreCovariance() const {
+  const Eigen::Vector2d lever = offset();
+  const Eigen::Vector2d swing(-lever.y(), lever.x());
+  const double turn_variance = std::min(heading_variance_, kUnknownSideVariance);
+  return alongAxes(heading_, anchor_share_.cwiseAbs2().cwiseProduct(size_.variance())) +
+         turn_variance * swing * swing.transpose();
 }
 
 Box2 TrackedBox::at(const Point2& centre) const {
-  return {Pose2(centre, heading_), size_.x(), size_.y()};
+  return {Pose2(centre, heading_), size_.mean().x(), size_.mean().y()};
+}
+
+double TrackedBox::headingVariance() const {
+  const double other_axis = 1.0 - size_.probabilityAlongFirst();
+  return std::min(kUnknownHeadingVariance, heading_variance_ + other_axis * kQuarter * kQuarter);
+}
+
+/// From the sides that were seen to the centre, m, fixed frame.
+Eigen::Vector2d TrackedBox::offset() const {
+  return turned(heading_, anchor_share_.cwiseProduct(size_.mean()));
+}
+
+/// Takes another side for the front; nothing of the box moves.
+void TrackedBox::turnByQuarters(int quarters) {
+  heading_ = normalizeAngle(heading_ + quarters * kQuarter);
+  for (int i = 0; i < quarters; ++i) {
+    anchor_share_ = Eigen::Vector2d(anchor_share_.y(), -anchor_share_.x());
+    size_.swapAxes();
+  }
 }
 
 void TrackedBox::updateHeading(double measured, double variance) {
@@ -99,14 +237,6 @@ void TrackedBox::updateHeading(double measured, double variance) {
   const double gain = heading_variance_ / total;
   heading_ = normalizeAngle(heading_ + gain * angleBetween(heading_, measured));
   heading_variance_ *= 1.0 - gain;
-}
-
-/// Along the axis of this box that is nearest to the object's, so that no side grows by a turn
-/// alone.
-Eigen::Vector2d TrackedBox::sizeOf(const Object& object) const {
-  return isAcross(object.box.centre.heading(), heading_)
-             ? Eigen::Vector2d(object.box.width, object.box.length)
-             : Eigen::Vector2d(object.box.length, object.box.width);
 }
 
 }  // namespace datmo

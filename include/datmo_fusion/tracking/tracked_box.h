@@ -1,15 +1,18 @@
 #pragma once
 
+#include <array>
+
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/options.h"
+#include "datmo_fusion/tracking/box_size.h"
 #include "datmo_fusion/tracking/kalman_filter.h"
 
 namespace datmo {
 
 struct TrackedBoxOptions {
-  double growth_time = 0.2;     ///< s
-  double shrink_time = 5.0;     ///< s
+  BoxSizeOptions size;
   double heading_drift = 0.05;  ///< rad^2/s
+  double slip_std = 0.05;       ///< rad
   double reverse_speed = 3.0;   ///< m/s
 
   void visit(OptionVisitor& visitor);
@@ -17,39 +20,66 @@ struct TrackedBoxOptions {
 
 /// Heading and size of a tracked object; its position is the filter's.
 ///
-/// One measurement shows a part of the object, so the size follows larger ones quickly and smaller
-/// ones slowly. The sides seen do not tell front from rear, nor length from width; the first
-/// significant motion does, and later objects turn the box no farther than to their nearest side.
-/// Shape models (thesis 4.2.4) take the place of this class in a later issue.
+/// The filter follows the centre, but what is seen of an object are its near sides. The centre is
+/// measured from them: with both opposite sides seen it lies between them, with one it lies half
+/// the present size behind it (the anchor point of Petrovskaya & Thrun, Model based vehicle
+/// detection and tracking for autonomous urban driving, 2009, section 3.1). So neither a side that
+/// comes into view nor a size that becomes better known is motion. The error of the size is the
+/// same in every scan, hence no measurement noise: it is a considered parameter of the filter
+/// (Schmidt 1966), whose part in the centre `centreCovariance` tells.
+///
+/// The sides do not tell front from rear, nor surely length from width: motion does. Cheap to copy.
 class TrackedBox {
  public:
   /// From the first object, in the fixed frame.
-  explicit TrackedBox(const Object& object);
+  TrackedBox(const Object& object, const TrackedBoxOptions& options);
 
+  /// To `seconds` >= 0 ahead.
   void predict(double seconds, const TrackedBoxOptions& options);
 
-  /// Takes in the size and heading of an object `seconds` after the last one.
-  void update(const Object& object, double seconds, const TrackedBoxOptions& options);
-
-  /// Takes in the direction of a significant velocity (m/s) with its covariance.
-  void followVelocity(const Eigen::Vector2d& velocity, const Eigen::Matrix2d& covariance,
-                      const TrackedBoxOptions& options);
-
-  /// The object's centre, as a measurement of the centre of this box: where only a part of the box
-  /// is seen, that part may lie anywhere along it, so its centre is off by up to half of the
-  /// difference.
+  /// The centre of this box (m, fixed frame), as the sides seen of the object tell. Its covariance
+  /// has what differs from scan to scan; where the sides seen are not those of the last time, also
+  /// what the unknown size makes of that.
   PositionMeasurement measurementOf(const Object& object) const;
+
+  /// Takes in the size, class and heading of an object, `seconds` >= 0 after the last one. Returns
+  /// by how much the centre moves (m, fixed frame), because size or heading are known better now
+  /// while the sides that were seen stay where they are.
+  Point2 update(const Object& object, double seconds, const TrackedBoxOptions& options);
+
+  /// Takes in a significant velocity (m/s, fixed frame) and its covariance: it tells which side is
+  /// the front, and the heading if it is surer than the sides. Returns by how much the centre
+  /// moves, as `update` does.
+  Point2 followVelocity(const Eigen::Vector2d& velocity, const Eigen::Matrix2d& covariance,
+                        const TrackedBoxOptions& options);
+
+  /// What the unknown size and heading add to the covariance of the filter's position, m^2, fixed
+  /// frame; the filter does not know of it.
+  Eigen::Matrix2d centreCovariance() const;
 
   Box2 at(const Point2& centre) const;
 
+  /// rad^2, of the heading; where the sign is not known, modulo pi.
+  double headingVariance() const;
+
+  /// Motion has told which of the two ends is the front.
+  bool signKnown() const { return sign_known_; }
+
+  /// m^2, of length and width.
+  const Eigen::Vector2d& sizeVariance() const { return size_.variance(); }
+
  private:
+  Eigen::Vector2d offset() const;
+  void turnByQuarters(int quarters);
   void updateHeading(double measured, double variance);
-  Eigen::Vector2d sizeOf(const Object& object) const;
 
   double heading_;
   double heading_variance_;
   bool sign_known_ = false;
-  Eigen::Vector2d size_;  ///< m, along the heading and across
+  BoxSize size_;
+  /// The centre that was measured last is `anchor + share * size`, along each axis: -0.5 behind the
+  /// front (left) side, 0 midway between two sides, 0.5 ahead of the rear (right) side.
+  Eigen::Vector2d anchor_share_ = Eigen::Vector2d::Zero();
 };
 
 }  // namespace datmo

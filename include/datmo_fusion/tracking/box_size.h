@@ -1,0 +1,97 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "datmo_fusion/common/object.h"
+#include "datmo_fusion/common/options.h"
+
+namespace datmo {
+
+/// The size of objects of one kind, before one of them was measured.
+struct SizePrior {
+  double share;       ///< 1, of the objects whose class is not known; relative to the others
+  double length;      ///< m, mean
+  double length_std;  ///< m
+  double width;       ///< m, mean
+  double width_std;   ///< m
+
+  /// Under the name of the kind; `source` says where the numbers come from.
+  void visit(OptionVisitor& visitor, const std::string& kind, const std::string& source);
+};
+
+struct BoxSizeOptions {
+  SizePrior vehicle{0.3, 4.2, 0.6, 1.75, 0.2};
+  SizePrior two_wheeler{0.3, 1.8, 0.25, 0.6, 0.15};
+  SizePrior person{0.3, 0.7, 0.25, 0.6, 0.2};
+  SizePrior other{0.1, 3.0, 3.0, 1.5, 1.5};
+  double extent_std = 0.1;  ///< m
+  double drift = 1e-3;      ///< m^2/s
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// How far an object was seen to reach along one axis.
+struct VisibleExtent {
+  double length = 0.0;    ///< m, at least 0
+  double variance = 0.0;  ///< m^2, at least 0; of the ends that were seen
+  bool whole = false;     ///< both ends were seen; otherwise it may be longer
+};
+
+/// What is known of the size of one tracked object along the two axes of its box: one estimate
+/// (mean and variance, by a Kalman filter) for each kind of object and each axis that its length
+/// may lie along, weighed by how well the kind had predicted what was seen (a static multiple
+/// model: Bar-Shalom, Li, Kirubarajan 2001, 11.6.2). So the rear of a car, 1.8 m wide, is taken for
+/// that of something 4 m long, and a leg for part of something small, before anything has told
+/// their class (thesis 4.2.4 needs the class for that).
+///
+/// Where an end is hidden, the visible extent is a lower bound: the size grows to it where it is
+/// longer than the estimate, and never shrinks by it. No heap: cheap to copy.
+class BoxSize {
+ public:
+  explicit BoxSize(const BoxSizeOptions& options);
+
+  /// Takes in a class with its probability, 0 to 1; kUnknown tells nothing.
+  void classify(ObjectClass object_class, double probability);
+
+  /// Takes in what was seen along the first and the second axis, `seconds` >= 0 after the last
+  /// time.
+  void update(const std::array<VisibleExtent, 2>& seen, double seconds,
+              const BoxSizeOptions& options);
+
+  /// Takes in the logarithm of the odds that the length lies along the first axis, known otherwise.
+  void addOddsAlongFirst(double log_odds);
+
+  /// Renames the axes: the first becomes the second.
+  void swapAxes();
+
+  /// m, along both axes.
+  const Eigen::Vector2d& mean() const { return mean_; }
+  /// m^2, along both axes.
+  const Eigen::Vector2d& variance() const { return variance_; }
+  /// That the length lies along the first axis.
+  double probabilityAlongFirst() const { return along_first_; }
+
+ private:
+  static constexpr std::size_t kKinds = 4;  ///< as in BoxSizeOptions
+  static constexpr std::size_t kAxes = 2;
+
+  struct Hypothesis {
+    double log_weight;
+    std::array<double, kAxes> mean;      ///< m, by axis
+    std::array<double, kAxes> variance;  ///< m^2
+  };
+
+  void summarise();
+
+  /// By kind; within one, length along the first axis, along the second.
+  std::array<Hypothesis, kKinds * kAxes> hypotheses_;
+  Eigen::Vector2d mean_;
+  Eigen::Vector2d variance_;
+  double along_first_ = 0.5;
+};
+
+}  // namespace datmo

@@ -1,0 +1,165 @@
+#include "datmo_fusion/tracking/box_size.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace datmo {
+
+namespace {
+
+/// No hypothesis falls farther below the best one, so that it can come back: logarithm of odds.
+constexpr double kLeastLogWeight = -12.0;
+
+/// Odds that a classifier which is sure of itself gives: it may err all the same.
+constexpr double kSurestClass = 0.999;
+
+/// Index of the kind, as in BoxSizeOptions.
+std::size_t kindOf(ObjectClass object_class) {
+  switch (object_class) {
+    case ObjectClass::kVehicle:
+      return 0;
+    case ObjectClass::kCyclist:
+      return 1;
+    case ObjectClass::kPedestrian:
+      return 2;
+    case ObjectClass::kPole:
+    case ObjectClass::kUnknown:
+      break;
+  }
+  return 3;
+}
+
+double square(double value) { return value * value; }
+
+/// Takes an extent into one estimate; returns the logarithm of how likely it was, up to a term that
+/// is the same for all estimates.
+double takeIn(const VisibleExtent& seen, double noise, double& mean, double& variance) {
+  const double residual = seen.length - mean;
+  if (!seen.whole && residual <= 0.0) {
+    return 0.0;
+  }
+  const double total = variance + noise;
+  const double gain = variance / total;
+  mean += gain * residual;
+  variance *= 1.0 - gain;
+  const double log_likelihood = -0.5 * residual * residual / total;
+  return seen.whole ? log_likelihood - 0.5 * std::log(total) : log_likelihood;
+}
+
+}  // namespace
+
+void SizePrior::visit(OptionVisitor& visitor, const std::string& kind, const std::string& source) {
+  constexpr Bounds kSize{0.05, 30.0};
+  visitor.group(kind, [&] {
+    visitor.number({"share", "1", "of the objects of unknown class, relative to the other kinds"},
+                   share, {1e-6, 1.0});
+    visitor.number({"length", "m", "mean; " + source}, length, kSize);
+    visitor.number({"length_std", "m", "standard deviation of the length"}, length_std,
+                   {0.01, 30.0});
+    visitor.number({"width", "m", "mean; " + source}, width, kSize);
+    visitor.number({"width_std", "m", "standard deviation of the width"}, width_std, {0.01, 30.0});
+  });
+}
+
+void BoxSizeOptions::visit(OptionVisitor& visitor) {
+  vehicle.visit(visitor, "vehicle",
+                "cars and vans (KITTI: 3.9 x 1.6 m, Europe's new cars: 4.4 x 1.8 m)");
+  two_wheeler.visit(visitor, "two_wheeler", "with its rider (KITTI: 1.8 x 0.6 m)");
+  person.visit(visitor, "person", "walking (KITTI: 0.8 x 0.6 m)");
+  other.visit(visitor, "other", "anything else: lorries, prams, animals");
+  visitor.number(
+      {"extent_std", "m",
+       "by how much the extent of a rigid body differs from scan to scan beyond what its "
+       "sides' variances tell: mirrors, round corners, another height"},
+      extent_std, {0.001, 2.0});
+  visitor.number(
+      {"drift", "m^2/s", "growth of the variance of each size: other parts come in view"}, drift,
+      {0.0, 10.0});
+}
+
+BoxSize::BoxSize(const BoxSizeOptions& options) {
+  const std::array<const SizePrior*, kKinds> priors = {&options.vehicle, &options.two_wheeler,
+                                                       &options.person, &options.other};
+  for (std::size_t kind = 0; kind < kKinds; ++kind) {
+    const SizePrior& prior = *priors[kind];
+    const double length_variance = square(prior.length_std);
+    const double width_variance = square(prior.width_std);
+    const double log_weight = std::log(prior.share);
+    hypotheses_[kAxes * kind] = {
+        log_weight, {prior.length, prior.width}, {length_variance, width_variance}};
+    hypotheses_[kAxes * kind + 1] = {
+        log_weight, {prior.width, prior.length}, {width_variance, length_variance}};
+  }
+  summarise();
+}
+
+void BoxSize::classify(ObjectClass object_class, double probability) {
+  if (object_class == ObjectClass::kUnknown) {
+    return;
+  }
+  const double sure = std::min(probability, kSurestClass);
+  const double others = (1.0 - sure) / static_cast<double>(kKinds - 1);
+  for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
+    const bool is_of_class = i / kAxes == kindOf(object_class);
+    hypotheses_[i].log_weight += std::log(std::max(is_of_class ? sure : others, 1e-6));
+  }
+  summarise();
+}
+
+void BoxSize::update(const std::array<VisibleExtent, 2>& seen, double seconds,
+                     const BoxSizeOptions& options) {
+  for (Hypothesis& hypothesis : hypotheses_) {
+    for (std::size_t axis = 0; axis < kAxes; ++axis) {
+      hypothesis.variance[axis] += options.drift * seconds;
+      hypothesis.log_weight += takeIn(seen[axis], seen[axis].variance + square(options.extent_std),
+                                      hypothesis.mean[axis], hypothesis.variance[axis]);
+    }
+  }
+  summarise();
+}
+
+void BoxSize::addOddsAlongFirst(double log_odds) {
+  for (std::size_t i = 0; i < hypotheses_.size(); i += kAxes) {
+    hypotheses_[i].log_weight += log_odds;
+  }
+  summarise();
+}
+
+void BoxSize::swapAxes() {
+  for (std::size_t i = 0; i < hypotheses_.size(); i += kAxes) {
+    std::swap(hypotheses_[i], hypotheses_[i + 1]);
+    for (std::size_t k = i; k < i + kAxes; ++k) {
+      std::swap(hypotheses_[k].mean[0], hypotheses_[k].mean[1]);
+      std::swap(hypotheses_[k].variance[0], hypotheses_[k].variance[1]);
+    }
+  }
+  summarise();
+}
+
+/// Weights relative to the best one, and the moments of the mixture.
+void BoxSize::summarise() {
+  double best = hypotheses_[0].log_weight;
+  for (const Hypothesis& hypothesis : hypotheses_) {
+    best = std::max(best, hypothesis.log_weight);
+  }
+  double total = 0.0;
+  double along_first = 0.0;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  Eigen::Vector2d squares = Eigen::Vector2d::Zero();
+  for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
+    Hypothesis& hypothesis = hypotheses_[i];
+    hypothesis.log_weight = std::max(hypothesis.log_weight - best, kLeastLogWeight);
+    const double weight = std::exp(hypothesis.log_weight);
+    total += weight;
+    along_first += i % kAxes == 0 ? weight : 0.0;
+    const Eigen::Vector2d mean(hypothesis.mean[0], hypothesis.mean[1]);
+    sum += weight * mean;
+    squares += weight *
+               (Eigen::Vector2d(hypothesis.variance[0], hypothesis.variance[1]) + mean.cwiseAbs2());
+  }
+  mean_ = sum / total;
+  variance_ = (squares / total - mean_.cwiseAbs2()).cwiseMax(0.0);
+  along_first_ = along_first / total;
+}
+
+}  // namespace datmo
