@@ -18,7 +18,7 @@ sensor_msgs::LaserScan laserScan(int beams) {
   const Scan& scan = drive.next();
   message.angle_min = static_cast<float>(scan.rays.front().bearing);
   message.angle_max = static_cast<float>(scan.rays.back().bearing);
-  message.angle_increment = static_cast<float>(scan.beam_spacing);
+  message.angle_increment = static_cast<float>(scan.field.beam_spacing);
   message.range_min = 1.0F;
   message.range_max = 150.0F;
   for (const Ray& ray : scan.rays) {

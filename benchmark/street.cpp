@@ -32,11 +32,11 @@ double rangeAlong(double direction, double x) {
 
 Scan scanAt(double x, int beams, Random& random) {
   Scan scan;
-  scan.beam_spacing = degrees(2.0 * kHalfFov / (beams - 1));
+  scan.field.beam_spacing = degrees(2.0 * kHalfFov / (beams - 1));
   for (int beam = 0; beam < beams; ++beam) {
     Ray ray;
     ray.beam = static_cast<std::uint32_t>(beam);
-    ray.bearing = degrees(-kHalfFov) + scan.beam_spacing * beam;
+    ray.bearing = degrees(-kHalfFov) + scan.field.beam_spacing * beam;
     const double range = rangeAlong(ray.bearing, x) + random.normal(kRangeNoise);
     ray.hit = range < kFarthest;
     ray.range = std::min(range, kFarthest);

@@ -57,6 +57,33 @@ ScanPoint fromMessage(const ScanPointMessage& message) {
   return point;
 }
 
+ScanFieldMessage toMessage(const ScanField& field) {
+  ScanFieldMessage message;
+  message.first_bearing = field.first_bearing;
+  message.beam_spacing = field.beam_spacing;
+  message.beams = field.beams;
+  message.least_range = static_cast<float>(field.least_range);
+  message.free_range = static_cast<float>(field.free_range);
+  message.range = static_cast<float>(field.range);
+  return message;
+}
+
+ScanField fromMessage(const ScanFieldMessage& message) {
+  const ScanField field{message.first_bearing, message.beam_spacing, message.beams,
+                        message.least_range,   message.free_range,   message.range};
+  const bool finite = std::isfinite(field.first_bearing + field.beam_spacing + field.least_range +
+                                    field.free_range + field.range);
+  if (!finite || (field.beams > 0 && field.beam_spacing == 0.0) || field.beams > kMostBeams) {
+    throw InputError("bad_field", "split scan of " + std::to_string(field.beams) + " beams from " +
+                                      std::to_string(field.first_bearing) + " rad every " +
+                                      std::to_string(field.beam_spacing) + " rad up to " +
+                                      std::to_string(field.range) +
+                                      " m: expected finite numbers, a spacing and at most " +
+                                      std::to_string(kMostBeams) + " beams");
+  }
+  return field;
+}
+
 geometry_msgs::Vector3 size(const Box2& box, double height) {
   geometry_msgs::Vector3 result;
   result.x = box.length;
@@ -227,6 +254,8 @@ SplitScanMessage toMessage(const SplitScan& scan, const std::string& base_frame,
   message.scanner.x = scan.scanner_in_base.x();
   message.scanner.y = scan.scanner_in_base.y();
   message.scanner.theta = scan.scanner_in_base.heading();
+  message.field = toMessage(scan.field);
+  message.blind_beams.assign(scan.blind_beams.begin(), scan.blind_beams.end());
   for (const ScanPoint& point : scan.points) {
     message.points.push_back(toMessage(point));
   }
@@ -244,6 +273,8 @@ SplitScan fromMessage(const SplitScanMessage& message) {
                                      std::to_string(scanner.theta) + ": expected finite numbers");
   }
   scan.scanner_in_base = Pose2(scanner.x, scanner.y, scanner.theta);
+  scan.field = fromMessage(message.field);
+  scan.blind_beams.assign(message.blind_beams.begin(), message.blind_beams.end());
   for (const ScanPointMessage& point : message.points) {
     scan.points.push_back(fromMessage(point));
   }

@@ -19,9 +19,6 @@ constexpr float kNoReturn = std::numeric_limits<float>::infinity();
 /// numbers of any size.
 constexpr float kLongestReach = 1000.0F;
 
-/// More do not fit the beam index of SplitScan.
-constexpr std::size_t kMostBeams = 65536;
-
 template <typename Message>
 void checkGeometry(const Message& message) {
   for (const float value : {message.angle_min, message.angle_max, message.angle_increment,
@@ -108,6 +105,20 @@ Ray rayAt(double bearing, double range, const ScannerMount& mount) {
 }
 
 template <typename Message>
+ScanField fieldOf(const Message& message, const ScannerMount& mount,
+                  const ScanConversionOptions& options) {
+  const double side = mount.upside_down ? -1.0 : 1.0;
+  ScanField field;
+  field.first_bearing = side * message.angle_min;
+  field.beam_spacing = side * message.angle_increment;
+  field.beams = static_cast<std::uint32_t>(message.ranges.size());
+  field.least_range = message.range_min;
+  field.range = std::min(message.range_max, kLongestReach);
+  field.free_range = std::min(options.free_range, field.range);
+  return field;
+}
+
+template <typename Message>
 ConvertedScan convert(const Message& message, const ScannerMount& mount,
                       const ScanConversionOptions& options) {
   checkGeometry(message);
@@ -119,11 +130,10 @@ ConvertedScan convert(const Message& message, const ScannerMount& mount,
   Scan& scan = converted.scan;
   scan.stamp = toStamp(message.header.stamp);
   scan.scanner_in_base = mount.scanner_in_base;
-  scan.beam_spacing = std::abs(static_cast<double>(message.angle_increment));
+  scan.field = fieldOf(message, mount, options);
   scan.rays.reserve(message.ranges.size());
   const float reach = std::min(message.range_max, kLongestReach);
-  const double free_range = std::min<double>(options.free_range, reach);
-  const double side = mount.upside_down ? -1.0 : 1.0;
+  const double free_range = scan.field.free_range;
   for (std::uint32_t beam = 0; beam < message.ranges.size(); ++beam) {
     const float range = rangeOf(message.ranges[beam], message.range_min, reach);
     const bool hit = isHit(range, message.range_min, reach);
@@ -135,8 +145,9 @@ ConvertedScan convert(const Message& message, const ScannerMount& mount,
     if (!hit && free_range == 0.0) {
       continue;
     }
-    const double angle = message.angle_min + static_cast<double>(message.angle_increment) * beam;
-    scan.rays.push_back(rayAt(normalizeAngle(side * angle), hit ? range : free_range, mount));
+    const double bearing =
+        normalizeAngle(scan.field.first_bearing + scan.field.beam_spacing * beam);
+    scan.rays.push_back(rayAt(bearing, hit ? range : free_range, mount));
     scan.rays.back().hit = hit;
     scan.rays.back().beam = beam;
     scan.rays.back().time = time_increment * beam;

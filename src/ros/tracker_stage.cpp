@@ -29,13 +29,14 @@ TrackerStage::TrackerStage(const TrackerStageOptions& options, const TransformBu
       transforms_(transforms),
       monitor_(monitor),
       tracker_(options.tracker),
-      stamps_(options.input.restart_after) {
+      stamps_(options.input.restart_after),
+      scan_views_(VisibilityOptions()) {
   checkOptions(options);
 }
 
 void TrackerStage::takeSplitScan(const SplitScanMessage& message) {
   try {
-    scan_poses_.add(message);
+    scan_views_.add(message);
   } catch (const InputError& error) {
     monitor_.dropped(error);
   }
@@ -77,7 +78,7 @@ TrackArrayPtr TrackerStage::next(Stamp now) {
 }
 
 Pose2 TrackerStage::baseInFixed(const std_msgs::Header& base) const {
-  if (const auto pose = scan_poses_.find(base, options_.fixed_frame)) {
+  if (const auto pose = scan_views_.pose(base, options_.fixed_frame)) {
     return *pose;
   }
   return planarPose(transforms_.core(), options_.fixed_frame, base.frame_id, base.stamp);

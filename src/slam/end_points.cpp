@@ -52,7 +52,7 @@ std::vector<End> endsOf(const Scan& scan) {
   std::vector<End> ends;
   for (const Ray& ray : scan.rays) {
     if (ray.hit) {
-      ends.push_back({ray.end, ray.range, stepAcross(ray, scan.beam_spacing)});
+      ends.push_back({ray.end, ray.range, stepAcross(ray, scan.field.beam_spacing)});
     }
   }
   return ends;

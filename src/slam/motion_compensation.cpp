@@ -13,6 +13,10 @@ double sweepDuration(const Scan& scan) {
 }
 
 Scan compensateMotion(Scan scan, const Twist2& twist) {
+  if (!scan.rays.empty() && scan.rays.back().beam > 0) {
+    const Ray& last = scan.rays.back();
+    scan.field.beam_spacing += twist.yaw_rate * last.time / last.beam;
+  }
   for (Ray& ray : scan.rays) {
     if (ray.time == 0.0) {
       continue;

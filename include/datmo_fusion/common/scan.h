@@ -19,17 +19,32 @@ struct Ray {
   double time = 0.0;            ///< s after the scan's stamp, 0 or more
 };
 
+/// A scan has at most as many beams: their index has 16 bits in messages.
+inline constexpr std::uint32_t kMostBeams = 65536;
+
+/// Where the beams of a scan look, and how far: those too that saw nothing. Bearings in rad about
+/// the scanner, from its x axis to the left.
+struct ScanField {
+  double first_bearing = 0.0;  ///< of beam 0
+  double beam_spacing = 0.0;   ///< from a beam to the next one; negative: it is to the right
+  std::uint32_t beams = 0;     ///< 0: nothing is known of the field
+  double least_range = 0.0;    ///< m, nearer things give no valid measurement
+  double free_range =
+      0.0;             ///< m, a beam without return is known free up to here; 0: it says nothing
+  double range = 0.0;  ///< m, nothing is seen farther away
+};
+
 /// A planar scan, checked and brought to the vehicle's frame. Beams without a valid measurement
 /// (NaN, below the least range) have no ray.
 struct Scan {
   Stamp stamp;
   Pose2 scanner_in_base;
-  double beam_spacing = 0.0;  ///< rad, between neighbouring beams, more than 0
-  std::vector<Ray> rays;      ///< by rising beam index
+  ScanField field;
+  std::vector<Ray> rays;  ///< by rising beam index
 };
 
-/// Step from a beam's end to that of the next beam to the left at the same range, m, for this
-/// spacing (rad) of the beams.
+/// Step from a beam's end to that of the next beam at the same range, m, for this spacing (rad) of
+/// the beams.
 inline Point2 stepAcross(const Ray& ray, double beam_spacing) {
   const Point2 along = ray.end - ray.origin;
   return beam_spacing * Point2(-along.y(), along.x());
@@ -56,6 +71,9 @@ struct SplitScan {
   Stamp stamp;
   PoseWithCovariance base_in_map;
   Pose2 scanner_in_base;
+  ScanField field;
+  /// Without a valid measurement, so that nothing is known of what they look at; rising.
+  std::vector<std::uint32_t> blind_beams;
   std::vector<ScanPoint> points;  ///< by rising beam index; beams without a hit are left out
 };
 

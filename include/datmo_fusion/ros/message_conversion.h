@@ -42,8 +42,8 @@ ObjectClass classFromMessage(std::uint8_t value);
 SplitScanMessage toMessage(const SplitScan& scan, const std::string& base_frame,
                            const std::string& map_frame);
 
-/// Throws InputError: `bad_pose` for one of the vehicle or the scanner, `bad_point` for points that
-/// are not finite or of no known state.
+/// Throws InputError: `bad_pose` for one of the vehicle or the scanner, `bad_field` for one of the
+/// beams, `bad_point` for points that are not finite or of no known state.
 SplitScan fromMessage(const SplitScanMessage& message);
 
 ObjectArray toMessage(const ObjectList& list, const std::string& base_frame);

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "datmo_fusion/ros/messages.h"
-#include "datmo_fusion/ros/scan_poses.h"
+#include "datmo_fusion/ros/scan_views.h"
 #include "datmo_fusion/ros/stage_monitor.h"
 #include "datmo_fusion/ros/stamp_check.h"
 #include "datmo_fusion/ros/transform_buffer.h"
@@ -32,7 +32,8 @@ class TrackerStage {
   TrackerStage(const TrackerStageOptions& options, const TransformBuffer& transforms,
                StageMonitor& monitor);
 
-  /// Where the vehicle was at this scan. It may come before or after the scan's objects.
+  /// Where the vehicle was at this scan, and what it saw. It may come before or after the scan's
+  /// objects.
   void takeSplitScan(const SplitScanMessage& message);
 
   /// Puts objects into the queue. `now`: ROS time.
@@ -61,7 +62,7 @@ class TrackerStage {
   StageMonitor& monitor_;
   Tracker tracker_;
   StampCheck stamps_;
-  ScanPoses scan_poses_;
+  ScanViews scan_views_;
   std::deque<Waiting> queue_;
 };
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "datmo_fusion/common/box2.h"
@@ -9,27 +12,88 @@
 namespace datmo {
 
 struct VisibilityOptions {
-  double beam_detection = 0.9;        ///< 1, chance that one beam that meets an object returns
-  double most_probability = 0.95;     ///< 1
-  double least_probability = 0.02;    ///< 1
-  double unknown_probability = 0.5;   ///< 1, without a view
+  double beam_detection = 0.9;       ///< 1
+  double most_probability = 0.95;    ///< 1
+  double least_probability = 0.02;   ///< 1
+  double unknown_probability = 0.5;  ///< 1
+  double blocking_distance = 0.5;    ///< m
 
   void visit(OptionVisitor& visitor);
 };
 
-/// What the sensors could have seen at one time: how likely an object would have been detected,
-/// by field of view, range and occlusion by what is nearer. Vehicle's frame (base_link).
+/// What a sensor looks at that tells objects, not beams: a camera or a detector in point clouds.
+struct FieldOfView {
+  Pose2 sensor_in_base;
+  double least_bearing = -kPi;  ///< rad, about the sensor, from its x axis to the left
+  double most_bearing = kPi;    ///< rad, more than the least one, by 2 pi at most
+  double range = 0.0;           ///< m
+};
+
+/// What a sensor could have seen at one time: how likely an object would have been detected, by
+/// field of view, range and occlusion by what is nearer. Vehicle's frame (base_link).
+///
+/// The view is a fan of beams, each of which reaches as far as the sensor saw along it. The
+/// detector is taken to find an object by one beam that meets it and returns.
 class Visibility {
  public:
   /// Nothing is known of the view: every object is seen with `unknown_probability`.
   explicit Visibility(const VisibilityOptions& options);
 
-  /// By the beams of this scan.
+  /// By the beams of this scan, whatever they hit; those without return reach as far as the scanner
+  /// sees, blind ones nowhere. A scan whose field is not known gives an unknown view. The beams
+  /// start at the scanner's pose at the scan's stamp.
   Visibility(const SplitScan& scan, const VisibilityOptions& options);
 
-  /// That an object of this box, anywhere inside the standard deviation `sigma` (m, at least 0)
-  /// about it, is detected.
+  /// By a field of view and the boxes (base frame) of what was seen in it, behind which nothing is.
+  Visibility(const FieldOfView& view, const std::vector<Box2>& seen,
+             const VisibilityOptions& options);
+
+  /// That an object of this box is detected, averaged over the places where it may be: `sigma` is
+  /// the standard deviation of its centre along each axis (m, at least 0). Between
+  /// `least_probability` and `most_probability`.
   double detectionProbability(const Box2& box_in_base, double sigma) const;
+
+ private:
+  /// Where a box may be, seen from the sensor, beside where it is assumed to be.
+  struct Shift {
+    double bearing = 0.0;  ///< rad
+    double range = 0.0;    ///< m
+  };
+  class Outline;
+
+  /// One of the directions in which an object is looked at.
+  struct Look {
+    double bearing;  ///< rad, about the sensor
+    double range;    ///< m, to the object's near side
+  };
+  static constexpr std::size_t kLooks = 8;
+  using Looks = std::array<Look, kLooks>;
+
+  void setFan(double first_bearing, double beam_spacing, std::size_t beams);
+
+  /// Index of the beam nearest to this bearing; none outside the field.
+  std::optional<std::size_t> beamAt(double bearing) const;
+
+  /// Evenly spread over an object's width.
+  static Looks looksAt(const Outline& outline);
+
+  /// Share of them in which the sensor saw as far as the object.
+  double clearShare(const Looks& looks, const Shift& shift) const;
+
+  /// Chance that one beam that meets an object at this range returns.
+  double beamDetection(double range) const;
+
+  /// That at least one of this many beams returns, each by this chance.
+  static double anyReturns(double beams, double chance);
+
+  VisibilityOptions options_;
+  Pose2 sensor_in_base_;
+  double first_bearing_ = 0.0;  ///< rad, of beam 0
+  double beam_spacing_ = 0.0;   ///< rad, more than 0 to the left
+  double least_range_ = 0.0;    ///< m
+  double free_range_ = 0.0;     ///< m, up to here an object returns as many beams as a near one
+  double range_ = 0.0;          ///< m
+  std::vector<double> reach_;   ///< m, of each beam; empty: unknown
 };
 
 }  // namespace datmo

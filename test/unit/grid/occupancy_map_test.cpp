@@ -22,7 +22,7 @@ OccupancyMapOptions smallMap() {
 Scan scanTo(const std::vector<Point2>& ends, double seconds = 0.0, bool hit = true) {
   Scan scan;
   scan.stamp = Stamp::fromSeconds(100.0 + seconds);
-  scan.beam_spacing = degrees(2.0);
+  scan.field.beam_spacing = degrees(2.0);
   for (const Point2& end : ends) {
     Ray ray;
     ray.end = end;

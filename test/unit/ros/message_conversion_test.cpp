@@ -66,6 +66,8 @@ SplitScan splitScan() {
   scan.base_in_map.pose = Pose2(10.0, 20.0, 0.5);
   scan.base_in_map.covariance.diagonal() << 0.1, 0.2, 0.3;
   scan.scanner_in_base = Pose2(3.5, 0.0, 0.25);
+  scan.field = {-1.25, 0.125, 21, 0.5, 40.0, 80.0};
+  scan.blind_beams = {0, 20};
   scan.points.push_back({Point2(5.0, 1.0), 1.5, 0.75, 7, PointState::kMoving});
   return scan;
 }
@@ -79,6 +81,13 @@ TEST(SplitScanConversion, ThereAndBack) {
   EXPECT_NEAR(back.base_in_map.pose.heading(), 0.5, 1e-12);
   EXPECT_EQ(back.base_in_map.covariance, splitScan().base_in_map.covariance);
   EXPECT_NEAR(back.scanner_in_base.heading(), 0.25, 1e-12);
+  EXPECT_EQ(back.field.first_bearing, -1.25);
+  EXPECT_EQ(back.field.beam_spacing, 0.125);
+  EXPECT_EQ(back.field.beams, 21U);
+  EXPECT_EQ(back.field.least_range, 0.5);
+  EXPECT_EQ(back.field.free_range, 40.0);
+  EXPECT_EQ(back.field.range, 80.0);
+  EXPECT_EQ(back.blind_beams, splitScan().blind_beams);
   ASSERT_EQ(back.points.size(), 1U);
   EXPECT_EQ(back.points[0].position, Point2(5.0, 1.0));
   EXPECT_EQ(back.points[0].range, 1.5);
@@ -94,6 +103,20 @@ TEST(SplitScanConversion, BadPointsAreRefused) {
   message.points[0].state = 0;
   message.points[0].y = std::numeric_limits<float>::infinity();
   EXPECT_EQ(samples::reasonOf([&] { fromMessage(message); }), "bad_point");
+}
+
+TEST(SplitScanConversion, BadFieldsAreRefused) {
+  const auto reason = [](const std::function<void(ScanFieldMessage&)>& spoil) {
+    SplitScanMessage message = toMessage(splitScan(), "base_link", "map");
+    spoil(message.field);
+    return samples::reasonOf([&] { fromMessage(message); });
+  };
+  EXPECT_EQ(reason([](auto& field) { field.first_bearing = kNan; }), "bad_field");
+  EXPECT_EQ(reason([](auto& field) { field.range = std::numeric_limits<float>::infinity(); }),
+            "bad_field");
+  EXPECT_EQ(reason([](auto& field) { field.beam_spacing = 0.0; }), "bad_field");
+  EXPECT_EQ(reason([](auto& field) { field.beams = 65537; }), "bad_field");
+  EXPECT_EQ(reason([](auto& field) { field.beams = 65536; }), "");
 }
 
 TEST(SplitScanConversion, AScannerNowhereIsRefused) {
@@ -179,7 +202,7 @@ TEST(TrackConversion, FillsEveryField) {
 Scan beamAhead(double length, Stamp stamp) {
   Scan scan;
   scan.stamp = stamp;
-  scan.beam_spacing = degrees(2.0);
+  scan.field.beam_spacing = degrees(2.0);
   Ray ray;
   ray.end = Point2(length, 0.0);
   ray.range = length;

@@ -36,9 +36,29 @@ TEST(ScanConversion, BeamsEndWhereTheScannerPoints) {
   EXPECT_NEAR(scan.rays[2].bearing, kPi / 2.0, 1e-6);
   EXPECT_EQ(scan.rays[2].beam, 2U);
   EXPECT_TRUE(scan.rays[2].hit);
-  EXPECT_NEAR(scan.beam_spacing, kPi / 2.0, 1e-6);
+  EXPECT_NEAR(scan.field.beam_spacing, kPi / 2.0, 1e-6);
   EXPECT_EQ(scan.stamp, Stamp::fromSeconds(samples::kStart));
   EXPECT_EQ(scan.rays[0].origin, Point2(1.0, 0.0));
+}
+
+/// Of the beams that have a ray, as the field tells them and as they are.
+void expectFieldTellsBearings(const Scan& scan) {
+  for (const Ray& ray : scan.rays) {
+    EXPECT_NEAR(
+        angleBetween(scan.field.first_bearing + scan.field.beam_spacing * ray.beam, ray.bearing),
+        0.0, 1e-6);
+  }
+}
+
+TEST(ScanConversion, TheFieldTellsOfAllBeams) {
+  ScanConversionOptions options;
+  options.free_range = 15.0;
+  const Scan scan = toScan(samples::laserScan({kNan, kInfinity, 4.0F}), bumper(), options).scan;
+  EXPECT_EQ(scan.field.beams, 3U);
+  EXPECT_EQ(scan.field.least_range, 1.0);
+  EXPECT_EQ(scan.field.free_range, 15.0);
+  EXPECT_EQ(scan.field.range, 20.0);
+  expectFieldTellsBearings(scan);
 }
 
 TEST(ScanConversion, ATurnedScannerTurnsItsBeams) {
@@ -55,6 +75,7 @@ TEST(ScanConversion, UpsideDownMirrorsTheBeams) {
   const Scan scan = toScan(samples::laserScan(), mount, {}).scan;
   expectEnd(scan.rays[0], 0.0, 2.0);
   expectEnd(scan.rays[2], 0.0, -4.0);
+  expectFieldTellsBearings(scan);
   EXPECT_NEAR(scan.rays[0].bearing, kPi / 2.0, 1e-6);
 }
 
@@ -64,7 +85,8 @@ TEST(ScanConversion, AScannerThatTurnsTheOtherWayRound) {
   message.angle_increment = -message.angle_increment;
   const Scan scan = convert(message).scan;
   expectEnd(scan.rays[0], 1.0, 2.0);
-  EXPECT_GT(scan.beam_spacing, 0.0);
+  EXPECT_NEAR(scan.field.beam_spacing, -kPi / 2.0, 1e-6);
+  expectFieldTellsBearings(scan);
 }
 
 TEST(ScanConversion, EachBeamHasItsTimeWhicheverWayTheScannerTurns) {

@@ -64,7 +64,7 @@ Scan toScan(const EchoScan& echoes, const LaserScannerOptions& scanner) {
   Scan scan;
   scan.stamp = Stamp::fromSeconds(kStart + echoes.time);
   scan.scanner_in_base = Pose2(scanner.mount_x, scanner.mount_y, degrees(scanner.mount_heading));
-  scan.beam_spacing = degrees(scanner.beam_spacing);
+  scan.field.beam_spacing = degrees(scanner.beam_spacing);
   for (std::uint32_t beam = 0; beam < echoes.beams.size(); ++beam) {
     if (echoes.beams[beam].empty()) {
       continue;

@@ -7,7 +7,7 @@ namespace {
 
 Scan scanOf(const std::vector<Point2>& ends) {
   Scan scan;
-  scan.beam_spacing = 0.1;
+  scan.field.beam_spacing = 0.1;
   for (const Point2& end : ends) {
     Ray ray;
     ray.end = end;

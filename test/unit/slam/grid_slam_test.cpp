@@ -20,7 +20,7 @@ class Yard {
     Scan scan;
     scan.stamp = Stamp::fromSeconds(1000.0 + seconds);
     scan.scanner_in_base = Pose2(1.0, 0.0, 0.0);
-    scan.beam_spacing = degrees(2.0);
+    scan.field.beam_spacing = degrees(2.0);
     const Pose2 scanner = base_in_map * scan.scanner_in_base;
     for (std::uint32_t beam = 0; beam < 81; ++beam) {
       Ray ray;
@@ -171,11 +171,31 @@ TEST(GridSlamTest, AScanWithoutRaysMovesByOdometryAlone) {
   EXPECT_TRUE(result.split.points.empty());
 }
 
+TEST(GridSlamTest, TheSplitScanTellsOfBeamsThatSawNothing) {
+  Scan scan;
+  scan.stamp = Stamp::fromSeconds(1000.0);
+  scan.field = {degrees(-2.0), degrees(1.0), 5, 0.5, 40.0, 80.0};
+  for (const std::uint32_t beam : {1U, 2U}) {
+    Ray ray;
+    ray.beam = beam;
+    ray.hit = beam == 2;
+    ray.range = 10.0;
+    ray.end = Point2(10.0, 0.0);
+    scan.rays.push_back(ray);
+  }
+  const SplitScan split = GridSlam{GridSlamOptions{}}.process(scan).split;
+  EXPECT_EQ(split.field.beams, 5U);
+  EXPECT_EQ(split.field.range, 80.0);
+  ASSERT_EQ(split.points.size(), 1U);
+  EXPECT_EQ(split.points[0].beam, 2U);
+  EXPECT_EQ(split.blind_beams, (std::vector<std::uint32_t>{0, 3, 4})) << "beam 1: no return";
+}
+
 /// Between two walls without an end, 4 m to the left and 5 m to the right.
 Scan corridorScan(double seconds) {
   Scan scan;
   scan.stamp = Stamp::fromSeconds(1000.0 + seconds);
-  scan.beam_spacing = degrees(2.0);
+  scan.field.beam_spacing = degrees(2.0);
   for (std::uint32_t beam = 0; beam < 81; ++beam) {
     Ray ray;
     ray.beam = beam;

@@ -42,6 +42,9 @@ const Pose2 kBaseInRoom(-4.0, 1.0, 0.4);
 Scan scanOf(const Sweep& sweep) {
   Scan scan;
   scan.scanner_in_base = Pose2(3.6, 0.3, 0.1);
+  scan.field.first_bearing = degrees(-0.5 * sweep.step * (kBeams - 1));
+  scan.field.beam_spacing = degrees(sweep.step);
+  scan.field.beams = kBeams;
   for (std::uint32_t beam = 0; beam < kBeams; ++beam) {
     Ray ray;
     ray.beam = beam;
@@ -95,6 +98,14 @@ TEST_P(MotionCompensation, KeepsRaysWhole) {
     EXPECT_EQ(ray.range, scan.rays[i].range);
     EXPECT_EQ(ray.beam, scan.rays[i].beam);
     EXPECT_EQ(ray.time, 0.0);
+  }
+}
+
+TEST_P(MotionCompensation, TheFieldTellsWhereTheBeamsLookNow) {
+  const Scan at_once = compensateMotion(scanOf(GetParam()), GetParam().twist);
+  for (const Ray& ray : at_once.rays) {
+    const double told = at_once.field.first_bearing + at_once.field.beam_spacing * ray.beam;
+    EXPECT_NEAR(angleBetween(told, ray.bearing), 0.0, 1e-9);
   }
 }
 

@@ -32,7 +32,7 @@ std::vector<Point2> corridor() {
 /// One scan of the points from this pose.
 Scan scanOf(const std::vector<Point2>& points, const Pose2& pose) {
   Scan scan;
-  scan.beam_spacing = degrees(1.0);
+  scan.field.beam_spacing = degrees(1.0);
   for (const Point2& point : points) {
     Ray ray;
     ray.end = pose.inverse() * point;

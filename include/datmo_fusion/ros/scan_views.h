@@ -1,0 +1,53 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+
+#include <std_msgs/Header.h>
+
+#include "datmo_fusion/common/pose2.h"
+#include "datmo_fusion/ros/messages.h"
+#include "datmo_fusion/tracking/visibility.h"
+
+namespace datmo {
+
+/// Where the vehicle was at its last scans, as the SLAM found out, and what it could see from
+/// there.
+///
+/// tf tells the pose too, but only when the odometry that follows the scan has come: up to one of
+/// its periods later, which is longer than all stages need for the scan.
+class ScanViews {
+ public:
+  /// Throws OptionError.
+  explicit ScanViews(const VisibilityOptions& options);
+
+  /// Takes a split scan; an older one than the newest begins anew (a looped bag). Throws InputError
+  /// (`bad_pose`, `bad_field`, `bad_point`).
+  void add(const SplitScanMessage& scan);
+
+  /// Pose of the vehicle's frame in another one, at exactly the stamp of the header, which also
+  /// names the vehicle's frame; none if no split scan said so.
+  std::optional<Pose2> pose(const std_msgs::Header& base, const std::string& fixed_frame) const;
+
+  /// What could be seen at the stamp and from the frame of the header; without a split scan of that
+  /// time an unknown view. Valid until the next add().
+  const Visibility& visibility(const std_msgs::Header& base) const;
+
+ private:
+  struct View {
+    std_msgs::Header base;
+    std::string fixed_frame;
+    Pose2 base_in_fixed;
+    Visibility visibility;
+  };
+
+  /// Null if there is none.
+  const View* find(const std_msgs::Header& base) const;
+
+  VisibilityOptions options_;
+  Visibility unknown_;
+  std::deque<View> views_;  ///< the last ones, by rising stamp
+};
+
+}  // namespace datmo

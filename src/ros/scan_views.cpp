@@ -1,0 +1,49 @@
+#include "datmo_fusion/ros/scan_views.h"
+
+#include <algorithm>
+
+#include "datmo_fusion/ros/message_conversion.h"
+
+namespace datmo {
+
+namespace {
+
+/// A second of a fast scanner: objects come a moment after their scan.
+constexpr std::size_t kMostViews = 20;
+
+}  // namespace
+
+ScanViews::ScanViews(const VisibilityOptions& options) : options_(options), unknown_(options) {}
+
+void ScanViews::add(const SplitScanMessage& message) {
+  const SplitScan scan = fromMessage(message);
+  if (!views_.empty() && message.header.stamp < views_.back().base.stamp) {
+    views_.clear();
+  }
+  views_.push_back(
+      {message.header, message.map_frame, scan.base_in_map.pose, Visibility(scan, options_)});
+  if (views_.size() > kMostViews) {
+    views_.pop_front();
+  }
+}
+
+const ScanViews::View* ScanViews::find(const std_msgs::Header& base) const {
+  const auto found = std::find_if(views_.begin(), views_.end(), [&](const View& view) {
+    return view.base.stamp == base.stamp && view.base.frame_id == base.frame_id;
+  });
+  return found == views_.end() ? nullptr : &*found;
+}
+
+std::optional<Pose2> ScanViews::pose(const std_msgs::Header& base,
+                                     const std::string& fixed_frame) const {
+  const View* view = find(base);
+  const bool known = view != nullptr && view->fixed_frame == fixed_frame;
+  return known ? std::optional<Pose2>(view->base_in_fixed) : std::nullopt;
+}
+
+const Visibility& ScanViews::visibility(const std_msgs::Header& base) const {
+  const View* view = find(base);
+  return view == nullptr ? unknown_ : view->visibility;
+}
+
+}  // namespace datmo

@@ -1,0 +1,245 @@
+#include "datmo_fusion/tracking/visibility.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace datmo {
+
+namespace {
+
+/// Between beams of a fan that stands for a field of view: a pedestrian at 60 m takes two of them.
+constexpr double kFanSpacing = degrees(0.25);
+
+/// Nothing that a sensor detects is narrower (m): a leg, a post.
+constexpr double kLeastWidth = 0.1;
+
+/// More beams than this add nothing to the chance that one returns.
+constexpr double kManyBeams = 50.0;
+
+/// Where a straight line enters and leaves a box, m from its start.
+struct Crossing {
+  double entry;
+  double exit;
+};
+
+}  // namespace
+
+/// A box as seen from the sensor.
+class Visibility::Outline {
+ public:
+  Outline(const Box2& box_in_base, const Pose2& sensor_in_base);
+
+  bool holdsSensor() const { return (sensor_.cwiseAbs() - half_).maxCoeff() <= 0.0; }
+
+  double distance() const { return distance_; }    ///< m, of the centre
+  double bearing() const { return bearing_; }      ///< rad, of the centre about the sensor
+  double width() const { return most_ - least_; }  ///< rad
+
+  /// rad, from the bearing, of the middle of one of so many equal parts of the width.
+  double offset(std::size_t part, std::size_t parts) const {
+    return least_ + (static_cast<double>(part) + 0.5) / static_cast<double>(parts) * width();
+  }
+
+  /// Of the line that leaves the sensor at this offset, rad.
+  Crossing crossing(double offset) const;
+
+ private:
+  Point2 half_;      ///< m, half of length and width
+  Point2 sensor_;    ///< m, in the box's frame
+  double distance_;  ///< m
+  double bearing_;   ///< rad
+  double towards_;   ///< rad, of the line from the sensor to the centre in the box's frame
+  double least_;     ///< rad, right edge, from the bearing
+  double most_;      ///< rad, left edge
+};
+
+Visibility::Outline::Outline(const Box2& box_in_base, const Pose2& sensor_in_base)
+    : half_(0.5 * std::max(box_in_base.length, kLeastWidth),
+            0.5 * std::max(box_in_base.width, kLeastWidth)) {
+  const double heading = box_in_base.centre.heading();
+  const Point2 line = box_in_base.centre.position() - sensor_in_base.position();
+  const double c = std::cos(heading);
+  const double s = std::sin(heading);
+  const Point2 to_centre(c * line.x() + s * line.y(), c * line.y() - s * line.x());
+  sensor_ = -to_centre;
+  distance_ = to_centre.norm();
+  towards_ = std::atan2(to_centre.y(), to_centre.x());
+  bearing_ = towards_ + heading - sensor_in_base.heading();
+  least_ = 0.0;
+  most_ = 0.0;
+  for (const double x : {-half_.x(), half_.x()}) {
+    for (const double y : {-half_.y(), half_.y()}) {
+      const Point2 corner(to_centre.x() + x, to_centre.y() + y);
+      const double cross = to_centre.x() * corner.y() - to_centre.y() * corner.x();
+      const double offset = std::atan2(cross, to_centre.dot(corner));
+      least_ = std::min(least_, offset);
+      most_ = std::max(most_, offset);
+    }
+  }
+}
+
+Crossing Visibility::Outline::crossing(double offset) const {
+  const Point2 direction(std::cos(towards_ + offset), std::sin(towards_ + offset));
+  Crossing crossing{0.0, distance_ + half_.norm()};
+  for (int axis = 0; axis < 2; ++axis) {
+    if (direction[axis] != 0.0) {
+      const double one = (-half_[axis] - sensor_[axis]) / direction[axis];
+      const double other = (half_[axis] - sensor_[axis]) / direction[axis];
+      crossing.entry = std::max(crossing.entry, std::min(one, other));
+      crossing.exit = std::min(crossing.exit, std::max(one, other));
+    }
+  }
+  return crossing;
+}
+
+void VisibilityOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"beam_detection", "1",
+                  "chance that one beam that meets an object returns; it falls from the scan's "
+                  "free_range on to 0 at the scanner's reach"},
+                 beam_detection, {0.01, 0.999});
+  visitor.number({"most_probability", "1",
+                  "that an object is detected which many beams meet: segmentation may still join "
+                  "it to something else"},
+                 most_probability, {0.1, 0.999});
+  visitor.number({"least_probability", "1",
+                  "that an object is detected which no beam can reach: the view may be wrong"},
+                 least_probability, {0.0, 0.1});
+  visitor.number({"unknown_probability", "1",
+                  "that an object is detected when nothing is known of the sensor's view"},
+                 unknown_probability, {0.1, 0.999});
+  visitor.number({"blocking_distance", "m",
+                  "a beam that ends nearer than an object by more than this is blocked; less may "
+                  "be the object itself, which is not quite where it is expected"},
+                 blocking_distance, {0.0, 10.0});
+}
+
+Visibility::Visibility(const VisibilityOptions& options) : options_(options) {
+  checkOptions(options);
+}
+
+Visibility::Visibility(const SplitScan& scan, const VisibilityOptions& options)
+    : Visibility(options) {
+  const ScanField& field = scan.field;
+  sensor_in_base_ = scan.scanner_in_base;
+  least_range_ = field.least_range;
+  range_ = field.range;
+  free_range_ = field.free_range > 0.0 ? field.free_range : field.range;
+  setFan(field.first_bearing, field.beam_spacing, field.beams);
+  for (const std::uint32_t beam : scan.blind_beams) {
+    if (beam < reach_.size()) {
+      reach_[beam] = 0.0;
+    }
+  }
+  for (const ScanPoint& point : scan.points) {
+    if (point.beam < reach_.size()) {
+      reach_[point.beam] = point.range;
+    }
+  }
+}
+
+Visibility::Visibility(const FieldOfView& view, const std::vector<Box2>& seen,
+                       const VisibilityOptions& options)
+    : Visibility(options) {
+  sensor_in_base_ = view.sensor_in_base;
+  range_ = view.range;
+  free_range_ = view.range;
+  const double beams =
+      std::max(0.0, std::round((view.most_bearing - view.least_bearing) / kFanSpacing));
+  setFan(view.least_bearing + 0.5 * kFanSpacing, kFanSpacing, static_cast<std::size_t>(beams));
+  for (const Box2& box : seen) {
+    const Outline outline(box, sensor_in_base_);
+    if (outline.holdsSensor()) {
+      continue;
+    }
+    const auto parts = static_cast<std::size_t>(outline.width() / kFanSpacing) + 1;
+    for (std::size_t part = 0; part < parts; ++part) {
+      const double offset = outline.offset(part, parts);
+      if (const auto beam = beamAt(outline.bearing() + offset)) {
+        // What was seen does not hide itself.
+        reach_[*beam] = std::min(reach_[*beam], outline.crossing(offset).exit);
+      }
+    }
+  }
+}
+
+void Visibility::setFan(double first_bearing, double beam_spacing, std::size_t beams) {
+  first_bearing_ = first_bearing;
+  beam_spacing_ = beam_spacing;
+  reach_.assign(beams, range_);
+}
+
+std::optional<std::size_t> Visibility::beamAt(double bearing) const {
+  // Beams from the first one on in the direction of the scan, in [-1/2, a full turn - 1/2).
+  const double turn = 2.0 * kPi / std::abs(beam_spacing_);
+  const double steps = (bearing - first_bearing_) / beam_spacing_ + 0.5;
+  const double beam = steps - turn * std::floor(steps / turn);
+  const auto index = static_cast<std::size_t>(beam);
+  return index < reach_.size() ? std::optional<std::size_t>(index) : std::nullopt;
+}
+
+Visibility::Looks Visibility::looksAt(const Outline& outline) {
+  Looks looks;
+  for (std::size_t i = 0; i < kLooks; ++i) {
+    const double offset = outline.offset(i, kLooks);
+    looks[i] = {outline.bearing() + offset, outline.crossing(offset).entry};
+  }
+  return looks;
+}
+
+double Visibility::clearShare(const Looks& looks, const Shift& shift) const {
+  std::size_t clear = 0;
+  for (const Look& look : looks) {
+    const double range = look.range + shift.range;
+    const bool in_range = range >= least_range_ && range <= range_;
+    const auto beam = beamAt(look.bearing + shift.bearing);
+    if (in_range && beam && range <= reach_[*beam] + options_.blocking_distance) {
+      ++clear;
+    }
+  }
+  return static_cast<double>(clear) / kLooks;
+}
+
+double Visibility::beamDetection(double range) const {
+  if (range <= free_range_) {
+    return options_.beam_detection;
+  }
+  return options_.beam_detection * std::max(0.0, (range_ - range) / (range_ - free_range_));
+}
+
+double Visibility::anyReturns(double beams, double chance) {
+  // A width of 2.3 beams is met by two of them, and by a third one three times in ten.
+  const double whole = std::floor(std::min(beams, kManyBeams));
+  const double rest = std::min(beams, kManyBeams) - whole;
+  return 1.0 - std::pow(1.0 - chance, whole) * (1.0 - rest * chance);
+}
+
+double Visibility::detectionProbability(const Box2& box_in_base, double sigma) const {
+  if (reach_.empty()) {
+    return options_.unknown_probability;
+  }
+  const Outline outline(box_in_base, sensor_in_base_);
+  if (outline.holdsSensor()) {
+    return options_.unknown_probability;
+  }
+  const double beams = outline.width() / std::abs(beam_spacing_);
+  const double chance = beamDetection(outline.distance());
+  const Looks looks = looksAt(outline);
+  const auto seenAt = [&](const Shift& shift) {
+    return anyReturns(beams * clearShare(looks, shift), chance);
+  };
+  double mean = seenAt({});
+  if (sigma > 0.0) {
+    // Cubature of third order with a point in the middle (Julier & Uhlmann 2004, kappa = 1).
+    const double step = std::sqrt(3.0) * sigma;
+    const double turn = step / outline.distance();
+    mean = mean / 3.0 + (seenAt({turn, 0.0}) + seenAt({-turn, 0.0}) + seenAt({0.0, step}) +
+                         seenAt({0.0, -step})) /
+                            6.0;
+  }
+  return std::clamp(options_.most_probability * mean, options_.least_probability,
+                    options_.most_probability);
+}
+
+}  // namespace datmo
