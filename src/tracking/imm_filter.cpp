@@ -2,109 +2,155 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include <Eigen/LU>
 
 namespace datmo {
 
 namespace {
 
-ModeVector sojournTimes(const ImmOptions& options) {
-  ModeVector times;
-  times << options.straight_sojourn, options.accelerating_sojourn, options.turn_sojourn,
-      options.turn_sojourn;
-  return times;
+constexpr std::size_t kStanding = static_cast<std::size_t>(MotionMode::kStanding);
+
+using ModeEstimates = std::array<StateEstimate, kMotionModes>;
+
+/// First and second moments of each mode about a common origin near all of them, so that no digits
+/// are lost: they are mixed by adding them up.
+ModeEstimates momentsAbout(const TrackState& origin, const ModeEstimates& modes,
+                           const ModeVector& probabilities) {
+  ModeEstimates moments;
+  for (std::size_t mode = 0; mode < modes.size(); ++mode) {
+    if (probabilities[static_cast<int>(mode)] > 0.0) {
+      moments[mode].mean = modes[mode].mean - origin;
+      moments[mode].covariance =
+          modes[mode].covariance + moments[mode].mean * moments[mode].mean.transpose();
+    }
+  }
+  return moments;
+}
+
+/// The mixture of the modes with these weights, which sum to 1.
+StateEstimate mixture(const TrackState& origin, const ModeEstimates& moments,
+                      const ModeVector& weights) {
+  StateEstimate result{TrackState::Zero(), TrackCovariance::Zero()};
+  for (std::size_t mode = 0; mode < moments.size(); ++mode) {
+    const double weight = weights[static_cast<int>(mode)];
+    if (weight > 0.0) {
+      result.mean += weight * moments[mode].mean;
+      result.covariance += weight * moments[mode].covariance;
+    }
+  }
+  result.covariance -= result.mean * result.mean.transpose();
+  result.mean += origin;
+  return result;
 }
 
 }  // namespace
 
 void ImmOptions::visit(OptionVisitor& visitor) {
   visitor.group("motion", [&] { motion.visit(visitor); });
-  constexpr Bounds kSojourn{0.1, 1000.0};
-  visitor.number({"straight_sojourn", "s", "how long an object keeps its velocity, on average"},
-                 straight_sojourn, kSojourn);
-  visitor.number({"accelerating_sojourn", "s", "how long it accelerates or brakes, on average"},
-                 accelerating_sojourn, kSojourn);
-  visitor.number({"turn_sojourn", "s", "how long it turns, on average"}, turn_sojourn, kSojourn);
+  visitor.group("transitions", [&] { transitions.visit(visitor); });
   visitor.number(
       {"least_probability", "1", "no mode becomes less likely, so that it can come back"},
       least_probability, {0.0, 0.1});
 }
 
 ImmStep immStep(const ImmOptions& options, double seconds) {
-  const ModeVector sojourn = sojournTimes(options);
-  ImmStep step;
-  step.motions = targetMotions(options.motion, seconds);
-  for (int from = 0; from < kMotionModes; ++from) {
-    const double kept = std::exp(-seconds / sojourn[from]);
-    step.transition.row(from).setConstant((1.0 - kept) / (kMotionModes - 1));
-    step.transition(from, from) = kept;
-  }
-  return step;
+  return {seconds, targetMotions(options.motion, seconds), startVariance(options.motion),
+          transitionMatrix(countsOfSojourns(options.transitions), seconds)};
 }
 
 ModeVector priorModeProbabilities(const ImmOptions& options) {
-  const ModeVector sojourn = sojournTimes(options);
-  return sojourn / sojourn.sum();
+  return priorModeProbabilities(options.transitions);
 }
 
-ImmFilter::ImmFilter(const StateEstimate& estimate, const ModeVector& mode_probabilities)
-    : probabilities_(mode_probabilities), combined_(estimate) {
+ImmFilter::ImmFilter(const StateEstimate& estimate, const ModeVector& mode_probabilities,
+                     const std::optional<TransitionModel>& transitions)
+    : probabilities_(mode_probabilities),
+      probabilities_before_(mode_probabilities),
+      combined_(estimate),
+      transitions_(transitions) {
   modes_.fill(estimate);
 }
 
 void ImmFilter::predict(const ImmStep& step) {
-  const ModeVector predicted = step.transition.transpose() * probabilities_;
-  std::array<StateEstimate, kMotionModes> next;
-  for (int to = 0; to < kMotionModes; ++to) {
-    // A mode that nothing leads to starts from all of them, as it would with equal transitions.
-    const ModeVector weights =
-        predicted[to] > 0.0
-            ? ModeVector(step.transition.col(to).cwiseProduct(probabilities_) / predicted[to])
-            : probabilities_;
-    const auto mode = static_cast<std::size_t>(to);
-    next[mode] = datmo::predict(mixture(weights), step.motions[mode]);
+  const ModeMatrix& transition =
+      transitions_ ? transitions_->predict(step.seconds) : step.transition;
+  const ModeEstimates moments = momentsAbout(combined_.mean, modes_, probabilities_);
+  const ModeMatrix joint = probabilities_.asDiagonal() * transition;
+  probabilities_before_ = probabilities_;
+  probabilities_ = joint.colwise().sum().transpose();
+  for (std::size_t to = 0; to < modes_.size(); ++to) {
+    const int column = static_cast<int>(to);
+    if (probabilities_[column] > 0.0) {
+      const ModeVector weights = joint.col(column) / probabilities_[column];
+      StateEstimate mixed = mixture(combined_.mean, moments, weights);
+      if (to != kStanding) {
+        mixed.covariance.diagonal() += weights[kStanding] * step.start_variance;
+      }
+      modes_[to] = datmo::predict(mixed, step.motions[to]);
+    }
   }
-  modes_ = next;
-  probabilities_ = predicted;
-  combined_ = mixture(probabilities_);
+  combine();
 }
 
-void ImmFilter::update(const PositionMeasurement& measured, double least_probability) {
-  const ModeVector log_weights = logWeights(measured);
-  for (StateEstimate& mode : modes_) {
-    mode = datmo::update(mode, measured);
+double ImmFilter::update(const PositionMeasurement& measured, double least_probability) {
+  const ModeLikelihoods likelihoods = likelihoodsOf(measured);
+  const ModeVector weights = probabilities_.cwiseProduct(likelihoods.relative);
+  const double total = weights.sum();
+  for (std::size_t mode = 0; mode < modes_.size(); ++mode) {
+    double& probability = probabilities_[static_cast<int>(mode)];
+    if (probability > 0.0) {
+      modes_[mode] = datmo::update(modes_[mode], measured);
+      probability = std::max(weights[static_cast<int>(mode)] / total, least_probability);
+    }
   }
-  const ModeVector weights = (log_weights.array() - log_weights.maxCoeff()).exp();
-  probabilities_ = (weights / weights.sum()).cwiseMax(least_probability);
   probabilities_ /= probabilities_.sum();
-  combined_ = mixture(probabilities_);
+  if (transitions_) {
+    transitions_->update(probabilities_before_, likelihoods.relative);
+  }
+  combine();
+  return likelihoods.log_scale + std::log(total);
 }
 
 double ImmFilter::logLikelihood(const PositionMeasurement& measured) const {
-  const ModeVector log_weights = logWeights(measured);
-  const double largest = log_weights.maxCoeff();
-  return largest + std::log((log_weights.array() - largest).exp().sum());
+  const ModeLikelihoods likelihoods = likelihoodsOf(measured);
+  return likelihoods.log_scale + std::log(probabilities_.dot(likelihoods.relative));
 }
 
-ModeVector ImmFilter::logWeights(const PositionMeasurement& measured) const {
-  ModeVector result;
-  for (int mode = 0; mode < kMotionModes; ++mode) {
-    const Innovation innovation = innovationOf(modes_[static_cast<std::size_t>(mode)], measured);
-    result[mode] = std::log(probabilities_[mode]) + innovation.logLikelihood();
+void ImmFilter::shift(const Point2& offset) {
+  for (StateEstimate& mode : modes_) {
+    mode.mean.head<2>() += offset;
   }
-  return result;
+  combined_.mean.head<2>() += offset;
 }
 
-StateEstimate ImmFilter::mixture(const ModeVector& weights) const {
-  StateEstimate result{TrackState::Zero(), TrackCovariance::Zero()};
-  for (int mode = 0; mode < kMotionModes; ++mode) {
-    result.mean += weights[mode] * modes_[static_cast<std::size_t>(mode)].mean;
+void ImmFilter::setTransitionPrior(const JumpCounts& prior) {
+  if (transitions_) {
+    transitions_->setPrior(prior);
   }
-  for (int mode = 0; mode < kMotionModes; ++mode) {
-    const StateEstimate& part = modes_[static_cast<std::size_t>(mode)];
-    const TrackState offset = part.mean - result.mean;
-    result.covariance += weights[mode] * (part.covariance + offset * offset.transpose());
+}
+
+ImmFilter::ModeLikelihoods ImmFilter::likelihoodsOf(const PositionMeasurement& measured) const {
+  ModeVector distances;     // squared
+  ModeVector determinants;  // m^4
+  for (std::size_t mode = 0; mode < modes_.size(); ++mode) {
+    const Innovation innovation = innovationOf(modes_[mode], measured);
+    const int index = static_cast<int>(mode);
+    distances[index] = innovation.squaredDistance();
+    determinants[index] = innovation.covariance.determinant();
   }
-  return result;
+  const auto possible = probabilities_.array() > 0.0;
+  const double nearest =
+      possible.select(distances.array(), std::numeric_limits<double>::infinity()).minCoeff();
+  const ModeVector densities =
+      ((nearest - distances.array()) / 2.0).exp() / determinants.array().sqrt();
+  return {possible.select(densities.array(), 0.0), -0.5 * nearest - std::log(2.0 * kPi)};
+}
+
+void ImmFilter::combine() {
+  combined_ =
+      mixture(combined_.mean, momentsAbout(combined_.mean, modes_, probabilities_), probabilities_);
 }
 
 }  // namespace datmo

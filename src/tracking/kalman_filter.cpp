@@ -6,6 +6,15 @@
 
 namespace datmo {
 
+namespace {
+
+/// Rounding must not make the two halves drift apart.
+void symmetrise(TrackCovariance& covariance) {
+  covariance.triangularView<Eigen::StrictlyLower>() = covariance.transpose();
+}
+
+}  // namespace
+
 double Innovation::squaredDistance() const { return residual.dot(covariance.inverse() * residual); }
 
 double Innovation::logLikelihood() const {
@@ -18,20 +27,43 @@ Innovation innovationOf(const StateEstimate& predicted, const PositionMeasuremen
 }
 
 StateEstimate predict(const StateEstimate& estimate, const LinearMotion& motion) {
-  return {motion.transition * estimate.mean,
-          motion.transition * estimate.covariance * motion.transition.transpose() + motion.noise};
+  // With the position p and the rest r of the state, a motion is p' = p + A r and r' = B r.
+  const Eigen::Matrix<double, 2, 4> a = motion.transition.topRightCorner<2, 4>();
+  const Eigen::Matrix4d b = motion.transition.bottomRightCorner<4, 4>();
+  const Eigen::Matrix2d position = estimate.covariance.topLeftCorner<2, 2>();
+  const Eigen::Matrix<double, 2, 4> cross = estimate.covariance.topRightCorner<2, 4>();
+  const Eigen::Matrix4d rest = estimate.covariance.bottomRightCorner<4, 4>();
+  const Eigen::Matrix<double, 2, 4> moved = cross + a * rest;
+
+  StateEstimate result;
+  result.mean.head<2>() = estimate.mean.head<2>() + a * estimate.mean.tail<4>();
+  result.mean.tail<4>() = b * estimate.mean.tail<4>();
+  TrackCovariance& covariance = result.covariance;
+  covariance.topLeftCorner<2, 2>() = position + cross * a.transpose() + a * moved.transpose();
+  covariance.topRightCorner<2, 4>() = moved * b.transpose();
+  covariance.bottomRightCorner<4, 4>() = b * rest * b.transpose();
+  covariance += motion.noise;
+  symmetrise(covariance);
+  return result;
 }
 
 StateEstimate update(const StateEstimate& predicted, const PositionMeasurement& measured) {
   const Innovation innovation = innovationOf(predicted, measured);
-  const Eigen::Matrix<double, kTrackState, 2> gain =
-      predicted.covariance.leftCols<2>() * innovation.covariance.inverse();
+  const Eigen::Matrix2d weight = innovation.covariance.inverse();
+  const Eigen::Matrix2d kept = measured.covariance * weight;
+  const Eigen::Matrix2d position = predicted.covariance.topLeftCorner<2, 2>();
+  const Eigen::Matrix<double, 2, 4> cross = predicted.covariance.topRightCorner<2, 4>();
+  const Eigen::Matrix<double, 4, 2> gain = cross.transpose() * weight;
 
-  TrackCovariance kept = TrackCovariance::Identity();
-  kept.leftCols<2>() -= gain;
-  const TrackCovariance covariance = kept * predicted.covariance * kept.transpose() +
-                                     gain * measured.covariance * gain.transpose();
-  return {predicted.mean + gain * innovation.residual, 0.5 * (covariance + covariance.transpose())};
+  StateEstimate result;
+  result.mean.head<2>() = predicted.mean.head<2>() + position * (weight * innovation.residual);
+  result.mean.tail<4>() = predicted.mean.tail<4>() + gain * innovation.residual;
+  result.covariance.topLeftCorner<2, 2>() = kept * position;
+  result.covariance.topRightCorner<2, 4>() = kept * cross;
+  result.covariance.bottomRightCorner<4, 4>() =
+      predicted.covariance.bottomRightCorner<4, 4>() - gain * cross;
+  symmetrise(result.covariance);
+  return result;
 }
 
 }  // namespace datmo

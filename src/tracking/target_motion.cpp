@@ -60,6 +60,23 @@ void TargetMotionOptions::visit(OptionVisitor& visitor) {
   visitor.number(
       {"acceleration_fading", "s", "time constant with which these models forget an acceleration"},
       acceleration_fading, {1e-2, 10.0});
+  visitor.number({"standing_speed_std", "m/s",
+                  "velocity that the standing model leaves open; also its acceleration, in m/s^2"},
+                 standing_speed_std, {1e-3, 1.0});
+  visitor.number(
+      {"standing_density", "m^2/s",
+       "power of the random walk of a standing object's position: its root is the change "
+       "in one second"},
+      standing_density, {0.0, 1.0});
+  visitor.number({"standing_fading", "s",
+                  "time constant with which the standing model forgets velocity and acceleration; "
+                  "well below the time between two scans"},
+                 standing_fading, {1e-3, 1.0});
+  visitor.number(
+      {"start_speed_std", "m/s",
+       "standard deviation of each component of the velocity of an object that ceases to "
+       "stand, in the scan in which it does"},
+      start_speed_std, {1e-2, 10.0});
 }
 
 LinearMotion coordinatedTurn(double turn_rate, const TargetMotionOptions& options, double seconds) {
@@ -110,11 +127,29 @@ LinearMotion constantAcceleration(const TargetMotionOptions& options, double sec
   return motion;
 }
 
+LinearMotion standingStill(const TargetMotionOptions& options, double seconds) {
+  const double kept = std::exp(-seconds / options.standing_fading);
+  const double rest = options.standing_speed_std * options.standing_speed_std;
+  LinearMotion motion{TrackCovariance::Identity(), TrackCovariance::Zero()};
+  motion.transition.diagonal().tail<4>().setConstant(kept);
+  motion.noise.diagonal().head<2>().setConstant(options.standing_density * seconds);
+  motion.noise.diagonal().tail<4>().setConstant(rest * (1.0 - kept * kept));
+  return motion;
+}
+
+TrackState startVariance(const TargetMotionOptions& options) {
+  const double speed = options.start_speed_std * options.start_speed_std;
+  const double acceleration = options.acceleration_std * options.acceleration_std;
+  TrackState variance;
+  variance << 0.0, 0.0, speed, speed, acceleration, acceleration;
+  return variance;
+}
+
 std::array<LinearMotion, kMotionModes> targetMotions(const TargetMotionOptions& options,
                                                      double seconds) {
   return {coordinatedTurn(0.0, options, seconds), constantAcceleration(options, seconds),
           coordinatedTurn(options.turn_rate, options, seconds),
-          coordinatedTurn(-options.turn_rate, options, seconds)};
+          coordinatedTurn(-options.turn_rate, options, seconds), standingStill(options, seconds)};
 }
 
 }  // namespace datmo

@@ -1,68 +1,88 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include <Eigen/Core>
 
 #include "datmo_fusion/tracking/kalman_filter.h"
+#include "datmo_fusion/tracking/transition_model.h"
 
 namespace datmo {
 
 struct ImmOptions {
   TargetMotionOptions motion;
-  double straight_sojourn = 10.0;     ///< s
-  double accelerating_sojourn = 3.0;  ///< s
-  double turn_sojourn = 3.0;          ///< s
+  TransitionOptions transitions;
   double least_probability = 1e-3;
 
   void visit(OptionVisitor& visitor);
 };
 
-using ModeVector = Eigen::Matrix<double, kMotionModes, 1>;
-using ModeMatrix = Eigen::Matrix<double, kMotionModes, kMotionModes>;
-
 /// What all filters share in one time step: made once, used for every track.
 struct ImmStep {
+  double seconds = 0.0;
   std::array<LinearMotion, kMotionModes> motions;
-  ModeMatrix transition;  ///< row: from, column: to; rows sum to 1
+  TrackState start_variance;  ///< see startVariance
+  ModeMatrix transition;      ///< of the sojourn times; row: from, column: to; rows sum to 1
 };
 
-/// A mode lasts its sojourn time on average: it is kept over `seconds` >= 0 with exp(-seconds /
-/// sojourn), and left to the others in equal shares.
+/// The step of `seconds` >= 0.
 ImmStep immStep(const ImmOptions& options, double seconds);
 
 /// Probabilities of the modes of an object of which nothing is known: each by its share of time.
 ModeVector priorModeProbabilities(const ImmOptions& options);
 
-/// Interacting multiple models: four Kalman filters over one state, mixed before each step (Blom
-/// and Bar-Shalom 1988; Bar-Shalom, Li, Kirubarajan 2001, 11.6.6; thesis 3.3.4).
+/// Interacting multiple models: a Kalman filter for each mode over one common state, mixed before
+/// each step (Blom and Bar-Shalom 1988; Bar-Shalom, Li, Kirubarajan 2001, 11.6.6; thesis 3.3.4).
+///
+/// Who ceases to stand may have any velocity: what comes from the standing mode into another one is
+/// mixed in with ImmStep::start_variance on top. A mode of probability 0 takes no part, and costs
+/// nothing, until the transition probabilities lead to it. Of fixed size; copies are cheap.
 class ImmFilter {
  public:
-  /// All modes start from the same estimate. Probabilities sum to 1.
-  ImmFilter(const StateEstimate& estimate, const ModeVector& mode_probabilities);
+  /// All modes start from the same estimate. Probabilities sum to 1. With `transitions`, the filter
+  /// learns its own transition probabilities; else it takes those of each step.
+  ImmFilter(const StateEstimate& estimate, const ModeVector& mode_probabilities,
+            const std::optional<TransitionModel>& transitions = std::nullopt);
 
   /// Mixes and predicts. The mode probabilities become the predicted ones, which is also what they
   /// are after a missed detection.
   void predict(const ImmStep& step);
 
-  /// Each mode takes in the measurement and is weighed by how well it had predicted it; none falls
-  /// below `least_probability`, so that it can come back.
-  void update(const PositionMeasurement& measured, double least_probability);
+  /// Each mode takes in the measurement and is weighed by how well it had predicted it; none that
+  /// was possible falls below `least_probability`, so that it can come back. Returns the
+  /// logLikelihood of the measurement, as it was before.
+  double update(const PositionMeasurement& measured, double least_probability);
 
   /// Logarithm of the density of a measurement over all modes, of 1/m^2.
   double logLikelihood(const PositionMeasurement& measured) const;
 
+  /// Moves the position of all modes (m, fixed frame): not the object has moved, but the point of
+  /// it that is followed.
+  void shift(const Point2& offset);
+
+  /// As the class of the target becomes known; without effect where nothing is learnt.
+  void setTransitionPrior(const JumpCounts& prior);
+
   /// Mean and covariance of the mixture of all modes.
   const StateEstimate& estimate() const { return combined_; }
   const ModeVector& modeProbabilities() const { return probabilities_; }
+  const std::optional<TransitionModel>& transitions() const { return transitions_; }
 
  private:
-  ModeVector logWeights(const PositionMeasurement& measured) const;
-  StateEstimate mixture(const ModeVector& weights) const;
+  /// How well the modes had predicted a measurement.
+  struct ModeLikelihoods {
+    ModeVector relative;  ///< of each mode that is possible, over exp(log_scale); 0 for the others
+    double log_scale;     ///< of 1/m^2
+  };
+  ModeLikelihoods likelihoodsOf(const PositionMeasurement& measured) const;
+  void combine();
 
   std::array<StateEstimate, kMotionModes> modes_;
   ModeVector probabilities_;
+  ModeVector probabilities_before_;  ///< before the last prediction
   StateEstimate combined_;
+  std::optional<TransitionModel> transitions_;
 };
 
 }  // namespace datmo

@@ -36,8 +36,10 @@ Innovation innovationOf(const StateEstimate& predicted, const PositionMeasuremen
 
 StateEstimate predict(const StateEstimate& estimate, const LinearMotion& motion);
 
-/// The update of the Kalman filter in Joseph's form, which keeps the covariance symmetric and
-/// positive (Bar-Shalom, Li, Kirubarajan 2001, 5.2.3).
+/// The update of the Kalman filter. What it leaves of the covariance of the position is
+/// P - P (P + R)^-1 P, computed as R (P + R)^-1 P: no difference of nearly equal numbers is taken,
+/// and the result stays positive without the cost of Joseph's form (Bar-Shalom, Li, Kirubarajan
+/// 2001, 5.2.3).
 StateEstimate update(const StateEstimate& predicted, const PositionMeasurement& measured);
 
 }  // namespace datmo

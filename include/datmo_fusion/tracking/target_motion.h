@@ -14,11 +14,16 @@ struct TargetMotionOptions {
   double jerk_density = 1.0;          ///< m^2/s^5
   double acceleration_std = 0.5;      ///< m/s^2
   double acceleration_fading = 0.3;   ///< s
+  double standing_speed_std = 0.03;   ///< m/s
+  double standing_density = 1e-4;     ///< m^2/s
+  double standing_fading = 0.02;      ///< s
+  double start_speed_std = 1.0;       ///< m/s
 
   void visit(OptionVisitor& visitor);
 };
 
-/// One linear motion over one time step: x' = transition x + w, w ~ N(0, noise).
+/// One linear motion over one time step: x' = transition x + w, w ~ N(0, noise). No motion depends
+/// on the place: the first two columns of the transition are those of the identity.
 struct LinearMotion {
   TrackCovariance transition;
   TrackCovariance noise;
@@ -37,7 +42,18 @@ LinearMotion coordinatedTurn(double turn_rate, const TargetMotionOptions& option
 /// Constant acceleration over `seconds` >= 0 with white noise on the jerk (ibid., 6.2.3).
 LinearMotion constantAcceleration(const TargetMotionOptions& options, double seconds);
 
-/// The four models in the order of MotionMode.
+/// Standing still over `seconds` >= 0: the position stays, but for a slow random walk of density
+/// `standing_density`, and velocity and acceleration go to zero exponentially, within
+/// `standing_fading`, up to a rest of `standing_speed_std` (m/s, and as much in m/s^2) that keeps
+/// the covariance regular. What velocity is left on the way does not move the position: this is the
+/// model of an object that has come to rest, not of how it brakes. Discretised exactly, as above.
+LinearMotion standingStill(const TargetMotionOptions& options, double seconds);
+
+/// What is added to the variance of each component when an object ceases to stand: it may have any
+/// velocity of `start_speed_std` and any acceleration of `acceleration_std` by the end of the step.
+TrackState startVariance(const TargetMotionOptions& options);
+
+/// All models in the order of MotionMode.
 std::array<LinearMotion, kMotionModes> targetMotions(const TargetMotionOptions& options,
                                                      double seconds);
 

@@ -1,0 +1,65 @@
+// The filter of one target: what a scan costs, and what one more measurement in its gate does.
+
+#include <benchmark/benchmark.h>
+
+#include "datmo_fusion/common/random.h"
+#include "datmo_fusion/tracking/imm_filter.h"
+
+namespace datmo {
+namespace {
+
+constexpr double kPeriod = 0.1;         // s
+constexpr double kSpeed = 8.0;          // m/s
+constexpr double kPositionSigma = 0.2;  // m
+
+/// Scans before the clock runs: the velocity is known.
+constexpr int kWarmUp = 20;
+
+/// A target that is seen driving ahead, always by the same noise after so many scans.
+class FollowedTarget {
+ public:
+  void step() {
+    filter_.predict(step_);
+    benchmark::DoNotOptimize(filter_.estimate());
+    filter_.update(seen(), options_.least_probability);
+  }
+
+  PositionMeasurement seen() {
+    const double x = kSpeed * kPeriod * ++scan_;
+    return {Point2(x + random_.normal(kPositionSigma), random_.normal(kPositionSigma)),
+            kPositionSigma * kPositionSigma * Eigen::Matrix2d::Identity()};
+  }
+
+  const ImmFilter& filter() const { return filter_; }
+
+ private:
+  ImmOptions options_;
+  ImmStep step_ = immStep(options_, kPeriod);
+  ImmFilter filter_{StateEstimate(), priorModeProbabilities(options_)};
+  Random random_{1};
+  int scan_ = 0;
+};
+
+void immPredictAndUpdate(benchmark::State& state) {
+  FollowedTarget target;
+  for (auto _ : state) {
+    target.step();
+  }
+  benchmark::DoNotOptimize(target.filter().estimate());
+}
+BENCHMARK(immPredictAndUpdate);
+
+void immLogLikelihood(benchmark::State& state) {
+  FollowedTarget target;
+  for (int i = 0; i < kWarmUp; ++i) {
+    target.step();
+  }
+  const PositionMeasurement seen = target.seen();
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(target.filter().logLikelihood(seen));
+  }
+}
+BENCHMARK(immLogLikelihood);
+
+}  // namespace
+}  // namespace datmo

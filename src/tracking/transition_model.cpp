@@ -1,0 +1,234 @@
+#include "datmo_fusion/tracking/transition_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace datmo {
+
+namespace {
+
+/// Least weight of a row, as a share of its prior's.
+constexpr double kLeastWeight = 0.1;
+
+/// Of a step so long that a mode is hardly ever kept, no rate can be told.
+constexpr double kLeastKept = 1e-3;
+
+JumpCounts operator+(const JumpCounts& a, const JumpCounts& b) {
+  return {a.jumps + b.jumps, a.exposure + b.exposure};
+}
+
+JumpCounts operator-(const JumpCounts& a, const JumpCounts& b) {
+  return {a.jumps - b.jumps, a.exposure - b.exposure};
+}
+
+/// Modes not in use have a sojourn time of 0.
+ModeVector sojournTimes(const TransitionOptions& options) {
+  ModeVector times;
+  times << options.straight_sojourn, options.accelerating_sojourn, options.turn_sojourn,
+      options.turn_sojourn, options.standing ? options.standing_sojourn : 0.0;
+  return times;
+}
+
+/// Puts a row back into its bounds: each jump at its least share, their sum as the bounds of the
+/// sojourn time say. Jumps that the prior does not know stay impossible, and a row of which hardly
+/// any weight is left becomes the prior's.
+void boundRow(JumpCounts& counts, int from, const JumpCounts& prior,
+              const TransitionLearningOptions& options) {
+  if (counts.exposure[from] < kLeastWeight * prior.exposure[from]) {
+    counts.exposure[from] = prior.exposure[from];
+    counts.jumps.row(from) = prior.jumps.row(from);
+  }
+  const double least = counts.exposure[from] / options.most_sojourn;
+  const double most = counts.exposure[from] / options.least_sojourn;
+  const double floor = options.least_share * std::max(counts.jumps.row(from).sum(), least);
+  for (int to = 0; to < kMotionModes; ++to) {
+    double& jumps = counts.jumps(from, to);
+    jumps = prior.jumps(from, to) > 0.0 ? std::max(jumps, floor) : 0.0;
+  }
+  const double sum = counts.jumps.row(from).sum();
+  if (sum > 0.0) {
+    counts.jumps.row(from) *= std::clamp(sum, least, most) / sum;
+  }
+}
+
+/// The counts with no row of more than this exposure (s).
+JumpCounts limited(JumpCounts counts, double most_exposure) {
+  const ModeVector factor = (most_exposure / counts.exposure.array()).min(1.0);
+  return {factor.asDiagonal() * counts.jumps, factor.cwiseProduct(counts.exposure)};
+}
+
+/// 1 - sum p_j^2: the total variance of a Dirichlet distribution is this over its strength + 1.
+double spreadOf(const ModeVector& mean) { return (mean.array() * (1.0 - mean.array())).sum(); }
+
+/// Strength of the Dirichlet distribution of mean `next` with the total variance of the mixture of
+/// Dir(strength mean + e_j) with weights (mean + change)_j. Sum of variances of the mixture, from
+/// the second moments of its parts: spread / (A + 1) - 4 c'p / ((A + 1) (A + 2)) - c'c / (A + 1)^2.
+double strengthAfter(const ModeVector& mean, const ModeVector& change, double strength,
+                     const ModeVector& next) {
+  const double variance = spreadOf(mean) - 4.0 * change.dot(mean) / (strength + 2.0) -
+                          change.squaredNorm() / (strength + 1.0);
+  return (strength + 1.0) * spreadOf(next) / variance - 1.0;
+}
+
+}  // namespace
+
+void TransitionLearningOptions::visit(OptionVisitor& visitor) {
+  constexpr Bounds kExposure{1.0, 1e5};
+  visitor.number({"prior_exposure", "s",
+                  "weight of the prior of a target's transition probabilities, as the time in each "
+                  "mode that it stands for"},
+                 prior_exposure, kExposure);
+  visitor.number(
+      {"class_exposure", "s", "most time in each mode that a class remembers; older targets fade"},
+      class_exposure, kExposure);
+  visitor.number({"forgetting", "s", "time constant with which a target forgets what it has shown"},
+                 forgetting, {0.1, 1e6});
+  visitor.number({"least_sojourn", "s", "no mode lasts less on average, whatever is learnt"},
+                 least_sojourn, {0.01, 10.0});
+  visitor.number({"most_sojourn", "s", "no mode lasts longer on average, whatever is learnt"},
+                 most_sojourn, {1.0, 1e6});
+  visitor.number({"least_share", "1", "of all jumps from a mode, each goes to each other mode"},
+                 least_share, {0.0, 0.2});
+}
+
+void TransitionOptions::visit(OptionVisitor& visitor) {
+  constexpr Bounds kSojourn{0.1, 1000.0};
+  visitor.number({"straight_sojourn", "s", "how long an object keeps its velocity, on average"},
+                 straight_sojourn, kSojourn);
+  visitor.number({"accelerating_sojourn", "s", "how long it accelerates or brakes, on average"},
+                 accelerating_sojourn, kSojourn);
+  visitor.number({"turn_sojourn", "s", "how long it turns, on average"}, turn_sojourn, kSojourn);
+  visitor.number({"standing_sojourn", "s", "how long it stands, on average"}, standing_sojourn,
+                 kSojourn);
+  visitor.toggle({"standing", "", "whether standing is a mode; false: the four of thesis 3.3.4"},
+                 standing);
+  visitor.toggle({"adaptive", "",
+                  "whether the transition probabilities are learnt while tracking (thesis 3.3.4; "
+                  "Jilkov & Li 2004); false: they follow from the sojourn times alone"},
+                 adaptive);
+  visitor.group("learning", [&] { learning.visit(visitor); });
+}
+
+JumpCounts countsOfSojourns(const TransitionOptions& options) {
+  const ModeVector sojourn = sojournTimes(options);
+  const ModeVector used = (sojourn.array() > 0.0).cast<double>();
+  JumpCounts counts;
+  counts.exposure.setConstant(options.learning.prior_exposure);
+  for (int from = 0; from < kMotionModes; ++from) {
+    if (sojourn[from] > 0.0) {
+      const double jumps = counts.exposure[from] / sojourn[from];
+      counts.jumps.row(from) = used.transpose() * (jumps / (used.sum() - 1.0));
+      counts.jumps(from, from) = 0.0;
+    }
+  }
+  return counts;
+}
+
+ModeVector priorModeProbabilities(const TransitionOptions& options) {
+  const ModeVector sojourn = sojournTimes(options);
+  return sojourn / sojourn.sum();
+}
+
+ModeMatrix transitionMatrix(const JumpCounts& counts, double seconds) {
+  ModeMatrix matrix = counts.jumps;
+  for (int from = 0; from < kMotionModes; ++from) {
+    const double jumps = counts.jumps.row(from).sum();
+    if (jumps > 0.0) {
+      const double left = -std::expm1(-seconds * jumps / counts.exposure[from]);
+      matrix.row(from) *= left / jumps;
+      matrix(from, from) = 1.0 - left;
+    } else {
+      matrix(from, from) = 1.0;
+    }
+  }
+  return matrix;
+}
+
+TransitionModel::TransitionModel(const JumpCounts& prior, const TransitionLearningOptions& options)
+    : options_(options), prior_(prior) {}
+
+JumpCounts TransitionModel::counts() const { return prior_ + learned_; }
+
+void TransitionModel::setPrior(const JumpCounts& prior) {
+  JumpCounts all = prior + learned_;
+  for (int from = 0; from < kMotionModes; ++from) {
+    boundRow(all, from, prior, options_);
+  }
+  prior_ = prior;
+  learned_ = all - prior;
+}
+
+const ModeMatrix& TransitionModel::predict(double seconds) {
+  const double kept = std::exp(-seconds / options_.forgetting);
+  learned_.jumps *= kept;
+  learned_.exposure *= kept;
+  matrix_ = transitionMatrix(counts(), seconds);
+  seconds_ = seconds;
+  return matrix_;
+}
+
+void TransitionModel::update(const ModeVector& before, const ModeVector& likelihoods) {
+  if (seconds_ <= 0.0) {
+    return;
+  }
+  const ModeMatrix joint = before.asDiagonal() * matrix_ * likelihoods.asDiagonal();
+  const double evidence = joint.sum();
+  JumpCounts all = counts();
+  for (int from = 0; from < kMotionModes; ++from) {
+    updateRow(all, from, joint.row(from).transpose() / evidence);
+  }
+  learned_ = all - prior_;
+}
+
+/// `joint`: probabilities that the mode was `from` and is each one now.
+void TransitionModel::updateRow(JumpCounts& counts, int from, const ModeVector& joint) const {
+  const ModeVector mean = matrix_.row(from).transpose();
+  if (mean[from] < kLeastKept || mean[from] >= 1.0) {
+    return;
+  }
+  const double strength = counts.exposure[from] / seconds_;
+  const ModeVector change = joint - mean * joint.sum();
+  const ModeVector next = mean + change / (strength + 1.0);
+  const double next_strength = strengthAfter(mean, change, strength, next);
+
+  const double left = next.sum() - next[from];
+  counts.exposure[from] = next_strength * seconds_;
+  counts.jumps.row(from) = next.transpose() * (-std::log1p(-left) * next_strength / left);
+  counts.jumps(from, from) = 0.0;
+  boundRow(counts, from, prior_, options_);
+}
+
+TransitionPriors::TransitionPriors(const TransitionOptions& options)
+    : options_(options), sojourns_(countsOfSojourns(options)) {
+  classes_.fill(sojourns_);
+}
+
+std::optional<TransitionModel> TransitionPriors::modelOf(ObjectClass object_class) const {
+  if (!options_.adaptive) {
+    return std::nullopt;
+  }
+  return TransitionModel(of(object_class), options_.learning);
+}
+
+JumpCounts TransitionPriors::of(ObjectClass object_class) const {
+  return limited(classes_[static_cast<std::size_t>(object_class)],
+                 options_.learning.prior_exposure);
+}
+
+void TransitionPriors::learn(ObjectClass object_class, const TransitionModel& target) {
+  add(object_class, target.learned());
+  if (object_class != ObjectClass::kUnknown) {
+    add(ObjectClass::kUnknown, target.learned());
+  }
+}
+
+void TransitionPriors::add(ObjectClass object_class, const JumpCounts& learned) {
+  JumpCounts& counts = classes_[static_cast<std::size_t>(object_class)];
+  counts = counts + learned;
+  for (int from = 0; from < kMotionModes; ++from) {
+    boundRow(counts, from, sojourns_, options_.learning);
+  }
+  counts = limited(counts, options_.learning.class_exposure);
+}
+
+}  // namespace datmo
