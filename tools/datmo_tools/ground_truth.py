@@ -69,11 +69,11 @@ def _moved_to_map(source, known, base_from_velodyne, stamps, poses):
 
 
 def fitted_velocities(seconds, positions, half_window):
-    """Velocities (n x 2, m/s): slope of the line fitted to positions (n x 2, m) near each instant.
+    """Velocities (n x k, m/s): slope of the line fitted to positions (n x k, m) near each instant.
 
     seconds: n, rising. An instant with no other one within the window gets 0.
     """
-    velocities = np.zeros((len(seconds), 2))
+    velocities = np.zeros(positions.shape)
     for i, instant in enumerate(seconds):
         near = np.abs(seconds - instant) <= half_window + 1e-9
         offset = seconds[near] - np.mean(seconds[near])

@@ -10,6 +10,7 @@ from datmo_tools import (
     odometry,
     road_plane,
     scanner_emulation,
+    truth_messages,
 )
 from datmo_tools.bag_file import MOUNTS_LEAD, whole_bag
 from datmo_tools.ego_pose import EgoMotion, poses_from_gps, poses_from_velocity
@@ -141,7 +142,10 @@ class _Conversion:
         sample = self._samples[frame]
         bag.write("/tf", stamp, bag_messages.odometry_transform(sample))
         bag.write("/odometry", stamp, bag_messages.odometry(sample))
-        pose = kitti_messages.true_pose(stamp, self._poses[frame], self._records[frame])
+        record = self._records[frame]
+        pose = truth_messages.true_pose(
+            stamp, self._poses[frame], record.forward_speed, record.yaw_rate
+        )
         bag.write("/ground_truth/pose", stamp, pose)
 
     def _write_scan(self, bag, stamp, frame):
@@ -156,7 +160,7 @@ class _Conversion:
             objects = self._truth[frame]
             beams = [ground_truth.points_in_box(hits, item.source, item.box) for item in objects]
             bag.write(
-                "/ground_truth/objects", stamp, kitti_messages.true_objects(stamp, objects, beams)
+                "/ground_truth/objects", stamp, truth_messages.true_objects(stamp, objects, beams)
             )
 
     def _write_beams(self, bag, stamp, scan):

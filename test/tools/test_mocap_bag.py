@@ -1,0 +1,194 @@
+#!/usr/bin/python3
+"""mocap_to_bag on made-up recordings: what stands in the bag, options, errors, determinism."""
+
+import contextlib
+import io
+import math
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+import rosbag
+from datmo_tools.mocap_to_bag import main
+from datmo_tools.pose_path import planar
+from tiny_capture import SCANS, START, write_recording
+
+EGO_SPEED, RED_SPEED = 1.0, 0.5  # m/s
+EXACT = ("--range-error", "0", "--scan-delay", "0")
+
+
+def ego(seconds):
+    """Along y of the room from (2, 1)."""
+    return (2.0, 1.0 + EGO_SPEED * seconds, 0.5 * math.pi)
+
+
+def red(seconds):
+    """2 m ahead of where the ego car starts, in its direction, and slower."""
+    return (2.0, 3.0 + RED_SPEED * seconds, 0.5 * math.pi)
+
+
+class Conversion(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.root = Path(temporary.name)
+        self.recording, self.bag = self.root / "drive.bag", self.root / "out.bag"
+
+    def convert(self, *options, expected_code=0, **recorded):
+        """Runs the tool without a subprocess; returns what it said on standard error."""
+        content = {"ego": ego, "red": red, "ranges": [1.0, 2.0, 4.0, math.inf], **recorded}
+        write_recording(self.recording, **content)
+        said = io.StringIO()
+        with contextlib.redirect_stderr(said):
+            code = main([str(self.recording), str(self.bag), *options])
+        self.assertEqual(code, expected_code, said.getvalue())
+        return said.getvalue()
+
+    def messages(self, topic):
+        with rosbag.Bag(str(self.bag)) as bag:
+            return [message for _, message, _ in bag.read_messages([topic])]
+
+
+def seconds_of(message):
+    return (message.header.stamp.to_nsec() - START) * 1e-9
+
+
+class Scans(Conversion):
+    def test_clockwise_beams_stand_in_the_order_of_time(self):
+        self.convert(*EXACT)
+        scan = self.messages("/scan")[0]
+        self.assertEqual(scan.header.frame_id, "scanner")
+        self.assertEqual(list(scan.ranges), [math.inf, 4.0, 2.0, 1.0])
+        self.assertAlmostEqual(scan.angle_min, math.pi, places=5)
+        self.assertAlmostEqual(scan.angle_increment, -0.5 * math.pi, places=5)
+        self.assertAlmostEqual(scan.angle_max, -0.5 * math.pi, places=5)
+        self.assertAlmostEqual(scan.time_increment, 0.08 / 3, places=6)
+
+    def test_beams_in_order(self):
+        self.convert(*EXACT, "--beams-in-order", "--sweep-time", "0.03")
+        scan = self.messages("/scan")[0]
+        self.assertEqual(list(scan.ranges), [1.0, 2.0, 4.0, math.inf])
+        self.assertAlmostEqual(scan.angle_increment, 0.5 * math.pi, places=5)
+        self.assertAlmostEqual(scan.time_increment, 0.01, places=6)
+
+    def test_stamp_is_of_the_first_beam_and_recorded_with_the_last(self):
+        self.convert("--scan-delay", "-0.03")
+        with rosbag.Bag(str(self.bag)) as bag:
+            times = [
+                (seconds_of(message), time.to_nsec() - START)
+                for _, message, time in bag.read_messages(["/scan"])
+            ]
+        self.assertEqual(len(times), SCANS)
+        for index, (stamp, recorded) in enumerate(times):
+            self.assertAlmostEqual(stamp, 0.08 * index - 0.03, places=6)
+            self.assertAlmostEqual(recorded * 1e-9, 0.08 * index + 0.05, places=6)
+
+    def test_ranges_are_made_longer_by_their_square(self):
+        self.convert("--range-error", "0.01", ranges=[1.0, 4.0, 0.1, 9.0, math.nan])
+        ranges = self.messages("/scan")[0].ranges[::-1]
+        np.testing.assert_allclose(ranges, [1.01, 4.16, math.inf, math.inf, math.inf], rtol=1e-6)
+
+    def test_mount(self):
+        self.convert("--mount", "0.2", "-0.1", "90")
+        with rosbag.Bag(str(self.bag)) as bag:
+            topic, message, _, header = next(bag.read_messages(return_connection_header=True))
+        self.assertEqual((topic, header["latching"]), ("/tf_static", b"1"))
+        mount = message.transforms[0]
+        self.assertEqual((mount.header.frame_id, mount.child_frame_id), ("base_link", "scanner"))
+        pose = mount.transform
+        np.testing.assert_allclose([pose.translation.x, pose.translation.y], [0.2, -0.1])
+        np.testing.assert_allclose([pose.rotation.z, pose.rotation.w], [math.sqrt(0.5)] * 2)
+
+
+class Truth(Conversion):
+    def test_map_is_the_first_pose_at_a_scan(self):
+        self.convert(*EXACT)
+        for message in self.messages("/ground_truth/pose"):
+            expected = [EGO_SPEED * seconds_of(message), 0.0, 0.0]
+            np.testing.assert_allclose(planar(message.pose.pose), expected, atol=1e-6)
+            self.assertAlmostEqual(message.twist.twist.linear.x, EGO_SPEED, places=6)
+
+    def test_others_at_the_stamps_of_the_scans(self):
+        self.convert(*EXACT, "--object-centre", "0.1", "0.02", "180")
+        found = self.messages("/ground_truth/objects")
+        self.assertEqual(len(found), SCANS)
+        for message in found:
+            (car,) = message.objects
+            x, y, yaw = planar(car.pose)
+            np.testing.assert_allclose([x, y], [2.1 + RED_SPEED * seconds_of(message), 0.02])
+            self.assertAlmostEqual(abs(yaw), math.pi, places=6)
+            np.testing.assert_allclose([car.velocity.x, car.velocity.y], [0.5, 0.0], atol=1e-6)
+            self.assertTrue(car.moving)
+
+    def test_what_is_slow_stands(self):
+        self.convert("--moving-speed", "0.6")
+        (car,) = self.messages("/ground_truth/objects")[0].objects
+        self.assertFalse(car.moving)
+        self.assertEqual(car.velocity.x, 0.0)
+
+    def test_beams_on_the_other_car(self):
+        """Straight ahead 1.9 m from the scanner is its rear side, 0.1 m from its middle."""
+        size = ("--object-size", "0.2", "0.1", "0.1", "--object-centre", "0", "0", "0")
+        centred = (*EXACT, *size, "--mount", "0", "0", "0")
+        self.convert(*centred, ranges=[5.0, 1.9, 5.0, 5.0])
+        first = self.messages("/ground_truth/objects")[0].objects[0]
+        self.assertEqual((first.lidar_beams, first.visible_to), (1, ["scanner"]))
+        self.convert(*centred, ranges=[5.0, 3.0, 5.0, 5.0])
+        first = self.messages("/ground_truth/objects")[0].objects[0]
+        self.assertEqual((first.lidar_beams, first.visible_to), (0, []))
+
+    def test_either_car_may_be_the_observed_one(self):
+        self.convert(*EXACT, "--ego-pose", "/red_pose", "--object-pose", "/ego_pose")
+        last = self.messages("/ground_truth/pose")[-1]
+        self.assertAlmostEqual(last.twist.twist.linear.x, RED_SPEED, places=6)
+
+    def test_scans_without_capture_have_no_truth(self):
+        said = self.convert(*EXACT, red=lambda seconds: red(seconds) if seconds < 0.4 else None)
+        self.assertEqual(len(self.messages("/scan")), SCANS)
+        stamps = [seconds_of(message) for message in self.messages("/ground_truth/objects")]
+        self.assertEqual(len(stamps), 6)
+        self.assertIn(f"5 of {SCANS} scans without truth", said)
+
+
+class Errors(Conversion):
+    def test_missing_topics_are_named(self):
+        said = self.convert(expected_code=1, topics=("/scan", "/ego_pose"))
+        self.assertIn("/red_pose", said)
+        self.assertIn("/scan", self.convert(expected_code=1, topics=("/ego_pose", "/red_pose")))
+        self.assertFalse(self.bag.exists())
+
+    def test_topic_of_another_type(self):
+        self.assertIn(
+            "expected sensor_msgs/LaserScan", self.convert("--scan", "/ego_pose", expected_code=1)
+        )
+        self.assertIn("/scan is", self.convert("--ego-pose", "/scan", expected_code=1))
+
+    def test_options_out_of_range(self):
+        for option in (
+            ("--sweep-time", "-1"),
+            ("--scan-delay", "5"),
+            ("--range-error", "-0.1"),
+            ("--object-size", "0", "1", "1"),
+            ("--moving-speed", "0"),
+        ):
+            self.assertIn(option[0], self.convert(*option, expected_code=1))
+
+    def test_no_bag(self):
+        self.bag.write_text("no bag")
+        said = io.StringIO()
+        with contextlib.redirect_stderr(said):
+            self.assertEqual(main([str(self.bag), str(self.root / "new.bag")]), 1)
+        self.assertIn("cannot be read as a bag", said.getvalue())
+
+
+class Determinism(Conversion):
+    def test_same_bytes(self):
+        self.convert()
+        first = self.bag.read_bytes()
+        self.convert()
+        self.assertEqual(self.bag.read_bytes(), first)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,50 @@
+"""A recorded scan -> one with its beams in the order of time, at their own times and ranges."""
+
+import math
+
+import numpy as np
+from sensor_msgs.msg import LaserScan
+
+from datmo_tools.bag_messages import SCANNER, header
+
+
+def usable(message):
+    """Whether a recorded LaserScan has beams and an angle between them."""
+    return len(message.ranges) > 1 and message.angle_increment != 0.0
+
+
+def converted(message, stamp, sweep_time, options):
+    """LaserScan of a recorded one, stamped with its first beam's time (ns).
+
+    sweep_time: s from the first beam to the last; options: those of mocap_bag. Readings out of the
+    recorded limits become +inf: no return.
+    """
+    ranges = np.array(message.ranges, dtype=float)
+    valid = (ranges >= message.range_min) & (ranges < message.range_max)
+    ranges[~valid] = math.inf
+    ranges[valid] += options.range_error * ranges[valid] ** 2
+    last = len(ranges) - 1
+    first_bearing, step = message.angle_min, message.angle_increment
+    if options.clockwise:
+        ranges = ranges[::-1]
+        first_bearing, step = message.angle_min + last * step, -step
+    return LaserScan(
+        header=header(stamp, SCANNER),
+        angle_min=first_bearing,
+        angle_max=first_bearing + last * step,
+        angle_increment=step,
+        time_increment=sweep_time / last,
+        scan_time=sweep_time,
+        range_min=message.range_min,
+        range_max=message.range_max * (1.0 + options.range_error * message.range_max),
+        ranges=ranges.astype(np.float32).tolist(),
+    )
+
+
+def end_points(scan):
+    """Where the beams of a converted scan ended (n x 2, m), in its frame."""
+    ranges = np.array(scan.ranges)
+    bearings = scan.angle_min + np.arange(len(ranges)) * scan.angle_increment
+    hit = np.isfinite(ranges)
+    directions = np.column_stack([np.cos(bearings[hit]), np.sin(bearings[hit])])
+    return ranges[hit, None] * directions
