@@ -1,0 +1,199 @@
+#include "kitti_tracking/ego_motion.h"
+
+#include <cmath>
+#include <optional>
+
+#include <Eigen/LU>
+
+namespace datmo::kitti {
+
+namespace {
+
+using State = Eigen::Vector2d;
+
+/// The filter has settled long before; wrong matches may keep it from it.
+constexpr int kMostIterations = 10;
+/// Further steps than these are below what a pose is good for.
+constexpr double kSettledSpeed = 1e-3;    // m/s
+constexpr double kSettledYawRate = 1e-5;  // rad/s
+
+/// Between the speeds that are tried when hardly anything is known of it, m per step: the matches
+/// within this distance are found from either of two.
+constexpr double kSearchStep = 0.5;
+/// Of the speed, that are searched through.
+constexpr double kSearchSigmas = 2.0;
+
+/// A sighting, and what is expected nearest to it.
+struct Match {
+  Point2 difference;            ///< m, from the expected place to the seen one, vehicle's frame
+  Point2 expected;              ///< m, vehicle's frame
+  Eigen::Matrix2d information;  ///< 1/m^2, of the difference
+  double distance2() const { return difference.dot(information * difference); }
+};
+
+/// One step of the vehicle: what is expected in its frame before, what is seen in that afterwards.
+struct Step {
+  double seconds;
+  std::vector<Landmark> expected;
+  const std::vector<Landmark>& seen;
+  double gate;              ///< m
+  double outlier_distance;  ///< 1
+
+  std::optional<Match> match(const Landmark& sighting, const Pose2& before_in_after) const;
+  std::vector<Match> matches(const State& state) const;
+
+  /// Minus the logarithm of the likelihood, up to a constant; without a match as at the gate.
+  double cost(const State& state) const;
+};
+
+std::optional<Match> Step::match(const Landmark& sighting, const Pose2& before_in_after) const {
+  const Landmark* nearest = nullptr;
+  Match match;
+  double least = gate * gate;
+  for (const Landmark& landmark : expected) {
+    const Point2 place = before_in_after * landmark.position;
+    const Point2 difference = sighting.position - place;
+    if (difference.squaredNorm() < least) {
+      least = difference.squaredNorm();
+      nearest = &landmark;
+      match.difference = difference;
+      match.expected = place;
+    }
+  }
+  if (nearest == nullptr) {
+    return std::nullopt;
+  }
+  const Eigen::Matrix2d turn = before_in_after.rotation();
+  match.information =
+      (turn * nearest->covariance * turn.transpose() + sighting.covariance).inverse();
+  return match;
+}
+
+Pose2 motionOf(const State& state, double seconds) { return arc({state[0], state[1]}, seconds); }
+
+std::vector<Match> Step::matches(const State& state) const {
+  const Pose2 before_in_after = motionOf(state, seconds).inverse();
+  std::vector<Match> result;
+  result.reserve(seen.size());
+  for (const Landmark& sighting : seen) {
+    if (const auto found = match(sighting, before_in_after)) {
+      result.push_back(*found);
+    }
+  }
+  return result;
+}
+
+double Step::cost(const State& state) const {
+  const double scale = outlier_distance * outlier_distance;
+  const std::vector<Match> found = matches(state);
+  const double unmatched = static_cast<double>(seen.size() - found.size());
+  double sum = unmatched * std::log1p(gate * gate / scale);
+  for (const Match& match : found) {
+    sum += std::log1p(match.distance2() / scale);
+  }
+  return 0.5 * scale * sum;
+}
+
+/// How the place of a landmark in the vehicle's frame changes with speed and yaw rate.
+Eigen::Matrix2d jacobian(const Point2& place, const State& state, double seconds) {
+  const double half_turn = 0.5 * state[1] * seconds;
+  const double c = std::cos(half_turn);
+  const double s = std::sin(half_turn);
+  const double sideways = 0.5 * state[0] * seconds * seconds;
+  Eigen::Matrix2d result;
+  result.col(0) = -seconds * Point2(c, -s);
+  result.col(1) = -seconds * Point2(-place.y(), place.x()) - sideways * Point2(s, c);
+  return result;
+}
+
+/// The most likely of several speeds: a filter finds the nearest optimum only.
+State searched(const Step& step, const State& prior, const Eigen::Matrix2d& covariance) {
+  const double sigma = std::sqrt(covariance(0, 0));
+  const double speed_step = kSearchStep / step.seconds;
+  const int steps = static_cast<int>(kSearchSigmas * sigma / speed_step);
+  State best = prior;
+  double least = step.cost(prior);
+  for (int i = -steps; i <= steps; ++i) {
+    const double off = i * speed_step;
+    const State state(prior[0] + off, prior[1]);
+    const double cost = step.cost(state) + 0.5 * off * off / (sigma * sigma);
+    if (cost < least) {
+      least = cost;
+      best = state;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+void EgoMotionOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"acceleration_std", "m/s^2", "standard deviation of the vehicle's acceleration"},
+                 acceleration_std, {0.01, 20.0});
+  visitor.number({"yaw_acceleration_std", "rad/s^2",
+                  "standard deviation of the change of the vehicle's yaw rate"},
+                 yaw_acceleration_std, {0.001, 10.0});
+  visitor.number({"first_speed_std", "m/s", "standard deviation of the speed at the beginning"},
+                 first_speed_std, {0.1, 50.0});
+  visitor.number(
+      {"first_yaw_rate_std", "rad/s", "standard deviation of the yaw rate at the beginning"},
+      first_yaw_rate_std, {0.001, 2.0});
+  visitor.number({"gate", "m", "what is seen farther from all that is expected is new, or lost"},
+                 gate, {0.1, 20.0});
+  visitor.number(
+      {"outlier_distance", "1", "a match that is off by so many standard deviations counts half"},
+      outlier_distance, {0.5, 10.0});
+  visitor.integer({"least_matches", "1", "with fewer, speed and yaw rate stay as they were"},
+                  least_matches, {1, 100});
+}
+
+EgoMotion::EgoMotion(const EgoMotionOptions& options) : options_(options) {
+  checkOptions(options);
+  covariance_ = State(options.first_speed_std, options.first_yaw_rate_std)
+                    .cwiseAbs2()
+                    .asDiagonal()
+                    .toDenseMatrix();
+}
+
+void EgoMotion::step(double seconds, const std::vector<Landmark>& expected,
+                     const std::vector<Landmark>& seen) {
+  Step step{seconds, {}, seen, options_.gate, options_.outlier_distance};
+  const Pose2 fixed_in_base = base_in_fixed_.inverse();
+  const Eigen::Matrix2d turn = fixed_in_base.rotation();
+  for (const Landmark& landmark : expected) {
+    step.expected.push_back(
+        {fixed_in_base * landmark.position, turn * landmark.covariance * turn.transpose()});
+  }
+  const State prior = state_;
+  covariance_.diagonal() +=
+      (seconds * State(options_.acceleration_std, options_.yaw_acceleration_std)).cwiseAbs2();
+  const Eigen::Matrix2d prior_information = covariance_.inverse();
+  State state = searched(step, prior, covariance_);
+  const double scale = options_.outlier_distance * options_.outlier_distance;
+  for (int i = 0; i < kMostIterations; ++i) {
+    Eigen::Matrix2d information = prior_information;
+    State pull = prior_information * (prior - state);
+    const std::vector<Match> matches = step.matches(state);
+    if (matches.size() < static_cast<std::size_t>(options_.least_matches)) {
+      state = prior;
+      break;
+    }
+    for (const Match& match : matches) {
+      const double weight = 1.0 / (1.0 + match.distance2() / scale);
+      const Eigen::Matrix2d slope = jacobian(match.expected, state, seconds);
+      const Eigen::Matrix2d weighted = weight * slope.transpose() * match.information;
+      information += weighted * slope;
+      pull += weighted * match.difference;
+    }
+    const State change = information.inverse() * pull;
+    state += change;
+    covariance_ = information.inverse();
+    if (std::abs(change[0]) < kSettledSpeed && std::abs(change[1]) < kSettledYawRate) {
+      break;
+    }
+  }
+  state_ = state;
+  base_in_fixed_ = base_in_fixed_ * motionOf(state_, seconds);
+}
+
+}  // namespace datmo::kitti

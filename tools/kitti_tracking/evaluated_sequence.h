@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "kitti_tracking/kitti_tracking_files.h"
+
+namespace datmo::kitti {
+
+/// What the evaluation looks at: objects of one class, found where the overlap is enough.
+struct EvaluatedKind {
+  ObjectType type = ObjectType::kCar;  ///< car, pedestrian or cyclist
+  double least_overlap = 0.25;         ///< 3D, above 0 to 1
+};
+
+/// A label of the class, or of a neighbour of it (Van for Car, Person_sitting for Pedestrian).
+struct Truth {
+  std::size_t trajectory = 0;
+  /// Whether it must be found. Neighbours, what is truncated and what is hardly to be seen may be.
+  bool required = true;
+};
+
+/// A result of the class or of a neighbour of it.
+struct Track {
+  std::size_t trajectory = 0;
+  /// Whether it is no false positive where it matches nothing: a neighbour, one whose image is too
+  /// small, one in a region where nobody cares.
+  bool optional = false;
+};
+
+/// A truth and a track of one frame, by their indices in it, that overlap enough.
+struct Candidate {
+  std::size_t truth = 0;
+  std::size_t track = 0;
+  double overlap = 0.0;  ///< 3D
+};
+
+struct EvaluatedFrame {
+  std::vector<Truth> truths;
+  std::vector<Track> tracks;
+  std::vector<Candidate> candidates;
+};
+
+/// One sequence as the evaluation of one class and overlap needs it.
+struct EvaluatedSequence {
+  std::map<int, EvaluatedFrame> frames;  ///< by number; those without objects may be missing
+  std::size_t truths = 0;                ///< trajectories
+  std::vector<std::size_t> rows;         ///< of each trajectory of the tracker, how many it has
+  std::vector<double> scores;            ///< of each trajectory of the tracker: mean of its rows
+};
+
+/// The labels and results of one sequence.
+struct Sequence {
+  std::string name;  ///< "0000"
+  std::vector<TrackedObject> labels;
+  std::vector<TrackedObject> results;
+};
+
+EvaluatedSequence evaluatedSequence(const Sequence& sequence, const EvaluatedKind& kind);
+
+}  // namespace datmo::kitti

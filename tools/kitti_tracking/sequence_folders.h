@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kitti_tracking/evaluated_sequence.h"
+
+namespace datmo::kitti {
+
+/// Reads the sequences of two folders, each with one `NAME.txt` for a sequence, by rising name.
+/// Throws std::runtime_error as the readers do; for a folder that is not there or has no such file;
+/// for a sequence of one folder that the other one has not (without results: an empty file).
+std::vector<Sequence> readSequences(const std::string& labels_folder,
+                                    const std::string& results_folder);
+
+}  // namespace datmo::kitti
