@@ -17,7 +17,9 @@ class TrackerNodelet : public nodelet::Nodelet {
     const auto options = loadOptions<TrackerStageOptions>(getPrivateNodeHandle());
     monitor_ = std::make_unique<StageMonitor>(getName());
     transforms_ = std::make_unique<TransformBuffer>(options.input.restart_after);
-    stage_ = std::make_unique<TrackerStage>(options, *transforms_, *monitor_);
+    const Stopwatch watch;
+    stage_ = std::make_unique<TrackerStage>(options, *transforms_, *monitor_,
+                                            [watch] { return watch.seconds(); });
     ros::NodeHandle& node = getNodeHandle();
     reporter_ = std::make_unique<StageReporter>(node, getPrivateNodeHandle(), *monitor_,
                                                 std::vector<std::string>{"objects"},

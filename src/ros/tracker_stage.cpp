@@ -1,5 +1,7 @@
 #include "datmo_fusion/ros/tracker_stage.h"
 
+#include <utility>
+
 #include <boost/make_shared.hpp>
 
 #include "datmo_fusion/ros/frames.h"
@@ -24,13 +26,13 @@ void TrackerStageOptions::visit(OptionVisitor& visitor) {
 }
 
 TrackerStage::TrackerStage(const TrackerStageOptions& options, const TransformBuffer& transforms,
-                           StageMonitor& monitor)
+                           StageMonitor& monitor, StepClock clock)
     : options_(options),
       transforms_(transforms),
       monitor_(monitor),
-      tracker_(options.tracker),
+      tracker_(options.tracker, std::move(clock)),
       stamps_(options.input.restart_after),
-      scan_views_(VisibilityOptions()) {
+      scan_views_(options.tracker.visibility) {
   checkOptions(options);
 }
 
@@ -86,17 +88,38 @@ Pose2 TrackerStage::baseInFixed(const std_msgs::Header& base) const {
 
 TrackArrayPtr TrackerStage::track(const ObjectArray& objects, const Pose2& base_in_fixed) {
   const Stopwatch watch;
-  const std::uint64_t rejected = tracker_.counts().rejected_objects;
+  const TrackerCounts before = tracker_.counts();
   const ObjectList list = fromMessage(objects);
   const auto tracks = boost::make_shared<TrackArray>(
-      toMessage(tracker_.process(list, base_in_fixed), options_.fixed_frame));
-  if (tracker_.counts().rejected_objects > rejected) {
+      toMessage(tracker_.process(list, base_in_fixed, scan_views_.visibility(objects.header)),
+                options_.fixed_frame));
+  report(before, tracker_.counts());
+  monitor_.processed({list.stamp, watch.seconds()});
+  return tracks;
+}
+
+void TrackerStage::report(const TrackerCounts& before, const TrackerCounts& after) {
+  if (after.intake.rejected > before.intake.rejected) {
     monitor_.warned(InputError("bad_object",
                                "objects with numbers that are not finite or out of range, or a "
                                "covariance that is not positive definite: left out"));
   }
-  monitor_.processed({list.stamp, watch.seconds()});
-  return tracks;
+  if (after.intake.refused > before.intake.refused) {
+    monitor_.warned(
+        InputError("many_objects", "more objects than intake/most_objects: left out the farthest"));
+  }
+  if (after.association.refused_births > before.association.refused_births) {
+    monitor_.warned(
+        InputError("many_targets", "more targets than gating/most_targets: new objects wait"));
+  }
+  if (after.association.hurried_steps > before.association.hurried_steps) {
+    monitor_.warned(InputError("time_budget",
+                               "a step took longer than time_budget: went on with the most likely "
+                               "hypothesis alone"));
+  }
+  monitor_.figure("hypotheses cut", static_cast<double>(after.association.cut_hypotheses));
+  monitor_.figure("steps beyond the time budget",
+                  static_cast<double>(after.association.hurried_steps));
 }
 
 bool TrackerStage::hasWaitedTooLong(const Waiting& waiting, Stamp now) const {

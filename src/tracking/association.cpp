@@ -1,42 +1,51 @@
 #include "datmo_fusion/tracking/association.h"
 
+#include <algorithm>
 #include <cmath>
 
-#include "datmo_fusion/common/uniform.h"
-#include "datmo_fusion/tracking/assignment.h"
+#include "datmo_fusion/tracking/kalman_filter.h"
 
 namespace datmo {
 
 namespace {
 
-Association named(const std::vector<int>& object_of_target, std::size_t objects) {
-  Association result;
-  std::vector<bool> explained(objects, false);
-  for (std::size_t target = 0; target < object_of_target.size(); ++target) {
-    if (object_of_target[target] == kUnassigned) {
-      result.missed.push_back(target);
-      continue;
-    }
-    const auto object = static_cast<std::size_t>(object_of_target[target]);
-    result.pairs.push_back({target, object});
-    explained[object] = true;
-  }
-  for (std::size_t object = 0; object < objects; ++object) {
-    if (!explained[object]) {
-      result.unexplained.push_back(object);
-    }
-  }
-  return result;
+double diagonal(const Box2& box) { return std::hypot(box.length, box.width); }
+
+Box2 moved(const Pose2& frame, const Box2& box) {
+  return {frame * box.centre, box.length, box.width};
 }
 
-/// Most that the target adds to the variance of an innovation along any direction, m^2: a
-/// covariance has no more than its trace, and a box no more hidden than all of it
-/// (TrackedBox::measurementOf).
-double mostVariance(const Target& target) {
+double detectionProbability(const Target& target, const AssociationScan& scan) {
+  const double sigma = std::sqrt(0.5 * target.positionCovariance().trace());
+  return scan.visibility->detectionProbability(moved(scan.fixed_in_base, target.box()), sigma);
+}
+
+/// The objects by themselves that may be within the gate, the nearest first: most pairs are so far
+/// apart that nothing more needs to be known of them.
+std::vector<std::size_t> nearObjects(const Target& target, const AssociationScan& scan,
+                                     const AssociationOptions& options) {
   const Box2 box = target.box();
-  const double hidden = box.length * box.length + box.width * box.width;
-  return target.filter().estimate().covariance.topLeftCorner<2, 2>().trace() +
-         kUniformVariance * hidden;
+  const Point2& place = box.centre.position();
+  const double sigma = std::sqrt(target.positionCovariance().trace());
+  const double reach =
+      std::sqrt(options.gate) * (sigma + scan.noise) + 0.5 * scan.extent + 0.5 * diagonal(box);
+  const auto x = [](const Observation& o) { return o.object.box.centre.x(); };
+  const auto end = scan.observations.begin() + static_cast<std::ptrdiff_t>(scan.objects);
+  auto first = std::lower_bound(scan.observations.begin(), end, place.x() - reach,
+                                [&](const Observation& o, double least) { return x(o) < least; });
+  std::vector<std::pair<double, std::size_t>> near;
+  for (; first != end && x(*first) <= place.x() + reach; ++first) {
+    const double distance2 = (first->object.box.centre.position() - place).squaredNorm();
+    if (distance2 <= reach * reach) {
+      near.emplace_back(distance2, static_cast<std::size_t>(first - scan.observations.begin()));
+    }
+  }
+  std::sort(near.begin(), near.end());
+  std::vector<std::size_t> result;
+  for (const auto& entry : near) {
+    result.push_back(entry.second);
+  }
+  return result;
 }
 
 }  // namespace
@@ -46,43 +55,44 @@ void AssociationOptions::visit(OptionVisitor& visitor) {
                   "largest Mahalanobis distance squared between an object and a target: 13.8 is "
                   "the 99.9 % quantile of chi-square with two degrees of freedom"},
                  gate, {0.1, 1000.0});
-  visitor.number(
-      {"birth_density", "1/m^2",
-       "objects of no target in one scan, over the odds that a target is seen: an object "
-       "must be likelier for its target"},
-      birth_density, {1e-9, 10.0});
+  visitor.integer({"most_candidates", "1",
+                   "objects that one target may be seen as in one scan, the nearest ones; bounds "
+                   "the time of a step"},
+                  most_candidates, {1, 1000});
+  visitor.integer({"most_targets", "1", "targets followed at a time; bounds the time of a step"},
+                  most_targets, {1, 5000});
 }
 
-Association GlobalNearestNeighbour::associate(const std::vector<Target>& targets,
-                                              const std::vector<Object>& objects) const {
-  CostMatrix costs(targets.size(), objects.size());
-  costs.setConstant(kForbidden);
-  for (std::size_t target = 0; target < targets.size(); ++target) {
-    const Point2 place = targets[target].filter().estimate().mean.head<2>();
-    const double variance = mostVariance(targets[target]);
-    for (std::size_t object = 0; object < objects.size(); ++object) {
-      // Most pairs are so far apart that nothing more needs to be known of them.
-      const double distance2 = (objects[object].box.centre.position() - place).squaredNorm();
-      if (distance2 <= options_.gate * (variance + objects[object].position_covariance.trace())) {
-        costs(static_cast<Eigen::Index>(target), static_cast<Eigen::Index>(object)) =
-            cost(targets[target], objects[object]);
-      }
+TargetScores scoresOf(const Target& target, const AssociationScan& scan, double existence,
+                      const AssociationOptions& options) {
+  TargetScores scores;
+  scores.detection_probability = detectionProbability(target, scan);
+  const double seen = existence * scores.detection_probability;
+  scores.missed = std::log1p(-seen);
+  scores.seen = std::log(seen) - scores.missed;
+  for (const std::size_t object : nearObjects(target, scan, options)) {
+    if (scores.candidates.size() >= static_cast<std::size_t>(options.most_candidates)) {
+      break;
     }
+    addCandidate(target, scan, object, options, scores);
   }
-  // Costs are relative to a miss and a birth, which so cost nothing.
-  const Eigen::VectorXd no_cost = Eigen::VectorXd::Zero(costs.rows());
-  return named(solveAssignment(costs, no_cost).column_of_row, objects.size());
+  std::sort(scores.candidates.begin(), scores.candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return a.observation < b.observation; });
+  return scores;
 }
 
-double GlobalNearestNeighbour::cost(const Target& target, const Object& object) const {
-  if (!target.mayBe(object)) {
-    return kForbidden;
+void addCandidate(const Target& target, const AssociationScan& scan, std::size_t index,
+                  const AssociationOptions& options, TargetScores& scores) {
+  const Observation& observation = scan.observations[index];
+  if (!target.mayBe(observation.object)) {
+    return;
   }
-  const PositionMeasurement measured = target.measurementOf(object);
-  if (innovationOf(target.filter().estimate(), measured).squaredDistance() > options_.gate) {
-    return kForbidden;
+  const PositionMeasurement measured = target.measurementOf(observation.object);
+  if (innovationOf(target.filter().estimate(), measured).squaredDistance() > options.gate) {
+    return;
   }
-  return std::log(options_.birth_density) - target.filter().logLikelihood(measured);
+  scores.candidates.push_back(
+      {index, scores.seen + target.filter().logLikelihood(measured) - observation.log_density});
 }
 
 }  // namespace datmo

@@ -52,23 +52,24 @@ void DuplicateOptions::visit(OptionVisitor& visitor) {
                  velocity_gate, {0.0, 1000.0});
 }
 
-std::size_t removeDuplicates(std::vector<Target>& targets, const DuplicateOptions& options) {
+std::set<std::uint64_t> findDuplicates(const std::vector<const Target*>& targets,
+                                       const DuplicateOptions& options) {
   std::vector<Placed> all;
-  all.reserve(targets.size());
-  for (const Target& target : targets) {
-    all.push_back({target, target.box()});
-  }
-  std::vector<Target> kept;
-  kept.reserve(targets.size());
-  for (const Placed& part : all) {
-    if (std::none_of(all.begin(), all.end(),
-                     [&](const Placed& whole) { return isPartOf(part, whole, options); })) {
-      kept.push_back(part.target);
+  std::vector<Placed> confirmed;
+  for (const Target* target : targets) {
+    all.push_back({*target, target->box()});
+    if (target->confirmed()) {
+      confirmed.push_back(all.back());
     }
   }
-  const std::size_t removed = targets.size() - kept.size();
-  targets.swap(kept);
-  return removed;
+  std::set<std::uint64_t> result;
+  for (const Placed& part : all) {
+    if (std::any_of(confirmed.begin(), confirmed.end(),
+                    [&](const Placed& whole) { return isPartOf(part, whole, options); })) {
+      result.insert(part.target.number());
+    }
+  }
+  return result;
 }
 
 }  // namespace datmo

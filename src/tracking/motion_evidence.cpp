@@ -25,8 +25,6 @@ double extentAlong(const Box2& box, const Eigen::Vector2d& direction) {
 }  // namespace
 
 void MotionEvidenceOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"detection_probability", "1", "chance that a moving object is seen in one scan"},
-                 detection_probability, {0.01, 0.99});
   visitor.number({"false_density", "1/m^2",
                   "objects in one scan that belong to nothing that moves, where there are many"},
                  false_density, {1e-6, 10.0});
@@ -42,6 +40,10 @@ void MotionEvidenceOptions::visit(OptionVisitor& visitor) {
        "to which both sums are limited, so that a track that lost its object ends, and one that "
        "stops stands"},
       most_evidence, kEvidence);
+  visitor.number({"least_evidence", "1",
+                  "below which the sum against chance does not fall: 0 forgets that its first "
+                  "objects did not belong together"},
+                 least_evidence, {-100.0, 0.0});
   visitor.number({"standing_drift", "m^2/s",
                   "random walk of the visible centre of an object that stands: its root is how far "
                   "it slides in one second"},
@@ -78,8 +80,9 @@ bool velocityIsSignificant(const StateEstimate& estimate, double significance, d
          velocity.dot(covariance.inverse() * velocity) >= significance;
 }
 
-MotionEvidence::MotionEvidence(const Object& object)
-    : anchor_{object.box, object.position_covariance, object.moving_fraction},
+MotionEvidence::MotionEvidence(const Object& object, const MotionEvidenceOptions& options)
+    : against_chance_(std::max(options.least_evidence, object.log_odds)),
+      anchor_{object.box, object.position_covariance, object.moving_fraction},
       present_(anchor_),
       longest_(object.box),
       free_share_(object.moving_fraction),
@@ -90,7 +93,8 @@ void MotionEvidence::predict(double seconds, const MotionEvidenceOptions& option
 }
 
 void MotionEvidence::update(const Object& object, const PositionMeasurement& measured,
-                            double moving_log_likelihood, const MotionEvidenceOptions& options) {
+                            double moving_log_likelihood, double detection_probability,
+                            const MotionEvidenceOptions& options) {
   const Innovation innovation{measured.position - standing_.position,
                               standing_.covariance + measured.covariance};
   const double ratio = moving_log_likelihood - innovation.logLikelihood();
@@ -101,9 +105,8 @@ void MotionEvidence::update(const Object& object, const PositionMeasurement& mea
   addAgainstStanding(clamp(ratio, options.scan_limit) + map, options);
   const double false_density =
       object.points.size() == 1 ? options.echo_density : options.false_density;
-  const double chance =
-      moving_log_likelihood + std::log(options.detection_probability / false_density);
-  addAgainstChance(clamp(chance, options.scan_limit) + map, options);
+  const double chance = moving_log_likelihood + std::log(detection_probability / false_density);
+  addAgainstChance(clamp(chance, options.scan_limit) + object.log_odds + map, options);
 
   const Eigen::Matrix2d gain = standing_.covariance * innovation.covariance.inverse();
   standing_.position += gain * innovation.residual;
@@ -113,8 +116,8 @@ void MotionEvidence::update(const Object& object, const PositionMeasurement& mea
   }
 }
 
-void MotionEvidence::miss(const MotionEvidenceOptions& options) {
-  addAgainstChance(std::log(1.0 - options.detection_probability), options);
+void MotionEvidence::miss(double detection_probability, const MotionEvidenceOptions& options) {
+  addAgainstChance(std::log(1.0 - detection_probability), options);
 }
 
 void MotionEvidence::addAgainstStanding(double ratio, const MotionEvidenceOptions& options) {
@@ -128,7 +131,8 @@ void MotionEvidence::addAgainstStanding(double ratio, const MotionEvidenceOption
 }
 
 void MotionEvidence::addAgainstChance(double ratio, const MotionEvidenceOptions& options) {
-  against_chance_ = std::min(options.most_evidence, std::max(0.0, against_chance_ + ratio));
+  against_chance_ =
+      std::min(options.most_evidence, std::max(options.least_evidence, against_chance_ + ratio));
 }
 
 bool MotionEvidence::suffices(const StateEstimate& estimate,

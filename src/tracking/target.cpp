@@ -1,15 +1,17 @@
 #include "datmo_fusion/tracking/target.h"
 
+#include <cmath>
+
 namespace datmo {
 
 namespace {
 
 /// The first object tells where it is; that it may have any velocity is an assumption.
-ImmFilter birth(const Object& object, const TargetOptions& options) {
+ImmFilter birth(const PositionMeasurement& measured, const TargetOptions& options) {
   StateEstimate estimate;
-  estimate.mean.head<2>() = object.box.centre.position();
+  estimate.mean.head<2>() = measured.position;
   estimate.covariance.setZero();
-  estimate.covariance.topLeftCorner<2, 2>() = object.position_covariance;
+  estimate.covariance.topLeftCorner<2, 2>() = measured.covariance;
   estimate.covariance.diagonal().segment<2>(2).setConstant(options.birth_speed_std *
                                                            options.birth_speed_std);
   const double acceleration = options.filter.motion.acceleration_std;
@@ -23,6 +25,10 @@ void TargetOptions::visit(OptionVisitor& visitor) {
   visitor.group("filter", [&] { filter.visit(visitor); });
   visitor.group("box", [&] { box.visit(visitor); });
   visitor.group("evidence", [&] { evidence.visit(visitor); });
+  visitor.number({"birth_probability", "1",
+                  "that a new object of no target is something that will be followed, and not a "
+                  "false alarm"},
+                 birth_probability, {1e-4, 0.9999});
   visitor.number({"birth_speed_std", "m/s",
                   "standard deviation of each component of the velocity of a new object"},
                  birth_speed_std, {0.1, 100.0});
@@ -32,14 +38,18 @@ void TargetOptions::visit(OptionVisitor& visitor) {
                  stop_speed, {0.01, 100.0});
 }
 
-Target::Target(const Object& object, const TargetOptions& options)
-    : filter_(birth(object, options)),
-      box_(object),
-      evidence_(object),
+Target::Target(const Object& object, std::size_t index, std::uint64_t number,
+               const TargetOptions& options)
+    : box_(object, options.box),
+      filter_(birth(box_.measurementOf(object), options)),
+      evidence_(object, options.evidence),
+      number_(number),
+      seen_as_(index),
       height_(object.height),
-      object_class_(object.object_class),
-      class_probability_(object.class_probability),
-      sensors_(object.sensors) {}
+      saw_it_move_(object.dynamic_state == DynamicState::kMoving),
+      sensors_(std::make_shared<const std::vector<std::string>>(object.sensors)) {
+  class_.update(object.object_class, object.class_probability);
+}
 
 void Target::predict(double seconds, const ImmStep& step, const TargetOptions& options) {
   filter_.predict(step);
@@ -47,29 +57,38 @@ void Target::predict(double seconds, const ImmStep& step, const TargetOptions& o
   evidence_.predict(seconds, options.evidence);
   age_ += seconds;
   since_update_ += seconds;
+  seen_as_ = kUnseen;
 }
 
-void Target::update(const Object& object, const TargetOptions& options) {
+void Target::update(const Object& object, std::size_t index, double detection_probability,
+                    const TargetOptions& options) {
   const PositionMeasurement measured = measurementOf(object);
-  evidence_.update(object, measured, filter_.logLikelihood(measured), options.evidence);
+  evidence_.update(object, measured, filter_.logLikelihood(measured), detection_probability,
+                   options.evidence);
   filter_.update(measured, options.filter.least_probability);
-  box_.update(object, since_update_, options.box);
+  const Point2 shift = box_.update(object, since_update_, options.box);
+  filter_.shift(shift);
+  evidence_.shift(shift);
   judgeMotion(options);
   if (moving_) {
     const StateEstimate& estimate = filter_.estimate();
-    box_.followVelocity(estimate.mean.segment<2>(2), estimate.covariance.block<2, 2>(2, 2),
-                        options.box);
+    filter_.shift(box_.followVelocity(estimate.mean.segment<2>(2),
+                                      estimate.covariance.block<2, 2>(2, 2), options.box));
   }
   ++hits_;
+  seen_as_ = index;
   since_update_ = 0.0;
   height_ = object.height > 0.0 ? object.height : height_;
-  sensors_ = object.sensors;
-  classify(object);
+  saw_it_move_ = object.dynamic_state == DynamicState::kMoving;
+  if (object.sensors != *sensors_) {
+    sensors_ = std::make_shared<const std::vector<std::string>>(object.sensors);
+  }
+  class_.update(object.object_class, object.class_probability);
 }
 
-bool Target::mayBe(const Object& object) const {
-  return object_class_ == ObjectClass::kUnknown || object.object_class == ObjectClass::kUnknown ||
-         object_class_ == object.object_class;
+double Target::existenceProbability(const TargetOptions& options) const {
+  const double birth = options.birth_probability;
+  return 1.0 / (1.0 + (1.0 - birth) / birth * std::exp(-evidence_.score()));
 }
 
 void Target::confirm(std::uint32_t id) {
@@ -88,20 +107,13 @@ void Target::judgeMotion(const TargetOptions& options) {
   }
 }
 
-void Target::classify(const Object& object) {
-  if (object.object_class != ObjectClass::kUnknown &&
-      object.class_probability >= class_probability_) {
-    object_class_ = object.object_class;
-    class_probability_ = object.class_probability;
-  }
-}
-
 Track Target::track(const TargetOptions& options) const {
   const ModeVector& modes = filter_.modeProbabilities();
   Track track;
   track.id = id_;
   track.state = filter_.estimate().mean;
   track.covariance = filter_.estimate().covariance;
+  track.covariance.topLeftCorner<2, 2>() = positionCovariance();
   for (int mode = 0; mode < kMotionModes; ++mode) {
     track.mode_probabilities[static_cast<std::size_t>(mode)] = modes[mode];
   }
@@ -111,12 +123,11 @@ Track Target::track(const TargetOptions& options) const {
       options.filter.motion.turn_rate * (modes[static_cast<int>(MotionMode::kLeftTurn)] -
                                          modes[static_cast<int>(MotionMode::kRightTurn)]);
   track.moving = moving_;
-  track.object_class = object_class_;
-  track.class_probability = class_probability_;
+  track.class_probabilities = class_.probabilities();
   track.age = age_;
   track.since_update = since_update_;
   track.hits = hits_;
-  track.sensors = sensors_;
+  track.sensors = *sensors_;
   return track;
 }
 

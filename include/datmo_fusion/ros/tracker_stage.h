@@ -28,9 +28,10 @@ struct TrackerStageOptions {
 /// monitor, never thrown. When the clock jumps back all tracks are forgotten.
 class TrackerStage {
  public:
-  /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
+  /// `transforms` and `monitor` must outlive the stage. With a clock the tracker keeps to its time
+  /// budget; without one its output depends on nothing but its input. Throws OptionError.
   TrackerStage(const TrackerStageOptions& options, const TransformBuffer& transforms,
-               StageMonitor& monitor);
+               StageMonitor& monitor, StepClock clock = {});
 
   /// Where the vehicle was at this scan, and what it saw. It may come before or after the scan's
   /// objects.
@@ -55,6 +56,7 @@ class TrackerStage {
   /// Throws InputError (`missing_transform`).
   Pose2 baseInFixed(const std_msgs::Header& base) const;
   TrackArrayPtr track(const ObjectArray& objects, const Pose2& base_in_fixed);
+  void report(const TrackerCounts& before, const TrackerCounts& after);
   bool hasWaitedTooLong(const Waiting& waiting, Stamp now) const;
 
   TrackerStageOptions options_;

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
+#include <set>
 #include <vector>
 
 #include "datmo_fusion/common/options.h"
@@ -15,11 +16,13 @@ struct DuplicateOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Removes targets that follow another part of an object that a confirmed one follows already:
-/// those at the same place, within the size of their boxes, whose velocity does not differ
-/// significantly. Of two confirmed ones the older id stays. Returns how many were removed.
+/// Numbers of the targets that follow another part of an object that a confirmed one follows
+/// already: those at the same place, within the size of their boxes, whose velocity does not differ
+/// significantly. Of two confirmed ones the older id stays.
 ///
-/// Split and merge hypotheses (thesis figure 4.11) will take its place in a later issue.
-std::size_t removeDuplicates(std::vector<Target>& targets, const DuplicateOptions& options);
+/// Split hypotheses explain most parts of a confirmed target; this is for parts that were followed
+/// before it was confirmed.
+std::set<std::uint64_t> findDuplicates(const std::vector<const Target*>& targets,
+                                       const DuplicateOptions& options);
 
 }  // namespace datmo

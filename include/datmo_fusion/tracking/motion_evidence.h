@@ -7,11 +7,11 @@
 namespace datmo {
 
 struct MotionEvidenceOptions {
-  double detection_probability = 0.5;      ///< 1
   double false_density = 0.02;             ///< 1/m^2
   double echo_density = 0.2;               ///< 1/m^2
   double required_against_chance = 9.0;    ///< 1
   double most_evidence = 20.0;             ///< 1
+  double least_evidence = 0.0;             ///< 1
   double standing_drift = 1.0;             ///< m^2/s
   double required_against_standing = 3.0;  ///< 1
   double scan_limit = 2.0;                 ///< 1
@@ -36,8 +36,9 @@ bool velocityIsSignificant(const StateEstimate& estimate, double significance, d
 ///    below 0 (CUSUM: Page, Continuous inspection schemes, 1954), so that one that starts to move
 ///    after a rest is found as quickly.
 /// 2. One object against chance: the track score (Sittler 1964; Blackman 2004), from the likelihood
-///    of each object in the motion filter, the density of false objects, and the misses. Objects of
-///    a single point are mostly false, so their density is higher.
+///    of each object in the motion filter, the density of false objects, what the detector says of
+///    it, and the misses where it could have been seen. Objects of a single point are mostly false,
+///    so their density is higher.
 /// 3. It left its place: from where the first sum began to where it is now it reaches farther than
 ///    something of its length that stands. A side that comes into view little by little, and goes
 ///    out of view again, is not motion. The more of its points lie where the map was free, the
@@ -49,17 +50,22 @@ bool velocityIsSignificant(const StateEstimate& estimate, double significance, d
 class MotionEvidence {
  public:
   /// Of an object in the fixed frame, at its first sight.
-  explicit MotionEvidence(const Object& object);
+  MotionEvidence(const Object& object, const MotionEvidenceOptions& options);
 
   void predict(double seconds, const MotionEvidenceOptions& options);
 
   /// Takes in an object in the fixed frame, its place, and how likely that place was by the motion
-  /// filter before its update: logarithm of a density of 1/m^2.
+  /// filter before its update: logarithm of a density of 1/m^2. `detection_probability`: that it
+  /// would be seen at that place.
   void update(const Object& object, const PositionMeasurement& measured,
-              double moving_log_likelihood, const MotionEvidenceOptions& options);
+              double moving_log_likelihood, double detection_probability,
+              const MotionEvidenceOptions& options);
 
-  /// The present scan shows no object of this target.
-  void miss(const MotionEvidenceOptions& options);
+  /// The present scan shows no object of this target, and would have with this probability.
+  void miss(double detection_probability, const MotionEvidenceOptions& options);
+
+  /// The target's centre turned out to lie elsewhere in it (m, fixed frame): no motion.
+  void shift(const Point2& offset) { standing_.position += offset; }
 
   /// All four tests agree; `estimate` is that of the motion filter.
   bool suffices(const StateEstimate& estimate, const MotionEvidenceOptions& options) const;
@@ -67,8 +73,9 @@ class MotionEvidence {
   /// What it did of late is no likelier for a moving object than for a standing one.
   bool seemsToStand() const { return against_standing_ == 0.0; }
 
-  /// It is no likelier than chance that its objects belong together.
-  bool isSpent() const { return against_chance_ == 0.0; }
+  /// The track score: logarithm of how much likelier than chance it is that its objects belong
+  /// together.
+  double score() const { return against_chance_; }
 
  private:
   /// Where the object was seen at one time.

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/tracking/imm_filter.h"
@@ -17,28 +21,38 @@ struct TargetOptions {
   ImmOptions filter;
   TrackedBoxOptions box;
   MotionEvidenceOptions evidence;
-  double birth_speed_std = 8.0;  ///< m/s
-  double stop_speed = 0.4;       ///< m/s
+  double birth_probability = 0.2;  ///< 1
+  double birth_speed_std = 8.0;    ///< m/s
+  double stop_speed = 0.4;         ///< m/s
 
   void visit(OptionVisitor& visitor);
 };
 
+/// No observation of a scan.
+inline constexpr std::size_t kUnseen = std::numeric_limits<std::size_t>::max();
+
 /// Something that is followed, whether it moves or not: filter, box, evidence of motion and history
-/// of one track. Confirmed targets have an id. A track tree of the multiple hypotheses to come has
-/// one of these at each leaf.
+/// of one track. Confirmed targets have an id. Cheap to copy: each leaf of a track tree is one.
 class Target {
  public:
-  /// From the first object, in the fixed frame.
-  Target(const Object& object, const TargetOptions& options);
+  /// From the first object, in the fixed frame, and its index in the scan. `number`: the same for
+  /// all hypotheses of a target, rising from target to target.
+  Target(const Object& object, std::size_t index, std::uint64_t number,
+         const TargetOptions& options);
 
   /// To the time of the next scan, `seconds` >= 0 ahead; `step` is of the same time.
   void predict(double seconds, const ImmStep& step, const TargetOptions& options);
 
-  /// Takes in an object of the present scan.
-  void update(const Object& object, const TargetOptions& options);
+  /// Takes in an object of the present scan, and its index there. `detection_probability`: as for
+  /// miss().
+  void update(const Object& object, std::size_t index, double detection_probability,
+              const TargetOptions& options);
 
-  /// The present scan shows no object of this target.
-  void miss(const TargetOptions& options) { evidence_.miss(options.evidence); }
+  /// The present scan shows no object of this target, and would have with this probability if it
+  /// were there.
+  void miss(double detection_probability, const TargetOptions& options) {
+    evidence_.miss(detection_probability, options.evidence);
+  }
 
   /// The object as a measurement of this target's position.
   PositionMeasurement measurementOf(const Object& object) const {
@@ -46,44 +60,56 @@ class Target {
   }
 
   /// Objects of two different known classes are never the same (thesis 3.3.4).
-  bool mayBe(const Object& object) const;
+  bool mayBe(const Object& object) const { return class_.compatible(object.object_class); }
 
   bool evidentlyMoves(const TargetOptions& options) const {
     return evidence_.suffices(filter_.estimate(), options.evidence);
   }
 
-  /// Nothing speaks for it any more.
-  bool isSpent() const { return evidence_.isSpent(); }
+  /// That it is something at all and not a chain of false alarms, from the track score (Blackman
+  /// 2004).
+  double existenceProbability(const TargetOptions& options) const;
 
   void confirm(std::uint32_t id);
   bool confirmed() const { return id_ != 0; }
   std::uint32_t id() const { return id_; }
+  std::uint64_t number() const { return number_; }
 
   const ImmFilter& filter() const { return filter_; }
   Box2 box() const { return box_.at(filter_.estimate().mean.head<2>()); }
+  /// m^2, of the box's centre: by the filter, and by the size that is not known.
+  Eigen::Matrix2d positionCovariance() const {
+    return filter_.estimate().covariance.topLeftCorner<2, 2>() + box_.centreCovariance();
+  }
+  const std::vector<std::string>& sensors() const { return *sensors_; }
+  bool sawItMove() const { return saw_it_move_; }
+  /// Index of its object in the present scan; kUnseen: missed.
+  std::size_t seenAs() const { return seen_as_; }
   std::uint32_t hits() const { return hits_; }
   double sinceUpdate() const { return since_update_; }  ///< s
   /// s, from the first to the last object.
   double followed() const { return age_ - since_update_; }
 
+  /// What is published of it, but what only the tracker knows.
   Track track(const TargetOptions& options) const;
 
  private:
   void judgeMotion(const TargetOptions& options);
-  void classify(const Object& object);
 
-  ImmFilter filter_;
   TrackedBox box_;
+  ImmFilter filter_;
   MotionEvidence evidence_;
+  std::uint64_t number_;
   std::uint32_t id_ = 0;
+  std::size_t seen_as_;
   std::uint32_t hits_ = 1;
   bool moving_ = false;
   double age_ = 0.0;
   double since_update_ = 0.0;
   double height_;
-  ObjectClass object_class_;
-  double class_probability_;
-  std::vector<std::string> sensors_;
+  bool saw_it_move_;  ///< the last object's sensor
+  ClassBelief class_;
+  std::shared_ptr<const std::vector<std::string>> sensors_;  ///< shared: a target is copied often
 };
 
 }  // namespace datmo

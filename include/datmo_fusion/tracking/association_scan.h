@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "datmo_fusion/common/object.h"
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/tracking/clutter_map.h"
+#include "datmo_fusion/tracking/visibility.h"
+
+namespace datmo {
+
+/// What one target may have been seen as in one scan: an object of the scan; several of them, which
+/// are parts of one thing; or a part of one, which is several things.
+struct Observation {
+  Object object;                     ///< fixed frame
+  std::vector<std::size_t> sources;  ///< the scan's objects that it was made of, rising
+  double log_density = 0.0;          ///< of such objects that are of no target, 1/m^2
+  bool starts_target = true;         ///< if it is of none
+  bool needs_target = false;         ///< it makes no sense without one
+};
+
+/// One scan as the association sees it, in the fixed frame.
+struct AssociationScan {
+  /// First the objects by themselves, by rising x of their centres; then what else they may be.
+  std::vector<Observation> observations;
+  std::size_t objects = 0;          ///< how many are objects by themselves
+  std::vector<std::size_t> listed;  ///< where each object stood in the sensor's list
+  double noise = 0.0;               ///< m, most of an object's position
+  double extent = 0.0;              ///< m, most of an object
+
+  const Visibility* visibility = nullptr;  ///< vehicle's frame
+  Pose2 fixed_in_base;
+
+  /// Where the sources of an observation stood in the sensor's list, rising.
+  std::vector<std::size_t> listedSources(std::size_t observation) const;
+};
+
+struct ScanIntakeOptions {
+  double new_density = 2.5e-4;  ///< 1/m^2
+  int most_objects = 500;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// What became of the objects of all lists.
+struct ScanIntakeCounts {
+  std::uint64_t accepted = 0;
+  std::uint64_t rejected = 0;  ///< see isValid()
+  std::uint64_t refused = 0;   ///< beyond the most of one list: the farthest
+};
+
+/// Takes in the objects of one time, in the vehicle's frame. `visibility` must outlive the scan.
+/// The order of the objects does not matter.
+AssociationScan takeIn(const std::vector<Object>& objects, const Pose2& base_in_fixed,
+                       const Visibility& visibility, const ClutterMap& clutter,
+                       const ScanIntakeOptions& options, ScanIntakeCounts& counts);
+
+}  // namespace datmo

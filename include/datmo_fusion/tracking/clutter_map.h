@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/grid/rolling_grid.h"
+
+namespace datmo {
+
+struct ClutterMapOptions {
+  double cell_size = 10.0;      ///< m
+  double range = 60.0;          ///< m
+  double learning_time = 10.0;  ///< s
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// How many objects that belong to no confirmed target there are about each place seen from the
+/// vehicle: false alarms, and things that begin to be seen. Learnt from the scans before
+/// (Musicki, Suvorova, Morelande, Moran, Clutter map and target tracking, 2005).
+class ClutterMap {
+ public:
+  explicit ClutterMap(const ClutterMapOptions& options);
+
+  /// Objects of no target in one scan, 1/m^2, at a place in the vehicle's frame; 0 where nothing
+  /// was learnt.
+  double density(const Point2& place) const { return densities_.atOrEmpty(cellAt(place)); }
+
+  /// Takes in where such objects were in one scan (m, vehicle's frame), `seconds` >= 0 after the
+  /// last one.
+  void learn(const std::vector<Point2>& unexplained, double seconds);
+
+  /// Nothing is known again.
+  void clear();
+
+ private:
+  CellIndex cellAt(const Point2& place) const { return densities_.window().cellAt(place); }
+
+  ClutterMapOptions options_;
+  RollingGrid<double> densities_;  ///< 1/m^2, about the vehicle
+};
+
+}  // namespace datmo

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace datmo {
+
+/// Groups of the numbers from 0 to size - 1 that were joined, directly or through others (union
+/// find).
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t size) : parent_(size) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
+
+  /// The least number of the group.
+  std::size_t find(std::size_t member) {
+    while (parent_[member] != member) {
+      parent_[member] = parent_[parent_[member]];
+      member = parent_[member];
+    }
+    return member;
+  }
+
+  void join(std::size_t a, std::size_t b) {
+    a = find(a);
+    b = find(b);
+    if (a < b) {
+      parent_[b] = a;
+    } else {
+      parent_[a] = b;
+    }
+  }
+
+  /// The members of each group, rising; groups by their least member.
+  std::vector<std::vector<std::size_t>> sets() {
+    std::map<std::size_t, std::vector<std::size_t>> by_least;
+    for (std::size_t member = 0; member < parent_.size(); ++member) {
+      by_least[find(member)].push_back(member);
+    }
+    std::vector<std::vector<std::size_t>> result;
+    for (auto& entry : by_least) {
+      result.push_back(std::move(entry.second));
+    }
+    return result;
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+}  // namespace datmo

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "datmo_fusion/tracking/track_tree.h"
+
+namespace datmo {
+
+/// Two targets that may have been seen as the same object.
+struct TreeLink {
+  std::uint64_t scan;  ///< counted from the first one
+  std::uint64_t first;
+  std::uint64_t second;  ///< numbers of the targets
+};
+
+/// Targets that compete for objects, and the hypotheses about all of them together (Reid 1979;
+/// Cox and Hingorani 1996). What two clusters decide does not depend on each other.
+struct HypothesisCluster {
+  std::vector<TrackTree> trees;
+  std::vector<GlobalHypothesis> hypotheses;  ///< the best first; at least one
+  std::vector<TreeLink> links;
+
+  const GlobalHypothesis& best() const { return hypotheses.front(); }
+
+  /// Probability of each hypothesis; they sum to 1.
+  std::vector<double> probabilities() const;
+};
+
+/// A cluster of one target that has just been seen for the first time.
+HypothesisCluster singleTarget(TrackTree tree);
+
+/// Both clusters as one, with the `most` likeliest pairs of their hypotheses.
+HypothesisCluster joined(const HypothesisCluster& a, const HypothesisCluster& b, std::size_t most);
+
+/// Removes all hypotheses that differ from the best one in what they say of the scan `history`
+/// scans ago (N-scan pruning: Blackman 2004; thesis 3.3.4). `history` to kMostScanHistory; 0 leaves
+/// the best one alone.
+void pruneHistory(HypothesisCluster& cluster, std::size_t history);
+
+/// Removes leaves of which this is true, in all hypotheses.
+void removeLeaves(HypothesisCluster& cluster, const std::function<bool(const Target&)>& isLost);
+
+/// Sorts the hypotheses, joins equal ones, and removes leaves and trees that are in none. A cluster
+/// may be left without trees.
+void tidy(HypothesisCluster& cluster);
+
+/// The groups of targets that have shared no object since `oldest_scan` as clusters of their own.
+std::vector<HypothesisCluster> split(HypothesisCluster cluster, std::uint64_t oldest_scan);
+
+}  // namespace datmo

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "datmo_fusion/tracking/hypothesis_cluster.h"
+#include "datmo_fusion/tracking/target_set.h"
+
+namespace datmo {
+
+struct HypothesisOptions {
+  int most_hypotheses = 10;
+  int scan_history = 3;
+  int most_leaves = 8;
+  double least_ratio = 1e-3;  ///< 1
+  int most_joint_targets = 30;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// One way to read the objects of a cluster: which observations there are. Each object of the
+/// cluster is a source of exactly one of them.
+using Interpretation = std::vector<std::size_t>;
+
+/// What growing needs to know beside the cluster.
+struct GrowthContext {
+  const AssociationScan& scan;
+  const TargetOptions& target;
+  const HypothesisOptions& options;
+  std::uint64_t scan_number;   ///< counted from the first one
+  std::uint64_t first_number;  ///< of the target that the scan's first object may start
+  bool hurry;                  ///< only the most likely hypothesis
+};
+
+/// The cluster after one more scan: of all ways to go on from its hypotheses, by each
+/// interpretation, the likeliest `most_hypotheses` (Murty's ranking of each hypothesis's
+/// assignments, taken from all of them best first: Cox and Hingorani 1996). Interpretations: at
+/// least one, the first with the objects by themselves. Leaves must have their scores.
+///
+/// `room`: new targets that may be started. Both it and the counts are brought up to date.
+HypothesisCluster grown(const HypothesisCluster& cluster,
+                        const std::vector<Interpretation>& interpretations,
+                        const GrowthContext& context, std::uint64_t& next_node, std::size_t& room,
+                        AssociationCounts& counts);
+
+}  // namespace datmo

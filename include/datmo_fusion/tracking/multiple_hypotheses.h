@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "datmo_fusion/tracking/hypothesis_cluster.h"
+#include "datmo_fusion/tracking/hypothesis_growth.h"
+#include "datmo_fusion/tracking/split_merge.h"
+#include "datmo_fusion/tracking/target_set.h"
+
+namespace datmo {
+
+/// Multiple hypothesis tracking (Reid 1979; Cox and Hingorani 1996; Blackman 2004; thesis 3.3.4):
+/// the tree of ways in which each target may have been seen, the global hypotheses of each cluster
+/// of targets that compete for objects, and pruning of decisions a few scans old.
+///
+/// With one hypothesis, no scan history, and neither split nor merged objects it does the same as
+/// NearestNeighbourTargets.
+class MultipleHypotheses : public TargetSet {
+ public:
+  MultipleHypotheses(const TargetOptions& target, const AssociationOptions& association,
+                     const HypothesisOptions& hypotheses, const SplitMergeOptions& split_merge);
+
+  void predict(double seconds) override;
+  void associate(AssociationScan& scan, const StepBudget& budget) override;
+  std::vector<BestTarget> best() const override;
+  void change(std::uint64_t number, const std::function<void(Target&)>& change) override;
+  void removeIf(const std::function<bool(const Target&)>& isLost) override;
+  const AssociationCounts& counts() const override { return counts_; }
+  void clear() override { clusters_.clear(); }
+
+ private:
+  void score(const AssociationScan& scan);
+  void joinCompeting(std::size_t objects);
+  void grow(HypothesisCluster cluster, AssociationScan& scan, const StepBudget& budget,
+            std::vector<HypothesisCluster>& next);
+  void startTargets(const AssociationScan& scan, const std::vector<bool>& claimed,
+                    std::vector<HypothesisCluster>& next);
+  std::size_t targets() const;
+
+  TargetOptions target_options_;
+  AssociationOptions options_;
+  HypothesisOptions hypothesis_options_;
+  SplitMergeOptions split_merge_;
+  std::vector<HypothesisCluster> clusters_;
+  std::uint64_t scan_number_ = 0;
+  std::uint64_t next_number_ = 1;
+  std::uint64_t next_node_ = 1;
+  std::size_t room_ = 0;  ///< in the present scan, for targets to start
+  AssociationCounts counts_;
+};
+
+}  // namespace datmo

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "datmo_fusion/tracking/target_set.h"
+
+namespace datmo {
+
+/// Global nearest neighbour: the one most likely association of each scan by itself, the sum of
+/// scores over all pairs being optimal. What multiple hypotheses are with a single one, and no scan
+/// history.
+class NearestNeighbourTargets : public TargetSet {
+ public:
+  NearestNeighbourTargets(const TargetOptions& target, const AssociationOptions& association);
+
+  void predict(double seconds) override;
+  void associate(AssociationScan& scan, const StepBudget& budget) override;
+  std::vector<BestTarget> best() const override;
+  void change(std::uint64_t number, const std::function<void(Target&)>& change) override;
+  void removeIf(const std::function<bool(const Target&)>& isLost) override;
+  const AssociationCounts& counts() const override { return counts_; }
+  void clear() override { targets_.clear(); }
+
+ private:
+  TargetOptions target_options_;
+  AssociationOptions options_;
+  std::vector<Target> targets_;  ///< by rising number
+  std::uint64_t next_number_ = 1;
+  AssociationCounts counts_;
+};
+
+}  // namespace datmo

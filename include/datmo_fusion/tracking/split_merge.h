@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "datmo_fusion/tracking/association.h"
+#include "datmo_fusion/tracking/hypothesis_cluster.h"
+#include "datmo_fusion/tracking/hypothesis_growth.h"
+
+namespace datmo {
+
+struct SplitMergeOptions {
+  double split_probability = 0.1;   ///< 1
+  double merge_probability = 0.05;  ///< 1
+  double margin = 0.5;              ///< m
+  int most_readings = 6;            ///< 1
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Other readings of a cluster's objects than each by itself (thesis figure 4.11 d, e): several
+/// objects inside of the box of a confirmed target may be parts of it, and an object that covers
+/// two confirmed targets may be both of them.
+///
+/// Adds such observations to the scan, and to the candidates of the targets whose they would be,
+/// and the readings with them to `interpretations`, of which the first, with the objects by
+/// themselves, must be there. A probability of 0 leaves that kind out.
+void addSplitAndMerged(HypothesisCluster& cluster, AssociationScan& scan,
+                       const AssociationOptions& association, const SplitMergeOptions& options,
+                       std::vector<Interpretation>& interpretations);
+
+}  // namespace datmo

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "datmo_fusion/tracking/association.h"
+#include "datmo_fusion/tracking/target.h"
+
+namespace datmo {
+
+/// Scans back to which the branches of a track tree can be told apart, at most.
+inline constexpr std::size_t kMostScanHistory = 8;
+
+/// One way in which a target may have been seen up to now: a leaf of its track tree.
+///
+/// The tree itself is not stored. Of its nodes a leaf knows its own and those of the last scans,
+/// newest first; 0: before the target was first seen.
+struct Leaf {
+  Target target;
+  std::array<std::uint64_t, kMostScanHistory + 1> nodes{};
+  TargetScores scores;  ///< against the present scan
+
+  /// The leaf below this one in the next scan.
+  Leaf child(std::uint64_t node) const {
+    Leaf next{target, {}, {}};
+    std::copy(nodes.begin(), nodes.end() - 1, next.nodes.begin() + 1);
+    next.nodes.front() = node;
+    return next;
+  }
+};
+
+/// All ways in which one target may have been seen; at least one.
+struct TrackTree {
+  std::vector<Leaf> leaves;
+
+  std::uint64_t number() const { return leaves.front().target.number(); }
+};
+
+/// The target does not exist in this hypothesis: its objects are of others.
+inline constexpr int kAbsent = -1;
+
+/// One explanation of all objects of a cluster: a leaf, or none, for each of its trees.
+struct GlobalHypothesis {
+  double log_weight = 0.0;  ///< relative to the best of its cluster
+  std::vector<int> leaf_of_tree;
+};
+
+}  // namespace datmo

@@ -1,0 +1,92 @@
+#include "datmo_fusion/tracking/association_scan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "datmo_fusion/tracking/object_check.h"
+
+namespace datmo {
+
+namespace {
+
+/// An object in the fixed frame, and where it stood in the list.
+struct Entry {
+  Object object;
+  std::size_t listed;
+  double distance;  ///< m, from the vehicle
+};
+
+auto place(const Entry& entry) {
+  const Box2& box = entry.object.box;
+  return std::make_tuple(box.centre.x(), box.centre.y(), box.centre.heading(), box.length,
+                         box.width, entry.object.log_odds);
+}
+
+bool isLeft(const Entry& a, const Entry& b) { return place(a) < place(b); }
+
+bool isNearer(const Entry& a, const Entry& b) {
+  return std::tie(a.distance) < std::tie(b.distance) || (a.distance == b.distance && isLeft(a, b));
+}
+
+}  // namespace
+
+std::vector<std::size_t> AssociationScan::listedSources(std::size_t observation) const {
+  std::vector<std::size_t> result;
+  for (const std::size_t source : observations[observation].sources) {
+    result.push_back(listed[source]);
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+void ScanIntakeOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"new_density", "1/m^2",
+                  "objects of no target in one scan, new ones and false alarms, where none were "
+                  "seen of late: an object must be likelier for its target"},
+                 new_density, {1e-9, 10.0});
+  visitor.integer({"most_objects", "1",
+                   "objects taken from one list, the nearest ones; bounds the time of a step"},
+                  most_objects, {1, 10000});
+}
+
+AssociationScan takeIn(const std::vector<Object>& objects, const Pose2& base_in_fixed,
+                       const Visibility& visibility, const ClutterMap& clutter,
+                       const ScanIntakeOptions& options, ScanIntakeCounts& counts) {
+  std::vector<Entry> entries;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    Object object = transformed(base_in_fixed, objects[i]);
+    if (isValid(object)) {
+      entries.push_back({std::move(object), i, objects[i].box.centre.position().norm()});
+    }
+  }
+  counts.rejected += objects.size() - entries.size();
+  const auto most = static_cast<std::size_t>(options.most_objects);
+  if (entries.size() > most) {
+    std::sort(entries.begin(), entries.end(), isNearer);
+    counts.refused += entries.size() - most;
+    entries.resize(most);
+  }
+  counts.accepted += entries.size();
+  std::sort(entries.begin(), entries.end(), isLeft);
+
+  AssociationScan scan;
+  scan.objects = entries.size();
+  scan.visibility = &visibility;
+  scan.fixed_in_base = base_in_fixed.inverse();
+  for (Entry& entry : entries) {
+    const Box2& box = entry.object.box;
+    scan.noise = std::max(scan.noise, std::sqrt(entry.object.position_covariance.trace()));
+    scan.extent = std::max(scan.extent, std::hypot(box.length, box.width));
+    const Point2& in_base = objects[entry.listed].box.centre.position();
+    const double density = options.new_density + clutter.density(in_base);
+    const bool starts = entry.object.dynamic_state != DynamicState::kStatic;
+    scan.observations.push_back(
+        {std::move(entry.object), {scan.listed.size()}, std::log(density), starts, false});
+    scan.listed.push_back(entry.listed);
+  }
+  return scan;
+}
+
+}  // namespace datmo

@@ -1,0 +1,206 @@
+#include "datmo_fusion/tracking/multiple_hypotheses.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "datmo_fusion/tracking/disjoint_sets.h"
+
+namespace datmo {
+
+namespace {
+
+/// The objects that any leaf of the cluster may have been seen as, rising.
+std::vector<std::size_t> candidateObjects(const HypothesisCluster& cluster) {
+  std::vector<std::size_t> result;
+  for (const TrackTree& tree : cluster.trees) {
+    for (const Leaf& leaf : tree.leaves) {
+      for (const Candidate& candidate : leaf.scores.candidates) {
+        result.push_back(candidate.observation);
+      }
+    }
+  }
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+}  // namespace
+
+MultipleHypotheses::MultipleHypotheses(const TargetOptions& target,
+                                       const AssociationOptions& association,
+                                       const HypothesisOptions& hypotheses,
+                                       const SplitMergeOptions& split_merge)
+    : target_options_(target),
+      options_(association),
+      hypothesis_options_(hypotheses),
+      split_merge_(split_merge) {}
+
+void MultipleHypotheses::predict(double seconds) {
+  const ImmStep step = immStep(target_options_.filter, seconds);
+  for (HypothesisCluster& cluster : clusters_) {
+    for (TrackTree& tree : cluster.trees) {
+      for (Leaf& leaf : tree.leaves) {
+        leaf.target.predict(seconds, step, target_options_);
+      }
+    }
+  }
+}
+
+void MultipleHypotheses::associate(AssociationScan& scan, const StepBudget& budget) {
+  const std::uint64_t hurried = counts_.hurried_steps;
+  score(scan);
+  joinCompeting(scan.objects);
+  const std::size_t followed = targets();
+  const auto most = static_cast<std::size_t>(options_.most_targets);
+  room_ = followed < most ? most - followed : 0;
+
+  std::vector<bool> claimed(scan.objects, false);
+  std::vector<HypothesisCluster> next;
+  for (HypothesisCluster& cluster : clusters_) {
+    for (const std::size_t object : candidateObjects(cluster)) {
+      claimed[object] = true;
+    }
+    grow(std::move(cluster), scan, budget, next);
+  }
+  startTargets(scan, claimed, next);
+  clusters_ = std::move(next);
+  next_number_ += scan.objects;
+  ++scan_number_;
+  counts_.hurried_steps = std::min(counts_.hurried_steps, hurried + 1);
+}
+
+void MultipleHypotheses::score(const AssociationScan& scan) {
+  for (HypothesisCluster& cluster : clusters_) {
+    for (TrackTree& tree : cluster.trees) {
+      for (Leaf& leaf : tree.leaves) {
+        const double existence = leaf.target.existenceProbability(target_options_);
+        leaf.scores = scoresOf(leaf.target, scan, existence, options_);
+      }
+    }
+  }
+}
+
+/// Clusters that may have been seen as the same object become one.
+void MultipleHypotheses::joinCompeting(std::size_t objects) {
+  constexpr std::size_t kNobody = kUnseen;
+  std::vector<std::size_t> claimer(objects, kNobody);
+  DisjointSets groups(clusters_.size());
+  for (std::size_t i = 0; i < clusters_.size(); ++i) {
+    for (const std::size_t object : candidateObjects(clusters_[i])) {
+      if (claimer[object] == kNobody) {
+        claimer[object] = i;
+      } else {
+        groups.join(claimer[object], i);
+      }
+    }
+  }
+  const auto most = static_cast<std::size_t>(hypothesis_options_.most_hypotheses);
+  std::vector<HypothesisCluster> result;
+  for (const std::vector<std::size_t>& group : groups.sets()) {
+    HypothesisCluster cluster = std::move(clusters_[group.front()]);
+    for (std::size_t i = 1; i < group.size(); ++i) {
+      cluster = joined(cluster, clusters_[group[i]], most);
+    }
+    result.push_back(std::move(cluster));
+  }
+  clusters_ = std::move(result);
+}
+
+void MultipleHypotheses::grow(HypothesisCluster cluster, AssociationScan& scan,
+                              const StepBudget& budget, std::vector<HypothesisCluster>& next) {
+  const bool late = budget.isSpent();
+  counts_.hurried_steps += late ? 1 : 0;
+  const bool hurry = late || cluster.trees.size() >
+                                 static_cast<std::size_t>(hypothesis_options_.most_joint_targets);
+  std::vector<Interpretation> interpretations{candidateObjects(cluster)};
+  if (!hurry) {
+    addSplitAndMerged(cluster, scan, options_, split_merge_, interpretations);
+  }
+  const GrowthContext context{scan,         target_options_, hypothesis_options_,
+                              scan_number_, next_number_,    hurry};
+  HypothesisCluster whole = grown(cluster, interpretations, context, next_node_, room_, counts_);
+  const auto history = static_cast<std::size_t>(hypothesis_options_.scan_history);
+  if (whole.hypotheses.size() > 1) {
+    pruneHistory(whole, history);
+  }
+  const std::uint64_t oldest = scan_number_ + 1 > history ? scan_number_ + 1 - history : 0;
+  for (HypothesisCluster& part : split(std::move(whole), oldest)) {
+    next.push_back(std::move(part));
+  }
+}
+
+void MultipleHypotheses::startTargets(const AssociationScan& scan, const std::vector<bool>& claimed,
+                                      std::vector<HypothesisCluster>& next) {
+  for (std::size_t object = 0; object < scan.objects; ++object) {
+    const Observation& observation = scan.observations[object];
+    if (claimed[object] || !observation.starts_target) {
+      continue;
+    }
+    if (room_ == 0) {
+      ++counts_.refused_births;
+      continue;
+    }
+    --room_;
+    Leaf leaf{Target(observation.object, object, next_number_ + object, target_options_), {}, {}};
+    leaf.nodes.front() = next_node_++;
+    TrackTree tree;
+    tree.leaves.push_back(std::move(leaf));
+    next.push_back(singleTarget(std::move(tree)));
+  }
+}
+
+std::vector<BestTarget> MultipleHypotheses::best() const {
+  std::vector<BestTarget> result;
+  for (const HypothesisCluster& cluster : clusters_) {
+    const std::vector<double> probabilities = cluster.probabilities();
+    for (std::size_t tree = 0; tree < cluster.trees.size(); ++tree) {
+      const int leaf = cluster.best().leaf_of_tree[tree];
+      if (leaf == kAbsent) {
+        continue;
+      }
+      double present = 0.0;
+      for (std::size_t i = 0; i < probabilities.size(); ++i) {
+        present += cluster.hypotheses[i].leaf_of_tree[tree] == kAbsent ? 0.0 : probabilities[i];
+      }
+      result.push_back(
+          {&cluster.trees[tree].leaves[static_cast<std::size_t>(leaf)].target, present});
+    }
+  }
+  std::sort(result.begin(), result.end(), [](const BestTarget& a, const BestTarget& b) {
+    return a.target->number() < b.target->number();
+  });
+  return result;
+}
+
+void MultipleHypotheses::change(std::uint64_t number, const std::function<void(Target&)>& change) {
+  for (HypothesisCluster& cluster : clusters_) {
+    for (TrackTree& tree : cluster.trees) {
+      if (tree.number() == number) {
+        for (Leaf& leaf : tree.leaves) {
+          change(leaf.target);
+        }
+        return;
+      }
+    }
+  }
+}
+
+void MultipleHypotheses::removeIf(const std::function<bool(const Target&)>& isLost) {
+  for (HypothesisCluster& cluster : clusters_) {
+    removeLeaves(cluster, isLost);
+  }
+  clusters_.erase(
+      std::remove_if(clusters_.begin(), clusters_.end(),
+                     [](const HypothesisCluster& cluster) { return cluster.trees.empty(); }),
+      clusters_.end());
+}
+
+std::size_t MultipleHypotheses::targets() const {
+  std::size_t result = 0;
+  for (const HypothesisCluster& cluster : clusters_) {
+    result += cluster.trees.size();
+  }
+  return result;
+}
+
+}  // namespace datmo

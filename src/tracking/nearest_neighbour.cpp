@@ -1,0 +1,82 @@
+#include "datmo_fusion/tracking/nearest_neighbour.h"
+
+#include <algorithm>
+
+#include "datmo_fusion/tracking/assignment.h"
+
+namespace datmo {
+
+NearestNeighbourTargets::NearestNeighbourTargets(const TargetOptions& target,
+                                                 const AssociationOptions& association)
+    : target_options_(target), options_(association) {}
+
+void NearestNeighbourTargets::predict(double seconds) {
+  const ImmStep step = immStep(target_options_.filter, seconds);
+  for (Target& target : targets_) {
+    target.predict(seconds, step, target_options_);
+  }
+}
+
+void NearestNeighbourTargets::associate(AssociationScan& scan, const StepBudget& /*budget*/) {
+  std::vector<TargetScores> scores;
+  CostMatrix costs(targets_.size(), scan.objects);
+  costs.setConstant(kForbidden);
+  for (const Target& target : targets_) {
+    scores.push_back(
+        scoresOf(target, scan, target.existenceProbability(target_options_), options_));
+    for (const Candidate& candidate : scores.back().candidates) {
+      costs(static_cast<Eigen::Index>(scores.size() - 1),
+            static_cast<Eigen::Index>(candidate.observation)) = -candidate.score;
+    }
+  }
+  // Costs are relative to a miss and a birth, which so cost nothing.
+  const Eigen::VectorXd no_cost = Eigen::VectorXd::Zero(costs.rows());
+  const std::vector<int> object_of_target = solveAssignment(costs, no_cost).column_of_row;
+
+  std::vector<bool> explained(scan.objects, false);
+  for (std::size_t i = 0; i < targets_.size(); ++i) {
+    const double seen = scores[i].detection_probability;
+    if (object_of_target[i] == kUnassigned) {
+      targets_[i].miss(seen, target_options_);
+      continue;
+    }
+    const auto object = static_cast<std::size_t>(object_of_target[i]);
+    targets_[i].update(scan.observations[object].object, object, seen, target_options_);
+    explained[object] = true;
+  }
+  for (std::size_t object = 0; object < scan.objects; ++object) {
+    const Observation& observation = scan.observations[object];
+    if (explained[object] || !observation.starts_target) {
+      continue;
+    }
+    if (targets_.size() >= static_cast<std::size_t>(options_.most_targets)) {
+      ++counts_.refused_births;
+      continue;
+    }
+    targets_.emplace_back(observation.object, object, next_number_ + object, target_options_);
+  }
+  next_number_ += scan.objects;
+}
+
+std::vector<BestTarget> NearestNeighbourTargets::best() const {
+  std::vector<BestTarget> result;
+  for (const Target& target : targets_) {
+    result.push_back({&target, 1.0});
+  }
+  return result;
+}
+
+void NearestNeighbourTargets::change(std::uint64_t number,
+                                     const std::function<void(Target&)>& change) {
+  for (Target& target : targets_) {
+    if (target.number() == number) {
+      change(target);
+    }
+  }
+}
+
+void NearestNeighbourTargets::removeIf(const std::function<bool(const Target&)>& isLost) {
+  targets_.erase(std::remove_if(targets_.begin(), targets_.end(), isLost), targets_.end());
+}
+
+}  // namespace datmo

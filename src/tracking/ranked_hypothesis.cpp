@@ -1,0 +1,67 @@
+#include "ranked_hypothesis.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace datmo {
+
+RankedHypothesis::RankedHypothesis(const HypothesisCluster& cluster, const GlobalHypothesis& parent,
+                                   const Interpretation& interpretation)
+    : cluster_(&cluster),
+      parent_(&parent),
+      interpretation_(&interpretation),
+      base_(parent.log_weight) {
+  for (std::size_t tree = 0; tree < cluster.trees.size(); ++tree) {
+    if (parent.leaf_of_tree[tree] != kAbsent) {
+      rows_.push_back(tree);
+      base_ += scores(tree).missed;
+    }
+  }
+}
+
+double RankedHypothesis::bound() const {
+  double bound = base_;
+  for (const std::size_t tree : rows_) {
+    double best = 0.0;
+    for (const Candidate& candidate : scores(tree).candidates) {
+      best = std::max(best, candidate.score);
+    }
+    bound += best;
+  }
+  return bound;
+}
+
+void RankedHypothesis::rank() {
+  const Interpretation& columns = *interpretation_;
+  CostMatrix costs(rows_.size(), columns.size());
+  costs.setConstant(kForbidden);
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    for (const Candidate& candidate : scores(rows_[row]).candidates) {
+      const auto found = std::lower_bound(columns.begin(), columns.end(), candidate.observation);
+      if (found != columns.end() && *found == candidate.observation) {
+        costs(static_cast<Eigen::Index>(row), found - columns.begin()) = -candidate.score;
+      }
+    }
+  }
+  const Eigen::VectorXd no_cost = Eigen::VectorXd::Zero(costs.rows());
+  ranked_ = std::make_unique<RankedAssignments>(std::move(costs), no_cost);
+  advance();
+}
+
+std::vector<std::size_t> RankedHypothesis::observations() const {
+  std::vector<std::size_t> result(cluster_->trees.size(), kUnseen);
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    const int column = present_->column_of_row[row];
+    if (column != kUnassigned) {
+      result[rows_[row]] = (*interpretation_)[static_cast<std::size_t>(column)];
+    }
+  }
+  return result;
+}
+
+const TargetScores& RankedHypothesis::scores(std::size_t tree) const {
+  const auto leaf = static_cast<std::size_t>(parent_->leaf_of_tree[tree]);
+  return cluster_->trees[tree].leaves[leaf].scores;
+}
+
+}  // namespace datmo

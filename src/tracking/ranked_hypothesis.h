@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "datmo_fusion/tracking/hypothesis_cluster.h"
+#include "datmo_fusion/tracking/hypothesis_growth.h"
+#include "datmo_fusion/tracking/ranked_assignments.h"
+
+namespace datmo {
+
+/// One hypothesis of a cluster with one reading of its objects, and the ways to go on from it: its
+/// assignments of observations to targets, best first. All three must outlive it.
+class RankedHypothesis {
+ public:
+  RankedHypothesis(const HypothesisCluster& cluster, const GlobalHypothesis& parent,
+                   const Interpretation& interpretation);
+
+  /// No assignment weighs more (logarithm).
+  double bound() const;
+
+  /// Finds the best assignment; to be called before all below.
+  void rank();
+
+  void advance() { present_ = ranked_->next(); }
+  bool isDone() const { return !present_; }
+
+  /// Of the present assignment, logarithm.
+  double weight() const { return base_ - present_->cost; }
+
+  /// Observation of each tree of the cluster in the present assignment; kUnseen: none.
+  std::vector<std::size_t> observations() const;
+
+  const GlobalHypothesis& parent() const { return *parent_; }
+  const Interpretation& interpretation() const { return *interpretation_; }
+
+ private:
+  const TargetScores& scores(std::size_t tree) const;
+
+  const HypothesisCluster* cluster_;
+  const GlobalHypothesis* parent_;
+  const Interpretation* interpretation_;
+  double base_;                    ///< logarithm of the weight if all targets are missed
+  std::vector<std::size_t> rows_;  ///< trees that are present
+  std::unique_ptr<RankedAssignments> ranked_;
+  std::optional<Assignment> present_;
+};
+
+}  // namespace datmo

@@ -1,0 +1,24 @@
+#include "datmo_fusion/tracking/track_paths.h"
+
+#include <utility>
+
+namespace datmo {
+
+void TrackPaths::extend(TrackList& list, double seconds) {
+  std::map<std::uint32_t, std::deque<PathPoint>> next;
+  for (Track& track : list.tracks) {
+    std::deque<PathPoint>& path = next[track.id];
+    const auto old = paths_.find(track.id);
+    if (old != paths_.end()) {
+      path = std::move(old->second);
+    }
+    path.push_back({list.stamp, track.box.centre});
+    while (secondsBetween(path.front().stamp, list.stamp) > seconds) {
+      path.pop_front();
+    }
+    track.history.assign(path.begin(), path.end());
+  }
+  paths_ = std::move(next);
+}
+
+}  // namespace datmo
