@@ -1,0 +1,231 @@
+#include "augmenting_path.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace datmo {
+
+namespace {
+
+/// In place of the row that a column was reached from.
+constexpr int kVoid = -2;
+
+}  // namespace
+
+AugmentingPath::AugmentingPath(const CostMatrix& cost, const Eigen::VectorXd& unassigned_cost,
+                               std::pmr::memory_resource* memory)
+    : cost_(cost),
+      unassigned_cost_(unassigned_cost),
+      distance_(cost.cols(), kForbidden, memory),
+      reached_from_(cost.cols(), kVoid, memory),
+      columns_(cost.cols(), 0, memory),
+      waiting_rows_(memory) {}
+
+void AugmentingPath::add(int row, PricedAssignment& assignment) {
+  run({row, costOf(row), kUnassigned, 0, row + 1}, assignment);
+}
+
+bool AugmentingPath::replace(int row, const RowCost& row_cost, PricedAssignment& assignment) {
+  const int rows = static_cast<int>(cost_.rows());
+  return run({row, row_cost, assignment.column_of_row[row], row, rows}, assignment);
+}
+
+bool AugmentingPath::run(const Search& search, PricedAssignment& assignment) {
+  const double length = find(search, assignment);
+  if (length == kForbidden) {
+    return false;
+  }
+  updatePrices(search, length, assignment);
+  apply(search, assignment);
+  return true;
+}
+
+void AugmentingPath::start(const Search& search, const PricedAssignment& assignment) {
+  columns_in_search_ = 0;
+  for (int column = 0; column < static_cast<int>(cost_.cols()); ++column) {
+    const int row = assignment.row_of_column[column];
+    if (row == kUnassigned || row >= search.first_row) {
+      columns_[columns_in_search_++] = column;
+      distance_[column] = kForbidden;
+    }
+  }
+  open_columns_ = columns_in_search_;
+  void_distance_ = kForbidden;
+  void_left_ = false;
+  waiting_rows_.clear();
+}
+
+/// The length of the shortest path, or kForbidden.
+double AugmentingPath::find(const Search& search, const PricedAssignment& assignment) {
+  start(search, assignment);
+  leaveRow(search.root, search.root_cost, 0.0, assignment);
+  while (true) {
+    const Node node = nearest(assignment);
+    if (node.distance == kForbidden) {
+      return kForbidden;
+    }
+    if (node.kind == Node::Kind::kVoid) {
+      if (search.target == kUnassigned) {
+        return node.distance;
+      }
+      leaveVoid(search, assignment);
+    } else if (node.kind == Node::Kind::kRow) {
+      const int row = waiting_rows_[node.position];
+      waiting_rows_.erase(waiting_rows_.begin() + node.position);
+      leaveRow(row, costOf(row), node.distance, assignment);
+    } else {
+      const int column = close(node.position);
+      if (column == search.target) {
+        return node.distance;
+      }
+      leaveColumn(column, node.distance, assignment);
+    }
+  }
+}
+
+/// Equal distances: columns before the void, unless the path to it is over a free column, and that
+/// before rows.
+AugmentingPath::Node AugmentingPath::nearest(const PricedAssignment& assignment) const {
+  Node result;
+  for (int position = 0; position < open_columns_; ++position) {
+    const int column = columns_[position];
+    if (distance_[column] <= result.distance && comesFirst(column, result, assignment)) {
+      result = {Node::Kind::kColumn, position, distance_[column]};
+    }
+  }
+  if (!void_left_ && (void_distance_ < result.distance ||
+                      (void_distance_ == result.distance && void_from_column_ != kUnassigned))) {
+    return {Node::Kind::kVoid, 0, void_distance_};
+  }
+  for (int position = 0; position < static_cast<int>(waiting_rows_.size()); ++position) {
+    const double distance = throughVoid(waiting_rows_[position], assignment);
+    if (distance < result.distance) {
+      result = {Node::Kind::kRow, position, distance};
+    }
+  }
+  return result;
+}
+
+/// Whether a column that is no farther than the nearest one until now is left before it: of equally
+/// near ones the free ones, which end most searches, then the earlier ones.
+bool AugmentingPath::comesFirst(int column, const Node& nearest,
+                                const PricedAssignment& assignment) const {
+  if (distance_[column] < nearest.distance) {
+    return true;
+  }
+  if (nearest.kind != Node::Kind::kColumn) {
+    return false;
+  }
+  const int other = columns_[nearest.position];
+  const bool free = assignment.row_of_column[column] == kUnassigned;
+  const bool other_free = assignment.row_of_column[other] == kUnassigned;
+  return free == other_free ? column < other : free;
+}
+
+/// Takes a column out of the open ones.
+int AugmentingPath::close(int position) {
+  --open_columns_;
+  std::swap(columns_[position], columns_[open_columns_]);
+  return columns_[open_columns_];
+}
+
+/// Shortens the paths to all open columns, and to the void, by those over this row.
+void AugmentingPath::leaveRow(int row, const RowCost& cost, double distance,
+                              const PricedAssignment& assignment) {
+  work_ += open_columns_;
+  const double offset = distance - assignment.row_price[row];
+  for (int position = 0; position < open_columns_; ++position) {
+    const int column = columns_[position];
+    const double candidate = offset + cost.columns[column] - assignment.column_price[column];
+    if (candidate < distance_[column]) {
+      distance_[column] = candidate;
+      reached_from_[column] = row;
+    }
+  }
+  if (!void_left_ && offset + cost.unassigned < void_distance_) {
+    reachVoid(offset + cost.unassigned, row, kUnassigned);
+  }
+}
+
+/// On to the row that has it, or, as a free one, to the void.
+void AugmentingPath::leaveColumn(int column, double distance, const PricedAssignment& assignment) {
+  const int row = assignment.row_of_column[column];
+  if (row != kUnassigned) {
+    leaveRow(row, costOf(row), distance, assignment);
+  } else if (!void_left_ && distance + assignment.column_price[column] <= void_distance_) {
+    reachVoid(distance + assignment.column_price[column], kUnassigned, column);
+  }
+}
+
+void AugmentingPath::reachVoid(double distance, int row, int column) {
+  void_distance_ = distance;
+  void_from_row_ = row;
+  void_from_column_ = column;
+}
+
+/// Columns may become free, and rows without column may come to one.
+void AugmentingPath::leaveVoid(const Search& search, const PricedAssignment& assignment) {
+  void_left_ = true;
+  for (int position = 0; position < open_columns_; ++position) {
+    const int column = columns_[position];
+    const double candidate = void_distance_ - assignment.column_price[column];
+    if (assignment.row_of_column[column] != kUnassigned && candidate < distance_[column]) {
+      distance_[column] = candidate;
+      reached_from_[column] = kVoid;
+    }
+  }
+  for (int row = search.first_row; row < search.end_row; ++row) {
+    if (row != search.root && assignment.column_of_row[row] == kUnassigned) {
+      waiting_rows_.push_back(row);
+    }
+  }
+}
+
+double AugmentingPath::throughVoid(int row, const PricedAssignment& assignment) const {
+  return void_distance_ + assignment.row_price[row] - unassigned_cost_[row];
+}
+
+double AugmentingPath::distanceOf(int row, const PricedAssignment& assignment) const {
+  const int column = assignment.column_of_row[row];
+  return column == kUnassigned ? throughVoid(row, assignment) : distance_[column];
+}
+
+/// What was reached is no farther than the end of the path; the void keeps its price of 0.
+void AugmentingPath::updatePrices(const Search& search, double length,
+                                  PricedAssignment& assignment) const {
+  const double void_distance = std::min(void_distance_, length);
+  for (int row = search.first_row; row < search.end_row; ++row) {
+    // A new root has no price yet: its path may be shorter than 0.
+    const double distance =
+        row == search.root ? 0.0 : std::min(distanceOf(row, assignment), length);
+    assignment.row_price[row] += void_distance - distance;
+  }
+  for (int position = 0; position < columns_in_search_; ++position) {
+    const int column = columns_[position];
+    assignment.column_price[column] -= void_distance - std::min(distance_[column], length);
+  }
+}
+
+/// Changes what the path changes, from its end back to the root.
+void AugmentingPath::apply(const Search& search, PricedAssignment& assignment) const {
+  int column = search.target;
+  int row = kUnassigned;
+  while (row != search.root) {
+    if (column != kUnassigned && reached_from_[column] == kVoid) {
+      assignment.row_of_column[column] = kUnassigned;
+      column = kUnassigned;
+    }
+    if (column == kUnassigned) {
+      column = void_from_column_;
+    }
+    if (column == kUnassigned) {
+      row = void_from_row_;
+    } else {
+      row = reached_from_[column];
+      assignment.row_of_column[column] = row;
+    }
+    std::swap(column, assignment.column_of_row[row]);
+  }
+}
+
+}  // namespace datmo
