@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/common/object.h"
 
 namespace datmo {
@@ -26,9 +27,6 @@ inline constexpr int kMotionModes = 5;
 inline constexpr int kTrackState = 6;
 using TrackState = Eigen::Matrix<double, kTrackState, 1>;
 using TrackCovariance = Eigen::Matrix<double, kTrackState, kTrackState>;
-
-/// Probability of each ObjectClass; they sum to 1.
-using ClassProbabilities = std::array<double, kObjectClasses>;
 
 /// Where a track was at one time, as it was published then.
 struct PathPoint {

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+
+#include "datmo_fusion/common/object.h"
+
+namespace datmo {
+
+/// Probability of each ObjectClass, in the order of its values; they sum to 1.
+using ClassProbabilities = std::array<double, kObjectClasses>;
+
+/// What an object is, from all that was said of its class until now (Bayes). Before anything was
+/// said all classes are equally likely.
+///
+/// No class ever becomes impossible: a classifier that errs once tends to err on the same object
+/// again, so what it says is not independent, and the belief must be able to change.
+class ClassBelief {
+ public:
+  ClassBelief();
+
+  /// One more observation: the class, with a probability of 0 to 1 that it is right; the other
+  /// classes share the rest equally. An unknown class tells nothing, nor does a probability that is
+  /// not above chance (one in kObjectClasses).
+  void update(ObjectClass observed, double probability);
+
+  const ClassProbabilities& probabilities() const { return probabilities_; }
+  double probability(ObjectClass object_class) const;
+
+  /// kUnknown where none is likelier than the others.
+  ObjectClass mostLikely() const;
+
+  /// Whether an object of this class may be the same: not where both are known and differ (thesis
+  /// 3.3.4). Known of a belief: likelier than all other classes together.
+  bool compatible(ObjectClass object_class) const;
+
+ private:
+  ClassProbabilities probabilities_;
+};
+
+}  // namespace datmo

@@ -1,0 +1,53 @@
+#include "datmo_fusion/common/class_belief.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace datmo {
+
+namespace {
+
+constexpr double kChance = 1.0 / static_cast<double>(kObjectClasses);
+
+/// Share of equal probabilities that is mixed in with every observation: no class falls below a
+/// fifth of it, so that two or three clear observations turn any belief.
+constexpr double kDoubt = 0.05;
+
+constexpr double kKnown = 0.5;
+
+std::size_t indexOf(ObjectClass object_class) { return static_cast<std::size_t>(object_class); }
+
+}  // namespace
+
+ClassBelief::ClassBelief() { probabilities_.fill(kChance); }
+
+void ClassBelief::update(ObjectClass observed, double probability) {
+  if (observed == ObjectClass::kUnknown || probability <= kChance) {
+    return;
+  }
+  const double other = (1.0 - probability) / static_cast<double>(kObjectClasses - 1);
+  for (std::size_t i = 0; i < kObjectClasses; ++i) {
+    probabilities_[i] *= i == indexOf(observed) ? probability : other;
+  }
+  const double sum = std::accumulate(probabilities_.begin(), probabilities_.end(), 0.0);
+  for (double& value : probabilities_) {
+    value = (1.0 - kDoubt) * value / sum + kDoubt * kChance;
+  }
+}
+
+double ClassBelief::probability(ObjectClass object_class) const {
+  return probabilities_[indexOf(object_class)];
+}
+
+ObjectClass ClassBelief::mostLikely() const {
+  const auto best = std::max_element(probabilities_.begin(), probabilities_.end());
+  return static_cast<ObjectClass>(best - probabilities_.begin());
+}
+
+bool ClassBelief::compatible(ObjectClass object_class) const {
+  const ObjectClass own = mostLikely();
+  return object_class == ObjectClass::kUnknown || own == ObjectClass::kUnknown ||
+         own == object_class || probability(own) <= kKnown;
+}
+
+}  // namespace datmo

@@ -1,0 +1,85 @@
+#include "datmo_fusion/common/class_belief.h"
+
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+namespace datmo {
+namespace {
+
+constexpr double kTolerance = 1e-12;
+constexpr ObjectClass kAllClasses[] = {ObjectClass::kUnknown, ObjectClass::kPedestrian,
+                                       ObjectClass::kCyclist, ObjectClass::kVehicle,
+                                       ObjectClass::kPole};
+
+TEST(ClassBelief, IsOpenAtFirst) {
+  const ClassBelief belief;
+  for (const ObjectClass object_class : kAllClasses) {
+    EXPECT_DOUBLE_EQ(belief.probability(object_class), 0.2);
+    EXPECT_TRUE(belief.compatible(object_class));
+  }
+  EXPECT_EQ(belief.mostLikely(), ObjectClass::kUnknown);
+}
+
+TEST(ClassBelief, OfOneObservationIsItsProbabilityWithSomeDoubt) {
+  ClassBelief belief;
+  belief.update(ObjectClass::kVehicle, 0.8);
+  // 0.95 of 0.8 and of the four others' 0.05, and 0.01 for each class.
+  EXPECT_NEAR(belief.probability(ObjectClass::kVehicle), 0.77, kTolerance);
+  EXPECT_NEAR(belief.probability(ObjectClass::kPole), 0.0575, kTolerance);
+  EXPECT_EQ(belief.mostLikely(), ObjectClass::kVehicle);
+}
+
+TEST(ClassBelief, GrowsWithEveryObservation) {
+  ClassBelief belief;
+  belief.update(ObjectClass::kCyclist, 0.5);
+  const double once = belief.probability(ObjectClass::kCyclist);
+  belief.update(ObjectClass::kCyclist, 0.5);
+  EXPECT_GT(belief.probability(ObjectClass::kCyclist), once);
+}
+
+TEST(ClassBelief, LearnsNothingFromAnUnknownClassOrByChance) {
+  ClassBelief belief;
+  belief.update(ObjectClass::kPole, 0.7);
+  const ClassProbabilities before = belief.probabilities();
+  belief.update(ObjectClass::kUnknown, 1.0);
+  belief.update(ObjectClass::kPedestrian, 0.2);
+  belief.update(ObjectClass::kPedestrian, 0.0);
+  EXPECT_EQ(belief.probabilities(), before);
+}
+
+TEST(ClassBelief, StaysAProbabilityAndCanTurn) {
+  ClassBelief belief;
+  for (int i = 0; i < 1000; ++i) {
+    belief.update(ObjectClass::kPedestrian, 1.0);
+  }
+  for (const double value : belief.probabilities()) {
+    EXPECT_GE(value, 0.01 - kTolerance);
+  }
+  const ClassProbabilities& all = belief.probabilities();
+  EXPECT_NEAR(std::accumulate(all.begin(), all.end(), 0.0), 1.0, kTolerance);
+  for (int i = 0; i < 3; ++i) {
+    belief.update(ObjectClass::kVehicle, 0.9);
+  }
+  EXPECT_EQ(belief.mostLikely(), ObjectClass::kVehicle);
+}
+
+TEST(ClassBelief, OfAKnownClassRefusesTheOtherKnownOnes) {
+  ClassBelief belief;
+  belief.update(ObjectClass::kVehicle, 0.9);
+  EXPECT_TRUE(belief.compatible(ObjectClass::kVehicle));
+  EXPECT_TRUE(belief.compatible(ObjectClass::kUnknown));
+  EXPECT_FALSE(belief.compatible(ObjectClass::kPedestrian));
+  EXPECT_FALSE(belief.compatible(ObjectClass::kCyclist));
+  EXPECT_FALSE(belief.compatible(ObjectClass::kPole));
+}
+
+TEST(ClassBelief, ThatIsNotCertainRefusesNone) {
+  ClassBelief belief;
+  belief.update(ObjectClass::kVehicle, 0.4);
+  EXPECT_EQ(belief.mostLikely(), ObjectClass::kVehicle);
+  EXPECT_TRUE(belief.compatible(ObjectClass::kPedestrian));
+}
+
+}  // namespace
+}  // namespace datmo
