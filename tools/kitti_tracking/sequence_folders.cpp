@@ -12,22 +12,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kExtension = ".txt";
 
-std::set<std::string> sequencesIn(const std::string& folder) {
-  if (!fs::is_directory(folder)) {
-    throw std::runtime_error(folder + ": is no folder, expected one with a NAME.txt a sequence");
-  }
-  std::set<std::string> names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() == kExtension) {
-      names.insert(entry.path().stem().string());
-    }
-  }
-  if (names.empty()) {
-    throw std::runtime_error(folder + ": has no NAME.txt, expected one a sequence");
-  }
-  return names;
-}
-
 std::string fileOf(const std::string& folder, const std::string& name) {
   return (fs::path(folder) / (name + kExtension)).string();
 }
@@ -44,6 +28,22 @@ void expectAll(const std::set<std::string>& names, const std::string& folder,
 }
 
 }  // namespace
+
+std::set<std::string> sequencesIn(const std::string& folder) {
+  if (!fs::is_directory(folder)) {
+    throw std::runtime_error(folder + ": is no folder, expected one with a NAME.txt a sequence");
+  }
+  std::set<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == kExtension) {
+      names.insert(entry.path().stem().string());
+    }
+  }
+  if (names.empty()) {
+    throw std::runtime_error(folder + ": has no NAME.txt, expected one a sequence");
+  }
+  return names;
+}
 
 std::vector<Sequence> readSequences(const std::string& labels_folder,
                                     const std::string& results_folder) {

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
 #include "kitti_tracking/evaluated_sequence.h"
 
 namespace datmo::kitti {
+
+/// The names of the `NAME.txt` in a folder. Throws std::runtime_error if there are none.
+std::set<std::string> sequencesIn(const std::string& folder);
 
 /// Reads the sequences of two folders, each with one `NAME.txt` for a sequence, by rising name.
 /// Throws std::runtime_error as the readers do; for a folder that is not there or has no such file;
