@@ -43,9 +43,11 @@ std::vector<Point2> cornerOfCar(int points) {
 }
 
 void boxFit(benchmark::State& state) {
+  constexpr double kRangeSigma = 0.05;
   const std::vector<Point2> points = cornerOfCar(static_cast<int>(state.range(0)));
+  const Point2 scanner(-10.0, -5.0);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(fitBox(points));
+    benchmark::DoNotOptimize(fitBox(points, scanner, kRangeSigma));
   }
 }
 BENCHMARK(boxFit)->ArgName("points")->Arg(3)->Arg(10)->Arg(100)->Unit(benchmark::kMicrosecond);

@@ -1,16 +1,21 @@
 #include "datmo_fusion/detection/moving_object_detector.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
-#include "datmo_fusion/common/uniform.h"
 #include "datmo_fusion/detection/box_fit.h"
+#include "datmo_fusion/detection/segment_end.h"
 
 namespace datmo {
 
 namespace {
 
 constexpr char kSensor[] = "lidar";
+
+/// rad; a side that was seen faces the scanner: a vaguer heading tells no more of where it ends.
+constexpr double kMostSlant = 0.3;
 
 /// The points of one segment of the scan that the map does not know as static.
 std::vector<ScanPoint> notStatic(const std::vector<ScanPoint>& points, const Segment& segment) {
@@ -30,22 +35,66 @@ double movingFraction(const std::vector<ScanPoint>& points, const Segment& segme
   return static_cast<double>(moving) / static_cast<double>(segment.size());
 }
 
-/// Along and across a direction, to x and y.
-Eigen::Matrix2d alongAcross(double direction, double along_variance, double across_variance) {
-  const Eigen::Matrix2d turn = Pose2(0.0, 0.0, direction).rotation();
-  return turn * Point2(along_variance, across_variance).asDiagonal() * turn.transpose();
+double square(double value) { return value * value; }
+
+constexpr std::size_t indexOf(BoxSide side) { return static_cast<std::size_t>(side); }
+
+/// A box told by how far its sides are from the middle of the fit, to be moved one by one.
+class SideBox {
+ public:
+  explicit SideBox(const BoxFit& fit)
+      : fit_(fit),
+        reach_{0.5 * fit.box.length, 0.5 * fit.box.length, 0.5 * fit.box.width,
+               0.5 * fit.box.width} {}
+
+  /// Unit vector out of the box.
+  Point2 normal(std::size_t side) const {
+    static const std::array<Point2, kBoxSides> kNormals = {Point2(1.0, 0.0), Point2(-1.0, 0.0),
+                                                           Point2(0.0, 1.0), Point2(0.0, -1.0)};
+    return Pose2(Point2::Zero(), fit_.box.centre.heading()).rotate(kNormals[side]);
+  }
+
+  bool isSeen(std::size_t side) const { return fit_.points_on_side[side] > 0; }
+
+  /// A side that was seen has its ends here.
+  bool isEndOfSeen(std::size_t side) const {
+    return side < indexOf(BoxSide::kLeft)
+               ? isSeen(indexOf(BoxSide::kLeft)) || isSeen(indexOf(BoxSide::kRight))
+               : isSeen(indexOf(BoxSide::kFront)) || isSeen(indexOf(BoxSide::kRear));
+  }
+
+  void extend(std::size_t side, double by) { reach_[side] += by; }
+
+  Box2 box() const {
+    const Point2 middle(0.5 * (reach_[0] - reach_[1]), 0.5 * (reach_[2] - reach_[3]));
+    return {Pose2(fit_.box.centre * middle, fit_.box.centre.heading()), reach_[0] + reach_[1],
+            reach_[2] + reach_[3]};
+  }
+
+ private:
+  const BoxFit& fit_;
+  std::array<double, kBoxSides> reach_;  ///< m, by BoxSide
+};
+
+/// Takes another side for the front, a quarter turn to the left at a time: nothing moves.
+void turnByQuarter(Object& object) {
+  const auto [front, rear, left, right] = object.side_variance;
+  object.side_variance = {left, right, rear, front};
+  const Pose2& centre = object.box.centre;
+  object.box = {Pose2(centre.position(), centre.heading() + 0.5 * kPi), object.box.width,
+                object.box.length};
 }
 
-/// Mean angle between the scan's beams, rad; 0 for fewer than two points.
-double beamSpacing(const std::vector<ScanPoint>& points) {
-  if (points.size() < 2 || points.back().beam == points.front().beam) {
-    return 0.0;
+/// The heading along the longer side, in (-pi/2, pi/2].
+void turnToLongerSide(Object& object) {
+  if (object.box.width > object.box.length) {
+    turnByQuarter(object);
   }
-  double angle = 0.0;  // point by point: the whole scan may span more than half a turn
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    angle += std::abs(angleBetween(points[i - 1].bearing, points[i].bearing));
+  const double heading = object.box.centre.heading();
+  if (heading > 0.5 * kPi || heading <= -0.5 * kPi) {
+    turnByQuarter(object);
+    turnByQuarter(object);
   }
-  return angle / static_cast<double>(points.back().beam - points.front().beam);
 }
 
 }  // namespace
@@ -61,10 +110,10 @@ void MovingObjectDetectorOptions::visit(OptionVisitor& visitor) {
   visitor.integer({"least_points", "1", "points that make an object"}, least_points, {1, 1000});
   visitor.number({"range_sigma", "m", "standard deviation of the scanner's range"}, range_sigma,
                  {0.001, 5.0});
-  visitor.number(
-      {"extent_sigma", "m",
-       "standard deviation of the seen part's centre about the object's, along each axis"},
-      extent_sigma, {0.0, 5.0});
+  visitor.number({"position_sigma", "m",
+                  "standard deviation of the box as a whole along each axis, besides its sides': "
+                  "bodies are no rectangles, and scans take time"},
+                 position_sigma, {0.001, 5.0});
 }
 
 MovingObjectDetector::MovingObjectDetector(const MovingObjectDetectorOptions& options)
@@ -74,7 +123,6 @@ MovingObjectDetector::MovingObjectDetector(const MovingObjectDetectorOptions& op
 
 ObjectList MovingObjectDetector::detect(const SplitScan& scan) const {
   ObjectList list{scan.stamp, {}};
-  const double spacing = beamSpacing(scan.points);
   for (const Segment& whole : segmentPoints(scan.points, options_.segmentation)) {
     const std::vector<ScanPoint> points = notStatic(scan.points, whole);
     const bool touches_static = points.size() < whole.size();
@@ -82,7 +130,7 @@ ObjectList MovingObjectDetector::detect(const SplitScan& scan) const {
       if (segment.size() < static_cast<std::size_t>(options_.least_points)) {
         continue;
       }
-      Object object = makeObject(points, segment, scan.scanner_in_base, spacing);
+      Object object = makeObject(points, segment, scan);
       if (object.box.length > options_.largest_size) {
         continue;
       }
@@ -97,30 +145,45 @@ ObjectList MovingObjectDetector::detect(const SplitScan& scan) const {
 }
 
 Object MovingObjectDetector::makeObject(const std::vector<ScanPoint>& points,
-                                        const Segment& segment, const Pose2& scanner,
-                                        double beam_spacing) const {
+                                        const Segment& segment, const SplitScan& scan) const {
   Object object;
   for (const std::size_t i : segment) {
     object.points.push_back(points[i].position);
   }
-  object.box = fitBox(object.points);
+  setBox(object, points[segment.front()], points[segment.back()], scan);
+  object.position_covariance.setIdentity();
+  object.position_covariance *= square(options_.position_sigma);
   object.moving_fraction = movingFraction(points, segment);
   object.dynamic_state = object.moving_fraction > options_.moving_share ? DynamicState::kMoving
                                                                         : DynamicState::kUnknown;
   object.sensors = {kSensor};
-  const Point2 line_of_sight = object.box.centre.position() - scanner.position();
-  const double range = line_of_sight.norm();
-  const double across = range * beam_spacing;
-  const double extent = options_.extent_sigma * options_.extent_sigma;
-  object.position_covariance = alongAcross(std::atan2(line_of_sight.y(), line_of_sight.x()),
-                                           options_.range_sigma * options_.range_sigma + extent,
-                                           across * across * kUniformVariance + extent);
-  if (object.box.length > 0.0) {
-    // Either end of the longer side may be off by a beam.
-    const double end_sigma = std::hypot(options_.range_sigma, across) / object.box.length;
-    object.heading_variance = std::min(object.heading_variance, end_sigma * end_sigma);
-  }
   return object;
+}
+
+/// The box and its sides, of an object whose points are given, from the first to the last beam.
+void MovingObjectDetector::setBox(Object& object, const ScanPoint& first, const ScanPoint& last,
+                                  const SplitScan& scan) const {
+  const BoxFit fit = fitBox(object.points, scan.scanner_in_base.position(), options_.range_sigma);
+  const SegmentEnds ends(scan, options_.range_sigma, options_.segmentation.longest_gap);
+  const double heading_std = std::sqrt(std::min(fit.heading_variance, kMostSlant * kMostSlant));
+  SideBox sides(fit);
+  for (std::size_t side = 0; side < kBoxSides; ++side) {
+    object.side_variance[side] = kHiddenSide;
+    if (sides.isSeen(side)) {
+      object.side_variance[side] =
+          square(fit.noise) / static_cast<double>(fit.points_on_side[side]);
+    } else if (sides.isEndOfSeen(side)) {
+      const Point2 normal = sides.normal(side);
+      const ScanPoint& outermost = normal.dot(first.position - last.position) > 0.0 ? first : last;
+      if (const std::optional<SurfaceEnd> end = ends.beyond(outermost, normal, heading_std)) {
+        sides.extend(side, end->beyond);
+        object.side_variance[side] = end->variance;
+      }
+    }
+  }
+  object.box = sides.box();
+  object.heading_variance = fit.heading_variance;
+  turnToLongerSide(object);
 }
 
 }  // namespace datmo

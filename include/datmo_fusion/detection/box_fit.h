@@ -1,16 +1,37 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 #include "datmo_fusion/common/box2.h"
+#include "datmo_fusion/common/object.h"
 
 namespace datmo {
 
-/// The rectangle that points on the near sides of an object fit best: search over headings by the
-/// closeness criterion (Zhang, Xu, Dong, Dolan, Efficient L-shape fitting for vehicle detection
-/// using laser scanners, 2017). It encloses all points; its heading is along the longer side, in
-/// (-pi/2, pi/2]. One point: a rectangle of size 0 with heading 0. No points:
-/// std::invalid_argument.
-Box2 fitBox(const std::vector<Point2>& points);
+/// The rectangle whose near sides points lie on, and how well it is known.
+struct BoxFit {
+  /// Its near sides where the points are on average, its ends at the outermost points. Of a single
+  /// side: as deep as the points reach behind it beyond noise, mostly 0.
+  Box2 box;
+  double heading_variance = kUnknownHeadingVariance;  ///< rad^2, modulo a quarter turn
+  double noise = 0.0;  ///< m, standard deviation of a point about its side
+  /// By BoxSide: how many points lie on it. 0: not seen, or only its ends.
+  std::array<std::size_t, kBoxSides> points_on_side{};
+};
+
+/// Fits a rectangle to what a scanner saw of an object: one side (I), two sides (L), or a point.
+///
+/// Of all headings in steps of 6 degrees, the one is taken at which the points lie nearest to the
+/// sides that face the scanner (after Zhang, Xu, Dong, Dolan, Efficient L-shape fitting for vehicle
+/// detection using laser scanners, 2017, with a bounded cost of the distance); then heading and
+/// sides are fitted together by robust total least squares. The heading's variance is that of the
+/// least squares, and the spread of the other headings that explain the points as well: few points
+/// may lie on one side or on two.
+///
+/// @param points m; none: std::invalid_argument. One: a box without size across the line of sight.
+/// @param scanner m, from where the points were seen, same frame
+/// @param sigma m, more than 0: standard deviation of a point about the side it lies on, expected
+BoxFit fitBox(const std::vector<Point2>& points, const Point2& scanner, double sigma);
 
 }  // namespace datmo

@@ -12,15 +12,18 @@ struct MovingObjectDetectorOptions {
   double moving_share = 0.3;   ///< 0 to 1
   double largest_size = 20.0;  ///< m
   int least_points = 1;
-  double range_sigma = 0.1;   ///< m
-  double extent_sigma = 0.3;  ///< m
+  double range_sigma = 0.1;      ///< m
+  double position_sigma = 0.05;  ///< m
 
   void visit(OptionVisitor& visitor);
 };
 
 /// Objects that move, or may move, in a scan that was split by the map (thesis 3.3.1): segments of
 /// neighbouring end points that the map does not know as static, each with a box and its
-/// covariance.
+/// covariance, and how well each of its sides is known. A side that beams ended on is known to the
+/// range noise; one that only the end of another side tells, to the gap between two beams there; a
+/// side that could not be seen is kHiddenSide. Where an end was seen, the box reaches half a gap
+/// beyond the last point: as far as is expected.
 ///
 /// Objects come with dynamic state kMoving (the map has seen their place free), kUnknown (nothing
 /// was known of their place: a tracker finds out) or kStatic (nothing was known of their place, but
@@ -35,7 +38,9 @@ class MovingObjectDetector {
 
  private:
   Object makeObject(const std::vector<ScanPoint>& points, const Segment& segment,
-                    const Pose2& scanner, double beam_spacing) const;
+                    const SplitScan& scan) const;
+  void setBox(Object& object, const ScanPoint& first, const ScanPoint& last,
+              const SplitScan& scan) const;
 
   MovingObjectDetectorOptions options_;
 };

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include "ray_cast.h"
 #include <gtest/gtest.h>
 
 namespace datmo {
@@ -19,6 +19,7 @@ struct End {
 SplitScan splitScan(const std::vector<End>& ends) {
   SplitScan scan;
   scan.stamp = Stamp::fromSeconds(5.0);
+  scan.field = {degrees(-80.0), degrees(2.0), 181, 0.5, 60.0, 80.0};
   for (const End& end : ends) {
     ScanPoint point;
     point.range = end.range;
@@ -39,20 +40,18 @@ ObjectList detect(const SplitScan& scan, const MovingObjectDetectorOptions& opti
   return MovingObjectDetector(options).detect(scan);
 }
 
-/// Variance across the line of sight of the first object of a scan.
-double varianceAcross(const SplitScan& scan) {
-  const Object object = detect(scan).objects.at(0);
-  const Point2 sight = object.box.centre.position().normalized();
-  const Point2 across(-sight.y(), sight.x());
-  return across.dot(object.position_covariance * across);
-}
+/// By side of the world, of an object seen along x: near, far, left, right.
+struct SeenSides {
+  double near, far, left, right;  ///< m^2
+};
 
-TEST(MovingObjectDetectorTest, AScanOfMoreThanHalfATurnHasTheSameBeamSpacing) {
-  const End object{40.0, 10, kM};
-  const double narrow = varianceAcross(splitScan({object, {20.0, 60, kS}, {20.0, 80, kS}}));
-  const double wide = varianceAcross(
-      splitScan({object, {20.0, 60, kS}, {20.0, 110, kS}, {20.0, 160, kS}}));  // 300 degrees
-  EXPECT_NEAR(wide, narrow, 1e-9);
+SeenSides sidesAcross(const Object& object) {
+  const auto [front, rear, left, right] = object.side_variance;
+  // Its heading, in (-90, 90] degrees, is along x or to the left.
+  return std::abs(object.box.centre.heading()) < degrees(45.0)
+             ? SeenSides{rear, front, left, right}
+             : (object.box.centre.heading() > 0.0 ? SeenSides{left, right, front, rear}
+                                                  : SeenSides{right, left, rear, front});
 }
 
 TEST(MovingObjectDetectorTest, AnEmptyScanHasNoObjects) {
@@ -77,17 +76,19 @@ TEST(MovingObjectDetectorTest, MovingAndUnknownSegmentsAreTold) {
 }
 
 TEST(MovingObjectDetectorTest, AScannerThatTurnsToTheRightSeesTheSameObjects) {
-  const SplitScan left = splitScan({{12.0, 10, kM},
-                                    {11.9, 11, kM},
-                                    {20.0, 40, kU},
-                                    {20.5, 41, kU},
-                                    {21.2, 42, kM},
-                                    {30.0, 60, kS}});
+  SplitScan left = splitScan({{12.0, 10, kM},
+                              {11.9, 11, kM},
+                              {20.0, 40, kU},
+                              {20.5, 41, kU},
+                              {21.2, 42, kM},
+                              {30.0, 60, kS}});
+  left.field.beams = 81;
   SplitScan right = left;
   std::reverse(right.points.begin(), right.points.end());
   for (ScanPoint& point : right.points) {
     point.beam = 80 - point.beam;
   }
+  right.field = {degrees(80.0), degrees(-2.0), 81, 0.5, 60.0, 80.0};
   const ObjectList expected = detect(left);
   ObjectList list = detect(right);
   ASSERT_EQ(expected.objects.size(), 2U);
@@ -100,7 +101,13 @@ TEST(MovingObjectDetectorTest, AScannerThatTurnsToTheRightSeesTheSameObjects) {
     EXPECT_TRUE(one.box.centre.position().isApprox(other.box.centre.position(), 1e-9));
     EXPECT_NEAR(one.box.centre.heading(), other.box.centre.heading(), 1e-9);
     EXPECT_NEAR(one.box.length, other.box.length, 1e-9);
-    EXPECT_TRUE(one.position_covariance.isApprox(other.position_covariance, 1e-9));
+    EXPECT_NEAR(one.heading_variance, other.heading_variance, 1e-9);
+    for (std::size_t side = 0; side < kBoxSides; ++side) {
+      EXPECT_EQ(std::isfinite(one.side_variance[side]), std::isfinite(other.side_variance[side]));
+      if (std::isfinite(one.side_variance[side])) {
+        EXPECT_NEAR(one.side_variance[side], other.side_variance[side], 1e-9);
+      }
+    }
   }
 }
 
@@ -142,23 +149,108 @@ TEST(MovingObjectDetectorTest, AHedgeIsNoObject) {
   EXPECT_TRUE(detect(splitScan(hedge)).objects.empty());
 }
 
-TEST(MovingObjectDetectorTest, TheCovarianceIsLongerAcrossTheBeamsFarAway) {
+TEST(MovingObjectDetectorTest, APointIsASideOfOneSpacing) {
   // Beam 40 looks along x.
-  const Eigen::Matrix2d near =
-      detect(splitScan({{5.0, 40, kM}, {5.0, 41, kM}})).objects.at(0).position_covariance;
-  const Eigen::Matrix2d far =
-      detect(splitScan({{40.0, 40, kM}, {40.0, 41, kM}})).objects.at(0).position_covariance;
-  EXPECT_GT(near.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0.0);
-  EXPECT_GT(far(1, 1), far(0, 0));
-  EXPECT_GT(far(1, 1), near(1, 1));
-  // Across: a uniform interval of one beam spacing, and the object's extent.
-  const double across = 40.0 * degrees(2.0);
-  EXPECT_NEAR(far(1, 1), across * across / 12.0 + 0.3 * 0.3, 0.01);
+  const Object object = detect(splitScan({{20.0, 40, kM}})).objects.at(0);
+  const double spacing = 20.0 * std::tan(degrees(2.0));
+  EXPECT_TRUE(object.box.centre.position().isApprox(Point2(20.0, 0.0), 1e-9));
+  EXPECT_NEAR(object.box.length, spacing, 1e-9) << "expected: none to two of them";
+  EXPECT_NEAR(object.box.width, 0.0, 1e-9);
+  const SeenSides sides = sidesAcross(object);
+  EXPECT_NEAR(sides.near, 0.1 * 0.1, 1e-9);
+  EXPECT_EQ(sides.far, kHiddenSide);
+  EXPECT_GT(sides.left, spacing * spacing / 12.0);
+  EXPECT_NEAR(sides.left, sides.right, 1e-9);
+}
+
+TEST(MovingObjectDetectorTest, AnEndBehindSomethingNearerIsHidden) {
+  const std::vector<End> rear = {{20.0, 39, kM}, {19.98, 40, kM}, {20.0, 41, kM}};
+  const SeenSides open = sidesAcross(detect(splitScan(rear)).objects.at(0));
+  EXPECT_TRUE(std::isfinite(open.left) && std::isfinite(open.right));
+  std::vector<End> behind_a_tree = rear;
+  behind_a_tree.push_back({8.0, 42, kS});
+  const SeenSides hidden = sidesAcross(detect(splitScan(behind_a_tree)).objects.at(0));
+  EXPECT_EQ(hidden.left, kHiddenSide);
+  EXPECT_TRUE(std::isfinite(hidden.right));
+  EXPECT_TRUE(std::isfinite(hidden.near));
+  EXPECT_EQ(hidden.far, kHiddenSide);
+}
+
+TEST(MovingObjectDetectorTest, TwoSidesOfACarGiveItsWholeBox) {
+  Random random(1);
+  RayCaster scanner(degrees(120.0), degrees(0.25), 0.0);
+  const Box2 car{Pose2(15.0, 6.0, degrees(10.0)), 4.4, 1.8};
+  const Object object = detect(scanner.scan({car}, random)).objects.at(0);
+  EXPECT_NEAR(object.box.centre.heading(), degrees(10.0), degrees(0.2));
+  EXPECT_LT((object.box.centre.position() - car.centre.position()).norm(), 0.1);
+  EXPECT_NEAR(object.box.length, 4.4, 0.2);
+  EXPECT_NEAR(object.box.width, 1.8, 0.1);
+  for (const double variance : object.side_variance) {
+    EXPECT_TRUE(std::isfinite(variance));
+  }
+  const auto [front, rear, left, right] = object.side_variance;
+  EXPECT_LT(rear, front) << "the front is where the side ends";
+  EXPECT_LT(right, left) << "the left is where the rear ends";
+}
+
+/// Over random places of a box, the mean of (error of a side)^2 / its variance, of the sides seen.
+double sideNees(const RayCaster& scanner, double length, double width) {
+  MovingObjectDetectorOptions options;
+  options.range_sigma = scanner.range_sigma;
+  options.position_sigma = 0.01;  // rectangles, all at one time
+  const MovingObjectDetector detector(options);
+  Random random(3);
+  double sum = 0.0;
+  int sides = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const double bearing = random.uniform(-1.0, 1.0);
+    const Point2 place = random.uniform(6.0, 25.0) * Point2(std::cos(bearing), std::sin(bearing));
+    const Box2 truth{Pose2(place, random.uniform(-kPi, kPi)), length, width};
+    const std::vector<Object> objects = detector.detect(scanner.scan({truth}, random)).objects;
+    if (objects.size() != 1) {
+      continue;  // seen in pieces
+    }
+    constexpr std::array<double, kBoxSides> kDirections = {0.0, kPi, 0.5 * kPi, -0.5 * kPi};
+    for (std::size_t side = 0; side < kBoxSides; ++side) {
+      const double variance = objects[0].side_variance[side];
+      if (!std::isfinite(variance)) {
+        continue;
+      }
+      // Where the side's normal through its middle leaves the true box.
+      const Box2& box = objects[0].box;
+      const double direction = box.centre.heading() + kDirections[side];
+      const double reach = 0.5 * (side < 2 ? box.length : box.width);
+      const double turn = std::round(angleBetween(truth.centre.heading(), direction) / kPi * 2.0);
+      const double true_reach = 0.5 * (std::fmod(std::abs(turn), 2.0) < 0.5 ? length : width);
+      const double normal = truth.centre.heading() + turn * 0.5 * kPi;
+      const Point2 middle =
+          box.centre.position() + reach * Point2(std::cos(direction), std::sin(direction));
+      const double error =
+          Point2(std::cos(normal), std::sin(normal)).dot(middle - place) - true_reach;
+      sum += error * error / (variance + options.position_sigma * options.position_sigma);
+      ++sides;
+    }
+  }
+  EXPECT_GT(sides, 1500);
+  return sum / sides;
+}
+
+TEST(MovingObjectDetectorTest, SidesAreAsGoodAsTheirVariance) {
+  const RayCaster fine(degrees(180.0), degrees(0.25), 0.03);
+  const RayCaster coarse(degrees(180.0), degrees(2.0), 0.2);
+  for (const RayCaster& scanner : {fine, coarse}) {
+    for (const auto& [length, width] : {std::pair(4.4, 1.8), std::pair(1.8, 0.6)}) {
+      const double nees = sideNees(scanner, length, width);
+      EXPECT_LT(nees, 2.0) << length << " m, noise " << scanner.range_sigma;
+      EXPECT_GT(nees, 0.3) << length << " m, noise " << scanner.range_sigma;
+    }
+  }
 }
 
 TEST(MovingObjectDetectorTest, HeadingIsSurerTheLongerTheObject) {
-  const double pair =
-      detect(splitScan({{10.0, 40, kM}, {10.0, 41, kM}})).objects[0].heading_variance;
+  const double pair = detect(splitScan({{10.0, 38, kM}, {10.0, 39, kM}, {10.0, 40, kM}}))
+                          .objects[0]
+                          .heading_variance;
   const double wide =
       detect(splitScan(
                  {{10.0, 38, kM}, {10.0, 39, kM}, {10.0, 40, kM}, {10.0, 41, kM}, {10.0, 42, kM}}))

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+
+#include "datmo_fusion/common/scan.h"
+
+namespace datmo {
+
+/// How far a surface reaches beyond the last point that was seen on it.
+struct SurfaceEnd {
+  double beyond = 0.0;    ///< m, expected, at least 0
+  double variance = 0.0;  ///< m^2
+};
+
+/// Where a surface ends that the beams of a scan met up to one of its points: between that point
+/// and the place where the next beam would have met it, if that beam went by and saw farther.
+class SegmentEnds {
+ public:
+  /// Of a scan, which must live on. `range_sigma` (m): standard deviation of a range. Surfaces with
+  /// points farther apart than `longest_gap` (m) are not followed.
+  SegmentEnds(const SplitScan& scan, double range_sigma, double longest_gap)
+      : scan_(scan), range_sigma_(range_sigma), longest_gap_(longest_gap) {}
+
+  /// The end of the surface that goes on from a point of the scan along a unit vector, away from
+  /// the object; its direction is known to `heading_std` (rad, at least 0). Nothing where the end
+  /// was not seen: something nearer hides it, the surface goes on (as far as the scan tells), the
+  /// field of view ends, the next beam's measurement is not valid, or no next beam on this side
+  /// meets the surface.
+  std::optional<SurfaceEnd> beyond(const ScanPoint& last, const Point2& along,
+                                   double heading_std) const;
+
+ private:
+  std::optional<std::uint32_t> nextBeam(std::uint32_t beam, int step) const;
+  bool seesFartherThan(std::uint32_t beam, double range) const;
+
+  const SplitScan& scan_;
+  double range_sigma_;
+  double longest_gap_;
+};
+
+}  // namespace datmo

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "datmo_fusion/common/box2.h"
+#include "datmo_fusion/common/random.h"
+#include "datmo_fusion/common/scan.h"
+
+namespace datmo {
+
+/// Where a beam from the origin of a box's frame at `from` along `direction` enters the box: the
+/// way to there, m. Nothing if it misses it.
+inline std::optional<double> wayInto(const Box2& box, const Point2& from, const Point2& direction) {
+  const Pose2 to_box = box.centre.inverse();
+  const Point2 start = to_box * from;
+  const Point2 along = to_box.rotate(direction);
+  const Point2 half(0.5 * box.length, 0.5 * box.width);
+  double in = 0.0;
+  double out = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 2; ++axis) {
+    double one = (-half[axis] - start[axis]) / along[axis];
+    double other = (half[axis] - start[axis]) / along[axis];
+    if (one > other) {
+      std::swap(one, other);
+    }
+    in = std::fmax(in, one);
+    out = std::fmin(out, other);
+  }
+  return in < out ? std::optional<double>(in) : std::nullopt;
+}
+
+/// A scanner at the origin that looks along x, over a field symmetric about it.
+struct RayCaster {
+  ScanField field;
+  double range_sigma = 0.0;  ///< m
+
+  /// Over this angle (rad), a beam every `spacing` (rad).
+  RayCaster(double angle, double spacing, double sigma) : range_sigma(sigma) {
+    field.first_bearing = -0.5 * angle;
+    field.beam_spacing = spacing;
+    field.beams = static_cast<std::uint32_t>(std::lround(angle / spacing)) + 1;
+    field.free_range = 100.0;
+    field.range = 100.0;
+  }
+
+  /// What it sees of boxes of which all points are moving, with noise on the ranges.
+  SplitScan scan(const std::vector<Box2>& boxes, Random& random) const {
+    SplitScan scan;
+    scan.field = field;
+    for (std::uint32_t beam = 0; beam < field.beams; ++beam) {
+      const double bearing = field.first_bearing + field.beam_spacing * beam;
+      const Point2 direction(std::cos(bearing), std::sin(bearing));
+      double range = field.range;
+      for (const Box2& box : boxes) {
+        range = std::fmin(range, wayInto(box, Point2::Zero(), direction).value_or(field.range));
+      }
+      if (range < field.range) {
+        range += random.normal(range_sigma);
+        scan.points.push_back({range * direction, range, bearing, beam, PointState::kMoving});
+      }
+    }
+    return scan;
+  }
+};
+
+}  // namespace datmo
