@@ -21,11 +21,12 @@ Assignment solveAssignment(const CostMatrix& cost, const Eigen::VectorXd& unassi
   checkSizes(cost, unassigned_cost);
   alignas(std::max_align_t) std::array<std::byte, kScratch> scratch;
   std::pmr::monotonic_buffer_resource memory(scratch.data(), scratch.size());
-  AugmentingPath path(cost, unassigned_cost, &memory);
-  PricedAssignment best(static_cast<int>(cost.rows()), static_cast<int>(cost.cols()), &memory);
-  const bool all = assignAll(cost, unassigned_cost, most_work, path, best);
+  const AssignmentCosts costs{cost, unassigned_cost};
+  AugmentingPath path(costs, &memory);
+  PricedAssignment best(costs.rows(), costs.columns(), &memory);
+  const bool all = assignAll(costs, most_work, path, best);
   return {{best.column_of_row.begin(), best.column_of_row.end()},
-          totalCost(best.column_of_row, cost, unassigned_cost),
+          totalCost(best.column_of_row, costs),
           !all};
 }
 

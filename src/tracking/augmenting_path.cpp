@@ -10,24 +10,37 @@ namespace {
 /// In place of the row that a column was reached from.
 constexpr int kVoid = -2;
 
+void giveCheapestFree(int row, const AssignmentCosts& costs, PricedAssignment& assignment) {
+  int cheapest = kUnassigned;
+  double least = costs.unassigned[row];
+  for (int column = 0; column < costs.columns(); ++column) {
+    if (assignment.row_of_column[column] == kUnassigned && costs.pairs(row, column) < least) {
+      cheapest = column;
+      least = costs.pairs(row, column);
+    }
+  }
+  assignment.column_of_row[row] = cheapest;
+  if (cheapest != kUnassigned) {
+    assignment.row_of_column[cheapest] = row;
+  }
+}
+
 }  // namespace
 
-AugmentingPath::AugmentingPath(const CostMatrix& cost, const Eigen::VectorXd& unassigned_cost,
-                               std::pmr::memory_resource* memory)
-    : cost_(cost),
-      unassigned_cost_(unassigned_cost),
-      distance_(cost.cols(), kForbidden, memory),
-      reached_from_(cost.cols(), kVoid, memory),
-      columns_(cost.cols(), 0, memory),
+AugmentingPath::AugmentingPath(const AssignmentCosts& costs, std::pmr::memory_resource* memory)
+    : costs_(costs),
+      distance_(costs.columns(), kForbidden, memory),
+      reached_from_(costs.columns(), kVoid, memory),
+      columns_(costs.columns(), 0, memory),
       waiting_rows_(memory) {}
 
 void AugmentingPath::add(int row, PricedAssignment& assignment) {
-  run({row, costOf(row), kUnassigned, 0, row + 1}, assignment);
+  assignment.open_rows.push_back(row);
+  run({row, costs_.row(row), kUnassigned}, assignment);
 }
 
 bool AugmentingPath::replace(int row, const RowCost& row_cost, PricedAssignment& assignment) {
-  const int rows = static_cast<int>(cost_.rows());
-  return run({row, row_cost, assignment.column_of_row[row], row, rows}, assignment);
+  return run({row, row_cost, assignment.column_of_row[row]}, assignment);
 }
 
 bool AugmentingPath::run(const Search& search, PricedAssignment& assignment) {
@@ -40,11 +53,10 @@ bool AugmentingPath::run(const Search& search, PricedAssignment& assignment) {
   return true;
 }
 
-void AugmentingPath::start(const Search& search, const PricedAssignment& assignment) {
+void AugmentingPath::start(const PricedAssignment& assignment) {
   columns_in_search_ = 0;
-  for (int column = 0; column < static_cast<int>(cost_.cols()); ++column) {
-    const int row = assignment.row_of_column[column];
-    if (row == kUnassigned || row >= search.first_row) {
+  for (int column = 0; column < costs_.columns(); ++column) {
+    if (assignment.row_of_column[column] != kFixed) {
       columns_[columns_in_search_++] = column;
       distance_[column] = kForbidden;
     }
@@ -57,7 +69,7 @@ void AugmentingPath::start(const Search& search, const PricedAssignment& assignm
 
 /// The length of the shortest path, or kForbidden.
 double AugmentingPath::find(const Search& search, const PricedAssignment& assignment) {
-  start(search, assignment);
+  start(assignment);
   leaveRow(search.root, search.root_cost, 0.0, assignment);
   while (true) {
     const Node node = nearest(assignment);
@@ -72,7 +84,7 @@ double AugmentingPath::find(const Search& search, const PricedAssignment& assign
     } else if (node.kind == Node::Kind::kRow) {
       const int row = waiting_rows_[node.position];
       waiting_rows_.erase(waiting_rows_.begin() + node.position);
-      leaveRow(row, costOf(row), node.distance, assignment);
+      leaveRow(row, costs_.row(row), node.distance, assignment);
     } else {
       const int column = close(node.position);
       if (column == search.target) {
@@ -151,7 +163,7 @@ void AugmentingPath::leaveRow(int row, const RowCost& cost, double distance,
 void AugmentingPath::leaveColumn(int column, double distance, const PricedAssignment& assignment) {
   const int row = assignment.row_of_column[column];
   if (row != kUnassigned) {
-    leaveRow(row, costOf(row), distance, assignment);
+    leaveRow(row, costs_.row(row), distance, assignment);
   } else if (!void_left_ && distance + assignment.column_price[column] <= void_distance_) {
     reachVoid(distance + assignment.column_price[column], kUnassigned, column);
   }
@@ -174,7 +186,7 @@ void AugmentingPath::leaveVoid(const Search& search, const PricedAssignment& ass
       reached_from_[column] = kVoid;
     }
   }
-  for (int row = search.first_row; row < search.end_row; ++row) {
+  for (const int row : assignment.open_rows) {
     if (row != search.root && assignment.column_of_row[row] == kUnassigned) {
       waiting_rows_.push_back(row);
     }
@@ -182,7 +194,7 @@ void AugmentingPath::leaveVoid(const Search& search, const PricedAssignment& ass
 }
 
 double AugmentingPath::throughVoid(int row, const PricedAssignment& assignment) const {
-  return void_distance_ + assignment.row_price[row] - unassigned_cost_[row];
+  return void_distance_ + assignment.row_price[row] - costs_.unassigned[row];
 }
 
 double AugmentingPath::distanceOf(int row, const PricedAssignment& assignment) const {
@@ -194,7 +206,7 @@ double AugmentingPath::distanceOf(int row, const PricedAssignment& assignment) c
 void AugmentingPath::updatePrices(const Search& search, double length,
                                   PricedAssignment& assignment) const {
   const double void_distance = std::min(void_distance_, length);
-  for (int row = search.first_row; row < search.end_row; ++row) {
+  for (const int row : assignment.open_rows) {
     // A new root has no price yet: its path may be shorter than 0.
     const double distance =
         row == search.root ? 0.0 : std::min(distanceOf(row, assignment), length);
@@ -226,6 +238,19 @@ void AugmentingPath::apply(const Search& search, PricedAssignment& assignment) c
     }
     std::swap(column, assignment.column_of_row[row]);
   }
+}
+
+bool assignAll(const AssignmentCosts& costs, std::int64_t most_work, AugmentingPath& path,
+               PricedAssignment& assignment) {
+  int row = 0;
+  for (; row < costs.rows() && path.work() <= most_work; ++row) {
+    path.add(row, assignment);
+  }
+  const bool all = row == costs.rows();
+  for (; row < costs.rows(); ++row) {
+    giveCheapestFree(row, costs, assignment);
+  }
+  return all;
 }
 
 }  // namespace datmo

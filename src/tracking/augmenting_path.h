@@ -10,12 +10,6 @@
 
 namespace datmo {
 
-/// What one row may have: costs of all columns, and of none.
-struct RowCost {
-  const double* columns = nullptr;
-  double unassigned = 0.0;
-};
-
 /// Finds the cheapest change that gives one row another place: the shortest path from the row by
 /// reduced costs (Dijkstra), along pairs, back along assigned pairs, and through the void, where
 /// one row gives its column up and another one comes to a column.
@@ -24,15 +18,13 @@ struct RowCost {
 /// The columns of staying unassigned, which every row has to itself, are never stored.
 class AugmentingPath {
  public:
-  /// Keeps references to the costs.
-  AugmentingPath(const CostMatrix& cost, const Eigen::VectorXd& unassigned_cost,
-                 std::pmr::memory_resource* memory);
+  AugmentingPath(const AssignmentCosts& costs, std::pmr::memory_resource* memory);
 
-  /// A row that has nothing yet gets the best place; of the rows after it none has one.
+  /// A row that has nothing yet gets the best place, and is open from then on.
   void add(int row, PricedAssignment& assignment);
 
-  /// A row gets another place than it has, by the costs given for it. The rows before it, and their
-  /// columns, stay as they are. False, and nothing changed: there is no other place.
+  /// An open row gets another place than it has, by the costs given for it. False, and nothing
+  /// changed: there is no other place.
   bool replace(int row, const RowCost& row_cost, PricedAssignment& assignment);
 
   /// Entries of the matrix that were looked at until now.
@@ -46,18 +38,15 @@ class AugmentingPath {
     double distance = kForbidden;
   };
 
-  /// The ends of a search, and what it may use.
+  /// The ends of a path.
   struct Search {
     int root;
     RowCost root_cost;
-    int target;     ///< column; kUnassigned: the void
-    int first_row;  ///< rows that take part, with their columns
-    int end_row;
+    int target;  ///< column; kUnassigned: the void
   };
 
-  RowCost costOf(int row) const { return {&cost_.coeffRef(row, 0), unassigned_cost_[row]}; }
   bool run(const Search& search, PricedAssignment& assignment);
-  void start(const Search& search, const PricedAssignment& assignment);
+  void start(const PricedAssignment& assignment);
   double find(const Search& search, const PricedAssignment& assignment);
   Node nearest(const PricedAssignment& assignment) const;
   bool comesFirst(int column, const Node& nearest, const PricedAssignment& assignment) const;
@@ -71,8 +60,7 @@ class AugmentingPath {
   void updatePrices(const Search& search, double length, PricedAssignment& assignment) const;
   void apply(const Search& search, PricedAssignment& assignment) const;
 
-  const CostMatrix& cost_;
-  const Eigen::VectorXd& unassigned_cost_;
+  AssignmentCosts costs_;
   std::int64_t work_ = 0;
 
   // Of the present search.
@@ -87,5 +75,11 @@ class AugmentingPath {
   bool void_left_ = false;
   std::pmr::vector<int> waiting_rows_;  ///< without column, reached through the void
 };
+
+/// The best assignment, from one that has nothing yet: one row after the other gets its place.
+/// False: it took more work than allowed, and the rows that were left, in their order, got the
+/// cheapest column that was free; the assignment is valid but not the best, and nor are its prices.
+bool assignAll(const AssignmentCosts& costs, std::int64_t most_work, AugmentingPath& path,
+               PricedAssignment& assignment);
 
 }  // namespace datmo

@@ -1,54 +1,88 @@
 #include "priced_assignment.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
-
-#include "augmenting_path.h"
 
 namespace datmo {
 
 namespace {
 
-void giveCheapestFree(const CostMatrix& cost, const Eigen::VectorXd& unassigned_cost, int row,
-                      PricedAssignment& assignment) {
-  int cheapest = kUnassigned;
-  double least = unassigned_cost[row];
-  for (int column = 0; column < static_cast<int>(cost.cols()); ++column) {
-    if (assignment.row_of_column[column] == kUnassigned && cost(row, column) < least) {
-      cheapest = column;
-      least = cost(row, column);
+double leastOut(int row, const RowCost& row_cost, const PricedAssignment& assignment) {
+  double least = row_cost.unassigned;
+  for (std::size_t column = 0; column < assignment.column_price.size(); ++column) {
+    if (assignment.row_of_column[column] != kFixed) {
+      least = std::min(least, row_cost.columns[column] - assignment.column_price[column]);
     }
   }
-  assignment.column_of_row[row] = cheapest;
-  if (cheapest != kUnassigned) {
-    assignment.row_of_column[cheapest] = row;
+  return least - assignment.row_price[row];
+}
+
+/// From the void, where the column may stay, or from another open row.
+double leastIntoColumn(int column, int row, const AssignmentCosts& costs,
+                       const PricedAssignment& assignment) {
+  double least = 0.0;
+  for (const int other : assignment.open_rows) {
+    if (other != row) {
+      least = std::min(least, costs.pairs(other, column) - assignment.row_price[other]);
+    }
   }
+  return least - assignment.column_price[column];
+}
+
+/// From an open row that gives its column up, or from a free column.
+double leastIntoVoid(const AssignmentCosts& costs, const PricedAssignment& assignment) {
+  double least = kForbidden;
+  for (const int row : assignment.open_rows) {
+    if (assignment.column_of_row[row] != kUnassigned) {
+      least = std::min(least, costs.unassigned[row] - assignment.row_price[row]);
+    }
+  }
+  for (std::size_t column = 0; column < assignment.column_price.size(); ++column) {
+    if (assignment.row_of_column[column] == kUnassigned) {
+      least = std::min(least, assignment.column_price[column]);
+    }
+  }
+  return least;
 }
 
 }  // namespace
 
-double totalCost(const std::pmr::vector<int>& column_of_row, const CostMatrix& cost,
-                 const Eigen::VectorXd& unassigned_cost) {
+PricedAssignment::PricedAssignment(int rows, int columns, std::pmr::memory_resource* memory)
+    : row_price(rows, 0.0, memory),
+      column_price(columns, 0.0, memory),
+      column_of_row(rows, kUnassigned, memory),
+      row_of_column(columns, kUnassigned, memory),
+      open_rows(memory) {
+  open_rows.reserve(rows);
+}
+
+void PricedAssignment::fix(int row) {
+  open_rows.erase(std::find(open_rows.begin(), open_rows.end(), row));
+  if (column_of_row[row] != kUnassigned) {
+    row_of_column[column_of_row[row]] = kFixed;
+  }
+}
+
+double totalCost(const std::pmr::vector<int>& column_of_row, const AssignmentCosts& costs) {
   double sum = 0.0;
-  for (int row = 0; row < static_cast<int>(cost.rows()); ++row) {
+  for (int row = 0; row < costs.rows(); ++row) {
     const int column = column_of_row[row];
-    sum += column == kUnassigned ? unassigned_cost[row] : cost(row, column);
+    sum += column == kUnassigned ? costs.unassigned[row] : costs.pairs(row, column);
   }
   return sum;
 }
 
-bool assignAll(const CostMatrix& cost, const Eigen::VectorXd& unassigned_cost,
-               std::int64_t most_work, AugmentingPath& path, PricedAssignment& assignment) {
-  const int rows = static_cast<int>(cost.rows());
-  int row = 0;
-  for (; row < rows && path.work() <= most_work; ++row) {
-    path.add(row, assignment);
+double leastIncrease(int row, const RowCost& row_cost, const AssignmentCosts& costs,
+                     const PricedAssignment& assignment) {
+  const double out = leastOut(row, row_cost, assignment);
+  if (out == kForbidden) {
+    return kForbidden;
   }
-  const bool all = row == rows;
-  for (; row < rows; ++row) {
-    giveCheapestFree(cost, unassigned_cost, row, assignment);
-  }
-  return all;
+  const int column = assignment.column_of_row[row];
+  const double in = column == kUnassigned ? leastIntoVoid(costs, assignment)
+                                          : leastIntoColumn(column, row, costs, assignment);
+  return std::max(out + in, 0.0);
 }
 
 void checkSizes(const CostMatrix& cost, const Eigen::VectorXd& unassigned_cost) {

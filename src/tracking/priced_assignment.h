@@ -7,6 +7,25 @@
 
 namespace datmo {
 
+/// What one row may have: costs of all columns, and of none.
+struct RowCost {
+  const double* columns = nullptr;
+  double unassigned = 0.0;
+};
+
+/// The costs of a problem, which are kept elsewhere.
+struct AssignmentCosts {
+  const CostMatrix& pairs;
+  const Eigen::VectorXd& unassigned;
+
+  int rows() const { return static_cast<int>(pairs.rows()); }
+  int columns() const { return static_cast<int>(pairs.cols()); }
+  RowCost row(int row) const { return {pairs.row(row).data(), unassigned[row]}; }
+};
+
+/// In place of the row that has a column.
+inline constexpr int kFixed = -2;
+
 /// An assignment and the prices (dual variables) that prove it to be the best.
 ///
 /// The problem as a flow: each row sends one unit to a column, for the pair's cost, or straight to
@@ -16,31 +35,27 @@ namespace datmo {
 ///   p <= cost of having no column where the row has one, >= where it has none;
 ///   q <= 0 where the column is taken, >= 0 where it is free.
 struct PricedAssignment {
-  /// Nothing assigned, all prices 0.
-  PricedAssignment(int rows, int columns, std::pmr::memory_resource* memory)
-      : row_price(rows, 0.0, memory),
-        column_price(columns, 0.0, memory),
-        column_of_row(rows, kUnassigned, memory),
-        row_of_column(columns, kUnassigned, memory) {}
+  /// Nothing assigned, all prices 0, no row open.
+  PricedAssignment(int rows, int columns, std::pmr::memory_resource* memory);
+
+  /// A row keeps what it has.
+  void fix(int row);
 
   std::pmr::vector<double> row_price;
   std::pmr::vector<double> column_price;
   std::pmr::vector<int> column_of_row;
-  std::pmr::vector<int> row_of_column;
+  std::pmr::vector<int> row_of_column;  ///< kUnassigned: free; kFixed: of a row that keeps it
+  std::pmr::vector<int> open_rows;      ///< that may get another place
 };
 
-/// Of all rows: the sum of the pairs' costs, and of those of having no column.
-double totalCost(const std::pmr::vector<int>& column_of_row, const CostMatrix& cost,
-                 const Eigen::VectorXd& unassigned_cost);
+/// Sum over all rows.
+double totalCost(const std::pmr::vector<int>& column_of_row, const AssignmentCosts& costs);
 
-class AugmentingPath;
-
-/// The best assignment, from one that has nothing yet; one row after the other gets its place.
-/// False: it took more than `most_work` (AugmentingPath::work()), and the rows that were left got
-/// the cheapest column that was free: `assignment` is valid but not the best, and its prices are
-/// not.
-bool assignAll(const CostMatrix& cost, const Eigen::VectorXd& unassigned_cost,
-               std::int64_t most_work, AugmentingPath& path, PricedAssignment& assignment);
+/// Bound from below of how much dearer the assignment becomes once an open row may only have what
+/// `row_cost` allows, which is not what it has: the first step of the path to its new place, and
+/// the last one to its old place (AugmentingPath). kForbidden: there is no other place.
+double leastIncrease(int row, const RowCost& row_cost, const AssignmentCosts& costs,
+                     const PricedAssignment& assignment);
 
 /// Throws std::invalid_argument where they do not belong together.
 void checkSizes(const CostMatrix& cost, const Eigen::VectorXd& unassigned_cost);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <memory_resource>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -19,25 +20,36 @@ constexpr int kNone = -1;
 /// The first memory of a ranking, bytes: enough for the first few assignments of a tiny problem.
 constexpr std::size_t kFirstMemory = 4096;
 
-/// The best assignment of a part: rows before `first_row` have what they have in all of the part.
+/// Parts of fewer rows are split faster than they are ordered.
+constexpr int kRowsWorthOrdering = 8;
+
+/// Some of all assignments, and the best one of them: those where the rows before `position`, in
+/// the parent's order, have what they have in the parent's best, and `row`, which is there, has
+/// not.
 struct Part {
   int parent = kNone;
-  int first_row = 0;
+  int position = 0;
+  int row = kNone;
   double cost = 0.0;
+  int order = 0;  ///< of the rows: the parent's, until the part gets one of its own
 };
 
-/// In the queue: the best assignment of a part that is known, or a part of a part that is not
-/// searched yet.
+/// In the queue: a part, or one that a part was split into and that was not searched yet.
 struct Candidate {
-  double least_cost = 0.0;  ///< exact where known, else a lower bound
+  double least_cost = 0.0;  ///< of a part: exact, else a lower bound
   int part = 0;
-  int row = kNone;  ///< the first that is to differ from the part's best; kNone: known
+  int position = kNone;  ///< of the row, in the order of `part`, that is to differ; kNone: a part
   int number = 0;
 
   /// Order of the queue, which has the greatest on top.
   bool operator<(const Candidate& other) const {
     return least_cost != other.least_cost ? least_cost > other.least_cost : number > other.number;
   }
+};
+
+struct RowBound {
+  int row;
+  double increase;
 };
 
 }  // namespace
@@ -49,51 +61,58 @@ class RankedAssignments::State {
         cost_(std::move(cost)),
         unassigned_cost_(std::move(unassigned_cost)),
         most_work_(most_work),
-        path_(cost_, unassigned_cost_, &memory_),
-        present_(static_cast<int>(cost_.rows()), static_cast<int>(cost_.cols()), &memory_),
+        path_(costs_, &memory_),
+        present_(costs_.rows(), costs_.columns(), &memory_),
         allowed_(&memory_),
+        bounds_(&memory_),
         parts_(&memory_),
         prices_(&memory_),
         columns_(&memory_),
+        orders_(&memory_),
         queue_(&memory_) {}
 
   std::optional<Assignment> next();
   bool cut() const { return cut_; }
 
  private:
-  int rows() const { return static_cast<int>(cost_.rows()); }
-  int columns() const { return static_cast<int>(cost_.cols()); }
-
   Assignment first();
-  void keep(int parent, int first_row);
-  void load(int part);
+  Assignment best(int part) const;
+  void keep(const Part& part);
+  void load(int part, int position);
   void split(int part);
+  void orderRows(int part);
   void search(const Candidate& candidate);
-  RowCost rowCost(int part, int row);
-  double leastIncrease(int row, const RowCost& row_cost) const;
-  double leastOut(int row, const RowCost& row_cost) const;
-  double leastIn(int row) const;
-  double leastIntoColumn(int column, int row) const;
-  double leastIntoVoid(int row) const;
-  void push(double least_cost, int part, int row);
+  RowCost allowed(int part, int row);
+  void push(double least_cost, int part, int position);
   Candidate pop();
+
+  const int* columnsOf(int part) const {
+    return columns_.data() + std::ptrdiff_t{part} * costs_.rows();
+  }
+  const int* orderOf(const Part& part) const {
+    return orders_.data() + std::ptrdiff_t{part.order} * costs_.rows();
+  }
 
   alignas(std::max_align_t) std::array<std::byte, kFirstMemory> buffer_;
   std::pmr::monotonic_buffer_resource memory_;
   CostMatrix cost_;
   Eigen::VectorXd unassigned_cost_;
+  AssignmentCosts costs_{cost_, unassigned_cost_};
   std::int64_t most_work_;
   bool cut_ = false;
   AugmentingPath path_;
 
-  /// Of one part at a time.
+  // Of one part at a time.
   PricedAssignment present_;
-  std::pmr::vector<double> allowed_;
-  double allowed_unassigned_ = 0.0;
+  std::pmr::vector<double> allowed_;  ///< costs of one row
+  std::pmr::vector<RowBound> bounds_;
 
+  // Of all parts, one after the other.
   std::pmr::vector<Part> parts_;
-  std::pmr::vector<double> prices_;  ///< of the rows, then the columns, of one part after the other
-  std::pmr::vector<int> columns_;    ///< of the rows of one part after the other
+  std::pmr::vector<double> prices_;  ///< of the rows, then of the columns
+  std::pmr::vector<int> columns_;    ///< of the rows
+  std::pmr::vector<int> orders_;     ///< of the rows, only of those that got their own
+
   std::pmr::vector<Candidate> queue_;
   int pushed_ = 0;
   int returned_ = kNone;  ///< the part whose best was returned last
@@ -115,10 +134,9 @@ std::optional<Assignment> RankedAssignments::State::next() {
       return std::nullopt;
     }
     const Candidate candidate = pop();
-    if (candidate.row == kNone) {
+    if (candidate.position == kNone) {
       returned_ = candidate.part;
-      const auto begin = columns_.begin() + std::ptrdiff_t{candidate.part} * rows();
-      return Assignment{{begin, begin + rows()}, candidate.least_cost};
+      return best(candidate.part);
     }
     search(candidate);
   }
@@ -126,121 +144,114 @@ std::optional<Assignment> RankedAssignments::State::next() {
 }
 
 Assignment RankedAssignments::State::first() {
-  cut_ = !assignAll(cost_, unassigned_cost_, most_work_, path_, present_);
-  keep(kNone, 0);
+  cut_ = !assignAll(costs_, most_work_, path_, present_);
+  orders_.resize(costs_.rows());
+  std::iota(orders_.begin(), orders_.end(), 0);
+  keep({});
   returned_ = 0;
-  return {{columns_.begin(), columns_.end()}, parts_.front().cost, cut_};
+  return best(0);
+}
+
+Assignment RankedAssignments::State::best(int part) const {
+  return {{columnsOf(part), columnsOf(part) + costs_.rows()}, parts_[part].cost, cut_};
 }
 
 /// Keeps the present assignment as the best of a new part.
-void RankedAssignments::State::keep(int parent, int first_row) {
-  parts_.push_back({parent, first_row, totalCost(present_.column_of_row, cost_, unassigned_cost_)});
+void RankedAssignments::State::keep(const Part& part) {
+  parts_.push_back(part);
+  parts_.back().cost = totalCost(present_.column_of_row, costs_);
   prices_.insert(prices_.end(), present_.row_price.begin(), present_.row_price.end());
   prices_.insert(prices_.end(), present_.column_price.begin(), present_.column_price.end());
   columns_.insert(columns_.end(), present_.column_of_row.begin(), present_.column_of_row.end());
 }
 
-void RankedAssignments::State::load(int part) {
-  const auto prices = prices_.begin() + std::ptrdiff_t{part} * (rows() + columns());
-  std::copy_n(prices, rows(), present_.row_price.begin());
-  std::copy_n(prices + rows(), columns(), present_.column_price.begin());
-  std::copy_n(columns_.begin() + std::ptrdiff_t{part} * rows(), rows(),
-              present_.column_of_row.begin());
+/// Makes the best of a part the present assignment, with the rows open from a position on.
+void RankedAssignments::State::load(int part, int position) {
+  const int rows = costs_.rows();
+  const double* prices = prices_.data() + std::ptrdiff_t{part} * (rows + costs_.columns());
+  std::copy_n(prices, rows, present_.row_price.begin());
+  std::copy_n(prices + rows, costs_.columns(), present_.column_price.begin());
+  std::copy_n(columnsOf(part), rows, present_.column_of_row.begin());
   std::fill(present_.row_of_column.begin(), present_.row_of_column.end(), kUnassigned);
-  for (int row = 0; row < rows(); ++row) {
-    if (present_.column_of_row[row] != kUnassigned) {
-      present_.row_of_column[present_.column_of_row[row]] = row;
+  const int* order = orderOf(parts_[part]);
+  present_.open_rows.assign(order + position, order + rows);
+  for (int i = 0; i < rows; ++i) {
+    const int column = present_.column_of_row[order[i]];
+    if (column != kUnassigned) {
+      present_.row_of_column[column] = i < position ? kFixed : order[i];
     }
   }
 }
 
 /// Queues all that is left of a part without its best.
 void RankedAssignments::State::split(int part) {
-  load(part);
-  for (int row = parts_[part].first_row; row < rows(); ++row) {
-    const double increase = leastIncrease(row, rowCost(part, row));
-    if (increase < kForbidden) {
-      push(parts_[part].cost + increase, part, row);
-    }
+  const int first = parts_[part].position;
+  load(part, first);
+  if (costs_.rows() - first >= kRowsWorthOrdering) {
+    orderRows(part);
   }
+  const int* order = orderOf(parts_[part]);
+  for (int position = first; position < costs_.rows(); ++position) {
+    const int row = order[position];
+    const double increase = leastIncrease(row, allowed(part, row), costs_, present_);
+    if (increase < kForbidden) {
+      push(parts_[part].cost + increase, part, position);
+    }
+    present_.fix(row);
+  }
+}
+
+/// The row that must differ stays first; of the others those come first where another place costs
+/// most, so that the largest parts have the dearest best, and most of them are never searched.
+void RankedAssignments::State::orderRows(int part) {
+  const int kept = parts_[part].position + (parts_[part].row == kNone ? 0 : 1);
+  const int* order = orderOf(parts_[part]);
+  bounds_.clear();
+  for (int position = kept; position < costs_.rows(); ++position) {
+    const int row = order[position];
+    bounds_.push_back({row, leastIncrease(row, allowed(part, row), costs_, present_)});
+  }
+  std::sort(bounds_.begin(), bounds_.end(), [](const RowBound& a, const RowBound& b) {
+    return a.increase != b.increase ? a.increase > b.increase : a.row < b.row;
+  });
+  const std::size_t begin = orders_.size();
+  orders_.resize(begin + costs_.rows());
+  std::copy_n(orderOf(parts_[part]), kept, orders_.begin() + begin);
+  std::transform(bounds_.begin(), bounds_.end(), orders_.begin() + begin + kept,
+                 [](const RowBound& bound) { return bound.row; });
+  parts_[part].order = costs_.rows() == 0 ? 0 : static_cast<int>(begin) / costs_.rows();
 }
 
 /// Finds the best of a part of a part, and queues it.
 void RankedAssignments::State::search(const Candidate& candidate) {
-  load(candidate.part);
-  if (path_.replace(candidate.row, rowCost(candidate.part, candidate.row), present_)) {
+  const Part& whole = parts_[candidate.part];
+  const int row = orderOf(whole)[candidate.position];
+  load(candidate.part, candidate.position);
+  if (path_.replace(row, allowed(candidate.part, row), present_)) {
     const int part = static_cast<int>(parts_.size());
-    keep(candidate.part, candidate.row);
+    keep({candidate.part, candidate.position, row, 0.0, whole.order});
     push(parts_[part].cost, part, kNone);
   }
 }
 
 /// What a row may have that is to differ from the part's best, and from all that was taken away
 /// from the part before.
-RowCost RankedAssignments::State::rowCost(int part, int row) {
-  const double* costs = cost_.row(row).data();
-  allowed_.assign(costs, costs + columns());
-  allowed_unassigned_ = unassigned_cost_[row];
+RowCost RankedAssignments::State::allowed(int part, int row) {
+  RowCost cost = costs_.row(row);
+  allowed_.assign(cost.columns, cost.columns + costs_.columns());
+  cost.columns = allowed_.data();
   while (true) {
-    const int column = columns_[std::ptrdiff_t{part} * rows() + row];
-    (column == kUnassigned ? allowed_unassigned_ : allowed_[column]) = kForbidden;
-    if (parts_[part].parent == kNone || parts_[part].first_row != row) {
-      return {allowed_.data(), allowed_unassigned_};
+    const int column = columnsOf(part)[row];
+    (column == kUnassigned ? cost.unassigned : allowed_[column]) = kForbidden;
+    if (parts_[part].row != row) {
+      return cost;
     }
     part = parts_[part].parent;
   }
 }
 
-/// Bound from below of how much dearer the best of a part becomes once a row may only have what
-/// `row_cost` allows: the first step of the path, and its last.
-double RankedAssignments::State::leastIncrease(int row, const RowCost& row_cost) const {
-  const double out = leastOut(row, row_cost);
-  return out < kForbidden ? std::max(out + leastIn(row), 0.0) : kForbidden;
-}
-
-double RankedAssignments::State::leastOut(int row, const RowCost& row_cost) const {
-  double least = row_cost.unassigned;
-  for (int column = 0; column < columns(); ++column) {
-    const int taken_by = present_.row_of_column[column];
-    if (taken_by == kUnassigned || taken_by > row) {
-      least = std::min(least, row_cost.columns[column] - present_.column_price[column]);
-    }
-  }
-  return least - present_.row_price[row];
-}
-
-double RankedAssignments::State::leastIn(int row) const {
-  const int target = present_.column_of_row[row];
-  return target == kUnassigned ? leastIntoVoid(row) : leastIntoColumn(target, row);
-}
-
-/// From the void, where the column may stay, or from a later row.
-double RankedAssignments::State::leastIntoColumn(int column, int row) const {
-  double least = 0.0;
-  for (int other = row + 1; other < rows(); ++other) {
-    least = std::min(least, cost_(other, column) - present_.row_price[other]);
-  }
-  return least - present_.column_price[column];
-}
-
-/// From a later row that gives its column up, or from a free column.
-double RankedAssignments::State::leastIntoVoid(int row) const {
-  double least = kForbidden;
-  for (int other = row + 1; other < rows(); ++other) {
-    if (present_.column_of_row[other] != kUnassigned) {
-      least = std::min(least, unassigned_cost_[other] - present_.row_price[other]);
-    }
-  }
-  for (int column = 0; column < columns(); ++column) {
-    if (present_.row_of_column[column] == kUnassigned) {
-      least = std::min(least, present_.column_price[column]);
-    }
-  }
-  return least;
-}
-
-void RankedAssignments::State::push(double least_cost, int part, int row) {
-  queue_.push_back({least_cost, part, row, pushed_++});
+void RankedAssignments::State::push(double least_cost, int part, int position) {
+  queue_.push_back({least_cost, part, position, pushed_++});
   std::push_heap(queue_.begin(), queue_.end());
 }
 

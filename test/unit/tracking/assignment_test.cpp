@@ -114,20 +114,55 @@ TEST(Assignment, WrongSizesAreRefused) {
                std::invalid_argument);
 }
 
-TEST(Assignment, HundredsOfRowsWithTheSameColumnsEndUpOptimal) {
-  // Every row prefers the same order of columns: the longest augmenting paths.
-  const int size = 300;
-  CostMatrix cost(size, size);
-  for (int row = 0; row < size; ++row) {
-    for (int column = 0; column < size; ++column) {
+/// Every row prefers the same columns: the more rows there are, the longer each one's search.
+CostMatrix samePreferences(int rows, int columns) {
+  CostMatrix cost(rows, columns);
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
       cost(row, column) = (row + 1.0) * (column + 1.0);
     }
   }
-  const Assignment result = solveAssignment(cost, Eigen::VectorXd::Constant(size, 1e9));
+  return cost;
+}
+
+TEST(Assignment, HundredsOfRowsWithTheSameColumnsEndUpOptimal) {
+  const int size = 300;
+  const Assignment result =
+      solveAssignment(samePreferences(size, size), Eigen::VectorXd::Constant(size, 1e9));
   // The rearrangement inequality: the dearest row gets the cheapest column.
   for (int row = 0; row < size; ++row) {
     EXPECT_EQ(result.column_of_row[static_cast<std::size_t>(row)], size - 1 - row);
   }
+}
+
+TEST(Assignment, CutShortItIsValidAndEveryRowGetsWhatIsLeft) {
+  const CostMatrix cost = samePreferences(40, 60);
+  const Eigen::VectorXd none = Eigen::VectorXd::Constant(40, 1e6);
+  const Assignment best = solveAssignment(cost, none);
+  const Assignment cut = solveAssignment(cost, none, 5000);
+  EXPECT_FALSE(best.cut);
+  EXPECT_TRUE(cut.cut);
+  expectValid(cut, cost, none);
+  EXPECT_GT(cut.cost, best.cost);
+  EXPECT_EQ(std::count(cut.column_of_row.begin(), cut.column_of_row.end(), kUnassigned), 0);
+  EXPECT_EQ(cut.column_of_row, solveAssignment(cost, none, 5000).column_of_row);
+}
+
+TEST(Assignment, CutShortARowRatherHasNoneThanADearerColumn) {
+  CostMatrix cost(3, 2);
+  cost << 1.0, 2.0,  //
+      3.0, 4.0,      //
+      kForbidden, 1.0;
+  const Assignment cut = solveAssignment(cost, Eigen::VectorXd::Constant(3, 3.5), 0);
+  // The first row is assigned with the work of its own look; the others get what is free.
+  EXPECT_EQ(cut.column_of_row, (std::vector<int>{0, kUnassigned, 1}));
+}
+
+TEST(Assignment, AThousandEqualColumnsNeedOneLookForEachRow) {
+  const Assignment result = solveAssignment(CostMatrix::Constant(300, 1000, 1.0),
+                                            Eigen::VectorXd::Constant(300, 5.0), 300 * 1000);
+  EXPECT_FALSE(result.cut);
+  EXPECT_DOUBLE_EQ(result.cost, 300.0);
 }
 
 }  // namespace

@@ -122,10 +122,12 @@ TEST_P(AllAssignments, OfEqualCostsToo) {
 
 INSTANTIATE_TEST_SUITE_P(ForbiddenShares, AllAssignments, testing::Values(0.0, 0.3, 0.8, 1.0));
 
-TEST(RankedAssignments, OneOfEachSize) {
+TEST(RankedAssignments, OfMoreRowsThanColumnsOrFewer) {
   std::mt19937_64 engine(13);
-  for (const auto& [rows, columns] : {std::pair{1, 1}, {6, 5}, {3, 9}, {9, 2}}) {
-    expectAll(randomProblem(rows, columns, 0.1, engine));
+  for (int run = 0; run < 30; ++run) {
+    for (const auto& [rows, columns] : {std::pair{9, 2}, {8, 3}, {10, 3}, {3, 9}, {6, 5}}) {
+      expectAll(randomProblem(rows, columns, 0.2, engine));
+    }
   }
 }
 
