@@ -15,7 +15,7 @@ from datmo_tools.pose_path import planar
 from tiny_capture import SCANS, START, write_recording
 
 EGO_SPEED, RED_SPEED = 1.0, 0.5  # m/s
-EXACT = ("--range-error", "0", "--scan-delay", "0")
+EXACT = ("--range-errors", "0:0", "--scan-delay", "0")
 
 
 def ego(seconds):
@@ -84,10 +84,12 @@ class Scans(Conversion):
             self.assertAlmostEqual(stamp, 0.08 * index - 0.03, places=6)
             self.assertAlmostEqual(recorded * 1e-9, 0.08 * index + 0.05, places=6)
 
-    def test_ranges_are_made_longer_by_their_square(self):
-        self.convert("--range-error", "0.01", ranges=[1.0, 4.0, 0.1, 9.0, math.nan])
-        ranges = self.messages("/scan")[0].ranges[::-1]
-        np.testing.assert_allclose(ranges, [1.01, 4.16, math.inf, math.inf, math.inf], rtol=1e-6)
+    def test_ranges_are_made_longer_by_what_they_are_short(self):
+        self.convert("--range-errors", "1:0.1", "3:0.3", ranges=[0.5, 2.0, 6.0, 0.1, 9.0, math.nan])
+        scan = self.messages("/scan")[0]
+        expected = [0.6, 2.2, 6.3, math.inf, math.inf, math.inf]
+        np.testing.assert_allclose(scan.ranges[::-1], expected, rtol=1e-6)
+        self.assertAlmostEqual(scan.range_max, 8.3, places=6)
 
     def test_mount(self):
         self.convert("--mount", "0.2", "-0.1", "90")
@@ -150,6 +152,58 @@ class Truth(Conversion):
         self.assertEqual(len(stamps), 6)
         self.assertIn(f"5 of {SCANS} scans without truth", said)
 
+    def test_repeated_poses_are_none(self):
+        """Motion capture that lost the car goes on to tell where it was."""
+        self.convert(*EXACT, ego=lambda seconds: ego(min(seconds, 0.4)))
+        stamps = [seconds_of(message) for message in self.messages("/ground_truth/pose")]
+        self.assertAlmostEqual(stamps[-1], 0.4, places=6)
+        self.assertEqual(len(self.messages("/ground_truth/objects")), 6)
+        said = self.convert(*EXACT, ego=lambda _: ego(0.0), expected_code=1)
+        self.assertIn("/ego_pose never changes", said)
+
+
+class Odometry(Conversion):
+    WHEELS, YAW_RATE, BIAS = 20.0, 0.4, 0.1  # rad/s
+
+    def rates(self, seconds):
+        """Stands for 0.3 s, then goes on a circle."""
+        return (0.0, 0.0) if seconds < 0.295 else (self.WHEELS, self.YAW_RATE)
+
+    def check_twists(self):
+        samples = self.messages("/odometry")
+        self.assertEqual(len(samples), len(self.messages("/tf")))
+        for message in samples:
+            wheels, yaw_rate = self.rates(seconds_of(message))
+            twist = message.twist.twist
+            self.assertAlmostEqual(twist.linear.x, 0.05 * wheels, places=6)
+            self.assertAlmostEqual(twist.angular.z, yaw_rate, places=6)
+        return samples
+
+    def test_median_of_the_wheels_and_turn_about_the_vertical(self):
+        for vertical in ((0.0, 0.0, 1.0), (0.6, 0.0, -0.8)):
+            sensors = {"rates": self.rates, "vertical": vertical, "yaw_rate_bias": self.BIAS}
+            self.convert("--wheel-radius", "0.05", drive_sensors=sensors)
+            samples = self.check_twists()
+        x, y, yaw = planar(samples[-1].pose.pose)
+        # Rates between two samples are the mean: half a step of the start counts.
+        turned = self.YAW_RATE * (seconds_of(samples[-1]) - 0.295)
+        radius = 0.05 * self.WHEELS / self.YAW_RATE
+        expected = [radius * math.sin(turned), radius * (1.0 - math.cos(turned)), turned]
+        np.testing.assert_allclose([x, y, yaw], expected, atol=1e-3)
+
+    def test_without(self):
+        self.assertIn("no odometry, which needs /wheel_speeds and /imu/data", self.convert())
+        self.assertEqual(self.messages("/odometry"), [])
+        self.convert("--no-odometry", drive_sensors={"rates": self.rates})
+        self.assertEqual(self.messages("/odometry") + self.messages("/tf"), [])
+
+    def test_topics_of_other_types(self):
+        sensors = {"rates": self.rates}
+        said = self.convert("--wheel-speeds", "/scan", drive_sensors=sensors, expected_code=1)
+        self.assertIn("/scan: expected finite numbers FL, FR, BL, BR", said)
+        said = self.convert("--imu", "/scan", drive_sensors=sensors, expected_code=1)
+        self.assertIn("expected sensor_msgs/Imu", said)
+
 
 class Errors(Conversion):
     def test_missing_topics_are_named(self):
@@ -168,7 +222,9 @@ class Errors(Conversion):
         for option in (
             ("--sweep-time", "-1"),
             ("--scan-delay", "5"),
-            ("--range-error", "-0.1"),
+            ("--range-errors", "2:0.1", "1:0.1"),
+            ("--range-errors", "1:0.5", "1.2:0.1"),
+            ("--wheel-radius", "0"),
             ("--object-size", "0", "1", "1"),
             ("--moving-speed", "0"),
         ):

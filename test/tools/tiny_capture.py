@@ -4,8 +4,9 @@ import math
 
 import numpy as np
 import rosbag
-from geometry_msgs.msg import Point, PoseStamped, Quaternion
-from sensor_msgs.msg import LaserScan
+from genpy.dynamic import generate_dynamic
+from geometry_msgs.msg import Point, PoseStamped, Quaternion, Vector3
+from sensor_msgs.msg import Imu, LaserScan
 from std_msgs.msg import Header
 
 from datmo_tools.stamps import to_ros_time
@@ -15,6 +16,11 @@ START = 1_500_000_000 * 10**9  # ns
 SCAN_PERIOD = 0.08  # s
 SCANS = 11
 CAPTURE_PERIOD = 0.01  # s
+
+# The message of a package that need not be there.
+Encoder = generate_dynamic("barc/Encoder", "float32 FL\nfloat32 FR\nfloat32 BL\nfloat32 BR\n")[
+    "barc/Encoder"
+]
 
 
 def nanoseconds(seconds):
@@ -52,11 +58,33 @@ def scan_message(seconds, ranges):
     )
 
 
-def write_recording(path, ego, red, ranges, topics=("/scan", "/ego_pose", "/red_pose")):
-    """Writes a recording of 0.8 s.
+def imu_message(seconds, vertical, yaw_rate):
+    """Imu that turns about `vertical` (unit vector in its frame) and feels gravity along it."""
+    message = Imu(header=Header(stamp=to_ros_time(nanoseconds(seconds)), frame_id="imu"))
+    message.angular_velocity = Vector3(*(yaw_rate * np.array(vertical)))
+    message.linear_acceleration = Vector3(*(9.81 * np.array(vertical)))
+    return message
+
+
+def write_drive_sensors(bag, rates, vertical=(0.0, 0.0, 1.0), yaw_rate_bias=0.0):
+    """Adds wheel speeds and an IMU to an open bag, 100 times in a second.
+
+    rates: function of s that gives the wheels' speed and the yaw rate (rad/s).
+    """
+    for seconds in np.arange(0.0, SCANS * SCAN_PERIOD, 0.01):
+        turning, yaw_rate = rates(seconds)
+        stamp = to_ros_time(nanoseconds(seconds))
+        bag.write("/wheel_speeds", Encoder(turning, turning, turning, 2.0 * turning), stamp)
+        bag.write("/imu/data", imu_message(seconds, vertical, yaw_rate + yaw_rate_bias), stamp)
+
+
+def write_recording(
+    path, ego, red, ranges, topics=("/scan", "/ego_pose", "/red_pose"), drive_sensors=None
+):
+    """Writes a recording of 0.9 s.
 
     ego, red: functions of s that give x, y, yaw, or None where motion capture sees nothing;
-    ranges: m, of every scan.
+    ranges: m, of every scan; drive_sensors: keyword arguments of write_drive_sensors, or None.
     """
     items = [
         (index * SCAN_PERIOD, "/scan", scan_message(index * SCAN_PERIOD, ranges))
@@ -70,3 +98,5 @@ def write_recording(path, ego, red, ranges, topics=("/scan", "/ego_pose", "/red_
         for seconds, topic, message in sorted(items, key=lambda item: item[0]):
             if topic in topics:
                 bag.write(topic, message, to_ros_time(nanoseconds(seconds)))
+        if drive_sensors is not None:
+            write_drive_sensors(bag, **drive_sensors)

@@ -1,5 +1,6 @@
 """A bag of a 2D scanner and motion capture -> a bag of the data contract: the order of the work."""
 
+import math
 import sys
 from typing import NamedTuple, Optional
 
@@ -9,14 +10,28 @@ from tf2_msgs.msg import TFMessage
 from datmo_tools import bag_messages, ground_truth, mocap_scan, transforms, truth_messages
 from datmo_tools.bag_file import MOUNTS_LEAD, whole_bag
 from datmo_tools.errors import InputError
-from datmo_tools.mocap_truth import CapturedBody
-from datmo_tools.pose_path import read_messages, read_path
+from datmo_tools.mocap_truth import CapturedBody, seen_path
+from datmo_tools.pose_path import read_messages
 from datmo_tools.progress import Progress
 from datmo_tools.true_boxes import UNKNOWN_OCCLUSION, TrueBox, TrueObject
+from datmo_tools.wheel_odometry import has_topics, read_odometry
 
 # A beam is counted for an object where it ends within this of its box: noise, and the car's corners
 # are round.
 BOX_TOLERANCE = 0.05  # m
+
+# By how much the scanner of the example bags measures short (m), at some ranges (m): the walls of
+# the room are sharpest so in both of them, and in each alone to 0.02 m.
+SHORT_RANGES = (
+    (1.0, 0.0),
+    (2.0, 0.0),
+    (3.0, 0.045),
+    (4.0, 0.08),
+    (4.5, 0.24),
+    (5.0, 0.42),
+    (6.0, 0.34),
+    (7.5, 0.33),
+)
 
 LABEL = "Car"
 NO_CENTRE = np.zeros(3)
@@ -28,13 +43,19 @@ class Options(NamedTuple):
     scan_topic: str = "/scan"
     ego_topic: str = "/ego_pose"
     object_topics: tuple = ("/red_pose",)
-    mount: np.ndarray = np.array([-0.145, 0.025, 0.0])  # x, y, yaw of the scanner in base_link
+    wheels_topic: str = "/wheel_speeds"
+    imu_topic: str = "/imu/data"
+    odometry: bool = True  # where both of these topics are there
+    wheel_radius: float = 0.031  # m
+    mount: np.ndarray = np.array(
+        [-0.152, 0.015, math.radians(0.25)]
+    )  # x, y, yaw of the scanner in base_link
     clockwise: bool = True  # the last beam of a message is the first in time
     sweep_time: Optional[float] = None  # s from the first beam to the last; None: between scans
-    scan_delay: float = -0.02  # s from a scan's stamp to its first beam, on motion capture's clock
-    range_error: float = 0.0075  # 1/m: ranges are short by this times their square
-    object_size: tuple = (0.465, 0.2, 0.2)  # m: length, width, height
-    object_centre: np.ndarray = np.array([0.072, 0.03, 0.0])  # x, y, yaw from the markers' origin
+    scan_delay: float = -0.015  # s from a scan's stamp to its first beam, on motion capture's clock
+    range_errors: tuple = SHORT_RANGES  # rising (range, by how much it is short), m; linear between
+    object_size: tuple = (0.455, 0.205, 0.2)  # m: length, width, height
+    object_centre: np.ndarray = np.array([0.07, 0.0, 0.0])  # x, y, yaw from the markers' origin
     moving_speed: float = 0.1  # m/s
 
 
@@ -62,23 +83,25 @@ class _Conversion:
         self._sweep = options.sweep_time
         if self._sweep is None:
             self._sweep = _scan_period(recording, self._scans)
-        ego_path = read_path(recording, options.ego_topic)
+        ego_path = seen_path(recording, options.ego_topic)
         origin = ego_path.at(max(self._scans[0][0], ego_path.stamps[0]))
         self._ego = CapturedBody(ego_path, origin, NO_CENTRE)
         self._objects = [
-            CapturedBody(read_path(recording, topic), origin, options.object_centre)
+            CapturedBody(seen_path(recording, topic), origin, options.object_centre)
             for topic in options.object_topics
         ]
         self._sources = [
             TrueObject(number, LABEL, *options.object_size, boxes={})
             for number in range(len(self._objects))
         ]
+        self._odometry = _read_odometry(recording, options)
         self._without_truth = 0
 
     def write(self, bag, stream):
         """Writes everything in the order of time."""
         events = [(stamp, self._write_scan, message) for stamp, message in self._scans]
         events += [(stamp, self._write_pose, None) for stamp in self._ego.path.stamps.tolist()]
+        events += [(sample.stamp, _write_odometry, sample) for sample in self._odometry]
         events.sort(key=lambda event: event[0])  # stable: equal stamps keep order
         self._write_mounts(bag, max(events[0][0] - MOUNTS_LEAD, 1))
         with Progress(len(events), "mocap_to_bag", stream) as progress:
@@ -88,6 +111,9 @@ class _Conversion:
 
     def notes(self):
         """What the user should know, as sentences."""
+        if not self._odometry:
+            topics = f"{self._options.wheels_topic} and {self._options.imu_topic}"
+            yield f"no odometry, which needs {topics}" if self._options.odometry else "no odometry"
         if self._without_truth:
             yield (
                 f"{self._without_truth} of {len(self._scans)} scans without truth, because motion "
@@ -131,6 +157,19 @@ class _Conversion:
             velocity=state.velocity * moving,
             moving=moving,
         )
+
+
+def _read_odometry(recording, options):
+    """List of OdometrySample; empty where it is not wanted, or the recording has none."""
+    topics = (options.wheels_topic, options.imu_topic)
+    if not options.odometry or not has_topics(recording, *topics):
+        return []
+    return read_odometry(recording, *topics, options.wheel_radius)
+
+
+def _write_odometry(bag, stamp, sample):
+    bag.write("/tf", stamp, bag_messages.odometry_transform(sample))
+    bag.write("/odometry", stamp, bag_messages.odometry(sample))
 
 
 def _read_scans(recording, options):

@@ -22,7 +22,7 @@ def converted(message, stamp, sweep_time, options):
     ranges = np.array(message.ranges, dtype=float)
     valid = (ranges >= message.range_min) & (ranges < message.range_max)
     ranges[~valid] = math.inf
-    ranges[valid] += options.range_error * ranges[valid] ** 2
+    ranges[valid] = corrected(ranges[valid], options.range_errors)
     last = len(ranges) - 1
     first_bearing, step = message.angle_min, message.angle_increment
     if options.clockwise:
@@ -36,9 +36,18 @@ def converted(message, stamp, sweep_time, options):
         time_increment=sweep_time / last,
         scan_time=sweep_time,
         range_min=message.range_min,
-        range_max=message.range_max * (1.0 + options.range_error * message.range_max),
+        range_max=float(corrected(message.range_max, options.range_errors)),
         ranges=ranges.astype(np.float32).tolist(),
     )
+
+
+def corrected(ranges, range_errors):
+    """Range(s) (m) longer by what they are short; nearer and farther than the table, as its ends.
+
+    range_errors: rising pairs (range, error), m, one or more.
+    """
+    at, short = zip(*range_errors)
+    return ranges + np.interp(ranges, at, short)
 
 
 def end_points(scan):

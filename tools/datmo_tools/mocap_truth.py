@@ -5,8 +5,9 @@ from typing import NamedTuple
 import numpy as np
 
 from datmo_tools import transforms
+from datmo_tools.errors import InputError
 from datmo_tools.ground_truth import fitted_velocities
-from datmo_tools.pose_path import PosePath
+from datmo_tools.pose_path import PosePath, read_path
 
 # Half the time over which a line is fitted to poses: a millimetre of noise at 120 poses a second is
 # 3 mm/s then, and a car's acceleration hardly changes in it.
@@ -14,6 +15,20 @@ HALF_WINDOW = 0.1  # s
 
 # Where motion capture lost sight of the markers for longer, nothing is known.
 LONGEST_GAP = 50_000_000  # ns, to the nearest pose
+
+
+def seen_path(recording, topic):
+    """PosePath of the poses on `topic` at which motion capture saw the markers.
+
+    Where it does not, it says the last pose again and again; a body that stands still is measured
+    with noise. Raises InputError as read_path does, and where nothing else is left.
+    """
+    path = read_path(recording, topic)
+    news = np.any(np.diff(path.poses, axis=0) != 0.0, axis=1)
+    seen = np.concatenate([[True], news])
+    if np.count_nonzero(seen) < 2:
+        raise InputError(f"{recording}: {topic} never changes, expected poses of motion capture")
+    return PosePath(path.stamps[seen], path.poses[seen])
 
 
 class BodyState(NamedTuple):
