@@ -204,22 +204,20 @@ double noiseOf(const Corner& corner, double sigma) {
   return std::sqrt((corner.squares + kNoisePoints * sigma * sigma) / (freedom + kNoisePoints));
 }
 
-/// How many points lie on the side across each axis. A side of which all points may as well lie on
+/// How many points lie on the side across each axis. A side of which most points may as well lie on
 /// the other one is not seen.
 std::array<std::size_t, 2> pointsOnSides(const Points& points, const Corner& corner, double noise) {
   const Axes axes(corner.heading);
   std::array<std::size_t, 2> counts{};
-  std::array<bool, 2> alone{};
+  std::array<std::size_t, 2> alone{};
   for (const Point2& point : points) {
-    const Point2 local = axes(point);
-    const int nearest = corner.sides.nearest(local);
-    const auto axis = static_cast<std::size_t>(nearest);
+    const Point2 distances = (axes(point) - corner.sides.place).cwiseAbs();
+    const std::size_t axis = distances.x() <= distances.y() ? 0 : 1;
     ++counts[axis];
-    alone[axis] = alone[axis] ||
-                  std::abs(local[1 - nearest] - corner.sides.place[1 - nearest]) > kOnLine * noise;
+    alone[axis] += distances.maxCoeff() > kOnLine * noise ? 1 : 0;
   }
   const std::size_t smaller = counts[0] < counts[1] ? 0 : 1;
-  if (!alone[smaller]) {
+  if (2 * alone[smaller] < counts[smaller]) {
     counts[1 - smaller] += counts[smaller];
     counts[smaller] = 0;
   }

@@ -56,11 +56,23 @@ class SideBox {
 
   bool isSeen(std::size_t side) const { return fit_.points_on_side[side] > 0; }
 
+  bool seesTwoSides() const {
+    return std::count(fit_.points_on_side.begin(), fit_.points_on_side.end(), 0U) <= 2;
+  }
+
   /// A side that was seen has its ends here.
   bool isEndOfSeen(std::size_t side) const {
     return side < indexOf(BoxSide::kLeft)
                ? isSeen(indexOf(BoxSide::kLeft)) || isSeen(indexOf(BoxSide::kRight))
                : isSeen(indexOf(BoxSide::kFront)) || isSeen(indexOf(BoxSide::kRear));
+  }
+
+  /// m, of the box along a side, if a side across it was seen: a turn of the box moves the place of
+  /// the side by so much times its angle.
+  double across(std::size_t side) const {
+    const bool is_end = side < indexOf(BoxSide::kLeft);
+    const double extent = is_end ? fit_.box.width : fit_.box.length;
+    return seesTwoSides() ? extent : 0.0;
   }
 
   void extend(std::size_t side, double by) { reach_[side] += by; }
@@ -177,7 +189,7 @@ void MovingObjectDetector::setBox(Object& object, const ScanPoint& first, const 
       const ScanPoint& outermost = normal.dot(first.position - last.position) > 0.0 ? first : last;
       if (const std::optional<SurfaceEnd> end = ends.beyond(outermost, normal, heading_std)) {
         sides.extend(side, end->beyond);
-        object.side_variance[side] = end->variance;
+        object.side_variance[side] = end->variance + square(heading_std * sides.across(side));
       }
     }
   }

@@ -10,39 +10,48 @@ namespace {
 /// No hypothesis falls farther below the best one, so that it can come back: logarithm of odds.
 constexpr double kLeastLogWeight = -12.0;
 
+/// Mahalanobis distance squared of an extent that is hardly of this object: three sigma.
+constexpr double kFarOff = 9.0;
+
 /// Odds that a classifier which is sure of itself gives: it may err all the same.
 constexpr double kSurestClass = 0.999;
+constexpr double kLeastClass = 1e-6;
 
-/// Index of the kind, as in BoxSizeOptions.
-std::size_t kindOf(ObjectClass object_class) {
+/// Vehicle, cyclist, pedestrian, anything else.
+constexpr int kClasses = 4;
+
+/// Whether objects of the kind (index as in BoxSizeOptions) are of the class.
+bool isOfClass(std::size_t kind, ObjectClass object_class) {
   switch (object_class) {
     case ObjectClass::kVehicle:
-      return 0;
+      return kind <= 1;
     case ObjectClass::kCyclist:
-      return 1;
+      return kind == 2;
     case ObjectClass::kPedestrian:
-      return 2;
+      return kind == 3;
     case ObjectClass::kPole:
     case ObjectClass::kUnknown:
       break;
   }
-  return 3;
+  return kind == 4;
 }
 
 double square(double value) { return value * value; }
 
 /// Takes an extent into one estimate; returns the logarithm of how likely it was, up to a term that
-/// is the same for all estimates.
+/// is the same for all estimates. One that is far off counts for less, as by Huber's weights: it
+/// may be of two objects, or of a side that was taken for another.
 double takeIn(const VisibleExtent& seen, double noise, double& mean, double& variance) {
   const double residual = seen.length - mean;
   if (!seen.whole && residual <= 0.0) {
     return 0.0;
   }
   const double total = variance + noise;
-  const double gain = variance / total;
+  const double distance2 = residual * residual / total;
+  const double gain = variance / (total * std::max(1.0, distance2 / kFarOff));
   mean += gain * residual;
   variance *= 1.0 - gain;
-  const double log_likelihood = -0.5 * residual * residual / total;
+  const double log_likelihood = -0.5 * std::min(distance2, kFarOff);
   return seen.whole ? log_likelihood - 0.5 * std::log(total) : log_likelihood;
 }
 
@@ -64,9 +73,10 @@ void SizePrior::visit(OptionVisitor& visitor, const std::string& kind, const std
 void BoxSizeOptions::visit(OptionVisitor& visitor) {
   vehicle.visit(visitor, "vehicle",
                 "cars and vans (KITTI: 3.9 x 1.6 m, Europe's new cars: 4.4 x 1.8 m)");
+  lorry.visit(visitor, "lorry", "and buses (EU directive 96/53/EC: up to 12 m, 2.55 m wide)");
   two_wheeler.visit(visitor, "two_wheeler", "with its rider (KITTI: 1.8 x 0.6 m)");
   person.visit(visitor, "person", "walking (KITTI: 0.8 x 0.6 m)");
-  other.visit(visitor, "other", "anything else: lorries, prams, animals");
+  other.visit(visitor, "other", "anything else: prams, animals, trailers");
   visitor.number(
       {"extent_std", "m",
        "by how much the extent of a rigid body differs from scan to scan beyond what its "
@@ -78,8 +88,8 @@ void BoxSizeOptions::visit(OptionVisitor& visitor) {
 }
 
 BoxSize::BoxSize(const BoxSizeOptions& options) {
-  const std::array<const SizePrior*, kKinds> priors = {&options.vehicle, &options.two_wheeler,
-                                                       &options.person, &options.other};
+  const std::array<const SizePrior*, kKinds> priors = {
+      &options.vehicle, &options.lorry, &options.two_wheeler, &options.person, &options.other};
   for (std::size_t kind = 0; kind < kKinds; ++kind) {
     const SizePrior& prior = *priors[kind];
     const double length_variance = square(prior.length_std);
@@ -98,10 +108,10 @@ void BoxSize::classify(ObjectClass object_class, double probability) {
     return;
   }
   const double sure = std::min(probability, kSurestClass);
-  const double others = (1.0 - sure) / static_cast<double>(kKinds - 1);
+  const double others = std::max(kLeastClass, (1.0 - sure) / static_cast<double>(kClasses - 1));
   for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
-    const bool is_of_class = i / kAxes == kindOf(object_class);
-    hypotheses_[i].log_weight += std::log(std::max(is_of_class ? sure : others, 1e-6));
+    hypotheses_[i].log_weight +=
+        std::log(isOfClass(i / kAxes, object_class) ? std::max(kLeastClass, sure) : others);
   }
   summarise();
 }

@@ -25,9 +25,10 @@ struct SizePrior {
 
 struct BoxSizeOptions {
   SizePrior vehicle{0.3, 4.2, 0.6, 1.75, 0.2};
+  SizePrior lorry{0.05, 9.0, 3.0, 2.5, 0.2};
   SizePrior two_wheeler{0.3, 1.8, 0.25, 0.6, 0.15};
   SizePrior person{0.3, 0.7, 0.25, 0.6, 0.2};
-  SizePrior other{0.1, 3.0, 3.0, 1.5, 1.5};
+  SizePrior other{0.05, 3.0, 3.0, 1.5, 1.5};
   double extent_std = 0.1;  ///< m
   double drift = 1e-3;      ///< m^2/s
 
@@ -76,7 +77,7 @@ class BoxSize {
   double probabilityAlongFirst() const { return along_first_; }
 
  private:
-  static constexpr std::size_t kKinds = 4;  ///< as in BoxSizeOptions
+  static constexpr std::size_t kKinds = 5;  ///< as in BoxSizeOptions
   static constexpr std::size_t kAxes = 2;
 
   struct Hypothesis {

@@ -8,74 +8,232 @@
 namespace datmo {
 namespace {
 
-Object boxOf(double heading, double length, double width) {
+constexpr double kSideVariance = 0.01;
+
+/// All four sides seen.
+Object wholeBox(double heading, double length, double width) {
   Object object = objectAt(0.0, 0.0);
   object.box = {Pose2(0.0, 0.0, heading), length, width};
-  object.heading_variance = 0.01;
+  object.heading_variance = 0.001;
+  object.side_variance.fill(kSideVariance);
+  return object;
+}
+
+/// The rear of a car 1.8 m wide, seen from behind: across x, as scanners report it along the
+/// longer side.
+Object rearAt(double x) {
+  Object object = wholeBox(0.5 * kPi, 1.8, 0.0);
+  object.box.centre = Pose2(x, 0.0, 0.5 * kPi);
+  object.side_variance[static_cast<std::size_t>(BoxSide::kRight)] = kHiddenSide;  // at larger x
+  return object;
+}
+
+/// Its front, seen from ahead: the same line, but the car reaches to smaller x.
+Object frontAt(double x) {
+  Object object = rearAt(x);
+  std::swap(object.side_variance[static_cast<std::size_t>(BoxSide::kRight)],
+            object.side_variance[static_cast<std::size_t>(BoxSide::kLeft)]);
   return object;
 }
 
 double headingOf(const TrackedBox& box) { return box.at(Point2::Zero()).centre.heading(); }
 
-TEST(TrackedBox, FollowsALargerSizeQuicklyAndASmallerOneSlowly) {
-  const TrackedBoxOptions options;
-  TrackedBox box(boxOf(0.0, 1.0, 0.5));
-  box.update(boxOf(0.0, 4.0, 2.0), options.growth_time, options);
-  const double grown = 4.0 - 3.0 * std::exp(-1.0);
-  EXPECT_NEAR(box.at(Point2::Zero()).length, grown, 1e-9);
-  EXPECT_NEAR(box.at(Point2::Zero()).width, 2.0 - 1.5 * std::exp(-1.0), 1e-9);
-  box.update(boxOf(0.0, 1.0, 2.0), options.growth_time, options);
-  EXPECT_NEAR(box.at(Point2::Zero()).length,
-              1.0 + (grown - 1.0) * std::exp(-options.growth_time / options.shrink_time), 1e-9);
+TrackedBox convergedOn(const Object& object, const TrackedBoxOptions& options, int scans = 30) {
+  TrackedBox box(object, options);
+  for (int i = 0; i < scans; ++i) {
+    box.predict(0.1, options);
+    box.update(object, 0.1, options);
+  }
+  return box;
 }
 
-TEST(TrackedBox, TheRearOfACarIsItsWidth) {
-  const TrackedBoxOptions options;
-  TrackedBox box(boxOf(0.0, 4.5, 1.8));
-  box.update(boxOf(0.5 * kPi, 1.8, 0.1), 0.1, options);
-  EXPECT_NEAR(box.at(Point2::Zero()).width, 1.8, 1e-9);
-  EXPECT_GT(box.at(Point2::Zero()).length, 4.3);
+const Eigen::Matrix2d kVelocityCovariance = Eigen::Matrix2d::Identity();
+
+/// A car that is seen from behind as it drives along x.
+TrackedBox drivingAhead(const TrackedBoxOptions& options) {
+  TrackedBox box(rearAt(10.0), options);
+  for (int i = 0; i < 30; ++i) {
+    box.predict(0.1, options);
+    box.update(rearAt(10.0), 0.1, options);
+    box.followVelocity(Eigen::Vector2d(6.0, 0.0), kVelocityCovariance, options);
+  }
+  return box;
 }
 
-TEST(TrackedBox, AHiddenPartMakesThePlaceUncertainAlongItselfOnly) {
-  const TrackedBox box(boxOf(0.5 * kPi, 4.0, 2.0));
-  const Object part = boxOf(0.5 * kPi, 1.0, 2.0);
-  const Eigen::Matrix2d added = box.measurementOf(part).covariance - part.position_covariance;
-  EXPECT_NEAR(added(0, 0), 0.0, 1e-9);
-  EXPECT_NEAR(added(1, 1), 3.0 * 3.0 / 12.0, 1e-9);
-  EXPECT_TRUE(box.measurementOf(boxOf(0.5 * kPi, 4.0, 2.0))
-                  .covariance.isApprox(part.position_covariance, 1e-12));
+TEST(TrackedBox, SizeConvergesToWhatIsSeen) {
+  const TrackedBoxOptions options;
+  const TrackedBox box = convergedOn(wholeBox(0.3, 4.9, 2.0), options);
+  EXPECT_NEAR(box.at(Point2::Zero()).length, 4.9, 0.02);
+  EXPECT_NEAR(box.at(Point2::Zero()).width, 2.0, 0.02);
+  EXPECT_LT(std::sqrt(box.sizeVariance().maxCoeff()), 0.06);
+}
+
+TEST(TrackedBox, BetweenTwoSidesTheCentreIsMeasuredByBoth) {
+  const TrackedBoxOptions options;
+  Object object = wholeBox(0.0, 4.9, 2.0);
+  const TrackedBox box(object, options);
+  const PositionMeasurement measured = box.measurementOf(object);
+  EXPECT_TRUE(measured.position.isZero(1e-12));
+  // Mean of two sides, each with half the weight.
+  EXPECT_NEAR(measured.covariance(0, 0), object.position_covariance(0, 0) + 0.5 * kSideVariance,
+              1e-9);
+  EXPECT_NEAR(box.centreCovariance()(0, 0), 0.0, 1e-9) << "the size does not matter to it";
+}
+
+TEST(TrackedBox, OfTwoSidesTheSurerOneCountsMoreWhereTheSizeIsKnown) {
+  const TrackedBoxOptions options;
+  const TrackedBox box = convergedOn(wholeBox(0.0, 4.4, 1.8), options, 200);
+  Object object = wholeBox(0.0, 4.0, 1.8);  // the front seems nearer than it is
+  object.side_variance[static_cast<std::size_t>(BoxSide::kFront)] = 1.0;
+  const PositionMeasurement measured = box.measurementOf(object);
+  // 2 m behind the centre of what is seen there is the rear, and 2.2 m ahead of that the centre.
+  EXPECT_NEAR(measured.position.x(), 0.2, 0.02);
+  EXPECT_LT(measured.covariance(0, 0) - object.position_covariance(0, 0), 1.2 * kSideVariance);
+}
+
+TEST(TrackedBox, BehindOneSideTheCentreIsHalfTheSizeAway) {
+  const TrackedBoxOptions options;
+  const TrackedBox box = drivingAhead(options);
+  const double depth = box.at(Point2::Zero()).length;
+  const PositionMeasurement measured = box.measurementOf(rearAt(10.0));
+  EXPECT_NEAR(measured.position.x(), 10.0 + 0.5 * depth, 1e-9);
+  EXPECT_NEAR(measured.position.y(), 0.0, 1e-9);
+  EXPECT_NEAR(depth, options.size.vehicle.length, 0.6);
+  // The unknown length is the same in every scan: no noise, but a part of the covariance.
+  EXPECT_NEAR(measured.covariance(0, 0), rearAt(10.0).position_covariance(0, 0) + kSideVariance,
+              1e-9);
+  EXPECT_NEAR(box.centreCovariance()(0, 0), 0.25 * box.sizeVariance().maxCoeff(), 1e-9);
+  EXPECT_GT(box.centreCovariance()(0, 0), 0.2 * 0.2);
+}
+
+TEST(TrackedBox, TheOtherSideIsTrustedOnlyAsFarAsTheSizeIsKnown) {
+  const TrackedBoxOptions options;
+  TrackedBox box = convergedOn(rearAt(10.0), options);
+  const double unknown = box.sizeVariance().maxCoeff();
+  const double before = box.measurementOf(rearAt(10.0)).covariance(0, 0);
+  const Object front = frontAt(14.0);
+  EXPECT_NEAR(box.measurementOf(front).covariance(0, 0), before + unknown, 1e-9)
+      << "half the size's error to the other half";
+  box.update(front, 0.1, options);
+  EXPECT_NEAR(box.measurementOf(front).covariance(0, 0), before, 1e-9) << "once";
+}
+
+TEST(TrackedBox, WithNeitherSideSeenItIsAnywhereInWhatTheBoxLeaves) {
+  const TrackedBoxOptions options;
+  const TrackedBox box = convergedOn(wholeBox(0.0, 4.4, 1.8), options, 200);
+  Object middle = wholeBox(0.0, 1.4, 1.8);
+  middle.side_variance[static_cast<std::size_t>(BoxSide::kFront)] = kHiddenSide;
+  middle.side_variance[static_cast<std::size_t>(BoxSide::kRear)] = kHiddenSide;
+  const PositionMeasurement measured = box.measurementOf(middle);
+  EXPECT_NEAR(measured.position.x(), 0.0, 1e-9);
+  EXPECT_NEAR(measured.covariance(0, 0) - middle.position_covariance(0, 0), 3.0 * 3.0 / 12.0, 0.02);
+}
+
+TEST(TrackedBox, GrowthMovesTheCentreAndLeavesTheSideThatWasSeen) {
+  const TrackedBoxOptions options;
+  TrackedBox box = convergedOn(rearAt(10.0), options);
+  Object longer = wholeBox(0.0, 8.0, 1.8);
+  longer.side_variance[static_cast<std::size_t>(BoxSide::kFront)] = kHiddenSide;
+  longer.box.centre = Pose2(14.0, 0.0, 0.0);
+  const Point2 before = box.measurementOf(longer).position;
+  const Point2 shift = box.update(longer, 0.1, options);
+  const Point2 after = box.measurementOf(longer).position;
+  EXPECT_GT(shift.x(), 0.3);
+  EXPECT_TRUE((after - before).isApprox(shift, 1e-6))
+      << "a filter that has the shift is not surprised by the next measurement";
+}
+
+TEST(TrackedBox, AHiddenEndNeverShrinksTheBox) {
+  const TrackedBoxOptions options;
+  TrackedBox box = convergedOn(wholeBox(0.0, 4.4, 1.8), options);
+  Object part = wholeBox(0.0, 1.0, 1.8);
+  part.side_variance[static_cast<std::size_t>(BoxSide::kFront)] = kHiddenSide;
+  for (int i = 0; i < 50; ++i) {
+    box.update(part, 0.1, options);
+  }
+  EXPECT_NEAR(box.at(Point2::Zero()).length, 4.4, 0.1);
 }
 
 TEST(TrackedBox, HeadingDoesNotFlipWithTheObjects) {
   const TrackedBoxOptions options;
-  TrackedBox box(boxOf(0.1, 4.0, 2.0));
+  TrackedBox box(wholeBox(0.1, 4.0, 2.0), options);
   for (int i = 0; i < 20; ++i) {
     box.predict(0.1, options);
-    box.update(boxOf(normalizeAngle(0.1 + (i % 2 == 0 ? kPi : 0.0)), 4.0, 2.0), 0.1, options);
+    box.update(wholeBox(normalizeAngle(0.1 + (i % 2 == 0 ? kPi : 0.0)), 4.0, 2.0), 0.1, options);
+    EXPECT_NEAR(headingOf(box), 0.1, 1e-6);
   }
-  EXPECT_NEAR(headingOf(box), 0.1, 1e-6);
+}
+
+TEST(TrackedBox, AFullTurnHasNoFlip) {
+  const TrackedBoxOptions options;
+  TrackedBox box(wholeBox(0.0, 4.4, 1.8), options);
+  const Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity() * 0.01;
+  box.followVelocity(Eigen::Vector2d(5.0, 0.0), covariance, options);
+  for (int i = 1; i <= 150; ++i) {
+    const double heading = 0.05 * i;
+    // The detector gives directions of sides in (-90, 90] degrees.
+    const double line = std::remainder(heading, kPi);
+    box.predict(0.1, options);
+    box.update(wholeBox(line, 4.4, 1.8), 0.1, options);
+    box.followVelocity(5.0 * Eigen::Vector2d(std::cos(heading), std::sin(heading)), covariance,
+                       options);
+    EXPECT_NEAR(angleBetween(headingOf(box), heading), 0.0, 0.05) << i;
+  }
 }
 
 TEST(TrackedBox, MotionTellsTheLengthFromTheWidth) {
   const TrackedBoxOptions options;
-  TrackedBox box(boxOf(0.0, 1.8, 0.3));
-  box.followVelocity(Eigen::Vector2d(0.0, 5.0), Eigen::Matrix2d::Identity() * 0.01, options);
-  EXPECT_NEAR(headingOf(box), 0.5 * kPi, 1e-6);
-  EXPECT_NEAR(box.at(Point2::Zero()).length, 0.3, 1e-12);
-  EXPECT_NEAR(box.at(Point2::Zero()).width, 1.8, 1e-12);
+  TrackedBox box(wholeBox(0.0, 1.8, 0.8), options);
+  for (int i = 0; i < 10; ++i) {
+    box.followVelocity(Eigen::Vector2d(0.0, 5.0), Eigen::Matrix2d::Identity() * 0.01, options);
+    box.update(wholeBox(0.0, 1.8, 0.8), 0.1, options);
+  }
+  EXPECT_NEAR(headingOf(box), 0.5 * kPi, 0.05);
+  EXPECT_TRUE(box.signKnown());
+  EXPECT_NEAR(box.at(Point2::Zero()).length, 0.8, 0.1);
+  EXPECT_NEAR(box.at(Point2::Zero()).width, 1.8, 0.1);
+}
+
+TEST(TrackedBox, TakingTheRearForTheFrontMovesNothing) {
+  const TrackedBoxOptions options;
+  TrackedBox box = drivingAhead(options);
+  const PositionMeasurement before = box.measurementOf(rearAt(10.0));
+  const Eigen::Matrix2d considered = box.centreCovariance();
+  const Point2 shift = box.followVelocity(Eigen::Vector2d(-6.0, 0.0), kVelocityCovariance, options);
+  EXPECT_NEAR(std::abs(headingOf(box)), kPi, 1e-6);
+  EXPECT_TRUE(shift.isZero(0.02));
+  EXPECT_TRUE(box.measurementOf(rearAt(10.0)).position.isApprox(before.position, 1e-2));
+  EXPECT_TRUE(box.measurementOf(rearAt(10.0)).covariance.isApprox(before.covariance, 1e-2));
+  EXPECT_TRUE(box.centreCovariance().isApprox(considered, 0.05));
 }
 
 TEST(TrackedBox, MotionGivesTheSignAndReversingKeepsIt) {
   const TrackedBoxOptions options;
   const Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity() * 0.01;
-  TrackedBox box(boxOf(0.0, 4.0, 2.0));
+  TrackedBox box = convergedOn(wholeBox(0.0, 4.0, 2.0), options);
+  EXPECT_FALSE(box.signKnown());
   box.followVelocity(Eigen::Vector2d(-5.0, 0.0), covariance, options);
+  EXPECT_TRUE(box.signKnown());
   EXPECT_NEAR(std::abs(headingOf(box)), kPi, 1e-6);
   box.followVelocity(Eigen::Vector2d(1.0, 0.0), covariance, options);
   EXPECT_NEAR(std::abs(headingOf(box)), kPi, 1e-6);
   box.followVelocity(Eigen::Vector2d(6.0, 0.0), covariance, options);
   EXPECT_NEAR(headingOf(box), 0.0, 1e-6);
+}
+
+TEST(TrackedBox, TheVelocityTellsTheHeadingOnlyWhereItIsSurer) {
+  const TrackedBoxOptions options;
+  const Eigen::Vector2d velocity = 5.0 * Eigen::Vector2d(std::cos(0.2), std::sin(0.2));
+  TrackedBox sure = convergedOn(wholeBox(0.0, 4.4, 1.8), options);
+  const double variance = sure.headingVariance();
+  sure.followVelocity(velocity, Eigen::Matrix2d::Identity(), options);
+  EXPECT_NEAR(headingOf(sure), 0.0, 1e-6);
+  EXPECT_LE(sure.headingVariance(), variance + 1e-12);
+  Object round = wholeBox(0.0, 0.6, 0.6);
+  round.heading_variance = kUnknownHeadingVariance;
+  TrackedBox vague(round, options);
+  vague.followVelocity(velocity, Eigen::Matrix2d::Identity() * 0.01, options);
+  EXPECT_NEAR(headingOf(vague), 0.2, 1e-6);
 }
 
 }  // namespace

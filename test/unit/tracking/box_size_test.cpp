@@ -1,0 +1,132 @@
+#include "datmo_fusion/tracking/box_size.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace datmo {
+namespace {
+
+VisibleExtent whole(double length) { return {length, 0.01, true}; }
+VisibleExtent atLeast(double length) { return {length, 0.01, false}; }
+
+/// The rear of something that moves along the first axis: its width seen, its depth not.
+BoxSize afterRear(double width, const BoxSizeOptions& options, int scans = 5) {
+  BoxSize size(options);
+  for (int i = 0; i < scans; ++i) {
+    size.update({atLeast(0.0), whole(width)}, 0.1, options);
+    size.addOddsAlongFirst(2.0);
+  }
+  return size;
+}
+
+TEST(BoxSize, OneKindAloneIsAKalmanFilter) {
+  BoxSizeOptions options;
+  options.drift = 0.0;
+  options.extent_std = 0.1;
+  options.vehicle = {1.0, 4.0, 0.5, 4.0, 0.5};  // length and width the same: no axis to choose
+  for (SizePrior* other : {&options.lorry, &options.two_wheeler, &options.person, &options.other}) {
+    *other = options.vehicle;
+  }
+  BoxSize size(options);
+  EXPECT_NEAR(size.mean().x(), 4.0, 1e-12);
+  EXPECT_NEAR(size.variance().x(), 0.25, 1e-12);
+  size.update({whole(4.3), atLeast(1.0)}, 0.1, options);
+  const double gain = 0.25 / (0.25 + 0.01 + 0.1 * 0.1);
+  EXPECT_NEAR(size.mean().x(), 4.0 + gain * 0.3, 1e-9);
+  EXPECT_NEAR(size.variance().x(), (1.0 - gain) * 0.25, 1e-9);
+  EXPECT_NEAR(size.mean().y(), 4.0, 1e-12) << "a bound that it keeps tells nothing";
+  EXPECT_NEAR(size.variance().y(), 0.25, 1e-12);
+}
+
+TEST(BoxSize, ItGrowsToAVisiblePartThatIsLongerAndNeverShrinksByABound) {
+  const BoxSizeOptions options;
+  BoxSize size = afterRear(1.8, options);
+  double last = size.mean().x();
+  for (int i = 0; i < 20; ++i) {
+    size.update({atLeast(6.0), whole(1.8)}, 0.1, options);
+    EXPECT_GE(size.mean().x(), last - 1e-9);
+    last = size.mean().x();
+  }
+  EXPECT_GT(last, 5.7);
+  EXPECT_LT(last, 6.7);
+  for (int i = 0; i < 20; ++i) {
+    size.update({atLeast(0.5), whole(1.8)}, 0.1, options);
+  }
+  EXPECT_NEAR(size.mean().x(), last, 0.01);
+}
+
+TEST(BoxSize, ARearTellsTheKindAndTheKindTheLength) {
+  const BoxSizeOptions options;
+  const BoxSize car = afterRear(1.8, options);
+  EXPECT_NEAR(car.mean().x(), options.vehicle.length, 0.5);
+  EXPECT_GT(car.probabilityAlongFirst(), 0.9);
+  const BoxSize lorry = afterRear(2.5, options);
+  EXPECT_GT(lorry.mean().x(), 7.0);
+  const BoxSize person = afterRear(0.5, options);
+  EXPECT_LT(person.mean().x(), 1.5);
+  EXPECT_GT(std::sqrt(car.variance().x()), 0.4) << "nobody has seen it";
+  EXPECT_LT(std::sqrt(car.variance().y()), 0.1);
+}
+
+TEST(BoxSize, WithoutMotionAnExtentMayBeLengthOrWidth) {
+  const BoxSizeOptions options;
+  BoxSize size(options);
+  size.update({atLeast(0.0), whole(1.8)}, 0.1, options);
+  EXPECT_GT(size.probabilityAlongFirst(), 0.1) << "the rear of a car";
+  EXPECT_LT(size.probabilityAlongFirst(), 0.9) << "or the side of a bicycle";
+  BoxSize longer(options);
+  longer.update({atLeast(0.0), whole(4.4)}, 0.1, options);
+  EXPECT_LT(longer.probabilityAlongFirst(), 0.1) << "the side of a car";
+}
+
+TEST(BoxSize, AClassSetsTheSize) {
+  const BoxSizeOptions options;
+  BoxSize size(options);
+  for (int i = 0; i < 5; ++i) {
+    size.classify(ObjectClass::kCyclist, 0.9);
+  }
+  EXPECT_NEAR(std::max(size.mean().x(), size.mean().y()), 1.2, 0.1) << "along either axis";
+  size.addOddsAlongFirst(10.0);
+  EXPECT_NEAR(size.mean().x(), options.two_wheeler.length, 0.05);
+  EXPECT_NEAR(size.mean().y(), options.two_wheeler.width, 0.05);
+  const Eigen::Vector2d before = size.mean();
+  size.classify(ObjectClass::kUnknown, 1.0);
+  EXPECT_EQ(size.mean(), before);
+}
+
+TEST(BoxSize, AWrongClassIsForgottenByWhatIsSeen) {
+  const BoxSizeOptions options;
+  BoxSize size(options);
+  size.classify(ObjectClass::kPedestrian, 1.0);
+  for (int i = 0; i < 10; ++i) {
+    size.update({whole(4.4), whole(1.8)}, 0.1, options);
+  }
+  EXPECT_NEAR(size.mean().x(), 4.4, 0.1);
+  EXPECT_NEAR(size.mean().y(), 1.8, 0.1);
+}
+
+TEST(BoxSize, OneScanThatIsFarOffCountsForLittle) {
+  const BoxSizeOptions options;
+  BoxSize size(options);
+  for (int i = 0; i < 20; ++i) {
+    size.update({whole(4.4), whole(1.8)}, 0.1, options);
+  }
+  size.update({whole(9.0), whole(1.8)}, 0.1, options);  // two cars in one segment
+  EXPECT_NEAR(size.mean().x(), 4.4, 0.2);
+}
+
+TEST(BoxSize, SwappingTheAxesTwiceChangesNothing) {
+  const BoxSizeOptions options;
+  BoxSize size = afterRear(1.8, options);
+  const BoxSize before = size;
+  size.swapAxes();
+  EXPECT_NEAR(size.mean().x(), before.mean().y(), 1e-12);
+  EXPECT_NEAR(size.variance().y(), before.variance().x(), 1e-12);
+  EXPECT_NEAR(size.probabilityAlongFirst(), 1.0 - before.probabilityAlongFirst(), 1e-12);
+  size.swapAxes();
+  EXPECT_NEAR((size.mean() - before.mean()).norm(), 0.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace datmo
