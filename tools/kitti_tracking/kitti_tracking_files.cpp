@@ -22,7 +22,7 @@ constexpr std::size_t kLabelColumns = 17;
 constexpr std::size_t kResultColumns = kLabelColumns + 1;
 constexpr std::size_t kDetectionColumns = 15;
 
-constexpr int kMostFrames = std::numeric_limits<int>::max();
+constexpr int kGreatest = std::numeric_limits<int>::max();
 constexpr int kNobodysId = -1;
 /// The files hold -1 where nothing is known.
 constexpr int kUnknownLevel = -1;
@@ -69,10 +69,10 @@ Box3 readBox(const TextLine& line, std::size_t first) {
 /// The columns that labels and results share.
 TrackedObject readTrackedObject(const TextLine& line) {
   TrackedObject object;
-  object.frame = line.integer(0, "frame", 0, kMostFrames);
+  object.frame = line.integer(0, "frame", 0, kGreatest);
   object.type = readType(line, 2);
   const bool counts = object.type != ObjectType::kDontCare;
-  object.id = line.integer(1, "id", counts ? 0 : kNobodysId, std::numeric_limits<int>::max());
+  object.id = line.integer(1, "id", counts ? 0 : kNobodysId, kGreatest);
   object.truncated = line.integer(3, "truncated", kUnknownLevel, kMostTruncated);
   object.occluded = line.integer(4, "occluded", kUnknownLevel, kMostOccluded);
   object.alpha = line.number(5, "alpha");
@@ -103,7 +103,7 @@ ObjectType readDetectionType(const TextLine& line, std::size_t column) {
 Detection readDetection(const TextLine& line) {
   line.expectColumns(kDetectionColumns);
   Detection detection;
-  detection.frame = line.integer(0, "frame", 0, kMostFrames);
+  detection.frame = line.integer(0, "frame", 0, kGreatest);
   detection.type = readDetectionType(line, 1);
   detection.image_box = readImageBox(line, 2);
   detection.score = line.number(6, "score");

@@ -8,8 +8,8 @@
 
 namespace datmo::kitti {
 
-/// CLEAR-MOT (Bernardin and Stiefelhagen 2008) of the tracks whose score is high enough, as KITTI's
-/// tracking benchmark and Weng et al. 2020 count.
+/// CLEAR-MOT (Bernardin and Stiefelhagen, Evaluating multiple object tracking performance, 2008) of
+/// the tracks whose score is high enough, as KITTI's tracking benchmark and Weng et al. 2020 count.
 struct ThresholdScore {
   double threshold = 0.0;    ///< least mean score of a trajectory
   std::size_t required = 0;  ///< truths that must be found, summed over the frames
