@@ -18,6 +18,12 @@ constexpr int kWarmUp = 20;
 /// A target that is seen driving ahead, always by the same noise after so many scans.
 class FollowedTarget {
  public:
+  explicit FollowedTarget(bool adaptive = false) {
+    options_.transitions.adaptive = adaptive;
+    filter_ = ImmFilter(StateEstimate(), priorModeProbabilities(options_),
+                        TransitionPriors(options_.transitions).modelOf(ObjectClass::kUnknown));
+  }
+
   void step() {
     filter_.predict(step_);
     benchmark::DoNotOptimize(filter_.estimate());
@@ -41,13 +47,13 @@ class FollowedTarget {
 };
 
 void immPredictAndUpdate(benchmark::State& state) {
-  FollowedTarget target;
+  FollowedTarget target(state.range(0) != 0);
   for (auto _ : state) {
     target.step();
   }
   benchmark::DoNotOptimize(target.filter().estimate());
 }
-BENCHMARK(immPredictAndUpdate);
+BENCHMARK(immPredictAndUpdate)->ArgName("adaptive")->Arg(0)->Arg(1);
 
 void immLogLikelihood(benchmark::State& state) {
   FollowedTarget target;
@@ -60,6 +66,14 @@ void immLogLikelihood(benchmark::State& state) {
   }
 }
 BENCHMARK(immLogLikelihood);
+
+void immCopy(benchmark::State& state) {
+  const FollowedTarget target(true);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(ImmFilter(target.filter()));
+  }
+}
+BENCHMARK(immCopy);
 
 }  // namespace
 }  // namespace datmo

@@ -12,37 +12,36 @@ namespace {
 
 constexpr std::size_t kStanding = static_cast<std::size_t>(MotionMode::kStanding);
 
-using ModeEstimates = std::array<StateEstimate, kMotionModes>;
+/// First and second moments, one below the other, so that mixtures are sums: one column per mode.
+constexpr int kMoments = kTrackState + kTrackState * kTrackState;
+using Moments = Eigen::Matrix<double, kMoments, 1>;
+using ModeMoments = Eigen::Matrix<double, kMoments, kMotionModes>;
 
-/// First and second moments of each mode about a common origin near all of them, so that no digits
-/// are lost: they are mixed by adding them up.
-ModeEstimates momentsAbout(const TrackState& origin, const ModeEstimates& modes,
-                           const ModeVector& probabilities) {
-  ModeEstimates moments;
-  for (std::size_t mode = 0; mode < modes.size(); ++mode) {
-    if (probabilities[static_cast<int>(mode)] > 0.0) {
-      moments[mode].mean = modes[mode].mean - origin;
-      moments[mode].covariance =
-          modes[mode].covariance + moments[mode].mean * moments[mode].mean.transpose();
+/// Of each mode, about an origin near all of them, so that no digits are lost. Modes of probability
+/// 0 have no say.
+ModeMoments momentsAbout(const TrackState& origin,
+                         const std::array<StateEstimate, kMotionModes>& modes,
+                         const ModeVector& probabilities) {
+  ModeMoments moments;
+  for (int mode = 0; mode < kMotionModes; ++mode) {
+    auto column = moments.col(mode);
+    if (probabilities[mode] > 0.0) {
+      const StateEstimate& estimate = modes[static_cast<std::size_t>(mode)];
+      const TrackState offset = estimate.mean - origin;
+      column.head<kTrackState>() = offset;
+      Eigen::Map<TrackCovariance>(column.data() + kTrackState) =
+          estimate.covariance + offset * offset.transpose();
+    } else {
+      column.setZero();
     }
   }
   return moments;
 }
 
-/// The mixture of the modes with these weights, which sum to 1.
-StateEstimate mixture(const TrackState& origin, const ModeEstimates& moments,
-                      const ModeVector& weights) {
-  StateEstimate result{TrackState::Zero(), TrackCovariance::Zero()};
-  for (std::size_t mode = 0; mode < moments.size(); ++mode) {
-    const double weight = weights[static_cast<int>(mode)];
-    if (weight > 0.0) {
-      result.mean += weight * moments[mode].mean;
-      result.covariance += weight * moments[mode].covariance;
-    }
-  }
-  result.covariance -= result.mean * result.mean.transpose();
-  result.mean += origin;
-  return result;
+StateEstimate estimateOf(const TrackState& origin, const Moments& moments) {
+  const TrackState offset = moments.head<kTrackState>();
+  return {origin + offset, Eigen::Map<const TrackCovariance>(moments.data() + kTrackState) -
+                               offset * offset.transpose()};
 }
 
 }  // namespace
@@ -76,7 +75,7 @@ ImmFilter::ImmFilter(const StateEstimate& estimate, const ModeVector& mode_proba
 void ImmFilter::predict(const ImmStep& step) {
   const ModeMatrix& transition =
       transitions_ ? transitions_->predict(step.seconds) : step.transition;
-  const ModeEstimates moments = momentsAbout(combined_.mean, modes_, probabilities_);
+  const ModeMoments moments = momentsAbout(combined_.mean, modes_, probabilities_);
   const ModeMatrix joint = probabilities_.asDiagonal() * transition;
   probabilities_before_ = probabilities_;
   probabilities_ = joint.colwise().sum().transpose();
@@ -84,7 +83,7 @@ void ImmFilter::predict(const ImmStep& step) {
     const int column = static_cast<int>(to);
     if (probabilities_[column] > 0.0) {
       const ModeVector weights = joint.col(column) / probabilities_[column];
-      StateEstimate mixed = mixture(combined_.mean, moments, weights);
+      StateEstimate mixed = estimateOf(combined_.mean, moments * weights);
       if (to != kStanding) {
         mixed.covariance.diagonal() += weights[kStanding] * step.start_variance;
       }
@@ -149,8 +148,8 @@ ImmFilter::ModeLikelihoods ImmFilter::likelihoodsOf(const PositionMeasurement& m
 }
 
 void ImmFilter::combine() {
-  combined_ =
-      mixture(combined_.mean, momentsAbout(combined_.mean, modes_, probabilities_), probabilities_);
+  const TrackState origin = combined_.mean;
+  combined_ = estimateOf(origin, momentsAbout(origin, modes_, probabilities_) * probabilities_);
 }
 
 }  // namespace datmo

@@ -16,7 +16,7 @@ using ModeMatrix = Eigen::Matrix<double, kMotionModes, kMotionModes>;
 
 /// How the learning of jumps is held in check.
 struct TransitionLearningOptions {
-  double prior_exposure = 30.0;   ///< s
+  double prior_exposure = 20.0;   ///< s
   double class_exposure = 300.0;  ///< s
   double forgetting = 60.0;       ///< s
   double least_sojourn = 0.3;     ///< s
@@ -33,7 +33,7 @@ struct TransitionOptions {
   double turn_sojourn = 3.0;          ///< s
   double standing_sojourn = 10.0;     ///< s
   bool standing = true;
-  bool adaptive = false;
+  bool adaptive = true;
   TransitionLearningOptions learning;
 
   void visit(OptionVisitor& visitor);

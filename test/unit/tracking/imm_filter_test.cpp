@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kPeriod = 0.1;
 constexpr double kSigma = 0.1;
+constexpr int kStanding = static_cast<int>(MotionMode::kStanding);
 
 StateEstimate startAt(const Point2& position) {
   StateEstimate start;
@@ -131,6 +132,134 @@ TEST(ImmFilter, AMeasurementFarAwayUnderflowsNothing) {
   EXPECT_GE(filter.modeProbabilities().minCoeff(), 0.9 * options.least_probability);
   EXPECT_TRUE(filter.estimate().mean.allFinite());
   EXPECT_TRUE(filter.estimate().covariance.allFinite());
+}
+
+double speedOf(const ImmFilter& filter) { return filter.estimate().mean.segment<2>(2).norm(); }
+
+double velocityStd(const ImmFilter& filter) {
+  return std::sqrt(filter.estimate().covariance.diagonal().segment<2>(2).maxCoeff());
+}
+
+ImmOptions withoutStanding() {
+  ImmOptions options;
+  options.transitions.standing = false;
+  return options;
+}
+
+TEST(Standing, AnObjectThatStandsHasNoVelocityAndStaysInTheMode) {
+  const auto place = [](double) { return Point2(3.0, 4.0); };
+  for (const double seconds : {3.0, 10.0, 60.0}) {
+    const ImmFilter filter = follow(place, seconds);
+    EXPECT_GT(filter.modeProbabilities()[kStanding], 0.9) << seconds;
+    EXPECT_LT(speedOf(filter), 0.1) << seconds;
+    EXPECT_LT(velocityStd(filter), 0.15) << seconds;
+    EXPECT_LT((filter.estimate().mean.head<2>() - place(0.0)).norm(), 0.05) << seconds;
+  }
+  EXPECT_GT(velocityStd(follow(place, 10.0, withoutStanding())), 0.2);
+}
+
+TEST(Standing, TheEstimateFollowsWithinASecondOfTheStart) {
+  const double start = 10.0;
+  for (const double speed : {0.8, 1.5, 3.0}) {
+    const auto path = [&](double t) { return Point2(1.0, speed * std::max(0.0, t - start)); };
+    const ImmFilter filter = follow(path, start + 1.05);
+    EXPECT_NEAR(filter.estimate().mean[3], speed, 0.25 * speed);
+    EXPECT_LT(filter.modeProbabilities()[kStanding], 0.05) << speed;
+    EXPECT_LT((filter.estimate().mean.head<2>() - path(start + 1.0)).norm(), 0.15);
+  }
+}
+
+TEST(Standing, ACarThatPullsAwayIsFollowed) {
+  const double start = 10.0;
+  const auto path = [&](double t) {
+    const double driven = std::max(0.0, t - start);
+    return Point2(driven * driven, 0.0);
+  };
+  EXPECT_NEAR(follow(path, start + 1.05).estimate().mean[2], 2.0, 0.7);
+  EXPECT_NEAR(follow(path, start + 2.05).estimate().mean[2], 4.0, 0.5);
+}
+
+TEST(Standing, ComingToRestEndsInTheMode) {
+  const auto path = [](double t) {
+    const double braking = std::min(t, 4.0);
+    return Point2(8.0 * braking - braking * braking, 0.0);
+  };
+  const ImmFilter filter = follow(path, 6.0);
+  EXPECT_GT(filter.modeProbabilities()[kStanding], 0.8);
+  EXPECT_LT(speedOf(filter), 0.1);
+}
+
+TEST(Standing, SlowWalkingIsNotTakenForIt) {
+  const ImmFilter filter = follow([](double t) { return Point2(0.6 * t, 0.0); }, 10.0);
+  EXPECT_LT(filter.modeProbabilities()[kStanding], 0.2);
+  EXPECT_NEAR(filter.estimate().mean[2], 0.6, 0.2);
+}
+
+TEST(Standing, SwitchedOffItHasNoProbability) {
+  const ImmOptions options = withoutStanding();
+  ImmFilter filter(startAt(Point2::Zero()), priorModeProbabilities(options));
+  for (int i = 0; i < 50; ++i) {
+    filter.predict(immStep(options, kPeriod));
+    EXPECT_EQ(filter.modeProbabilities()[kStanding], 0.0);
+    filter.update({Point2::Zero(), Eigen::Matrix2d::Identity() * 0.01}, options.least_probability);
+    EXPECT_EQ(filter.modeProbabilities()[kStanding], 0.0);
+    EXPECT_NEAR(filter.modeProbabilities().sum(), 1.0, 1e-12);
+  }
+}
+
+TEST(ImmFilter, UpdateReturnsTheLogLikelihood) {
+  const ImmOptions options;
+  ImmFilter filter = follow([](double t) { return Point2(5.0 * t, 0.0); }, 2.0);
+  filter.predict(immStep(options, kPeriod));
+  const PositionMeasurement seen{Point2(10.1, 0.2), Eigen::Matrix2d::Identity() * 0.04};
+  const double expected = filter.logLikelihood(seen);
+  EXPECT_NEAR(filter.update(seen, options.least_probability), expected, 1e-12);
+}
+
+TEST(ImmFilter, AShiftMovesThePlaceAndNothingElse) {
+  const ImmStep step = immStep(ImmOptions(), kPeriod);
+  ImmFilter filter = follow([](double t) { return Point2(5.0 * t, 0.0); }, 2.0);
+  ImmFilter shifted = filter;
+  const Point2 offset(0.7, -0.3);
+  shifted.shift(offset);
+  for (ImmFilter* each : {&filter, &shifted}) {
+    each->predict(step);
+    const Point2 seen = Point2(10.0, 0.1) + (each == &shifted ? offset : Point2::Zero());
+    each->update({seen, Eigen::Matrix2d::Identity() * 0.04}, 1e-3);
+  }
+  TrackState expected = filter.estimate().mean;
+  expected.head<2>() += offset;
+  EXPECT_TRUE(shifted.estimate().mean.isApprox(expected, 1e-9));
+  EXPECT_TRUE(shifted.estimate().covariance.isApprox(filter.estimate().covariance, 1e-9));
+  EXPECT_TRUE(shifted.modeProbabilities().isApprox(filter.modeProbabilities(), 1e-9));
+}
+
+TEST(ImmFilter, FarFromTheOriginNoDigitsAreLost) {
+  const Point2 far(1e6, -2e6);
+  const auto path = [](double t) { return Point2(5.0 * t, 0.3 * t * t); };
+  const ImmFilter here = follow(path, 5.0);
+  const ImmFilter there = follow([&](double t) { return Point2(far + path(t)); }, 5.0);
+  EXPECT_TRUE(there.estimate().covariance.isApprox(here.estimate().covariance, 1e-6));
+  EXPECT_TRUE(there.modeProbabilities().isApprox(here.modeProbabilities(), 1e-6));
+}
+
+TEST(ImmFilter, WhatMayNotBeLearntEqualsTheFixedTransitions) {
+  ImmOptions options;
+  options.transitions.adaptive = true;
+  options.transitions.learning.prior_exposure = 1e5;
+  const ImmStep step = immStep(options, kPeriod);
+  const ModeVector prior = priorModeProbabilities(options);
+  ImmFilter fixed(startAt(Point2::Zero()), prior);
+  ImmFilter adaptive(startAt(Point2::Zero()), prior,
+                     TransitionPriors(options.transitions).modelOf(ObjectClass::kUnknown));
+  for (int i = 1; i < 50; ++i) {
+    for (ImmFilter* filter : {&fixed, &adaptive}) {
+      filter->predict(step);
+      filter->update({Point2(0.02 * i * i, 0.0), Eigen::Matrix2d::Identity() * 0.01}, 1e-3);
+    }
+  }
+  EXPECT_TRUE(adaptive.modeProbabilities().isApprox(fixed.modeProbabilities(), 1e-3));
+  EXPECT_TRUE(adaptive.estimate().mean.isApprox(fixed.estimate().mean, 1e-4));
 }
 
 /// Objects that jump between the models with the filter's own transition probabilities.
