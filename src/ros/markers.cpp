@@ -1,10 +1,9 @@
 #include "datmo_fusion/ros/markers.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
 #include <utility>
+
+#include "marker_parts.h"
 
 #include "datmo_fusion/common/pose2.h"
 #include "datmo_fusion/ros/message_conversion.h"
@@ -15,15 +14,6 @@ namespace {
 
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
-
-std_msgs::ColorRGBA colour(float red, float green, float blue, float alpha = 1.0F) {
-  std_msgs::ColorRGBA result;
-  result.r = red;
-  result.g = green;
-  result.b = blue;
-  result.a = alpha;
-  return result;
-}
 
 std_msgs::ColorRGBA colourOfPoint(std::uint8_t state) {
   switch (state) {
@@ -41,35 +31,6 @@ std_msgs::ColorRGBA colourOfObject(std::uint8_t dynamic_state) {
                                                       : colour(0.6F, 0.6F, 0.6F);
 }
 
-/// Neighbouring ids look different: hues a golden section apart, those of a standing track pale.
-std_msgs::ColorRGBA colourOfTrack(std::uint32_t id, bool moving) {
-  constexpr double kGoldenSection = 0.618033988749895;
-  const double hue = std::fmod(id * kGoldenSection, 1.0);
-  const auto channel = [&](double shift) {
-    const double wave = 0.5 + 0.5 * std::cos(2.0 * kPi * (hue - shift));
-    return static_cast<float>(moving ? wave : 0.5 + 0.25 * wave);
-  };
-  return colour(channel(0.0), channel(1.0 / 3.0), channel(2.0 / 3.0), 0.6F);
-}
-
-Marker makeMarker(const std_msgs::Header& header, const std::string& name, int type) {
-  Marker marker;
-  marker.header = header;
-  marker.ns = name;
-  marker.type = type;
-  marker.action = Marker::ADD;
-  marker.pose.orientation.w = 1.0;
-  return marker;
-}
-
-geometry_msgs::Point pointAt(double x, double y, double z = 0.0) {
-  geometry_msgs::Point point;
-  point.x = x;
-  point.y = y;
-  point.z = z;
-  return point;
-}
-
 /// A rectangle on the ground, about `pose`.
 Marker outline(const std_msgs::Header& header, const std::string& name,
                const geometry_msgs::Pose& pose, const geometry_msgs::Vector3& size,
@@ -80,48 +41,6 @@ Marker outline(const std_msgs::Header& header, const std::string& name,
   const double x = 0.5 * std::max(size.x, options.least_size);
   const double y = 0.5 * std::max(size.y, options.least_size);
   marker.points = {pointAt(x, y), pointAt(-x, y), pointAt(-x, -y), pointAt(x, -y), pointAt(x, y)};
-  return marker;
-}
-
-double heightOf(const TrackMessage& track, const MarkersOptions& options) {
-  return track.size.z > 0.0 ? track.size.z : options.default_height;
-}
-
-Marker boxOf(const std_msgs::Header& header, const TrackMessage& track,
-             const MarkersOptions& options) {
-  Marker marker = makeMarker(header, "track boxes", Marker::CUBE);
-  marker.pose = track.pose;
-  marker.scale.x = std::max(track.size.x, options.least_size);
-  marker.scale.y = std::max(track.size.y, options.least_size);
-  marker.scale.z = heightOf(track, options);
-  marker.pose.position.z = 0.5 * marker.scale.z;
-  return marker;
-}
-
-Marker arrowOf(const std_msgs::Header& header, const TrackMessage& track,
-               const MarkersOptions& options) {
-  Marker marker = makeMarker(header, "track velocities", Marker::ARROW);
-  marker.scale.x = 2.0 * options.line_width;  // shaft
-  marker.scale.y = 5.0 * options.line_width;  // head
-  const geometry_msgs::Point& from = track.pose.position;
-  const double z = heightOf(track, options);
-  marker.points = {pointAt(from.x, from.y, z),
-                   pointAt(from.x + track.velocity.x * options.arrow_time,
-                           from.y + track.velocity.y * options.arrow_time, z)};
-  return marker;
-}
-
-Marker labelOf(const std_msgs::Header& header, const TrackMessage& track,
-               const MarkersOptions& options) {
-  Marker marker = makeMarker(header, "track labels", Marker::TEXT_VIEW_FACING);
-  marker.pose.position = track.pose.position;
-  marker.pose.position.y += options.text_height;  // beside the arrow, seen from above
-  marker.pose.position.z = heightOf(track, options) + options.text_height;
-  marker.scale.z = options.text_height;
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "#%u %.1f m/s", track.id,
-                std::hypot(track.velocity.x, track.velocity.y));
-  marker.text = text.data();
   return marker;
 }
 
@@ -167,22 +86,6 @@ MarkerArray markersOf(const ObjectArray& objects, const MarkersOptions& options)
     marker.id = static_cast<int>(markers.markers.size());
     marker.color = colourOfObject(object.dynamic_state);
     markers.markers.push_back(marker);
-  }
-  return markers;
-}
-
-MarkerArray markersOf(const TrackArray& tracks, const MarkersOptions& options) {
-  MarkerArray markers;
-  for (const TrackMessage& track : tracks.tracks) {
-    std_msgs::ColorRGBA body = colourOfTrack(track.id, track.moving);
-    for (Marker marker :
-         {boxOf(tracks.header, track, options), arrowOf(tracks.header, track, options),
-          labelOf(tracks.header, track, options)}) {
-      marker.id = static_cast<int>(track.id);
-      marker.color = body;
-      markers.markers.push_back(marker);
-      body.a = 1.0F;  // only the box is translucent
-    }
   }
   return markers;
 }

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "message_parts.h"
+
 #include "datmo_fusion/ros/input_error.h"
 #include "datmo_fusion/ros/stamp_check.h"
 
@@ -19,13 +21,6 @@ std::size_t indexInSix(int row, int column) {
   constexpr std::array<std::size_t, 3> kPlanar = {0, 1, 5};
   return 6 * kPlanar.at(static_cast<std::size_t>(row)) +
          kPlanar.at(static_cast<std::size_t>(column));
-}
-
-std_msgs::Header header(Stamp stamp, const std::string& frame) {
-  std_msgs::Header result;
-  result.stamp = toTime(stamp);
-  result.frame_id = frame;
-  return result;
 }
 
 ScanPointMessage toMessage(const ScanPoint& point) {
@@ -82,95 +77,6 @@ ScanField fromMessage(const ScanFieldMessage& message) {
                                       std::to_string(kMostBeams) + " beams");
   }
   return field;
-}
-
-geometry_msgs::Vector3 size(const Box2& box, double height) {
-  geometry_msgs::Vector3 result;
-  result.x = box.length;
-  result.y = box.width;
-  result.z = height;
-  return result;
-}
-
-ObjectMessage toMessage(const Object& object) {
-  ObjectMessage message;
-  message.pose = toMessage(object.box.centre);
-  message.size = size(object.box, object.height);
-  Eigen::Map<Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(message.position_covariance.data()) =
-      object.position_covariance;
-  message.heading_variance = object.heading_variance;
-  message.classification = static_cast<std::uint8_t>(object.object_class);
-  message.class_probability = static_cast<float>(object.class_probability);
-  message.dynamic_state = static_cast<std::uint8_t>(object.dynamic_state);
-  message.moving_fraction = static_cast<float>(object.moving_fraction);
-  message.sensors = object.sensors;
-  for (const Point2& point : object.points) {
-    geometry_msgs::Point32 end;
-    end.x = static_cast<float>(point.x());
-    end.y = static_cast<float>(point.y());
-    message.points.push_back(end);
-  }
-  return message;
-}
-
-/// A value beyond the last one that has a name is not known (zero in both enumerations).
-template <typename Enumeration>
-Enumeration named(std::uint8_t value, Enumeration last) {
-  return value <= static_cast<std::uint8_t>(last) ? static_cast<Enumeration>(value)
-                                                  : Enumeration::kUnknown;
-}
-
-Pose2 boxCentre(const geometry_msgs::Pose& pose) {
-  const auto& q = pose.orientation;
-  return {pose.position.x, pose.position.y, 2.0 * std::atan2(q.z, q.w)};
-}
-
-Object fromMessage(const ObjectMessage& message) {
-  Object object;
-  object.box = {boxCentre(message.pose), message.size.x, message.size.y};
-  object.position_covariance = Eigen::Map<const Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(
-      message.position_covariance.data());
-  object.heading_variance = message.heading_variance;
-  object.height = message.size.z;
-  object.object_class = classFromMessage(message.classification);
-  object.class_probability = message.class_probability;
-  object.dynamic_state = named(message.dynamic_state, DynamicState::kMoving);
-  object.moving_fraction = message.moving_fraction;
-  object.sensors = message.sensors;
-  for (const auto& point : message.points) {
-    object.points.emplace_back(point.x, point.y);
-  }
-  return object;
-}
-
-geometry_msgs::Vector3 planar(double x, double y) {
-  geometry_msgs::Vector3 vector;
-  vector.x = x;
-  vector.y = y;
-  return vector;
-}
-
-TrackMessage toMessage(const Track& track) {
-  TrackMessage message;
-  message.id = track.id;
-  message.pose = toMessage(track.box.centre);
-  message.size = size(track.box, track.height);
-  message.velocity = planar(track.state(2), track.state(3));
-  message.acceleration = planar(track.state(4), track.state(5));
-  message.yaw_rate = track.yaw_rate;
-  Eigen::Map<Eigen::Matrix<double, kTrackState, kTrackState, Eigen::RowMajor>>(
-      message.covariance.data()) = track.covariance;
-  message.moving = track.moving;
-  for (const double probability : track.mode_probabilities) {
-    message.mode_probabilities.push_back(static_cast<float>(probability));
-  }
-  message.classification = static_cast<std::uint8_t>(track.object_class);
-  message.class_probability = static_cast<float>(track.class_probability);
-  message.age = ros::Duration(track.age);
-  message.since_update = ros::Duration(track.since_update);
-  message.hits = track.hits;
-  message.sensors = track.sensors;
-  return message;
 }
 
 }  // namespace
@@ -243,17 +149,13 @@ OdometrySample toSample(const nav_msgs::Odometry& message) {
   return {toStamp(message.header.stamp), twist};
 }
 
-ObjectClass classFromMessage(std::uint8_t value) { return named(value, ObjectClass::kPole); }
-
 SplitScanMessage toMessage(const SplitScan& scan, const std::string& base_frame,
                            const std::string& map_frame) {
   SplitScanMessage message;
   message.header = header(scan.stamp, base_frame);
   message.map_frame = map_frame;
   message.pose = toMessage(scan.base_in_map);
-  message.scanner.x = scan.scanner_in_base.x();
-  message.scanner.y = scan.scanner_in_base.y();
-  message.scanner.theta = scan.scanner_in_base.heading();
+  message.scanner = toPose2D(scan.scanner_in_base);
   message.field = toMessage(scan.field);
   message.blind_beams.assign(scan.blind_beams.begin(), scan.blind_beams.end());
   for (const ScanPoint& point : scan.points) {
@@ -279,33 +181,6 @@ SplitScan fromMessage(const SplitScanMessage& message) {
     scan.points.push_back(fromMessage(point));
   }
   return scan;
-}
-
-ObjectArray toMessage(const ObjectList& list, const std::string& base_frame) {
-  ObjectArray message;
-  message.header = header(list.stamp, base_frame);
-  for (const Object& object : list.objects) {
-    message.objects.push_back(toMessage(object));
-  }
-  return message;
-}
-
-ObjectList fromMessage(const ObjectArray& message) {
-  ObjectList list;
-  list.stamp = toStamp(message.header.stamp);
-  for (const ObjectMessage& object : message.objects) {
-    list.objects.push_back(fromMessage(object));
-  }
-  return list;
-}
-
-TrackArray toMessage(const TrackList& list, const std::string& fixed_frame) {
-  TrackArray message;
-  message.header = header(list.stamp, fixed_frame);
-  for (const Track& track : list.tracks) {
-    message.tracks.push_back(toMessage(track));
-  }
-  return message;
 }
 
 nav_msgs::OccupancyGrid toMessage(const OccupancyMap& map, Stamp stamp,

@@ -15,6 +15,11 @@ bool isAmount(double value) { return std::isfinite(value) && value >= 0.0; }
 
 bool isShare(double value) { return value >= 0.0 && value <= 1.0; }
 
+bool areSides(const std::array<double, kBoxSides>& variances) {
+  return std::all_of(variances.begin(), variances.end(),
+                     [](double variance) { return variance >= 0.0; });
+}
+
 bool isCovariance(const Eigen::Matrix2d& matrix) {
   const double trace = matrix.trace();
   return std::isfinite(matrix.sum()) && matrix(0, 0) > 0.0 &&
@@ -29,6 +34,7 @@ bool isValid(const Object& object) {
   return std::isfinite(centre.x()) && std::isfinite(centre.y()) &&
          std::isfinite(centre.heading()) && isAmount(object.box.length) &&
          isAmount(object.box.width) && isAmount(object.heading_variance) &&
+         areSides(object.side_variance) && std::isfinite(object.log_odds) &&
          isAmount(object.height) && isShare(object.moving_fraction) &&
          isShare(object.class_probability) && isCovariance(object.position_covariance);
 }

@@ -119,6 +119,7 @@ Track Target::track(const TargetOptions& options) const {
   }
   track.box = box();
   track.height = height_;
+  track.heading_variance = box_.headingVariance();
   track.yaw_rate =
       options.filter.motion.turn_rate * (modes[static_cast<int>(MotionMode::kLeftTurn)] -
                                          modes[static_cast<int>(MotionMode::kRightTurn)]);

@@ -12,22 +12,6 @@ namespace {
 
 using nlohmann::json;
 
-const char* className(ObjectClass classification) {
-  switch (classification) {
-    case ObjectClass::kPedestrian:
-      return "pedestrian";
-    case ObjectClass::kCyclist:
-      return "cyclist";
-    case ObjectClass::kVehicle:
-      return "vehicle";
-    case ObjectClass::kPole:
-      return "pole";
-    case ObjectClass::kUnknown:
-      break;
-  }
-  return "unknown";
-}
-
 double milliseconds(double seconds) { return 1e3 * seconds; }
 
 /// All options by their full keys.
@@ -120,7 +104,7 @@ json objectsJson(const RunScore& score) {
     json entry = toJson(object.errors);
     entry.update({{"id", object.id},
                   {"label", score.truth_labels.at(object.id)},
-                  {"class", className(object.classification)},
+                  {"class", nameOf(object.classification)},
                   {"first_s", secondsBetween(start, object.first)},
                   {"last_s", secondsBetween(start, object.last)},
                   {"required_frames", object.required_frames},
@@ -139,7 +123,7 @@ json standingJson(const RunScore& score) {
   for (const StandingObject& object : score.standing_objects) {
     objects.push_back({{"id", object.id},
                        {"label", score.truth_labels.at(object.id)},
-                       {"class", className(object.classification)},
+                       {"class", nameOf(object.classification)},
                        {"frames", object.frames},
                        {"tracked_frames", object.tracked_frames}});
   }

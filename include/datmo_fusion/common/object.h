@@ -19,6 +19,9 @@ namespace datmo {
 enum class ObjectClass : std::uint8_t { kUnknown, kPedestrian, kCyclist, kVehicle, kPole };
 inline constexpr std::size_t kObjectClasses = 5;
 
+/// One lower-case word.
+const char* nameOf(ObjectClass object_class);
+
 /// Whether an object moves over ground, as one measurement shows it; values as in Object.msg.
 enum class DynamicState : std::uint8_t { kUnknown, kStatic, kMoving };
 

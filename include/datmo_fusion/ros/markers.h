@@ -26,18 +26,23 @@ struct MarkersOptions {
 /// Messages -> what rviz draws. One namespace for each kind of marker, ids that stay with what they
 /// stand for; the frame is the message's own unless said otherwise.
 
-/// The end points of a scan, coloured by state, in the map frame of the pose they were seen from.
+/// The end points of a scan ("scan"), coloured by state, in the map frame of the pose they were
+/// seen from.
 visualization_msgs::MarkerArray markersOf(const SplitScanMessage& scan,
                                           const MarkersOptions& options);
 
-/// Outlines of the objects' boxes, coloured by dynamic state.
+/// Outlines of the objects' boxes ("objects"), coloured by dynamic state.
 visualization_msgs::MarkerArray markersOf(const ObjectArray& objects,
                                           const MarkersOptions& options);
 
-/// For each track a box, an arrow as long as the way of `arrow_time`, and "#id speed".
+/// For each track, in namespaces of their own: a box ("track boxes"), the fainter the less likely
+/// the track exists; an arrow as long as the way of `arrow_time` ("track velocities"); "#id class
+/// speed"
+/// ("track labels"); the ellipse on the ground that holds the true position with 95 % ("track
+/// covariances"); the way it came ("track paths").
 visualization_msgs::MarkerArray markersOf(const TrackArray& tracks, const MarkersOptions& options);
 
-/// Outlines of the true objects that move.
+/// Outlines of the true objects that move ("ground truth").
 visualization_msgs::MarkerArray markersOf(const TrueObjectArray& objects,
                                           const MarkersOptions& options);
 

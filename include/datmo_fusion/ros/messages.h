@@ -13,6 +13,7 @@ namespace datmo {
 // namespace of the package's name. Those that have a struct of the same name in the core end in
 // Message.
 using ObjectMessage = datmo_fusion::Object;
+using PathPointMessage = datmo_fusion::PathPoint;
 using ScanFieldMessage = datmo_fusion::ScanField;
 using ScanPointMessage = datmo_fusion::ScanPoint;
 using SplitScanMessage = datmo_fusion::SplitScan;

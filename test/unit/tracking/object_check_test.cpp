@@ -1,10 +1,14 @@
 #include "datmo_fusion/tracking/object_check.h"
 
+#include <limits>
+
 #include "tracking_scene.h"
 #include <gtest/gtest.h>
 
 namespace datmo {
 namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(ObjectCheck, TransformTurnsPlaceCovarianceAndPoints) {
   Object object = objectAt(2.0, 0.0);
@@ -36,6 +40,39 @@ TEST(ObjectCheck, SharesAreFromZeroToOne) {
   EXPECT_FALSE(isValid(object));
   object.moving_fraction = 1.0;
   object.class_probability = -0.5;
+  EXPECT_FALSE(isValid(object));
+}
+
+TEST(ObjectCheck, RefusesACovarianceWithoutSpread) {
+  Object object = objectAt(1.0, 2.0);
+  object.position_covariance.setZero();
+  EXPECT_FALSE(isValid(object));
+  object.position_covariance << 1.0, 1.0, 1.0, 1.0;
+  EXPECT_FALSE(isValid(object)) << "semidefinite";
+  object.position_covariance = kNan * Eigen::Matrix2d::Identity();
+  EXPECT_FALSE(isValid(object));
+}
+
+TEST(ObjectCheck, SidesAreKnownOrHidden) {
+  Object object = objectAt(1.0, 2.0);
+  object.side_variance = {0.0, kHiddenSide, 0.25, kHiddenSide};
+  EXPECT_TRUE(isValid(object));
+  for (std::size_t side = 0; side < kBoxSides; ++side) {
+    for (const double bad : {-0.1, kNan, -kHiddenSide}) {
+      Object spoiled = object;
+      spoiled.side_variance[side] = bad;
+      EXPECT_FALSE(isValid(spoiled)) << "side " << side << ": " << bad;
+    }
+  }
+}
+
+TEST(ObjectCheck, LogOddsAreFinite) {
+  Object object = objectAt(1.0, 2.0);
+  object.log_odds = -12.5;
+  EXPECT_TRUE(isValid(object));
+  object.log_odds = kNan;
+  EXPECT_FALSE(isValid(object));
+  object.log_odds = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(isValid(object));
 }
 

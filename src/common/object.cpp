@@ -1,0 +1,21 @@
+#include "datmo_fusion/common/object.h"
+
+namespace datmo {
+
+const char* nameOf(ObjectClass object_class) {
+  switch (object_class) {
+    case ObjectClass::kPedestrian:
+      return "pedestrian";
+    case ObjectClass::kCyclist:
+      return "cyclist";
+    case ObjectClass::kVehicle:
+      return "vehicle";
+    case ObjectClass::kPole:
+      return "pole";
+    case ObjectClass::kUnknown:
+      break;
+  }
+  return "unknown";
+}
+
+}  // namespace datmo

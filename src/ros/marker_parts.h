@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+
+#include <geometry_msgs/Point.h>
+#include <std_msgs/ColorRGBA.h>
+#include <std_msgs/Header.h>
+#include <visualization_msgs/Marker.h>
+
+namespace datmo {
+
+inline std_msgs::ColorRGBA colour(float red, float green, float blue, float alpha = 1.0F) {
+  std_msgs::ColorRGBA result;
+  result.r = red;
+  result.g = green;
+  result.b = blue;
+  result.a = alpha;
+  return result;
+}
+
+inline visualization_msgs::Marker makeMarker(const std_msgs::Header& header,
+                                             const std::string& name, int type) {
+  visualization_msgs::Marker marker;
+  marker.header = header;
+  marker.ns = name;
+  marker.type = type;
+  marker.action = visualization_msgs::Marker::ADD;
+  marker.pose.orientation.w = 1.0;
+  return marker;
+}
+
+inline geometry_msgs::Point pointAt(double x, double y, double z = 0.0) {
+  geometry_msgs::Point point;
+  point.x = x;
+  point.y = y;
+  point.z = z;
+  return point;
+}
+
+}  // namespace datmo
