@@ -48,7 +48,7 @@ class Options(NamedTuple):
     odometry: bool = True  # where both of these topics are there
     wheel_radius: float = 0.031  # m
     mount: np.ndarray = np.array(
-        [-0.152, 0.015, math.radians(0.25)]
+        [-0.152, 0.0, math.radians(0.3)]
     )  # x, y, yaw of the scanner in base_link
     clockwise: bool = True  # the last beam of a message is the first in time
     sweep_time: Optional[float] = None  # s from the first beam to the last; None: between scans

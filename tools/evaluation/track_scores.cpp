@@ -2,11 +2,16 @@
 
 #include "evaluation/scored_run.h"
 
+#include "datmo_fusion/slam/odometry_buffer.h"
+
 namespace datmo::evaluation {
 
 void TrackScoreOptions::visit(OptionVisitor& visitor) {
   visitor.group("matching", [&] { matching.visit(visitor); });
   visitor.group("gospa", [&] { gospa.visit(visitor); });
+  visitor.number({"false_mover_speed", "m/s",
+                  "a false track counts as a false mover if it is faster than half a slow walk"},
+                 false_mover_speed, {0.0, kMostSpeed});
 }
 
 TrackScores scoreTracks(const Frames& frames, const TrackScoreOptions& options) {
@@ -15,6 +20,7 @@ TrackScores scoreTracks(const Frames& frames, const TrackScoreOptions& options) 
   scores.matching = matchFrames(frames, options.matching);
   scores.frames = scoreFrames(frames, scores.matching);
   scores.clear_mot = scoreClearMot(frames, scores.matching, options.matching);
+  scores.false_movers = countFalseMovers(frames, scores.matching, options.false_mover_speed);
   const ScoredRun run = scoredRun(frames, scores.matching);
   scores.identity = scoreIdentity(run);
   scores.hota = scoreHota(run, options.matching.gate);

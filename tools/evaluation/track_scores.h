@@ -5,6 +5,7 @@
 
 #include "evaluation/clear_mot.h"
 #include "evaluation/consistency.h"
+#include "evaluation/false_movers.h"
 #include "evaluation/frame_scores.h"
 #include "evaluation/gospa.h"
 #include "evaluation/hota.h"
@@ -19,6 +20,7 @@ namespace datmo::evaluation {
 struct TrackScoreOptions {
   MatchOptions matching;
   GospaOptions gospa;
+  double false_mover_speed = 0.5;  ///< m/s
 
   void visit(OptionVisitor& visitor);
 };
@@ -29,6 +31,7 @@ struct TrackScores {
   std::vector<FrameScore> frames;   ///< of each frame
   std::vector<Gospa> gospa_frames;  ///< of each frame
   ClearMot clear_mot;
+  FalseMovers false_movers;
   IdentityScores identity;
   HotaScores hota;
   std::optional<Gospa> gospa;  ///< mean over the frames

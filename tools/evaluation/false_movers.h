@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "evaluation/matching.h"
+
+namespace datmo::evaluation {
+
+/// Tracks that say that something moves where nothing is.
+struct FalseMovers {
+  std::size_t frames = 0;  ///< that were scored
+  std::size_t tracks = 0;  ///< false ones, summed over the frames
+
+  /// Mean number of them in a frame; none: no frame.
+  std::optional<double> perFrame() const;
+};
+
+/// A track is a false mover if it is faster than `least_speed` (m/s) and not within the gate of any
+/// true object, matched or not. `matching` is of these frames.
+FalseMovers countFalseMovers(const Frames& frames, const Matching& matching, double least_speed);
+
+}  // namespace datmo::evaluation
