@@ -126,6 +126,7 @@ Visibility::Visibility(const SplitScan& scan, const VisibilityOptions& options)
   least_range_ = field.least_range;
   range_ = field.range;
   free_range_ = field.free_range > 0.0 ? field.free_range : field.range;
+  by_beams_ = true;
   setFan(field.first_bearing, field.beam_spacing, field.beams);
   for (const std::uint32_t beam : scan.blind_beams) {
     if (beam < reach_.size()) {
@@ -144,7 +145,7 @@ Visibility::Visibility(const FieldOfView& view, const std::vector<Box2>& seen,
     : Visibility(options) {
   sensor_in_base_ = view.sensor_in_base;
   range_ = view.range;
-  free_range_ = view.range;
+  free_range_ = view.sure_range;
   const double beams =
       std::max(0.0, std::round((view.most_bearing - view.least_bearing) / kFanSpacing));
   setFan(view.least_bearing + 0.5 * kFanSpacing, kFanSpacing, static_cast<std::size_t>(beams));
@@ -201,11 +202,8 @@ double Visibility::clearShare(const Looks& looks, const Shift& shift) const {
   return static_cast<double>(clear) / kLooks;
 }
 
-double Visibility::beamDetection(double range) const {
-  if (range <= free_range_) {
-    return options_.beam_detection;
-  }
-  return options_.beam_detection * std::max(0.0, (range_ - range) / (range_ - free_range_));
+double Visibility::strengthAt(double range) const {
+  return range <= free_range_ ? 1.0 : std::max(0.0, (range_ - range) / (range_ - free_range_));
 }
 
 double Visibility::anyReturns(double beams, double chance) {
@@ -224,10 +222,12 @@ double Visibility::detectionProbability(const Box2& box_in_base, double sigma) c
     return options_.unknown_probability;
   }
   const double beams = outline.width() / std::abs(beam_spacing_);
-  const double chance = beamDetection(outline.distance());
+  const double strength = strengthAt(outline.distance());
   const Looks looks = looksAt(outline);
   const auto seenAt = [&](const Shift& shift) {
-    return anyReturns(beams * clearShare(looks, shift), chance);
+    const double clear = clearShare(looks, shift);
+    return by_beams_ ? anyReturns(beams * clear, strength * options_.beam_detection)
+                     : strength * clear;
   };
   double mean = seenAt({});
   if (sigma > 0.0) {

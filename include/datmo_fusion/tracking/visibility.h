@@ -26,14 +26,16 @@ struct FieldOfView {
   Pose2 sensor_in_base;
   double least_bearing = -kPi;  ///< rad, about the sensor, from its x axis to the left
   double most_bearing = kPi;    ///< rad, more than the least one, by 2 pi at most
-  double range = 0.0;           ///< m
+  double sure_range = 0.0;      ///< m, up to here it finds all that it can see
+  double range = 0.0;           ///< m, from there on less and less of it, up to here
 };
 
 /// What a sensor could have seen at one time: how likely an object would have been detected, by
 /// field of view, range and occlusion by what is nearer. Vehicle's frame (base_link).
 ///
-/// The view is a fan of beams, each of which reaches as far as the sensor saw along it. The
-/// detector is taken to find an object by one beam that meets it and returns.
+/// The view is a fan of beams, each of which reaches as far as the sensor saw along it. In a scan an
+/// object is taken to be detected by one beam that meets it and returns, in a field of view by the
+/// share of it that is not hidden.
 class Visibility {
  public:
   /// Nothing is known of the view: every object is seen with `unknown_probability`.
@@ -80,8 +82,8 @@ class Visibility {
   /// Share of them in which the sensor saw as far as the object.
   double clearShare(const Looks& looks, const Shift& shift) const;
 
-  /// Chance that one beam that meets an object at this range returns.
-  double beamDetection(double range) const;
+  /// What is left at this range of the chance to see an object: 1 in the free range.
+  double strengthAt(double range) const;
 
   /// That at least one of this many beams returns, each by this chance.
   static double anyReturns(double beams, double chance);
@@ -91,8 +93,9 @@ class Visibility {
   double first_bearing_ = 0.0;  ///< rad, of beam 0
   double beam_spacing_ = 0.0;   ///< rad, more than 0 to the left
   double least_range_ = 0.0;    ///< m
-  double free_range_ = 0.0;     ///< m, up to here an object returns as many beams as a near one
+  double free_range_ = 0.0;     ///< m, up to here an object is seen as well as a near one
   double range_ = 0.0;          ///< m
+  bool by_beams_ = false;       ///< a scan; else a field of view
   std::vector<double> reach_;   ///< m, of each beam; empty: unknown
 };
 

@@ -230,7 +230,7 @@ TEST(Visibility, StaysWithinItsBounds) {
 }
 
 TEST(Visibility, AFieldOfViewWithBoxesHidesWhatIsBehindThem) {
-  const FieldOfView view{Pose2(1.0, 0.0, 0.0), degrees(-40.0), degrees(40.0), 70.0};
+  const FieldOfView view{Pose2(1.0, 0.0, 0.0), degrees(-40.0), degrees(40.0), 50.0, 70.0};
   const Box2 van{{15.0, 0.0, 0.0}, 5.0, 2.2};
   const Visibility visibility(view, {van}, kOptions);
   const auto p = [&](const Box2& box) { return visibility.detectionProbability(box, 0.0); };
@@ -240,10 +240,11 @@ TEST(Visibility, AFieldOfViewWithBoxesHidesWhatIsBehindThem) {
   EXPECT_GT(p(pedestrianAt(25.0, 8.0)), 0.9) << "beside it";
   EXPECT_EQ(p(carAt(10.0, 15.0)), kOptions.least_probability) << "outside the field";
   EXPECT_EQ(p(carAt(80.0, 0.0)), kOptions.least_probability) << "out of reach";
+  EXPECT_NEAR(p(carAt(59.1, 15.0)), 0.5 * kOptions.most_probability, 0.01) << "hard to see";
 }
 
 TEST(Visibility, AViewWithoutWidthSeesNothing) {
-  const FieldOfView view{Pose2(), 1.0, -1.0, 50.0};
+  const FieldOfView view{Pose2(), 1.0, -1.0, 50.0, 50.0};
   EXPECT_EQ(Visibility(view, {}, kOptions).detectionProbability(carAt(10.0, 0.0), 0.0),
             kOptions.unknown_probability);
 }
