@@ -74,33 +74,9 @@ class CommandLine(unittest.TestCase):
 
     def test_truth_and_options_are_passed_on(self):
         bag = self.bag("a.bag")
-        self.evaluate(
-            bag,
-            "--truth",
-            "t.bag",
-            "--options",
-            "o.yaml",
-            "--set",
-            "region/range=30",
-            "--set",
-            "align=none",
-        )
-        self.assertEqual(
-            self.calls(),
-            [
-                [
-                    str(bag),
-                    "t.bag",
-                    "--options",
-                    "o.yaml",
-                    "--set",
-                    "region/range=30",
-                    "--set",
-                    "align=none",
-                    "--out",
-                ]
-            ],
-        )
+        options = ["--options", "o.yaml", "--set", "region/range=30", "--set", "align=none"]
+        self.evaluate(bag, "--truth", "t.bag", *options)
+        self.assertEqual(self.calls(), [[str(bag), "t.bag", *options, "--out"]])
 
     def test_runs_side_by_side(self):
         better = self.bag("b.bag", clear_mot={"mota": 0.6})

@@ -1,153 +1,25 @@
 #!/usr/bin/python3
-"""score_run as a program, on small bags that are made here: exit codes, messages, whole reports."""
+"""score_run as a program, on small bags: whole reports, and how it is called."""
 
-import copy
 import json
-import os
-import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 
-import rosbag
-import rospy
-from geometry_msgs.msg import Point, Pose, PoseWithCovarianceStamped, Quaternion, Vector3
-from nav_msgs.msg import Odometry
-from std_msgs.msg import Header
-
-from datmo_fusion.msg import (
-    Object,
-    ObjectArray,
-    RoadBorders,
-    StageTiming,
-    Track,
-    TrackArray,
-    TrueObject,
-    TrueObjectArray,
-    TrueRoadBorders,
+from score_run_bags import (
+    CAR_AHEAD,
+    FRAMES,
+    ScoreRunCase,
+    car_at,
+    header,
+    identity,
+    pose_at,
+    track_at,
+    write,
 )
 
-SCORE_RUN = os.environ["DATMO_FUSION_SCORE_RUN"]
-
-FRAMES = 21
-PERIOD = 0.1  # s
-START = 1000.0  # s
-SPEED = 10.0  # m/s, of the car and of the vehicle behind it
-CAR_AHEAD = 20.0  # m
-
-NAN = float("nan")
+from datmo_fusion.msg import Object, ObjectArray, RoadBorders, StageTiming, TrueRoadBorders
 
 
-def header(frame, i):
-    return Header(stamp=rospy.Time.from_sec(START + PERIOD * i), frame_id=frame)
-
-
-def pose_at(x, y=0.0):
-    return Pose(position=Point(x, y, 0.0), orientation=Quaternion(0.0, 0.0, 0.0, 1.0))
-
-
-def identity(size):
-    return [float(i % (size + 1) == 0) for i in range(size * size)]
-
-
-def track_at(number, x, y=0.0):
-    return Track(
-        id=number, pose=pose_at(x, y), size=Vector3(4.0, 2.0, 0.0), velocity=Vector3(SPEED, 0, 0),
-        covariance=identity(6), moving=True, sensors=["scanner"],
-    )  # fmt: skip
-
-
-def car_at(number, x, y=0.0):
-    return TrueObject(
-        id=number, label="Car", classification=Object.CLASS_VEHICLE, pose=pose_at(x, y),
-        size=Vector3(4.0, 2.0, 1.5), velocity=Vector3(SPEED, 0.0, 0.0), moving=True,
-        visible_to=["scanner"], lidar_beams=3,
-    )  # fmt: skip
-
-
-def run_messages():
-    """Topic -> messages of a run that follows the car half a metre beside it, by id 7."""
-    messages = {"/tracks": [], "/pose": []}
-    for i in range(FRAMES):
-        way = SPEED * PERIOD * i
-        tracks = [track_at(7, way + CAR_AHEAD, 0.5)]
-        pose = PoseWithCovarianceStamped(header=header("map", i))
-        pose.pose.pose = pose_at(way)
-        pose.pose.covariance = identity(6)
-        messages["/tracks"].append(TrackArray(header=header("map", i), tracks=tracks))
-        messages["/pose"].append(pose)
-    return messages
-
-
-def truth_messages():
-    """Topic -> messages of a car ahead of a vehicle that follows it, along x of the map."""
-    messages = {"/ground_truth/objects": [], "/ground_truth/pose": []}
-    for i in range(FRAMES):
-        way = SPEED * PERIOD * i
-        objects = [car_at(1, way + CAR_AHEAD)]
-        pose = Odometry(header=header("map", i), child_frame_id="base_link_ground_truth")
-        pose.pose.pose = pose_at(way)
-        messages["/ground_truth/objects"].append(
-            TrueObjectArray(header=header("map", i), objects=objects)
-        )
-        messages["/ground_truth/pose"].append(pose)
-    return messages
-
-
-def write(path, messages):
-    with rosbag.Bag(str(path), "w") as bag:
-        for topic, items in messages.items():
-            for i, item in enumerate(items):
-                bag.write(topic, item, rospy.Time.from_sec(START + PERIOD * i))
-
-
-class ScoreRun(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-        self.run_bag = self.folder / "run.bag"
-        self.truth_bag = self.folder / "truth.bag"
-        self.report = self.folder / "report.json"
-        self.run_messages = run_messages()
-        self.truth_messages = truth_messages()
-
-    def write_bags(self):
-        write(self.run_bag, self.run_messages)
-        write(self.truth_bag, self.truth_messages)
-
-    def run_tool(self, *arguments):
-        return subprocess.run([SCORE_RUN, *map(str, arguments)], stderr=subprocess.PIPE,
-                              stdout=subprocess.PIPE, universal_newlines=True)
-
-    def score(self, *options):
-        """The report of the two bags."""
-        self.write_bags()
-        done = self.run_tool(self.run_bag, self.truth_bag, "--out", self.report, *options)
-        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
-        return json.loads(self.report.read_text())
-
-    def assert_no_report(self, *expected, arguments=None):
-        """There is no report, and the message holds all of `expected`."""
-        if arguments is None:
-            arguments = (self.run_bag, self.truth_bag, "--out", self.report)
-        before = {path: path.read_bytes() for path in self.folder.iterdir() if path.is_file()}
-        done = self.run_tool(*arguments)
-        self.assertEqual(done.returncode, 2)
-        self.assertEqual(done.stdout, "")
-        for part in expected:
-            self.assertIn(str(part), done.stderr)
-        after = {path: path.read_bytes() for path in self.folder.iterdir() if path.is_file()}
-        self.assertEqual(before.keys(), after.keys())
-        self.assertTrue(before == after, "a file was changed")
-
-    def assert_refused(self, *expected):
-        """The bags as they are now lead to no report."""
-        self.write_bags()
-        self.assert_no_report(*expected)
-
-
-class WholeRun(ScoreRun):
+class WholeRun(ScoreRunCase):
     def test_what_it_scores(self):
         report = self.score()
         self.assertEqual(report["run"], str(self.run_bag))
@@ -255,165 +127,38 @@ class WholeRun(ScoreRun):
         self.assertIsNone(report["errors"]["position_rmse_m"])
         self.assertEqual(report["thesis"]["missed_objects"], 1)
 
+    def test_covariances_that_are_none_are_counted_and_said(self):
+        for message in self.run_messages["/tracks"][:3]:
+            message.tracks[0].covariance = [0.0] * 36
+        self.run_messages["/pose"][0].pose.covariance = [-value for value in identity(6)]
+        self.write_bags()
+        done = self.run_tool(self.run_bag, self.truth_bag)
+        self.assertEqual(done.returncode, 0)
+        for remark in (
+            f"3 of {FRAMES} covariances of the tracks' position",
+            f"3 of {FRAMES} covariances of the tracks' velocity",
+            f"1 of {FRAMES} covariances of the vehicle's pose",
+        ):
+            self.assertIn(remark, done.stderr)
+        report = json.loads(done.stdout)
+        self.assertEqual(report["consistency"]["position"]["unusable"], 3)
+        self.assertEqual(report["pose"]["unusable"], 1)
+
+    def test_a_label_that_is_not_utf_8_is_no_reason_to_stop(self):
+        for message in self.truth_messages["/ground_truth/objects"]:
+            message.objects[0].label = "Car#"
+        self.write_bags()
+        self.truth_bag.write_bytes(self.truth_bag.read_bytes().replace(b"Car#", b"Car\xff"))
+        done = self.run_tool(self.run_bag, self.truth_bag)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(json.loads(done.stdout)["objects"][0]["label"], "Car\ufffd")
+
     def test_help_and_options(self):
         self.assertIn("usage: score_run", self.run_tool("--help").stdout)
         self.assertIn("| `matching/gate` | m |", self.run_tool("--list-options").stdout)
 
 
-class BadBags(ScoreRun):
-    def test_missing_topic(self):
-        for messages, topic, kind in (
-            (self.run_messages, "/tracks", "datmo_fusion/TrackArray"),
-            (self.run_messages, "/pose", "geometry_msgs/PoseWithCovarianceStamped"),
-            (self.truth_messages, "/ground_truth/objects", "datmo_fusion/TrueObjectArray"),
-            (self.truth_messages, "/ground_truth/pose", "nav_msgs/Odometry"),
-        ):
-            with self.subTest(topic=topic):
-                file = self.run_bag if messages is self.run_messages else self.truth_bag
-                left_out = messages.pop(topic)
-                self.assert_refused(f"{file}: no {kind} on {topic}; the bag holds:")
-                messages[topic] = left_out
-
-    def test_poses_are_not_needed_without_alignment(self):
-        del self.run_messages["/pose"]
-        report = self.score("--set", "align=none")
-        self.assertEqual(report["clear_mot"]["mota"], 1.0)
-        self.assertIsNone(report["pose"])
-
-    def test_topic_of_another_type(self):
-        self.run_messages["/tracks"] = self.run_messages["/pose"]
-        self.assert_refused(f"{self.run_bag}: /tracks", "PoseWithCovarianceStamped",
-                            "expected datmo_fusion/TrackArray")
-
-    def test_empty_truth(self):
-        for message in self.truth_messages["/ground_truth/objects"]:
-            message.objects = []
-        self.assert_refused(f"{self.truth_bag}: /ground_truth/objects holds no object",
-                            "expected some")
-
-    def test_stamps_that_do_not_overlap(self):
-        for messages in self.run_messages.values():
-            for message in messages:
-                message.header.stamp += rospy.Duration(60.0)
-        self.assert_refused(self.run_bag, self.truth_bag,
-                            "tracks from 1060.000 s to 1062.000 s",
-                            "true objects from 1000.000 s to 1002.000 s")
-
-    def test_repeated_ids(self):
-        self.run_messages["/tracks"][3].tracks *= 2
-        self.assert_refused(f"{self.run_bag}: /tracks at 1000.3", "track 7 twice")
-        self.run_messages = run_messages()
-        self.truth_messages["/ground_truth/objects"][4].objects *= 2
-        self.assert_refused(f"{self.truth_bag}: /ground_truth/objects at 1000.4", "object 1 twice")
-
-    def test_repeated_and_zero_stamps(self):
-        self.run_messages["/tracks"] *= 2
-        self.assert_refused(f"{self.run_bag}: /tracks: two messages at 1000.0", "expected one")
-        self.run_messages = run_messages()
-        self.run_messages["/pose"][2].header.stamp = rospy.Time()
-        self.assert_refused(f"{self.run_bag}: /pose at 0.0", "expected the time")
-
-    def assert_change_refused(self, messages, topic, change, *expected):
-        original = messages[topic][5]
-        messages[topic][5] = copy.deepcopy(original)
-        change(messages[topic][5])
-        self.assert_refused(topic + " at 1000.5", *expected)
-        messages[topic][5] = original
-
-    def test_numbers_that_are_not_finite(self):
-        def set_track(name, value):
-            def change(message):
-                setattr(message.tracks[0], name, value)
-
-            return change
-
-        covariance = identity(6)
-        covariance[1] = NAN
-        for name, value in (("pose", pose_at(NAN)), ("velocity", Vector3(NAN, 0.0, 0.0)),
-                            ("size", Vector3(4.0, NAN, 0.0)), ("covariance", covariance)):
-            with self.subTest(track=name):
-                self.assert_change_refused(self.run_messages, "/tracks", set_track(name, value),
-                                           "track 7", "nan", "expected finite")
-
-        def shift_object(message):
-            message.objects[0].velocity.x = float("inf")
-
-        def shift_pose(message):
-            message.pose.pose.position.x = NAN
-
-        self.assert_change_refused(self.truth_messages, "/ground_truth/objects", shift_object,
-                                   "object 1", "inf", "expected finite")
-        self.assert_change_refused(self.truth_messages, "/ground_truth/pose", shift_pose, "nan")
-        self.assert_change_refused(self.run_messages, "/pose", shift_pose, "nan")
-
-        def lose_covariance(message):
-            message.pose.covariance = covariance
-
-        self.assert_change_refused(self.run_messages, "/pose", lose_covariance, "covariance", "nan")
-        self.run_messages["/timing"] = [
-            StageTiming(header=header("map", i), stage="tracker") for i in range(FRAMES)
-        ]
-
-        def lose_time(message):
-            message.processing_time = NAN
-
-        self.assert_change_refused(self.run_messages, "/timing", lose_time, "tracker", "nan")
-
-    def test_poses_and_boxes_that_are_none(self):
-        def lose_rotation(message):
-            message.tracks[0].pose.orientation = Quaternion()
-
-        def turn_inside_out(message):
-            message.objects[0].size.x = -4.0
-
-        self.assert_change_refused(self.run_messages, "/tracks", lose_rotation,
-                                   "quaternion of length 0")
-        self.assert_change_refused(self.truth_messages, "/ground_truth/objects", turn_inside_out,
-                                   "-4", "expected at least 0")
-
-    def test_frames_that_do_not_fit(self):
-        self.run_messages["/tracks"][6].header.frame_id = "odom"
-        self.assert_refused(f"{self.run_bag}: /tracks at 1000.6", "'odom'", "'map'",
-                            "expected one frame")
-        for message in self.run_messages["/tracks"]:
-            message.header.frame_id = "odom"
-        self.assert_refused(f"{self.run_bag}: /tracks is in frame 'odom', but /pose in 'map'")
-
-    def test_bag_that_is_cut_short(self):
-        self.write_bags()
-        content = self.run_bag.read_bytes()
-        self.run_bag.write_bytes(content[: len(content) // 2])
-        self.assert_no_report(self.run_bag)
-
-    def test_bag_that_is_broken_anywhere(self):
-        """Bytes that nobody reads may be any; else the file is named. It never ends otherwise."""
-        self.write_bags()
-        content = self.truth_bag.read_bytes()
-        refused = 0
-        for tenth in range(1, 10):
-            broken = bytearray(content)
-            begin = tenth * len(content) // 10
-            broken[begin : begin + 300] = b"\xff" * 300
-            self.truth_bag.write_bytes(broken)
-            done = self.run_tool(self.run_bag, self.truth_bag)
-            self.assertIn(done.returncode, (0, 2))
-            if done.returncode == 0:
-                self.assertEqual(json.loads(done.stdout)["frames"], FRAMES)
-            else:
-                self.assertIn(str(self.truth_bag), done.stderr)
-                self.assertEqual(done.stdout, "")
-                refused += 1
-        self.assertGreater(refused, 0)
-
-    def test_files_that_are_no_bags(self):
-        self.write_bags()
-        self.truth_bag.write_text("not a bag")
-        self.assert_no_report(f"{self.truth_bag}: cannot be read as a bag")
-        self.truth_bag.unlink()
-        self.assert_no_report(f"{self.truth_bag}: no such file")
-
-
-class BadUsage(ScoreRun):
+class BadUsage(ScoreRunCase):
     def setUp(self):
         super().setUp()
         self.write_bags()

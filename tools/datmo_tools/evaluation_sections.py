@@ -20,104 +20,91 @@ class Section(NamedTuple):
     metrics: tuple
 
 
+def _percent(name, path, cost=higher, digits=1):
+    return Metric(name, path, "%", PERCENT, digits, cost)
+
+
+def _metres(name, path):
+    return Metric(name, path, "m", 1.0, 2, lower)
+
+
+def _degrees(name, path, digits=1):
+    return Metric(name, path, "deg", DEGREES, digits, lower)
+
+
+def _honesty(quantity, path, degrees_of_freedom):
+    """NEES of a quantity, and what has none."""
+    honest = f"NEES of {quantity}, {degrees_of_freedom} is honest"
+    return (
+        Metric(honest, f"{path}.mean_nees", "", 1.0, 2, near(float(degrees_of_freedom))),
+        Metric("not positive definite", f"{path}.unusable", "matrices", cost=lower),
+    )
+
+
 SECTIONS = (
     Section(
         "Tracking, CLEAR-MOT",
         "Bernardin and Stiefelhagen 2008",
         (
-            Metric("MOTA", "clear_mot.mota", "%", PERCENT, 1, higher),
-            Metric("MOTP, distance of matches", "clear_mot.motp_m", "m", 1.0, 2, lower),
+            _percent("MOTA", "clear_mot.mota"),
+            _metres("MOTP, distance of matches", "clear_mot.motp_m"),
             Metric("required", "clear_mot.required", "frames"),
             Metric("misses", "clear_mot.misses", "frames", cost=lower),
             Metric("false positives", "clear_mot.false_positives", "frames", cost=lower),
+            Metric("false moving tracks", "false_movers_per_frame", "a frame", 1.0, 2, lower),
             Metric("id switches", "clear_mot.id_switches", cost=lower),
             Metric("fragmentations", "clear_mot.fragmentations", cost=lower),
-            Metric("mostly tracked objects", "clear_mot.mostly_tracked", "%", PERCENT, 0, higher),
-            Metric("mostly lost objects", "clear_mot.mostly_lost", "%", PERCENT, 0, lower),
+            _percent("mostly tracked objects", "clear_mot.mostly_tracked", digits=0),
+            _percent("mostly lost objects", "clear_mot.mostly_lost", lower, digits=0),
         ),
     ),
     Section(
         "Identity, IDF1",
         "Ristani et al. 2016",
         (
-            Metric("IDF1", "identity.idf1", "%", PERCENT, 1, higher),
-            Metric("IDP, precision", "identity.idp", "%", PERCENT, 1, higher),
-            Metric("IDR, recall", "identity.idr", "%", PERCENT, 1, higher),
+            _percent("IDF1", "identity.idf1"),
+            _percent("IDP, precision", "identity.idp"),
+            _percent("IDR, recall", "identity.idr"),
         ),
     ),
     Section(
         "HOTA",
         "Luiten et al. 2021",
         (
-            Metric("HOTA", "hota.hota", "%", PERCENT, 1, higher),
-            Metric("DetA, detection", "hota.deta", "%", PERCENT, 1, higher),
-            Metric("AssA, association", "hota.assa", "%", PERCENT, 1, higher),
-            Metric("LocA, localisation", "hota.loca", "%", PERCENT, 1, higher),
+            _percent("HOTA", "hota.hota"),
+            _percent("DetA, detection", "hota.deta"),
+            _percent("AssA, association", "hota.assa"),
+            _percent("LocA, localisation", "hota.loca"),
         ),
     ),
     Section(
         "GOSPA",
         "Rahmathullah et al. 2017",
         (
-            Metric("GOSPA, mean of frames", "gospa.mean_m", "m", 1.0, 2, lower),
-            Metric("part of localisation", "gospa.localisation_m", "m", 1.0, 2, lower),
-            Metric("part of missed objects", "gospa.missed_m", "m", 1.0, 2, lower),
-            Metric("part of false tracks", "gospa.false_m", "m", 1.0, 2, lower),
+            _metres("GOSPA, mean of frames", "gospa.mean_m"),
+            _metres("part of localisation", "gospa.localisation_m"),
+            _metres("part of missed objects", "gospa.missed_m"),
+            _metres("part of false tracks", "gospa.false_m"),
         ),
     ),
     Section(
         "Errors of matched tracks",
         "root mean square, position of the centres",
         (
-            Metric("position", "errors.position_rmse_m", "m", 1.0, 2, lower),
+            _metres("position", "errors.position_rmse_m"),
             Metric("velocity", "errors.velocity_rmse_mps", "m/s", 1.0, 2, lower),
-            Metric("heading", "errors.heading_rmse_rad", "deg", DEGREES, 1, lower),
-            Metric(
-                "heading, front or back",
-                "errors.heading_modulo_pi_rmse_rad",
-                "deg",
-                DEGREES,
-                1,
-                lower,
-            ),
+            _degrees("heading", "errors.heading_rmse_rad"),
+            _degrees("heading, front or back", "errors.heading_modulo_pi_rmse_rad"),
         ),
     ),
     Section(
         "Honesty of the covariance",
         "Bar-Shalom et al. 2001",
         (
-            Metric(
-                "NEES of position, 2 is honest",
-                "consistency.position.mean_nees",
-                "",
-                1.0,
-                2,
-                near(2.0),
-            ),
-            Metric(
-                "inside the 95 % bound",
-                "consistency.position.inside_share",
-                "%",
-                PERCENT,
-                1,
-                near(95.0),
-            ),
-            Metric(
-                "NEES of velocity, 2 is honest",
-                "consistency.velocity.mean_nees",
-                "",
-                1.0,
-                2,
-                near(2.0),
-            ),
-            Metric(
-                "inside the 95 % bound",
-                "consistency.velocity.inside_share",
-                "%",
-                PERCENT,
-                1,
-                near(95.0),
-            ),
+            *_honesty("position", "consistency.position", 2),
+            _percent("inside the 95 % bound", "consistency.position.inside_share", near(95.0)),
+            *_honesty("velocity", "consistency.velocity", 2),
+            _percent("inside the 95 % bound", "consistency.velocity.inside_share", near(95.0)),
         ),
     ),
     Section(
@@ -154,13 +141,13 @@ SECTIONS = (
         "relative errors: Kuemmerle et al. 2009",
         (
             Metric("way", "pose.way_m", "m", 1.0, 1),
-            Metric("end point", "pose.end_error_m", "m", 1.0, 2, lower),
-            Metric("end point, of the way", "pose.end_error_share", "%", PERCENT, 2, lower),
+            _metres("end point", "pose.end_error_m"),
+            _percent("end point, of the way", "pose.end_error_share", lower, digits=2),
             Metric("heading at the end", "pose.end_error_deg", "deg", 1.0, 2, lower),
-            Metric("position, root mean square", "pose.position_rmse_m", "m", 1.0, 2, lower),
-            Metric("heading, root mean square", "pose.heading_rmse_rad", "deg", DEGREES, 2, lower),
-            Metric("largest jump within 1 s", "pose.largest_jump_m", "m", 1.0, 2, lower),
-            Metric("NEES, 3 is honest", "pose.mean_nees", "", 1.0, 2, near(3.0)),
+            _metres("position, root mean square", "pose.position_rmse_m"),
+            _degrees("heading, root mean square", "pose.heading_rmse_rad", 2),
+            _metres("largest jump within 1 s", "pose.largest_jump_m"),
+            *_honesty("the pose", "pose", 3),
         ),
     ),
 )

@@ -1,4 +1,4 @@
-"""A KITTI raw drive folder (`2011_09_26_drive_XXXX_sync`) -> its frames, checked while read.
+"""A KITTI raw drive folder (`2011_09_26_drive_0005_sync`) -> its frames, checked while read.
 
 Source: Geiger et al., "Vision meets robotics: the KITTI dataset", 2013; the oxts fields stand in
 the drive's own oxts/dataformat.txt.
@@ -36,7 +36,7 @@ class Drive:
         self.folder = folder
         if not folder.is_dir():
             raise InputError(
-                f"{folder}: expected the folder of a KITTI raw drive (..._drive_XXXX_sync)"
+                f"{folder}: expected the folder of a KITTI raw drive (..._drive_NUMBER_sync)"
             )
         self.oxts_stamps = self._stamps("oxts", ".txt")
         self.scan_stamps = self._stamps("velodyne_points", ".bin", gaps_allowed=True)

@@ -38,7 +38,7 @@ def _parser():
         description=DESCRIPTION,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("drive", type=Path, help="folder ..._drive_XXXX_sync")
+    parser.add_argument("drive", type=Path, help="folder ..._drive_NUMBER_sync")
     parser.add_argument("bag", type=Path, help="bag to write")
     _add_contents(parser.add_argument_group("contents"))
     _add_scanner(parser.add_argument_group("emulated scanner"), ScannerOptions())

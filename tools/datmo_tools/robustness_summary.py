@@ -4,13 +4,14 @@ import statistics
 
 LARGEST_JUMP = 1.0  # m; more is a failure
 
+# Heading, key, format of its values, width.
 COLUMNS = (
-    ("scene", "{scene:<16}"),
-    ("movers", "{movers:>8}"),
-    ("runs", "{runs:>6}"),
-    ("failed", "{failed:>8}"),
-    ("rate", "{failure_rate:>8.0%}"),
-    ("worst jump", "{worst_jump_m:>10.2f} m"),
+    ("scene", "scene", "{}", -16),
+    ("movers", "movers", "{}", 8),
+    ("runs", "runs", "{}", 6),
+    ("failed", "failed", "{}", 8),
+    ("rate", "failure_rate", "{:.0%}", 8),
+    ("worst jump", "worst_jump_m", "{:.2f} m", 12),
 )
 
 
@@ -36,7 +37,7 @@ def table(summary):
     """Text of a summary."""
     lines = [_heading(summary)]
     for row in summary:
-        cells = [form.format(**_printable(row)) for _, form in COLUMNS]
+        cells = [_padded(_text(row[key], form), width) for _, key, form, width in COLUMNS]
         cells += [_error_cell(error) for error in row["relative"]]
         lines.append("".join(cells))
     return "\n".join(lines)
@@ -87,16 +88,18 @@ def _ratio(error, still):
     return None
 
 
-def _printable(row):
-    """The row with numbers in place of what is not defined."""
-    return {key: float("nan") if value is None else value for key, value in row.items()}
+def _text(value, form):
+    """A number, or a dash where it is not defined."""
+    return "-" if value is None else form.format(value)
+
+
+def _padded(text, width):
+    """To the right, with a negative width to the left."""
+    return text.rjust(width) if width > 0 else text.ljust(-width)
 
 
 def _heading(summary):
-    widths = [len(form.format(**_printable(summary[0]))) for _, form in COLUMNS]
-    names = [name for name, _ in COLUMNS]
-    heading = f"{names[0]:<{widths[0]}}"
-    heading += "".join(f"{name:>{width}}" for name, width in zip(names[1:], widths[1:]))
+    heading = "".join(_padded(name, width) for name, _, _, width in COLUMNS)
     distances = max((row["relative"] for row in summary), key=len)
     texts = [f"error at {error['distance_m']:.0f} m" for error in distances]
     return heading + "".join(f"{text:>18}  ratio" for text in texts)

@@ -1,8 +1,5 @@
 #include "evaluation/consistency.h"
 
-#include <cmath>
-
-#include <Eigen/Cholesky>
 #include <boost/math/distributions/chi_squared.hpp>
 
 namespace datmo::evaluation {
@@ -17,16 +14,17 @@ double chiSquareQuantile(double probability, double degrees_of_freedom) {
   return boost::math::quantile(boost::math::chi_squared(degrees_of_freedom), probability);
 }
 
-void NeesSum::add(const Eigen::Vector2d& error, const Eigen::Matrix2d& covariance) {
-  static const double limit = chiSquareQuantile(kConfidence, Consistency().degrees_of_freedom);
-  const Eigen::LLT<Eigen::Matrix2d> factors(covariance);
-  const double nees = error.dot(factors.solve(error));
-  if (factors.info() != Eigen::Success || !std::isfinite(nees)) {
+NeesSum::NeesSum(int degrees_of_freedom)
+    : degrees_of_freedom_(degrees_of_freedom),
+      limit_(chiSquareQuantile(kConfidence, degrees_of_freedom)) {}
+
+void NeesSum::add(const std::optional<double>& nees) {
+  if (!nees) {
     ++unusable_;
     return;
   }
-  sum_ += nees;
-  inside_ += nees <= limit ? 1 : 0;
+  sum_ += *nees;
+  inside_ += *nees <= limit_ ? 1 : 0;
   ++samples_;
 }
 
@@ -34,12 +32,13 @@ Consistency NeesSum::result() const {
   Consistency consistency;
   consistency.samples = samples_;
   consistency.unusable = unusable_;
+  consistency.degrees_of_freedom = degrees_of_freedom_;
   if (samples_ == 0) {
     return consistency;
   }
   // The sum of independent samples is chi-square distributed with all their degrees of freedom.
   const double samples = static_cast<double>(samples_);
-  const double degrees_of_freedom = samples * consistency.degrees_of_freedom;
+  const double degrees_of_freedom = samples * degrees_of_freedom_;
   const double tail = 0.5 * (1.0 - kConfidence);
   consistency.mean_nees = sum_ / samples;
   consistency.lower = chiSquareQuantile(tail, degrees_of_freedom) / samples;
@@ -49,13 +48,15 @@ Consistency NeesSum::result() const {
 }
 
 TrackConsistency scoreConsistency(const Frames& frames, const Matching& matching) {
-  NeesSum position;
-  NeesSum velocity;
+  NeesSum position(2);
+  NeesSum velocity(2);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     forEachHit(frames[i], matching[i], [&](const TrueState& truth, const TrackState& track) {
-      position.add(track.box.centre.position() - truth.box.centre.position(),
-                   track.covariance.topLeftCorner<2, 2>());
-      velocity.add(track.velocity - truth.velocity, track.covariance.bottomRightCorner<2, 2>());
+      position.add(
+          normalisedErrorSquared<2>(track.box.centre.position() - truth.box.centre.position(),
+                                    track.covariance.topLeftCorner<2, 2>()));
+      velocity.add(normalisedErrorSquared<2>(track.velocity - truth.velocity,
+                                             track.covariance.bottomRightCorner<2, 2>()));
     });
   }
   return {position.result(), velocity.result()};

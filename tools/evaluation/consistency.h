@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 
 #include "evaluation/matching.h"
+#include <Eigen/Cholesky>
 
 namespace datmo::evaluation {
 
@@ -20,7 +22,7 @@ struct Consistency {
   std::optional<double> inside_share;  ///< samples below the 95 % quantile of a single one
   std::size_t samples = 0;
   std::size_t unusable = 0;  ///< covariances that are not positive definite; no samples
-  int degrees_of_freedom = 2;
+  int degrees_of_freedom = 0;
 };
 
 struct TrackConsistency {
@@ -31,13 +33,29 @@ struct TrackConsistency {
 /// Quantile of the chi-square distribution; `probability` in (0, 1), degrees of freedom above 0.
 double chiSquareQuantile(double probability, double degrees_of_freedom);
 
-/// Collects the errors of one quantity with two components.
+/// e^T P^-1 e of one error; none: the covariance is not positive definite.
+template <int dimension>
+std::optional<double> normalisedErrorSquared(
+    const Eigen::Matrix<double, dimension, 1>& error,
+    const Eigen::Matrix<double, dimension, dimension>& covariance) {
+  const Eigen::LLT<Eigen::Matrix<double, dimension, dimension>> factors(covariance);
+  const double result = error.dot(factors.solve(error));
+  const bool usable = factors.info() == Eigen::Success && std::isfinite(result);
+  return usable ? std::optional<double>(result) : std::nullopt;
+}
+
+/// Collects the errors of one quantity with so many components.
 class NeesSum {
  public:
-  void add(const Eigen::Vector2d& error, const Eigen::Matrix2d& covariance);
+  explicit NeesSum(int degrees_of_freedom);
+
+  /// None: counted as unusable.
+  void add(const std::optional<double>& nees);
   Consistency result() const;
 
  private:
+  int degrees_of_freedom_;
+  double limit_;
   double sum_ = 0.0;
   std::size_t inside_ = 0;
   std::size_t samples_ = 0;

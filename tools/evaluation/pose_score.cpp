@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
 namespace datmo::evaluation {
 
 namespace {
@@ -93,21 +91,14 @@ RelativePoseError relativeError(const PosePairs& pairs, double distance) {
   return result;
 }
 
-void scoreConsistency(const PosePairs& pairs, PoseScore& score) {
-  double sum = 0.0;
+Consistency consistencyOf(const PosePairs& pairs) {
+  NeesSum sum(3);
   for (const PosePair& pair : pairs) {
-    const Eigen::LLT<Eigen::Matrix3d> factor(pair.covariance);
-    if (factor.info() != Eigen::Success) {
-      continue;
-    }
     const Point2 position = pair.estimated.position() - pair.truth.position();
     const Eigen::Vector3d error(position.x(), position.y(), pair.error().heading());
-    sum += error.dot(factor.solve(error));
-    ++score.nees_samples;
+    sum.add(normalisedErrorSquared<3>(error, pair.covariance));
   }
-  if (score.nees_samples > 0) {
-    score.mean_nees = sum / static_cast<double>(score.nees_samples);
-  }
+  return sum.result();
 }
 
 }  // namespace
@@ -134,7 +125,7 @@ std::optional<PoseScore> scorePoses(const Trajectory& estimated, const Trajector
   for (const double distance : kRelationDistances) {
     score.relative.push_back(relativeError(pairs, distance));
   }
-  scoreConsistency(pairs, score);
+  score.consistency = consistencyOf(pairs);
   return score;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "evaluation/consistency.h"
 #include "evaluation/trajectory.h"
 
 namespace datmo::evaluation {
@@ -27,16 +28,12 @@ struct PoseScore {
   double heading_rmse = 0.0;        ///< rad
   double largest_jump = 0.0;        ///< m, see kJumpTime
   std::vector<RelativePoseError> relative;
-  std::optional<double> mean_nees;  ///< over x, y and heading; none: no covariance is usable
-  std::size_t nees_samples = 0;
+  Consistency consistency;  ///< x, y and heading
 };
 
 /// A jump is the error of the estimated motion within this time: short against drift, long against
 /// a match that goes wrong over a few scans.
 inline constexpr double kJumpTime = 1.0;  // s
-
-/// Degrees of freedom of the pose's NEES: x, y, heading.
-inline constexpr int kPoseDegreesOfFreedom = 3;
 
 /// Scores the estimate against the truth: end point; root mean square errors; the largest jump;
 /// the error of relative poses 10 m and 70 m apart (Kuemmerle et al., On measuring the accuracy of

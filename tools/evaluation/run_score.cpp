@@ -11,6 +11,7 @@ namespace datmo::evaluation {
 
 namespace {
 
+/// From the first stamp to the last; `recorded`: at least one.
 template <typename Recorded>
 std::string span(const std::string& what, const std::vector<Recorded>& recorded) {
   std::ostringstream text;

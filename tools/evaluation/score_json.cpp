@@ -170,9 +170,10 @@ json poseJson(const std::optional<PoseScore>& score) {
           {"heading_rmse_rad", score->heading_rmse},
           {"largest_jump_m", score->largest_jump},
           {"relative", relative},
-          {"mean_nees", orNull(score->mean_nees)},
-          {"samples", score->nees_samples},
-          {"dof", kPoseDegreesOfFreedom}};
+          {"mean_nees", orNull(score->consistency.mean_nees)},
+          {"samples", score->consistency.samples},
+          {"unusable", score->consistency.unusable},
+          {"dof", score->consistency.degrees_of_freedom}};
 }
 
 json toJson(const DurationScore& score) {
@@ -206,6 +207,7 @@ json toJson(const RunScore& score, const ScoreOptions& options, const ScoredFile
           {"truth_objects", tracks.thesis.moving_objects},
           {"tracks", tracks.thesis.tracks},
           {"clear_mot", toJson(tracks.clear_mot)},
+          {"false_movers_per_frame", orNull(tracks.false_movers.perFrame())},
           {"identity", toJson(tracks.identity)},
           {"hota", toJson(tracks.hota)},
           {"gospa", gospaJson(tracks.gospa, options.metrics.gospa.cutoff)},

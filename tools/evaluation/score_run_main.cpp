@@ -31,7 +31,7 @@ int main(int count, char** words) {
   datmo::noteInterruptions();
   try {
     ros::Time::init();
-    writeScore(parseScoreRunArguments(given), std::cout);
+    writeScore(parseScoreRunArguments(given), std::cout, std::cerr);
   } catch (const std::exception& error) {
     std::cerr << "score_run: " << error.what() << '\n';
     return kNoReport;

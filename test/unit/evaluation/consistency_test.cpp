@@ -22,11 +22,11 @@ Consistency ofRandomErrors(const Eigen::Matrix2d& truth, const Eigen::Matrix2d& 
   std::mt19937_64 engine(17);
   std::normal_distribution<double> normal;
   const Eigen::Matrix2d root = truth.llt().matrixL();
-  NeesSum sum;
+  NeesSum sum(2);
   for (int i = 0; i < 2000; ++i) {
     const double first = normal(engine);
     const double second = normal(engine);
-    sum.add(root * Eigen::Vector2d(first, second), claimed);
+    sum.add(normalisedErrorSquared<2>(root * Eigen::Vector2d(first, second), claimed));
   }
   return sum.result();
 }
@@ -43,19 +43,19 @@ TEST(Consistency, QuantilesAsInTheTables) {
 }
 
 TEST(Consistency, NoneWithoutSamples) {
-  const Consistency result = NeesSum().result();
+  const Consistency result = NeesSum(2).result();
   EXPECT_FALSE(result.mean_nees || result.lower || result.upper || result.inside_share);
   EXPECT_EQ(result.samples, 0U);
 }
 
 TEST(Consistency, MeanOfHandComputedSamples) {
-  NeesSum sum;
+  NeesSum sum(2);
   // 2^2 / 4 + 1^2 / 1 = 2.
-  sum.add({2.0, 1.0}, matrix(4.0, 0.0, 1.0));
+  sum.add(normalisedErrorSquared<2>({2.0, 1.0}, matrix(4.0, 0.0, 1.0)));
   // The inverse is [[2, -1], [-1, 2]] / 3: (2 - 1 - 1 + 2) / 3 = 2 / 3.
-  sum.add({1.0, 1.0}, matrix(2.0, 1.0, 2.0));
+  sum.add(normalisedErrorSquared<2>({1.0, 1.0}, matrix(2.0, 1.0, 2.0)));
   // 3^2 = 9, beyond 5.99.
-  sum.add({0.0, 3.0}, matrix(1.0, 0.0, 1.0));
+  sum.add(normalisedErrorSquared<2>({0.0, 3.0}, matrix(1.0, 0.0, 1.0)));
   const Consistency result = sum.result();
   EXPECT_NEAR(result.mean_nees.value(), (2.0 + 2.0 / 3.0 + 9.0) / 3.0, 1e-12);
   EXPECT_DOUBLE_EQ(result.inside_share.value(), 2.0 / 3.0);
@@ -64,9 +64,9 @@ TEST(Consistency, MeanOfHandComputedSamples) {
 
 TEST(Consistency, BoundsOfTheMeanOfFiftySamples) {
   // The hundred degrees of freedom of the tables: [74.2, 129.6] / 50.
-  NeesSum sum;
+  NeesSum sum(2);
   for (int i = 0; i < 50; ++i) {
-    sum.add({1.0, 0.0}, matrix(1.0, 0.0, 1.0));
+    sum.add(normalisedErrorSquared<2>({1.0, 0.0}, matrix(1.0, 0.0, 1.0)));
   }
   EXPECT_NEAR(sum.result().lower.value(), 1.484, 0.001);
   EXPECT_NEAR(sum.result().upper.value(), 2.591, 0.001);
@@ -89,10 +89,11 @@ TEST(Consistency, TooSureAndNotSureEnough) {
 }
 
 TEST(Consistency, CovariancesThatAreNoneAreCounted) {
-  NeesSum sum;
-  sum.add({1.0, 1.0}, Eigen::Matrix2d::Zero());
-  sum.add({1.0, 1.0}, matrix(1.0, 2.0, 1.0));
-  sum.add({1.0, 1.0}, matrix(std::numeric_limits<double>::quiet_NaN(), 0.0, 1.0));
+  NeesSum sum(2);
+  sum.add(normalisedErrorSquared<2>({1.0, 1.0}, Eigen::Matrix2d::Zero()));
+  sum.add(normalisedErrorSquared<2>({1.0, 1.0}, matrix(1.0, 2.0, 1.0)));
+  sum.add(normalisedErrorSquared<2>({1.0, 1.0},
+                                    matrix(std::numeric_limits<double>::quiet_NaN(), 0.0, 1.0)));
   EXPECT_EQ(sum.result().samples, 0U);
   EXPECT_EQ(sum.result().unusable, 3U);
 }

@@ -117,14 +117,16 @@ TEST(ScorePoses, NeesIsTheErrorInUnitsOfTheCovariance) {
   }
   const auto score = scorePoses({poses, kLongestGap}, truth());
   ASSERT_TRUE(score);
-  EXPECT_EQ(score->nees_samples, 11U);
-  EXPECT_NEAR(score->mean_nees.value(), 10.0 / 11.0, 1e-9);
+  EXPECT_EQ(score->consistency.samples, 11U);
+  EXPECT_EQ(score->consistency.degrees_of_freedom, 3);
+  EXPECT_NEAR(score->consistency.mean_nees.value(), 10.0 / 11.0, 1e-9);
 }
 
 TEST(ScorePoses, WithoutCovarianceThereIsNoNees) {
   const auto score = scorePoses(truth(), truth());
-  EXPECT_FALSE(score->mean_nees);
-  EXPECT_EQ(score->nees_samples, 0U);
+  EXPECT_FALSE(score->consistency.mean_nees);
+  EXPECT_EQ(score->consistency.samples, 0U);
+  EXPECT_EQ(score->consistency.unusable, truth().poses().size());
 }
 
 TEST(ScorePoses, WithoutOverlapThereIsNoScore) {
