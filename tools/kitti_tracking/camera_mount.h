@@ -35,6 +35,11 @@ class CameraMount {
   /// Around the box in the image, cut at its borders; without area where none of it is seen.
   ImageBox inImage(const Box3& box) const;
 
+  /// Whether a box of inImage() keeps clear of the left and the right border.
+  bool isWithinImage(const ImageBox& box) const {
+    return box.left > 0.0 && box.right < image_.width - 1.0;
+  }
+
   /// Heading as seen from the camera, rad: rotation_y less the direction of sight.
   static double alpha(const Box3& box);
 

@@ -11,7 +11,7 @@ namespace {
 
 using State = Eigen::Vector2d;
 
-/// The filter has settled long before; wrong matches may keep it from it.
+/// It has settled long before, unless matches come and go.
 constexpr int kMostIterations = 10;
 /// Further steps than these are below what a pose is good for.
 constexpr double kSettledSpeed = 1e-3;    // m/s
@@ -42,7 +42,14 @@ struct Step {
   std::optional<Match> match(const Landmark& sighting, const Pose2& before_in_after) const;
   std::vector<Match> matches(const State& state) const;
 
-  /// Minus the logarithm of the likelihood, up to a constant; without a match as at the gate.
+  /// What a match counts for: little, where it is off by more than outlier_distance.
+  double weightOf(const Match& match) const {
+    const double far = match.distance2() / (outlier_distance * outlier_distance);
+    return 1.0 / ((1.0 + far) * (1.0 + far));
+  }
+
+  /// Minus the logarithm of the likelihood for which these are the weights, up to a constant;
+  /// without a match as at the gate.
   double cost(const State& state) const;
 };
 
@@ -86,10 +93,9 @@ std::vector<Match> Step::matches(const State& state) const {
 double Step::cost(const State& state) const {
   const double scale = outlier_distance * outlier_distance;
   const std::vector<Match> found = matches(state);
-  const double unmatched = static_cast<double>(seen.size() - found.size());
-  double sum = unmatched * std::log1p(gate * gate / scale);
+  double sum = static_cast<double>(seen.size() - found.size());
   for (const Match& match : found) {
-    sum += std::log1p(match.distance2() / scale);
+    sum += match.distance2() / (scale + match.distance2());
   }
   return 0.5 * scale * sum;
 }
@@ -106,23 +112,53 @@ Eigen::Matrix2d jacobian(const Point2& place, const State& state, double seconds
   return result;
 }
 
-/// The most likely of several speeds: a filter finds the nearest optimum only.
-State searched(const Step& step, const State& prior, const Eigen::Matrix2d& covariance) {
-  const double sigma = std::sqrt(covariance(0, 0));
+/// What is known of speed and yaw rate.
+struct Gaussian {
+  State mean;
+  Eigen::Matrix2d information;
+};
+
+/// The most likely of several speeds: the correction finds the nearest optimum only.
+State searched(const Step& step, const Gaussian& prior) {
+  const double sigma = std::sqrt(prior.information.inverse()(0, 0));
   const double speed_step = kSearchStep / step.seconds;
   const int steps = static_cast<int>(kSearchSigmas * sigma / speed_step);
-  State best = prior;
-  double least = step.cost(prior);
+  State best = prior.mean;
+  double least = step.cost(best);
   for (int i = -steps; i <= steps; ++i) {
-    const double off = i * speed_step;
-    const State state(prior[0] + off, prior[1]);
-    const double cost = step.cost(state) + 0.5 * off * off / (sigma * sigma);
+    const State off(i * speed_step, 0.0);
+    const double cost = step.cost(prior.mean + off) + 0.5 * off.dot(prior.information * off);
     if (cost < least) {
       least = cost;
-      best = state;
+      best = prior.mean + off;
     }
   }
   return best;
+}
+
+/// Gauss-Newton steps from `start` to the most likely state; the prior where too little is seen.
+Gaussian correct(const Step& step, const Gaussian& prior, State start, std::size_t least_matches) {
+  Gaussian result{start, prior.information};
+  for (int i = 0; i < kMostIterations; ++i) {
+    const std::vector<Match> matches = step.matches(result.mean);
+    if (matches.size() < least_matches) {
+      return prior;
+    }
+    Eigen::Matrix2d information = prior.information;
+    State pull = prior.information * (prior.mean - result.mean);
+    for (const Match& match : matches) {
+      const Eigen::Matrix2d slope = jacobian(match.expected, result.mean, step.seconds);
+      const Eigen::Matrix2d weighted = step.weightOf(match) * slope.transpose() * match.information;
+      information += weighted * slope;
+      pull += weighted * match.difference;
+    }
+    const State change = information.inverse() * pull;
+    result = {result.mean + change, information};
+    if (std::abs(change[0]) < kSettledSpeed && std::abs(change[1]) < kSettledYawRate) {
+      break;
+    }
+  }
+  return result;
 }
 
 }  // namespace
@@ -164,35 +200,13 @@ void EgoMotion::step(double seconds, const std::vector<Landmark>& expected,
     step.expected.push_back(
         {fixed_in_base * landmark.position, turn * landmark.covariance * turn.transpose()});
   }
-  const State prior = state_;
   covariance_.diagonal() +=
       (seconds * State(options_.acceleration_std, options_.yaw_acceleration_std)).cwiseAbs2();
-  const Eigen::Matrix2d prior_information = covariance_.inverse();
-  State state = searched(step, prior, covariance_);
-  const double scale = options_.outlier_distance * options_.outlier_distance;
-  for (int i = 0; i < kMostIterations; ++i) {
-    Eigen::Matrix2d information = prior_information;
-    State pull = prior_information * (prior - state);
-    const std::vector<Match> matches = step.matches(state);
-    if (matches.size() < static_cast<std::size_t>(options_.least_matches)) {
-      state = prior;
-      break;
-    }
-    for (const Match& match : matches) {
-      const double weight = 1.0 / (1.0 + match.distance2() / scale);
-      const Eigen::Matrix2d slope = jacobian(match.expected, state, seconds);
-      const Eigen::Matrix2d weighted = weight * slope.transpose() * match.information;
-      information += weighted * slope;
-      pull += weighted * match.difference;
-    }
-    const State change = information.inverse() * pull;
-    state += change;
-    covariance_ = information.inverse();
-    if (std::abs(change[0]) < kSettledSpeed && std::abs(change[1]) < kSettledYawRate) {
-      break;
-    }
-  }
-  state_ = state;
+  const Gaussian prior{state_, covariance_.inverse()};
+  const auto least_matches = static_cast<std::size_t>(options_.least_matches);
+  const Gaussian corrected = correct(step, prior, searched(step, prior), least_matches);
+  state_ = corrected.mean;
+  covariance_ = corrected.information.inverse();
   base_in_fixed_ = base_in_fixed_ * motionOf(state_, seconds);
 }
 

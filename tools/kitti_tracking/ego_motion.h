@@ -29,21 +29,21 @@ struct Landmark {
 };
 
 /// The vehicle's motion from nothing but the objects that it sees: speed and yaw rate, predicted as
-/// constant, are corrected so that what was seen before and goes on as it did comes to lie on what
-/// is seen now. An iterated extended Kalman filter in which a match counts the less the farther off
-/// it is (Cauchy weights), so that neither wrong matches nor objects that turn off decide.
+/// constant, are corrected so that what stood around comes to lie on what is seen now. An iterated
+/// extended Kalman filter in which a match counts the less the farther off it is (weights of Geman
+/// and McClure 1985), so that neither wrong matches nor what moves by itself decide.
 ///
-/// What all objects do alike, the vehicle is taken to do the other way round: in a column of cars
-/// the fixed frame may drift along with them. To follow objects relative to each other that does
-/// not matter.
+/// What most objects do alike, the vehicle is taken to do the other way round: in a column of cars
+/// and nothing else, the fixed frame moves along with them. To follow objects relative to each
+/// other that does not matter.
 class EgoMotion {
  public:
   /// Throws OptionError.
   explicit EgoMotion(const EgoMotionOptions& options);
 
-  /// Goes `seconds` (more than 0) ahead. `expected`: where objects should be then, in the fixed
-  /// frame; `seen`: where there are some, in the vehicle's frame. With too few matches the motion
-  /// goes on as it was.
+  /// Goes `seconds` (more than 0) ahead. `expected`: where objects were last, in the fixed frame;
+  /// `seen`: where there are some now, in the vehicle's frame. With too few matches the motion goes
+  /// on as it was.
   void step(double seconds, const std::vector<Landmark>& expected,
             const std::vector<Landmark>& seen);
 

@@ -1,0 +1,125 @@
+#include "kitti_tracking/class_tracking.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace datmo::kitti {
+
+namespace {
+
+/// Existence probability of the tracks by which the vehicle's motion is told.
+constexpr double kSureOfTrack = 0.8;
+
+/// As the labels say it: what is not detected may be hidden.
+constexpr int kUnknownOcclusion = 3;
+
+}  // namespace
+
+void ClassTrackingOptions::visit(OptionVisitor& visitor) {
+  visitor.group("detections", [&] { detections.visit(visitor); });
+  visitor.group("tracker", [&] { tracker.visit(visitor); });
+  visitor.group("vertical", [&] { vertical.visit(visitor); });
+  visitor.number({"length_weight", "1",
+                  "what a track that is e times as long gains in score, beside the mean logarithm "
+                  "of the odds of its detections"},
+                 length_weight, {0.0, 100.0});
+  visitor.integer({"most_detections", "1", "a track that has more of them is not surer for it"},
+                  most_detections, {1, 100000});
+}
+
+ClassTracking::ClassTracking(ObjectType type, const ClassTrackingOptions& options,
+                             const CameraMount& mount)
+    : type_(type),
+      options_(options),
+      mount_(mount),
+      model_(options.detections),
+      tracker_(options.tracker) {
+  checkOptions(options);
+}
+
+ObjectList ClassTracking::objects(const std::vector<Detection>& detections, Stamp stamp) const {
+  ObjectList list{stamp, {}};
+  for (const Detection& detection : detections) {
+    list.objects.push_back(model_.object(detection, mount_));
+  }
+  return list;
+}
+
+void ClassTracking::track(const ObjectList& objects, const Pose2& base_in_fixed,
+                          const std::vector<Box2>& seen) {
+  const Visibility visibility(model_.view(mount_), seen, options_.tracker.visibility);
+  tracks_ = tracker_.process(objects, base_in_fixed, visibility);
+  base_in_fixed_ = base_in_fixed;
+}
+
+std::vector<Landmark> ClassTracking::landmarks() const {
+  std::vector<Landmark> landmarks;
+  for (const Track& track : tracks_.tracks) {
+    if (track.existence_probability < kSureOfTrack) {
+      continue;
+    }
+    landmarks.push_back({track.state.head<2>(), track.covariance.topLeftCorner<2, 2>()});
+  }
+  return landmarks;
+}
+
+std::vector<TrackedObject> ClassTracking::rows(const std::vector<Detection>& detections,
+                                               int frame) {
+  std::vector<TrackedObject> rows;
+  for (const Track& track : tracks_.tracks) {
+    const Memory* memory = remember(track, detections);
+    if (memory == nullptr) {
+      continue;
+    }
+    // What is not detected any more at the edge of the image has left it.
+    const TrackedObject row = rowOf(track, *memory, frame);
+    if (!track.objects.empty() || mount_.isWithinImage(row.image_box)) {
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
+const ClassTracking::Memory* ClassTracking::remember(const Track& track,
+                                                     const std::vector<Detection>& detections) {
+  auto found = memories_.find(track.id);
+  if (track.objects.empty()) {
+    return found == memories_.end() ? nullptr : &found->second;
+  }
+  const Detection& detection = detections.at(track.objects.front());
+  const Box3& box = detection.box;
+  if (found == memories_.end()) {
+    const VerticalExtent vertical(box.y, box.height, options_.vertical);
+    found = memories_.emplace(track.id, Memory{vertical, tracks_.stamp, 0.0, 0}).first;
+  } else {
+    VerticalExtent& vertical = found->second.vertical;
+    vertical.predict(secondsBetween(found->second.stamp, tracks_.stamp), options_.vertical);
+    vertical.update(box.y, box.height, options_.vertical);
+    found->second.stamp = tracks_.stamp;
+  }
+  found->second.log_odds += model_.logOdds(detection.score);
+  ++found->second.detections;
+  return &found->second;
+}
+
+double ClassTracking::scoreOf(const Memory& memory) const {
+  const int counted = std::min(memory.detections, options_.most_detections);
+  return memory.log_odds / memory.detections + options_.length_weight * std::log(counted);
+}
+
+TrackedObject ClassTracking::rowOf(const Track& track, const Memory& memory, int frame) const {
+  const Pose2 centre = base_in_fixed_.inverse() * track.box.centre;
+  TrackedObject row;
+  row.frame = frame;
+  row.id = static_cast<int>(track.id);
+  row.type = type_;
+  row.occluded = track.objects.empty() ? kUnknownOcclusion : 0;
+  row.box = mount_.standing({centre, track.box.length, track.box.width}, memory.vertical.bottom(),
+                            memory.vertical.height());
+  row.image_box = mount_.inImage(row.box);
+  row.alpha = CameraMount::alpha(row.box);
+  row.score = scoreOf(memory);
+  return row;
+}
+
+}  // namespace datmo::kitti

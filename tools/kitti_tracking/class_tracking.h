@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "kitti_tracking/camera_mount.h"
+#include "kitti_tracking/detection_model.h"
+#include "kitti_tracking/ego_motion.h"
+#include "kitti_tracking/kitti_tracking_files.h"
+#include "kitti_tracking/vertical_extent.h"
+
+#include "datmo_fusion/tracking/tracker.h"
+
+namespace datmo::kitti {
+
+/// Options of one class of objects: one file in config/.
+struct ClassTrackingOptions {
+  DetectionModelOptions detections;
+  TrackerOptions tracker;
+  VerticalExtentOptions vertical;
+  double length_weight = 2.0;  ///< 1
+  int most_detections = 20;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Follows the objects of one class through one sequence with the package's tracker, whether they
+/// move or not.
+class ClassTracking {
+ public:
+  /// Throws OptionError.
+  ClassTracking(ObjectType type, const ClassTrackingOptions& options, const CameraMount& mount);
+
+  /// What the detections of one frame tell, vehicle's frame, in their order.
+  ObjectList objects(const std::vector<Detection>& detections, Stamp stamp) const;
+
+  /// Takes what objects() has made of the next frame's detections, the vehicle's pose, and the
+  /// boxes of all that stands in the view (vehicle's frame), of whatever class.
+  void track(const ObjectList& objects, const Pose2& base_in_fixed, const std::vector<Box2>& seen);
+
+  /// Where the tracks are that surely exist, fixed frame.
+  std::vector<Landmark> landmarks() const;
+
+  /// The present tracks as rows of a result file; `detections`: those that the objects were made
+  /// of.
+  std::vector<TrackedObject> rows(const std::vector<Detection>& detections, int frame);
+
+ private:
+  /// What the tracker does not know of a track.
+  struct Memory {
+    VerticalExtent vertical;
+    Stamp stamp;      ///< of its last detection
+    double log_odds;  ///< of its detections, summed up
+    int detections;
+  };
+
+  /// How sure it is that a track is no false alarm. The evaluation takes the mean over a track's
+  /// rows, which shall rank true tracks above false ones: by what the detector says on average, and
+  /// by how often it says so. Its errors go on from frame to frame, so that the sum would be too
+  /// sure; and after a while a longer life tells no more.
+  double scoreOf(const Memory& memory) const;
+
+  /// Takes in the track's detection, if it has one now. Null for a track that never had one.
+  const Memory* remember(const Track& track, const std::vector<Detection>& detections);
+  TrackedObject rowOf(const Track& track, const Memory& memory, int frame) const;
+
+  ObjectType type_;
+  ClassTrackingOptions options_;
+  CameraMount mount_;
+  DetectionModel model_;
+  Tracker tracker_;
+  Pose2 base_in_fixed_;
+  TrackList tracks_;
+  std::map<std::uint32_t, Memory> memories_;  ///< by track id
+};
+
+}  // namespace datmo::kitti

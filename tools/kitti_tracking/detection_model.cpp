@@ -1,0 +1,88 @@
+#include "kitti_tracking/detection_model.h"
+
+#include <cmath>
+
+namespace datmo::kitti {
+
+namespace {
+
+ObjectClass classOf(ObjectType type) {
+  switch (type) {
+    case ObjectType::kCar:
+      return ObjectClass::kVehicle;
+    case ObjectType::kPedestrian:
+      return ObjectClass::kPedestrian;
+    case ObjectType::kCyclist:
+      return ObjectClass::kCyclist;
+    default:
+      return ObjectClass::kUnknown;
+  }
+}
+
+double square(double value) { return value * value; }
+
+/// Covariance of a position seen in this direction (rad), of the axes along and across the sight.
+Eigen::Matrix2d covarianceOf(double direction, double along, double across) {
+  const Eigen::Matrix2d axes = Pose2(Point2::Zero(), direction).rotation();
+  return axes * Point2(square(along), square(across)).asDiagonal() * axes.transpose();
+}
+
+}  // namespace
+
+void DetectionModelOptions::visit(OptionVisitor& visitor) {
+  constexpr Bounds kSigma{0.001, 5.0};
+  constexpr Bounds kPerMetre{0.0, 0.1};
+  visitor.number({"score_slope", "1",
+                  "how the logarithm of the odds that a detection is true rises with its score"},
+                 score_slope, {0.01, 100.0});
+  visitor.number({"score_even", "1", "score at which a detection is as often true as false"},
+                 score_even, {-100.0, 100.0});
+  visitor.number({"along_sigma", "m", "of the centre along the line of sight, at the sensor"},
+                 along_sigma, kSigma);
+  visitor.number({"along_per_metre", "1", "what a metre of range adds to along_sigma"},
+                 along_per_metre, kPerMetre);
+  visitor.number({"across_sigma", "m", "of the centre across the line of sight, at the sensor"},
+                 across_sigma, kSigma);
+  visitor.number({"across_per_metre", "1", "what a metre of range adds to across_sigma"},
+                 across_per_metre, kPerMetre);
+  visitor.number({"length_sigma", "m", "of the length, beside what moves the box as a whole"},
+                 length_sigma, kSigma);
+  visitor.number({"width_sigma", "m", "the same of the width"}, width_sigma, kSigma);
+  visitor.number({"heading_sigma", "rad", "of the heading modulo pi"}, heading_sigma, {0.001, 1.5});
+  visitor.number({"sure_range", "m",
+                  "up to here the detector finds all that is not hidden, from there on less and "
+                  "less"},
+                 sure_range, {1.0, 500.0});
+  visitor.number({"range", "m", "the detector finds nothing farther away"}, range, {1.0, 500.0});
+}
+
+DetectionModel::DetectionModel(const DetectionModelOptions& options) : options_(options) {
+  checkOptions(options);
+}
+
+Object DetectionModel::object(const Detection& detection, const CameraMount& mount) const {
+  Object object;
+  object.box = mount.onGround(detection.box);
+  const Point2 sight = object.box.centre.position() - mount.cameraInBase().position();
+  const double range = sight.norm();
+  object.position_covariance = covarianceOf(
+      std::atan2(sight.y(), sight.x()), options_.along_sigma + range * options_.along_per_metre,
+      options_.across_sigma + range * options_.across_per_metre);
+  object.heading_variance = square(options_.heading_sigma);
+  // Either of two opposite sides has half of the variance of the size between them.
+  const double end = 0.5 * square(options_.length_sigma);
+  const double side = 0.5 * square(options_.width_sigma);
+  object.side_variance = {end, end, side, side};
+  object.height = detection.box.height;
+  object.object_class = classOf(detection.type);
+  object.class_probability = 1.0;
+  object.log_odds = logOdds(detection.score);
+  return object;
+}
+
+FieldOfView DetectionModel::view(const CameraMount& mount) const {
+  return {mount.cameraInBase(), mount.leastBearing(), mount.mostBearing(), options_.sure_range,
+          options_.range};
+}
+
+}  // namespace datmo::kitti

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kitti_tracking/sequence_run.h"
+
+namespace datmo::kitti {
+
+/// What `kitti_tracking_run` is asked to do.
+struct RunArguments {
+  std::string detections;    ///< folder with Car, Pedestrian and Cyclist in it
+  std::string calibrations;  ///< folder
+  std::string results;       ///< folder, made where it is missing
+  RunOptions options;
+};
+
+/// How `kitti_tracking_run` is called.
+std::string runUsage();
+
+/// Reads the command line and the configurations. Throws OptionError that says what is wrong and
+/// what was expected.
+RunArguments parseRunArguments(const std::vector<std::string>& words);
+
+}  // namespace datmo::kitti
