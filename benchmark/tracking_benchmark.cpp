@@ -1,4 +1,7 @@
-// The tracker: one step with a crowd of confirmed tracks.
+// The tracker: one step with a crowd of confirmed tracks and as many false alarms, by the number of
+// targets, with each kind of association.
+
+#include <string>
 
 #include <benchmark/benchmark.h>
 
@@ -17,48 +20,70 @@ constexpr double kPositionSigma = 0.2;  // m
 /// Steps before the clock runs: all objects have confirmed tracks.
 constexpr int kWarmUp = 30;
 
-/// A block of vehicles that drive ahead together, as seen at one step.
-ObjectList crowd(int objects, int step, Random& random) {
+/// A false alarm is followed until it was missed for long enough: there are more targets than
+/// vehicles.
+constexpr int kTargetsEach = 10;
+
+Object vehicleAt(const Point2& place) {
+  Object object;
+  object.box = {Pose2(place.x(), place.y(), 0.0), 4.0, 1.8};
+  object.position_covariance = kPositionSigma * kPositionSigma * Eigen::Matrix2d::Identity();
+  object.dynamic_state = DynamicState::kMoving;
+  object.moving_fraction = 1.0;
+  object.points.resize(4);
+  return object;
+}
+
+/// A block of vehicles that drive ahead together, as seen at one step, and false alarms among them.
+ObjectList crowd(int targets, int false_alarms, int step, Random& random) {
   ObjectList list;
   list.stamp = Stamp::fromSeconds(1000.0 + kPeriod * step);
-  for (int i = 0; i < objects; ++i) {
-    Object object;
-    const double x = kSpacing * (i / kAbreast) + kSpeed * kPeriod * step;
-    const double y = kSpacing * (i % kAbreast);
-    object.box = {Pose2(x + random.normal(kPositionSigma), y + random.normal(kPositionSigma), 0.0),
-                  4.0, 1.8};
-    object.position_covariance = kPositionSigma * kPositionSigma * Eigen::Matrix2d::Identity();
-    object.dynamic_state = DynamicState::kMoving;
-    object.moving_fraction = 1.0;
-    object.points.resize(4);
-    list.objects.push_back(object);
+  const double way = kSpeed * kPeriod * step;
+  for (int i = 0; i < targets; ++i) {
+    const Point2 noise(random.normal(kPositionSigma), random.normal(kPositionSigma));
+    const Point2 place(kSpacing * (i / kAbreast), kSpacing * (i % kAbreast));
+    list.objects.push_back(vehicleAt(Point2(way, 0.0) + place + noise));
+  }
+  const double length = kSpacing * targets / kAbreast;
+  for (int i = 0; i < false_alarms; ++i) {
+    const double x = random.uniform(0.0, length);
+    list.objects.push_back(vehicleAt({way + x, random.uniform(0.0, kSpacing * kAbreast)}));
   }
   return list;
 }
 
-void trackerStep(benchmark::State& state) {
-  const auto objects = static_cast<int>(state.range(0));
-  Tracker tracker{TrackerOptions{}};
+void trackerStep(benchmark::State& state, const std::string& association) {
+  const auto targets = static_cast<int>(state.range(0));
+  TrackerOptions options;
+  options.association = association;
+  // Room for all: the shipped limits are for what a step may take, which is measured here.
+  options.gating.most_targets = kTargetsEach * targets;
+  options.intake.most_objects = 2 * targets;
+  Tracker tracker(options);
   Random random(1);
   int step = 0;
   std::size_t tracks = 0;
   for (; step < kWarmUp; ++step) {
-    tracks = tracker.process(crowd(objects, step, random), Pose2()).tracks.size();
+    const ObjectList list = crowd(targets, targets, step, random);
+    tracks = tracker.process(list, Pose2()).tracks.size();
   }
   for (auto _ : state) {
     state.PauseTiming();
-    const ObjectList list = crowd(objects, ++step, random);
+    const ObjectList list = crowd(targets, targets, ++step, random);
     state.ResumeTiming();
     benchmark::DoNotOptimize(tracker.process(list, Pose2()));
   }
   state.counters["tracks"] = static_cast<double>(tracks);
 }
-BENCHMARK(trackerStep)
-    ->ArgName("objects")
-    ->Arg(10)
-    ->Arg(50)
-    ->Arg(200)
-    ->Unit(benchmark::kMicrosecond);
+
+void numbersOfTargets(benchmark::internal::Benchmark* benchmark) {
+  benchmark->ArgName("targets")->Unit(benchmark::kMicrosecond);
+  for (const int targets : {10, 20, 50, 100, 200, 500}) {
+    benchmark->Arg(targets);
+  }
+}
+BENCHMARK_CAPTURE(trackerStep, gnn, std::string("gnn"))->Apply(numbersOfTargets);
+BENCHMARK_CAPTURE(trackerStep, mht, std::string("mht"))->Apply(numbersOfTargets);
 
 }  // namespace
 }  // namespace datmo
