@@ -30,6 +30,15 @@ bool isNearer(const Entry& a, const Entry& b) {
   return std::tie(a.distance) < std::tie(b.distance) || (a.distance == b.distance && isLeft(a, b));
 }
 
+/// Of the centre that the sides seen tell, at most, m^2.
+double variance(const Object& object) {
+  double sum = object.position_covariance.trace();
+  for (const double side : object.side_variance) {
+    sum += std::isfinite(side) ? side : 0.0;
+  }
+  return sum;
+}
+
 }  // namespace
 
 std::vector<std::size_t> AssociationScan::listedSources(std::size_t observation) const {
@@ -77,7 +86,7 @@ AssociationScan takeIn(const std::vector<Object>& objects, const Pose2& base_in_
   scan.fixed_in_base = base_in_fixed.inverse();
   for (Entry& entry : entries) {
     const Box2& box = entry.object.box;
-    scan.noise = std::max(scan.noise, std::sqrt(entry.object.position_covariance.trace()));
+    scan.noise = std::max(scan.noise, std::sqrt(variance(entry.object)));
     scan.extent = std::max(scan.extent, std::hypot(box.length, box.width));
     const Point2& in_base = objects[entry.listed].box.centre.position();
     const double density = options.new_density + clutter.density(in_base);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -87,11 +88,11 @@ std::uint64_t nodeAt(const HypothesisCluster& cluster, const GlobalHypothesis& h
              : cluster.trees[tree].leaves[static_cast<std::size_t>(leaf)].nodes[history];
 }
 
-/// The trees of these indices, with the weights of what the hypotheses say of them alone.
-HypothesisCluster part(const HypothesisCluster& cluster, const std::vector<std::size_t>& trees) {
+/// Takes the trees of these indices out, with the weights of what the hypotheses say of them alone.
+HypothesisCluster part(HypothesisCluster& cluster, const std::vector<std::size_t>& trees) {
   HypothesisCluster result;
   for (const std::size_t tree : trees) {
-    result.trees.push_back(cluster.trees[tree]);
+    result.trees.push_back(std::move(cluster.trees[tree]));
   }
   for (const GlobalHypothesis& whole : cluster.hypotheses) {
     GlobalHypothesis hypothesis{whole.log_weight, {}};
@@ -126,11 +127,11 @@ HypothesisCluster singleTarget(TrackTree tree) {
   return cluster;
 }
 
-HypothesisCluster joined(const HypothesisCluster& a, const HypothesisCluster& b, std::size_t most) {
+HypothesisCluster joined(HypothesisCluster a, HypothesisCluster b, std::size_t most) {
   HypothesisCluster result;
-  result.trees = a.trees;
-  result.trees.insert(result.trees.end(), b.trees.begin(), b.trees.end());
-  result.links = a.links;
+  result.trees = std::move(a.trees);
+  std::move(b.trees.begin(), b.trees.end(), std::back_inserter(result.trees));
+  result.links = std::move(a.links);
   result.links.insert(result.links.end(), b.links.begin(), b.links.end());
   for (const GlobalHypothesis& first : a.hypotheses) {
     for (const GlobalHypothesis& second : b.hypotheses) {
@@ -218,33 +219,32 @@ std::vector<HypothesisCluster> split(HypothesisCluster cluster, std::uint64_t ol
   links.erase(std::remove_if(links.begin(), links.end(),
                              [&](const TreeLink& link) { return link.scan < oldest_scan; }),
               links.end());
-  std::map<std::uint64_t, std::size_t> tree_of_number;
-  for (std::size_t tree = 0; tree < cluster.trees.size(); ++tree) {
-    tree_of_number[cluster.trees[tree].number()] = tree;
+  // Targets that are gone still link those that are left: they come after these.
+  std::map<std::uint64_t, std::size_t> place;
+  for (const TrackTree& tree : cluster.trees) {
+    place.emplace(tree.number(), place.size());
   }
-  DisjointSets groups(cluster.trees.size());
   for (const TreeLink& link : links) {
-    const auto first = tree_of_number.find(link.first);
-    const auto second = tree_of_number.find(link.second);
-    if (first != tree_of_number.end() && second != tree_of_number.end()) {
-      groups.join(first->second, second->second);
-    }
+    place.emplace(link.first, place.size());
+    place.emplace(link.second, place.size());
   }
-  const std::vector<std::vector<std::size_t>> members = groups.sets();
+  DisjointSets groups(place.size());
+  for (const TreeLink& link : links) {
+    groups.join(place[link.first], place[link.second]);
+  }
   std::vector<HypothesisCluster> result;
-  if (members.size() == 1) {
-    result.push_back(std::move(cluster));
-    return result;
-  }
-  for (const std::vector<std::size_t>& group : members) {
-    result.push_back(part(cluster, group));
-    for (const TreeLink& link : links) {
-      const auto first = tree_of_number.find(link.first);
-      if (first != tree_of_number.end() &&
-          groups.find(first->second) == groups.find(group.front())) {
-        result.back().links.push_back(link);
-      }
+  for (std::vector<std::size_t>& group : groups.sets()) {
+    const std::size_t first = group.front();
+    group.erase(std::lower_bound(group.begin(), group.end(), cluster.trees.size()), group.end());
+    if (group.size() == cluster.trees.size() && !group.empty()) {
+      return {std::move(cluster)};
     }
+    if (group.empty()) {
+      continue;
+    }
+    result.push_back(part(cluster, group));
+    std::copy_if(links.begin(), links.end(), std::back_inserter(result.back().links),
+                 [&](const TreeLink& link) { return groups.find(place[link.first]) == first; });
   }
   return result;
 }

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <queue>
+#include <set>
 #include <utility>
 
 #include "ranked_hypothesis.h"
@@ -12,6 +14,10 @@
 namespace datmo {
 
 namespace {
+
+/// Assignments that are looked at for each hypothesis that may be kept: where track trees are full,
+/// hardly any of the many that are left finds room.
+constexpr std::size_t kMostLooks = 10;
 
 /// The cluster of the next scan, as its hypotheses come in.
 class Builder {
@@ -124,7 +130,7 @@ class Builder {
       return;
     }
     if (room_ == 0) {
-      ++counts_.refused_births;
+      counts_.refused_births += refused_.insert(observation).second ? 1 : 0;
       return;
     }
     --room_;
@@ -133,6 +139,7 @@ class Builder {
     made_.emplace_back();
     Leaf leaf{Target(context_.scan.observations[observation].object, observation,
                      context_.first_number + observation, context_.target),
+              {},
               {},
               {}};
     leaf.nodes.front() = next_node_++;
@@ -143,18 +150,16 @@ class Builder {
 
   void noteUse(std::size_t observation, std::uint64_t number) {
     for (const std::size_t source : context_.scan.observations[observation].sources) {
-      users_[source].push_back(number);
+      users_[source].insert(number);
     }
   }
 
   /// Targets that may have been seen as the same object depend on each other.
   void linkSharers(HypothesisCluster& cluster) const {
     for (const auto& entry : users_) {
-      const std::vector<std::uint64_t>& users = entry.second;
-      for (std::size_t i = 1; i < users.size(); ++i) {
-        if (users[i] != users[0]) {
-          cluster.links.push_back({context_.scan_number, users[0], users[i]});
-        }
+      const std::set<std::uint64_t>& users = entry.second;
+      for (auto user = std::next(users.begin()); user != users.end(); ++user) {
+        cluster.links.push_back({context_.scan_number, *users.begin(), *user});
       }
     }
   }
@@ -167,19 +172,10 @@ class Builder {
   std::vector<TrackTree> trees_;  ///< the old ones, then those that start now
   std::vector<std::vector<Made>> made_;
   std::vector<GlobalHypothesis> hypotheses_;
-  std::map<std::size_t, std::size_t> tree_of_birth_;         ///< by observation
-  std::map<std::size_t, std::vector<std::uint64_t>> users_;  ///< targets, by object
+  std::map<std::size_t, std::size_t> tree_of_birth_;      ///< by observation
+  std::set<std::size_t> refused_;                         ///< observations that found no room
+  std::map<std::size_t, std::set<std::uint64_t>> users_;  ///< targets, by object
 };
-
-/// A reading with parts or unions serves only where targets explain them.
-bool isComplete(const RankedHypothesis& source, const GrowthContext& context) {
-  const std::vector<std::size_t> seen_as = source.observations();
-  return std::all_of(
-      source.interpretation().begin(), source.interpretation().end(), [&](std::size_t observation) {
-        return !context.scan.observations[observation].needs_target ||
-               std::find(seen_as.begin(), seen_as.end(), observation) != seen_as.end();
-      });
-}
 
 std::vector<RankedHypothesis> sourcesOf(const HypothesisCluster& cluster,
                                         const std::vector<Interpretation>& interpretations,
@@ -188,11 +184,14 @@ std::vector<RankedHypothesis> sourcesOf(const HypothesisCluster& cluster,
   double best = -std::numeric_limits<double>::infinity();
   for (const GlobalHypothesis& hypothesis : cluster.hypotheses) {
     for (const Interpretation& interpretation : interpretations) {
-      RankedHypothesis source(cluster, hypothesis, interpretation);
+      RankedHypothesis source(cluster, context.scan, hypothesis, interpretation);
       if (source.bound() < best + std::log(context.options.least_ratio)) {
         continue;
       }
       source.rank();
+      if (source.isDone()) {
+        continue;
+      }
       if (&interpretation == &interpretations.front()) {
         best = std::max(best, source.weight());
       }
@@ -242,21 +241,20 @@ HypothesisCluster grown(const HypothesisCluster& cluster,
   const std::size_t most =
       context.hurry ? 1 : static_cast<std::size_t>(context.options.most_hypotheses);
   const double lowest = std::log(context.options.least_ratio);
+  counts.cut_hypotheses += context.hurry ? cluster.hypotheses.size() - 1 : 0;
   Builder builder(cluster, context, next_node, room, counts);
-  while (!queue.empty()) {
+  for (std::size_t looks = 0; !queue.empty(); ++looks) {
     RankedHypothesis& source = sources[queue.top()];
     if (builder.size() > 0 && source.weight() < builder.bestWeight() + lowest) {
       break;
     }
-    if (builder.size() == most) {
+    if (builder.size() == most || looks == kMostLooks * most) {
       ++counts.cut_hypotheses;
       break;
     }
     const std::size_t index = queue.top();
     queue.pop();
-    if (isComplete(source, context)) {
-      builder.add(source);
-    }
+    builder.add(source);
     source.advance();
     if (!source.isDone()) {
       queue.push(index);

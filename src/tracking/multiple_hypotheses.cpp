@@ -9,7 +9,7 @@ namespace datmo {
 
 namespace {
 
-/// The objects that any leaf of the cluster may have been seen as, rising.
+/// The objects that any leaf of the cluster may have been seen as, whole or in part, rising.
 std::vector<std::size_t> candidateObjects(const HypothesisCluster& cluster) {
   std::vector<std::size_t> result;
   for (const TrackTree& tree : cluster.trees) {
@@ -17,6 +17,7 @@ std::vector<std::size_t> candidateObjects(const HypothesisCluster& cluster) {
       for (const Candidate& candidate : leaf.scores.candidates) {
         result.push_back(candidate.observation);
       }
+      result.insert(result.end(), leaf.related.begin(), leaf.related.end());
     }
   }
   std::sort(result.begin(), result.end());
@@ -75,6 +76,7 @@ void MultipleHypotheses::score(const AssociationScan& scan) {
       for (Leaf& leaf : tree.leaves) {
         const double existence = leaf.target.existenceProbability(target_options_);
         leaf.scores = scoresOf(leaf.target, scan, existence, options_);
+        leaf.related = relatedObjects(leaf.target, scan, split_merge_);
       }
     }
   }
@@ -99,7 +101,7 @@ void MultipleHypotheses::joinCompeting(std::size_t objects) {
   for (const std::vector<std::size_t>& group : groups.sets()) {
     HypothesisCluster cluster = std::move(clusters_[group.front()]);
     for (std::size_t i = 1; i < group.size(); ++i) {
-      cluster = joined(cluster, clusters_[group[i]], most);
+      cluster = joined(std::move(cluster), std::move(clusters_[group[i]]), most);
     }
     result.push_back(std::move(cluster));
   }
@@ -123,7 +125,9 @@ void MultipleHypotheses::grow(HypothesisCluster cluster, AssociationScan& scan,
   if (whole.hypotheses.size() > 1) {
     pruneHistory(whole, history);
   }
-  const std::uint64_t oldest = scan_number_ + 1 > history ? scan_number_ + 1 - history : 0;
+  const bool decided = whole.hypotheses.size() == 1;
+  const std::uint64_t open = decided ? 0 : history;  // scans of which something is left to decide
+  const std::uint64_t oldest = scan_number_ + 1 > open ? scan_number_ + 1 - open : 0;
   for (HypothesisCluster& part : split(std::move(whole), oldest)) {
     next.push_back(std::move(part));
   }
@@ -141,7 +145,8 @@ void MultipleHypotheses::startTargets(const AssociationScan& scan, const std::ve
       continue;
     }
     --room_;
-    Leaf leaf{Target(observation.object, object, next_number_ + object, target_options_), {}, {}};
+    Leaf leaf{
+        Target(observation.object, object, next_number_ + object, target_options_), {}, {}, {}};
     leaf.nodes.front() = next_node_++;
     TrackTree tree;
     tree.leaves.push_back(std::move(leaf));

@@ -5,9 +5,19 @@
 
 namespace datmo {
 
-RankedHypothesis::RankedHypothesis(const HypothesisCluster& cluster, const GlobalHypothesis& parent,
+namespace {
+
+/// For a target of an observation that needs one, so that the assignments that have them all come
+/// first: more than all scores together.
+constexpr double kReward = 1e6;
+
+}  // namespace
+
+RankedHypothesis::RankedHypothesis(const HypothesisCluster& cluster, const AssociationScan& scan,
+                                   const GlobalHypothesis& parent,
                                    const Interpretation& interpretation)
     : cluster_(&cluster),
+      scan_(&scan),
       parent_(&parent),
       interpretation_(&interpretation),
       base_(parent.log_weight) {
@@ -15,6 +25,11 @@ RankedHypothesis::RankedHypothesis(const HypothesisCluster& cluster, const Globa
     if (parent.leaf_of_tree[tree] != kAbsent) {
       rows_.push_back(tree);
       base_ += scores(tree).missed;
+    }
+  }
+  for (std::size_t column = 0; column < interpretation.size(); ++column) {
+    if (scan.observations[interpretation[column]].needs_target) {
+      needy_.push_back(static_cast<int>(column));
     }
   }
 }
@@ -43,9 +58,30 @@ void RankedHypothesis::rank() {
       }
     }
   }
+  for (const int column : needy_) {
+    costs.col(column).array() -= kReward;
+  }
   const Eigen::VectorXd no_cost = Eigen::VectorXd::Zero(costs.rows());
   ranked_ = std::make_unique<RankedAssignments>(std::move(costs), no_cost);
   advance();
+}
+
+void RankedHypothesis::advance() {
+  present_ = ranked_->next();
+  if (present_ && !isComplete()) {
+    present_.reset();
+  }
+}
+
+bool RankedHypothesis::isComplete() const {
+  const std::vector<int>& columns = present_->column_of_row;
+  return std::all_of(needy_.begin(), needy_.end(), [&](int column) {
+    return std::find(columns.begin(), columns.end(), column) != columns.end();
+  });
+}
+
+double RankedHypothesis::weight() const {
+  return base_ - (present_->cost + kReward * static_cast<double>(needy_.size()));
 }
 
 std::vector<std::size_t> RankedHypothesis::observations() const {

@@ -11,23 +11,24 @@
 namespace datmo {
 
 /// One hypothesis of a cluster with one reading of its objects, and the ways to go on from it: its
-/// assignments of observations to targets, best first. All three must outlive it.
+/// assignments of observations to targets, best first. Only those that give a target to each
+/// observation that needs one. All that it is made of must outlive it.
 class RankedHypothesis {
  public:
-  RankedHypothesis(const HypothesisCluster& cluster, const GlobalHypothesis& parent,
-                   const Interpretation& interpretation);
+  RankedHypothesis(const HypothesisCluster& cluster, const AssociationScan& scan,
+                   const GlobalHypothesis& parent, const Interpretation& interpretation);
 
   /// No assignment weighs more (logarithm).
   double bound() const;
 
-  /// Finds the best assignment; to be called before all below.
+  /// Finds the best assignment, if there is any; to be called before all below.
   void rank();
 
-  void advance() { present_ = ranked_->next(); }
+  void advance();
   bool isDone() const { return !present_; }
 
   /// Of the present assignment, logarithm.
-  double weight() const { return base_ - present_->cost; }
+  double weight() const;
 
   /// Observation of each tree of the cluster in the present assignment; kUnseen: none.
   std::vector<std::size_t> observations() const;
@@ -37,12 +38,15 @@ class RankedHypothesis {
 
  private:
   const TargetScores& scores(std::size_t tree) const;
+  bool isComplete() const;
 
   const HypothesisCluster* cluster_;
+  const AssociationScan* scan_;
   const GlobalHypothesis* parent_;
   const Interpretation* interpretation_;
   double base_;                    ///< logarithm of the weight if all targets are missed
   std::vector<std::size_t> rows_;  ///< trees that are present
+  std::vector<int> needy_;         ///< columns that need a target
   std::unique_ptr<RankedAssignments> ranked_;
   std::optional<Assignment> present_;
 };

@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <utility>
+
+#include "object_parts.h"
 
 namespace datmo {
 
@@ -13,96 +14,21 @@ namespace {
 
 constexpr double kLeastArea = 1.0;  ///< m^2, of what is nearly a point
 
-/// Outward normals of the sides of a box, in the order of BoxSide.
-std::array<Point2, kBoxSides> normalsOf(const Box2& box) {
-  const Point2 ahead = box.centre.rotate(Point2::UnitX());
-  const Point2 left = box.centre.rotate(Point2::UnitY());
-  return {ahead, -ahead, left, -left};
-}
-
 double area(const Box2& box) { return std::max(kLeastArea, box.length * box.width); }
 
-/// How far the box reaches in a direction, from the origin, m.
-double reachAlong(const Box2& box, const Point2& direction) {
-  double reach = -std::numeric_limits<double>::infinity();
-  for (const Point2& corner : box.corners()) {
-    reach = std::max(reach, corner.dot(direction));
-  }
-  return reach;
+Box2 widened(Box2 box, double margin) {
+  box.length += 2.0 * margin;
+  box.width += 2.0 * margin;
+  return box;
 }
 
-/// Variance of the side that looks most in this direction.
-double sideVariance(const Object& object, const Point2& direction) {
-  const std::array<Point2, kBoxSides> normals = normalsOf(object.box);
-  std::size_t best = 0;
-  for (std::size_t side = 1; side < kBoxSides; ++side) {
-    if (normals[side].dot(direction) > normals[best].dot(direction)) {
-      best = side;
-    }
-  }
-  return object.side_variance[best];
+bool mayBePartOf(const Object& object, const Box2& target, const SplitMergeOptions& options) {
+  const Box2 around = widened(target, options.margin);
+  return around.contains(object.box.centre.position()) && object.box.length <= around.length;
 }
 
-/// The smallest box of this heading that holds all points; at least one.
-Box2 boxAround(const std::vector<Point2>& points, double heading) {
-  const Pose2 axes(Point2::Zero(), heading);
-  const Pose2 back = axes.inverse();
-  Point2 least = back * points.front();
-  Point2 most = least;
-  for (const Point2& point : points) {
-    const Point2 local = back * point;
-    least = least.cwiseMin(local);
-    most = most.cwiseMax(local);
-  }
-  const Point2 size = most - least;
-  return {Pose2(axes * Point2(0.5 * (least + most)), heading), size.x(), size.y()};
-}
-
-/// Some of the cluster's objects as one, in the axes of the target that they may be parts of.
-Object unionOf(const std::vector<const Object*>& parts, double heading) {
-  Object whole = *parts.front();
-  std::vector<Point2> corners;
-  whole.points.clear();
-  double moving_points = 0.0;
-  for (const Object* part : parts) {
-    const auto box = part->box.corners();
-    corners.insert(corners.end(), box.begin(), box.end());
-    whole.points.insert(whole.points.end(), part->points.begin(), part->points.end());
-    moving_points += part->moving_fraction * static_cast<double>(part->points.size());
-    if (part->position_covariance.trace() > whole.position_covariance.trace()) {
-      whole.position_covariance = part->position_covariance;
-    }
-    whole.dynamic_state = std::max(whole.dynamic_state, part->dynamic_state);
-  }
-  whole.moving_fraction =
-      whole.points.empty() ? 0.0 : moving_points / static_cast<double>(whole.points.size());
-  whole.box = boxAround(corners, heading);
-  const std::array<Point2, kBoxSides> normals = normalsOf(whole.box);
-  for (std::size_t side = 0; side < kBoxSides; ++side) {
-    const Object* outermost =
-        *std::max_element(parts.begin(), parts.end(), [&](const Object* a, const Object* b) {
-          return reachAlong(a->box, normals[side]) < reachAlong(b->box, normals[side]);
-        });
-    whole.side_variance[side] = sideVariance(*outermost, normals[side]);
-  }
-  return whole;
-}
-
-/// The points of an object as the part of it that belongs to one target; the other one is in the
-/// direction `other`, where the part ends without having been seen to.
-Object partOf(const Object& whole, std::vector<Point2> points, double heading,
-              const Point2& other) {
-  Object part = whole;
-  part.box = boxAround(points, heading);
-  part.points = std::move(points);
-  const std::array<Point2, kBoxSides> normals = normalsOf(part.box);
-  std::size_t inner = 0;
-  for (std::size_t side = 0; side < kBoxSides; ++side) {
-    part.side_variance[side] = sideVariance(whole, normals[side]);
-    inner = normals[side].dot(other) > normals[inner].dot(other) ? side : inner;
-  }
-  part.side_variance[inner] = kHiddenSide;
-  return part;
+bool mayCover(const Object& object, const Box2& target, const SplitMergeOptions& options) {
+  return widened(object.box, options.margin).contains(target.centre.position());
 }
 
 /// Another reading of some objects: the observations that take their place.
@@ -149,19 +75,11 @@ class Reader {
     Box2 box;
   };
 
-  Box2 widened(Box2 box) const {
-    box.length += 2.0 * options_.margin;
-    box.width += 2.0 * options_.margin;
-    return box;
-  }
-
   void addUnion(const Placed& target, std::vector<Alternative>& result) {
-    const Box2 around = widened(target.box);
     std::vector<std::size_t> inside;
     std::vector<const Object*> parts;
     for (const std::size_t index : objects_) {
-      const Object& object = scan_.observations[index].object;
-      if (around.contains(object.box.centre.position()) && object.box.length <= around.length) {
+      if (mayBePartOf(scan_.observations[index].object, target.box, options_)) {
         inside.push_back(index);
       }
     }
@@ -173,8 +91,9 @@ class Reader {
       parts.push_back(&scan_.observations[index].object);
       log_density += scan_.observations[index].log_density;
     }
-    log_density -= static_cast<double>(inside.size() - 1) *
-                   std::log(options_.split_probability / area(around));
+    log_density -=
+        static_cast<double>(inside.size() - 1) *
+        std::log(options_.split_probability / area(widened(target.box, options_.margin)));
     const Object whole = unionOf(parts, target.box.centre.heading());
     result.push_back({inside, {observe(whole, inside, log_density, target.tree)}});
   }
@@ -183,7 +102,7 @@ class Reader {
     const Object object = scan_.observations[index].object;
     std::vector<Placed> covered;
     for (const Placed& target : confirmed_) {
-      if (widened(object.box).contains(target.box.centre.position())) {
+      if (mayCover(object, target.box, options_)) {
         covered.push_back(target);
       }
     }
@@ -264,6 +183,30 @@ void SplitMergeOptions::visit(OptionVisitor& visitor) {
                   most_readings, {1, 100});
 }
 
+std::vector<std::size_t> relatedObjects(const Target& target, const AssociationScan& scan,
+                                        const SplitMergeOptions& options) {
+  std::vector<std::size_t> result;
+  if (!target.confirmed()) {
+    return result;
+  }
+  const bool splits = options.split_probability > 0.0;
+  const bool merges = options.merge_probability > 0.0;
+  const Box2 box = target.box();
+  const double x = box.centre.x();
+  const double reach = 0.5 * (scan.extent + box.length + box.width) + 2.0 * options.margin;
+  const auto end = scan.observations.begin() + static_cast<std::ptrdiff_t>(scan.objects);
+  auto next = std::lower_bound(
+      scan.observations.begin(), end, x - reach,
+      [](const Observation& o, double least) { return o.object.box.centre.x() < least; });
+  for (; next != end && next->object.box.centre.x() <= x + reach; ++next) {
+    if ((splits && mayBePartOf(next->object, box, options)) ||
+        (merges && mayCover(next->object, box, options))) {
+      result.push_back(static_cast<std::size_t>(next - scan.observations.begin()));
+    }
+  }
+  return result;
+}
+
 void addSplitAndMerged(HypothesisCluster& cluster, AssociationScan& scan,
                        const AssociationOptions& association, const SplitMergeOptions& options,
                        std::vector<Interpretation>& interpretations) {
@@ -273,8 +216,9 @@ void addSplitAndMerged(HypothesisCluster& cluster, AssociationScan& scan,
   Interpretation all = objects;
   std::vector<std::size_t> replaced_objects;
   std::size_t used = 0;
+  const auto most = static_cast<std::size_t>(options.most_readings);
   for (const Alternative& alternative : alternatives) {
-    if (interpretations.size() < static_cast<std::size_t>(options.most_readings)) {
+    if (interpretations.size() < most) {
       interpretations.push_back(replaced(objects, alternative));
     }
     if (!overlap(replaced_objects, alternative.sources)) {
@@ -285,7 +229,8 @@ void addSplitAndMerged(HypothesisCluster& cluster, AssociationScan& scan,
       ++used;
     }
   }
-  if (used > 1) {
+  if (used > 1 && most > 1) {
+    interpretations.resize(std::min(interpretations.size(), most - 1));
     interpretations.push_back(all);
   }
 }

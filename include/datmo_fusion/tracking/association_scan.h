@@ -26,7 +26,7 @@ struct AssociationScan {
   std::vector<Observation> observations;
   std::size_t objects = 0;          ///< how many are objects by themselves
   std::vector<std::size_t> listed;  ///< where each object stood in the sensor's list
-  double noise = 0.0;               ///< m, most of an object's position
+  double noise = 0.0;               ///< m, most of an object's position and sides
   double extent = 0.0;              ///< m, most of an object
 
   const Visibility* visibility = nullptr;  ///< vehicle's frame

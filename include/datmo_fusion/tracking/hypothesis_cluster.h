@@ -32,7 +32,7 @@ struct HypothesisCluster {
 HypothesisCluster singleTarget(TrackTree tree);
 
 /// Both clusters as one, with the `most` likeliest pairs of their hypotheses.
-HypothesisCluster joined(const HypothesisCluster& a, const HypothesisCluster& b, std::size_t most);
+HypothesisCluster joined(HypothesisCluster a, HypothesisCluster b, std::size_t most);
 
 /// Removes all hypotheses that differ from the best one in what they say of the scan `history`
 /// scans ago (N-scan pruning: Blackman 2004; thesis 3.3.4). `history` to kMostScanHistory; 0 leaves
@@ -46,7 +46,8 @@ void removeLeaves(HypothesisCluster& cluster, const std::function<bool(const Tar
 /// may be left without trees.
 void tidy(HypothesisCluster& cluster);
 
-/// The groups of targets that have shared no object since `oldest_scan` as clusters of their own.
+/// The groups of targets that have shared no object since `oldest_scan`, not even through one that
+/// is gone, as clusters of their own.
 std::vector<HypothesisCluster> split(HypothesisCluster cluster, std::uint64_t oldest_scan);
 
 }  // namespace datmo

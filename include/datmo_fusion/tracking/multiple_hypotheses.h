@@ -27,7 +27,10 @@ class MultipleHypotheses : public TargetSet {
   void change(std::uint64_t number, const std::function<void(Target&)>& change) override;
   void removeIf(const std::function<bool(const Target&)>& isLost) override;
   const AssociationCounts& counts() const override { return counts_; }
-  void clear() override { clusters_.clear(); }
+  void clear() override {
+    clusters_.clear();
+    counts_ = {};
+  }
 
  private:
   void score(const AssociationScan& scan);

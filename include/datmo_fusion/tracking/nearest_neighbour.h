@@ -20,7 +20,10 @@ class NearestNeighbourTargets : public TargetSet {
   void change(std::uint64_t number, const std::function<void(Target&)>& change) override;
   void removeIf(const std::function<bool(const Target&)>& isLost) override;
   const AssociationCounts& counts() const override { return counts_; }
-  void clear() override { targets_.clear(); }
+  void clear() override {
+    targets_.clear();
+    counts_ = {};
+  }
 
  private:
   TargetOptions target_options_;

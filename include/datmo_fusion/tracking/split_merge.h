@@ -17,6 +17,11 @@ struct SplitMergeOptions {
   void visit(OptionVisitor& visitor);
 };
 
+/// The objects by themselves, rising, that may be parts of a confirmed target or cover it, within
+/// its gate or not. The target must have been predicted to the scan's time.
+std::vector<std::size_t> relatedObjects(const Target& target, const AssociationScan& scan,
+                                        const SplitMergeOptions& options);
+
 /// Other readings of a cluster's objects than each by itself (thesis figure 4.11 d, e): several
 /// objects inside of the box of a confirmed target may be parts of it, and an object that covers
 /// two confirmed targets may be both of them.

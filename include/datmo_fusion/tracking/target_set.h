@@ -16,7 +16,7 @@ struct BestTarget {
   double probability;    ///< 0 to 1, of all hypotheses that have this target
 };
 
-/// What had to be given up to keep a step short; since construction.
+/// What had to be given up to keep a step short; since construction or clear().
 struct AssociationCounts {
   std::uint64_t refused_births = 0;  ///< new objects that found no room
   std::uint64_t cut_hypotheses = 0;  ///< likely enough, but beyond the bounds
@@ -45,7 +45,7 @@ class TargetSet {
 
   virtual const AssociationCounts& counts() const = 0;
 
-  /// Forgets all targets; counts and numbers go on.
+  /// Forgets all targets and counts; numbers go on.
   virtual void clear() = 0;
 };
 

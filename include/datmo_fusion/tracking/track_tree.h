@@ -21,11 +21,12 @@ inline constexpr std::size_t kMostScanHistory = 8;
 struct Leaf {
   Target target;
   std::array<std::uint64_t, kMostScanHistory + 1> nodes{};
-  TargetScores scores;  ///< against the present scan
+  TargetScores scores;               ///< against the present scan
+  std::vector<std::size_t> related;  ///< of its objects: see relatedObjects()
 
   /// The leaf below this one in the next scan.
   Leaf child(std::uint64_t node) const {
-    Leaf next{target, {}, {}};
+    Leaf next{target, {}, {}, {}};
     std::copy(nodes.begin(), nodes.end() - 1, next.nodes.begin() + 1);
     next.nodes.front() = node;
     return next;

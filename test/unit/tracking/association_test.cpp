@@ -1,86 +1,124 @@
 #include "datmo_fusion/tracking/association.h"
 
-#include "tracking_scene.h"
+#include <cmath>
+
+#include "association_scene.h"
 #include <gtest/gtest.h>
 
 namespace datmo {
 namespace {
 
-std::vector<Target> targetsAt(const std::vector<double>& places) {
-  const TargetOptions options;
-  std::vector<Target> targets;
-  for (const double x : places) {
-    targets.emplace_back(objectAt(x, 0.0), options);
-    targets.back().predict(0.1, immStep(options.filter, 0.1), options);
+constexpr double kExistence = 0.6;
+
+class AssociationTest : public testing::Test {
+ protected:
+  std::vector<std::size_t> candidatesOf(const Target& target, const std::vector<Object>& objects) {
+    std::vector<std::size_t> result;
+    const AssociationScan scan = source_.scan(objects);
+    for (const Candidate& candidate : scoresOf(target, scan, kExistence, options_).candidates) {
+      result.push_back(candidate.observation);
+    }
+    return result;
   }
-  return targets;
+
+  ScanSource source_;
+  AssociationOptions options_;
+};
+
+TEST_F(AssociationTest, ScoresAreThoseOfBlackmanWithAnExistence) {
+  const Target target = predictedAt(0.0, 0.0);
+  const AssociationScan scan = source_.scan({objectAt(0.3, 0.1)});
+  const TargetScores scores = scoresOf(target, scan, kExistence, options_);
+  const double seen = kExistence * source_.detectionProbability();
+  EXPECT_DOUBLE_EQ(scores.detection_probability, source_.detectionProbability());
+  EXPECT_NEAR(scores.missed, std::log(1.0 - seen), 1e-12);
+  ASSERT_EQ(scores.candidates.size(), 1U);
+  const PositionMeasurement measured = target.measurementOf(scan.observations[0].object);
+  const double likelihood = std::exp(target.filter().logLikelihood(measured));
+  EXPECT_NEAR(scores.candidates[0].score,
+              std::log(seen * likelihood / ((1.0 - seen) * source_.density())), 1e-9);
 }
 
-std::vector<Object> objectsAt(const std::vector<double>& places) {
+TEST_F(AssociationTest, MoreCertainToExistScoresHigher) {
+  const Target target = predictedAt(0.0, 0.0);
+  const AssociationScan scan = source_.scan({objectAt(0.3, 0.1)});
+  const TargetScores unsure = scoresOf(target, scan, 0.2, options_);
+  const TargetScores sure = scoresOf(target, scan, 0.99, options_);
+  EXPECT_GT(sure.candidates.at(0).score, unsure.candidates.at(0).score);
+  EXPECT_LT(sure.missed, unsure.missed);
+}
+
+TEST_F(AssociationTest, OnlyWhatIsWithinTheGateByRisingX) {
+  const Target target = predictedAt(0.0, 0.0);
+  EXPECT_EQ(candidatesOf(target, objectsAlong({50.0, 0.4, -50.0, -0.3})),
+            (std::vector<std::size_t>{1, 2}));
+  EXPECT_TRUE(candidatesOf(target, {}).empty());
+}
+
+TEST_F(AssociationTest, TheGateIsAMahalanobisDistance) {
+  const Target target = predictedAt(0.0, 0.0);
+  const Object object = objectAt(1.5, 0.0);
+  const double distance2 =
+      innovationOf(target.filter().estimate(), target.measurementOf(object)).squaredDistance();
+  options_.gate = 1.01 * distance2;
+  EXPECT_EQ(candidatesOf(target, {object}).size(), 1U);
+  options_.gate = 0.99 * distance2;
+  EXPECT_TRUE(candidatesOf(target, {object}).empty());
+}
+
+TEST_F(AssociationTest, TheQuickAnswerLosesNothingWithinTheGate) {
+  // All objects that pass the gate by themselves are found among many, large and small ones.
+  const Target target = predictedAt(0.0, 0.0);
   std::vector<Object> objects;
-  for (const double x : places) {
-    objects.push_back(objectAt(x, 0.0));
+  for (int i = -60; i <= 60; ++i) {
+    objects.push_back(objectAt(0.1 * i, 0.03 * i));
+    objects.back().box.length = i % 3 == 0 ? 8.0 : 0.5;
   }
-  return objects;
+  options_.most_candidates = 1000;
+  std::size_t expected = 0;
+  for (const Object& object : objects) {
+    const Innovation innovation =
+        innovationOf(target.filter().estimate(), target.measurementOf(object));
+    expected += innovation.squaredDistance() <= options_.gate ? 1 : 0;
+  }
+  EXPECT_GT(expected, 10U);
+  EXPECT_LT(expected, objects.size());
+  EXPECT_EQ(candidatesOf(target, objects).size(), expected);
 }
 
-const GlobalNearestNeighbour kAssociator{AssociationOptions()};
-
-TEST(GlobalNearestNeighbour, NamesPairsMissedAndUnexplained) {
-  const Association result = kAssociator.associate(targetsAt({0.0, 50.0}), objectsAt({20.0, 0.2}));
-  ASSERT_EQ(result.pairs.size(), 1U);
-  EXPECT_EQ(result.pairs[0].target, 0U);
-  EXPECT_EQ(result.pairs[0].object, 1U);
-  EXPECT_EQ(result.missed, std::vector<std::size_t>{1});
-  EXPECT_EQ(result.unexplained, std::vector<std::size_t>{0});
+TEST_F(AssociationTest, OfManyTheNearestAreCandidates) {
+  options_.most_candidates = 2;
+  EXPECT_EQ(candidatesOf(predictedAt(0.0, 0.0), objectsAlong({-0.9, -0.2, 0.1, 0.6})),
+            (std::vector<std::size_t>{1, 2}));
 }
 
-TEST(GlobalNearestNeighbour, TheSumDecidesNotTheNearest) {
-  // The object at 1.0 is nearest to the target at 1.2, but then the other target would have none.
-  const Association result = kAssociator.associate(targetsAt({0.0, 1.2}), objectsAt({1.0, 2.4}));
-  ASSERT_EQ(result.pairs.size(), 2U);
-  EXPECT_EQ(result.pairs[0].object, 0U);
-  EXPECT_EQ(result.pairs[1].object, 1U);
-}
-
-TEST(GlobalNearestNeighbour, NothingAndNothing) {
-  EXPECT_TRUE(kAssociator.associate({}, {}).pairs.empty());
-  EXPECT_EQ(kAssociator.associate({}, objectsAt({1.0})).unexplained.size(), 1U);
-  EXPECT_EQ(kAssociator.associate(targetsAt({1.0}), {}).missed.size(), 1U);
-}
-
-TEST(GlobalNearestNeighbour, DifferentClassesAreNeverJoinedAnUnknownOneIsWithAny) {
-  const TargetOptions options;
-  Object cyclist = objectAt(0.0, 0.0);
-  cyclist.object_class = ObjectClass::kCyclist;
-  Object vehicle = objectAt(0.1, 0.0);
-  vehicle.object_class = ObjectClass::kVehicle;
-  const std::vector<Target> target{Target(cyclist, options)};
-  EXPECT_TRUE(kAssociator.associate(target, {vehicle}).pairs.empty());
-  EXPECT_EQ(kAssociator.associate(target, {cyclist}).pairs.size(), 1U);
-  EXPECT_EQ(kAssociator.associate(target, objectsAt({0.1})).pairs.size(), 1U);
-}
-
-TEST(GlobalNearestNeighbour, OutsideOfTheGateIsAnother) {
-  AssociationOptions tight;
-  tight.gate = 0.1;
-  const auto targets = targetsAt({0.0});
-  const auto objects = objectsAt({1.0});
-  EXPECT_EQ(kAssociator.associate(targets, objects).pairs.size(), 1U);
-  EXPECT_TRUE(GlobalNearestNeighbour(tight).associate(targets, objects).pairs.empty());
-}
-
-TEST(GlobalNearestNeighbour, WhatIsHiddenWidensTheGate) {
-  const TargetOptions options;
-  Object lorry = objectAt(0.0, 0.0);
-  const auto associated = [&](const Object& first) {
-    std::vector<Target> targets{Target(first, options)};
-    targets[0].predict(0.1, immStep(options.filter, 0.1), options);
-    return !kAssociator.associate(targets, objectsAt({5.5})).pairs.empty();
+TEST_F(AssociationTest, DifferentClassesAreNeverJoinedAnUnknownOneIsWithAny) {
+  const auto of = [](ObjectClass object_class) {
+    Object object = objectAt(0.0, 0.0);
+    object.object_class = object_class;
+    object.class_probability = 0.9;
+    return object;
   };
-  EXPECT_FALSE(associated(lorry));
-  lorry.box.length = 10.0;
-  EXPECT_TRUE(associated(lorry)) << "its end, seen alone";
+  const Target cyclist(of(ObjectClass::kCyclist), 0, 1, TargetOptions());
+  EXPECT_TRUE(candidatesOf(cyclist, {of(ObjectClass::kVehicle)}).empty());
+  EXPECT_EQ(candidatesOf(cyclist, {of(ObjectClass::kCyclist)}).size(), 1U);
+  EXPECT_EQ(candidatesOf(cyclist, {of(ObjectClass::kUnknown)}).size(), 1U);
+  const Target unknown(of(ObjectClass::kUnknown), 0, 1, TargetOptions());
+  EXPECT_EQ(candidatesOf(unknown, {of(ObjectClass::kVehicle)}).size(), 1U);
+}
+
+TEST_F(AssociationTest, OnlyObjectsByThemselvesAreFoundOthersAreAdded) {
+  const Target target = predictedAt(0.0, 0.0);
+  AssociationScan scan = source_.scan(objectsAlong({-0.2, 0.2}));
+  scan.observations.push_back({objectAt(0.0, 0.0), {0, 1}, 0.0, false, true});
+  TargetScores scores = scoresOf(target, scan, kExistence, options_);
+  ASSERT_EQ(scores.candidates.size(), 2U);
+  addCandidate(target, scan, 2, options_, scores);
+  ASSERT_EQ(scores.candidates.size(), 3U);
+  EXPECT_EQ(scores.candidates[2].observation, 2U);
+  scan.observations.push_back({objectAt(30.0, 0.0), {0, 1}, 0.0, false, true});
+  addCandidate(target, scan, 3, options_, scores);
+  EXPECT_EQ(scores.candidates.size(), 3U) << "outside of the gate";
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "datmo_fusion/tracking/motion_evidence.h"
 
+#include <cmath>
+
 #include "tracking_scene.h"
 #include <gtest/gtest.h>
 
@@ -17,6 +19,8 @@ StateEstimate movingEstimate() {
 /// Log-density of a measurement that the motion filter predicted well: it always hits.
 constexpr double kWellPredicted = 0.0;
 
+constexpr double kDetection = 0.9;
+
 Object seenAt(double x, double length, std::size_t points = 3) {
   Object object = objectAt(x, 0.0);
   object.box.length = length;
@@ -33,13 +37,13 @@ class MotionEvidenceTest : public testing::Test {
   void see(const Object& object, int times = 1) {
     for (int i = 0; i < times; ++i) {
       evidence_.predict(0.1, options_);
-      evidence_.update(object, placeOf(object), kWellPredicted, options_);
+      evidence_.update(object, placeOf(object), kWellPredicted, kDetection, options_);
     }
   }
   bool suffices() const { return evidence_.suffices(movingEstimate(), options_); }
 
   MotionEvidenceOptions options_;
-  MotionEvidence evidence_{seenAt(0.0, 1.0)};
+  MotionEvidence evidence_{seenAt(0.0, 1.0), options_};
 };
 
 TEST_F(MotionEvidenceTest, AnObjectThatLeavesItsPlaceMoves) {
@@ -70,16 +74,16 @@ TEST_F(MotionEvidenceTest, AGrowingSideDoesNotLeaveItsPlace) {
 
 TEST_F(MotionEvidenceTest, InFreeSpaceAShorterWayIsEnough) {
   // A box of 4 m goes 2.5 m: it could have stood there half hidden, but not where the map was free.
-  MotionEvidence in_unknown_space(seenAt(0.0, 4.0));
+  MotionEvidence in_unknown_space(seenAt(0.0, 4.0), options_);
   Object free_object = seenAt(0.0, 4.0);
   free_object.moving_fraction = 1.0;
-  MotionEvidence in_free_space(free_object);
+  MotionEvidence in_free_space(free_object, options_);
   for (int i = 1; i <= 10; ++i) {
     for (MotionEvidence* evidence : {&in_unknown_space, &in_free_space}) {
       Object object = seenAt(0.25 * i, 4.0);
       object.moving_fraction = evidence == &in_free_space ? 1.0 : 0.0;
       evidence->predict(0.1, options_);
-      evidence->update(object, placeOf(object), kWellPredicted, options_);
+      evidence->update(object, placeOf(object), kWellPredicted, kDetection, options_);
     }
   }
   EXPECT_FALSE(in_unknown_space.suffices(movingEstimate(), options_));
@@ -104,13 +108,13 @@ TEST_F(MotionEvidenceTest, OneJumpIsNoMotion) {
 
 TEST_F(MotionEvidenceTest, IsolatedEchoesNeedMoreScansThanObjects) {
   const auto scansNeeded = [this](std::size_t points) {
-    MotionEvidence evidence(seenAt(0.0, 0.0, points));
+    MotionEvidence evidence(seenAt(0.0, 0.0, points), options_);
     int scans = 0;
     while (!evidence.suffices(movingEstimate(), options_) && scans < 100) {
       ++scans;
       const Object object = seenAt(0.8 * scans, 0.0, points);
       evidence.predict(0.1, options_);
-      evidence.update(object, placeOf(object), kWellPredicted, options_);
+      evidence.update(object, placeOf(object), kWellPredicted, kDetection, options_);
     }
     return scans;
   };
@@ -118,27 +122,54 @@ TEST_F(MotionEvidenceTest, IsolatedEchoesNeedMoreScansThanObjects) {
   EXPECT_LT(scansNeeded(1), 100);
 }
 
-TEST_F(MotionEvidenceTest, MissesAndBadlyPredictedObjectsSpendIt) {
-  EXPECT_TRUE(evidence_.isSpent());
-  see(seenAt(0.0, 1.0), 3);
-  EXPECT_FALSE(evidence_.isSpent());
+TEST_F(MotionEvidenceTest, TheScoreAddsUpLogLikelihoodRatios) {
+  options_.scan_limit = 100.0;
+  see(seenAt(0.0, 1.0));
+  const double one = std::log(kDetection / options_.false_density);
+  EXPECT_NEAR(evidence_.score(), one, 1e-12);
+  Object sure = seenAt(0.0, 1.0);
+  sure.log_odds = 0.75;
+  see(sure);
+  EXPECT_NEAR(evidence_.score(), 2.0 * one + 0.75, 1e-12);
+  evidence_.miss(kDetection, options_);
+  EXPECT_NEAR(evidence_.score(), 2.0 * one + 0.75 + std::log(1.0 - kDetection), 1e-12);
+}
+
+TEST_F(MotionEvidenceTest, OneScanCountsForALimitedAmount) {
+  see(seenAt(0.0, 1.0));
+  EXPECT_DOUBLE_EQ(evidence_.score(), options_.scan_limit);
+}
+
+TEST_F(MotionEvidenceTest, AMissWhereNothingCouldBeSeenCostsLittle) {
+  see(seenAt(0.0, 1.0), 4);
+  const double before = evidence_.score();
+  MotionEvidence visible = evidence_;
+  visible.miss(0.95, options_);
+  evidence_.miss(0.02, options_);
+  EXPECT_NEAR(evidence_.score(), before + std::log(0.98), 1e-12);
+  EXPECT_NEAR(visible.score(), before + std::log(0.05), 1e-12);
+}
+
+TEST_F(MotionEvidenceTest, TheScoreStaysWithinItsLimits) {
+  see(seenAt(0.0, 1.0), 100);
+  EXPECT_EQ(evidence_.score(), options_.most_evidence);
   for (int i = 0; i < 100; ++i) {
-    evidence_.miss(options_);
+    evidence_.miss(0.5, options_);
   }
-  EXPECT_TRUE(evidence_.isSpent());
+  EXPECT_EQ(evidence_.score(), options_.least_evidence);
 
   see(seenAt(0.0, 1.0));
   constexpr double kFarOff = -20.0;
-  evidence_.update(seenAt(0.0, 1.0), placeOf(seenAt(0.0, 1.0)), kFarOff, options_);
-  EXPECT_TRUE(evidence_.isSpent());
+  evidence_.update(seenAt(0.0, 1.0), placeOf(seenAt(0.0, 1.0)), kFarOff, kDetection, options_);
+  EXPECT_EQ(evidence_.score(), options_.least_evidence);
 }
 
 TEST_F(MotionEvidenceTest, FreeSpaceSpeaksForMotionAndAStaticPlaceAgainst) {
   // Just as likely by both filters: only the map decides.
   const auto seemsToStandAfter = [this](const Object& object) {
-    MotionEvidence evidence(object);
+    MotionEvidence evidence(object, options_);
     const Innovation standing{Eigen::Vector2d::Zero(), 2.0 * object.position_covariance};
-    evidence.update(object, placeOf(object), standing.logLikelihood(), options_);
+    evidence.update(object, placeOf(object), standing.logLikelihood(), kDetection, options_);
     return evidence.seemsToStand();
   };
   EXPECT_FALSE(seemsToStandAfter(objectAt(0.0, 0.0, DynamicState::kMoving)));

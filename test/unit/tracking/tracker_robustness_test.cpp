@@ -48,8 +48,8 @@ TEST(TrackerRobustness, RejectsBrokenObjectsAndTakesTheRest) {
     objects.push_back(objectAt(5.0 * scene.nextTime(), 0.0));
     scene.scan(objects);
   }
-  EXPECT_EQ(scene.tracker().counts().rejected_objects, 20U * 8U);
-  EXPECT_EQ(scene.tracker().counts().objects, 20U);
+  EXPECT_EQ(scene.tracker().counts().intake.rejected, 20U * 8U);
+  EXPECT_EQ(scene.tracker().counts().intake.accepted, 20U);
   ASSERT_EQ(scene.tracks().tracks.size(), 1U);
   EXPECT_TRUE(scene.tracks().tracks[0].state.allFinite());
 }
@@ -57,17 +57,17 @@ TEST(TrackerRobustness, RejectsBrokenObjectsAndTakesTheRest) {
 TEST(TrackerRobustness, AVehiclePoseThatIsNotFiniteRejectsTheObjectsOnly) {
   TrackingScene scene;
   scene.scan({objectAt(1.0, 1.0)}, Pose2(std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0));
-  EXPECT_EQ(scene.tracker().counts().rejected_objects, 1U);
+  EXPECT_EQ(scene.tracker().counts().intake.rejected, 1U);
 }
 
 TEST(TrackerRobustness, AThousandObjectsAtOnePointAreBounded) {
   TrackerOptions options;
-  options.most_targets = 50;
+  options.gating.most_targets = 50;
   TrackingScene scene(options);
   for (int i = 0; i < 3; ++i) {
     scene.scan(std::vector<Object>(1000, objectAt(10.0, 0.0)));
   }
-  EXPECT_GE(scene.tracker().counts().refused_births, 950U);
+  EXPECT_GE(scene.tracker().counts().association.refused_births, 950U);
   EXPECT_EQ(scene.tracker().counts().confirmed_tracks, 0U);
 }
 

@@ -219,7 +219,7 @@ TEST(Tracker, IdsRiseAndAreNotReusedAfterDeathOrReset) {
       scene.wait(20.0);
     } else {
       scene.tracker().reset();
-      EXPECT_EQ(scene.tracker().counts().objects, 0U);
+      EXPECT_EQ(scene.tracker().counts().intake.accepted, 0U);
     }
     EXPECT_TRUE(scene.scan({}).tracks.empty());
   }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <random>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -25,12 +27,20 @@ inline Object objectAt(double x, double y, DynamicState state = DynamicState::kU
 /// otherwise.
 class TrackingScene {
  public:
-  explicit TrackingScene(const TrackerOptions& options = TrackerOptions(), double period = 0.1)
-      : tracker_(options), period_(period) {}
+  explicit TrackingScene(const TrackerOptions& options = TrackerOptions(), double period = 0.1,
+                         StepClock clock = {})
+      : tracker_(options, std::move(clock)), period_(period) {}
 
   const TrackList& scan(const std::vector<Object>& objects, const Pose2& base_in_fixed = Pose2()) {
     time_ += period_;
     tracks_ = tracker_.process({Stamp::fromSeconds(time_), objects}, base_in_fixed);
+    return tracks_;
+  }
+
+  /// The same with what could be seen from the origin.
+  const TrackList& scan(const std::vector<Object>& objects, const Visibility& visibility) {
+    time_ += period_;
+    tracks_ = tracker_.process({Stamp::fromSeconds(time_), objects}, Pose2(), visibility);
     return tracks_;
   }
 

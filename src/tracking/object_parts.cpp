@@ -1,0 +1,113 @@
+#include "object_parts.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+namespace datmo {
+
+namespace {
+
+/// Outward normals of the sides of a box, in the order of BoxSide.
+std::array<Point2, kBoxSides> normalsOf(const Box2& box) {
+  const Point2 ahead = box.centre.rotate(Point2::UnitX());
+  const Point2 left = box.centre.rotate(Point2::UnitY());
+  return {ahead, -ahead, left, -left};
+}
+
+/// How far the box reaches in a direction, from the origin, m.
+double reachAlong(const Box2& box, const Point2& direction) {
+  double reach = -std::numeric_limits<double>::infinity();
+  for (const Point2& corner : box.corners()) {
+    reach = std::max(reach, corner.dot(direction));
+  }
+  return reach;
+}
+
+/// Variance of the side that looks most in this direction.
+double sideVariance(const Object& object, const Point2& direction) {
+  const std::array<Point2, kBoxSides> normals = normalsOf(object.box);
+  std::size_t best = 0;
+  for (std::size_t side = 1; side < kBoxSides; ++side) {
+    if (normals[side].dot(direction) > normals[best].dot(direction)) {
+      best = side;
+    }
+  }
+  return object.side_variance[best];
+}
+
+/// The smallest box of this heading that holds all points; at least one.
+Box2 boxAround(const std::vector<Point2>& points, double heading) {
+  const Pose2 axes(Point2::Zero(), heading);
+  const Pose2 back = axes.inverse();
+  Point2 least = back * points.front();
+  Point2 most = least;
+  for (const Point2& point : points) {
+    const Point2 local = back * point;
+    least = least.cwiseMin(local);
+    most = most.cwiseMax(local);
+  }
+  const Point2 size = most - least;
+  return {Pose2(axes * Point2(0.5 * (least + most)), heading), size.x(), size.y()};
+}
+
+/// What an object was taken for says little of the whole that it is a part of, or of its own parts;
+/// and in the axes of a target it tells nothing of the target's heading.
+void forgetKind(Object& object) {
+  object.object_class = ObjectClass::kUnknown;
+  object.class_probability = 0.0;
+  object.heading_variance = kUnknownHeadingVariance;
+}
+
+}  // namespace
+
+Object unionOf(const std::vector<const Object*>& parts, double heading) {
+  Object whole = *parts.front();
+  forgetKind(whole);
+  std::vector<Point2> corners;
+  whole.points.clear();
+  double moving_points = 0.0;
+  for (const Object* part : parts) {
+    const auto box = part->box.corners();
+    corners.insert(corners.end(), box.begin(), box.end());
+    whole.points.insert(whole.points.end(), part->points.begin(), part->points.end());
+    moving_points += part->moving_fraction * static_cast<double>(part->points.size());
+    if (part->position_covariance.trace() > whole.position_covariance.trace()) {
+      whole.position_covariance = part->position_covariance;
+    }
+    whole.dynamic_state = std::max(whole.dynamic_state, part->dynamic_state);
+    whole.height = std::max(whole.height, part->height);
+    whole.log_odds = std::max(whole.log_odds, part->log_odds);
+  }
+  whole.moving_fraction =
+      whole.points.empty() ? 0.0 : moving_points / static_cast<double>(whole.points.size());
+  whole.box = boxAround(corners, heading);
+  const std::array<Point2, kBoxSides> normals = normalsOf(whole.box);
+  for (std::size_t side = 0; side < kBoxSides; ++side) {
+    const Object* outermost =
+        *std::max_element(parts.begin(), parts.end(), [&](const Object* a, const Object* b) {
+          return reachAlong(a->box, normals[side]) < reachAlong(b->box, normals[side]);
+        });
+    whole.side_variance[side] = sideVariance(*outermost, normals[side]);
+  }
+  return whole;
+}
+
+Object partOf(const Object& whole, std::vector<Point2> points, double heading,
+              const Point2& other) {
+  Object part = whole;
+  forgetKind(part);
+  part.box = boxAround(points, heading);
+  part.points = std::move(points);
+  const std::array<Point2, kBoxSides> normals = normalsOf(part.box);
+  std::size_t inner = 0;
+  for (std::size_t side = 0; side < kBoxSides; ++side) {
+    part.side_variance[side] = sideVariance(whole, normals[side]);
+    inner = normals[side].dot(other) > normals[inner].dot(other) ? side : inner;
+  }
+  part.side_variance[inner] = kHiddenSide;
+  return part;
+}
+
+}  // namespace datmo

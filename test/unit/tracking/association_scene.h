@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "tracking_scene.h"
+
+#include "datmo_fusion/tracking/association_scan.h"
+#include "datmo_fusion/tracking/target.h"
+#include "datmo_fusion/tracking/target_set.h"
+
+namespace datmo {
+
+/// Makes scans for the association; nothing is known of the view nor of clutter.
+class ScanSource {
+ public:
+  /// Lives as long as this source.
+  AssociationScan scan(const std::vector<Object>& objects) {
+    return takeIn(objects, Pose2(), visibility_, clutter_, ScanIntakeOptions(), counts_);
+  }
+
+  double detectionProbability() const { return VisibilityOptions().unknown_probability; }
+  double density() const { return ScanIntakeOptions().new_density; }
+
+ private:
+  Visibility visibility_{VisibilityOptions()};
+  ClutterMap clutter_{ClutterMapOptions()};
+  ScanIntakeCounts counts_;
+};
+
+/// One that was just seen for the first time, at (x, y) in m.
+inline Target targetAt(double x, double y, std::uint64_t number = 1) {
+  return {objectAt(x, y), 0, number, TargetOptions()};
+}
+
+/// The same 0.1 s later.
+inline Target predictedAt(double x, double y, std::uint64_t number = 1) {
+  const TargetOptions options;
+  Target target = targetAt(x, y, number);
+  target.predict(0.1, immStep(options.filter, 0.1), options);
+  return target;
+}
+
+inline std::vector<Object> objectsAlong(const std::vector<double>& places) {
+  std::vector<Object> objects;
+  for (const double x : places) {
+    objects.push_back(objectAt(x, 0.0));
+  }
+  return objects;
+}
+
+/// Whole scans through a set of targets, 0.1 s apart.
+inline void see(TargetSet& targets, ScanSource& source, const std::vector<Object>& objects,
+                const StepBudget& budget = StepBudget()) {
+  targets.predict(0.1);
+  AssociationScan scan = source.scan(objects);
+  targets.associate(scan, budget);
+}
+
+/// What the target of this number was seen as in the last scan; kUnseen too if there is none.
+inline std::size_t seenAs(const TargetSet& targets, std::uint64_t number) {
+  for (const BestTarget& best : targets.best()) {
+    if (best.target->number() == number) {
+      return best.target->seenAs();
+    }
+  }
+  return kUnseen;
+}
+
+}  // namespace datmo

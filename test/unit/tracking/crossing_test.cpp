@@ -1,0 +1,90 @@
+// What later scans are good for: targets that cross at a small angle, missed at times, among false
+// objects.
+#include <cstdint>
+#include <limits>
+
+#include "tracking_scene.h"
+#include <gtest/gtest.h>
+
+namespace datmo {
+namespace {
+
+constexpr double kSeconds = 4.0;  // they meet half way
+constexpr int kScans = 40;
+
+/// One goes from the right to the left of the other, both ahead.
+Point2 placeOf(int target, double seconds) {
+  const double side = target == 0 ? 1.0 : -1.0;
+  return {4.0 * seconds, side * (2.5 - 5.0 * seconds / kSeconds)};
+}
+
+/// Id of the track nearest to a place, within 1 m; 0: none.
+std::uint32_t idAt(const TrackList& list, const Point2& place) {
+  double nearest = 1.0;
+  std::uint32_t id = 0;
+  for (const Track& track : list.tracks) {
+    const double distance = (track.state.head<2>() - place).norm();
+    if (distance < nearest) {
+      nearest = distance;
+      id = track.id;
+    }
+  }
+  return id;
+}
+
+/// How many of the two have the same id after the crossing as before it.
+int idsKept(const TrackerOptions& options, std::uint64_t seed) {
+  TrackingScene scene(options);
+  std::mt19937_64 engine(seed);
+  std::normal_distribution<double> noise(0.0, 0.25);
+  std::uniform_real_distribution<double> luck(0.0, 1.0);
+  std::uint32_t before[2] = {0, 0};
+  int kept = 0;
+  for (int i = 0; i < kScans; ++i) {
+    const double seconds = i * kSeconds / kScans;
+    std::vector<Object> objects;
+    for (const int target : {0, 1}) {
+      const Point2 place = placeOf(target, seconds);
+      const double dx = noise(engine);
+      const double dy = noise(engine);
+      if (luck(engine) < 0.85) {
+        objects.push_back(objectAt(place.x() + dx, place.y() + dy));
+      }
+      if (luck(engine) < 0.15) {
+        objects.push_back(objectAt(place.x() + 8.0 * dy, place.y() + 8.0 * dx));
+      }
+    }
+    scene.scan(objects);
+    for (const int target : {0, 1}) {
+      const std::uint32_t id = idAt(scene.tracks(), placeOf(target, seconds));
+      if (i == 12) {
+        before[target] = id;
+      } else if (i == kScans - 1) {
+        kept += id != 0 && id == before[target] ? 1 : 0;
+      }
+    }
+  }
+  return kept;
+}
+
+int idsKeptOver(const TrackerOptions& options, std::uint64_t seeds) {
+  int kept = 0;
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    kept += idsKept(options, seed);
+  }
+  return kept;
+}
+
+TEST(Crossing, SeveralHypothesesKeepMoreIdsThanTheNearestNeighbour) {
+  TrackerOptions options;
+  options.require_motion = false;
+  const int several = idsKeptOver(options, 100);
+  options.association = "gnn";
+  const int nearest = idsKeptOver(options, 100);
+  RecordProperty("several", several);
+  RecordProperty("nearest", nearest);
+  EXPECT_GT(several, nearest);
+}
+
+}  // namespace
+}  // namespace datmo
