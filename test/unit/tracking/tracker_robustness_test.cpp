@@ -1,3 +1,4 @@
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -60,15 +61,94 @@ TEST(TrackerRobustness, AVehiclePoseThatIsNotFiniteRejectsTheObjectsOnly) {
   EXPECT_EQ(scene.tracker().counts().intake.rejected, 1U);
 }
 
+TEST(TrackerRobustness, AVehiclePoseThatIsNotFiniteLeavesTheTracksAlone) {
+  FieldOfView view;
+  view.range = 100.0;
+  const Visibility visibility(view, {}, VisibilityOptions());
+  for (const char* association : {"mht", "gnn"}) {
+    TrackerOptions options;
+    options.association = association;
+    TrackingScene scene(options);
+    for (int i = 0; i < 20; ++i) {
+      scene.scan({objectAt(5.0 * (scene.nextTime() - 100.0), 0.0)}, visibility);
+    }
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const TrackList list =
+        scene.tracker().process({Stamp::fromSeconds(scene.nextTime()), {objectAt(1.0, 1.0)}},
+                                Pose2(nan, nan, nan), visibility);
+    scene.wait(0.1);
+    ASSERT_EQ(list.tracks.size(), 1U) << association;
+    EXPECT_TRUE(list.tracks[0].state.allFinite());
+    EXPECT_GT(list.tracks[0].existence_probability, 0.9);
+    scene.scan({objectAt(5.0 * (scene.nextTime() - 100.0), 0.0)}, visibility);
+    ASSERT_EQ(scene.tracks().tracks.size(), 1U) << association;
+    EXPECT_EQ(scene.tracks().tracks[0].id, 1U);
+    EXPECT_EQ(scene.tracks().tracks[0].since_update, 0.0);
+  }
+}
+
+TEST(TrackerRobustness, StampsThatGoBackCorruptNoTrack) {
+  TrackingScene scene;
+  for (int i = 0; i < 20; ++i) {
+    scene.scan({objectAt(5.0 * (scene.nextTime() - 100.0), 0.0)});
+  }
+  scene.wait(-0.5);
+  const TrackList& back = scene.scan({});
+  ASSERT_EQ(back.tracks.size(), 1U);
+  EXPECT_TRUE(back.tracks[0].state.allFinite());
+  EXPECT_GE(back.tracks[0].age, 1.9);
+  EXPECT_FALSE(back.tracks[0].history.empty());
+}
+
+TEST(TrackerRobustness, EmptyListsFromTheStart) {
+  TrackingScene scene;
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_TRUE(scene.scan({}).tracks.empty());
+  }
+  EXPECT_EQ(scene.tracker().counts().intake.accepted, 0U);
+}
+
+TEST(TrackerRobustness, ResetForgetsTheCounts) {
+  TrackerOptions options;
+  options.gating.most_targets = 1;
+  TrackingScene scene(options);
+  scene.scan({objectAt(1.0, 0.0), objectAt(20.0, 0.0)});
+  EXPECT_EQ(scene.tracker().counts().association.refused_births, 1U);
+  scene.tracker().reset();
+  scene.scan({});
+  EXPECT_EQ(scene.tracker().counts().association.refused_births, 0U);
+  EXPECT_EQ(scene.tracker().counts().intake.accepted, 0U);
+}
+
 TEST(TrackerRobustness, AThousandObjectsAtOnePointAreBounded) {
   TrackerOptions options;
-  options.gating.most_targets = 50;
   TrackingScene scene(options);
   for (int i = 0; i < 3; ++i) {
     scene.scan(std::vector<Object>(1000, objectAt(10.0, 0.0)));
   }
-  EXPECT_GE(scene.tracker().counts().association.refused_births, 950U);
-  EXPECT_EQ(scene.tracker().counts().confirmed_tracks, 0U);
+  const TrackerCounts& counts = scene.tracker().counts();
+  const auto taken = static_cast<std::uint64_t>(options.intake.most_objects);
+  const auto followed = static_cast<std::uint64_t>(options.gating.most_targets);
+  EXPECT_EQ(counts.intake.accepted, 3U * taken);
+  EXPECT_EQ(counts.intake.refused, 3U * (1000U - taken));
+  EXPECT_GE(counts.association.refused_births, 3U * (taken - followed));
+  EXPECT_EQ(counts.confirmed_tracks, 0U);
+}
+
+TEST(TrackerRobustness, AThousandObjectsAtOnePointDoNotStallWhatIsFollowed) {
+  TrackerOptions options;
+  options.require_motion = false;
+  TrackingScene scene(options);
+  for (int i = 0; i < 20; ++i) {
+    scene.scan({objectAt(10.0 + 0.1 * i, 0.0)});
+  }
+  ASSERT_EQ(scene.tracks().tracks.size(), 1U);
+  for (int i = 0; i < 5; ++i) {
+    scene.scan(std::vector<Object>(1000, objectAt(12.0 + 0.1 * i, 0.0)));
+  }
+  ASSERT_FALSE(scene.tracks().tracks.empty());
+  EXPECT_EQ(scene.tracks().tracks.front().id, 1U);
+  EXPECT_NEAR(scene.tracks().tracks.front().state[0], 12.4, 0.5);
 }
 
 TEST(TrackerRobustness, BadOptionsAreRefused) {
