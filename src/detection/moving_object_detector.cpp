@@ -17,6 +17,9 @@ constexpr char kSensor[] = "lidar";
 /// rad; a side that was seen faces the scanner: a vaguer heading tells no more of where it ends.
 constexpr double kMostSlant = 0.3;
 
+/// rad; with a vaguer heading, what seems to be two sides may be one.
+constexpr double kSureOfCorner = 0.15;
+
 /// The points of one segment of the scan that the map does not know as static.
 std::vector<ScanPoint> notStatic(const std::vector<ScanPoint>& points, const Segment& segment) {
   std::vector<ScanPoint> result;
@@ -39,6 +42,8 @@ double square(double value) { return value * value; }
 
 constexpr std::size_t indexOf(BoxSide side) { return static_cast<std::size_t>(side); }
 
+constexpr std::size_t opposite(std::size_t side) { return side ^ 1U; }
+
 /// A box told by how far its sides are from the middle of the fit, to be moved one by one.
 class SideBox {
  public:
@@ -56,23 +61,25 @@ class SideBox {
 
   bool isSeen(std::size_t side) const { return fit_.points_on_side[side] > 0; }
 
-  bool seesTwoSides() const {
-    return std::count(fit_.points_on_side.begin(), fit_.points_on_side.end(), 0U) <= 2;
+  /// How many points lie on the sides that end at this one.
+  std::size_t pointsUpTo(std::size_t side) const {
+    const std::size_t one =
+        indexOf(side < indexOf(BoxSide::kLeft) ? BoxSide::kLeft : BoxSide::kFront);
+    return fit_.points_on_side[one] + fit_.points_on_side[opposite(one)];
   }
 
-  /// A side that was seen has its ends here.
-  bool isEndOfSeen(std::size_t side) const {
-    return side < indexOf(BoxSide::kLeft)
-               ? isSeen(indexOf(BoxSide::kLeft)) || isSeen(indexOf(BoxSide::kRight))
-               : isSeen(indexOf(BoxSide::kFront)) || isSeen(indexOf(BoxSide::kRear));
+  /// With a vague heading, what seems to be the shorter one of two sides may be none: where it ends
+  /// tells nothing.
+  bool isEndOfSeen(std::size_t side, double heading_std) const {
+    const std::size_t least = heading_std < kSureOfCorner ? 0 : fit_.points_on_side[opposite(side)];
+    return pointsUpTo(side) > 0 && pointsUpTo(side) >= least;
   }
 
-  /// m, of the box along a side, if a side across it was seen: a turn of the box moves the place of
-  /// the side by so much times its angle.
+  /// m, of the box along a side whose opposite was seen: a turn of the box moves the place of the
+  /// side, relative to that one, by so much times its angle.
   double across(std::size_t side) const {
-    const bool is_end = side < indexOf(BoxSide::kLeft);
-    const double extent = is_end ? fit_.box.width : fit_.box.length;
-    return seesTwoSides() ? extent : 0.0;
+    const double extent = side < indexOf(BoxSide::kLeft) ? fit_.box.width : fit_.box.length;
+    return isSeen(opposite(side)) ? extent : 0.0;
   }
 
   void extend(std::size_t side, double by) { reach_[side] += by; }
@@ -184,7 +191,7 @@ void MovingObjectDetector::setBox(Object& object, const ScanPoint& first, const 
     if (sides.isSeen(side)) {
       object.side_variance[side] =
           square(fit.noise) / static_cast<double>(fit.points_on_side[side]);
-    } else if (sides.isEndOfSeen(side)) {
+    } else if (sides.isEndOfSeen(side, heading_std)) {
       const Point2 normal = sides.normal(side);
       const ScanPoint& outermost = normal.dot(first.position - last.position) > 0.0 ? first : last;
       if (const std::optional<SurfaceEnd> end = ends.beyond(outermost, normal, heading_std)) {

@@ -112,6 +112,9 @@ void TrackedBoxOptions::visit(OptionVisitor& visitor) {
                  slip_std, {0.0, 1.0});
   visitor.number({"reverse_speed", "m/s", "faster than this nothing moves backwards"},
                  reverse_speed, {0.0, 100.0});
+  visitor.number({"reverse_time", "s",
+                  "nothing moves backwards for longer, nor for longer than it moved ahead before"},
+                 reverse_time, {0.0, 1000.0});
 }
 
 TrackedBox::TrackedBox(const Object& object, const TrackedBoxOptions& options)
@@ -122,6 +125,7 @@ TrackedBox::TrackedBox(const Object& object, const TrackedBoxOptions& options)
 }
 
 void TrackedBox::predict(double seconds, const TrackedBoxOptions& options) {
+  since_velocity_ += seconds;
   heading_variance_ =
       std::min(kUnknownHeadingVariance, heading_variance_ + options.heading_drift * seconds);
 }
@@ -155,7 +159,12 @@ Point2 TrackedBox::update(const Object& object, double seconds, const TrackedBox
   }
   const Point2 before = offset();
   size_.classify(object.object_class, object.class_probability);
-  size_.update({seen.axes[0].visible(), seen.axes[1].visible()}, seconds, options.size);
+  // Of a box that is turned by an angle, what seems its width is in part its length.
+  const double slant_variance = std::min(object.heading_variance, kUnknownSideVariance);
+  std::array<VisibleExtent, 2> visible = {seen.axes[0].visible(), seen.axes[1].visible()};
+  visible[0].variance += slant_variance * size_.mean().y() * size_.mean().y();
+  visible[1].variance += slant_variance * size_.mean().x() * size_.mean().x();
+  size_.update(visible, seconds, options.size);
   if (object.heading_variance < kUnknownSideVariance) {
     updateHeading(seen.heading, object.heading_variance);
   }
@@ -185,11 +194,9 @@ Point2 TrackedBox::followVelocity(const Eigen::Vector2d& velocity,
   if (size_.probabilityAlongFirst() < 1.0 - kSureOfOtherAxis) {
     turnByQuarters(1);
     sign_known_ = false;
+    ahead_ = 0.0;
   }
-  if ((!sign_known_ || speed > options.reverse_speed) && std::cos(direction - heading_) < 0.0) {
-    turnByQuarters(2);
-  }
-  sign_known_ = true;
+  takeFrontAhead(direction, speed, options);
   // Velocities of successive scans are no independent news of the heading: the surer one counts.
   if (variance < heading_variance_) {
     heading_ = nearerDirection(direction, heading_);
@@ -218,6 +225,19 @@ double TrackedBox::headingVariance() const {
 /// From the sides that were seen to the centre, m, fixed frame.
 Eigen::Vector2d TrackedBox::offset() const {
   return turned(heading_, anchor_share_.cwiseProduct(size_.mean()));
+}
+
+/// First motion is ahead, and so is fast motion; otherwise it may be reversing.
+void TrackedBox::takeFrontAhead(double direction, double speed, const TrackedBoxOptions& options) {
+  const bool backwards = std::cos(direction - heading_) < 0.0;
+  ahead_ += backwards ? -since_velocity_ : since_velocity_;
+  if (backwards && (!sign_known_ || speed > options.reverse_speed || ahead_ < 0.0)) {
+    turnByQuarters(2);
+    ahead_ = 0.0;
+  }
+  ahead_ = std::min(ahead_, options.reverse_time);
+  since_velocity_ = 0.0;
+  sign_known_ = true;
 }
 
 /// Takes another side for the front; nothing of the box moves.

@@ -14,6 +14,7 @@ struct TrackedBoxOptions {
   double heading_drift = 0.05;  ///< rad^2/s
   double slip_std = 0.05;       ///< rad
   double reverse_speed = 3.0;   ///< m/s
+  double reverse_time = 10.0;   ///< s
 
   void visit(OptionVisitor& visitor);
 };
@@ -71,10 +72,14 @@ class TrackedBox {
  private:
   Eigen::Vector2d offset() const;
   void turnByQuarters(int quarters);
+  void takeFrontAhead(double direction, double speed, const TrackedBoxOptions& options);
   void updateHeading(double measured, double variance);
 
   double heading_;
   double heading_variance_;
+  double since_velocity_ = 0.0;  ///< s
+  /// s, how much longer it moved ahead than backwards; below 0 it turns round.
+  double ahead_ = 0.0;
   bool sign_known_ = false;
   BoxSize size_;
   /// The centre that was measured last is `anchor + share * size`, along each axis: -0.5 behind the
