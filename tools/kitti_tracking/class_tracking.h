@@ -14,7 +14,7 @@
 
 namespace datmo::kitti {
 
-/// Options of one class of objects: one file in config/.
+/// Options of one class of objects: one file in config/kitti_tracking/.
 struct ClassTrackingOptions {
   DetectionModelOptions detections;
   TrackerOptions tracker;

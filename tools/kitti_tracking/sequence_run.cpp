@@ -121,9 +121,8 @@ class Runner {
 }  // namespace
 
 void RunOptions::visit(OptionVisitor& visitor) {
-  constexpr std::array<const char*, kTrackedClasses> kNames = {"car", "pedestrian", "cyclist"};
   for (std::size_t i = 0; i < kTrackedClasses; ++i) {
-    visitor.group(kNames.at(i), [&] { classes.at(i).visit(visitor); });
+    visitor.group(kClassNames.at(i), [&] { classes.at(i).visit(visitor); });
   }
   visitor.toggle({"estimate_ego_motion", "",
                   "the vehicle's motion from the detections; off: the vehicle's frame is taken for "

@@ -12,6 +12,9 @@ namespace datmo::kitti {
 inline constexpr std::array<ObjectType, 3> kTrackedTypes = {
     ObjectType::kCar, ObjectType::kPedestrian, ObjectType::kCyclist};
 inline constexpr std::size_t kTrackedClasses = kTrackedTypes.size();
+/// As options and files call them.
+inline constexpr std::array<const char*, kTrackedClasses> kClassNames = {"car", "pedestrian",
+                                                                         "cyclist"};
 
 struct RunOptions {
   std::array<ClassTrackingOptions, kTrackedClasses> classes;
