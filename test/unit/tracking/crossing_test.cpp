@@ -1,7 +1,6 @@
 // What later scans are good for: targets that cross at a small angle, missed at times, among false
 // objects.
 #include <cstdint>
-#include <limits>
 
 #include "tracking_scene.h"
 #include <gtest/gtest.h>
@@ -78,12 +77,14 @@ int idsKeptOver(const TrackerOptions& options, std::uint64_t seeds) {
 TEST(Crossing, SeveralHypothesesKeepMoreIdsThanTheNearestNeighbour) {
   TrackerOptions options;
   options.require_motion = false;
+  options.duplicates.reach = 0.0;  // only the association decides
   const int several = idsKeptOver(options, 100);
   options.association = "gnn";
   const int nearest = idsKeptOver(options, 100);
   RecordProperty("several", several);
   RecordProperty("nearest", nearest);
-  EXPECT_GT(several, nearest);
+  EXPECT_GE(several, nearest + 5) << "of 200, nearest neighbour: " << nearest;
+  EXPECT_GE(several, 180);
 }
 
 }  // namespace

@@ -65,6 +65,28 @@ TEST_F(MultipleHypothesesTest, WeighsTheHypothesesOfADoubtfulScan) {
   EXPECT_NEAR(probabilityOf(result, 2), (1.0 + second) / (1.0 + first + second), 1e-12);
 }
 
+TEST_F(MultipleHypothesesTest, AMissSpeaksAgainstWhatHasMoreTargets) {
+  MultipleHypotheses result = inDoubt();
+  see(result, source_, {});
+  const TargetOptions options;
+  const double detection = source_.detectionProbability();
+  const auto missed = [&](const Target& target) {
+    return 1.0 - detection * target.existenceProbability(options);
+  };
+  const auto missedIfSeenAt = [&](double x) {
+    Target target = predictedAt(0.0, 0.0);
+    target.update(objectAt(x, 0.0), 0, detection, options);
+    return missed(target);
+  };
+  Target not_seen = predictedAt(0.0, 0.0);
+  not_seen.miss(detection, options);
+  const double born = missed(targetAt(0.0, 0.0));
+  const double first = weightOf(objectAt(-0.5, 0.0)) * missedIfSeenAt(-0.5) * born;
+  const double second = weightOf(objectAt(0.45, 0.0)) * missedIfSeenAt(0.45) * born;
+  const double neither = missed(not_seen) * born * born;
+  EXPECT_NEAR(probabilityOf(result, 2), (second + neither) / (first + second + neither), 1e-9);
+}
+
 TEST_F(MultipleHypothesesTest, WhatIsUnlikelyIsDropped) {
   hypotheses_.least_ratio = 0.9;
   EXPECT_EQ(probabilityOf(inDoubt(), 2), 1.0);

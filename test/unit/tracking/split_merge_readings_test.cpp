@@ -91,6 +91,21 @@ TEST_F(SplitMergeReadings, PartsOfATargetAsOne) {
               1e-9);
 }
 
+TEST_F(SplitMergeReadings, PartsAndCoversAreRelatedWithinTheGateOrNot) {
+  Target target(box(0.0, 0.0, 5.0, 2.0), 0, 1, TargetOptions());
+  const std::vector<Object> objects{box(-30.0, 0.0, 1.0, 1.0), box(-2.2, 0.0, 1.0, 1.0),
+                                    box(2.0, 0.0, 9.0, 2.0), box(4.0, 0.0, 1.0, 1.0)};
+  const AssociationScan scan = source_.scan(objects);
+  EXPECT_TRUE(relatedObjects(target, scan, options_).empty()) << "not confirmed";
+  target.confirm(1);
+  EXPECT_EQ(relatedObjects(target, scan, options_), (std::vector<std::size_t>{1, 2}));
+  options_.merge_probability = 0.0;
+  EXPECT_EQ(relatedObjects(target, scan, options_), std::vector<std::size_t>{1});
+  options_.merge_probability = 0.1;
+  options_.split_probability = 0.0;
+  EXPECT_EQ(relatedObjects(target, scan, options_), std::vector<std::size_t>{2});
+}
+
 TEST_F(SplitMergeReadings, NothingToReadAnew) {
   follow(box(0.0, 0.0, 5.0, 2.0));
   read({box(0.0, 0.0, 5.0, 2.0)});

@@ -69,6 +69,16 @@ TEST(TrackLife, ExistenceFallsWithEachMissAsBayesSays) {
   }
 }
 
+TEST(TrackLife, IsPublishedWhileItProbablyExists) {
+  TrackerOptions options;
+  options.published_existence = 0.99;
+  TrackingScene strict(options);
+  TrackingScene usual;
+  drive(strict, 50);
+  drive(usual, 50);
+  EXPECT_LT(scansWithout(strict, openView()), scansWithout(usual, openView()));
+}
+
 TEST(TrackLife, ATargetThatMayNotExistIsNotConfirmed) {
   TrackerOptions options;
   options.require_motion = false;
