@@ -3,7 +3,8 @@
 of the other car against what motion capture saw.
 
 The bags are the examples of the package datmo, whose own tracker scores 0.118 m, 0.321 m/s, 18.4
-degrees, 3 id switches and 0.68 false moving tracks in a frame on another one of them.
+degrees, 3 id switches and 0.68 false moving tracks in a frame on another one of them; half of it is
+asked of that one. What these two reach is a little above half of the velocity.
 """
 
 import math
@@ -22,12 +23,12 @@ CONFIG = ROOT / "config" / "model_car.yaml"
 # A tenth of a real car's.
 ASKED = ("matching/gate=0.4", "matching/distance=to_centre")
 
-MAX_POSE_ERROR = 0.1  # m, root mean square
-MAX_POSITION_ERROR = 0.2  # m
-MAX_VELOCITY_ERROR = 0.321  # m/s
-MAX_HEADING_ERROR = math.radians(18.4)
+MAX_POSE_ERROR = 0.06  # m, root mean square
+MAX_POSITION_ERROR = 0.5 * 0.118 + 0.005  # m
+MAX_VELOCITY_ERROR = 0.2  # m/s
+MAX_HEADING_ERROR = math.radians(10.0)
 MAX_ID_SWITCHES = 1
-MAX_FALSE_TRACKS = 0.34  # a frame
+MAX_FALSE_MOVERS = 0.5 * 0.68  # a frame
 MIN_TRACKED = 0.8  # of the frames in which the other car moves
 
 
@@ -58,7 +59,7 @@ class ModelCars(unittest.TestCase):
                 self.assertLessEqual(errors["velocity_rmse_mps"], MAX_VELOCITY_ERROR)
                 self.assertLessEqual(errors["heading_rmse_rad"], MAX_HEADING_ERROR)
                 self.assertLessEqual(counts["id_switches"], MAX_ID_SWITCHES)
-                self.assertLessEqual(counts["false_positives"], MAX_FALSE_TRACKS * score["frames"])
+                self.assertLessEqual(score["false_movers_per_frame"], MAX_FALSE_MOVERS)
                 self.assertGreaterEqual(counts["matches"], MIN_TRACKED * counts["required"])
 
 
