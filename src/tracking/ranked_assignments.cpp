@@ -82,6 +82,7 @@ class RankedAssignments::State {
   void split(int part);
   void orderRows(int part);
   void search(const Candidate& candidate);
+  double bound(int part, int row);
   RowCost allowed(int part, int row);
   void push(double least_cost, int part, int position);
   Candidate pop();
@@ -99,6 +100,7 @@ class RankedAssignments::State {
   Eigen::VectorXd unassigned_cost_;
   AssignmentCosts costs_{cost_, unassigned_cost_};
   std::int64_t most_work_;
+  std::int64_t bounding_work_ = 0;  ///< entries that were looked at for bounds
   bool cut_ = false;
   AugmentingPath path_;
 
@@ -129,7 +131,7 @@ std::optional<Assignment> RankedAssignments::State::next() {
     split(std::exchange(returned_, kNone));
   }
   while (!queue_.empty()) {
-    if (path_.work() > most_work_) {
+    if (path_.work() + bounding_work_ > most_work_) {
       cut_ = true;
       return std::nullopt;
     }
@@ -193,7 +195,7 @@ void RankedAssignments::State::split(int part) {
   const int* order = orderOf(parts_[part]);
   for (int position = first; position < costs_.rows(); ++position) {
     const int row = order[position];
-    const double increase = leastIncrease(row, allowed(part, row), costs_, present_);
+    const double increase = bound(part, row);
     if (increase < kForbidden) {
       push(parts_[part].cost + increase, part, position);
     }
@@ -209,7 +211,7 @@ void RankedAssignments::State::orderRows(int part) {
   bounds_.clear();
   for (int position = kept; position < costs_.rows(); ++position) {
     const int row = order[position];
-    bounds_.push_back({row, leastIncrease(row, allowed(part, row), costs_, present_)});
+    bounds_.push_back({row, bound(part, row)});
   }
   std::sort(bounds_.begin(), bounds_.end(), [](const RowBound& a, const RowBound& b) {
     return a.increase != b.increase ? a.increase > b.increase : a.row < b.row;
@@ -232,6 +234,12 @@ void RankedAssignments::State::search(const Candidate& candidate) {
     keep({candidate.part, candidate.position, row, 0.0, whole.order});
     push(parts_[part].cost, part, kNone);
   }
+}
+
+/// Of how much dearer the best of a part becomes where this row differs.
+double RankedAssignments::State::bound(int part, int row) {
+  bounding_work_ += costs_.columns();
+  return leastIncrease(row, allowed(part, row), costs_, present_);
 }
 
 /// What a row may have that is to differ from the part's best, and from all that was taken away
