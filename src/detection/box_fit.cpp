@@ -20,6 +20,9 @@ constexpr double kMostCost = 4.0;
 /// Points nearer to a line than this, in standard deviations, may lie on it.
 constexpr double kOnLine = 3.0;
 
+/// A single point beside a line may be an outlier, two are the other side.
+constexpr std::size_t kLeastAlone = 2;
+
 /// The expected noise counts like this many points besides those that there are.
 constexpr double kNoisePoints = 4.0;
 
@@ -217,7 +220,7 @@ std::array<std::size_t, 2> pointsOnSides(const Points& points, const Corner& cor
     alone[axis] += distances.maxCoeff() > kOnLine * noise ? 1 : 0;
   }
   const std::size_t smaller = counts[0] < counts[1] ? 0 : 1;
-  if (2 * alone[smaller] < counts[smaller]) {
+  if (alone[smaller] < kLeastAlone || 2 * alone[smaller] < counts[smaller]) {
     counts[1 - smaller] += counts[smaller];
     counts[smaller] = 0;
   }

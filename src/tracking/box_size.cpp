@@ -39,8 +39,8 @@ bool isOfClass(std::size_t kind, ObjectClass object_class) {
 double square(double value) { return value * value; }
 
 /// Takes an extent into one estimate; returns the logarithm of how likely it was, up to a term that
-/// is the same for all estimates. One that is far off counts for less, as by Huber's weights: it
-/// may be of two objects, or of a side that was taken for another.
+/// is the same for all estimates. One that is far off may be of two objects, or of a side that was
+/// taken for another: it raises doubts only, which let in the third of its kind.
 double takeIn(const VisibleExtent& seen, double noise, double& mean, double& variance) {
   const double residual = seen.length - mean;
   if (!seen.whole && residual <= 0.0) {
@@ -48,9 +48,13 @@ double takeIn(const VisibleExtent& seen, double noise, double& mean, double& var
   }
   const double total = variance + noise;
   const double distance2 = residual * residual / total;
-  const double gain = variance / (total * std::max(1.0, distance2 / kFarOff));
-  mean += gain * residual;
-  variance *= 1.0 - gain;
+  if (distance2 > kFarOff) {
+    variance += residual * residual / (2.0 * kFarOff);
+  } else {
+    const double gain = variance / total;
+    mean += gain * residual;
+    variance *= 1.0 - gain;
+  }
   const double log_likelihood = -0.5 * std::min(distance2, kFarOff);
   return seen.whole ? log_likelihood - 0.5 * std::log(total) : log_likelihood;
 }

@@ -15,6 +15,10 @@ constexpr double kUnknownSideVariance = kQuarter * kQuarter * kUniformVariance;
 /// Velocities of successive scans are nearly the same information: logarithm of odds of one.
 constexpr double kMostOddsOfOneVelocity = 2.0;
 
+/// Part of the way from the sides that the filter's centre rests on to those seen now, in one scan:
+/// the filter believes the new ones little as long as the size between them is not known.
+constexpr double kHandover = 0.3;
+
 /// The other axis must be as likely as this to become the forward one: no flips to and fro.
 constexpr double kSureOfOtherAxis = 0.7;
 
@@ -91,6 +95,11 @@ AxisMeasurement measured(const SeenAxis& seen, double size, double size_variance
           weight_ahead * weight_ahead * seen.ahead + weight_behind * weight_behind * seen.behind};
 }
 
+Eigen::Vector2d sharesOf(const SeenBox& seen, const BoxSize& size, const Eigen::Vector2d& last) {
+  return {measured(seen.axes[0], size.mean().x(), size.variance().x(), last.x()).share,
+          measured(seen.axes[1], size.mean().y(), size.variance().y(), last.y()).share};
+}
+
 Eigen::Vector2d turned(double heading, const Eigen::Vector2d& vector) {
   return Pose2(Point2::Zero(), heading).rotate(vector);
 }
@@ -121,6 +130,7 @@ TrackedBox::TrackedBox(const Object& object, const TrackedBoxOptions& options)
     : heading_(object.box.centre.heading()),
       heading_variance_(kUnknownHeadingVariance),
       size_(options.size) {
+  anchor_share_ = sharesOf(seenFrom(heading_, object), size_, anchor_share_);
   update(object, 0.0, options);
 }
 
@@ -152,11 +162,7 @@ PositionMeasurement TrackedBox::measurementOf(const Object& object) const {
 
 Point2 TrackedBox::update(const Object& object, double seconds, const TrackedBoxOptions& options) {
   const SeenBox seen = seenFrom(heading_, object);
-  for (int axis = 0; axis < 2; ++axis) {
-    anchor_share_[axis] = measured(seen.axes[static_cast<std::size_t>(axis)], size_.mean()[axis],
-                                   size_.variance()[axis], anchor_share_[axis])
-                              .share;
-  }
+  const Eigen::Vector2d share = sharesOf(seen, size_, anchor_share_);
   const Point2 before = offset();
   size_.classify(object.object_class, object.class_probability);
   // Of a box that is turned by an angle, what seems its width is in part its length.
@@ -168,10 +174,12 @@ Point2 TrackedBox::update(const Object& object, double seconds, const TrackedBox
   if (object.heading_variance < kUnknownSideVariance) {
     updateHeading(seen.heading, object.heading_variance);
   }
+  const Point2 moved = offset() - before;
+  anchor_share_ += kHandover * (share - anchor_share_);
   if (!sign_known_ && size_.probabilityAlongFirst() < 1.0 - kSureOfOtherAxis) {
     turnByQuarters(1);
   }
-  return offset() - before;
+  return moved;
 }
 
 Point2 TrackedBox::followVelocity(const Eigen::Vector2d& velocity,
