@@ -50,6 +50,10 @@ std::vector<std::size_t> AssociationScan::listedSources(std::size_t observation)
   return result;
 }
 
+std::optional<TransitionModel> AssociationScan::transitionsOf(ObjectClass object_class) const {
+  return transition_priors ? transition_priors->modelOf(object_class) : std::nullopt;
+}
+
 void ScanIntakeOptions::visit(OptionVisitor& visitor) {
   visitor.number({"new_density", "1/m^2",
                   "objects of no target in one scan, new ones and false alarms, where none were "

@@ -47,8 +47,8 @@ void DuplicateOptions::visit(OptionVisitor& visitor) {
                   "large, holds the centre of the other"},
                  reach, {0.0, 10.0});
   visitor.number({"velocity_gate", "1",
-                  "they are if their velocities are within this Mahalanobis distance squared: 13.8 "
-                  "is the 99.9 % quantile of chi-square with two degrees of freedom"},
+                  "they are if their velocities are within this Mahalanobis distance squared: 5.99 "
+                  "is the 95 % quantile of chi-square with two degrees of freedom"},
                  velocity_gate, {0.0, 1000.0});
 }
 

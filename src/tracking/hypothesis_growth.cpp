@@ -137,8 +137,9 @@ class Builder {
     tree_of_birth_[observation] = trees_.size();
     trees_.emplace_back();
     made_.emplace_back();
-    Leaf leaf{Target(context_.scan.observations[observation].object, observation,
-                     context_.first_number + observation, context_.target),
+    const Object& object = context_.scan.observations[observation].object;
+    Leaf leaf{Target(object, observation, context_.first_number + observation, context_.target,
+                     context_.scan.transitionsOf(object.object_class)),
               {},
               {},
               {}};

@@ -145,8 +145,11 @@ void MultipleHypotheses::startTargets(const AssociationScan& scan, const std::ve
       continue;
     }
     --room_;
-    Leaf leaf{
-        Target(observation.object, object, next_number_ + object, target_options_), {}, {}, {}};
+    Leaf leaf{Target(observation.object, object, next_number_ + object, target_options_,
+                     scan.transitionsOf(observation.object.object_class)),
+              {},
+              {},
+              {}};
     leaf.nodes.front() = next_node_++;
     TrackTree tree;
     tree.leaves.push_back(std::move(leaf));

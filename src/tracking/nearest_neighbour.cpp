@@ -53,7 +53,8 @@ void NearestNeighbourTargets::associate(AssociationScan& scan, const StepBudget&
       ++counts_.refused_births;
       continue;
     }
-    targets_.emplace_back(observation.object, object, next_number_ + object, target_options_);
+    targets_.emplace_back(observation.object, object, next_number_ + object, target_options_,
+                          scan.transitionsOf(observation.object.object_class));
   }
   next_number_ += scan.objects;
 }

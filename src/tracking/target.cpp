@@ -7,7 +7,8 @@ namespace datmo {
 namespace {
 
 /// The first object tells where it is; that it may have any velocity is an assumption.
-ImmFilter birth(const PositionMeasurement& measured, const TargetOptions& options) {
+ImmFilter birth(const PositionMeasurement& measured, const TargetOptions& options,
+                const std::optional<TransitionModel>& transitions) {
   StateEstimate estimate;
   estimate.mean.head<2>() = measured.position;
   estimate.covariance.setZero();
@@ -16,7 +17,7 @@ ImmFilter birth(const PositionMeasurement& measured, const TargetOptions& option
                                                            options.birth_speed_std);
   const double acceleration = options.filter.motion.acceleration_std;
   estimate.covariance.diagonal().tail<2>().setConstant(acceleration * acceleration);
-  return {estimate, priorModeProbabilities(options.filter)};
+  return {estimate, priorModeProbabilities(options.filter), transitions};
 }
 
 }  // namespace
@@ -39,9 +40,9 @@ void TargetOptions::visit(OptionVisitor& visitor) {
 }
 
 Target::Target(const Object& object, std::size_t index, std::uint64_t number,
-               const TargetOptions& options)
+               const TargetOptions& options, const std::optional<TransitionModel>& transitions)
     : box_(object, options.box),
-      filter_(birth(box_.measurementOf(object), options)),
+      filter_(birth(box_.measurementOf(object), options, transitions)),
       evidence_(object, options.evidence),
       number_(number),
       seen_as_(index),

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -15,15 +16,12 @@ namespace datmo {
 
 namespace {
 
-constexpr char kMultipleHypotheses[] = "mht";
-constexpr char kGlobalNearestNeighbour[] = "gnn";
-
 double positionStd(const Target& target) {
   return std::sqrt(target.filter().estimate().covariance.diagonal().head<2>().maxCoeff());
 }
 
 std::unique_ptr<TargetSet> makeTargets(const TrackerOptions& options) {
-  if (options.association == kGlobalNearestNeighbour) {
+  if (options.association == TrackerOptions::kGlobalNearestNeighbour) {
     return std::make_unique<NearestNeighbourTargets>(options.target, options.gating);
   }
   return std::make_unique<MultipleHypotheses>(options.target, options.gating, options.hypotheses,
@@ -32,62 +30,6 @@ std::unique_ptr<TargetSet> makeTargets(const TrackerOptions& options) {
 
 }  // namespace
 
-void TrackerOptions::visit(OptionVisitor& visitor) {
-  visitor.text({"association", "",
-                "which object is of which target: multiple hypotheses over several scans (Reid "
-                "1979; thesis 3.3.4), or the global nearest neighbour of each scan by itself"},
-               association, {kMultipleHypotheses, kGlobalNearestNeighbour});
-  visitor.group("hypotheses", [&] { hypotheses.visit(visitor); });
-  visitor.group("split_merge", [&] { split_merge.visit(visitor); });
-  visitor.group("intake", [&] { intake.visit(visitor); });
-  visitor.group("gating", [&] { gating.visit(visitor); });
-  visitor.group("clutter", [&] { clutter.visit(visitor); });
-  visitor.group("visibility", [&] { visibility.visit(visitor); });
-  visitor.group("target", [&] { target.visit(visitor); });
-  visitor.group("duplicates", [&] { duplicates.visit(visitor); });
-  visitor.toggle({"require_motion", "",
-                  "only what evidently moves becomes a track; off: everything that exists, as for "
-                  "detectors that tell road users from other things"},
-                 require_motion);
-  constexpr Bounds kHits{1, 100};
-  visitor.integer(
-      {"confirmation_hits", "1", "objects before a track is published (thesis 3.3.4: three steps)"},
-      confirmation_hits, kHits);
-  visitor.integer({"fused_confirmation_hits", "1",
-                   "the same of objects that two sensors see, of which one sees them move (thesis "
-                   "3.3.4: one step)"},
-                  fused_confirmation_hits, kHits);
-  constexpr Bounds kProbability{0.0, 1.0};
-  visitor.number(
-      {"confirmation_existence", "1", "existence probability from which a target is confirmed"},
-      confirmation_existence, kProbability);
-  visitor.number(
-      {"least_existence", "1", "existence probability below which a confirmed track is deleted"},
-      least_existence, kProbability);
-  visitor.number({"published_existence", "1",
-                  "existence probability from which a confirmed track is published"},
-                 published_existence, kProbability);
-  constexpr Bounds kSilence{0.0, 60.0};
-  visitor.number({"tentative_silence", "s", "an unconfirmed target not seen for longer is deleted"},
-                 tentative_silence, kSilence);
-  visitor.number({"confirmed_silence", "s",
-                  "a confirmed track not seen for longer is deleted; sooner if it was followed for "
-                  "a shorter time, but no sooner than an unconfirmed one"},
-                 confirmed_silence, kSilence);
-  visitor.number({"published_silence", "s",
-                  "a track not seen for longer is not published; less long if it was followed for "
-                  "less than twice that, but no less than an unconfirmed one is kept"},
-                 published_silence, kSilence);
-  visitor.number({"most_position_std", "m",
-                  "a target is deleted when the standard deviation of its position is larger"},
-                 most_position_std, {0.1, 100.0});
-  visitor.number({"history_time", "s", "how much of its path is published with a track"},
-                 history_time, {0.0, 60.0});
-  visitor.number({"time_budget", "s",
-                  "a step that takes longer goes on with the most likely hypothesis alone"},
-                 time_budget, {1e-4, 10.0});
-}
-
 class Tracker::State {
  public:
   State(const TrackerOptions& options, StepClock clock)
@@ -95,24 +37,27 @@ class Tracker::State {
         clock_(std::move(clock)),
         unknown_view_(options.visibility),
         clutter_(options.clutter),
+        transition_priors_(options.target.filter.transitions),
         targets_(makeTargets(options)) {}
 
   TrackList process(const ObjectList& list, const Pose2& base_in_fixed,
                     const Visibility& visibility) {
     const StepBudget budget(clock_, options_.time_budget);
     const double seconds = stamp_ ? std::max(0.0, secondsBetween(*stamp_, list.stamp)) : 0.0;
-    stamp_ = list.stamp;
+    stamp_ = stamp_ ? std::max(*stamp_, list.stamp) : list.stamp;
     targets_->predict(seconds);
     removeLost();
     AssociationScan scan =
         takeIn(list.objects, base_in_fixed, visibility, clutter_, options_.intake, counts_.intake);
+    scan.transition_priors = &transition_priors_;
+    makeRoom(scan.objects);
     targets_->associate(scan, budget);
     removeDuplicates();
     removeLost();
     confirm();
     learnClutter(scan, seconds);
     counts_.association = targets_->counts();
-    return published(scan);
+    return published(list.stamp, scan);
   }
 
   const Visibility& unknownView() const { return unknown_view_; }
@@ -121,6 +66,7 @@ class Tracker::State {
   void reset() {
     targets_->clear();
     clutter_.clear();
+    transition_priors_ = TransitionPriors(options_.target.filter.transitions);
     paths_.clear();
     stamp_.reset();
     counts_ = TrackerCounts();
@@ -133,14 +79,49 @@ class Tracker::State {
       targets.push_back(best.target);
     }
     const std::set<std::uint64_t> duplicates = findDuplicates(targets, options_.duplicates);
-    if (!duplicates.empty()) {
-      targets_->removeIf(
-          [&](const Target& target) { return duplicates.count(target.number()) > 0; });
-      counts_.merged_tracks += duplicates.size();
+    counts_.merged_tracks += duplicates.size();
+    remove(duplicates);
+  }
+
+  void remove(const std::set<std::uint64_t>& numbers) {
+    if (!numbers.empty()) {
+      targets_->removeIf([&](const Target& target) { return numbers.count(target.number()) > 0; });
     }
   }
 
+  /// So that new objects are never refused for the sake of old false alarms.
+  void makeRoom(std::size_t objects) {
+    const std::vector<BestTarget> all = targets_->best();
+    const auto most = static_cast<std::size_t>(options_.gating.most_targets);
+    if (all.size() + objects <= most) {
+      return;
+    }
+    std::vector<const Target*> unlikely;
+    for (const BestTarget& best : all) {
+      if (!best.target->confirmed() && best.target->sinceUpdate() > 0.0) {
+        unlikely.push_back(best.target);
+      }
+    }
+    std::sort(unlikely.begin(), unlikely.end(), [this](const Target* a, const Target* b) {
+      return std::make_tuple(existence(*a), a->hits(), a->number()) <
+             std::make_tuple(existence(*b), b->hits(), b->number());
+    });
+    unlikely.resize(std::min(unlikely.size(), all.size() + objects - most));
+    std::set<std::uint64_t> numbers;
+    for (const Target* target : unlikely) {
+      numbers.insert(target->number());
+    }
+    counts_.evicted_targets += numbers.size();
+    remove(numbers);
+  }
+
   void removeLost() {
+    for (const BestTarget& best : targets_->best()) {
+      const auto& transitions = best.target->filter().transitions();
+      if (best.target->confirmed() && transitions && isLost(*best.target)) {
+        transition_priors_.learn(best.target->objectClass(), *transitions);
+      }
+    }
     targets_->removeIf([this](const Target& target) { return isLost(target); });
   }
 
@@ -173,7 +154,11 @@ class Tracker::State {
     for (const BestTarget& best : targets_->best()) {
       if (!best.target->confirmed() && deservesTrack(*best.target)) {
         const std::uint32_t id = next_id_++;
-        targets_->change(best.target->number(), [id](Target& target) { target.confirm(id); });
+        const JumpCounts prior = transition_priors_.of(best.target->objectClass());
+        targets_->change(best.target->number(), [&](Target& target) {
+          target.confirm(id);
+          target.setTransitionPrior(prior);
+        });
         ++counts_.confirmed_tracks;
       }
     }
@@ -209,8 +194,8 @@ class Tracker::State {
     clutter_.learn(unexplained, seconds);
   }
 
-  TrackList published(const AssociationScan& scan) {
-    TrackList list{*stamp_, {}};
+  TrackList published(Stamp stamp, const AssociationScan& scan) {
+    TrackList list{stamp, {}};
     for (const BestTarget& best : targets_->best()) {
       if (isPublished(best)) {
         list.tracks.push_back(trackOf(best, scan));
@@ -235,6 +220,7 @@ class Tracker::State {
   StepClock clock_;
   Visibility unknown_view_;
   ClutterMap clutter_;
+  TransitionPriors transition_priors_;
   std::unique_ptr<TargetSet> targets_;
   TrackPaths paths_;
   std::optional<Stamp> stamp_;

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/tracking/clutter_map.h"
+#include "datmo_fusion/tracking/transition_model.h"
 #include "datmo_fusion/tracking/visibility.h"
 
 namespace datmo {
@@ -31,6 +33,10 @@ struct AssociationScan {
 
   const Visibility* visibility = nullptr;  ///< vehicle's frame
   Pose2 fixed_in_base;
+  const TransitionPriors* transition_priors = nullptr;  ///< null: nothing is learnt of jumps
+
+  /// How a new target of this class changes between motion modes; none: by the options alone.
+  std::optional<TransitionModel> transitionsOf(ObjectClass object_class) const;
 
   /// Where the sources of an observation stood in the sensor's list, rising.
   std::vector<std::size_t> listedSources(std::size_t observation) const;

@@ -11,7 +11,7 @@ namespace datmo {
 
 struct DuplicateOptions {
   double reach = 2.0;           ///< 1
-  double velocity_gate = 13.8;  ///< 1
+  double velocity_gate = 5.99;  ///< 1
 
   void visit(OptionVisitor& visitor);
 };

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,8 +38,10 @@ class Target {
  public:
   /// From the first object, in the fixed frame, and its index in the scan. `number`: the same for
   /// all hypotheses of a target, rising from target to target.
+  /// `transitions`: what it learns of its jumps between motion modes; none: nothing.
   Target(const Object& object, std::size_t index, std::uint64_t number,
-         const TargetOptions& options);
+         const TargetOptions& options,
+         const std::optional<TransitionModel>& transitions = std::nullopt);
 
   /// To the time of the next scan, `seconds` >= 0 ahead; `step` is of the same time.
   void predict(double seconds, const ImmStep& step, const TargetOptions& options);
@@ -71,6 +74,9 @@ class Target {
   double existenceProbability(const TargetOptions& options) const;
 
   void confirm(std::uint32_t id);
+
+  /// As its class becomes known; without effect where nothing is learnt.
+  void setTransitionPrior(const JumpCounts& prior) { filter_.setTransitionPrior(prior); }
   bool confirmed() const { return id_ != 0; }
   std::uint32_t id() const { return id_; }
   std::uint64_t number() const { return number_; }
@@ -81,6 +87,7 @@ class Target {
   Eigen::Matrix2d positionCovariance() const {
     return filter_.estimate().covariance.topLeftCorner<2, 2>() + box_.centreCovariance();
   }
+  ObjectClass objectClass() const { return class_.mostLikely(); }
   const std::vector<std::string>& sensors() const { return *sensors_; }
   bool sawItMove() const { return saw_it_move_; }
   /// Index of its object in the present scan; kUnseen: missed.

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/tracking/association.h"
+#include "datmo_fusion/tracking/association_scan.h"
+#include "datmo_fusion/tracking/clutter_map.h"
+#include "datmo_fusion/tracking/duplicates.h"
+#include "datmo_fusion/tracking/hypothesis_growth.h"
+#include "datmo_fusion/tracking/split_merge.h"
+#include "datmo_fusion/tracking/target.h"
+#include "datmo_fusion/tracking/visibility.h"
+
+namespace datmo {
+
+struct TrackerOptions {
+  static constexpr char kMultipleHypotheses[] = "mht";
+  static constexpr char kGlobalNearestNeighbour[] = "gnn";
+
+  std::string association = kMultipleHypotheses;
+  HypothesisOptions hypotheses;
+  SplitMergeOptions split_merge;
+  ScanIntakeOptions intake;
+  AssociationOptions gating;
+  ClutterMapOptions clutter;
+  VisibilityOptions visibility;
+  TargetOptions target;
+  DuplicateOptions duplicates;
+  bool require_motion = true;
+  int confirmation_hits = 3;
+  int fused_confirmation_hits = 1;
+  double confirmation_existence = 0.5;  ///< 1
+  double least_existence = 0.25;        ///< 1
+  double published_existence = 0.5;     ///< 1
+  double tentative_silence = 0.5;       ///< s
+  double confirmed_silence = 3.0;       ///< s
+  double published_silence = 1.5;       ///< s
+  double most_position_std = 5.0;       ///< m
+  double history_time = 3.0;            ///< s
+  double time_budget = 0.03;            ///< s
+
+  void visit(OptionVisitor& visitor);
+};
+
+}  // namespace datmo

@@ -1,0 +1,61 @@
+#include "datmo_fusion/tracking/tracker_options.h"
+
+namespace datmo {
+
+void TrackerOptions::visit(OptionVisitor& visitor) {
+  visitor.text({"association", "",
+                "which object is of which target: multiple hypotheses over several scans (Reid "
+                "1979; thesis 3.3.4), or the global nearest neighbour of each scan by itself"},
+               association, {kMultipleHypotheses, kGlobalNearestNeighbour});
+  visitor.group("hypotheses", [&] { hypotheses.visit(visitor); });
+  visitor.group("split_merge", [&] { split_merge.visit(visitor); });
+  visitor.group("intake", [&] { intake.visit(visitor); });
+  visitor.group("gating", [&] { gating.visit(visitor); });
+  visitor.group("clutter", [&] { clutter.visit(visitor); });
+  visitor.group("visibility", [&] { visibility.visit(visitor); });
+  visitor.group("target", [&] { target.visit(visitor); });
+  visitor.group("duplicates", [&] { duplicates.visit(visitor); });
+  visitor.toggle({"require_motion", "",
+                  "only what evidently moves becomes a track; off: everything that exists, as for "
+                  "detectors that tell road users from other things"},
+                 require_motion);
+  constexpr Bounds kHits{1, 100};
+  visitor.integer(
+      {"confirmation_hits", "1", "objects before a track is published (thesis 3.3.4: three steps)"},
+      confirmation_hits, kHits);
+  visitor.integer({"fused_confirmation_hits", "1",
+                   "the same of objects that two sensors see, of which one sees them move (thesis "
+                   "3.3.4: one step)"},
+                  fused_confirmation_hits, kHits);
+  constexpr Bounds kProbability{0.0, 1.0};
+  visitor.number(
+      {"confirmation_existence", "1", "existence probability from which a target is confirmed"},
+      confirmation_existence, kProbability);
+  visitor.number(
+      {"least_existence", "1", "existence probability below which a confirmed track is deleted"},
+      least_existence, kProbability);
+  visitor.number({"published_existence", "1",
+                  "existence probability from which a confirmed track is published"},
+                 published_existence, kProbability);
+  constexpr Bounds kSilence{0.0, 60.0};
+  visitor.number({"tentative_silence", "s", "an unconfirmed target not seen for longer is deleted"},
+                 tentative_silence, kSilence);
+  visitor.number({"confirmed_silence", "s",
+                  "a confirmed track not seen for longer is deleted; sooner if it was followed for "
+                  "a shorter time, but no sooner than an unconfirmed one"},
+                 confirmed_silence, kSilence);
+  visitor.number({"published_silence", "s",
+                  "a track not seen for longer is not published; less long if it was followed for "
+                  "less than twice that, but no less than an unconfirmed one is kept"},
+                 published_silence, kSilence);
+  visitor.number({"most_position_std", "m",
+                  "a target is deleted when the standard deviation of its position is larger"},
+                 most_position_std, {0.1, 100.0});
+  visitor.number({"history_time", "s", "how much of its path is published with a track"},
+                 history_time, {0.0, 60.0});
+  visitor.number({"time_budget", "s",
+                  "a step that takes longer goes on with the most likely hypothesis alone"},
+                 time_budget, {1e-4, 10.0});
+}
+
+}  // namespace datmo
