@@ -1,8 +1,5 @@
 #include "kitti_tracking/class_tracking.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace datmo::kitti {
 
 namespace {
@@ -19,12 +16,12 @@ void ClassTrackingOptions::visit(OptionVisitor& visitor) {
   visitor.group("detections", [&] { detections.visit(visitor); });
   visitor.group("tracker", [&] { tracker.visit(visitor); });
   visitor.group("vertical", [&] { vertical.visit(visitor); });
-  visitor.number({"length_weight", "1",
-                  "what a track that is e times as long gains in score, beside the mean logarithm "
-                  "of the odds of its detections"},
-                 length_weight, {0.0, 100.0});
-  visitor.integer({"most_detections", "1", "a track that has more of them is not surer for it"},
-                  most_detections, {1, 100000});
+  visitor.number({"prior_log_odds", "1",
+                  "logarithm of the odds of a detection that false tracks have on average"},
+                 prior_log_odds, {-100.0, 100.0});
+  visitor.number({"prior_weight", "1",
+                  "in the score of a track this counts as much as so many of its detections"},
+                 prior_weight, {0.0, 1000.0});
 }
 
 ClassTracking::ClassTracking(ObjectType type, const ClassTrackingOptions& options,
@@ -55,7 +52,7 @@ void ClassTracking::track(const ObjectList& objects, const Pose2& base_in_fixed,
 std::vector<Landmark> ClassTracking::landmarks() const {
   std::vector<Landmark> landmarks;
   for (const Track& track : tracks_.tracks) {
-    if (track.existence_probability < kSureOfTrack) {
+    if (track.existence_probability < kSureOfTrack || track.objects.empty()) {
       continue;
     }
     landmarks.push_back({track.state.head<2>(), track.covariance.topLeftCorner<2, 2>()});
@@ -63,11 +60,12 @@ std::vector<Landmark> ClassTracking::landmarks() const {
   return landmarks;
 }
 
-std::vector<TrackedObject> ClassTracking::rows(const std::vector<Detection>& detections,
+std::vector<TrackedObject> ClassTracking::rows(const ObjectList& objects,
+                                               const std::vector<Detection>& detections,
                                                int frame) {
   std::vector<TrackedObject> rows;
   for (const Track& track : tracks_.tracks) {
-    const Memory* memory = remember(track, detections);
+    const Memory* memory = remember(track, objects, detections);
     if (memory == nullptr) {
       continue;
     }
@@ -80,14 +78,14 @@ std::vector<TrackedObject> ClassTracking::rows(const std::vector<Detection>& det
   return rows;
 }
 
-const ClassTracking::Memory* ClassTracking::remember(const Track& track,
+const ClassTracking::Memory* ClassTracking::remember(const Track& track, const ObjectList& objects,
                                                      const std::vector<Detection>& detections) {
   auto found = memories_.find(track.id);
   if (track.objects.empty()) {
     return found == memories_.end() ? nullptr : &found->second;
   }
-  const Detection& detection = detections.at(track.objects.front());
-  const Box3& box = detection.box;
+  const std::size_t seen_as = track.objects.front();
+  const Box3& box = detections.at(seen_as).box;
   if (found == memories_.end()) {
     const VerticalExtent vertical(box.y, box.height, options_.vertical);
     found = memories_.emplace(track.id, Memory{vertical, tracks_.stamp, 0.0, 0}).first;
@@ -97,14 +95,14 @@ const ClassTracking::Memory* ClassTracking::remember(const Track& track,
     vertical.update(box.y, box.height, options_.vertical);
     found->second.stamp = tracks_.stamp;
   }
-  found->second.log_odds += model_.logOdds(detection.score);
+  found->second.log_odds += objects.objects.at(seen_as).log_odds;
   ++found->second.detections;
   return &found->second;
 }
 
 double ClassTracking::scoreOf(const Memory& memory) const {
-  const int counted = std::min(memory.detections, options_.most_detections);
-  return memory.log_odds / memory.detections + options_.length_weight * std::log(counted);
+  return (memory.log_odds + options_.prior_weight * options_.prior_log_odds) /
+         (memory.detections + options_.prior_weight);
 }
 
 TrackedObject ClassTracking::rowOf(const Track& track, const Memory& memory, int frame) const {

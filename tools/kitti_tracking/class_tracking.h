@@ -19,8 +19,8 @@ struct ClassTrackingOptions {
   DetectionModelOptions detections;
   TrackerOptions tracker;
   VerticalExtentOptions vertical;
-  double length_weight = 2.0;  ///< 1
-  int most_detections = 20;
+  double prior_log_odds = -4.0;  ///< 1
+  double prior_weight = 8.0;     ///< 1
 
   void visit(OptionVisitor& visitor);
 };
@@ -42,9 +42,10 @@ class ClassTracking {
   /// Where the tracks are that surely exist, fixed frame.
   std::vector<Landmark> landmarks() const;
 
-  /// The present tracks as rows of a result file; `detections`: those that the objects were made
-  /// of.
-  std::vector<TrackedObject> rows(const std::vector<Detection>& detections, int frame);
+  /// The present tracks as rows of a result file. `objects` as given to track(), and the detections
+  /// that they were made of.
+  std::vector<TrackedObject> rows(const ObjectList& objects,
+                                  const std::vector<Detection>& detections, int frame);
 
  private:
   /// What the tracker does not know of a track.
@@ -56,13 +57,14 @@ class ClassTracking {
   };
 
   /// How sure it is that a track is no false alarm. The evaluation takes the mean over a track's
-  /// rows, which shall rank true tracks above false ones: by what the detector says on average, and
-  /// by how often it says so. Its errors go on from frame to frame, so that the sum would be too
-  /// sure; and after a while a longer life tells no more.
+  /// rows, which shall rank true tracks above false ones. A detector's errors go on from frame to
+  /// frame, so that the sum of what it says would be too sure, and the mean forgets how often it
+  /// said so: the mean is drawn to what false tracks have, the less the longer a track is.
   double scoreOf(const Memory& memory) const;
 
   /// Takes in the track's detection, if it has one now. Null for a track that never had one.
-  const Memory* remember(const Track& track, const std::vector<Detection>& detections);
+  const Memory* remember(const Track& track, const ObjectList& objects,
+                         const std::vector<Detection>& detections);
   TrackedObject rowOf(const Track& track, const Memory& memory, int frame) const;
 
   ObjectType type_;

@@ -17,10 +17,12 @@ constexpr int kMostIterations = 10;
 constexpr double kSettledSpeed = 1e-3;    // m/s
 constexpr double kSettledYawRate = 1e-5;  // rad/s
 
-/// Between the speeds that are tried when hardly anything is known of it, m per step: the matches
-/// within this distance are found from either of two.
+/// Between the motions that are tried when little is known of them, m per step: the matches within
+/// this distance are found from either of two.
 constexpr double kSearchStep = 0.5;
-/// Of the speed, that are searched through.
+/// Distance at which a turn makes that step, m.
+constexpr double kSearchRange = 40.0;
+/// Standard deviations that are searched through.
 constexpr double kSearchSigmas = 2.0;
 
 /// A sighting, and what is expected nearest to it.
@@ -118,19 +120,27 @@ struct Gaussian {
   Eigen::Matrix2d information;
 };
 
-/// The most likely of several speeds: the correction finds the nearest optimum only.
+/// Values to try on either side of the most likely one.
+int searchSteps(double sigma, double step) {
+  return static_cast<int>(kSearchSigmas * sigma / step);
+}
+
+/// The most likely of several speeds and yaw rates: the correction finds the nearest optimum only.
 State searched(const Step& step, const Gaussian& prior) {
-  const double sigma = std::sqrt(prior.information.inverse()(0, 0));
-  const double speed_step = kSearchStep / step.seconds;
-  const int steps = static_cast<int>(kSearchSigmas * sigma / speed_step);
+  const State sigma = prior.information.inverse().diagonal().cwiseSqrt();
+  const State grid = State(kSearchStep, kSearchStep / kSearchRange) / step.seconds;
+  const int speeds = searchSteps(sigma[0], grid[0]);
+  const int yaw_rates = searchSteps(sigma[1], grid[1]);
   State best = prior.mean;
   double least = step.cost(best);
-  for (int i = -steps; i <= steps; ++i) {
-    const State off(i * speed_step, 0.0);
-    const double cost = step.cost(prior.mean + off) + 0.5 * off.dot(prior.information * off);
-    if (cost < least) {
-      least = cost;
-      best = prior.mean + off;
+  for (int i = -speeds; i <= speeds; ++i) {
+    for (int j = -yaw_rates; j <= yaw_rates; ++j) {
+      const State off(i * grid[0], j * grid[1]);
+      const double cost = step.cost(prior.mean + off) + 0.5 * off.dot(prior.information * off);
+      if (cost < least) {
+        least = cost;
+        best = prior.mean + off;
+      }
     }
   }
   return best;

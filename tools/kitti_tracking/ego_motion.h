@@ -12,11 +12,11 @@ namespace datmo::kitti {
 
 struct EgoMotionOptions {
   double acceleration_std = 2.0;      ///< m/s^2
-  double yaw_acceleration_std = 0.3;  ///< rad/s^2
+  double yaw_acceleration_std = 0.6;  ///< rad/s^2
   double first_speed_std = 15.0;      ///< m/s
   double first_yaw_rate_std = 0.2;    ///< rad/s
   double gate = 3.0;                  ///< m
-  double outlier_distance = 2.0;      ///< 1
+  double outlier_distance = 3.0;      ///< 1
   int least_matches = 2;
 
   void visit(OptionVisitor& visitor);

@@ -4,6 +4,8 @@
 #include <deque>
 #include <utility>
 
+#include "kitti_tracking/class_competition.h"
+
 #include "datmo_fusion/common/stopwatch.h"
 
 namespace datmo::kitti {
@@ -58,12 +60,13 @@ class Runner {
     for (std::size_t i = 0; i < kTrackedClasses; ++i) {
       objects.push_back(classes_[i].objects(detections_[i][frame], stamp));
     }
+    compete(objects);
     if (options_.estimate_ego_motion && frame > 0) {
       stepEgoMotion(objects);
     }
     track(objects);
     for (std::size_t i = 0; i < kTrackedClasses; ++i) {
-      addRows(classes_[i].rows(detections_[i][frame], static_cast<int>(frame)), i);
+      addRows(classes_[i].rows(objects[i], detections_[i][frame], static_cast<int>(frame)), i);
     }
   }
 
