@@ -2,23 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
+
+#include "heading_search.h"
+#include "near_sides.h"
+
+#include "datmo_fusion/common/angle.h"
 
 namespace datmo {
 
 namespace {
 
 constexpr double kQuarter = 0.5 * kPi;
-constexpr int kHeadings = 15;  ///< over a quarter turn
-constexpr double kStep = kQuarter / kHeadings;
 constexpr int kRefinements = 3;
-
-/// Cost of a point that lies nowhere near a side, as of one at so many standard deviations squared.
-constexpr double kMostCost = 4.0;
-
-/// Points nearer to a line than this, in standard deviations, may lie on it.
-constexpr double kOnLine = 3.0;
 
 /// A single point beside a line may be an outlier, two are the other side.
 constexpr std::size_t kLeastAlone = 2;
@@ -28,119 +24,6 @@ constexpr double kNoisePoints = 4.0;
 
 /// rad; no vehicle is a perfect rectangle, however many points there are on it.
 constexpr double kLeastHeadingStd = 0.01;
-
-constexpr double kNone = std::numeric_limits<double>::infinity();
-
-/// Points about the scanner.
-using Points = std::vector<Point2>;
-
-/// The axes of a heading.
-struct Axes {
-  explicit Axes(double heading) : along(std::cos(heading), std::sin(heading)) {}
-  Point2 operator()(const Point2& point) const {
-    return {along.x() * point.x() + along.y() * point.y(),
-            along.x() * point.y() - along.y() * point.x()};
-  }
-  Point2 along;
-};
-
-/// Lines at constant first and second coordinate that face the scanner, which is at the origin;
-/// kNone: it does not see the side across this axis.
-struct NearSides {
-  Point2 place;
-  std::array<bool, 2> ahead{};  ///< the side is at the positive end of the object
-
-  /// Distance to the nearer one, m.
-  double distance(const Point2& local) const { return (local - place).cwiseAbs().minCoeff(); }
-
-  /// The axis that the nearer one is across.
-  int nearest(const Point2& local) const {
-    return std::abs(local.x() - place.x()) <= std::abs(local.y() - place.y()) ? 0 : 1;
-  }
-};
-
-struct Extent {
-  Point2 least = Point2::Constant(kNone);
-  Point2 most = Point2::Constant(-kNone);
-
-  /// Where the near sides are if no point is in front of them.
-  NearSides nearSides() const {
-    const auto place = [&](int axis) {
-      return least[axis] > 0.0 ? least[axis] : (most[axis] < 0.0 ? most[axis] : kNone);
-    };
-    NearSides sides{{place(0), place(1)}, {most.x() < 0.0, most.y() < 0.0}};
-    if (sides.place.x() == kNone && sides.place.y() == kNone) {
-      sides.place = least;  // the scanner is inside: no side is nearer than another
-    }
-    return sides;
-  }
-};
-
-Extent extentOf(const Points& points, const Axes& axes) {
-  Extent extent;
-  for (const Point2& point : points) {
-    const Point2 local = axes(point);
-    extent.least = extent.least.cwiseMin(local);
-    extent.most = extent.most.cwiseMax(local);
-  }
-  return extent;
-}
-
-/// Squared distances in standard deviations, each bounded (Geman & McClure 1985). A second side is
-/// one more parameter: it must explain more than that by chance (Schwarz 1978).
-double costOf(const Points& points, double heading, double variance) {
-  const Axes axes(heading);
-  const NearSides sides = extentOf(points, axes).nearSides();
-  double cost = 0.0;
-  Point2 farthest = Point2::Zero();  // from each side
-  for (const Point2& point : points) {
-    const Point2 distances = (axes(point) - sides.place).cwiseAbs();
-    farthest = farthest.cwiseMax(distances);
-    const double nearest = distances.minCoeff();
-    const double square = nearest * nearest;
-    cost += square / (variance + square / kMostCost);
-  }
-  const bool both = farthest.minCoeff() > kOnLine * std::sqrt(variance);
-  return both ? cost + std::log(static_cast<double>(points.size())) : cost;
-}
-
-/// Costs of all headings.
-class HeadingSearch {
- public:
-  HeadingSearch(const Points& points, double sigma) {
-    const Extent extent = extentOf(points, Axes(0.0));
-    // The best of the headings that are tried is up to half a step off.
-    const double slant = 0.25 * kStep * (extent.most - extent.least).norm();
-    for (std::size_t i = 0; i < costs_.size(); ++i) {
-      costs_[i] = costOf(points, heading(i), sigma * sigma + slant * slant);
-    }
-    best_ =
-        static_cast<std::size_t>(std::min_element(costs_.begin(), costs_.end()) - costs_.begin());
-  }
-
-  double best() const { return heading(best_); }
-
-  /// Variance of the likely headings about this one, modulo a quarter turn, rad^2; what the steps
-  /// themselves make of it left out.
-  double spreadAbout(double centre) const {
-    double sum = 0.0;
-    double total = 0.0;
-    for (std::size_t i = 0; i < costs_.size(); ++i) {
-      const double weight = std::exp(0.5 * (costs_[best_] - costs_[i]));
-      const double apart =
-          std::max(0.0, std::abs(std::remainder(heading(i) - centre, kQuarter)) - kStep);
-      sum += weight * apart * apart;
-      total += weight;
-    }
-    return sum / total;
-  }
-
- private:
-  static double heading(std::size_t i) { return kStep * static_cast<double>(i); }
-
-  std::array<double, kHeadings> costs_;
-  std::size_t best_;
-};
 
 /// Weighted moments of the points on one side.
 struct SideMoments {

@@ -1,0 +1,61 @@
+#include "heading_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "datmo_fusion/common/angle.h"
+
+namespace datmo {
+
+namespace {
+
+constexpr double kQuarter = 0.5 * kPi;
+
+/// Squared distances in standard deviations, each bounded (Geman & McClure 1985). A second side is
+/// one more parameter: it must explain more than that by chance (Schwarz 1978).
+double costOf(const Points& points, double heading, double variance) {
+  const Axes axes(heading);
+  const NearSides sides = extentOf(points, axes).nearSides();
+  double cost = 0.0;
+  Point2 farthest = Point2::Zero();  // from each side
+  for (const Point2& point : points) {
+    const Point2 distances = (axes(point) - sides.place).cwiseAbs();
+    farthest = farthest.cwiseMax(distances);
+    const double nearest = distances.minCoeff();
+    const double square = nearest * nearest;
+    cost += square / (variance + square / kMostCost);
+  }
+  const bool both = farthest.minCoeff() > kOnLine * std::sqrt(variance);
+  return both ? cost + std::log(static_cast<double>(points.size())) : cost;
+}
+
+}  // namespace
+
+HeadingSearch::HeadingSearch(const Points& points, double sigma) {
+  const Extent extent = extentOf(points, Axes(0.0));
+  // The best of the headings that are tried is up to half a step off.
+  const double slant = 0.25 * heading(1) * (extent.most - extent.least).norm();
+  for (std::size_t i = 0; i < kHeadings; ++i) {
+    costs_[i] = costOf(points, heading(i), sigma * sigma + slant * slant);
+  }
+  best_ = static_cast<std::size_t>(std::min_element(costs_.begin(), costs_.end()) - costs_.begin());
+}
+
+double HeadingSearch::spreadAbout(double centre) const {
+  double sum = 0.0;
+  double total = 0.0;
+  for (std::size_t i = 0; i < kHeadings; ++i) {
+    const double weight = std::exp(0.5 * (costs_[best_] - costs_[i]));
+    const double apart =
+        std::max(0.0, std::abs(std::remainder(heading(i) - centre, kQuarter)) - heading(1));
+    sum += weight * apart * apart;
+    total += weight;
+  }
+  return sum / total;
+}
+
+double HeadingSearch::heading(std::size_t i) {
+  return kQuarter * static_cast<double>(i) / static_cast<double>(kHeadings);
+}
+
+}  // namespace datmo
