@@ -34,18 +34,17 @@ class Visibility::Outline {
   bool holdsSensor() const { return (sensor_.cwiseAbs() - half_).maxCoeff() <= 0.0; }
 
   double distance() const { return distance_; }    ///< m, of the centre
-  double bearing() const { return bearing_; }      ///< rad, of the centre about the sensor
   double width() const { return most_ - least_; }  ///< rad
 
-  /// rad, from the bearing, of the middle of one of so many equal parts of the width.
-  double offset(std::size_t part, std::size_t parts) const {
-    return least_ + (static_cast<double>(part) + 0.5) / static_cast<double>(parts) * width();
-  }
-
-  /// Of the line that leaves the sensor at this offset, rad.
-  Crossing crossing(double offset) const;
+  /// Calls `use(bearing, crossing)` for the lines through the middles of so many equal parts of the
+  /// width; bearing in rad, about the sensor.
+  template <typename Use>
+  void forEachLook(std::size_t parts, const Use& use) const;
 
  private:
+  /// Of the line that leaves the sensor in this direction, in the box's frame.
+  Crossing crossing(const Point2& direction) const;
+
   Point2 half_;      ///< m, half of length and width
   Point2 sensor_;    ///< m, in the box's frame
   double distance_;  ///< m
@@ -80,8 +79,7 @@ Visibility::Outline::Outline(const Box2& box_in_base, const Pose2& sensor_in_bas
   }
 }
 
-Crossing Visibility::Outline::crossing(double offset) const {
-  const Point2 direction(std::cos(towards_ + offset), std::sin(towards_ + offset));
+Crossing Visibility::Outline::crossing(const Point2& direction) const {
   Crossing crossing{0.0, distance_ + half_.norm()};
   for (int axis = 0; axis < 2; ++axis) {
     if (direction[axis] != 0.0) {
@@ -92,6 +90,21 @@ Crossing Visibility::Outline::crossing(double offset) const {
     }
   }
   return crossing;
+}
+
+template <typename Use>
+void Visibility::Outline::forEachLook(std::size_t parts, const Use& use) const {
+  const double step = width() / static_cast<double>(parts);
+  const double c = std::cos(step);
+  const double s = std::sin(step);
+  double offset = least_ + 0.5 * step;
+  Point2 direction(std::cos(towards_ + offset), std::sin(towards_ + offset));
+  for (std::size_t part = 0; part < parts; ++part) {
+    use(bearing_ + offset, crossing(direction));
+    offset += step;
+    direction =
+        Point2(c * direction.x() - s * direction.y(), s * direction.x() + c * direction.y());
+  }
 }
 
 void VisibilityOptions::visit(OptionVisitor& visitor) {
@@ -155,37 +168,38 @@ Visibility::Visibility(const FieldOfView& view, const std::vector<Box2>& seen,
       continue;
     }
     const auto parts = static_cast<std::size_t>(outline.width() / kFanSpacing) + 1;
-    for (std::size_t part = 0; part < parts; ++part) {
-      const double offset = outline.offset(part, parts);
-      if (const auto beam = beamAt(outline.bearing() + offset)) {
+    outline.forEachLook(parts, [this](double bearing, const Crossing& crossing) {
+      if (const auto beam = beamAt(bearing)) {
         // What was seen does not hide itself.
-        reach_[*beam] = std::min(reach_[*beam], outline.crossing(offset).exit);
+        reach_[*beam] = std::min(reach_[*beam], crossing.exit);
       }
-    }
+    });
   }
 }
 
 void Visibility::setFan(double first_bearing, double beam_spacing, std::size_t beams) {
   first_bearing_ = first_bearing;
-  beam_spacing_ = beam_spacing;
+  beams_per_radian_ = 1.0 / beam_spacing;
+  beams_per_turn_ = 2.0 * kPi / std::abs(beam_spacing);
   reach_.assign(beams, range_);
 }
 
 std::optional<std::size_t> Visibility::beamAt(double bearing) const {
-  // Beams from the first one on in the direction of the scan, in [-1/2, a full turn - 1/2).
-  const double turn = 2.0 * kPi / std::abs(beam_spacing_);
-  const double steps = (bearing - first_bearing_) / beam_spacing_ + 0.5;
-  const double beam = steps - turn * std::floor(steps / turn);
+  // Beams from half a beam before the first one on, in the direction of the scan.
+  double beam = (bearing - first_bearing_) * beams_per_radian_ + 0.5;
+  if (beam < 0.0 || beam >= beams_per_turn_) {
+    beam -= beams_per_turn_ * std::floor(beam / beams_per_turn_);
+  }
   const auto index = static_cast<std::size_t>(beam);
   return index < reach_.size() ? std::optional<std::size_t>(index) : std::nullopt;
 }
 
 Visibility::Looks Visibility::looksAt(const Outline& outline) {
   Looks looks;
-  for (std::size_t i = 0; i < kLooks; ++i) {
-    const double offset = outline.offset(i, kLooks);
-    looks[i] = {outline.bearing() + offset, outline.crossing(offset).entry};
-  }
+  std::size_t i = 0;
+  outline.forEachLook(kLooks, [&](double bearing, const Crossing& crossing) {
+    looks[i++] = {bearing, crossing.entry};
+  });
   return looks;
 }
 
@@ -221,7 +235,7 @@ double Visibility::detectionProbability(const Box2& box_in_base, double sigma) c
   if (outline.holdsSensor()) {
     return options_.unknown_probability;
   }
-  const double beams = outline.width() / std::abs(beam_spacing_);
+  const double beams = outline.width() * std::abs(beams_per_radian_);
   const double strength = strengthAt(outline.distance());
   const Looks looks = looksAt(outline);
   const auto seenAt = [&](const Shift& shift) {

@@ -33,9 +33,9 @@ struct FieldOfView {
 /// What a sensor could have seen at one time: how likely an object would have been detected, by
 /// field of view, range and occlusion by what is nearer. Vehicle's frame (base_link).
 ///
-/// The view is a fan of beams, each of which reaches as far as the sensor saw along it. In a scan an
-/// object is taken to be detected by one beam that meets it and returns, in a field of view by the
-/// share of it that is not hidden.
+/// The view is a fan of beams, each of which reaches as far as the sensor saw along it. In a scan
+/// an object is taken to be detected by one beam that meets it and returns, in a field of view by
+/// the share of it that is not hidden.
 class Visibility {
  public:
   /// Nothing is known of the view: every object is seen with `unknown_probability`.
@@ -90,13 +90,14 @@ class Visibility {
 
   VisibilityOptions options_;
   Pose2 sensor_in_base_;
-  double first_bearing_ = 0.0;  ///< rad, of beam 0
-  double beam_spacing_ = 0.0;   ///< rad, more than 0 to the left
-  double least_range_ = 0.0;    ///< m
-  double free_range_ = 0.0;     ///< m, up to here an object is seen as well as a near one
-  double range_ = 0.0;          ///< m
-  bool by_beams_ = false;       ///< a scan; else a field of view
-  std::vector<double> reach_;   ///< m, of each beam; empty: unknown
+  double first_bearing_ = 0.0;     ///< rad, of beam 0
+  double beams_per_radian_ = 0.0;  ///< more than 0: from right to left
+  double beams_per_turn_ = 0.0;
+  double least_range_ = 0.0;   ///< m
+  double free_range_ = 0.0;    ///< m, up to here an object is seen as well as a near one
+  double range_ = 0.0;         ///< m
+  bool by_beams_ = false;      ///< a scan; else a field of view
+  std::vector<double> reach_;  ///< m, of each beam; empty: unknown
 };
 
 }  // namespace datmo
