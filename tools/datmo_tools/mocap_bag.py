@@ -33,6 +33,9 @@ SHORT_RANGES = (
     (7.5, 0.33),
 )
 
+# x, y (m), yaw (rad) of that scanner in base_link.
+MOUNT = np.array([-0.152, 0.0, math.radians(0.3)])
+
 LABEL = "Car"
 NO_CENTRE = np.zeros(3)
 
@@ -47,9 +50,7 @@ class Options(NamedTuple):
     imu_topic: str = "/imu/data"
     odometry: bool = True  # where both of these topics are there
     wheel_radius: float = 0.031  # m
-    mount: np.ndarray = np.array(
-        [-0.152, 0.0, math.radians(0.3)]
-    )  # x, y, yaw of the scanner in base_link
+    mount: np.ndarray = MOUNT
     clockwise: bool = True  # the last beam of a message is the first in time
     sweep_time: Optional[float] = None  # s from the first beam to the last; None: between scans
     scan_delay: float = -0.015  # s from a scan's stamp to its first beam, on motion capture's clock

@@ -11,16 +11,17 @@ from datmo_tools.errors import InputError
 
 DESCRIPTION = """\
 Converts a recorded bag of a car with a 2D scanner, whose pose and those of other cars were measured
-by motion capture, to a bag: /scan, /tf_static, /ground_truth/pose, /ground_truth/objects, and, where
-wheel speeds and an IMU were recorded, /odometry and /tf. Run it with config/model_car.yaml.
+by motion capture, to a bag: /scan, /tf_static, /ground_truth/pose, /ground_truth/objects, and,
+where wheel speeds and an IMU were recorded, /odometry and /tf. Run it with config/model_car.yaml;
+without odometry, with grid_slam/odometry: false.
 
 base_link is the frame in which motion capture has the scanner's car, and map its first pose. The
 defaults are those of the example bags of the package datmo (1:10 cars, an RPLIDAR), measured there:
-beams are taken clockwise, so that the last one of a message is the first in time; the scans' clock
-is ahead of that of motion capture by 15 ms (walls are sharpest so, to 3 ms); ranges are
-short, from 0.08 m at 4 m to 0.42 m at 5 m (so are walls, seen from near and from far); and the markers' origin is not the middle of
-the body whose outline the scanner saw. Where motion capture repeats a pose to the last bit, it has
-lost the car, and there is no truth."""
+the last beam of a message is the first in time; the scans' clock is ahead of that of motion capture
+by 15 ms (walls are sharpest so, to 3 ms); ranges are short, by 0.08 m at 4 m and 0.42 m at 5 m (so
+are walls, seen from near and from far); and the origin of the markers is not the middle of the body
+whose outline the scanner saw. Where motion capture repeats a pose to the last bit, it has lost the
+car, and there is no truth."""
 
 
 def main(arguments=None):
