@@ -27,11 +27,12 @@ void ScanViews::add(const SplitScanMessage& message) {
   }
 }
 
+/// The one that came last, where a scan came twice.
 const ScanViews::View* ScanViews::find(const std_msgs::Header& base) const {
-  const auto found = std::find_if(views_.begin(), views_.end(), [&](const View& view) {
+  const auto found = std::find_if(views_.rbegin(), views_.rend(), [&](const View& view) {
     return view.base.stamp == base.stamp && view.base.frame_id == base.frame_id;
   });
-  return found == views_.end() ? nullptr : &*found;
+  return found == views_.rend() ? nullptr : &*found;
 }
 
 std::optional<Pose2> ScanViews::pose(const std_msgs::Header& base,
