@@ -37,7 +37,7 @@ struct DetectedSequence {
 struct SequenceRun {
   std::vector<TrackedObject> rows;  ///< by rising frame; one for each frame and id
   std::size_t frames = 0;
-  double tracking_seconds = 0.0;  ///< of the trackers alone, all classes
+  double tracking_seconds = 0.0;  ///< processor time of the trackers alone, all classes
   double ego_motion_seconds = 0.0;
 };
 

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "datmo_fusion/common/stamp.h"
-#include "datmo_fusion/common/stopwatch.h"
 #include "datmo_fusion/ros/input_error.h"
 
 namespace datmo {
@@ -94,6 +93,17 @@ class StageMonitor {
   std::string last_error_;
   std::optional<std::chrono::steady_clock::time_point> last_said_;
   std::uint64_t unsaid_ = 0;  ///< errors since then
+};
+
+/// Seconds since construction, for Processed::seconds.
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace datmo
