@@ -14,6 +14,9 @@ constexpr double toDegrees(double radians) { return radians * 180.0 / kPi; }
 
 /// The same direction in (-pi, pi]. `angle` in rad, any finite value.
 inline double normalizeAngle(double angle) {
+  if (angle > -kPi && angle <= kPi) {
+    return angle;  // most are: the remainder is slow
+  }
   const double wrapped = std::remainder(angle, 2.0 * kPi);
   return wrapped <= -kPi ? kPi : wrapped;
 }
