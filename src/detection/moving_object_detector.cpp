@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "datmo_fusion/detection/box_fit.h"
@@ -95,6 +96,14 @@ class SideBox {
   std::array<double, kBoxSides> reach_;  ///< m, by BoxSide
 };
 
+/// Mean time of a segment's points, s after the scan's stamp.
+double meanTime(const std::vector<ScanPoint>& points, const Segment& segment, double beam_time) {
+  const double beams = std::accumulate(
+      segment.begin(), segment.end(), 0.0,
+      [&](double sum, std::size_t i) { return sum + static_cast<double>(points[i].beam); });
+  return beam_time * beams / static_cast<double>(segment.size());
+}
+
 /// Takes another side for the front, a quarter turn to the left at a time: nothing moves.
 void turnByQuarter(Object& object) {
   const auto [front, rear, left, right] = object.side_variance;
@@ -175,6 +184,7 @@ Object MovingObjectDetector::makeObject(const std::vector<ScanPoint>& points,
   object.moving_fraction = movingFraction(points, segment);
   object.dynamic_state = object.moving_fraction > options_.moving_share ? DynamicState::kMoving
                                                                         : DynamicState::kUnknown;
+  object.delay = meanTime(points, segment, scan.field.beam_time);
   object.sensors = {kSensor};
   return object;
 }

@@ -60,14 +60,16 @@ ScanFieldMessage toMessage(const ScanField& field) {
   message.least_range = static_cast<float>(field.least_range);
   message.free_range = static_cast<float>(field.free_range);
   message.range = static_cast<float>(field.range);
+  message.beam_time = field.beam_time;
   return message;
 }
 
 ScanField fromMessage(const ScanFieldMessage& message) {
   const ScanField field{message.first_bearing, message.beam_spacing, message.beams,
-                        message.least_range,   message.free_range,   message.range};
+                        message.least_range,   message.free_range,   message.range,
+                        message.beam_time};
   const bool finite = std::isfinite(field.first_bearing + field.beam_spacing + field.least_range +
-                                    field.free_range + field.range);
+                                    field.free_range + field.range + field.beam_time);
   if (!finite || (field.beams > 0 && field.beam_spacing == 0.0) || field.beams > kMostBeams) {
     throw InputError("bad_field", "split scan of " + std::to_string(field.beams) + " beams from " +
                                       std::to_string(field.first_bearing) + " rad every " +

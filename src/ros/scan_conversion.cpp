@@ -105,7 +105,7 @@ Ray rayAt(double bearing, double range, const ScannerMount& mount) {
 }
 
 template <typename Message>
-ScanField fieldOf(const Message& message, const ScannerMount& mount,
+ScanField fieldOf(const Message& message, const ScannerMount& mount, double time_increment,
                   const ScanConversionOptions& options) {
   const double side = mount.upside_down ? -1.0 : 1.0;
   ScanField field;
@@ -115,6 +115,7 @@ ScanField fieldOf(const Message& message, const ScannerMount& mount,
   field.least_range = message.range_min;
   field.range = std::min(message.range_max, kLongestReach);
   field.free_range = std::min(options.free_range, field.range);
+  field.beam_time = time_increment;
   return field;
 }
 
@@ -130,7 +131,7 @@ ConvertedScan convert(const Message& message, const ScannerMount& mount,
   Scan& scan = converted.scan;
   scan.stamp = toStamp(message.header.stamp);
   scan.scanner_in_base = mount.scanner_in_base;
-  scan.field = fieldOf(message, mount, options);
+  scan.field = fieldOf(message, mount, time_increment, options);
   scan.rays.reserve(message.ranges.size());
   const float reach = std::min(message.range_max, kLongestReach);
   const double free_range = scan.field.free_range;

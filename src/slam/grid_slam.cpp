@@ -8,6 +8,9 @@ namespace datmo {
 
 namespace {
 
+/// Each pass halves what is wrong with the yaw rate, where the beams go all round.
+constexpr int kPassesWithoutOdometry = 4;
+
 /// State of each ray, in order; kUnknown for beams without a hit.
 std::vector<PointState> judge(const Scan& scan, const OccupancyMap& map, const Pose2& base_in_map) {
   std::vector<PointState> states;
@@ -101,16 +104,28 @@ Scan GridSlam::compensated(const Scan& scan) const {
   return compensateMotion(scan, measured ? twistOf(*measured, duration) : filter_.velocity());
 }
 
+Scan GridSlam::locate(const Scan& measured, SlamResult& result) {
+  const PoseFilter predicted = filter_;
+  const bool guessed = !result.odometry_used && sweepDuration(measured) > 0.0;
+  Scan scan = compensated(measured);
+  for (int pass = 0; pass < (guessed ? kPassesWithoutOdometry : 1); ++pass) {
+    const MatchResult match = matcher_.match(map_, endPoints(scan, options_.longest_step),
+                                             {predicted.pose(), result.odometry_used}, random_);
+    filter_ = predicted;
+    filter_.correct(match.pose);
+    result.match = match.quality;
+    scan = guessed ? compensated(measured) : scan;
+  }
+  return scan;
+}
+
 SlamResult GridSlam::process(const Scan& measured) {
-  const Scan scan = compensated(measured);
   SlamResult result;
+  Scan scan = compensated(measured);
   if (stamp_) {
     result.odometry_used = predict(scan.stamp);
     map_.centreOn(filter_.pose().pose.position());
-    const MatchResult match = matcher_.match(map_, endPoints(scan, options_.longest_step),
-                                             {filter_.pose(), result.odometry_used}, random_);
-    filter_.correct(match.pose);
-    result.match = match.quality;
+    scan = locate(measured, result);
   }
   const PoseWithCovariance base_in_map = filter_.pose();
   const std::vector<PointState> states = judge(scan, map_, base_in_map.pose);

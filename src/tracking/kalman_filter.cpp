@@ -13,6 +13,11 @@ void symmetrise(TrackCovariance& covariance) {
   covariance.triangularView<Eigen::StrictlyLower>() = covariance.transpose();
 }
 
+PositionMeasurement undelayed(PositionMeasurement measured) {
+  measured.delay = 0.0;
+  return measured;
+}
+
 }  // namespace
 
 double Innovation::squaredDistance() const { return residual.dot(covariance.inverse() * residual); }
@@ -21,7 +26,18 @@ double Innovation::logLikelihood() const {
   return -0.5 * (squaredDistance() + std::log(covariance.determinant())) - std::log(2.0 * kPi);
 }
 
+StateEstimate carriedOn(const StateEstimate& estimate, double seconds) {
+  StateEstimate result = estimate;
+  result.mean.head<2>() += seconds * result.mean.segment<2>(2);
+  result.covariance.topRows<2>() += seconds * result.covariance.middleRows<2>(2);
+  result.covariance.leftCols<2>() += seconds * result.covariance.middleCols<2>(2);
+  return result;
+}
+
 Innovation innovationOf(const StateEstimate& predicted, const PositionMeasurement& measured) {
+  if (measured.delay != 0.0) {
+    return innovationOf(carriedOn(predicted, measured.delay), undelayed(measured));
+  }
   return {measured.position - predicted.mean.head<2>(),
           predicted.covariance.topLeftCorner<2, 2>() + measured.covariance};
 }
@@ -48,6 +64,10 @@ StateEstimate predict(const StateEstimate& estimate, const LinearMotion& motion)
 }
 
 StateEstimate update(const StateEstimate& predicted, const PositionMeasurement& measured) {
+  if (measured.delay != 0.0) {
+    const StateEstimate then = carriedOn(predicted, measured.delay);
+    return carriedOn(update(then, undelayed(measured)), -measured.delay);
+  }
   const Innovation innovation = innovationOf(predicted, measured);
   const Eigen::Matrix2d weight = innovation.covariance.inverse();
   const Eigen::Matrix2d kept = measured.covariance * weight;

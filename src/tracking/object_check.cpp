@@ -35,7 +35,7 @@ bool isValid(const Object& object) {
          std::isfinite(centre.heading()) && isAmount(object.box.length) &&
          isAmount(object.box.width) && isAmount(object.heading_variance) &&
          areSides(object.side_variance) && std::isfinite(object.log_odds) &&
-         isAmount(object.height) && isShare(object.moving_fraction) &&
+         isAmount(object.height) && isAmount(object.delay) && isShare(object.moving_fraction) &&
          isShare(object.class_probability) && isCovariance(object.position_covariance);
 }
 

@@ -12,9 +12,7 @@ namespace datmo {
 
 namespace {
 
-constexpr double kLeastArea = 1.0;  ///< m^2, of what is nearly a point
-
-double area(const Box2& box) { return std::max(kLeastArea, box.length * box.width); }
+double area(const Box2& box) { return box.length * box.width; }
 
 Box2 widened(Box2 box, double margin) {
   box.length += 2.0 * margin;
@@ -117,8 +115,9 @@ class Reader {
     if (points[0].empty() || points[1].empty()) {
       return;
     }
-    const double log_density = 0.5 * (scan_.observations[index].log_density -
-                                      std::log(options_.merge_probability * area(object.box)));
+    const double log_density =
+        0.5 * (scan_.observations[index].log_density -
+               std::log(options_.merge_probability * area(widened(object.box, options_.margin))));
     const Point2 way = covered[1].box.centre.position() - covered[0].box.centre.position();
     Alternative both{{index}, {}};
     for (std::size_t i = 0; i < 2; ++i) {
@@ -176,7 +175,7 @@ void SplitMergeOptions::visit(OptionVisitor& visitor) {
                   "e); 0: never"},
                  merge_probability, {0.0, 1.0});
   visitor.number({"margin", "m", "how far outside of a target's box its parts may lie"}, margin,
-                 {0.0, 10.0});
+                 {0.01, 10.0});
   visitor.integer({"most_readings", "1",
                    "readings of a cluster's objects, of each by itself and others; bounds the time "
                    "of a step"},

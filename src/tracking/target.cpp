@@ -17,7 +17,8 @@ ImmFilter birth(const PositionMeasurement& measured, const TargetOptions& option
                                                            options.birth_speed_std);
   const double acceleration = options.filter.motion.acceleration_std;
   estimate.covariance.diagonal().tail<2>().setConstant(acceleration * acceleration);
-  return {estimate, priorModeProbabilities(options.filter), transitions};
+  return {carriedOn(estimate, -measured.delay), priorModeProbabilities(options.filter),
+          transitions};
 }
 
 }  // namespace

@@ -157,7 +157,7 @@ PositionMeasurement TrackedBox::measurementOf(const Object& object) const {
   }
   return {object.box.centre.position() - turned(seen.heading, share.cwiseProduct(extent)) +
               turned(heading_, share.cwiseProduct(size_.mean())),
-          object.position_covariance + alongAxes(seen.heading, variance)};
+          object.position_covariance + alongAxes(seen.heading, variance), object.delay};
 }
 
 Point2 TrackedBox::update(const Object& object, double seconds, const TrackedBoxOptions& options) {

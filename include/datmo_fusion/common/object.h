@@ -51,6 +51,9 @@ struct Object {
   /// Logarithm of the odds that it is an object at all, over those of the average detection, by
   /// what its detector says of it; 0: the detector says nothing.
   double log_odds = 0.0;
+  /// s, 0 or more: how long after the list's stamp it was seen, the mean time of its points. What
+  /// moves is where it was then.
+  double delay = 0.0;
   std::vector<std::string> sensors;  ///< who saw it
   std::vector<Point2> points;        ///< m, frame of the list
 };

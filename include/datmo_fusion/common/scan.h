@@ -32,6 +32,7 @@ struct ScanField {
   double free_range =
       0.0;             ///< m, a beam without return is known free up to here; 0: it says nothing
   double range = 0.0;  ///< m, nothing is seen farther away
+  double beam_time = 0.0;  ///< s, from a beam to the next one; 0: all at once
 };
 
 /// A planar scan, checked and brought to the vehicle's frame. Beams without a valid measurement

@@ -60,6 +60,13 @@ class GridSlam {
  private:
   /// The scan as seen at its stamp, by the newest odometry or else the estimated velocity.
   Scan compensated(const Scan& scan) const;
+  /// Corrects the predicted pose by the scan; returns the scan as compensated for its motion.
+  ///
+  /// Without odometry the velocity comes from the matches. A scan that was compensated for a wrong
+  /// turn is matched at a wrong heading, which makes the next turn wrong the other way: of beams
+  /// that go all round, such errors never fade. So the scan is compensated again for the motion
+  /// that its own match tells.
+  Scan locate(const Scan& measured, SlamResult& result);
 
   /// Returns whether odometry served.
   bool predict(Stamp stamp);

@@ -18,7 +18,12 @@ struct StateEstimate {
 struct PositionMeasurement {
   Point2 position = Point2::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
+  double delay = 0.0;  ///< s after the time of the state: where the object is then at its velocity
 };
+
+/// The state with the position to which its velocity takes it in so many seconds, which may be less
+/// than 0: other coordinates of the same state.
+StateEstimate carriedOn(const StateEstimate& estimate, double seconds);
 
 /// What a measurement tells that was not expected.
 struct Innovation {

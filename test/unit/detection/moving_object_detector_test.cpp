@@ -54,6 +54,16 @@ SeenSides sidesAcross(const Object& object) {
                                                   : SeenSides{right, left, rear, front});
 }
 
+TEST(MovingObjectDetectorTest, ObjectsWereSeenAtTheMeanTimeOfTheirBeams) {
+  SplitScan scan = splitScan({{5.0, 40, kM}, {5.0, 41, kM}, {5.0, 42, kM}, {5.0, 120, kM}});
+  EXPECT_EQ(detect(scan).objects.front().delay, 0.0);
+  scan.field.beam_time = 1e-3;
+  const ObjectList list = detect(scan);
+  ASSERT_EQ(list.objects.size(), 2U);
+  EXPECT_NEAR(list.objects[0].delay, 0.041, 1e-12);
+  EXPECT_NEAR(list.objects[1].delay, 0.120, 1e-12);
+}
+
 TEST(MovingObjectDetectorTest, AnEmptyScanHasNoObjects) {
   const ObjectList list = detect(splitScan({}));
   EXPECT_TRUE(list.objects.empty());

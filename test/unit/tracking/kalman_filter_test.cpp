@@ -44,6 +44,36 @@ TEST(KalmanFilter, InnovationByHand) {
   EXPECT_NEAR(innovation.logLikelihood(), std::log(std::exp(-2.5) / (2.0 * kPi * 4.0)), 1e-12);
 }
 
+/// The same as a measurement of position + delay * velocity, in the textbook's form.
+TEST(KalmanFilter, DelayedMeasurementIsOfWhereTheVelocityLeadsTo) {
+  constexpr double kDelay = 0.3;
+  StateEstimate predicted;
+  predicted.mean << 1.0, 2.0, 3.0, -4.0, 0.5, 0.1;
+  TrackCovariance root = TrackCovariance::Identity();
+  root(2, 0) = 0.4;
+  root(3, 1) = -0.7;
+  root(4, 2) = 0.2;
+  predicted.covariance = root * root.transpose();
+  const PositionMeasurement measured{Point2(2.5, 0.1), 0.2 * Eigen::Matrix2d::Identity(), kDelay};
+
+  Eigen::Matrix<double, 2, 6> observed = Eigen::Matrix<double, 2, 6>::Zero();
+  observed.leftCols<2>().setIdentity();
+  observed.middleCols<2>(2) = kDelay * Eigen::Matrix2d::Identity();
+  const Eigen::Vector2d residual = measured.position - observed * predicted.mean;
+  const Eigen::Matrix2d spread =
+      observed * predicted.covariance * observed.transpose() + measured.covariance;
+  const Eigen::Matrix<double, 6, 2> gain =
+      predicted.covariance * observed.transpose() * spread.inverse();
+
+  const Innovation innovation = innovationOf(predicted, measured);
+  EXPECT_TRUE(innovation.residual.isApprox(residual, 1e-12));
+  EXPECT_TRUE(innovation.covariance.isApprox(spread, 1e-12));
+  const StateEstimate updated = update(predicted, measured);
+  EXPECT_TRUE(updated.mean.isApprox(predicted.mean + gain * residual, 1e-12));
+  EXPECT_TRUE(updated.covariance.isApprox(
+      predicted.covariance - gain * observed * predicted.covariance, 1e-12));
+}
+
 TEST(KalmanFilter, CovarianceStaysSymmetricAndPositiveWithExtremeMeasurements) {
   StateEstimate estimate;
   estimate.covariance *= 1e6;
