@@ -65,13 +65,14 @@ TEST(SequenceRun, EachObjectKeepsOneIdOfItsOwn) {
 }
 
 TEST(SequenceRun, BoxesAreThoseOfTheDetections) {
-  const SequenceRun run = runSequence(street(20), runOptions());
+  const DetectedSequence sequence = street(20);
+  const SequenceRun run = runSequence(sequence, runOptions());
   int cars = 0;
   for (const TrackedObject& row : run.rows) {
     if (row.frame == 19 && row.type == ObjectType::kCar) {
       ++cars;
       double best = 0.0;
-      for (const Detection& found : street(20).detections[0]) {
+      for (const Detection& found : sequence.detections[0]) {
         if (found.frame == 19) {
           best = std::max(best, overlap3d(row.box, found.box));
         }
@@ -110,8 +111,9 @@ TEST(SequenceRun, LongAndSureTracksScoreHigher) {
   for (const auto& [id, score] : best) {
     scores.insert(score);
   }
-  EXPECT_LT(*scores.begin(), 0.0);
-  EXPECT_GT(*std::next(scores.begin()), 5.0);
+  // By default the logarithm of the odds is 0.9 (score - 2.5), and eight times -4 come on top.
+  EXPECT_NEAR(*scores.begin(), (-2.25 - 32.0) / 9.0, 1e-9);
+  EXPECT_NEAR(*std::next(scores.begin()), (20.0 * 4.95 - 32.0) / 28.0, 1e-9);
 }
 
 TEST(SequenceRun, FramesWithoutDetectionsAndNoDetectionsAtAll) {
