@@ -39,7 +39,7 @@ class ClassTracking {
   /// boxes of all that stands in the view (vehicle's frame), of whatever class.
   void track(const ObjectList& objects, const Pose2& base_in_fixed, const std::vector<Box2>& seen);
 
-  /// Where the tracks are that surely exist, fixed frame.
+  /// Where the tracks are that surely exist and are seen now, fixed frame.
   std::vector<Landmark> landmarks() const;
 
   /// The present tracks as rows of a result file. `objects` as given to track(), and the detections
