@@ -12,7 +12,8 @@ GOOD = {
     "include/datmo_fusion/common/pose.h": "#include <Eigen/Core>\n#include <vector>\n",
     "include/datmo_fusion/grid/map.h": '#include "datmo_fusion/common/pose.h"\n',
     "src/grid/map.cpp": '#include "datmo_fusion/grid/map.h"\n#include <cmath>\n',
-    "src/slam/slam.cpp": '#include "datmo_fusion/grid/map.h"\n',
+    "src/slam/slam.cpp": '#include "datmo_fusion/grid/map.h"\n#include "private.h"\n',
+    "src/slam/private.h": "#include <vector>\n",
     "src/ros/convert.cpp": '#include <ros/ros.h>\n#include "datmo_fusion/Object.h"\n'
                            '#include "datmo_fusion/grid/map.h"\n',
     "src/nodelets/door.cpp": "#include <nodelet/nodelet.h>\n#include \"datmo_fusion/ros/convert.h\"\n",
@@ -48,6 +49,12 @@ class CheckLayers(unittest.TestCase):
         output = self.expect_violation(
             "src/slam/bad.cpp", "\n#include <ros/time.h>\n", "slam/ includes ros/time.h")
         self.assertIn("src/slam/bad.cpp:2:", output)
+
+    def test_private_headers_stay_in_their_room_and_keep_its_rules(self):
+        self.expect_violation(
+            "src/grid/bad.cpp", '#include "private.h"\n', "grid/ includes private.h")
+        self.expect_violation(
+            "src/slam/private.h", "#include <ros/time.h>\n", "slam/ includes ros/time.h")
 
     def test_generated_message_in_the_core(self):
         self.expect_violation("include/datmo_fusion/tracking/bad.h",
