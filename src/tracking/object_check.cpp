@@ -10,8 +10,19 @@ namespace {
 /// A larger difference, relative to the variances, is not rounding: the matrix is not a covariance.
 constexpr double kAsymmetry = 1e-6;
 
+/// Nothing on the ground is farther away or larger, m: squares of such lengths stay far from the
+/// limits of a double.
+constexpr double kFarthest = 1e9;
+
+/// NaN compares false with everything, and so is nowhere.
+bool isPlace(const Point2& point) {
+  return std::abs(point.x()) <= kFarthest && std::abs(point.y()) <= kFarthest;
+}
+
 /// Finite, and not negative.
 bool isAmount(double value) { return std::isfinite(value) && value >= 0.0; }
+
+bool isLength(double value) { return value >= 0.0 && value <= kFarthest; }
 
 bool isShare(double value) { return value >= 0.0 && value <= 1.0; }
 
@@ -31,12 +42,13 @@ bool isCovariance(const Eigen::Matrix2d& matrix) {
 
 bool isValid(const Object& object) {
   const Pose2& centre = object.box.centre;
-  return std::isfinite(centre.x()) && std::isfinite(centre.y()) &&
-         std::isfinite(centre.heading()) && isAmount(object.box.length) &&
-         isAmount(object.box.width) && isAmount(object.heading_variance) &&
-         areSides(object.side_variance) && std::isfinite(object.log_odds) &&
-         isAmount(object.height) && isAmount(object.delay) && isShare(object.moving_fraction) &&
-         isShare(object.class_probability) && isCovariance(object.position_covariance);
+  return isPlace(centre.position()) && std::isfinite(centre.heading()) &&
+         isLength(object.box.length) && isLength(object.box.width) &&
+         std::all_of(object.points.begin(), object.points.end(), isPlace) &&
+         isAmount(object.heading_variance) && areSides(object.side_variance) &&
+         std::isfinite(object.log_odds) && isAmount(object.height) && isAmount(object.delay) &&
+         isShare(object.moving_fraction) && isShare(object.class_probability) &&
+         isCovariance(object.position_covariance);
 }
 
 Object transformed(const Pose2& frame_in_parent, const Object& object) {

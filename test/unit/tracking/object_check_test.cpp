@@ -76,5 +76,21 @@ TEST(ObjectCheck, LogOddsAreFinite) {
   EXPECT_FALSE(isValid(object));
 }
 
+TEST(ObjectCheck, PointsAreFinite) {
+  Object object = objectAt(1.0, 2.0);
+  object.points = {Point2(1.0, 2.0), Point2(1.5, 2.0)};
+  EXPECT_TRUE(isValid(object));
+  object.points[1].y() = kNan;
+  EXPECT_FALSE(isValid(object));
+}
+
+TEST(ObjectCheck, RefusesPlacesAndSizesWhoseSquaresOverflow) {
+  Object object = objectAt(1.0, 2.0);
+  object.box.length = 1e200;
+  EXPECT_FALSE(isValid(object));
+  object = objectAt(1e200, 2.0);
+  EXPECT_FALSE(isValid(object));
+}
+
 }  // namespace
 }  // namespace datmo
