@@ -88,7 +88,8 @@ void addCandidate(const Target& target, const AssociationScan& scan, std::size_t
     return;
   }
   const PositionMeasurement measured = target.measurementOf(observation.object);
-  if (innovationOf(target.filter().estimate(), measured).squaredDistance() > options.gate) {
+  const Innovation innovation = innovationOf(target.filter().estimate(), measured);
+  if (!(innovation.squaredDistance() <= options.gate)) {  // NaN is not within it
     return;
   }
   scores.candidates.push_back(

@@ -16,6 +16,10 @@ namespace datmo {
 
 namespace {
 
+/// A track is published unseen for this share of the time for which it was followed: half as long
+/// as it is kept.
+constexpr double kPublishedShare = 0.5;
+
 double positionStd(const Target& target) {
   return std::sqrt(target.filter().estimate().covariance.diagonal().head<2>().maxCoeff());
 }
@@ -135,7 +139,8 @@ class Tracker::State {
                                ? silenceAfter(target.followed(), options_.confirmed_silence)
                                : options_.tentative_silence;
     return (target.confirmed() && existence(target) < options_.least_existence) ||
-           target.sinceUpdate() > allowed || positionStd(target) > options_.most_position_std;
+           target.sinceUpdate() > allowed ||
+           !(positionStd(target) <= options_.most_position_std);  // nor what is not a number
   }
 
   double existence(const Target& target) const {
@@ -147,7 +152,7 @@ class Tracker::State {
     return target.confirmed() &&
            best.probability * existence(target) >= options_.published_existence &&
            target.sinceUpdate() <=
-               silenceAfter(0.5 * target.followed(), options_.published_silence);
+               silenceAfter(kPublishedShare * target.followed(), options_.published_silence);
   }
 
   void confirm() {

@@ -39,7 +39,8 @@ void boundRow(JumpCounts& counts, int from, const JumpCounts& prior,
     counts.jumps.row(from) = prior.jumps.row(from);
   }
   const double least = counts.exposure[from] / options.most_sojourn;
-  const double most = counts.exposure[from] / options.least_sojourn;
+  // Where the bounds contradict each other, most_sojourn holds.
+  const double most = std::max(least, counts.exposure[from] / options.least_sojourn);
   const double floor = options.least_share * std::max(counts.jumps.row(from).sum(), least);
   for (int to = 0; to < kMotionModes; ++to) {
     double& jumps = counts.jumps(from, to);
@@ -173,6 +174,9 @@ void TransitionModel::update(const ModeVector& before, const ModeVector& likelih
   }
   const ModeMatrix joint = before.asDiagonal() * matrix_ * likelihoods.asDiagonal();
   const double evidence = joint.sum();
+  if (!(evidence > 0.0)) {
+    return;  // less than a double can tell
+  }
   JumpCounts all = counts();
   for (int from = 0; from < kMotionModes; ++from) {
     updateRow(all, from, joint.row(from).transpose() / evidence);

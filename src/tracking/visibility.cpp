@@ -190,8 +190,9 @@ std::optional<std::size_t> Visibility::beamAt(double bearing) const {
   if (beam < 0.0 || beam >= beams_per_turn_) {
     beam -= beams_per_turn_ * std::floor(beam / beams_per_turn_);
   }
-  const auto index = static_cast<std::size_t>(beam);
-  return index < reach_.size() ? std::optional<std::size_t>(index) : std::nullopt;
+  // Before the cast, which is undefined for what is no index.
+  const bool inside = beam >= 0.0 && beam < static_cast<double>(reach_.size());
+  return inside ? std::optional<std::size_t>(static_cast<std::size_t>(beam)) : std::nullopt;
 }
 
 Visibility::Looks Visibility::looksAt(const Outline& outline) {
