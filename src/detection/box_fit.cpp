@@ -13,7 +13,6 @@ namespace datmo {
 
 namespace {
 
-constexpr double kQuarter = 0.5 * kPi;
 constexpr int kRefinements = 3;
 
 /// A single point beside a line may be an outlier, two are the other side.
@@ -167,7 +166,7 @@ BoxFit fitBox(const std::vector<Point2>& points, const Point2& scanner, double s
   const Point2 between = seen.back() - seen.front();
   // Two points are most simply explained by one side; many headings fit them as well.
   const double start =
-      seen.size() == 2 ? std::atan2(between.y(), between.x()) + kQuarter : search.best();
+      seen.size() == 2 ? std::atan2(between.y(), between.x()) + kQuarterTurn : search.best();
   Corner corner{start, extentOf(seen, Axes(start)).nearSides()};
   for (int i = 0; i < kRefinements; ++i) {
     corner = refined(seen, corner, sigma);

@@ -9,8 +9,6 @@ namespace datmo {
 
 namespace {
 
-constexpr double kQuarter = 0.5 * kPi;
-
 /// Squared distances in standard deviations, each bounded (Geman & McClure 1985). A second side is
 /// one more parameter: it must explain more than that by chance (Schwarz 1978).
 double costOf(const Points& points, double heading, double variance) {
@@ -47,7 +45,7 @@ double HeadingSearch::spreadAbout(double centre) const {
   for (std::size_t i = 0; i < kHeadings; ++i) {
     const double weight = std::exp(0.5 * (costs_[best_] - costs_[i]));
     const double apart =
-        std::max(0.0, std::abs(std::remainder(heading(i) - centre, kQuarter)) - heading(1));
+        std::max(0.0, std::abs(std::remainder(heading(i) - centre, kQuarterTurn)) - heading(1));
     sum += weight * apart * apart;
     total += weight;
   }
@@ -55,7 +53,7 @@ double HeadingSearch::spreadAbout(double centre) const {
 }
 
 double HeadingSearch::heading(std::size_t i) {
-  return kQuarter * static_cast<double>(i) / static_cast<double>(kHeadings);
+  return kQuarterTurn * static_cast<double>(i) / static_cast<double>(kHeadings);
 }
 
 }  // namespace datmo

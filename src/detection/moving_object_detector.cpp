@@ -109,7 +109,7 @@ void turnByQuarter(Object& object) {
   const auto [front, rear, left, right] = object.side_variance;
   object.side_variance = {left, right, rear, front};
   const Pose2& centre = object.box.centre;
-  object.box = {Pose2(centre.position(), centre.heading() + 0.5 * kPi), object.box.width,
+  object.box = {Pose2(centre.position(), centre.heading() + kQuarterTurn), object.box.width,
                 object.box.length};
 }
 
@@ -119,7 +119,7 @@ void turnToLongerSide(Object& object) {
     turnByQuarter(object);
   }
   const double heading = object.box.centre.heading();
-  if (heading > 0.5 * kPi || heading <= -0.5 * kPi) {
+  if (heading > kQuarterTurn || heading <= -kQuarterTurn) {
     turnByQuarter(object);
     turnByQuarter(object);
   }

@@ -7,10 +7,8 @@ namespace datmo {
 
 namespace {
 
-constexpr double kQuarter = 0.5 * kPi;
-
 /// Variance of a heading modulo a quarter turn of which nothing is known, rad^2.
-constexpr double kUnknownSideVariance = kQuarter * kQuarter * kUniformVariance;
+constexpr double kUnknownSideVariance = kQuarterTurn * kQuarterTurn * kUniformVariance;
 
 /// Velocities of successive scans are nearly the same information: logarithm of odds of one.
 constexpr double kMostOddsOfOneVelocity = 2.0;
@@ -29,7 +27,7 @@ double nearerDirection(double direction, double reference) {
 
 /// Quarter turns to the left that bring one direction nearest to another, 0 to 3.
 int quartersBetween(double from, double to) {
-  return (static_cast<int>(std::lround(angleBetween(from, to) / kQuarter)) + 4) % 4;
+  return (static_cast<int>(std::lround(angleBetween(from, to) / kQuarterTurn)) + 4) % 4;
 }
 
 /// An object's sides along one axis of the box.
@@ -62,7 +60,7 @@ SeenBox seenFrom(double heading, const Object& object) {
     return object.side_variance[static_cast<std::size_t>(side)];
   };
   const bool across = turn % 2 == 1;
-  return {normalizeAngle(box.centre.heading() + static_cast<double>(turn) * kQuarter),
+  return {normalizeAngle(box.centre.heading() + static_cast<double>(turn) * kQuarterTurn),
           {SeenAxis{across ? box.width : box.length, variance(0), variance(2)},
            SeenAxis{across ? box.length : box.width, variance(1), variance(3)}}};
 }
@@ -196,7 +194,7 @@ Point2 TrackedBox::followVelocity(const Eigen::Vector2d& velocity,
       across.dot(covariance * across) / (speed * speed) + options.slip_std * options.slip_std;
   // Things move along their length: how much farther is the velocity from the other axis?
   const double apart = std::abs(angleBetween(heading_, nearerDirection(direction, heading_)));
-  const double odds = 0.5 * kQuarter * (kQuarter - 2.0 * apart) /
+  const double odds = 0.5 * kQuarterTurn * (kQuarterTurn - 2.0 * apart) /
                       (variance + std::min(heading_variance_, kUnknownSideVariance));
   size_.addOddsAlongFirst(std::clamp(odds, -kMostOddsOfOneVelocity, kMostOddsOfOneVelocity));
   if (size_.probabilityAlongFirst() < 1.0 - kSureOfOtherAxis) {
@@ -227,7 +225,8 @@ Box2 TrackedBox::at(const Point2& centre) const {
 
 double TrackedBox::headingVariance() const {
   const double other_axis = 1.0 - size_.probabilityAlongFirst();
-  return std::min(kUnknownHeadingVariance, heading_variance_ + other_axis * kQuarter * kQuarter);
+  return std::min(kUnknownHeadingVariance,
+                  heading_variance_ + other_axis * kQuarterTurn * kQuarterTurn);
 }
 
 /// From the sides that were seen to the centre, m, fixed frame.
@@ -250,7 +249,7 @@ void TrackedBox::takeFrontAhead(double direction, double speed, const TrackedBox
 
 /// Takes another side for the front; nothing of the box moves.
 void TrackedBox::turnByQuarters(int quarters) {
-  heading_ = normalizeAngle(heading_ + quarters * kQuarter);
+  heading_ = normalizeAngle(heading_ + quarters * kQuarterTurn);
   for (int i = 0; i < quarters; ++i) {
     anchor_share_ = Eigen::Vector2d(anchor_share_.y(), -anchor_share_.x());
     size_.swapAxes();

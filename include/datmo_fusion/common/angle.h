@@ -5,6 +5,7 @@
 namespace datmo {
 
 inline constexpr double kPi = 3.14159265358979323846;
+inline constexpr double kQuarterTurn = 0.5 * kPi;  ///< rad
 
 /// Degrees to radians.
 constexpr double degrees(double value) { return value * kPi / 180.0; }
