@@ -44,6 +44,12 @@ void NearestNeighbourTargets::associate(AssociationScan& scan, const StepBudget&
     targets_[i].update(scan.observations[object].object, object, seen, target_options_);
     explained[object] = true;
   }
+  startTargets(scan, explained);
+  next_number_ += scan.objects;
+}
+
+void NearestNeighbourTargets::startTargets(const AssociationScan& scan,
+                                           const std::vector<bool>& explained) {
   for (std::size_t object = 0; object < scan.objects; ++object) {
     const Observation& observation = scan.observations[object];
     if (explained[object] || !observation.starts_target) {
@@ -56,7 +62,6 @@ void NearestNeighbourTargets::associate(AssociationScan& scan, const StepBudget&
     targets_.emplace_back(observation.object, object, next_number_ + object, target_options_,
                           scan.transitionsOf(observation.object.object_class));
   }
-  next_number_ += scan.objects;
 }
 
 std::vector<BestTarget> NearestNeighbourTargets::best() const {

@@ -38,7 +38,7 @@ double sideVariance(const Object& object, const Point2& direction) {
 }
 
 /// The smallest box of this heading that holds all points; at least one.
-Box2 boxAround(const std::vector<Point2>& points, double heading) {
+Box2 boxHolding(const std::vector<Point2>& points, double heading) {
   const Pose2 axes(Point2::Zero(), heading);
   const Pose2 back = axes.inverse();
   Point2 least = back * points.front();
@@ -82,7 +82,7 @@ Object unionOf(const std::vector<const Object*>& parts, double heading) {
   }
   whole.moving_fraction =
       whole.points.empty() ? 0.0 : moving_points / static_cast<double>(whole.points.size());
-  whole.box = boxAround(corners, heading);
+  whole.box = boxHolding(corners, heading);
   const std::array<Point2, kBoxSides> normals = normalsOf(whole.box);
   for (std::size_t side = 0; side < kBoxSides; ++side) {
     const Object* outermost =
@@ -98,7 +98,7 @@ Object partOf(const Object& whole, std::vector<Point2> points, double heading,
               const Point2& other) {
   Object part = whole;
   forgetKind(part);
-  part.box = boxAround(points, heading);
+  part.box = boxHolding(points, heading);
   part.points = std::move(points);
   const std::array<Point2, kBoxSides> normals = normalsOf(part.box);
   std::size_t inner = 0;

@@ -26,7 +26,8 @@ class ClassBelief {
   const ClassProbabilities& probabilities() const { return probabilities_; }
   double probability(ObjectClass object_class) const;
 
-  /// kUnknown where none is likelier than the others.
+  /// Of equally likely ones the first in the order of ObjectClass: kUnknown before anything was
+  /// said.
   ObjectClass mostLikely() const;
 
   /// Whether an object of this class may be the same: not where both are known and differ (thesis

@@ -26,6 +26,9 @@ class NearestNeighbourTargets : public TargetSet {
   }
 
  private:
+  /// Of the objects that belong to no target.
+  void startTargets(const AssociationScan& scan, const std::vector<bool>& explained);
+
   TargetOptions target_options_;
   AssociationOptions options_;
   std::vector<Target> targets_;  ///< by rising number
