@@ -61,6 +61,10 @@ void AssociationOptions::visit(OptionVisitor& visitor) {
                   most_candidates, {1, 1000});
   visitor.integer({"most_targets", "1", "targets followed at a time; bounds the time of a step"},
                   most_targets, {1, 5000});
+  visitor.integer({"most_work", "1",
+                   "pairs looked at for one assignment (1 ns to 2 ns each) before the targets that "
+                   "are left take the nearest free object"},
+                  most_work, {1000, 1e9});
 }
 
 TargetScores scoresOf(const Target& target, const AssociationScan& scan, double existence,

@@ -15,7 +15,7 @@ RollingGrid<double> emptyGrid(const ClutterMapOptions& options) {
 
 void ClutterMapOptions::visit(OptionVisitor& visitor) {
   visitor.number({"cell_size", "m", "size of the places whose false alarms are counted together"},
-                 cell_size, {0.1, 100.0});
+                 cell_size, {0.5, 100.0});
   visitor.number({"range", "m", "about the vehicle in which they are counted"}, range,
                  {1.0, 500.0});
   visitor.number({"learning_time", "s", "time constant of the count"}, learning_time,

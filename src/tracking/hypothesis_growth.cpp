@@ -180,7 +180,7 @@ class Builder {
 
 std::vector<RankedHypothesis> sourcesOf(const HypothesisCluster& cluster,
                                         const std::vector<Interpretation>& interpretations,
-                                        const GrowthContext& context) {
+                                        const GrowthContext& context, AssociationCounts& counts) {
   std::vector<RankedHypothesis> sources;
   double best = -std::numeric_limits<double>::infinity();
   for (const GlobalHypothesis& hypothesis : cluster.hypotheses) {
@@ -189,7 +189,8 @@ std::vector<RankedHypothesis> sourcesOf(const HypothesisCluster& cluster,
       if (source.bound() < best + std::log(context.options.least_ratio)) {
         continue;
       }
-      source.rank();
+      source.rank(context.most_work);
+      counts.cut_hypotheses += source.cut() ? 1 : 0;
       if (source.isDone()) {
         continue;
       }
@@ -231,7 +232,7 @@ HypothesisCluster grown(const HypothesisCluster& cluster,
                         const std::vector<Interpretation>& interpretations,
                         const GrowthContext& context, std::uint64_t& next_node, std::size_t& room,
                         AssociationCounts& counts) {
-  std::vector<RankedHypothesis> sources = sourcesOf(cluster, interpretations, context);
+  std::vector<RankedHypothesis> sources = sourcesOf(cluster, interpretations, context, counts);
   const auto isLess = [&](std::size_t a, std::size_t b) {
     return std::make_pair(sources[a].weight(), b) < std::make_pair(sources[b].weight(), a);
   };

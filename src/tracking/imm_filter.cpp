@@ -51,7 +51,7 @@ void ImmOptions::visit(OptionVisitor& visitor) {
   visitor.group("transitions", [&] { transitions.visit(visitor); });
   visitor.number(
       {"least_probability", "1", "no mode becomes less likely, so that it can come back"},
-      least_probability, {0.0, 0.1});
+      least_probability, {1e-9, 0.1});
 }
 
 ImmStep immStep(const ImmOptions& options, double seconds) {

@@ -118,8 +118,8 @@ void MultipleHypotheses::grow(HypothesisCluster cluster, AssociationScan& scan,
   if (!hurry) {
     addSplitAndMerged(cluster, scan, options_, split_merge_, interpretations);
   }
-  const GrowthContext context{scan,         target_options_, hypothesis_options_,
-                              scan_number_, next_number_,    hurry};
+  const GrowthContext context{scan,         target_options_, hypothesis_options_, scan_number_,
+                              next_number_, hurry,           options_.most_work};
   HypothesisCluster whole = grown(cluster, interpretations, context, next_node_, room_, counts_);
   const auto history = static_cast<std::size_t>(hypothesis_options_.scan_history);
   if (whole.hypotheses.size() > 1) {

@@ -31,7 +31,9 @@ void NearestNeighbourTargets::associate(AssociationScan& scan, const StepBudget&
   }
   // Costs are relative to a miss and a birth, which so cost nothing.
   const Eigen::VectorXd no_cost = Eigen::VectorXd::Zero(costs.rows());
-  const std::vector<int> object_of_target = solveAssignment(costs, no_cost).column_of_row;
+  const Assignment assignment = solveAssignment(costs, no_cost, options_.most_work);
+  counts_.cut_hypotheses += assignment.cut ? 1 : 0;
+  const std::vector<int>& object_of_target = assignment.column_of_row;
 
   std::vector<bool> explained(scan.objects, false);
   for (std::size_t i = 0; i < targets_.size(); ++i) {

@@ -21,8 +21,12 @@ class RankedHypothesis {
   /// No assignment weighs more (logarithm).
   double bound() const;
 
-  /// Finds the best assignment, if there is any; to be called before all below.
-  void rank();
+  /// Finds the best assignment, if there is any; with no more than this work (see
+  /// RankedAssignments); to be called before all below.
+  void rank(std::int64_t most_work);
+
+  /// The work allowed was not enough, and the present assignment may not be the best.
+  bool cut() const { return ranked_->cut(); }
 
   void advance();
   bool isDone() const { return !present_; }

@@ -93,9 +93,9 @@ double Target::existenceProbability(const TargetOptions& options) const {
   return 1.0 / (1.0 + (1.0 - birth) / birth * std::exp(-evidence_.score()));
 }
 
-void Target::confirm(std::uint32_t id) {
+void Target::confirm(std::uint32_t id, bool moves) {
   id_ = id;
-  moving_ = true;
+  moving_ = moves;
 }
 
 /// Between the two speeds it stays as it was.

@@ -160,8 +160,9 @@ class Tracker::State {
       if (!best.target->confirmed() && deservesTrack(*best.target)) {
         const std::uint32_t id = next_id_++;
         const JumpCounts prior = transition_priors_.of(best.target->objectClass());
+        const bool moves = seemsToMove(*best.target);
         targets_->change(best.target->number(), [&](Target& target) {
-          target.confirm(id);
+          target.confirm(id, moves);
           target.setTransitionPrior(prior);
         });
         ++counts_.confirmed_tracks;
@@ -169,13 +170,18 @@ class Tracker::State {
     }
   }
 
+  /// By what it did, or by what one of two sensors saw of it.
+  bool seemsToMove(const Target& target) const {
+    return target.evidentlyMoves(options_.target) ||
+           (target.sensors().size() > 1 && target.sawItMove());
+  }
+
   bool deservesTrack(const Target& target) const {
     const bool fused = target.sensors().size() > 1;
     const int hits = fused ? options_.fused_confirmation_hits : options_.confirmation_hits;
-    const bool moves = !options_.require_motion || target.evidentlyMoves(options_.target) ||
-                       (fused && target.sawItMove());
     return target.seenAs() != kUnseen && target.hits() >= static_cast<std::uint32_t>(hits) &&
-           moves && existence(target) >= options_.confirmation_existence;
+           (!options_.require_motion || seemsToMove(target)) &&
+           existence(target) >= options_.confirmation_existence;
   }
 
   /// What belongs to a confirmed target is no clutter.

@@ -31,6 +31,7 @@ struct GrowthContext {
   std::uint64_t scan_number;   ///< counted from the first one
   std::uint64_t first_number;  ///< of the target that the scan's first object may start
   bool hurry;                  ///< only the most likely hypothesis
+  std::int64_t most_work;      ///< for each hypothesis, see RankedAssignments
 };
 
 /// The cluster after one more scan: of all ways to go on from its hypotheses, by each

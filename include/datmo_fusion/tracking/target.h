@@ -73,7 +73,8 @@ class Target {
   /// 2004).
   double existenceProbability(const TargetOptions& options) const;
 
-  void confirm(std::uint32_t id);
+  /// It becomes a track; `moves`: as far as is known now.
+  void confirm(std::uint32_t id, bool moves);
 
   /// As its class becomes known; without effect where nothing is learnt.
   void setTransitionPrior(const JumpCounts& prior) { filter_.setTransitionPrior(prior); }

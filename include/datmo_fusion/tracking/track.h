@@ -45,7 +45,7 @@ struct Track {
   double yaw_rate = 0.0;  ///< rad/s
   /// rad^2, of the box's heading; modulo pi until motion has told its sign.
   double heading_variance = kUnknownHeadingVariance;
-  bool moving = false;    ///< false: it has moved, and stands now
+  bool moving = false;  ///< false: it has moved, and stands now
   ClassProbabilities class_probabilities{};
   double existence_probability = 0.0;  ///< over all hypotheses
   double age = 0.0;                    ///< s, since the first object

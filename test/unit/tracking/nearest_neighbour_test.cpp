@@ -66,7 +66,7 @@ TEST_F(NearestNeighbourTest, AFullListRefusesNewObjectsAndCountsThem) {
 
 TEST_F(NearestNeighbourTest, ChangesRemovesAndForgets) {
   see(targets_, source_, objectsAlong({0.0, 10.0, 20.0}));
-  targets_.change(2, [](Target& target) { target.confirm(7); });
+  targets_.change(2, [](Target& target) { target.confirm(7, true); });
   EXPECT_EQ(targets_.best()[1].target->id(), 7U);
   EXPECT_EQ(targets_.best()[0].target->id(), 0U);
   targets_.removeIf([](const Target& target) { return target.confirmed(); });

@@ -25,7 +25,7 @@ class SplitMergeReadings : public testing::Test {
     const std::uint64_t number = cluster_.trees.size() + 1;
     Leaf leaf{Target(object, 0, number, TargetOptions()), {}, {}, {}};
     if (confirmed) {
-      leaf.target.confirm(static_cast<std::uint32_t>(number));
+      leaf.target.confirm(static_cast<std::uint32_t>(number), true);
     }
     cluster_.trees.push_back({{leaf}});
     cluster_.hypotheses.resize(1);
@@ -97,7 +97,7 @@ TEST_F(SplitMergeReadings, PartsAndCoversAreRelatedWithinTheGateOrNot) {
                                     box(2.0, 0.0, 9.0, 2.0), box(4.0, 0.0, 1.0, 1.0)};
   const AssociationScan scan = source_.scan(objects);
   EXPECT_TRUE(relatedObjects(target, scan, options_).empty()) << "not confirmed";
-  target.confirm(1);
+  target.confirm(1, true);
   EXPECT_EQ(relatedObjects(target, scan, options_), (std::vector<std::size_t>{1, 2}));
   options_.merge_probability = 0.0;
   EXPECT_EQ(relatedObjects(target, scan, options_), std::vector<std::size_t>{1});
