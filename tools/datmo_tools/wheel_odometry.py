@@ -13,6 +13,7 @@ from datmo_tools.pose_path import read_messages
 WHEELS = ("FL", "FR", "BL", "BR")
 
 # The IMU's bias is told by so many samples at which no wheel turned; by fewer it is not.
+LEAST_GRAVITY = 5.0  # m/s^2, of the mean acceleration: about half of what it is
 LEAST_STANDING = 20
 
 # Standard deviations of the rates: encoders that count ticks, and an IMU on a car that shakes.
@@ -54,7 +55,13 @@ def read_odometry(recording, wheels_topic, imu_topic, wheel_radius):
 def _yaw_rates(measured, standing):
     """Turn about the vertical (n, rad/s); measured: n x 6, angular velocity and acceleration."""
     gravity = np.mean(measured[:, 3:], axis=0)
-    rates = measured[:, :3] @ (gravity / np.linalg.norm(gravity))
+    strength = np.linalg.norm(gravity)
+    if not strength > LEAST_GRAVITY:
+        raise InputError(
+            f"accelerations of the IMU: mean {strength:.2f} m/s^2, expected gravity (more than "
+            f"{LEAST_GRAVITY}): which way is up is not known"
+        )
+    rates = measured[:, :3] @ (gravity / strength)
     bias = np.mean(rates[standing]) if np.count_nonzero(standing) >= LEAST_STANDING else 0.0
     return rates - bias
 
