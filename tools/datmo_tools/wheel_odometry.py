@@ -13,8 +13,9 @@ from datmo_tools.pose_path import read_messages
 WHEELS = ("FL", "FR", "BL", "BR")
 
 # The IMU's bias is told by so many samples at which no wheel turned; by fewer it is not.
-LEAST_GRAVITY = 5.0  # m/s^2, of the mean acceleration: about half of what it is
 LEAST_STANDING = 20
+
+LEAST_GRAVITY = 5.0  # m/s^2, of the mean acceleration: about half of what it is
 
 # Standard deviations of the rates: encoders that count ticks, and an IMU on a car that shakes.
 ERRORS = OdometryErrors(speed_noise=0.1, yaw_rate_noise=0.05)
