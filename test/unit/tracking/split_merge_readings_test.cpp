@@ -162,9 +162,8 @@ TEST_F(SplitMergeReadings, OneObjectAsTwoTargets) {
   EXPECT_FALSE(isCandidate(0, 2));
   EXPECT_TRUE(isCandidate(1, 2));
   // Both together: one object for two, anywhere within it and the margin of 0.5 m about it.
-  EXPECT_NEAR(
-      right.log_density + left.log_density,
-      std::log(source_.density()) - std::log(options_.merge_probability * 1.5 * 2.7), 1e-9);
+  EXPECT_NEAR(right.log_density + left.log_density,
+              std::log(source_.density()) - std::log(options_.merge_probability * 1.5 * 2.7), 1e-9);
 }
 
 TEST_F(SplitMergeReadings, AnObjectWithoutPointsIsNotDivided) {
