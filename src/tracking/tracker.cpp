@@ -54,7 +54,7 @@ class Tracker::State {
     AssociationScan scan =
         takeIn(list.objects, base_in_fixed, visibility, clutter_, options_.intake, counts_.intake);
     scan.transition_priors = &transition_priors_;
-    makeRoom(scan.objects);
+    makeRoom(scan.objects, seconds);
     targets_->associate(scan, budget);
     removeDuplicates();
     removeLost();
@@ -94,7 +94,7 @@ class Tracker::State {
   }
 
   /// So that new objects are never refused for the sake of old false alarms.
-  void makeRoom(std::size_t objects) {
+  void makeRoom(std::size_t objects, double seconds) {
     const std::vector<BestTarget> all = targets_->best();
     const auto most = static_cast<std::size_t>(options_.gating.most_targets);
     if (all.size() + objects <= most) {
@@ -102,7 +102,8 @@ class Tracker::State {
     }
     std::vector<const Target*> unlikely;
     for (const BestTarget& best : all) {
-      if (!best.target->confirmed() && best.target->sinceUpdate() > 0.0) {
+      const bool missed = best.target->sinceUpdate() > seconds;  // in the last scan already
+      if (!best.target->confirmed() && missed) {
         unlikely.push_back(best.target);
       }
     }

@@ -12,7 +12,7 @@ namespace datmo {
 struct AssociationOptions {
   double gate = 13.8;  ///< 1
   int most_candidates = 8;
-  int most_targets = 300;
+  int most_targets = 600;
   int most_work = 2000000;
 
   void visit(OptionVisitor& visitor);
