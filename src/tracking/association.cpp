@@ -42,6 +42,7 @@ std::vector<std::size_t> nearObjects(const Target& target, const AssociationScan
   }
   std::sort(near.begin(), near.end());
   std::vector<std::size_t> result;
+  result.reserve(near.size());
   for (const auto& entry : near) {
     result.push_back(entry.second);
   }

@@ -172,7 +172,7 @@ Point2 TrackedBox::update(const Object& object, double seconds, const TrackedBox
   if (object.heading_variance < kUnknownSideVariance) {
     updateHeading(seen.heading, object.heading_variance);
   }
-  const Point2 moved = offset() - before;
+  Point2 moved = offset() - before;
   anchor_share_ += kHandover * (share - anchor_share_);
   if (!sign_known_ && size_.probabilityAlongFirst() < 1.0 - kSureOfOtherAxis) {
     turnByQuarters(1);
