@@ -26,9 +26,9 @@ BENCHMARK_CAPTURE(gridUpdate, heavy, heavySettings)->Unit(benchmark::kMicrosecon
 /// The window moves by this many cells along both axes with each step; 0: it stands.
 void gridScroll(benchmark::State& state) {
   OccupancyMapOptions options;
-  options.length = static_cast<double>(state.range(0));
-  options.width = options.length;
-  const double step = options.cell_size * static_cast<double>(state.range(1));
+  options.window.length = static_cast<double>(state.range(0));
+  options.window.width = options.window.length;
+  const double step = options.window.cell_size * static_cast<double>(state.range(1));
   OccupancyMap map(options);
   Point2 position = Point2::Zero();
   for (auto _ : state) {

@@ -100,8 +100,8 @@ BENCHMARK_CAPTURE(slamStepByBeams, poses_1000, 1000)->Apply(setBeams);
 /// The map's size costs only when its window moves with the vehicle, and no more than its edge.
 void slamStepInWindow(benchmark::State& state) {
   GridSlamOptions options;
-  options.map.length = static_cast<double>(state.range(0));
-  options.map.width = options.map.length;
+  options.map.window.length = static_cast<double>(state.range(0));
+  options.map.window.width = options.map.window.length;
   timeSteps(state, options, {StreetOptions{}.beams, static_cast<double>(state.range(1))});
 }
 BENCHMARK(slamStepInWindow)

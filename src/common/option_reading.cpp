@@ -37,6 +37,22 @@ class Reader : public OptionVisitor {
 
   const std::set<std::string>& keys() const { return keys_; }
 
+ protected:
+  std::vector<std::string> namesSet() const override {
+    const std::string groups = prefix();
+    std::vector<std::string> names;
+    for (auto given = values_.lower_bound(groups);
+         given != values_.end() && given->first.compare(0, groups.size(), groups) == 0; ++given) {
+      const std::size_t end = given->first.find('/', groups.size());
+      // A value directly under the group is no entry; it will be refused as a key that nobody
+      // reads.
+      if (end != std::string::npos) {
+        names.push_back(given->first.substr(groups.size(), end - groups.size()));
+      }
+    }
+    return names;
+  }
+
  private:
   template <typename Type>
   void set(const OptionInfo& info, Type& value, const std::string& expected) {

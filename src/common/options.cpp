@@ -48,13 +48,15 @@ void OptionVisitor::group(const std::string& name, const std::function<void()>& 
   groups_.pop_back();
 }
 
-std::string OptionVisitor::key(const OptionInfo& info) const {
-  std::string full;
+std::string OptionVisitor::prefix() const {
+  std::string prefix;
   for (const std::string& group : groups_) {
-    full += group + "/";
+    prefix += group + "/";
   }
-  return full + info.name;
+  return prefix;
 }
+
+std::string OptionVisitor::key(const OptionInfo& info) const { return prefix() + info.name; }
 
 void detail::checkAll(const OptionWalk& visit) {
   Checker checker;

@@ -16,20 +16,8 @@ float logOdds(double probability) {
   return static_cast<float>(std::log(probability / (1.0 - probability)));
 }
 
-int cellsAlong(double length, double cell_size) {
-  return std::max(1, static_cast<int>(std::lround(length / cell_size)));
-}
-
-/// Cells of about 50 bytes: more do not fit the memory of a vehicle's computer.
-constexpr double kMostCells = 2.5e7;
-
 const OccupancyMapOptions& checked(const OccupancyMapOptions& options) {
   checkOptions(options);
-  const double cells = options.length / options.cell_size * (options.width / options.cell_size);
-  if (cells > kMostCells) {
-    throw OptionError("length, width and cell_size of the map make " + toText(cells) +
-                      " cells: expected at most " + toText(kMostCells));
-  }
   return options;
 }
 
@@ -40,11 +28,7 @@ constexpr float kMostHits = 50.0F;
 }  // namespace
 
 void OccupancyMapOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"length", "m", "extent of the rolling window along x (thesis 3.3.1)"}, length,
-                 {1.0, 2000.0});
-  visitor.number({"width", "m", "extent of the rolling window along y (thesis 3.3.1)"}, width,
-                 {1.0, 2000.0});
-  visitor.number({"cell_size", "m", "side of a cell (thesis 3.3.1)"}, cell_size, {0.02, 5.0});
+  window.visit(visitor);
   visitor.number(
       {"hit_probability", "1", "occupancy of a cell in which a beam ends (thesis 3.2.1: 0.8)"},
       hit_probability, {0.51, 0.99});
@@ -88,8 +72,7 @@ OccupancyMap::OccupancyMap(const OccupancyMapOptions& options)
       hit_log_odds_(logOdds(options.hit_probability)),
       free_log_odds_(logOdds(options.free_probability)),
       log_odds_limit_(-logOdds(options.least_probability)),
-      cells_(cellsAlong(options.length, options.cell_size),
-             cellsAlong(options.width, options.cell_size), options.cell_size, Cell{}) {}
+      cells_(options.window.window(), Cell{}) {}
 
 bool OccupancyMap::isStatic(const Cell& cell) const {
   return cell.hits.count > 0.0F && maturity(cell) >= 1.0 &&

@@ -46,7 +46,28 @@ class OptionVisitor {
   /// Options that stand under a common key: `name/…`.
   void group(const std::string& name, const std::function<void()>& visit_members);
 
+  /// The same options for each of several things, under the name of each: `name/lidar/…`,
+  /// `name/stereo/…`. A name that is set but was not there is one more entry, with the defaults of
+  /// `Options`.
+  template <typename Options>
+  void each(const OptionInfo& info, std::map<std::string, Options>& entries) {
+    group(info.name, [&] {
+      for (const std::string& name : namesSet()) {
+        entries.try_emplace(name);
+      }
+      for (auto& [name, options] : entries) {
+        group(name, [this, &entry = options] { entry.visit(*this); });
+      }
+    });
+  }
+
  protected:
+  /// The names that somebody has set directly under the groups around.
+  virtual std::vector<std::string> namesSet() const { return {}; }
+
+  /// The key of the groups around, with a slash at its end; empty outside of all.
+  std::string prefix() const;
+
   /// The full key of an option: the names of the groups around it, and its own.
   std::string key(const OptionInfo& info) const;
 

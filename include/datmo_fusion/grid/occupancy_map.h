@@ -8,15 +8,14 @@
 
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/scan.h"
+#include "datmo_fusion/grid/grid_window_options.h"
 #include "datmo_fusion/grid/hit_distribution.h"
 #include "datmo_fusion/grid/rolling_grid.h"
 
 namespace datmo {
 
 struct OccupancyMapOptions {
-  double length = 90.0;             ///< m, along x
-  double width = 108.0;             ///< m, along y
-  double cell_size = 0.3;           ///< m
+  GridWindowOptions window;
   double hit_probability = 0.8;     ///< of a cell in which a beam ends
   double free_probability = 0.4;    ///< of a cell that a beam passes
   double least_probability = 0.02;  ///< to which a cell is clamped; 1 - it at the other end

@@ -14,14 +14,19 @@ namespace datmo {
 template <typename Cell>
 class RollingGrid {
  public:
+  /// A window of at least one cell.
+  RollingGrid(const GridWindow& window, const Cell& empty)
+      : window_(window),
+        empty_(empty),
+        cells_(static_cast<std::size_t>(window.columns) * static_cast<std::size_t>(window.rows),
+               empty) {
+    moveTo(window.corner);
+  }
+
   /// `columns` and `rows` more than 0, `cell_size` (m) more than 0. The window's centre is the
   /// origin of the map frame.
   RollingGrid(int columns, int rows, double cell_size, const Cell& empty)
-      : window_{cell_size, columns, rows, {}},
-        empty_(empty),
-        cells_(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), empty) {
-    moveTo({-columns / 2, -rows / 2});
-  }
+      : RollingGrid(GridWindow{cell_size, columns, rows, {-columns / 2, -rows / 2}}, empty) {}
 
   const GridWindow& window() const { return window_; }
 

@@ -71,6 +71,28 @@ TEST(ReadOptions, GivenValuesReplaceTheDefaults) {
   EXPECT_EQ(options.frame, "world");
 }
 
+struct SourcesOptions {
+  std::map<std::string, MapOptions> sources{{"lidar", {0.2, 5}}};
+
+  void visit(OptionVisitor& visitor) { visitor.each({"sources", "", "each"}, sources); }
+};
+
+TEST(ReadOptions, ANameThatIsSetIsOneMoreEntry) {
+  const auto options =
+      readOptions<SourcesOptions>({{"sources/lidar/cells", 7}, {"sources/radar/cell_size", 0.5}});
+  ASSERT_EQ(options.sources.size(), 2U);
+  EXPECT_EQ(options.sources.at("lidar").cell_size, 0.2);
+  EXPECT_EQ(options.sources.at("lidar").cells, 7);
+  EXPECT_EQ(options.sources.at("radar").cell_size, 0.5);
+  EXPECT_EQ(options.sources.at("radar").cells, 10);
+}
+
+TEST(ReadOptions, EntriesAreCheckedAndTheirKeysToo) {
+  EXPECT_THROW(readOptions<SourcesOptions>({{"sources/lidar/cells", 0}}), OptionError);
+  EXPECT_THROW(readOptions<SourcesOptions>({{"sources/lidar/cell", 1}}), OptionError);
+  EXPECT_THROW(readOptions<SourcesOptions>({{"sources/lidar", 1}}), OptionError);
+}
+
 TEST(ReadOptions, AWholeNumberServesAsANumber) {
   EXPECT_EQ(readOptions<StageOptions>({{"map/cell_size", 1}}).map.cell_size, 1.0);
 }

@@ -12,9 +12,9 @@ namespace {
 
 OccupancyMapOptions smallMap() {
   OccupancyMapOptions options;
-  options.length = 20.0;
-  options.width = 20.0;
-  options.cell_size = 1.0;
+  options.window.length = 20.0;
+  options.window.width = 20.0;
+  options.window.cell_size = 1.0;
   return options;
 }
 
@@ -108,7 +108,7 @@ TEST(OccupancyMapTest, ABeamWithoutReturnIsFreeToItsEnd) {
 TEST(OccupancyMapTest, AWideBeamFreesItsWholeSector) {
   OccupancyMapOptions options = smallMap();
   options.beam_width = 0.2;
-  options.cell_size = 0.1;
+  options.window.cell_size = 0.1;
   OccupancyMap map(options);
   updateWith(map, scanTo({{5.0, 0.05}}));
   for (double bearing = -0.09; bearing < 0.1; bearing += 0.01) {
@@ -301,7 +301,7 @@ TEST(OccupancyMapTest, BeamsThatLeaveTheWindowAreCut) {
 
 TEST(OccupancyMapTest, RefusesBadOptions) {
   OccupancyMapOptions options = smallMap();
-  options.cell_size = 0.0;
+  options.window.cell_size = 0.0;
   EXPECT_THROW(OccupancyMap{options}, OptionError);
   options = smallMap();
   options.free_probability = 0.6;
@@ -310,9 +310,9 @@ TEST(OccupancyMapTest, RefusesBadOptions) {
 
 TEST(OccupancyMapTest, RefusesMoreCellsThanMemoryHolds) {
   OccupancyMapOptions options;
-  options.length = 2000.0;
-  options.width = 2000.0;
-  options.cell_size = 0.02;
+  options.window.length = 2000.0;
+  options.window.width = 2000.0;
+  options.window.cell_size = 0.02;
   EXPECT_THROW(OccupancyMap{options}, OptionError);
 }
 

@@ -149,8 +149,8 @@ int occupancyAt(const nav_msgs::OccupancyGrid& grid, const Point2& point) {
 
 TEST(MapConversion, HoldsAfterTheWindowHasMoved) {
   OccupancyMapOptions options;
-  options.length = 30.0;
-  options.width = 60.0;
+  options.window.length = 30.0;
+  options.window.width = 60.0;
   OccupancyMap map(options);
   for (const double x : {0.1, 7.3, 14.5}) {
     map.centreOn(Point2(x, -x));
@@ -161,7 +161,7 @@ TEST(MapConversion, HoldsAfterTheWindowHasMoved) {
     EXPECT_EQ(grid.data.size(), grid.info.width * grid.info.height);
     EXPECT_EQ(grid.info.width, 100U) << "30 m of 0.3 m";
     EXPECT_EQ(grid.info.height, 200U);
-    EXPECT_NEAR(grid.info.origin.position.x + 15.0, x, 2.0 * options.cell_size);
+    EXPECT_NEAR(grid.info.origin.position.x + 15.0, x, 2.0 * options.window.cell_size);
     EXPECT_GT(occupancyAt(grid, base_in_map * Point2(6.05, 0.0)), 50) << "the end";
     const int passed = occupancyAt(grid, base_in_map * Point2(3.0, 0.0));
     EXPECT_TRUE(passed >= 0 && passed < 50) << passed << ": the way there";

@@ -256,7 +256,7 @@ TEST(GridSlamTest, AGapOfThreeSecondsIsBridgedByOdometry) {
 
 TEST(GridSlamTest, RefusesBadOptionsByTheirFullName) {
   GridSlamOptions options;
-  options.map.cell_size = -1.0;
+  options.map.window.cell_size = -1.0;
   try {
     GridSlam slam(options);
     FAIL() << "no exception";

@@ -45,8 +45,8 @@ Scan scanOf(const std::vector<Point2>& points, const Pose2& pose) {
 
 OccupancyMap emptyMap() {
   OccupancyMapOptions options;
-  options.length = 40.0;
-  options.width = 40.0;
+  options.window.length = 40.0;
+  options.window.width = 40.0;
   return OccupancyMap(options);
 }
 

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "datmo_fusion/common/pose2.h"
+#include "datmo_fusion/grid/sensor_grid.h"
+
+namespace datmo {
+
+/// The grid as the vehicle would have seen it at another time, in the same window.
+///
+/// `old_base_in_new`: pose of the vehicle at the grid's stamp in its frame at `stamp`. Each cell
+/// takes what was known of the place of its centre; no occupied cell is lost by rounding. A free
+/// cell nearer to an occupied one than `mover_way` (m, 0 or more: how far a mover may have come in
+/// between) becomes unknown: whoever stood beside it may be there now.
+SensorGrid movedGrid(const SensorGrid& grid, Stamp stamp, const Pose2& old_base_in_new,
+                     double mover_way);
+
+}  // namespace datmo

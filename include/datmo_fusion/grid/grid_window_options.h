@@ -1,0 +1,22 @@
+#pragma once
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/grid/grid_window.h"
+
+namespace datmo {
+
+/// Extent and resolution of a grid around the vehicle. Grids that are to be fused with each other
+/// need the same ones.
+struct GridWindowOptions {
+  double length = 90.0;    ///< m, along x
+  double width = 108.0;    ///< m, along y
+  double cell_size = 0.3;  ///< m
+
+  void visit(OptionVisitor& visitor);
+
+  /// The window with the frame's origin in its middle cell. Throws OptionError, also for more cells
+  /// than any memory holds.
+  GridWindow window() const;
+};
+
+}  // namespace datmo

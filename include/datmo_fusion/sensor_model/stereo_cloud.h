@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "datmo_fusion/common/stamp.h"
+
+namespace datmo {
+
+/// Points of a stereo camera as they lie in memory (a PointCloud2's data): three floats each, in
+/// the camera's optical frame: x to the right, y down, z forward, m. Points that are not finite are
+/// holes. Does not own the memory.
+struct PointsView {
+  const std::uint8_t* data = nullptr;
+  std::size_t count = 0;
+  std::size_t step = 0;      ///< bytes from a point to the next one
+  std::size_t x_offset = 0;  ///< bytes from a point's begin
+  std::size_t y_offset = 4;
+  std::size_t z_offset = 8;
+
+  Eigen::Vector3f operator[](std::size_t index) const {
+    const std::uint8_t* point = data + index * step;
+    Eigen::Vector3f result;
+    std::memcpy(&result.x(), point + x_offset, sizeof(float));
+    std::memcpy(&result.y(), point + y_offset, sizeof(float));
+    std::memcpy(&result.z(), point + z_offset, sizeof(float));
+    return result;
+  }
+};
+
+/// What the depth of a stereo camera's points hangs on. The depth z (m) of a point of disparity d
+/// (px) is focal_length * baseline / d, so its standard deviation is
+/// z^2 * disparity_sigma / (focal_length * baseline).
+struct StereoCamera {
+  double focal_length = 0.0;     ///< px, more than 0
+  double baseline = 0.0;         ///< m, more than 0
+  double disparity_sigma = 0.0;  ///< px, more than 0
+  /// Borders of the image as tangents x / z of the optical frame: left one, right one.
+  double left_tangent = 0.0;
+  double right_tangent = 0.0;
+
+  double depthSigma(double depth) const {
+    return depth * depth * disparity_sigma / (focal_length * baseline);
+  }
+};
+
+/// One measurement of a stereo camera.
+struct StereoCloud {
+  Stamp stamp;
+  PointsView points;
+  StereoCamera camera;
+  Eigen::Isometry3d camera_in_base = Eigen::Isometry3d::Identity();  ///< the optical frame
+  /// Height of the planar scanner above base_link's origin, m: where the layer that it sees begins.
+  double scanner_height = 0.0;
+
+  EIGEN_MAKE_ALIGNED_OPERATOR_NEW
+};
+
+}  // namespace datmo
