@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "datmo_fusion/grid/grid_resampling.h"
 #include "datmo_fusion/grid/ray_walk.h"
 
 namespace datmo {
@@ -151,13 +152,17 @@ std::optional<HitDistribution> OccupancyMap::nearestHits(const Point2& point) co
   return sums.about(place);
 }
 
+void OccupancyMap::beginUpdate(Stamp stamp) {
+  if (!first_stamp_) {
+    first_stamp_ = stamp;
+  }
+  now_ = static_cast<float>(secondsBetween(*first_stamp_, stamp));
+  ++update_;
+}
+
 void OccupancyMap::update(const Scan& scan, const std::vector<PointState>& states,
                           const Pose2& base_in_map) {
-  if (!first_stamp_) {
-    first_stamp_ = scan.stamp;
-  }
-  now_ = static_cast<float>(secondsBetween(*first_stamp_, scan.stamp));
-  ++update_;
+  beginUpdate(scan.stamp);
   for (std::size_t i = 0; i < scan.rays.size(); ++i) {
     if (scan.rays[i].hit && states[i] != PointState::kMoving) {
       hit(base_in_map * scan.rays[i].end);
@@ -166,6 +171,19 @@ void OccupancyMap::update(const Scan& scan, const std::vector<PointState>& state
   for (const Ray& ray : scan.rays) {
     passBeam(ray, base_in_map);
   }
+}
+
+void OccupancyMap::update(const GridSight& sight, const Pose2& base_in_map) {
+  beginUpdate(sight.grid->stamp());
+  for (const Point2& point : sight.hits) {
+    hit(base_in_map * point);
+  }
+  const Point2 from = base_in_map * sight.viewpoint;
+  resample(*sight.grid, base_in_map, window(), [&](CellIndex cell, Percent percent) {
+    if (isFree(percent)) {
+      pass(cell, from, (window().centreOf(cell) - from).normalized());
+    }
+  });
 }
 
 void OccupancyMap::change(Cell& cell, float log_odds_step) const {

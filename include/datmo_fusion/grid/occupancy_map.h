@@ -11,6 +11,7 @@
 #include "datmo_fusion/grid/grid_window_options.h"
 #include "datmo_fusion/grid/hit_distribution.h"
 #include "datmo_fusion/grid/rolling_grid.h"
+#include "datmo_fusion/grid/sensor_grid.h"
 
 namespace datmo {
 
@@ -27,6 +28,13 @@ struct OccupancyMapOptions {
   int static_neighbourhood = 1;     ///< cells around an end point that vouch for it
 
   void visit(OptionVisitor& visitor);
+};
+
+/// What the map takes in of an instantaneous grid, all in the vehicle's frame.
+struct GridSight {
+  const SensorGrid* grid = nullptr;   ///< its free cells are free
+  std::vector<Point2> hits;           ///< m, on surfaces that stand still
+  Point2 viewpoint = Point2::Zero();  ///< m, from where they were seen
 };
 
 /// The map of what stands still: a rolling grid of log-odds occupancy (thesis 3.1.1, eq. 3.1.13).
@@ -67,6 +75,10 @@ class OccupancyMap {
   /// scan, in order; those of beams without a hit are not read.
   void update(const Scan& scan, const std::vector<PointState>& states, const Pose2& base_in_map);
 
+  /// Takes in an instantaneous grid seen from `base_in_map` (thesis 3.2.5, eq. 3.2.7), as the scan
+  /// above with its cells in place of beams.
+  void update(const GridSight& sight, const Pose2& base_in_map);
+
   /// Row by row from the lower left corner: 0 to 100 percent, -1 where nothing is known
   /// (nav_msgs/OccupancyGrid).
   std::vector<std::int8_t> occupancyImage() const;
@@ -87,6 +99,7 @@ class OccupancyMap {
     return cell.hits.count > 0.0F && cell.log_odds > 0.0F;
   }
 
+  void beginUpdate(Stamp stamp);
   void change(Cell& cell, float log_odds_step) const;
   void hit(const Point2& point);
   void pass(CellIndex cell, const Point2& from, const Point2& direction);
