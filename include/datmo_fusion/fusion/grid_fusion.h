@@ -27,9 +27,9 @@ FusionRule fusionRule(const std::string& name);
 /// How far one source is to be believed.
 struct GridSourceOptions {
   bool use = true;
-  int priority = 0;
-  double weight = 0.5;
-  double reliability = 1.0;
+  int priority = 0;          ///< for kPriority: the highest has the word
+  double weight = 0.5;       ///< for kWeightedSum
+  double reliability = 1.0;  ///< for kLogOdds, kDempsterShafer and the conflict
 
   void visit(OptionVisitor& visitor);
 };
