@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include <Eigen/Core>
 
 #include "datmo_fusion/common/options.h"
@@ -17,6 +19,43 @@ struct RoadPlane {
   double heightOf(const Eigen::Vector3d& point) const {
     return point.z() - (height + slope_x * point.x() + slope_y * point.y());
   }
+};
+
+struct RoadPlaneOptions {
+  bool estimate = true;
+  double farthest = 30.0;    ///< m
+  double half_width = 8.0;   ///< m
+  double tolerance = 0.1;    ///< m
+  int least_cells = 30;      ///< cells of 1 m x 1 m
+  double most_slope = 0.1;   ///< m / m
+  double most_height = 0.4;  ///< m
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Finds the road's plane in the points of a stereo camera, so that the layer of obstacles follows
+/// slopes and pitching; the thesis takes the road as flat (3.2.2).
+///
+/// Trimmed least squares from the last plane on, one vote for each square metre of road, first near
+/// the vehicle, then farther out: no random samples, so the same clouds give the same planes. Keeps
+/// the last plane from cloud to cloud.
+class RoadPlaneEstimator {
+ public:
+  /// Throws OptionError.
+  explicit RoadPlaneEstimator(const RoadPlaneOptions& options);
+
+  /// The plane through the cloud's road; nothing where none is credible, or `estimate` is off.
+  std::optional<RoadPlane> update(const StereoCloud& cloud);
+
+  /// The last credible plane; at first the flat road z = 0.
+  const RoadPlane& last() const { return last_; }
+
+  /// Forgets the last plane, as after construction.
+  void reset() { last_ = {}; }
+
+ private:
+  RoadPlaneOptions options_;
+  RoadPlane last_;
 };
 
 }  // namespace datmo

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 
 #include "datmo_fusion/common/options.h"
@@ -11,13 +12,82 @@
 
 namespace datmo {
 
+/// When the thesis's plain form calls a cell occupied.
+struct StereoConesOptions {
+  int threshold = 20;  ///< points
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// When the columns of the image call a cell occupied or free.
+struct StereoColumnsOptions {
+  double least_surface = 0.03;          ///< m^2, in a cell
+  double least_object_surface = 0.1;    ///< m^2, in all cells of an object
+  double doubtful_surface_share = 0.3;  ///< of least_surface, 0 to 1
+  double peak_share = 0.8;              ///< 0 to 1
+  double road_sigmas = 2.0;             ///< standard deviations of the depth
+  double obstacle_sigmas = 1.5;         ///< standard deviations of the depth
+  double least_seen_share = 0.3;        ///< 0 to 1
+
+  void visit(OptionVisitor& visitor);
+};
+
+struct StereoGridOptions {
+  GridWindowOptions window;
+  std::string method = "columns";
+  double occupied_probability = 0.8;
+  double free_probability = 0.2;
+  double least_layer_height = 0.2;  ///< m
+  double layer_thickness = 1.0;     ///< m
+  double nearest_depth = 0.5;       ///< m
+  double effective_range = 36.0;    ///< m
+  StereoColumnsOptions columns;
+  StereoConesOptions cones;
+  RoadPlaneOptions road;
+
+  void visit(OptionVisitor& visitor);
+};
+
 /// What one cloud led to.
 struct StereoGridResult {
   SensorGrid grid;
   RoadPlane road;            ///< that heights were counted from
   bool road_seen = false;    ///< false: the last known one, or the flat one of the thesis
-  std::size_t points = 0;    ///< finite ones of the cloud
+  std::size_t points = 0;    ///< those that are finite and in front of the camera
   std::size_t in_layer = 0;  ///< of these, in the layer of obstacles and within range
+};
+
+class StereoEvidence;
+
+/// One cloud of a stereo camera -> what it says of each cell around the vehicle (thesis 3.2.2).
+///
+/// Method `cones`, the thesis's plain form on a flat road (eq. 3.2.2 to 3.2.4): points in the layer
+/// above the scanner's plane counted in cells, free before each object, undecided behind it, free
+/// elsewhere in view.
+///
+/// Method `columns`, beyond the thesis: surface found in columns of the image over inverse depth,
+/// where the noise of a stereo camera is uniform (Badino et al., Free space computation using
+/// stochastic occupancy grids and dynamic programming, 2007); the road is a plane estimated from
+/// the points; free is only what enough lines of sight cross near the ground.
+///
+/// Not thread safe. Keeps the last road plane from cloud to cloud.
+class StereoGridModel {
+ public:
+  /// Throws OptionError.
+  explicit StereoGridModel(const StereoGridOptions& options);
+  ~StereoGridModel();
+
+  /// Throws std::invalid_argument for a cloud whose camera is none: see checkCamera.
+  StereoGridResult grid(const StereoCloud& cloud);
+
+  /// Forgets the last road plane, as after construction.
+  void reset() { road_.reset(); }
+
+ private:
+  StereoGridOptions options_;
+  GridWindow window_;
+  RoadPlaneEstimator road_;
+  std::unique_ptr<StereoEvidence> evidence_;  ///< memory that is used again
 };
 
 }  // namespace datmo
