@@ -11,16 +11,58 @@ namespace {
 /// Each pass halves what is wrong with the yaw rate, where the beams go all round.
 constexpr int kPassesWithoutOdometry = 4;
 
-/// State of each ray, in order; kUnknown for beams without a hit.
-std::vector<PointState> judge(const Scan& scan, const OccupancyMap& map, const Pose2& base_in_map) {
+/// State of each ray, in order; kUnknown for beams without a hit. Where the scanner measures at
+/// all, what others alone have seen does not move: it is off by their depth's error.
+std::vector<PointState> judge(const FusedView& view, const OccupancyMap& map,
+                              const Pose2& base_in_map) {
+  const Scan& scan = view.scan;
   std::vector<PointState> states;
   states.reserve(scan.rays.size());
-  for (const Ray& ray : scan.rays) {
+  for (std::size_t i = 0; i < scan.rays.size(); ++i) {
+    const Ray& ray = scan.rays[i];
     const Point2 half_footprint = 0.5 * stepAcross(ray, scan.field.beam_spacing);
-    states.push_back(ray.hit ? map.judge(base_in_map * ray.end, base_in_map.rotate(half_footprint))
-                             : PointState::kUnknown);
+    PointState state = ray.hit
+                           ? map.judge(base_in_map * ray.end, base_in_map.rotate(half_footprint))
+                           : PointState::kUnknown;
+    if (state == PointState::kMoving && view.any_measured && !view.measured[i]) {
+      state = PointState::kUnknown;
+    }
+    states.push_back(state);
   }
   return states;
+}
+
+/// What the pose is found by: the scanner's own end points, where there are any.
+Scan matchable(const FusedView& view) {
+  Scan scan = view.scan;
+  if (view.any_measured) {
+    for (std::size_t i = 0; i < scan.rays.size(); ++i) {
+      scan.rays[i].hit = view.measured[i];
+    }
+  }
+  return scan;
+}
+
+/// What the map takes of a grid: ends of beams that do not move, and of what others alone have seen
+/// that which does not lie in space that the map knows to be free.
+GridSight sightOf(const FusedView& view, const std::vector<PointState>& states,
+                  const SensorGrid& free_cells, const OccupancyMap& map, const Pose2& base_in_map) {
+  GridSight sight{&free_cells, {}, view.scan.scanner_in_base.position()};
+  const auto add_unless_moving = [&](const Point2& point, PointState state) {
+    if (state != PointState::kMoving) {
+      sight.hits.push_back(point);
+    }
+  };
+  for (std::size_t i = 0; i < view.scan.rays.size(); ++i) {
+    const Ray& ray = view.scan.rays[i];
+    if (ray.hit) {
+      add_unless_moving(ray.end, view.measured[i] ? states[i] : map.judge(base_in_map * ray.end));
+    }
+  }
+  for (const Point2& cell : view.cells) {
+    add_unless_moving(cell, map.judge(base_in_map * cell));
+  }
+  return sight;
 }
 
 /// Beams of the scan that have no ray.
@@ -70,6 +112,10 @@ void GridSlamOptions::visit(OptionVisitor& visitor) {
   visitor.number(
       {"longest_step", "m", "neighbouring end points further apart are on different surfaces"},
       longest_step, {0.05, 20.0});
+  visitor.text({"grid_ends", "",
+                "where the obstacles of a fused grid lie: 'scan', where a beam ends in an occupied "
+                "cell, 'cells', at the cells' centres (thesis 3.2.5)"},
+               grid_ends, {"scan", "cells"});
   visitor.integer({"seed", "1", "of the random numbers with which poses are drawn"}, seed,
                   {0, 2147483647});
 }
@@ -104,35 +150,56 @@ Scan GridSlam::compensated(const Scan& scan) const {
   return compensateMotion(scan, measured ? twistOf(*measured, duration) : filter_.velocity());
 }
 
-Scan GridSlam::locate(const Scan& measured, SlamResult& result) {
+FusedView GridSlam::viewOf(const Measurement& measurement, const Scan& compensated_scan) const {
+  if (measurement.grid != nullptr) {
+    const GridEnds ends = options_.grid_ends == "scan" ? GridEnds::kScan : GridEnds::kCells;
+    return viewThrough(*measurement.grid, compensated_scan, ends);
+  }
+  return {compensated_scan, std::vector<bool>(compensated_scan.rays.size(), true), true, {}};
+}
+
+Scan GridSlam::locate(const Measurement& measurement, SlamResult& result) {
   const PoseFilter predicted = filter_;
-  const bool guessed = !result.odometry_used && sweepDuration(measured) > 0.0;
-  Scan scan = compensated(measured);
+  const bool guessed = !result.odometry_used && sweepDuration(measurement.scan) > 0.0;
+  Scan scan = compensated(measurement.scan);
   for (int pass = 0; pass < (guessed ? kPassesWithoutOdometry : 1); ++pass) {
-    const MatchResult match = matcher_.match(map_, endPoints(scan, options_.longest_step),
+    const Scan seen = matchable(viewOf(measurement, scan));
+    const MatchResult match = matcher_.match(map_, endPoints(seen, options_.longest_step),
                                              {predicted.pose(), result.odometry_used}, random_);
     filter_ = predicted;
     filter_.correct(match.pose);
     result.match = match.quality;
-    scan = guessed ? compensated(measured) : scan;
+    scan = guessed ? compensated(measurement.scan) : scan;
   }
   return scan;
 }
 
-SlamResult GridSlam::process(const Scan& measured) {
+SlamResult GridSlam::process(const Scan& scan) { return process(Measurement{scan}); }
+
+SlamResult GridSlam::process(const SensorGrid& grid, const Scan& scan) {
+  return process(Measurement{scan, &grid});
+}
+
+SlamResult GridSlam::process(const Measurement& measurement) {
   SlamResult result;
-  Scan scan = compensated(measured);
+  Scan scan = compensated(measurement.scan);
   if (stamp_) {
     result.odometry_used = predict(scan.stamp);
     map_.centreOn(filter_.pose().pose.position());
-    scan = locate(measured, result);
+    scan = locate(measurement, result);
   }
   const PoseWithCovariance base_in_map = filter_.pose();
-  const std::vector<PointState> states = judge(scan, map_, base_in_map.pose);
-  map_.update(scan, states, base_in_map.pose);
+  const FusedView view = viewOf(measurement, scan);
+  const std::vector<PointState> states = judge(view, map_, base_in_map.pose);
+  if (measurement.grid != nullptr) {
+    const SensorGrid free_cells = withoutFreeEdges(*measurement.grid);
+    map_.update(sightOf(view, states, free_cells, map_, base_in_map.pose), base_in_map.pose);
+  } else {
+    map_.update(scan, states, base_in_map.pose);
+  }
   stamp_ = scan.stamp;
   result.odometry_errors = filter_.errors();
-  result.split = split(scan, states, base_in_map);
+  result.split = split(view.scan, states, base_in_map);
   return result;
 }
 

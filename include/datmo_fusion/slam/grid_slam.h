@@ -6,6 +6,7 @@
 #include "datmo_fusion/common/random.h"
 #include "datmo_fusion/common/scan.h"
 #include "datmo_fusion/grid/occupancy_map.h"
+#include "datmo_fusion/slam/fused_view.h"
 #include "datmo_fusion/slam/odometry_buffer.h"
 #include "datmo_fusion/slam/pose_filter.h"
 #include "datmo_fusion/slam/scan_matcher.h"
@@ -20,6 +21,7 @@ struct GridSlamOptions {
   double odometry_hold = 0.5;  ///< s
   bool motion_compensation = true;
   double longest_step = 5.0;  ///< m
+  std::string grid_ends = "scan";
   int seed = 1;
 
   void visit(OptionVisitor& visitor);
@@ -37,6 +39,12 @@ struct SlamResult {
 /// vehicle's own motion, match the scan to the map, split the scan into static and moving points,
 /// and update the map with what stands still.
 ///
+/// With low-level fusion the measurement is a grid fused from several sensors (thesis 3.2.5) beside
+/// the scan of the same stamp: beams end only where the grid is occupied, and the map takes its
+/// occupied and free cells. Where the pose comes from, what moves and where exactly a surface lies
+/// is still told by the scanner's own beams as far as the grid confirms them: the cells of others
+/// are coarse, and off by their depth's error, which would look like motion.
+///
 /// Map frame: the vehicle's first pose is its origin. Not thread safe; scans in rising stamp order,
 /// which the caller ensures (StampGate).
 class GridSlam {
@@ -52,6 +60,10 @@ class GridSlam {
   /// rays moves the pose by odometry alone.
   SlamResult process(const Scan& scan);
 
+  /// Takes the next fused grid, in the vehicle's frame at the scan's stamp. `scan` without rays:
+  /// the scanner is silent, and the grid alone tells pose and movers.
+  SlamResult process(const SensorGrid& grid, const Scan& scan);
+
   const OccupancyMap& map() const { return map_; }
 
   /// Forgets everything, as after construction.
@@ -60,13 +72,24 @@ class GridSlam {
  private:
   /// The scan as seen at its stamp, by the newest odometry or else the estimated velocity.
   Scan compensated(const Scan& scan) const;
+  /// A scan, and the fused grid of its time where there is one.
+  struct Measurement {
+    const Scan& scan;
+    const SensorGrid* grid = nullptr;
+  };
+
+  /// The scan of a measurement as the grid, if there is one, lets it stand.
+  FusedView viewOf(const Measurement& measurement, const Scan& compensated_scan) const;
+
+  SlamResult process(const Measurement& measurement);
+
   /// Corrects the predicted pose by the scan; returns the scan as compensated for its motion.
   ///
   /// Without odometry the velocity comes from the matches. A scan that was compensated for a wrong
   /// turn is matched at a wrong heading, which makes the next turn wrong the other way: of beams
   /// that go all round, such errors never fade. So the scan is compensated again for the motion
   /// that its own match tells.
-  Scan locate(const Scan& measured, SlamResult& result);
+  Scan locate(const Measurement& measurement, SlamResult& result);
 
   /// Returns whether odometry served.
   bool predict(Stamp stamp);

@@ -1,0 +1,139 @@
+#include "datmo_fusion/slam/fused_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "datmo_fusion/grid/ray_walk.h"
+
+namespace datmo {
+
+namespace {
+
+/// `visit(CellIndex)` for the 3 x 3 cells around one.
+template <typename Visit>
+void forEachAround(CellIndex centre, Visit&& visit) {
+  for (int row = centre.row - 1; row <= centre.row + 1; ++row) {
+    for (int column = centre.column - 1; column <= centre.column + 1; ++column) {
+      visit(CellIndex{column, row});
+    }
+  }
+}
+
+/// The beam as far as the field reaches, without a hit.
+Ray rayOf(const Scan& scan, std::uint32_t beam) {
+  Ray ray;
+  ray.beam = beam;
+  ray.bearing = normalizeAngle(scan.field.first_bearing + scan.field.beam_spacing * beam);
+  ray.range = scan.field.range;
+  ray.origin = scan.scanner_in_base.position();
+  ray.end = scan.scanner_in_base *
+            Point2(ray.range * std::cos(ray.bearing), ray.range * std::sin(ray.bearing));
+  return ray;
+}
+
+std::vector<Ray> raysOfField(const Scan& scan) {
+  std::vector<Ray> rays;
+  rays.reserve(scan.field.beams);
+  for (std::uint32_t beam = 0; beam < scan.field.beams; ++beam) {
+    rays.push_back(rayOf(scan, beam));
+  }
+  return rays;
+}
+
+/// Lets the ray end where it passes the centre of a cell nearest.
+void endAt(const Point2& centre, Ray& ray) {
+  const Point2 direction = (ray.end - ray.origin).normalized();
+  ray.range = std::max(0.0, direction.dot(centre - ray.origin));
+  ray.end = ray.origin + ray.range * direction;
+  ray.hit = true;
+}
+
+std::optional<CellIndex> firstOccupied(const SensorGrid& grid, const Ray& ray) {
+  std::optional<CellIndex> first;
+  walkRay(grid.window(), ray.origin, ray.end, [&](CellIndex cell) {
+    if (!first && isOccupied(grid.atOrUnknown(cell))) {
+      first = cell;
+    }
+  });
+  return first;
+}
+
+/// Occupied cells that no beam accounts for.
+class Unexplained {
+ public:
+  explicit Unexplained(const SensorGrid& grid) : rest_(grid) {}
+
+  /// What a beam hits may lie anywhere across its width, and in the next cell.
+  void explain(const Ray& ray, double beam_spacing) {
+    const Point2 half_footprint = 0.5 * stepAcross(ray, beam_spacing);
+    walkRay(rest_.window(), ray.end - half_footprint, ray.end + half_footprint,
+            [&](CellIndex cell) { forEachAround(cell, [&](CellIndex near) { forget(near); }); });
+  }
+
+  std::vector<Point2> centres() const {
+    std::vector<Point2> centres;
+    rest_.forEach([&](CellIndex cell, Percent percent) {
+      if (isOccupied(percent)) {
+        centres.push_back(rest_.window().centreOf(cell));
+      }
+    });
+    return centres;
+  }
+
+ private:
+  void forget(CellIndex cell) {
+    if (rest_.window().contains(cell)) {
+      rest_.at(cell) = kUnknownPercent;
+    }
+  }
+
+  SensorGrid rest_;
+};
+
+}  // namespace
+
+FusedView viewThrough(const SensorGrid& grid, const Scan& scan, GridEnds ends) {
+  FusedView view;
+  view.scan = scan;
+  if (view.scan.rays.empty()) {
+    view.scan.rays = raysOfField(scan);
+  }
+  Unexplained unexplained(grid);
+  for (Ray& ray : view.scan.rays) {
+    const CellIndex end = grid.window().cellAt(ray.end);
+    // Beyond the window nobody contradicts.
+    const bool confirmed = ray.hit && (!grid.window().contains(end) || isOccupied(grid.at(end)));
+    const bool measured = confirmed && ends == GridEnds::kScan;
+    ray.hit = measured;
+    if (!measured) {
+      if (const auto cell = confirmed ? std::make_optional(end) : firstOccupied(grid, ray)) {
+        endAt(grid.window().centreOf(*cell), ray);
+      }
+    }
+    if (ray.hit) {
+      unexplained.explain(ray, scan.field.beam_spacing);
+    }
+    view.measured.push_back(measured);
+    view.any_measured = view.any_measured || measured;
+  }
+  view.cells = unexplained.centres();
+  return view;
+}
+
+SensorGrid withoutFreeEdges(const SensorGrid& grid) {
+  SensorGrid result = grid;
+  grid.forEach([&](CellIndex cell, Percent percent) {
+    if (!isOccupied(percent)) {
+      return;
+    }
+    forEachAround(cell, [&](CellIndex near) {
+      if (grid.window().contains(near) && isFree(grid.at(near))) {
+        result.at(near) = kUnknownPercent;
+      }
+    });
+  });
+  return result;
+}
+
+}  // namespace datmo

@@ -1,0 +1,136 @@
+#include "datmo_fusion/slam/fused_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace datmo {
+namespace {
+
+constexpr GridWindow kWindow{1.0, 40, 40, {-20, -20}};
+
+/// A scanner at the base's origin with a beam along each of -45, 0 and 45 degrees.
+Scan scanOf(const std::vector<double>& ranges) {
+  Scan scan;
+  scan.field.first_bearing = degrees(-45.0);
+  scan.field.beam_spacing = degrees(45.0);
+  scan.field.beams = 3;
+  scan.field.range = 15.0;
+  for (std::uint32_t beam = 0; beam < ranges.size(); ++beam) {
+    Ray ray;
+    ray.beam = beam;
+    ray.bearing = degrees(-45.0 + 45.0 * beam);
+    ray.hit = std::isfinite(ranges[beam]);
+    ray.range = ray.hit ? ranges[beam] : scan.field.range;
+    ray.end = ray.range * Point2(std::cos(ray.bearing), std::sin(ray.bearing));
+    scan.rays.push_back(ray);
+  }
+  return scan;
+}
+
+/// All free but for these cells.
+SensorGrid gridWith(const std::vector<CellIndex>& occupied) {
+  SensorGrid grid({}, kWindow);
+  std::fill(grid.cells().begin(), grid.cells().end(), Percent{20});
+  for (const CellIndex cell : occupied) {
+    grid.at(cell) = 80;
+  }
+  return grid;
+}
+
+constexpr double kNothing = INFINITY;
+
+TEST(FusedViewTest, ABeamThatTheGridConfirmsKeepsItsExactEnd) {
+  const FusedView view =
+      viewThrough(gridWith({{10, 0}}), scanOf({kNothing, 10.3, kNothing}), GridEnds::kScan);
+  EXPECT_TRUE(view.scan.rays[1].hit);
+  EXPECT_TRUE(view.measured[1]);
+  EXPECT_TRUE(view.any_measured);
+  EXPECT_DOUBLE_EQ(view.scan.rays[1].range, 10.3);
+}
+
+TEST(FusedViewTest, ABeamThatTheGridRefutesHasNoHit) {
+  const FusedView view =
+      viewThrough(gridWith({}), scanOf({kNothing, 10.3, kNothing}), GridEnds::kScan);
+  EXPECT_FALSE(view.scan.rays[1].hit);
+  EXPECT_FALSE(view.any_measured);
+  EXPECT_TRUE(view.cells.empty());
+}
+
+TEST(FusedViewTest, UndecidedIsNotConfirmed) {
+  SensorGrid grid = gridWith({});
+  grid.at({10, 0}) = kUndecidedPercent;
+  EXPECT_FALSE(
+      viewThrough(grid, scanOf({kNothing, 10.3, kNothing}), GridEnds::kScan).scan.rays[1].hit);
+}
+
+TEST(FusedViewTest, BeyondTheWindowTheBeamIsBelieved) {
+  Scan scan = scanOf({kNothing, 30.0, kNothing});
+  EXPECT_TRUE(viewThrough(gridWith({}), scan, GridEnds::kScan).measured[1]);
+}
+
+TEST(FusedViewTest, ABeamWithoutHitEndsAtWhatOthersSee) {
+  const FusedView view = viewThrough(gridWith({{5, 5}, {8, 8}}),
+                                     scanOf({kNothing, kNothing, kNothing}), GridEnds::kScan);
+  const Ray& ray = view.scan.rays[2];
+  EXPECT_TRUE(ray.hit);
+  EXPECT_FALSE(view.measured[2]);
+  EXPECT_NEAR(ray.range, 5.5 * std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(ray.end.x(), 5.5, 1e-9);
+  EXPECT_NEAR(ray.end.y(), 5.5, 1e-9);
+}
+
+TEST(FusedViewTest, OfTheScannersOwnEndAndANearerCellTheEndCounts) {
+  const FusedView view =
+      viewThrough(gridWith({{5, 0}, {10, 0}}), scanOf({kNothing, 10.3, kNothing}), GridEnds::kScan);
+  EXPECT_DOUBLE_EQ(view.scan.rays[1].range, 10.3);
+  ASSERT_EQ(view.cells.size(), 1U);
+  EXPECT_EQ(view.cells[0], Point2(5.5, 0.5));
+}
+
+TEST(FusedViewTest, CellsAcrossABeamsWidthAreItsOwn) {
+  Scan scan = scanOf({kNothing, 10.3, kNothing});
+  scan.field.beam_spacing = degrees(20.0);  // 3.6 m wide at 10.3 m
+  const SensorGrid grid = gridWith({{10, -2}, {10, -1}, {10, 0}, {10, 1}, {10, 6}});
+  const FusedView view = viewThrough(grid, scan, GridEnds::kScan);
+  ASSERT_EQ(view.cells.size(), 1U);
+  EXPECT_EQ(view.cells[0], Point2(10.5, 6.5));
+}
+
+TEST(FusedViewTest, OfCellsAllEndsAreCentres) {
+  const FusedView view =
+      viewThrough(gridWith({{10, 0}}), scanOf({kNothing, 10.1, kNothing}), GridEnds::kCells);
+  EXPECT_TRUE(view.scan.rays[1].hit);
+  EXPECT_FALSE(view.any_measured);
+  EXPECT_NEAR(view.scan.rays[1].range, 10.5, 1e-9);
+}
+
+TEST(FusedViewTest, ASilentScannersBeamsAreMadeOfTheGrid) {
+  Scan silent = scanOf({});
+  const FusedView view = viewThrough(gridWith({{10, 0}}), silent, GridEnds::kScan);
+  ASSERT_EQ(view.scan.rays.size(), 3U);
+  EXPECT_FALSE(view.scan.rays[0].hit);
+  EXPECT_TRUE(view.scan.rays[1].hit);
+  EXPECT_FALSE(view.any_measured);
+}
+
+TEST(FusedViewTest, BlindBeamsStayBlind) {
+  Scan scan = scanOf({kNothing, 10.3, kNothing});
+  scan.rays.erase(scan.rays.begin());
+  EXPECT_EQ(viewThrough(gridWith({{5, -6}}), scan, GridEnds::kScan).scan.rays.size(), 2U);
+}
+
+TEST(WithoutFreeEdges, OnlyFreeCellsBesideOccupiedOnesBecomeUnknown) {
+  SensorGrid grid = gridWith({{3, 3}});
+  grid.at({4, 3}) = kUndecidedPercent;
+  const SensorGrid result = withoutFreeEdges(grid);
+  EXPECT_EQ(result.at({3, 3}), 80);
+  EXPECT_EQ(result.at({4, 3}), kUndecidedPercent);
+  EXPECT_EQ(result.at({2, 2}), kUnknownPercent);
+  EXPECT_EQ(result.at({1, 3}), 20);
+  EXPECT_EQ(std::count(result.cells().begin(), result.cells().end(), kUnknownPercent), 7);
+}
+
+}  // namespace
+}  // namespace datmo
