@@ -48,6 +48,14 @@ ScannerMount scannerMount(const tf2::BufferCore& transforms, const std::string& 
   return mount;
 }
 
+Eigen::Isometry3d sensorMount(const tf2::BufferCore& transforms, const std::string& base_frame,
+                              const std::string& sensor_frame) {
+  const auto transform = lookUp(transforms, base_frame, sensor_frame, ros::Time(0));
+  const auto& t = transform.translation;
+  const auto& q = transform.rotation;
+  return Eigen::Translation3d(t.x, t.y, t.z) * Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
+}
+
 Pose2 planarPose(const tf2::BufferCore& transforms, const std::string& parent_frame,
                  const std::string& child_frame, const ros::Time& time) {
   return fromAbove(lookUp(transforms, parent_frame, child_frame, time));

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include <Eigen/Geometry>
+
 #include <ros/time.h>
 #include <tf2/buffer_core.h>
 
@@ -19,6 +21,11 @@ struct ScannerMount {
 /// The newest mount that tf knows. Throws InputError (`missing_transform`) if it knows none.
 ScannerMount scannerMount(const tf2::BufferCore& transforms, const std::string& base_frame,
                           const std::string& scanner_frame);
+
+/// The newest pose of a sensor's frame that tf knows. Throws InputError (`missing_transform`) if it
+/// knows none.
+Eigen::Isometry3d sensorMount(const tf2::BufferCore& transforms, const std::string& base_frame,
+                              const std::string& sensor_frame);
 
 /// Pose of a frame in another one at a time, seen from above. Throws InputError
 /// (`missing_transform`) if tf does not know it.

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/PointCloud2.h>
+
+#include "datmo_fusion/ros/input_error.h"
+#include "datmo_fusion/sensor_model/stereo_cloud.h"
+
+namespace datmo {
+
+/// The points of a message, where they lie or copied, if they do not lie as a PointsView needs
+/// them.
+class CloudPoints {
+ public:
+  /// The points stay where they are, unless rows are padded. `message` must outlive this.
+  ///
+  /// Throws InputError: `empty_cloud` (no points), `missing_field` (x, y or z), `wrong_field_type`
+  /// (they are not FLOAT32, or reach beyond the point), `big_endian`, `wrong_size` (less data than
+  /// width, height and steps say), `no_valid_point` (none is finite).
+  explicit CloudPoints(const sensor_msgs::PointCloud2& message);
+
+  CloudPoints(const CloudPoints&) = delete;
+  CloudPoints& operator=(const CloudPoints&) = delete;
+
+  const PointsView& view() const { return view_; }
+
+  /// Brings the points to another frame; they are copied.
+  void transform(const Eigen::Isometry3d& cloud_in_frame);
+
+ private:
+  void packRows(const sensor_msgs::PointCloud2& message);
+
+  PointsView view_;
+  std::vector<std::uint8_t> copy_;
+};
+
+/// Bounds of what a stereo camera may be like.
+inline constexpr double kLeastFocalLength = 10.0;  ///< px
+inline constexpr double kMostFocalLength = 1e5;    ///< px
+inline constexpr double kLeastBaseline = 0.005;    ///< m
+inline constexpr double kMostBaseline = 10.0;      ///< m
+
+/// What the right camera's info says of a rectified pair: focal length P[0], baseline -P[3] / P[0],
+/// image borders from its width, its region of interest and P[2]. Binning is taken into account.
+/// The standard deviation of disparities is left at 0: no message tells it.
+///
+/// Throws InputError (`bad_camera_info`) for what no stereo camera is like: the left camera's info,
+/// whose baseline is 0, among it.
+StereoCamera stereoCamera(const sensor_msgs::CameraInfo& right);
+
+}  // namespace datmo

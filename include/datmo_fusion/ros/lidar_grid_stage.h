@@ -1,0 +1,61 @@
+#pragma once
+
+#include <string>
+
+#include <nav_msgs/OccupancyGrid.h>
+#include <nav_msgs/Odometry.h>
+
+#include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/ros/motion_input.h"
+#include "datmo_fusion/ros/scan_conversion.h"
+#include "datmo_fusion/ros/stage_monitor.h"
+#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/transform_buffer.h"
+#include "datmo_fusion/sensor_model/lidar_grid.h"
+
+namespace datmo {
+
+struct LidarGridStageOptions {
+  std::string base_frame = "base_link";
+  double most_tilt = degrees(5.0);  ///< rad
+  MotionInputOptions motion;
+  StreamOptions input;
+  ScanConversionOptions scan;
+  LidarGridOptions grid;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// LidarGridModel between messages: the same one serves the nodelet and the bag runner. Bad input
+/// is dropped or warned of through the monitor, never thrown.
+///
+/// A scan is compensated for the vehicle's motion by odometry; where there is none, all its beams
+/// are taken as measured at once.
+class LidarGridStage {
+ public:
+  /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
+  LidarGridStage(const LidarGridStageOptions& options, const TransformBuffer& transforms,
+                 StageMonitor& monitor);
+
+  /// Newest odometry; not read where the options say that the vehicle has none.
+  void takeOdometry(const nav_msgs::Odometry& message);
+
+  /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan. Null if it was dropped.
+  template <typename Message>
+  nav_msgs::OccupancyGridPtr takeScan(const Message& message);
+
+ private:
+  /// Throws InputError.
+  void checkStamp(const ros::Time& stamp);
+  void warnOf(const ScannerMount& mount, const ConvertedScan& converted);
+  Scan compensated(const Scan& scan) const;
+
+  LidarGridStageOptions options_;
+  const TransformBuffer& transforms_;
+  StageMonitor& monitor_;
+  LidarGridModel model_;
+  StampCheck stamps_;
+  MotionInput motion_;
+};
+
+}  // namespace datmo

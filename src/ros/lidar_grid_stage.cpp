@@ -1,0 +1,93 @@
+#include "datmo_fusion/ros/lidar_grid_stage.h"
+
+#include <boost/make_shared.hpp>
+
+#include "datmo_fusion/ros/grid_conversion.h"
+#include "datmo_fusion/slam/motion_compensation.h"
+
+namespace datmo {
+
+void LidarGridStageOptions::visit(OptionVisitor& visitor) {
+  visitor.text({"base_frame", "", "frame of the vehicle, and of the grid"}, base_frame, {});
+  motion.visit(visitor);
+  visitor.number({"most_tilt", "rad", "a scan plane tilted by more than this is warned of"},
+                 most_tilt, {0.0, kQuarterTurn});
+  visitor.group("input", [&] { input.visit(visitor); });
+  visitor.group("scan", [&] { scan.visit(visitor); });
+  grid.visit(visitor);
+}
+
+LidarGridStage::LidarGridStage(const LidarGridStageOptions& options,
+                               const TransformBuffer& transforms, StageMonitor& monitor)
+    : options_(options),
+      transforms_(transforms),
+      monitor_(monitor),
+      model_(options.grid),
+      stamps_(options.input.restart_after),
+      motion_(options.motion, options.base_frame, options.input.restart_after) {
+  checkOptions(options);
+}
+
+void LidarGridStage::takeOdometry(const nav_msgs::Odometry& message) {
+  try {
+    if (motion_.take(message) == Arrival::kRestart) {
+      stamps_ = StampCheck(options_.input.restart_after);
+    }
+  } catch (const InputError& error) {
+    monitor_.dropped(error);
+  }
+}
+
+template <typename Message>
+nav_msgs::OccupancyGridPtr LidarGridStage::takeScan(const Message& message) {
+  try {
+    const Stopwatch watch;
+    const ScannerMount mount =
+        scannerMount(transforms_.core(), options_.base_frame, message.header.frame_id);
+    const ConvertedScan converted = toScan(message, mount, options_.scan);
+    if (stamps_.check(message.header.stamp) == Arrival::kRestart) {
+      motion_.reset();
+    }
+    warnOf(mount, converted);
+    auto grid = boost::make_shared<nav_msgs::OccupancyGrid>(
+        toMessage(model_.grid(compensated(converted.scan)), options_.base_frame));
+    monitor_.processed({converted.scan.stamp, watch.seconds()});
+    return grid;
+  } catch (const InputError& error) {
+    monitor_.dropped(error);
+    return nullptr;
+  }
+}
+
+template nav_msgs::OccupancyGridPtr LidarGridStage::takeScan(const sensor_msgs::LaserScan&);
+template nav_msgs::OccupancyGridPtr LidarGridStage::takeScan(
+    const sensor_msgs::MultiEchoLaserScan&);
+
+void LidarGridStage::warnOf(const ScannerMount& mount, const ConvertedScan& converted) {
+  if (converted.unusable_times) {
+    monitor_.warned(*converted.unusable_times);
+  }
+  if (mount.tilt > options_.most_tilt) {
+    monitor_.warned(InputError("tilted_scanner",
+                               "scan plane tilted by " + std::to_string(toDegrees(mount.tilt)) +
+                                   " degrees: expected at most " +
+                                   std::to_string(toDegrees(options_.most_tilt))));
+  }
+  const BeamCounts& beams = converted.beams;
+  monitor_.figure("beams with a hit", static_cast<double>(beams.hits));
+  if (beams.hits == 0 && beams.no_return == 0) {
+    monitor_.warned(InputError("no_valid_beam", "scan with " + std::to_string(beams.dropped) +
+                                                    " beams, none of them valid: says nothing"));
+  }
+}
+
+Scan LidarGridStage::compensated(const Scan& scan) const {
+  const double duration = sweepDuration(scan);
+  if (duration == 0.0) {
+    return scan;
+  }
+  const auto motion = motion_.between(scan.stamp, scan.stamp + duration);
+  return motion ? compensateMotion(scan, twistOf(*motion, duration)) : scan;
+}
+
+}  // namespace datmo
