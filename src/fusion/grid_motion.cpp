@@ -3,88 +3,29 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <vector>
+
+#include "datmo_fusion/grid/grid_resampling.h"
 
 namespace datmo {
 
 namespace {
 
-/// The slots of a grid's cells by place, without a branch for each border.
-class Slots {
- public:
-  explicit Slots(const GridWindow& window) : window_(window) {}
-
-  static constexpr std::size_t kOutside = static_cast<std::size_t>(-1);
-
-  /// `place`: in cells from the window's lower left corner. Also outside: what is not a number.
-  std::size_t at(const Point2& place) const {
-    const bool inside = place.x() >= 0.0 && place.x() < window_.columns && place.y() >= 0.0 &&
-                        place.y() < window_.rows;
-    return inside ? static_cast<std::size_t>(place.y()) * columns() +
-                        static_cast<std::size_t>(place.x())
-                  : kOutside;
-  }
-  std::size_t columns() const { return static_cast<std::size_t>(window_.columns); }
-
- private:
-  GridWindow window_;
-};
-
-/// A motion of the base frame, in cells from the window's lower left corner.
-class MotionInCells {
- public:
-  MotionInCells(const Pose2& motion, const GridWindow& window)
-      : rotation_(motion.rotation()),
-        first_((motion * window.centreOf(window.corner) - window.origin()) / window.cell_size) {}
-
-  /// Where the centre of a cell comes to; `column` and `row` from the window's corner.
-  Point2 place(double column, double row) const {
-    return first_ + column * rotation_.col(0) + row * rotation_.col(1);
-  }
-
- private:
-  Eigen::Matrix2d rotation_;
-  Point2 first_;
-};
-
-/// Each cell of `moved` takes what was known of its place; `taken`: slots of the old grid that were
-/// asked.
-void pull(const SensorGrid& grid, const Pose2& new_base_in_old, SensorGrid& moved,
-          std::vector<char>& taken) {
+/// Occupied cells that no cell's centre has come to lie in go where their own centre has come to.
+void pushOccupied(const SensorGrid& grid, const Pose2& old_base_in_new, SensorGrid& moved) {
   const GridWindow& window = grid.window();
-  const Slots slots(window);
-  const MotionInCells motion(new_base_in_old, window);
-  std::size_t target = 0;
-  for (int row = 0; row < window.rows; ++row) {
-    for (int column = 0; column < window.columns; ++column, ++target) {
-      const std::size_t source = slots.at(motion.place(column, row));
-      if (source != Slots::kOutside) {
-        moved.cells()[target] = grid.cells()[source];
-        taken[source] = 1;
-      }
+  const Eigen::Matrix2d rotation = old_base_in_new.rotation();
+  grid.forEach([&](CellIndex cell, Percent percent) {
+    if (!isOccupied(percent)) {
+      return;
     }
-  }
-}
-
-/// Occupied cells that no new cell's centre came to lie in go where their own centre comes to.
-void pushOccupied(const SensorGrid& grid, const Pose2& old_base_in_new,
-                  const std::vector<char>& taken, SensorGrid& moved) {
-  const GridWindow& window = grid.window();
-  const Slots slots(window);
-  const MotionInCells motion(old_base_in_new, window);
-  for (std::size_t source = 0; source < taken.size(); ++source) {
-    if (taken[source] != 0 || !isOccupied(grid.cells()[source])) {
-      continue;
+    const CellIndex place =
+        window.cellAt(old_base_in_new.position() + rotation * window.centreOf(cell));
+    if (window.contains(place) && !isOccupied(moved.at(place))) {
+      moved.at(place) = percent;
     }
-    const std::size_t column = source % slots.columns();
-    const std::size_t row = source / slots.columns();
-    const std::size_t target =
-        slots.at(motion.place(static_cast<double>(column), static_cast<double>(row)));
-    if (target != Slots::kOutside) {
-      Percent& cell = moved.cells()[target];
-      cell = std::max(cell, grid.cells()[source]);
-    }
-  }
+  });
 }
 
 /// Where in each row the discs around occupied cells begin (+1) and end (-1): one column more than
@@ -137,9 +78,9 @@ void forgetFreeAroundOccupied(SensorGrid& grid, double radius) {
 SensorGrid movedGrid(const SensorGrid& grid, Stamp stamp, const Pose2& old_base_in_new,
                      double mover_way) {
   SensorGrid moved(stamp, grid.window());
-  std::vector<char> taken(grid.cells().size());
-  pull(grid, old_base_in_new.inverse(), moved, taken);
-  pushOccupied(grid, old_base_in_new, taken, moved);
+  resample(grid, old_base_in_new, grid.window(),
+           [&moved](CellIndex cell, Percent percent) { moved.at(cell) = percent; });
+  pushOccupied(grid, old_base_in_new, moved);
   if (mover_way >= grid.window().cell_size) {
     forgetFreeAroundOccupied(moved, mover_way / grid.window().cell_size);
   }

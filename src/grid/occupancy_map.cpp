@@ -4,10 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Geometry>
-
+#include "datmo_fusion/grid/beam_walk.h"
 #include "datmo_fusion/grid/grid_resampling.h"
-#include "datmo_fusion/grid/ray_walk.h"
 
 namespace datmo {
 
@@ -250,12 +248,7 @@ void OccupancyMap::passBeam(const Ray& ray, const Pose2& base_in_map) {
   const Point2 from = base_in_map * ray.origin;
   const Point2 along = base_in_map * ray.end - from;
   const CellIndex end = window().cellAt(from + along);
-  const double spread = options_.beam_width * ray.range;
-  const int lines = 1 + static_cast<int>(std::ceil(spread / window().cell_size));
-  for (int line = 0; line < lines; ++line) {
-    const double turn =
-        lines == 1 ? 0.0 : options_.beam_width * (static_cast<double>(line) / (lines - 1) - 0.5);
-    const Point2 to = from + Eigen::Rotation2Dd(turn) * along;
+  forEachLine(window(), {from, along, ray.range, options_.beam_width}, [&](const Point2& to) {
     const CellIndex last = window().cellAt(to);
     const Point2 direction = (to - from).normalized();
     walkRay(window(), from, to, [&](CellIndex cell) {
@@ -265,7 +258,7 @@ void OccupancyMap::passBeam(const Ray& ray, const Pose2& base_in_map) {
         pass(cell, from, direction);
       }
     });
-  }
+  });
 }
 
 std::vector<std::int8_t> OccupancyMap::occupancyImage() const {

@@ -19,20 +19,22 @@ void resample(const SensorGrid& grid, const Pose2& grid_in_window, const GridWin
               Visit&& visit) {
   const GridWindow& source = grid.window();
   const Pose2 window_in_grid = grid_in_window.inverse();
-  const Point2 step = window.cell_size * window_in_grid.rotate(Point2::UnitX());
-  const Point2 low = source.origin();
-  const Point2 high = low + source.cell_size * Point2(source.columns, source.rows);
+  // Places are in cells from the grid's lower left corner.
+  const Point2 step = window.cell_size / source.cell_size * window_in_grid.rotate(Point2::UnitX());
+  const Point2 high(source.columns, source.rows);
   for (int row = window.corner.row; row < window.corner.row + window.rows; ++row) {
-    const Point2 start = window_in_grid * window.centreOf({window.corner.column, row});
+    const Point2 start =
+        (window_in_grid * window.centreOf({window.corner.column, row}) - source.origin()) /
+        source.cell_size;
     // Steps from the row's start after which it is inside of the grid, and is no more.
     double enter = 0.0;
     double leave = window.columns - 1;
     for (int axis = 0; axis < 2; ++axis) {
       if (step[axis] == 0.0) {
-        leave = start[axis] < low[axis] || start[axis] > high[axis] ? -1.0 : leave;
+        leave = start[axis] < 0.0 || start[axis] > high[axis] ? -1.0 : leave;
         continue;
       }
-      const double to_low = (low[axis] - start[axis]) / step[axis];
+      const double to_low = -start[axis] / step[axis];
       const double to_high = (high[axis] - start[axis]) / step[axis];
       enter = std::max(enter, std::min(to_low, to_high));
       leave = std::min(leave, std::max(to_low, to_high));
@@ -42,10 +44,13 @@ void resample(const SensorGrid& grid, const Pose2& grid_in_window, const GridWin
     }
     const int last = static_cast<int>(std::floor(leave));
     for (int i = static_cast<int>(std::ceil(enter)); i <= last; ++i) {
-      const CellIndex place = source.cellAt(start + i * step);
-      // By rounding the first and the last place may lie just outside.
-      if (source.contains(place)) {
-        visit(CellIndex{window.corner.column + i, row}, grid.at(place));
+      const Point2 place = start + i * step;
+      // Not negative but by rounding, and so without a floor, which is slow.
+      const CellIndex cell{source.corner.column + static_cast<int>(place.x()),
+                           source.corner.row + static_cast<int>(place.y())};
+      // By rounding the last place may lie just outside.
+      if (source.contains(cell)) {
+        visit(CellIndex{window.corner.column + i, row}, grid.at(cell));
       }
     }
   }

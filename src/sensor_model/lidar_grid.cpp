@@ -1,0 +1,103 @@
+#include "datmo_fusion/sensor_model/lidar_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "datmo_fusion/grid/beam_walk.h"
+
+namespace datmo {
+
+namespace {
+
+const LidarGridOptions& checked(const LidarGridOptions& options) {
+  checkOptions(options);
+  return options;
+}
+
+/// From a point to the farthest place in the window, m.
+double reachFrom(const Point2& point, const GridWindow& window) {
+  const Point2 low = window.origin();
+  const Point2 high = low + window.cell_size * Point2(window.columns, window.rows);
+  return (point - low).cwiseAbs().cwiseMax((point - high).cwiseAbs()).norm();
+}
+
+/// Writes what beams say into a grid.
+class BeamWriter {
+ public:
+  BeamWriter(SensorGrid& grid, double beam_width) : grid_(grid), beam_width_(beam_width) {}
+
+  void pass(const Ray& ray, Percent free) {
+    const Beam beam = beamOf(ray);
+    forEachLine(grid_.window(), beam, [&](const Point2& to) { write(beam.from, to, free); });
+  }
+
+  /// The arc at the measured range, in steps of a cell.
+  void end(const Ray& ray, Percent occupied) {
+    const Beam beam = beamOf(ray);
+    if (beam.range < ray.range) {
+      return;
+    }
+    Point2 previous = ray.end;
+    forEachLine(grid_.window(), beam, [&](const Point2& to) {
+      write(previous, to, occupied);
+      previous = to;
+    });
+  }
+
+ private:
+  /// As far as the window shows it: a far end would take long to walk to.
+  Beam beamOf(const Ray& ray) const {
+    const Point2 along = ray.end - ray.origin;
+    const double shown = std::min(1.0, reachFrom(ray.origin, grid_.window()) / ray.range);
+    return {ray.origin, shown * along, shown * ray.range, beam_width_};
+  }
+
+  void write(const Point2& from, const Point2& to, Percent percent) {
+    walkRay(grid_.window(), from, to, [&](CellIndex cell) {
+      if (grid_.window().contains(cell)) {
+        grid_.at(cell) = percent;
+      }
+    });
+  }
+
+  SensorGrid& grid_;
+  double beam_width_;
+};
+
+}  // namespace
+
+void LidarGridOptions::visit(OptionVisitor& visitor) {
+  window.visit(visitor);
+  visitor.number(
+      {"occupied_probability", "1", "occupancy of the cells in which a beam ends (thesis 3.2.1)"},
+      occupied_probability, {0.51, 0.99});
+  visitor.number(
+      {"free_probability", "1", "occupancy of the cells that a beam passes (thesis 3.2.1)"},
+      free_probability, {0.01, 0.49});
+  visitor.number({"beam_width", "rad",
+                  "opening angle of a beam; 0: it reaches half way to its neighbours (thesis "
+                  "3.2.1: each cell asks the nearest beam)"},
+                 beam_width, {0.0, 0.2});
+}
+
+LidarGridModel::LidarGridModel(const LidarGridOptions& options)
+    : options_(checked(options)), window_(options.window.window()) {}
+
+SensorGrid LidarGridModel::grid(const Scan& scan) const {
+  SensorGrid grid(scan.stamp, window_);
+  const double beam_width =
+      options_.beam_width > 0.0 ? options_.beam_width : std::abs(scan.field.beam_spacing);
+  BeamWriter writer(grid, beam_width);
+  for (const Ray& ray : scan.rays) {
+    writer.pass(ray, toPercent(options_.free_probability));
+  }
+  // After all that is free: an end wins over a neighbour that passes beside it.
+  for (const Ray& ray : scan.rays) {
+    if (ray.hit) {
+      writer.end(ray, toPercent(options_.occupied_probability));
+    }
+  }
+  return grid;
+}
+
+}  // namespace datmo
