@@ -51,6 +51,7 @@ void GroundTruthOptions::visit(OptionVisitor& visitor) {
                   "share of an object's width that must be in a sensor's sight for it to be named "
                   "visible"},
                  least_visible_share, {0.0, 1.0});
+  visitor.toggle({"echoes", "", "records what each beam's nearest echo came from"}, echoes);
 }
 
 LineOfSight lookAt(const ObjectState& object, const Viewpoint& view, const World& world,

@@ -14,6 +14,7 @@ namespace datmo::simulator {
 struct GroundTruthOptions {
   double radius = 60.0;              ///< m
   double least_visible_share = 0.5;  ///< 0 to 1
+  bool echoes = false;
 
   void visit(OptionVisitor& visitor);
 };

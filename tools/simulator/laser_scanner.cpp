@@ -94,7 +94,8 @@ void LaserScanner::addTargets(const RayCaster& caster, double heading, double pl
     }
     const double share = static_cast<double>(last - first) / options_.sub_rays;
     if (random_.chance(share / options_.full_detection_share)) {
-      targets.push_back({meanRange(first, last), first->object});
+      const double range = meanRange(first, last);
+      targets.push_back({range, first->object, first->surface});
     }
     first = last;
   }
@@ -110,7 +111,7 @@ std::vector<Echo> LaserScanner::castBeam(const RayCaster& caster, double heading
   for (int i = 0; i < options_.sub_rays; ++i) {
     const double offset = degrees(options_.horizontal_opening) * middleOfPart(i, options_.sub_rays);
     if (const std::optional<RayHit> hit = castSubRay(caster, heading + offset, band, faults)) {
-      hits.push_back({hit->range, hit->object});
+      hits.push_back({hit->range, hit->object, hit->surface});
     }
   }
   std::sort(hits.begin(), hits.end(), nearer);
@@ -149,6 +150,7 @@ std::vector<Echo> LaserScanner::reported(std::vector<Echo> targets) {
   }
   const double most = std::min(options_.effective_range, options_.most_range);
   for (Echo& echo : echoes) {
+    echo.true_range = echo.range;
     echo.range += random_.normal(options_.range_noise);
   }
   echoes.erase(std::remove_if(echoes.begin(), echoes.end(),

@@ -52,6 +52,8 @@ struct LaserScannerOptions {
 struct Echo {
   double range = 0.0;                ///< m, measured
   std::uint32_t object = kNoObject;  ///< what it came from
+  Surface surface = Surface::kBody;  ///< of what it came from
+  double true_range = 0.0;           ///< m, without noise
 };
 
 /// One measurement of all beams, from right to left.

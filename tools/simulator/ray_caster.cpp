@@ -1,5 +1,6 @@
 #include "simulator/ray_caster.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace datmo::simulator {
@@ -20,25 +21,45 @@ void RayCaster::addWithin(const std::vector<Solid>& solids, double reach) {
   }
 }
 
+bool RayCaster::mayMeet(const Candidate& candidate, const Point2& direction) const {
+  const Point2 to_centre = candidate.bound.centre - origin_;
+  const double along = to_centre.dot(direction);
+  const double across = direction.x() * to_centre.y() - direction.y() * to_centre.x();
+  return along >= -candidate.bound.radius && std::abs(across) <= candidate.bound.radius;
+}
+
 std::optional<RayHit> RayCaster::nearest(double heading, const HeightBand& band, Surface surface,
                                          double reach) const {
   const HalfLine ray = halfLine(origin_, heading);
   std::optional<RayHit> best;
   for (const Candidate& candidate : candidates_) {
-    const Point2 to_centre = candidate.bound.centre - origin_;
-    const double along = to_centre.dot(ray.direction);
-    const double across = ray.direction.x() * to_centre.y() - ray.direction.y() * to_centre.x();
-    if (candidate.solid->surface != surface || along < -candidate.bound.radius ||
-        std::abs(across) > candidate.bound.radius) {
+    if (candidate.solid->surface != surface || !mayMeet(candidate, ray.direction)) {
       continue;
     }
     const std::optional<double> range = rangeTo(candidate.solid->outline, ray);
     const double most = best ? best->range : reach;
     if (range && *range <= most && band.lights(candidate.solid->height, *range)) {
-      best = RayHit{*range, candidate.solid->object};
+      best = RayHit{*range, candidate.solid->object, surface};
     }
   }
   return best;
+}
+
+std::vector<Passage> RayCaster::passages(double heading, double reach) const {
+  const HalfLine ray = halfLine(origin_, heading);
+  std::vector<Passage> found;
+  for (const Candidate& candidate : candidates_) {
+    if (candidate.solid->surface == Surface::kPaint || !mayMeet(candidate, ray.direction)) {
+      continue;
+    }
+    const std::optional<RaySpan> span = spanAlong(candidate.solid->outline, ray);
+    if (span && span->enter > 0.0 && span->enter <= reach) {
+      found.push_back({*span, candidate.solid});
+    }
+  }
+  std::sort(found.begin(), found.end(),
+            [](const Passage& a, const Passage& b) { return a.span.enter < b.span.enter; });
+  return found;
 }
 
 }  // namespace datmo::simulator

@@ -23,6 +23,13 @@ struct HeightBand {
 struct RayHit {
   double range = 0.0;  ///< m
   std::uint32_t object = kNoObject;
+  Surface surface = Surface::kBody;
+};
+
+/// The way of a ray over a solid that stands in it.
+struct Passage {
+  RaySpan span;                  ///< m from the ray's origin, over the solid's outline
+  const Solid* solid = nullptr;  ///< lives as long as the world and its state
 };
 
 /// Sends rays from one place into the world at one time; only what is within reach is looked at.
@@ -36,12 +43,19 @@ class RayCaster {
   std::optional<RayHit> nearest(double heading, const HeightBand& band, Surface surface,
                                 double reach) const;
 
+  /// All that stands (bodies and kerbs, not paint) along a heading (rad, world frame) and begins
+  /// ahead of the origin, not farther than `reach`; the nearest first. Heights are left to the
+  /// caller: a low thing hides only a part of what is behind it.
+  std::vector<Passage> passages(double heading, double reach) const;
+
  private:
   struct Candidate {
     const Solid* solid = nullptr;
     Circle bound;
   };
 
+  /// Whether the ray comes near enough to the solid to meet it.
+  bool mayMeet(const Candidate& candidate, const Point2& direction) const;
   void addWithin(const std::vector<Solid>& solids, double reach);
 
   Point2 origin_;

@@ -5,6 +5,7 @@
 #include "simulator/ground_truth.h"
 #include "simulator/laser_scanner.h"
 #include "simulator/odometer.h"
+#include "simulator/stereo_camera.h"
 #include "simulator/traffic.h"
 #include "simulator/world.h"
 
@@ -18,6 +19,7 @@ struct SimulationOptions {
   double duration = 20.0;  ///< s
   std::string compression = "none";
   LaserScannerOptions scanner;
+  StereoCameraOptions stereo;
   OdometerOptions odometer;
   GroundTruthOptions ground_truth;
   TrafficOptions traffic;

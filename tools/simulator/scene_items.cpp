@@ -76,6 +76,7 @@ void SimulationOptions::visit(OptionVisitor& visitor) {
   visitor.number({"duration", "s", "of the bag"}, duration, {0.1, 36000.0});
   visitor.text({"compression", "", "of the bag"}, compression, {"none", "bz2", "lz4"});
   visitor.group("scanner", [&] { scanner.visit(visitor); });
+  visitor.group("stereo", [&] { stereo.visit(visitor); });
   visitor.group("odometer", [&] { odometer.visit(visitor); });
   visitor.group("ground_truth", [&] { ground_truth.visit(visitor); });
   visitor.group("traffic", [&] { traffic.visit(visitor); });

@@ -25,14 +25,7 @@ void cutWithSlab(double origin, double direction, double half, double& enter, do
   leave = std::min(leave, std::max(first, second));
 }
 
-std::optional<double> firstAhead(double enter, double leave) {
-  if (enter > leave || leave < 0.0) {
-    return std::nullopt;
-  }
-  return enter >= 0.0 ? enter : leave;
-}
-
-std::optional<double> rangeToBox(const Box2& box, const HalfLine& ray) {
+std::optional<RaySpan> spanInBox(const Box2& box, const HalfLine& ray) {
   const Pose2 world_in_box = box.centre.inverse();
   const Point2 origin = world_in_box * ray.origin;
   const Point2 direction = world_in_box.rotate(ray.direction);
@@ -40,10 +33,13 @@ std::optional<double> rangeToBox(const Box2& box, const HalfLine& ray) {
   double leave = std::numeric_limits<double>::infinity();
   cutWithSlab(origin.x(), direction.x(), 0.5 * box.length, enter, leave);
   cutWithSlab(origin.y(), direction.y(), 0.5 * box.width, enter, leave);
-  return firstAhead(enter, leave);
+  if (enter > leave) {
+    return std::nullopt;
+  }
+  return RaySpan{enter, leave};
 }
 
-std::optional<double> rangeToCircle(const Circle& circle, const HalfLine& ray) {
+std::optional<RaySpan> spanInCircle(const Circle& circle, const HalfLine& ray) {
   const Point2 to_centre = circle.centre - ray.origin;
   const double along = to_centre.dot(ray.direction);
   const double across = cross(ray.direction, to_centre);
@@ -52,10 +48,10 @@ std::optional<double> rangeToCircle(const Circle& circle, const HalfLine& ray) {
     return std::nullopt;
   }
   const double half_chord = std::sqrt(half_chord_squared);
-  return firstAhead(along - half_chord, along + half_chord);
+  return RaySpan{along - half_chord, along + half_chord};
 }
 
-std::optional<double> rangeToSegment(const Segment& segment, const HalfLine& ray) {
+std::optional<RaySpan> spanOnSegment(const Segment& segment, const HalfLine& ray) {
   const Point2 edge = segment.end - segment.start;
   const Point2 to_start = segment.start - ray.origin;
   const double denominator = cross(ray.direction, edge);
@@ -64,10 +60,10 @@ std::optional<double> rangeToSegment(const Segment& segment, const HalfLine& ray
   }
   const double range = cross(to_start, edge) / denominator;
   const double share = cross(to_start, ray.direction) / denominator;
-  if (range < 0.0 || share < 0.0 || share > 1.0) {
+  if (share < 0.0 || share > 1.0) {
     return std::nullopt;
   }
-  return range;
+  return RaySpan{range, range};
 }
 
 double distanceToSegment(const Segment& segment, const Point2& point) {
@@ -136,14 +132,22 @@ Circle boundingCircle(const Shape& shape) {
   return {0.5 * (segment.start + segment.end), 0.5 * (segment.end - segment.start).norm()};
 }
 
-std::optional<double> rangeTo(const Shape& shape, const HalfLine& ray) {
+std::optional<RaySpan> spanAlong(const Shape& shape, const HalfLine& ray) {
   if (const auto* box = std::get_if<Box2>(&shape)) {
-    return rangeToBox(*box, ray);
+    return spanInBox(*box, ray);
   }
   if (const auto* circle = std::get_if<Circle>(&shape)) {
-    return rangeToCircle(*circle, ray);
+    return spanInCircle(*circle, ray);
   }
-  return rangeToSegment(std::get<Segment>(shape), ray);
+  return spanOnSegment(std::get<Segment>(shape), ray);
+}
+
+std::optional<double> rangeTo(const Shape& shape, const HalfLine& ray) {
+  const std::optional<RaySpan> span = spanAlong(shape, ray);
+  if (!span || span->leave < 0.0) {
+    return std::nullopt;
+  }
+  return span->enter >= 0.0 ? span->enter : span->leave;
 }
 
 double distanceTo(const Shape& shape, const Point2& point) {

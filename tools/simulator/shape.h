@@ -30,8 +30,17 @@ struct HalfLine {
 /// The half line from a point at a heading (rad).
 HalfLine halfLine(const Point2& origin, double heading);
 
+/// The part of a half line that lies within an outline, m from its origin; negative: behind it.
+struct RaySpan {
+  double enter = 0.0;
+  double leave = 0.0;  ///< not less than `enter`; the same on a segment
+};
+
 /// The smallest circle about the shape's middle that holds all of it.
 Circle boundingCircle(const Shape& shape);
+
+/// Where the half line's whole line is within the outline; nothing if it passes by.
+std::optional<RaySpan> spanAlong(const Shape& shape, const HalfLine& ray);
 
 /// Range (m) at which the half line first meets the outline; from inside, where it leaves.
 std::optional<double> rangeTo(const Shape& shape, const HalfLine& ray);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "output_bag.h"
 #include "simulator/simulation_messages.h"
+#include "simulator/stereo_messages.h"
 #include <tf2_msgs/TFMessage.h>
 
 #include "datmo_fusion/ros/message_conversion.h"
@@ -18,8 +20,8 @@ namespace {
 /// s of ROS time at the start; well above 0, which ROS takes for "no time".
 constexpr double kEpoch = 1000.0;
 
-/// A sensor that measures at a rate and records what it measures. A further sensor (stereo) is one
-/// more class that measures a World with a random stream of its own name, and one more source.
+/// A sensor that measures at a rate and records what it measures. A further sensor is one more
+/// class that measures a World with a random stream of its own name, and one more source.
 struct Source {
   double rate = 1.0;                            ///< Hz
   std::function<void(double time, Stamp)> run;  ///< `time` in s since the start
@@ -36,7 +38,11 @@ class Recording {
         bag_(bag),
         map_in_world_(scene.world.at(0.0).base),
         scanner_(scene.options.scanner, stream("scanner")),
-        odometer_(scene.options.odometer, stream("odometer")) {}
+        odometer_(scene.options.odometer, stream("odometer")) {
+    if (scene.options.stereo.enabled) {
+      stereo_.emplace(scene.options.stereo, static_cast<std::uint64_t>(scene.options.seed));
+    }
+  }
 
   void recordMounts() {
     const Viewpoint view = scanner_.viewpoint();
@@ -44,15 +50,23 @@ class Recording {
     tf2_msgs::TFMessage message;
     message.transforms.push_back(toTransform(view.sensor_in_base, start, "base_link", view.sensor));
     message.transforms.back().transform.translation.z = view.height;
+    if (stereo_) {
+      message.transforms.push_back(toMount(scene_.options.stereo, start));
+    }
     bag_.writeLatched("/tf_static", toTime(start), message);
   }
 
   /// In the order in which measurements of the same time are recorded.
   std::vector<Source> sources() {
-    return {{scene_.options.odometer.rate,
-             [this](double time, Stamp stamp) { recordOdometry(time, stamp); }},
-            {scene_.options.scanner.scan_rate,
-             [this](double time, Stamp stamp) { recordScan(time, stamp); }}};
+    std::vector<Source> sources{{scene_.options.odometer.rate,
+                                 [this](double time, Stamp stamp) { recordOdometry(time, stamp); }},
+                                {scene_.options.scanner.scan_rate,
+                                 [this](double time, Stamp stamp) { recordScan(time, stamp); }}};
+    if (stereo_) {
+      sources.push_back({scene_.options.stereo.rate,
+                         [this](double time, Stamp stamp) { recordStereo(time, stamp); }});
+    }
+    return sources;
   }
 
  private:
@@ -86,12 +100,27 @@ class Recording {
   }
 
   void recordTruth(const WorldState& state, const EchoScan& scan, Stamp stamp) {
-    const auto objects = objectTruths(scene_.world, state, scan, {scanner_.viewpoint()},
-                                      scene_.options.ground_truth);
+    std::vector<Viewpoint> views{scanner_.viewpoint()};
+    if (stereo_) {
+      views.push_back(stereo_->viewpoint());
+    }
+    const auto objects =
+        objectTruths(scene_.world, state, scan, views, scene_.options.ground_truth);
     write("/ground_truth/pose", stamp, toTruePose(state, map_in_world_, stamp));
     write("/ground_truth/objects", stamp, toMessage(objects, map_in_world_, stamp));
     write("/ground_truth/road_borders", stamp,
           toTrueBorders(scene_.world.roads(), state, map_in_world_, stamp));
+    if (scene_.options.ground_truth.echoes) {
+      write("/ground_truth/echoes", stamp, toTrueEchoes(scan, stamp));
+    }
+  }
+
+  void recordStereo(double time, Stamp stamp) {
+    const StereoPoints points = stereo_->measure(scene_.world, time);
+    const Stamp ready = stamp + scene_.options.stereo.latency;
+    write("/stereo/left/camera_info", ready, toLeftInfo(scene_.options.stereo, stamp));
+    write("/stereo/right/camera_info", ready, toRightInfo(scene_.options.stereo, stamp));
+    write("/stereo/points2", ready, toCloud(points, stamp));
   }
 
   const Scene& scene_;
@@ -99,6 +128,7 @@ class Recording {
   Pose2 map_in_world_;
   LaserScanner scanner_;
   Odometer odometer_;
+  std::optional<StereoCamera> stereo_;
 };
 
 rosbag::CompressionType compressionType(const std::string& name) {

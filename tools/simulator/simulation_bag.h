@@ -11,9 +11,10 @@ namespace datmo::simulator {
 using Progress = std::function<bool(double)>;
 
 /// Runs the scene and writes what its sensors measure and what is true into a bag: `/scan` or
-/// `/echoes`, `/odometry`, `/tf`, `/tf_static`, `/ground_truth/...` (rosbag_fixtures/README.md).
-/// The same scene gives the same bytes. The clock starts at 1000 s of ROS time; messages are
-/// recorded at their stamps, scans when their last beam is measured.
+/// `/echoes`, `/stereo/...` if there is such a camera, `/odometry`, `/tf`, `/tf_static`,
+/// `/ground_truth/...` (rosbag_fixtures/README.md). The same scene gives the same bytes. The clock
+/// starts at 1000 s of ROS time; messages are recorded at their stamps, scans when their last beam
+/// is measured, points of the stereo camera after its latency.
 ///
 /// Returns false, and leaves no bag, if `progress` breaks it off. Throws std::runtime_error that
 /// names the file if it cannot be written.

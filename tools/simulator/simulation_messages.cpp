@@ -66,6 +66,18 @@ TrueObject toMessage(const ObjectTruth& truth, const Pose2& world_in_map) {
   return message;
 }
 
+std::uint8_t surfaceOf(const Echo& echo) {
+  switch (echo.surface) {
+    case Surface::kBody:
+      return TrueEchoes::BODY;
+    case Surface::kKerb:
+      return TrueEchoes::KERB;
+    case Surface::kPaint:
+      break;
+  }
+  return TrueEchoes::PAINT;
+}
+
 }  // namespace
 
 sensor_msgs::LaserScan toLaserScan(const EchoScan& scan, const LaserScannerOptions& options,
@@ -87,6 +99,24 @@ sensor_msgs::MultiEchoLaserScan toMultiEchoScan(const EchoScan& scan,
       beam.echoes.push_back(static_cast<float>(echo.range));
     }
     message.ranges.push_back(beam);
+  }
+  return message;
+}
+
+TrueEchoes toTrueEchoes(const EchoScan& scan, Stamp stamp) {
+  TrueEchoes message;
+  message.header = header(stamp, "scanner");
+  for (const std::vector<Echo>& echoes : scan.beams) {
+    if (echoes.empty()) {
+      message.surfaces.push_back(TrueEchoes::NOTHING);
+      message.objects.push_back(kNoObject);
+      message.ranges.push_back(0.0F);
+      continue;
+    }
+    const Echo& nearest = echoes.front();
+    message.surfaces.push_back(surfaceOf(nearest));
+    message.objects.push_back(nearest.object);
+    message.ranges.push_back(static_cast<float>(nearest.true_range));
   }
   return message;
 }

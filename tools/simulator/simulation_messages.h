@@ -24,6 +24,9 @@ sensor_msgs::LaserScan toLaserScan(const EchoScan& scan, const LaserScannerOptio
 sensor_msgs::MultiEchoLaserScan toMultiEchoScan(const EchoScan& scan,
                                                 const LaserScannerOptions& options, Stamp stamp);
 
+/// What the nearest echo of each beam came from.
+TrueEchoes toTrueEchoes(const EchoScan& scan, Stamp stamp);
+
 nav_msgs::Odometry toMessage(const Odometry& odometry, Stamp stamp);
 
 /// The following are in the frame of the ground truth, the world as `map_in_world` sees it.

@@ -4,6 +4,7 @@
 #include <datmo_fusion/SplitScan.h>
 #include <datmo_fusion/StageTiming.h>
 #include <datmo_fusion/TrackArray.h>
+#include <datmo_fusion/TrueEchoes.h>
 #include <datmo_fusion/TrueObjectArray.h>
 #include <datmo_fusion/TrueRoadBorders.h>
 
@@ -28,6 +29,7 @@ using datmo_fusion::StageTimingConstPtr;
 using datmo_fusion::TrackArray;
 using datmo_fusion::TrackArrayConstPtr;
 using datmo_fusion::TrackArrayPtr;
+using datmo_fusion::TrueEchoes;
 using datmo_fusion::TrueObject;
 using datmo_fusion::TrueObjectArray;
 using datmo_fusion::TrueObjectArrayConstPtr;

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "simulator/disparity_image.h"
+#include "simulator/random_stream.h"
+
+namespace datmo::simulator {
+
+/// Faults of stereo matching, in the order in which they are put on an image. Each changes
+/// `measured` only.
+
+/// Takes away what the right camera does not see: background beside the left border of nearer
+/// things, and what lies left of the right image.
+void removeHidden(DisparityImage& image);
+
+/// At most `width` px beside a nearer thing, and with this probability (0 to 1), background gets a
+/// disparity between its own and the nearer one.
+void mixEdges(DisparityImage& image, int width, double probability, RandomStream& random);
+
+/// Adds noise of standard deviation `sigma` (px); `common_share` (0 to 1) of its variance is
+/// common to neighbours, over patches of `patch` px.
+void addNoise(DisparityImage& image, double sigma, double common_share, int patch,
+              RandomStream& random);
+
+/// Wrong matches: a share (0 to 1) of all patches of `patch` px gets one disparity of its own, any
+/// from `least` to `most` px.
+void addOutliers(DisparityImage& image, double share, int patch, double least, double most,
+                 RandomStream& random);
+
+}  // namespace datmo::simulator

@@ -1,0 +1,32 @@
+#include "simulator/sight_line.h"
+
+namespace datmo::simulator {
+
+std::optional<SightEnd> endOf(const SightLine& line, const std::vector<Passage>& passages) {
+  std::optional<SightEnd> nearest;
+  double reach = line.reach;
+  const auto take = [&](const SightEnd& end) {
+    if (end.range <= reach) {
+      nearest = end;
+      reach = end.range;
+    }
+  };
+  if (line.fall > 0.0) {
+    take({line.height / line.fall, 0.0, nullptr});
+  }
+  for (const Passage& passage : passages) {
+    if (passage.span.enter > reach) {
+      break;
+    }
+    const double height = line.height - line.fall * passage.span.enter;
+    const double top = passage.solid->height;
+    if (height <= top) {
+      take({passage.span.enter, height, passage.solid});
+    } else if (line.height - line.fall * passage.span.leave < top) {
+      take({(line.height - top) / line.fall, top, passage.solid});
+    }
+  }
+  return nearest;
+}
+
+}  // namespace datmo::simulator

@@ -1,0 +1,85 @@
+#include "simulator/stereo_camera.h"
+
+namespace datmo::simulator {
+
+namespace {
+
+void visitMount(StereoCameraOptions& o, OptionVisitor& visitor) {
+  visitor.toggle({"enabled", "", "the vehicle has a stereo camera"}, o.enabled);
+  visitor.number({"mount_x", "m",
+                  "cameras ahead of the rear axle; behind the windscreen (thesis fig. 1.4), value "
+                  "assumed"},
+                 o.mount_x, {-10.0, 10.0});
+  visitor.number({"mount_y", "m", "left camera left of the vehicle's middle; half of the baseline"},
+                 o.mount_y, {-3.0, 3.0});
+  visitor.number({"mount_height", "m", "cameras above the road; assumed"}, o.mount_height,
+                 {0.05, 5.0});
+  visitor.number({"baseline", "m", "from the left camera to the right one"}, o.baseline,
+                 {0.01, 5.0});
+}
+
+void visitImages(StereoCameraOptions& o, OptionVisitor& visitor) {
+  constexpr double kMostPixels = 4096.0;
+  visitor.number({"rate", "Hz", "pairs of images"}, o.rate, {0.1, 100.0});
+  visitor.number({"latency", "s", "from a pair's exposure, its stamp, to its points; assumed"},
+                 o.latency, {0.0, 1.0});
+  visitor.integer({"image_width", "px", "of the rectified and down-sampled images; assumed"},
+                  o.image_width, {16.0, kMostPixels});
+  visitor.integer({"image_height", "px", "of these images; assumed"}, o.image_height,
+                  {16.0, kMostPixels});
+  visitor.number({"focal_length", "px", "of these images: 68 deg from side to side; assumed"},
+                 o.focal_length, {10.0, 10000.0});
+  visitor.integer({"column_step", "px", "a point for every so many columns"}, o.column_step,
+                  {1.0, 64.0});
+  visitor.integer({"row_step", "px", "a point for every so many rows"}, o.row_step, {1.0, 64.0});
+  visitor.number({"least_range", "m", "depth of the nearest points; assumed"}, o.least_range,
+                 {0.1, 100.0});
+  visitor.number({"most_range", "m", "depth of the farthest points; assumed"}, o.most_range,
+                 {1.0, 1000.0});
+  visitor.number({"effective_range", "m",
+                  "what is farther away does not count as visible in the ground truth; thesis "
+                  "3.3.3: 36"},
+                 o.effective_range, {1.0, 1000.0});
+}
+
+void visitMatching(StereoCameraOptions& o, OptionVisitor& visitor) {
+  visitor.number(
+      {"disparity_noise", "px", "standard deviation: two of them are 5 m at 36 m (thesis 3.3.3)"},
+      o.disparity_noise, {0.0, 10.0});
+  visitor.number({"noise_common_share", "1",
+                  "share of the noise's variance that neighbours have in common, as matching by "
+                  "windows or paths makes it; assumed"},
+                 o.noise_common_share, {0.0, 1.0});
+  visitor.integer({"noise_patch", "px", "over which noise is common; assumed"}, o.noise_patch,
+                  {1.0, 512.0});
+  visitor.number({"weak_texture_patch", "m", "size of a place without texture; assumed"},
+                 o.weak_texture_patch, {0.01, 100.0});
+  visitor.number(
+      {"weak_texture_share", "1", "share of such places on what stands: no points there; assumed"},
+      o.weak_texture_share, {0.0, 1.0});
+  visitor.number({"weak_road_share", "1", "share of such places on the road; assumed"},
+                 o.weak_road_share, {0.0, 1.0});
+  visitor.integer({"edge_width", "px",
+                   "so far beside a nearer thing the background's disparity may be wrong; assumed"},
+                  o.edge_width, {0.0, 64.0});
+  visitor.number({"edge_mixing", "1", "probability that it is, and lies between the two; assumed"},
+                 o.edge_mixing, {0.0, 1.0});
+  visitor.number({"outlier_share", "1", "share of wrong matches, at any depth; assumed"},
+                 o.outlier_share, {0.0, 1.0});
+  visitor.integer({"outlier_patch", "px", "size of a wrong match; assumed"}, o.outlier_patch,
+                  {1.0, 512.0});
+  visitor.number({"pitch_shake", "deg",
+                  "standard deviation of the vehicle's nod, which the points do not know of; as "
+                  "the scanner's"},
+                 o.pitch_shake, {0.0, 5.0});
+}
+
+}  // namespace
+
+void StereoCameraOptions::visit(OptionVisitor& visitor) {
+  visitMount(*this, visitor);
+  visitImages(*this, visitor);
+  visitMatching(*this, visitor);
+}
+
+}  // namespace datmo::simulator

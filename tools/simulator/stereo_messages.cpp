@@ -1,0 +1,88 @@
+#include "simulator/stereo_messages.h"
+
+#include <cstring>
+
+#include <sensor_msgs/distortion_models.h>
+
+#include "datmo_fusion/ros/stamp_check.h"
+
+namespace datmo::simulator {
+
+namespace {
+
+const char* const kFrame = "stereo_left_optical";
+
+sensor_msgs::PointField floatField(const std::string& name, std::uint32_t offset) {
+  sensor_msgs::PointField field;
+  field.name = name;
+  field.offset = offset;
+  field.datatype = sensor_msgs::PointField::FLOAT32;
+  field.count = 1;
+  return field;
+}
+
+}  // namespace
+
+geometry_msgs::TransformStamped toMount(const StereoCameraOptions& options, Stamp stamp) {
+  geometry_msgs::TransformStamped message;
+  message.header.stamp = toTime(stamp);
+  message.header.frame_id = "base_link";
+  message.child_frame_id = kFrame;
+  message.transform.translation.x = options.mount_x;
+  message.transform.translation.y = options.mount_y;
+  message.transform.translation.z = options.mount_height;
+  // The optical axes in base_link's: z is its x, x its -y, y its -z.
+  message.transform.rotation.x = -0.5;
+  message.transform.rotation.y = 0.5;
+  message.transform.rotation.z = -0.5;
+  message.transform.rotation.w = 0.5;
+  return message;
+}
+
+sensor_msgs::PointCloud2 toCloud(const StereoPoints& points, Stamp stamp) {
+  constexpr std::uint32_t kFloat = sizeof(float);
+  sensor_msgs::PointCloud2 message;
+  message.header.stamp = toTime(stamp);
+  message.header.frame_id = kFrame;
+  message.height = 1;
+  message.width = static_cast<std::uint32_t>(points.points.size());
+  message.fields = {floatField("x", 0), floatField("y", kFloat), floatField("z", 2 * kFloat)};
+  message.is_bigendian = 0U;
+  message.point_step = 3 * kFloat;
+  message.row_step = message.point_step * message.width;
+  message.is_dense = 1U;
+  message.data.resize(message.row_step);
+  std::size_t offset = 0;
+  for (const Eigen::Vector3f& point : points.points) {
+    std::memcpy(&message.data[offset], point.data(), message.point_step);
+    offset += message.point_step;
+  }
+  return message;
+}
+
+sensor_msgs::CameraInfo toLeftInfo(const StereoCameraOptions& options, Stamp stamp) {
+  constexpr std::size_t kDistortions = 5;  // of plumb_bob
+  const double focal = options.focal_length;
+  const double column = options.middleColumn();
+  const double row = options.middleRow();
+  sensor_msgs::CameraInfo message;
+  message.header.stamp = toTime(stamp);
+  message.header.frame_id = kFrame;
+  message.width = static_cast<std::uint32_t>(options.image_width);
+  message.height = static_cast<std::uint32_t>(options.image_height);
+  message.distortion_model = sensor_msgs::distortion_models::PLUMB_BOB;
+  message.D.resize(kDistortions, 0.0);
+  message.K = {focal, 0.0, column, 0.0, focal, row, 0.0, 0.0, 1.0};
+  message.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+  message.P = {focal, 0.0, column, 0.0, 0.0, focal, row, 0.0, 0.0, 0.0, 1.0, 0.0};
+  return message;
+}
+
+sensor_msgs::CameraInfo toRightInfo(const StereoCameraOptions& options, Stamp stamp) {
+  constexpr std::size_t kBaselineTerm = 3;  // of the 3 x 4 projection
+  sensor_msgs::CameraInfo message = toLeftInfo(options, stamp);
+  message.P[kBaselineTerm] = -options.focal_length * options.baseline;
+  return message;
+}
+
+}  // namespace datmo::simulator

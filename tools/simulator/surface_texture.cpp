@@ -1,0 +1,57 @@
+#include "simulator/surface_texture.h"
+
+#include <cmath>
+
+namespace datmo::simulator {
+
+namespace {
+
+/// Cubes begin off the middles and borders of solids, where rounding would flicker between two.
+constexpr double kOffset = 0.137;
+
+/// SplitMix64's finaliser (Steele, Lea, Flood, "Fast splittable pseudorandom number generators",
+/// 2014): each bit of the result hangs on each bit of the value.
+std::uint64_t mixed(std::uint64_t value) {
+  value += 0x9e3779b97f4a7c15ULL;
+  value = (value ^ (value >> 30U)) * 0xbf58476d1ce4e5b9ULL;
+  value = (value ^ (value >> 27U)) * 0x94d049bb133111ebULL;
+  return value ^ (value >> 31U);
+}
+
+/// From 0 to below 1.
+double toShare(std::uint64_t hash) {
+  constexpr unsigned kUnusedBits = 11;  // a double's mantissa holds 53 of the 64 bits
+  return std::ldexp(static_cast<double>(hash >> kUnusedBits), -53);
+}
+
+/// The point as the solid itself sees it.
+Point2 inFrameOf(const Solid& solid, const Point2& point) {
+  if (const auto* box = std::get_if<Box2>(&solid.outline)) {
+    return box->centre.inverse() * point;
+  }
+  if (const auto* circle = std::get_if<Circle>(&solid.outline)) {
+    return point - circle->centre;
+  }
+  return point;
+}
+
+}  // namespace
+
+SurfaceTexture::SurfaceTexture(double patch, double share_on_solids, double share_on_road,
+                               std::uint64_t seed)
+    : patch_(patch),
+      share_on_solids_(share_on_solids),
+      share_on_road_(share_on_road),
+      seed_(seed) {}
+
+bool SurfaceTexture::isEven(const SightEnd& end, const Point2& point) const {
+  const Point2 place = end.solid != nullptr ? inFrameOf(*end.solid, point) : point;
+  std::uint64_t hash = mixed(seed_ ^ (end.solid != nullptr ? end.solid->object : kNoObject));
+  for (const double coordinate : {place.x(), place.y(), end.height}) {
+    const auto index = static_cast<std::int64_t>(std::floor((coordinate + kOffset) / patch_));
+    hash = mixed(hash ^ static_cast<std::uint64_t>(index));
+  }
+  return toShare(hash) < (end.solid != nullptr ? share_on_solids_ : share_on_road_);
+}
+
+}  // namespace datmo::simulator
