@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "stereo_images_options.h"
+#include "stereo_pairs.h"
+
+#include <sensor_msgs/PointCloud2.h>
+
+#include "datmo_fusion/ros/stage_monitor.h"
+#include "datmo_fusion/ros/stamp_check.h"
+
+namespace stereo_image_proc {
+class StereoProcessor;
+}
+
+namespace datmo {
+
+/// Pairs of images -> clouds, as the nodelets image_proc/rectify, stereo_image_proc/disparity and
+/// stereo_image_proc/point_cloud2 publish them on points2: by their own library, with their
+/// parameters, without a master. Points: x, y, z (m, optical frame of the left camera) and rgb, one
+/// for each pixel; NaN where no disparity was found. Its stamp is the left image's.
+///
+/// Bad input is dropped through the monitor, never thrown.
+class StereoImages {
+ public:
+  /// `rectified`: the images are already; if not, they are rectified by their calibration.
+  /// `monitor` must outlive the stage. Throws OptionError.
+  StereoImages(const StereoImagesOptions& options, bool rectified, StageMonitor& monitor);
+  ~StereoImages();
+  StereoImages(const StereoImages&) = delete;
+  StereoImages& operator=(const StereoImages&) = delete;
+
+  /// The cloud of the pair that the message completes; null if there is none. An image is mono8,
+  /// rgb8 or bgr8.
+  sensor_msgs::PointCloud2Ptr takeImage(StereoSide side, const sensor_msgs::ImageConstPtr& image);
+  sensor_msgs::PointCloud2Ptr takeInfo(StereoSide side,
+                                       const sensor_msgs::CameraInfoConstPtr& info);
+
+ private:
+  /// Whichever camera jumps back first, both begin anew. These three throw InputError.
+  void checkStamp(StereoSide side, const ros::Time& stamp);
+  sensor_msgs::PointCloud2Ptr serve(const std::optional<StereoPair>& pair);
+  sensor_msgs::PointCloud2Ptr cloudOf(const StereoPair& pair) const;
+
+  bool rectified_;
+  StageMonitor& monitor_;
+  StereoPairs pairs_;
+  std::uint64_t unpaired_ = 0;  ///< frames that were reported
+  StampCheck left_stamps_;
+  StampCheck right_stamps_;
+  std::unique_ptr<stereo_image_proc::StereoProcessor> processor_;
+};
+
+}  // namespace datmo

@@ -1,0 +1,76 @@
+#include "stereo_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "datmo_fusion/ros/stamp_check.h"
+
+namespace datmo {
+
+namespace {
+
+/// Frames of one camera that wait for the other: as many as the nodelets' queues hold.
+constexpr std::size_t kLongestQueue = 5;
+
+}  // namespace
+
+std::optional<StereoPair> StereoPairs::takeImage(StereoSide side,
+                                                 const sensor_msgs::ImageConstPtr& image) {
+  CameraFrame& frame = frameAt(side, toStamp(image->header.stamp));
+  frame.image = image;
+  return pairWith(side, CameraFrame(frame));
+}
+
+std::optional<StereoPair> StereoPairs::takeInfo(StereoSide side,
+                                                const sensor_msgs::CameraInfoConstPtr& info) {
+  CameraFrame& frame = frameAt(side, toStamp(info->header.stamp));
+  frame.info = info;
+  return pairWith(side, CameraFrame(frame));
+}
+
+void StereoPairs::clear() {
+  left_.clear();
+  right_.clear();
+}
+
+CameraFrame& StereoPairs::frameAt(StereoSide side, Stamp stamp) {
+  Frames& frames = framesOf(side);
+  auto place = std::find_if(frames.begin(), frames.end(),
+                            [&](const CameraFrame& frame) { return !(frame.stamp < stamp); });
+  if (place != frames.end() && place->stamp == stamp) {
+    return *place;
+  }
+  place = frames.insert(place, CameraFrame{stamp, nullptr, nullptr});
+  if (frames.size() <= kLongestQueue) {
+    return *place;
+  }
+  ++unpaired_;
+  const auto index = std::max<std::ptrdiff_t>(place - frames.begin() - 1, 0);
+  frames.pop_front();
+  return frames[static_cast<std::size_t>(index)];
+}
+
+std::optional<StereoPair> StereoPairs::pairWith(StereoSide side, const CameraFrame& frame) {
+  const bool left = side == StereoSide::kLeft;
+  Frames& others = left ? right_ : left_;
+  const auto partner = std::find_if(others.begin(), others.end(), [&](const CameraFrame& other) {
+    return other.complete() && std::abs(secondsBetween(frame.stamp, other.stamp)) <= tolerance_;
+  });
+  if (!frame.complete() || partner == others.end()) {
+    return std::nullopt;
+  }
+  const StereoPair pair = left ? StereoPair{frame, *partner} : StereoPair{*partner, frame};
+  dropUpTo(left_, pair.left.stamp);
+  dropUpTo(right_, pair.right.stamp);
+  return pair;
+}
+
+void StereoPairs::dropUpTo(Frames& frames, Stamp stamp) {
+  while (frames.front().stamp < stamp) {
+    frames.pop_front();
+    ++unpaired_;
+  }
+  frames.pop_front();
+}
+
+}  // namespace datmo
