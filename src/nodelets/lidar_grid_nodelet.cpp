@@ -1,0 +1,75 @@
+#include <memory>
+
+#include <nodelet/nodelet.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "datmo_fusion/ros/lidar_grid_stage.h"
+#include "datmo_fusion/ros/parameters.h"
+#include "datmo_fusion/ros/stage_reporter.h"
+#include "datmo_fusion/ros/transform_subscription.h"
+
+namespace datmo {
+
+/// The door to LidarGridStage. In: scan or echoes, odometry, tf. Out: grids/lidar.
+class LidarGridNodelet : public nodelet::Nodelet {
+ private:
+  void onInit() override {
+    const auto options = loadOptions<LidarGridStageOptions>(getPrivateNodeHandle());
+    monitor_ = std::make_unique<StageMonitor>(getName());
+    transforms_ = std::make_unique<TransformBuffer>(options.input.restart_after);
+    stage_ = std::make_unique<LidarGridStage>(options, *transforms_, *monitor_);
+    std::vector<std::string> inputs{"scan"};
+    if (options.motion.odometry) {
+      inputs.emplace_back("odometry");
+    }
+    reporter_ = std::make_unique<StageReporter>(getNodeHandle(), getPrivateNodeHandle(), *monitor_,
+                                                inputs, options.input.silence_after);
+    grid_ = getNodeHandle().advertise<nav_msgs::OccupancyGrid>("grids/lidar", kQueue);
+    subscribe(options.motion.odometry);
+  }
+
+  void subscribe(bool with_odometry) {
+    ros::NodeHandle& node = getNodeHandle();
+    const auto hints = ros::TransportHints().tcpNoDelay();
+    transform_subscription_ = std::make_unique<TransformSubscription>(node, *transforms_);
+    if (with_odometry) {
+      odometry_ = node.subscribe("odometry", kQueue, &LidarGridNodelet::takeOdometry, this, hints);
+    }
+    scan_ = node.subscribe("scan", kQueue, &LidarGridNodelet::takeScan<sensor_msgs::LaserScan>,
+                           this, hints);
+    echoes_ =
+        node.subscribe("echoes", kQueue,
+                       &LidarGridNodelet::takeScan<sensor_msgs::MultiEchoLaserScan>, this, hints);
+  }
+
+  void takeOdometry(const nav_msgs::OdometryConstPtr& message) {
+    monitor_->received("odometry", toStamp(ros::Time::now()));
+    stage_->takeOdometry(*message);
+  }
+
+  template <typename Message>
+  void takeScan(const boost::shared_ptr<const Message>& message) {
+    monitor_->received("scan", toStamp(ros::Time::now()));
+    if (const auto grid = stage_->takeScan(*message)) {
+      grid_.publish(grid);
+      reporter_->publishTiming();
+    }
+  }
+
+  /// A second of scans or odometry: enough for a hiccup, and bounded.
+  static constexpr std::uint32_t kQueue = 20;
+
+  std::unique_ptr<StageMonitor> monitor_;
+  std::unique_ptr<TransformBuffer> transforms_;
+  std::unique_ptr<LidarGridStage> stage_;
+  std::unique_ptr<StageReporter> reporter_;
+  std::unique_ptr<TransformSubscription> transform_subscription_;
+  ros::Publisher grid_;
+  ros::Subscriber odometry_;
+  ros::Subscriber scan_;
+  ros::Subscriber echoes_;
+};
+
+}  // namespace datmo
+
+PLUGINLIB_EXPORT_CLASS(datmo::LidarGridNodelet, nodelet::Nodelet)
