@@ -19,15 +19,16 @@ struct StereoConesOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// When the columns of the image call a cell occupied or free.
+/// When what is seen in the columns of the image makes a cell occupied or free.
 struct StereoColumnsOptions {
-  double least_surface = 0.03;          ///< m^2, in a cell
-  double least_object_surface = 0.1;    ///< m^2, in all cells of an object
-  double doubtful_surface_share = 0.3;  ///< of least_surface, 0 to 1
-  double peak_share = 0.8;              ///< 0 to 1
-  double road_sigmas = 2.0;             ///< standard deviations of the depth
-  double obstacle_sigmas = 1.5;         ///< standard deviations of the depth
-  double least_seen_share = 0.3;        ///< 0 to 1
+  double least_surface = 0.03;        ///< m^2
+  double least_object_surface = 0.1;  ///< m^2
+  double doubtful_share = 0.3;        ///< of least_surface, 0 to 1
+  double peak_share = 0.8;            ///< 0 to 1
+  double road_sigmas = 2.0;           ///< standard deviations of the depth
+  double obstacle_sigmas = 1.5;       ///< standard deviations of the depth
+  double least_seen_share = 0.3;      ///< 0 to 1
+  int least_lines = 3;
 
   void visit(OptionVisitor& visitor);
 };
@@ -70,14 +71,16 @@ class StereoEvidence;
 /// stochastic occupancy grids and dynamic programming, 2007); the road is a plane estimated from
 /// the points; free is only what enough lines of sight cross near the ground.
 ///
-/// Not thread safe. Keeps the last road plane from cloud to cloud.
+/// A cloud may be dense or thinned, organised or not: how dense it is, it tells itself. Not thread
+/// safe. Keeps the last road plane from cloud to cloud.
 class StereoGridModel {
  public:
   /// Throws OptionError.
   explicit StereoGridModel(const StereoGridOptions& options);
   ~StereoGridModel();
 
-  /// Throws std::invalid_argument for a cloud whose camera is none: see checkCamera.
+  /// Throws std::invalid_argument for a camera without focal length, baseline, disparity noise or
+  /// width, one that looks straight up or down, and one that is not above the road.
   StereoGridResult grid(const StereoCloud& cloud);
 
   /// Forgets the last road plane, as after construction.

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "stereo_view.h"
+
+#include "datmo_fusion/grid/grid_window.h"
+#include "datmo_fusion/sensor_model/stereo_cloud.h"
+
+namespace datmo {
+
+/// Part of the ground that a stereo camera's grid speaks of.
+struct FieldOfView {
+  double left_tangent = 0.0;  ///< right / forward
+  double right_tangent = 0.0;
+  double nearest_depth = 0.0;    ///< m, along the camera's heading
+  double effective_range = 0.0;  ///< m, from the camera
+
+  bool contains(const ViewedPlace& place) const {
+    return place.forward > nearest_depth && place.right >= left_tangent * place.forward &&
+           place.right <= right_tangent * place.forward &&
+           std::hypot(place.forward, place.right) <= effective_range;
+  }
+};
+
+/// `visit(CellIndex, ViewedPlace)` for each cell of the window whose centre is in view, row by row.
+template <typename Visit>
+void forEachCellInView(const GridWindow& window, const StereoView& view, const FieldOfView& field,
+                       Visit&& visit) {
+  const Point2 reach(field.effective_range, field.effective_range);
+  const CellIndex low = window.cellAt(view.position() - reach);
+  const CellIndex high = window.cellAt(view.position() + reach);
+  const CellIndex& corner = window.corner;
+  const int end_row = std::min(high.row + 1, corner.row + window.rows);
+  const int end_column = std::min(high.column + 1, corner.column + window.columns);
+  for (int row = std::max(low.row, corner.row); row < end_row; ++row) {
+    for (int column = std::max(low.column, corner.column); column < end_column; ++column) {
+      const CellIndex cell{column, row};
+      const ViewedPlace place = view.placeOf(window.centreOf(cell));
+      if (field.contains(place)) {
+        visit(cell, place);
+      }
+    }
+  }
+}
+
+}  // namespace datmo

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "datmo_fusion/sensor_model/stereo_cloud.h"
+
+namespace datmo {
+
+/// Depth ahead of a stereo camera cut into bins as fine as it can tell apart: half a standard
+/// deviation of the depth, uniform in disparity (Badino et al. 2007), but near the vehicle no finer
+/// than the cells need.
+class DepthBins {
+ public:
+  DepthBins() = default;
+  /// From the camera to `farthest`; bins of `finest` at least. m, both above 0.
+  DepthBins(const StereoCamera& camera, double farthest, double finest);
+
+  int size() const { return static_cast<int>(middles_.size()); }
+
+  /// Middle of a bin, m.
+  float middle(int bin) const { return middles_[static_cast<std::size_t>(bin)]; }
+
+  bool contains(float depth) const { return depth >= 0.0F && depth < farthest_; }
+
+  /// The bin that holds a depth which contains() says is inside.
+  int at(float depth) const { return bin_at_[place(depth)]; }
+
+  /// How many bins have their middle nearer than this depth (0 or more, or not a number: all).
+  int before(float depth) const { return depth < farthest_ ? before_[place(depth)] : size(); }
+
+ private:
+  std::size_t place(float depth) const {
+    return static_cast<std::size_t>(depth * places_per_metre_);
+  }
+
+  float farthest_ = 0.0F;
+  float places_per_metre_ = 0.0F;
+  std::vector<float> middles_;
+  std::vector<int> bin_at_;  ///< by place: half of the finest bin
+  std::vector<int> before_;
+};
+
+}  // namespace datmo

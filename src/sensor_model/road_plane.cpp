@@ -1,0 +1,196 @@
+#include "datmo_fusion/sensor_model/road_plane.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "stereo_view.h"
+#include <Eigen/Cholesky>
+
+namespace datmo {
+
+namespace {
+
+/// Points that are looked at, of however many there are: a few for each square metre.
+constexpr std::size_t kMostSamples = 20000;
+
+/// Side of the cells that have one vote each, m.
+constexpr double kVoteSize = 1.0;
+
+/// Samples without which a cell has no vote.
+constexpr int kLeastSamples = 2;
+
+/// One round of the fit: how far out, as a share of the way, and how far from the last plane, in
+/// tolerances, its points may be. A pitch is small in metres where it is near.
+struct Round {
+  double reach;
+  double tolerances;
+};
+constexpr std::array<Round, 6> kRounds = {
+    {{0.35, 6.0}, {0.35, 3.0}, {0.5, 2.5}, {0.7, 2.0}, {1.0, 2.0}, {1.0, 1.0}}};
+
+struct Sample {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< base frame, m
+  double depth = 0.0;                                  ///< m ahead of the camera
+  std::size_t cell = 0;                                ///< that it votes in
+};
+
+/// A square metre's points that are near to the last plane.
+struct Vote {
+  Eigen::Vector3d position_sum = Eigen::Vector3d::Zero();
+  double depth_sum = 0.0;
+  int count = 0;
+
+  void add(const Sample& sample) {
+    position_sum += sample.position;
+    depth_sum += sample.depth;
+    ++count;
+  }
+};
+
+/// Plane through the votes, each weighed by the variance of its height; nothing for too few.
+class PlaneFit {
+ public:
+  void add(const Eigen::Vector3d& position, double variance) {
+    const Eigen::Vector3d row(1.0, position.x(), position.y());
+    information_ += row * row.transpose() / variance;
+    sum_ += row * position.z() / variance;
+    ++votes_;
+  }
+
+  int votes() const { return votes_; }
+
+  RoadPlane plane() const {
+    const Eigen::Vector3d solution = information_.ldlt().solve(sum_);
+    return {solution[0], solution[1], solution[2]};
+  }
+
+ private:
+  Eigen::Matrix3d information_ = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d sum_ = Eigen::Vector3d::Zero();
+  int votes_ = 0;
+};
+
+/// The square metres where the road is looked for, and the points in them.
+class RoadSamples {
+ public:
+  RoadSamples(const StereoCloud& cloud, const RoadPlaneOptions& options)
+      : options_(options),
+        camera_(cloud.camera),
+        camera_height_(cloud.camera_in_base.translation().z()),
+        columns_(static_cast<std::size_t>(std::ceil(2.0 * options.half_width / kVoteSize))),
+        cells_(columns_ * static_cast<std::size_t>(std::ceil(options.farthest / kVoteSize))) {
+    const StereoView view(cloud, RoadPlane());
+    const std::size_t stride = cloud.points.count / kMostSamples + 1;
+    samples_.reserve(kMostSamples);
+    for (std::size_t begin = 0; begin + stride <= cloud.points.count; begin += stride) {
+      const Eigen::Vector3f point = cloud.points[begin + offset(begin / stride, stride)];
+      const ViewedPoint seen = view(point);
+      const double column = std::floor((seen.right + options.half_width) / kVoteSize);
+      if (seen.forward > 0.0F && seen.forward < options.farthest && column >= 0.0 &&
+          column < static_cast<double>(columns_)) {
+        const auto row = static_cast<std::size_t>(seen.forward / kVoteSize);
+        samples_.push_back({cloud.camera_in_base * point.cast<double>(), seen.forward,
+                            row * columns_ + static_cast<std::size_t>(column)});
+      }
+    }
+  }
+
+  /// Through the samples that are near to a plane.
+  PlaneFit fitNear(const RoadPlane& plane, const Round& round) const {
+    std::vector<Vote> votes(cells_);
+    for (const Sample& sample : samples_) {
+      const double most =
+          std::hypot(round.tolerances * options_.tolerance, 2.0 * heightSigma(sample.depth));
+      if (sample.depth < round.reach * options_.farthest &&
+          std::abs(plane.heightOf(sample.position)) < most) {
+        votes[sample.cell].add(sample);
+      }
+    }
+    PlaneFit fit;
+    for (const Vote& vote : votes) {
+      if (vote.count >= kLeastSamples) {
+        const double sigma =
+            std::hypot(options_.tolerance, heightSigma(vote.depth_sum / vote.count));
+        fit.add(vote.position_sum / vote.count, sigma * sigma);
+      }
+    }
+    return fit;
+  }
+
+ private:
+  /// m, of a point of the road: lines of sight fall by the camera's height on their way to it, so
+  /// that a depth that is off by its standard deviation lifts or lowers the point.
+  double heightSigma(double depth) const {
+    return camera_height_ * camera_.depthSigma(depth) / depth;
+  }
+
+  /// Which of `stride` points is taken: spread by the golden ratio, so that no width of an image
+  /// makes all of them fall on the same columns.
+  static std::size_t offset(std::size_t block, std::size_t stride) {
+    constexpr double kGolden = 0.6180339887498949;
+    const double turns = static_cast<double>(block) * kGolden;
+    return static_cast<std::size_t>((turns - std::floor(turns)) * static_cast<double>(stride));
+  }
+
+  const RoadPlaneOptions& options_;
+  StereoCamera camera_;
+  double camera_height_;  ///< m
+  std::size_t columns_;
+  std::size_t cells_;
+  std::vector<Sample> samples_;
+};
+
+}  // namespace
+
+void RoadPlaneOptions::visit(OptionVisitor& visitor) {
+  visitor.toggle({"estimate", "",
+                  "find the road's plane in the points; false: the road is flat, z = 0 of the "
+                  "vehicle's frame (thesis 3.2.2)"},
+                 estimate);
+  visitor.number({"farthest", "m", "how far ahead of the camera the road is looked for"}, farthest,
+                 {5.0, 100.0});
+  visitor.number({"half_width", "m", "how far to either side of it"}, half_width, {1.0, 50.0});
+  visitor.number({"tolerance", "m",
+                  "points farther from the plane are none of the road's: less than a kerb's "
+                  "height; beside that, they may be off by the noise of their depth"},
+                 tolerance, {0.01, 0.5});
+  visitor.integer({"least_cells", "1", "square metres of road without which no plane is credible"},
+                  least_cells, {3, 1000});
+  visitor.number({"most_slope", "m/m", "a plane steeper than this against the vehicle is no road"},
+                 most_slope, {0.0, 0.5});
+  visitor.number({"most_height", "m", "nor one farther from the vehicle's z = 0 at its origin"},
+                 most_height, {0.0, 2.0});
+}
+
+RoadPlaneEstimator::RoadPlaneEstimator(const RoadPlaneOptions& options) : options_(options) {
+  checkOptions(options);
+}
+
+std::optional<RoadPlane> RoadPlaneEstimator::update(const StereoCloud& cloud) {
+  if (!options_.estimate) {
+    return std::nullopt;
+  }
+  const RoadSamples road(cloud, options_);
+  RoadPlane plane = last_;
+  bool seen = false;
+  for (const Round& round : kRounds) {
+    const PlaneFit fit = road.fitNear(plane, round);
+    seen = fit.votes() >= options_.least_cells;
+    if (seen) {
+      plane = fit.plane();
+    }
+  }
+  // In this order a plane that is none is not credible.
+  const bool credible = std::abs(plane.height) <= options_.most_height &&
+                        std::abs(plane.slope_x) <= options_.most_slope &&
+                        std::abs(plane.slope_y) <= options_.most_slope;
+  if (!seen || !credible) {
+    return std::nullopt;
+  }
+  last_ = plane;
+  return plane;
+}
+
+}  // namespace datmo

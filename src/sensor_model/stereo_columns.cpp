@@ -1,0 +1,129 @@
+#include "stereo_columns.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cell_objects.h"
+
+#include "datmo_fusion/grid/ray_walk.h"
+
+namespace datmo {
+
+namespace {
+
+/// A peak is looked for so far (standard deviations of the depth) to both sides, in such steps.
+constexpr double kPeakReach = 2.0;
+constexpr double kPeakStep = 0.5;
+
+}  // namespace
+
+StereoColumns::StereoColumns(const StereoGridOptions& options, const StereoCamera& camera,
+                             const StereoView& view, const FieldOfView& field,
+                             const StereoEvidence& evidence)
+    : options_(options),
+      view_(view),
+      field_(field),
+      evidence_(evidence),
+      half_cell_(0.5 * options.window.cell_size),
+      inverse_sigma_(camera.depthSigma(1.0)) {}
+
+void StereoColumns::fill(SensorGrid& grid) const {
+  markCells(grid);
+  removeNoise(grid);
+  addMargins(grid);
+}
+
+StereoColumns::Depths StereoColumns::around(double depth, double sigmas) const {
+  // The noise is uniform in the inverse depth; what may be endlessly far is cut where nothing is of
+  // interest any more.
+  const double inverse = 1.0 / depth;
+  const double least_inverse = 1.0 / (2.0 * field_.effective_range);
+  return {1.0 / (inverse + sigmas * inverse_sigma_),
+          1.0 / std::max(least_inverse, inverse - sigmas * inverse_sigma_)};
+}
+
+double StereoColumns::surfaceAt(const ViewedPlace& place) const {
+  const Depths depths = around(place.forward, 1.0);
+  return evidence_.surface(place, half_cell_, std::min(depths.near, place.forward - half_cell_),
+                           std::max(depths.far, place.forward + half_cell_));
+}
+
+bool StereoColumns::isPeak(const ViewedPlace& place, double surface) const {
+  const Depths reach = around(place.forward, kPeakReach);
+  if (reach.far - reach.near <= 2.0 * half_cell_) {
+    return true;
+  }
+  const double most = surface / options_.columns.peak_share;
+  for (double sigmas = -kPeakReach; sigmas <= kPeakReach; sigmas += kPeakStep) {
+    const double depth = 1.0 / (1.0 / place.forward + sigmas * inverse_sigma_);
+    if (depth > 0.0 && depth < 2.0 * field_.effective_range &&
+        surfaceAt({depth, place.tangent() * depth}) > most) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool StereoColumns::isSeenThrough(const ViewedPlace& place) const {
+  const int lines = evidence_.lines(place, half_cell_);
+  return lines >= options_.columns.least_lines &&
+         lines >= options_.columns.least_seen_share * evidence_.expectedLines(place, half_cell_);
+}
+
+void StereoColumns::markCells(SensorGrid& grid) const {
+  const Percent occupied = toPercent(options_.occupied_probability);
+  const Percent free = toPercent(options_.free_probability);
+  const double least = options_.columns.least_surface;
+  const double doubtful = options_.columns.doubtful_share * least;
+  forEachCellInView(grid.window(), view_, field_, [&](CellIndex cell, const ViewedPlace& place) {
+    const double surface = surfaceAt(place);
+    if (surface >= least) {
+      if (isPeak(place, surface)) {
+        grid.at(cell) = occupied;
+      }
+    } else if (surface < doubtful && isSeenThrough(place)) {
+      grid.at(cell) = free;
+    }
+  });
+}
+
+void StereoColumns::removeNoise(SensorGrid& grid) const {
+  for (const auto& object : objectsIn(grid)) {
+    double surface = 0.0;
+    for (const CellIndex cell : object) {
+      const ViewedPlace place = view_.placeOf(grid.window().centreOf(cell));
+      const Depths depths = around(place.forward, 1.0);
+      // What the cell's neighbours count as theirs too is shared with them.
+      const double share = std::min(1.0, 2.0 * half_cell_ / (depths.far - depths.near));
+      surface += share * surfaceAt(place);
+    }
+    if (surface < options_.columns.least_object_surface) {
+      for (const CellIndex cell : object) {
+        grid.at(cell) = kUnknownPercent;
+      }
+    }
+  }
+}
+
+void StereoColumns::addMargins(SensorGrid& grid) const {
+  const SensorGrid marked = grid;
+  const auto clear = [&grid](CellIndex cell) {
+    for (int row = cell.row - 1; row <= cell.row + 1; ++row) {
+      for (int column = cell.column - 1; column <= cell.column + 1; ++column) {
+        if (isFree(grid.atOrUnknown({column, row}))) {
+          grid.at({column, row}) = kUnknownPercent;
+        }
+      }
+    }
+  };
+  marked.forEach([&](CellIndex cell, Percent percent) {
+    if (isOccupied(percent)) {
+      const ViewedPlace place = view_.placeOf(grid.window().centreOf(cell));
+      const Depths depths = around(place.forward, options_.columns.obstacle_sigmas);
+      walkRay(grid.window(), view_.positionOf({depths.near, place.tangent() * depths.near}),
+              view_.positionOf({depths.far, place.tangent() * depths.far}), clear);
+    }
+  });
+}
+
+}  // namespace datmo

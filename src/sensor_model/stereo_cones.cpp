@@ -1,0 +1,108 @@
+#include "stereo_cones.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "cell_objects.h"
+
+#include "datmo_fusion/grid/rolling_grid.h"
+
+namespace datmo {
+
+namespace {
+
+/// What an object hides: bearings from the camera (rad, rising to the right), and beyond which
+/// range (m).
+struct Cone {
+  double least_bearing = std::numeric_limits<double>::infinity();
+  double most_bearing = -std::numeric_limits<double>::infinity();
+  double range = std::numeric_limits<double>::infinity();
+};
+
+double bearingOf(const ViewedPlace& place) { return std::atan2(place.right, place.forward); }
+double rangeOf(const ViewedPlace& place) { return std::hypot(place.right, place.forward); }
+
+/// How many points of the layer each cell holds (eq. 3.2.2): the thesis's grid of counts.
+RollingGrid<int> countPoints(const StereoGridOptions& options, const StereoCloud& cloud,
+                             const StereoView& view, const FieldOfView& field,
+                             const GridWindow& window, StereoCounts& counts) {
+  RollingGrid<int> grid(window, 0);
+  for (std::size_t i = 0; i < cloud.points.count; ++i) {
+    const ViewedPoint point = view(cloud.points[i]);
+    const ViewedPlace place{point.forward, point.right};
+    if (!(point.forward > 0.0F && std::isfinite(point.forward))) {
+      continue;
+    }
+    ++counts.points;
+    const double height = point.height - cloud.scanner_height;
+    if (height > 0.0 && height < options.layer_thickness && field.contains(place)) {
+      ++counts.in_layer;
+      const CellIndex cell = window.cellAt(view.positionOf(place));
+      if (window.contains(cell)) {
+        ++grid.at(cell);
+      }
+    }
+  }
+  return grid;
+}
+
+/// Sum over a cell and its eight neighbours (eq. 3.2.3).
+int sumAround(const RollingGrid<int>& counts, CellIndex cell) {
+  int sum = 0;
+  for (int row = cell.row - 1; row <= cell.row + 1; ++row) {
+    for (int column = cell.column - 1; column <= cell.column + 1; ++column) {
+      sum += counts.atOrEmpty({column, row});
+    }
+  }
+  return sum;
+}
+
+Cone coneOf(const std::vector<CellIndex>& object, const GridWindow& window,
+            const StereoView& view) {
+  Cone cone;
+  for (const CellIndex cell : object) {
+    const ViewedPlace place = view.placeOf(window.centreOf(cell));
+    const double bearing = bearingOf(place);
+    cone.least_bearing = std::min(cone.least_bearing, bearing);
+    cone.most_bearing = std::max(cone.most_bearing, bearing);
+    cone.range = std::min(cone.range, rangeOf(place));
+  }
+  return cone;
+}
+
+bool isHidden(const ViewedPlace& place, const std::vector<Cone>& cones) {
+  const double bearing = bearingOf(place);
+  const double range = rangeOf(place);
+  return std::any_of(cones.begin(), cones.end(), [&](const Cone& cone) {
+    return bearing >= cone.least_bearing && bearing <= cone.most_bearing && range > cone.range;
+  });
+}
+
+}  // namespace
+
+StereoCounts fillByCones(const StereoGridOptions& options, const StereoCloud& cloud,
+                         const StereoView& view, const FieldOfView& field, SensorGrid& grid) {
+  StereoCounts result;
+  const GridWindow& window = grid.window();
+  const RollingGrid<int> counts = countPoints(options, cloud, view, field, window, result);
+  forEachCellInView(window, view, field, [&](CellIndex cell, const ViewedPlace& /*place*/) {
+    if (sumAround(counts, cell) > options.cones.threshold) {
+      grid.at(cell) = toPercent(options.occupied_probability);
+    }
+  });
+  std::vector<Cone> cones;
+  for (const auto& object : objectsIn(grid)) {
+    cones.push_back(coneOf(object, window, view));
+  }
+  forEachCellInView(window, view, field, [&](CellIndex cell, const ViewedPlace& place) {
+    if (!isOccupied(grid.at(cell))) {
+      grid.at(cell) =
+          isHidden(place, cones) ? kUndecidedPercent : toPercent(options.free_probability);
+    }
+  });
+  return result;
+}
+
+}  // namespace datmo

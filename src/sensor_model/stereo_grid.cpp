@@ -1,0 +1,137 @@
+#include "datmo_fusion/sensor_model/stereo_grid.h"
+
+#include <algorithm>
+
+#include "cells_in_view.h"
+#include "stereo_columns.h"
+#include "stereo_cones.h"
+#include "stereo_evidence.h"
+#include "stereo_view.h"
+
+namespace datmo {
+
+namespace {
+
+constexpr char kColumns[] = "columns";
+constexpr char kCones[] = "cones";
+
+/// Points up to so many standard deviations beyond the effective range still belong to it.
+constexpr double kBeyondRange = 2.0;
+
+FieldOfView fieldOf(const StereoGridOptions& options, const StereoCamera& camera) {
+  return {camera.left_tangent, camera.right_tangent, options.nearest_depth,
+          options.effective_range};
+}
+
+EvidenceLimits limitsOf(const StereoGridOptions& options, const StereoCloud& cloud) {
+  EvidenceLimits limits;
+  limits.cell_size = options.window.cell_size;
+  limits.nearest_depth = options.nearest_depth;
+  limits.farthest_depth = std::min(
+      2.0 * options.effective_range,
+      options.effective_range + kBeyondRange * cloud.camera.depthSigma(options.effective_range));
+  limits.layer_bottom = std::max(options.least_layer_height, cloud.scanner_height);
+  limits.layer_top = limits.layer_bottom + options.layer_thickness;
+  limits.road_sigmas = options.columns.road_sigmas;
+  limits.obstacle_sigmas = options.columns.obstacle_sigmas;
+  return limits;
+}
+
+}  // namespace
+
+void StereoConesOptions::visit(OptionVisitor& visitor) {
+  visitor.integer({"threshold", "1",
+                   "a cell with more points than this in it and its eight neighbours is occupied "
+                   "(V_thr of thesis eq. 3.2.3)"},
+                  threshold, {0, 1000000});
+}
+
+void StereoColumnsOptions::visit(OptionVisitor& visitor) {
+  visitor.number(
+      {"least_surface", "m^2",
+       "a cell is occupied in which at least so much surface is seen between the layer's "
+       "bottom and its top; a pole of 0.1 m width has 0.1 m^2 for each metre of height"},
+      least_surface, {0.0001, 10.0});
+  visitor.number({"least_object_surface", "m^2",
+                  "neighbouring cells with less surface than this in all are noise"},
+                 least_object_surface, {0.0, 100.0});
+  visitor.number({"doubtful_share", "1",
+                  "a cell with this share of least_surface is not called free any more"},
+                 doubtful_share, {0.0, 1.0});
+  visitor.number({"peak_share", "1",
+                  "of what lies behind each other within the noise of the depth, cells with this "
+                  "share of the most surface are occupied; 0: all of them"},
+                 peak_share, {0.0, 1.0});
+  visitor.number({"road_sigmas", "1",
+                  "a point is one of the road if a depth that is wrong by so many standard "
+                  "deviations puts it where it is"},
+                 road_sigmas, {0.0, 10.0});
+  visitor.number({"obstacle_sigmas", "1",
+                  "places nearer to an obstacle than so many standard deviations of its depth are "
+                  "not called free"},
+                 obstacle_sigmas, {0.0, 10.0});
+  visitor.number({"least_seen_share", "1",
+                  "a cell is free if at least this share of the lines of sight that cross it below "
+                  "the layer's bottom, in an image without holes, goes on to a point"},
+                 least_seen_share, {0.0, 1.0});
+  visitor.integer({"least_lines", "1", "and at least so many of them"}, least_lines, {1, 10000});
+}
+
+void StereoGridOptions::visit(OptionVisitor& visitor) {
+  visitor.group("window", [&] { window.visit(visitor); });
+  visitor.text(
+      {"method", "",
+       "columns: surface and lines of sight in columns of the image, on an estimated road; "
+       "cones: counts of points and cones of objects on a flat road (thesis 3.2.2)"},
+      method, {kColumns, kCones});
+  visitor.number({"occupied_probability", "1", "of an occupied cell (thesis figure 3.4)"},
+                 occupied_probability, {0.51, 1.0});
+  visitor.number({"free_probability", "1", "of a free cell being occupied (thesis figure 3.4)"},
+                 free_probability, {0.0, 0.49});
+  visitor.number({"least_layer_height", "m",
+                  "the layer of obstacles begins at the planar scanner's height, but not nearer to "
+                  "the road than this (columns only)"},
+                 least_layer_height, {0.05, 2.0});
+  visitor.number({"layer_thickness", "m", "height of the layer of obstacles (thesis eq. 3.2.2)"},
+                 layer_thickness, {0.1, 5.0});
+  visitor.number({"nearest_depth", "m", "nearer points are mismatches (columns only)"},
+                 nearest_depth, {0.05, 10.0});
+  visitor.number({"effective_range", "m", "nothing is said beyond it (thesis 3.2.2: 36 m)"},
+                 effective_range, {1.0, 200.0});
+  visitor.group("columns", [&] { columns.visit(visitor); });
+  visitor.group("cones", [&] { cones.visit(visitor); });
+  visitor.group("road", [&] { road.visit(visitor); });
+}
+
+StereoGridModel::StereoGridModel(const StereoGridOptions& options)
+    : options_(options),
+      window_(options.window.window()),
+      road_(options.road),
+      evidence_(std::make_unique<StereoEvidence>()) {
+  checkOptions(options);
+}
+
+StereoGridModel::~StereoGridModel() = default;
+
+StereoGridResult StereoGridModel::grid(const StereoCloud& cloud) {
+  StereoGridResult result;
+  result.grid = SensorGrid(cloud.stamp, window_);
+  const FieldOfView field = fieldOf(options_, cloud.camera);
+  if (options_.method == kCones) {
+    const StereoView view(cloud, result.road);
+    const StereoCounts counts = fillByCones(options_, cloud, view, field, result.grid);
+    result.points = counts.points;
+    result.in_layer = counts.in_layer;
+    return result;
+  }
+  result.road_seen = road_.update(cloud).has_value();
+  result.road = road_.last();
+  const StereoView view(cloud, result.road);
+  evidence_->take(cloud, view, limitsOf(options_, cloud));
+  StereoColumns(options_, cloud.camera, view, field, *evidence_).fill(result.grid);
+  result.points = evidence_->points();
+  result.in_layer = evidence_->inLayer();
+  return result;
+}
+
+}  // namespace datmo

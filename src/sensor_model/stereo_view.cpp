@@ -1,0 +1,43 @@
+#include "stereo_view.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace datmo {
+
+namespace {
+
+/// Least horizontal part of the optical axis, 0 to 1: steeper, the camera has no heading.
+constexpr double kLeastLevel = 0.1;
+
+void checkCamera(const StereoCamera& camera) {
+  const bool measures =
+      camera.focal_length > 0.0 && camera.baseline > 0.0 && camera.disparity_sigma > 0.0;
+  // In this order a number that is not one is refused as well.
+  if (!measures || !(camera.right_tangent > camera.left_tangent)) {
+    throw std::invalid_argument(
+        "stereo camera: expected a focal length, a baseline and a disparity noise above 0, and a "
+        "right border of the image to the right of the left one");
+  }
+}
+
+}  // namespace
+
+StereoView::StereoView(const StereoCloud& cloud, const RoadPlane& road)
+    : position_(cloud.camera_in_base.translation().head<2>()) {
+  checkCamera(cloud.camera);
+  const Eigen::Matrix3d rotation = cloud.camera_in_base.linear();
+  const Point2 axis = rotation.col(2).head<2>();
+  if (!(axis.norm() > kLeastLevel)) {
+    throw std::invalid_argument("stereo camera: expected to look along the ground, not at it");
+  }
+  heading_ = axis.normalized();
+  Eigen::Matrix3d to_view;
+  to_view.row(0) << heading_.x(), heading_.y(), 0.0;
+  to_view.row(1) << heading_.y(), -heading_.x(), 0.0;
+  to_view.row(2) << -road.slope_x, -road.slope_y, 1.0;
+  from_optical_ = (to_view * rotation).cast<float>();
+  camera_height_ = static_cast<float>(road.heightOf(cloud.camera_in_base.translation()));
+}
+
+}  // namespace datmo

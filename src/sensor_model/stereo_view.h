@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "datmo_fusion/common/pose2.h"
+#include "datmo_fusion/sensor_model/road_plane.h"
+#include "datmo_fusion/sensor_model/stereo_cloud.h"
+
+namespace datmo {
+
+/// A place as the camera sees it from above: m from the camera along its horizontal heading, and to
+/// the right of it.
+struct ViewedPlace {
+  double forward = 0.0;
+  double right = 0.0;
+
+  double tangent() const { return right / forward; }
+};
+
+/// A point as the camera sees it from above, with its height above the road; m.
+struct ViewedPoint {
+  float forward = 0.0F;
+  float right = 0.0F;
+  float height = 0.0F;
+};
+
+/// The camera brought level: however it is pitched, places are told by how far ahead and aside they
+/// are, and points by their height above the road. In this view a column of a level image is a
+/// sector of constant right / forward, and a line of sight stays in its column.
+class StereoView {
+ public:
+  /// Throws std::invalid_argument for a camera that has no focal length, baseline, disparity noise
+  /// or width, or looks straight up or down.
+  StereoView(const StereoCloud& cloud, const RoadPlane& road);
+
+  /// `optical`: in the camera's optical frame, m. Not finite in, not finite `forward` out.
+  ViewedPoint operator()(const Eigen::Vector3f& optical) const {
+    const Eigen::Vector3f turned = from_optical_ * optical;
+    return {turned[0], turned[1], turned[2] + camera_height_};
+  }
+
+  /// `position`: base frame, m.
+  ViewedPlace placeOf(const Point2& position) const {
+    const Point2 way = position - position_;
+    return {way.dot(heading_), heading_.y() * way.x() - heading_.x() * way.y()};
+  }
+
+  /// Base frame, m.
+  Point2 positionOf(const ViewedPlace& place) const {
+    return position_ + place.forward * heading_ + place.right * Point2(heading_.y(), -heading_.x());
+  }
+
+  /// Of the camera, in the base frame, m.
+  const Point2& position() const { return position_; }
+  /// Above the road, m.
+  float cameraHeight() const { return camera_height_; }
+
+ private:
+  Point2 position_;
+  Point2 heading_;
+  Eigen::Matrix3f from_optical_;  ///< rows: forward, right, up from the road
+  float camera_height_ = 0.0F;
+};
+
+}  // namespace datmo

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace datmo {
+
+/// A table of counts that tells the sum over any rectangle of it in four look-ups: a summed-area
+/// table (Crow, Summed-area tables for texture mapping, 1984).
+class SummedCounts {
+ public:
+  /// All 0, and not yet summed. Keeps its memory.
+  void reset(int rows, int columns) {
+    stride_ = static_cast<std::size_t>(columns) + 1;
+    counts_.assign((static_cast<std::size_t>(rows) + 1) * stride_, 0);
+  }
+
+  /// Before sumUp(); row and column must be in the table.
+  void add(int row, int column, int count) { counts_[slot(row + 1, column + 1)] += count; }
+
+  /// After the last add(), before the first sum().
+  void sumUp() {
+    for (std::size_t begin = stride_; begin < counts_.size(); begin += stride_) {
+      int row_sum = 0;
+      for (std::size_t i = begin; i < begin + stride_; ++i) {
+        row_sum += counts_[i];
+        counts_[i] = row_sum + counts_[i - stride_];
+      }
+    }
+  }
+
+  /// Over rows [first_row, end_row) and columns [first_column, end_column), all in the table.
+  int sum(int first_row, int end_row, int first_column, int end_column) const {
+    return counts_[slot(end_row, end_column)] - counts_[slot(end_row, first_column)] -
+           counts_[slot(first_row, end_column)] + counts_[slot(first_row, first_column)];
+  }
+
+ private:
+  std::size_t slot(int row, int column) const {
+    return static_cast<std::size_t>(row) * stride_ + static_cast<std::size_t>(column);
+  }
+
+  std::size_t stride_ = 1;
+  std::vector<int> counts_;  ///< with a row and a column of zeros before the others
+};
+
+}  // namespace datmo
