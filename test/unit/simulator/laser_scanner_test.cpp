@@ -149,6 +149,22 @@ TEST(LaserScanner, PaintBehindABodyIsHidden) {
   EXPECT_NEAR(echoes[0].range, 20.0, 1e-9);
 }
 
+TEST(LaserScanner, EchoKnowsWhatItCameFrom) {
+  LaserScannerOptions options = idealScanner();
+  options.range_noise = 0.5;
+  options.kerb_hit_probability = 1.0;
+  options.paint_hit_probability = 1.0;
+  for (const Surface surface : {Surface::kBody, Surface::kKerb, Surface::kPaint}) {
+    World world = emptyWorld();
+    world.addSolid({Box2{{21.0, 0.0, 0.0}, 2.0, 4.0}, 0.12, surface, 5});
+    const Echo echo = middleBeam(scannerWith(options).measure(world, 0.0)).at(0);
+    EXPECT_EQ(echo.surface, surface);
+    EXPECT_EQ(echo.object, 5U);
+    EXPECT_NEAR(echo.true_range, 20.0, 1e-9);
+    EXPECT_NE(echo.range, echo.true_range);
+  }
+}
+
 TEST(LaserScanner, NoiseIsLargerAlongTheBeamThanAcross) {
   LaserScannerOptions options;
   options.mount_x = 0.0;
