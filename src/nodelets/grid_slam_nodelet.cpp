@@ -11,7 +11,8 @@
 
 namespace datmo {
 
-/// The door to GridSlamStage. In: scan or echoes, odometry, tf. Out: map, pose, split_scan, tf.
+/// The door to GridSlamStage. In: scan or echoes, odometry, tf, with low-level fusion grids/fused.
+/// Out: map, pose, split_scan, tf.
 class GridSlamNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
@@ -23,10 +24,13 @@ class GridSlamNodelet : public nodelet::Nodelet {
     if (options.odometry) {
       inputs.emplace_back("odometry");
     }
+    if (options.fused_grid) {
+      inputs.emplace_back(kFusedGrid);
+    }
     reporter_ = std::make_unique<StageReporter>(getNodeHandle(), getPrivateNodeHandle(), *monitor_,
                                                 inputs, options.input.silence_after);
     advertise();
-    subscribe(options.odometry);
+    subscribe(options);
   }
 
   void advertise() {
@@ -36,12 +40,15 @@ class GridSlamNodelet : public nodelet::Nodelet {
     split_scan_ = node.advertise<SplitScanMessage>("split_scan", kQueue);
   }
 
-  void subscribe(bool with_odometry) {
+  void subscribe(const GridSlamStageOptions& options) {
     ros::NodeHandle& node = getNodeHandle();
     const auto hints = ros::TransportHints().tcpNoDelay();
     transform_subscription_ = std::make_unique<TransformSubscription>(node, *transforms_);
-    if (with_odometry) {
+    if (options.odometry) {
       odometry_ = node.subscribe("odometry", kQueue, &GridSlamNodelet::takeOdometry, this, hints);
+    }
+    if (options.fused_grid) {
+      fused_grid_ = node.subscribe(kFusedGrid, kQueue, &GridSlamNodelet::takeGrid, this, hints);
     }
     scan_ = node.subscribe("scan", kQueue, &GridSlamNodelet::takeScan<sensor_msgs::LaserScan>, this,
                            hints);
@@ -62,6 +69,13 @@ class GridSlamNodelet : public nodelet::Nodelet {
     }
   }
 
+  void takeGrid(const nav_msgs::OccupancyGridConstPtr& message) {
+    monitor_->received(kFusedGrid, toStamp(ros::Time::now()));
+    if (const auto output = stage_->takeGrid(*message)) {
+      publish(*output);
+    }
+  }
+
   void publish(const GridSlamOutput& output) {
     broadcaster_.sendTransform(output.transforms);
     pose_.publish(output.pose);
@@ -74,6 +88,7 @@ class GridSlamNodelet : public nodelet::Nodelet {
 
   /// A second of scans or odometry: enough for a hiccup, and bounded.
   static constexpr std::uint32_t kQueue = 20;
+  static constexpr const char* kFusedGrid = "grids/fused";
 
   std::unique_ptr<StageMonitor> monitor_;
   std::unique_ptr<TransformBuffer> transforms_;
@@ -87,6 +102,7 @@ class GridSlamNodelet : public nodelet::Nodelet {
   ros::Subscriber odometry_;
   ros::Subscriber scan_;
   ros::Subscriber echoes_;
+  ros::Subscriber fused_grid_;
 };
 
 }  // namespace datmo

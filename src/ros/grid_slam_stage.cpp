@@ -3,14 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include <boost/make_shared.hpp>
 
+#include "datmo_fusion/ros/grid_conversion.h"
 #include "datmo_fusion/ros/message_conversion.h"
 
 namespace datmo {
 
 namespace {
+
+/// A second of a fast scanner: more than grid fusion waits for a slow sensor.
+constexpr std::size_t kMostWaitingScans = 50;
 
 /// tf takes no frame without a name, and none that is its own parent.
 void checkNames(const GridSlamStageOptions& options) {
@@ -38,6 +43,10 @@ void GridSlamStageOptions::visit(OptionVisitor& visitor) {
                   "the odometry's poses tell the motion, as a robot's wheel encoders count it; "
                   "false: its speed and yaw rate do"},
                  odometry_pose);
+  visitor.toggle({"fused_grid", "",
+                  "the measurement is the grid that grid_fusion made of the scan and other sensors "
+                  "(thesis 3.2.5); false: the scan alone"},
+                 fused_grid);
   visitor.number({"map_period", "s", "least time between two maps, of the scans' stamps"},
                  map_period, {0.0, 3600.0});
   visitor.number({"most_tilt", "rad", "a scan plane tilted by more than this is warned of"},
@@ -54,7 +63,8 @@ GridSlamStage::GridSlamStage(const GridSlamStageOptions& options, const Transfor
       monitor_(monitor),
       slam_(options.slam),
       scan_stamps_(options.input.restart_after),
-      odometry_stamps_(options.input.restart_after) {
+      odometry_stamps_(options.input.restart_after),
+      grid_stamps_(options.input.restart_after) {
   checkOptions(options);
   checkNames(options);
 }
@@ -108,11 +118,11 @@ std::optional<GridSlamOutput> GridSlamStage::takeScan(const Message& message) {
     const ConvertedScan converted = toScan(message, mount, options_.scan);
     checkStamp(scan_stamps_, message.header.stamp);
     warnOf(mount, converted);
-    const SlamResult result = slam_.process(converted.scan);
-    showMatch(result);
-    GridSlamOutput output = outputOf(result);
-    monitor_.processed({converted.scan.stamp, watch.seconds()});
-    return output;
+    if (options_.fused_grid) {
+      keep(converted.scan);
+      return std::nullopt;
+    }
+    return finish(slam_.process(converted.scan), watch);
   } catch (const InputError& error) {
     monitor_.dropped(error);
     return std::nullopt;
@@ -122,6 +132,63 @@ std::optional<GridSlamOutput> GridSlamStage::takeScan(const Message& message) {
 template std::optional<GridSlamOutput> GridSlamStage::takeScan(const sensor_msgs::LaserScan&);
 template std::optional<GridSlamOutput> GridSlamStage::takeScan(
     const sensor_msgs::MultiEchoLaserScan&);
+
+void GridSlamStage::keep(const Scan& scan) {
+  last_field_ = {scan.stamp, scan.scanner_in_base, scan.field, {}};
+  scans_.push_back(scan);
+  if (scans_.size() > kMostWaitingScans) {
+    scans_.pop_front();
+    monitor_.dropped(InputError("no_fused_grid", "more than " + std::to_string(kMostWaitingScans) +
+                                                     " scans wait for their fused grid: expected "
+                                                     "one from grid_fusion, dropped the oldest"));
+  }
+}
+
+std::optional<GridSlamOutput> GridSlamStage::takeGrid(const nav_msgs::OccupancyGrid& message) {
+  try {
+    if (!options_.fused_grid) {
+      throw InputError("unexpected_grid", "a fused grid: expected none while fused_grid is false");
+    }
+    const Stopwatch watch;
+    checkBaseFrame(message.header.frame_id);
+    const SensorGrid grid = fromMessage(message);
+    checkStamp(grid_stamps_, message.header.stamp);
+    return finish(slam_.process(grid, scanAt(grid.stamp())), watch);
+  } catch (const InputError& error) {
+    monitor_.dropped(error);
+    return std::nullopt;
+  }
+}
+
+Scan GridSlamStage::scanAt(Stamp stamp) {
+  while (!scans_.empty() && scans_.front().stamp < stamp) {
+    scans_.pop_front();
+  }
+  if (!scans_.empty() && scans_.front().stamp == stamp) {
+    Scan scan = std::move(scans_.front());
+    scans_.pop_front();
+    return scan;
+  }
+  monitor_.warned(InputError("no_scan_for_grid",
+                             "no scan of the fused grid's stamp: goes on with the grid alone"));
+  Scan scan = last_field_;
+  scan.stamp = stamp;
+  return scan;
+}
+
+GridSlamOutput GridSlamStage::finish(const SlamResult& result, const Stopwatch& watch) {
+  showMatch(result);
+  GridSlamOutput output = outputOf(result);
+  monitor_.processed({result.split.stamp, watch.seconds()});
+  return output;
+}
+
+void GridSlamStage::checkBaseFrame(const std::string& frame) const {
+  if (frame != options_.base_frame) {
+    throw InputError("wrong_frame",
+                     "fused grid in '" + frame + "': expected '" + options_.base_frame + "'");
+  }
+}
 
 void GridSlamStage::checkFrames(const nav_msgs::Odometry& message) const {
   if (message.header.frame_id != options_.odom_frame ||
@@ -144,6 +211,8 @@ void GridSlamStage::restart() {
   slam_.reset();
   scan_stamps_ = StampCheck(options_.input.restart_after);
   odometry_stamps_ = StampCheck(options_.input.restart_after);
+  grid_stamps_ = StampCheck(options_.input.restart_after);
+  scans_.clear();
   odometry_.clear();
   last_map_.reset();
   degenerate_scans_ = 0;

@@ -26,6 +26,7 @@ struct GridSlamStageOptions {
   std::string base_frame = "base_link";
   bool odometry = true;
   bool odometry_pose = false;
+  bool fused_grid = false;
   double map_period = 1.0;          ///< s
   double most_tilt = degrees(5.0);  ///< rad
   StreamOptions input;
@@ -35,7 +36,7 @@ struct GridSlamStageOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What one scan led to, ready to be published.
+/// What one scan or fused grid led to, ready to be published.
 struct GridSlamOutput {
   SplitScanPtr split_scan;
   geometry_msgs::PoseWithCovarianceStampedPtr pose;
@@ -46,6 +47,9 @@ struct GridSlamOutput {
 ///
 /// Bad input is dropped or warned of through the monitor, never thrown. When the clock jumps back
 /// all state is forgotten.
+///
+/// With low-level fusion (`fused_grid`) scans only wait for the fused grid of their stamp, which
+/// sets the pace.
 ///
 /// With odometry, map -> odom is chosen so that odom -> base_link, at the scan's stamp, leads to
 /// the pose; odom -> base_link itself comes from whoever makes the odometry, and may be ahead of
@@ -60,9 +64,15 @@ class GridSlamStage {
   /// Newest odometry; not read where the options say that the vehicle has none.
   void takeOdometry(const nav_msgs::Odometry& message);
 
-  /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan. None if it was dropped.
+  /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan. None if it was dropped, or waits for
+  /// the fused grid of its stamp.
   template <typename Message>
   std::optional<GridSlamOutput> takeScan(const Message& message);
+
+  /// The fused grid at the stamp of a scan that was taken before. One of another stamp (the scanner
+  /// is silent) serves alone. None if it was dropped; it is where the options say that there is no
+  /// low-level fusion.
+  std::optional<GridSlamOutput> takeGrid(const nav_msgs::OccupancyGrid& message);
 
   /// The map after the last scan, whose stamp this is; null if it is not its turn. To be asked for
   /// when the scan's results are on their way: the chain waits for them, and nobody for the map,
@@ -78,11 +88,17 @@ class GridSlamStage {
 
   void keep(const OdometryPose& odometry);
 
+  /// The scan that waits for the grid of this stamp; without rays if there is none. Those before it
+  /// are forgotten.
+  Scan scanAt(Stamp stamp);
+  void keep(const Scan& scan);
+
   /// The vehicle in the odometry's frame, from the last odometry up to the stamp or else the first
   /// one after it; none if that is too far away in time.
   std::optional<Pose2> baseInOdom(Stamp stamp) const;
 
   void checkFrames(const nav_msgs::Odometry& message) const;
+  void checkBaseFrame(const std::string& frame) const;
 
   /// Whichever stream jumps back first, both begin anew. Throws InputError.
   void checkStamp(StampCheck& stamps, const ros::Time& stamp);
@@ -91,6 +107,7 @@ class GridSlamStage {
 
   /// For diagnostics.
   void showMatch(const SlamResult& result);
+  GridSlamOutput finish(const SlamResult& result, const Stopwatch& watch);
   GridSlamOutput outputOf(const SlamResult& result);
   std::vector<geometry_msgs::TransformStamped> transformsTo(const Pose2& base_in_map, Stamp stamp);
 
@@ -100,7 +117,10 @@ class GridSlamStage {
   GridSlam slam_;
   StampCheck scan_stamps_;
   StampCheck odometry_stamps_;
+  StampCheck grid_stamps_;
   std::deque<OdometryPose> odometry_;  ///< of the last seconds, by rising stamp
+  std::deque<Scan> scans_;             ///< that wait for their fused grid, by rising stamp
+  Scan last_field_;                    ///< of the last scan: mount and field, without rays
   std::optional<Stamp> last_map_;
   std::uint64_t degenerate_scans_ = 0;
 };
