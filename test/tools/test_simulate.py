@@ -7,6 +7,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import numpy as np
 import rosbag
 
 SIMULATE = os.environ["DATMO_FUSION_SIMULATE"]
@@ -151,6 +152,85 @@ class Contract(unittest.TestCase):
                 self.assertEqual(echoes, sorted(echoes))
                 for echo in echoes:
                     self.assertTrue(message.range_min <= echo <= message.range_max)
+
+
+class Stereo(unittest.TestCase):
+    """A bag with the stereo camera and the true echoes beside one without."""
+
+    @classmethod
+    def setUpClass(cls):
+        with tempfile.TemporaryDirectory() as folder:
+            cls.without = cls.simulated(Path(folder) / "without.bag")
+            cls.messages = cls.simulated(
+                Path(folder) / "with.bag", "--set", "stereo/enabled=true",
+                "--set", "ground_truth/echoes=true")
+
+    @staticmethod
+    def simulated(bag, *options):
+        """Dictionary topic -> list of (message, record time)."""
+        subprocess.run([SIMULATE, SCENE, bag, "--quiet", "--set", "duration=2", *options],
+                       check=True)
+        messages = {}
+        with rosbag.Bag(str(bag)) as opened:
+            for topic, message, time in opened.read_messages():
+                messages.setdefault(topic, []).append((message, time))
+        return messages
+
+    def test_further_topics(self):
+        self.assertEqual(sorted(set(self.messages) - set(self.without)), [
+            "/ground_truth/echoes", "/stereo/left/camera_info", "/stereo/points2",
+            "/stereo/right/camera_info"])
+
+    def test_other_sensors_measure_the_same(self):
+        for topic in ("/echoes", "/odometry", "/tf", "/ground_truth/pose"):
+            self.assertEqual(self.messages[topic], self.without[topic], topic)
+
+    def test_points(self):
+        clouds = self.messages["/stereo/points2"]
+        self.assertEqual(len(clouds), 24)
+        for cloud, time in clouds:
+            self.assertAlmostEqual((time - cloud.header.stamp).to_sec(), 0.05)
+            self.assertEqual(cloud.header.frame_id, "stereo_left_optical")
+            self.assertEqual([field.name for field in cloud.fields], ["x", "y", "z"])
+            self.assertEqual((cloud.height, cloud.point_step), (1, 12))
+            points = np.frombuffer(cloud.data, np.float32).reshape(-1, 3)
+            self.assertEqual(len(points), cloud.width)
+            self.assertGreater(len(points), 5000)
+            self.assertTrue(np.all((points[:, 2] > 2.999) & (points[:, 2] < 60.001)))
+
+    def test_camera_infos_tell_the_geometry(self):
+        for (left, _), (right, _), (cloud, _) in zip(*(self.messages[topic] for topic in (
+                "/stereo/left/camera_info", "/stereo/right/camera_info", "/stereo/points2"))):
+            self.assertEqual(left.header, right.header)
+            self.assertEqual((left.header.stamp, left.header.frame_id),
+                             (cloud.header.stamp, cloud.header.frame_id))
+            self.assertEqual((left.P[0], left.P[3]), (380.0, 0.0))
+            self.assertAlmostEqual(right.P[3], -380.0 * 0.34)
+
+    def test_mount(self):
+        (mounts, _), = self.messages["/tf_static"]
+        camera, = [mount for mount in mounts.transforms
+                   if mount.child_frame_id == "stereo_left_optical"]
+        self.assertEqual(camera.header.frame_id, "base_link")
+        place, turn = camera.transform.translation, camera.transform.rotation
+        self.assertEqual((place.x, place.y, place.z), (1.8, 0.17, 1.3))
+        self.assertEqual((turn.x, turn.y, turn.z, turn.w), (-0.5, 0.5, -0.5, 0.5))
+
+    def test_truth_names_the_camera(self):
+        seen = [item for message, _ in self.messages["/ground_truth/objects"]
+                for item in message.objects if "stereo" in item.visible_to]
+        self.assertGreater(len(seen), 100)
+
+    def test_true_echoes_stand_beside_the_scans(self):
+        pairs = list(zip(self.messages["/echoes"], self.messages["/ground_truth/echoes"]))
+        self.assertEqual(len(pairs), len(self.messages["/ground_truth/echoes"]))
+        for (scan, _), (truth, _) in pairs:
+            self.assertEqual((truth.header.stamp, truth.header.frame_id),
+                             (scan.header.stamp, scan.header.frame_id))
+            for beam, surface, true_range in zip(scan.ranges, truth.surfaces, truth.ranges):
+                self.assertEqual(surface == truth.NOTHING, not beam.echoes)
+                if beam.echoes:
+                    self.assertAlmostEqual(beam.echoes[0], true_range, delta=1.0)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,148 @@
+"""Occupancy grids against the truth: what a fusion of sensors takes away from the lidar's grid, and
+what it adds.
+
+Counted are cells in which a beam of the scanner ended, and thin poles. White paint on the road
+answers a scanner by mistake (thesis 1.3.3): its cells should not be occupied. The cells of bodies
+should stay so (thesis 3.2.4).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from datmo_fusion.msg import TrueEchoes
+from datmo_tools import transforms
+
+UNDECIDED = 50  # percent: occupied is more
+
+
+class Grid(NamedTuple):
+    """What a grid of one stamp says of the cells around the vehicle."""
+
+    cell_size: float  # m
+    origin: np.ndarray  # x, y of its lower left corner in base_link, m
+    cells: np.ndarray  # rows along y, columns along x; percent, or -1: unknown
+
+    def cells_of(self, points):
+        """Indices (n x 2: column, row) of the cells that hold points (n x 2, m), each cell once.
+
+        Points outside of the grid are left out.
+        """
+        found = np.floor((points - self.origin) / self.cell_size).astype(int)
+        rows, columns = self.cells.shape
+        inside = np.all((found >= 0) & (found < [columns, rows]), axis=1)
+        return np.unique(found[inside], axis=0)
+
+    def centres(self, cells):
+        """Middles (n x 2, m) of cells given by their indices."""
+        return self.origin + (cells + 0.5) * self.cell_size
+
+    def occupied(self, cells):
+        """Whether each of the cells is, n."""
+        return self.cells[cells[:, 1], cells[:, 0]] > UNDECIDED
+
+    def occupied_near(self, point, reach):
+        """Middles (n x 2, m) of the occupied cells about a point (2), those at most `reach` m away
+        along x and y, and some beyond."""
+        cells = np.floor((point - self.origin + [[-reach], [reach]]) / self.cell_size).astype(int)
+        first, last = np.maximum(cells, 0)
+        rows, columns = np.nonzero(
+            self.cells[first[1] : last[1] + 1, first[0] : last[0] + 1] > UNDECIDED
+        )
+        return self.centres(np.column_stack([columns, rows]) + first)
+
+
+class StereoView(NamedTuple):
+    """What a stereo camera sees of the road plane, and how exactly."""
+
+    camera_in_base: np.ndarray  # 4 x 4, of the optical frame
+    tangents: tuple  # x / z of the image's left and right border
+    reach: float  # m, effective range
+    sigma_factor: float  # 1/m; the depth's standard deviation is this times its square
+
+    def ranges(self, points):
+        """Distances (n, m) of points (n x 2, base_link) over ground; infinite: not in view."""
+        height = self.camera_in_base[2, 3]
+        in_space = np.column_stack([points, np.full(len(points), height)])
+        right, _, ahead = transforms.apply(transforms.inverse(self.camera_in_base), in_space).T
+        seen = (ahead > 0.0) & (right >= self.tangents[0] * ahead)
+        seen &= right <= self.tangents[1] * ahead
+        ranges = np.hypot(right, ahead)
+        return np.where(seen & (ranges <= self.reach), ranges, np.inf)
+
+    def depth_sigma(self, depth):
+        """Standard deviation of the depth at a depth, m."""
+        return self.sigma_factor * depth**2
+
+
+class Echoes(NamedTuple):
+    """The nearest echoes of a scan."""
+
+    points: np.ndarray  # n x 2, where they were measured, base_link, m
+    surfaces: np.ndarray  # n, as in TrueEchoes
+
+
+class Tally:
+    """How many of some things have a property: of all, of those in view, and by their range."""
+
+    def __init__(self, edges):
+        """edges: of the bands of range, rising, m; the last one is where the view ends."""
+        self._edges = np.asarray(edges)
+        self.total = np.zeros(len(edges) + 1, dtype=int)  # all, in view, each band
+        self.having = np.zeros_like(self.total)
+
+    def add(self, ranges, having):
+        """ranges: n, m, infinite if not in view; having: n, whether each has the property."""
+        self.total += self._counts(ranges)
+        self.having += self._counts(ranges[having])
+
+    def percent(self):
+        """Share of those with the property in each column; nan where there is nothing."""
+        with np.errstate(invalid="ignore"):
+            return 100.0 * self.having / self.total
+
+    def _counts(self, ranges):
+        bands, _ = np.histogram(ranges[np.isfinite(ranges)], self._edges)
+        return np.concatenate([[len(ranges), np.isfinite(ranges).sum()], bands])
+
+
+class GridScores:
+    """Counts over a run; `add` once for each stamp."""
+
+    def __init__(self, view, edges):
+        """view: StereoView; edges: as Tally's."""
+        self._view = view
+        self.paint_gone = Tally(edges)
+        self.bodies_lost = Tally(edges)
+        self.poles_in_lidar = Tally(edges)
+        self.poles_in_fused = Tally(edges)
+
+    def add(self, lidar, fused, echoes, poles):
+        """lidar, fused: Grid of one window; poles: n x 2, base_link, those visible to the camera."""
+        bodies = lidar.cells_of(echoes.points[echoes.surfaces == TrueEchoes.BODY])
+        paint = lidar.cells_of(echoes.points[echoes.surfaces == TrueEchoes.PAINT])
+        paint = paint[~_among(paint, bodies)]
+        for tally, cells in ((self.paint_gone, paint), (self.bodies_lost, bodies)):
+            cells = cells[lidar.occupied(cells)]
+            tally.add(self._view.ranges(lidar.centres(cells)), ~fused.occupied(cells))
+        ranges = self._view.ranges(poles)
+        poles, ranges = poles[np.isfinite(ranges)], ranges[np.isfinite(ranges)]
+        for tally, grid in ((self.poles_in_lidar, lidar), (self.poles_in_fused, fused)):
+            tally.add(ranges, np.array([self._holds(grid, pole) for pole in poles], dtype=bool))
+
+    def _holds(self, grid, pole):
+        """Whether a cell is occupied where the camera may see a pole (2): across the line of sight
+        at most one cell off, along it as far as the depth is uncertain, but at least one cell."""
+        camera = self._view.camera_in_base[:2, 3]
+        distance = np.linalg.norm(pole - camera)
+        ahead = (pole - camera) / distance
+        along = max(grid.cell_size, self._view.depth_sigma(distance))
+        offsets = grid.occupied_near(pole, along) - pole
+        beside = np.abs(offsets @ [-ahead[1], ahead[0]])
+        return bool(np.any((np.abs(offsets @ ahead) <= along) & (beside <= grid.cell_size)))
+
+
+def _among(cells, others):
+    """Whether each of the cells (n x 2) is one of the others (m x 2)."""
+    known = {tuple(cell) for cell in others}
+    return np.array([tuple(cell) in known for cell in cells], dtype=bool)
