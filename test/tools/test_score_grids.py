@@ -230,6 +230,16 @@ class Tool(unittest.TestCase):
             self.assertEqual(figures["poles_in_lidar"]["count"], [0] * 5)
             self.assertIn("100.0% of 1", out)
 
+    def test_scan_that_takes_time(self):
+        """The middle beam comes 0.05 s later, when the vehicle is 1 m further ahead."""
+        messages = self.drive_messages()
+        messages[3][1].time_increment = 0.05
+        messages[4][1].twist.twist.linear.x = 20.0
+        self.write(self.drive, *messages)
+        self.write(self.run_bag, ("/grids/lidar", self.grid_message((16.0, 0.0))),
+                   ("/grids/fused", self.grid_message()))
+        self.assertEqual(self.score()[2]["paint_gone"]["of"][0], 1)
+
     def test_only_stamps_that_all_have(self):
         self.write(self.drive, *self.drive_messages())
         lidar = [("/grids/lidar", self.grid_message(time=time)) for time in (0.0, 0.1)]

@@ -159,7 +159,7 @@ def _view(path, infos, mounts, reach, disparity_sigma):
 
 
 def _moments(path, kept, mounts):
-    poses = {message.header.stamp.to_nsec(): planar(message.pose.pose) for message in kept[TRUE_POSE]}
+    poses = {message.header.stamp.to_nsec(): message for message in kept[TRUE_POSE]}
     objects = {message.header.stamp.to_nsec(): message.objects for message in kept[TRUE_OBJECTS]}
     truths = {message.header.stamp.to_nsec(): message for message in kept[TRUE_ECHOES]}
     moments = {}
@@ -167,12 +167,14 @@ def _moments(path, kept, mounts):
         stamp = scan.header.stamp.to_nsec()
         if stamp in poses and stamp in objects and stamp in truths:
             scanner = _mount(path, mounts, scan.header.frame_id)
-            echoes = _echoes(path, scan, truths[stamp], scanner)
-            moments[stamp] = Moment(echoes, _poles(objects[stamp], poses[stamp]))
+            echoes = _echoes(path, scan, truths[stamp], scanner, poses[stamp].twist.twist)
+            poles = _poles(objects[stamp], planar(poses[stamp].pose.pose))
+            moments[stamp] = Moment(echoes, poles)
     return moments
 
 
-def _echoes(path, scan, truth, scanner):
+def _echoes(path, scan, truth, scanner, twist):
+    """twist: the vehicle's, by which beams of a scan that takes time are brought to its stamp."""
     if len(truth.surfaces) != len(scan.ranges):
         raise InputError(
             f"{path}: {TRUE_ECHOES} at {scan.header.stamp.to_sec():.6f} s has "
@@ -180,13 +182,17 @@ def _echoes(path, scan, truth, scanner):
         )
     ranges = np.array([_nearest(beam) for beam in scan.ranges])
     bearings = scan.angle_min + scan.angle_increment * np.arange(len(ranges))
-    found = np.isfinite(ranges)
-    ranges, bearings = ranges[found], bearings[found]
-    points = np.column_stack(
-        [ranges * np.cos(bearings), ranges * np.sin(bearings), np.zeros(len(ranges))]
-    )
+    ends = np.column_stack([ranges * np.cos(bearings), ranges * np.sin(bearings), 0.0 * bearings])
+    found = np.flatnonzero(np.isfinite(ranges))
+    points = [
+        transforms.compose(
+            transforms.arc(twist.linear.x, twist.angular.z, beam * scan.time_increment),
+            np.append(transforms.apply(scanner, ends[beam])[:2], 0.0),
+        )[:2]
+        for beam in found
+    ]
     surfaces = np.frombuffer(truth.surfaces, dtype=np.uint8)[found]
-    return Echoes(transforms.apply(scanner, points)[:, :2], surfaces)
+    return Echoes(np.array(points).reshape(-1, 2), surfaces)
 
 
 def _nearest(beam):
