@@ -76,6 +76,7 @@ GridWindow windowOf(const nav_msgs::OccupancyGrid& message) {
           cornerAt(fromMessage(info.origin), cell_size)};
 }
 
+/// `cells`: at least one.
 void checkValues(const std::vector<Percent>& cells) {
   const auto [least, most] = std::minmax_element(cells.begin(), cells.end());
   if (*least < kUnknownPercent || *most > kMostPercent) {
@@ -100,8 +101,8 @@ nav_msgs::OccupancyGrid toMessage(SensorGrid grid, const std::string& base_frame
 }
 
 SensorGrid fromMessage(const nav_msgs::OccupancyGrid& message) {
-  checkValues(message.data);
   SensorGrid grid(toStamp(message.header.stamp), windowOf(message));
+  checkValues(message.data);
   grid.cells() = message.data;
   return grid;
 }

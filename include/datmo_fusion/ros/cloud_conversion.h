@@ -23,6 +23,7 @@ class CloudPoints {
   /// (they are not FLOAT32, or reach beyond the point), `big_endian`, `wrong_size` (less data than
   /// width, height and steps say), `no_valid_point` (none is finite).
   explicit CloudPoints(const sensor_msgs::PointCloud2& message);
+  explicit CloudPoints(sensor_msgs::PointCloud2&& message) = delete;
 
   CloudPoints(const CloudPoints&) = delete;
   CloudPoints& operator=(const CloudPoints&) = delete;

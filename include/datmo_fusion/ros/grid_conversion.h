@@ -16,7 +16,8 @@ nav_msgs::OccupancyGrid toMessage(SensorGrid grid, const std::string& base_frame
 ///
 /// Throws InputError (`bad_grid`): a cell size that is not finite or beyond that of any grid, an
 /// origin that is turned, not on the lattice or beyond any grid, another number of cells than
-/// width and height say, or none, and cells beyond -1 to 100.
+/// width and height say, or none, and cells beyond -1 to 100; `bad_pose` for an origin that is no
+/// pose.
 SensorGrid fromMessage(const nav_msgs::OccupancyGrid& message);
 
 }  // namespace datmo

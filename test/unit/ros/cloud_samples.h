@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "message_samples.h"
+#include <Eigen/Core>
+
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/PointCloud2.h>
+
+/// Clouds of a stereo camera, from which tests make others.
+namespace datmo::samples {
+
+inline sensor_msgs::PointField field(const std::string& name, std::uint32_t offset) {
+  sensor_msgs::PointField field;
+  field.name = name;
+  field.offset = offset;
+  field.datatype = sensor_msgs::PointField::FLOAT32;
+  field.count = 1;
+  return field;
+}
+
+/// As stereo_image_proc lays its clouds out: x, y, z, 4 bytes of nothing, rgb, 12 bytes of nothing.
+/// One row; the points are in the optical frame, m.
+inline sensor_msgs::PointCloud2 cloud(const std::vector<Eigen::Vector3f>& points) {
+  sensor_msgs::PointCloud2 message;
+  message.header.stamp = ros::Time(kStart);
+  message.header.frame_id = "camera";
+  message.fields = {field("x", 0), field("y", 4), field("z", 8), field("rgb", 16)};
+  message.height = 1;
+  message.width = static_cast<std::uint32_t>(points.size());
+  message.point_step = 32;
+  message.row_step = message.point_step * message.width;
+  message.data.resize(message.row_step);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::memcpy(&message.data[i * message.point_step], points[i].data(), 3 * sizeof(float));
+  }
+  return message;
+}
+
+/// Of a rectified camera of 500 px and 0.2 m; 640 x 480 px.
+inline sensor_msgs::CameraInfo rightCameraInfo() {
+  sensor_msgs::CameraInfo message;
+  message.width = 640;
+  message.height = 480;
+  message.P = {500.0, 0.0, 319.5, -100.0, 0.0, 500.0, 239.5, 0.0, 0.0, 0.0, 1.0, 0.0};
+  return message;
+}
+
+}  // namespace datmo::samples

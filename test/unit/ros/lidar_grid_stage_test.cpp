@@ -1,0 +1,159 @@
+#include "datmo_fusion/ros/lidar_grid_stage.h"
+
+#include <limits>
+
+#include "message_samples.h"
+#include "monitor_counts.h"
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/ros/grid_conversion.h"
+
+namespace datmo {
+namespace {
+
+using samples::kStart;
+
+class LidarGridStageTest : public testing::Test {
+ protected:
+  /// 3.6 m ahead of the vehicle's origin.
+  void mountScanner() {
+    tf2_msgs::TFMessage message;
+    message.transforms = {samples::transform("base_link", "scanner", 3.6)};
+    buffer_.addStatic(message);
+  }
+
+  nav_msgs::OccupancyGridPtr scanAt(double seconds) {
+    auto scan = samples::laserScan();
+    scan.header.stamp = ros::Time(seconds);
+    return stage_.takeScan(scan);
+  }
+
+  /// The vehicle drives ahead at 8 m/s.
+  void odometryAt(double seconds) {
+    nav_msgs::Odometry message;
+    message.header.stamp = ros::Time(seconds);
+    message.header.frame_id = "odom";
+    message.child_frame_id = "base_link";
+    message.twist.twist.linear.x = 8.0;
+    stage_.takeOdometry(message);
+  }
+
+  /// Whether a place in the vehicle's frame, m, is said to be occupied.
+  static bool isOccupiedAt(const nav_msgs::OccupancyGrid& message, double x, double y) {
+    const SensorGrid grid = fromMessage(message);
+    return isOccupied(grid.at(grid.window().cellAt({x, y})));
+  }
+
+  std::uint64_t drops(const std::string& reason) const { return samples::drops(monitor_, reason); }
+
+  TransformBuffer buffer_{1.0};
+  StageMonitor monitor_{"lidar_grid"};
+  LidarGridStage stage_{LidarGridStageOptions(), buffer_, monitor_};
+};
+
+TEST_F(LidarGridStageTest, AScanMakesAGridOfItsStampInTheVehiclesFrame) {
+  mountScanner();
+  const auto grid = scanAt(kStart);
+  ASSERT_TRUE(grid);
+  EXPECT_EQ(grid->header.frame_id, "base_link");
+  EXPECT_EQ(grid->header.stamp, ros::Time(kStart));
+  EXPECT_EQ(fromMessage(*grid).window(), GridWindowOptions().window());
+  EXPECT_TRUE(isOccupiedAt(*grid, 3.6 + 3.0, 0.0)) << "the beam ahead";
+  EXPECT_TRUE(isOccupiedAt(*grid, 3.6, -2.0)) << "the one to the right";
+  EXPECT_FALSE(isOccupiedAt(*grid, 3.6 + 2.0, 0.0));
+  EXPECT_EQ(monitor_.processedCount(), 1U);
+  EXPECT_EQ(monitor_.figures().at("beams with a hit"), 3.0);
+}
+
+TEST_F(LidarGridStageTest, SeveralEchoesServeToo) {
+  mountScanner();
+  sensor_msgs::MultiEchoLaserScan echoes;
+  const auto scan = samples::laserScan();
+  echoes.header = scan.header;
+  echoes.angle_min = scan.angle_min;
+  echoes.angle_max = scan.angle_max;
+  echoes.angle_increment = scan.angle_increment;
+  echoes.range_min = scan.range_min;
+  echoes.range_max = scan.range_max;
+  echoes.ranges.resize(3);
+  echoes.ranges[1].echoes = {3.0F, 5.0F};
+  const auto grid = stage_.takeScan(echoes);
+  ASSERT_TRUE(grid);
+  EXPECT_TRUE(isOccupiedAt(*grid, 6.6, 0.0));
+}
+
+TEST_F(LidarGridStageTest, BeamsAreBroughtToTheStampOfTheScanByOdometry) {
+  mountScanner();
+  odometryAt(kStart);
+  auto scan = samples::laserScan();
+  scan.time_increment = 0.1F;  // the beam ahead is measured 0.8 m further on
+  const auto grid = stage_.takeScan(scan);
+  ASSERT_TRUE(grid);
+  EXPECT_TRUE(isOccupiedAt(*grid, 3.6 + 3.0 + 0.8, 0.0));
+}
+
+TEST_F(LidarGridStageTest, WithoutOdometryAllBeamsAreTakenAsMeasuredAtOnce) {
+  LidarGridStageOptions options;
+  options.motion.odometry = false;
+  LidarGridStage stage(options, buffer_, monitor_);
+  mountScanner();
+  nav_msgs::Odometry odometry;
+  odometry.header.frame_id = "of nobody";
+  stage.takeOdometry(odometry);
+  EXPECT_EQ(monitor_.droppedCount(), 0U) << "it is not read";
+  auto scan = samples::laserScan();
+  scan.time_increment = 0.1F;
+  const auto grid = stage.takeScan(scan);
+  ASSERT_TRUE(grid);
+  EXPECT_TRUE(isOccupiedAt(*grid, 3.6 + 3.0, 0.0));
+}
+
+TEST_F(LidarGridStageTest, AMissingMountIsCountedUntilItComes) {
+  EXPECT_FALSE(scanAt(kStart));
+  EXPECT_EQ(drops("missing_transform"), 1U);
+  mountScanner();
+  EXPECT_TRUE(scanAt(kStart)) << "the dropped scan has not moved the time";
+}
+
+TEST_F(LidarGridStageTest, RepeatedOldAndTimelessScansAreDropped) {
+  mountScanner();
+  EXPECT_TRUE(scanAt(100.0));
+  EXPECT_FALSE(scanAt(100.0));
+  EXPECT_FALSE(scanAt(99.5));
+  EXPECT_FALSE(scanAt(0.0));
+  EXPECT_EQ(drops("repeated_stamp"), 1U);
+  EXPECT_EQ(drops("old_stamp"), 1U);
+  EXPECT_EQ(drops("zero_stamp"), 1U);
+  EXPECT_TRUE(scanAt(100.1));
+}
+
+TEST_F(LidarGridStageTest, AJumpBackStartsAnewWhicheverInputSeesItFirst) {
+  mountScanner();
+  odometryAt(200.0);
+  EXPECT_TRUE(scanAt(200.0));
+  EXPECT_TRUE(scanAt(150.0));
+  odometryAt(150.01);
+  EXPECT_TRUE(scanAt(150.1));
+  odometryAt(100.0);
+  EXPECT_TRUE(scanAt(149.9)) << "older than the last scan by less than a restart, but all is new";
+  EXPECT_EQ(monitor_.droppedCount(), 0U);
+}
+
+TEST_F(LidarGridStageTest, AScanWithoutAValidBeamSaysNothing) {
+  mountScanner();
+  const auto grid = stage_.takeScan(
+      samples::laserScan(std::vector<float>(3, std::numeric_limits<float>::quiet_NaN())));
+  ASSERT_TRUE(grid);
+  EXPECT_EQ(std::count(grid->data.begin(), grid->data.end(), kUnknownPercent),
+            static_cast<std::ptrdiff_t>(grid->data.size()));
+  EXPECT_EQ(samples::warnings(monitor_, "no_valid_beam"), 1U);
+}
+
+TEST_F(LidarGridStageTest, BadOptionsAreRefused) {
+  LidarGridStageOptions options;
+  options.grid.window.cell_size = -1.0;
+  EXPECT_THROW(LidarGridStage(options, buffer_, monitor_), OptionError);
+}
+
+}  // namespace
+}  // namespace datmo
