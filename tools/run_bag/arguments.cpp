@@ -8,22 +8,35 @@ namespace datmo {
 
 namespace {
 
-const std::array<std::string, 3> kInputTopics = {"scan", "echoes", "odometry"};
+const std::array<std::string, 8> kInputTopics = {
+    "scan",       "echoes",      "odometry",         "points2",
+    "left_image", "right_image", "left_camera_info", "right_camera_info",
+};
 
-const std::map<std::string, LastStage> kStages = {{"grid_slam", LastStage::kGridSlam},
+const std::map<std::string, LastStage> kStages = {{"grid_fusion", LastStage::kGridFusion},
+                                                  {"grid_slam", LastStage::kGridSlam},
                                                   {"moving_objects", LastStage::kMovingObjects},
                                                   {"tracker", LastStage::kTracker}};
 
 LastStage stageOf(const std::string& name) {
   const auto found = kStages.find(name);
   if (found == kStages.end()) {
-    throw UsageError("--until '" + name + "': expected grid_slam, moving_objects or tracker");
+    throw UsageError("--until '" + name +
+                     "': expected grid_fusion, grid_slam, moving_objects or tracker");
   }
   return found->second;
 }
 
 std::string withSlash(const std::string& topic) {
   return topic.empty() || topic.front() == '/' ? topic : "/" + topic;
+}
+
+std::string topicNames() {
+  std::string names;
+  for (const std::string& topic : kInputTopics) {
+    names += (names.empty() ? "" : ", ") + topic;
+  }
+  return names;
 }
 
 void addRemapping(const std::string& word, std::size_t separator, Arguments& arguments) {
@@ -35,7 +48,7 @@ void addRemapping(const std::string& word, std::size_t separator, Arguments& arg
       return;
     }
   }
-  throw UsageError("'" + word + "': expected scan:=, echoes:= or odometry:= and a topic");
+  throw UsageError("'" + word + "': expected one of " + topicNames() + " and := and a topic");
 }
 
 void addFile(const std::string& word, Arguments& arguments) {
@@ -66,16 +79,65 @@ void checkFiles(const Arguments& arguments) {
   }
 }
 
+void checkLowLevel(const Arguments& arguments) {
+  const bool wanted = arguments.stereo_from_images || arguments.write_grids ||
+                      !arguments.grid_rule.empty() ||
+                      arguments.last_stage == LastStage::kGridFusion;
+  if (wanted && !arguments.low_level_fusion) {
+    throw UsageError(
+        "--stereo-from-images, --write-grids, --grid-rule and --until grid_fusion: expected "
+        "--low-level-fusion with them");
+  }
+}
+
+/// Whether it is one of the options without a value, which is set then.
+bool setSwitch(const std::string& word, Arguments& arguments) {
+  const std::map<std::string, bool*> switches = {
+      {"--with-truth", &arguments.with_truth},
+      {"--quiet", &arguments.quiet},
+      {"--low-level-fusion", &arguments.low_level_fusion},
+      {"--stereo-from-images", &arguments.stereo_from_images},
+      {"--write-grids", &arguments.write_grids},
+  };
+  const auto found = switches.find(word);
+  if (found != switches.end()) {
+    *found->second = true;
+  }
+  return found != switches.end();
+}
+
+/// The same for those with a value.
+bool setValue(const std::string& word, const std::string& value, Arguments& arguments) {
+  if (word == "--config") {
+    arguments.config = value;
+  } else if (word == "--until") {
+    arguments.last_stage = stageOf(value);
+  } else if (word == "--times") {
+    arguments.times = value;
+  } else if (word == "--grid-rule") {
+    arguments.grid_rule = value;
+  } else {
+    return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::string Arguments::inputTopic(const std::string& topic) const {
+  return inputTopic(topic, topic);
+}
+
+std::string Arguments::inputTopic(const std::string& topic, const std::string& usual) const {
   const auto remapped = remappings.find(withSlash(topic));
-  return remapped == remappings.end() ? withSlash(topic) : remapped->second;
+  return remapped == remappings.end() ? withSlash(usual) : remapped->second;
 }
 
 std::string usage() {
   return "usage: run_bag IN.bag OUT.bag --config CONFIG.yaml [--with-truth] [--quiet]"
          " [--until STAGE]\n"
+         "               [--low-level-fusion [--stereo-from-images] [--grid-rule RULE]"
+         " [--write-grids]]\n"
          "               [--times FILE.json] [TOPIC:=TOPIC_OF_THE_BAG ...]\n"
          "Takes the scans and the odometry of a bag through the stack, as fast as it goes, and "
          "writes\n"
@@ -83,9 +145,17 @@ std::string usage() {
          "  --config CONFIG.yaml  the sensor set, e.g. config/demonstrator.yaml\n"
          "  --with-truth          copies /ground_truth/* along\n"
          "  --quiet               no progress bar and no table\n"
-         "  --until STAGE         goes no further than grid_slam or moving_objects\n"
+         "  --until STAGE         goes no further than grid_fusion, grid_slam or moving_objects\n"
+         "  --low-level-fusion    fuses the grids of scanner and stereo camera before grid_slam\n"
+         "  --stereo-from-images  computes the stereo camera's points from its images, as\n"
+         "                        stereo_image_proc does; without it only where the bag has no "
+         "points\n"
+         "  --grid-rule RULE      weighted_sum, priority, maximum, log_odds or dempster_shafer\n"
+         "  --write-grids         writes /grids/lidar, /grids/stereo, /grids/fused, "
+         "/grids/conflict\n"
          "  --times FILE.json     how long each stage took for a message\n"
-         "  TOPIC:=...            scan, echoes or odometry under another name\n";
+         "  TOPIC:=...            scan, echoes, odometry, points2, left_image, right_image,\n"
+         "                        left_camera_info or right_camera_info under another name\n";
 }
 
 Arguments parseArguments(const std::vector<std::string>& words) {
@@ -93,16 +163,11 @@ Arguments parseArguments(const std::vector<std::string>& words) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
     const std::size_t separator = word.find(":=");
-    if (word == "--with-truth") {
-      arguments.with_truth = true;
-    } else if (word == "--quiet") {
-      arguments.quiet = true;
-    } else if (word == "--config" && i + 1 < words.size()) {
-      arguments.config = words[++i];
-    } else if (word == "--until" && i + 1 < words.size()) {
-      arguments.last_stage = stageOf(words[++i]);
-    } else if (word == "--times" && i + 1 < words.size()) {
-      arguments.times = words[++i];
+    if (setSwitch(word, arguments)) {
+      continue;
+    }
+    if (i + 1 < words.size() && setValue(word, words[i + 1], arguments)) {
+      ++i;
     } else if (separator != std::string::npos) {
       addRemapping(word, separator, arguments);
     } else if (word.empty() || word.front() == '-') {
@@ -112,6 +177,7 @@ Arguments parseArguments(const std::vector<std::string>& words) {
     }
   }
   checkFiles(arguments);
+  checkLowLevel(arguments);
   return arguments;
 }
 

@@ -23,11 +23,18 @@ struct Arguments {
   bool with_truth = false;
   bool quiet = false;
   LastStage last_stage = LastStage::kTracker;
-  std::string times;                              ///< JSON file for the stages' times; empty: none
+  bool low_level_fusion = false;
+  bool stereo_from_images = false;  ///< also where the bag has clouds
+  bool write_grids = false;
+  std::string grid_rule;  ///< of fusion, in place of the yaml file's; empty: that one
+  std::string times;      ///< JSON file for the stages' times; empty: none
   std::map<std::string, std::string> remappings;  ///< our topic (`scan`) -> the input's
 
   /// The name of one of our topics in the input bag, with a leading slash.
   std::string inputTopic(const std::string& topic) const;
+
+  /// The same for a topic that has another default than our name for it.
+  std::string inputTopic(const std::string& topic, const std::string& usual) const;
 };
 
 /// How `run_bag` is called.

@@ -1,5 +1,6 @@
 #include "bag_run.h"
 
+#include <functional>
 #include <map>
 #include <ostream>
 #include <sstream>
@@ -9,6 +10,7 @@
 
 #include "drive_summary.h"
 #include "input_bag.h"
+#include "input_topics.h"
 #include "interruption.h"
 #include "output_bag.h"
 #include "pipeline.h"
@@ -23,60 +25,21 @@ namespace datmo {
 
 namespace {
 
-const std::string kTruthPrefix = "/ground_truth/";
-
-/// The names that our inputs have in the bag.
-struct InputTopics {
-  std::string scan;
-  std::string echoes;
-  std::string odometry;
-  std::vector<std::string> truth;
-
-  std::vector<std::string> all() const {
-    std::vector<std::string> topics = truth;
-    topics.insert(topics.end(), {scan, echoes, odometry, "/tf"});
-    return topics;
-  }
-};
-
-std::vector<std::string> truthTopics(const rosbag::Bag& bag) {
-  rosbag::View view(bag);
-  std::vector<std::string> topics;
-  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
-    if (connection->topic.rfind(kTruthPrefix, 0) == 0) {
-      topics.push_back(connection->topic);
-    }
-  }
-  return topics;
-}
-
-InputTopics findTopics(const rosbag::Bag& bag, const Arguments& arguments, bool odometry_wanted) {
-  InputTopics topics{arguments.inputTopic("scan"),
-                     arguments.inputTopic("echoes"),
-                     arguments.inputTopic("odometry"),
-                     {}};
-  const bool scans = holdsTopic(bag, topics.scan);
-  const bool echoes = holdsTopic(bag, topics.echoes);
-  if (!scans && !echoes) {
-    failForTopic(bag, "neither a LaserScan on " + topics.scan + " nor a MultiEchoLaserScan on " +
-                          topics.echoes);
-  }
-  if (odometry_wanted && !holdsTopic(bag, topics.odometry)) {
-    failForTopic(bag, "no odometry on " + topics.odometry +
-                          " (without any, set grid_slam/odometry to false in " + arguments.config +
-                          ")");
-  }
-  if (arguments.with_truth) {
-    topics.truth = truthTopics(bag);
-  }
-  return topics;
-}
-
 /// Carries the messages of a bag to the pipeline, and what comes of them to another bag.
 class BagRun {
  public:
-  BagRun(const InputTopics& topics, Pipeline& pipeline, DriveSummary& drive, OutputBag& output)
-      : topics_(topics), pipeline_(pipeline), drive_(drive), output_(output) {}
+  BagRun(const InputTopics& topics, Pipeline& pipeline, DriveSummary& drive, OutputBag& output,
+         bool write_grids)
+      : pipeline_(pipeline), drive_(drive), output_(output), write_grids_(write_grids) {
+    readMotion(topics);
+    readScans(topics);
+    readStereo(topics.stereo);
+    for (const auto& [topic, source] : topics.grids) {
+      on<nav_msgs::OccupancyGrid>(topic, [this, name = source](const auto& message, Stamp now) {
+        return pipeline_.takeGrid(name, *message, now);
+      });
+    }
+  }
 
   /// They hold for the whole bag, wherever in it they stand.
   void takeStaticTransforms(const rosbag::Bag& bag) {
@@ -87,36 +50,82 @@ class BagRun {
   }
 
   void take(const rosbag::MessageInstance& message) {
-    const std::string& topic = message.getTopic();
-    const ros::Time& time = message.getTime();
-    const Stamp now = toStamp(time);
-    if (topic == "/tf") {
-      write(time, pipeline_.takeTransforms(*read<tf2_msgs::TFMessage>(message), now));
-    } else if (topic == topics_.odometry) {
-      pipeline_.takeOdometry(*read<nav_msgs::Odometry>(message));
-    } else if (topic == topics_.scan) {
-      write(time, pipeline_.takeScan(*read<sensor_msgs::LaserScan>(message), now));
-    } else if (topic == topics_.echoes) {
-      write(time, pipeline_.takeScan(*read<sensor_msgs::MultiEchoLaserScan>(message), now));
-    } else {
+    const auto reader = readers_.find(message.getTopic());
+    if (reader == readers_.end()) {
       output_.copy(message);
+      return;
+    }
+    write(message.getTime(), reader->second(message, toStamp(message.getTime())));
+  }
+
+  /// `end`: of the bag.
+  void finish(const ros::Time& end) { write(end, pipeline_.finish(toStamp(end))); }
+
+ private:
+  using Reader = std::function<Pipeline::Output(const rosbag::MessageInstance&, Stamp now)>;
+
+  /// `take(message, now)` takes the messages of a topic; one without name is not read.
+  template <typename Message, typename Take>
+  void on(const std::string& topic, const Take& take) {
+    if (!topic.empty()) {
+      readers_[topic] = [take](const rosbag::MessageInstance& message, Stamp now) {
+        return take(read<Message>(message), now);
+      };
     }
   }
 
- private:
+  void readMotion(const InputTopics& topics) {
+    on<tf2_msgs::TFMessage>("/tf", [this](const auto& message, Stamp now) {
+      return pipeline_.takeTransforms(*message, now);
+    });
+    on<nav_msgs::Odometry>(topics.odometry, [this](const auto& message, Stamp now) {
+      return pipeline_.takeOdometry(*message, now);
+    });
+  }
+
+  void readScans(const InputTopics& topics) {
+    const auto take = [this](const auto& message, Stamp now) {
+      return pipeline_.takeScan(*message, now);
+    };
+    on<sensor_msgs::LaserScan>(topics.scan, take);
+    on<sensor_msgs::MultiEchoLaserScan>(topics.echoes, take);
+  }
+
+  void readStereo(const StereoTopics& topics) {
+    on<sensor_msgs::PointCloud2>(topics.points, [this](const auto& message, Stamp now) {
+      return pipeline_.takeCloud(*message, now);
+    });
+    readCamera(StereoSide::kLeft, topics.left_image, topics.left_info);
+    readCamera(StereoSide::kRight, topics.right_image, topics.right_info);
+  }
+
+  void readCamera(StereoSide side, const std::string& image, const std::string& info) {
+    on<sensor_msgs::Image>(image, [this, side](const auto& message, Stamp now) {
+      return pipeline_.takeImage(side, message, now);
+    });
+    on<sensor_msgs::CameraInfo>(info, [this, side](const auto& message, Stamp now) {
+      return pipeline_.takeCameraInfo(side, message, now);
+    });
+  }
+
   void write(const ros::Time& time, const Pipeline::Output& results) {
     drive_.add(results);
-    if (results.slam) {
-      writeSlam(time, *results.slam);
+    for (const auto& [name, grid] : results.grids) {
+      if (write_grids_) {
+        output_.write("/grids/" + name, time, *grid);
+      }
     }
-    if (results.objects) {
-      output_.write("/objects", time, *results.objects);
+    for (const GridSlamOutput& slam : results.slam) {
+      writeSlam(time, slam);
+    }
+    for (const ObjectArrayPtr& objects : results.objects) {
+      output_.write("/objects", time, *objects);
     }
     for (const TrackArrayPtr& tracks : results.tracks) {
       output_.write("/tracks", time, *tracks);
     }
-    if (results.map) {
-      output_.write("/map", time, *results.map);
+    for (const nav_msgs::OccupancyGridPtr& map : results.maps) {
+      output_.write("/map", time, *map);
     }
   }
 
@@ -128,10 +137,11 @@ class BagRun {
     output_.write("/split_scan", time, *slam.split_scan);
   }
 
-  const InputTopics& topics_;
   Pipeline& pipeline_;
   DriveSummary& drive_;
   OutputBag& output_;
+  bool write_grids_;
+  std::map<std::string, Reader> readers_;  ///< by topic
 };
 
 std::string speedNote(double data_seconds, double wall_seconds) {
@@ -168,13 +178,15 @@ void carry(rosbag::View& view, const InputTopics& topics, BagRun& run, std::ostr
     const double done = (order.first - view.getBeginTime()).toSec();
     bar.show(length > 0.0 ? done / length : 1.0, speedNote(done, watch.seconds()));
   }
+  run.finish(view.getEndTime());
 }
 
-void checkScans(const std::string& file, const DriveSummary& drive, const Pipeline& pipeline) {
-  if (drive.scans() > 0) {
+void checkResults(const Arguments& arguments, const DriveSummary& drive, const Pipeline& pipeline) {
+  const bool until_fusion = arguments.last_stage == LastStage::kGridFusion;
+  if ((until_fusion ? drive.fusedGrids() : drive.scans()) > 0) {
     return;
   }
-  std::string message = file + ": no scan could be used";
+  std::string message = arguments.input + ": no scan could be used";
   for (const StageMonitor* monitor : pipeline.monitors()) {
     if (!monitor->lastError().empty()) {
       message += "; " + monitor->stage() + " says: " + monitor->lastError();
@@ -183,17 +195,26 @@ void checkScans(const std::string& file, const DriveSummary& drive, const Pipeli
   throw std::runtime_error(message);
 }
 
+PipelineOptions readOptionsFor(const Arguments& arguments) {
+  PipelineOptions options = readPipelineOptions(arguments.config);
+  if (!arguments.grid_rule.empty()) {
+    options.low_level.grid_fusion.fuser.rule = arguments.grid_rule;
+  }
+  return options;
+}
+
 }  // namespace
 
 void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progress) {
-  const PipelineOptions options = readPipelineOptions(arguments.config);
+  const PipelineOptions options = readOptionsFor(arguments);
   rosbag::Bag bag;
   openInput(arguments.input, bag);
-  const InputTopics topics = findTopics(bag, arguments, options.grid_slam.odometry);
+  const InputTopics topics = findTopics(bag, arguments, options);
   OutputBag output(arguments.output);
-  Pipeline pipeline(options, arguments.last_stage);
+  Pipeline pipeline(options,
+                    {arguments.last_stage, arguments.low_level_fusion, topics.stereo.rectified()});
   DriveSummary drive;
-  BagRun run(topics, pipeline, drive, output);
+  BagRun run(topics, pipeline, drive, output, arguments.write_grids);
 
   run.takeStaticTransforms(bag);
   rosbag::View view(bag, rosbag::TopicQuery(topics.all()));
@@ -204,7 +225,7 @@ void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progres
     throw std::runtime_error(arguments.input + " to " + arguments.output + ": " + error.what());
   }
   const double took = watch.seconds();
-  checkScans(arguments.input, drive, pipeline);
+  checkResults(arguments, drive, pipeline);
   if (!arguments.times.empty()) {
     writeWholeFile(arguments.times, toJson(pipeline.times()));
   }

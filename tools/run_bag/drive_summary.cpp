@@ -34,8 +34,11 @@ void printCounts(std::ostream& out, const std::string& what, const StageMonitor&
 }  // namespace
 
 void DriveSummary::add(const Pipeline::Output& output) {
-  if (output.slam) {
-    const geometry_msgs::Point& at = output.slam->pose->pose.pose.position;
+  for (const auto& [name, grid] : output.grids) {
+    fused_grids_ += name == "fused" ? 1 : 0;
+  }
+  for (const GridSlamOutput& slam : output.slam) {
+    const geometry_msgs::Point& at = slam.pose->pose.pose.position;
     const Point2 position(at.x, at.y);
     distance_ += position_ ? (position - *position_).norm() : 0.0;
     position_ = position;
@@ -52,6 +55,9 @@ void printTable(std::ostream& out, const DriveSummary& drive, const Pipeline& pi
                 double data_seconds, double wall_seconds) {
   out << std::fixed << std::setprecision(1);
   line(out, "scans processed") << drive.scans() << '\n';
+  if (drive.fusedGrids() > 0) {
+    line(out, "grids fused") << drive.fusedGrids() << '\n';
+  }
   line(out, "distance driven") << drive.distance() << " m\n";
   line(out, "tracks confirmed") << drive.tracks() << '\n';
   line(out, "data") << data_seconds << " s\n";

@@ -1,10 +1,11 @@
 #pragma once
 
-#include <array>
-#include <optional>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "last_stage.h"
+#include "low_level_pipeline.h"
 #include "pipeline_options.h"
 #include "stage_times.h"
 #include <tf2_msgs/TFMessage.h>
@@ -14,24 +15,34 @@
 
 namespace datmo {
 
+/// Which stages there are, and what feeds them.
+struct Wiring {
+  LastStage last = LastStage::kTracker;  ///< the stages after it are left out
+  bool low_level_fusion = false;
+  bool rectified_images = true;  ///< those of the stereo camera, if there are any
+};
+
 /// The stages of perception.launch, wired without a master:
 ///
 ///     scan, odometry, tf ─► grid_slam ─ split scan ─► moving_objects ─ objects ─► tracker ─ tracks
 ///                               └───────── split scan, map -> odom ──────────────────┘
 ///
+/// and with low-level fusion LowLevelPipeline before grid_slam, which then waits for its grids.
+///
 /// Messages go in one after the other, as they came; the same messages give the same results, bit
-/// for bit.
+/// for bit. `now` is the time at which a message came.
 class Pipeline {
  public:
-  /// `last`: the stages after it are left out. Throws OptionError.
-  explicit Pipeline(const PipelineOptions& options, LastStage last = LastStage::kTracker);
+  /// Throws OptionError.
+  explicit Pipeline(const PipelineOptions& options, const Wiring& wiring = {});
 
-  /// What one message led to, in the order in which it came to be.
+  /// What one message led to, each in the order in which it came to be.
   struct Output {
-    std::optional<GridSlamOutput> slam;
-    ObjectArrayPtr objects;
+    std::vector<LowLevelPipeline::NamedGrid> grids;
+    std::vector<GridSlamOutput> slam;
+    std::vector<ObjectArrayPtr> objects;
     std::vector<TrackArrayPtr> tracks;
-    nav_msgs::OccupancyGridPtr map;  ///< null if it is not its turn
+    std::vector<nav_msgs::OccupancyGridPtr> maps;
   };
 
   void takeStaticTransforms(const tf2_msgs::TFMessage& message);
@@ -40,28 +51,44 @@ class Pipeline {
   /// publishes itself is left out: a bag of an earlier run may hold it.
   Output takeTransforms(const tf2_msgs::TFMessage& message, Stamp now);
 
-  void takeOdometry(const nav_msgs::Odometry& message);
+  Output takeOdometry(const nav_msgs::Odometry& message, Stamp now);
 
-  /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan. `now`: when it came.
+  /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan.
   template <typename Message>
   Output takeScan(const Message& message, Stamp now) {
     Output output;
-    output.slam = slam_.takeScan(message);
-    if (output.slam) {
-      followSlam(now, output);
-      output.map = slam_.mapIfDue(toStamp(output.slam->pose->header.stamp));
+    if (auto slam = slam_.takeScan(message)) {
+      followSlam(std::move(*slam), now, output);
+    }
+    if (low_level_) {
+      low_level_->takeScan(message, now, output.grids);
+      followFusion(now, output);
     }
     return output;
   }
 
+  /// The stereo camera's messages, and grids of other sources; read with low-level fusion alone.
+  Output takeCloud(const sensor_msgs::PointCloud2& message, Stamp now);
+  Output takeImage(StereoSide side, const sensor_msgs::ImageConstPtr& image, Stamp now);
+  Output takeCameraInfo(StereoSide side, const sensor_msgs::CameraInfoConstPtr& info, Stamp now);
+  Output takeGrid(const std::string& source, const nav_msgs::OccupancyGrid& grid, Stamp now);
+
+  /// What is left when the last message came at `now`.
+  Output finish(Stamp now);
+
   const StageTimes& times() const { return times_; }
-  std::array<const StageMonitor*, 3> monitors() const {
-    return {&slam_monitor_, &detector_monitor_, &tracker_monitor_};
-  }
+  std::vector<const StageMonitor*> monitors() const;
 
  private:
   bool isFromSlam(const geometry_msgs::TransformStamped& transform) const;
-  void followSlam(Stamp now, Output& output);
+
+  /// What `take(grids)`, which feeds the low level, leads to; nothing without low-level fusion.
+  template <typename Take>
+  Output throughFusion(Stamp now, const Take& take);
+
+  void followFusion(Stamp now, Output& output);
+  void followSlam(GridSlamOutput slam, Stamp now, Output& output);
+  void detect(const GridSlamOutput& slam, Stamp now, Output& output);
   void drainTracker(Stamp now, Output& output);
   void bookTime(const StageMonitor& monitor);
 
@@ -71,10 +98,11 @@ class Pipeline {
   StageMonitor slam_monitor_{"grid_slam"};
   StageMonitor detector_monitor_{"moving_objects"};
   StageMonitor tracker_monitor_{"tracker"};
+  StageTimes times_;
+  std::unique_ptr<LowLevelPipeline> low_level_;  ///< null without low-level fusion
   GridSlamStage slam_;
   MovingObjectsStage detector_;
   TrackerStage tracker_;
-  StageTimes times_;
 };
 
 }  // namespace datmo

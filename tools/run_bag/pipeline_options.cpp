@@ -11,14 +11,23 @@ namespace datmo {
 namespace {
 
 /// One for each nodelet; those without a stage in the pipeline are for live use alone.
-const std::array<std::string, 4> kSections = {"grid_slam", "moving_objects", "tracker", "markers"};
+const std::array<std::string, 8> kSections = {"stereo_image_proc", "lidar_grid", "stereo_grid",
+                                              "grid_fusion",       "grid_slam",  "moving_objects",
+                                              "tracker",           "markers"};
+
+std::string sectionNames() {
+  std::string names;
+  for (const std::string& section : kSections) {
+    names += names.empty() ? section : ", " + section;
+  }
+  return names;
+}
 
 void checkSections(const std::string& file, const YAML::Node& root) {
   for (const auto& entry : root) {
     const std::string name = keyOf(entry.first);
     if (std::find(kSections.begin(), kSections.end(), name) == kSections.end()) {
-      throw OptionError(file + ": " + name +
-                        ": expected grid_slam, moving_objects, tracker or markers");
+      throw OptionError(file + ": " + name + ": expected one of " + sectionNames());
     }
   }
 }
@@ -38,10 +47,14 @@ Options readSection(const std::string& file, const YAML::Node& root, const std::
 PipelineOptions readPipelineOptions(const std::string& file) {
   const YAML::Node root = loadYaml(file);
   if (!root.IsMap()) {
-    throw OptionError(file + ": expected sections: grid_slam, moving_objects, tracker");
+    throw OptionError(file + ": expected sections: " + sectionNames());
   }
   checkSections(file, root);
-  return {readSection<GridSlamStageOptions>(file, root, "grid_slam"),
+  return {{readSection<StereoImagesOptions>(file, root, "stereo_image_proc"),
+           readSection<LidarGridStageOptions>(file, root, "lidar_grid"),
+           readSection<StereoGridStageOptions>(file, root, "stereo_grid"),
+           readSection<GridFusionStageOptions>(file, root, "grid_fusion")},
+          readSection<GridSlamStageOptions>(file, root, "grid_slam"),
           readSection<MovingObjectsStageOptions>(file, root, "moving_objects"),
           readSection<TrackerStageOptions>(file, root, "tracker")};
 }

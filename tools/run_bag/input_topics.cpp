@@ -1,0 +1,125 @@
+#include "input_topics.h"
+
+#include "input_bag.h"
+
+#include <rosbag/view.h>
+
+namespace datmo {
+
+namespace {
+
+const std::string kTruthPrefix = "/ground_truth/";
+const std::string kRectifiedName = "image_rect";
+
+std::vector<std::string> truthTopics(const rosbag::Bag& bag) {
+  rosbag::View view(bag);
+  std::vector<std::string> topics;
+  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
+    if (connection->topic.rfind(kTruthPrefix, 0) == 0) {
+      topics.push_back(connection->topic);
+    }
+  }
+  return topics;
+}
+
+/// A camera's info stands beside its images (image_transport).
+std::string infoBeside(const std::string& image) {
+  return image.substr(0, image.find_last_of('/')) + "/camera_info";
+}
+
+/// Under the stereo camera's namespace: rectified images, or raw ones where there are none.
+std::string imageTopic(const rosbag::Bag& bag, const Arguments& arguments,
+                       const std::string& side) {
+  const std::string rectified = "/stereo/" + side + "/image_rect";
+  const std::string raw = "/stereo/" + side + "/image_raw";
+  return arguments.inputTopic(side + "_image", holdsTopic(bag, rectified) ? rectified : raw);
+}
+
+StereoTopics imageTopics(const rosbag::Bag& bag, const Arguments& arguments) {
+  StereoTopics topics;
+  topics.left_image = imageTopic(bag, arguments, "left");
+  topics.right_image = imageTopic(bag, arguments, "right");
+  topics.left_info = arguments.inputTopic("left_camera_info", infoBeside(topics.left_image));
+  topics.right_info = arguments.inputTopic("right_camera_info", infoBeside(topics.right_image));
+  return topics;
+}
+
+StereoTopics stereoTopics(const rosbag::Bag& bag, const Arguments& arguments) {
+  StereoTopics topics = imageTopics(bag, arguments);
+  const std::string points = arguments.inputTopic("points2", "/stereo/points2");
+  if (!arguments.stereo_from_images && holdsTopic(bag, points)) {
+    StereoTopics cloud;
+    cloud.points = points;
+    cloud.right_info = topics.right_info;
+    return cloud;
+  }
+  for (const std::string& topic :
+       {topics.left_image, topics.right_image, topics.left_info, topics.right_info}) {
+    if (!holdsTopic(bag, topic)) {
+      failForTopic(bag, "neither a PointCloud2 on " + points + " nor, for images, " + topic +
+                            " (without a stereo camera, set grid_fusion/sources/stereo/use to "
+                            "false in " +
+                            arguments.config + ")");
+    }
+  }
+  return topics;
+}
+
+void findLowLevelTopics(const rosbag::Bag& bag, const Arguments& arguments,
+                        const GridFusionStageOptions& fusion, InputTopics& topics) {
+  for (const std::string& source : fusion.fuser.sourcesInUse()) {
+    if (source == "stereo") {
+      topics.stereo = stereoTopics(bag, arguments);
+    } else if (source != "lidar") {
+      topics.grids["/grids/" + source] = source;
+    }
+  }
+}
+
+}  // namespace
+
+bool StereoTopics::rectified() const {
+  return left_image.compare(left_image.find_last_of('/') + 1, kRectifiedName.size(),
+                            kRectifiedName) == 0;
+}
+
+std::vector<std::string> InputTopics::all() const {
+  std::vector<std::string> topics = truth;
+  topics.insert(topics.end(), {scan, echoes, odometry, "/tf"});
+  for (const std::string& topic : {stereo.points, stereo.left_image, stereo.right_image,
+                                   stereo.left_info, stereo.right_info}) {
+    if (!topic.empty()) {
+      topics.push_back(topic);
+    }
+  }
+  for (const auto& [topic, source] : grids) {
+    topics.push_back(topic);
+  }
+  return topics;
+}
+
+InputTopics findTopics(const rosbag::Bag& bag, const Arguments& arguments,
+                       const PipelineOptions& options) {
+  InputTopics topics;
+  topics.scan = arguments.inputTopic("scan");
+  topics.echoes = arguments.inputTopic("echoes");
+  topics.odometry = arguments.inputTopic("odometry");
+  if (!holdsTopic(bag, topics.scan) && !holdsTopic(bag, topics.echoes)) {
+    failForTopic(bag, "neither a LaserScan on " + topics.scan + " nor a MultiEchoLaserScan on " +
+                          topics.echoes);
+  }
+  if (options.grid_slam.odometry && !holdsTopic(bag, topics.odometry)) {
+    failForTopic(bag, "no odometry on " + topics.odometry +
+                          " (without any, set grid_slam/odometry to false in " + arguments.config +
+                          ")");
+  }
+  if (arguments.low_level_fusion) {
+    findLowLevelTopics(bag, arguments, options.low_level.grid_fusion, topics);
+  }
+  if (arguments.with_truth) {
+    topics.truth = truthTopics(bag);
+  }
+  return topics;
+}
+
+}  // namespace datmo

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "arguments.h"
+#include "pipeline_options.h"
+
+#include <rosbag/bag.h>
+
+namespace datmo {
+
+/// The names that the stereo camera's messages have in the bag; empty: not read.
+struct StereoTopics {
+  std::string points;
+  std::string left_image;
+  std::string right_image;
+  std::string left_info;
+  std::string right_info;
+
+  /// Whether the images are rectified, as image_proc's naming says: image_rect, image_rect_color.
+  bool rectified() const;
+};
+
+/// The names that our inputs have in the bag.
+struct InputTopics {
+  std::string scan;
+  std::string echoes;
+  std::string odometry;
+  StereoTopics stereo;
+  std::map<std::string, std::string> grids;  ///< of sources that no stage makes: topic -> source
+  std::vector<std::string> truth;
+
+  std::vector<std::string> all() const;
+};
+
+/// Looks for what the stages need. Throws std::runtime_error that names what is missing, and what
+/// the bag holds.
+InputTopics findTopics(const rosbag::Bag& bag, const Arguments& arguments,
+                       const PipelineOptions& options);
+
+}  // namespace datmo
