@@ -61,14 +61,13 @@ std::vector<int> discEdges(const SensorGrid& grid, double radius) {
 void forgetFreeAroundOccupied(SensorGrid& grid, double radius) {
   const std::vector<int> edges = discEdges(grid, radius);
   const int columns = grid.window().columns;
-  std::size_t edge = 0;
-  std::size_t slot = 0;
+  const int* edge = edges.data();
+  Percent* cell = grid.cells().data();
   for (int row = 0; row < grid.window().rows; ++row, ++edge) {
     int discs = 0;
-    for (int column = 0; column < columns; ++column, ++slot) {
-      discs += edges[edge++];
-      Percent& cell = grid.cells()[slot];
-      cell = discs > 0 && isFree(cell) ? kUnknownPercent : cell;
+    for (int column = 0; column < columns; ++column, ++cell) {
+      discs += *edge++;
+      *cell = discs > 0 && isFree(*cell) ? kUnknownPercent : *cell;
     }
   }
 }
