@@ -1,9 +1,12 @@
 #include "parameter_tables.h"
 
 #include "datmo_fusion/common/option_table.h"
+#include "datmo_fusion/ros/grid_fusion_stage.h"
 #include "datmo_fusion/ros/grid_slam_stage.h"
+#include "datmo_fusion/ros/lidar_grid_stage.h"
 #include "datmo_fusion/ros/markers.h"
 #include "datmo_fusion/ros/moving_objects_stage.h"
+#include "datmo_fusion/ros/stereo_grid_stage.h"
 #include "datmo_fusion/ros/tracker_stage.h"
 
 namespace datmo {
@@ -18,7 +21,10 @@ std::string section(const std::string& nodelet) {
 }  // namespace
 
 std::string parameterTables() {
-  return section<GridSlamStageOptions>("grid_slam") + "\n" +
+  return section<LidarGridStageOptions>("lidar_grid") + "\n" +
+         section<StereoGridStageOptions>("stereo_grid") + "\n" +
+         section<GridFusionStageOptions>("grid_fusion") + "\n" +
+         section<GridSlamStageOptions>("grid_slam") + "\n" +
          section<MovingObjectsStageOptions>("moving_objects") + "\n" +
          section<TrackerStageOptions>("tracker") + "\n" + section<MarkersOptions>("markers");
 }

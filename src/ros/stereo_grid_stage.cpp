@@ -1,6 +1,8 @@
 #include "datmo_fusion/ros/stereo_grid_stage.h"
 
 #include <cmath>
+#include <stdexcept>
+#include <utility>
 
 #include <boost/make_shared.hpp>
 
@@ -18,8 +20,8 @@ void StereoCameraOptions::visit(OptionVisitor& visitor) {
   visitor.number({"field_of_view", "rad", "from left to right, until a camera info has come"},
                  field_of_view, {degrees(5.0), degrees(150.0)});
   visitor.number({"disparity_sigma", "px",
-                  "standard deviation of a disparity; at 0.5 px the depth error of the "
-                  "demonstrator's cameras reaches 5 m at 36 m (thesis 4.1.3)"},
+                  "standard deviation of a disparity; at 0.25 px two standard deviations of the "
+                  "demonstrator's depth are 5 m at 36 m (thesis 3.3.3)"},
                  disparity_sigma, {0.01, 10.0});
 }
 
@@ -78,7 +80,7 @@ nav_msgs::OccupancyGridPtr StereoGridStage::takeCloud(const sensor_msgs::PointCl
     if (stamps_.check(message.header.stamp) == Arrival::kRestart) {
       model_.reset();
     }
-    StereoGridResult result = model_.grid(cloud);
+    StereoGridResult result = gridOf(cloud);
     show(result);
     auto grid = boost::make_shared<nav_msgs::OccupancyGrid>(
         toMessage(std::move(result.grid), options_.base_frame));
@@ -87,6 +89,14 @@ nav_msgs::OccupancyGridPtr StereoGridStage::takeCloud(const sensor_msgs::PointCl
   } catch (const InputError& error) {
     monitor_.dropped(error);
     return nullptr;
+  }
+}
+
+StereoGridResult StereoGridStage::gridOf(const StereoCloud& cloud) {
+  try {
+    return model_.grid(cloud);
+  } catch (const std::invalid_argument& error) {
+    throw InputError("bad_camera", error.what());
   }
 }
 

@@ -20,7 +20,7 @@ struct StereoCameraOptions {
   double focal_length = 0.0;             ///< px; 0: not known
   double baseline = 0.0;                 ///< m; 0: not known
   double field_of_view = degrees(60.0);  ///< rad
-  double disparity_sigma = 0.5;          ///< px
+  double disparity_sigma = 0.25;         ///< px
 
   void visit(OptionVisitor& visitor);
 };
@@ -55,6 +55,9 @@ class StereoGridStage {
  private:
   /// Throws InputError (`missing_camera_info`).
   StereoCamera camera() const;
+
+  /// Throws InputError (`bad_camera`) for one that is not mounted as one that sees the road.
+  StereoGridResult gridOf(const StereoCloud& cloud);
 
   /// Above base_link's origin, m.
   double scannerHeight();

@@ -1,0 +1,209 @@
+#include "datmo_fusion/ros/stereo_grid_stage.h"
+
+#include <limits>
+
+#include "cloud_samples.h"
+#include "monitor_counts.h"
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/ros/grid_conversion.h"
+
+namespace datmo {
+namespace {
+
+using samples::kStart;
+
+constexpr double kCameraHeight = 1.2;  // m
+constexpr double kWallAhead = 10.0;    // m, of the camera
+
+/// What a camera of 500 px sees of a flat road and a wall on it, every few pixels.
+std::vector<Eigen::Vector3f> wallOnARoad() {
+  std::vector<Eigen::Vector3f> points;
+  for (int row = 0; row < 480; row += 4) {
+    for (int column = 0; column < 640; column += 4) {
+      const double right = (column - 319.5) / 500.0;
+      const double down = (row - 239.5) / 500.0;
+      const double road = down > 0.0 ? kCameraHeight / down : kWallAhead;
+      const double depth = std::min(road, kWallAhead);
+      points.emplace_back(Eigen::Vector3d(right * depth, down * depth, depth).cast<float>());
+    }
+  }
+  return points;
+}
+
+class StereoGridStageTest : public testing::Test {
+ protected:
+  StereoGridStageTest() { stage_.takeCameraInfo(samples::rightCameraInfo()); }
+
+  /// The camera looks ahead from 2 m ahead of the vehicle's origin; the scanner is at 0.5 m.
+  void mountSensors() {
+    tf2_msgs::TFMessage message;
+    message.transforms = {samples::transform("base_link", "camera", 2.0),
+                          samples::transform("base_link", "scanner", 3.6)};
+    message.transforms[0].transform.translation.z = kCameraHeight;
+    auto& optical = message.transforms[0].transform.rotation;
+    optical.x = -0.5;
+    optical.y = 0.5;
+    optical.z = -0.5;
+    optical.w = 0.5;
+    message.transforms[1].transform.translation.z = 0.5;
+    buffer_.addStatic(message);
+  }
+
+  static sensor_msgs::PointCloud2 cloudAt(double seconds) {
+    sensor_msgs::PointCloud2 message = samples::cloud(wallOnARoad());
+    message.header.stamp = ros::Time(seconds);
+    return message;
+  }
+
+  nav_msgs::OccupancyGridPtr takeAt(double seconds) { return stage_.takeCloud(cloudAt(seconds)); }
+
+  static Percent percentAt(const nav_msgs::OccupancyGrid& message, double x, double y) {
+    const SensorGrid grid = fromMessage(message);
+    return grid.at(grid.window().cellAt({x, y}));
+  }
+
+  static void expectWall(const nav_msgs::OccupancyGridPtr& grid) {
+    ASSERT_TRUE(grid);
+    EXPECT_TRUE(isOccupied(percentAt(*grid, 2.0 + kWallAhead + 0.01, 0.0)));
+    EXPECT_TRUE(isFree(percentAt(*grid, 2.0 + 0.6 * kWallAhead, 0.0)));
+    EXPECT_FALSE(isOccupied(percentAt(*grid, 2.0 + kWallAhead + 4.0, 0.0)));
+    EXPECT_EQ(percentAt(*grid, -10.0, 0.0), kUnknownPercent) << "behind";
+  }
+
+  std::uint64_t drops(const std::string& reason) const { return samples::drops(monitor_, reason); }
+
+  TransformBuffer buffer_{1.0};
+  StageMonitor monitor_{"stereo_grid"};
+  StereoGridStageOptions options_;
+  StereoGridStage stage_{options_, buffer_, monitor_};
+};
+
+TEST_F(StereoGridStageTest, ACloudMakesAGridOfItsStampInTheVehiclesFrame) {
+  mountSensors();
+  const auto grid = takeAt(kStart);
+  expectWall(grid);
+  EXPECT_EQ(grid->header.frame_id, "base_link");
+  EXPECT_EQ(grid->header.stamp, ros::Time(kStart));
+  EXPECT_EQ(fromMessage(*grid).window(), GridWindowOptions().window());
+  EXPECT_EQ(monitor_.processedCount(), 1U);
+  EXPECT_EQ(monitor_.droppedCount() + monitor_.warningCount(), 0U);
+}
+
+TEST_F(StereoGridStageTest, DiagnosticsTellWhatWasSeen) {
+  mountSensors();
+  takeAt(kStart);
+  const auto& figures = monitor_.figures();
+  EXPECT_EQ(figures.at("points of the cloud"), 120.0 * 160.0);
+  EXPECT_GT(figures.at("points in the layer of obstacles"), 100.0);
+  EXPECT_EQ(figures.at("road seen, 0 or 1"), 1.0);
+  EXPECT_NEAR(figures.at("road's height [m]"), 0.0, 0.1);
+  EXPECT_NEAR(figures.at("road's slope ahead [m/m]"), 0.0, 0.02);
+}
+
+TEST_F(StereoGridStageTest, CloudsOfAnotherFrameAreBroughtToTheCamera) {
+  mountSensors();
+  options_.camera_frame = "camera";
+  StereoGridStage stage(options_, buffer_, monitor_);
+  stage.takeCameraInfo(samples::rightCameraInfo());
+  std::vector<Eigen::Vector3f> points = wallOnARoad();
+  for (Eigen::Vector3f& p : points) {
+    p = Eigen::Vector3f(p.z() + 2.0F, -p.x(), static_cast<float>(kCameraHeight) - p.y());
+  }
+  sensor_msgs::PointCloud2 message = samples::cloud(points);
+  message.header.frame_id = "base_link";
+  expectWall(stage.takeCloud(message));
+}
+
+TEST_F(StereoGridStageTest, WithoutCameraInfoTheOptionsServe) {
+  mountSensors();
+  options_.camera.focal_length = 500.0;
+  options_.camera.baseline = 0.2;
+  StereoGridStage stage(options_, buffer_, monitor_);
+  expectWall(stage.takeCloud(cloudAt(kStart)));
+}
+
+TEST_F(StereoGridStageTest, WithoutEitherCloudsAreDroppedUntilACameraInfoComes) {
+  mountSensors();
+  StereoGridStage stage(options_, buffer_, monitor_);
+  EXPECT_FALSE(stage.takeCloud(cloudAt(kStart)));
+  EXPECT_EQ(drops("missing_camera_info"), 1U);
+  stage.takeCameraInfo(sensor_msgs::CameraInfo());
+  EXPECT_EQ(drops("bad_camera_info"), 1U);
+  stage.takeCameraInfo(samples::rightCameraInfo());
+  expectWall(stage.takeCloud(cloudAt(kStart)));
+}
+
+TEST_F(StereoGridStageTest, AMissingMountIsCountedUntilItComes) {
+  EXPECT_FALSE(takeAt(kStart));
+  EXPECT_EQ(drops("missing_transform"), 1U);
+  mountSensors();
+  EXPECT_TRUE(takeAt(kStart));
+}
+
+TEST_F(StereoGridStageTest, WithoutAScannerItsHeightIsAnOption) {
+  mountSensors();
+  options_.scanner_frame = "roof_scanner";
+  StereoGridStage stage(options_, buffer_, monitor_);
+  stage.takeCameraInfo(samples::rightCameraInfo());
+  expectWall(stage.takeCloud(cloudAt(kStart)));
+  EXPECT_EQ(samples::warnings(monitor_, "missing_transform"), 1U);
+  options_.scanner_frame = "";
+  options_.scanner_height = 2.5;  // above the wall, as far as the camera sees it
+  StereoGridStage high(options_, buffer_, monitor_);
+  high.takeCameraInfo(samples::rightCameraInfo());
+  const auto grid = high.takeCloud(cloudAt(kStart));
+  ASSERT_TRUE(grid);
+  EXPECT_LT(monitor_.figures().at("points in the layer of obstacles"), 3000.0);
+  EXPECT_EQ(samples::warnings(monitor_, "missing_transform"), 1U);
+}
+
+TEST_F(StereoGridStageTest, ACameraThatLooksStraightDownIsRefused) {
+  mountSensors();
+  tf2_msgs::TFMessage message;
+  message.transforms = {samples::transform("base_link", "camera", 2.0)};
+  message.transforms[0].transform.translation.z = kCameraHeight;
+  message.transforms[0].transform.rotation.x = 1.0;  // z down
+  message.transforms[0].transform.rotation.w = 0.0;
+  buffer_.addStatic(message);
+  EXPECT_FALSE(takeAt(kStart));
+  EXPECT_EQ(drops("bad_camera"), 1U);
+}
+
+TEST_F(StereoGridStageTest, BadCloudsAreDroppedAndCountedAndTheNextOneServed) {
+  mountSensors();
+  const auto dropped = [this](const std::function<void(sensor_msgs::PointCloud2&)>& spoil,
+                              const std::string& reason) {
+    sensor_msgs::PointCloud2 message = cloudAt(kStart);
+    spoil(message);
+    const std::uint64_t before = drops(reason);
+    EXPECT_FALSE(stage_.takeCloud(message)) << reason;
+    EXPECT_EQ(drops(reason), before + 1) << reason;
+  };
+  dropped([](auto& message) { message = samples::cloud({}); }, "empty_cloud");
+  dropped([](auto& message) { message.fields.erase(message.fields.begin()); }, "missing_field");
+  dropped([](auto& message) { message.is_bigendian = 1; }, "big_endian");
+  dropped([](auto& message) { message.header.frame_id = "nowhere"; }, "missing_transform");
+  dropped([](auto& message) { message.header.stamp = ros::Time(); }, "zero_stamp");
+  dropped([](auto& message) { std::fill(message.data.begin(), message.data.end(), 0xFF); },
+          "no_valid_point");
+  expectWall(takeAt(kStart));
+  dropped([](auto& message) { message.header.stamp = ros::Time(kStart); }, "repeated_stamp");
+  dropped([](auto& message) { message.header.stamp = ros::Time(kStart - 0.5); }, "old_stamp");
+  expectWall(takeAt(kStart + 0.1));
+}
+
+TEST_F(StereoGridStageTest, AJumpBackStartsAnew) {
+  mountSensors();
+  EXPECT_TRUE(takeAt(200.0));
+  expectWall(takeAt(100.0));
+  EXPECT_EQ(monitor_.droppedCount(), 0U);
+}
+
+TEST_F(StereoGridStageTest, BadOptionsAreRefused) {
+  options_.camera.disparity_sigma = 0.0;
+  EXPECT_THROW(StereoGridStage(options_, buffer_, monitor_), OptionError);
+}
+
+}  // namespace
+}  // namespace datmo
