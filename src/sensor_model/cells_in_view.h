@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 #include "stereo_view.h"
 
@@ -20,7 +19,8 @@ struct FieldOfView {
   bool contains(const ViewedPlace& place) const {
     return place.forward > nearest_depth && place.right >= left_tangent * place.forward &&
            place.right <= right_tangent * place.forward &&
-           std::hypot(place.forward, place.right) <= effective_range;
+           place.forward * place.forward + place.right * place.right <=
+               effective_range * effective_range;
   }
 };
 

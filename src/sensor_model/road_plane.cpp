@@ -13,7 +13,7 @@ namespace datmo {
 namespace {
 
 /// Points that are looked at, of however many there are: a few for each square metre.
-constexpr std::size_t kMostSamples = 20000;
+constexpr std::size_t kMostSamples = 8000;
 
 /// Side of the cells that have one vote each, m.
 constexpr double kVoteSize = 1.0;
@@ -33,18 +33,19 @@ constexpr std::array<Round, 6> kRounds = {
 struct Sample {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< base frame, m
   double depth = 0.0;                                  ///< m ahead of the camera
+  double variance = 0.0;                               ///< m^2, of the height
   std::size_t cell = 0;                                ///< that it votes in
 };
 
 /// A square metre's points that are near to the last plane.
 struct Vote {
   Eigen::Vector3d position_sum = Eigen::Vector3d::Zero();
-  double depth_sum = 0.0;
+  double variance_sum = 0.0;
   int count = 0;
 
   void add(const Sample& sample) {
     position_sum += sample.position;
-    depth_sum += sample.depth;
+    variance_sum += sample.variance;
     ++count;
   }
 };
@@ -85,45 +86,47 @@ class RoadSamples {
     const std::size_t stride = cloud.points.count / kMostSamples + 1;
     samples_.reserve(kMostSamples);
     for (std::size_t begin = 0; begin + stride <= cloud.points.count; begin += stride) {
-      const Eigen::Vector3f point = cloud.points[begin + offset(begin / stride, stride)];
-      const ViewedPoint seen = view(point);
-      const double column = std::floor((seen.right + options.half_width) / kVoteSize);
-      if (seen.forward > 0.0F && seen.forward < options.farthest && column >= 0.0 &&
-          column < static_cast<double>(columns_)) {
-        const auto row = static_cast<std::size_t>(seen.forward / kVoteSize);
-        samples_.push_back({cloud.camera_in_base * point.cast<double>(), seen.forward,
-                            row * columns_ + static_cast<std::size_t>(column)});
-      }
+      add(cloud.points[begin + offset(begin / stride, stride)], view, cloud.camera_in_base);
     }
   }
 
   /// Through the samples that are near to a plane.
   PlaneFit fitNear(const RoadPlane& plane, const Round& round) const {
+    const double reach = round.reach * options_.farthest;
+    const double tolerance = round.tolerances * options_.tolerance;
     std::vector<Vote> votes(cells_);
     for (const Sample& sample : samples_) {
-      const double most =
-          std::hypot(round.tolerances * options_.tolerance, 2.0 * heightSigma(sample.depth));
-      if (sample.depth < round.reach * options_.farthest &&
-          std::abs(plane.heightOf(sample.position)) < most) {
+      const double height = plane.heightOf(sample.position);
+      if (sample.depth < reach && height * height < tolerance * tolerance + 4.0 * sample.variance) {
         votes[sample.cell].add(sample);
       }
     }
     PlaneFit fit;
     for (const Vote& vote : votes) {
       if (vote.count >= kLeastSamples) {
-        const double sigma =
-            std::hypot(options_.tolerance, heightSigma(vote.depth_sum / vote.count));
-        fit.add(vote.position_sum / vote.count, sigma * sigma);
+        fit.add(vote.position_sum / vote.count,
+                options_.tolerance * options_.tolerance + vote.variance_sum / vote.count);
       }
     }
     return fit;
   }
 
  private:
-  /// m, of a point of the road: lines of sight fall by the camera's height on their way to it, so
-  /// that a depth that is off by its standard deviation lifts or lowers the point.
-  double heightSigma(double depth) const {
-    return camera_height_ * camera_.depthSigma(depth) / depth;
+  void add(const Eigen::Vector3f& point, const StereoView& view,
+           const Eigen::Isometry3d& camera_in_base) {
+    const ViewedPoint seen = view(point);
+    const double depth = seen.forward;
+    const double column = (seen.right + options_.half_width) / kVoteSize;
+    // In this order what is not a number is left out.
+    if (depth > 0.0 && depth < options_.farthest && column >= 0.0 &&
+        column < static_cast<double>(columns_)) {
+      const auto row = static_cast<std::size_t>(depth / kVoteSize);
+      // Lines of sight fall by the camera's height on their way to the road, so that a depth that
+      // is off by its standard deviation lifts or lowers the point.
+      const double sigma = camera_height_ * camera_.depthSigma(depth) / depth;
+      samples_.push_back({camera_in_base * point.cast<double>(), depth, sigma * sigma,
+                          row * columns_ + static_cast<std::size_t>(column)});
+    }
   }
 
   /// Which of `stride` points is taken: spread by the golden ratio, so that no width of an image
@@ -131,7 +134,8 @@ class RoadSamples {
   static std::size_t offset(std::size_t block, std::size_t stride) {
     constexpr double kGolden = 0.6180339887498949;
     const double turns = static_cast<double>(block) * kGolden;
-    return static_cast<std::size_t>((turns - std::floor(turns)) * static_cast<double>(stride));
+    const double rest = turns - static_cast<double>(static_cast<std::size_t>(turns));
+    return static_cast<std::size_t>(rest * static_cast<double>(stride));
   }
 
   const RoadPlaneOptions& options_;

@@ -48,26 +48,32 @@ double StereoColumns::surfaceAt(const ViewedPlace& place) const {
                            std::max(depths.far, place.forward + half_cell_));
 }
 
-bool StereoColumns::isPeak(const ViewedPlace& place, double surface) const {
-  const Depths reach = around(place.forward, kPeakReach);
-  if (reach.far - reach.near <= 2.0 * half_cell_) {
-    return true;
+bool StereoColumns::isNoise(const ViewedPlace& place, double surface) const {
+  const double sigma = inverse_sigma_ * place.forward * place.forward;
+  if (2.0 * sigma <= half_cell_) {
+    return false;
   }
-  const double most = surface / options_.columns.peak_share;
+  // The window that surface is counted in widens the noise.
+  const double half_window = std::max(half_cell_, sigma);
+  const double variance = sigma * sigma + half_window * half_window / 3.0;
   for (double sigmas = -kPeakReach; sigmas <= kPeakReach; sigmas += kPeakStep) {
     const double depth = 1.0 / (1.0 / place.forward + sigmas * inverse_sigma_);
-    if (depth > 0.0 && depth < 2.0 * field_.effective_range &&
-        surfaceAt({depth, place.tangent() * depth}) > most) {
-      return false;
+    const double offset = depth - place.forward;
+    if (depth > 0.0 && depth < 2.0 * field_.effective_range && std::abs(offset) > half_cell_) {
+      const double share = std::exp(-0.5 * offset * offset / variance);
+      if (surface <
+          options_.columns.noise_factor * share * surfaceAt({depth, place.tangent() * depth})) {
+        return true;
+      }
     }
   }
-  return true;
+  return false;
 }
 
 bool StereoColumns::isSeenThrough(const ViewedPlace& place) const {
-  const int lines = evidence_.lines(place, half_cell_);
-  return lines >= options_.columns.least_lines &&
-         lines >= options_.columns.least_seen_share * evidence_.expectedLines(place, half_cell_);
+  const StereoEvidence::Lines lines = evidence_.linesAcross(place, half_cell_);
+  return lines.seen >= options_.columns.least_lines &&
+         lines.seen >= options_.columns.least_seen_share * lines.expected;
 }
 
 void StereoColumns::markCells(SensorGrid& grid) const {
@@ -78,9 +84,7 @@ void StereoColumns::markCells(SensorGrid& grid) const {
   forEachCellInView(grid.window(), view_, field_, [&](CellIndex cell, const ViewedPlace& place) {
     const double surface = surfaceAt(place);
     if (surface >= least) {
-      if (isPeak(place, surface)) {
-        grid.at(cell) = occupied;
-      }
+      grid.at(cell) = occupied;
     } else if (surface < doubtful && isSeenThrough(place)) {
       grid.at(cell) = free;
     }
@@ -97,8 +101,10 @@ void StereoColumns::removeNoise(SensorGrid& grid) const {
       const double share = std::min(1.0, 2.0 * half_cell_ / (depths.far - depths.near));
       surface += share * surfaceAt(place);
     }
-    if (surface < options_.columns.least_object_surface) {
-      for (const CellIndex cell : object) {
+    const bool is_noise = surface < options_.columns.least_object_surface;
+    for (const CellIndex cell : object) {
+      const ViewedPlace place = view_.placeOf(grid.window().centreOf(cell));
+      if (is_noise || isNoise(place, surfaceAt(place))) {
         grid.at(cell) = kUnknownPercent;
       }
     }

@@ -25,7 +25,7 @@ class StereoColumns {
 
   /// Whether no other place on the line of sight has clearly more surface of what may be the same
   /// obstacle.
-  bool isPeak(const ViewedPlace& place, double surface) const;
+  bool isNoise(const ViewedPlace& place, double surface) const;
 
   bool isSeenThrough(const ViewedPlace& place) const;
 

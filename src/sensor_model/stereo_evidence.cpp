@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
+#include <limits>
 
 namespace datmo {
 
@@ -24,8 +26,23 @@ constexpr float kBeyondSight = 1000.0F;
 constexpr double kTileSize = 16.0;
 constexpr double kHighestTangent = 1.0;
 
+/// Of clouds with more points, the line of sight of each second one is counted, or of fewer.
+constexpr std::size_t kEnoughLines = 200000;
+
+/// Numbers spread evenly over all of 32 bits, by the golden ratio: those below a limit take even
+/// shares of the points, whatever the width of the image.
+constexpr std::uint32_t spread(std::size_t index) {
+  constexpr std::uint32_t kGoldenTurn = 2654435769U;
+  return static_cast<std::uint32_t>(index) * kGoldenTurn;
+}
+
 /// This share of the tiles with points may have holes; the others tell how the cloud was thinned.
 constexpr double kHolesShare = 0.8;
+
+int roundedUp(double value) {
+  const int whole = static_cast<int>(value);
+  return value > whole ? whole + 1 : whole;
+}
 
 }  // namespace
 
@@ -33,7 +50,8 @@ void StereoEvidence::take(const StereoCloud& cloud, const StereoView& view,
                           const EvidenceLimits& limits) {
   prepare(cloud.camera, limits);
   addPoints(cloud, view, limits);
-  thinning_ = estimateThinning();
+  pixels_per_line_ = pixelsPerLine();
+  pixels_per_point_ = std::max(1.0, pixels_per_line_ / static_cast<double>(line_step_));
   obstacles_.sumUp();
   lines_.sumUp();
 }
@@ -43,7 +61,7 @@ void StereoEvidence::prepare(const StereoCamera& camera, const EvidenceLimits& l
   in_layer_ = 0;
   focal_length_ = camera.focal_length;
   left_ = camera.left_tangent;
-  band_ = limits.layer_bottom;
+  sight_height_ = limits.sight_height;
   bins_ = DepthBins(camera, limits.farthest_depth,
                     std::max(limits.cell_size / kBinsPerCell, limits.farthest_depth / kMostBins));
   const double width = camera.right_tangent - camera.left_tangent;
@@ -62,67 +80,89 @@ void StereoEvidence::prepare(const StereoCamera& camera, const EvidenceLimits& l
   tiles_.assign(static_cast<std::size_t>(tile_rows_) * static_cast<std::size_t>(tile_columns_), 0);
 }
 
+StereoEvidence::Scales StereoEvidence::scalesOf(const StereoCloud& cloud, const StereoView& view,
+                                                const EvidenceLimits& limits) const {
+  // The noise of a depth is uniform in its inverse, 1/m.
+  const double inverse_sigma = cloud.camera.depthSigma(1.0);
+  Scales scales;
+  scales.nearest = static_cast<float>(limits.nearest_depth);
+  scales.layer_bottom = static_cast<float>(limits.layer_bottom);
+  scales.layer_top = static_cast<float>(limits.layer_top);
+  scales.left = static_cast<float>(left_);
+  scales.columns_per_tangent = static_cast<float>(columns_per_tangent_);
+  scales.columns = static_cast<float>(columns_);
+  scales.tiles_per_tangent = static_cast<float>(columns_per_tangent_ / (1 << tile_shift_));
+  scales.tile_rows = static_cast<float>(tile_rows_);
+  scales.camera_height = view.cameraHeight();
+  scales.above_sight = view.cameraHeight() - static_cast<float>(limits.sight_height);
+  scales.road_margin = static_cast<float>(limits.road_sigmas * inverse_sigma) * view.cameraHeight();
+  scales.obstacle_margin = static_cast<float>(limits.obstacle_sigmas * inverse_sigma);
+  return scales;
+}
+
 void StereoEvidence::addPoints(const StereoCloud& cloud, const StereoView& view,
                                const EvidenceLimits& limits) {
-  const auto nearest = static_cast<float>(limits.nearest_depth);
-  const auto bottom = static_cast<float>(limits.layer_bottom);
-  const auto top = static_cast<float>(limits.layer_top);
-  const auto left = static_cast<float>(left_);
-  const auto columns_per_tangent = static_cast<float>(columns_per_tangent_);
-  const auto columns = static_cast<float>(columns_);
-  const auto tiles_per_tangent = static_cast<float>(columns_per_tangent_ / (1 << tile_shift_));
-  const auto horizon = static_cast<float>(0.5 * tile_rows_);
-  const auto tile_rows = static_cast<float>(tile_rows_);
-  // The noise of a depth is uniform in its inverse, 1/m.
-  const StereoCamera& camera = cloud.camera;
-  const double inverse_sigma = camera.disparity_sigma / (camera.focal_length * camera.baseline);
-  const auto road_margin = static_cast<float>(limits.road_sigmas * inverse_sigma);
-  const auto obstacle_margin = static_cast<float>(limits.obstacle_sigmas * inverse_sigma);
-  const float camera_height = view.cameraHeight();
-
-  for (std::size_t i = 0; i < cloud.points.count; ++i) {
-    const ViewedPoint point = view(cloud.points[i]);
-    if (!(point.forward > nearest && point.forward < kBeyondSight)) {
+  line_step_ = cloud.points.count / kEnoughLines + 1;
+  const auto last_line =
+      static_cast<std::uint32_t>(std::numeric_limits<std::uint32_t>::max() / line_step_);
+  const Scales scales = scalesOf(cloud, view, limits);
+  const PointsView points = cloud.points;
+  std::size_t finite = 0;
+  std::size_t in_layer = 0;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const ViewedPoint point = view(points[i]);
+    if (!(point.forward > scales.nearest && point.forward < kBeyondSight)) {
       continue;
     }
-    ++points_;
+    ++finite;
     const float inverse = 1.0F / point.forward;
-    const float place = (point.right * inverse - left) * columns_per_tangent;
-    if (!(place >= 0.0F && place < columns)) {
+    const float place = (point.right * inverse - scales.left) * scales.columns_per_tangent;
+    if (!(place >= 0.0F && place < scales.columns)) {
       continue;
     }
     const int column = static_cast<int>(place);
-
-    // m that the line of sight falls on its way to the point.
-    const float fall = camera_height - point.height;
-    const float row = horizon + fall * inverse * tiles_per_tangent;
-    if (row >= 0.0F && row < tile_rows) {
-      ++tiles_[static_cast<std::size_t>(static_cast<int>(row) * tile_columns_ +
-                                        (column >> tile_shift_))];
-    }
-
-    // On that line, the road is at the inverse depth inverse * fall / camera_height.
-    const bool on_road = point.height * inverse <= road_margin * camera_height;
-    if (!on_road && point.height >= bottom && point.height <= top &&
+    // m that the line of sight falls on its way to the point. On that line, the road is at the
+    // inverse depth inverse * fall / camera_height.
+    const float fall = scales.camera_height - point.height;
+    const bool on_road = point.height * inverse <= scales.road_margin;
+    if (!on_road && point.height >= scales.layer_bottom && point.height <= scales.layer_top &&
         bins_.contains(point.forward)) {
       obstacles_.add(bins_.at(point.forward), column, 1);
-      ++in_layer_;
+      ++in_layer;
     }
+    if (spread(i) <= last_line) {
+      countDensity(fall * inverse, column, scales);
+      addLine({point.forward, inverse, fall, on_road}, column, scales);
+    }
+  }
+  points_ = finite;
+  in_layer_ = in_layer;
+}
 
-    // From where to where the line is below the layer's bottom, and nothing stops it.
-    const float at_bottom = point.forward * (camera_height - bottom) / fall;
-    const float stop =
-        on_road ? point.forward * camera_height / fall : 1.0F / (inverse + obstacle_margin);
-    const float begin = fall > 0.0F ? std::max(0.0F, at_bottom) : 0.0F;
-    const float end = fall > 0.0F ? stop : std::min(stop, at_bottom);
-    if (begin < end) {
-      lines_.add(bins_.before(begin), column, 1);
-      lines_.add(bins_.before(end), column, -1);
-    }
+inline void StereoEvidence::countDensity(float fall_tangent, int column, const Scales& scales) {
+  const float row = 0.5F * scales.tile_rows + fall_tangent * scales.tiles_per_tangent;
+  if (row >= 0.0F && row < scales.tile_rows) {
+    ++tiles_[static_cast<std::size_t>(static_cast<int>(row) * tile_columns_ +
+                                      (column >> tile_shift_))];
   }
 }
 
-double StereoEvidence::estimateThinning() const {
+inline void StereoEvidence::addLine(const Line& line, int column, const Scales& scales) {
+  // From where to where the line is no higher than it may be, and nothing stops it.
+  const float per_fall = line.forward / line.fall;
+  const float at_top = per_fall * scales.above_sight;
+  const float stop = line.ends_on_road ? per_fall * scales.camera_height
+                                       : 1.0F / (line.inverse + scales.obstacle_margin);
+  const bool falls = line.fall > 0.0F;
+  const float begin = falls ? std::max(0.0F, at_top) : 0.0F;
+  const float end = falls ? stop : std::min(stop, at_top);
+  if (begin < end) {
+    lines_.add(bins_.before(begin), column, 1);
+    lines_.add(bins_.before(end), column, -1);
+  }
+}
+
+double StereoEvidence::pixelsPerLine() const {
   std::vector<int> counts;
   std::copy_if(tiles_.begin(), tiles_.end(), std::back_inserter(counts),
                [](int count) { return count > 0; });
@@ -133,7 +173,7 @@ double StereoEvidence::estimateThinning() const {
                                           kHolesShare * static_cast<double>(counts.size() - 1));
   std::nth_element(counts.begin(), dense, counts.end());
   const double tile_size = (1 << tile_shift_) * focal_length_ / columns_per_tangent_;
-  return std::max(1.0, tile_size * tile_size / *dense);
+  return tile_size * tile_size / *dense;
 }
 
 StereoEvidence::Columns StereoEvidence::columnsAt(const ViewedPlace& place,
@@ -141,8 +181,8 @@ StereoEvidence::Columns StereoEvidence::columnsAt(const ViewedPlace& place,
   // In columns; those are in whose middles are.
   const double middle = (place.tangent() - left_) * columns_per_tangent_;
   const double half = half_width / place.forward * columns_per_tangent_;
-  const int first = std::max(0, static_cast<int>(std::ceil(middle - half - 0.5)));
-  const int end = std::min(columns_, static_cast<int>(std::ceil(middle + half - 0.5)));
+  const int first = std::max(0, roundedUp(middle - half - 0.5));
+  const int end = std::min(columns_, roundedUp(middle + half - 0.5));
   if (first < end) {
     return {first, end};
   }
@@ -156,19 +196,16 @@ double StereoEvidence::surface(const ViewedPlace& place, double half_width, doub
   const int first = std::min(bins_.before(static_cast<float>(near)), bins_.size() - 1);
   const int end = std::max(first + 1, bins_.before(static_cast<float>(far)));
   const double pixel = place.forward / focal_length_;
-  return obstacles_.sum(first, end, columns.first, columns.end) * pixel * pixel * thinning_;
+  return obstacles_.sum(first, end, columns.first, columns.end) * pixel * pixel * pixels_per_point_;
 }
 
-int StereoEvidence::lines(const ViewedPlace& place, double half_width) const {
+StereoEvidence::Lines StereoEvidence::linesAcross(const ViewedPlace& place,
+                                                  double half_width) const {
   const Columns columns = columnsAt(place, half_width);
-  return lines_.sum(0, bins_.at(static_cast<float>(place.forward)) + 1, columns.first, columns.end);
-}
-
-double StereoEvidence::expectedLines(const ViewedPlace& place, double half_width) const {
-  const Columns columns = columnsAt(place, half_width);
-  const double pixels_across = (columns.end - columns.first) * focal_length_ / columns_per_tangent_;
-  const double pixels_high = band_ / place.forward * focal_length_;
-  return pixels_across * pixels_high / thinning_;
+  const int bin = bins_.at(static_cast<float>(place.forward));
+  const double across = (columns.end - columns.first) * focal_length_ / columns_per_tangent_;
+  const double high = sight_height_ / place.forward * focal_length_;
+  return {lines_.sum(0, bin + 1, columns.first, columns.end), across * high / pixels_per_line_};
 }
 
 }  // namespace datmo

@@ -19,6 +19,7 @@ struct EvidenceLimits {
   double layer_bottom = 0.0;     ///< m above the road
   double layer_top = 0.0;        ///< m above the road
   double road_sigmas = 0.0;      ///< of the depth: what is so near to the road is on it
+  double sight_height = 0.0;     ///< m above the road; lines of sight are counted below it
   double obstacle_sigmas = 0.0;  ///< of the depth: lines of sight are sure up to so much before it
 };
 
@@ -35,12 +36,13 @@ class StereoEvidence {
   /// `half_width` (m) to either side of a place in view.
   double surface(const ViewedPlace& place, double half_width, double near, double far) const;
 
-  /// How many lines of sight cross a place in view between the road and the layer's bottom, within
+  /// Lines of sight that cross a place in view no higher than `sight_height` above the road, within
   /// `half_width` (m) to either side of it.
-  int lines(const ViewedPlace& place, double half_width) const;
-
-  /// As many as it would be if the image had no holes.
-  double expectedLines(const ViewedPlace& place, double half_width) const;
+  struct Lines {
+    int seen = 0;
+    double expected = 0.0;  ///< in an image without holes
+  };
+  Lines linesAcross(const ViewedPlace& place, double half_width) const;
 
   std::size_t points() const { return points_; }
   std::size_t inLayer() const { return in_layer_; }
@@ -50,9 +52,32 @@ class StereoEvidence {
     int first, end;
   };
 
+  /// What a point is compared with, in the numbers that points have.
+  struct Scales {
+    float nearest, layer_bottom, layer_top;    ///< m
+    float left, columns_per_tangent, columns;  ///< of the columns
+    float tiles_per_tangent, tile_rows;        ///< of the tiles
+    float camera_height;                       ///< m above the road
+    float above_sight;                         ///< m, of the camera above `sight_height`
+    float road_margin;                         ///< of height / depth
+    float obstacle_margin;                     ///< 1/m, of the inverse depth
+  };
+  Scales scalesOf(const StereoCloud& cloud, const StereoView& view,
+                  const EvidenceLimits& limits) const;
+
+  /// A line of sight to a point.
+  struct Line {
+    float forward, inverse;  ///< m, 1/m: depth of the point
+    float fall;              ///< m, from the camera to the point
+    bool ends_on_road;
+  };
+
+  void countDensity(float fall_tangent, int column, const Scales& scales);
+  void addLine(const Line& line, int column, const Scales& scales);
   void prepare(const StereoCamera& camera, const EvidenceLimits& limits);
   void addPoints(const StereoCloud& cloud, const StereoView& view, const EvidenceLimits& limits);
-  double estimateThinning() const;
+  /// Pixels of the image for each of the points whose lines are counted.
+  double pixelsPerLine() const;
 
   /// At least one.
   Columns columnsAt(const ViewedPlace& place, double half_width) const;
@@ -62,15 +87,17 @@ class StereoEvidence {
   double left_ = 0.0;  ///< tangent of the first column's left border
   double columns_per_tangent_ = 0.0;
   double focal_length_ = 0.0;  ///< px
-  double band_ = 0.0;          ///< m, from the road to the layer's bottom
+  double sight_height_ = 0.0;  ///< m
   int tile_shift_ = 0;         ///< a tile of the image is 2^this columns wide
   int tile_rows_ = 0;
   int tile_columns_ = 0;
 
-  SummedCounts obstacles_;  ///< points, by bin and column
-  SummedCounts lines_;      ///< lines of sight that begin less those that end, by bin and column
-  std::vector<int> tiles_;  ///< points in each tile of the image, row by row
-  double thinning_ = 1.0;   ///< pixels for each point of the cloud, 1: dense
+  SummedCounts obstacles_;     ///< points, by bin and column
+  SummedCounts lines_;         ///< lines of sight that begin less those that end, by bin and column
+  std::vector<int> tiles_;     ///< lines in each tile of the image, row by row
+  std::size_t line_step_ = 1;  ///< the line of one in so many points is counted
+  double pixels_per_line_ = 1.0;
+  double pixels_per_point_ = 1.0;  ///< 1: the cloud is dense
   std::size_t points_ = 0;
   std::size_t in_layer_ = 0;
 };

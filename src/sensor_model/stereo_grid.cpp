@@ -33,6 +33,7 @@ EvidenceLimits limitsOf(const StereoGridOptions& options, const StereoCloud& clo
   limits.layer_bottom = std::max(options.least_layer_height, cloud.scanner_height);
   limits.layer_top = limits.layer_bottom + options.layer_thickness;
   limits.road_sigmas = options.columns.road_sigmas;
+  limits.sight_height = options.columns.sight_height;
   limits.obstacle_sigmas = options.columns.obstacle_sigmas;
   return limits;
 }
@@ -58,10 +59,11 @@ void StereoColumnsOptions::visit(OptionVisitor& visitor) {
   visitor.number({"doubtful_share", "1",
                   "a cell with this share of least_surface is not called free any more"},
                  doubtful_share, {0.0, 1.0});
-  visitor.number({"peak_share", "1",
-                  "of what lies behind each other within the noise of the depth, cells with this "
-                  "share of the most surface are occupied; 0: all of them"},
-                 peak_share, {0.0, 1.0});
+  visitor.number({"noise_factor", "1",
+                  "an occupied cell becomes unknown if it has less surface than so many times what "
+                  "the noise of the depth alone brings there from another place on the line of "
+                  "sight; 0: none does"},
+                 noise_factor, {0.0, 1.2});
   visitor.number({"road_sigmas", "1",
                   "a point is one of the road if a depth that is wrong by so many standard "
                   "deviations puts it where it is"},
@@ -70,9 +72,13 @@ void StereoColumnsOptions::visit(OptionVisitor& visitor) {
                   "places nearer to an obstacle than so many standard deviations of its depth are "
                   "not called free"},
                  obstacle_sigmas, {0.0, 10.0});
+  visitor.number({"sight_height", "m",
+                  "a line of sight tells of a place that it crosses no higher than this above the "
+                  "road that nothing taller stands there"},
+                 sight_height, {0.05, 2.0});
   visitor.number({"least_seen_share", "1",
-                  "a cell is free if at least this share of the lines of sight that cross it below "
-                  "the layer's bottom, in an image without holes, goes on to a point"},
+                  "a cell is free if at least this share of the lines that cross it below "
+                  "sight_height in an image without holes does so"},
                  least_seen_share, {0.0, 1.0});
   visitor.integer({"least_lines", "1", "and at least so many of them"}, least_lines, {1, 10000});
 }
