@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 
@@ -61,8 +62,11 @@ struct Source {
   }
 };
 
-/// `value`: 0 to 100.
-Percent rounded(float value) { return static_cast<Percent>(value + 0.5F); }
+/// `value`: 0 to 100. Without std::lround, which takes longer than all the rest.
+Percent rounded(float value) {
+  constexpr float kHalf = 0.5F;
+  return static_cast<Percent>(value + kHalf);
+}
 
 /// The evidence of several sources on one cell, combined by Dempster's rule but not normalised.
 class Evidence {
@@ -146,7 +150,7 @@ void fuseCells(const std::vector<Source>& sources, FusedGrids& result) {
       }
       ++known;
       said = source.cells[cell];
-      const Meaning& meaning = source.meanings[static_cast<std::size_t>(said)];
+      const Meaning& meaning = source.meanings[static_cast<std::uint8_t>(said)];
       rule.take(source, said, meaning);
       evidence.take(meaning);
     }
