@@ -74,7 +74,7 @@ OccupancyMap::OccupancyMap(const OccupancyMapOptions& options)
       cells_(options.window.window(), Cell{}) {}
 
 bool OccupancyMap::isStatic(const Cell& cell) const {
-  return cell.hits.count > 0.0F && maturity(cell) >= 1.0 &&
+  return isOccupied(cell) && maturity(cell) >= 1.0 &&
          static_cast<double>(cell.occupancy) >= options_.static_above;
 }
 
@@ -109,12 +109,12 @@ PointState OccupancyMap::judge(const Point2& point, const Point2& half_footprint
 }
 
 template <typename Visit>
-void OccupancyMap::forEachOccupiedAround(const Point2& point, Visit&& visit) const {
+void OccupancyMap::forEachSurfaceAround(const Point2& point, Visit&& visit) const {
   const CellIndex centre = window().cellAt(point);
   for (int row = centre.row - 1; row <= centre.row + 1; ++row) {
     for (int column = centre.column - 1; column <= centre.column + 1; ++column) {
       const Cell& cell = cells_.atOrEmpty({column, row});
-      if (isOccupied(cell)) {
+      if (hasSurface(cell)) {
         visit(cell, CellIndex{column, row});
       }
     }
@@ -123,7 +123,7 @@ void OccupancyMap::forEachOccupiedAround(const Point2& point, Visit&& visit) con
 
 std::optional<HitDistribution> OccupancyMap::hitsAround(const Point2& point) const {
   HitSums sums;
-  forEachOccupiedAround(point, [&](const Cell& cell, CellIndex index) {
+  forEachSurfaceAround(point, [&](const Cell& cell, CellIndex index) {
     sums.add(cell.hits, window().centreOf(index) - point, maturity(cell));
   });
   return sums.empty() ? std::nullopt : std::make_optional(sums.about(point));
@@ -133,7 +133,7 @@ std::optional<HitDistribution> OccupancyMap::nearestHits(const Point2& point) co
   const Cell* nearest = nullptr;
   Point2 place;
   double least_distance = std::numeric_limits<double>::infinity();
-  forEachOccupiedAround(point, [&](const Cell& cell, CellIndex index) {
+  forEachSurfaceAround(point, [&](const Cell& cell, CellIndex index) {
     const Point2 centre = window().centreOf(index);
     const double distance = (centre + cell.hits.mean() - point).squaredNorm();
     if (distance < least_distance) {
@@ -173,8 +173,11 @@ void OccupancyMap::update(const Scan& scan, const std::vector<PointState>& state
 
 void OccupancyMap::update(const GridSight& sight, const Pose2& base_in_map) {
   beginUpdate(sight.grid->stamp());
-  for (const Point2& point : sight.hits) {
+  for (const Point2& point : sight.surfaces) {
     hit(base_in_map * point);
+  }
+  for (const Point2& centre : sight.cells) {
+    occupy(window().cellAt(base_in_map * centre));
   }
   const Point2 from = base_in_map * sight.viewpoint;
   resample(*sight.grid, base_in_map, window(), [&](CellIndex cell, Percent percent) {
@@ -189,10 +192,9 @@ void OccupancyMap::change(Cell& cell, float log_odds_step) const {
   cell.occupancy = 1.0F / (1.0F + std::exp(-cell.log_odds));
 }
 
-void OccupancyMap::hit(const Point2& point) {
-  const CellIndex index = window().cellAt(point);
+OccupancyMap::Cell* OccupancyMap::occupy(CellIndex index) {
   if (!window().contains(index)) {
-    return;
+    return nullptr;
   }
   Cell& cell = cells_.at(index);
   if (!isOccupied(cell)) {
@@ -205,12 +207,19 @@ void OccupancyMap::hit(const Point2& point) {
     cell.freed = 1.0F;  // no beam frees it in this scan
     cell.last_hit = now_;
   }
-  cell.hits.add((point - window().centreOf(index)).cast<float>(), kMostHits);
+  return &cell;
+}
+
+void OccupancyMap::hit(const Point2& point) {
+  const CellIndex index = window().cellAt(point);
+  if (Cell* cell = occupy(index)) {
+    cell->hits.add((point - window().centreOf(index)).cast<float>(), kMostHits);
+  }
 }
 
 float OccupancyMap::contradiction(const Cell& cell, CellIndex index, const Point2& from,
                                   const Point2& direction) const {
-  if (options_.surface_sigma == 0.0 || !isOccupied(cell)) {
+  if (options_.surface_sigma == 0.0 || !hasSurface(cell)) {
     return 1.0F;
   }
   HitSums sums;

@@ -121,6 +121,33 @@ FusedView viewThrough(const SensorGrid& grid, const Scan& scan, GridEnds ends) {
   return view;
 }
 
+std::vector<Point2> apartFrom(const std::vector<Point2>& seeds, const SensorGrid& grid,
+                              const std::vector<Point2>& places) {
+  SensorGrid rest = grid;
+  std::vector<CellIndex> open;
+  const auto reach = [&](CellIndex cell) {
+    if (isOccupied(rest.atOrUnknown(cell))) {
+      rest.at(cell) = kUnknownPercent;
+      open.push_back(cell);
+    }
+  };
+  for (const Point2& seed : seeds) {
+    reach(grid.window().cellAt(seed));
+  }
+  while (!open.empty()) {
+    const CellIndex cell = open.back();
+    open.pop_back();
+    forEachAround(cell, reach);
+  }
+  std::vector<Point2> apart;
+  for (const Point2& place : places) {
+    if (isOccupied(rest.atOrUnknown(grid.window().cellAt(place)))) {
+      apart.push_back(place);
+    }
+  }
+  return apart;
+}
+
 SensorGrid withoutFreeEdges(const SensorGrid& grid) {
   SensorGrid result = grid;
   grid.forEach([&](CellIndex cell, Percent percent) {

@@ -43,25 +43,32 @@ Scan matchable(const FusedView& view) {
   return scan;
 }
 
-/// What the map takes of a grid: ends of beams that do not move, and of what others alone have seen
-/// that which does not lie in space that the map knows to be free.
+/// What the map takes of a grid: where beams end on what does not move, and occupied cells. What
+/// others alone have seen is no place to match scans with, and is left out where it belongs to a
+/// mover, whose depth they blur, or lies in space that the map knows to be free.
 GridSight sightOf(const FusedView& view, const std::vector<PointState>& states,
-                  const SensorGrid& free_cells, const OccupancyMap& map, const Pose2& base_in_map) {
-  GridSight sight{&free_cells, {}, view.scan.scanner_in_base.position()};
-  const auto add_unless_moving = [&](const Point2& point, PointState state) {
-    if (state != PointState::kMoving) {
-      sight.hits.push_back(point);
-    }
-  };
+                  const SensorGrid& grid, const OccupancyMap& map, const Pose2& base_in_map) {
+  GridSight sight;
+  std::vector<Point2> movers;
+  std::vector<Point2> others = view.cells;
   for (std::size_t i = 0; i < view.scan.rays.size(); ++i) {
     const Ray& ray = view.scan.rays[i];
-    if (ray.hit) {
-      add_unless_moving(ray.end, view.measured[i] ? states[i] : map.judge(base_in_map * ray.end));
+    if (!ray.hit) {
+      continue;
+    }
+    if (view.any_measured && !view.measured[i]) {
+      others.push_back(ray.end);
+    } else {
+      (states[i] == PointState::kMoving ? movers : sight.surfaces).push_back(ray.end);
     }
   }
-  for (const Point2& cell : view.cells) {
-    add_unless_moving(cell, map.judge(base_in_map * cell));
+  std::vector<Point2>& target = view.any_measured ? sight.cells : sight.surfaces;
+  for (const Point2& place : apartFrom(movers, grid, others)) {
+    if (map.judge(base_in_map * place) != PointState::kMoving) {
+      target.push_back(place);
+    }
   }
+  sight.viewpoint = view.scan.scanner_in_base.position();
   return sight;
 }
 
@@ -193,7 +200,9 @@ SlamResult GridSlam::process(const Measurement& measurement) {
   const std::vector<PointState> states = judge(view, map_, base_in_map.pose);
   if (measurement.grid != nullptr) {
     const SensorGrid free_cells = withoutFreeEdges(*measurement.grid);
-    map_.update(sightOf(view, states, free_cells, map_, base_in_map.pose), base_in_map.pose);
+    GridSight sight = sightOf(view, states, *measurement.grid, map_, base_in_map.pose);
+    sight.grid = &free_cells;
+    map_.update(sight, base_in_map.pose);
   } else {
     map_.update(scan, states, base_in_map.pose);
   }

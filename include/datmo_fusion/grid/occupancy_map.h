@@ -33,7 +33,8 @@ struct OccupancyMapOptions {
 /// What the map takes in of an instantaneous grid, all in the vehicle's frame.
 struct GridSight {
   const SensorGrid* grid = nullptr;   ///< its free cells are free
-  std::vector<Point2> hits;           ///< m, on surfaces that stand still
+  std::vector<Point2> surfaces;       ///< m, exact points on surfaces that stand still
+  std::vector<Point2> cells;          ///< m, centres of further cells that are occupied
   Point2 viewpoint = Point2::Zero();  ///< m, from where they were seen
 };
 
@@ -76,7 +77,8 @@ class OccupancyMap {
   void update(const Scan& scan, const std::vector<PointState>& states, const Pose2& base_in_map);
 
   /// Takes in an instantaneous grid seen from `base_in_map` (thesis 3.2.5, eq. 3.2.7), as the scan
-  /// above with its cells in place of beams.
+  /// above with its cells in place of beams. Its exact points tell where surfaces lie within their
+  /// cells, so that scans can be matched with them; its other cells are occupied and no more.
   void update(const GridSight& sight, const Pose2& base_in_map);
 
   /// Row by row from the lower left corner: 0 to 100 percent, -1 where nothing is known
@@ -94,13 +96,15 @@ class OccupancyMap {
     CellHits hits;
   };
 
+  static bool isOccupied(const Cell& cell) { return cell.log_odds > 0.0F; }
+
   /// Whether the hits in a cell stand for a surface.
-  static bool isOccupied(const Cell& cell) {
-    return cell.hits.count > 0.0F && cell.log_odds > 0.0F;
-  }
+  static bool hasSurface(const Cell& cell) { return isOccupied(cell) && cell.hits.count > 0.0F; }
 
   void beginUpdate(Stamp stamp);
   void change(Cell& cell, float log_odds_step) const;
+  /// The cell has an occupant in this update; null if it is not in the window.
+  Cell* occupy(CellIndex index);
   void hit(const Point2& point);
   void pass(CellIndex cell, const Point2& from, const Point2& direction);
 
@@ -113,9 +117,9 @@ class OccupancyMap {
   /// How much of static_after lies between a cell's first and last hit, 0 to 1.
   double maturity(const Cell& cell) const;
 
-  /// `visit(cell, index)` for each occupied one of the 3 x 3 cells around a point.
+  /// `visit(cell, index)` for each of the 3 x 3 cells around a point that has a surface.
   template <typename Visit>
-  void forEachOccupiedAround(const Point2& point, Visit&& visit) const;
+  void forEachSurfaceAround(const Point2& point, Visit&& visit) const;
   bool isNearStatic(CellIndex cell) const;
 
   OccupancyMapOptions options_;

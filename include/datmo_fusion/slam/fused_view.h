@@ -31,6 +31,11 @@ struct FusedView {
 /// beams of its field out of the grid alone.
 FusedView viewThrough(const SensorGrid& grid, const Scan& scan, GridEnds ends);
 
+/// Those of the places (m, base frame) that are not connected with any of the `seeds` by occupied
+/// cells that touch: what does not belong to the same things.
+std::vector<Point2> apartFrom(const std::vector<Point2>& seeds, const SensorGrid& grid,
+                              const std::vector<Point2>& places);
+
 /// The grid without free cells beside occupied ones: where those lie is known to within a cell
 /// only, and a map whose cells lie otherwise must not take a surface's edge for free.
 SensorGrid withoutFreeEdges(const SensorGrid& grid);
