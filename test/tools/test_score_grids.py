@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import rosbag
 from datmo_tools import bag_messages, transforms
-from datmo_tools.grid_scores import Echoes, Grid, GridScores, StereoView, Tally
+from datmo_tools.grid_scores import Bodies, Echoes, Grid, GridScores, StereoView, Tally
 from datmo_tools.score_grids import main
 from geometry_msgs.msg import Quaternion, TransformStamped, Vector3
 from nav_msgs.msg import OccupancyGrid
@@ -54,7 +54,31 @@ def echoes(*items):
     return Echoes(items[:, :2], items[:, 2].astype(int))
 
 
+def bodies(*items):
+    """Bodies of (x, y, yaw, length, width, height)."""
+    items = np.array(items, dtype=float).reshape(-1, 6)
+    return Bodies(items[:, :3], items[:, 3:5], items[:, 5])
+
+
 class View(unittest.TestCase):
+    def assert_hidden(self, point, hidden, *items):
+        self.assertEqual(VIEW.hidden(np.array([point]), bodies(*items)).tolist(), [hidden])
+
+    def test_behind_a_car(self):
+        """4 m long across the road, 2 m wide: from x = 9 to 11 m, y = -1 to 3 m."""
+        car = (10.0, 1.0, math.pi / 2, 4.0, 2.0, 1.5)
+        for point, hidden in (((20.0, 0.0), True), ((20.0, 5.3), True), ((20.0, 6.9), False),
+                              ((20.0, -2.3), False), ((8.0, 0.0), False), ((9.9, 0.0), False),
+                              ((10.1, 0.0), True), ((-20.0, 0.0), False)):
+            self.assert_hidden(point, hidden, car)
+        self.assert_hidden((20.0, 0.0), True, (10.0, 30.0, 0.0, 4.0, 2.0, 1.5), car)
+        self.assert_hidden((20.0, 0.0), False)
+
+    def test_behind_a_low_thing(self):
+        """The line of sight to 20 m is 0.65 m high above x = 10 m."""
+        self.assert_hidden((20.0, 0.0), False, (10.0, 0.0, 0.0, 0.1, 2.0, 0.6))
+        self.assert_hidden((20.0, 0.0), True, (10.0, 0.0, 0.0, 0.1, 2.0, 0.7))
+
     def test_ranges(self):
         points = [(3.0, 4.0), (4.0, 3.0), (3.0, 4.1), (-4.0, 0.0), (36.1, 0.0), (35.0, 0.0)]
         expected = [math.inf, 5.0, math.inf, math.inf, math.inf, 35.0]
@@ -67,9 +91,10 @@ class View(unittest.TestCase):
 
 
 class Scores(unittest.TestCase):
-    def scores(self, lidar, fused, found=(), poles=()):
+    def scores(self, lidar, fused, found=(), poles=(), standing=()):
         result = GridScores(VIEW, EDGES)
-        result.add(lidar, fused, echoes(*found), np.array(poles, dtype=float).reshape(-1, 2))
+        poles = np.array(poles, dtype=float).reshape(-1, 2)
+        result.add(lidar, fused, echoes(*found), bodies(*standing), poles)
         return result
 
     def assert_tally(self, tally, having, total):
@@ -95,6 +120,12 @@ class Scores(unittest.TestCase):
         scores = self.scores(grid((8.5, 0.5), (9.5, 0.5), (12.5, 0.5)), grid(), found)
         self.assert_tally(scores.paint_gone, [1, 1, 0, 1, 0], [1, 1, 0, 1, 0])
         self.assert_tally(scores.bodies_lost, [1, 1, 1, 0, 0], [1, 1, 1, 0, 0])
+
+    def test_hidden_cells_are_not_in_view(self):
+        places = (8.5, 0.5), (15.5, 0.5)
+        scores = self.scores(grid(*places), grid(), [(*place, PAINT) for place in places],
+                             standing=[(12.0, 0.5, 0.0, 4.0, 2.0, 1.5)])
+        self.assert_tally(scores.paint_gone, [2, 1, 1, 0, 0], [2, 1, 1, 0, 0])
 
     def test_undecided_is_not_occupied(self):
         fused = grid()

@@ -11,7 +11,7 @@ from nav_msgs.msg import OccupancyGrid
 from datmo_tools import transforms
 from datmo_tools.bag_messages import BASE
 from datmo_tools.errors import InputError
-from datmo_tools.grid_scores import Echoes, Grid, StereoView
+from datmo_tools.grid_scores import Bodies, Echoes, Grid, StereoView
 from datmo_tools.pose_path import planar
 
 SCANS = ("/echoes", "/scan")
@@ -28,6 +28,7 @@ class Moment(NamedTuple):
     """What is true at the stamp of a scan."""
 
     echoes: Echoes
+    bodies: Bodies
     poles: np.ndarray  # n x 2, base_link, m: thin ones that the camera sees
 
 
@@ -46,14 +47,14 @@ def read_drive(path, reach, disparity_sigma):
     """
     kept = {topic: [] for topic in (MOUNTS, TRUE_OBJECTS, TRUE_POSE, TRUE_ECHOES, *SCANS)}
     infos = {}
-    with _opened(path) as bag:
+    with opened(path) as bag:
         for topic, message, _ in bag.read_messages([*kept, *CAMERA_INFOS]):
             if topic in kept:
                 kept[topic].append(message)
             else:
                 infos[topic] = message
-    mounts = _mounts(kept[MOUNTS])
-    view = _view(path, infos, mounts, reach, disparity_sigma)
+    mounts = mounts_of(kept[MOUNTS])
+    view = view_of(path, infos, mounts, reach, disparity_sigma)
     moments = _moments(path, kept, mounts)
     if not moments:
         raise InputError(
@@ -69,9 +70,9 @@ def grid_pairs(path, first_topic, second_topic):
     Raises InputError for another type, and for grids of one stamp that differ in their windows.
     """
     waiting = {}
-    with _opened(path) as bag:
+    with opened(path) as bag:
         for topic, raw, _ in bag.read_messages([first_topic, second_topic], raw=True):
-            stamp, grid = _grid(path, topic, raw)
+            stamp, grid = grid_of(path, topic, raw)
             other_topic, other = waiting.get(stamp, (topic, None))
             if other_topic == topic:
                 waiting[stamp] = (topic, grid)
@@ -84,7 +85,8 @@ def grid_pairs(path, first_topic, second_topic):
 
 
 @contextlib.contextmanager
-def _opened(path):
+def opened(path):
+    """Context of a rosbag.Bag to read. Raises InputError, also if reading fails later."""
     try:
         with rosbag.Bag(str(path)) as bag:
             yield bag
@@ -92,7 +94,7 @@ def _opened(path):
         raise InputError(f"{path}: cannot be read as a bag ({error})") from error
 
 
-def _grid(path, topic, raw):
+def grid_of(path, topic, raw):
     """Stamp and Grid of a message as it lies in the bag: a grid has 100,000 cells and more."""
     kind, data = raw[0], raw[1]
     if kind != "nav_msgs/OccupancyGrid":
@@ -114,7 +116,7 @@ def _check_same_window(path, stamp, first, second):
         )
 
 
-def _mounts(messages):
+def mounts_of(messages):
     """Dictionary frame -> 4 x 4 transform in base_link."""
     return {
         item.child_frame_id: _rigid(item.transform.translation, item.transform.rotation)
@@ -124,7 +126,8 @@ def _mounts(messages):
     }
 
 
-def _mount(path, mounts, frame):
+def mount_of(path, mounts, frame):
+    """The mount of one sensor (4 x 4). Raises InputError if it is not there."""
     if frame not in mounts:
         raise InputError(f"{path}: {MOUNTS} has no {BASE} -> {frame}, expected the sensor's mount")
     return mounts[frame]
@@ -142,7 +145,11 @@ def _rigid(place, turn):
     return transforms.rigid(rotation, [place.x, place.y, place.z])
 
 
-def _view(path, infos, mounts, reach, disparity_sigma):
+def view_of(path, infos, mounts, reach, disparity_sigma):
+    """StereoView of the camera; infos: dictionary topic -> CameraInfo, of CAMERA_INFOS.
+
+    Raises InputError where one is missing or no stereo camera's.
+    """
     for topic in CAMERA_INFOS:
         if topic not in infos:
             raise InputError(f"{path}: nothing on {topic}, expected a drive with a stereo camera")
@@ -154,7 +161,7 @@ def _view(path, infos, mounts, reach, disparity_sigma):
             "the focal length and minus its product with the baseline"
         )
     tangents = (-middle / focal, (left.width - 1 - middle) / focal)
-    camera = _mount(path, mounts, left.header.frame_id)
+    camera = mount_of(path, mounts, left.header.frame_id)
     return StereoView(camera, tangents, reach, disparity_sigma / baseline_term)
 
 
@@ -166,10 +173,12 @@ def _moments(path, kept, mounts):
     for scan in (message for topic in SCANS for message in kept[topic]):
         stamp = scan.header.stamp.to_nsec()
         if stamp in poses and stamp in objects and stamp in truths:
-            scanner = _mount(path, mounts, scan.header.frame_id)
+            scanner = mount_of(path, mounts, scan.header.frame_id)
             echoes = _echoes(path, scan, truths[stamp], scanner, poses[stamp].twist.twist)
-            poles = _poles(objects[stamp], planar(poses[stamp].pose.pose))
-            moments[stamp] = Moment(echoes, poles)
+            base = planar(poses[stamp].pose.pose)
+            moments[stamp] = Moment(
+                echoes, _bodies(objects[stamp], base), _poles(objects[stamp], base)
+            )
     return moments
 
 
@@ -202,9 +211,18 @@ def _nearest(beam):
     return min(beam.echoes, default=math.inf)
 
 
-def _poles(objects, base_in_map):
-    places = [
-        planar(item.pose) for item in objects if item.label == POLE and STEREO in item.visible_to
-    ]
-    seen = transforms.relative(base_in_map, np.array(places).reshape(-1, 3))
-    return seen[:, :2]
+def _bodies(objects, base):
+    sizes = np.array([(item.size.x, item.size.y) for item in objects]).reshape(-1, 2)
+    heights = np.array([item.size.z for item in objects])
+    return Bodies(_seen_from(base, objects), sizes, heights)
+
+
+def _poles(objects, base):
+    seen = [item for item in objects if item.label == POLE and STEREO in item.visible_to]
+    return _seen_from(base, seen)[:, :2]
+
+
+def _seen_from(base, objects):
+    """Poses (n x 3) of objects in base_link; base: its pose in the map."""
+    poses = np.array([planar(item.pose) for item in objects]).reshape(-1, 3)
+    return transforms.relative(base, poses)

@@ -15,6 +15,10 @@ from datmo_tools import transforms
 
 UNDECIDED = 50  # percent: occupied is more
 
+# A body hides what is this far behind the place where the line of sight meets it. What is nearer is
+# on the body, or beside it by the scanner's noise.
+HIDDEN_BEHIND = 1.0  # m
+
 
 class Grid(NamedTuple):
     """What a grid of one stamp says of the cells around the vehicle."""
@@ -70,6 +74,14 @@ class StereoView(NamedTuple):
         ranges = np.hypot(right, ahead)
         return np.where(seen & (ranges <= self.reach), ranges, np.inf)
 
+    def hidden(self, points, bodies):
+        """Whether each point of the road (n x 2) is behind one of the Bodies."""
+        camera = self.camera_in_base[:2, 3]
+        meets = bodies.met_at(camera, points)
+        height = self.camera_in_base[2, 3] * (1.0 - meets)
+        behind = (1.0 - meets) * np.linalg.norm(points - camera, axis=1)[:, np.newaxis]
+        return np.any((behind > HIDDEN_BEHIND) & (height < bodies.heights), axis=1)
+
     def depth_sigma(self, depth):
         """Standard deviation of the depth at a depth, m."""
         return self.sigma_factor * depth**2
@@ -80,6 +92,29 @@ class Echoes(NamedTuple):
 
     points: np.ndarray  # n x 2, where they were measured, base_link, m
     surfaces: np.ndarray  # n, as in TrueEchoes
+
+
+class Bodies(NamedTuple):
+    """Upright boxes that stand around the vehicle; base_link, m."""
+
+    poses: np.ndarray  # n x 3: x, y, yaw (rad) of their middles
+    sizes: np.ndarray  # n x 2: along their x and y
+    heights: np.ndarray  # n, above the road
+
+    def met_at(self, begin, ends):
+        """Where lines over ground from `begin` (2) to `ends` (m x 2) first meet the boxes.
+
+        m x n, as share of the way; infinite: the line passes by, or begins in the box.
+        """
+        cosine, sine = np.cos(self.poses[:, 2]), np.sin(self.poses[:, 2])
+        turn = np.stack([np.stack([cosine, sine]), np.stack([-sine, cosine])])
+        start = np.einsum("ijn,nj->ni", turn, begin - self.poses[:, :2])
+        way = np.einsum("ijn,mj->mni", turn, ends - begin)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            borders = np.stack([(-0.5 * self.sizes - start) / way, (0.5 * self.sizes - start) / way])
+        enter = np.fmax.reduce(borders.min(axis=0), axis=2)
+        leave = np.fmin.reduce(borders.max(axis=0), axis=2)
+        return np.where((enter <= leave) & (enter > 0.0) & (enter <= 1.0), enter, np.inf)
 
 
 class Tally:
@@ -117,14 +152,18 @@ class GridScores:
         self.poles_in_lidar = Tally(edges)
         self.poles_in_fused = Tally(edges)
 
-    def add(self, lidar, fused, echoes, poles):
-        """lidar, fused: Grid of one window; poles: n x 2, base_link, those visible to the camera."""
-        bodies = lidar.cells_of(echoes.points[echoes.surfaces == TrueEchoes.BODY])
+    def add(self, lidar, fused, echoes, bodies, poles):
+        """lidar, fused: Grid of one window; bodies: Bodies that may hide cells from the camera;
+        poles: n x 2, base_link, those visible to it."""
+        obstacles = lidar.cells_of(echoes.points[echoes.surfaces == TrueEchoes.BODY])
         paint = lidar.cells_of(echoes.points[echoes.surfaces == TrueEchoes.PAINT])
-        paint = paint[~_among(paint, bodies)]
-        for tally, cells in ((self.paint_gone, paint), (self.bodies_lost, bodies)):
+        paint = paint[~_among(paint, obstacles)]
+        for tally, cells in ((self.paint_gone, paint), (self.bodies_lost, obstacles)):
             cells = cells[lidar.occupied(cells)]
-            tally.add(self._view.ranges(lidar.centres(cells)), ~fused.occupied(cells))
+            centres = lidar.centres(cells)
+            hidden = self._view.hidden(centres, bodies)
+            ranges = np.where(hidden, np.inf, self._view.ranges(centres))
+            tally.add(ranges, ~fused.occupied(cells))
         ranges = self._view.ranges(poles)
         poles, ranges = poles[np.isfinite(ranges)], ranges[np.isfinite(ranges)]
         for tally, grid in ((self.poles_in_lidar, lidar), (self.poles_in_fused, fused)):

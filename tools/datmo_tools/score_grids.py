@@ -15,7 +15,8 @@ DESCRIPTION = """\
 Scores the fused grids of a run against the truth of the simulated drive that it was made from
 (simulate with stereo/enabled=true and ground_truth/echoes=true): of the cells that white paint put
 into the lidar's grid, how many fusion took away; of the cells of true obstacles, how many it lost;
-and in how many stamps a thin pole that the camera sees is in the fused grid and in the lidar's."""
+and in how many stamps a thin pole that the camera sees is in the fused grid and in the lidar's. In view
+is what lies in the camera's image and effective range, and not behind a true object."""
 
 # Ends of the bands of range, m, as far as they lie within the camera's effective range.
 BANDS = (0.0, 10.0, 20.0)
@@ -52,7 +53,7 @@ def score(run, drive, lidar="/grids/lidar", fused="/grids/fused", reach=EFFECTIV
     for stamp, lidar_grid, fused_grid in grid_pairs(run, lidar, fused):
         moment = recorded.moments.get(stamp)
         if moment is not None:
-            scores.add(lidar_grid, fused_grid, moment.echoes, moment.poles)
+            scores.add(lidar_grid, fused_grid, moment.echoes, moment.bodies, moment.poles)
             used += 1
     if used == 0:
         raise InputError(
