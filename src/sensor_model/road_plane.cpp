@@ -187,7 +187,8 @@ std::optional<RoadPlane> RoadPlaneEstimator::update(const StereoCloud& cloud) {
     }
   }
   // In this order a plane that is none is not credible.
-  const bool credible = std::abs(plane.height) <= options_.most_height &&
+  const bool credible = plane.heightOf(cloud.camera_in_base.translation()) > 0.0 &&
+                        std::abs(plane.height) <= options_.most_height &&
                         std::abs(plane.slope_x) <= options_.most_slope &&
                         std::abs(plane.slope_y) <= options_.most_slope;
   if (!seen || !credible) {

@@ -31,13 +31,17 @@ StereoView::StereoView(const StereoCloud& cloud, const RoadPlane& road)
   if (!(axis.norm() > kLeastLevel)) {
     throw std::invalid_argument("stereo camera: expected to look along the ground, not at it");
   }
+  const double height = road.heightOf(cloud.camera_in_base.translation());
+  if (!(height > 0.0)) {
+    throw std::invalid_argument("stereo camera: expected above the road");
+  }
   heading_ = axis.normalized();
   Eigen::Matrix3d to_view;
   to_view.row(0) << heading_.x(), heading_.y(), 0.0;
   to_view.row(1) << heading_.y(), -heading_.x(), 0.0;
   to_view.row(2) << -road.slope_x, -road.slope_y, 1.0;
   from_optical_ = (to_view * rotation).cast<float>();
-  camera_height_ = static_cast<float>(road.heightOf(cloud.camera_in_base.translation()));
+  camera_height_ = static_cast<float>(height);
 }
 
 }  // namespace datmo

@@ -30,7 +30,7 @@ struct ViewedPoint {
 class StereoView {
  public:
   /// Throws std::invalid_argument for a camera that has no focal length, baseline, disparity noise
-  /// or width, or looks straight up or down.
+  /// or width, looks straight up or down, or is not above the road.
   StereoView(const StereoCloud& cloud, const RoadPlane& road);
 
   /// `optical`: in the camera's optical frame, m. Not finite in, not finite `forward` out.

@@ -1,0 +1,329 @@
+#include "datmo_fusion/sensor_model/stereo_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "made_stereo.h"
+#include <gtest/gtest.h>
+
+namespace datmo {
+namespace {
+
+constexpr Percent kOccupied = 80;
+constexpr Percent kFree = 20;
+
+StereoGridOptions onFlatRoad() {
+  StereoGridOptions options;
+  options.road.estimate = false;
+  return options;
+}
+
+SensorGrid gridOf(MadeCloud& made, const StereoGridOptions& options = StereoGridOptions()) {
+  return StereoGridModel(options).grid(made.cloud()).grid;
+}
+
+SensorGrid gridOf(const MadeScene& scene, const StereoGridOptions& options = StereoGridOptions()) {
+  MadeCloud made(scene);
+  return gridOf(made, options);
+}
+
+Percent at(const SensorGrid& grid, double x, double y) {
+  return grid.atOrUnknown(grid.window().cellAt({x, y}));
+}
+
+std::size_t count(const SensorGrid& grid, Percent percent) {
+  return static_cast<std::size_t>(std::count(grid.cells().begin(), grid.cells().end(), percent));
+}
+
+/// Whether a cell or one of its eight neighbours is occupied.
+bool isOccupiedNear(const SensorGrid& grid, CellIndex cell) {
+  for (int row = cell.row - 1; row <= cell.row + 1; ++row) {
+    for (int column = cell.column - 1; column <= cell.column + 1; ++column) {
+      if (isOccupied(grid.atOrUnknown({column, row}))) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Share of the occupied cells of one grid that another one has within a cell.
+double shareFoundIn(const SensorGrid& other, const SensorGrid& grid) {
+  int occupied = 0;
+  int found = 0;
+  grid.forEach([&](CellIndex cell, Percent percent) {
+    occupied += isOccupied(percent) ? 1 : 0;
+    found += isOccupied(percent) && isOccupiedNear(other, cell) ? 1 : 0;
+  });
+  return static_cast<double>(found) / occupied;
+}
+
+TEST(StereoGridTest, AWallIsOccupiedAndFreeBeforeAndUnknownBehind) {
+  MadeScene scene;
+  scene.boxes = {wallAt(10.0, 6.0)};
+  const SensorGrid grid = gridOf(scene);
+  EXPECT_EQ(grid.stamp(), Stamp::fromSeconds(7.0));
+  for (const double y : {-2.2, -0.7, 0.2, 1.4, 2.3}) {
+    EXPECT_TRUE(isOccupiedNear(grid, grid.window().cellAt({10.0, y}))) << "y = " << y;
+    for (const double x : {6.0, 7.0, 8.0, 9.0}) {
+      EXPECT_EQ(at(grid, x, y), kFree) << "x = " << x << ", y = " << y;
+    }
+    for (const double x : {11.0, 12.0, 20.0, 30.0}) {
+      EXPECT_EQ(at(grid, x, y), kUnknownPercent) << "x = " << x << ", y = " << y;
+    }
+  }
+}
+
+TEST(StereoGridTest, TheOpenRoadIsFreeInViewAndNothingIsSaidElsewhere) {
+  const SensorGrid grid = gridOf(MadeScene());
+  EXPECT_EQ(count(grid, kOccupied), 0U);
+  for (const double x : {6.0, 10.0, 20.0, 30.0, 36.0}) {
+    for (const double tangent : {-0.45, 0.0, 0.45}) {
+      const bool in_range = (x - 0.5) * std::hypot(1.0, tangent) < 36.0;
+      EXPECT_EQ(at(grid, x, tangent * (x - 0.5)), in_range ? kFree : kUnknownPercent)
+          << "x = " << x << ", tangent = " << tangent;
+    }
+    EXPECT_EQ(at(grid, x, 0.55 * x), kUnknownPercent);
+  }
+  EXPECT_EQ(at(grid, 37.0, 0.0), kUnknownPercent);
+  EXPECT_EQ(at(grid, -10.0, 0.0), kUnknownPercent);
+  // The image begins 4 m ahead; lines of sight are too high before.
+  EXPECT_EQ(at(grid, 2.0, 0.0), kUnknownPercent);
+}
+
+TEST(StereoGridTest, NoiseOfTheDepthSmearsAWallByLessThanItDoesThePoints) {
+  MadeScene scene;
+  scene.boxes = {wallAt(25.0, 8.0)};
+  scene.disparity_noise = 0.25;
+  MadeCloud made(scene);
+  const SensorGrid grid = gridOf(made);
+  const double sigma = made.cloud().camera.depthSigma(24.5);
+  int occupied = 0;
+  int near = 0;
+  grid.forEach([&](CellIndex cell, Percent percent) {
+    if (isOccupied(percent)) {
+      const double offset = std::abs(grid.window().centreOf(cell).x() - 25.0);
+      ++occupied;
+      near += offset < sigma ? 1 : 0;
+      EXPECT_LT(offset, 2.5 * sigma);
+    }
+  });
+  EXPECT_GE(near, 8.0 / 0.3);  // one for each cell of the wall's width
+  EXPECT_GE(near, 0.9 * occupied);
+}
+
+TEST(StereoGridTest, PlacesThatAnObstacleMayStandInAreNotFree) {
+  MadeScene scene;
+  scene.boxes = {wallAt(25.0, 8.0)};
+  scene.disparity_noise = 0.25;
+  MadeCloud made(scene);
+  const SensorGrid grid = gridOf(made);
+  const double margin = 1.5 * made.cloud().camera.depthSigma(24.5);
+  for (double x = 25.0 - 0.8 * margin; x < 26.0; x += 0.3) {
+    EXPECT_NE(at(grid, x, 0.0), kFree) << "x = " << x;
+  }
+  EXPECT_EQ(at(grid, 22.0, 0.0), kFree);
+}
+
+TEST(StereoGridTest, ALongHoleInTheTextureOfTheRoadIsNotFree) {
+  MadeScene scene;
+  scene.hole = MadeHole{9.0, 20.0};
+  const SensorGrid grid = gridOf(scene);
+  EXPECT_EQ(at(grid, 7.0, 0.0), kFree);
+  for (const double x : {10.0, 11.5, 13.0, 14.5}) {
+    EXPECT_EQ(at(grid, x, 0.0), kUnknownPercent) << "x = " << x;
+  }
+  EXPECT_EQ(at(grid, 21.0, 0.0), kFree);
+}
+
+TEST(StereoGridTest, AThinPoleIsFoundAndWhatIsBesideItStaysFree) {
+  MadeScene scene;
+  scene.boxes = {{{15.0, 1.0, 0.0}, {15.1, 1.1, 2.0}}};
+  scene.disparity_noise = 0.25;
+  const SensorGrid grid = gridOf(scene);
+  EXPECT_TRUE(isOccupiedNear(grid, grid.window().cellAt({15.05, 1.05})));
+  EXPECT_LE(count(grid, kOccupied), 6U);
+  EXPECT_EQ(at(grid, 15.0, 2.0), kFree);
+  EXPECT_EQ(at(grid, 15.0, 0.0), kFree);
+}
+
+TEST(StereoGridTest, WhatIsLowerThanTheScannerIsNoObstacle) {
+  MadeScene scene;
+  scene.boxes = {{{10.0, -3.0, 0.0}, {14.0, 3.0, 0.15}}};
+  scene.disparity_noise = 0.25;
+  const SensorGrid grid = gridOf(scene);
+  EXPECT_EQ(count(grid, kOccupied), 0U);
+  EXPECT_EQ(at(grid, 12.0, 0.0), kFree);
+}
+
+TEST(StereoGridTest, WhatHangsOverTheLayerIsNoObstacle) {
+  MadeScene scene;
+  scene.boxes = {{{12.0, -3.0, 1.5}, {12.5, 3.0, 3.0}}};
+  EXPECT_EQ(count(gridOf(scene), kOccupied), 0U);
+}
+
+TEST(StereoGridTest, AnUnknownPitchIsSeenInTheRoad) {
+  MadeScene scene;
+  scene.unknown_pitch = 0.03;
+  scene.disparity_noise = 0.1;
+  MadeCloud made(scene);
+  StereoGridModel model((StereoGridOptions()));
+  const StereoGridResult result = model.grid(made.cloud());
+  EXPECT_TRUE(result.road_seen);
+  EXPECT_NEAR(result.road.slope_x, 0.03, 0.003);
+  EXPECT_EQ(count(result.grid, kOccupied), 0U);
+  EXPECT_EQ(at(result.grid, 15.0, 0.0), kFree);
+  EXPECT_GT(count(gridOf(made, onFlatRoad()), kOccupied), 100U);
+}
+
+TEST(StereoGridTest, TheLastRoadIsKeptUntilReset) {
+  MadeScene scene;
+  scene.unknown_pitch = 0.03;
+  MadeCloud road(scene);
+  MadeCloud nothing;
+  StereoGridModel model((StereoGridOptions()));
+  EXPECT_FALSE(model.grid(nothing.cloud()).road_seen);
+  EXPECT_TRUE(model.grid(road.cloud()).road_seen);
+  const StereoGridResult later = model.grid(nothing.cloud());
+  EXPECT_FALSE(later.road_seen);
+  EXPECT_NEAR(later.road.slope_x, 0.03, 0.003);
+  model.reset();
+  EXPECT_EQ(model.grid(nothing.cloud()).road.slope_x, 0.0);
+}
+
+TEST(StereoGridTest, ACameraMayLookAside) {
+  MadeScene scene;
+  scene.camera_yaw = 1.2;
+  scene.boxes = {{{2.0, 9.0, 0.0}, {6.0, 9.5, 2.0}}};
+  const SensorGrid grid = gridOf(scene);
+  EXPECT_TRUE(isOccupiedNear(grid, grid.window().cellAt({4.0, 9.0})));
+  EXPECT_EQ(at(grid, 3.0, 7.0), kFree);
+  EXPECT_EQ(at(grid, 10.0, 0.0), kUnknownPercent);
+}
+
+TEST(StereoGridTest, AnEmptyCloudSaysNothing) {
+  MadeCloud made;
+  const StereoGridResult result = StereoGridModel(StereoGridOptions()).grid(made.cloud());
+  EXPECT_EQ(count(result.grid, kUnknownPercent), result.grid.cells().size());
+  EXPECT_EQ(result.points, 0U);
+  EXPECT_EQ(result.in_layer, 0U);
+}
+
+TEST(StereoGridTest, PointsThatAreNoneChangeNothing) {
+  MadeScene scene;
+  scene.boxes = {wallAt(12.0, 5.0)};
+  MadeCloud clean(scene);
+  MadeCloud dirty(scene);
+  const double infinity = std::numeric_limits<double>::infinity();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double most = std::numeric_limits<float>::max();
+  for (const double z : {nan, infinity, -infinity, -10.0, 0.0, most, -most, 1e-30}) {
+    for (const double other : {nan, infinity, -infinity, most, -most, 0.0}) {
+      dirty.add({0.0, other, z});
+      dirty.add({other, 0.0, z});
+    }
+  }
+  for (const double bad : {nan, infinity, -infinity, most, -most}) {
+    dirty.add({bad, 0.0, 10.0});
+    dirty.add({0.0, bad, 10.0});
+  }
+  for (const char* const method : {"columns", "cones"}) {
+    StereoGridOptions options = onFlatRoad();
+    options.method = method;
+    EXPECT_EQ(gridOf(clean, options).cells(), gridOf(dirty, options).cells()) << method;
+  }
+  // Also with the road estimated from them.
+  EXPECT_TRUE(isOccupiedNear(gridOf(dirty), gridOf(dirty).window().cellAt({12.0, 0.0})));
+}
+
+TEST(StereoGridTest, FewLinesOfSightSayNothing) {
+  MadeScene scene;
+  scene.step = 40;
+  const SensorGrid grid = gridOf(scene, onFlatRoad());
+  EXPECT_EQ(count(grid, kUnknownPercent), grid.cells().size());
+}
+
+TEST(StereoGridTest, LoneMismatchesAreNoObstacles) {
+  MadeCloud made((MadeScene()));
+  Random random(5);
+  for (int i = 0; i < 900; ++i) {
+    const double depth = random.uniform(3.0, 36.0);
+    made.addAt({0.5 + depth, random.uniform(-0.5, 0.5) * depth, random.uniform(0.4, 1.3)});
+  }
+  EXPECT_EQ(count(gridOf(made), kOccupied), 0U);
+}
+
+TEST(StereoGridTest, AThinnedCloudGivesTheSameObstaclesAndTheSameFreeRoad) {
+  MadeScene scene;
+  scene.boxes = {wallAt(9.0, 3.0), {{14.0, 3.0, 0.0}, {18.0, 4.6, 1.5}}};
+  scene.disparity_noise = 0.1;
+  const SensorGrid dense = gridOf(scene);
+  for (const int step : {2, 3}) {
+    scene.step = step;
+    const SensorGrid thinned = gridOf(scene);
+    EXPECT_GE(shareFoundIn(thinned, dense), 0.9) << "every " << step;
+    EXPECT_GE(shareFoundIn(dense, thinned), 0.9) << "every " << step;
+    for (double x = 6.0; x < 16.0; x += 0.3) {
+      EXPECT_EQ(at(thinned, x, -3.0), at(dense, x, -3.0)) << "every " << step << ", x = " << x;
+    }
+  }
+}
+
+TEST(StereoGridTest, TheSameCloudsGiveTheSameGrids) {
+  MadeScene scene;
+  scene.boxes = {wallAt(17.0, 5.0)};
+  scene.disparity_noise = 0.3;
+  scene.unknown_pitch = 0.01;
+  MadeCloud made(scene);
+  StereoGridModel one((StereoGridOptions()));
+  StereoGridModel other((StereoGridOptions()));
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(one.grid(made.cloud()).grid.cells(), other.grid(made.cloud()).grid.cells());
+  }
+}
+
+TEST(StereoGridTest, PointsAreCounted) {
+  MadeCloud made;
+  made.addAt({10.0, 0.0, 0.0});  // on the road
+  made.addAt({10.0, 1.0, 0.8});  // in the layer
+  made.addAt({10.0, 1.0, 1.5});  // above it
+  made.addAt({90.0, 1.0, 0.8});  // out of range
+  made.addAt({-5.0, 1.0, 0.8});  // behind the camera
+  const StereoGridResult result = StereoGridModel(onFlatRoad()).grid(made.cloud());
+  EXPECT_EQ(result.points, 4U);
+  EXPECT_EQ(result.in_layer, 1U);
+}
+
+TEST(StereoGridTest, ACameraThatMeasuresNothingIsRefused) {
+  StereoGridModel model((StereoGridOptions()));
+  MadeCloud made;
+  const StereoCamera good = made.cloud().camera;
+  for (double StereoCamera::*const number :
+       {&StereoCamera::focal_length, &StereoCamera::baseline, &StereoCamera::disparity_sigma}) {
+    for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+      made.cloud().camera = good;
+      made.cloud().camera.*number = bad;
+      EXPECT_THROW(model.grid(made.cloud()), std::invalid_argument) << bad;
+    }
+  }
+  made.cloud().camera = good;
+  made.cloud().camera.right_tangent = good.left_tangent;
+  EXPECT_THROW(model.grid(made.cloud()), std::invalid_argument);
+  made.cloud().camera = good;
+  made.cloud().camera_in_base.translation().z() = -0.1;
+  EXPECT_THROW(model.grid(made.cloud()), std::invalid_argument);
+}
+
+TEST(StereoGridTest, OptionsAreChecked) {
+  StereoGridOptions options;
+  options.method = "cubes";
+  EXPECT_THROW(StereoGridModel{options}, OptionError);
+  options = StereoGridOptions();
+  options.effective_range = -1.0;
+  EXPECT_THROW(StereoGridModel{options}, OptionError);
+}
+
+}  // namespace
+}  // namespace datmo
