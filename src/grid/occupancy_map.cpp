@@ -74,7 +74,7 @@ OccupancyMap::OccupancyMap(const OccupancyMapOptions& options)
       cells_(options.window.window(), Cell{}) {}
 
 bool OccupancyMap::isStatic(const Cell& cell) const {
-  return isOccupied(cell) && maturity(cell) >= 1.0 &&
+  return hasSurface(cell) && maturity(cell) >= 1.0 &&
          static_cast<double>(cell.occupancy) >= options_.static_above;
 }
 
@@ -199,13 +199,11 @@ OccupancyMap::Cell* OccupancyMap::occupy(CellIndex index) {
   Cell& cell = cells_.at(index);
   if (!isOccupied(cell)) {
     cell.hits = {};
-    cell.first_hit = now_;
   }
   if (cell.updated != update_) {
     change(cell, hit_log_odds_);
     cell.updated = update_;
     cell.freed = 1.0F;  // no beam frees it in this scan
-    cell.last_hit = now_;
   }
   return &cell;
 }
@@ -213,6 +211,12 @@ OccupancyMap::Cell* OccupancyMap::occupy(CellIndex index) {
 void OccupancyMap::hit(const Point2& point) {
   const CellIndex index = window().cellAt(point);
   if (Cell* cell = occupy(index)) {
+    // What is known to within some cells only has no age: a mover blurred so is over a place for
+    // longer than it takes to pass.
+    if (cell->hits.count == 0.0F) {
+      cell->first_hit = now_;
+    }
+    cell->last_hit = now_;
     cell->hits.add((point - window().centreOf(index)).cast<float>(), kMostHits);
   }
 }
