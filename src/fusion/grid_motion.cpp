@@ -12,7 +12,7 @@ namespace datmo {
 
 namespace {
 
-/// Occupied cells that no cell's centre has come to lie in go where their own centre has come to.
+/// Occupied cells go where their centre has come to: no other cell's centre may lie in them now.
 void pushOccupied(const SensorGrid& grid, const Pose2& old_base_in_new, SensorGrid& moved) {
   const GridWindow& window = grid.window();
   const Eigen::Matrix2d rotation = old_base_in_new.rotation();
@@ -22,8 +22,8 @@ void pushOccupied(const SensorGrid& grid, const Pose2& old_base_in_new, SensorGr
     }
     const CellIndex place =
         window.cellAt(old_base_in_new.position() + rotation * window.centreOf(cell));
-    if (window.contains(place) && !isOccupied(moved.at(place))) {
-      moved.at(place) = percent;
+    if (window.contains(place)) {
+      moved.at(place) = std::max(moved.at(place), percent);
     }
   });
 }

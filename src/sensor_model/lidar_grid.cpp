@@ -35,7 +35,7 @@ class BeamWriter {
   void end(const Ray& ray, Percent occupied) {
     const Beam beam = beamOf(ray);
     if (beam.range < ray.range) {
-      return;
+      return;  // it ends beyond the window
     }
     Point2 previous = ray.end;
     forEachLine(grid_.window(), beam, [&](const Point2& to) {

@@ -169,10 +169,15 @@ TEST_F(GridMatcherTest, StampsOfSetsRise) {
 
 TEST_F(GridMatcherTest, WhatIsNotNewerIsLeftOut) {
   lidar(0.1);
-  lidar(0.1);
+  SensorGrid repeated = gridAt(0.1);
+  repeated.at({0, 0}) = 80;
+  matcher_.add("lidar", repeated);
   lidar(0.0);
   stereo(0.1);
-  EXPECT_EQ(next(0.1), "lidar 0.1, stereo 0.1");
+  const std::optional<MatchedGrids> matched = matcher_.next(at(0.1));
+  ASSERT_TRUE(matched);
+  EXPECT_EQ(matched->stamp(), at(0.1));
+  EXPECT_EQ(matched->reference().grid->at({0, 0}), kUnknownPercent);
   EXPECT_EQ(next(0.3), "");
 }
 
@@ -185,6 +190,13 @@ TEST_F(GridMatcherTest, AfterAResetTimeMayBeginAnew) {
   EXPECT_EQ(next(0.0), "");
   stereo(0.0);
   EXPECT_EQ(next(0.0), "lidar 0, stereo 0");
+}
+
+TEST_F(GridMatcherTest, AfterAResetAnotherWindowIsTaken) {
+  lidar(50.0);
+  matcher_.reset();
+  matcher_.add("stereo", SensorGrid(at(0.0), {0.25, 7, 5, {-3, -2}}));
+  EXPECT_THROW(stereo(0.1), WrongWindowError);
 }
 
 TEST_F(GridMatcherTest, NoRateFillsTheMemory) {

@@ -92,6 +92,32 @@ TEST(LidarGridTest, ABeamIsOccupiedAcrossItsWidthAtItsEndAndFreeBefore) {
   EXPECT_EQ(grid.at({2, 1}), kUnknownPercent);  // the wedge is narrow there
 }
 
+/// So that nothing that is free touches what is unknown through the end of a beam.
+TEST(LidarGridTest, TheEndOfAWideBeamHasNoGaps) {
+  LidarGridOptions options = smallGrid();
+  options.window.cell_size = 0.1;
+  options.beam_width = 0.2;
+  for (const double bearing : {0.3, kPi / 4.0, 1.9, -2.6}) {
+    const Point2 end = 9.0 * Point2(std::cos(bearing), std::sin(bearing));
+    const SensorGrid grid = LidarGridModel(options).grid(scanOf({rayTo({0.0, 0.0}, end)}));
+    int ends_of_the_arc = 0;
+    grid.forEach([&](CellIndex cell, Percent percent) {
+      if (percent != kOccupied) {
+        return;
+      }
+      int neighbours = 0;
+      for (const CellIndex side :
+           {CellIndex{cell.column + 1, cell.row}, CellIndex{cell.column - 1, cell.row},
+            CellIndex{cell.column, cell.row + 1}, CellIndex{cell.column, cell.row - 1}}) {
+        neighbours += grid.atOrUnknown(side) == kOccupied ? 1 : 0;
+      }
+      EXPECT_GE(neighbours, 1);
+      ends_of_the_arc += neighbours == 1 ? 1 : 0;
+    });
+    EXPECT_EQ(ends_of_the_arc, 2) << bearing;
+  }
+}
+
 TEST(LidarGridTest, WithoutAWidthABeamReachesHalfWayToItsNeighbours) {
   LidarGridOptions options = smallGrid();
   options.beam_width = 0.2;
