@@ -100,7 +100,11 @@ bool Chain::waitForNodelets() {
          });
 }
 
-void Chain::mountScanner() { tf_static_.publish(message(world_.scannerInBase())); }
+void Chain::mountSensors() {
+  tf2_msgs::TFMessage mounts;
+  mounts.transforms = {world_.scannerInBase(), world_.cameraInBase()};
+  tf_static_.publish(mounts);
+}
 
 bool Chain::prepareMotion(double seconds) {
   const double known = diagnostic("grid_slam", "odometry received");

@@ -60,7 +60,7 @@ class Chain : public Listener {
   /// Until the nodelets listen to this test, too.
   bool waitForNodelets();
 
-  void mountScanner();
+  void mountSensors();
 
   /// Motion just before a time of the drive, until grid_slam knows it: a scan may overtake its
   /// odometry, and the first one has no older to go by.

@@ -20,7 +20,7 @@ class ChainTest : public testing::Test {
   static void SetUpTestSuite() {
     chain_ = new Chain();
     ASSERT_TRUE(chain_->waitForNodelets());
-    chain_->mountScanner();
+    chain_->mountSensors();
     ASSERT_TRUE(chain_->prepareMotion(0.0));
     ASSERT_TRUE(chain_->drive(0.0, kDrive)) << chain_->diagnosticMessage("tracker");
   }

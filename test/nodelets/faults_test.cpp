@@ -65,7 +65,7 @@ TEST_F(FaultsTest, AMissingTransformThatComesLater) {
   expectCounted("dropped: missing_transform", [](auto&) {});
   EXPECT_NE(chain_->diagnosticMessage("grid_slam").find("base_link -> scanner"), std::string::npos);
   EXPECT_TRUE(chain_->poses.empty());
-  chain_->mountScanner();
+  chain_->mountSensors();
   ASSERT_TRUE(chain_->prepareMotion(now_));
   start_ = now_;
   driveOn(1.0);

@@ -1,6 +1,7 @@
 #include "world.h"
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "datmo_fusion/ros/message_conversion.h"
@@ -18,6 +19,18 @@ constexpr double kScannerAhead = 3.6;   // m
 constexpr int kBeams = 161;
 constexpr float kMostRange = 60.0F;  // m
 
+constexpr double kHeightOfThings = 2.0;  // m
+constexpr double kScannerHeight = 0.5;   // m
+
+// The camera, and that only every few pixels have a point.
+constexpr double kCameraAhead = 1.8;    // m
+constexpr double kCameraHeight = 1.2;   // m
+constexpr double kFocalLength = 400.0;  // px
+constexpr double kBaseline = 0.3;       // m
+constexpr int kColumns = 512;
+constexpr int kRows = 384;
+constexpr int kPixelStep = 3;
+
 Stamp stampAt(double seconds) { return Stamp::fromSeconds(World::kStart + seconds); }
 
 /// How far along the ray the side from `a` to `b` is; infinite if it is not hit.
@@ -29,6 +42,30 @@ double rangeTo(const Point2& a, const Point2& b, const Pose2& ray) {
   }
   const double x = from.x() + (to.x() - from.x()) * from.y() / (from.y() - to.y());
   return x > 0.0 ? x : std::numeric_limits<double>::infinity();
+}
+
+sensor_msgs::PointField field(const std::string& name, std::uint32_t offset) {
+  sensor_msgs::PointField field;
+  field.name = name;
+  field.offset = offset;
+  field.datatype = sensor_msgs::PointField::FLOAT32;
+  field.count = 1;
+  return field;
+}
+
+/// Three numbers a point.
+sensor_msgs::PointCloud2 cloudOf(const std::vector<float>& numbers, double seconds) {
+  sensor_msgs::PointCloud2 message;
+  message.header.stamp = toTime(stampAt(seconds));
+  message.header.frame_id = "camera";
+  message.fields = {field("x", 0), field("y", 4), field("z", 8)};
+  message.point_step = 12;
+  message.height = 1;
+  message.width = static_cast<std::uint32_t>(numbers.size() / 3);
+  message.row_step = message.width * message.point_step;
+  message.data.resize(message.row_step);
+  std::memcpy(message.data.data(), numbers.data(), message.data.size());
+  return message;
 }
 
 std::vector<Box2> standingThings() {
@@ -51,9 +88,14 @@ Box2 World::otherCar(double seconds) const {
   return {{15.0 + kSpeed * seconds, y, std::atan2(-kDriftSpeed, kSpeed)}, 4.0, 1.8};
 }
 
-sensor_msgs::LaserScan World::scan(double seconds) const {
+std::vector<Box2> World::thingsAt(double seconds) const {
   std::vector<Box2> boxes = standingThings();
   boxes.push_back(otherCar(seconds));
+  return boxes;
+}
+
+sensor_msgs::LaserScan World::scan(double seconds) const {
+  const std::vector<Box2> boxes = thingsAt(seconds);
   sensor_msgs::LaserScan message;
   message.header.stamp = toTime(stampAt(seconds));
   message.header.frame_id = "scanner";
@@ -85,7 +127,61 @@ geometry_msgs::TransformStamped World::baseInOdom(double seconds) const {
 }
 
 geometry_msgs::TransformStamped World::scannerInBase() const {
-  return toTransform({kScannerAhead, 0.0, 0.0}, stampAt(0.0), "base_link", "scanner");
+  auto mount = toTransform({kScannerAhead, 0.0, 0.0}, stampAt(0.0), "base_link", "scanner");
+  mount.transform.translation.z = kScannerHeight;
+  return mount;
+}
+
+geometry_msgs::TransformStamped World::cameraInBase() const {
+  auto mount = toTransform({kCameraAhead, 0.0, 0.0}, stampAt(0.0), "base_link", "camera");
+  mount.transform.translation.z = kCameraHeight;
+  mount.transform.rotation.x = -0.5;  // x to the right, y down, z ahead
+  mount.transform.rotation.y = 0.5;
+  mount.transform.rotation.z = -0.5;
+  mount.transform.rotation.w = 0.5;
+  return mount;
+}
+
+sensor_msgs::CameraInfo World::rightCameraInfo() {
+  sensor_msgs::CameraInfo info;
+  info.header.frame_id = "camera";
+  info.width = kColumns;
+  info.height = kRows;
+  info.P = {kFocalLength,
+            0.0,
+            0.5 * (kColumns - 1),
+            -kFocalLength * kBaseline,
+            0.0,
+            kFocalLength,
+            0.5 * (kRows - 1),
+            0.0,
+            0.0,
+            0.0,
+            1.0,
+            0.0};
+  return info;
+}
+
+sensor_msgs::PointCloud2 World::cloud(double seconds) const {
+  const std::vector<Box2> boxes = thingsAt(seconds);
+  const Pose2 camera = baseInMap(seconds) * Pose2(kCameraAhead, 0.0, 0.0);
+  std::vector<float> numbers;
+  for (int column = 0; column < kColumns; column += kPixelStep) {
+    const double right = (column - 0.5 * (kColumns - 1)) / kFocalLength;
+    const double bearing = -std::atan(right);
+    const double thing = rangeAlong(camera, bearing, boxes) * std::cos(bearing);
+    for (int row = 0; row < kRows; row += kPixelStep) {
+      const double down = (row - 0.5 * (kRows - 1)) / kFocalLength;
+      const double road = down > 0.0 ? kCameraHeight / down : 1e9;
+      const double depth = std::min(road, thing);
+      if (depth < kMostRange && kCameraHeight - down * depth < kHeightOfThings) {
+        for (const double number : {right * depth, down * depth, depth}) {
+          numbers.push_back(static_cast<float>(number));
+        }
+      }
+    }
+  }
+  return cloudOf(numbers, seconds);
 }
 
 double World::rangeAlong(const Pose2& scanner, double bearing,

@@ -5,7 +5,9 @@
 
 #include <geometry_msgs/TransformStamped.h>
 #include <nav_msgs/Odometry.h>
+#include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/PointCloud2.h>
 
 #include "datmo_fusion/common/box2.h"
 
@@ -27,7 +29,13 @@ class World {
   geometry_msgs::TransformStamped baseInOdom(double seconds) const;
   geometry_msgs::TransformStamped scannerInBase() const;
 
+  /// What a stereo camera sees of it: the road, and all that stands on it, 2 m high.
+  sensor_msgs::PointCloud2 cloud(double seconds) const;
+  static sensor_msgs::CameraInfo rightCameraInfo();
+  geometry_msgs::TransformStamped cameraInBase() const;
+
  private:
+  std::vector<Box2> thingsAt(double seconds) const;
   double rangeAlong(const Pose2& scanner, double bearing, const std::vector<Box2>& boxes) const;
 };
 

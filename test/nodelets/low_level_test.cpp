@@ -1,0 +1,292 @@
+// Scanner and stereo camera, fused at the low level, on a made drive: what comes out, and what
+// happens when one of them is silent or sends what is none. The tests go through one drive, in this
+// order.
+#include <algorithm>
+#include <functional>
+#include <limits>
+
+#include "chain.h"
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/ros/grid_conversion.h"
+#include "datmo_fusion/ros/grid_fusion_stage.h"
+#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/parameters.h"
+
+namespace datmo {
+namespace {
+
+constexpr std::uint32_t kQueue = 1000;
+constexpr double kStep = 1.0 / 16.0;  // s
+
+/// What a painted line on the road makes: echoes where nothing stands (m ahead of the scanner).
+constexpr float kPaintAhead = 6.1F;
+
+/// A Chain with a stereo camera, and what the low level makes of both sensors.
+class LowLevel : public Chain {
+ public:
+  LowLevel() {
+    for (const std::string name : {"lidar", "stereo", "fused", "conflict"}) {
+      subscribers_.push_back(node_.subscribe<nav_msgs::OccupancyGrid>(
+          "grids/" + name, kQueue, [this, name](const nav_msgs::OccupancyGridConstPtr& grid) {
+            grids[name].push_back(grid);
+          }));
+    }
+  }
+
+  /// Until all nodelets listen and report.
+  bool waitForNodelets() {
+    return Chain::waitForNodelets() && waitFor([this] {
+             return cloud_.getNumSubscribers() >= 1 && camera_info_.getNumSubscribers() >= 1 &&
+                    !diagnosticMessage("lidar_grid").empty() &&
+                    !diagnosticMessage("stereo_grid").empty() &&
+                    !diagnosticMessage("grid_fusion").empty() &&
+                    !diagnosticMessage("tracker").empty() &&
+                    std::all_of(subscribers_.begin(), subscribers_.end(),
+                                [](const auto& grid) { return grid.getNumPublishers() >= 1; });
+           });
+  }
+
+  void sendCameraInfo() { camera_info_.publish(World::rightCameraInfo()); }
+  void sendCloud(const sensor_msgs::PointCloud2& cloud) { cloud_.publish(cloud); }
+  void sendStereoGrid(const nav_msgs::OccupancyGrid& grid) { stereo_grid_.publish(grid); }
+
+  /// Whether the newest grid of a name is of this stamp.
+  bool isAt(const std::string& name, const ros::Time& stamp) {
+    return !grids[name].empty() && grids[name].back()->header.stamp == stamp;
+  }
+
+  std::map<std::string, std::vector<nav_msgs::OccupancyGridConstPtr>> grids;  ///< by name
+
+ private:
+  ros::NodeHandle node_;
+  std::vector<ros::Subscriber> subscribers_;
+  ros::Publisher cloud_ = node_.advertise<sensor_msgs::PointCloud2>("stereo/points2", kQueue);
+  ros::Publisher camera_info_ =
+      node_.advertise<sensor_msgs::CameraInfo>("stereo/right/camera_info", kQueue, true);
+  ros::Publisher stereo_grid_ = node_.advertise<nav_msgs::OccupancyGrid>("grids/stereo", kQueue);
+};
+
+/// With paint on the road ahead.
+sensor_msgs::LaserScan painted(sensor_msgs::LaserScan scan) {
+  const std::size_t ahead = scan.ranges.size() / 2;
+  std::fill(scan.ranges.begin() + static_cast<std::ptrdiff_t>(ahead - 2),
+            scan.ranges.begin() + static_cast<std::ptrdiff_t>(ahead + 3), kPaintAhead);
+  return scan;
+}
+
+Percent percentAt(const nav_msgs::OccupancyGrid& message, const Point2& place) {
+  const SensorGrid grid = fromMessage(message);
+  return grid.atOrUnknown(grid.window().cellAt(place));
+}
+
+/// Whether a cell is occupied whose centre is in the box, in the vehicle's frame, or 0.3 m from it.
+bool isOccupiedAt(const nav_msgs::OccupancyGrid& message, const Box2& box) {
+  constexpr double kNear = 0.3;  // m, a cell
+  const SensorGrid grid = fromMessage(message);
+  bool found = false;
+  grid.forEach([&](CellIndex cell, Percent percent) {
+    found = found || (isOccupied(percent) && box.distanceTo(grid.window().centreOf(cell)) < kNear);
+  });
+  return found;
+}
+
+class LowLevelTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    chain_ = new LowLevel();
+    ASSERT_TRUE(chain_->waitForNodelets());
+  }
+
+  static void TearDownTestSuite() { delete chain_; }
+
+  /// One step of the drive with both sensors; waits for its fused grid. The scan shows paint if
+  /// `with_paint`.
+  void step(bool with_paint = false) {
+    chain_->sendMotion(now_);
+    const auto scan = world_.scan(now_);
+    chain_->sendScan(with_paint ? painted(scan) : scan);
+    chain_->sendCloud(world_.cloud(now_));
+    ASSERT_TRUE(chain_->waitFor([&] { return chain_->isAt("fused", scan.header.stamp); }))
+        << now_ << " s: " << chain_->diagnosticMessage("grid_fusion");
+    now_ += kStep;
+  }
+
+  void driveOn(double seconds) {
+    for (const double end = now_ + seconds - 0.5 * kStep; now_ < end;) {
+      ASSERT_NO_FATAL_FAILURE(step());
+    }
+  }
+
+  /// A step with the scanner alone; waits for the lidar's grid.
+  void stepWithoutStereo() {
+    chain_->sendMotion(now_);
+    const auto scan = world_.scan(now_);
+    chain_->sendScan(scan);
+    ASSERT_TRUE(chain_->waitFor([&] { return chain_->isAt("lidar", scan.header.stamp); }));
+    now_ += kStep;
+  }
+
+  /// Sends the world's cloud of now after `spoil`; expects that stereo_grid counts it under `key`.
+  void expectCounted(const std::string& key,
+                     const std::function<void(sensor_msgs::PointCloud2&)>& spoil) {
+    const double before = chain_->diagnostic("stereo_grid", key);
+    auto cloud = world_.cloud(now_);
+    spoil(cloud);
+    chain_->sendMotion(now_);
+    chain_->sendCloud(cloud);
+    EXPECT_TRUE(chain_->waitFor([&] { return chain_->diagnostic("stereo_grid", key) > before; }))
+        << key;
+    now_ += kStep;
+  }
+
+  /// Places in the vehicle's frame, m.
+  static Point2 paint() { return {3.6 + kPaintAhead, 0.1}; }
+  static Point2 behindTheVehicle() { return {-10.0, -11.0}; }
+
+  /// What the server keeps after `rule` was asked for.
+  static std::string askForRule(const std::string& rule) {
+    dynamic_reconfigure::Reconfigure call;
+    call.request.config.strs.resize(1);
+    call.request.config.strs[0].name = "rule";
+    call.request.config.strs[0].value = rule;
+    EXPECT_TRUE(ros::service::call("/grid_fusion/set_parameters", call));
+    return call.response.config.strs.empty() ? "" : call.response.config.strs[0].value;
+  }
+
+  static LowLevel* chain_;
+  static double now_;  // s, of the drive
+  World world_;
+};
+
+LowLevel* LowLevelTest::chain_ = nullptr;
+double LowLevelTest::now_ = 0.0;
+
+TEST_F(LowLevelTest, CloudsBeforeTheirMountIsKnownAreCounted) {
+  chain_->sendCameraInfo();
+  expectCounted("dropped: missing_transform", [](auto&) {});
+  chain_->mountSensors();
+  now_ += kStep;
+  ASSERT_TRUE(chain_->prepareMotion(now_));
+}
+
+TEST_F(LowLevelTest, BothSensorsLeadToAFusedGridForEachScan) {
+  ASSERT_NO_FATAL_FAILURE(driveOn(2.0));
+  EXPECT_EQ(chain_->grids["fused"].size(), chain_->grids["lidar"].size());
+  EXPECT_TRUE(chain_->waitFor(
+      [] { return chain_->grids["conflict"].size() == chain_->grids["fused"].size(); }));
+  const auto& fused = *chain_->grids["fused"].back();
+  EXPECT_EQ(fused.header.frame_id, "base_link");
+  const double then = fused.header.stamp.toSec() - World::kStart;
+  Box2 car = world_.otherCar(then);
+  car.centre = world_.baseInMap(then).inverse() * car.centre;
+  EXPECT_TRUE(isOccupiedAt(fused, car));
+  EXPECT_TRUE(isFree(percentAt(fused, {8.0, 0.0}))) << "the road before it";
+  EXPECT_EQ(chain_->diagnostic("grid_fusion", "dropped"), 0.0);
+  EXPECT_EQ(chain_->diagnostic("lidar_grid", "dropped"), 0.0);
+}
+
+TEST_F(LowLevelTest, TheFusedGridLeadsToTracks) {
+  ASSERT_NO_FATAL_FAILURE(driveOn(1.5));
+  const ros::Time last = chain_->grids["fused"].back()->header.stamp;
+  ASSERT_TRUE(chain_->waitFor([&] {
+    return !chain_->tracks.empty() && chain_->tracks.back()->header.stamp == last;
+  })) << chain_->diagnosticMessage("grid_slam")
+      << chain_->diagnosticMessage("tracker");
+  const Box2 truth = world_.otherCar(last.toSec() - World::kStart);
+  const auto& tracks = chain_->tracks.back()->tracks;
+  const auto found = std::find_if(tracks.begin(), tracks.end(), [&](const TrackMessage& track) {
+    return truth.distanceTo(fromMessage(track.pose).position()) < 1.5;
+  });
+  ASSERT_NE(found, tracks.end()) << tracks.size() << " tracks, none there";
+  EXPECT_TRUE(found->moving);
+}
+
+TEST_F(LowLevelTest, TheRuleChangesWhileItRuns) {
+  EXPECT_EQ(askForRule("maximum"), "maximum");
+  ASSERT_NO_FATAL_FAILURE(step(true));
+  EXPECT_TRUE(isOccupied(percentAt(*chain_->grids["fused"].back(), paint())));
+  EXPECT_EQ(askForRule("priority"), "priority");
+  ASSERT_NO_FATAL_FAILURE(step(true));
+  EXPECT_TRUE(isFree(percentAt(*chain_->grids["fused"].back(), paint())))
+      << "stereo sees that there is nothing";
+  EXPECT_EQ(askForRule("by luck"), "priority") << "it stays";
+}
+
+TEST_F(LowLevelTest, TheServersParametersAreThoseOfTheNodelet) {
+  EXPECT_NO_THROW(
+      readOptions<GridFusionStageOptions>(readParameters(ros::NodeHandle("/grid_fusion"))));
+  EXPECT_EQ(ros::param::param<std::string>("/grid_fusion/rule", ""), "priority");
+}
+
+TEST_F(LowLevelTest, ConflictIsWhereTheSensorsContradictEachOther) {
+  askForRule("dempster_shafer");
+  ASSERT_NO_FATAL_FAILURE(step(true));
+  const ros::Time stamp = chain_->grids["fused"].back()->header.stamp;
+  ASSERT_TRUE(chain_->waitFor([&] { return chain_->isAt("conflict", stamp); }));
+  const auto& conflict = *chain_->grids["conflict"].back();
+  EXPECT_GT(percentAt(conflict, paint()), 20);
+  EXPECT_LT(percentAt(conflict, {8.0, 0.0}), 20) << "both say free";
+  EXPECT_EQ(percentAt(conflict, behindTheVehicle()), kUnknownPercent) << "one alone says nothing";
+}
+
+TEST_F(LowLevelTest, WithoutStereoTheFusedGridsGoOnWithTheScanner) {
+  for (int i = 0; i < 20; ++i) {
+    ASSERT_NO_FATAL_FAILURE(stepWithoutStereo());
+  }
+  const ros::Time last = chain_->grids["lidar"].back()->header.stamp;
+  EXPECT_TRUE(chain_->waitFor([&] { return chain_->isAt("fused", last); }))
+      << "at once, since stereo is silent";
+  EXPECT_EQ(chain_->grids["fused"].size(), chain_->grids["lidar"].size()) << "none is left out";
+  EXPECT_TRUE(chain_->waitFor(
+      [] { return chain_->diagnostic("grid_fusion", "warned: silent_source") == 1.0; }));
+  EXPECT_GT(chain_->diagnostic("grid_fusion", "fused without stereo"), 5.0);
+  EXPECT_TRUE(chain_->waitFor([] {
+    return chain_->diagnosticMessage("grid_fusion").find("no grids/stereo") != std::string::npos;
+  })) << chain_->diagnosticMessage("grid_fusion");
+  ASSERT_NO_FATAL_FAILURE(driveOn(0.5));
+}
+
+TEST_F(LowLevelTest, BadCloudsAreCounted) {
+  expectCounted("dropped: empty_cloud", [](auto& cloud) { cloud.width = 0; });
+  expectCounted("dropped: no_valid_point",
+                [](auto& cloud) { std::fill(cloud.data.begin(), cloud.data.end(), 0xFF); });
+  expectCounted("dropped: missing_transform",
+                [](auto& cloud) { cloud.header.frame_id = "nowhere"; });
+  expectCounted("dropped: missing_field", [](auto& cloud) { cloud.fields.pop_back(); });
+  expectCounted("dropped: wrong_size", [](auto& cloud) { cloud.data.resize(7); });
+  expectCounted("dropped: big_endian", [](auto& cloud) { cloud.is_bigendian = 1; });
+  expectCounted("dropped: zero_stamp", [](auto& cloud) { cloud.header.stamp = ros::Time(); });
+  expectCounted("dropped: old_stamp", [](auto& cloud) {
+    cloud.header.stamp = chain_->grids["stereo"].back()->header.stamp - ros::Duration(0.5);
+  });
+  ASSERT_NO_FATAL_FAILURE(driveOn(0.5));
+}
+
+TEST_F(LowLevelTest, GridsOfAnotherWindowAreRefusedWithBothSizes) {
+  SensorGrid other(toStamp(chain_->grids["stereo"].back()->header.stamp) + 0.5 * kStep,
+                   {0.5, 100, 100, {-50, -50}});
+  chain_->sendStereoGrid(toMessage(other, "base_link"));
+  ASSERT_TRUE(chain_->waitFor(
+      [] { return chain_->diagnostic("grid_fusion", "dropped: wrong_window") == 1.0; }));
+  ASSERT_NO_FATAL_FAILURE(driveOn(0.5));
+  EXPECT_GT(chain_->diagnostic("grid_fusion", "processed"), 50.0);
+}
+
+TEST_F(LowLevelTest, ALoopedBag) {
+  now_ = 0.0;
+  ASSERT_TRUE(chain_->prepareMotion(now_));
+  ASSERT_TRUE(chain_->waitFor(
+      [] { return chain_->diagnostic("grid_fusion", "warned: clock_restart") > 0.0; }));
+  ASSERT_NO_FATAL_FAILURE(driveOn(1.0));
+}
+
+}  // namespace
+}  // namespace datmo
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "low_level_test");
+  return RUN_ALL_TESTS();
+}
