@@ -27,10 +27,10 @@ struct StereoCameraOptions {
   double rate = 12.0;             ///< Hz
   double latency = 0.05;          ///< s
   int image_width = 512;          ///< px
-  int image_height = 384;         ///< px
+  int image_height = 256;         ///< px
   double focal_length = 380.0;    ///< px
-  int column_step = 2;            ///< px
-  int row_step = 2;               ///< px
+  int column_step = 1;            ///< px
+  int row_step = 1;               ///< px
   double least_range = 3.0;       ///< m
   double most_range = 60.0;       ///< m
   double effective_range = 36.0;  ///< m

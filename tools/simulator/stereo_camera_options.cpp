@@ -25,12 +25,14 @@ void visitImages(StereoCameraOptions& o, OptionVisitor& visitor) {
                  o.latency, {0.0, 1.0});
   visitor.integer({"image_width", "px", "of the rectified and down-sampled images; assumed"},
                   o.image_width, {16.0, kMostPixels});
-  visitor.integer({"image_height", "px", "of these images; assumed"}, o.image_height,
-                  {16.0, kMostPixels});
+  visitor.integer({"image_height", "px",
+                   "of these images: cut to what lies ahead, the road from 4 m on; assumed"},
+                  o.image_height, {16.0, kMostPixels});
   visitor.number({"focal_length", "px", "of these images: 68 deg from side to side; assumed"},
                  o.focal_length, {10.0, 10000.0});
-  visitor.integer({"column_step", "px", "a point for every so many columns"}, o.column_step,
-                  {1.0, 64.0});
+  visitor.integer(
+      {"column_step", "px", "a point for every so many columns: fewer make a smaller bag"},
+      o.column_step, {1.0, 64.0});
   visitor.integer({"row_step", "px", "a point for every so many rows"}, o.row_step, {1.0, 64.0});
   visitor.number({"least_range", "m", "depth of the nearest points; assumed"}, o.least_range,
                  {0.1, 100.0});

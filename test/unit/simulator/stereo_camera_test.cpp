@@ -58,8 +58,8 @@ TEST(StereoCamera, SeesTheRoadAndTheFaceOfABox) {
     EXPECT_LE(height, 1.5 + kTolerance);
     ++on_face;
   }
-  // 76 columns and 57 rows of the image, every second one of them.
-  EXPECT_NEAR(on_face, 38 * 28, 38 + 28);
+  // 76 columns and 57 rows of the image.
+  EXPECT_NEAR(on_face, 76 * 57, 76 + 57);
 }
 
 TEST(StereoCamera, SitsWhereItIsMounted) {
@@ -89,7 +89,7 @@ TEST(StereoCamera, FenceHidesOnlyWhatIsBehindAndBelow) {
       highest = std::max(highest, heightOf(point, options));
     }
   }
-  constexpr double kRow = 2.0 * 20.0 / 380.0;  // m from row to row
+  constexpr double kRow = 20.0 / 380.0;  // m from row to row
   EXPECT_NEAR(lowest, 0.7, kRow);
   EXPECT_GE(lowest, 0.7);
   EXPECT_NEAR(highest, 3.0, kRow);
@@ -158,6 +158,14 @@ TEST(StereoCamera, DepthDeviationGrowsWithTheSquareOfDepth) {
   EXPECT_NEAR(depthDeviation(20.0) / depthDeviation(10.0), 4.0, 0.2);
   // Thesis 3.3.3: up to 5 m at 36 m; two standard deviations.
   EXPECT_NEAR(2.0 * depthDeviation(18.0), 5.0 / 4.0, 0.1);
+}
+
+TEST(StereoCamera, StepsThinThePointsOut) {
+  StereoCameraOptions options = idealStereo();
+  const auto all = static_cast<double>(pointsIn(emptyWorld(), options).size());
+  options.column_step = 2;
+  options.row_step = 4;
+  EXPECT_NEAR(8.0 * static_cast<double>(pointsIn(emptyWorld(), options).size()) / all, 1.0, 0.05);
 }
 
 TEST(StereoCamera, NodMovesAllPointsUpOrDown) {
