@@ -49,6 +49,11 @@ def point_cloud(stamp, cloud):
     )
 
 
+def points(message):
+    """The cloud (n x 4) of a PointCloud2 as point_cloud makes it."""
+    return np.frombuffer(message.data, dtype="<f4").reshape(-1, 4)
+
+
 def gray_image(stamp, pixels):
     """mono8 Image (height x width) in the left rectified camera's frame."""
     height, width = pixels.shape

@@ -125,11 +125,12 @@ def emulate_scan(cloud, heights, options):
     inside = (heights >= options.band_low) & (heights <= options.band_high)
     inside &= (distance >= options.range_min) & (distance <= options.range_max)
     inside &= (beam >= 0) & (beam < options.beams) & (np.abs(steps - beam) <= half_width)
-    inside &= ~_on_own_car(x, y)
+    inside &= ~on_own_car(x, y)
     return _nearest(np.flatnonzero(inside), beam, distance, options.beams)
 
 
-def _on_own_car(x, y):
+def on_own_car(x, y):
+    """Whether points (x, y: n, m, the Velodyne's frame) lie on the recording car."""
     return (x > CAR_REAR) & (x < CAR_FRONT) & (np.abs(y) < CAR_HALF_WIDTH)
 
 

@@ -57,8 +57,10 @@ class Pipeline {
   template <typename Message>
   Output takeScan(const Message& message, Stamp now) {
     Output output;
-    if (auto slam = slam_.takeScan(message)) {
-      followSlam(std::move(*slam), now, output);
+    if (last_ != LastStage::kGridFusion) {
+      if (auto slam = slam_.takeScan(message)) {
+        followSlam(std::move(*slam), now, output);
+      }
     }
     if (low_level_) {
       low_level_->takeScan(message, now, output.grids);
