@@ -24,11 +24,20 @@ double reachFrom(const Point2& point, const GridWindow& window) {
 /// Writes what beams say into a grid.
 class BeamWriter {
  public:
-  BeamWriter(SensorGrid& grid, double beam_width) : grid_(grid), beam_width_(beam_width) {}
+  BeamWriter(SensorGrid& grid, double beam_width, double least_incidence)
+      : grid_(grid), beam_width_(beam_width), cut_per_turn_(1.0 / std::tan(least_incidence)) {}
 
+  /// A surface that is met at a flat angle comes towards the scanner on one side of the beam: away
+  /// from its axis the beam is free as far as such a surface lets it.
   void pass(const Ray& ray, Percent free) {
     const Beam beam = beamOf(ray);
-    forEachLine(grid_.window(), beam, [&](const Point2& to) { write(beam.from, to, free); });
+    const Point2 axis = beam.along.normalized();
+    forEachLine(grid_.window(), beam, [&](const Point2& to) {
+      const Point2 line = to - beam.from;
+      const double turn = std::acos(std::min(1.0, axis.dot(line.normalized())));
+      const double share = ray.hit ? std::max(0.0, 1.0 - turn * cut_per_turn_) : 1.0;
+      write(beam.from, beam.from + share * line, free);
+    });
   }
 
   /// The arc at the measured range, in steps of a cell.
@@ -62,6 +71,7 @@ class BeamWriter {
 
   SensorGrid& grid_;
   double beam_width_;
+  double cut_per_turn_;  ///< 1/rad, share of the range that a line is shorter by
 };
 
 }  // namespace
@@ -78,6 +88,10 @@ void LidarGridOptions::visit(OptionVisitor& visitor) {
                   "opening angle of a beam; 0: it reaches half way to its neighbours (thesis "
                   "3.2.1: each cell asks the nearest beam)"},
                  beam_width, {0.0, 0.2});
+  visitor.number({"least_incidence", "rad",
+                  "flattest angle at which a beam meets a surface: the flatter, the shorter the "
+                  "beam's borders are free; pi/2: as far as its axis (thesis)"},
+                 least_incidence, {0.01, kQuarterTurn});
 }
 
 LidarGridModel::LidarGridModel(const LidarGridOptions& options)
@@ -87,7 +101,7 @@ SensorGrid LidarGridModel::grid(const Scan& scan) const {
   SensorGrid grid(scan.stamp, window_);
   const double beam_width =
       options_.beam_width > 0.0 ? options_.beam_width : std::abs(scan.field.beam_spacing);
-  BeamWriter writer(grid, beam_width);
+  BeamWriter writer(grid, beam_width, options_.least_incidence);
   for (const Ray& ray : scan.rays) {
     writer.pass(ray, toPercent(options_.free_probability));
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/scan.h"
 #include "datmo_fusion/grid/grid_window_options.h"
@@ -11,7 +12,8 @@ struct LidarGridOptions {
   GridWindowOptions window;
   double occupied_probability = 0.8;
   double free_probability = 0.2;
-  double beam_width = 0.0;  ///< rad
+  double beam_width = 0.0;                 ///< rad
+  double least_incidence = degrees(10.0);  ///< rad
 
   void visit(OptionVisitor& visitor);
 };

@@ -82,6 +82,7 @@ TEST(LidarGridTest, TheProbabilitiesAreThoseOfTheOptions) {
 TEST(LidarGridTest, ABeamIsOccupiedAcrossItsWidthAtItsEndAndFreeBefore) {
   LidarGridOptions options = smallGrid();
   options.beam_width = 0.2;  // at 9 m: 0.9 m to each side of 0.5
+  options.least_incidence = kQuarterTurn;
   const SensorGrid grid = LidarGridModel(options).grid(scanOf({rayTo({0.0, 0.5}, {9.0, 0.5})}));
   EXPECT_EQ(grid.at({9, 0}), kOccupied);
   EXPECT_EQ(grid.at({8, 1}), kOccupied);   // 9 m at 0.1 rad: (8.955, 1.398)
@@ -90,6 +91,17 @@ TEST(LidarGridTest, ABeamIsOccupiedAcrossItsWidthAtItsEndAndFreeBefore) {
   EXPECT_EQ(grid.at({7, 1}), kFree);
   EXPECT_EQ(grid.at({7, -1}), kFree);
   EXPECT_EQ(grid.at({2, 1}), kUnknownPercent);  // the wedge is narrow there
+}
+
+TEST(LidarGridTest, BesideItsAxisABeamIsFreeAsFarAsAFlatSurfaceLetsIt) {
+  LidarGridOptions options = smallGrid();
+  options.beam_width = 0.2;
+  options.least_incidence = std::atan(0.2);  // a line at 0.1 rad is half as long
+  const LidarGridModel model(options);
+  const SensorGrid hit = model.grid(scanOf({rayTo({0.0, 0.5}, {9.0, 0.5})}));
+  EXPECT_EQ(hit.at({7, 0}), kFree);
+  EXPECT_EQ(hit.at({7, 1}), kUnknownPercent);
+  EXPECT_EQ(hit.at({8, 1}), kOccupied);
 }
 
 /// So that nothing that is free touches what is unknown through the end of a beam.
