@@ -2,12 +2,13 @@
 
 #include <vector>
 
-#include "datmo_fusion/grid/sensor_grid.h"
+#include "datmo_fusion/grid/grid_window.h"
 
 namespace datmo {
 
-/// The occupied cells of a grid, those together that touch each other, also at a corner only; each
-/// object begins with its first cell in the grid's order, and so do the objects.
-std::vector<std::vector<CellIndex>> objectsIn(const SensorGrid& grid);
+/// Cells of a window sorted into objects: those together that touch each other, also at a corner
+/// only. `cells`: inside of the window, each once. Objects in the order of their first cells.
+std::vector<std::vector<CellIndex>> objectsOf(const std::vector<CellIndex>& cells,
+                                              const GridWindow& window);
 
 }  // namespace datmo

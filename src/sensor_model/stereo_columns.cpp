@@ -11,9 +11,10 @@ namespace datmo {
 
 namespace {
 
-/// A peak is looked for so far (standard deviations of the depth) to both sides, in such steps.
-constexpr double kPeakReach = 2.0;
-constexpr double kPeakStep = 0.5;
+/// What noise brings from elsewhere comes from so far (standard deviations of the depth) at most;
+/// looked for in such steps.
+constexpr double kSmearReach = 2.0;
+constexpr double kSmearStep = 0.5;
 
 }  // namespace
 
@@ -28,9 +29,9 @@ StereoColumns::StereoColumns(const StereoGridOptions& options, const StereoCamer
       inverse_sigma_(camera.depthSigma(1.0)) {}
 
 void StereoColumns::fill(SensorGrid& grid) const {
-  markCells(grid);
-  removeNoise(grid);
-  addMargins(grid);
+  for (const CellIndex cell : withoutNoise(markCells(grid), grid)) {
+    clearMargin(cell, grid);
+  }
 }
 
 StereoColumns::Depths StereoColumns::around(double depth, double sigmas) const {
@@ -48,15 +49,16 @@ double StereoColumns::surfaceAt(const ViewedPlace& place) const {
                            std::max(depths.far, place.forward + half_cell_));
 }
 
-bool StereoColumns::isNoise(const ViewedPlace& place, double surface) const {
+bool StereoColumns::isSmear(const ViewedPlace& place) const {
   const double sigma = inverse_sigma_ * place.forward * place.forward;
   if (2.0 * sigma <= half_cell_) {
     return false;
   }
+  const double surface = surfaceAt(place);
   // The window that surface is counted in widens the noise.
   const double half_window = std::max(half_cell_, sigma);
   const double variance = sigma * sigma + half_window * half_window / 3.0;
-  for (double sigmas = -kPeakReach; sigmas <= kPeakReach; sigmas += kPeakStep) {
+  for (double sigmas = -kSmearReach; sigmas <= kSmearReach; sigmas += kSmearStep) {
     const double depth = 1.0 / (1.0 / place.forward + sigmas * inverse_sigma_);
     const double offset = depth - place.forward;
     if (depth > 0.0 && depth < 2.0 * field_.effective_range && std::abs(offset) > half_cell_) {
@@ -76,43 +78,55 @@ bool StereoColumns::isSeenThrough(const ViewedPlace& place) const {
          lines.seen >= options_.columns.least_seen_share * lines.expected;
 }
 
-void StereoColumns::markCells(SensorGrid& grid) const {
+std::vector<CellIndex> StereoColumns::markCells(SensorGrid& grid) const {
   const Percent occupied = toPercent(options_.occupied_probability);
   const Percent free = toPercent(options_.free_probability);
   const double least = options_.columns.least_surface;
   const double doubtful = options_.columns.doubtful_share * least;
+  std::vector<CellIndex> occupied_cells;
   forEachCellInView(grid.window(), view_, field_, [&](CellIndex cell, const ViewedPlace& place) {
     const double surface = surfaceAt(place);
     if (surface >= least) {
       grid.at(cell) = occupied;
+      occupied_cells.push_back(cell);
     } else if (surface < doubtful && isSeenThrough(place)) {
       grid.at(cell) = free;
     }
   });
+  return occupied_cells;
 }
 
-void StereoColumns::removeNoise(SensorGrid& grid) const {
-  for (const auto& object : objectsIn(grid)) {
-    double surface = 0.0;
+bool StereoColumns::isNoise(const std::vector<CellIndex>& object, const GridWindow& window) const {
+  double surface = 0.0;
+  for (const CellIndex cell : object) {
+    const ViewedPlace place = view_.placeOf(window.centreOf(cell));
+    const Depths depths = around(place.forward, 1.0);
+    // What the cell's neighbours count as theirs too is shared with them.
+    const double share = std::min(1.0, 2.0 * half_cell_ / (depths.far - depths.near));
+    surface += share * surfaceAt(place);
+  }
+  return surface < options_.columns.least_object_surface;
+}
+
+std::vector<CellIndex> StereoColumns::withoutNoise(const std::vector<CellIndex>& occupied,
+                                                   SensorGrid& grid) const {
+  std::vector<CellIndex> left;
+  for (const auto& object : objectsOf(occupied, grid.window())) {
+    const bool is_noise = isNoise(object, grid.window());
     for (const CellIndex cell : object) {
-      const ViewedPlace place = view_.placeOf(grid.window().centreOf(cell));
-      const Depths depths = around(place.forward, 1.0);
-      // What the cell's neighbours count as theirs too is shared with them.
-      const double share = std::min(1.0, 2.0 * half_cell_ / (depths.far - depths.near));
-      surface += share * surfaceAt(place);
-    }
-    const bool is_noise = surface < options_.columns.least_object_surface;
-    for (const CellIndex cell : object) {
-      const ViewedPlace place = view_.placeOf(grid.window().centreOf(cell));
-      if (is_noise || isNoise(place, surfaceAt(place))) {
+      if (is_noise || isSmear(view_.placeOf(grid.window().centreOf(cell)))) {
         grid.at(cell) = kUnknownPercent;
+      } else {
+        left.push_back(cell);
       }
     }
   }
+  return left;
 }
 
-void StereoColumns::addMargins(SensorGrid& grid) const {
-  const SensorGrid marked = grid;
+void StereoColumns::clearMargin(CellIndex occupied, SensorGrid& grid) const {
+  const ViewedPlace place = view_.placeOf(grid.window().centreOf(occupied));
+  const Depths depths = around(place.forward, options_.columns.obstacle_sigmas);
   const auto clear = [&grid](CellIndex cell) {
     for (int row = cell.row - 1; row <= cell.row + 1; ++row) {
       for (int column = cell.column - 1; column <= cell.column + 1; ++column) {
@@ -122,14 +136,8 @@ void StereoColumns::addMargins(SensorGrid& grid) const {
       }
     }
   };
-  marked.forEach([&](CellIndex cell, Percent percent) {
-    if (isOccupied(percent)) {
-      const ViewedPlace place = view_.placeOf(grid.window().centreOf(cell));
-      const Depths depths = around(place.forward, options_.columns.obstacle_sigmas);
-      walkRay(grid.window(), view_.positionOf({depths.near, place.tangent() * depths.near}),
-              view_.positionOf({depths.far, place.tangent() * depths.far}), clear);
-    }
-  });
+  walkRay(grid.window(), view_.positionOf({depths.near, place.tangent() * depths.near}),
+          view_.positionOf({depths.far, place.tangent() * depths.far}), clear);
 }
 
 }  // namespace datmo

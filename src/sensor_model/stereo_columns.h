@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "cells_in_view.h"
 #include "stereo_evidence.h"
 
@@ -23,19 +25,26 @@ class StereoColumns {
   /// m^2 in the layer of obstacles in a cell there; around it as far as the depth is uncertain.
   double surfaceAt(const ViewedPlace& place) const;
 
-  /// Whether no other place on the line of sight has clearly more surface of what may be the same
-  /// obstacle.
-  bool isNoise(const ViewedPlace& place, double surface) const;
+  /// Whether the surface there is no more than what the noise of the depth brings there from
+  /// another place on the line of sight.
+  bool isSmear(const ViewedPlace& place) const;
 
+  /// Whether an object has too little surface in all.
+  bool isNoise(const std::vector<CellIndex>& object, const GridWindow& window) const;
+
+  /// Whether enough lines of sight cross a place near the ground.
   bool isSeenThrough(const ViewedPlace& place) const;
 
-  void markCells(SensorGrid& grid) const;
+  /// By what is seen there alone; returns the occupied ones.
+  std::vector<CellIndex> markCells(SensorGrid& grid) const;
 
-  /// Objects with too little surface in all become unknown.
-  void removeNoise(SensorGrid& grid) const;
+  /// Occupied cells that are noise become unknown; returns the others.
+  std::vector<CellIndex> withoutNoise(const std::vector<CellIndex>& occupied,
+                                      SensorGrid& grid) const;
 
-  /// Free cells that the noise of its depth may have kept an obstacle out of become unknown.
-  void addMargins(SensorGrid& grid) const;
+  /// Free cells that may be where an occupied one seems to be become unknown: along the line of
+  /// sight by the noise of the depth, and all neighbours.
+  void clearMargin(CellIndex occupied, SensorGrid& grid) const;
 
   /// From the nearest to the farthest depth (m) that is within so many standard deviations of a
   /// depth.

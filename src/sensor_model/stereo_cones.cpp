@@ -87,13 +87,15 @@ StereoCounts fillByCones(const StereoGridOptions& options, const StereoCloud& cl
   StereoCounts result;
   const GridWindow& window = grid.window();
   const RollingGrid<int> counts = countPoints(options, cloud, view, field, window, result);
+  std::vector<CellIndex> occupied;
   forEachCellInView(window, view, field, [&](CellIndex cell, const ViewedPlace& /*place*/) {
     if (sumAround(counts, cell) > options.cones.threshold) {
       grid.at(cell) = toPercent(options.occupied_probability);
+      occupied.push_back(cell);
     }
   });
   std::vector<Cone> cones;
-  for (const auto& object : objectsIn(grid)) {
+  for (const auto& object : objectsOf(occupied, window)) {
     cones.push_back(coneOf(object, window, view));
   }
   forEachCellInView(window, view, field, [&](CellIndex cell, const ViewedPlace& place) {

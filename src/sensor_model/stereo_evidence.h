@@ -25,8 +25,6 @@ struct EvidenceLimits {
 
 /// The points of one cloud, counted in columns of the camera's level image over depth: how many
 /// stand in the layer of obstacles, and how many lines of sight cross each place near the ground.
-///
-/// Counts are whole numbers, so that no order of the points changes a result.
 class StereoEvidence {
  public:
   /// Forgets what it knew, and counts the cloud's points. `view`: of this cloud.
