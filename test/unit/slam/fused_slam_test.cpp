@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "slam/yard.h"
+#include "yard.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/common/twist2.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "slam/yard.h"
+#include "yard.h"
 #include <gtest/gtest.h>
 
 namespace datmo {
