@@ -153,15 +153,17 @@ std::string speedNote(double data_seconds, double wall_seconds) {
 
 double lengthOf(rosbag::View& view) { return (view.getEndTime() - view.getBeginTime()).toSec(); }
 
-/// Messages by record time, and within one time transforms and odometry (false) before the scans
-/// that need them (true).
+/// Messages by record time, and within one time transforms, odometry and calibrations (false)
+/// before the scans and clouds that need them (true).
 using OrderedMessages = std::multimap<std::pair<ros::Time, bool>, rosbag::MessageInstance>;
 
 OrderedMessages inOrder(rosbag::View& view, const InputTopics& topics) {
   OrderedMessages messages;
   for (const rosbag::MessageInstance& message : view) {
-    const bool scan = message.getTopic() == topics.scan || message.getTopic() == topics.echoes;
-    messages.emplace(std::make_pair(message.getTime(), scan), message);
+    const std::string& topic = message.getTopic();
+    const bool measured =
+        topic == topics.scan || topic == topics.echoes || topic == topics.stereo.points;
+    messages.emplace(std::make_pair(message.getTime(), measured), message);
   }
   return messages;
 }
@@ -212,7 +214,7 @@ void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progres
   const InputTopics topics = findTopics(bag, arguments, options);
   OutputBag output(arguments.output);
   Pipeline pipeline(options,
-                    {arguments.last_stage, arguments.low_level_fusion, topics.stereo.rectified()});
+                    {arguments.last_stage, arguments.low_level_fusion, topics.stereo.input()});
   DriveSummary drive;
   BagRun run(topics, pipeline, drive, output, arguments.write_grids);
 

@@ -78,9 +78,13 @@ void findLowLevelTopics(const rosbag::Bag& bag, const Arguments& arguments,
 
 }  // namespace
 
-bool StereoTopics::rectified() const {
-  return left_image.compare(left_image.find_last_of('/') + 1, kRectifiedName.size(),
-                            kRectifiedName) == 0;
+StereoInput StereoTopics::input() const {
+  if (left_image.empty()) {
+    return StereoInput::kClouds;
+  }
+  const std::string name = left_image.substr(left_image.find_last_of('/') + 1);
+  return name.rfind(kRectifiedName, 0) == 0 ? StereoInput::kRectifiedImages
+                                            : StereoInput::kRawImages;
 }
 
 std::vector<std::string> InputTopics::all() const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "arguments.h"
+#include "low_level_pipeline.h"
 #include "pipeline_options.h"
 
 #include <rosbag/bag.h>
@@ -19,8 +20,9 @@ struct StereoTopics {
   std::string left_info;
   std::string right_info;
 
-  /// Whether the images are rectified, as image_proc's naming says: image_rect, image_rect_color.
-  bool rectified() const;
+  /// What there is. Images are rectified if image_proc's naming says so: image_rect,
+  /// image_rect_color.
+  StereoInput input() const;
 };
 
 /// The names that our inputs have in the bag.

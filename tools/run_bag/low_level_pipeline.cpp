@@ -4,15 +4,18 @@
 
 namespace datmo {
 
-LowLevelPipeline::LowLevelPipeline(const LowLevelOptions& options, bool rectified_images,
+LowLevelPipeline::LowLevelPipeline(const LowLevelOptions& options, StereoInput input,
                                    const TransformBuffer& transforms, StageTimes& times)
     : times_(times),
       longest_wait_(options.grid_fusion.matcher.longest_wait),
-      images_(options.stereo_images, rectified_images, images_monitor_),
       lidar_(options.lidar_grid, transforms, lidar_monitor_),
       stereo_(options.stereo_grid, transforms, stereo_monitor_),
       fusion_(options.grid_fusion, fusion_monitor_),
-      sources_(fusion_.sources()) {}
+      sources_(fusion_.sources()) {
+  if (input != StereoInput::kClouds) {
+    images_.emplace(options.stereo_images, input == StereoInput::kRectifiedImages, images_monitor_);
+  }
+}
 
 void LowLevelPipeline::takeCloud(const sensor_msgs::PointCloud2& message, Stamp now,
                                  std::vector<NamedGrid>& grids) {
@@ -21,9 +24,8 @@ void LowLevelPipeline::takeCloud(const sensor_msgs::PointCloud2& message, Stamp 
 
 void LowLevelPipeline::takeImage(StereoSide side, const sensor_msgs::ImageConstPtr& image,
                                  Stamp now, std::vector<NamedGrid>& grids) {
-  if (const auto cloud = images_.takeImage(side, image)) {
-    bookTime(images_monitor_);
-    takeCloud(*cloud, now, grids);
+  if (images_) {
+    takeMadeCloud(images_->takeImage(side, image), now, grids);
   }
 }
 
@@ -32,7 +34,14 @@ void LowLevelPipeline::takeCameraInfo(StereoSide side, const sensor_msgs::Camera
   if (side == StereoSide::kRight) {
     stereo_.takeCameraInfo(*info);
   }
-  if (const auto cloud = images_.takeInfo(side, info)) {
+  if (images_) {
+    takeMadeCloud(images_->takeInfo(side, info), now, grids);
+  }
+}
+
+void LowLevelPipeline::takeMadeCloud(const sensor_msgs::PointCloud2Ptr& cloud, Stamp now,
+                                     std::vector<NamedGrid>& grids) {
+  if (cloud) {
     bookTime(images_monitor_);
     takeCloud(*cloud, now, grids);
   }

@@ -14,6 +14,9 @@
 
 namespace datmo {
 
+/// What the stereo camera's points come from.
+enum class StereoInput { kClouds, kRectifiedImages, kRawImages };
+
 /// The stages before grid_slam with low-level fusion:
 ///
 ///     scan, odometry, tf ──────────────► lidar_grid ── lidar ──┐
@@ -26,9 +29,8 @@ class LowLevelPipeline {
   /// A grid and its name: lidar, stereo, fused, conflict.
   using NamedGrid = std::pair<std::string, nav_msgs::OccupancyGridPtr>;
 
-  /// `transforms` and `times` must outlive this. `rectified_images`: see StereoImages. Throws
-  /// OptionError.
-  LowLevelPipeline(const LowLevelOptions& options, bool rectified_images,
+  /// `transforms` and `times` must outlive this. Throws OptionError.
+  LowLevelPipeline(const LowLevelOptions& options, StereoInput input,
                    const TransformBuffer& transforms, StageTimes& times);
 
   /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan. The grids that it leads to are added
@@ -39,6 +41,7 @@ class LowLevelPipeline {
   }
 
   void takeCloud(const sensor_msgs::PointCloud2& message, Stamp now, std::vector<NamedGrid>& grids);
+  /// Images are read where the points come from them.
   void takeImage(StereoSide side, const sensor_msgs::ImageConstPtr& image, Stamp now,
                  std::vector<NamedGrid>& grids);
   void takeCameraInfo(StereoSide side, const sensor_msgs::CameraInfoConstPtr& info, Stamp now,
@@ -61,6 +64,9 @@ class LowLevelPipeline {
   }
 
  private:
+  void takeMadeCloud(const sensor_msgs::PointCloud2Ptr& cloud, Stamp now,
+                     std::vector<NamedGrid>& grids);
+
   /// Takes a new grid (null: there is none) to the fusion, if that uses it.
   void offer(const std::string& source, const nav_msgs::OccupancyGridPtr& grid,
              const StageMonitor& monitor, Stamp now, std::vector<NamedGrid>& grids);
@@ -72,7 +78,7 @@ class LowLevelPipeline {
   StageMonitor lidar_monitor_{"lidar_grid"};
   StageMonitor stereo_monitor_{"stereo_grid"};
   StageMonitor fusion_monitor_{"grid_fusion"};
-  StereoImages images_;
+  std::optional<StereoImages> images_;  ///< none if there are clouds
   LidarGridStage lidar_;
   StereoGridStage stereo_;
   GridFusionStage fusion_;

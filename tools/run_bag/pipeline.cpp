@@ -20,8 +20,8 @@ Pipeline::Pipeline(const PipelineOptions& options, const Wiring& wiring)
       last_(wiring.last),
       transforms_(options_.grid_slam.input.restart_after),
       low_level_(wiring.low_level_fusion
-                     ? std::make_unique<LowLevelPipeline>(
-                           options_.low_level, wiring.rectified_images, transforms_, times_)
+                     ? std::make_unique<LowLevelPipeline>(options_.low_level, wiring.stereo,
+                                                          transforms_, times_)
                      : nullptr),
       slam_(options_.grid_slam, transforms_, slam_monitor_),
       detector_(options_.moving_objects, detector_monitor_),

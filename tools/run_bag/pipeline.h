@@ -19,7 +19,7 @@ namespace datmo {
 struct Wiring {
   LastStage last = LastStage::kTracker;  ///< the stages after it are left out
   bool low_level_fusion = false;
-  bool rectified_images = true;  ///< those of the stereo camera, if there are any
+  StereoInput stereo = StereoInput::kClouds;
 };
 
 /// The stages of perception.launch, wired without a master:

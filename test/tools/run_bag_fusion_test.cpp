@@ -1,0 +1,256 @@
+// The bag runner with low-level fusion: the small drive with a stereo camera that sees a wall.
+#include <filesystem>
+
+#include "run_bag/stereo_images.h"
+#include "run_bag_drive.h"
+#include "stereo_pair_sample.h"
+#include <gtest/gtest.h>
+
+#include <nav_msgs/OccupancyGrid.h>
+#include <sensor_msgs/PointCloud2.h>
+
+namespace datmo {
+namespace {
+
+constexpr int kClouds = 15;                     // one for every second scan
+constexpr double kCloudPeriod = 2.0 * kPeriod;  // s
+constexpr auto kScanCount = static_cast<std::size_t>(kScans);
+constexpr auto kCloudCount = static_cast<std::size_t>(kClouds);
+
+/// Forward is z, right is x (REP 103).
+geometry_msgs::TransformStamped cameraMount(const std::string& frame) {
+  geometry_msgs::TransformStamped mount =
+      toTransform(Pose2(1.0, 0.0, 0.0), kStart, "base_link", frame);
+  mount.transform.translation.z = 1.2;
+  mount.transform.rotation.x = -0.5;
+  mount.transform.rotation.y = 0.5;
+  mount.transform.rotation.z = -0.5;
+  mount.transform.rotation.w = 0.5;
+  return mount;
+}
+
+class FusedRun : public RunBag {
+ protected:
+  FusedRun() {
+    writeConfig("{stereo_image_proc: {stereo_algorithm: 1, disparity_range: 32}}");
+    arguments_.low_level_fusion = true;
+    arguments_.write_grids = true;
+  }
+
+  /// `write(bag, stamp)` for each of the stereo camera's stamps.
+  template <typename Write>
+  void append(const Write& write) const {
+    rosbag::Bag bag(arguments_.input, rosbag::bagmode::Append);
+    tf2_msgs::TFMessage mount;
+    mount.transforms.push_back(cameraMount(sample_.frame));
+    bag.write("/tf_static", toTime(kStart), mount);
+    for (int i = 0; i < kClouds; ++i) {
+      write(bag, kStart + i * kCloudPeriod);
+    }
+  }
+
+  void appendImages(const std::string& name = "image_rect") const {
+    append([&](rosbag::Bag& bag, Stamp stamp) {
+      for (const bool right : {false, true}) {
+        const std::string camera = right ? "/stereo/right/" : "/stereo/left/";
+        bag.write(camera + name, toTime(stamp), sample_.image(stamp, right, "mono8"));
+        bag.write(camera + "camera_info", toTime(stamp), sample_.info(stamp, right));
+      }
+    });
+  }
+
+  /// What stereo_image_proc makes of the images.
+  void appendClouds() const {
+    StageMonitor monitor("stereo_images");
+    StereoImagesOptions options;
+    options.stereo_algorithm = 1;
+    options.disparity_range = 32;
+    StereoImages images(options, true, monitor);
+    append([&](rosbag::Bag& bag, Stamp stamp) {
+      images.takeImage(StereoSide::kLeft, sample_.image(stamp, false, "mono8"));
+      images.takeInfo(StereoSide::kLeft, sample_.info(stamp, false));
+      images.takeImage(StereoSide::kRight, sample_.image(stamp, true, "mono8"));
+      bag.write("/stereo/right/camera_info", toTime(stamp), sample_.info(stamp, true));
+      bag.write("/stereo/points2", toTime(stamp),
+                images.takeInfo(StereoSide::kRight, sample_.info(stamp, true)));
+    });
+  }
+
+  void expectGrids() const {
+    EXPECT_EQ(count(arguments_.output, "/grids/lidar"), kScanCount);
+    EXPECT_EQ(count(arguments_.output, "/grids/stereo"), kCloudCount);
+    EXPECT_EQ(count(arguments_.output, "/grids/fused"), kScanCount);
+    EXPECT_EQ(count(arguments_.output, "/grids/conflict"), kScanCount);
+  }
+
+  StereoPairSample sample_;
+};
+
+TEST_F(FusedRun, EveryScanIsFusedWithClouds) {
+  appendClouds();
+  const std::string table = run();
+  expectGrids();
+  for (const char* topic : {"/pose", "/split_scan", "/objects", "/tracks", "/tf"}) {
+    EXPECT_EQ(count(arguments_.output, topic), kScanCount) << topic;
+  }
+  EXPECT_FALSE(holds(table, "dropped")) << table;
+  EXPECT_FALSE(holds(table, "stereo_images")) << table;
+}
+
+TEST_F(FusedRun, CloudsAreMadeOfImagesWhereThereAreNone) {
+  appendImages();
+  EXPECT_TRUE(holds(run(), "stereo_images"));
+  expectGrids();
+}
+
+TEST_F(FusedRun, RawImagesAreFoundByTheirName) {
+  appendImages("image_raw");
+  run();
+  expectGrids();
+}
+
+TEST_F(FusedRun, ImagesServeInPlaceOfCloudsOnDemand) {
+  appendClouds();
+  arguments_.stereo_from_images = true;
+  EXPECT_TRUE(holds(failure(), "/stereo/left/image_raw"));
+  arguments_.remappings["/left_image"] = "/stereo/left/image_rect";
+  EXPECT_TRUE(holds(failure(), "/stereo/left/image_rect"));
+  appendImages();
+  EXPECT_TRUE(holds(run(), "stereo_images"));
+}
+
+TEST_F(FusedRun, ImagesLeadToTheSameGridsAsTheirClouds) {
+  appendClouds();
+  appendImages();
+  run();
+  const auto cells = [this] {
+    rosbag::Bag bag(arguments_.output);
+    std::vector<std::int8_t> all;
+    for (const auto& message : rosbag::View(bag, rosbag::TopicQuery("/grids/stereo"))) {
+      const auto grid = message.instantiate<nav_msgs::OccupancyGrid>();
+      all.insert(all.end(), grid->data.begin(), grid->data.end());
+    }
+    return all;
+  };
+  const auto of_clouds = cells();
+  arguments_.stereo_from_images = true;
+  run();
+  EXPECT_EQ(of_clouds, cells());
+}
+
+TEST_F(FusedRun, SameBagGivesTheSameBytes) {
+  appendImages();
+  run();
+  const std::string first = bytes(arguments_.output);
+  run();
+  EXPECT_EQ(first, bytes(arguments_.output));
+}
+
+TEST_F(FusedRun, GridsAreWrittenOnDemandAlone) {
+  appendClouds();
+  arguments_.write_grids = false;
+  run();
+  EXPECT_EQ(count(arguments_.output, "/grids/fused"), 0U);
+  EXPECT_EQ(count(arguments_.output, "/pose"), kScanCount);
+}
+
+TEST_F(FusedRun, FusionMayBeTheLastStage) {
+  appendClouds();
+  arguments_.last_stage = LastStage::kGridFusion;
+  const std::string table = run();
+  expectGrids();
+  EXPECT_EQ(count(arguments_.output, "/pose"), 0U);
+  EXPECT_FALSE(holds(table, "grid_slam")) << table;
+}
+
+TEST_F(FusedRun, RuleMayBeChosen) {
+  appendClouds();
+  run();
+  const std::string usual = bytes(arguments_.output);
+  arguments_.grid_rule = "maximum";
+  run();
+  EXPECT_NE(usual, bytes(arguments_.output));
+  std::filesystem::remove(arguments_.output);
+  arguments_.grid_rule = "minimum";
+  EXPECT_TRUE(holds(failure(), "minimum"));
+}
+
+TEST_F(FusedRun, MissingStereoIsNamed) {
+  const std::string message = failure();
+  EXPECT_TRUE(holds(message, "/stereo/points2")) << message;
+  EXPECT_TRUE(holds(message, "/scan (sensor_msgs/LaserScan)")) << message;
+}
+
+TEST_F(FusedRun, OneSourceIsEnough) {
+  writeConfig("{grid_fusion: {sources: {stereo: {use: false}}}}");
+  run();
+  EXPECT_EQ(count(arguments_.output, "/grids/fused"), kScanCount);
+  EXPECT_EQ(count(arguments_.output, "/pose"), kScanCount);
+}
+
+TEST_F(FusedRun, StereoThatEndsIsWaitedForNoMore) {
+  appendClouds();
+  {
+    rosbag::Bag bag(arguments_.input, rosbag::bagmode::Append);
+    for (int i = kScans; i < 2 * kScans; ++i) {
+      const Stamp stamp = kStart + i * kPeriod;
+      bag.write("/odometry", toTime(stamp), odometryAt(stamp));
+      bag.write("/tf", toTime(stamp),
+                transform(fromMessage(odometryAt(stamp).pose.pose), stamp, "odom", "base_link"));
+      bag.write("/scan", toTime(stamp), scanAt(stamp));
+    }
+  }
+  const std::string table = run();
+  EXPECT_EQ(count(arguments_.output, "/grids/fused"), 2U * kScanCount);
+  EXPECT_TRUE(holds(table, "silent_source")) << table;
+}
+
+TEST_F(FusedRun, GridsOfOtherSourcesComeFromTheBag) {
+  appendClouds();
+  run();
+  const std::string two_sources = bytes(arguments_.output);
+  std::filesystem::rename(arguments_.output, path("grids.bag"));
+  {
+    rosbag::Bag recorded(path("grids.bag"));
+    rosbag::Bag bag(arguments_.input, rosbag::bagmode::Append);
+    for (const auto& message : rosbag::View(recorded, rosbag::TopicQuery("/grids/lidar"))) {
+      bag.write("/grids/radar", message.getTime(), message);
+    }
+  }
+  writeConfig("{grid_fusion: {sources: {radar: {weight: 0.5}}}}");
+  run();
+  EXPECT_NE(two_sources, bytes(arguments_.output));
+  EXPECT_EQ(count(arguments_.output, "/grids/fused"), kScanCount);
+}
+
+TEST(FusionArguments, AreRead) {
+  const Arguments arguments = parseArguments(
+      {"a.bag", "b.bag", "--config", "c.yaml", "--low-level-fusion", "--write-grids", "--grid-rule",
+       "priority", "--until", "grid_fusion", "points2:=/cloud", "left_image:=/cam0/image"});
+  EXPECT_TRUE(arguments.low_level_fusion);
+  EXPECT_TRUE(arguments.write_grids);
+  EXPECT_FALSE(arguments.stereo_from_images);
+  EXPECT_EQ(arguments.grid_rule, "priority");
+  EXPECT_EQ(arguments.last_stage, LastStage::kGridFusion);
+  EXPECT_EQ(arguments.inputTopic("points2", "/stereo/points2"), "/cloud");
+  EXPECT_EQ(arguments.inputTopic("right_image", "/stereo/right/image_rect"),
+            "/stereo/right/image_rect");
+}
+
+TEST(FusionArguments, NeedTheSwitch) {
+  const std::vector<std::string> words = {"a.bag", "b.bag", "--config", "c.yaml"};
+  const std::vector<std::vector<std::string>> options = {{"--write-grids"},
+                                                         {"--stereo-from-images"},
+                                                         {"--grid-rule", "maximum"},
+                                                         {"--until", "grid_fusion"}};
+  for (const auto& option : options) {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), option.begin(), option.end());
+    EXPECT_THROW(parseArguments(all), UsageError) << option.front();
+    all.emplace_back("--low-level-fusion");
+    EXPECT_NO_THROW(parseArguments(all)) << option.front();
+  }
+}
+
+}  // namespace
+}  // namespace datmo
