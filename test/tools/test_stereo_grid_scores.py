@@ -29,7 +29,7 @@ OPTICAL = np.array([[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
 # The left camera at the vehicle's origin, 45 deg to each side; the right one 1 m beside it. The
 # depth's standard deviation is a hundredth of its square: 1 m at 10 m.
 LEFT = StereoView(transforms.rigid(OPTICAL, [0.0, 0.0, 1.7]), (-1.0, 1.0), 25.0, 0.01)
-VIEW = CommonView(LEFT, 1.0)
+VIEW = CommonView(LEFT, 1.0, -1.0)
 
 # 60 x 40 cells of half a metre, ahead of the vehicle.
 ROWS, COLUMNS, CELL = 40, 60, 0.5
@@ -193,6 +193,12 @@ class Tool(unittest.TestCase):
         self.assertIn("nothing on /points", self.run_tool()[2])
         (self.folder / "run.bag").write_text("no bag")
         self.assertEqual(self.run_tool()[0], 1)
+
+    def test_first_columns_may_be_left_out(self):
+        self.assertRegex(self.run_tool("--first-column", "90")[1], r"0 to 15 m +1\.000 +1 ")
+        out = self.run_tool("--first-column", "110")[1]
+        self.assertRegex(out, r"0 to 15 m +- +0 +- +0 +-")  # the post is in column 99
+        self.assertIn("--first-column is -1", self.run_tool("--first-column", "-1")[2])
 
     def test_sigma_must_be_more_than_nothing(self):
         self.assertIn("--disparity-sigma is 0", self.run_tool("--disparity-sigma", "0")[2])

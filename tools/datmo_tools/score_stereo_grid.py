@@ -42,7 +42,9 @@ Scores the stereo (or fused) grids of a run with the Velodyne of the drive that 
 An obstacle is what stands 0.3 m to 2 m above the road, whose plane is fitted in each cloud. The
 cloud nearest in time is brought to the grid's stamp by the true poses. A cell is right where the
 other side has an obstacle within one cell, or within the standard deviation of the camera's depth
-there, whichever is more. What one of the two cameras does not see is left out.
+there, whichever is more. What one of the two cameras does not see is left out. OpenCV's matchers
+give no disparity in the first columns of the left image, as many as disparity_range says, whatever
+is there: --first-column leaves them out too, so that the rest is judged by itself.
 
 The Velodyne stands 8 cm above the cameras and 0.3 m behind them, so it sees a little more: over
 low obstacles and roofs, where the cameras look along the surface; and between 0.3 m and 0.6 m above
@@ -65,13 +67,14 @@ def main(arguments=None):
     return command_line.run("score_stereo_grid", lambda: _run(values), product="score")
 
 
-def score(run, drive, topic="/grids/stereo", disparity_sigma=DISPARITY_SIGMA):
+def score(run, drive, topic="/grids/stereo", disparity_sigma=DISPARITY_SIGMA, first_column=0.0):
     """Score of the grids on `topic` in the bag `run` (Path) against the drive's bag (Path), as a
     dictionary that JSON can hold.
 
-    disparity_sigma: px. Raises InputError, also if no grid has a cloud near in time.
+    disparity_sigma: px; first_column: of the left image that counts, px. Raises InputError, also if
+    no grid has a cloud near in time.
     """
-    clouds, view = _read_drive(drive, disparity_sigma)
+    clouds, view = _read_drive(drive, disparity_sigma, first_column)
     path = read_path(drive, TRUE_POSE)
     stamps = np.array(sorted(clouds))
     counts, used, left_out = NOTHING, 0, 0
@@ -122,7 +125,7 @@ def _text(share):
     return "-" if share is None else f"{share:.3f}"
 
 
-def _read_drive(path, disparity_sigma):
+def _read_drive(path, disparity_sigma, first_column):
     """Dictionary stamp (ns) -> obstacles of its cloud (n x 2, base_link, m), and the CommonView."""
     kept = {MOUNTS: [], CLOUDS: []}
     infos = {}
@@ -137,12 +140,14 @@ def _read_drive(path, disparity_sigma):
     mounts = mounts_of(kept[MOUNTS])
     left = view_of(path, infos, mounts, REACH, disparity_sigma)
     projection = infos[CAMERA_INFOS[1]].P
+    begin, end = left.tangents
+    left = left._replace(tangents=(begin + first_column / projection[0], end))
     velodyne = mount_of(path, mounts, kept[CLOUDS][0].header.frame_id)
     clouds = {
         message.header.stamp.to_nsec(): obstacle_points(kitti_messages.points(message), velodyne)
         for message in kept[CLOUDS]
     }
-    return clouds, CommonView(left, -projection[3] / projection[0])
+    return clouds, CommonView(left, -projection[3] / projection[0], begin)
 
 
 def _bands(counts):
@@ -169,7 +174,11 @@ def _band(counts, near, far):
 def _run(values):
     if values.disparity_sigma <= 0.0:
         raise InputError(f"--disparity-sigma is {values.disparity_sigma}, expected more than 0")
-    result = score(values.run, values.drive, values.topic, values.disparity_sigma)
+    if values.first_column < 0.0:
+        raise InputError(f"--first-column is {values.first_column:g}, expected 0 or more")
+    result = score(
+        values.run, values.drive, values.topic, values.disparity_sigma, values.first_column
+    )
     print(table(result))
     if values.json is not None:
         text = json.dumps(result, indent=2) + "\n"
@@ -189,5 +198,7 @@ def _parser():
     command_line.add_number(parser, "--disparity-sigma", DISPARITY_SIGMA, "PX",
                             "standard deviation of disparities, px: how far off a cell may "
                             "be")  # fmt: skip
+    command_line.add_number(parser, "--first-column", 0.0, "PX",
+                            "of the left image that counts")  # fmt: skip
     add("--json", type=Path, metavar="FILE", help="writes the score there too")
     return parser

@@ -26,12 +26,13 @@ class CommonView(NamedTuple):
 
     left: object  # StereoView of the left camera
     baseline: float  # m
+    right_begin: float  # x / z of the right image's left border
 
     def ranges(self, points):
         """Distances (n, m) of points (n x 2, base_link) from the left camera; infinite: not seen by
         both cameras, or further than its reach."""
         ahead, right = self._along(points)
-        seen_by_right = right - self.baseline >= self.left.tangents[0] * ahead
+        seen_by_right = right - self.baseline >= self.right_begin * ahead
         return np.where(seen_by_right, self.left.ranges(points), np.inf)
 
     def depth_sigmas(self, points):
