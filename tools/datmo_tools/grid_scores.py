@@ -111,7 +111,8 @@ class Bodies(NamedTuple):
         start = np.einsum("ijn,nj->ni", turn, begin - self.poses[:, :2])
         way = np.einsum("ijn,mj->mni", turn, ends - begin)
         with np.errstate(divide="ignore", invalid="ignore"):
-            borders = np.stack([(-0.5 * self.sizes - start) / way, (0.5 * self.sizes - start) / way])
+            near, far = ((side * self.sizes - start) / way for side in (-0.5, 0.5))
+        borders = np.stack([near, far])
         enter = np.fmax.reduce(borders.min(axis=0), axis=2)
         leave = np.fmin.reduce(borders.max(axis=0), axis=2)
         return np.where((enter <= leave) & (enter > 0.0) & (enter <= 1.0), enter, np.inf)

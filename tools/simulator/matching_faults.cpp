@@ -74,7 +74,9 @@ class SmoothNoise {
     return (1.0 - across) * corners_[first] + across * corners_[first + 1];
   }
   /// Of a value between two independent ones of standard deviation 1.
-  static double deviation(double share) { return std::hypot(1.0 - share, share); }
+  static double deviation(double share) {
+    return std::sqrt((1.0 - share) * (1.0 - share) + share * share);
+  }
 
   int patch_;
   int columns_;
