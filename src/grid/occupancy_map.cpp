@@ -64,6 +64,11 @@ void OccupancyMapOptions::visit(OptionVisitor& visitor) {
                    "a static cell this near to an end point makes it static: range noise and pose "
                    "error (thesis: 0)"},
                   static_neighbourhood, {0, 5});
+  visitor.integer(
+      {"ghost_after", "1",
+       "where other sensors have refuted so many ends of beams the scanner sees what is "
+       "no obstacle: what ends there again does not move; 0: forgets them"},
+      ghost_after, {0, 1000});
 }
 
 OccupancyMap::OccupancyMap(const OccupancyMapOptions& options)
@@ -83,11 +88,16 @@ double OccupancyMap::maturity(const Cell& cell) const {
   return age >= options_.static_after ? 1.0 : age / options_.static_after;
 }
 
-bool OccupancyMap::isNearStatic(CellIndex cell) const {
+bool OccupancyMap::isGhost(const Cell& cell) const {
+  return options_.ghost_after > 0 && cell.refuted >= options_.ghost_after;
+}
+
+template <typename Test>
+bool OccupancyMap::anyNear(CellIndex cell, Test&& test) const {
   const int reach = options_.static_neighbourhood;
   for (int row = cell.row - reach; row <= cell.row + reach; ++row) {
     for (int column = cell.column - reach; column <= cell.column + reach; ++column) {
-      if (isStatic(cells_.atOrEmpty({column, row}))) {
+      if (test(cells_.atOrEmpty({column, row}))) {
         return true;
       }
     }
@@ -98,14 +108,16 @@ bool OccupancyMap::isNearStatic(CellIndex cell) const {
 PointState OccupancyMap::judge(const Point2& point, const Point2& half_footprint) const {
   bool is_static = false;
   bool is_free = true;
-  walkRay(window(), point - half_footprint, point + half_footprint, [&](CellIndex cell) {
-    is_static = is_static || isNearStatic(cell);
-    is_free = is_free && occupancy(cell) < options_.moving_below;
+  walkRay(window(), point - half_footprint, point + half_footprint, [&](CellIndex index) {
+    is_static = is_static || anyNear(index, [this](const Cell& cell) { return isStatic(cell); });
+    is_free = is_free && occupancy(index) < options_.moving_below;
   });
   if (is_static) {
     return PointState::kStatic;
   }
-  return is_free ? PointState::kMoving : PointState::kUnknown;
+  const bool may_be_ghost = is_free && anyNear(window().cellAt(point),
+                                               [this](const Cell& cell) { return isGhost(cell); });
+  return is_free && !may_be_ghost ? PointState::kMoving : PointState::kUnknown;
 }
 
 template <typename Visit>
@@ -178,6 +190,12 @@ void OccupancyMap::update(const GridSight& sight, const Pose2& base_in_map) {
   }
   for (const Point2& centre : sight.cells) {
     occupy(window().cellAt(base_in_map * centre));
+  }
+  for (const Point2& end : sight.refuted) {
+    const CellIndex index = window().cellAt(base_in_map * end);
+    if (window().contains(index)) {
+      ++cells_.at(index).refuted;
+    }
   }
   const Point2 from = base_in_map * sight.viewpoint;
   resample(*sight.grid, base_in_map, window(), [&](CellIndex cell, Percent percent) {

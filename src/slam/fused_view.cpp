@@ -104,6 +104,9 @@ FusedView viewThrough(const SensorGrid& grid, const Scan& scan, GridEnds ends) {
     const CellIndex end = grid.window().cellAt(ray.end);
     // Beyond the window nobody contradicts.
     const bool confirmed = ray.hit && (!grid.window().contains(end) || isOccupied(grid.at(end)));
+    if (ray.hit && !confirmed && isFree(grid.at(end))) {
+      view.refuted.push_back(ray.end);
+    }
     const bool measured = confirmed && ends == GridEnds::kScan;
     ray.hit = measured;
     if (!measured) {

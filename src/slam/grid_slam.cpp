@@ -68,6 +68,7 @@ GridSight sightOf(const FusedView& view, const std::vector<PointState>& states,
       target.push_back(place);
     }
   }
+  sight.refuted = view.refuted;
   sight.viewpoint = view.scan.scanner_in_base.position();
   return sight;
 }
@@ -162,7 +163,7 @@ FusedView GridSlam::viewOf(const Measurement& measurement, const Scan& compensat
     const GridEnds ends = options_.grid_ends == "scan" ? GridEnds::kScan : GridEnds::kCells;
     return viewThrough(*measurement.grid, compensated_scan, ends);
   }
-  return {compensated_scan, std::vector<bool>(compensated_scan.rays.size(), true), true, {}};
+  return {compensated_scan, std::vector<bool>(compensated_scan.rays.size(), true), true, {}, {}};
 }
 
 Scan GridSlam::locate(const Measurement& measurement, SlamResult& result) {

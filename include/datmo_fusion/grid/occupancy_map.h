@@ -26,6 +26,7 @@ struct OccupancyMapOptions {
   double static_above = 0.7;        ///< occupancy that counts as occupied
   double static_after = 0.8;        ///< s, between first and last hit of a static cell
   int static_neighbourhood = 1;     ///< cells around an end point that vouch for it
+  int ghost_after = 2;              ///< ends that others have refuted
 
   void visit(OptionVisitor& visitor);
 };
@@ -35,6 +36,7 @@ struct GridSight {
   const SensorGrid* grid = nullptr;   ///< its free cells are free
   std::vector<Point2> surfaces;       ///< m, exact points on surfaces that stand still
   std::vector<Point2> cells;          ///< m, centres of further cells that are occupied
+  std::vector<Point2> refuted;        ///< m, ends of beams where others have seen nothing
   Point2 viewpoint = Point2::Zero();  ///< m, from where they were seen
 };
 
@@ -43,7 +45,9 @@ struct GridSight {
 /// Beyond the thesis, each cell also keeps the mean and spread of the hits in it, so that a scan
 /// can be matched below the size of a cell, and since when it has been hit, so that the trail of a
 /// slow mover in unknown space is not mistaken for a wall. Within one scan a cell is updated once,
-/// and a hit wins over a beam that passes (as in Cartographer, Hess et al. 2016).
+/// and a hit wins over a beam that passes (as in Cartographer, Hess et al. 2016). Where other
+/// sensors have refuted the scanner (kerbs, paint on the road) it is remembered for when they look
+/// elsewhere.
 class OccupancyMap {
  public:
   /// Throws OptionError, also for more cells than any memory holds.
@@ -93,6 +97,7 @@ class OccupancyMap {
     float freed = 0.0F;         ///< share of free_log_odds_ that this update has given it
     float first_hit = 0.0F;     ///< s since the first update; of the present occupant
     float last_hit = 0.0F;
+    int refuted = 0;  ///< ends of beams here that others have refuted
     CellHits hits;
   };
 
@@ -113,6 +118,7 @@ class OccupancyMap {
                       const Point2& direction) const;
   void passBeam(const Ray& ray, const Pose2& base_in_map);
   bool isStatic(const Cell& cell) const;
+  bool isGhost(const Cell& cell) const;
 
   /// How much of static_after lies between a cell's first and last hit, 0 to 1.
   double maturity(const Cell& cell) const;
@@ -120,7 +126,10 @@ class OccupancyMap {
   /// `visit(cell, index)` for each of the 3 x 3 cells around a point that has a surface.
   template <typename Visit>
   void forEachSurfaceAround(const Point2& point, Visit&& visit) const;
-  bool isNearStatic(CellIndex cell) const;
+
+  /// Whether `test(cell)` holds for a cell or one of those around it that vouch for it.
+  template <typename Test>
+  bool anyNear(CellIndex cell, Test&& test) const;
 
   OccupancyMapOptions options_;
   float hit_log_odds_;

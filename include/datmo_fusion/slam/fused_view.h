@@ -25,6 +25,8 @@ struct FusedView {
   bool any_measured = false;
   /// Centres of the occupied cells in which no beam ends, m, base frame.
   std::vector<Point2> cells;
+  /// Ends of beams in cells that are free, m, base frame.
+  std::vector<Point2> refuted;
 };
 
 /// Both in the vehicle's frame at the same time; `scan` without rays (the scanner is silent) makes
