@@ -81,15 +81,16 @@ bool StereoColumns::isSeenThrough(const ViewedPlace& place) const {
 std::vector<CellIndex> StereoColumns::markCells(SensorGrid& grid) const {
   const Percent occupied = toPercent(options_.occupied_probability);
   const Percent free = toPercent(options_.free_probability);
-  const double least = options_.columns.least_surface;
-  const double doubtful = options_.columns.doubtful_share * least;
+  const StereoColumnsOptions& limits = options_.columns;
   std::vector<CellIndex> occupied_cells;
   forEachCellInView(grid.window(), view_, field_, [&](CellIndex cell, const ViewedPlace& place) {
     const double surface = surfaceAt(place);
+    const double least = std::max(limits.least_surface,
+                                  limits.least_points * evidence_.surfaceOfPoint(place.forward));
     if (surface >= least) {
       grid.at(cell) = occupied;
       occupied_cells.push_back(cell);
-    } else if (surface < doubtful && isSeenThrough(place)) {
+    } else if (surface < limits.doubtful_share * least && isSeenThrough(place)) {
       grid.at(cell) = free;
     }
   });

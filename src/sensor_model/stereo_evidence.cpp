@@ -61,7 +61,7 @@ void StereoEvidence::prepare(const StereoCamera& camera, const EvidenceLimits& l
   in_layer_ = 0;
   focal_length_ = camera.focal_length;
   left_ = camera.left_tangent;
-  sight_height_ = limits.sight_height;
+  layer_bottom_ = limits.layer_bottom;
   bins_ = DepthBins(camera, limits.farthest_depth,
                     std::max(limits.cell_size / kBinsPerCell, limits.farthest_depth / kMostBins));
   const double width = camera.right_tangent - camera.left_tangent;
@@ -94,7 +94,7 @@ StereoEvidence::Scales StereoEvidence::scalesOf(const StereoCloud& cloud, const 
   scales.tiles_per_tangent = static_cast<float>(columns_per_tangent_ / (1 << tile_shift_));
   scales.tile_rows = static_cast<float>(tile_rows_);
   scales.camera_height = view.cameraHeight();
-  scales.above_sight = view.cameraHeight() - static_cast<float>(limits.sight_height);
+  scales.above_layer = view.cameraHeight() - static_cast<float>(limits.layer_bottom);
   scales.road_margin = static_cast<float>(limits.road_sigmas * inverse_sigma) * view.cameraHeight();
   scales.obstacle_margin = static_cast<float>(limits.obstacle_sigmas * inverse_sigma);
   return scales;
@@ -148,14 +148,14 @@ inline void StereoEvidence::countDensity(float fall_tangent, int column, const S
 }
 
 inline void StereoEvidence::addLine(const Line& line, int column, const Scales& scales) {
-  // From where to where the line is no higher than it may be, and nothing stops it.
+  // From where to where the line is below the layer, and nothing stops it.
   const float per_fall = line.forward / line.fall;
-  const float at_top = per_fall * scales.above_sight;
+  const float at_bottom = per_fall * scales.above_layer;
   const float stop = line.ends_on_road ? per_fall * scales.camera_height
                                        : 1.0F / (line.inverse + scales.obstacle_margin);
   const bool falls = line.fall > 0.0F;
-  const float begin = falls ? std::max(0.0F, at_top) : 0.0F;
-  const float end = falls ? stop : std::min(stop, at_top);
+  const float begin = falls ? std::max(0.0F, at_bottom) : 0.0F;
+  const float end = falls ? stop : std::min(stop, at_bottom);
   if (begin < end) {
     lines_.add(bins_.before(begin), column, 1);
     lines_.add(bins_.before(end), column, -1);
@@ -195,8 +195,7 @@ double StereoEvidence::surface(const ViewedPlace& place, double half_width, doub
   const Columns columns = columnsAt(place, half_width);
   const int first = std::min(bins_.before(static_cast<float>(near)), bins_.size() - 1);
   const int end = std::max(first + 1, bins_.before(static_cast<float>(far)));
-  const double pixel = place.forward / focal_length_;
-  return obstacles_.sum(first, end, columns.first, columns.end) * pixel * pixel * pixels_per_point_;
+  return obstacles_.sum(first, end, columns.first, columns.end) * surfaceOfPoint(place.forward);
 }
 
 StereoEvidence::Lines StereoEvidence::linesAcross(const ViewedPlace& place,
@@ -204,7 +203,7 @@ StereoEvidence::Lines StereoEvidence::linesAcross(const ViewedPlace& place,
   const Columns columns = columnsAt(place, half_width);
   const int bin = bins_.at(static_cast<float>(place.forward));
   const double across = (columns.end - columns.first) * focal_length_ / columns_per_tangent_;
-  const double high = sight_height_ / place.forward * focal_length_;
+  const double high = layer_bottom_ / place.forward * focal_length_;
   return {lines_.sum(0, bin + 1, columns.first, columns.end), across * high / pixels_per_line_};
 }
 

@@ -19,7 +19,6 @@ struct EvidenceLimits {
   double layer_bottom = 0.0;     ///< m above the road
   double layer_top = 0.0;        ///< m above the road
   double road_sigmas = 0.0;      ///< of the depth: what is so near to the road is on it
-  double sight_height = 0.0;     ///< m above the road; lines of sight are counted below it
   double obstacle_sigmas = 0.0;  ///< of the depth: lines of sight are sure up to so much before it
 };
 
@@ -34,7 +33,13 @@ class StereoEvidence {
   /// `half_width` (m) to either side of a place in view.
   double surface(const ViewedPlace& place, double half_width, double near, double far) const;
 
-  /// Lines of sight that cross a place in view no higher than `sight_height` above the road, within
+  /// Surface (m^2) that one point at a depth (m) stands for, if it faces the camera.
+  double surfaceOfPoint(double depth) const {
+    const double pixel = depth / focal_length_;
+    return pixel * pixel * pixels_per_point_;
+  }
+
+  /// Lines of sight that cross a place in view between the road and the layer's bottom, within
   /// `half_width` (m) to either side of it.
   struct Lines {
     int seen = 0;
@@ -56,7 +61,7 @@ class StereoEvidence {
     float left, columns_per_tangent, columns;  ///< of the columns
     float tiles_per_tangent, tile_rows;        ///< of the tiles
     float camera_height;                       ///< m above the road
-    float above_sight;                         ///< m, of the camera above `sight_height`
+    float above_layer;                         ///< m, of the camera above the layer's bottom
     float road_margin;                         ///< of height / depth
     float obstacle_margin;                     ///< 1/m, of the inverse depth
   };
@@ -85,7 +90,7 @@ class StereoEvidence {
   double left_ = 0.0;  ///< tangent of the first column's left border
   double columns_per_tangent_ = 0.0;
   double focal_length_ = 0.0;  ///< px
-  double sight_height_ = 0.0;  ///< m
+  double layer_bottom_ = 0.0;  ///< m above the road
   int tile_shift_ = 0;         ///< a tile of the image is 2^this columns wide
   int tile_rows_ = 0;
   int tile_columns_ = 0;

@@ -33,7 +33,6 @@ EvidenceLimits limitsOf(const StereoGridOptions& options, const StereoCloud& clo
   limits.layer_bottom = std::max(options.least_layer_height, cloud.scanner_height);
   limits.layer_top = limits.layer_bottom + options.layer_thickness;
   limits.road_sigmas = options.columns.road_sigmas;
-  limits.sight_height = options.columns.sight_height;
   limits.obstacle_sigmas = options.columns.obstacle_sigmas;
   return limits;
 }
@@ -53,11 +52,14 @@ void StereoColumnsOptions::visit(OptionVisitor& visitor) {
        "a cell is occupied in which at least so much surface is seen between the layer's "
        "bottom and its top; a pole of 0.1 m width has 0.1 m^2 for each metre of height"},
       least_surface, {0.0001, 10.0});
+  visitor.integer(
+      {"least_points", "1", "and at least so many points: far away, one has much surface"},
+      least_points, {1, 10000});
   visitor.number({"least_object_surface", "m^2",
                   "neighbouring cells with less surface than this in all are noise"},
                  least_object_surface, {0.0, 100.0});
   visitor.number({"doubtful_share", "1",
-                  "a cell with this share of least_surface is not called free any more"},
+                  "a cell with this share of what makes it occupied is not called free any more"},
                  doubtful_share, {0.0, 1.0});
   visitor.number({"noise_factor", "1",
                   "an occupied cell becomes unknown if it has less surface than so many times what "
@@ -72,13 +74,10 @@ void StereoColumnsOptions::visit(OptionVisitor& visitor) {
                   "places nearer to an obstacle than so many standard deviations of its depth are "
                   "not called free"},
                  obstacle_sigmas, {0.0, 10.0});
-  visitor.number({"sight_height", "m",
-                  "a line of sight tells of a place that it crosses no higher than this above the "
-                  "road that nothing taller stands there"},
-                 sight_height, {0.05, 2.0});
   visitor.number({"least_seen_share", "1",
-                  "a cell is free if at least this share of the lines that cross it below "
-                  "sight_height in an image without holes does so"},
+                  "a cell is free if at least this share of the lines of sight that cross it below "
+                  "the layer of obstacles, in an image without holes, does so: whatever reaches up "
+                  "to the layer would have stopped them"},
                  least_seen_share, {0.0, 1.0});
   visitor.integer({"least_lines", "1", "and at least so many of them"}, least_lines, {1, 10000});
 }

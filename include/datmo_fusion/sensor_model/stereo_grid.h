@@ -21,13 +21,13 @@ struct StereoConesOptions {
 
 /// When what is seen in the columns of the image makes a cell occupied or free.
 struct StereoColumnsOptions {
-  double least_surface = 0.02;         ///< m^2
+  double least_surface = 0.01;  ///< m^2
+  int least_points = 3;
   double least_object_surface = 0.05;  ///< m^2
-  double doubtful_share = 0.3;         ///< of least_surface, 0 to 1
-  double noise_factor = 1.05;
+  double doubtful_share = 0.3;         ///< 0 to 1
+  double noise_factor = 1.0;
   double road_sigmas = 2.0;       ///< standard deviations of the depth
   double obstacle_sigmas = 1.5;   ///< standard deviations of the depth
-  double sight_height = 0.3;      ///< m
   double least_seen_share = 0.3;  ///< 0 to 1
   int least_lines = 3;
 
