@@ -11,29 +11,21 @@ namespace {
 /// Each pass halves what is wrong with the yaw rate, where the beams go all round.
 constexpr int kPassesWithoutOdometry = 4;
 
-/// State of each ray, in order; kUnknown for beams without a hit. Where the scanner measures at
-/// all, what others alone have seen does not move: it is off by their depth's error.
-std::vector<PointState> judge(const FusedView& view, const OccupancyMap& map,
-                              const Pose2& base_in_map) {
-  const Scan& scan = view.scan;
+/// State of each ray, in order; kUnknown for beams without a hit.
+std::vector<PointState> judge(const Scan& scan, const OccupancyMap& map, const Pose2& base_in_map) {
   std::vector<PointState> states;
   states.reserve(scan.rays.size());
-  for (std::size_t i = 0; i < scan.rays.size(); ++i) {
-    const Ray& ray = scan.rays[i];
+  for (const Ray& ray : scan.rays) {
     const Point2 half_footprint = 0.5 * stepAcross(ray, scan.field.beam_spacing);
-    PointState state = ray.hit
-                           ? map.judge(base_in_map * ray.end, base_in_map.rotate(half_footprint))
-                           : PointState::kUnknown;
-    if (state == PointState::kMoving && view.any_measured && !view.measured[i]) {
-      state = PointState::kUnknown;
-    }
-    states.push_back(state);
+    states.push_back(ray.hit ? map.judge(base_in_map * ray.end, base_in_map.rotate(half_footprint))
+                             : PointState::kUnknown);
   }
   return states;
 }
 
-/// What the pose is found by: the scanner's own end points, where there are any.
-Scan matchable(const FusedView& view) {
+/// The scan with the scanner's own end points alone, where there are any: what others see is off by
+/// their depth's error, no place to find the pose by, and nothing that hides what is behind.
+Scan measuredScan(const FusedView& view) {
   Scan scan = view.scan;
   if (view.any_measured) {
     for (std::size_t i = 0; i < scan.rays.size(); ++i) {
@@ -171,7 +163,7 @@ Scan GridSlam::locate(const Measurement& measurement, SlamResult& result) {
   const bool guessed = !result.odometry_used && sweepDuration(measurement.scan) > 0.0;
   Scan scan = compensated(measurement.scan);
   for (int pass = 0; pass < (guessed ? kPassesWithoutOdometry : 1); ++pass) {
-    const Scan seen = matchable(viewOf(measurement, scan));
+    const Scan seen = measuredScan(viewOf(measurement, scan));
     const MatchResult match = matcher_.match(map_, endPoints(seen, options_.longest_step),
                                              {predicted.pose(), result.odometry_used}, random_);
     filter_ = predicted;
@@ -198,7 +190,8 @@ SlamResult GridSlam::process(const Measurement& measurement) {
   }
   const PoseWithCovariance base_in_map = filter_.pose();
   const FusedView view = viewOf(measurement, scan);
-  const std::vector<PointState> states = judge(view, map_, base_in_map.pose);
+  const Scan own = measuredScan(view);
+  const std::vector<PointState> states = judge(own, map_, base_in_map.pose);
   if (measurement.grid != nullptr) {
     const SensorGrid free_cells = withoutFreeEdges(*measurement.grid);
     GridSight sight = sightOf(view, states, *measurement.grid, map_, base_in_map.pose);
@@ -209,7 +202,7 @@ SlamResult GridSlam::process(const Measurement& measurement) {
   }
   stamp_ = scan.stamp;
   result.odometry_errors = filter_.errors();
-  result.split = split(view.scan, states, base_in_map);
+  result.split = split(own, states, base_in_map);
   return result;
 }
 
