@@ -10,6 +10,7 @@ import unittest
 from pathlib import Path
 
 from datmo_tools.data_sets import main
+from datmo_tools.fusion_table import FusionRuns, fusion_table
 from datmo_tools.thesis_tables import PUBLISHED, thesis_tables
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -71,6 +72,37 @@ class Tables(unittest.TestCase):
         self.assertEqual([int(count) for count in moving], [p.moving_objects for p in PUBLISHED])
 
 
+class Fusion(unittest.TestCase):
+    """One data set without and with low-level fusion, and one that failed."""
+
+    def setUp(self):
+        alone = {"thesis": COUNTS, "clear_mot": {"mota": 0.5}, "pose": {"end_error_share": 0.0123}}
+        fused = dict(alone, thesis=dict(COUNTS, false_moving_objects_frames=0.4))
+        stage = {"runs": 10, "mean_s": 0.001}
+        half = {"runs": 5, "mean_s": 0.01}  # a camera slower than the scanner
+        share = {"percent": [90.0, 95.0], "of": [100, 50]}
+        nothing = {"percent": [None, None], "of": [0, 0]}
+        grids = {"columns": ["whole grid", "in view"], "paint_gone": share, "bodies_lost": share,
+                 "poles_in_lidar": nothing, "poles_in_fused": nothing}
+        runs = FusionRuns(alone, fused, {"grid_slam": stage},
+                          {"stereo_grid": half, "grid_slam": stage}, grids)
+        self.text = fusion_table([runs, None]).splitlines()
+
+    def test_both_runs_stand_below_each_other(self):
+        words = [line.split() for line in self.text]
+        self.assertIn(["1", "scanner", "423", "1.26", "6", "42", "15", "50.0", "1.23", "1.0"], words)
+        self.assertIn(["1", "fused", "423", "0.40", "6", "42", "15", "50.0", "1.23", "6.0"], words)
+
+    def test_grids_are_counted_in_view(self):
+        words = [line.split() for line in self.text]
+        self.assertIn(["1", "95.0", "of", "50", "95.0", "of", "50", "-", "-"], words)
+
+    def test_run_without_score_has_no_figures(self):
+        words = [line.split() for line in self.text]
+        self.assertIn(["2", "fused"] + 8 * ["-"], words)
+        self.assertIn(["2"] + 4 * ["-"], words)
+
+
 class Runs(unittest.TestCase):
     """With programs of a few lines of shell, of which run_bag gives up on the second data set."""
 
@@ -91,11 +123,11 @@ class Runs(unittest.TestCase):
         file.write_text(f"#!/bin/sh\n{text}\n")
         file.chmod(0o755)
 
-    def run_tool(self):
+    def run_tool(self, *words):
         out, err = io.StringIO(), io.StringIO()
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
             code = main(["--scenes", str(self.folder), "--config", str(self.folder / "config.yaml"),
-                         "--programs", str(self.folder), "--out", str(self.folder / "out")])
+                         "--programs", str(self.folder), "--out", str(self.folder / "out"), *words])
         return code, out.getvalue(), err.getvalue()
 
     def test_failed_run_is_reported_and_the_others_go_on(self):
@@ -108,6 +140,14 @@ class Runs(unittest.TestCase):
     def test_all_well(self):
         self.program("run_bag", 'cp "$1" "$2"')
         self.assertEqual(self.run_tool()[0], 0)
+
+    def test_fusion_without_grids_is_reported(self):
+        self.program("run_bag", 'cp "$1" "$2"; while [ "$1" != --times ]; do shift; done\n'
+                                "echo '{}' > \"$2\"")
+        code, out, _ = self.run_tool("--low-level-fusion")
+        self.assertEqual(code, 1)
+        self.assertIn("drive.bag: cannot be read as a bag", out)
+        self.assertIn("Low-level fusion", out)
 
     def test_missing_scene_is_named(self):
         (self.folder / "data_set_3.yaml").unlink()

@@ -22,17 +22,23 @@ def check_programs(folder):
     built.check(folder, STEPS)
 
 
-def run(drive, programs, config, folder, score_options=()):
+def run(drive, programs, config, folder, score_options=(), run_options=()):
     """Report of score_run (dict) on the drive.
 
     programs: folder (Path) of the built programs; config: yaml file of the sensor set; folder:
     where drive.bag, result.bag and score.json are left; score_options: words "key=value" for
-    score_run. Raises StepFailed.
+    score_run; run_options: words for run_bag. Raises StepFailed.
     """
-    recorded, computed = folder / "drive.bag", folder / "result.bag"
-    score = folder / "score.json"
+    recorded = folder / "drive.bag"
     call(programs / "simulate", drive.scene, recorded, "--quiet", *_settings(drive.options))
-    call(programs / "run_bag", recorded, computed, "--config", config, "--with-truth", "--quiet")
+    return run_recorded(recorded, programs, config, folder, score_options, run_options)
+
+
+def run_recorded(recorded, programs, config, folder, score_options=(), run_options=()):
+    """The same on a bag of the simulator (Path): stack and score."""
+    computed, score = folder / "result.bag", folder / "score.json"
+    call(programs / "run_bag", recorded, computed, "--config", config, "--with-truth", "--quiet",
+         *run_options)  # fmt: skip
     call(programs / "score_run", computed, *_settings(score_options), "--out", score)
     return json.loads(score.read_text(encoding="utf-8"))
 

@@ -1,0 +1,92 @@
+"""The simulated data sets without and with low-level fusion, side by side."""
+
+from typing import NamedTuple
+
+NO_VALUE = "-"
+
+IN_VIEW = "in view"  # column of score_grids
+
+
+class FusionRuns(NamedTuple):
+    """Two runs on one data set."""
+
+    alone: dict  # report of score_run, scanner alone
+    fused: dict
+    times: dict  # of run_bag, scanner alone
+    fused_times: dict
+    grids: dict  # of score_grids, with fusion
+
+
+# Heading, and the value in the report of score_run, as a function of it.
+RUN_COLUMNS = (
+    ("false moving objects", lambda report: report["thesis"]["false_moving_objects_episodes"]),
+    ("in a scan", lambda report: _rounded(report["thesis"]["false_moving_objects_frames"], 2)),
+    ("moving objects missed", lambda report: report["thesis"]["missed_objects"]),
+    ("tracks", lambda report: report["thesis"]["tracks"]),
+    ("of them false", lambda report: report["thesis"]["false_tracks"]),
+    ("MOTA, %", lambda report: _percent(report["clear_mot"]["mota"])),
+    ("end point, % of the way", lambda report: _percent(report["pose"]["end_error_share"], 2)),
+)
+
+# The same in the score of score_grids: percent of the cells, or poles, in the camera's view.
+GRID_COLUMNS = (
+    ("paint cells gone, %", "paint_gone"),
+    ("obstacle cells lost, %", "bodies_lost"),
+    ("thin poles in lidar grid, %", "poles_in_lidar"),
+    ("in fused grid, %", "poles_in_fused"),
+)
+
+NOTE = """\
+Low-level fusion: the scanner alone, and fused with the stereo camera. Shares of cells and poles are
+of those in the camera's view; time is the mean of all stages together, for one scan."""
+
+
+def fusion_table(results):
+    """Text of the table.
+
+    results: FusionRuns, one for each data set in turn; None where a run came to no end.
+    """
+    rows = [["data set", "sensors", *(heading for heading, _ in RUN_COLUMNS), "time, ms"]]
+    for number, runs in enumerate(results, start=1):
+        pair = (None, None) if runs is None else (runs.alone, runs.fused)
+        times = (None, None) if runs is None else (runs.times, runs.fused_times)
+        for name, report, stages in zip(("scanner", "fused"), pair, times):
+            rows.append([str(number), name, *_cells(report), _time(stages)])
+    grids = [["data set", *(heading for heading, _ in GRID_COLUMNS)]]
+    for number, runs in enumerate(results, start=1):
+        shares = [NO_VALUE if runs is None else _share(runs.grids, key) for _, key in GRID_COLUMNS]
+        grids.append([str(number), *shares])
+    return "\n\n".join([NOTE, _text(rows), _text(grids)])
+
+
+def _cells(report):
+    return [NO_VALUE if report is None else str(value(report)) for _, value in RUN_COLUMNS]
+
+
+def _time(stages):
+    """Mean time of all stages together for one scan."""
+    if stages is None:
+        return NO_VALUE
+    total = sum(stage["mean_s"] * stage["runs"] for stage in stages.values())
+    return f"{1e3 * total / stages['grid_slam']['runs']:.1f}"
+
+
+def _share(grids, key):
+    column = grids["columns"].index(IN_VIEW)
+    percent, of = grids[key]["percent"][column], grids[key]["of"][column]
+    return NO_VALUE if percent is None else f"{percent:.1f} of {of}"
+
+
+def _rounded(value, digits):
+    return NO_VALUE if value is None else f"{value:.{digits}f}"
+
+
+def _percent(share, digits=1):
+    return NO_VALUE if share is None else f"{100.0 * share:.{digits}f}"
+
+
+def _text(rows):
+    """Rows of cells, the first one headings, as columns that line up."""
+    widths = [max(map(len, column)) for column in zip(*rows)]
+    lines = ["  ".join(f"{cell:>{width}}" for cell, width in zip(row, widths)) for row in rows]
+    return "\n".join(lines)
