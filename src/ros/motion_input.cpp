@@ -59,12 +59,15 @@ Arrival MotionInput::take(const geometry_msgs::PoseWithCovarianceStamped& messag
     return arrival;
   }
   const double seconds = secondsBetween(before->stamp, last_pose_->stamp);
-  const Twist2 twist = twistOf(before->pose.inverse() * pose, seconds);
-  if (!isPlausible(twist)) {
-    throw InputError("pose_jump", "pose that moved at " + std::to_string(twist.forward_speed) +
-                                      " m/s and " + std::to_string(twist.yaw_rate) +
-                                      " rad/s: expected at most " + std::to_string(kMostSpeed) +
-                                      " m/s and " + std::to_string(kMostYawRate) + " rad/s");
+  const Pose2 motion = before->pose.inverse() * pose;
+  const Twist2 twist = twistOf(motion, seconds);
+  // The twist knows nothing of a jump sideways.
+  const double speed = motion.position().norm() / seconds;
+  if (!isPlausible({speed, twist.yaw_rate})) {
+    throw InputError("pose_jump", "pose that moved at " + std::to_string(speed) + " m/s and " +
+                                      std::to_string(twist.yaw_rate) + " rad/s: expected at most " +
+                                      std::to_string(kMostSpeed) + " m/s and " +
+                                      std::to_string(kMostYawRate) + " rad/s");
   }
   // What the vehicle did up to this pose is what it is expected to do after it.
   buffer_.add({last_pose_->stamp, twist, pose});

@@ -5,7 +5,6 @@
 
 #include "message_samples.h"
 #include "monitor_counts.h"
-#include <datmo_fusion/GridFusionConfig.h>
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/ros/grid_conversion.h"
@@ -248,21 +247,6 @@ TEST_F(GridFusionStageTest, BadMotionIsDroppedAndCounted) {
   EXPECT_EQ(drops("wrong_frame"), 1U);
 }
 
-TEST_F(GridFusionStageTest, PosesThatJumpAreDroppedAndCounted) {
-  options_.motion.odometry = false;
-  GridFusionStage stage(options_, monitor_);
-  geometry_msgs::PoseWithCovarianceStamped pose;
-  pose.header.stamp = ros::Time(100.0);
-  stage.takePose(pose);
-  EXPECT_EQ(drops("bad_pose"), 1U) << "a quaternion of length 0";
-  pose.pose.pose = toMessage(Pose2(0.0, 0.0, 0.0));
-  stage.takePose(pose);
-  pose.header.stamp = ros::Time(100.1);
-  pose.pose.pose = toMessage(Pose2(100.0, 0.0, 0.0));
-  stage.takePose(pose);
-  EXPECT_EQ(drops("pose_jump"), 1U);
-}
-
 TEST_F(GridFusionStageTest, AJumpBackStartsAnew) {
   EXPECT_TRUE(bothAt(200.0, kFree, kFree));
   EXPECT_TRUE(bothAt(100.0, kFree, kFree));
@@ -295,22 +279,6 @@ TEST_F(GridFusionStageTest, BadOptionsAreRefused) {
   refused([](auto& options) { options.fuser.rule = "by luck"; });
   refused([](auto& options) { options.matcher.reference = "radar"; });
   refused([](auto& options) { options.fuser.sources["lidar"].use = false; });
-}
-
-TEST(GridFusionConfig, OffersTheRulesThatThereAre) {
-  using Config = datmo_fusion::GridFusionConfig;
-  EXPECT_EQ(Config::__getDefault__().rule, GridFuserOptions().rule);
-  const auto descriptions = Config::__getParamDescriptions__();
-  ASSERT_EQ(descriptions.size(), 1U) << "the server sets what it knows: loadOptions must know it";
-  EXPECT_EQ(descriptions[0]->name, "rule");
-  std::string choices = descriptions[0]->edit_method;
-  for (const std::string& rule : fusionRuleNames()) {
-    const std::string choice = "'value': '" + rule + "'";
-    const auto found = choices.find(choice);
-    ASSERT_NE(found, std::string::npos) << rule;
-    choices.erase(found, choice.size());
-  }
-  EXPECT_EQ(choices.find("'value'"), std::string::npos) << "no other choice: " << choices;
 }
 
 }  // namespace

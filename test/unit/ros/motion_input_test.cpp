@@ -1,0 +1,108 @@
+#include "datmo_fusion/ros/motion_input.h"
+
+#include <limits>
+
+#include "message_samples.h"
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/ros/message_conversion.h"
+
+namespace datmo {
+namespace {
+
+using samples::reasonOf;
+
+Stamp at(double seconds) { return Stamp::fromSeconds(seconds); }
+
+/// Of a vehicle that drives ahead at 10 m/s, whose wheels count 11 m in a second.
+nav_msgs::Odometry odometry(double seconds) {
+  nav_msgs::Odometry message;
+  message.header.stamp = ros::Time(seconds);
+  message.header.frame_id = "odom";
+  message.child_frame_id = "base_link";
+  message.twist.twist.linear.x = 10.0;
+  message.pose.pose = toMessage(Pose2(11.0 * seconds, 0.0, 0.0));
+  return message;
+}
+
+/// Of a vehicle that drives ahead at 12 m/s, where the SLAM sees it.
+geometry_msgs::PoseWithCovarianceStamped pose(double seconds) {
+  geometry_msgs::PoseWithCovarianceStamped message;
+  message.header.stamp = ros::Time(seconds);
+  message.header.frame_id = "map";
+  message.pose.pose = toMessage(Pose2(3.0, 12.0 * seconds, kQuarterTurn));
+  return message;
+}
+
+MotionInput inputWith(bool with_odometry, bool poses_tell = false) {
+  MotionInputOptions options;
+  options.odometry = with_odometry;
+  options.odometry_pose = poses_tell;
+  return MotionInput(options, "base_link", 1.0);
+}
+
+TEST(MotionInput, OdometryTellsTheMotionBySpeedOrByPose) {
+  MotionInput by_speed = inputWith(true);
+  MotionInput by_pose = inputWith(true, true);
+  for (const double t : {100.0, 100.1, 100.2}) {
+    by_speed.take(odometry(t));
+    by_pose.take(odometry(t));
+    by_speed.take(pose(t));  // not read
+  }
+  EXPECT_NEAR(by_speed.between(at(100.05), at(100.15))->x(), 1.0, 1e-9);
+  EXPECT_NEAR(by_pose.between(at(100.05), at(100.15))->x(), 1.1, 1e-9);
+  EXPECT_FALSE(by_speed.between(at(100.2), at(101.0))) << "longer than odometry_hold";
+}
+
+TEST(MotionInput, WithoutOdometryThePosesOfTheSlamDo) {
+  MotionInput input = inputWith(false);
+  input.take(odometry(100.0));  // not read
+  input.take(pose(100.0));
+  EXPECT_FALSE(input.between(at(100.0), at(100.1))) << "one pose tells no motion";
+  input.take(pose(100.1));
+  input.take(pose(100.2));
+  const auto motion = input.between(at(100.2), at(100.3));
+  ASSERT_TRUE(motion);
+  EXPECT_NEAR(motion->x(), 1.2, 1e-9) << "as it was before";
+  EXPECT_NEAR(motion->y(), 0.0, 1e-9);
+}
+
+TEST(MotionInput, BadOdometryIsRefused) {
+  MotionInput input = inputWith(true);
+  nav_msgs::Odometry bad = odometry(100.0);
+  bad.twist.twist.linear.x = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(reasonOf([&] { input.take(bad); }), "bad_odometry");
+  bad = odometry(100.0);
+  bad.child_frame_id = "trailer";
+  EXPECT_EQ(reasonOf([&] { input.take(bad); }), "wrong_frame");
+  input.take(odometry(100.0));
+  EXPECT_EQ(reasonOf([&] { input.take(odometry(100.0)); }), "repeated_stamp");
+}
+
+TEST(MotionInput, PosesThatJumpAreRefusedAndTheNextOnesServe) {
+  MotionInput input = inputWith(false);
+  geometry_msgs::PoseWithCovarianceStamped bad = pose(100.0);
+  bad.pose.pose.orientation.w = 2.0;
+  EXPECT_EQ(reasonOf([&] { input.take(bad); }), "bad_pose");
+  input.take(pose(100.0));
+  bad = pose(100.1);
+  bad.pose.pose.position.x = 1000.0;
+  EXPECT_EQ(reasonOf([&] { input.take(bad); }), "pose_jump");
+  EXPECT_EQ(reasonOf([&] { input.take(pose(100.2)); }), "pose_jump") << "back again";
+  input.take(pose(100.3));
+  EXPECT_NEAR(input.between(at(100.3), at(100.4))->x(), 1.2, 1e-9);
+}
+
+TEST(MotionInput, AJumpBackStartsAnew) {
+  MotionInput input = inputWith(true);
+  EXPECT_EQ(input.take(odometry(200.0)), Arrival::kNext);
+  EXPECT_EQ(input.take(odometry(100.0)), Arrival::kRestart);
+  EXPECT_EQ(input.take(odometry(100.1)), Arrival::kNext);
+  EXPECT_NEAR(input.between(at(100.0), at(100.1))->x(), 1.0, 1e-9);
+  input.reset();
+  EXPECT_FALSE(input.between(at(100.0), at(100.1)));
+  EXPECT_EQ(input.take(odometry(50.0)), Arrival::kNext) << "whatever was there before";
+}
+
+}  // namespace
+}  // namespace datmo
