@@ -26,51 +26,6 @@ constexpr float kMostHits = 50.0F;
 
 }  // namespace
 
-void OccupancyMapOptions::visit(OptionVisitor& visitor) {
-  window.visit(visitor);
-  visitor.number(
-      {"hit_probability", "1", "occupancy of a cell in which a beam ends (thesis 3.2.1: 0.8)"},
-      hit_probability, {0.51, 0.99});
-  visitor.number({"free_probability", "1",
-                  "occupancy of a cell that a beam passes (thesis 3.2.1: 0.2; weaker here, because "
-                  "a beam of a poor scanner passes close to obstacles that it does not see)"},
-                 free_probability, {0.01, 0.49});
-  visitor.number({"least_probability", "1",
-                  "a cell's occupancy stays between this and 1 - this, so that the map can change "
-                  "its mind (Hess et al. 2016)"},
-                 least_probability, {0.0001, 0.3});
-  visitor.number(
-      {"beam_width", "rad",
-       "opening angle in which a beam is free up to its end (thesis 3.2.1: the spacing of "
-       "the beams); 0: along the beam alone"},
-      beam_width, {0.0, 0.2});
-  visitor.number({"surface_sigma", "m",
-                  "a beam that passes a cell beside the surface in it makes it free only as far as "
-                  "it would have hit that surface, which is known to within this (normal "
-                  "distributions occupancy map: Saarinen et al. 2013); 0: always (thesis)"},
-                 surface_sigma, {0.0, 2.0});
-  visitor.number({"moving_below", "1",
-                  "an end point in a cell less occupied than this is moving (thesis 3.3.1: 0.5)"},
-                 moving_below, {0.01, 0.5});
-  visitor.number(
-      {"static_above", "1", "a cell more occupied than this, for long enough, is static"},
-      static_above, {0.5, 0.99});
-  visitor.number(
-      {"static_after", "s",
-       "between the first and the last hit of a static cell: longer than a mover takes to "
-       "pass over it (thesis: 0)"},
-      static_after, {0.0, 60.0});
-  visitor.integer({"static_neighbourhood", "cells",
-                   "a static cell this near to an end point makes it static: range noise and pose "
-                   "error (thesis: 0)"},
-                  static_neighbourhood, {0, 5});
-  visitor.integer(
-      {"ghost_after", "1",
-       "where other sensors have refuted so many ends of beams the scanner sees what is "
-       "no obstacle: what ends there again does not move; 0: forgets them"},
-      ghost_after, {0, 1000});
-}
-
 OccupancyMap::OccupancyMap(const OccupancyMapOptions& options)
     : options_(checked(options)),
       hit_log_odds_(logOdds(options.hit_probability)),

@@ -56,11 +56,15 @@ TEST(FusedViewTest, ABeamThatTheGridRefutesHasNoHit) {
   EXPECT_FALSE(view.scan.rays[1].hit);
   EXPECT_FALSE(view.any_measured);
   EXPECT_TRUE(view.cells.empty());
+  ASSERT_EQ(view.refuted.size(), 1U);
+  EXPECT_NEAR(view.refuted[0].x(), 10.3, 1e-9);
 }
 
 TEST(FusedViewTest, UndecidedIsNotConfirmed) {
   SensorGrid grid = gridWith({});
   grid.at({10, 0}) = kUndecidedPercent;
+  EXPECT_TRUE(
+      viewThrough(grid, scanOf({kNothing, 10.3, kNothing}), GridEnds::kScan).refuted.empty());
   EXPECT_FALSE(
       viewThrough(grid, scanOf({kNothing, 10.3, kNothing}), GridEnds::kScan).scan.rays[1].hit);
 }
@@ -119,6 +123,16 @@ TEST(FusedViewTest, BlindBeamsStayBlind) {
   Scan scan = scanOf({kNothing, 10.3, kNothing});
   scan.rays.erase(scan.rays.begin());
   EXPECT_EQ(viewThrough(gridWith({{5, -6}}), scan, GridEnds::kScan).scan.rays.size(), 2U);
+}
+
+TEST(ApartFrom, WhatTouchesASeedByOccupiedCellsIsLeftOut) {
+  const SensorGrid grid = gridWith({{3, 3}, {4, 4}, {5, 4}, {8, 4}});
+  const std::vector<Point2> places = {{5.5, 4.5}, {8.5, 4.5}};
+  const std::vector<Point2> apart = apartFrom({{3.2, 3.9}}, grid, places);
+  ASSERT_EQ(apart.size(), 1U);
+  EXPECT_EQ(apart[0], places[1]);
+  EXPECT_EQ(apartFrom({}, grid, places).size(), 2U);
+  EXPECT_EQ(apartFrom({{0.5, 0.5}}, grid, places).size(), 2U) << "the seed's own cell is free";
 }
 
 TEST(WithoutFreeEdges, OnlyFreeCellsBesideOccupiedOnesBecomeUnknown) {

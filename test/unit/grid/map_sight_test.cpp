@@ -1,0 +1,102 @@
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/grid/occupancy_map.h"
+
+namespace datmo {
+namespace {
+
+OccupancyMapOptions smallMap() {
+  OccupancyMapOptions options;
+  options.window.length = 20.0;
+  options.window.width = 20.0;
+  options.window.cell_size = 1.0;
+  return options;
+}
+
+/// What an instantaneous grid of 20 x 20 cells about the vehicle shows, second by second.
+class MapSightTest : public testing::Test {
+ protected:
+  void show(const GridSight& sight, double seconds, const Pose2& base_in_map = Pose2()) {
+    SensorGrid grid(Stamp::fromSeconds(1000.0 + seconds), smallMap().window.window());
+    for (const CellIndex cell : free_) {
+      grid.at(cell) = 20;
+    }
+    GridSight complete = sight;
+    complete.grid = &grid;
+    map_.update(complete, base_in_map);
+  }
+
+  static GridSight surfaceAt(const Point2& point) { return {nullptr, {point}, {}, {}, {}}; }
+  static GridSight cellAt(const Point2& point) { return {nullptr, {}, {point}, {}, {}}; }
+  static GridSight refutedAt(const Point2& point) { return {nullptr, {}, {}, {point}, {}}; }
+
+  std::vector<CellIndex> free_;
+  OccupancyMap map_{smallMap()};
+};
+
+TEST_F(MapSightTest, FreeCellsBecomeFreeWhereTheVehicleIs) {
+  free_ = {{3, 0}};
+  show({}, 0.0, Pose2(2.0, 1.0, 0.0));
+  EXPECT_LT(map_.occupancy({5, 1}), 0.5);
+  EXPECT_EQ(map_.occupancy({3, 0}), 0.5);
+}
+
+TEST_F(MapSightTest, AnExactPointIsASurfaceToMatchWith) {
+  show(surfaceAt({4.2, 0.3}), 0.0);
+  EXPECT_GT(map_.occupancy({4, 0}), 0.5);
+  ASSERT_TRUE(map_.nearestHits({4.2, 0.3}).has_value());
+  EXPECT_NEAR(map_.nearestHits({4.2, 0.3})->mean.x(), 4.2, 1e-6);
+}
+
+TEST_F(MapSightTest, ACellIsOccupiedAndNoSurface) {
+  for (int i = 0; i < 20; ++i) {
+    show(cellAt({4.5, 0.5}), 0.1 * i);
+  }
+  EXPECT_GT(map_.occupancy({4, 0}), 0.9);
+  EXPECT_FALSE(map_.hitsAround({4.5, 0.5}).has_value());
+  EXPECT_EQ(map_.judge({4.5, 0.5}), PointState::kUnknown) << "it has no age";
+}
+
+TEST_F(MapSightTest, ASurfaceInACellOfOthersAgesFromItsOwnFirstHit) {
+  show(cellAt({4.5, 0.5}), 0.0);
+  show(cellAt({4.5, 0.5}), 5.0);
+  show(surfaceAt({4.5, 0.5}), 5.1);
+  EXPECT_EQ(map_.judge({4.5, 0.5}), PointState::kUnknown);
+  show(surfaceAt({4.5, 0.5}), 6.1);
+  EXPECT_EQ(map_.judge({4.5, 0.5}), PointState::kStatic);
+}
+
+TEST_F(MapSightTest, WhereTheScannerWasRefutedOftenNothingMoves) {
+  free_ = {{4, 0}, {8, 0}};
+  for (int i = 0; i < 5; ++i) {
+    show({}, 0.1 * i);
+  }
+  ASSERT_EQ(map_.judge({4.5, 0.5}), PointState::kMoving);
+  show(refutedAt({4.5, 0.5}), 0.6);
+  EXPECT_EQ(map_.judge({4.5, 0.5}), PointState::kMoving) << "once may be chance";
+  show(refutedAt({4.5, 0.5}), 0.7);
+  EXPECT_EQ(map_.judge({4.5, 0.5}), PointState::kUnknown);
+  EXPECT_EQ(map_.judge({8.5, 0.5}), PointState::kMoving) << "elsewhere it is believed";
+}
+
+TEST_F(MapSightTest, RefutedEndsMayBeForgotten) {
+  OccupancyMapOptions options = smallMap();
+  options.ghost_after = 0;
+  map_ = OccupancyMap(options);
+  free_ = {{4, 0}};
+  for (int i = 0; i < 5; ++i) {
+    show(refutedAt({4.5, 0.5}), 0.1 * i);
+  }
+  EXPECT_EQ(map_.judge({4.5, 0.5}), PointState::kMoving);
+}
+
+TEST_F(MapSightTest, WhatLiesBesideTheWindowIsLeftOut) {
+  GridSight sight = surfaceAt({400.0, 0.0});
+  sight.cells = {{0.0, -400.0}};
+  sight.refuted = {{-400.0, 0.0}};
+  show(sight, 0.0);
+  EXPECT_EQ(map_.occupancy({9, 0}), 0.5);
+}
+
+}  // namespace
+}  // namespace datmo
