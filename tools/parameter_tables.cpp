@@ -3,6 +3,7 @@
 #include "datmo_fusion/common/option_table.h"
 #include "datmo_fusion/ros/grid_fusion_stage.h"
 #include "datmo_fusion/ros/grid_slam_stage.h"
+#include "datmo_fusion/ros/grid_views_options.h"
 #include "datmo_fusion/ros/lidar_grid_stage.h"
 #include "datmo_fusion/ros/markers.h"
 #include "datmo_fusion/ros/moving_objects_stage.h"
@@ -26,7 +27,8 @@ std::string parameterTables() {
          section<GridFusionStageOptions>("grid_fusion") + "\n" +
          section<GridSlamStageOptions>("grid_slam") + "\n" +
          section<MovingObjectsStageOptions>("moving_objects") + "\n" +
-         section<TrackerStageOptions>("tracker") + "\n" + section<MarkersOptions>("markers");
+         section<TrackerStageOptions>("tracker") + "\n" + section<MarkersOptions>("markers") +
+         "\n" + section<GridViewsOptions>("grid_views");
 }
 
 }  // namespace datmo

@@ -8,6 +8,7 @@
 #include "yaml_options.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/ros/grid_views_options.h"
 #include "datmo_fusion/ros/markers.h"
 
 namespace datmo {
@@ -32,6 +33,9 @@ TEST(SensorSets, AreReadWithoutAnUnknownKeyOrABadValue) {
     EXPECT_NO_THROW(readPipelineOptions(file)) << file;
     if (const YAML::Node markers = loadYaml(file)["markers"]) {
       EXPECT_NO_THROW(readOptions<MarkersOptions>(optionValues(markers))) << file;
+    }
+    if (const YAML::Node views = loadYaml(file)["grid_views"]) {
+      EXPECT_NO_THROW(readOptions<GridViewsOptions>(optionValues(views)).panelNames()) << file;
     }
   }
 }

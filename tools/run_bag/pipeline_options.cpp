@@ -11,9 +11,9 @@ namespace datmo {
 namespace {
 
 /// One for each nodelet; those without a stage in the pipeline are for live use alone.
-const std::array<std::string, 8> kSections = {"stereo_image_proc", "lidar_grid", "stereo_grid",
+const std::array<std::string, 9> kSections = {"stereo_image_proc", "lidar_grid", "stereo_grid",
                                               "grid_fusion",       "grid_slam",  "moving_objects",
-                                              "tracker",           "markers"};
+                                              "tracker",           "markers",    "grid_views"};
 
 std::string sectionNames() {
   std::string names;

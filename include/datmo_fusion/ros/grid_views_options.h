@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "datmo_fusion/common/options.h"
+
+namespace datmo {
+
+/// Which grids GridViews draws, how much of them and how large.
+struct GridViewsOptions {
+  std::string panels = "lidar stereo fused conflict map";
+  double ahead = 50.0;            ///< m
+  double behind = 5.0;            ///< m
+  double to_side = 25.0;          ///< m
+  double pixels_per_metre = 6.0;  ///< px/m
+  double rate = 5.0;              ///< Hz
+  double silent_after = 1.0;      ///< s
+
+  void visit(OptionVisitor& visitor);
+
+  /// Names of the panels from the left. Throws OptionError for none, for one that is twice there or
+  /// cannot be the name of a topic.
+  std::vector<std::string> panelNames() const;
+};
+
+}  // namespace datmo

@@ -1,0 +1,60 @@
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <nodelet/nodelet.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "datmo_fusion/ros/grid_views.h"
+#include "datmo_fusion/ros/parameters.h"
+
+namespace datmo {
+
+/// The door to GridViews. In: grids/<panel> of each panel, map, pose. Out: grid_views. It draws
+/// only while somebody looks, and only when something new has come.
+class GridViewsNodelet : public nodelet::Nodelet {
+ private:
+  void onInit() override {
+    const auto options = loadOptions<GridViewsOptions>(getPrivateNodeHandle());
+    views_ = std::make_unique<GridViews>(options);
+    ros::NodeHandle& node = getNodeHandle();
+    picture_ = node.advertise<sensor_msgs::Image>("grid_views", 1);
+    using Callback = boost::function<void(const nav_msgs::OccupancyGridConstPtr&)>;
+    for (const std::string& panel : views_->panels()) {
+      const Callback take = [this, panel](const nav_msgs::OccupancyGridConstPtr& grid) {
+        views_->takeGrid(panel, grid);
+        news_ = true;
+      };
+      grids_.push_back(node.subscribe<nav_msgs::OccupancyGrid>(topicOf(panel), 1, take));
+    }
+    pose_ = node.subscribe("pose", 1, &GridViewsNodelet::takePose, this);
+    timer_ = node.createTimer(ros::Duration(1.0 / options.rate),
+                              [this](const ros::TimerEvent& /*event*/) { draw(); });
+  }
+
+  static std::string topicOf(const std::string& panel) {
+    return panel == "map" ? panel : "grids/" + panel;
+  }
+
+  void takePose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message) {
+    views_->takePose(message);
+  }
+
+  void draw() {
+    if (news_ && picture_.getNumSubscribers() > 0) {
+      news_ = false;
+      picture_.publish(views_->draw());
+    }
+  }
+
+  std::unique_ptr<GridViews> views_;
+  bool news_ = false;  ///< a grid has come since the last picture
+  ros::Publisher picture_;
+  std::vector<ros::Subscriber> grids_;
+  ros::Subscriber pose_;
+  ros::Timer timer_;
+};
+
+}  // namespace datmo
+
+PLUGINLIB_EXPORT_CLASS(datmo::GridViewsNodelet, nodelet::Nodelet)
