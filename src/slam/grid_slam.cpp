@@ -29,7 +29,7 @@ Scan measuredScan(const FusedView& view) {
   Scan scan = view.scan;
   if (view.any_measured) {
     for (std::size_t i = 0; i < scan.rays.size(); ++i) {
-      scan.rays[i].hit = view.measured[i];
+      scan.rays[i].hit = scan.rays[i].hit && view.measured[i];
     }
   }
   return scan;
