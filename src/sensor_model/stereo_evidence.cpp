@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <iterator>
 #include <limits>
 
@@ -27,14 +26,11 @@ constexpr double kTileSize = 16.0;
 constexpr double kHighestTangent = 1.0;
 
 /// Of clouds with more points, the line of sight of each second one is counted, or of fewer.
-constexpr std::size_t kEnoughLines = 200000;
+constexpr std::size_t kEnoughLines = 100000;
 
-/// Numbers spread evenly over all of 32 bits, by the golden ratio: those below a limit take even
-/// shares of the points, whatever the width of the image.
-constexpr std::uint32_t spread(std::size_t index) {
-  constexpr std::uint32_t kGoldenTurn = 2654435769U;
-  return static_cast<std::uint32_t>(index) * kGoldenTurn;
-}
+/// After so many points, the lines that are counted are one point later: no image is so wide that
+/// they would all be in the same columns.
+constexpr std::size_t kRun = 1021;
 
 /// This share of the tiles with points may have holes; the others tell how the cloud was thinned.
 constexpr double kHolesShare = 0.8;
@@ -88,6 +84,10 @@ StereoEvidence::Scales StereoEvidence::scalesOf(const StereoCloud& cloud, const 
   scales.nearest = static_cast<float>(limits.nearest_depth);
   scales.layer_bottom = static_cast<float>(limits.layer_bottom);
   scales.layer_top = static_cast<float>(limits.layer_top);
+  // Lines from above the layer's bottom to above its top tell nothing.
+  scales.highest = view.cameraHeight() > scales.layer_bottom
+                       ? scales.layer_top
+                       : std::numeric_limits<float>::infinity();
   scales.left = static_cast<float>(left_);
   scales.columns_per_tangent = static_cast<float>(columns_per_tangent_);
   scales.columns = static_cast<float>(columns_);
@@ -103,62 +103,75 @@ StereoEvidence::Scales StereoEvidence::scalesOf(const StereoCloud& cloud, const 
 void StereoEvidence::addPoints(const StereoCloud& cloud, const StereoView& view,
                                const EvidenceLimits& limits) {
   line_step_ = cloud.points.count / kEnoughLines + 1;
-  const auto last_line =
-      static_cast<std::uint32_t>(std::numeric_limits<std::uint32_t>::max() / line_step_);
   const Scales scales = scalesOf(cloud, view, limits);
   const PointsView points = cloud.points;
-  std::size_t finite = 0;
-  std::size_t in_layer = 0;
-  for (std::size_t i = 0; i < points.count; ++i) {
-    const ViewedPoint point = view(points[i]);
-    if (!(point.forward > scales.nearest && point.forward < kBeyondSight)) {
-      continue;
-    }
-    ++finite;
-    const float inverse = 1.0F / point.forward;
-    const float place = (point.right * inverse - scales.left) * scales.columns_per_tangent;
-    if (!(place >= 0.0F && place < scales.columns)) {
-      continue;
-    }
-    const int column = static_cast<int>(place);
-    // m that the line of sight falls on its way to the point. On that line, the road is at the
-    // inverse depth inverse * fall / camera_height.
-    const float fall = scales.camera_height - point.height;
-    const bool on_road = point.height * inverse <= scales.road_margin;
-    if (!on_road && point.height >= scales.layer_bottom && point.height <= scales.layer_top &&
-        bins_.contains(point.forward)) {
-      obstacles_.add(bins_.at(point.forward), column, 1);
-      ++in_layer;
-    }
-    if (spread(i) <= last_line) {
-      countDensity(fall * inverse, column, scales);
-      addLine({point.forward, inverse, fall, on_road}, column, scales);
+  for (std::size_t begin = 0; begin < points.count; begin += kRun) {
+    const std::size_t end = std::min(begin + kRun, points.count);
+    std::size_t next_line = begin + begin / kRun % line_step_;
+    for (std::size_t i = begin; i < end; ++i) {
+      ColumnPoint point;
+      if (place(view(points[i]), scales, point)) {
+        addObstacle(point, scales);
+        if (i >= next_line) {
+          addLine(point, scales);
+          next_line = i + line_step_;
+        }
+      }
     }
   }
-  points_ = finite;
-  in_layer_ = in_layer;
 }
 
-inline void StereoEvidence::countDensity(float fall_tangent, int column, const Scales& scales) {
-  const float row = 0.5F * scales.tile_rows + fall_tangent * scales.tiles_per_tangent;
+inline bool StereoEvidence::place(const ViewedPoint& point, const Scales& scales,
+                                  ColumnPoint& placed) {
+  if (!(point.forward > scales.nearest && point.forward < kBeyondSight)) {
+    return false;
+  }
+  ++points_;
+  if (point.height > scales.highest) {
+    return false;
+  }
+  const float inverse = 1.0F / point.forward;
+  const float column = (point.right * inverse - scales.left) * scales.columns_per_tangent;
+  if (!(column >= 0.0F && column < scales.columns)) {
+    return false;
+  }
+  placed.forward = point.forward;
+  placed.inverse = inverse;
+  placed.height = point.height;
+  placed.column = static_cast<int>(column);
+  // On the line of sight to the point, the road is at the inverse depth
+  // inverse * (1 - height / camera_height).
+  placed.on_road = point.height * inverse <= scales.road_margin;
+  return true;
+}
+
+inline void StereoEvidence::addObstacle(const ColumnPoint& point, const Scales& scales) {
+  if (!point.on_road && point.height >= scales.layer_bottom && point.height <= scales.layer_top &&
+      bins_.contains(point.forward)) {
+    obstacles_.add(bins_.at(point.forward), point.column, 1);
+    ++in_layer_;
+  }
+}
+
+inline void StereoEvidence::addLine(const ColumnPoint& point, const Scales& scales) {
+  // m that the line falls on its way to the point.
+  const float fall = scales.camera_height - point.height;
+  const float row = 0.5F * scales.tile_rows + fall * point.inverse * scales.tiles_per_tangent;
   if (row >= 0.0F && row < scales.tile_rows) {
     ++tiles_[static_cast<std::size_t>(static_cast<int>(row) * tile_columns_ +
-                                      (column >> tile_shift_))];
+                                      (point.column >> tile_shift_))];
   }
-}
-
-inline void StereoEvidence::addLine(const Line& line, int column, const Scales& scales) {
   // From where to where the line is below the layer, and nothing stops it.
-  const float per_fall = line.forward / line.fall;
+  const float per_fall = point.forward / fall;
   const float at_bottom = per_fall * scales.above_layer;
-  const float stop = line.ends_on_road ? per_fall * scales.camera_height
-                                       : 1.0F / (line.inverse + scales.obstacle_margin);
-  const bool falls = line.fall > 0.0F;
+  const float stop = point.on_road ? per_fall * scales.camera_height
+                                   : 1.0F / (point.inverse + scales.obstacle_margin);
+  const bool falls = fall > 0.0F;
   const float begin = falls ? std::max(0.0F, at_bottom) : 0.0F;
   const float end = falls ? stop : std::min(stop, at_bottom);
   if (begin < end) {
-    lines_.add(bins_.before(begin), column, 1);
-    lines_.add(bins_.before(end), column, -1);
+    lines_.add(bins_.before(begin), point.column, 1);
+    lines_.add(bins_.before(end), point.column, -1);
   }
 }
 

@@ -58,6 +58,7 @@ class StereoEvidence {
   /// What a point is compared with, in the numbers that points have.
   struct Scales {
     float nearest, layer_bottom, layer_top;    ///< m
+    float highest;                             ///< m above the road, of points that tell anything
     float left, columns_per_tangent, columns;  ///< of the columns
     float tiles_per_tangent, tile_rows;        ///< of the tiles
     float camera_height;                       ///< m above the road
@@ -68,15 +69,18 @@ class StereoEvidence {
   Scales scalesOf(const StereoCloud& cloud, const StereoView& view,
                   const EvidenceLimits& limits) const;
 
-  /// A line of sight to a point.
-  struct Line {
-    float forward, inverse;  ///< m, 1/m: depth of the point
-    float fall;              ///< m, from the camera to the point
-    bool ends_on_road;
+  /// A point in one of the columns.
+  struct ColumnPoint {
+    float forward, inverse;  ///< m, 1/m: depth
+    float height;            ///< m above the road
+    int column;
+    bool on_road;
   };
 
-  void countDensity(float fall_tangent, int column, const Scales& scales);
-  void addLine(const Line& line, int column, const Scales& scales);
+  /// Whether a point is one, in a column, and tells anything.
+  bool place(const ViewedPoint& point, const Scales& scales, ColumnPoint& placed);
+  void addObstacle(const ColumnPoint& point, const Scales& scales);
+  void addLine(const ColumnPoint& point, const Scales& scales);
   void prepare(const StereoCamera& camera, const EvidenceLimits& limits);
   void addPoints(const StereoCloud& cloud, const StereoView& view, const EvidenceLimits& limits);
   /// Pixels of the image for each of the points whose lines are counted.
