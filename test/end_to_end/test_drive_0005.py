@@ -48,7 +48,7 @@ def run_drive(folder, resolution):
 
 
 class Figures:
-    """The issue's figures; the classes below say for which scanner."""
+    """The figures that are asked for; the classes below say for which scanner."""
 
     resolution = None  # degrees
     min_vehicle_share = None
