@@ -24,11 +24,11 @@ KEPT_PAIRS = 2  # one of so many
 
 NEAR = (0.0, 15.0)  # m
 MIN_PRECISION = 0.9
-MIN_RECALL = 0.7  # where the matcher can have disparities
-MIN_RECALL_IN_VIEW = 0.6
+MIN_RECALL = 0.75  # where the matcher can have disparities
+MIN_RECALL_IN_VIEW = 0.65
 
 # The cyclist's is that of the scanner alone. The van's is 0.94 there: here a track is lost.
-MIN_COMPLETENESS = {"cyclist": 0.95, "vehicle": 0.7}
+MIN_COMPLETENESS = {"cyclist": 0.95, "vehicle": 0.65}
 MAX_IDS = 2
 
 
