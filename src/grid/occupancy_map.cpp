@@ -44,7 +44,8 @@ double OccupancyMap::maturity(const Cell& cell) const {
 }
 
 bool OccupancyMap::isGhost(const Cell& cell) const {
-  return options_.ghost_after > 0 && cell.refuted >= options_.ghost_after;
+  return options_.ghost_after > 0 && cell.refuted >= options_.ghost_after &&
+         cell.refuted >= options_.ghost_share * (cell.refuted + cell.believed);
 }
 
 template <typename Test>
@@ -146,12 +147,17 @@ void OccupancyMap::update(const GridSight& sight, const Pose2& base_in_map) {
   for (const Point2& centre : sight.cells) {
     occupy(window().cellAt(base_in_map * centre));
   }
-  for (const Point2& end : sight.refuted) {
-    const CellIndex index = window().cellAt(base_in_map * end);
-    if (window().contains(index)) {
-      ++cells_.at(index).refuted;
+  const auto count = [&](const std::vector<Point2>& ends, int Cell::*counter) {
+    for (const Point2& end : ends) {
+      const CellIndex index = window().cellAt(base_in_map * end);
+      if (window().contains(index)) {
+        ++(cells_.at(index).*counter);
+      }
     }
-  }
+  };
+  count(sight.surfaces, &Cell::believed);
+  count(sight.movers, &Cell::believed);
+  count(sight.refuted, &Cell::refuted);
   const Point2 from = base_in_map * sight.viewpoint;
   resample(*sight.grid, base_in_map, window(), [&](CellIndex cell, Percent percent) {
     if (isFree(percent)) {

@@ -45,6 +45,10 @@ void OccupancyMapOptions::visit(OptionVisitor& visitor) {
        "where other sensors have refuted so many ends of beams the scanner sees what is "
        "no obstacle: what ends there again does not move; 0: forgets them"},
       ghost_after, {0, 1000});
+  visitor.number({"ghost_share", "1",
+                  "and at least this share of all beams that ended there: a few are refuted by "
+                  "mistake where much traffic passes"},
+                 ghost_share, {0.0, 1.0});
 }
 
 }  // namespace datmo

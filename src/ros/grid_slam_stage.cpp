@@ -163,6 +163,8 @@ std::optional<GridSlamOutput> GridSlamStage::takeGrid(const nav_msgs::OccupancyG
 Scan GridSlamStage::scanAt(Stamp stamp) {
   while (!scans_.empty() && scans_.front().stamp < stamp) {
     scans_.pop_front();
+    monitor_.dropped(
+        InputError("scan_without_grid", "a scan without fused grid: expected one of its stamp"));
   }
   if (!scans_.empty() && scans_.front().stamp == stamp) {
     Scan scan = std::move(scans_.front());

@@ -206,7 +206,8 @@ StereoEvidence::Columns StereoEvidence::columnsAt(const ViewedPlace& place,
 double StereoEvidence::surface(const ViewedPlace& place, double half_width, double near,
                                double far) const {
   const Columns columns = columnsAt(place, half_width);
-  const int first = std::min(bins_.before(static_cast<float>(near)), bins_.size() - 1);
+  const int first =
+      std::min(bins_.before(static_cast<float>(std::max(0.0, near))), bins_.size() - 1);
   const int end = std::max(first + 1, bins_.before(static_cast<float>(far)));
   return obstacles_.sum(first, end, columns.first, columns.end) * surfaceOfPoint(place.forward);
 }

@@ -41,7 +41,6 @@ Scan measuredScan(const FusedView& view) {
 GridSight sightOf(const FusedView& view, const std::vector<PointState>& states,
                   const SensorGrid& grid, const OccupancyMap& map, const Pose2& base_in_map) {
   GridSight sight;
-  std::vector<Point2> movers;
   std::vector<Point2> others = view.cells;
   for (std::size_t i = 0; i < view.scan.rays.size(); ++i) {
     const Ray& ray = view.scan.rays[i];
@@ -51,11 +50,11 @@ GridSight sightOf(const FusedView& view, const std::vector<PointState>& states,
     if (view.any_measured && !view.measured[i]) {
       others.push_back(ray.end);
     } else {
-      (states[i] == PointState::kMoving ? movers : sight.surfaces).push_back(ray.end);
+      (states[i] == PointState::kMoving ? sight.movers : sight.surfaces).push_back(ray.end);
     }
   }
   std::vector<Point2>& target = view.any_measured ? sight.cells : sight.surfaces;
-  for (const Point2& place : apartFrom(movers, grid, others)) {
+  for (const Point2& place : apartFrom(sight.movers, grid, others)) {
     if (map.judge(base_in_map * place) != PointState::kMoving) {
       target.push_back(place);
     }

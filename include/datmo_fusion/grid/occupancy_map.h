@@ -27,6 +27,7 @@ struct OccupancyMapOptions {
   double static_after = 0.8;        ///< s, between first and last hit of a static cell
   int static_neighbourhood = 1;     ///< cells around an end point that vouch for it
   int ghost_after = 2;              ///< ends that others have refuted
+  double ghost_share = 0.1;         ///< of all ends of beams in a cell
 
   void visit(OptionVisitor& visitor);
 };
@@ -36,6 +37,7 @@ struct GridSight {
   const SensorGrid* grid = nullptr;   ///< its free cells are free
   std::vector<Point2> surfaces;       ///< m, exact points on surfaces that stand still
   std::vector<Point2> cells;          ///< m, centres of further cells that are occupied
+  std::vector<Point2> movers;         ///< m, ends of beams on what moves
   std::vector<Point2> refuted;        ///< m, ends of beams where others have seen nothing
   Point2 viewpoint = Point2::Zero();  ///< m, from where they were seen
 };
@@ -97,7 +99,8 @@ class OccupancyMap {
     float freed = 0.0F;         ///< share of free_log_odds_ that this update has given it
     float first_hit = 0.0F;     ///< s since the first update; of the present occupant
     float last_hit = 0.0F;
-    int refuted = 0;  ///< ends of beams here that others have refuted
+    int refuted = 0;   ///< ends of beams here that others have refuted
+    int believed = 0;  ///< other ends of beams here, since there are fused grids
     CellHits hits;
   };
 

@@ -26,9 +26,10 @@ class MapSightTest : public testing::Test {
     map_.update(complete, base_in_map);
   }
 
-  static GridSight surfaceAt(const Point2& point) { return {nullptr, {point}, {}, {}, {}}; }
-  static GridSight cellAt(const Point2& point) { return {nullptr, {}, {point}, {}, {}}; }
-  static GridSight refutedAt(const Point2& point) { return {nullptr, {}, {}, {point}, {}}; }
+  static GridSight surfaceAt(const Point2& point) { return {nullptr, {point}, {}, {}, {}, {}}; }
+  static GridSight cellAt(const Point2& point) { return {nullptr, {}, {point}, {}, {}, {}}; }
+  static GridSight moverAt(const Point2& point) { return {nullptr, {}, {}, {point}, {}, {}}; }
+  static GridSight refutedAt(const Point2& point) { return {nullptr, {}, {}, {}, {point}, {}}; }
 
   std::vector<CellIndex> free_;
   OccupancyMap map_{smallMap()};
@@ -77,6 +78,19 @@ TEST_F(MapSightTest, WhereTheScannerWasRefutedOftenNothingMoves) {
   show(refutedAt({4.5, 0.5}), 0.7);
   EXPECT_EQ(map_.judge({4.5, 0.5}), PointState::kUnknown);
   EXPECT_EQ(map_.judge({8.5, 0.5}), PointState::kMoving) << "elsewhere it is believed";
+}
+
+TEST_F(MapSightTest, WhereMuchTrafficPassesAFewRefutedEndsAreAMistake) {
+  free_ = {{4, 0}};
+  for (int i = 0; i < 30; ++i) {
+    show(moverAt({4.5, 0.5}), 0.1 * i);
+  }
+  show(refutedAt({4.5, 0.5}), 3.1);
+  show(refutedAt({4.5, 0.5}), 3.2);
+  EXPECT_EQ(map_.judge({4.5, 0.5}), PointState::kMoving) << "2 of 32";
+  show(refutedAt({4.5, 0.5}), 3.3);
+  show(refutedAt({4.5, 0.5}), 3.4);
+  EXPECT_EQ(map_.judge({4.5, 0.5}), PointState::kUnknown) << "4 of 34";
 }
 
 TEST_F(MapSightTest, RefutedEndsMayBeForgotten) {
