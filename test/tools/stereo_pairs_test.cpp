@@ -77,7 +77,14 @@ TEST(StereoPairs, LateFrameOfAFullQueueIsItselfGivenUp) {
   }
   EXPECT_FALSE(takeFrame(pairs, StereoSide::kLeft, kStart));
   EXPECT_FALSE(takeFrame(pairs, StereoSide::kRight, kStart));
-  EXPECT_TRUE(takeFrame(pairs, StereoSide::kRight, kStart + 5 * kPeriod));
+  for (int i = 1; i <= 5; ++i) {
+    const Stamp stamp = kStart + i * kPeriod;
+    const auto pair = takeFrame(pairs, StereoSide::kRight, stamp);
+    ASSERT_TRUE(pair) << i;
+    EXPECT_EQ(pair->left.stamp, stamp);
+    EXPECT_EQ(toStamp(pair->left.image->header.stamp), stamp);
+    EXPECT_EQ(toStamp(pair->left.info->header.stamp), stamp);
+  }
 }
 
 TEST(StereoPairs, NothingIsLeftAfterClear) {

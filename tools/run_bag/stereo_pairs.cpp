@@ -16,16 +16,22 @@ constexpr std::size_t kLongestQueue = 5;
 
 std::optional<StereoPair> StereoPairs::takeImage(StereoSide side,
                                                  const sensor_msgs::ImageConstPtr& image) {
-  CameraFrame& frame = frameAt(side, toStamp(image->header.stamp));
-  frame.image = image;
-  return pairWith(side, CameraFrame(frame));
+  CameraFrame* const frame = frameAt(side, toStamp(image->header.stamp));
+  if (frame == nullptr) {
+    return std::nullopt;
+  }
+  frame->image = image;
+  return pairWith(side, CameraFrame(*frame));
 }
 
 std::optional<StereoPair> StereoPairs::takeInfo(StereoSide side,
                                                 const sensor_msgs::CameraInfoConstPtr& info) {
-  CameraFrame& frame = frameAt(side, toStamp(info->header.stamp));
-  frame.info = info;
-  return pairWith(side, CameraFrame(frame));
+  CameraFrame* const frame = frameAt(side, toStamp(info->header.stamp));
+  if (frame == nullptr) {
+    return std::nullopt;
+  }
+  frame->info = info;
+  return pairWith(side, CameraFrame(*frame));
 }
 
 void StereoPairs::clear() {
@@ -33,21 +39,21 @@ void StereoPairs::clear() {
   right_.clear();
 }
 
-CameraFrame& StereoPairs::frameAt(StereoSide side, Stamp stamp) {
+CameraFrame* StereoPairs::frameAt(StereoSide side, Stamp stamp) {
   Frames& frames = framesOf(side);
   auto place = std::find_if(frames.begin(), frames.end(),
                             [&](const CameraFrame& frame) { return !(frame.stamp < stamp); });
   if (place != frames.end() && place->stamp == stamp) {
-    return *place;
+    return &*place;
   }
-  place = frames.insert(place, CameraFrame{stamp, nullptr, nullptr});
-  if (frames.size() <= kLongestQueue) {
-    return *place;
+  if (frames.size() == kLongestQueue) {
+    ++unpaired_;
+    if (place == frames.begin()) {
+      return nullptr;
+    }
+    frames.pop_front();
   }
-  ++unpaired_;
-  const auto index = std::max<std::ptrdiff_t>(place - frames.begin() - 1, 0);
-  frames.pop_front();
-  return frames[static_cast<std::size_t>(index)];
+  return &*frames.insert(place, CameraFrame{stamp, nullptr, nullptr});
 }
 
 std::optional<StereoPair> StereoPairs::pairWith(StereoSide side, const CameraFrame& frame) {

@@ -49,7 +49,8 @@ class StereoPairs {
   using Frames = std::deque<CameraFrame>;  ///< by rising stamp, some of them not complete
 
   Frames& framesOf(StereoSide side) { return side == StereoSide::kLeft ? left_ : right_; }
-  CameraFrame& frameAt(StereoSide side, Stamp stamp);
+  /// The frame of this stamp, a new one if there is none; null if the queue is full of newer ones.
+  CameraFrame* frameAt(StereoSide side, Stamp stamp);
   std::optional<StereoPair> pairWith(StereoSide side, const CameraFrame& frame);
   void dropUpTo(Frames& frames, Stamp stamp);
 
