@@ -50,10 +50,14 @@ using Palette = std::array<Colour, 102>;
 constexpr std::size_t kUnknownSlot = 101;
 constexpr double kMostPercent = 100.0;
 
-Palette paletteTo(const Colour& full) {
+/// Sensors that are careful contradict each other weakly, and that is to be seen too.
+constexpr double kConflictExponent = 0.5;
+
+/// From free to `full`, which has 100 percent; with an `exponent` below 1 little shows more.
+Palette paletteTo(const Colour& full, double exponent) {
   Palette palette;
   for (std::size_t percent = 0; percent < kUnknownSlot; ++percent) {
-    const double share = static_cast<double>(percent) / kMostPercent;
+    const double share = std::pow(static_cast<double>(percent) / kMostPercent, exponent);
     for (int channel = 0; channel < 3; ++channel) {
       palette[percent][channel] =
           cv::saturate_cast<std::uint8_t>((1.0 - share) * kFree[channel] + share * full[channel]);
@@ -64,8 +68,8 @@ Palette paletteTo(const Colour& full) {
 }
 
 const Palette& paletteOf(const std::string& panel) {
-  static const Palette kOccupancy = paletteTo(kOccupied);
-  static const Palette kContradictions = paletteTo(kContradiction);
+  static const Palette kOccupancy = paletteTo(kOccupied, 1.0);
+  static const Palette kContradictions = paletteTo(kContradiction, kConflictExponent);
   return panel == kConflict ? kContradictions : kOccupancy;
 }
 

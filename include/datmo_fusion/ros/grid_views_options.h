@@ -10,10 +10,10 @@ namespace datmo {
 /// Which grids GridViews draws, how much of them and how large.
 struct GridViewsOptions {
   std::string panels = "lidar stereo fused conflict map";
-  double ahead = 50.0;            ///< m
+  double ahead = 40.0;            ///< m
   double behind = 5.0;            ///< m
-  double to_side = 25.0;          ///< m
-  double pixels_per_metre = 6.0;  ///< px/m
+  double to_side = 20.0;          ///< m
+  double pixels_per_metre = 8.0;  ///< px/m
   double rate = 5.0;              ///< Hz
   double silent_after = 1.0;      ///< s
 
