@@ -10,7 +10,7 @@
 
 namespace datmo {
 
-/// The door to LidarGridStage. In: scan or echoes, odometry, tf. Out: grids/lidar.
+/// The door to LidarGridStage. In: scan or echoes, odometry or else pose, tf. Out: grids/lidar.
 class LidarGridNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
@@ -18,10 +18,7 @@ class LidarGridNodelet : public nodelet::Nodelet {
     monitor_ = std::make_unique<StageMonitor>(getName());
     transforms_ = std::make_unique<TransformBuffer>(options.input.restart_after);
     stage_ = std::make_unique<LidarGridStage>(options, *transforms_, *monitor_);
-    std::vector<std::string> inputs{"scan"};
-    if (options.motion.odometry) {
-      inputs.emplace_back("odometry");
-    }
+    const std::vector<std::string> inputs{"scan", options.motion.odometry ? "odometry" : "pose"};
     reporter_ = std::make_unique<StageReporter>(getNodeHandle(), getPrivateNodeHandle(), *monitor_,
                                                 inputs, options.input.silence_after);
     grid_ = getNodeHandle().advertise<nav_msgs::OccupancyGrid>("grids/lidar", kQueue);
@@ -33,7 +30,9 @@ class LidarGridNodelet : public nodelet::Nodelet {
     const auto hints = ros::TransportHints().tcpNoDelay();
     transform_subscription_ = std::make_unique<TransformSubscription>(node, *transforms_);
     if (with_odometry) {
-      odometry_ = node.subscribe("odometry", kQueue, &LidarGridNodelet::takeOdometry, this, hints);
+      motion_ = node.subscribe("odometry", kQueue, &LidarGridNodelet::takeOdometry, this, hints);
+    } else {
+      motion_ = node.subscribe("pose", kQueue, &LidarGridNodelet::takePose, this, hints);
     }
     scan_ = node.subscribe("scan", kQueue, &LidarGridNodelet::takeScan<sensor_msgs::LaserScan>,
                            this, hints);
@@ -47,6 +46,11 @@ class LidarGridNodelet : public nodelet::Nodelet {
     stage_->takeOdometry(*message);
   }
 
+  void takePose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message) {
+    monitor_->received("pose", toStamp(ros::Time::now()));
+    stage_->takePose(*message);
+  }
+
   template <typename Message>
   void takeScan(const boost::shared_ptr<const Message>& message) {
     monitor_->received("scan", toStamp(ros::Time::now()));
@@ -56,7 +60,7 @@ class LidarGridNodelet : public nodelet::Nodelet {
     }
   }
 
-  /// A second of scans or odometry: enough for a hiccup, and bounded.
+  /// A second of scans, odometry or poses: enough for a hiccup, and bounded.
   static constexpr std::uint32_t kQueue = 20;
 
   std::unique_ptr<StageMonitor> monitor_;
@@ -65,7 +69,7 @@ class LidarGridNodelet : public nodelet::Nodelet {
   std::unique_ptr<StageReporter> reporter_;
   std::unique_ptr<TransformSubscription> transform_subscription_;
   ros::Publisher grid_;
-  ros::Subscriber odometry_;
+  ros::Subscriber motion_;
   ros::Subscriber scan_;
   ros::Subscriber echoes_;
 };

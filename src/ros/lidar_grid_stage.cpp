@@ -28,7 +28,14 @@ LidarGridStage::LidarGridStage(const LidarGridStageOptions& options,
   checkOptions(options);
 }
 
-void LidarGridStage::takeOdometry(const nav_msgs::Odometry& message) {
+void LidarGridStage::takeOdometry(const nav_msgs::Odometry& message) { takeMotion(message); }
+
+void LidarGridStage::takePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
+  takeMotion(message);
+}
+
+template <typename Message>
+void LidarGridStage::takeMotion(const Message& message) {
   try {
     if (motion_.take(message) == Arrival::kRestart) {
       stamps_ = StampCheck(options_.input.restart_after);

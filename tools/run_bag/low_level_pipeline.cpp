@@ -58,6 +58,7 @@ void LowLevelPipeline::takeOdometry(const nav_msgs::Odometry& message) {
 }
 
 void LowLevelPipeline::takePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
+  lidar_.takePose(message);
   fusion_.takePose(message);
 }
 

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Odometry.h>
 
@@ -29,8 +30,8 @@ struct LidarGridStageOptions {
 /// LidarGridModel between messages: the same one serves the nodelet and the bag runner. Bad input
 /// is dropped or warned of through the monitor, never thrown.
 ///
-/// A scan is compensated for the vehicle's motion by odometry; where there is none, all its beams
-/// are taken as measured at once.
+/// A scan is compensated for the vehicle's motion by odometry, where the vehicle has none by the
+/// poses of the SLAM; where neither has come, all its beams are taken as measured at once.
 class LidarGridStage {
  public:
   /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
@@ -40,13 +41,16 @@ class LidarGridStage {
   /// Newest odometry; not read where the options say that the vehicle has none.
   void takeOdometry(const nav_msgs::Odometry& message);
 
+  /// Newest pose of the SLAM; read only where the options say that the vehicle has no odometry.
+  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message);
+
   /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan. Null if it was dropped.
   template <typename Message>
   nav_msgs::OccupancyGridPtr takeScan(const Message& message);
 
  private:
-  /// Throws InputError.
-  void checkStamp(const ros::Time& stamp);
+  template <typename Message>
+  void takeMotion(const Message& message);
   void warnOf(const ScannerMount& mount, const ConvertedScan& converted);
   Scan compensated(const Scan& scan) const;
 

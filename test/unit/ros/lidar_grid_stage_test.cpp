@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/ros/grid_conversion.h"
+#include "datmo_fusion/ros/message_conversion.h"
 
 namespace datmo {
 namespace {
@@ -92,7 +93,7 @@ TEST_F(LidarGridStageTest, BeamsAreBroughtToTheStampOfTheScanByOdometry) {
   EXPECT_TRUE(isOccupiedAt(*grid, 3.6 + 3.0 + 0.8, 0.0));
 }
 
-TEST_F(LidarGridStageTest, WithoutOdometryAllBeamsAreTakenAsMeasuredAtOnce) {
+TEST_F(LidarGridStageTest, WithoutOdometryThePosesOfTheSlamBringBeamsToTheStamp) {
   LidarGridStageOptions options;
   options.motion.odometry = false;
   LidarGridStage stage(options, buffer_, monitor_);
@@ -103,9 +104,20 @@ TEST_F(LidarGridStageTest, WithoutOdometryAllBeamsAreTakenAsMeasuredAtOnce) {
   EXPECT_EQ(monitor_.droppedCount(), 0U) << "it is not read";
   auto scan = samples::laserScan();
   scan.time_increment = 0.1F;
+  const auto before = stage.takeScan(scan);
+  ASSERT_TRUE(before);
+  EXPECT_TRUE(isOccupiedAt(*before, 3.6 + 3.0, 0.0)) << "as measured at once";
+  for (const double t : {kStart - 0.1, kStart}) {
+    geometry_msgs::PoseWithCovarianceStamped pose;
+    pose.header.stamp = ros::Time(t);
+    pose.pose.pose = toMessage(Pose2(8.0 * t, 5.0, 0.0));
+    stage.takePose(pose);
+  }
+  scan.header.stamp = ros::Time(kStart + 0.1);
   const auto grid = stage.takeScan(scan);
   ASSERT_TRUE(grid);
-  EXPECT_TRUE(isOccupiedAt(*grid, 3.6 + 3.0, 0.0));
+  EXPECT_TRUE(isOccupiedAt(*grid, 3.6 + 3.0 + 0.8, 0.0)) << "measured 0.8 m further on";
+  EXPECT_EQ(monitor_.droppedCount(), 0U);
 }
 
 TEST_F(LidarGridStageTest, AMissingMountIsCountedUntilItComes) {
