@@ -32,20 +32,22 @@ GridFusionStage::GridFusionStage(const GridFusionStageOptions& options, StageMon
 void GridFusionStage::takeGrid(const std::string& source, const nav_msgs::OccupancyGrid& message,
                                Stamp now) {
   try {
-    SensorGrid grid = gridOf(source, message);
-    const Stamp stamp = grid.stamp();
+    SensorGrid grid = gridOf(source, message, now);
+    const Arrived arrived{grid.stamp(), now};
     add(source, std::move(grid));
-    if (!newest_ || stamp > newest_->stamp) {
-      newest_ = {stamp, now};
+    if (!newest_ || arrived.stamp > newest_->stamp) {
+      newest_ = arrived;
     }
-    silent_.erase(source);
+    if (source == options_.matcher.reference) {
+      reference_ = arrived;
+    }
   } catch (const InputError& error) {
     monitor_.dropped(error);
   }
 }
 
 SensorGrid GridFusionStage::gridOf(const std::string& source,
-                                   const nav_msgs::OccupancyGrid& message) {
+                                   const nav_msgs::OccupancyGrid& message, Stamp now) {
   const auto stamps = stamps_.find(source);
   if (stamps == stamps_.end()) {
     throw InputError("unknown_source",
@@ -56,12 +58,30 @@ SensorGrid GridFusionStage::gridOf(const std::string& source,
                                         "': expected '" + options_.base_frame + "'");
   }
   SensorGrid grid = fromMessage(message);
+  checkAhead(source, grid.stamp(), now);
   if (stamps->second.check(message.header.stamp) == Arrival::kRestart) {
     motion_.reset();
     restart();
     stamps->second.check(message.header.stamp);
   }
   return grid;
+}
+
+void GridFusionStage::checkAhead(const std::string& source, Stamp stamp, Stamp now) const {
+  if (!reference_ || source == options_.matcher.reference ||
+      secondsBetween(reference_->came, now) > options_.input.silence_after) {
+    return;
+  }
+  const double ahead = secondsBetween(dataTime(*reference_, now), stamp);
+  if (ahead > options_.matcher.silent_after) {
+    throw InputError("stamp_ahead",
+                     "grid of " + source + ", stamp " + std::to_string(stamp.seconds()) +
+                         " s, is " + std::to_string(ahead) + " s ahead of those of " +
+                         options_.matcher.reference + ", the last one's stamp " +
+                         std::to_string(reference_->stamp.seconds()) + " s: expected at most " +
+                         std::to_string(options_.matcher.silent_after) +
+                         " s; do the sensors' clocks agree?");
+  }
 }
 
 void GridFusionStage::add(const std::string& source, SensorGrid grid) {
@@ -96,11 +116,12 @@ void GridFusionStage::restart() {
     stamps = StampCheck(options_.input.restart_after);
   }
   newest_.reset();
-  silent_.clear();
+  reference_.reset();
+  absences_.clear();
 }
 
-Stamp GridFusionStage::dataTime(Stamp now) const {
-  return newest_->stamp + std::max(0.0, secondsBetween(newest_->came, now));
+Stamp GridFusionStage::dataTime(const Arrived& last, Stamp now) {
+  return last.stamp + std::max(0.0, secondsBetween(last.came, now));
 }
 
 std::optional<GridFusionOutput> GridFusionStage::next(Stamp now) {
@@ -108,7 +129,7 @@ std::optional<GridFusionOutput> GridFusionStage::next(Stamp now) {
     return std::nullopt;
   }
   const Stopwatch watch;
-  const std::optional<MatchedGrids> matched = matcher_.next(dataTime(now));
+  const std::optional<MatchedGrids> matched = matcher_.next(dataTime(*newest_, now));
   if (!matched) {
     return std::nullopt;
   }
@@ -125,16 +146,42 @@ std::optional<GridFusionOutput> GridFusionStage::next(Stamp now) {
 }
 
 void GridFusionStage::report(const FusionResult& result) {
+  const Stamp stamp = result.grids.fused.stamp();
+  std::map<std::string, Absence> absences;
   for (const MissingSource& missing : result.missing) {
-    monitor_.figure("fused without " + missing.source,
-                    static_cast<double>(++times_missed_[missing.source]));
-    if (missing.why == WhyMissing::kSilent && silent_.insert(missing.source).second) {
-      monitor_.warned(
-          InputError("silent_source", "no grid of " + missing.source + " for " +
-                                          std::to_string(options_.matcher.silent_after) +
-                                          " s: goes on without it"));
+    const std::string& source = missing.source;
+    monitor_.figure("fused without " + source, static_cast<double>(++times_missed_[source]));
+    const auto before = absences_.find(source);
+    Absence& absence = absences[source];
+    absence = before == absences_.end() ? Absence{stamp, {}} : before->second;
+    // One set without it is nothing: it may be slower than the reference, or have just begun.
+    const bool lasts = missing.why == WhyMissing::kSilent ||
+                       secondsBetween(absence.since, stamp) >= options_.matcher.silent_after;
+    if (lasts && absence.said.insert(missing.why).second) {
+      monitor_.warned(warningOf(missing));
     }
   }
+  absences_ = std::move(absences);
+}
+
+InputError GridFusionStage::warningOf(const MissingSource& missing) const {
+  const GridMatcherOptions& options = options_.matcher;
+  const std::string grid_of = "no grid of " + missing.source + " ";
+  const std::string silent_after = std::to_string(options.silent_after) + " s";
+  switch (missing.why) {
+    case WhyMissing::kNoneNear:
+      return {"late_source", grid_of + "in time for " + silent_after + ": expected one within " +
+                                 std::to_string(options.tolerance) + " s of the reference's stamp" +
+                                 " and after " + std::to_string(options.longest_wait) +
+                                 " s at most; goes on without it"};
+    case WhyMissing::kNoMotion:
+      return {"no_motion", grid_of + "used for " + silent_after +
+                               ": expected to know from odometry or poses how the vehicle moved "
+                               "between its stamp and the reference's; goes on without it"};
+    case WhyMissing::kSilent:
+      break;
+  }
+  return {"silent_source", grid_of + "for " + silent_after + ": goes on without it"};
 }
 
 }  // namespace datmo
