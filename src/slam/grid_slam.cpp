@@ -80,6 +80,25 @@ std::vector<std::uint32_t> blindBeams(const Scan& scan) {
   return blind;
 }
 
+/// Leaves out the beams of `measured` whose ends the grid does not confirm, if there are others: by
+/// sensors that contradict each other nothing is told, neither of what is there nor of what is not.
+void leaveOutContested(const Scan& measured, const FusedView& view, Scan& scan,
+                       std::vector<PointState>& states) {
+  if (!view.any_measured) {
+    return;
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < scan.rays.size(); ++i) {
+    if (!measured.rays[i].hit || view.measured[i]) {
+      scan.rays[kept] = scan.rays[i];
+      states[kept] = states[i];
+      ++kept;
+    }
+  }
+  scan.rays.resize(kept);
+  states.resize(kept);
+}
+
 SplitScan split(const Scan& scan, const std::vector<PointState>& states,
                 const PoseWithCovariance& base_in_map) {
   SplitScan result{scan.stamp, base_in_map, scan.scanner_in_base, scan.field, blindBeams(scan), {}};
@@ -189,8 +208,8 @@ SlamResult GridSlam::process(const Measurement& measurement) {
   }
   const PoseWithCovariance base_in_map = filter_.pose();
   const FusedView view = viewOf(measurement, scan);
-  const Scan own = measuredScan(view);
-  const std::vector<PointState> states = judge(own, map_, base_in_map.pose);
+  Scan own = measuredScan(view);
+  std::vector<PointState> states = judge(own, map_, base_in_map.pose);
   if (measurement.grid != nullptr) {
     const SensorGrid free_cells = withoutFreeEdges(*measurement.grid);
     GridSight sight = sightOf(view, states, *measurement.grid, map_, base_in_map.pose);
@@ -201,6 +220,7 @@ SlamResult GridSlam::process(const Measurement& measurement) {
   }
   stamp_ = scan.stamp;
   result.odometry_errors = filter_.errors();
+  leaveOutContested(scan, view, own, states);
   result.split = split(own, states, base_in_map);
   return result;
 }

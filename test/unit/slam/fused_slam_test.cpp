@@ -90,6 +90,8 @@ TEST_F(FusedSlamInTheYard, WhatTheGridRefutesIsNoPoint) {
   for (const ScanPoint& point : result.split.points) {
     EXPECT_GT(box_.distanceTo(point.position), 0.5);
   }
+  EXPECT_GE(result.split.blind_beams.size(), 5U) << "contested beams tell nothing";
+  EXPECT_EQ(result.split.blind_beams.size() + result.split.points.size(), 81U);
 }
 
 TEST_F(FusedSlamInTheYard, WhatOthersAloneSeeDoesNotMoveAndIsMappedWhereNothingWasKnown) {
