@@ -6,8 +6,24 @@
 #include <boost/make_shared.hpp>
 
 #include "datmo_fusion/ros/grid_conversion.h"
+#include "datmo_fusion/ros/topic_name.h"
 
 namespace datmo {
+
+namespace {
+
+/// Throws OptionError for a source whose topic could not be, or would be one that is made here.
+void checkSources(const std::vector<std::string>& sources) {
+  for (const std::string& source : sources) {
+    if (!canBeTopic(source) || source == "fused" || source == "conflict") {
+      throw OptionError("sources/" + source +
+                        ": expected a name of letters, digits and underscores that is not one of "
+                        "the grids of grid_fusion itself, fused and conflict");
+    }
+  }
+}
+
+}  // namespace
 
 void GridFusionStageOptions::visit(OptionVisitor& visitor) {
   visitor.text({"base_frame", "", "frame of the vehicle, and of all grids"}, base_frame, {});
@@ -24,6 +40,7 @@ GridFusionStage::GridFusionStage(const GridFusionStageOptions& options, StageMon
       fuser_(options.fuser),
       motion_(options.motion, options.base_frame, options.input.restart_after) {
   checkOptions(options);
+  checkSources(sources());
   for (const std::string& source : sources()) {
     stamps_.emplace(source, StampCheck(options.input.restart_after));
   }

@@ -1,19 +1,11 @@
 #include "datmo_fusion/ros/grid_views_options.h"
 
 #include <algorithm>
-#include <regex>
 #include <sstream>
 
+#include "datmo_fusion/ros/topic_name.h"
+
 namespace datmo {
-
-namespace {
-
-bool canBeTopic(const std::string& name) {
-  static const std::regex kTopic("[A-Za-z][A-Za-z0-9_]*");
-  return std::regex_match(name, kTopic);
-}
-
-}  // namespace
 
 void GridViewsOptions::visit(OptionVisitor& visitor) {
   const Bounds length{1.0, 500.0};

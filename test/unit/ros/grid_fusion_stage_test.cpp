@@ -331,6 +331,9 @@ TEST_F(GridFusionStageTest, BadOptionsAreRefused) {
   refused([](auto& options) { options.fuser.rule = "by luck"; });
   refused([](auto& options) { options.matcher.reference = "radar"; });
   refused([](auto& options) { options.fuser.sources["lidar"].use = false; });
+  for (const char* const name : {"fused", "conflict", "", "2nd", "rear-lidar", "a b"}) {
+    refused([&](auto& options) { options.fuser.sources[name].use = true; });
+  }
 }
 
 }  // namespace
