@@ -38,11 +38,17 @@ template <typename Message>
 void LidarGridStage::takeMotion(const Message& message) {
   try {
     if (motion_.take(message) == Arrival::kRestart) {
+      warnOfRestart();
       stamps_ = StampCheck(options_.input.restart_after);
     }
   } catch (const InputError& error) {
     monitor_.dropped(error);
   }
+}
+
+void LidarGridStage::warnOfRestart() {
+  monitor_.warned(
+      InputError("clock_restart", "the clock jumped back: forgets how the vehicle moved"));
 }
 
 template <typename Message>
@@ -53,6 +59,7 @@ nav_msgs::OccupancyGridPtr LidarGridStage::takeScan(const Message& message) {
         scannerMount(transforms_.core(), options_.base_frame, message.header.frame_id);
     const ConvertedScan converted = toScan(message, mount, options_.scan);
     if (stamps_.check(message.header.stamp) == Arrival::kRestart) {
+      warnOfRestart();
       motion_.reset();
     }
     warnOf(mount, converted);

@@ -78,6 +78,8 @@ nav_msgs::OccupancyGridPtr StereoGridStage::takeCloud(const sensor_msgs::PointCl
     cloud.points = points.view();
     cloud.scanner_height = scannerHeight();
     if (stamps_.check(message.header.stamp) == Arrival::kRestart) {
+      monitor_.warned(InputError("clock_restart",
+                                 "the clock jumped back: forgets the road of the last clouds"));
       model_.reset();
     }
     StereoGridResult result = gridOf(cloud);

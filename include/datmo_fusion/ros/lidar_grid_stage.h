@@ -51,6 +51,7 @@ class LidarGridStage {
  private:
   template <typename Message>
   void takeMotion(const Message& message);
+  void warnOfRestart();
   void warnOf(const ScannerMount& mount, const ConvertedScan& converted);
   Scan compensated(const Scan& scan) const;
 

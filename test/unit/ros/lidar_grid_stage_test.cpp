@@ -148,6 +148,7 @@ TEST_F(LidarGridStageTest, AJumpBackStartsAnewWhicheverInputSeesItFirst) {
   EXPECT_TRUE(scanAt(150.1));
   odometryAt(100.0);
   EXPECT_TRUE(scanAt(149.9)) << "older than the last scan by less than a restart, but all is new";
+  EXPECT_EQ(samples::warnings(monitor_, "clock_restart"), 2U) << "once for both inputs";
   EXPECT_EQ(monitor_.droppedCount(), 0U);
 }
 

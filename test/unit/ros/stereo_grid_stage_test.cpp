@@ -197,6 +197,7 @@ TEST_F(StereoGridStageTest, AJumpBackStartsAnew) {
   mountSensors();
   EXPECT_TRUE(takeAt(200.0));
   expectWall(takeAt(100.0));
+  EXPECT_EQ(samples::warnings(monitor_, "clock_restart"), 1U);
   EXPECT_EQ(monitor_.droppedCount(), 0U);
 }
 
