@@ -77,7 +77,7 @@ class BeamWriter {
 }  // namespace
 
 void LidarGridOptions::visit(OptionVisitor& visitor) {
-  window.visit(visitor);
+  visitor.group("window", [&] { window.visit(visitor); });
   visitor.number(
       {"occupied_probability", "1", "occupancy of the cells in which a beam ends (thesis 3.2.1)"},
       occupied_probability, {0.51, 0.99});
