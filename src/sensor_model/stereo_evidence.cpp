@@ -20,8 +20,8 @@ constexpr double kMostBins = 2048.0;
 /// m; cameras mark a depth that they do not know by a far one.
 constexpr float kBeyondSight = 1000.0F;
 
-/// The density of points is taken from square tiles of the image: about so wide, px, and up to this
-/// tangent above and below the horizon.
+/// How dense the points are is taken from square tiles of the image: about so wide, px, and up to
+/// this tangent above and below the horizon.
 constexpr double kTileSize = 16.0;
 constexpr double kHighestTangent = 1.0;
 
@@ -158,8 +158,8 @@ inline void StereoEvidence::addLine(const ColumnPoint& point, const Scales& scal
   const float fall = scales.camera_height - point.height;
   const float row = 0.5F * scales.tile_rows + fall * point.inverse * scales.tiles_per_tangent;
   if (row >= 0.0F && row < scales.tile_rows) {
-    ++tiles_[static_cast<std::size_t>(static_cast<int>(row) * tile_columns_ +
-                                      (point.column >> tile_shift_))];
+    const int tile = static_cast<int>(row) * tile_columns_ + (point.column >> tile_shift_);
+    ++tiles_[static_cast<std::size_t>(tile)];
   }
   // From where to where the line is below the layer, and nothing stops it.
   const float per_fall = point.forward / fall;
