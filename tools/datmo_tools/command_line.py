@@ -1,11 +1,14 @@
 """What the command lines of the tools share: how they end, and options that are numbers."""
 
 import argparse
+import json
 import math
 import signal
 import sys
+from pathlib import Path
 
 from datmo_tools.errors import InputError
+from datmo_tools.whole_files import write_whole
 
 
 def run(name, work, product="bag"):
@@ -36,6 +39,18 @@ def add_number(group, name, default, metavar, description):
         metavar=metavar,
         help=f"{description} (default %(default)s)",
     )
+
+
+def add_json(parser):
+    """The option --json, for write_json()."""
+    help_text = "writes the score there too"
+    parser.add_argument("--json", type=Path, metavar="FILE", help=help_text)
+
+
+def write_json(path, result):
+    """Writes a dictionary to the file that --json names; nothing where it names none (None)."""
+    if path is not None:
+        write_whole(path.parent, {path.name: json.dumps(result, indent=2) + "\n"})
 
 
 def count(text):

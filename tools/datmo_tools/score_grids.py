@@ -1,7 +1,6 @@
 """Command line of score_grids."""
 
 import argparse
-import json
 import math
 from pathlib import Path
 
@@ -9,7 +8,6 @@ from datmo_tools import command_line
 from datmo_tools.errors import InputError
 from datmo_tools.grid_recordings import grid_pairs, read_drive
 from datmo_tools.grid_scores import GridScores
-from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
 Scores the fused grids of a run against the truth of the simulated drive that it was made from
@@ -99,9 +97,7 @@ def _run(values):
     result = score(values.run, values.drive, values.lidar, values.fused, values.effective_range,
                    values.disparity_sigma)  # fmt: skip
     print(table(result))
-    if values.json is not None:
-        text = json.dumps(result, indent=2) + "\n"
-        write_whole(values.json.parent, {values.json.name: text})
+    command_line.write_json(values.json, result)
 
 
 def _parser():
@@ -121,5 +117,5 @@ def _parser():
     command_line.add_number(parser, "--disparity-sigma", DISPARITY_SIGMA, "PX",
                             "standard deviation of disparities, px: how far off along the line of "
                             "sight a pole may be")  # fmt: skip
-    add("--json", type=Path, metavar="FILE", help="writes the score there too")
+    command_line.add_json(parser)
     return parser

@@ -1,7 +1,6 @@
 """Command line of score_relations."""
 
 import argparse
-import json
 import math
 import sys
 from pathlib import Path
@@ -12,7 +11,6 @@ from datmo_tools.errors import InputError
 from datmo_tools.pose_path import PosePath, read_messages, read_path
 from datmo_tools.relations import errors_of, read_relations, statistics
 from datmo_tools.stamps import NANOSECONDS
-from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
 Scores the poses in a bag with the relations of the SLAM benchmark (Kuemmerle et al., "On measuring
@@ -116,9 +114,7 @@ def _run(values):
             file=sys.stderr,
         )
     print(table(result))
-    if values.json is not None:
-        text = json.dumps(result, indent=2) + "\n"
-        write_whole(values.json.parent, {values.json.name: text})
+    command_line.write_json(values.json, result)
 
 
 def _parser():
@@ -136,5 +132,5 @@ def _parser():
     add("--recording", type=Path, metavar="BAG", help=recording)
     near = "s between a relation's time and the nearest pose, at the most"
     command_line.add_number(parser, "--tolerance", TOLERANCE, "S", near)
-    add("--json", type=Path, metavar="FILE", help="writes the score there too")
+    command_line.add_json(parser)
     return parser

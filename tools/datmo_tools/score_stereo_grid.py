@@ -1,7 +1,6 @@
 """Command line of score_stereo_grid."""
 
 import argparse
-import json
 from pathlib import Path
 
 import numpy as np
@@ -29,7 +28,6 @@ from datmo_tools.stereo_grid_scores import (
     moved,
     obstacle_points,
 )
-from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
 Scores the stereo (or fused) grids of a run with the Velodyne of the drive that it was made from
@@ -180,9 +178,7 @@ def _run(values):
         values.run, values.drive, values.topic, values.disparity_sigma, values.first_column
     )
     print(table(result))
-    if values.json is not None:
-        text = json.dumps(result, indent=2) + "\n"
-        write_whole(values.json.parent, {values.json.name: text})
+    command_line.write_json(values.json, result)
 
 
 def _parser():
@@ -200,5 +196,5 @@ def _parser():
                             "be")  # fmt: skip
     command_line.add_number(parser, "--first-column", 0.0, "PX",
                             "of the left image that counts")  # fmt: skip
-    add("--json", type=Path, metavar="FILE", help="writes the score there too")
+    command_line.add_json(parser)
     return parser
