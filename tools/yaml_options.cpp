@@ -11,6 +11,18 @@ const char* const kNoFile = ": expected a yaml file that can be read";
 /// yaml-cpp's mark of a plain scalar; quoted text has the tag "!".
 const char* const kPlainTag = "?";
 
+std::vector<double> numbersIn(const std::string& key, const YAML::Node& list) {
+  std::vector<double> numbers;
+  for (const YAML::Node& node : list) {
+    double number = 0.0;
+    if (!node.IsScalar() || !YAML::convert<double>::decode(node, number)) {
+      throw OptionError(key + " has an entry that is no number: expected numbers alone in a list");
+    }
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
 void flatten(const std::string& prefix, const YAML::Node& section, OptionValues& values) {
   for (const auto& entry : section) {
     const std::string key = prefix + keyOf(entry.first);
@@ -46,9 +58,11 @@ std::string keyOf(const YAML::Node& node) {
 }
 
 OptionValue optionValue(const std::string& key, const YAML::Node& node) {
+  if (node.IsSequence()) {
+    return numbersIn(key, node);
+  }
   if (!node.IsScalar()) {
-    throw OptionError(key + (node.IsSequence() ? " is a list" : " is empty") +
-                      ": expected one value");
+    throw OptionError(key + " is empty: expected a value");
   }
   bool toggle = false;
   int whole = 0;

@@ -24,6 +24,11 @@ class Reader : public OptionVisitor {
     }
   }
 
+  void numbers(const OptionInfo& info, std::vector<double>& values,
+               const Bounds& /*bounds*/) override {
+    set(info, values, "a list of numbers");
+  }
+
   void integer(const OptionInfo& info, int& value, const Bounds& /*bounds*/) override {
     set(info, value, "a whole number");
   }
@@ -114,6 +119,13 @@ std::string toText(const OptionValue& value) {
   }
   if (const std::string* text = std::get_if<std::string>(&value)) {
     return "'" + *text + "'";
+  }
+  if (const auto* numbers = std::get_if<std::vector<double>>(&value)) {
+    std::string text;
+    for (const double number : *numbers) {
+      text += (text.empty() ? "" : ", ") + toText(OptionValue(number));
+    }
+    return "[" + text + "]";
   }
   std::ostringstream out;
   if (const int* whole = std::get_if<int>(&value)) {

@@ -18,6 +18,10 @@ class TableWriter : public OptionVisitor {
     row(info, toText(value), range(bounds));
   }
 
+  void numbers(const OptionInfo& info, std::vector<double>& values, const Bounds& bounds) override {
+    row(info, toText(values), range(bounds));
+  }
+
   void integer(const OptionInfo& info, int& value, const Bounds& bounds) override {
     row(info, toText(value), range(bounds));
   }

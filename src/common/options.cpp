@@ -20,6 +20,12 @@ class Checker : public OptionVisitor {
     throw OptionError(message.str());
   }
 
+  void numbers(const OptionInfo& info, std::vector<double>& values, const Bounds& bounds) override {
+    for (double& value : values) {
+      number(info, value, bounds);
+    }
+  }
+
   void integer(const OptionInfo& info, int& value, const Bounds& bounds) override {
     double as_number = value;
     number(info, as_number, bounds);

@@ -150,7 +150,7 @@ MovingObjectDetector::MovingObjectDetector(const MovingObjectDetectorOptions& op
 }
 
 ObjectList MovingObjectDetector::detect(const SplitScan& scan) const {
-  ObjectList list{scan.stamp, {}};
+  ObjectList list{scan.stamp, {}, {}};
   for (const Segment& whole : segmentPoints(scan.points, options_.segmentation)) {
     const std::vector<ScanPoint> points = notStatic(scan.points, whole);
     const bool touches_static = points.size() < whole.size();

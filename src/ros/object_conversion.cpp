@@ -12,6 +12,9 @@ namespace datmo {
 
 namespace {
 
+/// rad: a full turn in single precision may be a little more than one.
+constexpr double kRounding = 1e-5;
+
 geometry_msgs::Vector3 size(const Box2& box, double height) {
   geometry_msgs::Vector3 result;
   result.x = box.length;
@@ -79,6 +82,33 @@ Object fromMessage(const ObjectMessage& message) {
   return object;
 }
 
+FieldOfViewMessage toMessage(const SensorView& view) {
+  FieldOfViewMessage message;
+  message.sensor = view.sensor;
+  message.pose = toPose2D(view.field.sensor_in_base);
+  message.least_bearing = static_cast<float>(view.field.least_bearing);
+  message.most_bearing = static_cast<float>(view.field.most_bearing);
+  message.sure_range = static_cast<float>(view.field.sure_range);
+  message.range = static_cast<float>(view.field.range);
+  return message;
+}
+
+/// NaN compares false with everything.
+bool isValid(const FieldOfViewMessage& view) {
+  const geometry_msgs::Pose2D& pose = view.pose;
+  const double width = static_cast<double>(view.most_bearing) - view.least_bearing;
+  return std::isfinite(pose.x + pose.y + pose.theta) && std::isfinite(view.least_bearing) &&
+         width > 0.0 && width <= 2.0 * kPi + kRounding && view.sure_range >= 0.0F &&
+         view.sure_range <= view.range && std::isfinite(view.range);
+}
+
+SensorView fromMessage(const FieldOfViewMessage& message) {
+  const geometry_msgs::Pose2D& pose = message.pose;
+  return {message.sensor,
+          {Pose2(pose.x, pose.y, pose.theta), message.least_bearing, message.most_bearing,
+           message.sure_range, message.range}};
+}
+
 template <std::size_t count>
 std::vector<float> toFloats(const std::array<double, count>& values) {
   std::vector<float> result;
@@ -130,6 +160,9 @@ ObjectClass classFromMessage(std::uint8_t value) { return named(value, ObjectCla
 ObjectArray toMessage(const ObjectList& list, const std::string& base_frame) {
   ObjectArray message;
   message.header = header(list.stamp, base_frame);
+  for (const SensorView& view : list.views) {
+    message.views.push_back(toMessage(view));
+  }
   for (const Object& object : list.objects) {
     message.objects.push_back(toMessage(object));
   }
@@ -139,6 +172,11 @@ ObjectArray toMessage(const ObjectList& list, const std::string& base_frame) {
 ObjectList fromMessage(const ObjectArray& message) {
   ObjectList list;
   list.stamp = toStamp(message.header.stamp);
+  for (const FieldOfViewMessage& view : message.views) {
+    if (isValid(view)) {
+      list.views.push_back(fromMessage(view));
+    }
+  }
   for (const ObjectMessage& object : message.objects) {
     list.objects.push_back(fromMessage(object));
   }

@@ -6,6 +6,20 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
+std::vector<double> numbersIn(XmlRpcValue& list, const std::string& key) {
+  std::vector<double> numbers;
+  for (int i = 0; i < list.size(); ++i) {
+    if (list[i].getType() == XmlRpcValue::TypeInt) {
+      numbers.push_back(static_cast<int>(list[i]));
+    } else if (list[i].getType() == XmlRpcValue::TypeDouble) {
+      numbers.push_back(static_cast<double>(list[i]));
+    } else {
+      throw OptionError(key + " = " + list.toXml() + ": expected numbers alone in a list");
+    }
+  }
+  return numbers;
+}
+
 void flattenInto(OptionValues& values, XmlRpcValue& tree, const std::string& key) {
   switch (tree.getType()) {
     case XmlRpcValue::TypeStruct:
@@ -25,9 +39,13 @@ void flattenInto(OptionValues& values, XmlRpcValue& tree, const std::string& key
     case XmlRpcValue::TypeString:
       values[key] = static_cast<std::string>(tree);
       break;
+    case XmlRpcValue::TypeArray:
+      values[key] = numbersIn(tree, key);
+      break;
     default:
       throw OptionError(key + " = " + tree.toXml() +
-                        ": expected a number, true or false, text, or a group of them");
+                        ": expected a number, true or false, text, a list of numbers, or a group "
+                        "of them");
   }
 }
 

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 
-#include "stereo_view.h"
-
 #include "datmo_fusion/grid/grid_window.h"
 #include "datmo_fusion/sensor_model/stereo_cloud.h"
+#include "datmo_fusion/sensor_model/stereo_view.h"
 
 namespace datmo {
 

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "stereo_view.h"
 #include <Eigen/Cholesky>
+
+#include "datmo_fusion/sensor_model/stereo_view.h"
 
 namespace datmo {
 

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "depth_bins.h"
-#include "stereo_view.h"
 #include "summed_counts.h"
 
 #include "datmo_fusion/sensor_model/stereo_cloud.h"
+#include "datmo_fusion/sensor_model/stereo_view.h"
 
 namespace datmo {
 

@@ -6,7 +6,8 @@
 #include "stereo_columns.h"
 #include "stereo_cones.h"
 #include "stereo_evidence.h"
-#include "stereo_view.h"
+
+#include "datmo_fusion/sensor_model/stereo_view.h"
 
 namespace datmo {
 

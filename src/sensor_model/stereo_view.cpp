@@ -1,4 +1,4 @@
-#include "stereo_view.h"
+#include "datmo_fusion/sensor_model/stereo_view.h"
 
 #include <cmath>
 #include <stdexcept>

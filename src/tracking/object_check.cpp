@@ -46,7 +46,7 @@ bool isValid(const Object& object) {
          isLength(object.box.length) && isLength(object.box.width) &&
          std::all_of(object.points.begin(), object.points.end(), isPlace) &&
          isAmount(object.heading_variance) && areSides(object.side_variance) &&
-         std::isfinite(object.log_odds) && isAmount(object.height) && isAmount(object.delay) &&
+         std::isfinite(object.log_odds) && isAmount(object.height) && std::isfinite(object.delay) &&
          isShare(object.moving_fraction) && isShare(object.class_probability) &&
          isCovariance(object.position_covariance);
 }

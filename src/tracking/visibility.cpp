@@ -229,6 +229,17 @@ double Visibility::anyReturns(double beams, double chance) {
 }
 
 double Visibility::detectionProbability(const Box2& box_in_base, double sigma) const {
+  if (others_.empty()) {
+    return ownDetectionProbability(box_in_base, sigma);
+  }
+  double missed = 1.0 - ownDetectionProbability(box_in_base, sigma);
+  for (const Visibility& other : others_) {
+    missed *= 1.0 - other.detectionProbability(box_in_base, sigma);
+  }
+  return std::min(1.0 - missed, options_.most_probability);
+}
+
+double Visibility::ownDetectionProbability(const Box2& box_in_base, double sigma) const {
   if (reach_.empty()) {
     return options_.unknown_probability;
   }

@@ -20,6 +20,10 @@ class OptionLister : public OptionVisitor {
   void number(const OptionInfo& info, double& value, const Bounds& /*bounds*/) override {
     values_[key(info)] = value;
   }
+  void numbers(const OptionInfo& info, std::vector<double>& values,
+               const Bounds& /*bounds*/) override {
+    values_[key(info)] = values;
+  }
   void integer(const OptionInfo& info, int& value, const Bounds& /*bounds*/) override {
     values_[key(info)] = value;
   }

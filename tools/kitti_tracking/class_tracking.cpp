@@ -35,7 +35,7 @@ ClassTracking::ClassTracking(ObjectType type, const ClassTrackingOptions& option
 }
 
 ObjectList ClassTracking::objects(const std::vector<Detection>& detections, Stamp stamp) const {
-  ObjectList list{stamp, {}};
+  ObjectList list{stamp, {}, {}};
   for (const Detection& detection : detections) {
     list.objects.push_back(model_.object(detection, mount_));
   }

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include "datmo_fusion/common/box2.h"
+#include "datmo_fusion/common/field_of_view.h"
 #include "datmo_fusion/common/stamp.h"
 #include "datmo_fusion/common/uniform.h"
 
@@ -51,17 +52,25 @@ struct Object {
   /// Logarithm of the odds that it is an object at all, over those of the average detection, by
   /// what its detector says of it; 0: the detector says nothing.
   double log_odds = 0.0;
-  /// s, 0 or more: how long after the list's stamp it was seen, the mean time of its points. What
-  /// moves is where it was then.
+  /// s: how long after the list's stamp it was seen (negative: before), the mean time of its
+  /// points. What moves is where it was then.
   double delay = 0.0;
   std::vector<std::string> sensors;  ///< who saw it
   std::vector<Point2> points;        ///< m, frame of the list
+};
+
+/// Where a source of objects looked.
+struct SensorView {
+  std::string sensor;  ///< as in Object::sensors
+  FieldOfView field;   ///< vehicle's frame at the list's stamp
 };
 
 /// The objects of one source at one time, in the vehicle's frame (base_link).
 struct ObjectList {
   Stamp stamp;
   std::vector<Object> objects;
+  std::vector<SensorView>
+      views;  ///< of sensors that tell objects, not beams; not listed: not known
 };
 
 }  // namespace datmo

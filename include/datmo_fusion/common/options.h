@@ -38,6 +38,9 @@ class OptionVisitor {
 
   virtual void number(const OptionInfo& info, double& value, const Bounds& bounds) = 0;
   virtual void integer(const OptionInfo& info, int& value, const Bounds& bounds) = 0;
+  /// Any number of them, each within the bounds.
+  virtual void numbers(const OptionInfo& info, std::vector<double>& values,
+                       const Bounds& bounds) = 0;
   virtual void toggle(const OptionInfo& info, bool& value) = 0;
   /// Text; `allowed` empty: any text.
   virtual void text(const OptionInfo& info, std::string& value,
@@ -76,10 +79,10 @@ class OptionVisitor {
 };
 
 /// What somebody has set, by full key (`map/cell_size`), wherever it was read from.
-using OptionValue = std::variant<bool, int, double, std::string>;
+using OptionValue = std::variant<bool, int, double, std::string, std::vector<double>>;
 using OptionValues = std::map<std::string, OptionValue>;
 
-/// As in a yaml file; text in quotes.
+/// As in a yaml file; text in quotes, numbers in brackets.
 std::string toText(const OptionValue& value);
 
 namespace detail {

@@ -49,7 +49,7 @@ SplitScan fromMessage(const SplitScanMessage& message);
 ObjectArray toMessage(const ObjectList& list, const std::string& base_frame);
 
 /// No check beyond the enumerations: a value without a name becomes kUnknown. The tracker judges
-/// the numbers of each object by itself.
+/// the numbers of each object by itself. A field of view that is none is left out.
 ObjectList fromMessage(const ObjectArray& message);
 
 TrackArray toMessage(const TrackList& list, const std::string& fixed_frame);

@@ -13,6 +13,7 @@ namespace datmo {
 // The package's messages under the names that the code uses: generated code puts them into a
 // namespace of the package's name. Those that have a struct of the same name in the core end in
 // Message.
+using FieldOfViewMessage = datmo_fusion::FieldOfView;
 using ObjectMessage = datmo_fusion::Object;
 using PathPointMessage = datmo_fusion::PathPoint;
 using ScanFieldMessage = datmo_fusion::ScanField;

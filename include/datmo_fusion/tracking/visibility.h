@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "datmo_fusion/common/box2.h"
+#include "datmo_fusion/common/field_of_view.h"
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/scan.h"
 
@@ -19,15 +20,6 @@ struct VisibilityOptions {
   double blocking_distance = 0.5;    ///< m
 
   void visit(OptionVisitor& visitor);
-};
-
-/// What a sensor looks at that tells objects, not beams: a camera or a detector in point clouds.
-struct FieldOfView {
-  Pose2 sensor_in_base;
-  double least_bearing = -kPi;  ///< rad, about the sensor, from its x axis to the left
-  double most_bearing = kPi;    ///< rad, more than the least one, by 2 pi at most
-  double sure_range = 0.0;      ///< m, up to here it finds all that it can see
-  double range = 0.0;           ///< m, from there on less and less of it, up to here
 };
 
 /// What a sensor could have seen at one time: how likely an object would have been detected, by
@@ -50,6 +42,10 @@ class Visibility {
   Visibility(const FieldOfView& view, const std::vector<Box2>& seen,
              const VisibilityOptions& options);
 
+  /// Another sensor looked as well: from now on an object is detected if either sees it,
+  /// independently.
+  void join(const Visibility& other) { others_.push_back(other); }
+
   /// That an object of this box is detected, averaged over the places where it may be: `sigma` is
   /// the standard deviation of its centre along each axis (m, at least 0). Between
   /// `least_probability` and `most_probability`.
@@ -70,6 +66,9 @@ class Visibility {
   };
   static constexpr std::size_t kLooks = 8;
   using Looks = std::array<Look, kLooks>;
+
+  /// By this sensor alone.
+  double ownDetectionProbability(const Box2& box_in_base, double sigma) const;
 
   void setFan(double first_bearing, double beam_spacing, std::size_t beams);
 
@@ -98,6 +97,7 @@ class Visibility {
   double range_ = 0.0;         ///< m
   bool by_beams_ = false;      ///< a scan; else a field of view
   std::vector<double> reach_;  ///< m, of each beam; empty: unknown
+  std::vector<Visibility> others_;
 };
 
 }  // namespace datmo

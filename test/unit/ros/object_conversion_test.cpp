@@ -23,7 +23,7 @@ TEST(ObjectConversion, ThereAndBack) {
   object.log_odds = -2.5;
   object.sensors = {"lidar"};
   object.points = {Point2(4.0, 5.0)};
-  const ObjectList back = fromMessage(toMessage(ObjectList{kStamp, {object}}, "base_link"));
+  const ObjectList back = fromMessage(toMessage(ObjectList{kStamp, {object}, {}}, "base_link"));
   EXPECT_EQ(back.stamp, kStamp);
   ASSERT_EQ(back.objects.size(), 1U);
   const Object& got = back.objects[0];
