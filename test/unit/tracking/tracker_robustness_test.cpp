@@ -25,7 +25,7 @@ TEST(TrackerRobustness, TheSameTimeTwiceChangesNoStateWithoutObjects) {
     scene.scan({objectAt(5.0 * scene.nextTime(), 0.0)});
   }
   const Track before = scene.tracks().tracks.at(0);
-  const TrackList after = scene.tracker().process({scene.tracks().stamp, {}}, Pose2());
+  const TrackList after = scene.tracker().process({scene.tracks().stamp, {}, {}}, Pose2());
   ASSERT_EQ(after.tracks.size(), 1U);
   EXPECT_TRUE(after.tracks[0].state.isApprox(before.state, 1e-9));
   EXPECT_TRUE(after.tracks[0].covariance.isApprox(before.covariance, 1e-9));
@@ -74,7 +74,7 @@ TEST(TrackerRobustness, AVehiclePoseThatIsNotFiniteLeavesTheTracksAlone) {
     }
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const TrackList list =
-        scene.tracker().process({Stamp::fromSeconds(scene.nextTime()), {objectAt(1.0, 1.0)}},
+        scene.tracker().process({Stamp::fromSeconds(scene.nextTime()), {objectAt(1.0, 1.0)}, {}},
                                 Pose2(nan, nan, nan), visibility);
     scene.wait(0.1);
     ASSERT_EQ(list.tracks.size(), 1U) << association;

@@ -33,14 +33,14 @@ class TrackingScene {
 
   const TrackList& scan(const std::vector<Object>& objects, const Pose2& base_in_fixed = Pose2()) {
     time_ += period_;
-    tracks_ = tracker_.process({Stamp::fromSeconds(time_), objects}, base_in_fixed);
+    tracks_ = tracker_.process({Stamp::fromSeconds(time_), objects, {}}, base_in_fixed);
     return tracks_;
   }
 
   /// The same with what could be seen from the origin.
   const TrackList& scan(const std::vector<Object>& objects, const Visibility& visibility) {
     time_ += period_;
-    tracks_ = tracker_.process({Stamp::fromSeconds(time_), objects}, Pose2(), visibility);
+    tracks_ = tracker_.process({Stamp::fromSeconds(time_), objects, {}}, Pose2(), visibility);
     return tracks_;
   }
 
