@@ -13,15 +13,19 @@ constexpr std::size_t kMostViews = 20;
 
 }  // namespace
 
-ScanViews::ScanViews(const VisibilityOptions& options) : options_(options), unknown_(options) {}
+ScanViews::ScanViews(const VisibilityOptions& options) : options_(options) {
+  checkOptions(options);
+}
 
 void ScanViews::add(const SplitScanMessage& message) {
   const SplitScan scan = fromMessage(message);
   if (!views_.empty() && message.header.stamp < views_.back().base.stamp) {
     views_.clear();
   }
-  views_.push_back(
-      {message.header, message.map_frame, scan.base_in_map.pose, Visibility(scan, options_)});
+  views_.push_back({message.header, message.map_frame, scan.base_in_map.pose, std::nullopt});
+  if (scan.field.beams > 0) {
+    views_.back().visibility.emplace(scan, options_);
+  }
   if (views_.size() > kMostViews) {
     views_.pop_front();
   }
@@ -42,9 +46,9 @@ std::optional<Pose2> ScanViews::pose(const std_msgs::Header& base,
   return known ? std::optional<Pose2>(view->base_in_fixed) : std::nullopt;
 }
 
-const Visibility& ScanViews::visibility(const std_msgs::Header& base) const {
+const Visibility* ScanViews::visibility(const std_msgs::Header& base) const {
   const View* view = find(base);
-  return view == nullptr ? unknown_ : view->visibility;
+  return view != nullptr && view->visibility ? &*view->visibility : nullptr;
 }
 
 }  // namespace datmo

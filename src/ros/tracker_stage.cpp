@@ -6,6 +6,7 @@
 
 #include "datmo_fusion/ros/frames.h"
 #include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/tracking/joint_visibility.h"
 
 namespace datmo {
 
@@ -90,9 +91,10 @@ TrackArrayPtr TrackerStage::track(const ObjectArray& objects, const Pose2& base_
   const Stopwatch watch;
   const TrackerCounts before = tracker_.counts();
   const ObjectList list = fromMessage(objects);
+  const Visibility visibility =
+      jointVisibility(scan_views_.visibility(objects.header), list, options_.tracker.visibility);
   const auto tracks = boost::make_shared<TrackArray>(
-      toMessage(tracker_.process(list, base_in_fixed, scan_views_.visibility(objects.header)),
-                options_.fixed_frame));
+      toMessage(tracker_.process(list, base_in_fixed, visibility), options_.fixed_frame));
   report(before, tracker_.counts());
   monitor_.processed({list.stamp, watch.seconds()});
   return tracks;

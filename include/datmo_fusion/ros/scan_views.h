@@ -30,23 +30,22 @@ class ScanViews {
   /// names the vehicle's frame; none if no split scan said so.
   std::optional<Pose2> pose(const std_msgs::Header& base, const std::string& fixed_frame) const;
 
-  /// What could be seen at the stamp and from the frame of the header; without a split scan of that
-  /// time an unknown view. Valid until the next add().
-  const Visibility& visibility(const std_msgs::Header& base) const;
+  /// What the scanner could see at the stamp and from the frame of the header; null without a split
+  /// scan of that time, and where it does not tell its field. Valid until the next add().
+  const Visibility* visibility(const std_msgs::Header& base) const;
 
  private:
   struct View {
     std_msgs::Header base;
     std::string fixed_frame;
     Pose2 base_in_fixed;
-    Visibility visibility;
+    std::optional<Visibility> visibility;  ///< none: the field is not known
   };
 
   /// Null if there is none.
   const View* find(const std_msgs::Header& base) const;
 
   VisibilityOptions options_;
-  Visibility unknown_;
   std::deque<View> views_;  ///< the last ones, by rising stamp
 };
 

@@ -59,11 +59,13 @@ TEST(ScanViewsTest, WhatTheScanOfThatStampCouldSee) {
   views.add(toMessage(scan, "base_link", "map"));
   const Box2 ahead{{20.0, 0.0, 0.0}, 4.0, 2.0};
   const Box2 behind{{-20.0, 0.0, 0.0}, 4.0, 2.0};
-  EXPECT_GT(views.visibility(baseAt(1.0)).detectionProbability(ahead, 0.0), 0.9);
-  EXPECT_LT(views.visibility(baseAt(1.0)).detectionProbability(behind, 0.0), 0.1);
-  EXPECT_EQ(views.visibility(baseAt(1.1)).detectionProbability(behind, 0.0),
-            VisibilityOptions().unknown_probability)
-      << "no scan of that time";
+  const Visibility* visibility = views.visibility(baseAt(1.0));
+  ASSERT_NE(visibility, nullptr);
+  EXPECT_GT(visibility->detectionProbability(ahead, 0.0), 0.9);
+  EXPECT_LT(visibility->detectionProbability(behind, 0.0), 0.1);
+  EXPECT_EQ(views.visibility(baseAt(1.1)), nullptr) << "no scan of that time";
+  views.add(scanAt(1.2, 0.0));
+  EXPECT_EQ(views.visibility(baseAt(1.2)), nullptr) << "a scan that does not tell its field";
 }
 
 }  // namespace

@@ -1,0 +1,143 @@
+// What the tracker makes of where several sensors looked: a car that drives ahead of the vehicle is
+// lost by its scanner, or by its camera too.
+#include <cmath>
+
+#include "message_samples.h"
+#include <boost/make_shared.hpp>
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/tracker_stage.h"
+
+namespace datmo {
+namespace {
+
+constexpr double kPeriod = 0.1;        // s
+constexpr double kSpeed = 5.0;         // m/s
+constexpr double kWallRange = 5.0;     // m
+constexpr double kHalfField = 0.5;     // rad
+constexpr std::uint32_t kBeams = 101;  // 0.01 rad apart
+
+class TrackerViewsTest : public testing::Test {
+ protected:
+  /// One scan ahead, with a wall near by or none, or with a field that is not known.
+  enum class Scanner { kFree, kBlocked, kSilent };
+  enum class Camera { kNone, kFree, kBlocked };
+
+  /// One step; returns how many tracks are published.
+  std::size_t step(Scanner scanner, Camera camera, const std::vector<std::string>& car_seen_by) {
+    time_ += kPeriod;
+    ObjectList list;
+    list.stamp = Stamp::fromSeconds(time_);
+    if (!car_seen_by.empty()) {
+      list.objects.push_back(car(car_seen_by));
+    }
+    if (camera != Camera::kNone) {
+      list.views.push_back({"camera", {Pose2(), -kHalfField, kHalfField, 60.0, 60.0}});
+    }
+    if (camera == Camera::kBlocked) {
+      list.objects.push_back(van());
+    }
+    stage_.takeSplitScan(toMessage(scan(scanner), "base_link", "map"));
+    stage_.takeObjects(boost::make_shared<ObjectArray>(toMessage(list, "base_link")), list.stamp);
+    const TrackArrayPtr tracks = stage_.next(list.stamp);
+    return tracks ? tracks->tracks.size() : 0;
+  }
+
+  void follow() {
+    for (int i = 0; i < 40; ++i) {
+      step(Scanner::kFree, Camera::kFree, {"lidar", "camera"});
+    }
+    ASSERT_EQ(step(Scanner::kFree, Camera::kFree, {"lidar", "camera"}), 1U);
+  }
+
+  /// Steps until no track is published, of 40 at most.
+  int lifeWithout(Scanner scanner, Camera camera) {
+    int steps = 0;
+    while (steps < 40 && step(scanner, camera, {}) > 0) {
+      ++steps;
+    }
+    return steps;
+  }
+
+ private:
+  Object car(const std::vector<std::string>& sensors) const {
+    Object object;
+    object.box = {Pose2(12.0 + kSpeed * (time_ - samples::kStart), 0.0, 0.0), 4.2, 1.8};
+    object.position_covariance = Eigen::Matrix2d::Identity() * 0.04;
+    object.dynamic_state = DynamicState::kMoving;
+    object.moving_fraction = 1.0;
+    object.sensors = sensors;
+    return object;
+  }
+
+  /// It stands so near that nothing behind it is seen.
+  static Object van() {
+    Object object;
+    object.box = {Pose2(6.0, 0.0, 0.0), 2.0, 8.0};
+    object.position_covariance = Eigen::Matrix2d::Identity() * 0.04;
+    object.dynamic_state = DynamicState::kStatic;
+    object.sensors = {"camera"};
+    return object;
+  }
+
+  SplitScan scan(Scanner scanner) const {
+    SplitScan scan;
+    scan.stamp = Stamp::fromSeconds(time_);
+    if (scanner != Scanner::kSilent) {
+      scan.field = {-kHalfField, 2.0 * kHalfField / (kBeams - 1), kBeams, 0.1, 80.0, 80.0};
+    }
+    for (std::uint32_t beam = 0; scanner == Scanner::kBlocked && beam < kBeams; ++beam) {
+      ScanPoint point;
+      point.beam = beam;
+      point.range = kWallRange;
+      point.bearing = scan.field.first_bearing + beam * scan.field.beam_spacing;
+      point.position = kWallRange * Point2(std::cos(point.bearing), std::sin(point.bearing));
+      scan.points.push_back(point);
+    }
+    return scan;
+  }
+
+  TransformBuffer buffer_{1.0};
+  StageMonitor monitor_{"tracker"};
+  TrackerStage stage_{TrackerStageOptions(), buffer_, monitor_};
+  double time_ = samples::kStart;
+};
+
+TEST_F(TrackerViewsTest, HiddenFromTheScannerAndSeenByTheCameraItIsKept) {
+  follow();
+  for (int i = 0; i < 30; ++i) {
+    EXPECT_EQ(step(Scanner::kBlocked, Camera::kFree, {"camera"}), 1U) << i;
+  }
+}
+
+TEST_F(TrackerViewsTest, WhatBothWouldSeeAndNoneDoesEnds) {
+  follow();
+  EXPECT_LE(lifeWithout(Scanner::kFree, Camera::kFree), 10);
+}
+
+TEST_F(TrackerViewsTest, WhatTheCameraWouldSeeEndsThoughTheScannerIsBlocked) {
+  follow();
+  EXPECT_LE(lifeWithout(Scanner::kBlocked, Camera::kFree), 10);
+}
+
+TEST_F(TrackerViewsTest, HiddenFromBothItGoesOnUnseen) {
+  follow();
+  const double silence = TrackerOptions().published_silence;
+  EXPECT_NEAR(kPeriod * lifeWithout(Scanner::kBlocked, Camera::kBlocked), silence, kPeriod);
+}
+
+TEST_F(TrackerViewsTest, WithoutACameraTheScanDecidesAlone) {
+  follow();
+  const double silence = TrackerOptions().published_silence;
+  EXPECT_NEAR(kPeriod * lifeWithout(Scanner::kBlocked, Camera::kNone), silence, kPeriod);
+}
+
+TEST_F(TrackerViewsTest, AScanThatDoesNotTellItsFieldDoesNotDoubtWhatTheCameraCannotSee) {
+  follow();
+  const double silence = TrackerOptions().published_silence;
+  EXPECT_NEAR(kPeriod * lifeWithout(Scanner::kSilent, Camera::kBlocked), silence, kPeriod);
+}
+
+}  // namespace
+}  // namespace datmo
