@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-NO_VALUE = "-"
+from datmo_tools.text_table import NO_VALUE, aligned, percent, rounded
 
 IN_VIEW = "in view"  # column of score_grids
 
@@ -20,12 +20,12 @@ class FusionRuns(NamedTuple):
 # Heading, and the value in the report of score_run, as a function of it.
 RUN_COLUMNS = (
     ("false moving objects", lambda report: report["thesis"]["false_moving_objects_episodes"]),
-    ("in a scan", lambda report: _rounded(report["thesis"]["false_moving_objects_frames"], 2)),
+    ("in a scan", lambda report: rounded(report["thesis"]["false_moving_objects_frames"], 2)),
     ("moving objects missed", lambda report: report["thesis"]["missed_objects"]),
     ("tracks", lambda report: report["thesis"]["tracks"]),
     ("of them false", lambda report: report["thesis"]["false_tracks"]),
-    ("MOTA, %", lambda report: _percent(report["clear_mot"]["mota"])),
-    ("end point, % of the way", lambda report: _percent(report["pose"]["end_error_share"], 2)),
+    ("MOTA, %", lambda report: percent(report["clear_mot"]["mota"])),
+    ("end point, % of the way", lambda report: percent(report["pose"]["end_error_share"], 2)),
 )
 
 # The same in the score of score_grids: percent of the cells, or poles, in the camera's view.
@@ -56,37 +56,24 @@ def fusion_table(results):
     for number, runs in enumerate(results, start=1):
         shares = [NO_VALUE if runs is None else _share(runs.grids, key) for _, key in GRID_COLUMNS]
         grids.append([str(number), *shares])
-    return "\n\n".join([NOTE, _text(rows), _text(grids)])
+    return "\n\n".join([NOTE, aligned(rows), aligned(grids)])
 
 
 def _cells(report):
     return [NO_VALUE if report is None else str(value(report)) for _, value in RUN_COLUMNS]
 
 
-def _time(stages):
-    """Mean time of all stages together for one scan."""
-    if stages is None:
-        return NO_VALUE
+def time_per_scan(stages):
+    """Mean time (ms) of all stages together for one scan, of what run_bag --times writes."""
     total = sum(stage["mean_s"] * stage["runs"] for stage in stages.values())
-    return f"{1e3 * total / stages['grid_slam']['runs']:.1f}"
+    return 1e3 * total / stages["grid_slam"]["runs"]
+
+
+def _time(stages):
+    return NO_VALUE if stages is None else f"{time_per_scan(stages):.1f}"
 
 
 def _share(grids, key):
     column = grids["columns"].index(IN_VIEW)
-    percent, of = grids[key]["percent"][column], grids[key]["of"][column]
-    return NO_VALUE if percent is None else f"{percent:.1f} of {of}"
-
-
-def _rounded(value, digits):
-    return NO_VALUE if value is None else f"{value:.{digits}f}"
-
-
-def _percent(share, digits=1):
-    return NO_VALUE if share is None else f"{100.0 * share:.{digits}f}"
-
-
-def _text(rows):
-    """Rows of cells, the first one headings, as columns that line up."""
-    widths = [max(map(len, column)) for column in zip(*rows)]
-    lines = ["  ".join(f"{cell:>{width}}" for cell, width in zip(row, widths)) for row in rows]
-    return "\n".join(lines)
+    share, of = grids[key]["percent"][column], grids[key]["of"][column]
+    return NO_VALUE if share is None else f"{share:.1f} of {of}"

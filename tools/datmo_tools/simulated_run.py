@@ -30,17 +30,27 @@ def run(drive, programs, config, folder, score_options=(), run_options=()):
     score_run; run_options: words for run_bag. Raises StepFailed.
     """
     recorded = folder / "drive.bag"
-    call(programs / "simulate", drive.scene, recorded, "--quiet", *_settings(drive.options))
+    record(drive, programs, recorded)
     return run_recorded(recorded, programs, config, folder, score_options, run_options)
 
 
+def record(drive, programs, recorded):
+    """Simulates the drive into a bag (Path). Raises StepFailed."""
+    call(programs / "simulate", drive.scene, recorded, "--quiet", *_settings(drive.options))
+
+
 def run_recorded(recorded, programs, config, folder, score_options=(), run_options=()):
-    """The same on a bag of the simulator (Path): stack and score."""
-    computed, score = folder / "result.bag", folder / "score.json"
+    """The same as run() on a bag that is there (Path): stack and score."""
+    computed = folder / "result.bag"
     call(programs / "run_bag", recorded, computed, "--config", config, "--with-truth", "--quiet",
          *run_options)  # fmt: skip
-    call(programs / "score_run", computed, *_settings(score_options), "--out", score)
-    return json.loads(score.read_text(encoding="utf-8"))
+    return score(computed, programs, score_options, folder / "score.json")
+
+
+def score(computed, programs, score_options, report):
+    """Report of score_run (dict) on a bag of run_bag (Path), left in the file `report` (Path)."""
+    call(programs / "score_run", computed, *_settings(score_options), "--out", report)
+    return json.loads(report.read_text(encoding="utf-8"))
 
 
 def _settings(assignments):

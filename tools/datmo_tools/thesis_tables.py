@@ -2,11 +2,11 @@
 
 from typing import NamedTuple
 
+from datmo_tools.text_table import NO_VALUE, aligned
+
 NOTE = """\
 The thesis's data sets were driven; ours are simulated streets with as many seconds, moving objects
 and intersections. The columns say of which order the counts are, not who is better."""
-
-NO_VALUE = "-"  # a stage that is not there has no count
 
 
 class Published(NamedTuple):
@@ -92,9 +92,7 @@ def _text(table, reports):
     for number, (published, report) in enumerate(zip(PUBLISHED, reports), start=1):
         rows.append([str(number), *(str(getattr(published, field)) for _, field in table.thesis),
                      *(_our_cell(value, report) for _, value in table.ours)])  # fmt: skip
-    widths = [max(map(len, column)) for column in zip(*rows)]
-    lines = ["  ".join(f"{cell:>{width}}" for cell, width in zip(row, widths)) for row in rows]
-    return "\n".join([table.title, *lines])
+    return f"{table.title}\n{aligned(rows)}"
 
 
 def _our_cell(value, report):

@@ -1,0 +1,166 @@
+#!/usr/bin/python3
+"""compare_fusion: its table by hand, and its runs with pretended programs."""
+
+import contextlib
+import io
+import json
+import tempfile
+import unittest
+from pathlib import Path
+
+from datmo_tools.compare_fusion import main
+from datmo_tools.fusion_comparison import comparison_table, figures
+from datmo_tools.thesis_tables import PUBLISHED
+
+TIMES = {"grid_slam": {"runs": 10, "mean_s": 0.002}, "stereo_objects": {"runs": 5, "mean_s": 0.01}}
+
+
+def report(moving, missed):
+    """Of score_run, what is looked at."""
+    return {
+        "thesis": {"moving_objects": moving, "missed_objects": missed, "tracks": 42,
+                   "false_tracks": 15},
+        "clear_mot": {"mota": 0.5}, "identity": {"idf1": 0.625},
+        "errors": {"position_rmse_m": 0.456},
+        "objects": [{"delay_s": 0.5}, {"delay_s": None}, {"delay_s": 1.0}],
+    }  # fmt: skip
+
+
+def rows(text):
+    """The words of the table's lines below its headings."""
+    lines = [line.split() for line in text.splitlines()]
+    return lines[next(i for i, line in enumerate(lines) if line[:2] == ["drive", "level"]) + 1:]
+
+
+class Table(unittest.TestCase):
+    def setUp(self):
+        self.run = figures(report(30, 4), report(33, 6), TIMES)
+
+    def test_all_figures(self):
+        text = comparison_table([("set", PUBLISHED[0], "none", self.run)])
+        self.assertEqual(rows(text)[0], [
+            "set", "none", "10", "4", "of", "30", "6", "of", "33", "42", "15", "50.0", "62.5",
+            "0.46", "-", "0.75", "7.0"])  # fmt: skip
+
+    def test_thesis_counted_without_and_with_fusion_of_objects(self):
+        text = comparison_table([
+            ("set", PUBLISHED[2], level, self.run) for level in ("none", "low", "object")
+        ])  # fmt: skip
+        self.assertEqual([row[2] for row in rows(text)], ["7", "-", "4"])
+
+    def test_what_there_is_not(self):
+        run = figures(dict(report(5, 3), objects=[{"delay_s": None}]), None, TIMES)
+        text = comparison_table([("drive", None, "none", run), ("drive", None, "object", None)])
+        first, second = rows(text)
+        self.assertEqual(first[2:7], ["-", "3", "of", "5", "-"])
+        self.assertEqual(first[-2:], ["-", "7.0"])
+        self.assertEqual(second, ["drive", "object"] + 11 * ["-"])
+
+
+class Runs(unittest.TestCase):
+    """With programs of a few lines of shell that leave their words in the bags."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.out = self.folder / "out"
+        self.program("simulate", 'echo "$@" > "$2"')
+        self.program("kitti_to_bag", 'echo "$@" > "$2"')
+        self.run_bag()
+        self.program("score_run", 'while [ "$1" != --out ]; do case "$1" in *=scanner) beam=1;; esac\n'
+                                  'shift; done\n'
+                                  f"echo '{json.dumps(report(33, 6))}' > \"$2\"\n"
+                                  'if [ -n "$beam" ]; then\n'
+                                  f"echo '{json.dumps(report(30, 4))}' > \"$2\"; fi")  # fmt: skip
+        for name in ("data_set_1.yaml", "data_set_2.yaml", "data_set_3.yaml", "config.yaml"):
+            (self.folder / name).touch()
+
+    def run_bag(self, first="true"):
+        """run_bag that does `first`, a command of the shell."""
+        self.program("run_bag", f'{first}\necho "$@" > "$2"; while [ "$1" != --times ]; do shift; done\n'
+                                f"echo '{json.dumps(TIMES)}' > \"$2\"")  # fmt: skip
+
+    def program(self, name, text):
+        file = self.folder / name
+        file.write_text(f"#!/bin/sh\n{text}\n")
+        file.chmod(0o755)
+
+    def compare(self, *words, kitti="missing"):
+        """Exit code, standard output and error."""
+        out, err = io.StringIO(), io.StringIO()
+        config = str(self.folder / "config.yaml")
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            code = main(["--scenes", str(self.folder), "--config", config, "--kitti-config", config,
+                         "--kitti", str(self.folder / kitti), "--programs", str(self.folder),
+                         "--out", str(self.out), *words])  # fmt: skip
+        return code, out.getvalue(), err.getvalue()
+
+    def words_of(self, *place):
+        return self.out.joinpath(*place).read_text().split()
+
+    def test_each_set_at_each_level(self):
+        code, out, _ = self.compare()
+        self.assertEqual(code, 0)
+        self.assertEqual([row[:6] for row in rows(out)[:9]], [
+            [f"data_set_{i}", level, thesis, "4", "of", "30"]
+            for i, missed, fused in ((1, "10", "7"), (2, "12", "8"), (3, "7", "4"))
+            for level, thesis in (("none", missed), ("low", "-"), ("object", fused))
+        ])  # fmt: skip
+        self.assertIn("stereo/enabled=true", self.words_of("data_set_1", "drive.bag"))
+        self.assertNotIn("--object-fusion", self.words_of("data_set_1", "low", "result.bag"))
+        self.assertIn("--low-level-fusion", self.words_of("data_set_1", "low", "result.bag"))
+        self.assertIn("--object-fusion", self.words_of("data_set_1", "object", "result.bag"))
+        runs = json.loads((self.out / "comparison.json").read_text())["runs"]
+        self.assertEqual(len(runs), 9)
+        self.assertEqual(runs[0]["figures"]["missed_objects_any_sensor"], 6)
+
+    def test_chosen_sets_and_levels(self):
+        out = self.compare("--sets", "2", "--levels", "low+object")[1]
+        self.assertEqual(rows(out)[0][:3], ["data_set_2", "low+object", "-"])
+        self.assertFalse((self.out / "data_set_1").exists())
+        words = self.words_of("data_set_2", "low+object", "result.bag")
+        self.assertLessEqual({"--low-level-fusion", "--object-fusion"}, set(words))
+
+    def test_labelled_drive(self):
+        (self.folder / "drive_0005").mkdir()
+        code, out, _ = self.compare("--sets", "--levels", "none", kitti="drive_0005")
+        self.assertEqual(code, 0)
+        self.assertEqual(rows(out)[0][:7], ["drive_0005", "none", "-", "6", "of", "33", "-"])
+        self.assertIn("--images", self.words_of("drive_0005", "drive.bag"))
+
+    def test_drive_that_is_not_there_is_said(self):
+        self.assertIn("missing: not there, so no KITTI drive", self.compare("--sets", "1")[1])
+
+    def test_failed_run_is_reported_and_the_others_go_on(self):
+        self.run_bag('case "$*" in *--object*) echo "no list" >&2; exit 1;; esac')
+        code, out, _ = self.compare("--sets", "1")
+        self.assertEqual(code, 1)
+        self.assertIn("data_set_1, object: no list", out)
+        self.assertEqual([row[3] for row in rows(out)[:3]], ["4", "4", "-"])
+        runs = json.loads((self.out / "comparison.json").read_text())["runs"]
+        self.assertIsNone(runs[2]["figures"])
+
+    def test_failed_recording_is_reported_once(self):
+        self.program("simulate", 'echo "no road" >&2; exit 1')
+        code, out, _ = self.compare("--sets", "1")
+        self.assertEqual(code, 1)
+        self.assertEqual(out.count("data_set_1: no road"), 1)
+
+    def test_recordings_may_be_used_again(self):
+        self.compare("--sets", "1", "--levels", "none")
+        (self.out / "data_set_1" / "drive.bag").write_text("mine")
+        self.compare("--sets", "1", "--levels", "none", "--reuse-drives")
+        self.assertEqual(self.words_of("data_set_1", "drive.bag"), ["mine"])
+        self.compare("--sets", "1", "--levels", "none")
+        self.assertNotEqual(self.words_of("data_set_1", "drive.bag"), ["mine"])
+
+    def test_missing_file_is_named(self):
+        (self.folder / "data_set_3.yaml").unlink()
+        code, _, err = self.compare()
+        self.assertEqual(code, 1)
+        self.assertIn("data_set_3.yaml: no such file", err)
+
+
+if __name__ == "__main__":
+    unittest.main()

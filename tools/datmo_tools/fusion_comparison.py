@@ -1,0 +1,96 @@
+"""The figures of runs at several levels of fusion, and their table."""
+
+from datmo_tools.fusion_table import time_per_scan
+from datmo_tools.text_table import NO_VALUE, aligned, percent, rounded
+
+NOTE = """\
+Levels of fusion: none, the scanner alone; low, grids of scanner and stereo camera (thesis 3.2);
+object, objects of both (thesis 3.3). Missed: moving objects that no track ever matched, of those that
+the scanner saw moving, however briefly, and, by any, of those that either sensor did; of a labelled
+drive, of all that move in the camera's view. Beside it what the thesis missed without and with fusion
+of objects (table 3.2): its data sets were driven, ours are simulated streets with as many seconds and
+moving objects. Delay: from the first sight of an object to its first track, mean. Time: mean of all
+stages together for one scan."""
+
+# Levels at which the thesis has a count: its field in Published.
+THESIS_MISSED = {"none": "missed", "object": "missed_with_fusion"}
+
+
+def figures(report, wide_report, stages):
+    """Figures of one run, as a dictionary that JSON can hold; None for what there is not.
+
+    report: of score_run; wide_report: the same with objects that any sensor sees, or None; stages:
+    of run_bag --times.
+    """
+    counts = report["thesis"]
+    wide = wide_report["thesis"] if wide_report else {}
+    return {
+        "moving_objects": counts["moving_objects"],
+        "missed_objects": counts["missed_objects"],
+        "moving_objects_any_sensor": wide.get("moving_objects"),
+        "missed_objects_any_sensor": wide.get("missed_objects"),
+        "tracks": counts["tracks"],
+        "false_tracks": counts["false_tracks"],
+        "mota": report["clear_mot"]["mota"],
+        "idf1": report["identity"]["idf1"],
+        "position_rmse_m": report["errors"]["position_rmse_m"],
+        "class_right_share": _class_right_share(report),
+        "mean_delay_s": _mean_delay(report),
+        "time_per_scan_ms": time_per_scan(stages),
+    }
+
+
+def comparison_table(rows):
+    """Text of the table.
+
+    rows: (name of the drive, Published or None, level, figures() or None where the run failed).
+    """
+    headings = ["drive", "level", "thesis missed", *(heading for heading, _ in _COLUMNS)]
+    lines = [headings]
+    for name, published, level, run in rows:
+        cells = [NO_VALUE if run is None else cell(run) for _, cell in _COLUMNS]
+        lines.append([name, level, _thesis_missed(published, level), *cells])
+    return f"{NOTE}\n\n{aligned(lines)}"
+
+
+def _of(count, total):
+    def cell(run):
+        return NO_VALUE if run[count] is None else f"{run[count]} of {run[total]}"
+
+    return cell
+
+
+def _percent(key):
+    return lambda run: percent(run[key])
+
+
+def _rounded(key, digits):
+    return lambda run: rounded(run[key], digits)
+
+
+_COLUMNS = (
+    ("missed", _of("missed_objects", "moving_objects")),
+    ("by any", _of("missed_objects_any_sensor", "moving_objects_any_sensor")),
+    ("tracks", lambda run: str(run["tracks"])),
+    ("of them false", lambda run: str(run["false_tracks"])),
+    ("MOTA, %", _percent("mota")),
+    ("IDF1, %", _percent("idf1")),
+    ("RMSE, m", _rounded("position_rmse_m", 2)),
+    ("class right, %", _percent("class_right_share")),
+    ("delay, s", _rounded("mean_delay_s", 2)),
+    ("time, ms", _rounded("time_per_scan_ms", 1)),
+)
+
+
+def _thesis_missed(published, level):
+    field = THESIS_MISSED.get(level)
+    return NO_VALUE if published is None or field is None else str(getattr(published, field))
+
+
+def _class_right_share(report):
+    return report.get("classes", {}).get("right_share")
+
+
+def _mean_delay(report):
+    delays = [item["delay_s"] for item in report["objects"] if item["delay_s"] is not None]
+    return sum(delays) / len(delays) if delays else None
