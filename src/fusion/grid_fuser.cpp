@@ -8,22 +8,6 @@
 
 namespace datmo {
 
-namespace {
-
-/// Pose of the vehicle at one stamp in its frame at another one, whichever is the later.
-std::optional<Pose2> poseAt(Stamp stamp, Stamp reference, const MotionBetween& motion) {
-  if (stamp == reference) {
-    return Pose2();
-  }
-  if (reference < stamp) {
-    return motion(reference, stamp);
-  }
-  const std::optional<Pose2> forward = motion(stamp, reference);
-  return forward ? std::make_optional(forward->inverse()) : std::nullopt;
-}
-
-}  // namespace
-
 GridFuserOptions::GridFuserOptions() {
   GridSourceOptions& lidar = sources["lidar"];
   lidar.priority = 0;
@@ -67,13 +51,13 @@ FusionResult GridFuser::fuse(const MatchedGrids& matched, const MotionBetween& m
   result.missing = matched.missing;
   std::deque<SensorGrid> moved;  // where `grids` point to
   std::vector<WeighedGrid> grids;
-  for (const MatchedGrid& one : matched.grids) {
-    const std::optional<Pose2> base = poseAt(one.grid->stamp(), matched.stamp(), motion);
+  for (const MatchedGrid& one : matched.samples) {
+    const std::optional<Pose2> base = baseAt(one.stamp, matched.stamp(), motion);
     if (!base) {
       result.missing.push_back({one.source, WhyMissing::kNoMotion});
       continue;
     }
-    const SensorGrid* grid = one.grid.get();
+    const SensorGrid* grid = one.payload.get();
     if (grid->stamp() != matched.stamp()) {
       const double apart = std::abs(secondsBetween(grid->stamp(), matched.stamp()));
       moved.push_back(movedGrid(*grid, matched.stamp(), *base, options_.mover_speed * apart));

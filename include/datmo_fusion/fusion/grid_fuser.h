@@ -1,15 +1,13 @@
 #pragma once
 
-#include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "datmo_fusion/common/options.h"
-#include "datmo_fusion/common/pose2.h"
 #include "datmo_fusion/fusion/grid_fusion.h"
 #include "datmo_fusion/fusion/grid_matcher.h"
+#include "datmo_fusion/fusion/relative_motion.h"
 
 namespace datmo {
 
@@ -27,10 +25,6 @@ struct GridFuserOptions {
   /// Names of the sources that are in use.
   std::vector<std::string> sourcesInUse() const;
 };
-
-/// The vehicle's motion from one stamp to a later one: its pose at `to` in its frame at `from`;
-/// none if it is not known (OdometryBuffer::motion).
-using MotionBetween = std::function<std::optional<Pose2>(Stamp from, Stamp to)>;
 
 /// What a set of matched grids led to.
 struct FusionResult {

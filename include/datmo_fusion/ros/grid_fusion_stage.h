@@ -1,9 +1,6 @@
 #pragma once
 
-#include <cstdint>
-#include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -13,7 +10,7 @@
 
 #include "datmo_fusion/fusion/grid_fuser.h"
 #include "datmo_fusion/fusion/grid_matcher.h"
-#include "datmo_fusion/ros/input_error.h"
+#include "datmo_fusion/ros/fusion_inputs.h"
 #include "datmo_fusion/ros/motion_input.h"
 #include "datmo_fusion/ros/stage_monitor.h"
 #include "datmo_fusion/ros/stamp_check.h"
@@ -24,7 +21,7 @@ struct GridFusionStageOptions {
   std::string base_frame = "base_link";
   MotionInputOptions motion;
   StreamOptions input;
-  GridMatcherOptions matcher;
+  SourceMatcherOptions matcher;
   GridFuserOptions fuser;
 
   void visit(OptionVisitor& visitor);
@@ -37,18 +34,8 @@ struct GridFusionOutput {
 };
 
 /// GridMatcher and GridFuser between messages: the same ones serve the nodelet and the bag runner.
-///
-/// Bad input is dropped through the monitor, never thrown. A source that falls silent is said once
-/// until it is fused again, and so is one that for as long is always too late or whose motion is
-/// not known; the fused grids go on with the others. When the clock jumps back all state is
-/// forgotten.
-///
-/// The reference's stamps are the ones that hold: while it speaks, a grid of another source that is
-/// ahead of them by more than `silent_after` is dropped (`stamp_ahead`), for a clock that is ahead
-/// would make the reference look silent.
-///
-/// Time is the data's: that of the newest grid, and from its arrival on as much later as the
-/// caller's clock says. So the two clocks need not agree.
+/// What is let in, and what is said of a source that is missed: FusionInputs. When the clock jumps
+/// back all state is forgotten.
 class GridFusionStage {
  public:
   /// `monitor` must outlive the stage. Throws OptionError.
@@ -75,41 +62,13 @@ class GridFusionStage {
   void setRule(const std::string& name) { fuser_.setRule(fusionRule(name)); }
 
  private:
-  /// A grid's arrival; `came`: on the caller's clock.
-  struct Arrived {
-    Stamp stamp;
-    Stamp came;
-  };
-
-  /// Of a source that the last set was without.
-  struct Absence {
-    Stamp since;                ///< stamp of the first set without it
-    std::set<WhyMissing> said;  ///< reasons that have been warned of
-  };
-
-  /// Throws InputError.
-  SensorGrid gridOf(const std::string& source, const nav_msgs::OccupancyGrid& message, Stamp now);
-  void checkAhead(const std::string& source, Stamp stamp, Stamp now) const;
-  void add(const std::string& source, SensorGrid grid);
-
-  template <typename Message>
-  void takeMotion(const Message& message);
-
-  void restart();
-  static Stamp dataTime(const Arrived& last, Stamp now);
-  void report(const FusionResult& result);
-  InputError warningOf(const MissingSource& missing) const;
+  void forgetAfter(Arrival arrival);
 
   GridFusionStageOptions options_;
   StageMonitor& monitor_;
+  FusionInputs inputs_;
   GridMatcher matcher_;
   GridFuser fuser_;
-  MotionInput motion_;
-  std::map<std::string, StampCheck> stamps_;  ///< by source
-  std::optional<Arrived> newest_;
-  std::optional<Arrived> reference_;                   ///< the newest of the reference
-  std::map<std::string, Absence> absences_;            ///< by source
-  std::map<std::string, std::uint64_t> times_missed_;  ///< sets without this source
 };
 
 }  // namespace datmo

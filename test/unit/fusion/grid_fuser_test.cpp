@@ -28,7 +28,7 @@ MatchedGrid matched(const std::string& source, double seconds, CellIndex occupie
     cell = kFree;
   }
   grid.at(occupied) = kOccupied;
-  return {source, std::make_shared<const SensorGrid>(std::move(grid))};
+  return {source, grid.stamp(), std::make_shared<const SensorGrid>(grid)};
 }
 
 GridFuserOptions standingWorld(const std::string& rule) {

@@ -19,8 +19,8 @@ SensorGrid gridAt(double seconds) { return {at(seconds), kWindow}; }
 /// 0.5 s.
 class GridMatcherTest : public testing::Test {
  protected:
-  static GridMatcherOptions options() {
-    GridMatcherOptions options;
+  static SourceMatcherOptions options() {
+    SourceMatcherOptions options;
     options.tolerance = 0.06;
     return options;
   }
@@ -35,8 +35,8 @@ class GridMatcherTest : public testing::Test {
     if (!matched) {
       return text;
     }
-    for (const MatchedGrid& one : matched->grids) {
-      const double seconds = secondsBetween(at(0.0), one.grid->stamp());
+    for (const MatchedGrid& one : matched->samples) {
+      const double seconds = secondsBetween(at(0.0), one.stamp);
       text += (text.empty() ? "" : ", ") + one.source + " " + toText(OptionValue(seconds));
     }
     for (const MissingSource& missing : matched->missing) {
@@ -177,7 +177,7 @@ TEST_F(GridMatcherTest, WhatIsNotNewerIsLeftOut) {
   const std::optional<MatchedGrids> matched = matcher_.next(at(0.1));
   ASSERT_TRUE(matched);
   EXPECT_EQ(matched->stamp(), at(0.1));
-  EXPECT_EQ(matched->reference().grid->at({0, 0}), kUnknownPercent);
+  EXPECT_EQ(matched->reference().payload->at({0, 0}), kUnknownPercent);
   EXPECT_EQ(next(0.3), "");
 }
 
@@ -241,7 +241,7 @@ TEST_F(GridMatcherTest, RefusesAnUnknownSource) {
 }
 
 TEST(GridMatcherOptionsTest, TheReferenceIsOneOfTheSources) {
-  GridMatcherOptions options;
+  SourceMatcherOptions options;
   options.reference = "lydar";
   try {
     const GridMatcher matcher(options, {"lidar", "stereo"});
@@ -262,12 +262,12 @@ TEST(GridMatcherThreeSourcesTest, OfSeveralTheNextByNameReplacesTheReference) {
   const auto first = matcher.next(at(0.5));
   ASSERT_TRUE(first);
   EXPECT_EQ(first->reference().source, "lidar");
-  EXPECT_EQ(first->grids.size(), 3U);
+  EXPECT_EQ(first->samples.size(), 3U);
   const auto second = matcher.next(at(0.5));
   ASSERT_TRUE(second);
   EXPECT_EQ(second->reference().source, "mono");
-  EXPECT_EQ(second->grids[1].source, "lidar");
-  EXPECT_EQ(second->grids[2].source, "stereo");
+  EXPECT_EQ(second->samples[1].source, "lidar");
+  EXPECT_EQ(second->samples[2].source, "stereo");
 }
 
 TEST(GridMatcherOneSourceTest, OneSourceNeedsNobody) {
@@ -275,7 +275,7 @@ TEST(GridMatcherOneSourceTest, OneSourceNeedsNobody) {
   matcher.add("lidar", gridAt(0.0));
   const auto matched = matcher.next(at(0.0));
   ASSERT_TRUE(matched);
-  EXPECT_EQ(matched->grids.size(), 1U);
+  EXPECT_EQ(matched->samples.size(), 1U);
   EXPECT_TRUE(matched->missing.empty());
 }
 

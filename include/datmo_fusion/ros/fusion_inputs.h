@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <std_msgs/Header.h>
+
+#include "datmo_fusion/fusion/source_matcher.h"
+#include "datmo_fusion/ros/input_error.h"
+#include "datmo_fusion/ros/motion_input.h"
+#include "datmo_fusion/ros/stage_monitor.h"
+#include "datmo_fusion/ros/stamp_check.h"
+
+namespace datmo {
+
+/// What a stage that fuses several sources wants of them.
+struct FusionInputOptions {
+  std::string base_frame;  ///< of all messages
+  MotionInputOptions motion;
+  StreamOptions input;
+  SourceMatcherOptions matcher;
+  std::vector<std::string> sources;
+  std::string what;  ///< one message of a source is: "grid"
+};
+
+/// Throws OptionError for a source whose topic could not be, or would be one of the stage's own.
+/// `what`: one message of a source; `own`: the topics that the stage makes itself.
+void checkSourceNames(const std::vector<std::string>& sources, const std::string& what,
+                      const std::set<std::string>& own);
+
+/// The door of a stage that fuses several sources: which messages are let in, what time it is, how
+/// the vehicle moved, and which source is missed.
+///
+/// Bad input is never thrown to the caller of the stage. A source that falls silent is said once
+/// until it is fused again, and so is one that for as long is always too late or whose motion is
+/// not known.
+///
+/// The reference's stamps are the ones that hold: while it speaks, a message of another source that
+/// is ahead of them by more than `silent_after` is refused (`stamp_ahead`), for a clock that is
+/// ahead would make the reference look silent.
+///
+/// Time is the data's: that of the newest message, and from its arrival on as much later as the
+/// caller's clock says. So the two clocks need not agree.
+class FusionInputs {
+ public:
+  /// `monitor` must outlive it. Throws OptionError.
+  FusionInputs(const FusionInputOptions& options, StageMonitor& monitor);
+
+  /// One message of a source. `now`: ROS time. kRestart: the clock has jumped back, and the stage
+  /// is to forget what came before this message.
+  ///
+  /// Throws InputError: `unknown_source`, `wrong_frame`, `stamp_ahead` and those of StampCheck.
+  Arrival take(const std::string& source, const std_msgs::Header& header, Stamp now);
+
+  /// Newest motion, as MotionInput reads it; bad one is dropped through the monitor. kRestart: as
+  /// above.
+  Arrival takeMotion(const nav_msgs::Odometry& message) { return takeAnyMotion(message); }
+  Arrival takeMotion(const geometry_msgs::PoseWithCovarianceStamped& message) {
+    return takeAnyMotion(message);
+  }
+
+  /// Time of the data at this ROS time; none before the first message.
+  std::optional<Stamp> dataTime(Stamp now) const;
+
+  /// The vehicle's motion from one stamp to a later one; none if it is not known.
+  std::optional<Pose2> motion(Stamp from, Stamp to) const { return motion_.between(from, to); }
+
+  /// What was fused at this stamp was without these sources: warns and keeps count.
+  void report(Stamp stamp, const std::vector<MissingSource>& missing);
+
+ private:
+  /// A message's arrival; `came`: on the caller's clock.
+  struct Arrived {
+    Stamp stamp;
+    Stamp came;
+  };
+
+  /// Of a source that the last set was without.
+  struct Absence {
+    Stamp since;                ///< stamp of the first set without it
+    std::set<WhyMissing> said;  ///< reasons that have been warned of
+  };
+
+  template <typename Message>
+  Arrival takeAnyMotion(const Message& message);
+
+  void checkAhead(const std::string& source, Stamp stamp, Stamp now) const;
+  void restart();
+  static Stamp timeSince(const Arrived& last, Stamp now);
+  InputError warningOf(const MissingSource& missing) const;
+
+  FusionInputOptions options_;
+  StageMonitor& monitor_;
+  MotionInput motion_;
+  std::map<std::string, StampCheck> stamps_;  ///< by source
+  std::optional<Arrived> newest_;
+  std::optional<Arrived> reference_;                   ///< the newest of the reference
+  std::map<std::string, Absence> absences_;            ///< by source
+  std::map<std::string, std::uint64_t> times_missed_;  ///< sets without this source
+};
+
+}  // namespace datmo

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <nav_msgs/Odometry.h>
+
+#include "datmo_fusion/common/scan.h"
+#include "datmo_fusion/fusion/object_fuser.h"
+#include "datmo_fusion/fusion/source_matcher.h"
+#include "datmo_fusion/ros/fusion_inputs.h"
+#include "datmo_fusion/ros/messages.h"
+#include "datmo_fusion/ros/motion_input.h"
+#include "datmo_fusion/ros/stage_monitor.h"
+#include "datmo_fusion/ros/stamp_check.h"
+
+namespace datmo {
+
+struct ObjectFusionStageOptions {
+  std::string base_frame = "base_link";
+  MotionInputOptions motion;
+  StreamOptions input;
+  SourceMatcherOptions matcher;
+  ObjectFuserOptions fuser;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Matched lists of objects and ObjectFuser between messages: the same ones serve the nodelet and
+/// the bag runner. What is let in, and what is said of a source that is missed: FusionInputs. When
+/// the clock jumps back all state is forgotten.
+///
+/// A list is fused once: a source slower than the reference is not heard twice. One that was in no
+/// set is counted.
+class ObjectFusionStage {
+ public:
+  /// `monitor` must outlive the stage. Throws OptionError.
+  ObjectFusionStage(const ObjectFusionStageOptions& options, StageMonitor& monitor);
+
+  /// The sources in use, by name.
+  std::vector<std::string> sources() const { return options_.fuser.sourcesInUse(); }
+
+  /// The objects of one source (else they are dropped: `unknown_source`). `now`: ROS time.
+  void takeObjects(const std::string& source, const ObjectArray& message, Stamp now);
+
+  /// Newest odometry; not read where the options say that the vehicle has none.
+  void takeOdometry(const nav_msgs::Odometry& message);
+
+  /// Newest pose of the SLAM; read only where the options say that the vehicle has no odometry.
+  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message);
+
+  /// What the scanner saw; it is asked of objects at exactly its stamp.
+  void takeSplitScan(const SplitScanMessage& message);
+
+  /// The next set of lists that is ready, fused, at the reference's stamp; null if there is none.
+  /// To be asked until null, after each list and from time to time: nobody knows before whether one
+  /// that is waited for still comes. `now`: ROS time.
+  ObjectArrayPtr next(Stamp now);
+
+ private:
+  using Matched = MatchedSamples<ObjectList>;
+
+  /// The lists of the set whose motion is known; the others are added to `missing`.
+  std::vector<SourceObjects> movedLists(const Matched& matched,
+                                        std::vector<MissingSource>& missing) const;
+  /// Null without a scan of this stamp.
+  const SplitScan* scanAt(Stamp stamp) const;
+  void forgetAfter(Arrival arrival);
+  void report(const std::vector<SourceObjects>& lists, const ObjectFusionCounts& counts);
+
+  ObjectFusionStageOptions options_;
+  StageMonitor& monitor_;
+  FusionInputs inputs_;
+  SourceMatcher<ObjectList> matcher_;
+  ObjectFuser fuser_;
+  std::deque<SplitScan> scans_;  ///< the last ones, by rising stamp
+};
+
+}  // namespace datmo

@@ -1,0 +1,154 @@
+#include "datmo_fusion/ros/fusion_inputs.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "datmo_fusion/ros/topic_name.h"
+
+namespace datmo {
+
+void checkSourceNames(const std::vector<std::string>& sources, const std::string& what,
+                      const std::set<std::string>& own) {
+  std::string names;
+  for (const std::string& name : own) {
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  for (const std::string& source : sources) {
+    if (!canBeTopic(source) || own.count(source) > 0) {
+      throw OptionError("sources/" + source +
+                        ": expected a name of letters, digits and underscores that is not one of "
+                        "the stage's own " +
+                        what + "s (" + names + ")");
+    }
+  }
+}
+
+FusionInputs::FusionInputs(const FusionInputOptions& options, StageMonitor& monitor)
+    : options_(options),
+      monitor_(monitor),
+      motion_(options.motion, options.base_frame, options.input.restart_after) {
+  for (const std::string& source : options.sources) {
+    stamps_.emplace(source, StampCheck(options.input.restart_after));
+  }
+}
+
+Arrival FusionInputs::take(const std::string& source, const std_msgs::Header& header, Stamp now) {
+  const auto stamps = stamps_.find(source);
+  if (stamps == stamps_.end()) {
+    throw InputError("unknown_source", options_.what + " of '" + source +
+                                           "': expected one of the sources that are in use");
+  }
+  if (header.frame_id != options_.base_frame) {
+    throw InputError("wrong_frame", options_.what + " of " + source + " in '" + header.frame_id +
+                                        "': expected '" + options_.base_frame + "'");
+  }
+  const Arrived arrived{toStamp(header.stamp), now};
+  checkAhead(source, arrived.stamp, now);
+  const Arrival arrival = stamps->second.check(header.stamp);
+  if (arrival == Arrival::kRestart) {
+    motion_.reset();
+    restart();
+    stamps->second.check(header.stamp);
+  }
+  if (!newest_ || arrived.stamp > newest_->stamp) {
+    newest_ = arrived;
+  }
+  if (source == options_.matcher.reference) {
+    reference_ = arrived;
+  }
+  return arrival;
+}
+
+void FusionInputs::checkAhead(const std::string& source, Stamp stamp, Stamp now) const {
+  if (!reference_ || source == options_.matcher.reference ||
+      secondsBetween(reference_->came, now) > options_.input.silence_after) {
+    return;
+  }
+  const double ahead = secondsBetween(timeSince(*reference_, now), stamp);
+  if (ahead > options_.matcher.silent_after) {
+    throw InputError("stamp_ahead",
+                     options_.what + " of " + source + ", stamp " +
+                         std::to_string(stamp.seconds()) + " s, is " + std::to_string(ahead) +
+                         " s ahead of those of " + options_.matcher.reference +
+                         ", the last one's stamp " + std::to_string(reference_->stamp.seconds()) +
+                         " s: expected at most " + std::to_string(options_.matcher.silent_after) +
+                         " s; do the sensors' clocks agree?");
+  }
+}
+
+template <typename Message>
+Arrival FusionInputs::takeAnyMotion(const Message& message) {
+  try {
+    const Arrival arrival = motion_.take(message);
+    if (arrival == Arrival::kRestart) {
+      restart();
+    }
+    return arrival;
+  } catch (const InputError& error) {
+    monitor_.dropped(error);
+    return Arrival::kNext;
+  }
+}
+
+template Arrival FusionInputs::takeAnyMotion(const nav_msgs::Odometry& message);
+template Arrival FusionInputs::takeAnyMotion(
+    const geometry_msgs::PoseWithCovarianceStamped& message);
+
+void FusionInputs::restart() {
+  monitor_.warned(
+      InputError("clock_restart", "the clock jumped back: forgets all " + options_.what + "s"));
+  for (auto& [source, stamps] : stamps_) {
+    stamps = StampCheck(options_.input.restart_after);
+  }
+  newest_.reset();
+  reference_.reset();
+  absences_.clear();
+}
+
+Stamp FusionInputs::timeSince(const Arrived& last, Stamp now) {
+  return last.stamp + std::max(0.0, secondsBetween(last.came, now));
+}
+
+std::optional<Stamp> FusionInputs::dataTime(Stamp now) const {
+  return newest_ ? std::make_optional(timeSince(*newest_, now)) : std::nullopt;
+}
+
+void FusionInputs::report(Stamp stamp, const std::vector<MissingSource>& missing) {
+  std::map<std::string, Absence> absences;
+  for (const MissingSource& one : missing) {
+    const std::string& source = one.source;
+    monitor_.figure("fused without " + source, static_cast<double>(++times_missed_[source]));
+    const auto before = absences_.find(source);
+    Absence& absence = absences[source];
+    absence = before == absences_.end() ? Absence{stamp, {}} : before->second;
+    // One set without it is nothing: it may be slower than the reference, or have just begun.
+    const bool lasts = one.why == WhyMissing::kSilent ||
+                       secondsBetween(absence.since, stamp) >= options_.matcher.silent_after;
+    if (lasts && absence.said.insert(one.why).second) {
+      monitor_.warned(warningOf(one));
+    }
+  }
+  absences_ = std::move(absences);
+}
+
+InputError FusionInputs::warningOf(const MissingSource& missing) const {
+  const SourceMatcherOptions& options = options_.matcher;
+  const std::string none = "no " + options_.what + " of " + missing.source + " ";
+  const std::string silent_after = std::to_string(options.silent_after) + " s";
+  switch (missing.why) {
+    case WhyMissing::kNoneNear:
+      return {"late_source", none + "in time for " + silent_after + ": expected one within " +
+                                 std::to_string(options.tolerance) + " s of the reference's stamp" +
+                                 " and after " + std::to_string(options.longest_wait) +
+                                 " s at most; goes on without it"};
+    case WhyMissing::kNoMotion:
+      return {"no_motion", none + "used for " + silent_after +
+                               ": expected to know from odometry or poses how the vehicle moved "
+                               "between its stamp and the reference's; goes on without it"};
+    case WhyMissing::kSilent:
+      break;
+  }
+  return {"silent_source", none + "for " + silent_after + ": goes on without it"};
+}
+
+}  // namespace datmo

@@ -1,0 +1,158 @@
+#include "datmo_fusion/ros/object_fusion_stage.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include <boost/make_shared.hpp>
+
+#include "datmo_fusion/fusion/relative_motion.h"
+#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/tracking/object_check.h"
+
+namespace datmo {
+
+namespace {
+
+constexpr char kObjectList[] = "object list";
+
+/// A second and more of a fast scanner: longer than a list may wait (SourceMatcherOptions).
+constexpr std::size_t kMostScans = 64;
+
+/// Names of the sources with an object that cannot be used.
+std::string sourcesOfBadObjects(const std::vector<SourceObjects>& lists) {
+  std::string names;
+  for (const SourceObjects& one : lists) {
+    const auto& objects = one.list.objects;
+    if (!std::all_of(objects.begin(), objects.end(), isValid)) {
+      names += (names.empty() ? "" : ", ") + one.source;
+    }
+  }
+  return names;
+}
+
+}  // namespace
+
+void ObjectFusionStageOptions::visit(OptionVisitor& visitor) {
+  visitor.text({"base_frame", "", "frame of the vehicle, and of all objects"}, base_frame, {});
+  motion.visit(visitor);
+  visitor.group("input", [&] { input.visit(visitor); });
+  matcher.visit(visitor);
+  fuser.visit(visitor);
+}
+
+ObjectFusionStage::ObjectFusionStage(const ObjectFusionStageOptions& options, StageMonitor& monitor)
+    : options_(options),
+      monitor_(monitor),
+      inputs_({options.base_frame, options.motion, options.input, options.matcher,
+               options.fuser.sourcesInUse(), kObjectList},
+              monitor),
+      matcher_(options.matcher, options.fuser.sourcesInUse(), Serving::kOnce),
+      fuser_(options.fuser) {
+  checkOptions(options);
+  checkSourceNames(sources(), kObjectList, {"fused"});
+}
+
+void ObjectFusionStage::forgetAfter(Arrival arrival) {
+  if (arrival == Arrival::kRestart) {
+    matcher_.reset();
+    scans_.clear();
+  }
+}
+
+void ObjectFusionStage::takeObjects(const std::string& source, const ObjectArray& message,
+                                    Stamp now) {
+  try {
+    forgetAfter(inputs_.take(source, message.header, now));
+    const auto list = std::make_shared<const ObjectList>(fromMessage(message));
+    matcher_.add(source, list->stamp, list);
+  } catch (const InputError& error) {
+    monitor_.dropped(error);
+  }
+}
+
+void ObjectFusionStage::takeOdometry(const nav_msgs::Odometry& message) {
+  forgetAfter(inputs_.takeMotion(message));
+}
+
+void ObjectFusionStage::takePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
+  forgetAfter(inputs_.takeMotion(message));
+}
+
+void ObjectFusionStage::takeSplitScan(const SplitScanMessage& message) {
+  try {
+    SplitScan scan = fromMessage(message);
+    if (!scans_.empty() && scan.stamp < scans_.back().stamp) {
+      scans_.clear();  // a looped bag
+    }
+    scans_.push_back(std::move(scan));
+    if (scans_.size() > kMostScans) {
+      scans_.pop_front();
+    }
+  } catch (const InputError& error) {
+    monitor_.dropped(error);
+  }
+}
+
+const SplitScan* ObjectFusionStage::scanAt(Stamp stamp) const {
+  const auto found = std::find_if(scans_.rbegin(), scans_.rend(),
+                                  [stamp](const SplitScan& scan) { return scan.stamp == stamp; });
+  return found == scans_.rend() ? nullptr : &*found;
+}
+
+std::vector<SourceObjects> ObjectFusionStage::movedLists(
+    const Matched& matched, std::vector<MissingSource>& missing) const {
+  const auto motion = [this](Stamp from, Stamp to) { return inputs_.motion(from, to); };
+  std::vector<SourceObjects> lists;
+  for (const SourceSample<ObjectList>& one : matched.samples) {
+    if (const auto base = baseAt(one.stamp, matched.stamp(), motion)) {
+      lists.push_back({one.source, *one.payload, *base});
+    } else {
+      missing.push_back({one.source, WhyMissing::kNoMotion});
+    }
+  }
+  return lists;
+}
+
+ObjectArrayPtr ObjectFusionStage::next(Stamp now) {
+  const std::optional<Stamp> data_time = inputs_.dataTime(now);
+  if (!data_time) {
+    return nullptr;
+  }
+  const Stopwatch watch;
+  const std::optional<Matched> matched = matcher_.next(*data_time);
+  if (!matched) {
+    return nullptr;
+  }
+  std::vector<MissingSource> missing = matched->missing;
+  const std::vector<SourceObjects> lists = movedLists(*matched, missing);
+  const ObjectFusionResult result = fuser_.fuse(lists, scanAt(matched->stamp()));
+  inputs_.report(matched->stamp(), missing);
+  report(lists, result.counts);
+  const auto fused = boost::make_shared<ObjectArray>(toMessage(result.list, options_.base_frame));
+  monitor_.processed({matched->stamp(), watch.seconds()});
+  return fused;
+}
+
+void ObjectFusionStage::report(const std::vector<SourceObjects>& lists,
+                               const ObjectFusionCounts& counts) {
+  if (counts.rejected > 0) {
+    monitor_.warned(InputError("bad_object", std::to_string(counts.rejected) + " objects of " +
+                                                 sourcesOfBadObjects(lists) +
+                                                 " with numbers that are not finite or out of "
+                                                 "range, or a covariance that is not positive "
+                                                 "definite: left out"));
+  }
+  if (counts.refused > 0) {
+    monitor_.warned(InputError("many_objects",
+                               std::to_string(counts.refused) +
+                                   " objects more than a list may have: left out the farthest"));
+  }
+  monitor_.figure("objects fused of two or more sources", static_cast<double>(counts.fused));
+  for (const std::string& source : sources()) {
+    monitor_.figure("lists of " + source + " not fused",
+                    static_cast<double>(matcher_.unserved(source)));
+  }
+}
+
+}  // namespace datmo
