@@ -1,4 +1,4 @@
-#include "depth_bins.h"
+#include "datmo_fusion/sensor_model/depth_bins.h"
 
 #include <algorithm>
 #include <cmath>

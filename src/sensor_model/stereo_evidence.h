@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "depth_bins.h"
 #include "summed_counts.h"
 
+#include "datmo_fusion/sensor_model/depth_bins.h"
 #include "datmo_fusion/sensor_model/stereo_cloud.h"
 #include "datmo_fusion/sensor_model/stereo_view.h"
 

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "datmo_fusion/tracking/disjoint_sets.h"
+#include "datmo_fusion/common/disjoint_sets.h"
 
 namespace datmo {
 

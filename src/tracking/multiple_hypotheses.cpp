@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "datmo_fusion/tracking/disjoint_sets.h"
+#include "datmo_fusion/common/disjoint_sets.h"
 
 namespace datmo {
 

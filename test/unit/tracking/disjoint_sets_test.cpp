@@ -1,4 +1,4 @@
-#include "datmo_fusion/tracking/disjoint_sets.h"
+#include "datmo_fusion/common/disjoint_sets.h"
 
 #include <gtest/gtest.h>
 
