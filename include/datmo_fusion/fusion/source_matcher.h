@@ -15,6 +15,7 @@
 
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/stamp.h"
+#include "datmo_fusion/fusion/matched_samples.h"
 
 namespace datmo {
 
@@ -30,38 +31,6 @@ struct SourceMatcherOptions {
 /// Throws OptionError for options that are not valid, and for a reference that is not one of the
 /// sources.
 void checkMatcher(const SourceMatcherOptions& options, const std::vector<std::string>& sources);
-
-enum class WhyMissing {
-  kSilent,    ///< it has said nothing for `silent_after`
-  kNoneNear,  ///< it speaks, but had nothing within `tolerance` when it was asked
-  kNoMotion,  ///< it had, but how the vehicle moved in between is not known
-};
-
-/// "silent", "none near", "no motion".
-const char* toText(WhyMissing why);
-
-struct MissingSource {
-  std::string source;
-  WhyMissing why = WhyMissing::kSilent;
-};
-
-/// What one source said, at its own stamp.
-template <typename Payload>
-struct SourceSample {
-  std::string source;
-  Stamp stamp;
-  std::shared_ptr<const Payload> payload;
-};
-
-/// What belongs together: the reference's sample first, then the others by name.
-template <typename Payload>
-struct MatchedSamples {
-  std::vector<SourceSample<Payload>> samples;  ///< at least one
-  std::vector<MissingSource> missing;          ///< by name
-
-  const SourceSample<Payload>& reference() const { return samples.front(); }
-  Stamp stamp() const { return reference().stamp; }
-};
 
 /// In how many sets a sample may be.
 enum class Serving {

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "datmo_fusion/common/stamp.h"
+
+namespace datmo {
+
+enum class WhyMissing {
+  kSilent,    ///< it has said nothing for `silent_after`
+  kNoneNear,  ///< it speaks, but had nothing within `tolerance` when it was asked
+  kNoMotion,  ///< it had, but how the vehicle moved in between is not known
+};
+
+/// "silent", "none near", "no motion".
+const char* toText(WhyMissing why);
+
+struct MissingSource {
+  std::string source;
+  WhyMissing why = WhyMissing::kSilent;
+};
+
+/// What one source said, at its own stamp.
+template <typename Payload>
+struct SourceSample {
+  std::string source;
+  Stamp stamp;
+  std::shared_ptr<const Payload> payload;
+};
+
+/// What belongs together: the reference's sample first, then the others by name.
+template <typename Payload>
+struct MatchedSamples {
+  std::vector<SourceSample<Payload>> samples;  ///< at least one
+  std::vector<MissingSource> missing;          ///< by name
+
+  const SourceSample<Payload>& reference() const { return samples.front(); }
+  Stamp stamp() const { return reference().stamp; }
+};
+
+}  // namespace datmo
