@@ -6,6 +6,8 @@
 #include <numeric>
 #include <optional>
 
+#include "side_box.h"
+
 #include "datmo_fusion/detection/box_fit.h"
 #include "datmo_fusion/detection/segment_end.h"
 
@@ -17,9 +19,6 @@ constexpr char kSensor[] = "lidar";
 
 /// rad; a side that was seen faces the scanner: a vaguer heading tells no more of where it ends.
 constexpr double kMostSlant = 0.3;
-
-/// rad; with a vaguer heading, what seems to be two sides may be one.
-constexpr double kSureOfCorner = 0.15;
 
 /// The points of one segment of the scan that the map does not know as static.
 std::vector<ScanPoint> notStatic(const std::vector<ScanPoint>& points, const Segment& segment) {
@@ -41,88 +40,12 @@ double movingFraction(const std::vector<ScanPoint>& points, const Segment& segme
 
 double square(double value) { return value * value; }
 
-constexpr std::size_t indexOf(BoxSide side) { return static_cast<std::size_t>(side); }
-
-constexpr std::size_t opposite(std::size_t side) { return side ^ 1U; }
-
-/// A box told by how far its sides are from the middle of the fit, to be moved one by one.
-class SideBox {
- public:
-  explicit SideBox(const BoxFit& fit)
-      : fit_(fit),
-        reach_{0.5 * fit.box.length, 0.5 * fit.box.length, 0.5 * fit.box.width,
-               0.5 * fit.box.width} {}
-
-  /// Unit vector out of the box.
-  Point2 normal(std::size_t side) const {
-    static const std::array<Point2, kBoxSides> kNormals = {Point2(1.0, 0.0), Point2(-1.0, 0.0),
-                                                           Point2(0.0, 1.0), Point2(0.0, -1.0)};
-    return Pose2(Point2::Zero(), fit_.box.centre.heading()).rotate(kNormals[side]);
-  }
-
-  bool isSeen(std::size_t side) const { return fit_.points_on_side[side] > 0; }
-
-  /// How many points lie on the sides that end at this one.
-  std::size_t pointsUpTo(std::size_t side) const {
-    const std::size_t one =
-        indexOf(side < indexOf(BoxSide::kLeft) ? BoxSide::kLeft : BoxSide::kFront);
-    return fit_.points_on_side[one] + fit_.points_on_side[opposite(one)];
-  }
-
-  /// With a vague heading, what seems to be the shorter one of two sides may be none: where it ends
-  /// tells nothing.
-  bool isEndOfSeen(std::size_t side, double heading_std) const {
-    const std::size_t least = heading_std < kSureOfCorner ? 0 : fit_.points_on_side[opposite(side)];
-    return pointsUpTo(side) > 0 && pointsUpTo(side) >= least;
-  }
-
-  /// m, of the box along a side whose opposite was seen: a turn of the box moves the place of the
-  /// side, relative to that one, by so much times its angle.
-  double across(std::size_t side) const {
-    const double extent = side < indexOf(BoxSide::kLeft) ? fit_.box.width : fit_.box.length;
-    return isSeen(opposite(side)) ? extent : 0.0;
-  }
-
-  void extend(std::size_t side, double by) { reach_[side] += by; }
-
-  Box2 box() const {
-    const Point2 middle(0.5 * (reach_[0] - reach_[1]), 0.5 * (reach_[2] - reach_[3]));
-    return {Pose2(fit_.box.centre * middle, fit_.box.centre.heading()), reach_[0] + reach_[1],
-            reach_[2] + reach_[3]};
-  }
-
- private:
-  const BoxFit& fit_;
-  std::array<double, kBoxSides> reach_;  ///< m, by BoxSide
-};
-
 /// Mean time of a segment's points, s after the scan's stamp.
 double meanTime(const std::vector<ScanPoint>& points, const Segment& segment, double beam_time) {
   const double beams = std::accumulate(
       segment.begin(), segment.end(), 0.0,
       [&](double sum, std::size_t i) { return sum + static_cast<double>(points[i].beam); });
   return beam_time * beams / static_cast<double>(segment.size());
-}
-
-/// Takes another side for the front, a quarter turn to the left at a time: nothing moves.
-void turnByQuarter(Object& object) {
-  const auto [front, rear, left, right] = object.side_variance;
-  object.side_variance = {left, right, rear, front};
-  const Pose2& centre = object.box.centre;
-  object.box = {Pose2(centre.position(), centre.heading() + kQuarterTurn), object.box.width,
-                object.box.length};
-}
-
-/// The heading along the longer side, in (-pi/2, pi/2].
-void turnToLongerSide(Object& object) {
-  if (object.box.width > object.box.length) {
-    turnByQuarter(object);
-  }
-  const double heading = object.box.centre.heading();
-  if (heading > kQuarterTurn || heading <= -kQuarterTurn) {
-    turnByQuarter(object);
-    turnByQuarter(object);
-  }
 }
 
 }  // namespace

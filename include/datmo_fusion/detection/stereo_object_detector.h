@@ -5,14 +5,50 @@
 
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/options.h"
+#include "datmo_fusion/detection/object_classifier.h"
 #include "datmo_fusion/sensor_model/road_plane.h"
 #include "datmo_fusion/sensor_model/stereo_cloud.h"
 
 namespace datmo {
 
+/// What of a cloud are upright surfaces.
+struct StereoSurfaceOptions {
+  double nearest_depth = 0.5;   ///< m
+  double least_height = 0.3;    ///< m
+  double layer_top = 1.6;       ///< m
+  double highest = 5.0;         ///< m
+  double road_sigmas = 2.0;     ///< standard deviations of the depth
+  double finest_depth = 0.1;    ///< m
+  double least_visible = 0.35;  ///< m
+  int least_points = 3;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Which surfaces belong together.
+struct SurfaceGroupOptions {
+  double lateral_gap = 0.3;   ///< m
+  double depth_gap = 0.4;     ///< m
+  double depth_sigmas = 1.2;  ///< standard deviations of the depth
+  double tall = 2.6;          ///< m
+  double low = 2.0;           ///< m
+
+  void visit(OptionVisitor& visitor);
+};
+
 struct StereoObjectDetectorOptions {
+  StereoSurfaceOptions surfaces;
+  SurfaceGroupOptions groups;
   RoadPlaneOptions road;
   double effective_range = 36.0;  ///< m
+  double sure_range = 20.0;       ///< m
+  double least_surface = 0.15;    ///< m^2
+  double largest_size = 12.0;     ///< m
+  double common_noise = 0.5;      ///< standard deviations of the depth
+  double surface_noise = 0.5;     ///< standard deviations of the depth
+  double edge_sigma = 1.0;        ///< px
+  double position_sigma = 0.05;   ///< m
+  ObjectClassifierOptions classes;
 
   void visit(OptionVisitor& visitor);
 };

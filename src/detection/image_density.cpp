@@ -1,0 +1,65 @@
+#include "image_density.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace datmo {
+
+namespace {
+
+/// This share of the tiles with points may have holes; the others tell how the cloud was thinned.
+constexpr double kHolesShare = 0.8;
+
+/// Rows of the image with fewer points than this share of the fullest one's are not of the image:
+/// the camera is not quite level.
+constexpr int kLeastRowShare = 20;
+
+}  // namespace
+
+void ImageDensity::reset(const StereoCamera& camera) {
+  left_ = static_cast<float>(camera.left_tangent);
+  focal_length_ = static_cast<float>(camera.focal_length);
+  columns_ =
+      std::ceil(static_cast<float>(camera.right_tangent - camera.left_tangent) * focal_length_);
+  rows_ = std::ceil(2.0F * kHighestTangent * focal_length_);
+  tile_columns_ = static_cast<std::size_t>(columns_) / kTileSize + 1;
+  in_column_.assign(static_cast<std::size_t>(columns_), 0);
+  in_row_.assign(static_cast<std::size_t>(rows_), 0);
+  tiles_.assign((static_cast<std::size_t>(rows_) / kTileSize + 1) * tile_columns_, 0);
+}
+
+double ImageDensity::pixelsPerPoint() const {
+  std::vector<int> counts;
+  std::copy_if(tiles_.begin(), tiles_.end(), std::back_inserter(counts),
+               [](int count) { return count > 0; });
+  if (counts.empty()) {
+    return 1.0;
+  }
+  const auto dense = counts.begin() + static_cast<std::ptrdiff_t>(
+                                          kHolesShare * static_cast<double>(counts.size() - 1));
+  std::nth_element(counts.begin(), dense, counts.end());
+  return std::max(1.0, static_cast<double>(kTileSize * kTileSize) / *dense);
+}
+
+double ImageDensity::highestTangent() const {
+  const auto fullest = std::max_element(in_row_.begin(), in_row_.end());
+  const auto first = std::find_if(in_row_.begin(), in_row_.end(), [&](int count) {
+    return count > 0 && count * kLeastRowShare >= *fullest;
+  });
+  const auto row = static_cast<float>(first - in_row_.begin());
+  return static_cast<double>(kHighestTangent - row / focal_length_);
+}
+
+bool ImageDensity::hasPoints(double from, double to) const {
+  const auto column = [&](double tangent) {
+    const double place =
+        std::floor((tangent - static_cast<double>(left_)) * static_cast<double>(focal_length_));
+    return static_cast<std::ptrdiff_t>(std::clamp(place, 0.0, static_cast<double>(columns_)));
+  };
+  const auto end = std::min(column(to) + 1, static_cast<std::ptrdiff_t>(in_column_.size()));
+  return std::any_of(in_column_.begin() + std::min(column(from), end), in_column_.begin() + end,
+                     [](int count) { return count > 0; });
+}
+
+}  // namespace datmo

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "datmo_fusion/sensor_model/stereo_cloud.h"
+
+namespace datmo {
+
+/// How densely a camera's image is filled with points, and up to where: a cloud may be thinned, and
+/// matchers find nothing at the image's border.
+class ImageDensity {
+ public:
+  /// Forgets what it knew.
+  void reset(const StereoCamera& camera);
+
+  /// A point at these tangents: to the right, and above the horizon.
+  void add(float right, float up) {
+    const float column = (right - left_) * focal_length_;
+    const float row = (kHighestTangent - up) * focal_length_;
+    if (column >= 0.0F && column < columns_ && row >= 0.0F && row < rows_) {
+      const auto x = static_cast<std::size_t>(column);
+      const auto y = static_cast<std::size_t>(row);
+      ++in_column_[x];
+      ++in_row_[y];
+      ++tiles_[(y / kTileSize) * tile_columns_ + x / kTileSize];
+    }
+  }
+
+  /// Pixels of the image for each point where it has no holes; at least 1.
+  double pixelsPerPoint() const;
+
+  /// Above the horizon: up to where there are points.
+  double highestTangent() const;
+
+  /// Whether there is a point between two tangents to the right.
+  bool hasPoints(double from, double to) const;
+
+ private:
+  static constexpr std::size_t kTileSize = 16;    ///< px
+  static constexpr float kHighestTangent = 1.0F;  ///< above and below the horizon
+
+  float left_ = 0.0F;          ///< tangent of the image's left border
+  float focal_length_ = 0.0F;  ///< px
+  float columns_ = 0.0F;
+  float rows_ = 0.0F;
+  std::size_t tile_columns_ = 0;
+  std::vector<int> in_column_;
+  std::vector<int> in_row_;
+  std::vector<int> tiles_;  ///< row by row
+};
+
+}  // namespace datmo

@@ -1,0 +1,236 @@
+#include "stereo_surfaces.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace datmo {
+
+namespace {
+
+/// m; cameras mark a depth that they do not know by a far one.
+constexpr float kBeyondSight = 1000.0F;
+
+/// Whatever is asked for, there are no more columns than in any image.
+constexpr double kMostColumns = 4096.0;
+
+/// Two modes are two surfaces if the counts between them fall below this share of both.
+constexpr double kValley = 0.6;
+
+/// A mode ends where its counts fall below this share of its peak.
+constexpr double kTail = 0.1;
+
+/// Bins (half standard deviations of the depth) to both sides of a mode's peak that tell of it.
+constexpr int kCore = 3;
+
+/// Heights are counted in slices of this, m.
+constexpr float kSlice = 0.2F;
+
+/// A slice belongs to a surface that has this share of the points that it would have without holes.
+constexpr double kSliceShare = 0.3;
+
+/// Slices without points in a surface: of a place without texture.
+constexpr int kMostHole = 2;
+
+constexpr std::int32_t kNone = -1;
+
+}  // namespace
+
+void StereoSurfaces::find(const StereoCloud& cloud, const StereoView& view,
+                          const StereoSurfaceOptions& options, double farthest) {
+  takePoints(cloud, view, options, farthest);
+  countLayer(cloud.camera, options, farthest);
+  findModes(options);
+  measure(options);
+}
+
+void StereoSurfaces::takePoints(const StereoCloud& cloud, const StereoView& view,
+                                const StereoSurfaceOptions& options, double farthest) {
+  density_.reset(cloud.camera);
+  points_ = 0;
+  upright_.clear();
+  const auto nearest = static_cast<float>(options.nearest_depth);
+  const auto most_depth = static_cast<float>(farthest);
+  const auto least = static_cast<float>(options.least_height);
+  const auto highest = static_cast<float>(options.highest);
+  const float camera_height = view.cameraHeight();
+  // A depth that is off by its noise lifts a point of the road by this much of height / depth.
+  const float road_margin =
+      static_cast<float>(options.road_sigmas * cloud.camera.depthSigma(1.0)) * camera_height;
+  for (std::size_t i = 0; i < cloud.points.count; ++i) {
+    const ViewedPoint point = view(cloud.points[i]);
+    if (!(point.forward > nearest && point.forward < kBeyondSight)) {
+      continue;
+    }
+    ++points_;
+    const float inverse = 1.0F / point.forward;
+    const float right = point.right * inverse;
+    density_.add(right, (point.height - camera_height) * inverse);
+    if (point.height >= least && point.height < highest && point.forward < most_depth &&
+        point.height * inverse > road_margin) {
+      upright_.push_back({right, point.forward, point.height});
+    }
+  }
+}
+
+void StereoSurfaces::countLayer(const StereoCamera& camera, const StereoSurfaceOptions& options,
+                                double farthest) {
+  const double width = camera.right_tangent - camera.left_tangent;
+  const double pixels =
+      std::max(std::sqrt(density_.pixelsPerPoint()), width * camera.focal_length / kMostColumns);
+  columns_.count = std::max(1, static_cast<int>(std::lround(width * camera.focal_length / pixels)));
+  columns_.left = camera.left_tangent;
+  columns_.per_tangent = columns_.count / width;
+  left_ = static_cast<float>(columns_.left);
+  per_tangent_ = static_cast<float>(columns_.per_tangent);
+  depth_bins_ = DepthBins(camera, farthest, options.finest_depth);
+  bins_ = static_cast<std::size_t>(depth_bins_.size());
+  counts_.assign(static_cast<std::size_t>(columns_.count) * bins_, 0);
+  const auto top = static_cast<float>(options.layer_top);
+  const auto border = [&](const Upright& point) {
+    return !(point.right >= left_ && point.right <= static_cast<float>(camera.right_tangent));
+  };
+  upright_.erase(std::remove_if(upright_.begin(), upright_.end(), border), upright_.end());
+  for (const Upright& point : upright_) {
+    if (point.height <= top) {
+      ++counts_[slot(columnOf(point.right), depth_bins_.at(point.depth))];
+    }
+  }
+}
+
+void StereoSurfaces::findModes(const StereoSurfaceOptions& options) {
+  columns_.begin.clear();
+  columns_.surfaces.clear();
+  surface_at_.assign(counts_.size(), kNone);
+  raw_.assign(bins_ + 4, 0);
+  smooth_.assign(bins_, 0);
+  for (int column = 0; column < columns_.count; ++column) {
+    columns_.begin.push_back(columns_.surfaces.size());
+    smoothColumn(column);
+    addModes(column, options);
+  }
+  columns_.begin.push_back(columns_.surfaces.size());
+}
+
+/// Weights 1 2 1 over columns, 1 2 3 2 1 over bins.
+void StereoSurfaces::smoothColumn(int column) {
+  const std::uint16_t* own = &counts_[slot(column, 0)];
+  const std::uint16_t* left = column > 0 ? own - bins_ : own;
+  const std::uint16_t* right = column + 1 < columns_.count ? own + bins_ : own;
+  for (std::size_t bin = 0; bin < bins_; ++bin) {
+    raw_[bin + 2] = left[bin] + 2 * own[bin] + right[bin];
+  }
+  for (std::size_t bin = 0; bin < bins_; ++bin) {
+    const int* raw = &raw_[bin];
+    smooth_[bin] = raw[0] + 2 * raw[1] + 3 * raw[2] + 2 * raw[3] + raw[4];
+  }
+}
+
+void StereoSurfaces::addModes(int column, const StereoSurfaceOptions& options) {
+  const int bins = static_cast<int>(bins_);
+  const auto at = [&](int bin) { return smooth_[static_cast<std::size_t>(bin)]; };
+  int bin = 0;
+  while (bin < bins) {
+    if (at(bin) == 0) {
+      ++bin;
+      continue;
+    }
+    Mode mode{column, bin, bin, bin, 0};
+    int valley = bin;
+    for (; bin < bins && at(bin) > 0; ++bin) {
+      if (at(bin) > at(mode.peak) &&
+          (valley <= mode.peak || at(valley) >= kValley * at(mode.peak))) {
+        mode.peak = bin;
+        valley = bin;
+      } else if (at(bin) <= at(valley)) {
+        valley = bin;
+      } else if (at(valley) < kValley * at(mode.peak) && at(valley) < kValley * at(bin)) {
+        mode.end_bin = valley;
+        addMode(mode, options);
+        mode = {column, valley, bin, valley, 0};
+        valley = bin;
+      }
+    }
+    mode.end_bin = bin;
+    addMode(mode, options);
+  }
+}
+
+void StereoSurfaces::addMode(const Mode& mode, const StereoSurfaceOptions& options) {
+  const auto least = static_cast<int>(kTail * smooth_[static_cast<std::size_t>(mode.peak)]);
+  int first = mode.peak;
+  while (first > mode.first_bin && smooth_[static_cast<std::size_t>(first - 1)] > least) {
+    --first;
+  }
+  int end = mode.peak + 1;
+  while (end < mode.end_bin && smooth_[static_cast<std::size_t>(end)] > least) {
+    ++end;
+  }
+  int points = 0;
+  for (int bin = first; bin < end; ++bin) {
+    points += counts_[slot(mode.column, bin)];
+  }
+  const double depth = static_cast<double>(depth_bins_.middle(mode.peak));
+  if (points < options.least_points || points < options.least_visible * pointsPerMetre(depth)) {
+    return;
+  }
+  const auto index = static_cast<std::int32_t>(columns_.surfaces.size());
+  ColumnSurface surface;
+  surface.column = mode.column;
+  columns_.surfaces.push_back(surface);
+  const int last = std::min(end, mode.peak + kCore + 1);
+  for (int bin = std::max(first, mode.peak - kCore); bin < last; ++bin) {
+    surface_at_[slot(mode.column, bin)] = index;
+  }
+}
+
+void StereoSurfaces::measure(const StereoSurfaceOptions& options) {
+  const std::size_t count = columns_.surfaces.size();
+  const auto slices =
+      static_cast<std::size_t>(std::ceil(static_cast<float>(options.highest) / kSlice));
+  inverse_sums_.assign(count, 0.0);
+  slices_.assign(count * slices, 0);
+  const auto top = static_cast<float>(options.layer_top);
+  for (const Upright& point : upright_) {
+    const std::int32_t index =
+        surface_at_[slot(columnOf(point.right), depth_bins_.at(point.depth))];
+    if (index == kNone) {
+      continue;
+    }
+    const auto surface = static_cast<std::size_t>(index);
+    ++slices_[surface * slices + static_cast<std::size_t>(point.height / kSlice)];
+    if (point.height <= top) {
+      inverse_sums_[surface] += static_cast<double>(1.0F / point.depth);
+      columns_.surfaces[surface].points += 1.0F;
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    ColumnSurface& surface = columns_.surfaces[i];
+    surface.depth = static_cast<float>(static_cast<double>(surface.points) / inverse_sums_[i]);
+    setHeights(surface, &slices_[i * slices], options);
+  }
+}
+
+/// From the fullest slice as far up and down as it goes on, but for holes.
+void StereoSurfaces::setHeights(ColumnSurface& surface, const std::uint16_t* slices,
+                                const StereoSurfaceOptions& options) const {
+  const auto end = static_cast<int>(std::ceil(static_cast<float>(options.highest) / kSlice));
+  const double dense =
+      static_cast<double>(kSlice) * pointsPerMetre(static_cast<double>(surface.depth));
+  const double least = std::max(1.0, kSliceShare * dense);
+  const auto start = static_cast<int>(std::max_element(slices, slices + end) - slices);
+  const auto reach = [&](int step) {
+    int last = start;
+    for (int i = start; i >= 0 && i < end && std::abs(i - last) <= kMostHole + 1; i += step) {
+      last = slices[i] >= least ? i : last;
+    }
+    return last;
+  };
+  // The outermost slices are filled in part.
+  const int highest = reach(1);
+  const int lowest = reach(-1);
+  const double share = std::min(1.0, slices[highest] / dense);
+  surface.top = kSlice * (static_cast<float>(highest) + static_cast<float>(share));
+  surface.bottom = kSlice * static_cast<float>(lowest);
+}
+
+}  // namespace datmo
