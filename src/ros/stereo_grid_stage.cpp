@@ -1,36 +1,17 @@
 #include "datmo_fusion/ros/stereo_grid_stage.h"
 
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
 #include <boost/make_shared.hpp>
 
-#include "datmo_fusion/ros/cloud_conversion.h"
 #include "datmo_fusion/ros/frames.h"
 #include "datmo_fusion/ros/grid_conversion.h"
 
 namespace datmo {
 
-void StereoCameraOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"focal_length", "px", "until a camera info has come; 0: not known"}, focal_length,
-                 {0.0, kMostFocalLength});
-  visitor.number({"baseline", "m", "until a camera info has come; 0: not known"}, baseline,
-                 {0.0, kMostBaseline});
-  visitor.number({"field_of_view", "rad", "from left to right, until a camera info has come"},
-                 field_of_view, {degrees(5.0), degrees(150.0)});
-  visitor.number({"disparity_sigma", "px",
-                  "standard deviation of a disparity; at 0.25 px two standard deviations of the "
-                  "demonstrator's depth are 5 m at 36 m (thesis 3.3.3)"},
-                 disparity_sigma, {0.01, 10.0});
-}
-
 void StereoGridStageOptions::visit(OptionVisitor& visitor) {
-  visitor.text({"base_frame", "", "frame of the vehicle, and of the grid"}, base_frame, {});
-  visitor.text({"camera_frame", "",
-                "optical frame of the left camera (x to the right, y down, z ahead); empty: the "
-                "clouds are in it"},
-               camera_frame, {});
+  StereoInputOptions::visit(visitor);
   visitor.text({"scanner_frame", "",
                 "frame of the planar scanner, whose height is where the layer of obstacles begins "
                 "(thesis 3.2.2); empty: scanner_height tells it"},
@@ -38,8 +19,6 @@ void StereoGridStageOptions::visit(OptionVisitor& visitor) {
   visitor.number({"scanner_height", "m",
                   "the same above the vehicle's frame, where tf does not know it (thesis 3.2.2)"},
                  scanner_height, {-1.0, 3.0});
-  visitor.group("camera", [&] { camera.visit(visitor); });
-  visitor.group("input", [&] { input.visit(visitor); });
   grid.visit(visitor);
 }
 
@@ -48,14 +27,14 @@ StereoGridStage::StereoGridStage(const StereoGridStageOptions& options,
     : options_(options),
       transforms_(transforms),
       monitor_(monitor),
-      model_(options.grid),
-      stamps_(options.input.restart_after) {
+      input_(options, transforms),
+      model_(options.grid) {
   checkOptions(options);
 }
 
 void StereoGridStage::takeCameraInfo(const sensor_msgs::CameraInfo& message) {
   try {
-    camera_ = stereoCamera(message);
+    input_.take(message);
   } catch (const InputError& error) {
     monitor_.dropped(error);
   }
@@ -64,20 +43,10 @@ void StereoGridStage::takeCameraInfo(const sensor_msgs::CameraInfo& message) {
 nav_msgs::OccupancyGridPtr StereoGridStage::takeCloud(const sensor_msgs::PointCloud2& message) {
   try {
     const Stopwatch watch;
-    const std::string& frame = message.header.frame_id;
-    const std::string& optical_frame =
-        options_.camera_frame.empty() ? frame : options_.camera_frame;
     CloudPoints points(message);
-    StereoCloud cloud;
-    cloud.stamp = toStamp(message.header.stamp);
-    cloud.camera = camera();
-    cloud.camera_in_base = sensorMount(transforms_.core(), options_.base_frame, optical_frame);
-    if (optical_frame != frame) {
-      points.transform(sensorMount(transforms_.core(), optical_frame, frame));
-    }
-    cloud.points = points.view();
+    StereoCloud cloud = input_.cloudOf(message.header, points);
     cloud.scanner_height = scannerHeight();
-    if (stamps_.check(message.header.stamp) == Arrival::kRestart) {
+    if (input_.check(message.header) == Arrival::kRestart) {
       monitor_.warned(InputError("clock_restart",
                                  "the clock jumped back: forgets the road of the last clouds"));
       model_.reset();
@@ -100,25 +69,6 @@ StereoGridResult StereoGridStage::gridOf(const StereoCloud& cloud) {
   } catch (const std::invalid_argument& error) {
     throw InputError("bad_camera", error.what());
   }
-}
-
-StereoCamera StereoGridStage::camera() const {
-  const StereoCameraOptions& known = options_.camera;
-  StereoCamera camera;
-  if (camera_) {
-    camera = *camera_;
-  } else if (known.focal_length > 0.0 && known.baseline > 0.0) {
-    camera.focal_length = known.focal_length;
-    camera.baseline = known.baseline;
-    camera.right_tangent = std::tan(0.5 * known.field_of_view);
-    camera.left_tangent = -camera.right_tangent;
-  } else {
-    throw InputError("missing_camera_info",
-                     "no info of the right camera yet: expected it, or focal_length and baseline "
-                     "of the parameter group camera");
-  }
-  camera.disparity_sigma = known.disparity_sigma;
-  return camera;
 }
 
 double StereoGridStage::scannerHeight() {

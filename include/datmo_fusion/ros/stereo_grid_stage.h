@@ -1,37 +1,21 @@
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include <nav_msgs/OccupancyGrid.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/PointCloud2.h>
 
-#include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/ros/stage_monitor.h"
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/stereo_input.h"
 #include "datmo_fusion/ros/transform_buffer.h"
 #include "datmo_fusion/sensor_model/stereo_grid.h"
 
 namespace datmo {
 
-/// What serves until a camera info has come, and what no message tells.
-struct StereoCameraOptions {
-  double focal_length = 0.0;             ///< px; 0: not known
-  double baseline = 0.0;                 ///< m; 0: not known
-  double field_of_view = degrees(60.0);  ///< rad
-  double disparity_sigma = 0.25;         ///< px
-
-  void visit(OptionVisitor& visitor);
-};
-
-struct StereoGridStageOptions {
-  std::string base_frame = "base_link";
-  std::string camera_frame;
+struct StereoGridStageOptions : StereoInputOptions {
   std::string scanner_frame = "scanner";
   double scanner_height = 0.33;  ///< m
-  StereoCameraOptions camera;
-  StreamOptions input;
   StereoGridOptions grid;
 
   void visit(OptionVisitor& visitor);
@@ -53,9 +37,6 @@ class StereoGridStage {
   nav_msgs::OccupancyGridPtr takeCloud(const sensor_msgs::PointCloud2& message);
 
  private:
-  /// Throws InputError (`missing_camera_info`).
-  StereoCamera camera() const;
-
   /// Throws InputError (`bad_camera`) for one that is not mounted as one that sees the road.
   StereoGridResult gridOf(const StereoCloud& cloud);
 
@@ -66,9 +47,8 @@ class StereoGridStage {
   StereoGridStageOptions options_;
   const TransformBuffer& transforms_;
   StageMonitor& monitor_;
+  StereoInput input_;
   StereoGridModel model_;
-  StampCheck stamps_;
-  std::optional<StereoCamera> camera_;  ///< as the last camera info says
 };
 
 }  // namespace datmo

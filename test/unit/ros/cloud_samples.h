@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -47,6 +48,41 @@ inline sensor_msgs::CameraInfo rightCameraInfo() {
   message.height = 480;
   message.P = {500.0, 0.0, 319.5, -100.0, 0.0, 500.0, 239.5, 0.0, 0.0, 0.0, 1.0, 0.0};
   return message;
+}
+
+inline constexpr double kCameraHeight = 1.2;  // m
+inline constexpr double kWallAhead = 10.0;    // m, of the camera
+
+/// The camera looks ahead from 2 m ahead of the vehicle's origin.
+inline geometry_msgs::TransformStamped cameraMount() {
+  geometry_msgs::TransformStamped mount = transform("base_link", "camera", 2.0);
+  mount.transform.translation.z = kCameraHeight;
+  mount.transform.rotation.x = -0.5;
+  mount.transform.rotation.y = 0.5;
+  mount.transform.rotation.z = -0.5;
+  mount.transform.rotation.w = 0.5;
+  return mount;
+}
+
+/// What that camera sees of a flat road and a wall on it, every few pixels; the wall reaches from
+/// `right` to `left` (tangents) and up to `top` above the road, m.
+inline std::vector<Eigen::Vector3f> wallOnARoad(double left = -1.0, double right = 1.0,
+                                                double top = 100.0) {
+  std::vector<Eigen::Vector3f> points;
+  for (int row = 0; row < 480; row += 4) {
+    for (int column = 0; column < 640; column += 4) {
+      const double across = (column - 319.5) / 500.0;
+      const double down = (row - 239.5) / 500.0;
+      const double road = down > 0.0 ? kCameraHeight / down : 1e9;
+      const bool on_wall = left < across && across < right &&
+                           kCameraHeight - down * kWallAhead < top && kWallAhead < road;
+      const double depth = on_wall ? kWallAhead : road;
+      if (depth < 100.0) {
+        points.emplace_back(Eigen::Vector3d(across * depth, down * depth, depth).cast<float>());
+      }
+    }
+  }
+  return points;
 }
 
 }  // namespace datmo::samples

@@ -13,23 +13,9 @@ namespace {
 
 using samples::kStart;
 
-constexpr double kCameraHeight = 1.2;  // m
-constexpr double kWallAhead = 10.0;    // m, of the camera
-
-/// What a camera of 500 px sees of a flat road and a wall on it, every few pixels.
-std::vector<Eigen::Vector3f> wallOnARoad() {
-  std::vector<Eigen::Vector3f> points;
-  for (int row = 0; row < 480; row += 4) {
-    for (int column = 0; column < 640; column += 4) {
-      const double right = (column - 319.5) / 500.0;
-      const double down = (row - 239.5) / 500.0;
-      const double road = down > 0.0 ? kCameraHeight / down : kWallAhead;
-      const double depth = std::min(road, kWallAhead);
-      points.emplace_back(Eigen::Vector3d(right * depth, down * depth, depth).cast<float>());
-    }
-  }
-  return points;
-}
+using samples::kCameraHeight;
+using samples::kWallAhead;
+using samples::wallOnARoad;
 
 class StereoGridStageTest : public testing::Test {
  protected:
@@ -38,14 +24,7 @@ class StereoGridStageTest : public testing::Test {
   /// The camera looks ahead from 2 m ahead of the vehicle's origin; the scanner is at 0.5 m.
   void mountSensors() {
     tf2_msgs::TFMessage message;
-    message.transforms = {samples::transform("base_link", "camera", 2.0),
-                          samples::transform("base_link", "scanner", 3.6)};
-    message.transforms[0].transform.translation.z = kCameraHeight;
-    auto& optical = message.transforms[0].transform.rotation;
-    optical.x = -0.5;
-    optical.y = 0.5;
-    optical.z = -0.5;
-    optical.w = 0.5;
+    message.transforms = {samples::cameraMount(), samples::transform("base_link", "scanner", 3.6)};
     message.transforms[1].transform.translation.z = 0.5;
     buffer_.addStatic(message);
   }

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <sensor_msgs/CameraInfo.h>
+#include <std_msgs/Header.h>
+
+#include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/ros/cloud_conversion.h"
+#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/transform_buffer.h"
+#include "datmo_fusion/sensor_model/stereo_cloud.h"
+
+namespace datmo {
+
+/// What serves until a camera info has come, and what no message tells.
+struct StereoCameraOptions {
+  double focal_length = 0.0;             ///< px; 0: not known
+  double baseline = 0.0;                 ///< m; 0: not known
+  double field_of_view = degrees(60.0);  ///< rad
+  double disparity_sigma = 0.25;         ///< px
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// What the stages of a stereo camera's clouds have in common.
+struct StereoInputOptions {
+  std::string base_frame = "base_link";
+  std::string camera_frame;
+  StereoCameraOptions camera;
+  StreamOptions input;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Clouds of a stereo camera as messages -> as the core takes them: with the camera as its info, or
+/// the options until that comes, say, and its mount as tf says.
+class StereoInput {
+ public:
+  /// `transforms` must outlive this. Throws OptionError.
+  StereoInput(const StereoInputOptions& options, const TransformBuffer& transforms);
+
+  /// Of the right camera; the newest one serves. Throws InputError (`bad_camera_info`).
+  void take(const sensor_msgs::CameraInfo& message) { camera_ = stereoCamera(message); }
+
+  /// `points` of a message with this header; they are brought to the camera's frame, and must
+  /// outlive the result. Throws InputError (`missing_camera_info`, `missing_transform`).
+  StereoCloud cloudOf(const std_msgs::Header& header, CloudPoints& points) const;
+
+  /// How the cloud's stamp follows the last one's. Throws InputError (StampCheck).
+  Arrival check(const std_msgs::Header& header) { return stamps_.check(header.stamp); }
+
+ private:
+  /// Throws InputError (`missing_camera_info`).
+  StereoCamera camera() const;
+
+  StereoInputOptions options_;
+  const TransformBuffer& transforms_;
+  StampCheck stamps_;
+  std::optional<StereoCamera> camera_;  ///< as the last camera info says
+};
+
+}  // namespace datmo
