@@ -7,7 +7,9 @@
 #include "datmo_fusion/ros/lidar_grid_stage.h"
 #include "datmo_fusion/ros/markers.h"
 #include "datmo_fusion/ros/moving_objects_stage.h"
+#include "datmo_fusion/ros/object_fusion_stage.h"
 #include "datmo_fusion/ros/stereo_grid_stage.h"
+#include "datmo_fusion/ros/stereo_objects_stage.h"
 #include "datmo_fusion/ros/tracker_stage.h"
 
 namespace datmo {
@@ -27,6 +29,8 @@ std::string parameterTables() {
          section<GridFusionStageOptions>("grid_fusion") + "\n" +
          section<GridSlamStageOptions>("grid_slam") + "\n" +
          section<MovingObjectsStageOptions>("moving_objects") + "\n" +
+         section<StereoObjectsStageOptions>("stereo_objects") + "\n" +
+         section<ObjectFusionStageOptions>("object_fusion") + "\n" +
          section<TrackerStageOptions>("tracker") + "\n" + section<MarkersOptions>("markers") +
          "\n" + section<GridViewsOptions>("grid_views");
 }

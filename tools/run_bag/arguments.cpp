@@ -16,13 +16,15 @@ const std::array<std::string, 8> kInputTopics = {
 const std::map<std::string, LastStage> kStages = {{"grid_fusion", LastStage::kGridFusion},
                                                   {"grid_slam", LastStage::kGridSlam},
                                                   {"moving_objects", LastStage::kMovingObjects},
+                                                  {"object_fusion", LastStage::kObjectFusion},
                                                   {"tracker", LastStage::kTracker}};
 
 LastStage stageOf(const std::string& name) {
   const auto found = kStages.find(name);
   if (found == kStages.end()) {
     throw UsageError("--until '" + name +
-                     "': expected grid_fusion, grid_slam, moving_objects or tracker");
+                     "': expected grid_fusion, grid_slam, moving_objects, object_fusion or "
+                     "tracker");
   }
   return found->second;
 }
@@ -79,14 +81,23 @@ void checkFiles(const Arguments& arguments) {
   }
 }
 
-void checkLowLevel(const Arguments& arguments) {
-  const bool wanted = arguments.stereo_from_images || arguments.write_grids ||
-                      !arguments.grid_rule.empty() ||
-                      arguments.last_stage == LastStage::kGridFusion;
-  if (wanted && !arguments.low_level_fusion) {
+void checkFusion(const Arguments& arguments) {
+  const bool low_level = arguments.write_grids || !arguments.grid_rule.empty() ||
+                         arguments.last_stage == LastStage::kGridFusion;
+  if (low_level && !arguments.low_level_fusion) {
     throw UsageError(
-        "--stereo-from-images, --write-grids, --grid-rule and --until grid_fusion: expected "
-        "--low-level-fusion with them");
+        "--write-grids, --grid-rule and --until grid_fusion: expected --low-level-fusion with "
+        "them");
+  }
+  if (arguments.last_stage == LastStage::kObjectFusion && !arguments.object_fusion) {
+    throw UsageError("--until object_fusion: expected --object-fusion with it");
+  }
+  if (arguments.last_stage < LastStage::kObjectFusion && arguments.object_fusion) {
+    throw UsageError("--object-fusion: expected no --until but object_fusion or tracker");
+  }
+  if (arguments.stereo_from_images && !arguments.low_level_fusion && !arguments.object_fusion) {
+    throw UsageError(
+        "--stereo-from-images: expected --low-level-fusion or --object-fusion with it");
   }
 }
 
@@ -96,6 +107,7 @@ bool setSwitch(const std::string& word, Arguments& arguments) {
       {"--with-truth", &arguments.with_truth},
       {"--quiet", &arguments.quiet},
       {"--low-level-fusion", &arguments.low_level_fusion},
+      {"--object-fusion", &arguments.object_fusion},
       {"--stereo-from-images", &arguments.stereo_from_images},
       {"--write-grids", &arguments.write_grids},
   };
@@ -136,17 +148,22 @@ std::string Arguments::inputTopic(const std::string& topic, const std::string& u
 std::string usage() {
   return "usage: run_bag IN.bag OUT.bag --config CONFIG.yaml [--with-truth] [--quiet]"
          " [--until STAGE]\n"
-         "               [--low-level-fusion [--stereo-from-images] [--grid-rule RULE]"
-         " [--write-grids]]\n"
-         "               [--times FILE.json] [TOPIC:=TOPIC_OF_THE_BAG ...]\n"
+         "               [--low-level-fusion [--grid-rule RULE] [--write-grids]]"
+         " [--object-fusion]\n"
+         "               [--stereo-from-images] [--times FILE.json]"
+         " [TOPIC:=TOPIC_OF_THE_BAG ...]\n"
          "Takes the scans and the odometry of a bag through the stack, as fast as it goes, and "
          "writes\n"
          "/pose, /map, /split_scan, /objects, /tracks and /tf to another bag.\n"
          "  --config CONFIG.yaml  the sensor set, e.g. config/demonstrator.yaml\n"
          "  --with-truth          copies /ground_truth/* along\n"
          "  --quiet               no progress bar and no table\n"
-         "  --until STAGE         goes no further than grid_fusion, grid_slam or moving_objects\n"
+         "  --until STAGE         goes no further than grid_fusion, grid_slam, moving_objects or\n"
+         "                        object_fusion\n"
          "  --low-level-fusion    fuses the grids of scanner and stereo camera before grid_slam\n"
+         "  --object-fusion       fuses the objects of scanner and stereo camera before tracker, "
+         "and\n"
+         "                        writes /objects/stereo and /objects/fused\n"
          "  --stereo-from-images  computes the stereo camera's points from its images, as\n"
          "                        stereo_image_proc does; without it only where the bag has no "
          "points\n"
@@ -177,7 +194,7 @@ Arguments parseArguments(const std::vector<std::string>& words) {
     }
   }
   checkFiles(arguments);
-  checkLowLevel(arguments);
+  checkFusion(arguments);
   return arguments;
 }
 

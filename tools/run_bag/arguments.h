@@ -24,6 +24,7 @@ struct Arguments {
   bool quiet = false;
   LastStage last_stage = LastStage::kTracker;
   bool low_level_fusion = false;
+  bool object_fusion = false;
   bool stereo_from_images = false;  ///< also where the bag has clouds
   bool write_grids = false;
   std::string grid_rule;  ///< of fusion, in place of the yaml file's; empty: that one

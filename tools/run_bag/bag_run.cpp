@@ -39,6 +39,11 @@ class BagRun {
         return pipeline_.takeGrid(name, *message, now);
       });
     }
+    for (const auto& [topic, source] : topics.objects) {
+      on<ObjectArray>(topic, [this, name = source](const auto& message, Stamp now) {
+        return pipeline_.takeObjects(name, *message, now);
+      });
+    }
   }
 
   /// They hold for the whole bag, wherever in it they stand.
@@ -118,8 +123,8 @@ class BagRun {
     for (const GridSlamOutput& slam : results.slam) {
       writeSlam(time, slam);
     }
-    for (const ObjectArrayPtr& objects : results.objects) {
-      output_.write("/objects", time, *objects);
+    for (const auto& [name, objects] : results.objects) {
+      output_.write(name == "lidar" ? "/objects" : "/objects/" + name, time, *objects);
     }
     for (const TrackArrayPtr& tracks : results.tracks) {
       output_.write("/tracks", time, *tracks);
@@ -213,8 +218,8 @@ void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progres
   openInput(arguments.input, bag);
   const InputTopics topics = findTopics(bag, arguments, options);
   OutputBag output(arguments.output);
-  Pipeline pipeline(options,
-                    {arguments.last_stage, arguments.low_level_fusion, topics.stereo.input()});
+  Pipeline pipeline(options, {arguments.last_stage, arguments.low_level_fusion,
+                              arguments.object_fusion, topics.stereo.input()});
   DriveSummary drive;
   BagRun run(topics, pipeline, drive, output, arguments.write_grids);
 

@@ -8,7 +8,8 @@ namespace datmo {
 
 /// Takes a bag through the pipeline, in the order of the messages' record times, as fast as it
 /// goes, and writes what comes out to a bag: /pose, /map, /split_scan, /objects, /tracks, /tf.
-/// With --until some of them, with --write-grids /grids/* too. Prints a table to `out` at the end
+/// With --until some of them, with --write-grids /grids/* too, with --object-fusion
+/// /objects/stereo and /objects/fused. Prints a table to `out` at the end
 /// and a bar to `progress` on the way (null: none); with --quiet neither. With --times it writes
 /// the stages' times to a JSON file.
 ///

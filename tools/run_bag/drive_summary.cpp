@@ -37,6 +37,9 @@ void DriveSummary::add(const Pipeline::Output& output) {
   for (const auto& [name, grid] : output.grids) {
     fused_grids_ += name == "fused" ? 1 : 0;
   }
+  for (const auto& [name, objects] : output.objects) {
+    fused_lists_ += name == "fused" ? 1 : 0;
+  }
   for (const GridSlamOutput& slam : output.slam) {
     const geometry_msgs::Point& at = slam.pose->pose.pose.position;
     const Point2 position(at.x, at.y);
@@ -57,6 +60,9 @@ void printTable(std::ostream& out, const DriveSummary& drive, const Pipeline& pi
   line(out, "scans processed") << drive.scans() << '\n';
   if (drive.fusedGrids() > 0) {
     line(out, "grids fused") << drive.fusedGrids() << '\n';
+  }
+  if (drive.fusedLists() > 0) {
+    line(out, "lists of objects fused") << drive.fusedLists() << '\n';
   }
   line(out, "distance driven") << drive.distance() << " m\n";
   line(out, "tracks confirmed") << drive.tracks() << '\n';

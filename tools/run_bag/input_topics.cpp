@@ -44,23 +44,46 @@ StereoTopics imageTopics(const rosbag::Bag& bag, const Arguments& arguments) {
   return topics;
 }
 
+std::string pointsTopic(const Arguments& arguments) {
+  return arguments.inputTopic("points2", "/stereo/points2");
+}
+
+/// The clouds; where there are none, or on demand, the images, whether there are any or not.
 StereoTopics stereoTopics(const rosbag::Bag& bag, const Arguments& arguments) {
   StereoTopics topics = imageTopics(bag, arguments);
-  const std::string points = arguments.inputTopic("points2", "/stereo/points2");
+  const std::string points = pointsTopic(arguments);
   if (!arguments.stereo_from_images && holdsTopic(bag, points)) {
     StereoTopics cloud;
     cloud.points = points;
     cloud.right_info = topics.right_info;
     return cloud;
   }
+  return topics;
+}
+
+/// The first of the images and their infos that the bag lacks; empty if it has all, or clouds.
+std::string missingTopic(const rosbag::Bag& bag, const StereoTopics& topics) {
+  if (!topics.points.empty()) {
+    return "";
+  }
   for (const std::string& topic :
        {topics.left_image, topics.right_image, topics.left_info, topics.right_info}) {
     if (!holdsTopic(bag, topic)) {
-      failForTopic(bag, "neither a PointCloud2 on " + points + " nor, for images, " + topic +
-                            " (without a stereo camera, set grid_fusion/sources/stereo/use to "
-                            "false in " +
-                            arguments.config + ")");
+      return topic;
     }
+  }
+  return "";
+}
+
+/// `fusion`: the section of the stage that wants them.
+StereoTopics neededStereoTopics(const rosbag::Bag& bag, const Arguments& arguments,
+                                const std::string& fusion) {
+  StereoTopics topics = stereoTopics(bag, arguments);
+  const std::string missing = missingTopic(bag, topics);
+  if (!missing.empty()) {
+    failForTopic(bag, "neither a PointCloud2 on " + pointsTopic(arguments) + " nor, for images, " +
+                          missing + " (without a stereo camera, set " + fusion +
+                          "/sources/stereo/use to false in " + arguments.config + ")");
   }
   return topics;
 }
@@ -69,22 +92,37 @@ void findLowLevelTopics(const rosbag::Bag& bag, const Arguments& arguments,
                         const GridFusionStageOptions& fusion, InputTopics& topics) {
   for (const std::string& source : fusion.fuser.sourcesInUse()) {
     if (source == "stereo") {
-      topics.stereo = stereoTopics(bag, arguments);
+      topics.stereo = neededStereoTopics(bag, arguments, "grid_fusion");
     } else if (source != "lidar") {
       topics.grids["/grids/" + source] = source;
     }
   }
 }
 
+/// An external system's objects of the stereo camera serve where there is nothing to find them in.
+void findObjectTopics(const rosbag::Bag& bag, const Arguments& arguments,
+                      const ObjectFusionStageOptions& fusion, InputTopics& topics) {
+  for (const std::string& source : fusion.fuser.sourcesInUse()) {
+    const std::string topic = "/objects/" + source;
+    const bool external =
+        holdsTopic(bag, topic) && !missingTopic(bag, stereoTopics(bag, arguments)).empty();
+    if (source == "stereo" && !external) {
+      topics.stereo = neededStereoTopics(bag, arguments, "object_fusion");
+    } else if (source != "lidar") {
+      topics.objects[topic] = source;
+    }
+  }
+}
+
 }  // namespace
 
-StereoInput StereoTopics::input() const {
+StereoPoints StereoTopics::input() const {
   if (left_image.empty()) {
-    return StereoInput::kClouds;
+    return StereoPoints::kClouds;
   }
   const std::string name = left_image.substr(left_image.find_last_of('/') + 1);
-  return name.rfind(kRectifiedName, 0) == 0 ? StereoInput::kRectifiedImages
-                                            : StereoInput::kRawImages;
+  return name.rfind(kRectifiedName, 0) == 0 ? StereoPoints::kRectifiedImages
+                                            : StereoPoints::kRawImages;
 }
 
 std::vector<std::string> InputTopics::all() const {
@@ -96,8 +134,10 @@ std::vector<std::string> InputTopics::all() const {
       topics.push_back(topic);
     }
   }
-  for (const auto& [topic, source] : grids) {
-    topics.push_back(topic);
+  for (const auto* others : {&grids, &objects}) {
+    for (const auto& [topic, source] : *others) {
+      topics.push_back(topic);
+    }
   }
   return topics;
 }
@@ -119,6 +159,9 @@ InputTopics findTopics(const rosbag::Bag& bag, const Arguments& arguments,
   }
   if (arguments.low_level_fusion) {
     findLowLevelTopics(bag, arguments, options.low_level.grid_fusion, topics);
+  }
+  if (arguments.object_fusion) {
+    findObjectTopics(bag, arguments, options.object_level.object_fusion, topics);
   }
   if (arguments.with_truth) {
     topics.truth = truthTopics(bag);

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "arguments.h"
-#include "low_level_pipeline.h"
 #include "pipeline_options.h"
+#include "wiring.h"
 
 #include <rosbag/bag.h>
 
@@ -22,7 +22,7 @@ struct StereoTopics {
 
   /// What there is. Images are rectified if image_proc's naming says so: image_rect,
   /// image_rect_color.
-  StereoInput input() const;
+  StereoPoints input() const;
 };
 
 /// The names that our inputs have in the bag.
@@ -31,7 +31,8 @@ struct InputTopics {
   std::string echoes;
   std::string odometry;
   StereoTopics stereo;
-  std::map<std::string, std::string> grids;  ///< of sources that no stage makes: topic -> source
+  std::map<std::string, std::string> grids;    ///< of sources that no stage makes: topic -> source
+  std::map<std::string, std::string> objects;  ///< the same for objects
   std::vector<std::string> truth;
 
   std::vector<std::string> all() const;

@@ -3,6 +3,6 @@
 namespace datmo {
 
 /// How far the chain of stages goes; each of them feeds the next.
-enum class LastStage { kGridFusion, kGridSlam, kMovingObjects, kTracker };
+enum class LastStage { kGridFusion, kGridSlam, kMovingObjects, kObjectFusion, kTracker };
 
 }  // namespace datmo

@@ -4,47 +4,18 @@
 
 namespace datmo {
 
-LowLevelPipeline::LowLevelPipeline(const LowLevelOptions& options, StereoInput input,
+LowLevelPipeline::LowLevelPipeline(const LowLevelOptions& options,
                                    const TransformBuffer& transforms, StageTimes& times)
     : times_(times),
       longest_wait_(options.grid_fusion.matcher.longest_wait),
       lidar_(options.lidar_grid, transforms, lidar_monitor_),
       stereo_(options.stereo_grid, transforms, stereo_monitor_),
       fusion_(options.grid_fusion, fusion_monitor_),
-      sources_(fusion_.sources()) {
-  if (input != StereoInput::kClouds) {
-    images_.emplace(options.stereo_images, input == StereoInput::kRectifiedImages, images_monitor_);
-  }
-}
+      sources_(fusion_.sources()) {}
 
 void LowLevelPipeline::takeCloud(const sensor_msgs::PointCloud2& message, Stamp now,
                                  std::vector<NamedGrid>& grids) {
   offer("stereo", stereo_.takeCloud(message), stereo_monitor_, now, grids);
-}
-
-void LowLevelPipeline::takeImage(StereoSide side, const sensor_msgs::ImageConstPtr& image,
-                                 Stamp now, std::vector<NamedGrid>& grids) {
-  if (images_) {
-    takeMadeCloud(images_->takeImage(side, image), now, grids);
-  }
-}
-
-void LowLevelPipeline::takeCameraInfo(StereoSide side, const sensor_msgs::CameraInfoConstPtr& info,
-                                      Stamp now, std::vector<NamedGrid>& grids) {
-  if (side == StereoSide::kRight) {
-    stereo_.takeCameraInfo(*info);
-  }
-  if (images_) {
-    takeMadeCloud(images_->takeInfo(side, info), now, grids);
-  }
-}
-
-void LowLevelPipeline::takeMadeCloud(const sensor_msgs::PointCloud2Ptr& cloud, Stamp now,
-                                     std::vector<NamedGrid>& grids) {
-  if (cloud) {
-    bookTime(images_monitor_);
-    takeCloud(*cloud, now, grids);
-  }
 }
 
 void LowLevelPipeline::takeGrid(const std::string& source, const nav_msgs::OccupancyGrid& grid,

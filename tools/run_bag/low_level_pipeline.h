@@ -1,27 +1,21 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "pipeline_options.h"
 #include "stage_times.h"
-#include "stereo_images.h"
 
 #include "datmo_fusion/ros/stage_monitor.h"
 #include "datmo_fusion/ros/transform_buffer.h"
 
 namespace datmo {
 
-/// What the stereo camera's points come from.
-enum class StereoInput { kClouds, kRectifiedImages, kRawImages };
-
 /// The stages before grid_slam with low-level fusion:
 ///
 ///     scan, odometry, tf ──────────────► lidar_grid ── lidar ──┐
 ///     points2, right camera_info, tf ──► stereo_grid ─ stereo ─┴► grid_fusion ─ fused, conflict
-///     images, camera_infos ► stereo_images ┘
 ///
 /// `now` is always the time at which a message came.
 class LowLevelPipeline {
@@ -30,8 +24,8 @@ class LowLevelPipeline {
   using NamedGrid = std::pair<std::string, nav_msgs::OccupancyGridPtr>;
 
   /// `transforms` and `times` must outlive this. Throws OptionError.
-  LowLevelPipeline(const LowLevelOptions& options, StereoInput input,
-                   const TransformBuffer& transforms, StageTimes& times);
+  LowLevelPipeline(const LowLevelOptions& options, const TransformBuffer& transforms,
+                   StageTimes& times);
 
   /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan. The grids that it leads to are added
   /// to `grids`; the same holds for all below.
@@ -41,11 +35,8 @@ class LowLevelPipeline {
   }
 
   void takeCloud(const sensor_msgs::PointCloud2& message, Stamp now, std::vector<NamedGrid>& grids);
-  /// Images are read where the points come from them.
-  void takeImage(StereoSide side, const sensor_msgs::ImageConstPtr& image, Stamp now,
-                 std::vector<NamedGrid>& grids);
-  void takeCameraInfo(StereoSide side, const sensor_msgs::CameraInfoConstPtr& info, Stamp now,
-                      std::vector<NamedGrid>& grids);
+  /// Of the right camera.
+  void takeCameraInfo(const sensor_msgs::CameraInfo& message) { stereo_.takeCameraInfo(message); }
 
   /// A grid of a source that has no stage here.
   void takeGrid(const std::string& source, const nav_msgs::OccupancyGrid& grid, Stamp now);
@@ -60,13 +51,10 @@ class LowLevelPipeline {
   Stamp endOfWaiting(Stamp now) const { return now + longest_wait_; }
 
   std::vector<const StageMonitor*> monitors() const {
-    return {&images_monitor_, &lidar_monitor_, &stereo_monitor_, &fusion_monitor_};
+    return {&lidar_monitor_, &stereo_monitor_, &fusion_monitor_};
   }
 
  private:
-  void takeMadeCloud(const sensor_msgs::PointCloud2Ptr& cloud, Stamp now,
-                     std::vector<NamedGrid>& grids);
-
   /// Takes a new grid (null: there is none) to the fusion, if that uses it.
   void offer(const std::string& source, const nav_msgs::OccupancyGridPtr& grid,
              const StageMonitor& monitor, Stamp now, std::vector<NamedGrid>& grids);
@@ -74,11 +62,9 @@ class LowLevelPipeline {
 
   StageTimes& times_;
   double longest_wait_;  ///< s
-  StageMonitor images_monitor_{"stereo_images"};
   StageMonitor lidar_monitor_{"lidar_grid"};
   StageMonitor stereo_monitor_{"stereo_grid"};
   StageMonitor fusion_monitor_{"grid_fusion"};
-  std::optional<StereoImages> images_;  ///< none if there are clouds
   LidarGridStage lidar_;
   StereoGridStage stereo_;
   GridFusionStage fusion_;

@@ -20,12 +20,19 @@ Pipeline::Pipeline(const PipelineOptions& options, const Wiring& wiring)
       last_(wiring.last),
       transforms_(options_.grid_slam.input.restart_after),
       low_level_(wiring.low_level_fusion
-                     ? std::make_unique<LowLevelPipeline>(options_.low_level, wiring.stereo,
-                                                          transforms_, times_)
+                     ? std::make_unique<LowLevelPipeline>(options_.low_level, transforms_, times_)
                      : nullptr),
+      object_fusion_(wiring.object_fusion ? std::make_unique<ObjectFusionPipeline>(
+                                                options_.object_level, transforms_, times_)
+                                          : nullptr),
       slam_(options_.grid_slam, transforms_, slam_monitor_),
       detector_(options_.moving_objects, detector_monitor_),
-      tracker_(options_.tracker, transforms_, tracker_monitor_) {}
+      tracker_(options_.tracker, transforms_, tracker_monitor_) {
+  if (wiring.stereo != StereoPoints::kClouds) {
+    images_.emplace(options_.stereo_images, wiring.stereo == StereoPoints::kRectifiedImages,
+                    images_monitor_);
+  }
+}
 
 void Pipeline::takeStaticTransforms(const tf2_msgs::TFMessage& message) {
   transforms_.addStatic(message);
@@ -50,50 +57,108 @@ Pipeline::Output Pipeline::takeTransforms(const tf2_msgs::TFMessage& message, St
   return output;
 }
 
-template <typename Take>
-Pipeline::Output Pipeline::throughFusion(Stamp now, const Take& take) {
-  Output output;
+Pipeline::Output Pipeline::takeOdometry(const nav_msgs::Odometry& message, Stamp now) {
+  slam_.takeOdometry(message);
   if (low_level_) {
-    take(output.grids);
-    followFusion(now, output);
+    low_level_->takeOdometry(message);
   }
+  if (object_fusion_) {
+    object_fusion_->takeOdometry(message);
+  }
+  Output output;
+  followFusion(now, output);
   return output;
 }
 
-Pipeline::Output Pipeline::takeOdometry(const nav_msgs::Odometry& message, Stamp now) {
-  slam_.takeOdometry(message);
-  return throughFusion(now, [&](auto& /*grids*/) { low_level_->takeOdometry(message); });
-}
-
 Pipeline::Output Pipeline::takeCloud(const sensor_msgs::PointCloud2& message, Stamp now) {
-  return throughFusion(now, [&](auto& grids) { low_level_->takeCloud(message, now, grids); });
+  Output output;
+  feedCloud(message, now, output);
+  followFusion(now, output);
+  return output;
 }
 
 Pipeline::Output Pipeline::takeImage(StereoSide side, const sensor_msgs::ImageConstPtr& image,
                                      Stamp now) {
-  return throughFusion(now, [&](auto& grids) { low_level_->takeImage(side, image, now, grids); });
+  Output output;
+  if (images_) {
+    feedMadeCloud(images_->takeImage(side, image), now, output);
+  }
+  followFusion(now, output);
+  return output;
 }
 
 Pipeline::Output Pipeline::takeCameraInfo(StereoSide side,
                                           const sensor_msgs::CameraInfoConstPtr& info, Stamp now) {
-  return throughFusion(now,
-                       [&](auto& grids) { low_level_->takeCameraInfo(side, info, now, grids); });
+  if (low_level_ && side == StereoSide::kRight) {
+    low_level_->takeCameraInfo(*info);
+  }
+  if (object_fusion_ && side == StereoSide::kRight) {
+    object_fusion_->takeCameraInfo(*info);
+  }
+  Output output;
+  if (images_) {
+    feedMadeCloud(images_->takeInfo(side, info), now, output);
+  }
+  followFusion(now, output);
+  return output;
 }
 
 Pipeline::Output Pipeline::takeGrid(const std::string& source, const nav_msgs::OccupancyGrid& grid,
                                     Stamp now) {
-  return throughFusion(now, [&](auto& /*grids*/) { low_level_->takeGrid(source, grid, now); });
+  if (low_level_) {
+    low_level_->takeGrid(source, grid, now);
+  }
+  Output output;
+  followFusion(now, output);
+  return output;
+}
+
+Pipeline::Output Pipeline::takeObjects(const std::string& source, const ObjectArray& objects,
+                                       Stamp now) {
+  if (object_fusion_) {
+    object_fusion_->takeObjects(source, objects, now);
+  }
+  Output output;
+  followFusion(now, output);
+  return output;
 }
 
 Pipeline::Output Pipeline::finish(Stamp now) {
   Output output;
+  Stamp end = now;
   if (low_level_) {
-    followFusion(low_level_->endOfWaiting(now), output);
+    end = low_level_->endOfWaiting(end);
+    followGrids(end, output);
+  }
+  if (object_fusion_) {
+    end = object_fusion_->endOfWaiting(end);
+    followObjects(end, output);
   }
   return output;
 }
 
+void Pipeline::feedCloud(const sensor_msgs::PointCloud2& cloud, Stamp now, Output& output) {
+  if (low_level_) {
+    low_level_->takeCloud(cloud, now, output.grids);
+  }
+  if (object_fusion_) {
+    object_fusion_->takeCloud(cloud, now, output.objects);
+  }
+}
+
+void Pipeline::feedMadeCloud(const sensor_msgs::PointCloud2Ptr& cloud, Stamp now, Output& output) {
+  if (cloud) {
+    bookTime(images_monitor_);
+    feedCloud(*cloud, now, output);
+  }
+}
+
 void Pipeline::followFusion(Stamp now, Output& output) {
+  followGrids(now, output);
+  followObjects(now, output);
+}
+
+void Pipeline::followGrids(Stamp now, Output& output) {
   if (!low_level_) {
     return;
   }
@@ -106,6 +171,18 @@ void Pipeline::followFusion(Stamp now, Output& output) {
       followSlam(std::move(*slam), now, output);
     }
   }
+}
+
+void Pipeline::followObjects(Stamp now, Output& output) {
+  if (!object_fusion_) {
+    return;
+  }
+  while (const ObjectArrayPtr fused = object_fusion_->nextFused(now, output.objects)) {
+    if (last_ == LastStage::kTracker) {
+      tracker_.takeObjects(fused, now);
+    }
+  }
+  drainTracker(now, output);
 }
 
 void Pipeline::followSlam(GridSlamOutput slam, Stamp now, Output& output) {
@@ -123,11 +200,19 @@ void Pipeline::followSlam(GridSlamOutput slam, Stamp now, Output& output) {
 }
 
 void Pipeline::detect(const GridSlamOutput& slam, Stamp now, Output& output) {
+  if (last_ == LastStage::kTracker) {
+    tracker_.takeSplitScan(*slam.split_scan);
+  }
+  if (object_fusion_) {
+    object_fusion_->takePose(*slam.pose);
+    object_fusion_->takeSplitScan(*slam.split_scan);
+  }
   if (const ObjectArrayPtr objects = detector_.takeSplitScan(*slam.split_scan)) {
     bookTime(detector_monitor_);
-    output.objects.push_back(objects);
-    if (last_ == LastStage::kTracker) {
-      tracker_.takeSplitScan(*slam.split_scan);
+    output.objects.emplace_back("lidar", objects);
+    if (object_fusion_) {
+      object_fusion_->takeObjects("lidar", *objects, now);
+    } else if (last_ == LastStage::kTracker) {
       tracker_.takeObjects(objects, now);
     }
   }
@@ -147,10 +232,19 @@ void Pipeline::bookTime(const StageMonitor& monitor) {
 
 std::vector<const StageMonitor*> Pipeline::monitors() const {
   std::vector<const StageMonitor*> monitors;
-  if (low_level_) {
-    monitors = low_level_->monitors();
+  if (images_) {
+    monitors.push_back(&images_monitor_);
   }
-  monitors.insert(monitors.end(), {&slam_monitor_, &detector_monitor_, &tracker_monitor_});
+  if (low_level_) {
+    const auto low_level = low_level_->monitors();
+    monitors.insert(monitors.end(), low_level.begin(), low_level.end());
+  }
+  monitors.insert(monitors.end(), {&slam_monitor_, &detector_monitor_});
+  if (object_fusion_) {
+    const auto object_level = object_fusion_->monitors();
+    monitors.insert(monitors.end(), object_level.begin(), object_level.end());
+  }
+  monitors.push_back(&tracker_monitor_);
   return monitors;
 }
 

@@ -1,13 +1,16 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "last_stage.h"
 #include "low_level_pipeline.h"
+#include "object_fusion_pipeline.h"
 #include "pipeline_options.h"
 #include "stage_times.h"
+#include "stereo_images.h"
+#include "wiring.h"
 #include <tf2_msgs/TFMessage.h>
 
 #include "datmo_fusion/ros/stage_monitor.h"
@@ -15,19 +18,14 @@
 
 namespace datmo {
 
-/// Which stages there are, and what feeds them.
-struct Wiring {
-  LastStage last = LastStage::kTracker;  ///< the stages after it are left out
-  bool low_level_fusion = false;
-  StereoInput stereo = StereoInput::kClouds;
-};
-
 /// The stages of perception.launch, wired without a master:
 ///
 ///     scan, odometry, tf ─► grid_slam ─ split scan ─► moving_objects ─ objects ─► tracker ─ tracks
 ///                               └───────── split scan, map -> odom ──────────────────┘
 ///
-/// and with low-level fusion LowLevelPipeline before grid_slam, which then waits for its grids.
+/// with low-level fusion LowLevelPipeline before grid_slam, which then waits for its grids, and
+/// with object-level fusion ObjectFusionPipeline before the tracker, which then takes its objects.
+/// Both share the stereo camera's clouds, which are made here where there are images alone.
 ///
 /// Messages go in one after the other, as they came; the same messages give the same results, bit
 /// for bit. `now` is the time at which a message came.
@@ -40,7 +38,7 @@ class Pipeline {
   struct Output {
     std::vector<LowLevelPipeline::NamedGrid> grids;
     std::vector<GridSlamOutput> slam;
-    std::vector<ObjectArrayPtr> objects;
+    std::vector<ObjectFusionPipeline::NamedObjects> objects;
     std::vector<TrackArrayPtr> tracks;
     std::vector<nav_msgs::OccupancyGridPtr> maps;
   };
@@ -64,16 +62,19 @@ class Pipeline {
     }
     if (low_level_) {
       low_level_->takeScan(message, now, output.grids);
-      followFusion(now, output);
     }
+    followFusion(now, output);
     return output;
   }
 
-  /// The stereo camera's messages, and grids of other sources; read with low-level fusion alone.
+  /// The stereo camera's messages, read with fusion alone; images where points come from them.
   Output takeCloud(const sensor_msgs::PointCloud2& message, Stamp now);
   Output takeImage(StereoSide side, const sensor_msgs::ImageConstPtr& image, Stamp now);
   Output takeCameraInfo(StereoSide side, const sensor_msgs::CameraInfoConstPtr& info, Stamp now);
+
+  /// Of sources that have no stage here; read with fusion of their level alone.
   Output takeGrid(const std::string& source, const nav_msgs::OccupancyGrid& grid, Stamp now);
+  Output takeObjects(const std::string& source, const ObjectArray& objects, Stamp now);
 
   /// What is left when the last message came at `now`.
   Output finish(Stamp now);
@@ -84,11 +85,14 @@ class Pipeline {
  private:
   bool isFromSlam(const geometry_msgs::TransformStamped& transform) const;
 
-  /// What `take(grids)`, which feeds the low level, leads to; nothing without low-level fusion.
-  template <typename Take>
-  Output throughFusion(Stamp now, const Take& take);
+  void feedCloud(const sensor_msgs::PointCloud2& cloud, Stamp now, Output& output);
+  /// A cloud made of images; null: there is none.
+  void feedMadeCloud(const sensor_msgs::PointCloud2Ptr& cloud, Stamp now, Output& output);
 
+  /// What is ready in the fusions goes on to the stages after them.
   void followFusion(Stamp now, Output& output);
+  void followGrids(Stamp now, Output& output);
+  void followObjects(Stamp now, Output& output);
   void followSlam(GridSlamOutput slam, Stamp now, Output& output);
   void detect(const GridSlamOutput& slam, Stamp now, Output& output);
   void drainTracker(Stamp now, Output& output);
@@ -97,11 +101,14 @@ class Pipeline {
   PipelineOptions options_;
   LastStage last_;
   TransformBuffer transforms_;
+  StageMonitor images_monitor_{"stereo_images"};
   StageMonitor slam_monitor_{"grid_slam"};
   StageMonitor detector_monitor_{"moving_objects"};
   StageMonitor tracker_monitor_{"tracker"};
   StageTimes times_;
-  std::unique_ptr<LowLevelPipeline> low_level_;  ///< null without low-level fusion
+  std::optional<StereoImages> images_;                   ///< none if there are clouds
+  std::unique_ptr<LowLevelPipeline> low_level_;          ///< null without low-level fusion
+  std::unique_ptr<ObjectFusionPipeline> object_fusion_;  ///< null without object-level fusion
   GridSlamStage slam_;
   MovingObjectsStage detector_;
   TrackerStage tracker_;

@@ -11,9 +11,10 @@ namespace datmo {
 namespace {
 
 /// One for each nodelet; those without a stage in the pipeline are for live use alone.
-const std::array<std::string, 9> kSections = {"stereo_image_proc", "lidar_grid", "stereo_grid",
-                                              "grid_fusion",       "grid_slam",  "moving_objects",
-                                              "tracker",           "markers",    "grid_views"};
+const std::array<std::string, 11> kSections = {
+    "stereo_image_proc", "lidar_grid",     "stereo_grid",    "grid_fusion",
+    "grid_slam",         "moving_objects", "stereo_objects", "object_fusion",
+    "tracker",           "markers",        "grid_views"};
 
 std::string sectionNames() {
   std::string names;
@@ -50,12 +51,14 @@ PipelineOptions readPipelineOptions(const std::string& file) {
     throw OptionError(file + ": expected sections: " + sectionNames());
   }
   checkSections(file, root);
-  return {{readSection<StereoImagesOptions>(file, root, "stereo_image_proc"),
-           readSection<LidarGridStageOptions>(file, root, "lidar_grid"),
+  return {readSection<StereoImagesOptions>(file, root, "stereo_image_proc"),
+          {readSection<LidarGridStageOptions>(file, root, "lidar_grid"),
            readSection<StereoGridStageOptions>(file, root, "stereo_grid"),
            readSection<GridFusionStageOptions>(file, root, "grid_fusion")},
           readSection<GridSlamStageOptions>(file, root, "grid_slam"),
           readSection<MovingObjectsStageOptions>(file, root, "moving_objects"),
+          {readSection<StereoObjectsStageOptions>(file, root, "stereo_objects"),
+           readSection<ObjectFusionStageOptions>(file, root, "object_fusion")},
           readSection<TrackerStageOptions>(file, root, "tracker")};
 }
 

@@ -8,24 +8,33 @@
 #include "datmo_fusion/ros/grid_slam_stage.h"
 #include "datmo_fusion/ros/lidar_grid_stage.h"
 #include "datmo_fusion/ros/moving_objects_stage.h"
+#include "datmo_fusion/ros/object_fusion_stage.h"
 #include "datmo_fusion/ros/stereo_grid_stage.h"
+#include "datmo_fusion/ros/stereo_objects_stage.h"
 #include "datmo_fusion/ros/tracker_stage.h"
 
 namespace datmo {
 
 /// The options of the stages before grid_slam, which low-level fusion takes.
 struct LowLevelOptions {
-  StereoImagesOptions stereo_images;
   LidarGridStageOptions lidar_grid;
   StereoGridStageOptions stereo_grid;
   GridFusionStageOptions grid_fusion;
 };
 
+/// The options of the stages between moving_objects and tracker, which object-level fusion takes.
+struct ObjectFusionOptions {
+  StereoObjectsStageOptions stereo_objects;
+  ObjectFusionStageOptions object_fusion;
+};
+
 /// The options of all stages, as in the sections of a sensor set's yaml file.
 struct PipelineOptions {
+  StereoImagesOptions stereo_images;
   LowLevelOptions low_level;
   GridSlamStageOptions grid_slam;
   MovingObjectsStageOptions moving_objects;
+  ObjectFusionOptions object_level;
   TrackerStageOptions tracker;
 };
 

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "last_stage.h"
+
+namespace datmo {
+
+/// What the stereo camera's points come from.
+enum class StereoPoints { kClouds, kRectifiedImages, kRawImages };
+
+/// Which stages there are, and what feeds them.
+struct Wiring {
+  LastStage last = LastStage::kTracker;  ///< the stages after it are left out
+  bool low_level_fusion = false;
+  bool object_fusion = false;
+  StereoPoints stereo = StereoPoints::kClouds;
+};
+
+}  // namespace datmo
