@@ -11,6 +11,11 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
 WIDTH = 10.0  # inch
+DPI = 150  # of a picture in pixels
+
+# Of files, and what each would say of the hour it was made in.
+KINDS = {"svg": ("Date",), "pdf": ("CreationDate",), "png": ()}
+
 INK = "#1f2937"
 FAINT = "#cbd5e1"
 TRUTH = "#94a3b8"
@@ -62,17 +67,33 @@ def drawing(height, draw, left=0.75, top=0.3, **subplots):
     figure's axes as Figure.subplots(**subplots) returns them.
     """
     with matplotlib.rc_context(STYLE):
-        figure = Figure(figsize=(WIDTH, height))
-        FigureCanvasSVG(figure)
-        draw(figure.subplots(**subplots))
-        figure.subplots_adjust(
-            left=left / WIDTH,
-            right=1.0 - 0.2 / WIDTH,
-            bottom=0.5 / height,
-            top=1.0 - top / height,
-            hspace=0.4,
-        )
-        return _element(figure)
+        return _element(_figure(height, draw, left, top, subplots))
+
+
+def picture(kind, height, draw, left=0.75, top=0.3, **subplots):
+    """Bytes of a file of one figure, the same for the same input.
+
+    kind: of KINDS; the rest as in drawing().
+    """
+    data = io.BytesIO()
+    with matplotlib.rc_context(STYLE):
+        figure = _figure(height, draw, left, top, subplots)
+        figure.savefig(data, format=kind, dpi=DPI, metadata={key: None for key in KINDS[kind]})
+    return data.getvalue()
+
+
+def _figure(height, draw, left, top, subplots):
+    figure = Figure(figsize=(WIDTH, height))
+    FigureCanvasSVG(figure)
+    draw(figure.subplots(**subplots))
+    figure.subplots_adjust(
+        left=left / WIDTH,
+        right=1.0 - 0.2 / WIDTH,
+        bottom=0.5 / height,
+        top=1.0 - top / height,
+        hspace=0.4,
+    )
+    return figure
 
 
 def _element(figure):

@@ -5,12 +5,12 @@ from datmo_tools.text_table import NO_VALUE, aligned, percent, rounded
 
 NOTE = """\
 Levels of fusion: none, the scanner alone; low, grids of scanner and stereo camera (thesis 3.2);
-object, objects of both (thesis 3.3). Missed: moving objects that no track ever matched, of those that
-the scanner saw moving, however briefly, and, by any, of those that either sensor did; of a labelled
-drive, of all that move in the camera's view. Beside it what the thesis missed without and with fusion
-of objects (table 3.2): its data sets were driven, ours are simulated streets with as many seconds and
-moving objects. Delay: from the first sight of an object to its first track, mean. Time: mean of all
-stages together for one scan."""
+object, objects of both (thesis 3.3). Missed: moving objects that no track ever matched, of those
+that the scanner saw moving, however briefly, and, by any, of those that either sensor did; of a
+labelled drive, of all that move in the camera's view. Beside it what the thesis missed without and
+with fusion of objects (table 3.2): its data sets were driven, ours are simulated streets with as
+many seconds and moving objects. Delay: from the first sight of an object to its first track, mean.
+Time: mean of all stages together for one scan."""
 
 # Levels at which the thesis has a count: its field in Published.
 THESIS_MISSED = {"none": "missed", "object": "missed_with_fusion"}

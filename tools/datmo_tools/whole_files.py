@@ -9,14 +9,15 @@ from datmo_tools.errors import InputError
 def write_whole(folder, texts):
     """Writes files to `folder` (Path), which is made if need be.
 
-    texts: name -> text. Each gets its name only when all of them are on the disk; what was there
+    texts: name -> text, or bytes. Each gets its name only when all of them are on the disk; what was there
     under a name stays until then.
     """
     parts = {name: folder / (name + ".part") for name in texts}
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for name, text in texts.items():
-            parts[name].write_text(text, encoding="utf-8")
+            data = text if isinstance(text, bytes) else text.encode("utf-8")
+            parts[name].write_bytes(data)
         for name, part in parts.items():
             os.replace(part, folder / name)
     except OSError as error:

@@ -1,0 +1,151 @@
+"""Variances by range bin from differences between two sensors, and the laws that they follow."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from datmo_tools.errors import InputError
+
+# From the median absolute deviation to the standard deviation of a normal distribution.
+NORMAL_MAD = 1.4826
+OUTLIER = 3.0  # standard deviations
+# What is left of a normal distribution's variance within so many standard deviations.
+KEPT_VARIANCE = 0.97334
+
+# Where the lidar's own covariance explains all of it, this share is the camera's after all.
+LEAST_SHARE = 0.1
+
+FIT_STEPS = 50
+
+
+class Spread(NamedTuple):
+    """How differences vary, without outliers."""
+
+    count: int
+    bias: float
+    variance: float  # about the bias
+
+
+def robust_spread(differences):
+    """Spread of differences (n, one or more)."""
+    values = np.asarray(differences, dtype=float)
+    middle = np.median(values)
+    scale = NORMAL_MAD * np.median(np.abs(values - middle))
+    kept = values[np.abs(values - middle) <= OUTLIER * scale]
+    return Spread(len(kept), float(kept.mean()), float(kept.var()) / KEPT_VARIANCE)
+
+
+class Law(NamedTuple):
+    """Variance over range r: constant + factor * r^power."""
+
+    constant: float
+    factor: float
+    power: int
+
+    def at(self, ranges):
+        """Variances at the ranges (n, m)."""
+        return self.constant + self.factor * np.asarray(ranges, dtype=float) ** self.power
+
+
+def fitted_law(ranges, variances, counts, power):
+    """Law with constant and factor of 0 or more that fits the variances best.
+
+    ranges: m; variances: of as many samples as `counts` says, each 2 or more in number: that of a
+    variance's own estimate is 2 variance^2 / count.
+    """
+    ranges, variances, counts = (np.asarray(item, float) for item in (ranges, variances, counts))
+    terms = np.column_stack([np.ones(len(ranges)), ranges**power])
+    weights = np.sqrt(counts) / variances
+    factors = np.zeros(2)
+    for _ in range(FIT_STEPS):
+        factors = _least_squares(terms * weights[:, np.newaxis], variances * weights)
+        weights = np.sqrt(counts) / (terms @ factors)
+    return Law(float(factors[0]), float(factors[1]), power)
+
+
+def _least_squares(terms, values):
+    """Two factors of 0 or more (n x 2 terms)."""
+    scales = np.sqrt(np.sum(terms**2, axis=0))
+    factors = np.linalg.lstsq(terms / scales, values, rcond=None)[0] / scales
+    if np.all(factors >= 0.0):
+        return factors
+    alone = [max(0.0, float(values @ column) / float(column @ column)) for column in terms.T]
+    candidates = [np.array([alone[0], 0.0]), np.array([0.0, alone[1]])]
+    return min(candidates, key=lambda item: float(np.sum((terms @ item - values) ** 2)))
+
+
+class Column(NamedTuple):
+    """One measure, range or bearing, over the bins; arrays of as many as there are bins."""
+
+    count: np.ndarray  # pairs without outliers
+    bias: np.ndarray  # NaN: no pairs
+    difference_variance: np.ndarray  # of the camera's less the lidar's; NaN: too few pairs
+    lidar_variance: np.ndarray  # the lidar's share of it; NaN: too few pairs
+    measured: np.ndarray  # whether the bin has enough pairs
+    variance: np.ndarray  # the camera's: measured, or that of the law
+    law: Law
+
+
+class CovarianceTable(NamedTuple):
+    """Range and bearing of one sensor's objects."""
+
+    bin_width: float  # m
+    range: Column  # m^2
+    bearing: Column  # rad^2
+
+    @property
+    def centres(self):
+        """Of the bins, m."""
+        return (np.arange(len(self.range.count)) + 0.5) * self.bin_width
+
+
+# How errors grow with range. A stereo camera's depth: with its square (thesis 3.3.3 measures it;
+# disparities of constant noise explain it). Bearing: that of pixels, and of what is seen as the
+# middle of an object, which is some centimetres whatever the range.
+RANGE_POWER, BEARING_POWER = 4, -2
+
+
+def covariance_table(pairs, bin_width, reach, least_pairs, with_bias=False):
+    """CovarianceTable of Pairs (object_pairs).
+
+    bin_width: m; reach: m, up to where there are bins; least_pairs: of a bin that is measured;
+    with_bias: variance about zero, not about the mean. Raises InputError for fewer than two
+    measured bins.
+    """
+    bins = int(np.ceil(reach / bin_width - 1e-9))
+    values = np.array(pairs, dtype=float).reshape(-1, 5)
+    index = np.floor(values[:, 0] / bin_width).astype(int)
+    members = [values[index == i] for i in range(bins)]
+    enough = sum(len(chosen) >= least_pairs for chosen in members)
+    if enough < 2:
+        raise InputError(
+            f"{len(values)} pairs; {enough} bins of {bin_width:g} m within {reach:g} m have "
+            f"{least_pairs} or more, expected two bins"
+        )
+    centres = (np.arange(bins) + 0.5) * bin_width
+
+    def column(difference, lidar, power):
+        columns = [(chosen[:, difference], chosen[:, lidar]) for chosen in members]
+        return _column(columns, centres, least_pairs, power, with_bias)
+
+    return CovarianceTable(bin_width, column(1, 3, RANGE_POWER), column(2, 4, BEARING_POWER))
+
+
+def _column(members, centres, least_pairs, power, with_bias):
+    count = np.zeros(len(members), dtype=int)
+    bias, difference_variance, lidar_variance = np.full((3, len(members)), np.nan)
+    for i, (differences, lidar) in enumerate(members):
+        if len(differences) == 0:
+            continue
+        spread = robust_spread(differences)
+        count[i], bias[i] = spread.count, spread.bias
+        if len(differences) >= least_pairs:
+            difference_variance[i] = spread.variance + with_bias * spread.bias**2
+            lidar_variance[i] = np.median(lidar)
+    measured = np.isfinite(difference_variance)
+    own = np.maximum(difference_variance - lidar_variance, LEAST_SHARE * difference_variance)
+    if np.any(own[measured] <= 0.0):
+        raise InputError("pairs of a bin differ by nothing at all, expected two sensors' objects")
+    law = fitted_law(centres[measured], own[measured], count[measured], power)
+    variance = np.where(measured, own, law.at(centres))
+    return Column(count, bias, difference_variance, lidar_variance, measured, variance, law)

@@ -1,0 +1,140 @@
+"""Objects of one measurement against true ones: what is found, what is false, how far off."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from datmo_tools import transforms
+from datmo_tools.object_lists import Seen, near_side
+
+# An object is near a true one within this of its box: across the line of sight, and along it, where
+# it grows with the range by thesis 3.3.3 (5 m at 36 m; see THESIS_GATE).
+NEAR_ACROSS = 1.0  # m
+NEAR_ALONG = 1.0  # m, at least
+
+THESIS_GATE = 5.0 / 36.0  # m for each metre of range: up to here a stereo object is the lidar's
+
+# 95 % of chi-square with two degrees of freedom.
+GATE_95 = 5.991
+
+EMPTY_SIDES = np.zeros(4)
+
+
+class TrueState(NamedTuple):
+    """A true object at a stamp, in base_link."""
+
+    pose: np.ndarray  # x, y (m), yaw (rad)
+    size: np.ndarray  # m: length, width
+    velocity: np.ndarray  # m/s over ground: vx, vy
+    classification: int  # Object.CLASS_*
+    moving: bool
+    asked: bool  # it has to be found: in the region, and seen by the sensor
+
+    @property
+    def range(self):
+        """Of the centre, m from base_link."""
+        return float(np.hypot(*self.pose[:2]))
+
+    def after(self, delay):
+        """The same so much later (s)."""
+        moved = np.append(self.pose[:2] + self.velocity * delay, self.pose[2])
+        return self._replace(pose=moved)
+
+    def box(self):
+        """As a sensor that sees it exactly would see it."""
+        return Seen(self.pose, self.size, np.zeros((2, 2)), EMPTY_SIDES, self.classification, 0.0)
+
+
+class Errors(NamedTuple):
+    """How far an object's near side is from that of the true object it is of."""
+
+    along: float  # m, along the line of sight: positive is too far
+    across: float  # m, to the left
+    nees: float  # of both, by the object's own covariance; NaN: its ends are not seen
+
+
+class ListScore(NamedTuple):
+    """What became of one list."""
+
+    matches: list  # of (index of the object, index of the true one, Errors), no index twice
+    near: np.ndarray  # n objects: whether a true object is near
+
+
+def score_list(objects, truths, viewpoint=(0.0, 0.0)):
+    """ListScore.
+
+    objects: of Seen; truths: of TrueState at the stamp of the list; viewpoint: of the sensor, m.
+    """
+    sides = [near_side(item, viewpoint) for item in objects]
+    distances = np.full((len(objects), len(truths)), np.inf)
+    for i, (item, side) in enumerate(zip(objects, sides)):
+        moved = [truth.after(item.delay) for truth in truths]
+        distances[i] = scaled_distances(side.middle, moved, viewpoint)
+    matches = [
+        (i, j, _errors(objects[i], truths[j].after(objects[i].delay), viewpoint))
+        for i, j in _pairs(distances, objects, truths)
+    ]
+    return ListScore(matches, np.any(distances <= 1.0, axis=1))
+
+
+def scaled_distances(point, truths, viewpoint):
+    """Distances (n) of a point (x, y) from the boxes of TrueStates, 0 inside; 1 is as far as near
+    goes, along the line of sight and across it. Infinite where they are far apart."""
+    distances = np.full(len(truths), np.inf)
+    ray = np.asarray(point) - np.asarray(viewpoint)
+    reach = float(np.hypot(*ray))
+    along = ray / reach if reach > 0.0 else np.array([1.0, 0.0])
+    gate = max(NEAR_ALONG, THESIS_GATE * reach)
+    axes = np.array([along / gate, np.array([-along[1], along[0]]) / NEAR_ACROSS])
+    for j, truth in enumerate(truths):
+        apart = np.hypot(*(truth.pose[:2] - point))
+        if apart <= 0.5 * np.hypot(*truth.size) + max(gate, NEAR_ACROSS):
+            distances[j] = _distance_to(_corners(truth, point) @ axes.T)
+    return distances
+
+
+def _corners(truth, origin):
+    """4 x 2, in turn, about the origin."""
+    halves = 0.5 * np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)]) * truth.size
+    local = np.column_stack([halves, np.zeros(4)])
+    return transforms.compose(truth.pose, local)[:, :2] - np.asarray(origin)
+
+
+def _distance_to(corners):
+    """From the origin to a parallelogram, 0 inside."""
+    edges = np.roll(corners, -1, axis=0) - corners
+    turns = edges[:, 0] * -corners[:, 1] + edges[:, 1] * corners[:, 0]
+    if np.all(turns >= 0.0) or np.all(turns <= 0.0):
+        return 0.0
+    lengths = np.maximum(np.sum(edges**2, axis=1), np.finfo(float).tiny)
+    shares = np.clip(np.sum(-corners * edges, axis=1) / lengths, 0.0, 1.0)
+    return float(np.hypot(*(corners + shares[:, np.newaxis] * edges).T).min())
+
+
+def _pairs(distances, objects, truths):
+    """The nearest pairs first, each object and each true one once; of equal ones that with the
+    nearer centres."""
+    candidates = sorted(
+        (distances[i, j], np.hypot(*(objects[i].pose[:2] - truths[j].pose[:2])), i, j)
+        for i, j in np.argwhere(distances <= 1.0)
+    )
+    taken, found, pairs = set(), set(), []
+    for _, _, i, j in candidates:
+        if i not in taken and j not in found:
+            taken.add(i)
+            found.add(j)
+            pairs.append((int(i), int(j)))
+    return pairs
+
+
+def _errors(item, truth, viewpoint):
+    """Of the near side's middle; the side is that of the true box."""
+    true_side = near_side(truth.box(), viewpoint)
+    side = near_side(item, viewpoint, true_side.normal)
+    ray = true_side.middle - np.asarray(viewpoint)
+    ray = ray / max(float(np.hypot(*ray)), np.finfo(float).tiny)
+    offset = side.middle - true_side.middle
+    nees = np.nan
+    if side.is_seen:
+        nees = float(offset @ np.linalg.solve(side.covariance, offset))
+    return Errors(float(offset @ ray), float(offset @ np.array([-ray[1], ray[0]])), nees)
