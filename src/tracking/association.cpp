@@ -56,6 +56,10 @@ void AssociationOptions::visit(OptionVisitor& visitor) {
                   "largest Mahalanobis distance squared between an object and a target: 13.8 is "
                   "the 99.9 % quantile of chi-square with two degrees of freedom"},
                  gate, {0.1, 1000.0});
+  visitor.number({"least_same_class", "1",
+                  "an object is not of a target where the probability that both are of one class "
+                  "is smaller (thesis 3.3.4: classes that differ)"},
+                 least_same_class, {0.0, 1.0});
   visitor.integer({"most_candidates", "1",
                    "objects that one target may be seen as in one scan, the nearest ones; bounds "
                    "the time of a step"},
@@ -89,7 +93,8 @@ TargetScores scoresOf(const Target& target, const AssociationScan& scan, double 
 void addCandidate(const Target& target, const AssociationScan& scan, std::size_t index,
                   const AssociationOptions& options, TargetScores& scores) {
   const Observation& observation = scan.observations[index];
-  if (!target.mayBe(observation.object)) {
+  const double same_class = target.sameClassProbability(observation.object);
+  if (same_class < options.least_same_class) {
     return;
   }
   const PositionMeasurement measured = target.measurementOf(observation.object);
@@ -97,8 +102,10 @@ void addCandidate(const Target& target, const AssociationScan& scan, std::size_t
   if (!(innovation.squaredDistance() <= options.gate)) {  // NaN is not within it
     return;
   }
-  scores.candidates.push_back(
-      {index, scores.seen + target.filter().logLikelihood(measured) - observation.log_density});
+  // That classes agree is nothing special: objects of no target have classes too.
+  const double of_class = std::log(std::min(1.0, same_class / kChanceOfClass));
+  const double likelihood = target.filter().logLikelihood(measured) + of_class;
+  scores.candidates.push_back({index, scores.seen + likelihood - observation.log_density});
 }
 
 }  // namespace datmo

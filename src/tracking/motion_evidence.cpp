@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 namespace datmo {
@@ -78,6 +79,13 @@ bool velocityIsSignificant(const StateEstimate& estimate, double significance, d
   const Eigen::Matrix2d covariance = estimate.covariance.block<2, 2>(2, 2);
   return velocity.norm() >= least_speed &&
          velocity.dot(covariance.inverse() * velocity) >= significance;
+}
+
+bool mayBeAsFastAs(const StateEstimate& estimate, double significance, double speed) {
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
+  solver.computeDirect(estimate.covariance.block<2, 2>(2, 2), Eigen::EigenvaluesOnly);
+  const double most_variance = std::max(0.0, solver.eigenvalues().maxCoeff());
+  return estimate.mean.segment<2>(2).norm() + std::sqrt(significance * most_variance) >= speed;
 }
 
 MotionEvidence::MotionEvidence(const Object& object, const MotionEvidenceOptions& options)

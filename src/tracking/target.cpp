@@ -21,6 +21,12 @@ ImmFilter birth(const PositionMeasurement& measured, const TargetOptions& option
           transitions};
 }
 
+/// Share of the points where the map is free, of what was seen to move.
+double movingShare(const Object& object) {
+  const bool moves = object.dynamic_state == DynamicState::kMoving;
+  return moves && object.object_class != ObjectClass::kPole ? object.moving_fraction : 0.0;
+}
+
 }  // namespace
 
 void TargetOptions::visit(OptionVisitor& visitor) {
@@ -38,6 +44,15 @@ void TargetOptions::visit(OptionVisitor& visitor) {
                   "a moving object stands when it is slower; below evidence/least_speed, so that "
                   "noise does not switch it"},
                  stop_speed, {0.01, 100.0});
+  visitor.number({"fused_free_share", "1",
+                  "of the points of an object that two sensors see, as many must lie where the map "
+                  "is free for it to be known as moving at once: less may be an echo beside "
+                  "something that stands"},
+                 fused_free_share, {0.0, 1.0});
+  visitor.number({"fused_proof_time", "s",
+                  "who was known as moving at once and is not seen to move in this time, nor may "
+                  "be, is no track: a person of 1.4 m/s goes twice evidence/least_overrun"},
+                 fused_proof_time, {0.0, 60.0});
 }
 
 Target::Target(const Object& object, std::size_t index, std::uint64_t number,
@@ -48,7 +63,7 @@ Target::Target(const Object& object, std::size_t index, std::uint64_t number,
       number_(number),
       seen_as_(index),
       height_(object.height),
-      saw_it_move_(object.dynamic_state == DynamicState::kMoving),
+      moving_share_(movingShare(object)),
       sensors_(std::make_shared<const std::vector<std::string>>(object.sensors)) {
   class_.update(object.object_class, object.class_probability);
 }
@@ -81,11 +96,27 @@ void Target::update(const Object& object, std::size_t index, double detection_pr
   seen_as_ = index;
   since_update_ = 0.0;
   height_ = object.height > 0.0 ? object.height : height_;
-  saw_it_move_ = object.dynamic_state == DynamicState::kMoving;
+  moving_share_ = movingShare(object);
   if (object.sensors != *sensors_) {
     sensors_ = std::make_shared<const std::vector<std::string>>(object.sensors);
   }
   class_.update(object.object_class, object.class_probability);
+  has_moved_ = has_moved_ || evidentlyMoves(options);
+}
+
+double Target::sameClassProbability(const Object& object) const {
+  const double said = object.class_probability;
+  if (object.object_class == ObjectClass::kUnknown || said <= kChanceOfClass) {
+    return kChanceOfClass;
+  }
+  // The other classes share the rest equally, as in ClassBelief.
+  const double own = class_.probability(object.object_class);
+  return own * said + (1.0 - own) * (1.0 - said) / static_cast<double>(kObjectClasses - 1);
+}
+
+bool Target::isSeenMovingByTwo(const TargetOptions& options) const {
+  return sensors_->size() > 1 && moving_share_ > 0.0 && moving_share_ >= options.fused_free_share &&
+         mayMove(options);
 }
 
 double Target::existenceProbability(const TargetOptions& options) const {

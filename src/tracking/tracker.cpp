@@ -140,6 +140,7 @@ class Tracker::State {
                                ? silenceAfter(target.followed(), options_.confirmed_silence)
                                : options_.tentative_silence;
     return (target.confirmed() && existence(target) < options_.least_existence) ||
+           (options_.require_motion && target.turnedOutToStand(options_.target)) ||
            target.sinceUpdate() > allowed ||
            !(positionStd(target) <= options_.most_position_std);  // nor what is not a number
   }
@@ -171,10 +172,9 @@ class Tracker::State {
     }
   }
 
-  /// By what it did, or by what one of two sensors saw of it.
+  /// By what it did, or by what two sensors see of it.
   bool seemsToMove(const Target& target) const {
-    return target.evidentlyMoves(options_.target) ||
-           (target.sensors().size() > 1 && target.sawItMove());
+    return target.evidentlyMoves(options_.target) || target.isSeenMovingByTwo(options_.target);
   }
 
   bool deservesTrack(const Target& target) const {
@@ -182,6 +182,7 @@ class Tracker::State {
     const int hits = fused ? options_.fused_confirmation_hits : options_.confirmation_hits;
     return target.seenAs() != kUnseen && target.hits() >= static_cast<std::uint32_t>(hits) &&
            (!options_.require_motion || seemsToMove(target)) &&
+           target.objectClass() != ObjectClass::kPole &&
            existence(target) >= options_.confirmation_existence;
   }
 

@@ -10,7 +10,8 @@
 namespace datmo {
 
 struct AssociationOptions {
-  double gate = 13.8;  ///< 1
+  double gate = 13.8;              ///< 1
+  double least_same_class = 0.02;  ///< 1
   int most_candidates = 8;
   int most_targets = 600;
   int most_work = 2000000;
@@ -36,6 +37,10 @@ struct TargetScores {
 /// (Blackman, Multiple Hypothesis Tracking for Multiple Target Tracking, 2004; existence:
 /// Garcia-Fernandez et al., Poisson multi-Bernoulli mixture filter, 2018). Only objects by
 /// themselves are candidates.
+///
+/// Thesis 3.3.4 ignores all pairs of different classes. Here those that are surely different are no
+/// candidates, and of others the probability that they differ counts against them: so a class that
+/// the sensor mistakes for another now and then does not break a track.
 TargetScores scoresOf(const Target& target, const AssociationScan& scan, double existence,
                       const AssociationOptions& options);
 

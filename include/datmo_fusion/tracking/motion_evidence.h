@@ -28,6 +28,10 @@ struct MotionEvidenceOptions {
 /// Whether v' P^-1 v of a velocity exceeds a chi-square quantile, and its norm a least speed (m/s).
 bool velocityIsSignificant(const StateEstimate& estimate, double significance, double least_speed);
 
+/// Whether a velocity is compatible with this speed (m/s) or a higher one, at this chi-square
+/// quantile.
+bool mayBeAsFastAs(const StateEstimate& estimate, double significance, double speed);
+
 /// Decides whether a followed object moves over ground. There are two other explanations: it
 /// stands, and only its visible part slides while the vehicle passes; or its objects do not belong
 /// together, and chance put them in a row. Motion is accepted when four tests agree:

@@ -25,9 +25,14 @@ struct TargetOptions {
   double birth_probability = 0.2;  ///< 1
   double birth_speed_std = 8.0;    ///< m/s
   double stop_speed = 0.4;         ///< m/s
+  double fused_free_share = 0.5;   ///< 1
+  double fused_proof_time = 2.0;   ///< s
 
   void visit(OptionVisitor& visitor);
 };
+
+/// That two things of which nothing is known are of the same class.
+inline constexpr double kChanceOfClass = 1.0 / static_cast<double>(kObjectClasses);
 
 /// No observation of a scan.
 inline constexpr std::size_t kUnseen = std::numeric_limits<std::size_t>::max();
@@ -62,11 +67,22 @@ class Target {
     return box_.measurementOf(object);
   }
 
-  /// Objects of two different known classes are never the same (thesis 3.3.4).
-  bool mayBe(const Object& object) const { return class_.compatible(object.object_class); }
+  /// That an object is of this target's class, by what is said of both; of one whose class is not
+  /// known it is chance: one in kObjectClasses.
+  double sameClassProbability(const Object& object) const;
 
   bool evidentlyMoves(const TargetOptions& options) const {
     return evidence_.suffices(filter_.estimate(), options.evidence);
+  }
+
+  /// Two sensors see it now, one of which sees it move (thesis 3.3.3), by most of its points, and
+  /// nothing that it did before says that it stands.
+  bool isSeenMovingByTwo(const TargetOptions& options) const;
+
+  /// It was taken for a moving object because two sensors saw it so, and has had the time to show
+  /// that it does not move.
+  bool turnedOutToStand(const TargetOptions& options) const {
+    return confirmed() && !has_moved_ && followed() > options.fused_proof_time && !mayMove(options);
   }
 
   /// That it is something at all and not a chain of false alarms, from the track score (Blackman
@@ -90,7 +106,6 @@ class Target {
   }
   ObjectClass objectClass() const { return class_.mostLikely(); }
   const std::vector<std::string>& sensors() const { return *sensors_; }
-  bool sawItMove() const { return saw_it_move_; }
   /// Index of its object in the present scan; kUnseen: missed.
   std::size_t seenAs() const { return seen_as_; }
   std::uint32_t hits() const { return hits_; }
@@ -103,6 +118,10 @@ class Target {
 
  private:
   void judgeMotion(const TargetOptions& options);
+  bool mayMove(const TargetOptions& options) const {
+    return mayBeAsFastAs(filter_.estimate(), options.evidence.speed_significance,
+                         options.evidence.least_speed);
+  }
 
   TrackedBox box_;
   ImmFilter filter_;
@@ -112,10 +131,12 @@ class Target {
   std::size_t seen_as_;
   std::uint32_t hits_ = 1;
   bool moving_ = false;
+  bool has_moved_ = false;  ///< as it was seen to, once at least
   double age_ = 0.0;
   double since_update_ = 0.0;
   double height_;
-  bool saw_it_move_;  ///< the last object's sensor
+  /// The last object: of its points, those where the map is free, if that makes it a moving one.
+  double moving_share_;
   ClassBelief class_;
   std::shared_ptr<const std::vector<std::string>> sensors_;  ///< shared: a target is copied often
 };

@@ -92,19 +92,39 @@ TEST_F(AssociationTest, OfManyTheNearestAreCandidates) {
             (std::vector<std::size_t>{1, 2}));
 }
 
-TEST_F(AssociationTest, DifferentClassesAreNeverJoinedAnUnknownOneIsWithAny) {
-  const auto of = [](ObjectClass object_class) {
-    Object object = objectAt(0.0, 0.0);
-    object.object_class = object_class;
-    object.class_probability = 0.9;
-    return object;
-  };
+Object ofClass(ObjectClass object_class, double probability) {
+  Object object = objectAt(0.0, 0.0);
+  object.object_class = object_class;
+  object.class_probability = probability;
+  return object;
+}
+
+TEST_F(AssociationTest, SurelyDifferentClassesAreNeverJoinedAnUnknownOneIsWithAny) {
+  const auto of = [](ObjectClass object_class) { return ofClass(object_class, 0.99); };
   const Target cyclist(of(ObjectClass::kCyclist), 0, 1, TargetOptions());
   EXPECT_TRUE(candidatesOf(cyclist, {of(ObjectClass::kVehicle)}).empty());
   EXPECT_EQ(candidatesOf(cyclist, {of(ObjectClass::kCyclist)}).size(), 1U);
   EXPECT_EQ(candidatesOf(cyclist, {of(ObjectClass::kUnknown)}).size(), 1U);
   const Target unknown(of(ObjectClass::kUnknown), 0, 1, TargetOptions());
   EXPECT_EQ(candidatesOf(unknown, {of(ObjectClass::kVehicle)}).size(), 1U);
+}
+
+TEST_F(AssociationTest, WhereClassesMayDifferTheProbabilityCounts) {
+  const Target cyclist(ofClass(ObjectClass::kCyclist, 0.8), 0, 1, TargetOptions());
+  const auto scoreOf = [&](ObjectClass object_class, double probability) {
+    const AssociationScan scan = source_.scan({ofClass(object_class, probability)});
+    const TargetScores scores = scoresOf(cyclist, scan, kExistence, options_);
+    EXPECT_EQ(scores.candidates.size(), 1U);
+    return scores.candidates.at(0).score;
+  };
+  const double unknown = scoreOf(ObjectClass::kUnknown, 0.0);
+  const double pedestrian = scoreOf(ObjectClass::kPedestrian, 0.8);
+  EXPECT_LT(scoreOf(ObjectClass::kPedestrian, 0.9), pedestrian);
+  EXPECT_LT(pedestrian, scoreOf(ObjectClass::kPedestrian, 0.5));
+  // The target is a pedestrian by 0.05 (ClassBelief's doubt: 0.0575), as the object by 0.8.
+  const double same = 0.0575 * 0.8 + (1.0 - 0.0575) * 0.2 / 4.0;
+  EXPECT_NEAR(pedestrian - unknown, std::log(same / 0.2), 1e-9);
+  EXPECT_EQ(scoreOf(ObjectClass::kCyclist, 0.8), unknown) << "others are cyclists too";
 }
 
 TEST_F(AssociationTest, OnlyObjectsByThemselvesAreFoundOthersAreAdded) {

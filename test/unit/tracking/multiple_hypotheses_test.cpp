@@ -140,11 +140,11 @@ TEST_F(MultipleHypothesesTest, LaterScansDecideAnewWhatTheNearestNeighbourGotWro
       expected.filter().estimate().mean, 1e-3));
 }
 
-TEST_F(MultipleHypothesesTest, DifferentClassesAreNeverTheSameTarget) {
+TEST_F(MultipleHypothesesTest, SurelyDifferentClassesAreNeverTheSameTarget) {
   const auto of = [](ObjectClass object_class) {
     Object object = objectAt(0.0, 0.0);
     object.object_class = object_class;
-    object.class_probability = 0.9;
+    object.class_probability = 0.99;
     return object;
   };
   MultipleHypotheses result = targets();

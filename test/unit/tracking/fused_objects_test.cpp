@@ -1,0 +1,176 @@
+// What the tracker makes of objects that two sensors see, and of their classes.
+#include <cmath>
+#include <random>
+
+#include "tracking_scene.h"
+#include <gtest/gtest.h>
+
+namespace datmo {
+namespace {
+
+constexpr double kWalking = 1.4;  // m/s
+
+/// As the fusion of lidar and stereo tells it where both agree that it is there and the lidar sees
+/// it move.
+Object fusedAt(double x, double y, double log_odds = 2.0) {
+  Object object = objectAt(x, y, DynamicState::kMoving);
+  object.sensors = {"lidar", "stereo"};
+  object.log_odds = log_odds;
+  return object;
+}
+
+/// As stereo alone tells it.
+Object stereoAt(double x, double y, DynamicState state = DynamicState::kUnknown) {
+  Object object = objectAt(x, y, state);
+  object.sensors = {"stereo"};
+  object.position_covariance = Eigen::Matrix2d::Identity() * 0.09;
+  return object;
+}
+
+Object classified(Object object, ObjectClass object_class, double probability) {
+  object.object_class = object_class;
+  object.class_probability = probability;
+  return object;
+}
+
+TEST(FusedObjects, AreTrackedAtFirstSight) {
+  TrackingScene scene;
+  const TrackList& list = scene.scan({fusedAt(10.0, 0.0)});
+  ASSERT_EQ(list.tracks.size(), 1U);
+  EXPECT_TRUE(list.tracks[0].moving);
+  EXPECT_EQ(list.tracks[0].hits, 1U);
+}
+
+TEST(FusedObjects, AreNotAtOnceWhereTheFusionDoubtsThem) {
+  TrackingScene scene;
+  EXPECT_TRUE(scene.scan({fusedAt(10.0, 0.0, 0.0)}).tracks.empty());
+}
+
+TEST(FusedObjects, OfOneSensorTheyAreNot) {
+  TrackingScene scene;
+  Object object = fusedAt(10.0, 0.0);
+  object.sensors = {"lidar"};
+  EXPECT_TRUE(scene.scan({object}).tracks.empty());
+}
+
+TEST(FusedObjects, AFewPointsThatSeemToMoveBesideWhatStandsAreNotEnough) {
+  TrackingScene scene;
+  Object car_with_echo = fusedAt(10.0, 0.0);
+  car_with_echo.moving_fraction = 0.3;
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_TRUE(scene.scan({car_with_echo}).tracks.empty());
+  }
+}
+
+TEST(FusedObjects, APoleIsNeverTracked) {
+  TrackingScene scene;
+  for (int i = 0; i < 30; ++i) {
+    const Object pole = fusedAt(10.0 + 0.3 * i, 0.0);
+    EXPECT_TRUE(scene.scan({classified(pole, ObjectClass::kPole, 0.8)}).tracks.empty());
+  }
+}
+
+TEST(FusedObjects, WhatStoodUntilNowDoesNotMoveForOneEcho) {
+  TrackingScene scene;
+  for (int i = 0; i < 20; ++i) {
+    scene.scan({stereoAt(10.0 + scene.noise(0.1), scene.noise(0.1))});
+  }
+  EXPECT_TRUE(scene.scan({fusedAt(10.0, 0.0)}).tracks.empty());
+  EXPECT_EQ(scene.tracker().counts().confirmed_tracks, 0U);
+}
+
+TEST(FusedObjects, WhatCameByAndWasSeenByStereoOnlyIsTrackedAtTheFirstFusedSight) {
+  TrackingScene scene;
+  double x = 10.0;
+  for (int i = 0; i < 4; ++i) {
+    x += 0.1 * kWalking;
+    EXPECT_TRUE(scene.scan({stereoAt(x + scene.noise(0.1), scene.noise(0.1))}).tracks.empty());
+  }
+  EXPECT_EQ(scene.scan({fusedAt(x + 0.1 * kWalking, 0.0)}).tracks.size(), 1U);
+}
+
+TEST(FusedObjects, ATrackOfOneFalseCoincidenceEndsSoon) {
+  TrackingScene scene;
+  EXPECT_EQ(scene.scan({fusedAt(10.0, 0.0)}).tracks.size(), 1U) << "nobody can know better";
+  int steps = 0;
+  while (!scene.tracks().tracks.empty() && steps < 50) {
+    scene.scan({stereoAt(10.0 + scene.noise(0.1), scene.noise(0.1), DynamicState::kStatic)});
+    ++steps;
+  }
+  EXPECT_NEAR(0.1 * steps, TargetOptions().fused_proof_time, 0.11) << "its parked car stands";
+}
+
+TEST(FusedObjects, AWalkerTrackedAtFirstSightStaysTracked) {
+  TrackingScene scene;
+  for (int i = 0; i < 60; ++i) {
+    const double x = 10.0 + 0.1 * kWalking * i;
+    const Object object = i % 3 == 0 ? fusedAt(x + scene.noise(0.1), scene.noise(0.1))
+                                     : stereoAt(x + scene.noise(0.2), scene.noise(0.2));
+    ASSERT_EQ(scene.scan({object}).tracks.size(), 1U) << i;
+    EXPECT_EQ(scene.tracks().tracks[0].id, 1U);
+  }
+}
+
+/// A walker whose class stereo mistakes for another one in this share of the scans.
+void walkMistaken(ObjectClass other, double probability, double share) {
+  TrackingScene scene;
+  std::mt19937_64 engine(17);
+  std::bernoulli_distribution mistaken(share);
+  for (int i = 0; i < 100; ++i) {
+    const double x = 10.0 + 0.1 * kWalking * i;
+    const ObjectClass said = mistaken(engine) ? other : ObjectClass::kPedestrian;
+    const Object object = fusedAt(x + scene.noise(0.1), scene.noise(0.1));
+    scene.scan({classified(object, said, probability)});
+    const bool may_be_pole = other == ObjectClass::kPole && i < 10;
+    if (!may_be_pole) {
+      ASSERT_EQ(scene.tracks().tracks.size(), 1U) << nameOf(other) << " " << i;
+    }
+  }
+  EXPECT_EQ(scene.tracks().tracks[0].id, 1U);
+  EXPECT_EQ(scene.tracker().counts().confirmed_tracks, 1U);
+}
+
+TEST(FusedObjects, AClassThatFlipsDoesNotBreakTheTrack) {
+  for (const ObjectClass other :
+       {ObjectClass::kCyclist, ObjectClass::kVehicle, ObjectClass::kPole}) {
+    walkMistaken(other, 0.6, 0.3);
+    walkMistaken(other, 0.9, 0.3);
+  }
+}
+
+TEST(FusedObjects, AClassThatChangesForGoodChangesThatOfTheTrack) {
+  TrackingScene scene;
+  for (int i = 0; i < 60; ++i) {
+    const ObjectClass said = i < 30 ? ObjectClass::kPedestrian : ObjectClass::kCyclist;
+    scene.scan({classified(fusedAt(10.0 + 0.3 * i, 0.0), said, 0.9)});
+    ASSERT_EQ(scene.tracks().tracks.size(), 1U) << i;
+  }
+  const Track& track = scene.tracks().tracks[0];
+  EXPECT_EQ(track.id, 1U);
+  EXPECT_GT(track.class_probabilities[static_cast<std::size_t>(ObjectClass::kCyclist)], 0.8);
+}
+
+TEST(FusedObjects, NeighboursOfDifferentClassesKeepTheirTracksWhereTheyPass) {
+  TrackingScene scene;
+  const auto walker = [&](double x) {
+    const Object object = fusedAt(x + scene.noise(0.2), 0.5 + scene.noise(0.2));
+    return classified(object, ObjectClass::kPedestrian, 0.8);
+  };
+  const auto cyclist = [&](double x) {
+    const Object object = fusedAt(x + scene.noise(0.2), -0.5 + scene.noise(0.2));
+    return classified(object, ObjectClass::kCyclist, 0.8);
+  };
+  for (int i = 0; i < 60; ++i) {
+    scene.scan({walker(12.0 + 0.1 * kWalking * i), cyclist(8.0 + 0.3 * i)});
+  }
+  ASSERT_EQ(scene.tracks().tracks.size(), 2U);
+  EXPECT_EQ(scene.tracker().counts().confirmed_tracks, 2U);
+  for (const Track& track : scene.tracks().tracks) {
+    const bool is_cyclist = track.state[2] > 2.0;
+    const ObjectClass expected = is_cyclist ? ObjectClass::kCyclist : ObjectClass::kPedestrian;
+    EXPECT_GT(track.class_probabilities[static_cast<std::size_t>(expected)], 0.8);
+  }
+}
+
+}  // namespace
+}  // namespace datmo
