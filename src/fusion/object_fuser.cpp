@@ -1,18 +1,128 @@
 #include "datmo_fusion/fusion/object_fuser.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "datmo_fusion/fusion/object_combination.h"
+#include "datmo_fusion/tracking/assignment.h"
+#include "datmo_fusion/tracking/object_check.h"
+
 namespace datmo {
+
+namespace {
+
+/// Beyond this, odds are certainty, and sums of them lose the rest.
+constexpr double kMostLogOdds = 20.0;
+
+/// Of a class to be taken for known.
+constexpr double kKnownClass = 0.5;
+
+/// One source's objects, brought to the reference.
+struct Intake {
+  std::vector<Object> objects;     ///< valid ones, from left to right in any order they came in
+  Point2 sensor = Point2::Zero();  ///< m, from where it looks
+  std::optional<Visibility> view;
+};
+
+/// An object of the result, and which sources see it.
+struct FusedObject {
+  Object object;
+  std::vector<bool> seen_by;
+};
+
+auto place(const Object& object) {
+  const Box2& box = object.box;
+  return std::make_tuple(box.centre.x(), box.centre.y(), box.centre.heading(), box.length,
+                         box.width, object.height, object.log_odds);
+}
+
+/// The objects that are valid, the nearest ones if there are too many, in an order of their own.
+std::vector<Object> accepted(const ObjectList& list, std::size_t most, ObjectFusionCounts& counts) {
+  std::vector<Object> objects;
+  std::copy_if(list.objects.begin(), list.objects.end(), std::back_inserter(objects), isValid);
+  counts.rejected += list.objects.size() - objects.size();
+  if (objects.size() > most) {
+    std::sort(objects.begin(), objects.end(), [](const Object& a, const Object& b) {
+      const double to_a = a.box.centre.position().norm();
+      const double to_b = b.box.centre.position().norm();
+      return to_a < to_b || (to_a == to_b && place(a) < place(b));
+    });
+    counts.refused += objects.size() - most;
+    objects.resize(most);
+  }
+  std::sort(objects.begin(), objects.end(),
+            [](const Object& a, const Object& b) { return place(a) < place(b); });
+  return objects;
+}
+
+Point2 sensorOf(const ObjectList& list) {
+  return list.views.empty() ? Point2::Zero() : list.views.front().field.sensor_in_base.position();
+}
+
+double positionStd(const Object& object) {
+  return std::sqrt(0.5 * object.position_covariance.trace());
+}
+
+/// What all of a source's sensors could have seen, in the frame of the intake's objects.
+std::optional<Visibility> viewOf(const std::vector<SensorView>& views,
+                                 const std::vector<Object>& objects,
+                                 const VisibilityOptions& options) {
+  std::vector<Box2> seen;
+  for (const Object& object : objects) {
+    seen.push_back(object.box);
+  }
+  std::optional<Visibility> result;
+  for (const SensorView& view : views) {
+    const Visibility one(view.field, seen, options);
+    if (result) {
+      result->join(one);
+    } else {
+      result = one;
+    }
+  }
+  return result;
+}
+
+bool isPole(const Object& object) {
+  return object.object_class == ObjectClass::kPole && object.class_probability > kKnownClass;
+}
+
+}  // namespace
 
 void ObjectSourceOptions::visit(OptionVisitor& visitor) {
   visitor.toggle({"use", "", "off: its objects are not read"}, use);
+  visitor.number({"detection_probability", "1",
+                  "that it lists an object that it could see: one that it does not list is so much "
+                  "less likely"},
+                 detection_probability, {0.01, 0.99});
+  visitor.number({"coincidence", "1",
+                  "that a false object of another source has one of this source in its gate, by "
+                  "chance"},
+                 coincidence, {0.001, 1.0});
+  visitor.group("covariance", [&] { covariance.visit(visitor); });
 }
 
 ObjectFuserOptions::ObjectFuserOptions() {
-  sources["lidar"];
+  sources["lidar"].detection_probability = 0.8;
   sources["stereo"];
 }
 
 void ObjectFuserOptions::visit(OptionVisitor& visitor) {
   visitor.each({"sources", "", "the sensors whose objects are fused"}, sources);
+  visitor.text({"scanner", "",
+                "the source whose list the split scan belongs to; it lists nothing that is static"},
+               scanner, {});
+  visitor.integer({"most_objects", "1",
+                   "objects taken from one list, the nearest ones; bounds the time of a step"},
+                  most_objects, {1, 10000});
+  association.visit(visitor);
+  visitor.group("visibility", [&] { visibility.visit(visitor); });
+  visitor.group("witness", [&] { witness.visit(visitor); });
 }
 
 std::vector<std::string> ObjectFuserOptions::sourcesInUse() const {
@@ -27,13 +137,138 @@ std::vector<std::string> ObjectFuserOptions::sourcesInUse() const {
 
 ObjectFuser::ObjectFuser(const ObjectFuserOptions& options) : options_(options) {
   checkOptions(options);
+  for (const auto& [name, source] : options.sources) {
+    source.covariance.check("sources/" + name + "/covariance");
+  }
 }
 
+/// One call of `fuse`.
+class ObjectFuser::Fusion {
+ public:
+  Fusion(const ObjectFuserOptions& options, const std::vector<SourceObjects>& sources)
+      : options_(options), sources_(sources) {
+    result_.list.stamp = sources.at(0).list.stamp;
+    for (const SourceObjects& source : sources) {
+      takeIn(source);
+    }
+  }
+
+  ObjectFusionResult run(const SplitScan* scan) {
+    for (std::size_t source = 0; source < intakes_.size(); ++source) {
+      add(source);
+    }
+    std::optional<ScanWitness> witness;
+    if (scan != nullptr) {
+      witness.emplace(*scan, options_.witness);
+    }
+    for (FusedObject& fused : objects_) {
+      judge(fused, witness);
+      result_.list.objects.push_back(std::move(fused.object));
+    }
+    return std::move(result_);
+  }
+
+ private:
+  const ObjectSourceOptions& optionsOf(std::size_t source) const {
+    return options_.sources.at(sources_[source].source);
+  }
+
+  /// The source's objects and views, moved to where the vehicle was at the reference's stamp.
+  void takeIn(const SourceObjects& source) {
+    const PositionCovarianceOptions& covariance = options_.sources.at(source.source).covariance;
+    const double later = secondsBetween(result_.list.stamp, source.list.stamp);
+    const Point2 sensor = sensorOf(source.list);
+    Intake intake;
+    for (Object& object :
+         accepted(source.list, static_cast<std::size_t>(options_.most_objects), result_.counts)) {
+      if (!covariance.empty()) {
+        object.position_covariance = covariance.at(object.box.centre.position(), sensor);
+      }
+      intake.objects.push_back(transformed(source.base_in_reference, object));
+      intake.objects.back().delay += later;
+    }
+    std::vector<SensorView> views = source.list.views;
+    for (SensorView& view : views) {
+      view.field.sensor_in_base = source.base_in_reference * view.field.sensor_in_base;
+    }
+    intake.sensor = source.base_in_reference * sensor;
+    intake.view = viewOf(views, intake.objects, options_.visibility);
+    intakes_.push_back(std::move(intake));
+    result_.list.views.insert(result_.list.views.end(), views.begin(), views.end());
+  }
+
+  /// Joins a source's objects with what there is.
+  void add(std::size_t source) {
+    std::vector<Object> known;
+    for (const FusedObject& fused : objects_) {
+      known.push_back(fused.object);
+    }
+    const Intake& intake = intakes_[source];
+    const std::vector<int> matches =
+        associate(known, intake.objects, intake.sensor, options_.association);
+    const ObjectSourceOptions& own = optionsOf(source);
+    const double seen_too = std::log(own.detection_probability / own.coincidence);
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      if (matches[i] == kUnassigned) {
+        objects_.push_back({intake.objects[i], std::vector<bool>(sources_.size(), false)});
+        objects_.back().seen_by[source] = true;
+        continue;
+      }
+      FusedObject& fused = objects_[static_cast<std::size_t>(matches[i])];
+      const bool first_pair = std::count(fused.seen_by.begin(), fused.seen_by.end(), true) == 1;
+      result_.counts.fused += first_pair ? 1 : 0;
+      fused.object = combined(fused.object, intake.objects[i]);
+      fused.object.log_odds += std::max(0.0, seen_too);
+      fused.seen_by[source] = true;
+    }
+  }
+
+  /// What those say of an object that do not see it.
+  void judge(FusedObject& fused, const std::optional<ScanWitness>& witness) const {
+    Object& object = fused.object;
+    for (std::size_t source = 0; source < sources_.size(); ++source) {
+      if (fused.seen_by[source]) {
+        continue;
+      }
+      const double detection = optionsOf(source).detection_probability;
+      if (witness && sources_[source].source == options_.scanner) {
+        hear(*witness, detection, object);
+      } else if (intakes_[source].view) {
+        const double visible =
+            intakes_[source].view->detectionProbability(object.box, positionStd(object));
+        object.log_odds += std::log1p(-detection * visible);
+      }
+    }
+    if (isPole(object) && object.dynamic_state == DynamicState::kUnknown) {
+      object.dynamic_state = DynamicState::kStatic;
+    }
+    object.log_odds = std::clamp(object.log_odds, -kMostLogOdds, kMostLogOdds);
+  }
+
+  /// The scan's testimony of an object that the scanner does not list.
+  void hear(const ScanWitness& witness, double detection, Object& object) const {
+    const double moved = options_.association.object_speed * std::abs(object.delay);
+    const PlaceTestimony testimony = witness.testimony(object, moved);
+    if (witness.standsStill(testimony)) {
+      if (object.dynamic_state == DynamicState::kUnknown) {
+        object.dynamic_state = DynamicState::kStatic;
+      }
+      return;
+    }
+    const double met = std::min(1.0, testimony.beams) * testimony.through_share;
+    object.log_odds += std::log1p(-detection * met);
+  }
+
+  const ObjectFuserOptions& options_;
+  const std::vector<SourceObjects>& sources_;
+  std::vector<Intake> intakes_;
+  std::vector<FusedObject> objects_;
+  ObjectFusionResult result_;
+};
+
 ObjectFusionResult ObjectFuser::fuse(const std::vector<SourceObjects>& sources,
-                                     const SplitScan* /*scan*/) const {
-  ObjectFusionResult result;
-  result.list = sources.at(0).list;
-  return result;
+                                     const SplitScan* scan) const {
+  return Fusion(options_, sources).run(scan);
 }
 
 }  // namespace datmo

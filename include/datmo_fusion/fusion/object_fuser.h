@@ -8,6 +8,9 @@
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/pose2.h"
 #include "datmo_fusion/common/scan.h"
+#include "datmo_fusion/fusion/object_association.h"
+#include "datmo_fusion/fusion/position_covariance.h"
+#include "datmo_fusion/fusion/scan_witness.h"
 #include "datmo_fusion/tracking/visibility.h"
 
 namespace datmo {
@@ -15,12 +18,20 @@ namespace datmo {
 /// One source of objects.
 struct ObjectSourceOptions {
   bool use = true;
+  double detection_probability = 0.5;  ///< 1
+  double coincidence = 0.1;            ///< 1
+  PositionCovarianceOptions covariance;
 
   void visit(OptionVisitor& visitor);
 };
 
 struct ObjectFuserOptions {
   std::map<std::string, ObjectSourceOptions> sources;  ///< by name; at first lidar and stereo
+  std::string scanner = "lidar";                       ///< name of a source
+  int most_objects = 500;
+  ObjectAssociationOptions association;
+  VisibilityOptions visibility;
+  ScanWitnessOptions witness;
 
   ObjectFuserOptions();
 
@@ -50,16 +61,32 @@ struct ObjectFusionResult {
 };
 
 /// Lists of objects of several sources -> one list (thesis 3.3.3).
+///
+/// Every list is moved by the vehicle's own motion to where the vehicle is at the reference's
+/// stamp; its objects stay where they were at their own time, which `delay` tells. Then each list
+/// in turn is associated with what there is (associate), pairs are fused (combined), and all other
+/// objects kept.
+///
+/// That it is an object at all: seen by one more source, the log-odds rise by
+/// log(detection_probability / coincidence); not seen by one that looked there (its view, with what
+/// it saw as occluders; of the scanner the scan) they fall by log(1 - p), p being that it would
+/// have been seen. Where beams end on static points in the place of an object that the scanner does
+/// not list, it stands still; so does a pole, unless it was seen to move.
+///
+/// Neither the order of a list's objects nor anything before matters. No state.
 class ObjectFuser {
  public:
   /// Throws OptionError.
   explicit ObjectFuser(const ObjectFuserOptions& options);
 
-  /// The first list is the reference; all sources must be in the options (else std::out_of_range).
+  /// The first list is the reference; all sources must be in the options, and there must be one
+  /// (else std::out_of_range).
   /// `scan`: what the planar scanner saw at the reference's stamp, in its frame; null: not known.
   ObjectFusionResult fuse(const std::vector<SourceObjects>& sources, const SplitScan* scan) const;
 
  private:
+  class Fusion;
+
   ObjectFuserOptions options_;
 };
 

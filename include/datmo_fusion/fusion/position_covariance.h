@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/common/pose2.h"
+
+namespace datmo {
+
+/// Covariance of a place that a sensor measured by range and bearing (thesis 3.3.3), in the frame
+/// of `from_sensor`.
+///
+/// @param from_sensor m, from the sensor to the place
+/// @param range_variance m^2
+/// @param bearing_variance rad^2
+Eigen::Matrix2d rangeBearingCovariance(const Point2& from_sensor, double range_variance,
+                                       double bearing_variance);
+
+/// How well a sensor measures where an object is, by the object's range. Empty lists: as the object
+/// itself says.
+struct PositionCovarianceOptions {
+  double bin_width = 2.0;                ///< m
+  std::vector<double> range_variance;    ///< m^2, by range bin
+  std::vector<double> bearing_variance;  ///< rad^2, by range bin
+
+  void visit(OptionVisitor& visitor);
+
+  bool empty() const { return range_variance.empty(); }
+
+  /// Throws OptionError, with `name` before the names of the options, unless the two lists are of
+  /// the same length.
+  void check(const std::string& name) const;
+
+  /// m^2, at a place (m) seen from a sensor, both in one frame, by the bin of its range; beyond the
+  /// last bin as in that. Not for empty lists (std::out_of_range).
+  Eigen::Matrix2d at(const Point2& place, const Point2& sensor) const;
+};
+
+}  // namespace datmo

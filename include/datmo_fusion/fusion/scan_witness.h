@@ -1,0 +1,68 @@
+#pragma once
+
+#include <vector>
+
+#include "datmo_fusion/common/object.h"
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/common/scan.h"
+
+namespace datmo {
+
+struct ScanWitnessOptions {
+  double static_share = 0.6;       ///< 0 to 1
+  double static_reach = 1.0;       ///< 1
+  double most_static_reach = 2.0;  ///< m
+  double through_reach = 2.0;      ///< 1
+  double body_depth = 0.5;         ///< m
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// What a scan says of the place of an object, as shares of the beams that look at it. The rest is
+/// hidden by what is nearer, blind, outside the field, or ends there on what is not static.
+struct PlaceTestimony {
+  double static_share = 0.0;   ///< end there on what the map knows as static
+  double through_share = 0.0;  ///< pass through all of the place
+  double beams = 0.0;          ///< expected on an object of this width, at least 0
+};
+
+/// What a planar scan that was split by the map says of objects that the scanner's list does not
+/// contain, but another sensor's. Vehicle's frame (base_link) at the scan's stamp.
+///
+/// The other sensor measures range badly: along each beam the object's near side may lie before or
+/// behind where it is told, by the standard deviation of its place in the direction of the beam. A
+/// beam ends there if it ends about the near side; it passes through if it ends clearly behind the
+/// far side; one that ends before both is hidden, and says nothing of what is behind.
+class ScanWitness {
+ public:
+  /// Throws OptionError.
+  ScanWitness(const SplitScan& scan, const ScanWitnessOptions& options);
+
+  /// `motion_std`: m, how far the object may have moved by itself since it was seen, at least 0.
+  PlaceTestimony testimony(const Object& object, double motion_std) const;
+
+  /// Whether the beams on its place end on what is static.
+  bool standsStill(const PlaceTestimony& testimony) const {
+    return testimony.static_share >= options_.static_share;
+  }
+
+ private:
+  enum class End { kNothing, kHit, kStaticHit };
+  struct Beam {
+    End end = End::kNothing;
+    double range = 0.0;  ///< m, seen up to here; blind: 0
+  };
+
+  /// Index of the beam nearest to this bearing (rad, about the scanner), as a number with fraction.
+  double beamAt(double bearing) const;
+
+  /// The beam of this index; none outside the field.
+  const Beam* beam(double index) const;
+
+  ScanWitnessOptions options_;
+  Pose2 scanner_in_base_;
+  ScanField field_;
+  std::vector<Beam> beams_;
+};
+
+}  // namespace datmo

@@ -1,0 +1,239 @@
+#include "datmo_fusion/fusion/object_association.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+#include "object_sides.h"
+#include <Eigen/LU>
+
+#include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/common/class_belief.h"
+#include "datmo_fusion/tracking/assignment.h"
+
+namespace datmo {
+
+namespace {
+
+/// m^2, of the difference between two sides: keeps weights finite.
+constexpr double kLeastSideVariance = 1e-8;
+
+double square(double value) { return value * value; }
+
+bool standsStill(const Object& object) { return object.dynamic_state == DynamicState::kStatic; }
+
+/// m^2, of what one of both may have moved between the times they were seen at.
+double motionVariance(const Object& a, const Object& b, const ObjectAssociationOptions& options) {
+  return standsStill(a) || standsStill(b) ? 0.0
+                                          : square(options.object_speed * (b.delay - a.delay));
+}
+
+ClassBelief beliefOf(const Object& object) {
+  ClassBelief belief;
+  belief.update(object.object_class, object.class_probability);
+  return belief;
+}
+
+/// Not where both classes are known and differ.
+bool mayBeOfOneClass(const Object& a, const Object& b) {
+  return a.object_class == b.object_class || a.object_class == ObjectClass::kUnknown ||
+         b.object_class == ObjectClass::kUnknown || beliefOf(a).compatible(b.object_class) ||
+         beliefOf(b).compatible(a.object_class);
+}
+
+/// By how much two objects differ along an axis, m, and what that is uncertain by besides the
+/// positions as a whole, m^2.
+struct Difference {
+  double value;
+  double variance;
+};
+
+Difference differenceOf(const SidePair& a, const SidePair& b, double unknown_size_variance) {
+  double weights = 0.0;
+  double weighted = 0.0;
+  for (std::size_t end = 0; end < 2; ++end) {
+    if (a.isSeen(end) && b.isSeen(end)) {
+      const double weight = 1.0 / std::max(a.variance[end] + b.variance[end], kLeastSideVariance);
+      weights += weight;
+      weighted += weight * (b.place[end] - a.place[end]);
+    }
+  }
+  if (weights > 0.0) {
+    return {weighted / weights, 1.0 / weights};
+  }
+  const double beyond = std::max(0.0, b.place[0] - a.place[1]);
+  const double before = std::max(0.0, a.place[0] - b.place[1]);
+  return {beyond - before, unknown_size_variance};
+}
+
+/// m; farther apart than the sum of both no pair is within the gate (but for its motion).
+double reachOf(const Object& object, const ObjectAssociationOptions& options) {
+  double variance = object.position_covariance.trace();
+  for (const double side : object.side_variance) {
+    variance += std::isfinite(side) ? side : 0.0;
+  }
+  // A box turned into other axes has sides that are less sure by up to half its diagonal.
+  const double diagonal = std::hypot(object.box.length, object.box.width);
+  const double own =
+      std::sqrt(variance + square(options.body_std) + square(options.unknown_size_std)) + diagonal;
+  return std::sqrt(options.gate) * own + diagonal;
+}
+
+std::vector<double> reachesOf(const std::vector<Object>& objects,
+                              const ObjectAssociationOptions& options) {
+  std::vector<double> reaches;
+  for (const Object& object : objects) {
+    reaches.push_back(reachOf(object, options));
+  }
+  return reaches;
+}
+
+std::vector<int> assignOptimally(const std::vector<Object>& known, const std::vector<Object>& added,
+                                 const ObjectAssociationOptions& options) {
+  const auto rows = static_cast<Eigen::Index>(added.size());
+  const auto columns = static_cast<Eigen::Index>(known.size());
+  CostMatrix cost = CostMatrix::Constant(rows, columns, kForbidden);
+  const std::vector<double> reach_known = reachesOf(known, options);
+  const std::vector<double> reach_added = reachesOf(added, options);
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    for (std::size_t j = 0; j < known.size(); ++j) {
+      const double motion = std::sqrt(options.gate * motionVariance(known[j], added[i], options));
+      const double reach = reach_added[i] + reach_known[j] + motion;
+      const Point2 apart = added[i].box.centre.position() - known[j].box.centre.position();
+      if (apart.squaredNorm() > reach * reach) {
+        continue;
+      }
+      const ObjectPairing pair = pairing(known[j], added[i], options);
+      if (pair.possible) {
+        cost(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = -pair.score;
+      }
+    }
+  }
+  return solveAssignment(cost, Eigen::VectorXd::Zero(rows), options.most_work).column_of_row;
+}
+
+/// Middle of the side that is nearest to the sensor (thesis 3.3.2: of the front line segment).
+Point2 nearMiddle(const Box2& box, const Point2& sensor) {
+  Point2 nearest = box.centre.position();
+  double least = std::numeric_limits<double>::infinity();
+  for (const Point2& side : {Point2(0.5 * box.length, 0.0), Point2(-0.5 * box.length, 0.0),
+                             Point2(0.0, 0.5 * box.width), Point2(0.0, -0.5 * box.width)}) {
+    const Point2 middle = box.centre * side;
+    const double distance = (middle - sensor).norm();
+    if (distance < least) {
+      least = distance;
+      nearest = middle;
+    }
+  }
+  return nearest;
+}
+
+std::vector<int> assignNearest(const std::vector<Object>& known, const std::vector<Object>& added,
+                               const Point2& sensor, const ObjectAssociationOptions& options) {
+  std::vector<int> result(added.size(), kUnassigned);
+  std::vector<double> distance(added.size(), 0.0);
+  std::vector<int> owner(known.size(), kUnassigned);
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    const Point2 place = nearMiddle(added[i].box, sensor);
+    const double range = (place - sensor).norm();
+    double least = options.nearest_distance * range / options.nearest_range;
+    for (std::size_t j = 0; range <= options.nearest_range && j < known.size(); ++j) {
+      const double apart = (nearMiddle(known[j].box, sensor) - place).norm();
+      if (apart < least) {
+        least = apart;
+        result[i] = static_cast<int>(j);
+      }
+    }
+    distance[i] = least;
+    if (result[i] == kUnassigned) {
+      continue;
+    }
+    int& owned = owner[static_cast<std::size_t>(result[i])];
+    const int loser = owned == kUnassigned || least < distance[static_cast<std::size_t>(owned)]
+                          ? std::exchange(owned, static_cast<int>(i))
+                          : static_cast<int>(i);
+    if (loser != kUnassigned) {
+      result[static_cast<std::size_t>(loser)] = kUnassigned;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+void ObjectAssociationOptions::visit(OptionVisitor& visitor) {
+  visitor.text({"association", "",
+                "which objects of two sensors are one: the likeliest assignment over all pairs, "
+                "or each to its nearest neighbour (thesis 3.3.3)"},
+               association, {kOptimal, kNearestNeighbour});
+  visitor.number({"gate", "1",
+                  "optimal: largest Mahalanobis distance squared of a pair: 13.8 is the 99.9 % "
+                  "quantile of chi-square with two degrees of freedom"},
+                 gate, {0.1, 1000.0});
+  visitor.number({"unrelated_density", "1/m^2",
+                  "optimal: objects of one sensor that the other one does not see, around an "
+                  "object: a pair must be likelier than one of them"},
+                 unrelated_density, {1e-9, 10.0});
+  visitor.number({"object_speed", "m/s",
+                  "standard deviation of the speed of what moves by itself between the times of "
+                  "two sensors; what is known to stand has none"},
+                 object_speed, {0.0, 100.0});
+  visitor.number({"body_std", "m",
+                  "optimal: standard deviation between the sides that two sensors see of a body "
+                  "at different heights"},
+                 body_std, {0.0, 10.0});
+  visitor.number({"unknown_size_std", "m",
+                  "optimal: how far an object reaches beyond what was seen of it, as a standard "
+                  "deviation: allowed where two sensors saw no side in common"},
+                 unknown_size_std, {0.0, 20.0});
+  visitor.integer({"most_work", "1",
+                   "optimal: pairs looked at (1 ns each) before the objects that are left take the "
+                   "best one that is free"},
+                  most_work, {1000, 1e9});
+  visitor.number({"nearest_distance", "m",
+                  "nearest_neighbour: two objects at nearest_range are one if they are nearer than "
+                  "this, others in proportion to their range (thesis 3.3.3: 5)"},
+                 nearest_distance, {0.1, 100.0});
+  visitor.number({"nearest_range", "m",
+                  "nearest_neighbour: objects farther away are not associated (thesis: 36)"},
+                 nearest_range, {1.0, 1000.0});
+}
+
+ObjectPairing pairing(const Object& a, const Object& b, const ObjectAssociationOptions& options) {
+  if (!mayBeOfOneClass(a, b)) {
+    return {};
+  }
+  const Pose2 axes = commonAxes(a, b, commonHeading(a, b).heading);
+  const ObjectSides sides_a = sidesIn(axes, a);
+  const ObjectSides sides_b = sidesIn(axes, b);
+  const double whole = square(options.body_std) + motionVariance(a, b, options);
+  Eigen::Vector2d difference;
+  Eigen::Matrix2d covariance = sides_a.covariance + sides_b.covariance;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const Difference along =
+        differenceOf(sides_a.along[axis], sides_b.along[axis], square(options.unknown_size_std));
+    const auto i = static_cast<Eigen::Index>(axis);
+    difference[i] = along.value;
+    covariance(i, i) += along.variance + whole;
+  }
+  ObjectPairing result;
+  result.squared_distance = difference.dot(covariance.inverse() * difference);
+  result.possible = result.squared_distance <= options.gate;  // NaN is not
+  result.score = -0.5 * result.squared_distance - 0.5 * std::log(covariance.determinant()) -
+                 std::log(2.0 * kPi * options.unrelated_density);
+  return result;
+}
+
+std::vector<int> associate(const std::vector<Object>& known, const std::vector<Object>& added,
+                           const Point2& sensor, const ObjectAssociationOptions& options) {
+  if (known.empty() || added.empty()) {
+    return std::vector<int>(added.size(), kUnassigned);
+  }
+  return options.association == ObjectAssociationOptions::kOptimal
+             ? assignOptimally(known, added, options)
+             : assignNearest(known, added, sensor, options);
+}
+
+}  // namespace datmo

@@ -1,0 +1,288 @@
+#include "datmo_fusion/fusion/object_combination.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "object_sides.h"
+#include <Eigen/Cholesky>
+
+#include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/common/class_belief.h"
+
+namespace datmo {
+
+namespace {
+
+/// m^2, added to the variance of each side: keeps the information finite.
+constexpr double kLeastSideVariance = 1e-8;
+
+/// m^2, of the position of a result.
+constexpr double kLeastVariance = 1e-8;
+
+/// Correlation of a result: its covariance must be positive definite.
+constexpr double kMostCorrelation = 0.999;
+
+/// The state: the places of the sides behind and ahead along x, then along y, m. Sides that nobody
+/// saw have no information.
+using SideVector = Eigen::Matrix<double, 4, 1>;
+using SideMatrix = Eigen::Matrix4d;
+using SeenMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>;
+
+struct SideEstimate {
+  SideMatrix information = SideMatrix::Zero();
+  SideVector weighted = SideVector::Zero();  ///< information times place
+};
+
+struct SeenSides {
+  std::array<Eigen::Index, kBoxSides> index{};
+  Eigen::Index count = 0;
+
+  void add(Eigen::Index side) { index[static_cast<std::size_t>(count++)] = side; }
+  Eigen::Index operator[](Eigen::Index i) const { return index[static_cast<std::size_t>(i)]; }
+};
+
+constexpr std::size_t axisOf(Eigen::Index side) { return static_cast<std::size_t>(side) / 2; }
+constexpr std::size_t endOf(Eigen::Index side) { return static_cast<std::size_t>(side) % 2; }
+
+/// 1 for sides across one axis.
+const SideMatrix kSameAxis = (SideMatrix() << 1, 1, 0, 0,  //
+                              1, 1, 0, 0,                  //
+                              0, 0, 1, 1,                  //
+                              0, 0, 1, 1)
+                                 .finished();
+
+SeenMatrix inverse(const SeenMatrix& matrix) {
+  return matrix.llt().solve(SeenMatrix::Identity(matrix.rows(), matrix.cols()));
+}
+
+SideEstimate estimateOf(const ObjectSides& sides) {
+  SeenSides seen;
+  for (Eigen::Index side = 0; side < 4; ++side) {
+    if (sides.along[axisOf(side)].isSeen(endOf(side))) {
+      seen.add(side);
+    }
+  }
+  SeenMatrix covariance(seen.count, seen.count);
+  for (Eigen::Index i = 0; i < seen.count; ++i) {
+    for (Eigen::Index j = 0; j < seen.count; ++j) {
+      covariance(i, j) = sides.covariance(static_cast<Eigen::Index>(axisOf(seen[i])),
+                                          static_cast<Eigen::Index>(axisOf(seen[j])));
+    }
+    covariance(i, i) += sides.along[axisOf(seen[i])].variance[endOf(seen[i])] + kLeastSideVariance;
+  }
+  const SeenMatrix information = inverse(covariance);
+  SideEstimate estimate;
+  for (Eigen::Index i = 0; i < seen.count; ++i) {
+    for (Eigen::Index j = 0; j < seen.count; ++j) {
+      estimate.information(seen[i], seen[j]) = information(i, j);
+      estimate.weighted[seen[i]] +=
+          information(i, j) * sides.along[axisOf(seen[j])].place[endOf(seen[j])];
+    }
+  }
+  return estimate;
+}
+
+/// Both sources together: the sides that were seen, their places and covariance.
+struct FusedSides {
+  std::array<bool, kBoxSides> seen{};
+  SideVector place = SideVector::Zero();
+  SideMatrix covariance = SideMatrix::Zero();
+  /// How far the places move, on average, of a way by which all that the second one saw moves.
+  double weight_of_b = 0.5;
+};
+
+FusedSides fused(const SideEstimate& a, const SideEstimate& b) {
+  const SideMatrix information = a.information + b.information;
+  SeenSides seen;
+  for (Eigen::Index side = 0; side < 4; ++side) {
+    if (information(side, side) > 0.0) {
+      seen.add(side);
+    }
+  }
+  SeenMatrix of_seen(seen.count, seen.count);
+  for (Eigen::Index i = 0; i < seen.count; ++i) {
+    for (Eigen::Index j = 0; j < seen.count; ++j) {
+      of_seen(i, j) = information(seen[i], seen[j]);
+    }
+  }
+  const SeenMatrix covariance = inverse(of_seen);
+  FusedSides result;
+  for (Eigen::Index i = 0; i < seen.count; ++i) {
+    result.seen[static_cast<std::size_t>(seen[i])] = true;
+    for (Eigen::Index j = 0; j < seen.count; ++j) {
+      result.covariance(seen[i], seen[j]) = covariance(i, j);
+    }
+  }
+  result.place = result.covariance * (a.weighted + b.weighted);
+  if (seen.count > 0) {
+    const double moved = (result.covariance * b.information).cwiseProduct(kSameAxis).sum();
+    result.weight_of_b = std::clamp(moved / static_cast<double>(seen.count), 0.0, 1.0);
+  }
+  return result;
+}
+
+double fusedVariance(double a, double b) { return a * b / (a + b); }
+
+/// How far the object surely reaches along an axis, m: the more of what both say, of the less sure
+/// one without what it is less sure by.
+double sureExtent(const ObjectSides& a, const ObjectSides& b, std::size_t axis) {
+  const auto i = static_cast<Eigen::Index>(axis);
+  const double less_sure = std::sqrt(a.covariance(i, i)) - std::sqrt(b.covariance(i, i));
+  return std::max(a.along[axis].extent() - std::max(0.0, less_sure),
+                  b.along[axis].extent() - std::max(0.0, -less_sure));
+}
+
+/// The sides across one axis in the result, and what moves both of them, m^2.
+struct FusedAxis {
+  SidePair sides;
+  double common_variance = 0.0;
+};
+
+FusedAxis fusedAxis(const FusedSides& fused, const ObjectSides& a, const ObjectSides& b,
+                    std::size_t axis) {
+  const auto i = static_cast<Eigen::Index>(axis);
+  const Eigen::Index behind = 2 * i;
+  const Eigen::Index ahead = behind + 1;
+  const double of_whole = fusedVariance(a.covariance(i, i), b.covariance(i, i));
+  const bool sees_behind = fused.seen[2 * axis];
+  const bool sees_ahead = fused.seen[2 * axis + 1];
+  const double extent = sureExtent(a, b, axis);
+  FusedAxis result;
+  result.sides.variance = {kHiddenSide, kHiddenSide};
+  if (sees_behind && sees_ahead) {
+    const double least = std::min(fused.covariance(behind, behind), fused.covariance(ahead, ahead));
+    // More in common than they have makes the centre less sure, never surer.
+    result.common_variance =
+        std::max({fused.covariance(behind, ahead), std::min(of_whole, least), kLeastVariance});
+    const double middle = 0.5 * (fused.place[behind] + fused.place[ahead]);
+    result.sides.place = {std::min(fused.place[behind], middle),
+                          std::max(fused.place[ahead], middle)};
+    for (std::size_t end = 0; end < 2; ++end) {
+      const Eigen::Index side = behind + static_cast<Eigen::Index>(end);
+      result.sides.variance[end] =
+          std::max(0.0, fused.covariance(side, side) - result.common_variance);
+    }
+  } else if (sees_behind || sees_ahead) {
+    const Eigen::Index side = sees_ahead ? ahead : behind;
+    const double place = fused.place[side];
+    result.common_variance = std::max(fused.covariance(side, side), kLeastVariance);
+    result.sides.variance[sees_ahead ? 1 : 0] = 0.0;
+    result.sides.place = {sees_ahead ? place - extent : place, sees_ahead ? place : place + extent};
+  } else {
+    const double share_of_b = of_whole / b.covariance(i, i);
+    const double middle =
+        (1.0 - share_of_b) * a.along[axis].middle() + share_of_b * b.along[axis].middle();
+    result.common_variance = std::max(of_whole, kLeastVariance);
+    result.sides.place = {middle - 0.5 * extent, middle + 0.5 * extent};
+  }
+  return result;
+}
+
+/// m^2, of x and y of the box as a whole: what all sides that were seen have in common, for more
+/// would make some corner surer than it is.
+double commonCovariance(const FusedSides& fused, const std::array<FusedAxis, 2>& axes) {
+  double least = kMostCorrelation * std::sqrt(axes[0].common_variance * axes[1].common_variance);
+  double sign = 0.0;
+  for (Eigen::Index x = 0; x < 2; ++x) {
+    for (Eigen::Index y = 2; y < 4; ++y) {
+      if (fused.seen[static_cast<std::size_t>(x)] && fused.seen[static_cast<std::size_t>(y)]) {
+        const double value = fused.covariance(x, y);
+        least = sign * value < 0.0 ? 0.0 : std::min(least, std::abs(value));
+        sign = value < 0.0 ? -1.0 : 1.0;
+      }
+    }
+  }
+  return sign * least;
+}
+
+/// Takes another side for the front, a quarter turn to the left: nothing moves.
+void turnByQuarter(Object& object) {
+  const auto [front, rear, left, right] = object.side_variance;
+  object.side_variance = {left, right, rear, front};
+  const Pose2& centre = object.box.centre;
+  object.box = {Pose2(centre.position(), centre.heading() + kQuarterTurn), object.box.width,
+                object.box.length};
+}
+
+/// Box, position and the variances of its sides; returns the share of `b` in them.
+double combineGeometry(const Object& a, const Object& b, Object& result) {
+  const CommonHeading heading = commonHeading(a, b);
+  const Pose2 axes = commonAxes(a, b, heading.heading);
+  const ObjectSides sides_a = sidesIn(axes, a);
+  const ObjectSides sides_b = sidesIn(axes, b);
+  const FusedSides sides = fused(estimateOf(sides_a), estimateOf(sides_b));
+  const std::array<FusedAxis, 2> along = {fusedAxis(sides, sides_a, sides_b, 0),
+                                          fusedAxis(sides, sides_a, sides_b, 1)};
+  const Point2 middle(along[0].sides.middle(), along[1].sides.middle());
+  result.box = {Pose2(axes * middle, axes.heading()), along[0].sides.extent(),
+                along[1].sides.extent()};
+  result.side_variance = {along[0].sides.variance[1], along[0].sides.variance[0],
+                          along[1].sides.variance[1], along[1].sides.variance[0]};
+  const double mixed = commonCovariance(sides, along);
+  Eigen::Matrix2d covariance;
+  covariance << along[0].common_variance, mixed, mixed, along[1].common_variance;
+  const Eigen::Matrix2d turned = axes.rotation() * covariance * axes.rotation().transpose();
+  result.position_covariance = 0.5 * (turned + turned.transpose());
+  result.heading_variance = heading.variance;
+  if (!heading.same_axis && result.box.width > result.box.length) {
+    turnByQuarter(result);
+  }
+  return sides.weight_of_b;
+}
+
+/// Class and probability: of one that says nothing the other's, else Bayes.
+void combineClass(const Object& a, const Object& b, Object& result) {
+  if (a.object_class == ObjectClass::kUnknown || b.object_class == ObjectClass::kUnknown) {
+    const Object& known = a.object_class == ObjectClass::kUnknown ? b : a;
+    result.object_class = known.object_class;
+    result.class_probability = known.class_probability;
+    return;
+  }
+  // The surer one last, whichever it is: the belief doubts what was said before.
+  const auto order = [](const Object& object) {
+    return std::make_tuple(object.class_probability, object.object_class);
+  };
+  ClassBelief belief;
+  const bool a_first = order(a) <= order(b);
+  for (const Object* object : {a_first ? &a : &b, a_first ? &b : &a}) {
+    belief.update(object->object_class, object->class_probability);
+  }
+  result.object_class = belief.mostLikely();
+  result.class_probability = belief.probability(result.object_class);
+}
+
+DynamicState combinedState(DynamicState a, DynamicState b) {
+  for (const DynamicState state : {DynamicState::kMoving, DynamicState::kStatic}) {
+    if (a == state || b == state) {
+      return state;
+    }
+  }
+  return DynamicState::kUnknown;
+}
+
+}  // namespace
+
+Object combined(const Object& a, const Object& b) {
+  Object result;
+  const double share_of_b = combineGeometry(a, b, result);
+  combineClass(a, b, result);
+  result.delay = (1.0 - share_of_b) * a.delay + share_of_b * b.delay;
+  // What is seen in part looks lower than it is.
+  result.height = std::max(a.height, b.height);
+  result.dynamic_state = combinedState(a.dynamic_state, b.dynamic_state);
+  result.moving_fraction = std::max(a.moving_fraction, b.moving_fraction);
+  result.log_odds = a.log_odds + b.log_odds;
+  result.sensors = a.sensors;
+  result.sensors.insert(result.sensors.end(), b.sensors.begin(), b.sensors.end());
+  std::sort(result.sensors.begin(), result.sensors.end());
+  result.sensors.erase(std::unique(result.sensors.begin(), result.sensors.end()),
+                       result.sensors.end());
+  result.points = a.points;
+  result.points.insert(result.points.end(), b.points.begin(), b.points.end());
+  return result;
+}
+
+}  // namespace datmo

@@ -1,0 +1,76 @@
+#include "object_sides.h"
+
+#include <algorithm>
+
+#include "datmo_fusion/common/angle.h"
+
+namespace datmo {
+
+namespace {
+
+/// Variance of a heading modulo a quarter turn of which nothing is known, rad^2.
+constexpr double kUnknownSideVariance = kQuarterTurn * kQuarterTurn * kUniformVariance;
+
+/// rad^2; no box is a perfect rectangle.
+constexpr double kLeastHeadingVariance = 1e-6;
+
+/// Of a heading modulo a quarter turn beyond knowing nothing, 1/rad^2.
+double informationOf(double variance) {
+  return std::max(0.0,
+                  1.0 / std::max(variance, kLeastHeadingVariance) - 1.0 / kUnknownSideVariance);
+}
+
+}  // namespace
+
+CommonHeading commonHeading(const Object& a, const Object& b) {
+  const double from = a.box.centre.heading();
+  const double turn = angleBetween(from, b.box.centre.heading());
+  const double quarters = std::round(turn / kQuarterTurn);
+  const double apart = turn - quarters * kQuarterTurn;
+  const double of_a = informationOf(a.heading_variance);
+  const double of_b = informationOf(b.heading_variance);
+  const double known = of_a + of_b;
+  const double share_of_b = known > 0.0 ? of_b / known : 0.5;
+  CommonHeading common;
+  common.heading = normalizeAngle(from + share_of_b * apart +
+                                  (share_of_b > 0.5 ? quarters * kQuarterTurn : 0.0));
+  common.variance = known > 0.0 ? 1.0 / (known + 1.0 / kUnknownSideVariance)
+                                : std::min(a.heading_variance, b.heading_variance);
+  common.same_axis = std::lround(quarters) % 2 == 0;
+  return common;
+}
+
+Pose2 commonAxes(const Object& a, const Object& b, double heading) {
+  return {0.5 * (a.box.centre.position() + b.box.centre.position()), heading};
+}
+
+ObjectSides sidesIn(const Pose2& axes, const Object& object) {
+  constexpr std::array<BoxSide, kBoxSides> kToTheLeft = {BoxSide::kFront, BoxSide::kLeft,
+                                                         BoxSide::kRear, BoxSide::kRight};
+  const Box2& box = object.box;
+  const Eigen::Matrix2d to_axes = axes.rotation().transpose();
+  const Point2 centre = to_axes * (box.centre.position() - axes.position());
+  const double turn = angleBetween(box.centre.heading(), axes.heading());
+  const double quarters = std::round(turn / kQuarterTurn);
+  const double slant = std::sin(turn - quarters * kQuarterTurn);
+  const auto first = static_cast<std::size_t>(static_cast<int>(quarters) + 4);
+  const bool across = first % 2 == 1;
+  const Point2 half =
+      0.5 * (across ? Point2(box.width, box.length) : Point2(box.length, box.width));
+  ObjectSides sides;
+  sides.covariance = to_axes * object.position_covariance * to_axes.transpose();
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const auto i = static_cast<Eigen::Index>(axis);
+    const double turned = slant * half[1 - i];
+    for (std::size_t end = 0; end < 2; ++end) {
+      const std::size_t direction = end == 1 ? axis : axis + 2;
+      const BoxSide side = kToTheLeft[(first + direction) % kBoxSides];
+      sides.along[axis].place[end] = end == 1 ? centre[i] + half[i] : centre[i] - half[i];
+      sides.along[axis].variance[end] =
+          object.side_variance[static_cast<std::size_t>(side)] + turned * turned;
+    }
+  }
+  return sides;
+}
+
+}  // namespace datmo

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "datmo_fusion/common/object.h"
+
+namespace datmo {
+
+/// The two sides of a box that are across one axis.
+struct SidePair {
+  std::array<double, 2> place{};     ///< m along the axis: of the side behind, of the one ahead
+  std::array<double, 2> variance{};  ///< m^2, by itself; kHiddenSide: not seen
+
+  bool isSeen(std::size_t end) const { return std::isfinite(variance[end]); }
+  double extent() const { return place[1] - place[0]; }
+  double middle() const { return 0.5 * (place[0] + place[1]); }
+};
+
+/// An object told in given axes.
+struct ObjectSides {
+  std::array<SidePair, 2> along;  ///< along the x axis and the y axis
+  Eigen::Matrix2d covariance;     ///< m^2, of the box as a whole
+};
+
+/// What is known of the heading of two objects together, taken for one.
+struct CommonHeading {
+  double heading = 0.0;   ///< rad, nearest to that of the surer one
+  double variance = 0.0;  ///< rad^2
+  bool same_axis = true;  ///< both take the same axis for their length
+};
+
+/// The sides of two boxes are told apart modulo a quarter turn only; so are headings joined.
+CommonHeading commonHeading(const Object& a, const Object& b);
+
+/// Midway between both objects, along their common heading.
+Pose2 commonAxes(const Object& a, const Object& b, double heading);
+
+/// Each side of the object is that of the axes' ends which it is nearest to. A box that is turned
+/// for it has sides that are known less well.
+ObjectSides sidesIn(const Pose2& axes, const Object& object);
+
+}  // namespace datmo

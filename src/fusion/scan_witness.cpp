@@ -1,0 +1,178 @@
+#include "datmo_fusion/fusion/scan_witness.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "datmo_fusion/common/angle.h"
+
+namespace datmo {
+
+namespace {
+
+/// Nothing that a sensor detects is narrower (m): a leg, a post.
+constexpr double kLeastWidth = 0.1;
+
+/// Where a line from the scanner enters and leaves a box, m.
+struct Crossing {
+  double entry = 0.0;
+  double exit = std::numeric_limits<double>::infinity();
+};
+
+/// A box seen from the scanner.
+struct Sight {
+  Point2 scanner;        ///< m, in the box's frame
+  Point2 half;           ///< m
+  double bearing = 0.0;  ///< rad, of the centre, in the box's frame
+  double least = 0.0;    ///< rad, right edge, from the bearing
+  double most = 0.0;     ///< rad, left edge
+};
+
+Sight sightOf(const Box2& box, const Point2& scanner) {
+  Sight sight;
+  sight.half = 0.5 * Point2(std::max(box.length, kLeastWidth), std::max(box.width, kLeastWidth));
+  sight.scanner = box.centre.inverse() * scanner;
+  const Point2 line = -sight.scanner;
+  sight.bearing = std::atan2(line.y(), line.x());
+  for (const double x : {-sight.half.x(), sight.half.x()}) {
+    for (const double y : {-sight.half.y(), sight.half.y()}) {
+      const Point2 corner = line + Point2(x, y);
+      const double cross = line.x() * corner.y() - line.y() * corner.x();
+      const double offset = std::atan2(cross, line.dot(corner));
+      sight.least = std::min(sight.least, offset);
+      sight.most = std::max(sight.most, offset);
+    }
+  }
+  return sight;
+}
+
+Crossing crossing(const Sight& sight, const Point2& direction) {
+  Crossing result;
+  for (Eigen::Index axis = 0; axis < 2; ++axis) {
+    if (direction[axis] != 0.0) {
+      const double one = (-sight.half[axis] - sight.scanner[axis]) / direction[axis];
+      const double other = (sight.half[axis] - sight.scanner[axis]) / direction[axis];
+      result.entry = std::max(result.entry, std::min(one, other));
+      result.exit = std::min(result.exit, std::max(one, other));
+    }
+  }
+  return result;
+}
+
+/// m^2, of the place of an object along this direction (unit vector in its own frame): of the whole
+/// and of the sides that are seen from there.
+double varianceAlong(const Object& object, const Point2& direction) {
+  const Point2 in_base = object.box.centre.rotate(direction);
+  const auto side = [&](BoxSide one) {
+    const double variance = object.side_variance[static_cast<std::size_t>(one)];
+    return std::isfinite(variance) ? variance : 0.0;
+  };
+  const double x = side(direction.x() < 0.0 ? BoxSide::kFront : BoxSide::kRear);
+  const double y = side(direction.y() < 0.0 ? BoxSide::kLeft : BoxSide::kRight);
+  return in_base.dot(object.position_covariance * in_base) +
+         direction.cwiseAbs2().dot(Point2(x, y));
+}
+
+}  // namespace
+
+void ScanWitnessOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"static_share", "1",
+                  "an object that the scanner does not list stands still if at least this share "
+                  "of the beams on its place end there on static points"},
+                 static_share, {0.01, 1.0});
+  visitor.number({"static_reach", "1",
+                  "how far from its near side they may end, in standard deviations of its place: "
+                  "few, since what stands beside it must not freeze it"},
+                 static_reach, {0.0, 10.0});
+  visitor.number({"most_static_reach", "m", "the same, however uncertain its place is"},
+                 most_static_reach, {0.0, 20.0});
+  visitor.number({"through_reach", "1",
+                  "how far behind it a beam must end that passed through its place, in standard "
+                  "deviations of it"},
+                 through_reach, {0.0, 10.0});
+  visitor.number({"body_depth", "m",
+                  "how far behind its near side a beam may meet a body: it has no straight sides"},
+                 body_depth, {0.0, 10.0});
+}
+
+ScanWitness::ScanWitness(const SplitScan& scan, const ScanWitnessOptions& options)
+    : options_(options), scanner_in_base_(scan.scanner_in_base), field_(scan.field) {
+  checkOptions(options);
+  beams_.assign(field_.beams, {End::kNothing, field_.free_range});
+  for (const std::uint32_t beam : scan.blind_beams) {
+    if (beam < beams_.size()) {
+      beams_[beam].range = 0.0;
+    }
+  }
+  for (const ScanPoint& point : scan.points) {
+    if (point.beam < beams_.size()) {
+      const bool is_static = point.state == PointState::kStatic;
+      beams_[point.beam] = {is_static ? End::kStaticHit : End::kHit, point.range};
+    }
+  }
+}
+
+double ScanWitness::beamAt(double bearing) const {
+  const double per_turn = 2.0 * kPi / std::abs(field_.beam_spacing);
+  const double index = (bearing - field_.first_bearing) / field_.beam_spacing;
+  // From half a beam before the first one on.
+  return index - per_turn * std::floor((index + 0.5) / per_turn);
+}
+
+const ScanWitness::Beam* ScanWitness::beam(double index) const {
+  const double per_turn = 2.0 * kPi / std::abs(field_.beam_spacing);
+  const double within = index < per_turn - 0.5 ? index : index - per_turn;
+  return within >= 0.0 && within < static_cast<double>(beams_.size())
+             ? &beams_[static_cast<std::size_t>(within)]
+             : nullptr;
+}
+
+PlaceTestimony ScanWitness::testimony(const Object& object, double motion_std) const {
+  PlaceTestimony result;
+  const Sight sight = sightOf(object.box, scanner_in_base_.position());
+  const bool inside = (sight.scanner.cwiseAbs() - sight.half).maxCoeff() <= 0.0;
+  if (beams_.empty() || inside) {
+    return result;
+  }
+  const double to_scanner = object.box.centre.heading() - scanner_in_base_.heading();
+  const double spacing = std::abs(field_.beam_spacing);
+  const double width = (sight.most - sight.least) / spacing;
+  const double edge = field_.beam_spacing > 0.0 ? sight.least : sight.most;
+  // The beams between both edges, or else the one that is nearest to the middle.
+  const double first = beamAt(to_scanner + sight.bearing + edge);
+  double index = std::ceil(first);
+  const auto looks = static_cast<std::size_t>(std::floor(first + width) - index + 1.0);
+  if (looks == 0) {
+    index = std::round(first + 0.5 * width);
+  }
+  const std::size_t count = std::max<std::size_t>(looks, 1);
+  for (std::size_t i = 0; i < count; ++i, index += 1.0) {
+    const Beam* seen = beam(index);
+    if (seen == nullptr) {
+      continue;
+    }
+    const double bearing = field_.first_bearing + index * field_.beam_spacing - to_scanner;
+    const double offset = std::clamp(angleBetween(sight.bearing, bearing), sight.least, sight.most);
+    const Point2 direction(std::cos(sight.bearing + offset), std::sin(sight.bearing + offset));
+    const Crossing through = crossing(sight, direction);
+    const double variance = varianceAlong(object, direction);
+    const double reach =
+        std::min(options_.static_reach * std::sqrt(variance), options_.most_static_reach);
+    const double beyond = options_.through_reach * std::sqrt(variance + motion_std * motion_std);
+    if (seen->range > std::max(through.exit, through.entry + options_.body_depth) + beyond) {
+      result.through_share += 1.0;
+    } else if (seen->end == End::kStaticHit && seen->range >= through.entry - reach &&
+               seen->range <= through.entry + reach + options_.body_depth) {
+      result.static_share += 1.0;
+    }
+  }
+  result.static_share /= static_cast<double>(count);
+  result.through_share /= static_cast<double>(count);
+  result.beams = width;
+  return result;
+}
+
+}  // namespace datmo

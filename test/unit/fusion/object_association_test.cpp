@@ -1,0 +1,164 @@
+#include "datmo_fusion/fusion/object_association.h"
+
+#include <cmath>
+#include <vector>
+
+#include "fusion_objects.h"
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/tracking/assignment.h"
+
+namespace datmo {
+namespace {
+
+ObjectAssociationOptions exact() {
+  ObjectAssociationOptions options;
+  options.body_std = 0.0;
+  return options;
+}
+
+ObjectAssociationOptions nearest() {
+  ObjectAssociationOptions options;
+  options.association = ObjectAssociationOptions::kNearestNeighbour;
+  return options;
+}
+
+Object classified(Object object, ObjectClass object_class, double probability) {
+  object.object_class = object_class;
+  object.class_probability = probability;
+  return object;
+}
+
+TEST(ObjectAssociationTest, PointsAreComparedByTheSumOfTheirCovariances) {
+  const ObjectPairing pair =
+      pairing(pointObject(10.0, 0.0, 0.3), pointObject(10.5, 1.0, 0.4), exact());
+  EXPECT_TRUE(pair.possible);
+  EXPECT_NEAR(pair.squared_distance, 1.25 / 0.25, 1e-6);
+  const double density = std::exp(-2.5) / (2.0 * kPi * 0.25);
+  EXPECT_NEAR(pair.score, std::log(density / exact().unrelated_density), 1e-6);
+}
+
+TEST(ObjectAssociationTest, BeyondTheGateThereIsNoPair) {
+  const Object a = pointObject(10.0, 0.0, 0.3);
+  EXPECT_TRUE(pairing(a, pointObject(11.85, 0.0, 0.4), exact()).possible);
+  EXPECT_FALSE(pairing(a, pointObject(11.86, 0.0, 0.4), exact()).possible);
+}
+
+TEST(ObjectAssociationTest, SidesAreComparedThatBothSaw) {
+  // The scanner sees the rear of a truck, and a metre of its side; the other sensor all of it.
+  Object part = boxObject(10.5, 0.0, 1.0, 2.0, 0.001);
+  hide(part, BoxSide::kFront);
+  Object whole = boxObject(14.0, 0.0, 8.0, 2.0, 0.001, "stereo");
+  EXPECT_NEAR(pairing(part, whole, exact()).squared_distance, 0.0, 1e-6);
+  part.side_variance[sideIndex(BoxSide::kFront)] = 0.001;
+  EXPECT_FALSE(pairing(part, whole, exact()).possible);
+}
+
+TEST(ObjectAssociationTest, WithoutACommonSideTheSizeIsNotKnown) {
+  ObjectAssociationOptions options = exact();
+  options.unknown_size_std = 1.0;
+  // One end of a bus each, 3 m apart.
+  Object left = boxObject(10.0, 3.0, 0.0, 2.0, 0.0);
+  hide(left, BoxSide::kRight);
+  Object right = boxObject(10.0, -2.0, 0.0, 2.0, 0.0, "stereo");
+  hide(right, BoxSide::kLeft);
+  EXPECT_NEAR(pairing(left, right, options).squared_distance, 9.0 / 1.02, 1e-3);
+  // Where they overlap they agree.
+  right.box.centre = Pose2(10.0, 2.0, 0.0);
+  EXPECT_NEAR(pairing(left, right, options).squared_distance, 0.0, 1e-9);
+}
+
+TEST(ObjectAssociationTest, PairingIsSymmetric) {
+  Object a = boxObject(10.0, 3.0, 1.0, 2.0, 0.01);
+  Object b = boxObject(10.2, 3.1, 2.0, 1.2, 0.02, "stereo");
+  a.box.centre = Pose2(a.box.centre.position(), 0.3);
+  b.box.centre = Pose2(b.box.centre.position(), -1.4);
+  b.delay = 0.05;
+  hide(b, BoxSide::kLeft);
+  const ObjectAssociationOptions options;
+  EXPECT_NEAR(pairing(a, b, options).score, pairing(b, a, options).score, 1e-9);
+}
+
+TEST(ObjectAssociationTest, WhatMovesMayBeElsewhereAtAnotherTime) {
+  const Object a = pointObject(10.0, 0.0, 0.05);
+  Object b = pointObject(11.0, 0.0, 0.05, "stereo");
+  EXPECT_FALSE(pairing(a, b, exact()).possible);
+  b.delay = -0.1;
+  EXPECT_NEAR(pairing(a, b, exact()).squared_distance, 1.0 / 1.005, 1e-6);
+  b.dynamic_state = DynamicState::kStatic;
+  EXPECT_FALSE(pairing(a, b, exact()).possible);
+}
+
+TEST(ObjectAssociationTest, DifferentClassesAreDifferentObjects) {
+  const Object plain = pointObject(10.0, 0.0, 0.1);
+  const Object walker = classified(plain, ObjectClass::kPedestrian, 0.8);
+  const ObjectAssociationOptions options;
+  EXPECT_FALSE(pairing(walker, classified(plain, ObjectClass::kVehicle, 0.8), options).possible);
+  EXPECT_TRUE(pairing(walker, classified(plain, ObjectClass::kVehicle, 0.4), options).possible);
+  EXPECT_TRUE(pairing(classified(plain, ObjectClass::kVehicle, 0.4), walker, options).possible);
+  EXPECT_TRUE(pairing(walker, walker, options).possible);
+  EXPECT_TRUE(pairing(walker, plain, options).possible);
+}
+
+TEST(ObjectAssociationTest, TheAssignmentIsBestOverAllWhereTheNearestNeighbourFails) {
+  // Three in a row, 1 m apart; the other sensor sees all of them 0.6 m farther to the left, and so
+  // each but the last one nearer to the next.
+  std::vector<Object> known;
+  std::vector<Object> added;
+  for (int i = 0; i < 3; ++i) {
+    known.push_back(pointObject(20.0, i, 0.05));
+    added.push_back(pointObject(20.0, i + 0.6, 0.5, "stereo"));
+  }
+  const std::vector<int> optimal =
+      associate(known, added, Point2::Zero(), ObjectAssociationOptions());
+  EXPECT_EQ(optimal, (std::vector<int>{0, 1, 2}));
+  const std::vector<int> greedy = associate(known, added, Point2::Zero(), nearest());
+  EXPECT_EQ(greedy, (std::vector<int>{1, 2, kUnassigned}));
+}
+
+TEST(ObjectAssociationTest, APairMustBeLikelierThanTwoObjects) {
+  ObjectAssociationOptions options = exact();
+  const std::vector<Object> known = {pointObject(10.0, 0.0, 0.6)};
+  const std::vector<Object> added = {pointObject(12.0, 0.0, 0.8, "stereo")};
+  options.unrelated_density = 0.01;  // where two are one: exp(-2) / (2 pi) = 0.0215 1/m^2
+  EXPECT_EQ(associate(known, added, Point2::Zero(), options), std::vector<int>{0});
+  options.unrelated_density = 0.03;
+  EXPECT_EQ(associate(known, added, Point2::Zero(), options), std::vector<int>{kUnassigned});
+}
+
+TEST(ObjectAssociationTest, TheNearestNeighbourIsThatOfTheThesis) {
+  const std::vector<Object> known = {pointObject(18.0, 0.0, 0.1), pointObject(37.0, 0.0, 0.1)};
+  const auto match = [&](double x, double y) {
+    return associate(known, {pointObject(x, y, 0.1, "stereo")}, Point2::Zero(), nearest())[0];
+  };
+  // At 18 m up to 2.5 m.
+  EXPECT_EQ(match(18.0, 2.4), 0);
+  EXPECT_EQ(match(18.0, 2.7), kUnassigned);
+  EXPECT_EQ(match(35.5, 0.0), 1);
+  EXPECT_EQ(match(36.5, 0.0), kUnassigned);
+}
+
+TEST(ObjectAssociationTest, TheNearestNeighbourComparesFrontSides) {
+  // The scanner sees the rear only; of the other sensor's car the rear is as near.
+  const std::vector<Object> known = {pointObject(10.0, 0.0, 0.1)};
+  const std::vector<Object> added = {boxObject(12.5, 0.0, 5.0, 2.0, 0.01, "stereo")};
+  EXPECT_EQ(associate(known, added, Point2::Zero(), nearest())[0], 0);
+}
+
+TEST(ObjectAssociationTest, OfTwoWithTheSameNearestNeighbourTheNearerKeepsIt) {
+  const std::vector<Object> known = {pointObject(20.0, 0.0, 0.1)};
+  const std::vector<Object> added = {pointObject(20.0, 1.0, 0.1), pointObject(20.0, -0.5, 0.1),
+                                     pointObject(20.0, 0.8, 0.1)};
+  EXPECT_EQ(associate(known, added, Point2::Zero(), nearest()),
+            (std::vector<int>{kUnassigned, 0, kUnassigned}));
+}
+
+TEST(ObjectAssociationTest, WithoutObjectsThereAreNoPairs) {
+  const std::vector<Object> one = {pointObject(20.0, 0.0, 0.1)};
+  EXPECT_TRUE(associate(one, {}, Point2::Zero(), ObjectAssociationOptions()).empty());
+  EXPECT_EQ(associate({}, one, Point2::Zero(), nearest()), std::vector<int>{kUnassigned});
+}
+
+}  // namespace
+}  // namespace datmo

@@ -1,0 +1,295 @@
+#include "datmo_fusion/fusion/object_combination.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fusion_objects.h"
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/common/random.h"
+#include "datmo_fusion/fusion/position_covariance.h"
+#include "datmo_fusion/tracking/object_check.h"
+
+namespace datmo {
+namespace {
+
+TEST(ObjectCombinationTest, PointsAreFusedAsInTheThesis) {
+  Object a = pointObject(10.0, 2.0, 0.1);
+  Object b = pointObject(11.0, 2.4, 0.1, "stereo");
+  a.position_covariance << 0.04, 0.0, 0.0, 0.09;
+  b.position_covariance << 1.0, 0.2, 0.2, 0.25;
+  const Eigen::Matrix2d of_a = a.position_covariance.inverse();
+  const Eigen::Matrix2d of_b = b.position_covariance.inverse();
+  const Eigen::Matrix2d covariance = (of_a + of_b).inverse();
+  const Point2 place =
+      covariance * (of_a * a.box.centre.position() + of_b * b.box.centre.position());
+  const Object fused = combined(a, b);
+  EXPECT_NEAR(fused.box.centre.x(), place.x(), 1e-5);
+  EXPECT_NEAR(fused.box.centre.y(), place.y(), 1e-5);
+  EXPECT_NEAR((fused.position_covariance - covariance).norm(), 0.0, 1e-5);
+  for (const double variance : fused.side_variance) {
+    EXPECT_NEAR(variance, 0.0, 1e-5);
+  }
+}
+
+TEST(ObjectCombinationTest, RangeOfTheOneAndBearingOfTheOtherMeet) {
+  Object lidar = pointObject(20.0, 0.0, 0.1);
+  Object stereo = pointObject(22.0, 0.5, 0.1, "stereo");
+  lidar.position_covariance = rangeBearingCovariance(lidar.box.centre.position(), 0.01, 0.01);
+  stereo.position_covariance = rangeBearingCovariance(stereo.box.centre.position(), 4.0, 1e-5);
+  const Object fused = combined(lidar, stereo);
+  EXPECT_NEAR(fused.box.centre.x(), 20.0, 0.05);
+  EXPECT_NEAR(fused.box.centre.y(), 0.5, 0.05);
+  EXPECT_LT(fused.position_covariance(0, 0), 0.01);
+  EXPECT_LT(fused.position_covariance(1, 1), 0.01);
+}
+
+TEST(ObjectCombinationTest, ASideThatOneDidNotSeeIsAsTheOtherSawIt) {
+  // The rear and the left of a car of 4 m x 2 m at 10 m; the other sees rear, left and right.
+  Object lidar = boxObject(10.5, 0.5, 1.0, 1.0, 0.0004);
+  hide(lidar, BoxSide::kFront);
+  hide(lidar, BoxSide::kRight);
+  Object stereo = boxObject(11.0, 0.0, 2.0, 2.0, 0.01, "stereo");
+  hide(stereo, BoxSide::kFront);
+  stereo.position_covariance = Eigen::Matrix2d::Identity() * 0.04;
+  const Object fused = combined(lidar, stereo);
+  const Box2& box = fused.box;
+  EXPECT_NEAR(box.centre.x() - 0.5 * box.length, 10.0, 0.01);
+  EXPECT_NEAR(box.centre.y() + 0.5 * box.width, 1.0, 0.01);
+  EXPECT_NEAR(box.centre.y() - 0.5 * box.width, -1.0, 0.01);
+  EXPECT_EQ(fused.side_variance[sideIndex(BoxSide::kFront)], kHiddenSide);
+  EXPECT_TRUE(std::isfinite(fused.side_variance[sideIndex(BoxSide::kRight)]));
+  // The right side is known by the other one's size, which the left side ties to the surer place.
+  const double right =
+      fused.side_variance[sideIndex(BoxSide::kRight)] + fused.position_covariance(1, 1);
+  const double left =
+      fused.side_variance[sideIndex(BoxSide::kLeft)] + fused.position_covariance(1, 1);
+  EXPECT_LT(left, 0.0104);
+  EXPECT_GT(right, left);
+  EXPECT_LT(right, 0.05);
+  // No nearer than either surely says: 2 m, less the 0.1 m by which that one is less sure.
+  EXPECT_NEAR(box.length, 1.9, 1e-6);
+}
+
+TEST(ObjectCombinationTest, ASideThatNobodySawStaysHidden) {
+  Object lidar = pointObject(10.0, 0.0, 0.05);
+  for (const BoxSide side : {BoxSide::kFront, BoxSide::kLeft, BoxSide::kRight}) {
+    hide(lidar, side);
+  }
+  Object stereo = pointObject(10.5, 0.3, 0.5, "stereo");
+  stereo.side_variance = lidar.side_variance;
+  const Object fused = combined(lidar, stereo);
+  EXPECT_TRUE(isValid(fused));
+  EXPECT_EQ(fused.side_variance[sideIndex(BoxSide::kLeft)], kHiddenSide);
+  EXPECT_EQ(fused.side_variance[sideIndex(BoxSide::kRight)], kHiddenSide);
+  EXPECT_EQ(fused.side_variance[sideIndex(BoxSide::kFront)], kHiddenSide);
+  EXPECT_NEAR(fused.box.centre.y(), 0.3 * 0.0025 / (0.0025 + 0.25), 1e-6);
+}
+
+TEST(ObjectCombinationTest, BoxesThatAreToldAQuarterTurnApartAreOne) {
+  const Object a = boxObject(10.0, 0.0, 4.0, 2.0, 0.01);
+  Object b = boxObject(10.0, 0.0, 2.0, 4.0, 0.01, "stereo");
+  b.box.centre = Pose2(10.0, 0.0, kQuarterTurn);
+  hide(b, BoxSide::kLeft);  // the end at the negative x axis
+  const Object fused = combined(a, b);
+  EXPECT_NEAR(fused.box.length, 4.0, 1e-3);
+  EXPECT_NEAR(fused.box.width, 2.0, 1e-3);
+  EXPECT_NEAR(std::abs(std::cos(fused.box.centre.heading())), 1.0, 1e-6);
+  const auto& sides = fused.side_variance;
+  EXPECT_GT(sides[sideIndex(BoxSide::kRear)], sides[sideIndex(BoxSide::kFront)]);
+}
+
+TEST(ObjectCombinationTest, TheLengthIsAlongTheAxisOnWhichBothAgree) {
+  // Seen from behind: wider than long, but both say where it heads for.
+  const Object a = boxObject(10.0, 0.0, 1.0, 2.0, 0.01);
+  const Object b = boxObject(10.0, 0.0, 1.2, 2.0, 0.01, "stereo");
+  const Object fused = combined(a, b);
+  EXPECT_NEAR(fused.box.length, 1.1, 0.05);
+  EXPECT_NEAR(fused.box.centre.heading(), 0.0, 1e-6);
+}
+
+TEST(ObjectCombinationTest, HeadingsAreFusedByWhatIsKnownOfThem) {
+  Object a = boxObject(10.0, 0.0, 4.0, 2.0, 0.01);
+  Object b = boxObject(10.0, 0.0, 4.0, 2.0, 0.01, "stereo");
+  b.box.centre = Pose2(10.0, 0.0, 0.2);
+  EXPECT_NEAR(combined(a, b).box.centre.heading(), 0.1, 1e-3);
+  EXPECT_NEAR(combined(a, b).heading_variance, 0.0005, 1e-5);
+  b.heading_variance = kUnknownHeadingVariance;
+  EXPECT_NEAR(combined(a, b).box.centre.heading(), 0.0, 1e-6);
+  EXPECT_NEAR(combined(a, b).heading_variance, 0.001, 1e-6);
+  a.heading_variance = kUnknownHeadingVariance;
+  EXPECT_EQ(combined(a, b).heading_variance, kUnknownHeadingVariance);
+}
+
+TEST(ObjectCombinationTest, TheSurerOneTellsWhichWayItHeads) {
+  Object a = boxObject(10.0, 0.0, 4.0, 2.0, 0.01);
+  Object b = boxObject(10.0, 0.0, 4.0, 2.0, 0.01, "stereo");
+  b.box.centre = Pose2(10.0, 0.0, kPi);
+  b.heading_variance = 1e-4;
+  EXPECT_NEAR(std::cos(combined(a, b).box.centre.heading()), -1.0, 1e-6);
+  b.heading_variance = 1e-2;
+  EXPECT_NEAR(std::cos(combined(a, b).box.centre.heading()), 1.0, 1e-6);
+}
+
+TEST(ObjectCombinationTest, OrderDoesNotMatter) {
+  Random random(3);
+  for (int i = 0; i < 200; ++i) {
+    Object a = boxObject(20.0 + random.normal(0.3), random.normal(0.3), random.uniform(0.0, 5.0),
+                         random.uniform(0.0, 2.0), random.uniform(0.0, 0.1));
+    Object b = boxObject(20.0, 0.0, 4.0, 2.0, random.uniform(0.0, 0.5), "stereo");
+    a.box.centre = Pose2(a.box.centre.position(), random.uniform(-kPi, kPi));
+    b.box.centre = Pose2(b.box.centre.position(), random.uniform(-kPi, kPi));
+    b.heading_variance = 0.02;
+    for (std::size_t side = 0; side < kBoxSides; ++side) {
+      a.side_variance[side] = random.chance(0.4) ? kHiddenSide : a.side_variance[side];
+      b.side_variance[side] = random.chance(0.4) ? kHiddenSide : b.side_variance[side];
+    }
+    const Object one = combined(a, b);
+    const Object other = combined(b, a);
+    ASSERT_TRUE(isValid(one));
+    EXPECT_NEAR((one.box.centre.position() - other.box.centre.position()).norm(), 0.0, 1e-6);
+    EXPECT_NEAR(std::cos(one.box.centre.heading() - other.box.centre.heading()), 1.0, 1e-9);
+    EXPECT_NEAR(one.box.length, other.box.length, 1e-6);
+    EXPECT_NEAR((one.position_covariance - other.position_covariance).norm(), 0.0, 1e-6);
+    EXPECT_NEAR(one.delay, other.delay, 1e-9);
+    EXPECT_EQ(one.sensors, other.sensors);
+  }
+}
+
+/// An unbiased measurement of a car by a sensor that sees some of its sides.
+Object measured(const Box2& truth, const Eigen::Matrix2d& covariance,
+                const std::array<double, kBoxSides>& side_variance, Random& random) {
+  Object object;
+  object.position_covariance = covariance;
+  object.side_variance = side_variance;
+  object.heading_variance = 0.001;
+  std::array<double, kBoxSides> reach{0.5 * truth.length, 0.5 * truth.length, 0.5 * truth.width,
+                                      0.5 * truth.width};
+  for (std::size_t side = 0; side < kBoxSides; ++side) {
+    reach[side] += std::isfinite(side_variance[side])
+                       ? random.normal(std::sqrt(side_variance[side]))
+                       : -0.3 * reach[side];
+  }
+  const Eigen::Matrix2d root = covariance.llt().matrixL();
+  const Point2 shift = root * Point2(random.normal(1.0), random.normal(1.0));
+  const Point2 middle(0.5 * (reach[0] - reach[1]), 0.5 * (reach[2] - reach[3]));
+  object.box = {Pose2(truth.centre * middle + shift, truth.centre.heading()), reach[0] + reach[1],
+                reach[2] + reach[3]};
+  return object;
+}
+
+/// Of the front left corner, whose two sides must be seen.
+double squaredError(const Object& fused, const Box2& truth) {
+  const Eigen::Matrix2d to_box = fused.box.centre.rotation().transpose();
+  Eigen::Matrix2d covariance = to_box * fused.position_covariance * to_box.transpose();
+  covariance(0, 0) += fused.side_variance[sideIndex(BoxSide::kFront)];
+  covariance(1, 1) += fused.side_variance[sideIndex(BoxSide::kLeft)];
+  const Point2 error = to_box * (fused.box.corners()[0] - truth.corners()[0]);
+  return error.dot(covariance.inverse() * error);
+}
+
+/// What a pair of sensors sees of a car.
+struct SightCase {
+  std::string name;
+  std::array<double, kBoxSides> of_lidar;
+  std::array<double, kBoxSides> of_stereo;
+  double least_mean;  ///< of the squared error: fewer sides in common are told too cautiously
+};
+
+TEST(ObjectCombinationTest, CovariancesAreHonest) {
+  constexpr int kRuns = 5000;
+  // Mean of 5000 values of chi-square with two degrees of freedom: 2 +- 3.3 * 2 / sqrt(5000).
+  constexpr double kBound = 0.094;
+  const double hidden = kHiddenSide;
+  const std::vector<SightCase> cases = {
+      {"all sides", {0.01, 0.01, 0.01, 0.01}, {0.04, 0.04, 0.04, 0.04}, 2.0 - kBound},
+      {"near sides", {0.001, hidden, 0.001, hidden}, {0.04, hidden, 0.04, hidden}, 2.0 - kBound},
+      {"one sees more", {0.001, hidden, 0.04, hidden}, {0.04, 0.04, 0.04, 0.04}, 2.0 - kBound},
+      {"a side each", {0.01, hidden, hidden, hidden}, {hidden, hidden, 0.04, hidden}, 2.0 - kBound},
+      {"corner and end", {0.01, hidden, 0.01, hidden}, {hidden, 0.04, 0.04, 0.04}, 1.5}};
+  const Box2 truth{Pose2(18.0, 6.0, 0.4), 4.4, 1.8};
+  const Eigen::Matrix2d of_lidar = Eigen::Matrix2d::Identity() * 0.0025;
+  const Eigen::Matrix2d of_stereo = rangeBearingCovariance({18.0, 6.0}, 0.5, 4e-5);
+  for (const SightCase& one : cases) {
+    Random random(7);
+    double sum = 0.0;
+    for (int i = 0; i < kRuns; ++i) {
+      const Object lidar = measured(truth, of_lidar, one.of_lidar, random);
+      const Object stereo = measured(truth, of_stereo, one.of_stereo, random);
+      sum += squaredError(combined(lidar, stereo), truth);
+    }
+    EXPECT_GT(sum / kRuns, one.least_mean) << one.name;
+    EXPECT_LT(sum / kRuns, 2.0 + kBound) << one.name;
+  }
+}
+
+TEST(ObjectCombinationTest, TheTimeIsWeightedAsThePosition) {
+  // Both measure an object at 10 m/s exactly where it was at their time.
+  Object a = pointObject(10.0, 0.0, 0.3);
+  Object b = pointObject(9.5, 0.0, 0.1, "stereo");
+  b.delay = -0.05;
+  const Object fused = combined(a, b);
+  EXPECT_NEAR(fused.delay, -0.045, 1e-6);
+  EXPECT_NEAR(fused.box.centre.x(), 10.0 + 10.0 * fused.delay, 1e-6);
+}
+
+TEST(ObjectCombinationTest, ClassesAreFusedByBayes) {
+  Object a = pointObject(10.0, 0.0, 0.1);
+  Object b = pointObject(10.0, 0.0, 0.1, "stereo");
+  b.object_class = ObjectClass::kVehicle;
+  b.class_probability = 0.7;
+  EXPECT_EQ(combined(a, b).object_class, ObjectClass::kVehicle);
+  EXPECT_DOUBLE_EQ(combined(a, b).class_probability, 0.7);
+  a.object_class = ObjectClass::kVehicle;
+  a.class_probability = 0.6;
+  EXPECT_GT(combined(a, b).class_probability, 0.8);
+  a.object_class = ObjectClass::kPedestrian;
+  a.class_probability = 0.4;
+  EXPECT_EQ(combined(a, b).object_class, ObjectClass::kVehicle);
+  EXPECT_LT(combined(a, b).class_probability, 0.7);
+  EXPECT_DOUBLE_EQ(combined(a, b).class_probability, combined(b, a).class_probability);
+}
+
+TEST(ObjectCombinationTest, MovingWinsThenStatic) {
+  using State = DynamicState;
+  const std::vector<std::pair<std::array<State, 2>, State>> cases = {
+      {{State::kMoving, State::kStatic}, State::kMoving},
+      {{State::kUnknown, State::kMoving}, State::kMoving},
+      {{State::kUnknown, State::kStatic}, State::kStatic},
+      {{State::kUnknown, State::kUnknown}, State::kUnknown}};
+  for (const auto& [states, expected] : cases) {
+    Object a = pointObject(10.0, 0.0, 0.1);
+    Object b = pointObject(10.0, 0.0, 0.1, "stereo");
+    a.dynamic_state = states[0];
+    b.dynamic_state = states[1];
+    EXPECT_EQ(combined(a, b).dynamic_state, expected);
+    EXPECT_EQ(combined(b, a).dynamic_state, expected);
+  }
+}
+
+TEST(ObjectCombinationTest, TheRestOfBothIsKept) {
+  Object a = pointObject(10.0, 0.0, 0.1, "stereo");
+  Object b = pointObject(10.0, 0.0, 0.1, "lidar");
+  a.points = {{10.0, 0.1}};
+  b.points = {{10.0, -0.1}, {10.0, 0.0}};
+  a.height = 1.5;
+  b.moving_fraction = 0.8;
+  a.log_odds = 0.5;
+  b.log_odds = -0.2;
+  const Object fused = combined(a, b);
+  EXPECT_EQ(fused.sensors, (std::vector<std::string>{"lidar", "stereo"}));
+  EXPECT_EQ(fused.points.size(), 3U);
+  EXPECT_EQ(fused.height, 1.5);
+  EXPECT_EQ(fused.moving_fraction, 0.8);
+  EXPECT_DOUBLE_EQ(fused.log_odds, 0.3);
+  EXPECT_EQ(combined(fused, a).sensors, fused.sensors);
+}
+
+}  // namespace
+}  // namespace datmo

@@ -1,0 +1,242 @@
+#include "datmo_fusion/fusion/object_fuser.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fusion_objects.h"
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/tracking/object_check.h"
+
+namespace datmo {
+namespace {
+
+const Stamp kReference = Stamp::fromSeconds(5.0);
+
+SourceObjects heard(const std::string& source, std::vector<Object> objects, double seconds = 5.0,
+                    const Pose2& base_in_reference = Pose2()) {
+  return {source, {Stamp::fromSeconds(seconds), std::move(objects), {}}, base_in_reference};
+}
+
+/// Everything within 40 m in front of the vehicle.
+SensorView ahead(const std::string& sensor) {
+  return {sensor, {Pose2(1.0, 0.0, 0.0), -0.6, 0.6, 40.0, 50.0}};
+}
+
+Object poleAt(double x, double y, double probability) {
+  Object object = pointObject(x, y, 0.3, "stereo");
+  object.object_class = ObjectClass::kPole;
+  object.class_probability = probability;
+  return object;
+}
+
+/// 81 beams, a degree apart, to the front; those within 5 degrees end at this range.
+SplitScan scanAhead(double range, PointState state) {
+  SplitScan scan;
+  scan.stamp = kReference;
+  scan.field = {-degrees(40.0), degrees(1.0), 81, 0.5, 80.0, 80.0, 0.0};
+  for (std::uint32_t beam = 35; beam <= 45; ++beam) {
+    const double bearing = scan.field.first_bearing + beam * scan.field.beam_spacing;
+    scan.points.push_back(
+        {range * Point2(std::cos(bearing), std::sin(bearing)), range, bearing, beam, state});
+  }
+  return scan;
+}
+
+ObjectFusionResult fuse(const std::vector<SourceObjects>& sources,
+                        const SplitScan* scan = nullptr) {
+  return ObjectFuser(ObjectFuserOptions()).fuse(sources, scan);
+}
+
+TEST(ObjectFuserTest, PairsAreFusedAndAllOthersKept) {
+  const auto [list, counts] =
+      fuse({heard("lidar", {pointObject(10.0, 0.0, 0.1), pointObject(30.0, 8.0, 0.1)}),
+            heard("stereo", {pointObject(10.4, 0.1, 0.5, "stereo"),
+                             pointObject(15.0, -6.0, 0.5, "stereo")})});
+  ASSERT_EQ(list.objects.size(), 3U);
+  EXPECT_EQ(counts.fused, 1U);
+  EXPECT_EQ(list.stamp, kReference);
+  EXPECT_EQ(list.objects[0].sensors, (std::vector<std::string>{"lidar", "stereo"}));
+  EXPECT_EQ(list.objects[1].sensors, std::vector<std::string>{"lidar"});
+  EXPECT_EQ(list.objects[2].sensors, std::vector<std::string>{"stereo"});
+  for (const Object& object : list.objects) {
+    EXPECT_TRUE(isValid(object));
+  }
+}
+
+TEST(ObjectFuserTest, ListsAreBroughtToTheStampOfTheReference) {
+  // In 0.05 s the vehicle came 1 m ahead: of a pole the older list told 1 m more.
+  SourceObjects stereo =
+      heard("stereo", {pointObject(11.0, 0.0, 0.1, "stereo")}, 4.95, Pose2(-1.0, 0.0, 0.0));
+  stereo.list.objects[0].delay = 0.01;
+  stereo.list.views = {ahead("stereo")};
+  const auto alone = fuse({heard("lidar", {}), stereo}).list;
+  ASSERT_EQ(alone.objects.size(), 1U);
+  EXPECT_NEAR(alone.objects[0].box.centre.x(), 10.0, 1e-9);
+  EXPECT_NEAR(alone.objects[0].delay, -0.04, 1e-9);
+  ASSERT_EQ(alone.views.size(), 1U);
+  EXPECT_NEAR(alone.views[0].field.sensor_in_base.x(), 0.0, 1e-9);
+  const auto both = fuse({heard("lidar", {pointObject(10.0, 0.0, 0.1)}), stereo}).list;
+  ASSERT_EQ(both.objects.size(), 1U);
+  EXPECT_NEAR(both.objects[0].delay, -0.02, 1e-6);
+}
+
+TEST(ObjectFuserTest, OrderOfTheObjectsDoesNotMatter) {
+  std::vector<Object> lidar;
+  std::vector<Object> stereo;
+  for (int i = 0; i < 10; ++i) {
+    lidar.push_back(pointObject(10.0 + i, 0.1 * i, 0.1));
+    stereo.push_back(pointObject(10.3 + i, 0.1 * i, 0.4, "stereo"));
+  }
+  const auto expected = fuse({heard("lidar", lidar), heard("stereo", stereo)}).list;
+  std::reverse(lidar.begin(), lidar.end());
+  std::rotate(stereo.begin(), stereo.begin() + 3, stereo.end());
+  const auto list = fuse({heard("lidar", lidar), heard("stereo", stereo)}).list;
+  ASSERT_EQ(list.objects.size(), expected.objects.size());
+  for (std::size_t i = 0; i < list.objects.size(); ++i) {
+    EXPECT_EQ(list.objects[i].box.centre.position(), expected.objects[i].box.centre.position());
+    EXPECT_EQ(list.objects[i].sensors, expected.objects[i].sensors);
+  }
+}
+
+TEST(ObjectFuserTest, AThirdSourceJoinsWhatTwoSee) {
+  ObjectFuserOptions options;
+  options.sources["radar"];
+  const std::vector<SourceObjects> sources = {
+      heard("lidar", {pointObject(10.0, 0.0, 0.1)}),
+      heard("radar", {pointObject(10.1, 0.0, 0.3, "radar"), pointObject(40.0, 0.0, 0.3, "radar")}),
+      heard("stereo", {pointObject(10.2, 0.0, 0.5, "stereo")})};
+  const auto [list, counts] = ObjectFuser(options).fuse(sources, nullptr);
+  ASSERT_EQ(list.objects.size(), 2U);
+  EXPECT_EQ(counts.fused, 1U);
+  EXPECT_EQ(list.objects[0].sensors, (std::vector<std::string>{"lidar", "radar", "stereo"}));
+}
+
+TEST(ObjectFuserTest, SeenByTwoIsLikelierToBeAnObject) {
+  ObjectFuserOptions options;
+  options.sources["stereo"].detection_probability = 0.6;
+  options.sources["stereo"].coincidence = 0.1;
+  const auto list = ObjectFuser(options)
+                        .fuse({heard("lidar", {pointObject(10.0, 0.0, 0.1)}),
+                               heard("stereo", {pointObject(10.0, 0.0, 0.3, "stereo")})},
+                              nullptr)
+                        .list;
+  ASSERT_EQ(list.objects.size(), 1U);
+  EXPECT_NEAR(list.objects[0].log_odds, std::log(6.0), 1e-9);
+}
+
+TEST(ObjectFuserTest, NotSeenByOneThatLookedThereIsLessLikely) {
+  ObjectFuserOptions options;
+  options.sources["stereo"].detection_probability = 0.6;
+  SourceObjects stereo = heard("stereo", {boxObject(20.0, 0.0, 2.0, 2.0, 0.01, "stereo")});
+  const std::vector<Object> lidar = {pointObject(10.0, 2.0, 0.1),   // in its view
+                                     pointObject(10.0, 20.0, 0.1),  // outside
+                                     pointObject(30.0, 0.0, 0.1)};  // behind what it saw
+  const ObjectFuser fuser(options);
+  const auto not_known = fuser.fuse({heard("lidar", lidar), stereo}, nullptr).list;
+  stereo.list.views = {ahead("stereo")};
+  const auto list = fuser.fuse({heard("lidar", lidar), stereo}, nullptr).list;
+  ASSERT_EQ(list.objects.size(), 4U);
+  const double seen = options.visibility.most_probability;
+  const double hidden = options.visibility.least_probability;
+  for (const Object& object : not_known.objects) {
+    EXPECT_EQ(object.log_odds, 0.0);
+  }
+  EXPECT_NEAR(list.objects[0].log_odds, std::log(1.0 - 0.6 * seen), 1e-9);
+  EXPECT_NEAR(list.objects[1].log_odds, std::log(1.0 - 0.6 * hidden), 1e-9);
+  EXPECT_NEAR(list.objects[2].log_odds, std::log(1.0 - 0.6 * hidden), 1e-9);
+}
+
+TEST(ObjectFuserTest, TheScanSaysWhatTheScannerDoesNotList) {
+  const std::vector<SourceObjects> sources = {
+      heard("lidar", {}), heard("stereo", {boxObject(20.0, 0.0, 1.0, 2.0, 0.01, "stereo")})};
+  const SplitScan on_static = scanAhead(19.5, PointState::kStatic);
+  const Object standing = fuse(sources, &on_static).list.objects.at(0);
+  EXPECT_EQ(standing.dynamic_state, DynamicState::kStatic);
+  EXPECT_EQ(standing.log_odds, 0.0);
+  const SplitScan behind = scanAhead(40.0, PointState::kStatic);
+  const Object doubtful = fuse(sources, &behind).list.objects.at(0);
+  EXPECT_EQ(doubtful.dynamic_state, DynamicState::kUnknown);
+  EXPECT_NEAR(doubtful.log_odds, std::log(1.0 - 0.8), 1e-9);
+  const SplitScan before = scanAhead(10.0, PointState::kStatic);
+  const Object hidden = fuse(sources, &before).list.objects.at(0);
+  EXPECT_EQ(hidden.dynamic_state, DynamicState::kUnknown);
+  EXPECT_EQ(hidden.log_odds, 0.0);
+}
+
+TEST(ObjectFuserTest, PolesStandUnlessTheyWereSeenToMove) {
+  Object walker = pointObject(10.0, -5.0, 0.1);
+  walker.dynamic_state = DynamicState::kMoving;
+  const auto list = fuse({heard("lidar", {walker}),
+                          heard("stereo", {poleAt(10.0, 0.0, 0.8), poleAt(10.0, 5.0, 0.4),
+                                           poleAt(10.0, -5.0, 0.8)})})
+                        .list;
+  ASSERT_EQ(list.objects.size(), 3U);
+  EXPECT_EQ(list.objects[0].dynamic_state, DynamicState::kMoving);
+  EXPECT_EQ(list.objects[1].dynamic_state, DynamicState::kStatic);
+  EXPECT_EQ(list.objects[2].dynamic_state, DynamicState::kUnknown);
+}
+
+TEST(ObjectFuserTest, ATableReplacesTheCovarianceOfTheObjects) {
+  ObjectFuserOptions options;
+  options.sources["stereo"].covariance.range_variance = {0.1, 0.2, 0.3};
+  options.sources["stereo"].covariance.bearing_variance = {0.001, 0.002, 0.003};
+  // Seen from 1 m ahead of the vehicle's origin, which turned by a quarter since then.
+  SourceObjects stereo =
+      heard("stereo", {pointObject(4.5, 0.0, 7.0, "stereo")}, 5.0, Pose2(0.0, 0.0, kQuarterTurn));
+  stereo.list.views = {ahead("stereo")};
+  const auto list = ObjectFuser(options).fuse({heard("lidar", {}), stereo}, nullptr).list;
+  ASSERT_EQ(list.objects.size(), 1U);
+  EXPECT_NEAR(list.objects[0].position_covariance(1, 1), 0.2, 1e-9);
+  EXPECT_NEAR(list.objects[0].position_covariance(0, 0), 0.002 * 3.5 * 3.5, 1e-9);
+}
+
+TEST(ObjectFuserTest, TablesOfDifferentLengthsAreRefused) {
+  ObjectFuserOptions options;
+  options.sources["stereo"].covariance.range_variance = {0.1, 0.2};
+  options.sources["stereo"].covariance.bearing_variance = {0.001};
+  EXPECT_THROW(ObjectFuser{options}, OptionError);
+}
+
+TEST(ObjectFuserTest, InvalidObjectsAreCountedAndTheOthersKept) {
+  std::vector<Object> stereo(6, pointObject(20.0, 0.0, 0.1, "stereo"));
+  stereo[0].box.centre = Pose2(std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0);
+  stereo[1].position_covariance.setZero();
+  stereo[2].position_covariance << 1.0, 2.0, 2.0, 1.0;
+  stereo[3].side_variance[0] = -1.0;
+  stereo[4].log_odds = std::numeric_limits<double>::infinity();
+  const auto [list, counts] =
+      fuse({heard("lidar", {pointObject(10.0, 0.0, 0.1)}), heard("stereo", stereo)});
+  EXPECT_EQ(counts.rejected, 5U);
+  EXPECT_EQ(list.objects.size(), 2U);
+}
+
+TEST(ObjectFuserTest, OfAThousandObjectsTheNearestAreTaken) {
+  std::vector<Object> lidar;
+  for (int i = 0; i < 1000; ++i) {
+    lidar.push_back(pointObject(0.1 * (1000 - i), 1.0, 0.01));
+  }
+  ObjectFuserOptions options;
+  options.most_objects = 200;
+  const auto [list, counts] =
+      ObjectFuser(options).fuse({heard("lidar", lidar), heard("stereo", lidar)}, nullptr);
+  EXPECT_EQ(counts.refused, 1600U);
+  EXPECT_EQ(list.objects.size(), 200U);
+  EXPECT_EQ(counts.fused, 200U);
+  for (const Object& object : list.objects) {
+    EXPECT_LE(object.box.centre.x(), 20.0 + 1e-6);
+  }
+}
+
+TEST(ObjectFuserTest, SourcesThatNobodyKnowsAreRefused) {
+  EXPECT_THROW(fuse({heard("sonar", {})}), std::out_of_range);
+  EXPECT_THROW(fuse({}), std::out_of_range);
+}
+
+}  // namespace
+}  // namespace datmo
