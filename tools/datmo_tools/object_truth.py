@@ -1,0 +1,92 @@
+"""The true objects of a drive as seen from the vehicle, at any stamp."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from datmo_tools import transforms
+from datmo_tools.errors import InputError
+from datmo_tools.grid_recordings import TRUE_OBJECTS, TRUE_POSE
+from datmo_tools.object_scores import TrueState
+from datmo_tools.pose_path import planar, read_messages, read_path
+from datmo_tools.stamps import NANOSECONDS
+
+TRUE_OBJECT_ARRAY = "datmo_fusion/TrueObjectArray"
+
+ANY, NONE = "any", "none"  # sensors that must see an object: one at least; it is not asked
+
+# From the stamp of a list to that of a truth, s: as score_run's longest_silence.
+LONGEST_GAP = 0.2
+
+
+class Region(NamedTuple):
+    """Where true objects have to be found, and objects count as false."""
+
+    range: float  # m about base_link
+    half_angle: float = math.pi  # rad, to either side of straight ahead
+
+    def contains(self, pose):
+        """Whether a place (x, y, ..., base_link) is in it."""
+        bearing = math.atan2(pose[1], pose[0])
+        return math.hypot(pose[0], pose[1]) <= self.range and abs(bearing) <= self.half_angle
+
+
+class Truth:
+    """True objects and poses of one drive."""
+
+    def __init__(self, path):
+        """path: of the bag (Path). Raises InputError where there are no true objects or poses."""
+        self._path = path
+        self._objects = {}
+        for message, kind in read_messages(path, TRUE_OBJECTS):
+            if kind != TRUE_OBJECT_ARRAY:
+                raise InputError(f"{path}: {TRUE_OBJECTS} is {kind}, expected {TRUE_OBJECT_ARRAY}")
+            self._objects[message.header.stamp.to_nsec()] = message.objects
+        if not self._objects:
+            raise InputError(f"{path}: nothing on {TRUE_OBJECTS}, expected a drive with truth")
+        self._stamps = np.array(sorted(self._objects))
+        self._poses = read_path(path, TRUE_POSE)
+
+    def check_seen_by(self, sensor):
+        """Raises InputError where no true object of the drive is ever visible to the sensor."""
+        sensors = {
+            name for items in self._objects.values() for item in items for name in item.visible_to
+        }
+        if sensor not in (ANY, NONE, *sensors):
+            known = ", ".join(sorted(sensors)) or "no sensor"
+            raise InputError(
+                f"{self._path}: no true object is visible to {sensor}, only to {known}; expected "
+                f"one of these, {ANY} or {NONE}"
+            )
+
+    def at(self, stamp, sensor, region):
+        """List of TrueState at `stamp` (ns); None where the truth has nothing near in time.
+
+        sensor: that must see an object for it to be asked, or ANY or NONE; region: Region.
+        """
+        nearest = int(self._stamps[np.argmin(np.abs(self._stamps - stamp))])
+        late = (stamp - nearest) / NANOSECONDS
+        if abs(late) > LONGEST_GAP or self._poses.distance_from(stamp) > LONGEST_GAP * NANOSECONDS:
+            return None
+        base = self._poses.at(stamp)
+        return [_state(item, base, late, sensor, region) for item in self._objects[nearest]]
+
+
+def _state(item, base, late, sensor, region):
+    """late: s, from the item's stamp to that of `base`, the vehicle's pose in the map."""
+    velocity = np.array([item.velocity.x, item.velocity.y])
+    in_map = np.array(planar(item.pose))
+    in_map[:2] += velocity * late
+    pose = transforms.relative(base, in_map)
+    cosine, sine = math.cos(base[2]), math.sin(base[2])
+    turned = np.array([[cosine, sine], [-sine, cosine]]) @ velocity
+    seen = sensor == NONE or (sensor == ANY and item.visible_to) or sensor in item.visible_to
+    return TrueState(
+        pose,
+        np.array([item.size.x, item.size.y]),
+        turned,
+        item.classification,
+        item.moving,
+        bool(seen) and region.contains(pose),
+    )
