@@ -1,0 +1,123 @@
+#include "datmo_fusion/ros/stereo_objects_stage.h"
+
+#include "cloud_samples.h"
+#include "monitor_counts.h"
+#include <gtest/gtest.h>
+
+namespace datmo {
+namespace {
+
+using samples::kStart;
+
+class StereoObjectsStageTest : public testing::Test {
+ protected:
+  StereoObjectsStageTest() {
+    stage_.takeCameraInfo(samples::rightCameraInfo());
+    tf2_msgs::TFMessage mounts;
+    mounts.transforms = {samples::cameraMount()};
+    buffer_.addStatic(mounts);
+  }
+
+  /// The back of a car: 1.8 m wide, 1.5 m high, on the road.
+  static sensor_msgs::PointCloud2 carAt(double seconds) {
+    sensor_msgs::PointCloud2 message = samples::cloud(samples::wallOnARoad(-0.09, 0.09, 1.5));
+    message.header.stamp = ros::Time(seconds);
+    return message;
+  }
+
+  static void expectCar(const ObjectArrayPtr& objects) {
+    ASSERT_TRUE(objects);
+    ASSERT_EQ(objects->objects.size(), 1U);
+    const ObjectMessage& car = objects->objects.front();
+    EXPECT_NEAR(car.pose.position.y, 0.0, 0.3);
+    EXPECT_GT(car.pose.position.x, 2.0 + samples::kWallAhead - 0.3);
+    EXPECT_NEAR(car.size.z, 1.5, 0.3);
+    EXPECT_EQ(car.sensors, std::vector<std::string>{"stereo"});
+  }
+
+  std::uint64_t drops(const std::string& reason) const { return samples::drops(monitor_, reason); }
+
+  TransformBuffer buffer_{1.0};
+  StageMonitor monitor_{"stereo_objects"};
+  StereoObjectsStageOptions options_;
+  StereoObjectsStage stage_{options_, buffer_, monitor_};
+};
+
+TEST_F(StereoObjectsStageTest, ACloudMakesObjectsOfItsStampInTheVehiclesFrame) {
+  const auto objects = stage_.takeCloud(carAt(kStart));
+  expectCar(objects);
+  EXPECT_EQ(objects->header.frame_id, "base_link");
+  EXPECT_EQ(objects->header.stamp, ros::Time(kStart));
+  ASSERT_EQ(objects->views.size(), 1U);
+  EXPECT_EQ(objects->views.front().sensor, "stereo");
+  EXPECT_EQ(monitor_.processedCount(), 1U);
+  EXPECT_EQ(monitor_.droppedCount() + monitor_.warningCount(), 0U);
+}
+
+TEST_F(StereoObjectsStageTest, DiagnosticsTellWhatWasSeen) {
+  const sensor_msgs::PointCloud2 cloud = carAt(kStart);
+  stage_.takeCloud(cloud);
+  const auto& figures = monitor_.figures();
+  EXPECT_EQ(figures.at("objects"), 1.0);
+  EXPECT_EQ(figures.at("points of the cloud"), static_cast<double>(cloud.width));
+  EXPECT_EQ(figures.at("road seen, 0 or 1"), 1.0);
+  EXPECT_NEAR(figures.at("road's height [m]"), 0.0, 0.1);
+}
+
+TEST_F(StereoObjectsStageTest, WithoutCameraInfoTheOptionsServe) {
+  StereoObjectsStage ignorant(options_, buffer_, monitor_);
+  EXPECT_FALSE(ignorant.takeCloud(carAt(kStart)));
+  EXPECT_EQ(drops("missing_camera_info"), 1U);
+  options_.camera.focal_length = 500.0;
+  options_.camera.baseline = 0.2;
+  StereoObjectsStage stage(options_, buffer_, monitor_);
+  expectCar(stage.takeCloud(carAt(kStart)));
+}
+
+TEST_F(StereoObjectsStageTest, ACameraWithoutAMountIsRefused) {
+  const TransformBuffer nothing(1.0);
+  StereoObjectsStage stage(options_, nothing, monitor_);
+  stage.takeCameraInfo(samples::rightCameraInfo());
+  EXPECT_FALSE(stage.takeCloud(carAt(kStart)));
+  EXPECT_EQ(drops("missing_transform"), 1U);
+}
+
+TEST_F(StereoObjectsStageTest, ACameraThatLooksStraightDownIsRefused) {
+  tf2_msgs::TFMessage message;
+  message.transforms = {samples::cameraMount()};
+  message.transforms[0].transform.rotation.x = 1.0;  // z down
+  message.transforms[0].transform.rotation.y = 0.0;
+  message.transforms[0].transform.rotation.z = 0.0;
+  message.transforms[0].transform.rotation.w = 0.0;
+  buffer_.addStatic(message);
+  EXPECT_FALSE(stage_.takeCloud(carAt(kStart)));
+  EXPECT_EQ(drops("bad_camera"), 1U);
+}
+
+TEST_F(StereoObjectsStageTest, BadInputIsDroppedAndCountedAndTheNextServed) {
+  stage_.takeCameraInfo(sensor_msgs::CameraInfo());
+  EXPECT_EQ(drops("bad_camera_info"), 1U);
+  EXPECT_FALSE(stage_.takeCloud(samples::cloud({})));
+  EXPECT_EQ(drops("empty_cloud"), 1U);
+  expectCar(stage_.takeCloud(carAt(kStart)));
+  EXPECT_FALSE(stage_.takeCloud(carAt(kStart)));
+  EXPECT_EQ(drops("repeated_stamp"), 1U);
+  EXPECT_FALSE(stage_.takeCloud(carAt(kStart - 0.5)));
+  EXPECT_EQ(drops("old_stamp"), 1U);
+  expectCar(stage_.takeCloud(carAt(kStart + 0.1)));
+}
+
+TEST_F(StereoObjectsStageTest, AJumpBackStartsAnew) {
+  EXPECT_TRUE(stage_.takeCloud(carAt(200.0)));
+  expectCar(stage_.takeCloud(carAt(100.0)));
+  EXPECT_EQ(samples::warnings(monitor_, "clock_restart"), 1U);
+  EXPECT_EQ(monitor_.droppedCount(), 0U);
+}
+
+TEST_F(StereoObjectsStageTest, BadOptionsAreRefused) {
+  options_.camera.disparity_sigma = 0.0;
+  EXPECT_THROW(StereoObjectsStage(options_, buffer_, monitor_), OptionError);
+}
+
+}  // namespace
+}  // namespace datmo
