@@ -1,6 +1,7 @@
 #include "datmo_fusion/ros/object_fusion_stage.h"
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -19,12 +20,12 @@ constexpr char kObjectList[] = "object list";
 /// A second and more of a fast scanner: longer than a list may wait (SourceMatcherOptions).
 constexpr std::size_t kMostScans = 64;
 
-/// Names of the sources with an object that cannot be used.
-std::string sourcesOfBadObjects(const std::vector<SourceObjects>& lists) {
+/// Names of the sources with such a list.
+std::string sourcesWith(const std::vector<SourceObjects>& lists,
+                        const std::function<bool(const std::vector<Object>&)>& is_such) {
   std::string names;
   for (const SourceObjects& one : lists) {
-    const auto& objects = one.list.objects;
-    if (!std::all_of(objects.begin(), objects.end(), isValid)) {
+    if (is_such(one.list.objects)) {
       names += (names.empty() ? "" : ", ") + one.source;
     }
   }
@@ -64,7 +65,12 @@ void ObjectFusionStage::takeObjects(const std::string& source, const ObjectArray
                                     Stamp now) {
   try {
     forgetAfter(inputs_.take(source, message.header, now));
-    const auto list = std::make_shared<const ObjectList>(fromMessage(message));
+    const auto list = std::make_shared<ObjectList>(fromMessage(message));
+    for (Object& object : list->objects) {
+      if (object.sensors.empty()) {
+        object.sensors = {source};
+      }
+    }
     matcher_.add(source, list->stamp, list);
   } catch (const InputError& error) {
     monitor_.dropped(error);
@@ -81,6 +87,10 @@ void ObjectFusionStage::takePose(const geometry_msgs::PoseWithCovarianceStamped&
 
 void ObjectFusionStage::takeSplitScan(const SplitScanMessage& message) {
   try {
+    if (message.header.frame_id != options_.base_frame) {
+      throw InputError("wrong_frame", "split scan in '" + message.header.frame_id +
+                                          "': expected '" + options_.base_frame + "'");
+    }
     SplitScan scan = fromMessage(message);
     if (!scans_.empty() && scan.stamp < scans_.back().stamp) {
       scans_.clear();  // a looped bag
@@ -126,7 +136,9 @@ ObjectArrayPtr ObjectFusionStage::next(Stamp now) {
   }
   std::vector<MissingSource> missing = matched->missing;
   const std::vector<SourceObjects> lists = movedLists(*matched, missing);
-  const ObjectFusionResult result = fuser_.fuse(lists, scanAt(matched->stamp()));
+  const SplitScan* scan = scanAt(matched->stamp());
+  times_without_scan_ += scan == nullptr ? 1 : 0;
+  const ObjectFusionResult result = fuser_.fuse(lists, scan);
   inputs_.report(matched->stamp(), missing);
   report(lists, result.counts);
   const auto fused = boost::make_shared<ObjectArray>(toMessage(result.list, options_.base_frame));
@@ -137,18 +149,31 @@ ObjectArrayPtr ObjectFusionStage::next(Stamp now) {
 void ObjectFusionStage::report(const std::vector<SourceObjects>& lists,
                                const ObjectFusionCounts& counts) {
   if (counts.rejected > 0) {
-    monitor_.warned(InputError("bad_object", std::to_string(counts.rejected) + " objects of " +
-                                                 sourcesOfBadObjects(lists) +
-                                                 " with numbers that are not finite or out of "
-                                                 "range, or a covariance that is not positive "
-                                                 "definite: left out"));
+    const auto is_bad = [](const std::vector<Object>& objects) {
+      return !std::all_of(objects.begin(), objects.end(), isValid);
+    };
+    monitor_.warned(
+        InputError("bad_object", std::to_string(counts.rejected) + " objects of " +
+                                     sourcesWith(lists, is_bad) +
+                                     " with numbers that are not finite or out of range, or a "
+                                     "covariance that is not positive definite: left out"));
   }
   if (counts.refused > 0) {
-    monitor_.warned(InputError("many_objects",
-                               std::to_string(counts.refused) +
-                                   " objects more than a list may have: left out the farthest"));
+    const auto most = static_cast<std::size_t>(options_.fuser.most_objects);
+    const auto is_long = [most](const std::vector<Object>& objects) {
+      return objects.size() > most;
+    };
+    monitor_.warned(
+        InputError("many_objects", std::to_string(counts.refused) + " objects of " +
+                                       sourcesWith(lists, is_long) + " beyond most_objects = " +
+                                       std::to_string(most) + " of a list: left out the farthest"));
   }
-  monitor_.figure("objects fused of two or more sources", static_cast<double>(counts.fused));
+  bad_objects_ += counts.rejected;
+  objects_too_many_ += counts.refused;
+  monitor_.figure("objects of two or more sources", static_cast<double>(counts.fused));
+  monitor_.figure("bad objects", static_cast<double>(bad_objects_));
+  monitor_.figure("objects too many", static_cast<double>(objects_too_many_));
+  monitor_.figure("fused without a split scan", static_cast<double>(times_without_scan_));
   for (const std::string& source : sources()) {
     monitor_.figure("lists of " + source + " not fused",
                     static_cast<double>(matcher_.unserved(source)));

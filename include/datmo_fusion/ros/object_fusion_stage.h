@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <string>
 #include <vector>
@@ -33,7 +34,7 @@ struct ObjectFusionStageOptions {
 /// the clock jumps back all state is forgotten.
 ///
 /// A list is fused once: a source slower than the reference is not heard twice. One that was in no
-/// set is counted.
+/// set is counted. Objects that do not tell their sensor are taken for their source's own.
 class ObjectFusionStage {
  public:
   /// `monitor` must outlive the stage. Throws OptionError.
@@ -76,6 +77,9 @@ class ObjectFusionStage {
   SourceMatcher<ObjectList> matcher_;
   ObjectFuser fuser_;
   std::deque<SplitScan> scans_;  ///< the last ones, by rising stamp
+  std::uint64_t times_without_scan_ = 0;
+  std::uint64_t bad_objects_ = 0;
+  std::uint64_t objects_too_many_ = 0;
 };
 
 }  // namespace datmo
