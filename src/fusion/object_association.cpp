@@ -68,26 +68,29 @@ Difference differenceOf(const SidePair& a, const SidePair& b, double unknown_siz
   return {beyond - before, unknown_size_variance};
 }
 
-/// m; farther apart than the sum of both no pair is within the gate (but for its motion).
-double reachOf(const Object& object, const ObjectAssociationOptions& options) {
-  double variance = object.position_covariance.trace();
-  for (const double side : object.side_variance) {
-    variance += std::isfinite(side) ? side : 0.0;
+/// Bounds of one object on how far apart a pair may be.
+struct Extent {
+  double radius;    ///< m, of the sides from the centre
+  double variance;  ///< m^2, of a side along any axis, at most
+};
+
+Extent extentOf(const Object& object) {
+  const double radius = 0.5 * std::hypot(object.box.length, object.box.width);
+  double side = 0.0;
+  for (const double variance : object.side_variance) {
+    side = std::max(side, std::isfinite(variance) ? variance : 0.0);
   }
-  // A box turned into other axes has sides that are less sure by up to half its diagonal.
-  const double diagonal = std::hypot(object.box.length, object.box.width);
-  const double own =
-      std::sqrt(variance + square(options.body_std) + square(options.unknown_size_std)) + diagonal;
-  return std::sqrt(options.gate) * own + diagonal;
+  // A box that is turned into other axes, by an eighth of a turn at most.
+  const double turned = 0.5 * square(radius);
+  return {radius, object.position_covariance.trace() + side + turned};
 }
 
-std::vector<double> reachesOf(const std::vector<Object>& objects,
-                              const ObjectAssociationOptions& options) {
-  std::vector<double> reaches;
+std::vector<Extent> extentsOf(const std::vector<Object>& objects) {
+  std::vector<Extent> extents;
   for (const Object& object : objects) {
-    reaches.push_back(reachOf(object, options));
+    extents.push_back(extentOf(object));
   }
-  return reaches;
+  return extents;
 }
 
 std::vector<int> assignOptimally(const std::vector<Object>& known, const std::vector<Object>& added,
@@ -95,12 +98,16 @@ std::vector<int> assignOptimally(const std::vector<Object>& known, const std::ve
   const auto rows = static_cast<Eigen::Index>(added.size());
   const auto columns = static_cast<Eigen::Index>(known.size());
   CostMatrix cost = CostMatrix::Constant(rows, columns, kForbidden);
-  const std::vector<double> reach_known = reachesOf(known, options);
-  const std::vector<double> reach_added = reachesOf(added, options);
+  const std::vector<Extent> extents_known = extentsOf(known);
+  const std::vector<Extent> extents_added = extentsOf(added);
+  const double of_pair = square(options.body_std) + square(options.unknown_size_std);
   for (std::size_t i = 0; i < added.size(); ++i) {
     for (std::size_t j = 0; j < known.size(); ++j) {
-      const double motion = std::sqrt(options.gate * motionVariance(known[j], added[i], options));
-      const double reach = reach_added[i] + reach_known[j] + motion;
+      // Most pairs are so far apart that nothing more needs to be known of them.
+      const double variance = extents_added[i].variance + extents_known[j].variance + of_pair +
+                              motionVariance(known[j], added[i], options);
+      const double reach =
+          std::sqrt(options.gate * variance) + extents_added[i].radius + extents_known[j].radius;
       const Point2 apart = added[i].box.centre.position() - known[j].box.centre.position();
       if (apart.squaredNorm() > reach * reach) {
         continue;
@@ -205,7 +212,7 @@ ObjectPairing pairing(const Object& a, const Object& b, const ObjectAssociationO
   if (!mayBeOfOneClass(a, b)) {
     return {};
   }
-  const Pose2 axes = commonAxes(a, b, commonHeading(a, b).heading);
+  const CommonAxes axes(a, b, commonHeading(a, b));
   const ObjectSides sides_a = sidesIn(axes, a);
   const ObjectSides sides_b = sidesIn(axes, b);
   const double whole = square(options.body_std) + motionVariance(a, b, options);

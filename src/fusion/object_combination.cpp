@@ -210,21 +210,21 @@ void turnByQuarter(Object& object) {
 /// Box, position and the variances of its sides; returns the share of `b` in them.
 double combineGeometry(const Object& a, const Object& b, Object& result) {
   const CommonHeading heading = commonHeading(a, b);
-  const Pose2 axes = commonAxes(a, b, heading.heading);
+  const CommonAxes axes(a, b, heading);
   const ObjectSides sides_a = sidesIn(axes, a);
   const ObjectSides sides_b = sidesIn(axes, b);
   const FusedSides sides = fused(estimateOf(sides_a), estimateOf(sides_b));
   const std::array<FusedAxis, 2> along = {fusedAxis(sides, sides_a, sides_b, 0),
                                           fusedAxis(sides, sides_a, sides_b, 1)};
   const Point2 middle(along[0].sides.middle(), along[1].sides.middle());
-  result.box = {Pose2(axes * middle, axes.heading()), along[0].sides.extent(),
+  result.box = {Pose2(axes.pose * middle, axes.pose.heading()), along[0].sides.extent(),
                 along[1].sides.extent()};
   result.side_variance = {along[0].sides.variance[1], along[0].sides.variance[0],
                           along[1].sides.variance[1], along[1].sides.variance[0]};
   const double mixed = commonCovariance(sides, along);
   Eigen::Matrix2d covariance;
   covariance << along[0].common_variance, mixed, mixed, along[1].common_variance;
-  const Eigen::Matrix2d turned = axes.rotation() * covariance * axes.rotation().transpose();
+  const Eigen::Matrix2d turned = axes.rotation * covariance * axes.rotation.transpose();
   result.position_covariance = 0.5 * (turned + turned.transpose());
   result.heading_variance = heading.variance;
   if (!heading.same_axis && result.box.width > result.box.length) {

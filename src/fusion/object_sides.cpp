@@ -40,17 +40,13 @@ CommonHeading commonHeading(const Object& a, const Object& b) {
   return common;
 }
 
-Pose2 commonAxes(const Object& a, const Object& b, double heading) {
-  return {0.5 * (a.box.centre.position() + b.box.centre.position()), heading};
-}
-
-ObjectSides sidesIn(const Pose2& axes, const Object& object) {
+ObjectSides sidesIn(const CommonAxes& axes, const Object& object) {
   constexpr std::array<BoxSide, kBoxSides> kToTheLeft = {BoxSide::kFront, BoxSide::kLeft,
                                                          BoxSide::kRear, BoxSide::kRight};
   const Box2& box = object.box;
-  const Eigen::Matrix2d to_axes = axes.rotation().transpose();
-  const Point2 centre = to_axes * (box.centre.position() - axes.position());
-  const double turn = angleBetween(box.centre.heading(), axes.heading());
+  const Eigen::Matrix2d to_axes = axes.rotation.transpose();
+  const Point2 centre = to_axes * (box.centre.position() - axes.pose.position());
+  const double turn = angleBetween(box.centre.heading(), axes.pose.heading());
   const double quarters = std::round(turn / kQuarterTurn);
   const double slant = std::sin(turn - quarters * kQuarterTurn);
   const auto first = static_cast<std::size_t>(static_cast<int>(quarters) + 4);

@@ -33,11 +33,18 @@ struct CommonHeading {
 /// The sides of two boxes are told apart modulo a quarter turn only; so are headings joined.
 CommonHeading commonHeading(const Object& a, const Object& b);
 
-/// Midway between both objects, along their common heading.
-Pose2 commonAxes(const Object& a, const Object& b, double heading);
+/// In which two objects are told.
+struct CommonAxes {
+  CommonAxes(const Object& a, const Object& b, const CommonHeading& common)
+      : pose(0.5 * (a.box.centre.position() + b.box.centre.position()), common.heading),
+        rotation(pose.rotation()) {}
+
+  Pose2 pose;                ///< midway between both, along their common heading
+  Eigen::Matrix2d rotation;  ///< from the axes
+};
 
 /// Each side of the object is that of the axes' ends which it is nearest to. A box that is turned
 /// for it has sides that are known less well.
-ObjectSides sidesIn(const Pose2& axes, const Object& object);
+ObjectSides sidesIn(const CommonAxes& axes, const Object& object);
 
 }  // namespace datmo
