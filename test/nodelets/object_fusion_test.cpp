@@ -1,0 +1,247 @@
+// The running object_fusion nodelet between the lists of a scripted scanner and stereo camera: what
+// comes out, and what happens when one of them is silent or sends what is none. The tests go
+// through one drive, in this order.
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "chain.h"
+#include <gtest/gtest.h>
+
+#include <rosgraph_msgs/Clock.h>
+
+#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/stamp_check.h"
+
+namespace datmo {
+namespace {
+
+constexpr std::uint32_t kQueue = 1000;
+constexpr double kStart = 1000.0;      // s, stamp of the start
+constexpr double kStep = 1.0 / 16.0;   // s
+constexpr double kStereoLater = 0.02;  // s
+constexpr double kSpeed = 10.0;        // m/s, of the vehicle
+constexpr double kCarAhead = 20.0;     // m, of a car that is as fast as the vehicle
+constexpr double kPoleAhead = 200.0;  // m, of a pole when the drive starts, which stereo alone sees
+constexpr double kPoleLeft = 15.0;    // m
+
+Object seen(const std::string& sensor, const Box2& box) {
+  Object object;
+  object.box = box;
+  object.position_covariance = 0.04 * Eigen::Matrix2d::Identity();
+  object.heading_variance = 0.01;
+  object.side_variance.fill(0.01);
+  object.sensors = {sensor};
+  return object;
+}
+
+/// What a sensor sees at a time of the drive (s).
+ObjectArray listOf(const std::string& sensor, double seconds) {
+  ObjectList list{Stamp::fromSeconds(kStart + seconds), {}, {}};
+  list.objects.push_back(seen(sensor, {{kCarAhead, 0.0, 0.0}, 4.0, 1.8}));
+  if (sensor == "stereo") {
+    const double ahead = kPoleAhead - kSpeed * seconds;
+    list.objects.push_back(seen(sensor, {{ahead, kPoleLeft, 0.0}, 0.2, 0.2}));
+  }
+  return toMessage(list, "base_link");
+}
+
+/// The sensors' lists and the odometry for the nodelet, and what it makes of them.
+class Lists : public Listener {
+ public:
+  Lists() {
+    fused_ = node_.subscribe<ObjectArray>(
+        "objects/fused", kQueue,
+        [this](const ObjectArrayConstPtr& message) { fused.push_back(message); });
+  }
+
+  bool waitForNodelet() {
+    sendMotion(-kStep);
+    return waitFor([this] {
+      return lidar_.getNumSubscribers() >= 1 && stereo_.getNumSubscribers() >= 1 &&
+             odometry_.getNumSubscribers() >= 1 && fused_.getNumPublishers() >= 1 &&
+             !diagnosticMessage("object_fusion").empty();
+    });
+  }
+
+  /// Clock and odometry at a time of the drive.
+  void sendMotion(double seconds) {
+    rosgraph_msgs::Clock clock;
+    clock.clock = ros::Time(kStart + seconds);
+    clock_.publish(clock);
+    nav_msgs::Odometry odometry;
+    odometry.header.stamp = clock.clock;
+    odometry.header.frame_id = "odom";
+    odometry.child_frame_id = "base_link";
+    odometry.pose.pose.orientation.w = 1.0;
+    odometry.twist.twist.linear.x = kSpeed;
+    odometry_.publish(odometry);
+  }
+
+  void sendLidar(const ObjectArray& list) { lidar_.publish(list); }
+  void sendStereo(const ObjectArray& list) { stereo_.publish(list); }
+
+  /// Whether the newest fused list is of this time of the drive.
+  bool isAt(double seconds) const {
+    return !fused.empty() &&
+           toStamp(fused.back()->header.stamp) == Stamp::fromSeconds(kStart + seconds);
+  }
+
+  std::vector<ObjectArrayConstPtr> fused;
+
+ private:
+  ros::NodeHandle node_;
+  ros::Subscriber fused_;
+  ros::Publisher clock_ = node_.advertise<rosgraph_msgs::Clock>("/clock", kQueue, true);
+  ros::Publisher odometry_ = node_.advertise<nav_msgs::Odometry>("odometry", kQueue, true);
+  ros::Publisher lidar_ = node_.advertise<ObjectArray>("objects/lidar", kQueue);
+  ros::Publisher stereo_ = node_.advertise<ObjectArray>("objects/stereo", kQueue);
+};
+
+using Sensors = std::vector<std::string>;
+
+class ObjectFusionTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    lists_ = new Lists();
+    ASSERT_TRUE(lists_->waitForNodelet());
+    ASSERT_TRUE(lists_->waitFor([] { return diagnostic("odometry received") >= 1.0; }));
+  }
+
+  static void TearDownTestSuite() { delete lists_; }
+
+  /// One step of the drive with both sensors; waits for its fused list.
+  static void step() {
+    lists_->sendMotion(now_);
+    lists_->sendLidar(listOf("lidar", now_));
+    lists_->sendStereo(listOf("stereo", now_ + kStereoLater));
+    ASSERT_TRUE(lists_->waitFor([] { return lists_->isAt(now_); }))
+        << now_ << " s: " << lists_->diagnosticMessage("object_fusion");
+    now_ += kStep;
+  }
+
+  static void driveOn(int steps) {
+    for (int i = 0; i < steps; ++i) {
+      ASSERT_NO_FATAL_FAILURE(step());
+    }
+  }
+
+  static const ObjectArray& last() { return *lists_->fused.back(); }
+
+  /// The sensors that saw the object nearest to a place in the last list (m); none if there is none
+  /// within a metre.
+  static Sensors sensorsAt(double ahead, double left) {
+    for (const ObjectMessage& object : last().objects) {
+      const Point2 place(object.pose.position.x, object.pose.position.y);
+      if ((place - Point2(ahead, left)).norm() < 1.0) {
+        return object.sensors;
+      }
+    }
+    return {};
+  }
+
+  static double diagnostic(const std::string& key) {
+    return lists_->diagnostic("object_fusion", key);
+  }
+
+  static bool waitForCount(const std::string& key, double count) {
+    return lists_->waitFor([&] { return diagnostic(key) == count; });
+  }
+
+  static Lists* lists_;
+  static double now_;  // s, of the drive
+};
+
+Lists* ObjectFusionTest::lists_ = nullptr;
+double ObjectFusionTest::now_ = 0.0;
+
+TEST_F(ObjectFusionTest, WhatBothSeeIsOneObject) {
+  ASSERT_NO_FATAL_FAILURE(driveOn(16));
+  EXPECT_EQ(lists_->fused.size(), 16U);
+  EXPECT_EQ(last().header.frame_id, "base_link");
+  EXPECT_EQ(last().objects.size(), 2U);
+  EXPECT_EQ(sensorsAt(kCarAhead, 0.0), (Sensors{"lidar", "stereo"}));
+}
+
+TEST_F(ObjectFusionTest, WhatStereoAloneSeesIsMovedToTheScannersTime) {
+  ASSERT_NO_FATAL_FAILURE(step());
+  const double then = toStamp(last().header.stamp).seconds() - kStart;
+  const auto pole =
+      std::find_if(last().objects.begin(), last().objects.end(),
+                   [](const ObjectMessage& object) { return object.sensors == Sensors{"stereo"}; });
+  ASSERT_NE(pole, last().objects.end());
+  EXPECT_NEAR(pole->pose.position.x, kPoleAhead - kSpeed * then, 0.01);
+  EXPECT_NEAR(pole->pose.position.y, kPoleLeft, 0.01);
+  EXPECT_NEAR(pole->delay, kStereoLater, 1e-6);
+  EXPECT_TRUE(waitForCount("objects of two or more sources", 1.0));
+  EXPECT_EQ(diagnostic("dropped"), 0.0);
+}
+
+TEST_F(ObjectFusionTest, WithoutStereoTheScannerGoesOn) {
+  const std::size_t before = lists_->fused.size();
+  for (int i = 0; i < 20; ++i) {
+    lists_->sendMotion(now_);
+    lists_->sendLidar(listOf("lidar", now_));
+    now_ += kStep;
+  }
+  EXPECT_TRUE(lists_->waitFor([] { return lists_->isAt(now_ - kStep); }))
+      << "at once, since stereo is silent";
+  EXPECT_EQ(lists_->fused.size(), before + 20U) << "none is left out";
+  EXPECT_EQ(sensorsAt(kCarAhead, 0.0), Sensors{"lidar"});
+  EXPECT_TRUE(waitForCount("fused without stereo", 20.0));
+  EXPECT_TRUE(waitForCount("warned: silent_source", 1.0));
+  EXPECT_TRUE(lists_->waitFor([] {
+    return lists_->diagnosticMessage("object_fusion").find("no objects/stereo") !=
+           std::string::npos;
+  })) << lists_->diagnosticMessage("object_fusion");
+}
+
+TEST_F(ObjectFusionTest, WhenStereoIsBackItIsFusedAgain) {
+  ASSERT_NO_FATAL_FAILURE(driveOn(4));
+  EXPECT_EQ(sensorsAt(kCarAhead, 0.0), (Sensors{"lidar", "stereo"}));
+}
+
+TEST_F(ObjectFusionTest, AListInAnotherFrameIsRefused) {
+  ObjectArray bad = listOf("stereo", now_);
+  bad.header.frame_id = "camera";
+  lists_->sendStereo(bad);
+  EXPECT_TRUE(waitForCount("dropped: wrong_frame", 1.0));
+  ASSERT_NO_FATAL_FAILURE(driveOn(4));
+  EXPECT_EQ(sensorsAt(kCarAhead, 0.0), (Sensors{"lidar", "stereo"}));
+}
+
+TEST_F(ObjectFusionTest, BadObjectsAreLeftOutAndCounted) {
+  ObjectArray bad = listOf("stereo", now_ + kStereoLater);
+  bad.objects[0].position_covariance.fill(0.0);
+  bad.objects[1].pose.position.x = std::numeric_limits<double>::quiet_NaN();
+  lists_->sendMotion(now_);
+  lists_->sendLidar(listOf("lidar", now_));
+  lists_->sendStereo(bad);
+  ASSERT_TRUE(lists_->waitFor([] { return lists_->isAt(now_); }));
+  now_ += kStep;
+  EXPECT_EQ(last().objects.size(), 1U);
+  EXPECT_EQ(sensorsAt(kCarAhead, 0.0), Sensors{"lidar"});
+  EXPECT_TRUE(waitForCount("bad objects", 2.0));
+  EXPECT_EQ(diagnostic("warned: bad_object"), 1.0);
+  ASSERT_NO_FATAL_FAILURE(driveOn(4));
+  EXPECT_EQ(sensorsAt(kCarAhead, 0.0), (Sensors{"lidar", "stereo"}));
+}
+
+TEST_F(ObjectFusionTest, ALoopedBag) {
+  now_ = 0.0;
+  lists_->sendMotion(now_);
+  ASSERT_TRUE(waitForCount("warned: clock_restart", 1.0));
+  ASSERT_NO_FATAL_FAILURE(driveOn(8));
+  EXPECT_EQ(sensorsAt(kCarAhead, 0.0), (Sensors{"lidar", "stereo"}));
+  EXPECT_TRUE(waitForCount("warned: clock_restart", 1.0));
+}
+
+}  // namespace
+}  // namespace datmo
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "object_fusion_test");
+  return RUN_ALL_TESTS();
+}
