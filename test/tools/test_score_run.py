@@ -82,6 +82,22 @@ class WholeRun(ScoreRunCase):
         self.assertAlmostEqual(report["timing"]["tracker"]["latency"]["median_ms"], 4.0)
         self.assertIsNone(report["timing"]["grid_slam"]["latency"])
 
+    def test_objects_are_those_that_the_tracker_took(self):
+        def objects(moving):
+            return [
+                ObjectArray(header=header("base_link", i), objects=[
+                    Object(pose=pose_at(CAR_AHEAD, 10.0), dynamic_state=Object.STATE_MOVING)
+                    for _ in range(moving)
+                ]) for i in range(FRAMES)
+            ]  # fmt: skip
+
+        self.run_messages["/objects"] = objects(1)
+        self.assertEqual(self.score()["thesis"]["false_moving_objects_frames"], 1.0)
+        self.run_messages["/objects/fused"] = objects(2)
+        self.assertEqual(self.score()["thesis"]["false_moving_objects_frames"], 2.0)
+        report = self.score("--set", "topics/objects=/objects")
+        self.assertEqual(report["thesis"]["false_moving_objects_frames"], 1.0)
+
     def test_a_track_on_a_parked_car_is_false(self):
         for i, message in enumerate(self.truth_messages["/ground_truth/objects"]):
             parked = car_at(2, 30.0, 8.0)

@@ -98,6 +98,34 @@ SECTIONS = (
         ),
     ),
     Section(
+        "Errors of matched tracks near the vehicle",
+        "within score_run's near_range of it",
+        (
+            _metres("position", "near_errors.position_rmse_m"),
+            Metric("velocity", "near_errors.velocity_rmse_mps", "m/s", 1.0, 2, lower),
+        ),
+    ),
+    Section(
+        "Class of matched tracks",
+        "of the frames in which the true class is known",
+        (
+            _percent("right", "classes.right_share"),
+            *(
+                _percent(f"right of {name}s", f"classes.by_class.{name}.right_share")
+                for name in ("pedestrian", "cyclist", "vehicle")
+            ),
+            Metric("of no known class", "classes.silent", "frames", cost=lower),
+        ),
+    ),
+    Section(
+        "Delay to the first track of an object",
+        "from the first frame in which it has to be found, of those that were found",
+        (
+            Metric("mean", "delay.mean_s", "s", 1.0, 2, lower),
+            Metric("median", "delay.median_s", "s", 1.0, 2, lower),
+        ),
+    ),
+    Section(
         "Honesty of the covariance",
         "Bar-Shalom et al. 2001",
         (

@@ -59,6 +59,14 @@ void readPoses(const rosbag::Bag& bag, const ScoreOptions& options, const TopicR
   }
 }
 
+std::string objectsTopic(const rosbag::Bag& bag, const TopicOptions& topics) {
+  if (!topics.objects.empty()) {
+    return topics.objects;
+  }
+  constexpr char kFused[] = "/objects/fused";
+  return holdsTopic(bag, kFused) ? kFused : "/objects";
+}
+
 bool isEmpty(const RecordedObjects& objects) { return objects.objects.empty(); }
 
 }  // namespace
@@ -71,7 +79,7 @@ RecordedRun loadRun(const std::string& file, const ScoreOptions& options) {
   TopicReader tracks(bag, topics.tracks);
   run.tracks = tracks.readAll<TrackArray>();
   readPoses(bag, options, tracks, run);
-  run.detections = TopicReader(bag, topics.objects).readIfThere<ObjectArray>();
+  run.detections = TopicReader(bag, objectsTopic(bag, topics)).readIfThere<ObjectArray>();
   run.intersections =
       TopicReader(bag, topics.road_borders).readIfThere<datmo_fusion::RoadBorders>();
   run.durations = readDurations(TopicReader(bag, topics.timing));

@@ -1,7 +1,10 @@
 #include "evaluation/object_scores.h"
 
 #include <algorithm>
+#include <numeric>
 #include <unordered_map>
+
+#include "datmo_fusion/common/quantile.h"
 
 namespace datmo::evaluation {
 
@@ -60,6 +63,23 @@ class ObjectTable {
 
 double ObjectScore::completeness() const {
   return static_cast<double>(tracked_frames) / static_cast<double>(required_frames);
+}
+
+DelayScore scoreDelays(const std::vector<ObjectScore>& objects) {
+  std::vector<double> delays;
+  for (const ObjectScore& object : objects) {
+    if (object.delay) {
+      delays.push_back(*object.delay);
+    }
+  }
+  DelayScore score;
+  score.objects = delays.size();
+  if (!delays.empty()) {
+    const double sum = std::accumulate(delays.begin(), delays.end(), 0.0);
+    score.mean = sum / static_cast<double>(delays.size());
+    score.median = quantile(delays, 0.5);
+  }
+  return score;
 }
 
 std::vector<ObjectScore> scoreObjects(const Frames& frames, const Matching& matching) {

@@ -27,6 +27,15 @@ struct ObjectScore {
   double completeness() const;
 };
 
+/// How long objects were there before they were tracked, over those that were found; none: nobody.
+struct DelayScore {
+  std::optional<double> mean;    ///< s
+  std::optional<double> median;  ///< s, nearest rank
+  std::size_t objects = 0;       ///< that were found
+};
+
+DelayScore scoreDelays(const std::vector<ObjectScore>& objects);
+
 /// Every object that is required in some frame, by first frame. `matching` is of these frames.
 std::vector<ObjectScore> scoreObjects(const Frames& frames, const Matching& matching);
 

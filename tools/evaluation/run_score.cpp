@@ -59,6 +59,15 @@ std::vector<EgoPoses> egoPoses(const Frames& frames, const Trajectory& truth,
   return ego;
 }
 
+StateErrors nearErrors(const Frames& frames, const Matching& matching,
+                       const std::vector<EgoPoses>& ego, double range) {
+  std::vector<Point2> places;
+  for (const EgoPoses& poses : ego) {
+    places.push_back(poses.truth.position());
+  }
+  return scoreNearErrors(frames, matching, places, range);
+}
+
 std::map<std::uint32_t, std::string> labelsOf(const RecordedTruth& truth) {
   std::map<std::uint32_t, std::string> labels;
   for (const RecordedObjects& objects : truth.objects) {
@@ -84,6 +93,8 @@ RunScore scoreRun(const RecordedRun& run, const RecordedTruth& truth, const Scor
   score.ego = egoPoses(built.frames, scene.trajectory(), estimated, alignment);
   score.left_out = built.left_out;
   score.tracks = scoreTracks(built.frames, options.metrics);
+  score.near_errors =
+      nearErrors(built.frames, score.tracks.matching, score.ego, options.near_range);
   score.standing_objects =
       scoreStandingObjects(built.frames, score.tracks.matching, scene, options.metrics.matching);
   score.frames = std::move(built.frames);

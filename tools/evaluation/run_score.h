@@ -49,6 +49,7 @@ struct RunScore {
   std::vector<EgoPoses> ego;  ///< of each frame
   std::size_t left_out = 0;   ///< messages with tracks outside of the truth or of the poses
   TrackScores tracks;
+  StateErrors near_errors;  ///< of tracks, within ScoreOptions::near_range of the true vehicle
   std::vector<StandingObject> standing_objects;
   std::optional<PoseScore> pose;                      ///< none: the run has no poses
   std::optional<FalseDetections> false_detections;    ///< none: the run has no detections

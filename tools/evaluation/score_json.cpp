@@ -101,6 +101,34 @@ json toJson(const Consistency& score) {
           {"inside_share", orNull(score.inside_share)}};
 }
 
+json nearJson(const StateErrors& errors, double range) {
+  json result = toJson(errors);
+  result["range_m"] = range;
+  return result;
+}
+
+json toJson(const ClassShare& score) {
+  return {{"right_share", orNull(score.share())},
+          {"frames", score.frames},
+          {"right", score.right},
+          {"silent", score.silent}};
+}
+
+json toJson(const ClassScores& scores) {
+  json result = toJson(scores.all);
+  result["by_class"] = json::object();
+  for (const auto& [object_class, share] : scores.by_class) {
+    result["by_class"][nameOf(object_class)] = toJson(share);
+  }
+  return result;
+}
+
+json toJson(const DelayScore& score) {
+  return {{"mean_s", orNull(score.mean)},
+          {"median_s", orNull(score.median)},
+          {"objects", score.objects}};
+}
+
 json objectsJson(const RunScore& score) {
   json objects = json::array();
   const Stamp start = score.frames.front().stamp;
@@ -216,6 +244,9 @@ json toJson(const RunScore& score, const ScoreOptions& options, const ScoredFile
           {"hota", toJson(tracks.hota)},
           {"gospa", gospaJson(tracks.gospa, options.metrics.gospa.cutoff)},
           {"errors", toJson(tracks.errors)},
+          {"near_errors", nearJson(score.near_errors, options.near_range)},
+          {"classes", toJson(tracks.classes)},
+          {"delay", toJson(tracks.delay)},
           {"consistency",
            {{"position", toJson(tracks.consistency.position)},
             {"velocity", toJson(tracks.consistency.velocity)}}},

@@ -14,7 +14,9 @@ constexpr double kMostRange = 500.0;  // m
 void TopicOptions::visit(OptionVisitor& visitor) {
   visitor.text({"tracks", "", "TrackArray, what is scored"}, tracks, {});
   visitor.text({"pose", "", "PoseWithCovarianceStamped, estimated pose of the vehicle"}, pose, {});
-  visitor.text({"objects", "", "ObjectArray of one measurement, optional (thesis table 3.4)"},
+  visitor.text({"objects", "",
+                "ObjectArray of one measurement, optional (thesis table 3.4); empty: what the "
+                "tracker takes, /objects/fused if the run has it, else /objects"},
                objects, {});
   visitor.text({"road_borders", "", "RoadBorders, optional (thesis table 3.5)"}, road_borders, {});
   visitor.text({"timing", "", "StageTiming, optional"}, timing, {});
@@ -70,6 +72,9 @@ void ScoreOptions::visit(OptionVisitor& visitor) {
   visitor.toggle({"moving_tracks_only", "",
                   "tracks that are published as standing do not count: neither found nor false"},
                  moving_tracks_only);
+  visitor.number({"near_range", "m",
+                  "errors of tracks are also given of the objects within it of the true vehicle"},
+                 near_range, {1.0, kMostRange});
   metrics.visit(visitor);
   visitor.number({"longest_gap", "s",
                   "nothing is interpolated or scored in a gap of the truth or of the poses that is "

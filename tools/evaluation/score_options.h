@@ -13,7 +13,7 @@ namespace datmo::evaluation {
 struct TopicOptions {
   std::string tracks = "/tracks";
   std::string pose = "/pose";
-  std::string objects = "/objects";
+  std::string objects;
   std::string road_borders = "/road_borders";
   std::string timing = "/timing";
   std::string true_objects = "/ground_truth/objects";
@@ -67,6 +67,7 @@ struct ScoreOptions {
   RegionOptions region;
   TruthOptions truth;
   bool moving_tracks_only = true;
+  double near_range = 20.0;  ///< m
   TrackScoreOptions metrics;
   double longest_gap = 0.5;             ///< s
   double longest_silence = 0.2;         ///< s

@@ -40,4 +40,17 @@ StateErrors scoreStateErrors(const Frames& frames, const Matching& matching) {
   return sum.result();
 }
 
+StateErrors scoreNearErrors(const Frames& frames, const Matching& matching,
+                            const std::vector<Point2>& places, double range) {
+  StateErrorSum sum;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    forEachHit(frames[i], matching[i], [&](const TrueState& truth, const TrackState& track) {
+      if ((truth.box.centre.position() - places[i]).norm() <= range) {
+        sum.add(truth, track);
+      }
+    });
+  }
+  return sum.result();
+}
+
 }  // namespace datmo::evaluation

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "evaluation/matching.h"
 
@@ -33,5 +34,9 @@ class StateErrorSum {
 
 /// Over all frames. `matching` is of these frames.
 StateErrors scoreStateErrors(const Frames& frames, const Matching& matching);
+
+/// The same of the objects within a range (m) of a place, which is another one in each frame.
+StateErrors scoreNearErrors(const Frames& frames, const Matching& matching,
+                            const std::vector<Point2>& places, double range);
 
 }  // namespace datmo::evaluation

@@ -28,7 +28,9 @@ TrackScores scoreTracks(const Frames& frames, const TrackScoreOptions& options) 
   scores.gospa = meanGospa(scores.gospa_frames);
   scores.errors = scoreStateErrors(frames, scores.matching);
   scores.consistency = scoreConsistency(frames, scores.matching);
+  scores.classes = scoreClasses(frames, scores.matching);
   scores.objects = scoreObjects(frames, scores.matching);
+  scores.delay = scoreDelays(scores.objects);
   scores.thesis = countAsThesis(frames, scores.matching);
   return scores;
 }

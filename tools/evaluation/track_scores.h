@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "evaluation/class_scores.h"
 #include "evaluation/clear_mot.h"
 #include "evaluation/consistency.h"
 #include "evaluation/false_movers.h"
@@ -37,7 +38,9 @@ struct TrackScores {
   std::optional<Gospa> gospa;  ///< mean over the frames
   StateErrors errors;
   TrackConsistency consistency;
+  ClassScores classes;
   std::vector<ObjectScore> objects;
+  DelayScore delay;
   ThesisCounts thesis;
 };
 

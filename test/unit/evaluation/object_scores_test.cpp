@@ -65,5 +65,17 @@ TEST(ObjectScores, ByFirstFrameEachWithItsOwnErrors) {
   EXPECT_DOUBLE_EQ(objects[1].delay.value(), 0.0);
 }
 
+TEST(ObjectScores, DelaysAreOfThoseThatWereFound) {
+  EXPECT_FALSE(scoreDelays({}).mean);
+  std::vector<ObjectScore> objects(4);
+  objects[0].delay = 0.5;
+  objects[1].delay = 0.1;
+  objects[3].delay = 3.0;
+  const DelayScore score = scoreDelays(objects);
+  EXPECT_EQ(score.objects, 3U);
+  EXPECT_DOUBLE_EQ(*score.mean, 1.2);
+  EXPECT_DOUBLE_EQ(*score.median, 0.5);
+}
+
 }  // namespace
 }  // namespace datmo::evaluation

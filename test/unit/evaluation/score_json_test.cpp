@@ -43,6 +43,13 @@ TEST(ScoreJson, HoldsWhatWasScored) {
   EXPECT_EQ(report["clear_mot"]["matches"], 16);
   EXPECT_EQ(report["clear_mot"]["misses"], 5);
   EXPECT_NEAR(report["errors"]["position_rmse_m"].get<double>(), 0.5, 1e-9);
+  EXPECT_EQ(report["near_errors"]["range_m"], 20.0);
+  EXPECT_EQ(report["near_errors"]["samples"], 6) << "at 15 m to 20 m";
+  EXPECT_NEAR(report["near_errors"]["position_rmse_m"].get<double>(), 0.5, 1e-9);
+  EXPECT_EQ(report["classes"]["right_share"], 0.0);
+  EXPECT_EQ(report["classes"]["by_class"]["vehicle"]["silent"], 16);
+  EXPECT_NEAR(report["delay"]["mean_s"].get<double>(), 0.5, 1e-9);
+  EXPECT_EQ(report["delay"]["objects"], 1);
   EXPECT_NEAR(report["consistency"]["position"]["mean_nees"].get<double>(), 0.25, 1e-9);
   EXPECT_EQ(report["thesis"]["missed_objects"], 0);
 }
