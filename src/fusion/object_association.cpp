@@ -87,6 +87,7 @@ Extent extentOf(const Object& object) {
 
 std::vector<Extent> extentsOf(const std::vector<Object>& objects) {
   std::vector<Extent> extents;
+  extents.reserve(objects.size());
   for (const Object& object : objects) {
     extents.push_back(extentOf(object));
   }

@@ -73,6 +73,7 @@ std::optional<Visibility> viewOf(const std::vector<SensorView>& views,
                                  const std::vector<Object>& objects,
                                  const VisibilityOptions& options) {
   std::vector<Box2> seen;
+  seen.reserve(objects.size());
   for (const Object& object : objects) {
     seen.push_back(object.box);
   }
@@ -200,6 +201,7 @@ class ObjectFuser::Fusion {
   /// Joins a source's objects with what there is.
   void add(std::size_t source) {
     std::vector<Object> known;
+    known.reserve(objects_.size());
     for (const FusedObject& fused : objects_) {
       known.push_back(fused.object);
     }

@@ -49,7 +49,7 @@ ObjectSides sidesIn(const CommonAxes& axes, const Object& object) {
   const double turn = angleBetween(box.centre.heading(), axes.pose.heading());
   const double quarters = std::round(turn / kQuarterTurn);
   const double slant = std::sin(turn - quarters * kQuarterTurn);
-  const auto first = static_cast<std::size_t>(static_cast<int>(quarters) + 4);
+  const auto first = static_cast<std::size_t>(std::lround(quarters) + 4);
   const bool across = first % 2 == 1;
   const Point2 half =
       0.5 * (across ? Point2(box.width, box.length) : Point2(box.length, box.width));
