@@ -20,9 +20,17 @@ TEST(Parameters, AreFlattenedWithTheirTypes) {
   EXPECT_EQ(flattenParameters(tree, "/node"), expected);
 }
 
-TEST(Parameters, ListsAreRefusedByName) {
+TEST(Parameters, ListsOfNumbersAreRead) {
   XmlRpcValue tree;
   tree["map"]["sizes"][0] = 1;
+  tree["map"]["sizes"][1] = 0.5;
+  const OptionValues expected{{"map/sizes", std::vector<double>{1.0, 0.5}}};
+  EXPECT_EQ(flattenParameters(tree, "/node"), expected);
+}
+
+TEST(Parameters, OtherListsAreRefusedByName) {
+  XmlRpcValue tree;
+  tree["map"]["sizes"][0] = "large";
   try {
     flattenParameters(tree, "/node");
     FAIL() << "expected an OptionError";
