@@ -1,5 +1,6 @@
 #include "chain.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -140,6 +141,20 @@ bool Chain::drive(double from, double to) {
     }
   }
   return true;
+}
+
+StereoChain::StereoChain()
+    : cloud_(node_.advertise<sensor_msgs::PointCloud2>("stereo/points2", kQueue)),
+      camera_info_(
+          node_.advertise<sensor_msgs::CameraInfo>("stereo/right/camera_info", kQueue, true)) {}
+
+bool StereoChain::waitForNodelets(const std::vector<std::string>& names) {
+  return Chain::waitForNodelets() && waitFor([&] {
+           return cloud_.getNumSubscribers() >= 1 && camera_info_.getNumSubscribers() >= 1 &&
+                  std::none_of(names.begin(), names.end(), [this](const std::string& name) {
+                    return diagnosticMessage(name).empty();
+                  });
+         });
 }
 
 }  // namespace datmo

@@ -89,4 +89,21 @@ class Chain : public Listener {
   ros::Publisher tf_static_;
 };
 
+/// The same with the stereo camera.
+class StereoChain : public Chain {
+ public:
+  StereoChain();
+
+  /// Until the nodelets listen, and those named here report.
+  bool waitForNodelets(const std::vector<std::string>& names);
+
+  void sendCameraInfo() { camera_info_.publish(World::rightCameraInfo()); }
+  void sendCloud(const sensor_msgs::PointCloud2& cloud) { cloud_.publish(cloud); }
+
+ private:
+  ros::NodeHandle node_;
+  ros::Publisher cloud_;
+  ros::Publisher camera_info_;
+};
+
 }  // namespace datmo

@@ -23,8 +23,8 @@ constexpr double kStep = 1.0 / 16.0;  // s
 /// What a painted line on the road makes: echoes where nothing stands (m ahead of the scanner).
 constexpr float kPaintAhead = 6.1F;
 
-/// A Chain with a stereo camera, and what the low level makes of both sensors.
-class LowLevel : public Chain {
+/// What the low level makes of both sensors.
+class LowLevel : public StereoChain {
  public:
   LowLevel() {
     for (const std::string name : {"lidar", "stereo", "fused", "conflict"}) {
@@ -37,19 +37,13 @@ class LowLevel : public Chain {
 
   /// Until all nodelets listen and report.
   bool waitForNodelets() {
-    return Chain::waitForNodelets() && waitFor([this] {
-             return cloud_.getNumSubscribers() >= 1 && camera_info_.getNumSubscribers() >= 1 &&
-                    !diagnosticMessage("lidar_grid").empty() &&
-                    !diagnosticMessage("stereo_grid").empty() &&
-                    !diagnosticMessage("grid_fusion").empty() &&
-                    !diagnosticMessage("tracker").empty() &&
-                    std::all_of(subscribers_.begin(), subscribers_.end(),
+    return StereoChain::waitForNodelets({"lidar_grid", "stereo_grid", "grid_fusion", "tracker"}) &&
+           waitFor([this] {
+             return std::all_of(subscribers_.begin(), subscribers_.end(),
                                 [](const auto& grid) { return grid.getNumPublishers() >= 1; });
            });
   }
 
-  void sendCameraInfo() { camera_info_.publish(World::rightCameraInfo()); }
-  void sendCloud(const sensor_msgs::PointCloud2& cloud) { cloud_.publish(cloud); }
   void sendStereoGrid(const nav_msgs::OccupancyGrid& grid) { stereo_grid_.publish(grid); }
 
   /// Whether the newest grid of a name is of this stamp.
@@ -62,9 +56,6 @@ class LowLevel : public Chain {
  private:
   ros::NodeHandle node_;
   std::vector<ros::Subscriber> subscribers_;
-  ros::Publisher cloud_ = node_.advertise<sensor_msgs::PointCloud2>("stereo/points2", kQueue);
-  ros::Publisher camera_info_ =
-      node_.advertise<sensor_msgs::CameraInfo>("stereo/right/camera_info", kQueue, true);
   ros::Publisher stereo_grid_ = node_.advertise<nav_msgs::OccupancyGrid>("grids/stereo", kQueue);
 };
 

@@ -1,0 +1,221 @@
+// Scanner and stereo camera, fused at the object level, on a made drive: what comes out, and what
+// happens when one of them is silent or sends what is none. The tests go through one drive, in this
+// order. They run without low-level fusion and with it.
+#include <algorithm>
+#include <limits>
+
+#include "chain.h"
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/ros/message_conversion.h"
+
+namespace datmo {
+namespace {
+
+constexpr std::uint32_t kQueue = 1000;
+constexpr double kStep = 1.0 / 16.0;  // s
+
+const std::vector<std::string> kBothSensors = {"lidar", "stereo"};
+
+/// What the object level makes of both sensors.
+class ObjectLevel : public StereoChain {
+ public:
+  /// Until all nodelets listen and report.
+  bool waitForNodelets() {
+    return StereoChain::waitForNodelets({"stereo_objects", "object_fusion", "tracker"}) &&
+           waitFor([this] {
+             return stereo_.getNumPublishers() >= 1 && fused_.getNumPublishers() >= 1 &&
+                    external_.getNumSubscribers() >= 2;
+           });
+  }
+
+  /// In place of stereo_objects.
+  void sendStereoObjects(const ObjectArray& list) { external_.publish(list); }
+
+  bool isFusedAt(const ros::Time& stamp) const {
+    return !fused.empty() && fused.back()->header.stamp == stamp;
+  }
+
+  std::vector<ObjectArrayConstPtr> stereo;
+  std::vector<ObjectArrayConstPtr> fused;
+
+ private:
+  ros::NodeHandle node_;
+  ros::Subscriber stereo_ = node_.subscribe<ObjectArray>(
+      "objects/stereo", kQueue,
+      [this](const ObjectArrayConstPtr& list) { stereo.push_back(list); });
+  ros::Subscriber fused_ = node_.subscribe<ObjectArray>(
+      "objects/fused", kQueue, [this](const ObjectArrayConstPtr& list) { fused.push_back(list); });
+  ros::Publisher external_ = node_.advertise<ObjectArray>("objects/stereo", kQueue);
+};
+
+class ObjectLevelTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    chain_ = new ObjectLevel();
+    ASSERT_TRUE(chain_->waitForNodelets());
+  }
+
+  static void TearDownTestSuite() { delete chain_; }
+
+  /// One step of the drive with both sensors; waits for its fused objects.
+  void step() {
+    chain_->sendMotion(now_);
+    const auto scan = world_.scan(now_);
+    chain_->sendCloud(world_.cloud(now_));
+    chain_->sendScan(scan);
+    ASSERT_TRUE(chain_->waitFor([&] { return chain_->isFusedAt(scan.header.stamp); }))
+        << now_ << " s: " << chain_->diagnosticMessage("object_fusion");
+    now_ += kStep;
+  }
+
+  void driveOn(double seconds) {
+    for (const double end = now_ + seconds - 0.5 * kStep; now_ < end;) {
+      ASSERT_NO_FATAL_FAILURE(step());
+    }
+  }
+
+  /// A step with the scanner alone; waits for the lidar's objects of some steps before, since
+  /// fusion waits for a camera that is not known to be silent.
+  void stepWithoutStereo() {
+    const ros::Duration wait(3.0 * kStep);
+    chain_->sendMotion(now_);
+    const auto scan = world_.scan(now_);
+    chain_->sendScan(scan);
+    ASSERT_TRUE(chain_->waitFor([&] { return newestObjects() + wait >= scan.header.stamp; }))
+        << now_ << " s";
+    now_ += kStep;
+  }
+
+  static ros::Time newestObjects() {
+    return chain_->objects.empty() ? ros::Time() : chain_->objects.back()->header.stamp;
+  }
+
+  /// The other car in a list of objects; null if it is not there.
+  const ObjectMessage* otherCarIn(const ObjectArray& list) const {
+    const double then = list.header.stamp.toSec() - World::kStart;
+    Box2 car = world_.otherCar(then);
+    car.centre = world_.baseInMap(then).inverse() * car.centre;
+    const auto found =
+        std::find_if(list.objects.begin(), list.objects.end(), [&](const ObjectMessage& object) {
+          return car.distanceTo({object.pose.position.x, object.pose.position.y}) < 1.0;
+        });
+    return found == list.objects.end() ? nullptr : &*found;
+  }
+
+  static ObjectLevel* chain_;
+  static double now_;  // s, of the drive
+  World world_;
+};
+
+ObjectLevel* ObjectLevelTest::chain_ = nullptr;
+double ObjectLevelTest::now_ = 0.0;
+
+TEST_F(ObjectLevelTest, BothSensorsLeadToFusedObjectsForEachScan) {
+  chain_->sendCameraInfo();
+  chain_->mountSensors();
+  ASSERT_TRUE(chain_->prepareMotion(now_));
+  ASSERT_NO_FATAL_FAILURE(driveOn(2.0));
+  EXPECT_EQ(chain_->fused.size(), chain_->objects.size());
+  EXPECT_EQ(chain_->fused.back()->header.frame_id, "base_link");
+  ASSERT_EQ(chain_->fused.back()->views.size(), 1U);
+  EXPECT_EQ(chain_->fused.back()->views.front().sensor, "stereo");
+  EXPECT_EQ(chain_->diagnostic("object_fusion", "dropped"), 0.0);
+  EXPECT_EQ(chain_->diagnostic("stereo_objects", "dropped"), 0.0);
+}
+
+TEST_F(ObjectLevelTest, WhatBothSeeIsOneObject) {
+  ASSERT_NO_FATAL_FAILURE(driveOn(0.5));
+  ASSERT_TRUE(otherCarIn(*chain_->stereo.back()));
+  const ObjectMessage* car = otherCarIn(*chain_->fused.back());
+  ASSERT_TRUE(car);
+  EXPECT_EQ(car->sensors, kBothSensors);
+  EXPECT_EQ(car->dynamic_state, ObjectMessage::STATE_MOVING);
+}
+
+TEST_F(ObjectLevelTest, FusedObjectsLeadToTracks) {
+  const ros::Time last = chain_->fused.back()->header.stamp;
+  ASSERT_TRUE(chain_->waitFor([&] {
+    return !chain_->tracks.empty() && chain_->tracks.back()->header.stamp == last;
+  })) << chain_->diagnosticMessage("tracker");
+  const Box2 truth = world_.otherCar(last.toSec() - World::kStart);
+  const auto& tracks = chain_->tracks.back()->tracks;
+  const auto found = std::find_if(tracks.begin(), tracks.end(), [&](const TrackMessage& track) {
+    return truth.distanceTo(fromMessage(track.pose).position()) < 1.5;
+  });
+  ASSERT_NE(found, tracks.end()) << tracks.size() << " tracks, none there";
+  EXPECT_TRUE(found->moving);
+  EXPECT_EQ(found->sensors, kBothSensors);
+}
+
+TEST_F(ObjectLevelTest, WithoutStereoTheFusedObjectsGoOnWithTheScanner) {
+  for (int i = 0; i < 20; ++i) {
+    ASSERT_NO_FATAL_FAILURE(stepWithoutStereo());
+  }
+  const ros::Time last(World::kStart + now_ - kStep);
+  EXPECT_TRUE(chain_->waitFor([&] { return chain_->isFusedAt(last); }))
+      << "at once, since stereo is silent";
+  EXPECT_EQ(chain_->fused.size(), chain_->objects.size()) << "none is left out";
+  EXPECT_TRUE(chain_->fused.back()->views.empty());
+  EXPECT_TRUE(chain_->waitFor(
+      [] { return chain_->diagnostic("object_fusion", "warned: silent_source") == 1.0; }));
+  ASSERT_NO_FATAL_FAILURE(driveOn(0.5));
+}
+
+TEST_F(ObjectLevelTest, BadCloudsAreCounted) {
+  sensor_msgs::PointCloud2 cloud = world_.cloud(now_);
+  std::fill(cloud.data.begin(), cloud.data.end(), 0xFF);
+  chain_->sendCloud(cloud);
+  EXPECT_TRUE(chain_->waitFor(
+      [] { return chain_->diagnostic("stereo_objects", "dropped: no_valid_point") == 1.0; }));
+  ASSERT_NO_FATAL_FAILURE(driveOn(0.5));
+}
+
+TEST_F(ObjectLevelTest, AnotherSystemMayTellTheStereoObjects) {
+  ObjectArray list;
+  list.header.frame_id = "base_link";
+  list.header.stamp = ros::Time(World::kStart + now_);
+  ObjectMessage pedestrian;
+  pedestrian.pose.position.x = 8.0;
+  pedestrian.pose.orientation.w = 1.0;
+  pedestrian.size.x = 0.5;
+  pedestrian.size.y = 0.5;
+  pedestrian.position_covariance = {0.1, 0.0, 0.0, 0.1};
+  pedestrian.classification = ObjectMessage::CLASS_PEDESTRIAN;
+  pedestrian.class_probability = 0.9F;
+  ObjectMessage nowhere = pedestrian;
+  nowhere.pose.position.x = std::numeric_limits<double>::quiet_NaN();
+  list.objects = {pedestrian, nowhere};
+  chain_->sendStereoObjects(list);
+  ASSERT_NO_FATAL_FAILURE(stepWithoutStereo());
+  ASSERT_NO_FATAL_FAILURE(driveOn(0.5));
+  const auto of_that_time = std::find_if(
+      chain_->fused.begin(), chain_->fused.end(),
+      [&](const ObjectArrayConstPtr& one) { return one->header.stamp == list.header.stamp; });
+  ASSERT_NE(of_that_time, chain_->fused.end());
+  const auto& fused = (*of_that_time)->objects;
+  EXPECT_TRUE(std::any_of(fused.begin(), fused.end(), [](const ObjectMessage& object) {
+    return object.classification == ObjectMessage::CLASS_PEDESTRIAN &&
+           object.sensors == std::vector<std::string>{"stereo"};
+  }));
+  EXPECT_TRUE(std::all_of(fused.begin(), fused.end(), [](const ObjectMessage& object) {
+    return std::isfinite(object.pose.position.x);
+  }));
+}
+
+TEST_F(ObjectLevelTest, ALoopedBag) {
+  now_ = 0.0;
+  ASSERT_TRUE(chain_->prepareMotion(now_));
+  ASSERT_TRUE(chain_->waitFor(
+      [] { return chain_->diagnostic("object_fusion", "warned: clock_restart") > 0.0; }));
+  ASSERT_NO_FATAL_FAILURE(driveOn(1.0));
+}
+
+}  // namespace
+}  // namespace datmo
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "object_level_test");
+  return RUN_ALL_TESTS();
+}
