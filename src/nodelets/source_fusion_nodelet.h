@@ -84,9 +84,10 @@ class SourceFusionNodelet : public nodelet::Nodelet {
       take(source, *message, now);
       publishReady();
     };
-    sources_.push_back(getNodeHandle().subscribe<Message>(
-        topic, kQueue, boost::function<void(const MessagePtr&)>(receive), ros::VoidConstPtr(),
-        hints()));
+    ros::NodeHandle& node = getNodeHandle();
+    const boost::function<void(const MessagePtr&)> callback = receive;
+    sources_.push_back(
+        node.subscribe<Message>(topic, kQueue, callback, ros::VoidConstPtr(), hints()));
   }
 
   void takeOdometry(const nav_msgs::OdometryConstPtr& message) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <boost/make_shared.hpp>
@@ -104,10 +105,15 @@ void ObjectFusionStage::takeSplitScan(const SplitScanMessage& message) {
   }
 }
 
-const SplitScan* ObjectFusionStage::scanAt(Stamp stamp) const {
-  const auto found = std::find_if(scans_.rbegin(), scans_.rend(),
-                                  [stamp](const SplitScan& scan) { return scan.stamp == stamp; });
-  return found == scans_.rend() ? nullptr : &*found;
+std::optional<SplitScan> ObjectFusionStage::takeScanAt(Stamp stamp) {
+  std::optional<SplitScan> found;
+  while (!scans_.empty() && scans_.front().stamp <= stamp) {
+    if (scans_.front().stamp == stamp) {
+      found = std::move(scans_.front());
+    }
+    scans_.pop_front();
+  }
+  return found;
 }
 
 std::vector<SourceObjects> ObjectFusionStage::movedLists(
@@ -136,12 +142,12 @@ ObjectArrayPtr ObjectFusionStage::next(Stamp now) {
   }
   std::vector<MissingSource> missing = matched->missing;
   const std::vector<SourceObjects> lists = movedLists(*matched, missing);
-  const SplitScan* scan = scanAt(matched->stamp());
-  times_without_scan_ += scan == nullptr ? 1 : 0;
-  const ObjectFusionResult result = fuser_.fuse(lists, scan);
+  const std::optional<SplitScan> scan = takeScanAt(matched->stamp());
+  times_without_scan_ += scan ? 0 : 1;
+  const ObjectFusionResult result = fuser_.fuse(lists, scan ? &*scan : nullptr);
   inputs_.report(matched->stamp(), missing);
   report(lists, result.counts);
-  const auto fused = boost::make_shared<ObjectArray>(toMessage(result.list, options_.base_frame));
+  auto fused = boost::make_shared<ObjectArray>(toMessage(result.list, options_.base_frame));
   monitor_.processed({matched->stamp(), watch.seconds()});
   return fused;
 }

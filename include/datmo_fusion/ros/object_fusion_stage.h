@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,8 +67,8 @@ class ObjectFusionStage {
   /// The lists of the set whose motion is known; the others are added to `missing`.
   std::vector<SourceObjects> movedLists(const Matched& matched,
                                         std::vector<MissingSource>& missing) const;
-  /// Null without a scan of this stamp.
-  const SplitScan* scanAt(Stamp stamp) const;
+  /// None without a scan of this stamp. Sets come by rising stamp: older scans are dropped.
+  std::optional<SplitScan> takeScanAt(Stamp stamp);
   void forgetAfter(Arrival arrival);
   void report(const std::vector<SourceObjects>& lists, const ObjectFusionCounts& counts);
 
@@ -76,7 +77,7 @@ class ObjectFusionStage {
   FusionInputs inputs_;
   SourceMatcher<ObjectList> matcher_;
   ObjectFuser fuser_;
-  std::deque<SplitScan> scans_;  ///< the last ones, by rising stamp
+  std::deque<SplitScan> scans_;  ///< newer than the last set, by rising stamp
   std::uint64_t times_without_scan_ = 0;
   std::uint64_t bad_objects_ = 0;
   std::uint64_t objects_too_many_ = 0;

@@ -367,10 +367,17 @@ TEST_F(ObjectFusionWitnessTest, BadScansAreDroppedAndCounted) {
 }
 
 TEST_F(ObjectFusionWitnessTest, AJumpBackForgetsTheScans) {
-  stage_.takeSplitScan(wallAt(18.0, 100.0));
-  EXPECT_TRUE(bothAt(200.0));
-  EXPECT_EQ(stateAt(100.0), ObjectMessage::STATE_UNKNOWN);
+  EXPECT_TRUE(bothAt(199.0));
+  stage_.takeSplitScan(wallAt(18.0, 200.0));
+  EXPECT_TRUE(bothAt(100.0));
   EXPECT_EQ(warnings("clock_restart"), 1U);
+  EXPECT_EQ(stateAt(200.0), ObjectMessage::STATE_UNKNOWN);
+}
+
+TEST_F(ObjectFusionWitnessTest, AScanOfANewRunIsNotLostBehindThoseOfTheOldOne) {
+  stage_.takeSplitScan(wallAt(18.0, 200.0));
+  stage_.takeSplitScan(wallAt(18.0, 100.0));
+  EXPECT_EQ(stateAt(100.0), ObjectMessage::STATE_STATIC);
 }
 
 TEST(ObjectFusionStageOptionsTest, BadOptionsAreRefused) {
