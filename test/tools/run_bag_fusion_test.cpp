@@ -1,79 +1,19 @@
 // The bag runner with low-level fusion: the small drive with a stereo camera that sees a wall.
 #include <filesystem>
 
-#include "run_bag/stereo_images.h"
-#include "run_bag_drive.h"
-#include "stereo_pair_sample.h"
+#include "stereo_drive.h"
 #include <gtest/gtest.h>
 
 #include <nav_msgs/OccupancyGrid.h>
-#include <sensor_msgs/PointCloud2.h>
 
 namespace datmo {
 namespace {
 
-constexpr int kClouds = 15;                     // one for every second scan
-constexpr double kCloudPeriod = 2.0 * kPeriod;  // s
-constexpr auto kScanCount = static_cast<std::size_t>(kScans);
-constexpr auto kCloudCount = static_cast<std::size_t>(kClouds);
-
-/// Forward is z, right is x (REP 103).
-geometry_msgs::TransformStamped cameraMount(const std::string& frame) {
-  geometry_msgs::TransformStamped mount =
-      toTransform(Pose2(1.0, 0.0, 0.0), kStart, "base_link", frame);
-  mount.transform.translation.z = 1.2;
-  mount.transform.rotation.x = -0.5;
-  mount.transform.rotation.y = 0.5;
-  mount.transform.rotation.z = -0.5;
-  mount.transform.rotation.w = 0.5;
-  return mount;
-}
-
-class FusedRun : public RunBag {
+class FusedRun : public StereoRunBag {
  protected:
   FusedRun() {
-    writeConfig("{stereo_image_proc: {stereo_algorithm: 1, disparity_range: 32}}");
     arguments_.low_level_fusion = true;
     arguments_.write_grids = true;
-  }
-
-  /// `write(bag, stamp)` for each of the stereo camera's stamps.
-  template <typename Write>
-  void append(const Write& write) const {
-    rosbag::Bag bag(arguments_.input, rosbag::bagmode::Append);
-    tf2_msgs::TFMessage mount;
-    mount.transforms.push_back(cameraMount(sample_.frame));
-    bag.write("/tf_static", toTime(kStart), mount);
-    for (int i = 0; i < kClouds; ++i) {
-      write(bag, kStart + i * kCloudPeriod);
-    }
-  }
-
-  void appendImages(const std::string& name = "image_rect") const {
-    append([&](rosbag::Bag& bag, Stamp stamp) {
-      for (const bool right : {false, true}) {
-        const std::string camera = right ? "/stereo/right/" : "/stereo/left/";
-        bag.write(camera + name, toTime(stamp), sample_.image(stamp, right, "mono8"));
-        bag.write(camera + "camera_info", toTime(stamp), sample_.info(stamp, right));
-      }
-    });
-  }
-
-  /// What stereo_image_proc makes of the images.
-  void appendClouds() const {
-    StageMonitor monitor("stereo_images");
-    StereoImagesOptions options;
-    options.stereo_algorithm = 1;
-    options.disparity_range = 32;
-    StereoImages images(options, true, monitor);
-    append([&](rosbag::Bag& bag, Stamp stamp) {
-      images.takeImage(StereoSide::kLeft, sample_.image(stamp, false, "mono8"));
-      images.takeInfo(StereoSide::kLeft, sample_.info(stamp, false));
-      images.takeImage(StereoSide::kRight, sample_.image(stamp, true, "mono8"));
-      bag.write("/stereo/right/camera_info", toTime(stamp), sample_.info(stamp, true));
-      bag.write("/stereo/points2", toTime(stamp),
-                images.takeInfo(StereoSide::kRight, sample_.info(stamp, true)));
-    });
   }
 
   void expectGrids() const {
@@ -82,8 +22,6 @@ class FusedRun : public RunBag {
     EXPECT_EQ(count(arguments_.output, "/grids/fused"), kScanCount);
     EXPECT_EQ(count(arguments_.output, "/grids/conflict"), kScanCount);
   }
-
-  StereoPairSample sample_;
 };
 
 TEST_F(FusedRun, EveryScanIsFusedWithClouds) {
