@@ -65,7 +65,11 @@ Difference differenceOf(const SidePair& a, const SidePair& b, double unknown_siz
   }
   const double beyond = std::max(0.0, b.place[0] - a.place[1]);
   const double before = std::max(0.0, a.place[0] - b.place[1]);
-  return {beyond - before, unknown_size_variance};
+  // Where the sides that face each other were both seen, nothing hidden fills the gap.
+  const std::size_t of_a = beyond > 0.0 ? 1 : 0;
+  const bool bounded = beyond + before > 0.0 && a.isSeen(of_a) && b.isSeen(1 - of_a);
+  return {beyond - before,
+          bounded ? a.variance[of_a] + b.variance[1 - of_a] : unknown_size_variance};
 }
 
 /// Bounds of one object on how far apart a pair may be.

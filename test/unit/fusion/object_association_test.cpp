@@ -69,6 +69,20 @@ TEST(ObjectAssociationTest, WithoutACommonSideTheSizeIsNotKnown) {
   EXPECT_NEAR(pairing(left, right, options).squared_distance, 0.0, 1e-9);
 }
 
+TEST(ObjectAssociationTest, AGapBetweenSidesThatWereSeenIsNoUnknownSize) {
+  // An echo of paint, and 4 m beside it a parked car, seen from the other side.
+  Object echo = boxObject(10.0, 1.0, 0.3, 0.0, 0.02);
+  hide(echo, BoxSide::kLeft);
+  Object car = boxObject(10.2, -3.6, 0.3, 1.3, 0.02, "stereo");
+  hide(car, BoxSide::kRight);
+  EXPECT_FALSE(pairing(echo, car, ObjectAssociationOptions()).possible);
+  EXPECT_FALSE(pairing(car, echo, ObjectAssociationOptions()).possible);
+  // Either may fill the gap where it is not seen to end.
+  hide(car, BoxSide::kLeft);
+  car.box.centre = Pose2(10.2, -1.0, 0.0);
+  EXPECT_TRUE(pairing(echo, car, ObjectAssociationOptions()).possible);
+}
+
 TEST(ObjectAssociationTest, PairingIsSymmetric) {
   Object a = boxObject(10.0, 3.0, 1.0, 2.0, 0.01);
   Object b = boxObject(10.2, 3.1, 2.0, 1.2, 0.02, "stereo");
