@@ -22,7 +22,8 @@ def report(moving, missed):
                    "false_tracks": 15},
         "clear_mot": {"mota": 0.5}, "identity": {"idf1": 0.625},
         "errors": {"position_rmse_m": 0.456},
-        "objects": [{"delay_s": 0.5}, {"delay_s": None}, {"delay_s": 1.0}],
+        "near_errors": {"position_rmse_m": 0.123}, "classes": {"right_share": 0.8},
+        "delay": {"mean_s": 0.75},
     }  # fmt: skip
 
 
@@ -40,7 +41,7 @@ class Table(unittest.TestCase):
         text = comparison_table([("set", PUBLISHED[0], "none", self.run)])
         self.assertEqual(rows(text)[0], [
             "set", "none", "10", "4", "of", "30", "6", "of", "33", "42", "15", "50.0", "62.5",
-            "0.46", "-", "0.75", "7.0"])  # fmt: skip
+            "0.46", "0.12", "80.0", "0.75", "7.0"])  # fmt: skip
 
     def test_thesis_counted_without_and_with_fusion_of_objects(self):
         text = comparison_table([
@@ -49,12 +50,12 @@ class Table(unittest.TestCase):
         self.assertEqual([row[2] for row in rows(text)], ["7", "-", "4"])
 
     def test_what_there_is_not(self):
-        run = figures(dict(report(5, 3), objects=[{"delay_s": None}]), None, TIMES)
+        run = figures(dict(report(5, 3), delay={"mean_s": None}), None, TIMES)
         text = comparison_table([("drive", None, "none", run), ("drive", None, "object", None)])
         first, second = rows(text)
         self.assertEqual(first[2:7], ["-", "3", "of", "5", "-"])
         self.assertEqual(first[-2:], ["-", "7.0"])
-        self.assertEqual(second, ["drive", "object"] + 11 * ["-"])
+        self.assertEqual(second, ["drive", "object"] + 12 * ["-"])
 
 
 class Runs(unittest.TestCase):

@@ -17,9 +17,9 @@ from datmo_tools.calibrate_object_covariance import main
 from datmo_tools.covariance_table import covariance_table, fitted_law, robust_spread
 from datmo_tools.errors import InputError
 from datmo_tools.object_pairs import Pair
-from geometry_msgs.msg import Pose2D
+from geometry_msgs.msg import Point, Pose, Pose2D, Quaternion, Vector3
 
-from datmo_fusion.msg import FieldOfView, ObjectArray
+from datmo_fusion.msg import FieldOfView, ObjectArray, Track, TrackArray
 from object_samples import object_at
 
 MILLISECOND = 10**6
@@ -84,7 +84,7 @@ class Table(unittest.TestCase):
 
     def test_variance_stays_above_zero(self):
         """A lidar that says that it is worse than all differences."""
-        doubtful = [pair._replace(lidar_range_variance=100.0) for pair in pairs()]
+        doubtful = [pair._replace(known_range_variance=100.0) for pair in pairs()]
         column = covariance_table(doubtful, 2.0, 30.0, 30).range
         known = column.measured
         self.assertTrue(np.all(column.variance[known] > 0.0))
@@ -110,9 +110,9 @@ class Table(unittest.TestCase):
                                    column.bias[1:] ** 2, rtol=1e-6)  # fmt: skip
 
     def test_few_pairs(self):
-        with self.assertRaisesRegex(InputError, "20 pairs; 0 bins of 2 m .* expected two bins"):
+        with self.assertRaisesRegex(InputError, "20 pairs with range; 0 bins .* expected two bins"):
             covariance_table(pairs(20), 2.0, 30.0, 30)
-        with self.assertRaisesRegex(InputError, "0 pairs"):
+        with self.assertRaisesRegex(InputError, "0 pairs with range"):
             covariance_table([], 2.0, 30.0, 30)
 
     def test_normal_spread(self):
@@ -156,6 +156,7 @@ class Tool(unittest.TestCase):
                 pose = [self.SPEED * 0.1 * i, 0.0, 0.0]
                 message = bag_messages.planar_odometry(stamp, "map", "base_link", pose, 0.0, 0.0)
                 bag.write("/pose", stamp, message)
+                bag.write("/tracks", stamp, self.tracks(stamp, pose[0]))
                 if "/objects" in topics:
                     bag.write("/objects", stamp, self.seen(stamp, 0.02, np.zeros((10, 2))))
                 if "/objects/stereo" in topics and i % 2 == 0:
@@ -170,15 +171,28 @@ class Tool(unittest.TestCase):
         offsets: 10 x 2, m, along and across the line of sight.
         """
         items = []
-        since = (stamp - START) * 1e-9 % self.ROUND
         for i, offset in enumerate(offsets):
-            way = self.CAR_SPEED * (since + delay) - self.SPEED * since
-            ray = np.array([6.5 + 2.0 * i + way, 3.0 * i - 13.5]) - self.CAMERA
+            ray = np.array([self.ahead(stamp, i, delay), 3.0 * i - 13.5]) - self.CAMERA
             along = ray / np.hypot(*ray)
             across = np.array([-along[1], along[0]])
             near = self.CAMERA + ray + offset[0] * along + offset[1] * across
             items.append(object_at(near[0] + 2.0, near[1], yaw=math.pi, delay=delay, variance=1e-6))
         return ObjectArray(header=bag_messages.header(stamp, "base_link"), objects=items)
+
+    def tracks(self, stamp, way):
+        """Of all cars, half a metre off; way: of the vehicle, m."""
+        tracks = []
+        for i in range(10):
+            middle = Point(way + self.ahead(stamp, i) + 2.5, 3.0 * i - 13.5, 0.0)
+            place = Pose(middle, Quaternion(0.0, 0.0, 0.0, 1.0))
+            tracks.append(Track(pose=place, size=Vector3(4.0, 1.8, 0.0), moving=True,
+                                velocity=Vector3(self.CAR_SPEED, 0.0, 0.0)))  # fmt: skip
+        return TrackArray(header=bag_messages.header(stamp, "map"), tracks=tracks)
+
+    def ahead(self, stamp, number, delay=0.0):
+        """How far a car's near side is ahead of the vehicle at a stamp, as it is `delay` later."""
+        since = (stamp - START) * 1e-9 % self.ROUND
+        return 6.5 + 2.0 * number + self.CAR_SPEED * (since + delay) - self.SPEED * since
 
     def calibrate(self, *words, code=0, runs=None):
         out, errors = io.StringIO(), io.StringIO()
@@ -238,6 +252,8 @@ class Tool(unittest.TestCase):
         self.assertIn("nothing on /objects, expected a bag of run_bag", self.calibrate(code=1)[1])
         self.write("/objects", rounds=2)
         self.assertIn("nothing on /objects/stereo", self.calibrate(code=1)[1])
+        said = self.calibrate("--stereo", "/objects", "--tracks", "/none", code=1)[1]
+        self.assertIn("nothing that moves on /none", said)
         self.assertFalse(self.out.exists())
 
     def test_few_pairs(self):

@@ -8,7 +8,7 @@ from datmo_tools.covariance_report import as_dictionary, as_yaml, summary
 from datmo_tools.covariance_table import covariance_table
 from datmo_tools.errors import InputError
 from datmo_tools.grid_recordings import CAMERA_INFOS, MOUNTS, mounts_of, opened, view_of
-from datmo_tools.object_lists import read_lists
+from datmo_tools.object_lists import read_lists, read_moving_boxes
 from datmo_tools.object_pairs import Counts, paired_objects
 from datmo_tools.pose_path import read_path
 from datmo_tools.whole_files import write_whole
@@ -17,23 +17,27 @@ DESCRIPTION = """\
 Measures how far a stereo camera's objects are off in range and bearing, by range (thesis 3.3.3:
 "calculated empirically", there by hand), and writes it as yaml that object_fusion loads.
 
-From bags with the objects of both sensors (run_bag --object-fusion) it pairs those that both saw:
-the middle of the near side (thesis 3.3.2), brought to one time by the vehicle's poses and by the
-lidar object's own motion between two scans; each the other's nearest within 1 m across the line
-of sight, and within 1 m, or 5 m x range / 36 m if that is more, along it; of classes that agree,
-and of sides of like length that both see with their ends. Of the differences in each bin of range
-outliers beyond three robust standard deviations are left out, and the lidar's own covariance is
-taken out of their variance. Where a bin has too few pairs, the law that fits the other bins fills
-in: a + b range^4 for range, a + b / range^2 for bearing.
+From bags with the objects of both sensors (run_bag --object-fusion) it pairs the lidar's objects
+that are tracked as moving (of what stands the map may have taken a part away) with the camera's, by
+their near sides (thesis 3.3.2), brought to one time by the vehicle's poses and the tracks'
+velocities: each the other's nearest within 1 m across the line of sight, and within 1 m, or
+5 m x range / 36 m if that is more, along it, of classes and sizes that agree. Compared is what both
+saw: the near side along the line of sight, and the bearings of its corners.
+
+Of the differences in each bin of range outliers beyond three robust standard deviations are left
+out; taken out of their variance is what the lidar says of itself, and the camera of the sides that
+it saw, which object_fusion adds by itself. Where a bin has too few pairs, the law that fits the
+other bins fills in: a + b range^4 for range, a + b / range^2 for bearing.
 
 Ranges are counted from the camera's place, which its lists tell. The lidar is taken for unbiased;
 a mean difference is printed as bias. Object fusion does not take it out: --with-bias adds its
 square."""
 
+TOPICS = {"lidar": "/objects", "stereo": "/objects/stereo", "tracks": "/tracks", "pose": "/pose"}
+
 LEAST_PAIRS = 30  # of a bin: its variance is known to a quarter (2 / 30, square root)
 BIN_WIDTH = 2.0  # m; thesis 3.3.3
 RANGE = 36.0  # m; thesis 3.3.3
-LONGEST_GAP = 0.25  # s, between two scans: a few of a slow scanner's (10 a second)
 DISPARITY_SIGMA = 0.25  # px; as the simulator's default
 
 
@@ -43,8 +47,8 @@ def main(arguments=None):
     return command_line.run("calibrate_object_covariance", lambda: _run(values), product="table")
 
 
-def read_pairs(runs, lidar, stereo, pose):
-    """List of Pair and Counts of the bags `runs` (Paths) together; lidar, stereo, pose: topics.
+def read_pairs(runs, lidar, stereo, tracks, pose):
+    """List of Pair and Counts of the bags `runs` (Paths) together; lidar ... pose: topics.
 
     Raises InputError for a bag without objects of both.
     """
@@ -57,8 +61,9 @@ def read_pairs(runs, lidar, stereo, pose):
                     f"{run}: nothing on {topic}, expected a bag of run_bag --object-fusion with "
                     f"objects of both sensors on {lidar} and {stereo}"
                 )
-        by_stamp = [sorted(lists[topic], key=lambda item: item.stamp) for topic in (lidar, stereo)]
-        new_pairs, new_counts = paired_objects(*by_stamp, read_path(run, pose), LONGEST_GAP)
+        new_pairs, new_counts = paired_objects(
+            lists[lidar], lists[stereo], read_moving_boxes(run, tracks), read_path(run, pose)
+        )
         pairs += new_pairs
         counts += new_counts
     return pairs, counts
@@ -108,7 +113,7 @@ def _run(values):
     _check(values)
     plot = _plotter(values.plot)
     depth_sigma = _depth_sigma(values.drive, values.disparity_sigma)
-    pairs, counts = read_pairs(values.runs, values.lidar, values.stereo, values.pose)
+    pairs, counts = read_pairs(values.runs, values.lidar, values.stereo, values.tracks, values.pose)
     table = covariance_table(
         pairs, values.bin_width, values.range, values.least_pairs, values.with_bias
     )
@@ -134,7 +139,7 @@ def _parser():
     add("--drive", type=Path, metavar="DRIVE.bag",
         help="with the camera's calibration: the plot shows what theory expects too")  # fmt: skip
     add("--source", default="stereo", help="name in object_fusion/sources (default %(default)s)")
-    for name, topic in (("lidar", "/objects"), ("stereo", "/objects/stereo"), ("pose", "/pose")):
+    for name, topic in TOPICS.items():
         add(f"--{name}", default=topic, metavar="TOPIC", help="(default %(default)s)")
     add("--least-pairs", type=command_line.count, default=LEAST_PAIRS, metavar="N",
         help="of a bin; with fewer it is filled in (default %(default)s)")  # fmt: skip

@@ -4,6 +4,13 @@ import numpy as np
 
 from datmo_tools.text_table import aligned, rounded
 
+DEGREES = np.degrees(1.0)
+OF_THE_LAW = "too few: law"
+
+NOTE = """\
+Left range (m), right bearing (degrees). Known: standard deviation of the differences by what the
+lidar says of itself and the camera of the sides that it saw; sd: the camera's own."""
+
 
 def as_yaml(table, source, runs):
     """Text of the table as the section object_fusion of a sensor set."""
@@ -11,7 +18,7 @@ def as_yaml(table, source, runs):
     return "\n".join([
         f"# How far objects of {source} are off, measured against the lidar's by",
         f"# calibrate_object_covariance {' '.join(map(str, runs))}",
-        f"# Bins of {table.bin_width:g} m from 0 m on; pairs, bias of range and bearing:",
+        f"# Bins of {table.bin_width:g} m from 0 m on: pairs and mean difference, range and bearing",
         *(f"# {line}" for line in _bins(table)),
         "object_fusion:",
         "  sources:",
@@ -52,29 +59,35 @@ def _bins(table):
     """One line for each bin."""
     for i, centre in enumerate(table.centres):
         near, far = centre - 0.5 * table.bin_width, centre + 0.5 * table.bin_width
-        text = f"{near:g}-{far:g} m: {table.range.count[i]}"
-        if table.range.count[i]:
-            text += f", {table.range.bias[i]:+.2f} m, {np.degrees(table.bearing.bias[i]):+.2f} deg"
-        yield text if table.range.measured[i] else f"{text}; too few, so of the law"
+        texts = []
+        for column, scale, unit in ((table.range, 1.0, "m"), (table.bearing, DEGREES, "deg")):
+            text = f"{column.count[i]} pairs"
+            if column.count[i]:
+                text += f", {scale * column.bias[i]:+.2f} {unit}"
+            texts.append(text if column.measured[i] else f"{text} ({OF_THE_LAW})")
+        yield f"{near:g}-{far:g} m: {'; '.join(texts)}"
 
 
 def summary(table, counts):
     """The table as text for the terminal; counts: of object_pairs."""
-    rows = [["range, m", "pairs", "bias, m", "sd, m", "lidar, m", "bias, deg", "sd, deg",
-             "lidar, deg", ""]]  # fmt: skip
+    headings = ["pairs", "bias", "known", "sd", ""]
+    rows = [["range, m", *headings, *headings]]
     for i, centre in enumerate(table.centres):
-        cells = [f"{centre:g}", str(table.range.count[i])]
-        for column, scale in ((table.range, 1.0), (table.bearing, np.degrees(1.0))):
-            known = (column.bias[i], np.sqrt(column.variance[i]), np.sqrt(column.lidar_variance[i]))
-            cells += [rounded(None if np.isnan(item) else scale * item, 3) for item in known]
-        rows.append([*cells, "" if table.range.measured[i] else "of the law"])
+        cells = [f"{centre:g}"]
+        for column, scale in ((table.range, 1.0), (table.bearing, DEGREES)):
+            items = (column.bias[i], np.sqrt(column.known_variance[i]), np.sqrt(column.variance[i]))
+            cells.append(str(column.count[i]))
+            cells += [rounded(None if np.isnan(item) else scale * item, 3) for item in items]
+            cells.append("" if column.measured[i] else OF_THE_LAW)
+        rows.append(cells)
     distance, bearing = table.range.law, table.bearing.law
     laws = (
         f"range: sqrt({distance.constant:.3g} + {distance.factor:.3g} r^4) m; "
         f"bearing: sqrt({bearing.constant:.3g} + {bearing.factor:.3g} / r^2) rad"
     )
     fates = (
-        f"{counts.objects} objects of the camera: {counts.paired} paired; left out: {counts.alone} "
-        f"alone, {counts.unlike} unlike the lidar's, {counts.hidden} with hidden ends"
+        f"{counts.objects} times that the lidar saw a moving object: {counts.paired} paired; left "
+        f"out: {counts.alone} that the camera did not see, {counts.unlike} unlike, {counts.hidden} "
+        "with nothing that both saw"
     )
-    return "\n".join([aligned(rows), laws, fates])
+    return "\n".join([NOTE, aligned(rows), laws, fates])

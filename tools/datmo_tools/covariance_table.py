@@ -12,7 +12,7 @@ OUTLIER = 3.0  # standard deviations
 # What is left of a normal distribution's variance within so many standard deviations.
 KEPT_VARIANCE = 0.97334
 
-# Where the lidar's own covariance explains all of it, this share is the camera's after all.
+# Where what is known explains all of the differences, this share is the camera's after all.
 LEAST_SHARE = 0.1
 
 FIT_STEPS = 50
@@ -80,7 +80,7 @@ class Column(NamedTuple):
     count: np.ndarray  # pairs without outliers
     bias: np.ndarray  # NaN: no pairs
     difference_variance: np.ndarray  # of the camera's less the lidar's; NaN: too few pairs
-    lidar_variance: np.ndarray  # the lidar's share of it; NaN: too few pairs
+    known_variance: np.ndarray  # of it, what is told by the lidar and the camera's sides
     measured: np.ndarray  # whether the bin has enough pairs
     variance: np.ndarray  # the camera's: measured, or that of the law
     law: Law
@@ -110,42 +110,44 @@ def covariance_table(pairs, bin_width, reach, least_pairs, with_bias=False):
 
     bin_width: m; reach: m, up to where there are bins; least_pairs: of a bin that is measured;
     with_bias: variance about zero, not about the mean. Raises InputError for fewer than two
-    measured bins.
+    measured bins of range or of bearing.
     """
     bins = int(np.ceil(reach / bin_width - 1e-9))
     values = np.array(pairs, dtype=float).reshape(-1, 5)
     index = np.floor(values[:, 0] / bin_width).astype(int)
-    members = [values[index == i] for i in range(bins)]
-    enough = sum(len(chosen) >= least_pairs for chosen in members)
-    if enough < 2:
-        raise InputError(
-            f"{len(values)} pairs; {enough} bins of {bin_width:g} m within {reach:g} m have "
-            f"{least_pairs} or more, expected two bins"
-        )
     centres = (np.arange(bins) + 0.5) * bin_width
 
-    def column(difference, lidar, power):
-        columns = [(chosen[:, difference], chosen[:, lidar]) for chosen in members]
-        return _column(columns, centres, least_pairs, power, with_bias)
+    def column(name, difference, known, power):
+        seen = [np.isfinite(values[:, difference]) & (index == i) for i in range(bins)]
+        members = [(values[chosen, difference], values[chosen, known]) for chosen in seen]
+        enough = sum(len(differences) >= least_pairs for differences, _ in members)
+        if enough < 2:
+            raise InputError(
+                f"{sum(map(np.sum, seen))} pairs with {name}; {enough} bins of {bin_width:g} m "
+                f"within {reach:g} m have {least_pairs} or more, expected two bins"
+            )
+        return _column(members, centres, least_pairs, power, with_bias)
 
-    return CovarianceTable(bin_width, column(1, 3, RANGE_POWER), column(2, 4, BEARING_POWER))
+    return CovarianceTable(
+        bin_width, column("range", 1, 3, RANGE_POWER), column("bearing", 2, 4, BEARING_POWER)
+    )
 
 
 def _column(members, centres, least_pairs, power, with_bias):
     count = np.zeros(len(members), dtype=int)
-    bias, difference_variance, lidar_variance = np.full((3, len(members)), np.nan)
-    for i, (differences, lidar) in enumerate(members):
+    bias, difference_variance, known_variance = np.full((3, len(members)), np.nan)
+    for i, (differences, known) in enumerate(members):
         if len(differences) == 0:
             continue
         spread = robust_spread(differences)
         count[i], bias[i] = spread.count, spread.bias
         if len(differences) >= least_pairs:
             difference_variance[i] = spread.variance + with_bias * spread.bias**2
-            lidar_variance[i] = np.median(lidar)
+            known_variance[i] = np.median(known)
     measured = np.isfinite(difference_variance)
-    own = np.maximum(difference_variance - lidar_variance, LEAST_SHARE * difference_variance)
+    own = np.maximum(difference_variance - known_variance, LEAST_SHARE * difference_variance)
     if np.any(own[measured] <= 0.0):
         raise InputError("pairs of a bin differ by nothing at all, expected two sensors' objects")
     law = fitted_law(centres[measured], own[measured], count[measured], power)
     variance = np.where(measured, own, law.at(centres))
-    return Column(count, bias, difference_variance, lidar_variance, measured, variance, law)
+    return Column(count, bias, difference_variance, known_variance, measured, variance, law)

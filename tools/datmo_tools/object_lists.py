@@ -1,4 +1,4 @@
-"""Lists of objects as run_bag writes them, and the sides of their boxes."""
+"""Lists of objects as run_bag writes them."""
 
 from typing import NamedTuple
 
@@ -6,15 +6,9 @@ import numpy as np
 
 from datmo_tools.errors import InputError
 from datmo_tools.grid_recordings import opened
-from datmo_tools.pose_path import planar
+from datmo_tools.pose_path import planar, read_messages
 
-OBJECT_ARRAY = "datmo_fusion/ObjectArray"
-
-# Outward normals of the sides front, rear, left and right in the frame of their box.
-NORMALS = np.array([(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)])
-
-# By side, those at its ends.
-END_SIDES = ((2, 3), (2, 3), (0, 1), (0, 1))
+OBJECT_ARRAY, TRACK_ARRAY = "datmo_fusion/ObjectArray", "datmo_fusion/TrackArray"
 
 
 class Seen(NamedTuple):
@@ -46,6 +40,14 @@ class SeenList(NamedTuple):
         return next(iter(self.viewpoints.values()), (0.0, 0.0))
 
 
+class MovingBox(NamedTuple):
+    """A track at the stamp of a scan, in the map."""
+
+    pose: np.ndarray  # x, y (m), yaw (rad)
+    size: np.ndarray  # m: length, width
+    velocity: np.ndarray  # m/s: vx, vy
+
+
 def read_lists(path, topics):
     """Dictionary topic -> list of SeenList in the order of the bag, of topics that have any.
 
@@ -61,58 +63,27 @@ def read_lists(path, topics):
     return lists
 
 
-class NearSide(NamedTuple):
-    """The side of a box that a sensor looks at: what its range and bearing are measured of.
+def read_moving_boxes(path, topic):
+    """Dictionary stamp (ns) -> list of MovingBox: the tracks that move, in the map.
 
-    Its middle is what the thesis fuses ("middle point of the front line segment", 3.3.2): sensors
-    see different parts of an object, but they all see its near side.
+    Raises InputError for another type, and where there are none.
     """
-
-    middle: np.ndarray  # x, y, m
-    normal: np.ndarray  # x, y, outward
-    length: float  # m
-    covariance: np.ndarray  # 2 x 2, m^2, of the middle; infinite: the side or an end is hidden
-
-    @property
-    def is_seen(self):
-        """With both its ends: else its middle is somewhere else."""
-        return bool(np.all(np.isfinite(self.covariance)))
-
-
-def near_side(seen, viewpoint, normal=None):
-    """NearSide of a Seen: the one whose middle is nearest to the sensor.
-
-    viewpoint: x, y (m) of the sensor; normal: of the side of another box that is compared with
-    it, then it is the one that looks the same way.
-    """
-    yaw, (length, width) = seen.pose[2], seen.size
-    normals = NORMALS @ np.array([(np.cos(yaw), np.sin(yaw)), (-np.sin(yaw), np.cos(yaw))])
-    halves = 0.5 * np.array([length, length, width, width])
-    middles = seen.pose[:2] + halves[:, np.newaxis] * normals
-    if normal is None:
-        side = int(np.argmin(np.hypot(*(middles - np.asarray(viewpoint)).T)))
-    else:
-        side = int(np.argmax(normals @ normal))
-    return NearSide(
-        middles[side],
-        normals[side],
-        float((width, width, length, length)[side]),
-        _covariance(seen, side, normals),
-    )
-
-
-def _covariance(seen, side, normals):
-    """Of the middle of a side: the box as a whole, the side by itself, and its two ends."""
-    first, second = END_SIDES[side]
-    across = seen.side_variance[side]
-    along = 0.25 * (seen.side_variance[first] + seen.side_variance[second])
-    if not (np.isfinite(across) and np.isfinite(along)):
-        return np.full((2, 2), np.inf)
-    return (
-        seen.covariance
-        + across * np.outer(normals[side], normals[side])
-        + along * np.outer(normals[first], normals[first])
-    )
+    boxes = {}
+    for message, kind in read_messages(path, topic):
+        if kind != TRACK_ARRAY:
+            raise InputError(f"{path}: {topic} is {kind}, expected {TRACK_ARRAY}")
+        boxes[message.header.stamp.to_nsec()] = [
+            MovingBox(
+                np.array(planar(track.pose)),
+                np.array([track.size.x, track.size.y]),
+                np.array([track.velocity.x, track.velocity.y]),
+            )
+            for track in message.tracks
+            if track.moving
+        ]
+    if not any(boxes.values()):
+        raise InputError(f"{path}: nothing that moves on {topic}, expected tracks")
+    return boxes
 
 
 def _seen_list(message):

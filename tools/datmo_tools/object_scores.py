@@ -5,7 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from datmo_tools import transforms
-from datmo_tools.object_lists import Seen, near_side
+from datmo_tools.object_lists import Seen
+from datmo_tools.outlines import Outline, offset
 
 # An object is near a true one within this of its box: across the line of sight, and along it, where
 # it grows with the range by thesis 3.3.3 (5 m at 36 m; see THESIS_GATE).
@@ -16,8 +17,6 @@ THESIS_GATE = 5.0 / 36.0  # m for each metre of range: up to here a stereo objec
 
 # 95 % of chi-square with two degrees of freedom.
 GATE_95 = 5.991
-
-EMPTY_SIDES = np.zeros(4)
 
 
 class TrueState(NamedTuple):
@@ -42,15 +41,16 @@ class TrueState(NamedTuple):
 
     def box(self):
         """As a sensor that sees it exactly would see it."""
-        return Seen(self.pose, self.size, np.zeros((2, 2)), EMPTY_SIDES, self.classification, 0.0)
+        exact = np.zeros((2, 2)), np.zeros(4)
+        return Seen(self.pose, self.size, *exact, self.classification, 0.0)
 
 
 class Errors(NamedTuple):
-    """How far an object's near side is from that of the true object it is of."""
+    """How far an object's near side is from that of the true object it is of; NaN: not seen."""
 
     along: float  # m, along the line of sight: positive is too far
     across: float  # m, to the left
-    nees: float  # of both, by the object's own covariance; NaN: its ends are not seen
+    nees: float  # of both, by the object's own covariance
 
 
 class ListScore(NamedTuple):
@@ -65,11 +65,11 @@ def score_list(objects, truths, viewpoint=(0.0, 0.0)):
 
     objects: of Seen; truths: of TrueState at the stamp of the list; viewpoint: of the sensor, m.
     """
-    sides = [near_side(item, viewpoint) for item in objects]
     distances = np.full((len(objects), len(truths)), np.inf)
-    for i, (item, side) in enumerate(zip(objects, sides)):
+    for i, item in enumerate(objects):
         moved = [truth.after(item.delay) for truth in truths]
-        distances[i] = scaled_distances(side.middle, moved, viewpoint)
+        near_point = Outline(item, viewpoint).near_point() + viewpoint
+        distances[i] = scaled_distances(near_point, moved, viewpoint)
     matches = [
         (i, j, _errors(objects[i], truths[j].after(objects[i].delay), viewpoint))
         for i, j in _pairs(distances, objects, truths)
@@ -128,13 +128,11 @@ def _pairs(distances, objects, truths):
 
 
 def _errors(item, truth, viewpoint):
-    """Of the near side's middle; the side is that of the true box."""
-    true_side = near_side(truth.box(), viewpoint)
-    side = near_side(item, viewpoint, true_side.normal)
-    ray = true_side.middle - np.asarray(viewpoint)
-    ray = ray / max(float(np.hypot(*ray)), np.finfo(float).tiny)
-    offset = side.middle - true_side.middle
+    """Of what the object saw of its near side."""
+    apart = offset(Outline(item, viewpoint), Outline(truth.box(), viewpoint))
     nees = np.nan
-    if side.is_seen:
-        nees = float(offset @ np.linalg.solve(side.covariance, offset))
-    return Errors(float(offset @ ray), float(offset @ np.array([-ray[1], ray[0]])), nees)
+    if not np.any(np.isnan(apart.value)):
+        covariance = apart.jacobian @ item.covariance @ apart.jacobian.T
+        covariance += np.diag(apart.sides_variance)
+        nees = float(apart.value @ np.linalg.solve(covariance, apart.value))
+    return Errors(float(apart.value[0]), float(apart.value[1]), nees)

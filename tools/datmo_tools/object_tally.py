@@ -1,7 +1,5 @@
 """Sums over lists of objects: shares by class and by range, and statistics of the errors."""
 
-import math
-
 import numpy as np
 
 from datmo_fusion.msg import Object
@@ -61,7 +59,7 @@ class ObjectTally:
             self._doubles[band] += bool(is_near) and i not in matched
         for i, j, errors in score.matches:
             band = self._band(truths[j].range)
-            if truths[j].asked and band is not None and not math.isnan(errors.nees):
+            if truths[j].asked and band is not None:
                 self._errors[band].append(errors)
 
     def result(self):
@@ -108,11 +106,26 @@ def _class_right(name, said):
 
 
 def _statistics(errors):
-    """Of the errors of one band."""
-    keys = ("along_mean_m", "along_sd_m", "across_mean_m", "across_sd_m", "mean_nees", "in_gate")
-    if not errors:
-        return {"pairs": 0, **dict.fromkeys(keys)}
-    along, across, nees = np.array(errors).T
-    values = (along.mean(), along.std(), across.mean(), across.std(), nees.mean(),
-              np.mean(nees <= GATE_95))  # fmt: skip
-    return {"pairs": len(errors), **{key: float(value) for key, value in zip(keys, values)}}
+    """Of the errors of one band: each of those that know it."""
+    columns = np.array(errors).reshape(-1, 3).T
+    along, across, nees = (column[np.isfinite(column)] for column in columns)
+    return {
+        **_mean_and_sd("along", along),
+        **_mean_and_sd("across", across),
+        "nees_count": len(nees),
+        "mean_nees": _or_none(np.mean, nees),
+        "median_nees": _or_none(np.median, nees),
+        "in_gate": _or_none(np.mean, nees <= GATE_95),
+    }
+
+
+def _mean_and_sd(name, values):
+    return {
+        f"{name}_count": len(values),
+        f"{name}_mean_m": _or_none(np.mean, values),
+        f"{name}_sd_m": _or_none(np.std, values),
+    }
+
+
+def _or_none(function, values):
+    return float(function(values)) if len(values) else None

@@ -1,0 +1,165 @@
+"""What a sensor sees of a box, and how far two boxes are apart that are one object.
+
+Sensors see different parts of an object, but they all see its near side ("middle point of the
+front line segment", thesis 3.3.2). Compared is what both saw: its range in the middle of the
+bearings that both boxes have in common, and the bearings of its corners.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from datmo_tools import transforms
+
+# Corners in turn: front left, rear left, rear right, front right; and the side from each to the
+# next one: left, rear, right, front.
+CORNERS = 0.5 * np.array([(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)])
+SIDES = (2, 1, 3, 0)
+NORMALS = np.array([(0.0, 1.0), (-1.0, 0.0), (0.0, -1.0), (1.0, 0.0)])
+
+# More slanting sides tell no range: what is off across the line of sight changes it more (cosine of
+# 60 degrees).
+LEAST_FACING = 0.5
+
+# Corners that look farther apart than this are not the same (cosine of 30 degrees).
+SAME_CORNER = np.cos(np.radians(30.0))
+
+NEAREST = 0.1  # m: no line of sight to what is nearer to the sensor
+NEGLIGIBLE = 1e-9  # m^2
+
+
+class Hit(NamedTuple):
+    """Where a line of sight meets a box."""
+
+    range: float  # m
+    normal: np.ndarray  # x, y, outward, of the side
+    facing: float  # cosine of the angle of incidence
+    variance: float  # m^2, of the side by itself, along its normal; infinite: not seen
+
+
+class Corner(NamedTuple):
+    """Where two sides meet that were both seen."""
+
+    bearing: float  # rad
+    diagonal: np.ndarray  # x, y, outward, between both normals
+    variance: float  # m^2, across the line of sight, of the sides by themselves
+
+
+class Outline:
+    """A box (Seen of object_lists) about a sensor."""
+
+    def __init__(self, seen, viewpoint):
+        """viewpoint: x, y (m) of the sensor."""
+        self.covariance = seen.covariance
+        local = np.column_stack([CORNERS * seen.size, np.zeros(4)])
+        self._corners = transforms.compose(seen.pose, local)[:, :2] - np.asarray(viewpoint)
+        yaw = seen.pose[2]
+        turned = np.array([(np.cos(yaw), np.sin(yaw)), (-np.sin(yaw), np.cos(yaw))])
+        self._normals = NORMALS @ turned
+        self._variances = np.asarray(seen.side_variance)[list(SIDES)]
+        centre = np.asarray(seen.pose[:2]) - np.asarray(viewpoint)
+        self.bearing = float(np.arctan2(centre[1], centre[0]))
+        self._turns = transforms.normalise_angle(_bearings(self._corners) - self.bearing)
+        # rad: of the right end, and of the left one.
+        self.bearings = self.bearing + np.array([self._turns.min(), self._turns.max()])
+
+    def corners(self):
+        """List of Corner, in turn; None for those that were not seen."""
+        facing = np.sum(self._normals * self._corners, axis=1) < 0.0
+        found = []
+        for i, ray in enumerate(self._corners):
+            meeting = [i, i - 1]
+            if not (np.all(np.isfinite(self._variances[meeting])) and np.any(facing[meeting])):
+                found.append(None)
+                continue
+            across = np.array([-ray[1], ray[0]]) / max(float(np.hypot(*ray)), NEAREST)
+            variance = self._variances[meeting] @ (self._normals[meeting] @ across) ** 2
+            diagonal = self._normals[meeting].sum(axis=0) / np.sqrt(2.0)
+            found.append(Corner(self.bearing + self._turns[i], diagonal, float(variance)))
+        return found
+
+    def hit(self, bearing):
+        """Hit of the line of sight at a bearing (rad); None: it passes the box, or starts in it."""
+        along = np.array([np.cos(bearing), np.sin(bearing)])
+        facing = -self._normals @ along
+        best = None
+        for i in np.flatnonzero(facing > 0.0):
+            reach = -float(self._normals[i] @ self._corners[i]) / float(facing[i])
+            edge = self._corners[(i + 1) % 4] - self._corners[i]
+            way, whole = float((reach * along - self._corners[i]) @ edge), float(edge @ edge)
+            within = whole > NEGLIGIBLE and -NEGLIGIBLE <= way <= whole + NEGLIGIBLE
+            if within and reach > NEAREST and (best is None or reach < best.range):
+                normal, variance = self._normals[i], float(self._variances[i])
+                best = Hit(reach, normal, float(facing[i]), variance)
+        return best
+
+    def near_point(self):
+        """Where the line of sight in the middle of its bearings meets it (x, y, m, about the
+        sensor); its centre where none does."""
+        bearing = float(np.mean(self.bearings))
+        found = self.hit(bearing)
+        if found is None:
+            return self._corners.mean(axis=0)
+        return found.range * np.array([np.cos(bearing), np.sin(bearing)])
+
+
+class Offset(NamedTuple):
+    """How far an object is from another one that it is compared with.
+
+    Of arrays of two the first is along the line of sight, the second across it.
+    """
+
+    range: float  # m, of the other one
+    value: np.ndarray  # m; NaN: not both saw it. Positive: too far, too far to the left
+    jacobian: np.ndarray  # 2 x 2, of the value by the place of the box
+    sides_variance: np.ndarray  # 2, m^2, by the variances of the one's own sides
+    other_covariance: np.ndarray  # 2 x 2, m^2, by all that the other one says of itself
+
+
+def offset(outline, other):
+    """Offset of an Outline from another one, about the same sensor."""
+    common = 0.5 * (
+        max(outline.bearings[0], _near(other.bearings[0], outline.bearing))
+        + min(outline.bearings[1], _near(other.bearings[1], outline.bearing))
+    )
+    value = np.full(2, np.nan)
+    sides, others = np.zeros(2), np.zeros(2)
+    jacobians = np.zeros((2, 2, 2))
+    hits = outline.hit(common), other.hit(common)
+    reach = float(np.hypot(*other.near_point()))
+    if all(hit is not None and hit.facing >= LEAST_FACING for hit in hits):
+        reach = hits[1].range
+        if all(np.isfinite(hit.variance) for hit in hits):
+            value[0] = hits[0].range - reach
+            sides[0], others[0] = (hit.variance / hit.facing**2 for hit in hits)
+            jacobians[:, 0] = [-hit.normal / hit.facing for hit in hits]
+    pairs = _same_corners(outline, other)
+    if pairs:
+        turns = [_near(one.bearing - its.bearing, 0.0) for one, its in pairs]
+        value[1] = reach * np.mean(turns)
+        variances = np.array([(one.variance, its.variance) for one, its in pairs])
+        sides[1], others[1] = variances.sum(axis=0) / len(pairs) ** 2
+        jacobians[:, 1] = [-np.sin(common), np.cos(common)]
+    covariance = jacobians[1] @ other.covariance @ jacobians[1].T + np.diag(others)
+    return Offset(reach, value, jacobians[0], sides, covariance)
+
+
+def _same_corners(outline, other):
+    """Pairs of Corner that both saw."""
+    theirs = [corner for corner in other.corners() if corner is not None]
+    return [
+        (one, its)
+        for one in outline.corners()
+        if one is not None
+        for its in theirs
+        if one.diagonal @ its.diagonal >= SAME_CORNER
+    ]
+
+
+def _near(bearing, middle):
+    """The same bearing, within half a turn of another one."""
+    return middle + float(transforms.normalise_angle(bearing - middle))
+
+
+def _bearings(rays):
+    return np.arctan2(rays[:, 1], rays[:, 0])
