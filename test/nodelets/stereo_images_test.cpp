@@ -1,5 +1,5 @@
 // Raw images of a stereo camera through the nodelets of image_proc and stereo_image_proc, in the
-// same manager, to the grid of stereo_grid.
+// same manager, to the grid of stereo_grid and the objects of stereo_objects.
 #include <random>
 
 #include "chain.h"
@@ -62,6 +62,9 @@ class Cameras : public Chain {
     grid_ = node_.subscribe<nav_msgs::OccupancyGrid>(
         "grids/stereo", 1,
         [this](const nav_msgs::OccupancyGridConstPtr& message) { grid = message; });
+    stereo_objects_ = node_.subscribe<ObjectArray>(
+        "objects/stereo", 1,
+        [this](const ObjectArrayConstPtr& message) { stereo_objects = message; });
   }
 
   void sendPair(double seconds) {
@@ -72,6 +75,7 @@ class Cameras : public Chain {
   }
 
   nav_msgs::OccupancyGridConstPtr grid;  ///< the last one
+  ObjectArrayConstPtr stereo_objects;    ///< the last ones
 
  private:
   static void send(const ros::Publisher& images, const ros::Publisher& infos,
@@ -96,9 +100,10 @@ class Cameras : public Chain {
   ros::Publisher left_info_ = infos("left");
   ros::Publisher right_info_ = infos("right");
   ros::Subscriber grid_;
+  ros::Subscriber stereo_objects_;
 };
 
-TEST(StereoImagesTest, RawImagesLeadToAGrid) {
+TEST(StereoImagesTest, RawImagesLeadToAGridAndObjects) {
   Cameras cameras;
   ASSERT_TRUE(cameras.waitForNodelets());
   cameras.mountSensors();
@@ -107,7 +112,7 @@ TEST(StereoImagesTest, RawImagesLeadToAGrid) {
   ASSERT_TRUE(cameras.waitFor([&] {
     cameras.sendPair(seconds);
     seconds += kPeriod;
-    return cameras.waitFor([&] { return cameras.grid != nullptr; }, kPeriod);
+    return cameras.waitFor([&] { return cameras.grid && cameras.stereo_objects; }, kPeriod);
   }));
   const SensorGrid grid = fromMessage(*cameras.grid);
   const double wall = World().cameraInBase().transform.translation.x + kDepth;
@@ -118,6 +123,8 @@ TEST(StereoImagesTest, RawImagesLeadToAGrid) {
   }
   EXPECT_TRUE(occupied) << "the wall at " << wall << " m";
   EXPECT_FALSE(isOccupied(grid.at(grid.window().cellAt({wall - 3.0, 0.0}))));
+  EXPECT_EQ(cameras.stereo_objects->header.frame_id, "base_link");
+  EXPECT_EQ(cameras.stereo_objects->views.size(), 1U);
 }
 
 }  // namespace

@@ -1,0 +1,116 @@
+#!/usr/bin/python3
+"""perception.launch and replay.launch in every combination of their switches: each nodelet is there
+once, with a type that the package (or a named one) has, and tracks what is published."""
+
+import functools
+import itertools
+import os
+import unittest
+from pathlib import Path
+from xml.etree import ElementTree
+
+import roslaunch.config
+
+PACKAGE = Path(__file__).resolve().parents[2]
+
+ALWAYS = {"grid_slam", "moving_objects", "tracker", "markers"}
+LOW_LEVEL = {"lidar_grid", "stereo_grid", "grid_fusion"}
+IMAGES = {"none": set(),
+          "rectified": {"stereo_image_proc", "stereo_points"},
+          "raw": {"stereo_image_proc", "stereo_points", "left_debayer", "left_rectify",
+                  "right_debayer", "right_rectify"}}
+
+
+def combinations():
+    """(low_level_fusion, object_fusion, stereo_images)"""
+    return itertools.product([False, True], [False, True], IMAGES)
+
+
+@functools.lru_cache(maxsize=None)
+def loaded(file, **arguments):
+    """The nodes of a launch file, by name, and its parameters, by key."""
+    words = [f"{key}:={str(value).lower()}" for key, value in arguments.items()]
+    config = roslaunch.config.load_config_default([(str(PACKAGE / "launch" / file), words)], None,
+                                                  verbose=False)
+    return ({node.name: node for node in config.nodes},
+            {key: parameter.value for key, parameter in config.params.items()})
+
+
+def nodelets(nodes):
+    """Their types, by name."""
+    return {name: node.args.split()[1] for name, node in nodes.items()
+            if node.args.startswith("load ")}
+
+
+def remapped(node, topic):
+    return dict(node.remap_args).get(topic, topic)
+
+
+class LaunchSwitches(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        others = os.environ.get("ROS_PACKAGE_PATH", "")
+        os.environ["ROS_PACKAGE_PATH"] = f"{PACKAGE}:{others}"
+
+    @staticmethod
+    def each(file, **more):
+        """(switches, nodes, parameters) of each combination"""
+        for low_level, objects, images in combinations():
+            switches = {"low_level_fusion": low_level, "object_fusion": objects,
+                        "stereo_images": images}
+            yield (switches, *loaded(file, **switches, **more))
+
+    def test_there_are_the_nodelets_of_the_switches(self):
+        for switches, nodes, _ in self.each("perception.launch"):
+            with self.subTest(**switches):
+                expected = ALWAYS | IMAGES[switches["stereo_images"]]
+                if switches["low_level_fusion"]:
+                    expected |= LOW_LEVEL | {"grid_views"}
+                if switches["object_fusion"]:
+                    expected |= {"stereo_objects", "object_fusion"}
+                self.assertEqual(set(nodelets(nodes)), expected)
+
+    def test_all_types_are_in_the_package(self):
+        classes = ElementTree.parse(PACKAGE / "nodelets.xml").getroot()
+        known = {each.get("name") for each in classes}
+        for switches, nodes, _ in self.each("perception.launch"):
+            with self.subTest(**switches):
+                kinds = nodelets(nodes).values()
+                ours = {kind for kind in kinds if kind.startswith("datmo_fusion/")}
+                self.assertLessEqual(ours, known)
+
+    def test_tracker_and_markers_take_what_is_published(self):
+        for switches, nodes, _ in self.each("perception.launch"):
+            with self.subTest(**switches):
+                source = "objects/fused" if switches["object_fusion"] else "objects"
+                self.assertEqual(remapped(nodes["tracker"], "objects"), source)
+                self.assertEqual(remapped(nodes["markers"], "objects"), source)
+                if switches["object_fusion"]:
+                    self.assertEqual(remapped(nodes["object_fusion"], "objects/lidar"), "objects")
+
+    def test_both_levels_take_the_same_points(self):
+        nodes, _ = loaded("perception.launch", low_level_fusion=True, object_fusion=True,
+                          points2="cloud", right_camera_info="info")
+        for name in ("stereo_grid", "stereo_objects"):
+            self.assertEqual(remapped(nodes[name], "points2"), "cloud")
+            self.assertEqual(remapped(nodes[name], "right/camera_info"), "info")
+
+    def test_another_system_may_publish_the_stereo_objects(self):
+        nodes, _ = loaded("perception.launch", object_fusion=True, stereo_objects=False)
+        self.assertEqual(set(nodelets(nodes)), ALWAYS | {"object_fusion"})
+
+    def test_there_is_a_thread_for_each_nodelet(self):
+        for switches, nodes, parameters in self.each("perception.launch"):
+            with self.subTest(**switches):
+                self.assertGreaterEqual(parameters["/perception/num_worker_threads"],
+                                        len(nodelets(nodes)))
+
+    def test_replay_passes_the_switches_on(self):
+        for switches, nodes, _ in self.each("replay.launch", bag="a.bag", rviz=False):
+            with self.subTest(**switches):
+                alone, _ = loaded("perception.launch", **switches)
+                self.assertEqual(nodelets(nodes), nodelets(alone))
+
+
+if __name__ == "__main__":
+    unittest.main()
