@@ -43,6 +43,21 @@ bool mayBeOfOneClass(const Object& a, const Object& b) {
          beliefOf(b).compatible(a.object_class);
 }
 
+/// What the scanner sees move is nothing that it knows to stand: both may be close together, a
+/// person beside a parked car, or an echo of the kerb below it.
+bool oneMovesOneStands(const Object& a, const Object& b) {
+  const auto state = std::minmax(a.dynamic_state, b.dynamic_state);
+  return state.first == DynamicState::kStatic && state.second == DynamicState::kMoving;
+}
+
+/// Not where one is known to move and the other to stand.
+bool mayMoveAlike(const Object& a, const Object& b) {
+  const auto known = [](const Object& object) {
+    return object.dynamic_state != DynamicState::kUnknown;
+  };
+  return a.dynamic_state == b.dynamic_state || !known(a) || !known(b);
+}
+
 /// By how much two objects differ along an axis, m, and what that is uncertain by besides the
 /// positions as a whole, m^2.
 struct Difference {
@@ -214,7 +229,7 @@ void ObjectAssociationOptions::visit(OptionVisitor& visitor) {
 }
 
 ObjectPairing pairing(const Object& a, const Object& b, const ObjectAssociationOptions& options) {
-  if (!mayBeOfOneClass(a, b)) {
+  if (!mayBeOfOneClass(a, b) || oneMovesOneStands(a, b)) {
     return {};
   }
   const CommonAxes axes(a, b, commonHeading(a, b));

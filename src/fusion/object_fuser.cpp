@@ -24,7 +24,9 @@ constexpr double kKnownClass = 0.5;
 
 /// One source's objects, brought to the reference.
 struct Intake {
-  std::vector<Object> objects;     ///< valid ones, from left to right in any order they came in
+  std::vector<Object> objects;  ///< valid ones, from left to right in any order they came in
+  std::vector<PlaceTestimony>
+      testimonies;                 ///< of the scan, of each object; the scanner's own: none
   Point2 sensor = Point2::Zero();  ///< m, from where it looks
   std::optional<Visibility> view;
 };
@@ -33,6 +35,8 @@ struct Intake {
 struct FusedObject {
   Object object;
   std::vector<bool> seen_by;
+  std::size_t scan_points = 0;  ///< the scanner's points on it
+  PlaceTestimony testimony;     ///< of the scan, about what another source sees of it
 };
 
 auto place(const Object& object) {
@@ -93,6 +97,13 @@ bool isPole(const Object& object) {
   return object.object_class == ObjectClass::kPole && object.class_probability > kKnownClass;
 }
 
+/// Unless it was seen to move.
+void takeForStanding(Object& object) {
+  if (object.dynamic_state == DynamicState::kUnknown) {
+    object.dynamic_state = DynamicState::kStatic;
+  }
+}
+
 }  // namespace
 
 void ObjectSourceOptions::visit(OptionVisitor& visitor) {
@@ -121,6 +132,10 @@ void ObjectFuserOptions::visit(OptionVisitor& visitor) {
   visitor.integer({"most_objects", "1",
                    "objects taken from one list, the nearest ones; bounds the time of a step"},
                   most_objects, {1, 10000});
+  visitor.number({"least_moving_share", "1",
+                  "an object moves if at least this share of the beams on what all sources see of "
+                  "it ends where the map is free; as moving_share of moving_objects"},
+                 least_moving_share, {0.0, 1.0});
   association.visit(visitor);
   visitor.group("visibility", [&] { visibility.visit(visitor); });
   visitor.group("witness", [&] { witness.visit(visitor); });
@@ -146,24 +161,24 @@ ObjectFuser::ObjectFuser(const ObjectFuserOptions& options) : options_(options) 
 /// One call of `fuse`.
 class ObjectFuser::Fusion {
  public:
-  Fusion(const ObjectFuserOptions& options, const std::vector<SourceObjects>& sources)
+  Fusion(const ObjectFuserOptions& options, const std::vector<SourceObjects>& sources,
+         const SplitScan* scan)
       : options_(options), sources_(sources) {
+    if (scan != nullptr) {
+      witness_.emplace(*scan, options_.witness);
+    }
     result_.list.stamp = sources.at(0).list.stamp;
     for (const SourceObjects& source : sources) {
       takeIn(source);
     }
   }
 
-  ObjectFusionResult run(const SplitScan* scan) {
+  ObjectFusionResult run() {
     for (std::size_t source = 0; source < intakes_.size(); ++source) {
       add(source);
     }
-    std::optional<ScanWitness> witness;
-    if (scan != nullptr) {
-      witness.emplace(*scan, options_.witness);
-    }
     for (FusedObject& fused : objects_) {
-      judge(fused, witness);
+      judge(fused);
       result_.list.objects.push_back(std::move(fused.object));
     }
     return std::move(result_);
@@ -187,15 +202,33 @@ class ObjectFuser::Fusion {
       }
       intake.objects.push_back(transformed(source.base_in_reference, object));
       intake.objects.back().delay += later;
+      if (source.source != options_.scanner) {
+        findStanding(intake.objects.back());
+      }
     }
     std::vector<SensorView> views = source.list.views;
     for (SensorView& view : views) {
       view.field.sensor_in_base = source.base_in_reference * view.field.sensor_in_base;
     }
+    for (Object& object : intake.objects) {
+      intake.testimonies.push_back(source.source == options_.scanner ? PlaceTestimony()
+                                                                     : testimonyOf(object));
+    }
     intake.sensor = source.base_in_reference * sensor;
     intake.view = viewOf(views, intake.objects, options_.visibility);
     intakes_.push_back(std::move(intake));
     result_.list.views.insert(result_.list.views.end(), views.begin(), views.end());
+  }
+
+  /// What the scan says of an object of another source; by it, the object may stand still.
+  PlaceTestimony testimonyOf(Object& object) const {
+    const double moved = options_.association.object_speed * std::abs(object.delay);
+    const PlaceTestimony testimony =
+        witness_ ? witness_->testimony(object, moved) : PlaceTestimony();
+    if (witness_ && witness_->standsStill(testimony)) {
+      takeForStanding(object);
+    }
+    return testimony;
   }
 
   /// Joins a source's objects with what there is.
@@ -212,8 +245,8 @@ class ObjectFuser::Fusion {
     const double seen_too = std::log(own.detection_probability / own.coincidence);
     for (std::size_t i = 0; i < matches.size(); ++i) {
       if (matches[i] == kUnassigned) {
-        objects_.push_back({intake.objects[i], std::vector<bool>(sources_.size(), false)});
-        objects_.back().seen_by[source] = true;
+        objects_.push_back({intake.objects[i], std::vector<bool>(sources_.size(), false), 0, {}});
+        note(source, i, objects_.back());
         continue;
       }
       FusedObject& fused = objects_[static_cast<std::size_t>(matches[i])];
@@ -221,48 +254,78 @@ class ObjectFuser::Fusion {
       result_.counts.fused += first_pair ? 1 : 0;
       fused.object = combined(fused.object, intake.objects[i]);
       fused.object.log_odds += std::max(0.0, seen_too);
-      fused.seen_by[source] = true;
+      note(source, i, fused);
+    }
+  }
+
+  /// One more source sees an object, as its object of this index.
+  void note(std::size_t source, std::size_t index, FusedObject& fused) const {
+    const Intake& intake = intakes_[source];
+    fused.seen_by[source] = true;
+    if (sources_[source].source == options_.scanner) {
+      fused.scan_points = intake.objects[index].points.size();
+    } else if (intake.testimonies[index].beams > fused.testimony.beams) {
+      fused.testimony = intake.testimonies[index];
+    }
+  }
+
+  /// Of what another source sees, the scanner may see move just what is before or beside it: as
+  /// much of it moves as is its share of the beams that look there and are not hidden.
+  void weighMotion(FusedObject& fused) const {
+    Object& object = fused.object;
+    const double others = fused.testimony.beamsElsewhere();
+    if (fused.scan_points == 0 || others <= 0.0) {
+      return;
+    }
+    const auto own = static_cast<double>(fused.scan_points);
+    object.moving_fraction *= own / (own + others);
+    if (object.dynamic_state == DynamicState::kMoving &&
+        object.moving_fraction < options_.least_moving_share) {
+      object.dynamic_state = DynamicState::kUnknown;
+    }
+  }
+
+  bool isScanner(std::size_t source) const {
+    return witness_ && sources_[source].source == options_.scanner;
+  }
+
+  PlaceTestimony testimonyOf(const Object& object) const {
+    return witness_->testimony(object, options_.association.object_speed * std::abs(object.delay));
+  }
+
+  /// What says of itself neither that it moves nor that it stands.
+  void findStanding(Object& object) const {
+    if (object.dynamic_state == DynamicState::kUnknown &&
+        (isPole(object) || (witness_ && witness_->standsStill(testimonyOf(object))))) {
+      object.dynamic_state = DynamicState::kStatic;
     }
   }
 
   /// What those say of an object that do not see it.
-  void judge(FusedObject& fused, const std::optional<ScanWitness>& witness) const {
+  void judge(FusedObject& fused) const {
     Object& object = fused.object;
     for (std::size_t source = 0; source < sources_.size(); ++source) {
       if (fused.seen_by[source]) {
         continue;
       }
       const double detection = optionsOf(source).detection_probability;
-      if (witness && sources_[source].source == options_.scanner) {
-        hear(*witness, detection, object);
+      if (isScanner(source)) {
+        const PlaceTestimony testimony = testimonyOf(object);
+        const double met = std::min(1.0, testimony.beams) * testimony.through_share;
+        object.log_odds += std::log1p(-detection * met);
       } else if (intakes_[source].view) {
         const double visible =
             intakes_[source].view->detectionProbability(object.box, positionStd(object));
         object.log_odds += std::log1p(-detection * visible);
       }
     }
-    if (isPole(object) && object.dynamic_state == DynamicState::kUnknown) {
-      object.dynamic_state = DynamicState::kStatic;
-    }
     object.log_odds = std::clamp(object.log_odds, -kMostLogOdds, kMostLogOdds);
-  }
-
-  /// The scan's testimony of an object that the scanner does not list.
-  void hear(const ScanWitness& witness, double detection, Object& object) const {
-    const double moved = options_.association.object_speed * std::abs(object.delay);
-    const PlaceTestimony testimony = witness.testimony(object, moved);
-    if (witness.standsStill(testimony)) {
-      if (object.dynamic_state == DynamicState::kUnknown) {
-        object.dynamic_state = DynamicState::kStatic;
-      }
-      return;
-    }
-    const double met = std::min(1.0, testimony.beams) * testimony.through_share;
-    object.log_odds += std::log1p(-detection * met);
   }
 
   const ObjectFuserOptions& options_;
   const std::vector<SourceObjects>& sources_;
+  std::optional<ScanWitness> witness_;
+  std::optional<ScanWitness> witness_;
   std::vector<Intake> intakes_;
   std::vector<FusedObject> objects_;
   ObjectFusionResult result_;
@@ -270,7 +333,7 @@ class ObjectFuser::Fusion {
 
 ObjectFusionResult ObjectFuser::fuse(const std::vector<SourceObjects>& sources,
                                      const SplitScan* scan) const {
-  return Fusion(options_, sources).run(scan);
+  return Fusion(options_, sources, scan).run();
 }
 
 }  // namespace datmo

@@ -29,6 +29,7 @@ struct ObjectFuserOptions {
   std::map<std::string, ObjectSourceOptions> sources;  ///< by name; at first lidar and stereo
   std::string scanner = "lidar";                       ///< name of a source
   int most_objects = 500;
+  double least_moving_share = 0.3;  ///< 0 to 1
   ObjectAssociationOptions association;
   VisibilityOptions visibility;
   ScanWitnessOptions witness;
@@ -70,8 +71,9 @@ struct ObjectFusionResult {
 /// That it is an object at all: seen by one more source, the log-odds rise by
 /// log(detection_probability / coincidence); not seen by one that looked there (its view, with what
 /// it saw as occluders; of the scanner the scan) they fall by log(1 - p), p being that it would
-/// have been seen. Where beams end on static points in the place of an object that the scanner does
-/// not list, it stands still; so does a pole, unless it was seen to move.
+/// have been seen. Where beams end on static points in the place of an object of another source, it
+/// stands still: known before the association, so that it is not joined with what moves beside it.
+/// So does a pole, unless it was seen to move.
 ///
 /// Neither the order of a list's objects nor anything before matters. No state.
 class ObjectFuser {

@@ -24,6 +24,9 @@ struct PlaceTestimony {
   double static_share = 0.0;   ///< end there on what the map knows as static
   double through_share = 0.0;  ///< pass through all of the place
   double beams = 0.0;          ///< expected on an object of this width, at least 0
+
+  /// How many of them do not end on something that may move there.
+  double beamsElsewhere() const { return beams * (static_share + through_share); }
 };
 
 /// What a planar scan that was split by the map says of objects that the scanner's list does not
