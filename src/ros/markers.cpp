@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "class_shapes.h"
 #include "marker_parts.h"
 
 #include "datmo_fusion/common/pose2.h"
@@ -26,23 +27,9 @@ std_msgs::ColorRGBA colourOfPoint(std::uint8_t state) {
   }
 }
 
-std_msgs::ColorRGBA colourOfObject(std::uint8_t dynamic_state) {
-  return dynamic_state == ObjectMessage::STATE_MOVING ? colour(1.0F, 0.6F, 0.0F)
-                                                      : colour(0.6F, 0.6F, 0.6F);
-}
-
-/// A rectangle on the ground, about `pose`.
-Marker outline(const std_msgs::Header& header, const std::string& name,
-               const geometry_msgs::Pose& pose, const geometry_msgs::Vector3& size,
-               const MarkersOptions& options) {
-  Marker marker = makeMarker(header, name, Marker::LINE_STRIP);
-  marker.pose = pose;
-  marker.scale.x = options.line_width;
-  const double x = 0.5 * std::max(size.x, options.least_size);
-  const double y = 0.5 * std::max(size.y, options.least_size);
-  marker.points = {pointAt(x, y), pointAt(-x, y), pointAt(-x, -y), pointAt(x, -y), pointAt(x, y)};
-  return marker;
-}
+/// Opacity of the outline of what is not seen to move, and of bodies.
+constexpr float kPale = 0.4F;
+constexpr float kBody = 0.3F;
 
 }  // namespace
 
@@ -81,11 +68,26 @@ MarkerArray markersOf(const SplitScanMessage& scan, const MarkersOptions& option
 
 MarkerArray markersOf(const ObjectArray& objects, const MarkersOptions& options) {
   MarkerArray markers;
-  for (const ObjectMessage& object : objects.objects) {
-    Marker marker = outline(objects.header, "objects", object.pose, object.size, options);
-    marker.id = static_cast<int>(markers.markers.size());
-    marker.color = colourOfObject(object.dynamic_state);
+  int id = 0;
+  const auto add = [&](Marker marker, const std_msgs::ColorRGBA& paint) {
+    marker.id = id;
+    marker.color = paint;
     markers.markers.push_back(marker);
+  };
+  for (const ObjectMessage& object : objects.objects) {
+    const bool moves = object.dynamic_state == ObjectMessage::STATE_MOVING;
+    add(outlineOf(objects.header, "objects", object.pose, object.size, options),
+        colourOfSensors(object.sensors, moves ? 1.0F : kPale));
+    const ObjectClass object_class = classFromMessage(object.classification);
+    if (object_class != ObjectClass::kUnknown) {
+      const ClassShape shape =
+          shapeOf(objects.header, "object", object_class, object.pose, object.size, options);
+      add(shape.body, colourOfSensors(object.sensors, kBody));
+      if (shape.head) {
+        add(*shape.head, colourOfSensors(object.sensors, kBody));
+      }
+    }
+    ++id;
   }
   return markers;
 }
@@ -94,7 +96,7 @@ MarkerArray markersOf(const TrueObjectArray& objects, const MarkersOptions& opti
   MarkerArray markers;
   for (const TrueObject& object : objects.objects) {
     if (object.moving) {
-      Marker marker = outline(objects.header, "ground truth", object.pose, object.size, options);
+      Marker marker = outlineOf(objects.header, "ground truth", object.pose, object.size, options);
       marker.id = static_cast<int>(object.id);
       marker.color = colour(0.1F, 0.8F, 0.2F);
       markers.markers.push_back(marker);

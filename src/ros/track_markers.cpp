@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <string>
 
+#include "class_shapes.h"
 #include "marker_parts.h"
 #include <Eigen/Eigenvalues>
 
@@ -47,17 +48,6 @@ double heightOf(const TrackMessage& track, const MarkersOptions& options) {
   return track.size.z > 0.0 ? track.size.z : options.default_height;
 }
 
-Marker boxOf(const std_msgs::Header& header, const TrackMessage& track,
-             const MarkersOptions& options) {
-  Marker marker = makeMarker(header, "track boxes", Marker::CUBE);
-  marker.pose = track.pose;
-  marker.scale.x = std::max(track.size.x, options.least_size);
-  marker.scale.y = std::max(track.size.y, options.least_size);
-  marker.scale.z = heightOf(track, options);
-  marker.pose.position.z = 0.5 * marker.scale.z;
-  return marker;
-}
-
 Marker arrowOf(const std_msgs::Header& header, const TrackMessage& track,
                const MarkersOptions& options) {
   Marker marker = makeMarker(header, "track velocities", Marker::ARROW);
@@ -71,7 +61,7 @@ Marker arrowOf(const std_msgs::Header& header, const TrackMessage& track,
   return marker;
 }
 
-/// "#id class speed", the class only where it is known.
+/// "#id class speed sensors", the class only where it is known.
 std::string textOf(const TrackMessage& track) {
   const ObjectClass object_class = classFromMessage(track.classification);
   const std::string known =
@@ -79,7 +69,7 @@ std::string textOf(const TrackMessage& track) {
   std::array<char, 32> speed{};
   std::snprintf(speed.data(), speed.size(), " %.1f m/s",
                 std::hypot(track.velocity.x, track.velocity.y));
-  return "#" + std::to_string(track.id) + known + speed.data();
+  return "#" + std::to_string(track.id) + known + speed.data() + " " + namesOf(track.sensors);
 }
 
 Marker labelOf(const std_msgs::Header& header, const TrackMessage& track,
@@ -133,6 +123,22 @@ void add(Marker marker, const TrackMessage& track, float opacity, MarkerArray& m
   markers.markers.push_back(marker);
 }
 
+/// The class as a shape, and on the ground who saw it.
+void addBody(const std_msgs::Header& header, const TrackMessage& track, float opacity,
+             const MarkersOptions& options, MarkerArray& markers) {
+  const ObjectClass object_class = classFromMessage(track.classification);
+  const ClassShape shape = shapeOf(header, "track", object_class, track.pose, track.size, options);
+  add(shape.body, track, opacity, markers);
+  if (shape.head) {
+    add(*shape.head, track, opacity, markers);
+  }
+  Marker outline = outlineOf(header, "track sensors", track.pose, track.size, options);
+  outline.id = static_cast<int>(track.id);
+  outline.pose.position.z = kEllipseHeight;
+  outline.color = colourOfSensors(track.sensors, 1.0F);
+  markers.markers.push_back(outline);
+}
+
 }  // namespace
 
 MarkerArray markersOf(const TrackArray& tracks, const MarkersOptions& options) {
@@ -140,7 +146,7 @@ MarkerArray markersOf(const TrackArray& tracks, const MarkersOptions& options) {
   const std_msgs::Header& header = tracks.header;
   for (const TrackMessage& track : tracks.tracks) {
     const float body = kFaint + (kSolid - kFaint) * track.existence_probability;
-    add(boxOf(header, track, options), track, body, markers);
+    addBody(header, track, body, options, markers);
     add(arrowOf(header, track, options), track, 1.0F, markers);
     add(labelOf(header, track, options), track, 1.0F, markers);
     add(ellipseOf(header, track, options), track, kEllipseOpacity, markers);

@@ -31,15 +31,19 @@ struct MarkersOptions {
 visualization_msgs::MarkerArray markersOf(const SplitScanMessage& scan,
                                           const MarkersOptions& options);
 
-/// Outlines of the objects' boxes ("objects"), coloured by dynamic state.
+/// Outlines of the objects' boxes ("objects"), coloured by who saw them: violet the lidar, cyan
+/// stereo, yellow both, grey others; pale what is not seen to move. Of a known class also its shape
+/// ("object bodies", "object heads"): a box for a vehicle, a cylinder with a head for a pedestrian,
+/// a narrow box with a head for a cyclist, a thin cylinder for a pole.
 visualization_msgs::MarkerArray markersOf(const ObjectArray& objects,
                                           const MarkersOptions& options);
 
-/// For each track, in namespaces of their own: a box ("track boxes"), the fainter the less likely
-/// the track exists; an arrow as long as the way of `arrow_time` ("track velocities"); "#id class
-/// speed"
-/// ("track labels"); the ellipse on the ground that holds the true position with 95 % ("track
-/// covariances"); the way it came ("track paths").
+/// For each track, in namespaces of their own: the shape of its class ("track bodies", "track
+/// heads"), a box where that is not known, the fainter the less likely the track exists; its
+/// outline on the ground in the colour of who saw it last ("track sensors"); an arrow as long as
+/// the way of `arrow_time` ("track velocities"); "#id class speed sensors" ("track labels"); the
+/// ellipse on the ground that holds the true position with 95 % ("track covariances"); the way it
+/// came ("track paths").
 visualization_msgs::MarkerArray markersOf(const TrackArray& tracks, const MarkersOptions& options);
 
 /// Outlines of the true objects that move ("ground truth").

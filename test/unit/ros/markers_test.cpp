@@ -22,6 +22,7 @@ TrackMessage makeTrack(std::uint32_t id) {
   track.velocity.x = 3.0;
   track.velocity.y = 4.0;
   track.moving = true;
+  track.sensors = {"lidar", "stereo"};
   return track;
 }
 
@@ -42,7 +43,7 @@ TEST(Markers, TrackHasBoxArrowAndLabel) {
   options.arrow_time = 2.0;
   const MarkerArray markers = markersOf(tracks, options);
 
-  const Marker* box = find(markers, "track boxes", 7);
+  const Marker* box = find(markers, "track bodies", 7);
   ASSERT_NE(box, nullptr);
   EXPECT_EQ(box->header.frame_id, "map");
   EXPECT_DOUBLE_EQ(box->scale.x, 4.0);
@@ -56,7 +57,7 @@ TEST(Markers, TrackHasBoxArrowAndLabel) {
 
   const Marker* label = find(markers, "track labels", 7);
   ASSERT_NE(label, nullptr);
-  EXPECT_EQ(label->text, "#7 5.0 m/s");
+  EXPECT_EQ(label->text, "#7 5.0 m/s lidar+stereo");
 }
 
 TEST(Markers, LabelNamesAKnownClass) {
@@ -64,7 +65,77 @@ TEST(Markers, LabelNamesAKnownClass) {
   tracks.tracks = {makeTrack(7)};
   tracks.tracks[0].classification = ObjectMessage::CLASS_VEHICLE;
   const MarkerArray markers = markersOf(tracks, MarkersOptions());
-  EXPECT_EQ(find(markers, "track labels", 7)->text, "#7 vehicle 5.0 m/s");
+  EXPECT_EQ(find(markers, "track labels", 7)->text, "#7 vehicle 5.0 m/s lidar+stereo");
+}
+
+MarkerArray tracksOfClass(std::uint8_t classification) {
+  TrackArray tracks;
+  tracks.tracks = {makeTrack(7)};
+  tracks.tracks[0].classification = classification;
+  tracks.tracks[0].size.z = 1.8;
+  return markersOf(tracks, MarkersOptions());
+}
+
+TEST(Markers, ClassesAreShapes) {
+  const auto body = [](std::uint8_t classification) {
+    return *find(tracksOfClass(classification), "track bodies", 7);
+  };
+  EXPECT_EQ(body(ObjectMessage::CLASS_UNKNOWN).type, Marker::CUBE);
+  EXPECT_EQ(body(ObjectMessage::CLASS_VEHICLE).type, Marker::CUBE);
+  EXPECT_EQ(body(ObjectMessage::CLASS_PEDESTRIAN).type, Marker::CYLINDER);
+  EXPECT_EQ(body(ObjectMessage::CLASS_CYCLIST).type, Marker::CUBE);
+  EXPECT_EQ(body(ObjectMessage::CLASS_POLE).type, Marker::CYLINDER);
+  EXPECT_LT(body(ObjectMessage::CLASS_POLE).scale.x, body(ObjectMessage::CLASS_PEDESTRIAN).scale.x);
+  EXPECT_LT(body(ObjectMessage::CLASS_CYCLIST).scale.y, body(ObjectMessage::CLASS_VEHICLE).scale.y);
+}
+
+TEST(Markers, PeopleHaveHeadsAndAreAsTallAsTheyAre) {
+  for (const std::uint8_t person :
+       {ObjectMessage::CLASS_PEDESTRIAN, ObjectMessage::CLASS_CYCLIST}) {
+    const MarkerArray markers = tracksOfClass(person);
+    const Marker* body = find(markers, "track bodies", 7);
+    const Marker* head = find(markers, "track heads", 7);
+    ASSERT_NE(head, nullptr);
+    EXPECT_EQ(head->type, Marker::SPHERE);
+    EXPECT_NEAR(head->pose.position.z + 0.5 * head->scale.z, 1.8, 1e-9);
+    EXPECT_NEAR(head->pose.position.z - 0.5 * head->scale.z, body->scale.z, 1e-9);
+    EXPECT_NEAR(body->pose.position.z, 0.5 * body->scale.z, 1e-9) << "it stands on the ground";
+  }
+  EXPECT_EQ(find(tracksOfClass(ObjectMessage::CLASS_VEHICLE), "track heads", 7), nullptr);
+}
+
+TEST(Markers, OutlinesTellWhoSawIt) {
+  const auto colourOf = [](const std::vector<std::string>& sensors) {
+    TrackArray tracks;
+    tracks.tracks = {makeTrack(7)};
+    tracks.tracks[0].sensors = sensors;
+    ObjectArray objects;
+    objects.objects.resize(1);
+    objects.objects[0].sensors = sensors;
+    objects.objects[0].dynamic_state = ObjectMessage::STATE_MOVING;
+    const Marker track = *find(markersOf(tracks, MarkersOptions()), "track sensors", 7);
+    EXPECT_EQ(track.color, find(markersOf(objects, MarkersOptions()), "objects", 0)->color);
+    return track.color;
+  };
+  const auto lidar = colourOf({"lidar"});
+  const auto stereo = colourOf({"stereo"});
+  const auto both = colourOf({"lidar", "stereo"});
+  EXPECT_NE(lidar, stereo);
+  EXPECT_NE(lidar, both);
+  EXPECT_NE(stereo, both);
+  EXPECT_NE(colourOf({"radar"}), lidar);
+}
+
+TEST(Markers, ObjectsThatAreNotSeenToMoveArePaleAndShowTheClassTheyHave) {
+  ObjectArray objects;
+  objects.objects.resize(2);
+  objects.objects[1].dynamic_state = ObjectMessage::STATE_MOVING;
+  objects.objects[1].classification = ObjectMessage::CLASS_PEDESTRIAN;
+  const MarkerArray markers = markersOf(objects, MarkersOptions());
+  EXPECT_LT(find(markers, "objects", 0)->color.a, find(markers, "objects", 1)->color.a);
+  EXPECT_EQ(find(markers, "object bodies", 0), nullptr);
+  EXPECT_NE(find(markers, "object bodies", 1), nullptr);
+  EXPECT_NE(find(markers, "object heads", 1), nullptr);
 }
 
 TEST(Markers, EllipseHoldsThePositionWith95Percent) {
@@ -112,8 +183,8 @@ TEST(Markers, ABoxIsTheFainterTheLessLikelyItExists) {
   tracks.tracks[0].existence_probability = 0.2F;
   tracks.tracks[1].existence_probability = 1.0F;
   const MarkerArray markers = markersOf(tracks, MarkersOptions());
-  EXPECT_LT(find(markers, "track boxes", 7)->color.a, find(markers, "track boxes", 8)->color.a);
-  EXPECT_GT(find(markers, "track boxes", 7)->color.a, 0.0F);
+  EXPECT_LT(find(markers, "track bodies", 7)->color.a, find(markers, "track bodies", 8)->color.a);
+  EXPECT_GT(find(markers, "track bodies", 7)->color.a, 0.0F);
   EXPECT_FLOAT_EQ(find(markers, "track labels", 7)->color.a, 1.0F);
 }
 

@@ -1,0 +1,103 @@
+#include "class_shapes.h"
+
+#include <algorithm>
+
+#include "marker_parts.h"
+
+namespace datmo {
+
+namespace {
+
+using visualization_msgs::Marker;
+
+/// Share of a person's height, and of a cyclist's, that is the head.
+constexpr double kHeadShare = 0.2;
+
+/// m; what is drawn thin.
+constexpr double kThin = 0.2;
+
+/// Upright, from the ground on.
+Marker standing(const std_msgs::Header& header, const std::string& name, int type,
+                const geometry_msgs::Pose& pose, const geometry_msgs::Vector3& size) {
+  Marker marker = makeMarker(header, name + " bodies", type);
+  marker.pose = pose;
+  marker.pose.position.z = 0.5 * size.z;
+  marker.scale = size;
+  return marker;
+}
+
+Marker headOn(const Marker& body, const std::string& name, double diameter) {
+  Marker head = makeMarker(body.header, name + " heads", Marker::SPHERE);
+  head.pose = body.pose;
+  head.pose.position.z = body.scale.z + 0.5 * diameter;
+  head.scale.x = diameter;
+  head.scale.y = diameter;
+  head.scale.z = diameter;
+  return head;
+}
+
+}  // namespace
+
+ClassShape shapeOf(const std_msgs::Header& header, const std::string& name,
+                   ObjectClass object_class, const geometry_msgs::Pose& pose,
+                   const geometry_msgs::Vector3& size, const MarkersOptions& options) {
+  geometry_msgs::Vector3 whole;
+  whole.x = std::max(size.x, options.least_size);
+  whole.y = std::max(size.y, options.least_size);
+  whole.z = size.z > 0.0 ? size.z : options.default_height;
+  const double diameter = kHeadShare * whole.z;
+  geometry_msgs::Vector3 below_head = whole;
+  below_head.z -= diameter;
+  switch (object_class) {
+    case ObjectClass::kPedestrian: {
+      const Marker body = standing(header, name, Marker::CYLINDER, pose, below_head);
+      return {body, headOn(body, name, diameter)};
+    }
+    case ObjectClass::kCyclist: {
+      below_head.y = kThin;
+      const Marker body = standing(header, name, Marker::CUBE, pose, below_head);
+      return {body, headOn(body, name, diameter)};
+    }
+    case ObjectClass::kPole:
+      whole.x = kThin;
+      whole.y = kThin;
+      return {standing(header, name, Marker::CYLINDER, pose, whole), std::nullopt};
+    case ObjectClass::kVehicle:
+    case ObjectClass::kUnknown:
+      break;
+  }
+  return {standing(header, name, Marker::CUBE, pose, whole), std::nullopt};
+}
+
+std_msgs::ColorRGBA colourOfSensors(const std::vector<std::string>& sensors, float opacity) {
+  if (sensors.size() > 1) {
+    return colour(1.0F, 0.9F, 0.1F, opacity);
+  }
+  const std::string name = sensors.empty() ? "" : sensors.front();
+  if (name == "lidar") {
+    return colour(0.7F, 0.4F, 1.0F, opacity);
+  }
+  return name == "stereo" ? colour(0.1F, 0.9F, 0.9F, opacity) : colour(0.6F, 0.6F, 0.6F, opacity);
+}
+
+std::string namesOf(const std::vector<std::string>& sensors) {
+  std::string names;
+  for (const std::string& sensor : sensors) {
+    names += (names.empty() ? "" : "+") + sensor;
+  }
+  return names;
+}
+
+Marker outlineOf(const std_msgs::Header& header, const std::string& name,
+                 const geometry_msgs::Pose& pose, const geometry_msgs::Vector3& size,
+                 const MarkersOptions& options) {
+  Marker marker = makeMarker(header, name, Marker::LINE_STRIP);
+  marker.pose = pose;
+  marker.scale.x = options.line_width;
+  const double x = 0.5 * std::max(size.x, options.least_size);
+  const double y = 0.5 * std::max(size.y, options.least_size);
+  marker.points = {pointAt(x, y), pointAt(-x, y), pointAt(-x, -y), pointAt(x, -y), pointAt(x, y)};
+  return marker;
+}
+
+}  // namespace datmo
