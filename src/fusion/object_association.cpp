@@ -50,14 +50,6 @@ bool oneMovesOneStands(const Object& a, const Object& b) {
   return state.first == DynamicState::kStatic && state.second == DynamicState::kMoving;
 }
 
-/// Not where one is known to move and the other to stand.
-bool mayMoveAlike(const Object& a, const Object& b) {
-  const auto known = [](const Object& object) {
-    return object.dynamic_state != DynamicState::kUnknown;
-  };
-  return a.dynamic_state == b.dynamic_state || !known(a) || !known(b);
-}
-
 /// By how much two objects differ along an axis, m, and what that is uncertain by besides the
 /// positions as a whole, m^2.
 struct Difference {

@@ -202,9 +202,6 @@ class ObjectFuser::Fusion {
       }
       intake.objects.push_back(transformed(source.base_in_reference, object));
       intake.objects.back().delay += later;
-      if (source.source != options_.scanner) {
-        findStanding(intake.objects.back());
-      }
     }
     std::vector<SensorView> views = source.list.views;
     for (SensorView& view : views) {
@@ -285,33 +282,17 @@ class ObjectFuser::Fusion {
     }
   }
 
-  bool isScanner(std::size_t source) const {
-    return witness_ && sources_[source].source == options_.scanner;
-  }
-
-  PlaceTestimony testimonyOf(const Object& object) const {
-    return witness_->testimony(object, options_.association.object_speed * std::abs(object.delay));
-  }
-
-  /// What says of itself neither that it moves nor that it stands.
-  void findStanding(Object& object) const {
-    if (object.dynamic_state == DynamicState::kUnknown &&
-        (isPole(object) || (witness_ && witness_->standsStill(testimonyOf(object))))) {
-      object.dynamic_state = DynamicState::kStatic;
-    }
-  }
-
   /// What those say of an object that do not see it.
   void judge(FusedObject& fused) const {
+    weighMotion(fused);
     Object& object = fused.object;
     for (std::size_t source = 0; source < sources_.size(); ++source) {
       if (fused.seen_by[source]) {
         continue;
       }
       const double detection = optionsOf(source).detection_probability;
-      if (isScanner(source)) {
-        const PlaceTestimony testimony = testimonyOf(object);
-        const double met = std::min(1.0, testimony.beams) * testimony.through_share;
+      if (witness_ && sources_[source].source == options_.scanner) {
+        const double met = std::min(1.0, fused.testimony.beams) * fused.testimony.through_share;
         object.log_odds += std::log1p(-detection * met);
       } else if (intakes_[source].view) {
         const double visible =
@@ -319,12 +300,14 @@ class ObjectFuser::Fusion {
         object.log_odds += std::log1p(-detection * visible);
       }
     }
+    if (isPole(object)) {
+      takeForStanding(object);
+    }
     object.log_odds = std::clamp(object.log_odds, -kMostLogOdds, kMostLogOdds);
   }
 
   const ObjectFuserOptions& options_;
   const std::vector<SourceObjects>& sources_;
-  std::optional<ScanWitness> witness_;
   std::optional<ScanWitness> witness_;
   std::vector<Intake> intakes_;
   std::vector<FusedObject> objects_;
