@@ -10,9 +10,9 @@ namespace datmo {
 
 namespace {
 
-/// m; anything else is as likely of any size up to these.
-constexpr double kMostHeight = 5.0;
-constexpr double kMostAcross = 12.0;
+/// m, mean sizes of anything else, of which nothing more is known: buildings, hedges, bushes.
+constexpr double kMeanHeight = 5.0;
+constexpr double kMeanAcross = 10.0;
 
 /// Directions from which a kind is looked at, over a quarter turn: none is likelier.
 constexpr int kAspects = 8;
@@ -43,9 +43,10 @@ double likelihood(const SeenSize& seen, const KindSize& kind) {
   return by_height * by_across;
 }
 
-/// Of a size that may be anything from 0 to `most`.
-double likelihoodOfAny(double seen, double most, bool more) {
-  return more ? std::max(0.0, 1.0 - seen / most) : 1.0 / most;
+/// Of a size of which only the mean is known: the distribution that assumes nothing more.
+double likelihoodOfAny(double seen, double mean, bool more) {
+  const double tail = std::exp(-seen / mean);
+  return more ? tail : tail / mean;
 }
 
 }  // namespace
@@ -90,8 +91,8 @@ ClassProbabilities ObjectClassifier::probabilities(const SeenSize& seen) const {
   add(ObjectClass::kVehicle, options_.truck);
   add(ObjectClass::kPole, options_.pole);
   result[static_cast<std::size_t>(ObjectClass::kUnknown)] =
-      options_.else_share * likelihoodOfAny(seen.height, kMostHeight, seen.higher) *
-      likelihoodOfAny(seen.across, kMostAcross, seen.wider);
+      options_.else_share * likelihoodOfAny(seen.height, kMeanHeight, seen.higher) *
+      likelihoodOfAny(seen.across, kMeanAcross, seen.wider);
   const double sum = std::accumulate(result.begin(), result.end(), 0.0);
   if (!(sum > 0.0)) {
     result.fill(0.0);
