@@ -12,10 +12,19 @@ namespace {
 
 /// m, mean sizes of anything else, of which nothing more is known: buildings, hedges, bushes.
 constexpr double kMeanHeight = 5.0;
-constexpr double kMeanAcross = 10.0;
+constexpr double kMeanExtent = 10.0;
 
-/// Directions from which a kind is looked at, over a quarter turn: none is likelier.
+/// Directions from which a kind may be looked at, over a quarter turn from straight ahead.
 constexpr int kAspects = 8;
+
+/// m; a side that is seen narrower than this tells nothing of how far it reaches in depth.
+constexpr double kLeastFace = 0.1;
+
+/// rad; what keeps to a lane beside the sensor's is seen from ahead or behind, up to so much aside.
+constexpr double kAhead = degrees(20.0);
+
+/// Share of the extents of which only a part is seen.
+constexpr double kPartShare = 0.2;
 
 double square(double value) { return value * value; }
 
@@ -26,21 +35,45 @@ double likelihood(double seen, double mean, double variance, bool more) {
               : std::exp(-0.5 * square(ratio)) / std::sqrt(2.0 * kPi * variance);
 }
 
-double likelihood(const SeenSize& seen, const KindSize& kind) {
+/// The same of an extent of which nothing but a part may have been seen: sides without texture, or
+/// at a flat angle.
+double likelihoodOfExtent(double seen, double mean, double variance, bool more) {
+  const double whole = likelihood(seen, mean, variance, more);
+  const double sigma = std::sqrt(variance);
+  const double reaches = 0.5 * std::erfc((seen - mean) / (sigma * std::sqrt(2.0)));
+  const double part = more ? reaches : reaches / std::max(mean, sigma);
+  return (1.0 - kPartShare) * whole + kPartShare * part;
+}
+
+/// Of a box of a kind, turned by `aspect` (rad, 0 to a quarter turn) from where its front or rear
+/// faces the sensor: what is seen of it across the line of sight, and in depth of the sides that
+/// are seen.
+double likelihoodAt(double aspect, const SeenSize& seen, const KindSize& kind) {
+  const double s = std::sin(aspect);
+  const double c = std::cos(aspect);
+  const double across_variance =
+      square(kind.length_sigma * s) + square(kind.width_sigma * c) + square(seen.across_sigma);
+  const double least = std::max(kLeastFace, 2.0 * seen.across_sigma);
+  const bool side_seen = kind.length * s > least;
+  const bool end_seen = kind.width * c > least;
+  const double along = std::max(side_seen ? kind.length * c : 0.0, end_seen ? kind.width * s : 0.0);
+  const double along_variance =
+      square(side_seen ? kind.length_sigma * c : kind.width_sigma) + square(seen.along_sigma);
+  return likelihoodOfExtent(seen.across, kind.length * s + kind.width * c, across_variance,
+                            seen.wider) *
+         likelihoodOfExtent(seen.along, along, along_variance, seen.wider);
+}
+
+double likelihood(const SeenSize& seen, const KindSize& kind, double ahead_share) {
   const double by_height = likelihood(
       seen.height, kind.height, square(kind.height_sigma) + square(seen.height_sigma), seen.higher);
-  double by_across = 0.0;
+  double by_extent = 0.0;
   for (int i = 0; i < kAspects; ++i) {
-    const double aspect = (i + 0.5) / kAspects * kQuarterTurn;
-    const double s = std::sin(aspect);
-    const double c = std::cos(aspect);
-    by_across += likelihood(seen.across, kind.length * s + kind.width * c,
-                            square(kind.length_sigma * s) + square(kind.width_sigma * c) +
-                                square(seen.across_sigma),
-                            seen.wider) /
-                 kAspects;
+    const double part = static_cast<double>(i) / (kAspects - 1);
+    by_extent += ahead_share / kAspects * likelihoodAt(part * kAhead, seen, kind) +
+                 (1.0 - ahead_share) / kAspects * likelihoodAt(part * kQuarterTurn, seen, kind);
   }
-  return by_height * by_across;
+  return by_height * by_extent;
 }
 
 /// Of a size of which only the mean is known: the distribution that assumes nothing more.
@@ -69,10 +102,12 @@ void ObjectClassifierOptions::visit(OptionVisitor& visitor) {
   visitor.group("van", [&] { van.visit(visitor); });
   visitor.group("truck", [&] { truck.visit(visitor); });
   visitor.group("pole", [&] { pole.visit(visitor); });
+  visitor.number({"ahead_share", "1",
+                  "share of the road users that are seen from straight ahead or behind: they keep "
+                  "to lanes; the others from anywhere"},
+                 ahead_share, {0.0, 1.0});
   visitor.number({"else_share", "1", "how many other things there are, relative to these kinds"},
                  else_share, {0.001, 1000.0});
-  visitor.number({"least_probability", "1", "an object is of a class that is likelier than this"},
-                 least_probability, {0.0, 1.0});
 }
 
 ObjectClassifier::ObjectClassifier(const ObjectClassifierOptions& options) : options_(options) {
@@ -82,7 +117,8 @@ ObjectClassifier::ObjectClassifier(const ObjectClassifierOptions& options) : opt
 ClassProbabilities ObjectClassifier::probabilities(const SeenSize& seen) const {
   ClassProbabilities result{};
   const auto add = [&](ObjectClass object_class, const KindSize& kind) {
-    result[static_cast<std::size_t>(object_class)] += kind.share * likelihood(seen, kind);
+    result[static_cast<std::size_t>(object_class)] +=
+        kind.share * likelihood(seen, kind, options_.ahead_share);
   };
   add(ObjectClass::kPedestrian, options_.pedestrian);
   add(ObjectClass::kCyclist, options_.cyclist);
@@ -92,7 +128,8 @@ ClassProbabilities ObjectClassifier::probabilities(const SeenSize& seen) const {
   add(ObjectClass::kPole, options_.pole);
   result[static_cast<std::size_t>(ObjectClass::kUnknown)] =
       options_.else_share * likelihoodOfAny(seen.height, kMeanHeight, seen.higher) *
-      likelihoodOfAny(seen.across, kMeanAcross, seen.wider);
+      likelihoodOfAny(seen.across, kMeanExtent, seen.wider) *
+      likelihoodOfAny(seen.along, kMeanExtent, seen.wider);
   const double sum = std::accumulate(result.begin(), result.end(), 0.0);
   if (!(sum > 0.0)) {
     result.fill(0.0);

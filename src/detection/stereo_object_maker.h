@@ -1,19 +1,18 @@
 #pragma once
 
-#include <array>
-#include <optional>
 #include <vector>
 
+#include "group_outline.h"
 #include "stereo_surfaces.h"
-#include "surface_groups.h"
 
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/detection/object_classifier.h"
 #include "datmo_fusion/detection/stereo_object_detector.h"
+#include "datmo_fusion/sensor_model/stereo_view.h"
 
 namespace datmo {
 
-/// Makes objects of the surfaces in a cloud's columns that belong together.
+/// Makes objects of what a stereo camera sees of them.
 class StereoObjectMaker {
  public:
   /// What is passed must outlive this.
@@ -21,43 +20,26 @@ class StereoObjectMaker {
                     const StereoCamera& camera, const StereoView& view,
                     const StereoSurfaces& surfaces);
 
-  /// Nothing of a group that is too small, too long or too high to be a road user or a pole.
-  std::optional<Object> make(const SurfaceGroup& group) const;
+  Object objectOf(const GroupOutline& outline) const;
 
  private:
-  /// A group as the camera sees it; m.
-  struct Outline {
-    std::vector<ColumnSurface> columns;  ///< one for each column, left to right
-    double depth = 0.0;                  ///< of its middle: median
-    double top = 0.0;
-    double surface = 0.0;  ///< m^2
-    double across = 0.0;
-  };
+  std::vector<Point2> pointsOf(const GroupOutline& outline) const;
+  void setBox(Object& object, const GroupOutline& outline) const;
+  SeenSize sizeOf(const GroupOutline& outline) const;
+  void setClass(Object& object, const GroupOutline& outline) const;
+  Eigen::Matrix2d covarianceOf(const GroupOutline& outline) const;
 
-  /// Where a group ends to one side.
-  struct End {
-    bool seen = false;
-    double beyond = 0.0;  ///< m, from the middle of the last column
-    double sigma = 0.0;   ///< m
-  };
-  static constexpr std::size_t kLeftEnd = 0;
-  static constexpr std::size_t kRightEnd = 1;
-  using Ends = std::array<End, 2>;
-
-  Outline outlineOf(const SurfaceGroup& group) const;
-  bool isLeftOut(const Outline& outline) const;
-  End endOf(const Outline& outline, std::size_t which) const;
-  bool isHidden(const ColumnSurface& last, int step) const;
-  std::vector<Point2> pointsOf(const Outline& outline) const;
-  void setBox(Object& object, const Outline& outline, const Ends& ends) const;
-  void setClass(Object& object, const Outline& outline, const Ends& ends) const;
-  Eigen::Matrix2d covarianceOf(const Outline& outline) const;
+  /// m, of the depth of a column of points against the others of the same object.
+  double columnNoise(double depth) const {
+    return options_.noise.column * camera_.depthSigma(depth);
+  }
+  /// Unit vector on the ground to the right of the camera's heading.
+  Point2 toRight() const { return view_.positionOf({1.0, 1.0}) - view_.positionOf({1.0, 0.0}); }
 
   const StereoObjectDetectorOptions& options_;
   const ObjectClassifier& classifier_;
   const StereoCamera& camera_;
   const StereoView& view_;
-  const StereoSurfaces& surfaces_;
   const SurfaceColumns& columns_;
   double highest_tangent_;  ///< of the image, above the horizon
 };

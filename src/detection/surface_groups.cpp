@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "datmo_fusion/common/disjoint_sets.h"
 
@@ -9,33 +10,135 @@ namespace datmo {
 
 namespace {
 
-bool belongTogether(const ColumnSurface& a, const ColumnSurface& b, const StereoCamera& camera,
-                    const SurfaceGroupOptions& options) {
-  const double depth = static_cast<double>(std::min(a.depth, b.depth));
-  const double gap = std::max(options.depth_gap, options.depth_sigmas * camera.depthSigma(depth));
-  const auto [low, high] = std::minmax(static_cast<double>(a.top), static_cast<double>(b.top));
-  const bool different_height = high > options.tall && low < options.low;
-  return std::abs(static_cast<double>(a.depth - b.depth)) <= gap && !different_height;
-}
+/// m; what begins higher up than this below another surface's top may stand on it.
+constexpr float kOverlap = 0.2F;
+
+/// m above the road; what is farther away and seen only above this may be seen through a window.
+constexpr float kWindow = 0.8F;
+
+/// Pixels beside an edge at which the depths of both sides are mixed.
+constexpr double kEdgePixels = 2.0;
+
+/// A surface between two others that has fewer points than this share of both is made of them.
+constexpr float kMixedShare = 0.6F;
+
+/// Joins surfaces pair by pair.
+class SurfaceLinks {
+ public:
+  SurfaceLinks(const SurfaceColumns& columns, const StereoCamera& camera,
+               const SurfaceGroupOptions& options)
+      : columns_(columns),
+        camera_(camera),
+        options_(options),
+        sets_(columns.surfaces.size()),
+        mixed_(columns.surfaces.size()) {}
+
+  std::vector<SurfaceGroup> groups() {
+    findMixed();
+    for (std::size_t i = 0; i < columns_.surfaces.size(); ++i) {
+      if (!mixed_[i]) {
+        joinAbove(i);
+        joinBeside(i);
+      }
+    }
+    return sets_.sets();
+  }
+
+ private:
+  const ColumnSurface& at(std::size_t index) const { return columns_.surfaces[index]; }
+  std::size_t begin(int column) const { return columns_.begin[static_cast<std::size_t>(column)]; }
+
+  /// m: surfaces of one object may differ by so much in depth.
+  float gapAt(float depth) const {
+    return static_cast<float>(
+        std::max(options_.depth_gap,
+                 options_.depth_sigmas * camera_.depthSigma(static_cast<double>(depth))));
+  }
+
+  bool differentHeight(const ColumnSurface& a, const ColumnSurface& b) const {
+    const auto [low, high] = std::minmax(static_cast<double>(a.top), static_cast<double>(b.top));
+    return high > options_.tall && low < options_.low;
+  }
+
+  /// Surfaces that are none: beside an edge, points of what is behind it are seen at any depth
+  /// between the two.
+  void findMixed() {
+    const double pixels = camera_.focal_length / columns_.per_tangent;
+    const int reach = std::max(1, static_cast<int>(std::lround(kEdgePixels / pixels)));
+    for (std::size_t i = 0; i < columns_.surfaces.size(); ++i) {
+      mixed_[i] = isBetweenLarger(at(i), reach);
+    }
+  }
+
+  bool isBetweenLarger(const ColumnSurface& surface, int reach) const {
+    const float gap = gapAt(surface.depth);
+    const float least = surface.points / kMixedShare;
+    bool farther = false;
+    bool nearer = false;
+    const int end = std::min(columns_.count, surface.column + reach + 1);
+    for (std::size_t j = begin(std::max(0, surface.column - reach)); j < begin(end); ++j) {
+      farther = farther || (at(j).depth > surface.depth + gap && at(j).points > least);
+      nearer = nearer || (at(j).depth < surface.depth - gap && at(j).points > least);
+    }
+    return farther && nearer;
+  }
+
+  /// With what is seen above it, little behind it.
+  void joinAbove(std::size_t i) {
+    const ColumnSurface& surface = at(i);
+    const float gap = std::max(static_cast<float>(options_.stacked_gap), gapAt(surface.depth));
+    for (std::size_t j = i + 1; j < begin(surface.column + 1); ++j) {
+      if (at(j).depth - surface.depth < gap && at(j).bottom > surface.top - kOverlap &&
+          static_cast<double>(at(j).top) < options_.tall) {
+        sets_.join(i, j);
+      }
+    }
+  }
+
+  /// With what is beside it, as far as nothing is seen between them that is farther away.
+  void joinBeside(std::size_t i) {
+    const ColumnSurface& surface = at(i);
+    const double width = columns_.widthAt(static_cast<double>(surface.depth));
+    const int reach = std::max(1, static_cast<int>(options_.lateral_gap / width));
+    const float gap = gapAt(surface.depth);
+    for (int step = 1; step <= reach && surface.column + step < columns_.count; ++step) {
+      const int column = surface.column + step;
+      bool seen_through = false;
+      bool found = false;
+      for (std::size_t j = begin(column); j < begin(column + 1); ++j) {
+        if (mixed_[j]) {
+          continue;
+        }
+        if (std::abs(at(j).depth - surface.depth) > gap) {
+          seen_through = seen_through || (at(j).depth > surface.depth && at(j).bottom < kWindow);
+        } else if (!differentHeight(surface, at(j))) {
+          sets_.join(i, j);
+          found = true;
+        }
+      }
+      if (seen_through && !found) {
+        return;
+      }
+    }
+  }
+
+  const SurfaceColumns& columns_;
+  const StereoCamera& camera_;
+  const SurfaceGroupOptions& options_;
+  DisjointSets sets_;
+  std::vector<bool> mixed_;  ///< by surface
+};
 
 }  // namespace
 
 std::vector<SurfaceGroup> groupSurfaces(const SurfaceColumns& columns, const StereoCamera& camera,
                                         const SurfaceGroupOptions& options) {
-  DisjointSets sets(columns.surfaces.size());
-  for (std::size_t i = 0; i < columns.surfaces.size(); ++i) {
-    const ColumnSurface& surface = columns.surfaces[i];
-    const double width = columns.widthAt(static_cast<double>(surface.depth));
-    const int reach = std::max(1, static_cast<int>(options.lateral_gap / width));
-    const auto end = static_cast<std::size_t>(std::min(columns.count, surface.column + reach + 1));
-    for (std::size_t j = columns.begin[static_cast<std::size_t>(surface.column) + 1];
-         j < columns.begin[end]; ++j) {
-      if (belongTogether(surface, columns.surfaces[j], camera, options)) {
-        sets.join(i, j);
-      }
-    }
+  DentSplitter splitter(columns, camera, options);
+  std::vector<SurfaceGroup> groups;
+  for (SurfaceGroup& group : SurfaceLinks(columns, camera, options).groups()) {
+    splitter.split(std::move(group), groups);
   }
-  return sets.sets();
+  return groups;
 }
 
 }  // namespace datmo

@@ -1,18 +1,16 @@
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
+#include "dent_splitter.h"
 #include "stereo_surfaces.h"
 
 namespace datmo {
 
-/// Indices of surfaces that belong together, by column.
-using SurfaceGroup = std::vector<std::size_t>;
-
-/// Surfaces beside each other at the same depth, as far as its noise tells, and not of very
-/// different height: a car before a house, a pedestrian beside a pole. Groups by their first
-/// surfaces.
+/// Surfaces that belong together: beside each other at the same depth, as far as its noise tells,
+/// with nothing farther away seen between them; or one seen above the other and little behind it,
+/// as a windscreen over a bonnet. What is very different in height is apart, as a pedestrian beside
+/// a pole, and so is what is beyond a dent (DentSplitter). Groups by their first surfaces.
 std::vector<SurfaceGroup> groupSurfaces(const SurfaceColumns& columns, const StereoCamera& camera,
                                         const SurfaceGroupOptions& options);
 

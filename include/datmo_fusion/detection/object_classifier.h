@@ -8,9 +8,9 @@
 
 namespace datmo {
 
-/// How large one kind of road user or pole is, over all of them: upright boxes.
+/// How large the things of one kind are: upright boxes.
 struct KindSize {
-  double share = 0.0;                       ///< of all objects, in any unit
+  double share = 0.0;                       ///< relative to the other kinds
   double height = 0.0, height_sigma = 0.0;  ///< m
   double length = 0.0, length_sigma = 0.0;  ///< m
   double width = 0.0, width_sigma = 0.0;    ///< m
@@ -19,30 +19,36 @@ struct KindSize {
 };
 
 struct ObjectClassifierOptions {
-  KindSize pedestrian{4.0, 1.70, 0.12, 0.55, 0.15, 0.55, 0.15};
-  KindSize cyclist{2.0, 1.75, 0.10, 1.80, 0.15, 0.60, 0.10};
-  KindSize car{4.0, 1.50, 0.12, 4.4, 0.4, 1.8, 0.12};
-  KindSize van{2.0, 2.2, 0.3, 5.2, 0.6, 2.0, 0.15};
+  KindSize pedestrian{4.0, 1.70, 0.15, 0.5, 0.15, 0.55, 0.15};
+  /// As long as it looks: wheels are low and thin.
+  KindSize cyclist{4.0, 1.70, 0.15, 1.5, 0.35, 0.60, 0.15};
+  KindSize car{4.0, 1.45, 0.20, 4.2, 0.5, 1.75, 0.15};
+  KindSize van{2.0, 2.1, 0.3, 5.2, 0.6, 1.95, 0.15};
   KindSize truck{1.0, 3.4, 0.4, 9.0, 2.5, 2.5, 0.15};
   KindSize pole{3.0, 4.5, 1.2, 0.2, 0.1, 0.2, 0.1};
-  double else_share = 1.0;
-  double least_probability = 0.4;
+  double ahead_share = 0.6;  ///< 0 to 1
+  double else_share = 2.0;   ///< relative to the kinds' shares
 
   void visit(OptionVisitor& visitor);
 };
 
-/// Upright sizes of an object as a sensor sees them.
+/// How large an upright object is, as a sensor sees it.
 struct SeenSize {
   double height = 0.0;        ///< m above the road
   double height_sigma = 0.0;  ///< m
   bool higher = false;        ///< its top was not seen: it may be higher
   double across = 0.0;        ///< m, across the line of sight
   double across_sigma = 0.0;  ///< m
-  bool wider = false;         ///< an end was not seen: it may be wider
+  double along = 0.0;         ///< m, in depth, of the sides that are seen
+  double along_sigma = 0.0;   ///< m
+  bool wider = false;         ///< an end was not seen: both may be more
 };
 
 /// What an object is, by how large it looks from a direction that is not known: Bayes over kinds of
-/// road users and poles of known sizes, and over anything else, of any size.
+/// road users and poles of known sizes, and over anything else, of any size. The thesis takes the
+/// class as its stereo system gives it, by size, shape and motion (3.3.2).
+///
+/// From ahead or behind, a cyclist looks like a pedestrian: then it says so by its probability.
 class ObjectClassifier {
  public:
   /// Throws OptionError.

@@ -27,11 +27,27 @@ struct StereoSurfaceOptions {
 
 /// Which surfaces belong together.
 struct SurfaceGroupOptions {
-  double lateral_gap = 0.3;   ///< m
-  double depth_gap = 0.4;     ///< m
+  double lateral_gap = 0.4;   ///< m
+  double depth_gap = 0.6;     ///< m
   double depth_sigmas = 1.2;  ///< standard deviations of the depth
+  double stacked_gap = 1.2;   ///< m
+  double dent = 1.0;          ///< m
+  double dent_sigmas = 2.0;   ///< standard deviations of the depth
   double tall = 2.6;          ///< m
   double low = 2.0;           ///< m
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// How well is known what is seen of an object.
+struct StereoNoiseOptions {
+  double common = 0.5;             ///< standard deviations of the depth
+  double column = 0.5;             ///< standard deviations of the depth
+  double correlated_width = 16.0;  ///< px
+  double edge_sigma = 1.0;         ///< px
+  double body_sigma = 0.1;         ///< m
+  double height_sigma = 0.1;       ///< m
+  double extent_sigma = 0.3;       ///< m
 
   void visit(OptionVisitor& visitor);
 };
@@ -39,16 +55,14 @@ struct SurfaceGroupOptions {
 struct StereoObjectDetectorOptions {
   StereoSurfaceOptions surfaces;
   SurfaceGroupOptions groups;
+  StereoNoiseOptions noise;
+  ObjectClassifierOptions classes;
   RoadPlaneOptions road;
   double effective_range = 36.0;  ///< m
-  double sure_range = 20.0;       ///< m
+  double sure_range = 25.0;       ///< m
   double least_surface = 0.15;    ///< m^2
   double largest_size = 12.0;     ///< m
-  double common_noise = 0.5;      ///< standard deviations of the depth
-  double surface_noise = 0.5;     ///< standard deviations of the depth
-  double edge_sigma = 1.0;        ///< px
-  double position_sigma = 0.05;   ///< m
-  ObjectClassifierOptions classes;
+  double most_else = 0.9;         ///< 0 to 1
 
   void visit(OptionVisitor& visitor);
 };
@@ -63,6 +77,20 @@ struct StereoObjects {
 
 /// One cloud of a stereo camera -> the road users and poles in it, classified cuboids (thesis
 /// 3.3.2).
+///
+/// The road's plane is found and what stands on it is looked at in columns of the camera's level
+/// image: the surfaces in each column, several behind each other, are grouped over columns; each
+/// group is fitted with a box (fitBox) and told what it is by its size (ObjectClassifier). What is
+/// larger than road users, or more probably anything else, is left out.
+///
+/// What an object's points have in common of the depth's noise is in its position's covariance,
+/// what they do not is in its sides'. Sides that were not seen are kHiddenSide: those that face
+/// away, those beside something nearer, and those where the image, or what both cameras see, ends.
+/// `points` are the near outline, left to right. Objects come from left to right as far as they
+/// begin, with dynamic state kUnknown.
+///
+/// A cloud may be dense or thinned, organised or not: how dense it is, it tells itself. Not thread
+/// safe. Keeps the last road plane from cloud to cloud.
 class StereoObjectDetector {
  public:
   /// Throws OptionError.

@@ -1,0 +1,87 @@
+#include "dent_splitter.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace datmo {
+
+DentSplitter::DentSplitter(const SurfaceColumns& columns, const StereoCamera& camera,
+                           const SurfaceGroupOptions& options)
+    : columns_(columns), options_(options), inverse_sigma_(camera.depthSigma(1.0)) {}
+
+void DentSplitter::split(SurfaceGroup group, std::vector<SurfaceGroup>& parts) {
+  std::vector<SurfaceGroup> wholes{std::move(group)};
+  while (!wholes.empty()) {
+    SurfaceGroup whole = std::move(wholes.back());
+    wholes.pop_back();
+    profileOf(whole);
+    hullOfProfile();
+    const std::optional<int> column = dent();
+    if (!column) {
+      parts.push_back(std::move(whole));
+      continue;
+    }
+    const auto first_right = std::find_if(whole.begin(), whole.end(), [&](std::size_t index) {
+      return columns_.surfaces[index].column >= *column;
+    });
+    wholes.emplace_back(first_right, whole.end());
+    wholes.emplace_back(whole.begin(), first_right);
+  }
+}
+
+/// Smoothed over three columns.
+void DentSplitter::profileOf(const SurfaceGroup& group) {
+  raw_profile_.clear();
+  for (const std::size_t index : group) {
+    const ColumnSurface& surface = columns_.surfaces[index];
+    if (raw_profile_.empty() || raw_profile_.back().column < surface.column) {
+      raw_profile_.push_back({surface.column, 1.0 / static_cast<double>(surface.depth)});
+    }
+  }
+  profile_ = raw_profile_;
+  for (std::size_t i = 1; i + 1 < profile_.size(); ++i) {
+    profile_[i].inverse =
+        (raw_profile_[i - 1].inverse + raw_profile_[i].inverse + raw_profile_[i + 1].inverse) / 3.0;
+  }
+}
+
+/// The side towards the camera of the convex hull (Andrew 1979).
+void DentSplitter::hullOfProfile() {
+  hull_.clear();
+  for (std::size_t i = 0; i < profile_.size(); ++i) {
+    while (hull_.size() >= 2 && above(hull_[hull_.size() - 2], hull_.back(), i) <= 0.0) {
+      hull_.pop_back();
+    }
+    hull_.push_back(i);
+  }
+}
+
+/// The column of the deepest dent in the hull that is deep enough.
+std::optional<int> DentSplitter::dent() const {
+  double deepest = 1.0;
+  std::optional<int> column;
+  for (std::size_t side = 0; side + 1 < hull_.size(); ++side) {
+    for (std::size_t i = hull_[side] + 1; i < hull_[side + 1]; ++i) {
+      const double inverse = profile_[i].inverse;
+      const double least =
+          std::max(options_.dent_sigmas * inverse_sigma_, options_.dent * inverse * inverse);
+      const double depth = -above(hull_[side], i, hull_[side + 1]) / least;
+      if (depth > deepest) {
+        deepest = depth;
+        column = profile_[i].column;
+      }
+    }
+  }
+  return column;
+}
+
+/// 1/m, by how much the middle one of three places is nearer than the line through the others.
+double DentSplitter::above(std::size_t first, std::size_t middle, std::size_t last) const {
+  const Place& a = profile_[first];
+  const Place& b = profile_[last];
+  const Place& between = profile_[middle];
+  const double share = static_cast<double>(between.column - a.column) / (b.column - a.column);
+  return between.inverse - (a.inverse + share * (b.inverse - a.inverse));
+}
+
+}  // namespace datmo

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "stereo_surfaces.h"
+
+namespace datmo {
+
+/// Indices of surfaces that belong together, by column.
+using SurfaceGroup = std::vector<std::size_t>;
+
+/// What one object shows of itself bulges towards the camera; where a group has a dent, another
+/// object begins: a parked car beside a cyclist, a house behind a car.
+class DentSplitter {
+ public:
+  /// What is passed must outlive this.
+  DentSplitter(const SurfaceColumns& columns, const StereoCamera& camera,
+               const SurfaceGroupOptions& options);
+
+  /// Adds the parts of a group to `parts`, left ones first.
+  void split(SurfaceGroup group, std::vector<SurfaceGroup>& parts);
+
+ private:
+  /// In these coordinates straight walls are straight lines.
+  struct Place {
+    int column;
+    double inverse;  ///< 1/m: of the depth of the nearest surface in the column
+  };
+
+  void profileOf(const SurfaceGroup& group);
+  void hullOfProfile();
+  std::optional<int> dent() const;
+  double above(std::size_t first, std::size_t middle, std::size_t last) const;
+
+  const SurfaceColumns& columns_;
+  const SurfaceGroupOptions& options_;
+  double inverse_sigma_;  ///< 1/m, standard deviation of an inverse depth
+  std::vector<Place> profile_;
+  std::vector<Place> raw_profile_;
+  std::vector<std::size_t> hull_;  ///< indices of the profile
+};
+
+}  // namespace datmo

@@ -1,0 +1,128 @@
+#include "group_outline.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "datmo_fusion/common/quantile.h"
+#include "datmo_fusion/common/uniform.h"
+
+namespace datmo {
+
+namespace {
+
+/// Share of an object's columns that are not higher than it is: some reach into what is behind it.
+constexpr double kTopShare = 0.9;
+
+/// Shares of its surfaces that are nearer, and farther, than what its extent in depth is taken
+/// from.
+constexpr double kNearShare = 0.05;
+constexpr double kFarShare = 0.95;
+
+/// Standard deviations of the depth by which something in front is surely so.
+constexpr double kSurelyApart = 2.0;
+
+/// An end nearer to the border of the image than this, px, may be the border's.
+constexpr double kBorderPixels = 4.0;
+
+/// Standard deviations of where an edge is within which another surface is beside it.
+constexpr double kBesideSigmas = 3.0;
+
+double square(double value) { return value * value; }
+
+}  // namespace
+
+OutlineFinder::OutlineFinder(const StereoObjectDetectorOptions& options, const StereoCamera& camera,
+                             const StereoSurfaces& surfaces)
+    : options_(options), camera_(camera), surfaces_(surfaces), columns_(surfaces.columns()) {}
+
+GroupOutline OutlineFinder::outlineOf(const SurfaceGroup& group) const {
+  GroupOutline outline;
+  std::vector<double> depths;
+  std::vector<double> tops;
+  for (const std::size_t index : group) {
+    const ColumnSurface& surface = columns_.surfaces[index];
+    const auto depth = static_cast<double>(surface.depth);
+    const auto top = static_cast<double>(surface.top);
+    outline.surface += static_cast<double>(surface.points) * square(columns_.widthAt(depth));
+    depths.push_back(depth);
+    if (outline.columns.empty() || outline.columns.back().column < surface.column) {
+      outline.columns.push_back(surface);
+      tops.push_back(top);
+    } else {
+      tops.back() = std::max(tops.back(), top);
+    }
+  }
+  const ColumnSurface& first = outline.columns.front();
+  const ColumnSurface& last = outline.columns.back();
+  outline.depth = quantile(depths, 0.5);
+  outline.along = quantile(depths, kFarShare) - quantile(depths, kNearShare);
+  outline.top = quantile(tops, kTopShare);
+  outline.across = (last.column - first.column + 1) * columns_.widthAt(outline.depth);
+  const auto near = static_cast<double>(first.depth);
+  const auto far = static_cast<double>(last.depth);
+  outline.length = std::hypot(
+      far - near, columns_.tangentOf(last.column) * far - columns_.tangentOf(first.column) * near);
+  outline.left = endAt(first, Step::kLeft);
+  outline.right = endAt(last, Step::kRight);
+  return outline;
+}
+
+GroupEnd OutlineFinder::endAt(const ColumnSurface& last, Step step) const {
+  const auto depth = static_cast<double>(last.depth);
+  const double width = columns_.widthAt(depth);
+  GroupEnd end;
+  end.seen = !isAtBorder(last, step) && !isBesideNearer(last, step);
+  end.beyond = 0.5 * width;
+  end.sigma = std::hypot(options_.noise.edge_sigma * depth / camera_.focal_length,
+                         std::sqrt(kUniformVariance) * width);
+  return end;
+}
+
+/// Of the image; of what both cameras see: the right one does not see what is at the left border of
+/// the left image; or of where the matcher finds anything at all.
+bool OutlineFinder::isAtBorder(const ColumnSurface& last, Step step) const {
+  const double tangent = columns_.tangentOf(last.column);
+  const double pixel = 1.0 / camera_.focal_length;
+  const double margin = std::max(kBorderPixels * pixel, 1.0 / columns_.per_tangent);
+  const double overlap_border =
+      camera_.left_tangent + camera_.baseline / static_cast<double>(last.depth);
+  if (step == Step::kLeft) {
+    return tangent - margin < overlap_border ||
+           !surfaces_.density().hasPoints(tangent - margin - pixel, tangent - pixel);
+  }
+  return tangent + margin > camera_.right_tangent ||
+         !surfaces_.density().hasPoints(tangent + pixel, tangent + margin + pixel);
+}
+
+/// What is nearer may hide where a surface goes on; the right camera does not see what is just to
+/// the left of it either.
+bool OutlineFinder::isBesideNearer(const ColumnSurface& last, Step step) const {
+  const auto depth = static_cast<double>(last.depth);
+  const double surely_nearer =
+      depth - std::max(options_.groups.depth_gap, kSurelyApart * camera_.depthSigma(depth));
+  const double column_pixels = camera_.focal_length / columns_.per_tangent;
+  const double beside = 1.0 + std::ceil(kBesideSigmas * options_.noise.edge_sigma / column_pixels);
+  const auto shadowOf = [&](double nearer) {
+    return step == Step::kRight
+               ? camera_.baseline * columns_.per_tangent * (1.0 / nearer - 1.0 / depth)
+               : 0.0;
+  };
+  const int reach = static_cast<int>(beside + shadowOf(options_.surfaces.nearest_depth));
+  const int direction = static_cast<int>(step);
+  for (int i = 1; i <= reach; ++i) {
+    const int column = last.column + direction * i;
+    if (column < 0 || column >= columns_.count) {
+      return false;
+    }
+    const auto begin = columns_.begin[static_cast<std::size_t>(column)];
+    if (begin < columns_.begin[static_cast<std::size_t>(column) + 1]) {
+      const auto nearest = static_cast<double>(columns_.surfaces[begin].depth);
+      if (nearest < surely_nearer && i <= beside + shadowOf(nearest)) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace datmo

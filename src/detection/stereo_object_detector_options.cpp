@@ -1,0 +1,94 @@
+#include "datmo_fusion/detection/stereo_object_detector.h"
+
+namespace datmo {
+
+void StereoSurfaceOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"nearest_depth", "m", "nearer points are mismatches"}, nearest_depth,
+                 {0.05, 10.0});
+  visitor.number({"least_height", "m", "lower points are of the road, kerbs and low plants"},
+                 least_height, {0.05, 2.0});
+  visitor.number({"layer_top", "m",
+                  "points between least_height and this make objects: higher, one sees over road "
+                  "users at what is behind them"},
+                 layer_top, {0.3, 5.0});
+  visitor.number({"highest", "m", "up to here it is looked how high objects are"}, highest,
+                 {2.0, 20.0});
+  visitor.number({"road_sigmas", "1",
+                  "a point is one of the road if a depth that is wrong by so many standard "
+                  "deviations puts it where it is"},
+                 road_sigmas, {0.0, 10.0});
+  visitor.number({"finest_depth", "m", "depths are not told apart finer than this"}, finest_depth,
+                 {0.02, 1.0});
+  visitor.number({"least_visible", "m", "height of surface that must be seen in a column"},
+                 least_visible, {0.0, 2.0});
+  visitor.integer({"least_points", "1", "and points"}, least_points, {1, 1000});
+}
+
+void SurfaceGroupOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"lateral_gap", "m", "surfaces farther apart sideways are not of one object"},
+                 lateral_gap, {0.0, 5.0});
+  visitor.number({"stacked_gap", "m",
+                  "depth from a surface to one of the same object that is seen above it: from a "
+                  "bonnet to the windscreen"},
+                 stacked_gap, {0.0, 5.0});
+  visitor.number({"depth_gap", "m", "neighbouring surfaces of one object differ in depth by less"},
+                 depth_gap, {0.01, 5.0});
+  visitor.number({"depth_sigmas", "1", "or by so many standard deviations of the depth"},
+                 depth_sigmas, {0.0, 10.0});
+  visitor.number({"dent", "m",
+                  "where what is seen of a group is dented by more, another object begins: one "
+                  "alone bulges"},
+                 dent, {0.0, 10.0});
+  visitor.number({"dent_sigmas", "1", "and by so many standard deviations of the depth"},
+                 dent_sigmas, {0.0, 100.0});
+  visitor.number(
+      {"tall", "m", "what is higher than this does not belong to what is lower than low"}, tall,
+      {0.5, 20.0});
+  visitor.number({"low", "m", "see tall"}, low, {0.3, 20.0});
+}
+
+void StereoNoiseOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"common", "1",
+                  "standard deviation of an object's depth, in those of a single point's: what all "
+                  "its points have in common"},
+                 common, {0.0, 5.0});
+  visitor.number({"column", "1",
+                  "the same of the depth of one column of an object's points against the others"},
+                 column, {0.0, 5.0});
+  visitor.number({"correlated_width", "px",
+                  "of matching windows or paths: points so far apart in the image have half of "
+                  "their noise in common"},
+                 correlated_width, {0.0, 512.0});
+  visitor.number({"edge_sigma", "px", "standard deviation of where a surface ends in the image"},
+                 edge_sigma, {0.0, 20.0});
+  visitor.number(
+      {"body_sigma", "m", "standard deviation of what bodies differ from boxes along each axis"},
+      body_sigma, {0.001, 2.0});
+  visitor.number({"height_sigma", "m", "standard deviation of heights, besides that of the edge"},
+                 height_sigma, {0.001, 2.0});
+  visitor.number({"extent_sigma", "m",
+                  "standard deviation of how far bodies reach in depth, besides that of the depth"},
+                 extent_sigma, {0.001, 2.0});
+}
+
+void StereoObjectDetectorOptions::visit(OptionVisitor& visitor) {
+  visitor.group("surfaces", [&] { surfaces.visit(visitor); });
+  visitor.group("groups", [&] { groups.visit(visitor); });
+  visitor.group("noise", [&] { noise.visit(visitor); });
+  visitor.group("classes", [&] { classes.visit(visitor); });
+  visitor.group("road", [&] { road.visit(visitor); });
+  visitor.number({"effective_range", "m", "nothing is said beyond it (thesis 3.3.3: 36 m)"},
+                 effective_range, {1.0, 200.0});
+  visitor.number(
+      {"sure_range", "m", "up to here all is found that can be seen; from there on less and less"},
+      sure_range, {1.0, 200.0});
+  visitor.number({"least_surface", "m^2", "an object of which less is seen is none"}, least_surface,
+                 {0.0, 10.0});
+  visitor.number({"largest_size", "m", "longer things are no objects: walls, hedges"}, largest_size,
+                 {0.5, 100.0});
+  visitor.number({"most_else", "1",
+                  "what is neither road user nor pole with more than this probability is left out"},
+                 most_else, {0.0, 1.0});
+}
+
+}  // namespace datmo
