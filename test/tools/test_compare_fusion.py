@@ -142,6 +142,11 @@ class Runs(unittest.TestCase):
         runs = json.loads((self.out / "comparison.json").read_text())["runs"]
         self.assertIsNone(runs[2]["figures"])
 
+    def test_program_that_is_ended_is_told(self):
+        self.run_bag("kill -SEGV $$")
+        out = self.compare("--sets", "1", "--levels", "none")[1]
+        self.assertIn("data_set_1, none: run_bag: ended by signal 11 (Segmentation fault)", out)
+
     def test_failed_recording_is_reported_once(self):
         self.program("simulate", 'echo "no road" >&2; exit 1')
         code, out, _ = self.compare("--sets", "1")

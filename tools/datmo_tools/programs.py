@@ -1,5 +1,6 @@
 """The programs of the package that the benchmarks call."""
 
+import signal
 import subprocess
 
 from datmo_tools.errors import InputError
@@ -8,9 +9,13 @@ from datmo_tools.errors import InputError
 class StepFailed(Exception):
     """A program that gave up: which one, and the last that it said."""
 
-    def __init__(self, step, said):
+    def __init__(self, step, said, code=1):
+        """code: of its exit; negative: of the signal that ended it."""
         lines = said.strip().splitlines()
-        super().__init__(lines[-1] if lines else f"{step}: failed and said nothing")
+        if code < 0:
+            super().__init__(f"{step}: ended by signal {-code} ({signal.strsignal(-code)})")
+        else:
+            super().__init__(lines[-1] if lines else f"{step}: failed and said nothing")
 
 
 def check(folder, names):
@@ -31,4 +36,4 @@ def call(program, *words):
         check=False,
     )
     if done.returncode != 0:
-        raise StepFailed(program.name, done.stderr)
+        raise StepFailed(program.name, done.stderr, done.returncode)
