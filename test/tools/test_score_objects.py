@@ -181,6 +181,13 @@ class Tool(unittest.TestCase):
         self.assertEqual(figures["recall"]["all"]["of"][-1], 1)
         self.assertEqual(figures["objects_per_list"], 1.0)
 
+    def test_object_that_is_not_finite_is_left_out(self):
+        places = (8.0, 0.0), (math.nan, 0.0)
+        self.write("/objects/stereo", *(object_at(*place) for place in places))
+        figures = self.score()[2]["/objects/stereo"]
+        self.assertEqual(figures["objects_per_list"], 1.0)
+        self.assertEqual(figures["recall"]["vehicle"]["count"][-1], 1)
+
     def test_bad_input(self):
         self.write("/other", object_at(8.0, 0.0))
         self.assertIn("nothing on /objects, /objects/stereo, /objects/fused", self.score(code=1)[1])

@@ -26,6 +26,14 @@ class Seen(NamedTuple):
         """Of the centre, m from base_link."""
         return float(np.hypot(*self.pose[:2]))
 
+    @property
+    def is_finite(self):
+        """But for sides, which are infinite where they are hidden."""
+        parts = (self.pose, self.size, self.covariance.ravel(), [self.delay])
+        return bool(np.all(np.isfinite(np.concatenate(parts)))) and not np.any(
+            np.isnan(self.side_variance)
+        )
+
 
 class SeenList(NamedTuple):
     """All objects of one message."""
@@ -50,6 +58,8 @@ class MovingBox(NamedTuple):
 
 def read_lists(path, topics):
     """Dictionary topic -> list of SeenList in the order of the bag, of topics that have any.
+
+    Objects with a place, size or covariance that is not finite are left out, as in the stack.
 
     Raises InputError for another type.
     """
@@ -98,5 +108,6 @@ def _seen_list(message):
         )
         for item in message.objects
     ]
+    objects = [item for item in objects if item.is_finite]
     viewpoints = {item.sensor: (item.pose.x, item.pose.y) for item in message.views}
     return SeenList(message.header.stamp.to_nsec(), objects, viewpoints)
