@@ -14,10 +14,29 @@ constexpr double kUnknownSideVariance = kQuarterTurn * kQuarterTurn * kUniformVa
 /// rad^2; no box is a perfect rectangle.
 constexpr double kLeastHeadingVariance = 1e-6;
 
+/// rad; headings that differ by more are not one heading with noise: one of them is wrong.
+constexpr double kMostTurn = 0.3;
+
 /// Of a heading modulo a quarter turn beyond knowing nothing, 1/rad^2.
 double informationOf(double variance) {
   return std::max(0.0,
                   1.0 / std::max(variance, kLeastHeadingVariance) - 1.0 / kUnknownSideVariance);
+}
+
+/// How much an object's box would lose by being turned: length over uncertainty, squared.
+double stiffnessOf(const Object& object) {
+  double sides = 0.0;
+  double seen = 0.0;
+  for (const double variance : object.side_variance) {
+    if (std::isfinite(variance)) {
+      sides += variance;
+      seen += 1.0;
+    }
+  }
+  const double variance =
+      0.5 * object.position_covariance.trace() + (seen > 0.0 ? sides / seen : 0.0);
+  const double reach = std::max(object.box.length, object.box.width);
+  return reach * reach / variance;
 }
 
 }  // namespace
@@ -30,12 +49,17 @@ CommonHeading commonHeading(const Object& a, const Object& b) {
   const double of_a = informationOf(a.heading_variance);
   const double of_b = informationOf(b.heading_variance);
   const double known = of_a + of_b;
-  const double share_of_b = known > 0.0 ? of_b / known : 0.5;
+  double share_of_b = known > 0.0 ? of_b / known : 0.5;
   CommonHeading common;
-  common.heading = normalizeAngle(from + share_of_b * apart +
-                                  (share_of_b > 0.5 ? quarters * kQuarterTurn : 0.0));
   common.variance = known > 0.0 ? 1.0 / (known + 1.0 / kUnknownSideVariance)
                                 : std::min(a.heading_variance, b.heading_variance);
+  if (std::abs(apart) > kMostTurn) {
+    const double stiffer = stiffnessOf(b) - stiffnessOf(a);
+    share_of_b = stiffer > 0.0 || (stiffer == 0.0 && of_b > of_a) ? 1.0 : 0.0;
+    common.variance = share_of_b > 0.0 ? b.heading_variance : a.heading_variance;
+  }
+  common.heading = normalizeAngle(from + share_of_b * apart +
+                                  (share_of_b > 0.5 ? quarters * kQuarterTurn : 0.0));
   common.same_axis = std::lround(quarters) % 2 == 0;
   return common;
 }

@@ -76,6 +76,33 @@ double varianceAlong(const Object& object, const Point2& direction) {
          direction.cwiseAbs2().dot(Point2(x, y));
 }
 
+/// Whether a point (box's frame, m) lies on the object, as far as its place is known.
+bool isAbout(const Point2& point, const Object& object, const Sight& sight,
+             const ScanWitnessOptions& options) {
+  Point2 excess = (point.cwiseAbs() - sight.half).cwiseMax(0.0);
+  for (Eigen::Index axis = 0; axis < 2; ++axis) {
+    const bool behind = point[axis] * sight.scanner[axis] < 0.0;
+    const double unseen = std::max(0.0, options.body_depth - 2.0 * sight.half[axis]);
+    excess[axis] = std::max(0.0, excess[axis] - (behind ? unseen : 0.0));
+  }
+  const double distance = excess.norm();
+  if (distance == 0.0) {
+    return true;
+  }
+  const Point2 outwards = excess.cwiseProduct(point.cwiseSign()) / distance;
+  const double sigma = std::sqrt(varianceAlong(object, -outwards));
+  return distance <= std::min(options.static_reach * sigma, options.most_static_reach);
+}
+
+/// Whether a beam goes on beyond all of the object; `direction`: unit vector in the box's frame.
+bool passesThrough(double range, const Point2& direction, double motion_std, const Object& object,
+                   const Sight& sight, const ScanWitnessOptions& options) {
+  const Crossing through = crossing(sight, direction);
+  const double variance = varianceAlong(object, direction) + motion_std * motion_std;
+  return range > std::max(through.exit, through.entry + options.body_depth) +
+                     options.through_reach * std::sqrt(variance);
+}
+
 }  // namespace
 
 void ScanWitnessOptions::visit(OptionVisitor& visitor) {
@@ -139,39 +166,34 @@ PlaceTestimony ScanWitness::testimony(const Object& object, double motion_std) c
   }
   const double to_scanner = object.box.centre.heading() - scanner_in_base_.heading();
   const double spacing = std::abs(field_.beam_spacing);
-  const double width = (sight.most - sight.least) / spacing;
-  const double edge = field_.beam_spacing > 0.0 ? sight.least : sight.most;
-  // The beams between both edges, or else the one that is nearest to the middle.
-  const double first = beamAt(to_scanner + sight.bearing + edge);
-  double index = std::ceil(first);
-  const auto looks = static_cast<std::size_t>(std::floor(first + width) - index + 1.0);
-  if (looks == 0) {
-    index = std::round(first + 0.5 * width);
-  }
-  const std::size_t count = std::max<std::size_t>(looks, 1);
-  for (std::size_t i = 0; i < count; ++i, index += 1.0) {
+  const double width = sight.most - sight.least;
+  result.beams = width / spacing;
+  // What is narrower than the way from beam to beam is met by the nearest one, if by any; what lies
+  // beside it may still be a part of it, as far as its place is not known.
+  const double narrow = std::max(0.0, 0.5 * (spacing - width));
+  const double aside =
+      std::max(narrow, std::atan2(options_.most_static_reach, sight.scanner.norm()));
+  const double edge = field_.beam_spacing > 0.0 ? sight.least - aside : sight.most + aside;
+  const double first = std::ceil(beamAt(to_scanner + sight.bearing + edge));
+  const auto looks = static_cast<std::size_t>(1.0 + (width + 2.0 * aside) / spacing);
+  double asked = 0.0;
+  for (std::size_t i = 0; i < looks; ++i) {
+    const double index = first + static_cast<double>(i);
     const Beam* seen = beam(index);
-    if (seen == nullptr) {
-      continue;
-    }
     const double bearing = field_.first_bearing + index * field_.beam_spacing - to_scanner;
-    const double offset = std::clamp(angleBetween(sight.bearing, bearing), sight.least, sight.most);
+    const double offset = angleBetween(sight.bearing, bearing);
+    const bool meets = offset >= sight.least - narrow && offset <= sight.most + narrow;
     const Point2 direction(std::cos(sight.bearing + offset), std::sin(sight.bearing + offset));
-    const Crossing through = crossing(sight, direction);
-    const double variance = varianceAlong(object, direction);
-    const double reach =
-        std::min(options_.static_reach * std::sqrt(variance), options_.most_static_reach);
-    const double beyond = options_.through_reach * std::sqrt(variance + motion_std * motion_std);
-    if (seen->range > std::max(through.exit, through.entry + options_.body_depth) + beyond) {
-      result.through_share += 1.0;
-    } else if (seen->end == End::kStaticHit && seen->range >= through.entry - reach &&
-               seen->range <= through.entry + reach + options_.body_depth) {
-      result.static_share += 1.0;
-    }
+    const bool stands = seen != nullptr && seen->end == End::kStaticHit &&
+                        isAbout(sight.scanner + seen->range * direction, object, sight, options_);
+    const bool through = seen != nullptr && !stands && meets &&
+                         passesThrough(seen->range, direction, motion_std, object, sight, options_);
+    asked += meets || stands ? 1.0 : 0.0;
+    result.static_share += stands ? 1.0 : 0.0;
+    result.through_share += through ? 1.0 : 0.0;
   }
-  result.static_share /= static_cast<double>(count);
-  result.through_share /= static_cast<double>(count);
-  result.beams = width;
+  result.static_share /= std::max(1.0, asked);
+  result.through_share /= std::max(1.0, asked);
   return result;
 }
 

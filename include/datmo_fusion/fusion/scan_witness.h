@@ -32,10 +32,11 @@ struct PlaceTestimony {
 /// What a planar scan that was split by the map says of objects that the scanner's list does not
 /// contain, but another sensor's. Vehicle's frame (base_link) at the scan's stamp.
 ///
-/// The other sensor measures range badly: along each beam the object's near side may lie before or
-/// behind where it is told, by the standard deviation of its place in the direction of the beam. A
-/// beam ends there if it ends about the near side; it passes through if it ends clearly behind the
-/// far side; one that ends before both is hidden, and says nothing of what is behind.
+/// The other sensor knows the place of the object only so well, and in range worse than across. A
+/// point lies on it if it is no farther from its box than the standard deviation of the place in
+/// that direction, also where a side is seen at a flat angle; a beam passes through it if it ends
+/// clearly behind the far side; one that ends before both is hidden, and says nothing of what is
+/// behind.
 class ScanWitness {
  public:
   /// Throws OptionError.
