@@ -172,6 +172,13 @@ class Tool(unittest.TestCase):
             self.assertEqual(figures["recall"]["all"]["count"][-1], 1)
             self.assertEqual(figures["false_per_list"], 0.0)
 
+    def test_what_stands_need_not_be_found(self):
+        self.write("/objects/stereo", object_at(8.0, 0.0), object_at(15.0, 3.0, size=(0.6, 0.6)))
+        figures = self.score("--moving-only")[2]["/objects/stereo"]
+        self.assertEqual(figures["recall"]["all"]["of"][-1], 1)
+        self.assertEqual(figures["errors"][-1]["along_count"], 1)
+        self.assertEqual(figures["false_per_list"], 0.0)
+
     def test_region(self):
         places = (8.0, 0.0), (0.0, 12.0), (16.0, 0.0)
         self.write("/objects/stereo", *(object_at(*place) for place in places))

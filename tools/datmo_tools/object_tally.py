@@ -42,18 +42,18 @@ class ObjectTally:
             band = self._band(truth.range)
             if not truth.asked or band is None:
                 continue
-            groups = [NAMES[truth.classification], ALL] + [MOVING] * truth.moving
+            groups = [_name(truth), ALL] + [MOVING] * truth.moving
             for group in groups:
                 self._asked[group][band] += 1
                 self._found[group][band] += j in found
             if j in found:
-                said = NAMES[objects[found[j]].classification]
-                self._said[NAMES[truth.classification]][said] += 1
+                said = _name(objects[found[j]])
+                self._said[_name(truth)][said] += 1
         for i, (item, is_near) in enumerate(zip(objects, score.near)):
             band = self._band(item.range)
             if band is None or not region.contains(item.pose):
                 continue
-            for group in (NAMES[item.classification], ALL):
+            for group in (_name(item), ALL):
                 self._seen[group][band] += 1
                 self._near[group][band] += bool(is_near)
             self._doubles[band] += bool(is_near) and i not in matched
@@ -86,6 +86,11 @@ class ObjectTally:
         """Index; None: beyond them."""
         band = int(np.searchsorted(self.edges, distance, side="right")) - 1
         return band if 0 <= band < len(self.edges) - 1 else None
+
+
+def _name(item):
+    """Of the class of an object or a true one; a number that is none is not known."""
+    return NAMES.get(item.classification, "unknown")
 
 
 def _zeros(groups, bands):

@@ -32,6 +32,20 @@ class Region(NamedTuple):
         return math.hypot(pose[0], pose[1]) <= self.range and abs(bearing) <= self.half_angle
 
 
+class Asked(NamedTuple):
+    """Which true objects have to be found."""
+
+    region: Region
+    sensor: str = ANY  # that must see them, or ANY, or NONE
+    moving_only: bool = False
+
+    def includes(self, item, pose):
+        """Whether a TrueObject at a pose in base_link is one of them."""
+        seen = self.sensor == NONE or self.sensor in item.visible_to
+        seen = seen or (self.sensor == ANY and bool(item.visible_to))
+        return seen and self.region.contains(pose) and (item.moving or not self.moving_only)
+
+
 class Truth:
     """True objects and poses of one drive."""
 
@@ -60,20 +74,17 @@ class Truth:
                 f"one of these, {ANY} or {NONE}"
             )
 
-    def at(self, stamp, sensor, region):
-        """List of TrueState at `stamp` (ns); None where the truth has nothing near in time.
-
-        sensor: that must see an object for it to be asked, or ANY or NONE; region: Region.
-        """
+    def at(self, stamp, asked):
+        """List of TrueState at `stamp` (ns), with what is Asked; None: no truth is near in time."""
         nearest = int(self._stamps[np.argmin(np.abs(self._stamps - stamp))])
         late = (stamp - nearest) / NANOSECONDS
         if abs(late) > LONGEST_GAP or self._poses.distance_from(stamp) > LONGEST_GAP * NANOSECONDS:
             return None
         base = self._poses.at(stamp)
-        return [_state(item, base, late, sensor, region) for item in self._objects[nearest]]
+        return [_state(item, base, late, asked) for item in self._objects[nearest]]
 
 
-def _state(item, base, late, sensor, region):
+def _state(item, base, late, asked):
     """late: s, from the item's stamp to that of `base`, the vehicle's pose in the map."""
     velocity = np.array([item.velocity.x, item.velocity.y])
     in_map = np.array(planar(item.pose))
@@ -81,12 +92,11 @@ def _state(item, base, late, sensor, region):
     pose = transforms.relative(base, in_map)
     cosine, sine = math.cos(base[2]), math.sin(base[2])
     turned = np.array([[cosine, sine], [-sine, cosine]]) @ velocity
-    seen = sensor == NONE or (sensor == ANY and item.visible_to) or sensor in item.visible_to
     return TrueState(
         pose,
         np.array([item.size.x, item.size.y]),
         turned,
         item.classification,
         item.moving,
-        bool(seen) and region.contains(pose),
+        asked.includes(item, pose),
     )

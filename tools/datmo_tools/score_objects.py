@@ -9,7 +9,7 @@ from datmo_tools.errors import InputError
 from datmo_tools.object_lists import read_lists
 from datmo_tools.object_scores import score_list
 from datmo_tools.object_tally import ALL, CLASSES, MOVING, ObjectTally
-from datmo_tools.object_truth import ANY, NONE, Region, Truth
+from datmo_tools.object_truth import ANY, NONE, Asked, Region, Truth
 from datmo_tools.text_table import NO_VALUE, aligned, percent, rounded
 
 DESCRIPTION = """\
@@ -45,12 +45,13 @@ def main(arguments=None):
     return command_line.run("score_objects", lambda: _run(values), product="score")
 
 
-def score(run, drive, topics=None, visible_to=None, region=Region(RANGE)):
+def score(run, drive, topics=None, visible_to=None, region=Region(RANGE), moving_only=False):
     """Score of the objects in the bag `run` (Path) against the drive's bag (Path), as a dictionary
     that JSON can hold.
 
     topics: those of SENSORS that are there by default; visible_to: sensor that must see a true
-    object, by default that of SENSORS. Raises InputError, also where nothing can be scored.
+    object, by default that of SENSORS; moving_only: what stands is not asked. Raises InputError,
+    also where nothing can be scored.
     """
     lists = read_lists(run, topics or SENSORS)
     for topic in topics or ():
@@ -60,26 +61,30 @@ def score(run, drive, topics=None, visible_to=None, region=Region(RANGE)):
         raise InputError(f"{run}: nothing on {', '.join(SENSORS)}, expected lists of objects")
     truth = Truth(drive)
     scores = {
-        topic: _score_topic(lists[topic], truth, visible_to or SENSORS.get(topic, ANY), region)
+        topic: _score_topic(
+            lists[topic], truth, Asked(region, visible_to or SENSORS.get(topic, ANY), moving_only)
+        )
         for topic in topics or SENSORS
         if topic in lists
     }
     if not any(item["lists"] for item in scores.values()):
         raise InputError(f"{run}: no list has a stamp near one of the truth in {drive}")
     return {"run": str(run), "drive": str(drive), "range_m": region.range,
-            "half_angle_rad": region.half_angle, "topics": scores}  # fmt: skip
+            "half_angle_rad": region.half_angle, "moving_only": moving_only,
+            "topics": scores}  # fmt: skip
 
 
-def _score_topic(lists, truth, sensor, region):
-    truth.check_seen_by(sensor)
+def _score_topic(lists, truth, asked):
+    truth.check_seen_by(asked.sensor)
+    region = asked.region
     tally = ObjectTally([*(edge for edge in BANDS if edge < region.range), region.range])
     for item in lists:
-        truths = truth.at(item.stamp, sensor, region)
+        truths = truth.at(item.stamp, asked)
         if truths is not None:
             result = score_list(item.objects, truths, item.viewpoint)
             tally.add(item.objects, truths, result, region)
     without = len(lists) - tally.lists
-    return {"visible_to": sensor, "lists_without_truth": without, **tally.result()}
+    return {"visible_to": asked.sensor, "lists_without_truth": without, **tally.result()}
 
 
 def table(result):
@@ -138,7 +143,8 @@ def _run(values):
     if not 0.0 < values.half_angle <= math.pi:
         raise InputError(f"--half-angle is {values.half_angle:g}, expected more than 0, at most pi")
     region = Region(values.range, values.half_angle)
-    result = score(values.run, values.drive, values.topic, values.visible_to, region)
+    result = score(values.run, values.drive, values.topic, values.visible_to, region,
+                   values.moving_only)  # fmt: skip
     print(table(result))
     command_line.write_json(values.json, result)
 
@@ -158,6 +164,7 @@ def _parser():
     add("--visible-to", metavar="SENSOR",
         help=f"that must see a true object, {ANY}, or {NONE}: not asked (default: scanner for "
         f"/objects, stereo for /objects/stereo, else {ANY})")  # fmt: skip
+    add("--moving-only", action="store_true", help="true objects that stand need not be found")
     command_line.add_number(parser, "--range", RANGE, "M", "that counts, about the vehicle, m")
     command_line.add_number(parser, "--half-angle", math.pi, "RAD",
                             "the same to either side of straight ahead, rad")  # fmt: skip
