@@ -9,10 +9,17 @@ import unittest
 from pathlib import Path
 
 from datmo_tools.compare_fusion import main
-from datmo_tools.fusion_comparison import comparison_table, figures
+from datmo_tools.fusion_comparison import comparison_table, figures, objects_table
 from datmo_tools.thesis_tables import PUBLISHED
 
 TIMES = {"grid_slam": {"runs": 10, "mean_s": 0.002}, "stereo_objects": {"runs": 5, "mean_s": 0.01}}
+
+
+def tracked(number, frames, ids):
+    """Of score_run, an object that moved for ten frames."""
+    return {"id": number, "label": "Van", "class": "vehicle", "first_s": 0.0, "last_s": 1.0,
+            "required_frames": 10, "tracked_frames": frames, "track_ids": ids,
+            "delay_s": 0.1 if frames else None}  # fmt: skip
 
 
 def report(moving, missed):
@@ -24,6 +31,7 @@ def report(moving, missed):
         "errors": {"position_rmse_m": 0.456},
         "near_errors": {"position_rmse_m": 0.123}, "classes": {"right_share": 0.8},
         "delay": {"mean_s": 0.75},
+        "objects": [tracked(7, 9, [3]), tracked(8, 5, [4, 6]), tracked(9, 0, [])],
     }  # fmt: skip
 
 
@@ -58,6 +66,15 @@ class Table(unittest.TestCase):
         self.assertEqual(second, ["drive", "object"] + 12 * ["-"])
 
 
+    def test_objects_by_level(self):
+        text = objects_table([("none", self.run), ("low", None), ("object", self.run)])
+        self.assertEqual([line.split() for line in text.splitlines()[1:]], [
+            ["Van", "7", "0.0", "1.0", "10", "90.0", "90.0"],
+            ["Van", "8", "0.0", "1.0", "10", "50.0", "(2", "ids)", "50.0", "(2", "ids)"],
+            ["Van", "9", "0.0", "1.0", "10", "0.0", "0.0"],
+        ])  # fmt: skip
+
+
 class Runs(unittest.TestCase):
     """With programs of a few lines of shell that leave their words in the bags."""
 
@@ -69,8 +86,8 @@ class Runs(unittest.TestCase):
         self.program("simulate", 'echo "$@" > "$2"')
         self.program("kitti_to_bag", 'echo "$@" > "$2"')
         self.run_bag()
-        self.program("score_run", 'while [ "$1" != --out ]; do case "$1" in *=scanner) beam=1;; esac\n'
-                                  'shift; done\n'
+        self.program("score_run", 'while [ "$1" != --out ]; do\n'
+                                  'case "$1" in *=scanner) beam=1;; esac; shift; done\n'
                                   f"echo '{json.dumps(report(33, 6))}' > \"$2\"\n"
                                   'if [ -n "$beam" ]; then\n'
                                   f"echo '{json.dumps(report(30, 4))}' > \"$2\"; fi")  # fmt: skip
@@ -79,7 +96,8 @@ class Runs(unittest.TestCase):
 
     def run_bag(self, first="true"):
         """run_bag that does `first`, a command of the shell."""
-        self.program("run_bag", f'{first}\necho "$@" > "$2"; while [ "$1" != --times ]; do shift; done\n'
+        self.program("run_bag", f'{first}\necho "$@" > "$2"\n'
+                                'while [ "$1" != --times ]; do shift; done\n'
                                 f"echo '{json.dumps(TIMES)}' > \"$2\"")  # fmt: skip
 
     def program(self, name, text):
@@ -128,6 +146,7 @@ class Runs(unittest.TestCase):
         code, out, _ = self.compare("--sets", "--levels", "none", kitti="drive_0005")
         self.assertEqual(code, 0)
         self.assertEqual(rows(out)[0][:7], ["drive_0005", "none", "-", "6", "of", "33", "-"])
+        self.assertIn("Moving objects of drive_0005", out)
         self.assertIn("--images", self.words_of("drive_0005", "drive.bag"))
 
     def test_drive_that_is_not_there_is_said(self):

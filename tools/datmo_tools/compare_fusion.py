@@ -9,7 +9,7 @@ from typing import NamedTuple, Optional
 
 from datmo_tools import command_line, programs, simulated_run
 from datmo_tools.errors import InputError
-from datmo_tools.fusion_comparison import comparison_table, figures
+from datmo_tools.fusion_comparison import comparison_table, figures, objects_table
 from datmo_tools.fusion_drives import LEVELS, Kitti, data_sets
 from datmo_tools.programs import StepFailed
 from datmo_tools.progress import Progress
@@ -52,6 +52,11 @@ def _compare(values):
         (result.drive.name, result.drive.published, result.level, result.figures)
         for result in results
     ]))  # fmt: skip
+    for drive in drives:
+        # The thesis counts them; of a labelled drive each can be looked at.
+        if drive.published is None:
+            runs = [(item.level, item.figures) for item in results if item.drive is drive]
+            print(f"\nMoving objects of {drive.name}\n{objects_table(runs)}")
     write_whole(values.out, {"comparison.json": _as_json(results)})
     # What one drive fails with at its recording, all levels say.
     failures = [result.failure for result in results if result.failure is not None]

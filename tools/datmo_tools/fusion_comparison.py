@@ -16,6 +16,10 @@ first track, mean. Time: mean of all stages together for one scan."""
 # Levels at which the thesis has a count: its field in Published.
 THESIS_MISSED = {"none": "missed", "object": "missed_with_fusion"}
 
+# What is kept of each moving object.
+OBJECT_KEYS = ("id", "label", "class", "first_s", "last_s", "required_frames", "tracked_frames",
+               "track_ids", "delay_s")  # fmt: skip
+
 
 def figures(report, wide_report, stages):
     """Figures of one run, as a dictionary that JSON can hold; None for what there is not.
@@ -39,6 +43,7 @@ def figures(report, wide_report, stages):
         "class_right_share": report["classes"]["right_share"],
         "mean_delay_s": report["delay"]["mean_s"],
         "time_per_scan_ms": time_per_scan(stages),
+        "objects": [{key: item[key] for key in OBJECT_KEYS} for item in report["objects"]],
     }
 
 
@@ -53,6 +58,32 @@ def comparison_table(rows):
         cells = [NO_VALUE if run is None else cell(run) for _, cell in _COLUMNS]
         lines.append([name, level, _thesis_missed(published, level), *cells])
     return f"{NOTE}\n\n{aligned(lines)}"
+
+
+def objects_table(runs):
+    """Text of a table of the moving objects of one drive, and in which frames they were tracked.
+
+    runs: (level, figures() or None where the run failed), of one drive or more.
+    """
+    known = [(level, run) for level, run in runs if run is not None]
+    objects = {item["id"]: item for _, run in known for item in run["objects"]}
+    levels = [f"{level}: tracked, %" for level, _ in known]
+    rows = [["object", "from, s", "to, s", "frames", *levels]]
+    for number, item in objects.items():
+        cells = [f"{item['label']} {number}", f"{item['first_s']:.1f}", f"{item['last_s']:.1f}"]
+        cells.append(str(item["required_frames"]))
+        rows.append(cells + [_tracked(run["objects"], number) for _, run in known])
+    return aligned(rows)
+
+
+def _tracked(objects, number):
+    """Share of the frames, and by how many tracks if not by one."""
+    item = next((item for item in objects if item["id"] == number), None)
+    if item is None:
+        return NO_VALUE
+    share = percent(item["tracked_frames"] / item["required_frames"])
+    ids = len(item["track_ids"])
+    return share if ids <= 1 else f"{share} ({ids} ids)"
 
 
 def _of(count, total):
