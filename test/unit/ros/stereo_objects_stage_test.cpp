@@ -1,8 +1,13 @@
 #include "datmo_fusion/ros/stereo_objects_stage.h"
 
+#include <random>
+
 #include "cloud_samples.h"
 #include "monitor_counts.h"
 #include <gtest/gtest.h>
+
+#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/tracking/object_check.h"
 
 namespace datmo {
 namespace {
@@ -92,6 +97,32 @@ TEST_F(StereoObjectsStageTest, ACameraThatLooksStraightDownIsRefused) {
   buffer_.addStatic(message);
   EXPECT_FALSE(stage_.takeCloud(carAt(kStart)));
   EXPECT_EQ(drops("bad_camera"), 1U);
+}
+
+/// Over a road with scattered points, which are not of anything.
+TEST_F(StereoObjectsStageTest, WhateverTheCloudItsObjectsAreValid) {
+  std::mt19937 random(1);
+  const auto between = [&](double least, double most) {
+    return least + (most - least) * static_cast<double>(random()) / std::mt19937::max();
+  };
+  std::size_t objects = 0;
+  for (int i = 0; i < 20; ++i) {
+    std::vector<Eigen::Vector3f> points = samples::wallOnARoad(-0.09, 0.09, 1.5);
+    for (int j = 0; j < 4000; ++j) {
+      const double depth = between(1.0, 40.0);
+      points.emplace_back(
+          Eigen::Vector3d(between(-0.6, 0.6) * depth, between(-1.5, 1.1), depth).cast<float>());
+    }
+    sensor_msgs::PointCloud2 cloud = samples::cloud(points);
+    cloud.header.stamp = ros::Time(kStart + i);
+    const ObjectArrayPtr array = stage_.takeCloud(cloud);
+    ASSERT_TRUE(array);
+    for (const Object& object : fromMessage(*array).objects) {
+      EXPECT_TRUE(isValid(object)) << i << ": " << object.box.centre.x();
+      ++objects;
+    }
+  }
+  EXPECT_GT(objects, 100U);
 }
 
 TEST_F(StereoObjectsStageTest, BadInputIsDroppedAndCountedAndTheNextServed) {
