@@ -48,7 +48,7 @@ void ObjectFusionPipeline::takePose(const geometry_msgs::PoseWithCovarianceStamp
 }
 
 ObjectArrayPtr ObjectFusionPipeline::nextFused(Stamp now, std::vector<NamedObjects>& objects) {
-  const ObjectArrayPtr fused = fusion_.next(now);
+  ObjectArrayPtr fused = fusion_.next(now);
   if (fused) {
     bookTime(fusion_monitor_);
     objects.emplace_back("fused", fused);
