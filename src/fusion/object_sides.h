@@ -30,7 +30,9 @@ struct CommonHeading {
   bool same_axis = true;  ///< both take the same axis for their length
 };
 
-/// The sides of two boxes are told apart modulo a quarter turn only; so are headings joined.
+/// The sides of two boxes are told apart modulo a quarter turn only; so are headings joined, by
+/// what is known of each. Where they contradict each other, that of the box holds which would lose
+/// most by being turned: large and well measured.
 CommonHeading commonHeading(const Object& a, const Object& b);
 
 /// In which two objects are told.

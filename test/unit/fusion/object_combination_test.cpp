@@ -127,6 +127,24 @@ TEST(ObjectCombinationTest, HeadingsAreFusedByWhatIsKnownOfThem) {
   EXPECT_EQ(combined(a, b).heading_variance, kUnknownHeadingVariance);
 }
 
+TEST(ObjectCombinationTest, OfHeadingsThatContradictEachOtherThatOfTheBetterMeasuredBoxHolds) {
+  // The rear of a car, to the centimetre, but its heading may as well be another one; the other
+  // sensor has taken it for a corner.
+  Object rear = boxObject(20.0, 0.0, 0.0, 1.8, 0.0025);
+  rear.heading_variance = kUnknownHeadingVariance;
+  Object corner = boxObject(20.5, 0.0, 1.3, 1.3, 0.01, "stereo");
+  corner.box.centre = Pose2(20.5, 0.0, 0.7);
+  corner.position_covariance = Eigen::Matrix2d::Identity() * 0.25;
+  const Object fused = combined(rear, corner);
+  EXPECT_NEAR(std::cos(fused.box.centre.heading()), 1.0, 1e-6);
+  EXPECT_EQ(fused.heading_variance, rear.heading_variance);
+  EXPECT_NEAR(fused.box.centre.x() - 0.5 * fused.box.length, 20.0, 0.05);
+  // A post has no heading that could be right.
+  Object post = rear;
+  post.box.width = 0.1;
+  EXPECT_NEAR(combined(post, corner).box.centre.heading(), 0.7, 1e-6);
+}
+
 TEST(ObjectCombinationTest, TheSurerOneTellsWhichWayItHeads) {
   Object a = boxObject(10.0, 0.0, 4.0, 2.0, 0.01);
   Object b = boxObject(10.0, 0.0, 4.0, 2.0, 0.01, "stereo");
