@@ -66,10 +66,14 @@ def score_list(objects, truths, viewpoint=(0.0, 0.0)):
     objects: of Seen; truths: of TrueState at the stamp of the list; viewpoint: of the sensor, m.
     """
     distances = np.full((len(objects), len(truths)), np.inf)
+    places = np.array([truth.pose[:2] for truth in truths]).reshape(-1, 2)
+    velocities = np.array([truth.velocity for truth in truths]).reshape(-1, 2)
+    halves = np.array([0.5 * np.hypot(*truth.size) for truth in truths])
     for i, item in enumerate(objects):
-        moved = [truth.after(item.delay) for truth in truths]
-        near_point = Outline(item, viewpoint).near_point() + viewpoint
-        distances[i] = scaled_distances(near_point, moved, viewpoint)
+        point = Outline(item, viewpoint).near_point() + viewpoint
+        apart = np.linalg.norm(places + velocities * item.delay - point, axis=1)
+        for j in np.flatnonzero(apart <= halves + _along_gate(point, viewpoint)):
+            distances[i, j] = scaled_distance(point, truths[j].after(item.delay), viewpoint)
     matches = [
         (i, j, _errors(objects[i], truths[j].after(objects[i].delay), viewpoint))
         for i, j in _pairs(distances, objects, truths)
@@ -77,20 +81,21 @@ def score_list(objects, truths, viewpoint=(0.0, 0.0)):
     return ListScore(matches, np.any(distances <= 1.0, axis=1))
 
 
-def scaled_distances(point, truths, viewpoint):
-    """Distances (n) of a point (x, y) from the boxes of TrueStates, 0 inside; 1 is as far as near
-    goes, along the line of sight and across it. Infinite where they are far apart."""
-    distances = np.full(len(truths), np.inf)
+def scaled_distance(point, truth, viewpoint):
+    """Distance of a point (x, y) from the box of a TrueState, 0 inside; 1 is as far as near goes,
+    along the line of sight and across it."""
     ray = np.asarray(point) - np.asarray(viewpoint)
     reach = float(np.hypot(*ray))
     along = ray / reach if reach > 0.0 else np.array([1.0, 0.0])
-    gate = max(NEAR_ALONG, THESIS_GATE * reach)
+    gate = _along_gate(point, viewpoint)
     axes = np.array([along / gate, np.array([-along[1], along[0]]) / NEAR_ACROSS])
-    for j, truth in enumerate(truths):
-        apart = np.hypot(*(truth.pose[:2] - point))
-        if apart <= 0.5 * np.hypot(*truth.size) + max(gate, NEAR_ACROSS):
-            distances[j] = _distance_to(_corners(truth, point) @ axes.T)
-    return distances
+    return _distance_to(_corners(truth, point) @ axes.T)
+
+
+def _along_gate(point, viewpoint):
+    """m; never less than across."""
+    reach = float(np.hypot(*(np.asarray(point) - np.asarray(viewpoint))))
+    return max(NEAR_ALONG, THESIS_GATE * reach)
 
 
 def _corners(truth, origin):
