@@ -11,7 +11,7 @@ labelled drive, of all that move in the camera's view. Beside it what the thesis
 with fusion of objects (table 3.2): its data sets were driven, ours are simulated streets with as
 many seconds and moving objects. RMSE: of the position of matched tracks, and, near, of those within
 20 m. Class right: of the frames of matched tracks. Delay: from the first sight of an object to its
-first track, mean. Time: mean of all stages together for one scan."""
+first track, mean. Time: mean of all stages together for one scan, without the matching of images."""
 
 # Levels at which the thesis has a count: its field in Published.
 THESIS_MISSED = {"none": "missed", "object": "missed_with_fusion"}
