@@ -57,8 +57,8 @@ double likelihoodAt(double aspect, const SeenSize& seen, const KindSize& kind) {
   const bool side_seen = kind.length * s > least;
   const bool end_seen = kind.width * c > least;
   const double along = std::max(side_seen ? kind.length * c : 0.0, end_seen ? kind.width * s : 0.0);
-  const double along_variance =
-      square(side_seen ? kind.length_sigma * c : kind.width_sigma) + square(seen.along_sigma);
+  const double along_variance = square(side_seen ? kind.length_sigma * c : kind.width_sigma) +
+                                square(kind.relief_sigma) + square(seen.along_sigma);
   return likelihoodOfExtent(seen.across, kind.length * s + kind.width * c, across_variance,
                             seen.wider) *
          likelihoodOfExtent(seen.along, along, along_variance, seen.wider);
@@ -93,6 +93,10 @@ void KindSize::visit(OptionVisitor& visitor) {
   visitor.number({"length_sigma", "m", "standard deviation"}, length_sigma, {0.01, 10.0});
   visitor.number({"width", "m", "mean"}, width, {0.01, 10.0});
   visitor.number({"width_sigma", "m", "standard deviation"}, width_sigma, {0.01, 10.0});
+  visitor.number({"relief_sigma", "m",
+                  "standard deviation of the depth of what is no box in it: from bumper to "
+                  "windscreen, from wheel to rider"},
+                 relief_sigma, {0.0, 10.0});
 }
 
 void ObjectClassifierOptions::visit(OptionVisitor& visitor) {

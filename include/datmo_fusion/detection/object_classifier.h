@@ -14,18 +14,19 @@ struct KindSize {
   double height = 0.0, height_sigma = 0.0;  ///< m
   double length = 0.0, length_sigma = 0.0;  ///< m
   double width = 0.0, width_sigma = 0.0;    ///< m
+  double relief_sigma = 0.0;                ///< m
 
   void visit(OptionVisitor& visitor);
 };
 
 struct ObjectClassifierOptions {
-  KindSize pedestrian{4.0, 1.70, 0.15, 0.5, 0.15, 0.55, 0.15};
+  KindSize pedestrian{4.0, 1.70, 0.15, 0.5, 0.15, 0.55, 0.15, 0.1};
   /// As long as it looks: wheels are low and thin.
-  KindSize cyclist{4.0, 1.70, 0.15, 1.5, 0.35, 0.60, 0.15};
-  KindSize car{4.0, 1.45, 0.20, 4.2, 0.5, 1.75, 0.15};
-  KindSize van{2.0, 2.1, 0.3, 5.2, 0.6, 1.95, 0.15};
-  KindSize truck{1.0, 3.4, 0.4, 9.0, 2.5, 2.5, 0.15};
-  KindSize pole{3.0, 4.5, 1.2, 0.2, 0.1, 0.2, 0.1};
+  KindSize cyclist{4.0, 1.72, 0.13, 1.6, 0.3, 0.60, 0.15, 0.3};
+  KindSize car{6.0, 1.45, 0.20, 4.2, 0.5, 1.75, 0.15, 0.7};
+  KindSize van{2.0, 2.1, 0.3, 5.2, 0.6, 1.95, 0.15, 0.5};
+  KindSize truck{1.0, 3.4, 0.4, 9.0, 2.5, 2.5, 0.15, 0.4};
+  KindSize pole{3.0, 4.5, 1.2, 0.2, 0.1, 0.2, 0.1, 0.05};
   double ahead_share = 0.6;  ///< 0 to 1
   double else_share = 2.0;   ///< relative to the kinds' shares
 

@@ -15,7 +15,7 @@ namespace datmo {
 struct StereoSurfaceOptions {
   double nearest_depth = 0.5;   ///< m
   double least_height = 0.3;    ///< m
-  double layer_top = 1.6;       ///< m
+  double layer_top = 2.2;       ///< m
   double highest = 5.0;         ///< m
   double road_sigmas = 2.0;     ///< standard deviations of the depth
   double finest_depth = 0.1;    ///< m
@@ -47,7 +47,7 @@ struct StereoNoiseOptions {
   double edge_sigma = 1.0;         ///< px
   double body_sigma = 0.1;         ///< m
   double height_sigma = 0.1;       ///< m
-  double extent_sigma = 0.3;       ///< m
+  double extent_sigma = 0.2;       ///< m
 
   void visit(OptionVisitor& visitor);
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -31,6 +32,8 @@ struct MadeScene {
   double camera_yaw = 0.0;     ///< rad, to the left
   double unknown_pitch = 0.0;  ///< rad, downwards; the mount that the cloud tells knows none of it
   double disparity_noise = 0.0;  ///< px, standard deviation
+  double disparity_bias = 0.0;   ///< px, of all points
+  std::uint64_t seed = 3;        ///< of the noise
   int step = 1;                  ///< px from a point to the next one, both ways
 };
 
@@ -48,7 +51,7 @@ class MadeCloud {
     mount(scene.camera_height, scene.camera_yaw, scene.unknown_pitch);
     const Eigen::Isometry3d true_mount = cloud_.camera_in_base;
     mount(scene.camera_height, scene.camera_yaw, 0.0);
-    Random random(3);
+    Random random(scene.seed);
     for (int row = -kHalfHeight; row < kHalfHeight; row += scene.step) {
       for (int column = -kHalfWidth; column < kHalfWidth; column += scene.step) {
         const double focal_length = cloud_.camera.focal_length;
@@ -56,7 +59,8 @@ class MadeCloud {
                                         1.0);
         const double depth = depthAlong(true_mount * direction, true_mount.translation(), scene);
         const double disparity = focal_length * cloud_.camera.baseline / depth;
-        const double noisy = disparity + random.normal(scene.disparity_noise);
+        const double noisy =
+            disparity + scene.disparity_bias + random.normal(scene.disparity_noise);
         add(direction * (depth * disparity / noisy));
       }
     }

@@ -1,0 +1,338 @@
+#include "datmo_fusion/detection/stereo_object_detector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "sensor_model/made_stereo.h"
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/common/angle.h"
+
+namespace datmo {
+namespace {
+
+/// m from base_link's origin to the camera.
+constexpr double kCameraX = 0.5;
+
+/// Rear at a distance ahead, middle to the left; m.
+MadeBox boxAt(double distance, double left, const Eigen::Vector3d& size) {
+  return {{distance, left - 0.5 * size.y(), 0.0},
+          {distance + size.x(), left + 0.5 * size.y(), size.z()}};
+}
+MadeBox carAt(double distance, double left) { return boxAt(distance, left, {4.2, 1.8, 1.5}); }
+MadeBox pedestrianAt(double distance, double left) {
+  return boxAt(distance, left, {0.5, 0.5, 1.75});
+}
+
+MadeScene sceneOf(const std::vector<MadeBox>& boxes) {
+  MadeScene scene;
+  scene.boxes = boxes;
+  return scene;
+}
+
+StereoObjects detect(MadeCloud& made,
+                     const StereoObjectDetectorOptions& options = StereoObjectDetectorOptions()) {
+  return StereoObjectDetector(options).detect(made.cloud());
+}
+
+std::vector<Object> objectsIn(const MadeScene& scene) {
+  MadeCloud made(scene);
+  return detect(made).list.objects;
+}
+
+const Object& nearest(const std::vector<Object>& objects) {
+  return *std::min_element(objects.begin(), objects.end(), [](const Object& a, const Object& b) {
+    return a.box.centre.x() < b.box.centre.x();
+  });
+}
+
+struct Side {
+  double place;     ///< m, along its normal
+  double variance;  ///< m^2
+};
+
+/// The side of an object that looks most into a direction.
+Side sideTowards(const Object& object, const Point2& direction) {
+  const Pose2 turn(Point2::Zero(), object.box.centre.heading());
+  const std::array<Point2, kBoxSides> normals = {turn.rotate({1.0, 0.0}), turn.rotate({-1.0, 0.0}),
+                                                 turn.rotate({0.0, 1.0}), turn.rotate({0.0, -1.0})};
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < kBoxSides; ++i) {
+    best = normals[i].dot(direction) > normals[best].dot(direction) ? i : best;
+  }
+  const double half = 0.5 * (best < 2 ? object.box.length : object.box.width);
+  return {normals[best].dot(object.box.centre.position()) + half, object.side_variance[best]};
+}
+Side rearOf(const Object& object) { return sideTowards(object, {-1.0, 0.0}); }
+Side leftOf(const Object& object) { return sideTowards(object, {0.0, 1.0}); }
+Side rightOf(const Object& object) { return sideTowards(object, {0.0, -1.0}); }
+
+TEST(StereoObjectDetector, FindsACarAhead) {
+  const std::vector<Object> objects = objectsIn(sceneOf({carAt(10.0, 0.0)}));
+  ASSERT_EQ(objects.size(), 1U);
+  const Object& car = objects.front();
+  EXPECT_EQ(car.object_class, ObjectClass::kVehicle);
+  EXPECT_GT(car.class_probability, 0.5);
+  EXPECT_NEAR(car.height, 1.5, 0.1);
+  EXPECT_NEAR(-rearOf(car).place, 10.0, 0.1);
+  EXPECT_NEAR(leftOf(car).place, 0.9, 0.1);
+  EXPECT_NEAR(rightOf(car).place, 0.9, 0.1);
+  EXPECT_LT(leftOf(car).variance, 0.1);
+  EXPECT_LT(rightOf(car).variance, 0.1);
+  EXPECT_EQ(sideTowards(car, {1.0, 0.0}).variance, kHiddenSide) << "it faces away";
+  EXPECT_EQ(car.sensors, std::vector<std::string>{"stereo"});
+  EXPECT_EQ(car.dynamic_state, DynamicState::kUnknown);
+  EXPECT_FALSE(car.points.empty());
+  EXPECT_LE(car.points.size(), 40U);
+}
+
+TEST(StereoObjectDetector, FindsACarFarAwayInNoise) {
+  MadeScene scene = sceneOf({carAt(25.0, 2.0)});
+  scene.disparity_noise = 0.25;
+  const std::vector<Object> objects = objectsIn(scene);
+  ASSERT_EQ(objects.size(), 1U);
+  const Object& car = objects.front();
+  EXPECT_EQ(car.object_class, ObjectClass::kVehicle);
+  const double sigma = std::sqrt(car.position_covariance(0, 0) + rearOf(car).variance);
+  EXPECT_NEAR(-rearOf(car).place, 25.0, 3.0 * sigma);
+  EXPECT_LT(sigma, 1.0);
+}
+
+TEST(StereoObjectDetector, TellsPedestrianCyclistAndPole) {
+  const std::vector<Object> objects =
+      objectsIn(sceneOf({pedestrianAt(10.0, 3.0), boxAt(10.0, 0.0, {0.6, 1.6, 1.75}),
+                         boxAt(10.0, -3.0, {0.15, 0.15, 4.0})}));
+  ASSERT_EQ(objects.size(), 3U);
+  EXPECT_EQ(objects[0].object_class, ObjectClass::kPedestrian);
+  EXPECT_EQ(objects[1].object_class, ObjectClass::kCyclist);
+  EXPECT_EQ(objects[2].object_class, ObjectClass::kPole);
+}
+
+TEST(StereoObjectDetector, LeavesOutWallsHousesAndKerbs) {
+  EXPECT_TRUE(objectsIn(sceneOf({wallAt(16.0, 30.0)})).empty()) << "a long one, 2 m high";
+  EXPECT_TRUE(objectsIn(sceneOf({boxAt(16.0, 0.0, {5.0, 5.0, 9.0})})).empty()) << "a high one";
+  EXPECT_TRUE(objectsIn(sceneOf({boxAt(6.0, 3.0, {20.0, 1.0, 0.15})})).empty()) << "a kerb";
+  EXPECT_TRUE(objectsIn(sceneOf({})).empty());
+}
+
+TEST(StereoObjectDetector, SeesWhatIsBehindAndAboveNearerThings) {
+  const std::vector<Object> objects =
+      objectsIn(sceneOf({carAt(9.0, 0.0), boxAt(18.0, 0.0, {9.0, 2.5, 3.4})}));
+  ASSERT_EQ(objects.size(), 2U) << "a truck, seen over a car";
+  EXPECT_NEAR(-rearOf(nearest(objects)).place, 9.0, 0.1);
+  const bool first = &nearest(objects) == &objects[0];
+  EXPECT_NEAR(-rearOf(objects[first ? 1 : 0]).place, 18.0, 0.2);
+}
+
+TEST(StereoObjectDetector, MarksAnEndThatSomethingNearerHides) {
+  const std::vector<Object> objects =
+      objectsIn(sceneOf({boxAt(7.0, 0.6, {0.6, 1.2, 1.9}), carAt(15.0, 0.0)}));
+  ASSERT_EQ(objects.size(), 2U);
+  const bool first = objects[0].box.centre.x() > 12.0;
+  const Object& car = objects[first ? 0 : 1];
+  EXPECT_EQ(leftOf(car).variance, kHiddenSide);
+  EXPECT_LT(rightOf(car).variance, 0.1);
+  EXPECT_NEAR(rightOf(car).place, 0.9, 0.15);
+}
+
+TEST(StereoObjectDetector, MarksAnEndAtTheImagesBorder) {
+  // Half of the car is beyond the border, at a tangent of 0.5.
+  const std::vector<Object> objects = objectsIn(sceneOf({carAt(8.5, -4.0)}));
+  ASSERT_EQ(objects.size(), 1U);
+  EXPECT_EQ(rightOf(objects[0]).variance, kHiddenSide);
+  EXPECT_LT(leftOf(objects[0]).variance, 0.2);
+}
+
+TEST(StereoObjectDetector, TellsNothingOfWhatTheRightCameraDoesNotSee) {
+  // The left camera sees the car's left side, the right one does not: it is 0.5 m to the right.
+  const std::vector<Object> objects = objectsIn(sceneOf({carAt(8.5, 2.85)}));
+  ASSERT_EQ(objects.size(), 1U);
+  EXPECT_EQ(leftOf(objects[0]).variance, kHiddenSide);
+}
+
+TEST(StereoObjectDetector, TellsThingsApartThatTouchInTheImage) {
+  MadeScene scene =
+      sceneOf({boxAt(12.0, -1.9, {1.8, 0.6, 1.75}), boxAt(10.0, -3.25, {5.2, 2.0, 2.2})});
+  scene.disparity_noise = 0.25;
+  const std::vector<Object> objects = objectsIn(scene);
+  ASSERT_EQ(objects.size(), 2U) << "a cyclist who passes a parked van";
+  const bool first = objects[0].box.centre.y() > objects[1].box.centre.y();
+  const Object& cyclist = objects[first ? 0 : 1];
+  EXPECT_NEAR(cyclist.box.centre.y(), -1.9, 0.3);
+  EXPECT_NEAR(-rearOf(cyclist).place, 12.0, 0.3);
+}
+
+TEST(StereoObjectDetector, SeesAWholeObjectThroughItsHoles) {
+  // Windows: the rear of the car is farther away in them.
+  MadeScene scene = sceneOf({boxAt(12.0, 0.0, {0.3, 1.8, 0.9}), boxAt(12.8, 0.0, {3.0, 1.6, 1.5})});
+  scene.disparity_noise = 0.25;
+  const std::vector<Object> objects = objectsIn(scene);
+  ASSERT_EQ(objects.size(), 1U);
+  EXPECT_NEAR(objects[0].height, 1.5, 0.15);
+  EXPECT_NEAR(-rearOf(objects[0]).place, 12.0, 0.3);
+}
+
+TEST(StereoObjectDetector, SaysNothingBeyondItsRange) {
+  MadeCloud made(sceneOf({carAt(20.0, 0.0)}));
+  StereoObjectDetectorOptions options;
+  EXPECT_EQ(detect(made, options).list.objects.size(), 1U);
+  options.effective_range = 18.0;
+  EXPECT_TRUE(detect(made, options).list.objects.empty());
+}
+
+TEST(StereoObjectDetector, ThinnedCloudsShowTheSame) {
+  MadeScene scene = sceneOf({carAt(12.0, 1.0), pedestrianAt(9.0, -2.0)});
+  for (const int step : {1, 2, 3}) {
+    scene.step = step;
+    const std::vector<Object> objects = objectsIn(scene);
+    ASSERT_EQ(objects.size(), 2U) << step;
+    EXPECT_EQ(objects[0].object_class, ObjectClass::kVehicle) << step;
+    EXPECT_EQ(objects[1].object_class, ObjectClass::kPedestrian) << step;
+    EXPECT_NEAR(-rearOf(objects[0]).place, 12.0, 0.15) << step;
+    EXPECT_NEAR(objects[0].height, 1.5, 0.2) << step;
+    EXPECT_NEAR(leftOf(objects[1]).place + rightOf(objects[1]).place, 0.5, 0.1) << step;
+  }
+}
+
+TEST(StereoObjectDetector, OrderOfPointsDoesNotMatter) {
+  MadeScene scene = sceneOf({carAt(12.0, 1.0), pedestrianAt(9.0, -2.0)});
+  scene.disparity_noise = 0.25;
+  MadeCloud made(scene);
+  MadeCloud backwards;
+  const PointsView points = made.cloud().points;
+  for (std::size_t i = points.count; i-- > 0;) {
+    backwards.add(points[i].cast<double>());
+  }
+  StereoObjectDetectorOptions options;
+  options.road.estimate = false;  // it looks at some of the points
+  const std::vector<Object> one = detect(made, options).list.objects;
+  const std::vector<Object> other = detect(backwards, options).list.objects;
+  ASSERT_EQ(one.size(), 2U);
+  ASSERT_EQ(other.size(), 2U);
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_NEAR(one[i].box.centre.x(), other[i].box.centre.x(), 1e-4);
+    EXPECT_NEAR(one[i].box.centre.y(), other[i].box.centre.y(), 1e-4);
+    EXPECT_EQ(one[i].object_class, other[i].object_class);
+  }
+}
+
+TEST(StereoObjectDetector, SameCloudsGiveTheSameObjects) {
+  MadeScene scene = sceneOf({carAt(12.0, 1.0), pedestrianAt(9.0, -2.0)});
+  scene.disparity_noise = 0.25;
+  MadeCloud made(scene);
+  StereoObjectDetector detector{StereoObjectDetectorOptions()};
+  const ObjectList first = detector.detect(made.cloud()).list;
+  detector.reset();
+  const ObjectList again = detector.detect(made.cloud()).list;
+  ASSERT_EQ(first.objects.size(), 2U);
+  ASSERT_EQ(again.objects.size(), 2U);
+  for (std::size_t i = 0; i < first.objects.size(); ++i) {
+    EXPECT_EQ(first.objects[i].box.centre.position(), again.objects[i].box.centre.position());
+    EXPECT_EQ(first.objects[i].heading_variance, again.objects[i].heading_variance);
+    EXPECT_EQ(first.objects[i].class_probability, again.objects[i].class_probability);
+  }
+}
+
+TEST(StereoObjectDetector, FollowsTheRoad) {
+  MadeScene scene = sceneOf({carAt(18.0, 0.0)});
+  scene.unknown_pitch = degrees(1.0);  // the road seems to rise by 0.3 m up to the car
+  const std::vector<Object> objects = objectsIn(scene);
+  ASSERT_EQ(objects.size(), 1U);
+  EXPECT_NEAR(objects[0].height, 1.5, 0.15);
+}
+
+TEST(StereoObjectDetector, TellsWhereItLooks) {
+  MadeScene scene = sceneOf({});
+  scene.camera_yaw = 0.3;
+  MadeCloud made(scene);
+  const StereoObjects result = detect(made);
+  EXPECT_EQ(result.list.stamp, made.cloud().stamp);
+  EXPECT_GT(result.points, 10000U);
+  EXPECT_TRUE(result.road_seen);
+  ASSERT_EQ(result.list.views.size(), 1U);
+  const SensorView& view = result.list.views[0];
+  EXPECT_EQ(view.sensor, "stereo");
+  EXPECT_NEAR(view.field.sensor_in_base.x(), kCameraX, 1e-9);
+  EXPECT_NEAR(view.field.sensor_in_base.heading(), 0.3, 1e-6);
+  EXPECT_NEAR(view.field.least_bearing, -std::atan(0.5), 1e-9);
+  EXPECT_NEAR(view.field.most_bearing, std::atan(0.5), 1e-9);
+  EXPECT_EQ(view.field.range, StereoObjectDetectorOptions().effective_range);
+  EXPECT_LE(view.field.sure_range, view.field.range);
+}
+
+TEST(StereoObjectDetector, TakesCloudsWithoutPoints) {
+  MadeCloud made;
+  EXPECT_TRUE(detect(made).list.objects.empty());
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  made.add({nan, nan, nan});
+  const StereoObjects result = detect(made);
+  EXPECT_TRUE(result.list.objects.empty());
+  EXPECT_EQ(result.points, 0U);
+  EXPECT_EQ(result.list.views.size(), 1U) << "it looked, and saw nothing";
+}
+
+TEST(StereoObjectDetector, RefusesCamerasThatMeasureNothing) {
+  MadeCloud made(sceneOf({}));
+  made.cloud().camera.baseline = 0.0;
+  EXPECT_THROW(detect(made), std::invalid_argument);
+  StereoObjectDetectorOptions options;
+  options.noise.edge_sigma = -1.0;
+  EXPECT_THROW(StereoObjectDetector{options}, OptionError);
+}
+
+/// Mean of the squared error of the rear's place over its variance, and the mean error (m).
+struct Consistency {
+  double squares = 0.0;
+  double bias = 0.0;
+};
+
+Consistency consistencyAt(double distance) {
+  constexpr int kClouds = 24;
+  Random random(5);
+  Consistency mean;
+  MadeScene scene = sceneOf({carAt(distance, 0.0)});
+  scene.disparity_noise = 0.2;
+  const StereoObjectDetectorOptions options;
+  for (int i = 0; i < kClouds; ++i) {
+    scene.seed = static_cast<std::uint64_t>(i) + 1;
+    scene.disparity_bias = random.normal(options.noise.common * 0.25);
+    const std::vector<Object> objects = objectsIn(scene);
+    EXPECT_EQ(objects.size(), 1U);
+    if (objects.size() == 1) {
+      const double error = -rearOf(objects[0]).place - distance;
+      const double variance = objects[0].position_covariance(0, 0) + rearOf(objects[0]).variance;
+      mean.squares += error * error / variance / kClouds;
+      mean.bias += error / kClouds;
+    }
+  }
+  return mean;
+}
+
+TEST(StereoObjectDetector, KnowsHowWellItKnowsAPlace) {
+  const Consistency middle = consistencyAt(15.0);
+  EXPECT_LT(middle.squares, 1.5);
+  EXPECT_GT(middle.squares, 0.2);
+  EXPECT_NEAR(middle.bias, 0.0, 0.15);
+  const Consistency far = consistencyAt(25.0);
+  EXPECT_LT(far.squares, 1.5);
+  EXPECT_GT(far.squares, 0.2);
+  EXPECT_NEAR(far.bias, 0.0, 0.4);
+}
+
+TEST(StereoObjectDetector, UncertaintyLiesAlongTheLineOfSightAndGrowsWithDepth) {
+  const std::vector<Object> objects = objectsIn(sceneOf({pedestrianAt(20.0, 6.0)}));
+  ASSERT_EQ(objects.size(), 1U);
+  const Point2 sight = (objects[0].box.centre.position() - Point2(kCameraX, 0.0)).normalized();
+  const Point2 aside(-sight.y(), sight.x());
+  const Eigen::Matrix2d& covariance = objects[0].position_covariance;
+  EXPECT_GT(sight.dot(covariance * sight), 4.0 * aside.dot(covariance * aside));
+  EXPECT_NEAR(sight.dot(covariance * aside), 0.0, 0.05 * sight.dot(covariance * sight));
+  const std::vector<Object> near = objectsIn(sceneOf({pedestrianAt(10.0, 3.0)}));
+  ASSERT_EQ(near.size(), 1U);
+  EXPECT_LT(near[0].position_covariance.trace(), 0.5 * covariance.trace());
+}
+
+}  // namespace
+}  // namespace datmo
