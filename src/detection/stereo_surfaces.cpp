@@ -165,20 +165,27 @@ void StereoSurfaces::addMode(const Mode& mode, const StereoSurfaceOptions& optio
   while (end < mode.end_bin && smooth_[static_cast<std::size_t>(end)] > least) {
     ++end;
   }
-  int points = 0;
-  for (int bin = first; bin < end; ++bin) {
-    points += counts_[slot(mode.column, bin)];
-  }
+  const auto pointsIn = [&](int begin_bin, int end_bin) {
+    int points = 0;
+    for (int bin = begin_bin; bin < end_bin; ++bin) {
+      points += counts_[slot(mode.column, bin)];
+    }
+    return points;
+  };
+  const int core = std::max(first, mode.peak - kCore);
+  const int core_end = std::min(end, mode.peak + kCore + 1);
+  const int points = pointsIn(first, end);
   const double depth = static_cast<double>(depth_bins_.middle(mode.peak));
-  if (points < options.least_points || points < options.least_visible * pointsPerMetre(depth)) {
+  // The peak may be that of the columns beside it alone.
+  if (points < options.least_points || points < options.least_visible * pointsPerMetre(depth) ||
+      pointsIn(core, core_end) == 0) {
     return;
   }
   const auto index = static_cast<std::int32_t>(columns_.surfaces.size());
   ColumnSurface surface;
   surface.column = mode.column;
   columns_.surfaces.push_back(surface);
-  const int last = std::min(end, mode.peak + kCore + 1);
-  for (int bin = std::max(first, mode.peak - kCore); bin < last; ++bin) {
+  for (int bin = core; bin < core_end; ++bin) {
     surface_at_[slot(mode.column, bin)] = index;
   }
 }
