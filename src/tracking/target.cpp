@@ -21,10 +21,15 @@ ImmFilter birth(const PositionMeasurement& measured, const TargetOptions& option
           transitions};
 }
 
-/// Share of the points where the map is free, of what was seen to move.
-double movingShare(const Object& object) {
-  const bool moves = object.dynamic_state == DynamicState::kMoving;
-  return moves && object.object_class != ObjectClass::kPole ? object.moving_fraction : 0.0;
+/// How many times in a row two sensors saw it move; who sees it alone tells nothing new.
+int sightsAfter(int before, const Object& object, double least_free_share) {
+  if (object.sensors.size() < 2) {
+    return before;
+  }
+  const bool moves = object.dynamic_state == DynamicState::kMoving &&
+                     object.object_class != ObjectClass::kPole &&
+                     object.moving_fraction >= least_free_share;
+  return moves ? before + 1 : 0;
 }
 
 }  // namespace
@@ -49,6 +54,13 @@ void TargetOptions::visit(OptionVisitor& visitor) {
                   "is free for it to be known as moving at once: less may be an echo beside "
                   "something that stands"},
                  fused_free_share, {0.0, 1.0});
+  visitor.integer({"fused_vehicle_sights", "1",
+                   "times in a row that this is so before it is known of a vehicle, and of what "
+                   "has no class yet; others at first sight (thesis 3.3.4: all)"},
+                  fused_vehicle_sights, {1, 100});
+  visitor.number({"fused_history", "s",
+                  "who was followed for longer must have a significant velocity besides"},
+                 fused_history, {0.0, 60.0});
   visitor.number({"fused_proof_time", "s",
                   "who was known as moving at once and is not seen to move in this time, nor may "
                   "be, is no track: a person of 1.4 m/s goes twice evidence/least_overrun"},
@@ -63,7 +75,7 @@ Target::Target(const Object& object, std::size_t index, std::uint64_t number,
       number_(number),
       seen_as_(index),
       height_(object.height),
-      moving_share_(movingShare(object)),
+      sights_of_two_(sightsAfter(0, object, options.fused_free_share)),
       sensors_(std::make_shared<const std::vector<std::string>>(object.sensors)) {
   class_.update(object.object_class, object.class_probability);
 }
@@ -96,7 +108,7 @@ void Target::update(const Object& object, std::size_t index, double detection_pr
   seen_as_ = index;
   since_update_ = 0.0;
   height_ = object.height > 0.0 ? object.height : height_;
-  moving_share_ = movingShare(object);
+  sights_of_two_ = sightsAfter(sights_of_two_, object, options.fused_free_share);
   if (object.sensors != *sensors_) {
     sensors_ = std::make_shared<const std::vector<std::string>>(object.sensors);
   }
@@ -115,8 +127,15 @@ double Target::sameClassProbability(const Object& object) const {
 }
 
 bool Target::isSeenMovingByTwo(const TargetOptions& options) const {
-  return sensors_->size() > 1 && moving_share_ > 0.0 && moving_share_ >= options.fused_free_share &&
-         mayMove(options);
+  const bool person =
+      objectClass() == ObjectClass::kPedestrian || objectClass() == ObjectClass::kCyclist;
+  if (sensors_->size() < 2 || sights_of_two_ < (person ? 1 : options.fused_vehicle_sights)) {
+    return false;
+  }
+  return followed() <= options.fused_history
+             ? mayMove(options)
+             : velocityIsSignificant(filter_.estimate(), options.evidence.speed_significance,
+                                     options.evidence.least_speed);
 }
 
 double Target::existenceProbability(const TargetOptions& options) const {

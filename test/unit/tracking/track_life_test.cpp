@@ -99,6 +99,8 @@ TEST(TrackLife, TwoSensorsOfWhichOneSeesItMoveConfirmAtOnce) {
   options.target.birth_probability = 0.6;
   TrackingScene scene(options);
   Object fused = objectAt(10.0, 0.0, DynamicState::kMoving);
+  fused.object_class = ObjectClass::kCyclist;
+  fused.class_probability = 0.8;
   scene.scan({fused});
   EXPECT_TRUE(scene.tracks().tracks.empty()) << "one sensor";
   fused.box.centre = Pose2(30.0, 5.0, 0.0);
