@@ -1,4 +1,4 @@
-// Stereo gridding: a cloud in a street as stereo_image_proc publishes it, to a grid.
+// A stereo cloud in a street as stereo_image_proc publishes it, to a grid, and to objects.
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,7 @@
 #include <benchmark/benchmark.h>
 
 #include "datmo_fusion/common/random.h"
+#include "datmo_fusion/detection/stereo_object_detector.h"
 #include "datmo_fusion/sensor_model/stereo_grid.h"
 
 namespace datmo {
@@ -60,12 +61,19 @@ std::vector<std::uint8_t> streetPoints(const StereoCloud& cloud) {
   return memory;
 }
 
+/// The points that lie in `memory`.
+PointsView pointsIn(const std::vector<std::uint8_t>& memory) {
+  PointsView points;
+  points.data = memory.data();
+  points.step = kPointStep;
+  points.count = memory.size() / kPointStep;
+  return points;
+}
+
 void stereoGrid(benchmark::State& state, const std::string& method) {
   StereoCloud cloud = streetView();
   const std::vector<std::uint8_t> memory = streetPoints(cloud);
-  cloud.points.data = memory.data();
-  cloud.points.step = kPointStep;
-  cloud.points.count = memory.size() / kPointStep;
+  cloud.points = pointsIn(memory);
   StereoGridOptions options;
   options.method = method;
   StereoGridModel model(options);
@@ -76,6 +84,21 @@ void stereoGrid(benchmark::State& state, const std::string& method) {
 }
 BENCHMARK_CAPTURE(stereoGrid, columns, "columns")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(stereoGrid, cones, "cones")->Unit(benchmark::kMillisecond);
+
+void stereoObjects(benchmark::State& state) {
+  StereoCloud cloud = streetView();
+  const std::vector<std::uint8_t> memory = streetPoints(cloud);
+  cloud.points = pointsIn(memory);
+  StereoObjectDetector detector{StereoObjectDetectorOptions()};
+  std::size_t objects = 0;
+  for (auto _ : state) {
+    objects = detector.detect(cloud).list.objects.size();
+    benchmark::DoNotOptimize(objects);
+  }
+  state.counters["points"] = static_cast<double>(cloud.points.count);
+  state.counters["objects"] = static_cast<double>(objects);
+}
+BENCHMARK(stereoObjects)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace datmo
