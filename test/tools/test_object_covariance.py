@@ -86,9 +86,26 @@ class Table(unittest.TestCase):
         """A lidar that says that it is worse than all differences."""
         doubtful = [pair._replace(known_range_variance=100.0) for pair in pairs()]
         column = covariance_table(doubtful, 2.0, 30.0, 30).range
-        known = column.measured
-        self.assertTrue(np.all(column.variance[known] > 0.0))
+        self.assertFalse(np.any(column.measured))
+        self.assertTrue(np.all(column.variance > 0.0))
+        known = column.enough
         self.assertTrue(np.all(column.variance[known] < column.difference_variance[known]))
+
+    def test_bin_that_the_lidar_hides_is_of_the_law(self):
+        """A lidar that is worse than the camera up to 12 m, and tells so."""
+        noise = random().standard_normal(20000)
+        hidden = [
+            pair._replace(range_difference=pair.range_difference + float(offset),
+                          known_range_variance=1.0)
+            if pair.range < 12.0 else pair
+            for pair, offset in zip(pairs(20000), noise)
+        ]  # fmt: skip
+        column = covariance_table(hidden, 2.0, 30.0, 30).range
+        self.assertFalse(np.any(column.measured[:6]))
+        self.assertTrue(np.all(column.measured[6:]))
+        centres = (np.arange(15) + 0.5) * 2.0
+        true = RANGE_LAW[0] + RANGE_LAW[1] * centres**4
+        np.testing.assert_allclose(column.variance[:6], true[:6], rtol=0.5)
 
     def test_gaps_are_filled_by_the_law(self):
         """Nothing from 10 m to 16 m, and beyond 24 m."""
@@ -123,11 +140,12 @@ class Table(unittest.TestCase):
     def test_law_is_never_below_zero(self):
         """Variances that fall with range: no r^4 in them."""
         ranges = np.array([5.0, 10.0, 20.0])
-        law = fitted_law(ranges, [0.3, 0.2, 0.1], [50, 50, 50], 4)
+        nothing = np.zeros(3)
+        law = fitted_law(ranges, [0.3, 0.2, 0.1], nothing, [50, 50, 50], 4)
         self.assertEqual(law.factor, 0.0)
         self.assertTrue(0.1 < law.constant < 0.3)
         # That grow faster: no constant.
-        law = fitted_law(ranges, 1e-6 * ranges**5, [50, 50, 50], 4)
+        law = fitted_law(ranges, 1e-6 * ranges**5, nothing, [50, 50, 50], 4)
         self.assertEqual(law.constant, 0.0)
 
 

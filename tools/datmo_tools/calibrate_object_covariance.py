@@ -26,8 +26,8 @@ saw: the near side along the line of sight, and the bearings of its corners.
 
 Of the differences in each bin of range outliers beyond three robust standard deviations are left
 out; taken out of their variance is what the lidar says of itself, and the camera of the sides that
-it saw, which object_fusion adds by itself. Where a bin has too few pairs, the law that fits the
-other bins fills in: a + b range^4 for range, a + b / range^2 for bearing.
+it saw, which object_fusion adds by itself. Where a bin has too few pairs, or what is known hides
+the rest, the law that fits all bins fills in: a + b range^4 for range, a + b / range^2 for bearing.
 
 Ranges are counted from the camera's place, which its lists tell. The lidar is taken for unbiased;
 a mean difference is printed as bias. Object fusion does not take it out: --with-bias adds its

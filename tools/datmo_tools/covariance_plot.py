@@ -42,7 +42,7 @@ def _draw(ax, table, column, scale):
     ax.errorbar(centres[measured], sigmas[measured], spread, fmt="o", color=INK, markersize=4,
                 label="measured")  # fmt: skip
     ax.plot(centres[~measured], sigmas[~measured], "o", color=INK, markersize=4,
-            markerfacecolor="none", label="too few pairs: of the law")  # fmt: skip
+            markerfacecolor="none", label="not measured: of the law")  # fmt: skip
     ax.plot(centres, scale * np.sqrt(column.known_variance), color=TRUTH, label="known, taken out")
     ax.plot(centres, scale * np.abs(column.bias), ".", color=colour(1), label="bias, absolute")
     ax.set_ylim(0.0, 1.3 * float(np.max(sigmas[centres > 2.0 * table.bin_width], initial=0.0)))

@@ -5,7 +5,6 @@ import numpy as np
 from datmo_tools.text_table import aligned, rounded
 
 DEGREES = np.degrees(1.0)
-OF_THE_LAW = "too few: law"
 
 NOTE = """\
 Left range (m), right bearing (degrees). Known: standard deviation of the differences by what the
@@ -64,8 +63,16 @@ def _bins(table):
             text = f"{column.count[i]} pairs"
             if column.count[i]:
                 text += f", {scale * column.bias[i]:+.2f} {unit}"
-            texts.append(text if column.measured[i] else f"{text} ({OF_THE_LAW})")
+            mark = _mark(column, i)
+            texts.append(f"{text} ({mark})" if mark else text)
         yield f"{near:g}-{far:g} m: {'; '.join(texts)}"
+
+
+def _mark(column, i):
+    """Of a bin that is not measured."""
+    if column.measured[i]:
+        return ""
+    return "hidden by the known: law" if column.enough[i] else "too few: law"
 
 
 def summary(table, counts):
@@ -78,7 +85,7 @@ def summary(table, counts):
             items = (column.bias[i], np.sqrt(column.known_variance[i]), np.sqrt(column.variance[i]))
             cells.append(str(column.count[i]))
             cells += [rounded(None if np.isnan(item) else scale * item, 3) for item in items]
-            cells.append("" if column.measured[i] else OF_THE_LAW)
+            cells.append(_mark(column, i))
         rows.append(cells)
     distance, bearing = table.range.law, table.bearing.law
     laws = (

@@ -12,7 +12,8 @@ OUTLIER = 3.0  # standard deviations
 # What is left of a normal distribution's variance within so many standard deviations.
 KEPT_VARIANCE = 0.97334
 
-# Where what is known explains all of the differences, this share is the camera's after all.
+# Of the variance of the differences: where less of it is the camera's own, it is too little to be
+# measured beside what is known.
 LEAST_SHARE = 0.1
 
 FIT_STEPS = 50
@@ -47,19 +48,21 @@ class Law(NamedTuple):
         return self.constant + self.factor * np.asarray(ranges, dtype=float) ** self.power
 
 
-def fitted_law(ranges, variances, counts, power):
-    """Law with constant and factor of 0 or more that fits the variances best.
+def fitted_law(ranges, differences, known, counts, power):
+    """Law with constant and factor of 0 or more that, with what is known, fits variances best.
 
-    ranges: m; variances: of as many samples as `counts` says, each 2 or more in number: that of a
-    variance's own estimate is 2 variance^2 / count.
+    ranges: m; differences: their variances, of as many samples as `counts` says: that of such an
+    estimate is 2 variance^2 / count; known: variance that is part of each.
     """
-    ranges, variances, counts = (np.asarray(item, float) for item in (ranges, variances, counts))
+    items = (ranges, differences, known, counts)
+    ranges, differences, known, counts = (np.asarray(item, dtype=float) for item in items)
     terms = np.column_stack([np.ones(len(ranges)), ranges**power])
-    weights = np.sqrt(counts) / variances
+    whole = differences
     factors = np.zeros(2)
     for _ in range(FIT_STEPS):
-        factors = _least_squares(terms * weights[:, np.newaxis], variances * weights)
-        weights = np.sqrt(counts) / (terms @ factors)
+        weights = np.sqrt(counts) / whole
+        factors = _least_squares(terms * weights[:, np.newaxis], (differences - known) * weights)
+        whole = np.maximum(terms @ factors + known, LEAST_SHARE * differences)
     return Law(float(factors[0]), float(factors[1]), power)
 
 
@@ -81,7 +84,8 @@ class Column(NamedTuple):
     bias: np.ndarray  # NaN: no pairs
     difference_variance: np.ndarray  # of the camera's less the lidar's; NaN: too few pairs
     known_variance: np.ndarray  # of it, what is told by the lidar and the camera's sides
-    measured: np.ndarray  # whether the bin has enough pairs
+    enough: np.ndarray  # whether the bin has enough pairs
+    measured: np.ndarray  # whether it tells the camera's variance: not where what is known hides it
     variance: np.ndarray  # the camera's: measured, or that of the law
     law: Law
 
@@ -144,10 +148,17 @@ def _column(members, centres, least_pairs, power, with_bias):
         if len(differences) >= least_pairs:
             difference_variance[i] = spread.variance + with_bias * spread.bias**2
             known_variance[i] = np.median(known)
-    measured = np.isfinite(difference_variance)
-    own = np.maximum(difference_variance - known_variance, LEAST_SHARE * difference_variance)
-    if np.any(own[measured] <= 0.0):
+    enough = np.isfinite(difference_variance)
+    if np.any(difference_variance[enough] <= 0.0):
         raise InputError("pairs of a bin differ by nothing at all, expected two sensors' objects")
-    law = fitted_law(centres[measured], own[measured], count[measured], power)
-    variance = np.where(measured, own, law.at(centres))
-    return Column(count, bias, difference_variance, known_variance, measured, variance, law)
+    own = difference_variance - known_variance
+    measured = enough & (own >= LEAST_SHARE * difference_variance)
+    if not np.any(measured):
+        known_variance = np.minimum(known_variance, (1.0 - LEAST_SHARE) * difference_variance)
+    law = fitted_law(centres[enough], difference_variance[enough], known_variance[enough],
+                     count[enough], power)  # fmt: skip
+    # A law without a constant may be nothing near the sensor.
+    least = LEAST_SHARE * np.min(own[measured], initial=np.max(law.at(centres)))
+    variance = np.where(measured, own, np.maximum(law.at(centres), least))
+    columns = (count, bias, difference_variance, known_variance, enough, measured, variance)
+    return Column(*columns, law)
