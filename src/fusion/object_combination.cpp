@@ -19,6 +19,9 @@ namespace {
 /// m^2, added to the variance of each side: keeps the information finite.
 constexpr double kLeastSideVariance = 1e-8;
 
+/// Standard deviations of a difference that is no noise.
+constexpr double kClearly = 4.0;
+
 /// m^2, of the position of a result.
 constexpr double kLeastVariance = 1e-8;
 
@@ -141,6 +144,52 @@ struct FusedAxis {
   double common_variance = 0.0;
 };
 
+/// Takes an end back that one saw, where the other saw the object reach clearly beyond it: a beam
+/// that ends on a long side tells nothing of its ends.
+void dropContradicted(ObjectSides& sides, const ObjectSides& other) {
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const auto i = static_cast<Eigen::Index>(axis);
+    const double of_whole = sides.covariance(i, i) + other.covariance(i, i);
+    for (std::size_t end = 0; end < 2; ++end) {
+      SidePair& own = sides.along[axis];
+      const SidePair& seen = other.along[axis];
+      const double beyond = (end == 0 ? -1.0 : 1.0) * (seen.place[end] - own.place[end]);
+      const double sigma = std::sqrt(of_whole + own.variance[end]);
+      if (own.isSeen(end) && !seen.isSeen(end) && beyond > kClearly * sigma) {
+        own.variance[end] = kHiddenSide;
+      }
+    }
+  }
+}
+
+/// What both saw of an object whose ends across one axis neither saw. Two views of the same part
+/// are fused; of different parts, the object reaches as far as either saw it, of the less sure one
+/// without what it is less sure by.
+FusedAxis jointExtent(const ObjectSides& a, const ObjectSides& b, std::size_t axis) {
+  const auto i = static_cast<Eigen::Index>(axis);
+  const double of_a = a.covariance(i, i);
+  const double of_b = b.covariance(i, i);
+  const SidePair& seen_a = a.along[axis];
+  const SidePair& seen_b = b.along[axis];
+  FusedAxis result;
+  if (std::abs(seen_a.extent() - seen_b.extent()) <= std::sqrt(of_a + of_b)) {
+    const double share_of_b = of_a / (of_a + of_b);
+    const double middle = (1.0 - share_of_b) * seen_a.middle() + share_of_b * seen_b.middle();
+    const double half = 0.5 * sureExtent(a, b, axis);
+    result.sides.place = {middle - half, middle + half};
+    result.common_variance = fusedVariance(of_a, of_b);
+  } else {
+    const double less_sure = 0.5 * (std::sqrt(of_a) - std::sqrt(of_b));
+    const double off_a = std::min(std::max(0.0, less_sure), 0.5 * seen_a.extent());
+    const double off_b = std::min(std::max(0.0, -less_sure), 0.5 * seen_b.extent());
+    result.sides.place = {std::min(seen_a.place[0] + off_a, seen_b.place[0] + off_b),
+                          std::max(seen_a.place[1] - off_a, seen_b.place[1] - off_b)};
+    result.common_variance = std::max(of_a, of_b);
+  }
+  result.common_variance = std::max(result.common_variance, kLeastVariance);
+  return result;
+}
+
 FusedAxis fusedAxis(const FusedSides& fused, const ObjectSides& a, const ObjectSides& b,
                     std::size_t axis) {
   const auto i = static_cast<Eigen::Index>(axis);
@@ -172,11 +221,9 @@ FusedAxis fusedAxis(const FusedSides& fused, const ObjectSides& a, const ObjectS
     result.sides.variance[sees_ahead ? 1 : 0] = 0.0;
     result.sides.place = {sees_ahead ? place - extent : place, sees_ahead ? place : place + extent};
   } else {
-    const double share_of_b = of_whole / b.covariance(i, i);
-    const double middle =
-        (1.0 - share_of_b) * a.along[axis].middle() + share_of_b * b.along[axis].middle();
-    result.common_variance = std::max(of_whole, kLeastVariance);
-    result.sides.place = {middle - 0.5 * extent, middle + 0.5 * extent};
+    const FusedAxis joint = jointExtent(a, b, axis);
+    result.sides.place = joint.sides.place;
+    result.common_variance = joint.common_variance;
   }
   return result;
 }
@@ -211,8 +258,11 @@ void turnByQuarter(Object& object) {
 double combineGeometry(const Object& a, const Object& b, Object& result) {
   const CommonHeading heading = commonHeading(a, b);
   const CommonAxes axes(a, b, heading);
-  const ObjectSides sides_a = sidesIn(axes, a);
-  const ObjectSides sides_b = sidesIn(axes, b);
+  ObjectSides sides_a = sidesIn(axes, a);
+  ObjectSides sides_b = sidesIn(axes, b);
+  const ObjectSides as_seen_by_a = sides_a;
+  dropContradicted(sides_a, sides_b);
+  dropContradicted(sides_b, as_seen_by_a);
   const FusedSides sides = fused(estimateOf(sides_a), estimateOf(sides_b));
   const std::array<FusedAxis, 2> along = {fusedAxis(sides, sides_a, sides_b, 0),
                                           fusedAxis(sides, sides_a, sides_b, 1)};
