@@ -91,6 +91,15 @@ class Table(unittest.TestCase):
         known = column.enough
         self.assertTrue(np.all(column.variance[known] < column.difference_variance[known]))
 
+    def test_lidar_that_hides_all_but_one_bin(self):
+        """The law of the others is nothing; their variance is not."""
+        sure = [pair._replace(known_range_variance=0.0 if 14.0 <= pair.range < 16.0 else 1.0)
+                for pair in pairs()]  # fmt: skip
+        column = covariance_table(sure, 2.0, 20.0, 30).range
+        self.assertEqual(np.flatnonzero(column.measured).tolist(), [7])
+        self.assertEqual(column.law.constant + column.law.factor, 0.0)
+        self.assertTrue(np.all(column.variance > 0.0))
+
     def test_bin_that_the_lidar_hides_is_of_the_law(self):
         """A lidar that is worse than the camera up to 12 m, and tells so."""
         noise = random().standard_normal(20000)

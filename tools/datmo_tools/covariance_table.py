@@ -157,8 +157,8 @@ def _column(members, centres, least_pairs, power, with_bias):
         known_variance = np.minimum(known_variance, (1.0 - LEAST_SHARE) * difference_variance)
     law = fitted_law(centres[enough], difference_variance[enough], known_variance[enough],
                      count[enough], power)  # fmt: skip
-    # A law without a constant may be nothing near the sensor.
-    least = LEAST_SHARE * np.min(own[measured], initial=np.max(law.at(centres)))
+    # A law without a constant may be nothing near the sensor, or everywhere.
+    least = LEAST_SHARE * np.min(own[measured] if np.any(measured) else law.at(centres)[enough])
     variance = np.where(measured, own, np.maximum(law.at(centres), least))
     columns = (count, bias, difference_variance, known_variance, enough, measured, variance)
     return Column(*columns, law)
