@@ -93,8 +93,10 @@ class Table(unittest.TestCase):
 
     def test_lidar_that_hides_all_but_one_bin(self):
         """The law of the others is nothing; their variance is not."""
-        sure = [pair._replace(known_range_variance=0.0 if 14.0 <= pair.range < 16.0 else 1.0)
-                for pair in pairs()]  # fmt: skip
+        sure = [
+            pair._replace(known_range_variance=1.5 * (RANGE_LAW[0] + RANGE_LAW[1] * pair.range**4))
+            for pair in pairs() if not 14.0 <= pair.range < 16.0
+        ] + [pair for pair in pairs() if 14.0 <= pair.range < 16.0]  # fmt: skip
         column = covariance_table(sure, 2.0, 20.0, 30).range
         self.assertEqual(np.flatnonzero(column.measured).tolist(), [7])
         self.assertEqual(column.law.constant + column.law.factor, 0.0)
