@@ -98,8 +98,9 @@ bool OutlineFinder::isAtBorder(const ColumnSurface& last, Step step) const {
 /// the left of it either.
 bool OutlineFinder::isBesideNearer(const ColumnSurface& last, Step step) const {
   const auto depth = static_cast<double>(last.depth);
-  const double surely_nearer =
-      depth - std::max(options_.groups.depth_gap, kSurelyApart * camera_.depthSigma(depth));
+  const double margin =
+      std::max(options_.groups.depth_gap, kSurelyApart * camera_.depthSigma(depth));
+  const double surely_nearer = depth - margin;
   const double column_pixels = camera_.focal_length / columns_.per_tangent;
   const double beside = 1.0 + std::ceil(kBesideSigmas * options_.noise.edge_sigma / column_pixels);
   const auto shadowOf = [&](double nearer) {

@@ -32,7 +32,7 @@ struct SurfaceGroupOptions {
   double depth_sigmas = 1.2;  ///< standard deviations of the depth
   double stacked_gap = 1.2;   ///< m
   double dent = 1.0;          ///< m
-  double dent_sigmas = 2.0;   ///< standard deviations of the depth
+  double dent_sigmas = 2.5;   ///< standard deviations of the depth
   double tall = 2.6;          ///< m
   double low = 2.0;           ///< m
 
@@ -45,7 +45,7 @@ struct StereoNoiseOptions {
   double column = 0.5;             ///< standard deviations of the depth
   double correlated_width = 16.0;  ///< px
   double edge_sigma = 1.0;         ///< px
-  double body_sigma = 0.1;         ///< m
+  double body_sigma = 0.2;         ///< m
   double height_sigma = 0.1;       ///< m
   double extent_sigma = 0.2;       ///< m
 

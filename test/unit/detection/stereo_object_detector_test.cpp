@@ -37,9 +37,17 @@ StereoObjects detect(MadeCloud& made,
   return StereoObjectDetector(options).detect(made.cloud());
 }
 
-std::vector<Object> objectsIn(const MadeScene& scene) {
+std::vector<Object> objectsIn(const MadeScene& scene, const StereoObjectDetectorOptions& options =
+                                                          StereoObjectDetectorOptions()) {
   MadeCloud made(scene);
-  return detect(made).list.objects;
+  return detect(made, options).list.objects;
+}
+
+/// Of scenes in which bodies are boxes.
+StereoObjectDetectorOptions ofBoxes() {
+  StereoObjectDetectorOptions options;
+  options.noise.body_sigma = 0.05;
+  return options;
 }
 
 const Object& nearest(const std::vector<Object>& objects) {
@@ -294,11 +302,11 @@ Consistency consistencyAt(double distance) {
   Consistency mean;
   MadeScene scene = sceneOf({carAt(distance, 0.0)});
   scene.disparity_noise = 0.2;
-  const StereoObjectDetectorOptions options;
+  const StereoObjectDetectorOptions options = ofBoxes();
   for (int i = 0; i < kClouds; ++i) {
     scene.seed = static_cast<std::uint64_t>(i) + 1;
     scene.disparity_bias = random.normal(options.noise.common * 0.25);
-    const std::vector<Object> objects = objectsIn(scene);
+    const std::vector<Object> objects = objectsIn(scene, options);
     EXPECT_EQ(objects.size(), 1U);
     if (objects.size() == 1) {
       const double error = -rearOf(objects[0]).place - distance;
@@ -322,14 +330,14 @@ TEST(StereoObjectDetector, KnowsHowWellItKnowsAPlace) {
 }
 
 TEST(StereoObjectDetector, UncertaintyLiesAlongTheLineOfSightAndGrowsWithDepth) {
-  const std::vector<Object> objects = objectsIn(sceneOf({pedestrianAt(20.0, 6.0)}));
+  const std::vector<Object> objects = objectsIn(sceneOf({pedestrianAt(20.0, 6.0)}), ofBoxes());
   ASSERT_EQ(objects.size(), 1U);
   const Point2 sight = (objects[0].box.centre.position() - Point2(kCameraX, 0.0)).normalized();
   const Point2 aside(-sight.y(), sight.x());
   const Eigen::Matrix2d& covariance = objects[0].position_covariance;
   EXPECT_GT(sight.dot(covariance * sight), 4.0 * aside.dot(covariance * aside));
   EXPECT_NEAR(sight.dot(covariance * aside), 0.0, 0.05 * sight.dot(covariance * sight));
-  const std::vector<Object> near = objectsIn(sceneOf({pedestrianAt(10.0, 3.0)}));
+  const std::vector<Object> near = objectsIn(sceneOf({pedestrianAt(10.0, 3.0)}), ofBoxes());
   ASSERT_EQ(near.size(), 1U);
   EXPECT_LT(near[0].position_covariance.trace(), 0.5 * covariance.trace());
 }
