@@ -62,7 +62,8 @@ def fitted_law(ranges, differences, known, counts, power):
     for _ in range(FIT_STEPS):
         weights = np.sqrt(counts) / whole
         factors = _least_squares(terms * weights[:, np.newaxis], (differences - known) * weights)
-        whole = np.maximum(terms @ factors + known, LEAST_SHARE * differences)
+        # A bin far above the law must not weigh the more for it.
+        whole = np.maximum(terms @ factors + known, 0.5 * differences)
     return Law(float(factors[0]), float(factors[1]), power)
 
 
