@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "sensor_model/made_stereo.h"
+#include "made_stereo.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/common/angle.h"
