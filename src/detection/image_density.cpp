@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+
+#include "datmo_fusion/sensor_model/point_density.h"
 
 namespace datmo {
 
 namespace {
-
-/// This share of the tiles with points may have holes; the others tell how the cloud was thinned.
-constexpr double kHolesShare = 0.8;
 
 /// Rows of the image with fewer points than this share of the fullest one's are not of the image:
 /// the camera is not quite level.
@@ -30,16 +28,7 @@ void ImageDensity::reset(const StereoCamera& camera) {
 }
 
 double ImageDensity::pixelsPerPoint() const {
-  std::vector<int> counts;
-  std::copy_if(tiles_.begin(), tiles_.end(), std::back_inserter(counts),
-               [](int count) { return count > 0; });
-  if (counts.empty()) {
-    return 1.0;
-  }
-  const auto dense = counts.begin() + static_cast<std::ptrdiff_t>(
-                                          kHolesShare * static_cast<double>(counts.size() - 1));
-  std::nth_element(counts.begin(), dense, counts.end());
-  return std::max(1.0, static_cast<double>(kTileSize * kTileSize) / *dense);
+  return std::max(1.0, datmo::pixelsPerPoint(tiles_, static_cast<double>(kTileSize * kTileSize)));
 }
 
 double ImageDensity::highestTangent() const {

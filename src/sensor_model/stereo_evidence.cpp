@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
+
+#include "datmo_fusion/sensor_model/point_density.h"
 
 namespace datmo {
 
@@ -31,9 +32,6 @@ constexpr std::size_t kEnoughLines = 100000;
 /// After so many points, the lines that are counted are one point later: no image is so wide that
 /// they would all be in the same columns.
 constexpr std::size_t kRun = 1021;
-
-/// This share of the tiles with points may have holes; the others tell how the cloud was thinned.
-constexpr double kHolesShare = 0.8;
 
 int roundedUp(double value) {
   const int whole = static_cast<int>(value);
@@ -176,17 +174,8 @@ inline void StereoEvidence::addLine(const ColumnPoint& point, const Scales& scal
 }
 
 double StereoEvidence::pixelsPerLine() const {
-  std::vector<int> counts;
-  std::copy_if(tiles_.begin(), tiles_.end(), std::back_inserter(counts),
-               [](int count) { return count > 0; });
-  if (counts.empty()) {
-    return 1.0;
-  }
-  const auto dense = counts.begin() + static_cast<std::ptrdiff_t>(
-                                          kHolesShare * static_cast<double>(counts.size() - 1));
-  std::nth_element(counts.begin(), dense, counts.end());
   const double tile_size = (1 << tile_shift_) * focal_length_ / columns_per_tangent_;
-  return tile_size * tile_size / *dense;
+  return pixelsPerPoint(tiles_, tile_size * tile_size);
 }
 
 StereoEvidence::Columns StereoEvidence::columnsAt(const ViewedPlace& place,
