@@ -17,7 +17,7 @@ struct ObjectAssociationOptions {
   double unrelated_density = 0.002;  ///< 1/m^2
   double object_speed = 10.0;        ///< m/s
   double body_std = 0.2;             ///< m
-  double unknown_size_std = 2.0;     ///< m
+  double unknown_size_std = 1.0;     ///< m
   int most_work = 2000000;
   double nearest_distance = 5.0;  ///< m
   double nearest_range = 36.0;    ///< m
