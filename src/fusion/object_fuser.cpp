@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <optional>
-#include <tuple>
 #include <utility>
+
+#include "object_intake.h"
 
 #include "datmo_fusion/fusion/object_combination.h"
 #include "datmo_fusion/tracking/assignment.h"
-#include "datmo_fusion/tracking/object_check.h"
 
 namespace datmo {
 
@@ -22,15 +21,6 @@ constexpr double kMostLogOdds = 20.0;
 /// Of a class to be taken for known.
 constexpr double kKnownClass = 0.5;
 
-/// One source's objects, brought to the reference.
-struct Intake {
-  std::vector<Object> objects;  ///< valid ones, from left to right in any order they came in
-  std::vector<PlaceTestimony>
-      testimonies;                 ///< of the scan, of each object; the scanner's own: none
-  Point2 sensor = Point2::Zero();  ///< m, from where it looks
-  std::optional<Visibility> view;
-};
-
 /// An object of the result, and which sources see it.
 struct FusedObject {
   Object object;
@@ -39,69 +29,12 @@ struct FusedObject {
   PlaceTestimony testimony;     ///< of the scan, about what another source sees of it
 };
 
-auto place(const Object& object) {
-  const Box2& box = object.box;
-  return std::make_tuple(box.centre.x(), box.centre.y(), box.centre.heading(), box.length,
-                         box.width, object.height, object.log_odds);
-}
-
-/// The objects that are valid, the nearest ones if there are too many, in an order of their own.
-std::vector<Object> accepted(const ObjectList& list, std::size_t most, ObjectFusionCounts& counts) {
-  std::vector<Object> objects;
-  std::copy_if(list.objects.begin(), list.objects.end(), std::back_inserter(objects), isValid);
-  counts.rejected += list.objects.size() - objects.size();
-  if (objects.size() > most) {
-    std::sort(objects.begin(), objects.end(), [](const Object& a, const Object& b) {
-      const double to_a = a.box.centre.position().norm();
-      const double to_b = b.box.centre.position().norm();
-      return to_a < to_b || (to_a == to_b && place(a) < place(b));
-    });
-    counts.refused += objects.size() - most;
-    objects.resize(most);
-  }
-  std::sort(objects.begin(), objects.end(),
-            [](const Object& a, const Object& b) { return place(a) < place(b); });
-  return objects;
-}
-
-Point2 sensorOf(const ObjectList& list) {
-  return list.views.empty() ? Point2::Zero() : list.views.front().field.sensor_in_base.position();
-}
-
 double positionStd(const Object& object) {
   return std::sqrt(0.5 * object.position_covariance.trace());
 }
 
-/// What all of a source's sensors could have seen, in the frame of the intake's objects.
-std::optional<Visibility> viewOf(const std::vector<SensorView>& views,
-                                 const std::vector<Object>& objects,
-                                 const VisibilityOptions& options) {
-  std::vector<Box2> seen;
-  seen.reserve(objects.size());
-  for (const Object& object : objects) {
-    seen.push_back(object.box);
-  }
-  std::optional<Visibility> result;
-  for (const SensorView& view : views) {
-    const Visibility one(view.field, seen, options);
-    if (result) {
-      result->join(one);
-    } else {
-      result = one;
-    }
-  }
-  return result;
-}
-
 bool isPole(const Object& object) {
   return object.object_class == ObjectClass::kPole && object.class_probability > kKnownClass;
-}
-
-/// Unless it was seen to move.
-void takeForStanding(Object& object) {
-  if (object.dynamic_state == DynamicState::kUnknown) {
-    object.dynamic_state = DynamicState::kStatic;
-  }
 }
 
 }  // namespace
@@ -169,7 +102,10 @@ class ObjectFuser::Fusion {
     }
     result_.list.stamp = sources.at(0).list.stamp;
     for (const SourceObjects& source : sources) {
-      takeIn(source);
+      intakes_.push_back(takeIn(source, result_.list.stamp, witness_ ? &*witness_ : nullptr,
+                                options, result_.counts));
+      const std::vector<SensorView>& views = intakes_.back().views;
+      result_.list.views.insert(result_.list.views.end(), views.begin(), views.end());
     }
   }
 
@@ -189,45 +125,6 @@ class ObjectFuser::Fusion {
     return options_.sources.at(sources_[source].source);
   }
 
-  /// The source's objects and views, moved to where the vehicle was at the reference's stamp.
-  void takeIn(const SourceObjects& source) {
-    const PositionCovarianceOptions& covariance = options_.sources.at(source.source).covariance;
-    const double later = secondsBetween(result_.list.stamp, source.list.stamp);
-    const Point2 sensor = sensorOf(source.list);
-    Intake intake;
-    for (Object& object :
-         accepted(source.list, static_cast<std::size_t>(options_.most_objects), result_.counts)) {
-      if (!covariance.empty()) {
-        object.position_covariance = covariance.at(object.box.centre.position(), sensor);
-      }
-      intake.objects.push_back(transformed(source.base_in_reference, object));
-      intake.objects.back().delay += later;
-    }
-    std::vector<SensorView> views = source.list.views;
-    for (SensorView& view : views) {
-      view.field.sensor_in_base = source.base_in_reference * view.field.sensor_in_base;
-    }
-    for (Object& object : intake.objects) {
-      intake.testimonies.push_back(source.source == options_.scanner ? PlaceTestimony()
-                                                                     : testimonyOf(object));
-    }
-    intake.sensor = source.base_in_reference * sensor;
-    intake.view = viewOf(views, intake.objects, options_.visibility);
-    intakes_.push_back(std::move(intake));
-    result_.list.views.insert(result_.list.views.end(), views.begin(), views.end());
-  }
-
-  /// What the scan says of an object of another source; by it, the object may stand still.
-  PlaceTestimony testimonyOf(Object& object) const {
-    const double moved = options_.association.object_speed * std::abs(object.delay);
-    const PlaceTestimony testimony =
-        witness_ ? witness_->testimony(object, moved) : PlaceTestimony();
-    if (witness_ && witness_->standsStill(testimony)) {
-      takeForStanding(object);
-    }
-    return testimony;
-  }
-
   /// Joins a source's objects with what there is.
   void add(std::size_t source) {
     std::vector<Object> known;
@@ -235,7 +132,7 @@ class ObjectFuser::Fusion {
     for (const FusedObject& fused : objects_) {
       known.push_back(fused.object);
     }
-    const Intake& intake = intakes_[source];
+    const ObjectIntake& intake = intakes_[source];
     const std::vector<int> matches =
         associate(known, intake.objects, intake.sensor, options_.association);
     const ObjectSourceOptions& own = optionsOf(source);
@@ -257,7 +154,7 @@ class ObjectFuser::Fusion {
 
   /// One more source sees an object, as its object of this index.
   void note(std::size_t source, std::size_t index, FusedObject& fused) const {
-    const Intake& intake = intakes_[source];
+    const ObjectIntake& intake = intakes_[source];
     fused.seen_by[source] = true;
     if (sources_[source].source == options_.scanner) {
       fused.scan_points = intake.objects[index].points.size();
@@ -294,9 +191,9 @@ class ObjectFuser::Fusion {
       if (witness_ && sources_[source].source == options_.scanner) {
         const double met = std::min(1.0, fused.testimony.beams) * fused.testimony.through_share;
         object.log_odds += std::log1p(-detection * met);
-      } else if (intakes_[source].view) {
+      } else if (intakes_[source].visibility) {
         const double visible =
-            intakes_[source].view->detectionProbability(object.box, positionStd(object));
+            intakes_[source].visibility->detectionProbability(object.box, positionStd(object));
         object.log_odds += std::log1p(-detection * visible);
       }
     }
@@ -309,7 +206,7 @@ class ObjectFuser::Fusion {
   const ObjectFuserOptions& options_;
   const std::vector<SourceObjects>& sources_;
   std::optional<ScanWitness> witness_;
-  std::vector<Intake> intakes_;
+  std::vector<ObjectIntake> intakes_;
   std::vector<FusedObject> objects_;
   ObjectFusionResult result_;
 };

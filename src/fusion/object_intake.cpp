@@ -1,0 +1,112 @@
+#include "object_intake.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <tuple>
+#include <utility>
+
+#include "datmo_fusion/tracking/object_check.h"
+
+namespace datmo {
+
+namespace {
+
+auto place(const Object& object) {
+  const Box2& box = object.box;
+  return std::make_tuple(box.centre.x(), box.centre.y(), box.centre.heading(), box.length,
+                         box.width, object.height, object.log_odds);
+}
+
+/// The objects that are valid, the nearest ones if there are too many, in an order of their own.
+std::vector<Object> accepted(const ObjectList& list, std::size_t most, ObjectFusionCounts& counts) {
+  std::vector<Object> objects;
+  std::copy_if(list.objects.begin(), list.objects.end(), std::back_inserter(objects), isValid);
+  counts.rejected += list.objects.size() - objects.size();
+  if (objects.size() > most) {
+    std::sort(objects.begin(), objects.end(), [](const Object& a, const Object& b) {
+      const double to_a = a.box.centre.position().norm();
+      const double to_b = b.box.centre.position().norm();
+      return to_a < to_b || (to_a == to_b && place(a) < place(b));
+    });
+    counts.refused += objects.size() - most;
+    objects.resize(most);
+  }
+  std::sort(objects.begin(), objects.end(),
+            [](const Object& a, const Object& b) { return place(a) < place(b); });
+  return objects;
+}
+
+Point2 sensorOf(const ObjectList& list) {
+  return list.views.empty() ? Point2::Zero() : list.views.front().field.sensor_in_base.position();
+}
+
+/// What all of a source's sensors could have seen, in the frame of its objects.
+std::optional<Visibility> viewOf(const std::vector<SensorView>& views,
+                                 const std::vector<Object>& objects,
+                                 const VisibilityOptions& options) {
+  std::vector<Box2> seen;
+  seen.reserve(objects.size());
+  for (const Object& object : objects) {
+    seen.push_back(object.box);
+  }
+  std::optional<Visibility> result;
+  for (const SensorView& view : views) {
+    const Visibility one(view.field, seen, options);
+    if (result) {
+      result->join(one);
+    } else {
+      result = one;
+    }
+  }
+  return result;
+}
+
+/// What the scan says of an object of another source; by it, the object may stand still.
+PlaceTestimony testimonyOf(Object& object, const ScanWitness& witness,
+                           const ObjectFuserOptions& options) {
+  const double moved = options.association.object_speed * std::abs(object.delay);
+  const PlaceTestimony testimony = witness.testimony(object, moved);
+  if (witness.standsStill(testimony)) {
+    takeForStanding(object);
+  }
+  return testimony;
+}
+
+}  // namespace
+
+ObjectIntake takeIn(const SourceObjects& source, Stamp reference, const ScanWitness* witness,
+                    const ObjectFuserOptions& options, ObjectFusionCounts& counts) {
+  const PositionCovarianceOptions& covariance = options.sources.at(source.source).covariance;
+  const bool is_heard = witness != nullptr && source.source != options.scanner;
+  const double later = secondsBetween(reference, source.list.stamp);
+  const Point2 sensor = sensorOf(source.list);
+  ObjectIntake intake;
+  for (Object& listed :
+       accepted(source.list, static_cast<std::size_t>(options.most_objects), counts)) {
+    if (!covariance.empty()) {
+      listed.position_covariance = covariance.at(listed.box.centre.position(), sensor);
+    }
+    Object object = transformed(source.base_in_reference, listed);
+    object.delay += later;
+    intake.testimonies.push_back(is_heard ? testimonyOf(object, *witness, options)
+                                          : PlaceTestimony());
+    intake.objects.push_back(std::move(object));
+  }
+  intake.sensor = source.base_in_reference * sensor;
+  intake.views = source.list.views;
+  for (SensorView& view : intake.views) {
+    view.field.sensor_in_base = source.base_in_reference * view.field.sensor_in_base;
+  }
+  intake.visibility = viewOf(intake.views, intake.objects, options.visibility);
+  return intake;
+}
+
+void takeForStanding(Object& object) {
+  if (object.dynamic_state == DynamicState::kUnknown) {
+    object.dynamic_state = DynamicState::kStatic;
+  }
+}
+
+}  // namespace datmo

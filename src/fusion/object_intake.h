@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "datmo_fusion/fusion/object_fuser.h"
+#include "datmo_fusion/fusion/scan_witness.h"
+#include "datmo_fusion/tracking/visibility.h"
+
+namespace datmo {
+
+/// One source's objects, brought to where the vehicle was at the reference's stamp.
+struct ObjectIntake {
+  std::vector<Object> objects;              ///< valid ones, in an order of their own
+  std::vector<PlaceTestimony> testimonies;  ///< of the scan, of each; of the scanner's own: none
+  std::vector<SensorView> views;
+  Point2 sensor = Point2::Zero();        ///< m, from where it looks
+  std::optional<Visibility> visibility;  ///< of all its views; none: not known
+};
+
+/// @param witness null: nothing is known of what the scanner saw
+/// @param counts of what is left out, added to
+ObjectIntake takeIn(const SourceObjects& source, Stamp reference, const ScanWitness* witness,
+                    const ObjectFuserOptions& options, ObjectFusionCounts& counts);
+
+/// Unless it was seen to move.
+void takeForStanding(Object& object);
+
+}  // namespace datmo
