@@ -6,8 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "fused_sides.h"
 #include "object_sides.h"
-#include <Eigen/Cholesky>
 
 #include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/common/class_belief.h"
@@ -15,9 +15,6 @@
 namespace datmo {
 
 namespace {
-
-/// m^2, added to the variance of each side: keeps the information finite.
-constexpr double kLeastSideVariance = 1e-8;
 
 /// Standard deviations of a difference that is no noise.
 constexpr double kClearly = 4.0;
@@ -27,105 +24,6 @@ constexpr double kLeastVariance = 1e-8;
 
 /// Correlation of a result: its covariance must be positive definite.
 constexpr double kMostCorrelation = 0.999;
-
-/// The state: the places of the sides behind and ahead along x, then along y, m. Sides that nobody
-/// saw have no information.
-using SideVector = Eigen::Matrix<double, 4, 1>;
-using SideMatrix = Eigen::Matrix4d;
-using SeenMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>;
-
-struct SideEstimate {
-  SideMatrix information = SideMatrix::Zero();
-  SideVector weighted = SideVector::Zero();  ///< information times place
-};
-
-struct SeenSides {
-  std::array<Eigen::Index, kBoxSides> index{};
-  Eigen::Index count = 0;
-
-  void add(Eigen::Index side) { index[static_cast<std::size_t>(count++)] = side; }
-  Eigen::Index operator[](Eigen::Index i) const { return index[static_cast<std::size_t>(i)]; }
-};
-
-constexpr std::size_t axisOf(Eigen::Index side) { return static_cast<std::size_t>(side) / 2; }
-constexpr std::size_t endOf(Eigen::Index side) { return static_cast<std::size_t>(side) % 2; }
-
-/// 1 for sides across one axis.
-const SideMatrix kSameAxis = (SideMatrix() << 1, 1, 0, 0,  //
-                              1, 1, 0, 0,                  //
-                              0, 0, 1, 1,                  //
-                              0, 0, 1, 1)
-                                 .finished();
-
-SeenMatrix inverse(const SeenMatrix& matrix) {
-  return matrix.llt().solve(SeenMatrix::Identity(matrix.rows(), matrix.cols()));
-}
-
-SideEstimate estimateOf(const ObjectSides& sides) {
-  SeenSides seen;
-  for (Eigen::Index side = 0; side < 4; ++side) {
-    if (sides.along[axisOf(side)].isSeen(endOf(side))) {
-      seen.add(side);
-    }
-  }
-  SeenMatrix covariance(seen.count, seen.count);
-  for (Eigen::Index i = 0; i < seen.count; ++i) {
-    for (Eigen::Index j = 0; j < seen.count; ++j) {
-      covariance(i, j) = sides.covariance(static_cast<Eigen::Index>(axisOf(seen[i])),
-                                          static_cast<Eigen::Index>(axisOf(seen[j])));
-    }
-    covariance(i, i) += sides.along[axisOf(seen[i])].variance[endOf(seen[i])] + kLeastSideVariance;
-  }
-  const SeenMatrix information = inverse(covariance);
-  SideEstimate estimate;
-  for (Eigen::Index i = 0; i < seen.count; ++i) {
-    for (Eigen::Index j = 0; j < seen.count; ++j) {
-      estimate.information(seen[i], seen[j]) = information(i, j);
-      estimate.weighted[seen[i]] +=
-          information(i, j) * sides.along[axisOf(seen[j])].place[endOf(seen[j])];
-    }
-  }
-  return estimate;
-}
-
-/// Both sources together: the sides that were seen, their places and covariance.
-struct FusedSides {
-  std::array<bool, kBoxSides> seen{};
-  SideVector place = SideVector::Zero();
-  SideMatrix covariance = SideMatrix::Zero();
-  /// How far the places move, on average, of a way by which all that the second one saw moves.
-  double weight_of_b = 0.5;
-};
-
-FusedSides fused(const SideEstimate& a, const SideEstimate& b) {
-  const SideMatrix information = a.information + b.information;
-  SeenSides seen;
-  for (Eigen::Index side = 0; side < 4; ++side) {
-    if (information(side, side) > 0.0) {
-      seen.add(side);
-    }
-  }
-  SeenMatrix of_seen(seen.count, seen.count);
-  for (Eigen::Index i = 0; i < seen.count; ++i) {
-    for (Eigen::Index j = 0; j < seen.count; ++j) {
-      of_seen(i, j) = information(seen[i], seen[j]);
-    }
-  }
-  const SeenMatrix covariance = inverse(of_seen);
-  FusedSides result;
-  for (Eigen::Index i = 0; i < seen.count; ++i) {
-    result.seen[static_cast<std::size_t>(seen[i])] = true;
-    for (Eigen::Index j = 0; j < seen.count; ++j) {
-      result.covariance(seen[i], seen[j]) = covariance(i, j);
-    }
-  }
-  result.place = result.covariance * (a.weighted + b.weighted);
-  if (seen.count > 0) {
-    const double moved = (result.covariance * b.information).cwiseProduct(kSameAxis).sum();
-    result.weight_of_b = std::clamp(moved / static_cast<double>(seen.count), 0.0, 1.0);
-  }
-  return result;
-}
 
 double fusedVariance(double a, double b) { return a * b / (a + b); }
 
@@ -263,7 +161,7 @@ double combineGeometry(const Object& a, const Object& b, Object& result) {
   const ObjectSides as_seen_by_a = sides_a;
   dropContradicted(sides_a, sides_b);
   dropContradicted(sides_b, as_seen_by_a);
-  const FusedSides sides = fused(estimateOf(sides_a), estimateOf(sides_b));
+  const FusedSides sides = fusedSides(sides_a, sides_b);
   const std::array<FusedAxis, 2> along = {fusedAxis(sides, sides_a, sides_b, 0),
                                           fusedAxis(sides, sides_a, sides_b, 1)};
   const Point2 middle(along[0].sides.middle(), along[1].sides.middle());
