@@ -4,6 +4,9 @@ import numpy as np
 
 from datmo_tools.evaluation_style import FALSE, INK, TRUTH, colour, picture
 
+NEAR_BINS = 2
+HEADROOM = 1.3  # over the highest point, for the legend
+
 
 def covariance_plot(table, kind, depth_sigma=None):
     """Bytes of the picture.
@@ -16,14 +19,14 @@ def covariance_plot(table, kind, depth_sigma=None):
         _draw(axes[0], table, table.range, 1.0)
         if depth_sigma is not None:
             ranges = _ranges(table)
-            label = "theory: range² × disparity noise / (focal length × baseline)"
+            label = "theory: disparities of constant noise"
             axes[0].plot(ranges, depth_sigma(ranges), color=FALSE, linestyle="--", label=label)
         axes[0].set_title("Range, standard deviation (m)", loc="left")
         _draw(axes[1], table, table.bearing, np.degrees(1.0))
         axes[1].set_title("Bearing, standard deviation (degrees)", loc="left")
         axes[1].set_xlabel("range (m)")
         for ax in axes:
-            ax.legend(loc="upper center", ncol=2)
+            ax.legend(loc="upper left", ncol=2)
 
     return picture(kind, 6.0, draw, nrows=2, sharex=True)
 
@@ -45,4 +48,6 @@ def _draw(ax, table, column, scale):
             markerfacecolor="none", label="not measured: of the law")  # fmt: skip
     ax.plot(centres, scale * np.sqrt(column.known_variance), color=TRUTH, label="known, taken out")
     ax.plot(centres, scale * np.abs(column.bias), ".", color=colour(1), label="bias, absolute")
-    ax.set_ylim(0.0, 1.3 * float(np.max(sigmas[centres > 2.0 * table.bin_width], initial=0.0)))
+    # A bearing's deviation has no bound near the sensor: the first bins do not set the scale.
+    scaling = sigmas[NEAR_BINS:] if len(sigmas) > NEAR_BINS else sigmas
+    ax.set_ylim(0.0, HEADROOM * float(np.max(scaling)))
