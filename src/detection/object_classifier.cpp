@@ -26,6 +26,9 @@ constexpr double kAhead = degrees(20.0);
 /// Share of the extents of which only a part is seen.
 constexpr double kPartShare = 0.2;
 
+/// Nothing is surer than this: probabilities near to 0 and 1 are those of the kinds' tails.
+constexpr double kSure = 1e-6;
+
 double square(double value) { return value * value; }
 
 /// Probability density of a size that is seen as `seen`, or that it is at least that.
@@ -144,6 +147,15 @@ ClassProbabilities ObjectClassifier::probabilities(const SeenSize& seen) const {
     value /= sum;
   }
   return result;
+}
+
+double ObjectClassifier::logOddsOfKnown(const ClassProbabilities& probabilities) const {
+  const ObjectClassifierOptions& o = options_;
+  const double known = o.pedestrian.share + o.cyclist.share + o.car.share + o.van.share +
+                       o.truck.share + o.pole.share;
+  const double other = std::clamp(probabilities[static_cast<std::size_t>(ObjectClass::kUnknown)],
+                                  kSure, 1.0 - kSure);
+  return std::log((1.0 - other) / other) - std::log(std::max(kSure, known) / o.else_share);
 }
 
 }  // namespace datmo

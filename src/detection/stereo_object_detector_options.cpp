@@ -89,6 +89,9 @@ void StereoObjectDetectorOptions::visit(OptionVisitor& visitor) {
   visitor.number({"most_else", "1",
                   "what is neither road user nor pole with more than this probability is left out"},
                  most_else, {0.0, 1.0});
+  visitor.number({"most_doubt", "1",
+                  "so much at most does its size speak against an object: logarithm of odds"},
+                 most_doubt, {0.0, 20.0});
 }
 
 }  // namespace datmo

@@ -145,6 +145,9 @@ void StereoObjectMaker::setClass(Object& object, const GroupOutline& outline) co
   const auto best = std::max_element(probabilities.begin(), probabilities.end());
   object.object_class = static_cast<ObjectClass>(best - probabilities.begin());
   object.class_probability = *best;
+  // Over the odds of the average object: those that the kinds' shares tell.
+  const double odds = classifier_.logOddsOfKnown(probabilities);
+  object.log_odds = std::clamp(odds, -options_.most_doubt, 0.0);
 }
 
 }  // namespace datmo

@@ -58,6 +58,9 @@ class ObjectClassifier {
   /// Of kUnknown: that it is anything else.
   ClassProbabilities probabilities(const SeenSize& seen) const;
 
+  /// Logarithm of the odds that it is of one of the kinds, over those before it was seen.
+  double logOddsOfKnown(const ClassProbabilities& probabilities) const;
+
  private:
   ObjectClassifierOptions options_;
 };

@@ -63,6 +63,7 @@ struct StereoObjectDetectorOptions {
   double least_surface = 0.15;    ///< m^2
   double largest_size = 12.0;     ///< m
   double most_else = 0.9;         ///< 0 to 1
+  double most_doubt = 3.0;        ///< logarithm of odds
 
   void visit(OptionVisitor& visitor);
 };
@@ -86,8 +87,10 @@ struct StereoObjects {
 /// What an object's points have in common of the depth's noise is in its position's covariance,
 /// what they do not is in its sides'. Sides that were not seen are kHiddenSide: those that face
 /// away, those beside something nearer, and those where the image, or what both cameras see, ends.
-/// `points` are the near outline, left to right. Objects come from left to right as far as they
-/// begin, with dynamic state kUnknown.
+///
+/// Log odds are 0 or less: what looks more like anything else than the average object does counts
+/// against it, but looking like a road user is no proof of one. `points` are the near outline, left
+/// to right. Objects come from left to right as far as they begin, with dynamic state kUnknown.
 ///
 /// A cloud may be dense or thinned, organised or not: how dense it is, it tells itself. Not thread
 /// safe. Keeps the last road plane from cloud to cloud.

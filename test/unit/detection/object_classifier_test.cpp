@@ -1,6 +1,7 @@
 #include "datmo_fusion/detection/object_classifier.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <gtest/gtest.h>
@@ -64,6 +65,19 @@ TEST(ObjectClassifier, WhatWasNotSeenMayBeLarger) {
   const double short_pole = probability(low, ObjectClass::kPole);
   low.higher = true;
   EXPECT_GT(probability(low, ObjectClass::kPole), short_pole) << "the image ends there";
+}
+
+TEST(ObjectClassifier, TellsHowMuchSpeaksForOneOfItsKinds) {
+  const ObjectClassifier classifier{ObjectClassifierOptions()};
+  const auto odds = [&](const SeenSize& size) {
+    return classifier.logOddsOfKnown(classifier.probabilities(size));
+  };
+  EXPECT_GT(odds(seen(1.5, 1.8)), 2.0);
+  EXPECT_LT(odds(seen(0.6, 3.0)), -2.0) << "hedge";
+  EXPECT_TRUE(std::isfinite(odds(seen(1e6, 1e6))));
+  // What tells nothing leaves the odds as they were.
+  const double known = 20.0 / 22.0;
+  EXPECT_NEAR(classifier.logOddsOfKnown({1.0 - known, known, 0.0, 0.0, 0.0}), 0.0, 1e-9);
 }
 
 TEST(ObjectClassifier, FollowsItsOptions) {

@@ -125,6 +125,15 @@ TEST(StereoObjectDetector, LeavesOutWallsHousesAndKerbs) {
   EXPECT_TRUE(objectsIn(sceneOf({})).empty());
 }
 
+TEST(StereoObjectDetector, WhatLooksLikeNoRoadUserHasOddsAgainstIt) {
+  const std::vector<Object> objects =
+      objectsIn(sceneOf({carAt(10.0, 3.0), boxAt(10.0, -2.0, {0.8, 2.4, 0.9})}));
+  ASSERT_EQ(objects.size(), 2U);
+  EXPECT_EQ(objects[0].log_odds, 0.0) << "no proof of one";
+  EXPECT_LT(objects[1].log_odds, -0.5) << "hedge";
+  EXPECT_GE(objects[1].log_odds, -StereoObjectDetectorOptions().most_doubt);
+}
+
 TEST(StereoObjectDetector, SeesWhatIsBehindAndAboveNearerThings) {
   const std::vector<Object> objects =
       objectsIn(sceneOf({carAt(9.0, 0.0), boxAt(18.0, 0.0, {9.0, 2.5, 3.4})}));
