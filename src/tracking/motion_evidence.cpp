@@ -17,6 +17,13 @@ double mapEvidence(const Object& object, double weight) {
   return object.dynamic_state == DynamicState::kStatic ? -weight : weight * object.moving_fraction;
 }
 
+/// The places of so many objects, about, are what is known of late.
+constexpr int kStaticMemory = 10;
+
+double staticShare(const Object& object) {
+  return object.dynamic_state == DynamicState::kStatic ? 1.0 : 0.0;
+}
+
 /// Length of the box's shadow on a line of this direction (a unit vector), m.
 double extentAlong(const Box2& box, const Eigen::Vector2d& direction) {
   const Eigen::Vector2d local = box.centre.rotation().transpose() * direction;
@@ -58,6 +65,10 @@ void MotionEvidenceOptions::visit(OptionVisitor& visitor) {
                   "log-likelihood ratio that a scan adds when all points of the object lie where "
                   "the map is free (thesis 3.3.1)"},
                  free_space_evidence, kEvidence);
+  visitor.number({"most_static_share", "1",
+                  "what moves is seen less often than this in places that are known to be static: "
+                  "parked cars in a row are, however much they are taken for each other"},
+                 most_static_share, {0.0, 1.0});
   visitor.number({"least_overrun", "m",
                   "how much farther than its own length an object reaches from where it stood"},
                  least_overrun, {0.0, 100.0});
@@ -90,10 +101,11 @@ bool mayBeAsFastAs(const StateEstimate& estimate, double significance, double sp
 
 MotionEvidence::MotionEvidence(const Object& object, const MotionEvidenceOptions& options)
     : against_chance_(std::max(options.least_evidence, object.log_odds)),
-      anchor_{object.box, object.position_covariance, object.moving_fraction},
+      anchor_{object.box, object.position_covariance, object.moving_fraction, staticShare(object)},
       present_(anchor_),
       longest_(object.box),
       free_share_(object.moving_fraction),
+      static_share_(staticShare(object)),
       standing_{object.box.centre.position(), object.position_covariance} {}
 
 void MotionEvidence::predict(double seconds, const MotionEvidenceOptions& options) {
@@ -106,9 +118,10 @@ void MotionEvidence::update(const Object& object, const PositionMeasurement& mea
   const Innovation innovation{measured.position - standing_.position,
                               standing_.covariance + measured.covariance};
   const double ratio = moving_log_likelihood - innovation.logLikelihood();
-  present_ = {object.box, object.position_covariance, object.moving_fraction};
+  present_ = {object.box, object.position_covariance, object.moving_fraction, staticShare(object)};
   ++objects_;
   free_share_ += (object.moving_fraction - free_share_) / objects_;
+  static_share_ += (staticShare(object) - static_share_) / std::min(objects_, kStaticMemory);
   const double map = mapEvidence(object, options.free_space_evidence);
   addAgainstStanding(clamp(ratio, options.scan_limit) + map, options);
   const double false_density =
@@ -134,6 +147,7 @@ void MotionEvidence::addAgainstStanding(double ratio, const MotionEvidenceOption
     anchor_ = present_;
     objects_ = 1;
     free_share_ = present_.free_share;
+    static_share_ = present_.static_share;
   }
   against_standing_ = std::min(options.most_evidence, std::max(0.0, against_standing_ + ratio));
 }
@@ -146,7 +160,8 @@ void MotionEvidence::addAgainstChance(double ratio, const MotionEvidenceOptions&
 bool MotionEvidence::suffices(const StateEstimate& estimate,
                               const MotionEvidenceOptions& options) const {
   return against_chance_ >= options.required_against_chance &&
-         against_standing_ >= options.required_against_standing && leftItsPlace(options) &&
+         against_standing_ >= options.required_against_standing &&
+         static_share_ <= options.most_static_share && leftItsPlace(options) &&
          velocityIsSignificant(estimate, options.speed_significance, options.least_speed);
 }
 

@@ -16,6 +16,7 @@ struct MotionEvidenceOptions {
   double required_against_standing = 3.0;  ///< 1
   double scan_limit = 2.0;                 ///< 1
   double free_space_evidence = 0.7;        ///< 1
+  double most_static_share = 0.3;          ///< 1
   double least_overrun = 1.0;              ///< m
   double unseen_share = 0.5;               ///< 1
   double overrun_significance = 2.0;       ///< 1
@@ -34,7 +35,7 @@ bool mayBeAsFastAs(const StateEstimate& estimate, double significance, double sp
 
 /// Decides whether a followed object moves over ground. There are two other explanations: it
 /// stands, and only its visible part slides while the vehicle passes; or its objects do not belong
-/// together, and chance put them in a row. Motion is accepted when four tests agree:
+/// together, and chance put them in a row. Motion is accepted when five tests agree:
 /// 1. Moving against standing: the log-likelihood ratio of the measurements by the motion filter
 ///    and by a standing object whose visible centre drifts as a random walk, summed up but never
 ///    below 0 (CUSUM: Page, Continuous inspection schemes, 1954), so that one that starts to move
@@ -48,6 +49,7 @@ bool mayBeAsFastAs(const StateEstimate& estimate, double significance, double sp
 ///    out of view again, is not motion. The more of its points lie where the map was free, the
 ///    less it can have stood there half hidden: then the way alone counts.
 /// 4. Its estimated velocity is significant.
+/// 5. Of late it was hardly seen in places that are known to be static.
 ///
 /// In both sums one scan counts for a limited amount, so that no outlier decides; points where the
 /// map is free count for motion, and a place that the map knows as static counts against it.
@@ -71,7 +73,7 @@ class MotionEvidence {
   /// The target's centre turned out to lie elsewhere in it (m, fixed frame): no motion.
   void shift(const Point2& offset) { standing_.position += offset; }
 
-  /// All four tests agree; `estimate` is that of the motion filter.
+  /// All five tests agree; `estimate` is that of the motion filter.
   bool suffices(const StateEstimate& estimate, const MotionEvidenceOptions& options) const;
 
   /// What it did of late is no likelier for a moving object than for a standing one.
@@ -86,7 +88,8 @@ class MotionEvidence {
   struct Place {
     Box2 box;
     Eigen::Matrix2d covariance;
-    double free_share;  ///< 0 to 1, of its points: those that lie where the map is free
+    double free_share;    ///< 0 to 1, of its points: those that lie where the map is free
+    double static_share;  ///< 1: known to be static, else 0
   };
 
   void addAgainstStanding(double ratio, const MotionEvidenceOptions& options);
@@ -98,8 +101,9 @@ class MotionEvidence {
   Place anchor_;
   Place present_;
   Box2 longest_;
-  int objects_ = 1;    ///< since the anchor
-  double free_share_;  ///< mean over them
+  int objects_ = 1;      ///< since the anchor
+  double free_share_;    ///< mean over them
+  double static_share_;  ///< of the last ones, those in a place that is known to be static
   PositionMeasurement standing_;
 };
 

@@ -72,6 +72,20 @@ TEST_F(MotionEvidenceTest, AGrowingSideDoesNotLeaveItsPlace) {
   EXPECT_FALSE(suffices());
 }
 
+TEST_F(MotionEvidenceTest, WhatIsOftenSeenInStaticPlacesIsTakenForOtherThingsInTurn) {
+  for (int i = 1; i <= 30; ++i) {
+    Object object = seenAt(0.5 * i, 1.0);
+    object.dynamic_state = i % 2 == 0 ? DynamicState::kStatic : DynamicState::kUnknown;
+    see(object);
+  }
+  EXPECT_FALSE(suffices());
+  // It leaves them behind, and is known by what it does now.
+  for (int i = 31; i <= 45; ++i) {
+    see(seenAt(0.5 * i, 1.0));
+  }
+  EXPECT_TRUE(suffices());
+}
+
 TEST_F(MotionEvidenceTest, InFreeSpaceAShorterWayIsEnough) {
   // A box of 4 m goes 2.5 m: it could have stood there half hidden, but not where the map was free.
   MotionEvidence in_unknown_space(seenAt(0.0, 4.0), options_);
