@@ -13,14 +13,20 @@ namespace {
 /// the camera is not quite level.
 constexpr int kLeastRowShare = 20;
 
+/// Along each side of the image, whatever camera is asked for.
+constexpr double kMostCells = 8192.0;
+
 }  // namespace
 
 void ImageDensity::reset(const StereoCamera& camera) {
   left_ = static_cast<float>(camera.left_tangent);
-  focal_length_ = static_cast<float>(camera.focal_length);
-  columns_ =
-      std::ceil(static_cast<float>(camera.right_tangent - camera.left_tangent) * focal_length_);
-  rows_ = std::ceil(2.0F * kHighestTangent * focal_length_);
+  const double width = camera.right_tangent - camera.left_tangent;
+  const double per_tangent = std::min({camera.focal_length, kMostCells / width,
+                                       kMostCells / (2.0 * static_cast<double>(kHighestTangent))});
+  per_tangent_ = static_cast<float>(per_tangent);
+  cell_pixels_ = camera.focal_length / per_tangent;
+  columns_ = static_cast<float>(std::ceil(width * per_tangent));
+  rows_ = std::ceil(2.0F * kHighestTangent * per_tangent_);
   tile_columns_ = static_cast<std::size_t>(columns_) / kTileSize + 1;
   in_column_.assign(static_cast<std::size_t>(columns_), 0);
   in_row_.assign(static_cast<std::size_t>(rows_), 0);
@@ -28,7 +34,8 @@ void ImageDensity::reset(const StereoCamera& camera) {
 }
 
 double ImageDensity::pixelsPerPoint() const {
-  return std::max(1.0, datmo::pixelsPerPoint(tiles_, static_cast<double>(kTileSize * kTileSize)));
+  const double tile = static_cast<double>(kTileSize) * cell_pixels_;
+  return std::max(1.0, datmo::pixelsPerPoint(tiles_, tile * tile));
 }
 
 double ImageDensity::highestTangent() const {
@@ -37,13 +44,13 @@ double ImageDensity::highestTangent() const {
     return count > 0 && count * kLeastRowShare >= *fullest;
   });
   const auto row = static_cast<float>(first - in_row_.begin());
-  return static_cast<double>(kHighestTangent - row / focal_length_);
+  return static_cast<double>(kHighestTangent - row / per_tangent_);
 }
 
 bool ImageDensity::hasPoints(double from, double to) const {
   const auto column = [&](double tangent) {
     const double place =
-        std::floor((tangent - static_cast<double>(left_)) * static_cast<double>(focal_length_));
+        std::floor((tangent - static_cast<double>(left_)) * static_cast<double>(per_tangent_));
     return static_cast<std::ptrdiff_t>(std::clamp(place, 0.0, static_cast<double>(columns_)));
   };
   const auto end = std::min(column(to) + 1, static_cast<std::ptrdiff_t>(in_column_.size()));

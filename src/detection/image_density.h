@@ -16,8 +16,8 @@ class ImageDensity {
 
   /// A point at these tangents: to the right, and above the horizon.
   void add(float right, float up) {
-    const float column = (right - left_) * focal_length_;
-    const float row = (kHighestTangent - up) * focal_length_;
+    const float column = (right - left_) * per_tangent_;
+    const float row = (kHighestTangent - up) * per_tangent_;
     if (column >= 0.0F && column < columns_ && row >= 0.0F && row < rows_) {
       const auto x = static_cast<std::size_t>(column);
       const auto y = static_cast<std::size_t>(row);
@@ -37,11 +37,13 @@ class ImageDensity {
   bool hasPoints(double from, double to) const;
 
  private:
-  static constexpr std::size_t kTileSize = 16;    ///< px
+  static constexpr std::size_t kTileSize = 16;    ///< cells
   static constexpr float kHighestTangent = 1.0F;  ///< above and below the horizon
 
-  float left_ = 0.0F;          ///< tangent of the image's left border
-  float focal_length_ = 0.0F;  ///< px
+  // Cells are pixels, but in images larger than any.
+  float left_ = 0.0F;         ///< tangent of the image's left border
+  float per_tangent_ = 0.0F;  ///< cells
+  double cell_pixels_ = 1.0;  ///< px, side of a cell
   float columns_ = 0.0F;
   float rows_ = 0.0F;
   std::size_t tile_columns_ = 0;

@@ -10,8 +10,9 @@ namespace {
 /// m; cameras mark a depth that they do not know by a far one.
 constexpr float kBeyondSight = 1000.0F;
 
-/// Whatever is asked for, there are no more columns than in any image.
+/// Whatever is asked for, there are no more columns than in any image, nor bins.
 constexpr double kMostColumns = 4096.0;
+constexpr double kMostBins = 2048.0;
 
 /// Two modes are two surfaces if the counts between them fall below this share of both.
 constexpr double kValley = 0.6;
@@ -82,7 +83,7 @@ void StereoSurfaces::countLayer(const StereoCamera& camera, const StereoSurfaceO
   columns_.per_tangent = columns_.count / width;
   left_ = static_cast<float>(columns_.left);
   per_tangent_ = static_cast<float>(columns_.per_tangent);
-  depth_bins_ = DepthBins(camera, farthest, options.finest_depth);
+  depth_bins_ = DepthBins(camera, farthest, std::max(options.finest_depth, farthest / kMostBins));
   bins_ = static_cast<std::size_t>(depth_bins_.size());
   counts_.assign(static_cast<std::size_t>(columns_.count) * bins_, 0);
   const auto top = static_cast<float>(options.layer_top);
@@ -134,7 +135,7 @@ void StereoSurfaces::addModes(int column, const StereoSurfaceOptions& options) {
       ++bin;
       continue;
     }
-    Mode mode{column, bin, bin, bin, 0};
+    Mode mode{column, bin, bin, bin};
     int valley = bin;
     for (; bin < bins && at(bin) > 0; ++bin) {
       if (at(bin) > at(mode.peak) &&
@@ -146,7 +147,7 @@ void StereoSurfaces::addModes(int column, const StereoSurfaceOptions& options) {
       } else if (at(valley) < kValley * at(mode.peak) && at(valley) < kValley * at(bin)) {
         mode.end_bin = valley;
         addMode(mode, options);
-        mode = {column, valley, bin, valley, 0};
+        mode = {column, valley, bin, valley};
         valley = bin;
       }
     }
@@ -190,10 +191,13 @@ void StereoSurfaces::addMode(const Mode& mode, const StereoSurfaceOptions& optio
   }
 }
 
+std::size_t StereoSurfaces::slicesUpTo(double height) {
+  return static_cast<std::size_t>(static_cast<float>(height) / kSlice) + 1;
+}
+
 void StereoSurfaces::measure(const StereoSurfaceOptions& options) {
   const std::size_t count = columns_.surfaces.size();
-  const auto slices =
-      static_cast<std::size_t>(std::ceil(static_cast<float>(options.highest) / kSlice));
+  const std::size_t slices = slicesUpTo(options.highest);
   inverse_sums_.assign(count, 0.0);
   slices_.assign(count * slices, 0);
   const auto top = static_cast<float>(options.layer_top);
@@ -220,7 +224,7 @@ void StereoSurfaces::measure(const StereoSurfaceOptions& options) {
 /// From the fullest slice as far up and down as it goes on, but for holes.
 void StereoSurfaces::setHeights(ColumnSurface& surface, const std::uint16_t* slices,
                                 const StereoSurfaceOptions& options) const {
-  const auto end = static_cast<int>(std::ceil(static_cast<float>(options.highest) / kSlice));
+  const auto end = static_cast<int>(slicesUpTo(options.highest));
   const double dense =
       static_cast<double>(kSlice) * pointsPerMetre(static_cast<double>(surface.depth));
   const double least = std::max(1.0, kSliceShare * dense);

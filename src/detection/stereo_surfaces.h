@@ -68,7 +68,6 @@ class StereoSurfaces {
   /// A mode of the counts in a column.
   struct Mode {
     int column, first_bin, peak, end_bin;
-    int points;
   };
 
   void takePoints(const StereoCloud& cloud, const StereoView& view,
@@ -89,6 +88,8 @@ class StereoSurfaces {
   std::size_t slot(int column, int bin) const {
     return static_cast<std::size_t>(column) * bins_ + static_cast<std::size_t>(bin);
   }
+  /// Slices of height that points are counted in.
+  static std::size_t slicesUpTo(double height);
   /// Points one above the other in a column, for each m at a depth (m).
   double pointsPerMetre(double depth) const { return columns_.per_tangent / depth; }
 

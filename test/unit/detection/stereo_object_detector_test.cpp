@@ -290,6 +290,14 @@ TEST(StereoObjectDetector, TakesCloudsWithoutPoints) {
   EXPECT_EQ(result.list.views.size(), 1U) << "it looked, and saw nothing";
 }
 
+TEST(StereoObjectDetector, TakesCamerasOfAnyImageSize) {
+  MadeCloud made(sceneOf({carAt(10.0, 0.0)}));
+  made.cloud().camera.focal_length = 1e5;  // 100,000 px wide; it is thinned, then
+  EXPECT_EQ(detect(made).list.objects.size(), 1U);
+  made.cloud().camera.focal_length = 10.0;
+  EXPECT_NO_THROW(detect(made));
+}
+
 TEST(StereoObjectDetector, RefusesCamerasThatMeasureNothing) {
   MadeCloud made(sceneOf({}));
   made.cloud().camera.baseline = 0.0;
