@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "object_intake.h"
@@ -35,6 +36,20 @@ double positionStd(const Object& object) {
 
 bool isPole(const Object& object) {
   return object.object_class == ObjectClass::kPole && object.class_probability > kKnownClass;
+}
+
+/// Throws OptionError: with a scanner that is no source, its own objects would be judged by its
+/// scan as those of others are.
+void checkScanner(const ObjectFuserOptions& options) {
+  if (options.sources.count(options.scanner) > 0) {
+    return;
+  }
+  std::string names;
+  for (const auto& [name, source] : options.sources) {
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  throw OptionError("scanner = \"" + options.scanner + "\": expected one of the sources (" + names +
+                    ")");
 }
 
 }  // namespace
@@ -86,6 +101,7 @@ std::vector<std::string> ObjectFuserOptions::sourcesInUse() const {
 
 ObjectFuser::ObjectFuser(const ObjectFuserOptions& options) : options_(options) {
   checkOptions(options);
+  checkScanner(options);
   for (const auto& [name, source] : options.sources) {
     source.covariance.check("sources/" + name + "/covariance");
   }

@@ -128,6 +128,9 @@ void ScanWitnessOptions::visit(OptionVisitor& visitor) {
 ScanWitness::ScanWitness(const SplitScan& scan, const ScanWitnessOptions& options)
     : options_(options), scanner_in_base_(scan.scanner_in_base), field_(scan.field) {
   checkOptions(options);
+  if (2.0 * kPi > kMostBeams * std::abs(field_.beam_spacing)) {
+    return;  // finer than any scanner: what looks at an object could not be counted in time
+  }
   beams_.assign(field_.beams, {End::kNothing, field_.free_range});
   for (const std::uint32_t beam : scan.blind_beams) {
     if (beam < beams_.size()) {
@@ -151,9 +154,10 @@ double ScanWitness::beamAt(double bearing) const {
 
 const ScanWitness::Beam* ScanWitness::beam(double index) const {
   const double per_turn = 2.0 * kPi / std::abs(field_.beam_spacing);
-  const double within = index < per_turn - 0.5 ? index : index - per_turn;
-  return within >= 0.0 && within < static_cast<double>(beams_.size())
-             ? &beams_[static_cast<std::size_t>(within)]
+  // A turn need not be a whole number of beams: after it, the nearest one looks there.
+  const double nearest = std::round(index < per_turn - 0.5 ? index : index - per_turn);
+  return nearest >= 0.0 && nearest < static_cast<double>(beams_.size())
+             ? &beams_[static_cast<std::size_t>(nearest)]
              : nullptr;
 }
 

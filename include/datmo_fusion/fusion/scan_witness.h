@@ -60,7 +60,7 @@ class ScanWitness {
   /// Index of the beam nearest to this bearing (rad, about the scanner), as a number with fraction.
   double beamAt(double bearing) const;
 
-  /// The beam of this index; none outside the field.
+  /// The beam nearest to this index; none outside the field.
   const Beam* beam(double index) const;
 
   ScanWitnessOptions options_;

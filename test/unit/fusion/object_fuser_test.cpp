@@ -203,6 +203,14 @@ TEST(ObjectFuserTest, TablesOfDifferentLengthsAreRefused) {
   EXPECT_THROW(ObjectFuser{options}, OptionError);
 }
 
+TEST(ObjectFuserTest, AScannerThatIsNoSourceIsRefused) {
+  ObjectFuserOptions options;
+  options.scanner = "laser";
+  EXPECT_THROW(ObjectFuser{options}, OptionError);
+  options.sources["laser"];
+  EXPECT_NO_THROW(ObjectFuser{options});
+}
+
 TEST(ObjectFuserTest, InvalidObjectsAreCountedAndTheOthersKept) {
   std::vector<Object> stereo(6, pointObject(20.0, 0.0, 0.1, "stereo"));
   stereo[0].box.centre = Pose2(std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0);

@@ -152,6 +152,28 @@ TEST(ScanWitnessTest, AThinPoleIsLookedAtByTheNearestBeam) {
   EXPECT_LT(said.beams, 0.5);
 }
 
+TEST(ScanWitnessTest, WhereAWholeTurnEndsNoBeamIsMissed) {
+  // 514.3 beams are a turn: the last one and the first are nearer together than others.
+  SplitScan scan = emptyScan();
+  scan.field.beam_spacing = degrees(0.7);
+  scan.field.first_bearing = -kPi;
+  scan.field.beams = 514;
+  for (std::uint32_t beam = 0; beam < scan.field.beams; ++beam) {
+    const double bearing = scan.field.first_bearing + beam * scan.field.beam_spacing;
+    const Point2 end = scan.scanner_in_base * (20.0 * Point2(std::cos(bearing), std::sin(bearing)));
+    scan.points.push_back({end, 20.0, bearing, beam, PointState::kStatic});
+  }
+  Object behind = car(1.0);
+  behind.box.centre = Pose2(-18.5, 0.0, 0.0);
+  EXPECT_EQ(testimony(scan, behind).static_share, 1.0);
+}
+
+TEST(ScanWitnessTest, BeamsFinerThanThoseOfAnyScannerSayNothing) {
+  SplitScan scan = emptyScan();
+  scan.field.beam_spacing = 1e-9;
+  EXPECT_EQ(testimony(scan, car(1.0)).beams, 0.0);
+}
+
 TEST(ScanWitnessTest, WithoutAFieldOrAroundTheScannerNothingIsKnown) {
   SplitScan scan = emptyScan();
   Object around = boxObject(2.0, 0.0, 2.0, 2.0, 0.01, "stereo");
