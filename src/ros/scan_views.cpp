@@ -8,8 +8,9 @@ namespace datmo {
 
 namespace {
 
-/// A second of a fast scanner: objects come a moment after their scan.
-constexpr std::size_t kMostViews = 20;
+/// A second and more of a fast scanner: fused objects may have waited so long for those of another
+/// sensor.
+constexpr std::size_t kMostViews = 64;
 
 }  // namespace
 
