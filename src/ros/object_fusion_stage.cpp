@@ -72,6 +72,17 @@ void ObjectFusionStage::takeObjects(const std::string& source, const ObjectArray
         object.sensors = {source};
       }
     }
+    for (SensorView& view : list->views) {
+      if (view.sensor.empty()) {
+        view.sensor = source;
+      }
+    }
+    if (const std::size_t bad = message.views.size() - list->views.size(); bad > 0) {
+      monitor_.warned(InputError(
+          "bad_view", std::to_string(bad) + " views of " + source +
+                          ": expected finite numbers, bearings in rad from the least to the most "
+                          "one, a turn apart at most, and sure_range up to range; left out"));
+    }
     matcher_.add(source, list->stamp, list);
   } catch (const InputError& error) {
     monitor_.dropped(error);

@@ -35,7 +35,8 @@ struct ObjectFusionStageOptions {
 /// the clock jumps back all state is forgotten.
 ///
 /// A list is fused once: a source slower than the reference is not heard twice. One that was in no
-/// set is counted. Objects that do not tell their sensor are taken for their source's own.
+/// set is counted. Objects and views that do not tell their sensor are taken for their source's
+/// own; views that are not valid are left out, and said.
 class ObjectFusionStage {
  public:
   /// `monitor` must outlive the stage. Throws OptionError.

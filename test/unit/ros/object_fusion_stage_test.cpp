@@ -273,6 +273,23 @@ TEST_F(ObjectFusionStageTest, BadObjectsAreLeftOutAndTheirSourceIsNamed) {
   EXPECT_EQ(figure("bad objects"), 5.0);
 }
 
+TEST_F(ObjectFusionStageTest, BadViewsAreLeftOutAndSaid) {
+  ObjectArray objects = list(100.0, {car("stereo", 20.0, 0.0)});
+  objects.views.resize(2);
+  objects.views[0].least_bearing = -30.0F;  // degrees
+  objects.views[0].most_bearing = 30.0F;
+  objects.views[1].least_bearing = -0.5F;
+  objects.views[1].most_bearing = 0.5F;
+  take("lidar", 100.0);
+  take("stereo", objects);
+  const auto fused = nextAt(100.0);
+  ASSERT_TRUE(fused);
+  EXPECT_EQ(warnings("bad_view"), 1U);
+  EXPECT_NE(monitor_.lastError().find("1 views of stereo"), std::string::npos);
+  ASSERT_EQ(fused->views.size(), 1U);
+  EXPECT_EQ(fused->views[0].sensor, "stereo") << "as of objects that do not tell it";
+}
+
 TEST_F(ObjectFusionStageTest, OfAThousandObjectsTheFarthestAreLeftOut) {
   std::vector<Object> many;
   for (int i = 0; i < 1000; ++i) {
