@@ -1,5 +1,6 @@
 #include "datmo_fusion/tracking/target.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace datmo {
@@ -32,12 +33,25 @@ int sightsAfter(int before, const Object& object, double least_free_share) {
   return moves ? before + 1 : 0;
 }
 
+/// m/s, but for one standard deviation.
+double sureSpeed(const StateEstimate& estimate) {
+  const Eigen::Vector2d velocity = estimate.mean.segment<2>(2);
+  const double speed = velocity.norm();
+  if (speed <= 0.0) {
+    return 0.0;
+  }
+  const Eigen::Vector2d along = velocity / speed;
+  const double variance = along.dot(estimate.covariance.block<2, 2>(2, 2) * along);
+  return std::max(0.0, speed - std::sqrt(std::max(0.0, variance)));
+}
+
 }  // namespace
 
 void TargetOptions::visit(OptionVisitor& visitor) {
   visitor.group("filter", [&] { filter.visit(visitor); });
   visitor.group("box", [&] { box.visit(visitor); });
   visitor.group("evidence", [&] { evidence.visit(visitor); });
+  visitor.group("class_by_speed", [&] { class_by_speed.visit(visitor); });
   visitor.number({"birth_probability", "1",
                   "that a new object of no target is something that will be followed, and not a "
                   "false alarm"},
@@ -176,7 +190,9 @@ Track Target::track(const TargetOptions& options) const {
       options.filter.motion.turn_rate * (modes[static_cast<int>(MotionMode::kLeftTurn)] -
                                          modes[static_cast<int>(MotionMode::kRightTurn)]);
   track.moving = moving_;
-  track.class_probabilities = class_.probabilities();
+  track.class_probabilities =
+      weighedBySpeed(class_.probabilities(), moving_ ? sureSpeed(filter_.estimate()) : 0.0,
+                     options.class_by_speed);
   track.age = age_;
   track.since_update = since_update_;
   track.hits = hits_;

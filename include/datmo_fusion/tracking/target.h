@@ -11,6 +11,7 @@
 #include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/options.h"
+#include "datmo_fusion/tracking/class_by_speed.h"
 #include "datmo_fusion/tracking/imm_filter.h"
 #include "datmo_fusion/tracking/motion_evidence.h"
 #include "datmo_fusion/tracking/track.h"
@@ -22,6 +23,7 @@ struct TargetOptions {
   ImmOptions filter;
   TrackedBoxOptions box;
   MotionEvidenceOptions evidence;
+  ClassBySpeedOptions class_by_speed;
   double birth_probability = 0.2;  ///< 1
   double birth_speed_std = 8.0;    ///< m/s
   double stop_speed = 0.4;         ///< m/s
