@@ -56,7 +56,8 @@ class SurfaceLinks {
   }
 
   bool differentHeight(const ColumnSurface& a, const ColumnSurface& b) const {
-    const auto [low, high] = std::minmax(static_cast<double>(a.top), static_cast<double>(b.top));
+    const auto low = static_cast<double>(std::min(a.top, b.top));
+    const auto high = static_cast<double>(std::max(a.top, b.top));
     return high > options_.tall && low < options_.low;
   }
 
