@@ -72,7 +72,7 @@ ObjectSides sidesIn(const CommonAxes& axes, const Object& object) {
   const Point2 centre = to_axes * (box.centre.position() - axes.pose.position());
   const double turn = angleBetween(box.centre.heading(), axes.pose.heading());
   const double quarters = std::round(turn / kQuarterTurn);
-  const double slant = std::sin(turn - quarters * kQuarterTurn);
+  const double slant = turn - quarters * kQuarterTurn;
   const auto first = static_cast<std::size_t>(std::lround(quarters) + 4);
   const bool across = first % 2 == 1;
   const Point2 half =
@@ -81,13 +81,18 @@ ObjectSides sidesIn(const CommonAxes& axes, const Object& object) {
   sides.covariance = to_axes * object.position_covariance * to_axes.transpose();
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const auto i = static_cast<Eigen::Index>(axis);
-    const double turned = slant * half[1 - i];
+    const double turned = std::sin(slant) * half[1 - i];
     for (std::size_t end = 0; end < 2; ++end) {
       const std::size_t direction = end == 1 ? axis : axis + 2;
-      const BoxSide side = kToTheLeft[(first + direction) % kBoxSides];
+      const auto variance = [&](std::size_t quarter) {
+        return object.side_variance[static_cast<std::size_t>(kToTheLeft[quarter % kBoxSides])];
+      };
+      const double own = variance(first + direction);
+      // What reaches farthest that way of a box that is turned is a corner: both its sides tell.
+      const double other = variance(first + direction + (slant > 0.0 ? 1 : kBoxSides - 1));
+      const bool is_seen = std::abs(slant) <= kMostTurn || std::isfinite(other);
       sides.along[axis].place[end] = end == 1 ? centre[i] + half[i] : centre[i] - half[i];
-      sides.along[axis].variance[end] =
-          object.side_variance[static_cast<std::size_t>(side)] + turned * turned;
+      sides.along[axis].variance[end] = is_seen ? own + turned * turned : kHiddenSide;
     }
   }
   return sides;

@@ -145,6 +145,24 @@ TEST(ObjectCombinationTest, OfHeadingsThatContradictEachOtherThatOfTheBetterMeas
   EXPECT_NEAR(combined(post, corner).box.centre.heading(), 0.7, 1e-6);
 }
 
+TEST(ObjectCombinationTest, EndsOfABoxThatIsTurnedFarAreNoFarSides) {
+  // A short line of points across the sight, its ends seen, and not what is behind it; the other
+  // sensor sees the corner of a car.
+  Object line = boxObject(20.0, 0.0, 0.0, 0.6, 0.01);
+  hide(line, BoxSide::kFront);
+  Object car = boxObject(22.0, 0.0, 4.0, 1.8, 0.01, "stereo");
+  car.box.centre = Pose2(22.0, 0.0, 0.5);
+  hide(car, BoxSide::kFront);
+  hide(car, BoxSide::kRight);
+  const Object fused = combined(line, car);
+  ASSERT_NEAR(fused.box.centre.heading(), 0.5, 1e-6);
+  EXPECT_EQ(fused.side_variance[sideIndex(BoxSide::kFront)], kHiddenSide);
+  // The corner that reaches farthest to the right is that of the line's hidden side.
+  EXPECT_EQ(fused.side_variance[sideIndex(BoxSide::kRight)], kHiddenSide);
+  EXPECT_TRUE(std::isfinite(fused.side_variance[sideIndex(BoxSide::kRear)]));
+  EXPECT_TRUE(std::isfinite(fused.side_variance[sideIndex(BoxSide::kLeft)]));
+}
+
 TEST(ObjectCombinationTest, TheSurerOneTellsWhichWayItHeads) {
   Object a = boxObject(10.0, 0.0, 4.0, 2.0, 0.01);
   Object b = boxObject(10.0, 0.0, 4.0, 2.0, 0.01, "stereo");
