@@ -46,7 +46,8 @@ struct CommonAxes {
 };
 
 /// Each side of the object is that of the axes' ends which it is nearest to. A box that is turned
-/// for it has sides that are known less well.
+/// for it has sides that are known less well; one that is turned far shows a corner that way, of
+/// which both sides must have been seen.
 ObjectSides sidesIn(const CommonAxes& axes, const Object& object);
 
 }  // namespace datmo

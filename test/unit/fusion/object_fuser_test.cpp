@@ -169,6 +169,32 @@ TEST(ObjectFuserTest, TheScanSaysWhatTheScannerDoesNotList) {
   EXPECT_EQ(hidden.log_odds, 0.0);
 }
 
+TEST(ObjectFuserTest, ALittleThatMovesBeforeWhatStandsDoesNotMakeItMove) {
+  // Of the beams on what stereo sees, 4 of 9 end on static points: too few to say that it stands.
+  const SourceObjects stereo = heard("stereo", {boxObject(20.0, 0.0, 1.0, 3.0, 0.04, "stereo")});
+  SplitScan scan = scanAhead(19.5, PointState::kStatic);
+  for (ScanPoint& point : scan.points) {
+    point.state = point.bearing > -degrees(0.5) ? PointState::kMoving : PointState::kStatic;
+  }
+  const auto fusedWith = [&](std::size_t points) {
+    Object lidar = boxObject(19.5, 0.5, 0.0, 2.0, 0.04);
+    hide(lidar, BoxSide::kFront);
+    hide(lidar, BoxSide::kRight);
+    lidar.dynamic_state = DynamicState::kMoving;
+    lidar.moving_fraction = 1.0;
+    lidar.points.assign(points, Point2(19.5, 0.5));
+    return fuse({heard("lidar", {lidar}), stereo}, &scan).list;
+  };
+  const auto most = fusedWith(5);
+  ASSERT_EQ(most.objects.size(), 1U);
+  EXPECT_EQ(most.objects[0].dynamic_state, DynamicState::kMoving);
+  EXPECT_LT(most.objects[0].moving_fraction, 0.7);
+  const auto little = fusedWith(1);
+  ASSERT_EQ(little.objects.size(), 1U);
+  EXPECT_EQ(little.objects[0].dynamic_state, DynamicState::kUnknown);
+  EXPECT_LT(little.objects[0].moving_fraction, 0.3);
+}
+
 TEST(ObjectFuserTest, PolesStandUnlessTheyWereSeenToMove) {
   Object walker = pointObject(10.0, -5.0, 0.1);
   walker.dynamic_state = DynamicState::kMoving;
