@@ -181,6 +181,14 @@ TEST(StereoObjectDetector, TellsThingsApartThatTouchInTheImage) {
   EXPECT_NEAR(-rearOf(cyclist).place, 12.0, 0.3);
 }
 
+TEST(StereoObjectDetector, APedestrianAtAPoleIsNotAPartOfIt) {
+  const std::vector<Object> objects =
+      objectsIn(sceneOf({pedestrianAt(10.0, 0.5), boxAt(10.0, 0.05, {0.2, 0.2, 4.5})}));
+  ASSERT_EQ(objects.size(), 2U);
+  EXPECT_EQ(objects[0].object_class, ObjectClass::kPedestrian);
+  EXPECT_EQ(objects[1].object_class, ObjectClass::kPole);
+}
+
 TEST(StereoObjectDetector, SeesAWholeObjectThroughItsHoles) {
   // Windows: the rear of the car is farther away in them.
   MadeScene scene = sceneOf({boxAt(12.0, 0.0, {0.3, 1.8, 0.9}), boxAt(12.8, 0.0, {3.0, 1.6, 1.5})});
