@@ -101,12 +101,34 @@ bool mayBeAsFastAs(const StateEstimate& estimate, double significance, double sp
 
 MotionEvidence::MotionEvidence(const Object& object, const MotionEvidenceOptions& options)
     : against_chance_(std::max(options.least_evidence, object.log_odds)),
-      anchor_{object.box, object.position_covariance, object.moving_fraction, staticShare(object)},
+      anchor_(placeOf(object)),
       present_(anchor_),
       longest_(object.box),
       free_share_(object.moving_fraction),
       static_share_(staticShare(object)),
       standing_{object.box.centre.position(), object.position_covariance} {}
+
+MotionEvidence::Place MotionEvidence::placeOf(const Object& object) {
+  const auto isSeen = [&](BoxSide side) {
+    return std::isfinite(object.side_variance[static_cast<std::size_t>(side)]);
+  };
+  // What is seen of a person is where it is: there is not much more of it.
+  const bool is_small = object.object_class == ObjectClass::kPedestrian;
+  const auto known = [&](BoxSide one, BoxSide other) {
+    return is_small || isSeen(one) || isSeen(other) ? 1.0 : 0.0;
+  };
+  const Eigen::Vector2d seen(known(BoxSide::kFront, BoxSide::kRear),
+                             known(BoxSide::kLeft, BoxSide::kRight));
+  const Eigen::Matrix2d axes = object.box.centre.rotation();
+  return {object.box, object.position_covariance, object.moving_fraction, staticShare(object),
+          axes * seen.asDiagonal() * axes.transpose()};
+}
+
+void MotionEvidence::startHere() {
+  anchor_ = present_;
+  objects_ = 1;
+  free_share_ = present_.free_share;
+}
 
 void MotionEvidence::predict(double seconds, const MotionEvidenceOptions& options) {
   standing_.covariance += Eigen::Matrix2d::Identity() * (options.standing_drift * seconds);
@@ -118,10 +140,13 @@ void MotionEvidence::update(const Object& object, const PositionMeasurement& mea
   const Innovation innovation{measured.position - standing_.position,
                               standing_.covariance + measured.covariance};
   const double ratio = moving_log_likelihood - innovation.logLikelihood();
-  present_ = {object.box, object.position_covariance, object.moving_fraction, staticShare(object)};
+  present_ = placeOf(object);
   ++objects_;
   free_share_ += (object.moving_fraction - free_share_) / objects_;
   static_share_ += (staticShare(object) - static_share_) / std::min(objects_, kStaticMemory);
+  if (std::lround(anchor_.measured.trace()) < std::lround(present_.measured.trace())) {
+    startHere();  // only now is more known of where it is
+  }
   const double map = mapEvidence(object, options.free_space_evidence);
   addAgainstStanding(clamp(ratio, options.scan_limit) + map, options);
   const double false_density =
@@ -144,9 +169,7 @@ void MotionEvidence::miss(double detection_probability, const MotionEvidenceOpti
 void MotionEvidence::addAgainstStanding(double ratio, const MotionEvidenceOptions& options) {
   const bool came_to_rest = against_standing_ > 0.0 && against_standing_ + ratio <= 0.0;
   if (came_to_rest) {
-    anchor_ = present_;
-    objects_ = 1;
-    free_share_ = present_.free_share;
+    startHere();
     static_share_ = present_.static_share;
   }
   against_standing_ = std::min(options.most_evidence, std::max(0.0, against_standing_ + ratio));
@@ -166,7 +189,8 @@ bool MotionEvidence::suffices(const StateEstimate& estimate,
 }
 
 bool MotionEvidence::leftItsPlace(const MotionEvidenceOptions& options) const {
-  const Eigen::Vector2d way = present_.box.centre.position() - anchor_.box.centre.position();
+  const Eigen::Vector2d way = anchor_.measured * present_.measured *
+                              (present_.box.centre.position() - anchor_.box.centre.position());
   const double distance = way.norm();
   if (distance == 0.0) {
     return false;

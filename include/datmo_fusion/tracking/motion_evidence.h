@@ -47,7 +47,9 @@ bool mayBeAsFastAs(const StateEstimate& estimate, double significance, double sp
 /// 3. It left its place: from where the first sum began to where it is now it reaches farther than
 ///    something of its length that stands. A side that comes into view little by little, and goes
 ///    out of view again, is not motion. The more of its points lie where the map was free, the
-///    less it can have stood there half hidden: then the way alone counts.
+///    less it can have stood there half hidden: then the way alone counts. Along an axis neither
+///    end of which is seen there is no way at all: what is seen of a row of parked cars goes along
+///    with the vehicle.
 /// 4. Its estimated velocity is significant.
 /// 5. Of late it was hardly seen in places that are known to be static.
 ///
@@ -88,9 +90,12 @@ class MotionEvidence {
   struct Place {
     Box2 box;
     Eigen::Matrix2d covariance;
-    double free_share;    ///< 0 to 1, of its points: those that lie where the map is free
-    double static_share;  ///< 1: known to be static, else 0
+    double free_share;         ///< 0 to 1, of its points: those that lie where the map is free
+    double static_share;       ///< 1: known to be static, else 0
+    Eigen::Matrix2d measured;  ///< projector on the axes of which one end at least was seen
   };
+  static Place placeOf(const Object& object);
+  void startHere();
 
   void addAgainstStanding(double ratio, const MotionEvidenceOptions& options);
   void addAgainstChance(double ratio, const MotionEvidenceOptions& options);

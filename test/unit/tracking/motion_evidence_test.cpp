@@ -53,6 +53,58 @@ TEST_F(MotionEvidenceTest, AnObjectThatLeavesItsPlaceMoves) {
   EXPECT_TRUE(suffices());
 }
 
+/// A flank: neither its front nor its rear is seen.
+Object flankAt(double x, double length) {
+  Object object = seenAt(x, length);
+  object.side_variance = {kHiddenSide, kHiddenSide, 0.01, kHiddenSide};
+  return object;
+}
+
+TEST_F(MotionEvidenceTest, AFlankWithoutEndsDoesNotLeaveItsPlaceAlongIt) {
+  // What a camera sees of a row of parked cars goes along with it.
+  evidence_ = MotionEvidence(flankAt(0.0, 4.0), options_);
+  for (int i = 1; i <= 40; ++i) {
+    see(flankAt(0.5 * i, 4.0));
+    ASSERT_FALSE(suffices()) << i;
+  }
+}
+
+TEST_F(MotionEvidenceTest, APersonWithoutEndsLeavesItsPlace) {
+  const auto personAt = [](double x) {
+    Object object = flankAt(x, 0.5);
+    object.object_class = ObjectClass::kPedestrian;
+    return object;
+  };
+  evidence_ = MotionEvidence(personAt(0.0), options_);
+  for (int i = 1; i <= 10; ++i) {
+    see(personAt(0.5 * i));
+  }
+  EXPECT_TRUE(suffices());
+}
+
+TEST_F(MotionEvidenceTest, AFlankLeavesItsPlaceAcross) {
+  evidence_ = MotionEvidence(flankAt(0.0, 4.0), options_);
+  for (int i = 1; i <= 10; ++i) {
+    Object object = flankAt(0.0, 4.0);
+    object.box.centre = Pose2(0.0, 0.5 * i, 0.0);
+    see(object);
+  }
+  EXPECT_TRUE(suffices());
+}
+
+TEST_F(MotionEvidenceTest, FromWhereAnEndIsSeenTheWayCounts) {
+  evidence_ = MotionEvidence(flankAt(0.0, 4.0), options_);
+  for (int i = 1; i <= 10; ++i) {
+    see(flankAt(0.5 * i, 4.0));
+  }
+  see(seenAt(5.5, 4.0));
+  EXPECT_FALSE(suffices());
+  for (int i = 12; i <= 22; ++i) {
+    see(seenAt(0.5 * i, 4.0));
+  }
+  EXPECT_TRUE(suffices());
+}
+
 TEST_F(MotionEvidenceTest, NoneOfItWithoutASpeed) {
   for (int i = 1; i <= 10; ++i) {
     see(seenAt(0.5 * i, 1.0));
