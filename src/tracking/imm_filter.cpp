@@ -48,15 +48,41 @@ StateEstimate estimateOf(const TrackState& origin, const Moments& moments) {
 
 void ImmOptions::visit(OptionVisitor& visitor) {
   visitor.group("motion", [&] { motion.visit(visitor); });
+  visitor.group("pedestrian", [&] { pedestrian.visit(visitor); });
+  visitor.group("cyclist", [&] { cyclist.visit(visitor); });
   visitor.group("transitions", [&] { transitions.visit(visitor); });
   visitor.number(
       {"least_probability", "1", "no mode becomes less likely, so that it can come back"},
       least_probability, {1e-9, 0.1});
 }
 
-ImmStep immStep(const ImmOptions& options, double seconds) {
-  return {seconds, targetMotions(options.motion, seconds), startVariance(options.motion),
+const TargetMotionOptions& ImmOptions::motionOf(ObjectClass object_class) const {
+  switch (object_class) {
+    case ObjectClass::kPedestrian:
+      return pedestrian;
+    case ObjectClass::kCyclist:
+      return cyclist;
+    case ObjectClass::kUnknown:
+    case ObjectClass::kVehicle:
+    case ObjectClass::kPole:
+      break;
+  }
+  return motion;
+}
+
+ImmStep immStep(const ImmOptions& options, double seconds, ObjectClass object_class) {
+  const TargetMotionOptions& motion = options.motionOf(object_class);
+  return {seconds, targetMotions(motion, seconds), startVariance(motion),
           transitionMatrix(countsOfSojourns(options.transitions), seconds)};
+}
+
+ImmSteps immSteps(const ImmOptions& options, double seconds) {
+  ImmSteps steps;
+  steps.fill(immStep(options, seconds));
+  for (const ObjectClass object_class : {ObjectClass::kPedestrian, ObjectClass::kCyclist}) {
+    steps[static_cast<std::size_t>(object_class)] = immStep(options, seconds, object_class);
+  }
+  return steps;
 }
 
 ModeVector priorModeProbabilities(const ImmOptions& options) {

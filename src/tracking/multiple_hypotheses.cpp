@@ -37,11 +37,11 @@ MultipleHypotheses::MultipleHypotheses(const TargetOptions& target,
       split_merge_(split_merge) {}
 
 void MultipleHypotheses::predict(double seconds) {
-  const ImmStep step = immStep(target_options_.filter, seconds);
+  const ImmSteps steps = immSteps(target_options_.filter, seconds);
   for (HypothesisCluster& cluster : clusters_) {
     for (TrackTree& tree : cluster.trees) {
       for (Leaf& leaf : tree.leaves) {
-        leaf.target.predict(seconds, step, target_options_);
+        leaf.target.predict(seconds, steps, target_options_);
       }
     }
   }

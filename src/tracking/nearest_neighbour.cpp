@@ -11,9 +11,9 @@ NearestNeighbourTargets::NearestNeighbourTargets(const TargetOptions& target,
     : target_options_(target), options_(association) {}
 
 void NearestNeighbourTargets::predict(double seconds) {
-  const ImmStep step = immStep(target_options_.filter, seconds);
+  const ImmSteps steps = immSteps(target_options_.filter, seconds);
   for (Target& target : targets_) {
-    target.predict(seconds, step, target_options_);
+    target.predict(seconds, steps, target_options_);
   }
 }
 

@@ -8,15 +8,15 @@ namespace datmo {
 namespace {
 
 /// The first object tells where it is; that it may have any velocity is an assumption.
-ImmFilter birth(const PositionMeasurement& measured, const TargetOptions& options,
-                const std::optional<TransitionModel>& transitions) {
+ImmFilter birth(const Object& object, const PositionMeasurement& measured,
+                const TargetOptions& options, const std::optional<TransitionModel>& transitions) {
   StateEstimate estimate;
   estimate.mean.head<2>() = measured.position;
   estimate.covariance.setZero();
   estimate.covariance.topLeftCorner<2, 2>() = measured.covariance;
   estimate.covariance.diagonal().segment<2>(2).setConstant(options.birth_speed_std *
                                                            options.birth_speed_std);
-  const double acceleration = options.filter.motion.acceleration_std;
+  const double acceleration = options.filter.motionOf(object.object_class).acceleration_std;
   estimate.covariance.diagonal().tail<2>().setConstant(acceleration * acceleration);
   return {carriedOn(estimate, -measured.delay), priorModeProbabilities(options.filter),
           transitions};
@@ -84,7 +84,7 @@ void TargetOptions::visit(OptionVisitor& visitor) {
 Target::Target(const Object& object, std::size_t index, std::uint64_t number,
                const TargetOptions& options, const std::optional<TransitionModel>& transitions)
     : box_(object, options.box),
-      filter_(birth(box_.measurementOf(object), options, transitions)),
+      filter_(birth(object, box_.measurementOf(object), options, transitions)),
       evidence_(object, options.evidence),
       number_(number),
       seen_as_(index),
@@ -94,8 +94,8 @@ Target::Target(const Object& object, std::size_t index, std::uint64_t number,
   class_.update(object.object_class, object.class_probability);
 }
 
-void Target::predict(double seconds, const ImmStep& step, const TargetOptions& options) {
-  filter_.predict(step);
+void Target::predict(double seconds, const ImmSteps& steps, const TargetOptions& options) {
+  filter_.predict(steps[static_cast<std::size_t>(objectClass())]);
   box_.predict(seconds, options.box);
   evidence_.predict(seconds, options.evidence);
   age_ += seconds;
@@ -186,9 +186,9 @@ Track Target::track(const TargetOptions& options) const {
   track.box = box();
   track.height = height_;
   track.heading_variance = box_.headingVariance();
-  track.yaw_rate =
-      options.filter.motion.turn_rate * (modes[static_cast<int>(MotionMode::kLeftTurn)] -
-                                         modes[static_cast<int>(MotionMode::kRightTurn)]);
+  track.yaw_rate = options.filter.motionOf(objectClass()).turn_rate *
+                   (modes[static_cast<int>(MotionMode::kLeftTurn)] -
+                    modes[static_cast<int>(MotionMode::kRightTurn)]);
   track.moving = moving_;
   track.class_probabilities =
       weighedBySpeed(class_.probabilities(), moving_ ? sureSpeed(filter_.estimate()) : 0.0,

@@ -44,12 +44,16 @@ TrackCovariance withCentripetal(double turn_rate) {
 void TargetMotionOptions::visit(OptionVisitor& visitor) {
   visitor.number({"turn_rate", "rad/s",
                   "turn rate of the left and the right turn model; a car at a crossing turns with "
-                  "0.3 to 0.6 (8 m/s on 15 to 25 m of radius)"},
+                  "0.3 to 0.6 (8 m/s on 15 to 25 m of radius), a cyclist with 0.6 (4 m/s on 6 m to "
+                  "7 m), a pedestrian with 0.75 (1.3 m/s, 1 m/s^2 to the side)"},
                  turn_rate, {0.05, 2.0});
-  visitor.number({"acceleration_density", "m^2/s^3",
-                  "power of the white acceleration of the constant velocity and turn models "
-                  "(Bar-Shalom et al. 2001, 6.2.2): its root is the change of speed in one second"},
-                 acceleration_density, {1e-6, 100.0});
+  visitor.number(
+      {"acceleration_density", "m^2/s^3",
+       "power of the white acceleration of the constant velocity and turn models "
+       "(Bar-Shalom et al. 2001, 6.2.2): its root is the change of speed in one second; "
+       "of pedestrians twice the variance of their speeds, 0.26 m/s (Weidmann 1993), over "
+       "0.5 s for which they keep them (Helbing and Molnar 1995)"},
+      acceleration_density, {1e-6, 100.0});
   visitor.number({"jerk_density", "m^2/s^5",
                   "power of the white jerk of the constant acceleration model (ibid., 6.2.3): its "
                   "root is the change of acceleration in one second"},
@@ -77,6 +81,19 @@ void TargetMotionOptions::visit(OptionVisitor& visitor) {
        "standard deviation of each component of the velocity of an object that ceases to "
        "stand, in the scan in which it does"},
       start_speed_std, {1e-2, 10.0});
+}
+
+TargetMotionOptions pedestrianMotion() {
+  TargetMotionOptions options;
+  options.turn_rate = 0.75;
+  options.acceleration_density = 0.27;
+  return options;
+}
+
+TargetMotionOptions cyclistMotion() {
+  TargetMotionOptions options;
+  options.turn_rate = 0.6;
+  return options;
 }
 
 LinearMotion coordinatedTurn(double turn_rate, const TargetMotionOptions& options, double seconds) {

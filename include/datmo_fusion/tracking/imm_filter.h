@@ -5,20 +5,25 @@
 
 #include <Eigen/Core>
 
+#include "datmo_fusion/common/object.h"
 #include "datmo_fusion/tracking/kalman_filter.h"
 #include "datmo_fusion/tracking/transition_model.h"
 
 namespace datmo {
 
 struct ImmOptions {
-  TargetMotionOptions motion;
+  TargetMotionOptions motion;  ///< of vehicles, and of all whose class is not known
+  TargetMotionOptions pedestrian = pedestrianMotion();
+  TargetMotionOptions cyclist = cyclistMotion();
   TransitionOptions transitions;
   double least_probability = 1e-3;
 
   void visit(OptionVisitor& visitor);
+
+  const TargetMotionOptions& motionOf(ObjectClass object_class) const;
 };
 
-/// What all filters share in one time step: made once, used for every track.
+/// What all filters of a class share in one time step: made once, used for every track.
 struct ImmStep {
   double seconds = 0.0;
   std::array<LinearMotion, kMotionModes> motions;
@@ -27,7 +32,12 @@ struct ImmStep {
 };
 
 /// The step of `seconds` >= 0.
-ImmStep immStep(const ImmOptions& options, double seconds);
+ImmStep immStep(const ImmOptions& options, double seconds,
+                ObjectClass object_class = ObjectClass::kUnknown);
+
+/// By class.
+using ImmSteps = std::array<ImmStep, kObjectClasses>;
+ImmSteps immSteps(const ImmOptions& options, double seconds);
 
 /// Probabilities of the modes of an object of which nothing is known: each by its share of time.
 ModeVector priorModeProbabilities(const ImmOptions& options);

@@ -52,8 +52,9 @@ class Target {
          const TargetOptions& options,
          const std::optional<TransitionModel>& transitions = std::nullopt);
 
-  /// To the time of the next scan, `seconds` >= 0 ahead; `step` is of the same time.
-  void predict(double seconds, const ImmStep& step, const TargetOptions& options);
+  /// To the time of the next scan, `seconds` >= 0 ahead; `steps` are of the same time. It moves as
+  /// those of its most likely class do.
+  void predict(double seconds, const ImmSteps& steps, const TargetOptions& options);
 
   /// Takes in an object of the present scan, and its index there. `detection_probability`: as for
   /// miss().

@@ -7,7 +7,7 @@
 
 namespace datmo {
 
-/// How tracked objects move, the same for all of them.
+/// How tracked objects of one class move.
 struct TargetMotionOptions {
   double turn_rate = 0.4;             ///< rad/s
   double acceleration_density = 0.2;  ///< m^2/s^3
@@ -21,6 +21,9 @@ struct TargetMotionOptions {
 
   void visit(OptionVisitor& visitor);
 };
+
+TargetMotionOptions pedestrianMotion();
+TargetMotionOptions cyclistMotion();
 
 /// One linear motion over one time step: x' = transition x + w, w ~ N(0, noise). No motion depends
 /// on the place: the first two columns of the transition are those of the identity.

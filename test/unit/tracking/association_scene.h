@@ -38,7 +38,7 @@ inline Target targetAt(double x, double y, std::uint64_t number = 1) {
 inline Target predictedAt(double x, double y, std::uint64_t number = 1) {
   const TargetOptions options;
   Target target = targetAt(x, y, number);
-  target.predict(0.1, immStep(options.filter, 0.1), options);
+  target.predict(0.1, immSteps(options.filter, 0.1), options);
   return target;
 }
 
