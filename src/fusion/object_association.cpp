@@ -43,12 +43,9 @@ bool mayBeOfOneClass(const Object& a, const Object& b) {
          beliefOf(b).compatible(a.object_class);
 }
 
-/// What the scanner sees move is nothing that it knows to stand: both may be close together, a
-/// person beside a parked car, or an echo of the kerb below it.
-bool oneMovesOneStands(const Object& a, const Object& b) {
-  const auto state = std::minmax(a.dynamic_state, b.dynamic_state);
-  return state.first == DynamicState::kStatic && state.second == DynamicState::kMoving;
-}
+/// What the scan knows to stand is no part of what it does not: a person beside a tree or a parked
+/// car, or an echo of the kerb below it.
+bool oneStands(const Object& a, const Object& b) { return standsStill(a) != standsStill(b); }
 
 /// By how much two objects differ along an axis, m, and what that is uncertain by besides the
 /// positions as a whole, m^2.
@@ -221,7 +218,7 @@ void ObjectAssociationOptions::visit(OptionVisitor& visitor) {
 }
 
 ObjectPairing pairing(const Object& a, const Object& b, const ObjectAssociationOptions& options) {
-  if (!mayBeOfOneClass(a, b) || oneMovesOneStands(a, b)) {
+  if (!mayBeOfOneClass(a, b) || oneStands(a, b)) {
     return {};
   }
   const CommonAxes axes(a, b, commonHeading(a, b));
