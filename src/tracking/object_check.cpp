@@ -14,6 +14,9 @@ constexpr double kAsymmetry = 1e-6;
 /// limits of a double.
 constexpr double kFarthest = 1e9;
 
+/// s, before or after its list's stamp: no sensor takes as long for one measurement.
+constexpr double kLongestDelay = 10.0;
+
 /// NaN compares false with everything, and so is nowhere.
 bool isPlace(const Point2& point) {
   return std::abs(point.x()) <= kFarthest && std::abs(point.y()) <= kFarthest;
@@ -46,9 +49,9 @@ bool isValid(const Object& object) {
          isLength(object.box.length) && isLength(object.box.width) &&
          std::all_of(object.points.begin(), object.points.end(), isPlace) &&
          isAmount(object.heading_variance) && areSides(object.side_variance) &&
-         std::isfinite(object.log_odds) && isAmount(object.height) && std::isfinite(object.delay) &&
-         isShare(object.moving_fraction) && isShare(object.class_probability) &&
-         isCovariance(object.position_covariance);
+         std::isfinite(object.log_odds) && isAmount(object.height) &&
+         std::abs(object.delay) <= kLongestDelay && isShare(object.moving_fraction) &&
+         isShare(object.class_probability) && isCovariance(object.position_covariance);
 }
 
 Object transformed(const Pose2& frame_in_parent, const Object& object) {

@@ -43,6 +43,16 @@ TEST(ObjectCheck, SharesAreFromZeroToOne) {
   EXPECT_FALSE(isValid(object));
 }
 
+TEST(ObjectCheck, ItWasSeenAboutTheTimeOfItsList) {
+  Object object = objectAt(1.0, 2.0);
+  object.delay = -0.1;
+  EXPECT_TRUE(isValid(object));
+  object.delay = 1e6;  // where it is now would be anybody's guess
+  EXPECT_FALSE(isValid(object));
+  object.delay = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(isValid(object));
+}
+
 TEST(ObjectCheck, RefusesACovarianceWithoutSpread) {
   Object object = objectAt(1.0, 2.0);
   object.position_covariance.setZero();
