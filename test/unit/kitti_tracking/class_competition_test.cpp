@@ -14,7 +14,7 @@ Object objectAt(double x, double log_odds, double length = 1.8, double width = 0
   return object;
 }
 
-ObjectList listOf(const std::vector<Object>& objects) { return {Stamp{}, objects}; }
+ObjectList listOf(const std::vector<Object>& objects) { return {Stamp{}, objects, {}}; }
 
 TEST(ClassCompetition, InOnePlaceTheOddsAreDivided) {
   std::vector<ObjectList> lists = {listOf({objectAt(10.0, 1.0)}), listOf({objectAt(10.5, 2.0)})};
