@@ -23,6 +23,12 @@ TEST(OptionValues, SectionsAreFlattened) {
   EXPECT_EQ(std::get<double>(values.at("map/window/length")), 90.0);
 }
 
+TEST(OptionValues, NumbersMayBeListed) {
+  const OptionValues values = valuesOf("{a: [1, 2.5], b: []}");
+  EXPECT_EQ(std::get<std::vector<double>>(values.at("a")), (std::vector<double>{1.0, 2.5}));
+  EXPECT_TRUE(std::get<std::vector<double>>(values.at("b")).empty());
+}
+
 TEST(OptionValues, EmptySectionHasNone) {
   EXPECT_TRUE(valuesOf("").empty());
   EXPECT_TRUE(optionValues(YAML::Load("{a: 1}")["b"]).empty());
@@ -31,7 +37,8 @@ TEST(OptionValues, EmptySectionHasNone) {
 TEST(OptionValues, WhatIsNoOptionIsRefused) {
   EXPECT_THROW(valuesOf("[1, 2]"), OptionError);
   EXPECT_THROW(valuesOf("5"), OptionError);
-  EXPECT_THROW(valuesOf("{a: [1, 2]}"), OptionError);
+  EXPECT_THROW(valuesOf("{a: [1, none]}"), OptionError);
+  EXPECT_THROW(valuesOf("{a: [1, [2]]}"), OptionError);
   EXPECT_THROW(valuesOf("{a: }"), OptionError);
   EXPECT_THROW(valuesOf("{a: 1, a: 2}"), OptionError);
 }
