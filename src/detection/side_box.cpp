@@ -1,6 +1,7 @@
 #include "side_box.h"
 
 #include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/common/object_turn.h"
 
 namespace datmo {
 
@@ -8,15 +9,6 @@ namespace {
 
 /// rad; with a vaguer heading, what seems to be two sides may be one.
 constexpr double kSureOfCorner = 0.15;
-
-/// Takes another side for the front, a quarter turn to the left at a time: nothing moves.
-void turnByQuarter(Object& object) {
-  const auto [front, rear, left, right] = object.side_variance;
-  object.side_variance = {left, right, rear, front};
-  const Pose2& centre = object.box.centre;
-  object.box = {Pose2(centre.position(), centre.heading() + kQuarterTurn), object.box.width,
-                object.box.length};
-}
 
 }  // namespace
 

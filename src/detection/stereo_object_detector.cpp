@@ -15,8 +15,6 @@ namespace datmo {
 
 namespace {
 
-constexpr char kSensor[] = "stereo";
-
 /// Points up to so many standard deviations beyond the effective range still belong to it.
 constexpr double kBeyondRange = 2.0;
 
@@ -70,7 +68,7 @@ class StereoObjectDetector::State {
         result.list.objects.push_back(std::move(object));
       }
     }
-    result.list.views.push_back({kSensor, fieldOf(cloud.camera, view, options_)});
+    result.list.views.push_back({kStereoSensor, fieldOf(cloud.camera, view, options_)});
     return result;
   }
 

@@ -12,8 +12,6 @@ namespace datmo {
 
 namespace {
 
-constexpr char kSensor[] = "stereo";
-
 /// Points that tell the outline of an object, at most: columns beside each other are averaged.
 constexpr std::size_t kMostPoints = 40;
 
@@ -53,7 +51,7 @@ StereoObjectMaker::StereoObjectMaker(const StereoObjectDetectorOptions& options,
 Object StereoObjectMaker::objectOf(const GroupOutline& outline) const {
   Object object;
   object.points = pointsOf(outline);
-  object.sensors = {kSensor};
+  object.sensors = {kStereoSensor};
   object.height = outline.top;
   object.position_covariance = covarianceOf(outline);
   setBox(object, outline);

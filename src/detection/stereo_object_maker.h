@@ -12,6 +12,9 @@
 
 namespace datmo {
 
+/// Who saw them, in objects and views.
+inline constexpr char kStereoSensor[] = "stereo";
+
 /// Makes objects of what a stereo camera sees of them.
 class StereoObjectMaker {
  public:

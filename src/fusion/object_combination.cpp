@@ -9,8 +9,8 @@
 #include "fused_sides.h"
 #include "object_sides.h"
 
-#include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/common/class_belief.h"
+#include "datmo_fusion/common/object_turn.h"
 
 namespace datmo {
 
@@ -141,15 +141,6 @@ double commonCovariance(const FusedSides& fused, const std::array<FusedAxis, 2>&
     }
   }
   return sign * least;
-}
-
-/// Takes another side for the front, a quarter turn to the left: nothing moves.
-void turnByQuarter(Object& object) {
-  const auto [front, rear, left, right] = object.side_variance;
-  object.side_variance = {left, right, rear, front};
-  const Pose2& centre = object.box.centre;
-  object.box = {Pose2(centre.position(), centre.heading() + kQuarterTurn), object.box.width,
-                object.box.length};
 }
 
 /// Box, position and the variances of its sides; returns the share of `b` in them.

@@ -120,7 +120,7 @@ class ObjectFuser::Fusion {
     for (const SourceObjects& source : sources) {
       intakes_.push_back(takeIn(source, result_.list.stamp, witness_ ? &*witness_ : nullptr,
                                 options, result_.counts));
-      const std::vector<SensorView>& views = intakes_.back().views;
+      const std::vector<SensorView>& views = intakes_.back().list.views;
       result_.list.views.insert(result_.list.views.end(), views.begin(), views.end());
     }
   }
@@ -150,19 +150,20 @@ class ObjectFuser::Fusion {
     }
     const ObjectIntake& intake = intakes_[source];
     const std::vector<int> matches =
-        associate(known, intake.objects, intake.sensor, options_.association);
+        associate(known, intake.list.objects, intake.sensor, options_.association);
     const ObjectSourceOptions& own = optionsOf(source);
     const double seen_too = std::log(own.detection_probability / own.coincidence);
     for (std::size_t i = 0; i < matches.size(); ++i) {
       if (matches[i] == kUnassigned) {
-        objects_.push_back({intake.objects[i], std::vector<bool>(sources_.size(), false), 0, {}});
+        objects_.push_back(
+            {intake.list.objects[i], std::vector<bool>(sources_.size(), false), 0, {}});
         note(source, i, objects_.back());
         continue;
       }
       FusedObject& fused = objects_[static_cast<std::size_t>(matches[i])];
       const bool first_pair = std::count(fused.seen_by.begin(), fused.seen_by.end(), true) == 1;
       result_.counts.fused += first_pair ? 1 : 0;
-      fused.object = combined(fused.object, intake.objects[i]);
+      fused.object = combined(fused.object, intake.list.objects[i]);
       fused.object.log_odds += std::max(0.0, seen_too);
       note(source, i, fused);
     }
@@ -173,7 +174,7 @@ class ObjectFuser::Fusion {
     const ObjectIntake& intake = intakes_[source];
     fused.seen_by[source] = true;
     if (sources_[source].source == options_.scanner) {
-      fused.scan_points = intake.objects[index].points.size();
+      fused.scan_points = intake.list.objects[index].points.size();
     } else if (intake.testimonies[index].beams > fused.testimony.beams) {
       fused.testimony = intake.testimonies[index];
     }

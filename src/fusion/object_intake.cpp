@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "datmo_fusion/tracking/joint_visibility.h"
 #include "datmo_fusion/tracking/object_check.h"
 
 namespace datmo {
@@ -42,27 +43,6 @@ Point2 sensorOf(const ObjectList& list) {
   return list.views.empty() ? Point2::Zero() : list.views.front().field.sensor_in_base.position();
 }
 
-/// What all of a source's sensors could have seen, in the frame of its objects.
-std::optional<Visibility> viewOf(const std::vector<SensorView>& views,
-                                 const std::vector<Object>& objects,
-                                 const VisibilityOptions& options) {
-  std::vector<Box2> seen;
-  seen.reserve(objects.size());
-  for (const Object& object : objects) {
-    seen.push_back(object.box);
-  }
-  std::optional<Visibility> result;
-  for (const SensorView& view : views) {
-    const Visibility one(view.field, seen, options);
-    if (result) {
-      result->join(one);
-    } else {
-      result = one;
-    }
-  }
-  return result;
-}
-
 /// What the scan says of an object of another source; by it, the object may stand still.
 PlaceTestimony testimonyOf(Object& object, const ScanWitness& witness,
                            const ObjectFuserOptions& options) {
@@ -92,14 +72,17 @@ ObjectIntake takeIn(const SourceObjects& source, Stamp reference, const ScanWitn
     object.delay += later;
     intake.testimonies.push_back(is_heard ? testimonyOf(object, *witness, options)
                                           : PlaceTestimony());
-    intake.objects.push_back(std::move(object));
+    intake.list.objects.push_back(std::move(object));
   }
   intake.sensor = source.base_in_reference * sensor;
-  intake.views = source.list.views;
-  for (SensorView& view : intake.views) {
+  intake.list.stamp = reference;
+  intake.list.views = source.list.views;
+  for (SensorView& view : intake.list.views) {
     view.field.sensor_in_base = source.base_in_reference * view.field.sensor_in_base;
   }
-  intake.visibility = viewOf(intake.views, intake.objects, options.visibility);
+  if (!intake.list.views.empty()) {
+    intake.visibility = jointVisibility(nullptr, intake.list, options.visibility);
+  }
   return intake;
 }
 

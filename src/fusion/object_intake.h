@@ -11,11 +11,10 @@ namespace datmo {
 
 /// One source's objects, brought to where the vehicle was at the reference's stamp.
 struct ObjectIntake {
-  std::vector<Object> objects;              ///< valid ones, in an order of their own
+  ObjectList list;  ///< valid objects, in an order of their own, and views; reference's stamp
   std::vector<PlaceTestimony> testimonies;  ///< of the scan, of each; of the scanner's own: none
-  std::vector<SensorView> views;
-  Point2 sensor = Point2::Zero();        ///< m, from where it looks
-  std::optional<Visibility> visibility;  ///< of all its views; none: not known
+  Point2 sensor = Point2::Zero();           ///< m, from where it looks
+  std::optional<Visibility> visibility;     ///< of all its views; none: not known
 };
 
 /// @param witness null: nothing is known of what the scanner saw

@@ -1,0 +1,15 @@
+#include "datmo_fusion/common/object_turn.h"
+
+#include "datmo_fusion/common/angle.h"
+
+namespace datmo {
+
+void turnByQuarter(Object& object) {
+  const auto [front, rear, left, right] = object.side_variance;
+  object.side_variance = {left, right, rear, front};
+  const Pose2& centre = object.box.centre;
+  object.box = {Pose2(centre.position(), centre.heading() + kQuarterTurn), object.box.width,
+                object.box.length};
+}
+
+}  // namespace datmo

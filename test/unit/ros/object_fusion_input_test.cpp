@@ -1,0 +1,205 @@
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "object_fusion_sample.h"
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/ros/object_fusion_stage.h"
+
+namespace datmo {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+TEST_F(ObjectFusionStageTest, AStampFarAheadOfTheReferenceIsDropped) {
+  take("lidar", 100.0);
+  stage_.takeObjects("stereo", list(100.7, {}), Stamp::fromSeconds(100.0));
+  EXPECT_EQ(drops("stamp_ahead"), 1U);
+  const auto fused = nextAt(100.11);
+  ASSERT_TRUE(fused);
+  EXPECT_EQ(fused->header.stamp, ros::Time(100.0));
+}
+
+TEST_F(ObjectFusionStageTest, BadListsAreDroppedAndCounted) {
+  ObjectArray objects = list(100.0, {});
+  objects.header.frame_id = "map";
+  take("lidar", objects);
+  EXPECT_EQ(drops("wrong_frame"), 1U);
+  EXPECT_NE(monitor_.lastError().find("object list of lidar in 'map'"), std::string::npos);
+  take("radar", 100.0);
+  EXPECT_EQ(drops("unknown_source"), 1U);
+  take("lidar", 0.0);
+  EXPECT_EQ(drops("zero_stamp"), 1U);
+  take("lidar", 100.0);
+  take("lidar", 100.0);
+  EXPECT_EQ(drops("repeated_stamp"), 1U);
+  take("lidar", 99.9);
+  EXPECT_EQ(drops("old_stamp"), 1U);
+  take("stereo", 100.0);
+  EXPECT_EQ(sensorsOf(*nextAt(100.0)), (std::vector<Sensors>{{"lidar", "stereo"}}));
+}
+
+TEST_F(ObjectFusionStageTest, BadObjectsAreLeftOutAndTheirSourceIsNamed) {
+  std::vector<Object> bad(5, car("stereo", 20.0, 0.0));
+  bad[0].position_covariance.setZero();
+  bad[1].position_covariance << 1.0, 2.0, 2.0, 1.0;
+  bad[2].position_covariance(0, 1) = kNan;
+  bad[3].box.centre = {kNan, 0.0, 0.0};
+  bad[4].side_variance[0] = -1.0;
+  for (std::size_t i = 0; i < bad.size(); ++i) {
+    const double t = 100.0 + 0.1 * static_cast<double>(i);
+    take("lidar", t);
+    take("stereo", list(t, {bad[i], car("stereo", 20.0, 0.0)}));
+    const auto fused = nextAt(t);
+    ASSERT_TRUE(fused);
+    EXPECT_EQ(sensorsOf(*fused), (std::vector<Sensors>{{"lidar", "stereo"}})) << i;
+    EXPECT_EQ(warnings("bad_object"), i + 1U);
+    EXPECT_NE(monitor_.lastError().find("1 objects of stereo"), std::string::npos);
+  }
+  EXPECT_EQ(figure("bad objects"), 5.0);
+}
+
+TEST_F(ObjectFusionStageTest, BadViewsAreLeftOutAndSaid) {
+  ObjectArray objects = list(100.0, {car("stereo", 20.0, 0.0)});
+  objects.views.resize(2);
+  objects.views[0].least_bearing = -30.0F;  // degrees
+  objects.views[0].most_bearing = 30.0F;
+  objects.views[1].least_bearing = -0.5F;
+  objects.views[1].most_bearing = 0.5F;
+  take("lidar", 100.0);
+  take("stereo", objects);
+  const auto fused = nextAt(100.0);
+  ASSERT_TRUE(fused);
+  EXPECT_EQ(warnings("bad_view"), 1U);
+  EXPECT_NE(monitor_.lastError().find("1 views of stereo"), std::string::npos);
+  ASSERT_EQ(fused->views.size(), 1U);
+  EXPECT_EQ(fused->views[0].sensor, "stereo") << "as of objects that do not tell it";
+}
+
+TEST_F(ObjectFusionStageTest, OfAThousandObjectsTheFarthestAreLeftOut) {
+  std::vector<Object> many;
+  for (int i = 0; i < 1000; ++i) {
+    many.push_back(car("stereo", 20.0 + 5.0 * (i % 100), 15.0 + 5.0 * (i / 100)));
+  }
+  take("lidar", 100.0);
+  take("stereo", list(100.0, many));
+  const auto fused = nextAt(100.0);
+  ASSERT_TRUE(fused);
+  const auto most = static_cast<std::size_t>(options_.fuser.most_objects);
+  EXPECT_EQ(fused->objects.size(), most + 1);
+  EXPECT_EQ(warnings("many_objects"), 1U);
+  EXPECT_NE(monitor_.lastError().find("stereo"), std::string::npos);
+  EXPECT_TRUE(bothAt(100.1));
+  EXPECT_EQ(warnings("many_objects"), 1U);
+}
+
+TEST_F(ObjectFusionStageTest, ObjectsThatDoNotTellTheirSensorAreTheSources) {
+  Object object = car("stereo", 20.0, 0.0);
+  object.sensors.clear();
+  take("stereo", list(100.0, {object}));
+  take("lidar", 100.0);
+  EXPECT_EQ(sensorsOf(*nextAt(100.0)), (std::vector<Sensors>{{"lidar", "stereo"}}));
+}
+
+TEST_F(ObjectFusionStageTest, AJumpBackStartsAnew) {
+  EXPECT_TRUE(bothAt(200.0));
+  EXPECT_TRUE(bothAt(100.0));
+  EXPECT_EQ(warnings("clock_restart"), 1U) << "the other source is part of the same restart";
+  stage_.takeOdometry(odometry(200.0));
+  stage_.takeOdometry(odometry(100.1));
+  EXPECT_EQ(warnings("clock_restart"), 2U);
+  EXPECT_TRUE(bothAt(99.9));
+  EXPECT_EQ(monitor_.droppedCount(), 0U);
+}
+
+/// Beams one degree apart, straight ahead in the middle; all that look at the car's place end there
+/// on what the map knows.
+SplitScanMessage wallAt(double ahead, double seconds) {
+  SplitScan scan;
+  scan.stamp = Stamp::fromSeconds(seconds);
+  scan.field.beams = 181;
+  scan.field.first_bearing = -kPi / 2.0;
+  scan.field.beam_spacing = kPi / 180.0;
+  scan.field.free_range = 80.0;
+  scan.field.range = 80.0;
+  for (std::uint32_t beam = 80; beam <= 100; ++beam) {
+    const double bearing = scan.field.first_bearing + beam * scan.field.beam_spacing;
+    const double range = ahead / std::cos(bearing);
+    scan.points.push_back(
+        {{ahead, range * std::sin(bearing)}, range, bearing, beam, PointState::kStatic});
+  }
+  return toMessage(scan, "base_link", "map");
+}
+
+class ObjectFusionWitnessTest : public ObjectFusionStageTest {
+ protected:
+  /// State of the one object that stereo sees and the scanner does not list.
+  std::uint8_t stateAt(double seconds) {
+    take("lidar", list(seconds, {}));
+    take("stereo", seconds, 20.0);
+    const auto fused = nextAt(seconds);
+    return fused && fused->objects.size() == 1 ? fused->objects[0].dynamic_state : 255;
+  }
+};
+
+TEST_F(ObjectFusionWitnessTest, TheScanOfTheSameStampTellsWhatStandsStill) {
+  EXPECT_EQ(stateAt(100.0), ObjectMessage::STATE_UNKNOWN) << "no scan";
+  stage_.takeSplitScan(wallAt(18.0, 100.1));
+  EXPECT_EQ(stateAt(100.1), ObjectMessage::STATE_STATIC);
+  EXPECT_EQ(stateAt(100.2), ObjectMessage::STATE_UNKNOWN) << "the scan is of another time";
+  EXPECT_EQ(figure("fused without a split scan"), 2.0);
+}
+
+TEST_F(ObjectFusionWitnessTest, AScanMayComeBeforeOthers) {
+  for (int i = 0; i < 40; ++i) {
+    stage_.takeSplitScan(wallAt(18.0, 100.0 + 0.02 * i));
+  }
+  EXPECT_EQ(stateAt(100.0), ObjectMessage::STATE_STATIC);
+}
+
+TEST_F(ObjectFusionWitnessTest, BadScansAreDroppedAndCounted) {
+  SplitScanMessage scan = wallAt(18.0, 100.0);
+  scan.points[0].x = std::numeric_limits<float>::infinity();
+  stage_.takeSplitScan(scan);
+  EXPECT_EQ(drops("bad_point"), 1U);
+  scan = wallAt(18.0, 100.0);
+  scan.header.frame_id = "scanner";
+  stage_.takeSplitScan(scan);
+  EXPECT_EQ(drops("wrong_frame"), 1U);
+  EXPECT_EQ(stateAt(100.0), ObjectMessage::STATE_UNKNOWN);
+}
+
+TEST_F(ObjectFusionWitnessTest, AJumpBackForgetsTheScans) {
+  EXPECT_TRUE(bothAt(199.0));
+  stage_.takeSplitScan(wallAt(18.0, 200.0));
+  EXPECT_TRUE(bothAt(100.0));
+  EXPECT_EQ(warnings("clock_restart"), 1U);
+  EXPECT_EQ(stateAt(200.0), ObjectMessage::STATE_UNKNOWN);
+}
+
+TEST_F(ObjectFusionWitnessTest, AScanOfANewRunIsNotLostBehindThoseOfTheOldOne) {
+  stage_.takeSplitScan(wallAt(18.0, 200.0));
+  stage_.takeSplitScan(wallAt(18.0, 100.0));
+  EXPECT_EQ(stateAt(100.0), ObjectMessage::STATE_STATIC);
+}
+
+TEST(ObjectFusionStageOptionsTest, BadOptionsAreRefused) {
+  StageMonitor monitor("object_fusion");
+  const auto refused = [&monitor](const std::function<void(ObjectFusionStageOptions&)>& spoil) {
+    ObjectFusionStageOptions options;
+    spoil(options);
+    EXPECT_THROW(ObjectFusionStage(options, monitor), OptionError);
+  };
+  refused([](auto& options) { options.matcher.reference = "radar"; });
+  refused([](auto& options) { options.fuser.sources["lidar"].use = false; });
+  refused([](auto& options) { options.matcher.longest_wait = kNan; });
+  for (const char* const name : {"fused", "", "2nd", "rear-lidar", "a b"}) {
+    refused([&](auto& options) { options.fuser.sources[name].use = true; });
+  }
+}
+
+}  // namespace
+}  // namespace datmo

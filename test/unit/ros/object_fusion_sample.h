@@ -1,0 +1,83 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "monitor_counts.h"
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/object_fusion_stage.h"
+
+namespace datmo {
+
+/// A car that `sensor` saw well, ahead and to the side in the vehicle's frame (m).
+inline Object car(const std::string& sensor, double ahead, double left) {
+  Object object;
+  object.box = {{ahead, left, 0.0}, 4.0, 1.8};
+  object.position_covariance = 0.04 * Eigen::Matrix2d::Identity();
+  object.heading_variance = 0.01;
+  object.side_variance.fill(0.01);
+  object.sensors = {sensor};
+  return object;
+}
+
+inline nav_msgs::Odometry odometry(double seconds) {
+  nav_msgs::Odometry message;
+  message.header.stamp = ros::Time(seconds);
+  message.header.frame_id = "odom";
+  message.child_frame_id = "base_link";
+  message.twist.twist.linear.x = 20.0;
+  return message;
+}
+
+class ObjectFusionStageTest : public testing::Test {
+ protected:
+  static ObjectArray list(double seconds, const std::vector<Object>& objects) {
+    return toMessage(ObjectList{Stamp::fromSeconds(seconds), objects, {}}, "base_link");
+  }
+
+  /// A list of one car, which this source sees.
+  void take(const std::string& source, double seconds, double ahead = 20.0, double left = 0.0) {
+    take(source, list(seconds, {car(source, ahead, left)}));
+  }
+
+  void take(const std::string& source, const ObjectArray& objects) {
+    stage_.takeObjects(source, objects, toStamp(objects.header.stamp));
+  }
+
+  ObjectArrayPtr nextAt(double seconds) { return stage_.next(Stamp::fromSeconds(seconds)); }
+
+  /// Both sources see the same car at this time.
+  ObjectArrayPtr bothAt(double seconds) {
+    take("lidar", seconds);
+    take("stereo", seconds);
+    return nextAt(seconds);
+  }
+
+  std::uint64_t drops(const std::string& reason) const { return samples::drops(monitor_, reason); }
+  std::uint64_t warnings(const std::string& reason) const {
+    return samples::warnings(monitor_, reason);
+  }
+  double figure(const std::string& name) const { return monitor_.figures().at(name); }
+
+  StageMonitor monitor_{"object_fusion"};
+  ObjectFusionStageOptions options_;
+  ObjectFusionStage stage_{options_, monitor_};
+};
+
+using Sensors = std::vector<std::string>;
+
+/// The sensors of all objects of a list, in no order.
+inline std::vector<Sensors> sensorsOf(const ObjectArray& list) {
+  std::vector<Sensors> result;
+  for (const ObjectMessage& object : list.objects) {
+    result.push_back(object.sensors);
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+}  // namespace datmo
