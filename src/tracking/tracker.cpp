@@ -208,7 +208,7 @@ class Tracker::State {
   }
 
   TrackList published(Stamp stamp, const AssociationScan& scan) {
-    TrackList list{stamp, {}};
+    TrackList list{stamp, {}, {}};
     for (const BestTarget& best : targets_->best()) {
       if (isPublished(best)) {
         list.tracks.push_back(trackOf(best, scan));

@@ -9,6 +9,7 @@
 
 #include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/common/object.h"
+#include "datmo_fusion/common/view_fan.h"
 
 namespace datmo {
 
@@ -34,6 +35,12 @@ struct PathPoint {
   Pose2 pose;  ///< of the box, fixed frame
 };
 
+/// A track of one source, which a fused track was made of.
+struct SourceTrack {
+  std::string source;
+  std::uint32_t id = 0;
+};
+
 /// One confirmed moving object, followed over time, in the fixed frame.
 struct Track {
   std::uint32_t id = 0;  ///< from 1; stable for the track's life, never reused
@@ -54,11 +61,13 @@ struct Track {
   std::vector<std::string> sensors;
   std::vector<std::size_t> objects;  ///< of the present list, that it was made of; coasting: none
   std::vector<PathPoint> history;    ///< oldest first, the present last
+  std::vector<SourceTrack> sources;  ///< that it was fused of, by source; else none
 };
 
 struct TrackList {
   Stamp stamp;
-  std::vector<Track> tracks;  ///< by rising id
+  std::vector<Track> tracks;   ///< by rising id
+  std::vector<ViewFan> views;  ///< of its sensors, fixed frame, one each; none: not known
 };
 
 }  // namespace datmo

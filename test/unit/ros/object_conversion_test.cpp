@@ -69,7 +69,7 @@ TEST(TrackConversion, FillsEveryField) {
   track.age = 2.5;
   track.since_update = 0.5;
   track.hits = 9;
-  const TrackArray message = toMessage(TrackList{kStamp, {track}}, "map");
+  const TrackArray message = toMessage(TrackList{kStamp, {track}, {}}, "map");
   EXPECT_EQ(message.header.frame_id, "map");
   const TrackMessage& got = message.tracks.at(0);
   EXPECT_EQ(got.id, 5U);
