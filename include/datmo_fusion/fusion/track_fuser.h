@@ -52,6 +52,9 @@ struct TrackFuserOptions {
   std::vector<std::string> sourcesInUse() const;
 };
 
+/// Which tracks come out: the schemes' names.
+const std::vector<std::string>& trackSchemeNames();
+
 /// The newest tracks of one source; all sources in one fixed frame.
 struct SourceTracks {
   std::string source;
@@ -88,6 +91,9 @@ class TrackFuser {
   /// given before; it is no new evidence then. All sources must be in the options (else
   /// std::out_of_range).
   TrackFusionResult fuse(Stamp stamp, const std::vector<SourceTracks>& sources);
+
+  /// The scheme by its name, from the next call on. Throws OptionError for a name that there is not.
+  void setScheme(const std::string& name);
 
   /// Forgets all tracks; ids go on, so that none is reused.
   void reset();
