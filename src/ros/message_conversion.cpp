@@ -176,7 +176,7 @@ SplitScan fromMessage(const SplitScanMessage& message) {
                                      std::to_string(scanner.y) + ", heading " +
                                      std::to_string(scanner.theta) + ": expected finite numbers");
   }
-  scan.scanner_in_base = Pose2(scanner.x, scanner.y, scanner.theta);
+  scan.scanner_in_base = toPose2(scanner);
   scan.field = fromMessage(message.field);
   scan.blind_beams.assign(message.blind_beams.begin(), message.blind_beams.end());
   for (const ScanPointMessage& point : message.points) {

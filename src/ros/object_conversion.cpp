@@ -1,8 +1,5 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <iterator>
-#include <vector>
 
 #include "message_parts.h"
 
@@ -14,14 +11,6 @@ namespace {
 
 /// rad: a full turn in single precision may be a little more than one.
 constexpr double kRounding = 1e-5;
-
-geometry_msgs::Vector3 size(const Box2& box, double height) {
-  geometry_msgs::Vector3 result;
-  result.x = box.length;
-  result.y = box.width;
-  result.z = height;
-  return result;
-}
 
 ObjectMessage toMessage(const Object& object) {
   ObjectMessage message;
@@ -53,11 +42,6 @@ template <typename Enumeration>
 Enumeration named(std::uint8_t value, Enumeration last) {
   return value <= static_cast<std::uint8_t>(last) ? static_cast<Enumeration>(value)
                                                   : Enumeration::kUnknown;
-}
-
-Pose2 boxCentre(const geometry_msgs::Pose& pose) {
-  const auto& q = pose.orientation;
-  return {pose.position.x, pose.position.y, 2.0 * std::atan2(q.z, q.w)};
 }
 
 Object fromMessage(const ObjectMessage& message) {
@@ -103,54 +87,9 @@ bool isValid(const FieldOfViewMessage& view) {
 }
 
 SensorView fromMessage(const FieldOfViewMessage& message) {
-  const geometry_msgs::Pose2D& pose = message.pose;
   return {message.sensor,
-          {Pose2(pose.x, pose.y, pose.theta), message.least_bearing, message.most_bearing,
-           message.sure_range, message.range}};
-}
-
-template <std::size_t count>
-std::vector<float> toFloats(const std::array<double, count>& values) {
-  std::vector<float> result;
-  std::transform(values.begin(), values.end(), std::back_inserter(result),
-                 [](double value) { return static_cast<float>(value); });
-  return result;
-}
-
-PathPointMessage toMessage(const PathPoint& point) {
-  PathPointMessage message;
-  message.stamp = toTime(point.stamp);
-  message.pose = toPose2D(point.pose);
-  return message;
-}
-
-TrackMessage toMessage(const Track& track) {
-  TrackMessage message;
-  message.id = track.id;
-  message.pose = toMessage(track.box.centre);
-  message.size = size(track.box, track.height);
-  message.velocity = planar(track.state(2), track.state(3));
-  message.acceleration = planar(track.state(4), track.state(5));
-  message.yaw_rate = track.yaw_rate;
-  Eigen::Map<Eigen::Matrix<double, kTrackState, kTrackState, Eigen::RowMajor>>(
-      message.covariance.data()) = track.covariance;
-  message.moving = track.moving;
-  message.heading_variance = track.heading_variance;
-  message.mode_probabilities = toFloats(track.mode_probabilities);
-  const auto& classes = track.class_probabilities;
-  const auto most_likely = std::max_element(classes.begin(), classes.end());
-  message.classification = static_cast<std::uint8_t>(most_likely - classes.begin());
-  message.class_probability = static_cast<float>(*most_likely);
-  message.class_probabilities = toFloats(classes);
-  message.existence_probability = static_cast<float>(track.existence_probability);
-  message.age = ros::Duration(track.age);
-  message.since_update = ros::Duration(track.since_update);
-  message.hits = track.hits;
-  message.sensors = track.sensors;
-  for (const PathPoint& point : track.history) {
-    message.history.push_back(toMessage(point));
-  }
-  return message;
+          {toPose2(message.pose), message.least_bearing, message.most_bearing, message.sure_range,
+           message.range}};
 }
 
 }  // namespace
@@ -181,15 +120,6 @@ ObjectList fromMessage(const ObjectArray& message) {
     list.objects.push_back(fromMessage(object));
   }
   return list;
-}
-
-TrackArray toMessage(const TrackList& list, const std::string& fixed_frame) {
-  TrackArray message;
-  message.header = header(list.stamp, fixed_frame);
-  for (const Track& track : list.tracks) {
-    message.tracks.push_back(toMessage(track));
-  }
-  return message;
 }
 
 }  // namespace datmo

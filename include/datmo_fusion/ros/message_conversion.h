@@ -52,7 +52,14 @@ ObjectArray toMessage(const ObjectList& list, const std::string& base_frame);
 /// the numbers of each object by itself. A field of view that is none is left out.
 ObjectList fromMessage(const ObjectArray& message);
 
+/// Without Track::objects, which the message does not have.
 TrackArray toMessage(const TrackList& list, const std::string& fixed_frame);
+
+/// The inverse, to the message's precision (probabilities and views are single). No check of the
+/// tracks: whoever takes them judges each by itself (isValid), and one whose probabilities are of
+/// the wrong number has NaN for them, which is not valid. A view that is none (isValid) is left
+/// out.
+TrackList fromMessage(const TrackArray& message);
 
 /// The window of the map as it lies now: cell (0, 0) of the message is the window's lower left one.
 nav_msgs::OccupancyGrid toMessage(const OccupancyMap& map, Stamp stamp,

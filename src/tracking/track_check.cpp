@@ -1,0 +1,50 @@
+#include "datmo_fusion/tracking/track_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "number_checks.h"
+
+#include "datmo_fusion/common/scan.h"
+
+namespace datmo {
+
+namespace {
+
+bool isPose(const Pose2& pose) { return isPlace(pose.position()) && std::isfinite(pose.heading()); }
+
+bool isBox(const Box2& box) {
+  return isPose(box.centre) && isModerateAmount(box.length) && isModerateAmount(box.width);
+}
+
+bool isState(const TrackState& state, const TrackCovariance& covariance) {
+  return (state.array().abs() <= kMost).all() && isCovariance(covariance) &&
+         covariance.diagonal().maxCoeff() <= kMost * kMost;
+}
+
+template <std::size_t count>
+bool areShares(const std::array<double, count>& values) {
+  return std::all_of(values.begin(), values.end(), isShare);
+}
+
+}  // namespace
+
+bool isValid(const Track& track) {
+  return isState(track.state, track.covariance) && isBox(track.box) && isAmount(track.height) &&
+         isModerate(track.yaw_rate) && isAmount(track.heading_variance) &&
+         areShares(track.mode_probabilities) && areShares(track.class_probabilities) &&
+         isShare(track.existence_probability) && isModerateAmount(track.age) &&
+         isModerateAmount(track.since_update) &&
+         std::all_of(track.history.begin(), track.history.end(),
+                     [](const PathPoint& point) { return isPose(point.pose); });
+}
+
+bool isValid(const ViewFan& fan) {
+  return isPose(fan.sensor) && std::isfinite(fan.first_bearing) &&
+         std::isfinite(fan.beam_spacing) && std::isfinite(1.0 / fan.beam_spacing) &&
+         std::isfinite(fan.least_range) && std::isfinite(fan.sure_range) &&
+         std::isfinite(fan.range) && fan.reach.size() <= kMostBeams &&
+         std::all_of(fan.reach.begin(), fan.reach.end(), isAmount);
+}
+
+}  // namespace datmo
