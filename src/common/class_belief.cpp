@@ -17,7 +17,24 @@ constexpr double kKnown = 0.5;
 
 std::size_t indexOf(ObjectClass object_class) { return static_cast<std::size_t>(object_class); }
 
+/// Of relative probabilities; of zeros alone nothing is known.
+ClassProbabilities normalisedWithDoubt(ClassProbabilities relative) {
+  const double sum = std::accumulate(relative.begin(), relative.end(), 0.0);
+  for (double& value : relative) {
+    value = sum > 0.0 ? (1.0 - kDoubt) * value / sum + kDoubt * kChance : kChance;
+  }
+  return relative;
+}
+
 }  // namespace
+
+ClassProbabilities jointBelief(const ClassProbabilities& a, const ClassProbabilities& b) {
+  ClassProbabilities product{};
+  for (std::size_t i = 0; i < kObjectClasses; ++i) {
+    product[i] = a[i] * b[i];
+  }
+  return normalisedWithDoubt(product);
+}
 
 ClassBelief::ClassBelief() { probabilities_.fill(kChance); }
 
@@ -29,10 +46,7 @@ void ClassBelief::update(ObjectClass observed, double probability) {
   for (std::size_t i = 0; i < kObjectClasses; ++i) {
     probabilities_[i] *= i == indexOf(observed) ? probability : other;
   }
-  const double sum = std::accumulate(probabilities_.begin(), probabilities_.end(), 0.0);
-  for (double& value : probabilities_) {
-    value = (1.0 - kDoubt) * value / sum + kDoubt * kChance;
-  }
+  probabilities_ = normalisedWithDoubt(probabilities_);
 }
 
 double ClassBelief::probability(ObjectClass object_class) const {

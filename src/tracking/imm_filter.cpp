@@ -47,27 +47,11 @@ StateEstimate estimateOf(const TrackState& origin, const Moments& moments) {
 }  // namespace
 
 void ImmOptions::visit(OptionVisitor& visitor) {
-  visitor.group("motion", [&] { motion.visit(visitor); });
-  visitor.group("pedestrian", [&] { pedestrian.visit(visitor); });
-  visitor.group("cyclist", [&] { cyclist.visit(visitor); });
+  ClassMotionOptions::visit(visitor);
   visitor.group("transitions", [&] { transitions.visit(visitor); });
   visitor.number(
       {"least_probability", "1", "no mode becomes less likely, so that it can come back"},
       least_probability, {1e-9, 0.1});
-}
-
-const TargetMotionOptions& ImmOptions::motionOf(ObjectClass object_class) const {
-  switch (object_class) {
-    case ObjectClass::kPedestrian:
-      return pedestrian;
-    case ObjectClass::kCyclist:
-      return cyclist;
-    case ObjectClass::kUnknown:
-    case ObjectClass::kVehicle:
-    case ObjectClass::kPole:
-      break;
-  }
-  return motion;
 }
 
 ImmStep immStep(const ImmOptions& options, double seconds, ObjectClass object_class) {

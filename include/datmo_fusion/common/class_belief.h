@@ -9,6 +9,11 @@ namespace datmo {
 /// Probability of each ObjectClass, in the order of its values; they sum to 1.
 using ClassProbabilities = std::array<double, kObjectClasses>;
 
+/// What two independent beliefs say together (Bayes): both started from equal probabilities, so
+/// that their product is the posterior. As in ClassBelief no class becomes impossible. Of one that
+/// contradicts all that the other says nothing is left: all are equally likely.
+ClassProbabilities jointBelief(const ClassProbabilities& a, const ClassProbabilities& b);
+
 /// What an object is, from all that was said of its class until now (Bayes). Before anything was
 /// said all classes are equally likely.
 ///

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "datmo_fusion/common/options.h"
+#include "datmo_fusion/fusion/cross_covariance.h"
 #include "datmo_fusion/tracking/kalman_filter.h"
 #include "datmo_fusion/tracking/track.h"
 
@@ -14,26 +15,38 @@ struct TrackCombinationOptions {
   static constexpr char kInformation[] = "information";
 
   std::string method = kCovarianceIntersection;
+  double most_correlation = 0.95;  ///< 1
 
   void visit(OptionVisitor& visitor);
 };
 
-/// E[(a - x) (b - x)'] of two estimates of one state.
-using CrossCovariance = TrackCovariance;
-
 /// Two trackers' estimates of one object at one time, fused.
 ///
 /// They share the object's process noise, so that their errors are correlated (Bar-Shalom 1981).
-/// covariance_intersection: consistent whatever the correlation is (Julier & Uhlmann 1997), the
-/// weight by least trace/determinant. bar_shalom_campo: by the cross-covariance (Bar-Shalom & Campo
-/// 1986). information: as if they were independent; over-confident.
+/// covariance_intersection: consistent whatever the correlation is (Julier & Uhlmann 1997), with
+/// the weight of the least determinant, in which position and velocity need no common unit; one
+/// that is better in every respect has nearly all of it. bar_shalom_campo: of least variance by the
+/// cross-covariance E[(a - x) (b - x)'] (Bar-Shalom & Campo 1986), no more of which is believed
+/// than `most_correlation`. information: as if they were independent; over-confident. The last two
+/// alone do without `cross`.
 ///
-/// Both covariances positive definite. Symmetric.
+/// Both covariances positive definite, which the result's is too. Symmetric: a, b, cross as b, a,
+/// cross'.
 StateEstimate fusedState(const StateEstimate& a, const StateEstimate& b,
                          const CrossCovariance& cross, const TrackCombinationOptions& options);
 
-/// Two tracks at one time, taken for one object: state by fusedState; the box's size and heading,
-/// class, height from both; `sensors` and `sources` of both. Id, existence, age and history are a's.
+/// Two tracks at one time, taken for one object.
+///
+/// State by fusedState, the box's centre is its position. The heading is known modulo pi by its
+/// variance, and by the motion where the front is. A tracker infers the centre from the sides that
+/// it saw and the size that it thinks of, so the one whose centre is surer along an axis of the box
+/// also knows better how far the box reaches along it: so are the sizes weighted. Height: the
+/// greater one, for what is seen in part looks lower than it is. Class by Bayes from even odds.
+/// What both know of the motion mode and the yaw rate is the same motion seen twice, no more
+/// evidence than one, so these are averaged. It moves if one says so. Hits, `sensors` and `sources`
+/// are those of both, the time since the last object the shorter one; `objects` there are none.
+///
+/// Id, existence, age and history are a's; all else is symmetric. Both must be valid.
 Track combined(const Track& a, const Track& b, const CrossCovariance& cross,
                const TrackCombinationOptions& options);
 

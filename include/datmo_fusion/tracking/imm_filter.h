@@ -6,21 +6,17 @@
 #include <Eigen/Core>
 
 #include "datmo_fusion/common/object.h"
+#include "datmo_fusion/tracking/class_motion.h"
 #include "datmo_fusion/tracking/kalman_filter.h"
 #include "datmo_fusion/tracking/transition_model.h"
 
 namespace datmo {
 
-struct ImmOptions {
-  TargetMotionOptions motion;  ///< of vehicles, and of all whose class is not known
-  TargetMotionOptions pedestrian = pedestrianMotion();
-  TargetMotionOptions cyclist = cyclistMotion();
+struct ImmOptions : ClassMotionOptions {
   TransitionOptions transitions;
   double least_probability = 1e-3;
 
   void visit(OptionVisitor& visitor);
-
-  const TargetMotionOptions& motionOf(ObjectClass object_class) const;
 };
 
 /// What all filters of a class share in one time step: made once, used for every track.
