@@ -8,16 +8,6 @@ namespace datmo {
 
 namespace {
 
-/// Whether a box of `scale` times its size holds the other's centre.
-bool reaches(Box2 box, const Box2& other, double scale) {
-  box.length *= scale;
-  box.width *= scale;
-  const Point2& point = other.centre.position();
-  const double diagonal = box.length + box.width;  // at least: a quick answer for most pairs
-  return (point - box.centre.position()).squaredNorm() <= diagonal * diagonal &&
-         box.contains(point);
-}
-
 /// A target with its box, which takes longer to ask for than most pairs need.
 struct Placed {
   const Target& target;
@@ -40,6 +30,15 @@ bool isPartOf(const Placed& part, const Placed& whole, const DuplicateOptions& o
 }
 
 }  // namespace
+
+bool reaches(Box2 box, const Box2& other, double scale) {
+  box.length *= scale;
+  box.width *= scale;
+  const Point2& point = other.centre.position();
+  const double diagonal = box.length + box.width;  // at least: a quick answer for most pairs
+  return (point - box.centre.position()).squaredNorm() <= diagonal * diagonal &&
+         box.contains(point);
+}
 
 void DuplicateOptions::visit(OptionVisitor& visitor) {
   visitor.number({"reach", "1",

@@ -1,9 +1,17 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <map>
 #include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/stamp.h"
+#include "datmo_fusion/fusion/track_comparison.h"
+#include "datmo_fusion/fusion/windowed_evidence.h"
 #include "datmo_fusion/tracking/track.h"
 
 namespace datmo {
@@ -13,8 +21,84 @@ struct TrackAssociationOptions {
   static constexpr char kParallel[] = "parallel";
 
   std::string test = kAccumulated;
+  TrackComparisonOptions comparison;
+  WindowedEvidenceOptions evidence;
+  ParallelTracksOptions parallel;
+  double required = 6.9;  ///< 1
+  double loyalty = 10.0;  ///< 1
 
   void visit(OptionVisitor& visitor);
+};
+
+/// Tracks of one source, all at one time in one fixed frame.
+struct PresentTracks {
+  std::size_t source = 0;     ///< number of the source, the same at all times
+  bool fresh = true;          ///< false: these are known already, predicted
+  std::vector<Track> tracks;  ///< valid (isValid); ids are unique
+};
+
+/// One track of those.
+struct TrackPlace {
+  std::size_t list = 0;  ///< index of its source's PresentTracks
+  std::size_t track = 0;
+};
+
+/// Tracks that are one object, of different sources; at least one.
+using TrackGroup = std::vector<TrackPlace>;
+
+/// Decides which tracks of several sources are one object, by all that they did until now.
+///
+/// accumulated: each time two tracks are compared, the log-likelihood ratio of "one object" against
+/// "two" counts (compare), summed over a window of time (Bar-Shalom, Willett, Tian, Tracking and
+/// Data Fusion, 2011, 9.4.4: association from the histories of tracks): two cars that pass each
+/// other agree for a moment, one object always. Two become one from `required` on.
+///
+/// parallel: thesis 3.4.2; two tracks in each other's gate are one if they were parallel over the
+/// history that they have in common.
+///
+/// In both, one-to-one between sources and likeliest over all pairs; those who were one before stay
+/// so until they differ by more than it takes to become one (`loyalty`).
+class TrackAssociation {
+ public:
+  /// Throws OptionError.
+  explicit TrackAssociation(const TrackAssociationOptions& options);
+
+  /// The groups of the tracks of a time, in the order of their first tracks: those of the first
+  /// source, then the others'. Stamps rise.
+  std::vector<TrackGroup> associate(Stamp stamp, const std::vector<PresentTracks>& sources);
+
+  void reset() { pairs_.clear(); }
+
+ private:
+  struct TrackKey {
+    std::size_t source;
+    std::uint32_t id;
+    bool operator<(const TrackKey& other) const {
+      return std::tie(source, id) < std::tie(other.source, other.id);
+    }
+  };
+  using PairKey = std::pair<TrackKey, TrackKey>;
+  struct Pair {
+    WindowedEvidence evidence;
+    bool together = false;
+    double score = 0.0;     ///< now; more than 0: one object
+    bool compared = false;  ///< now
+  };
+
+  static PairKey keyOf(const PresentTracks& one, const Track& a, const PresentTracks& other,
+                       const Track& b);
+  void compareAll(Stamp stamp, const PresentTracks& one, const PresentTracks& other);
+  void compareTwo(Stamp stamp, const Track& a, const Track& b, bool fresh, const PairKey& key);
+  /// Mean over the group's tracks; kForbidden where one was not compared.
+  double scoreOf(const TrackGroup& group, const std::vector<PresentTracks>& sources,
+                 std::size_t list, std::size_t track) const;
+  void join(std::vector<TrackGroup>& groups, const std::vector<PresentTracks>& sources,
+            std::size_t list) const;
+  void remember(Stamp stamp, const std::vector<TrackGroup>& groups,
+                const std::vector<PresentTracks>& sources);
+
+  TrackAssociationOptions options_;
+  std::map<PairKey, Pair> pairs_;
 };
 
 }  // namespace datmo

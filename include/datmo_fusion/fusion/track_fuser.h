@@ -34,11 +34,12 @@ struct TrackFuserOptions {
   std::string scheme = kFusedAndBeyond;
   std::string beyond = "lidar";  ///< name of a source
   int most_tracks = 200;
-  double can_see = 0.5;             ///< 1
-  double looking_time = 1.0;        ///< s
-  double published_existence = 0.5; ///< 1
-  double memory = 1.5;              ///< s
-  double history_time = 3.0;        ///< s
+  double can_see = 0.5;              ///< 1
+  double looking_time = 1.0;         ///< s
+  double twin_reach = 1.0;           ///< 1
+  double published_existence = 0.5;  ///< 1
+  double memory = 1.5;               ///< s
+  double history_time = 3.0;         ///< s
   TrackPredictionOptions prediction;
   TrackAssociationOptions association;
   TrackCombinationOptions combination;
@@ -63,9 +64,9 @@ struct SourceTracks {
 
 /// What became of the tracks of one set of lists.
 struct TrackFusionCounts {
-  std::size_t rejected = 0;   ///< not valid (isValid)
-  std::size_t refused = 0;    ///< beyond the most of one list: those of least existence
-  std::size_t fused = 0;      ///< tracks that two or more sources have
+  std::size_t rejected = 0;  ///< not valid (isValid)
+  std::size_t refused = 0;   ///< beyond the most of one list: those of least existence
+  std::size_t fused = 0;     ///< tracks that two or more sources have
   std::size_t published = 0;
 };
 
@@ -78,7 +79,18 @@ struct TrackFusionResult {
 ///
 /// All tracks are brought to one time. Which of them are one object is decided by what they did
 /// until now (TrackAssociation), the states of those are fused (combined), and the fused track has
-/// an id of its own, which stays while one source loses the object and finds it again.
+/// an id of its own, which stays while one source loses the object and finds it again. That it
+/// exists: fusedExistence, by what each source could see, as it tells with its tracks.
+///
+/// What is published, of the tracks that are likely enough to exist (thesis 3.4.2):
+///
+///   - fused_and_beyond: those that all sources have, or had, that can see the place; and those of
+///     one source, `beyond`, where no other can see. The thesis's list.
+///   - confirmed_by_all: the first of these alone. For very noisy sensors.
+///   - union: all. `sensors` tells who sees them.
+///
+/// Of two at one place, of different sources, that have not been taken for one object yet, one is
+/// published: no two bodies are at one place. A source whose view is not known is never missed.
 ///
 /// Not thread safe; stamps rise.
 class TrackFuser {
@@ -92,7 +104,8 @@ class TrackFuser {
   /// std::out_of_range).
   TrackFusionResult fuse(Stamp stamp, const std::vector<SourceTracks>& sources);
 
-  /// The scheme by its name, from the next call on. Throws OptionError for a name that there is not.
+  /// The scheme by its name, from the next call on. Throws OptionError for a name that there is
+  /// not.
   void setScheme(const std::string& name);
 
   /// Forgets all tracks; ids go on, so that none is reused.

@@ -4,10 +4,14 @@
 #include <set>
 #include <vector>
 
+#include "datmo_fusion/common/box2.h"
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/tracking/target.h"
 
 namespace datmo {
+
+/// Whether a box of `scale` times its size holds the other's centre.
+bool reaches(Box2 box, const Box2& other, double scale);
 
 struct DuplicateOptions {
   double reach = 2.0;           ///< 1

@@ -1,0 +1,127 @@
+#include "fused_targets.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "datmo_fusion/tracking/assignment.h"
+
+namespace datmo {
+
+namespace {
+
+using Member = std::pair<std::string, std::uint32_t>;
+
+}  // namespace
+
+bool FusedTarget::hasMember(const std::string& source) const {
+  return std::any_of(track.sources.begin(), track.sources.end(),
+                     [&](const SourceTrack& one) { return one.source == source; });
+}
+
+void FusedTargets::predict(double seconds, double memory, const TrackPredictionOptions& options) {
+  for (FusedTarget& target : targets_) {
+    target.present = false;
+    target.lost += seconds;
+    target.track = predicted(target.track, seconds, options);
+  }
+  targets_.erase(
+      std::remove_if(targets_.begin(), targets_.end(),
+                     [memory](const FusedTarget& target) { return target.lost > memory; }),
+      targets_.end());
+}
+
+FusedTargets::Owners FusedTargets::byMembers(const std::vector<Track>& groups) const {
+  std::map<Member, std::size_t> owner_of;
+  for (std::size_t i = 0; i < targets_.size(); ++i) {
+    for (const SourceTrack& member : targets_[i].track.sources) {
+      owner_of[{member.source, member.id}] = i;
+    }
+  }
+  // First those that are confirmed, then those that share more tracks, then the older ones.
+  using Claim = std::tuple<bool, int, std::size_t, std::size_t>;
+  std::vector<Claim> claims;
+  for (std::size_t group = 0; group < groups.size(); ++group) {
+    std::map<std::size_t, int> shared;
+    for (const SourceTrack& member : groups[group].sources) {
+      const auto owner = owner_of.find({member.source, member.id});
+      if (owner != owner_of.end()) {
+        ++shared[owner->second];
+      }
+    }
+    for (const auto& [target, members] : shared) {
+      claims.emplace_back(!targets_[target].confirmed, -members, target, group);
+    }
+  }
+  std::sort(claims.begin(), claims.end());
+  Owners owners(groups.size());
+  std::vector<bool> taken(targets_.size(), false);
+  for (const auto& [unconfirmed, fewer, target, group] : claims) {
+    if (!owners[group] && !taken[target]) {
+      owners[group] = target;
+      taken[target] = true;
+    }
+  }
+  return owners;
+}
+
+void FusedTargets::addRefound(const std::vector<Track>& groups,
+                              const TrackComparisonOptions& options, Owners& owners) const {
+  std::vector<std::size_t> lost;
+  for (std::size_t i = 0; i < targets_.size(); ++i) {
+    const bool taken = std::find(owners.begin(), owners.end(), i) != owners.end();
+    if (!taken) {
+      lost.push_back(i);
+    }
+  }
+  std::vector<std::size_t> fresh;
+  for (std::size_t group = 0; group < groups.size(); ++group) {
+    if (!owners[group]) {
+      fresh.push_back(group);
+    }
+  }
+  if (lost.empty() || fresh.empty()) {
+    return;
+  }
+  const auto rows = static_cast<Eigen::Index>(fresh.size());
+  CostMatrix cost(rows, static_cast<Eigen::Index>(lost.size()));
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    for (Eigen::Index column = 0; column < cost.cols(); ++column) {
+      const TrackComparison same =
+          compare(groups[fresh[static_cast<std::size_t>(row)]],
+                  targets_[lost[static_cast<std::size_t>(column)]].track, options);
+      const bool may_be = same.squared_distance <= options.gate && same.log_likelihood_ratio > 0.0;
+      cost(row, column) = may_be ? -same.log_likelihood_ratio : kForbidden;
+    }
+  }
+  const Assignment assignment = solveAssignment(cost, Eigen::VectorXd::Zero(rows));
+  for (std::size_t row = 0; row < fresh.size(); ++row) {
+    if (assignment.column_of_row[row] != kUnassigned) {
+      owners[fresh[row]] = lost[static_cast<std::size_t>(assignment.column_of_row[row])];
+    }
+  }
+}
+
+void FusedTargets::follow(Stamp stamp, const std::vector<Track>& groups,
+                          const TrackComparisonOptions& options) {
+  Owners owners = byMembers(groups);
+  addRefound(groups, options, owners);
+  for (std::size_t group = 0; group < groups.size(); ++group) {
+    if (!owners[group]) {
+      owners[group] = targets_.size();
+      FusedTarget target;
+      target.id = next_id_++;
+      target.born = stamp;
+      target.looked.resize(sources_);
+      targets_.push_back(std::move(target));
+    }
+    FusedTarget& target = targets_[*owners[group]];
+    target.track = groups[group];
+    target.born = std::min(target.born, stamp + -groups[group].age);
+    target.present = true;
+    target.lost = 0.0;
+  }
+}
+
+}  // namespace datmo

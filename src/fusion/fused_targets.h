@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "datmo_fusion/fusion/track_comparison.h"
+#include "datmo_fusion/fusion/track_prediction.h"
+#include "datmo_fusion/tracking/track.h"
+
+namespace datmo {
+
+/// An object that one source or more have a track of.
+struct FusedTarget {
+  std::uint32_t id = 0;
+  Track track;             ///< fused, at the present; `sources`: those it was last fused of
+  Stamp born;              ///< when the first object of any of its tracks was seen
+  bool present = true;     ///< a source has a track of it now
+  double lost = 0.0;       ///< s, since one had
+  bool confirmed = false;  ///< every source that could see it has had a track of it
+  bool twin = false;       ///< another target is at the same place, and surer
+  /// By number of the source: that it would have detected it lately; none: it was not asked yet.
+  std::vector<std::optional<double>> looked;
+
+  bool hasMember(const std::string& source) const;
+};
+
+/// Which fused target a group of tracks is: the one that has a track of the group already; of
+/// several the confirmed, then the older one. Of new groups those that are where one was lost
+/// within `memory` are that one again. Ids rise and are never reused.
+class FusedTargets {
+ public:
+  explicit FusedTargets(std::size_t sources) : sources_(sources) {}
+
+  /// Time goes on: all are predicted, and those forgotten that were lost for more than `memory` s.
+  void predict(double seconds, double memory, const TrackPredictionOptions& options);
+
+  /// The tracks of the present, one for each group, at `stamp`. Targets without one are lost.
+  void follow(Stamp stamp, const std::vector<Track>& groups, const TrackComparisonOptions& options);
+
+  std::vector<FusedTarget>& all() { return targets_; }
+
+  void clear() { targets_.clear(); }
+
+ private:
+  using Owners = std::vector<std::optional<std::size_t>>;
+
+  /// Of each group the index of its target, as far as it shares a track with one.
+  Owners byMembers(const std::vector<Track>& groups) const;
+  /// Adds those that were lost where a new group is.
+  void addRefound(const std::vector<Track>& groups, const TrackComparisonOptions& options,
+                  Owners& owners) const;
+
+  std::size_t sources_;
+  std::uint32_t next_id_ = 1;
+  std::vector<FusedTarget> targets_;  ///< by rising id
+};
+
+}  // namespace datmo

@@ -1,0 +1,276 @@
+#include "datmo_fusion/fusion/track_fuser.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "fused_targets.h"
+
+#include "datmo_fusion/fusion/fused_existence.h"
+#include "datmo_fusion/tracking/duplicates.h"
+#include "datmo_fusion/tracking/track_check.h"
+#include "datmo_fusion/tracking/track_paths.h"
+
+namespace datmo {
+
+namespace {
+
+double positionStd(const Track& track) {
+  return std::sqrt(0.5 * track.covariance.topLeftCorner<2, 2>().trace());
+}
+
+/// The likeliest ones, in the order they had.
+void keepLikeliest(std::vector<Track>& tracks, std::size_t most) {
+  if (tracks.size() <= most) {
+    return;
+  }
+  std::vector<double> existences;
+  for (const Track& track : tracks) {
+    existences.push_back(track.existence_probability);
+  }
+  const auto last = existences.begin() + static_cast<std::ptrdiff_t>(most) - 1;
+  std::nth_element(existences.begin(), last, existences.end(), std::greater<>());
+  const double least = *last;
+  tracks.erase(
+      std::remove_if(tracks.begin(), tracks.end(),
+                     [least](const Track& track) { return track.existence_probability < least; }),
+      tracks.end());
+  tracks.resize(std::min(tracks.size(), most));
+}
+
+bool sharesSource(const Track& a, const Track& b) {
+  return std::any_of(a.sources.begin(), a.sources.end(), [&](const SourceTrack& one) {
+    return std::any_of(b.sources.begin(), b.sources.end(),
+                       [&](const SourceTrack& other) { return one.source == other.source; });
+  });
+}
+
+}  // namespace
+
+class TrackFuser::State {
+ public:
+  explicit State(const TrackFuserOptions& options)
+      : options_(options),
+        association_(options.association),
+        targets_(options.sources.size()),
+        newest_(options.sources.size()) {
+    for (const auto& [name, source] : options.sources) {
+      numbers_[name] = names_.size();
+      names_.push_back(name);
+    }
+  }
+
+  TrackFusionResult fuse(Stamp stamp, const std::vector<SourceTracks>& sources) {
+    const double seconds = stamp_ ? std::max(0.0, secondsBetween(*stamp_, stamp)) : 0.0;
+    stamp_ = stamp;
+    TrackFusionResult result;
+    result.list.stamp = stamp;
+    const std::vector<PresentTracks> present = takeIn(stamp, sources, result.counts);
+    const std::vector<TrackGroup> groups = association_.associate(stamp, present);
+    targets_.predict(seconds, options_.memory, options_.prediction);
+    targets_.follow(stamp, fused(groups, present, result.counts), options_.association.comparison);
+    look(sources, seconds);
+    judgeAll(stamp);
+    findTwins();
+    publish(result);
+    for (const SourceTracks& source : sources) {
+      result.list.views.insert(result.list.views.end(), source.list->views.begin(),
+                               source.list->views.end());
+    }
+    return result;
+  }
+
+  void setScheme(const std::string& name) {
+    TrackFuserOptions options = options_;
+    options.scheme = name;
+    checkOptions(options);
+    options_ = options;
+  }
+
+  void reset() {
+    association_.reset();
+    targets_.clear();
+    paths_.clear();
+    stamp_.reset();
+    newest_.assign(newest_.size(), std::nullopt);
+  }
+
+ private:
+  std::vector<PresentTracks> takeIn(Stamp stamp, const std::vector<SourceTracks>& sources,
+                                    TrackFusionCounts& counts) {
+    std::vector<PresentTracks> present;
+    for (const SourceTracks& source : sources) {
+      PresentTracks own;
+      own.source = numbers_.at(source.source);
+      own.fresh = newest_[own.source] != source.list->stamp;
+      newest_[own.source] = source.list->stamp;
+      std::copy_if(source.list->tracks.begin(), source.list->tracks.end(),
+                   std::back_inserter(own.tracks), [](const Track& one) { return isValid(one); });
+      counts.rejected += source.list->tracks.size() - own.tracks.size();
+      const std::size_t valid = own.tracks.size();
+      keepLikeliest(own.tracks, static_cast<std::size_t>(options_.most_tracks));
+      counts.refused += valid - own.tracks.size();
+      for (Track& track : own.tracks) {
+        track = predicted(track, secondsBetween(source.list->stamp, stamp), options_.prediction);
+        track.sources = {{source.source, track.id}};
+      }
+      present.push_back(std::move(own));
+    }
+    return present;
+  }
+
+  std::vector<Track> fused(const std::vector<TrackGroup>& groups,
+                           const std::vector<PresentTracks>& present, TrackFusionCounts& counts) {
+    std::vector<Track> tracks;
+    for (const TrackGroup& group : groups) {
+      std::optional<Track> whole;
+      for (const TrackPlace& place : group) {
+        const Track& track = present[place.list].tracks[place.track];
+        if (!whole) {
+          whole = track;
+          continue;
+        }
+        const double surest = std::max(whole->existence_probability, track.existence_probability);
+        whole = combined(*whole, track, CrossCovariance::Zero(), options_.combination);
+        whole->existence_probability = surest;
+      }
+      counts.fused += group.size() > 1 ? 1 : 0;
+      tracks.push_back(std::move(*whole));
+    }
+    return tracks;
+  }
+
+  /// How much each source would have detected each target lately. Who has a track of it is not
+  /// asked: when it loses that, it takes a while until it is missed.
+  void look(const std::vector<SourceTracks>& sources, double seconds) {
+    const double share =
+        options_.looking_time > 0.0 ? -std::expm1(-seconds / options_.looking_time) : 1.0;
+    std::vector<std::optional<Visibility>> views(names_.size());
+    for (const SourceTracks& source : sources) {
+      if (!source.list->views.empty()) {
+        views[numbers_.at(source.source)].emplace(source.list->views, options_.visibility);
+      }
+    }
+    for (FusedTarget& target : targets_.all()) {
+      for (std::size_t source = 0; source < names_.size(); ++source) {
+        double now = 0.0;
+        if (views[source] && target.present && !target.hasMember(names_[source])) {
+          now = views[source]->detectionProbability(target.track.box, positionStd(target.track));
+        }
+        std::optional<double>& looked = target.looked[source];
+        looked = looked ? *looked + share * (now - *looked) : now;
+      }
+    }
+  }
+
+  void judgeAll(Stamp stamp) {
+    for (FusedTarget& target : targets_.all()) {
+      if (target.present) {
+        judge(target, stamp);
+      }
+    }
+  }
+
+  void judge(FusedTarget& target, Stamp stamp) const {
+    std::vector<ExistenceWitness> witnesses;
+    bool seen_by_all = true;
+    for (std::size_t source = 0; source < names_.size(); ++source) {
+      const TrackSourceOptions& own = options_.sources.at(names_[source]);
+      const bool has_track = target.hasMember(names_[source]);
+      const double looked = target.looked[source].value_or(0.0);
+      witnesses.push_back({has_track, target.track.existence_probability, looked,
+                           own.detection_probability, own.coincidence});
+      seen_by_all = seen_by_all && (has_track || looked < options_.can_see);
+    }
+    target.track.existence_probability = fusedExistence(witnesses);
+    target.track.age = secondsBetween(target.born, stamp);
+    target.confirmed = target.confirmed || (seen_by_all && target.track.sources.size() > 1);
+  }
+
+  /// Of two at one place the one is hidden that is less sure.
+  void findTwins() {
+    std::vector<FusedTarget*> surest;
+    for (FusedTarget& target : targets_.all()) {
+      target.twin = false;
+      if (target.present) {
+        surest.push_back(&target);
+      }
+    }
+    std::sort(surest.begin(), surest.end(), [](const FusedTarget* a, const FusedTarget* b) {
+      const auto rank = [](const FusedTarget& one) {
+        return std::make_tuple(!one.confirmed, -one.track.existence_probability, one.id);
+      };
+      return rank(*a) < rank(*b);
+    });
+    for (std::size_t i = 0; i < surest.size(); ++i) {
+      for (std::size_t j = 0; j < i && !surest[i]->twin; ++j) {
+        surest[i]->twin = !surest[j]->twin && areTwins(surest[i]->track, surest[j]->track);
+      }
+    }
+  }
+
+  bool areTwins(const Track& a, const Track& b) const {
+    return !sharesSource(a, b) && (reaches(a.box, b.box, options_.twin_reach) ||
+                                   reaches(b.box, a.box, options_.twin_reach));
+  }
+
+  bool isPublished(const FusedTarget& target) const {
+    if (!target.present || target.twin ||
+        target.track.existence_probability < options_.published_existence) {
+      return false;
+    }
+    if (options_.scheme == TrackFuserOptions::kUnion || target.confirmed) {
+      return true;
+    }
+    return options_.scheme == TrackFuserOptions::kFusedAndBeyond &&
+           target.hasMember(options_.beyond) && !isInOthersView(target);
+  }
+
+  bool isInOthersView(const FusedTarget& target) const {
+    return std::any_of(target.looked.begin(), target.looked.end(), [&](const auto& looked) {
+      return looked.value_or(0.0) >= options_.can_see;
+    });
+  }
+
+  void publish(TrackFusionResult& result) {
+    for (const FusedTarget& target : targets_.all()) {
+      if (isPublished(target)) {
+        result.list.tracks.push_back(target.track);
+        result.list.tracks.back().id = target.id;
+      }
+    }
+    paths_.extend(result.list, options_.history_time);
+    result.counts.published = result.list.tracks.size();
+  }
+
+  TrackFuserOptions options_;
+  std::vector<std::string> names_;              ///< of the sources, by number
+  std::map<std::string, std::size_t> numbers_;  ///< of the sources
+  TrackAssociation association_;
+  FusedTargets targets_;
+  TrackPaths paths_;
+  std::optional<Stamp> stamp_;                ///< of the last call
+  std::vector<std::optional<Stamp>> newest_;  ///< list of each source
+};
+
+TrackFuser::TrackFuser(const TrackFuserOptions& options) {
+  checkOptions(options);
+  state_ = std::make_unique<State>(options);
+}
+
+TrackFuser::~TrackFuser() = default;
+
+TrackFusionResult TrackFuser::fuse(Stamp stamp, const std::vector<SourceTracks>& sources) {
+  return state_->fuse(stamp, sources);
+}
+
+void TrackFuser::setScheme(const std::string& name) { state_->setScheme(name); }
+
+void TrackFuser::reset() { state_->reset(); }
+
+}  // namespace datmo

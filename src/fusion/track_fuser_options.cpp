@@ -1,0 +1,73 @@
+#include "datmo_fusion/fusion/track_fuser.h"
+
+namespace datmo {
+
+void TrackSourceOptions::visit(OptionVisitor& visitor) {
+  visitor.toggle({"use", "", "off: its tracks are not read"}, use);
+  visitor.number({"detection_probability", "1",
+                  "that it has a track of a moving object that it could see for looking_time"},
+                 detection_probability, {0.01, 0.99});
+  visitor.number({"coincidence", "1",
+                  "that it has one, by chance, that agrees with a false track of another source"},
+                 coincidence, {0.001, 1.0});
+}
+
+TrackFuserOptions::TrackFuserOptions() {
+  sources["lidar"];
+  sources["stereo"];
+}
+
+void TrackFuserOptions::visit(OptionVisitor& visitor) {
+  visitor.each({"sources", "", "the sensors whose tracks are fused"}, sources);
+  visitor.text({"scheme", "",
+                "which tracks are published (thesis 3.4.2): those of all sources that can see the "
+                "place and those of `beyond` where no other can, the first of these alone, or all"},
+               scheme, trackSchemeNames());
+  visitor.text({"beyond", "", "the source whose tracks are published also where no other can see"},
+               beyond, {});
+  visitor.integer({"most_tracks", "1",
+                   "tracks taken from one list, the likeliest ones; bounds the time of a step"},
+                  most_tracks, {1, 2000});
+  visitor.number({"can_see", "1",
+                  "a source can see a place where it would have detected the object at least so "
+                  "probably, lately"},
+                 can_see, {0.0, 1.0});
+  visitor.number({"looking_time", "s",
+                  "time constant of that probability: who has just come into view is not missed at "
+                  "once"},
+                 looking_time, {0.0, 60.0});
+  visitor.number({"twin_reach", "1",
+                  "tracks of different sources are at one place where the box of one, so many "
+                  "times as large, holds the centre of the other"},
+                 twin_reach, {0.0, 10.0});
+  visitor.number({"published_existence", "1", "existence probability from which one is published"},
+                 published_existence, {0.0, 1.0});
+  visitor.number({"memory", "s",
+                  "an object that all sources have lost is known again, by its id, for this time"},
+                 memory, {0.0, 60.0});
+  visitor.number({"history_time", "s", "how much of its path is published with a track"},
+                 history_time, {0.0, 60.0});
+  visitor.group("prediction", [&] { prediction.visit(visitor); });
+  visitor.group("association", [&] { association.visit(visitor); });
+  visitor.group("combination", [&] { combination.visit(visitor); });
+  visitor.group("visibility", [&] { visibility.visit(visitor); });
+}
+
+std::vector<std::string> TrackFuserOptions::sourcesInUse() const {
+  std::vector<std::string> names;
+  for (const auto& [name, source] : sources) {
+    if (source.use) {
+      names.push_back(name);
+    }
+  }
+  return names;
+}
+
+const std::vector<std::string>& trackSchemeNames() {
+  static const std::vector<std::string> names = {TrackFuserOptions::kFusedAndBeyond,
+                                                 TrackFuserOptions::kConfirmedByAll,
+                                                 TrackFuserOptions::kUnion};
+  return names;
+}
+
+}  // namespace datmo
