@@ -28,6 +28,7 @@ class TrueState(NamedTuple):
     classification: int  # Object.CLASS_*
     moving: bool
     asked: bool  # it has to be found: in the region, and seen by the sensor
+    source: object = None  # the TrueObject that it comes from
 
     @property
     def range(self):

@@ -80,23 +80,33 @@ class Truth:
         late = (stamp - nearest) / NANOSECONDS
         if abs(late) > LONGEST_GAP or self._poses.distance_from(stamp) > LONGEST_GAP * NANOSECONDS:
             return None
-        base = self._poses.at(stamp)
-        return [_state(item, base, late, asked) for item in self._objects[nearest]]
+        return _states(self._objects[nearest], self.base_at(stamp), late, asked)
+
+    def base_at(self, stamp):
+        """True pose of base_link in the map (x, y, yaw) at `stamp` (ns)."""
+        return self._poses.at(stamp)
+
+    def movers(self):
+        """Ids of the objects that move at some time."""
+        return {item.id for items in self._objects.values() for item in items if item.moving}
 
 
-def _state(item, base, late, asked):
-    """late: s, from the item's stamp to that of `base`, the vehicle's pose in the map."""
-    velocity = np.array([item.velocity.x, item.velocity.y])
-    in_map = np.array(planar(item.pose))
-    in_map[:2] += velocity * late
-    pose = transforms.relative(base, in_map)
+def _states(items, base, late, asked):
+    """late: s, from the items' stamp to that of `base`, the vehicle's pose in the map."""
+    velocities = np.array([(item.velocity.x, item.velocity.y) for item in items]).reshape(-1, 2)
+    in_map = np.array([planar(item.pose) for item in items]).reshape(-1, 3)
+    in_map[:, :2] += velocities * late
     cosine, sine = math.cos(base[2]), math.sin(base[2])
-    turned = np.array([[cosine, sine], [-sine, cosine]]) @ velocity
-    return TrueState(
-        pose,
-        np.array([item.size.x, item.size.y]),
-        turned,
-        item.classification,
-        item.moving,
-        asked.includes(item, pose),
-    )
+    turned = velocities @ np.array([[cosine, -sine], [sine, cosine]])
+    return [
+        TrueState(
+            pose,
+            np.array([item.size.x, item.size.y]),
+            velocity,
+            item.classification,
+            item.moving,
+            asked.includes(item, pose),
+            item,
+        )
+        for item, pose, velocity in zip(items, transforms.relative(base, in_map), turned)
+    ]

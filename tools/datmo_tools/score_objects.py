@@ -1,7 +1,6 @@
 """Command line of score_objects."""
 
 import argparse
-import math
 from pathlib import Path
 
 from datmo_tools import command_line
@@ -10,6 +9,7 @@ from datmo_tools.object_lists import read_lists
 from datmo_tools.object_scores import score_list
 from datmo_tools.object_tally import ALL, CLASSES, MOVING, ObjectTally
 from datmo_tools.object_truth import ANY, NONE, Asked, Region, Truth
+from datmo_tools.region_options import add_region, region_of
 from datmo_tools.text_table import NO_VALUE, aligned, percent, rounded
 
 DESCRIPTION = """\
@@ -138,12 +138,7 @@ def _mean_and_sd(item, key):
 
 
 def _run(values):
-    if values.range <= 0.0:
-        raise InputError(f"--range is {values.range:g}, expected more than 0")
-    if not 0.0 < values.half_angle <= math.pi:
-        raise InputError(f"--half-angle is {values.half_angle:g}, expected more than 0, at most pi")
-    region = Region(values.range, values.half_angle)
-    result = score(values.run, values.drive, values.topic, values.visible_to, region,
+    result = score(values.run, values.drive, values.topic, values.visible_to, region_of(values),
                    values.moving_only)  # fmt: skip
     print(table(result))
     command_line.write_json(values.json, result)
@@ -165,8 +160,6 @@ def _parser():
         help=f"that must see a true object, {ANY}, or {NONE}: not asked (default: scanner for "
         f"/objects, stereo for /objects/stereo, else {ANY})")  # fmt: skip
     add("--moving-only", action="store_true", help="true objects that stand need not be found")
-    command_line.add_number(parser, "--range", RANGE, "M", "that counts, about the vehicle, m")
-    command_line.add_number(parser, "--half-angle", math.pi, "RAD",
-                            "the same to either side of straight ahead, rad")  # fmt: skip
+    add_region(parser, RANGE)
     command_line.add_json(parser)
     return parser

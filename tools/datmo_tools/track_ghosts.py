@@ -1,0 +1,44 @@
+"""Two tracks on one object, and objects that change their track."""
+
+import numpy as np
+
+
+def score_ghosts(frames, gate):
+    """Ghosts and id switches of one list of tracks (TrackFrames), as a dictionary that JSON can
+    hold.
+
+    A ghost is a moving track within the gate (m) of an object that moves at some time, when all
+    objects there have other tracks. An id switch is an object that has to be found and is matched
+    to another track than last time.
+    """
+    ghost_frames, ghosts, switches, last = 0, {}, {}, {}
+    labels = {}
+    for frame in frames:
+        of_frame = 0
+        for row, verdict in enumerate(frame.verdicts):
+            near = frame.near(row, gate, frame.moment.movers)
+            if verdict is None or frame.partners[row] is not None or not len(near):
+                continue
+            item = frame.moment.items[near[np.argmin(frame.distances[row, near])]]
+            labels[item.id] = item.label
+            ghosts[item.id] = ghosts.get(item.id, 0) + 1
+            of_frame += 1
+        ghost_frames += of_frame > 0
+        for row, partner in enumerate(frame.partners):
+            if partner is not None and frame.moment.required[partner]:
+                item, track = frame.moment.items[partner], frame.tracks[row].id
+                labels[item.id] = item.label
+                switches[item.id] = switches.get(item.id, 0) + (last.get(item.id, track) != track)
+                last[item.id] = track
+    named = {
+        number: {"id": number, "label": labels[number], "ghost_frames": ghosts.get(number, 0),
+                 "id_switches": switches.get(number, 0)}
+        for number in sorted({*ghosts, *switches})
+    }  # fmt: skip
+    return {
+        "frames": len(frames),
+        "ghost_frames": ghost_frames,
+        "ghosts": sum(ghosts.values()),
+        "id_switches": sum(switches.values()),
+        "objects": [item for item in named.values() if item["ghost_frames"] + item["id_switches"]],
+    }

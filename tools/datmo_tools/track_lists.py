@@ -1,0 +1,79 @@
+"""Lists of tracks as run_bag writes them."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from datmo_fusion.msg import TrackArray
+from datmo_tools.errors import InputError
+from datmo_tools.grid_recordings import opened
+from datmo_tools.pose_path import planar
+from datmo_tools.stamps import NANOSECONDS
+
+
+class SeenTrack(NamedTuple):
+    """A track at the stamp of its list, in the map of the run."""
+
+    id: int
+    pose: np.ndarray  # x, y (m), yaw (rad)
+    velocity: np.ndarray  # m/s: vx, vy
+    moving: bool
+    sources: tuple  # of (source, id): tracks that it was fused of
+
+    def place_at(self, seconds):
+        """x, y (m) so much later (s) at its velocity."""
+        return self.pose[:2] + self.velocity * seconds
+
+
+class TrackList(NamedTuple):
+    """All tracks of one message."""
+
+    stamp: int  # ns
+    tracks: list  # of SeenTrack
+    views: list  # of ViewFan, in the map of the run; none: not known
+
+
+def read_track_lists(path, topics):
+    """Dictionary topic -> list of TrackList by rising stamp.
+
+    Tracks with a place or velocity that is not finite are left out. Raises InputError for another
+    type, for two messages of one stamp, and where there is nothing on a topic.
+    """
+    lists = {topic: {} for topic in topics}
+    with opened(path) as bag:
+        for topic, message, _ in bag.read_messages(list(topics)):
+            _check_type(path, topic, message)
+            stamp = message.header.stamp.to_nsec()
+            if stamp in lists[topic]:
+                raise InputError(
+                    f"{path}: {topic}: two messages at {stamp / NANOSECONDS:.6f} s, expected one"
+                )
+            lists[topic][stamp] = TrackList(stamp, _finite_tracks(message), message.views)
+    for topic in topics:
+        if not lists[topic]:
+            raise InputError(
+                f"{path}: nothing on {topic}, expected a bag of run_bag --track-fusion"
+            )
+    return {topic: [items[stamp] for stamp in sorted(items)] for topic, items in lists.items()}
+
+
+def _check_type(path, topic, message):
+    # pylint: disable=protected-access
+    if message._type != TrackArray._type:
+        raise InputError(f"{path}: {topic} is {message._type}, expected {TrackArray._type}")
+    if message._md5sum != TrackArray._md5sum:
+        raise InputError(f"{path}: {topic} is of another version of {message._type}, expected ours")
+
+
+def _finite_tracks(message):
+    tracks = [
+        SeenTrack(
+            track.id,
+            np.array(planar(track.pose)),
+            np.array([track.velocity.x, track.velocity.y]),
+            track.moving,
+            tuple((member.source, member.id) for member in track.sources),
+        )
+        for track in message.tracks
+    ]
+    return [item for item in tracks if np.all(np.isfinite([*item.pose, *item.velocity]))]
