@@ -61,7 +61,11 @@ class Tracker::State {
     confirm();
     learnClutter(scan, seconds);
     counts_.association = targets_->counts();
-    return published(list.stamp, scan);
+    TrackList tracks = published(list.stamp, scan);
+    for (const ViewFan& fan : visibility.fans()) {
+      tracks.views.push_back(transformed(base_in_fixed, fan));
+    }
+    return tracks;
   }
 
   const Visibility& unknownView() const { return unknown_view_; }

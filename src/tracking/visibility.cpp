@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace datmo {
 
@@ -29,7 +30,7 @@ struct Crossing {
 /// A box as seen from the sensor.
 class Visibility::Outline {
  public:
-  Outline(const Box2& box_in_base, const Pose2& sensor_in_base);
+  Outline(const Box2& box, const Pose2& sensor);
 
   bool holdsSensor() const { return (sensor_.cwiseAbs() - half_).maxCoeff() <= 0.0; }
 
@@ -54,18 +55,17 @@ class Visibility::Outline {
   double most_;      ///< rad, left edge
 };
 
-Visibility::Outline::Outline(const Box2& box_in_base, const Pose2& sensor_in_base)
-    : half_(0.5 * std::max(box_in_base.length, kLeastWidth),
-            0.5 * std::max(box_in_base.width, kLeastWidth)) {
-  const double heading = box_in_base.centre.heading();
-  const Point2 line = box_in_base.centre.position() - sensor_in_base.position();
+Visibility::Outline::Outline(const Box2& box, const Pose2& sensor)
+    : half_(0.5 * std::max(box.length, kLeastWidth), 0.5 * std::max(box.width, kLeastWidth)) {
+  const double heading = box.centre.heading();
+  const Point2 line = box.centre.position() - sensor.position();
   const double c = std::cos(heading);
   const double s = std::sin(heading);
   const Point2 to_centre(c * line.x() + s * line.y(), c * line.y() - s * line.x());
   sensor_ = -to_centre;
   distance_ = to_centre.norm();
   towards_ = std::atan2(to_centre.y(), to_centre.x());
-  bearing_ = towards_ + heading - sensor_in_base.heading();
+  bearing_ = towards_ + heading - sensor.heading();
   least_ = 0.0;
   most_ = 0.0;
   for (const double x : {-half_.x(), half_.x()}) {
@@ -135,35 +135,37 @@ Visibility::Visibility(const VisibilityOptions& options) : options_(options) {
 Visibility::Visibility(const SplitScan& scan, const VisibilityOptions& options)
     : Visibility(options) {
   const ScanField& field = scan.field;
-  sensor_in_base_ = scan.scanner_in_base;
-  least_range_ = field.least_range;
-  range_ = field.range;
-  free_range_ = field.free_range > 0.0 ? field.free_range : field.range;
-  by_beams_ = true;
-  setFan(field.first_bearing, field.beam_spacing, field.beams);
+  ViewFan fan{scan.scanner_in_base,
+              field.first_bearing,
+              field.beam_spacing,
+              field.least_range,
+              field.free_range > 0.0 ? field.free_range : field.range,
+              field.range,
+              true,
+              std::vector<double>(field.beams, field.range)};
   for (const std::uint32_t beam : scan.blind_beams) {
-    if (beam < reach_.size()) {
-      reach_[beam] = 0.0;
+    if (beam < fan.reach.size()) {
+      fan.reach[beam] = 0.0;
     }
   }
   for (const ScanPoint& point : scan.points) {
-    if (point.beam < reach_.size()) {
-      reach_[point.beam] = point.range;
+    if (point.beam < fan.reach.size()) {
+      fan.reach[point.beam] = point.range;
     }
   }
+  setFan(std::move(fan));
 }
 
 Visibility::Visibility(const FieldOfView& view, const std::vector<Box2>& seen,
                        const VisibilityOptions& options)
     : Visibility(options) {
-  sensor_in_base_ = view.sensor_in_base;
-  range_ = view.range;
-  free_range_ = view.sure_range;
   const double beams =
       std::max(0.0, std::round((view.most_bearing - view.least_bearing) / kFanSpacing));
-  setFan(view.least_bearing + 0.5 * kFanSpacing, kFanSpacing, static_cast<std::size_t>(beams));
+  setFan({view.sensor_in_base, view.least_bearing + 0.5 * kFanSpacing, kFanSpacing, 0.0,
+          view.sure_range, view.range, false,
+          std::vector<double>(static_cast<std::size_t>(beams), view.range)});
   for (const Box2& box : seen) {
-    const Outline outline(box, sensor_in_base_);
+    const Outline outline(box, fan_.sensor);
     if (outline.holdsSensor()) {
       continue;
     }
@@ -171,27 +173,49 @@ Visibility::Visibility(const FieldOfView& view, const std::vector<Box2>& seen,
     outline.forEachLook(parts, [this](double bearing, const Crossing& crossing) {
       if (const auto beam = beamAt(bearing)) {
         // What was seen does not hide itself.
-        reach_[*beam] = std::min(reach_[*beam], crossing.exit);
+        fan_.reach[*beam] = std::min(fan_.reach[*beam], crossing.exit);
       }
     });
   }
 }
 
-void Visibility::setFan(double first_bearing, double beam_spacing, std::size_t beams) {
-  first_bearing_ = first_bearing;
-  beams_per_radian_ = 1.0 / beam_spacing;
-  beams_per_turn_ = 2.0 * kPi / std::abs(beam_spacing);
-  reach_.assign(beams, range_);
+Visibility::Visibility(const std::vector<ViewFan>& fans, const VisibilityOptions& options)
+    : Visibility(options) {
+  for (const ViewFan& fan : fans) {
+    if (fan_.reach.empty()) {
+      setFan(fan);
+    } else if (!fan.reach.empty()) {
+      others_.emplace_back(std::vector<ViewFan>{fan}, options);
+    }
+  }
+}
+
+void Visibility::setFan(ViewFan fan) {
+  fan_ = std::move(fan);
+  beams_per_radian_ = 1.0 / fan_.beam_spacing;
+  beams_per_turn_ = 2.0 * kPi / std::abs(fan_.beam_spacing);
+}
+
+std::vector<ViewFan> Visibility::fans() const {
+  std::vector<ViewFan> all;
+  if (!fan_.reach.empty()) {
+    all.push_back(fan_);
+  }
+  for (const Visibility& other : others_) {
+    const std::vector<ViewFan> others = other.fans();
+    all.insert(all.end(), others.begin(), others.end());
+  }
+  return all;
 }
 
 std::optional<std::size_t> Visibility::beamAt(double bearing) const {
   // Beams from half a beam before the first one on, in the direction of the scan.
-  double beam = (bearing - first_bearing_) * beams_per_radian_ + 0.5;
+  double beam = (bearing - fan_.first_bearing) * beams_per_radian_ + 0.5;
   if (beam < 0.0 || beam >= beams_per_turn_) {
     beam -= beams_per_turn_ * std::floor(beam / beams_per_turn_);
   }
   // Before the cast, which is undefined for what is no index.
-  const bool inside = beam >= 0.0 && beam < static_cast<double>(reach_.size());
+  const bool inside = beam >= 0.0 && beam < static_cast<double>(fan_.reach.size());
   return inside ? std::optional<std::size_t>(static_cast<std::size_t>(beam)) : std::nullopt;
 }
 
@@ -208,9 +232,9 @@ double Visibility::clearShare(const Looks& looks, const Shift& shift) const {
   std::size_t clear = 0;
   for (const Look& look : looks) {
     const double range = look.range + shift.range;
-    const bool in_range = range >= least_range_ && range <= range_;
+    const bool in_range = range >= fan_.least_range && range <= fan_.range;
     const auto beam = beamAt(look.bearing + shift.bearing);
-    if (in_range && beam && range <= reach_[*beam] + options_.blocking_distance) {
+    if (in_range && beam && range <= fan_.reach[*beam] + options_.blocking_distance) {
       ++clear;
     }
   }
@@ -218,7 +242,9 @@ double Visibility::clearShare(const Looks& looks, const Shift& shift) const {
 }
 
 double Visibility::strengthAt(double range) const {
-  return range <= free_range_ ? 1.0 : std::max(0.0, (range_ - range) / (range_ - free_range_));
+  return range <= fan_.sure_range
+             ? 1.0
+             : std::max(0.0, (fan_.range - range) / (fan_.range - fan_.sure_range));
 }
 
 double Visibility::anyReturns(double beams, double chance) {
@@ -228,22 +254,22 @@ double Visibility::anyReturns(double beams, double chance) {
   return 1.0 - std::pow(1.0 - chance, whole) * (1.0 - rest * chance);
 }
 
-double Visibility::detectionProbability(const Box2& box_in_base, double sigma) const {
+double Visibility::detectionProbability(const Box2& box, double sigma) const {
   if (others_.empty()) {
-    return ownDetectionProbability(box_in_base, sigma);
+    return ownDetectionProbability(box, sigma);
   }
-  double missed = 1.0 - ownDetectionProbability(box_in_base, sigma);
+  double missed = 1.0 - ownDetectionProbability(box, sigma);
   for (const Visibility& other : others_) {
-    missed *= 1.0 - other.detectionProbability(box_in_base, sigma);
+    missed *= 1.0 - other.detectionProbability(box, sigma);
   }
   return std::min(1.0 - missed, options_.most_probability);
 }
 
-double Visibility::ownDetectionProbability(const Box2& box_in_base, double sigma) const {
-  if (reach_.empty()) {
+double Visibility::ownDetectionProbability(const Box2& box, double sigma) const {
+  if (fan_.reach.empty()) {
     return options_.unknown_probability;
   }
-  const Outline outline(box_in_base, sensor_in_base_);
+  const Outline outline(box, fan_.sensor);
   if (outline.holdsSensor()) {
     return options_.unknown_probability;
   }
@@ -252,8 +278,8 @@ double Visibility::ownDetectionProbability(const Box2& box_in_base, double sigma
   const Looks looks = looksAt(outline);
   const auto seenAt = [&](const Shift& shift) {
     const double clear = clearShare(looks, shift);
-    return by_beams_ ? anyReturns(beams * clear, strength * options_.beam_detection)
-                     : strength * clear;
+    return fan_.by_beams ? anyReturns(beams * clear, strength * options_.beam_detection)
+                         : strength * clear;
   };
   double mean = seenAt({});
   if (sigma > 0.0) {

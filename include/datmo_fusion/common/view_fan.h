@@ -21,4 +21,10 @@ struct ViewFan {
   std::vector<double> reach;  ///< m, of each beam; empty: nothing is known of the view
 };
 
+/// The fan seen from the parent frame of `frame_in_parent`.
+inline ViewFan transformed(const Pose2& frame_in_parent, ViewFan fan) {
+  fan.sensor = frame_in_parent * fan.sensor;
+  return fan;
+}
+
 }  // namespace datmo

@@ -39,8 +39,8 @@ class Tracker {
   ~Tracker();
 
   /// Takes the objects of one time, in the vehicle's frame, the vehicle's pose in the fixed frame
-  /// at that time, and what the sensors could have seen then. Returns the confirmed tracks in the
-  /// fixed frame at that time.
+  /// at that time, and what the sensors could have seen then (base frame). Returns the confirmed
+  /// tracks and the sensors' views in the fixed frame at that time.
   TrackList process(const ObjectList& objects, const Pose2& base_in_fixed,
                     const Visibility& visibility);
 

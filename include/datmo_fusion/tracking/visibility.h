@@ -9,6 +9,7 @@
 #include "datmo_fusion/common/field_of_view.h"
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/scan.h"
+#include "datmo_fusion/common/view_fan.h"
 
 namespace datmo {
 
@@ -23,7 +24,8 @@ struct VisibilityOptions {
 };
 
 /// What a sensor could have seen at one time: how likely an object would have been detected, by
-/// field of view, range and occlusion by what is nearer. Vehicle's frame (base_link).
+/// field of view, range and occlusion by what is nearer. In the vehicle's frame (base_link), or in
+/// that of the fans that it is made of.
 ///
 /// The view is a fan of beams, each of which reaches as far as the sensor saw along it. In a scan
 /// an object is taken to be detected by one beam that meets it and returns, in a field of view by
@@ -42,6 +44,10 @@ class Visibility {
   Visibility(const FieldOfView& view, const std::vector<Box2>& seen,
              const VisibilityOptions& options);
 
+  /// By all of these fans, each a sensor's (see join()), which are valid (isValid); of none nothing
+  /// is known, and one without beams tells nothing.
+  Visibility(const std::vector<ViewFan>& fans, const VisibilityOptions& options);
+
   /// Another sensor looked as well: from now on an object is detected if either sees it,
   /// independently.
   void join(const Visibility& other) { others_.push_back(other); }
@@ -49,7 +55,10 @@ class Visibility {
   /// That an object of this box is detected, averaged over the places where it may be: `sigma` is
   /// the standard deviation of its centre along each axis (m, at least 0). Between
   /// `least_probability` and `most_probability`.
-  double detectionProbability(const Box2& box_in_base, double sigma) const;
+  double detectionProbability(const Box2& box, double sigma) const;
+
+  /// Of this sensor and of all that joined it, as far as their views are known.
+  std::vector<ViewFan> fans() const;
 
  private:
   /// Where a box may be, seen from the sensor, beside where it is assumed to be.
@@ -68,9 +77,9 @@ class Visibility {
   using Looks = std::array<Look, kLooks>;
 
   /// By this sensor alone.
-  double ownDetectionProbability(const Box2& box_in_base, double sigma) const;
+  double ownDetectionProbability(const Box2& box, double sigma) const;
 
-  void setFan(double first_bearing, double beam_spacing, std::size_t beams);
+  void setFan(ViewFan fan);
 
   /// Index of the beam nearest to this bearing; none outside the field.
   std::optional<std::size_t> beamAt(double bearing) const;
@@ -88,15 +97,9 @@ class Visibility {
   static double anyReturns(double beams, double chance);
 
   VisibilityOptions options_;
-  Pose2 sensor_in_base_;
-  double first_bearing_ = 0.0;     ///< rad, of beam 0
+  ViewFan fan_;                    ///< without beams: unknown
   double beams_per_radian_ = 0.0;  ///< more than 0: from right to left
   double beams_per_turn_ = 0.0;
-  double least_range_ = 0.0;   ///< m
-  double free_range_ = 0.0;    ///< m, up to here an object is seen as well as a near one
-  double range_ = 0.0;         ///< m
-  bool by_beams_ = false;      ///< a scan; else a field of view
-  std::vector<double> reach_;  ///< m, of each beam; empty: unknown
   std::vector<Visibility> others_;
 };
 
