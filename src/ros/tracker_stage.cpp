@@ -22,6 +22,12 @@ void TrackerStageOptions::visit(OptionVisitor& visitor) {
                fixed_frame, {});
   visitor.number({"transform_wait", "s", "longest time that objects wait for their transform"},
                  transform_wait, {0.0, 5.0});
+  visitor.toggle(
+      {"scan_view", "",
+       "the objects come from the scanner of split_scan, alone or with other sensors: its "
+       "view tells where they could have been seen; false: from other sensors, and the "
+       "split scan tells the vehicle's pose alone"},
+      scan_view);
   visitor.group("input", [&] { input.visit(visitor); });
   tracker.visit(visitor);
 }
@@ -91,8 +97,8 @@ TrackArrayPtr TrackerStage::track(const ObjectArray& objects, const Pose2& base_
   const Stopwatch watch;
   const TrackerCounts before = tracker_.counts();
   const ObjectList list = fromMessage(objects);
-  const Visibility visibility =
-      jointVisibility(scan_views_.visibility(objects.header), list, options_.tracker.visibility);
+  const Visibility* scan = options_.scan_view ? scan_views_.visibility(objects.header) : nullptr;
+  const Visibility visibility = jointVisibility(scan, list, options_.tracker.visibility);
   const auto tracks = boost::make_shared<TrackArray>(
       toMessage(tracker_.process(list, base_in_fixed, visibility), options_.fixed_frame));
   report(before, tracker_.counts());

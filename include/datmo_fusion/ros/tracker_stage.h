@@ -15,6 +15,7 @@ namespace datmo {
 struct TrackerStageOptions {
   std::string fixed_frame = "map";
   double transform_wait = 0.3;  ///< s
+  bool scan_view = true;
   StreamOptions input;
   TrackerOptions tracker;
 
@@ -33,8 +34,8 @@ class TrackerStage {
   TrackerStage(const TrackerStageOptions& options, const TransformBuffer& transforms,
                StageMonitor& monitor, StepClock clock = {});
 
-  /// Where the vehicle was at this scan, and what it saw. It may come before or after the scan's
-  /// objects.
+  /// Where the vehicle was at this scan, and (`scan_view`) what it saw. It may come before or after
+  /// the scan's objects.
   void takeSplitScan(const SplitScanMessage& message);
 
   /// Puts objects into the queue. `now`: ROS time.
