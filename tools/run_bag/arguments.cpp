@@ -17,14 +17,15 @@ const std::map<std::string, LastStage> kStages = {{"grid_fusion", LastStage::kGr
                                                   {"grid_slam", LastStage::kGridSlam},
                                                   {"moving_objects", LastStage::kMovingObjects},
                                                   {"object_fusion", LastStage::kObjectFusion},
-                                                  {"tracker", LastStage::kTracker}};
+                                                  {"tracker", LastStage::kTracker},
+                                                  {"track_fusion", LastStage::kTrackFusion}};
 
 LastStage stageOf(const std::string& name) {
   const auto found = kStages.find(name);
   if (found == kStages.end()) {
     throw UsageError("--until '" + name +
-                     "': expected grid_fusion, grid_slam, moving_objects, object_fusion or "
-                     "tracker");
+                     "': expected grid_fusion, grid_slam, moving_objects, object_fusion, "
+                     "tracker or track_fusion");
   }
   return found->second;
 }
@@ -81,6 +82,15 @@ void checkFiles(const Arguments& arguments) {
   }
 }
 
+void checkTrackFusion(const Arguments& arguments) {
+  if (arguments.last_stage == LastStage::kTrackFusion && !arguments.track_fusion) {
+    throw UsageError("--until track_fusion: expected --track-fusion with it");
+  }
+  if (arguments.last_stage < LastStage::kTracker && arguments.track_fusion) {
+    throw UsageError("--track-fusion: expected no --until but tracker or track_fusion");
+  }
+}
+
 void checkFusion(const Arguments& arguments) {
   const bool low_level = arguments.write_grids || !arguments.grid_rule.empty() ||
                          arguments.last_stage == LastStage::kGridFusion;
@@ -93,11 +103,15 @@ void checkFusion(const Arguments& arguments) {
     throw UsageError("--until object_fusion: expected --object-fusion with it");
   }
   if (arguments.last_stage < LastStage::kObjectFusion && arguments.object_fusion) {
-    throw UsageError("--object-fusion: expected no --until but object_fusion or tracker");
-  }
-  if (arguments.stereo_from_images && !arguments.low_level_fusion && !arguments.object_fusion) {
     throw UsageError(
-        "--stereo-from-images: expected --low-level-fusion or --object-fusion with it");
+        "--object-fusion: expected no --until but object_fusion, tracker or track_fusion");
+  }
+  checkTrackFusion(arguments);
+  if (arguments.stereo_from_images && !arguments.low_level_fusion && !arguments.object_fusion &&
+      !arguments.track_fusion) {
+    throw UsageError(
+        "--stereo-from-images: expected --low-level-fusion, --object-fusion or --track-fusion "
+        "with it");
   }
 }
 
@@ -108,6 +122,7 @@ bool setSwitch(const std::string& word, Arguments& arguments) {
       {"--quiet", &arguments.quiet},
       {"--low-level-fusion", &arguments.low_level_fusion},
       {"--object-fusion", &arguments.object_fusion},
+      {"--track-fusion", &arguments.track_fusion},
       {"--stereo-from-images", &arguments.stereo_from_images},
       {"--write-grids", &arguments.write_grids},
   };
@@ -150,7 +165,7 @@ std::string usage() {
          " [--until STAGE]\n"
          "               [--low-level-fusion [--grid-rule RULE] [--write-grids]]"
          " [--object-fusion]\n"
-         "               [--stereo-from-images] [--times FILE.json]"
+         "               [--track-fusion] [--stereo-from-images] [--times FILE.json]"
          " [TOPIC:=TOPIC_OF_THE_BAG ...]\n"
          "Takes the scans and the odometry of a bag through the stack, as fast as it goes, and "
          "writes\n"
@@ -158,12 +173,15 @@ std::string usage() {
          "  --config CONFIG.yaml  the sensor set, e.g. config/demonstrator.yaml\n"
          "  --with-truth          copies /ground_truth/* along\n"
          "  --quiet               no progress bar and no table\n"
-         "  --until STAGE         goes no further than grid_fusion, grid_slam, moving_objects or\n"
-         "                        object_fusion\n"
+         "  --until STAGE         goes no further than grid_fusion, grid_slam, moving_objects,\n"
+         "                        object_fusion or tracker\n"
          "  --low-level-fusion    fuses the grids of scanner and stereo camera before grid_slam\n"
          "  --object-fusion       fuses the objects of scanner and stereo camera before tracker, "
          "and\n"
          "                        writes /objects/stereo and /objects/fused\n"
+         "  --track-fusion        follows the stereo camera's objects too and fuses the tracks, "
+         "and\n"
+         "                        writes /tracks/lidar, /tracks/stereo and /objects/stereo\n"
          "  --stereo-from-images  computes the stereo camera's points from its images, as\n"
          "                        stereo_image_proc does; without it only where the bag has no "
          "points\n"

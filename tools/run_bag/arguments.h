@@ -22,9 +22,10 @@ struct Arguments {
   std::string config;  ///< yaml file of a sensor set
   bool with_truth = false;
   bool quiet = false;
-  LastStage last_stage = LastStage::kTracker;
+  LastStage last_stage = LastStage::kEnd;
   bool low_level_fusion = false;
   bool object_fusion = false;
+  bool track_fusion = false;
   bool stereo_from_images = false;  ///< also where the bag has clouds
   bool write_grids = false;
   std::string grid_rule;  ///< of fusion, in place of the yaml file's; empty: that one

@@ -41,7 +41,12 @@ class BagRun {
     }
     for (const auto& [topic, source] : topics.objects) {
       on<ObjectArray>(topic, [this, name = source](const auto& message, Stamp now) {
-        return pipeline_.takeObjects(name, *message, now);
+        return pipeline_.takeObjects(name, message, now);
+      });
+    }
+    for (const auto& [topic, source] : topics.tracks) {
+      on<TrackArray>(topic, [this, name = source](const auto& message, Stamp now) {
+        return pipeline_.takeTracks(name, *message, now);
       });
     }
   }
@@ -125,6 +130,9 @@ class BagRun {
     }
     for (const auto& [name, objects] : results.objects) {
       output_.write(name == "lidar" ? "/objects" : "/objects/" + name, time, *objects);
+    }
+    for (const auto& [name, tracks] : results.source_tracks) {
+      output_.write("/tracks/" + name, time, *tracks);
     }
     for (const TrackArrayPtr& tracks : results.tracks) {
       output_.write("/tracks", time, *tracks);
@@ -218,8 +226,9 @@ void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progres
   openInput(arguments.input, bag);
   const InputTopics topics = findTopics(bag, arguments, options);
   OutputBag output(arguments.output);
-  Pipeline pipeline(options, {arguments.last_stage, arguments.low_level_fusion,
-                              arguments.object_fusion, topics.stereo.input()});
+  Pipeline pipeline(options,
+                    {arguments.last_stage, arguments.low_level_fusion, arguments.object_fusion,
+                     arguments.track_fusion, topics.stereo.input()});
   DriveSummary drive;
   BagRun run(topics, pipeline, drive, output, arguments.write_grids);
 

@@ -75,6 +75,11 @@ std::string missingTopic(const rosbag::Bag& bag, const StereoTopics& topics) {
   return "";
 }
 
+/// Whether the bag holds the stereo camera's clouds, or what they are made of.
+bool holdsPoints(const rosbag::Bag& bag, const Arguments& arguments) {
+  return missingTopic(bag, stereoTopics(bag, arguments)).empty();
+}
+
 /// `fusion`: the section of the stage that wants them.
 StereoTopics neededStereoTopics(const rosbag::Bag& bag, const Arguments& arguments,
                                 const std::string& fusion) {
@@ -104,12 +109,28 @@ void findObjectTopics(const rosbag::Bag& bag, const Arguments& arguments,
                       const ObjectFusionStageOptions& fusion, InputTopics& topics) {
   for (const std::string& source : fusion.fuser.sourcesInUse()) {
     const std::string topic = "/objects/" + source;
-    const bool external =
-        holdsTopic(bag, topic) && !missingTopic(bag, stereoTopics(bag, arguments)).empty();
+    const bool external = holdsTopic(bag, topic) && !holdsPoints(bag, arguments);
     if (source == "stereo" && !external) {
       topics.stereo = neededStereoTopics(bag, arguments, "object_fusion");
     } else if (source != "lidar") {
       topics.objects[topic] = source;
+    }
+  }
+}
+
+/// The same for tracks of the stereo camera: an external system's objects serve before its tracks.
+void findTrackTopics(const rosbag::Bag& bag, const Arguments& arguments,
+                     const TrackFusionStageOptions& fusion, InputTopics& topics) {
+  const std::string objects = "/objects/stereo";
+  for (const std::string& source : fusion.fuser.sourcesInUse()) {
+    const std::string topic = "/tracks/" + source;
+    const bool with_points = holdsPoints(bag, arguments);
+    if (source == "stereo" && !with_points && holdsTopic(bag, objects)) {
+      topics.objects[objects] = source;
+    } else if (source == "stereo" && (with_points || !holdsTopic(bag, topic))) {
+      topics.stereo = neededStereoTopics(bag, arguments, "track_fusion");
+    } else if (source != "lidar") {
+      topics.tracks[topic] = source;
     }
   }
 }
@@ -134,7 +155,7 @@ std::vector<std::string> InputTopics::all() const {
       topics.push_back(topic);
     }
   }
-  for (const auto* others : {&grids, &objects}) {
+  for (const auto* others : {&grids, &objects, &tracks}) {
     for (const auto& [topic, source] : *others) {
       topics.push_back(topic);
     }
@@ -161,7 +182,10 @@ InputTopics findTopics(const rosbag::Bag& bag, const Arguments& arguments,
     findLowLevelTopics(bag, arguments, options.low_level.grid_fusion, topics);
   }
   if (arguments.object_fusion) {
-    findObjectTopics(bag, arguments, options.object_level.object_fusion, topics);
+    findObjectTopics(bag, arguments, options.object_fusion, topics);
+  }
+  if (arguments.track_fusion) {
+    findTrackTopics(bag, arguments, options.track_level.track_fusion, topics);
   }
   if (arguments.with_truth) {
     topics.truth = truthTopics(bag);

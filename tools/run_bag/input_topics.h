@@ -33,6 +33,7 @@ struct InputTopics {
   StereoTopics stereo;
   std::map<std::string, std::string> grids;    ///< of sources that no stage makes: topic -> source
   std::map<std::string, std::string> objects;  ///< the same for objects
+  std::map<std::string, std::string> tracks;   ///< and for tracks
   std::vector<std::string> truth;
 
   std::vector<std::string> all() const;

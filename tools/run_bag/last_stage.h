@@ -2,7 +2,15 @@
 
 namespace datmo {
 
-/// How far the chain of stages goes; each of them feeds the next.
-enum class LastStage { kGridFusion, kGridSlam, kMovingObjects, kObjectFusion, kTracker };
+/// How far the chain of stages goes; each of them feeds the next. stereo_tracker goes with tracker.
+enum class LastStage {
+  kGridFusion,
+  kGridSlam,
+  kMovingObjects,
+  kObjectFusion,
+  kTracker,
+  kTrackFusion,
+  kEnd  ///< all that there are
+};
 
 }  // namespace datmo

@@ -7,10 +7,21 @@ namespace datmo {
 
 namespace {
 
-/// grid_slam waits for fused grids where there are any, and for nothing else.
+/// grid_slam waits for fused grids where there are any, and for nothing else; what the scanner saw
+/// is no view of the stereo camera.
 PipelineOptions wired(PipelineOptions options, const Wiring& wiring) {
   options.grid_slam.fused_grid = wiring.low_level_fusion;
+  options.track_level.stereo_tracker.scan_view = false;
   return options;
+}
+
+/// Whether a level takes the objects of the stereo camera.
+bool usesStereoObjects(const PipelineOptions& options, const Wiring& wiring) {
+  const auto isStereo = [](const std::vector<std::string>& sources) {
+    return std::find(sources.begin(), sources.end(), "stereo") != sources.end();
+  };
+  return (wiring.object_fusion && isStereo(options.object_fusion.fuser.sourcesInUse())) ||
+         (wiring.track_fusion && isStereo(options.track_level.track_fusion.fuser.sourcesInUse()));
 }
 
 }  // namespace
@@ -22,15 +33,22 @@ Pipeline::Pipeline(const PipelineOptions& options, const Wiring& wiring)
       low_level_(wiring.low_level_fusion
                      ? std::make_unique<LowLevelPipeline>(options_.low_level, transforms_, times_)
                      : nullptr),
-      object_fusion_(wiring.object_fusion ? std::make_unique<ObjectFusionPipeline>(
-                                                options_.object_level, transforms_, times_)
-                                          : nullptr),
+      object_fusion_(wiring.object_fusion
+                         ? std::make_unique<ObjectFusionPipeline>(options_.object_fusion, times_)
+                         : nullptr),
+      track_fusion_(wiring.track_fusion
+                        ? std::make_unique<TrackFusionPipeline>(options_.track_level, wiring.last,
+                                                                transforms_, times_)
+                        : nullptr),
       slam_(options_.grid_slam, transforms_, slam_monitor_),
       detector_(options_.moving_objects, detector_monitor_),
       tracker_(options_.tracker, transforms_, tracker_monitor_) {
   if (wiring.stereo != StereoPoints::kClouds) {
     images_.emplace(options_.stereo_images, wiring.stereo == StereoPoints::kRectifiedImages,
                     images_monitor_);
+  }
+  if (usesStereoObjects(options_, wiring)) {
+    stereo_objects_.emplace(options_.stereo_objects, transforms_, stereo_objects_monitor_);
   }
 }
 
@@ -53,7 +71,6 @@ Pipeline::Output Pipeline::takeTransforms(const tf2_msgs::TFMessage& message, St
   transforms_.add(others);
   Output output;
   followFusion(now, output);
-  drainTracker(now, output);
   return output;
 }
 
@@ -92,8 +109,8 @@ Pipeline::Output Pipeline::takeCameraInfo(StereoSide side,
   if (low_level_ && side == StereoSide::kRight) {
     low_level_->takeCameraInfo(*info);
   }
-  if (object_fusion_ && side == StereoSide::kRight) {
-    object_fusion_->takeCameraInfo(*info);
+  if (stereo_objects_ && side == StereoSide::kRight) {
+    stereo_objects_->takeCameraInfo(*info);
   }
   Output output;
   if (images_) {
@@ -113,10 +130,18 @@ Pipeline::Output Pipeline::takeGrid(const std::string& source, const nav_msgs::O
   return output;
 }
 
-Pipeline::Output Pipeline::takeObjects(const std::string& source, const ObjectArray& objects,
-                                       Stamp now) {
-  if (object_fusion_) {
-    object_fusion_->takeObjects(source, objects, now);
+Pipeline::Output Pipeline::takeObjects(const std::string& source,
+                                       const ObjectArrayConstPtr& objects, Stamp now) {
+  feedObjects(source, objects, now);
+  Output output;
+  followFusion(now, output);
+  return output;
+}
+
+Pipeline::Output Pipeline::takeTracks(const std::string& source, const TrackArray& tracks,
+                                      Stamp now) {
+  if (track_fusion_) {
+    track_fusion_->takeTracks(source, tracks, now);
   }
   Output output;
   followFusion(now, output);
@@ -134,100 +159,13 @@ Pipeline::Output Pipeline::finish(Stamp now) {
     end = object_fusion_->endOfWaiting(end);
     followObjects(end, output);
   }
+  followTracks(end, output);
+  if (track_fusion_) {
+    end = track_fusion_->endOfTracking(end);
+    followTracks(end, output);
+    followTracks(track_fusion_->endOfWaiting(end), output);
+  }
   return output;
-}
-
-void Pipeline::feedCloud(const sensor_msgs::PointCloud2& cloud, Stamp now, Output& output) {
-  if (low_level_) {
-    low_level_->takeCloud(cloud, now, output.grids);
-  }
-  if (object_fusion_) {
-    object_fusion_->takeCloud(cloud, now, output.objects);
-  }
-}
-
-void Pipeline::feedMadeCloud(const sensor_msgs::PointCloud2Ptr& cloud, Stamp now, Output& output) {
-  if (cloud) {
-    bookTime(images_monitor_);
-    feedCloud(*cloud, now, output);
-  }
-}
-
-void Pipeline::followFusion(Stamp now, Output& output) {
-  followGrids(now, output);
-  followObjects(now, output);
-}
-
-void Pipeline::followGrids(Stamp now, Output& output) {
-  if (!low_level_) {
-    return;
-  }
-  while (const auto fused = low_level_->nextFused(now, output.grids)) {
-    if (last_ == LastStage::kGridFusion) {
-      continue;
-    }
-    if (auto slam = slam_.takeGrid(*fused)) {
-      low_level_->takePose(*slam->pose);
-      followSlam(std::move(*slam), now, output);
-    }
-  }
-}
-
-void Pipeline::followObjects(Stamp now, Output& output) {
-  if (!object_fusion_) {
-    return;
-  }
-  while (const ObjectArrayPtr fused = object_fusion_->nextFused(now, output.objects)) {
-    if (last_ == LastStage::kTracker) {
-      tracker_.takeObjects(fused, now);
-    }
-  }
-  drainTracker(now, output);
-}
-
-void Pipeline::followSlam(GridSlamOutput slam, Stamp now, Output& output) {
-  bookTime(slam_monitor_);
-  tf2_msgs::TFMessage map_to_odom;
-  map_to_odom.transforms = slam.transforms;
-  transforms_.add(map_to_odom);
-  if (last_ != LastStage::kGridSlam) {
-    detect(slam, now, output);
-  }
-  if (const auto map = slam_.mapIfDue(toStamp(slam.pose->header.stamp))) {
-    output.maps.push_back(map);
-  }
-  output.slam.push_back(std::move(slam));
-}
-
-void Pipeline::detect(const GridSlamOutput& slam, Stamp now, Output& output) {
-  if (last_ == LastStage::kTracker) {
-    tracker_.takeSplitScan(*slam.split_scan);
-  }
-  if (object_fusion_) {
-    object_fusion_->takePose(*slam.pose);
-    object_fusion_->takeSplitScan(*slam.split_scan);
-  }
-  if (const ObjectArrayPtr objects = detector_.takeSplitScan(*slam.split_scan)) {
-    bookTime(detector_monitor_);
-    output.objects.emplace_back("lidar", objects);
-    if (object_fusion_) {
-      object_fusion_->takeObjects("lidar", *objects, now);
-    } else if (last_ == LastStage::kTracker) {
-      tracker_.takeObjects(objects, now);
-    }
-  }
-  drainTracker(now, output);
-}
-
-void Pipeline::drainTracker(Stamp now, Output& output) {
-  while (const TrackArrayPtr tracks = tracker_.next(now)) {
-    bookTime(tracker_monitor_);
-    output.tracks.push_back(tracks);
-  }
-}
-
-void Pipeline::bookTime(const StageMonitor& monitor) {
-  times_.add(monitor.stage(), monitor.lastProcessed().seconds);
 }
 
 std::vector<const StageMonitor*> Pipeline::monitors() const {
@@ -240,11 +178,18 @@ std::vector<const StageMonitor*> Pipeline::monitors() const {
     monitors.insert(monitors.end(), low_level.begin(), low_level.end());
   }
   monitors.insert(monitors.end(), {&slam_monitor_, &detector_monitor_});
+  if (stereo_objects_) {
+    monitors.push_back(&stereo_objects_monitor_);
+  }
   if (object_fusion_) {
     const auto object_level = object_fusion_->monitors();
     monitors.insert(monitors.end(), object_level.begin(), object_level.end());
   }
   monitors.push_back(&tracker_monitor_);
+  if (track_fusion_) {
+    const auto track_level = track_fusion_->monitors();
+    monitors.insert(monitors.end(), track_level.begin(), track_level.end());
+  }
   return monitors;
 }
 

@@ -10,6 +10,7 @@
 #include "pipeline_options.h"
 #include "stage_times.h"
 #include "stereo_images.h"
+#include "track_fusion_pipeline.h"
 #include "wiring.h"
 #include <tf2_msgs/TFMessage.h>
 
@@ -23,9 +24,12 @@ namespace datmo {
 ///     scan, odometry, tf ─► grid_slam ─ split scan ─► moving_objects ─ objects ─► tracker ─ tracks
 ///                               └───────── split scan, map -> odom ──────────────────┘
 ///
-/// with low-level fusion LowLevelPipeline before grid_slam, which then waits for its grids, and
-/// with object-level fusion ObjectFusionPipeline before the tracker, which then takes its objects.
-/// Both share the stereo camera's clouds, which are made here where there are images alone.
+/// with low-level fusion LowLevelPipeline before grid_slam, which then waits for its grids, with
+/// object-level fusion ObjectFusionPipeline before the tracker, which then takes its objects, and
+/// with track-level fusion TrackFusionPipeline after it. They share the stereo camera's clouds,
+/// which are made here where there are images alone, and the last two its objects:
+///
+///     points2, right camera_info, tf ──► stereo_objects ─ objects of stereo
 ///
 /// Messages go in one after the other, as they came; the same messages give the same results, bit
 /// for bit. `now` is the time at which a message came.
@@ -39,7 +43,8 @@ class Pipeline {
     std::vector<LowLevelPipeline::NamedGrid> grids;
     std::vector<GridSlamOutput> slam;
     std::vector<ObjectFusionPipeline::NamedObjects> objects;
-    std::vector<TrackArrayPtr> tracks;
+    std::vector<TrackFusionPipeline::NamedTracks> source_tracks;  ///< that are fused
+    std::vector<TrackArrayPtr> tracks;                            ///< of the last stage
     std::vector<nav_msgs::OccupancyGridPtr> maps;
   };
 
@@ -74,7 +79,8 @@ class Pipeline {
 
   /// Of sources that have no stage here; read with fusion of their level alone.
   Output takeGrid(const std::string& source, const nav_msgs::OccupancyGrid& grid, Stamp now);
-  Output takeObjects(const std::string& source, const ObjectArray& objects, Stamp now);
+  Output takeObjects(const std::string& source, const ObjectArrayConstPtr& objects, Stamp now);
+  Output takeTracks(const std::string& source, const TrackArray& tracks, Stamp now);
 
   /// What is left when the last message came at `now`.
   Output finish(Stamp now);
@@ -83,11 +89,14 @@ class Pipeline {
   std::vector<const StageMonitor*> monitors() const;
 
  private:
+  bool reaches(LastStage stage) const { return last_ >= stage; }
   bool isFromSlam(const geometry_msgs::TransformStamped& transform) const;
 
   void feedCloud(const sensor_msgs::PointCloud2& cloud, Stamp now, Output& output);
   /// A cloud made of images; null: there is none.
   void feedMadeCloud(const sensor_msgs::PointCloud2Ptr& cloud, Stamp now, Output& output);
+  /// To the levels that use them.
+  void feedObjects(const std::string& source, const ObjectArrayConstPtr& objects, Stamp now);
 
   /// What is ready in the fusions goes on to the stages after them.
   void followFusion(Stamp now, Output& output);
@@ -95,6 +104,7 @@ class Pipeline {
   void followObjects(Stamp now, Output& output);
   void followSlam(GridSlamOutput slam, Stamp now, Output& output);
   void detect(const GridSlamOutput& slam, Stamp now, Output& output);
+  void followTracks(Stamp now, Output& output);
   void drainTracker(Stamp now, Output& output);
   void bookTime(const StageMonitor& monitor);
 
@@ -104,11 +114,14 @@ class Pipeline {
   StageMonitor images_monitor_{"stereo_images"};
   StageMonitor slam_monitor_{"grid_slam"};
   StageMonitor detector_monitor_{"moving_objects"};
+  StageMonitor stereo_objects_monitor_{"stereo_objects"};
   StageMonitor tracker_monitor_{"tracker"};
   StageTimes times_;
   std::optional<StereoImages> images_;                   ///< none if there are clouds
   std::unique_ptr<LowLevelPipeline> low_level_;          ///< null without low-level fusion
+  std::optional<StereoObjectsStage> stereo_objects_;     ///< none if no level uses them
   std::unique_ptr<ObjectFusionPipeline> object_fusion_;  ///< null without object-level fusion
+  std::unique_ptr<TrackFusionPipeline> track_fusion_;    ///< null without track-level fusion
   GridSlamStage slam_;
   MovingObjectsStage detector_;
   TrackerStage tracker_;

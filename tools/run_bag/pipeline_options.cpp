@@ -11,10 +11,10 @@ namespace datmo {
 namespace {
 
 /// One for each nodelet; those without a stage in the pipeline are for live use alone.
-const std::array<std::string, 11> kSections = {
-    "stereo_image_proc", "lidar_grid",     "stereo_grid",    "grid_fusion",
-    "grid_slam",         "moving_objects", "stereo_objects", "object_fusion",
-    "tracker",           "markers",        "grid_views"};
+const std::array<std::string, 13> kSections = {
+    "stereo_image_proc", "lidar_grid",     "stereo_grid",   "grid_fusion", "grid_slam",
+    "moving_objects",    "stereo_objects", "object_fusion", "tracker",     "stereo_tracker",
+    "track_fusion",      "markers",        "grid_views"};
 
 std::string sectionNames() {
   std::string names;
@@ -57,9 +57,11 @@ PipelineOptions readPipelineOptions(const std::string& file) {
            readSection<GridFusionStageOptions>(file, root, "grid_fusion")},
           readSection<GridSlamStageOptions>(file, root, "grid_slam"),
           readSection<MovingObjectsStageOptions>(file, root, "moving_objects"),
-          {readSection<StereoObjectsStageOptions>(file, root, "stereo_objects"),
-           readSection<ObjectFusionStageOptions>(file, root, "object_fusion")},
-          readSection<TrackerStageOptions>(file, root, "tracker")};
+          readSection<StereoObjectsStageOptions>(file, root, "stereo_objects"),
+          readSection<ObjectFusionStageOptions>(file, root, "object_fusion"),
+          readSection<TrackerStageOptions>(file, root, "tracker"),
+          {readSection<TrackerStageOptions>(file, root, "stereo_tracker"),
+           readSection<TrackFusionStageOptions>(file, root, "track_fusion")}};
 }
 
 }  // namespace datmo

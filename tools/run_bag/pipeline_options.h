@@ -11,6 +11,7 @@
 #include "datmo_fusion/ros/object_fusion_stage.h"
 #include "datmo_fusion/ros/stereo_grid_stage.h"
 #include "datmo_fusion/ros/stereo_objects_stage.h"
+#include "datmo_fusion/ros/track_fusion_stage.h"
 #include "datmo_fusion/ros/tracker_stage.h"
 
 namespace datmo {
@@ -22,10 +23,10 @@ struct LowLevelOptions {
   GridFusionStageOptions grid_fusion;
 };
 
-/// The options of the stages between moving_objects and tracker, which object-level fusion takes.
-struct ObjectFusionOptions {
-  StereoObjectsStageOptions stereo_objects;
-  ObjectFusionStageOptions object_fusion;
+/// The options of the stages after tracker, which track-level fusion takes.
+struct TrackFusionOptions {
+  TrackerStageOptions stereo_tracker;
+  TrackFusionStageOptions track_fusion;
 };
 
 /// The options of all stages, as in the sections of a sensor set's yaml file.
@@ -34,8 +35,10 @@ struct PipelineOptions {
   LowLevelOptions low_level;
   GridSlamStageOptions grid_slam;
   MovingObjectsStageOptions moving_objects;
-  ObjectFusionOptions object_level;
+  StereoObjectsStageOptions stereo_objects;
+  ObjectFusionStageOptions object_fusion;
   TrackerStageOptions tracker;
+  TrackFusionOptions track_level;
 };
 
 /// Reads config/<sensor set>.yaml. Throws OptionError that names file, section and key.

@@ -9,9 +9,10 @@ enum class StereoPoints { kClouds, kRectifiedImages, kRawImages };
 
 /// Which stages there are, and what feeds them.
 struct Wiring {
-  LastStage last = LastStage::kTracker;  ///< the stages after it are left out
+  LastStage last = LastStage::kEnd;  ///< the stages after it are left out
   bool low_level_fusion = false;
   bool object_fusion = false;
+  bool track_fusion = false;
   StereoPoints stereo = StereoPoints::kClouds;
 };
 
