@@ -1,6 +1,6 @@
 #include <string>
 
-#include "source_fusion_nodelet.h"
+#include "moving_fusion_nodelet.h"
 
 #include <pluginlib/class_list_macros.hpp>
 
@@ -11,9 +11,9 @@ namespace datmo {
 /// The door to ObjectFusionStage. In: objects/<source> of each source, odometry or else pose,
 /// split_scan. Out: objects/fused.
 class ObjectFusionNodelet
-    : public SourceFusionNodelet<ObjectFusionStage, ObjectFusionStageOptions, ObjectArray> {
+    : public MovingFusionNodelet<ObjectFusionStage, ObjectFusionStageOptions, ObjectArray> {
  public:
-  ObjectFusionNodelet() : SourceFusionNodelet("objects") {}
+  ObjectFusionNodelet() : MovingFusionNodelet("objects") {}
 
  private:
   void prepare(const ObjectFusionStageOptions& /*options*/) override {

@@ -6,8 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include <geometry_msgs/PoseWithCovarianceStamped.h>
-#include <nav_msgs/Odometry.h>
 #include <nodelet/nodelet.h>
 
 #include "datmo_fusion/ros/parameters.h"
@@ -18,8 +16,7 @@
 namespace datmo {
 
 /// What the doors to stages that fuse several sources have in common. In: a `Message` of each
-/// source, odometry or else pose. What is ready is asked for after each message of a source, and
-/// from time to time.
+/// source. What is ready is asked for after each message of a source, and from time to time.
 template <typename Stage, typename Options, typename Message>
 class SourceFusionNodelet : public nodelet::Nodelet {
  protected:
@@ -29,6 +26,10 @@ class SourceFusionNodelet : public nodelet::Nodelet {
   /// Before the sources are heard.
   virtual void prepare(const Options& options) = 0;
 
+  /// Topics besides those of the sources, which are missed too if they are silent.
+  virtual std::vector<std::string> otherInputs(const Options& /*options*/) const { return {}; }
+  virtual void subscribeOthers(const Options& /*options*/) {}
+
   /// Hands one message to the stage. `now`: ROS time.
   virtual void take(const std::string& source, const Message& message, Stamp now) = 0;
 
@@ -36,6 +37,7 @@ class SourceFusionNodelet : public nodelet::Nodelet {
   virtual bool publishNext(Stamp now) = 0;
 
   Stage& stage() { return *stage_; }
+  StageMonitor& monitor() { return *monitor_; }
 
   /// A second of messages: enough for a hiccup, and bounded.
   static constexpr std::uint32_t kQueue = 20;
@@ -51,11 +53,12 @@ class SourceFusionNodelet : public nodelet::Nodelet {
     for (const std::string& source : stage_->sources()) {
       inputs.push_back(topicOf(source));
     }
-    inputs.emplace_back(options.motion.odometry ? "odometry" : "pose");
+    const std::vector<std::string> others = otherInputs(options);
+    inputs.insert(inputs.end(), others.begin(), others.end());
     reporter_ = std::make_unique<StageReporter>(getNodeHandle(), getPrivateNodeHandle(), *monitor_,
                                                 inputs, options.input.silence_after);
     prepare(options);
-    subscribeMotion(options.motion.odometry);
+    subscribeOthers(options);
     for (const std::string& source : stage_->sources()) {
       subscribe(source);
     }
@@ -64,16 +67,6 @@ class SourceFusionNodelet : public nodelet::Nodelet {
   }
 
   std::string topicOf(const std::string& source) const { return topics_ + "/" + source; }
-
-  void subscribeMotion(bool with_odometry) {
-    ros::NodeHandle& node = getNodeHandle();
-    if (with_odometry) {
-      motion_ =
-          node.subscribe("odometry", kQueue, &SourceFusionNodelet::takeOdometry, this, hints());
-    } else {
-      motion_ = node.subscribe("pose", kQueue, &SourceFusionNodelet::takePose, this, hints());
-    }
-  }
 
   void subscribe(const std::string& source) {
     using MessagePtr = boost::shared_ptr<const Message>;
@@ -90,16 +83,6 @@ class SourceFusionNodelet : public nodelet::Nodelet {
         node.subscribe<Message>(topic, kQueue, callback, ros::VoidConstPtr(), hints()));
   }
 
-  void takeOdometry(const nav_msgs::OdometryConstPtr& message) {
-    monitor_->received("odometry", toStamp(ros::Time::now()));
-    stage_->takeOdometry(*message);
-  }
-
-  void takePose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message) {
-    monitor_->received("pose", toStamp(ros::Time::now()));
-    stage_->takePose(*message);
-  }
-
   void publishReady() {
     while (publishNext(toStamp(ros::Time::now()))) {
       reporter_->publishTiming();
@@ -113,7 +96,6 @@ class SourceFusionNodelet : public nodelet::Nodelet {
   std::unique_ptr<StageMonitor> monitor_;
   std::unique_ptr<Stage> stage_;
   std::unique_ptr<StageReporter> reporter_;
-  ros::Subscriber motion_;
   std::vector<ros::Subscriber> sources_;
   ros::Timer timer_;
 };

@@ -24,9 +24,10 @@ void checkSourceNames(const std::vector<std::string>& sources, const std::string
 }
 
 FusionInputs::FusionInputs(const FusionInputOptions& options, StageMonitor& monitor)
-    : options_(options),
-      monitor_(monitor),
-      motion_(options.motion, options.base_frame, options.input.restart_after) {
+    : options_(options), monitor_(monitor) {
+  if (options.motion) {
+    motion_.emplace(*options.motion, options.frame, options.input.restart_after);
+  }
   for (const std::string& source : options.sources) {
     stamps_.emplace(source, StampCheck(options.input.restart_after));
   }
@@ -38,15 +39,17 @@ Arrival FusionInputs::take(const std::string& source, const std_msgs::Header& he
     throw InputError("unknown_source", options_.what + " of '" + source +
                                            "': expected one of the sources that are in use");
   }
-  if (header.frame_id != options_.base_frame) {
+  if (header.frame_id != options_.frame) {
     throw InputError("wrong_frame", options_.what + " of " + source + " in '" + header.frame_id +
-                                        "': expected '" + options_.base_frame + "'");
+                                        "': expected '" + options_.frame + "'");
   }
   const Arrived arrived{toStamp(header.stamp), now};
   checkAhead(source, arrived.stamp, now);
   const Arrival arrival = stamps->second.check(header.stamp);
   if (arrival == Arrival::kRestart) {
-    motion_.reset();
+    if (motion_) {
+      motion_->reset();
+    }
     restart();
     stamps->second.check(header.stamp);
   }
@@ -79,7 +82,7 @@ void FusionInputs::checkAhead(const std::string& source, Stamp stamp, Stamp now)
 template <typename Message>
 Arrival FusionInputs::takeAnyMotion(const Message& message) {
   try {
-    const Arrival arrival = motion_.take(message);
+    const Arrival arrival = motion_.value().take(message);
     if (arrival == Arrival::kRestart) {
       restart();
     }
@@ -111,6 +114,17 @@ Stamp FusionInputs::timeSince(const Arrived& last, Stamp now) {
 
 std::optional<Stamp> FusionInputs::dataTime(Stamp now) const {
   return newest_ ? std::make_optional(timeSince(*newest_, now)) : std::nullopt;
+}
+
+void FusionInputs::report(const std::string& source, const LeftOut& left_out) {
+  if (left_out.count == 0) {
+    return;
+  }
+  const std::string things = left_out.what + " of " + source;
+  monitor_.warned(InputError(left_out.reason, std::to_string(left_out.count) + " " + things +
+                                                  ": expected " + left_out.expected +
+                                                  "; left out"));
+  monitor_.figure(things, static_cast<double>(left_out_[things] += left_out.count));
 }
 
 void FusionInputs::report(Stamp stamp, const std::vector<MissingSource>& missing) {

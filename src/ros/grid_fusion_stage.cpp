@@ -62,12 +62,8 @@ void GridFusionStage::takePose(const geometry_msgs::PoseWithCovarianceStamped& m
 }
 
 std::optional<GridFusionOutput> GridFusionStage::next(Stamp now) {
-  const std::optional<Stamp> data_time = inputs_.dataTime(now);
-  if (!data_time) {
-    return std::nullopt;
-  }
   const Stopwatch watch;
-  const std::optional<MatchedGrids> matched = matcher_.next(*data_time);
+  const std::optional<MatchedGrids> matched = inputs_.nextOf(matcher_, now);
   if (!matched) {
     return std::nullopt;
   }

@@ -77,12 +77,9 @@ void ObjectFusionStage::takeObjects(const std::string& source, const ObjectArray
         view.sensor = source;
       }
     }
-    if (const std::size_t bad = message.views.size() - list->views.size(); bad > 0) {
-      monitor_.warned(InputError(
-          "bad_view", std::to_string(bad) + " views of " + source +
-                          ": expected finite numbers, bearings in rad from the least to the most "
-                          "one, a turn apart at most, and sure_range up to range; left out"));
-    }
+    inputs_.report(source, {"bad_view", message.views.size() - list->views.size(), "bad views",
+                            "finite numbers, bearings in rad from the least to the most one, a "
+                            "turn apart at most, and sure_range up to range"});
     matcher_.add(source, list->stamp, list);
   } catch (const InputError& error) {
     monitor_.dropped(error);
@@ -142,12 +139,8 @@ std::vector<SourceObjects> ObjectFusionStage::movedLists(
 }
 
 ObjectArrayPtr ObjectFusionStage::next(Stamp now) {
-  const std::optional<Stamp> data_time = inputs_.dataTime(now);
-  if (!data_time) {
-    return nullptr;
-  }
   const Stopwatch watch;
-  const std::optional<Matched> matched = matcher_.next(*data_time);
+  const std::optional<Matched> matched = inputs_.nextOf(matcher_, now);
   if (!matched) {
     return nullptr;
   }
@@ -191,10 +184,7 @@ void ObjectFusionStage::report(const std::vector<SourceObjects>& lists,
   monitor_.figure("bad objects", static_cast<double>(bad_objects_));
   monitor_.figure("objects too many", static_cast<double>(objects_too_many_));
   monitor_.figure("fused without a split scan", static_cast<double>(times_without_scan_));
-  for (const std::string& source : sources()) {
-    monitor_.figure("lists of " + source + " not fused",
-                    static_cast<double>(matcher_.unserved(source)));
-  }
+  inputs_.reportUnserved(matcher_);
 }
 
 }  // namespace datmo

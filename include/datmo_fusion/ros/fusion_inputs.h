@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -21,12 +22,20 @@ namespace datmo {
 
 /// What a stage that fuses several sources wants of them.
 struct FusionInputOptions {
-  std::string base_frame;  ///< of all messages
-  MotionInputOptions motion;
+  std::string frame;                         ///< of all messages
+  std::optional<MotionInputOptions> motion;  ///< none: `frame` does not move
   StreamOptions input;
   SourceMatcherOptions matcher;
   std::vector<std::string> sources;
   std::string what;  ///< one message of a source is: "grid"
+};
+
+/// Things in a message that are not taken in, while the rest of it is.
+struct LeftOut {
+  std::string reason;  ///< as of an InputError
+  std::size_t count = 0;
+  std::string what;      ///< "bad views"
+  std::string expected;  ///< of such a thing
 };
 
 /// Throws OptionError for a source whose topic could not be, or would be one of the stage's own.
@@ -59,20 +68,39 @@ class FusionInputs {
   Arrival take(const std::string& source, const std_msgs::Header& header, Stamp now);
 
   /// Newest motion, as MotionInput reads it; bad one is dropped through the monitor. kRestart: as
-  /// above.
+  /// above. Only where the options ask for motion (else std::bad_optional_access).
   Arrival takeMotion(const nav_msgs::Odometry& message) { return takeAnyMotion(message); }
   Arrival takeMotion(const geometry_msgs::PoseWithCovarianceStamped& message) {
     return takeAnyMotion(message);
   }
 
-  /// Time of the data at this ROS time; none before the first message.
-  std::optional<Stamp> dataTime(Stamp now) const;
+  /// What a message of this source has that cannot be used, if there is any: warns and keeps count.
+  void report(const std::string& source, const LeftOut& left_out);
 
-  /// The vehicle's motion from one stamp to a later one; none if it is not known.
-  std::optional<Pose2> motion(Stamp from, Stamp to) const { return motion_.between(from, to); }
+  /// The next set of the stage's matcher; none if nothing is ready. `now`: ROS time.
+  template <typename Matcher>
+  auto nextOf(Matcher& matcher, Stamp now) const -> decltype(matcher.next(now)) {
+    const std::optional<Stamp> time = dataTime(now);
+    return time ? matcher.next(*time) : std::nullopt;
+  }
+
+  /// The motion of the messages' frame, the vehicle's, from one stamp to a later one; none if it is
+  /// not known. Only where the options ask for motion (else std::bad_optional_access).
+  std::optional<Pose2> motion(Stamp from, Stamp to) const {
+    return motion_.value().between(from, to);
+  }
 
   /// What was fused at this stamp was without these sources: warns and keeps count.
   void report(Stamp stamp, const std::vector<MissingSource>& missing);
+
+  /// How many lists of each source were in no set, as figures.
+  template <typename Payload>
+  void reportUnserved(const SourceMatcher<Payload>& matcher) {
+    for (const std::string& source : options_.sources) {
+      monitor_.figure("lists of " + source + " not fused",
+                      static_cast<double>(matcher.unserved(source)));
+    }
+  }
 
  private:
   /// A message's arrival; `came`: on the caller's clock.
@@ -92,17 +120,21 @@ class FusionInputs {
 
   void checkAhead(const std::string& source, Stamp stamp, Stamp now) const;
   void restart();
+
+  /// Time of the data at this ROS time; none before the first message.
+  std::optional<Stamp> dataTime(Stamp now) const;
   static Stamp timeSince(const Arrived& last, Stamp now);
   InputError warningOf(const MissingSource& missing) const;
 
   FusionInputOptions options_;
   StageMonitor& monitor_;
-  MotionInput motion_;
+  std::optional<MotionInput> motion_;
   std::map<std::string, StampCheck> stamps_;  ///< by source
   std::optional<Arrived> newest_;
   std::optional<Arrived> reference_;                   ///< the newest of the reference
   std::map<std::string, Absence> absences_;            ///< by source
   std::map<std::string, std::uint64_t> times_missed_;  ///< sets without this source
+  std::map<std::string, std::uint64_t> left_out_;      ///< by name of the figure
 };
 
 }  // namespace datmo

@@ -18,6 +18,8 @@ struct TrackFusionStageOptions {
   SourceMatcherOptions matcher;
   TrackFuserOptions fuser;
 
+  /// A track tells where its object goes, so that a list serves until it is older than any delay of
+  /// a sensor, or a slower sensor's next list has come.
   TrackFusionStageOptions();
 
   void visit(OptionVisitor& visitor);
@@ -25,7 +27,10 @@ struct TrackFusionStageOptions {
 
 /// Matched lists of tracks and TrackFuser between messages: the same ones serve the nodelet and the
 /// bag runner. What is let in, and what is said of a source that is missed: FusionInputs. When the
-/// clock jumps back all state is forgotten.
+/// clock jumps back all state is forgotten; ids go on.
+///
+/// A list serves until there is a nearer one of its source. Tracks that do not tell their sensor
+/// are taken for their source's own. Tracks and views that are not valid are left out, and said.
 class TrackFusionStage {
  public:
   /// `monitor` must outlive the stage. Throws OptionError.
@@ -42,7 +47,14 @@ class TrackFusionStage {
   /// that is waited for still comes. `now`: ROS time.
   TrackArrayPtr next(Stamp now);
 
+  /// The scheme by its name, from the next set on. Throws OptionError for a name that there is not.
+  void setScheme(const std::string& name) { fuser_.setScheme(name); }
+
  private:
+  void forgetAfter(Arrival arrival);
+  TrackList listOf(const std::string& source, const TrackArray& message);
+  void report(const TrackFusionCounts& counts);
+
   TrackFusionStageOptions options_;
   StageMonitor& monitor_;
   FusionInputs inputs_;

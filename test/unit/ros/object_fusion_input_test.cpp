@@ -74,7 +74,7 @@ TEST_F(ObjectFusionStageTest, BadViewsAreLeftOutAndSaid) {
   const auto fused = nextAt(100.0);
   ASSERT_TRUE(fused);
   EXPECT_EQ(warnings("bad_view"), 1U);
-  EXPECT_NE(monitor_.lastError().find("1 views of stereo"), std::string::npos);
+  EXPECT_NE(monitor_.lastError().find("1 bad views of stereo"), std::string::npos);
   ASSERT_EQ(fused->views.size(), 1U);
   EXPECT_EQ(fused->views[0].sensor, "stereo") << "as of objects that do not tell it";
 }

@@ -1,0 +1,124 @@
+#include "datmo_fusion/ros/track_fusion_stage.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <boost/make_shared.hpp>
+
+#include "datmo_fusion/common/scan.h"
+#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/tracking/track_check.h"
+
+namespace datmo {
+
+namespace {
+
+constexpr char kTrackList[] = "track list";
+
+/// Those that are valid, by rising id; of several with one id, the first.
+std::vector<Track> validTracks(const std::vector<Track>& all) {
+  std::vector<Track> tracks;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(tracks),
+               [](const Track& track) { return track.id > 0 && isValid(track); });
+  std::stable_sort(tracks.begin(), tracks.end(),
+                   [](const Track& a, const Track& b) { return a.id < b.id; });
+  tracks.erase(std::unique(tracks.begin(), tracks.end(),
+                           [](const Track& a, const Track& b) { return a.id == b.id; }),
+               tracks.end());
+  return tracks;
+}
+
+}  // namespace
+
+TrackFusionStageOptions::TrackFusionStageOptions() {
+  matcher.tolerance = 0.6;
+  matcher.silent_after = 1.0;
+}
+
+void TrackFusionStageOptions::visit(OptionVisitor& visitor) {
+  visitor.text({"fixed_frame", "", "frame that does not move, in which all tracks are"},
+               fixed_frame, {});
+  visitor.group("input", [&] { input.visit(visitor); });
+  matcher.visit(visitor);
+  fuser.visit(visitor);
+}
+
+TrackFusionStage::TrackFusionStage(const TrackFusionStageOptions& options, StageMonitor& monitor)
+    : options_(options),
+      monitor_(monitor),
+      inputs_({options.fixed_frame, std::nullopt, options.input, options.matcher,
+               options.fuser.sourcesInUse(), kTrackList},
+              monitor),
+      matcher_(options.matcher, options.fuser.sourcesInUse(), Serving::kOften),
+      fuser_(options.fuser) {
+  checkOptions(options);
+  checkSourceNames(sources(), kTrackList, {"fused"});
+}
+
+void TrackFusionStage::forgetAfter(Arrival arrival) {
+  if (arrival == Arrival::kRestart) {
+    matcher_.reset();
+    fuser_.reset();
+  }
+}
+
+void TrackFusionStage::takeTracks(const std::string& source, const TrackArray& message, Stamp now) {
+  try {
+    forgetAfter(inputs_.take(source, message.header, now));
+    const auto list = std::make_shared<TrackList>(listOf(source, message));
+    matcher_.add(source, list->stamp, list);
+  } catch (const InputError& error) {
+    monitor_.dropped(error);
+  }
+}
+
+TrackList TrackFusionStage::listOf(const std::string& source, const TrackArray& message) {
+  TrackList list = fromMessage(message);
+  inputs_.report(source, {"bad_view", message.views.size() - list.views.size(), "bad views",
+                          "finite numbers, a beam_spacing that is not 0, no reach below 0, and " +
+                              std::to_string(kMostBeams) + " beams at most"});
+  list.tracks = validTracks(list.tracks);
+  inputs_.report(source, {"bad_track", message.tracks.size() - list.tracks.size(), "bad tracks",
+                          "finite numbers in range, a covariance that is positive definite, and an "
+                          "id from 1 on that is there once"});
+  const auto most = static_cast<std::size_t>(options_.fuser.most_tracks);
+  const std::size_t beyond = list.tracks.size() - std::min(list.tracks.size(), most);
+  inputs_.report(source, {"many_tracks", beyond, "tracks too many",
+                          "most_tracks = " + std::to_string(most) + " at most, the surest ones"});
+  for (Track& track : list.tracks) {
+    if (track.sensors.empty()) {
+      track.sensors = {source};
+    }
+  }
+  return list;
+}
+
+TrackArrayPtr TrackFusionStage::next(Stamp now) {
+  const Stopwatch watch;
+  const auto matched = inputs_.nextOf(matcher_, now);
+  if (!matched) {
+    return nullptr;
+  }
+  std::vector<SourceTracks> lists;
+  for (const SourceSample<TrackList>& one : matched->samples) {
+    lists.push_back({one.source, one.payload});
+  }
+  const TrackFusionResult result = fuser_.fuse(matched->stamp(), lists);
+  inputs_.report(matched->stamp(), matched->missing);
+  report(result.counts);
+  auto fused = boost::make_shared<TrackArray>(toMessage(result.list, options_.fixed_frame));
+  monitor_.processed({matched->stamp(), watch.seconds()});
+  return fused;
+}
+
+void TrackFusionStage::report(const TrackFusionCounts& counts) {
+  monitor_.figure("tracks of two or more sources", static_cast<double>(counts.fused));
+  monitor_.figure("tracks published", static_cast<double>(counts.published));
+  inputs_.reportUnserved(matcher_);
+}
+
+}  // namespace datmo
