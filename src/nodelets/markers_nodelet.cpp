@@ -9,7 +9,8 @@
 
 namespace datmo {
 
-/// Draws for rviz. In: split_scan, objects, tracks, ground_truth/objects. Out: markers.
+/// Draws for rviz. In: split_scan, objects, tracks, ground_truth/objects. Out: markers. It draws
+/// only while somebody looks.
 class MarkersNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
@@ -24,35 +25,38 @@ class MarkersNodelet : public nodelet::Nodelet {
 
   void takeSplitScan(const SplitScanConstPtr& message) {
     last_scan_ = message;
-    publish("split_scan", markersOf(*message, options_));
+    draw("split_scan", *message);
+  }
+
+  void takeObjects(const ObjectArrayConstPtr& message) { draw("objects", *message); }
+  void takeTracks(const TrackArrayConstPtr& message) { draw("tracks", *message); }
+  void takeTruth(const TrueObjectArrayConstPtr& message) { draw("truth", *message); }
+
+  template <typename Message>
+  void draw(const std::string& source, const Message& message) {
+    if (markers_.getNumSubscribers() == 0) {
+      return;
+    }
+    try {
+      visualization_msgs::MarkerArray markers = markersOf(message, options_);
+      place(message, markers);
+      stale_.replace(source, markers);
+      markers_.publish(markers);
+    } catch (const InputError& error) {
+      NODELET_WARN_THROTTLE(1.0, "%s are not drawn: %s", source.c_str(), error.what());
+    }
   }
 
   /// Objects of the last scan go where the scan was seen from: tf may not know yet.
-  void takeObjects(const ObjectArrayConstPtr& message) {
-    visualization_msgs::MarkerArray markers = markersOf(*message, options_);
-    if (last_scan_ && last_scan_->header.stamp == message->header.stamp) {
-      try {
-        placeInMap(*last_scan_, markers);
-      } catch (const InputError& error) {
-        NODELET_WARN_THROTTLE(1.0, "objects are not drawn: %s", error.what());
-        return;
-      }
+  void place(const ObjectArray& objects, visualization_msgs::MarkerArray& markers) const {
+    if (last_scan_ && last_scan_->header.stamp == objects.header.stamp) {
+      placeInMap(*last_scan_, markers);
     }
-    publish("objects", markers);
   }
 
-  void takeTracks(const TrackArrayConstPtr& message) {
-    publish("tracks", markersOf(*message, options_));
-  }
-
-  void takeTruth(const TrueObjectArrayConstPtr& message) {
-    publish("truth", markersOf(*message, options_));
-  }
-
-  void publish(const std::string& source, visualization_msgs::MarkerArray markers) {
-    stale_.replace(source, markers);
-    markers_.publish(markers);
-  }
+  /// All else is where it says.
+  template <typename Message>
+  void place(const Message& /*message*/, visualization_msgs::MarkerArray& /*markers*/) const {}
 
   /// A second of messages: enough for a hiccup, and bounded.
   static constexpr std::uint32_t kQueue = 20;

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """perception.launch and replay.launch in every combination of their switches: each nodelet is there
-once, with a type that the package (or a named one) has, and tracks what is published."""
+once, with a type that the package (or a named one) has, and takes what is published."""
 
 import functools
 import itertools
@@ -14,7 +14,10 @@ import roslaunch.config
 PACKAGE = Path(__file__).resolve().parents[2]
 
 ALWAYS = {"grid_slam", "moving_objects", "tracker", "markers"}
-LOW_LEVEL = {"lidar_grid", "stereo_grid", "grid_fusion"}
+LOW_LEVEL = {"lidar_grid", "stereo_grid", "grid_fusion", "grid_views"}
+OBJECT_LEVEL = {"stereo_objects", "object_fusion"}
+TRACK_LEVEL = {"stereo_objects", "stereo_tracker", "track_fusion", "lidar_markers",
+               "stereo_markers"}
 IMAGES = {"none": set(),
           "rectified": {"stereo_image_proc", "stereo_points"},
           "raw": {"stereo_image_proc", "stereo_points", "left_debayer", "left_rectify",
@@ -22,8 +25,8 @@ IMAGES = {"none": set(),
 
 
 def combinations():
-    """(low_level_fusion, object_fusion, stereo_images)"""
-    return itertools.product([False, True], [False, True], IMAGES)
+    """(low_level_fusion, object_fusion, track_fusion, stereo_images)"""
+    return itertools.product([False, True], [False, True], [False, True], IMAGES)
 
 
 @functools.lru_cache(maxsize=None)
@@ -55,9 +58,9 @@ class LaunchSwitches(unittest.TestCase):
     @staticmethod
     def each(file, **more):
         """(switches, nodes, parameters) of each combination"""
-        for low_level, objects, images in combinations():
+        for low_level, objects, tracks, images in combinations():
             switches = {"low_level_fusion": low_level, "object_fusion": objects,
-                        "stereo_images": images}
+                        "track_fusion": tracks, "stereo_images": images}
             yield (switches, *loaded(file, **switches, **more))
 
     def test_there_are_the_nodelets_of_the_switches(self):
@@ -65,9 +68,11 @@ class LaunchSwitches(unittest.TestCase):
             with self.subTest(**switches):
                 expected = ALWAYS | IMAGES[switches["stereo_images"]]
                 if switches["low_level_fusion"]:
-                    expected |= LOW_LEVEL | {"grid_views"}
+                    expected |= LOW_LEVEL
                 if switches["object_fusion"]:
-                    expected |= {"stereo_objects", "object_fusion"}
+                    expected |= OBJECT_LEVEL
+                if switches["track_fusion"]:
+                    expected |= TRACK_LEVEL
                 self.assertEqual(set(nodelets(nodes)), expected)
 
     def test_all_types_are_in_the_package(self):
@@ -88,6 +93,40 @@ class LaunchSwitches(unittest.TestCase):
                 if switches["object_fusion"]:
                     self.assertEqual(remapped(nodes["object_fusion"], "objects/lidar"), "objects")
 
+    def test_the_tracks_of_the_stack_are_those_of_its_last_stage(self):
+        for switches, nodes, _ in self.each("perception.launch"):
+            with self.subTest(**switches):
+                published = [remapped(nodes["tracker"], "tracks")]
+                if switches["track_fusion"]:
+                    published.append(remapped(nodes["stereo_tracker"], "tracks"))
+                    published.append(remapped(nodes["track_fusion"], "tracks/fused"))
+                    self.assertEqual(published[:-1], ["tracks/lidar", "tracks/stereo"])
+                self.assertEqual(published[-1], "tracks")
+                self.assertEqual(remapped(nodes["markers"], "tracks"), "tracks")
+
+    def test_the_stereo_tracker_follows_what_the_camera_sees(self):
+        for switches, nodes, parameters in self.each("perception.launch"):
+            if switches["track_fusion"]:
+                with self.subTest(**switches):
+                    self.assertEqual(remapped(nodes["stereo_tracker"], "objects"),
+                                     "objects/stereo")
+                    self.assertIs(parameters["/stereo_tracker/scan_view"], False)
+                    self.assertNotIn("/tracker/scan_view", parameters)
+
+    def test_each_source_is_drawn_by_itself(self):
+        for switches, nodes, _ in self.each("perception.launch"):
+            if switches["track_fusion"]:
+                with self.subTest(**switches):
+                    drawn = {remapped(nodes[name], "markers"): remapped(nodes[name], "tracks")
+                             for name in ("markers", "lidar_markers", "stereo_markers")}
+                    self.assertEqual(drawn, {"markers": "tracks",
+                                             "markers/lidar": "tracks/lidar",
+                                             "markers/stereo": "tracks/stereo"})
+                    for name, of in (("lidar_markers", "tracker"),
+                                     ("stereo_markers", "stereo_tracker")):
+                        self.assertEqual(remapped(nodes[name], "objects"),
+                                         remapped(nodes[of], "objects"))
+
     def test_both_levels_take_the_same_points(self):
         nodes, _ = loaded("perception.launch", low_level_fusion=True, object_fusion=True,
                           points2="cloud", right_camera_info="info")
@@ -96,8 +135,12 @@ class LaunchSwitches(unittest.TestCase):
             self.assertEqual(remapped(nodes[name], "right/camera_info"), "info")
 
     def test_another_system_may_publish_the_stereo_objects(self):
-        nodes, _ = loaded("perception.launch", object_fusion=True, stereo_objects=False)
-        self.assertEqual(set(nodelets(nodes)), ALWAYS | {"object_fusion"})
+        for level, members in (("object_fusion", OBJECT_LEVEL),
+                                      ("track_fusion", TRACK_LEVEL)):
+            with self.subTest(level=level):
+                nodes, _ = loaded("perception.launch", **{level: True}, stereo_objects=False)
+                self.assertEqual(set(nodelets(nodes)),
+                                 ALWAYS | members - {"stereo_objects"})
 
     def test_there_is_a_thread_for_each_nodelet(self):
         for switches, nodes, parameters in self.each("perception.launch"):
