@@ -6,12 +6,32 @@
 #include <utility>
 
 #include "datmo_fusion/tracking/assignment.h"
+#include "datmo_fusion/tracking/duplicates.h"
 
 namespace datmo {
 
 namespace {
 
 using Member = std::pair<std::string, std::uint32_t>;
+
+bool sharesSource(const Track& a, const Track& b) {
+  return std::any_of(a.sources.begin(), a.sources.end(), [&](const SourceTrack& one) {
+    return std::any_of(b.sources.begin(), b.sources.end(),
+                       [&](const SourceTrack& other) { return one.source == other.source; });
+  });
+}
+
+bool areTwins(const Track& a, const Track& b, double reach) {
+  return !sharesSource(a, b) && (reaches(a.box, b.box, reach) || reaches(b.box, a.box, reach));
+}
+
+/// The surer one first.
+bool isSurer(const FusedTarget* a, const FusedTarget* b) {
+  const auto rank = [](const FusedTarget& one) {
+    return std::make_tuple(!one.confirmed, -one.track.existence_probability, one.id);
+  };
+  return rank(*a) < rank(*b);
+}
 
 }  // namespace
 
@@ -121,6 +141,22 @@ void FusedTargets::follow(Stamp stamp, const std::vector<Track>& groups,
     target.born = std::min(target.born, stamp + -groups[group].age);
     target.present = true;
     target.lost = 0.0;
+  }
+}
+
+void FusedTargets::findTwins(double reach) {
+  std::vector<FusedTarget*> surest;
+  for (FusedTarget& target : targets_) {
+    target.twin = false;
+    if (target.present) {
+      surest.push_back(&target);
+    }
+  }
+  std::sort(surest.begin(), surest.end(), isSurer);
+  for (std::size_t i = 0; i < surest.size(); ++i) {
+    for (std::size_t j = 0; j < i && !surest[i]->twin; ++j) {
+      surest[i]->twin = !surest[j]->twin && areTwins(surest[i]->track, surest[j]->track, reach);
+    }
   }
 }
 

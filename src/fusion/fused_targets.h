@@ -40,6 +40,10 @@ class FusedTargets {
   /// The tracks of the present, one for each group, at `stamp`. Targets without one are lost.
   void follow(Stamp stamp, const std::vector<Track>& groups, const TrackComparisonOptions& options);
 
+  /// Of two at one place (reaches), which no source has tracks of both, the one is a twin that is
+  /// less sure.
+  void findTwins(double reach);
+
   std::vector<FusedTarget>& all() { return targets_; }
 
   void clear() { targets_.clear(); }

@@ -6,13 +6,12 @@
 #include <functional>
 #include <iterator>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 #include "fused_targets.h"
+#include "track_correlations.h"
 
 #include "datmo_fusion/fusion/fused_existence.h"
-#include "datmo_fusion/tracking/duplicates.h"
 #include "datmo_fusion/tracking/track_check.h"
 #include "datmo_fusion/tracking/track_paths.h"
 
@@ -43,13 +42,6 @@ void keepLikeliest(std::vector<Track>& tracks, std::size_t most) {
   tracks.resize(std::min(tracks.size(), most));
 }
 
-bool sharesSource(const Track& a, const Track& b) {
-  return std::any_of(a.sources.begin(), a.sources.end(), [&](const SourceTrack& one) {
-    return std::any_of(b.sources.begin(), b.sources.end(),
-                       [&](const SourceTrack& other) { return one.source == other.source; });
-  });
-}
-
 }  // namespace
 
 class TrackFuser::State {
@@ -72,11 +64,12 @@ class TrackFuser::State {
     result.list.stamp = stamp;
     const std::vector<PresentTracks> present = takeIn(stamp, sources, result.counts);
     const std::vector<TrackGroup> groups = association_.associate(stamp, present);
+    correlations_.step(seconds);
     targets_.predict(seconds, options_.memory, options_.prediction);
     targets_.follow(stamp, fused(groups, present, result.counts), options_.association.comparison);
     look(sources, seconds);
     judgeAll(stamp);
-    findTwins();
+    targets_.findTwins(options_.twin_reach);
     publish(result);
     for (const SourceTracks& source : sources) {
       result.list.views.insert(result.list.views.end(), source.list->views.begin(),
@@ -94,6 +87,7 @@ class TrackFuser::State {
 
   void reset() {
     association_.reset();
+    correlations_.clear();
     targets_.clear();
     paths_.clear();
     stamp_.reset();
@@ -129,20 +123,38 @@ class TrackFuser::State {
     std::vector<Track> tracks;
     for (const TrackGroup& group : groups) {
       std::optional<Track> whole;
-      for (const TrackPlace& place : group) {
-        const Track& track = present[place.list].tracks[place.track];
+      for (std::size_t i = 0; i < group.size(); ++i) {
+        const Track& track = present[group[i].list].tracks[group[i].track];
         if (!whole) {
           whole = track;
           continue;
         }
         const double surest = std::max(whole->existence_probability, track.existence_probability);
-        whole = combined(*whole, track, CrossCovariance::Zero(), options_.combination);
+        whole = combined(*whole, track, crossCovariance(group, i, present), options_.combination);
         whole->existence_probability = surest;
       }
       counts.fused += group.size() > 1 ? 1 : 0;
       tracks.push_back(std::move(*whole));
     }
     return tracks;
+  }
+
+  /// Of what the tracks before this one of a group are together, and it: of more than one, their
+  /// mean. The method that has no use for it does not pay for it.
+  CrossCovariance crossCovariance(const TrackGroup& group, std::size_t index,
+                                  const std::vector<PresentTracks>& present) {
+    CrossCovariance sum = CrossCovariance::Zero();
+    if (options_.combination.method != TrackCombinationOptions::kBarShalomCampo) {
+      return sum;
+    }
+    const auto trackAt = [&](std::size_t i) -> const Track& {
+      return present[group[i].list].tracks[group[i].track];
+    };
+    for (std::size_t i = 0; i < index; ++i) {
+      sum += correlations_.between(trackAt(i), trackAt(index), options_.prediction,
+                                   options_.combination);
+    }
+    return sum / static_cast<double>(index);
   }
 
   /// How much each source would have detected each target lately. Who has a track of it is not
@@ -192,33 +204,6 @@ class TrackFuser::State {
     target.confirmed = target.confirmed || (seen_by_all && target.track.sources.size() > 1);
   }
 
-  /// Of two at one place the one is hidden that is less sure.
-  void findTwins() {
-    std::vector<FusedTarget*> surest;
-    for (FusedTarget& target : targets_.all()) {
-      target.twin = false;
-      if (target.present) {
-        surest.push_back(&target);
-      }
-    }
-    std::sort(surest.begin(), surest.end(), [](const FusedTarget* a, const FusedTarget* b) {
-      const auto rank = [](const FusedTarget& one) {
-        return std::make_tuple(!one.confirmed, -one.track.existence_probability, one.id);
-      };
-      return rank(*a) < rank(*b);
-    });
-    for (std::size_t i = 0; i < surest.size(); ++i) {
-      for (std::size_t j = 0; j < i && !surest[i]->twin; ++j) {
-        surest[i]->twin = !surest[j]->twin && areTwins(surest[i]->track, surest[j]->track);
-      }
-    }
-  }
-
-  bool areTwins(const Track& a, const Track& b) const {
-    return !sharesSource(a, b) && (reaches(a.box, b.box, options_.twin_reach) ||
-                                   reaches(b.box, a.box, options_.twin_reach));
-  }
-
   bool isPublished(const FusedTarget& target) const {
     if (!target.present || target.twin ||
         target.track.existence_probability < options_.published_existence) {
@@ -252,6 +237,7 @@ class TrackFuser::State {
   std::vector<std::string> names_;              ///< of the sources, by number
   std::map<std::string, std::size_t> numbers_;  ///< of the sources
   TrackAssociation association_;
+  TrackCorrelations correlations_;
   FusedTargets targets_;
   TrackPaths paths_;
   std::optional<Stamp> stamp_;                ///< of the last call

@@ -16,6 +16,7 @@ struct TrackCombinationOptions {
 
   std::string method = kCovarianceIntersection;
   double most_correlation = 0.95;  ///< 1
+  double first_correlation = 0.4;  ///< 1
 
   void visit(OptionVisitor& visitor);
 };

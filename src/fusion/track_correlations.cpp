@@ -1,0 +1,29 @@
+#include "track_correlations.h"
+
+namespace datmo {
+
+void TrackCorrelations::step(double seconds) {
+  seconds_ = seconds;
+  before_ = std::move(present_);
+  present_.clear();
+}
+
+CrossCovariance TrackCorrelations::between(const Track& a, const Track& b,
+                                           const TrackPredictionOptions& prediction,
+                                           const TrackCombinationOptions& options) {
+  const auto member = [](const Track& track) {
+    return Member(track.sources.front().source, track.sources.front().id);
+  };
+  const auto key = std::make_pair(member(a), member(b));
+  const CovariancePair now{a.covariance, b.covariance};
+  const auto known = before_.find(key);
+  const CrossCovariance cross =
+      known == before_.end()
+          ? evenCrossCovariance(now, options.first_correlation)
+          : steppedCrossCovariance(known->second.cross, known->second.covariances, now,
+                                   motionOf(a, seconds_, prediction), options.most_correlation);
+  present_[key] = {cross, now};
+  return cross;
+}
+
+}  // namespace datmo
