@@ -78,6 +78,16 @@ class Tool(unittest.TestCase):
         self.assertEqual(late["tracks"], [["lidar", 7], ["stereo", 4]])
         self.assertIn("0.20 s late, lidar 7 and stereo 4 1.5 m apart", out)
 
+    def test_time_without_one_of_the_tracks_does_not_count(self):
+        """The stereo camera has it in the first two frames, and again after 0.6 s."""
+        members = ("lidar", 7), ("stereo", 4)
+        self.write([track(7, 20.0, 0.0, SPEED)], [track(4, 20.0, 0.0, SPEED, (0, 1, 7, 8, 9, 10))],
+                   [track(1, 20.0, 0.0, SPEED, sources=members, sources_from=9)])  # fmt: skip
+        both = self.score("--soon", "0.31")["objects"]["followed_by_all"]
+        self.assertEqual((both["frames"], both["passed_frames"], both["in_time"]), (6, 2, 1))
+        both = self.score("--soon", "0.29")["objects"]["followed_by_all"]
+        self.assertAlmostEqual(both["late_or_never"][0]["delay_s"], 0.3)
+
     def test_two_tracks_that_do_not_pass(self):
         """They stay two: a ghost in each frame, and nothing has passed."""
         tracks = [track(1, 20.0, 0.0, SPEED, sources=(("lidar", 7),)),
@@ -90,6 +100,7 @@ class Tool(unittest.TestCase):
         self.assertEqual(both["late_or_never"][0]["delay_s"], None)
         never = score["objects"]["visible_to_all"]["never"][0]
         self.assertEqual((never["id"], never["followed_by_all"]), (1, True))
+        self.assertEqual(never["followed_frames"], {"lidar": 11, "stereo": 11})
         self.assertEqual((score["ghosts"]["fused"]["ghosts"], score["ghosts"]["lidar"]["ghosts"]),
                          (11, 0))  # fmt: skip
 

@@ -51,12 +51,14 @@ class Together:
         self.label = label
         self.frames, self.passed_frames = 0, 0
         self.first, self.last, self._duration = None, None, 0  # ns
-        self.first_passed = None  # ns
+        self.delay = None  # s of this time until it first passed; None: it never did
+        self.followed_frames = {}  # source -> those in which it has a track of the source
         self.distances, self.ranges = [], []  # m: between the tracks; from the vehicle
         self.tracks = set()  # (source, id)
 
-    def add(self, stamp, has_passed_now, reach):
-        """reach: of the object, m from the vehicle."""
+    def add(self, stamp, has_passed_now, reach, followed_by):
+        """reach: of the object, m from the vehicle; followed_by: sources that have a track of it.
+        """
         if self.last is not None and stamp - self.last <= LONGEST_STEP * NANOSECONDS:
             self._duration += stamp - self.last
         self.first = stamp if self.first is None else self.first
@@ -64,26 +66,24 @@ class Together:
         self.frames += 1
         self.passed_frames += has_passed_now
         self.ranges.append(reach)
-        if has_passed_now and self.first_passed is None:
-            self.first_passed = stamp
+        for source in followed_by:
+            self.followed_frames[source] = self.followed_frames.get(source, 0) + 1
+        if has_passed_now and self.delay is None:
+            self.delay = self.seconds
 
     @property
     def seconds(self):
         """For how long in all, without gaps."""
         return self._duration / NANOSECONDS
 
-    def delay(self):
-        """s, until it first passed; None: it never did."""
-        if self.first_passed is None:
-            return None
-        return (self.first_passed - self.first) / NANOSECONDS
-
 
 def score_confirmed(fused, members, gate, soon, sensors):
     """What became of the true moving objects, as a dictionary that JSON can hold.
 
     fused: TrackFrames of the fused list; members: dictionary source -> those of its tracks; gate:
-    m; soon: s, in which an object has to pass; sensors: names of those of the sources in the truth.
+    m; soon: s with tracks of all sources, in which an object has to pass; sensors: names of the
+    sources' in the truth.
+
     At the stamp of a fused list an object has passed if a fused track with members of all sources
     is on it. Objects count that move and have to be found (Moment.required).
     """
@@ -106,13 +106,14 @@ def score_confirmed(fused, members, gate, soon, sensors):
         for column in np.flatnonzero(frame.moment.required):
             item = frame.moment.items[column]
             reach = float(np.hypot(*frame.moment.poses[column, :2]))
-            if len(on) == len(members) and all(item.id in tracks for _, tracks in on.values()):
+            followed_by = [source for source, (_, tracks) in on.items() if item.id in tracks]
+            news = frame.stamp, item.id in passed, reach, followed_by
+            if len(followed_by) == len(members):
                 entry = confirmed.setdefault(item.id, Together(item.label))
-                entry.add(frame.stamp, item.id in passed, reach)
+                entry.add(*news)
                 _add_tracks(entry, frame.stamp, item.id, on)
             if set(item.visible_to) >= set(sensors):
-                entry = visible.setdefault(item.id, Together(item.label))
-                entry.add(frame.stamp, item.id in passed, reach)
+                visible.setdefault(item.id, Together(item.label)).add(*news)
     return {
         "soon_s": soon,
         "followed_by_all": _summary(confirmed, soon),
@@ -162,9 +163,7 @@ def _visible_summary(visible, confirmed, soon):
     in_time = {
         number
         for number, item in visible.items()
-        if item.first_passed is not None
-        and number in confirmed
-        and _in_time(confirmed[number], soon)
+        if item.delay is not None and number in confirmed and _in_time(confirmed[number], soon)
     }
     long = {number: item for number, item in visible.items() if item.seconds >= LEAST_SEEN}
     return {
@@ -176,14 +175,14 @@ def _visible_summary(visible, confirmed, soon):
         "never": [
             {**_account(number, item), "followed_by_all": number in confirmed}
             for number, item in sorted(visible.items())
-            if item.first_passed is None
+            if item.delay is None
         ],
     }
 
 
 def _counts(objects, in_time):
     """in_time: ids of those that passed in time, and maybe of others."""
-    passed = sum(item.first_passed is not None for item in objects.values())
+    passed = sum(item.delay is not None for item in objects.values())
     in_time = len(in_time & set(objects))
     total = len(objects)
     return {
@@ -196,7 +195,7 @@ def _counts(objects, in_time):
 
 
 def _in_time(item, soon):
-    return item.first_passed is not None and item.delay() <= soon
+    return item.delay is not None and item.delay <= soon
 
 
 def _account(number, item):
@@ -208,7 +207,8 @@ def _account(number, item):
         "seconds": round(item.seconds, 3),
         "frames": item.frames,
         "passed_frames": item.passed_frames,
-        "delay_s": item.delay(),
+        "delay_s": item.delay,
+        "followed_frames": item.followed_frames,
         "range_m": [round(min(item.ranges), 1), round(max(item.ranges), 1)],
     }
     if item.distances:

@@ -27,7 +27,8 @@ ones, against /tracks/lidar and /tracks/stereo, which they are made of, and the 
                the region; second reading: a road user, moving or not (a parked car that is taken as
                moving is false in the first); pairs: both its tracks follow the same road user
   passing      of the true moving objects that have a track of both sensors at the same time, how
-               many pass, and how soon; the same of those that are visible to both sensors
+               many pass, and within how much of this time; the same of those that are visible to
+               both sensors
   false        tracks within the camera's view (sector and range, as published with /tracks/stereo)
                that match no true object in most of their frames, as score_run counts them: of each
                list; in sight: nothing that the camera saw is before them

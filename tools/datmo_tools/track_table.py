@@ -69,7 +69,10 @@ def _objects(item):
     lines += [f"  late or never: {_object_text(late)}" for late in both["late_or_never"]]
     lines += [
         f"  never: {_object_text(never)}"
-        + ("" if never["followed_by_all"] else ", never followed by both")
+        + "".join(
+            f", {count} with a track of {source}"
+            for source, count in never["followed_frames"].items()
+        )
         for never in (visible or {"never": []})["never"]
     ]
     return "\n".join(lines)
