@@ -99,7 +99,7 @@ void TrackCombinationOptions::visit(OptionVisitor& visitor) {
   visitor.number({"most_correlation", "1",
                   "of the errors of two trackers in bar_shalom_campo; at 1 the difference of "
                   "both would be known exactly"},
-                 most_correlation, {0.0, 0.999});
+                 most_correlation, {0.01, 0.999});
   visitor.number({"first_correlation", "1",
                   "the same when both have just been found to follow one object, as they have done "
                   "for a while (Chen, Kirubarajan and Bar-Shalom 2003: about 0.4)"},

@@ -1,6 +1,6 @@
 #include "joint_axes.h"
 
-#include <cmath>
+#include <algorithm>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -9,44 +9,42 @@ namespace datmo {
 
 namespace {
 
-using Solver = Eigen::SelfAdjointEigenSolver<TrackCovariance>;
+/// Of the sum, that either has along any axis: rounding leaves no digits of less.
+constexpr double kLeastShare = 1e-12;
 
-/// Of the sum, that either has along any axis.
-constexpr double kLeastShare = 1e-9;
-
-/// Added to a correlation matrix that rounding has left without a Cholesky factor, and by how much
-/// more where that does not suffice.
+/// Added to the variances of both, of which each sum is 1, so that the sum's Cholesky factor has
+/// digits; and by how much more where that does not suffice.
 constexpr double kFirstRepair = 1e-12;
 constexpr double kNextRepair = 10.0;
 
-/// Of a correlation matrix.
-TrackCovariance lowerFactor(TrackCovariance matrix) {
-  Eigen::LLT<TrackCovariance> factors(matrix);
-  for (double repair = kFirstRepair; factors.info() != Eigen::Success && repair < kTrackState;
-       repair *= kNextRepair) {
-    matrix.diagonal().array() += repair;
-    factors.compute(matrix);
-  }
-  return factors.matrixL();
-}
+/// A cross-covariance whose correlations have a larger norm is nonsense, and only its directions
+/// count: singular values of less than the root of the rounding of the largest would be lost.
+constexpr double kMostNorm = 10.0;
+
+using Solver = Eigen::SelfAdjointEigenSolver<TrackCovariance>;
 
 }  // namespace
 
 JointAxes::JointAxes(const TrackCovariance& a, const TrackCovariance& b) {
-  const TrackCovariance sum = a + b;
-  const TrackState scale = sum.diagonal().cwiseSqrt();
+  const TrackState scale = (a + b).diagonal().cwiseSqrt();
   const TrackState to_scale = scale.cwiseInverse();
-  const TrackCovariance lower = lowerFactor(to_scale.asDiagonal() * sum * to_scale.asDiagonal());
-  const TrackCovariance half = lower.triangularView<Eigen::Lower>().solve(
-      TrackCovariance(to_scale.asDiagonal() * a * to_scale.asDiagonal()));
-  const TrackCovariance whitened =
-      lower.triangularView<Eigen::Lower>().solve(TrackCovariance(half.transpose()));
+  TrackCovariance part = to_scale.asDiagonal() * a * to_scale.asDiagonal();
+  TrackCovariance sum = part + to_scale.asDiagonal() * b * to_scale.asDiagonal();
+  Eigen::LLT<TrackCovariance> factors;
+  double repair = kFirstRepair;
+  do {
+    part.diagonal().array() += repair;
+    sum.diagonal().array() += 2.0 * repair;
+    factors.compute(sum);
+    repair *= kNextRepair;
+  } while (factors.info() != Eigen::Success && repair < kTrackState);
+  const TrackCovariance half = factors.matrixL().solve(part);
+  const TrackCovariance whitened = factors.matrixL().solve(half.transpose());
   const Solver solver(0.5 * (whitened + whitened.transpose()));
   share = solver.eigenvalues().cwiseMax(kLeastShare).cwiseMin(1.0 - kLeastShare);
-  axes = scale.asDiagonal() * lower * solver.eigenvectors();
-  inverse =
-      lower.transpose().triangularView<Eigen::Upper>().solve(solver.eigenvectors()).transpose() *
-      to_scale.asDiagonal();
+  axes = scale.asDiagonal() * (factors.matrixL() * solver.eigenvectors());
+  const TrackCovariance turned = factors.matrixU().solve(solver.eigenvectors());
+  inverse = turned.transpose() * to_scale.asDiagonal();
 }
 
 TrackCovariance JointAxes::covariance(const TrackCovariance& in_axes) const {
@@ -63,16 +61,16 @@ TrackCovariance JointAxes::limitedCross(const TrackCovariance& cross,
   const TrackState std_a = share.cwiseSqrt();
   const TrackState std_b = (1.0 - share.array()).sqrt();
   const TrackCovariance in_axes = inverse * cross * inverse.transpose();
-  const TrackCovariance correlations =
+  TrackCovariance correlations =
       std_a.cwiseInverse().asDiagonal() * in_axes * std_b.cwiseInverse().asDiagonal();
-  // The root of the sum of squares is no less than the largest singular value.
-  if (correlations.squaredNorm() <= most_correlation * most_correlation) {
-    return in_axes;
+  const double norm = correlations.norm();
+  if (norm <= most_correlation) {
+    return in_axes;  // no singular value is more
   }
+  correlations *= std::min(1.0, kMostNorm / norm);
   const Solver solver(correlations.transpose() * correlations);
-  const TrackState kept =
-      (most_correlation /
-       solver.eigenvalues().array().max(most_correlation * most_correlation).sqrt());
+  const TrackState singular = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  const TrackState kept = most_correlation * singular.cwiseMax(most_correlation).cwiseInverse();
   return std_a.asDiagonal() * correlations * solver.eigenvectors() * kept.asDiagonal() *
          solver.eigenvectors().transpose() * std_b.asDiagonal();
 }

@@ -17,8 +17,8 @@ struct JointAxes {
   TrackCovariance covariance(const TrackState& diagonal) const;
 
   /// A cross-covariance, told in these axes, with no correlation between any part of the one error
-  /// and any of the other above `most_correlation` (0 to 1). Below 1 that makes both errors' joint
-  /// covariance positive definite.
+  /// and any of the other above `most_correlation` (more than 0). Below 1 that makes both errors'
+  /// joint covariance positive definite.
   TrackCovariance limitedCross(const TrackCovariance& cross, double most_correlation) const;
 
   TrackCovariance axes;

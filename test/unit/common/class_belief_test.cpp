@@ -81,5 +81,19 @@ TEST(ClassBelief, ThatIsNotCertainRefusesNone) {
   EXPECT_TRUE(belief.compatible(ObjectClass::kPedestrian));
 }
 
+TEST(ClassBelief, TwoBeliefsAreJoinedByBayes) {
+  const ClassProbabilities a = {0.1, 0.1, 0.1, 0.6, 0.1};
+  const ClassProbabilities b = {0.1, 0.1, 0.4, 0.3, 0.1};
+  // Products 0.01, 0.01, 0.04, 0.18, 0.01, of 0.25; 0.95 of them, and 0.01 for each class.
+  const ClassProbabilities both = jointBelief(a, b);
+  EXPECT_NEAR(both[3], 0.694, kTolerance);
+  EXPECT_NEAR(both[2], 0.162, kTolerance);
+  EXPECT_EQ(both, jointBelief(b, a));
+  // Nothing is known from contradictions.
+  for (const double value : jointBelief({1.0, 0.0, 0.0, 0.0, 0.0}, {0.0, 1.0, 0.0, 0.0, 0.0})) {
+    EXPECT_DOUBLE_EQ(value, 0.2);
+  }
+}
+
 }  // namespace
 }  // namespace datmo
