@@ -246,6 +246,7 @@ class TrackFuser::State {
 
 TrackFuser::TrackFuser(const TrackFuserOptions& options) {
   checkOptions(options);
+  options.check();
   state_ = std::make_unique<State>(options);
 }
 

@@ -53,6 +53,17 @@ void TrackFuserOptions::visit(OptionVisitor& visitor) {
   visitor.group("visibility", [&] { visibility.visit(visitor); });
 }
 
+void TrackFuserOptions::check() const {
+  if (sources.count(beyond) > 0) {
+    return;
+  }
+  std::string names;
+  for (const auto& [name, source] : sources) {
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  throw OptionError("beyond = \"" + beyond + "\": expected one of the sources (" + names + ")");
+}
+
 std::vector<std::string> TrackFuserOptions::sourcesInUse() const {
   std::vector<std::string> names;
   for (const auto& [name, source] : sources) {

@@ -49,6 +49,9 @@ struct TrackFuserOptions {
 
   void visit(OptionVisitor& visitor);
 
+  /// Throws OptionError where `beyond` is none of the sources.
+  void check() const;
+
   /// Names of the sources that are in use.
   std::vector<std::string> sourcesInUse() const;
 };

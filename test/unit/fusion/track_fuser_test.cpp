@@ -1,0 +1,261 @@
+#include "datmo_fusion/fusion/track_fuser.h"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fusion_tracks.h"
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/tracking/track_check.h"
+
+namespace datmo {
+namespace {
+
+Stamp at(double seconds) { return Stamp::fromSeconds(100.0 + seconds); }
+
+/// All around the sensor in the origin, to this range.
+ViewFan allAround(double range) {
+  ViewFan fan;
+  fan.first_bearing = -kPi;
+  fan.beam_spacing = degrees(1.0);
+  fan.sure_range = range;
+  fan.range = range;
+  fan.reach.assign(360, range);
+  return fan;
+}
+
+SourceTracks heard(const std::string& source, double seconds, std::vector<Track> tracks,
+                   double range) {
+  auto list = std::make_shared<TrackList>();
+  list->stamp = at(seconds);
+  list->tracks = std::move(tracks);
+  list->views = {allAround(range)};
+  return {source, list};
+}
+
+/// The scanner sees to 80 m, the camera to 40 m.
+SourceTracks lidar(double seconds, std::vector<Track> tracks) {
+  return heard("lidar", seconds, std::move(tracks), 80.0);
+}
+SourceTracks stereo(double seconds, std::vector<Track> tracks) {
+  return heard("stereo", seconds, std::move(tracks), 40.0);
+}
+
+/// Drives along y = 0 and is at x when it is 0 s.
+Track driving(double x, double seconds, const std::string& source, std::uint32_t id = 1) {
+  return carTrack(x + 5.0 * seconds, 0.0, 5.0, 0.0, source, id);
+}
+
+std::vector<std::uint32_t> idsOf(const TrackFusionResult& result) {
+  std::vector<std::uint32_t> ids;
+  for (const Track& track : result.list.tracks) {
+    ids.push_back(track.id);
+  }
+  return ids;
+}
+
+TrackFuserOptions withScheme(const std::string& scheme) {
+  TrackFuserOptions options;
+  options.scheme = scheme;
+  return options;
+}
+
+/// Published at each of these steps of 0.1 s, when both sources see a car at 20 m, the scanner one
+/// at 60 m and a ghost at 15 m, and the camera a ghost at 30 m.
+TrackFusionResult afterTwoSeconds(const std::string& scheme) {
+  TrackFuser fuser(withScheme(scheme));
+  TrackFusionResult result;
+  for (int i = 0; i <= 20; ++i) {
+    const double t = 0.1 * i;
+    result = fuser.fuse(
+        at(t),
+        {lidar(t, {driving(-20.0, t, "lidar", 1), driving(50.0, t, "lidar", 2),
+                   carTrack(0.0, 15.0, 1.0, 0.0, "lidar", 3)}),
+         stereo(t, {driving(-19.7, t, "stereo", 1), carTrack(0.0, -30.0, 1.0, 0.0, "stereo", 2)})});
+  }
+  return result;
+}
+
+TEST(TrackFuserTest, TheThesissListIsWhatBothSeeAndTheScannersBeyond) {
+  const TrackFusionResult result = afterTwoSeconds(TrackFuserOptions::kFusedAndBeyond);
+  ASSERT_EQ(result.list.tracks.size(), 2U);
+  const Track& both = result.list.tracks[0];
+  EXPECT_EQ(both.sensors, (std::vector<std::string>{"lidar", "stereo"}));
+  ASSERT_EQ(both.sources.size(), 2U);
+  EXPECT_GT(both.existence_probability, 0.95);
+  EXPECT_NEAR(both.state.x(), -9.85, 0.05);
+  EXPECT_TRUE(isValid(both));
+  const Track& beyond = result.list.tracks[1];
+  EXPECT_EQ(beyond.sensors, std::vector<std::string>{"lidar"});
+  EXPECT_NEAR(beyond.state.x(), 60.0, 1e-6);
+  EXPECT_EQ(result.counts.fused, 1U);
+  EXPECT_EQ(result.counts.published, 2U);
+  EXPECT_EQ(result.list.views.size(), 2U);
+}
+
+TEST(TrackFuserTest, ConfirmedByAllIsWhatBothSee) {
+  const TrackFusionResult result = afterTwoSeconds(TrackFuserOptions::kConfirmedByAll);
+  ASSERT_EQ(result.list.tracks.size(), 1U);
+  EXPECT_EQ(result.list.tracks[0].sources.size(), 2U);
+}
+
+TEST(TrackFuserTest, UnionIsAllTaggedWithWhoSeesThem) {
+  const TrackFusionResult result = afterTwoSeconds(TrackFuserOptions::kUnion);
+  ASSERT_EQ(result.list.tracks.size(), 4U);
+  std::multiset<std::string> tags;
+  for (const Track& track : result.list.tracks) {
+    std::string tag;
+    for (const std::string& sensor : track.sensors) {
+      tag += sensor;
+    }
+    tags.insert(tag);
+    // What the other one would have seen is less likely, what both see likelier.
+    const bool contested = tag == "stereo" || track.state.y() > 10.0;
+    EXPECT_EQ(track.existence_probability < 0.9 - 1e-9, contested) << tag;
+  }
+  EXPECT_EQ(tags, (std::multiset<std::string>{"lidar", "lidar", "lidarstereo", "stereo"}));
+}
+
+TEST(TrackFuserTest, TheSchemeMayChangeWhileItRuns) {
+  TrackFuser fuser(withScheme(TrackFuserOptions::kConfirmedByAll));
+  const auto step = [&](double t) {
+    return fuser.fuse(at(t), {lidar(t, {driving(0.0, t, "lidar")})});
+  };
+  EXPECT_TRUE(step(0.0).list.tracks.empty());
+  fuser.setScheme(TrackFuserOptions::kUnion);
+  EXPECT_EQ(step(0.1).list.tracks.size(), 1U);
+  EXPECT_THROW(fuser.setScheme("all"), OptionError);
+}
+
+TEST(TrackFuserTest, TheIdStaysWhileOneSensorLosesTheObjectAndFindsItAgain) {
+  TrackFuser fuser{TrackFuserOptions()};
+  std::set<std::uint32_t> ids;
+  for (int i = 0; i <= 60; ++i) {
+    const double t = 0.1 * i;
+    std::vector<Track> by_lidar;
+    std::vector<Track> by_stereo;
+    if (t < 2.0 || t > 3.0) {
+      by_lidar = {driving(-15.0, t, "lidar", t < 2.0 ? 1 : 2)};
+    }
+    if (t < 4.0 || t > 5.0) {
+      by_stereo = {driving(-14.8, t, "stereo", t < 4.0 ? 1 : 2)};
+    }
+    const auto published = idsOf(fuser.fuse(at(t), {lidar(t, by_lidar), stereo(t, by_stereo)}));
+    ASSERT_EQ(published.size(), 1U) << t;
+    ids.insert(published[0]);
+  }
+  EXPECT_EQ(ids.size(), 1U);
+}
+
+TEST(TrackFuserTest, WhatAllLoseForAMomentIsKnownAgain) {
+  TrackFuserOptions options;
+  options.memory = 1.5;
+  const auto idsAcross = [&](double gap) {
+    TrackFuser fuser(options);
+    std::set<std::uint32_t> ids;
+    for (int i = 0; i <= 50; ++i) {
+      const double t = 0.1 * i;
+      std::vector<Track> tracks;
+      if (t < 1.0 || t > 1.0 + gap) {
+        tracks = {driving(50.0, t, "lidar", t < 1.0 ? 1 : 2)};
+      }
+      for (const std::uint32_t id : idsOf(fuser.fuse(at(t), {lidar(t, tracks), stereo(t, {})}))) {
+        ids.insert(id);
+      }
+    }
+    return ids.size();
+  };
+  EXPECT_EQ(idsAcross(1.0), 1U);
+  EXPECT_EQ(idsAcross(2.0), 2U);
+}
+
+TEST(TrackFuserTest, OneObjectIsNeverTwo) {
+  // What the sensors say of its velocity contradicts itself for too long for them to be one.
+  TrackFuser fuser(withScheme(TrackFuserOptions::kUnion));
+  for (int i = 0; i <= 20; ++i) {
+    const double t = 0.1 * i;
+    const auto result = fuser.fuse(at(t), {lidar(t, {carTrack(10.0, 0.0, 8.0, 0.0, "lidar")}),
+                                           stereo(t, {carTrack(10.5, 0.0, -8.0, 0.0, "stereo")})});
+    EXPECT_EQ(result.counts.fused, 0U);
+    EXPECT_EQ(result.list.tracks.size(), 1U);
+  }
+}
+
+TEST(TrackFuserTest, ASilentSourceIsNotMissed) {
+  TrackFuser fuser{TrackFuserOptions()};
+  for (int i = 0; i <= 40; ++i) {
+    const double t = 0.1 * i;
+    std::vector<SourceTracks> lists = {lidar(t, {driving(0.0, t, "lidar")})};
+    const bool silent = t > 2.0;
+    if (!silent) {
+      lists.push_back(stereo(t, {}));
+    }
+    const TrackFusionResult result = fuser.fuse(at(t), lists);
+    if (t > 1.0 && t < 2.0) {
+      EXPECT_TRUE(result.list.tracks.empty()) << t;
+    }
+    if (t > 3.0) {
+      EXPECT_EQ(result.list.tracks.size(), 1U) << t;
+    }
+  }
+}
+
+TEST(TrackFuserTest, ListsOfOtherTimesAreBroughtToTheTimeOfFusion) {
+  TrackFuser fuser{TrackFuserOptions()};
+  for (int i = 0; i <= 20; ++i) {
+    const double t = 0.1 * i;
+    // Each list of the camera comes half a second late, and just every second time.
+    const double heard_at = 0.2 * static_cast<int>(i / 2) - 0.5;
+    const TrackFusionResult result =
+        fuser.fuse(at(t), {lidar(t, {driving(0.0, t, "lidar")}),
+                           stereo(heard_at, {driving(0.0, heard_at, "stereo")})});
+    ASSERT_EQ(result.list.tracks.size(), 1U) << t;
+    EXPECT_EQ(result.list.tracks[0].sources.size(), 2U) << t;
+    EXPECT_NEAR(result.list.tracks[0].state.x(), 5.0 * t, 1e-3);
+  }
+}
+
+TEST(TrackFuserTest, BadTracksAreCountedAndTheOthersGoOn) {
+  TrackFuserOptions options = withScheme(TrackFuserOptions::kUnion);
+  options.most_tracks = 2;
+  TrackFuser fuser(options);
+  Track bad = driving(0.0, 0.0, "lidar", 7);
+  bad.state.x() = std::numeric_limits<double>::quiet_NaN();
+  Track weak = carTrack(0.0, 30.0, 1.0, 0.0, "lidar", 8);
+  weak.existence_probability = 0.6;
+  const auto result = fuser.fuse(
+      at(0.0),
+      {lidar(0.0, {bad, driving(0.0, 0.0, "lidar", 1), weak, driving(60.0, 0.0, "lidar", 2)})});
+  EXPECT_EQ(result.counts.rejected, 1U);
+  EXPECT_EQ(result.counts.refused, 1U);
+  EXPECT_EQ(result.list.tracks.size(), 2U);
+}
+
+TEST(TrackFuserTest, AfterAResetNoIdIsUsedAgain) {
+  TrackFuser fuser(withScheme(TrackFuserOptions::kUnion));
+  const auto step = [&](double t) {
+    return idsOf(fuser.fuse(at(t), {lidar(t, {driving(0.0, 0.0, "lidar")})})).at(0);
+  };
+  const std::uint32_t before = step(5.0);
+  EXPECT_EQ(step(5.1), before);
+  fuser.reset();
+  EXPECT_GT(step(0.0), before);
+}
+
+TEST(TrackFuserTest, UnknownSourcesAndBadOptionsAreRefused) {
+  TrackFuser fuser{TrackFuserOptions()};
+  EXPECT_THROW(fuser.fuse(at(0.0), {heard("radar", 0.0, {}, 80.0)}), std::out_of_range);
+  EXPECT_THROW(TrackFuser{withScheme("some")}, OptionError);
+  TrackFuserOptions options;
+  options.beyond = "radar";
+  EXPECT_THROW(TrackFuser{options}, OptionError);
+}
+
+}  // namespace
+}  // namespace datmo
