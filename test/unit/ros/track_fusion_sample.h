@@ -1,0 +1,148 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "monitor_counts.h"
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/track_fusion_stage.h"
+
+namespace datmo {
+
+inline constexpr double kTrackSpeed = 10.0;  // m/s, along x
+
+/// Where the car of these tests is at a time (s), m.
+inline double carAt(double seconds) { return kTrackSpeed * (seconds - 100.0); }
+
+/// A car that drives along x, as a tracker of this sensor knows it; `left`: m.
+inline Track carTrack(const std::string& sensor, std::uint32_t id, double seconds,
+                      double left = 0.0) {
+  Track track;
+  track.id = id;
+  track.state << carAt(seconds), left, kTrackSpeed, 0.0, 0.0, 0.0;
+  track.covariance.diagonal() << 0.04, 0.04, 0.25, 0.25, 0.25, 0.25;
+  track.mode_probabilities = {0.96, 0.01, 0.01, 0.01, 0.01};
+  track.box = {{carAt(seconds), left, 0.0}, 4.0, 1.8};
+  track.heading_variance = 0.01;
+  track.moving = true;
+  track.class_probabilities = {0.025, 0.025, 0.025, 0.9, 0.025};
+  track.existence_probability = 0.99;
+  track.age = 2.0;
+  track.hits = 20;
+  track.sensors = {sensor};
+  for (int i = 10; i >= 0; --i) {
+    const double then = seconds - 0.1 * i;
+    track.history.push_back({Stamp::fromSeconds(then), Pose2(carAt(then), left, 0.0)});
+  }
+  return track;
+}
+
+/// A sensor's list on its way.
+struct Sent {
+  std::string source;
+  double stamp = 0.0;  ///< s
+};
+
+/// Lists in the order in which they arrive, by the time at which they do (s).
+using Arrivals = std::multimap<double, Sent>;
+
+/// A sensor's lists from one time to before another (s), which arrive as much later.
+inline Arrivals listsOf(const std::string& source, double from, double to, double period,
+                        double delay = 0.0) {
+  Arrivals lists;
+  for (int i = 0; from + period * i < to - 1e-6; ++i) {
+    const double stamp = from + period * i;
+    lists.emplace(stamp + delay, Sent{source, stamp});
+  }
+  return lists;
+}
+
+class TrackFusionStageTest : public testing::Test {
+ protected:
+  static constexpr std::uint32_t kLidarsId = 11;
+  static constexpr std::uint32_t kStereosId = 22;
+
+  static std::uint32_t idOf(const std::string& source) {
+    return source == "lidar" ? kLidarsId : kStereosId;
+  }
+
+  static TrackArray list(double seconds, const std::vector<Track>& tracks) {
+    return toMessage(TrackList{Stamp::fromSeconds(seconds), tracks, {}}, "map");
+  }
+
+  /// The car as a source knows it.
+  static TrackArray carOf(const std::string& source, double seconds) {
+    return list(seconds, {carTrack(source, idOf(source), seconds)});
+  }
+
+  void take(const std::string& source, double seconds) { take(source, carOf(source, seconds)); }
+  void take(const std::string& source, const TrackArray& tracks) {
+    stage_.takeTracks(source, tracks, toStamp(tracks.header.stamp));
+  }
+
+  TrackArrayPtr nextAt(double seconds) { return stage_.next(Stamp::fromSeconds(seconds)); }
+
+  TrackArrayPtr bothAt(double seconds) {
+    take("lidar", seconds);
+    take("stereo", seconds);
+    return nextAt(seconds);
+  }
+
+  /// All fused lists that these lead to, by the clock of their arrival.
+  std::vector<TrackArrayPtr> play(Arrivals lists, const Arrivals& others = {}) {
+    lists.insert(others.begin(), others.end());
+    std::vector<TrackArrayPtr> fused;
+    for (const auto& [at, sent] : lists) {
+      collect(at, fused);
+      stage_.takeTracks(sent.source, carOf(sent.source, sent.stamp), Stamp::fromSeconds(at));
+      collect(at, fused);
+    }
+    return fused;
+  }
+
+  std::uint64_t drops(const std::string& reason) const { return samples::drops(monitor_, reason); }
+  std::uint64_t warnings(const std::string& reason) const {
+    return samples::warnings(monitor_, reason);
+  }
+  double figure(const std::string& name) const { return monitor_.figures().at(name); }
+
+  StageMonitor monitor_{"track_fusion"};
+  TrackFusionStageOptions options_;
+  TrackFusionStage stage_{options_, monitor_};
+
+ private:
+  void collect(double at, std::vector<TrackArrayPtr>& fused) {
+    while (const TrackArrayPtr one = nextAt(at)) {
+      fused.push_back(one);
+    }
+  }
+};
+
+/// The sources of the one track of a list, by name, and their ids; none if it has none or several.
+inline std::map<std::string, std::uint32_t> membersOf(const TrackArray& list) {
+  std::map<std::string, std::uint32_t> members;
+  if (list.tracks.size() == 1) {
+    for (const SourceTrackMessage& source : list.tracks[0].sources) {
+      members[source.source] = source.id;
+    }
+  }
+  return members;
+}
+
+/// Of all tracks of these lists.
+inline std::set<std::uint32_t> idsOf(const std::vector<TrackArrayPtr>& lists) {
+  std::set<std::uint32_t> ids;
+  for (const TrackArrayPtr& list : lists) {
+    for (const TrackMessage& track : list->tracks) {
+      ids.insert(track.id);
+    }
+  }
+  return ids;
+}
+
+}  // namespace datmo
