@@ -88,6 +88,21 @@ class Tool(unittest.TestCase):
         both = self.score("--soon", "0.29")["objects"]["followed_by_all"]
         self.assertAlmostEqual(both["late_or_never"][0]["delay_s"], 0.3)
 
+    def test_track_that_goes_over_to_another_object(self):
+        """Two slow cars, 1.5 m apart; the stereo camera's track is on the first of them for 1 s,
+        then on the other for 2 s. It was never of both, though within the gate of both."""
+        cars = [car(1, 20.0, 0.0, 0.1), car(4, 20.0, 3.5, 0.1)]
+        lidar = [track(7, 20.0, 0.0, frames=range(31)), track(8, 20.0, 3.5, frames=range(31))]
+
+        def stereo(frame):
+            return track(4, 20.0, 0.8 if frame < 10 else 2.7, frames=range(31))(frame)
+
+        lists = {"/tracks/lidar": lidar, "/tracks/stereo": [stereo], "/tracks": []}
+        write_run(self.bag, lists, cars, [view()], frames=31)
+        both = self.score()["objects"]["followed_by_all"]
+        self.assertEqual([(item["id"], item["frames"]) for item in both["late_or_never"]],
+                         [(1, 10), (4, 21)])  # fmt: skip
+
     def test_two_tracks_that_do_not_pass(self):
         """They stay two: a ghost in each frame, and nothing has passed."""
         tracks = [track(1, 20.0, 0.0, SPEED, sources=(("lidar", 7),)),

@@ -1,6 +1,6 @@
 """True moving objects that several sensors' trackers follow: do they pass the test of all?"""
 
-from typing import NamedTuple
+import bisect
 
 import numpy as np
 
@@ -14,34 +14,41 @@ LONGEST_STEP = 0.5
 # No tracker can confirm in time what is visible for less, s: as score_run's truth/least_time_seen.
 LEAST_SEEN = 1.0
 
+# About the present, in which a track shows what it follows, ns: the noise of a few lists evens out,
+# and a track that goes over to another object is soon on that.
+FOLLOW_HALF_WINDOW = NANOSECONDS // 2
 
-class Followers(NamedTuple):
-    """The tracks of one list, and which true moving object each of them is on."""
 
-    gate: float  # m
-    lives: dict  # track id -> id of the object that it follows all in all, or None
+class Followers:
+    """The tracks of one list, and which true moving object each of them is on at any time.
+
+    A track is on the object that it follows about this time, or, where that is not within the gate,
+    on the nearest one: of two objects side by side, now one and now the other may be nearer.
+    """
+
+    def __init__(self, frames, gate):
+        """frames: TrackFrames; gate: m."""
+        self._gate = gate
+        self._followed = {}  # (track id, stamp) -> object id, or None
+        for number, sightings in sightings_of(frames).items():
+            stamps = [frame.stamp for frame, _ in sightings]
+            for stamp in stamps:
+                begin = bisect.bisect_left(stamps, stamp - FOLLOW_HALF_WINDOW)
+                end = bisect.bisect_right(stamps, stamp + FOLLOW_HALF_WINDOW)
+                about = follow(sightings[begin:end], gate, movers)
+                self._followed[number, stamp] = about.object
 
     def on(self, frame):
-        """Dictionary object id -> tracks (SeenTrack) on it in a TrackFrame: each on the one that it
-        follows all in all, or, where that is not within the gate, on the nearest one."""
+        """Dictionary object id -> tracks (SeenTrack) on it in a TrackFrame of these."""
         objects = {}
         for row, track in enumerate(frame.tracks):
-            near = frame.near(row, self.gate, frame.moment.movers)
+            near = frame.near(row, self._gate, frame.moment.movers)
             if len(near):
                 ids = frame.moment.ids[near].tolist()
                 nearest = ids[int(np.argmin(frame.distances[row, near]))]
-                followed = self.lives[track.id]
+                followed = self._followed[track.id, frame.stamp]
                 objects.setdefault(followed if followed in ids else nearest, []).append(track)
         return objects
-
-
-def followers(frames, gate):
-    """Followers of some TrackFrames of one list."""
-    lives = {
-        number: follow(sightings, gate, movers).object
-        for number, sightings in sightings_of(frames).items()
-    }
-    return Followers(gate, lives)
 
 
 class Together:
@@ -88,8 +95,8 @@ def score_confirmed(fused, members, gate, soon, sensors):
     is on it. Objects count that move and have to be found (Moment.required).
     """
     lists = {source: Newest(frames) for source, frames in members.items()}
-    of_source = {source: followers(frames, gate) for source, frames in members.items()}
-    of_fused = followers(fused, gate)
+    of_source = {source: Followers(frames, gate) for source, frames in members.items()}
+    of_fused = Followers(fused, gate)
     confirmed, visible = {}, {}
     for frame in fused:
         passed = {
