@@ -20,6 +20,9 @@ constexpr std::uint32_t kBeams = 101;  // 0.01 rad apart
 
 class TrackerViewsTest : public testing::Test {
  protected:
+  explicit TrackerViewsTest(const TrackerStageOptions& options = TrackerStageOptions())
+      : stage_(options, buffer_, monitor_) {}
+
   /// One scan ahead, with a wall near by or none, or with a field that is not known.
   enum class Scanner { kFree, kBlocked, kSilent };
   enum class Camera { kNone, kFree, kBlocked };
@@ -41,14 +44,18 @@ class TrackerViewsTest : public testing::Test {
     stage_.takeSplitScan(toMessage(scan(scanner), "base_link", "map"));
     stage_.takeObjects(boost::make_shared<ObjectArray>(toMessage(list, "base_link")), list.stamp);
     const TrackArrayPtr tracks = stage_.next(list.stamp);
+    views_ = tracks ? tracks->views.size() : 0;
     return tracks ? tracks->tracks.size() : 0;
   }
 
-  void follow() {
+  /// Of the last step's message.
+  std::size_t views() const { return views_; }
+
+  void follow(const std::vector<std::string>& seen_by = {"lidar", "camera"}) {
     for (int i = 0; i < 40; ++i) {
-      step(Scanner::kFree, Camera::kFree, {"lidar", "camera"});
+      step(Scanner::kFree, Camera::kFree, seen_by);
     }
-    ASSERT_EQ(step(Scanner::kFree, Camera::kFree, {"lidar", "camera"}), 1U);
+    ASSERT_EQ(step(Scanner::kFree, Camera::kFree, seen_by), 1U);
   }
 
   /// Steps until no track is published, of 40 at most.
@@ -100,7 +107,8 @@ class TrackerViewsTest : public testing::Test {
 
   TransformBuffer buffer_{1.0};
   StageMonitor monitor_{"tracker"};
-  TrackerStage stage_{TrackerStageOptions(), buffer_, monitor_};
+  TrackerStage stage_;
+  std::size_t views_ = 0;
   double time_ = samples::kStart;
 };
 
@@ -137,6 +145,49 @@ TEST_F(TrackerViewsTest, AScanThatDoesNotTellItsFieldDoesNotDoubtWhatTheCameraCa
   follow();
   const double silence = TrackerOptions().published_silence;
   EXPECT_NEAR(kPeriod * lifeWithout(Scanner::kSilent, Camera::kBlocked), silence, kPeriod);
+}
+
+TEST_F(TrackerViewsTest, TheTracksTellWhatTheirSensorsCouldSee) {
+  step(Scanner::kFree, Camera::kFree, {});
+  EXPECT_EQ(views(), 2U);
+  step(Scanner::kFree, Camera::kNone, {});
+  EXPECT_EQ(views(), 1U);
+  step(Scanner::kSilent, Camera::kNone, {});
+  EXPECT_EQ(views(), 0U);
+}
+
+/// It follows the camera's objects alone.
+class CameraTrackerTest : public TrackerViewsTest {
+ protected:
+  CameraTrackerTest() : TrackerViewsTest(options()) {}
+
+ private:
+  static TrackerStageOptions options() {
+    TrackerStageOptions options;
+    options.scan_view = false;
+    return options;
+  }
+};
+
+TEST_F(CameraTrackerTest, HiddenFromTheCameraItGoesOnWhateverTheScannerSees) {
+  follow({"camera"});
+  const double silence = TrackerOptions().published_silence;
+  EXPECT_NEAR(kPeriod * lifeWithout(Scanner::kFree, Camera::kBlocked), silence, kPeriod);
+}
+
+TEST_F(CameraTrackerTest, WhatTheCameraWouldSeeEnds) {
+  follow({"camera"});
+  EXPECT_LE(lifeWithout(Scanner::kFree, Camera::kFree), 10);
+}
+
+TEST_F(CameraTrackerTest, TheTracksTellTheCamerasViewAlone) {
+  step(Scanner::kFree, Camera::kFree, {});
+  EXPECT_EQ(views(), 1U);
+}
+
+TEST_F(TrackerViewsTest, HiddenFromTheCameraItEndsWhereTheScannerWouldSeeIt) {
+  follow({"camera"});
+  EXPECT_LE(lifeWithout(Scanner::kFree, Camera::kBlocked), 10);
 }
 
 }  // namespace
