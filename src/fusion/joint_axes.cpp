@@ -23,6 +23,23 @@ constexpr double kMostNorm = 10.0;
 
 using Solver = Eigen::SelfAdjointEigenSolver<TrackCovariance>;
 
+/// By forward substitution. Eigen's solves many right sides at once with the kernels of large
+/// matrices, which takes several times as long.
+TrackCovariance inverseOfLower(const TrackCovariance& lower) {
+  TrackCovariance inverse = TrackCovariance::Zero();
+  for (int column = 0; column < kTrackState; ++column) {
+    inverse(column, column) = 1.0 / lower(column, column);
+    for (int row = column + 1; row < kTrackState; ++row) {
+      double sum = 0.0;
+      for (int i = column; i < row; ++i) {
+        sum += lower(row, i) * inverse(i, column);
+      }
+      inverse(row, column) = -sum / lower(row, row);
+    }
+  }
+  return inverse;
+}
+
 }  // namespace
 
 JointAxes::JointAxes(const TrackCovariance& a, const TrackCovariance& b) {
@@ -38,13 +55,13 @@ JointAxes::JointAxes(const TrackCovariance& a, const TrackCovariance& b) {
     factors.compute(sum);
     repair *= kNextRepair;
   } while (factors.info() != Eigen::Success && repair < kTrackState);
-  const TrackCovariance half = factors.matrixL().solve(part);
-  const TrackCovariance whitened = factors.matrixL().solve(half.transpose());
+  const TrackCovariance lower = factors.matrixL();
+  const TrackCovariance whitening = inverseOfLower(lower);
+  const TrackCovariance whitened = whitening * part * whitening.transpose();
   const Solver solver(0.5 * (whitened + whitened.transpose()));
   share = solver.eigenvalues().cwiseMax(kLeastShare).cwiseMin(1.0 - kLeastShare);
-  axes = scale.asDiagonal() * (factors.matrixL() * solver.eigenvectors());
-  const TrackCovariance turned = factors.matrixU().solve(solver.eigenvectors());
-  inverse = turned.transpose() * to_scale.asDiagonal();
+  axes = scale.asDiagonal() * (lower * solver.eigenvectors());
+  inverse = solver.eigenvectors().transpose() * whitening * to_scale.asDiagonal();
 }
 
 TrackCovariance JointAxes::covariance(const TrackCovariance& in_axes) const {

@@ -143,30 +143,26 @@ std::vector<SourceTrack> joinedSources(const Track& a, const Track& b) {
 
 }  // namespace
 
-Track combined(const Track& a, const Track& b, const CrossCovariance& cross,
+Track combined(Track a, const Track& b, const CrossCovariance& cross,
                const TrackCombinationOptions& options) {
   const StateEstimate estimate =
       fusedState({a.state, a.covariance}, {b.state, b.covariance}, cross, options);
   const Heading heading = fusedHeading(a, b, estimate.mean);
-  Track result;
-  result.id = a.id;
-  result.existence_probability = a.existence_probability;
-  result.age = a.age;
-  result.history = a.history;
-  result.state = estimate.mean;
-  result.covariance = estimate.covariance;
-  result.box = fusedBox(a, b, Pose2(estimate.mean.head<2>(), heading.value));
-  result.heading_variance = heading.variance;
-  result.height = std::max(a.height, b.height);
-  result.mode_probabilities = averagedModes(a.mode_probabilities, b.mode_probabilities);
-  result.yaw_rate = 0.5 * (a.yaw_rate + b.yaw_rate);
-  result.moving = a.moving || b.moving;
-  result.class_probabilities = jointBelief(a.class_probabilities, b.class_probabilities);
-  result.since_update = std::min(a.since_update, b.since_update);
-  result.hits = saturatedSum(a.hits, b.hits);
-  result.sensors = sortedUnion(a.sensors, b.sensors);
-  result.sources = joinedSources(a, b);
-  return result;
+  a.box = fusedBox(a, b, Pose2(estimate.mean.head<2>(), heading.value));
+  a.heading_variance = heading.variance;
+  a.state = estimate.mean;
+  a.covariance = estimate.covariance;
+  a.height = std::max(a.height, b.height);
+  a.mode_probabilities = averagedModes(a.mode_probabilities, b.mode_probabilities);
+  a.yaw_rate = 0.5 * (a.yaw_rate + b.yaw_rate);
+  a.moving = a.moving || b.moving;
+  a.class_probabilities = jointBelief(a.class_probabilities, b.class_probabilities);
+  a.since_update = std::min(a.since_update, b.since_update);
+  a.hits = saturatedSum(a.hits, b.hits);
+  a.sensors = sortedUnion(a.sensors, b.sensors);
+  a.sources = joinedSources(a, b);
+  a.objects.clear();
+  return a;
 }
 
 }  // namespace datmo

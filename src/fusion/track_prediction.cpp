@@ -43,25 +43,23 @@ LinearMotion motionOf(const Track& track, double seconds, const TrackPredictionO
   return result;
 }
 
-Track predicted(const Track& track, double seconds, const TrackPredictionOptions& options) {
-  Track result = track;
+Track predicted(Track track, double seconds, const TrackPredictionOptions& options) {
   if (seconds == 0.0) {
-    return result;
+    return track;
   }
   const StateEstimate estimate =
       predict({track.state, track.covariance}, motionOf(track, seconds, options));
-  result.state = estimate.mean;
-  result.covariance = estimate.covariance;
+  track.state = estimate.mean;
+  track.covariance = estimate.covariance;
   const double turn = track.moving ? track.yaw_rate * seconds : 0.0;
-  result.box.centre = Pose2(estimate.mean.head<2>(), track.box.centre.heading() + turn);
+  track.box.centre = Pose2(estimate.mean.head<2>(), track.box.centre.heading() + turn);
   // No less sure than knowing nothing, nor surer than before.
-  result.heading_variance =
-      std::max(track.heading_variance,
-               std::min(kUnknownHeadingVariance,
-                        track.heading_variance + options.heading_drift * std::abs(seconds)));
-  result.age = std::max(0.0, track.age + seconds);
-  result.since_update = std::max(0.0, track.since_update + seconds);
-  return result;
+  const double drifted = track.heading_variance + options.heading_drift * std::abs(seconds);
+  track.heading_variance =
+      std::max(track.heading_variance, std::min(kUnknownHeadingVariance, drifted));
+  track.age = std::max(0.0, track.age + seconds);
+  track.since_update = std::max(0.0, track.since_update + seconds);
+  return track;
 }
 
 }  // namespace datmo

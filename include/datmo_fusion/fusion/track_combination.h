@@ -48,7 +48,7 @@ StateEstimate fusedState(const StateEstimate& a, const StateEstimate& b,
 /// are those of both, the time since the last object the shorter one; `objects` there are none.
 ///
 /// Id, existence, age and history are a's; all else is symmetric. Both must be valid.
-Track combined(const Track& a, const Track& b, const CrossCovariance& cross,
+Track combined(Track a, const Track& b, const CrossCovariance& cross,
                const TrackCombinationOptions& options);
 
 }  // namespace datmo

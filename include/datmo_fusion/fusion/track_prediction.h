@@ -25,6 +25,6 @@ LinearMotion motionOf(const Track& track, double seconds, const TrackPredictionO
 /// sure. Age and the time since the last object change with the time, down to 0; all else stays.
 ///
 /// The track must be valid, and `seconds` finite.
-Track predicted(const Track& track, double seconds, const TrackPredictionOptions& options);
+Track predicted(Track track, double seconds, const TrackPredictionOptions& options);
 
 }  // namespace datmo
