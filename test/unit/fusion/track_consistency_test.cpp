@@ -185,7 +185,7 @@ INSTANTIATE_TEST_SUITE_P(Trackers, TrackConsistencyTest,
                                            ConsistencyCase{"other_rate", {0.3}, {0.3, 2}, 0.0},
                                            ConsistencyCase{
                                                "other_noise_and_rate", {0.5}, {0.2, 2}, 0.4}),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace datmo
