@@ -1,55 +1,14 @@
 // The bag runner with object-level fusion: the small drive with a stereo camera that sees a wall,
 // and with another system's objects.
-#include <filesystem>
-
 #include "stereo_drive.h"
 #include <gtest/gtest.h>
-
-#include "datmo_fusion/ros/messages.h"
 
 namespace datmo {
 namespace {
 
-/// 8 m ahead of the vehicle, wherever that is.
-ObjectArray pedestrianAt(Stamp stamp) {
-  ObjectMessage pedestrian;
-  pedestrian.pose.position.x = 8.0;
-  pedestrian.pose.orientation.w = 1.0;
-  pedestrian.size.x = 0.5;
-  pedestrian.size.y = 0.5;
-  pedestrian.position_covariance = {0.1, 0.0, 0.0, 0.1};
-  pedestrian.classification = ObjectMessage::CLASS_PEDESTRIAN;
-  pedestrian.class_probability = 0.9F;
-  ObjectArray list;
-  list.header.stamp = toTime(stamp);
-  list.header.frame_id = "base_link";
-  list.objects = {pedestrian};
-  return list;
-}
-
 class ObjectFusedRun : public StereoRunBag {
  protected:
   ObjectFusedRun() { arguments_.object_fusion = true; }
-
-  /// What another system says of each scan's time.
-  void appendObjects(const std::string& topic) const {
-    rosbag::Bag bag(arguments_.input, rosbag::bagmode::Append);
-    for (int i = 0; i < kScans; ++i) {
-      const Stamp stamp = kStart + i * kPeriod;
-      bag.write(topic, toTime(stamp), pedestrianAt(stamp));
-    }
-  }
-
-  /// All messages of a topic of the output.
-  template <typename Message>
-  std::vector<Message> listsOf(const std::string& topic) const {
-    rosbag::Bag bag(arguments_.output);
-    std::vector<Message> lists;
-    for (const auto& message : rosbag::View(bag, rosbag::TopicQuery(topic))) {
-      lists.push_back(*message.instantiate<Message>());
-    }
-    return lists;
-  }
 
   /// How many lists of fused objects have a pedestrian that `sensor` alone saw.
   std::size_t listsWithPedestrianOf(const std::string& sensor) const {
@@ -109,7 +68,7 @@ TEST_F(ObjectFusedRun, ImagesLeadToTheSameAsTheirClouds) {
 
 TEST_F(ObjectFusedRun, SameBagGivesTheSameBytes) {
   appendClouds();
-  appendObjects("/objects/radar");
+  appendEachScan("/objects/radar", pedestrianAt);
   writeConfig("{object_fusion: {sources: {radar: {use: true}}}}");
   arguments_.low_level_fusion = true;
   run();
@@ -119,7 +78,7 @@ TEST_F(ObjectFusedRun, SameBagGivesTheSameBytes) {
 }
 
 TEST_F(ObjectFusedRun, AnotherSystemsStereoObjectsServeWhereThereAreNoClouds) {
-  appendObjects("/objects/stereo");
+  appendEachScan("/objects/stereo", pedestrianAt);
   const std::string table = run();
   expectObjects(0);
   EXPECT_EQ(listsWithPedestrianOf("stereo"), kScanCount);
@@ -127,7 +86,7 @@ TEST_F(ObjectFusedRun, AnotherSystemsStereoObjectsServeWhereThereAreNoClouds) {
 }
 
 TEST_F(ObjectFusedRun, CloudsComeBeforeRecordedObjects) {
-  appendObjects("/objects/stereo");
+  appendEachScan("/objects/stereo", pedestrianAt);
   appendClouds();
   run();
   expectObjects(kCloudCount);
@@ -136,7 +95,7 @@ TEST_F(ObjectFusedRun, CloudsComeBeforeRecordedObjects) {
 
 TEST_F(ObjectFusedRun, ObjectsOfOtherSourcesComeFromTheBag) {
   appendClouds();
-  appendObjects("/objects/radar");
+  appendEachScan("/objects/radar", pedestrianAt);
   writeConfig("{object_fusion: {sources: {radar: {use: true}}}}");
   run();
   expectObjects(kCloudCount);
@@ -145,7 +104,7 @@ TEST_F(ObjectFusedRun, ObjectsOfOtherSourcesComeFromTheBag) {
 }
 
 TEST_F(ObjectFusedRun, TracksAreThoseOfTheFusedObjects) {
-  appendObjects("/objects/stereo");
+  appendEachScan("/objects/stereo", pedestrianAt);
   run();
   const auto isTrackedByStereo = [this] {
     const auto tracks = listsOf<TrackArray>("/tracks").back().tracks;

@@ -171,7 +171,7 @@ TEST(RunBagArguments, AreReadInAnyOrder) {
   EXPECT_EQ(arguments.config, "c.yaml");
   EXPECT_TRUE(arguments.quiet);
   EXPECT_FALSE(arguments.with_truth);
-  EXPECT_EQ(arguments.last_stage, LastStage::kTracker);
+  EXPECT_EQ(arguments.last_stage, LastStage::kEnd);
   EXPECT_EQ(arguments.inputTopic("scan"), "/front");
   EXPECT_EQ(arguments.inputTopic("odometry"), "/odometry");
 }

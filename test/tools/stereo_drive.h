@@ -2,10 +2,13 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "run_bag/stereo_images.h"
 #include "run_bag_drive.h"
 #include "stereo_pair_sample.h"
+
+#include "datmo_fusion/ros/messages.h"
 
 namespace datmo {
 
@@ -24,6 +27,23 @@ inline geometry_msgs::TransformStamped cameraMount(const std::string& frame) {
   mount.transform.rotation.z = -0.5;
   mount.transform.rotation.w = 0.5;
   return mount;
+}
+
+/// What another system says: a pedestrian 8 m ahead of the vehicle, wherever that is.
+inline ObjectArray pedestrianAt(Stamp stamp) {
+  ObjectMessage pedestrian;
+  pedestrian.pose.position.x = 8.0;
+  pedestrian.pose.orientation.w = 1.0;
+  pedestrian.size.x = 0.5;
+  pedestrian.size.y = 0.5;
+  pedestrian.position_covariance = {0.1, 0.0, 0.0, 0.1};
+  pedestrian.classification = ObjectMessage::CLASS_PEDESTRIAN;
+  pedestrian.class_probability = 0.9F;
+  ObjectArray list;
+  list.header.stamp = toTime(stamp);
+  list.header.frame_id = "base_link";
+  list.objects = {pedestrian};
+  return list;
 }
 
 /// A drive with a stereo camera that sees a wall.
@@ -68,6 +88,27 @@ class StereoRunBag : public RunBag {
       bag.write("/stereo/points2", toTime(stamp),
                 images.takeInfo(StereoSide::kRight, sample_.info(stamp, true)));
     });
+  }
+
+  /// What another system says of each scan's time: `message(stamp)`.
+  template <typename Message>
+  void appendEachScan(const std::string& topic, const Message& message) const {
+    rosbag::Bag bag(arguments_.input, rosbag::bagmode::Append);
+    for (int i = 0; i < kScans; ++i) {
+      const Stamp stamp = kStart + i * kPeriod;
+      bag.write(topic, toTime(stamp), message(stamp));
+    }
+  }
+
+  /// All messages of a topic of the output.
+  template <typename Message>
+  std::vector<Message> listsOf(const std::string& topic) const {
+    rosbag::Bag bag(arguments_.output);
+    std::vector<Message> lists;
+    for (const auto& message : rosbag::View(bag, rosbag::TopicQuery(topic))) {
+      lists.push_back(*message.template instantiate<Message>());
+    }
+    return lists;
   }
 
   StereoPairSample sample_;
