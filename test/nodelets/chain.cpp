@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include <dynamic_reconfigure/Reconfigure.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <ros/callback_queue.h>
@@ -85,6 +86,16 @@ std::string Listener::diagnosticMessage(const std::string& nodelet) const {
   return found == diagnostics_.end() ? "" : found->second.message;
 }
 
+std::string askForChoice(const std::string& nodelet, const std::string& choice,
+                         const std::string& value) {
+  dynamic_reconfigure::Reconfigure call;
+  call.request.config.strs.resize(1);
+  call.request.config.strs[0].name = choice;
+  call.request.config.strs[0].value = value;
+  const bool answered = ros::service::call("/" + nodelet + "/set_parameters", call);
+  return answered && !call.response.config.strs.empty() ? call.response.config.strs[0].value : "";
+}
+
 Chain::Chain()
     : clock_(node_.advertise<rosgraph_msgs::Clock>("/clock", kQueue, true)),
       scan_(node_.advertise<sensor_msgs::LaserScan>("scan", kQueue)),
@@ -131,6 +142,16 @@ bool Chain::step(double seconds) {
   sendScan(scan);
   return waitFor(
       [&] { return !tracks.empty() && tracks.back()->header.stamp == scan.header.stamp; });
+}
+
+const TrackMessage* Chain::otherCarIn(const TrackArray& list) const {
+  constexpr double kNear = 1.5;  // m
+  const Box2 truth = world_.otherCar(list.header.stamp.toSec() - World::kStart);
+  const auto found =
+      std::find_if(list.tracks.begin(), list.tracks.end(), [&](const TrackMessage& track) {
+        return truth.distanceTo({track.pose.position.x, track.pose.position.y}) < kNear;
+      });
+  return found == list.tracks.end() ? nullptr : &*found;
 }
 
 bool Chain::drive(double from, double to) {

@@ -52,6 +52,11 @@ class Listener {
   std::map<std::string, diagnostic_msgs::DiagnosticStatus> diagnostics_;  ///< by nodelet
 };
 
+/// What the dynamic_reconfigure server of a nodelet keeps after `value` was asked for of one of its
+/// choices.
+std::string askForChoice(const std::string& nodelet, const std::string& choice,
+                         const std::string& value);
+
 /// Sends the nodelets a drive through a World, with the clock.
 class Chain : public Listener {
  public:
@@ -75,6 +80,9 @@ class Chain : public Listener {
 
   /// A step of the drive: motion and scan; waits until the tracks of that scan are there.
   bool step(double seconds);
+
+  /// The other car in a list of tracks; null if it is not there.
+  const TrackMessage* otherCarIn(const TrackArray& list) const;
 
   /// Steps at 16 Hz from one time of the drive to another. False if one did not come through.
   bool drive(double from, double to);

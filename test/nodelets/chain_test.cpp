@@ -90,15 +90,12 @@ TEST_F(ChainTest, TheMapHasWallsAndFreeSpace) {
 }
 
 TEST_F(ChainTest, TheOtherCarIsTracked) {
-  const Box2 truth = world_.otherCar(endOfDrive());
-  const auto& tracks = chain_->tracks.back()->tracks;
-  const auto found = std::find_if(tracks.begin(), tracks.end(), [&](const TrackMessage& track) {
-    return truth.distanceTo(fromMessage(track.pose).position()) < 1.0;
-  });
-  ASSERT_NE(found, tracks.end()) << tracks.size() << " tracks, none there";
-  EXPECT_TRUE(found->moving);
-  EXPECT_NEAR(found->velocity.x, 5.0, 2.0);
-  EXPECT_NEAR(found->velocity.y, -4.0, 2.0);
+  const TrackMessage* car = chain_->otherCarIn(*chain_->tracks.back());
+  ASSERT_TRUE(car) << chain_->tracks.back()->tracks.size() << " tracks, none there";
+  EXPECT_LT(world_.otherCar(endOfDrive()).distanceTo(fromMessage(car->pose).position()), 1.0);
+  EXPECT_TRUE(car->moving);
+  EXPECT_NEAR(car->velocity.x, 5.0, 2.0);
+  EXPECT_NEAR(car->velocity.y, -4.0, 2.0);
   const auto& objects = chain_->objects.back()->objects;
   EXPECT_TRUE(std::any_of(objects.begin(), objects.end(), [](const ObjectMessage& object) {
     return object.dynamic_state == ObjectMessage::STATE_MOVING;

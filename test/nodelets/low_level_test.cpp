@@ -5,8 +5,7 @@
 #include <functional>
 #include <limits>
 
-#include "chain.h"
-#include <dynamic_reconfigure/Reconfigure.h>
+#include "stereo_drive.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/ros/grid_conversion.h"
@@ -18,7 +17,6 @@ namespace datmo {
 namespace {
 
 constexpr std::uint32_t kQueue = 1000;
-constexpr double kStep = 1.0 / 16.0;  // s
 
 /// What a painted line on the road makes: echoes where nothing stands (m ahead of the scanner).
 constexpr float kPaintAhead = 6.1F;
@@ -26,6 +24,8 @@ constexpr float kPaintAhead = 6.1F;
 /// What the low level makes of both sensors.
 class LowLevel : public StereoChain {
  public:
+  static constexpr char kFusion[] = "grid_fusion";
+
   LowLevel() {
     for (const std::string name : {"lidar", "stereo", "fused", "conflict"}) {
       subscribers_.push_back(node_.subscribe<nav_msgs::OccupancyGrid>(
@@ -50,6 +50,8 @@ class LowLevel : public StereoChain {
   bool isAt(const std::string& name, const ros::Time& stamp) {
     return !grids[name].empty() && grids[name].back()->header.stamp == stamp;
   }
+
+  bool isFusedAt(const ros::Time& stamp) { return isAt("fused", stamp); }
 
   std::map<std::string, std::vector<nav_msgs::OccupancyGridConstPtr>> grids;  ///< by name
 
@@ -83,35 +85,13 @@ bool isOccupiedAt(const nav_msgs::OccupancyGrid& message, const Box2& box) {
   return found;
 }
 
-class LowLevelTest : public testing::Test {
+class LowLevelTest : public StereoDriveTest<LowLevel> {
  protected:
-  static void SetUpTestSuite() {
-    chain_ = new LowLevel();
-    ASSERT_TRUE(chain_->waitForNodelets());
-  }
+  /// One step of the drive with both sensors, while there is paint on the road.
+  void stepOnPaint() { step(painted(world_.scan(now_))); }
 
-  static void TearDownTestSuite() { delete chain_; }
-
-  /// One step of the drive with both sensors; waits for its fused grid. The scan shows paint if
-  /// `with_paint`.
-  void step(bool with_paint = false) {
-    chain_->sendMotion(now_);
-    const auto scan = world_.scan(now_);
-    chain_->sendScan(with_paint ? painted(scan) : scan);
-    chain_->sendCloud(world_.cloud(now_));
-    ASSERT_TRUE(chain_->waitFor([&] { return chain_->isAt("fused", scan.header.stamp); }))
-        << now_ << " s: " << chain_->diagnosticMessage("grid_fusion");
-    now_ += kStep;
-  }
-
-  void driveOn(double seconds) {
-    for (const double end = now_ + seconds - 0.5 * kStep; now_ < end;) {
-      ASSERT_NO_FATAL_FAILURE(step());
-    }
-  }
-
-  /// A step with the scanner alone; waits for the lidar's grid.
-  void stepWithoutStereo() {
+  /// A step with the scanner alone; waits for its grid.
+  void stepToLidarsGrid() {
     chain_->sendMotion(now_);
     const auto scan = world_.scan(now_);
     chain_->sendScan(scan);
@@ -136,30 +116,17 @@ class LowLevelTest : public testing::Test {
   static Point2 paint() { return {3.6 + kPaintAhead, 0.1}; }
   static Point2 behindTheVehicle() { return {-10.0, -11.0}; }
 
-  /// What the server keeps after `rule` was asked for.
   static std::string askForRule(const std::string& rule) {
-    dynamic_reconfigure::Reconfigure call;
-    call.request.config.strs.resize(1);
-    call.request.config.strs[0].name = "rule";
-    call.request.config.strs[0].value = rule;
-    EXPECT_TRUE(ros::service::call("/grid_fusion/set_parameters", call));
-    return call.response.config.strs.empty() ? "" : call.response.config.strs[0].value;
+    return askForChoice("grid_fusion", "rule", rule);
   }
-
-  static LowLevel* chain_;
-  static double now_;  // s, of the drive
-  World world_;
 };
-
-LowLevel* LowLevelTest::chain_ = nullptr;
-double LowLevelTest::now_ = 0.0;
 
 TEST_F(LowLevelTest, CloudsBeforeTheirMountIsKnownAreCounted) {
   chain_->sendCameraInfo();
   expectCounted("dropped: missing_transform", [](auto&) {});
   chain_->mountSensors();
   now_ += kStep;
-  ASSERT_TRUE(chain_->prepareMotion(now_));
+  ASSERT_NO_FATAL_FAILURE(start());
 }
 
 TEST_F(LowLevelTest, BothSensorsLeadToAFusedGridForEachScan) {
@@ -185,21 +152,17 @@ TEST_F(LowLevelTest, TheFusedGridLeadsToTracks) {
     return !chain_->tracks.empty() && chain_->tracks.back()->header.stamp == last;
   })) << chain_->diagnosticMessage("grid_slam")
       << chain_->diagnosticMessage("tracker");
-  const Box2 truth = world_.otherCar(last.toSec() - World::kStart);
-  const auto& tracks = chain_->tracks.back()->tracks;
-  const auto found = std::find_if(tracks.begin(), tracks.end(), [&](const TrackMessage& track) {
-    return truth.distanceTo(fromMessage(track.pose).position()) < 1.5;
-  });
-  ASSERT_NE(found, tracks.end()) << tracks.size() << " tracks, none there";
-  EXPECT_TRUE(found->moving);
+  const TrackMessage* car = chain_->otherCarIn(*chain_->tracks.back());
+  ASSERT_TRUE(car) << chain_->tracks.back()->tracks.size() << " tracks, none there";
+  EXPECT_TRUE(car->moving);
 }
 
 TEST_F(LowLevelTest, TheRuleChangesWhileItRuns) {
   EXPECT_EQ(askForRule("maximum"), "maximum");
-  ASSERT_NO_FATAL_FAILURE(step(true));
+  ASSERT_NO_FATAL_FAILURE(stepOnPaint());
   EXPECT_TRUE(isOccupied(percentAt(*chain_->grids["fused"].back(), paint())));
   EXPECT_EQ(askForRule("priority"), "priority");
-  ASSERT_NO_FATAL_FAILURE(step(true));
+  ASSERT_NO_FATAL_FAILURE(stepOnPaint());
   EXPECT_TRUE(isFree(percentAt(*chain_->grids["fused"].back(), paint())))
       << "stereo sees that there is nothing";
   EXPECT_EQ(askForRule("by luck"), "priority") << "it stays";
@@ -213,7 +176,7 @@ TEST_F(LowLevelTest, TheServersParametersAreThoseOfTheNodelet) {
 
 TEST_F(LowLevelTest, ConflictIsWhereTheSensorsContradictEachOther) {
   askForRule("dempster_shafer");
-  ASSERT_NO_FATAL_FAILURE(step(true));
+  ASSERT_NO_FATAL_FAILURE(stepOnPaint());
   const ros::Time stamp = chain_->grids["fused"].back()->header.stamp;
   ASSERT_TRUE(chain_->waitFor([&] { return chain_->isAt("conflict", stamp); }));
   const auto& conflict = *chain_->grids["conflict"].back();
@@ -224,7 +187,7 @@ TEST_F(LowLevelTest, ConflictIsWhereTheSensorsContradictEachOther) {
 
 TEST_F(LowLevelTest, WithoutStereoTheFusedGridsGoOnWithTheScanner) {
   for (int i = 0; i < 20; ++i) {
-    ASSERT_NO_FATAL_FAILURE(stepWithoutStereo());
+    ASSERT_NO_FATAL_FAILURE(stepToLidarsGrid());
   }
   const ros::Time last = chain_->grids["lidar"].back()->header.stamp;
   EXPECT_TRUE(chain_->waitFor([&] { return chain_->isAt("fused", last); }))
@@ -267,7 +230,7 @@ TEST_F(LowLevelTest, GridsOfAnotherWindowAreRefusedWithBothSizes) {
 
 TEST_F(LowLevelTest, ALoopedBag) {
   now_ = 0.0;
-  ASSERT_TRUE(chain_->prepareMotion(now_));
+  ASSERT_NO_FATAL_FAILURE(start());
   ASSERT_TRUE(chain_->waitFor(
       [] { return chain_->diagnostic("grid_fusion", "warned: clock_restart") > 0.0; }));
   ASSERT_NO_FATAL_FAILURE(driveOn(1.0));

@@ -6,20 +6,20 @@
 #include <string>
 #include <vector>
 
-#include "chain.h"
+#include "source_lists.h"
 #include <gtest/gtest.h>
 
-#include <rosgraph_msgs/Clock.h>
+#include <nav_msgs/Odometry.h>
 
 #include "datmo_fusion/ros/message_conversion.h"
-#include "datmo_fusion/ros/stamp_check.h"
 
 namespace datmo {
 namespace {
 
-constexpr std::uint32_t kQueue = 1000;
-constexpr double kStart = 1000.0;      // s, stamp of the start
-constexpr double kStep = 1.0 / 16.0;   // s
+using ObjectLists = SourceLists<ObjectArray>;
+
+constexpr double kStart = ObjectLists::kStart;
+constexpr double kStep = ObjectLists::kStep;
 constexpr double kStereoLater = 0.02;  // s
 constexpr double kSpeed = 10.0;        // m/s, of the vehicle
 constexpr double kCarAhead = 20.0;     // m, of a car that is as fast as the vehicle
@@ -48,30 +48,20 @@ ObjectArray listOf(const std::string& sensor, double seconds) {
 }
 
 /// The sensors' lists and the odometry for the nodelet, and what it makes of them.
-class Lists : public Listener {
+class Lists : public ObjectLists {
  public:
-  Lists() {
-    fused_ = node_.subscribe<ObjectArray>(
-        "objects/fused", kQueue,
-        [this](const ObjectArrayConstPtr& message) { fused.push_back(message); });
-  }
+  Lists() : ObjectLists("objects", "object_fusion") {}
 
   bool waitForNodelet() {
-    sendMotion(-kStep);
-    return waitFor([this] {
-      return lidar_.getNumSubscribers() >= 1 && stereo_.getNumSubscribers() >= 1 &&
-             odometry_.getNumSubscribers() >= 1 && fused_.getNumPublishers() >= 1 &&
-             !diagnosticMessage("object_fusion").empty();
-    });
+    return ObjectLists::waitForNodelet() &&
+           waitFor([this] { return odometry_.getNumSubscribers() >= 1; });
   }
 
   /// Clock and odometry at a time of the drive.
   void sendMotion(double seconds) {
-    rosgraph_msgs::Clock clock;
-    clock.clock = ros::Time(kStart + seconds);
-    clock_.publish(clock);
+    setClock(seconds);
     nav_msgs::Odometry odometry;
-    odometry.header.stamp = clock.clock;
+    odometry.header.stamp = ros::Time(kStart + seconds);
     odometry.header.frame_id = "odom";
     odometry.child_frame_id = "base_link";
     odometry.pose.pose.orientation.w = 1.0;
@@ -79,24 +69,9 @@ class Lists : public Listener {
     odometry_.publish(odometry);
   }
 
-  void sendLidar(const ObjectArray& list) { lidar_.publish(list); }
-  void sendStereo(const ObjectArray& list) { stereo_.publish(list); }
-
-  /// Whether the newest fused list is of this time of the drive.
-  bool isAt(double seconds) const {
-    return !fused.empty() &&
-           toStamp(fused.back()->header.stamp) == Stamp::fromSeconds(kStart + seconds);
-  }
-
-  std::vector<ObjectArrayConstPtr> fused;
-
  private:
   ros::NodeHandle node_;
-  ros::Subscriber fused_;
-  ros::Publisher clock_ = node_.advertise<rosgraph_msgs::Clock>("/clock", kQueue, true);
-  ros::Publisher odometry_ = node_.advertise<nav_msgs::Odometry>("odometry", kQueue, true);
-  ros::Publisher lidar_ = node_.advertise<ObjectArray>("objects/lidar", kQueue);
-  ros::Publisher stereo_ = node_.advertise<ObjectArray>("objects/stereo", kQueue);
+  ros::Publisher odometry_ = node_.advertise<nav_msgs::Odometry>("odometry", 1, true);
 };
 
 using Sensors = std::vector<std::string>;
@@ -106,6 +81,7 @@ class ObjectFusionTest : public testing::Test {
   static void SetUpTestSuite() {
     lists_ = new Lists();
     ASSERT_TRUE(lists_->waitForNodelet());
+    lists_->sendMotion(-kStep);
     ASSERT_TRUE(lists_->waitFor([] { return diagnostic("odometry received") >= 1.0; }));
   }
 
@@ -117,7 +93,7 @@ class ObjectFusionTest : public testing::Test {
     lists_->sendLidar(listOf("lidar", now_));
     lists_->sendStereo(listOf("stereo", now_ + kStereoLater));
     ASSERT_TRUE(lists_->waitFor([] { return lists_->isAt(now_); }))
-        << now_ << " s: " << lists_->diagnosticMessage("object_fusion");
+        << now_ << " s: " << lists_->diagnosticMessage();
     now_ += kStep;
   }
 
@@ -141,12 +117,9 @@ class ObjectFusionTest : public testing::Test {
     return {};
   }
 
-  static double diagnostic(const std::string& key) {
-    return lists_->diagnostic("object_fusion", key);
-  }
-
+  static double diagnostic(const std::string& key) { return lists_->diagnostic(key); }
   static bool waitForCount(const std::string& key, double count) {
-    return lists_->waitFor([&] { return diagnostic(key) == count; });
+    return lists_->waitForCount(key, count);
   }
 
   static Lists* lists_;
@@ -192,9 +165,8 @@ TEST_F(ObjectFusionTest, WithoutStereoTheScannerGoesOn) {
   EXPECT_TRUE(waitForCount("fused without stereo", 20.0));
   EXPECT_TRUE(waitForCount("warned: silent_source", 1.0));
   EXPECT_TRUE(lists_->waitFor([] {
-    return lists_->diagnosticMessage("object_fusion").find("no objects/stereo") !=
-           std::string::npos;
-  })) << lists_->diagnosticMessage("object_fusion");
+    return lists_->diagnosticMessage().find("no objects/stereo") != std::string::npos;
+  })) << lists_->diagnosticMessage();
 }
 
 TEST_F(ObjectFusionTest, WhenStereoIsBackItIsFusedAgain) {

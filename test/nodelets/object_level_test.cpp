@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "chain.h"
+#include "stereo_drive.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/ros/message_conversion.h"
@@ -13,13 +13,14 @@ namespace datmo {
 namespace {
 
 constexpr std::uint32_t kQueue = 1000;
-constexpr double kStep = 1.0 / 16.0;  // s
 
 const std::vector<std::string> kBothSensors = {"lidar", "stereo"};
 
 /// What the object level makes of both sensors.
 class ObjectLevel : public StereoChain {
  public:
+  static constexpr char kFusion[] = "object_fusion";
+
   /// Until all nodelets listen and report.
   bool waitForNodelets() {
     return StereoChain::waitForNodelets({"stereo_objects", "object_fusion", "tracker"}) &&
@@ -49,48 +50,8 @@ class ObjectLevel : public StereoChain {
   ros::Publisher external_ = node_.advertise<ObjectArray>("objects/stereo", kQueue);
 };
 
-class ObjectLevelTest : public testing::Test {
+class ObjectLevelTest : public StereoDriveTest<ObjectLevel> {
  protected:
-  static void SetUpTestSuite() {
-    chain_ = new ObjectLevel();
-    ASSERT_TRUE(chain_->waitForNodelets());
-  }
-
-  static void TearDownTestSuite() { delete chain_; }
-
-  /// One step of the drive with both sensors; waits for its fused objects.
-  void step() {
-    chain_->sendMotion(now_);
-    const auto scan = world_.scan(now_);
-    chain_->sendCloud(world_.cloud(now_));
-    chain_->sendScan(scan);
-    ASSERT_TRUE(chain_->waitFor([&] { return chain_->isFusedAt(scan.header.stamp); }))
-        << now_ << " s: " << chain_->diagnosticMessage("object_fusion");
-    now_ += kStep;
-  }
-
-  void driveOn(double seconds) {
-    for (const double end = now_ + seconds - 0.5 * kStep; now_ < end;) {
-      ASSERT_NO_FATAL_FAILURE(step());
-    }
-  }
-
-  /// A step with the scanner alone; waits for the lidar's objects of some steps before, since
-  /// fusion waits for a camera that is not known to be silent.
-  void stepWithoutStereo() {
-    const ros::Duration wait(3.0 * kStep);
-    chain_->sendMotion(now_);
-    const auto scan = world_.scan(now_);
-    chain_->sendScan(scan);
-    ASSERT_TRUE(chain_->waitFor([&] { return newestObjects() + wait >= scan.header.stamp; }))
-        << now_ << " s";
-    now_ += kStep;
-  }
-
-  static ros::Time newestObjects() {
-    return chain_->objects.empty() ? ros::Time() : chain_->objects.back()->header.stamp;
-  }
-
   /// The other car in a list of objects; null if it is not there.
   const ObjectMessage* otherCarIn(const ObjectArray& list) const {
     const double then = list.header.stamp.toSec() - World::kStart;
@@ -102,19 +63,12 @@ class ObjectLevelTest : public testing::Test {
         });
     return found == list.objects.end() ? nullptr : &*found;
   }
-
-  static ObjectLevel* chain_;
-  static double now_;  // s, of the drive
-  World world_;
 };
-
-ObjectLevel* ObjectLevelTest::chain_ = nullptr;
-double ObjectLevelTest::now_ = 0.0;
 
 TEST_F(ObjectLevelTest, BothSensorsLeadToFusedObjectsForEachScan) {
   chain_->sendCameraInfo();
   chain_->mountSensors();
-  ASSERT_TRUE(chain_->prepareMotion(now_));
+  ASSERT_NO_FATAL_FAILURE(start());
   ASSERT_NO_FATAL_FAILURE(driveOn(2.0));
   EXPECT_EQ(chain_->fused.size(), chain_->objects.size());
   EXPECT_EQ(chain_->fused.back()->header.frame_id, "base_link");
@@ -138,14 +92,10 @@ TEST_F(ObjectLevelTest, FusedObjectsLeadToTracks) {
   ASSERT_TRUE(chain_->waitFor([&] {
     return !chain_->tracks.empty() && chain_->tracks.back()->header.stamp == last;
   })) << chain_->diagnosticMessage("tracker");
-  const Box2 truth = world_.otherCar(last.toSec() - World::kStart);
-  const auto& tracks = chain_->tracks.back()->tracks;
-  const auto found = std::find_if(tracks.begin(), tracks.end(), [&](const TrackMessage& track) {
-    return truth.distanceTo(fromMessage(track.pose).position()) < 1.5;
-  });
-  ASSERT_NE(found, tracks.end()) << tracks.size() << " tracks, none there";
-  EXPECT_TRUE(found->moving);
-  EXPECT_EQ(found->sensors, kBothSensors);
+  const TrackMessage* car = chain_->otherCarIn(*chain_->tracks.back());
+  ASSERT_TRUE(car) << chain_->tracks.back()->tracks.size() << " tracks, none there";
+  EXPECT_TRUE(car->moving);
+  EXPECT_EQ(car->sensors, kBothSensors);
 }
 
 TEST_F(ObjectLevelTest, WithoutStereoTheFusedObjectsGoOnWithTheScanner) {
@@ -205,7 +155,7 @@ TEST_F(ObjectLevelTest, AnotherSystemMayTellTheStereoObjects) {
 
 TEST_F(ObjectLevelTest, ALoopedBag) {
   now_ = 0.0;
-  ASSERT_TRUE(chain_->prepareMotion(now_));
+  ASSERT_NO_FATAL_FAILURE(start());
   ASSERT_TRUE(chain_->waitFor(
       [] { return chain_->diagnostic("object_fusion", "warned: clock_restart") > 0.0; }));
   ASSERT_NO_FATAL_FAILURE(driveOn(1.0));
