@@ -86,7 +86,6 @@ TEST_F(TrackFusedRun, StereoCameraHasATrackerOfItsOwn) {
   expectTracks(kScanCount);
   const auto isAny = [](const TrackMessage&) { return true; };
   EXPECT_TRUE(anyTrack("/tracks/stereo", isAny)) << "it keeps ahead of the vehicle";
-  EXPECT_FALSE(anyTrack("/tracks/lidar", isAny));
   EXPECT_TRUE(isFusedOf("stereo"));
   EXPECT_FALSE(holds(table, "stereo_objects")) << table;
 }

@@ -8,8 +8,11 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from datmo_tools.camera_view import LIST_PARAMETERS, CameraView, camera_view
 from datmo_tools.compare_fusion import main
+from datmo_tools.errors import InputError
 from datmo_tools.fusion_comparison import comparison_table, figures, objects_table
+from datmo_tools.fusion_drives import within
 from datmo_tools.thesis_tables import PUBLISHED
 
 TIMES = {"grid_slam": {"runs": 10, "mean_s": 0.002}, "stereo_objects": {"runs": 5, "mean_s": 0.01},
@@ -23,11 +26,11 @@ def tracked(number, frames, ids):
             "delay_s": 0.1 if frames else None}  # fmt: skip
 
 
-def report(moving, missed):
+def report(moving, missed, false=15):
     """Of score_run, what is looked at."""
     return {
         "thesis": {"moving_objects": moving, "missed_objects": missed, "tracks": 42,
-                   "false_tracks": 15},
+                   "false_tracks": false},
         "clear_mot": {"mota": 0.5}, "identity": {"idf1": 0.625},
         "errors": {"position_rmse_m": 0.456},
         "near_errors": {"position_rmse_m": 0.123}, "classes": {"right_share": 0.8},
@@ -42,14 +45,34 @@ def rows(text):
     return lines[next(i for i, line in enumerate(lines) if line[:2] == ["drive", "level"]) + 1:]
 
 
+# What list_parameters prints, in short.
+PARAMETERS = """\
+### `lidar_grid`
+
+| `effective_range` | m | 50 | 1 to 200 | another one's |
+
+### `stereo_objects`
+
+| parameter | unit | default | range | description |
+|---|---|---|---|---|
+| `camera_frame` |  | '' | any text | optical frame |
+| `camera/field_of_view` | rad | 1 | 0.1 to 3 | from left to right |
+| `effective_range` | m | 36 | 1 to 200 | nothing is said beyond it |
+
+### `tracker`, `stereo_tracker`
+
+| `effective_range` | m | 70 | 1 to 200 | another one's |
+"""
+
+
 class Table(unittest.TestCase):
     def setUp(self):
-        self.run = figures(report(30, 4), report(33, 6), TIMES)
+        self.run = figures(report(30, 4), report(33, 6), report(30, 4, false=3), TIMES)
 
     def test_all_figures(self):
         text = comparison_table([("set", PUBLISHED[0], "none", self.run)])
         self.assertEqual(rows(text)[0], [
-            "set", "none", "10", "4", "of", "30", "6", "of", "33", "42", "15", "50.0", "62.5",
+            "set", "none", "10", "4", "of", "30", "6", "of", "33", "42", "15", "3", "50.0", "62.5",
             "0.46", "0.12", "80.0", "0.75", "7.0"])  # fmt: skip
 
     def test_thesis_counted_without_and_with_fusion_of_objects(self):
@@ -59,12 +82,12 @@ class Table(unittest.TestCase):
         self.assertEqual([row[2] for row in rows(text)], ["7", "-", "4"])
 
     def test_what_there_is_not(self):
-        run = figures(dict(report(5, 3), delay={"mean_s": None}), None, TIMES)
+        run = figures(dict(report(5, 3), delay={"mean_s": None}), None, report(5, 3), TIMES)
         text = comparison_table([("drive", None, "none", run), ("drive", None, "object", None)])
         first, second = rows(text)
         self.assertEqual(first[2:7], ["-", "3", "of", "5", "-"])
         self.assertEqual(first[-2:], ["-", "7.0"])
-        self.assertEqual(second, ["drive", "object"] + 12 * ["-"])
+        self.assertEqual(second, ["drive", "object"] + 13 * ["-"])
 
 
     def test_objects_by_level(self):
@@ -87,19 +110,27 @@ class Runs(unittest.TestCase):
         self.program("simulate", 'echo "$@" > "$2"')
         self.program("kitti_to_bag", 'echo "$@" > "$2"')
         self.run_bag()
+        self.program("list_parameters", f"cat <<'END'\n{PARAMETERS}END")
         self.program("score_run", 'while [ "$1" != --out ]; do\n'
-                                  'case "$1" in *=scanner) beam=1;; esac; shift; done\n'
+                                  'case "$1" in *=scanner) beam=1;; *angle=0.6) view=1;; esac\n'
+                                  'shift; done\n'
                                   f"echo '{json.dumps(report(33, 6))}' > \"$2\"\n"
                                   'if [ -n "$beam" ]; then\n'
-                                  f"echo '{json.dumps(report(30, 4))}' > \"$2\"; fi")  # fmt: skip
-        for name in ("data_set_1.yaml", "data_set_2.yaml", "data_set_3.yaml", "config.yaml"):
+                                  f"echo '{json.dumps(report(30, 4))}' > \"$2\"; fi\n"
+                                  'if [ -n "$view" ]; then\n'
+                                  f"echo '{json.dumps(report(9, 1, 2))}' > \"$2\"; fi")  # fmt: skip
+        for name in ("data_set_1.yaml", "data_set_2.yaml", "data_set_3.yaml"):
             (self.folder / name).touch()
+        self.config("stereo_objects: {camera: {field_of_view: 1.2}}")
 
     def run_bag(self, first="true"):
         """run_bag that does `first`, a command of the shell."""
         self.program("run_bag", f'{first}\necho "$@" > "$2"\n'
                                 'while [ "$1" != --times ]; do shift; done\n'
                                 f"echo '{json.dumps(TIMES)}' > \"$2\"")  # fmt: skip
+
+    def config(self, text):
+        (self.folder / "config.yaml").write_text(text)
 
     def program(self, name, text):
         file = self.folder / name
@@ -122,18 +153,28 @@ class Runs(unittest.TestCase):
     def test_each_set_at_each_level(self):
         code, out, _ = self.compare()
         self.assertEqual(code, 0)
-        self.assertEqual([row[:6] for row in rows(out)[:9]], [
+        self.assertEqual([row[:6] for row in rows(out)[:24]], [
             [f"data_set_{i}", level, thesis, "4", "of", "30"]
             for i, missed, fused in ((1, "10", "7"), (2, "12", "8"), (3, "7", "4"))
-            for level, thesis in (("none", missed), ("low", "-"), ("object", fused))
+            for level, thesis in (
+                ("none", missed), ("low", "-"), ("object", fused), ("track", "-"),
+                ("low+object", "-"), ("low+track", "-"), ("object+track", "-"),
+                ("low+object+track", "-"))
         ])  # fmt: skip
         self.assertIn("stereo/enabled=true", self.words_of("data_set_1", "drive.bag"))
-        self.assertNotIn("--object-fusion", self.words_of("data_set_1", "low", "result.bag"))
-        self.assertIn("--low-level-fusion", self.words_of("data_set_1", "low", "result.bag"))
-        self.assertIn("--object-fusion", self.words_of("data_set_1", "object", "result.bag"))
+        for level in ("none", "low", "object", "track", "low+object+track"):
+            words = self.words_of("data_set_1", level, "result.bag")
+            for name, word in (("low", "--low-level-fusion"), ("object", "--object-fusion"),
+                               ("track", "--track-fusion")):  # fmt: skip
+                self.assertEqual(word in words, name in level, level)
         runs = json.loads((self.out / "comparison.json").read_text())["runs"]
-        self.assertEqual(len(runs), 9)
+        self.assertEqual(len(runs), 24)
         self.assertEqual(runs[0]["figures"]["missed_objects_any_sensor"], 6)
+        self.assertEqual(runs[0]["figures"]["false_tracks"], 15)
+        self.assertEqual(runs[0]["figures"]["false_tracks_in_view"], 2)
+        picture = (self.out / "comparison.svg").read_text()
+        for text in ("data_set_3", "low+object+track", "false tracks in the camera"):
+            self.assertIn(text, picture)
 
     def test_chosen_sets_and_levels(self):
         out = self.compare("--sets", "2", "--levels", "low+object")[1]
@@ -155,7 +196,7 @@ class Runs(unittest.TestCase):
 
     def test_failed_run_is_reported_and_the_others_go_on(self):
         self.run_bag('case "$*" in *--object*) echo "no list" >&2; exit 1;; esac')
-        code, out, _ = self.compare("--sets", "1")
+        code, out, _ = self.compare("--sets", "1", "--levels", "none", "low", "object")
         self.assertEqual(code, 1)
         self.assertIn("data_set_1, object: no list", out)
         self.assertEqual([row[3] for row in rows(out)[:3]], ["4", "4", "-"])
@@ -186,6 +227,41 @@ class Runs(unittest.TestCase):
         code, _, err = self.compare()
         self.assertEqual(code, 1)
         self.assertIn("data_set_3.yaml: no such file", err)
+
+    def test_bad_field_of_view_is_named(self):
+        self.config("stereo_objects: {camera: {field_of_view: wide}}")
+        code, _, err = self.compare()
+        self.assertEqual(code, 1)
+        self.assertIn("stereo_objects/camera/field_of_view is 'wide', expected a number", err)
+
+
+class CameraViews(unittest.TestCase):
+    def view(self, config, parameters=PARAMETERS):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "config.yaml"
+            file.write_text(config)
+            program = Path(folder) / LIST_PARAMETERS
+            program.write_text(f"#!/bin/sh\ncat <<'END'\n{parameters}END\n")
+            program.chmod(0o755)
+            return camera_view(file, Path(folder))
+
+    def test_of_the_sensor_set(self):
+        config = "stereo_objects: {effective_range: 20, camera: {field_of_view: 1.2}}"
+        self.assertEqual(self.view(config), CameraView(20.0, 0.6))
+
+    def test_else_of_the_stages_defaults(self):
+        for config in ("", "tracker: {effective_range: 9}", "stereo_objects: {camera: {}}"):
+            self.assertEqual(self.view(config), CameraView(36.0, 0.5), config)
+
+    def test_defaults_that_are_not_told_are_named(self):
+        with self.assertRaisesRegex(InputError, "effective_range"):
+            self.view("", "### `stereo_objects`\n\n| `camera/field_of_view` | rad | 1 | 0 to 3 | |\n")
+
+    def test_is_the_region_that_is_scored(self):
+        words = within(CameraView(36.0, 0.5), ("truth/visible_to=none", "region/range=500"))
+        self.assertEqual(
+            words, ("truth/visible_to=none", "region/range=36.0", "region/half_angle=0.5")
+        )
 
 
 if __name__ == "__main__":

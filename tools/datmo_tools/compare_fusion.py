@@ -8,9 +8,11 @@ from pathlib import Path
 from typing import NamedTuple, Optional
 
 from datmo_tools import command_line, programs, simulated_run
+from datmo_tools.camera_view import LIST_PARAMETERS, camera_view
 from datmo_tools.errors import InputError
 from datmo_tools.fusion_comparison import comparison_table, figures, objects_table
-from datmo_tools.fusion_drives import LEVELS, Kitti, data_sets
+from datmo_tools.fusion_drives import LEVELS, Kitti, data_sets, within
+from datmo_tools.fusion_plot import comparison_plot
 from datmo_tools.programs import StepFailed
 from datmo_tools.progress import Progress
 from datmo_tools.thesis_tables import PUBLISHED
@@ -20,18 +22,16 @@ DESCRIPTION = """\
 Drives the scenes data_set_1 to data_set_3, simulated with a stereo camera (10 MB for each second),
 and a labelled KITTI drive, where there is one, through the stack at several levels of fusion, and
 prints what became of their moving objects beside the thesis's table 3.2. Each drive is recorded
-once, for all levels. Bags and scores of each stay in a folder of its own, for evaluate, and all
-figures in comparison.json. A run that gives no score is reported, and the others go on; the exit
+once, for all levels. Bags and scores of each stay in a folder of its own, for evaluate, all figures
+in comparison.json, and a picture of them in comparison.svg. A run that gives no score is reported, and the others go on; the exit
 code is then 1."""
-
-USUAL_LEVELS = ("none", "low", "object")
 
 
 class Result(NamedTuple):
     """What came of one drive at one level."""
 
     drive: object  # of fusion_drives
-    level: str
+    level: str  # of LEVELS
     figures: Optional[dict] = None
     failure: Optional[str] = None
 
@@ -47,7 +47,8 @@ def main(arguments=None):
 def _compare(values):
     """Whether all runs gave a score."""
     drives, notes = _drives(values)
-    results = _run_all(drives, values)
+    views = {drive.config: camera_view(drive.config, values.programs) for drive in drives}
+    results = _run_all(drives, views, values)
     print(comparison_table([
         (result.drive.name, result.drive.published, result.level, result.figures)
         for result in results
@@ -57,17 +58,19 @@ def _compare(values):
         if drive.published is None:
             runs = [(item.level, item.figures) for item in results if item.drive is drive]
             print(f"\nMoving objects of {drive.name}\n{objects_table(runs)}")
-    write_whole(values.out, {"comparison.json": _as_json(results)})
+    pictures = [(result.drive.name, result.level, result.figures) for result in results]
+    write_whole(values.out, {"comparison.json": _as_json(results),
+                             "comparison.svg": comparison_plot(pictures, "svg")})  # fmt: skip
     # What one drive fails with at its recording, all levels say.
     failures = [result.failure for result in results if result.failure is not None]
-    closing = [*notes, *dict.fromkeys(failures), f"bags, scores, comparison.json: {values.out}"]
+    closing = [*notes, *dict.fromkeys(failures), f"bags, scores, comparison.json and .svg: {values.out}"]
     print("\n" + "\n".join(closing))
     return not failures
 
 
 def _drives(values):
     """The drives, and notes of what is not there."""
-    programs.check(values.programs, simulated_run.STEPS)
+    programs.check(values.programs, [*simulated_run.STEPS, LIST_PARAMETERS])
     drives, notes = data_sets(values.scenes, values.config, values.sets), []
     for file in [drive.scene for drive in drives] + [values.config, values.kitti_config]:
         if not file.is_file():
@@ -80,13 +83,16 @@ def _drives(values):
     return drives, notes
 
 
-def _run_all(drives, values):
-    """Results of all drives at all levels, in this order."""
+def _run_all(drives, views, values):
+    """Results of all drives at all levels, in this order.
+
+    views: of their cameras (CameraView), by sensor set.
+    """
     with ThreadPoolExecutor(values.jobs) as pool:
         # Workers take what was submitted first: who waits for a recording, waits for one at work.
         recordings = [pool.submit(_record, drive, values) for drive in drives]
         runs = [
-            pool.submit(_run, drive, level, recording, values)
+            pool.submit(_run, drive, level, recording, views[drive.config], values)
             for drive, recording in zip(drives, recordings)
             for level in values.levels
         ]
@@ -109,7 +115,7 @@ def _record(drive, values):
     return recorded
 
 
-def _run(drive, level, recording, values):
+def _run(drive, level, recording, view, values):
     """Result of one drive at one level."""
     try:
         recorded = recording.result()
@@ -118,19 +124,23 @@ def _run(drive, level, recording, values):
     folder = recorded.parent / level
     try:
         folder.mkdir(exist_ok=True)
-        return Result(drive, level, _figures(drive, level, recorded, folder, values.programs))
+        return Result(drive, level, _figures(drive, level, recorded, folder, view, values.programs))
     except (StepFailed, OSError) as error:
         return Result(drive, level, failure=f"{drive.name}, {level}: {error}")
 
 
-def _figures(drive, level, recorded, folder, built):
+def _figures(drive, level, recorded, folder, view, built):
     times = folder / "times.json"
     report = simulated_run.run_recorded(
         recorded, built, drive.config, folder, drive.score_options,
         (*LEVELS[level], "--times", times))  # fmt: skip
     wide_report = drive.wide_score_options and simulated_run.score(
         folder / "result.bag", built, drive.wide_score_options, folder / "score_any_sensor.json")
-    return figures(report, wide_report, json.loads(times.read_text(encoding="utf-8")))
+    view_report = simulated_run.score(
+        folder / "result.bag", built, within(view, drive.score_options),
+        folder / "score_in_view.json")  # fmt: skip
+    return figures(report, wide_report, view_report,
+                   json.loads(times.read_text(encoding="utf-8")))  # fmt: skip
 
 
 def _as_json(results):
@@ -157,8 +167,8 @@ def _parser():
     add("--kitti-config", required=True, type=Path, metavar="CONFIG.yaml", help="its sensor set")
     add("--programs", required=True, type=Path, metavar="DIR",
         help="folder of simulate, run_bag, score_run and kitti_to_bag")  # fmt: skip
-    add("--levels", nargs="+", choices=list(LEVELS), default=list(USUAL_LEVELS),
-        help="of fusion (default none low object)")  # fmt: skip
+    add("--levels", nargs="+", choices=list(LEVELS), default=list(LEVELS),
+        help="of fusion (default: all)")  # fmt: skip
     numbers = list(range(1, len(PUBLISHED) + 1))
     add("--sets", nargs="*", type=int, choices=numbers, default=numbers,
         help="data sets (default: all)")  # fmt: skip

@@ -5,11 +5,12 @@ from datmo_tools.text_table import NO_VALUE, aligned, percent, rounded
 
 NOTE = """\
 Levels of fusion: none, the scanner alone; low, grids of scanner and stereo camera (thesis 3.2);
-object, objects of both (thesis 3.3). Missed: moving objects that no track ever matched, of those
+object, objects of both (thesis 3.3); track, tracks of both (thesis 3.4). Missed: moving objects that no track ever matched, of those
 that the scanner saw moving, however briefly, and, by any, of those that either sensor did; of a
 labelled drive, of all that move in the camera's view. Beside it what the thesis missed without and
 with fusion of objects (table 3.2): its data sets were driven, ours are simulated streets with as
-many seconds and moving objects. RMSE: of the position of matched tracks, and, near, of those within
+many seconds and moving objects. False, in view: tracks on nothing that moves, of all, and of those
+within the stereo camera's view as its sensor set has it. RMSE: of the position of matched tracks, and, near, of those within
 20 m. Class right: of the frames of matched tracks. Delay: from the first sight of an object to its
 first track, mean. Time: mean of all stages together for one scan, without the matching of images."""
 
@@ -21,11 +22,11 @@ OBJECT_KEYS = ("id", "label", "class", "first_s", "last_s", "required_frames", "
                "track_ids", "delay_s")  # fmt: skip
 
 
-def figures(report, wide_report, stages):
+def figures(report, wide_report, view_report, stages):
     """Figures of one run, as a dictionary that JSON can hold; None for what there is not.
 
-    report: of score_run; wide_report: the same with objects that any sensor sees, or None; stages:
-    of run_bag --times.
+    report: of score_run; wide_report: the same with objects that any sensor sees, or None;
+    view_report: the same within the camera's view alone; stages: of run_bag --times.
     """
     counts = report["thesis"]
     wide = wide_report["thesis"] if wide_report else {}
@@ -36,6 +37,7 @@ def figures(report, wide_report, stages):
         "missed_objects_any_sensor": wide.get("missed_objects"),
         "tracks": counts["tracks"],
         "false_tracks": counts["false_tracks"],
+        "false_tracks_in_view": view_report["thesis"]["false_tracks"],
         "mota": report["clear_mot"]["mota"],
         "idf1": report["identity"]["idf1"],
         "position_rmse_m": report["errors"]["position_rmse_m"],
@@ -106,6 +108,7 @@ _COLUMNS = (
     ("by any", _of("missed_objects_any_sensor", "moving_objects_any_sensor")),
     ("tracks", lambda run: str(run["tracks"])),
     ("of them false", lambda run: str(run["false_tracks"])),
+    ("false, in view", lambda run: str(run["false_tracks_in_view"])),
     ("MOTA, %", _percent("mota")),
     ("IDF1, %", _percent("idf1")),
     ("RMSE, m", _rounded("position_rmse_m", 2)),

@@ -12,7 +12,11 @@ LEVELS = {
     "none": (),
     "low": ("--low-level-fusion",),
     "object": ("--object-fusion",),
+    "track": ("--track-fusion",),
     "low+object": ("--low-level-fusion", "--object-fusion"),
+    "low+track": ("--low-level-fusion", "--track-fusion"),
+    "object+track": ("--object-fusion", "--track-fusion"),
+    "low+object+track": ("--low-level-fusion", "--object-fusion", "--track-fusion"),
 }
 
 # All objects count that were seen moving, as in the thesis, also those gone in a moment: by the
@@ -73,3 +77,9 @@ def data_sets(scenes, config, numbers):
         Simulated(scenes / f"data_set_{number}.yaml", config, PUBLISHED[number - 1])
         for number in numbers
     ]
+
+
+def within(view, score_options):
+    """The same words for score_run, with a CameraView as the region that is scored."""
+    others = [word for word in score_options if not word.startswith("region/")]
+    return (*others, f"region/range={view.range}", f"region/half_angle={view.half_angle}")

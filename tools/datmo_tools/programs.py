@@ -27,9 +27,18 @@ def check(folder, names):
 
 def call(program, *words):
     """Runs a program (Path) to its end, in silence. Raises StepFailed."""
+    _run(program, words, subprocess.DEVNULL)
+
+
+def output_of(program, *words):
+    """What it prints, as text; the same otherwise."""
+    return _run(program, words, subprocess.PIPE).stdout
+
+
+def _run(program, words, stdout):
     done = subprocess.run(
         [str(program), *map(str, words)],
-        stdout=subprocess.DEVNULL,
+        stdout=stdout,
         stderr=subprocess.PIPE,
         encoding="utf-8",
         errors="replace",
@@ -37,3 +46,4 @@ def call(program, *words):
     )
     if done.returncode != 0:
         raise StepFailed(program.name, done.stderr, done.returncode)
+    return done

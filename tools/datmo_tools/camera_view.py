@@ -1,0 +1,65 @@
+"""What the stereo camera of a sensor set sees, as stereo_objects has it."""
+
+import re
+from pathlib import Path
+from typing import NamedTuple
+
+import yaml
+
+from datmo_tools.errors import InputError
+from datmo_tools.programs import StepFailed, output_of
+
+LIST_PARAMETERS = "list_parameters"
+
+_STAGE = "stereo_objects"
+_FIELD_OF_VIEW = "camera/field_of_view"  # rad, from left to right
+_RANGE = "effective_range"  # m
+
+
+class CameraView(NamedTuple):
+    """A sector ahead of the vehicle."""
+
+    range: float  # m
+    half_angle: float  # rad, to either side
+
+
+def camera_view(config, programs):
+    """CameraView of a sensor set.
+
+    config: its yaml file (Path), or else the stage's defaults, which the program list_parameters in
+    the folder `programs` (Path) tells. Raises InputError.
+    """
+    try:
+        sections = yaml.safe_load(config.read_text(encoding="utf-8")) or {}
+    except (OSError, yaml.YAMLError) as error:
+        raise InputError(f"{config}: {error}") from error
+    defaults = _defaults(Path(programs) / LIST_PARAMETERS)
+    values = [_value(sections, name, defaults) for name in (_RANGE, _FIELD_OF_VIEW)]
+    for name, value in zip((_RANGE, _FIELD_OF_VIEW), values):
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise InputError(f"{config}: {_STAGE}/{name} is {value!r}, expected a number")
+    return CameraView(float(values[0]), 0.5 * float(values[1]))
+
+
+def _value(sections, name, defaults):
+    """Of a parameter, by its path; that of the defaults where the sensor set has none."""
+    node = sections.get(_STAGE) if isinstance(sections, dict) else None
+    for key in name.split("/"):
+        node = node.get(key) if isinstance(node, dict) else None
+    return defaults[name] if node is None else node
+
+
+def _defaults(program):
+    """Dictionary name -> default of the numbers among the stage's parameters."""
+    try:
+        text = output_of(program)
+    except (StepFailed, OSError) as error:
+        raise InputError(f"{program}: {error}") from error
+    section = re.search(rf"^### .*`{_STAGE}`.*?(?=^### |\Z)", text, re.DOTALL | re.MULTILINE)
+    rows = re.findall(r"^\| `([^`]+)` \|[^|]*\| ([-+.\de]+) \|", section[0] if section else "",
+                      re.MULTILINE)  # fmt: skip
+    defaults = {name: float(value) for name, value in rows}
+    for name in (_RANGE, _FIELD_OF_VIEW):
+        if name not in defaults:
+            raise InputError(f"{program}: no number for {name} of {_STAGE} in what it prints")
+    return defaults
