@@ -30,13 +30,14 @@ struct Source {
 /// On 100 m x 60 m, one in each cell of a grid, so that none are in one place.
 std::vector<Point2> placesOnStreet(std::size_t count, Random& random) {
   constexpr std::size_t kRows = 10;
-  const double cell = 100.0 / static_cast<double>(count / kRows + 1);
+  const std::size_t columns = count / kRows + 1;
+  const double cell = 100.0 / static_cast<double>(columns);
   std::vector<Point2> places;
   for (std::size_t i = 0; i < count; ++i) {
-    const auto row = static_cast<double>(i % kRows);
-    const auto column = static_cast<double>(i / kRows);
-    places.emplace_back((column + random.uniform(0.2, 0.8)) * cell,
-                        (row + random.uniform(0.3, 0.7)) * 6.0 - 30.0);
+    const std::size_t row = i % kRows;
+    const std::size_t column = i / kRows;
+    places.emplace_back((static_cast<double>(column) + random.uniform(0.2, 0.8)) * cell,
+                        (static_cast<double>(row) + random.uniform(0.3, 0.7)) * 6.0 - 30.0);
   }
   return places;
 }

@@ -77,7 +77,7 @@ TrackCovariance JointAxes::limitedCross(const TrackCovariance& cross,
                                         double most_correlation) const {
   const TrackState std_a = share.cwiseSqrt();
   const TrackState std_b = (1.0 - share.array()).sqrt();
-  const TrackCovariance in_axes = inverse * cross * inverse.transpose();
+  TrackCovariance in_axes = inverse * cross * inverse.transpose();
   TrackCovariance correlations =
       std_a.cwiseInverse().asDiagonal() * in_axes * std_b.cwiseInverse().asDiagonal();
   const double norm = correlations.norm();

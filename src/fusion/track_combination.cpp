@@ -18,8 +18,8 @@ constexpr double kMostTurn = 0.3;
 /// rad^2; nobody knows a heading better.
 constexpr double kLeastHeadingVariance = 1e-6;
 
-/// The sizes of boxes are known by no less than this, m^2.
-constexpr double kLeastSizeVariance = 1e-9;
+/// m^2, of a box's centre along an axis: no weight is without end.
+constexpr double kLeastCentreVariance = 1e-9;
 
 double headingOf(const Track& track) { return track.box.centre.heading(); }
 
@@ -52,8 +52,8 @@ Heading fusedHeading(const Track& a, const Track& b, const TrackState& fused) {
   const double of_b = headingVarianceOf(b);
   const double turn = angleBetween(headingOf(a), headingOf(b));
   const bool opposite = std::abs(turn) > kQuarterTurn;
+  // Of the axes, whichever end of them is the front.
   const double apart = opposite ? normalizeAngle(turn + kPi) : turn;
-  // Modulo a half turn.
   double share_of_b = of_a / (of_a + of_b);
   Heading heading{};
   if (std::abs(apart) > kMostTurn) {
@@ -87,7 +87,7 @@ AxisSizes sizesAlong(double heading, const Track& track) {
   const Eigen::Matrix2d axes = Pose2(0.0, 0.0, heading).rotation();
   const Eigen::Matrix2d along = axes.transpose() * track.covariance.topLeftCorner<2, 2>() * axes;
   return {across ? Eigen::Vector2d(box.width, box.length) : Eigen::Vector2d(box.length, box.width),
-          along.diagonal().cwiseMax(kLeastSizeVariance)};
+          along.diagonal().cwiseMax(kLeastCentreVariance)};
 }
 
 Box2 fusedBox(const Track& a, const Track& b, const Pose2& centre) {
