@@ -255,7 +255,7 @@ class CameraViews(unittest.TestCase):
 
     def test_defaults_that_are_not_told_are_named(self):
         with self.assertRaisesRegex(InputError, "effective_range"):
-            self.view("", "### `stereo_objects`\n\n| `camera/field_of_view` | rad | 1 | 0 to 3 | |\n")
+            self.view("", PARAMETERS.replace("36", "''"))
 
     def test_is_the_region_that_is_scored(self):
         words = within(CameraView(36.0, 0.5), ("truth/visible_to=none", "region/range=500"))

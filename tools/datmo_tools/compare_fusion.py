@@ -23,8 +23,8 @@ Drives the scenes data_set_1 to data_set_3, simulated with a stereo camera (10 M
 and a labelled KITTI drive, where there is one, through the stack at several levels of fusion, and
 prints what became of their moving objects beside the thesis's table 3.2. Each drive is recorded
 once, for all levels. Bags and scores of each stay in a folder of its own, for evaluate, all figures
-in comparison.json, and a picture of them in comparison.svg. A run that gives no score is reported, and the others go on; the exit
-code is then 1."""
+in comparison.json, and a picture of them in comparison.svg. A run that gives no score is reported,
+and the others go on; the exit code is then 1."""
 
 
 class Result(NamedTuple):
@@ -63,7 +63,8 @@ def _compare(values):
                              "comparison.svg": comparison_plot(pictures, "svg")})  # fmt: skip
     # What one drive fails with at its recording, all levels say.
     failures = [result.failure for result in results if result.failure is not None]
-    closing = [*notes, *dict.fromkeys(failures), f"bags, scores, comparison.json and .svg: {values.out}"]
+    where = f"bags, scores, comparison.json and comparison.svg: {values.out}"
+    closing = [*notes, *dict.fromkeys(failures), where]
     print("\n" + "\n".join(closing))
     return not failures
 
@@ -124,7 +125,8 @@ def _run(drive, level, recording, view, values):
     folder = recorded.parent / level
     try:
         folder.mkdir(exist_ok=True)
-        return Result(drive, level, _figures(drive, level, recorded, folder, view, values.programs))
+        found = _figures(drive, level, recorded, folder, view, values.programs)
+        return Result(drive, level, found)
     except (StepFailed, OSError) as error:
         return Result(drive, level, failure=f"{drive.name}, {level}: {error}")
 
