@@ -10,6 +10,7 @@
 #include "datmo_fusion/ros/object_fusion_stage.h"
 #include "datmo_fusion/ros/stereo_grid_stage.h"
 #include "datmo_fusion/ros/stereo_objects_stage.h"
+#include "datmo_fusion/ros/track_fusion_stage.h"
 #include "datmo_fusion/ros/tracker_stage.h"
 
 namespace datmo {
@@ -17,22 +18,24 @@ namespace datmo {
 namespace {
 
 template <typename Options>
-std::string section(const std::string& nodelet) {
-  return "### `" + nodelet + "`\n\n" + optionTable<Options>();
+std::string section(const std::string& nodelets) {
+  return "### " + nodelets + "\n\n" + optionTable<Options>();
 }
 
 }  // namespace
 
 std::string parameterTables() {
-  return section<LidarGridStageOptions>("lidar_grid") + "\n" +
-         section<StereoGridStageOptions>("stereo_grid") + "\n" +
-         section<GridFusionStageOptions>("grid_fusion") + "\n" +
-         section<GridSlamStageOptions>("grid_slam") + "\n" +
-         section<MovingObjectsStageOptions>("moving_objects") + "\n" +
-         section<StereoObjectsStageOptions>("stereo_objects") + "\n" +
-         section<ObjectFusionStageOptions>("object_fusion") + "\n" +
-         section<TrackerStageOptions>("tracker") + "\n" + section<MarkersOptions>("markers") +
-         "\n" + section<GridViewsOptions>("grid_views");
+  return section<LidarGridStageOptions>("`lidar_grid`") + "\n" +
+         section<StereoGridStageOptions>("`stereo_grid`") + "\n" +
+         section<GridFusionStageOptions>("`grid_fusion`") + "\n" +
+         section<GridSlamStageOptions>("`grid_slam`") + "\n" +
+         section<MovingObjectsStageOptions>("`moving_objects`") + "\n" +
+         section<StereoObjectsStageOptions>("`stereo_objects`") + "\n" +
+         section<ObjectFusionStageOptions>("`object_fusion`") + "\n" +
+         section<TrackerStageOptions>("`tracker`, `stereo_tracker`") + "\n" +
+         section<TrackFusionStageOptions>("`track_fusion`") + "\n" +
+         section<MarkersOptions>("`markers`, `lidar_markers`, `stereo_markers`") + "\n" +
+         section<GridViewsOptions>("`grid_views`");
 }
 
 }  // namespace datmo

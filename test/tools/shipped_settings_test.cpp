@@ -31,8 +31,10 @@ TEST(SensorSets, AreReadWithoutAnUnknownKeyOrABadValue) {
   EXPECT_GE(files.size(), 2U);
   for (const std::string& file : files) {
     EXPECT_NO_THROW(readPipelineOptions(file)) << file;
-    if (const YAML::Node markers = loadYaml(file)["markers"]) {
-      EXPECT_NO_THROW(readOptions<MarkersOptions>(optionValues(markers))) << file;
+    for (const char* const name : {"markers", "lidar_markers", "stereo_markers"}) {
+      if (const YAML::Node markers = loadYaml(file)[name]) {
+        EXPECT_NO_THROW(readOptions<MarkersOptions>(optionValues(markers))) << file;
+      }
     }
     if (const YAML::Node views = loadYaml(file)["grid_views"]) {
       EXPECT_NO_THROW(readOptions<GridViewsOptions>(optionValues(views)).panelNames()) << file;

@@ -11,10 +11,10 @@ namespace datmo {
 namespace {
 
 /// One for each nodelet; those without a stage in the pipeline are for live use alone.
-const std::array<std::string, 13> kSections = {
-    "stereo_image_proc", "lidar_grid",     "stereo_grid",   "grid_fusion", "grid_slam",
-    "moving_objects",    "stereo_objects", "object_fusion", "tracker",     "stereo_tracker",
-    "track_fusion",      "markers",        "grid_views"};
+const std::array<std::string, 15> kSections = {
+    "stereo_image_proc", "lidar_grid",     "stereo_grid",   "grid_fusion",    "grid_slam",
+    "moving_objects",    "stereo_objects", "object_fusion", "tracker",        "stereo_tracker",
+    "track_fusion",      "markers",        "lidar_markers", "stereo_markers", "grid_views"};
 
 std::string sectionNames() {
   std::string names;
