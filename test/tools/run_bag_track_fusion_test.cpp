@@ -109,6 +109,14 @@ TEST_F(TrackFusedRun, TrackersOptionsAreTheirOwn) {
   expectTracks(kScanCount);
 }
 
+TEST_F(TrackFusedRun, BadOptionsAreNamedWithTheirSection) {
+  for (const std::string section : {"stereo_tracker", "track_fusion"}) {
+    writeConfig("{" + section + ": {warp: 9}}");
+    const std::string message = failure();
+    EXPECT_TRUE(holds(message, section) && holds(message, "warp")) << message;
+  }
+}
+
 TEST_F(TrackFusedRun, AnotherSystemsTracksServeWhereThereIsNothingToFollow) {
   writeConfig("{track_fusion: {scheme: union}}");
   appendEachScan("/tracks/stereo", radarTracksAt);
