@@ -40,18 +40,6 @@ bool FusedTarget::hasMember(const std::string& source) const {
                      [&](const SourceTrack& one) { return one.source == source; });
 }
 
-void FusedTargets::predict(double seconds, double memory, const TrackPredictionOptions& options) {
-  for (FusedTarget& target : targets_) {
-    target.present = false;
-    target.lost += seconds;
-    target.track = predicted(target.track, seconds, options);
-  }
-  targets_.erase(
-      std::remove_if(targets_.begin(), targets_.end(),
-                     [memory](const FusedTarget& target) { return target.lost > memory; }),
-      targets_.end());
-}
-
 FusedTargets::Owners FusedTargets::byMembers(const std::vector<Track>& groups) const {
   std::map<Member, std::size_t> owner_of;
   for (std::size_t i = 0; i < targets_.size(); ++i) {
@@ -86,15 +74,25 @@ FusedTargets::Owners FusedTargets::byMembers(const std::vector<Track>& groups) c
   return owners;
 }
 
-void FusedTargets::addRefound(const std::vector<Track>& groups,
-                              const TrackComparisonOptions& options, Owners& owners) const {
-  std::vector<std::size_t> lost;
-  for (std::size_t i = 0; i < targets_.size(); ++i) {
-    const bool taken = std::find(owners.begin(), owners.end(), i) != owners.end();
-    if (!taken) {
-      lost.push_back(i);
+std::vector<std::size_t> FusedTargets::withoutGroup(const Owners& owners) const {
+  std::vector<bool> taken(targets_.size(), false);
+  for (const std::optional<std::size_t>& owner : owners) {
+    if (owner) {
+      taken[*owner] = true;
     }
   }
+  std::vector<std::size_t> left;
+  for (std::size_t i = 0; i < taken.size(); ++i) {
+    if (!taken[i]) {
+      left.push_back(i);
+    }
+  }
+  return left;
+}
+
+void FusedTargets::addRefound(const std::vector<Track>& groups,
+                              const TrackComparisonOptions& options, Owners& owners) const {
+  const std::vector<std::size_t> lost = withoutGroup(owners);
   std::vector<std::size_t> fresh;
   for (std::size_t group = 0; group < groups.size(); ++group) {
     if (!owners[group]) {
@@ -123,10 +121,23 @@ void FusedTargets::addRefound(const std::vector<Track>& groups,
   }
 }
 
-void FusedTargets::follow(Stamp stamp, const std::vector<Track>& groups,
-                          const TrackComparisonOptions& options) {
+void FusedTargets::forgetLost(double memory) {
+  targets_.erase(
+      std::remove_if(targets_.begin(), targets_.end(),
+                     [memory](const FusedTarget& target) { return target.lost > memory; }),
+      targets_.end());
+}
+
+void FusedTargets::follow(Stamp stamp, double seconds, std::vector<Track> groups,
+                          const TrackFuserOptions& options) {
   Owners owners = byMembers(groups);
-  addRefound(groups, options, owners);
+  for (const std::size_t lost : withoutGroup(owners)) {
+    FusedTarget& target = targets_[lost];
+    target.present = false;
+    target.lost += seconds;
+    target.track = predicted(std::move(target.track), seconds, options.prediction);
+  }
+  addRefound(groups, options.association.comparison, owners);
   for (std::size_t group = 0; group < groups.size(); ++group) {
     if (!owners[group]) {
       owners[group] = targets_.size();
@@ -137,11 +148,12 @@ void FusedTargets::follow(Stamp stamp, const std::vector<Track>& groups,
       targets_.push_back(std::move(target));
     }
     FusedTarget& target = targets_[*owners[group]];
-    target.track = groups[group];
     target.born = std::min(target.born, stamp + -groups[group].age);
+    target.track = std::move(groups[group]);
     target.present = true;
     target.lost = 0.0;
   }
+  forgetLost(options.memory);
 }
 
 void FusedTargets::findTwins(double reach) {

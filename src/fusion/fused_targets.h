@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "datmo_fusion/fusion/track_comparison.h"
-#include "datmo_fusion/fusion/track_prediction.h"
+#include "datmo_fusion/fusion/track_fuser.h"
 #include "datmo_fusion/tracking/track.h"
 
 namespace datmo {
@@ -34,11 +33,10 @@ class FusedTargets {
  public:
   explicit FusedTargets(std::size_t sources) : sources_(sources) {}
 
-  /// Time goes on: all are predicted, and those forgotten that were lost for more than `memory` s.
-  void predict(double seconds, double memory, const TrackPredictionOptions& options);
-
-  /// The tracks of the present, one for each group, at `stamp`. Targets without one are lost.
-  void follow(Stamp stamp, const std::vector<Track>& groups, const TrackComparisonOptions& options);
+  /// The tracks of the present, one for each group, at `stamp`, `seconds` after the last time.
+  /// Targets without one are lost: predicted, and forgotten after `memory` s.
+  void follow(Stamp stamp, double seconds, std::vector<Track> groups,
+              const TrackFuserOptions& options);
 
   /// Of two at one place (reaches), which no source has tracks of both, the one is a twin that is
   /// less sure.
@@ -53,9 +51,12 @@ class FusedTargets {
 
   /// Of each group the index of its target, as far as it shares a track with one.
   Owners byMembers(const std::vector<Track>& groups) const;
+  /// Those that are none's.
+  std::vector<std::size_t> withoutGroup(const Owners& owners) const;
   /// Adds those that were lost where a new group is.
   void addRefound(const std::vector<Track>& groups, const TrackComparisonOptions& options,
                   Owners& owners) const;
+  void forgetLost(double memory);
 
   std::size_t sources_;
   std::uint32_t next_id_ = 1;

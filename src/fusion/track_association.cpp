@@ -1,6 +1,7 @@
 #include "datmo_fusion/fusion/track_association.h"
 
-#include <algorithm>
+#include <cmath>
+#include <iterator>
 
 #include "datmo_fusion/tracking/assignment.h"
 
@@ -28,45 +29,48 @@ TrackAssociation::TrackAssociation(const TrackAssociationOptions& options) : opt
 
 std::vector<TrackGroup> TrackAssociation::associate(Stamp stamp,
                                                     const std::vector<PresentTracks>& sources) {
-  for (std::size_t list = 0; list < sources.size(); ++list) {
-    for (std::size_t other = 0; other < list; ++other) {
-      compareAll(stamp, sources[other], sources[list]);
-    }
-  }
+  candidates_.clear();
   std::vector<TrackGroup> groups;
   for (std::size_t list = 0; list < sources.size(); ++list) {
+    for (std::size_t before = 0; before < list; ++before) {
+      compareAll(stamp, sources, before, list);
+    }
     join(groups, sources, list);
   }
-  remember(stamp, groups, sources);
+  remember(stamp, groups);
   return groups;
 }
 
-TrackAssociation::PairKey TrackAssociation::keyOf(const PresentTracks& one, const Track& a,
-                                                  const PresentTracks& other, const Track& b) {
-  const TrackKey first{one.source, a.id};
-  const TrackKey second{other.source, b.id};
-  return first < second ? PairKey{first, second} : PairKey{second, first};
-}
-
-void TrackAssociation::compareAll(Stamp stamp, const PresentTracks& one,
-                                  const PresentTracks& other) {
-  const bool fresh = one.fresh || other.fresh;
-  for (const Track& a : one.tracks) {
-    for (const Track& b : other.tracks) {
-      compareTwo(stamp, a, b, fresh, keyOf(one, a, other, b));
+void TrackAssociation::compareAll(Stamp stamp, const std::vector<PresentTracks>& sources,
+                                  std::size_t one, std::size_t other) {
+  const PresentTracks& ones = sources[one];
+  const PresentTracks& others = sources[other];
+  const bool fresh = ones.fresh || others.fresh;
+  for (std::size_t i = 0; i < ones.tracks.size(); ++i) {
+    for (std::size_t j = 0; j < others.tracks.size(); ++j) {
+      const TrackKey a{ones.source, ones.tracks[i].id};
+      const TrackKey b{others.source, others.tracks[j].id};
+      // The order of the lists may change, that of the sources does not.
+      const PairKey key = a < b ? PairKey{a, b} : PairKey{b, a};
+      if (const auto score = scoreOf(stamp, ones.tracks[i], others.tracks[j], fresh, key)) {
+        candidates_.push_back({{one, i}, {other, j}, *score, key});
+      }
     }
   }
 }
 
-/// What is far apart and always was leaves no trace: so there are as many pairs as neighbours.
-void TrackAssociation::compareTwo(Stamp stamp, const Track& a, const Track& b, bool fresh,
-                                  const PairKey& key) {
+/// What is far apart leaves no trace: so there are as many pairs as neighbours.
+std::optional<double> TrackAssociation::scoreOf(Stamp stamp, const Track& a, const Track& b,
+                                                bool fresh, const PairKey& key) {
   const TrackComparison now = compare(a, b, options_.comparison);
+  if (!std::isfinite(now.squared_distance)) {
+    return std::nullopt;
+  }
   const bool in_gate = now.squared_distance <= options_.comparison.gate;
   auto known = pairs_.find(key);
   if (known == pairs_.end()) {
     if (!in_gate) {
-      return;
+      return std::nullopt;
     }
     known = pairs_.emplace(key, Pair()).first;
   }
@@ -74,39 +78,48 @@ void TrackAssociation::compareTwo(Stamp stamp, const Track& a, const Track& b, b
   if (fresh || pair.evidence.empty()) {
     pair.evidence.look(stamp, now.log_likelihood_ratio, options_.evidence);
   }
-  const bool by_evidence = options_.test == TrackAssociationOptions::kAccumulated;
-  const double agreement = by_evidence ? pair.evidence.sum() - options_.required
-                                       : options_.comparison.gate - now.squared_distance;
-  const bool may_be_one =
-      by_evidence ? in_gate || pair.together : in_gate && areParallel(a, b, options_.parallel);
-  pair.compared = may_be_one;
-  pair.score = agreement + (pair.together ? options_.loyalty : 0.0);
-}
-
-double TrackAssociation::scoreOf(const TrackGroup& group, const std::vector<PresentTracks>& sources,
-                                 std::size_t list, std::size_t track) const {
-  double sum = 0.0;
-  for (const TrackPlace& place : group) {
-    const PresentTracks& other = sources[place.list];
-    const auto pair = pairs_.find(
-        keyOf(other, other.tracks[place.track], sources[list], sources[list].tracks[track]));
-    if (pair == pairs_.end() || !pair->second.compared) {
-      return -kForbidden;
-    }
-    sum += pair->second.score;
+  const double loyalty = pair.together ? options_.loyalty : 0.0;
+  if (options_.test == TrackAssociationOptions::kParallel) {
+    return in_gate && areParallel(a, b, options_.parallel)
+               ? std::make_optional(options_.comparison.gate - now.squared_distance + loyalty)
+               : std::nullopt;
   }
-  return sum / static_cast<double>(group.size());
+  return in_gate || pair.together
+             ? std::make_optional(pair.evidence.sum() - options_.required + loyalty)
+             : std::nullopt;
 }
 
 void TrackAssociation::join(std::vector<TrackGroup>& groups,
                             const std::vector<PresentTracks>& sources, std::size_t list) const {
   const auto rows = static_cast<Eigen::Index>(sources[list].tracks.size());
-  CostMatrix cost(rows, static_cast<Eigen::Index>(groups.size()));
-  for (Eigen::Index row = 0; row < rows; ++row) {
-    for (Eigen::Index column = 0; column < cost.cols(); ++column) {
-      const double score = scoreOf(groups[static_cast<std::size_t>(column)], sources, list,
-                                   static_cast<std::size_t>(row));
-      cost(row, column) = score > 0.0 ? -score : kForbidden;
+  const auto columns = static_cast<Eigen::Index>(groups.size());
+  std::vector<std::vector<Eigen::Index>> column_of(list);
+  for (std::size_t before = 0; before < list; ++before) {
+    column_of[before].resize(sources[before].tracks.size());
+  }
+  for (Eigen::Index column = 0; column < columns; ++column) {
+    for (const TrackPlace& place : groups[static_cast<std::size_t>(column)]) {
+      column_of[place.list][place.track] = column;
+    }
+  }
+  Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(rows, columns);
+  Eigen::MatrixXi agreeing = Eigen::MatrixXi::Zero(rows, columns);
+  for (const Candidate& candidate : candidates_) {
+    if (candidate.other.list == list) {
+      const auto row = static_cast<Eigen::Index>(candidate.other.track);
+      const Eigen::Index column = column_of[candidate.one.list][candidate.one.track];
+      scores(row, column) += candidate.score;
+      ++agreeing(row, column);
+    }
+  }
+  CostMatrix cost = CostMatrix::Constant(rows, columns, kForbidden);
+  for (Eigen::Index column = 0; column < columns; ++column) {
+    const auto members = static_cast<int>(groups[static_cast<std::size_t>(column)].size());
+    for (Eigen::Index row = 0; row < rows; ++row) {
+      // All of the group agree with it, on the average more than is required.
+      if (agreeing(row, column) == members && scores(row, column) > 0.0) {
+        cost(row, column) = -scores(row, column) / members;
+      }
     }
   }
   const Assignment assignment = solveAssignment(cost, Eigen::VectorXd::Zero(rows));
@@ -120,26 +133,25 @@ void TrackAssociation::join(std::vector<TrackGroup>& groups,
   }
 }
 
-void TrackAssociation::remember(Stamp stamp, const std::vector<TrackGroup>& groups,
-                                const std::vector<PresentTracks>& sources) {
+void TrackAssociation::remember(Stamp stamp, const std::vector<TrackGroup>& groups) {
   for (auto pair = pairs_.begin(); pair != pairs_.end();) {
     pair->second.together = false;
-    pair->second.compared = false;
     pair->second.evidence.forgetBefore(stamp, options_.evidence);
     pair = pair->second.evidence.empty() ? pairs_.erase(pair) : std::next(pair);
   }
-  const auto trackAt = [&](const TrackPlace& place) -> const Track& {
-    return sources[place.list].tracks[place.track];
-  };
-  for (const TrackGroup& group : groups) {
-    for (std::size_t i = 0; i < group.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        const auto pair = pairs_.find(keyOf(sources[group[i].list], trackAt(group[i]),
-                                            sources[group[j].list], trackAt(group[j])));
-        if (pair != pairs_.end()) {
-          pair->second.together = true;
-        }
-      }
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> group_of;
+  for (std::size_t group = 0; group < groups.size(); ++group) {
+    for (const TrackPlace& place : groups[group]) {
+      group_of[{place.list, place.track}] = group;
+    }
+  }
+  for (const Candidate& candidate : candidates_) {
+    const auto groupOf = [&](const TrackPlace& place) {
+      return group_of.at({place.list, place.track});
+    };
+    const auto pair = pairs_.find(candidate.key);
+    if (pair != pairs_.end() && groupOf(candidate.one) == groupOf(candidate.other)) {
+      pair->second.together = true;
     }
   }
 }

@@ -65,8 +65,7 @@ class TrackFuser::State {
     const std::vector<PresentTracks> present = takeIn(stamp, sources, result.counts);
     const std::vector<TrackGroup> groups = association_.associate(stamp, present);
     correlations_.step(seconds);
-    targets_.predict(seconds, options_.memory, options_.prediction);
-    targets_.follow(stamp, fused(groups, present, result.counts), options_.association.comparison);
+    targets_.follow(stamp, seconds, fused(groups, present, result.counts), options_);
     look(sources, seconds);
     judgeAll(stamp);
     targets_.findTwins(options_.twin_reach);
@@ -110,7 +109,8 @@ class TrackFuser::State {
       keepLikeliest(own.tracks, static_cast<std::size_t>(options_.most_tracks));
       counts.refused += valid - own.tracks.size();
       for (Track& track : own.tracks) {
-        track = predicted(track, secondsBetween(source.list->stamp, stamp), options_.prediction);
+        track = predicted(std::move(track), secondsBetween(source.list->stamp, stamp),
+                          options_.prediction);
         track.sources = {{source.source, track.id}};
       }
       present.push_back(std::move(own));
@@ -130,7 +130,8 @@ class TrackFuser::State {
           continue;
         }
         const double surest = std::max(whole->existence_probability, track.existence_probability);
-        whole = combined(*whole, track, crossCovariance(group, i, present), options_.combination);
+        whole = combined(*std::move(whole), track, crossCovariance(group, i, present),
+                         options_.combination);
         whole->existence_probability = surest;
       }
       counts.fused += group.size() > 1 ? 1 : 0;

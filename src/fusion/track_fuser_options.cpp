@@ -29,8 +29,8 @@ void TrackFuserOptions::visit(OptionVisitor& visitor) {
                    "tracks taken from one list, the likeliest ones; bounds the time of a step"},
                   most_tracks, {1, 2000});
   visitor.number({"can_see", "1",
-                  "a source can see a place where it would have detected the object at least so "
-                  "probably, lately"},
+                  "a source can see a place where each of its measurements would have detected the "
+                  "object at least so probably, lately: a quarter is several times a second"},
                  can_see, {0.0, 1.0});
   visitor.number({"looking_time", "s",
                   "time constant of that probability: who has just come into view is not missed at "

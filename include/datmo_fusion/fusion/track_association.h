@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -67,7 +68,7 @@ class TrackAssociation {
   /// source, then the others'. Stamps rise.
   std::vector<TrackGroup> associate(Stamp stamp, const std::vector<PresentTracks>& sources);
 
-  void reset() { pairs_.clear(); }
+  void reset() { *this = TrackAssociation(options_); }
 
  private:
   struct TrackKey {
@@ -80,25 +81,28 @@ class TrackAssociation {
   using PairKey = std::pair<TrackKey, TrackKey>;
   struct Pair {
     WindowedEvidence evidence;
-    bool together = false;
-    double score = 0.0;     ///< now; more than 0: one object
-    bool compared = false;  ///< now
+    bool together = false;  ///< at the last time
+  };
+  /// Two tracks of different sources that may be one object now.
+  struct Candidate {
+    TrackPlace one;
+    TrackPlace other;    ///< of a later list
+    double score = 0.0;  ///< more than 0: one object
+    PairKey key;
   };
 
-  static PairKey keyOf(const PresentTracks& one, const Track& a, const PresentTracks& other,
-                       const Track& b);
-  void compareAll(Stamp stamp, const PresentTracks& one, const PresentTracks& other);
-  void compareTwo(Stamp stamp, const Track& a, const Track& b, bool fresh, const PairKey& key);
-  /// Mean over the group's tracks; kForbidden where one was not compared.
-  double scoreOf(const TrackGroup& group, const std::vector<PresentTracks>& sources,
-                 std::size_t list, std::size_t track) const;
+  void compareAll(Stamp stamp, const std::vector<PresentTracks>& sources, std::size_t one,
+                  std::size_t other);
+  std::optional<double> scoreOf(Stamp stamp, const Track& a, const Track& b, bool fresh,
+                                const PairKey& key);
+  /// Gives the tracks of a list to the groups of those before it, or each one of its own.
   void join(std::vector<TrackGroup>& groups, const std::vector<PresentTracks>& sources,
             std::size_t list) const;
-  void remember(Stamp stamp, const std::vector<TrackGroup>& groups,
-                const std::vector<PresentTracks>& sources);
+  void remember(Stamp stamp, const std::vector<TrackGroup>& groups);
 
   TrackAssociationOptions options_;
   std::map<PairKey, Pair> pairs_;
+  std::vector<Candidate> candidates_;  ///< of the present
 };
 
 }  // namespace datmo

@@ -34,7 +34,7 @@ struct TrackFuserOptions {
   std::string scheme = kFusedAndBeyond;
   std::string beyond = "lidar";  ///< name of a source
   int most_tracks = 200;
-  double can_see = 0.5;              ///< 1
+  double can_see = 0.25;             ///< 1
   double looking_time = 1.0;         ///< s
   double twin_reach = 1.0;           ///< 1
   double published_existence = 0.5;  ///< 1
