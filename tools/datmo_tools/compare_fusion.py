@@ -57,7 +57,8 @@ def _compare(values):
         # The thesis counts them; of a labelled drive each can be looked at.
         if drive.published is None:
             runs = [(item.level, item.figures) for item in results if item.drive is drive]
-            print(f"\nMoving objects of {drive.name}\n{objects_table(runs)}")
+            title = f"Moving objects of {drive.name}: tracked in so many of their frames, %"
+            print(f"\n{title}\n{objects_table(runs)}")
     pictures = [(result.drive.name, result.level, result.figures) for result in results]
     write_whole(values.out, {"comparison.json": _as_json(results),
                              "comparison.svg": comparison_plot(pictures, "svg")})  # fmt: skip

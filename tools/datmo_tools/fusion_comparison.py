@@ -64,14 +64,14 @@ def comparison_table(rows):
 
 
 def objects_table(runs):
-    """Text of a table of the moving objects of one drive, and in which frames they were tracked.
+    """Text of a table of the moving objects of one drive, and in how many of their frames they were
+    tracked (%).
 
     runs: (level, figures() or None where the run failed), of one drive or more.
     """
     known = [(level, run) for level, run in runs if run is not None]
     objects = {item["id"]: item for _, run in known for item in run["objects"]}
-    levels = [f"{level}: tracked, %" for level, _ in known]
-    rows = [["object", "from, s", "to, s", "frames", *levels]]
+    rows = [["object", "from, s", "to, s", "frames", *(level for level, _ in known)]]
     for number, item in objects.items():
         cells = [f"{item['label']} {number}", f"{item['first_s']:.1f}", f"{item['last_s']:.1f}"]
         cells.append(str(item["required_frames"]))
