@@ -112,6 +112,9 @@ class TrackFuser::State {
         track = predicted(std::move(track), secondsBetween(source.list->stamp, stamp),
                           options_.prediction);
         track.sources = {{source.source, track.id}};
+        if (track.sensors.empty()) {
+          track.sensors = {source.source};
+        }
       }
       present.push_back(std::move(own));
     }
@@ -202,7 +205,9 @@ class TrackFuser::State {
     }
     target.track.existence_probability = fusedExistence(witnesses);
     target.track.age = secondsBetween(target.born, stamp);
-    target.confirmed = target.confirmed || (seen_by_all && target.track.sources.size() > 1);
+    // Two sources that have it from one sensor are one witness.
+    const bool by_two = target.track.sources.size() > 1 && target.track.sensors.size() > 1;
+    target.confirmed = target.confirmed || (seen_by_all && by_two);
   }
 
   bool isPublished(const FusedTarget& target) const {

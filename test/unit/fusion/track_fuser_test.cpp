@@ -105,6 +105,20 @@ TEST(TrackFuserTest, ConfirmedByAllIsWhatBothSee) {
   EXPECT_EQ(result.list.tracks[0].sources.size(), 2U);
 }
 
+TEST(TrackFuserTest, TwoSourcesThatHaveItFromOneSensorAreOneWitness) {
+  // With fusion of objects besides, the first tracker hears the camera, too.
+  const auto published = [](const std::vector<std::string>& sensors) {
+    TrackFuser fuser{TrackFuserOptions()};
+    Track heard_of = driving(0.0, 0.0, "lidar");
+    heard_of.sensors = sensors;
+    return fuser.fuse(at(0.0), {lidar(0.0, {heard_of}), stereo(0.0, {driving(0.2, 0.0, "stereo")})})
+        .list.tracks.size();
+  };
+  EXPECT_EQ(published({"stereo"}), 0U);
+  EXPECT_EQ(published({"lidar", "stereo"}), 1U);
+  EXPECT_EQ(published({}), 1U);
+}
+
 TEST(TrackFuserTest, UnionIsAllTaggedWithWhoSeesThem) {
   const TrackFusionResult result = afterTwoSeconds(TrackFuserOptions::kUnion);
   ASSERT_EQ(result.list.tracks.size(), 4U);
