@@ -25,47 +25,51 @@ bool areTwins(const Track& a, const Track& b, double reach) {
   return !sharesSource(a, b) && (reaches(a.box, b.box, reach) || reaches(b.box, a.box, reach));
 }
 
-/// The surer one first.
+/// The surer one first. Whose existence is told a little surer at one time may change at the next,
+/// and no object changes its id for that.
 bool isSurer(const FusedTarget* a, const FusedTarget* b) {
   const auto rank = [](const FusedTarget& one) {
-    return std::make_tuple(!one.confirmed, -one.track.existence_probability, one.id);
+    return std::make_tuple(!one.confirmed, !one.published, -one.track.existence_probability,
+                           one.id);
   };
   return rank(*a) < rank(*b);
 }
 
 }  // namespace
 
-bool FusedTarget::hasMember(const std::string& source) const {
-  return std::any_of(track.sources.begin(), track.sources.end(),
-                     [&](const SourceTrack& one) { return one.source == source; });
+std::optional<std::uint32_t> FusedTarget::member(const std::string& source) const {
+  const auto found = std::find_if(track.sources.begin(), track.sources.end(),
+                                  [&](const SourceTrack& one) { return one.source == source; });
+  return found == track.sources.end() ? std::nullopt : std::make_optional(found->id);
 }
 
 FusedTargets::Owners FusedTargets::byMembers(const std::vector<Track>& groups) const {
-  std::map<Member, std::size_t> owner_of;
+  // One that was lost may be known by a track that has gone over to another.
+  std::multimap<Member, std::size_t> owners_of;
   for (std::size_t i = 0; i < targets_.size(); ++i) {
     for (const SourceTrack& member : targets_[i].track.sources) {
-      owner_of[{member.source, member.id}] = i;
+      owners_of.insert({{member.source, member.id}, i});
     }
   }
-  // First those that are confirmed, then those that share more tracks, then the older ones.
-  using Claim = std::tuple<bool, int, std::size_t, std::size_t>;
+  // First those that are confirmed, then those that are not lost, then those that share more
+  // tracks, then the older ones.
+  using Claim = std::tuple<bool, bool, int, std::size_t, std::size_t>;
   std::vector<Claim> claims;
   for (std::size_t group = 0; group < groups.size(); ++group) {
     std::map<std::size_t, int> shared;
     for (const SourceTrack& member : groups[group].sources) {
-      const auto owner = owner_of.find({member.source, member.id});
-      if (owner != owner_of.end()) {
-        ++shared[owner->second];
-      }
+      const auto [first, last] = owners_of.equal_range({member.source, member.id});
+      std::for_each(first, last, [&shared](const auto& owner) { ++shared[owner.second]; });
     }
     for (const auto& [target, members] : shared) {
-      claims.emplace_back(!targets_[target].confirmed, -members, target, group);
+      const FusedTarget& one = targets_[target];
+      claims.emplace_back(!one.confirmed, !one.present, -members, target, group);
     }
   }
   std::sort(claims.begin(), claims.end());
   Owners owners(groups.size());
   std::vector<bool> taken(targets_.size(), false);
-  for (const auto& [unconfirmed, fewer, target, group] : claims) {
+  for (const auto& [unconfirmed, lost, fewer, target, group] : claims) {
     if (!owners[group] && !taken[target]) {
       owners[group] = target;
       taken[target] = true;
@@ -156,18 +160,21 @@ void FusedTargets::follow(Stamp stamp, double seconds, std::vector<Track> groups
   forgetLost(options.memory);
 }
 
-void FusedTargets::findTwins(double reach) {
+void FusedTargets::publish(double reach) {
   std::vector<FusedTarget*> surest;
   for (FusedTarget& target : targets_) {
-    target.twin = false;
-    if (target.present) {
+    if (target.wanted) {
       surest.push_back(&target);
     }
   }
   std::sort(surest.begin(), surest.end(), isSurer);
+  for (FusedTarget& target : targets_) {
+    target.published = target.wanted;
+  }
   for (std::size_t i = 0; i < surest.size(); ++i) {
-    for (std::size_t j = 0; j < i && !surest[i]->twin; ++j) {
-      surest[i]->twin = !surest[j]->twin && areTwins(surest[i]->track, surest[j]->track, reach);
+    for (std::size_t j = 0; j < i && surest[i]->published; ++j) {
+      surest[i]->published =
+          !surest[j]->published || !areTwins(surest[i]->track, surest[j]->track, reach);
     }
   }
 }

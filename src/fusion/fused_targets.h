@@ -19,16 +19,18 @@ struct FusedTarget {
   bool present = true;     ///< a source has a track of it now
   double lost = 0.0;       ///< s, since one had
   bool confirmed = false;  ///< every source that could see it has had a track of it
-  bool twin = false;       ///< another target is at the same place, and surer
+  bool wanted = false;     ///< comes out, unless another one is at the same place, and surer
+  bool published = false;  ///< came out
   /// By number of the source: that it would have detected it lately; none: it was not asked yet.
   std::vector<std::optional<double>> looked;
 
-  bool hasMember(const std::string& source) const;
+  /// Id of this source's track of it; none if it has none.
+  std::optional<std::uint32_t> member(const std::string& source) const;
 };
 
 /// Which fused target a group of tracks is: the one that has a track of the group already; of
-/// several the confirmed, then the older one. Of new groups those that are where one was lost
-/// within `memory` are that one again. Ids rise and are never reused.
+/// several the confirmed, then one that was not lost, then the older one. Of new groups those that
+/// are where one was lost within `memory` are that one again. Ids rise and are never reused.
 class FusedTargets {
  public:
   explicit FusedTargets(std::size_t sources) : sources_(sources) {}
@@ -38,9 +40,9 @@ class FusedTargets {
   void follow(Stamp stamp, double seconds, std::vector<Track> groups,
               const TrackFuserOptions& options);
 
-  /// Of two at one place (reaches), which no source has tracks of both, the one is a twin that is
-  /// less sure.
-  void findTwins(double reach);
+  /// Publishes those that are wanted; of two at one place (reaches), which no source has tracks of
+  /// both, the surer one: the one that was published before, if both are confirmed or neither is.
+  void publish(double reach);
 
   std::vector<FusedTarget>& all() { return targets_; }
 

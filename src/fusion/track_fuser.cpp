@@ -12,6 +12,7 @@
 #include "track_correlations.h"
 
 #include "datmo_fusion/fusion/fused_existence.h"
+#include "datmo_fusion/fusion/track_extents.h"
 #include "datmo_fusion/tracking/track_check.h"
 #include "datmo_fusion/tracking/track_paths.h"
 
@@ -65,10 +66,11 @@ class TrackFuser::State {
     const std::vector<PresentTracks> present = takeIn(stamp, sources, result.counts);
     const std::vector<TrackGroup> groups = association_.associate(stamp, present);
     correlations_.step(seconds);
-    targets_.follow(stamp, seconds, fused(groups, present, result.counts), options_);
+    targets_.follow(stamp, seconds, fused(groups, present, sensorsOf(sources), result.counts),
+                    options_);
     look(sources, seconds);
-    judgeAll(stamp);
-    targets_.findTwins(options_.twin_reach);
+    judgeAll(stamp, present);
+    targets_.publish(options_.twin_reach);
     publish(result);
     for (const SourceTracks& source : sources) {
       result.list.views.insert(result.list.views.end(), source.list->views.begin(),
@@ -121,21 +123,35 @@ class TrackFuser::State {
     return present;
   }
 
+  /// Where the tracks of each list are seen from.
+  static std::vector<std::optional<Point2>> sensorsOf(const std::vector<SourceTracks>& sources) {
+    std::vector<std::optional<Point2>> sensors(sources.size());
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+      if (!sources[i].list->views.empty()) {
+        sensors[i] = sources[i].list->views.front().sensor.position();
+      }
+    }
+    return sensors;
+  }
+
   std::vector<Track> fused(const std::vector<TrackGroup>& groups,
-                           const std::vector<PresentTracks>& present, TrackFusionCounts& counts) {
+                           const std::vector<PresentTracks>& present,
+                           const std::vector<std::optional<Point2>>& sensors,
+                           TrackFusionCounts& counts) {
     std::vector<Track> tracks;
     for (const TrackGroup& group : groups) {
       std::optional<Track> whole;
       for (std::size_t i = 0; i < group.size(); ++i) {
-        const Track& track = present[group[i].list].tracks[group[i].track];
+        Track track = present[group[i].list].tracks[group[i].track];
         if (!whole) {
-          whole = track;
+          whole = std::move(track);
           continue;
         }
-        const double surest = std::max(whole->existence_probability, track.existence_probability);
+        reconcileExtents(*whole, sensors[group[0].list], track, sensors[group[i].list]);
+        const double age = std::max(whole->age, track.age);
         whole = combined(*std::move(whole), track, crossCovariance(group, i, present),
                          options_.combination);
-        whole->existence_probability = surest;
+        whole->age = age;
       }
       counts.fused += group.size() > 1 ? 1 : 0;
       tracks.push_back(std::move(*whole));
@@ -168,14 +184,16 @@ class TrackFuser::State {
         options_.looking_time > 0.0 ? -std::expm1(-seconds / options_.looking_time) : 1.0;
     std::vector<std::optional<Visibility>> views(names_.size());
     for (const SourceTracks& source : sources) {
-      if (!source.list->views.empty()) {
-        views[numbers_.at(source.source)].emplace(source.list->views, options_.visibility);
+      const std::vector<ViewFan>& fans = source.list->views;
+      if (std::any_of(fans.begin(), fans.end(),
+                      [](const ViewFan& fan) { return !fan.reach.empty(); })) {
+        views[numbers_.at(source.source)].emplace(fans, options_.visibility);
       }
     }
     for (FusedTarget& target : targets_.all()) {
       for (std::size_t source = 0; source < names_.size(); ++source) {
         double now = 0.0;
-        if (views[source] && target.present && !target.hasMember(names_[source])) {
+        if (views[source] && target.present && !target.member(names_[source])) {
           now = views[source]->detectionProbability(target.track.box, positionStd(target.track));
         }
         std::optional<double>& looked = target.looked[source];
@@ -184,24 +202,40 @@ class TrackFuser::State {
     }
   }
 
-  void judgeAll(Stamp stamp) {
+  void judgeAll(Stamp stamp, const std::vector<PresentTracks>& present) {
     for (FusedTarget& target : targets_.all()) {
       if (target.present) {
-        judge(target, stamp);
+        judge(target, stamp, present);
       }
+      target.wanted = target.present && isWanted(target);
     }
   }
 
-  void judge(FusedTarget& target, Stamp stamp) const {
+  /// The source's own track of a target; null if it has none.
+  const Track* trackOf(const FusedTarget& target, std::size_t source,
+                       const std::vector<PresentTracks>& present) const {
+    const std::optional<std::uint32_t> id = target.member(names_[source]);
+    for (const PresentTracks& own : present) {
+      const auto found =
+          std::find_if(own.tracks.begin(), own.tracks.end(),
+                       [&](const Track& track) { return own.source == source && track.id == id; });
+      if (found != own.tracks.end()) {
+        return &*found;
+      }
+    }
+    return nullptr;
+  }
+
+  void judge(FusedTarget& target, Stamp stamp, const std::vector<PresentTracks>& present) const {
     std::vector<ExistenceWitness> witnesses;
     bool seen_by_all = true;
     for (std::size_t source = 0; source < names_.size(); ++source) {
       const TrackSourceOptions& own = options_.sources.at(names_[source]);
-      const bool has_track = target.hasMember(names_[source]);
+      const Track* const track = trackOf(target, source, present);
       const double looked = target.looked[source].value_or(0.0);
-      witnesses.push_back({has_track, target.track.existence_probability, looked,
-                           own.detection_probability, own.coincidence});
-      seen_by_all = seen_by_all && (has_track || looked < options_.can_see);
+      witnesses.push_back({track != nullptr, track != nullptr ? track->existence_probability : 0.0,
+                           looked, own.detection_probability, own.coincidence});
+      seen_by_all = seen_by_all && (track != nullptr || looked < options_.can_see);
     }
     target.track.existence_probability = fusedExistence(witnesses);
     target.track.age = secondsBetween(target.born, stamp);
@@ -210,16 +244,12 @@ class TrackFuser::State {
     target.confirmed = target.confirmed || (seen_by_all && by_two);
   }
 
-  bool isPublished(const FusedTarget& target) const {
-    if (!target.present || target.twin ||
-        target.track.existence_probability < options_.published_existence) {
-      return false;
-    }
-    if (options_.scheme == TrackFuserOptions::kUnion || target.confirmed) {
-      return true;
-    }
-    return options_.scheme == TrackFuserOptions::kFusedAndBeyond &&
-           target.hasMember(options_.beyond) && !isInOthersView(target);
+  bool isWanted(const FusedTarget& target) const {
+    const bool is_beyond = options_.scheme == TrackFuserOptions::kFusedAndBeyond &&
+                           target.track.sources.size() == 1 && target.member(options_.beyond) &&
+                           !isInOthersView(target);
+    return target.track.existence_probability >= options_.published_existence &&
+           (options_.scheme == TrackFuserOptions::kUnion || target.confirmed || is_beyond);
   }
 
   bool isInOthersView(const FusedTarget& target) const {
@@ -230,7 +260,7 @@ class TrackFuser::State {
 
   void publish(TrackFusionResult& result) {
     for (const FusedTarget& target : targets_.all()) {
-      if (isPublished(target)) {
+      if (target.published) {
         result.list.tracks.push_back(target.track);
         result.list.tracks.back().id = target.id;
       }

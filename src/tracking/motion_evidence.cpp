@@ -6,6 +6,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "datmo_fusion/common/box_extent.h"
+
 namespace datmo {
 
 namespace {
@@ -22,12 +24,6 @@ constexpr int kStaticMemory = 10;
 
 double staticShare(const Object& object) {
   return object.dynamic_state == DynamicState::kStatic ? 1.0 : 0.0;
-}
-
-/// Length of the box's shadow on a line of this direction (a unit vector), m.
-double extentAlong(const Box2& box, const Eigen::Vector2d& direction) {
-  const Eigen::Vector2d local = box.centre.rotation().transpose() * direction;
-  return box.length * std::abs(local.x()) + box.width * std::abs(local.y());
 }
 
 }  // namespace

@@ -1,10 +1,13 @@
 #include "datmo_fusion/common/box2.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
+
+#include "datmo_fusion/common/box_extent.h"
 
 namespace datmo {
 namespace {
@@ -45,6 +48,14 @@ TEST(Box2, NoPointIsFartherFromTheBoxThanFromItsCorners) {
     }
     EXPECT_LE(kCar.distanceTo(point), to_corner + 1e-12);
   }
+}
+
+TEST(BoxExtentTest, IsTheShadowOnALine) {
+  const Box2 box{Pose2(3.0, 4.0, kPi / 2.0), 4.0, 2.0};  // its length is along y
+  EXPECT_NEAR(extentAlong(box, Point2(0.0, 1.0)), 4.0, 1e-12);
+  EXPECT_NEAR(extentAlong(box, Point2(-1.0, 0.0)), 2.0, 1e-12);
+  EXPECT_NEAR(extentAlong(box, Point2(std::sqrt(0.5), std::sqrt(0.5))), 6.0 * std::sqrt(0.5),
+              1e-12);
 }
 
 }  // namespace

@@ -1,0 +1,12 @@
+#include "datmo_fusion/common/box_extent.h"
+
+#include <cmath>
+
+namespace datmo {
+
+double extentAlong(const Box2& box, const Point2& direction) {
+  const Point2 local = box.centre.rotation().transpose() * direction;
+  return box.length * std::abs(local.x()) + box.width * std::abs(local.y());
+}
+
+}  // namespace datmo
