@@ -1,0 +1,106 @@
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fusion_tracks.h"
+#include "track_sources.h"
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/fusion/track_fuser.h"
+
+namespace datmo {
+namespace {
+
+using Ids = std::vector<std::uint32_t>;
+
+/// In the scanner's view, and far from the camera's.
+Track far(const std::string& source, double speed, double existence = 0.9, std::uint32_t id = 1) {
+  Track track = carTrack(60.0, 0.0, speed, 0.0, source, id);
+  track.existence_probability = existence;
+  return track;
+}
+
+TEST(FusedTargetsTest, WhoeverLosesAnObjectThatHasJustBeenFusedItsIdStays) {
+  // Each has its own target of it until the scanner's track comes to the camera's at 1 s, and the
+  // scanner loses it while the camera's old target is not forgotten yet.
+  TrackFuser fuser{TrackFuserOptions()};
+  for (int i = 0; i <= 25; ++i) {
+    const double t = 0.1 * i;
+    const double x = 10.0 + 5.0 * t;
+    std::vector<Track> by_lidar;
+    if (i < 18) {
+      by_lidar = {carTrack(x, i < 10 ? 6.0 : 0.0, 5.0, 0.0, "lidar", 5)};
+    }
+    const auto result = fuser.fuse(
+        at(t), {lidar(t, by_lidar), stereo(t, {carTrack(x, 0.0, 5.0, 0.0, "stereo", 9)})});
+    EXPECT_EQ(idsOf(result), i < 10 ? Ids{} : Ids{1}) << t;
+  }
+}
+
+TEST(FusedTargetsTest, WhatDoesNotComeOutHidesNothing) {
+  // Of the camera alone, and so not of the thesis's list, however sure.
+  TrackFuser fuser{TrackFuserOptions()};
+  const auto result = fuser.fuse(
+      at(0.0), {lidar(0.0, {far("lidar", 9.0)}), stereo(0.0, {far("stereo", -9.0, 0.99)})});
+  ASSERT_EQ(result.list.tracks.size(), 1U);
+  EXPECT_EQ(result.list.tracks[0].sources[0].source, "lidar");
+}
+
+TEST(FusedTargetsTest, AConfirmedOneThatHardlyExistsAnyMoreHidesNothing) {
+  TrackFuser fuser(withScheme(TrackFuserOptions::kUnion));
+  EXPECT_EQ(idsOf(fuser.fuse(at(0.0),
+                             {lidar(0.0, {far("lidar", 9.0)}), stereo(0.0, {far("stereo", 9.0)})})),
+            Ids{1});
+  EXPECT_EQ(idsOf(fuser.fuse(at(0.1), {lidar(0.1, {far("lidar", -9.0, 0.9, 2)}),
+                                       stereo(0.1, {far("stereo", 9.0, 0.1)})})),
+            Ids{2});
+}
+
+TEST(FusedTargetsTest, OfTwoAtOnePlaceTheSameOneIsPublished) {
+  TrackFuser fuser(withScheme(TrackFuserOptions::kUnion));
+  for (int i = 0; i < 6; ++i) {
+    const double t = 0.1 * i;
+    const double existence = i % 2 == 0 ? 0.9 : 0.98;
+    const auto result = fuser.fuse(at(t), {heard("lidar", t, {far("lidar", 9.0, existence)}, {}),
+                                           heard("stereo", t, {far("stereo", -9.0, 0.95)}, {})});
+    ASSERT_EQ(result.list.tracks.size(), 1U);
+    EXPECT_EQ(result.list.tracks[0].sources[0].source, "stereo") << t;
+  }
+}
+
+TEST(FusedTargetsTest, ASourceThatTellsNoBeamsIsNotMissed) {
+  TrackFuser fuser{TrackFuserOptions()};
+  ViewFan unknown;
+  unknown.beam_spacing = degrees(1.0);
+  const auto result =
+      fuser.fuse(at(0.0), {lidar(0.0, {far("lidar", 9.0)}), heard("stereo", 0.0, {}, {unknown})});
+  ASSERT_EQ(result.list.tracks.size(), 1U);
+  EXPECT_NEAR(result.list.tracks[0].existence_probability, 0.9, 1e-9);
+}
+
+TEST(FusedTargetsTest, ItIsAsOldAsTheOldestOfItsTracks) {
+  TrackFuser fuser{TrackFuserOptions()};
+  Track old = far("stereo", 9.0);
+  old.age = 30.0;
+  const auto result = fuser.fuse(at(0.0), {lidar(0.0, {far("lidar", 9.0)}), stereo(0.0, {old})});
+  ASSERT_EQ(result.list.tracks.size(), 1U);
+  EXPECT_NEAR(result.list.tracks[0].age, 30.0, 1e-6);
+}
+
+TEST(FusedTargetsTest, WhoIsSurestOfItIsNoEvidenceBesidesItself) {
+  TrackFuserOptions options;
+  options.sources["lidar"].coincidence = 0.1;
+  options.sources["stereo"].coincidence = 0.8;
+  const auto existence = [&](double by_lidar, double by_stereo) {
+    TrackFuser fuser(options);
+    const auto result = fuser.fuse(at(0.0), {lidar(0.0, {far("lidar", 9.0, by_lidar)}),
+                                             stereo(0.0, {far("stereo", 9.0, by_stereo)})});
+    return result.list.tracks.at(0).existence_probability;
+  };
+  // Odds of 4; of detection_probability / coincidence the other one's counts: 8, and 1.
+  EXPECT_NEAR(existence(0.6, 0.8), 32.0 / 33.0, 1e-9);
+  EXPECT_NEAR(existence(0.8, 0.6), 0.8, 1e-9);
+}
+
+}  // namespace
+}  // namespace datmo

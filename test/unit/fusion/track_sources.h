@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/fusion/track_fuser.h"
+
+namespace datmo {
+
+/// A time of the tests of TrackFuser, s since they began.
+inline Stamp at(double seconds) { return Stamp::fromSeconds(100.0 + seconds); }
+
+/// All around the sensor in the origin, to this range.
+inline ViewFan allAround(double range) {
+  ViewFan fan;
+  fan.first_bearing = -kPi;
+  fan.beam_spacing = degrees(1.0);
+  fan.sure_range = range;
+  fan.range = range;
+  fan.reach.assign(360, range);
+  return fan;
+}
+
+inline SourceTracks heard(const std::string& source, double seconds, std::vector<Track> tracks,
+                          std::vector<ViewFan> views) {
+  auto list = std::make_shared<TrackList>();
+  list->stamp = at(seconds);
+  list->tracks = std::move(tracks);
+  list->views = std::move(views);
+  return {source, list};
+}
+
+/// The scanner sees to 80 m, the camera to 40 m.
+inline SourceTracks lidar(double seconds, std::vector<Track> tracks) {
+  return heard("lidar", seconds, std::move(tracks), {allAround(80.0)});
+}
+inline SourceTracks stereo(double seconds, std::vector<Track> tracks) {
+  return heard("stereo", seconds, std::move(tracks), {allAround(40.0)});
+}
+
+inline std::vector<std::uint32_t> idsOf(const TrackFusionResult& result) {
+  std::vector<std::uint32_t> ids;
+  for (const Track& track : result.list.tracks) {
+    ids.push_back(track.id);
+  }
+  return ids;
+}
+
+inline TrackFuserOptions withScheme(const std::string& scheme) {
+  TrackFuserOptions options;
+  options.scheme = scheme;
+  return options;
+}
+
+}  // namespace datmo
