@@ -12,8 +12,6 @@ namespace datmo {
 
 namespace {
 
-using Member = std::pair<std::string, std::uint32_t>;
-
 bool sharesSource(const Track& a, const Track& b) {
   return std::any_of(a.sources.begin(), a.sources.end(), [&](const SourceTrack& one) {
     return std::any_of(b.sources.begin(), b.sources.end(),
@@ -45,37 +43,49 @@ std::optional<std::uint32_t> FusedTarget::member(const std::string& source) cons
 
 FusedTargets::Owners FusedTargets::byMembers(const std::vector<Track>& groups) const {
   // One that was lost may be known by a track that has gone over to another.
-  std::multimap<Member, std::size_t> owners_of;
+  std::multimap<FusedTarget::Member, std::size_t> owners_of;
   for (std::size_t i = 0; i < targets_.size(); ++i) {
-    for (const SourceTrack& member : targets_[i].track.sources) {
-      owners_of.insert({{member.source, member.id}, i});
+    for (const auto& [member, since] : targets_[i].since) {
+      owners_of.insert({member, i});
     }
   }
   // First those that are confirmed, then those that are not lost, then those that share more
-  // tracks, then the older ones.
-  using Claim = std::tuple<bool, bool, int, std::size_t, std::size_t>;
+  // tracks, then those that share one for longer, then the older ones.
+  using Claim = std::tuple<bool, bool, int, std::int64_t, std::size_t, std::size_t>;
   std::vector<Claim> claims;
   for (std::size_t group = 0; group < groups.size(); ++group) {
-    std::map<std::size_t, int> shared;
-    for (const SourceTrack& member : groups[group].sources) {
-      const auto [first, last] = owners_of.equal_range({member.source, member.id});
-      std::for_each(first, last, [&shared](const auto& owner) { ++shared[owner.second]; });
-    }
-    for (const auto& [target, members] : shared) {
+    for (const auto& [target, shared] : sharedWith(groups[group], owners_of)) {
       const FusedTarget& one = targets_[target];
-      claims.emplace_back(!one.confirmed, !one.present, -members, target, group);
+      claims.emplace_back(!one.confirmed, !one.present, -shared.tracks, shared.since.nanoseconds,
+                          target, group);
     }
   }
   std::sort(claims.begin(), claims.end());
   Owners owners(groups.size());
   std::vector<bool> taken(targets_.size(), false);
-  for (const auto& [unconfirmed, lost, fewer, target, group] : claims) {
+  for (const auto& [unconfirmed, lost, fewer, since, target, group] : claims) {
     if (!owners[group] && !taken[target]) {
       owners[group] = target;
       taken[target] = true;
     }
   }
   return owners;
+}
+
+std::map<std::size_t, FusedTargets::Shared> FusedTargets::sharedWith(
+    const Track& group, const std::multimap<FusedTarget::Member, std::size_t>& owners_of) const {
+  std::map<std::size_t, Shared> all;
+  for (const SourceTrack& track : group.sources) {
+    const FusedTarget::Member member(track.source, track.id);
+    const auto [first, last] = owners_of.equal_range(member);
+    for (auto owner = first; owner != last; ++owner) {
+      const Stamp since = targets_[owner->second].since.at(member);
+      const auto [known, added] = all.emplace(owner->second, Shared{0, since});
+      ++known->second.tracks;
+      known->second.since = std::min(known->second.since, since);
+    }
+  }
+  return all;
 }
 
 std::vector<std::size_t> FusedTargets::withoutGroup(const Owners& owners) const {
@@ -153,6 +163,13 @@ void FusedTargets::follow(Stamp stamp, double seconds, std::vector<Track> groups
     }
     FusedTarget& target = targets_[*owners[group]];
     target.born = std::min(target.born, stamp + -groups[group].age);
+    std::map<FusedTarget::Member, Stamp> since;
+    for (const SourceTrack& track : groups[group].sources) {
+      const FusedTarget::Member member(track.source, track.id);
+      const auto before = target.since.find(member);
+      since[member] = before == target.since.end() ? stamp : before->second;
+    }
+    target.since = std::move(since);
     target.track = std::move(groups[group]);
     target.present = true;
     target.lost = 0.0;

@@ -2,8 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "datmo_fusion/fusion/track_fuser.h"
@@ -13,14 +15,17 @@ namespace datmo {
 
 /// An object that one source or more have a track of.
 struct FusedTarget {
+  using Member = std::pair<std::string, std::uint32_t>;  ///< a source, and the id of its track
+
   std::uint32_t id = 0;
-  Track track;             ///< fused, at the present; `sources`: those it was last fused of
-  Stamp born;              ///< when the first object of any of its tracks was seen
-  bool present = true;     ///< a source has a track of it now
-  double lost = 0.0;       ///< s, since one had
-  bool confirmed = false;  ///< every source that could see it has had a track of it
-  bool wanted = false;     ///< comes out, unless another one is at the same place, and surer
-  bool published = false;  ///< came out
+  Track track;                    ///< fused, at the present; `sources`: those it was last fused of
+  std::map<Member, Stamp> since;  ///< when it got each of these tracks
+  Stamp born;                     ///< when the first object of any of its tracks was seen
+  bool present = true;            ///< a source has a track of it now
+  double lost = 0.0;              ///< s, since one had
+  bool confirmed = false;         ///< every source that could see it has had a track of it
+  bool wanted = false;            ///< comes out, unless another one is at the same place, and surer
+  bool published = false;         ///< came out
   /// By number of the source: that it would have detected it lately; none: it was not asked yet.
   std::vector<std::optional<double>> looked;
 
@@ -29,8 +34,9 @@ struct FusedTarget {
 };
 
 /// Which fused target a group of tracks is: the one that has a track of the group already; of
-/// several the confirmed, then one that was not lost, then the older one. Of new groups those that
-/// are where one was lost within `memory` are that one again. Ids rise and are never reused.
+/// several the confirmed, then one that was not lost, then the older one. Where the tracks of a
+/// target part, it goes on with the one that it has had for longest. Of new groups those that are
+/// where one was lost within `memory` are that one again. Ids rise and are never reused.
 class FusedTargets {
  public:
   explicit FusedTargets(std::size_t sources) : sources_(sources) {}
@@ -51,6 +57,14 @@ class FusedTargets {
  private:
   using Owners = std::vector<std::optional<std::size_t>>;
 
+  /// Tracks that a group has in common with a target.
+  struct Shared {
+    int tracks = 0;
+    Stamp since;  ///< when the target got the first of them
+  };
+  /// By index of the target.
+  std::map<std::size_t, Shared> sharedWith(
+      const Track& group, const std::multimap<FusedTarget::Member, std::size_t>& owners_of) const;
   /// Of each group the index of its target, as far as it shares a track with one.
   Owners byMembers(const std::vector<Track>& groups) const;
   /// Those that are none's.

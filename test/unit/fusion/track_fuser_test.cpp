@@ -122,6 +122,30 @@ TEST(TrackFuserTest, TheIdStaysWhileOneSensorLosesTheObjectAndFindsItAgain) {
   EXPECT_EQ(ids.size(), 1U);
 }
 
+TEST(TrackFuserTest, WhereTracksPartTheIdGoesWithTheOneThatItHadForLongest) {
+  // The camera follows a cyclist all the time; the scanner's second track of him ends on a car.
+  TrackFuser fuser{TrackFuserOptions()};
+  std::uint32_t with_camera = 0;
+  std::uint32_t at_first = 0;
+  for (int i = 0; i <= 60; ++i) {
+    const double t = 0.1 * i;
+    Track by_lidar = driving(-15.0, t, "lidar", t < 2.0 ? 1 : 2);
+    if (t > 3.0) {
+      by_lidar = carTrack(0.0, 0.0, 0.0, 0.0, "lidar", 2);
+    }
+    const auto result =
+        fuser.fuse(at(t), {lidar(t, {by_lidar}), stereo(t, {driving(-14.8, t, "stereo")})});
+    for (const Track& track : result.list.tracks) {
+      if (track.sources.back().source == "stereo") {
+        with_camera = track.id;
+      }
+    }
+    at_first = i == 0 ? with_camera : at_first;
+  }
+  EXPECT_GT(at_first, 0U);
+  EXPECT_EQ(with_camera, at_first);
+}
+
 TEST(TrackFuserTest, WhatAllLoseForAMomentIsKnownAgain) {
   TrackFuserOptions options;
   options.memory = 1.5;
