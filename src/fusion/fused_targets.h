@@ -23,7 +23,7 @@ struct FusedTarget {
   Stamp born;                     ///< when the first object of any of its tracks was seen
   bool present = true;            ///< a source has a track of it now
   double lost = 0.0;              ///< s, since one had
-  bool confirmed = false;         ///< every source that could see it has had a track of it
+  bool confirmed = false;         ///< all sources that could see it, and two sensors, had tracks
   bool wanted = false;            ///< comes out, unless another one is at the same place, and surer
   bool published = false;         ///< came out
   /// By number of the source: that it would have detected it lately; none: it was not asked yet.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 
 #include <Eigen/Cholesky>
 
@@ -47,13 +48,15 @@ double placeVariance(const Track& track, const TrackComparisonOptions& options) 
 }
 
 /// Logarithm of how much likelier two tracks of these classes are if they are one object: all
-/// classes are equally likely before.
+/// classes are equally likely before. Who says of all of them 0 knows nothing.
 double logClassRatio(const ClassProbabilities& a, const ClassProbabilities& b) {
-  double same = 0.0;
-  for (std::size_t i = 0; i < kObjectClasses; ++i) {
-    same += a[i] * b[i];
+  const double all =
+      std::accumulate(a.begin(), a.end(), 0.0) * std::accumulate(b.begin(), b.end(), 0.0);
+  if (all <= 0.0) {
+    return 0.0;
   }
-  return std::log(std::max(kLeastClassRatio, same * static_cast<double>(kObjectClasses)));
+  const double same = std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+  return std::log(std::max(kLeastClassRatio, same / all * static_cast<double>(kObjectClasses)));
 }
 
 /// Of unrelated tracks, of position and velocity, 1/(m^4/s^2).

@@ -1,5 +1,6 @@
 #include "datmo_fusion/fusion/track_extents.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "datmo_fusion/common/box_extent.h"
@@ -15,7 +16,7 @@ constexpr double kExtentPerCentre = 4.0;
 
 /// m, standard deviation of the centre along the axis.
 double sigmaAlong(const Track& track, const Point2& axis) {
-  return std::sqrt(axis.dot(track.covariance.topLeftCorner<2, 2>() * axis));
+  return std::sqrt(std::max(0.0, axis.dot(track.covariance.topLeftCorner<2, 2>() * axis)));
 }
 
 /// m, how long a track of this extent is likely to be, of which another one says that it is longer.

@@ -54,14 +54,15 @@ void TrackFuserOptions::visit(OptionVisitor& visitor) {
 }
 
 void TrackFuserOptions::check() const {
-  if (sources.count(beyond) > 0) {
-    return;
-  }
   std::string names;
-  for (const auto& [name, source] : sources) {
+  for (const std::string& name : sourcesInUse()) {
+    if (name == beyond) {
+      return;
+    }
     names += (names.empty() ? "" : ", ") + name;
   }
-  throw OptionError("beyond = \"" + beyond + "\": expected one of the sources (" + names + ")");
+  throw OptionError("beyond = \"" + beyond + "\": expected one of the sources in use (" + names +
+                    ")");
 }
 
 std::vector<std::string> TrackFuserOptions::sourcesInUse() const {

@@ -57,8 +57,9 @@ using TrackGroup = std::vector<TrackPlace>;
 /// parallel: thesis 3.4.2; two tracks in each other's gate are one if they were parallel over the
 /// history that they have in common.
 ///
-/// In both, one-to-one between sources and likeliest over all pairs; those who were one before stay
-/// so until they differ by more than it takes to become one (`loyalty`).
+/// In both, one-to-one between sources and likeliest over all pairs, with a lead (`loyalty`) for
+/// those who were one before: accumulated, these also stay one until they differ by as much more
+/// than it takes to become one.
 class TrackAssociation {
  public:
   /// Throws OptionError.

@@ -49,7 +49,7 @@ struct TrackFuserOptions {
 
   void visit(OptionVisitor& visitor);
 
-  /// Throws OptionError where `beyond` is none of the sources.
+  /// Throws OptionError where `beyond` is none of the sources in use.
   void check() const;
 
   /// Names of the sources that are in use.
@@ -87,9 +87,9 @@ struct TrackFusionResult {
 ///
 /// What is published, of the tracks that are likely enough to exist (thesis 3.4.2):
 ///
-///   - fused_and_beyond: those that all sources have, or had, that can see the place, by two
-///   sensors
-///     at least; and those of one source, `beyond`, where no other can see. The thesis's list.
+///   - fused_and_beyond: those that all sources have, or had, that can see the place, and two
+///     sensors at least; and those of one source, `beyond`, where no other can see. The thesis's
+///     list.
 ///   - confirmed_by_all: the first of these alone. For very noisy sensors.
 ///   - union: all. `sensors` tells who sees them.
 ///

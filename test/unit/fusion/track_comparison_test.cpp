@@ -93,6 +93,9 @@ TEST(TrackComparisonTest, OneClassSpeaksForOneObjectAndTwoAgainst) {
   EXPECT_NEAR(ratio(person, person), nothing_known + std::log(5.0 * (0.64 + 4.0 * 0.0025)),
               kRounding);
   EXPECT_LT(ratio(person, of(ObjectClass::kVehicle)), nothing_known - 0.5);
+  Track classless = unknown;
+  classless.class_probabilities.fill(0.0);
+  EXPECT_NEAR(ratio(classless, person), nothing_known, kRounding);
 }
 
 TEST(TrackComparisonTest, WhatIsFarApartIsNotLookedAtAnyCloser) {

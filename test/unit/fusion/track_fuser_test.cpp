@@ -248,6 +248,10 @@ TEST(TrackFuserTest, UnknownSourcesAndBadOptionsAreRefused) {
   TrackFuserOptions options;
   options.beyond = "radar";
   EXPECT_THROW(TrackFuser{options}, OptionError);
+  options.sources["radar"].use = false;
+  EXPECT_THROW(TrackFuser{options}, OptionError) << "nothing would come out beyond";
+  options.sources["radar"].use = true;
+  EXPECT_NO_THROW(TrackFuser{options});
 }
 
 }  // namespace
