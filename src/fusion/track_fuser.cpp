@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -24,23 +23,17 @@ double positionStd(const Track& track) {
   return std::sqrt(0.5 * track.covariance.topLeftCorner<2, 2>().trace());
 }
 
-/// The likeliest ones, in the order they had.
+/// The likeliest ones, by rising id.
 void keepLikeliest(std::vector<Track>& tracks, std::size_t most) {
   if (tracks.size() <= most) {
     return;
   }
-  std::vector<double> existences;
-  for (const Track& track : tracks) {
-    existences.push_back(track.existence_probability);
-  }
-  const auto last = existences.begin() + static_cast<std::ptrdiff_t>(most) - 1;
-  std::nth_element(existences.begin(), last, existences.end(), std::greater<>());
-  const double least = *last;
-  tracks.erase(
-      std::remove_if(tracks.begin(), tracks.end(),
-                     [least](const Track& track) { return track.existence_probability < least; }),
-      tracks.end());
-  tracks.resize(std::min(tracks.size(), most));
+  std::stable_sort(tracks.begin(), tracks.end(), [](const Track& a, const Track& b) {
+    return a.existence_probability > b.existence_probability;
+  });
+  tracks.resize(most);
+  std::sort(tracks.begin(), tracks.end(),
+            [](const Track& a, const Track& b) { return a.id < b.id; });
 }
 
 }  // namespace
@@ -252,10 +245,13 @@ class TrackFuser::State {
            (options_.scheme == TrackFuserOptions::kUnion || target.confirmed || is_beyond);
   }
 
+  /// So that a source without a track of it speaks against it: of one that is published already
+  /// when it has had time to confirm its own.
   bool isInOthersView(const FusedTarget& target) const {
-    return std::any_of(target.looked.begin(), target.looked.end(), [&](const auto& looked) {
-      return looked.value_or(0.0) >= options_.can_see;
-    });
+    const double least =
+        target.published ? std::max(options_.can_see, options_.misses) : options_.can_see;
+    return std::any_of(target.looked.begin(), target.looked.end(),
+                       [least](const auto& looked) { return looked.value_or(0.0) >= least; });
   }
 
   void publish(TrackFusionResult& result) {

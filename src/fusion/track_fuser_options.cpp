@@ -32,6 +32,11 @@ void TrackFuserOptions::visit(OptionVisitor& visitor) {
                   "a source can see a place where each of its measurements would have detected the "
                   "object at least so probably, lately: a quarter is several times a second"},
                  can_see, {0.0, 1.0});
+  visitor.number({"misses", "1",
+                  "what is published of `beyond` alone stays when it comes into view, until a "
+                  "source without a track of it would have detected it at least so probably, "
+                  "lately: no tracker confirms at once"},
+                 misses, {0.0, 1.0});
   visitor.number({"looking_time", "s",
                   "time constant of that probability: who has just come into view is not missed at "
                   "once"},

@@ -35,6 +35,7 @@ struct TrackFuserOptions {
   std::string beyond = "lidar";  ///< name of a source
   int most_tracks = 200;
   double can_see = 0.25;             ///< 1
+  double misses = 0.75;              ///< 1
   double looking_time = 1.0;         ///< s
   double twin_reach = 1.0;           ///< 1
   double published_existence = 0.5;  ///< 1
@@ -90,6 +91,7 @@ struct TrackFusionResult {
 ///   - fused_and_beyond: those that all sources have, or had, that can see the place, and two
 ///     sensors at least; and those of one source, `beyond`, where no other can see. The thesis's
 ///     list.
+///     One that comes from there into another's view stays for as long as that needs to confirm it.
 ///   - confirmed_by_all: the first of these alone. For very noisy sensors.
 ///   - union: all. `sensors` tells who sees them.
 ///

@@ -78,6 +78,30 @@ TEST(FusedTargetsTest, ASourceThatTellsNoBeamsIsNotMissed) {
   EXPECT_NEAR(result.list.tracks[0].existence_probability, 0.9, 1e-9);
 }
 
+/// How long a car that comes towards the vehicle has not been published since it was first, when
+/// the camera has a track of it `needed` s after it came into its view.
+double secondsHidden(double needed) {
+  TrackFuser fuser{TrackFuserOptions()};
+  int hidden = 0;
+  for (int i = 0; i <= 50; ++i) {
+    const double t = 0.1 * i;
+    const Track car = carTrack(60.0 - 10.0 * t, 0.0, -10.0, 0.0, "lidar");
+    std::vector<Track> by_stereo;
+    if (t > 2.0 + needed) {
+      by_stereo = {carTrack(60.0 - 10.0 * t, 0.0, -10.0, 0.0, "stereo")};
+    }
+    hidden +=
+        fuser.fuse(at(t), {lidar(t, {car}), stereo(t, by_stereo)}).list.tracks.empty() ? 1 : 0;
+  }
+  return 0.1 * hidden;
+}
+
+TEST(FusedTargetsTest, WhatComesIntoAnothersViewIsNotHiddenUntilThatConfirmsIt) {
+  EXPECT_EQ(secondsHidden(0.2), 0.0);
+  EXPECT_EQ(secondsHidden(1.0), 0.0);
+  EXPECT_GT(secondsHidden(3.0), 1.0) << "the camera does not see it";
+}
+
 TEST(FusedTargetsTest, ItIsAsOldAsTheOldestOfItsTracks) {
   TrackFuser fuser{TrackFuserOptions()};
   Track old = far("stereo", 9.0);
