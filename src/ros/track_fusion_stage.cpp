@@ -89,11 +89,6 @@ TrackList TrackFusionStage::listOf(const std::string& source, const TrackArray& 
   const std::size_t beyond = list.tracks.size() - std::min(list.tracks.size(), most);
   inputs_.report(source, {"many_tracks", beyond, "tracks too many",
                           "most_tracks = " + std::to_string(most) + " at most, the surest ones"});
-  for (Track& track : list.tracks) {
-    if (track.sensors.empty()) {
-      track.sensors = {source};
-    }
-  }
   return list;
 }
 

@@ -47,6 +47,8 @@ void DriveSummary::add(const Pipeline::Output& output) {
     position_ = position;
     ++scans_;
   }
+  tracks_are_fused_ = tracks_are_fused_ || !output.source_tracks.empty();
+  track_lists_ += output.tracks.size();
   for (const TrackArrayPtr& tracks : output.tracks) {
     for (const TrackMessage& track : tracks->tracks) {
       track_ids_.insert(track.id);
@@ -63,6 +65,9 @@ void printTable(std::ostream& out, const DriveSummary& drive, const Pipeline& pi
   }
   if (drive.fusedLists() > 0) {
     line(out, "lists of objects fused") << drive.fusedLists() << '\n';
+  }
+  if (drive.fusedTrackLists() > 0) {
+    line(out, "lists of tracks fused") << drive.fusedTrackLists() << '\n';
   }
   line(out, "distance driven") << drive.distance() << " m\n";
   line(out, "tracks confirmed") << drive.tracks() << '\n';

@@ -22,11 +22,14 @@ class DriveSummary {
   std::size_t fusedLists() const { return fused_lists_; }  ///< of objects
   std::size_t scans() const { return scans_; }
   double distance() const { return distance_; }  ///< m, along the estimated poses
+  std::size_t fusedTrackLists() const { return tracks_are_fused_ ? track_lists_ : 0; }
   std::size_t tracks() const { return track_ids_.size(); }
 
  private:
   std::size_t fused_grids_ = 0;
   std::size_t fused_lists_ = 0;
+  std::size_t track_lists_ = 0;
+  bool tracks_are_fused_ = false;
   std::size_t scans_ = 0;
   double distance_ = 0.0;
   std::optional<Point2> position_;  ///< m, map frame, after the last scan
