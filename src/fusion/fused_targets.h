@@ -35,9 +35,9 @@ struct FusedTarget {
 
 /// Which fused target a group of tracks is: the one that has a track of the group already; of
 /// several the confirmed, then one that was not lost, one that has more of the tracks, that has had
-/// one for longer, the older one. So where the tracks of a target part, it goes on with the one that
-/// it has had for longest. Of new groups those that are where one was lost within `memory` are that
-/// one again. Ids rise and are never reused.
+/// one for longer, the older one. So where the tracks of a target part, it goes on with the one
+/// that it has had for longest. Of new groups those that are where one was lost within `memory` are
+/// that one again. Ids rise and are never reused.
 class FusedTargets {
  public:
   explicit FusedTargets(std::size_t sources) : sources_(sources) {}

@@ -106,8 +106,8 @@ class TrackFuser {
   ~TrackFuser();
 
   /// The tracks at `stamp`, of the newest lists of all sources that speak. A list may have been
-  /// given before; it is no new evidence then. All sources must be in the options (else
-  /// std::out_of_range).
+  /// given before; it is no new evidence then. Tracks that do not tell their sensors are their
+  /// source's own. All sources must be in the options (else std::out_of_range).
   TrackFusionResult fuse(Stamp stamp, const std::vector<SourceTracks>& sources);
 
   /// The scheme by its name, from the next call on. Throws OptionError for a name that there is
