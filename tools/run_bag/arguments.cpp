@@ -174,7 +174,7 @@ std::string usage() {
          "  --with-truth          copies /ground_truth/* along\n"
          "  --quiet               no progress bar and no table\n"
          "  --until STAGE         goes no further than grid_fusion, grid_slam, moving_objects,\n"
-         "                        object_fusion or tracker\n"
+         "                        object_fusion, tracker or track_fusion\n"
          "  --low-level-fusion    fuses the grids of scanner and stereo camera before grid_slam\n"
          "  --object-fusion       fuses the objects of scanner and stereo camera before tracker, "
          "and\n"
