@@ -17,7 +17,7 @@ CrossCovariance TrackCorrelations::between(const Track& a, const Track& b,
   const auto key = std::make_pair(member(a), member(b));
   const CovariancePair now{a.covariance, b.covariance};
   const auto known = before_.find(key);
-  const CrossCovariance cross =
+  CrossCovariance cross =
       known == before_.end()
           ? evenCrossCovariance(now, options.first_correlation)
           : steppedCrossCovariance(known->second.cross, known->second.covariances, now,
