@@ -208,15 +208,14 @@ class TrackFuser::State {
   const Track* trackOf(const FusedTarget& target, std::size_t source,
                        const std::vector<PresentTracks>& present) const {
     const std::optional<std::uint32_t> id = target.member(names_[source]);
-    for (const PresentTracks& own : present) {
-      const auto found =
-          std::find_if(own.tracks.begin(), own.tracks.end(),
-                       [&](const Track& track) { return own.source == source && track.id == id; });
-      if (found != own.tracks.end()) {
-        return &*found;
-      }
+    const auto own = std::find_if(present.begin(), present.end(),
+                                  [&](const PresentTracks& list) { return list.source == source; });
+    if (!id || own == present.end()) {
+      return nullptr;
     }
-    return nullptr;
+    const auto found = std::find_if(own->tracks.begin(), own->tracks.end(),
+                                    [&](const Track& track) { return track.id == *id; });
+    return found == own->tracks.end() ? nullptr : &*found;
   }
 
   void judge(FusedTarget& target, Stamp stamp, const std::vector<PresentTracks>& present) const {
