@@ -1,6 +1,8 @@
 #pragma once
 
+#include <datmo_fusion/DroppedObjects.h>
 #include <datmo_fusion/ObjectArray.h>
+#include <datmo_fusion/RoadBorders.h>
 #include <datmo_fusion/SplitScan.h>
 #include <datmo_fusion/StageTiming.h>
 #include <datmo_fusion/TrackArray.h>
@@ -13,18 +15,26 @@ namespace datmo {
 // The package's messages under the names that the code uses: generated code puts them into a
 // namespace of the package's name. Those that have a struct of the same name in the core end in
 // Message.
+using DroppedObjectMessage = datmo_fusion::DroppedObject;
 using FieldOfViewMessage = datmo_fusion::FieldOfView;
 using ObjectMessage = datmo_fusion::Object;
 using PathPointMessage = datmo_fusion::PathPoint;
+using RoadBorderMessage = datmo_fusion::RoadBorder;
 using ScanFieldMessage = datmo_fusion::ScanField;
 using ScanPointMessage = datmo_fusion::ScanPoint;
 using SourceTrackMessage = datmo_fusion::SourceTrack;
 using SplitScanMessage = datmo_fusion::SplitScan;
 using TrackMessage = datmo_fusion::Track;
 using ViewFanMessage = datmo_fusion::ViewFan;
+using datmo_fusion::DroppedObjects;
+using datmo_fusion::DroppedObjectsConstPtr;
+using datmo_fusion::DroppedObjectsPtr;
 using datmo_fusion::ObjectArray;
 using datmo_fusion::ObjectArrayConstPtr;
 using datmo_fusion::ObjectArrayPtr;
+using datmo_fusion::RoadBorders;
+using datmo_fusion::RoadBordersConstPtr;
+using datmo_fusion::RoadBordersPtr;
 using datmo_fusion::SplitScanConstPtr;
 using datmo_fusion::SplitScanPtr;
 using datmo_fusion::StageTiming;

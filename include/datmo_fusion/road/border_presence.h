@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+namespace datmo {
+
+/// Where along the vehicle's way one side has a border, in equal stations.
+struct SidePresence {
+  double first_station = 0.0;   ///< m, way that the vehicle has driven at the middle of station 0
+  double station_length = 1.0;  ///< m
+  /// 0 to 1 for each station, from behind the vehicle to ahead of it: that a border runs there; 0.5
+  /// where nothing is known.
+  std::vector<double> probability;
+};
+
+/// Both sides at one time.
+struct BorderPresence {
+  double way = 0.0;  ///< m that the vehicle has driven up to now
+  SidePresence left;
+  SidePresence right;
+};
+
+}  // namespace datmo

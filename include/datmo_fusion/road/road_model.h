@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "datmo_fusion/common/pose2.h"
+#include "datmo_fusion/common/stamp.h"
+
+namespace datmo {
+
+/// The side of the vehicle on which a border runs; values as in RoadBorder.msg.
+enum class RoadSide : std::uint8_t { kLeft, kRight };
+
+/// One lower-case word.
+const char* nameOf(RoadSide side);
+
+/// A point of a border and how well it is known.
+struct BorderPoint {
+  Point2 position = Point2::Zero();  ///< m, fixed frame (map)
+  double sigma = 0.0;                ///< m, standard deviation across the border
+};
+
+/// One stretch of a border of the road: a kerb, or the road's side of a row of parked cars.
+struct RoadBorder {
+  RoadSide side = RoadSide::kLeft;
+  /// As the vehicle drives, two at least. Where nothing bounds the road (a side street) the border
+  /// ends; behind it another stretch may begin.
+  std::vector<BorderPoint> points;
+  double probability = 0.0;  ///< 0 to 1, that there is a border
+  double unseen_for = 0.0;   ///< s since a scan last saw some of it
+};
+
+/// The road about the vehicle at one time (thesis 2.4, figure 2.10).
+struct RoadModel {
+  Stamp stamp;
+  std::vector<RoadBorder> borders;        ///< any number a side, none overlapping
+  double intersection_probability = 0.0;  ///< 0 to 1, that the vehicle is at one
+  bool at_intersection = false;
+};
+
+}  // namespace datmo

@@ -1,0 +1,7 @@
+#include "datmo_fusion/road/road_model.h"
+
+namespace datmo {
+
+const char* nameOf(RoadSide side) { return side == RoadSide::kLeft ? "left" : "right"; }
+
+}  // namespace datmo
