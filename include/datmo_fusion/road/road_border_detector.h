@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/scan.h"
 #include "datmo_fusion/road/road_model.h"
@@ -7,6 +9,8 @@
 namespace datmo {
 
 struct RoadBorderDetectorOptions {
+  std::string method = "tracked";
+
   void visit(OptionVisitor& visitor);
 };
 
@@ -24,6 +28,7 @@ class RoadBorderDetector {
   void reset();
 
  private:
+  RoadBorderDetectorOptions options_;
   RoadModel road_;
 };
 
