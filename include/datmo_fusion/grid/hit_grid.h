@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/common/scan.h"
+#include "datmo_fusion/grid/grid_window_options.h"
+#include "datmo_fusion/grid/rolling_grid.h"
+
+namespace datmo {
+
+struct HitGridOptions {
+  GridWindowOptions window;
+  int most_hits = 20;      ///< that a cell counts; 0: all
+  double cut_share = 0.1;  ///< of the highest smoothed count
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// How often beams have ended in each cell around the vehicle, whatever the map says of their ends
+/// (thesis 3.5): kerbs and other lasting things stand out, as nothing else is hit again and again
+/// at one place.
+class HitGrid {
+ public:
+  /// Throws OptionError, also for more cells than any memory holds.
+  explicit HitGrid(const HitGridOptions& options);
+
+  const GridWindow& window() const { return cells_.window(); }
+
+  /// Moves the window with the vehicle and counts the ends of the scan's beams.
+  void update(const SplitScan& scan);
+
+  /// Moves the window so that `centre` (m, map frame) lies in its middle cell; what is outside then
+  /// is forgotten.
+  void centreOn(const Point2& centre);
+
+  /// Counts a hit at a point, m, map frame; one outside of the window is nothing.
+  void add(const Point2& point);
+
+  /// H of a cell; 0 outside of the window.
+  int hits(CellIndex cell) const { return cells_.atOrEmpty(cell).hits; }
+
+  /// Mean of the hits in a cell, m, map frame; its centre where there are none.
+  Point2 meanHit(CellIndex cell) const;
+
+  /// S of a cell: the hits in the 3 x 3 cells around it that are in the window (eq. 3.5.1).
+  int smoothed(CellIndex cell) const { return cells_.atOrEmpty(cell).smoothed; }
+
+  /// Highest S of all cells.
+  int highest() const { return highest_; }
+
+  /// S of a cell, and 0 where it is less than `cut_share` of the highest (eq. 3.5.2).
+  int cutSmoothed(CellIndex cell) const {
+    const int value = smoothed(cell);
+    return value >= cut_ ? value : 0;
+  }
+
+  /// Forgets all, as at the start.
+  void reset();
+
+ private:
+  struct Cell {
+    std::int32_t hits = 0;
+    std::int32_t smoothed = 0;
+    Eigen::Vector2f mean = Eigen::Vector2f::Zero();  ///< m, of the hits from the cell's centre
+  };
+
+  void change(Cell& cell, int step);
+  void recount(int from, int to);
+
+  HitGridOptions options_;
+  int most_hits_;
+  RollingGrid<Cell> cells_;
+  /// How many cells have each S but 0, so that the highest is known when some leave.
+  std::vector<std::int32_t> cells_with_;
+  int highest_ = 0;
+  double cut_ = 0.0;
+};
+
+}  // namespace datmo
