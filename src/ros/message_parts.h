@@ -9,7 +9,9 @@
 #include <std_msgs/Header.h>
 
 #include "datmo_fusion/common/box2.h"
+#include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/pose2.h"
+#include "datmo_fusion/ros/messages.h"
 #include "datmo_fusion/ros/stamp_check.h"
 
 namespace datmo {
@@ -46,6 +48,8 @@ inline geometry_msgs::Vector3 size(const Box2& box, double height) {
   result.z = height;
   return result;
 }
+
+ObjectMessage toMessage(const Object& object);
 
 /// A turn about the vertical axis; others are not looked for.
 inline Pose2 boxCentre(const geometry_msgs::Pose& pose) {

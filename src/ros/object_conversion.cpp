@@ -12,31 +12,6 @@ namespace {
 /// rad: a full turn in single precision may be a little more than one.
 constexpr double kRounding = 1e-5;
 
-ObjectMessage toMessage(const Object& object) {
-  ObjectMessage message;
-  message.pose = toMessage(object.box.centre);
-  message.size = size(object.box, object.height);
-  Eigen::Map<Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(message.position_covariance.data()) =
-      object.position_covariance;
-  message.heading_variance = object.heading_variance;
-  std::copy(object.side_variance.begin(), object.side_variance.end(),
-            message.side_variance.begin());
-  message.classification = static_cast<std::uint8_t>(object.object_class);
-  message.class_probability = static_cast<float>(object.class_probability);
-  message.dynamic_state = static_cast<std::uint8_t>(object.dynamic_state);
-  message.moving_fraction = static_cast<float>(object.moving_fraction);
-  message.log_odds = static_cast<float>(object.log_odds);
-  message.delay = static_cast<float>(object.delay);
-  message.sensors = object.sensors;
-  for (const Point2& point : object.points) {
-    geometry_msgs::Point32 end;
-    end.x = static_cast<float>(point.x());
-    end.y = static_cast<float>(point.y());
-    message.points.push_back(end);
-  }
-  return message;
-}
-
 /// A value beyond the last one that has a name is not known (zero in both enumerations).
 template <typename Enumeration>
 Enumeration named(std::uint8_t value, Enumeration last) {
@@ -93,6 +68,31 @@ SensorView fromMessage(const FieldOfViewMessage& message) {
 }
 
 }  // namespace
+
+ObjectMessage toMessage(const Object& object) {
+  ObjectMessage message;
+  message.pose = toMessage(object.box.centre);
+  message.size = size(object.box, object.height);
+  Eigen::Map<Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(message.position_covariance.data()) =
+      object.position_covariance;
+  message.heading_variance = object.heading_variance;
+  std::copy(object.side_variance.begin(), object.side_variance.end(),
+            message.side_variance.begin());
+  message.classification = static_cast<std::uint8_t>(object.object_class);
+  message.class_probability = static_cast<float>(object.class_probability);
+  message.dynamic_state = static_cast<std::uint8_t>(object.dynamic_state);
+  message.moving_fraction = static_cast<float>(object.moving_fraction);
+  message.log_odds = static_cast<float>(object.log_odds);
+  message.delay = static_cast<float>(object.delay);
+  message.sensors = object.sensors;
+  for (const Point2& point : object.points) {
+    geometry_msgs::Point32 end;
+    end.x = static_cast<float>(point.x());
+    end.y = static_cast<float>(point.y());
+    message.points.push_back(end);
+  }
+  return message;
+}
 
 ObjectClass classFromMessage(std::uint8_t value) { return named(value, ObjectClass::kPole); }
 

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+
+#include "datmo_fusion/road/road_border_detector.h"
+#include "datmo_fusion/ros/messages.h"
+#include "datmo_fusion/ros/stage_monitor.h"
+#include "datmo_fusion/ros/stamp_check.h"
+
+namespace datmo {
+
+struct RoadBorderStageOptions {
+  StreamOptions input;
+  RoadBorderDetectorOptions detector;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// RoadBorderDetector between messages: the same one serves the nodelet and the bag runner. Bad
+/// input is dropped through the monitor, never thrown. When the clock jumps back, or the map gives
+/// way to one of another frame, the road is forgotten.
+class RoadBorderStage {
+ public:
+  /// `monitor` must outlive the stage. Throws OptionError.
+  RoadBorderStage(const RoadBorderStageOptions& options, StageMonitor& monitor);
+
+  /// The road in the frame of the map that the scan was split by; null if the scan was dropped.
+  RoadBordersPtr takeSplitScan(const SplitScanMessage& message);
+
+ private:
+  void restart(const std::string& reason, const std::string& why);
+  void show(const RoadModel& road);
+
+  StageMonitor& monitor_;
+  RoadBorderDetector detector_;
+  StampCheck stamps_;
+  std::string map_frame_;  ///< of the last scan; empty before the first
+};
+
+}  // namespace datmo
