@@ -52,4 +52,25 @@ struct GridWindow {
   }
 };
 
+/// Calls `visit(CellIndex)` for the cells of a window that lie outside of another one of its size.
+template <typename Visit>
+void forEachCellOutside(const GridWindow& window, const GridWindow& other, Visit&& visit) {
+  const auto visitRows = [&visit](int column, int first_row, int end_row) {
+    for (int row = first_row; row < end_row; ++row) {
+      visit(CellIndex{column, row});
+    }
+  };
+  const CellIndex corner = window.corner;
+  const CellIndex end{corner.column + window.columns, corner.row + window.rows};
+  const CellIndex other_end{other.corner.column + other.columns, other.corner.row + other.rows};
+  for (int column = corner.column; column < end.column; ++column) {
+    if (column < other.corner.column || column >= other_end.column) {
+      visitRows(column, corner.row, end.row);
+    } else {
+      visitRows(column, corner.row, std::min(other.corner.row, end.row));
+      visitRows(column, std::max(other_end.row, corner.row), end.row);
+    }
+  }
+}
+
 }  // namespace datmo

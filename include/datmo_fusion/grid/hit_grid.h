@@ -53,7 +53,7 @@ class HitGrid {
   /// S of a cell, and 0 where it is less than `cut_share` of the highest (eq. 3.5.2).
   int cutSmoothed(CellIndex cell) const {
     const int value = smoothed(cell);
-    return value >= cut_ ? value : 0;
+    return value >= options_.cut_share * highest_ ? value : 0;
   }
 
   /// Forgets all, as at the start.
@@ -66,8 +66,12 @@ class HitGrid {
     Eigen::Vector2f mean = Eigen::Vector2f::Zero();  ///< m, of the hits from the cell's centre
   };
 
-  void change(Cell& cell, int step);
-  void recount(int from, int to);
+  /// As much more (or less) for the sums of the cells around, of those that `counts` in a window.
+  void addAround(CellIndex centre, int hits, const GridWindow& counts);
+  void setSmoothed(CellIndex cell, int value);
+  /// Takes a cell out that is not in the `next` window.
+  void leave(CellIndex cell, const GridWindow& next);
+  int sumAround(CellIndex centre) const;
 
   HitGridOptions options_;
   int most_hits_;
@@ -75,7 +79,6 @@ class HitGrid {
   /// How many cells have each S but 0, so that the highest is known when some leave.
   std::vector<std::int32_t> cells_with_;
   int highest_ = 0;
-  double cut_ = 0.0;
 };
 
 }  // namespace datmo

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -39,21 +38,26 @@ class RollingGrid {
     return window_.contains(cell) ? cells_[slot(cell)] : empty_;
   }
 
+  /// The window as centreOn would move it.
+  GridWindow windowOn(const Point2& centre) const {
+    GridWindow window = window_;
+    const CellIndex middle = window_.cellAt(centre);
+    window.corner = {middle.column - window_.columns / 2, middle.row - window_.rows / 2};
+    return window;
+  }
+
   /// Moves the window so that `centre` (m, map frame) lies in its middle cell.
   void centreOn(const Point2& centre) {
-    const CellIndex middle = window_.cellAt(centre);
-    const CellIndex corner{middle.column - window_.columns / 2, middle.row - window_.rows / 2};
-    const CellIndex old = window_.corner;
-    moveTo(corner);
-    for (int column = corner.column; column < corner.column + window_.columns; ++column) {
-      const bool column_is_new = column < old.column || column >= old.column + window_.columns;
-      if (column_is_new) {
-        clear(column, corner.row, corner.row + window_.rows);
-      } else {
-        clear(column, corner.row, std::min(old.row, corner.row + window_.rows));
-        clear(column, std::max(old.row + window_.rows, corner.row), corner.row + window_.rows);
-      }
-    }
+    const GridWindow old = window_;
+    moveTo(windowOn(centre).corner);
+    forEachCellOutside(window_, old, [this](CellIndex cell) { at(cell) = empty_; });
+  }
+
+  /// The same; before anything changes, `leave(CellIndex)` for each cell that will be outside.
+  template <typename Leave>
+  void centreOn(const Point2& centre, Leave&& leave) {
+    forEachCellOutside(window_, windowOn(centre), leave);
+    centreOn(centre);
   }
 
  private:
@@ -79,12 +83,6 @@ class RollingGrid {
   void moveTo(CellIndex corner) {
     window_.corner = corner;
     corner_slot_ = {modulo(corner.column, window_.columns), modulo(corner.row, window_.rows)};
-  }
-
-  void clear(int column, int first_row, int end_row) {
-    for (int row = first_row; row < end_row; ++row) {
-      at({column, row}) = empty_;
-    }
   }
 
   GridWindow window_;

@@ -1,6 +1,7 @@
 #include "datmo_fusion/grid/rolling_grid.h"
 
 #include <limits>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -87,6 +88,26 @@ TEST_F(RollingGridTest, WhatIsTooFarForAnIndexIsAtTheLimit) {
   grid_.at(window.corner) = 1;
   grid_.centreOn({0.0, 0.0});
   forEachCell([this](CellIndex cell) { EXPECT_EQ(grid_.at(cell), kEmpty); });
+}
+
+TEST_F(RollingGridTest, WhatLeavesIsShownOnceWhileAllIsStillThere) {
+  for (const Point2& centre : {Point2(0.1, 0.1), Point2(1.0, -0.5), Point2(-2.0, 7.0)}) {
+    grid_.centreOn({0.0, 0.0});
+    fill();
+    const GridWindow before = grid_.window();
+    const GridWindow after = grid_.windowOn(centre);
+    std::set<int> left;
+    grid_.centreOn(centre, [&](CellIndex cell) {
+      EXPECT_EQ(grid_.window().corner, before.corner);
+      EXPECT_EQ(grid_.at(cell), tag(cell));
+      EXPECT_FALSE(after.contains(cell));
+      EXPECT_TRUE(left.insert(tag(cell)).second);
+    });
+    EXPECT_EQ(grid_.window().corner, after.corner);
+    std::size_t kept = 0;
+    forEachCell([&](CellIndex cell) { kept += grid_.at(cell) == kEmpty ? 0U : 1U; });
+    EXPECT_EQ(left.size() + kept, 35U);
+  }
 }
 
 TEST_F(RollingGridTest, OutsideReadsAsEmpty) {

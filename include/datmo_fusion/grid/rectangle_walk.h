@@ -1,0 +1,83 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "datmo_fusion/grid/grid_window.h"
+
+namespace datmo {
+
+/// A rectangle that may be turned.
+struct Rectangle {
+  Pose2 centre;         ///< m and rad, map frame
+  double length = 0.0;  ///< m, along the heading
+  double width = 0.0;   ///< m, across it
+};
+
+namespace detail {
+
+/// Where a line meets a rectangle, by their coordinate along the line; empty: `first` > `last`.
+struct Span {
+  double first = -std::numeric_limits<double>::infinity();
+  double last = std::numeric_limits<double>::infinity();
+
+  /// Keeps the part where |start + slope * coordinate| <= half.
+  void cut(double start, double slope, double half) {
+    if (slope == 0.0) {
+      last = std::abs(start) > half ? -std::numeric_limits<double>::infinity() : last;
+      return;
+    }
+    const double a = (-half - start) / slope;
+    const double b = (half - start) / slope;
+    first = std::max(first, std::min(a, b));
+    last = std::min(last, std::max(a, b));
+  }
+};
+
+}  // namespace detail
+
+/// Visits the cells of a window whose centre lies in a rectangle, row by row: `visit(CellIndex)`.
+/// Only those are touched (the thesis, 3.5, asks of each cell in the upright rectangle around
+/// whether it is one).
+template <typename Visit>
+void walkRectangle(const GridWindow& window, const Rectangle& rectangle, Visit&& visit) {
+  const double c = std::cos(rectangle.centre.heading());
+  const double s = std::sin(rectangle.centre.heading());
+  const double half_length = 0.5 * rectangle.length;
+  const double half_width = 0.5 * rectangle.width;
+  // Cells by their centre: cell i of an axis has it at (i + 0.5) * cell_size. In this order of min
+  // and max NaN is a limit too.
+  const auto lastUpTo = [&](double coordinate, int least, int most) {
+    const double index = std::floor(coordinate / window.cell_size - 0.5);
+    return static_cast<int>(std::min(most + 0.0, std::max(least - 1.0, index)));
+  };
+  const auto firstFrom = [&](double coordinate, int least, int most) {
+    const double index = std::ceil(coordinate / window.cell_size - 0.5);
+    return static_cast<int>(std::min(most + 1.0, std::max(least + 0.0, index)));
+  };
+  const CellIndex least = window.corner;
+  const CellIndex most{least.column + window.columns - 1, least.row + window.rows - 1};
+  const double reach = std::abs(s) * half_length + std::abs(c) * half_width;
+  const double middle = rectangle.centre.y();
+  const int last_row = lastUpTo(middle + reach, least.row, most.row);
+  for (int row = firstFrom(middle - reach, least.row, most.row); row <= last_row; ++row) {
+    // Along the row, `x` from the rectangle's centre: what is inside lies between both long sides
+    // and between both short ones.
+    const double y = (row + 0.5) * window.cell_size - middle;
+    detail::Span span;
+    span.cut(s * y, c, half_length);
+    span.cut(c * y, -s, half_width);
+    if (span.first > span.last) {
+      continue;
+    }
+    const double x = rectangle.centre.x();
+    const int last = lastUpTo(x + span.last, least.column, most.column);
+    for (int column = firstFrom(x + span.first, least.column, most.column); column <= last;
+         ++column) {
+      visit(CellIndex{column, row});
+    }
+  }
+}
+
+}  // namespace datmo

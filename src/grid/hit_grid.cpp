@@ -1,0 +1,125 @@
+#include "datmo_fusion/grid/hit_grid.h"
+
+#include <algorithm>
+
+namespace datmo {
+
+namespace {
+
+/// Nine times as many, and the table of all values up to there, are small numbers still.
+constexpr int kMostHits = 100000;
+
+const HitGridOptions& checked(const HitGridOptions& options) {
+  checkOptions(options);
+  return options;
+}
+
+template <typename Visit>
+void forEachAround(CellIndex centre, Visit&& visit) {
+  for (int row = centre.row - 1; row <= centre.row + 1; ++row) {
+    for (int column = centre.column - 1; column <= centre.column + 1; ++column) {
+      visit(CellIndex{column, row});
+    }
+  }
+}
+
+}  // namespace
+
+void HitGridOptions::visit(OptionVisitor& visitor) {
+  window.visit(visitor);
+  visitor.integer({"most_hits", "1",
+                   "that a cell counts: a vehicle that stands hits the same places over and over, "
+                   "which would drown what it sees later; 0: all (thesis 3.5)"},
+                  most_hits, {0, kMostHits});
+  visitor.number({"cut_share", "1",
+                  "cells with a smoothed count below this share of the highest are noise or what "
+                  "has moved (thesis 3.5.2: 0.1)"},
+                 cut_share, {0.0, 1.0});
+}
+
+HitGrid::HitGrid(const HitGridOptions& options)
+    : options_(checked(options)),
+      most_hits_(options.most_hits > 0 ? options.most_hits : kMostHits),
+      cells_(options.window.window(), Cell{}),
+      cells_with_(1, 0) {}
+
+void HitGrid::update(const SplitScan& scan) {
+  const Pose2& base_in_map = scan.base_in_map.pose;
+  centreOn(base_in_map.position());
+  for (const ScanPoint& point : scan.points) {
+    add(base_in_map * point.position);
+  }
+}
+
+void HitGrid::centreOn(const Point2& centre) {
+  const GridWindow old = window();
+  const GridWindow next = cells_.windowOn(centre);
+  cells_.centreOn(centre, [&](CellIndex cell) { leave(cell, next); });
+  forEachCellOutside(window(), old, [&](CellIndex cell) { setSmoothed(cell, sumAround(cell)); });
+}
+
+void HitGrid::leave(CellIndex cell, const GridWindow& next) {
+  if (const int hits = cells_.at(cell).hits; hits > 0) {
+    addAround(cell, -hits, next);
+  }
+  setSmoothed(cell, 0);
+}
+
+int HitGrid::sumAround(CellIndex centre) const {
+  int sum = 0;
+  forEachAround(centre, [&](CellIndex cell) { sum += hits(cell); });
+  return sum;
+}
+
+void HitGrid::addAround(CellIndex centre, int hits, const GridWindow& counts) {
+  forEachAround(centre, [&](CellIndex cell) {
+    if (window().contains(cell) && counts.contains(cell)) {
+      setSmoothed(cell, cells_.at(cell).smoothed + hits);
+    }
+  });
+}
+
+void HitGrid::setSmoothed(CellIndex index, int value) {
+  Cell& cell = cells_.at(index);
+  if (cell.smoothed == value) {
+    return;
+  }
+  if (cell.smoothed > 0) {
+    --cells_with_[static_cast<std::size_t>(cell.smoothed)];
+  }
+  cell.smoothed = value;
+  if (value > 0) {
+    if (static_cast<std::size_t>(value) >= cells_with_.size()) {
+      cells_with_.resize(static_cast<std::size_t>(value) + 1, 0);
+    }
+    ++cells_with_[static_cast<std::size_t>(value)];
+    highest_ = std::max(highest_, value);
+  }
+  while (highest_ > 0 && cells_with_[static_cast<std::size_t>(highest_)] == 0) {
+    --highest_;
+  }
+}
+
+void HitGrid::add(const Point2& point) {
+  const CellIndex index = window().cellAt(point);
+  if (!window().contains(index)) {
+    return;
+  }
+  Cell& cell = cells_.at(index);
+  const bool is_full = cell.hits >= most_hits_;
+  if (!is_full) {
+    ++cell.hits;
+    addAround(index, 1, window());
+  }
+  // When it is full the mean follows what is seen now.
+  const Eigen::Vector2f offset = (point - window().centreOf(index)).cast<float>();
+  cell.mean += (offset - cell.mean) / static_cast<float>(cell.hits);
+}
+
+Point2 HitGrid::meanHit(CellIndex cell) const {
+  return window().centreOf(cell) + cells_.atOrEmpty(cell).mean.cast<double>();
+}
+
+void HitGrid::reset() { *this = HitGrid(options_); }
+
+}  // namespace datmo
