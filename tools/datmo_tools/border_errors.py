@@ -1,0 +1,101 @@
+"""Published borders beside the true road, station by station along the way ahead."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from datmo_tools import transforms
+from datmo_tools.object_truth import LONGEST_GAP
+from datmo_tools.pose_path import read_path
+from datmo_tools.segments import ray_crossings, segments_of
+from datmo_tools.stamps import NANOSECONDS
+from datmo_tools.track_frames import POSE
+from datmo_tools.true_road import MOST_SLANT, REACH, TURN
+
+# m along the way, from the vehicle (base_link): what counts.
+BEHIND, AHEAD = 10.0, 40.0
+
+
+class Frame(NamedTuple):
+    """One list of borders, laid on the map of the truth at the vehicle's pose."""
+
+    stamp: int  # ns
+    way: float  # m along the way, of the vehicle
+    lines: list  # of (SeenBorder, its points in the map of the truth)
+
+
+class Samples(NamedTuple):
+    """n stations of many frames; what stands in both sides' arrays of one frame is one station."""
+
+    ahead: np.ndarray  # n, m along the way from the vehicle
+    left: np.ndarray  # n, bool: of the left border
+    curved: np.ndarray  # n, bool
+    error: np.ndarray  # n, m, positive: too far out; NaN: no border was published
+    kerb_error: np.ndarray  # n, the same from the plain kerb
+    sigma: np.ndarray  # n, m, as published there
+
+    def where(self, chosen):
+        """Samples of those that are chosen (n, bool)."""
+        return Samples(*(values[chosen] for values in self))
+
+
+def frames_of(run, lists, road):
+    """List of Frame of the BorderLists with a pose near in time, in the bag `run` (Path) and in the
+    truth (TrueRoad): the estimated pose of the vehicle is laid on its true one, so that the drift
+    of the map does not count. Raises InputError."""
+    poses = read_path(run, POSE)
+    nearest = LONGEST_GAP * NANOSECONDS
+    frames = []
+    for item in lists:
+        if max(poses.distance_from(item.stamp), road.poses.distance_from(item.stamp)) > nearest:
+            continue
+        base, true_base = poses.at(item.stamp), road.poses.at(item.stamp)
+        lines = [(border, _moved(border.points, base, true_base)) for border in item.borders]
+        frames.append(Frame(item.stamp, road.way_at(item.stamp), lines))
+    return frames
+
+
+def samples_of(frames, road):
+    """Samples of all stations outside of junctions that have a true border, from BEHIND to AHEAD of
+    the vehicle."""
+    parts = []
+    for frame in frames:
+        part = road.stations.between(frame.way - BEHIND, frame.way + AHEAD)
+        for name, side in road.sides.items():
+            seen, sigma = _seen(frame, road.stations, part, name)
+            here = side.part(part)
+            counts = np.isfinite(here.kerb) & ~road.stations.at_intersection[part]
+            found = Samples(
+                road.stations.way[part] - frame.way, np.full(len(seen), name == "left"),
+                here.curved, here.errors(seen), here.kerb_errors(seen), sigma)  # fmt: skip
+            parts.append(found.where(counts))
+    return Samples(*(np.concatenate([np.empty(0), *values]) for values in zip(*parts)))
+
+
+def _moved(points, base, true_base):
+    poses = np.column_stack([points, np.zeros(len(points))])
+    return transforms.compose(true_base, transforms.relative(base, poses))[:, :2]
+
+
+def _seen(frame, stations, part, name):
+    """Distance (m) across the way, and sigma (m), of the nearest border of that side at each
+    station of the part (slice); NaN where there is none. A border that slants across the way is not
+    the one along it."""
+    borders = [(border, line) for border, line in frame.lines if border.side == name]
+    segments = segments_of([line for _, line in borders])
+    places, headings = stations.places[part], stations.headings[part]
+    if not borders:
+        return np.full((2, len(places)), np.nan)
+    distances, share = ray_crossings(places, headings + TURN[name], segments)
+    slant = transforms.normalise_angle(segments.headings() - headings[:, np.newaxis])
+    along = np.abs(np.sin(slant)) <= np.sin(MOST_SLANT)
+    with np.errstate(invalid="ignore"):
+        far = np.where(along & (np.abs(distances) <= REACH), np.abs(distances), np.inf)
+    nearest = np.argmin(far, axis=1)
+    rows = np.arange(len(places))
+    begin = np.concatenate([border.sigma[:-1] for border, _ in borders])[nearest]
+    end = np.concatenate([border.sigma[1:] for border, _ in borders])[nearest]
+    there = np.isfinite(far[rows, nearest])
+    share = share[rows, nearest]
+    return (np.where(there, distances[rows, nearest], np.nan),
+            np.where(there, begin + share * (end - begin), np.nan))  # fmt: skip

@@ -1,0 +1,100 @@
+"""Borders of the road: as run_bag publishes them, and as the truth has them."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from datmo_fusion.msg import RoadBorder, RoadBorders, TrueRoadBorders
+from datmo_tools.errors import InputError
+from datmo_tools.grid_recordings import opened
+from datmo_tools.stamps import NANOSECONDS
+
+BORDERS, TRUE_BORDERS = "/road_borders", "/ground_truth/road_borders"
+
+SIDES = {RoadBorder.LEFT: "left", RoadBorder.RIGHT: "right"}
+
+
+class SeenBorder(NamedTuple):
+    """One published stretch, in the map of the run."""
+
+    side: str  # left, right
+    points: np.ndarray  # n x 2, m, two at least
+    sigma: np.ndarray  # n, m
+    probability: float
+    unseen: float  # s
+
+
+class BorderList(NamedTuple):
+    """All borders of one message."""
+
+    stamp: int  # ns
+    borders: list  # of SeenBorder
+
+
+class TrueBorders(NamedTuple):
+    """All kerbs of the scene, and when the vehicle is at an intersection."""
+
+    kerbs: list  # of arrays n x 2, m, in the map of the truth
+    stamps: np.ndarray  # ns, rising
+    at_intersection: np.ndarray  # bool, of each stamp
+
+
+def read_borders(path):
+    """List of BorderList on /road_borders by rising stamp; of equal stamps the first counts.
+
+    Raises InputError: nothing there, another type or version, a border of less than two points, of
+    another number of sigmas, of an unknown side, or with what is not finite.
+    """
+    lists = {}
+    for message in _messages(path, BORDERS, RoadBorders, "a bag of run_bag --road-border"):
+        stamp = message.header.stamp.to_nsec()
+        if stamp not in lists:
+            borders = [_border(f"{path}: {BORDERS} at {stamp / NANOSECONDS:.6f} s", item)
+                       for item in message.borders]  # fmt: skip
+            lists[stamp] = BorderList(stamp, borders)
+    return [lists[stamp] for stamp in sorted(lists)]
+
+
+def read_true_borders(path):
+    """TrueBorders of a drive. Raises InputError where there are none, or of another type."""
+    states, kerbs = {}, []
+    for message in _messages(path, TRUE_BORDERS, TrueRoadBorders, "a drive with true borders"):
+        if not states:  # each message has them all
+            kerbs = [_points(line.points) for line in message.borders if len(line.points) > 1]
+        states.setdefault(message.header.stamp.to_nsec(), message.at_intersection)
+    stamps = sorted(states)
+    at_intersection = np.array([states[stamp] for stamp in stamps], dtype=bool)
+    return TrueBorders(kerbs, np.array(stamps), at_intersection)
+
+
+def _messages(path, topic, kind, expected):
+    # pylint: disable=protected-access
+    messages = []
+    with opened(path) as bag:
+        for _, message, _ in bag.read_messages([topic]):
+            if message._type != kind._type:
+                raise InputError(f"{path}: {topic} is {message._type}, expected {kind._type}")
+            if message._md5sum != kind._md5sum:
+                raise InputError(
+                    f"{path}: {topic} is of another version of {kind._type}, expected ours"
+                )
+            messages.append(message)
+    if not messages:
+        raise InputError(f"{path}: nothing on {topic}, expected {expected}")
+    return messages
+
+
+def _border(place, item):
+    points, sigma = _points(item.points), np.array(item.sigma, dtype=float)
+    if len(points) < 2 or len(sigma) != len(points) or item.side not in SIDES:
+        raise InputError(
+            f"{place}: a border of side {item.side} with {len(points)} points and {len(sigma)} "
+            "sigmas, expected a known side, two points or more, and one sigma for each"
+        )
+    if not (np.all(np.isfinite(points)) and np.all(np.isfinite(sigma)) and np.all(sigma >= 0.0)):
+        raise InputError(f"{place}: a border that is not finite, expected finite points and sigmas")
+    return SeenBorder(SIDES[item.side], points, sigma, item.probability, item.unseen.to_sec())
+
+
+def _points(points):
+    return np.array([(point.x, point.y) for point in points], dtype=float).reshape(-1, 2)

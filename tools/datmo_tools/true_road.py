@@ -1,0 +1,234 @@
+"""The true road about the way that a vehicle drove: where it ends to the left and to the right."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from datmo_tools import transforms
+from datmo_tools.border_lists import read_true_borders
+from datmo_tools.grid_recordings import TRUE_POSE
+from datmo_tools.parked_rows import depths_of_vehicles, parked_boxes, row_of
+from datmo_tools.pose_path import read_path
+from datmo_tools.segments import BATCH, Segments, ray_crossings, segments_of
+
+SPACING = 0.5  # m, of the stations
+
+# The way goes straight on before the first pose and after the last one, m.
+BEYOND = 50.0
+
+# To either side of the way, m: as far as the thesis looks, 25 windows of 0.9 m.
+REACH = 22.5
+
+# A kerb runs with the road, rad: one that turns off by more is another road's.
+MOST_SLANT = math.radians(45.0)
+
+# The road's curvature is the change of its kerb's heading over twice this, m: longer than the
+# straight pieces that bends are made of.
+CURVATURE_BASE = 15.0
+
+# m: a junction begins so far before the first scan in it, at 16 m/s.
+JUNCTION_MARGIN = 1.0
+
+# m: places of two scans in a row that are in the same junction are nearer to each other.
+LONGEST_STEP = 5.0
+
+TURN = {"left": 0.5 * math.pi, "right": -0.5 * math.pi}
+
+
+class Stations(NamedTuple):
+    """n places along the way, in the map of the truth."""
+
+    way: np.ndarray  # n, m from the first pose
+    places: np.ndarray  # n x 2, m
+    headings: np.ndarray  # n, rad
+    at_intersection: np.ndarray  # n, bool
+
+    def between(self, first, last):
+        """slice of those from one way (m) to another."""
+        return slice(*np.searchsorted(self.way, [first, last]).tolist())
+
+
+class TrueSide(NamedTuple):
+    """One side of the road; distances in m across the way, NaN where there is no kerb."""
+
+    kerb: np.ndarray  # n, to the kerb
+    row: np.ndarray  # n, to the line of parked vehicles; NaN: none
+    open: np.ndarray  # n, bool: in a gap of the row, kerb and row would do
+    curved: np.ndarray  # n, bool
+    cosine: np.ndarray  # n, from distances across the way to those across the border
+
+    def errors(self, seen):
+        """n, m across the border: of borders `seen` at these distances, positive: too far out."""
+        to_kerb, to_row = seen - self.kerb, seen - self.row
+        with np.errstate(invalid="ignore"):
+            kerb = np.isnan(self.row) | (self.open & (np.abs(to_kerb) < np.abs(to_row)))
+        return np.where(kerb, to_kerb, to_row) * self.cosine
+
+    def kerb_errors(self, seen):
+        """The same from the kerb, parked vehicles or not."""
+        return (seen - self.kerb) * self.cosine
+
+    def innermost(self):
+        """n, m across the way: where the road ends at the nearest."""
+        return np.fmin(self.kerb, self.row)
+
+    def part(self, part):
+        """TrueSide of some of the stations (slice)."""
+        return TrueSide(*(values[part] for values in self))
+
+
+class TrueRoad:
+    """The road of one drive.
+
+    poses: PosePath of the vehicle; stations: Stations; sides: dictionary left, right -> TrueSide;
+    lines: Segments of all that ends a road anywhere.
+    """
+
+    def __init__(self, path, rows, curve_radius):
+        """path: bag (Path); rows: RowOptions; curve_radius: m, a road is a curve below it.
+
+        Raises InputError where the truth is not there.
+        """
+        borders = read_true_borders(path)
+        self.poses = poses = read_path(path, TRUE_POSE)
+        boxes = parked_boxes(path)
+        kerbs = segments_of(borders.kerbs)
+        self._start = int(poses.stamps[0])
+        self._seconds = _seconds(poses.stamps, self._start)
+        steps = np.hypot(*np.diff(poses.poses[:, :2], axis=0).T)
+        self._way = np.concatenate([[0.0], np.cumsum(steps)])
+        crossed = np.interp(
+            _seconds(borders.stamps[borders.at_intersection], self._start), self._seconds, self._way
+        )
+        self.stations = _stations(self._way, poses.poses, kerbs, crossed)
+        self.sides = {
+            name: _side(self.stations, turn, kerbs, boxes, rows, curve_radius)
+            for name, turn in TURN.items()
+        }
+        self.lines = _lines(self.stations, self.sides, borders.kerbs, boxes)
+
+    def way_at(self, stamp):
+        """m along the way, of the vehicle at `stamp` (ns)."""
+        return float(np.interp(_seconds(stamp, self._start), self._seconds, self._way))
+
+
+def _seconds(stamps, start):
+    return (np.asarray(stamps) - start) * 1e-9
+
+
+def _stations(way, poses, kerbs, crossed):
+    """crossed: m along the way, of stamps at which the vehicle is at an intersection."""
+    moved = np.concatenate([[True], np.diff(way) > 0.0])
+    way, poses = way[moved], poses[moved]
+    before = _free_way(poses[0, :2], poses[0, 2] + math.pi, kerbs)
+    after = _free_way(poses[-1, :2], poses[-1, 2], kerbs)
+    at = SPACING * np.arange(-int(before / SPACING), int((way[-1] + after) / SPACING) + 1)
+    inside = np.clip(at, way[0], way[-1])
+    headings = np.interp(inside, way, np.unwrap(poses[:, 2]))
+    over = (at - inside)[:, np.newaxis] * np.stack([np.cos(headings), np.sin(headings)], axis=-1)
+    places = np.stack([np.interp(inside, way, poses[:, i]) for i in range(2)], axis=-1) + over
+    return Stations(at, places, headings, _marked(at, crossed))
+
+
+def _free_way(place, heading, kerbs):
+    """How far it is straight on without a kerb across, BEYOND at most."""
+    distances, _ = ray_crossings(place[np.newaxis], np.array([heading]), kerbs)
+    ahead = distances[(distances > 0.0) & (distances < BEYOND)]
+    return float(ahead.min()) if len(ahead) else BEYOND
+
+
+def _marked(at, crossed):
+    """Which stations are at one of the places `crossed`, or between two of the same junction."""
+    marks = np.sort(crossed)
+    if not len(marks):
+        return np.zeros(len(at), dtype=bool)
+    after = np.clip(np.searchsorted(marks, at), 0, len(marks) - 1)
+    before = np.maximum(after - 1, 0)
+    near = np.minimum(np.abs(marks[after] - at), np.abs(marks[before] - at)) <= JUNCTION_MARGIN
+    between = (marks[before] <= at) & (at <= marks[after])
+    return near | (between & (marks[after] - marks[before] <= LONGEST_STEP))
+
+
+def _side(stations, turn, kerbs, boxes, rows, curve_radius):
+    rays = stations.headings + turn
+    kerb, kerb_headings = _kerb(stations, rays, kerbs)
+    bounded = np.isfinite(kerb) & ~stations.at_intersection
+    near, far = _box_sides(stations.places, rays, boxes)
+    row = row_of(depths_of_vehicles(kerb, near, far), bounded, SPACING, rows)
+    slant = transforms.normalise_angle(kerb_headings - stations.headings)
+    return TrueSide(kerb, kerb - row.depth, row.open,
+                    _curvatures(kerb_headings, bounded) > 1.0 / curve_radius,
+                    np.cos(np.nan_to_num(slant)))  # fmt: skip
+
+
+def _kerb(stations, rays, kerbs):
+    """Distance and heading (as the way runs) of the nearest kerb; NaN: none, or it turns off."""
+    kerb, headings = np.full((2, len(rays)), np.nan)
+    if not len(kerbs.begin):
+        return kerb, headings
+    of_kerbs = kerbs.headings()
+    for first in range(0, len(rays), BATCH):
+        part = slice(first, first + BATCH)
+        distances, _ = ray_crossings(stations.places[part], rays[part], kerbs)
+        with np.errstate(invalid="ignore"):
+            distances = np.where((distances > 0.0) & (distances <= REACH), distances, np.inf)
+        nearest = np.argmin(distances, axis=1)
+        found = distances[np.arange(len(nearest)), nearest]
+        slant = _as_line(of_kerbs[nearest] - stations.headings[part])
+        runs_along = np.isfinite(found) & (np.abs(slant) <= MOST_SLANT)
+        kerb[part] = np.where(runs_along, found, np.nan)
+        headings[part] = np.where(runs_along, stations.headings[part] + slant, np.nan)
+    return kerb, headings
+
+
+def _as_line(angle):
+    """Angle of a line without direction, rad, in [-pi/2, pi/2)."""
+    return (angle + 0.5 * math.pi) % math.pi - 0.5 * math.pi
+
+
+def _box_sides(places, rays, boxes):
+    """Distances (n x k, m) at which rays enter and leave k boxes; NaN where they miss one."""
+    near, far = np.full((2, len(rays), len(boxes)), np.nan)
+    if not len(boxes):
+        return near, far
+    edges = _edges(boxes)
+    for first in range(0, len(rays), BATCH):
+        part = slice(first, first + BATCH)
+        distances, _ = ray_crossings(places[part], rays[part], edges)
+        distances = distances.reshape(-1, len(boxes), 4)
+        hit = np.any(distances > 0.0, axis=2)
+        near[part] = np.where(hit, np.nanmin(distances, axis=2, initial=np.inf), np.nan)
+        far[part] = np.where(hit, np.nanmax(distances, axis=2, initial=-np.inf), np.nan)
+    return near, far
+
+
+def _edges(boxes):
+    return Segments(boxes.reshape(-1, 2), np.roll(boxes, -1, axis=1).reshape(-1, 2))
+
+
+def _curvatures(headings, bounded):
+    """n, 1/m, not negative: of the kerb about each station; 0 where there is none."""
+    half = int(CURVATURE_BASE / SPACING)
+    curvatures = np.zeros(len(headings))
+    starts = np.flatnonzero(np.diff(np.concatenate([[0], bounded.astype(int)])) == 1)
+    for start in starts:
+        end = start + int(np.argmin(np.append(bounded[start:], False)))
+        index = np.arange(start, end)
+        first, last = np.maximum(index - half, start), np.minimum(index + half, end - 1)
+        turned = np.abs(headings[last] - headings[first])
+        curvatures[index] = turned / (SPACING * np.maximum(last - first, half))
+    return curvatures
+
+
+def _lines(stations, sides, kerbs, boxes):
+    """Segments of all that ends a road: kerbs, parked vehicles, and the lines of their rows."""
+    lines = [*kerbs, *(np.concatenate([corners, corners[:1]]) for corners in boxes)]
+    for name, side in sides.items():
+        rays = stations.headings + TURN[name]
+        across = np.stack([np.cos(rays), np.sin(rays)], axis=-1)
+        rows = stations.places + side.row[:, np.newaxis] * across
+        known = np.flatnonzero(np.isfinite(side.row))
+        pieces = np.split(known, np.flatnonzero(np.diff(known) > 1) + 1)
+        lines += [rows[piece] for piece in pieces if len(piece) > 1]
+    return segments_of(lines)
