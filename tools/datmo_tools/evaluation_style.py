@@ -12,6 +12,8 @@ from matplotlib.figure import Figure
 
 WIDTH = 10.0  # inch
 DPI = 150  # of a picture in pixels
+RIGHT, BOTTOM = 0.2, 0.5  # inch: margins of every figure
+BETWEEN_ROWS = 0.4  # of a row's height, where a picture does not say
 
 # Of files, and what each would say of the hour it was made in.
 KINDS = {"svg": ("Date",), "pdf": ("CreationDate",), "png": ()}
@@ -67,31 +69,31 @@ def drawing(height, draw, left=0.75, top=0.3, **subplots):
     figure's axes as Figure.subplots(**subplots) returns them.
     """
     with matplotlib.rc_context(STYLE):
-        return _element(_figure(height, draw, left, top, subplots))
+        return _element(_figure(height, draw, left, top, BETWEEN_ROWS, subplots))
 
 
-def picture(kind, height, draw, left=0.75, top=0.3, **subplots):
+def picture(kind, height, draw, left=0.75, top=0.3, between=BETWEEN_ROWS, **subplots):
     """Bytes of a file of one figure, the same for the same input.
 
-    kind: of KINDS; the rest as in drawing().
+    kind: of KINDS; between: gap of two rows, of a row's height; the rest as in drawing().
     """
     data = io.BytesIO()
     with matplotlib.rc_context(STYLE):
-        figure = _figure(height, draw, left, top, subplots)
+        figure = _figure(height, draw, left, top, between, subplots)
         figure.savefig(data, format=kind, dpi=DPI, metadata={key: None for key in KINDS[kind]})
     return data.getvalue()
 
 
-def _figure(height, draw, left, top, subplots):
+def _figure(height, draw, left, top, between, subplots):
     figure = Figure(figsize=(WIDTH, height))
     FigureCanvasSVG(figure)
     draw(figure.subplots(**subplots))
     figure.subplots_adjust(
         left=left / WIDTH,
-        right=1.0 - 0.2 / WIDTH,
-        bottom=0.5 / height,
+        right=1.0 - RIGHT / WIDTH,
+        bottom=BOTTOM / height,
         top=1.0 - top / height,
-        hspace=0.4,
+        hspace=between,
     )
     return figure
 

@@ -1,0 +1,66 @@
+"""Single messages out of a long bag: those whose stamps are nearest to some stamps.
+
+Only these are unpacked, which is what takes long in Python.
+"""
+
+import bisect
+import struct
+
+from datmo_tools.errors import InputError
+from datmo_tools.grid_recordings import opened
+
+_HEADER = struct.Struct("<III")  # how a message with a header begins: sequence number, s, ns
+
+
+def topics_of(path):
+    """Dictionary topic -> type of message of the bag at `path` (Path). Raises InputError."""
+    with opened(path) as bag:
+        topics = bag.get_type_and_topic_info().topics
+    return {topic: info.msg_type for topic, info in topics.items()}
+
+
+def check_kinds(path, topics, kinds):
+    """Raises InputError where a topic has another type than it should.
+
+    topics: of topics_of(); kinds: dictionary topic -> type of message.
+    """
+    for topic, kind in kinds.items():
+        if topics.get(topic, kind) != kind:
+            raise InputError(f"{path}: {topic} is {topics[topic]}, expected {kind}")
+
+
+def stamps_of(path, topic):
+    """Rising list of the stamps (ns) of the messages on a topic, each once."""
+    with opened(path) as bag:
+        return sorted({_stamp(raw[1]) for _, raw, _ in bag.read_messages([topic], raw=True)})
+
+
+def nearest_messages(path, topics, stamps, tolerance=0):
+    """Dictionary topic -> {stamp of `stamps`: the nearest message on it}.
+
+    topics: of messages with a header; stamps: rising, ns; tolerance: ns, a stamp that no message is
+    as near to has none. Of equally near messages the last one in the bag counts.
+    """
+    found = {topic: {} for topic in topics}
+    with opened(path) as bag:
+        for topic, raw, _ in bag.read_messages(list(topics), raw=True):
+            late = _stamp(raw[1])
+            first = bisect.bisect_left(stamps, late - tolerance)
+            for stamp in stamps[first : bisect.bisect_right(stamps, late + tolerance)]:
+                distance = abs(stamp - late)
+                if distance <= found[topic].get(stamp, (distance,))[0]:
+                    found[topic][stamp] = (distance, raw)
+    return {
+        topic: {stamp: _message(raw) for stamp, (_, raw) in items.items()}
+        for topic, items in found.items()
+    }
+
+
+def _stamp(data):
+    _, seconds, nanoseconds = _HEADER.unpack_from(data)
+    return seconds * 10**9 + nanoseconds
+
+
+def _message(raw):
+    """raw: type's name, bytes, MD5 sum, place in the bag, class."""
+    return raw[4]().deserialize(raw[1])
