@@ -8,6 +8,7 @@
 #include "datmo_fusion/ros/markers.h"
 #include "datmo_fusion/ros/moving_objects_stage.h"
 #include "datmo_fusion/ros/object_fusion_stage.h"
+#include "datmo_fusion/ros/road_border_stage.h"
 #include "datmo_fusion/ros/stereo_grid_stage.h"
 #include "datmo_fusion/ros/stereo_objects_stage.h"
 #include "datmo_fusion/ros/track_fusion_stage.h"
@@ -29,6 +30,7 @@ std::string parameterTables() {
          section<StereoGridStageOptions>("`stereo_grid`") + "\n" +
          section<GridFusionStageOptions>("`grid_fusion`") + "\n" +
          section<GridSlamStageOptions>("`grid_slam`") + "\n" +
+         section<RoadBorderStageOptions>("`road_border`") + "\n" +
          section<MovingObjectsStageOptions>("`moving_objects`") + "\n" +
          section<StereoObjectsStageOptions>("`stereo_objects`") + "\n" +
          section<ObjectFusionStageOptions>("`object_fusion`") + "\n" +

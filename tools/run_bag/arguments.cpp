@@ -13,19 +13,18 @@ const std::array<std::string, 8> kInputTopics = {
     "left_image", "right_image", "left_camera_info", "right_camera_info",
 };
 
-const std::map<std::string, LastStage> kStages = {{"grid_fusion", LastStage::kGridFusion},
-                                                  {"grid_slam", LastStage::kGridSlam},
-                                                  {"moving_objects", LastStage::kMovingObjects},
-                                                  {"object_fusion", LastStage::kObjectFusion},
-                                                  {"tracker", LastStage::kTracker},
-                                                  {"track_fusion", LastStage::kTrackFusion}};
+const std::map<std::string, LastStage> kStages = {
+    {"grid_fusion", LastStage::kGridFusion},     {"grid_slam", LastStage::kGridSlam},
+    {"road_border", LastStage::kRoadBorder},     {"moving_objects", LastStage::kMovingObjects},
+    {"object_fusion", LastStage::kObjectFusion}, {"tracker", LastStage::kTracker},
+    {"track_fusion", LastStage::kTrackFusion}};
 
 LastStage stageOf(const std::string& name) {
   const auto found = kStages.find(name);
   if (found == kStages.end()) {
     throw UsageError("--until '" + name +
-                     "': expected grid_fusion, grid_slam, moving_objects, object_fusion, "
-                     "tracker or track_fusion");
+                     "': expected grid_fusion, grid_slam, road_border, moving_objects, "
+                     "object_fusion, tracker or track_fusion");
   }
   return found->second;
 }
@@ -82,6 +81,15 @@ void checkFiles(const Arguments& arguments) {
   }
 }
 
+void checkRoadBorder(const Arguments& arguments) {
+  if (arguments.last_stage == LastStage::kRoadBorder && !arguments.road_border) {
+    throw UsageError("--until road_border: expected --road-border with it");
+  }
+  if (arguments.last_stage < LastStage::kRoadBorder && arguments.road_border) {
+    throw UsageError("--road-border: expected no --until before road_border");
+  }
+}
+
 void checkTrackFusion(const Arguments& arguments) {
   if (arguments.last_stage == LastStage::kTrackFusion && !arguments.track_fusion) {
     throw UsageError("--until track_fusion: expected --track-fusion with it");
@@ -121,6 +129,7 @@ bool setSwitch(const std::string& word, Arguments& arguments) {
       {"--with-truth", &arguments.with_truth},
       {"--quiet", &arguments.quiet},
       {"--low-level-fusion", &arguments.low_level_fusion},
+      {"--road-border", &arguments.road_border},
       {"--object-fusion", &arguments.object_fusion},
       {"--track-fusion", &arguments.track_fusion},
       {"--stereo-from-images", &arguments.stereo_from_images},
@@ -164,18 +173,22 @@ std::string usage() {
   return "usage: run_bag IN.bag OUT.bag --config CONFIG.yaml [--with-truth] [--quiet]"
          " [--until STAGE]\n"
          "               [--low-level-fusion [--grid-rule RULE] [--write-grids]]"
-         " [--object-fusion]\n"
-         "               [--track-fusion] [--stereo-from-images] [--times FILE.json]"
-         " [TOPIC:=TOPIC_OF_THE_BAG ...]\n"
+         " [--road-border]\n"
+         "               [--object-fusion] [--track-fusion] [--stereo-from-images] [--times "
+         "FILE.json]\n"
+         "               [TOPIC:=TOPIC_OF_THE_BAG ...]\n"
          "Takes the scans and the odometry of a bag through the stack, as fast as it goes, and "
          "writes\n"
          "/pose, /map, /split_scan, /objects, /tracks and /tf to another bag.\n"
          "  --config CONFIG.yaml  the sensor set, e.g. config/demonstrator.yaml\n"
          "  --with-truth          copies /ground_truth/* along\n"
          "  --quiet               no progress bar and no table\n"
-         "  --until STAGE         goes no further than grid_fusion, grid_slam, moving_objects,\n"
-         "                        object_fusion, tracker or track_fusion\n"
+         "  --until STAGE         goes no further than grid_fusion, grid_slam, road_border,\n"
+         "                        moving_objects, object_fusion, tracker or track_fusion\n"
          "  --low-level-fusion    fuses the grids of scanner and stereo camera before grid_slam\n"
+         "  --road-border         finds the borders of the road and leaves out false objects on "
+         "and beyond\n"
+         "                        them, and writes /road_borders and /objects/dropped\n"
          "  --object-fusion       fuses the objects of scanner and stereo camera before tracker, "
          "and\n"
          "                        writes /objects/stereo and /objects/fused\n"
@@ -212,6 +225,7 @@ Arguments parseArguments(const std::vector<std::string>& words) {
     }
   }
   checkFiles(arguments);
+  checkRoadBorder(arguments);
   checkFusion(arguments);
   return arguments;
 }

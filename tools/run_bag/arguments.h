@@ -24,6 +24,7 @@ struct Arguments {
   bool quiet = false;
   LastStage last_stage = LastStage::kEnd;
   bool low_level_fusion = false;
+  bool road_border = false;
   bool object_fusion = false;
   bool track_fusion = false;
   bool stereo_from_images = false;  ///< also where the bag has clouds

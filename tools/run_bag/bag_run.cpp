@@ -128,6 +128,9 @@ class BagRun {
     for (const GridSlamOutput& slam : results.slam) {
       writeSlam(time, slam);
     }
+    for (const RoadBordersPtr& borders : results.borders) {
+      output_.write("/road_borders", time, *borders);
+    }
     for (const auto& [name, objects] : results.objects) {
       output_.write(name == "lidar" ? "/objects" : "/objects/" + name, time, *objects);
     }
@@ -227,8 +230,8 @@ void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progres
   const InputTopics topics = findTopics(bag, arguments, options);
   OutputBag output(arguments.output);
   Pipeline pipeline(options,
-                    {arguments.last_stage, arguments.low_level_fusion, arguments.object_fusion,
-                     arguments.track_fusion, topics.stereo.input()});
+                    {arguments.last_stage, arguments.low_level_fusion, arguments.road_border,
+                     arguments.object_fusion, arguments.track_fusion, topics.stereo.input()});
   DriveSummary drive;
   BagRun run(topics, pipeline, drive, output, arguments.write_grids);
 

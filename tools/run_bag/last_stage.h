@@ -6,6 +6,7 @@ namespace datmo {
 enum class LastStage {
   kGridFusion,
   kGridSlam,
+  kRoadBorder,
   kMovingObjects,
   kObjectFusion,
   kTracker,

@@ -43,6 +43,9 @@ Pipeline::Pipeline(const PipelineOptions& options, const Wiring& wiring)
       slam_(options_.grid_slam, transforms_, slam_monitor_),
       detector_(options_.moving_objects, detector_monitor_),
       tracker_(options_.tracker, transforms_, tracker_monitor_) {
+  if (wiring.road_border) {
+    road_border_.emplace(options_.road_border, road_border_monitor_);
+  }
   if (wiring.stereo != StereoPoints::kClouds) {
     images_.emplace(options_.stereo_images, wiring.stereo == StereoPoints::kRectifiedImages,
                     images_monitor_);
@@ -177,7 +180,11 @@ std::vector<const StageMonitor*> Pipeline::monitors() const {
     const auto low_level = low_level_->monitors();
     monitors.insert(monitors.end(), low_level.begin(), low_level.end());
   }
-  monitors.insert(monitors.end(), {&slam_monitor_, &detector_monitor_});
+  monitors.push_back(&slam_monitor_);
+  if (road_border_) {
+    monitors.push_back(&road_border_monitor_);
+  }
+  monitors.push_back(&detector_monitor_);
   if (stereo_objects_) {
     monitors.push_back(&stereo_objects_monitor_);
   }

@@ -24,6 +24,10 @@ namespace datmo {
 ///     scan, odometry, tf ─► grid_slam ─ split scan ─► moving_objects ─ objects ─► tracker ─ tracks
 ///                               └───────── split scan, map -> odom ──────────────────┘
 ///
+/// with road borders those of each split scan before moving_objects, which then takes them,
+///
+///     split scan ──► road_border ─ borders
+///
 /// with low-level fusion LowLevelPipeline before grid_slam, which then waits for its grids, with
 /// object-level fusion ObjectFusionPipeline before the tracker, which then takes its objects, and
 /// with track-level fusion TrackFusionPipeline after it. They share the stereo camera's clouds,
@@ -42,6 +46,7 @@ class Pipeline {
   struct Output {
     std::vector<LowLevelPipeline::NamedGrid> grids;
     std::vector<GridSlamOutput> slam;
+    std::vector<RoadBordersPtr> borders;
     std::vector<ObjectFusionPipeline::NamedObjects> objects;
     std::vector<TrackFusionPipeline::NamedTracks> source_tracks;  ///< that are fused
     std::vector<TrackArrayPtr> tracks;                            ///< of the last stage
@@ -104,6 +109,7 @@ class Pipeline {
   void followObjects(Stamp now, Output& output);
   void followSlam(GridSlamOutput slam, Stamp now, Output& output);
   void detect(const GridSlamOutput& slam, Stamp now, Output& output);
+  void findBorders(const SplitScanMessage& split_scan, Output& output);
   void followTracks(Stamp now, Output& output);
   void drainTracker(Stamp now, Output& output);
   void bookTime(const StageMonitor& monitor);
@@ -113,6 +119,7 @@ class Pipeline {
   TransformBuffer transforms_;
   StageMonitor images_monitor_{"stereo_images"};
   StageMonitor slam_monitor_{"grid_slam"};
+  StageMonitor road_border_monitor_{"road_border"};
   StageMonitor detector_monitor_{"moving_objects"};
   StageMonitor stereo_objects_monitor_{"stereo_objects"};
   StageMonitor tracker_monitor_{"tracker"};
@@ -123,6 +130,7 @@ class Pipeline {
   std::unique_ptr<ObjectFusionPipeline> object_fusion_;  ///< null without object-level fusion
   std::unique_ptr<TrackFusionPipeline> track_fusion_;    ///< null without track-level fusion
   GridSlamStage slam_;
+  std::optional<RoadBorderStage> road_border_;  ///< none without road borders
   MovingObjectsStage detector_;
   TrackerStage tracker_;
 };

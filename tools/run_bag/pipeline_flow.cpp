@@ -93,6 +93,10 @@ void Pipeline::detect(const GridSlamOutput& slam, Stamp now, Output& output) {
     object_fusion_->takePose(*slam.pose);
     object_fusion_->takeSplitScan(*slam.split_scan);
   }
+  findBorders(*slam.split_scan, output);
+  if (!reaches(LastStage::kMovingObjects)) {
+    return;
+  }
   if (const ObjectArrayPtr objects = detector_.takeSplitScan(*slam.split_scan)) {
     bookTime(detector_monitor_);
     output.objects.emplace_back("lidar", objects);
@@ -103,6 +107,16 @@ void Pipeline::detect(const GridSlamOutput& slam, Stamp now, Output& output) {
     }
   }
   drainTracker(now, output);
+}
+
+void Pipeline::findBorders(const SplitScanMessage& split_scan, Output& output) {
+  if (!road_border_) {
+    return;
+  }
+  if (const RoadBordersPtr borders = road_border_->takeSplitScan(split_scan)) {
+    bookTime(road_border_monitor_);
+    output.borders.push_back(borders);
+  }
 }
 
 void Pipeline::followTracks(Stamp now, Output& output) {

@@ -11,10 +11,11 @@ namespace datmo {
 namespace {
 
 /// One for each nodelet; those without a stage in the pipeline are for live use alone.
-const std::array<std::string, 15> kSections = {
-    "stereo_image_proc", "lidar_grid",     "stereo_grid",   "grid_fusion",    "grid_slam",
-    "moving_objects",    "stereo_objects", "object_fusion", "tracker",        "stereo_tracker",
-    "track_fusion",      "markers",        "lidar_markers", "stereo_markers", "grid_views"};
+const std::array<std::string, 16> kSections = {
+    "stereo_image_proc", "lidar_grid",    "stereo_grid",    "grid_fusion",
+    "grid_slam",         "road_border",   "moving_objects", "stereo_objects",
+    "object_fusion",     "tracker",       "stereo_tracker", "track_fusion",
+    "markers",           "lidar_markers", "stereo_markers", "grid_views"};
 
 std::string sectionNames() {
   std::string names;
@@ -56,6 +57,7 @@ PipelineOptions readPipelineOptions(const std::string& file) {
            readSection<StereoGridStageOptions>(file, root, "stereo_grid"),
            readSection<GridFusionStageOptions>(file, root, "grid_fusion")},
           readSection<GridSlamStageOptions>(file, root, "grid_slam"),
+          readSection<RoadBorderStageOptions>(file, root, "road_border"),
           readSection<MovingObjectsStageOptions>(file, root, "moving_objects"),
           readSection<StereoObjectsStageOptions>(file, root, "stereo_objects"),
           readSection<ObjectFusionStageOptions>(file, root, "object_fusion"),

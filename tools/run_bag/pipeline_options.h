@@ -9,6 +9,7 @@
 #include "datmo_fusion/ros/lidar_grid_stage.h"
 #include "datmo_fusion/ros/moving_objects_stage.h"
 #include "datmo_fusion/ros/object_fusion_stage.h"
+#include "datmo_fusion/ros/road_border_stage.h"
 #include "datmo_fusion/ros/stereo_grid_stage.h"
 #include "datmo_fusion/ros/stereo_objects_stage.h"
 #include "datmo_fusion/ros/track_fusion_stage.h"
@@ -34,6 +35,7 @@ struct PipelineOptions {
   StereoImagesOptions stereo_images;
   LowLevelOptions low_level;
   GridSlamStageOptions grid_slam;
+  RoadBorderStageOptions road_border;
   MovingObjectsStageOptions moving_objects;
   StereoObjectsStageOptions stereo_objects;
   ObjectFusionStageOptions object_fusion;

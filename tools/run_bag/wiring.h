@@ -11,6 +11,7 @@ enum class StereoPoints { kClouds, kRectifiedImages, kRawImages };
 struct Wiring {
   LastStage last = LastStage::kEnd;  ///< the stages after it are left out
   bool low_level_fusion = false;
+  bool road_border = false;
   bool object_fusion = false;
   bool track_fusion = false;
   StereoPoints stereo = StereoPoints::kClouds;
