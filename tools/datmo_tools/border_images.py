@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from datmo_tools import transforms
-from datmo_tools.border_recordings import seen_from
-from datmo_tools.border_views import BAND, INK, SIDES, SIGMAS, line_style, opacity
+from datmo_tools.border_recordings import edge, seen_from
+from datmo_tools.border_views import BAND, SHADES, SIGMAS, line_style, opacity
 from datmo_tools.errors import InputError
 from datmo_tools.grid_recordings import MOUNTS, mount_of, mounts_of, opened
 from datmo_tools.nearest_messages import check_kinds, nearest_messages, topics_of
@@ -65,7 +65,7 @@ def read_images(path, camera, stamps):
 
 
 def draw_image(ax, image, borders, base):
-    """Draws borders (of Border) into an image on the axes.
+    """Draws borders (of SeenBorder) into an image on the axes.
 
     base: pose (x, y, yaw) of base_link in the map at the image's stamp.
     """
@@ -79,9 +79,9 @@ def draw_image(ax, image, borders, base):
 
 def _draw_border(ax, image, border, base):
     middle, left, right = (
-        _finely(seen_from(base, border.edges(sigmas))) for sigmas in (0.0, SIGMAS, -SIGMAS)
+        _finely(seen_from(base, edge(border, sigmas))) for sigmas in (0.0, SIGMAS, -SIGMAS)
     )
-    shade, alpha = SIDES.get(border.side, INK), opacity(border)
+    shade, alpha = SHADES[border.side], opacity(border)
     outline = np.concatenate([image.seen(left), image.seen(right)[::-1]])
     outline = outline[np.isfinite(outline).all(axis=1)]
     ax.fill(*outline.T, color=shade, alpha=BAND * alpha, linewidth=0.0)

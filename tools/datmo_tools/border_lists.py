@@ -49,10 +49,15 @@ def read_borders(path):
     for message in _messages(path, BORDERS, RoadBorders, "a bag of run_bag --road-border"):
         stamp = message.header.stamp.to_nsec()
         if stamp not in lists:
-            borders = [_border(f"{path}: {BORDERS} at {stamp / NANOSECONDS:.6f} s", item)
-                       for item in message.borders]  # fmt: skip
-            lists[stamp] = BorderList(stamp, borders)
+            lists[stamp] = border_list(path, message)
     return [lists[stamp] for stamp in sorted(lists)]
+
+
+def border_list(path, message):
+    """BorderList of a message in the bag at `path` (Path). Raises InputError as read_borders."""
+    stamp = message.header.stamp.to_nsec()
+    place = f"{path}: {BORDERS} at {stamp / NANOSECONDS:.6f} s"
+    return BorderList(stamp, [_border(place, item) for item in message.borders])
 
 
 def read_true_borders(path):

@@ -6,6 +6,7 @@ from typing import NamedTuple, Optional
 import numpy as np
 
 from datmo_tools import transforms
+from datmo_tools.border_lists import BORDERS, TRUE_BORDERS, border_list
 from datmo_tools.errors import InputError
 from datmo_tools.grid_recordings import TRUE_OBJECTS, TRUE_POSE
 from datmo_tools.nearest_messages import check_kinds, nearest_messages, stamps_of, topics_of
@@ -14,9 +15,8 @@ from datmo_tools.outlines import CORNERS
 from datmo_tools.pose_path import planar, read_path
 from datmo_tools.stamps import NANOSECONDS
 
-BORDERS, SPLIT_SCAN, POSE = "/road_borders", "/split_scan", "/pose"
+SPLIT_SCAN, POSE = "/split_scan", "/pose"
 OBJECTS, DROPPED = "/objects", "/objects/dropped"
-TRUE_BORDERS = "/ground_truth/road_borders"
 
 KINDS = {
     BORDERS: "datmo_fusion/RoadBorders",
@@ -28,23 +28,6 @@ KINDS = {
 }
 
 TRUE_REGION = Region(80.0)  # of true objects that are drawn
-
-
-class Border(NamedTuple):
-    """One stretch of a border as a run found it, in the map."""
-
-    side: int  # RoadBorder.LEFT, RIGHT
-    points: np.ndarray  # n x 2, m
-    sigmas: np.ndarray  # n, m, across the border
-    probability: float
-    unseen: float  # s
-
-    def edges(self, sigmas):
-        """Points (n x 2, m, map) of the lines that lie `sigmas` standard deviations to its left."""
-        along = np.gradient(self.points, axis=0)
-        lengths = np.maximum(np.hypot(along[:, 0], along[:, 1]), np.finfo(float).tiny)
-        normals = np.column_stack([-along[:, 1], along[:, 0]]) / lengths[:, np.newaxis]
-        return self.points + (sigmas * self.sigmas)[:, np.newaxis] * normals
 
 
 class TrueRoad(NamedTuple):
@@ -61,7 +44,7 @@ class Moment(NamedTuple):
     stamp: int  # ns
     time: float  # s since the run's first borders
     base: np.ndarray  # estimated x, y (m), yaw (rad) of base_link in the map
-    borders: list  # of Border
+    borders: list  # of SeenBorder
     at_intersection: bool
     intersection_probability: float
     points: np.ndarray  # n x 2, m, base_link: where the scan's beams end
@@ -81,7 +64,7 @@ class Run:
         topics = topics_of(path)
         check_kinds(path, topics, KINDS)
         if BORDERS not in topics:
-            raise InputError(f"{path}: nothing on {BORDERS}, expected that of run_bag --road-border")
+            raise InputError(f"{path}: nothing on {BORDERS}, expected a bag with road borders")
         self.poses = read_path(path, POSE)
         self.stamps = stamps_of(path, BORDERS)
         self._has_truth = TRUE_OBJECTS in topics and TRUE_POSE in topics
@@ -137,7 +120,7 @@ class Run:
             stamp,
             (stamp - self.stamps[0]) / NANOSECONDS,
             base,
-            [self._border(stamp, item) for item in road.borders],
+            border_list(self._path, road).borders,
             road.at_intersection,
             road.intersection_probability,
             _places(points),
@@ -147,16 +130,6 @@ class Run:
             [_box(item.object) for item in dropped.objects] if dropped else [],
             truth,
         )
-
-    def _border(self, stamp, message):
-        points, sigmas = _places(message.points), np.array(message.sigma, dtype=float)
-        if len(points) < 2 or len(sigmas) != len(points):
-            raise InputError(
-                f"{self._path}: {BORDERS} at {stamp / NANOSECONDS:.6f} s has a border of "
-                f"{len(points)} points and {len(sigmas)} sigmas, expected as many, two at least"
-            )
-        unseen = message.unseen.to_sec()
-        return Border(message.side, points, sigmas, message.probability, unseen)
 
     def _truths(self, stamps):
         """Dictionary stamp -> TrueRoad."""
@@ -175,6 +148,14 @@ class Run:
                     road.at_intersection if road else None,
                 )
         return truths
+
+
+def edge(border, sigmas):
+    """Points (n x 2, m, map) that lie so many standard deviations to the left of a SeenBorder."""
+    along = np.gradient(border.points, axis=0)
+    lengths = np.maximum(np.hypot(along[:, 0], along[:, 1]), np.finfo(float).tiny)
+    normals = np.column_stack([-along[:, 1], along[:, 0]]) / lengths[:, np.newaxis]
+    return border.points + (sigmas * border.sigma)[:, np.newaxis] * normals
 
 
 def seen_from(base, points):

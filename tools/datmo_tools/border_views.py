@@ -5,7 +5,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from datmo_fusion.msg import RoadBorder, ScanPoint
-from datmo_tools.border_recordings import seen_from
+from datmo_tools.border_lists import SIDES
+from datmo_tools.border_recordings import edge, seen_from
 from datmo_tools.evaluation_style import COLOURS, FALSE, INK, TRUTH
 from datmo_tools.stamps import NANOSECONDS
 
@@ -15,7 +16,7 @@ AHEAD_NAME, LEFT_NAME = "ahead (m)", "to the left (m)"
 SHAPE = 2.0 * ASIDE / (BEHIND + AHEAD)  # height over width
 
 LEFT, RIGHT, KEPT = COLOURS[0], COLOURS[1], COLOURS[2]
-SIDES = {RoadBorder.LEFT: LEFT, RoadBorder.RIGHT: RIGHT}
+SHADES = {SIDES[RoadBorder.LEFT]: LEFT, SIDES[RoadBorder.RIGHT]: RIGHT}
 STATES = {ScanPoint.STATIC: INK, ScanPoint.MOVING: COLOURS[5], ScanPoint.UNKNOWN: COLOURS[4]}
 
 EARLIER = "#a16207"
@@ -93,8 +94,8 @@ def legend_handles(with_truth):
 
 
 def _draw_border(ax, base, border):
-    left, right = (seen_from(base, border.edges(sigmas)) for sigmas in (SIGMAS, -SIGMAS))
-    shade, alpha = SIDES.get(border.side, INK), opacity(border)
+    left, right = (seen_from(base, edge(border, sigmas)) for sigmas in (SIGMAS, -SIGMAS))
+    shade, alpha = SHADES[border.side], opacity(border)
     ax.fill(*np.concatenate([left, right[::-1]]).T, color=shade, alpha=BAND * alpha, linewidth=0.0)
     line = seen_from(base, border.points)
     ax.plot(*line.T, color=shade, alpha=alpha, linestyle=line_style(border))
