@@ -142,11 +142,12 @@ class Images(Folder):
         """4 m to the left and 20 m ahead is 20 pixels to the left of the middle and 7.5 below."""
         write_run(self.bag)
         write_images(self.drive)
-        item = Run(self.bag).moments([START], 0.0)[0].borders[0]
+        moment = Run(self.bag).moments([START], 0.0)[0]
+        moment = moment._replace(borders=moment.borders[:1])
         figure = Figure(figsize=(1.0, 0.8), dpi=100)
         canvas = FigureCanvasAgg(figure)
         image = read_images(self.drive, CAMERA, [START])[START]
-        draw_image(figure.add_axes([0.0, 0.0, 1.0, 1.0]), image, [item], (0.0, 0.0, np.pi / 2))
+        draw_image(figure.add_axes([0.0, 0.0, 1.0, 1.0]), image, moment, (0.0, 0.0, np.pi / 2))
         canvas.draw()
         red, _, blue, _ = np.moveaxis(np.asarray(canvas.buffer_rgba()).astype(int), -1, 0)
         coloured = blue > red + 50

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from datmo_tools import transforms
-from datmo_tools.border_recordings import edge, seen_from
+from datmo_tools.border_recordings import edge, seen_from, with_heading
 from datmo_tools.border_views import BAND, SHADES, SIGMAS, line_style, opacity
 from datmo_tools.errors import InputError
 from datmo_tools.grid_recordings import MOUNTS, mount_of, mounts_of, opened
@@ -22,6 +22,7 @@ LONGEST_GAP = 0.2  # s from the borders to the image
 STEP = 0.25  # m, of a line that the camera bends
 NEAREST = 1.0  # m ahead of the camera; nearer is out of its view and would not project
 MARKS = (10.0, 20.0, 30.0, 40.0)  # m ahead of base_link, that are written beside the borders
+POINT = "#fde047"  # colour of the scan, on gray
 
 
 class CameraImage(NamedTuple):
@@ -64,14 +65,16 @@ def read_images(path, camera, stamps):
     }
 
 
-def draw_image(ax, image, borders, base):
-    """Draws borders (of SeenBorder) into an image on the axes.
+def draw_image(ax, image, moment, base):
+    """Draws a Moment's scan and borders into an image on the axes.
 
     base: pose (x, y, yaw) of base_link in the map at the image's stamp.
     """
     height, width = image.pixels.shape[:2]
     ax.imshow(image.pixels, cmap="gray", vmin=0, vmax=255, interpolation="antialiased")
-    for border in borders:
+    in_map = transforms.compose(moment.base, with_heading(moment.points))[:, :2]
+    ax.plot(*image.seen(seen_from(base, in_map)).T, ".", color=POINT, markersize=2.5)
+    for border in moment.borders:
         _draw_border(ax, image, border, base)
     ax.set(xlim=(-0.5, width - 0.5), ylim=(height - 0.5, -0.5))
     ax.axis("off")

@@ -160,19 +160,23 @@ def edge(border, sigmas):
 
 def seen_from(base, points):
     """Points (n x 2, m) of the frame in which base_link is at the pose `base`, in base_link."""
-    return transforms.relative(base, np.column_stack([points, np.zeros(len(points))]))[:, :2]
+    return transforms.relative(base, with_heading(points))[:, :2]
+
+
+def with_heading(points):
+    """Points (n x 2) as poses (n x 3) along the x axis, for `transforms`."""
+    return np.column_stack([points, np.zeros(len(points))])
 
 
 def corners(pose, size):
     """4 x 2, m: of a box with its centre at a pose (x, y, yaw), in the frame of the pose."""
-    return transforms.compose(pose, np.column_stack([CORNERS * size, np.zeros(4)]))[:, :2]
+    return transforms.compose(pose, with_heading(CORNERS * size))[:, :2]
 
 
 def _in_map(scan):
     """End points (n x 2, m) of a SplitScan, in the map by its own pose."""
-    points = _places(scan.points)
-    local = np.column_stack([points, np.zeros(len(points))])
-    return transforms.compose(planar(scan.pose.pose), local)[:, :2]
+    points = with_heading(_places(scan.points))
+    return transforms.compose(planar(scan.pose.pose), points)[:, :2]
 
 
 def _box(message):

@@ -55,7 +55,7 @@ def _images_and_views(moments, images, poses, kind):
             if image is None:
                 beside.axis("off")
             else:
-                draw_image(beside, image, moment.borders, poses.at(image.stamp))
+                draw_image(beside, image, moment, poses.at(image.stamp))
         _finish(axes, moments, -1)
 
     return _sheet(kind, len(moments), draw, (IMAGE_SHARE, 1.0))

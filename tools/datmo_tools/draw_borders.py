@@ -12,10 +12,12 @@ from datmo_tools.whole_files import write_whole
 DESCRIPTION = """\
 Draws the borders of the road that a run found (run_bag --road-border), as sheets of pictures of
 chosen moments: from above, with the scan, the objects that were kept and dropped, and what is true
-where the bag knows it (run_bag --with-truth); and with --images laid into the camera's images.
+where the bag knows it (run_bag --with-truth); and with --images borders and scan laid into the
+camera's images.
 
-In the images the road is the plane on which base_link stands: where the road slopes or the vehicle
-pitches, borders far ahead seem off by that. A border is the fainter the less probable it is."""
+In the images all lies on the road, which is the plane on which base_link stands: the points of a
+scan below where its beams ended, and where the road slopes or the vehicle pitches, what is far
+ahead seems off by that. A border is the fainter the less probable it is."""
 
 PERIOD = 5.0  # s
 HISTORY = 3.0  # s
