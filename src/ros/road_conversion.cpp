@@ -88,6 +88,7 @@ void check(const RoadBorders& message) {
 RoadBorderMessage toMessage(const RoadBorder& border) {
   RoadBorderMessage message;
   message.side = static_cast<std::uint8_t>(border.side);
+  message.side_street = static_cast<std::uint8_t>(border.side_street);
   message.probability = static_cast<float>(border.probability);
   checkAge(border.unseen_for);  // the message's duration throws another error
   message.unseen = ros::Duration(border.unseen_for);
@@ -104,6 +105,7 @@ RoadBorderMessage toMessage(const RoadBorder& border) {
 RoadBorder fromMessage(const RoadBorderMessage& message) {
   RoadBorder border;
   border.side = static_cast<RoadSide>(message.side);
+  border.side_street = message.side_street != 0;
   border.probability = message.probability;
   border.unseen_for = message.unseen.toSec();
   border.points.reserve(message.points.size());

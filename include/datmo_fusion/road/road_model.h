@@ -23,6 +23,9 @@ struct BorderPoint {
 /// One stretch of a border of the road: a kerb, or the road's side of a row of parked cars.
 struct RoadBorder {
   RoadSide side = RoadSide::kLeft;
+  /// It bounds a street that opens into the vehicle's, on `side` of it: what lies beyond it may be
+  /// the vehicle's own road.
+  bool side_street = false;
   /// As the vehicle drives, two at least. Where nothing bounds the road (a side street) the border
   /// ends; behind it another stretch may begin.
   std::vector<BorderPoint> points;
@@ -33,7 +36,7 @@ struct RoadBorder {
 /// The road about the vehicle at one time (thesis 2.4, figure 2.10).
 struct RoadModel {
   Stamp stamp;
-  std::vector<RoadBorder> borders;        ///< any number a side, none overlapping
+  std::vector<RoadBorder> borders;        ///< any number a side; of its own road none overlapping
   double intersection_probability = 0.0;  ///< 0 to 1, that the vehicle is at one
   bool at_intersection = false;
 };
