@@ -119,6 +119,7 @@ class Lines(unittest.TestCase):
         self.assertEqual((opacity(item), line_style(item)), (1.0, "-"))
         item = item._replace(probability=0.0, unseen=1.5)
         self.assertEqual((opacity(item), line_style(item)), (FAINTEST, "--"))
+        self.assertEqual(line_style(item._replace(side_street=True)), ":")
 
 
 class Images(Folder):

@@ -22,6 +22,7 @@ class SeenBorder(NamedTuple):
     sigma: np.ndarray  # n, m
     probability: float
     unseen: float  # s
+    side_street: bool = False  # it bounds a street that opens into the vehicle's on that side
 
 
 class BorderList(NamedTuple):
@@ -98,7 +99,8 @@ def _border(place, item):
         )
     if not (np.all(np.isfinite(points)) and np.all(np.isfinite(sigma)) and np.all(sigma >= 0.0)):
         raise InputError(f"{place}: a border that is not finite, expected finite points and sigmas")
-    return SeenBorder(SIDES[item.side], points, sigma, item.probability, item.unseen.to_sec())
+    return SeenBorder(SIDES[item.side], points, sigma, item.probability, item.unseen.to_sec(),
+                      item.side_street)  # fmt: skip
 
 
 def _points(points):

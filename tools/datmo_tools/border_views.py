@@ -37,7 +37,9 @@ def opacity(border):
 
 
 def line_style(border):
-    """Solid, or dashed where it was not seen for long."""
+    """Solid, dashed where it was not seen for long, dotted where it is a side street's."""
+    if border.side_street:
+        return ":"
     return "--" if border.unseen > LONG_UNSEEN else "-"
 
 
@@ -80,6 +82,7 @@ def legend_handles(with_truth):
         line(LEFT, "left border"),
         line(RIGHT, "right border, ± 2 sigma"),
         line(INK, f"unseen for {LONG_UNSEEN:g} s", linestyle="--"),
+        line(INK, "of a side street", linestyle=":"),
         line(STATES[ScanPoint.STATIC], "static point", **dots),
         line(STATES[ScanPoint.MOVING], "moving", **dots),
         line(STATES[ScanPoint.UNKNOWN], "unknown", **dots),
