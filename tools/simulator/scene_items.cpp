@@ -23,7 +23,7 @@ void RoadItem::visit(OptionVisitor& visitor) {
   visitor.text({"name", "", "by which other entries call the road"}, name, {});
   visitor.number({"width", "m", "from kerb to kerb"}, width, {2.0, 100.0});
   visitor.number({"corner_radius", "m", "of the middle line's bends and of the kerbs at junctions"},
-                 corner_radius, {0.5, 50.0});
+                 corner_radius, {0.5, 200.0});
   visitor.number({"dash_length", "m", "of the white middle line; 0: none"}, dash_length,
                  {0.0, 1000.0});
   visitor.number({"dash_gap", "m", "between dashes"}, dash_gap, {0.1, 1000.0});
