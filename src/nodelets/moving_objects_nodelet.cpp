@@ -9,7 +9,8 @@
 
 namespace datmo {
 
-/// The door to MovingObjectsStage. In: split_scan. Out: objects.
+/// The door to MovingObjectsStage. In: split_scan, with `road_borders` road_borders too. Out:
+/// objects, with borders objects/dropped too.
 class MovingObjectsNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
@@ -17,20 +18,34 @@ class MovingObjectsNodelet : public nodelet::Nodelet {
     monitor_ = std::make_unique<StageMonitor>(getName());
     stage_ = std::make_unique<MovingObjectsStage>(options, *monitor_);
     ros::NodeHandle& node = getNodeHandle();
-    reporter_ = std::make_unique<StageReporter>(node, getPrivateNodeHandle(), *monitor_,
-                                                std::vector<std::string>{"split_scan"},
-                                                options.input.silence_after);
+    std::vector<std::string> inputs{"split_scan"};
     objects_ = node.advertise<ObjectArray>("objects", kQueue);
+    if (options.road_borders) {
+      inputs.emplace_back("road_borders");
+      dropped_ = node.advertise<DroppedObjects>("objects/dropped", kQueue);
+      road_borders_ = node.subscribe("road_borders", kQueue, &MovingObjectsNodelet::takeRoadBorders,
+                                     this, ros::TransportHints().tcpNoDelay());
+    }
+    reporter_ = std::make_unique<StageReporter>(node, getPrivateNodeHandle(), *monitor_, inputs,
+                                                options.input.silence_after);
     split_scan_ = node.subscribe("split_scan", kQueue, &MovingObjectsNodelet::takeSplitScan, this,
                                  ros::TransportHints().tcpNoDelay());
   }
 
   void takeSplitScan(const SplitScanConstPtr& message) {
     monitor_->received("split_scan", toStamp(ros::Time::now()));
-    if (const auto objects = stage_->takeSplitScan(*message)) {
-      objects_.publish(objects);
+    if (const auto found = stage_->takeSplitScan(*message)) {
+      objects_.publish(found->objects);
+      if (found->dropped) {
+        dropped_.publish(found->dropped);
+      }
       reporter_->publishTiming();
     }
+  }
+
+  void takeRoadBorders(const RoadBordersConstPtr& message) {
+    monitor_->received("road_borders", toStamp(ros::Time::now()));
+    stage_->takeRoadBorders(*message);
   }
 
   /// A second of scans: enough for a hiccup, and bounded.
@@ -40,7 +55,9 @@ class MovingObjectsNodelet : public nodelet::Nodelet {
   std::unique_ptr<MovingObjectsStage> stage_;
   std::unique_ptr<StageReporter> reporter_;
   ros::Publisher objects_;
+  ros::Publisher dropped_;
   ros::Subscriber split_scan_;
+  ros::Subscriber road_borders_;
 };
 
 }  // namespace datmo

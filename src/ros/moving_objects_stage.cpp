@@ -1,36 +1,101 @@
 #include "datmo_fusion/ros/moving_objects_stage.h"
 
+#include <cmath>
+
 #include <boost/make_shared.hpp>
 
 #include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/road_conversion.h"
 
 namespace datmo {
 
 void MovingObjectsStageOptions::visit(OptionVisitor& visitor) {
   visitor.group("input", [&] { input.visit(visitor); });
   detector.visit(visitor);
+  visitor.toggle(
+      {"road_borders", "",
+       "leave out what seems to move on the borders of the road and beyond, but does not "
+       "(thesis 3.5.1); set by the launch file's switch"},
+      road_borders);
+  visitor.number({"border_age", "s", "older borders than this are not used, and all objects pass"},
+                 border_age, {0.0, 60.0});
+  visitor.group("border_filter", [&] { border_filter.visit(visitor); });
 }
 
 MovingObjectsStage::MovingObjectsStage(const MovingObjectsStageOptions& options,
                                        StageMonitor& monitor)
-    : monitor_(monitor), detector_(options.detector), stamps_(options.input.restart_after) {
+    : options_(options),
+      monitor_(monitor),
+      detector_(options.detector),
+      border_filter_(options.border_filter),
+      stamps_(options.input.restart_after) {
   checkOptions(options);
 }
 
-ObjectArrayPtr MovingObjectsStage::takeSplitScan(const SplitScanMessage& message) {
+void MovingObjectsStage::takeRoadBorders(const RoadBorders& message) {
+  if (!options_.road_borders) {
+    return;
+  }
+  try {
+    road_ = fromMessage(message);
+    road_frame_ = message.header.frame_id;
+  } catch (const InputError& error) {
+    monitor_.dropped(error);
+  }
+}
+
+std::optional<MovingObjectsOutput> MovingObjectsStage::takeSplitScan(
+    const SplitScanMessage& message) {
   try {
     const Stopwatch watch;
     const SplitScan scan = fromMessage(message);
-    // Without memory from scan to scan, a restart of the clock needs nothing.
-    stamps_.check(message.header.stamp);
-    auto objects =
-        boost::make_shared<ObjectArray>(toMessage(detector_.detect(scan), message.header.frame_id));
+    if (stamps_.check(message.header.stamp) == Arrival::kRestart) {
+      border_filter_.reset();
+    }
+    ObjectList objects = detector_.detect(scan);
+    MovingObjectsOutput output;
+    if (options_.road_borders) {
+      output.dropped = dropAtBorders(scan, message, objects);
+    }
+    output.objects = boost::make_shared<ObjectArray>(toMessage(objects, message.header.frame_id));
     monitor_.processed({scan.stamp, watch.seconds()});
-    return objects;
+    return output;
   } catch (const InputError& error) {
     monitor_.dropped(error);
-    return nullptr;
+    return std::nullopt;
   }
+}
+
+RoadModel MovingObjectsStage::roadAt(Stamp stamp, const std::string& map_frame) {
+  if (!road_) {
+    monitor_.warned({"no_borders", "no borders of the road have come yet: all objects pass"});
+    return {};
+  }
+  if (road_frame_ != map_frame) {
+    monitor_.warned({"wrong_frame", "borders of the road in '" + road_frame_ + "': expected '" +
+                                        map_frame + "', the scan's map; all objects pass"});
+    return {};
+  }
+  // Of a clock that jumped they may also be too new.
+  const double age = std::abs(secondsBetween(road_->stamp, stamp));
+  if (age > options_.border_age) {
+    monitor_.warned({"old_borders", "borders of the road " + std::to_string(age) +
+                                        " s from the scan: expected at most " +
+                                        std::to_string(options_.border_age) +
+                                        " s; all objects pass"});
+    return {};
+  }
+  return *road_;
+}
+
+DroppedObjectsPtr MovingObjectsStage::dropAtBorders(const SplitScan& scan,
+                                                    const SplitScanMessage& message,
+                                                    ObjectList& objects) {
+  const RoadModel road = roadAt(scan.stamp, message.map_frame);
+  const std::vector<DroppedObject> dropped = border_filter_.filter(scan, road, objects);
+  monitor_.figure("objects dropped at road borders [1]", static_cast<double>(dropped.size()));
+  return boost::make_shared<DroppedObjects>(
+      toMessage(dropped, scan.stamp, message.header.frame_id));
 }
 
 }  // namespace datmo

@@ -131,6 +131,9 @@ class BagRun {
     for (const RoadBordersPtr& borders : results.borders) {
       output_.write("/road_borders", time, *borders);
     }
+    for (const DroppedObjectsPtr& dropped : results.dropped) {
+      output_.write("/objects/dropped", time, *dropped);
+    }
     for (const auto& [name, objects] : results.objects) {
       output_.write(name == "lidar" ? "/objects" : "/objects/" + name, time, *objects);
     }

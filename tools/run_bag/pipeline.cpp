@@ -12,6 +12,7 @@ namespace {
 PipelineOptions wired(PipelineOptions options, const Wiring& wiring) {
   options.grid_slam.fused_grid = wiring.low_level_fusion;
   options.track_level.stereo_tracker.scan_view = false;
+  options.moving_objects.road_borders = wiring.road_border;
   return options;
 }
 

@@ -47,6 +47,7 @@ class Pipeline {
     std::vector<LowLevelPipeline::NamedGrid> grids;
     std::vector<GridSlamOutput> slam;
     std::vector<RoadBordersPtr> borders;
+    std::vector<DroppedObjectsPtr> dropped;  ///< at the borders
     std::vector<ObjectFusionPipeline::NamedObjects> objects;
     std::vector<TrackFusionPipeline::NamedTracks> source_tracks;  ///< that are fused
     std::vector<TrackArrayPtr> tracks;                            ///< of the last stage

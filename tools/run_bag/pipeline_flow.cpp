@@ -97,13 +97,16 @@ void Pipeline::detect(const GridSlamOutput& slam, Stamp now, Output& output) {
   if (!reaches(LastStage::kMovingObjects)) {
     return;
   }
-  if (const ObjectArrayPtr objects = detector_.takeSplitScan(*slam.split_scan)) {
+  if (const auto found = detector_.takeSplitScan(*slam.split_scan)) {
     bookTime(detector_monitor_);
-    output.objects.emplace_back("lidar", objects);
+    output.objects.emplace_back("lidar", found->objects);
+    if (found->dropped) {
+      output.dropped.push_back(found->dropped);
+    }
     if (object_fusion_) {
-      object_fusion_->takeObjects("lidar", *objects, now);
+      object_fusion_->takeObjects("lidar", *found->objects, now);
     } else if (reaches(LastStage::kTracker)) {
-      tracker_.takeObjects(objects, now);
+      tracker_.takeObjects(found->objects, now);
     }
   }
   drainTracker(now, output);
@@ -115,6 +118,7 @@ void Pipeline::findBorders(const SplitScanMessage& split_scan, Output& output) {
   }
   if (const RoadBordersPtr borders = road_border_->takeSplitScan(split_scan)) {
     bookTime(road_border_monitor_);
+    detector_.takeRoadBorders(*borders);
     output.borders.push_back(borders);
   }
 }

@@ -1,16 +1,32 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/scan.h"
+#include "datmo_fusion/road/arrival_test.h"
 #include "datmo_fusion/road/road_model.h"
+#include "datmo_fusion/road/sight_history.h"
 
 namespace datmo {
 
 struct BorderFilterOptions {
+  static constexpr char kConsistent[] = "consistent";
+  static constexpr char kThesis[] = "thesis";
+
+  std::string method = kConsistent;
+  double margin = 0.5;              ///< m
+  double sigmas = 1.0;              ///< 1
+  double most_sigma = 1.0;          ///< m
+  double reach = 30.0;              ///< m
+  double required_on_border = 3.0;  ///< 1
+  double required_beyond = 1.0;     ///< 1
+  SightHistoryOptions history;
+  ArrivalTestOptions arrival;
+
   void visit(OptionVisitor& visitor);
 };
 
@@ -22,25 +38,38 @@ struct DroppedObject {
   Object object;
   DropReason reason = DropReason::kOnBorder;
   RoadSide side = RoadSide::kLeft;
-  double beyond = 0.0;  ///< m that it reaches beyond the border
-  /// Logarithm of the odds that it moves over that its place is what reflects.
-  double motion_evidence = 0.0;
+  double beyond = 0.0;  ///< m from the border to it, away from the road; negative: it reaches in
+  double motion_evidence = 0.0;  ///< as ArrivalTest says
 };
 
-/// Takes objects on and beyond the road's borders for false alarms (thesis 3.5.1), unless they move
-/// consistently there (thesis 2.4, 6.2): a pedestrian on the footpath, a car out of a driveway.
+/// Takes objects on and beyond the road's borders that seem to move for false alarms (thesis
+/// 3.5.1), unless they move consistently there (thesis 2.4, 6.2): a pedestrian on the footpath, a
+/// car out of a driveway. What a mover leaves and enters was seen free, and a kerb was not
+/// (ArrivalTest): that is told from the first sight on, before anybody could have tracked it.
+///
+/// An object lies on a border or beyond if all of its points do; by the thesis, if a corner of its
+/// rectangle does, and however it moves. Objects that nobody says to move are left alone.
 class BorderFilter {
  public:
   /// Throws OptionError.
   explicit BorderFilter(const BorderFilterOptions& options);
 
-  /// Removes from `objects`, which were found in `scan`, what is a false alarm by `road`; returns
-  /// what was removed. Scans by rising stamps, all of them: those without objects too.
+  /// Removes from `objects`, which were found in `scan`, what is a false alarm by `road` (map
+  /// frame); returns what was removed. Scans by rising stamps, all of them: those without objects
+  /// too.
   std::vector<DroppedObject> filter(const SplitScan& scan, const RoadModel& road,
                                     ObjectList& objects);
 
   /// Forgets all, as at the start.
-  void reset();
+  void reset() { history_.clear(); }
+
+ private:
+  bool isFalseAlarm(const Object& object, const Pose2& base_in_map, const RoadModel& road,
+                    DroppedObject& reason) const;
+
+  BorderFilterOptions options_;
+  SightHistory history_;
+  ArrivalTest arrival_;
 };
 
 }  // namespace datmo

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "datmo_fusion/detection/moving_object_detector.h"
+#include "datmo_fusion/road/border_filter.h"
 #include "datmo_fusion/ros/messages.h"
 #include "datmo_fusion/ros/stage_monitor.h"
 #include "datmo_fusion/ros/stamp_check.h"
@@ -10,24 +14,46 @@ namespace datmo {
 struct MovingObjectsStageOptions {
   StreamOptions input;
   MovingObjectDetectorOptions detector;
+  bool road_borders = false;
+  double border_age = 0.5;  ///< s
+  BorderFilterOptions border_filter;
 
   void visit(OptionVisitor& visitor);
 };
 
-/// MovingObjectDetector between messages: the same one serves the nodelet and the bag runner. Bad
-/// input is dropped through the monitor, never thrown.
+/// What one split scan led to.
+struct MovingObjectsOutput {
+  ObjectArrayPtr objects;     ///< in the frame of the scan
+  DroppedObjectsPtr dropped;  ///< left out of them; null without road borders
+};
+
+/// MovingObjectDetector and BorderFilter between messages: the same one serves the nodelet and the
+/// bag runner. Bad input is dropped through the monitor, never thrown. Without borders that are new
+/// enough all objects pass.
 class MovingObjectsStage {
  public:
   /// `monitor` must outlive the stage. Throws OptionError.
   MovingObjectsStage(const MovingObjectsStageOptions& options, StageMonitor& monitor);
 
-  /// Objects in the frame of the scan; null if the scan was dropped.
-  ObjectArrayPtr takeSplitScan(const SplitScanMessage& message);
+  /// The road for the scans from now on, in the frame of their map; read if `road_borders`.
+  void takeRoadBorders(const RoadBorders& message);
+
+  /// None if the scan was dropped.
+  std::optional<MovingObjectsOutput> takeSplitScan(const SplitScanMessage& message);
 
  private:
+  /// The borders that serve a scan; none, and the monitor warned, if there are none.
+  RoadModel roadAt(Stamp stamp, const std::string& map_frame);
+  DroppedObjectsPtr dropAtBorders(const SplitScan& scan, const SplitScanMessage& message,
+                                  ObjectList& objects);
+
+  MovingObjectsStageOptions options_;
   StageMonitor& monitor_;
   MovingObjectDetector detector_;
+  BorderFilter border_filter_;
   StampCheck stamps_;
+  std::optional<RoadModel> road_;  ///< the newest
+  std::string road_frame_;
 };
 
 }  // namespace datmo

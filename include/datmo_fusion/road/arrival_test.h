@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/road/sight_history.h"
+
+namespace datmo {
+
+struct ArrivalTestOptions {
+  double seen_when_there = 0.8;   ///< 1
+  double seen_when_gone = 0.03;   ///< 1
+  double seen_of_ghost = 0.3;     ///< 1
+  double longest_presence = 2.0;  ///< s
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// How sure it is that what is seen at a place came there, and was not there all the time: the
+/// logarithm of the odds of "something came, and the place was free before" over "the place itself
+/// reflects now and then" (a kerb, a hedge, paint), by what scans saw of it before. When it came
+/// is the likeliest time (a generalised likelihood ratio: Page 1954; Basseville and Nikiforov,
+/// Detection of abrupt changes, 1993); what was seen since then counts only to find it.
+class ArrivalTest {
+ public:
+  explicit ArrivalTest(const ArrivalTestOptions& options);
+
+  /// `places`: m, map frame, where beams of the newest scan ended on the thing; one at least.
+  double evidence(const SightHistory& history, const std::vector<Point2>& places) const;
+
+ private:
+  double evidenceAt(const SightHistory& history, const Point2& place) const;
+
+  ArrivalTestOptions options_;
+};
+
+}  // namespace datmo

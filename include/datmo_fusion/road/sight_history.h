@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <vector>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/common/scan.h"
+
+namespace datmo {
+
+struct SightHistoryOptions {
+  double memory = 4.0;     ///< s
+  int most_scans = 200;    ///< 1
+  double tolerance = 0.6;  ///< m
+  double lit_share = 0.5;  ///< 1
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// What one scan says of a place.
+enum class Sight {
+  kNothing,  ///< it looked elsewhere, or something hid the place
+  kFree,     ///< a beam went through it
+  kHit,      ///< a beam ended there
+};
+
+/// The beams of the last scans in the map frame, to ask what each of them saw of a place.
+class SightHistory {
+ public:
+  explicit SightHistory(const SightHistoryOptions& options);
+
+  /// By rising stamps.
+  void add(const SplitScan& scan);
+  void clear() { scans_.clear(); }
+
+  std::size_t size() const { return scans_.size(); }
+
+  /// How long before the newest scan one was taken, s; 0: the newest. `back` below size().
+  double age(std::size_t back) const;
+
+  /// What that scan saw of a place (m, map frame).
+  Sight look(std::size_t back, const Point2& place) const;
+
+ private:
+  /// A beam, from the scanner on.
+  struct Beam {
+    float reach = -1.0F;  ///< m, as far as it saw; negative: nothing is known of it
+    bool hit = false;     ///< it ended there
+  };
+  struct Scan {
+    Stamp stamp;
+    Pose2 map_in_scanner;
+    ScanField field;
+    std::vector<Beam> beams;
+  };
+
+  Sight lookWith(const Scan& scan, const Point2& seen) const;
+
+  SightHistoryOptions options_;
+  std::deque<Scan> scans_;  ///< newest first
+};
+
+}  // namespace datmo

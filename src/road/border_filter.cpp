@@ -1,0 +1,134 @@
+#include "datmo_fusion/road/border_filter.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "datmo_fusion/road/border_offset.h"
+
+namespace datmo {
+
+namespace {
+
+std::vector<Point2> inMap(const Pose2& base_in_map, const Object& object) {
+  std::vector<Point2> places;
+  places.reserve(object.points.size());
+  for (const Point2& point : object.points) {
+    places.push_back(base_in_map * point);
+  }
+  return places;
+}
+
+/// The corner that lies farthest beyond a border; none if no corner lies beside it.
+std::optional<BorderOffset> outermostCorner(const Object& object, const Pose2& base_in_map,
+                                            const RoadBorder& border) {
+  std::optional<BorderOffset> outermost;
+  for (const Point2& corner : object.box.corners()) {
+    const auto offset = offsetFrom(border, base_in_map * corner);
+    if (offset && (!outermost || offset->outward > outermost->outward)) {
+      outermost = offset;
+    }
+  }
+  return outermost;
+}
+
+/// The point that lies farthest on the road; none if a point lies beside no part of the border.
+std::optional<BorderOffset> innermostPoint(const std::vector<Point2>& places,
+                                           const RoadBorder& border) {
+  std::optional<BorderOffset> innermost;
+  for (const Point2& place : places) {
+    const auto offset = offsetFrom(border, place);
+    if (!offset) {
+      return std::nullopt;
+    }
+    if (!innermost || offset->outward < innermost->outward) {
+      innermost = offset;
+    }
+  }
+  return innermost;
+}
+
+}  // namespace
+
+void BorderFilterOptions::visit(OptionVisitor& visitor) {
+  visitor.text({"method", "",
+                "consistent: what lies on a border or beyond is a false alarm unless it came there "
+                "over places that were seen free; thesis: however it moves (thesis 3.5.1)"},
+               method, {kConsistent, kThesis});
+  visitor.number({"margin", "m", "what is nearer to a border than this lies on it (thesis 3.5.1)"},
+                 margin, {0.0, 5.0});
+  visitor.number({"sigmas", "1", "standard deviations of the border that are added to the margin"},
+                 sigmas, {0.0, 10.0});
+  visitor.number({"most_sigma", "m", "a border that is known less well drops nothing"}, most_sigma,
+                 {0.01, 10.0});
+  visitor.number(
+      {"reach", "m", "what lies farther beyond a border is left alone: another road may be there"},
+      reach, {0.0, 1000.0});
+  visitor.number({"required_on_border", "1",
+                  "logarithm of the odds of having come for an object on a border to move"},
+                 required_on_border, {-100.0, 100.0});
+  visitor.number({"required_beyond", "1",
+                  "the same beyond a border, where less reflects: a footpath, a driveway"},
+                 required_beyond, {-100.0, 100.0});
+  visitor.group("history", [&] { history.visit(visitor); });
+  visitor.group("arrival", [&] { arrival.visit(visitor); });
+}
+
+BorderFilter::BorderFilter(const BorderFilterOptions& options)
+    : options_(options), history_(options.history), arrival_(options.arrival) {
+  checkOptions(options);
+}
+
+std::vector<DroppedObject> BorderFilter::filter(const SplitScan& scan, const RoadModel& road,
+                                                ObjectList& objects) {
+  history_.add(scan);
+  std::vector<DroppedObject> dropped;
+  std::vector<Object> kept;
+  for (Object& object : objects.objects) {
+    DroppedObject reason;
+    if (isFalseAlarm(object, scan.base_in_map.pose, road, reason)) {
+      reason.object = std::move(object);
+      dropped.push_back(std::move(reason));
+    } else {
+      kept.push_back(std::move(object));
+    }
+  }
+  objects.objects = std::move(kept);
+  return dropped;
+}
+
+bool BorderFilter::isFalseAlarm(const Object& object, const Pose2& base_in_map,
+                                const RoadModel& road, DroppedObject& reason) const {
+  if (object.dynamic_state != DynamicState::kMoving || object.points.empty()) {
+    return false;
+  }
+  const bool as_thesis = options_.method == BorderFilterOptions::kThesis;
+  const std::vector<Point2> places = inMap(base_in_map, object);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const RoadBorder& border : road.borders) {
+    const auto offset =
+        as_thesis ? outermostCorner(object, base_in_map, border) : innermostPoint(places, border);
+    if (!offset || offset->sigma > options_.most_sigma) {
+      continue;
+    }
+    const double margin = options_.margin + options_.sigmas * offset->sigma;
+    const double reach = border.side_street ? margin : options_.reach;
+    if (offset->outward < -margin || offset->outward > reach || offset->outward > nearest) {
+      continue;
+    }
+    nearest = offset->outward;
+    reason.reason = nearest > margin ? DropReason::kBeyondBorder : DropReason::kOnBorder;
+    reason.side = border.side;
+    reason.beyond = nearest;
+  }
+  if (nearest == std::numeric_limits<double>::infinity()) {
+    return false;
+  }
+  reason.motion_evidence = arrival_.evidence(history_, places);
+  const double required = reason.reason == DropReason::kOnBorder ? options_.required_on_border
+                                                                 : options_.required_beyond;
+  return as_thesis || reason.motion_evidence < required;
+}
+
+}  // namespace datmo

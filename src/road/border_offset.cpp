@@ -1,0 +1,37 @@
+#include "datmo_fusion/road/border_offset.h"
+
+#include <cmath>
+
+namespace datmo {
+
+namespace {
+
+/// Where a point lies beside one leg; none before its begin or behind its end.
+std::optional<BorderOffset> offsetFromLeg(const BorderPoint& from, const BorderPoint& to,
+                                          RoadSide side, const Point2& point) {
+  const Point2 leg = to.position - from.position;
+  const Point2 to_point = point - from.position;
+  const double along = to_point.dot(leg) / leg.squaredNorm();
+  // In this form a leg without length, whose `along` is not a number, is left out.
+  if (!(along >= 0.0 && along <= 1.0)) {
+    return std::nullopt;
+  }
+  const double to_left = (leg.x() * to_point.y() - leg.y() * to_point.x()) / leg.norm();
+  return BorderOffset{side == RoadSide::kLeft ? to_left : -to_left,
+                      from.sigma + along * (to.sigma - from.sigma)};
+}
+
+}  // namespace
+
+std::optional<BorderOffset> offsetFrom(const RoadBorder& border, const Point2& point) {
+  std::optional<BorderOffset> nearest;
+  for (std::size_t i = 0; i + 1 < border.points.size(); ++i) {
+    const auto offset = offsetFromLeg(border.points[i], border.points[i + 1], border.side, point);
+    if (offset && (!nearest || std::abs(offset->outward) < std::abs(nearest->outward))) {
+      nearest = offset;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace datmo
