@@ -80,8 +80,13 @@ def _moved(points, base, true_base):
 def _seen(frame, stations, part, name):
     """Distance (m) across the way, and sigma (m), of the nearest border of that side at each
     station of the part (slice); NaN where there is none. A border that slants across the way is not
-    the one along it."""
-    borders = [(border, line) for border, line in frame.lines if border.side == name]
+    the one along it; those of a side street, which both lie on one side of the vehicle, are left and
+    right ones where the way leads into it."""
+    borders = [
+        (border, line)
+        for border, line in frame.lines
+        if border.side_street or border.side == name
+    ]
     segments = segments_of([line for _, line in borders])
     places, headings = stations.places[part], stations.headings[part]
     if not borders:
@@ -89,13 +94,22 @@ def _seen(frame, stations, part, name):
     distances, share = ray_crossings(places, headings + TURN[name], segments)
     slant = transforms.normalise_angle(segments.headings() - headings[:, np.newaxis])
     along = np.abs(np.sin(slant)) <= np.sin(MOST_SLANT)
+    of_street = _of_segments(borders, lambda item: np.full(len(item.sigma), item.side_street))
     with np.errstate(invalid="ignore"):
-        far = np.where(along & (np.abs(distances) <= REACH), np.abs(distances), np.inf)
+        along &= (np.abs(distances) <= REACH) & ((distances > 0.0) | ~of_street[0])
+    far = np.where(along, np.abs(distances), np.inf)
     nearest = np.argmin(far, axis=1)
     rows = np.arange(len(places))
-    begin = np.concatenate([border.sigma[:-1] for border, _ in borders])[nearest]
-    end = np.concatenate([border.sigma[1:] for border, _ in borders])[nearest]
+    begin, end = (sigma[nearest] for sigma in _of_segments(borders, lambda item: item.sigma))
     there = np.isfinite(far[rows, nearest])
     share = share[rows, nearest]
     return (np.where(there, distances[rows, nearest], np.nan),
             np.where(there, begin + share * (end - begin), np.nan))  # fmt: skip
+
+
+def _of_segments(borders, of_points):
+    """What a function of a SeenBorder gives for its points, at the begin and the end of each
+    segment of all of them."""
+    values = [of_points(border) for border, _ in borders]
+    return (np.concatenate([item[:-1] for item in values]),
+            np.concatenate([item[1:] for item in values]))  # fmt: skip
