@@ -9,8 +9,8 @@
 
 namespace datmo {
 
-/// Draws for rviz. In: split_scan, objects, tracks, ground_truth/objects. Out: markers. It draws
-/// only while somebody looks.
+/// Draws for rviz. In: split_scan, road_borders, objects, objects/dropped, tracks,
+/// ground_truth/objects. Out: markers. It draws only while somebody looks.
 class MarkersNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
@@ -18,7 +18,9 @@ class MarkersNodelet : public nodelet::Nodelet {
     ros::NodeHandle& node = getNodeHandle();
     markers_ = node.advertise<visualization_msgs::MarkerArray>("markers", kQueue);
     split_scan_ = node.subscribe("split_scan", kQueue, &MarkersNodelet::takeSplitScan, this);
+    borders_ = node.subscribe("road_borders", kQueue, &MarkersNodelet::takeBorders, this);
     objects_ = node.subscribe("objects", kQueue, &MarkersNodelet::takeObjects, this);
+    dropped_ = node.subscribe("objects/dropped", kQueue, &MarkersNodelet::takeDropped, this);
     tracks_ = node.subscribe("tracks", kQueue, &MarkersNodelet::takeTracks, this);
     truth_ = node.subscribe("ground_truth/objects", kQueue, &MarkersNodelet::takeTruth, this);
   }
@@ -28,7 +30,9 @@ class MarkersNodelet : public nodelet::Nodelet {
     draw("split_scan", *message);
   }
 
+  void takeBorders(const RoadBordersConstPtr& message) { draw("road_borders", *message); }
   void takeObjects(const ObjectArrayConstPtr& message) { draw("objects", *message); }
+  void takeDropped(const DroppedObjectsConstPtr& message) { draw("objects/dropped", *message); }
   void takeTracks(const TrackArrayConstPtr& message) { draw("tracks", *message); }
   void takeTruth(const TrueObjectArrayConstPtr& message) { draw("truth", *message); }
 
@@ -48,9 +52,24 @@ class MarkersNodelet : public nodelet::Nodelet {
   }
 
   /// Objects of the last scan go where the scan was seen from: tf may not know yet.
-  void place(const ObjectArray& objects, visualization_msgs::MarkerArray& markers) const {
-    if (last_scan_ && last_scan_->header.stamp == objects.header.stamp) {
+  void place(const std_msgs::Header& header, visualization_msgs::MarkerArray& markers) const {
+    if (last_scan_ && last_scan_->header.stamp == header.stamp) {
       placeInMap(*last_scan_, markers);
+    }
+  }
+
+  void place(const ObjectArray& objects, visualization_msgs::MarkerArray& markers) const {
+    place(objects.header, markers);
+  }
+
+  void place(const DroppedObjects& dropped, visualization_msgs::MarkerArray& markers) const {
+    place(dropped.header, markers);
+  }
+
+  /// An intersection is where the vehicle is.
+  void place(const RoadBorders& road, visualization_msgs::MarkerArray& markers) const {
+    if (last_scan_) {
+      addIntersection(road, *last_scan_, options_, markers);
     }
   }
 
@@ -66,7 +85,9 @@ class MarkersNodelet : public nodelet::Nodelet {
   SplitScanConstPtr last_scan_;
   ros::Publisher markers_;
   ros::Subscriber split_scan_;
+  ros::Subscriber borders_;
   ros::Subscriber objects_;
+  ros::Subscriber dropped_;
   ros::Subscriber tracks_;
   ros::Subscriber truth_;
 };

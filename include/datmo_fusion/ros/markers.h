@@ -46,6 +46,21 @@ visualization_msgs::MarkerArray markersOf(const ObjectArray& objects,
 /// came ("track paths").
 visualization_msgs::MarkerArray markersOf(const TrackArray& tracks, const MarkersOptions& options);
 
+/// For each stretch of the road's borders a line ("road borders"), orange on the left, pink on the
+/// right, darker those of a side street, the wider and less transparent the likelier, and thin lines at two standard
+/// deviations to its sides ("road border sigmas"). Throws InputError as fromMessage does.
+visualization_msgs::MarkerArray markersOf(const RoadBorders& road, const MarkersOptions& options);
+
+/// "intersection" and its probability ("intersection"), at the vehicle's place at the scan; nothing
+/// where the road is at none. Throws InputError (`bad_pose`).
+void addIntersection(const RoadBorders& road, const SplitScanMessage& scan,
+                     const MarkersOptions& options, visualization_msgs::MarkerArray& markers);
+
+/// Of what was left out: a grey outline ("dropped objects"), and why, how far it reaches beyond the
+/// border, and what speaks for its motion ("dropped labels").
+visualization_msgs::MarkerArray markersOf(const DroppedObjects& dropped,
+                                          const MarkersOptions& options);
+
 /// Outlines of the true objects that move ("ground truth").
 visualization_msgs::MarkerArray markersOf(const TrueObjectArray& objects,
                                           const MarkersOptions& options);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "marker_search.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/ros/input_error.h"
@@ -10,6 +11,7 @@
 namespace datmo {
 namespace {
 
+using samples::find;
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
@@ -24,15 +26,6 @@ TrackMessage makeTrack(std::uint32_t id) {
   track.moving = true;
   track.sensors = {"lidar", "stereo"};
   return track;
-}
-
-const Marker* find(const MarkerArray& markers, const std::string& name, int id) {
-  for (const Marker& marker : markers.markers) {
-    if (marker.ns == name && marker.id == id) {
-      return &marker;
-    }
-  }
-  return nullptr;
 }
 
 TEST(Markers, TrackHasBoxArrowAndLabel) {

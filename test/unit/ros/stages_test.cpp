@@ -7,7 +7,6 @@
 #include "datmo_fusion/ros/frames.h"
 #include "datmo_fusion/ros/grid_slam_stage.h"
 #include "datmo_fusion/ros/message_conversion.h"
-#include "datmo_fusion/ros/moving_objects_stage.h"
 #include "datmo_fusion/ros/tracker_stage.h"
 
 namespace datmo {
@@ -350,24 +349,6 @@ TEST_F(TrackerStageTest, AJumpBackForgetsWhatWaits) {
   ASSERT_TRUE(tracks);
   EXPECT_EQ(tracks->header.stamp, ros::Time(100.0));
   EXPECT_EQ(monitor_.warnings().at("clock_restart"), 1U);
-}
-
-TEST(MovingObjectsStageTest, ServesASplitScanOnceAndDropsBadOnes) {
-  StageMonitor monitor("moving_objects");
-  MovingObjectsStage stage({}, monitor);
-  SplitScan scan;
-  scan.stamp = Stamp::fromSeconds(samples::kStart);
-  const SplitScanMessage message = toMessage(scan, "base_link", "map");
-  const auto objects = stage.takeSplitScan(message);
-  ASSERT_TRUE(objects);
-  EXPECT_EQ(objects->header.frame_id, "base_link");
-  EXPECT_EQ(objects->header.stamp, message.header.stamp);
-  EXPECT_FALSE(stage.takeSplitScan(message));
-  EXPECT_EQ(monitor.drops().at("repeated_stamp"), 1U);
-  SplitScanMessage bad = message;
-  bad.pose.pose.orientation.w = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(stage.takeSplitScan(bad));
-  EXPECT_EQ(monitor.drops().at("bad_pose"), 1U);
 }
 
 }  // namespace

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include <visualization_msgs/MarkerArray.h>
+
+namespace datmo::samples {
+
+/// Null if there is none.
+inline const visualization_msgs::Marker* find(const visualization_msgs::MarkerArray& markers,
+                                              const std::string& name, int id) {
+  for (const visualization_msgs::Marker& marker : markers.markers) {
+    if (marker.ns == name && marker.id == id) {
+      return &marker;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace datmo::samples
