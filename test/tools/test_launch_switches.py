@@ -18,6 +18,7 @@ LOW_LEVEL = {"lidar_grid", "stereo_grid", "grid_fusion", "grid_views"}
 OBJECT_LEVEL = {"stereo_objects", "object_fusion"}
 TRACK_LEVEL = {"stereo_objects", "stereo_tracker", "track_fusion", "lidar_markers",
                "stereo_markers"}
+ROAD_BORDER = {"road_border"}
 IMAGES = {"none": set(),
           "rectified": {"stereo_image_proc", "stereo_points"},
           "raw": {"stereo_image_proc", "stereo_points", "left_debayer", "left_rectify",
@@ -25,8 +26,8 @@ IMAGES = {"none": set(),
 
 
 def combinations():
-    """(low_level_fusion, object_fusion, track_fusion, stereo_images)"""
-    return itertools.product([False, True], [False, True], [False, True], IMAGES)
+    """(low_level_fusion, road_border, object_fusion, track_fusion, stereo_images)"""
+    return itertools.product(*[[False, True]] * 4, IMAGES)
 
 
 @functools.lru_cache(maxsize=None)
@@ -58,9 +59,10 @@ class LaunchSwitches(unittest.TestCase):
     @staticmethod
     def each(file, **more):
         """(switches, nodes, parameters) of each combination"""
-        for low_level, objects, tracks, images in combinations():
-            switches = {"low_level_fusion": low_level, "object_fusion": objects,
-                        "track_fusion": tracks, "stereo_images": images}
+        for low_level, borders, objects, tracks, images in combinations():
+            switches = {"low_level_fusion": low_level, "road_border": borders,
+                        "object_fusion": objects, "track_fusion": tracks,
+                        "stereo_images": images}
             yield (switches, *loaded(file, **switches, **more))
 
     def test_there_are_the_nodelets_of_the_switches(self):
@@ -69,6 +71,8 @@ class LaunchSwitches(unittest.TestCase):
                 expected = ALWAYS | IMAGES[switches["stereo_images"]]
                 if switches["low_level_fusion"]:
                     expected |= LOW_LEVEL
+                if switches["road_border"]:
+                    expected |= ROAD_BORDER
                 if switches["object_fusion"]:
                     expected |= OBJECT_LEVEL
                 if switches["track_fusion"]:
@@ -83,6 +87,11 @@ class LaunchSwitches(unittest.TestCase):
                 kinds = nodelets(nodes).values()
                 ours = {kind for kind in kinds if kind.startswith("datmo_fusion/")}
                 self.assertLessEqual(ours, known)
+
+    def test_moving_objects_takes_borders_where_they_are_looked_for(self):
+        for switches, _, parameters in self.each("perception.launch"):
+            with self.subTest(**switches):
+                self.assertIs(parameters["/moving_objects/road_borders"], switches["road_border"])
 
     def test_tracker_and_markers_take_what_is_published(self):
         for switches, nodes, _ in self.each("perception.launch"):

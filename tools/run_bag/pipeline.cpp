@@ -7,8 +7,9 @@ namespace datmo {
 
 namespace {
 
-/// grid_slam waits for fused grids where there are any, and for nothing else; what the scanner saw
-/// is no view of the stereo camera.
+/// grid_slam waits for fused grids where there are any, and for nothing else; moving_objects takes
+/// borders of the road where they are looked for; what the scanner saw is no view of the stereo
+/// camera.
 PipelineOptions wired(PipelineOptions options, const Wiring& wiring) {
   options.grid_slam.fused_grid = wiring.low_level_fusion;
   options.track_level.stereo_tracker.scan_view = false;
