@@ -12,6 +12,7 @@ struct ArrivalTestOptions {
   double seen_when_gone = 0.03;   ///< 1
   double seen_of_ghost = 0.3;     ///< 1
   double longest_presence = 2.0;  ///< s
+  int most_places = 10;           ///< 1
 
   void visit(OptionVisitor& visitor);
 };
@@ -25,7 +26,8 @@ class ArrivalTest {
  public:
   explicit ArrivalTest(const ArrivalTestOptions& options);
 
-  /// `places`: m, map frame, where beams of the newest scan ended on the thing; one at least.
+  /// `places`: m, map frame, where beams of the newest scan ended on the thing, in their order; one
+  /// at least. Of many some are taken, spread evenly.
   double evidence(const SightHistory& history, const std::vector<Point2>& places) const;
 
  private:
