@@ -4,30 +4,16 @@
 
 #include "message_samples.h"
 #include "road_samples.h"
+#include "split_scan_samples.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/ros/message_conversion.h"
 #include "datmo_fusion/ros/road_conversion.h"
 
 namespace datmo {
 namespace {
 
-/// A scan in which something seems to move at one place (m, base frame = map).
-SplitScan scanWithMover(const Point2& place, double seconds) {
-  SplitScan scan;
-  scan.stamp = Stamp::fromSeconds(samples::kStart + seconds);
-  scan.field.beams = 81;
-  scan.field.beam_spacing = kPi / 90.0;
-  scan.field.first_bearing = -40.0 * scan.field.beam_spacing;
-  scan.field.free_range = 40.0;
-  scan.field.range = 50.0;
-  const double bearing = std::atan2(place.y(), place.x());
-  const double beam = (bearing - scan.field.first_bearing) / scan.field.beam_spacing;
-  scan.points = {{place, place.norm(), bearing, static_cast<std::uint32_t>(std::lround(beam)),
-                  PointState::kMoving}};
-  return scan;
-}
+using samples::scanWithMover;
 
 class MovingObjectsStageTest : public testing::Test {
  protected:
