@@ -1,101 +1,98 @@
-"""Bags of borders that tests of draw_borders share: a vehicle drives along the map's y axis."""
+"""A drive of two seconds along a street, with published borders, that tests of tools share.
 
-import math
+The vehicle drives along x from the origin of the true map at 10 m/s. The run has drifted: its map
+is laid 5 m to the side, and turned by a right angle.
+"""
 
-import genpy
 import numpy as np
 from datmo_tools import bag_messages, transforms
 from datmo_tools.bag_file import whole_bag
-from datmo_tools.kitti_calibration import Camera
-from datmo_tools.kitti_messages import LEFT_CAMERA, camera_info, gray_image
-from geometry_msgs.msg import Point, Point32, Pose, PoseWithCovarianceStamped, Quaternion
-from tf2_msgs.msg import TFMessage
+from geometry_msgs.msg import Point, Point32, PoseWithCovarianceStamped, Quaternion
 
 from datmo_fusion.msg import (
-    DroppedObject,
-    DroppedObjects,
-    ObjectArray,
     Polyline,
     RoadBorder,
     RoadBorders,
-    ScanPoint,
-    SplitScan,
     TrueObjectArray,
     TrueRoadBorders,
 )
-from object_samples import object_at
+from track_samples import DRIFT, PERIOD, START, car
 
-START = 1000 * 10**9
-STEP = 10**8  # ns from a scan to the next one
-SPEED = 10.0  # m/s
-HEADING = math.pi / 2
-DRIFT = 3.0  # m, of the map along its x axis against the true one
+FRAMES = 21
+STEP = 1.0  # m, from frame to frame
 
-# Optical axes (x right, y down, z ahead) of a camera 1.5 m above base_link that looks ahead.
-AXES = np.array([(0.0, 0.0, 1.0), (-1.0, 0.0, 0.0), (0.0, -1.0, 0.0)])
-MOUNT = transforms.rigid(AXES, [0.0, 0.0, 1.5])
-CAMERA = Camera(
-    np.array([(100.0, 0.0, 50.0, 0.0), (0.0, 100.0, 40.0, 0.0), (0.0, 0.0, 1.0, 0.0)]), 100, 80
-)
+KERBS = (((-100.0, 5.0), (200.0, 5.0)), ((-100.0, -5.0), (200.0, -5.0)))
+
+SIGMA = 0.2  # m, of published points
 
 
-def border(side, points, sigma=0.1, probability=0.9, unseen=0.0):
-    """points: x, y (m) in the map."""
-    return RoadBorder(
-        side=side, points=[Point32(x, y, 0.0) for x, y in points], sigma=[sigma] * len(points),
-        probability=probability, unseen=genpy.Duration.from_sec(unseen),
-    )  # fmt: skip
+def along(*places):
+    """Function of the frame: true poses (x, y, yaw) on a straight way, or those that are given."""
+
+    def at(frame):
+        return places[frame] if places else (STEP * frame, 0.0, 0.0)
+
+    return at
 
 
-# Straight along the road: 4 m to its left, 3 m to its right.
-LEFT = border(RoadBorder.LEFT, [(-4.0, -10.0), (-4.0, 50.0)])
-RIGHT = border(RoadBorder.RIGHT, [(3.0, 0.0), (3.0, 20.0)], sigma=0.2, probability=0.5, unseen=2.0)
+def parked(number, x, y):
+    """A car of 4 m x 2 m that stands there throughout."""
+    return car(number, x, y)
 
 
-def write_run(path, count=11, borders=(LEFT, RIGHT), truth=True):
-    """A run of so many scans: in each one point 10 m ahead, one object there and one dropped."""
+def border(side, *points, sigma=SIGMA, side_street=False, frames=range(FRAMES)):
+    """Function of the frame: a border through points of the true map, side as in RoadBorder; None
+    out of its frames."""
+
+    def at(frame, base):
+        if frame not in frames:
+            return None
+        local = [transforms.relative(base, [x, y, 0.0]) for x, y in points]
+        # The run takes the vehicle to be where DRIFT moves its true place to.
+        run_base = transforms.compose(DRIFT, base)
+        places = [transforms.compose(run_base, point) for point in local]
+        return RoadBorder(
+            side=side, points=[Point32(place[0], place[1], 0.0) for place in places],
+            sigma=[sigma] * len(places), probability=0.9, side_street=side_street,
+        )  # fmt: skip
+
+    return at
+
+
+def left(y, first=-60.0, last=120.0, **others):
+    """A left border along x at y."""
+    return border(RoadBorder.LEFT, (first, y), (last, y), **others)
+
+
+def right(y, first=-60.0, last=120.0, **others):
+    """A right border along x at y."""
+    return border(RoadBorder.RIGHT, (first, y), (last, y), **others)
+
+
+def write_drive(path, borders, kerbs=KERBS, objects=(), way=along(), at_intersection=()):
+    """A bag of run_bag --road-border --with-truth.
+
+    borders: as border() gives them, None: without their topic; kerbs: lines of the true map;
+    objects: as parked() gives them; at_intersection: frames.
+    """
     with whole_bag(path, "test") as bag:
-        for i in range(count):
-            stamp = START + i * STEP
-            place = Pose(Point(0.0, SPEED * i * STEP * 1e-9, 0.0),
-                         Quaternion(*transforms.quaternion_of_yaw(HEADING)))  # fmt: skip
-            in_map = bag_messages.header(stamp, "map")
-            in_base = bag_messages.header(stamp, "base_link")
-            pose = PoseWithCovarianceStamped(header=in_map)
-            pose.pose.pose = place
+        for frame in range(FRAMES):
+            stamp = START + frame * PERIOD
+            header, base = bag_messages.header(stamp, "map"), np.array(way(frame))
+            if borders is not None:
+                present = [item(frame, base) for item in borders]
+                present = [item for item in present if item is not None]
+                bag.write("/road_borders", stamp, RoadBorders(header=header, borders=present))
+            pose = PoseWithCovarianceStamped(header=header)
+            drifted = transforms.compose(DRIFT, base)
+            pose.pose.pose.position = Point(drifted[0], drifted[1], 0.0)
+            pose.pose.pose.orientation = Quaternion(*transforms.quaternion_of_yaw(drifted[2]))
             bag.write("/pose", stamp, pose)
-            scan = SplitScan(header=in_base, map_frame="map", pose=pose.pose)
-            scan.points = [ScanPoint(x=10.0, y=0.0, state=ScanPoint.MOVING)]
-            bag.write("/split_scan", stamp, scan)
-            bag.write("/road_borders", stamp, RoadBorders(header=in_map, borders=borders))
-            kept = [object_at(10.0, 0.0)]
-            bag.write("/objects", stamp, ObjectArray(header=in_base, objects=kept))
-            dropped = [DroppedObject(object=object_at(5.0, -3.0))]
-            bag.write("/objects/dropped", stamp, DroppedObjects(header=in_base, objects=dropped))
-            if truth:
-                _write_truth(bag, stamp, place)
-
-
-def _write_truth(bag, stamp, place):
-    header = bag_messages.header(stamp, "map")
-    pose = (DRIFT, place.position.y, HEADING)
-    true_pose = bag_messages.planar_odometry(stamp, "map", "base_link", pose, SPEED, 0.0)
-    bag.write("/ground_truth/pose", stamp, true_pose)
-    bag.write("/ground_truth/objects", stamp, TrueObjectArray(header=header))
-    kerb = Polyline([Point32(DRIFT - 4.0, 0.0, 0.0), Point32(DRIFT - 4.0, 40.0, 0.0)])
-    message = TrueRoadBorders(header=header, borders=[kerb], at_intersection=True)
-    bag.write("/ground_truth/road_borders", stamp, message)
-
-
-def write_images(path, count=11, delay=STEP // 4, encoding="mono8"):
-    """Images of the drive, each so late (ns) after a scan; number i is all of the gray value i."""
-    with whole_bag(path, "test") as bag:
-        mount = bag_messages.transform(
-            START, "base_link", LEFT_CAMERA, MOUNT, transforms.quaternion_of(AXES))  # fmt: skip
-        bag.write_latched("/tf_static", START, TFMessage([mount]))
-        for i in range(count):
-            stamp = START + i * STEP + delay
-            image = gray_image(stamp, np.full((CAMERA.height, CAMERA.width), i, dtype=np.uint8))
-            image.encoding = encoding
-            bag.write("/stereo/left/image_rect", stamp, image)
-            bag.write("/stereo/left/camera_info", stamp, camera_info(stamp, CAMERA))
+            true_pose = bag_messages.planar_odometry(stamp, "map", "base_link", base, 0.0, 0.0)
+            bag.write("/ground_truth/pose", stamp, true_pose)
+            truth = TrueObjectArray(header=header, objects=[item(frame) for item in objects])
+            bag.write("/ground_truth/objects", stamp, truth)
+            lines = [Polyline([Point32(x, y, 0.0) for x, y in line]) for line in kerbs]
+            state = TrueRoadBorders(header=header, borders=lines)
+            state.at_intersection = frame in at_intersection
+            bag.write("/ground_truth/road_borders", stamp, state)

@@ -36,8 +36,16 @@ class Tables(unittest.TestCase):
         self.assertEqual(rows(text, "Table 3.1")[0], ["1", "64", "30", "30"])
         self.assertEqual(rows(text, "Table 3.2")[0], ["1", "10", "7", "6"])
         self.assertEqual(rows(text, "Table 3.3")[0], ["1", "108", "24", "18", "42", "15", "-", "-"])
-        self.assertEqual(rows(text, "Table 3.4")[2], ["3", "150", "95", "423", "1.3"])
+        self.assertEqual(rows(text, "Table 3.4")[2], ["3", "150", "95", "423", "1.3", "-", "-"])
         self.assertEqual(rows(text, "Table 3.5")[2], ["3", "4", "4", "4", "2", "-", "-"])
+
+    def test_runs_with_borders_have_columns_of_their_own(self):
+        bordered = dict(COUNTS, false_moving_objects_episodes=60, false_moving_objects_frames=0.21,
+                        intersections_found=2, intersections_false=1)  # fmt: skip
+        text = thesis_tables([{"thesis": COUNTS}] * 3, [{"thesis": bordered}, None, None])
+        self.assertEqual(rows(text, "Table 3.4")[0], ["1", "70", "45", "423", "1.3", "60", "0.2"])
+        self.assertEqual(rows(text, "Table 3.5")[0], ["1", "2", "2", "1", "2", "2", "1"])
+        self.assertEqual(rows(text, "Table 3.4")[1], ["2", "103", "80", "423", "1.3", "-", "-"])
 
     def test_run_without_score_has_no_counts(self):
         text = thesis_tables([None, None, None])
@@ -148,6 +156,14 @@ class Runs(unittest.TestCase):
         self.assertEqual(code, 1)
         self.assertIn("drive.bag: cannot be read as a bag", out)
         self.assertIn("Low-level fusion", out)
+
+    def test_run_without_borders_is_reported(self):
+        self.program("run_bag", 'cp "$1" "$2"')
+        code, out, _ = self.run_tool("--road-border")
+        self.assertEqual(code, 1)
+        self.assertIn("data_set_1: ", out)
+        self.assertIn("result.bag: cannot be read as a bag", out)
+        self.assertIn("Borders of the road", out)
 
     def test_missing_scene_is_named(self):
         (self.folder / "data_set_3.yaml").unlink()

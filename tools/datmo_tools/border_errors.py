@@ -80,8 +80,8 @@ def _moved(points, base, true_base):
 def _seen(frame, stations, part, name):
     """Distance (m) across the way, and sigma (m), of the nearest border of that side at each
     station of the part (slice); NaN where there is none. A border that slants across the way is not
-    the one along it; those of a side street, which both lie on one side of the vehicle, are left and
-    right ones where the way leads into it."""
+    the one along it; those of a side street, which both lie on one side of the vehicle, are left
+    and right ones where the way leads into it."""
     borders = [
         (border, line)
         for border, line in frame.lines

@@ -50,6 +50,6 @@ def _parser():
     add("without", type=Path, metavar="WITHOUT.bag", help="bag of run_bag")
     add("with_borders", type=Path, metavar="WITH.bag", help="bag of run_bag --road-border")
     add("--drive", type=Path, metavar="DRIVE.bag",
-        help="bag with ground truth (default: of each its own, of run_bag --with-truth)")  # fmt: skip
+        help="bag with ground truth (default: each its own, of run_bag --with-truth)")  # fmt: skip
     command_line.add_json(parser)
     return parser

@@ -126,17 +126,18 @@ def _run(drive, level, recording, view, values):
     folder = recorded.parent / level
     try:
         folder.mkdir(exist_ok=True)
-        found = _figures(drive, level, recorded, folder, view, values.programs)
+        found = _figures(drive, level, recorded, folder, view, values)
         return Result(drive, level, found)
     except (StepFailed, OSError) as error:
         return Result(drive, level, failure=f"{drive.name}, {level}: {error}")
 
 
-def _figures(drive, level, recorded, folder, view, built):
-    times = folder / "times.json"
+def _figures(drive, level, recorded, folder, view, values):
+    built, times = values.programs, folder / "times.json"
+    borders = ("--road-border",) if values.road_border else ()
     report = simulated_run.run_recorded(
         recorded, built, drive.config, folder, drive.score_options,
-        (*LEVELS[level], "--times", times))  # fmt: skip
+        (*LEVELS[level], *borders, "--times", times))  # fmt: skip
     wide_report = drive.wide_score_options and simulated_run.score(
         folder / "result.bag", built, drive.wide_score_options, folder / "score_any_sensor.json")
     view_report = simulated_run.score(
@@ -172,6 +173,7 @@ def _parser():
         help="folder of simulate, run_bag, score_run and kitti_to_bag")  # fmt: skip
     add("--levels", nargs="+", choices=list(LEVELS), default=list(LEVELS),
         help="of fusion (default: all)")  # fmt: skip
+    add("--road-border", action="store_true", help="all levels with borders of the road")
     numbers = list(range(1, len(PUBLISHED) + 1))
     add("--sets", nargs="*", type=int, choices=numbers, default=numbers,
         help="data sets (default: all)")  # fmt: skip

@@ -7,7 +7,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import NamedTuple, Optional
 
-from datmo_tools import command_line, score_grids, simulated_run
+from datmo_tools import command_line, score_borders, score_grids, simulated_run
+from datmo_tools.border_runs import BorderRuns, border_runs_table
 from datmo_tools.errors import InputError
 from datmo_tools.fusion_table import FusionRuns, fusion_table
 from datmo_tools.programs import StepFailed
@@ -21,7 +22,11 @@ exit code is then 1.
 
 With --low-level-fusion the stereo camera is simulated too (10 MB for each second), each drive goes
 through the stack without and with low-level fusion, and a table has both; the thesis's tables are
-of the runs without. Bags and scores of those with fusion are in a folder `fused` within the set's."""
+of the runs without. Bags and scores of those with fusion are in a folder `fused` within the set's.
+
+With --road-border each drive also goes through the stack with borders of the road (thesis 3.5), by
+the scanner alone; the thesis's tables 3.4 and 3.5 have columns of these runs, and a table has both.
+Their bags and scores are in a folder `road_border` within the set's."""
 
 # All objects count that the scanner saw moving, as in the thesis, also those gone in a moment.
 SCORE_OPTIONS = ("truth/least_time_seen=0", "truth/visible_to=scanner")
@@ -34,6 +39,7 @@ class Result(NamedTuple):
 
     report: Optional[dict] = None  # of score_run
     fusion: Optional[FusionRuns] = None
+    borders: Optional[BorderRuns] = None
     failure: Optional[str] = None
 
 
@@ -54,9 +60,13 @@ def _run_all(values):
             raise InputError(f"{file}: no such file, expected a yaml file")
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         results = list(pool.map(lambda scene: _run(scene, values), scenes))
-    print(thesis_tables([result.report for result in results]))
+    borders = [result.borders for result in results]
+    with_borders = [runs and runs.with_borders for runs in borders]
+    print(thesis_tables([result.report for result in results], with_borders))
     if values.low_level_fusion:
         print("\n" + fusion_table([result.fusion for result in results]))
+    if values.road_border:
+        print("\n" + border_runs_table(borders))
     failures = [result.failure for result in results if result.failure is not None]
     print("\n" + "\n".join(failures or [f"bags and scores: {values.out}"]))
     return not failures
@@ -67,30 +77,49 @@ def _run(scene, values):
     folder = values.out / scene.stem
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        if values.low_level_fusion:
-            return _run_both(scene, values, folder)
-        drive = simulated_run.SimulatedDrive(scene)
+        options = STEREO_OPTIONS if values.low_level_fusion else ()
+        drive = simulated_run.SimulatedDrive(scene, options)
+        simulated_run.record(drive, values.programs, folder / "drive.bag")
+        alone = _timed_run(folder, folder, values, ())
         return Result(
-            simulated_run.run(drive, values.programs, values.config, folder, SCORE_OPTIONS)
+            alone.report,
+            _fused(folder, values, alone) if values.low_level_fusion else None,
+            _with_borders(folder, values, alone) if values.road_border else None,
         )
     except (StepFailed, InputError, OSError) as error:
         return Result(failure=f"{scene.stem}: {error}")
 
 
-def _run_both(scene, values, folder):
-    """Result with the runs without and with low-level fusion."""
-    drive = simulated_run.SimulatedDrive(scene, STEREO_OPTIONS)
-    fused_folder = folder / "fused"
-    fused_folder.mkdir(exist_ok=True)
-    times, fused_times = folder / "times.json", fused_folder / "times.json"
-    alone = simulated_run.run(drive, values.programs, values.config, folder, SCORE_OPTIONS,
-                              ("--times", times))  # fmt: skip
-    recorded = folder / "drive.bag"
-    fused = simulated_run.run_recorded(
-        recorded, values.programs, values.config, fused_folder, SCORE_OPTIONS,
-        ("--low-level-fusion", "--write-grids", "--times", fused_times))  # fmt: skip
-    grids = score_grids.score(fused_folder / "result.bag", recorded)
-    return Result(alone, FusionRuns(alone, fused, _read(times), _read(fused_times), grids))
+class _TimedRun(NamedTuple):
+    """One run on a recorded drive."""
+
+    report: dict  # of score_run
+    times: Path  # of run_bag
+
+
+def _timed_run(recorded_in, folder, values, run_options):
+    """_TimedRun with these options of run_bag, left in the folder."""
+    folder.mkdir(exist_ok=True)
+    times = folder / "times.json"
+    report = simulated_run.run_recorded(
+        recorded_in / "drive.bag", values.programs, values.config, folder, SCORE_OPTIONS,
+        (*run_options, "--times", times))  # fmt: skip
+    return _TimedRun(report, times)
+
+
+def _fused(folder, values, alone):
+    """FusionRuns: the run that there is, and one with low-level fusion."""
+    fused = _timed_run(folder, folder / "fused", values, ("--low-level-fusion", "--write-grids"))
+    grids = score_grids.score(folder / "fused" / "result.bag", folder / "drive.bag")
+    return FusionRuns(alone.report, fused.report, _read(alone.times), _read(fused.times), grids)
+
+
+def _with_borders(folder, values, alone):
+    """BorderRuns: the run that there is, and one with borders of the road."""
+    bordered = _timed_run(folder, folder / "road_border", values, ("--road-border",))
+    borders = score_borders.score(folder / "road_border" / "result.bag")
+    return BorderRuns(alone.report, bordered.report, _read(alone.times), _read(bordered.times),
+                      borders)  # fmt: skip
 
 
 def _read(file):
@@ -112,4 +141,5 @@ def _parser():
         help="for bags and scores (default %(default)s)")  # fmt: skip
     add("--low-level-fusion", action="store_true",
         help="each drive also with the grids of scanner and stereo camera fused")  # fmt: skip
+    add("--road-border", action="store_true", help="each drive also with borders of the road")
     return parser

@@ -34,11 +34,12 @@ PUBLISHED = (
 
 
 class Table(NamedTuple):
-    """One table: columns of the thesis, then ours."""
+    """One table: columns of the thesis, then ours, then ours with borders of the road."""
 
     title: str
     thesis: tuple  # (heading, name of the value in Published)
     ours: tuple  # (heading, function of the counts in score_run's section "thesis")
+    with_borders: tuple = ()  # the same
 
 
 def _count(field):
@@ -68,30 +69,36 @@ TABLES = (
            ("of both, true", _of_both("confirmed_true_tracks")))),
     Table("Table 3.4: false moving objects, before tracking",
           (("without borders", "false_moving"), ("with borders", "false_moving_with_borders")),
-          (("all", _count("false_moving_objects_episodes")),
+          (("without borders", _count("false_moving_objects_episodes")),
+           ("in a scan", _mean("false_moving_objects_frames"))),
+          (("with borders", _count("false_moving_objects_episodes")),
            ("in a scan", _mean("false_moving_objects_frames")))),
     Table("Table 3.5: intersections",
           (("there", "intersections"), ("found", "intersections_found"),
            ("false", "intersections_false")),
-          (("there", _count("intersections")), ("found", _count("intersections_found")),
-           ("false", _count("intersections_false")))),
+          (("there", _count("intersections")),),
+          (("found", _count("intersections_found")), ("false", _count("intersections_false")))),
 )  # fmt: skip
 
 
-def thesis_tables(reports):
+def thesis_tables(reports, with_borders=(None,) * len(PUBLISHED)):
     """Text of all tables.
 
-    reports: of score_run (dicts), one for each data set in turn; None where a run came to no end.
+    reports: of score_run (dicts), one for each data set in turn; None where a run came to no end;
+    with_borders: the same of runs with borders of the road; None where there was none.
     """
-    return "\n\n".join([NOTE, *(_text(table, reports) for table in TABLES)])
+    return "\n\n".join([NOTE, *(_text(table, reports, with_borders) for table in TABLES)])
 
 
-def _text(table, reports):
-    sources = ["", *("thesis" for _ in table.thesis), *("ours" for _ in table.ours)]
-    rows = [sources, ["data set", *(heading for heading, _ in table.thesis + table.ours)]]
-    for number, (published, report) in enumerate(zip(PUBLISHED, reports), start=1):
+def _text(table, reports, with_borders):
+    ours = table.ours + table.with_borders
+    sources = ["", *("thesis" for _ in table.thesis), *("ours" for _ in ours)]
+    rows = [sources, ["data set", *(heading for heading, _ in table.thesis + ours)]]
+    for number, runs in enumerate(zip(PUBLISHED, reports, with_borders), start=1):
+        published, report, bordered = runs
         rows.append([str(number), *(str(getattr(published, field)) for _, field in table.thesis),
-                     *(_our_cell(value, report) for _, value in table.ours)])  # fmt: skip
+                     *(_our_cell(value, report) for _, value in table.ours),
+                     *(_our_cell(value, bordered) for _, value in table.with_borders)])  # fmt: skip
     return f"{table.title}\n{aligned(rows)}"
 
 
