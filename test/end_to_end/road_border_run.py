@@ -1,0 +1,33 @@
+"""Simulated scenes through the stack, without and with borders of the road."""
+
+import os
+import subprocess
+from pathlib import Path
+
+from evaluated_run import RUN_BAG
+
+ROOT = Path(__file__).resolve().parents[2]
+SCENES = ROOT / "rosbag_fixtures" / "scenes"
+CONFIG = ROOT / "config" / "demonstrator.yaml"
+SIMULATE = os.environ.get("SIMULATE", "simulate")
+
+
+def simulated(folder, scene, seed=1):
+    """The drive's bag (Path), in the folder."""
+    recorded = Path(folder) / f"{scene}_{seed}.bag"
+    subprocess.run(
+        [SIMULATE, str(SCENES / f"{scene}.yaml"), str(recorded), "--seed", str(seed), "--quiet"],
+        check=True,
+    )
+    return recorded
+
+
+def computed(recorded, *options):
+    """The bag (Path) that the stack makes of a drive's with these options of run_bag."""
+    result = recorded.with_name(recorded.stem + "".join(options) + ".result.bag")
+    subprocess.run(
+        [RUN_BAG, str(recorded), str(result), "--config", str(CONFIG), "--with-truth", "--quiet",
+         *options],
+        check=True,
+    )  # fmt: skip
+    return result

@@ -1,0 +1,43 @@
+#!/usr/bin/python3
+"""What moves on the footpath and near the kerb stays tracked when false moving objects at the road's
+borders are left out (thesis 2.4): people who walk along the kerb, away from it and along a wall, one
+who steps on to the road, a car out of a driveway, cyclists. With several seeds, so that it is no
+matter of luck.
+"""
+
+import tempfile
+import unittest
+
+from datmo_tools.border_comparison import comparison_table
+from datmo_tools.compare_borders import compare
+from evaluated_run import SCORE_RUN
+from road_border_run import computed, simulated
+
+SEEDS = (1, 2)
+
+MIN_TRACKED = 14  # of 15 that move
+MIN_REDUCTION = 0.5  # of false moving objects, all and in a scan
+MIN_FRAMES_KEPT = 0.9  # of the frames in which one of the moving objects is tracked
+
+
+class Footpath(unittest.TestCase):
+    def test_nobody_is_lost(self):
+        for seed in SEEDS:
+            with self.subTest(seed=seed), tempfile.TemporaryDirectory() as folder:
+                recorded = simulated(folder, "footpath", seed)
+                alone, bordered = computed(recorded), computed(recorded, "--road-border")
+                result = compare(alone, bordered, program=SCORE_RUN)
+                print(f"\nseed {seed}\n{comparison_table(result)}", flush=True)
+                tracked = [item["tracked_frames"]["without"] > 0 for item in result["objects"]]
+                self.assertGreaterEqual(sum(tracked), MIN_TRACKED)
+                self.assertEqual(result["lost"], [])
+                frames = result["tracked_frames"]
+                self.assertGreaterEqual(frames["with"], MIN_FRAMES_KEPT * frames["without"])
+                for key in ("false_moving_objects_episodes", "false_moving_objects_frames"):
+                    self.assertGreaterEqual(result["reduction"][key], MIN_REDUCTION, key)
+                self.assertLessEqual(result["with"]["false_tracks"],
+                                     result["without"]["false_tracks"])  # fmt: skip
+
+
+if __name__ == "__main__":
+    unittest.main()
