@@ -1,0 +1,142 @@
+// The running moving_objects nodelet with borders of the road, between a scripted grid_slam and a
+// scripted road_border: what it leaves out, and that all passes where the borders are none. The
+// tests go through one drive, in this order.
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "road_samples.h"
+#include "split_scan_door.h"
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/ros/road_conversion.h"
+
+namespace datmo {
+namespace {
+
+class BorderFilterDoor : public SplitScanDoor {
+ public:
+  BorderFilterDoor() : SplitScanDoor("moving_objects") {}
+
+  bool waitForNodelet() {
+    return SplitScanDoor::waitForNodelet() && waitFor([this] {
+             return road_borders_.getNumSubscribers() >= 1 && dropped_.getNumPublishers() >= 1;
+           });
+  }
+
+  /// Waits until the nodelet has it.
+  bool sendRoad(const RoadBorders& road) {
+    const double before = diagnostic("road_borders received");
+    road_borders_.publish(road);
+    return waitFor([&] { return diagnostic("road_borders received") > before; });
+  }
+
+  std::vector<DroppedObjectsConstPtr> dropped;
+
+ private:
+  ros::Publisher road_borders_ = node_.advertise<RoadBorders>("road_borders", kQueue);
+  ros::Subscriber dropped_ = node_.subscribe<DroppedObjects>(
+      "objects/dropped", kQueue,
+      [this](const DroppedObjectsConstPtr& list) { dropped.push_back(list); });
+};
+
+class BorderFilterTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    door_ = new BorderFilterDoor();
+    ASSERT_TRUE(door_->waitForNodelet());
+  }
+
+  static void TearDownTestSuite() { delete door_; }
+
+  static RoadBorders roadNow(const std::string& frame = "map") {
+    RoadModel road = samples::straightRoad();
+    road.stamp = Stamp::fromSeconds(samples::kStart + now_);
+    return toMessage(road, frame);
+  }
+
+  /// What seems to move on the left border, and what comes of it: one list of each kind.
+  static void scan() {
+    const std::size_t before = door_->objects.size();
+    door_->setClock(now_);
+    door_->send(samples::scanWithMover({10.0, 3.1}, now_));
+    ASSERT_TRUE(door_->waitFor([&] {
+      return door_->objects.size() == before + 1 && door_->dropped.size() == before + 1;
+    })) << door_->diagnosticMessage();
+    EXPECT_EQ(door_->objects.back()->header.stamp, door_->dropped.back()->header.stamp);
+  }
+
+  static std::size_t passed() { return door_->objects.back()->objects.size(); }
+  static std::size_t dropped() { return door_->dropped.back()->objects.size(); }
+
+  static BorderFilterDoor* door_;
+  static double now_;  // s, of the drive
+};
+
+BorderFilterDoor* BorderFilterTest::door_ = nullptr;
+double BorderFilterTest::now_ = 0.0;
+
+TEST_F(BorderFilterTest, BeforeBordersComeAllPasses) {
+  ASSERT_NO_FATAL_FAILURE(scan());
+  EXPECT_EQ(passed(), 1U);
+  EXPECT_EQ(dropped(), 0U);
+  EXPECT_TRUE(door_->waitForCount("warned: no_borders", 1.0));
+  EXPECT_TRUE(door_->waitForMessage("no road_borders yet")) << door_->diagnosticMessage();
+}
+
+TEST_F(BorderFilterTest, AnObjectOnTheBorderIsDroppedAndToldOf) {
+  now_ += 0.06;
+  ASSERT_TRUE(door_->sendRoad(roadNow()));
+  ASSERT_NO_FATAL_FAILURE(scan());
+  EXPECT_EQ(passed(), 0U);
+  ASSERT_EQ(dropped(), 1U);
+  EXPECT_EQ(door_->dropped.back()->header.frame_id, "base_link");
+  const DroppedObjectMessage& one = door_->dropped.back()->objects[0];
+  EXPECT_EQ(one.reason, DroppedObjectMessage::ON_BORDER);
+  EXPECT_EQ(one.side, RoadBorderMessage::LEFT);
+  EXPECT_NEAR(one.object.pose.position.x, 10.0, 1.0);
+}
+
+TEST_F(BorderFilterTest, BordersThatAreNoneAreCountedAndTheLastOnesServe) {
+  now_ += 0.06;
+  RoadBorders bad = roadNow();
+  bad.borders.at(0).points.at(0).x = std::numeric_limits<float>::quiet_NaN();
+  ASSERT_TRUE(door_->sendRoad(bad));
+  EXPECT_TRUE(door_->waitForCount("dropped: bad_border", 1.0));
+  ASSERT_NO_FATAL_FAILURE(scan());
+  EXPECT_EQ(passed(), 0U);
+}
+
+TEST_F(BorderFilterTest, StaleBordersDropNothingAndItIsSaid) {
+  now_ += 3.0;
+  ASSERT_NO_FATAL_FAILURE(scan());
+  EXPECT_EQ(passed(), 1U);
+  EXPECT_EQ(dropped(), 0U);
+  EXPECT_TRUE(door_->waitForCount("warned: old_borders", 1.0));
+  EXPECT_TRUE(door_->waitForMessage("no road_borders for")) << door_->diagnosticMessage();
+}
+
+TEST_F(BorderFilterTest, BordersInAnotherFrameDropNothingAndItIsSaid) {
+  now_ += 0.06;
+  ASSERT_TRUE(door_->sendRoad(roadNow("odom")));
+  ASSERT_NO_FATAL_FAILURE(scan());
+  EXPECT_EQ(passed(), 1U);
+  EXPECT_TRUE(door_->waitForCount("warned: wrong_frame", 1.0));
+}
+
+TEST_F(BorderFilterTest, ALoopedBag) {
+  now_ = 0.0;
+  ASSERT_TRUE(door_->sendRoad(roadNow()));
+  ASSERT_NO_FATAL_FAILURE(scan());
+  EXPECT_EQ(passed(), 0U);
+  EXPECT_EQ(dropped(), 1U);
+}
+
+}  // namespace
+}  // namespace datmo
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "border_filter_test");
+  return RUN_ALL_TESTS();
+}

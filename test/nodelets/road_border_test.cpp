@@ -1,0 +1,150 @@
+// The running road_border nodelet behind a scripted grid_slam: what comes out of scans between two
+// walls, and what happens with scans that are none. The tests go through one drive, in this order.
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "split_scan_door.h"
+#include <gtest/gtest.h>
+
+namespace datmo {
+namespace {
+
+class RoadBorderDoor : public SplitScanDoor {
+ public:
+  RoadBorderDoor() : SplitScanDoor("road_border") {}
+
+  bool waitForNodelet() {
+    return SplitScanDoor::waitForNodelet() &&
+           waitFor([this] { return road_borders_.getNumPublishers() >= 1; });
+  }
+
+  std::vector<RoadBordersConstPtr> roads;
+
+ private:
+  ros::Subscriber road_borders_ = node_.subscribe<RoadBorders>(
+      "road_borders", kQueue, [this](const RoadBordersConstPtr& road) { roads.push_back(road); });
+};
+
+class RoadBorderTest : public testing::Test {
+ protected:
+  static constexpr double kStep = RoadBorderDoor::kStep;
+
+  static void SetUpTestSuite() {
+    door_ = new RoadBorderDoor();
+    ASSERT_TRUE(door_->waitForNodelet());
+  }
+
+  static void TearDownTestSuite() { delete door_; }
+
+  /// One step of the drive; waits for its road.
+  static void step() {
+    const SplitScan scan = samples::scanBetweenWalls(now_);
+    door_->setClock(now_);
+    door_->send(scan);
+    ASSERT_TRUE(door_->waitFor([&] {
+      return !door_->roads.empty() && door_->roads.back()->header.stamp == toTime(scan.stamp);
+    })) << now_
+        << " s: " << door_->diagnosticMessage();
+    now_ += kStep;
+  }
+
+  static void driveOn(double seconds) {
+    for (const double end = now_ + seconds - 0.5 * kStep; now_ < end;) {
+      ASSERT_NO_FATAL_FAILURE(step());
+    }
+  }
+
+  /// Sends the scan of now after `spoil`; expects that it is counted under `key`, said, and leads
+  /// to nothing.
+  static void expectDropped(const std::string& reason,
+                            const std::function<void(SplitScanMessage&)>& spoil) {
+    const std::size_t before = door_->roads.size();
+    SplitScanMessage scan = toMessage(samples::scanBetweenWalls(now_), "base_link", "map");
+    spoil(scan);
+    door_->send(scan);
+    EXPECT_TRUE(door_->waitForCount("dropped: " + reason, 1.0)) << reason;
+    EXPECT_EQ(door_->roads.size(), before) << reason;
+  }
+
+  static const RoadBorders& last() { return *door_->roads.back(); }
+
+  /// m, from the walls on its side to each point of the last borders.
+  static double farthestFromWalls() {
+    double farthest = 0.0;
+    for (const RoadBorderMessage& border : last().borders) {
+      const double wall =
+          border.side == RoadBorderMessage::LEFT ? samples::kWallBeside : -samples::kWallBeside;
+      for (const auto& point : border.points) {
+        farthest = std::max(farthest, std::abs(point.y - wall));
+      }
+    }
+    return farthest;
+  }
+
+  static RoadBorderDoor* door_;
+  static double now_;  // s, of the drive
+};
+
+RoadBorderDoor* RoadBorderTest::door_ = nullptr;
+double RoadBorderTest::now_ = 0.0;
+
+TEST_F(RoadBorderTest, WallsOnBothSidesAreTheBorders) {
+  ASSERT_NO_FATAL_FAILURE(driveOn(2.0));
+  EXPECT_EQ(door_->roads.size(), 32U) << "one for each scan";
+  EXPECT_EQ(last().header.frame_id, "map");
+  EXPECT_GE(last().borders.size(), 2U);
+  EXPECT_LT(farthestFromWalls(), 0.5);
+  EXPECT_EQ(last().at_intersection, 0);
+}
+
+TEST_F(RoadBorderTest, DiagnosticsTellWhatIsFound) {
+  EXPECT_TRUE(door_->waitForCount("processed", 32.0));
+  EXPECT_TRUE(
+      door_->waitFor([] { return door_->diagnostic("stretches of border on the left") >= 1.0; }));
+  EXPECT_GE(door_->diagnostic("stretches of border on the right"), 1.0);
+  EXPECT_EQ(door_->diagnostic("split_scan received"), 32.0);
+  EXPECT_EQ(door_->diagnostic("dropped"), 0.0);
+  EXPECT_TRUE(door_->waitFor([] { return door_->timings["road_border"] == 32; }));
+}
+
+TEST_F(RoadBorderTest, ScansThatAreNoneAreCounted) {
+  expectDropped("bad_pose", [](auto& scan) {
+    scan.pose.pose.position.x = std::numeric_limits<double>::quiet_NaN();
+  });
+  expectDropped("bad_point",
+                [](auto& scan) { scan.points.at(0).x = std::numeric_limits<float>::infinity(); });
+  expectDropped("wrong_frame", [](auto& scan) { scan.map_frame.clear(); });
+  expectDropped("zero_stamp", [](auto& scan) { scan.header.stamp = ros::Time(); });
+  expectDropped("old_stamp", [](auto& scan) { scan.header.stamp -= ros::Duration(0.5); });
+  ASSERT_NO_FATAL_FAILURE(driveOn(0.5));
+  EXPECT_LT(farthestFromWalls(), 0.5);
+}
+
+TEST_F(RoadBorderTest, SilenceIsSaid) {
+  now_ += 3.0;
+  door_->setClock(now_);
+  EXPECT_TRUE(door_->waitForMessage("no split_scan for")) << door_->diagnosticMessage();
+  ASSERT_NO_FATAL_FAILURE(driveOn(1.0));
+  EXPECT_TRUE(door_->waitForMessage("runs")) << door_->diagnosticMessage();
+}
+
+TEST_F(RoadBorderTest, ALoopedBagBeginsAnew) {
+  const RoadBorders& first = *door_->roads.at(31);
+  now_ = 0.0;
+  ASSERT_NO_FATAL_FAILURE(driveOn(2.0));
+  EXPECT_TRUE(door_->waitForCount("warned: clock_restart", 1.0));
+  EXPECT_EQ(last().header.stamp, first.header.stamp);
+  EXPECT_EQ(last().borders, first.borders) << "nothing is left of the first run";
+}
+
+}  // namespace
+}  // namespace datmo
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "road_border_test");
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "chain.h"
+#include "split_scan_samples.h"
+
+#include <rosgraph_msgs/Clock.h>
+
+#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/stamp_check.h"
+
+namespace datmo {
+
+/// A nodelet that takes split scans, and a scripted grid_slam before it. Times count from the start
+/// of the drive, samples::kStart.
+class SplitScanDoor : public Listener {
+ public:
+  static constexpr double kStep = 1.0 / 16.0;  // s
+
+  explicit SplitScanDoor(std::string nodelet) : nodelet_(std::move(nodelet)) {}
+
+  /// Until the nodelet listens and reports.
+  bool waitForNodelet() {
+    setClock(-kStep);
+    return waitFor(
+        [this] { return split_scan_.getNumSubscribers() >= 1 && !diagnosticMessage().empty(); });
+  }
+
+  void setClock(double seconds) {
+    rosgraph_msgs::Clock clock;
+    clock.clock = ros::Time(samples::kStart + seconds);
+    clock_.publish(clock);
+  }
+
+  void send(const SplitScanMessage& message) { split_scan_.publish(message); }
+  void send(const SplitScan& scan) { send(toMessage(scan, "base_link", "map")); }
+
+  double diagnostic(const std::string& key) const { return Listener::diagnostic(nodelet_, key); }
+  std::string diagnosticMessage() const { return Listener::diagnosticMessage(nodelet_); }
+
+  /// Whether the key's value comes up to it.
+  bool waitForCount(const std::string& key, double count) {
+    return waitFor([&] { return diagnostic(key) == count; });
+  }
+
+  /// Whether the diagnostics come to say so.
+  bool waitForMessage(const std::string& part) {
+    return waitFor([&] { return diagnosticMessage().find(part) != std::string::npos; });
+  }
+
+ protected:
+  static constexpr std::uint32_t kQueue = 1000;
+
+  ros::NodeHandle node_;
+
+ private:
+  std::string nodelet_;
+  ros::Publisher clock_ = node_.advertise<rosgraph_msgs::Clock>("/clock", kQueue, true);
+  ros::Publisher split_scan_ = node_.advertise<SplitScanMessage>("split_scan", kQueue);
+};
+
+}  // namespace datmo
