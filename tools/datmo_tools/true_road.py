@@ -197,7 +197,8 @@ def _box_sides(places, rays, boxes):
         part = slice(first, first + BATCH)
         distances, _ = ray_crossings(places[part], rays[part], edges)
         distances = distances.reshape(-1, len(boxes), 4)
-        hit = np.any(distances > 0.0, axis=2)
+        # Along one side of a box rounding decides which corners a ray meets: one alone is a miss.
+        hit = np.count_nonzero(distances > 0.0, axis=2) > 1
         near[part] = np.where(hit, np.nanmin(distances, axis=2, initial=np.inf), np.nan)
         far[part] = np.where(hit, np.nanmax(distances, axis=2, initial=-np.inf), np.nan)
     return near, far
