@@ -1,5 +1,6 @@
 """Published borders beside the true road, station by station along the way ahead."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -14,6 +15,9 @@ from datmo_tools.true_road import MOST_SLANT, REACH, TURN
 
 # m along the way, from the vehicle (base_link): what counts.
 BEHIND, AHEAD = 10.0, 40.0
+
+# rad, from the vehicle's heading to that of its way: what is farther round a corner is out of sight.
+MOST_TURN = math.radians(60.0)
 
 
 class Frame(NamedTuple):
@@ -57,18 +61,20 @@ def frames_of(run, lists, road):
 
 def samples_of(frames, road):
     """Samples of all stations outside of junctions that have a true border, from BEHIND to AHEAD of
-    the vehicle."""
+    the vehicle and not round a corner."""
     parts = []
     for frame in frames:
         part = road.stations.between(frame.way - BEHIND, frame.way + AHEAD)
+        turned = road.stations.headings[part] - road.poses.at(frame.stamp)[2]
+        in_sight = np.abs(transforms.normalise_angle(turned)) <= MOST_TURN
+        asked = in_sight & ~road.stations.at_intersection[part]
         for name, side in road.sides.items():
             seen, sigma = _seen(frame, road.stations, part, name)
             here = side.part(part)
-            counts = np.isfinite(here.kerb) & ~road.stations.at_intersection[part]
             found = Samples(
                 road.stations.way[part] - frame.way, np.full(len(seen), name == "left"),
                 here.curved, here.errors(seen), here.kerb_errors(seen), sigma)  # fmt: skip
-            parts.append(found.where(counts))
+            parts.append(found.where(asked & np.isfinite(here.kerb)))
     return Samples(*(np.concatenate([np.empty(0), *values]) for values in zip(*parts)))
 
 

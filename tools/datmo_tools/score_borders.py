@@ -17,8 +17,8 @@ from datmo_tools.true_road import TrueRoad
 DESCRIPTION = """\
 Scores the borders of the road (/road_borders of run_bag --road-border; thesis 3.5) with the truth
 of a drive. Looked at is the road that the vehicle drives, from 10 m behind it to 40 m ahead along
-its true way, each half metre, outside of junctions; the run's map is laid on the truth's at the
-vehicle's pose, so that its drift does not count.
+its true way, each half metre, outside of junctions and not round a corner of more than 60 degrees;
+the run's map is laid on the truth's at the vehicle's pose, so that its drift does not count.
 
   true border  the end of what can be driven on: the kerb, or the line of the road-side faces of the
                vehicles that stand along it throughout, bridged over gaps of up to --bridged. In a
