@@ -16,7 +16,7 @@ from datmo_tools.true_road import MOST_SLANT, REACH, TURN
 # m along the way, from the vehicle (base_link): what counts.
 BEHIND, AHEAD = 10.0, 40.0
 
-# rad, from the vehicle's heading to that of its way: what is farther round a corner is out of sight.
+# rad, from the vehicle's heading to that of its way: what is farther round a corner is not seen.
 MOST_TURN = math.radians(60.0)
 
 
