@@ -35,6 +35,10 @@ void HitGridOptions::visit(OptionVisitor& visitor) {
                   "cells with a smoothed count below this share of the highest are noise or what "
                   "has moved (thesis 3.5.2: 0.1)"},
                  cut_share, {0.0, 1.0});
+  visitor.number({"least_age", "s",
+                  "between the first and the last hit in and around a cell: what passes is over a "
+                  "place for less; 0: any (thesis)"},
+                 least_age, {0.0, 60.0});
 }
 
 HitGrid::HitGrid(const HitGridOptions& options)
@@ -47,7 +51,7 @@ void HitGrid::update(const SplitScan& scan) {
   const Pose2& base_in_map = scan.base_in_map.pose;
   centreOn(base_in_map.position());
   for (const ScanPoint& point : scan.points) {
-    add(base_in_map * point.position);
+    add(base_in_map * point.position, scan.stamp);
   }
 }
 
@@ -55,7 +59,7 @@ void HitGrid::centreOn(const Point2& centre) {
   const GridWindow old = window();
   const GridWindow next = cells_.windowOn(centre);
   cells_.centreOn(centre, [&](CellIndex cell) { leave(cell, next); });
-  forEachCellOutside(window(), old, [&](CellIndex cell) { setSmoothed(cell, sumAround(cell)); });
+  forEachCellOutside(window(), old, [&](CellIndex cell) { enter(cell); });
 }
 
 void HitGrid::leave(CellIndex cell, const GridWindow& next) {
@@ -65,10 +69,17 @@ void HitGrid::leave(CellIndex cell, const GridWindow& next) {
   setSmoothed(cell, 0);
 }
 
-int HitGrid::sumAround(CellIndex centre) const {
+void HitGrid::enter(CellIndex centre) {
   int sum = 0;
-  forEachAround(centre, [&](CellIndex cell) { sum += hits(cell); });
-  return sum;
+  Cell& entered = cells_.at(centre);
+  forEachAround(centre, [&](CellIndex index) {
+    const Cell& cell = cells_.atOrEmpty(index);
+    sum += cell.hits;
+    if (cell.hits > 0) {
+      entered.first_hit = entered.last_hit = std::max(entered.last_hit, cell.last_hit);
+    }
+  });
+  setSmoothed(centre, sum);
 }
 
 void HitGrid::addAround(CellIndex centre, int hits, const GridWindow& counts) {
@@ -100,14 +111,28 @@ void HitGrid::setSmoothed(CellIndex index, int value) {
   }
 }
 
-void HitGrid::add(const Point2& point) {
+void HitGrid::touchAround(CellIndex centre, Stamp stamp) {
+  if (!first_stamp_) {
+    first_stamp_ = stamp;
+  }
+  const float now = static_cast<float>(secondsBetween(*first_stamp_, stamp));
+  forEachAround(centre, [&](CellIndex index) {
+    if (window().contains(index)) {
+      Cell& cell = cells_.at(index);
+      cell.last_hit = now;
+      cell.first_hit = cell.smoothed == 0 ? now : cell.first_hit;
+    }
+  });
+}
+
+void HitGrid::add(const Point2& point, Stamp stamp) {
   const CellIndex index = window().cellAt(point);
   if (!window().contains(index)) {
     return;
   }
+  touchAround(index, stamp);
   Cell& cell = cells_.at(index);
-  const bool is_full = cell.hits >= most_hits_;
-  if (!is_full) {
+  if (cell.hits < most_hits_) {
     ++cell.hits;
     addAround(index, 1, window());
   }

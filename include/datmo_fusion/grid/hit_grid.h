@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "datmo_fusion/common/options.h"
@@ -12,8 +13,9 @@ namespace datmo {
 
 struct HitGridOptions {
   GridWindowOptions window;
-  int most_hits = 20;      ///< that a cell counts; 0: all
+  int most_hits = 10;      ///< that a cell counts; 0: all
   double cut_share = 0.1;  ///< of the highest smoothed count
+  double least_age = 1.0;  ///< s, between first and last hit
 
   void visit(OptionVisitor& visitor);
 };
@@ -35,8 +37,8 @@ class HitGrid {
   /// is forgotten.
   void centreOn(const Point2& centre);
 
-  /// Counts a hit at a point, m, map frame; one outside of the window is nothing.
-  void add(const Point2& point);
+  /// Counts a hit at a point, m, map frame; one outside of the window is nothing. By rising stamps.
+  void add(const Point2& point, Stamp stamp);
 
   /// H of a cell; 0 outside of the window.
   int hits(CellIndex cell) const { return cells_.atOrEmpty(cell).hits; }
@@ -50,10 +52,13 @@ class HitGrid {
   /// Highest S of all cells.
   int highest() const { return highest_; }
 
-  /// S of a cell, and 0 where it is less than `cut_share` of the highest (eq. 3.5.2).
-  int cutSmoothed(CellIndex cell) const {
-    const int value = smoothed(cell);
-    return value >= options_.cut_share * highest_ ? value : 0;
+  /// S of a cell; 0 where it is less than `cut_share` of the highest (eq. 3.5.2) or, beyond the
+  /// thesis, where the 3 x 3 cells have not been hit for `least_age`.
+  int cutSmoothed(CellIndex index) const {
+    const Cell& cell = cells_.atOrEmpty(index);
+    const bool passes = cell.smoothed >= options_.cut_share * highest_ &&
+                        static_cast<double>(cell.last_hit - cell.first_hit) >= options_.least_age;
+    return passes ? cell.smoothed : 0;
   }
 
   /// Forgets all, as at the start.
@@ -64,6 +69,8 @@ class HitGrid {
     std::int32_t hits = 0;
     std::int32_t smoothed = 0;
     Eigen::Vector2f mean = Eigen::Vector2f::Zero();  ///< m, of the hits from the cell's centre
+    float first_hit = 0.0F;  ///< s since the first of all, in the 3 x 3 cells around
+    float last_hit = 0.0F;   ///< s since the first of all, in the 3 x 3 cells around
   };
 
   /// As much more (or less) for the sums of the cells around, of those that `counts` in a window.
@@ -71,7 +78,8 @@ class HitGrid {
   void setSmoothed(CellIndex cell, int value);
   /// Takes a cell out that is not in the `next` window.
   void leave(CellIndex cell, const GridWindow& next);
-  int sumAround(CellIndex centre) const;
+  void enter(CellIndex centre);
+  void touchAround(CellIndex centre, Stamp stamp);
 
   HitGridOptions options_;
   int most_hits_;
@@ -79,6 +87,7 @@ class HitGrid {
   /// How many cells have each S but 0, so that the highest is known when some leave.
   std::vector<std::int32_t> cells_with_;
   int highest_ = 0;
+  std::optional<Stamp> first_stamp_;
 };
 
 }  // namespace datmo

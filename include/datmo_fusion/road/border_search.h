@@ -14,8 +14,21 @@
 namespace datmo {
 
 struct BorderSearchOptions {
-  double length = 20.0;  ///< m, of a window
-  double width = 1.0;    ///< m
+  double length = 20.0;         ///< m, of a window
+  double width = 1.0;           ///< m
+  double first_distance = 1.0;  ///< m, to the middle line of the first window
+  double step = 0.9;            ///< m, from a window to the next one
+  int left_windows = 25;
+  int right_windows = 15;
+  double heading_range = 0.15;  ///< rad, to either side
+  double heading_step = 0.05;   ///< rad
+  int sections = 20;
+  std::string score = "share";  ///< or "hits"
+  double least_share = 0.4;     ///< 0 to 1
+  double least_hits = 500.0;
+  std::string take = "first";  ///< or "highest"
+  double hit_sigma = 0.2;      ///< m
+  double shape_sigma = 0.1;    ///< m
 
   void visit(OptionVisitor& visitor);
 };

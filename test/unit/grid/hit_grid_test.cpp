@@ -9,10 +9,13 @@
 namespace datmo {
 namespace {
 
+constexpr Stamp kAnyTime{};
+
 HitGridOptions smallOptions(int most_hits) {
   HitGridOptions options;
   options.window = {6.0, 4.5, 0.3};
   options.most_hits = most_hits;
+  options.least_age = 0.0;
   return options;
 }
 
@@ -44,9 +47,9 @@ void expectSumsOf(const HitGrid& grid) {
 
 TEST(HitGridTest, AHitCountsInItsCellAndInTheSumsAround) {
   HitGrid grid(smallOptions(0));
-  grid.add({0.15, 0.15});
-  grid.add({0.2, 0.1});
-  grid.add({0.45, 0.15});
+  grid.add({0.15, 0.15}, kAnyTime);
+  grid.add({0.2, 0.1}, kAnyTime);
+  grid.add({0.45, 0.15}, kAnyTime);
   EXPECT_EQ(grid.hits({0, 0}), 2);
   EXPECT_EQ(grid.hits({1, 0}), 1);
   EXPECT_EQ(grid.smoothed({0, 0}), 3);
@@ -60,25 +63,41 @@ TEST(HitGridTest, AHitCountsInItsCellAndInTheSumsAround) {
 TEST(HitGridTest, WhatIsBelowATenthOfTheHighestIsCut) {
   HitGrid grid(smallOptions(0));
   for (int i = 0; i < 20; ++i) {
-    grid.add({-2.0, 0.1});
+    grid.add({-2.0, 0.1}, kAnyTime);
   }
-  grid.add({2.0, 0.1});
+  grid.add({2.0, 0.1}, kAnyTime);
   const CellIndex once = grid.window().cellAt({2.0, 0.1});
   EXPECT_EQ(grid.smoothed(once), 1);
   EXPECT_EQ(grid.cutSmoothed(once), 0);
-  grid.add({2.0, 0.1});
+  grid.add({2.0, 0.1}, kAnyTime);
   EXPECT_EQ(grid.cutSmoothed(once), 2);
   EXPECT_EQ(grid.cutSmoothed({0, 0}), 0);
+}
+
+TEST(HitGridTest, WhatPassesIsCutAndWhatLastsIsNot) {
+  HitGridOptions options = smallOptions(0);
+  options.least_age = 1.0;
+  HitGrid grid(options);
+  const auto at = [](double seconds) { return Stamp::fromSeconds(100.0 + seconds); };
+  for (const double seconds : {0.0, 0.3, 0.6}) {
+    grid.add({0.1, 0.1}, at(seconds));
+  }
+  EXPECT_EQ(grid.smoothed({0, 0}), 3);
+  EXPECT_EQ(grid.cutSmoothed({0, 0}), 0);
+  grid.add({0.4, 0.1}, at(1.1));  // beside it
+  EXPECT_EQ(grid.cutSmoothed({0, 0}), 4);
+  EXPECT_EQ(grid.cutSmoothed({1, 0}), 4);
+  EXPECT_EQ(grid.cutSmoothed({2, 0}), 0) << "has been hit around it once";
 }
 
 TEST(HitGridTest, ACellCountsUpToItsLimitAndItsMeanFollows) {
   HitGrid grid(smallOptions(5));
   for (int i = 0; i < 100; ++i) {
-    grid.add({0.1, 0.1});
+    grid.add({0.1, 0.1}, kAnyTime);
   }
   EXPECT_EQ(grid.highest(), 5);
   for (int i = 0; i < 100; ++i) {
-    grid.add({0.2, 0.1});
+    grid.add({0.2, 0.1}, kAnyTime);
   }
   EXPECT_EQ(grid.hits({0, 0}), 5);
   EXPECT_TRUE(grid.meanHit({0, 0}).isApprox(Point2(0.2, 0.1), 1e-6));
@@ -92,7 +111,7 @@ TEST(HitGridTest, SumsAndHighestStayExactWhereverTheWindowMoves) {
     for (int i = 0; i < 150; ++i) {
       for (int hit = 0; hit < 60; ++hit) {
         // Some places are hit more than others; some hits are outside.
-        grid.add(centre + Point2(random.normal(1.5), random.normal(1.5)));
+        grid.add(centre + Point2(random.normal(1.5), random.normal(1.5)), kAnyTime);
       }
       expectSumsOf(grid);
       centre += Point2(random.normal(0.7), random.normal(0.7));
@@ -104,7 +123,7 @@ TEST(HitGridTest, SumsAndHighestStayExactWhereverTheWindowMoves) {
 
 TEST(HitGridTest, AFarMoveForgetsAll) {
   HitGrid grid(smallOptions(0));
-  grid.add({0.1, 0.1});
+  grid.add({0.1, 0.1}, kAnyTime);
   grid.centreOn({1.0e12, 5.0});
   EXPECT_EQ(grid.highest(), 0);
   grid.centreOn({0.0, 0.0});
@@ -129,7 +148,7 @@ TEST(HitGridTest, AScanCountsFromItsPoseWhateverTheMapSays) {
 TEST(HitGridTest, StartsAgain) {
   HitGrid grid(smallOptions(0));
   grid.centreOn({10.0, 0.0});
-  grid.add({10.0, 0.0});
+  grid.add({10.0, 0.0}, kAnyTime);
   grid.reset();
   EXPECT_EQ(grid.highest(), 0);
   EXPECT_TRUE(grid.window().contains({0, 0}));

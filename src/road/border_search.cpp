@@ -1,0 +1,226 @@
+#include "datmo_fusion/road/border_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include <Eigen/LU>
+
+#include "datmo_fusion/grid/rectangle_walk.h"
+
+namespace datmo {
+
+namespace {
+
+const BorderSearchOptions& checked(const BorderSearchOptions& options) {
+  checkOptions(options);
+  return options;
+}
+
+/// A cell that passes the cut, seen from where the search begins: m along the heading there and
+/// outward.
+struct HitCell {
+  Point2 mean;    ///< of its hits
+  Point2 centre;  ///< of the cell
+  int hits;
+  int smoothed;
+};
+
+/// What lies under a window.
+struct Window {
+  double hits = 0.0;
+  std::uint64_t sections = 0;  ///< one bit each, set if it is hit
+};
+
+int countOf(std::uint64_t bits) {
+  int count = 0;
+  for (; bits != 0; bits &= bits - 1) {
+    ++count;
+  }
+  return count;
+}
+
+/// A place and direction to look for a border.
+struct Candidate {
+  double distance = 0.0;  ///< m, outward
+  double heading = 0.0;   ///< rad, outward
+  double score = -1.0;
+};
+
+/// One search: all windows on one side, in a frame that is mirrored for the right side, so that
+/// outward is always to the left.
+class SideSearch {
+ public:
+  SideSearch(const BorderSearchOptions& options, const HitGrid& hits, const Pose2& from,
+             RoadSide side)
+      : options_(options),
+        from_(from),
+        side_(side),
+        outward_(side == RoadSide::kLeft ? 1.0 : -1.0),
+        windows_(side == RoadSide::kLeft ? options.left_windows : options.right_windows) {
+    gather(hits);
+  }
+
+  std::optional<FoundBorder> find() const;
+
+ private:
+  double distanceOf(int window) const { return options_.first_distance + window * options_.step; }
+  void gather(const HitGrid& hits);
+  std::vector<Candidate> bestOfEachDistance() const;
+  void score(double heading, std::vector<Candidate>& best, std::vector<Window>& windows) const;
+  FoundBorder refined(const Candidate& candidate) const;
+
+  const BorderSearchOptions& options_;
+  const Pose2& from_;
+  RoadSide side_;
+  double outward_;
+  int windows_;
+  std::vector<HitCell> cells_;
+};
+
+/// All cells that any window holds: the windows overlap, and each cell is read once.
+void SideSearch::gather(const HitGrid& hits) {
+  const double turned = std::sin(options_.heading_range);
+  const double margin = 0.5 * options_.width + options_.length * turned;
+  const double inner = options_.first_distance - margin;
+  const double outer = distanceOf(windows_ - 1) + margin;
+  const double near = -0.5 * options_.width * turned;
+  const double far = options_.length - near;
+  const Pose2 middle(0.5 * (near + far), outward_ * 0.5 * (inner + outer), 0.0);
+  const Pose2 map_in_from = from_.inverse();
+  const auto mirrored = [&](const Point2& in_map) {
+    const Point2 point = map_in_from * in_map;
+    return Point2(point.x(), outward_ * point.y());
+  };
+  walkRectangle(hits.window(), {from_ * middle, far - near, outer - inner}, [&](CellIndex cell) {
+    if (const int smoothed = hits.cutSmoothed(cell); smoothed > 0) {
+      cells_.push_back({mirrored(hits.meanHit(cell)), mirrored(hits.window().centreOf(cell)),
+                        hits.hits(cell), smoothed});
+    }
+  });
+}
+
+/// Scores the windows of one heading, and keeps for each distance the best of all headings.
+void SideSearch::score(double heading, std::vector<Candidate>& best,
+                       std::vector<Window>& windows) const {
+  std::fill(windows.begin(), windows.end(), Window{});
+  const double c = std::cos(heading);
+  const double s = std::sin(heading);
+  const double half_width = 0.5 * options_.width;
+  const double sections_per_metre = options_.sections / options_.length;
+  for (const HitCell& cell : cells_) {
+    // A window's frame begins on the line across the vehicle, at its distance outward.
+    const double y = cell.centre.y() - options_.first_distance;
+    const double across_first = c * y - s * cell.centre.x();
+    const double per_window = c * options_.step;
+    const int first =
+        std::max(0, static_cast<int>(std::ceil((across_first - half_width) / per_window)));
+    const int last = std::min(
+        windows_ - 1, static_cast<int>(std::floor((across_first + half_width) / per_window)));
+    for (int i = first; i <= last; ++i) {
+      const double along = c * cell.centre.x() + s * (y - i * options_.step);
+      if (along < 0.0 || along > options_.length) {
+        continue;
+      }
+      const int section =
+          std::min(options_.sections - 1, static_cast<int>(along * sections_per_metre));
+      Window& window = windows[static_cast<std::size_t>(i)];
+      window.hits += cell.smoothed;
+      window.sections |= std::uint64_t{1} << section;
+    }
+  }
+  for (int i = 0; i < windows_; ++i) {
+    const Window& window = windows[static_cast<std::size_t>(i)];
+    const double score = options_.score == "hits"
+                             ? window.hits
+                             : static_cast<double>(countOf(window.sections)) / options_.sections;
+    Candidate& candidate = best[static_cast<std::size_t>(i)];
+    if (score > candidate.score) {
+      candidate = {distanceOf(i), heading, score};
+    }
+  }
+}
+
+std::vector<Candidate> SideSearch::bestOfEachDistance() const {
+  std::vector<Candidate> best(static_cast<std::size_t>(windows_));
+  std::vector<Window> windows(best.size());
+  // Straight on first, so that it is taken of equals.
+  score(0.0, best, windows);
+  const int steps = static_cast<int>(options_.heading_range / options_.heading_step + 1.0e-9);
+  for (int i = 1; i <= steps; ++i) {
+    score(i * options_.heading_step, best, windows);
+    score(-i * options_.heading_step, best, windows);
+  }
+  return best;
+}
+
+std::optional<FoundBorder> SideSearch::find() const {
+  const double least = options_.score == "hits" ? options_.least_hits : options_.least_share;
+  const bool take_first = options_.take == "first";
+  const std::vector<Candidate> best = bestOfEachDistance();
+  const Candidate* found = nullptr;
+  for (std::size_t i = 0; i < best.size(); ++i) {
+    if (best[i].score <= 0.0 || best[i].score < least ||
+        (found != nullptr && best[i].score <= found->score)) {
+      if (found != nullptr && take_first) {
+        break;
+      }
+      continue;
+    }
+    found = &best[i];
+  }
+  return found == nullptr ? std::nullopt : std::make_optional(refined(*found));
+}
+
+/// The line through the hits under and beside the window, by least squares with Cauchy's weights:
+/// what stands out of a row (a car's rear, a post) pulls it little.
+FoundBorder SideSearch::refined(const Candidate& candidate) const {
+  constexpr int kIterations = 5;
+  Pose2 line(0.0, candidate.distance, candidate.heading);
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d fit = Eigen::Vector2d::Zero();
+  const Pose2 from_in_line = line.inverse();
+  const double shape = options_.shape_sigma * options_.shape_sigma;
+  const double noise = options_.hit_sigma * options_.hit_sigma;
+  for (int i = 0; i < kIterations; ++i) {
+    // A window that holds nothing tells its place to within its width, its heading to a step.
+    Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+    information(0, 0) = 1.0 / (options_.width * options_.width);
+    information(1, 1) = 1.0 / (options_.heading_step * options_.heading_step);
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (const HitCell& cell : cells_) {
+      const Point2 hit = from_in_line * cell.mean;
+      if (cell.hits == 0 || hit.x() < 0.0 || hit.x() > options_.length ||
+          std::abs(hit.y()) > options_.width) {
+        continue;
+      }
+      const Eigen::Vector2d row(1.0, hit.x());
+      const double variance = shape + noise / cell.hits;
+      const double residual = hit.y() - row.dot(fit);
+      const double weight = 1.0 / (variance + residual * residual);
+      information += weight * row * row.transpose();
+      sum += weight * hit.y() * row;
+    }
+    covariance = information.inverse();
+    fit = covariance * sum;
+  }
+  line = line * Pose2(0.0, fit[0], std::atan(fit[1]));
+  FoundBorder found;
+  found.side = side_;
+  found.line = from_ * Pose2(line.x(), outward_ * line.y(), outward_ * line.heading());
+  found.length = options_.length;
+  found.covariance = covariance;
+  found.score = candidate.score;
+  return found;
+}
+
+}  // namespace
+
+BorderSearch::BorderSearch(const BorderSearchOptions& options) : options_(checked(options)) {}
+
+std::optional<FoundBorder> BorderSearch::search(const HitGrid& hits, const Pose2& from,
+                                                RoadSide side) const {
+  return SideSearch(options_, hits, from, side).find();
+}
+
+}  // namespace datmo
