@@ -1,24 +1,105 @@
 #include "datmo_fusion/road/road_border_detector.h"
 
+#include <cmath>
+
+#include "datmo_fusion/road/border_scan.h"
+
 namespace datmo {
+
+namespace {
+
+const RoadBorderDetectorOptions& checked(const RoadBorderDetectorOptions& options) {
+  checkOptions(options);
+  return options;
+}
+
+/// The middle line of a window as a border, known to the width of the window.
+RoadBorder borderOf(const FoundBorder& found, double spacing) {
+  RoadBorder border;
+  border.side = found.side;
+  border.probability = 1.0;
+  for (double along = 0.0; along <= found.length; along += spacing) {
+    const Eigen::Vector2d row(1.0, along);
+    const double sigma = std::sqrt(row.dot(found.covariance * row));
+    border.points.push_back({found.line * Point2(along, 0.0), sigma});
+  }
+  return border;
+}
+
+}  // namespace
 
 void RoadBorderDetectorOptions::visit(OptionVisitor& visitor) {
   visitor.text({"method", "",
                 "tracked: borders followed as clothoids over time (Kirchner and Heinrich 1998); "
                 "thesis: the best window of each scan by itself (thesis 3.5)"},
                method, {"tracked", "thesis"});
+  visitor.group("hit_grid", [&] { hit_grid.visit(visitor); });
+  visitor.group("search", [&] { search.visit(visitor); });
+  visitor.group("tracks", [&] { tracks.visit(visitor); });
+  visitor.group("published", [&] { published.visit(visitor); });
+  visitor.number({"longest_gap", "s", "between two scans; after a longer one all is forgotten"},
+                 longest_gap, {0.01, 1000.0});
+  visitor.number({"longest_step", "m",
+                  "of the vehicle between two scans; after a longer one, a jump of the map, all is "
+                  "forgotten"},
+                 longest_step, {0.1, 1000.0});
 }
 
 RoadBorderDetector::RoadBorderDetector(const RoadBorderDetectorOptions& options)
-    : options_(options) {
-  checkOptions(options);
+    : options_(checked(options)),
+      hits_(options.hit_grid),
+      search_(options.search),
+      tracks_(options.tracks) {}
+
+std::optional<double> RoadBorderDetector::secondsSinceLast(const SplitScan& scan) const {
+  if (!vehicle_) {
+    return std::nullopt;
+  }
+  const double seconds = secondsBetween(road_.stamp, scan.stamp);
+  const double step = (scan.base_in_map.pose.position() - vehicle_->position()).norm();
+  const bool belongs =
+      seconds >= 0.0 && seconds <= options_.longest_gap && step <= options_.longest_step;
+  return belongs ? std::make_optional(seconds) : std::nullopt;
 }
 
 const RoadModel& RoadBorderDetector::update(const SplitScan& scan) {
+  const std::optional<double> seconds = secondsSinceLast(scan);
+  if (!seconds) {
+    reset();
+  }
   road_.stamp = scan.stamp;
+  vehicle_ = scan.base_in_map.pose;
+  hits_.update(scan);
+  const Pose2 scanner = *vehicle_ * scan.scanner_in_base;
+  if (options_.method == "thesis") {
+    search(scanner);
+  } else {
+    follow(scan, scanner, seconds.value_or(0.0));
+  }
   return road_;
 }
 
-void RoadBorderDetector::reset() { road_ = {}; }
+void RoadBorderDetector::search(const Pose2& scanner) {
+  road_.borders.clear();
+  for (const RoadSide side : {RoadSide::kLeft, RoadSide::kRight}) {
+    if (const auto found = search_.search(hits_, scanner, side)) {
+      road_.borders.push_back(borderOf(*found, options_.published.spacing));
+    }
+  }
+  road_.at_intersection = road_.borders.empty();
+  road_.intersection_probability = road_.at_intersection ? 1.0 : 0.0;
+}
+
+void RoadBorderDetector::follow(const SplitScan& scan, const Pose2& scanner, double seconds) {
+  tracks_.update(borderScan(scan, hits_, seconds), hits_, search_);
+  road_.borders = publishedBorders(tracks_.borders(), scanner, options_.published);
+}
+
+void RoadBorderDetector::reset() {
+  hits_.reset();
+  tracks_.clear();
+  road_ = {};
+  vehicle_.reset();
+}
 
 }  // namespace datmo

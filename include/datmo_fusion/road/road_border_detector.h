@@ -1,15 +1,26 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/scan.h"
+#include "datmo_fusion/grid/hit_grid.h"
+#include "datmo_fusion/road/border_publishing.h"
+#include "datmo_fusion/road/border_search.h"
+#include "datmo_fusion/road/border_track_set.h"
 #include "datmo_fusion/road/road_model.h"
 
 namespace datmo {
 
 struct RoadBorderDetectorOptions {
   std::string method = "tracked";
+  HitGridOptions hit_grid;
+  BorderSearchOptions search;
+  BorderTrackSetOptions tracks;
+  BorderPublishingOptions published;
+  double longest_gap = 2.0;    ///< s
+  double longest_step = 10.0;  ///< m
 
   void visit(OptionVisitor& visitor);
 };
@@ -22,14 +33,24 @@ class RoadBorderDetector {
   explicit RoadBorderDetector(const RoadBorderDetectorOptions& options);
 
   /// Takes in a scan, by rising stamps; the road about the vehicle as far as it is known then.
+  /// After a gap or a jump of the pose all is forgotten first.
   const RoadModel& update(const SplitScan& scan);
 
   /// Forgets all, as at the start.
   void reset();
 
  private:
+  /// Time since the last scan, s; none if what is known does not belong to this one.
+  std::optional<double> secondsSinceLast(const SplitScan& scan) const;
+  void search(const Pose2& scanner);
+  void follow(const SplitScan& scan, const Pose2& scanner, double seconds);
+
   RoadBorderDetectorOptions options_;
+  HitGrid hits_;
+  BorderSearch search_;
+  BorderTrackSet tracks_;
   RoadModel road_;
+  std::optional<Pose2> vehicle_;  ///< map frame, at the last scan
 };
 
 }  // namespace datmo

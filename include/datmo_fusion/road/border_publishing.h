@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/road/followed_border.h"
+#include "datmo_fusion/road/road_model.h"
+
+namespace datmo {
+
+struct BorderPublishingOptions {
+  double ahead = 40.0;   ///< m
+  double behind = 10.0;  ///< m
+  double spacing = 1.0;  ///< m
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// What bounds the road: at each station along the vehicle's heading the innermost of the confirmed
+/// lines that is a border there.
+std::vector<RoadBorder> publishedBorders(const std::vector<FollowedBorder>& borders,
+                                         const Pose2& vehicle,
+                                         const BorderPublishingOptions& options);
+
+}  // namespace datmo

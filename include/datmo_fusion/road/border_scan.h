@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "datmo_fusion/common/scan.h"
+#include "datmo_fusion/grid/hit_grid.h"
+
+namespace datmo {
+
+/// A scan as borders are looked for in it: in the map frame.
+struct BorderScan {
+  struct Beam {
+    Point2 end = Point2::Zero();  ///< m; of a beam without return as far as it is known free
+    bool hit = false;
+    int hits_there = 0;  ///< smoothed (thesis eq. 3.5.1), of the place where it ends
+  };
+
+  Pose2 scanner;
+  double seconds = 0.0;  ///< since the last scan
+  std::vector<Beam> beams;
+};
+
+/// Of a scan that `hits` has counted: all beams but those that are blind.
+BorderScan borderScan(const SplitScan& scan, const HitGrid& hits, double seconds);
+
+}  // namespace datmo

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/grid/hit_grid.h"
+#include "datmo_fusion/road/border_search.h"
+#include "datmo_fusion/road/followed_border.h"
+
+namespace datmo {
+
+struct BorderTrackSetOptions {
+  FollowedBorderOptions border;
+  std::vector<double> search_from{0.0, 12.0};  ///< m
+  double same_distance = 0.7;                  ///< m
+  int most_borders = 16;                       ///< 1
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// All lines that are or may be borders, on both sides.
+class BorderTrackSet {
+ public:
+  explicit BorderTrackSet(const BorderTrackSetOptions& options) : options_(options) {}
+
+  const std::vector<FollowedBorder>& borders() const { return borders_; }
+
+  /// Takes all lines on to the next scan, drops those that are over, and looks for new ones where
+  /// none explains what was hit: on one side and from one place each time, by turns.
+  void update(const BorderScan& scan, const HitGrid& hits, const BorderSearch& search);
+
+  void clear();
+
+ private:
+  void dropTwins();
+  void searchFrom(const HitGrid& hits, const BorderSearch& search, const Pose2& from,
+                  RoadSide side);
+  const FollowedBorder* alongside(const FoundBorder& found) const;
+
+  BorderTrackSetOptions options_;
+  std::vector<FollowedBorder> borders_;
+  std::size_t turn_ = 0;
+};
+
+}  // namespace datmo

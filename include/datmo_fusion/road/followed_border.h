@@ -1,0 +1,80 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "datmo_fusion/road/border_scan.h"
+#include "datmo_fusion/road/border_search.h"
+#include "datmo_fusion/road/border_track.h"
+#include "datmo_fusion/road/station_evidence.h"
+
+namespace datmo {
+
+struct FollowedBorderOptions {
+  BorderTrackOptions track;
+  StationEvidenceOptions evidence;
+  double range_sigma = 0.2;       ///< m
+  double roughness = 0.15;        ///< m
+  double tolerance = 0.5;         ///< m
+  double correlation = 4.0;       ///< 1
+  int vouching_hits = 3;          ///< 1
+  double ahead = 45.0;            ///< m
+  double behind = 15.0;           ///< m
+  double most_sigma = 1.0;        ///< m
+  double confirmed_length = 6.0;  ///< m
+  double trial_time = 1.0;        ///< s
+  double refuted_time = 2.0;      ///< s
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// One line that is or may be a border of the road, with what is known of where it is one.
+class FollowedBorder {
+ public:
+  enum class State {
+    kTrial,      ///< it may be one
+    kConfirmed,  ///< it is one, somewhere
+    kRefuted     ///< it was none: kept for a time, so that it is not tried again at once
+  };
+
+  FollowedBorder(const FollowedBorderOptions& options, const FoundBorder& found);
+
+  RoadSide side() const { return side_; }
+  State state() const { return state_; }
+  const BorderTrack& track() const { return track_; }
+  const StationEvidence& evidence() const { return evidence_; }
+
+  /// s since a scan last saw some of it.
+  double unseenFor() const { return unseen_for_; }
+
+  /// Takes the line on to the next scan, and what the scan tells of it.
+  void update(const BorderScan& scan);
+
+  /// Whether it is of no use any more: all of it lies behind or across the way, it is too unsure,
+  /// or it has been refuted for long.
+  bool isOver(const Pose2& vehicle) const;
+
+  /// The curve about its anchor, where it may be published or looked at.
+  const CurveTable& table() const { return *table_; }
+
+  /// m across; where it is more than most_sigma nothing is said of it.
+  double sigmaAt(double along) const;
+
+ private:
+  void moveAnchor(const BorderScan& scan);
+  void correct(const BorderScan& scan);
+  void weigh(const BorderScan& scan);
+  void judge(double seconds);
+
+  FollowedBorderOptions options_;
+  RoadSide side_;
+  State state_ = State::kTrial;
+  BorderTrack track_;
+  StationEvidence evidence_;
+  std::optional<CurveTable> table_;
+  std::vector<BorderHit> taken_;  ///< of one scan; a member to spare memory
+  double age_ = 0.0;              ///< s in the state
+  double unseen_for_ = 0.0;
+};
+
+}  // namespace datmo

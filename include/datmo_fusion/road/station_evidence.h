@@ -1,0 +1,70 @@
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "datmo_fusion/common/options.h"
+
+namespace datmo {
+
+struct StationEvidenceOptions {
+  double hit_probability = 0.5;  ///< 1
+  double clutter = 0.05;         ///< 1
+  double most_in_scan = 1.5;     ///< 1
+  double saturation = 4.0;       ///< 1
+  double seen = 1.5;             ///< 1
+  double bridged_gap = 7.0;      ///< m
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// A piece of way, m.
+struct WayInterval {
+  double first = 0.0;
+  double last = 0.0;
+};
+
+/// How sure it is that a line is a border at each metre of it: logarithm of the odds, raised by
+/// beams that end on it, lowered by those that go on through it. A scan counts once, and the sum is
+/// held within bounds, as what a vehicle sees while it stands is always the same.
+class StationEvidence {
+ public:
+  explicit StationEvidence(const StationEvidenceOptions& options);
+
+  /// Nothing is known of what lies outside of `interval` any more, and it may be told of what lies
+  /// inside.
+  void keepWithin(const WayInterval& interval);
+
+  /// One beam of the scan that ended on the line there (m along it), or went through.
+  void addHit(double along);
+  void addPassage(double along);
+
+  /// Takes in what the beams of one scan have told since the last call.
+  void endScan();
+
+  /// 0 where nothing is known.
+  double logOdds(double along) const;
+
+  /// Where the line is a border: from the first to the last station seen of each piece; gaps of
+  /// `bridged_gap` between two stations are left out, shorter ones belong to the piece.
+  std::vector<WayInterval> pieces() const;
+
+  /// Stations by themselves that are seen.
+  int seenStations() const;
+
+ private:
+  struct Station {
+    double log_odds = 0.0;
+    double told = 0.0;  ///< by this scan
+  };
+
+  Station* stationAt(double along);
+
+  StationEvidenceOptions options_;
+  double hit_;
+  double passage_;
+  int first_ = 0;  ///< index of the first station
+  std::deque<Station> stations_;
+};
+
+}  // namespace datmo

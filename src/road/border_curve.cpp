@@ -1,0 +1,87 @@
+#include "datmo_fusion/road/border_curve.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace datmo {
+
+namespace {
+
+/// m, in which the heading of a road changes little: chords of an arc of 50 m radius are short by
+/// 2e-5 of their length.
+constexpr double kStep = 1.0;
+
+/// Steps in which the foot of a point comes to rest, on lines that turn by much less than a radian
+/// within its distance.
+constexpr int kFootSteps = 3;
+
+double headingChange(const BorderCurve& curve, double along) {
+  return along * (curve.curvature + 0.5 * along * curve.curvature_rate);
+}
+
+/// The point a short way on, by the chord.
+Pose2 stepFrom(const Pose2& from, const BorderCurve& curve, double along, double step) {
+  const double middle = curve.anchor.heading() + headingChange(curve, along + 0.5 * step);
+  const double end = curve.anchor.heading() + headingChange(curve, along + step);
+  return {from.position() + step * Point2(std::cos(middle), std::sin(middle)), end};
+}
+
+}  // namespace
+
+BorderCurve BorderCurve::movedAlong(double distance) const {
+  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(distance) / kStep)));
+  const double step = distance / steps;
+  Pose2 pose = anchor;
+  for (int i = 0; i < steps; ++i) {
+    pose = stepFrom(pose, *this, i * step, step);
+  }
+  return {pose, curvature + distance * curvature_rate, curvature_rate};
+}
+
+CurveTable::CurveTable(const BorderCurve& curve, double first, double last)
+    : first_(first), anchor_(curve.anchor) {
+  const auto count = static_cast<std::size_t>(std::ceil((last - first) / kStep)) + 1;
+  stations_.reserve(count);
+  const BorderCurve begin = curve.movedAlong(first);
+  Pose2 pose = begin.anchor;
+  for (std::size_t i = 0; i < count; ++i) {
+    stations_.push_back({pose.position(), pose.rotate(Point2(1.0, 0.0))});
+    pose = stepFrom(pose, begin, static_cast<double>(i) * kStep, kStep);
+  }
+}
+
+double CurveTable::last() const {
+  return first_ + static_cast<double>(stations_.size() - 1) * kStep;
+}
+
+std::size_t CurveTable::nearest(double along) const {
+  const double index = std::round((along - first_) / kStep);
+  const auto most = static_cast<double>(stations_.size() - 1);
+  return static_cast<std::size_t>(std::min(most, std::max(0.0, index)));
+}
+
+Pose2 CurveTable::at(double along) const {
+  const std::size_t index = nearest(along);
+  const Station& station = stations_[index];
+  const double rest = along - first_ - static_cast<double>(index) * kStep;
+  return {station.position + rest * station.direction,
+          std::atan2(station.direction.y(), station.direction.x())};
+}
+
+CurvePlace CurveTable::locate(const Point2& point) const {
+  const Point2 ahead = anchor_.rotate(Point2(1.0, 0.0));
+  CurvePlace place{ahead.dot(point - anchor_.position()), 0.0};
+  for (int i = 0; i < kFootSteps; ++i) {
+    const std::size_t index = nearest(place.along);
+    const Station& station = stations_[index];
+    const Point2 from = point - station.position;
+    place.along = first_ + static_cast<double>(index) * kStep + station.direction.dot(from);
+    place.aside = station.direction.x() * from.y() - station.direction.y() * from.x();
+    if (nearest(place.along) == index) {
+      break;
+    }
+  }
+  return place;
+}
+
+}  // namespace datmo

@@ -1,0 +1,102 @@
+#include "datmo_fusion/road/border_publishing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace datmo {
+
+namespace {
+
+/// A point of a border beside the vehicle's heading.
+struct StationPoint {
+  const FollowedBorder* border = nullptr;
+  double outward = 0.0;  ///< m, from the vehicle
+  double log_odds = 0.0;
+  BorderPoint point;
+};
+
+using Stations = std::vector<StationPoint>;
+
+/// Brings the pieces of one line to the stations that it is innermost at.
+void enter(const FollowedBorder& border, const Pose2& map_in_vehicle,
+           const BorderPublishingOptions& options, double most_sigma, Stations& stations) {
+  const CurveTable& table = border.table();
+  const double way = border.track().way();
+  for (const WayInterval& piece : border.evidence().pieces()) {
+    for (double at = piece.first; at <= piece.last; at += 0.5 * options.spacing) {
+      const double along = at - way;
+      if (along < table.first() || along > table.last()) {
+        continue;
+      }
+      const double sigma = border.sigmaAt(along);
+      const Point2 position = table.at(along).position();
+      const Point2 seen = map_in_vehicle * position;
+      const double index = std::floor((seen.x() + options.behind) / options.spacing);
+      const double outward = border.side() == RoadSide::kLeft ? seen.y() : -seen.y();
+      if (sigma > most_sigma || index < 0.0 || index >= static_cast<double>(stations.size())) {
+        continue;
+      }
+      StationPoint& station = stations[static_cast<std::size_t>(index)];
+      if (station.border == nullptr || outward < station.outward) {
+        station = {&border, outward, border.evidence().logOdds(at), {position, sigma}};
+      }
+    }
+  }
+}
+
+double probabilityOf(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); }
+
+void finish(std::vector<RoadBorder>& published) {
+  if (!published.empty() && published.back().points.size() < 2) {
+    published.pop_back();
+  }
+}
+
+}  // namespace
+
+void BorderPublishingOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"ahead", "m", "how far ahead of the vehicle borders are told"}, ahead,
+                 {1.0, 200.0});
+  visitor.number({"behind", "m", "how far behind it"}, behind, {0.0, 200.0});
+  visitor.number({"spacing", "m", "of a border's points along the vehicle's heading"}, spacing,
+                 {0.1, 20.0});
+}
+
+std::vector<RoadBorder> publishedBorders(const std::vector<FollowedBorder>& borders,
+                                         const Pose2& vehicle,
+                                         const BorderPublishingOptions& options) {
+  const Pose2 map_in_vehicle = vehicle.inverse();
+  const auto count =
+      static_cast<std::size_t>(std::ceil((options.ahead + options.behind) / options.spacing));
+  std::vector<RoadBorder> published;
+  for (const RoadSide side : {RoadSide::kLeft, RoadSide::kRight}) {
+    Stations stations(count);
+    for (const FollowedBorder& border : borders) {
+      if (border.side() == side && border.state() == FollowedBorder::State::kConfirmed) {
+        enter(border, map_in_vehicle, options, 1.0, stations);
+      }
+    }
+    const FollowedBorder* last = nullptr;
+    for (const StationPoint& station : stations) {
+      if (station.border != last) {
+        finish(published);
+        last = station.border;
+        if (last != nullptr) {
+          RoadBorder& border = published.emplace_back();
+          border.side = side;
+          border.unseen_for = last->unseenFor();
+        }
+      }
+      if (last != nullptr) {
+        RoadBorder& border = published.back();
+        border.points.push_back(station.point);
+        border.probability = std::max(border.probability, probabilityOf(station.log_odds));
+      }
+    }
+    finish(published);
+  }
+  return published;
+}
+
+}  // namespace datmo

@@ -1,0 +1,124 @@
+#include "datmo_fusion/road/border_track_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace datmo {
+
+namespace {
+
+/// Windows that are tried one beyond the other in one search: beyond lines that were refuted.
+constexpr int kMostWindows = 3;
+
+double outwardOf(RoadSide side, double to_left) {
+  return side == RoadSide::kLeft ? to_left : -to_left;
+}
+
+/// Whether two followed lines are one: they run side by side where either is seen.
+bool sameLine(const FollowedBorder& one, const FollowedBorder& other, double distance) {
+  const std::vector<WayInterval> pieces = one.evidence().pieces();
+  if (one.side() != other.side() || pieces.empty()) {
+    return false;
+  }
+  const double first = pieces.front().first - one.track().way();
+  const double last = pieces.back().last - one.track().way();
+  for (const double along : {first, 0.5 * (first + last), last}) {
+    const Point2 point = one.table().at(along).position();
+    if (std::abs(other.table().locate(point).aside) > distance) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+void BorderTrackSetOptions::visit(OptionVisitor& visitor) {
+  visitor.group("border", [&] { border.visit(visitor); });
+  visitor.numbers({"search_from", "m", "ahead of the scanner, where searches begin"}, search_from,
+                  {-50.0, 100.0});
+  visitor.number({"same_distance", "m", "lines nearer to each other are one border"}, same_distance,
+                 {0.05, 5.0});
+  visitor.integer({"most_borders", "1", "that are followed at a time"}, most_borders, {1, 1000});
+}
+
+void BorderTrackSet::clear() {
+  borders_.clear();
+  turn_ = 0;
+}
+
+void BorderTrackSet::update(const BorderScan& scan, const HitGrid& hits,
+                            const BorderSearch& search) {
+  for (FollowedBorder& border : borders_) {
+    border.update(scan);
+  }
+  borders_.erase(
+      std::remove_if(borders_.begin(), borders_.end(),
+                     [&](const FollowedBorder& border) { return border.isOver(scan.scanner); }),
+      borders_.end());
+  dropTwins();
+  const std::size_t places = options_.search_from.size();
+  if (places > 0) {
+    const RoadSide side = turn_ % 2 == 0 ? RoadSide::kLeft : RoadSide::kRight;
+    const double ahead = options_.search_from[turn_ / 2 % places];
+    turn_ = (turn_ + 1) % (2 * places);
+    searchFrom(hits, search, scan.scanner * Pose2(ahead, 0.0, 0.0), side);
+  }
+}
+
+void BorderTrackSet::dropTwins() {
+  for (std::size_t i = 0; i < borders_.size(); ++i) {
+    for (std::size_t j = borders_.size(); j-- > 0;) {
+      const bool both_tried = borders_[i].state() == FollowedBorder::State::kConfirmed &&
+                              borders_[j].state() != FollowedBorder::State::kRefuted;
+      if (i != j && both_tried &&
+          borders_[i].evidence().seenStations() >= borders_[j].evidence().seenStations() &&
+          sameLine(borders_[j], borders_[i], options_.same_distance)) {
+        borders_.erase(borders_.begin() + static_cast<std::ptrdiff_t>(j));
+        if (j < i) {
+          --i;
+        }
+      }
+    }
+  }
+}
+
+const FollowedBorder* BorderTrackSet::alongside(const FoundBorder& found) const {
+  const Point2 middle = found.line * Point2(0.5 * found.length, 0.0);
+  for (const FollowedBorder& border : borders_) {
+    if (border.side() == found.side &&
+        std::abs(border.table().locate(middle).aside) <= options_.same_distance) {
+      return &border;
+    }
+  }
+  return nullptr;
+}
+
+void BorderTrackSet::searchFrom(const HitGrid& hits, const BorderSearch& search, const Pose2& from,
+                                RoadSide side) {
+  Pose2 begin = from;
+  for (int i = 0; i < kMostWindows; ++i) {
+    const std::optional<FoundBorder> found = search.search(hits, begin, side);
+    if (!found) {
+      return;
+    }
+    const FollowedBorder* known = alongside(*found);
+    if (known == nullptr) {
+      if (static_cast<int>(borders_.size()) < options_.most_borders) {
+        borders_.emplace_back(options_.border, *found);
+      }
+      return;
+    }
+    if (known->state() != FollowedBorder::State::kRefuted) {
+      return;
+    }
+    const double aside = (begin.inverse() * found->line).y();
+    if (outwardOf(side, aside) <= 0.0) {
+      return;
+    }
+    begin = begin * Pose2(0.0, aside, 0.0);
+  }
+}
+
+}  // namespace datmo

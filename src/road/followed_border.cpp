@@ -1,0 +1,179 @@
+#include "datmo_fusion/road/followed_border.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace datmo {
+
+namespace {
+
+/// rad; a line that runs so far across the vehicle's heading is no border of its way.
+constexpr double kAcross = degrees(60.0);
+
+double square(double value) { return value * value; }
+
+double clampTo(const WayInterval& interval, double way) {
+  return std::clamp(way, interval.first, interval.last);
+}
+
+/// Of a piece of way, the nearest point to a place.
+double nearestOf(const std::vector<WayInterval>& pieces, double way) {
+  double nearest = way;
+  double least = std::numeric_limits<double>::infinity();
+  for (const WayInterval& piece : pieces) {
+    const double candidate = clampTo(piece, way);
+    if (std::abs(candidate - way) < least) {
+      least = std::abs(candidate - way);
+      nearest = candidate;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace
+
+void FollowedBorderOptions::visit(OptionVisitor& visitor) {
+  visitor.group("track", [&] { track.visit(visitor); });
+  visitor.group("evidence", [&] { evidence.visit(visitor); });
+  visitor.number({"range_sigma", "m", "noise of a measured range"}, range_sigma, {0.0, 2.0});
+  visitor.number({"roughness", "m", "by which things along a border stand out of its line"},
+                 roughness, {0.01, 2.0});
+  visitor.number({"tolerance", "m", "from the line, where a beam that ends has hit the border"},
+                 tolerance, {0.05, 5.0});
+  visitor.number({"correlation", "1",
+                  "scans that see the same unevenness of a border: their hits count as those of "
+                  "one"},
+                 correlation, {1.0, 100.0});
+  visitor.integer({"vouching_hits", "1",
+                   "smoothed hits of a place (thesis eq. 3.5.1) that a hit needs to correct a "
+                   "border: what passes by has fewer"},
+                  vouching_hits, {1, 1000});
+  visitor.number({"ahead", "m", "how far ahead of the vehicle borders are followed"}, ahead,
+                 {5.0, 200.0});
+  visitor.number({"behind", "m", "how far behind it they are kept"}, behind, {0.0, 200.0});
+  visitor.number({"most_sigma", "m",
+                  "across: where a line is less sure nothing is said of it; less sure as a whole "
+                  "it is dropped"},
+                 most_sigma, {0.1, 10.0});
+  visitor.number({"confirmed_length", "m", "seen stations that make a line a border"},
+                 confirmed_length, {1.0, 50.0});
+  visitor.number({"trial_time", "s", "in which a line has to become a border"}, trial_time,
+                 {0.0, 60.0});
+  visitor.number({"refuted_time", "s", "for which a line that did not is not tried again"},
+                 refuted_time, {0.0, 60.0});
+}
+
+FollowedBorder::FollowedBorder(const FollowedBorderOptions& options, const FoundBorder& found)
+    : options_(options),
+      side_(found.side),
+      track_(options.track, found.line, found.covariance),
+      evidence_(options.evidence) {
+  table_.emplace(track_.curve(), -options_.behind, options_.ahead);
+}
+
+double FollowedBorder::sigmaAt(double along) const { return std::sqrt(track_.varianceAt(along)); }
+
+void FollowedBorder::update(const BorderScan& scan) {
+  if (state_ != State::kRefuted) {
+    moveAnchor(scan);
+    correct(scan);
+    table_.emplace(track_.curve(), -options_.behind, options_.ahead);
+    weigh(scan);
+  }
+  judge(scan.seconds);
+}
+
+void FollowedBorder::moveAnchor(const BorderScan& scan) {
+  const double foot = track_.way() + table_->locate(scan.scanner.position()).along;
+  // Where nothing has been seen the line is only an extrapolation.
+  const double way = std::max(nearestOf(evidence_.pieces(), foot), foot - options_.behind);
+  const double step = std::clamp(way - track_.way(), table_->first(), table_->last());
+  track_.advance(step, scan.seconds);
+  table_.emplace(track_.curve(), -options_.behind, options_.ahead);
+  evidence_.keepWithin({foot - options_.behind, foot + options_.ahead});
+}
+
+void FollowedBorder::correct(const BorderScan& scan) {
+  taken_.clear();
+  for (const BorderScan::Beam& beam : scan.beams) {
+    if (!beam.hit || beam.hits_there < options_.vouching_hits) {
+      continue;
+    }
+    const CurvePlace place = table_->locate(beam.end);
+    if (place.along < table_->first() || place.along > table_->last()) {
+      continue;
+    }
+    const Point2 line = table_->at(place.along).rotate(Point2(1.0, 0.0));
+    const Point2 ray = (beam.end - scan.scanner.position()).normalized();
+    const double across = line.x() * ray.y() - line.y() * ray.x();
+    const double variance = square(options_.range_sigma * across) + square(options_.roughness);
+    // Farther away than the border may be taken to be it is something else, however unsure it is.
+    if (std::abs(place.aside) <= 2.0 * options_.tolerance) {
+      taken_.push_back({place, options_.correlation * variance});
+    }
+  }
+  track_.correct(taken_);
+}
+
+void FollowedBorder::weigh(const BorderScan& scan) {
+  const double outward = side_ == RoadSide::kLeft ? 1.0 : -1.0;
+  const Point2 from = scan.scanner.position();
+  const double from_outward = outward * table_->locate(from).aside;
+  bool seen = false;
+  for (const BorderScan::Beam& beam : scan.beams) {
+    const CurvePlace end = table_->locate(beam.end);
+    const double end_outward = outward * end.aside;
+    if (beam.hit && std::abs(end_outward) <= options_.tolerance) {
+      if (sigmaAt(end.along) <= options_.most_sigma) {
+        evidence_.addHit(track_.way() + end.along);
+        seen = true;
+      }
+    } else if (end_outward > options_.tolerance && from_outward < 0.0) {
+      const double share = from_outward / (from_outward - end_outward);
+      const double along = table_->locate(from + share * (beam.end - from)).along;
+      if (sigmaAt(along) <= options_.most_sigma) {
+        evidence_.addPassage(track_.way() + along);
+      }
+    }
+  }
+  evidence_.endScan();
+  unseen_for_ = seen ? 0.0 : unseen_for_ + scan.seconds;
+}
+
+void FollowedBorder::judge(double seconds) {
+  age_ += seconds;
+  State next = state_;
+  if (state_ == State::kTrial) {
+    if (evidence_.seenStations() >= options_.confirmed_length) {
+      next = State::kConfirmed;
+    } else if (age_ > options_.trial_time) {
+      next = State::kRefuted;
+    }
+  } else if (state_ == State::kConfirmed && evidence_.seenStations() == 0) {
+    next = State::kRefuted;
+  }
+  if (next != state_) {
+    state_ = next;
+    age_ = 0.0;
+  }
+}
+
+bool FollowedBorder::isOver(const Pose2& vehicle) const {
+  if (state_ == State::kRefuted) {
+    return age_ > options_.refuted_time;
+  }
+  const CurvePlace place = table_->locate(vehicle.position());
+  const double nearest = nearestOf(evidence_.pieces(), track_.way() + place.along) - track_.way();
+  if (track_.varianceAt(nearest) > square(options_.most_sigma)) {
+    return true;
+  }
+  const Pose2 seen = vehicle.inverse() * table_->at(nearest);
+  const bool behind = seen.x() < -options_.behind;
+  const bool across = std::abs(seen.heading()) > kAcross;
+  const double outward = side_ == RoadSide::kLeft ? place.aside : -place.aside;
+  const bool crossed = nearest == place.along && outward > 0.0;
+  return behind || across || crossed;
+}
+
+}  // namespace datmo

@@ -1,0 +1,111 @@
+#include "datmo_fusion/road/station_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace datmo {
+
+namespace {
+
+constexpr double kStation = 1.0;  ///< m
+
+int indexOf(double along) { return static_cast<int>(std::floor(along / kStation)); }
+
+}  // namespace
+
+void StationEvidenceOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"hit_probability", "1", "that a beam that crosses a border ends there: of kerbs"},
+                 hit_probability, {0.01, 0.99});
+  visitor.number({"clutter", "1", "that it ends there although there is no border"}, clutter,
+                 {1e-4, 0.5});
+  visitor.number({"most_in_scan", "1",
+                  "change of the logarithm of the odds at a place in one scan: its beams there see "
+                  "the same thing"},
+                 most_in_scan, {0.1, 10.0});
+  visitor.number({"saturation", "1", "most that it becomes, up and down"}, saturation, {0.5, 20.0});
+  visitor.number({"seen", "1", "from where on there is a border"}, seen, {0.0, 20.0});
+  visitor.number(
+      {"bridged_gap", "m", "shorter gaps belong to the border: between parked cars, drives"},
+      bridged_gap, {0.0, 50.0});
+}
+
+StationEvidence::StationEvidence(const StationEvidenceOptions& options)
+    : options_(options),
+      hit_(std::log(options.hit_probability / options.clutter)),
+      passage_(std::log((1.0 - options.hit_probability) / (1.0 - options.clutter))) {}
+
+void StationEvidence::keepWithin(const WayInterval& interval) {
+  const int first = indexOf(interval.first);
+  const int last = std::max(first, indexOf(interval.last));
+  const bool apart = first >= first_ + static_cast<int>(stations_.size()) || last < first_;
+  if (apart) {
+    stations_.clear();
+    first_ = first;
+  }
+  while (first_ < first) {
+    stations_.pop_front();
+    ++first_;
+  }
+  while (first_ > first) {
+    stations_.emplace_front();
+    --first_;
+  }
+  stations_.resize(static_cast<std::size_t>(last - first + 1));
+}
+
+StationEvidence::Station* StationEvidence::stationAt(double along) {
+  const int offset = indexOf(along) - first_;
+  const bool inside = offset >= 0 && offset < static_cast<int>(stations_.size());
+  return inside ? &stations_[static_cast<std::size_t>(offset)] : nullptr;
+}
+
+void StationEvidence::addHit(double along) {
+  if (Station* station = stationAt(along)) {
+    station->told += hit_;
+  }
+}
+
+void StationEvidence::addPassage(double along) {
+  if (Station* station = stationAt(along)) {
+    station->told += passage_;
+  }
+}
+
+void StationEvidence::endScan() {
+  for (Station& station : stations_) {
+    const double step = std::clamp(station.told, -options_.most_in_scan, options_.most_in_scan);
+    station.log_odds =
+        std::clamp(station.log_odds + step, -options_.saturation, options_.saturation);
+    station.told = 0.0;
+  }
+}
+
+double StationEvidence::logOdds(double along) const {
+  const int offset = indexOf(along) - first_;
+  const bool inside = offset >= 0 && offset < static_cast<int>(stations_.size());
+  return inside ? stations_[static_cast<std::size_t>(offset)].log_odds : 0.0;
+}
+
+std::vector<WayInterval> StationEvidence::pieces() const {
+  std::vector<WayInterval> pieces;
+  double begin = first_ * kStation;
+  for (const Station& station : stations_) {
+    if (station.log_odds >= options_.seen) {
+      if (pieces.empty() || begin - pieces.back().last >= options_.bridged_gap) {
+        pieces.push_back({begin, begin});
+      }
+      pieces.back().last = begin + kStation;
+    }
+    begin += kStation;
+  }
+  return pieces;
+}
+
+int StationEvidence::seenStations() const {
+  return static_cast<int>(
+      std::count_if(stations_.begin(), stations_.end(),
+                    [this](const Station& station) { return station.log_odds >= options_.seen; }));
+}
+
+}  // namespace datmo
