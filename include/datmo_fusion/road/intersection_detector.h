@@ -1,0 +1,68 @@
+#pragma once
+
+#include <optional>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/road/border_presence.h"
+
+namespace datmo {
+
+struct IntersectionDetectorOptions {
+  double border_above = 0.65;     ///< 1
+  double least_border = 5.0;      ///< m
+  double least_opening = 8.0;     ///< m
+  double most_opening = 45.0;     ///< m
+  double station_limit = 2.0;     ///< 1
+  double evidence_length = 1.5;   ///< m
+  double road_length = 150.0;     ///< m
+  double crossing_length = 20.0;  ///< m
+  double enter_above = 0.7;       ///< 1
+  double leave_below = 0.3;       ///< 1
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Tells whether the vehicle is at an intersection: where, on one side or both, there is no border
+/// for the width of a street at least, where there was one before.
+///
+/// The thesis (3.5.2) takes any scan without borders for one. Here the openings along the way of
+/// the vehicle are evidence for a hidden Markov model with two states, on the road and at an
+/// intersection, that goes on with the way driven and not with time: one that stands keeps its
+/// state, and a few wrong stations make none. A border that was lost, one that never was, a gap in
+/// a row of cars and a yard are no openings.
+class IntersectionDetector {
+ public:
+  /// Throws OptionError.
+  explicit IntersectionDetector(const IntersectionDetectorOptions& options);
+
+  /// Takes in where the borders are now; the way driven rises, or all starts again. The stations
+  /// reach some metres (`least_border`) behind the vehicle at least, and as far ahead as is known.
+  void update(const BorderPresence& presence);
+
+  /// 0 to 1, that the vehicle is at an intersection.
+  double probability() const { return probability_; }
+
+  /// The same as yes or no, with hysteresis.
+  bool atIntersection() const { return at_intersection_; }
+
+  /// Forgets all, as at the start.
+  void reset();
+
+ private:
+  using BorderEnd = std::optional<double>;  ///< m, way driven where the last border ended
+
+  /// Logarithm of the odds that the side is open beside the vehicle; 0 where nothing is known.
+  double openness(const SidePresence& side, double way, BorderEnd& border_end) const;
+  bool isBorder(const SidePresence& side, int station, int toward) const;
+  /// Of the stations between both places (m), none of them farther than a street's width.
+  double meanOpenness(const SidePresence& side, double way, double begin, double end) const;
+
+  IntersectionDetectorOptions options_;
+  std::optional<double> last_way_;
+  BorderEnd left_end_;
+  BorderEnd right_end_;
+  double probability_ = 0.0;
+  bool at_intersection_ = false;
+};
+
+}  // namespace datmo

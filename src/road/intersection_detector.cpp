@@ -1,0 +1,176 @@
+#include "datmo_fusion/road/intersection_detector.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace datmo {
+
+namespace {
+
+const IntersectionDetectorOptions& checked(const IntersectionDetectorOptions& options) {
+  checkOptions(options);
+  if (options.leave_below > options.enter_above) {
+    throw OptionError("leave_below is " + toText(options.leave_below) +
+                      ": expected at most enter_above, " + toText(options.enter_above));
+  }
+  if (options.least_opening > options.most_opening) {
+    throw OptionError("least_opening is " + toText(options.least_opening) +
+                      ": expected at most most_opening, " + toText(options.most_opening));
+  }
+  return options;
+}
+
+double logOdds(double probability) { return std::log(probability / (1.0 - probability)); }
+
+int stationsOf(const SidePresence& side) { return static_cast<int>(side.probability.size()); }
+
+double wayOf(const SidePresence& side, int station) {
+  return side.first_station + station * side.station_length;
+}
+
+/// The station beside a place of the way, or the nearest one there is.
+int stationAt(const SidePresence& side, double way) {
+  const double station = std::round((way - side.first_station) / side.station_length);
+  return static_cast<int>(std::clamp(station, 0.0, stationsOf(side) - 1.0));
+}
+
+/// Both sides bound the road, or one does: on the road. One open side is enough for a junction.
+double combined(double left, double right) {
+  if (left <= 0.0 && right <= 0.0) {
+    return left + right;
+  }
+  return std::max(left, 0.0) + std::max(right, 0.0);
+}
+
+}  // namespace
+
+void IntersectionDetectorOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"border_above", "1", "a station whose probability is higher has a border"},
+                 border_above, {0.5, 0.99});
+  visitor.number(
+      {"least_border", "m", "of which half are stations with a border: a single one is none"},
+      least_border, {0.0, 50.0});
+  visitor.number({"least_opening", "m",
+                  "without a border: a street of 6 m or more, whose corners are rounded; yards and "
+                  "gaps between cars are narrower"},
+                 least_opening, {1.0, 50.0});
+  visitor.number({"most_opening", "m",
+                  "since the last border: behind it the border is lost, or it was no road but an "
+                  "open place"},
+                 most_opening, {1.0, 500.0});
+  visitor.number({"station_limit", "1",
+                  "highest logarithm of odds that one station tells: its beams have errors in "
+                  "common"},
+                 station_limit, {0.1, 20.0});
+  visitor.number({"evidence_length", "m",
+                  "way between two looks at the sides that are taken to be independent"},
+                 evidence_length, {0.1, 50.0});
+  visitor.number({"road_length", "m", "mean way between two intersections in a town"}, road_length,
+                 {1.0, 10000.0});
+  visitor.number({"crossing_length", "m", "mean way through an intersection"}, crossing_length,
+                 {1.0, 1000.0});
+  visitor.number({"enter_above", "1", "probability from which on the vehicle is at one"},
+                 enter_above, {0.01, 0.99});
+  visitor.number({"leave_below", "1", "probability from which on it is at one no more"},
+                 leave_below, {0.01, 0.99});
+}
+
+IntersectionDetector::IntersectionDetector(const IntersectionDetectorOptions& options)
+    : options_(checked(options)) {}
+
+/// Whether a border reaches to (`toward` -1) or begins at (1) a station: it has one, and half of
+/// those before or behind it.
+bool IntersectionDetector::isBorder(const SidePresence& side, int station, int toward) const {
+  const auto hasBorder = [&](int i) {
+    return side.probability[static_cast<std::size_t>(i)] > options_.border_above;
+  };
+  if (!hasBorder(station)) {
+    return false;
+  }
+  const int stations =
+      std::max(1, static_cast<int>(std::lround(options_.least_border / side.station_length)));
+  int with_border = 0;
+  for (int i = 0; i < stations; ++i) {
+    const int at = station + toward * i;
+    with_border += at >= 0 && at < stationsOf(side) && hasBorder(at) ? 1 : 0;
+  }
+  return 2 * with_border >= stations;
+}
+
+double IntersectionDetector::meanOpenness(const SidePresence& side, double way, double begin,
+                                          double end) const {
+  const int first = stationAt(side, std::max(begin, way - options_.least_opening));
+  const int last = stationAt(side, std::min(end, way + options_.least_opening));
+  double sum = 0.0;
+  for (int i = first; i <= last; ++i) {
+    const double open = 1.0 - side.probability[static_cast<std::size_t>(i)];
+    sum += std::clamp(logOdds(open), -options_.station_limit, options_.station_limit);
+  }
+  return sum / (last - first + 1);
+}
+
+double IntersectionDetector::openness(const SidePresence& side, double way,
+                                      BorderEnd& border_end) const {
+  if (side.probability.empty() || !(side.station_length > 0.0)) {
+    return 0.0;
+  }
+  const int here = stationAt(side, way);
+  for (int i = here; i >= 0; --i) {
+    if (isBorder(side, i, -1)) {
+      border_end = std::max(border_end.value_or(wayOf(side, i)), wayOf(side, i));
+      break;
+    }
+  }
+  if (!border_end || way - *border_end > options_.most_opening) {
+    return 0.0;
+  }
+  const double half_station = 0.5 * side.station_length;
+  const double begin = *border_end + half_station;
+  int next = here;
+  while (next < stationsOf(side) && !isBorder(side, next, 1)) {
+    ++next;
+  }
+  const bool ends = next < stationsOf(side);
+  const double end =
+      wayOf(side, std::min(next, stationsOf(side) - 1)) + (ends ? -1.0 : 1.0) * half_station;
+  if (way <= begin || (ends && end - begin < options_.least_opening)) {
+    return -options_.station_limit;
+  }
+  return end - begin < options_.least_opening
+             ? 0.0
+             : meanOpenness(side, way, begin + half_station, end - half_station);
+}
+
+void IntersectionDetector::update(const BorderPresence& presence) {
+  const double way = presence.way;
+  if (!std::isfinite(way)) {
+    return;
+  }
+  if (last_way_ && way < *last_way_) {
+    reset();
+  }
+  const double step = way - last_way_.value_or(way);
+  last_way_ = way;
+  const double evidence =
+      combined(openness(presence.left, way, left_end_), openness(presence.right, way, right_end_));
+  const double enter_rate = 1.0 / options_.road_length;
+  const double rate = enter_rate + 1.0 / options_.crossing_length;
+  const double usual = enter_rate / rate;
+  const double before = usual + (probability_ - usual) * std::exp(-rate * step);
+  // One look, however far the step: more would be of places that it has not looked at.
+  const double looks = std::min(1.0, step / options_.evidence_length);
+  const double ratio = std::exp(evidence * looks);
+  probability_ = before * ratio / (before * ratio + 1.0 - before);
+  at_intersection_ =
+      probability_ >= (at_intersection_ ? options_.leave_below : options_.enter_above);
+}
+
+void IntersectionDetector::reset() {
+  last_way_.reset();
+  left_end_.reset();
+  right_end_.reset();
+  probability_ = 0.0;
+  at_intersection_ = false;
+}
+
+}  // namespace datmo
