@@ -45,6 +45,19 @@ TEST_F(RoadBorderStageTest, EachScanMakesARoadInTheFrameOfTheMap) {
   EXPECT_EQ(monitor_.processedCount(), 1U);
 }
 
+TEST_F(RoadBorderStageTest, WallsBesideTheRoadAreItsBorders) {
+  const auto road = drive(0.0);
+  ASSERT_NE(road, nullptr);
+  ASSERT_FALSE(road->borders.empty());
+  for (const RoadBorderMessage& border : road->borders) {
+    const double expected =
+        border.side == RoadBorderMessage::LEFT ? samples::kWallBeside : -samples::kWallBeside;
+    EXPECT_NEAR(border.points.front().y, expected, 0.5);
+  }
+  EXPECT_GE(monitor_.figures().at("stretches of border on the left"), 1.0);
+  EXPECT_GE(monitor_.figures().at("stretches of border on the right"), 1.0);
+}
+
 TEST_F(RoadBorderStageTest, BadScansAreDroppedAndCounted) {
   SplitScanMessage lost = scanAtStart();
   lost.pose.pose.position.x = std::numeric_limits<double>::quiet_NaN();
