@@ -19,7 +19,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from datmo_fusion.msg import RoadBorder
-from border_samples import START, STEP, border, write_images, write_run
+from border_run_samples import START, STEP, border, write_images, write_run
 
 CAMERA = "/stereo/left"
 
@@ -62,7 +62,8 @@ class Recordings(Folder):
         sides = [item.side for item in moment.borders]
         self.assertEqual(sides, ["left", "right"])
         self.assert_points(moment.points, [(10.0, 0.0)])
-        self.assert_points(moment.kept[0].mean(axis=0), (10.0, 0.0))
+        self.assert_points(moment.moving[0].mean(axis=0), (10.0, 0.0))
+        self.assert_points(moment.others[0].mean(axis=0), (20.0, 0.0))
         self.assert_points(moment.dropped[0].mean(axis=0), (5.0, -3.0))
         self.assertEqual(len(moment.earlier), 0)
 

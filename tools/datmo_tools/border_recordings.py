@@ -5,6 +5,7 @@ from typing import NamedTuple, Optional
 
 import numpy as np
 
+from datmo_fusion.msg import Object
 from datmo_tools import transforms
 from datmo_tools.border_lists import BORDERS, TRUE_BORDERS, border_list
 from datmo_tools.errors import InputError
@@ -50,7 +51,8 @@ class Moment(NamedTuple):
     points: np.ndarray  # n x 2, m, base_link: where the scan's beams end
     states: np.ndarray  # n, ScanPoint.STATIC, MOVING, UNKNOWN
     earlier: np.ndarray  # n x 2, m, base_link: the same of the scans of some time before
-    kept: list  # of 4 x 2 arrays, m, base_link: the corners of objects
+    moving: list  # of 4 x 2 arrays, m, base_link: the corners of objects that seem to move
+    others: list  # the same of those of which nothing says so
     dropped: list  # the same of those that the borders left out
     truth: Optional[TrueRoad]  # None: not known
 
@@ -109,7 +111,8 @@ class Run:
     def _moment(self, stamp, found, history, truth):
         road, scans, base = found[BORDERS][stamp], found[SPLIT_SCAN], self.poses.at(stamp)
         points = scans[stamp].points if stamp in scans else []
-        kept, dropped = (found[topic].get(stamp) for topic in (OBJECTS, DROPPED))
+        objects, dropped = (found[topic].get(stamp) for topic in (OBJECTS, DROPPED))
+        kept = objects.objects if objects else []
         rows = self._rows(stamp - round(history * NANOSECONDS), stamp - 1)
         earlier = [
             seen_from(base, _in_map(scans[other]))
@@ -126,7 +129,8 @@ class Run:
             _places(points),
             np.array([point.state for point in points], dtype=int),
             np.concatenate([np.empty((0, 2)), *earlier]),
-            [_box(item) for item in kept.objects] if kept else [],
+            [_box(item) for item in kept if item.dynamic_state == Object.STATE_MOVING],
+            [_box(item) for item in kept if item.dynamic_state != Object.STATE_MOVING],
             [_box(item.object) for item in dropped.objects] if dropped else [],
             truth,
         )

@@ -15,7 +15,7 @@ TICKS = 10.0  # m
 AHEAD_NAME, LEFT_NAME = "ahead (m)", "to the left (m)"
 SHAPE = 2.0 * ASIDE / (BEHIND + AHEAD)  # height over width
 
-LEFT, RIGHT, KEPT = COLOURS[0], COLOURS[1], COLOURS[2]
+LEFT, RIGHT, MOVING = COLOURS[0], COLOURS[1], COLOURS[2]
 SHADES = {SIDES[RoadBorder.LEFT]: LEFT, SIDES[RoadBorder.RIGHT]: RIGHT}
 STATES = {ScanPoint.STATIC: "#0f172a", ScanPoint.MOVING: COLOURS[5], ScanPoint.UNKNOWN: COLOURS[4]}
 
@@ -54,7 +54,8 @@ def draw_view(ax, moment):
     for border in moment.borders:
         _draw_border(ax, moment.base, border)
     ax.fill(*VEHICLE.T, color=INK)
-    _draw_boxes(ax, moment.kept, KEPT)
+    _draw_boxes(ax, moment.others, TRUTH)
+    _draw_boxes(ax, moment.moving, MOVING)
     _draw_boxes(ax, moment.dropped, FALSE)
     for state, shade in STATES.items():
         ax.plot(*moment.points[moment.states == state].T, ".", color=shade, markersize=3.2,
@@ -87,7 +88,8 @@ def legend_handles(with_truth):
         line(STATES[ScanPoint.MOVING], "moving", **dots),
         line(STATES[ScanPoint.UNKNOWN], "unknown", **dots),
         line(EARLIER, "earlier point", **dots),
-        line(KEPT, "object", **ring),
+        line(MOVING, "moving object", **ring),
+        line(TRUTH, "other object", **ring),
         line(FALSE, "dropped object", **ring),
     ]
     if with_truth:
