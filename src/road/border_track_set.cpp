@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <optional>
 
 namespace datmo {
@@ -50,9 +52,7 @@ void BorderTrackSet::clear() {
 
 void BorderTrackSet::update(const BorderScan& scan, const HitGrid& hits,
                             const BorderSearch& search) {
-  for (FollowedBorder& border : borders_) {
-    border.update(scan);
-  }
+  follow(scan);
   borders_.erase(
       std::remove_if(borders_.begin(), borders_.end(),
                      [&](const FollowedBorder& border) { return border.isOver(scan.scanner); }),
@@ -64,6 +64,23 @@ void BorderTrackSet::update(const BorderScan& scan, const HitGrid& hits,
     const double ahead = options_.search_from[turn_ / 2 % places];
     turn_ = (turn_ + 1) % (2 * places);
     searchFrom(hits, search, scan.scanner * Pose2(ahead, 0.0, 0.0), side);
+  }
+}
+
+void BorderTrackSet::follow(const BorderScan& scan) {
+  nearest_.assign(scan.beams.size(), std::numeric_limits<double>::infinity());
+  for (FollowedBorder& border : borders_) {
+    border.advance(scan);
+    for (std::size_t i = 0; i < nearest_.size(); ++i) {
+      nearest_[i] = std::min(nearest_[i], border.distanceOf(i));
+    }
+  }
+  for (FollowedBorder& border : borders_) {
+    is_nearest_.assign(nearest_.size(), false);
+    for (std::size_t i = 0; i < nearest_.size(); ++i) {
+      is_nearest_[i] = std::isfinite(nearest_[i]) && border.distanceOf(i) == nearest_[i];
+    }
+    border.update(scan, is_nearest_);
   }
 }
 
@@ -87,8 +104,7 @@ void BorderTrackSet::dropTwins() {
 const FollowedBorder* BorderTrackSet::alongside(const FoundBorder& found) const {
   const Point2 middle = found.line * Point2(0.5 * found.length, 0.0);
   for (const FollowedBorder& border : borders_) {
-    if (border.side() == found.side &&
-        std::abs(border.table().locate(middle).aside) <= options_.same_distance) {
+    if (border.side() == found.side && border.explains(middle, options_.same_distance)) {
       return &border;
     }
   }

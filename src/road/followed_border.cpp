@@ -58,6 +58,9 @@ void FollowedBorderOptions::visit(OptionVisitor& visitor) {
                  most_sigma, {0.1, 10.0});
   visitor.number({"confirmed_length", "m", "seen stations that make a line a border"},
                  confirmed_length, {1.0, 50.0});
+  visitor.number(
+      {"growth", "m", "beyond the seen pieces of a line, where what is hit may belong to it"},
+      growth, {0.0, 50.0});
   visitor.number({"trial_time", "s", "in which a line has to become a border"}, trial_time,
                  {0.0, 60.0});
   visitor.number({"refuted_time", "s", "for which a line that did not is not tried again"},
@@ -68,18 +71,58 @@ FollowedBorder::FollowedBorder(const FollowedBorderOptions& options, const Found
     : options_(options),
       side_(found.side),
       track_(options.track, found.line, found.covariance),
-      evidence_(options.evidence) {
+      evidence_(options.evidence),
+      found_length_(found.length) {
   table_.emplace(track_.curve(), -options_.behind, options_.ahead);
+  findReach();
 }
 
 double FollowedBorder::sigmaAt(double along) const { return std::sqrt(track_.varianceAt(along)); }
 
-void FollowedBorder::update(const BorderScan& scan) {
+void FollowedBorder::advance(const BorderScan& scan) {
+  if (state_ == State::kRefuted) {
+    return;
+  }
+  moveAnchor(scan);
+  findReach();
+  places_.clear();
+  for (const BorderScan::Beam& beam : scan.beams) {
+    places_.push_back(table_->locate(beam.end));
+  }
+}
+
+void FollowedBorder::findReach() {
+  reach_.clear();
+  for (const WayInterval& piece : evidence_.pieces()) {
+    reach_.push_back({piece.first - track_.way() - options_.growth,
+                      piece.last - track_.way() + options_.growth});
+  }
+  if (state_ == State::kTrial) {
+    reach_.push_back({-track_.way(), found_length_ - track_.way()});
+  }
+}
+
+bool FollowedBorder::reaches(double along) const {
+  return std::any_of(reach_.begin(), reach_.end(), [along](const WayInterval& piece) {
+    return along >= piece.first && along <= piece.last;
+  });
+}
+
+double FollowedBorder::distanceOf(std::size_t beam) const {
+  const bool here = state_ != State::kRefuted && reaches(places_[beam].along);
+  return here ? std::abs(places_[beam].aside) : std::numeric_limits<double>::infinity();
+}
+
+bool FollowedBorder::explains(const Point2& place, double distance) const {
+  const CurvePlace beside = table_->locate(place);
+  return std::abs(beside.aside) <= distance && reaches(beside.along);
+}
+
+void FollowedBorder::update(const BorderScan& scan, const std::vector<bool>& is_nearest) {
   if (state_ != State::kRefuted) {
-    moveAnchor(scan);
-    correct(scan);
+    correct(scan, is_nearest);
     table_.emplace(track_.curve(), -options_.behind, options_.ahead);
-    weigh(scan);
+    weigh(scan, is_nearest);
   }
   judge(scan.seconds);
 }
@@ -94,38 +137,35 @@ void FollowedBorder::moveAnchor(const BorderScan& scan) {
   evidence_.keepWithin({foot - options_.behind, foot + options_.ahead});
 }
 
-void FollowedBorder::correct(const BorderScan& scan) {
+void FollowedBorder::correct(const BorderScan& scan, const std::vector<bool>& is_nearest) {
   taken_.clear();
-  for (const BorderScan::Beam& beam : scan.beams) {
-    if (!beam.hit || beam.hits_there < options_.vouching_hits) {
-      continue;
-    }
-    const CurvePlace place = table_->locate(beam.end);
-    if (place.along < table_->first() || place.along > table_->last()) {
+  for (std::size_t i = 0; i < scan.beams.size(); ++i) {
+    const BorderScan::Beam& beam = scan.beams[i];
+    const CurvePlace& place = places_[i];
+    if (!beam.hit || beam.hits_there < options_.vouching_hits || !is_nearest[i] ||
+        std::abs(place.aside) > options_.tolerance) {
       continue;
     }
     const Point2 line = table_->at(place.along).rotate(Point2(1.0, 0.0));
     const Point2 ray = (beam.end - scan.scanner.position()).normalized();
     const double across = line.x() * ray.y() - line.y() * ray.x();
     const double variance = square(options_.range_sigma * across) + square(options_.roughness);
-    // Farther away than the border may be taken to be it is something else, however unsure it is.
-    if (std::abs(place.aside) <= 2.0 * options_.tolerance) {
-      taken_.push_back({place, options_.correlation * variance});
-    }
+    taken_.push_back({place, options_.correlation * variance});
   }
   track_.correct(taken_);
 }
 
-void FollowedBorder::weigh(const BorderScan& scan) {
+void FollowedBorder::weigh(const BorderScan& scan, const std::vector<bool>& is_nearest) {
   const double outward = side_ == RoadSide::kLeft ? 1.0 : -1.0;
   const Point2 from = scan.scanner.position();
   const double from_outward = outward * table_->locate(from).aside;
   bool seen = false;
-  for (const BorderScan::Beam& beam : scan.beams) {
-    const CurvePlace end = table_->locate(beam.end);
+  for (std::size_t i = 0; i < scan.beams.size(); ++i) {
+    const BorderScan::Beam& beam = scan.beams[i];
+    const CurvePlace& end = places_[i];
     const double end_outward = outward * end.aside;
     if (beam.hit && std::abs(end_outward) <= options_.tolerance) {
-      if (sigmaAt(end.along) <= options_.most_sigma) {
+      if (is_nearest[i] && sigmaAt(end.along) <= options_.most_sigma) {
         evidence_.addHit(track_.way() + end.along);
         seen = true;
       }

@@ -28,6 +28,11 @@ RoadBorder borderOf(const FoundBorder& found, double spacing) {
 
 }  // namespace
 
+RoadBorderDetectorOptions::RoadBorderDetectorOptions() {
+  // Less than the thesis: what is no border is told by the beams that go through it.
+  hit_grid.cut_share = 0.05;
+}
+
 void RoadBorderDetectorOptions::visit(OptionVisitor& visitor) {
   visitor.text({"method", "",
                 "tracked: borders followed as clothoids over time (Kirchner and Heinrich 1998); "

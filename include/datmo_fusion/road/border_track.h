@@ -12,7 +12,7 @@ namespace datmo {
 struct BorderTrackOptions {
   double offset_drift = 0.03;            ///< m per square root of m
   double heading_drift = 0.003;          ///< rad per square root of m
-  double curvature_drift = 0.0006;       ///< 1/m per square root of m
+  double curvature_drift = 0.0003;       ///< 1/m per square root of m
   double curvature_sigma = 0.004;        ///< 1/m
   double curvature_rate_sigma = 0.0001;  ///< 1/m^2
   double curvature_rate_length = 20.0;   ///< m

@@ -33,6 +33,7 @@ class BorderTrackSet {
   void clear();
 
  private:
+  void follow(const BorderScan& scan);
   void dropTwins();
   void searchFrom(const HitGrid& hits, const BorderSearch& search, const Pose2& from,
                   RoadSide side);
@@ -40,6 +41,8 @@ class BorderTrackSet {
 
   BorderTrackSetOptions options_;
   std::vector<FollowedBorder> borders_;
+  std::vector<double> nearest_;   ///< m, from the end of each beam to any line
+  std::vector<bool> is_nearest_;  ///< of one line
   std::size_t turn_ = 0;
 };
 

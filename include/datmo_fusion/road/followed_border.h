@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct FollowedBorderOptions {
   double behind = 15.0;           ///< m
   double most_sigma = 1.0;        ///< m
   double confirmed_length = 6.0;  ///< m
+  double growth = 6.0;            ///< m
   double trial_time = 1.0;        ///< s
   double refuted_time = 2.0;      ///< s
 
@@ -47,8 +49,20 @@ class FollowedBorder {
   /// s since a scan last saw some of it.
   double unseenFor() const { return unseen_for_; }
 
-  /// Takes the line on to the next scan, and what the scan tells of it.
-  void update(const BorderScan& scan);
+  /// Takes the line on to the next scan, and finds where its beams end beside it.
+  void advance(const BorderScan& scan);
+
+  /// How far off (m) this line is from the end of a beam of the scan that it was advanced to;
+  /// infinite where nothing says that it goes on there.
+  double distanceOf(std::size_t beam) const;
+
+  /// Whether a place (m, map frame) lies within a distance (m) of the line where something has been
+  /// seen of it, or where it was tried if it is refuted.
+  bool explains(const Point2& place, double distance) const;
+
+  /// Takes in what the scan tells of the line; `is_nearest`, one for each beam: of all lines this
+  /// one is nearest to the beam's end.
+  void update(const BorderScan& scan, const std::vector<bool>& is_nearest);
 
   /// Whether it is of no use any more: all of it lies behind or across the way, it is too unsure,
   /// or it has been refuted for long.
@@ -61,9 +75,11 @@ class FollowedBorder {
   double sigmaAt(double along) const;
 
  private:
+  bool reaches(double along) const;
+  void findReach();
   void moveAnchor(const BorderScan& scan);
-  void correct(const BorderScan& scan);
-  void weigh(const BorderScan& scan);
+  void correct(const BorderScan& scan, const std::vector<bool>& is_nearest);
+  void weigh(const BorderScan& scan, const std::vector<bool>& is_nearest);
   void judge(double seconds);
 
   FollowedBorderOptions options_;
@@ -71,9 +87,12 @@ class FollowedBorder {
   State state_ = State::kTrial;
   BorderTrack track_;
   StationEvidence evidence_;
+  double found_length_;  ///< m
   std::optional<CurveTable> table_;
-  std::vector<BorderHit> taken_;  ///< of one scan; a member to spare memory
-  double age_ = 0.0;              ///< s in the state
+  std::vector<WayInterval> reach_;  ///< m from the anchor, where the line may go on
+  std::vector<CurvePlace> places_;  ///< of the ends of the scan's beams
+  std::vector<BorderHit> taken_;    ///< of one scan; a member to spare memory
+  double age_ = 0.0;                ///< s in the state
   double unseen_for_ = 0.0;
 };
 

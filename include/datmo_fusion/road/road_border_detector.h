@@ -14,6 +14,8 @@
 namespace datmo {
 
 struct RoadBorderDetectorOptions {
+  RoadBorderDetectorOptions();
+
   std::string method = "tracked";
   HitGridOptions hit_grid;
   BorderSearchOptions search;

@@ -8,8 +8,8 @@
 namespace datmo {
 
 struct StationEvidenceOptions {
-  double hit_probability = 0.5;  ///< 1
-  double clutter = 0.05;         ///< 1
+  double hit_probability = 0.1;  ///< 1
+  double clutter = 0.015;        ///< 1
   double most_in_scan = 1.5;     ///< 1
   double saturation = 4.0;       ///< 1
   double seen = 1.5;             ///< 1
