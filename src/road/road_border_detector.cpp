@@ -41,6 +41,8 @@ void RoadBorderDetectorOptions::visit(OptionVisitor& visitor) {
   visitor.group("hit_grid", [&] { hit_grid.visit(visitor); });
   visitor.group("search", [&] { search.visit(visitor); });
   visitor.group("tracks", [&] { tracks.visit(visitor); });
+  visitor.group("presence", [&] { presence.visit(visitor); });
+  visitor.group("intersection", [&] { intersection.visit(visitor); });
   visitor.group("published", [&] { published.visit(visitor); });
   visitor.number({"longest_gap", "s", "between two scans; after a longer one all is forgotten"},
                  longest_gap, {0.01, 1000.0});
@@ -54,7 +56,9 @@ RoadBorderDetector::RoadBorderDetector(const RoadBorderDetectorOptions& options)
     : options_(checked(options)),
       hits_(options.hit_grid),
       search_(options.search),
-      tracks_(options.tracks) {}
+      tracks_(options.tracks),
+      presence_(options.presence),
+      intersection_(options.intersection) {}
 
 std::optional<double> RoadBorderDetector::secondsSinceLast(const SplitScan& scan) const {
   if (!vehicle_) {
@@ -98,11 +102,17 @@ void RoadBorderDetector::search(const Pose2& scanner) {
 void RoadBorderDetector::follow(const SplitScan& scan, const Pose2& scanner, double seconds) {
   tracks_.update(borderScan(scan, hits_, seconds), hits_, search_);
   road_.borders = publishedBorders(tracks_.borders(), scanner, options_.published);
+  presence_.update(tracks_.borders(), *vehicle_, seconds);
+  intersection_.update(presence_.presence());
+  road_.intersection_probability = intersection_.probability();
+  road_.at_intersection = intersection_.atIntersection();
 }
 
 void RoadBorderDetector::reset() {
   hits_.reset();
   tracks_.clear();
+  presence_.reset();
+  intersection_.reset();
   road_ = {};
   vehicle_.reset();
 }

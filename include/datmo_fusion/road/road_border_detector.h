@@ -9,6 +9,8 @@
 #include "datmo_fusion/road/border_publishing.h"
 #include "datmo_fusion/road/border_search.h"
 #include "datmo_fusion/road/border_track_set.h"
+#include "datmo_fusion/road/intersection_detector.h"
+#include "datmo_fusion/road/presence_history.h"
 #include "datmo_fusion/road/road_model.h"
 
 namespace datmo {
@@ -20,6 +22,8 @@ struct RoadBorderDetectorOptions {
   HitGridOptions hit_grid;
   BorderSearchOptions search;
   BorderTrackSetOptions tracks;
+  PresenceHistoryOptions presence;
+  IntersectionDetectorOptions intersection;
   BorderPublishingOptions published;
   double longest_gap = 2.0;    ///< s
   double longest_step = 10.0;  ///< m
@@ -51,6 +55,8 @@ class RoadBorderDetector {
   HitGrid hits_;
   BorderSearch search_;
   BorderTrackSet tracks_;
+  PresenceHistory presence_;
+  IntersectionDetector intersection_;
   RoadModel road_;
   std::optional<Pose2> vehicle_;  ///< map frame, at the last scan
 };

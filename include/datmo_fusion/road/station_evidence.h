@@ -45,6 +45,9 @@ class StationEvidence {
   /// 0 where nothing is known.
   double logOdds(double along) const;
 
+  /// The most that logOdds() becomes.
+  double saturation() const { return options_.saturation; }
+
   /// Where the line is a border: from the first to the last station seen of each piece; gaps of
   /// `bridged_gap` between two stations are left out, shorter ones belong to the piece.
   std::vector<WayInterval> pieces() const;

@@ -1,0 +1,112 @@
+#include "datmo_fusion/road/presence_history.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace datmo {
+
+namespace {
+
+constexpr double kStation = 1.0;  ///< m
+
+/// Without any knowledge.
+constexpr double kUnknown = 0.5;
+
+double probabilityOf(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); }
+
+/// Evidence of a line at a station; a gap that its piece bridges is a border as the piece is.
+double logOddsOf(const FollowedBorder& border, const std::vector<WayInterval>& pieces, double way) {
+  for (const WayInterval& piece : pieces) {
+    if (way >= piece.first && way <= piece.last) {
+      return border.evidence().saturation();
+    }
+  }
+  return border.evidence().logOdds(way);
+}
+
+}  // namespace
+
+void PresenceHistoryOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"ahead", "m", "how far ahead of the vehicle"}, ahead, {1.0, 200.0});
+  visitor.number({"behind", "m", "how far behind it"}, behind, {0.0, 200.0});
+  visitor.number({"updated_to", "m", "what lies farther behind the vehicle stays as it was"},
+                 updated_to, {0.0, 200.0});
+  visitor.number({"forget_time", "s",
+                  "time constant with which what lies ahead and is seen no more is forgotten"},
+                 forget_time, {0.1, 1000.0});
+}
+
+PresenceHistory::PresenceHistory(const PresenceHistoryOptions& options) : options_(options) {}
+
+void PresenceHistory::reset() {
+  presence_ = {};
+  vehicle_.reset();
+}
+
+void PresenceHistory::shift(SidePresence& side) const {
+  const double first = kStation * (std::floor((presence_.way - options_.behind) / kStation) + 0.5);
+  const auto count =
+      static_cast<std::size_t>(std::ceil((options_.ahead + options_.behind) / kStation)) + 1;
+  const auto passed = static_cast<std::ptrdiff_t>(
+      side.probability.empty() ? 0.0 : std::round((first - side.first_station) / kStation));
+  side.station_length = kStation;
+  side.first_station = first;
+  std::vector<double>& values = side.probability;
+  values.erase(values.begin(),
+               values.begin() + std::min(passed, static_cast<std::ptrdiff_t>(values.size())));
+  values.resize(count, kUnknown);
+}
+
+void PresenceHistory::moveTo(const Pose2& base_in_map) {
+  if (vehicle_) {
+    presence_.way += (base_in_map.position() - vehicle_->position()).norm();
+  }
+  vehicle_ = base_in_map;
+  shift(presence_.left);
+  shift(presence_.right);
+}
+
+void PresenceHistory::take(const std::vector<FollowedBorder>& borders, RoadSide which,
+                           double seconds, SidePresence& side) {
+  told_.assign(side.probability.size(), std::nullopt);
+  const Pose2 map_in_base = vehicle_->inverse();
+  for (const FollowedBorder& border : borders) {
+    if (border.side() != which || border.state() != FollowedBorder::State::kConfirmed) {
+      continue;
+    }
+    const std::vector<WayInterval> pieces = border.evidence().pieces();
+    const CurveTable& table = border.table();
+    for (double along = table.first(); along <= table.last(); along += 0.5 * kStation) {
+      const double ahead = (map_in_base * table.at(along).position()).x();
+      const double log_odds = logOddsOf(border, pieces, border.track().way() + along);
+      const double index =
+          std::floor((presence_.way + ahead - side.first_station) / kStation + 0.5);
+      if (ahead < -options_.updated_to || index < 0.0 ||
+          index >= static_cast<double>(told_.size()) || log_odds == 0.0) {
+        continue;
+      }
+      std::optional<double>& told = told_[static_cast<std::size_t>(index)];
+      told = std::max(told.value_or(log_odds), log_odds);
+    }
+  }
+  const double kept = std::exp(-seconds / options_.forget_time);
+  for (std::size_t i = 0; i < told_.size(); ++i) {
+    double& probability = side.probability[i];
+    const double ahead = side.first_station + static_cast<double>(i) * kStation - presence_.way;
+    if (told_[i]) {
+      probability = probabilityOf(*told_[i]);
+    } else if (ahead > 0.0) {
+      probability = kUnknown + kept * (probability - kUnknown);
+    }
+  }
+}
+
+void PresenceHistory::update(const std::vector<FollowedBorder>& borders, const Pose2& base_in_map,
+                             double seconds) {
+  moveTo(base_in_map);
+  take(borders, RoadSide::kLeft, seconds, presence_.left);
+  take(borders, RoadSide::kRight, seconds, presence_.right);
+}
+
+}  // namespace datmo
