@@ -25,7 +25,8 @@ void ArrivalTestOptions::visit(OptionVisitor& visitor) {
                   {1, 1000});
 }
 
-double ArrivalTest::evidence(const SightHistory& history, const std::vector<Point2>& places) const {
+double ArrivalTest::evidence(const SightHistory& history,
+                             const std::vector<SightPlace>& places) const {
   const std::size_t taken = std::min(places.size(), static_cast<std::size_t>(options_.most_places));
   double sum = 0.0;
   for (std::size_t i = 0; i < taken; ++i) {
@@ -34,7 +35,7 @@ double ArrivalTest::evidence(const SightHistory& history, const std::vector<Poin
   return sum / static_cast<double>(taken);
 }
 
-double ArrivalTest::evidenceAt(const SightHistory& history, const Point2& place) const {
+double ArrivalTest::evidenceAt(const SightHistory& history, const SightPlace& place) const {
   const double ghost = options_.seen_of_ghost;
   const auto ratio = [ghost](double seen, Sight sight) {
     return sight == Sight::kHit ? std::log(seen / ghost) : std::log((1.0 - seen) / (1.0 - ghost));

@@ -106,6 +106,7 @@ bool BorderFilter::isFalseAlarm(const Object& object, const Pose2& base_in_map,
   const bool as_thesis = options_.method == BorderFilterOptions::kThesis;
   const std::vector<Point2> places = inMap(base_in_map, object);
   double nearest = std::numeric_limits<double>::infinity();
+  Point2 direction = Point2::UnitX();
   for (const RoadBorder& border : road.borders) {
     const auto offset =
         as_thesis ? outermostCorner(object, base_in_map, border) : innermostPoint(places, border);
@@ -118,6 +119,7 @@ bool BorderFilter::isFalseAlarm(const Object& object, const Pose2& base_in_map,
       continue;
     }
     nearest = offset->outward;
+    direction = offset->direction;
     reason.reason = nearest > margin ? DropReason::kBeyondBorder : DropReason::kOnBorder;
     reason.side = border.side;
     reason.beyond = nearest;
@@ -125,7 +127,11 @@ bool BorderFilter::isFalseAlarm(const Object& object, const Pose2& base_in_map,
   if (nearest == std::numeric_limits<double>::infinity()) {
     return false;
   }
-  reason.motion_evidence = arrival_.evidence(history_, places);
+  std::vector<SightPlace> sights;
+  for (const Point2& place : places) {
+    sights.push_back({place, direction});
+  }
+  reason.motion_evidence = arrival_.evidence(history_, sights);
   const double required = reason.reason == DropReason::kOnBorder ? options_.required_on_border
                                                                  : options_.required_beyond;
   return as_thesis || reason.motion_evidence < required;

@@ -16,9 +16,10 @@ std::optional<BorderOffset> offsetFromLeg(const BorderPoint& from, const BorderP
   if (!(along >= 0.0 && along <= 1.0)) {
     return std::nullopt;
   }
-  const double to_left = (leg.x() * to_point.y() - leg.y() * to_point.x()) / leg.norm();
+  const Point2 direction = leg.normalized();
+  const double to_left = direction.x() * to_point.y() - direction.y() * to_point.x();
   return BorderOffset{side == RoadSide::kLeft ? to_left : -to_left,
-                      from.sigma + along * (to.sigma - from.sigma)};
+                      from.sigma + along * (to.sigma - from.sigma), direction};
 }
 
 }  // namespace

@@ -12,12 +12,19 @@ void SightHistoryOptions::visit(OptionVisitor& visitor) {
   visitor.number({"memory", "s", "how far back what scans saw of a place is known"}, memory,
                  {0.1, 60.0});
   visitor.integer({"most_scans", "1", "and how many scans at the most"}, most_scans, {1, 10000});
-  visitor.number({"tolerance", "m", "a beam that ends nearer to a place has hit it"}, tolerance,
-                 {0.05, 5.0});
+  visitor.number({"tolerance", "m",
+                  "a beam that ends nearer to the line through a place than this has hit it: twice "
+                  "the standard deviation of the range"},
+                 tolerance, {0.05, 5.0});
+  visitor.number({"bearing_tolerance", "rad",
+                  "the same for its bearing: noise, the body's pitch and roll, the pose"},
+                 bearing_tolerance, {0.0, 0.1});
   visitor.number({"lit_share", "1",
                   "part of the angle between two beams that a beam lights: a place beside that is "
                   "not seen free"},
                  lit_share, {0.05, 1.0});
+  visitor.number({"least_incidence", "rad", "of a beam that tells where it meets a line"},
+                 least_incidence, {0.001, 1.0});
 }
 
 SightHistory::SightHistory(const SightHistoryOptions& options) : options_(options) {
@@ -51,41 +58,49 @@ double SightHistory::age(std::size_t back) const {
   return secondsBetween(scans_[back].stamp, scans_.front().stamp);
 }
 
-Sight SightHistory::look(std::size_t back, const Point2& place) const {
-  const Scan& scan = scans_[back];
-  return lookWith(scan, scan.map_in_scanner * place);
-}
-
-Sight SightHistory::lookWith(const Scan& scan, const Point2& seen) const {
-  const double range = seen.norm();
-  const double spacing = std::abs(scan.field.beam_spacing);
-  if (scan.beams.empty() || spacing == 0.0 || range <= scan.field.least_range) {
-    return Sight::kNothing;
+/// The beam that lights a place (m, scanner's frame), and its bearing; null if there is none.
+const SightHistory::Beam* SightHistory::beamTowards(const Scan& scan, const Point2& seen,
+                                                    double& bearing) const {
+  const ScanField& field = scan.field;
+  if (scan.beams.empty() || field.beam_spacing == 0.0 || seen.norm() <= field.least_range) {
+    return nullptr;
   }
-  const double bearing = std::atan2(seen.y(), seen.x());
-  double index = normalizeAngle(bearing - scan.field.first_bearing) / scan.field.beam_spacing;
+  const double turned = normalizeAngle(std::atan2(seen.y(), seen.x()) - field.first_bearing);
+  double index = turned / field.beam_spacing;
   if (index < -0.5) {
-    index += 2.0 * kPi / spacing;  // the other way round
-  }
-  const double reach_beams = std::min(options_.tolerance / (spacing * range), 1e6);
-  const auto last = static_cast<double>(scan.beams.size() - 1);
-  const double from = std::max(0.0, std::ceil(index - reach_beams));
-  const double to = std::min(last, std::floor(index + reach_beams));
-  for (double i = from; i <= to; i += 1.0) {
-    const Beam& beam = scan.beams[static_cast<std::size_t>(i)];
-    const double beside = (i - index) * spacing;
-    const double squared = range * range + static_cast<double>(beam.reach) * beam.reach -
-                           2.0 * range * beam.reach * std::cos(beside);
-    if (beam.hit && squared <= options_.tolerance * options_.tolerance) {
-      return Sight::kHit;
-    }
+    index += 2.0 * kPi / std::abs(field.beam_spacing);  // the other way round
   }
   const double nearest = std::round(index);
-  if (nearest < 0.0 || nearest > last || std::abs(nearest - index) > 0.5 * options_.lit_share) {
+  if (nearest < 0.0 || nearest >= static_cast<double>(scan.beams.size()) ||
+      std::abs(nearest - index) > 0.5 * options_.lit_share) {
+    return nullptr;
+  }
+  bearing = field.first_bearing + nearest * field.beam_spacing;
+  return &scan.beams[static_cast<std::size_t>(nearest)];
+}
+
+Sight SightHistory::look(std::size_t back, const SightPlace& place) const {
+  const Scan& scan = scans_[back];
+  const Point2 seen = scan.map_in_scanner * place.position;
+  double bearing = 0.0;
+  const Beam* beam = beamTowards(scan, seen, bearing);
+  if (beam == nullptr) {
     return Sight::kNothing;
   }
-  const Beam& beam = scan.beams[static_cast<std::size_t>(nearest)];
-  return beam.reach > range + options_.tolerance ? Sight::kFree : Sight::kNothing;
+  const Point2 along_beam(std::cos(bearing), std::sin(bearing));
+  const Point2 direction = scan.map_in_scanner.rotate(place.direction);
+  const double incidence = along_beam.x() * direction.y() - along_beam.y() * direction.x();
+  if (std::abs(incidence) < std::sin(options_.least_incidence)) {
+    return Sight::kNothing;
+  }
+  const double crossing = (seen.x() * direction.y() - seen.y() * direction.x()) / incidence;
+  // Flat beams meet the line elsewhere for a small error of their bearing.
+  const double tolerance =
+      options_.tolerance + options_.bearing_tolerance * crossing / std::abs(incidence);
+  if (beam->hit && std::abs(beam->reach - crossing) <= tolerance) {
+    return Sight::kHit;
+  }
+  return beam->reach > crossing + tolerance ? Sight::kFree : Sight::kNothing;
 }
 
 }  // namespace datmo

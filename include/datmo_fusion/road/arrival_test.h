@@ -26,12 +26,12 @@ class ArrivalTest {
  public:
   explicit ArrivalTest(const ArrivalTestOptions& options);
 
-  /// `places`: m, map frame, where beams of the newest scan ended on the thing, in their order; one
+  /// `places`: where beams of the newest scan ended on the thing, in their order; one
   /// at least. Of many some are taken, spread evenly.
-  double evidence(const SightHistory& history, const std::vector<Point2>& places) const;
+  double evidence(const SightHistory& history, const std::vector<SightPlace>& places) const;
 
  private:
-  double evidenceAt(const SightHistory& history, const Point2& place) const;
+  double evidenceAt(const SightHistory& history, const SightPlace& place) const;
 
   ArrivalTestOptions options_;
 };

@@ -10,6 +10,7 @@ namespace datmo {
 struct BorderOffset {
   double outward = 0.0;  ///< m, from the border away from the road; negative: on the road
   double sigma = 0.0;    ///< m, of the border across itself there
+  Point2 direction = Point2::UnitX();  ///< of the border there, of length 1
 };
 
 /// Of a point in the border's frame, from the nearest leg that it lies beside; none if it lies

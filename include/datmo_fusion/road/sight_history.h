@@ -10,19 +10,28 @@
 namespace datmo {
 
 struct SightHistoryOptions {
-  double memory = 4.0;     ///< s
-  int most_scans = 200;    ///< 1
-  double tolerance = 0.6;  ///< m
-  double lit_share = 0.5;  ///< 1
+  double memory = 4.0;               ///< s
+  int most_scans = 200;              ///< 1
+  double tolerance = 0.4;            ///< m
+  double bearing_tolerance = 0.005;  ///< rad
+  double lit_share = 0.5;            ///< 1
+  double least_incidence = 0.1;      ///< rad
 
   void visit(OptionVisitor& visitor);
+};
+
+/// A place in the map, and the way things run there: a kerb reflects a beam where the beam crosses
+/// it, which for a flat beam may be some way along from the place.
+struct SightPlace {
+  Point2 position = Point2::Zero();    ///< m, map frame
+  Point2 direction = Point2::UnitX();  ///< of length 1
 };
 
 /// What one scan says of a place.
 enum class Sight {
   kNothing,  ///< it looked elsewhere, or something hid the place
-  kFree,     ///< a beam went through it
-  kHit,      ///< a beam ended there
+  kFree,     ///< a beam went through the line along which things run there
+  kHit,      ///< a beam ended on it
 };
 
 /// The beams of the last scans in the map frame, to ask what each of them saw of a place.
@@ -39,8 +48,8 @@ class SightHistory {
   /// How long before the newest scan one was taken, s; 0: the newest. `back` below size().
   double age(std::size_t back) const;
 
-  /// What that scan saw of a place (m, map frame).
-  Sight look(std::size_t back, const Point2& place) const;
+  /// What that scan saw of a place, by the beam that looks there.
+  Sight look(std::size_t back, const SightPlace& place) const;
 
  private:
   /// A beam, from the scanner on.
@@ -55,7 +64,7 @@ class SightHistory {
     std::vector<Beam> beams;
   };
 
-  Sight lookWith(const Scan& scan, const Point2& seen) const;
+  const Beam* beamTowards(const Scan& scan, const Point2& seen, double& bearing) const;
 
   SightHistoryOptions options_;
   std::deque<Scan> scans_;  ///< newest first

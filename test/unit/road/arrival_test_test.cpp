@@ -13,6 +13,10 @@ namespace {
 using samples::scanOf;
 
 const Point2 kPlace(15.0, 0.0);
+
+/// Something across the x axis.
+SightPlace across(const Point2& position) { return {position, Point2::UnitY()}; }
+
 constexpr double kPeriod = 0.06;  // s
 
 /// 3 s of scans that see something at the place when `seen(seconds before the last scan)`.
@@ -24,7 +28,7 @@ double evidenceOf(const std::function<bool(double)>& seen) {
     history.add(
         scanOf(seen(before) ? std::vector<Point2>{kPlace} : std::vector<Point2>{}, kPeriod * i));
   }
-  return ArrivalTest(ArrivalTestOptions{}).evidence(history, {kPlace});
+  return ArrivalTest(ArrivalTestOptions{}).evidence(history, {across(kPlace)});
 }
 
 TEST(ArrivalTestTest, WhatCameToAFreePlaceHasCome) {
@@ -44,7 +48,7 @@ TEST(ArrivalTestTest, WhatWasThereAllTheTimeHasNotCome) {
 TEST(ArrivalTestTest, WhatIsNewToTheHistoryHasNotCome) {
   SightHistory history{SightHistoryOptions{}};
   history.add(scanOf({kPlace}, 0.0));
-  EXPECT_DOUBLE_EQ(ArrivalTest(ArrivalTestOptions{}).evidence(history, {kPlace}), 0.0);
+  EXPECT_DOUBLE_EQ(ArrivalTest(ArrivalTestOptions{}).evidence(history, {across(kPlace)}), 0.0);
 }
 
 TEST(ArrivalTestTest, APlaceThatReflectsNowAndThenIsNoMover) {
@@ -75,8 +79,10 @@ TEST(ArrivalTestTest, TakesTheMeanOverThePlaces) {
   }
   history.add(scanOf({wall, kPlace}, kPeriod * 20));
   const ArrivalTest test{ArrivalTestOptions{}};
-  EXPECT_NEAR(test.evidence(history, {wall, kPlace}),
-              0.5 * (test.evidence(history, {wall}) + test.evidence(history, {kPlace})), 1e-12);
+  EXPECT_NEAR(
+      test.evidence(history, {across(wall), across(kPlace)}),
+      0.5 * (test.evidence(history, {across(wall)}) + test.evidence(history, {across(kPlace)})),
+      1e-12);
 }
 
 }  // namespace

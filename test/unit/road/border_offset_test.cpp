@@ -40,6 +40,7 @@ TEST(BorderOffsetTest, TheNearestLegCounts) {
       borderOf(RoadSide::kRight, {{{0.0, 0.0}, 0.1}, {{10.0, 0.0}, 0.1}, {{10.0, 10.0}, 0.1}});
   EXPECT_DOUBLE_EQ(offsetFrom(border, {9.0, 3.0})->outward, -1.0);
   EXPECT_DOUBLE_EQ(offsetFrom(border, {11.0, 3.0})->outward, 1.0);
+  EXPECT_EQ(offsetFrom(border, {11.0, 3.0})->direction, Point2(0.0, 1.0));
 }
 
 TEST(BorderOffsetTest, ALegWithoutLengthIsLeftOut) {

@@ -10,7 +10,8 @@ using samples::scanOf;
 
 class SightHistoryTest : public testing::Test {
  protected:
-  Sight lookAt(const Point2& place) const { return history_.look(0, place); }
+  /// At something that runs across the x axis.
+  Sight lookAt(const Point2& place) const { return history_.look(0, {place, Point2::UnitY()}); }
 
   SightHistory history_{SightHistoryOptions{}};
 };
@@ -18,9 +19,45 @@ class SightHistoryTest : public testing::Test {
 TEST_F(SightHistoryTest, SeesAHitNearItsEnd) {
   history_.add(scanOf({{20.0, 0.0}}, 0.0));
   EXPECT_EQ(lookAt({20.0, 0.0}), Sight::kHit);
-  EXPECT_EQ(lookAt({20.5, 0.0}), Sight::kHit);
-  EXPECT_EQ(lookAt({20.0, 0.55}), Sight::kHit) << "the tolerance is 0.6 m in all directions";
-  EXPECT_NE(lookAt({20.0, 0.65}), Sight::kHit);
+  EXPECT_EQ(lookAt({20.3, 0.0}), Sight::kHit) << "the tolerance is 0.4 m";
+  EXPECT_EQ(lookAt({20.5, 0.0}), Sight::kNothing);
+}
+
+TEST_F(SightHistoryTest, AFlatBeamMeetsAKerbSomeWayAlong) {
+  // A kerb along y = 2; the beam of 6 degrees meets it at 19.03 m ahead.
+  const Point2 met(2.0 / std::tan(kPi / 30.0), 2.0);
+  history_.add(scanOf({met}, 0.0));
+  const Point2 beside(19.6, 2.0);  // the same beam lights it
+  EXPECT_EQ(history_.look(0, {beside, Point2::UnitX()}), Sight::kHit);
+  EXPECT_EQ(history_.look(0, {beside, Point2::UnitY()}), Sight::kNothing) << "behind the hit";
+}
+
+TEST_F(SightHistoryTest, ThePlaceBesideTheKerbIsFreeIfTheKerbIsSeen) {
+  const Point2 met(2.0 / std::tan(kPi / 30.0), 2.0);
+  history_.add(scanOf({met}, 0.0));
+  EXPECT_EQ(history_.look(0, {{19.0, 1.8}, Point2::UnitX()}), Sight::kNothing)
+      << "no beam lights it";
+  const Point2 in_beam(1.8 / std::tan(kPi / 30.0), 1.8);
+  EXPECT_EQ(history_.look(0, {in_beam, Point2::UnitX()}), Sight::kFree);
+}
+
+TEST_F(SightHistoryTest, AFlatBeamMayMissTheLineByMore) {
+  // 0.005 rad at 19.1 m and 6 degrees to the line are 0.91 m along the beam.
+  const double bearing = kPi / 30.0;
+  const double crossing = 2.0 / std::sin(bearing);
+  const SightPlace place{{crossing * std::cos(bearing), 2.0}, Point2::UnitX()};
+  const auto endsAt = [&](double range, double seconds) {
+    history_.add(scanOf({{range * std::cos(bearing), range * std::sin(bearing)}}, seconds));
+    return history_.look(0, place);
+  };
+  EXPECT_EQ(endsAt(crossing + 1.2, 0.0), Sight::kHit);
+  EXPECT_EQ(endsAt(crossing + 1.5, 1.0), Sight::kFree);
+  EXPECT_EQ(endsAt(crossing - 1.5, 2.0), Sight::kNothing);
+}
+
+TEST_F(SightHistoryTest, ABeamAlongALineTellsNothingOfIt) {
+  history_.add(scanOf({{20.0, 0.0}}, 0.0));
+  EXPECT_EQ(history_.look(0, {{20.0, 0.0}, Point2::UnitX()}), Sight::kNothing);
 }
 
 TEST_F(SightHistoryTest, SeesFreeWhatABeamWentThrough) {
@@ -36,7 +73,7 @@ TEST_F(SightHistoryTest, SeesNothingBehindAHit) {
 
 TEST_F(SightHistoryTest, ABeamWithoutReturnIsFreeAsFarAsTheFieldSays) {
   history_.add(scanOf({}, 0.0));
-  EXPECT_EQ(lookAt({39.0, 0.0}), Sight::kFree);
+  EXPECT_EQ(lookAt({39.5, 0.0}), Sight::kFree);
   EXPECT_EQ(lookAt({39.7, 0.0}), Sight::kNothing);
 }
 
@@ -73,8 +110,8 @@ TEST_F(SightHistoryTest, AFullTurnIsSeenAllRound) {
   history_.add(scan);
   EXPECT_EQ(lookAt({10.0, 0.0}), Sight::kFree);
   EXPECT_EQ(lookAt({-10.0, 0.0}), Sight::kFree);
-  EXPECT_EQ(lookAt({0.0, 10.0}), Sight::kFree);
-  EXPECT_EQ(lookAt({0.0, -10.0}), Sight::kFree);
+  EXPECT_EQ(history_.look(0, {{0.0, 10.0}, Point2::UnitX()}), Sight::kFree);
+  EXPECT_EQ(history_.look(0, {{0.0, -10.0}, Point2::UnitX()}), Sight::kFree);
 }
 
 TEST_F(SightHistoryTest, AScanOfAnUnknownFieldSaysNothing) {
