@@ -61,6 +61,9 @@ void FollowedBorderOptions::visit(OptionVisitor& visitor) {
   visitor.number(
       {"growth", "m", "beyond the seen pieces of a line, where what is hit may belong to it"},
       growth, {0.0, 50.0});
+  visitor.number({"street_depth", "m",
+                  "beyond the line, so far as one sees into a street: house fronts stand nearer"},
+                 street_depth, {1.0, 100.0});
   visitor.number({"trial_time", "s", "in which a line has to become a border"}, trial_time,
                  {0.0, 60.0});
   visitor.number({"refuted_time", "s", "for which a line that did not is not tried again"},
@@ -167,6 +170,7 @@ void FollowedBorder::weigh(const BorderScan& scan, const std::vector<bool>& is_n
     if (beam.hit && std::abs(end_outward) <= options_.tolerance) {
       if (is_nearest[i] && sigmaAt(end.along) <= options_.most_sigma) {
         evidence_.addHit(track_.way() + end.along);
+        evidence_.addDepth(track_.way() + end.along, false);
         seen = true;
       }
     } else if (end_outward > options_.tolerance && from_outward < 0.0) {
@@ -174,6 +178,11 @@ void FollowedBorder::weigh(const BorderScan& scan, const std::vector<bool>& is_n
       const double along = table_->locate(from + share * (beam.end - from)).along;
       if (sigmaAt(along) <= options_.most_sigma) {
         evidence_.addPassage(track_.way() + along);
+        const bool deep = end_outward > options_.street_depth;
+        // What a slanting beam hits far along the line does not bound it where it went through.
+        if (deep || std::abs(end.along - along) < options_.growth) {
+          evidence_.addDepth(track_.way() + along, deep);
+        }
       }
     }
   }

@@ -22,7 +22,7 @@ double logOddsOf(const FollowedBorder& border, const std::vector<WayInterval>& p
       return border.evidence().saturation();
     }
   }
-  return border.evidence().logOdds(way);
+  return -border.evidence().openLogOdds(way);
 }
 
 }  // namespace

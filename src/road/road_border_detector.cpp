@@ -79,11 +79,10 @@ const RoadModel& RoadBorderDetector::update(const SplitScan& scan) {
   road_.stamp = scan.stamp;
   vehicle_ = scan.base_in_map.pose;
   hits_.update(scan);
-  const Pose2 scanner = *vehicle_ * scan.scanner_in_base;
   if (options_.method == "thesis") {
-    search(scanner);
+    search(*vehicle_ * scan.scanner_in_base);
   } else {
-    follow(scan, scanner, seconds.value_or(0.0));
+    follow(scan, seconds.value_or(0.0));
   }
   return road_;
 }
@@ -99,9 +98,9 @@ void RoadBorderDetector::search(const Pose2& scanner) {
   road_.intersection_probability = road_.at_intersection ? 1.0 : 0.0;
 }
 
-void RoadBorderDetector::follow(const SplitScan& scan, const Pose2& scanner, double seconds) {
+void RoadBorderDetector::follow(const SplitScan& scan, double seconds) {
   tracks_.update(borderScan(scan, hits_, seconds), hits_, search_);
-  road_.borders = publishedBorders(tracks_.borders(), scanner, options_.published);
+  road_.borders = publishedBorders(tracks_.borders(), *vehicle_, options_.published);
   presence_.update(tracks_.borders(), *vehicle_, seconds);
   intersection_.update(presence_.presence());
   road_.intersection_probability = intersection_.probability();

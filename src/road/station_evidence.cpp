@@ -23,6 +23,11 @@ void StationEvidenceOptions::visit(OptionVisitor& visitor) {
                   "change of the logarithm of the odds at a place in one scan: its beams there see "
                   "the same thing"},
                  most_in_scan, {0.1, 10.0});
+  visitor.number(
+      {"depth_probability", "1",
+       "that a beam through the mouth of a street sees deep into it, and that one beside "
+       "a street does not"},
+      depth_probability, {0.5, 0.99});
   visitor.number({"saturation", "1", "most that it becomes, up and down"}, saturation, {0.5, 20.0});
   visitor.number({"seen", "1", "from where on there is a border"}, seen, {0.0, 20.0});
   visitor.number(
@@ -33,7 +38,8 @@ void StationEvidenceOptions::visit(OptionVisitor& visitor) {
 StationEvidence::StationEvidence(const StationEvidenceOptions& options)
     : options_(options),
       hit_(std::log(options.hit_probability / options.clutter)),
-      passage_(std::log((1.0 - options.hit_probability) / (1.0 - options.clutter))) {}
+      passage_(std::log((1.0 - options.hit_probability) / (1.0 - options.clutter))),
+      depth_(std::log(options.depth_probability / (1.0 - options.depth_probability))) {}
 
 void StationEvidence::keepWithin(const WayInterval& interval) {
   const int first = indexOf(interval.first);
@@ -54,10 +60,14 @@ void StationEvidence::keepWithin(const WayInterval& interval) {
   stations_.resize(static_cast<std::size_t>(last - first + 1));
 }
 
-StationEvidence::Station* StationEvidence::stationAt(double along) {
+const StationEvidence::Station* StationEvidence::stationAt(double along) const {
   const int offset = indexOf(along) - first_;
   const bool inside = offset >= 0 && offset < static_cast<int>(stations_.size());
   return inside ? &stations_[static_cast<std::size_t>(offset)] : nullptr;
+}
+
+StationEvidence::Station* StationEvidence::stationAt(double along) {
+  return const_cast<Station*>(static_cast<const StationEvidence*>(this)->stationAt(along));
 }
 
 void StationEvidence::addHit(double along) {
@@ -72,19 +82,33 @@ void StationEvidence::addPassage(double along) {
   }
 }
 
+void StationEvidence::addDepth(double along, bool deep) {
+  if (Station* station = stationAt(along)) {
+    station->open_told += deep ? depth_ : -depth_;
+  }
+}
+
 void StationEvidence::endScan() {
+  const auto add = [this](double told, double& sum) {
+    const double step = std::clamp(told, -options_.most_in_scan, options_.most_in_scan);
+    sum = std::clamp(sum + step, -options_.saturation, options_.saturation);
+  };
   for (Station& station : stations_) {
-    const double step = std::clamp(station.told, -options_.most_in_scan, options_.most_in_scan);
-    station.log_odds =
-        std::clamp(station.log_odds + step, -options_.saturation, options_.saturation);
+    add(station.told, station.log_odds);
+    add(station.open_told, station.open_log_odds);
     station.told = 0.0;
+    station.open_told = 0.0;
   }
 }
 
 double StationEvidence::logOdds(double along) const {
-  const int offset = indexOf(along) - first_;
-  const bool inside = offset >= 0 && offset < static_cast<int>(stations_.size());
-  return inside ? stations_[static_cast<std::size_t>(offset)].log_odds : 0.0;
+  const Station* station = stationAt(along);
+  return station != nullptr ? station->log_odds : 0.0;
+}
+
+double StationEvidence::openLogOdds(double along) const {
+  const Station* station = stationAt(along);
+  return station != nullptr ? station->open_log_odds : 0.0;
 }
 
 std::vector<WayInterval> StationEvidence::pieces() const {

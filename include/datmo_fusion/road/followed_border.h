@@ -20,10 +20,11 @@ struct FollowedBorderOptions {
   double correlation = 4.0;       ///< 1
   int vouching_hits = 3;          ///< 1
   double ahead = 45.0;            ///< m
-  double behind = 15.0;           ///< m
+  double behind = 20.0;           ///< m
   double most_sigma = 1.0;        ///< m
   double confirmed_length = 6.0;  ///< m
   double growth = 6.0;            ///< m
+  double street_depth = 8.0;      ///< m
   double trial_time = 1.0;        ///< s
   double refuted_time = 2.0;      ///< s
 

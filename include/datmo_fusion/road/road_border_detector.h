@@ -49,7 +49,7 @@ class RoadBorderDetector {
   /// Time since the last scan, s; none if what is known does not belong to this one.
   std::optional<double> secondsSinceLast(const SplitScan& scan) const;
   void search(const Pose2& scanner);
-  void follow(const SplitScan& scan, const Pose2& scanner, double seconds);
+  void follow(const SplitScan& scan, double seconds);
 
   RoadBorderDetectorOptions options_;
   HitGrid hits_;

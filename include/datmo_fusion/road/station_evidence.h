@@ -8,12 +8,13 @@
 namespace datmo {
 
 struct StationEvidenceOptions {
-  double hit_probability = 0.1;  ///< 1
-  double clutter = 0.015;        ///< 1
-  double most_in_scan = 1.5;     ///< 1
-  double saturation = 4.0;       ///< 1
-  double seen = 1.5;             ///< 1
-  double bridged_gap = 7.0;      ///< m
+  double hit_probability = 0.1;    ///< 1
+  double clutter = 0.015;          ///< 1
+  double most_in_scan = 1.5;       ///< 1
+  double depth_probability = 0.6;  ///< 1
+  double saturation = 4.0;         ///< 1
+  double seen = 1.5;               ///< 1
+  double bridged_gap = 7.0;        ///< m
 
   void visit(OptionVisitor& visitor);
 };
@@ -39,13 +40,21 @@ class StationEvidence {
   void addHit(double along);
   void addPassage(double along);
 
+  /// How far a beam that went through there saw what is behind: so deep as only a street is, or
+  /// not.
+  void addDepth(double along, bool deep);
+
   /// Takes in what the beams of one scan have told since the last call.
   void endScan();
 
   /// 0 where nothing is known.
   double logOdds(double along) const;
 
-  /// The most that logOdds() becomes.
+  /// The same that the road is open there: that beams see deep through the line; 0 where nothing is
+  /// known.
+  double openLogOdds(double along) const;
+
+  /// The most that they become.
   double saturation() const { return options_.saturation; }
 
   /// Where the line is a border: from the first to the last station seen of each piece; gaps of
@@ -59,13 +68,17 @@ class StationEvidence {
   struct Station {
     double log_odds = 0.0;
     double told = 0.0;  ///< by this scan
+    double open_log_odds = 0.0;
+    double open_told = 0.0;
   };
 
   Station* stationAt(double along);
+  const Station* stationAt(double along) const;
 
   StationEvidenceOptions options_;
   double hit_;
   double passage_;
+  double depth_;
   int first_ = 0;  ///< index of the first station
   std::deque<Station> stations_;
 };
