@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <string>
@@ -88,12 +89,15 @@ std::string formatted(const char* format, Values... values) {
   return text.data();
 }
 
+/// To a tenth; without the sign of what is 0 then.
+double tenths(double value) { return std::round(10.0 * value) / 10.0 + 0.0; }
+
 /// "on border 0.3 m, evidence 1.2".
 std::string textOf(const DroppedObjectMessage& dropped) {
   const bool on = dropped.reason == DroppedObjectMessage::ON_BORDER;
   return std::string(on ? "on" : "beyond") + " border" +
-         formatted(" %.1f m, evidence %.1f", static_cast<double>(dropped.beyond),
-                   static_cast<double>(dropped.motion_evidence));
+         formatted(" %.1f m, evidence %.1f", tenths(dropped.beyond),
+                   tenths(dropped.motion_evidence));
 }
 
 Marker labelOf(const std_msgs::Header& header, const DroppedObjectMessage& dropped,

@@ -40,6 +40,9 @@ void DriveSummary::add(const Pipeline::Output& output) {
   for (const auto& [name, objects] : output.objects) {
     fused_lists_ += name == "fused" ? 1 : 0;
   }
+  for (const DroppedObjectsPtr& dropped : output.dropped) {
+    dropped_objects_ += dropped->objects.size();
+  }
   for (const GridSlamOutput& slam : output.slam) {
     const geometry_msgs::Point& at = slam.pose->pose.pose.position;
     const Point2 position(at.x, at.y);
@@ -62,6 +65,9 @@ void printTable(std::ostream& out, const DriveSummary& drive, const Pipeline& pi
   line(out, "scans processed") << drive.scans() << '\n';
   if (drive.fusedGrids() > 0) {
     line(out, "grids fused") << drive.fusedGrids() << '\n';
+  }
+  if (drive.droppedObjects() > 0) {
+    line(out, "objects left out at road borders") << drive.droppedObjects() << '\n';
   }
   if (drive.fusedLists() > 0) {
     line(out, "lists of objects fused") << drive.fusedLists() << '\n';

@@ -20,6 +20,7 @@ class DriveSummary {
 
   std::size_t fusedGrids() const { return fused_grids_; }
   std::size_t fusedLists() const { return fused_lists_; }  ///< of objects
+  std::size_t droppedObjects() const { return dropped_objects_; }  ///< at borders of the road
   std::size_t scans() const { return scans_; }
   double distance() const { return distance_; }  ///< m, along the estimated poses
   std::size_t fusedTrackLists() const { return tracks_are_fused_ ? track_lists_ : 0; }
@@ -28,6 +29,7 @@ class DriveSummary {
  private:
   std::size_t fused_grids_ = 0;
   std::size_t fused_lists_ = 0;
+  std::size_t dropped_objects_ = 0;
   std::size_t track_lists_ = 0;
   bool tracks_are_fused_ = false;
   std::size_t scans_ = 0;

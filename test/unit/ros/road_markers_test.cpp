@@ -112,6 +112,7 @@ TEST(RoadMarkers, DroppedObjectsAreGreyAndTellWhy) {
   dropped.objects[0].motion_evidence = -1.25F;
   dropped.objects[1].reason = DroppedObjectMessage::BEYOND_BORDER;
   dropped.objects[1].beyond = 2.0F;
+  dropped.objects[1].motion_evidence = -0.01F;
   const MarkerArray markers = markersOf(dropped, MarkersOptions());
   const Marker outline = get(markers, "dropped objects", 0);
   EXPECT_EQ(outline.header.frame_id, "base_link");
@@ -119,7 +120,7 @@ TEST(RoadMarkers, DroppedObjectsAreGreyAndTellWhy) {
   EXPECT_EQ(outline.points.at(0).x, 2.0);
   EXPECT_EQ(outline.color.r, outline.color.g);
   EXPECT_EQ(outline.color.r, outline.color.b);
-  EXPECT_EQ(get(markers, "dropped labels", 0).text, "on border 0.3 m, evidence -1.2");
+  EXPECT_EQ(get(markers, "dropped labels", 0).text, "on border 0.3 m, evidence -1.3");
   EXPECT_EQ(get(markers, "dropped labels", 1).text, "beyond border 2.0 m, evidence 0.0");
 }
 
