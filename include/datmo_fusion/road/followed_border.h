@@ -23,7 +23,8 @@ struct FollowedBorderOptions {
   double behind = 20.0;           ///< m
   double most_sigma = 1.0;        ///< m
   double confirmed_length = 6.0;  ///< m
-  double growth = 6.0;            ///< m
+  double growth = 12.0;           ///< m
+  double fitted_growth = 3.0;     ///< m
   double street_depth = 8.0;      ///< m
   double trial_time = 1.0;        ///< s
   double refuted_time = 2.0;      ///< s
@@ -76,7 +77,8 @@ class FollowedBorder {
   double sigmaAt(double along) const;
 
  private:
-  bool reaches(double along) const;
+  /// Whether the line may go on there, `inside` (m) within the ends of where it may at all.
+  bool reaches(double along, double inside = 0.0) const;
   void findReach();
   void moveAnchor(const BorderScan& scan);
   void correct(const BorderScan& scan, const std::vector<bool>& is_nearest);

@@ -12,6 +12,8 @@
 #include "datmo_fusion/road/intersection_detector.h"
 #include "datmo_fusion/road/presence_history.h"
 #include "datmo_fusion/road/road_model.h"
+#include "datmo_fusion/road/road_opening.h"
+#include "datmo_fusion/road/side_streets.h"
 
 namespace datmo {
 
@@ -24,6 +26,8 @@ struct RoadBorderDetectorOptions {
   BorderTrackSetOptions tracks;
   PresenceHistoryOptions presence;
   IntersectionDetectorOptions intersection;
+  RoadOpeningOptions openings;
+  SideStreetOptions side_streets;
   BorderPublishingOptions published;
   double longest_gap = 2.0;    ///< s
   double longest_step = 10.0;  ///< m
@@ -57,6 +61,7 @@ class RoadBorderDetector {
   BorderTrackSet tracks_;
   PresenceHistory presence_;
   IntersectionDetector intersection_;
+  SideStreets side_streets_;
   RoadModel road_;
   std::optional<Pose2> vehicle_;  ///< map frame, at the last scan
 };

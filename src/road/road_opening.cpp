@@ -1,0 +1,80 @@
+#include "datmo_fusion/road/road_opening.h"
+
+#include <cmath>
+#include <limits>
+
+#include "datmo_fusion/common/angle.h"
+
+namespace datmo {
+
+namespace {
+
+/// m to the side from the vehicle's axis to that border of its own road that is nearest to a place
+/// ahead; `otherwise` where there is none.
+double distanceTo(const std::vector<RoadBorder>& borders, RoadSide side, const Pose2& map_in_base,
+                  double ahead, double otherwise) {
+  double nearest = std::numeric_limits<double>::infinity();
+  double distance = otherwise;
+  for (const RoadBorder& border : borders) {
+    if (border.side != side || border.side_street) {
+      continue;
+    }
+    for (const BorderPoint& point : border.points) {
+      const Point2 seen = map_in_base * point.position;
+      if (std::abs(seen.x() - ahead) < nearest) {
+        nearest = std::abs(seen.x() - ahead);
+        distance = std::abs(seen.y());
+      }
+    }
+  }
+  return distance;
+}
+
+}  // namespace
+
+void RoadOpeningOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"border_above", "1", "probability of a border that an opening must lie behind"},
+                 border_above, {0.0, 1.0});
+  visitor.number({"open_below", "1", "probability of a border below which the road is open"},
+                 open_below, {0.0, 1.0});
+  visitor.number({"least_length", "m", "along the road; streets are wider, kerbs are rounded"},
+                 least_length, {0.5, 100.0});
+  visitor.number({"most_length", "m", "along the road; longer ones are no streets"}, most_length,
+                 {0.5, 1000.0});
+  visitor.number(
+      {"usual_distance", "m", "from the vehicle to an opening on a side without any known border"},
+      usual_distance, {0.0, 50.0});
+}
+
+std::vector<RoadOpening> openingsOf(const BorderPresence& presence,
+                                    const std::vector<RoadBorder>& borders,
+                                    const Pose2& base_in_map, const RoadOpeningOptions& options) {
+  std::vector<RoadOpening> openings;
+  const Pose2 map_in_base = base_in_map.inverse();
+  for (const RoadSide side : {RoadSide::kLeft, RoadSide::kRight}) {
+    const SidePresence& stations = side == RoadSide::kLeft ? presence.left : presence.right;
+    const double outward = side == RoadSide::kLeft ? 1.0 : -1.0;
+    bool behind_border = false;
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i <= stations.probability.size(); ++i) {
+      const bool end = i == stations.probability.size();
+      if (!end && stations.probability[i] < options.open_below) {
+        continue;
+      }
+      const double length = static_cast<double>(i - begin) * stations.station_length;
+      if (behind_border && length >= options.least_length && length <= options.most_length) {
+        const double middle = 0.5 * (static_cast<double>(begin) + static_cast<double>(i) - 1.0);
+        const double ahead =
+            stations.first_station + middle * stations.station_length - presence.way;
+        const double aside = distanceTo(borders, side, map_in_base, ahead, options.usual_distance);
+        openings.push_back(
+            {side, base_in_map * Pose2(ahead, outward * aside, outward * 0.5 * kPi), length});
+      }
+      behind_border = behind_border || (!end && stations.probability[i] > options.border_above);
+      begin = i + 1;
+    }
+  }
+  return openings;
+}
+
+}  // namespace datmo

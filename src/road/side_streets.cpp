@@ -1,0 +1,110 @@
+#include "datmo_fusion/road/side_streets.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "datmo_fusion/common/angle.h"
+
+namespace datmo {
+
+namespace {
+
+/// m, from a point of a published border to the next.
+constexpr double kPointStep = 1.0;
+
+}  // namespace
+
+SideStreetOptions::SideStreetOptions() {
+  search.length = 12.0;
+  search.left_windows = 15;
+  search.heading_range = 0.3;
+  search.heading_step = 0.1;
+  search.sections = 12;
+}
+
+void SideStreetOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"period", "s", "from a look into the openings to the next one"}, period,
+                 {0.0, 10.0});
+  visitor.number({"memory", "s", "for which a border is known that was not found again"}, memory,
+                 {0.0, 60.0});
+  visitor.number({"start", "m", "from the vehicle's border outward: the corners' kerbs are round"},
+                 start, {0.0, 20.0});
+  visitor.number({"same_distance", "m", "two borders nearer to each other are one"}, same_distance,
+                 {0.0, 10.0});
+  visitor.number({"same_heading", "rad", "and turned by no more"}, same_heading, {0.0, kPi});
+  visitor.group("search", [&] { search.visit(visitor); });
+}
+
+SideStreets::SideStreets(const SideStreetOptions& options)
+    : options_(options), search_(options.search) {
+  checkOptions(options);
+}
+
+void SideStreets::update(const HitGrid& hits, const std::vector<RoadOpening>& openings,
+                         Stamp stamp) {
+  if (last_look_ && secondsBetween(*last_look_, stamp) < options_.period) {
+    return;
+  }
+  last_look_ = stamp;
+  known_.erase(std::remove_if(known_.begin(), known_.end(),
+                              [&](const Known& known) {
+                                return secondsBetween(known.seen, stamp) > options_.memory;
+                              }),
+               known_.end());
+  for (const RoadOpening& opening : openings) {
+    lookInto(hits, opening, stamp);
+  }
+}
+
+void SideStreets::lookInto(const HitGrid& hits, const RoadOpening& opening, Stamp stamp) {
+  const Pose2 from = opening.middle * Pose2(options_.start, 0.0, 0.0);
+  for (const RoadSide side : {RoadSide::kLeft, RoadSide::kRight}) {
+    const auto found = search_.search(hits, from, side);
+    if (!found) {
+      continue;
+    }
+    const auto known = std::find_if(known_.begin(), known_.end(),
+                                    [&](const Known& other) { return isSame(other, *found); });
+    if (known == known_.end()) {
+      known_.push_back({*found, opening.side, stamp});
+    } else {
+      *known = {*found, opening.side, stamp};
+    }
+  }
+}
+
+bool SideStreets::isSame(const Known& known, const FoundBorder& found) const {
+  const Point2 offset = known.border.line.inverse() * found.line.position();
+  return known.border.side == found.side && std::abs(offset.y()) < options_.same_distance &&
+         std::abs(offset.x()) < known.border.length &&
+         std::abs(angleBetween(known.border.line.heading(), found.line.heading())) <
+             options_.same_heading;
+}
+
+std::vector<RoadBorder> SideStreets::borders(Stamp stamp) const {
+  std::vector<RoadBorder> borders;
+  for (const Known& known : known_) {
+    const FoundBorder& found = known.border;
+    RoadBorder border;
+    border.side = known.of;
+    border.side_street = true;
+    border.probability = std::min(1.0, found.score);
+    border.unseen_for = secondsBetween(known.seen, stamp);
+    const int steps = std::max(1, static_cast<int>(std::ceil(found.length / kPointStep)));
+    for (int i = 0; i <= steps; ++i) {
+      const double along = found.length * i / steps;
+      const Eigen::Vector2d across(1.0, along);
+      border.points.push_back(
+          {found.line * Point2(along, 0.0), std::sqrt(across.dot(found.covariance * across))});
+    }
+    borders.push_back(border);
+  }
+  return borders;
+}
+
+void SideStreets::reset() {
+  known_.clear();
+  last_look_.reset();
+}
+
+}  // namespace datmo
