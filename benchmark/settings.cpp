@@ -7,7 +7,8 @@ namespace datmo {
 namespace {
 
 Settings settingsOf(int beams, const char* file) {
-  return {beams, readPipelineOptions(file).grid_slam.slam};
+  const PipelineOptions options = readPipelineOptions(file);
+  return {beams, options.grid_slam.slam, options.road_border.detector};
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "datmo_fusion/road/road_border_detector.h"
 #include "datmo_fusion/slam/grid_slam.h"
 
 namespace datmo {
@@ -8,6 +9,7 @@ namespace datmo {
 struct Settings {
   int beams;
   GridSlamOptions slam;
+  RoadBorderDetectorOptions road_border;
 };
 
 /// The demonstrator (thesis 1.3.3, 3.3.1): a beam every 2 degrees over 160, and
