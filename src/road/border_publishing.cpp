@@ -24,6 +24,9 @@ void enter(const FollowedBorder& border, const Pose2& map_in_vehicle,
   const CurveTable& table = border.table();
   const double way = border.track().way();
   for (const WayInterval& piece : border.evidence().pieces()) {
+    if (piece.last - piece.first < options.least_length) {
+      continue;
+    }
     for (double at = piece.first; at <= piece.last; at += 0.5 * options.spacing) {
       const double along = at - way;
       if (along < table.first() || along > table.last()) {
@@ -59,6 +62,8 @@ void BorderPublishingOptions::visit(OptionVisitor& visitor) {
   visitor.number({"ahead", "m", "how far ahead of the vehicle borders are told"}, ahead,
                  {1.0, 200.0});
   visitor.number({"behind", "m", "how far behind it"}, behind, {0.0, 200.0});
+  visitor.number({"least_length", "m", "of a piece of border that is told: posts are shorter"},
+                 least_length, {0.0, 50.0});
   visitor.number({"spacing", "m", "of a border's points along the vehicle's heading"}, spacing,
                  {0.1, 20.0});
 }

@@ -61,6 +61,8 @@ void FollowedBorderOptions::visit(OptionVisitor& visitor) {
   visitor.number(
       {"growth", "m", "beyond the seen pieces of a line, where what is hit may belong to it"},
       growth, {0.0, 50.0});
+  visitor.number({"fitted_growth", "m", "the same, where it corrects the line; at most growth"},
+                 fitted_growth, {0.0, 50.0});
   visitor.number({"street_depth", "m",
                   "beyond the line, so far as one sees into a street: house fronts stand nearer"},
                  street_depth, {1.0, 100.0});
@@ -101,13 +103,14 @@ void FollowedBorder::findReach() {
                       piece.last - track_.way() + options_.growth});
   }
   if (state_ == State::kTrial) {
-    reach_.push_back({-track_.way(), found_length_ - track_.way()});
+    const double margin = options_.growth - options_.fitted_growth;
+    reach_.push_back({-track_.way() - margin, found_length_ - track_.way() + margin});
   }
 }
 
-bool FollowedBorder::reaches(double along) const {
-  return std::any_of(reach_.begin(), reach_.end(), [along](const WayInterval& piece) {
-    return along >= piece.first && along <= piece.last;
+bool FollowedBorder::reaches(double along, double inside) const {
+  return std::any_of(reach_.begin(), reach_.end(), [&](const WayInterval& piece) {
+    return along >= piece.first + inside && along <= piece.last - inside;
   });
 }
 
@@ -146,7 +149,8 @@ void FollowedBorder::correct(const BorderScan& scan, const std::vector<bool>& is
     const BorderScan::Beam& beam = scan.beams[i];
     const CurvePlace& place = places_[i];
     if (!beam.hit || beam.hits_there < options_.vouching_hits || !is_nearest[i] ||
-        std::abs(place.aside) > options_.tolerance) {
+        std::abs(place.aside) > options_.tolerance ||
+        !reaches(place.along, options_.growth - options_.fitted_growth)) {
       continue;
     }
     const Point2 line = table_->at(place.along).rotate(Point2(1.0, 0.0));

@@ -13,7 +13,7 @@ struct BorderTrackOptions {
   double offset_drift = 0.03;            ///< m per square root of m
   double heading_drift = 0.003;          ///< rad per square root of m
   double curvature_drift = 0.0003;       ///< 1/m per square root of m
-  double curvature_sigma = 0.004;        ///< 1/m
+  double curvature_sigma = 0.002;        ///< 1/m
   double curvature_rate_sigma = 0.0001;  ///< 1/m^2
   double curvature_rate_length = 20.0;   ///< m
   double map_drift = 0.01;               ///< m per square root of s

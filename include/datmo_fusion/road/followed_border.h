@@ -23,7 +23,7 @@ struct FollowedBorderOptions {
   double behind = 20.0;           ///< m
   double most_sigma = 1.0;        ///< m
   double confirmed_length = 6.0;  ///< m
-  double growth = 12.0;           ///< m
+  double growth = 8.0;            ///< m
   double fitted_growth = 3.0;     ///< m
   double street_depth = 8.0;      ///< m
   double trial_time = 1.0;        ///< s

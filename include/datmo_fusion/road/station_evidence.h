@@ -14,7 +14,7 @@ struct StationEvidenceOptions {
   double depth_probability = 0.6;  ///< 1
   double saturation = 4.0;         ///< 1
   double seen = 1.5;               ///< 1
-  double bridged_gap = 7.0;        ///< m
+  double bridged_gap = 8.0;        ///< m
 
   void visit(OptionVisitor& visitor);
 };
