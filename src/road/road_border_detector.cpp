@@ -1,6 +1,7 @@
 #include "datmo_fusion/road/road_border_detector.h"
 
 #include <cmath>
+#include <utility>
 
 #include "datmo_fusion/road/border_scan.h"
 
@@ -43,6 +44,8 @@ void RoadBorderDetectorOptions::visit(OptionVisitor& visitor) {
   visitor.group("tracks", [&] { tracks.visit(visitor); });
   visitor.group("presence", [&] { presence.visit(visitor); });
   visitor.group("intersection", [&] { intersection.visit(visitor); });
+  visitor.group("openings", [&] { openings.visit(visitor); });
+  visitor.group("side_streets", [&] { side_streets.visit(visitor); });
   visitor.group("published", [&] { published.visit(visitor); });
   visitor.number({"longest_gap", "s", "between two scans; after a longer one all is forgotten"},
                  longest_gap, {0.01, 1000.0});
@@ -58,7 +61,8 @@ RoadBorderDetector::RoadBorderDetector(const RoadBorderDetectorOptions& options)
       search_(options.search),
       tracks_(options.tracks),
       presence_(options.presence),
-      intersection_(options.intersection) {}
+      intersection_(options.intersection),
+      side_streets_(options.side_streets) {}
 
 std::optional<double> RoadBorderDetector::secondsSinceLast(const SplitScan& scan) const {
   if (!vehicle_) {
@@ -103,6 +107,12 @@ void RoadBorderDetector::follow(const SplitScan& scan, double seconds) {
   road_.borders = publishedBorders(tracks_.borders(), *vehicle_, options_.published);
   presence_.update(tracks_.borders(), *vehicle_, seconds);
   intersection_.update(presence_.presence());
+  side_streets_.update(
+      hits_, openingsOf(presence_.presence(), road_.borders, *vehicle_, options_.openings),
+      scan.stamp);
+  for (RoadBorder& border : side_streets_.borders(scan.stamp)) {
+    road_.borders.push_back(std::move(border));
+  }
   road_.intersection_probability = intersection_.probability();
   road_.at_intersection = intersection_.atIntersection();
 }
@@ -112,6 +122,7 @@ void RoadBorderDetector::reset() {
   tracks_.clear();
   presence_.reset();
   intersection_.reset();
+  side_streets_.reset();
   road_ = {};
   vehicle_.reset();
 }
