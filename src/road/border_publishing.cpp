@@ -20,7 +20,7 @@ using Stations = std::vector<StationPoint>;
 
 /// Brings the pieces of one line to the stations that it is innermost at.
 void enter(const FollowedBorder& border, const Pose2& map_in_vehicle,
-           const BorderPublishingOptions& options, double most_sigma, Stations& stations) {
+           const BorderPublishingOptions& options, Stations& stations) {
   const CurveTable& table = border.table();
   const double way = border.track().way();
   for (const WayInterval& piece : border.evidence().pieces()) {
@@ -37,7 +37,8 @@ void enter(const FollowedBorder& border, const Pose2& map_in_vehicle,
       const Point2 seen = map_in_vehicle * position;
       const double index = std::floor((seen.x() + options.behind) / options.spacing);
       const double outward = border.side() == RoadSide::kLeft ? seen.y() : -seen.y();
-      if (sigma > most_sigma || index < 0.0 || index >= static_cast<double>(stations.size())) {
+      if (sigma > options.most_sigma || index < 0.0 ||
+          index >= static_cast<double>(stations.size())) {
         continue;
       }
       StationPoint& station = stations[static_cast<std::size_t>(index)];
@@ -62,6 +63,8 @@ void BorderPublishingOptions::visit(OptionVisitor& visitor) {
   visitor.number({"ahead", "m", "how far ahead of the vehicle borders are told"}, ahead,
                  {1.0, 200.0});
   visitor.number({"behind", "m", "how far behind it"}, behind, {0.0, 200.0});
+  visitor.number({"most_sigma", "m", "across: what is less sure is not told"}, most_sigma,
+                 {0.05, 10.0});
   visitor.number({"least_length", "m", "of a piece of border that is told: posts are shorter"},
                  least_length, {0.0, 50.0});
   visitor.number({"spacing", "m", "of a border's points along the vehicle's heading"}, spacing,
@@ -79,7 +82,7 @@ std::vector<RoadBorder> publishedBorders(const std::vector<FollowedBorder>& bord
     Stations stations(count);
     for (const FollowedBorder& border : borders) {
       if (border.side() == side && border.state() == FollowedBorder::State::kConfirmed) {
-        enter(border, map_in_vehicle, options, 1.0, stations);
+        enter(border, map_in_vehicle, options, stations);
       }
     }
     const FollowedBorder* last = nullptr;

@@ -60,14 +60,20 @@ void StationEvidence::keepWithin(const WayInterval& interval) {
   stations_.resize(static_cast<std::size_t>(last - first + 1));
 }
 
-const StationEvidence::Station* StationEvidence::stationAt(double along) const {
+std::size_t StationEvidence::slotAt(double along) const {
   const int offset = indexOf(along) - first_;
-  const bool inside = offset >= 0 && offset < static_cast<int>(stations_.size());
-  return inside ? &stations_[static_cast<std::size_t>(offset)] : nullptr;
+  return offset >= 0 ? std::min(static_cast<std::size_t>(offset), stations_.size())
+                     : stations_.size();
+}
+
+const StationEvidence::Station* StationEvidence::stationAt(double along) const {
+  const std::size_t slot = slotAt(along);
+  return slot < stations_.size() ? &stations_[slot] : nullptr;
 }
 
 StationEvidence::Station* StationEvidence::stationAt(double along) {
-  return const_cast<Station*>(static_cast<const StationEvidence*>(this)->stationAt(along));
+  const std::size_t slot = slotAt(along);
+  return slot < stations_.size() ? &stations_[slot] : nullptr;
 }
 
 void StationEvidence::addHit(double along) {

@@ -12,6 +12,7 @@ struct BorderPublishingOptions {
   double ahead = 40.0;        ///< m
   double behind = 10.0;       ///< m
   double spacing = 1.0;       ///< m
+  double most_sigma = 1.0;    ///< m
   double least_length = 3.0;  ///< m
 
   void visit(OptionVisitor& visitor);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <deque>
 #include <vector>
 
@@ -72,6 +73,8 @@ class StationEvidence {
     double open_told = 0.0;
   };
 
+  /// The number of stations where there is none.
+  std::size_t slotAt(double along) const;
   Station* stationAt(double along);
   const Station* stationAt(double along) const;
 
