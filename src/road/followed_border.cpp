@@ -11,6 +11,9 @@ namespace {
 /// rad; a line that runs so far across the vehicle's heading is no border of its way.
 constexpr double kAcross = degrees(60.0);
 
+/// m ahead or behind; so near to the vehicle no bend takes a border over to the other side.
+constexpr double kBeside = 10.0;
+
 double square(double value) { return value * value; }
 
 double clampTo(const WayInterval& interval, double way) {
@@ -224,8 +227,8 @@ bool FollowedBorder::isOver(const Pose2& vehicle) const {
   const Pose2 seen = vehicle.inverse() * table_->at(nearest);
   const bool behind = seen.x() < -options_.behind;
   const bool across = std::abs(seen.heading()) > kAcross;
-  const double outward = side_ == RoadSide::kLeft ? place.aside : -place.aside;
-  const bool crossed = nearest == place.along && outward > 0.0;
+  const double outward = side_ == RoadSide::kLeft ? seen.y() : -seen.y();
+  const bool crossed = outward < 0.0 && std::abs(seen.x()) < kBeside;
   return behind || across || crossed;
 }
 
