@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "road_samples.h"
+#include "ros/road_samples.h"
 #include "split_scan_door.h"
 #include <gtest/gtest.h>
 

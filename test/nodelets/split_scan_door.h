@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "chain.h"
-#include "split_scan_samples.h"
+#include "ros/split_scan_samples.h"
 
 #include <rosgraph_msgs/Clock.h>
 

@@ -19,7 +19,7 @@ class DriveSummary {
   void add(const Pipeline::Output& output);
 
   std::size_t fusedGrids() const { return fused_grids_; }
-  std::size_t fusedLists() const { return fused_lists_; }  ///< of objects
+  std::size_t fusedLists() const { return fused_lists_; }          ///< of objects
   std::size_t droppedObjects() const { return dropped_objects_; }  ///< at borders of the road
   std::size_t scans() const { return scans_; }
   double distance() const { return distance_; }  ///< m, along the estimated poses

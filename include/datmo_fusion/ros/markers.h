@@ -47,8 +47,9 @@ visualization_msgs::MarkerArray markersOf(const ObjectArray& objects,
 visualization_msgs::MarkerArray markersOf(const TrackArray& tracks, const MarkersOptions& options);
 
 /// For each stretch of the road's borders a line ("road borders"), orange on the left, pink on the
-/// right, darker those of a side street, the wider and less transparent the likelier, and thin lines at two standard
-/// deviations to its sides ("road border sigmas"). Throws InputError as fromMessage does.
+/// right, darker those of a side street, the wider and less transparent the likelier, and thin
+/// lines at two standard deviations to its sides ("road border sigmas"). Throws InputError as
+/// fromMessage does.
 visualization_msgs::MarkerArray markersOf(const RoadBorders& road, const MarkersOptions& options);
 
 /// "intersection" and its probability ("intersection"), at the vehicle's place at the scan; nothing
