@@ -216,6 +216,18 @@ FoundBorder SideSearch::refined(const Candidate& candidate) const {
 
 }  // namespace
 
+std::vector<BorderPoint> pointsOf(const FoundBorder& found, double spacing) {
+  const int steps = std::max(1, static_cast<int>(std::ceil(found.length / spacing)));
+  std::vector<BorderPoint> points;
+  for (int i = 0; i <= steps; ++i) {
+    const double along = found.length * i / steps;
+    const Eigen::Vector2d row(1.0, along);
+    const double sigma = std::sqrt(row.dot(found.covariance * row));
+    points.push_back({found.line * Point2(along, 0.0), sigma});
+  }
+  return points;
+}
+
 BorderSearch::BorderSearch(const BorderSearchOptions& options) : options_(checked(options)) {}
 
 std::optional<FoundBorder> BorderSearch::search(const HitGrid& hits, const Pose2& from,

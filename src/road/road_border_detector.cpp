@@ -1,6 +1,5 @@
 #include "datmo_fusion/road/road_border_detector.h"
 
-#include <cmath>
 #include <utility>
 
 #include "datmo_fusion/road/border_scan.h"
@@ -19,11 +18,7 @@ RoadBorder borderOf(const FoundBorder& found, double spacing) {
   RoadBorder border;
   border.side = found.side;
   border.probability = 1.0;
-  for (double along = 0.0; along <= found.length; along += spacing) {
-    const Eigen::Vector2d row(1.0, along);
-    const double sigma = std::sqrt(row.dot(found.covariance * row));
-    border.points.push_back({found.line * Point2(along, 0.0), sigma});
-  }
+  border.points = pointsOf(found, spacing);
   return border;
 }
 

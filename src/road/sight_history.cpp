@@ -94,6 +94,9 @@ Sight SightHistory::look(std::size_t back, const SightPlace& place) const {
     return Sight::kNothing;
   }
   const double crossing = (seen.x() * direction.y() - seen.y() * direction.x()) / incidence;
+  if (crossing <= 0.0) {
+    return Sight::kNothing;  // the beam beside the place leads away from the line
+  }
   // Flat beams meet the line elsewhere for a small error of their bearing.
   const double tolerance =
       options_.tolerance + options_.bearing_tolerance * crossing / std::abs(incidence);

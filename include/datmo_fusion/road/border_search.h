@@ -45,6 +45,9 @@ struct FoundBorder {
   double score = 0.0;  ///< of the window
 };
 
+/// A found border from its begin to its end, points at most `spacing` (m, more than 0) apart.
+std::vector<BorderPoint> pointsOf(const FoundBorder& found, double spacing);
+
 /// Looks for a border of the road in windows at rising distances from the vehicle (thesis 3.5).
 class BorderSearch {
  public:

@@ -206,6 +206,20 @@ TEST_F(RoadBorderDetectorTest, ThesisTakesTheBestWindowOfEachSide) {
   EXPECT_FALSE(road.at_intersection);
 }
 
+TEST_F(RoadBorderDetectorTest, AWindowShorterThanTheSpacingHasBothItsEnds) {
+  RoadBorderDetectorOptions options;
+  options.method = "thesis";
+  options.search.length = 15.0;
+  options.published.spacing = 20.0;
+  detector_ = RoadBorderDetector(options);
+  const RoadModel road = drive(30.0);
+  ASSERT_FALSE(road.borders.empty());
+  for (const RoadBorder& border : road.borders) {
+    ASSERT_EQ(border.points.size(), 2U);
+    EXPECT_NEAR((border.points[1].position - border.points[0].position).norm(), 15.0, 1e-9);
+  }
+}
+
 TEST_F(RoadBorderDetectorTest, RefusesAMethodThatThereIsNot) {
   RoadBorderDetectorOptions options;
   options.method = "guess";

@@ -61,6 +61,22 @@ TEST_F(SightHistoryTest, ABeamAlongALineTellsNothingOfIt) {
   EXPECT_EQ(history_.look(0, {{20.0, 0.0}, Point2::UnitX()}), Sight::kNothing);
 }
 
+TEST(SightHistorySparseTest, ABeamThatLeadsAwayFromTheLineTellsNothingOfIt) {
+  // Beams half a radian apart: the one straight ahead lights a place that lies 0.2 rad beside it,
+  // but meets the line there only behind the scanner, at -3.4 m.
+  SightHistoryOptions options;
+  options.lit_share = 1.0;
+  SightHistory history(options);
+  SplitScan scan = scanOf({}, 0.0);
+  scan.field.beams = 3;
+  scan.field.beam_spacing = 0.5;
+  scan.field.first_bearing = -0.5;
+  history.add(scan);
+  const Point2 place(10.0 * std::cos(0.2), 10.0 * std::sin(0.2));
+  EXPECT_EQ(history.look(0, {place, {std::cos(0.15), std::sin(0.15)}}), Sight::kNothing);
+  EXPECT_EQ(history.look(0, {place, Point2::UnitY()}), Sight::kFree);
+}
+
 TEST_F(SightHistoryTest, SeesFreeWhatABeamWentThrough) {
   history_.add(scanOf({{20.0, 0.0}}, 0.0));
   EXPECT_EQ(lookAt({10.0, 0.0}), Sight::kFree);
