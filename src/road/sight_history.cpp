@@ -71,8 +71,9 @@ const SightHistory::Beam* SightHistory::beamTowards(const Scan& scan, const Poin
     index += 2.0 * kPi / std::abs(field.beam_spacing);  // the other way round
   }
   const double nearest = std::round(index);
-  if (nearest < 0.0 || nearest >= static_cast<double>(scan.beams.size()) ||
-      std::abs(nearest - index) > 0.5 * options_.lit_share) {
+  const bool in_field = nearest >= 0.0 && nearest < static_cast<double>(scan.beams.size());
+  // In this form NaN, of a place beyond all numbers, is left out.
+  if (!in_field || !(std::abs(nearest - index) <= 0.5 * options_.lit_share)) {
     return nullptr;
   }
   bearing = field.first_bearing + nearest * field.beam_spacing;

@@ -1,5 +1,7 @@
 #include "datmo_fusion/road/sight_history.h"
 
+#include <limits>
+
 #include "sight_samples.h"
 #include <gtest/gtest.h>
 
@@ -104,6 +106,12 @@ TEST_F(SightHistoryTest, SeesNothingOutsideOfTheField) {
   history_.add(scanOf({}, 0.0));
   EXPECT_EQ(lookAt({-10.0, 0.0}), Sight::kNothing);
   EXPECT_EQ(lookAt({0.5, 10.0}), Sight::kNothing) << "the field ends at 80 degrees";
+}
+
+TEST_F(SightHistoryTest, SeesNothingBeyondAllNumbers) {
+  history_.add(scanOf({}, 0.0));
+  EXPECT_EQ(lookAt({std::numeric_limits<double>::quiet_NaN(), 0.0}), Sight::kNothing);
+  EXPECT_EQ(lookAt({std::numeric_limits<double>::infinity(), 0.0}), Sight::kNothing);
 }
 
 TEST_F(SightHistoryTest, ABlindBeamSaysNothing) {
