@@ -73,23 +73,32 @@ void BorderFilterOptions::visit(OptionVisitor& visitor) {
                  required_beyond, {-100.0, 100.0});
   visitor.group("history", [&] { history.visit(visitor); });
   visitor.group("arrival", [&] { arrival.visit(visitor); });
+  visitor.group("extension", [&] { extension.visit(visitor); });
 }
 
 BorderFilter::BorderFilter(const BorderFilterOptions& options)
-    : options_(options), history_(options.history), arrival_(options.arrival) {
+    : options_(options),
+      history_(options.history),
+      arrival_(options.arrival),
+      extension_(options.extension) {
   checkOptions(options);
+}
+
+void BorderFilter::reset() {
+  history_.clear();
+  extension_.reset();
 }
 
 std::vector<DroppedObject> BorderFilter::filter(const SplitScan& scan, const RoadModel& road,
                                                 ObjectList& objects) {
   history_.add(scan);
+  extension_.update(road, scan.base_in_map.pose);
   std::vector<DroppedObject> dropped;
   std::vector<Object> kept;
   for (Object& object : objects.objects) {
-    DroppedObject reason;
-    if (isFalseAlarm(object, scan.base_in_map.pose, road, reason)) {
-      reason.object = std::move(object);
-      dropped.push_back(std::move(reason));
+    if (auto alarm = falseAlarm(object, scan.base_in_map.pose, road)) {
+      alarm->object = std::move(object);
+      dropped.push_back(std::move(*alarm));
     } else {
       kept.push_back(std::move(object));
     }
@@ -98,43 +107,79 @@ std::vector<DroppedObject> BorderFilter::filter(const SplitScan& scan, const Roa
   return dropped;
 }
 
-bool BorderFilter::isFalseAlarm(const Object& object, const Pose2& base_in_map,
-                                const RoadModel& road, DroppedObject& reason) const {
+std::optional<DroppedObject> BorderFilter::falseAlarm(const Object& object,
+                                                      const Pose2& base_in_map,
+                                                      const RoadModel& road) const {
   if (object.dynamic_state != DynamicState::kMoving || object.points.empty()) {
-    return false;
+    return std::nullopt;
   }
   const bool as_thesis = options_.method == BorderFilterOptions::kThesis;
   const std::vector<Point2> places = inMap(base_in_map, object);
-  double nearest = std::numeric_limits<double>::infinity();
-  Point2 direction = Point2::UnitX();
+  std::optional<Outside> outside = outsideKnown(object, places, base_in_map, road);
+  if (!outside && !as_thesis) {
+    outside = outsideExtension(places);
+  }
+  if (!outside) {
+    return std::nullopt;
+  }
+  std::vector<SightPlace> sights;
+  for (const Point2& place : places) {
+    sights.push_back({place, outside->offset.direction});
+  }
+  outside->reason.motion_evidence = arrival_.evidence(history_, sights);
+  const bool is_false = as_thesis || outside->reason.motion_evidence < outside->required;
+  return is_false ? std::make_optional(outside->reason) : std::nullopt;
+}
+
+std::optional<BorderFilter::Outside> BorderFilter::outsideKnown(const Object& object,
+                                                                const std::vector<Point2>& places,
+                                                                const Pose2& base_in_map,
+                                                                const RoadModel& road) const {
+  std::optional<Outside> nearest;
   for (const RoadBorder& border : road.borders) {
-    const auto offset =
-        as_thesis ? outermostCorner(object, base_in_map, border) : innermostPoint(places, border);
-    if (!offset || offset->sigma > options_.most_sigma) {
+    const auto offset = options_.method == BorderFilterOptions::kThesis
+                            ? outermostCorner(object, base_in_map, border)
+                            : innermostPoint(places, border);
+    // In this form a standard deviation that is not a number is too high.
+    if (!offset || !(offset->sigma <= options_.most_sigma)) {
       continue;
     }
     const double margin = options_.margin + options_.sigmas * offset->sigma;
     const double reach = border.side_street ? margin : options_.reach;
-    if (offset->outward < -margin || offset->outward > reach || offset->outward > nearest) {
+    const double before = nearest ? nearest->offset.outward : reach;
+    if (offset->outward < -margin || offset->outward > before) {
       continue;
     }
-    nearest = offset->outward;
-    direction = offset->direction;
-    reason.reason = nearest > margin ? DropReason::kBeyondBorder : DropReason::kOnBorder;
-    reason.side = border.side;
-    reason.beyond = nearest;
+    const bool is_beyond = offset->outward > margin;
+    nearest =
+        Outside{{}, *offset, is_beyond ? options_.required_beyond : options_.required_on_border};
+    nearest->reason.reason = is_beyond ? DropReason::kBeyondBorder : DropReason::kOnBorder;
+    nearest->reason.side = border.side;
+    nearest->reason.beyond = offset->outward;
   }
-  if (nearest == std::numeric_limits<double>::infinity()) {
-    return false;
+  return nearest;
+}
+
+std::optional<BorderFilter::Outside> BorderFilter::outsideExtension(
+    const std::vector<Point2>& places) const {
+  for (const RoadSide side : {RoadSide::kLeft, RoadSide::kRight}) {
+    std::optional<BorderOffset> innermost;
+    for (const Point2& place : places) {
+      const auto offset = extension_.offset(side, place);
+      if (offset && (!innermost || offset->outward < innermost->outward)) {
+        innermost = offset;
+      }
+    }
+    if (innermost && innermost->outward >= -options_.margin &&
+        innermost->outward <= options_.reach) {
+      Outside outside{{}, *innermost, options_.required_beyond};
+      outside.reason.reason = DropReason::kBeyondBorder;
+      outside.reason.side = side;
+      outside.reason.beyond = innermost->outward;
+      return outside;
+    }
   }
-  std::vector<SightPlace> sights;
-  for (const Point2& place : places) {
-    sights.push_back({place, direction});
-  }
-  reason.motion_evidence = arrival_.evidence(history_, sights);
-  const double required = reason.reason == DropReason::kOnBorder ? options_.required_on_border
-                                                                 : options_.required_beyond;
-  return as_thesis || reason.motion_evidence < required;
+  return std::nullopt;
 }
 
 }  // namespace datmo

@@ -1,5 +1,6 @@
 #include "datmo_fusion/road/border_scan.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -11,6 +12,11 @@ BorderScan borderScan(const SplitScan& scan, const HitGrid& hits, double seconds
   result.scanner = vehicle * scan.scanner_in_base;
   result.seconds = seconds;
   result.beams.reserve(scan.field.beams);
+  const auto addHit = [&](const ScanPoint& point) {
+    const Point2 end = vehicle * point.position;
+    const CellIndex cell = hits.window().cellAt(end);
+    result.beams.push_back({end, true, hits.smoothed(cell), hits.isLasting(cell)});
+  };
   auto point = scan.points.begin();
   auto blind = scan.blind_beams.begin();
   for (std::uint32_t beam = 0; beam < scan.field.beams; ++beam) {
@@ -19,8 +25,7 @@ BorderScan borderScan(const SplitScan& scan, const HitGrid& hits, double seconds
     }
     bool hit = false;
     for (; point != scan.points.end() && point->beam <= beam; ++point) {
-      const Point2 end = vehicle * point->position;
-      result.beams.push_back({end, true, hits.smoothed(hits.window().cellAt(end))});
+      addHit(*point);
       hit = true;
     }
     const bool is_blind = blind != scan.blind_beams.end() && *blind == beam;
@@ -28,9 +33,11 @@ BorderScan borderScan(const SplitScan& scan, const HitGrid& hits, double seconds
       const double bearing = scan.field.first_bearing + beam * scan.field.beam_spacing;
       const Point2 end(scan.field.free_range * std::cos(bearing),
                        scan.field.free_range * std::sin(bearing));
-      result.beams.push_back({result.scanner * end, false, 0});
+      result.beams.push_back({result.scanner * end, false, 0, false});
     }
   }
+  // Of a scan whose field is not known, all.
+  std::for_each(point, scan.points.end(), addHit);
   return result;
 }
 

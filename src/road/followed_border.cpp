@@ -69,6 +69,10 @@ void FollowedBorderOptions::visit(OptionVisitor& visitor) {
   visitor.number({"street_depth", "m",
                   "beyond the line, so far as one sees into a street: house fronts stand nearer"},
                  street_depth, {1.0, 100.0});
+  visitor.number(
+      {"passage_from", "m",
+       "a beam that crosses a line nearer to the scanner may go over what is low: a kerb"},
+      passage_from, {0.0, 100.0});
   visitor.number({"trial_time", "s", "in which a line has to become a border"}, trial_time,
                  {0.0, 60.0});
   visitor.number({"refuted_time", "s", "for which a line that did not is not tried again"},
@@ -85,7 +89,13 @@ FollowedBorder::FollowedBorder(const FollowedBorderOptions& options, const Found
   findReach();
 }
 
-double FollowedBorder::sigmaAt(double along) const { return std::sqrt(track_.varianceAt(along)); }
+double FollowedBorder::sigmaAt(double along) const {
+  return std::sqrt(std::max(0.0, track_.varianceAt(along)));
+}
+
+bool FollowedBorder::tellsOf(const BorderScan::Beam& beam) const {
+  return beam.lasting || state_ == State::kConfirmed;
+}
 
 void FollowedBorder::advance(const BorderScan& scan) {
   if (state_ == State::kRefuted) {
@@ -106,7 +116,7 @@ void FollowedBorder::findReach() {
                       piece.last - track_.way() + options_.growth});
   }
   if (state_ == State::kTrial) {
-    const double margin = options_.growth - options_.fitted_growth;
+    const double margin = std::max(0.0, options_.growth - options_.fitted_growth);
     reach_.push_back({-track_.way() - margin, found_length_ - track_.way() + margin});
   }
 }
@@ -148,12 +158,12 @@ void FollowedBorder::moveAnchor(const BorderScan& scan) {
 
 void FollowedBorder::correct(const BorderScan& scan, const std::vector<bool>& is_nearest) {
   taken_.clear();
+  const double unfitted = std::max(0.0, options_.growth - options_.fitted_growth);
   for (std::size_t i = 0; i < scan.beams.size(); ++i) {
     const BorderScan::Beam& beam = scan.beams[i];
     const CurvePlace& place = places_[i];
-    if (!beam.hit || beam.hits_there < options_.vouching_hits || !is_nearest[i] ||
-        std::abs(place.aside) > options_.tolerance ||
-        !reaches(place.along, options_.growth - options_.fitted_growth)) {
+    if (!beam.hit || !beam.lasting || beam.hits_there < options_.vouching_hits || !is_nearest[i] ||
+        std::abs(place.aside) > options_.tolerance || !reaches(place.along, unfitted)) {
       continue;
     }
     const Point2 line = table_->at(place.along).rotate(Point2(1.0, 0.0));
@@ -175,16 +185,19 @@ void FollowedBorder::weigh(const BorderScan& scan, const std::vector<bool>& is_n
     const CurvePlace& end = places_[i];
     const double end_outward = outward * end.aside;
     if (beam.hit && std::abs(end_outward) <= options_.tolerance) {
-      if (is_nearest[i] && sigmaAt(end.along) <= options_.most_sigma) {
+      if (is_nearest[i] && tellsOf(beam) && sigmaAt(end.along) <= options_.most_sigma) {
         evidence_.addHit(track_.way() + end.along);
         evidence_.addDepth(track_.way() + end.along, false);
         seen = true;
       }
     } else if (end_outward > options_.tolerance && from_outward < 0.0) {
       const double share = from_outward / (from_outward - end_outward);
-      const double along = table_->locate(from + share * (beam.end - from)).along;
+      const Point2 crossing = from + share * (beam.end - from);
+      const double along = table_->locate(crossing).along;
       if (sigmaAt(along) <= options_.most_sigma) {
-        evidence_.addPassage(track_.way() + along);
+        if ((crossing - from).norm() >= options_.passage_from) {
+          evidence_.addPassage(track_.way() + along);
+        }
         const bool deep = end_outward > options_.street_depth;
         // What a slanting beam hits far along the line does not bound it where it went through.
         if (deep || std::abs(end.along - along) < options_.growth) {

@@ -8,7 +8,8 @@ namespace datmo {
 
 namespace {
 
-constexpr double kStation = 1.0;  ///< m
+constexpr double kStation = 1.0;    ///< m
+constexpr double kLeastStep = 0.2;  ///< m, that counts as driven
 
 /// Without any knowledge.
 constexpr double kUnknown = 0.5;
@@ -42,6 +43,7 @@ PresenceHistory::PresenceHistory(const PresenceHistoryOptions& options) : option
 void PresenceHistory::reset() {
   presence_ = {};
   vehicle_.reset();
+  counted_.reset();
 }
 
 void PresenceHistory::shift(SidePresence& side) const {
@@ -59,10 +61,16 @@ void PresenceHistory::shift(SidePresence& side) const {
 }
 
 void PresenceHistory::moveTo(const Pose2& base_in_map) {
-  if (vehicle_) {
-    presence_.way += (base_in_map.position() - vehicle_->position()).norm();
-  }
   vehicle_ = base_in_map;
+  if (!counted_) {
+    counted_ = base_in_map;
+  }
+  // Neither the jitter of a standing vehicle's pose nor a way back is a way driven.
+  const Point2 step = counted_->inverse() * base_in_map.position();
+  if (step.norm() >= kLeastStep) {
+    presence_.way += step.x() > 0.0 ? step.norm() : 0.0;
+    counted_ = base_in_map;
+  }
   shift(presence_.left);
   shift(presence_.right);
 }

@@ -10,6 +10,12 @@ namespace {
 
 const RoadBorderDetectorOptions& checked(const RoadBorderDetectorOptions& options) {
   checkOptions(options);
+  const StationEvidenceOptions& evidence = options.tracks.border.evidence;
+  if (evidence.hit_probability <= evidence.clutter) {
+    throw OptionError(
+        "tracks/border/evidence/hit_probability = " + std::to_string(evidence.hit_probability) +
+        ": expected more than clutter (" + std::to_string(evidence.clutter) + ")");
+  }
   return options;
 }
 

@@ -11,6 +11,8 @@ namespace {
 
 /// m, from a point of a published border to the next.
 constexpr double kPointStep = 1.0;
+/// At a time: four streets have half as many.
+constexpr std::size_t kMostKnown = 16;
 
 }  // namespace
 
@@ -65,10 +67,10 @@ void SideStreets::lookInto(const HitGrid& hits, const RoadOpening& opening, Stam
     }
     const auto known = std::find_if(known_.begin(), known_.end(),
                                     [&](const Known& other) { return isSame(other, *found); });
-    if (known == known_.end()) {
-      known_.push_back({*found, opening.side, stamp});
-    } else {
+    if (known != known_.end()) {
       *known = {*found, opening.side, stamp};
+    } else if (known_.size() < kMostKnown) {
+      known_.push_back({*found, opening.side, stamp});
     }
   }
 }
@@ -90,13 +92,7 @@ std::vector<RoadBorder> SideStreets::borders(Stamp stamp) const {
     border.side_street = true;
     border.probability = std::min(1.0, found.score);
     border.unseen_for = secondsBetween(known.seen, stamp);
-    const int steps = std::max(1, static_cast<int>(std::ceil(found.length / kPointStep)));
-    for (int i = 0; i <= steps; ++i) {
-      const double along = found.length * i / steps;
-      const Eigen::Vector2d across(1.0, along);
-      border.points.push_back(
-          {found.line * Point2(along, 0.0), std::sqrt(across.dot(found.covariance * across))});
-    }
+    border.points = pointsOf(found, kPointStep);
     borders.push_back(border);
   }
   return borders;

@@ -10,7 +10,13 @@ namespace {
 
 constexpr double kStation = 1.0;  ///< m
 
-int indexOf(double along) { return static_cast<int>(std::floor(along / kStation)); }
+/// Farther stations, and what is no number, are at this limit.
+constexpr double kFarthest = 1 << 28;
+
+int indexOf(double along) {
+  // In this order NaN becomes the lower limit.
+  return static_cast<int>(std::min(kFarthest, std::max(-kFarthest, std::floor(along / kStation))));
+}
 
 }  // namespace
 
@@ -57,7 +63,7 @@ void StationEvidence::keepWithin(const WayInterval& interval) {
     stations_.emplace_front();
     --first_;
   }
-  stations_.resize(static_cast<std::size_t>(last - first + 1));
+  stations_.resize(static_cast<std::size_t>(last - first) + 1);
 }
 
 std::size_t StationEvidence::slotAt(double along) const {

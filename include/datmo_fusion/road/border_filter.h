@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,8 @@
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/scan.h"
 #include "datmo_fusion/road/arrival_test.h"
+#include "datmo_fusion/road/border_offset.h"
+#include "datmo_fusion/road/road_extension.h"
 #include "datmo_fusion/road/road_model.h"
 #include "datmo_fusion/road/sight_history.h"
 
@@ -26,6 +29,7 @@ struct BorderFilterOptions {
   double required_beyond = 1.0;     ///< 1
   SightHistoryOptions history;
   ArrivalTestOptions arrival;
+  RoadExtensionOptions extension;
 
   void visit(OptionVisitor& visitor);
 };
@@ -48,7 +52,8 @@ struct DroppedObject {
 /// (ArrivalTest): that is told from the first sight on, before anybody could have tracked it.
 ///
 /// An object lies on a border or beyond if all of its points do; by the thesis, if a corner of its
-/// rectangle does, and however it moves. Objects that nobody says to move are left alone.
+/// rectangle does, and however it moves. Where no border is known the road is taken to go on as it
+/// was (RoadExtension). Objects that nobody says to move are left alone.
 class BorderFilter {
  public:
   /// Throws OptionError.
@@ -60,16 +65,32 @@ class BorderFilter {
   std::vector<DroppedObject> filter(const SplitScan& scan, const RoadModel& road,
                                     ObjectList& objects);
 
+  /// Forgets where the road went on when no border was known.
+  void forgetRoad() { extension_.reset(); }
+
   /// Forgets all, as at the start.
-  void reset() { history_.clear(); }
+  void reset();
 
  private:
-  bool isFalseAlarm(const Object& object, const Pose2& base_in_map, const RoadModel& road,
-                    DroppedObject& reason) const;
+  /// How an object lies on a border or beyond.
+  struct Outside {
+    DroppedObject reason;
+    BorderOffset offset;
+    double required = 0.0;  ///< evidence of motion
+  };
+
+  /// By the borders that are known.
+  std::optional<Outside> outsideKnown(const Object& object, const std::vector<Point2>& places,
+                                      const Pose2& base_in_map, const RoadModel& road) const;
+  /// Where none is known, by how the road goes on.
+  std::optional<Outside> outsideExtension(const std::vector<Point2>& places) const;
+  std::optional<DroppedObject> falseAlarm(const Object& object, const Pose2& base_in_map,
+                                          const RoadModel& road) const;
 
   BorderFilterOptions options_;
   SightHistory history_;
   ArrivalTest arrival_;
+  RoadExtension extension_;
 };
 
 }  // namespace datmo

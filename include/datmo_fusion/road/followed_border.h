@@ -26,6 +26,7 @@ struct FollowedBorderOptions {
   double growth = 8.0;            ///< m
   double fitted_growth = 3.0;     ///< m
   double street_depth = 8.0;      ///< m
+  double passage_from = 8.0;      ///< m
   double trial_time = 1.0;        ///< s
   double refuted_time = 2.0;      ///< s
 
@@ -78,6 +79,8 @@ class FollowedBorder {
 
  private:
   /// Whether the line may go on there, `inside` (m) within the ends of where it may at all.
+  /// Whether the end of a beam tells of a border: what passes by makes no new one.
+  bool tellsOf(const BorderScan::Beam& beam) const;
   bool reaches(double along, double inside = 0.0) const;
   void findReach();
   void moveAnchor(const BorderScan& scan);

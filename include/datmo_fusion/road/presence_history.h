@@ -43,6 +43,7 @@ class PresenceHistory {
   PresenceHistoryOptions options_;
   BorderPresence presence_;
   std::optional<Pose2> vehicle_;             ///< map frame
+  std::optional<Pose2> counted_;             ///< map frame, up to where the way is counted
   std::vector<std::optional<double>> told_;  ///< log odds of one side's stations, by this scan
 };
 

@@ -1,6 +1,7 @@
 #include "datmo_fusion/road/station_evidence.h"
 
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -87,6 +88,17 @@ TEST_F(StationEvidenceTest, DepthTellsThatTheRoadIsOpen) {
   EXPECT_GT(evidence_.openLogOdds(5.5), 0.0);
   EXPECT_LT(evidence_.openLogOdds(7.5), 0.0);
   EXPECT_EQ(evidence_.openLogOdds(9.5), 0.0);
+}
+
+TEST(StationEvidenceLimitsTest, PlacesOutOfThisWorldDoNoHarm) {
+  StationEvidence evidence{StationEvidenceOptions{}};
+  for (const double far : {1e300, -1e300, std::numeric_limits<double>::quiet_NaN()}) {
+    evidence.keepWithin({far, far + 65.0});
+    evidence.addHit(far);
+    evidence.addPassage(far);
+    evidence.endScan();
+    EXPECT_LE(evidence.pieces().size(), 1U);
+  }
 }
 
 }  // namespace

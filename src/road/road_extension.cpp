@@ -1,0 +1,103 @@
+#include "datmo_fusion/road/road_extension.h"
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "datmo_fusion/common/angle.h"
+
+namespace datmo {
+
+namespace {
+
+std::size_t indexOf(RoadSide side) { return side == RoadSide::kLeft ? 0 : 1; }
+
+/// At one point, heading away from another one.
+Pose2 away(const Point2& point, const Point2& from) {
+  const Point2 direction = point - from;
+  return {point, std::atan2(direction.y(), direction.x())};
+}
+
+}  // namespace
+
+void RoadExtensionOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"length", "m", "that a border is taken to go on beyond its end; 0: it does not"},
+                 length, {0.0, 200.0});
+  visitor.number({"memory_way", "m",
+                  "that the vehicle drives, for which a side without any border is taken to be "
+                  "bounded as it was"},
+                 memory_way, {0.0, 1000.0});
+  visitor.number(
+      {"most_turn", "rad", "of the vehicle from that border: then it is in another road"},
+      most_turn, {0.0, kPi});
+}
+
+RoadExtension::RoadExtension(const RoadExtensionOptions& options) : options_(options) {
+  checkOptions(options);
+}
+
+void RoadExtension::addEnds(const RoadBorder& border, Side& side) {
+  const std::vector<BorderPoint>& points = border.points;
+  side.ends.push_back(away(points[0].position, points[1].position));
+  side.ends.push_back(away(points[points.size() - 1].position, points[points.size() - 2].position));
+}
+
+void RoadExtension::remember(const RoadBorder& border, const Pose2& base_in_map, Side& side) const {
+  for (std::size_t i = 0; i + 1 < border.points.size(); ++i) {
+    const Pose2 leg = away(border.points[i + 1].position, border.points[i].position);
+    const double from = (base_in_map.inverse() * border.points[i].position).x();
+    const double to = (base_in_map.inverse() * leg.position()).x();
+    if (from <= 0.0 && to >= 0.0) {
+      side.last = leg;
+      side.seen_from = base_in_map.position();
+    }
+  }
+}
+
+void RoadExtension::update(const RoadModel& road, const Pose2& base_in_map) {
+  for (Side& side : sides_) {
+    side.ends.clear();
+  }
+  for (const RoadBorder& border : road.borders) {
+    if (!border.side_street && border.points.size() > 1) {
+      Side& side = sides_[indexOf(border.side)];
+      addEnds(border, side);
+      remember(border, base_in_map, side);
+    }
+  }
+  for (Side& side : sides_) {
+    const bool is_over =
+        side.last &&
+        ((side.seen_from - base_in_map.position()).norm() > options_.memory_way ||
+         std::abs(angleBetween(side.last->heading(), base_in_map.heading())) > options_.most_turn);
+    if (is_over) {
+      side.last.reset();
+    }
+  }
+}
+
+std::optional<BorderOffset> RoadExtension::offset(RoadSide which, const Point2& place) const {
+  const Side& side = sides_[indexOf(which)];
+  const double outward_is_left = which == RoadSide::kLeft ? 1.0 : -1.0;
+  std::optional<BorderOffset> result;
+  double least = options_.length;
+  // Each border has two ends: the first leads back, the second ahead.
+  for (std::size_t i = 0; i < side.ends.size(); ++i) {
+    const Point2 seen = side.ends[i].inverse() * place;
+    const double ahead = i % 2 == 1 ? 1.0 : -1.0;
+    if (seen.x() > 0.0 && seen.x() < least) {
+      least = seen.x();
+      result = BorderOffset{outward_is_left * ahead * seen.y(), 0.0,
+                            side.ends[i].rotate(Point2::UnitX())};
+    }
+  }
+  if (side.ends.empty() && side.last) {
+    result = BorderOffset{outward_is_left * (side.last->inverse() * place).y(), 0.0,
+                          side.last->rotate(Point2::UnitX())};
+  }
+  return result;
+}
+
+void RoadExtension::reset() { sides_ = {}; }
+
+}  // namespace datmo
