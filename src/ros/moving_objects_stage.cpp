@@ -66,15 +66,15 @@ std::optional<MovingObjectsOutput> MovingObjectsStage::takeSplitScan(
   }
 }
 
-RoadModel MovingObjectsStage::roadAt(Stamp stamp, const std::string& map_frame) {
+std::optional<RoadModel> MovingObjectsStage::roadAt(Stamp stamp, const std::string& map_frame) {
   if (!road_) {
     monitor_.warned({"no_borders", "no borders of the road have come yet: all objects pass"});
-    return {};
+    return std::nullopt;
   }
   if (road_frame_ != map_frame) {
     monitor_.warned({"wrong_frame", "borders of the road in '" + road_frame_ + "': expected '" +
                                         map_frame + "', the scan's map; all objects pass"});
-    return {};
+    return std::nullopt;
   }
   // Of a clock that jumped they may also be too new.
   const double age = std::abs(secondsBetween(road_->stamp, stamp));
@@ -83,16 +83,20 @@ RoadModel MovingObjectsStage::roadAt(Stamp stamp, const std::string& map_frame) 
                                         " s from the scan: expected at most " +
                                         std::to_string(options_.border_age) +
                                         " s; all objects pass"});
-    return {};
+    return std::nullopt;
   }
-  return *road_;
+  return road_;
 }
 
 DroppedObjectsPtr MovingObjectsStage::dropAtBorders(const SplitScan& scan,
                                                     const SplitScanMessage& message,
                                                     ObjectList& objects) {
-  const RoadModel road = roadAt(scan.stamp, message.map_frame);
-  const std::vector<DroppedObject> dropped = border_filter_.filter(scan, road, objects);
+  const std::optional<RoadModel> road = roadAt(scan.stamp, message.map_frame);
+  if (!road) {
+    border_filter_.forgetRoad();
+  }
+  const std::vector<DroppedObject> dropped =
+      border_filter_.filter(scan, road.value_or(RoadModel{}), objects);
   monitor_.figure("objects dropped at road borders [1]", static_cast<double>(dropped.size()));
   return boost::make_shared<DroppedObjects>(
       toMessage(dropped, scan.stamp, message.header.frame_id));

@@ -56,10 +56,13 @@ class HitGrid {
   /// thesis, where the 3 x 3 cells have not been hit for `least_age`.
   int cutSmoothed(CellIndex index) const {
     const Cell& cell = cells_.atOrEmpty(index);
-    const bool passes = cell.smoothed >= options_.cut_share * highest_ &&
-                        static_cast<double>(cell.last_hit - cell.first_hit) >= options_.least_age;
+    const bool passes = cell.smoothed >= options_.cut_share * highest_ && isLasting(cell);
     return passes ? cell.smoothed : 0;
   }
+
+  /// Whether the 3 x 3 cells around a cell have been hit for `least_age`: longer than what moves
+  /// stays at a place.
+  bool isLasting(CellIndex index) const { return isLasting(cells_.atOrEmpty(index)); }
 
   /// Forgets all, as at the start.
   void reset();
@@ -72,6 +75,10 @@ class HitGrid {
     float first_hit = 0.0F;  ///< s since the first of all, in the 3 x 3 cells around
     float last_hit = 0.0F;   ///< s since the first of all, in the 3 x 3 cells around
   };
+
+  bool isLasting(const Cell& cell) const {
+    return static_cast<double>(cell.last_hit - cell.first_hit) >= options_.least_age;
+  }
 
   /// As much more (or less) for the sums of the cells around, of those that `counts` in a window.
   void addAround(CellIndex centre, int hits, const GridWindow& counts);

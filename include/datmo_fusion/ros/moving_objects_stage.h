@@ -43,7 +43,7 @@ class MovingObjectsStage {
 
  private:
   /// The borders that serve a scan; none, and the monitor warned, if there are none.
-  RoadModel roadAt(Stamp stamp, const std::string& map_frame);
+  std::optional<RoadModel> roadAt(Stamp stamp, const std::string& map_frame);
   DroppedObjectsPtr dropAtBorders(const SplitScan& scan, const SplitScanMessage& message,
                                   ObjectList& objects);
 
