@@ -58,6 +58,11 @@ void IntersectionDetectorOptions::visit(OptionVisitor& visitor) {
                   "since the last border: behind it the border is lost, or it was no road but an "
                   "open place"},
                  most_opening, {1.0, 500.0});
+  visitor.number({"least_road", "m",
+                  "of border that a side had of late: what is open after less is a car park"},
+                 least_road, {0.0, 100.0});
+  visitor.number({"road_memory", "m", "way after which a border counts for 37 % of that"},
+                 road_memory, {1.0, 1000.0});
   visitor.number({"station_limit", "1",
                   "highest logarithm of odds that one station tells: its beams have errors in "
                   "common"},
@@ -109,8 +114,17 @@ double IntersectionDetector::meanOpenness(const SidePresence& side, double way, 
   return sum / (last - first + 1);
 }
 
+void IntersectionDetector::pass(const SidePresence& side, double way, double step,
+                                PassedSide& passed) const {
+  const bool has_border = !side.probability.empty() && side.station_length > 0.0 &&
+                          isBorder(side, stationAt(side, way), -1);
+  passed.bordered =
+      passed.bordered * std::exp(-step / options_.road_memory) + (has_border ? step : 0.0);
+}
+
 double IntersectionDetector::openness(const SidePresence& side, double way,
-                                      BorderEnd& border_end) const {
+                                      PassedSide& passed) const {
+  BorderEnd& border_end = passed.border_end;
   if (side.probability.empty() || !(side.station_length > 0.0)) {
     return 0.0;
   }
@@ -121,7 +135,9 @@ double IntersectionDetector::openness(const SidePresence& side, double way,
       break;
     }
   }
-  if (!border_end || way - *border_end > options_.most_opening) {
+  // A few parked cars are no road.
+  const bool is_road = passed.bordered >= options_.least_road;
+  if (!border_end || way - *border_end > options_.most_opening || !is_road) {
     return 0.0;
   }
   const double half_station = 0.5 * side.station_length;
@@ -151,8 +167,10 @@ void IntersectionDetector::update(const BorderPresence& presence) {
   }
   const double step = way - last_way_.value_or(way);
   last_way_ = way;
+  pass(presence.left, way, step, left_);
+  pass(presence.right, way, step, right_);
   const double evidence =
-      combined(openness(presence.left, way, left_end_), openness(presence.right, way, right_end_));
+      combined(openness(presence.left, way, left_), openness(presence.right, way, right_));
   const double enter_rate = 1.0 / options_.road_length;
   const double rate = enter_rate + 1.0 / options_.crossing_length;
   const double usual = enter_rate / rate;
@@ -167,8 +185,8 @@ void IntersectionDetector::update(const BorderPresence& presence) {
 
 void IntersectionDetector::reset() {
   last_way_.reset();
-  left_end_.reset();
-  right_end_.reset();
+  left_ = {};
+  right_ = {};
   probability_ = 0.0;
   at_intersection_ = false;
 }

@@ -11,12 +11,14 @@ struct IntersectionDetectorOptions {
   double border_above = 0.65;     ///< 1
   double least_border = 5.0;      ///< m
   double least_opening = 8.0;     ///< m
+  double least_road = 15.0;       ///< m
+  double road_memory = 60.0;      ///< m
   double most_opening = 45.0;     ///< m
   double station_limit = 2.0;     ///< 1
   double evidence_length = 1.5;   ///< m
   double road_length = 150.0;     ///< m
   double crossing_length = 20.0;  ///< m
-  double enter_above = 0.7;       ///< 1
+  double enter_above = 0.9;       ///< 1
   double leave_below = 0.3;       ///< 1
 
   void visit(OptionVisitor& visitor);
@@ -51,16 +53,24 @@ class IntersectionDetector {
  private:
   using BorderEnd = std::optional<double>;  ///< m, way driven where the last border ended
 
+  /// What is known of one side of the road that was driven.
+  struct PassedSide {
+    BorderEnd border_end;
+    double bordered = 0.0;  ///< m of way with a border, of late
+  };
+
+  void pass(const SidePresence& side, double way, double step, PassedSide& passed) const;
+
   /// Logarithm of the odds that the side is open beside the vehicle; 0 where nothing is known.
-  double openness(const SidePresence& side, double way, BorderEnd& border_end) const;
+  double openness(const SidePresence& side, double way, PassedSide& passed) const;
   bool isBorder(const SidePresence& side, int station, int toward) const;
   /// Of the stations between both places (m), none of them farther than a street's width.
   double meanOpenness(const SidePresence& side, double way, double begin, double end) const;
 
   IntersectionDetectorOptions options_;
   std::optional<double> last_way_;
-  BorderEnd left_end_;
-  BorderEnd right_end_;
+  PassedSide left_;
+  PassedSide right_;
   double probability_ = 0.0;
   bool at_intersection_ = false;
 };
