@@ -123,6 +123,7 @@ std::optional<DroppedObject> BorderFilter::falseAlarm(const Object& object,
     return std::nullopt;
   }
   std::vector<SightPlace> sights;
+  sights.reserve(places.size());
   for (const Point2& place : places) {
     sights.push_back({place, outside->offset.direction});
   }
