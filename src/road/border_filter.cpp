@@ -174,7 +174,8 @@ std::optional<BorderFilter::Outside> BorderFilter::outsideExtension(
     if (innermost && innermost->outward >= -options_.margin &&
         innermost->outward <= options_.reach) {
       Outside outside{{}, *innermost, options_.required_beyond};
-      outside.reason.reason = DropReason::kBeyondBorder;
+      outside.reason.reason =
+          innermost->outward > options_.margin ? DropReason::kBeyondBorder : DropReason::kOnBorder;
       outside.reason.side = side;
       outside.reason.beyond = innermost->outward;
       return outside;

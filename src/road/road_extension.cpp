@@ -43,12 +43,12 @@ void RoadExtension::addEnds(const RoadBorder& border, Side& side) {
 }
 
 void RoadExtension::remember(const RoadBorder& border, const Pose2& base_in_map, Side& side) const {
+  const Pose2 map_in_base = base_in_map.inverse();
   for (std::size_t i = 0; i + 1 < border.points.size(); ++i) {
-    const Pose2 leg = away(border.points[i + 1].position, border.points[i].position);
-    const double from = (base_in_map.inverse() * border.points[i].position).x();
-    const double to = (base_in_map.inverse() * leg.position()).x();
-    if (from <= 0.0 && to >= 0.0) {
-      side.last = leg;
+    const Point2& from = border.points[i].position;
+    const Point2& to = border.points[i + 1].position;
+    if ((map_in_base * from).x() <= 0.0 && (map_in_base * to).x() >= 0.0) {
+      side.last = away(to, from);
       side.seen_from = base_in_map.position();
     }
   }

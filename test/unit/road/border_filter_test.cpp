@@ -145,6 +145,29 @@ TEST_F(BorderFilterTest, WhatIsFarBeyondIsAnotherRoad) {
   EXPECT_TRUE(seenAfter(filter_, movingAt({20.0, 36.0})).empty());
 }
 
+TEST_F(BorderFilterTest, WhereNoBorderIsKnownItGoesOn) {
+  for (RoadBorder& border : road_.borders) {
+    border.points.back().position.x() = 10.0;
+  }
+  const auto beyond = seenAfter(filter_, movingAt({20.0, 6.0}));
+  ASSERT_EQ(beyond.size(), 1U);
+  EXPECT_EQ(beyond[0].reason, DropReason::kBeyondBorder);
+  BorderFilter other{BorderFilterOptions{}};
+  const auto on = seenAfter(other, movingAt({20.0, -4.3}));
+  ASSERT_EQ(on.size(), 1U);
+  EXPECT_EQ(on[0].reason, DropReason::kOnBorder);
+  EXPECT_EQ(on[0].side, RoadSide::kRight);
+}
+
+TEST_F(BorderFilterTest, WhoComesThereStays) {
+  for (RoadBorder& border : road_.borders) {
+    border.points.back().position.x() = 10.0;
+  }
+  const Point2 side_street(20.0, 5.735);  // in the middle of a beam
+  watch(filter_, side_street, false);
+  EXPECT_TRUE(seenAfter(filter_, movingAt(side_street)).empty());
+}
+
 TEST_F(BorderFilterTest, WithoutARoadAllPass) {
   road_ = {};
   EXPECT_TRUE(seenAfter(filter_, movingAt({20.0, 4.2})).empty());
