@@ -191,7 +191,7 @@ class Tool(Folder):
         self.assertEqual(self.sheets()[-1], "out_3.png")
 
     def test_bad_input(self):
-        self.assertIn("cannot be read as a bag", self.draw(code=1))
+        self.assertIn("no such file", self.draw(code=1))
         write_images(self.bag)
         self.assertIn("nothing on /road_borders", self.draw(code=1))
         write_run(self.bag)

@@ -177,9 +177,9 @@ class Tool(Files):
         ):
             self.assertIn(text, self.run_tool(*options, expected_code=1)[1])
         self.bag.write_text("no bag")
-        self.assertIn("cannot be read as a bag", self.run_tool(expected_code=1)[1])
+        self.assertIn("is no bag", self.run_tool(expected_code=1)[1])
         self.bag.unlink()
-        self.assertIn("cannot be read as a bag", self.run_tool(expected_code=1)[1])
+        self.assertIn("no such file", self.run_tool(expected_code=1)[1])
 
     def test_pose_that_is_no_number(self):
         self.write_bag("/pose", pose(0, 0.0), pose(1, math.nan), pose(2, 1.0))

@@ -173,7 +173,7 @@ class Tool(unittest.TestCase):
         write_drive(self.bag, [left(math.nan)])
         self.assertIn("a border that is not finite", self.run_tool(code=1)[1])
         write_drive(self.bag, [left(5.0)])
-        self.assertIn("cannot be read as a bag", self.run_tool("--drive", "/nowhere", code=1)[1])
+        self.assertIn("no such file", self.run_tool("--drive", "/nowhere", code=1)[1])
 
 
 if __name__ == "__main__":

@@ -212,8 +212,8 @@ class Tool(unittest.TestCase):
         said = self.score(code=1)[1]
         self.assertIn("/objects is nav_msgs/OccupancyGrid, expected datmo_fusion/ObjectArray", said)
         self.write("/objects/stereo", object_at(8.0, 0.0))
-        with whole_bag(self.drive, "test"):
-            pass
+        with whole_bag(self.drive, "test") as bag:
+            bag.write("/other", START, message)
         self.assertIn("nothing on /ground_truth/objects", self.score(code=1)[1])
 
 

@@ -227,7 +227,7 @@ class Tool(unittest.TestCase):
         self.assertIn("no true object is visible to radar, only to scanner, stereo", said)
         for name in ("range", "gate", "soon", "half-angle"):
             self.assertIn(f"--{name} is 0", self.run_tool(f"--{name}", "0", code=1)[1])
-        self.assertIn("cannot be read as a bag", self.run_tool("--drive", "/nowhere", code=1)[1])
+        self.assertIn("no such file", self.run_tool("--drive", "/nowhere", code=1)[1])
         write_run(self.bag, {"/tracks": [], "/tracks/lidar": []}, [DRIVING])
         said = self.run_tool(code=1)[1]
         self.assertIn("nothing on /tracks/stereo, expected a bag of run_bag --track-fusion", said)

@@ -5,10 +5,11 @@ from typing import NamedTuple
 import numpy as np
 
 from datmo_tools import transforms
+from datmo_tools.bag_input import opened
 from datmo_tools.border_recordings import edge, seen_from, with_heading
 from datmo_tools.border_views import BAND, SHADES, SIGMAS, line_style, opacity
 from datmo_tools.errors import InputError
-from datmo_tools.grid_recordings import MOUNTS, mount_of, mounts_of, opened
+from datmo_tools.grid_recordings import MOUNTS, mount_of, mounts_of
 from datmo_tools.nearest_messages import check_kinds, nearest_messages, topics_of
 from datmo_tools.stamps import NANOSECONDS
 

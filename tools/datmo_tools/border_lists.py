@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from datmo_fusion.msg import RoadBorder, RoadBorders, TrueRoadBorders
+from datmo_tools.bag_input import opened
 from datmo_tools.errors import InputError
-from datmo_tools.grid_recordings import opened
 from datmo_tools.stamps import NANOSECONDS
 
 BORDERS, TRUE_BORDERS = "/road_borders", "/ground_truth/road_borders"

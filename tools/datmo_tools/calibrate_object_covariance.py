@@ -4,10 +4,11 @@ import argparse
 from pathlib import Path
 
 from datmo_tools import command_line
+from datmo_tools.bag_input import opened
 from datmo_tools.covariance_report import as_dictionary, as_yaml, summary
 from datmo_tools.covariance_table import covariance_table
 from datmo_tools.errors import InputError
-from datmo_tools.grid_recordings import CAMERA_INFOS, MOUNTS, mounts_of, opened, view_of
+from datmo_tools.grid_recordings import CAMERA_INFOS, MOUNTS, mounts_of, view_of
 from datmo_tools.object_lists import read_lists, read_moving_boxes
 from datmo_tools.object_pairs import Counts, paired_objects
 from datmo_tools.pose_path import read_path

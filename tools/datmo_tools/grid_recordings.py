@@ -1,14 +1,13 @@
 """What score_grids reads: the grids of a run, and the drive that the run was made from."""
 
-import contextlib
 import math
 from typing import NamedTuple
 
 import numpy as np
-import rosbag
 from nav_msgs.msg import OccupancyGrid
 
 from datmo_tools import transforms
+from datmo_tools.bag_input import opened
 from datmo_tools.bag_messages import BASE
 from datmo_tools.errors import InputError
 from datmo_tools.grid_scores import Bodies, Echoes, Grid, StereoView
@@ -82,16 +81,6 @@ def grid_pairs(path, first_topic, second_topic):
             yield (stamp, *pair)
             # Grids are published in the order of their stamps: older ones wait in vain.
             waiting = {late: kept for late, kept in waiting.items() if late > stamp}
-
-
-@contextlib.contextmanager
-def opened(path):
-    """Context of a rosbag.Bag to read. Raises InputError, also if reading fails later."""
-    try:
-        with rosbag.Bag(str(path)) as bag:
-            yield bag
-    except (OSError, rosbag.ROSBagException) as error:
-        raise InputError(f"{path}: cannot be read as a bag ({error})") from error
 
 
 def grid_of(path, topic, raw):

@@ -6,8 +6,8 @@ Only these are unpacked, which is what takes long in Python.
 import bisect
 import struct
 
+from datmo_tools.bag_input import opened
 from datmo_tools.errors import InputError
-from datmo_tools.grid_recordings import opened
 
 _HEADER = struct.Struct("<III")  # how a message with a header begins: sequence number, s, ns
 

@@ -4,8 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from datmo_tools.bag_input import opened
 from datmo_tools.errors import InputError
-from datmo_tools.grid_recordings import opened
 from datmo_tools.pose_path import planar, read_messages
 
 OBJECT_ARRAY, TRACK_ARRAY = "datmo_fusion/ObjectArray", "datmo_fusion/TrackArray"

@@ -3,9 +3,9 @@
 import math
 
 import numpy as np
-import rosbag
 
 from datmo_tools import transforms
+from datmo_tools.bag_input import opened
 from datmo_tools.errors import InputError
 
 # Message types with a stamped pose, and how to get at the geometry_msgs/Pose in each.
@@ -68,14 +68,11 @@ def read_path(bag_path, topic):
 
 def read_messages(bag_path, topic):
     """List of (message, its type's name) on `topic`. Raises InputError if it is no readable bag."""
-    try:
-        with rosbag.Bag(str(bag_path)) as bag:
-            return [
-                (message, message._type)  # pylint: disable=protected-access
-                for _, message, _ in bag.read_messages([topic])
-            ]
-    except (OSError, rosbag.ROSBagException) as error:
-        raise InputError(f"{bag_path}: cannot be read as a bag ({error})") from error
+    with opened(bag_path) as bag:
+        return [
+            (message, message._type)  # pylint: disable=protected-access
+            for _, message, _ in bag.read_messages([topic])
+        ]
 
 
 def planar(pose):

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from datmo_tools import command_line, kitti_messages
+from datmo_tools.bag_input import opened
 from datmo_tools.errors import InputError
 from datmo_tools.grid_recordings import (
     CAMERA_INFOS,
@@ -14,7 +15,6 @@ from datmo_tools.grid_recordings import (
     grid_of,
     mount_of,
     mounts_of,
-    opened,
     view_of,
 )
 from datmo_tools.pose_path import read_path

@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from datmo_fusion.msg import TrackArray
+from datmo_tools.bag_input import opened
 from datmo_tools.errors import InputError
-from datmo_tools.grid_recordings import opened
 from datmo_tools.pose_path import planar
 from datmo_tools.stamps import NANOSECONDS
 

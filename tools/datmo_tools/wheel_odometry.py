@@ -3,9 +3,9 @@
 from typing import NamedTuple
 
 import numpy as np
-import rosbag
 
 from datmo_tools import odometry
+from datmo_tools.bag_input import opened
 from datmo_tools.errors import InputError
 from datmo_tools.odometry import OdometryErrors
 from datmo_tools.pose_path import read_messages
@@ -28,11 +28,8 @@ class _Recorded(NamedTuple):
 
 def has_topics(recording, *topics):
     """Whether a readable bag holds all of them. Raises InputError where it is no bag."""
-    try:
-        with rosbag.Bag(str(recording)) as bag:
-            return set(topics) <= set(bag.get_type_and_topic_info().topics)
-    except (OSError, rosbag.ROSBagException) as error:
-        raise InputError(f"{recording}: cannot be read as a bag ({error})") from error
+    with opened(recording) as bag:
+        return set(topics) <= set(bag.get_type_and_topic_info().topics)
 
 
 def read_odometry(recording, wheels_topic, imu_topic, wheel_radius):
@@ -70,7 +67,7 @@ def _yaw_rates(measured, standing):
 def _read_wheels(recording, topic):
     """Wheel speeds by the time they were recorded at: the message has no stamp of its own."""
     by_stamp = {}
-    with rosbag.Bag(str(recording)) as bag:
+    with opened(recording) as bag:
         for _, message, time in bag.read_messages([topic]):
             values = [getattr(message, wheel, np.nan) for wheel in WHEELS]
             if not np.all(np.isfinite(values)):

@@ -1,0 +1,112 @@
+"""Bags that are read: opened, or refused with what is wrong and what to do about it.
+
+tools/input_bag.cpp says the same in the same words.
+"""
+
+import contextlib
+import os
+import struct
+from pathlib import Path
+
+import genpy
+import rosbag
+
+from datmo_tools.errors import InputError
+
+BAG_MAGIC = b"#ROSBAG"
+ROS2_MAGICS = (b"SQLite format 3\0", b"\x89MCAP0\r\n")
+ROS2_SUFFIXES = (".db3", ".mcap")
+# The first bytes of packed files, and with what they are unpacked.
+PACKED = {
+    b"PK\x03\x04": "unzip",
+    b"\x1f\x8b": "gunzip",
+    b"BZh": "bunzip2",
+    b"\xfd7zXZ\0": "unxz",
+    b"\x28\xb5\x2f\xfd": "unzstd",
+    b"7z\xbc\xaf\x27\x1c": "7z x",
+}
+MAX_NAMES = 3  # of the bags in a folder, in a message
+
+
+@contextlib.contextmanager
+def opened(path):
+    """Context of a rosbag.Bag to read, uncompressed, bz2 or lz4.
+
+    path: of the bag (Path or text). Raises InputError that names the file, what is wrong with it and
+    what to do: also if reading fails later, within the context.
+    """
+    path = Path(path)
+    fault = fault_of(path)
+    if fault:
+        raise InputError(f"{path}: {fault}")
+    try:
+        with rosbag.Bag(str(path)) as bag:
+            if bag.get_message_count() == 0:
+                raise InputError(f"{path}: holds no message, expected a recording")
+            yield bag
+    except rosbag.ROSBagUnindexedException as error:
+        raise InputError(
+            f"{path}: has no index: it was cut short, or is still being written;"
+            f" 'rosbag reindex {path}' saves what is there"
+        ) from error
+    except (
+        OSError,
+        EOFError,
+        RuntimeError,  # of roslz4
+        struct.error,
+        rosbag.ROSBagException,
+        genpy.MessageException,
+    ) as error:
+        raise InputError(f"{path}: cannot be read as a bag ({_reason(error)})") from error
+
+
+def fault_of(path):
+    """What is wrong with a file (Path) before it is opened as a bag of ROS 1; None: nothing."""
+    if not path.exists():
+        return "no such file"
+    if path.is_dir():
+        return _fault_of_folder(path)
+    if not path.is_file():
+        return "is a pipe or a device, expected a file: the index stands at a bag's end"
+    if not os.access(path, os.R_OK):
+        return f"no permission to read it; 'chmod u+r {path}' by its owner gives it"
+    return _fault_of_content(path)
+
+
+def _fault_of_folder(path):
+    names = sorted(entry.name for entry in path.iterdir())
+    if "metadata.yaml" in names or any(name.endswith(ROS2_SUFFIXES) for name in names):
+        return _ros2_fault(path)
+    bags = [name for name in names if name.endswith(".bag")]
+    more = ", ..." if len(bags) > MAX_NAMES else ""
+    held = f"; it holds {', '.join(bags[:MAX_NAMES])}{more}" if bags else ""
+    return f"is a folder, expected a bag{held}"
+
+
+def _fault_of_content(path):
+    with path.open("rb") as stream:
+        head = stream.read(max(map(len, ROS2_MAGICS)))
+    if not head:
+        return "is empty (0 bytes), expected a bag"
+    if head.startswith(BAG_MAGIC):
+        return None
+    if head.startswith(ROS2_MAGICS):
+        return _ros2_fault(path)
+    for magic, command in PACKED.items():
+        if head.startswith(magic):
+            return f"is packed, expected a bag; '{command} {path}' unpacks it"
+    return f"is no bag, expected a file that begins with {BAG_MAGIC.decode()}"
+
+
+def _ros2_fault(path):
+    return (
+        "is a recording of ROS 2, expected a bag of ROS 1; 'pip install rosbags' and"
+        f" 'rosbags-convert --src {path} --dst ros1.bag' convert it"
+    )
+
+
+def _reason(error):
+    """What rosbag says; it names a missing module where a compression is not supported."""
+    if "lz4" in str(error) and isinstance(error, rosbag.ROSBagException):
+        return f"{error}: expected the package python3-roslz4"
+    return str(error) or type(error).__name__
