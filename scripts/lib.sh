@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # Shared by the scripts beside this file; sourced, not run.
 
-repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+repository=$(cd -P "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build_dir=${DATMO_FUSION_BUILD_DIR:-$repository/build}
 log_dir=$build_dir/log
 

@@ -1,4 +1,4 @@
-// Prints the parameters of all nodelets as Markdown, as they stand in the README.
+// Prints the parameters of all nodelets as Markdown, as they stand in doc/parameters.md.
 #include <iostream>
 
 #include "parameter_tables.h"

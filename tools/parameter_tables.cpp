@@ -20,13 +20,22 @@ namespace {
 
 template <typename Options>
 std::string section(const std::string& nodelets) {
-  return "### " + nodelets + "\n\n" + optionTable<Options>();
+  return "## " + nodelets + "\n\n" + optionTable<Options>();
 }
+
+constexpr const char* kHead =
+    "# Parameters\n\n"
+    "<!-- Made by list_parameters; do not edit. -->\n\n"
+    "Keys of the sections of `config/*.yaml`, one section a nodelet. Live they are the nodelet's "
+    "private\n"
+    "parameters (`/grid_slam/map/cell_size`). What a sensor set does not name has the default. A "
+    "misspelt key,\n"
+    "or a value out of range, is refused with a message that names it.\n\n";
 
 }  // namespace
 
 std::string parameterTables() {
-  return section<LidarGridStageOptions>("`lidar_grid`") + "\n" +
+  return kHead + section<LidarGridStageOptions>("`lidar_grid`") + "\n" +
          section<StereoGridStageOptions>("`stereo_grid`") + "\n" +
          section<GridFusionStageOptions>("`grid_fusion`") + "\n" +
          section<GridSlamStageOptions>("`grid_slam`") + "\n" +

@@ -4,7 +4,8 @@
 
 namespace datmo {
 
-/// The parameters of all nodelets: for each a heading and a Markdown table.
+/// The parameters of all nodelets as a page of Markdown (doc/parameters.md): for each nodelet a
+/// heading and a table.
 std::string parameterTables();
 
 }  // namespace datmo

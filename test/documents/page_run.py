@@ -1,0 +1,122 @@
+"""Runs a page's command blocks as they are written, in one fresh shell."""
+
+import os
+import re
+import signal
+import socket
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+TREE = ("config", "doc", "launch", "rosbag_fixtures", "scripts", "README.md")
+CLEAN_PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
+# What programs say when something went wrong that roslaunch's exit code does not tell.
+FAILURE = re.compile(r"\[FATAL\]|Traceback \(most recent|RLException|Couldn't find executable|"
+                     r"couldn't set parameters|process has died")
+TERMINATION_TIME = 20  # s for roslaunch to end its nodes
+LINES_SHOWN = 30
+
+
+@dataclass
+class Outcome:
+    """What became of a page: `error` is empty where all its blocks ran."""
+
+    error: str
+    line: int  # of the block that was running at the end
+    output: str
+
+
+def make_folder(folder, source, environment_folder, installed):
+    """Lays out in `folder` what stands at the root of the sources, by links.
+
+    `environment_folder` appears as devel/. Of an installed tree config, launch and the bags are those
+    that were installed. Returns nothing.
+    """
+    share = environment_folder / "share" / "datmo_fusion"
+    for name in TREE:
+        place = share / name if installed and (share / name).exists() else source / name
+        if place.exists():
+            (folder / name).symlink_to(place)
+    (folder / "devel").symlink_to(environment_folder)
+
+
+def find_files(names, data):
+    """Paths of all `names` below `data` by name, or None if one is missing."""
+    found = {}
+    for name in names:
+        paths = sorted(data.rglob(name)) if data else []
+        if not paths:
+            return None
+        found[name] = paths[0]
+    return found
+
+
+def link_files(found, folder):
+    """Puts what was downloaded into `folder`; a KITTI drive in the folder of its date."""
+    for name, path in found.items():
+        date = re.match(r"(\d{4}_\d{2}_\d{2})_drive", name)
+        link, target = (date.group(1), path.parent) if date else (name, path)
+        if not (folder / link).exists():
+            (folder / link).symlink_to(target)
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("", 0))
+        return probe.getsockname()[1]
+
+
+def shell_environment(folder):
+    """Of a new login: nothing of ROS or of a workspace, no display, a master of its own."""
+    kept = {name: os.environ[name] for name in ("HOME", "USER", "LANG", "TMPDIR") if name in os.environ}
+    return {**kept, "PATH": CLEAN_PATH, "ROS_MASTER_URI": f"http://localhost:{free_port()}",
+            "ROS_HOSTNAME": "localhost", "ROS_HOME": str(folder / ".ros"), "MPLBACKEND": "Agg"}
+
+
+def script_of(blocks, progress):
+    """One script of all blocks; it writes the line of each to the file `progress` as it begins."""
+    return "".join(f"echo {block.line} >'{progress}'\n{block.text}" for block in blocks)
+
+
+def stop(process):
+    """Ends the shell and all that it started; roslaunch ends its nodes when it is terminated."""
+    for number in (signal.SIGTERM, signal.SIGKILL):
+        try:
+            os.killpg(process.pid, number)
+            process.wait(TERMINATION_TIME)
+        except (ProcessLookupError, subprocess.TimeoutExpired):
+            continue
+
+
+def run_script(script, folder, timeout):
+    """(exit code or None after `timeout` s, output) of `bash -e` on the script."""
+    log = folder / ".output"
+    with open(log, "wb") as output:
+        process = subprocess.Popen(["bash", "-e", str(script)], cwd=folder, env=shell_environment(folder),
+                                   stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
+                                   start_new_session=True)
+        try:
+            code = process.wait(timeout)
+        except subprocess.TimeoutExpired:
+            code = None
+        stop(process)
+    return code, log.read_text(errors="replace")
+
+
+def run_blocks(blocks, folder, timeout):
+    """Runs the blocks in `folder`, one after the other in one shell; see Outcome."""
+    progress, script = folder / ".progress", folder / ".commands"
+    script.write_text(script_of(blocks, progress))
+    code, output = run_script(script, folder, timeout)
+    line = int(progress.read_text()) if progress.exists() else 0
+    failure = FAILURE.search(output)
+    if code is None:
+        error = f"not at its end after {timeout:g} s"
+    elif code != 0:
+        error = f"exit code {code}"
+    elif failure:
+        start = output.rfind("\n", 0, failure.start()) + 1
+        error = f"said: {output[start:].splitlines()[0]}"
+    else:
+        error = ""
+    return Outcome(error, line, "\n".join(output.splitlines()[-LINES_SHOWN:]))

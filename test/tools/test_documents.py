@@ -1,0 +1,67 @@
+#!/usr/bin/python3
+"""README.md and doc/: their links lead somewhere, their yaml names parameters that there are."""
+
+import re
+import sys
+import unittest
+from pathlib import Path
+
+import yaml
+
+SOURCE = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(SOURCE / "test" / "documents"))
+
+from command_blocks import blocks_of  # noqa: E402
+
+PAGES = [SOURCE / "README.md", *sorted((SOURCE / "doc").glob("*.md"))]
+LONGEST_README = 200  # lines
+LINK = re.compile(r"\]\(([^)\s]+)\)")
+NAMED_SOURCE = "radar"  # the third source of the examples: any name may stand there
+
+
+def documented_parameters():
+    """All `section/key` of doc/parameters.md; a heading may name several sections."""
+    names, sections = set(), []
+    for line in (SOURCE / "doc" / "parameters.md").read_text().splitlines():
+        if line.startswith("## "):
+            sections = re.findall(r"`(\w+)`", line)
+        elif row := re.match(r"\| `([^`]+)` \|", line):
+            names.update(f"{section}/{row.group(1)}" for section in sections)
+    return names
+
+
+def keys_of(tree, prefix=""):
+    """Paths of all values in nested mappings."""
+    if not isinstance(tree, dict):
+        return [prefix]
+    return [key for name, value in tree.items() for key in keys_of(value, f"{prefix}/{name}".lstrip("/"))]
+
+
+@unittest.skipUnless(PAGES[0].exists(), "no README.md here")
+class Documents(unittest.TestCase):
+    def test_readme_is_short(self):
+        self.assertLessEqual(len(PAGES[0].read_text().splitlines()), LONGEST_README)
+
+    def test_local_links_lead_to_files(self):
+        for page in PAGES:
+            for link in LINK.findall(page.read_text()):
+                if not link.startswith(("http://", "https://")):
+                    self.assertTrue((page.parent / link.split("#")[0]).exists(), f"{page}: {link}")
+
+    def test_every_page_is_reached_from_readme(self):
+        links = LINK.findall(PAGES[0].read_text())
+        for page in PAGES[1:]:
+            self.assertIn(f"doc/{page.name}", links)
+
+    def test_yaml_names_parameters_that_there_are(self):
+        parameters = documented_parameters()
+        for page in PAGES:
+            for block in blocks_of(page.read_text()):
+                if block.language == "yaml":
+                    for key in keys_of(yaml.safe_load(block.text)):
+                        known = key.replace(NAMED_SOURCE, "stereo")
+                        self.assertIn(known, parameters, f"{page}:{block.line}")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,97 @@
+#!/usr/bin/python3
+"""scripts/run_readme on small made-up pages."""
+
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "run_readme"
+
+
+class RunReadme(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name)
+        self.devel = self.folder / "space"
+        self.devel.mkdir()
+        (self.devel / "setup.bash").write_text("export SOURCED=yes\n")
+
+    def run_on(self, *texts, options=()):
+        """(exit code, output) for pages with these texts."""
+        pages = []
+        for index, text in enumerate(texts):
+            pages.append(self.folder / f"page{index}.md")
+            pages[-1].write_text(text)
+        done = subprocess.run([str(SCRIPT), "--devel", str(self.devel), *options, *map(str, pages)],
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+        return done.returncode, done.stdout.decode()
+
+    def test_blocks_of_a_page_share_a_shell_and_a_folder(self):
+        code, output = self.run_on("```bash\nsource devel/setup.bash\necho 1 >made\n```\n"
+                                   "```bash\ntest $SOURCED = yes\ntest -f made\n```\n")
+        self.assertEqual(code, 0, output)
+        self.assertIn("1 pages, 2 blocks run, 0 left out by their marks, 0 pages failed", output)
+
+    def test_each_page_has_a_shell_and_a_folder_of_its_own(self):
+        code, output = self.run_on("```bash\nA=1; touch made\n```\n",
+                                   "```bash\ntest -z \"$A\"\ntest ! -e made\n```\n")
+        self.assertEqual(code, 0, output)
+
+    def test_the_tree_of_the_sources_is_there(self):
+        code, output = self.run_on("```bash\ntest -f config/demonstrator.yaml\n"
+                                   "test -f rosbag_fixtures/scenes/intersection.yaml\n```\n")
+        self.assertEqual(code, 0, output)
+
+    def test_a_block_that_fails_is_named_and_ends_its_page_only(self):
+        code, output = self.run_on("```bash\ntrue\n```\n\n```bash\nfalse\ntouch /nowhere/x\n```\n", "```bash\ntrue\n```\n")
+        self.assertEqual(code, 1, output)
+        self.assertIn("page0.md:5: FAILED: exit code 1", output)
+        self.assertIn("page1.md: ok, 1 blocks run", output)
+        self.assertNotIn("/nowhere", output)
+
+    def test_what_a_program_says_is_a_failure_too(self):
+        code, output = self.run_on("```bash\necho 'a'; echo '[FATAL] no parameters'\n```\n")
+        self.assertEqual(code, 1, output)
+        self.assertIn("page0.md:1: FAILED: said: [FATAL] no parameters", output)
+
+    def test_a_page_that_does_not_end_is_stopped(self):
+        code, output = self.run_on("```bash\nread -r line <> <(:)\n```\n", options=["--timeout", "0.3"])
+        self.assertEqual(code, 1, output)
+        self.assertIn("not at its end after 0.3 s", output)
+
+    def test_marked_blocks_are_left_out_and_counted(self):
+        code, output = self.run_on("<!-- needs: hours -->\n```bash\nfalse\n```\n<!-- needs: robot -->\n```bash\nfalse\n```\n")
+        self.assertEqual(code, 0, output)
+        self.assertIn("0 blocks run, left out: 1 hours, 1 robot", output)
+        self.assertIn("  1 hours: takes more than a few minutes", output)
+
+    def test_marked_blocks_run_when_asked_for(self):
+        code, output = self.run_on("<!-- needs: hours -->\n```bash\nfalse\n```\n", options=["--with", "hours"])
+        self.assertEqual(code, 1, output)
+
+    def test_downloads_run_where_all_their_files_are(self):
+        data = self.folder / "data" / "below"
+        data.mkdir(parents=True)
+        (data / "log.txt").write_text("")
+        page = "<!-- needs: download log.txt -->\n```bash\ntest -f log.txt\n```\n"
+        more = "<!-- needs: download log.txt other.txt -->\n```bash\nfalse\n```\n"
+        code, output = self.run_on(page + more, options=["--data", str(data.parent)])
+        self.assertEqual(code, 0, output)
+        self.assertIn("1 blocks run, left out: 1 download", output)
+
+    def test_an_unknown_mark_is_a_failure(self):
+        code, output = self.run_on("<!-- needs: luck -->\n```bash\ntrue\n```\n")
+        self.assertEqual(code, 1, output)
+        self.assertIn("page0.md: FAILED: line 1: needs 'luck'", output)
+
+    def test_a_missing_environment_is_said(self):
+        (self.devel / "setup.bash").unlink()
+        code, output = self.run_on("```bash\ntrue\n```\n")
+        self.assertEqual(code, 1, output)
+        self.assertIn("no setup.bash in", output)
+
+
+if __name__ == "__main__":
+    unittest.main()
