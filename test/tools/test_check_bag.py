@@ -1,0 +1,432 @@
+#!/usr/bin/python3
+"""check_bag finds each fault of a recording, and none in one without."""
+
+import contextlib
+import io
+import json
+import math
+import re
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+import simulated_recording as simulated
+import yaml
+from geometry_msgs.msg import TwistStamped
+from sensor_msgs.msg import PointCloud2, PointField
+
+from datmo_tools import transforms
+from datmo_tools.check_bag.main import main
+
+
+def of_topic(items, *topics):
+    return [item for item in items if item.topic in topics]
+
+
+def without(items, *topics):
+    return [item for item in items if item.topic not in topics]
+
+
+def shifted(items, topic, seconds):
+    """With the headers of a topic later by so much; recorded when they were."""
+    for item in of_topic(items, topic):
+        stamp = item.message.header.stamp.to_nsec() + round(seconds * 1e9)
+        item.message.header.stamp = simulated.to_ros_time(stamp)
+    return items
+
+
+def ranges(items, change):
+    """With change(ranges as array) for each scan."""
+    for item in of_topic(items, "/scan"):
+        item.message.ranges = change(np.array(item.message.ranges)).tolist()
+    return items
+
+
+def each(items, topic, change):
+    """With change(message) made to each message of a topic."""
+    for item in of_topic(items, topic):
+        change(item.message)
+    return items
+
+
+def odometry_of(items, pose_at=simulated.pose_at, speed_scale=1.0, yaw_scale=1.0, delay=0.0):
+    """With odometry that a scale or a delay makes wrong, in poses and twists."""
+    pose = np.array([0.0, 0.0, 0.0])
+    before = None
+    for item in of_topic(items, "/odometry"):
+        time = 1e-9 * (item.message.header.stamp.to_nsec() - simulated.START) - delay
+        true = pose_at(time)
+        if before is not None:
+            step = transforms.relative(before, true)
+            arc = np.array([*(speed_scale * step[:2]), yaw_scale * step[2]])
+            pose = transforms.compose(pose, arc)
+        before = true
+        speed, yaw_rate = simulated.motion_at(time)
+        fields = simulated.odometry(0.0, pose, speed_scale * speed, yaw_scale * yaw_rate)
+        item.message.pose, item.message.twist = fields.pose, fields.twist
+    return items
+
+
+def masked(values, first, last, value):
+    values[first:last] = value
+    return values
+
+
+class Tool(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.bag, self.yaml = self.folder / "drive.bag", self.folder / "robot.yaml"
+
+    def run_tool(self, items, code=None):
+        """Findings (kind -> severity), the output, and the yaml's content."""
+        simulated.write(self.bag, items)
+        out, errors, file = io.StringIO(), io.StringIO(), self.folder / "findings.json"
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
+            done = main([str(self.bag), "--out", str(self.yaml), "--json", str(file)])
+        if code is not None:
+            self.assertEqual(done, code, out.getvalue() + errors.getvalue())
+        findings = json.loads(file.read_text())["findings"]
+        content = yaml.safe_load(self.yaml.read_text()) if self.yaml.exists() else None
+        return {item["kind"]: item["severity"] for item in findings}, out.getvalue(), content
+
+    def assert_finds(self, kind, items, severity="warning"):
+        kinds, out, _ = self.run_tool(items, code=1 if severity == "error" else None)
+        self.assertEqual(kinds.get(kind), severity, out)
+        return kinds
+
+
+class CleanRecording(Tool):
+    def test_no_finding_worse_than_a_note(self):
+        kinds, out, _ = self.run_tool(simulated.recording(), code=0)
+        self.assertEqual({k for k, severity in kinds.items() if severity != "note"}, set(), out)
+
+    def test_lines_to_start_with(self):
+        _, out, content = self.run_tool(simulated.recording())
+        self.assertIn(f"rosrun datmo_fusion run_bag {self.bag} result.bag --config {self.yaml}", out)
+        self.assertIn(f"roslaunch datmo_fusion replay.launch bag:={self.bag}", out)
+        self.assertNotIn("mounts", content)
+        self.assertNotIn("frames", content)
+
+    def test_noise_is_measured_while_it_stands(self):
+        _, _, content = self.run_tool(simulated.recording())
+        self.assertAlmostEqual(content["moving_objects"]["range_sigma"], simulated.RANGE_NOISE,
+                               delta=0.005)  # fmt: skip
+
+
+class Stamps(Tool):
+    def test_gap(self):
+        items = [item for item in simulated.recording()
+                 if item.topic != "/scan" or not 6.0 < item.recorded < 7.0]  # fmt: skip
+        self.assert_finds("stamp_gap", items)
+
+    def test_out_of_order(self):
+        items = simulated.recording()
+        scans = of_topic(items, "/scan")
+        for first, second in ((scans[30], scans[31]), (scans[60], scans[61])):
+            a, b = first.message.header, second.message.header
+            a.stamp, b.stamp = b.stamp, a.stamp
+        self.assert_finds("stamp_order", items)
+
+    def test_jump_back(self):
+        items = simulated.recording()
+        for item in of_topic(items, "/scan")[70:]:
+            stamp = item.message.header.stamp.to_nsec() - 3 * 10**9
+            item.message.header.stamp = simulated.to_ros_time(stamp)
+        self.assert_finds("stamp_jump_back", items, "error")
+
+    def test_repeated(self):
+        items = simulated.recording()
+        scans = of_topic(items, "/scan")
+        scans[40].message.header.stamp = scans[39].message.header.stamp
+        self.assert_finds("stamp_repeated", items)
+
+    def test_no_stamp(self):
+        def clear(message):
+            message.header.stamp = simulated.to_ros_time(0)
+
+        self.assert_finds("no_stamp", each(simulated.recording(), "/imu", clear), "error")
+
+    def test_half_rate(self):
+        scans = of_topic(simulated.recording(), "/scan")[::2]
+        items = without(simulated.recording(), "/scan") + scans
+        self.assert_finds("rate_below_scan_time", items)
+
+    def test_every_fifth_scan_lost(self):
+        scans = [s for i, s in enumerate(of_topic(simulated.recording(), "/scan")) if i % 5]
+        self.assert_finds("messages_lost", without(simulated.recording(), "/scan") + scans)
+
+    def test_low_rate(self):
+        scans = of_topic(simulated.recording(), "/scan")[::4]
+        for item in scans:
+            item.message.scan_time = 0.4
+        self.assert_finds("low_rate", without(simulated.recording(), "/scan") + scans)
+
+    def test_record_time_of_another_clock(self):
+        items = [item._replace(recorded=item.recorded + 2.0) if item.topic == "/scan" else item
+                 for item in simulated.recording()]  # fmt: skip
+        kinds = self.assert_finds("record_time", items)
+        self.assertIn("clocks_differ", kinds)
+
+    def test_clock_offset_seen_by_motion_alone(self):
+        """Header and record of the odometry are both 0.2 s late."""
+        items = shifted(simulated.recording(), "/odometry", 0.2)
+        items = [item._replace(recorded=item.recorded + 0.2) if item.topic == "/odometry" else item
+                 for item in items]  # fmt: skip
+        kinds = self.assert_finds("clock_offset", items)
+        self.assertNotIn("record_time", kinds)
+
+    def test_imu_clock(self):
+        kinds, out, _ = self.run_tool(shifted(simulated.recording(), "/imu", -0.15))
+        self.assertEqual(kinds.get("clock_offset"), "warning", out)
+        self.assertIn("/imu: /imu is 0.15 s earlier than the scans", out)
+
+
+class Motion(Tool):
+    def test_odometry_missing(self):
+        items = without(simulated.recording(), "/odometry", "/tf")
+        kinds, _, content = self.run_tool(items)
+        self.assertEqual(kinds["no_odometry"], "warning")
+        self.assertEqual(content["motion"]["source"], "imu")
+
+    def test_nothing_tells_the_motion(self):
+        _, _, content = self.run_tool(without(simulated.recording(), "/odometry", "/tf", "/imu"))
+        self.assertEqual(content["motion"]["source"], "none")
+
+    def test_twist_and_imu_in_place_of_odometry(self):
+        items = simulated.recording()
+        for item in of_topic(items, "/odometry"):
+            twist = TwistStamped(header=item.message.header, twist=item.message.twist.twist)
+            items.append(simulated.Item(item.recorded, "/speed", twist))
+        _, out, content = self.run_tool(without(items, "/odometry"))
+        self.assertEqual(content["motion"]["source"], "imu_and_twist")
+        self.assertIn("twist:=/speed", out)
+
+    def test_scale(self):
+        kinds, out, _ = self.run_tool(odometry_of(simulated.recording(), speed_scale=1.2))
+        self.assertEqual(kinds.get("odometry_scale"), "warning", out)
+        self.assertIn("0.83 times", out)
+
+    def test_yaw_scale(self):
+        self.assert_finds("yaw_scale", odometry_of(simulated.recording(), yaw_scale=1.3))
+
+    def test_yaw_of_the_wrong_sign(self):
+        self.assert_finds("yaw_sign", odometry_of(simulated.recording(), yaw_scale=-1.0), "error")
+
+    def test_speed_of_the_wrong_sign(self):
+        items = odometry_of(simulated.recording(), speed_scale=-1.0)
+        self.assert_finds("speed_sign", items, "error")
+
+    def test_delay(self):
+        kinds, out, _ = self.run_tool(odometry_of(simulated.recording(), delay=0.12))
+        self.assertEqual(kinds.get("clock_offset"), "warning", out)
+        self.assertIn("0.12 s later", out)
+
+    def test_twist_always_zero(self):
+        def stop(message):
+            message.twist.twist.linear.x = message.twist.twist.angular.z = 0.0
+
+        kinds, _, content = self.run_tool(each(simulated.recording(), "/odometry", stop))
+        self.assertEqual(kinds["no_twist"], "note")
+        self.assertTrue(content["motion"]["odometry_pose"])
+
+    def test_mirrored_scan(self):
+        items = ranges(simulated.recording(), lambda values: values[::-1])
+        self.assert_finds("yaw_sign", items, "error")
+
+    def test_mount_turned(self):
+        items = without(simulated.recording(), "/tf_static")
+        turned = transforms.quaternion_of_yaw(0.3)
+        for child, turn in (("laser", turned), ("camera", (-0.5, 0.5, -0.5, 0.5))):
+            message = simulated.transform(0.0, "base_link", child, (1.5, 0.0, 0.4), turn)
+            items.append(simulated.Item(0.0, "/tf_static", message))
+        kinds, out, _ = self.run_tool(items)
+        self.assertEqual(kinds.get("mount_yaw"), "warning", out)
+        right = float(re.search(r"should be (\S+) rad", out).group(1))
+        self.assertAlmostEqual(right, 0.0, delta=0.05)
+
+
+class Frames(Tool):
+    def test_missing_mount(self):
+        kinds, _, content = self.run_tool(without(simulated.recording(), "/tf_static"), code=1)
+        self.assertEqual(kinds["missing_mount"], "error")
+        self.assertEqual(content["mounts"]["laser"]["x"], 0.0)
+
+    def test_wrong_frame_of_the_scan(self):
+        def rename(message):
+            message.header.frame_id = "front_laser"
+
+        self.assert_finds("missing_mount", each(simulated.recording(), "/scan", rename), "error")
+
+    def test_slashes(self):
+        def rename(message):
+            message.header.frame_id = "/odom"
+            message.child_frame_id = "/base_link"
+
+        items = each(simulated.recording(), "/odometry", rename)
+        kinds = self.assert_finds("slash_frames", items, "note")
+        self.assertNotIn("missing_mount", kinds)
+
+    def test_other_names(self):
+        def rename(message):
+            message.header.frame_id, message.child_frame_id = "wheel_odom", "base_footprint"
+
+        items = each(without(simulated.recording(), "/tf", "/tf_static"), "/odometry", rename)
+        message = simulated.transform(0.0, "base_footprint", "laser", (1.5, 0.0, 0.4))
+        _, _, content = self.run_tool([*items, simulated.Item(0.0, "/tf_static", message)])
+        self.assertEqual(content["frames"], {"odom": "wheel_odom", "base": "base_footprint"})
+
+    def test_two_parents(self):
+        message = simulated.transform(1.0, "chassis", "laser", (0.0, 0.0, 0.0))
+        items = [*simulated.recording(), simulated.Item(1.0, "/tf", message)]
+        self.assert_finds("two_parents", items, "error")
+
+    def test_loop(self):
+        message = simulated.transform(1.0, "laser", "odom", (0.0, 0.0, 0.0))
+        items = [*simulated.recording(), simulated.Item(1.0, "/tf", message)]
+        self.assert_finds("frame_loop", items, "error")
+
+    def test_odometry_without_child(self):
+        def clear(message):
+            message.child_frame_id = ""
+
+        self.assert_finds("odometry_frame", each(simulated.recording(), "/odometry", clear), "error")
+
+    def test_tilted(self):
+        half = math.radians(6.0)
+        tilt = (0.0, math.sin(half), 0.0, math.cos(half))
+        message = simulated.transform(0.0, "base_link", "laser", (1.5, 0.0, 0.4), tilt)
+        items = without(simulated.recording(), "/tf_static")
+        self.assert_finds("scanner_tilted", [*items, simulated.Item(0.0, "/tf_static", message)],
+                          "error")  # fmt: skip
+
+
+class Scans(Tool):
+    def test_nan_for_no_return(self):
+        def change(values):
+            values[::4] = math.nan
+            return values
+
+        self.assert_finds("nan_ranges", ranges(simulated.recording(), change))
+
+    def test_zero_for_no_return(self):
+        def change(values):
+            values[::4] = 0.0
+            return values
+
+        self.assert_finds("zero_ranges", ranges(simulated.recording(), change))
+
+    def test_largest_value_for_no_return(self):
+        def change(values):
+            values[~(values < 30.0)] = 30.0
+            return values
+
+        self.assert_finds("range_max", ranges(simulated.recording(), change))
+
+    def test_dead_beams(self):
+        items = ranges(simulated.recording(), lambda values: masked(values, 100, 150, math.nan))
+        self.assert_finds("dead_beams", items)
+
+    def test_own_returns(self):
+        items = ranges(simulated.recording(), lambda values: masked(values, 0, 12, 0.6))
+        self.assert_finds("own_returns", items)
+
+    def test_short_reach(self):
+        def cut(message):
+            message.range_max = 8.0
+            values = np.array(message.ranges)
+            message.ranges = np.where(values < 8.0, values, math.inf).tolist()
+
+        items = each(simulated.recording(), "/scan", cut)
+        kinds, _, content = self.run_tool(items)
+        self.assertEqual(kinds["reach_below_window"], "warning")
+        self.assertLess(content["grid_slam"]["map"]["length"], 60.0)
+
+    def test_count_of_beams(self):
+        def cut(message):
+            message.ranges = message.ranges[:-20]
+
+        self.assert_finds("beam_count", each(simulated.recording(), "/scan", cut), "error")
+
+    def test_range_limits(self):
+        def clear(message):
+            message.range_max = 0.0
+
+        self.assert_finds("range_limits", each(simulated.recording(), "/scan", clear), "error")
+
+    def test_time_increment(self):
+        def slow(message):
+            message.time_increment = 0.01
+
+        self.assert_finds("time_increment", each(simulated.recording(), "/scan", slow))
+
+    def test_no_scan(self):
+        self.assert_finds("no_scan", without(simulated.recording(), "/scan"), "error")
+
+    def test_cloud_of_a_3d_lidar_alone(self):
+        cloud = PointCloud2(height=1, width=0, point_step=16, is_dense=True)
+        cloud.fields = [PointField(name, 4 * i, PointField.FLOAT32, 1)
+                        for i, name in enumerate(("x", "y", "z", "intensity"))]  # fmt: skip
+        cloud.header.frame_id, cloud.header.stamp = "velodyne", simulated.ros_time(1.0)
+        items = without(simulated.recording(), "/scan")
+        items.append(simulated.Item(1.0, "/velodyne_points", cloud))
+        simulated.write(self.bag, items)
+        kinds, out, _ = self.run_tool(items, code=1)
+        self.assertEqual(kinds["only_3d_lidar"], "error")
+        self.assertIn("cloud_to_scan", out)
+
+
+class Cameras(Tool):
+    RIGHT = "/stereo/right/camera_info"
+
+    def test_not_calibrated(self):
+        def clear(message):
+            message.K, message.P = [0.0] * 9, [0.0] * 12
+
+        self.assert_finds("camera_info_zero", each(simulated.recording(), self.RIGHT, clear), "error")
+
+    def test_of_another_size(self):
+        def grow(message):
+            message.width *= 2
+
+        self.assert_finds("camera_info_size", each(simulated.recording(), self.RIGHT, grow), "error")
+
+    def test_no_baseline(self):
+        def clear(message):
+            message.P = [*message.P[:3], 0.0, *message.P[4:]]
+
+        self.assert_finds("baseline_zero", each(simulated.recording(), self.RIGHT, clear), "error")
+
+    def test_exchanged(self):
+        def turn(message):
+            message.P = [*message.P[:3], -message.P[3], *message.P[4:]]
+
+        self.assert_finds("baseline_sign", each(simulated.recording(), self.RIGHT, turn), "error")
+
+    def test_no_camera_info(self):
+        self.assert_finds("no_camera_info", without(simulated.recording(), self.RIGHT))
+
+    def test_apart(self):
+        items = shifted(simulated.recording(), "/stereo/right/image_rect", 0.04)
+        self.assert_finds("pair_offset", items)
+
+
+class Unreadable(Tool):
+    def test_ends_with_2(self):
+        for content in (b"", b"no bag at all", b"#ROSBAG V2.0\n"):
+            self.bag.write_bytes(content)
+            errors = io.StringIO()
+            with contextlib.redirect_stderr(errors):
+                self.assertEqual(main([str(self.bag)]), 2)
+            self.assertIn(str(self.bag), errors.getvalue())
+            self.assertEqual(len(errors.getvalue().splitlines()), 1)
+
+    def test_no_such_file(self):
+        with contextlib.redirect_stderr(io.StringIO()):
+            self.assertEqual(main([str(self.bag)]), 2)
+
+
+if __name__ == "__main__":
+    unittest.main()

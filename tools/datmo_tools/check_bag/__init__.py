@@ -1,0 +1,1 @@
+"""check_bag: what a recording holds, what is wrong with it, and the configuration to start with."""

@@ -1,0 +1,120 @@
+"""The sections of the yaml and the lines to start with, from all that was measured."""
+
+import shlex
+
+from datmo_tools.check_bag.levels import motion_source
+from datmo_tools.check_bag.sizing import is_small, settings
+from datmo_tools.check_bag.yaml_text import frames_section, mounts_section
+
+# Stages that wait for a stereo camera unless they are told that there is none.
+STEREO_FUSIONS = "grid_fusion", "object_fusion"
+
+
+def sections(recording, roles, results, measured):
+    """Sections of the yaml, and remarks for them."""
+    items, remarks = {}, {}
+    frames = frames_section(roles)
+    if frames:
+        items["frames"] = frames
+        remarks["frames"] = ["As the recording names them; the others have the names of REP 105."]
+    mounts = mounts_section(recording, roles)
+    if mounts:
+        items["mounts"] = mounts
+        remarks["mounts"] = [
+            "MEASURE THIS: the recording does not say where the scanner is mounted.",
+            f"m and rad, from {roles.base_frame} (below the rear axle, x forward, y left).",
+        ]
+    motion = motion_section(recording, roles, results)
+    if motion:
+        items["motion"] = motion
+    if measured is not None:
+        items.update(settings(measured))
+        remarks.update(_size_remarks(measured))
+    if not roles.camera_clouds and not roles.right_image:
+        for name in STEREO_FUSIONS:
+            items.setdefault(name, {})["sources"] = {"stereo": {"use": False}}
+            remarks.setdefault(name, ["The recording has no stereo camera."])
+    return items, remarks
+
+
+def motion_section(recording, roles, results):
+    """Section motion: what tells the vehicle's motion."""
+    source = motion_source(roles, recording)
+    section = {} if source == "odometry" else {"source": source}
+    if source == "odometry" and _poses_are_better(results):
+        section["odometry_pose"] = True
+    period = _motion_period(recording, roles, source)
+    if period is not None and period > 0.2:
+        section["hold"] = round(2.5 * period, 1)
+    return section
+
+
+def _poses_are_better(results):
+    pose, twist = results.get("pose"), results.get("twist_of_odometry")
+    if pose is None:
+        return False
+    return twist is None or pose.misfit < 0.9 * twist.misfit
+
+
+def _motion_period(recording, roles, source):
+    name = {"odometry": roles.odometry, "twist": roles.twist, "imu": roles.imu}.get(
+        source.split("_")[0]
+    )
+    return recording.topics[name].period() if name else None
+
+
+def _size_remarks(measured):
+    noise = "not measured, for the vehicle never stands: the default stays"
+    if measured.noise is not None:
+        noise = f"{measured.noise:.3f} m, measured while the vehicle stands"
+    speed = "not known" if measured.speed is None else f"{measured.speed:.1f} m/s"
+    remarks = [
+        f"Measured: reach {measured.reach:.1f} m, speed of the vehicle {speed}, range noise {noise};",
+        f"beams come back from surfaces up to {measured.free_range:.0f} m (free_range).",
+    ]
+    result = {"lidar_grid": remarks}
+    if is_small(measured):
+        result["tracker"] = [
+            "Sizes for people, whom a slow robot with a short reach is taken to be among. Other",
+            "targets (model cars): change box/size; config/model_car.yaml shows what goes with it.",
+        ]
+    return result
+
+
+def topic_arguments(roles, recording):
+    """Arguments as scan:=/x, of the inputs that have another name than the default."""
+    source = motion_source(roles, recording)
+    names = {("echoes" if roles.scan_is_echoes else "scan"): roles.scan}
+    if source == "odometry":
+        names["odometry"] = roles.odometry
+    if "imu" in source.split("_"):
+        names["imu"] = roles.imu
+    if "twist" in source.split("_"):
+        covariance = recording.topics[roles.twist].type.endswith("CovarianceStamped")
+        names["twist_with_covariance" if covariance else "twist"] = roles.twist
+    if "wheels" in source.split("_"):
+        names["joint_states"] = next(
+            name for name in roles.wheels
+            if recording.topics[name].type == "sensor_msgs/JointState"
+        )  # fmt: skip
+    if roles.camera_clouds:
+        names["points2"] = _named(roles.camera_clouds, "/stereo/points2")
+    return {ours: theirs for ours, theirs in names.items() if theirs and theirs != "/" + ours}
+
+
+def _named(names, usual):
+    return usual if usual in names else names[0]
+
+
+def start_lines(bag, config, roles, recording, level):
+    """Lines of a shell that run the stack on the recording: without a master, and live."""
+    topics = [f"{ours}:={theirs}" for ours, theirs in topic_arguments(roles, recording).items()]
+    topics = [word for word in topics if word != "points2:=/stereo/points2"]
+    switch = [level.switch] if level.switch else []
+    offline = ["rosrun", "datmo_fusion", "run_bag", str(bag), "result.bag", "--config", str(config)]
+    live = ["roslaunch", "datmo_fusion", "replay.launch", f"bag:={bag.resolve()}",
+            f"config:={config.resolve()}"]  # fmt: skip
+    live += [f"{name[2:].replace('-', '_')}:=true" for name in switch]
+    if level.switch and not roles.camera_clouds and roles.right_image:
+        live.append(f"stereo_images:={'rectified' if 'rect' in roles.right_image else 'raw'}")
+    return [shlex.join([*offline, *switch, *topics]), shlex.join([*live, *topics])]

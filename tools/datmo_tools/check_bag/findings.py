@@ -1,0 +1,56 @@
+"""What check_bag finds: how bad it is, what it is, and what to do about it."""
+
+import enum
+from typing import NamedTuple
+
+
+class Severity(enum.IntEnum):
+    """How much a finding matters."""
+
+    NOTE = 0  # worth knowing; the stack copes
+    WARNING = 1  # the result gets worse
+    ERROR = 2  # the stack cannot work with it, or its result is wrong
+
+
+class Finding(NamedTuple):
+    """One thing that was found."""
+
+    severity: Severity
+    kind: str  # a name for programs, as `stamp_gap`
+    where: str  # topic, frame, or "" for the whole recording
+    what: str  # what was found, with values and what was expected
+    advice: str  # what to do; "" where there is nothing to do
+
+
+class Findings:
+    """Collects findings; at most one of a kind for each place."""
+
+    def __init__(self):
+        self._items = {}
+
+    def error(self, kind, where, what, advice=""):
+        """Adds an error."""
+        self._add(Finding(Severity.ERROR, kind, where, what, advice))
+
+    def warn(self, kind, where, what, advice=""):
+        """Adds a warning."""
+        self._add(Finding(Severity.WARNING, kind, where, what, advice))
+
+    def note(self, kind, where, what, advice=""):
+        """Adds a note."""
+        self._add(Finding(Severity.NOTE, kind, where, what, advice))
+
+    def _add(self, finding):
+        self._items.setdefault((finding.kind, finding.where), finding)
+
+    def sorted(self):
+        """All of them, the worst first, otherwise in the order in which they were found."""
+        return sorted(self._items.values(), key=lambda finding: -finding.severity)
+
+    def worst(self):
+        """Severity of the worst one; None where there is none."""
+        return max((finding.severity for finding in self._items.values()), default=None)
+
+    def kinds(self):
+        """Set of the kinds that were found."""
+        return {finding.kind for finding in self._items.values()}

@@ -1,0 +1,66 @@
+"""What a recording has for each level of fusion, and what is missing."""
+
+from typing import NamedTuple
+
+
+class Level(NamedTuple):
+    """One level, and what it lacks."""
+
+    name: str
+    switch: str  # of run_bag; "" for none
+    missing: tuple  # texts; empty: everything is there
+
+
+def levels(recording, roles):
+    """List of Level."""
+    base = _missing_for_scanner(recording, roles)
+    camera = _missing_for_camera(recording, roles)
+    objects = () if "/objects/stereo" in recording.topics else camera
+    tracks = () if "/tracks/stereo" in recording.topics else objects
+    return [
+        Level("none (the scanner alone)", "", base),
+        Level("low (grids)", "--low-level-fusion", base + camera),
+        Level("object", "--object-fusion", base + objects),
+        Level("track", "--track-fusion", base + tracks),
+        Level("road_border", "--road-border", base),
+    ]
+
+
+def _missing_for_scanner(recording, roles):
+    missing = ()
+    if roles.scan is None:
+        wanted = "a planar scan (sensor_msgs/LaserScan or MultiEchoLaserScan)"
+        if roles.lidar_clouds:
+            wanted += f": make one of {roles.lidar_clouds[0]} by cloud_to_scan"
+        missing += (wanted,)
+    elif recording.transforms.between(roles.base_frame, roles.scan_frame) is None:
+        missing += (f"the mount {roles.base_frame} -> {roles.scan_frame} (tf, or mounts in the yaml)",)
+    return missing
+
+
+def _missing_for_camera(recording, roles):
+    if roles.camera_clouds:
+        return ()
+    if roles.right_image is None:
+        if roles.left_image is None and roles.mono_images:
+            return ("a second camera, or its points: one image alone gives no depth",)
+        return ("a stereo camera: its points, or a pair of images",)
+    lacking = [
+        image for image in (roles.left_image, roles.right_image)
+        if roles.info_beside(recording, image) is None
+    ]  # fmt: skip
+    return tuple(f"camera_info beside {image}" for image in lacking)
+
+
+def motion_source(roles, recording):
+    """Value of motion/source that the recording allows: the first that is there."""
+    if roles.odometry:
+        return "odometry"
+    joint_states = [
+        name for name in roles.wheels if recording.topics[name].type == "sensor_msgs/JointState"
+    ]
+    if roles.twist:
+        return "imu_and_twist" if roles.imu else "twist"
+    if roles.imu:
+        return "imu_and_wheels" if joint_states else "imu"
+    return "none"

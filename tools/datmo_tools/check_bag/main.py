@@ -1,0 +1,80 @@
+"""Command line of check_bag."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from datmo_tools import command_line
+from datmo_tools.check_bag import report
+from datmo_tools.check_bag.checks import check
+from datmo_tools.check_bag.findings import Severity
+from datmo_tools.check_bag.opening import open_recording
+from datmo_tools.errors import InputError
+from datmo_tools.whole_files import write_whole
+
+DESCRIPTION = """\
+Says what a recording holds, what is wrong with it for this package, and how to start.
+
+It reads the bag without a master and tells: what is missing for each level of fusion; rates, gaps and
+order of stamps; clock offsets between the scanner and odometry or IMU, and scale and sign of these, by
+the motion that the scans themselves see; frames and mounts; beams that are dead or see the vehicle
+itself; reach against the window; calibration of cameras. Then it writes a first yaml with what
+differs from the defaults, and prints the lines to start with.
+
+Exit code: 0 nothing worse than a warning, 1 errors, or the yaml cannot be written, 2 the bag cannot
+be read."""
+
+UNREADABLE = 2
+
+
+def main(arguments=None):
+    """Runs the command line; returns its exit code."""
+    values = _parser().parse_args(arguments)
+    codes = []
+    code = command_line.run("check_bag", lambda: codes.append(_run(values)), product="report")
+    return code or codes[0]
+
+
+def _parser():
+    parser = argparse.ArgumentParser(
+        prog="check_bag",
+        description=DESCRIPTION,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add = parser.add_argument
+    add("bag", type=Path, help="recording: a bag")
+    add("--out", type=Path, metavar="FILE.yaml",
+        help="the yaml to write (default: the bag's name, .yaml, in the working folder)")  # fmt: skip
+    add("--no-yaml", action="store_true", help="writes none")
+    add("--scan", metavar="TOPIC", help="scanner to use (default: /scan, or that with most scans)")
+    add("--odometry", metavar="TOPIC", help="odometry to use (default: /odometry, or the most)")
+    command_line.add_json(parser)
+    return parser
+
+
+def _run(values):
+    try:
+        recording = open_recording(values.bag)
+    except InputError as error:
+        print(f"check_bag: {error}", file=sys.stderr)
+        return UNREADABLE
+    result = check(recording, values.scan, values.odometry)
+    out = values.out or Path(values.bag.resolve().stem + ".yaml")
+    _print(recording, result)
+    if not values.no_yaml and result.can_start:
+        write_whole(out.parent, {out.name: result.yaml_text()})
+        print(f"\nFirst parameters: {out}\nTo start with:")
+        print("\n".join(f"  {line}" for line in result.start_lines(values.bag, out)))
+    command_line.write_json(values.json, result.as_dictionary())
+    return 1 if result.findings.worst() == Severity.ERROR else 0
+
+
+def _print(recording, result):
+    print(f"{recording.path}: {recording.duration:.1f} s\n")
+    print(report.topics_text(recording))
+    print("\nLevels")
+    print(report.levels_text(result.levels))
+    print("\nMeasured")
+    print(report.measured_text(result.facts, result.measured, result.mount, result.results))
+    print("\nFindings")
+    print(report.findings_text(result.findings))

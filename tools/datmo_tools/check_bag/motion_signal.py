@@ -1,0 +1,183 @@
+"""What a sensor of the vehicle's own motion says, as heading and distance over time."""
+
+import math
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from datmo_tools import transforms
+
+
+class MotionSignal:
+    """Heading, and position where it is known, over time; each at the sensor's own stamps."""
+
+    def __init__(self, source, stamps, headings, positions):
+        """source: topic and field; stamps: s, rising; headings: rad, unwrapped, or None;
+        positions: n x 2, m, in a fixed frame, or None."""
+        self.source = source
+        self.stamps = stamps
+        self.headings = headings
+        self.positions = positions
+
+    def turns(self, starts, ends):
+        """rad, between each two times (s)."""
+        at = np.interp(ends, self.stamps, self.headings)
+        return at - np.interp(starts, self.stamps, self.headings)
+
+    def motions(self, starts, ends):
+        """n x 2, m: how far between each two times, seen from the vehicle at the first one."""
+        first, last = self._places(starts), self._places(ends)
+        heading = np.interp(starts, self.stamps, self.headings)
+        apart = last - first
+        cosine, sine = np.cos(heading), np.sin(heading)
+        return np.column_stack(
+            [cosine * apart[:, 0] + sine * apart[:, 1], cosine * apart[:, 1] - sine * apart[:, 0]]
+        )
+
+    def _places(self, times):
+        columns = [np.interp(times, self.stamps, self.positions[:, axis]) for axis in (0, 1)]
+        return np.column_stack(columns)
+
+    def covers(self, starts, ends):
+        """Mask of the intervals that lie in the signal."""
+        return (starts >= self.stamps[0]) & (ends <= self.stamps[-1])
+
+    def speeds(self):
+        """m/s between stamps that are at least 0.1 s apart; empty without positions."""
+        if self.positions is None:
+            return np.zeros(0)
+        times = np.arange(self.stamps[0], self.stamps[-1], 0.1)
+        if len(times) < 2:
+            return np.zeros(0)
+        return np.linalg.norm(np.diff(self._places(times), axis=0), axis=1) / 0.1
+
+
+def _rising(stamps):
+    """Indices that bring stamps into rising order, each stamp once."""
+    _, indices = np.unique(stamps, return_index=True)
+    return indices
+
+
+def integrated(source, stamps, speeds, yaw_rates):
+    """MotionSignal of rates (m/s or None, rad/s or None) at stamps (s); None for too few."""
+    order = _rising(stamps)
+    stamps = stamps[order]
+    if len(stamps) < 3:
+        return None
+    steps = np.diff(stamps)
+    rates = yaw_rates[order] if yaw_rates is not None else np.zeros(len(stamps))
+    headings = _sum(steps, rates)
+    positions = None
+    if speeds is not None:
+        along = speeds[order]
+        positions = np.column_stack(
+            [_sum(steps, along * np.cos(headings)), _sum(steps, along * np.sin(headings))]
+        )
+    return MotionSignal(source, stamps, headings if yaw_rates is not None else None, positions)
+
+
+def _sum(steps, rates):
+    return np.concatenate([[0.0], np.cumsum(0.5 * steps * (rates[1:] + rates[:-1]))])
+
+
+class OdometrySamples:
+    """Odometry messages: poses and twists."""
+
+    def __init__(self):
+        self._rows = []
+
+    def add(self, message, stamp):
+        """Takes in an Odometry."""
+        pose, twist = message.pose.pose, message.twist.twist
+        turn = pose.orientation
+        yaw = math.atan2(
+            2.0 * (turn.w * turn.z + turn.x * turn.y),
+            1.0 - 2.0 * (turn.y * turn.y + turn.z * turn.z),
+        )
+        norm = math.sqrt(turn.x**2 + turn.y**2 + turn.z**2 + turn.w**2)
+        self._rows.append(
+            (stamp, pose.position.x, pose.position.y, yaw, norm, twist.linear.x, twist.angular.z)
+        )
+
+    def table(self):
+        """n x 7: stamp, x, y, yaw, norm of the quaternion, speed, yaw rate."""
+        return np.array(self._rows, dtype=float).reshape(-1, 7)
+
+    def by_pose(self, source):
+        """MotionSignal of the poses; None for too few."""
+        table = self._usable(slice(1, 5))
+        if len(table) < 3:
+            return None
+        return MotionSignal(
+            source + " (pose)", table[:, 0], np.unwrap(table[:, 3]), table[:, 1:3]
+        )
+
+    def by_twist(self, source):
+        """MotionSignal of the twists; None for too few."""
+        table = self._usable(slice(5, 7))
+        return integrated(source + " (twist)", table[:, 0], table[:, 5], table[:, 6])
+
+    def _usable(self, columns):
+        table = self.table()
+        table = table[np.all(np.isfinite(table[:, columns]), axis=1)]
+        return table[_rising(table[:, 0])]
+
+
+class TwistSamples:
+    """TwistStamped messages."""
+
+    def __init__(self):
+        self._rows = []
+
+    def add(self, message, stamp):
+        """Takes in a TwistStamped or TwistWithCovarianceStamped."""
+        twist = getattr(message.twist, "twist", message.twist)
+        self._rows.append((stamp, twist.linear.x, twist.angular.z))
+
+    def signal(self, source):
+        """MotionSignal; None for too few."""
+        table = np.array(self._rows, dtype=float).reshape(-1, 3)
+        table = table[np.all(np.isfinite(table), axis=1)]
+        return integrated(source, table[:, 0], table[:, 1], table[:, 2])
+
+
+class ImuSamples:
+    """Imu messages."""
+
+    def __init__(self):
+        self._rows = []
+
+    def add(self, message, stamp):
+        """Takes in an Imu."""
+        rate, pull = message.angular_velocity, message.linear_acceleration
+        self._rows.append((stamp, rate.x, rate.y, rate.z, pull.x, pull.y, pull.z))
+
+    def table(self):
+        """n x 7: stamp, angular velocity, acceleration; finite rows only."""
+        table = np.array(self._rows, dtype=float).reshape(-1, 7)
+        return table[np.all(np.isfinite(table), axis=1)]
+
+    def up(self):
+        """Unit vector, in the IMU's frame, against gravity; None where it feels none."""
+        table = self.table()
+        mean = table[:, 4:].mean(axis=0) if len(table) else np.zeros(3)
+        length = np.linalg.norm(mean)
+        return mean / length if length > 5.0 else None
+
+    def signal(self, source, up=None):
+        """MotionSignal of the turns about `up` (default: its z axis); None for too few."""
+        table = self.table()
+        axis = np.array([0.0, 0.0, 1.0]) if up is None else up
+        return integrated(source, table[:, 0], None, table[:, 1:4] @ axis)
+
+
+def planar_mount(matrix):
+    """(x, y, yaw), upside down, tilt (rad) of a sensor's 4 x 4 transform to the vehicle."""
+    upside_down = matrix[2, 2] < 0.0
+    tilt = math.acos(min(abs(matrix[2, 2]), 1.0))
+    return np.array([matrix[0, 3], matrix[1, 3], transforms.yaw_of(matrix)]), upside_down, tilt
+
+
+def euler_degrees(matrix):
+    """Roll, pitch, yaw in degrees of a 4 x 4 transform."""
+    return Rotation.from_matrix(matrix[:3, :3]).as_euler("xyz", degrees=True)

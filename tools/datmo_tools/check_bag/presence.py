@@ -1,0 +1,73 @@
+"""Which sensors a recording has, and what serves in place of those that are missing."""
+
+from datmo_tools.check_bag.levels import motion_source
+
+MOTION_TEXTS = {
+    "twist": "the speeds of {twist} (geometry_msgs/TwistStamped) serve instead",
+    "imu_and_twist": "the yaw rate of {imu} and the speed of {twist} serve instead",
+    "imu_and_wheels": "the yaw rate of {imu} and the wheels of {wheels} serve instead",
+    "imu": "the yaw rate of {imu} serves, the speed comes from the scans",
+}
+
+
+def check_presence(recording, roles, findings):
+    """Adds what is missing altogether."""
+    if not recording.topics:
+        findings.error("empty", "", "the recording has no messages", "Record again.")
+        return
+    _check_scan(recording, roles, findings)
+    _check_motion(recording, roles, findings)
+    for name, why in recording.undecoded.items():
+        findings.error(
+            "undecodable", name, f"a message cannot be decoded ({why})",
+            "The recording is damaged there, or was written with another definition.",
+        )  # fmt: skip
+
+
+def _check_scan(recording, roles, findings):
+    if roles.scan is None and not roles.lidar_clouds:
+        findings.error(
+            "no_scan", "", "no planar scan (sensor_msgs/LaserScan or MultiEchoLaserScan)",
+            "The stack begins with one: record the scanner's topic.",
+        )  # fmt: skip
+    if len(roles.scans) > 1:
+        findings.note(
+            "several_scanners", roles.scan,
+            f"{len(roles.scans)} scanners: {', '.join(roles.scans)}; {roles.scan} is used",
+            "--scan names another one. The stack takes one scanner.",
+        )  # fmt: skip
+    if len(roles.odometries) > 1:
+        findings.note(
+            "several_odometries", roles.odometry,
+            f"{len(roles.odometries)} odometries: {', '.join(roles.odometries)}; {roles.odometry} "
+            "is used", "--odometry names another one.",
+        )  # fmt: skip
+
+
+def _check_motion(recording, roles, findings):
+    source = motion_source(roles, recording)
+    if source == "odometry":
+        return
+    if source == "none":
+        findings.warn(
+            "no_odometry", "", "no odometry (nav_msgs/Odometry), twist or IMU",
+            "It works without (motion/source: none in the yaml), but in corridors and fast turns "
+            "the pose is lost sooner: record the wheels' odometry.",
+        )  # fmt: skip
+    else:
+        text = MOTION_TEXTS[source].format(
+            twist=roles.twist, imu=roles.imu, wheels=", ".join(roles.wheels)
+        )
+        findings.warn(
+            "no_odometry", "", f"no odometry (nav_msgs/Odometry): {text}",
+            "The yaml says so (motion/source).",
+        )  # fmt: skip
+    unread = [
+        name for name in roles.wheels if recording.topics[name].type != "sensor_msgs/JointState"
+    ]  # fmt: skip
+    if unread:
+        findings.note(
+            "wheel_speeds", unread[0],
+            f"looks like wheel speeds, of a type that is not read ({recording.topics[unread[0]].type})",
+            "Publish it as sensor_msgs/JointState (velocity, rad/s) or TwistStamped to use it.",
+        )  # fmt: skip

@@ -1,0 +1,143 @@
+"""The tree of frames that a recording publishes on /tf and /tf_static."""
+
+import math
+
+import numpy as np
+
+from datmo_tools import transforms
+
+
+def bare(frame):
+    """Name of a frame without the leading slash of tf 1."""
+    return frame[1:] if frame.startswith("/") else frame
+
+
+class Edge:
+    """All that was published from one parent to one child."""
+
+    def __init__(self, static):
+        self.static = static
+        self.count = 0
+        self.matrix = None  # 4 x 4, the first one
+        self.moved = 0.0  # m, farthest from the first one
+        self.turned = 0.0  # rad, likewise
+        self.stamps = []  # s since the start of the recording
+        self.valid = True  # finite, with a quaternion of norm 1
+
+    def add(self, matrix, stamp):
+        """Takes in one transform; None: not a rigid one."""
+        self.count += 1
+        if matrix is None:
+            self.valid = False
+            return
+        if self.matrix is None:
+            self.matrix = matrix
+        self.stamps.append(stamp)
+        self.moved = max(self.moved, float(np.linalg.norm(matrix[:3, 3] - self.matrix[:3, 3])))
+        change = self.matrix[:3, :3].T @ matrix[:3, :3]
+        cosine = 0.5 * (np.trace(change) - 1.0)
+        self.turned = max(self.turned, math.acos(min(max(cosine, -1.0), 1.0)))
+
+
+class TransformTable:
+    """Edges by (parent, child), both without leading slashes."""
+
+    def __init__(self):
+        self.edges = {}
+        self.slashed = set()  # frames as they were written, with their slash
+
+    def add(self, message, static, start):
+        """Takes in a TFMessage; `start`: of the recording, ns."""
+        for item in message.transforms:
+            names = item.header.frame_id, item.child_frame_id
+            self.slashed.update(name for name in names if name.startswith("/"))
+            key = bare(names[0]), bare(names[1])
+            edge = self.edges.setdefault(key, Edge(static))
+            edge.add(_matrix(item.transform), 1e-9 * (item.header.stamp.to_nsec() - start))
+
+    def parents(self, child):
+        """Sorted names of all parents of a frame."""
+        return sorted(parent for parent, name in self.edges if name == child)
+
+    def frames(self):
+        """All names."""
+        return {name for key in self.edges for name in key}
+
+    def children(self):
+        """All names that have a parent."""
+        return sorted({child for _, child in self.edges})
+
+    def ancestors(self, frame):
+        """The frame, its parent, and so on; ends at a root or where a loop closes."""
+        chain = [frame]
+        while True:
+            parents = self.parents(chain[-1])
+            if not parents or parents[0] in chain:
+                return chain
+            chain.append(parents[0])
+
+    def loops(self):
+        """Whether some frame is its own ancestor."""
+        for frame in self.frames():
+            last = self.ancestors(frame)[-1]
+            if self.parents(last):
+                return True
+        return False
+
+    def between(self, target, source):
+        """4 x 4 transform of points in `source` to `target`, by the first transforms; or None."""
+        up_source, up_target = self.ancestors(source), self.ancestors(target)
+        common = next((frame for frame in up_source if frame in up_target), None)
+        if common is None:
+            return None
+        to_common = self._to_ancestor(up_source, common)
+        from_target = self._to_ancestor(up_target, common)
+        if to_common is None or from_target is None:
+            return None
+        return transforms.inverse(from_target) @ to_common
+
+    def _to_ancestor(self, chain, ancestor):
+        matrix = np.eye(4)
+        for child, parent in zip(chain, chain[1:]):
+            if child == ancestor:
+                break
+            edge = self.edges[(parent, child)].matrix
+            if edge is None:
+                return None
+            matrix = edge @ matrix
+        return matrix
+
+    def path(self, target, source):
+        """Edges on the way between two frames; empty where there is none."""
+        up_source, up_target = self.ancestors(source), self.ancestors(target)
+        common = next((frame for frame in up_source if frame in up_target), None)
+        if common is None:
+            return []
+        chains = (up_source[: up_source.index(common) + 1], up_target[: up_target.index(common) + 1])
+        return [
+            self.edges[(parent, child)]
+            for chain in chains
+            for child, parent in zip(chain, chain[1:])
+        ]
+
+
+def _matrix(transform):
+    turn, shift = transform.rotation, transform.translation
+    quaternion = np.array([turn.x, turn.y, turn.z, turn.w])
+    translation = np.array([shift.x, shift.y, shift.z])
+    norm = np.linalg.norm(quaternion)
+    if not (np.all(np.isfinite(translation)) and abs(norm - 1.0) < 1e-2):
+        return None
+    return transforms.rigid(rotation_of(quaternion / norm), translation)
+
+
+def rotation_of(quaternion):
+    """3 x 3 rotation of a unit quaternion (x, y, z, w)."""
+    x, y, z, w = quaternion
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
