@@ -39,7 +39,8 @@ class Block:
 def parse_mark(words, line):
     """(needs, files) of a mark's words; PageError where it is not one of MARKS."""
     if not words or words[0] not in MARKS:
-        raise PageError(f"line {line}: needs '{' '.join(words)}': expected one of {', '.join(MARKS)}")
+        expected = ", ".join(MARKS)
+        raise PageError(f"line {line}: needs '{' '.join(words)}': expected one of {expected}")
     if words[1:] and words[0] != "download":
         raise PageError(f"line {line}: '{' '.join(words[1:])}': only a download names files")
     return words[0], words[1:]
@@ -83,14 +84,14 @@ class _Reader:
         elif mark:
             self.mark = (*parse_mark(mark.group(1).split(), line), line)
         elif COMMAND.match(text):
-            raise PageError(f"line {line}: a command outside of a fenced block is not run: {text.strip()}")
+            raise PageError(f"line {line}: a command outside of a fenced block: {text.strip()}")
 
 
 def blocks_of(text):
     """All fenced blocks of a page, in order.
 
-    Throws PageError for an unknown mark, a mark without a block of bash right behind it, a fence that
-    does not end, and for commands in an indented block, which nobody would run.
+    Throws PageError for an unknown mark, a mark without a block of bash right behind it, a fence
+    that does not end, and for commands in an indented block, which nobody would run.
     """
     reader = _Reader()
     for line, content in enumerate(text.splitlines(), start=1):

@@ -10,6 +10,7 @@ from pathlib import Path
 
 TREE = ("config", "doc", "launch", "rosbag_fixtures", "scripts", "README.md")
 CLEAN_PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
+KEPT_VARIABLES = ("HOME", "USER", "LANG", "TMPDIR")
 # What programs say when something went wrong that roslaunch's exit code does not tell.
 FAILURE = re.compile(r"\[FATAL\]|Traceback \(most recent|RLException|Couldn't find executable|"
                      r"couldn't set parameters|process has died")
@@ -29,8 +30,8 @@ class Outcome:
 def make_folder(folder, source, environment_folder, installed):
     """Lays out in `folder` what stands at the root of the sources, by links.
 
-    `environment_folder` appears as devel/. Of an installed tree config, launch and the bags are those
-    that were installed. Returns nothing.
+    `environment_folder` appears as devel/. Of an installed tree config, launch and the bags are
+    those that were installed. Returns nothing.
     """
     share = environment_folder / "share" / "datmo_fusion"
     for name in TREE:
@@ -68,9 +69,14 @@ def free_port():
 
 def shell_environment(folder):
     """Of a new login: nothing of ROS or of a workspace, no display, a master of its own."""
-    kept = {name: os.environ[name] for name in ("HOME", "USER", "LANG", "TMPDIR") if name in os.environ}
-    return {**kept, "PATH": CLEAN_PATH, "ROS_MASTER_URI": f"http://localhost:{free_port()}",
-            "ROS_HOSTNAME": "localhost", "ROS_HOME": str(folder / ".ros"), "MPLBACKEND": "Agg"}
+    return {
+        **{name: os.environ[name] for name in KEPT_VARIABLES if name in os.environ},
+        "PATH": CLEAN_PATH,
+        "ROS_MASTER_URI": f"http://localhost:{free_port()}",
+        "ROS_HOSTNAME": "localhost",
+        "ROS_HOME": str(folder / ".ros"),
+        "MPLBACKEND": "Agg",
+    }
 
 
 def script_of(blocks, progress):
@@ -92,9 +98,15 @@ def run_script(script, folder, timeout):
     """(exit code or None after `timeout` s, output) of `bash -e` on the script."""
     log = folder / ".output"
     with open(log, "wb") as output:
-        process = subprocess.Popen(["bash", "-e", str(script)], cwd=folder, env=shell_environment(folder),
-                                   stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
-                                   start_new_session=True)
+        process = subprocess.Popen(
+            ["bash", "-e", str(script)],
+            cwd=folder,
+            env=shell_environment(folder),
+            stdin=subprocess.DEVNULL,
+            stdout=output,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+        )
         try:
             code = process.wait(timeout)
         except subprocess.TimeoutExpired:

@@ -44,19 +44,23 @@ class BadPages(unittest.TestCase):
         self.assertIn(message, str(caught.exception))
 
     def test_unknown_mark(self):
-        self.expect("<!-- needs: luck -->\n```bash\nls\n```\n", "line 1: needs 'luck': expected one of build")
+        text = "<!-- needs: luck -->\n```bash\nls\n```\n"
+        self.expect(text, "line 1: needs 'luck': expected one of build")
 
     def test_mark_without_a_word(self):
         self.expect("<!-- needs: -->\n```bash\nls\n```\n", "line 1: needs ''")
 
     def test_files_of_what_is_no_download(self):
-        self.expect("<!-- needs: hours a.bag -->\n```bash\nls\n```\n", "only a download names files")
+        text = "<!-- needs: hours a.bag -->\n```bash\nls\n```\n"
+        self.expect(text, "only a download names files")
 
     def test_mark_before_text(self):
-        self.expect("<!-- needs: hours -->\ntext\n```bash\nls\n```\n", "line 1: the mark is not followed")
+        text = "<!-- needs: hours -->\ntext\n```bash\nls\n```\n"
+        self.expect(text, "line 1: the mark is not followed")
 
     def test_mark_before_another_language(self):
-        self.expect("<!-- needs: hours -->\n```yaml\na: 1\n```\n", "line 1: the mark is not followed")
+        text = "<!-- needs: hours -->\n```yaml\na: 1\n```\n"
+        self.expect(text, "line 1: the mark is not followed")
 
     def test_mark_at_the_end(self):
         self.expect("text\n<!-- needs: hours -->\n", "line 2: the mark is not followed")

@@ -34,7 +34,8 @@ def keys_of(tree, prefix=""):
     """Paths of all values in nested mappings."""
     if not isinstance(tree, dict):
         return [prefix]
-    return [key for name, value in tree.items() for key in keys_of(value, f"{prefix}/{name}".lstrip("/"))]
+    start = f"{prefix}/" if prefix else ""
+    return [key for name, value in tree.items() for key in keys_of(value, f"{start}{name}")]
 
 
 @unittest.skipUnless(PAGES[0].exists(), "no README.md here")
