@@ -60,6 +60,45 @@ def make_drive(root, frames=FRAMES, points=((10.0, 0.0, -1.23, 0.5),), van_x=12.
     return folder
 
 
+def make_extract(root, frames=FRAMES, motion_per_frame=10):
+    """The same drive as it is published unsynchronized and unrectified; returns its folder.
+
+    Clouds are text, the GPS/IMU has its own rate, images are larger and distorted by nothing: the
+    raw camera sees one pixel more on each side.
+    """
+    sync = make_drive(root, frames)
+    folder = sync.with_name(sync.name.replace("_sync", "_extract"))
+    sync.rename(folder)
+    (folder / "tracklet_labels.xml").unlink()
+    for path in (folder / "velodyne_points" / "data").iterdir():
+        points = struct.iter_unpack("<4f", path.read_bytes())
+        text = "".join(" ".join(f"{value:.3f}" for value in point) + "\n" for point in points)
+        path.with_suffix(".txt").write_text(text)
+        path.unlink()
+    records = (frames - 1) * motion_per_frame + 1
+    stamps = (1000 * number // motion_per_frame * 100 for number in range(records))
+    lines = (f"2011-09-26 13:04:32.{stamp:06d}000\n" for stamp in stamps)
+    (folder / "oxts" / "timestamps.txt").write_text("".join(lines))
+    for number in range(records):
+        line = oxts_line(number / motion_per_frame)
+        (folder / "oxts" / "data" / f"{number:010d}.txt").write_text(line)
+    _make_raw_images(folder)
+    return folder
+
+
+def _make_raw_images(folder):
+    calibration = folder.parent / "calib_cam_to_cam.txt"
+    raw = "".join(
+        f"S_{camera}: {WIDTH + 2} {HEIGHT + 2}\nD_{camera}: 0 0 0 0 0\n"
+        f"K_{camera}: {FOCAL} 0 5 0 {FOCAL} 3 0 0 1\n"
+        for camera in ("00", "01")
+    )
+    calibration.write_text(calibration.read_text() + raw)
+    for camera in ("image_00", "image_01"):
+        for path in (folder / camera / "data").iterdir():
+            write_png(path, 30, WIDTH + 2, HEIGHT + 2)
+
+
 def oxts_line(frame, speed=10.0, yaw=0.0, yaw_rate=0.0):
     """A record of the GPS/IMU `frame` metres east of longitude 8 on the equator."""
     fields = [0.0] * 30
@@ -68,11 +107,11 @@ def oxts_line(frame, speed=10.0, yaw=0.0, yaw_rate=0.0):
     return " ".join(repr(field) for field in fields)
 
 
-def write_png(path, gray):
+def write_png(path, gray, width=WIDTH, height=HEIGHT):
     """A gray image whose pixels are all `gray`, but the first one: 0."""
     import cv2
     import numpy as np
 
-    pixels = np.full((HEIGHT, WIDTH), gray, np.uint8)
+    pixels = np.full((height, width), gray, np.uint8)
     pixels[0, 0] = 0
     cv2.imwrite(str(path), pixels)

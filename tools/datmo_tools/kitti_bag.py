@@ -1,5 +1,6 @@
 """A KITTI raw drive -> a bag of the stack's data contract: the order of the work."""
 
+import sys
 from pathlib import Path
 from typing import NamedTuple, Optional
 
@@ -15,7 +16,8 @@ from datmo_tools import (
 from datmo_tools.bag_file import MOUNTS_LEAD, whole_bag
 from datmo_tools.ego_pose import EgoMotion, poses_from_gps, poses_from_velocity
 from datmo_tools.errors import InputError
-from datmo_tools.kitti_calibration import read_calibration
+from datmo_tools.kitti_calibration import find_calibration, read_calibration
+from datmo_tools.kitti_images import ImagePairs
 from datmo_tools.kitti_labels import read_labels
 from datmo_tools.kitti_raw import Drive
 from datmo_tools.kitti_tracklets import read_tracklets
@@ -38,6 +40,7 @@ class Options(NamedTuple):
     start: int = 0  # first frame
     end: Optional[int] = None  # one past the last frame
     allow_missing_scans: bool = False
+    calibration: Optional[Path] = None  # folder; else where it is published, see find_calibration
 
 
 def convert(folder, bag_path, options, stream=None):
@@ -47,6 +50,8 @@ def convert(folder, bag_path, options, stream=None):
     """
     scanner_emulation.check(options.scanner)
     conversion = _Conversion(folder, options)
+    for notice in conversion.notices():
+        print(f"kitti_to_bag: {notice}", file=stream or sys.stderr)
     events = sorted(
         conversion.events(), key=lambda event: event.stamp
     )  # stable: equal stamps keep order
@@ -74,10 +79,16 @@ class _Conversion:
         self._options = options
         self._drive = Drive(folder)
         self._frames = _chosen_frames(self._drive, options)
-        self._calibration = read_calibration(folder.parent)
-        stamps = [self._drive.oxts_stamps[frame] for frame in self._frames]
-        self._records = dict(zip(self._frames, (self._drive.oxts(frame) for frame in self._frames)))
-        records = list(self._records.values())
+        calibration_folder = options.calibration or find_calibration(folder)
+        self._calibration = read_calibration(calibration_folder)
+        self._images = (
+            ImagePairs(self._drive, calibration_folder, self._calibration)
+            if options.images
+            else None
+        )
+        self._motion = self._drive.motion_records(self._frames)
+        stamps = [self._drive.oxts_stamps[index] for index in self._motion]
+        records = [self._drive.oxts(index) for index in self._motion]
         poses = (
             poses_from_gps(records)
             if options.gps_position
@@ -86,19 +97,32 @@ class _Conversion:
         self._ego = EgoMotion(stamps, records, poses)
         rates = odometry.degraded_rates(records, options.odometry_errors, options.seed)
         samples = odometry.integrate(stamps, *rates, options.odometry_errors)
-        self._samples = dict(zip(self._frames, samples))
-        self._poses = dict(zip(self._frames, poses))
+        self._records = dict(zip(self._motion, records))
+        self._samples = dict(zip(self._motion, samples))
+        self._poses = dict(zip(self._motion, poses))
         self._truth = self._read_truth(folder)
+
+    def notices(self):
+        """Sentences on what is not as in a complete synchronized drive."""
+        lost_scans = [frame for frame in self._frames if not self._drive.has_cloud(frame)]
+        if lost_scans:
+            yield f"{len(lost_scans)} of {len(self._frames)} scans are missing and left out"
+        if self._drive.synced and len(self._motion) < len(self._frames):
+            lost = len(self._frames) - len(self._motion)
+            yield f"{lost} of {len(self._frames)} GPS/IMU records are missing and interpolated"
+        if not self._drive.synced:
+            yield "an unsynchronized drive: every sensor at its own rate, without true objects"
 
     def events(self):
         """All that is to be written, in any order of stamps."""
+        for index in self._motion:
+            yield _Event(self._drive.oxts_stamps[index], index, self._write_motion)
         for frame in self._frames:
-            yield _Event(self._drive.oxts_stamps[frame], frame, self._write_motion)
             if self._drive.has_cloud(frame):
                 yield _Event(self._drive.scan_stamps[frame], frame, self._write_scan)
-        if self._options.images:
-            yield from self._image_events(0, "left", self._calibration.left)
-            yield from self._image_events(1, "right", self._calibration.right)
+        if self._images is not None:
+            for stamp, index, write in self._images.events(self._frames):
+                yield _Event(stamp, index, write)
 
     def write_mounts(self, bag, stamp):
         """Writes /tf_static."""
@@ -108,7 +132,14 @@ class _Conversion:
         bag.write_latched("/tf_static", stamp, message)
 
     def _read_truth(self, folder):
-        """Dictionary frame -> list of MapObject; empty where the drive has no labels."""
+        """Dictionary frame -> list of MapObject; None where the drive has no labels.
+
+        Labels count the frames of the synchronized drive.
+        """
+        if not self._drive.synced:
+            if self._options.labels is not None:
+                raise InputError("--labels: expected a synchronized drive, whose frames they count")
+            return None
         if self._options.labels is not None:
             objects = read_labels(self._options.labels, self._calibration.left_from_velodyne)
         elif (folder / "tracklet_labels.xml").is_file():
@@ -118,7 +149,7 @@ class _Conversion:
         stamps = self._drive.scan_stamps
         chosen = [
             source._replace(
-                boxes={frame: box for frame, box in source.boxes.items() if frame in self._poses}
+                boxes={frame: box for frame, box in source.boxes.items() if frame in self._frames}
             )
             for source in objects
         ]
@@ -126,17 +157,6 @@ class _Conversion:
         return ground_truth.objects_by_frame(
             chosen, self._calibration.base_from_velodyne, stamps, poses
         )
-
-    def _image_events(self, camera, side, parameters):
-        stamps = self._drive.image_stamps(camera)
-        topic = f"/stereo/{side}"
-
-        def write(bag, stamp, frame):
-            pixels = self._drive.image(camera, frame, parameters.width, parameters.height)
-            bag.write(f"{topic}/image_rect", stamp, kitti_messages.gray_image(stamp, pixels))
-            bag.write(f"{topic}/camera_info", stamp, kitti_messages.camera_info(stamp, parameters))
-
-        return (_Event(stamps[frame], frame, write) for frame in self._frames)
 
     def _write_motion(self, bag, stamp, frame):
         sample = self._samples[frame]
@@ -181,16 +201,11 @@ def _chosen_frames(drive, options):
         raise InputError(
             f"frames {options.start} to {end}, expected 0 <= START < END <= {drive.frames}"
         )
-    if len(drive.oxts_stamps) != drive.frames:
-        raise InputError(
-            f"{drive.folder / 'oxts' / 'timestamps.txt'}: {len(drive.oxts_stamps)} stamps, "
-            f"expected {drive.frames}, as the Velodyne has"
-        )
     frames = range(options.start, end)
     missing = [frame for frame in frames if not drive.has_cloud(frame)]
     if missing and (not options.allow_missing_scans or len(missing) == len(frames)):
         raise InputError(
-            f"{drive.folder / 'velodyne_points' / 'data'}: {missing[0]:010d}.bin is missing "
+            f"{drive.cloud_file(missing[0])} is missing, or its stamp "
             f"({len(missing)} of {len(frames)}), expected one for each frame; "
             "--allow-missing-scans leaves a few out"
         )

@@ -10,6 +10,7 @@ import numpy as np
 from datmo_tools import transforms
 from datmo_tools.errors import InputError
 
+CAMERAS_FILE = "calib_cam_to_cam.txt"
 VELODYNE_HEIGHT = 1.73  # m above the road (Geiger et al. 2013, figure 3)
 
 
@@ -17,6 +18,16 @@ class Camera(NamedTuple):
     """A rectified camera: `projection` (3 x 4, from the left one's frame), size; in pixels."""
 
     projection: np.ndarray
+    width: int
+    height: int
+
+
+class RawCamera(NamedTuple):
+    """A camera before rectification, and how it is rectified."""
+
+    matrix: np.ndarray  # 3 x 3, pixels
+    distortion: np.ndarray  # k1, k2, p1, p2, k3
+    rotation: np.ndarray  # 3 x 3, into the rectified camera
     width: int
     height: int
 
@@ -36,9 +47,32 @@ class Calibration(NamedTuple):
         return -self.right.projection[0, 3] / self.right.projection[0, 0]
 
 
+def find_calibration(drive):
+    """The folder (Path) of a drive's calibration: above the drive, as it is unpacked, or in it, or in
+    the folder of its day beside it. Raises InputError that says where it was looked for.
+    """
+    drive = drive.resolve()
+    day = drive.name[: len("2011_09_26")]
+    folders = [drive.parent, drive, drive.parent / day]
+    for folder in folders:
+        if (folder / CAMERAS_FILE).is_file():
+            return folder
+    looked = ", ".join(map(str, folders))
+    raise InputError(
+        f"{drive}: no calibration, expected {CAMERAS_FILE} and the others of {day}_calib.zip in "
+        f"{looked}, or --calibration FOLDER"
+    )
+
+
+def read_raw_cameras(folder):
+    """RawCamera of the left and the right gray camera. Raises InputError as read_calibration."""
+    cameras = _KeyedFile(folder / CAMERAS_FILE)
+    return [_raw_camera(cameras, number) for number in ("00", "01")]
+
+
 def read_calibration(folder):
     """Reads the three calib_*.txt of `folder` (Path). Raises InputError where one is broken."""
-    cameras = _KeyedFile(folder / "calib_cam_to_cam.txt")
+    cameras = _KeyedFile(folder / CAMERAS_FILE)
     velodyne_from_imu = _KeyedFile(folder / "calib_imu_to_velo.txt").rigid()
     camera_from_velodyne = _KeyedFile(folder / "calib_velo_to_cam.txt").rigid()
     rectification = transforms.rigid(cameras.values("R_rect_00", 9).reshape(3, 3), np.zeros(3))
@@ -61,6 +95,17 @@ def _base_from_imu(velodyne_from_imu):
 def _camera(cameras, number):
     width, height = cameras.values(f"S_rect_{number}", 2)
     return Camera(cameras.values(f"P_rect_{number}", 12).reshape(3, 4), int(width), int(height))
+
+
+def _raw_camera(cameras, number):
+    width, height = cameras.values(f"S_{number}", 2)
+    return RawCamera(
+        matrix=cameras.values(f"K_{number}", 9).reshape(3, 3),
+        distortion=cameras.values(f"D_{number}", 5),
+        rotation=cameras.values(f"R_rect_{number}", 9).reshape(3, 3),
+        width=int(width),
+        height=int(height),
+    )
 
 
 class _KeyedFile:

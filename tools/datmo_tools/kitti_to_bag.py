@@ -11,9 +11,11 @@ from datmo_tools.odometry import OdometryErrors
 from datmo_tools.scanner_emulation import ScannerOptions
 
 DESCRIPTION = """\
-Converts a KITTI raw drive, as it is downloaded (calib_*.txt in its parent), to a bag: /scan,
-/odometry, /tf, /tf_static, the true pose and, where the drive is labelled, the true objects;
-/points and stereo images on demand.
+Converts a KITTI raw drive, as it is downloaded and unpacked (calib_*.txt in its parent), to a bag:
+/scan, /odometry, /tf, /tf_static, the true pose and, where the drive is labelled, the true objects;
+/points and stereo images on demand. Both published forms are taken: synced+rectified (..._sync) and
+unsynced+unrectified (..._extract), whose sensors keep their own rates and whose images are rectified
+here; it has no true objects, for labels count the frames of the other form.
 
 The scan is an EMULATION of a planar scanner at the bumper: the nearest Velodyne point of each beam
 in a height band above the road. The Velodyne looks down from 1.73 m and so sees over low obstacles.
@@ -38,7 +40,7 @@ def _parser():
         description=DESCRIPTION,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("drive", type=Path, help="folder ..._drive_NUMBER_sync")
+    parser.add_argument("drive", type=Path, help="folder ..._drive_NUMBER_sync or _extract")
     parser.add_argument("bag", type=Path, help="bag to write")
     _add_contents(parser.add_argument_group("contents"))
     _add_scanner(parser.add_argument_group("emulated scanner"), ScannerOptions())
@@ -53,6 +55,8 @@ def _add_contents(group):
     add("--end", type=int, metavar="FRAME", help="one past the last frame (default: all)")
     add("--points", action="store_true", help="write the Velodyne's points too")
     add("--images", action="store_true", help="write the gray stereo images too")
+    calibration = "folder of calib_*.txt (default: above the drive, in it, or in its day's beside it)"
+    add("--calibration", type=Path, metavar="FOLDER", help=calibration)
     missing = "go on where Velodyne files are missing, as in drive 0009"
     add("--allow-missing-scans", action="store_true", help=missing)
 
@@ -128,4 +132,5 @@ def _options(values):
         start=values.start,
         end=values.end,
         allow_missing_scans=values.allow_missing_scans,
+        calibration=values.calibration,
     )

@@ -15,6 +15,7 @@ CLASSES = {
     "Tram": Object.CLASS_VEHICLE,
     "Pedestrian": Object.CLASS_PEDESTRIAN,
     "Person_sitting": Object.CLASS_PEDESTRIAN,
+    "Person": Object.CLASS_PEDESTRIAN,  # the same class in some files of label_02
     "Person (sitting)": Object.CLASS_PEDESTRIAN,  # the same class in tracklet_labels.xml
     "Cyclist": Object.CLASS_CYCLIST,
 }
