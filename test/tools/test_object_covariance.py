@@ -137,10 +137,19 @@ class Table(unittest.TestCase):
                                    column.bias[1:] ** 2, rtol=1e-6)  # fmt: skip
 
     def test_few_pairs(self):
-        with self.assertRaisesRegex(InputError, "20 pairs with range; 0 bins .* expected two bins"):
+        with self.assertRaisesRegex(
+            InputError, "20 pairs with range; 0 bins .* expected two bins: bags with more traffic"
+        ):
             covariance_table(pairs(20), 2.0, 30.0, 30)
         with self.assertRaisesRegex(InputError, "0 pairs with range"):
             covariance_table([], 2.0, 30.0, 30)
+
+    def test_wider_bins_are_advised_where_they_would_do(self):
+        few = pairs(100)
+        with self.assertRaisesRegex(InputError, "or --bin-width ([0-9]+)$") as context:
+            covariance_table(few, 2.0, 30.0, 30)
+        width = float(str(context.exception).rsplit(" ", 1)[1])
+        self.assertEqual(covariance_table(few, width, 30.0, 30).bin_width, width)
 
     def test_normal_spread(self):
         spread = robust_spread(random().normal(1.0, 2.0, 20000))

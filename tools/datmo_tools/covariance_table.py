@@ -129,13 +129,25 @@ def covariance_table(pairs, bin_width, reach, least_pairs, with_bias=False):
         if enough < 2:
             raise InputError(
                 f"{sum(map(np.sum, seen))} pairs with {name}; {enough} bins of {bin_width:g} m "
-                f"within {reach:g} m have {least_pairs} or more, expected two bins"
+                f"within {reach:g} m have {least_pairs} or more, expected two bins: bags with more "
+                f"traffic, several are taken together{_wider_bins(values, bin_width, least_pairs)}"
             )
         return _column(members, centres, least_pairs, power, with_bias)
 
     return CovarianceTable(
         bin_width, column("range", 1, 3, RANGE_POWER), column("bearing", 2, 4, BEARING_POWER)
     )
+
+
+def _wider_bins(values, bin_width, least_pairs):
+    """The advice to take bins of so many times the width, where these would have enough pairs."""
+    seen = [values[np.isfinite(values[:, difference]), 0] for difference in (1, 2)]
+    farthest = np.max(values[:, 0], initial=0.0)
+    for width in np.arange(2 * bin_width, farthest, bin_width):
+        counts = [np.bincount((ranges / width).astype(int)) for ranges in seen]
+        if all(np.count_nonzero(count >= least_pairs) >= 2 for count in counts):
+            return f", or --bin-width {width:g}"
+    return ""
 
 
 def _column(members, centres, least_pairs, power, with_bias):

@@ -58,7 +58,8 @@ def read_drive(path, reach, disparity_sigma):
     if not moments:
         raise InputError(
             f"{path}: no scan with {TRUE_ECHOES}, {TRUE_OBJECTS} and {TRUE_POSE} of its stamp, "
-            "expected a simulated drive with ground_truth/echoes"
+            "expected a drive of 'simulate SCENE DRIVE --set stereo/enabled=true --set "
+            "ground_truth/echoes=true'"
         )
     return Drive(view, moments)
 

@@ -1,6 +1,7 @@
 #include "kitti_tracking/kitti_tracking_files.h"
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <iomanip>
 #include <limits>
@@ -10,17 +11,21 @@
 
 #include "kitti_tracking/text_lines.h"
 
+#include "datmo_fusion/common/angle.h"
+
 namespace datmo::kitti {
 
 namespace {
 
 /// In the order of ObjectType.
-const std::array<std::string, 9> kTypeNames = {
-    "Car", "Van", "Truck", "Pedestrian", "Person_sitting", "Cyclist", "Tram", "Misc", "DontCare"};
+const std::array<std::string, 10> kTypeNames = {
+    "Car",    "Van",     "Truck", "Pedestrian", "Person_sitting",
+    "Person", "Cyclist", "Tram",  "Misc",       "DontCare"};
 
 constexpr std::size_t kLabelColumns = 17;
 constexpr std::size_t kResultColumns = kLabelColumns + 1;
 constexpr std::size_t kDetectionColumns = 15;
+constexpr std::size_t kAlphaColumn = kDetectionColumns - 1;  ///< which some detectors leave out
 
 constexpr int kGreatest = std::numeric_limits<int>::max();
 constexpr int kNobodysId = -1;
@@ -100,15 +105,23 @@ ObjectType readDetectionType(const TextLine& line, std::size_t column) {
   return kTypes.at(static_cast<std::size_t>(number - 1));
 }
 
+/// The heading as seen from the camera, rad.
+double alphaOf(const Box3& box) {
+  return normalizeAngle(box.rotation_y - std::atan2(box.x, box.z));
+}
+
 Detection readDetection(const TextLine& line) {
-  line.expectColumns(kDetectionColumns);
+  const bool has_alpha = line.columns().size() != kAlphaColumn;
+  if (has_alpha) {
+    line.expectColumns(kDetectionColumns);
+  }
   Detection detection;
   detection.frame = line.integer(0, "frame", 0, kGreatest);
   detection.type = readDetectionType(line, 1);
   detection.image_box = readImageBox(line, 2);
   detection.score = line.number(6, "score");
   detection.box = readBox(line, 7);
-  detection.alpha = line.number(14, "alpha");
+  detection.alpha = has_alpha ? line.number(kAlphaColumn, "alpha") : alphaOf(detection.box);
   return detection;
 }
 

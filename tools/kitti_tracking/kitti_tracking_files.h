@@ -15,6 +15,7 @@ enum class ObjectType {
   kTruck,
   kPedestrian,
   kPersonSitting,
+  kPerson,  ///< sitting too, in some of the label files; KITTI's evaluation passes over it
   kCyclist,
   kTram,
   kMisc,
@@ -46,7 +47,7 @@ struct TrackedObject {
   double score = 0.0;  ///< of a result only
 };
 
-/// One box of a 3D detector: `frame,type,left,top,right,bottom,score,h,w,l,x,y,z,ry,alpha` with
+/// One box of a 3D detector: `frame,type,left,top,right,bottom,score,h,w,l,x,y,z,ry[,alpha]` with
 /// type 1 (pedestrian), 2 (car) or 3 (cyclist).
 struct Detection {
   int frame = 0;
@@ -54,7 +55,7 @@ struct Detection {
   ImageBox image_box;
   double score = 0.0;  ///< unbounded: greater is surer
   Box3 box;
-  double alpha = 0.0;  ///< rad
+  double alpha = 0.0;  ///< rad; where the file has none: what ry and the place tell
 };
 
 /// Labels, in the order of the file. Empty lines are passed over, here and below. Throws

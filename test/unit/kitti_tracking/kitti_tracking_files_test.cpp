@@ -3,6 +3,8 @@
 #include "text_file.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/angle.h"
+
 namespace datmo::kitti {
 namespace {
 
@@ -129,6 +131,28 @@ TEST_F(KittiTrackingFiles, Detections) {
   EXPECT_EQ(detections[0].box.z, 32.8);
   EXPECT_EQ(detections[0].box.rotation_y, -1.0);
   EXPECT_EQ(detections[0].alpha, -0.8);
+}
+
+TEST_F(KittiTrackingFiles, EveryTypeOfLabel) {
+  const std::string tail = " 0 0 0 1 1 2 2 1.5 1.6 4 0 0 9 0\n";
+  std::string text;
+  int id = 0;
+  for (const std::string type : {"Car", "Van", "Truck", "Pedestrian", "Person_sitting", "Person",
+                                 "Cyclist", "Tram", "Misc"}) {
+    text += "0 " + std::to_string(id++) + " " + type + tail;
+  }
+  const std::vector<TrackedObject> labels = readLabels(file(text + kDontCare));
+  ASSERT_EQ(labels.size(), 10U);
+  EXPECT_EQ(labels[5].type, ObjectType::kPerson);
+  EXPECT_EQ(nameOf(labels[5].type), "Person");
+  EXPECT_EQ(labels[9].type, ObjectType::kDontCare);
+}
+
+TEST_F(KittiTrackingFiles, DetectionsWithoutAlpha) {
+  // 45 degrees to the right, heading right: seen from the camera it goes 45 degrees off its line.
+  const Detection detection = readDetections(file("0,2,1,2,3,4,0.5,1.5,1.6,4,10,1,10,0\n")).at(0);
+  EXPECT_DOUBLE_EQ(detection.alpha, -0.25 * kPi);
+  EXPECT_EQ(detection.box.rotation_y, 0.0);
 }
 
 TEST_F(KittiTrackingFiles, BadDetections) {
