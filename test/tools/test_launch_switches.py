@@ -81,7 +81,7 @@ class LaunchSwitches(unittest.TestCase):
 
     def test_all_types_are_in_the_package(self):
         classes = ElementTree.parse(PACKAGE / "nodelets.xml").getroot()
-        known = {each.get("name") for each in classes}
+        known = {each.get("name") for each in classes.iter("class")}
         for switches, nodes, _ in self.each("perception.launch"):
             with self.subTest(**switches):
                 kinds = nodelets(nodes).values()

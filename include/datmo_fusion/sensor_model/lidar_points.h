@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
+#include "datmo_fusion/common/options.h"
+
+namespace datmo {
+
+using LidarPoints = pcl::PointCloud<pcl::PointXYZ>;
+
+/// One cloud of a 3D lidar, all points finite.
+struct LidarCloud {
+  LidarPoints::Ptr points{new LidarPoints};  ///< m, in the lidar's frame
+  std::vector<float> times;  ///< s after the cloud's stamp, one per point; empty: not known
+  Eigen::Isometry3d lidar_in_base = Eigen::Isometry3d::Identity();
+
+  EIGEN_MAKE_ALIGNED_OPERATOR_NEW
+};
+
+/// The box around the vehicle in which points are its own (hood, mirrors, roof rack), in base_link.
+struct OwnVehicleOptions {
+  double rear = -1.0;       ///< m
+  double front = 1.0;       ///< m
+  double half_width = 0.5;  ///< m
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// The points of `cloud` in base_link, in their order.
+LidarPoints::Ptr toBase(const LidarCloud& cloud);
+
+/// Indices of the points (base_link) that are not the vehicle's own, at any height (pcl::CropBox).
+std::vector<int> outsideOfVehicle(const LidarPoints::ConstPtr& points,
+                                  const OwnVehicleOptions& vehicle);
+
+}  // namespace datmo

@@ -1,0 +1,44 @@
+#include "datmo_fusion/sensor_model/lidar_points.h"
+
+#include <limits>
+
+#include <pcl/common/transforms.h>
+#include <pcl/filters/crop_box.h>
+
+namespace datmo {
+
+void OwnVehicleOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"rear", "m",
+                  "rear end of the box around the own vehicle, x of the base frame; points in the "
+                  "box are its own and are left out"},
+                 rear, {-20.0, 0.0});
+  visitor.number({"front", "m", "its front end"}, front, {0.0, 20.0});
+  visitor.number({"half_width", "m", "from its middle to either side, mirrors included"},
+                 half_width, {0.0, 5.0});
+}
+
+LidarPoints::Ptr toBase(const LidarCloud& cloud) {
+  LidarPoints::Ptr points(new LidarPoints);
+  if (cloud.points->empty()) {
+    return points;  // PCL would complain on the console
+  }
+  const Eigen::Matrix4f transform = cloud.lidar_in_base.matrix().cast<float>();
+  pcl::transformPointCloud(*cloud.points, *points, transform);
+  return points;
+}
+
+std::vector<int> outsideOfVehicle(const LidarPoints::ConstPtr& points,
+                                  const OwnVehicleOptions& vehicle) {
+  constexpr float kFar = std::numeric_limits<float>::max();
+  const auto half_width = static_cast<float>(vehicle.half_width);
+  pcl::CropBox<pcl::PointXYZ> box;
+  box.setInputCloud(points);
+  box.setMin({static_cast<float>(vehicle.rear), -half_width, -kFar, 1.0F});
+  box.setMax({static_cast<float>(vehicle.front), half_width, kFar, 1.0F});
+  box.setNegative(true);
+  std::vector<int> outside;
+  box.filter(outside);
+  return outside;
+}
+
+}  // namespace datmo
