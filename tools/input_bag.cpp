@@ -1,8 +1,9 @@
 #include "input_bag.h"
 
-#include <filesystem>
 #include <set>
 #include <stdexcept>
+
+#include "bag_fault.h"
 
 #include <rosbag/exceptions.h>
 #include <rosbag/view.h>
@@ -10,17 +11,22 @@
 namespace datmo {
 
 void openInput(const std::string& file, rosbag::Bag& bag) {
-  if (!std::filesystem::is_regular_file(file)) {
-    throw std::runtime_error(file + ": no such file");
+  const std::string fault = bagFault(file);
+  if (!fault.empty()) {
+    throw std::runtime_error(file + ": " + fault);
   }
   try {
     bag.open(file, rosbag::bagmode::Read);
-  } catch (const rosbag::BagUnindexedException&) {
+  } catch (const rosbag::BagException&) {  // whatever of the index cannot be read
     throw std::runtime_error(file +
-                             ": has no index, so it was cut short while it was written;"
-                             " 'rosbag reindex' saves what is there");
+                             ": has no index: it was cut short, or is still being written;"
+                             " 'rosbag reindex " +
+                             file + "' saves what is there");
   } catch (const std::exception& error) {  // of rosbag, and of ros::Time for a broken stamp
     throw std::runtime_error(file + ": cannot be read as a bag (" + error.what() + ")");
+  }
+  if (rosbag::View(bag).size() == 0) {
+    throw std::runtime_error(file + ": holds no message, expected a recording");
   }
 }
 

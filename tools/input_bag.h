@@ -9,8 +9,8 @@
 
 namespace datmo {
 
-/// Opens a bag for reading. Throws std::runtime_error that says what is wrong with which file: not
-/// there, cut short, no bag.
+/// Opens a bag for reading. Throws std::runtime_error that says what is wrong with which file, and
+/// what to do: as bagFault(), or cut short, or without messages.
 void openInput(const std::string& file, rosbag::Bag& bag);
 
 /// The topics of a bag and their types, "topic (type)", sorted.

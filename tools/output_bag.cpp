@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "whole_file.h"
+
 #include <rosbag/exceptions.h>
 #include <rosbag/message_instance.h>
 
@@ -15,9 +17,7 @@ bool isSameFile(const std::string& a, const std::string& b) {
 
 OutputBag::OutputBag(const std::string& file, rosbag::CompressionType compression)
     : file_(file), part_(file + ".part") {
-  if (std::filesystem::is_directory(file_)) {
-    throw std::runtime_error(file_ + ": is a folder, expected the name of a bag");
-  }
+  checkWritable(file_);
   try {
     bag_.open(part_, rosbag::bagmode::Write);
     bag_.setCompression(compression);

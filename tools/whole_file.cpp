@@ -4,12 +4,27 @@
 #include <fstream>
 #include <stdexcept>
 
+#include <unistd.h>
+
 namespace datmo {
 
-void writeWholeFile(const std::string& file, const std::string& text) {
+void checkWritable(const std::string& file) {
   if (std::filesystem::is_directory(file)) {
     throw std::runtime_error(file + ": is a folder, expected the name of a file");
   }
+  const std::filesystem::path parent = std::filesystem::path(file).parent_path();
+  const std::string folder = parent.empty() ? "." : parent.string();
+  if (!std::filesystem::is_directory(folder)) {
+    throw std::runtime_error(file + ": cannot be written (no folder " + folder + ")");
+  }
+  if (access(folder.c_str(), W_OK) != 0) {
+    throw std::runtime_error(file + ": cannot be written (no permission to write in " + folder +
+                             ")");
+  }
+}
+
+void writeWholeFile(const std::string& file, const std::string& text) {
+  checkWritable(file);
   const std::string part = file + ".part";
   try {
     std::ofstream stream;

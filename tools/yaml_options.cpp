@@ -1,6 +1,7 @@
 #include "yaml_options.h"
 
 #include <ios>
+#include <set>
 
 namespace datmo {
 
@@ -34,11 +35,30 @@ void flatten(const std::string& prefix, const YAML::Node& section, OptionValues&
   }
 }
 
+/// yaml-cpp keeps all of several equal keys, and finds the first.
+void checkKeysOnce(const std::string& file, const YAML::Node& node) {
+  std::set<std::string> names;
+  for (const auto& entry : node) {
+    if (!node.IsMap()) {
+      checkKeysOnce(file, entry);
+      continue;
+    }
+    const YAML::Node& key = entry.first;
+    if (key.IsScalar() && !names.insert(key.Scalar()).second) {
+      throw OptionError(file + ":" + std::to_string(key.Mark().line + 1) + ": " + key.Scalar() +
+                        " is given twice: expected once");
+    }
+    checkKeysOnce(file, entry.second);
+  }
+}
+
 }  // namespace
 
 YAML::Node loadYaml(const std::string& file) {
   try {
-    return YAML::LoadFile(file);
+    const YAML::Node root = YAML::LoadFile(file);
+    checkKeysOnce(file, root);
+    return root;
   } catch (const YAML::BadFile&) {
     throw OptionError(file + kNoFile);
   } catch (const std::ios_base::failure&) {  // a folder

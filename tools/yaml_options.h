@@ -8,7 +8,8 @@
 
 namespace datmo {
 
-/// Parses a yaml file. Throws OptionError that names the file, and the line where it is no yaml.
+/// Parses a yaml file. Throws OptionError that names the file, and the line where it is no yaml or
+/// has a key, or a section, that stands there already.
 YAML::Node loadYaml(const std::string& file);
 
 /// A key of a map as text. Throws OptionError that names the line if it is a list or a map.

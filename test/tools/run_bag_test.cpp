@@ -95,7 +95,7 @@ TEST_F(RunBag, BagThatIsCutShortIsNamed) {
 
 TEST_F(RunBag, FileThatIsNoBagIsNamed) {
   std::ofstream(arguments_.input) << "not a bag";
-  EXPECT_TRUE(holds(failure(), arguments_.input + ": cannot be read as a bag"));
+  EXPECT_TRUE(holds(failure(), arguments_.input + ": is no bag"));
 }
 
 TEST_F(RunBag, MissingScanIsNamedBesideWhatThereIs) {

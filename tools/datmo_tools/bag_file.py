@@ -41,6 +41,13 @@ class BagFile:
             },
         )
 
+    def copy(self, message):
+        """Writes a message as it was read from another bag, raw and with its connection's header."""
+        header = message.connection_header
+        self._bag.write(
+            message.topic, message.message, message.timestamp, raw=True, connection_header=header
+        )
+
 
 @contextlib.contextmanager
 def whole_bag(path, writer):

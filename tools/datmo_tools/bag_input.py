@@ -80,7 +80,12 @@ def _fault_of_folder(path):
     bags = [name for name in names if name.endswith(".bag")]
     more = ", ..." if len(bags) > MAX_NAMES else ""
     held = f"; it holds {', '.join(bags[:MAX_NAMES])}{more}" if bags else ""
-    return f"is a folder, expected a bag{held}"
+    advice = (
+        "; 'rosrun datmo_fusion merge_bags' makes one bag of a recording's parts"
+        if len(bags) > 1
+        else ""
+    )
+    return f"is a folder, expected a bag{held}{advice}"
 
 
 def _fault_of_content(path):

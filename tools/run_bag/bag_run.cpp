@@ -228,6 +228,9 @@ PipelineOptions readOptionsFor(const Arguments& arguments) {
 
 void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progress) {
   const PipelineOptions options = readOptionsFor(arguments);
+  if (!arguments.times.empty()) {
+    checkWritable(arguments.times);
+  }
   rosbag::Bag bag;
   openInput(arguments.input, bag);
   const InputTopics topics = findTopics(bag, arguments, options);

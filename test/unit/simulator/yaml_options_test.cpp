@@ -1,5 +1,9 @@
 #include "yaml_options.h"
 
+#include <cstdio>
+#include <fstream>
+#include <map>
+
 #include <gtest/gtest.h>
 
 namespace datmo {
@@ -48,6 +52,23 @@ TEST(ParseOptionValue, IsReadAsYaml) {
   EXPECT_EQ(std::get<bool>(parseOptionValue("a", "false")), false);
   EXPECT_THROW(parseOptionValue("a", "[1"), OptionError);
   EXPECT_THROW(parseOptionValue("a", ""), OptionError);
+}
+
+TEST(LoadYaml, SectionsAndKeysOfOneNameAreRefused) {
+  const std::string file = testing::TempDir() + "yaml_options_test.yaml";
+  for (const auto& [text, said] : std::map<std::string, std::string>{
+           {"a: {b: 1}\nc: 2\na: {d: 3}\n", ":3: a is given twice: expected once"},
+           {"a:\n  b: 1\n  b: 2\n", ":3: b is given twice: expected once"},
+           {"a:\n  - {b: 1, b: 2}\n", ":2: b is given twice: expected once"}}) {
+    std::ofstream(file) << text;
+    try {
+      loadYaml(file);
+      ADD_FAILURE() << text;
+    } catch (const OptionError& error) {
+      EXPECT_EQ(error.what(), file + said);
+    }
+  }
+  std::remove(file.c_str());
 }
 
 }  // namespace

@@ -1,0 +1,167 @@
+#include "input_bag.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+#include "bag_fault.h"
+#include "output_bag.h"
+#include "whole_file.h"
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <std_msgs/String.h>
+
+namespace datmo {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMessages = 200;
+
+std::string messageOf(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// A bag in a folder of its own, in many small chunks.
+class InputBag : public testing::Test {
+ protected:
+  InputBag() {
+    std::string name = (fs::temp_directory_path() / "input_bag_XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+    file_ = folder_ / "drive.bag";
+  }
+  ~InputBag() override {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+
+  void writeBag(rosbag::CompressionType compression = rosbag::compression::Uncompressed,
+                int messages = kMessages) const {
+    rosbag::Bag bag(file_, rosbag::bagmode::Write);
+    bag.setCompression(compression);
+    bag.setChunkThreshold(1024);
+    for (int i = 0; i < messages; ++i) {
+      std_msgs::String text;
+      text.data = "number " + std::to_string(i);
+      bag.write("/text", ros::Time(1.0 + i), text);
+    }
+  }
+
+  void writeBytes(const std::string& bytes) const { std::ofstream(file_) << bytes; }
+
+  /// What is said of the file, without its name.
+  std::string refusal(const std::string& file) const {
+    const std::string message = messageOf([&] {
+      rosbag::Bag bag;
+      openInput(file, bag);
+    });
+    EXPECT_EQ(message.substr(0, file.size() + 2), file + ": ");
+    return message.substr(std::min(message.size(), file.size() + 2));
+  }
+  std::string refusal() const { return refusal(file_); }
+
+  void expectRefused(const std::string& part) const {
+    EXPECT_NE(refusal().find(part), std::string::npos) << refusal();
+  }
+
+  fs::path folder_;
+  fs::path file_;
+};
+
+TEST_F(InputBag, EveryCompressionIsRead) {
+  for (const auto compression :
+       {rosbag::compression::Uncompressed, rosbag::compression::BZ2, rosbag::compression::LZ4}) {
+    writeBag(compression);
+    rosbag::Bag bag;
+    openInput(file_, bag);
+    EXPECT_EQ(topicsOf(bag), std::vector<std::string>{"/text (std_msgs/String)"});
+    EXPECT_EQ(bagFault(file_), "");
+  }
+}
+
+TEST_F(InputBag, WhatIsNoFile) {
+  EXPECT_EQ(refusal(), "no such file");
+  EXPECT_EQ(refusal(folder_), "is a folder, expected a bag");
+  mkfifo(file_.c_str(), 0600);
+  expectRefused("is a pipe or a device");
+}
+
+TEST_F(InputBag, BagsInAFolderAreNamed) {
+  for (int i = 0; i < 5; ++i) {
+    std::ofstream(folder_ / ("drive_" + std::to_string(i) + ".bag")) << "";
+  }
+  EXPECT_EQ(refusal(folder_),
+            "is a folder, expected a bag; it holds drive_0.bag, drive_1.bag, drive_2.bag, ...; "
+            "'rosrun datmo_fusion merge_bags' makes one bag of a recording's parts");
+}
+
+TEST_F(InputBag, WhatIsNoBag) {
+  writeBytes("");
+  expectRefused("is empty (0 bytes)");
+  writeBytes("not a bag");
+  expectRefused("is no bag, expected a file that begins with #ROSBAG");
+  writeBytes("PK\x03\x04 and so on");
+  expectRefused("is packed, expected a bag; 'unzip " + file_.string() + "' unpacks it");
+  writeBag(rosbag::compression::Uncompressed, 0);
+  expectRefused("holds no message");
+}
+
+TEST_F(InputBag, RecordingsOfRos2) {
+  writeBytes(std::string("SQLite format 3\0 and so on", 26));
+  expectRefused("'rosbags-convert --src " + file_.string() + " --dst ros1.bag'");
+  writeBytes("\x89MCAP0\r\n and so on");
+  expectRefused("is a recording of ROS 2");
+  std::ofstream(folder_ / "metadata.yaml") << "";
+  EXPECT_NE(refusal(folder_).find("is a recording of ROS 2"), std::string::npos);
+}
+
+TEST_F(InputBag, BagsThatAreCut) {
+  for (const double share : {0.01, 0.3, 0.9, 0.999}) {
+    writeBag();
+    fs::resize_file(file_,
+                    static_cast<std::uintmax_t>(share * static_cast<double>(fs::file_size(file_))));
+    expectRefused("has no index: it was cut short");
+    expectRefused("'rosbag reindex " + file_.string() + "'");
+  }
+}
+
+TEST_F(InputBag, BagWithoutPermission) {
+  if (geteuid() == 0) {
+    GTEST_SKIP() << "root may read every file";
+  }
+  writeBag();
+  fs::permissions(file_, fs::perms::none);
+  expectRefused("no permission to read it");
+}
+
+TEST_F(InputBag, OutputsThatCannotBeWrittenAreSaidAtTheStart) {
+  const std::string nowhere = (folder_ / "nowhere" / "out.bag").string();
+  EXPECT_EQ(messageOf([&] { OutputBag bag(nowhere); }),
+            nowhere + ": cannot be written (no folder " + (folder_ / "nowhere").string() + ")");
+  EXPECT_EQ(messageOf([&] { OutputBag bag(folder_.string()); }),
+            folder_.string() + ": is a folder, expected the name of a file");
+  checkWritable(file_);
+  checkWritable("out.bag");
+}
+
+TEST_F(InputBag, OutputInAFolderWithoutPermission) {
+  if (geteuid() == 0) {
+    GTEST_SKIP() << "root may write in every folder";
+  }
+  fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_EQ(
+      messageOf([&] { checkWritable(file_); }),
+      file_.string() + ": cannot be written (no permission to write in " + folder_.string() + ")");
+  fs::permissions(folder_, fs::perms::owner_all);
+}
+
+}  // namespace
+}  // namespace datmo

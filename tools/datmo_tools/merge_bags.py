@@ -1,0 +1,55 @@
+"""Command line of merge_bags."""
+
+import argparse
+import contextlib
+import heapq
+from pathlib import Path
+
+from datmo_tools import command_line
+from datmo_tools.bag_file import whole_bag
+from datmo_tools.bag_input import opened
+from datmo_tools.errors import InputError
+
+DESCRIPTION = """\
+Makes one bag of several that were recorded together: the parts of 'rosbag record --split', or
+one bag for each sensor. Messages are ordered by the time at which they were recorded; nothing of
+them is changed, and latched topics stay latched."""
+
+
+def main(arguments=None):
+    """Runs the command line; returns its exit code."""
+    values = _parser().parse_args(arguments)
+    return command_line.run("merge_bags", lambda: merge(values.parts, values.bag))
+
+
+def merge(parts, path):
+    """Writes all messages of the bags `parts` (Paths) to the bag `path` (Path).
+
+    Raises InputError, and leaves no bag behind: a part cannot be read, is given twice, or is the bag
+    that is to be written.
+    """
+    files = [part.resolve() for part in parts]
+    for part, file in zip(parts, files):
+        if files.count(file) > 1:
+            raise InputError(f"{part}: given twice, expected each part once")
+        if file == path.resolve():
+            raise InputError(f"{path}: the output must not be an input")
+    with contextlib.ExitStack() as stack:
+        bags = [stack.enter_context(opened(part)) for part in parts]
+        output = stack.enter_context(whole_bag(path, "merge_bags"))
+        messages = [
+            bag.read_messages(raw=True, return_connection_header=True) for bag in bags
+        ]
+        for message in heapq.merge(*messages, key=lambda message: message.timestamp):
+            output.copy(message)
+
+
+def _parser():
+    parser = argparse.ArgumentParser(
+        prog="merge_bags",
+        description=DESCRIPTION,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("parts", nargs="+", type=Path, metavar="PART.bag", help="bags to read")
+    parser.add_argument("bag", type=Path, metavar="ALL.bag", help="bag to write")
+    return parser
