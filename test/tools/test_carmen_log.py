@@ -38,6 +38,16 @@ class Lines(unittest.TestCase):
         line = flaser(0, ORIGIN).replace("1000.000000", "976052905.167303")
         self.assertEqual(self.parse(line).stamp, 976052905_167303000)
 
+    def test_robot_laser_without_remissions(self):
+        """As CARMEN's first releases logged it, after the head of their files."""
+        head, readings = "ROBOTLASER1 0 -0.5 0.03 0.01 50 0.01 0", "3 7 8 9"
+        poses, speeds, tail = "1 2 0.1 4 5 0.2", "0.1 0.2 1 2", "1001.5 host 1.5"
+        line = self.parse(" ".join((head, readings, poses, speeds, tail)))
+        np.testing.assert_array_equal(line.ranges, [7, 8, 9])
+        np.testing.assert_array_equal(line.laser_pose, [1, 2, 0.1])
+        np.testing.assert_array_equal(line.robot_pose, [4, 5, 0.2])
+        self.assertEqual(line.stamp, 1001_500_000_000)
+
     def test_robot_laser(self):
         line = self.parse(
             robot_laser(1.0, (1, 2, 3), (4, 5, 6), (7, 8), remissions=(9, 9, 9), range_max=20.0)

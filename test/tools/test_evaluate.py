@@ -131,7 +131,7 @@ class CommandLine(unittest.TestCase):
     def test_folder_that_is_a_file(self):
         self.out.write_text("mine")
         code, out, err = self.evaluate(self.bag("a.bag"))
-        self.assertEqual((code, out), (1, ""))
+        self.assertEqual((code, out), (2, ""))
         self.assertIn(str(self.out), err)
         self.assertEqual(self.out.read_text(), "mine")
 

@@ -115,6 +115,12 @@ def pose(time, x, yaw=0.0):
 
 
 class Reading(Files):
+    def test_comments(self):
+        """The published files have none; those who edit them add some."""
+        self.write_relations("# places", "1 2 1 0 0 0 0 0 # the corner", "  # and", "", "2 3 1 0 0 0 0 0")
+        self.assertEqual([found.begin for found in read_relations(self.relations)],
+                         [1_000_000_000, 2_000_000_000])  # fmt: skip
+
     def assert_refused(self, *lines, text):
         self.write_relations(*lines)
         with self.assertRaises(InputError) as caught:

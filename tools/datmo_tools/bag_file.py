@@ -42,7 +42,7 @@ class BagFile:
         )
 
     def copy(self, message):
-        """Writes a message as it was read from another bag, raw and with its connection's header."""
+        """Writes a raw message as it was read from another bag, with its connection's header."""
         header = message.connection_header
         self._bag.write(
             message.topic, message.message, message.timestamp, raw=True, connection_header=header

@@ -134,9 +134,10 @@ def _parser():
     )
     add = parser.add_argument
     add("runs", nargs="+", type=Path, metavar="RUN.bag", help="bags of run_bag --object-fusion")
-    add("--out", type=Path, default=Path("object_covariance.yaml"), metavar="FILE.yaml",
-        help="the table (default %(default)s)")  # fmt: skip
-    add("--plot", type=Path, metavar="FILE", help="picture of it: .svg, .pdf or .png")
+    add("--out", type=command_line.output_file, default=Path("object_covariance.yaml"),
+        metavar="FILE.yaml", help="the table (default %(default)s)")  # fmt: skip
+    add("--plot", type=command_line.output_file, metavar="FILE",
+        help="picture of it: .svg, .pdf or .png")  # fmt: skip
     add("--drive", type=Path, metavar="DRIVE.bag",
         help="with the camera's calibration: the plot shows what theory expects too")  # fmt: skip
     add("--source", default="stereo", help="name in object_fusion/sources (default %(default)s)")

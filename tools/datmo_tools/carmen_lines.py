@@ -21,6 +21,9 @@ OTHER_KINDS = re.compile(
     r"SYNC|TRUEPOS|POSITION|SCANMARK|MARKER|SONAR|BUMPER|IMU|ARM|WIFI|VISUAL|CELLSIZE|CAMERA\w*"
     r"|GPS\w*|NMEA[-\w]*|[A-Z]*LASER\d*|BASE\w*|ROBOT\w*|NAVIGATOR\w*|MOTION\w*"
 )
+# ROBOTLASER lines of CARMEN's first releases have neither remissions nor the turn axis: behind the
+# readings stand two poses, two speeds, two safety distances, ipc time, host and the logger's time.
+OLD_FORM_FIELDS = 13
 MOST_READINGS = 100_000  # more is a broken line, not a scanner
 # A message on a file that is no log names a kind of its lines by so many letters.
 MOST_LETTERS = 30
@@ -120,6 +123,10 @@ class _Fields:
         """Leaves `count` fields out."""
         self._next(count, name)
 
+    def left(self):
+        """How many fields were not taken yet."""
+        return len(self._words) - self._at
+
     def stamp(self):
         """The next field as a stamp (ns)."""
         return parse_seconds(self.text("the ipc time"))
@@ -161,9 +168,11 @@ def _new_laser(fields):
     range_max = fields.number("the maximum range")
     fields.skip(2, "accuracy and remission mode")
     ranges = fields.ranges(fields.count("the number of readings"))
-    fields.skip(fields.count("the number of remissions"), "remissions")
+    is_old_form = fields.left() == OLD_FORM_FIELDS
+    if not is_old_form:
+        fields.skip(fields.count("the number of remissions"), "remissions")
     laser, robot = fields.numbers(3, "the laser's pose"), fields.numbers(3, "the robot's pose")
-    fields.skip(5, "speeds and safety distances")
+    fields.skip(4 if is_old_form else 5, "speeds and safety distances")
     if not 0.0 < step * (len(ranges) - 1) <= MOST_FIELD_OF_VIEW:
         raise ValueError(f"{len(ranges)} readings every {step} rad, expected them within one turn")
     if range_max <= 0.0:

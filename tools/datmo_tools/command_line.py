@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 from datmo_tools.errors import InputError
-from datmo_tools.whole_files import write_whole
+from datmo_tools.whole_files import check_folder, write_whole
 
 
 def run(name, work, product="bag"):
@@ -44,13 +44,32 @@ def add_number(group, name, default, metavar, description):
 def add_json(parser):
     """The option --json, for write_json()."""
     help_text = "writes the score there too"
-    parser.add_argument("--json", type=Path, metavar="FILE", help=help_text)
+    parser.add_argument("--json", type=output_file, metavar="FILE", help=help_text)
 
 
 def write_json(path, result):
     """Writes a dictionary to the file that --json names; nothing where it names none (None)."""
     if path is not None:
         write_whole(path.parent, {path.name: json.dumps(result, indent=2) + "\n"})
+
+
+def output_file(text):
+    """Path of a file that can be written; argparse names the option where it cannot, at once."""
+    path = Path(text)
+    if path.is_dir():
+        raise argparse.ArgumentTypeError(f"{path}: is a folder, expected the name of a file")
+    output_folder(path.parent)
+    return path
+
+
+def output_folder(text):
+    """Path of a folder that can be written, or made; argparse names the option otherwise."""
+    path = Path(text)
+    try:
+        check_folder(path)
+    except InputError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
+    return path
 
 
 def count(text):

@@ -181,6 +181,6 @@ def _parser():
         help="runs at a time (default: all cores)")  # fmt: skip
     add("--reuse-drives", action="store_true",
         help="takes the recordings that an earlier run left in the folder")  # fmt: skip
-    add("--out", type=Path, default=Path("compare_fusion"), metavar="DIR",
+    add("--out", type=command_line.output_folder, default=Path("compare_fusion"), metavar="DIR",
         help="for bags and scores (default %(default)s)")  # fmt: skip
     return parser

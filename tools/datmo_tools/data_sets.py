@@ -137,7 +137,7 @@ def _parser():
     add("--config", required=True, type=Path, metavar="CONFIG.yaml", help="the sensor set")
     add("--programs", required=True, type=Path, metavar="DIR",
         help="folder of simulate, run_bag and score_run")  # fmt: skip
-    add("--out", type=Path, default=Path("data_sets"), metavar="DIR",
+    add("--out", type=command_line.output_folder, default=Path("data_sets"), metavar="DIR",
         help="for bags and scores (default %(default)s)")  # fmt: skip
     add("--low-level-fusion", action="store_true",
         help="each drive also with the grids of scanner and stereo camera fused")  # fmt: skip

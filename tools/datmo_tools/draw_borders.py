@@ -78,7 +78,7 @@ def _parser():
     )
     add = parser.add_argument
     add("run", type=Path, metavar="RUN.bag", help="bag of run_bag --road-border")
-    add("--out", type=Path, default=Path("road_borders.png"), metavar="FILE",
+    add("--out", type=command_line.output_file, default=Path("road_borders.png"), metavar="FILE",
         help=".png, .svg or .pdf; several sheets are numbered (default %(default)s)")  # fmt: skip
     add("--at", type=_times, metavar="S,S", help="times, s since the run's first borders")
     add("--every", type=command_line.number, default=PERIOD, metavar="S",

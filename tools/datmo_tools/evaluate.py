@@ -83,7 +83,7 @@ def _parser():
     add("--truth", type=Path, metavar="TRUTH.bag", help="default: the truth in each run's bag")
     add(
         "--out",
-        type=Path,
+        type=command_line.output_folder,
         default=Path("evaluation"),
         metavar="DIR",
         help="folder of the report (default %(default)s)",

@@ -37,9 +37,7 @@ def merge(parts, path):
     with contextlib.ExitStack() as stack:
         bags = [stack.enter_context(opened(part)) for part in parts]
         output = stack.enter_context(whole_bag(path, "merge_bags"))
-        messages = [
-            bag.read_messages(raw=True, return_connection_header=True) for bag in bags
-        ]
+        messages = [bag.read_messages(raw=True, return_connection_header=True) for bag in bags]
         for message in heapq.merge(*messages, key=lambda message: message.timestamp):
             output.copy(message)
 

@@ -50,10 +50,9 @@ def read_relations(path):
         lines = path.read_text(encoding="ascii").splitlines()
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(f"{path}: expected a relations file ({error})") from error
+    words = [line.partition("#")[0].split() for line in lines]  # without comments
     relations = [
-        _relation(f"{path}:{number}", line.split())
-        for number, line in enumerate(lines, 1)
-        if line.strip() and not line.startswith("#")
+        _relation(f"{path}:{number}", fields) for number, fields in enumerate(words, 1) if fields
     ]
     if not relations:
         raise InputError(f"{path}: no relation in it, expected lines of {FIELDS} numbers")

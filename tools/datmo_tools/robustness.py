@@ -110,6 +110,6 @@ def _parser():
         help="seeds from 1 (default %(default)s)")  # fmt: skip
     add("--jobs", type=command_line.count, default=os.cpu_count(), metavar="N",
         help="runs at a time (default: all cores)")  # fmt: skip
-    add("--out", type=Path, default=Path("robustness.json"), metavar="FILE.json",
+    add("--out", type=command_line.output_file, default=Path("robustness.json"), metavar="FILE.json",
         help="all runs (default %(default)s)")  # fmt: skip
     return parser

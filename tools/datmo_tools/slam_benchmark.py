@@ -158,5 +158,5 @@ def _parser():
     add("--programs", type=Path, required=True, metavar="FOLDER", help="where run_bag is")
     add("--config", type=Path, required=True, metavar="FILE.yaml", help="the sensor set")
     add("--clock", choices=CLOCKS, default="order", help="see carmen_to_bag (default %(default)s)")
-    add("--out", type=Path, metavar="FILE.json", help="writes all figures there")
+    add("--out", type=command_line.output_file, metavar="FILE.json", help="writes all figures there")
     return parser

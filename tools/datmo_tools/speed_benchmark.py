@@ -111,6 +111,6 @@ def _parser():
     add("--source", type=Path, default=Path.cwd(), metavar="DIR", help="sources (default: here)")
     add("--build", type=Path, default=Path("build"), metavar="DIR",
         help="where they are built (default %(default)s)")  # fmt: skip
-    add("--out", type=Path, default=Path("benchmark.json"), metavar="FILE.json",
+    add("--out", type=command_line.output_file, default=Path("benchmark.json"), metavar="FILE.json",
         help="all figures (default %(default)s)")  # fmt: skip
     return parser

@@ -6,6 +6,20 @@ import os
 from datmo_tools.errors import InputError
 
 
+def check_folder(folder):
+    """Raises InputError where nothing can be written to `folder` (Path), which need not exist yet.
+
+    For the start of work whose result it is to hold.
+    """
+    there = folder.resolve()
+    while not there.exists():
+        there = there.parent
+    if not there.is_dir():
+        raise InputError(f"{folder}: cannot be written: {there} is no folder")
+    if not os.access(there, os.W_OK | os.X_OK):
+        raise InputError(f"{folder}: cannot be written: no permission to write in {there}")
+
+
 def write_whole(folder, texts):
     """Writes files to `folder` (Path), which is made if need be.
 
