@@ -3,6 +3,7 @@
 import shlex
 
 from datmo_tools.check_bag.levels import motion_source
+from datmo_tools.check_bag.motion_checks import poses_are_better
 from datmo_tools.check_bag.sizing import is_small, settings
 from datmo_tools.check_bag.yaml_text import frames_section, mounts_section
 
@@ -41,19 +42,12 @@ def motion_section(recording, roles, results):
     """Section motion: what tells the vehicle's motion."""
     source = motion_source(roles, recording)
     section = {} if source == "odometry" else {"source": source}
-    if source == "odometry" and _poses_are_better(results):
+    if source == "odometry" and poses_are_better(results):
         section["odometry_pose"] = True
     period = _motion_period(recording, roles, source)
     if period is not None and period > 0.2:
         section["hold"] = round(2.5 * period, 1)
     return section
-
-
-def _poses_are_better(results):
-    pose, twist = results.get("pose"), results.get("twist_of_odometry")
-    if pose is None:
-        return False
-    return twist is None or pose.misfit < 0.9 * twist.misfit
 
 
 def _motion_period(recording, roles, source):
@@ -75,8 +69,9 @@ def _size_remarks(measured):
     result = {"lidar_grid": remarks}
     if is_small(measured):
         result["tracker"] = [
-            "Sizes for people, whom a slow robot with a short reach is taken to be among. Other",
-            "targets (model cars): change box/size; config/model_car.yaml shows what goes with it.",
+            "A slow vehicle with a short reach is taken to be a robot among people, whose legs its",
+            "scanner sees. What stands is followed as well (require_motion: true: only what moves).",
+            "Other targets (model cars): config/model_car.yaml shows what goes with their size.",
         ]
     return result
 

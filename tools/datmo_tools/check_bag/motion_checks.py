@@ -79,13 +79,29 @@ def compare(signals, motions, base_motions):
 
 def check_motion(results, roles, findings):
     """Adds where odometry, twist and IMU disagree with the scans."""
+    unused = _unused(results)
     for name, result in results.items():
-        where = {"imu": roles.imu, "twist": roles.twist}.get(name, roles.odometry)
-        if name == "twist_of_odometry" and _is_dead(result.signal):
+        if name == unused:
             continue
+        where = {"imu": roles.imu, "twist": roles.twist}.get(name, roles.odometry)
         _check_turns(result, where, findings)
         _check_distances(result, where, findings)
     _check_pose_against_twist(results, roles, findings)
+
+
+def poses_are_better(results):
+    """Whether the poses of the odometry fit the scans better than its twist; None: no odometry."""
+    pose, twist = results.get("pose"), results.get("twist_of_odometry")
+    if pose is None:
+        return None
+    if twist is None or (_is_dead(twist.signal) and not _is_dead(pose.signal)):
+        return True
+    return pose.misfit < 0.9 * twist.misfit
+
+
+def _unused(results):
+    """That half of the odometry which the yaml does not take."""
+    return "twist_of_odometry" if poses_are_better(results) else "pose"
 
 
 def _check_turns(result, where, findings):

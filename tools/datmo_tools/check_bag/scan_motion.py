@@ -11,7 +11,7 @@ MAX_PAIRS = 400
 PAIR_TIME = 0.3  # s between two scans of a pair, at most
 MAX_TRAVEL = 0.04  # of the reach, between them
 MIN_SHARE = 0.5  # of the points that have to be matched
-MIN_WEAKEST = 0.04  # below: a corridor, along which the motion is not known
+MIN_WEAKEST = 0.12  # below: a corridor, along which the motion is not known
 
 GUESS_SHIFT, GUESS_TURN = 0.4, 0.04  # m, rad: from nearer starts the matching ends at one place
 
@@ -22,8 +22,13 @@ class ScanMotions(NamedTuple):
     starts: np.ndarray  # s, middle of the first scan's sweep
     ends: np.ndarray
     motions: np.ndarray  # n x 3, the scanner's x, y (m), yaw (rad), seen from the first
-    certain: np.ndarray  # mask: the position is known in all directions
+    weakest: np.ndarray  # 0 to 0.5, of each match
     residuals: np.ndarray  # m
+
+    @property
+    def certain(self):
+        """Mask: the position is known in all directions."""
+        return self.weakest > MIN_WEAKEST
 
 
 def scan_motions(scans, facts, signals):
@@ -41,7 +46,7 @@ def scan_motions(scans, facts, signals):
             rows.append((start, end, *match.motion, match.weakest, match.residual))
     table = np.array(rows, dtype=float).reshape(-1, 7)
     return ScanMotions(
-        table[:, 0], table[:, 1], table[:, 2:5], table[:, 5] > MIN_WEAKEST, table[:, 6]
+        table[:, 0], table[:, 1], table[:, 2:5], table[:, 5], table[:, 6]
     )
 
 

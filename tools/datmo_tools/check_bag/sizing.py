@@ -1,5 +1,6 @@
 """Sizes and noises of the stages from what the scanner reaches and how fast the vehicle is."""
 
+import copy
 import math
 from typing import NamedTuple, Optional
 
@@ -11,6 +12,50 @@ DEFAULT_RANGE_NOISE = 0.1  # m
 SMALL_REACH = 20.0  # m: a scanner that reaches less is of a robot, indoors or of a model's size
 SMALL_SPEED = 3.0  # m/s: nothing that drives among people is faster
 FIT_RATIO = 0.45, 3.0  # of the default window's half length, within which a reach fits
+
+MIN_INITIAL_SPEED = 0.5  # m/s
+STATIC_AFTER = 2.0  # s: people stop for a moment, and are no wall for that
+ROBOT_MOTION = {
+    "yaw_rate_noise": 0.05,  # rad/s
+    "yaw_rate_noise_ratio": 0.3,  # wheels slip when they turn on the spot
+    "acceleration_noise": 1.0,  # m/s^1.5
+    "initial_yaw_rate_sigma": 0.5,  # rad/s
+}
+
+# People as a low scanner sees them: one or two legs, 0.1 m to 0.5 m, that swing by about 0.15 m about
+# the body. A person who stands is one as well, so nothing has to be seen to move first.
+PEOPLE_OBJECTS = {
+    "largest_size": 3.0,  # m
+    "position_sigma": 0.15,  # m
+    "segmentation": {"longest_gap": 0.6, "shortest_gap": 0.2},  # m
+}
+PEOPLE_TRACKER = {
+    "require_motion": False,
+    "intake": {"new_density": 0.01},  # 1/m^2
+    "split_merge": {"margin": 0.2},  # m
+    "visibility": {"blocking_distance": 0.2},  # m
+    "target": {
+        "birth_speed_std": 1.5,  # m/s: people walk
+        "stop_speed": 0.2,  # m/s
+        "evidence": {
+            "standing_drift": 0.05,  # m^2/s
+            "least_overrun": 0.4,  # m
+            "least_speed": 0.4,  # m/s
+        },
+        "box": {
+            "size": {
+                "vehicle": {"share": 1e-4},
+                "lorry": {"share": 1e-5},
+                "two_wheeler": {"share": 1e-3},
+                "person": {"share": 0.9, "length": 0.4, "length_std": 0.15,
+                           "width": 0.3, "width_std": 0.15},
+                "other": {"share": 0.1, "length": 0.8, "length_std": 0.6,
+                          "width": 0.6, "width_std": 0.4},
+            },
+        },
+    },
+    "most_position_std": 1.0,  # m
+}  # fmt: skip
 
 
 class Measured(NamedTuple):
@@ -104,15 +149,12 @@ def _set_noise(sections, measured):
 
 
 def _set_small(sections, measured):
-    speed = measured.speed if measured.speed else 1.0
+    speed = max(measured.speed or 0.0, MIN_INITIAL_SPEED)
     slam = _at(sections, "grid_slam")
     slam["longest_step"] = 0.5
-    slam["motion"] = {
-        "yaw_rate_noise": 0.05,
-        "yaw_rate_noise_ratio": 0.3,
-        "acceleration_noise": 1.0,
-        "initial_speed_sigma": round(max(speed, 0.5), 1),
-        "initial_yaw_rate_sigma": 0.5,
-    }
-    _at(sections, "moving_objects").update(largest_size=3.0)
-    _at(sections, "moving_objects")["segmentation"] = {"longest_gap": 0.6, "shortest_gap": 0.2}
+    _at(slam, "map")["static_after"] = STATIC_AFTER
+    slam["motion"] = {**ROBOT_MOTION, "initial_speed_sigma": round(speed, 1)}
+    _at(sections, "moving_objects").update(copy.deepcopy(PEOPLE_OBJECTS))
+    tracker = _at(sections, "tracker")
+    tracker.update(copy.deepcopy(PEOPLE_TRACKER))
+    tracker["clutter"] = {"cell_size": 2.0, "range": float(math.ceil(measured.reach))}
