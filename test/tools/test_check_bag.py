@@ -254,6 +254,13 @@ class Frames(Tool):
         self.assertEqual(kinds["missing_mount"], "error")
         self.assertEqual(content["mounts"]["laser"]["x"], 0.0)
 
+    def test_missing_mount_of_the_camera(self):
+        items = without(simulated.recording(), "/tf_static")
+        message = simulated.transform(0.0, "base_link", "laser", (1.5, 0.0, 0.4))
+        kinds, _, content = self.run_tool([*items, simulated.Item(0.0, "/tf_static", message)])
+        self.assertEqual(kinds["missing_camera_mount"], "warning")
+        self.assertEqual(list(content["mounts"]), ["camera"])
+
     def test_wrong_frame_of_the_scan(self):
         def rename(message):
             message.header.frame_id = "front_laser"
@@ -410,7 +417,9 @@ class Cameras(Tool):
 
     def test_apart(self):
         items = shifted(simulated.recording(), "/stereo/right/image_rect", 0.04)
+        _, _, content = self.run_tool(items)
         self.assert_finds("pair_offset", items)
+        self.assertTrue(content["stereo_image_proc"]["approximate_sync"])
 
 
 class Unreadable(Tool):
@@ -422,6 +431,13 @@ class Unreadable(Tool):
                 self.assertEqual(main([str(self.bag)]), 2)
             self.assertIn(str(self.bag), errors.getvalue())
             self.assertEqual(len(errors.getvalue().splitlines()), 1)
+
+    def test_topic_that_is_not_there(self):
+        simulated.write(self.bag, simulated.recording())
+        errors = io.StringIO()
+        with contextlib.redirect_stderr(errors), contextlib.redirect_stdout(io.StringIO()):
+            self.assertEqual(main([str(self.bag), "--no-yaml", "--scan", "/rear"]), 1)
+        self.assertIn("/rear: no LaserScan", errors.getvalue())
 
     def test_no_such_file(self):
         with contextlib.redirect_stderr(io.StringIO()):

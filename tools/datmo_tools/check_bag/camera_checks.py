@@ -80,21 +80,31 @@ def _check_pair(recording, roles, findings):
             "unrectified", names[0], "images are as the camera made them",
             "Start with stereo_images:=raw (run_bag does so by itself): they are rectified first.",
         )  # fmt: skip
+    offset = pair_offset(recording, roles)
+    if offset > MAX_PAIR_OFFSET:
+        findings.warn(
+            "pair_offset", names[1], f"is {offset:.3f} s from the left image (median)",
+            "A stereo pair is exposed at one time: trigger both cameras together.",
+        )  # fmt: skip
+    elif offset > 0.0:
+        findings.note(
+            "pair_stamps", names[1], f"stamps differ from the left image's by {offset:.4f} s",
+            "The yaml says stereo_image_proc/approximate_sync.",
+        )  # fmt: skip
+
+
+def pair_offset(recording, roles):
+    """s, median between a left image and the nearest right one; 0 without such a pair."""
+    if not roles.right_image:
+        return 0.0
+    names = roles.left_image, roles.right_image
     left, right = (np.sort(recording.topics[name].stamps) for name in names)
-    if len(left) > 2 and len(right) > 2:
-        apart = np.abs(left - right[np.clip(np.searchsorted(right, left), 0, len(right) - 1)])
-        before = np.abs(left - right[np.clip(np.searchsorted(right, left) - 1, 0, len(right) - 1)])
-        offset = float(np.median(np.minimum(apart, before)))
-        if offset > MAX_PAIR_OFFSET:
-            findings.warn(
-                "pair_offset", names[1], f"is {offset:.3f} s from the left image (median)",
-                "A stereo pair is exposed at one time: trigger both cameras together.",
-            )  # fmt: skip
-        elif offset > 0.0:
-            findings.note(
-                "pair_stamps", names[1], f"stamps differ from the left image's by {offset:.4f} s",
-                "The yaml says approximate_sync.",
-            )  # fmt: skip
+    if len(left) < 3 or len(right) < 3:
+        return 0.0
+    after = np.searchsorted(right, left)
+    neighbors = [np.clip(after + step, 0, len(right) - 1) for step in (-1, 0)]
+    apart = np.min([np.abs(left - right[index]) for index in neighbors], axis=0)
+    return float(np.median(apart))
 
 
 def right_info(recording, roles):

@@ -17,6 +17,7 @@ from datmo_tools.check_bag.scan_motion import in_base, scan_motions
 from datmo_tools.check_bag.sizing import Measured, check_reach
 from datmo_tools.check_bag.timing import check_timing
 from datmo_tools.check_bag.yaml_text import yaml_text
+from datmo_tools.errors import InputError
 
 
 class Result(NamedTuple):
@@ -61,7 +62,12 @@ class Result(NamedTuple):
 
 
 def check(recording, scan=None, odometry=None):
-    """Result of a Recording; scan, odometry: topics to use, by default those that fit best."""
+    """Result of a Recording; scan, odometry: topics to use, by default those that fit best.
+
+    Raises InputError where the recording does not have these topics.
+    """
+    _check_topic(scan, recording.scans, "LaserScan or MultiEchoLaserScan")
+    _check_topic(odometry, recording.odometry, "Odometry")
     findings = Findings()
     roles = Roles(recording, scan, odometry)
     check_presence(recording, roles, findings)
@@ -79,6 +85,12 @@ def check(recording, scan=None, odometry=None):
     return Result(
         recording, roles, findings, levels.levels(recording, roles), facts, measured, mount, results
     )
+
+
+def _check_topic(name, known, types):
+    if name is not None and name not in known:
+        there = ", ".join(sorted(known)) or "none"
+        raise InputError(f"{name}: no {types} in the recording, which has {there}")
 
 
 def _compare_motion(recording, roles, signals, facts, mount, findings):

@@ -2,6 +2,7 @@
 
 import shlex
 
+from datmo_tools.check_bag.camera_checks import pair_offset
 from datmo_tools.check_bag.levels import motion_source
 from datmo_tools.check_bag.motion_checks import poses_are_better
 from datmo_tools.check_bag.sizing import is_small, settings
@@ -22,7 +23,7 @@ def sections(recording, roles, results, measured):
     if mounts:
         items["mounts"] = mounts
         remarks["mounts"] = [
-            "MEASURE THIS: the recording does not say where the scanner is mounted.",
+            "MEASURE THIS: the recording does not say where these sensors are mounted.",
             f"m and rad, from {roles.base_frame} (below the rear axle, x forward, y left).",
         ]
     motion = motion_section(recording, roles, results)
@@ -31,6 +32,9 @@ def sections(recording, roles, results, measured):
     if measured is not None:
         items.update(settings(measured))
         remarks.update(_size_remarks(measured))
+    if pair_offset(recording, roles) > 0.0:
+        items["stereo_image_proc"] = {"approximate_sync": True}
+        remarks["stereo_image_proc"] = ["Stamps of left and right images differ."]
     if not roles.camera_clouds and not roles.right_image:
         for name in STEREO_FUSIONS:
             items.setdefault(name, {})["sources"] = {"stereo": {"use": False}}

@@ -3,11 +3,15 @@
 import yaml
 
 from datmo_tools.check_bag.motion_signal import euler_degrees
+from datmo_tools.check_bag.transform_table import bare
 
 HEADER = """\
 # First parameters of the robot of {bag}, by check_bag.
 # Only what differs from the defaults; all parameters and defaults: rosrun datmo_fusion list_parameters.
 """
+
+AT_BASE = {"x": 0.0, "y": 0.0, "z": 0.0}  # m
+LOOKS_AHEAD = {"yaw": -1.5708, "pitch": 0.0, "roll": -1.5708}  # rad, of an optical frame
 
 
 def yaml_text(bag, sections, remarks):
@@ -32,13 +36,19 @@ def frames_section(roles):
 
 def mounts_section(recording, roles):
     """Section mounts: frames without a way to the base frame, at 0 until they are measured."""
-    frames = [roles.scan_frame] if roles.scan else []
-    return {
-        frame: {"x": 0.0, "y": 0.0, "z": 0.0, "yaw": 0.0}
-        for frame in frames
-        if frame and frame != roles.base_frame
-        and recording.transforms.between(roles.base_frame, frame) is None
-    }  # fmt: skip
+    section = {}
+    if _lacks_mount(recording, roles, roles.scan_frame):
+        section[roles.scan_frame] = dict(AT_BASE, yaw=0.0)
+    for name in (roles.left_image, *roles.camera_clouds[:1]):
+        frame = bare(recording.topics[name].frame()) if name else ""
+        if _lacks_mount(recording, roles, frame):
+            section[frame] = {**AT_BASE, **LOOKS_AHEAD}
+    return section
+
+
+def _lacks_mount(recording, roles, frame):
+    is_mounted = recording.transforms.between(roles.base_frame, frame) is not None
+    return bool(frame) and frame != roles.base_frame and not is_mounted
 
 
 def mount_text(matrix):
