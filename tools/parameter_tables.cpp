@@ -9,6 +9,7 @@
 #include "datmo_fusion/ros/moving_objects_stage.h"
 #include "datmo_fusion/ros/object_fusion_stage.h"
 #include "datmo_fusion/ros/road_border_stage.h"
+#include "datmo_fusion/ros/shared_options.h"
 #include "datmo_fusion/ros/stereo_grid_stage.h"
 #include "datmo_fusion/ros/stereo_objects_stage.h"
 #include "datmo_fusion/ros/track_fusion_stage.h"
@@ -35,7 +36,10 @@ constexpr const char* kHead =
 }  // namespace
 
 std::string parameterTables() {
-  return kHead + section<LidarGridStageOptions>("`lidar_grid`") + "\n" +
+  return kHead + section<FrameOptions>("`frames`, of all nodelets") + "\n" +
+         section<MountOptions>("`mounts/<frame>`, of all nodelets, for each sensor without tf") +
+         "\n" + section<MotionOptions>("`motion`, of all nodelets") + "\n" +
+         section<LidarGridStageOptions>("`lidar_grid`") + "\n" +
          section<StereoGridStageOptions>("`stereo_grid`") + "\n" +
          section<GridFusionStageOptions>("`grid_fusion`") + "\n" +
          section<GridSlamStageOptions>("`grid_slam`") + "\n" +

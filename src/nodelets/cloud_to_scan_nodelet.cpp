@@ -5,6 +5,7 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include "datmo_fusion/ros/cloud_to_scan_stage.h"
+#include "datmo_fusion/ros/frame_ids.h"
 #include "datmo_fusion/ros/parameters.h"
 #include "datmo_fusion/ros/stage_reporter.h"
 #include "datmo_fusion/ros/transform_subscription.h"
@@ -17,21 +18,22 @@ class CloudToScanNodelet : public nodelet::Nodelet {
   void onInit() override {
     const auto options = loadOptions<CloudToScanStageOptions>(getPrivateNodeHandle());
     monitor_ = std::make_unique<StageMonitor>(getName());
-    transforms_ = std::make_unique<TransformBuffer>(options.input.restart_after);
+    transforms_ = std::make_unique<TransformBuffer>(
+        options.input.restart_after, loadSharedOptions(getPrivateNodeHandle()), *monitor_);
     stage_ = std::make_unique<CloudToScanStage>(options, *transforms_, *monitor_);
     ros::NodeHandle& node = getNodeHandle();
     reporter_ = std::make_unique<StageReporter>(node, getPrivateNodeHandle(), *monitor_,
                                                 std::vector<std::string>{"cloud"},
                                                 options.input.silence_after);
     scan_ = node.advertise<sensor_msgs::LaserScan>("scan", kQueue);
-    transform_subscription_ = std::make_unique<TransformSubscription>(node, *transforms_);
+    transform_subscription_ =
+        std::make_unique<TransformSubscription>(node, *transforms_, *monitor_);
     cloud_ = node.subscribe("cloud", kQueue, &CloudToScanNodelet::takeCloud, this,
                             ros::TransportHints().tcpNoDelay());
   }
 
   void takeCloud(const sensor_msgs::PointCloud2ConstPtr& message) {
-    monitor_->received("cloud", toStamp(ros::Time::now()));
-    if (const auto output = stage_->takeCloud(*message)) {
+    if (const auto output = stage_->takeCloud(*receive("cloud", message, *monitor_))) {
       if (output->mount) {
         broadcaster_.sendTransform(*output->mount);
       }

@@ -4,6 +4,7 @@
 #include <pluginlib/class_list_macros.hpp>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include "datmo_fusion/ros/frame_ids.h"
 #include "datmo_fusion/ros/grid_slam_stage.h"
 #include "datmo_fusion/ros/parameters.h"
 #include "datmo_fusion/ros/stage_reporter.h"
@@ -18,10 +19,11 @@ class GridSlamNodelet : public nodelet::Nodelet {
   void onInit() override {
     const auto options = loadOptions<GridSlamStageOptions>(getPrivateNodeHandle());
     monitor_ = std::make_unique<StageMonitor>(getName());
-    transforms_ = std::make_unique<TransformBuffer>(options.input.restart_after);
+    transforms_ = std::make_unique<TransformBuffer>(
+        options.input.restart_after, loadSharedOptions(getPrivateNodeHandle()), *monitor_);
     stage_ = std::make_unique<GridSlamStage>(options, *transforms_, *monitor_);
     std::vector<std::string> inputs{"scan"};
-    if (options.odometry) {
+    if (usesOdometry(options)) {
       inputs.emplace_back("odometry");
     }
     if (options.fused_grid) {
@@ -31,6 +33,10 @@ class GridSlamNodelet : public nodelet::Nodelet {
                                                 inputs, options.input.silence_after);
     advertise();
     subscribe(options);
+  }
+
+  static bool usesOdometry(const GridSlamStageOptions& options) {
+    return options.motion.fromOdometry() || options.motion.fromSensors();
   }
 
   void advertise() {
@@ -43,9 +49,11 @@ class GridSlamNodelet : public nodelet::Nodelet {
   void subscribe(const GridSlamStageOptions& options) {
     ros::NodeHandle& node = getNodeHandle();
     const auto hints = ros::TransportHints().tcpNoDelay();
-    transform_subscription_ = std::make_unique<TransformSubscription>(node, *transforms_);
-    if (options.odometry) {
-      odometry_ = node.subscribe("odometry", kQueue, &GridSlamNodelet::takeOdometry, this, hints);
+    transform_subscription_ =
+        std::make_unique<TransformSubscription>(node, *transforms_, *monitor_);
+    if (usesOdometry(options)) {
+      odometry_ = node.subscribe(options.motion.odometryTopic(), kMotionQueue,
+                                 &GridSlamNodelet::takeOdometry, this, hints);
     }
     if (options.fused_grid) {
       fused_grid_ = node.subscribe(kFusedGrid, kQueue, &GridSlamNodelet::takeGrid, this, hints);
@@ -57,21 +65,18 @@ class GridSlamNodelet : public nodelet::Nodelet {
   }
 
   void takeOdometry(const nav_msgs::OdometryConstPtr& message) {
-    monitor_->received("odometry", toStamp(ros::Time::now()));
-    stage_->takeOdometry(*message);
+    stage_->takeOdometry(*receive("odometry", message, *monitor_));
   }
 
   template <typename Message>
   void takeScan(const boost::shared_ptr<const Message>& message) {
-    monitor_->received("scan", toStamp(ros::Time::now()));
-    if (const auto output = stage_->takeScan(*message)) {
+    if (const auto output = stage_->takeScan(*receive("scan", message, *monitor_))) {
       publish(*output);
     }
   }
 
   void takeGrid(const nav_msgs::OccupancyGridConstPtr& message) {
-    monitor_->received(kFusedGrid, toStamp(ros::Time::now()));
-    if (const auto output = stage_->takeGrid(*message)) {
+    if (const auto output = stage_->takeGrid(*receive(kFusedGrid, message, *monitor_))) {
       publish(*output);
     }
   }
@@ -86,8 +91,9 @@ class GridSlamNodelet : public nodelet::Nodelet {
     }
   }
 
-  /// A second of scans or odometry: enough for a hiccup, and bounded.
+  /// A second of scans, and of odometry: enough for a hiccup, and bounded.
   static constexpr std::uint32_t kQueue = 20;
+  static constexpr std::uint32_t kMotionQueue = 200;
   static constexpr const char* kFusedGrid = "grids/fused";
 
   std::unique_ptr<StageMonitor> monitor_;

@@ -3,6 +3,7 @@
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "datmo_fusion/ros/frame_ids.h"
 #include "datmo_fusion/ros/lidar_grid_stage.h"
 #include "datmo_fusion/ros/parameters.h"
 #include "datmo_fusion/ros/stage_reporter.h"
@@ -16,21 +17,24 @@ class LidarGridNodelet : public nodelet::Nodelet {
   void onInit() override {
     const auto options = loadOptions<LidarGridStageOptions>(getPrivateNodeHandle());
     monitor_ = std::make_unique<StageMonitor>(getName());
-    transforms_ = std::make_unique<TransformBuffer>(options.input.restart_after);
+    transforms_ = std::make_unique<TransformBuffer>(
+        options.input.restart_after, loadSharedOptions(getPrivateNodeHandle()), *monitor_);
     stage_ = std::make_unique<LidarGridStage>(options, *transforms_, *monitor_);
-    const std::vector<std::string> inputs{"scan", options.motion.odometry ? "odometry" : "pose"};
+    const std::vector<std::string> inputs{"scan", options.motion.hasSpeed() ? "odometry" : "pose"};
     reporter_ = std::make_unique<StageReporter>(getNodeHandle(), getPrivateNodeHandle(), *monitor_,
                                                 inputs, options.input.silence_after);
     grid_ = getNodeHandle().advertise<nav_msgs::OccupancyGrid>("grids/lidar", kQueue);
-    subscribe(options.motion.odometry);
+    subscribe(options.motion);
   }
 
-  void subscribe(bool with_odometry) {
+  void subscribe(const MotionOptions& motion) {
     ros::NodeHandle& node = getNodeHandle();
     const auto hints = ros::TransportHints().tcpNoDelay();
-    transform_subscription_ = std::make_unique<TransformSubscription>(node, *transforms_);
-    if (with_odometry) {
-      motion_ = node.subscribe("odometry", kQueue, &LidarGridNodelet::takeOdometry, this, hints);
+    transform_subscription_ =
+        std::make_unique<TransformSubscription>(node, *transforms_, *monitor_);
+    if (motion.hasSpeed()) {
+      motion_ = node.subscribe(motion.odometryTopic(), kMotionQueue,
+                               &LidarGridNodelet::takeOdometry, this, hints);
     } else {
       motion_ = node.subscribe("pose", kQueue, &LidarGridNodelet::takePose, this, hints);
     }
@@ -42,26 +46,24 @@ class LidarGridNodelet : public nodelet::Nodelet {
   }
 
   void takeOdometry(const nav_msgs::OdometryConstPtr& message) {
-    monitor_->received("odometry", toStamp(ros::Time::now()));
-    stage_->takeOdometry(*message);
+    stage_->takeOdometry(*receive("odometry", message, *monitor_));
   }
 
   void takePose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message) {
-    monitor_->received("pose", toStamp(ros::Time::now()));
-    stage_->takePose(*message);
+    stage_->takePose(*receive("pose", message, *monitor_));
   }
 
   template <typename Message>
   void takeScan(const boost::shared_ptr<const Message>& message) {
-    monitor_->received("scan", toStamp(ros::Time::now()));
-    if (const auto grid = stage_->takeScan(*message)) {
+    if (const auto grid = stage_->takeScan(*receive("scan", message, *monitor_))) {
       grid_.publish(grid);
       reporter_->publishTiming();
     }
   }
 
-  /// A second of scans, odometry or poses: enough for a hiccup, and bounded.
+  /// A second of scans or poses, and of odometry: enough for a hiccup, and bounded.
   static constexpr std::uint32_t kQueue = 20;
+  static constexpr std::uint32_t kMotionQueue = 200;
 
   std::unique_ptr<StageMonitor> monitor_;
   std::unique_ptr<TransformBuffer> transforms_;

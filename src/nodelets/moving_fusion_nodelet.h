@@ -21,27 +21,28 @@ class MovingFusionNodelet : public SourceFusionNodelet<Stage, Options, Message> 
 
  private:
   std::vector<std::string> otherInputs(const Options& options) const override {
-    return {options.motion.odometry ? "odometry" : "pose"};
+    return {options.motion.hasSpeed() ? "odometry" : "pose"};
   }
 
   void subscribeOthers(const Options& options) override {
     ros::NodeHandle& node = this->getNodeHandle();
     motion_ =
-        options.motion.odometry
-            ? node.subscribe("odometry", kQueue, &MovingFusionNodelet::takeOdometry, this,
-                             Base::hints())
+        options.motion.hasSpeed()
+            ? node.subscribe(options.motion.odometryTopic(), kMotionQueue,
+                             &MovingFusionNodelet::takeOdometry, this, Base::hints())
             : node.subscribe("pose", kQueue, &MovingFusionNodelet::takePose, this, Base::hints());
   }
 
   void takeOdometry(const nav_msgs::OdometryConstPtr& message) {
-    this->monitor().received("odometry", toStamp(ros::Time::now()));
-    this->stage().takeOdometry(*message);
+    this->stage().takeOdometry(*receive("odometry", message, this->monitor()));
   }
 
   void takePose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message) {
-    this->monitor().received("pose", toStamp(ros::Time::now()));
-    this->stage().takePose(*message);
+    this->stage().takePose(*receive("pose", message, this->monitor()));
   }
+
+  /// A second of a fast Imu.
+  static constexpr std::uint32_t kMotionQueue = 200;
 
   ros::Subscriber motion_;
 };

@@ -8,6 +8,7 @@
 
 #include <nodelet/nodelet.h>
 
+#include "datmo_fusion/ros/frame_ids.h"
 #include "datmo_fusion/ros/parameters.h"
 #include "datmo_fusion/ros/stage_monitor.h"
 #include "datmo_fusion/ros/stage_reporter.h"
@@ -71,14 +72,12 @@ class SourceFusionNodelet : public nodelet::Nodelet {
   void subscribe(const std::string& source) {
     using MessagePtr = boost::shared_ptr<const Message>;
     const std::string topic = topicOf(source);
-    const auto receive = [this, topic, source](const MessagePtr& message) {
-      const Stamp now = toStamp(ros::Time::now());
-      monitor_->received(topic, now);
-      take(source, *message, now);
+    const auto handle = [this, topic, source](const MessagePtr& message) {
+      take(source, *receive(topic, message, *monitor_), toStamp(ros::Time::now()));
       publishReady();
     };
     ros::NodeHandle& node = getNodeHandle();
-    const boost::function<void(const MessagePtr&)> callback = receive;
+    const boost::function<void(const MessagePtr&)> callback = handle;
     sources_.push_back(
         node.subscribe<Message>(topic, kQueue, callback, ros::VoidConstPtr(), hints()));
   }

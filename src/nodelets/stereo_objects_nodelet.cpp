@@ -3,6 +3,7 @@
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "datmo_fusion/ros/frame_ids.h"
 #include "datmo_fusion/ros/parameters.h"
 #include "datmo_fusion/ros/stage_reporter.h"
 #include "datmo_fusion/ros/stereo_objects_stage.h"
@@ -16,14 +17,16 @@ class StereoObjectsNodelet : public nodelet::Nodelet {
   void onInit() override {
     const auto options = loadOptions<StereoObjectsStageOptions>(getPrivateNodeHandle());
     monitor_ = std::make_unique<StageMonitor>(getName());
-    transforms_ = std::make_unique<TransformBuffer>(options.input.restart_after);
+    transforms_ = std::make_unique<TransformBuffer>(
+        options.input.restart_after, loadSharedOptions(getPrivateNodeHandle()), *monitor_);
     stage_ = std::make_unique<StereoObjectsStage>(options, *transforms_, *monitor_);
     ros::NodeHandle& node = getNodeHandle();
     reporter_ = std::make_unique<StageReporter>(node, getPrivateNodeHandle(), *monitor_,
                                                 std::vector<std::string>{"points2"},
                                                 options.input.silence_after);
     objects_ = node.advertise<ObjectArray>("objects/stereo", kQueue);
-    transform_subscription_ = std::make_unique<TransformSubscription>(node, *transforms_);
+    transform_subscription_ =
+        std::make_unique<TransformSubscription>(node, *transforms_, *monitor_);
     const auto hints = ros::TransportHints().tcpNoDelay();
     camera_info_ = node.subscribe("right/camera_info", kQueue,
                                   &StereoObjectsNodelet::takeCameraInfo, this, hints);
@@ -31,13 +34,11 @@ class StereoObjectsNodelet : public nodelet::Nodelet {
   }
 
   void takeCameraInfo(const sensor_msgs::CameraInfoConstPtr& message) {
-    monitor_->received("right/camera_info", toStamp(ros::Time::now()));
-    stage_->takeCameraInfo(*message);
+    stage_->takeCameraInfo(*receive("right/camera_info", message, *monitor_));
   }
 
   void takeCloud(const sensor_msgs::PointCloud2ConstPtr& message) {
-    monitor_->received("points2", toStamp(ros::Time::now()));
-    if (const auto objects = stage_->takeCloud(*message)) {
+    if (const auto objects = stage_->takeCloud(*receive("points2", message, *monitor_))) {
       objects_.publish(objects);
       reporter_->publishTiming();
     }

@@ -3,6 +3,7 @@
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "datmo_fusion/ros/frame_ids.h"
 #include "datmo_fusion/ros/parameters.h"
 #include "datmo_fusion/ros/stage_reporter.h"
 #include "datmo_fusion/ros/tracker_stage.h"
@@ -16,7 +17,8 @@ class TrackerNodelet : public nodelet::Nodelet {
   void onInit() override {
     const auto options = loadOptions<TrackerStageOptions>(getPrivateNodeHandle());
     monitor_ = std::make_unique<StageMonitor>(getName());
-    transforms_ = std::make_unique<TransformBuffer>(options.input.restart_after);
+    transforms_ = std::make_unique<TransformBuffer>(
+        options.input.restart_after, loadSharedOptions(getPrivateNodeHandle()), *monitor_);
     const Stopwatch watch;
     stage_ = std::make_unique<TrackerStage>(options, *transforms_, *monitor_,
                                             [watch] { return watch.seconds(); });
@@ -25,22 +27,20 @@ class TrackerNodelet : public nodelet::Nodelet {
                                                 std::vector<std::string>{"objects"},
                                                 options.input.silence_after);
     tracks_ = node.advertise<TrackArray>("tracks", kQueue);
-    transform_subscription_ =
-        std::make_unique<TransformSubscription>(node, *transforms_, [this] { publishTracks(); });
+    transform_subscription_ = std::make_unique<TransformSubscription>(node, *transforms_, *monitor_,
+                                                                      [this] { publishTracks(); });
     const auto hints = ros::TransportHints().tcpNoDelay();
     split_scan_ = node.subscribe("split_scan", kQueue, &TrackerNodelet::takeSplitScan, this, hints);
     objects_ = node.subscribe("objects", kQueue, &TrackerNodelet::takeObjects, this, hints);
   }
 
   void takeSplitScan(const SplitScanConstPtr& message) {
-    stage_->takeSplitScan(*message);
+    stage_->takeSplitScan(*withPlainFrames("split_scan", message, *monitor_));
     publishTracks();
   }
 
   void takeObjects(const ObjectArrayConstPtr& message) {
-    const Stamp now = toStamp(ros::Time::now());
-    monitor_->received("objects", now);
-    stage_->takeObjects(message, now);
+    stage_->takeObjects(receive("objects", message, *monitor_), toStamp(ros::Time::now()));
     publishTracks();
   }
 

@@ -9,9 +9,8 @@
 namespace datmo {
 
 void CloudToScanStageOptions::visit(OptionVisitor& visitor) {
-  visitor.text({"base_frame", "", "frame of the vehicle, z = 0 on the ground"}, base_frame, {});
   visitor.text({"scan_frame", "",
-                "frame of the scan; the stage publishes base_frame -> scan_frame, below the lidar "
+                "frame of the scan; the stage publishes frames/base -> scan_frame, below the lidar "
                 "in the middle of the band: no other node may"},
                scan_frame, {});
   visitor.number(
@@ -31,10 +30,10 @@ CloudToScanStage::CloudToScanStage(const CloudToScanStageOptions& options,
       model_(options.scan),
       stamps_(options.input.restart_after) {
   checkOptions(options);
-  if (options.scan_frame.empty() || options.scan_frame == options.base_frame) {
+  if (options.scan_frame.empty() || options.scan_frame == options.frames.base) {
     throw OptionError("scan_frame = '" + options.scan_frame +
                       "': expected a name other than that of the vehicle's frame, '" +
-                      options.base_frame + "'");
+                      options.frames.base + "'");
   }
 }
 
@@ -45,7 +44,7 @@ std::optional<CloudToScanOutput> CloudToScanStage::takeCloud(
     ConvertedCloud converted = toLidarCloud(message, options_.max_sweep);
     LidarCloud& cloud = converted.cloud;
     cloud.lidar_in_base =
-        sensorMount(transforms_.core(), options_.base_frame, message.header.frame_id);
+        sensorMount(transforms_.core(), options_.frames.base, message.header.frame_id);
     if (stamps_.check(message.header.stamp) == Arrival::kRestart) {
       monitor_.warned(InputError("clock_restart", "the clock jumped back: begins anew"));
     }
@@ -80,7 +79,7 @@ void CloudToScanStage::warnOf(const ConvertedCloud& converted, const PlanarScan&
   }
   if (options_.scan.ground.estimate && !scan.ground.seen) {
     monitor_.warned(InputError("no_ground", "no plane of the ground found: takes z = 0 of " +
-                                                options_.base_frame + " as the ground"));
+                                                options_.frames.base + " as the ground"));
   }
 }
 
@@ -122,7 +121,7 @@ std::optional<geometry_msgs::TransformStamped> CloudToScanStage::newMount(
   mount_ = mount;
   geometry_msgs::TransformStamped transform;
   transform.header.stamp = stamp;
-  transform.header.frame_id = options_.base_frame;
+  transform.header.frame_id = options_.frames.base;
   transform.child_frame_id = options_.scan_frame;
   transform.transform.translation.x = mount.x();
   transform.transform.translation.y = mount.y();

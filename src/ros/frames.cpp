@@ -23,6 +23,28 @@ geometry_msgs::Transform lookUp(const tf2::BufferCore& transforms, const std::st
   }
 }
 
+/// The newest mount of a sensor. What is missing is said with what to do about it.
+geometry_msgs::Transform lookUpMount(const tf2::BufferCore& transforms,
+                                     const std::string& base_frame,
+                                     const std::string& sensor_frame) {
+  if (sensor_frame.empty()) {
+    throw InputError("missing_frame",
+                     "a message without frame_id: expected its sensor's frame; set the frame_id of "
+                     "its driver");
+  }
+  try {
+    return lookUp(transforms, base_frame, sensor_frame, ros::Time(0));
+  } catch (const InputError& error) {
+    throw InputError(error.reason(),
+                     std::string(error.what()) +
+                         "; give the sensor's pose on the vehicle (m, rad) "
+                         "in the yaml file, mounts: {" +
+                         sensor_frame + ": {x: 0.0, y: 0.0, z: 0.0, yaw: 0.0}}, or live with " +
+                         "rosrun tf2_ros static_transform_publisher X Y Z YAW PITCH ROLL " +
+                         base_frame + " " + sensor_frame);
+  }
+}
+
 /// Columns: the child's axes in the parent frame.
 tf2::Matrix3x3 axes(const geometry_msgs::Transform& transform) {
   const auto& q = transform.rotation;
@@ -39,7 +61,7 @@ Pose2 fromAbove(const geometry_msgs::Transform& transform) {
 
 ScannerMount scannerMount(const tf2::BufferCore& transforms, const std::string& base_frame,
                           const std::string& scanner_frame) {
-  const auto transform = lookUp(transforms, base_frame, scanner_frame, ros::Time(0));
+  const auto transform = lookUpMount(transforms, base_frame, scanner_frame);
   const double up = axes(transform).getColumn(2).z();
   ScannerMount mount;
   mount.scanner_in_base = fromAbove(transform);
@@ -50,7 +72,7 @@ ScannerMount scannerMount(const tf2::BufferCore& transforms, const std::string& 
 
 Eigen::Isometry3d sensorMount(const tf2::BufferCore& transforms, const std::string& base_frame,
                               const std::string& sensor_frame) {
-  const auto transform = lookUp(transforms, base_frame, sensor_frame, ros::Time(0));
+  const auto transform = lookUpMount(transforms, base_frame, sensor_frame);
   const auto& t = transform.translation;
   const auto& q = transform.rotation;
   return Eigen::Translation3d(t.x, t.y, t.z) * Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();

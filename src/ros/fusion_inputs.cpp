@@ -26,7 +26,7 @@ void checkSourceNames(const std::vector<std::string>& sources, const std::string
 FusionInputs::FusionInputs(const FusionInputOptions& options, StageMonitor& monitor)
     : options_(options), monitor_(monitor) {
   if (options.motion) {
-    motion_.emplace(*options.motion, options.frame, options.input.restart_after);
+    motion_.emplace(*options.motion, options.frames, options.input.restart_after);
   }
   for (const std::string& source : options.sources) {
     stamps_.emplace(source, StampCheck(options.input.restart_after));

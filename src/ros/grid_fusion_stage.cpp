@@ -15,8 +15,6 @@ constexpr char kGrid[] = "grid";
 }  // namespace
 
 void GridFusionStageOptions::visit(OptionVisitor& visitor) {
-  visitor.text({"base_frame", "", "frame of the vehicle, and of all grids"}, base_frame, {});
-  motion.visit(visitor);
   visitor.group("input", [&] { input.visit(visitor); });
   matcher.visit(visitor);
   fuser.visit(visitor);
@@ -25,7 +23,7 @@ void GridFusionStageOptions::visit(OptionVisitor& visitor) {
 GridFusionStage::GridFusionStage(const GridFusionStageOptions& options, StageMonitor& monitor)
     : options_(options),
       monitor_(monitor),
-      inputs_({options.base_frame, options.motion, options.input, options.matcher,
+      inputs_({options.frames.base, options.frames, options.motion, options.input, options.matcher,
                options.fuser.sourcesInUse(), kGrid},
               monitor),
       matcher_(options.matcher, options.fuser.sourcesInUse()),
@@ -72,7 +70,7 @@ std::optional<GridFusionOutput> GridFusionStage::next(Stamp now) {
   inputs_.report(matched->stamp(), result.missing);
   const auto toOutput = [this](SensorGrid& grid) {
     return boost::make_shared<nav_msgs::OccupancyGrid>(
-        toMessage(std::move(grid), options_.base_frame));
+        toMessage(std::move(grid), options_.frames.base));
   };
   const GridFusionOutput output{toOutput(result.grids.fused), toOutput(result.grids.conflict)};
   monitor_.processed({matched->stamp(), watch.seconds()});

@@ -9,6 +9,7 @@
 
 #include "datmo_fusion/ros/grid_conversion.h"
 #include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/motion_input.h"
 
 namespace datmo {
 
@@ -17,32 +18,16 @@ namespace {
 /// A second of a fast scanner: more than grid fusion waits for a slow sensor.
 constexpr std::size_t kMostWaitingScans = 50;
 
-/// tf takes no frame without a name, and none that is its own parent.
-void checkNames(const GridSlamStageOptions& options) {
-  const std::string& map = options.map_frame;
-  const std::string& odom = options.odom_frame;
-  const std::string& base = options.base_frame;
-  if (map.empty() || odom.empty() || base.empty() || map == odom || odom == base || base == map) {
-    throw OptionError("map_frame = '" + map + "', odom_frame = '" + odom + "', base_frame = '" +
-                      base + "': expected three different names");
-  }
+/// The hold of the odometry is said once, for all stages.
+GridSlamOptions slamOptions(const GridSlamStageOptions& options) {
+  GridSlamOptions slam = options.slam;
+  slam.odometry_hold = options.motion.hold;
+  return slam;
 }
 
 }  // namespace
 
 void GridSlamStageOptions::visit(OptionVisitor& visitor) {
-  visitor.text({"map_frame", "", "frame of the map and the pose"}, map_frame, {});
-  visitor.text({"odom_frame", "", "frame of the odometry"}, odom_frame, {});
-  visitor.text({"base_frame", "", "frame of the vehicle"}, base_frame, {});
-  visitor.toggle(
-      {"odometry", "",
-       "the vehicle has odometry; false: predict with constant velocity, and publish odom "
-       "-> base_link too"},
-      odometry);
-  visitor.toggle({"odometry_pose", "",
-                  "the odometry's poses tell the motion, as a robot's wheel encoders count it; "
-                  "false: its speed and yaw rate do"},
-                 odometry_pose);
   visitor.toggle({"fused_grid", "",
                   "the measurement is the grid that grid_fusion made of the scan and other sensors "
                   "(thesis 3.2.5); false: the scan alone"},
@@ -61,24 +46,27 @@ GridSlamStage::GridSlamStage(const GridSlamStageOptions& options, const Transfor
     : options_(options),
       transforms_(transforms),
       monitor_(monitor),
-      slam_(options.slam),
+      slam_(slamOptions(options)),
+      extent_(options.slam.map.window),
       scan_stamps_(options.input.restart_after),
       odometry_stamps_(options.input.restart_after),
       grid_stamps_(options.input.restart_after) {
   checkOptions(options);
-  checkNames(options);
+  checkOptions(options.motion);
+  checkFrames(options.frames);
 }
 
 void GridSlamStage::takeOdometry(const nav_msgs::Odometry& message) {
-  if (!options_.odometry) {
+  if (!options_.motion.fromOdometry() && !options_.motion.fromSensors()) {
     return;
   }
   try {
-    checkFrames(message);
+    checkFrames(message, options_.frames);
     OdometryPose odometry{toSample(message), fromMessage(message.pose.pose)};
-    if (options_.odometry_pose) {
+    if (options_.motion.fromOdometry() && options_.motion.odometry_pose) {
       odometry.sample.base_in_odom = odometry.base_in_odom;
     }
+    odometry.sample.speed_measured = options_.motion.hasSpeed();
     checkStamp(odometry_stamps_, message.header.stamp);
     slam_.addOdometry(odometry.sample);
     keep(odometry);
@@ -103,7 +91,7 @@ std::optional<Pose2> GridSlamStage::baseInOdom(Stamp stamp) const {
     return std::nullopt;
   }
   const double seconds = secondsBetween(nearest->sample.stamp, stamp);
-  if (std::abs(seconds) > options_.slam.odometry_hold) {
+  if (std::abs(seconds) > options_.motion.hold) {
     return std::nullopt;
   }
   return nearest->base_in_odom * arc(nearest->sample.twist, seconds);
@@ -114,7 +102,7 @@ std::optional<GridSlamOutput> GridSlamStage::takeScan(const Message& message) {
   try {
     const Stopwatch watch;
     const ScannerMount mount =
-        scannerMount(transforms_.core(), options_.base_frame, message.header.frame_id);
+        scannerMount(transforms_.core(), options_.frames.base, message.header.frame_id);
     const ConvertedScan converted = toScan(message, mount, options_.scan);
     checkStamp(scan_stamps_, message.header.stamp);
     warnOf(mount, converted);
@@ -186,18 +174,9 @@ GridSlamOutput GridSlamStage::finish(const SlamResult& result, const Stopwatch& 
 }
 
 void GridSlamStage::checkBaseFrame(const std::string& frame) const {
-  if (frame != options_.base_frame) {
+  if (frame != options_.frames.base) {
     throw InputError("wrong_frame",
-                     "fused grid in '" + frame + "': expected '" + options_.base_frame + "'");
-  }
-}
-
-void GridSlamStage::checkFrames(const nav_msgs::Odometry& message) const {
-  if (message.header.frame_id != options_.odom_frame ||
-      message.child_frame_id != options_.base_frame) {
-    throw InputError("wrong_frame", "odometry of '" + message.child_frame_id + "' in '" +
-                                        message.header.frame_id + "': expected '" +
-                                        options_.base_frame + "' in '" + options_.odom_frame + "'");
+                     "fused grid in '" + frame + "': expected '" + options_.frames.base + "'");
   }
 }
 
@@ -230,6 +209,9 @@ void GridSlamStage::warnOf(const ScannerMount& mount, const ConvertedScan& conve
                                    " degrees: expected at most " +
                                    std::to_string(toDegrees(options_.most_tilt))));
   }
+  if (const auto misfit = extent_.take(converted.scan)) {
+    monitor_.warned(*misfit);
+  }
   const BeamCounts& beams = converted.beams;
   if (beams.hits == 0 && beams.no_return == 0) {
     monitor_.warned(InputError("no_valid_beam", "scan with " + std::to_string(beams.dropped) +
@@ -254,10 +236,10 @@ GridSlamOutput GridSlamStage::outputOf(const SlamResult& result) {
   const Stamp stamp = result.split.stamp;
   GridSlamOutput output;
   output.split_scan = boost::make_shared<SplitScanMessage>(
-      toMessage(result.split, options_.base_frame, options_.map_frame));
+      toMessage(result.split, options_.frames.base, options_.frames.map));
   output.pose = boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>();
   output.pose->header.stamp = toTime(stamp);
-  output.pose->header.frame_id = options_.map_frame;
+  output.pose->header.frame_id = options_.frames.map;
   output.pose->pose = output.split_scan->pose;
   output.transforms = transformsTo(result.split.base_in_map.pose, stamp);
   return output;
@@ -266,19 +248,21 @@ GridSlamOutput GridSlamStage::outputOf(const SlamResult& result) {
 std::vector<geometry_msgs::TransformStamped> GridSlamStage::transformsTo(const Pose2& base_in_map,
                                                                          Stamp stamp) {
   const auto odom_in_map = [&](const Pose2& pose) {
-    return toTransform(pose, stamp, options_.map_frame, options_.odom_frame);
+    return toTransform(pose, stamp, options_.frames.map, options_.frames.odom);
   };
-  if (!options_.odometry) {
+  if (!options_.motion.fromOdometry()) {
     return {odom_in_map({}),
-            toTransform(base_in_map, stamp, options_.odom_frame, options_.base_frame)};
+            toTransform(base_in_map, stamp, options_.frames.odom, options_.frames.base)};
   }
   const std::optional<Pose2> base_in_odom = baseInOdom(stamp);
   if (!base_in_odom) {
-    monitor_.warned(InputError("silent_odometry",
-                               "no odometry at the scan's stamp: goes on with constant velocity "
-                               "and without " +
-                                   options_.map_frame + " -> " + options_.odom_frame +
-                                   " (a vehicle without odometry: set odometry to false)"));
+    monitor_.warned(
+        InputError("silent_odometry",
+                   "no odometry at the scan's stamp: goes on with constant velocity "
+                   "and without " +
+                       options_.frames.map + " -> " + options_.frames.odom +
+                       " (a vehicle without odometry: motion: {source: none} in the yaml "
+                       "file)"));
     return {};
   }
   return {odom_in_map(base_in_map * base_in_odom->inverse())};
@@ -290,7 +274,7 @@ nav_msgs::OccupancyGridPtr GridSlamStage::mapIfDue(Stamp stamp) {
   }
   last_map_ = stamp;
   return boost::make_shared<nav_msgs::OccupancyGrid>(
-      toMessage(slam_.map(), stamp, options_.map_frame));
+      toMessage(slam_.map(), stamp, options_.frames.map));
 }
 
 }  // namespace datmo

@@ -8,8 +8,6 @@
 namespace datmo {
 
 void LidarGridStageOptions::visit(OptionVisitor& visitor) {
-  visitor.text({"base_frame", "", "frame of the vehicle, and of the grid"}, base_frame, {});
-  motion.visit(visitor);
   visitor.number({"most_tilt", "rad", "a scan plane tilted by more than this is warned of"},
                  most_tilt, {0.0, kQuarterTurn});
   visitor.group("input", [&] { input.visit(visitor); });
@@ -24,7 +22,7 @@ LidarGridStage::LidarGridStage(const LidarGridStageOptions& options,
       monitor_(monitor),
       model_(options.grid),
       stamps_(options.input.restart_after),
-      motion_(options.motion, options.base_frame, options.input.restart_after) {
+      motion_(options.motion, options.frames, options.input.restart_after) {
   checkOptions(options);
 }
 
@@ -56,7 +54,7 @@ nav_msgs::OccupancyGridPtr LidarGridStage::takeScan(const Message& message) {
   try {
     const Stopwatch watch;
     const ScannerMount mount =
-        scannerMount(transforms_.core(), options_.base_frame, message.header.frame_id);
+        scannerMount(transforms_.core(), options_.frames.base, message.header.frame_id);
     const ConvertedScan converted = toScan(message, mount, options_.scan);
     if (stamps_.check(message.header.stamp) == Arrival::kRestart) {
       warnOfRestart();
@@ -64,7 +62,7 @@ nav_msgs::OccupancyGridPtr LidarGridStage::takeScan(const Message& message) {
     }
     warnOf(mount, converted);
     auto grid = boost::make_shared<nav_msgs::OccupancyGrid>(
-        toMessage(model_.grid(compensated(converted.scan)), options_.base_frame));
+        toMessage(model_.grid(compensated(converted.scan)), options_.frames.base));
     monitor_.processed({converted.scan.stamp, watch.seconds()});
     return grid;
   } catch (const InputError& error) {

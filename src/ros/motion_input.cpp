@@ -7,39 +7,37 @@
 
 namespace datmo {
 
-void MotionInputOptions::visit(OptionVisitor& visitor) {
-  visitor.toggle({"odometry", "", "the vehicle has odometry; false: it is not read"}, odometry);
-  visitor.toggle({"odometry_pose", "",
-                  "the odometry's poses tell the motion, as a robot's wheel encoders count it; "
-                  "false: its speed and yaw rate do"},
-                 odometry_pose);
-  visitor.text({"odom_frame", "", "frame of the odometry"}, odom_frame, {});
-  visitor.number(
-      {"odometry_hold", "s", "how long the last odometry serves when no newer one comes"},
-      odometry_hold, {0.0, 10.0});
+void checkFrames(const nav_msgs::Odometry& message, const FrameOptions& frames) {
+  const std::string& odom = message.header.frame_id;
+  const std::string& base = message.child_frame_id;
+  if (odom == frames.odom && base == frames.base) {
+    return;
+  }
+  const bool named = !odom.empty() && !base.empty() && odom != base;
+  const std::string remedy =
+      named ? "; if these are its names, give them in the yaml file: frames: {odom: " + odom +
+                  ", base: " + base + "}"
+            : "";
+  throw InputError("wrong_frame", "odometry of '" + base + "' in '" + odom + "': expected '" +
+                                      frames.base + "' in '" + frames.odom + "'" + remedy);
 }
 
-MotionInput::MotionInput(const MotionInputOptions& options, std::string base_frame,
-                         double restart_after)
+MotionInput::MotionInput(const MotionOptions& options, FrameOptions frames, double restart_after)
     : options_(options),
-      base_frame_(std::move(base_frame)),
+      frames_(std::move(frames)),
       restart_after_(restart_after),
       stamps_(restart_after),
-      buffer_(options.odometry_hold, kOdometryMemory) {
+      buffer_(options.hold, kOdometryMemory) {
   checkOptions(options);
 }
 
 Arrival MotionInput::take(const nav_msgs::Odometry& message) {
-  if (!options_.odometry) {
+  if (!options_.hasSpeed()) {
     return Arrival::kNext;
   }
-  if (message.header.frame_id != options_.odom_frame || message.child_frame_id != base_frame_) {
-    throw InputError("wrong_frame", "odometry of '" + message.child_frame_id + "' in '" +
-                                        message.header.frame_id + "': expected '" + base_frame_ +
-                                        "' in '" + options_.odom_frame + "'");
-  }
+  checkFrames(message, frames_);
   OdometrySample sample = toSample(message);
-  if (options_.odometry_pose) {
+  if (options_.fromOdometry() && options_.odometry_pose) {
     sample.base_in_odom = fromMessage(message.pose.pose);
   }
   const Arrival arrival = checkStamp(message.header.stamp);
@@ -48,7 +46,7 @@ Arrival MotionInput::take(const nav_msgs::Odometry& message) {
 }
 
 Arrival MotionInput::take(const geometry_msgs::PoseWithCovarianceStamped& message) {
-  if (options_.odometry) {
+  if (options_.hasSpeed()) {
     return Arrival::kNext;
   }
   const Pose2 pose = fromMessage(message.pose.pose);
@@ -85,7 +83,7 @@ Arrival MotionInput::checkStamp(const ros::Time& stamp) {
 
 void MotionInput::reset() {
   stamps_ = StampCheck(restart_after_);
-  buffer_ = OdometryBuffer(options_.odometry_hold, kOdometryMemory);
+  buffer_ = OdometryBuffer(options_.hold, kOdometryMemory);
   last_pose_.reset();
 }
 

@@ -36,8 +36,6 @@ std::string sourcesWith(const std::vector<SourceObjects>& lists,
 }  // namespace
 
 void ObjectFusionStageOptions::visit(OptionVisitor& visitor) {
-  visitor.text({"base_frame", "", "frame of the vehicle, and of all objects"}, base_frame, {});
-  motion.visit(visitor);
   visitor.group("input", [&] { input.visit(visitor); });
   matcher.visit(visitor);
   fuser.visit(visitor);
@@ -46,7 +44,7 @@ void ObjectFusionStageOptions::visit(OptionVisitor& visitor) {
 ObjectFusionStage::ObjectFusionStage(const ObjectFusionStageOptions& options, StageMonitor& monitor)
     : options_(options),
       monitor_(monitor),
-      inputs_({options.base_frame, options.motion, options.input, options.matcher,
+      inputs_({options.frames.base, options.frames, options.motion, options.input, options.matcher,
                options.fuser.sourcesInUse(), kObjectList},
               monitor),
       matcher_(options.matcher, options.fuser.sourcesInUse(), Serving::kOnce),
@@ -96,9 +94,9 @@ void ObjectFusionStage::takePose(const geometry_msgs::PoseWithCovarianceStamped&
 
 void ObjectFusionStage::takeSplitScan(const SplitScanMessage& message) {
   try {
-    if (message.header.frame_id != options_.base_frame) {
+    if (message.header.frame_id != options_.frames.base) {
       throw InputError("wrong_frame", "split scan in '" + message.header.frame_id +
-                                          "': expected '" + options_.base_frame + "'");
+                                          "': expected '" + options_.frames.base + "'");
     }
     SplitScan scan = fromMessage(message);
     if (!scans_.empty() && scan.stamp < scans_.back().stamp) {
@@ -151,7 +149,7 @@ ObjectArrayPtr ObjectFusionStage::next(Stamp now) {
   const ObjectFusionResult result = fuser_.fuse(lists, scan ? &*scan : nullptr);
   inputs_.report(matched->stamp(), missing);
   report(lists, result.counts);
-  auto fused = boost::make_shared<ObjectArray>(toMessage(result.list, options_.base_frame));
+  auto fused = boost::make_shared<ObjectArray>(toMessage(result.list, options_.frames.base));
   monitor_.processed({matched->stamp(), watch.seconds()});
   return fused;
 }

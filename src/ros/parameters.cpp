@@ -1,5 +1,7 @@
 #include "datmo_fusion/ros/parameters.h"
 
+#include <ros/names.h>
+
 namespace datmo {
 
 namespace {
@@ -67,6 +69,20 @@ OptionValues readParameters(const ros::NodeHandle& node) {
     return {};
   }
   return flattenParameters(tree, node.getNamespace());
+}
+
+SharedOptions loadSharedOptions(const ros::NodeHandle& private_node) {
+  const ros::NodeHandle around(ros::names::parentNamespace(private_node.getNamespace()));
+  const auto section = [&around](const char* name) {
+    return readParameters(ros::NodeHandle(around, name));
+  };
+  try {
+    return readSharedOptions(section(kFramesSection), section(kMountsSection),
+                             section(kMotionSection));
+  } catch (const OptionError& error) {
+    ROS_FATAL("%s does not start: %s", private_node.getNamespace().c_str(), error.what());
+    throw;
+  }
 }
 
 }  // namespace datmo

@@ -12,10 +12,6 @@ namespace datmo {
 
 void StereoGridStageOptions::visit(OptionVisitor& visitor) {
   StereoInputOptions::visit(visitor);
-  visitor.text({"scanner_frame", "",
-                "frame of the planar scanner, whose height is where the layer of obstacles begins "
-                "(thesis 3.2.2); empty: scanner_height tells it"},
-               scanner_frame, {});
   visitor.number({"scanner_height", "m",
                   "the same above the vehicle's frame, where tf does not know it (thesis 3.2.2)"},
                  scanner_height, {-1.0, 3.0});
@@ -54,7 +50,7 @@ nav_msgs::OccupancyGridPtr StereoGridStage::takeCloud(const sensor_msgs::PointCl
     StereoGridResult result = gridOf(cloud);
     show(result);
     auto grid = boost::make_shared<nav_msgs::OccupancyGrid>(
-        toMessage(std::move(result.grid), options_.base_frame));
+        toMessage(std::move(result.grid), options_.frames.base));
     monitor_.processed({cloud.stamp, watch.seconds()});
     return grid;
   } catch (const InputError& error) {
@@ -72,11 +68,11 @@ StereoGridResult StereoGridStage::gridOf(const StereoCloud& cloud) {
 }
 
 double StereoGridStage::scannerHeight() {
-  if (options_.scanner_frame.empty()) {
+  if (options_.frames.scanner.empty()) {
     return options_.scanner_height;
   }
   try {
-    return sensorMount(transforms_.core(), options_.base_frame, options_.scanner_frame)
+    return sensorMount(transforms_.core(), options_.frames.base, options_.frames.scanner)
         .translation()
         .z();
   } catch (const InputError& error) {

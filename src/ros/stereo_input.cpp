@@ -20,11 +20,6 @@ void StereoCameraOptions::visit(OptionVisitor& visitor) {
 }
 
 void StereoInputOptions::visit(OptionVisitor& visitor) {
-  visitor.text({"base_frame", "", "frame of the vehicle, and of what comes out"}, base_frame, {});
-  visitor.text({"camera_frame", "",
-                "optical frame of the left camera (x to the right, y down, z ahead); empty: the "
-                "clouds are in it"},
-               camera_frame, {});
   visitor.group("camera", [&] { camera.visit(visitor); });
   visitor.group("input", [&] { input.visit(visitor); });
 }
@@ -36,11 +31,11 @@ StereoInput::StereoInput(const StereoInputOptions& options, const TransformBuffe
 
 StereoCloud StereoInput::cloudOf(const std_msgs::Header& header, CloudPoints& points) const {
   const std::string& optical_frame =
-      options_.camera_frame.empty() ? header.frame_id : options_.camera_frame;
+      options_.frames.camera.empty() ? header.frame_id : options_.frames.camera;
   StereoCloud cloud;
   cloud.stamp = toStamp(header.stamp);
   cloud.camera = camera();
-  cloud.camera_in_base = sensorMount(transforms_.core(), options_.base_frame, optical_frame);
+  cloud.camera_in_base = sensorMount(transforms_.core(), options_.frames.base, optical_frame);
   if (optical_frame != header.frame_id) {
     points.transform(sensorMount(transforms_.core(), optical_frame, header.frame_id));
   }

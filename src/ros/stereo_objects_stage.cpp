@@ -42,7 +42,7 @@ ObjectArrayPtr StereoObjectsStage::takeCloud(const sensor_msgs::PointCloud2& mes
     }
     const StereoObjects objects = objectsOf(cloud);
     show(objects);
-    auto array = boost::make_shared<ObjectArray>(toMessage(objects.list, options_.base_frame));
+    auto array = boost::make_shared<ObjectArray>(toMessage(objects.list, options_.frames.base));
     monitor_.processed({cloud.stamp, watch.seconds()});
     return array;
   } catch (const InputError& error) {

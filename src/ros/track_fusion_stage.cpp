@@ -40,8 +40,6 @@ TrackFusionStageOptions::TrackFusionStageOptions() {
 }
 
 void TrackFusionStageOptions::visit(OptionVisitor& visitor) {
-  visitor.text({"fixed_frame", "", "frame that does not move, in which all tracks are"},
-               fixed_frame, {});
   visitor.group("input", [&] { input.visit(visitor); });
   matcher.visit(visitor);
   fuser.visit(visitor);
@@ -50,7 +48,7 @@ void TrackFusionStageOptions::visit(OptionVisitor& visitor) {
 TrackFusionStage::TrackFusionStage(const TrackFusionStageOptions& options, StageMonitor& monitor)
     : options_(options),
       monitor_(monitor),
-      inputs_({options.fixed_frame, std::nullopt, options.input, options.matcher,
+      inputs_({options.frames.map, options.frames, std::nullopt, options.input, options.matcher,
                options.fuser.sourcesInUse(), kTrackList},
               monitor),
       matcher_(options.matcher, options.fuser.sourcesInUse(), Serving::kOften),
@@ -105,7 +103,7 @@ TrackArrayPtr TrackFusionStage::next(Stamp now) {
   const TrackFusionResult result = fuser_.fuse(matched->stamp(), lists);
   inputs_.report(matched->stamp(), matched->missing);
   report(result.counts);
-  auto fused = boost::make_shared<TrackArray>(toMessage(result.list, options_.fixed_frame));
+  auto fused = boost::make_shared<TrackArray>(toMessage(result.list, options_.frames.map));
   monitor_.processed({matched->stamp(), watch.seconds()});
   return fused;
 }

@@ -18,8 +18,6 @@ constexpr std::size_t kMostWaiting = 50;
 }  // namespace
 
 void TrackerStageOptions::visit(OptionVisitor& visitor) {
-  visitor.text({"fixed_frame", "", "frame that does not move, in which tracks are published"},
-               fixed_frame, {});
   visitor.number({"transform_wait", "s", "longest time that objects wait for their transform"},
                  transform_wait, {0.0, 5.0});
   visitor.toggle(
@@ -87,10 +85,10 @@ TrackArrayPtr TrackerStage::next(Stamp now) {
 }
 
 Pose2 TrackerStage::baseInFixed(const std_msgs::Header& base) const {
-  if (const auto pose = scan_views_.pose(base, options_.fixed_frame)) {
+  if (const auto pose = scan_views_.pose(base, options_.frames.map)) {
     return *pose;
   }
-  return planarPose(transforms_.core(), options_.fixed_frame, base.frame_id, base.stamp);
+  return planarPose(transforms_.core(), options_.frames.map, base.frame_id, base.stamp);
 }
 
 TrackArrayPtr TrackerStage::track(const ObjectArray& objects, const Pose2& base_in_fixed) {
@@ -100,7 +98,7 @@ TrackArrayPtr TrackerStage::track(const ObjectArray& objects, const Pose2& base_
   const Visibility* scan = options_.scan_view ? scan_views_.visibility(objects.header) : nullptr;
   const Visibility visibility = jointVisibility(scan, list, options_.tracker.visibility);
   const auto tracks = boost::make_shared<TrackArray>(
-      toMessage(tracker_.process(list, base_in_fixed, visibility), options_.fixed_frame));
+      toMessage(tracker_.process(list, base_in_fixed, visibility), options_.frames.map));
   report(before, tracker_.counts());
   monitor_.processed({list.stamp, watch.seconds()});
   return tracks;

@@ -1,5 +1,9 @@
 #include "datmo_fusion/ros/transform_buffer.h"
 
+#include <cmath>
+
+#include <tf2/LinearMath/Vector3.h>
+
 #include "datmo_fusion/ros/stamp_check.h"
 
 namespace datmo {
@@ -8,20 +12,59 @@ namespace {
 
 /// Who sent a transform does not matter to us, but tf2 wants a name.
 const std::string kAuthority = "tf";
+const std::string kMounts = "mounts";
+
+/// A mount that differs from tf's by more (m, and of the quaternion's elements) is another one:
+/// what rounding to three digits does not make.
+constexpr double kMountTolerance = 2e-3;
+
+bool isSame(const geometry_msgs::TransformStamped& one,
+            const geometry_msgs::TransformStamped& other) {
+  const auto& a = one.transform;
+  const auto& b = other.transform;
+  const tf2::Vector3 between(a.translation.x - b.translation.x, a.translation.y - b.translation.y,
+                             a.translation.z - b.translation.z);
+  const double cosine = a.rotation.x * b.rotation.x + a.rotation.y * b.rotation.y +
+                        a.rotation.z * b.rotation.z + a.rotation.w * b.rotation.w;
+  return one.header.frame_id == other.header.frame_id && between.length() <= kMountTolerance &&
+         1.0 - std::abs(cosine) <= kMountTolerance * kMountTolerance;
+}
 
 }  // namespace
+
+TransformBuffer::TransformBuffer(double restart_after, const SharedOptions& shared,
+                                 StageMonitor& monitor)
+    : restart_after_(restart_after), monitor_(&monitor) {
+  for (const auto& mount : toMessage(shared.mounts, shared.frames.base).transforms) {
+    core_.setTransform(mount, kMounts, true);
+    mounts_[mount.child_frame_id] = mount;
+  }
+}
+
+void TransformBuffer::set(const geometry_msgs::TransformStamped& transform, bool is_static) {
+  const auto mount = mounts_.find(transform.child_frame_id);
+  if (mount != mounts_.end()) {
+    if (!isSame(mount->second, transform)) {
+      monitor_->warned(InputError(
+          "mount_from_tf", "mounts has another " + mount->first + " than tf, which has it in " +
+                               transform.header.frame_id + ": expected one of them; tf holds"));
+    }
+    mounts_.erase(mount);
+  }
+  core_.setTransform(transform, kAuthority, is_static);
+}
 
 void TransformBuffer::add(const tf2_msgs::TFMessage& message) {
   for (const auto& transform : message.transforms) {
     if (isNew(transform)) {
-      core_.setTransform(transform, kAuthority, false);
+      set(transform, false);
     }
   }
 }
 
 void TransformBuffer::addStatic(const tf2_msgs::TFMessage& message) {
   for (const auto& transform : message.transforms) {
-    core_.setTransform(transform, kAuthority, true);
+    set(transform, true);
   }
 }
 

@@ -1,5 +1,7 @@
 #include "datmo_fusion/ros/transform_subscription.h"
 
+#include "datmo_fusion/ros/frame_ids.h"
+
 namespace datmo {
 
 namespace {
@@ -7,24 +9,28 @@ namespace {
 /// As in tf2_ros: a second of many fast publishers.
 constexpr std::uint32_t kQueue = 100;
 
+constexpr char kTransforms[] = "/tf";
+constexpr char kStaticTransforms[] = "/tf_static";
+
 }  // namespace
 
 TransformSubscription::TransformSubscription(ros::NodeHandle node, TransformBuffer& buffer,
-                                             std::function<void()> changed) {
+                                             StageMonitor& monitor, std::function<void()> changed) {
   using Callback = boost::function<void(const tf2_msgs::TFMessageConstPtr&)>;
-  const Callback add = [&buffer, changed](const tf2_msgs::TFMessageConstPtr& message) {
-    buffer.add(*message);
+  const Callback add = [&buffer, &monitor, changed](const tf2_msgs::TFMessageConstPtr& message) {
+    buffer.add(*withPlainFrames(kTransforms, message, monitor));
     changed();
   };
-  const Callback add_static = [&buffer, changed](const tf2_msgs::TFMessageConstPtr& message) {
-    buffer.addStatic(*message);
+  const Callback add_static = [&buffer, &monitor,
+                               changed](const tf2_msgs::TFMessageConstPtr& message) {
+    buffer.addStatic(*withPlainFrames(kStaticTransforms, message, monitor));
     changed();
   };
   const ros::VoidConstPtr untracked;
   const auto hints = ros::TransportHints().tcpNoDelay();
-  transforms_ = node.subscribe<tf2_msgs::TFMessage>("/tf", kQueue, add, untracked, hints);
+  transforms_ = node.subscribe<tf2_msgs::TFMessage>(kTransforms, kQueue, add, untracked, hints);
   static_transforms_ =
-      node.subscribe<tf2_msgs::TFMessage>("/tf_static", kQueue, add_static, untracked, hints);
+      node.subscribe<tf2_msgs::TFMessage>(kStaticTransforms, kQueue, add_static, untracked, hints);
 }
 
 }  // namespace datmo

@@ -118,11 +118,6 @@ void GridSlamOptions::visit(OptionVisitor& visitor) {
   visitor.group("motion", [&] { motion.visit(visitor); });
   visitor.group("pose", [&] { pose.visit(visitor); });
   visitor.group("matcher", [&] { matcher.visit(visitor); });
-  visitor.number(
-      {"odometry_hold", "s",
-       "how long the last odometry serves when no newer one comes; after that the pose is "
-       "predicted with the last estimated velocity"},
-      odometry_hold, {0.0, 10.0});
   visitor.toggle({"motion_compensation", "",
                   "bring each beam from its own time to the scan's stamp; false: take all beams of "
                   "a scan as measured at once (thesis)"},
@@ -150,13 +145,15 @@ GridSlam::GridSlam(const GridSlamOptions& options)
 
 bool GridSlam::predict(Stamp stamp) {
   const double seconds = secondsBetween(*stamp_, stamp);
-  const auto measured = odometry_.motion(*stamp_, stamp, filter_.errors());
-  if (measured) {
+  const auto measured = odometry_.motion(*stamp_, stamp, filter_.errors(), estimatedSpeed());
+  if (!measured) {
+    filter_.predictUnmeasured(seconds);
+  } else if (odometry_.measuresSpeed()) {
     filter_.predictMeasured(*measured, seconds);
   } else {
-    filter_.predictUnmeasured(seconds);
+    filter_.predictTurn(*measured, seconds);
   }
-  return measured.has_value();
+  return measured && odometry_.measuresSpeed();
 }
 
 Scan GridSlam::compensated(const Scan& scan) const {
@@ -164,7 +161,8 @@ Scan GridSlam::compensated(const Scan& scan) const {
   if (!options_.motion_compensation || duration == 0.0) {
     return scan;
   }
-  const auto measured = odometry_.motion(scan.stamp, scan.stamp + duration, filter_.errors());
+  const auto measured =
+      odometry_.motion(scan.stamp, scan.stamp + duration, filter_.errors(), estimatedSpeed());
   return compensateMotion(scan, measured ? twistOf(*measured, duration) : filter_.velocity());
 }
 

@@ -30,8 +30,8 @@ void OdometryBuffer::add(const OdometrySample& sample) {
   }
 }
 
-std::optional<Pose2> OdometryBuffer::motion(Stamp from, Stamp to,
-                                            const OdometryErrors& errors) const {
+std::optional<Pose2> OdometryBuffer::motion(Stamp from, Stamp to, const OdometryErrors& errors,
+                                            double assumed_speed) const {
   const auto later =
       std::upper_bound(pieces_.begin(), pieces_.end(), from,
                        [](Stamp stamp, const Piece& piece) { return stamp < piece.sample.stamp; });
@@ -48,7 +48,9 @@ std::optional<Pose2> OdometryBuffer::motion(Stamp from, Stamp to,
     if (!piece->to_next && secondsBetween(piece->sample.stamp, until) > longest_hold_) {
       return std::nullopt;
     }
-    motion = motion * arc(errors.correct(piece->sample.twist), secondsBetween(at, until));
+    Twist2 twist = errors.correct(piece->sample.twist);
+    twist.forward_speed = piece->sample.speed_measured ? twist.forward_speed : assumed_speed;
+    motion = motion * arc(twist, secondsBetween(at, until));
     at = until;
     if (next == pieces_.end()) {
       break;

@@ -64,17 +64,37 @@ void PoseFilter::predictMeasured(const Pose2& motion, double seconds) {
   const double speed_factor = -twist.forward_speed / (1.0 + errors_.speed_scale);
   move(motion, seconds, kSpeedScale, speed_factor, kYawRateBias, -1.0);
   addPoseNoise(motion_model_.covariance(twist, seconds));
+  addErrorDrift(seconds);
+  // The odometry tells the velocity, whatever was known of it before.
+  velocity_ = twist;
+  covariance_.middleRows<2>(kSpeed).setZero();
+  covariance_.middleCols<2>(kSpeed).setZero();
+  covariance_.block<2, 2>(kSpeed, kSpeed) = motion_model_.velocityCovariance(twist);
+}
+
+void PoseFilter::addErrorDrift(double seconds) {
   if (options_.calibrate_odometry) {
     covariance_(kSpeedScale, kSpeedScale) +=
         options_.speed_scale_drift * options_.speed_scale_drift * seconds;
     covariance_(kYawRateBias, kYawRateBias) +=
         options_.yaw_rate_bias_drift * options_.yaw_rate_bias_drift * seconds;
   }
-  // The odometry tells the velocity, whatever was known of it before.
-  velocity_ = twist;
-  covariance_.middleRows<2>(kSpeed).setZero();
-  covariance_.middleCols<2>(kSpeed).setZero();
-  covariance_.block<2, 2>(kSpeed, kSpeed) = motion_model_.velocityCovariance(twist);
+}
+
+void PoseFilter::predictTurn(const Pose2& motion, double seconds) {
+  const Twist2 twist = twistOf(motion, seconds);
+  covariance_(kSpeed, kSpeed) += motion_model_.velocityChange(seconds)(0, 0);
+  move(motion, seconds, kSpeed, 1.0, kYawRateBias, -1.0);
+  // The part of the motion's noise that the yaw rate makes, and none of the speed, which is a
+  // state.
+  Eigen::Matrix3d noise = motion_model_.covariance(twist, seconds);
+  noise(0, 0) = 0.0;
+  addPoseNoise(noise);
+  addErrorDrift(seconds);
+  velocity_.yaw_rate = twist.yaw_rate;
+  covariance_.row(kYawRate).setZero();
+  covariance_.col(kYawRate).setZero();
+  covariance_(kYawRate, kYawRate) = motion_model_.velocityCovariance(twist)(1, 1);
 }
 
 void PoseFilter::predictUnmeasured(double seconds) {

@@ -55,7 +55,7 @@ class Intersection(unittest.TestCase):
 
     def test_pose_without_odometry(self):
         settings = yaml.safe_load(CONFIG.read_text())
-        settings["grid_slam"]["odometry"] = False
+        settings["motion"] = {"source": "none"}
         for seed in SEEDS:
             with self.subTest(seed=seed), tempfile.TemporaryDirectory() as folder:
                 config = Path(folder) / "without_odometry.yaml"

@@ -13,7 +13,7 @@ DESCRIPTION = """\
 Converts a recorded bag of a car with a 2D scanner, whose pose and those of other cars were measured
 by motion capture, to a bag: /scan, /tf_static, /ground_truth/pose, /ground_truth/objects, and,
 where wheel speeds and an IMU were recorded, /odometry and /tf. Run it with config/model_car.yaml;
-without odometry, with grid_slam/odometry: false.
+without odometry, with motion: {source: none}.
 
 base_link is the frame in which motion capture has the scanner's car, and map its first pose. The
 defaults are those of the example bags of the package datmo (1:10 cars, an RPLIDAR), measured there:

@@ -8,9 +8,10 @@ namespace datmo {
 
 namespace {
 
-const std::array<std::string, 8> kInputTopics = {
-    "scan",       "echoes",      "odometry",         "points2",
-    "left_image", "right_image", "left_camera_info", "right_camera_info",
+const std::array<std::string, 12> kInputTopics = {
+    "scan",         "echoes",      "odometry",         "imu",
+    "twist",        "points2",     "left_image",       "twist_with_covariance",
+    "joint_states", "right_image", "left_camera_info", "right_camera_info",
 };
 
 const std::map<std::string, LastStage> kStages = {
@@ -202,8 +203,14 @@ std::string usage() {
          "  --write-grids         writes /grids/lidar, /grids/stereo, /grids/fused, "
          "/grids/conflict\n"
          "  --times FILE.json     how long each stage took for a message\n"
-         "  TOPIC:=...            scan, echoes, odometry, points2, left_image, right_image,\n"
-         "                        left_camera_info or right_camera_info under another name\n";
+         "  TOPIC:=...            scan, echoes, odometry, imu, twist, twist_with_covariance,\n"
+         "                        joint_states, points2, left_image, right_image, "
+         "left_camera_info\n"
+         "                        or right_camera_info under another name\n"
+         "Exit code: 0 when done; 1 for a command line, yaml file or bag that is wrong or lacks a\n"
+         "topic, and when interrupted; 2 when all messages on a topic were refused, no scan could "
+         "be\n"
+         "used or no tracks came out. After 1 and 2 no output bag is left.\n";
 }
 
 Arguments parseArguments(const std::vector<std::string>& words) {

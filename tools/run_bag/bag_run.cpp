@@ -10,6 +10,7 @@
 
 #include "drive_summary.h"
 #include "input_bag.h"
+#include "input_refusals.h"
 #include "input_topics.h"
 #include "interruption.h"
 #include "output_bag.h"
@@ -19,6 +20,7 @@
 
 #include <rosbag/view.h>
 
+#include "datmo_fusion/ros/frame_ids.h"
 #include "datmo_fusion/ros/stamp_check.h"
 
 namespace datmo {
@@ -30,7 +32,11 @@ class BagRun {
  public:
   BagRun(const InputTopics& topics, Pipeline& pipeline, DriveSummary& drive, OutputBag& output,
          bool write_grids)
-      : pipeline_(pipeline), drive_(drive), output_(output), write_grids_(write_grids) {
+      : pipeline_(pipeline),
+        drive_(drive),
+        output_(output),
+        write_grids_(write_grids),
+        refusals_(pipeline.doors()) {
     readMotion(topics);
     readScans(topics);
     readStereo(topics.stereo);
@@ -55,7 +61,7 @@ class BagRun {
   void takeStaticTransforms(const rosbag::Bag& bag) {
     rosbag::View view(bag, rosbag::TopicQuery("/tf_static"));
     for (const rosbag::MessageInstance& message : view) {
-      pipeline_.takeStaticTransforms(*read<tf2_msgs::TFMessage>(message));
+      pipeline_.takeStaticTransforms(*plain<tf2_msgs::TFMessage>(message));
     }
   }
 
@@ -66,10 +72,13 @@ class BagRun {
       return;
     }
     write(message.getTime(), reader->second(message, toStamp(message.getTime())));
+    refusals_.book(message.getTopic());
   }
 
   /// `end`: of the bag.
   void finish(const ros::Time& end) { write(end, pipeline_.finish(toStamp(end))); }
+
+  const InputRefusals& refusals() const { return refusals_; }
 
  private:
   using Reader = std::function<Pipeline::Output(const rosbag::MessageInstance&, Stamp now)>;
@@ -78,18 +87,36 @@ class BagRun {
   template <typename Message, typename Take>
   void on(const std::string& topic, const Take& take) {
     if (!topic.empty()) {
-      readers_[topic] = [take](const rosbag::MessageInstance& message, Stamp now) {
-        return take(read<Message>(message), now);
+      readers_[topic] = [this, take](const rosbag::MessageInstance& message, Stamp now) {
+        return take(plain<Message>(message), now);
       };
     }
+  }
+
+  /// A message with its frames as the stages take them.
+  template <typename Message>
+  boost::shared_ptr<const Message> plain(const rosbag::MessageInstance& message) {
+    return withPlainFrames<Message>(message.getTopic(), read<Message>(message), pipeline_.inputs());
   }
 
   void readMotion(const InputTopics& topics) {
     on<tf2_msgs::TFMessage>("/tf", [this](const auto& message, Stamp now) {
       return pipeline_.takeTransforms(*message, now);
     });
-    on<nav_msgs::Odometry>(topics.odometry, [this](const auto& message, Stamp now) {
+    const MotionTopics& motion = topics.motion;
+    on<nav_msgs::Odometry>(motion.odometry, [this](const auto& message, Stamp now) {
       return pipeline_.takeOdometry(*message, now);
+    });
+    on<sensor_msgs::Imu>(motion.imu, [this](const auto& message, Stamp now) {
+      return pipeline_.takeImu(*message, now);
+    });
+    const auto take_twist = [this](const auto& message, Stamp now) {
+      return pipeline_.takeTwist(*message, now);
+    };
+    on<geometry_msgs::TwistStamped>(motion.twist, take_twist);
+    on<geometry_msgs::TwistWithCovarianceStamped>(motion.twist_with_covariance, take_twist);
+    on<sensor_msgs::JointState>(motion.joint_states, [this](const auto& message, Stamp now) {
+      return pipeline_.takeWheels(*message, now);
     });
   }
 
@@ -160,6 +187,7 @@ class BagRun {
   DriveSummary& drive_;
   OutputBag& output_;
   bool write_grids_;
+  InputRefusals refusals_;
   std::map<std::string, Reader> readers_;  ///< by topic
 };
 
@@ -204,16 +232,19 @@ void carry(rosbag::View& view, const InputTopics& topics, BagRun& run, std::ostr
 
 void checkResults(const Arguments& arguments, const DriveSummary& drive, const Pipeline& pipeline) {
   const bool until_fusion = arguments.last_stage == LastStage::kGridFusion;
-  if ((until_fusion ? drive.fusedGrids() : drive.scans()) > 0) {
+  const bool scans_used = (until_fusion ? drive.fusedGrids() : drive.scans()) > 0;
+  const bool until_tracks = arguments.last_stage >= LastStage::kTracker;
+  if (scans_used && (!until_tracks || drive.trackLists() > 0)) {
     return;
   }
-  std::string message = arguments.input + ": no scan could be used";
+  std::string message =
+      arguments.input + (scans_used ? ": no list of tracks came out" : ": no scan could be used");
   for (const StageMonitor* monitor : pipeline.monitors()) {
     if (!monitor->lastError().empty()) {
       message += "; " + monitor->stage() + " says: " + monitor->lastError();
     }
   }
-  throw std::runtime_error(message);
+  throw NoUsableInput(message);
 }
 
 PipelineOptions readOptionsFor(const Arguments& arguments) {
@@ -250,13 +281,14 @@ void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progres
     throw std::runtime_error(arguments.input + " to " + arguments.output + ": " + error.what());
   }
   const double took = watch.seconds();
+  run.refusals().check();
   checkResults(arguments, drive, pipeline);
   if (!arguments.times.empty()) {
     writeWholeFile(arguments.times, toJson(pipeline.times()));
   }
   output.finish();
   if (!arguments.quiet) {
-    printTable(out, drive, pipeline, lengthOf(view), took);
+    printTable(out, drive, pipeline, run.refusals(), {lengthOf(view), took});
   }
 }
 

@@ -14,8 +14,9 @@ namespace datmo {
 /// end and a bar to `progress` on the way (null: none); with --quiet neither. With --times it
 /// writes the stages' times to a JSON file.
 ///
-/// Throws std::exception with a message for people: a bag that cannot be read, a topic or an option
-/// that is wrong, no scan that could be used, an interruption. No output bag is left behind then.
+/// Throws NoUsableInput if all messages on a topic were refused, no scan could be used or no tracks
+/// came out; std::exception else, with a message for people: a bag that cannot be read, a topic or
+/// an option that is wrong, an interruption. No output bag is left behind then.
 void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progress);
 
 }  // namespace datmo

@@ -31,6 +31,15 @@ void printCounts(std::ostream& out, const std::string& what, const StageMonitor&
   }
 }
 
+void printRefusals(std::ostream& out, const InputRefusals& refusals) {
+  for (const auto& [name, topic] : refusals.topics()) {
+    for (const auto& [reason, refused] : topic.reasons) {
+      line(out, "refused of " + name + ", " + reason)
+          << refused.messages << " of " << topic.received << '\n';
+    }
+  }
+}
+
 }  // namespace
 
 void DriveSummary::add(const Pipeline::Output& output) {
@@ -52,6 +61,7 @@ void DriveSummary::add(const Pipeline::Output& output) {
   }
   tracks_are_fused_ = tracks_are_fused_ || !output.source_tracks.empty();
   track_lists_ += output.tracks.size();
+  source_track_lists_ += output.source_tracks.size();
   for (const TrackArrayPtr& tracks : output.tracks) {
     for (const TrackMessage& track : tracks->tracks) {
       track_ids_.insert(track.id);
@@ -60,7 +70,7 @@ void DriveSummary::add(const Pipeline::Output& output) {
 }
 
 void printTable(std::ostream& out, const DriveSummary& drive, const Pipeline& pipeline,
-                double data_seconds, double wall_seconds) {
+                const InputRefusals& refusals, const RunTime& time) {
   out << std::fixed << std::setprecision(1);
   line(out, "scans processed") << drive.scans() << '\n';
   if (drive.fusedGrids() > 0) {
@@ -77,10 +87,14 @@ void printTable(std::ostream& out, const DriveSummary& drive, const Pipeline& pi
   }
   line(out, "distance driven") << drive.distance() << " m\n";
   line(out, "tracks confirmed") << drive.tracks() << '\n';
-  line(out, "data") << data_seconds << " s\n";
-  line(out, "took") << wall_seconds << " s\n";
-  line(out, "speed") << data_seconds / wall_seconds << " x real time\n";
+  line(out, "data") << time.data << " s\n";
+  line(out, "took") << time.wall << " s\n";
+  line(out, "speed") << time.data / time.wall << " x real time\n";
   printTimes(out, pipeline.times());
+  printRefusals(out, refusals);
+  for (const auto& [name, count] : pipeline.inputs().figures()) {
+    line(out, name) << std::setprecision(0) << count << '\n';
+  }
   for (const StageMonitor* monitor : pipeline.monitors()) {
     printCounts(out, "dropped", *monitor, monitor->drops());
     printCounts(out, "warned", *monitor, monitor->warnings());

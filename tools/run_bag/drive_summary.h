@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "input_refusals.h"
 #include "pipeline.h"
 
 #include "datmo_fusion/common/pose2.h"
@@ -24,6 +25,7 @@ class DriveSummary {
   std::size_t scans() const { return scans_; }
   double distance() const { return distance_; }  ///< m, along the estimated poses
   std::size_t fusedTrackLists() const { return tracks_are_fused_ ? track_lists_ : 0; }
+  std::size_t trackLists() const { return track_lists_ + source_track_lists_; }
   std::size_t tracks() const { return track_ids_.size(); }
 
  private:
@@ -31,6 +33,7 @@ class DriveSummary {
   std::size_t fused_lists_ = 0;
   std::size_t dropped_objects_ = 0;
   std::size_t track_lists_ = 0;
+  std::size_t source_track_lists_ = 0;  ///< that are fused, or would be
   bool tracks_are_fused_ = false;
   std::size_t scans_ = 0;
   double distance_ = 0.0;
@@ -38,9 +41,13 @@ class DriveSummary {
   std::set<std::uint32_t> track_ids_;
 };
 
+struct RunTime {
+  double data = 0.0;  ///< s, length of the bag
+  double wall = 0.0;  ///< s, what it took
+};
+
 /// The table at the end: the drive, the time of each stage, speed, and what was dropped and why.
-/// `data_seconds`: length of the bag; `wall_seconds`: what it took.
 void printTable(std::ostream& out, const DriveSummary& drive, const Pipeline& pipeline,
-                double data_seconds, double wall_seconds);
+                const InputRefusals& refusals, const RunTime& time);
 
 }  // namespace datmo

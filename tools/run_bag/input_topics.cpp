@@ -135,7 +135,53 @@ void findTrackTopics(const rosbag::Bag& bag, const Arguments& arguments,
   }
 }
 
+/// The topic, in whatever form the bag has it. Throws std::runtime_error if it lacks it.
+std::string neededMotionTopic(const rosbag::Bag& bag, const Arguments& arguments,
+                              const std::string& topic, const std::string& type) {
+  const std::string name = arguments.inputTopic(topic);
+  if (!holdsTopic(bag, name)) {
+    failForTopic(bag, "no " + type + " on " + name + " (give its topic, " + topic +
+                          ":=/..., or what else tells the motion, in " + arguments.config +
+                          ": motion: {source: ...}, one of odometry, twist, imu, imu_and_twist, "
+                          "imu_and_wheels, none)");
+  }
+  return name;
+}
+
+MotionTopics motionTopics(const rosbag::Bag& bag, const Arguments& arguments,
+                          const MotionOptions& motion) {
+  MotionTopics topics;
+  if (motion.fromOdometry()) {
+    topics.odometry = neededMotionTopic(bag, arguments, "odometry", "Odometry");
+  }
+  if (motion.usesImu()) {
+    topics.imu = neededMotionTopic(bag, arguments, "imu", "Imu");
+  }
+  if (motion.usesTwist()) {
+    const std::string with_covariance = arguments.inputTopic("twist_with_covariance");
+    if (holdsTopic(bag, with_covariance)) {
+      topics.twist_with_covariance = with_covariance;
+    } else {
+      topics.twist = neededMotionTopic(bag, arguments, "twist", "TwistStamped");
+    }
+  }
+  if (motion.usesWheels()) {
+    topics.joint_states = neededMotionTopic(bag, arguments, "joint_states", "JointState");
+  }
+  return topics;
+}
+
 }  // namespace
+
+std::vector<std::string> MotionTopics::all() const {
+  std::vector<std::string> topics;
+  for (const std::string& topic : {odometry, imu, twist, twist_with_covariance, joint_states}) {
+    if (!topic.empty()) {
+      topics.push_back(topic);
+    }
+  }
+  return topics;
+}
 
 StereoPoints StereoTopics::input() const {
   if (left_image.empty()) {
@@ -148,7 +194,9 @@ StereoPoints StereoTopics::input() const {
 
 std::vector<std::string> InputTopics::all() const {
   std::vector<std::string> topics = truth;
-  topics.insert(topics.end(), {scan, echoes, odometry, "/tf"});
+  topics.insert(topics.end(), {scan, echoes, "/tf"});
+  const std::vector<std::string> motion_topics = motion.all();
+  topics.insert(topics.end(), motion_topics.begin(), motion_topics.end());
   for (const std::string& topic : {stereo.points, stereo.left_image, stereo.right_image,
                                    stereo.left_info, stereo.right_info}) {
     if (!topic.empty()) {
@@ -168,16 +216,11 @@ InputTopics findTopics(const rosbag::Bag& bag, const Arguments& arguments,
   InputTopics topics;
   topics.scan = arguments.inputTopic("scan");
   topics.echoes = arguments.inputTopic("echoes");
-  topics.odometry = arguments.inputTopic("odometry");
   if (!holdsTopic(bag, topics.scan) && !holdsTopic(bag, topics.echoes)) {
     failForTopic(bag, "neither a LaserScan on " + topics.scan + " nor a MultiEchoLaserScan on " +
                           topics.echoes);
   }
-  if (options.grid_slam.odometry && !holdsTopic(bag, topics.odometry)) {
-    failForTopic(bag, "no odometry on " + topics.odometry +
-                          " (without any, set grid_slam/odometry to false in " + arguments.config +
-                          ")");
-  }
+  topics.motion = motionTopics(bag, arguments, options.shared.motion);
   if (arguments.low_level_fusion) {
     findLowLevelTopics(bag, arguments, options.low_level.grid_fusion, topics);
   }

@@ -25,11 +25,22 @@ struct StereoTopics {
   StereoPoints input() const;
 };
 
+/// The names that what tells the motion has in the bag; empty: not read.
+struct MotionTopics {
+  std::string odometry;
+  std::string imu;
+  std::string twist;
+  std::string twist_with_covariance;
+  std::string joint_states;
+
+  std::vector<std::string> all() const;
+};
+
 /// The names that our inputs have in the bag.
 struct InputTopics {
   std::string scan;
   std::string echoes;
-  std::string odometry;
+  MotionTopics motion;
   StereoTopics stereo;
   std::map<std::string, std::string> grids;    ///< of sources that no stage makes: topic -> source
   std::map<std::string, std::string> objects;  ///< the same for objects

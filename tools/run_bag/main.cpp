@@ -6,10 +6,17 @@
 
 #include "arguments.h"
 #include "bag_run.h"
+#include "input_refusals.h"
 #include "interruption.h"
 #include <unistd.h>
 
 #include <ros/time.h>
+
+namespace {
+
+constexpr int kNoUsableInput = 2;  // exit code, as usage() says
+
+}  // namespace
 
 int main(int count, char** words) {
   using namespace datmo;
@@ -27,6 +34,9 @@ int main(int count, char** words) {
   } catch (const UsageError& error) {
     std::cerr << "run_bag: " << error.what() << '\n' << usage();
     return EXIT_FAILURE;
+  } catch (const NoUsableInput& error) {
+    std::cerr << "run_bag: " << error.what() << '\n';
+    return kNoUsableInput;
   } catch (const std::exception& error) {
     std::cerr << "run_bag: " << error.what() << '\n';
     return EXIT_FAILURE;

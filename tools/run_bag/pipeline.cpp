@@ -31,7 +31,7 @@ bool usesStereoObjects(const PipelineOptions& options, const Wiring& wiring) {
 Pipeline::Pipeline(const PipelineOptions& options, const Wiring& wiring)
     : options_(wired(options, wiring)),
       last_(wiring.last),
-      transforms_(options_.grid_slam.input.restart_after),
+      transforms_(options_.grid_slam.input.restart_after, options_.shared, inputs_monitor_),
       low_level_(wiring.low_level_fusion
                      ? std::make_unique<LowLevelPipeline>(options_.low_level, transforms_, times_)
                      : nullptr),
@@ -42,6 +42,8 @@ Pipeline::Pipeline(const PipelineOptions& options, const Wiring& wiring)
                         ? std::make_unique<TrackFusionPipeline>(options_.track_level, wiring.last,
                                                                 transforms_, times_)
                         : nullptr),
+      motion_({options_.shared.frames, options_.shared.motion, options_.grid_slam.input},
+              transforms_, motion_monitor_),
       slam_(options_.grid_slam, transforms_, slam_monitor_),
       detector_(options_.moving_objects, detector_monitor_),
       tracker_(options_.tracker, transforms_, tracker_monitor_) {
@@ -62,9 +64,9 @@ void Pipeline::takeStaticTransforms(const tf2_msgs::TFMessage& message) {
 }
 
 bool Pipeline::isFromSlam(const geometry_msgs::TransformStamped& transform) const {
-  const GridSlamStageOptions& slam = options_.grid_slam;
-  return transform.child_frame_id == slam.odom_frame ||
-         (!slam.odometry && transform.child_frame_id == slam.base_frame);
+  const auto& [frames, mounts, motion] = options_.shared;
+  return transform.child_frame_id == frames.odom ||
+         (!motion.fromOdometry() && transform.child_frame_id == frames.base);
 }
 
 Pipeline::Output Pipeline::takeTransforms(const tf2_msgs::TFMessage& message, Stamp now) {
@@ -90,6 +92,22 @@ Pipeline::Output Pipeline::takeOdometry(const nav_msgs::Odometry& message, Stamp
   Output output;
   followFusion(now, output);
   return output;
+}
+
+Pipeline::Output Pipeline::takeImu(const sensor_msgs::Imu& message, Stamp now) {
+  return followMotion(motion_.takeImu(message), now);
+}
+
+Pipeline::Output Pipeline::takeWheels(const sensor_msgs::JointState& message, Stamp now) {
+  return followMotion(motion_.takeWheels(message), now);
+}
+
+Pipeline::Output Pipeline::followMotion(const nav_msgs::OdometryPtr& odometry, Stamp now) {
+  if (odometry) {
+    bookTime(motion_monitor_);
+    return takeOdometry(*odometry, now);
+  }
+  return {};
 }
 
 Pipeline::Output Pipeline::takeCloud(const sensor_msgs::PointCloud2& message, Stamp now) {
@@ -174,7 +192,16 @@ Pipeline::Output Pipeline::finish(Stamp now) {
 }
 
 std::vector<const StageMonitor*> Pipeline::monitors() const {
-  std::vector<const StageMonitor*> monitors;
+  std::vector<const StageMonitor*> monitors = doors();
+  monitors.push_back(&tracker_monitor_);
+  return monitors;
+}
+
+std::vector<const StageMonitor*> Pipeline::doors() const {
+  std::vector<const StageMonitor*> monitors{&inputs_monitor_};
+  if (options_.shared.motion.fromSensors()) {
+    monitors.push_back(&motion_monitor_);
+  }
   if (images_) {
     monitors.push_back(&images_monitor_);
   }
@@ -194,7 +221,6 @@ std::vector<const StageMonitor*> Pipeline::monitors() const {
     const auto object_level = object_fusion_->monitors();
     monitors.insert(monitors.end(), object_level.begin(), object_level.end());
   }
-  monitors.push_back(&tracker_monitor_);
   if (track_fusion_) {
     const auto track_level = track_fusion_->monitors();
     monitors.insert(monitors.end(), track_level.begin(), track_level.end());

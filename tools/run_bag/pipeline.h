@@ -14,6 +14,7 @@
 #include "wiring.h"
 #include <tf2_msgs/TFMessage.h>
 
+#include "datmo_fusion/ros/motion_stage.h"
 #include "datmo_fusion/ros/stage_monitor.h"
 #include "datmo_fusion/ros/transform_buffer.h"
 
@@ -23,6 +24,10 @@ namespace datmo {
 ///
 ///     scan, odometry, tf ─► grid_slam ─ split scan ─► moving_objects ─ objects ─► tracker ─ tracks
 ///                               └───────── split scan, map -> odom ──────────────────┘
+///
+/// with a motion that other sensors tell, motion before it,
+///
+///     imu, twist, joint_states, tf ──► motion ─ odometry
 ///
 /// with road borders those of each split scan before moving_objects, which then takes them,
 ///
@@ -62,6 +67,15 @@ class Pipeline {
 
   Output takeOdometry(const nav_msgs::Odometry& message, Stamp now);
 
+  /// Of what tells the motion in place of odometry; read where the options say so.
+  Output takeImu(const sensor_msgs::Imu& message, Stamp now);
+  /// `Message`: geometry_msgs::TwistStamped or TwistWithCovarianceStamped.
+  template <typename Message>
+  Output takeTwist(const Message& message, Stamp now) {
+    return followMotion(motion_.takeTwist(message), now);
+  }
+  Output takeWheels(const sensor_msgs::JointState& message, Stamp now);
+
   /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan.
   template <typename Message>
   Output takeScan(const Message& message, Stamp now) {
@@ -94,8 +108,18 @@ class Pipeline {
   const StageTimes& times() const { return times_; }
   std::vector<const StageMonitor*> monitors() const;
 
+  /// Those of them that drop a message when it comes, if at all; the tracker does it when it has
+  /// waited for too long.
+  std::vector<const StageMonitor*> doors() const;
+
+  /// Of what is wrong with messages before a stage has them.
+  StageMonitor& inputs() { return inputs_monitor_; }
+  const StageMonitor& inputs() const { return inputs_monitor_; }
+
  private:
   bool reaches(LastStage stage) const { return last_ >= stage; }
+  /// Odometry made of other sensors (null: there is none) goes the way of the vehicle's own.
+  Output followMotion(const nav_msgs::OdometryPtr& odometry, Stamp now);
   bool isFromSlam(const geometry_msgs::TransformStamped& transform) const;
 
   void feedCloud(const sensor_msgs::PointCloud2& cloud, Stamp now, Output& output);
@@ -117,7 +141,9 @@ class Pipeline {
 
   PipelineOptions options_;
   LastStage last_;
+  StageMonitor inputs_monitor_{"inputs"};
   TransformBuffer transforms_;
+  StageMonitor motion_monitor_{"motion"};
   StageMonitor images_monitor_{"stereo_images"};
   StageMonitor slam_monitor_{"grid_slam"};
   StageMonitor road_border_monitor_{"road_border"};
@@ -130,6 +156,7 @@ class Pipeline {
   std::optional<StereoObjectsStage> stereo_objects_;     ///< none if no level uses them
   std::unique_ptr<ObjectFusionPipeline> object_fusion_;  ///< null without object-level fusion
   std::unique_ptr<TrackFusionPipeline> track_fusion_;    ///< null without track-level fusion
+  MotionStage motion_;
   GridSlamStage slam_;
   std::optional<RoadBorderStage> road_border_;  ///< none without road borders
   MovingObjectsStage detector_;

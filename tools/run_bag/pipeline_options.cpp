@@ -10,12 +10,13 @@ namespace datmo {
 
 namespace {
 
-/// One for each nodelet; those without a stage in the pipeline are for live use alone.
-const std::array<std::string, 16> kSections = {
-    "stereo_image_proc", "lidar_grid",    "stereo_grid",    "grid_fusion",
-    "grid_slam",         "road_border",   "moving_objects", "stereo_objects",
-    "object_fusion",     "tracker",       "stereo_tracker", "track_fusion",
-    "markers",           "lidar_markers", "stereo_markers", "grid_views"};
+/// What all share, and one for each nodelet; those without a stage in the pipeline are for live use
+/// alone.
+const std::array<std::string, 19> kSections = {
+    kFramesSection,   kMountsSection,  kMotionSection,   "stereo_image_proc", "lidar_grid",
+    "stereo_grid",    "grid_fusion",   "grid_slam",      "road_border",       "moving_objects",
+    "stereo_objects", "object_fusion", "tracker",        "stereo_tracker",    "track_fusion",
+    "markers",        "lidar_markers", "stereo_markers", "grid_views"};
 
 std::string sectionNames() {
   std::string names;
@@ -34,11 +35,26 @@ void checkSections(const std::string& file, const YAML::Node& root) {
   }
 }
 
-template <typename Options>
-Options readSection(const std::string& file, const YAML::Node& root, const std::string& section) {
+OptionValues sectionValues(const YAML::Node& root, const char* section) {
+  const YAML::Node node = root[section];
+  return node ? optionValues(node) : OptionValues();
+}
+
+SharedOptions readShared(const std::string& file, const YAML::Node& root) {
   try {
-    const YAML::Node node = root[section];
-    return node ? readOptions<Options>(optionValues(node)) : Options();
+    return readSharedOptions(sectionValues(root, kFramesSection),
+                             sectionValues(root, kMountsSection),
+                             sectionValues(root, kMotionSection));
+  } catch (const OptionError& error) {
+    throw OptionError(file + ": " + error.what());
+  }
+}
+
+template <typename Options>
+Options readSection(const std::string& file, const YAML::Node& root, const char* section,
+                    const SharedOptions& shared) {
+  try {
+    return readStageOptions<Options>(sectionValues(root, section), shared);
   } catch (const OptionError& error) {
     throw OptionError(file + ": " + section + ": " + error.what());
   }
@@ -52,18 +68,20 @@ PipelineOptions readPipelineOptions(const std::string& file) {
     throw OptionError(file + ": expected sections: " + sectionNames());
   }
   checkSections(file, root);
-  return {readSection<StereoImagesOptions>(file, root, "stereo_image_proc"),
-          {readSection<LidarGridStageOptions>(file, root, "lidar_grid"),
-           readSection<StereoGridStageOptions>(file, root, "stereo_grid"),
-           readSection<GridFusionStageOptions>(file, root, "grid_fusion")},
-          readSection<GridSlamStageOptions>(file, root, "grid_slam"),
-          readSection<RoadBorderStageOptions>(file, root, "road_border"),
-          readSection<MovingObjectsStageOptions>(file, root, "moving_objects"),
-          readSection<StereoObjectsStageOptions>(file, root, "stereo_objects"),
-          readSection<ObjectFusionStageOptions>(file, root, "object_fusion"),
-          readSection<TrackerStageOptions>(file, root, "tracker"),
-          {readSection<TrackerStageOptions>(file, root, "stereo_tracker"),
-           readSection<TrackFusionStageOptions>(file, root, "track_fusion")}};
+  const SharedOptions shared = readShared(file, root);
+  return {readSection<StereoImagesOptions>(file, root, "stereo_image_proc", shared),
+          {readSection<LidarGridStageOptions>(file, root, "lidar_grid", shared),
+           readSection<StereoGridStageOptions>(file, root, "stereo_grid", shared),
+           readSection<GridFusionStageOptions>(file, root, "grid_fusion", shared)},
+          readSection<GridSlamStageOptions>(file, root, "grid_slam", shared),
+          readSection<RoadBorderStageOptions>(file, root, "road_border", shared),
+          readSection<MovingObjectsStageOptions>(file, root, "moving_objects", shared),
+          readSection<StereoObjectsStageOptions>(file, root, "stereo_objects", shared),
+          readSection<ObjectFusionStageOptions>(file, root, "object_fusion", shared),
+          readSection<TrackerStageOptions>(file, root, "tracker", shared),
+          {readSection<TrackerStageOptions>(file, root, "stereo_tracker", shared),
+           readSection<TrackFusionStageOptions>(file, root, "track_fusion", shared)},
+          shared};
 }
 
 }  // namespace datmo

@@ -41,6 +41,7 @@ struct PipelineOptions {
   ObjectFusionStageOptions object_fusion;
   TrackerStageOptions tracker;
   TrackFusionOptions track_level;
+  SharedOptions shared;  ///< as all stages above have it
 };
 
 /// Reads config/<sensor set>.yaml. Throws OptionError that names file, section and key.

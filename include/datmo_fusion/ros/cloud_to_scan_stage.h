@@ -7,6 +7,7 @@
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/PointCloud2.h>
 
+#include "datmo_fusion/ros/frame_options.h"
 #include "datmo_fusion/ros/lidar_cloud_conversion.h"
 #include "datmo_fusion/ros/stage_monitor.h"
 #include "datmo_fusion/ros/stamp_check.h"
@@ -16,7 +17,7 @@
 namespace datmo {
 
 struct CloudToScanStageOptions {
-  std::string base_frame = "base_link";
+  FrameOptions frames;  ///< of all stages
   std::string scan_frame = "cloud_scan";
   double max_sweep = 0.25;  ///< s
   StreamOptions input;

@@ -22,8 +22,9 @@ namespace datmo {
 
 /// What a stage that fuses several sources wants of them.
 struct FusionInputOptions {
-  std::string frame;                         ///< of all messages
-  std::optional<MotionInputOptions> motion;  ///< none: `frame` does not move
+  std::string frame;  ///< of all messages
+  FrameOptions frames;
+  std::optional<MotionOptions> motion;  ///< none: `frame` does not move
   StreamOptions input;
   SourceMatcherOptions matcher;
   std::vector<std::string> sources;

@@ -18,8 +18,8 @@
 namespace datmo {
 
 struct GridFusionStageOptions {
-  std::string base_frame = "base_link";
-  MotionInputOptions motion;
+  FrameOptions frames;   ///< of all stages
+  MotionOptions motion;  ///< of all stages
   StreamOptions input;
   SourceMatcherOptions matcher;
   GridFuserOptions fuser;

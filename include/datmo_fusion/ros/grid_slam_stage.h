@@ -11,8 +11,11 @@
 #include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Odometry.h>
 
+#include "datmo_fusion/ros/frame_options.h"
 #include "datmo_fusion/ros/messages.h"
+#include "datmo_fusion/ros/motion_options.h"
 #include "datmo_fusion/ros/scan_conversion.h"
+#include "datmo_fusion/ros/scan_extent.h"
 #include "datmo_fusion/ros/stage_monitor.h"
 #include "datmo_fusion/ros/stamp_check.h"
 #include "datmo_fusion/ros/transform_buffer.h"
@@ -21,11 +24,8 @@
 namespace datmo {
 
 struct GridSlamStageOptions {
-  std::string map_frame = "map";
-  std::string odom_frame = "odom";
-  std::string base_frame = "base_link";
-  bool odometry = true;
-  bool odometry_pose = false;
+  FrameOptions frames;   ///< of all stages
+  MotionOptions motion;  ///< of all stages
   bool fused_grid = false;
   double map_period = 1.0;          ///< s
   double most_tilt = degrees(5.0);  ///< rad
@@ -53,15 +53,16 @@ struct GridSlamOutput {
 ///
 /// With odometry, map -> odom is chosen so that odom -> base_link, at the scan's stamp, leads to
 /// the pose; odom -> base_link itself comes from whoever makes the odometry, and may be ahead of
-/// the scan. It is left out while odometry is silent. Without odometry, map and odom are the same,
-/// and odom -> base_link is the pose.
+/// the scan. It is left out while odometry is silent. Without odometry, or with a motion that other
+/// sensors tell, map and odom are the same, and odom -> base_link is the pose.
 class GridSlamStage {
  public:
   /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
   GridSlamStage(const GridSlamStageOptions& options, const TransformBuffer& transforms,
                 StageMonitor& monitor);
 
-  /// Newest odometry; not read where the options say that the vehicle has none.
+  /// Newest odometry, the vehicle's own or that of MotionStage, of which an Imu alone tells no
+  /// speed; not read where the options say that nothing tells the motion.
   void takeOdometry(const nav_msgs::Odometry& message);
 
   /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan. None if it was dropped, or waits for
@@ -97,7 +98,6 @@ class GridSlamStage {
   /// one after it; none if that is too far away in time.
   std::optional<Pose2> baseInOdom(Stamp stamp) const;
 
-  void checkFrames(const nav_msgs::Odometry& message) const;
   void checkBaseFrame(const std::string& frame) const;
 
   /// Whichever stream jumps back first, both begin anew. Throws InputError.
@@ -115,6 +115,7 @@ class GridSlamStage {
   const TransformBuffer& transforms_;
   StageMonitor& monitor_;
   GridSlam slam_;
+  ScanExtent extent_;
   StampCheck scan_stamps_;
   StampCheck odometry_stamps_;
   StampCheck grid_stamps_;

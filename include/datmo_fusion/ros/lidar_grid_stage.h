@@ -17,9 +17,9 @@
 namespace datmo {
 
 struct LidarGridStageOptions {
-  std::string base_frame = "base_link";
+  FrameOptions frames;              ///< of all stages
   double most_tilt = degrees(5.0);  ///< rad
-  MotionInputOptions motion;
+  MotionOptions motion;             ///< of all stages
   StreamOptions input;
   ScanConversionOptions scan;
   LidarGridOptions grid;

@@ -1,40 +1,34 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <nav_msgs/Odometry.h>
 
-#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/ros/frame_options.h"
+#include "datmo_fusion/ros/motion_options.h"
 #include "datmo_fusion/ros/stamp_check.h"
 #include "datmo_fusion/slam/odometry_buffer.h"
 
 namespace datmo {
 
-struct MotionInputOptions {
-  bool odometry = true;
-  bool odometry_pose = false;
-  std::string odom_frame = "odom";
-  double odometry_hold = 0.5;  ///< s
+/// Throws InputError (`wrong_frame`) unless the odometry is of the vehicle, in its frame for that.
+void checkFrames(const nav_msgs::Odometry& message, const FrameOptions& frames);
 
-  void visit(OptionVisitor& visitor);
-};
-
-/// The motion of the vehicle between two stamps, as its odometry tells it; where the vehicle has
-/// none, as the poses of the SLAM do.
+/// The motion of the vehicle between two stamps, as its odometry tells it; where its speed is not
+/// measured, as the poses of the SLAM do.
 class MotionInput {
  public:
-  /// `base_frame`: of the vehicle. Throws OptionError.
-  MotionInput(const MotionInputOptions& options, std::string base_frame, double restart_after);
+  /// Throws OptionError.
+  MotionInput(const MotionOptions& options, FrameOptions frames, double restart_after);
 
   /// kRestart: the clock jumped back, and all that was there before is forgotten. Not read where
-  /// the vehicle has no odometry. Throws InputError (`wrong_frame`, `bad_odometry`, `bad_pose`, and
+  /// the speed is not measured. Throws InputError (`wrong_frame`, `bad_odometry`, `bad_pose`, and
   /// those of StampCheck).
   Arrival take(const nav_msgs::Odometry& message);
 
-  /// The same for the vehicle's pose in a frame that does not move; read only where it has no
-  /// odometry. Throws InputError (`bad_pose`, `pose_jump`, and those of StampCheck).
+  /// The same for the vehicle's pose in a frame that does not move; read only where its speed
+  /// is not measured. Throws InputError (`bad_pose`, `pose_jump`, and those of StampCheck).
   Arrival take(const geometry_msgs::PoseWithCovarianceStamped& message);
 
   /// From one stamp to a later one; none if it is not known (OdometryBuffer::motion).
@@ -52,8 +46,8 @@ class MotionInput {
   /// Throws InputError.
   Arrival checkStamp(const ros::Time& stamp);
 
-  MotionInputOptions options_;
-  std::string base_frame_;
+  MotionOptions options_;
+  FrameOptions frames_;
   double restart_after_;
   StampCheck stamps_;
   OdometryBuffer buffer_;

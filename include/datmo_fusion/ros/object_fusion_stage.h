@@ -21,8 +21,8 @@
 namespace datmo {
 
 struct ObjectFusionStageOptions {
-  std::string base_frame = "base_link";
-  MotionInputOptions motion;
+  FrameOptions frames;   ///< of all stages
+  MotionOptions motion;  ///< of all stages
   StreamOptions input;
   SourceMatcherOptions matcher;
   ObjectFuserOptions fuser;

@@ -8,6 +8,7 @@
 #include <ros/node_handle.h>
 
 #include "datmo_fusion/common/options.h"
+#include "datmo_fusion/ros/shared_options.h"
 
 namespace datmo {
 
@@ -19,12 +20,17 @@ OptionValues readParameters(const ros::NodeHandle& node);
 /// The same for a tree of values; `name` stands in messages for the tree's own name.
 OptionValues flattenParameters(const XmlRpc::XmlRpcValue& tree, const std::string& name);
 
-/// The options of a nodelet from its private namespace. What is wrong with them is said on the
-/// console before OptionError is thrown.
+/// What all nodelets of a namespace share: the sections beside a nodelet's private namespace. What
+/// is wrong with them is said on the console before OptionError is thrown.
+SharedOptions loadSharedOptions(const ros::NodeHandle& private_node);
+
+/// The options of a nodelet from its private namespace, and what all nodelets share (`frames`,
+/// `motion`). What is wrong with them is said on the console before OptionError is thrown.
 template <typename Options>
 Options loadOptions(const ros::NodeHandle& private_node) {
+  const SharedOptions shared = loadSharedOptions(private_node);
   try {
-    return readOptions<Options>(readParameters(private_node));
+    return readStageOptions<Options>(readParameters(private_node), shared);
   } catch (const OptionError& error) {
     ROS_FATAL("%s does not start: %s", private_node.getNamespace().c_str(), error.what());
     throw;

@@ -14,7 +14,6 @@
 namespace datmo {
 
 struct StereoGridStageOptions : StereoInputOptions {
-  std::string scanner_frame = "scanner";
   double scanner_height = 0.33;  ///< m
   StereoGridOptions grid;
 

@@ -8,6 +8,7 @@
 
 #include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/ros/cloud_conversion.h"
+#include "datmo_fusion/ros/frame_options.h"
 #include "datmo_fusion/ros/stamp_check.h"
 #include "datmo_fusion/ros/transform_buffer.h"
 #include "datmo_fusion/sensor_model/stereo_cloud.h"
@@ -26,8 +27,7 @@ struct StereoCameraOptions {
 
 /// What the stages of a stereo camera's clouds have in common.
 struct StereoInputOptions {
-  std::string base_frame = "base_link";
-  std::string camera_frame;
+  FrameOptions frames;  ///< of all stages
   StereoCameraOptions camera;
   StreamOptions input;
 

@@ -5,6 +5,7 @@
 
 #include "datmo_fusion/fusion/source_matcher.h"
 #include "datmo_fusion/fusion/track_fuser.h"
+#include "datmo_fusion/ros/frame_options.h"
 #include "datmo_fusion/ros/fusion_inputs.h"
 #include "datmo_fusion/ros/messages.h"
 #include "datmo_fusion/ros/stage_monitor.h"
@@ -13,7 +14,7 @@
 namespace datmo {
 
 struct TrackFusionStageOptions {
-  std::string fixed_frame = "map";
+  FrameOptions frames;  ///< of all stages
   StreamOptions input;
   SourceMatcherOptions matcher;
   TrackFuserOptions fuser;

@@ -3,6 +3,7 @@
 #include <deque>
 #include <string>
 
+#include "datmo_fusion/ros/frame_options.h"
 #include "datmo_fusion/ros/messages.h"
 #include "datmo_fusion/ros/scan_views.h"
 #include "datmo_fusion/ros/stage_monitor.h"
@@ -13,7 +14,7 @@
 namespace datmo {
 
 struct TrackerStageOptions {
-  std::string fixed_frame = "map";
+  FrameOptions frames;          ///< of all stages
   double transform_wait = 0.3;  ///< s
   bool scan_view = true;
   StreamOptions input;

@@ -8,6 +8,8 @@
 #include <tf2/buffer_core.h>
 
 #include "datmo_fusion/common/stamp_gate.h"
+#include "datmo_fusion/ros/shared_options.h"
+#include "datmo_fusion/ros/stage_monitor.h"
 
 namespace datmo {
 
@@ -20,6 +22,10 @@ class TransformBuffer {
  public:
   explicit TransformBuffer(double restart_after) : restart_after_(restart_after) {}
 
+  /// With mounts that serve as if they had come on /tf_static, until tf says otherwise: then tf
+  /// holds, and `monitor`, which must outlive this, is warned once of a mount that differs.
+  TransformBuffer(double restart_after, const SharedOptions& shared, StageMonitor& monitor);
+
   void add(const tf2_msgs::TFMessage& message);
   void addStatic(const tf2_msgs::TFMessage& message);
 
@@ -29,7 +35,12 @@ class TransformBuffer {
   /// Not the one that was there last; forgets the old run if the clock has jumped back.
   bool isNew(const geometry_msgs::TransformStamped& transform);
 
+  /// tf2 with it, in place of the mount of that frame if there is one.
+  void set(const geometry_msgs::TransformStamped& transform, bool is_static);
+
   double restart_after_;
+  StageMonitor* monitor_ = nullptr;                                ///< none without mounts
+  std::map<std::string, geometry_msgs::TransformStamped> mounts_;  ///< by frame; not from tf yet
   tf2::BufferCore core_;
   std::map<std::string, StampGate> gates_;  ///< by child frame
 };

@@ -13,9 +13,10 @@ namespace datmo {
 /// transform is told in the moment it is there.
 class TransformSubscription {
  public:
-  /// `buffer` must outlive the subscription; `changed` is called after each message.
+  /// `buffer` and `monitor` must outlive the subscription; `changed` is called after each message.
   TransformSubscription(
-      ros::NodeHandle node, TransformBuffer& buffer, std::function<void()> changed = [] {});
+      ros::NodeHandle node, TransformBuffer& buffer, StageMonitor& monitor,
+      std::function<void()> changed = [] {});
 
  private:
   ros::Subscriber transforms_;

@@ -91,7 +91,10 @@ class GridSlam {
   /// that its own match tells.
   Scan locate(const Measurement& measurement, SlamResult& result);
 
-  /// Returns whether odometry served.
+  /// m/s; for odometry that measures none.
+  double estimatedSpeed() const { return filter_.velocity().forward_speed; }
+
+  /// Returns whether odometry told all of the motion.
   bool predict(Stamp stamp);
 
   GridSlamOptions options_;

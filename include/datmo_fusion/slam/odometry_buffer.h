@@ -19,6 +19,8 @@ struct OdometrySample {
   Twist2 twist;
   /// Where the odometry has come to, if that is to tell the motion; without it the twist does.
   std::optional<Pose2> base_in_odom = std::nullopt;
+  /// false: the twist's yaw rate alone was measured, as by gyroscopes.
+  bool speed_measured = true;
 };
 
 /// No vehicle is faster (m/s) or spins faster (rad/s): what says so is broken, or a pose that
@@ -45,8 +47,12 @@ class OdometryBuffer {
   /// The vehicle's motion from one stamp to a later one. Between two samples with poses it is what
   /// leads from one to the other, evenly; else each sample's twist holds from its stamp to the next
   /// one's. None if the samples do not reach `to` within the longest hold, or begin later than
-  /// `from`.
-  std::optional<Pose2> motion(Stamp from, Stamp to, const OdometryErrors& errors = {}) const;
+  /// `from`. Samples without a measured speed go at `assumed_speed` (m/s), which is taken as it is.
+  std::optional<Pose2> motion(Stamp from, Stamp to, const OdometryErrors& errors = {},
+                              double assumed_speed = 0.0) const;
+
+  /// Whether the newest sample has it; false without any.
+  bool measuresSpeed() const { return !pieces_.empty() && pieces_.back().sample.speed_measured; }
 
  private:
   /// What is known of the motion from one sample on.

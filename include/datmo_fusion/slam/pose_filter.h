@@ -49,6 +49,9 @@ class PoseFilter {
   /// After `seconds` (more than 0) of `motion`, measured by odometry and corrected by errors().
   void predictMeasured(const Pose2& motion, double seconds);
 
+  /// The same for a motion whose turn alone was measured, and whose length is that of velocity().
+  void predictTurn(const Pose2& motion, double seconds);
+
   /// After `seconds` (more than 0) without odometry.
   void predictUnmeasured(double seconds);
 
@@ -65,6 +68,8 @@ class PoseFilter {
   void move(const Pose2& motion, double seconds, State speed, double speed_factor, State yaw_rate,
             double yaw_rate_factor);
   void addPoseNoise(const Eigen::Matrix3d& motion_noise);
+  /// How much the errors of the odometry may have changed.
+  void addErrorDrift(double seconds);
 
   PoseFilterOptions options_;
   VelocityMotionModel motion_model_;

@@ -220,7 +220,7 @@ TEST_F(GridFusionStageTest, GridsAreMovedByTheOdometryBetweenTheirStamps) {
 }
 
 TEST_F(GridFusionStageTest, WithoutOdometryTheyAreMovedByThePosesOfTheSlam) {
-  options_.motion.odometry = false;
+  options_.motion.source = "none";
   GridFusionStage stage(options_, monitor_);
   stage.setRule("priority");
   stage.takeOdometry(odometry(0.0));

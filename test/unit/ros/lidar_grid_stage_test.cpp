@@ -95,7 +95,7 @@ TEST_F(LidarGridStageTest, BeamsAreBroughtToTheStampOfTheScanByOdometry) {
 
 TEST_F(LidarGridStageTest, WithoutOdometryThePosesOfTheSlamBringBeamsToTheStamp) {
   LidarGridStageOptions options;
-  options.motion.odometry = false;
+  options.motion.source = "none";
   LidarGridStage stage(options, buffer_, monitor_);
   mountScanner();
   nav_msgs::Odometry odometry;

@@ -35,10 +35,10 @@ geometry_msgs::PoseWithCovarianceStamped pose(double seconds) {
 }
 
 MotionInput inputWith(bool with_odometry, bool poses_tell = false) {
-  MotionInputOptions options;
-  options.odometry = with_odometry;
+  MotionOptions options;
+  options.source = with_odometry ? "odometry" : "none";
   options.odometry_pose = poses_tell;
-  return MotionInput(options, "base_link", 1.0);
+  return MotionInput(options, {}, 1.0);
 }
 
 TEST(MotionInput, OdometryTellsTheMotionBySpeedOrByPose) {
@@ -51,7 +51,7 @@ TEST(MotionInput, OdometryTellsTheMotionBySpeedOrByPose) {
   }
   EXPECT_NEAR(by_speed.between(at(100.05), at(100.15))->x(), 1.0, 1e-9);
   EXPECT_NEAR(by_pose.between(at(100.05), at(100.15))->x(), 1.1, 1e-9);
-  EXPECT_FALSE(by_speed.between(at(100.2), at(101.0))) << "longer than odometry_hold";
+  EXPECT_FALSE(by_speed.between(at(100.2), at(101.0))) << "longer than hold";
 }
 
 TEST(MotionInput, WithoutOdometryThePosesOfTheSlamDo) {

@@ -78,7 +78,7 @@ TEST_F(ObjectFusionStageTest, ObjectsAreMovedByTheOdometryBetweenTheirStamps) {
 }
 
 TEST_F(ObjectFusionStageTest, WithoutOdometryTheyAreMovedByThePosesOfTheSlam) {
-  options_.motion.odometry = false;
+  options_.motion.source = "none";
   ObjectFusionStage stage(options_, monitor_);
   stage.takeOdometry(odometry(0.0));
   for (const double t : {99.7, 99.8, 99.9}) {

@@ -109,7 +109,7 @@ TEST_F(GridSlamStageTest, AScanThatComesLateIsGivenTheOdometryOfItsTime) {
 TEST_F(GridSlamStageTest, FramesOfTheSameOrNoNameAreRefused) {
   const auto stageOf = [this](const std::string& odom_frame) {
     GridSlamStageOptions options;
-    options.odom_frame = odom_frame;
+    options.frames.odom = odom_frame;
     GridSlamStage stage(options, buffer_, monitor_);
   };
   EXPECT_THROW(stageOf("map"), OptionError);
@@ -136,7 +136,7 @@ TEST_F(GridSlamStageTest, SilentOdometryIsWarnedOfAndTheRestGoesOn) {
 
 TEST_F(GridSlamStageTest, WithoutOdometryThePoseIsOdomToBase) {
   GridSlamStageOptions options;
-  options.odometry = false;
+  options.motion.source = "none";
   GridSlamStage stage(options, buffer_, monitor_);
   mountScanner();
   const auto output = stage.takeScan(samples::laserScan());
@@ -150,7 +150,7 @@ TEST_F(GridSlamStageTest, WithoutOdometryThePoseIsOdomToBase) {
 
 TEST_F(GridSlamStageTest, OdometryThatTheVehicleDoesNotHaveIsNotRead) {
   GridSlamStageOptions options;
-  options.odometry = false;
+  options.motion.source = "none";
   GridSlamStage stage(options, buffer_, monitor_);
   mountScanner();
   stage.takeOdometry(odometry(100.0));
@@ -229,7 +229,7 @@ TEST_F(GridSlamStageTest, BeamsAreBroughtToTheStampOfTheScan) {
 }
 
 TEST_F(GridSlamStageTest, OdometryPosesTellTheMotionIfTheyAreAskedFor) {
-  options_.odometry_pose = true;
+  options_.motion.odometry_pose = true;
   GridSlamStage stage(options_, buffer_, monitor_);
   mountScanner();
   nav_msgs::Odometry counted = odometry(100.0);

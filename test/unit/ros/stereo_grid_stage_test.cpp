@@ -82,7 +82,7 @@ TEST_F(StereoGridStageTest, DiagnosticsTellWhatWasSeen) {
 
 TEST_F(StereoGridStageTest, CloudsOfAnotherFrameAreBroughtToTheCamera) {
   mountSensors();
-  options_.camera_frame = "camera";
+  options_.frames.camera = "camera";
   StereoGridStage stage(options_, buffer_, monitor_);
   stage.takeCameraInfo(samples::rightCameraInfo());
   std::vector<Eigen::Vector3f> points = wallOnARoad();
@@ -122,12 +122,12 @@ TEST_F(StereoGridStageTest, AMissingMountIsCountedUntilItComes) {
 
 TEST_F(StereoGridStageTest, WithoutAScannerItsHeightIsAnOption) {
   mountSensors();
-  options_.scanner_frame = "roof_scanner";
+  options_.frames.scanner = "roof_scanner";
   StereoGridStage stage(options_, buffer_, monitor_);
   stage.takeCameraInfo(samples::rightCameraInfo());
   expectWall(stage.takeCloud(cloudAt(kStart)));
   EXPECT_EQ(samples::warnings(monitor_, "missing_transform"), 1U);
-  options_.scanner_frame = "";
+  options_.frames.scanner = "";
   options_.scanner_height = 2.5;  // above the wall, as far as the camera sees it
   StereoGridStage high(options_, buffer_, monitor_);
   high.takeCameraInfo(samples::rightCameraInfo());

@@ -59,6 +59,24 @@ TEST(GridSlamTest, WorksWithoutOdometry) {
   EXPECT_LT(positionError(end), 0.3);
 }
 
+TEST(GridSlamTest, AYawRateAloneServesWithoutASpeed) {
+  GridSlam slam{GridSlamOptions{}};
+  const Yard yard;
+  const Twist2 twist{4.0, 0.4};
+  Drive end;
+  for (int i = 0; i < 40; ++i) {
+    OdometrySample gyroscope{Stamp::fromSeconds(1000.0 + 0.1 * i), {0.0, twist.yaw_rate}};
+    gyroscope.speed_measured = false;
+    slam.addOdometry(gyroscope);
+    end.truth = arc(twist, 0.1 * i);
+    end.result = slam.process(yard.scan(end.truth, 0.1 * i));
+  }
+  EXPECT_FALSE(end.result.odometry_used) << "not all of the motion was measured";
+  EXPECT_LT(positionError(end), 0.3);
+  EXPECT_NEAR(angleBetween(end.truth.heading(), end.result.split.base_in_map.pose.heading()), 0.0,
+              degrees(1.0));
+}
+
 TEST(GridSlamTest, ScansAlmostAtOnceDoNotMakeAVelocity) {
   // A driver that stamps on arrival: two scans come within a microsecond, then nothing for 0.2 s.
   GridSlam slam{GridSlamOptions{}};

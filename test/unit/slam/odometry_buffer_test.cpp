@@ -93,5 +93,19 @@ TEST_F(OdometryBufferTest, KnownErrorsAreTakenOut) {
   EXPECT_NEAR(motion->heading(), 0.0, 1e-9);
 }
 
+TEST_F(OdometryBufferTest, WithoutAMeasuredSpeedTheYawRateTurnsTheAssumedOne) {
+  OdometrySample turning{at(1.0), {0.0, 0.2}};
+  turning.speed_measured = false;
+  buffer_.add(turning);
+  EXPECT_FALSE(buffer_.measuresSpeed());
+  const auto motion = buffer_.motion(at(1.0), at(1.5), {}, 10.0);
+  ASSERT_TRUE(motion);
+  const Pose2 expected = arc({10.0, 0.2}, 0.5);
+  EXPECT_NEAR((motion->position() - expected.position()).norm(), 0.0, 1e-9);
+  EXPECT_NEAR(motion->heading(), 0.1, 1e-9);
+  buffer_.add({at(1.5), {4.0, 0.0}});
+  EXPECT_TRUE(buffer_.measuresSpeed());
+}
+
 }  // namespace
 }  // namespace datmo

@@ -127,5 +127,22 @@ TEST(PoseFilterTest, AMatchThatOnlyRepeatsThePriorChangesNothing) {
   EXPECT_DOUBLE_EQ(filter.errors().speed_scale, 0.0);
 }
 
+TEST(PoseFilterTest, AMeasuredTurnLeavesTheSpeedToTheMatches) {
+  PoseFilter by_turn({}, {});
+  PoseFilter unmeasured({}, {});
+  for (int i = 0; i < 5; ++i) {
+    by_turn.predictTurn(arc({by_turn.velocity().forward_speed, 0.1}, 0.1), 0.1);
+    unmeasured.predictUnmeasured(0.1);
+  }
+  EXPECT_NEAR(by_turn.pose().pose.heading(), 0.05, 1e-9);
+  EXPECT_NEAR(by_turn.velocity().yaw_rate, 0.1, 1e-9);
+  EXPECT_EQ(by_turn.velocity().forward_speed, 0.0) << "nothing told it";
+  EXPECT_NEAR(by_turn.pose().covariance(0, 0), unmeasured.pose().covariance(0, 0), 0.1)
+      << "as little is known of how far it went";
+  EXPECT_LT(by_turn.pose().covariance(2, 2), 0.1 * unmeasured.pose().covariance(2, 2));
+  by_turn.correct({arc({4.0, 0.1}, 0.5), 1e-4 * Eigen::Matrix3d::Identity()});
+  EXPECT_NEAR(by_turn.velocity().forward_speed, 4.0, 1.0) << "2 m in 0.5 s";
+}
+
 }  // namespace
 }  // namespace datmo

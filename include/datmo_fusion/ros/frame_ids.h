@@ -1,0 +1,100 @@
+#pragma once
+
+#include <string>
+
+#include <boost/make_shared.hpp>
+#include <tf2_msgs/TFMessage.h>
+
+#include <geometry_msgs/TransformStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <ros/time.h>
+
+#include "datmo_fusion/ros/messages.h"
+#include "datmo_fusion/ros/stage_monitor.h"
+#include "datmo_fusion/ros/stamp_check.h"
+
+namespace datmo {
+
+/// A frame's name as tf2 takes it: recordings from before tf2 have a slash at its front.
+std::string withoutSlash(const std::string& frame);
+
+namespace detail {
+
+/// Calls `visit` with each frame id of a message. One for each kind of message: here alone stands
+/// which frames it has.
+template <typename Message, typename Visit>
+void visitFrames(Message& message, const Visit& visit) {
+  visit(message.header.frame_id);
+}
+
+template <typename Visit>
+void visitFrames(nav_msgs::Odometry& message, const Visit& visit) {
+  visit(message.header.frame_id);
+  visit(message.child_frame_id);
+}
+
+template <typename Visit>
+void visitFrames(SplitScanMessage& message, const Visit& visit) {
+  visit(message.header.frame_id);
+  visit(message.map_frame);
+}
+
+template <typename Visit>
+void visitFrames(tf2_msgs::TFMessage& message, const Visit& visit) {
+  for (geometry_msgs::TransformStamped& transform : message.transforms) {
+    visit(transform.header.frame_id);
+    visit(transform.child_frame_id);
+  }
+}
+
+}  // namespace detail
+
+/// The first frame id of a message with a slash at its front; empty if there is none.
+template <typename Message>
+std::string slashedFrame(const Message& message) {
+  std::string found;
+  // Visited for reading alone.
+  detail::visitFrames(const_cast<Message&>(message), [&found](const std::string& frame) {
+    if (found.empty() && frame.rfind('/', 0) == 0) {
+      found = frame;
+    }
+  });
+  return found;
+}
+
+/// Strips the slashes at the front of a message's frame ids.
+template <typename Message>
+void stripSlashes(Message& message) {
+  detail::visitFrames(message, [](std::string& frame) { frame = withoutSlash(frame); });
+}
+
+/// Counts a message on `input` whose frame `slashed` had a slash at its front, as a figure; warns
+/// of the first one alone.
+void noteSlash(const std::string& input, const std::string& slashed, StageMonitor& monitor);
+
+/// A message as the stages take it: itself, or a copy without slashes at the front of its frame
+/// ids, which the monitor is told. `input`: its topic.
+template <typename Message>
+boost::shared_ptr<const Message> withPlainFrames(const std::string& input,
+                                                 const boost::shared_ptr<const Message>& message,
+                                                 StageMonitor& monitor) {
+  const std::string slashed = slashedFrame(*message);
+  if (slashed.empty()) {
+    return message;
+  }
+  noteSlash(input, slashed, monitor);
+  const auto stripped = boost::make_shared<Message>(*message);
+  stripSlashes(*stripped);
+  return stripped;
+}
+
+/// The door of a nodelet: books a message's arrival, and returns it with plain frames.
+template <typename Message>
+boost::shared_ptr<const Message> receive(const std::string& input,
+                                         const boost::shared_ptr<const Message>& message,
+                                         StageMonitor& monitor) {
+  monitor.received(input, toStamp(ros::Time::now()));
+  return withPlainFrames(input, message, monitor);
+}
+
+}  // namespace datmo

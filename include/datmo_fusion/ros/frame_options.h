@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "datmo_fusion/common/options.h"
+
+namespace datmo {
+
+/// The names of the coordinate frames (REP 105), for all stages: section `frames` of a sensor set.
+struct FrameOptions {
+  std::string map = "map";
+  std::string odom = "odom";
+  std::string base = "base_link";
+  std::string scanner = "scanner";
+  std::string camera;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Throws OptionError unless map, odom and base are three different names: tf takes no frame
+/// without a name, and none that is its own parent.
+void checkFrames(const FrameOptions& frames);
+
+}  // namespace datmo

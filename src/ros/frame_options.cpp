@@ -1,0 +1,28 @@
+#include "datmo_fusion/ros/frame_options.h"
+
+namespace datmo {
+
+void FrameOptions::visit(OptionVisitor& visitor) {
+  visitor.text({"map", "", "fixed frame of the map, the pose and the tracks"}, map, {});
+  visitor.text({"odom", "", "frame of the odometry"}, odom, {});
+  visitor.text({"base", "", "frame of the vehicle"}, base, {});
+  visitor.text(
+      {"scanner", "",
+       "frame of the planar scanner, whose height is where the layer of obstacles begins "
+       "that stereo_grid takes (thesis 3.2.2); empty: stereo_grid/scanner_height tells it"},
+      scanner, {});
+  visitor.text({"camera", "",
+                "optical frame of the stereo camera's left camera (x to the right, y down, z "
+                "ahead); empty: its clouds are in it"},
+               camera, {});
+}
+
+void checkFrames(const FrameOptions& frames) {
+  const auto& [map, odom, base, scanner, camera] = frames;
+  if (map.empty() || odom.empty() || base.empty() || map == odom || odom == base || base == map) {
+    throw OptionError("map = '" + map + "', odom = '" + odom + "', base = '" + base +
+                      "': expected three different names");
+  }
+}
+
+}  // namespace datmo

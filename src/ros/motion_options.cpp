@@ -1,0 +1,25 @@
+#include "datmo_fusion/ros/motion_options.h"
+
+namespace datmo {
+
+void MotionOptions::visit(OptionVisitor& visitor) {
+  visitor.text({"source", "",
+                "what tells how the vehicle moves: its odometry (nav_msgs/Odometry); a twist "
+                "(TwistStamped, TwistWithCovarianceStamped); the yaw rate of an Imu alone, while "
+                "the speed comes from the scans; that yaw rate and the speed of a twist or of the "
+                "wheels (JointState); or none: all from the scans"},
+               source, {"odometry", "twist", "imu", "imu_and_twist", "imu_and_wheels", "none"});
+  visitor.toggle({"odometry_pose", "",
+                  "the odometry's poses tell the motion, as a robot's wheel encoders count it; "
+                  "false: its speed and yaw rate do"},
+                 odometry_pose);
+  visitor.number({"hold", "s",
+                  "how long the last odometry, or speed beside an Imu, serves when no newer one "
+                  "comes; after that the pose is predicted with the last estimated velocity"},
+                 hold, {0.0, 10.0});
+  visitor.number({"wheel_radius", "m",
+                  "imu_and_wheels: the speed is this times the mean velocity of the JointState"},
+                 wheel_radius, {0.001, 5.0});
+}
+
+}  // namespace datmo

@@ -1,0 +1,98 @@
+// The running motion and grid_slam nodelets on an Imu and a twist in place of odometry, with frames
+// and mounts from parameters, and frame ids as old drivers write them.
+#include <vector>
+
+#include "chain.h"
+#include "ros/message_samples.h"
+#include <gtest/gtest.h>
+
+#include <geometry_msgs/TwistStamped.h>
+#include <sensor_msgs/Imu.h>
+
+#include "datmo_fusion/ros/stamp_check.h"
+
+namespace datmo {
+namespace {
+
+constexpr double kSpeed = 2.0;    // m/s
+constexpr double kYawRate = 0.1;  // rad/s
+
+class MotionDoor : public Listener {
+ public:
+  bool waitForNodelets() {
+    return waitFor([this] {
+      return imu_.getNumSubscribers() >= 1 && twist_.getNumSubscribers() >= 1 &&
+             scan_.getNumSubscribers() >= 1 && odometry_.getNumPublishers() >= 1;
+    });
+  }
+
+  void sendTwist(double seconds) {
+    geometry_msgs::TwistStamped message;
+    message.header.stamp = ros::Time(seconds);
+    message.header.frame_id = "/robot";
+    message.twist.linear.x = kSpeed;
+    twist_.publish(message);
+  }
+
+  void sendImu(double seconds) {
+    sensor_msgs::Imu message;
+    message.header.stamp = ros::Time(seconds);
+    message.header.frame_id = "/imu_link";
+    message.angular_velocity.z = -kYawRate;  // it hangs upside down
+    imu_.publish(message);
+  }
+
+  void sendScan(double seconds) {
+    sensor_msgs::LaserScan message = samples::laserScan();
+    message.header.stamp = ros::Time(seconds);
+    message.header.frame_id = "/laser";
+    scan_.publish(message);
+  }
+
+  std::vector<nav_msgs::OdometryConstPtr> odometry;
+
+ private:
+  static constexpr std::uint32_t kQueue = 1000;
+
+  ros::NodeHandle node_;
+  ros::Publisher imu_ = node_.advertise<sensor_msgs::Imu>("imu", kQueue);
+  ros::Publisher twist_ = node_.advertise<geometry_msgs::TwistStamped>("twist", kQueue);
+  ros::Publisher scan_ = node_.advertise<sensor_msgs::LaserScan>("scan", kQueue);
+  ros::Subscriber odometry_ = node_.subscribe<nav_msgs::Odometry>(
+      "motion/odometry", kQueue,
+      [this](const nav_msgs::OdometryConstPtr& message) { odometry.push_back(message); });
+};
+
+TEST(Motion, AnImuAndATwistLeadToOdometryAndPoses) {
+  MotionDoor door;
+  ASSERT_TRUE(door.waitForNodelets());
+  // The Imu's messages are of use from when the twist is there: two topics, in either order.
+  double now = 100.0;
+  ASSERT_TRUE(door.waitFor([&] {
+    now += 0.01;
+    door.sendTwist(now);
+    door.sendImu(now);
+    return door.odometry.size() >= 3;
+  })) << door.diagnosticMessage("motion");
+  const nav_msgs::Odometry& odometry = *door.odometry.back();
+  EXPECT_EQ(odometry.header.frame_id, "odom");
+  EXPECT_EQ(odometry.child_frame_id, "robot");
+  EXPECT_NEAR(odometry.twist.twist.linear.x, kSpeed, 1e-9);
+  EXPECT_NEAR(odometry.twist.twist.angular.z, kYawRate, 1e-6);
+  ASSERT_TRUE(door.waitFor([&] {
+    now += 0.01;
+    door.sendScan(now);
+    return !door.split_scans.empty();
+  })) << door.diagnosticMessage("grid_slam");
+  EXPECT_EQ(door.split_scans.back()->header.frame_id, "robot");
+  EXPECT_NEAR(door.split_scans.back()->scanner.x, 1.0, 1e-9) << "as mounts says";
+}
+
+}  // namespace
+}  // namespace datmo
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "motion_test");
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,64 @@
+#include "datmo_fusion/ros/scan_extent.h"
+
+#include <gtest/gtest.h>
+
+namespace datmo {
+namespace {
+
+/// Ten beams that end this far ahead.
+Scan scanOf(double range, double reach) {
+  Scan scan;
+  scan.field.range = reach;
+  for (int i = 0; i < 10; ++i) {
+    Ray ray;
+    ray.end = Point2(range, 0.0);
+    ray.range = range;
+    ray.hit = true;
+    scan.rays.push_back(ray);
+  }
+  return scan;
+}
+
+/// What is said of a hundred such scans, and how often.
+std::vector<InputError> saidOf(const Scan& scan, double length, double width) {
+  GridWindowOptions window;
+  window.length = length;
+  window.width = width;
+  ScanExtent extent(window);
+  std::vector<InputError> said;
+  for (int i = 0; i < 100; ++i) {
+    if (const auto error = extent.take(scan)) {
+      said.push_back(*error);
+    }
+  }
+  return said;
+}
+
+TEST(ScanExtent, AWindowThatFitsIsFine) {
+  EXPECT_TRUE(saidOf(scanOf(49.0, 50.0), 90.0, 108.0).empty());
+  EXPECT_TRUE(saidOf(scanOf(8.0, 8.0), 24.0, 24.0).empty());
+}
+
+TEST(ScanExtent, EndPointsOutsideOfTheWindowAreSaidOnce) {
+  const auto said = saidOf(scanOf(30.0, 80.0), 24.0, 24.0);
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said[0].reason(), "small_window");
+  EXPECT_NE(std::string(said[0].what()).find("30.0 m"), std::string::npos) << said[0].what();
+  EXPECT_NE(std::string(said[0].what()).find("24.0 m x 24.0 m"), std::string::npos);
+}
+
+TEST(ScanExtent, AScannerOfShortReachInALargeWindowIsSaid) {
+  const auto said = saidOf(scanOf(3.0, 8.0), 90.0, 108.0);
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said[0].reason(), "large_window");
+  EXPECT_NE(std::string(said[0].what()).find("8.0 m"), std::string::npos) << said[0].what();
+}
+
+TEST(ScanExtent, WithoutAnyHitTheReachIsJudgedAlone) {
+  Scan scan = scanOf(3.0, 50.0);
+  scan.rays.clear();
+  EXPECT_TRUE(saidOf(scan, 90.0, 108.0).empty());
+}
+
+}  // namespace
+}  // namespace datmo

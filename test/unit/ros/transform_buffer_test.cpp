@@ -1,0 +1,92 @@
+#include "datmo_fusion/ros/transform_buffer.h"
+
+#include "message_samples.h"
+#include "monitor_counts.h"
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/ros/frames.h"
+
+namespace datmo {
+namespace {
+
+class MountedBufferTest : public testing::Test {
+ protected:
+  static SharedOptions shared() {
+    SharedOptions options;
+    options.mounts["laser"].x = 1.5;
+    return options;
+  }
+
+  static tf2_msgs::TFMessage tf(const std::string& parent, double x, double seconds = 100.0) {
+    tf2_msgs::TFMessage message;
+    message.transforms.push_back(samples::transform(parent, "laser", x, seconds));
+    return message;
+  }
+
+  double laserX() const {
+    return scannerMount(buffer_.core(), "base_link", "laser").scanner_in_base.x();
+  }
+
+  std::uint64_t notices() const { return samples::warnings(monitor_, "mount_from_tf"); }
+
+  StageMonitor monitor_{"stage"};
+  TransformBuffer buffer_{1.0, shared(), monitor_};
+};
+
+TEST_F(MountedBufferTest, AMountServesWithoutTf) { EXPECT_EQ(laserX(), 1.5); }
+
+TEST_F(MountedBufferTest, TfHoldsWhereBothAreThere) {
+  buffer_.addStatic(tf("base_link", 0.7));
+  EXPECT_EQ(laserX(), 0.7);
+  EXPECT_EQ(notices(), 1U);
+  buffer_.addStatic(tf("base_link", 0.7));
+  EXPECT_EQ(notices(), 1U) << "said once";
+}
+
+TEST_F(MountedBufferTest, TfThatMovesHoldsToo) {
+  buffer_.add(tf("base_link", 0.7, 100.0));
+  EXPECT_EQ(laserX(), 0.7);
+  EXPECT_EQ(notices(), 1U);
+}
+
+TEST_F(MountedBufferTest, AnotherParentIsAnotherMount) {
+  tf2_msgs::TFMessage roof;
+  roof.transforms.push_back(samples::transform("base_link", "roof", 0.2));
+  buffer_.addStatic(roof);
+  EXPECT_EQ(notices(), 0U);
+  buffer_.addStatic(tf("roof", 1.5));
+  EXPECT_NEAR(laserX(), 1.7, 1e-9);
+  EXPECT_EQ(notices(), 1U);
+}
+
+TEST_F(MountedBufferTest, TheSameFromTfIsNoNotice) {
+  buffer_.addStatic(tf("base_link", 1.5004));
+  EXPECT_EQ(notices(), 0U);
+}
+
+TEST_F(MountedBufferTest, AMountOutlivesAJumpOfTheClock) {
+  tf2_msgs::TFMessage wheels;
+  wheels.transforms.push_back(samples::transform("odom", "base_link", 1.0, 200.0));
+  buffer_.add(wheels);
+  wheels.transforms[0].header.stamp = ros::Time(100.0);
+  buffer_.add(wheels);
+  EXPECT_EQ(laserX(), 1.5);
+}
+
+TEST_F(MountedBufferTest, AMissingMountIsSaidWithWhatToDo) {
+  try {
+    scannerMount(buffer_.core(), "base_link", "velodyne");
+    FAIL() << "no exception";
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    for (const char* const part : {"base_link -> velodyne", "mounts: {velodyne: {x: 0.0",
+                                   "static_transform_publisher", "base_link velodyne"}) {
+      EXPECT_NE(message.find(part), std::string::npos) << part << " not in: " << message;
+    }
+  }
+  EXPECT_EQ(samples::reasonOf([this] { scannerMount(buffer_.core(), "base_link", ""); }),
+            "missing_frame");
+}
+
+}  // namespace
+}  // namespace datmo

@@ -1,0 +1,54 @@
+#include "input_refusals.h"
+
+#include <set>
+
+namespace datmo {
+
+namespace {
+
+std::string describe(const std::string& name, const InputRefusals::Topic& topic) {
+  std::string text = name + ": all " + std::to_string(topic.received) + " messages were refused";
+  std::string separator = ": ";
+  for (const auto& [reason, refused] : topic.reasons) {
+    text +=
+        separator + std::to_string(refused.messages) + " as " + reason + " (" + refused.last + ")";
+    separator = ", ";
+  }
+  return text;
+}
+
+}  // namespace
+
+void InputRefusals::book(const std::string& topic) {
+  Topic& entry = topics_[topic];
+  ++entry.received;
+  std::set<std::string> reasons;  // several stages may have taken the same message
+  for (const StageMonitor* door : doors_) {
+    for (const auto& [reason, count] : door->drops()) {
+      std::uint64_t& seen = seen_[door][reason];
+      if (count > seen) {
+        seen = count;
+        entry.reasons[reason].last = door->lastError();
+        reasons.insert(reason);
+      }
+    }
+  }
+  for (const std::string& reason : reasons) {
+    ++entry.reasons[reason].messages;
+  }
+  entry.refused += reasons.empty() ? 0 : 1;
+}
+
+void InputRefusals::check() const {
+  std::string refused;
+  for (const auto& [name, topic] : topics_) {
+    if (topic.refused == topic.received) {
+      refused += (refused.empty() ? "" : "; ") + describe(name, topic);
+    }
+  }
+  if (!refused.empty()) {
+    throw NoUsableInput(refused);
+  }
+}
+
+}  // namespace datmo

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "datmo_fusion/ros/stage_monitor.h"
+
+namespace datmo {
+
+/// All messages of a topic that the stages need were refused, or nothing came out; the message says
+/// what, why, how many and what was expected.
+class NoUsableInput : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Which messages of which topic the stages refused, and why.
+class InputRefusals {
+ public:
+  /// One reason for which messages of a topic were refused.
+  struct Reason {
+    std::uint64_t messages = 0;
+    std::string last;  ///< what was said of the last one
+  };
+
+  struct Topic {
+    std::uint64_t received = 0;
+    std::uint64_t refused = 0;
+    std::map<std::string, Reason> reasons;
+  };
+
+  /// `doors`: of the stages that messages come to first; they must outlive this.
+  explicit InputRefusals(std::vector<const StageMonitor*> doors) : doors_(std::move(doors)) {}
+
+  /// A message of this topic has been taken; what its stages dropped since the last one was it.
+  void book(const std::string& topic);
+
+  const std::map<std::string, Topic>& topics() const { return topics_; }
+
+  /// Throws NoUsableInput if nothing but refused messages came on a topic.
+  void check() const;
+
+ private:
+  std::vector<const StageMonitor*> doors_;
+  std::map<const StageMonitor*, std::map<std::string, std::uint64_t>> seen_;  ///< drops by reason
+  std::map<std::string, Topic> topics_;
+};
+
+}  // namespace datmo
