@@ -191,6 +191,18 @@ class Motion(Tool):
         self.assertEqual(kinds["no_odometry"], "warning")
         self.assertEqual(content["motion"]["source"], "imu")
 
+    def test_imu_on_its_side_in_place_of_odometry(self):
+        """Its y axis points up: it is rolled by 90 degrees."""
+        def turn(message):
+            rate, pull = message.angular_velocity, message.linear_acceleration
+            rate.y, rate.z, pull.y, pull.z = rate.z, 0.0, 9.81, 0.0
+
+        items = without(each(simulated.recording(), "/imu", turn), "/odometry", "/tf")
+        kinds, out, content = self.run_tool(items)
+        self.assertEqual(kinds["missing_imu_mount"], "warning")
+        self.assertAlmostEqual(content["mounts"]["imu"]["roll"], 0.5 * math.pi, delta=0.01)
+        self.assertNotIn("yaw_sign", kinds, out)
+
     def test_nothing_tells_the_motion(self):
         _, _, content = self.run_tool(without(simulated.recording(), "/odometry", "/tf", "/imu"))
         self.assertEqual(content["motion"]["source"], "none")

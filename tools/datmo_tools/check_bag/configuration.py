@@ -24,6 +24,7 @@ def sections(recording, roles, results, measured):
         items["mounts"] = mounts
         remarks["mounts"] = [
             "MEASURE THIS: the recording does not say where these sensors are mounted.",
+            "(Of an IMU it is known: roll and pitch by gravity are enough.)",
             f"m and rad, from {roles.base_frame} (below the rear axle, x forward, y left).",
         ]
     motion = motion_section(recording, roles, results)

@@ -1,6 +1,7 @@
 """Which sensors a recording has, and what serves in place of those that are missing."""
 
 from datmo_tools.check_bag.levels import motion_source
+from datmo_tools.check_bag.yaml_text import imu_frame_without_mount
 
 MOTION_TEXTS = {
     "twist": "the speeds of {twist} (geometry_msgs/TwistStamped) serve instead",
@@ -61,6 +62,13 @@ def _check_motion(recording, roles, findings):
         findings.warn(
             "no_odometry", "", f"no odometry (nav_msgs/Odometry): {text}",
             "The yaml says so (motion/source).",
+        )  # fmt: skip
+    frame = imu_frame_without_mount(recording, roles)
+    if frame:
+        findings.warn(
+            "missing_imu_mount", roles.imu,
+            f"nothing says how {frame} is mounted on {roles.base_frame}",
+            "The yaml has its roll and pitch by gravity under mounts; a yaw rate asks for no more.",
         )  # fmt: skip
     unread = [
         name for name in roles.wheels if recording.topics[name].type != "sensor_msgs/JointState"

@@ -1,7 +1,10 @@
 """The first yaml of a robot: what differs from the defaults, and why."""
 
+import math
+
 import yaml
 
+from datmo_tools.check_bag.levels import motion_source
 from datmo_tools.check_bag.motion_signal import euler_degrees
 from datmo_tools.check_bag.transform_table import bare
 
@@ -43,7 +46,29 @@ def mounts_section(recording, roles):
         frame = bare(recording.topics[name].frame()) if name else ""
         if _lacks_mount(recording, roles, frame):
             section[frame] = {**AT_BASE, **LOOKS_AHEAD}
+    frame = imu_frame_without_mount(recording, roles)
+    if frame:
+        section[frame] = _tilt(recording.imus[roles.imu].up())
     return section
+
+
+def imu_frame_without_mount(recording, roles):
+    """Frame of the IMU if it tells the motion and has no way to the base frame; "" otherwise."""
+    if not roles.imu or "imu" not in motion_source(roles, recording).split("_"):
+        return ""
+    frame = bare(recording.topics[roles.imu].frame())
+    return frame if _lacks_mount(recording, roles, frame) else ""
+
+
+def _tilt(up):
+    """Mount of an IMU that feels gravity against `up` (unit vector in its frame, or None).
+
+    A yaw rate asks for neither its place nor its yaw.
+    """
+    if up is None:
+        return {"roll": 0.0, "pitch": 0.0}
+    roll, pitch = math.atan2(up[1], up[2]), -math.asin(min(max(up[0], -1.0), 1.0))
+    return {"roll": round(roll, 3), "pitch": round(pitch, 3)}
 
 
 def _lacks_mount(recording, roles, frame):
