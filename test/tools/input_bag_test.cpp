@@ -149,7 +149,10 @@ TEST_F(InputBag, OutputsThatCannotBeWrittenAreSaidAtTheStart) {
   EXPECT_EQ(messageOf([&] { OutputBag bag(folder_.string()); }),
             folder_.string() + ": is a folder, expected the name of a file");
   checkWritable(file_);
-  checkWritable("out.bag");
+  const fs::path here = fs::current_path();
+  fs::current_path(folder_);
+  EXPECT_EQ(messageOf([] { checkWritable("out.bag"); }), "");
+  fs::current_path(here);
 }
 
 TEST_F(InputBag, OutputInAFolderWithoutPermission) {

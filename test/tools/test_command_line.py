@@ -32,6 +32,8 @@ class Outputs(unittest.TestCase):
         new = self.root / "new" / "newer"
         self.assertEqual(output_folder(str(new)), new)
         self.assertEqual(output_file(str(new / "report.json")), new / "report.json")
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(self.root)
         self.assertEqual(output_file("report.json"), Path("report.json"))
         self.assertFalse(new.exists())
 

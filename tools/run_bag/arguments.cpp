@@ -60,7 +60,9 @@ void addFile(const std::string& word, Arguments& arguments) {
   } else if (arguments.output.empty()) {
     arguments.output = word;
   } else {
-    throw UsageError("'" + word + "': expected no more than an input and an output bag");
+    throw UsageError("'" + word +
+                     "': expected no more than an input and an output bag; 'rosrun datmo_fusion "
+                     "merge_bags' makes one bag of a recording's parts");
   }
 }
 

@@ -26,6 +26,8 @@ TEST(EvaluatedSequence, OtherClassesAreNotLookedAt) {
   EXPECT_TRUE(sequence.frames.empty());
   EXPECT_EQ(sequence.truths, 0U);
   EXPECT_TRUE(sequence.scores.empty());
+  const TrackedObject person = rowAt(0, 1, 0.0, ObjectType::kPerson);
+  EXPECT_EQ(evaluated({person}, {}, ObjectType::kPedestrian).truths, 0U);
 }
 
 TEST(EvaluatedSequence, NeighboursNeedNotBeFound) {
