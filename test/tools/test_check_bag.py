@@ -5,7 +5,9 @@ import contextlib
 import io
 import json
 import math
+import os
 import re
+import subprocess
 import tempfile
 import unittest
 from pathlib import Path
@@ -432,6 +434,27 @@ class Cameras(Tool):
         _, _, content = self.run_tool(items)
         self.assert_finds("pair_offset", items)
         self.assertTrue(content["stereo_image_proc"]["approximate_sync"])
+
+
+class WrittenYaml(Tool):
+    """run_bag takes the yaml, whatever sections it has."""
+
+    def assert_runs(self, items, *topics):
+        self.run_tool(items)
+        words = [os.environ["DATMO_FUSION_RUN_BAG"], self.bag, self.folder / "result.bag",
+                 "--config", self.yaml, "--quiet", *topics]  # fmt: skip
+        done = subprocess.run([str(word) for word in words], stderr=subprocess.PIPE, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr.decode())
+
+    def test_street_with_a_camera(self):
+        self.assert_runs(simulated.recording())
+
+    def test_short_reach_imu_and_no_mounts(self):
+        def cut(message):
+            message.range_max = 8.0
+
+        items = without(simulated.recording(), "/odometry", "/tf", "/tf_static")
+        self.assert_runs(each(items, "/scan", cut))
 
 
 class Unreadable(Tool):

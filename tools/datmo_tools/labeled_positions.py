@@ -1,4 +1,4 @@
-"""Positions of people or other things that somebody labeled in a recording, brought to a run's map."""
+"""Positions of people or things that were labeled in a recording, brought to a run's map."""
 
 from typing import NamedTuple
 

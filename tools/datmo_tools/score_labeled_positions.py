@@ -13,7 +13,7 @@ from datmo_tools.track_lists import read_track_lists
 from datmo_tools.track_matching import TrackMatcher
 
 DESCRIPTION = """\
-Scores the tracks of a result of run_bag against positions that somebody labeled in the recording, as
+Scores the tracks of a result of run_bag against positions that were labeled in the recording, as
 messages of any type with `pose` and `id`: how many have a track within --gate, each track for one
 label and each label for one track, and how often a labeled id goes over to another track. A label
 may have a header; without one it is of the scan recorded last before it, in that scan's frame.

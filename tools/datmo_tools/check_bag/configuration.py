@@ -68,14 +68,15 @@ def _size_remarks(measured):
         noise = f"{measured.noise:.3f} m, measured while the vehicle stands"
     speed = "not known" if measured.speed is None else f"{measured.speed:.1f} m/s"
     remarks = [
-        f"Measured: reach {measured.reach:.1f} m, speed of the vehicle {speed}, range noise {noise};",
+        f"Measured: reach {measured.reach:.1f} m, speed of the vehicle {speed},",
+        f"range noise {noise};",
         f"beams come back from surfaces up to {measured.free_range:.0f} m (free_range).",
     ]
     result = {"lidar_grid": remarks}
     if is_small(measured):
         result["tracker"] = [
-            "A slow vehicle with a short reach is taken to be a robot among people, whose legs its",
-            "scanner sees. What stands is followed as well (require_motion: true: only what moves).",
+            "A slow vehicle with a short reach is taken to be a robot among people, whose legs",
+            "its scanner sees. What stands is followed as well (require_motion: true: not).",
             "Other targets (model cars): config/model_car.yaml shows what goes with their size.",
         ]
     return result

@@ -34,7 +34,8 @@ def _missing_for_scanner(recording, roles):
             wanted += f": make one of {roles.lidar_clouds[0]} by cloud_to_scan"
         missing += (wanted,)
     elif recording.transforms.between(roles.base_frame, roles.scan_frame) is None:
-        missing += (f"the mount {roles.base_frame} -> {roles.scan_frame} (tf, or mounts in the yaml)",)
+        mount = f"{roles.base_frame} -> {roles.scan_frame}"
+        missing += (f"the mount {mount} (tf, or mounts in the yaml)",)
     return missing
 
 

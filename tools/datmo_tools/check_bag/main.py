@@ -15,9 +15,9 @@ from datmo_tools.whole_files import write_whole
 DESCRIPTION = """\
 Says what a recording holds, what is wrong with it for this package, and how to start.
 
-It reads the bag without a master and tells: what is missing for each level of fusion; rates, gaps and
-order of stamps; clock offsets between the scanner and odometry or IMU, and scale and sign of these, by
-the motion that the scans themselves see; frames and mounts; beams that are dead or see the vehicle
+It reads the bag without a master and tells: what is missing for each level of fusion; rates, gaps
+and order of stamps; clock offsets between the scanner and odometry or IMU, and scale and sign of
+these, by the motion that the scans themselves see; frames and mounts; beams that are dead or see the vehicle
 itself; reach against the window; calibration of cameras. Then it writes a first yaml with what
 differs from the defaults, and prints the lines to start with.
 
@@ -44,7 +44,7 @@ def _parser():
     add = parser.add_argument
     add("bag", type=Path, help="recording: a bag")
     add("--out", type=Path, metavar="FILE.yaml",
-        help="the yaml to write (default: the bag's name, .yaml, in the working folder)")  # fmt: skip
+        help="yaml to write (default: the bag's name, .yaml, in the working folder)")  # fmt: skip
     add("--no-yaml", action="store_true", help="writes none")
     add("--scan", metavar="TOPIC", help="scanner to use (default: /scan, or that with most scans)")
     add("--odometry", metavar="TOPIC", help="odometry to use (default: /odometry, or the most)")

@@ -76,6 +76,7 @@ def _check_motion(recording, roles, findings):
     if unread:
         findings.note(
             "wheel_speeds", unread[0],
-            f"looks like wheel speeds, of a type that is not read ({recording.topics[unread[0]].type})",
+            "looks like wheel speeds, of a type that is not read "
+            f"({recording.topics[unread[0]].type})",
             "Publish it as sensor_msgs/JointState (velocity, rad/s) or TwistStamped to use it.",
         )  # fmt: skip

@@ -64,4 +64,6 @@ def _fit_text(result):
             parts.append(
                 f"{name} x {fit.scale:.3f} +- {fit.scale_error:.3f}, {1000 * fit.delay:+.0f} ms"
             )
-    return "against the scans " + "; ".join(parts) if parts else "too little motion, or scans that do not match, to compare"
+    if not parts:
+        return "too little motion, or scans that do not match, to compare"
+    return "against the scans " + "; ".join(parts)

@@ -1,4 +1,4 @@
-"""The scans themselves: geometry, what stands for no return, dead beams, the vehicle's own returns."""
+"""The scans themselves: geometry, no returns, dead beams, the vehicle's own returns."""
 
 import math
 from typing import NamedTuple
