@@ -1,22 +1,26 @@
 #include <string>
+#include <utility>
 
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include "datmo_fusion/ros/input_error.h"
+#include "datmo_fusion/ros/legend.h"
 #include "datmo_fusion/ros/markers.h"
 #include "datmo_fusion/ros/parameters.h"
 
 namespace datmo {
 
 /// Draws for rviz. In: split_scan, road_borders, objects, objects/dropped, tracks,
-/// ground_truth/objects. Out: markers. It draws only while somebody looks.
+/// ground_truth/objects. Out: markers, while somebody looks; legend, once.
 class MarkersNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
     options_ = loadOptions<MarkersOptions>(getPrivateNodeHandle());
     ros::NodeHandle& node = getNodeHandle();
     markers_ = node.advertise<visualization_msgs::MarkerArray>("markers", kQueue);
+    legend_ = node.advertise<sensor_msgs::Image>("legend", 1, true);
+    legend_.publish(drawLegend());
     split_scan_ = node.subscribe("split_scan", kQueue, &MarkersNodelet::takeSplitScan, this);
     borders_ = node.subscribe("road_borders", kQueue, &MarkersNodelet::takeBorders, this);
     objects_ = node.subscribe("objects", kQueue, &MarkersNodelet::takeObjects, this);
@@ -28,6 +32,9 @@ class MarkersNodelet : public nodelet::Nodelet {
   void takeSplitScan(const SplitScanConstPtr& message) {
     last_scan_ = message;
     draw("split_scan", *message);
+    if (markers_.getNumSubscribers() > 0) {
+      publish("vehicle", vehicleMarkers(message->header, options_.vehicle));
+    }
   }
 
   void takeBorders(const RoadBordersConstPtr& message) { draw("road_borders", *message); }
@@ -44,11 +51,15 @@ class MarkersNodelet : public nodelet::Nodelet {
     try {
       visualization_msgs::MarkerArray markers = markersOf(message, options_);
       place(message, markers);
-      stale_.replace(source, markers);
-      markers_.publish(markers);
+      publish(source, std::move(markers));
     } catch (const InputError& error) {
       NODELET_WARN_THROTTLE(1.0, "%s are not drawn: %s", source.c_str(), error.what());
     }
+  }
+
+  void publish(const std::string& source, visualization_msgs::MarkerArray markers) {
+    stale_.replace(source, markers);
+    markers_.publish(markers);
   }
 
   /// Objects of the last scan go where the scan was seen from: tf may not know yet.
@@ -84,6 +95,7 @@ class MarkersNodelet : public nodelet::Nodelet {
   StaleMarkers stale_;
   SplitScanConstPtr last_scan_;
   ros::Publisher markers_;
+  ros::Publisher legend_;
   ros::Subscriber split_scan_;
   ros::Subscriber borders_;
   ros::Subscriber objects_;

@@ -1,9 +1,13 @@
 #include "datmo_fusion/ros/markers.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "class_shapes.h"
+#include "marker_colors.h"
 #include "marker_parts.h"
 
 #include "datmo_fusion/common/pose2.h"
@@ -16,15 +20,29 @@ namespace {
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
-std_msgs::ColorRGBA colourOfPoint(std::uint8_t state) {
-  switch (state) {
-    case ScanPointMessage::STATIC:
-      return colour(0.2F, 0.5F, 1.0F);
-    case ScanPointMessage::MOVING:
-      return colour(1.0F, 0.2F, 0.1F);
-    default:
-      return colour(0.6F, 0.6F, 0.6F);
+/// The outlines of true objects: width as a share of the other lines', and the length of a dash and
+/// of the gap after it, m.
+constexpr double kThin = 0.7;
+constexpr double kDash = 0.4;
+
+/// The lines of a strip as dashes.
+Marker dashed(Marker strip) {
+  std::vector<geometry_msgs::Point> dashes;
+  for (std::size_t i = 0; i + 1 < strip.points.size(); ++i) {
+    const geometry_msgs::Point& from = strip.points[i];
+    const geometry_msgs::Point& to = strip.points[i + 1];
+    const double length = std::hypot(to.x - from.x, to.y - from.y);
+    for (double at = 0.0; at < length; at += 2.0 * kDash) {
+      for (const double end : {at, std::min(at + kDash, length)}) {
+        const double share = end / length;
+        dashes.push_back(
+            pointAt(from.x + share * (to.x - from.x), from.y + share * (to.y - from.y)));
+      }
+    }
   }
+  strip.type = Marker::LINE_LIST;
+  strip.points = std::move(dashes);
+  return strip;
 }
 
 /// Opacity of the outline of what is not seen to move, and of bodies.
@@ -37,13 +55,17 @@ void MarkersOptions::visit(OptionVisitor& visitor) {
   const Bounds size{0.01, 10.0};
   visitor.number({"point_size", "m", "edge of a scan point"}, point_size, size);
   visitor.number({"line_width", "m", "width of outlines; arrows go by it"}, line_width, size);
-  visitor.number({"text_height", "m", "height of the letters of a track"}, text_height, size);
+  visitor.number({"text_height", "m", "height of the letters of a track's label"}, text_height,
+                 size);
   visitor.number({"least_size", "m", "a box that was seen smaller is drawn this long and wide"},
                  least_size, size);
   visitor.number({"default_height", "m", "of a box whose height is not measured"}, default_height,
                  size);
   visitor.number({"arrow_time", "s", "a track's arrow is the way of this time"}, arrow_time,
                  {0.0, 10.0});
+  visitor.number({"path_time", "s", "a track's path is where it was in this time"}, path_time,
+                 {0.0, 600.0});
+  visitor.group("vehicle", [&] { vehicle.visit(visitor); });
 }
 
 MarkerArray markersOf(const SplitScanMessage& scan, const MarkersOptions& options) {
@@ -57,7 +79,7 @@ MarkerArray markersOf(const SplitScanMessage& scan, const MarkersOptions& option
   marker.colors.reserve(scan.points.size());
   for (const ScanPointMessage& point : scan.points) {
     marker.points.push_back(pointAt(point.x, point.y));
-    marker.colors.push_back(colourOfPoint(point.state));
+    marker.colors.push_back(colorOfPoint(point.state));
   }
   MarkerArray markers;
   if (!marker.points.empty()) {  // rviz takes an empty list for a mistake
@@ -96,9 +118,11 @@ MarkerArray markersOf(const TrueObjectArray& objects, const MarkersOptions& opti
   MarkerArray markers;
   for (const TrueObject& object : objects.objects) {
     if (object.moving) {
-      Marker marker = outlineOf(objects.header, "ground truth", object.pose, object.size, options);
+      Marker marker =
+          dashed(outlineOf(objects.header, "ground truth", object.pose, object.size, options));
       marker.id = static_cast<int>(object.id);
-      marker.color = colour(0.1F, 0.8F, 0.2F);
+      marker.scale.x = kThin * options.line_width;
+      marker.color = colour(0.25F, 0.25F, 0.25F);
       markers.markers.push_back(marker);
     }
   }

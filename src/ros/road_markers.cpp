@@ -6,6 +6,7 @@
 #include <string>
 
 #include "class_shapes.h"
+#include "marker_colors.h"
 #include "marker_parts.h"
 
 #include "datmo_fusion/ros/markers.h"
@@ -39,8 +40,7 @@ constexpr double kSmallText = 0.5;
 std_msgs::ColorRGBA colourOf(const RoadBorder& border) {
   const float opacity = kFaint + (1.0F - kFaint) * static_cast<float>(border.probability);
   const float light = border.side_street ? kDim : 1.0F;
-  return border.side == RoadSide::kLeft ? colour(light, 0.55F * light, 0.1F * light, opacity)
-                                        : colour(light, 0.35F * light, 0.8F * light, opacity);
+  return colorOfBorder(border.side, light, opacity);
 }
 
 geometry_msgs::Point pointAt(const Point2& position) {

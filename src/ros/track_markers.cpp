@@ -1,17 +1,17 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "class_shapes.h"
+#include "marker_colors.h"
 #include "marker_parts.h"
+#include "track_label.h"
 #include <Eigen/Eigenvalues>
 
-#include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/ros/markers.h"
 #include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/stamp_check.h"
 
 namespace datmo {
 
@@ -26,22 +26,24 @@ constexpr double kEllipseGate = 5.991;
 
 /// Opacity of a box that hardly exists, and of one that surely does.
 constexpr float kFaint = 0.1F;
-constexpr float kSolid = 0.7F;
+constexpr float kSolid = 0.9F;
 
 constexpr float kEllipseOpacity = 0.3F;
 
 /// m, just above the ground: not hidden by the map.
 constexpr double kEllipseHeight = 0.02;
 
-/// Neighbouring ids look different: hues a golden section apart, those of a standing track pale.
-std_msgs::ColorRGBA colourOfTrack(std::uint32_t id, bool moving, float opacity) {
-  constexpr double kGoldenSection = 0.618033988749895;
-  const double hue = std::fmod(id * kGoldenSection, 1.0);
-  const auto channel = [&](double shift) {
-    const double wave = 0.5 + 0.5 * std::cos(2.0 * kPi * (hue - shift));
-    return static_cast<float>(moving ? wave : 0.5 + 0.25 * wave);
-  };
-  return colour(channel(0.0), channel(1.0 / 3.0), channel(2.0 / 3.0), opacity);
+/// Share of its class's color that lines and letters have: dark ones are read on a light map.
+constexpr float kInk = 0.45F;
+
+std_msgs::ColorRGBA colorOf(const TrackMessage& track, float opacity) {
+  return colorOfClass(classFromMessage(track.classification), track.moving, opacity);
+}
+
+/// Of lines and letters.
+std_msgs::ColorRGBA inkOf(const TrackMessage& track) {
+  const auto full = colorOfClass(classFromMessage(track.classification), true, 1.0F);
+  return colour(kInk * full.r, kInk * full.g, kInk * full.b);
 }
 
 double heightOf(const TrackMessage& track, const MarkersOptions& options) {
@@ -61,25 +63,16 @@ Marker arrowOf(const std_msgs::Header& header, const TrackMessage& track,
   return marker;
 }
 
-/// "#id class speed sensors", the class only where it is known.
-std::string textOf(const TrackMessage& track) {
-  const ObjectClass object_class = classFromMessage(track.classification);
-  const std::string known =
-      object_class == ObjectClass::kUnknown ? "" : std::string(" ") + nameOf(object_class);
-  std::array<char, 32> speed{};
-  std::snprintf(speed.data(), speed.size(), " %.1f m/s",
-                std::hypot(track.velocity.x, track.velocity.y));
-  return "#" + std::to_string(track.id) + known + speed.data() + " " + namesOf(track.sensors);
-}
-
+/// So high above the box that it does not cover it where it is looked at from up to 45 degrees
+/// above the ground, whichever way the box is turned.
 Marker labelOf(const std_msgs::Header& header, const TrackMessage& track,
                const MarkersOptions& options) {
   Marker marker = makeMarker(header, "track labels", Marker::TEXT_VIEW_FACING);
   marker.pose.position = track.pose.position;
-  marker.pose.position.y += options.text_height;  // beside the arrow, seen from above
-  marker.pose.position.z = heightOf(track, options) + options.text_height;
+  const double to_end = 0.5 * std::max({track.size.x, track.size.y, options.least_size});
+  marker.pose.position.z = heightOf(track, options) + to_end + 0.5 * options.text_height;
   marker.scale.z = options.text_height;
-  marker.text = textOf(track);
+  marker.text = labelText(track);
   return marker;
 }
 
@@ -106,37 +99,46 @@ Marker ellipseOf(const std_msgs::Header& header, const TrackMessage& track,
   return marker;
 }
 
-/// Where it was.
+/// Where it was lately.
 Marker pathOf(const std_msgs::Header& header, const TrackMessage& track,
               const MarkersOptions& options) {
   Marker marker = makeMarker(header, "track paths", Marker::LINE_STRIP);
   marker.scale.x = options.line_width;
   for (const PathPointMessage& point : track.history) {
-    marker.points.push_back(pointAt(point.pose.x, point.pose.y, kEllipseHeight));
+    if (secondsBetween(toStamp(point.stamp), toStamp(header.stamp)) <= options.path_time) {
+      marker.points.push_back(pointAt(point.pose.x, point.pose.y, kEllipseHeight));
+    }
   }
   return marker;
 }
 
-void add(Marker marker, const TrackMessage& track, float opacity, MarkerArray& markers) {
+void add(Marker marker, const TrackMessage& track, const std_msgs::ColorRGBA& color,
+         MarkerArray& markers) {
   marker.id = static_cast<int>(track.id);
-  marker.color = colourOfTrack(track.id, track.moving, opacity);
+  marker.color = color;
   markers.markers.push_back(marker);
 }
 
-/// The class as a shape, and on the ground who saw it.
+Marker groundOutline(const std_msgs::Header& header, const std::string& name,
+                     const TrackMessage& track, const MarkersOptions& options) {
+  Marker outline = outlineOf(header, name, track.pose, track.size, options);
+  outline.pose.position.z = kEllipseHeight;
+  return outline;
+}
+
+/// The class as a shape, and on the ground its outline and who saw it.
 void addBody(const std_msgs::Header& header, const TrackMessage& track, float opacity,
              const MarkersOptions& options, MarkerArray& markers) {
   const ObjectClass object_class = classFromMessage(track.classification);
   const ClassShape shape = shapeOf(header, "track", object_class, track.pose, track.size, options);
-  add(shape.body, track, opacity, markers);
+  const std_msgs::ColorRGBA color = colorOf(track, opacity);
+  add(shape.body, track, color, markers);
   if (shape.head) {
-    add(*shape.head, track, opacity, markers);
+    add(*shape.head, track, color, markers);
   }
-  Marker outline = outlineOf(header, "track sensors", track.pose, track.size, options);
-  outline.id = static_cast<int>(track.id);
-  outline.pose.position.z = kEllipseHeight;
-  outline.color = colourOfSensors(track.sensors, 1.0F);
-  markers.markers.push_back(outline);
+  add(groundOutline(header, "track outlines", track, options), track, inkOf(track), markers);
+  add(groundOutline(header, "track sensors", track, options), track,
+      colourOfSensors(track.sensors, 1.0F), markers);
 }
 
 }  // namespace
@@ -147,11 +149,14 @@ MarkerArray markersOf(const TrackArray& tracks, const MarkersOptions& options) {
   for (const TrackMessage& track : tracks.tracks) {
     const float body = kFaint + (kSolid - kFaint) * track.existence_probability;
     addBody(header, track, body, options, markers);
-    add(arrowOf(header, track, options), track, 1.0F, markers);
-    add(labelOf(header, track, options), track, 1.0F, markers);
-    add(ellipseOf(header, track, options), track, kEllipseOpacity, markers);
-    if (track.history.size() > 1) {  // rviz takes a line of one point for a mistake
-      add(pathOf(header, track, options), track, 1.0F, markers);
+    if (track.moving) {
+      add(arrowOf(header, track, options), track, inkOf(track), markers);
+    }
+    add(labelOf(header, track, options), track, inkOf(track), markers);
+    add(ellipseOf(header, track, options), track, colorOf(track, kEllipseOpacity), markers);
+    const Marker path = pathOf(header, track, options);
+    if (path.points.size() > 1) {  // rviz takes a line of one point for a mistake
+      add(path, track, inkOf(track), markers);
     }
   }
   return markers;

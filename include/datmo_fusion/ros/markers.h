@@ -12,13 +12,25 @@
 
 namespace datmo {
 
+/// The vehicle's own body, in the frame of the scans (base_link).
+struct VehicleBodyOptions {
+  double rear = -1.0;       ///< m
+  double front = 3.2;       ///< m
+  double half_width = 0.9;  ///< m
+  double height = 1.5;      ///< m
+
+  void visit(OptionVisitor& visitor);
+};
+
 struct MarkersOptions {
-  double point_size = 0.4;      ///< m
+  double point_size = 0.3;      ///< m
   double line_width = 0.12;     ///< m
-  double text_height = 1.8;     ///< m
+  double text_height = 1.1;     ///< m
   double least_size = 0.3;      ///< m
   double default_height = 1.5;  ///< m
   double arrow_time = 1.0;      ///< s
+  double path_time = 3.0;       ///< s
+  VehicleBodyOptions vehicle;
 
   void visit(OptionVisitor& visitor);
 };
@@ -31,6 +43,11 @@ struct MarkersOptions {
 visualization_msgs::MarkerArray markersOf(const SplitScanMessage& scan,
                                           const MarkersOptions& options);
 
+/// The vehicle's own body ("vehicle"): a car of boxes and wheels in the frame of the scan, with
+/// which it moves.
+visualization_msgs::MarkerArray vehicleMarkers(const std_msgs::Header& scan,
+                                               const VehicleBodyOptions& options);
+
 /// Outlines of the objects' boxes ("objects"), coloured by who saw them: violet the lidar, cyan
 /// stereo, yellow both, grey others; pale what is not seen to move. Of a known class also its shape
 /// ("object bodies", "object heads"): a box for a vehicle, a cylinder with a head for a pedestrian,
@@ -38,12 +55,13 @@ visualization_msgs::MarkerArray markersOf(const SplitScanMessage& scan,
 visualization_msgs::MarkerArray markersOf(const ObjectArray& objects,
                                           const MarkersOptions& options);
 
-/// For each track, in namespaces of their own: the shape of its class ("track bodies", "track
-/// heads"), a box where that is not known, the fainter the less likely the track exists; its
-/// outline on the ground in the colour of who saw it last ("track sensors"); an arrow as long as
-/// the way of `arrow_time` ("track velocities"); "#id class speed sensors" ("track labels"); the
-/// ellipse on the ground that holds the true position with 95 % ("track covariances"); the way it
-/// came ("track paths").
+/// For each track, in namespaces of their own: the shape of its class in the color of the class
+/// ("track bodies", "track heads"), a box where that is not known, pale what stands, the fainter
+/// the less likely the track exists; its outline on the ground ("track outlines"), and one in the
+/// color of who saw it last ("track sensors"); an arrow as long as the way of `arrow_time` ("track
+/// velocities"); above it "#id class speed", the speed of what moves ("track labels"); the ellipse
+/// on the ground that holds the true position with 95 % ("track covariances"); the way it came in
+/// the last `path_time` ("track paths").
 visualization_msgs::MarkerArray markersOf(const TrackArray& tracks, const MarkersOptions& options);
 
 /// For each stretch of the road's borders a line ("road borders"), orange on the left, pink on the
@@ -62,7 +80,7 @@ void addIntersection(const RoadBorders& road, const SplitScanMessage& scan,
 visualization_msgs::MarkerArray markersOf(const DroppedObjects& dropped,
                                           const MarkersOptions& options);
 
-/// Outlines of the true objects that move ("ground truth").
+/// Dashed grey outlines of the true objects that move ("ground truth"), thinner than all others.
 visualization_msgs::MarkerArray markersOf(const TrueObjectArray& objects,
                                           const MarkersOptions& options);
 

@@ -1,6 +1,8 @@
 #include "datmo_fusion/ros/markers.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "marker_search.h"
 #include <gtest/gtest.h>
@@ -50,7 +52,34 @@ TEST(Markers, TrackHasBoxArrowAndLabel) {
 
   const Marker* label = find(markers, "track labels", 7);
   ASSERT_NE(label, nullptr);
-  EXPECT_EQ(label->text, "#7 5.0 m/s lidar+stereo");
+  EXPECT_EQ(label->text, "#7 5.0 m/s");
+}
+
+TEST(Markers, WhatStandsHasNoArrowAndNoSpeedAndIsPale) {
+  TrackArray tracks;
+  tracks.tracks = {makeTrack(7), makeTrack(8)};
+  tracks.tracks[1].moving = false;
+  const MarkerArray markers = markersOf(tracks, MarkersOptions());
+  EXPECT_EQ(find(markers, "track velocities", 8), nullptr);
+  EXPECT_EQ(find(markers, "track labels", 8)->text, "#8");
+  const auto& moving = find(markers, "track bodies", 7)->color;
+  const auto& standing = find(markers, "track bodies", 8)->color;
+  EXPECT_GT(standing.r, moving.r);
+  EXPECT_GT(standing.g, moving.g);
+}
+
+TEST(Markers, ALabelIsClearOfItsBoxSeenFrom45DegreesAbove) {
+  TrackArray tracks;
+  tracks.tracks = {makeTrack(7)};
+  tracks.tracks[0].size.z = 2.5;
+  const MarkersOptions options;
+  const MarkerArray markers = markersOf(tracks, options);
+  const Marker* label = find(markers, "track labels", 7);
+  ASSERT_NE(label, nullptr);
+  // Seen along the box, its far upper edge is 2 m away from the middle, and as high as a point 2 m
+  // above the roof's middle.
+  EXPECT_DOUBLE_EQ(label->pose.position.z - 0.5 * options.text_height, 2.5 + 2.0);
+  EXPECT_DOUBLE_EQ(label->pose.position.y, 5.0);
 }
 
 TEST(Markers, LabelNamesAKnownClass) {
@@ -58,7 +87,7 @@ TEST(Markers, LabelNamesAKnownClass) {
   tracks.tracks = {makeTrack(7)};
   tracks.tracks[0].classification = ObjectMessage::CLASS_VEHICLE;
   const MarkerArray markers = markersOf(tracks, MarkersOptions());
-  EXPECT_EQ(find(markers, "track labels", 7)->text, "#7 vehicle 5.0 m/s lidar+stereo");
+  EXPECT_EQ(find(markers, "track labels", 7)->text, "#7 vehicle 5.0 m/s");
 }
 
 MarkerArray tracksOfClass(std::uint8_t classification) {
@@ -170,6 +199,58 @@ TEST(Markers, PathIsTheHistory) {
   EXPECT_EQ(find(markers, "track paths", 8), nullptr) << "one point is no line";
 }
 
+TEST(Markers, PathIsOnlyTheLastSeconds) {
+  TrackArray tracks;
+  tracks.header.stamp = ros::Time(100.0);
+  tracks.tracks = {makeTrack(7)};
+  for (const double seconds : {90.0, 96.9, 97.1, 98.0, 100.0}) {
+    tracks.tracks[0].history.emplace_back();
+    tracks.tracks[0].history.back().stamp = ros::Time(seconds);
+  }
+  MarkersOptions options;
+  options.path_time = 3.0;
+  const MarkerArray markers = markersOf(tracks, options);
+  const Marker* path = find(markers, "track paths", 7);
+  ASSERT_NE(path, nullptr);
+  EXPECT_EQ(path->points.size(), 3U);
+}
+
+TEST(Markers, ClassesHaveColors) {
+  const auto color = [](std::uint8_t classification) {
+    const MarkerArray markers = tracksOfClass(classification);
+    const Marker* body = find(markers, "track bodies", 7);
+    return body == nullptr ? std_msgs::ColorRGBA() : body->color;
+  };
+  const std::vector<std::uint8_t> classes = {
+      ObjectMessage::CLASS_UNKNOWN, ObjectMessage::CLASS_VEHICLE, ObjectMessage::CLASS_PEDESTRIAN,
+      ObjectMessage::CLASS_CYCLIST, ObjectMessage::CLASS_POLE};
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_NE(color(classes[i]), color(classes[j]));
+    }
+  }
+}
+
+TEST(Markers, VehicleIsAsLargeAsItIsSaidToBeAndGoesWithItsFrame) {
+  std_msgs::Header scan;
+  scan.frame_id = "base_link";
+  scan.stamp = ros::Time(5.0);
+  const MarkerArray markers = vehicleMarkers(scan, {-1.0, 3.0, 0.9, 1.5});
+  const Marker* body = find(markers, "vehicle", 0);
+  ASSERT_NE(body, nullptr);
+  EXPECT_TRUE(body->frame_locked);
+  EXPECT_EQ(body->header.frame_id, "base_link");
+  EXPECT_TRUE(body->header.stamp.isZero()) << "tf may not know the scan's time yet";
+  EXPECT_DOUBLE_EQ(body->pose.position.x, 1.0);
+  EXPECT_DOUBLE_EQ(body->scale.x, 4.0);
+  EXPECT_DOUBLE_EQ(body->scale.y, 1.8);
+  double top = 0.0;
+  for (const Marker& part : markers.markers) {
+    top = std::max(top, part.pose.position.z + 0.5 * part.scale.z);
+  }
+  EXPECT_DOUBLE_EQ(top, 1.5);
+}
+
 TEST(Markers, ABoxIsTheFainterTheLessLikelyItExists) {
   TrackArray tracks;
   tracks.tracks = {makeTrack(7), makeTrack(8)};
@@ -220,6 +301,23 @@ TEST(Markers, OnlyMovingTruthIsDrawn) {
   const MarkerArray markers = markersOf(truth, MarkersOptions());
   ASSERT_EQ(markers.markers.size(), 1U);
   EXPECT_EQ(markers.markers[0].id, 9);
+}
+
+TEST(Markers, TruthIsDashed) {
+  TrueObjectArray truth;
+  truth.objects.resize(1);
+  truth.objects[0].moving = true;
+  truth.objects[0].pose.orientation.w = 1.0;
+  truth.objects[0].size.x = 4.0;
+  truth.objects[0].size.y = 2.0;
+  const MarkersOptions options;
+  const Marker marker = markersOf(truth, options).markers[0];
+  EXPECT_EQ(marker.type, Marker::LINE_LIST);
+  EXPECT_LT(marker.scale.x, options.line_width);
+  // Dashes of 0.4 m begin each 0.8 m: 5 along 4 m, 3 along 2 m.
+  ASSERT_EQ(marker.points.size(), 2U * (5 + 3 + 5 + 3));
+  EXPECT_DOUBLE_EQ(marker.points[0].x, 2.0);
+  EXPECT_DOUBLE_EQ(marker.points[1].x, 1.6);
 }
 
 TEST(Markers, ObjectsArePlacedWhereTheScanWasSeenFrom) {

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+
+#include <std_msgs/ColorRGBA.h>
+
+#include "datmo_fusion/common/object.h"
+#include "datmo_fusion/road/road_model.h"
+
+namespace datmo {
+
+// One meaning, one color: in the markers, in the legend and in camera images.
+
+/// Blue a vehicle, magenta a pedestrian, green a cyclist, brown a pole, violet what is not known.
+/// Pale what stands.
+std_msgs::ColorRGBA colorOfClass(ObjectClass object_class, bool moving, float opacity);
+
+/// Of a point of the scan, by ScanPoint.state.
+std_msgs::ColorRGBA colorOfPoint(std::uint8_t state);
+
+/// Orange on the left, pink on the right; `brightness` 0 to 1.
+std_msgs::ColorRGBA colorOfBorder(RoadSide side, float brightness, float opacity);
+
+/// Of the own vehicle.
+std_msgs::ColorRGBA colorOfOwnVehicle();
+
+}  // namespace datmo
