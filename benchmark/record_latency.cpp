@@ -115,6 +115,10 @@ class LatencyRecorder {
 }  // namespace datmo
 
 int main(int argc, char** argv) {
+  if (argc == 2 && std::string(argv[1]) == "--help") {
+    std::cout << "usage: record_latency _output:=FILE.json, beside live.launch's chain\n";
+    return EXIT_SUCCESS;
+  }
   ros::init(argc, argv, "record_latency");
   const std::string file = ros::param::param<std::string>("~output", "");
   std::ofstream out(file);

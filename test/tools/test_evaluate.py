@@ -8,6 +8,7 @@ import os
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 from datmo_tools.errors import InputError
 from datmo_tools.evaluate import main
@@ -137,16 +138,38 @@ class CommandLine(unittest.TestCase):
 
 
 class FindScoreRun(unittest.TestCase):
-    def test_beside_the_tool_and_nowhere(self):
-        with tempfile.TemporaryDirectory() as folder:
-            tool, neighbour = Path(folder) / "evaluate", Path(folder) / "score_run"
-            path = os.environ["PATH"]
-            self.addCleanup(os.environ.__setitem__, "PATH", path)
-            os.environ["PATH"] = folder + "/none"
-            with self.assertRaisesRegex(InputError, "score_run is not on PATH"):
-                find_score_run(tool)
-            neighbour.touch()
-            self.assertEqual(find_score_run(tool), str(neighbour))
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.tool = self.folder / "evaluate"
+        environment = {"PATH": str(self.folder / "none"), "CMAKE_PREFIX_PATH": str(self.folder)}
+        patch = mock.patch.dict(os.environ, environment)
+        patch.start()
+        self.addCleanup(patch.stop)
+
+    def make_program(self, folder):
+        folder.mkdir(parents=True, exist_ok=True)
+        program = folder / "score_run"
+        program.touch(mode=0o755)
+        return str(program)
+
+    def test_nowhere(self):
+        with self.assertRaisesRegex(InputError, "score_run is not beside .*source setup.bash"):
+            find_score_run(self.tool)
+
+    def test_a_tool_of_the_source_tree_finds_it_in_the_sourced_workspace(self):
+        program = self.make_program(self.folder / "lib" / "datmo_fusion")
+        self.assertEqual(find_score_run(self.tool), program)
+
+    def test_beside_the_tool_comes_first(self):
+        self.make_program(self.folder / "lib" / "datmo_fusion")
+        program = self.make_program(self.folder)
+        self.assertEqual(find_score_run(self.tool), program)
+
+    def test_on_path_last(self):
+        program = self.make_program(self.folder / "none")
+        self.assertEqual(find_score_run(self.tool), program)
 
 
 class WholeFiles(unittest.TestCase):

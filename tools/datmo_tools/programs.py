@@ -1,7 +1,10 @@
-"""The programs of the package that the benchmarks call."""
+"""The programs of the package that its Python tools call."""
 
+import os
+import shutil
 import signal
 import subprocess
+from pathlib import Path
 
 from datmo_tools.errors import InputError
 
@@ -16,6 +19,25 @@ class StepFailed(Exception):
             super().__init__(f"{step}: ended by signal {-code} ({signal.strsignal(-code)})")
         else:
             super().__init__(lines[-1] if lines else f"{step}: failed and said nothing")
+
+
+def find(name, tool):
+    """Path (string) of a program of the package that the file `tool` calls.
+
+    Looked for in the folder of the tool (devel space and installed tree hold both in one folder),
+    in the workspaces that are sourced, from CMAKE_PREFIX_PATH (a tool run from the source tree),
+    and on PATH. Raises InputError if it is in none of them.
+    """
+    prefixes = filter(None, os.environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep))
+    folders = [Path(tool).parent, *(Path(p) / "lib" / "datmo_fusion" for p in prefixes)]
+    search_path = os.pathsep.join([*map(str, folders), os.environ.get("PATH", os.defpath)])
+    found = shutil.which(name, path=search_path)
+    if found is None:
+        raise InputError(
+            f"{name} is not beside {tool}, in no sourced workspace and not on PATH;"
+            " build it, and source setup.bash of the devel space or of the installed tree"
+        )
+    return found
 
 
 def check(folder, names):

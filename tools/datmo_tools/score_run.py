@@ -1,28 +1,20 @@
 """Calls score_run, which scores one run, and reads what it wrote."""
 
 import json
-import shutil
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
+from datmo_tools import programs
 from datmo_tools.errors import InputError
 
 FORMAT = 1  # of score_run's JSON that is understood here
 
 
 def find_score_run(beside=None):
-    """Path of the program score_run: in the folder of the file `beside`, or else on PATH.
-
-    beside: path of the tool that is running, by default sys.argv[0]. Both are installed in one
-    folder.
-    """
-    neighbour = Path(beside or sys.argv[0]).parent / "score_run"
-    found = str(neighbour) if neighbour.is_file() else shutil.which("score_run")
-    if found is None:
-        raise InputError(f"{neighbour} is not there and score_run is not on PATH, expected one")
-    return found
+    """Path of the program score_run, as programs.find looks for it. beside: default sys.argv[0]."""
+    return programs.find("score_run", beside or sys.argv[0])
 
 
 def score(program, run, truth, settings):
