@@ -3,7 +3,19 @@
 
 repository=$(cd -P "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build_dir=${DATMO_FUSION_BUILD_DIR:-$repository/build}
+devel_dir=$build_dir/devel
+program_dir=$devel_dir/lib/datmo_fusion
 log_dir=$build_dir/log
+
+# job_count: compilers at a time, one a core as far as the memory that is free goes: a file that
+# includes roscpp and pluginlib takes about 1.2 GB.
+job_count() {
+  local cores jobs_in_memory
+  cores=$(nproc)
+  jobs_in_memory=$(awk '/^MemAvailable/ { print int($2 / 1.2e6) }' /proc/meminfo)
+  local jobs=$((cores < jobs_in_memory ? cores : jobs_in_memory))
+  echo $((jobs > 0 ? jobs : 1))
+}
 
 # Debian's ROS belongs to Debian's Python: another python3 that comes first on PATH breaks it.
 export PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin
@@ -45,7 +57,7 @@ run_logged() {
 use_ros() {
   set +u # catkin's setup.bash reads unset variables
   # shellcheck disable=SC1091
-  source "$build_dir/devel/setup.bash"
+  source "$devel_dir/setup.bash"
   set -u
   local port
   port=$(/usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("", 0)); print(s.getsockname()[1])')
