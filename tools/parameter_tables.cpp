@@ -1,6 +1,7 @@
 #include "parameter_tables.h"
 
 #include "datmo_fusion/common/option_table.h"
+#include "datmo_fusion/ros/cloud_to_scan_stage.h"
 #include "datmo_fusion/ros/grid_fusion_stage.h"
 #include "datmo_fusion/ros/grid_slam_stage.h"
 #include "datmo_fusion/ros/grid_views_options.h"
@@ -39,6 +40,7 @@ std::string parameterTables() {
   return kHead + section<FrameOptions>("`frames`, of all nodelets") + "\n" +
          section<MountOptions>("`mounts/<frame>`, of all nodelets, for each sensor without tf") +
          "\n" + section<MotionOptions>("`motion`, of all nodelets") + "\n" +
+         section<CloudToScanStageOptions>("`cloud_to_scan`") + "\n" +
          section<LidarGridStageOptions>("`lidar_grid`") + "\n" +
          section<StereoGridStageOptions>("`stereo_grid`") + "\n" +
          section<GridFusionStageOptions>("`grid_fusion`") + "\n" +

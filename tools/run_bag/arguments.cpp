@@ -8,10 +8,20 @@ namespace datmo {
 
 namespace {
 
-const std::array<std::string, 12> kInputTopics = {
-    "scan",         "echoes",      "odometry",         "imu",
-    "twist",        "points2",     "left_image",       "twist_with_covariance",
-    "joint_states", "right_image", "left_camera_info", "right_camera_info",
+const std::array<std::string, 13> kInputTopics = {
+    "scan",
+    "cloud",
+    "echoes",
+    "odometry",
+    "imu",
+    "twist",
+    "points2",
+    "left_image",
+    "twist_with_covariance",
+    "joint_states",
+    "right_image",
+    "left_camera_info",
+    "right_camera_info",
 };
 
 const std::map<std::string, LastStage> kStages = {
@@ -205,7 +215,8 @@ std::string usage() {
          "  --write-grids         writes /grids/lidar, /grids/stereo, /grids/fused, "
          "/grids/conflict\n"
          "  --times FILE.json     how long each stage took for a message\n"
-         "  TOPIC:=...            scan, echoes, odometry, imu, twist, twist_with_covariance,\n"
+         "  TOPIC:=...            scan, cloud (a 3D lidar's, in place of scans), echoes,\n"
+         "                        odometry, imu, twist, twist_with_covariance,\n"
          "                        joint_states, points2, left_image, right_image, "
          "left_camera_info\n"
          "                        or right_camera_info under another name\n"

@@ -126,6 +126,9 @@ class BagRun {
     };
     on<sensor_msgs::LaserScan>(topics.scan, take);
     on<sensor_msgs::MultiEchoLaserScan>(topics.echoes, take);
+    on<sensor_msgs::PointCloud2>(topics.cloud, [this](const auto& message, Stamp now) {
+      return pipeline_.takeLidarCloud(*message, now);
+    });
   }
 
   void readStereo(const StereoTopics& topics) {
@@ -152,6 +155,9 @@ class BagRun {
         output_.write("/grids/" + name, time, *grid);
       }
     }
+    for (const CloudToScanOutput& scan : results.cloud_scans) {
+      writeCloudScan(time, scan);
+    }
     for (const GridSlamOutput& slam : results.slam) {
       writeSlam(time, slam);
     }
@@ -173,6 +179,15 @@ class BagRun {
     for (const nav_msgs::OccupancyGridPtr& map : results.maps) {
       output_.write("/map", time, *map);
     }
+  }
+
+  void writeCloudScan(const ros::Time& time, const CloudToScanOutput& output) {
+    if (output.mount) {
+      tf2_msgs::TFMessage mount;
+      mount.transforms = {*output.mount};
+      output_.write("/tf_static", time, mount);
+    }
+    output_.write("/cloud_scan", time, *output.scan);
   }
 
   void writeSlam(const ros::Time& time, const GridSlamOutput& slam) {
@@ -208,8 +223,8 @@ OrderedMessages inOrder(rosbag::View& view, const InputTopics& topics) {
   OrderedMessages messages;
   for (const rosbag::MessageInstance& message : view) {
     const std::string& topic = message.getTopic();
-    const bool measured =
-        topic == topics.scan || topic == topics.echoes || topic == topics.stereo.points;
+    const bool measured = topic == topics.scan || topic == topics.echoes || topic == topics.cloud ||
+                          topic == topics.stereo.points;
     messages.emplace(std::make_pair(message.getTime(), measured), message);
   }
   return messages;
@@ -267,8 +282,9 @@ void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progres
   const InputTopics topics = findTopics(bag, arguments, options);
   OutputBag output(arguments.output);
   Pipeline pipeline(options,
-                    {arguments.last_stage, arguments.low_level_fusion, arguments.road_border,
-                     arguments.object_fusion, arguments.track_fusion, topics.stereo.input()});
+                    {arguments.last_stage, !topics.cloud.empty(), arguments.low_level_fusion,
+                     arguments.road_border, arguments.object_fusion, arguments.track_fusion,
+                     topics.stereo.input()});
   DriveSummary drive;
   BagRun run(topics, pipeline, drive, output, arguments.write_grids);
 

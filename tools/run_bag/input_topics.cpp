@@ -171,6 +171,26 @@ MotionTopics motionTopics(const rosbag::Bag& bag, const Arguments& arguments,
   return topics;
 }
 
+/// A cloud that the command line names serves in place of scans; otherwise scans, and without any
+/// the cloud on /cloud.
+void findScanTopics(const rosbag::Bag& bag, const Arguments& arguments, InputTopics& topics) {
+  const std::string cloud = arguments.inputTopic("cloud");
+  const bool asked = arguments.remappings.count("/cloud") > 0;
+  const bool has_scan = holdsTopic(bag, topics.scan) || holdsTopic(bag, topics.echoes);
+  if (asked && !holdsTopic(bag, cloud)) {
+    failForTopic(bag, "no PointCloud2 on " + cloud);
+  }
+  if (asked || (!has_scan && holdsTopic(bag, cloud))) {
+    topics.cloud = cloud;
+    topics.scan.clear();
+    topics.echoes.clear();
+  } else if (!has_scan) {
+    failForTopic(bag, "neither a LaserScan on " + topics.scan + " nor a MultiEchoLaserScan on " +
+                          topics.echoes + " nor a 3D lidar's PointCloud2 on " + cloud +
+                          " (cloud:=TOPIC names another)");
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> MotionTopics::all() const {
@@ -194,11 +214,11 @@ StereoPoints StereoTopics::input() const {
 
 std::vector<std::string> InputTopics::all() const {
   std::vector<std::string> topics = truth;
-  topics.insert(topics.end(), {scan, echoes, "/tf"});
+  topics.insert(topics.end(), {"/tf"});
   const std::vector<std::string> motion_topics = motion.all();
   topics.insert(topics.end(), motion_topics.begin(), motion_topics.end());
-  for (const std::string& topic : {stereo.points, stereo.left_image, stereo.right_image,
-                                   stereo.left_info, stereo.right_info}) {
+  for (const std::string& topic : {scan, echoes, cloud, stereo.points, stereo.left_image,
+                                   stereo.right_image, stereo.left_info, stereo.right_info}) {
     if (!topic.empty()) {
       topics.push_back(topic);
     }
@@ -216,10 +236,7 @@ InputTopics findTopics(const rosbag::Bag& bag, const Arguments& arguments,
   InputTopics topics;
   topics.scan = arguments.inputTopic("scan");
   topics.echoes = arguments.inputTopic("echoes");
-  if (!holdsTopic(bag, topics.scan) && !holdsTopic(bag, topics.echoes)) {
-    failForTopic(bag, "neither a LaserScan on " + topics.scan + " nor a MultiEchoLaserScan on " +
-                          topics.echoes);
-  }
+  findScanTopics(bag, arguments, topics);
   topics.motion = motionTopics(bag, arguments, options.shared.motion);
   if (arguments.low_level_fusion) {
     findLowLevelTopics(bag, arguments, options.low_level.grid_fusion, topics);

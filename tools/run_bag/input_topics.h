@@ -39,6 +39,7 @@ struct MotionTopics {
 /// The names that our inputs have in the bag.
 struct InputTopics {
   std::string scan;
+  std::string cloud;  ///< of a 3D lidar, that scans are made of; empty: there are scans
   std::string echoes;
   MotionTopics motion;
   StereoTopics stereo;

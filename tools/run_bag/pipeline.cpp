@@ -47,6 +47,9 @@ Pipeline::Pipeline(const PipelineOptions& options, const Wiring& wiring)
       slam_(options_.grid_slam, transforms_, slam_monitor_),
       detector_(options_.moving_objects, detector_monitor_),
       tracker_(options_.tracker, transforms_, tracker_monitor_) {
+  if (wiring.scan_from_cloud) {
+    cloud_to_scan_.emplace(options_.cloud_to_scan, transforms_, cloud_monitor_);
+  }
   if (wiring.road_border) {
     road_border_.emplace(options_.road_border, road_border_monitor_);
   }
@@ -108,6 +111,24 @@ Pipeline::Output Pipeline::followMotion(const nav_msgs::OdometryPtr& odometry, S
     return takeOdometry(*odometry, now);
   }
   return {};
+}
+
+Pipeline::Output Pipeline::takeLidarCloud(const sensor_msgs::PointCloud2& message, Stamp now) {
+  Output output;
+  if (!cloud_to_scan_) {
+    return output;
+  }
+  if (auto scan = cloud_to_scan_->takeCloud(message)) {
+    bookTime(cloud_monitor_);
+    if (scan->mount) {
+      tf2_msgs::TFMessage mount;
+      mount.transforms = {*scan->mount};
+      transforms_.addStatic(mount);
+    }
+    feedScan(*scan->scan, now, output);
+    output.cloud_scans.push_back(std::move(*scan));
+  }
+  return output;
 }
 
 Pipeline::Output Pipeline::takeCloud(const sensor_msgs::PointCloud2& message, Stamp now) {
@@ -201,6 +222,9 @@ std::vector<const StageMonitor*> Pipeline::doors() const {
   std::vector<const StageMonitor*> monitors{&inputs_monitor_};
   if (options_.shared.motion.fromSensors()) {
     monitors.push_back(&motion_monitor_);
+  }
+  if (cloud_to_scan_) {
+    monitors.push_back(&cloud_monitor_);
   }
   if (images_) {
     monitors.push_back(&images_monitor_);

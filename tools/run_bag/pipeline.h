@@ -14,6 +14,7 @@
 #include "wiring.h"
 #include <tf2_msgs/TFMessage.h>
 
+#include "datmo_fusion/ros/cloud_to_scan_stage.h"
 #include "datmo_fusion/ros/motion_stage.h"
 #include "datmo_fusion/ros/stage_monitor.h"
 #include "datmo_fusion/ros/transform_buffer.h"
@@ -24,6 +25,10 @@ namespace datmo {
 ///
 ///     scan, odometry, tf ─► grid_slam ─ split scan ─► moving_objects ─ objects ─► tracker ─ tracks
 ///                               └───────── split scan, map -> odom ──────────────────┘
+///
+/// with the clouds of a 3D lidar in place of scans
+///
+///     cloud, tf ──► cloud_to_scan ─ scan
 ///
 /// with a motion that other sensors tell, motion before it,
 ///
@@ -50,6 +55,7 @@ class Pipeline {
   /// What one message led to, each in the order in which it came to be.
   struct Output {
     std::vector<LowLevelPipeline::NamedGrid> grids;
+    std::vector<CloudToScanOutput> cloud_scans;  ///< made of clouds
     std::vector<GridSlamOutput> slam;
     std::vector<RoadBordersPtr> borders;
     std::vector<DroppedObjectsPtr> dropped;  ///< at the borders
@@ -80,17 +86,12 @@ class Pipeline {
   template <typename Message>
   Output takeScan(const Message& message, Stamp now) {
     Output output;
-    if (last_ != LastStage::kGridFusion) {
-      if (auto slam = slam_.takeScan(message)) {
-        followSlam(std::move(*slam), now, output);
-      }
-    }
-    if (low_level_) {
-      low_level_->takeScan(message, now, output.grids);
-    }
-    followFusion(now, output);
+    feedScan(message, now, output);
     return output;
   }
+
+  /// Of a 3D lidar, read where scans come from it.
+  Output takeLidarCloud(const sensor_msgs::PointCloud2& message, Stamp now);
 
   /// The stereo camera's messages, read with fusion alone; images where points come from them.
   Output takeCloud(const sensor_msgs::PointCloud2& message, Stamp now);
@@ -117,6 +118,19 @@ class Pipeline {
   const StageMonitor& inputs() const { return inputs_monitor_; }
 
  private:
+  template <typename Message>
+  void feedScan(const Message& message, Stamp now, Output& output) {
+    if (last_ != LastStage::kGridFusion) {
+      if (auto slam = slam_.takeScan(message)) {
+        followSlam(std::move(*slam), now, output);
+      }
+    }
+    if (low_level_) {
+      low_level_->takeScan(message, now, output.grids);
+    }
+    followFusion(now, output);
+  }
+
   bool reaches(LastStage stage) const { return last_ >= stage; }
   /// Odometry made of other sensors (null: there is none) goes the way of the vehicle's own.
   Output followMotion(const nav_msgs::OdometryPtr& odometry, Stamp now);
@@ -144,6 +158,7 @@ class Pipeline {
   StageMonitor inputs_monitor_{"inputs"};
   TransformBuffer transforms_;
   StageMonitor motion_monitor_{"motion"};
+  StageMonitor cloud_monitor_{"cloud_to_scan"};
   StageMonitor images_monitor_{"stereo_images"};
   StageMonitor slam_monitor_{"grid_slam"};
   StageMonitor road_border_monitor_{"road_border"};
@@ -151,6 +166,7 @@ class Pipeline {
   StageMonitor stereo_objects_monitor_{"stereo_objects"};
   StageMonitor tracker_monitor_{"tracker"};
   StageTimes times_;
+  std::optional<CloudToScanStage> cloud_to_scan_;        ///< none if there are scans
   std::optional<StereoImages> images_;                   ///< none if there are clouds
   std::unique_ptr<LowLevelPipeline> low_level_;          ///< null without low-level fusion
   std::optional<StereoObjectsStage> stereo_objects_;     ///< none if no level uses them

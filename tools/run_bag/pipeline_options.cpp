@@ -12,11 +12,11 @@ namespace {
 
 /// What all share, and one for each nodelet; those without a stage in the pipeline are for live use
 /// alone.
-const std::array<std::string, 19> kSections = {
-    kFramesSection,   kMountsSection,  kMotionSection,   "stereo_image_proc", "lidar_grid",
-    "stereo_grid",    "grid_fusion",   "grid_slam",      "road_border",       "moving_objects",
-    "stereo_objects", "object_fusion", "tracker",        "stereo_tracker",    "track_fusion",
-    "markers",        "lidar_markers", "stereo_markers", "grid_views"};
+const std::array<std::string, 20> kSections = {
+    kFramesSection,   kMountsSection,   kMotionSection,  "cloud_to_scan",  "stereo_image_proc",
+    "lidar_grid",     "stereo_grid",    "grid_fusion",   "grid_slam",      "road_border",
+    "moving_objects", "stereo_objects", "object_fusion", "tracker",        "stereo_tracker",
+    "track_fusion",   "markers",        "lidar_markers", "stereo_markers", "grid_views"};
 
 std::string sectionNames() {
   std::string names;
@@ -69,7 +69,8 @@ PipelineOptions readPipelineOptions(const std::string& file) {
   }
   checkSections(file, root);
   const SharedOptions shared = readShared(file, root);
-  return {readSection<StereoImagesOptions>(file, root, "stereo_image_proc", shared),
+  return {readSection<CloudToScanStageOptions>(file, root, "cloud_to_scan", shared),
+          readSection<StereoImagesOptions>(file, root, "stereo_image_proc", shared),
           {readSection<LidarGridStageOptions>(file, root, "lidar_grid", shared),
            readSection<StereoGridStageOptions>(file, root, "stereo_grid", shared),
            readSection<GridFusionStageOptions>(file, root, "grid_fusion", shared)},

@@ -4,6 +4,7 @@
 
 #include "stereo_images_options.h"
 
+#include "datmo_fusion/ros/cloud_to_scan_stage.h"
 #include "datmo_fusion/ros/grid_fusion_stage.h"
 #include "datmo_fusion/ros/grid_slam_stage.h"
 #include "datmo_fusion/ros/lidar_grid_stage.h"
@@ -32,6 +33,7 @@ struct TrackFusionOptions {
 
 /// The options of all stages, as in the sections of a sensor set's yaml file.
 struct PipelineOptions {
+  CloudToScanStageOptions cloud_to_scan;
   StereoImagesOptions stereo_images;
   LowLevelOptions low_level;
   GridSlamStageOptions grid_slam;
