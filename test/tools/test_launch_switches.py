@@ -143,6 +143,13 @@ class LaunchSwitches(unittest.TestCase):
             self.assertEqual(remapped(nodes[name], "points2"), "cloud")
             self.assertEqual(remapped(nodes[name], "right/camera_info"), "info")
 
+    def test_a_cloud_takes_the_place_of_the_scan(self):
+        nodes, _ = loaded("perception.launch", low_level_fusion=True, cloud="/velodyne_points")
+        self.assertEqual(remapped(nodes["cloud_to_scan"], "cloud"), "/velodyne_points")
+        for name in ("cloud_to_scan", "grid_slam", "lidar_grid"):
+            self.assertEqual(remapped(nodes[name], "scan"), "cloud_scan")
+        self.assertEqual(nodelets(nodes)["cloud_to_scan"], "datmo_fusion/cloud_to_scan")
+
     def test_another_system_may_publish_the_stereo_objects(self):
         for level, members in (("object_fusion", OBJECT_LEVEL),
                                       ("track_fusion", TRACK_LEVEL)):
