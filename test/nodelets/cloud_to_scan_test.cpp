@@ -18,6 +18,9 @@ class CloudDoor : public Listener {
     scan_ = node_.subscribe<sensor_msgs::LaserScan>(
         "scan", kQueue,
         [this](const sensor_msgs::LaserScanConstPtr& scan) { scans.push_back(scan); });
+    tf_static_heard_ = node_.subscribe<tf2_msgs::TFMessage>(
+        "/tf_static", kQueue,
+        [this](const tf2_msgs::TFMessageConstPtr& list) { transforms.addStatic(*list); });
     tf2_msgs::TFMessage mount;
     mount.transforms = {samples::transform("base_link", "velodyne", 0.5)};
     mount.transforms[0].transform.translation.z = samples::kLidarHeight;
@@ -46,6 +49,7 @@ class CloudDoor : public Listener {
   ros::Publisher tf_static_ = node_.advertise<tf2_msgs::TFMessage>("/tf_static", kQueue, true);
   ros::Publisher cloud_ = node_.advertise<sensor_msgs::PointCloud2>("cloud", kQueue);
   ros::Subscriber scan_;
+  ros::Subscriber tf_static_heard_;
 };
 
 TEST(CloudToScanNodelet, ACloudComesOutAsAScanBelowTheLidar) {
