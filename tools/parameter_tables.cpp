@@ -1,6 +1,7 @@
 #include "parameter_tables.h"
 
 #include "datmo_fusion/common/option_table.h"
+#include "datmo_fusion/ros/camera_view_options.h"
 #include "datmo_fusion/ros/cloud_to_scan_stage.h"
 #include "datmo_fusion/ros/grid_fusion_stage.h"
 #include "datmo_fusion/ros/grid_slam_stage.h"
@@ -52,7 +53,8 @@ std::string parameterTables() {
          section<TrackerStageOptions>("`tracker`, `stereo_tracker`") + "\n" +
          section<TrackFusionStageOptions>("`track_fusion`") + "\n" +
          section<MarkersOptions>("`markers`, `lidar_markers`, `stereo_markers`") + "\n" +
-         section<GridViewsOptions>("`grid_views`");
+         section<GridViewsOptions>("`grid_views`") + "\n" +
+         section<CameraViewOptions>("`camera_view`");
 }
 
 }  // namespace datmo

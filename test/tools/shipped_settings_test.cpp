@@ -8,6 +8,7 @@
 #include "yaml_options.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/ros/camera_view_options.h"
 #include "datmo_fusion/ros/grid_views_options.h"
 #include "datmo_fusion/ros/markers.h"
 
@@ -35,6 +36,9 @@ TEST(SensorSets, AreReadWithoutAnUnknownKeyOrABadValue) {
       if (const YAML::Node markers = loadYaml(file)[name]) {
         EXPECT_NO_THROW(readOptions<MarkersOptions>(optionValues(markers))) << file;
       }
+    }
+    if (const YAML::Node view = loadYaml(file)["camera_view"]) {
+      EXPECT_NO_THROW(readOptions<CameraViewOptions>(optionValues(view))) << file;
     }
     if (const YAML::Node views = loadYaml(file)["grid_views"]) {
       EXPECT_NO_THROW(readOptions<GridViewsOptions>(optionValues(views)).panelNames()) << file;

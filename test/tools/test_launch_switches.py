@@ -20,8 +20,8 @@ TRACK_LEVEL = {"stereo_objects", "stereo_tracker", "track_fusion", "lidar_marker
                "stereo_markers"}
 ROAD_BORDER = {"road_border"}
 IMAGES = {"none": set(),
-          "rectified": {"stereo_image_proc", "stereo_points"},
-          "raw": {"stereo_image_proc", "stereo_points", "left_debayer", "left_rectify",
+          "rectified": {"camera_view", "stereo_image_proc", "stereo_points"},
+          "raw": {"camera_view", "stereo_image_proc", "stereo_points", "left_debayer", "left_rectify",
                   "right_debayer", "right_rectify"}}
 
 

@@ -12,11 +12,12 @@ namespace {
 
 /// What all share, and one for each nodelet; those without a stage in the pipeline are for live use
 /// alone.
-const std::array<std::string, 20> kSections = {
+const std::array<std::string, 21> kSections = {
     kFramesSection,   kMountsSection,   kMotionSection,  "cloud_to_scan",  "stereo_image_proc",
     "lidar_grid",     "stereo_grid",    "grid_fusion",   "grid_slam",      "road_border",
     "moving_objects", "stereo_objects", "object_fusion", "tracker",        "stereo_tracker",
-    "track_fusion",   "markers",        "lidar_markers", "stereo_markers", "grid_views"};
+    "track_fusion",   "markers",        "lidar_markers", "stereo_markers", "grid_views",
+    "camera_view"};
 
 std::string sectionNames() {
   std::string names;

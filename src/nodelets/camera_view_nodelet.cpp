@@ -1,0 +1,84 @@
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <nodelet/nodelet.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "datmo_fusion/ros/camera_view.h"
+#include "datmo_fusion/ros/frame_ids.h"
+#include "datmo_fusion/ros/parameters.h"
+#include "datmo_fusion/ros/stage_reporter.h"
+#include "datmo_fusion/ros/transform_subscription.h"
+
+namespace datmo {
+
+/// The door to CameraView. In: image, camera_info, tracks, tf. Out: camera_view. It subscribes to
+/// the images only while somebody looks, so that nobody rectifies them for nothing.
+class CameraViewNodelet : public nodelet::Nodelet {
+ private:
+  void onInit() override {
+    const auto options = loadOptions<CameraViewOptions>(getPrivateNodeHandle());
+    monitor_ = std::make_unique<StageMonitor>(getName());
+    transforms_ = std::make_unique<TransformBuffer>(
+        options.input.restart_after, loadSharedOptions(getPrivateNodeHandle()), *monitor_);
+    view_ = std::make_unique<CameraView>(options, *transforms_, *monitor_);
+    ros::NodeHandle& node = getNodeHandle();
+    // No input is missed while nobody looks.
+    reporter_ =
+        std::make_unique<StageReporter>(node, getPrivateNodeHandle(), *monitor_,
+                                        std::vector<std::string>{}, options.input.silence_after);
+    transform_subscription_ = std::make_unique<TransformSubscription>(node, *transforms_, *monitor_,
+                                                                      [this] { publish(); });
+    camera_info_ = node.subscribe("camera_info", kQueue, &CameraViewNodelet::takeCameraInfo, this);
+    tracks_ = node.subscribe("tracks", kQueue, &CameraViewNodelet::takeTracks, this);
+    const auto look = [this](const ros::SingleSubscriberPublisher& /*who*/) { lookOrNot(); };
+    picture_ = node.advertise<sensor_msgs::Image>("camera_view", 1, look, look);
+  }
+
+  void lookOrNot() {
+    if (picture_.getNumSubscribers() == 0) {
+      images_.shutdown();
+    } else if (!images_) {
+      images_ = getNodeHandle().subscribe("image", kQueue, &CameraViewNodelet::takeImage, this);
+    }
+  }
+
+  void takeCameraInfo(const sensor_msgs::CameraInfoConstPtr& message) {
+    view_->takeCameraInfo(*withPlainFrames("camera_info", message, *monitor_));
+  }
+
+  void takeTracks(const TrackArrayConstPtr& message) {
+    view_->takeTracks(withPlainFrames("tracks", message, *monitor_));
+    publish();
+  }
+
+  void takeImage(const sensor_msgs::ImageConstPtr& message) {
+    view_->takeImage(receive("image", message, *monitor_), toStamp(ros::Time::now()));
+    publish();
+  }
+
+  void publish() {
+    while (const auto picture = view_->next(toStamp(ros::Time::now()))) {
+      picture_.publish(picture);
+      reporter_->publishTiming();
+    }
+  }
+
+  /// A few images, of several MB each: enough for a hiccup, and bounded.
+  static constexpr std::uint32_t kQueue = 5;
+
+  std::unique_ptr<StageMonitor> monitor_;
+  std::unique_ptr<TransformBuffer> transforms_;
+  std::unique_ptr<CameraView> view_;
+  std::unique_ptr<StageReporter> reporter_;
+  std::unique_ptr<TransformSubscription> transform_subscription_;
+  ros::Publisher picture_;
+  ros::Subscriber camera_info_;
+  ros::Subscriber tracks_;
+  ros::Subscriber images_;
+};
+
+}  // namespace datmo
+
+PLUGINLIB_EXPORT_CLASS(datmo::CameraViewNodelet, nodelet::Nodelet)

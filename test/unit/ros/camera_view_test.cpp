@@ -1,0 +1,285 @@
+#include "datmo_fusion/ros/camera_view.h"
+
+#include <cmath>
+
+#include "monitor_counts.h"
+#include <boost/make_shared.hpp>
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/ros/message_conversion.h"
+
+namespace datmo {
+namespace {
+
+using samples::drops;
+using samples::warnings;
+
+constexpr std::uint32_t kWidth = 640;
+constexpr std::uint32_t kHeight = 480;
+constexpr double kFocalLength = 400.0;     // px
+constexpr double kHeightOverGround = 1.5;  // m
+constexpr std::uint8_t kGray = 60;
+constexpr double kStart = 100.0;  // s
+
+sensor_msgs::CameraInfo cameraInfo() {
+  sensor_msgs::CameraInfo info;
+  info.header.frame_id = "camera";
+  info.width = kWidth;
+  info.height = kHeight;
+  info.K = {kFocalLength, 0.0, 320.0, 0.0, kFocalLength, 240.0, 0.0, 0.0, 1.0};
+  info.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+  info.P = {kFocalLength, 0.0, 320.0, 0.0, 0.0, kFocalLength, 240.0, 0.0, 0.0, 0.0, 1.0, 0.0};
+  return info;
+}
+
+sensor_msgs::ImagePtr image(double seconds) {
+  auto message = boost::make_shared<sensor_msgs::Image>();
+  message->header.frame_id = "camera";
+  message->header.stamp = ros::Time(seconds);
+  message->encoding = "mono8";
+  message->width = kWidth;
+  message->height = kHeight;
+  message->step = kWidth;
+  message->data.assign(std::size_t{kWidth} * kHeight, kGray);
+  return message;
+}
+
+/// A vehicle `ahead` of the map's origin that drives away at `speed`.
+TrackArrayPtr tracks(double seconds, double ahead, double speed) {
+  auto message = boost::make_shared<TrackArray>();
+  message->header.frame_id = "map";
+  message->header.stamp = ros::Time(seconds);
+  TrackMessage track;
+  track.id = 7;
+  track.pose = toMessage(Pose2(ahead, 0.0, 0.0));
+  track.size.x = 4.0;
+  track.size.y = 2.0;
+  track.size.z = 1.5;
+  track.velocity.x = speed;
+  track.moving = speed != 0.0;
+  track.classification = ObjectMessage::CLASS_VEHICLE;
+  message->tracks.push_back(track);
+  return message;
+}
+
+class CameraViewTest : public testing::Test {
+ protected:
+  /// The camera at the map's origin, above the ground, looks along x.
+  void mountCamera(double seconds) {
+    geometry_msgs::TransformStamped transform;
+    transform.header.frame_id = "map";
+    transform.header.stamp = ros::Time(seconds);
+    transform.child_frame_id = "camera";
+    transform.transform.translation.z = kHeightOverGround;
+    transform.transform.rotation.x = -0.5;
+    transform.transform.rotation.y = 0.5;
+    transform.transform.rotation.z = -0.5;
+    transform.transform.rotation.w = 0.5;
+    tf2_msgs::TFMessage message;
+    message.transforms = {transform};
+    transforms_.add(message);
+  }
+
+  sensor_msgs::ImagePtr show(const sensor_msgs::ImagePtr& message, double waited = 0.0) {
+    const double seconds = message->header.stamp.toSec();
+    view_.takeImage(message, Stamp::fromSeconds(seconds));
+    return view_.next(Stamp::fromSeconds(seconds + waited));
+  }
+
+  /// Whether a pixel is not of the image any more.
+  static bool isDrawn(const sensor_msgs::Image& picture, int column, int row) {
+    const std::size_t at =
+        static_cast<std::size_t>(row) * picture.step + 3 * static_cast<std::size_t>(column);
+    return picture.data[at] != kGray || picture.data[at + 1] != kGray ||
+           picture.data[at + 2] != kGray;
+  }
+
+  static bool anyDrawn(const sensor_msgs::Image& picture) {
+    for (int row = 0; row < static_cast<int>(picture.height); ++row) {
+      for (int column = 0; column < static_cast<int>(picture.width); ++column) {
+        if (isDrawn(picture, column, row)) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  TransformBuffer transforms_{1.0};
+  StageMonitor monitor_{"camera_view"};
+  CameraView view_{CameraViewOptions(), transforms_, monitor_};
+};
+
+TEST_F(CameraViewTest, ATrackIsABoxWhereTheCameraSeesIt) {
+  view_.takeCameraInfo(cameraInfo());
+  mountCamera(kStart);
+  view_.takeTracks(tracks(kStart, 12.0, 0.0));
+  const auto picture = show(image(kStart));
+  ASSERT_TRUE(picture);
+  EXPECT_EQ(picture->encoding, "bgr8");
+  EXPECT_EQ(picture->header.stamp, ros::Time(kStart));
+  // Its rear, 10 m away: from 320 - 40 to 320 + 40 px, from 240 px (the roof is as high as the
+  // camera) to 240 + 60 px.
+  EXPECT_TRUE(isDrawn(*picture, 280, 270));
+  EXPECT_TRUE(isDrawn(*picture, 360, 270));
+  EXPECT_TRUE(isDrawn(*picture, 320, 300));
+  EXPECT_FALSE(isDrawn(*picture, 270, 270));
+  EXPECT_FALSE(isDrawn(*picture, 320, 310));
+  EXPECT_EQ(monitor_.processedCount(), 1U);
+}
+
+TEST_F(CameraViewTest, ATrackIsWhereItIsWhenTheImageIsExposed) {
+  view_.takeCameraInfo(cameraInfo());
+  mountCamera(kStart);
+  mountCamera(kStart + 0.5);
+  // Drives away at 10 m/s: from 8 m to 12 m in 0.4 s, with its rear at 10 m.
+  view_.takeTracks(tracks(kStart + 0.1, 8.0, 10.0));
+  const auto picture = show(image(kStart + 0.5), 0.4);
+  ASSERT_TRUE(picture);
+  EXPECT_TRUE(isDrawn(*picture, 280, 270));
+  EXPECT_TRUE(isDrawn(*picture, 320, 300));
+  EXPECT_FALSE(isDrawn(*picture, 320, 340)) << "where it was";
+}
+
+TEST_F(CameraViewTest, LabelsDoNotCoverEachOther) {
+  view_.takeCameraInfo(cameraInfo());
+  mountCamera(kStart);
+  const auto labelRows = [this](double seconds, const TrackArrayPtr& list) {
+    mountCamera(seconds);
+    view_.takeTracks(list);
+    const auto picture = show(image(seconds));
+    int rows = 0;  // above the box, where only labels are
+    for (int row = 0; picture && row < 238; ++row) {
+      rows += isDrawn(*picture, 300, row) ? 1 : 0;
+    }
+    return rows;
+  };
+  const auto two = tracks(kStart + 0.1, 12.0, 0.0);
+  two->tracks.push_back(two->tracks[0]);
+  const int one = labelRows(kStart, tracks(kStart, 12.0, 0.0));
+  EXPECT_GT(one, 10);
+  EXPECT_EQ(labelRows(kStart + 0.1, two), 2 * one);
+}
+
+TEST_F(CameraViewTest, ATrackBehindTheCameraIsNotDrawn) {
+  view_.takeCameraInfo(cameraInfo());
+  mountCamera(kStart);
+  view_.takeTracks(tracks(kStart, -12.0, 0.0));
+  const auto picture = show(image(kStart));
+  ASSERT_TRUE(picture);
+  EXPECT_FALSE(anyDrawn(*picture));
+}
+
+TEST_F(CameraViewTest, AFarTrackIsNotDrawn) {
+  view_.takeCameraInfo(cameraInfo());
+  mountCamera(kStart);
+  view_.takeTracks(tracks(kStart, 81.0, 0.0));
+  const auto picture = show(image(kStart));
+  ASSERT_TRUE(picture);
+  EXPECT_FALSE(anyDrawn(*picture));
+}
+
+TEST_F(CameraViewTest, ARightCameraSeesItFartherToTheLeft) {
+  auto info = cameraInfo();
+  info.P[3] = -kFocalLength * 0.5;  // 0.5 m to the right of its frame's origin
+  view_.takeCameraInfo(info);
+  mountCamera(kStart);
+  view_.takeTracks(tracks(kStart, 12.0, 0.0));
+  const auto picture = show(image(kStart));
+  ASSERT_TRUE(picture);
+  EXPECT_TRUE(isDrawn(*picture, 260, 270)) << "280 px - 400 px * 0.5 m / 10 m";
+}
+
+TEST_F(CameraViewTest, AnImageWaitsForTracksThatAreNotOlderThanItself) {
+  view_.takeCameraInfo(cameraInfo());
+  mountCamera(kStart);
+  view_.takeTracks(tracks(kStart - 0.1, 12.0, 0.0));
+  EXPECT_FALSE(show(image(kStart)));
+  view_.takeTracks(tracks(kStart, 12.0, 0.0));
+  EXPECT_TRUE(view_.next(Stamp::fromSeconds(kStart + 0.05)));
+}
+
+TEST_F(CameraViewTest, AnImageWaitsForItsTransformAndIsDroppedWithoutOne) {
+  view_.takeCameraInfo(cameraInfo());
+  view_.takeTracks(tracks(kStart, 12.0, 0.0));
+  EXPECT_FALSE(show(image(kStart)));
+  EXPECT_EQ(monitor_.droppedCount(), 0U);
+  mountCamera(kStart);
+  EXPECT_TRUE(view_.next(Stamp::fromSeconds(kStart + 0.1)));
+  view_.takeTracks(tracks(kStart + 0.2, 12.0, 0.0));
+  EXPECT_FALSE(show(image(kStart + 0.2), 0.4));
+  EXPECT_EQ(drops(monitor_, "missing_transform"), 1U);
+}
+
+TEST_F(CameraViewTest, OldTracksAreNotDrawn) {
+  view_.takeCameraInfo(cameraInfo());
+  mountCamera(kStart);
+  view_.takeTracks(tracks(kStart - 0.6, 12.0, 0.0));
+  const auto picture = show(image(kStart), 0.4);
+  ASSERT_TRUE(picture) << "the image is shown all the same";
+  EXPECT_FALSE(anyDrawn(*picture));
+  EXPECT_EQ(warnings(monitor_, "old_tracks"), 1U);
+}
+
+TEST_F(CameraViewTest, ImagesThatDoNotFitTheirCameraInfoAreRefused) {
+  show(image(kStart));
+  EXPECT_EQ(drops(monitor_, "missing_camera_info"), 1U);
+  view_.takeCameraInfo(cameraInfo());
+  const auto small = image(kStart + 0.1);
+  small->width = kWidth / 2;
+  small->step = kWidth / 2;
+  show(small);
+  EXPECT_EQ(drops(monitor_, "wrong_size"), 1U);
+  const auto other = image(kStart + 0.2);
+  other->header.frame_id = "other_camera";
+  show(other);
+  EXPECT_EQ(drops(monitor_, "wrong_frame"), 1U);
+}
+
+TEST_F(CameraViewTest, ACameraInfoWithoutCalibrationIsRefused) {
+  auto info = cameraInfo();
+  info.P[0] = 0.0;
+  view_.takeCameraInfo(info);
+  info.P[0] = std::nan("");
+  view_.takeCameraInfo(info);
+  EXPECT_EQ(drops(monitor_, "bad_camera_info"), 2U);
+}
+
+TEST_F(CameraViewTest, ImagesThatCannotBeReadAreRefused) {
+  view_.takeCameraInfo(cameraInfo());
+  mountCamera(kStart);
+  mountCamera(kStart + 1.0);
+  view_.takeTracks(tracks(kStart + 1.0, 12.0, 0.0));
+  const auto disparity = image(kStart);
+  disparity->encoding = "32FC1";
+  EXPECT_FALSE(show(disparity));
+  const auto cut = image(kStart + 0.1);
+  cut->data.resize(10);
+  EXPECT_FALSE(show(cut));
+  const auto unknown = image(kStart + 0.2);
+  unknown->encoding = "no such";
+  EXPECT_FALSE(show(unknown));
+  EXPECT_EQ(drops(monitor_, "bad_encoding"), 3U);
+  EXPECT_TRUE(show(image(kStart + 0.6))) << "the next one is shown";
+}
+
+TEST_F(CameraViewTest, AClockThatJumpsBackBeginsAnew) {
+  view_.takeCameraInfo(cameraInfo());
+  mountCamera(kStart);
+  view_.takeTracks(tracks(kStart, 12.0, 0.0));
+  EXPECT_TRUE(show(image(kStart)));
+  mountCamera(10.0);
+  view_.takeTracks(tracks(10.0, 12.0, 0.0));
+  const auto picture = show(image(10.0));
+  ASSERT_TRUE(picture);
+  EXPECT_TRUE(anyDrawn(*picture));
+  EXPECT_EQ(warnings(monitor_, "clock_restart"), 1U);
+}
+
+TEST(CameraViewOptions, ValuesOutOfRangeAreRefused) {
+  EXPECT_THROW(readOptions<CameraViewOptions>({{"line_width", 0}}), OptionError);
+  EXPECT_THROW(readOptions<CameraViewOptions>({{"track_timeout", -1.0}}), OptionError);
+}
+
+}  // namespace
+}  // namespace datmo
