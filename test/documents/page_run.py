@@ -30,15 +30,17 @@ class Outcome:
 def make_folder(folder, source, environment_folder, installed):
     """Lays out in `folder` what stands at the root of the sources, by links.
 
-    `environment_folder` appears as devel/. Of an installed tree config, launch and the bags are
-    those that were installed. Returns nothing.
+    devel/setup.bash is that of `environment_folder`. Of an installed tree config, launch and the
+    bags are those that were installed. Returns nothing.
     """
     share = environment_folder / "share" / "datmo_fusion"
     for name in TREE:
         place = share / name if installed and (share / name).exists() else source / name
         if place.exists():
             (folder / name).symlink_to(place)
-    (folder / "devel").symlink_to(environment_folder)
+    # No link: rosrun leaves out what lies below PACKAGE/build, which a link would hide.
+    (folder / "devel").mkdir()
+    (folder / "devel" / "setup.bash").write_text(f"source '{environment_folder}/setup.bash'\n")
 
 
 def find_files(names, data):
