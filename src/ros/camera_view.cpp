@@ -149,7 +149,7 @@ sensor_msgs::ImagePtr CameraView::next(Stamp now) {
     const Waiting waiting = queue_.front();
     const bool last_chance = hasWaitedTooLong(waiting, now);
     try {
-      const auto drawn = draw(waiting.image, !last_chance);
+      auto drawn = draw(waiting.image, !last_chance);
       if (drawn) {
         queue_.pop_front();
       }

@@ -43,15 +43,15 @@ cv::Scalar toScalar(const std_msgs::ColorRGBA& color) {
 /// One line of the legend: a picture in a rectangle of kIconWidth x kRowHeight, and what it is.
 struct Entry {
   std::string text;
-  std::function<void(cv::Mat)> draw;
+  std::function<void(const cv::Mat&)> draw;
 };
 
-void drawColumn(cv::Mat icon, int half_width, int top, const cv::Scalar& color) {
+void drawColumn(const cv::Mat& icon, int half_width, int top, const cv::Scalar& color) {
   cv::rectangle(icon, {kMiddle - half_width, top}, {kMiddle + half_width, kGround}, color,
                 cv::FILLED);
 }
 
-void drawHead(cv::Mat icon, const cv::Scalar& color) {
+void drawHead(const cv::Mat& icon, const cv::Scalar& color) {
   constexpr int kRadius = 4;
   cv::circle(icon, {kMiddle, kRadius + 1}, kRadius, color, cv::FILLED, cv::LINE_AA);
 }
@@ -60,7 +60,7 @@ void drawHead(cv::Mat icon, const cv::Scalar& color) {
 Entry classEntry(const std::string& text, ObjectClass object_class, int half_width, int top,
                  bool head) {
   const cv::Scalar color = toScalar(colorOfClass(object_class, true, 1.0F));
-  return {text, [=](cv::Mat icon) {
+  return {text, [=](const cv::Mat& icon) {
             drawColumn(icon, half_width, top, color);
             if (head) {
               drawHead(icon, color);
@@ -68,23 +68,23 @@ Entry classEntry(const std::string& text, ObjectClass object_class, int half_wid
           }};
 }
 
-void drawStanding(cv::Mat icon) {
+void drawStanding(const cv::Mat& icon) {
   drawColumn(icon, 18, 9, toScalar(colorOfClass(ObjectClass::kVehicle, false, 1.0F)));
 }
 
-void drawOwnVehicle(cv::Mat icon) { drawColumn(icon, 18, 9, toScalar(colorOfOwnVehicle())); }
+void drawOwnVehicle(const cv::Mat& icon) { drawColumn(icon, 18, 9, toScalar(colorOfOwnVehicle())); }
 
-void drawArrow(cv::Mat icon) {
+void drawArrow(const cv::Mat& icon) {
   cv::arrowedLine(icon, {8, kCenter}, {kIconWidth - 8, kCenter}, kLine, 2, cv::LINE_AA, 0, 0.25);
 }
 
-void drawPath(cv::Mat icon) {
+void drawPath(const cv::Mat& icon) {
   const std::vector<cv::Point> points = {{6, 19}, {20, 17}, {36, 12}, {54, 5}};
   cv::polylines(icon, points, false, kLine, 2, cv::LINE_AA);
 }
 
 /// A dashed rectangle.
-void drawTruth(cv::Mat icon) {
+void drawTruth(const cv::Mat& icon) {
   constexpr int kDash = 5;
   for (int x = 10; x < kIconWidth - 10; x += 2 * kDash) {
     for (const int y : {6, kGround - 2}) {
@@ -100,7 +100,7 @@ void drawTruth(cv::Mat icon) {
 
 Entry pointsEntry(const std::string& text, std::uint8_t state) {
   const cv::Scalar color = toScalar(colorOfPoint(state));
-  return {text, [=](cv::Mat icon) {
+  return {text, [=](const cv::Mat& icon) {
             for (const int x : {14, 26, 38}) {
               cv::rectangle(icon, {x, kCenter - 2, 5, 5}, color, cv::FILLED);
             }
@@ -109,7 +109,7 @@ Entry pointsEntry(const std::string& text, std::uint8_t state) {
 
 Entry borderEntry(const std::string& text, RoadSide side) {
   const cv::Scalar color = toScalar(colorOfBorder(side, 1.0F, 1.0F));
-  return {text, [=](cv::Mat icon) {
+  return {text, [=](const cv::Mat& icon) {
             cv::line(icon, {8, kCenter}, {kIconWidth - 8, kCenter}, color, 3);
           }};
 }
