@@ -1,8 +1,7 @@
-#include <algorithm>
-#include <numeric>
 #include <set>
 #include <sstream>
 
+#include "datmo_fusion/common/nearest_name.h"
 #include "datmo_fusion/common/options.h"
 
 namespace datmo {
@@ -88,29 +87,6 @@ class Reader : public OptionVisitor {
   std::set<std::string> keys_;
 };
 
-/// Least number of letters to change, leave out or put in (Levenshtein 1966).
-std::size_t editDistance(const std::string& from, const std::string& to) {
-  std::vector<std::size_t> row(to.size() + 1);
-  std::iota(row.begin(), row.end(), 0U);
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < to.size(); ++j) {
-      const std::size_t changed = diagonal + (from[i] == to[j] ? 0U : 1U);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({changed, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.at(to.size());
-}
-
-std::string nearest(const std::string& key, const std::set<std::string>& keys) {
-  return *std::min_element(keys.begin(), keys.end(),
-                           [&key](const std::string& a, const std::string& b) {
-                             return editDistance(key, a) < editDistance(key, b);
-                           });
-}
-
 }  // namespace
 
 std::string toText(const OptionValue& value) {
@@ -142,7 +118,7 @@ void detail::readAll(const OptionValues& values, const OptionWalk& visit) {
   for (const auto& [key, value] : values) {
     if (reader.keys().count(key) == 0) {
       const std::string hint =
-          reader.keys().empty() ? "no option at all" : nearest(key, reader.keys());
+          reader.keys().empty() ? "no option at all" : nearestName(key, reader.keys());
       throw OptionError(key + " = " + toText(value) +
                         ": expected a key that is read; the nearest one is " + hint);
     }

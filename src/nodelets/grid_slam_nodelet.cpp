@@ -60,6 +60,7 @@ class GridSlamNodelet : public nodelet::Nodelet {
     }
     scan_ = node.subscribe("scan", kQueue, &GridSlamNodelet::takeScan<sensor_msgs::LaserScan>, this,
                            hints);
+    reporter_->alsoOn("scan", node.resolveName("echoes"));
     echoes_ = node.subscribe(
         "echoes", kQueue, &GridSlamNodelet::takeScan<sensor_msgs::MultiEchoLaserScan>, this, hints);
   }

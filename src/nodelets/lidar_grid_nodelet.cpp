@@ -40,6 +40,7 @@ class LidarGridNodelet : public nodelet::Nodelet {
     }
     scan_ = node.subscribe("scan", kQueue, &LidarGridNodelet::takeScan<sensor_msgs::LaserScan>,
                            this, hints);
+    reporter_->alsoOn("scan", node.resolveName("echoes"));
     echoes_ =
         node.subscribe("echoes", kQueue,
                        &LidarGridNodelet::takeScan<sensor_msgs::MultiEchoLaserScan>, this, hints);

@@ -7,6 +7,7 @@
 
 #include <boost/make_shared.hpp>
 
+#include "datmo_fusion/ros/descriptions.h"
 #include "datmo_fusion/ros/grid_conversion.h"
 #include "datmo_fusion/ros/message_conversion.h"
 #include "datmo_fusion/ros/motion_input.h"
@@ -60,6 +61,7 @@ void GridSlamStage::takeOdometry(const nav_msgs::Odometry& message) {
   if (!options_.motion.fromOdometry() && !options_.motion.fromSensors()) {
     return;
   }
+  monitor_.describe("odometry", [&] { return descriptionOf(message); });
   try {
     checkFrames(message, options_.frames);
     OdometryPose odometry{toSample(message), fromMessage(message.pose.pose)};
@@ -99,6 +101,7 @@ std::optional<Pose2> GridSlamStage::baseInOdom(Stamp stamp) const {
 
 template <typename Message>
 std::optional<GridSlamOutput> GridSlamStage::takeScan(const Message& message) {
+  monitor_.describe("scan", [&] { return descriptionOf(message); });
   try {
     const Stopwatch watch;
     const ScannerMount mount =
@@ -242,6 +245,10 @@ GridSlamOutput GridSlamStage::outputOf(const SlamResult& result) {
   output.pose->header.frame_id = options_.frames.map;
   output.pose->pose = output.split_scan->pose;
   output.transforms = transformsTo(result.split.base_in_map.pose, stamp);
+  for (const geometry_msgs::TransformStamped& transform : output.transforms) {
+    monitor_.announce(transform.child_frame_id, transform.header.frame_id + " -> " +
+                                                    transform.child_frame_id + " is published");
+  }
   return output;
 }
 

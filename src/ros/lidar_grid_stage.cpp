@@ -2,6 +2,7 @@
 
 #include <boost/make_shared.hpp>
 
+#include "datmo_fusion/ros/descriptions.h"
 #include "datmo_fusion/ros/grid_conversion.h"
 #include "datmo_fusion/slam/motion_compensation.h"
 
@@ -51,6 +52,7 @@ void LidarGridStage::warnOfRestart() {
 
 template <typename Message>
 nav_msgs::OccupancyGridPtr LidarGridStage::takeScan(const Message& message) {
+  monitor_.describe("scan", [&] { return descriptionOf(message); });
   try {
     const Stopwatch watch;
     const ScannerMount mount =

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include <ros/console.h>
 
@@ -16,8 +17,6 @@ constexpr std::size_t kRateWindow = 50;
 
 /// Messages over which processing times are taken, so that a 99th percentile has a meaning.
 constexpr std::size_t kTimingWindow = 1000;
-
-constexpr std::chrono::seconds kConsolePeriod{1};
 
 template <typename Value>
 void pushBounded(std::deque<Value>& values, const Value& value, std::size_t most) {
@@ -64,16 +63,32 @@ void StageMonitor::warned(const InputError& error) {
 
 void StageMonitor::say(const InputError& error) {
   last_error_ = error.what();
-  const auto now = std::chrono::steady_clock::now();
-  if (last_said_ && now - *last_said_ < kConsolePeriod) {
-    ++unsaid_;
-    return;
+  const std::chrono::duration<double> now = std::chrono::steady_clock::now().time_since_epoch();
+  if (const auto line = repeats_.lineOf(error, now.count())) {
+    ROS_WARN("%s: %s", stage_.c_str(), line->c_str());
   }
-  const std::string more =
-      unsaid_ == 0 ? "" : " (and " + std::to_string(unsaid_) + " more of any kind before)";
-  ROS_WARN("%s: %s%s", stage_.c_str(), error.what(), more.c_str());
-  last_said_ = now;
-  unsaid_ = 0;
+}
+
+void StageMonitor::describe(const std::string& input,
+                            const std::function<std::string()>& description) {
+  if (descriptions_.count(input) == 0) {
+    descriptions_[input] = description();
+  }
+}
+
+std::string StageMonitor::description(const std::string& input) const {
+  const auto found = descriptions_.find(input);
+  return found == descriptions_.end() ? "" : found->second;
+}
+
+void StageMonitor::announce(const std::string& event, const std::string& text) {
+  if (events_.insert(event).second) {
+    announcements_.push_back(text);
+  }
+}
+
+std::vector<std::string> StageMonitor::takeAnnouncements() {
+  return std::exchange(announcements_, {});
 }
 
 InputStatus StageMonitor::input(const std::string& name, Stamp now) const {

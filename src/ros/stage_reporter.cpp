@@ -1,8 +1,12 @@
 #include "datmo_fusion/ros/stage_reporter.h"
 
+#include <algorithm>
+
 #include <boost/make_shared.hpp>
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
+#include <ros/console.h>
+#include <ros/master.h>
 
 #include "datmo_fusion/ros/messages.h"
 #include "datmo_fusion/ros/stamp_check.h"
@@ -17,23 +21,59 @@ using diagnostic_updater::DiagnosticStatusWrapper;
 constexpr double kDiagnosticsPeriod = 1.0;  // s, the custom of /diagnostics
 constexpr std::uint32_t kTimingQueue = 50;  // several stages for a second or so
 
+/// Topics of `inputs` by their resolved names.
+InputProgress::Topics topicsOf(const ros::NodeHandle& node,
+                               const std::vector<std::string>& inputs) {
+  InputProgress::Topics topics;
+  for (const std::string& input : inputs) {
+    topics[input] = {node.resolveName(input)};
+  }
+  return topics;
+}
+
+bool isPublished(const std::string& topic) {
+  ros::master::V_TopicInfo published;
+  ros::master::getTopics(published);
+  return std::any_of(published.begin(), published.end(),
+                     [&](const ros::master::TopicInfo& each) { return each.name == topic; });
+}
+
 double milliseconds(double seconds) { return 1e3 * seconds; }
 
 }  // namespace
 
 StageReporter::StageReporter(ros::NodeHandle node, ros::NodeHandle private_node,
-                             const StageMonitor& monitor, std::vector<std::string> inputs,
+                             StageMonitor& monitor, std::vector<std::string> inputs,
                              double silence_after)
     : monitor_(monitor),
       inputs_(std::move(inputs)),
       silence_after_(silence_after),
+      progress_(topicsOf(node, inputs_)),
       timing_(node.advertise<StageTiming>("timing", kTimingQueue)),
       updater_(node, private_node, private_node.getNamespace()) {
   updater_.setHardwareID("none");
   updater_.add("stage", [this](DiagnosticStatusWrapper& status) { diagnose(status); });
-  timer_ =
-      node.createSteadyTimer(ros::WallDuration(kDiagnosticsPeriod),
-                             [this](const ros::SteadyTimerEvent&) { updater_.force_update(); });
+  timer_ = node.createSteadyTimer(ros::WallDuration(kDiagnosticsPeriod),
+                                  [this](const ros::SteadyTimerEvent&) {
+                                    sayNews();
+                                    updater_.force_update();
+                                  });
+}
+
+void StageReporter::sayNews() {
+  const char* const stage = monitor_.stage().c_str();
+  const double seconds = since_start_.seconds();
+  for (const InputProgress::Line& line : progress_.news(monitor_, seconds, isPublished)) {
+    ROS_LOG(line.is_warning ? ros::console::levels::Warn : ros::console::levels::Info,
+            ROSCONSOLE_DEFAULT_NAME, "%s: %s", stage, line.text.c_str());
+  }
+  for (const std::string& text : monitor_.takeAnnouncements()) {
+    ROS_INFO("%s: %s", stage, text.c_str());
+  }
+}
+
+void StageReporter::alsoOn(const std::string& input, const std::string& topic) {
+  progress_.addTopic(input, topic);
 }
 
 void StageReporter::publishTiming() {

@@ -5,6 +5,7 @@
 
 #include <boost/make_shared.hpp>
 
+#include "datmo_fusion/ros/descriptions.h"
 #include "datmo_fusion/ros/frames.h"
 #include "datmo_fusion/ros/grid_conversion.h"
 
@@ -37,6 +38,7 @@ void StereoGridStage::takeCameraInfo(const sensor_msgs::CameraInfo& message) {
 }
 
 nav_msgs::OccupancyGridPtr StereoGridStage::takeCloud(const sensor_msgs::PointCloud2& message) {
+  monitor_.describe("points2", [&] { return descriptionOf(message); });
   try {
     const Stopwatch watch;
     CloudPoints points(message);

@@ -4,6 +4,7 @@
 
 #include <boost/make_shared.hpp>
 
+#include "datmo_fusion/ros/descriptions.h"
 #include "datmo_fusion/ros/message_conversion.h"
 
 namespace datmo {
@@ -31,6 +32,7 @@ void StereoObjectsStage::takeCameraInfo(const sensor_msgs::CameraInfo& message) 
 }
 
 ObjectArrayPtr StereoObjectsStage::takeCloud(const sensor_msgs::PointCloud2& message) {
+  monitor_.describe("points2", [&] { return descriptionOf(message); });
   try {
     const Stopwatch watch;
     CloudPoints points(message);

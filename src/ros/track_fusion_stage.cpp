@@ -10,6 +10,7 @@
 #include <boost/make_shared.hpp>
 
 #include "datmo_fusion/common/scan.h"
+#include "datmo_fusion/ros/descriptions.h"
 #include "datmo_fusion/ros/message_conversion.h"
 #include "datmo_fusion/tracking/track_check.h"
 
@@ -104,6 +105,10 @@ TrackArrayPtr TrackFusionStage::next(Stamp now) {
   inputs_.report(matched->stamp(), matched->missing);
   report(result.counts);
   auto fused = boost::make_shared<TrackArray>(toMessage(result.list, options_.frames.map));
+  if (!fused->tracks.empty()) {
+    monitor_.announce("track",
+                      "first track: " + descriptionOf(fused->tracks.front(), options_.frames.map));
+  }
   monitor_.processed({matched->stamp(), watch.seconds()});
   return fused;
 }

@@ -4,6 +4,7 @@
 
 #include <boost/make_shared.hpp>
 
+#include "datmo_fusion/ros/descriptions.h"
 #include "datmo_fusion/ros/frames.h"
 #include "datmo_fusion/ros/message_conversion.h"
 #include "datmo_fusion/tracking/joint_visibility.h"
@@ -100,6 +101,10 @@ TrackArrayPtr TrackerStage::track(const ObjectArray& objects, const Pose2& base_
   const auto tracks = boost::make_shared<TrackArray>(
       toMessage(tracker_.process(list, base_in_fixed, visibility), options_.frames.map));
   report(before, tracker_.counts());
+  if (!tracks->tracks.empty()) {
+    monitor_.announce("track",
+                      "first track: " + descriptionOf(tracks->tracks.front(), options_.frames.map));
+  }
   monitor_.processed({list.stamp, watch.seconds()});
   return tracks;
 }

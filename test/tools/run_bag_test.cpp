@@ -185,6 +185,7 @@ TEST(RunBagArguments, WhatIsNotUnderstoodIsRefused) {
   EXPECT_THROW(parseArguments({"a", "b", "--config", "c.yaml", "pose:=/x"}), UsageError);
   EXPECT_THROW(parseArguments({"a", "b", "--config", "c.yaml", "--until", "slam"}), UsageError);
   EXPECT_THROW(parseArguments({"a", "b", "--config", "c.yaml", "--times", "b"}), UsageError);
+  EXPECT_THROW(parseArguments({"a", "b", "--config", "c", "--tum", "t", "--mot", "t"}), UsageError);
   EXPECT_EQ(parseArguments({"a", "b", "--config", "c", "--until", "grid_slam"}).last_stage,
             LastStage::kGridSlam);
 }

@@ -33,7 +33,8 @@ def combinations():
 @functools.lru_cache(maxsize=None)
 def loaded(file, **arguments):
     """The nodes of a launch file, by name, and its parameters, by key."""
-    words = [f"{key}:={str(value).lower()}" for key, value in arguments.items()]
+    words = [f"{key}:={str(value).lower() if isinstance(value, bool) else value}"
+             for key, value in arguments.items()]
     config = roslaunch.config.load_config_default([(str(PACKAGE / "launch" / file), words)], None,
                                                   verbose=False)
     return ({node.name: node for node in config.nodes},
@@ -163,6 +164,19 @@ class LaunchSwitches(unittest.TestCase):
             with self.subTest(**switches):
                 self.assertGreaterEqual(parameters["/perception/num_worker_threads"],
                                         len(nodelets(nodes)))
+
+    def test_nothing_of_an_earlier_sensor_set_stays(self):
+        for file in ("perception.launch", "stereo_images.launch"):
+            for tag in ElementTree.parse(PACKAGE / "launch" / file).getroot().iter("node"):
+                if tag.get("name") != "rviz":
+                    self.assertEqual(tag.get("clear_params"), "true", tag.get("name"))
+
+    def test_replay_passes_topics_and_configuration_on(self):
+        nodes, parameters = loaded("replay.launch", bag="a.bag", rviz=False, odometry="/odom",
+                                   config=PACKAGE / "config" / "indoor.yaml")
+        self.assertEqual(remapped(nodes["grid_slam"], "odometry"), "/odom")
+        self.assertEqual(parameters["/perception/configuration"].strip(),
+                         str(PACKAGE / "config" / "indoor.yaml"))
 
     def test_replay_passes_the_switches_on(self):
         for switches, nodes, _ in self.each("replay.launch", bag="a.bag", rviz=False):

@@ -76,19 +76,32 @@ void addFile(const std::string& word, Arguments& arguments) {
   }
 }
 
+void checkOutputs(const Arguments& arguments) {
+  std::vector<std::string> written;
+  for (const std::string& file : {arguments.output, arguments.times, arguments.text.tum,
+                                  arguments.text.kitti, arguments.text.mot}) {
+    if (file.empty()) {
+      continue;
+    }
+    for (const std::string& input : {arguments.input, arguments.config}) {
+      if (isSameFile(file, input)) {
+        throw UsageError("'" + input + "': the output must not be an input");
+      }
+    }
+    for (const std::string& other : written) {
+      if (isSameFile(file, other)) {
+        throw UsageError("'" + file + "': expected another file for each output");
+      }
+    }
+    written.push_back(file);
+  }
+}
+
 void checkFiles(const Arguments& arguments) {
   if (arguments.output.empty()) {
     throw UsageError("expected an input and an output bag");
   }
-  const bool with_times = !arguments.times.empty();
-  for (const std::string& input : {arguments.input, arguments.config}) {
-    if (isSameFile(arguments.output, input) || (with_times && isSameFile(arguments.times, input))) {
-      throw UsageError("'" + input + "': the output must not be an input");
-    }
-  }
-  if (with_times && isSameFile(arguments.times, arguments.output)) {
-    throw UsageError("'" + arguments.times + "': expected two files for bag and times");
-  }
+  checkOutputs(arguments);
   if (arguments.config.empty()) {
     throw UsageError("expected --config and a yaml file");
   }
@@ -155,6 +168,16 @@ bool setSwitch(const std::string& word, Arguments& arguments) {
   return found != switches.end();
 }
 
+bool setTextFile(const std::string& word, const std::string& value, TextFiles& files) {
+  const std::map<std::string, std::string*> options = {
+      {"--tum", &files.tum}, {"--kitti", &files.kitti}, {"--mot", &files.mot}};
+  const auto found = options.find(word);
+  if (found != options.end()) {
+    *found->second = value;
+  }
+  return found != options.end();
+}
+
 /// The same for those with a value.
 bool setValue(const std::string& word, const std::string& value, Arguments& arguments) {
   if (word == "--config") {
@@ -166,7 +189,7 @@ bool setValue(const std::string& word, const std::string& value, Arguments& argu
   } else if (word == "--grid-rule") {
     arguments.grid_rule = value;
   } else {
-    return false;
+    return setTextFile(word, value, arguments.text);
   }
   return true;
 }
@@ -189,6 +212,7 @@ std::string usage() {
          " [--road-border]\n"
          "               [--object-fusion] [--track-fusion] [--stereo-from-images] [--times "
          "FILE.json]\n"
+         "               [--tum POSES.txt] [--kitti TRACKS.txt] [--mot TRACKS.txt]\n"
          "               [TOPIC:=TOPIC_OF_THE_BAG ...]\n"
          "Takes the scans and the odometry of a bag through the stack, as fast as it goes, and "
          "writes\n"
@@ -215,6 +239,10 @@ std::string usage() {
          "  --write-grids         writes /grids/lidar, /grids/stereo, /grids/fused, "
          "/grids/conflict\n"
          "  --times FILE.json     how long each stage took for a message\n"
+         "  --tum POSES.txt       the vehicle's poses as the TUM benchmark has them, base_link in "
+         "map\n"
+         "  --kitti TRACKS.txt    the tracks as labels of KITTI's tracking benchmark\n"
+         "  --mot TRACKS.txt      the tracks as MOT Challenge has them, on the ground plane\n"
          "  TOPIC:=...            scan, cloud (a 3D lidar's, in place of scans), echoes,\n"
          "                        odometry, imu, twist, twist_with_covariance,\n"
          "                        joint_states, points2, left_image, right_image, "

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "last_stage.h"
+#include "text_files.h"
 
 namespace datmo {
 
@@ -31,6 +32,7 @@ struct Arguments {
   bool write_grids = false;
   std::string grid_rule;  ///< of fusion, in place of the yaml file's; empty: that one
   std::string times;      ///< JSON file for the stages' times; empty: none
+  TextFiles text;
   std::map<std::string, std::string> remappings;  ///< our topic (`scan`) -> the input's
 
   /// The name of one of our topics in the input bag, with a leading slash.

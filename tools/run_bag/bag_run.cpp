@@ -16,6 +16,7 @@
 #include "output_bag.h"
 #include "pipeline.h"
 #include "progress_bar.h"
+#include "text_outputs.h"
 #include "whole_file.h"
 
 #include <rosbag/view.h>
@@ -31,12 +32,13 @@ namespace {
 class BagRun {
  public:
   BagRun(const InputTopics& topics, Pipeline& pipeline, DriveSummary& drive, OutputBag& output,
-         bool write_grids)
+         const Arguments& arguments)
       : pipeline_(pipeline),
         drive_(drive),
         output_(output),
-        write_grids_(write_grids),
-        refusals_(pipeline.doors()) {
+        write_grids_(arguments.write_grids),
+        refusals_(pipeline.doors()),
+        text_(arguments.text) {
     readMotion(topics);
     readScans(topics);
     readStereo(topics.stereo);
@@ -79,6 +81,7 @@ class BagRun {
   void finish(const ros::Time& end) { write(end, pipeline_.finish(toStamp(end))); }
 
   const InputRefusals& refusals() const { return refusals_; }
+  const TextOutputs& text() const { return text_; }
 
  private:
   using Reader = std::function<Pipeline::Output(const rosbag::MessageInstance&, Stamp now)>;
@@ -150,6 +153,7 @@ class BagRun {
 
   void write(const ros::Time& time, const Pipeline::Output& results) {
     drive_.add(results);
+    text_.add(results);
     for (const auto& [name, grid] : results.grids) {
       if (write_grids_) {
         output_.write("/grids/" + name, time, *grid);
@@ -203,6 +207,7 @@ class BagRun {
   OutputBag& output_;
   bool write_grids_;
   InputRefusals refusals_;
+  TextOutputs text_;
   std::map<std::string, Reader> readers_;  ///< by topic
 };
 
@@ -286,7 +291,7 @@ void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progres
                      arguments.road_border, arguments.object_fusion, arguments.track_fusion,
                      topics.stereo.input()});
   DriveSummary drive;
-  BagRun run(topics, pipeline, drive, output, arguments.write_grids);
+  BagRun run(topics, pipeline, drive, output, arguments);
 
   run.takeStaticTransforms(bag);
   rosbag::View view(bag, rosbag::TopicQuery(topics.all()));
@@ -302,6 +307,7 @@ void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progres
   if (!arguments.times.empty()) {
     writeWholeFile(arguments.times, toJson(pipeline.times()));
   }
+  run.text().write();
   output.finish();
   if (!arguments.quiet) {
     printTable(out, drive, pipeline, run.refusals(), {lengthOf(view), took});

@@ -6,6 +6,8 @@
 #include "yaml_options.h"
 #include <yaml-cpp/yaml.h>
 
+#include "datmo_fusion/common/nearest_name.h"
+
 namespace datmo {
 
 namespace {
@@ -31,7 +33,9 @@ void checkSections(const std::string& file, const YAML::Node& root) {
   for (const auto& entry : root) {
     const std::string name = keyOf(entry.first);
     if (std::find(kSections.begin(), kSections.end(), name) == kSections.end()) {
-      throw OptionError(file + ": " + name + ": expected one of " + sectionNames());
+      throw OptionError(file + ": " + name + ": no such section; the nearest one is " +
+                        nearestName(name, {kSections.begin(), kSections.end()}) + " (there are " +
+                        sectionNames() + ")");
     }
   }
 }

@@ -3,13 +3,16 @@
 #include <chrono>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "datmo_fusion/common/stamp.h"
 #include "datmo_fusion/ros/input_error.h"
+#include "datmo_fusion/ros/repeat_filter.h"
 
 namespace datmo {
 
@@ -34,7 +37,7 @@ struct TimingStatus {
 };
 
 /// Keeps count of what a stage takes in, drops and needs in time; says on the console what is
-/// wrong, once a second at most. Not thread safe.
+/// wrong, once for each cause. Not thread safe.
 class StageMonitor {
  public:
   /// `stage`: the nodelet's name; a slash at its front is left out.
@@ -57,6 +60,22 @@ class StageMonitor {
   /// A figure of the last result that tells its reader how well the stage does, with its unit:
   /// "weakest direction [m]".
   void figure(const std::string& name, double value) { figures_[name] = value; }
+
+  /// What the messages of an input look like, for people: "360 beams to 8.0 m in laser". Asked for
+  /// once alone.
+  void describe(const std::string& input, const std::function<std::string()>& description);
+
+  /// Something that happens for the first time is worth a line: the first track. Once for each
+  /// `event`.
+  void announce(const std::string& event, const std::string& text);
+
+  bool hasReceived(const std::string& input) const { return inputs_.count(input) != 0; }
+
+  /// Empty if there is none.
+  std::string description(const std::string& input) const;
+
+  /// What was announced since the last call.
+  std::vector<std::string> takeAnnouncements();
 
   InputStatus input(const std::string& name, Stamp now) const;
   TimingStatus timing() const;
@@ -91,8 +110,10 @@ class StageMonitor {
   std::uint64_t processed_ = 0;
   Processed last_processed_;
   std::string last_error_;
-  std::optional<std::chrono::steady_clock::time_point> last_said_;
-  std::uint64_t unsaid_ = 0;  ///< errors since then
+  RepeatFilter repeats_;
+  std::map<std::string, std::string> descriptions_;  ///< by input
+  std::set<std::string> events_;                     ///< announced
+  std::vector<std::string> announcements_;           ///< not taken yet
 };
 
 /// Seconds since construction, for Processed::seconds.

@@ -51,5 +51,23 @@ TEST(StageMonitor, TimingOfAHundredMessages) {
   EXPECT_EQ(monitor.lastProcessed().stamp, Stamp{1});
 }
 
+TEST(StageMonitor, AnEventIsAnnouncedOnce) {
+  StageMonitor monitor("stage");
+  monitor.announce("track", "first track: id 1");
+  monitor.announce("track", "first track: id 2");
+  EXPECT_EQ(monitor.takeAnnouncements(), std::vector<std::string>{"first track: id 1"});
+  monitor.announce("track", "first track: id 3");
+  EXPECT_TRUE(monitor.takeAnnouncements().empty());
+}
+
+TEST(StageMonitor, AnInputIsDescribedByItsFirstMessage) {
+  StageMonitor monitor("stage");
+  EXPECT_EQ(monitor.description("scan"), "");
+  EXPECT_FALSE(monitor.hasReceived("scan"));
+  monitor.describe("scan", [] { return std::string("360 beams"); });
+  monitor.describe("scan", [] { return std::string("90 beams"); });
+  EXPECT_EQ(monitor.description("scan"), "360 beams");
+}
+
 }  // namespace
 }  // namespace datmo

@@ -1,0 +1,54 @@
+#!/usr/bin/python3
+"""roslaunch on the launch files with what it must not take: it ends before a node starts, with one line
+that says what and what was probably meant."""
+
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+PACKAGE = Path(__file__).resolve().parents[2]
+
+
+class LaunchRefusals(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def refusal(self, file, *words):
+        """What roslaunch says; it ends by itself, without a master."""
+        environment = dict(os.environ, ROS_LOG_DIR=str(self.folder), ROS_HOME=str(self.folder),
+                           ROS_PACKAGE_PATH=f"{PACKAGE}:{os.environ.get('ROS_PACKAGE_PATH', '')}",
+                           ROS_MASTER_URI="http://localhost:1", DISPLAY="")
+        run = subprocess.run(["roslaunch", str(PACKAGE / "launch" / file), *words], text=True,
+                             env=environment, capture_output=True, timeout=60, check=False)
+        self.assertNotEqual(run.returncode, 0)
+        self.assertNotIn("process[", run.stdout, "no node was started")
+        return run.stderr
+
+    def config(self, text):
+        file = self.folder / "sensors.yaml"
+        file.write_text(text)
+        return f"config:={file}"
+
+    def test_a_misspelt_section(self):
+        said = self.refusal("perception.launch", self.config("grid_slm: {map_period: 1.0}\n"))
+        self.assertIn("sensors.yaml: grid_slm: no such section; the nearest one is grid_slam", said)
+
+    def test_a_misspelt_key(self):
+        said = self.refusal("perception.launch", self.config("grid_slam: {map_perod: 1.0}\n"))
+        self.assertIn("map_perod = 1: expected a key that is read; the nearest one is map_period", said)
+
+    def test_replay_takes_the_configuration_too(self):
+        said = self.refusal("replay.launch", "bag:=a.bag", self.config("grid_slm: {}\n"))
+        self.assertIn("grid_slm", said)
+
+    def test_a_misspelt_argument(self):
+        said = self.refusal("replay.launch", "bag:=a.bag", "odometri:=/odom")
+        self.assertIn("no argument odometri: did you mean odometry?", said)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,100 @@
+// Results as text: hand-computed lines, and the files of a run.
+#include "run_bag/text_outputs.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "run_bag_drive.h"
+#include <boost/make_shared.hpp>
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/ros/message_conversion.h"
+
+namespace datmo {
+namespace {
+
+const ros::Time kStamp(12, 5000000);
+
+/// The vehicle at (10, 20) looks to the left of the map's x axis; 3 m ahead of it and 1 m to its
+/// left stands a car that looks where the vehicle looks.
+Pipeline::Output oneFrame() {
+  GridSlamOutput slam;
+  slam.pose = boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>();
+  slam.pose->header.stamp = kStamp;
+  slam.pose->pose.pose = toMessage(Pose2(10.0, 20.0, kPi / 2.0));
+  TrackMessage track;
+  track.id = 7;
+  track.pose = toMessage(Pose2(9.0, 23.0, kPi / 2.0));
+  track.size.x = 4.5;
+  track.size.y = 1.75;
+  track.size.z = 1.5;
+  track.classification = ObjectMessage::CLASS_VEHICLE;
+  track.existence_probability = 0.5F;
+  const auto tracks = boost::make_shared<TrackArray>();
+  tracks->header.stamp = kStamp;
+  tracks->tracks.push_back(track);
+  Pipeline::Output output;
+  output.slam.push_back(slam);
+  output.tracks.push_back(tracks);
+  return output;
+}
+
+TEST(TextOutputs, TumHoldsStampPositionAndQuaternion) {
+  TextOutputs outputs({"poses.txt", "tracks.txt", "mot.txt"});
+  outputs.add(oneFrame());
+  EXPECT_EQ(outputs.tum(),
+            "12.005000000 10.000000 20.000000 0.000000 0.000000 0.000000 0.707107 0.707107\n");
+}
+
+TEST(TextOutputs, KittiHoldsTheTrackAsTheVehicleSeesIt) {
+  TextOutputs outputs({"poses.txt", "tracks.txt", "mot.txt"});
+  outputs.add(oneFrame());
+  EXPECT_EQ(outputs.kitti(),
+            "0 7 Car -1 -1 -10 -1 -1 -1 -1 1.500000 1.750000 4.500000 -1.000000 0 3.000000 "
+            "-1.570796 0.500000\n");
+}
+
+TEST(TextOutputs, MotHoldsTheTrackInTheMapWithFramesFromOne) {
+  TextOutputs outputs({"poses.txt", "tracks.txt", "mot.txt"});
+  outputs.add(oneFrame());
+  EXPECT_EQ(outputs.mot(), "1,7,-1,-1,-1,-1,0.500000,9.000000,23.000000,0.000000\n");
+}
+
+TEST(TextOutputs, TracksWithoutPoseAreLeftOut) {
+  TextOutputs outputs({"poses.txt", "tracks.txt", "mot.txt"});
+  Pipeline::Output output = oneFrame();
+  output.slam.clear();
+  outputs.add(output);
+  EXPECT_EQ(outputs.kitti() + outputs.mot() + outputs.tum(), "");
+}
+
+std::size_t linesOf(const std::string& file) {
+  const std::string text = bytes(file);
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+TEST_F(RunBag, ResultsAreWrittenAsTextOnDemand) {
+  arguments_.text.tum = arguments_.output + ".tum";
+  arguments_.text.kitti = arguments_.output + ".kitti";
+  arguments_.text.mot = arguments_.output + ".mot";
+  run();
+  EXPECT_EQ(linesOf(arguments_.text.tum), static_cast<std::size_t>(kScans));
+  EXPECT_EQ(linesOf(arguments_.text.kitti), linesOf(arguments_.text.mot));
+}
+
+TEST_F(RunBag, NoTextIsLeftWhereThereIsNoBag) {
+  arguments_.text.tum = arguments_.output + ".tum";
+  arguments_.input = "/nowhere.bag";
+  EXPECT_THROW(run(), std::exception);
+  EXPECT_FALSE(std::filesystem::exists(arguments_.text.tum));
+}
+
+TEST(TextOutputs, AFileThatCannotBeWrittenIsNamedAtTheStart) {
+  EXPECT_THROW(TextOutputs({"", "/nowhere/tracks.txt", ""}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace datmo

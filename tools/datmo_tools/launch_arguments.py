@@ -1,0 +1,122 @@
+"""What roslaunch does not say of a command line: arguments that no launch file takes, and a stack that
+runs on the same master already.
+
+usage: check_launch
+
+A launch file runs this by <param command>, as a child of roslaunch, before any node starts. What is
+included by pass_all_args takes arguments, too; includes of a launch file of somebody else's without it
+are checked by roslaunch itself.
+"""
+
+import difflib
+import os
+import socket
+import sys
+import xmlrpc.client
+from pathlib import Path
+from xml.etree import ElementTree
+
+MANAGER = "/perception"
+CALLER = "/check_launch"
+TIMEOUT = 1.0  # s, for an answer of a node on this machine or near
+
+
+def is_argument(word):
+    """Whether a word is name:=value; __name:= and the like are ROS's own."""
+    return ":=" in word and not word.startswith("_")
+
+
+def launch_words(command_line):
+    """The words after roslaunch's name; none if another program (a test, an editor) loads the file."""
+    for i, word in enumerate(command_line[:2]):
+        if os.path.basename(word) == "roslaunch":
+            return command_line[i + 1:]
+    return []
+
+
+def parent_words(process):
+    """The command line of a process, by its number; empty where there is no /proc."""
+    try:
+        text = Path(f"/proc/{process}/cmdline").read_bytes().decode(errors="replace")
+    except OSError:
+        return []
+    return text.split("\0")[:-1]
+
+
+def arguments_of(file, resolve):
+    """The names of the arguments that a launch file takes, those that it passes on included.
+
+    `resolve` replaces substitutions in a file name, e.g. $(find PACKAGE). A name in which an argument
+    stands cannot be resolved here and is left out: raises what `resolve` raises for it.
+    """
+    root = ElementTree.parse(file).getroot()
+    names = {tag.get("name") for tag in root.findall("arg") if tag.get("value") is None}
+    for include in root.iter("include"):
+        if include.get("pass_all_args", "").lower() in ("true", "1"):
+            names |= arguments_of(resolve(include.get("file")), resolve)
+    return names
+
+
+def refusal(given, known):
+    """A sentence on the first given name that is not known, or None."""
+    for name in given:
+        if name not in known:
+            near = difflib.get_close_matches(name, sorted(known), n=1)
+            hint = f"did you mean {near[0]}? " if near else ""
+            return f"no argument {name}: {hint}There are {', '.join(sorted(known))}"
+    return None
+
+
+def check_words(words):
+    """A sentence on what is wrong with the words after roslaunch's name, or None."""
+    given = [word.split(":=")[0] for word in words if is_argument(word)]
+    if not given:
+        return None
+    # Half a second to load: only where there is something to check.
+    from roslaunch.rlutil import resolve_launch_arguments
+    from roslaunch.substitution_args import resolve_args
+    plain = [word for word in words if ":=" not in word and not word.startswith("-")]
+    known = set()
+    for file in resolve_launch_arguments(plain):
+        known |= arguments_of(file, resolve_args)
+    return refusal(given, known)
+
+
+def runs(manager, master_uri):
+    """Whether a node of this name answers on the master."""
+    default_timeout = socket.getdefaulttimeout()
+    socket.setdefaulttimeout(TIMEOUT)
+    try:
+        code, _, uri = xmlrpc.client.ServerProxy(master_uri).lookupNode(CALLER, manager)
+        return code == 1 and xmlrpc.client.ServerProxy(uri).getPid(CALLER)[0] == 1
+    except (OSError, xmlrpc.client.Error):
+        return False
+    finally:
+        socket.setdefaulttimeout(default_timeout)
+
+
+def warn_of_second_stack(words):
+    """Says so if the nodes that are about to start end others of the same names."""
+    if any(word.startswith("-") and word != "-v" for word in words) or "ROS_NAMESPACE" in os.environ:
+        return  # --nodes and the like start nothing, -p is another master
+    master = os.environ.get("ROS_MASTER_URI", "http://localhost:11311")
+    if runs(MANAGER, master):
+        print(f"WARNING: {MANAGER} runs on {master} already: ROS ends its nodes as those of the same "
+              "names start. For two side by side give one another ROS_MASTER_URI or ROS_NAMESPACE",
+              file=sys.stderr)
+
+
+def main():
+    """Prints the words checked; 1 and a sentence on standard error if roslaunch must not go on."""
+    if sys.argv[1:] in (["-h"], ["--help"]):
+        print(__doc__)
+        return 0
+    words = launch_words(parent_words(os.getppid()))
+    error = check_words(words)
+    if error:
+        print(f"ERROR: {error}", file=sys.stderr)
+        return 1
+    if words:
+        warn_of_second_stack(words)
+    print(" ".join(words))
+    return 0

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+namespace datmo {
+
+/// Where results go as text; empty: nowhere.
+struct TextFiles {
+  std::string tum;    ///< poses of the vehicle
+  std::string kitti;  ///< tracks
+  std::string mot;    ///< tracks
+};
+
+}  // namespace datmo
