@@ -3,7 +3,8 @@
 
 repository=$(cd -P "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build_dir=${DATMO_FUSION_BUILD_DIR:-$repository/build}
-devel_dir=$build_dir/devel
+# rosrun looks nowhere below PACKAGE/build: the devel space of the default folder stands beside it.
+if [[ $build_dir == "$repository/build" ]]; then devel_dir=$repository/devel; else devel_dir=$build_dir/devel; fi
 program_dir=$devel_dir/lib/datmo_fusion
 log_dir=$build_dir/log
 
@@ -19,6 +20,17 @@ job_count() {
 
 # Debian's ROS belongs to Debian's Python: another python3 that comes first on PATH breaks it.
 export PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin
+
+# Ubuntu's ROS lies in a folder of its own, Debian's does not.
+if [[ -f /opt/ros/noetic/setup.bash ]]; then
+  set +u # catkin's setup.bash reads unset variables
+  # shellcheck disable=SC1091
+  source /opt/ros/noetic/setup.bash
+  set -u
+fi
+
+# Objects compiled in one checkout serve another, precompiled headers included.
+export CCACHE_BASEDIR=${repository%/*} CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
 
 # What the script that sources this file is for, and how it is called, stands at its head.
 if [[ ${1:-} == -h || ${1:-} == --help ]]; then

@@ -63,7 +63,7 @@ class Modules(unittest.TestCase):
         self.assertIn("package python3-opencv", missing("cv2"))
         self.assertIn("package python3-matplotlib", missing("matplotlib.figure"))
         self.assertIn("package python3-sensor-msgs", missing("sensor_msgs"))
-        self.assertIn("source build/devel/setup.bash", missing("datmo_fusion.msg"))
+        self.assertIn("source devel/setup.bash", missing("datmo_fusion.msg"))
 
     def test_one_line_instead_of_a_traceback(self):
         said = io.StringIO()

@@ -9,7 +9,7 @@ import unittest
 from pathlib import Path
 
 from datmo_tools import process_usage, speed_benchmark, speed_live, speed_micro, speed_report
-from datmo_tools.speed_context import cmake_cache
+from datmo_tools.speed_context import cmake_cache, devel_space
 from datmo_tools.errors import InputError
 from datmo_tools.process_usage import ProcessUsage
 
@@ -186,6 +186,14 @@ class CommandLine(unittest.TestCase):
 
 
 class CmakeCache(unittest.TestCase):
+    def test_devel_space_is_where_it_was_configured(self):
+        with tempfile.TemporaryDirectory() as name:
+            cache = Path(name) / "CMakeCache.txt"
+            cache.write_text("")
+            self.assertEqual(devel_space(Path(name)), Path(name) / "devel")
+            cache.write_text("CATKIN_DEVEL_PREFIX:PATH=/a/devel\n")
+            self.assertEqual(devel_space(Path(name)), Path("/a/devel"))
+
     def test_entries(self):
         text = "// a comment = b\n# c=d\nCXX:FILEPATH=/usr/bin/c++\nFLAGS:STRING=-O2 -DA=1\n\n"
         self.assertEqual(cmake_cache(text), {"CXX": "/usr/bin/c++", "FLAGS": "-O2 -DA=1"})

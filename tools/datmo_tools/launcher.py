@@ -25,6 +25,6 @@ def missing(module):
     """What to do about a module (dotted name) that is not there."""
     package = module.split(".")[0]
     if package.startswith("datmo_"):
-        return f"Python module {module} is not there, expected 'source build/devel/setup.bash' before"
+        return f"Python module {module} is not there, expected 'source devel/setup.bash' before"
     name = PACKAGES.get(package, f"python3-{package.replace('_', '-')}")
     return f"Python module {package} is not there, expected Debian's package {name}"

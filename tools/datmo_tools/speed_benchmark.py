@@ -9,7 +9,7 @@ from pathlib import Path
 from datmo_tools import command_line, programs, speed_live, speed_micro, speed_report
 from datmo_tools.errors import InputError
 from datmo_tools.progress import Progress
-from datmo_tools.speed_context import describe
+from datmo_tools.speed_context import describe, devel_space
 from datmo_tools.speed_live import LiveDrive
 from datmo_tools.whole_files import write_whole
 
@@ -90,7 +90,7 @@ def _simulate(values, scene, bag, options):
 
 
 def _program(values, name):
-    folder = values.build / "devel" / "lib" / "datmo_fusion"
+    folder = devel_space(values.build) / "lib" / "datmo_fusion"
     programs.check(folder, (name,))
     return folder / name
 

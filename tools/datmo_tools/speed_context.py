@@ -13,11 +13,7 @@ def describe(source, build):
 
     Raises InputError where nothing is built.
     """
-    cache_file = build / "CMakeCache.txt"
-    try:
-        cache = cmake_cache(cache_file.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{cache_file}: expected a build folder ({error})") from error
+    cache = _cache_of(build)
     return {
         "date": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
         "commit": _commit(source),
@@ -26,6 +22,19 @@ def describe(source, build):
         "build_type": cache["CMAKE_BUILD_TYPE"],
         "load_average": os.getloadavg()[0],  # of the minute before: others at work
     }
+
+
+def devel_space(build):
+    """Where the folder `build` (Path) puts programs, as a Path; raises InputError where nothing is built."""
+    return Path(_cache_of(build).get("CATKIN_DEVEL_PREFIX", build / "devel"))
+
+
+def _cache_of(build):
+    cache_file = build / "CMakeCache.txt"
+    try:
+        return cmake_cache(cache_file.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"{cache_file}: expected a build folder ({error})") from error
 
 
 def cmake_cache(text):
