@@ -71,8 +71,7 @@ TEST(TextOutputs, TracksWithoutPoseAreLeftOut) {
   EXPECT_EQ(outputs.kitti() + outputs.mot() + outputs.tum(), "");
 }
 
-std::size_t linesOf(const std::string& file) {
-  const std::string text = bytes(file);
+std::size_t linesIn(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
@@ -81,8 +80,8 @@ TEST_F(RunBag, ResultsAreWrittenAsTextOnDemand) {
   arguments_.text.kitti = arguments_.output + ".kitti";
   arguments_.text.mot = arguments_.output + ".mot";
   run();
-  EXPECT_EQ(linesOf(arguments_.text.tum), static_cast<std::size_t>(kScans));
-  EXPECT_EQ(linesOf(arguments_.text.kitti), linesOf(arguments_.text.mot));
+  EXPECT_EQ(linesIn(bytes(arguments_.text.tum)), static_cast<std::size_t>(kScans));
+  EXPECT_EQ(linesIn(bytes(arguments_.text.kitti)), linesIn(bytes(arguments_.text.mot)));
 }
 
 TEST_F(RunBag, NoTextIsLeftWhereThereIsNoBag) {
