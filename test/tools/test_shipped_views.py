@@ -55,7 +55,7 @@ class ShippedViews(unittest.TestCase):
             self.assertRegex(code, f'["/]{topic}"', topic)
 
     def test_each_stage_has_one_group_of_diagnostics(self):
-        groups = yaml.safe_load((PACKAGE / "config/diagnostics.yaml").read_text())["analyzers"]
+        groups = yaml.safe_load((PACKAGE / "config/diagnostics/aggregator.yaml").read_text())["analyzers"]
         starts = list(itertools.chain(*(group["startswith"] for group in groups.values())))
         self.assertEqual(len(starts), len(set(starts)))
         self.assertLessEqual(set(starts), node_names())
