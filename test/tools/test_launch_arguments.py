@@ -55,6 +55,7 @@ class LaunchArguments(unittest.TestCase):
         file = str(PACKAGE / "launch/stereo_images.launch")
         self.assertIsNone(launch_arguments.check_words([file, "images:=raw", "__name:=x"]))
         self.assertIsNone(launch_arguments.check_words([file]))
+        self.assertIsNone(launch_arguments.check_words(["-p", "11311", file, "images:=raw"]))
         self.assertIn("no argument image: did you mean images?",
                       launch_arguments.check_words([file, "image:=raw", "-v"]))
 

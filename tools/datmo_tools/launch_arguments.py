@@ -67,6 +67,12 @@ def refusal(given, known):
     return None
 
 
+def words_without_options(words):
+    """The words that are no options of roslaunch (-p 11311): its own parser knows which take a value."""
+    import roslaunch
+    return roslaunch._get_optparse().parse_args(list(words))[1]
+
+
 def check_words(words):
     """A sentence on what is wrong with the words after roslaunch's name, or None."""
     given = [word.split(":=")[0] for word in words if is_argument(word)]
@@ -75,7 +81,7 @@ def check_words(words):
     # Half a second to load: only where there is something to check.
     from roslaunch.rlutil import resolve_launch_arguments
     from roslaunch.substitution_args import resolve_args
-    plain = [word for word in words if ":=" not in word and not word.startswith("-")]
+    plain = [word for word in words_without_options(words) if ":=" not in word]
     known = set()
     for file in resolve_launch_arguments(plain):
         known |= arguments_of(file, resolve_args)
