@@ -78,7 +78,7 @@ TEST_F(FaultsTest, ScansThatAreNone) {
   expectCounted("dropped: bad_geometry", [](auto& scan) { scan.angle_increment = 0.0F; });
   expectCounted("dropped: bad_geometry", [](auto& scan) { scan.range_max = kNan; });
   expectCounted("dropped: zero_stamp", [](auto& scan) { scan.header.stamp = ros::Time(); });
-  expectCounted("dropped: missing_transform", [](auto& scan) { scan.header.frame_id = ""; });
+  expectCounted("dropped: missing_frame", [](auto& scan) { scan.header.frame_id = ""; });
   driveOn(0.5);
   expectRightPose();
 }
