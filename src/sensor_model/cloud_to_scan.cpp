@@ -105,7 +105,7 @@ class Band {
     const float x = point.x - lidar_.x();
     const float y = point.y - lidar_.y();
     const double steps = beams_.stepsTo(std::atan2(y, x));
-    const auto beam = static_cast<std::size_t>(steps + 0.5);
+    const auto beam = static_cast<std::size_t>(std::lround(steps));
     if (beam >= seen_.size()) {
       return;
     }
