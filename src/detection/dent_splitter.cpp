@@ -7,7 +7,7 @@ namespace datmo {
 
 DentSplitter::DentSplitter(const SurfaceColumns& columns, const StereoCamera& camera,
                            const SurfaceGroupOptions& options)
-    : columns_(columns), options_(options), inverse_sigma_(camera.depthSigma(1.0)) {}
+    : columns_(columns), options_(options), noise_(camera.noise) {}
 
 void DentSplitter::split(SurfaceGroup group, std::vector<SurfaceGroup>& parts) {
   std::vector<SurfaceGroup> wholes{std::move(group)};
@@ -63,8 +63,8 @@ std::optional<int> DentSplitter::dent() const {
   for (std::size_t side = 0; side + 1 < hull_.size(); ++side) {
     for (std::size_t i = hull_[side] + 1; i < hull_[side + 1]; ++i) {
       const double inverse = profile_[i].inverse;
-      const double least =
-          std::max(options_.dent_sigmas * inverse_sigma_, options_.dent * inverse * inverse);
+      const double least = std::max(options_.dent_sigmas * noise_.inverseSigma(inverse),
+                                    options_.dent * inverse * inverse);
       const double depth = -above(hull_[side], i, hull_[side + 1]) / least;
       if (depth > deepest) {
         deepest = depth;

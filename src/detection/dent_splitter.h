@@ -36,7 +36,7 @@ class DentSplitter {
 
   const SurfaceColumns& columns_;
   const SurfaceGroupOptions& options_;
-  double inverse_sigma_;  ///< 1/m, standard deviation of an inverse depth
+  DepthNoise noise_;
   std::vector<Place> profile_;
   std::vector<Place> raw_profile_;
   std::vector<std::size_t> hull_;  ///< indices of the profile

@@ -78,8 +78,8 @@ GroupEnd OutlineFinder::endAt(const ColumnSurface& last, Step step) const {
   return end;
 }
 
-/// Of the image; of what both cameras see: the right one does not see what is at the left border of
-/// the left image; or of where the matcher finds anything at all.
+/// Of the image; of what both cameras see: the right one (or the projector) does not see what is at
+/// the left border of the left image; or of where the matcher finds anything at all.
 bool OutlineFinder::isAtBorder(const ColumnSurface& last, Step step) const {
   const double tangent = columns_.tangentOf(last.column);
   const double pixel = 1.0 / camera_.focal_length;

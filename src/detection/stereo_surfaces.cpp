@@ -55,8 +55,7 @@ void StereoSurfaces::takePoints(const StereoCloud& cloud, const StereoView& view
   const auto highest = static_cast<float>(options.highest);
   const float camera_height = view.cameraHeight();
   // A depth that is off by its noise lifts a point of the road by this much of height / depth.
-  const float road_margin =
-      static_cast<float>(options.road_sigmas * cloud.camera.depthSigma(1.0)) * camera_height;
+  const InverseDepthMargin road_margin(cloud.camera.noise, options.road_sigmas);
   for (std::size_t i = 0; i < cloud.points.count; ++i) {
     const ViewedPoint point = view(cloud.points[i]);
     if (!(point.forward > nearest && point.forward < kBeyondSight)) {
@@ -67,7 +66,7 @@ void StereoSurfaces::takePoints(const StereoCloud& cloud, const StereoView& view
     const float right = point.right * inverse;
     density_.add(right, (point.height - camera_height) * inverse);
     if (point.height >= least && point.height < highest && point.forward < most_depth &&
-        point.height * inverse > road_margin) {
+        point.height * inverse > road_margin.at(inverse) * camera_height) {
       upright_.push_back({right, point.forward, point.height});
     }
   }

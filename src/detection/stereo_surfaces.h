@@ -38,7 +38,7 @@ struct SurfaceColumns {
 };
 
 /// Finds the upright surfaces in the columns of a cloud: in each column the points above the road
-/// are counted over depth, in bins in which the noise of a stereo camera is uniform; each mode of
+/// are counted over depth, in bins in which the noise of the camera is uniform; each mode of
 /// these counts is a surface, so that there may be several behind each other (u-disparity;
 /// Labayrade, Aubert, Tarel, Real time obstacle detection in stereovision on non flat road geometry
 /// through v-disparity representation, 2002; surfaces in columns: Badino, Franke, Pfeiffer, The

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <string>
+#include <utility>
 
 namespace datmo {
 
@@ -86,6 +88,27 @@ void checkPoints(const PointsView& points) {
 /// NaN compares false with everything, and so is never within.
 bool isWithin(double value, double least, double most) { return value >= least && value <= most; }
 
+/// Focal length and image borders.
+StereoCamera pinholeCamera(const CameraInfo& info) {
+  // Binning of 0 is as good as 1 by the message's definition.
+  const double binning = std::max(1U, info.binning_x);
+  const double full_focal_length = info.P[kFocalLength];
+  StereoCamera camera;
+  camera.focal_length = full_focal_length / binning;
+  const double first = info.roi.x_offset - kHalfPixel;
+  const double columns = info.roi.width > 0 ? info.roi.width : info.width;
+  camera.left_tangent = (first - info.P[kImageCentre]) / full_focal_length;
+  camera.right_tangent = (first + columns - info.P[kImageCentre]) / full_focal_length;
+  return camera;
+}
+
+bool isValid(const StereoCamera& camera) {
+  return isWithin(camera.focal_length, kLeastFocalLength, kMostFocalLength) &&
+         isWithin(camera.left_tangent, -kMostTangent, kMostTangent) &&
+         isWithin(camera.right_tangent, -kMostTangent, kMostTangent) &&
+         camera.left_tangent < camera.right_tangent;
+}
+
 }  // namespace
 
 CloudPoints::CloudPoints(const PointCloud2& message) {
@@ -125,7 +148,32 @@ void CloudPoints::transform(const Eigen::Isometry3d& cloud_in_frame) {
     const Eigen::Vector3f point = motion * view_[i];
     std::memcpy(moved.data() + i * kPackedStep, point.data(), kPackedStep);
   }
-  copy_ = std::move(moved);
+  replace(std::move(moved));
+}
+
+void CloudPoints::keepDepths(double min_depth, double max_depth) {
+  const double limit = max_depth > 0.0 ? max_depth : std::numeric_limits<double>::max();
+  std::vector<std::uint8_t> kept(view_.count * kPackedStep);
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < view_.count; ++i) {
+    const Eigen::Vector3f point = view_[i];
+    if (isWithin(point.z(), min_depth, limit)) {
+      std::memcpy(kept.data() + size, point.data(), kPackedStep);
+      size += kPackedStep;
+    }
+  }
+  if (size == 0) {
+    refuse("no_valid_point", "cloud of ", view_.count, " points, none of them from ", min_depth,
+           " to ", limit,
+           " m ahead of the camera: expected points in its optical frame (REP 103: z "
+           "ahead) and within camera/min_depth and max_depth");
+  }
+  kept.resize(size);
+  replace(std::move(kept));
+}
+
+void CloudPoints::replace(std::vector<std::uint8_t> packed) {
+  copy_ = std::move(packed);
   view_ = PointsView();
   view_.data = copy_.data();
   view_.count = copy_.size() / kPackedStep;
@@ -133,27 +181,25 @@ void CloudPoints::transform(const Eigen::Isometry3d& cloud_in_frame) {
 }
 
 StereoCamera stereoCamera(const CameraInfo& right) {
-  // Binning of 0 is as good as 1 by the message's definition.
-  const double binning = std::max(1U, right.binning_x);
-  const double full_focal_length = right.P[kFocalLength];
-  StereoCamera camera;
-  camera.focal_length = full_focal_length / binning;
-  camera.baseline = -right.P[kBaseline] / full_focal_length;
-  const double first = right.roi.x_offset - kHalfPixel;
-  const double columns = right.roi.width > 0 ? right.roi.width : right.width;
-  camera.left_tangent = (first - right.P[kImageCentre]) / full_focal_length;
-  camera.right_tangent = (first + columns - right.P[kImageCentre]) / full_focal_length;
-  const bool valid = isWithin(camera.focal_length, kLeastFocalLength, kMostFocalLength) &&
-                     isWithin(camera.baseline, kLeastBaseline, kMostBaseline) &&
-                     isWithin(camera.left_tangent, -kMostTangent, kMostTangent) &&
-                     isWithin(camera.right_tangent, -kMostTangent, kMostTangent) &&
-                     camera.left_tangent < camera.right_tangent;
-  if (!valid) {
+  StereoCamera camera = pinholeCamera(right);
+  camera.baseline = -right.P[kBaseline] / right.P[kFocalLength];
+  if (!isValid(camera) || !isWithin(camera.baseline, kLeastBaseline, kMostBaseline)) {
     refuse("bad_camera_info", "camera info with a focal length of ", camera.focal_length,
            " px, a baseline of ", camera.baseline, " m, and a view from ", camera.left_tangent,
            " to ", camera.right_tangent, " (tangents): expected the right camera's, with ",
            kLeastFocalLength, " to ", kMostFocalLength, " px and ", kLeastBaseline, " to ",
-           kMostBaseline, " m");
+           kMostBaseline, " m; a depth camera has none: set camera/depth_noise");
+  }
+  return camera;
+}
+
+StereoCamera depthCamera(const CameraInfo& info) {
+  const StereoCamera camera = pinholeCamera(info);
+  if (!isValid(camera)) {
+    refuse("bad_camera_info", "camera info with a focal length of ", camera.focal_length,
+           " px, and a view from ", camera.left_tangent, " to ", camera.right_tangent,
+           " (tangents): expected the depth image's, with ", kLeastFocalLength, " to ",
+           kMostFocalLength, " px in P");
   }
   return camera;
 }

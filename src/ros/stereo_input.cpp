@@ -9,14 +9,17 @@ namespace datmo {
 void StereoCameraOptions::visit(OptionVisitor& visitor) {
   visitor.number({"focal_length", "px", "until a camera info has come; 0: not known"}, focal_length,
                  {0.0, kMostFocalLength});
-  visitor.number({"baseline", "m", "until a camera info has come; 0: not known"}, baseline,
-                 {0.0, kMostBaseline});
+  visitor.number({"baseline", "m",
+                  "stereo: until a camera info has come, 0: not known; active_stereo: between its "
+                  "two cameras; structured_light: from the camera to the projector at its right"},
+                 baseline, {0.0, kMostBaseline});
   visitor.number({"field_of_view", "rad", "from left to right, until a camera info has come"},
                  field_of_view, {degrees(5.0), degrees(150.0)});
-  visitor.number({"disparity_sigma", "px",
-                  "standard deviation of a disparity; at 0.25 px two standard deviations of the "
-                  "demonstrator's depth are 5 m at 36 m (thesis 3.3.3)"},
-                 disparity_sigma, {0.01, 10.0});
+  visitor.number({"min_depth", "m", "nearer points are left out: the camera's data sheet"},
+                 min_depth, {0.0, 100.0});
+  visitor.number({"max_depth", "m", "farther points are left out: the same; 0: none are"},
+                 max_depth, {0.0, 1000.0});
+  DepthNoiseOptions::visit(visitor);
 }
 
 void StereoInputOptions::visit(OptionVisitor& visitor) {
@@ -25,8 +28,24 @@ void StereoInputOptions::visit(OptionVisitor& visitor) {
 }
 
 StereoInput::StereoInput(const StereoInputOptions& options, const TransformBuffer& transforms)
-    : options_(options), transforms_(transforms), stamps_(options.input.restart_after) {
+    : options_(options),
+      principle_(depthPrinciple(options.camera.principle)),
+      transforms_(transforms),
+      stamps_(options.input.restart_after) {
   checkOptions(options);
+  const StereoCameraOptions& camera = options.camera;
+  if (principle_ == DepthPrinciple::kActiveStereo && camera.baseline < kLeastBaseline) {
+    throw OptionError("camera/baseline = " + std::to_string(camera.baseline) +
+                      ": expected that of the data sheet, in m, for depth_noise: active_stereo");
+  }
+  if (camera.max_depth > 0.0 && camera.min_depth >= camera.max_depth) {
+    throw OptionError("camera/min_depth = " + std::to_string(camera.min_depth) +
+                      ": expected less than max_depth = " + std::to_string(camera.max_depth));
+  }
+}
+
+void StereoInput::take(const sensor_msgs::CameraInfo& message) {
+  camera_ = principle_ == DepthPrinciple::kStereo ? stereoCamera(message) : depthCamera(message);
 }
 
 StereoCloud StereoInput::cloudOf(const std_msgs::Header& header, CloudPoints& points) const {
@@ -39,26 +58,37 @@ StereoCloud StereoInput::cloudOf(const std_msgs::Header& header, CloudPoints& po
   if (optical_frame != header.frame_id) {
     points.transform(sensorMount(transforms_.core(), optical_frame, header.frame_id));
   }
+  if (options_.camera.min_depth > 0.0 || options_.camera.max_depth > 0.0) {
+    points.keepDepths(options_.camera.min_depth, options_.camera.max_depth);
+  }
   cloud.points = points.view();
   return cloud;
 }
 
 StereoCamera StereoInput::camera() const {
-  const StereoCameraOptions& known = options_.camera;
-  StereoCamera camera;
-  if (camera_) {
-    camera = *camera_;
-  } else if (known.focal_length > 0.0 && known.baseline > 0.0) {
-    camera.focal_length = known.focal_length;
-    camera.baseline = known.baseline;
-    camera.right_tangent = std::tan(0.5 * known.field_of_view);
-    camera.left_tangent = -camera.right_tangent;
-  } else {
-    throw InputError("missing_camera_info",
-                     "no info of the right camera yet: expected it, or focal_length and baseline "
-                     "of the parameter group camera");
+  StereoCamera camera = camera_ ? *camera_ : configuredCamera();
+  if (principle_ != DepthPrinciple::kStereo) {
+    camera.baseline = principle_ == DepthPrinciple::kTimeOfFlight ? 0.0 : options_.camera.baseline;
   }
-  camera.disparity_sigma = known.disparity_sigma;
+  camera.noise = depthNoise(options_.camera, camera.focal_length, camera.baseline);
+  return camera;
+}
+
+StereoCamera StereoInput::configuredCamera() const {
+  const StereoCameraOptions& known = options_.camera;
+  const bool pair = principle_ == DepthPrinciple::kStereo;
+  if (known.focal_length <= 0.0 || (pair && known.baseline <= 0.0)) {
+    throw InputError("missing_camera_info",
+                     pair ? "no info of the right camera yet: expected it, or focal_length and "
+                            "baseline of the parameter group camera"
+                          : "no info of the depth camera yet: expected it, or focal_length of the "
+                            "parameter group camera");
+  }
+  StereoCamera camera;
+  camera.focal_length = known.focal_length;
+  camera.baseline = known.baseline;
+  camera.right_tangent = std::tan(0.5 * known.field_of_view);
+  camera.left_tangent = -camera.right_tangent;
   return camera;
 }
 

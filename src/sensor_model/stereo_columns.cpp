@@ -26,7 +26,7 @@ StereoColumns::StereoColumns(const StereoGridOptions& options, const StereoCamer
       field_(field),
       evidence_(evidence),
       half_cell_(0.5 * options.window.cell_size),
-      inverse_sigma_(camera.depthSigma(1.0)) {}
+      noise_(camera.noise) {}
 
 void StereoColumns::fill(SensorGrid& grid) const {
   for (const CellIndex cell : withoutNoise(markCells(grid), grid)) {
@@ -35,12 +35,13 @@ void StereoColumns::fill(SensorGrid& grid) const {
 }
 
 StereoColumns::Depths StereoColumns::around(double depth, double sigmas) const {
-  // The noise is uniform in the inverse depth; what may be endlessly far is cut where nothing is of
-  // interest any more.
+  // In the inverse depth, where the noise of a stereo camera is uniform; what may be endlessly far
+  // is cut where nothing is of interest any more.
   const double inverse = 1.0 / depth;
+  const double inverse_sigma = noise_.inverseSigma(inverse);
   const double least_inverse = 1.0 / (2.0 * field_.effective_range);
-  return {1.0 / (inverse + sigmas * inverse_sigma_),
-          1.0 / std::max(least_inverse, inverse - sigmas * inverse_sigma_)};
+  return {1.0 / (inverse + sigmas * inverse_sigma),
+          1.0 / std::max(least_inverse, inverse - sigmas * inverse_sigma)};
 }
 
 double StereoColumns::surfaceAt(const ViewedPlace& place) const {
@@ -50,7 +51,8 @@ double StereoColumns::surfaceAt(const ViewedPlace& place) const {
 }
 
 bool StereoColumns::isSmear(const ViewedPlace& place) const {
-  const double sigma = inverse_sigma_ * place.forward * place.forward;
+  const double inverse_sigma = noise_.inverseSigma(1.0 / place.forward);
+  const double sigma = inverse_sigma * place.forward * place.forward;
   if (2.0 * sigma <= half_cell_) {
     return false;
   }
@@ -59,7 +61,7 @@ bool StereoColumns::isSmear(const ViewedPlace& place) const {
   const double half_window = std::max(half_cell_, sigma);
   const double variance = sigma * sigma + half_window * half_window / 3.0;
   for (double sigmas = -kSmearReach; sigmas <= kSmearReach; sigmas += kSmearStep) {
-    const double depth = 1.0 / (1.0 / place.forward + sigmas * inverse_sigma_);
+    const double depth = 1.0 / (1.0 / place.forward + sigmas * inverse_sigma);
     const double offset = depth - place.forward;
     if (depth > 0.0 && depth < 2.0 * field_.effective_range && std::abs(offset) > half_cell_) {
       const double share = std::exp(-0.5 * offset * offset / variance);

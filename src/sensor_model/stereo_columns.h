@@ -57,8 +57,8 @@ class StereoColumns {
   const StereoView& view_;
   const FieldOfView& field_;
   const StereoEvidence& evidence_;
-  double half_cell_;      ///< m
-  double inverse_sigma_;  ///< 1/m: standard deviation of an inverse depth
+  double half_cell_;  ///< m
+  DepthNoise noise_;
 };
 
 }  // namespace datmo

@@ -76,8 +76,6 @@ void StereoEvidence::prepare(const StereoCamera& camera, const EvidenceLimits& l
 
 StereoEvidence::Scales StereoEvidence::scalesOf(const StereoCloud& cloud, const StereoView& view,
                                                 const EvidenceLimits& limits) const {
-  // The noise of a depth is uniform in its inverse, 1/m.
-  const double inverse_sigma = cloud.camera.depthSigma(1.0);
   Scales scales;
   scales.nearest = static_cast<float>(limits.nearest_depth);
   scales.layer_bottom = static_cast<float>(limits.layer_bottom);
@@ -93,8 +91,8 @@ StereoEvidence::Scales StereoEvidence::scalesOf(const StereoCloud& cloud, const 
   scales.tile_rows = static_cast<float>(tile_rows_);
   scales.camera_height = view.cameraHeight();
   scales.above_layer = view.cameraHeight() - static_cast<float>(limits.layer_bottom);
-  scales.road_margin = static_cast<float>(limits.road_sigmas * inverse_sigma) * view.cameraHeight();
-  scales.obstacle_margin = static_cast<float>(limits.obstacle_sigmas * inverse_sigma);
+  scales.road_margin = InverseDepthMargin(cloud.camera.noise, limits.road_sigmas);
+  scales.obstacle_margin = InverseDepthMargin(cloud.camera.noise, limits.obstacle_sigmas);
   return scales;
 }
 
@@ -139,7 +137,7 @@ inline bool StereoEvidence::place(const ViewedPoint& point, const Scales& scales
   placed.column = static_cast<int>(column);
   // On the line of sight to the point, the road is at the inverse depth
   // inverse * (1 - height / camera_height).
-  placed.on_road = point.height * inverse <= scales.road_margin;
+  placed.on_road = point.height * inverse <= scales.road_margin.at(inverse) * scales.camera_height;
   return true;
 }
 
@@ -162,8 +160,9 @@ inline void StereoEvidence::addLine(const ColumnPoint& point, const Scales& scal
   // From where to where the line is below the layer, and nothing stops it.
   const float per_fall = point.forward / fall;
   const float at_bottom = per_fall * scales.above_layer;
-  const float stop = point.on_road ? per_fall * scales.camera_height
-                                   : 1.0F / (point.inverse + scales.obstacle_margin);
+  const float stop = point.on_road
+                         ? per_fall * scales.camera_height
+                         : 1.0F / (point.inverse + scales.obstacle_margin.at(point.inverse));
   const bool falls = fall > 0.0F;
   const float begin = falls ? std::max(0.0F, at_bottom) : 0.0F;
   const float end = falls ? stop : std::min(stop, at_bottom);

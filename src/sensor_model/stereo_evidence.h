@@ -63,8 +63,8 @@ class StereoEvidence {
     float tiles_per_tangent, tile_rows;        ///< of the tiles
     float camera_height;                       ///< m above the road
     float above_layer;                         ///< m, of the camera above the layer's bottom
-    float road_margin;                         ///< of height / depth
-    float obstacle_margin;                     ///< 1/m, of the inverse depth
+    InverseDepthMargin road_margin;            ///< times the camera's height: of height / depth
+    InverseDepthMargin obstacle_margin;        ///< of the inverse depth
   };
   Scales scalesOf(const StereoCloud& cloud, const StereoView& view,
                   const EvidenceLimits& limits) const;

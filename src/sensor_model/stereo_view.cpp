@@ -10,14 +10,22 @@ namespace {
 /// Least horizontal part of the optical axis, 0 to 1: steeper, the camera has no heading.
 constexpr double kLeastLevel = 0.1;
 
+/// m: cameras measure depths from the nearer to the farther one.
+constexpr double kNearDepth = 0.1;
+constexpr double kFarDepth = 100.0;
+
+bool isPositive(const DepthNoise& noise) {
+  return noise.sigma(kNearDepth) > 0.0 && noise.sigma(kFarDepth) > 0.0;
+}
+
 void checkCamera(const StereoCamera& camera) {
-  const bool measures =
-      camera.focal_length > 0.0 && camera.baseline > 0.0 && camera.disparity_sigma > 0.0;
+  const bool measures = camera.focal_length > 0.0 && camera.baseline >= 0.0 &&
+                        camera.noise.disparity_at_metre > 0.0 && isPositive(camera.noise);
   // In this order a number that is not one is refused as well.
   if (!measures || !(camera.right_tangent > camera.left_tangent)) {
     throw std::invalid_argument(
-        "stereo camera: expected a focal length, a baseline and a disparity noise above 0, and a "
-        "right border of the image to the right of the left one");
+        "stereo camera: expected a focal length above 0, a baseline of 0 or more, a noise of the "
+        "depth above 0, and a right border of the image to the right of the left one");
   }
 }
 
@@ -29,7 +37,9 @@ StereoView::StereoView(const StereoCloud& cloud, const RoadPlane& road)
   const Eigen::Matrix3d rotation = cloud.camera_in_base.linear();
   const Point2 axis = rotation.col(2).head<2>();
   if (!(axis.norm() > kLeastLevel)) {
-    throw std::invalid_argument("stereo camera: expected to look along the ground, not at it");
+    throw std::invalid_argument(
+        "stereo camera: expected to look along the ground, not at it, with its points in the "
+        "optical frame (REP 103: z ahead); if theirs is another one, name it in frames/camera");
   }
   const double height = road.heightOf(cloud.camera_in_base.translation());
   if (!(height > 0.0)) {

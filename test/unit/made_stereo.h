@@ -33,8 +33,11 @@ struct MadeScene {
   double unknown_pitch = 0.0;  ///< rad, downwards; the mount that the cloud tells knows none of it
   double disparity_noise = 0.0;  ///< px, standard deviation
   double disparity_bias = 0.0;   ///< px, of all points
-  std::uint64_t seed = 3;        ///< of the noise
-  int step = 1;                  ///< px from a point to the next one, both ways
+  /// Of a depth camera without baseline, in place of that of disparities.
+  std::optional<DepthNoise> depth_noise;
+  double depth_bias = 0.0;  ///< of a depth camera's points, standard deviations of the depth
+  std::uint64_t seed = 3;   ///< of the noise
+  int step = 1;             ///< px from a point to the next one, both ways
 };
 
 /// A cloud and the memory of its points.
@@ -42,7 +45,7 @@ class MadeCloud {
  public:
   MadeCloud() {
     cloud_.stamp = Stamp::fromSeconds(7.0);
-    cloud_.camera = {400.0, 0.5, 0.25, -0.5, 0.5};
+    cloud_.camera = {400.0, 0.5, DepthNoise::ofDisparity(400.0, 0.5, 0.25), -0.5, 0.5};
     cloud_.scanner_height = 0.33;
     mount(1.2, 0.0, 0.0);
   }
@@ -51,6 +54,10 @@ class MadeCloud {
     mount(scene.camera_height, scene.camera_yaw, scene.unknown_pitch);
     const Eigen::Isometry3d true_mount = cloud_.camera_in_base;
     mount(scene.camera_height, scene.camera_yaw, 0.0);
+    if (scene.depth_noise) {
+      cloud_.camera.baseline = 0.0;
+      cloud_.camera.noise = *scene.depth_noise;
+    }
     Random random(scene.seed);
     for (int row = -kHalfHeight; row < kHalfHeight; row += scene.step) {
       for (int column = -kHalfWidth; column < kHalfWidth; column += scene.step) {
@@ -58,10 +65,7 @@ class MadeCloud {
         const Eigen::Vector3d direction((column + 0.5) / focal_length, (row + 0.5) / focal_length,
                                         1.0);
         const double depth = depthAlong(true_mount * direction, true_mount.translation(), scene);
-        const double disparity = focal_length * cloud_.camera.baseline / depth;
-        const double noisy =
-            disparity + scene.disparity_bias + random.normal(scene.disparity_noise);
-        add(direction * (depth * disparity / noisy));
+        add(direction * measured(depth, scene, random));
       }
     }
   }
@@ -96,6 +100,17 @@ class MadeCloud {
     cloud_.camera_in_base.linear() = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
                                      Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) * axes;
     cloud_.camera_in_base.translation() = Eigen::Vector3d(0.5, 0.0, height);
+  }
+
+  /// What the camera takes a depth (m) for.
+  double measured(double depth, const MadeScene& scene, Random& random) const {
+    if (scene.depth_noise) {
+      const double sigma = scene.depth_noise->sigma(depth);
+      return depth + sigma * scene.depth_bias + random.normal(sigma);
+    }
+    const double disparity = cloud_.camera.focal_length * cloud_.camera.baseline / depth;
+    const double noisy = disparity + scene.disparity_bias + random.normal(scene.disparity_noise);
+    return depth * disparity / noisy;
   }
 
   /// To the nearest thing on a line of sight, in lengths of `end` - `origin`.

@@ -33,8 +33,14 @@ class CloudPoints {
   /// Brings the points to another frame; they are copied.
   void transform(const Eigen::Isometry3d& cloud_in_frame);
 
+  /// Leaves out the points whose z (m) is not from `min_depth` to `max_depth`, 0: no upper bound;
+  /// the others are copied. Throws InputError (`no_valid_point`) if there is none.
+  void keepDepths(double min_depth, double max_depth);
+
  private:
   void packRows(const sensor_msgs::PointCloud2& message);
+  /// Takes x, y and z, 4 bytes each, in place of the points that were.
+  void replace(std::vector<std::uint8_t> packed);
 
   PointsView view_;
   std::vector<std::uint8_t> copy_;
@@ -48,10 +54,13 @@ inline constexpr double kMostBaseline = 10.0;      ///< m
 
 /// What the right camera's info says of a rectified pair: focal length P[0], baseline -P[3] / P[0],
 /// image borders from its width, its region of interest and P[2]. Binning is taken into account.
-/// The standard deviation of disparities is left at 0: no message tells it.
+/// The noise of depths is left at 0: no message tells it.
 ///
 /// Throws InputError (`bad_camera_info`) for what no stereo camera is like: the left camera's info,
 /// whose baseline is 0, among it.
 StereoCamera stereoCamera(const sensor_msgs::CameraInfo& right);
+
+/// The same of the info of a depth image, which has no baseline: that is left at 0.
+StereoCamera depthCamera(const sensor_msgs::CameraInfo& info);
 
 }  // namespace datmo

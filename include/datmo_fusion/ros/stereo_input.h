@@ -16,16 +16,17 @@
 namespace datmo {
 
 /// What serves until a camera info has come, and what no message tells.
-struct StereoCameraOptions {
+struct StereoCameraOptions : DepthNoiseOptions {
   double focal_length = 0.0;             ///< px; 0: not known
-  double baseline = 0.0;                 ///< m; 0: not known
+  double baseline = 0.0;                 ///< m; 0: not known, or none
   double field_of_view = degrees(60.0);  ///< rad
-  double disparity_sigma = 0.25;         ///< px
+  double min_depth = 0.0;                ///< m
+  double max_depth = 0.0;                ///< m; 0: no bound
 
   void visit(OptionVisitor& visitor);
 };
 
-/// What the stages of a stereo camera's clouds have in common.
+/// What the stages of a stereo or depth camera's clouds have in common.
 struct StereoInputOptions {
   FrameOptions frames;  ///< of all stages
   StereoCameraOptions camera;
@@ -34,18 +35,22 @@ struct StereoInputOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Clouds of a stereo camera as messages -> as the core takes them: with the camera as its info, or
-/// the options until that comes, say, and its mount as tf says.
+/// Clouds of a stereo or depth camera as messages -> as the core takes them: with the camera as its
+/// info, or the options until that comes, say, its noise as the options say, and its mount as tf
+/// says. Points out of the camera's range (min_depth, max_depth) are left out.
 class StereoInput {
  public:
-  /// `transforms` must outlive this. Throws OptionError.
+  /// `transforms` must outlive this. Throws OptionError; for an active_stereo without baseline, and
+  /// a min_depth that is not below max_depth, as well.
   StereoInput(const StereoInputOptions& options, const TransformBuffer& transforms);
 
-  /// Of the right camera; the newest one serves. Throws InputError (`bad_camera_info`).
-  void take(const sensor_msgs::CameraInfo& message) { camera_ = stereoCamera(message); }
+  /// Of the right camera, or of the depth image; the newest one serves. Throws InputError
+  /// (`bad_camera_info`).
+  void take(const sensor_msgs::CameraInfo& message);
 
   /// `points` of a message with this header; they are brought to the camera's frame, and must
-  /// outlive the result. Throws InputError (`missing_camera_info`, `missing_transform`).
+  /// outlive the result. Throws InputError (`missing_camera_info`, `missing_transform`,
+  /// `no_valid_point` if none is within the camera's range).
   StereoCloud cloudOf(const std_msgs::Header& header, CloudPoints& points) const;
 
   /// How the cloud's stamp follows the last one's. Throws InputError (StampCheck).
@@ -54,8 +59,11 @@ class StereoInput {
  private:
   /// Throws InputError (`missing_camera_info`).
   StereoCamera camera() const;
+  /// What the options know of it. Throws as camera() does.
+  StereoCamera configuredCamera() const;
 
   StereoInputOptions options_;
+  DepthPrinciple principle_;
   const TransformBuffer& transforms_;
   StampCheck stamps_;
   std::optional<StereoCamera> camera_;  ///< as the last camera info says

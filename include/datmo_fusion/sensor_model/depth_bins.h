@@ -7,9 +7,9 @@
 
 namespace datmo {
 
-/// Depth ahead of a stereo camera cut into bins as fine as it can tell apart: half a standard
-/// deviation of the depth, uniform in disparity (Badino et al. 2007), but near the vehicle no finer
-/// than the cells need.
+/// Depth ahead of a camera cut into bins as fine as it can tell apart: half a standard deviation of
+/// the depth (for a stereo camera, uniform in disparity: Badino et al. 2007), but no finer than the
+/// cells need.
 class DepthBins {
  public:
   DepthBins() = default;

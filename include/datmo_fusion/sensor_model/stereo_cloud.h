@@ -8,12 +8,13 @@
 #include <Eigen/Geometry>
 
 #include "datmo_fusion/common/stamp.h"
+#include "datmo_fusion/sensor_model/depth_noise.h"
 
 namespace datmo {
 
-/// Points of a stereo camera as they lie in memory (a PointCloud2's data): three floats each, in
-/// the camera's optical frame: x to the right, y down, z forward, m. Points that are not finite are
-/// holes. Does not own the memory.
+/// Points of a stereo or depth camera as they lie in memory (a PointCloud2's data): three floats
+/// each, in the camera's optical frame: x to the right, y down, z forward, m. Points that are not
+/// finite are holes. Does not own the memory.
 struct PointsView {
   const std::uint8_t* data = nullptr;
   std::size_t count = 0;
@@ -32,23 +33,23 @@ struct PointsView {
   }
 };
 
-/// What the depth of a stereo camera's points hangs on. The depth z (m) of a point of disparity d
-/// (px) is focal_length * baseline / d, so its standard deviation is
-/// z^2 * disparity_sigma / (focal_length * baseline).
+/// A camera whose points have depths: a pair of cameras, or a depth camera (structured light, time
+/// of flight).
 struct StereoCamera {
-  double focal_length = 0.0;     ///< px, more than 0
-  double baseline = 0.0;         ///< m, more than 0
-  double disparity_sigma = 0.0;  ///< px, more than 0
+  double focal_length = 0.0;  ///< px, more than 0
+  /// m, to the right, of what sees or lights the scene as well: the right camera, the projector.
+  /// What is hidden from it has no depth. 0: there is none (time of flight).
+  double baseline = 0.0;
+  DepthNoise noise;  ///< more than 0 at all depths
   /// Borders of the image as tangents x / z of the optical frame: left one, right one.
   double left_tangent = 0.0;
   double right_tangent = 0.0;
 
-  double depthSigma(double depth) const {
-    return depth * depth * disparity_sigma / (focal_length * baseline);
-  }
+  /// Standard deviation of a depth, m.
+  double depthSigma(double depth) const { return noise.sigma(depth); }
 };
 
-/// One measurement of a stereo camera.
+/// One measurement of a stereo or depth camera.
 struct StereoCloud {
   Stamp stamp;
   PointsView points;

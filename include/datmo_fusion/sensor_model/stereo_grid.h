@@ -61,7 +61,8 @@ struct StereoGridResult {
 
 class StereoEvidence;
 
-/// One cloud of a stereo camera -> what it says of each cell around the vehicle (thesis 3.2.2).
+/// One cloud of a stereo or depth camera -> what it says of each cell around the vehicle
+/// (thesis 3.2.2).
 ///
 /// Method `cones`, the thesis's plain form on a flat road (eq. 3.2.2 to 3.2.4): points in the layer
 /// above the scanner's plane counted in cells, free before each object, undecided behind it, free
@@ -80,8 +81,7 @@ class StereoGridModel {
   explicit StereoGridModel(const StereoGridOptions& options);
   ~StereoGridModel();
 
-  /// Throws std::invalid_argument for a camera without focal length, baseline, disparity noise or
-  /// width, one that looks straight up or down, and one that is not above the road.
+  /// Throws std::invalid_argument for a camera as StereoView does.
   StereoGridResult grid(const StereoCloud& cloud);
 
   /// Forgets the last road plane, as after construction.

@@ -29,8 +29,8 @@ struct ViewedPoint {
 /// sector of constant right / forward, and a line of sight stays in its column.
 class StereoView {
  public:
-  /// Throws std::invalid_argument for a camera that has no focal length, baseline, disparity noise
-  /// or width, looks straight up or down, or is not above the road.
+  /// Throws std::invalid_argument for a camera that has no focal length, noise of the depth or
+  /// width, or a negative baseline, looks straight up or down, or is not above the road.
   StereoView(const StereoCloud& cloud, const RoadPlane& road);
 
   /// `optical`: in the camera's optical frame, m. Not finite in, not finite `forward` out.

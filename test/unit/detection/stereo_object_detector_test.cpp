@@ -5,77 +5,13 @@
 #include <limits>
 #include <stdexcept>
 
-#include "made_stereo.h"
+#include "made_road_users.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/common/angle.h"
 
 namespace datmo {
 namespace {
-
-/// m from base_link's origin to the camera.
-constexpr double kCameraX = 0.5;
-
-/// Rear at a distance ahead, middle to the left; m.
-MadeBox boxAt(double distance, double left, const Eigen::Vector3d& size) {
-  return {{distance, left - 0.5 * size.y(), 0.0},
-          {distance + size.x(), left + 0.5 * size.y(), size.z()}};
-}
-MadeBox carAt(double distance, double left) { return boxAt(distance, left, {4.2, 1.8, 1.5}); }
-MadeBox pedestrianAt(double distance, double left) {
-  return boxAt(distance, left, {0.5, 0.5, 1.75});
-}
-
-MadeScene sceneOf(const std::vector<MadeBox>& boxes) {
-  MadeScene scene;
-  scene.boxes = boxes;
-  return scene;
-}
-
-StereoObjects detect(MadeCloud& made,
-                     const StereoObjectDetectorOptions& options = StereoObjectDetectorOptions()) {
-  return StereoObjectDetector(options).detect(made.cloud());
-}
-
-std::vector<Object> objectsIn(const MadeScene& scene, const StereoObjectDetectorOptions& options =
-                                                          StereoObjectDetectorOptions()) {
-  MadeCloud made(scene);
-  return detect(made, options).list.objects;
-}
-
-/// Of scenes in which bodies are boxes.
-StereoObjectDetectorOptions ofBoxes() {
-  StereoObjectDetectorOptions options;
-  options.noise.body_sigma = 0.05;
-  return options;
-}
-
-const Object& nearest(const std::vector<Object>& objects) {
-  return *std::min_element(objects.begin(), objects.end(), [](const Object& a, const Object& b) {
-    return a.box.centre.x() < b.box.centre.x();
-  });
-}
-
-struct Side {
-  double place;     ///< m, along its normal
-  double variance;  ///< m^2
-};
-
-/// The side of an object that looks most into a direction.
-Side sideTowards(const Object& object, const Point2& direction) {
-  const Pose2 turn(Point2::Zero(), object.box.centre.heading());
-  const std::array<Point2, kBoxSides> normals = {turn.rotate({1.0, 0.0}), turn.rotate({-1.0, 0.0}),
-                                                 turn.rotate({0.0, 1.0}), turn.rotate({0.0, -1.0})};
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < kBoxSides; ++i) {
-    best = normals[i].dot(direction) > normals[best].dot(direction) ? i : best;
-  }
-  const double half = 0.5 * (best < 2 ? object.box.length : object.box.width);
-  return {normals[best].dot(object.box.centre.position()) + half, object.side_variance[best]};
-}
-Side rearOf(const Object& object) { return sideTowards(object, {-1.0, 0.0}); }
-Side leftOf(const Object& object) { return sideTowards(object, {0.0, 1.0}); }
-Side rightOf(const Object& object) { return sideTowards(object, {0.0, -1.0}); }
 
 TEST(StereoObjectDetector, FindsACarAhead) {
   const std::vector<Object> objects = objectsIn(sceneOf({carAt(10.0, 0.0)}));
@@ -308,50 +244,11 @@ TEST(StereoObjectDetector, TakesCamerasOfAnyImageSize) {
 
 TEST(StereoObjectDetector, RefusesCamerasThatMeasureNothing) {
   MadeCloud made(sceneOf({}));
-  made.cloud().camera.baseline = 0.0;
+  made.cloud().camera.noise = DepthNoise();
   EXPECT_THROW(detect(made), std::invalid_argument);
   StereoObjectDetectorOptions options;
   options.noise.edge_sigma = -1.0;
   EXPECT_THROW(StereoObjectDetector{options}, OptionError);
-}
-
-/// Mean of the squared error of the rear's place over its variance, and the mean error (m).
-struct Consistency {
-  double squares = 0.0;
-  double bias = 0.0;
-};
-
-Consistency consistencyAt(double distance) {
-  constexpr int kClouds = 24;
-  Random random(5);
-  Consistency mean;
-  MadeScene scene = sceneOf({carAt(distance, 0.0)});
-  scene.disparity_noise = 0.2;
-  const StereoObjectDetectorOptions options = ofBoxes();
-  for (int i = 0; i < kClouds; ++i) {
-    scene.seed = static_cast<std::uint64_t>(i) + 1;
-    scene.disparity_bias = random.normal(options.noise.common * 0.25);
-    const std::vector<Object> objects = objectsIn(scene, options);
-    EXPECT_EQ(objects.size(), 1U);
-    if (objects.size() == 1) {
-      const double error = -rearOf(objects[0]).place - distance;
-      const double variance = objects[0].position_covariance(0, 0) + rearOf(objects[0]).variance;
-      mean.squares += error * error / variance / kClouds;
-      mean.bias += error / kClouds;
-    }
-  }
-  return mean;
-}
-
-TEST(StereoObjectDetector, KnowsHowWellItKnowsAPlace) {
-  const Consistency middle = consistencyAt(15.0);
-  EXPECT_LT(middle.squares, 1.5);
-  EXPECT_GT(middle.squares, 0.2);
-  EXPECT_NEAR(middle.bias, 0.0, 0.15);
-  const Consistency far = consistencyAt(25.0);
-  EXPECT_LT(far.squares, 1.5);
-  EXPECT_GT(far.squares, 0.2);
-  EXPECT_NEAR(far.bias, 0.0, 0.4);
 }
 
 TEST(StereoObjectDetector, UncertaintyLiesAlongTheLineOfSightAndGrowsWithDepth) {

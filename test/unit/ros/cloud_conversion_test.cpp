@@ -195,5 +195,29 @@ TEST(StereoCamera, WhatIsNoneIsRefused) {
   EXPECT_EQ(reason([](auto&) {}), "");
 }
 
+TEST(DepthCamera, NeedsNoBaseline) {
+  sensor_msgs::CameraInfo info = samples::rightCameraInfo();
+  info.P[3] = 0.0;
+  const StereoCamera camera = depthCamera(info);
+  EXPECT_DOUBLE_EQ(camera.focal_length, 500.0);
+  EXPECT_DOUBLE_EQ(camera.baseline, 0.0);
+  EXPECT_DOUBLE_EQ(camera.left_tangent, -0.64);
+  info.P[0] = 0.0;
+  EXPECT_EQ(reasonOf([&info] { depthCamera(info); }), "bad_camera_info");
+}
+
+TEST(CloudPoints, DepthsOutOfRangeAreLeftOut) {
+  const auto nan = std::numeric_limits<float>::quiet_NaN();
+  const sensor_msgs::PointCloud2 message =
+      samples::cloud({{0.0F, 0.0F, 0.0F}, {1.0F, 2.0F, 3.0F}, {nan, nan, nan}, {4.0F, 5.0F, 9.0F}});
+  CloudPoints points(message);
+  points.keepDepths(0.5, 0.0);
+  ASSERT_EQ(points.view().count, 2U) << "holes are 0 or NaN";
+  points.keepDepths(0.5, 8.0);
+  ASSERT_EQ(points.view().count, 1U);
+  EXPECT_TRUE(points.view()[0].isApprox(Eigen::Vector3f(1.0F, 2.0F, 3.0F)));
+  EXPECT_EQ(reasonOf([&points] { points.keepDepths(4.0, 8.0); }), "no_valid_point");
+}
+
 }  // namespace
 }  // namespace datmo

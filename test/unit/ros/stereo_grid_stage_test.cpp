@@ -1,5 +1,6 @@
 #include "datmo_fusion/ros/stereo_grid_stage.h"
 
+#include <functional>
 #include <limits>
 
 #include "cloud_samples.h"
@@ -183,6 +184,61 @@ TEST_F(StereoGridStageTest, AJumpBackStartsAnew) {
 TEST_F(StereoGridStageTest, BadOptionsAreRefused) {
   options_.camera.disparity_sigma = 0.0;
   EXPECT_THROW(StereoGridStage(options_, buffer_, monitor_), OptionError);
+}
+
+/// A depth image's: 120 x 160 points, holes as NaN; wallOnARoad() leaves them out.
+sensor_msgs::PointCloud2 organizedCloud() {
+  const auto nan = std::numeric_limits<float>::quiet_NaN();
+  std::vector<Eigen::Vector3f> points = wallOnARoad();
+  points.resize(120U * 160U, Eigen::Vector3f(nan, nan, nan));
+  points.back() = {0.0F, 0.0F, 40.0F};  // out of range: beyond the wall
+  sensor_msgs::PointCloud2 message = samples::cloud(points);
+  message.height = 120;
+  message.width = 160;
+  message.row_step = message.width * message.point_step;
+  return message;
+}
+
+sensor_msgs::CameraInfo depthImageInfo() {
+  sensor_msgs::CameraInfo info = samples::rightCameraInfo();
+  info.P[3] = 0.0;
+  return info;
+}
+
+TEST_F(StereoGridStageTest, OrganizedCloudsOfDepthCamerasMakeGrids) {
+  mountSensors();
+  options_.camera.min_depth = 0.5;
+  options_.camera.max_depth = 20.0;
+  options_.camera.baseline = 0.05;
+  options_.camera.disparity_sigma = 0.06;  // 0.24 m at the wall
+  for (const char* principle : {"active_stereo", "structured_light", "time_of_flight"}) {
+    options_.camera.principle = principle;
+    StereoGridStage stage(options_, buffer_, monitor_);
+    SCOPED_TRACE(principle);
+    EXPECT_FALSE(stage.takeCloud(organizedCloud())) << "no camera info yet";
+    stage.takeCameraInfo(depthImageInfo());
+    expectWall(stage.takeCloud(organizedCloud()));
+  }
+  EXPECT_EQ(drops("missing_camera_info"), 3U);
+  EXPECT_EQ(drops("bad_camera_info"), 0U);
+}
+
+TEST_F(StereoGridStageTest, ADepthCamerasInfoIsNoneOfAPair) {
+  stage_.takeCameraInfo(depthImageInfo());
+  EXPECT_EQ(drops("bad_camera_info"), 1U);
+}
+
+TEST_F(StereoGridStageTest, BadOptionsOfDepthCamerasAreRefused) {
+  const auto refused = [this](const std::function<void(StereoCameraOptions&)>& spoil) {
+    StereoGridStageOptions options = options_;
+    spoil(options.camera);
+    EXPECT_THROW(StereoGridStage(options, buffer_, monitor_), OptionError);
+  };
+  refused([](auto& camera) { camera.principle = "sonar"; });
+  refused([](auto& camera) { camera.principle = "active_stereo"; });  // without baseline
+  refused([](auto& camera) { camera.min_depth = 2.0, camera.max_depth = 1.0; });
+  refused([](auto& camera) { camera.structured_light.quadratic = 0.0; });
+  refused([](auto& camera) { camera.time_of_flight.constant = 0.0; });
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 
@@ -300,14 +301,21 @@ TEST(StereoGridTest, ACameraThatMeasuresNothingIsRefused) {
   StereoGridModel model((StereoGridOptions()));
   MadeCloud made;
   const StereoCamera good = made.cloud().camera;
-  for (double StereoCamera::*const number :
-       {&StereoCamera::focal_length, &StereoCamera::baseline, &StereoCamera::disparity_sigma}) {
-    for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
-      made.cloud().camera = good;
-      made.cloud().camera.*number = bad;
-      EXPECT_THROW(model.grid(made.cloud()), std::invalid_argument) << bad;
-    }
+  const auto refused = [&](const std::function<void(StereoCamera&)>& spoil) {
+    made.cloud().camera = good;
+    spoil(made.cloud().camera);
+    EXPECT_THROW(model.grid(made.cloud()), std::invalid_argument);
+  };
+  for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    refused([&](StereoCamera& camera) { camera.focal_length = bad; });
+    refused([&](StereoCamera& camera) { camera.baseline = bad; });
+    refused([&](StereoCamera& camera) { camera.noise.disparity_sigma = bad; });
+    refused([&](StereoCamera& camera) { camera.noise.disparity_at_metre = bad; });
+    refused([&](StereoCamera& camera) { camera.noise = DepthNoise::ofPolynomial(bad, 0.0, 0.0); });
   }
+  refused([](StereoCamera& camera) { camera.focal_length = 0.0; });
+  refused([](StereoCamera& camera) { camera.noise = DepthNoise(); });
+  refused([](StereoCamera& camera) { camera.noise = DepthNoise::ofDisparity(400.0, 0.0, 0.25); });
   made.cloud().camera = good;
   made.cloud().camera.right_tangent = good.left_tangent;
   EXPECT_THROW(model.grid(made.cloud()), std::invalid_argument);

@@ -1,0 +1,89 @@
+#include "datmo_fusion/sensor_model/depth_noise.h"
+
+#include <array>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace datmo {
+
+namespace {
+
+constexpr std::array<std::pair<const char*, DepthPrinciple>, 4> kPrinciples = {{
+    {"stereo", DepthPrinciple::kStereo},
+    {"active_stereo", DepthPrinciple::kActiveStereo},
+    {"structured_light", DepthPrinciple::kStructuredLight},
+    {"time_of_flight", DepthPrinciple::kTimeOfFlight},
+}};
+
+std::vector<std::string> principleNames() {
+  std::vector<std::string> names;
+  for (const auto& [name, principle] : kPrinciples) {
+    names.emplace_back(name);
+  }
+  return names;
+}
+
+}  // namespace
+
+void StructuredLightNoiseOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"constant", "m",
+                  "of the standard deviation constant + quadratic (depth - nearest)^2 (Nguyen et "
+                  "al. 2012; Khoshelham and Elberink 2012: 0, 0.001425, 0)"},
+                 constant, {0.0, 0.5});
+  visitor.number({"quadratic", "1/m", "of the same"}, quadratic, {1e-5, 0.1});
+  visitor.number({"nearest", "m", "of the same: where the noise is least"}, nearest, {0.0, 5.0});
+}
+
+void TimeOfFlightNoiseOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"constant", "m",
+                  "of the standard deviation constant + linear depth (Azure Kinect's data sheet, "
+                  "random and systematic error)"},
+                 constant, {0.0001, 0.5});
+  visitor.number({"linear", "m/m", "of the same"}, linear, {0.0, 0.1});
+}
+
+void DepthNoiseOptions::visit(OptionVisitor& visitor) {
+  visitor.text({"depth_noise", "",
+                "what the camera measures depth by, which the noise of depths follows from: stereo "
+                "(camera info of a right camera), active_stereo (a depth camera with a pair of "
+                "its own), structured_light, time_of_flight"},
+               principle, principleNames());
+  visitor.number({"disparity_sigma", "px",
+                  "standard deviation of a disparity, of both forms of stereo; at 0.25 px two "
+                  "standard deviations of the demonstrator's depth are 5 m at 36 m (thesis 3.3.3)"},
+                 disparity_sigma, {0.01, 10.0});
+  visitor.group("structured_light", [&] { structured_light.visit(visitor); });
+  visitor.group("time_of_flight", [&] { time_of_flight.visit(visitor); });
+}
+
+DepthPrinciple depthPrinciple(const std::string& name) {
+  std::string expected;
+  for (const auto& [known, principle] : kPrinciples) {
+    if (name == known) {
+      return principle;
+    }
+    expected += (expected.empty() ? "" : ", ") + std::string(known);
+  }
+  throw OptionError("depth_noise = '" + name + "': expected one of " + expected);
+}
+
+DepthNoise depthNoise(const DepthNoiseOptions& options, double focal_length, double baseline) {
+  switch (depthPrinciple(options.principle)) {
+    case DepthPrinciple::kStereo:
+    case DepthPrinciple::kActiveStereo:
+      return DepthNoise::ofDisparity(focal_length, baseline, options.disparity_sigma);
+    case DepthPrinciple::kStructuredLight: {
+      const StructuredLightNoiseOptions& light = options.structured_light;
+      return DepthNoise::ofPolynomial(
+          light.constant + light.quadratic * light.nearest * light.nearest,
+          -2.0 * light.quadratic * light.nearest, light.quadratic);
+    }
+    case DepthPrinciple::kTimeOfFlight:
+      return DepthNoise::ofPolynomial(options.time_of_flight.constant,
+                                      options.time_of_flight.linear, 0.0);
+  }
+  throw std::logic_error("depth_noise: a principle without a law");
+}
+
+}  // namespace datmo

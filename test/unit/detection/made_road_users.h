@@ -1,0 +1,82 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "made_stereo.h"
+
+#include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/detection/stereo_object_detector.h"
+
+/// What a camera's object detector is shown, and how its answer is read.
+namespace datmo {
+
+/// m from base_link's origin to the camera.
+inline constexpr double kCameraX = 0.5;
+
+/// Rear at a distance ahead, middle to the left; m.
+inline MadeBox boxAt(double distance, double left, const Eigen::Vector3d& size) {
+  return {{distance, left - 0.5 * size.y(), 0.0},
+          {distance + size.x(), left + 0.5 * size.y(), size.z()}};
+}
+inline MadeBox carAt(double distance, double left) {
+  return boxAt(distance, left, {4.2, 1.8, 1.5});
+}
+inline MadeBox pedestrianAt(double distance, double left) {
+  return boxAt(distance, left, {0.5, 0.5, 1.75});
+}
+
+inline MadeScene sceneOf(const std::vector<MadeBox>& boxes) {
+  MadeScene scene;
+  scene.boxes = boxes;
+  return scene;
+}
+
+inline StereoObjects detect(
+    MadeCloud& made, const StereoObjectDetectorOptions& options = StereoObjectDetectorOptions()) {
+  return StereoObjectDetector(options).detect(made.cloud());
+}
+
+inline std::vector<Object> objectsIn(
+    const MadeScene& scene,
+    const StereoObjectDetectorOptions& options = StereoObjectDetectorOptions()) {
+  MadeCloud made(scene);
+  return detect(made, options).list.objects;
+}
+
+/// Of scenes in which bodies are boxes.
+inline StereoObjectDetectorOptions ofBoxes() {
+  StereoObjectDetectorOptions options;
+  options.noise.body_sigma = 0.05;
+  return options;
+}
+
+inline const Object& nearest(const std::vector<Object>& objects) {
+  return *std::min_element(objects.begin(), objects.end(), [](const Object& a, const Object& b) {
+    return a.box.centre.x() < b.box.centre.x();
+  });
+}
+
+struct Side {
+  double place;     ///< m, along its normal
+  double variance;  ///< m^2
+};
+
+/// The side of an object that looks most into a direction.
+inline Side sideTowards(const Object& object, const Point2& direction) {
+  const Pose2 turn(Point2::Zero(), object.box.centre.heading());
+  const std::array<Point2, kBoxSides> normals = {turn.rotate({1.0, 0.0}), turn.rotate({-1.0, 0.0}),
+                                                 turn.rotate({0.0, 1.0}), turn.rotate({0.0, -1.0})};
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < kBoxSides; ++i) {
+    best = normals[i].dot(direction) > normals[best].dot(direction) ? i : best;
+  }
+  const double half = 0.5 * (best < 2 ? object.box.length : object.box.width);
+  return {normals[best].dot(object.box.centre.position()) + half, object.side_variance[best]};
+}
+inline Side rearOf(const Object& object) { return sideTowards(object, {-1.0, 0.0}); }
+inline Side leftOf(const Object& object) { return sideTowards(object, {0.0, 1.0}); }
+inline Side rightOf(const Object& object) { return sideTowards(object, {0.0, -1.0}); }
+
+}  // namespace datmo
