@@ -22,7 +22,8 @@ constexpr std::size_t kPointStep = 32;  // bytes: x, y, z, rgb and padding
 
 StereoCloud streetView() {
   StereoCloud cloud;
-  cloud.camera = {480.0, 0.34, 0.25, -0.5 * kWidth / 480.0, 0.5 * kWidth / 480.0};
+  cloud.camera = {480.0, 0.34, DepthNoise::ofDisparity(480.0, 0.34, 0.25), -0.5 * kWidth / 480.0,
+                  0.5 * kWidth / 480.0};
   cloud.camera_in_base.linear() << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
   cloud.camera_in_base.translation() = Eigen::Vector3d(1.8, 0.0, 1.3);
   cloud.scanner_height = 0.33;
