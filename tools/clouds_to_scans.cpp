@@ -1,0 +1,168 @@
+#include "clouds_to_scans.h"
+
+#include <algorithm>
+
+#include "input_bag.h"
+#include "interruption.h"
+#include "output_bag.h"
+#include "run_bag/pipeline_options.h"
+#include <tf2_msgs/TFMessage.h>
+
+#include <rosbag/view.h>
+#include <sensor_msgs/PointCloud2.h>
+
+#include "datmo_fusion/ros/cloud_to_scan_stage.h"
+
+namespace datmo {
+
+namespace {
+
+constexpr char kStaticTransforms[] = "/tf_static";
+constexpr char kTransforms[] = "/tf";
+
+std::string withSlash(const std::string& topic) {
+  return topic.empty() || topic.front() == '/' ? topic : "/" + topic;
+}
+
+/// `name:=topic`; false if the word is another one.
+bool takeTopic(const std::string& word, const std::string& name, std::string& topic) {
+  const std::string prefix = name + ":=";
+  if (word.compare(0, prefix.size(), prefix) != 0 || word.size() == prefix.size()) {
+    return false;
+  }
+  topic = withSlash(word.substr(prefix.size()));
+  return true;
+}
+
+/// When the last beam of a scan has been measured.
+ros::Time endOf(const sensor_msgs::LaserScan& scan) {
+  const auto steps = static_cast<double>(scan.ranges.empty() ? 0 : scan.ranges.size() - 1);
+  return scan.header.stamp + ros::Duration(steps * static_cast<double>(scan.time_increment));
+}
+
+class CloudConversion {
+ public:
+  CloudConversion(const CloudsToScansArguments& arguments, const rosbag::Bag& input)
+      : arguments_(arguments),
+        input_(input),
+        options_(readPipelineOptions(arguments.config)),
+        monitor_("cloud_to_scan"),
+        transforms_(options_.cloud_to_scan.input.restart_after, options_.shared, monitor_),
+        stage_(options_.cloud_to_scan, transforms_, monitor_),
+        output_(arguments.output) {}
+
+  ConvertedClouds run() {
+    takeMounts();
+    for (const rosbag::MessageInstance& message : rosbag::View(input_)) {
+      if (interrupted()) {
+        throw std::runtime_error("interrupted");
+      }
+      take(message);
+    }
+    if (result_.scans == 0) {
+      throw NoUsableCloud(arguments_.input + ": none of " + std::to_string(result_.dropped) +
+                          " clouds on " + arguments_.cloud_topic + " could be used");
+    }
+    output_.finish();
+    return result_;
+  }
+
+ private:
+  /// All of them before the first cloud, wherever they stand in the bag.
+  void takeMounts() {
+    for (const auto& message : rosbag::View(input_, rosbag::TopicQuery(kStaticTransforms))) {
+      transforms_.addStatic(*read<tf2_msgs::TFMessage>(message));
+    }
+  }
+
+  void take(const rosbag::MessageInstance& message) {
+    const std::string& topic = message.getTopic();
+    if (topic == kTransforms) {
+      transforms_.add(*read<tf2_msgs::TFMessage>(message));
+    }
+    if (topic == arguments_.cloud_topic) {
+      takeCloud(message);
+    }
+    if (topic != arguments_.cloud_topic || arguments_.keep_clouds) {
+      output_.copy(message);
+    }
+  }
+
+  void takeCloud(const rosbag::MessageInstance& message) {
+    const auto scan = stage_.takeCloud(*read<sensor_msgs::PointCloud2>(message));
+    if (!scan) {
+      ++result_.dropped;
+      return;
+    }
+    ++result_.scans;
+    if (scan->mount) {
+      tf2_msgs::TFMessage mount;
+      mount.transforms = {*scan->mount};
+      output_.writeLatched(kStaticTransforms, message.getTime(), mount);
+    }
+    output_.write(arguments_.scan_topic, std::max(message.getTime(), endOf(*scan->scan)),
+                  *scan->scan);
+  }
+
+  const CloudsToScansArguments& arguments_;
+  const rosbag::Bag& input_;
+  PipelineOptions options_;
+  StageMonitor monitor_;
+  TransformBuffer transforms_;
+  CloudToScanStage stage_;
+  OutputBag output_;
+  ConvertedClouds result_;
+};
+
+}  // namespace
+
+std::string cloudsToScansUsage() {
+  return "usage: clouds_to_scans IN.bag OUT.bag --config CONFIG.yaml [--keep-clouds]\n"
+         "                       [cloud:=TOPIC] [scan:=TOPIC]\n"
+         "Copies a bag with a planar scan on /scan in place of each cloud of a 3D lidar on "
+         "/cloud,\n"
+         "as the nodelet cloud_to_scan makes it.\n"
+         "  --config CONFIG.yaml  the sensor set, with a section cloud_to_scan\n"
+         "  --keep-clouds         copies the clouds, too\n"
+         "  cloud:=, scan:=       other topics\n"
+         "Exit code: 0 when done; 1 for a command line, yaml file or bag that is wrong, and when\n"
+         "interrupted; 2 when no cloud could be used. After 1 and 2 no output bag is left.\n";
+}
+
+CloudsToScansArguments parseCloudsToScans(const std::vector<std::string>& words) {
+  CloudsToScansArguments arguments;
+  std::vector<std::string> bags;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == "--config" && i + 1 < words.size()) {
+      arguments.config = words[++i];
+    } else if (words[i] == "--keep-clouds") {
+      arguments.keep_clouds = true;
+    } else if (words[i].compare(0, 1, "-") == 0) {
+      throw CloudsToScansUsageError(words[i] + ": expected --config CONFIG.yaml or --keep-clouds");
+    } else if (!takeTopic(words[i], "cloud", arguments.cloud_topic) &&
+               !takeTopic(words[i], "scan", arguments.scan_topic)) {
+      bags.push_back(words[i]);
+    }
+  }
+  if (bags.size() != 2 || arguments.config.empty()) {
+    throw CloudsToScansUsageError("expected IN.bag, OUT.bag and --config CONFIG.yaml");
+  }
+  arguments.input = bags[0];
+  arguments.output = bags[1];
+  if (isSameFile(arguments.input, arguments.output)) {
+    throw CloudsToScansUsageError(arguments.output + ": expected another bag than the input");
+  }
+  return arguments;
+}
+
+ConvertedClouds convertClouds(const CloudsToScansArguments& arguments) {
+  rosbag::Bag input;
+  openInput(arguments.input, input);
+  if (!holdsTopic(input, arguments.cloud_topic)) {
+    failForTopic(input,
+                 "no PointCloud2 on " + arguments.cloud_topic + " (cloud:=TOPIC names another)");
+  }
+  return CloudConversion(arguments, input).run();
+}
+
+}  // namespace datmo

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace datmo {
+
+/// The command line of clouds_to_scans.
+struct CloudsToScansArguments {
+  std::string input;   ///< bag with the clouds of a 3D lidar
+  std::string output;  ///< bag to write
+  std::string config;  ///< sensor set, of which the section cloud_to_scan serves
+  std::string cloud_topic = "/cloud";
+  std::string scan_topic = "/scan";
+  bool keep_clouds = false;
+};
+
+/// A command line that is wrong: says how.
+class CloudsToScansUsageError : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
+/// No cloud of the bag could be used: says why.
+class NoUsableCloud : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+std::string cloudsToScansUsage();
+
+/// Throws CloudsToScansUsageError.
+CloudsToScansArguments parseCloudsToScans(const std::vector<std::string>& words);
+
+struct ConvertedClouds {
+  std::size_t scans = 0;
+  std::size_t dropped = 0;  ///< clouds, each reason reported once
+};
+
+/// Copies a bag with a planar scan, as CloudToScanStage makes it, in place of (or beside) each
+/// cloud. A scan is recorded when its last beam has been measured, not before its cloud's stamp;
+/// the mount of its frame is written to /tf_static before all.
+///
+/// Throws OptionError for the yaml file, std::runtime_error for bags, and NoUsableCloud; no output
+/// bag is left then.
+ConvertedClouds convertClouds(const CloudsToScansArguments& arguments);
+
+}  // namespace datmo
