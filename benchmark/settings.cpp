@@ -1,14 +1,18 @@
 #include "settings.h"
 
-#include "run_bag/pipeline_options.h"
+#include "run_bag/sensor_set.h"
+
+#include "datmo_fusion/ros/grid_slam_stage.h"
+#include "datmo_fusion/ros/road_border_stage.h"
 
 namespace datmo {
 
 namespace {
 
 Settings settingsOf(int beams, const char* file) {
-  const PipelineOptions options = readPipelineOptions(file);
-  return {beams, options.grid_slam.slam, options.road_border.detector};
+  const SensorSet sensors(file);
+  return {beams, sensors.options<GridSlamStageOptions>("grid_slam").slam,
+          sensors.options<RoadBorderStageOptions>("road_border").detector};
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "run_bag/pipeline_options.h"
+#include "run_bag/sensor_set.h"
 
 int main(int count, char** words) {
   const std::vector<std::string> files(words + 1, words + count);
@@ -16,7 +16,7 @@ int main(int count, char** words) {
     return asks_for_help ? EXIT_SUCCESS : EXIT_FAILURE;
   }
   try {
-    datmo::readPipelineOptions(files[0]);
+    datmo::SensorSet{files[0]};
   } catch (const std::exception& error) {
     std::cerr << "check_configuration: " << error.what() << '\n';
     return EXIT_FAILURE;

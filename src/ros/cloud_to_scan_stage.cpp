@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <boost/make_shared.hpp>
+#include <tf2_msgs/TFMessage.h>
 
 #include "datmo_fusion/ros/frames.h"
 
@@ -128,6 +129,22 @@ std::optional<geometry_msgs::TransformStamped> CloudToScanStage::newMount(
   transform.transform.translation.z = mount.z();
   transform.transform.rotation.w = 1.0;
   return transform;
+}
+
+void CloudToScanStage::connect(StagePorts& ports) {
+  const auto mounts = ports.out<tf2_msgs::TFMessage>("/tf_static", true);
+  const auto scans = ports.out<sensor_msgs::LaserScan>("scan");
+  ports.in<sensor_msgs::PointCloud2>("cloud", [=](const auto& cloud, Stamp /*now*/) {
+    const auto output = takeCloud(*cloud);
+    if (output && output->mount) {
+      const auto mount = boost::make_shared<tf2_msgs::TFMessage>();
+      mount->transforms = {*output->mount};
+      mounts.publish(mount);
+    }
+    if (output) {
+      scans.publish(output->scan);
+    }
+  });
 }
 
 }  // namespace datmo

@@ -5,6 +5,7 @@
 #include <boost/make_shared.hpp>
 
 #include "datmo_fusion/ros/grid_conversion.h"
+#include "datmo_fusion/ros/stage_inputs.h"
 
 namespace datmo {
 
@@ -75,6 +76,26 @@ std::optional<GridFusionOutput> GridFusionStage::next(Stamp now) {
   const GridFusionOutput output{toOutput(result.grids.fused), toOutput(result.grids.conflict)};
   monitor_.processed({matched->stamp(), watch.seconds()});
   return output;
+}
+
+void GridFusionStage::connect(StagePorts& ports) {
+  fused_ = ports.out<nav_msgs::OccupancyGrid>("grids/fused");
+  conflict_ = ports.out<nav_msgs::OccupancyGrid>("grids/conflict");
+  connectMotion(ports, options_.motion, *this);
+  for (const std::string& source : sources()) {
+    ports.in<nav_msgs::OccupancyGrid>(
+        "grids/" + source,
+        [this, source](const auto& grid, Stamp now) { takeGrid(source, *grid, now); });
+  }
+}
+
+bool GridFusionStage::publishNext(Stamp now) {
+  const auto output = next(now);
+  if (output) {
+    fused_.publish(output->fused);
+    conflict_.publish(output->conflict);
+  }
+  return output.has_value();
 }
 
 }  // namespace datmo

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <boost/make_shared.hpp>
+#include <tf2_msgs/TFMessage.h>
 
 #include "datmo_fusion/ros/descriptions.h"
 #include "datmo_fusion/ros/grid_conversion.h"
@@ -282,6 +283,39 @@ nav_msgs::OccupancyGridPtr GridSlamStage::mapIfDue(Stamp stamp) {
   last_map_ = stamp;
   return boost::make_shared<nav_msgs::OccupancyGrid>(
       toMessage(slam_.map(), stamp, options_.frames.map));
+}
+
+void GridSlamStage::connect(StagePorts& ports) {
+  const auto transforms = ports.out<tf2_msgs::TFMessage>("/tf");
+  const auto pose = ports.out<geometry_msgs::PoseWithCovarianceStamped>("pose");
+  const auto split_scan = ports.out<SplitScanMessage>("split_scan");
+  const auto map = ports.out<nav_msgs::OccupancyGrid>("map", true);
+  const auto publish = [=](const std::optional<GridSlamOutput>& output) {
+    if (!output) {
+      return;
+    }
+    const auto message = boost::make_shared<tf2_msgs::TFMessage>();
+    message->transforms = output->transforms;
+    transforms.publish(message);
+    pose.publish(output->pose);
+    split_scan.publish(output->split_scan);
+    map.publish(mapIfDue(toStamp(output->split_scan->header.stamp)));
+  };
+  if (options_.motion.fromOdometry() || options_.motion.fromSensors()) {
+    ports.in<nav_msgs::Odometry>(
+        options_.motion.odometryTopic(),
+        [this](const auto& odometry, Stamp /*now*/) { takeOdometry(*odometry); });
+  }
+  const auto take_scan = [this, publish](const auto& scan, Stamp /*now*/) {
+    publish(takeScan(*scan));
+  };
+  ports.in<sensor_msgs::LaserScan>("scan", take_scan);
+  ports.inInsteadOf<sensor_msgs::MultiEchoLaserScan>("scan", "echoes", take_scan);
+  if (options_.fused_grid) {
+    ports.in<nav_msgs::OccupancyGrid>(
+        "grids/fused",
+        [this, publish](const auto& grid, Stamp /*now*/) { publish(takeGrid(*grid)); });
+  }
 }
 
 }  // namespace datmo

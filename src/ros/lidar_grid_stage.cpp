@@ -4,6 +4,7 @@
 
 #include "datmo_fusion/ros/descriptions.h"
 #include "datmo_fusion/ros/grid_conversion.h"
+#include "datmo_fusion/ros/stage_inputs.h"
 #include "datmo_fusion/slam/motion_compensation.h"
 
 namespace datmo {
@@ -102,6 +103,16 @@ Scan LidarGridStage::compensated(const Scan& scan) const {
   }
   const auto motion = motion_.between(scan.stamp, scan.stamp + duration);
   return motion ? compensateMotion(scan, twistOf(*motion, duration)) : scan;
+}
+
+void LidarGridStage::connect(StagePorts& ports) {
+  const auto grid = ports.out<nav_msgs::OccupancyGrid>("grids/lidar");
+  connectMotion(ports, options_.motion, *this);
+  const auto take_scan = [this, grid](const auto& scan, Stamp /*now*/) {
+    grid.publish(takeScan(*scan));
+  };
+  ports.in<sensor_msgs::LaserScan>("scan", take_scan);
+  ports.inInsteadOf<sensor_msgs::MultiEchoLaserScan>("scan", "echoes", take_scan);
 }
 
 }  // namespace datmo

@@ -163,4 +163,31 @@ nav_msgs::OdometryPtr MotionStage::odometryOf(const ros::Time& stamp, const Twis
   return odometry;
 }
 
+void MotionStage::connect(StagePorts& ports) {
+  const MotionOptions& motion = options_.motion;
+  if (!motion.fromSensors()) {
+    return;
+  }
+  const auto odometry = ports.out<nav_msgs::Odometry>(motion.odometryTopic());
+  if (motion.usesImu()) {
+    ports.in<sensor_msgs::Imu>("imu", [this, odometry](const auto& imu, Stamp /*now*/) {
+      odometry.publish(takeImu(*imu));
+    });
+  }
+  if (motion.usesTwist()) {
+    const auto take_twist = [this, odometry](const auto& twist, Stamp /*now*/) {
+      odometry.publish(takeTwist(*twist));
+    };
+    ports.in<geometry_msgs::TwistStamped>("twist", take_twist);
+    ports.inInsteadOf<geometry_msgs::TwistWithCovarianceStamped>("twist", "twist_with_covariance",
+                                                                 take_twist);
+  }
+  if (motion.usesWheels()) {
+    ports.in<sensor_msgs::JointState>("joint_states",
+                                      [this, odometry](const auto& wheels, Stamp /*now*/) {
+                                        odometry.publish(takeWheels(*wheels));
+                                      });
+  }
+}
+
 }  // namespace datmo

@@ -102,4 +102,20 @@ DroppedObjectsPtr MovingObjectsStage::dropAtBorders(const SplitScan& scan,
       toMessage(dropped, scan.stamp, message.header.frame_id));
 }
 
+void MovingObjectsStage::connect(StagePorts& ports) {
+  const auto objects = ports.out<ObjectArray>("objects");
+  const auto dropped = ports.out<DroppedObjects>("objects/dropped");
+  if (options_.road_borders) {
+    ports.in<RoadBorders>(
+        "road_borders", [this](const auto& borders, Stamp /*now*/) { takeRoadBorders(*borders); });
+  }
+  ports.in<SplitScanMessage>("split_scan",
+                             [this, objects, dropped](const auto& scan, Stamp /*now*/) {
+                               if (const auto found = takeSplitScan(*scan)) {
+                                 objects.publish(found->objects);
+                                 dropped.publish(found->dropped);
+                               }
+                             });
+}
+
 }  // namespace datmo

@@ -10,6 +10,7 @@
 
 #include "datmo_fusion/fusion/relative_motion.h"
 #include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/stage_inputs.h"
 #include "datmo_fusion/tracking/object_check.h"
 
 namespace datmo {
@@ -183,6 +184,24 @@ void ObjectFusionStage::report(const std::vector<SourceObjects>& lists,
   monitor_.figure("objects too many", static_cast<double>(objects_too_many_));
   monitor_.figure("fused without a split scan", static_cast<double>(times_without_scan_));
   inputs_.reportUnserved(matcher_);
+}
+
+void ObjectFusionStage::connect(StagePorts& ports) {
+  fused_ = ports.out<ObjectArray>("objects/fused");
+  connectMotion(ports, options_.motion, *this);
+  ports.optionalIn<SplitScanMessage>(
+      "split_scan", [this](const auto& scan, Stamp /*now*/) { takeSplitScan(*scan); });
+  for (const std::string& source : sources()) {
+    ports.in<ObjectArray>("objects/" + source, [this, source](const auto& objects, Stamp now) {
+      takeObjects(source, *objects, now);
+    });
+  }
+}
+
+bool ObjectFusionStage::publishNext(Stamp now) {
+  const ObjectArrayPtr objects = next(now);
+  fused_.publish(objects);
+  return objects != nullptr;
 }
 
 }  // namespace datmo

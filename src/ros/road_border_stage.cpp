@@ -60,4 +60,11 @@ void RoadBorderStage::show(const RoadModel& road) {
   monitor_.figure("at an intersection, 0 to 1", road.intersection_probability);
 }
 
+void RoadBorderStage::connect(StagePorts& ports) {
+  const auto borders = ports.out<RoadBorders>("road_borders");
+  ports.in<SplitScanMessage>("split_scan", [this, borders](const auto& scan, Stamp /*now*/) {
+    borders.publish(takeSplitScan(*scan));
+  });
+}
+
 }  // namespace datmo

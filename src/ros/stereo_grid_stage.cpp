@@ -8,6 +8,7 @@
 #include "datmo_fusion/ros/descriptions.h"
 #include "datmo_fusion/ros/frames.h"
 #include "datmo_fusion/ros/grid_conversion.h"
+#include "datmo_fusion/ros/stage_inputs.h"
 
 namespace datmo {
 
@@ -92,6 +93,11 @@ void StereoGridStage::show(const StereoGridResult& result) {
   monitor_.figure("road's height [m]", result.road.height);
   monitor_.figure("road's slope ahead [m/m]", result.road.slope_x);
   monitor_.figure("road's slope to the left [m/m]", result.road.slope_y);
+}
+
+void StereoGridStage::connect(StagePorts& ports) {
+  const auto grid = ports.out<nav_msgs::OccupancyGrid>("grids/stereo");
+  connectStereo(ports, *this, grid);
 }
 
 }  // namespace datmo

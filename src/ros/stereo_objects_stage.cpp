@@ -6,6 +6,7 @@
 
 #include "datmo_fusion/ros/descriptions.h"
 #include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/stage_inputs.h"
 
 namespace datmo {
 
@@ -68,6 +69,11 @@ void StereoObjectsStage::show(const StereoObjects& objects) {
   monitor_.figure("road's height [m]", objects.road.height);
   monitor_.figure("road's slope ahead [m/m]", objects.road.slope_x);
   monitor_.figure("road's slope to the left [m/m]", objects.road.slope_y);
+}
+
+void StereoObjectsStage::connect(StagePorts& ports) {
+  const auto objects = ports.out<ObjectArray>("objects/stereo");
+  connectStereo(ports, *this, objects);
 }
 
 }  // namespace datmo

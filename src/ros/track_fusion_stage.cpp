@@ -119,4 +119,19 @@ void TrackFusionStage::report(const TrackFusionCounts& counts) {
   inputs_.reportUnserved(matcher_);
 }
 
+void TrackFusionStage::connect(StagePorts& ports) {
+  fused_ = ports.out<TrackArray>("tracks/fused");
+  for (const std::string& source : sources()) {
+    ports.in<TrackArray>("tracks/" + source, [this, source](const auto& tracks, Stamp now) {
+      takeTracks(source, *tracks, now);
+    });
+  }
+}
+
+bool TrackFusionStage::publishNext(Stamp now) {
+  const TrackArrayPtr tracks = next(now);
+  fused_.publish(tracks);
+  return tracks != nullptr;
+}
+
 }  // namespace datmo

@@ -144,4 +144,18 @@ void TrackerStage::restart() {
   queue_.clear();
 }
 
+void TrackerStage::connect(StagePorts& ports) {
+  tracks_ = ports.out<TrackArray>("tracks");
+  ports.optionalIn<SplitScanMessage>(
+      "split_scan", [this](const auto& scan, Stamp /*now*/) { takeSplitScan(*scan); });
+  ports.in<ObjectArray>("objects",
+                        [this](const auto& objects, Stamp now) { takeObjects(objects, now); });
+}
+
+bool TrackerStage::publishNext(Stamp now) {
+  const TrackArrayPtr tracks = next(now);
+  tracks_.publish(tracks);
+  return tracks != nullptr;
+}
+
 }  // namespace datmo

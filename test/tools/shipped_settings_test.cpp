@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "parameter_tables.h"
-#include "run_bag/pipeline_options.h"
+#include "run_bag/sensor_set.h"
 #include "yaml_options.h"
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ TEST(SensorSets, AreReadWithoutAnUnknownKeyOrABadValue) {
   const auto files = sensorSets();
   EXPECT_GE(files.size(), 2U);
   for (const std::string& file : files) {
-    EXPECT_NO_THROW(readPipelineOptions(file)) << file;
+    EXPECT_NO_THROW(SensorSet{file}) << file;
     for (const char* const name : {"markers", "lidar_markers", "stereo_markers"}) {
       if (const YAML::Node markers = loadYaml(file)[name]) {
         EXPECT_NO_THROW(readOptions<MarkersOptions>(optionValues(markers))) << file;

@@ -79,7 +79,7 @@ class StereoRunBag : public RunBag {
     StereoImagesOptions options;
     options.stereo_algorithm = 1;
     options.disparity_range = 32;
-    StereoImages images(options, true, monitor);
+    StereoImages images(options, monitor);
     append([&](rosbag::Bag& bag, Stamp stamp) {
       images.takeImage(StereoSide::kLeft, sample_.image(stamp, false, "mono8"));
       images.takeInfo(StereoSide::kLeft, sample_.info(stamp, false));

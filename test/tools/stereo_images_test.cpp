@@ -41,6 +41,11 @@ WallSeen look(const sensor_msgs::PointCloud2& cloud, double depth) {
   return seen;
 }
 
+StereoImagesOptions unrectified(StereoImagesOptions options) {
+  options.rectified = false;
+  return options;
+}
+
 class StereoImagesTest : public testing::Test {
  protected:
   using Change = std::function<void(sensor_msgs::Image&, sensor_msgs::CameraInfo&)>;
@@ -62,7 +67,7 @@ class StereoImagesTest : public testing::Test {
   /// That the pair is dropped for this reason, and the next one served.
   void expectDrop(const std::string& reason, const Change& change) const {
     StageMonitor monitor("stereo_images");
-    StereoImages stage(semiGlobal(), true, monitor);
+    StereoImages stage(semiGlobal(), monitor);
     EXPECT_FALSE(take(stage, kStart, "mono8", change)) << reason;
     EXPECT_EQ(monitor.drops().count(reason), 1U) << reason << ": " << monitor.lastError();
     EXPECT_TRUE(take(stage, kStart + 0.1)) << reason;
@@ -76,7 +81,7 @@ TEST_F(StereoImagesTest, WallStandsWhereItIs) {
     StereoImagesOptions options = semiGlobal();
     options.stereo_algorithm = algorithm;
     StageMonitor monitor("stereo_images");
-    StereoImages stage(options, true, monitor);
+    StereoImages stage(options, monitor);
     const PointCloud2Ptr cloud = take(stage, kStart);
     ASSERT_TRUE(cloud);
     EXPECT_EQ(cloud->header.frame_id, sample_.frame);
@@ -92,8 +97,8 @@ TEST_F(StereoImagesTest, WallStandsWhereItIs) {
 
 TEST_F(StereoImagesTest, ColoursAndRawImagesGiveTheSamePoints) {
   StageMonitor monitor("stereo_images");
-  StereoImages rectified(semiGlobal(), true, monitor);
-  StereoImages raw(semiGlobal(), false, monitor);
+  StereoImages rectified(semiGlobal(), monitor);
+  StereoImages raw(unrectified(semiGlobal()), monitor);
   const PointCloud2Ptr gray = take(rectified, kStart);
   ASSERT_TRUE(gray);
   for (const char* encoding : {"rgb8", "bgr8"}) {
@@ -109,7 +114,7 @@ TEST_F(StereoImagesTest, ColoursAndRawImagesGiveTheSamePoints) {
 
 TEST_F(StereoImagesTest, RawImagesAreRectified) {
   StageMonitor monitor("stereo_images");
-  StereoImages stage(semiGlobal(), false, monitor);
+  StereoImages stage(unrectified(semiGlobal()), monitor);
   const double shift = 4.0;  // px: the raw right image lies that much further to the right
   const auto cloud = take(stage, kStart, "mono8", [&](const auto& /*image*/, auto& info) {
     info.K[2] -= shift;
@@ -123,8 +128,8 @@ TEST_F(StereoImagesTest, RawImagesAreRectified) {
 
 TEST_F(StereoImagesTest, SameImagesGiveTheSameBytes) {
   StageMonitor monitor("stereo_images");
-  StereoImages one(semiGlobal(), true, monitor);
-  StereoImages other(semiGlobal(), true, monitor);
+  StereoImages one(semiGlobal(), monitor);
+  StereoImages other(semiGlobal(), monitor);
   take(one, kStart);
   EXPECT_EQ(take(one, kStart + 0.1)->data, take(other, kStart)->data);
 }
@@ -160,7 +165,7 @@ TEST_F(StereoImagesTest, ImagesSmallerThanTheSearchGiveNoPointsOrAreDropped) {
     options.stereo_algorithm = algorithm;
     options.disparity_range = 64;
     StageMonitor monitor("stereo_images");
-    StereoImages stage(options, true, monitor);
+    StereoImages stage(options, monitor);
     const PointCloud2Ptr cloud = take(stage, kStart);
     EXPECT_EQ(cloud ? look(*cloud, 0.0).points : 0U, 0U) << "algorithm " << algorithm;
   }
@@ -171,24 +176,24 @@ TEST_F(StereoImagesTest, StampsOfTheTwoCamerasMayDifferOnDemand) {
     image.header.stamp = info.header.stamp = toTime(kStart + 0.003);
   };
   StageMonitor monitor("stereo_images");
-  StereoImages exact(semiGlobal(), true, monitor);
+  StereoImages exact(semiGlobal(), monitor);
   EXPECT_FALSE(take(exact, kStart, "mono8", late));
   StereoImagesOptions options = semiGlobal();
   options.approximate_sync = true;
-  StereoImages approximate(options, true, monitor);
+  StereoImages approximate(options, monitor);
   EXPECT_TRUE(take(approximate, kStart, "mono8", late));
 }
 
 TEST_F(StereoImagesTest, LoopedBagBeginsAnew) {
   StageMonitor monitor("stereo_images");
-  StereoImages stage(semiGlobal(), true, monitor);
+  StereoImages stage(semiGlobal(), monitor);
   EXPECT_TRUE(take(stage, kStart + 60.0));
   EXPECT_TRUE(take(stage, kStart));
 }
 
 TEST_F(StereoImagesTest, ImagesWithoutPartnerAreCounted) {
   StageMonitor monitor("stereo_images");
-  StereoImages stage(semiGlobal(), true, monitor);
+  StereoImages stage(semiGlobal(), monitor);
   stage.takeImage(StereoSide::kLeft, sample_.image(kStart, false, "mono8"));
   EXPECT_TRUE(take(stage, kStart + 0.1));
   EXPECT_EQ(monitor.warnings().at("unpaired_image"), 1U);

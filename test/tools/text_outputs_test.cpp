@@ -18,13 +18,22 @@ namespace {
 
 const ros::Time kStamp(12, 5000000);
 
+struct Frame {
+  Publication pose;
+  Publication tracks;
+};
+
+template <typename Message>
+Publication published(const std::string& topic, const boost::shared_ptr<Message>& message) {
+  return {topic, ros::message_traits::datatype<Message>(), message};
+}
+
 /// The vehicle at (10, 20) looks to the left of the map's x axis; 3 m ahead of it and 1 m to its
 /// left stands a car that looks where the vehicle looks.
-Pipeline::Output oneFrame() {
-  GridSlamOutput slam;
-  slam.pose = boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>();
-  slam.pose->header.stamp = kStamp;
-  slam.pose->pose.pose = toMessage(Pose2(10.0, 20.0, kPi / 2.0));
+Frame oneFrame() {
+  const auto pose = boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>();
+  pose->header.stamp = kStamp;
+  pose->pose.pose = toMessage(Pose2(10.0, 20.0, kPi / 2.0));
   TrackMessage track;
   track.id = 7;
   track.pose = toMessage(Pose2(9.0, 23.0, kPi / 2.0));
@@ -36,22 +45,25 @@ Pipeline::Output oneFrame() {
   const auto tracks = boost::make_shared<TrackArray>();
   tracks->header.stamp = kStamp;
   tracks->tracks.push_back(track);
-  Pipeline::Output output;
-  output.slam.push_back(slam);
-  output.tracks.push_back(tracks);
-  return output;
+  return {published("pose", pose), published("tracks", tracks)};
+}
+
+void addFrame(TextOutputs& outputs) {
+  const Frame frame = oneFrame();
+  outputs.add(frame.pose);
+  outputs.add(frame.tracks);
 }
 
 TEST(TextOutputs, TumHoldsStampPositionAndQuaternion) {
   TextOutputs outputs({"poses.txt", "tracks.txt", "mot.txt"});
-  outputs.add(oneFrame());
+  addFrame(outputs);
   EXPECT_EQ(outputs.tum(),
             "12.005000000 10.000000 20.000000 0.000000 0.000000 0.000000 0.707107 0.707107\n");
 }
 
 TEST(TextOutputs, KittiHoldsTheTrackAsTheVehicleSeesIt) {
   TextOutputs outputs({"poses.txt", "tracks.txt", "mot.txt"});
-  outputs.add(oneFrame());
+  addFrame(outputs);
   EXPECT_EQ(outputs.kitti(),
             "0 7 Car -1 -1 -10 -1 -1 -1 -1 1.500000 1.750000 4.500000 -1.000000 0 3.000000 "
             "-1.570796 0.500000\n");
@@ -59,15 +71,13 @@ TEST(TextOutputs, KittiHoldsTheTrackAsTheVehicleSeesIt) {
 
 TEST(TextOutputs, MotHoldsTheTrackInTheMapWithFramesFromOne) {
   TextOutputs outputs({"poses.txt", "tracks.txt", "mot.txt"});
-  outputs.add(oneFrame());
+  addFrame(outputs);
   EXPECT_EQ(outputs.mot(), "1,7,-1,-1,-1,-1,0.500000,9.000000,23.000000,0.000000\n");
 }
 
 TEST(TextOutputs, TracksWithoutPoseAreLeftOut) {
   TextOutputs outputs({"poses.txt", "tracks.txt", "mot.txt"});
-  Pipeline::Output output = oneFrame();
-  output.slam.clear();
-  outputs.add(output);
+  outputs.add(oneFrame().tracks);
   EXPECT_EQ(outputs.kitti() + outputs.mot() + outputs.tum(), "");
 }
 

@@ -196,6 +196,15 @@ bool setValue(const std::string& word, const std::string& value, Arguments& argu
 
 }  // namespace
 
+std::string stageType(LastStage stage) {
+  for (const auto& [type, each] : kStages) {
+    if (each == stage) {
+      return type;
+    }
+  }
+  return "";
+}
+
 std::string Arguments::inputTopic(const std::string& topic) const {
   return inputTopic(topic, topic);
 }

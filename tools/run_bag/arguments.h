@@ -42,6 +42,9 @@ struct Arguments {
   std::string inputTopic(const std::string& topic, const std::string& usual) const;
 };
 
+/// The type of the stage; empty for kEnd.
+std::string stageType(LastStage stage);
+
 /// How `run_bag` is called.
 std::string usage();
 

@@ -1,5 +1,6 @@
 #include "bag_run.h"
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <ostream>
@@ -9,53 +10,61 @@
 #include <vector>
 
 #include "drive_summary.h"
+#include "graph_runner.h"
 #include "input_bag.h"
 #include "input_refusals.h"
 #include "input_topics.h"
 #include "interruption.h"
 #include "output_bag.h"
-#include "pipeline.h"
 #include "progress_bar.h"
 #include "text_outputs.h"
 #include "whole_file.h"
 
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <geometry_msgs/TwistStamped.h>
+#include <geometry_msgs/TwistWithCovarianceStamped.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <nav_msgs/Odometry.h>
 #include <rosbag/view.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/Imu.h>
+#include <sensor_msgs/JointState.h>
+#include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/MultiEchoLaserScan.h>
+#include <sensor_msgs/PointCloud2.h>
 
 #include "datmo_fusion/ros/frame_ids.h"
+#include "datmo_fusion/ros/object_fusion_stage.h"
 #include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/track_fusion_stage.h"
 
 namespace datmo {
 
 namespace {
 
-/// Carries the messages of a bag to the pipeline, and what comes of them to another bag.
+/// Carries the messages of a bag to the graph of stages, and what comes of them to another bag.
 class BagRun {
  public:
-  BagRun(const InputTopics& topics, Pipeline& pipeline, DriveSummary& drive, OutputBag& output,
+  BagRun(const InputTopics& topics, GraphRunner& graph, DriveSummary& drive, OutputBag& output,
          const Arguments& arguments)
-      : pipeline_(pipeline),
+      : graph_(graph),
         drive_(drive),
         output_(output),
         write_grids_(arguments.write_grids),
-        refusals_(pipeline.doors()),
+        refusals_(graph.doors()),
         text_(arguments.text) {
     readMotion(topics);
     readScans(topics);
     readStereo(topics.stereo);
     for (const auto& [topic, source] : topics.grids) {
-      on<nav_msgs::OccupancyGrid>(topic, [this, name = source](const auto& message, Stamp now) {
-        return pipeline_.takeGrid(name, *message, now);
-      });
+      on<nav_msgs::OccupancyGrid>(topic, "grids/" + source);
     }
     for (const auto& [topic, source] : topics.objects) {
-      on<ObjectArray>(topic, [this, name = source](const auto& message, Stamp now) {
-        return pipeline_.takeObjects(name, message, now);
-      });
+      on<ObjectArray>(topic, "objects/" + source);
     }
     for (const auto& [topic, source] : topics.tracks) {
-      on<TrackArray>(topic, [this, name = source](const auto& message, Stamp now) {
-        return pipeline_.takeTracks(name, *message, now);
-      });
+      on<TrackArray>(topic, "tracks/" + source);
     }
   }
 
@@ -63,7 +72,7 @@ class BagRun {
   void takeStaticTransforms(const rosbag::Bag& bag) {
     rosbag::View view(bag, rosbag::TopicQuery("/tf_static"));
     for (const rosbag::MessageInstance& message : view) {
-      pipeline_.takeStaticTransforms(*plain<tf2_msgs::TFMessage>(message));
+      graph_.takeStaticTransforms(*plain<tf2_msgs::TFMessage>(message));
     }
   }
 
@@ -78,20 +87,20 @@ class BagRun {
   }
 
   /// `end`: of the bag.
-  void finish(const ros::Time& end) { write(end, pipeline_.finish(toStamp(end))); }
+  void finish(const ros::Time& end) { write(end, graph_.finish(toStamp(end))); }
 
   const InputRefusals& refusals() const { return refusals_; }
   const TextOutputs& text() const { return text_; }
 
  private:
-  using Reader = std::function<Pipeline::Output(const rosbag::MessageInstance&, Stamp now)>;
+  using Reader = std::function<Publications(const rosbag::MessageInstance&, Stamp now)>;
 
-  /// `take(message, now)` takes the messages of a topic; one without name is not read.
-  template <typename Message, typename Take>
-  void on(const std::string& topic, const Take& take) {
+  /// A topic of the bag is one of the graph's; one without name is not read.
+  template <typename Message>
+  void on(const std::string& topic, const std::string& graph_topic) {
     if (!topic.empty()) {
-      readers_[topic] = [this, take](const rosbag::MessageInstance& message, Stamp now) {
-        return take(plain<Message>(message), now);
+      readers_[topic] = [this, graph_topic](const rosbag::MessageInstance& message, Stamp now) {
+        return graph_.take(graph_topic, plain<Message>(message), now);
       };
     }
   }
@@ -99,110 +108,67 @@ class BagRun {
   /// A message with its frames as the stages take them.
   template <typename Message>
   boost::shared_ptr<const Message> plain(const rosbag::MessageInstance& message) {
-    return withPlainFrames<Message>(message.getTopic(), read<Message>(message), pipeline_.inputs());
+    return withPlainFrames<Message>(message.getTopic(), read<Message>(message), graph_.inputs());
   }
 
   void readMotion(const InputTopics& topics) {
-    on<tf2_msgs::TFMessage>("/tf", [this](const auto& message, Stamp now) {
-      return pipeline_.takeTransforms(*message, now);
-    });
-    const MotionTopics& motion = topics.motion;
-    on<nav_msgs::Odometry>(motion.odometry, [this](const auto& message, Stamp now) {
-      return pipeline_.takeOdometry(*message, now);
-    });
-    on<sensor_msgs::Imu>(motion.imu, [this](const auto& message, Stamp now) {
-      return pipeline_.takeImu(*message, now);
-    });
-    const auto take_twist = [this](const auto& message, Stamp now) {
-      return pipeline_.takeTwist(*message, now);
+    readers_["/tf"] = [this](const rosbag::MessageInstance& message, Stamp now) {
+      return graph_.takeTransforms(*plain<tf2_msgs::TFMessage>(message), now);
     };
-    on<geometry_msgs::TwistStamped>(motion.twist, take_twist);
-    on<geometry_msgs::TwistWithCovarianceStamped>(motion.twist_with_covariance, take_twist);
-    on<sensor_msgs::JointState>(motion.joint_states, [this](const auto& message, Stamp now) {
-      return pipeline_.takeWheels(*message, now);
-    });
+    const MotionTopics& motion = topics.motion;
+    on<nav_msgs::Odometry>(motion.odometry, "odometry");
+    on<sensor_msgs::Imu>(motion.imu, "imu");
+    on<geometry_msgs::TwistStamped>(motion.twist, "twist");
+    on<geometry_msgs::TwistWithCovarianceStamped>(motion.twist_with_covariance,
+                                                  "twist_with_covariance");
+    on<sensor_msgs::JointState>(motion.joint_states, "joint_states");
   }
 
   void readScans(const InputTopics& topics) {
-    const auto take = [this](const auto& message, Stamp now) {
-      return pipeline_.takeScan(*message, now);
-    };
-    on<sensor_msgs::LaserScan>(topics.scan, take);
-    on<sensor_msgs::MultiEchoLaserScan>(topics.echoes, take);
-    on<sensor_msgs::PointCloud2>(topics.cloud, [this](const auto& message, Stamp now) {
-      return pipeline_.takeLidarCloud(*message, now);
-    });
+    on<sensor_msgs::LaserScan>(topics.scan, "scan");
+    on<sensor_msgs::MultiEchoLaserScan>(topics.echoes, "echoes");
+    on<sensor_msgs::PointCloud2>(topics.cloud, "cloud");
   }
 
   void readStereo(const StereoTopics& topics) {
-    on<sensor_msgs::PointCloud2>(topics.points, [this](const auto& message, Stamp now) {
-      return pipeline_.takeCloud(*message, now);
-    });
-    readCamera(StereoSide::kLeft, topics.left_image, topics.left_info);
-    readCamera(StereoSide::kRight, topics.right_image, topics.right_info);
+    on<sensor_msgs::PointCloud2>(topics.points, "stereo/points2");
+    on<sensor_msgs::Image>(topics.left_image, "stereo/left/image_rect");
+    on<sensor_msgs::CameraInfo>(topics.left_info, "stereo/left/camera_info");
+    on<sensor_msgs::Image>(topics.right_image, "stereo/right/image_rect");
+    on<sensor_msgs::CameraInfo>(topics.right_info, "stereo/right/camera_info");
   }
 
-  void readCamera(StereoSide side, const std::string& image, const std::string& info) {
-    on<sensor_msgs::Image>(image, [this, side](const auto& message, Stamp now) {
-      return pipeline_.takeImage(side, message, now);
-    });
-    on<sensor_msgs::CameraInfo>(info, [this, side](const auto& message, Stamp now) {
-      return pipeline_.takeCameraInfo(side, message, now);
-    });
-  }
-
-  void write(const ros::Time& time, const Pipeline::Output& results) {
-    drive_.add(results);
-    text_.add(results);
-    for (const auto& [name, grid] : results.grids) {
-      if (write_grids_) {
-        output_.write("/grids/" + name, time, *grid);
+  void write(const ros::Time& time, const Publications& published) {
+    for (const Publication& publication : published) {
+      drive_.add(publication);
+      text_.add(publication);
+      if (isResult(publication)) {
+        writeAsOneOf<geometry_msgs::PoseWithCovarianceStamped, nav_msgs::OccupancyGrid,
+                     sensor_msgs::LaserScan, tf2_msgs::TFMessage, SplitScanMessage, RoadBorders,
+                     ObjectArray, DroppedObjects, TrackArray>(time, publication);
       }
     }
-    for (const CloudToScanOutput& scan : results.cloud_scans) {
-      writeCloudScan(time, scan);
-    }
-    for (const GridSlamOutput& slam : results.slam) {
-      writeSlam(time, slam);
-    }
-    for (const RoadBordersPtr& borders : results.borders) {
-      output_.write("/road_borders", time, *borders);
-    }
-    for (const DroppedObjectsPtr& dropped : results.dropped) {
-      output_.write("/objects/dropped", time, *dropped);
-    }
-    for (const auto& [name, objects] : results.objects) {
-      output_.write(name == "lidar" ? "/objects" : "/objects/" + name, time, *objects);
-    }
-    for (const auto& [name, tracks] : results.source_tracks) {
-      output_.write("/tracks/" + name, time, *tracks);
-    }
-    for (const TrackArrayPtr& tracks : results.tracks) {
-      output_.write("/tracks", time, *tracks);
-    }
-    for (const nav_msgs::OccupancyGridPtr& map : results.maps) {
-      output_.write("/map", time, *map);
+  }
+
+  /// What lies between the stages alone is not written: grids on demand, odometry and clouds never.
+  bool isResult(const Publication& publication) const {
+    return write_grids_ || publication.topic.rfind("grids/", 0) != 0;
+  }
+
+  template <typename... Messages>
+  void writeAsOneOf(const ros::Time& time, const Publication& publication) {
+    (writeIf(time, publication.topic, publication.as<Messages>()), ...);
+  }
+
+  template <typename Message>
+  void writeIf(const ros::Time& time, const std::string& topic,
+               const boost::shared_ptr<const Message>& message) {
+    if (message) {
+      output_.write(topic.front() == '/' ? topic : "/" + topic, time, *message);
     }
   }
 
-  void writeCloudScan(const ros::Time& time, const CloudToScanOutput& output) {
-    if (output.mount) {
-      tf2_msgs::TFMessage mount;
-      mount.transforms = {*output.mount};
-      output_.write("/tf_static", time, mount);
-    }
-    output_.write("/cloud_scan", time, *output.scan);
-  }
-
-  void writeSlam(const ros::Time& time, const GridSlamOutput& slam) {
-    tf2_msgs::TFMessage transforms;
-    transforms.transforms = slam.transforms;
-    output_.write("/tf", time, transforms);
-    output_.write("/pose", time, *slam.pose);
-    output_.write("/split_scan", time, *slam.split_scan);
-  }
-
-  Pipeline& pipeline_;
+  GraphRunner& graph_;
   DriveSummary& drive_;
   OutputBag& output_;
   bool write_grids_;
@@ -250,16 +216,14 @@ void carry(rosbag::View& view, const InputTopics& topics, BagRun& run, std::ostr
   run.finish(view.getEndTime());
 }
 
-void checkResults(const Arguments& arguments, const DriveSummary& drive, const Pipeline& pipeline) {
-  const bool until_fusion = arguments.last_stage == LastStage::kGridFusion;
-  const bool scans_used = (until_fusion ? drive.fusedGrids() : drive.scans()) > 0;
-  const bool until_tracks = arguments.last_stage >= LastStage::kTracker;
-  if (scans_used && (!until_tracks || drive.trackLists() > 0)) {
+void checkResults(const Arguments& arguments, const DriveSummary& drive, const GraphRunner& graph) {
+  const bool scans_used = (graph.has("grid_slam") ? drive.scans() : drive.fusedGrids()) > 0;
+  if (scans_used && (!graph.has("tracker") || drive.trackLists() > 0)) {
     return;
   }
   std::string message =
       arguments.input + (scans_used ? ": no list of tracks came out" : ": no scan could be used");
-  for (const StageMonitor* monitor : pipeline.monitors()) {
+  for (const StageMonitor* monitor : graph.monitors()) {
     if (!monitor->lastError().empty()) {
       message += "; " + monitor->stage() + " says: " + monitor->lastError();
     }
@@ -267,31 +231,52 @@ void checkResults(const Arguments& arguments, const DriveSummary& drive, const P
   throw NoUsableInput(message);
 }
 
-PipelineOptions readOptionsFor(const Arguments& arguments) {
-  PipelineOptions options = readPipelineOptions(arguments.config);
+SensorSet readSensorsFor(const Arguments& arguments) {
+  SensorSet sensors(arguments.config);
   if (!arguments.grid_rule.empty()) {
-    options.low_level.grid_fusion.fuser.rule = arguments.grid_rule;
+    sensors.set("grid_fusion", "rule", arguments.grid_rule);
   }
-  return options;
+  return sensors;
+}
+
+/// Whether a level takes the objects of the stereo camera.
+bool usesStereoObjects(const Arguments& arguments, const SensorSet& sensors) {
+  const auto is_used = [](const std::vector<std::string>& sources) {
+    return std::find(sources.begin(), sources.end(), "stereo") != sources.end();
+  };
+  return (arguments.object_fusion &&
+          is_used(
+              sensors.options<ObjectFusionStageOptions>("object_fusion").fuser.sourcesInUse())) ||
+         (arguments.track_fusion &&
+          is_used(sensors.options<TrackFusionStageOptions>("track_fusion").fuser.sourcesInUse()));
+}
+
+GraphSwitches switchesOf(const Arguments& arguments, const SensorSet& sensors,
+                         const InputTopics& topics) {
+  return {!topics.cloud.empty(),
+          topics.stereo.input(),
+          arguments.low_level_fusion,
+          arguments.road_border,
+          usesStereoObjects(arguments, sensors),
+          arguments.object_fusion,
+          arguments.track_fusion};
 }
 
 }  // namespace
 
 void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progress) {
-  const PipelineOptions options = readOptionsFor(arguments);
+  const SensorSet sensors = readSensorsFor(arguments);
   if (!arguments.times.empty()) {
     checkWritable(arguments.times);
   }
   rosbag::Bag bag;
   openInput(arguments.input, bag);
-  const InputTopics topics = findTopics(bag, arguments, options);
+  const InputTopics topics = findTopics(bag, arguments, sensors);
   OutputBag output(arguments.output);
-  Pipeline pipeline(options,
-                    {arguments.last_stage, !topics.cloud.empty(), arguments.low_level_fusion,
-                     arguments.road_border, arguments.object_fusion, arguments.track_fusion,
-                     topics.stereo.input()});
+  GraphRunner graph(sensors, switchesOf(arguments, sensors, topics),
+                    stageType(arguments.last_stage));
   DriveSummary drive;
-  BagRun run(topics, pipeline, drive, output, arguments);
+  BagRun run(topics, graph, drive, output, arguments);
 
   run.takeStaticTransforms(bag);
   rosbag::View view(bag, rosbag::TopicQuery(topics.all()));
@@ -303,14 +288,14 @@ void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progres
   }
   const double took = watch.seconds();
   run.refusals().check();
-  checkResults(arguments, drive, pipeline);
+  checkResults(arguments, drive, graph);
   if (!arguments.times.empty()) {
-    writeWholeFile(arguments.times, toJson(pipeline.times()));
+    writeWholeFile(arguments.times, toJson(graph.times()));
   }
   run.text().write();
   output.finish();
   if (!arguments.quiet) {
-    printTable(out, drive, pipeline, run.refusals(), {lengthOf(view), took});
+    printTable(out, drive, graph, run.refusals(), {lengthOf(view), took});
   }
 }
 

@@ -8,6 +8,9 @@ namespace datmo {
 
 namespace {
 
+/// Of the last stage; those of its sources have names of their own below it.
+constexpr char kTracks[] = "tracks";
+
 constexpr int kNameWidth = 34;
 constexpr int kValueWidth = 9;
 
@@ -42,34 +45,38 @@ void printRefusals(std::ostream& out, const InputRefusals& refusals) {
 
 }  // namespace
 
-void DriveSummary::add(const Pipeline::Output& output) {
-  for (const auto& [name, grid] : output.grids) {
-    fused_grids_ += name == "fused" ? 1 : 0;
-  }
-  for (const auto& [name, objects] : output.objects) {
-    fused_lists_ += name == "fused" ? 1 : 0;
-  }
-  for (const DroppedObjectsPtr& dropped : output.dropped) {
+void DriveSummary::add(const Publication& publication) {
+  fused_grids_ += publication.topic == "grids/fused" ? 1 : 0;
+  fused_lists_ += publication.topic == "objects/fused" ? 1 : 0;
+  if (const auto dropped = publication.as<DroppedObjects>()) {
     dropped_objects_ += dropped->objects.size();
-  }
-  for (const GridSlamOutput& slam : output.slam) {
-    const geometry_msgs::Point& at = slam.pose->pose.pose.position;
-    const Point2 position(at.x, at.y);
-    distance_ += position_ ? (position - *position_).norm() : 0.0;
-    position_ = position;
-    ++scans_;
-  }
-  tracks_are_fused_ = tracks_are_fused_ || !output.source_tracks.empty();
-  track_lists_ += output.tracks.size();
-  source_track_lists_ += output.source_tracks.size();
-  for (const TrackArrayPtr& tracks : output.tracks) {
-    for (const TrackMessage& track : tracks->tracks) {
-      track_ids_.insert(track.id);
-    }
+  } else if (const auto pose = publication.as<geometry_msgs::PoseWithCovarianceStamped>()) {
+    addPose(*pose);
+  } else if (const auto tracks = publication.as<TrackArray>()) {
+    addTracks(publication.topic, *tracks);
   }
 }
 
-void printTable(std::ostream& out, const DriveSummary& drive, const Pipeline& pipeline,
+void DriveSummary::addPose(const geometry_msgs::PoseWithCovarianceStamped& pose) {
+  const Point2 position(pose.pose.pose.position.x, pose.pose.pose.position.y);
+  distance_ += position_ ? (position - *position_).norm() : 0.0;
+  position_ = position;
+  ++scans_;
+}
+
+void DriveSummary::addTracks(const std::string& topic, const TrackArray& tracks) {
+  if (topic != kTracks) {
+    tracks_are_fused_ = true;
+    ++source_track_lists_;
+    return;
+  }
+  ++track_lists_;
+  for (const TrackMessage& track : tracks.tracks) {
+    track_ids_.insert(track.id);
+  }
+}
+
+void printTable(std::ostream& out, const DriveSummary& drive, const GraphRunner& graph,
                 const InputRefusals& refusals, const RunTime& time) {
   out << std::fixed << std::setprecision(1);
   line(out, "scans processed") << drive.scans() << '\n';
@@ -90,12 +97,12 @@ void printTable(std::ostream& out, const DriveSummary& drive, const Pipeline& pi
   line(out, "data") << time.data << " s\n";
   line(out, "took") << time.wall << " s\n";
   line(out, "speed") << time.data / time.wall << " x real time\n";
-  printTimes(out, pipeline.times());
+  printTimes(out, graph.times());
   printRefusals(out, refusals);
-  for (const auto& [name, count] : pipeline.inputs().figures()) {
+  for (const auto& [name, count] : graph.inputs().figures()) {
     line(out, name) << std::setprecision(0) << count << '\n';
   }
-  for (const StageMonitor* monitor : pipeline.monitors()) {
+  for (const StageMonitor* monitor : graph.monitors()) {
     printCounts(out, "dropped", *monitor, monitor->drops());
     printCounts(out, "warned", *monitor, monitor->warnings());
   }

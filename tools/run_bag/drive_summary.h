@@ -5,19 +5,23 @@
 #include <iosfwd>
 #include <optional>
 #include <set>
+#include <string>
 
+#include "graph_runner.h"
 #include "input_refusals.h"
-#include "pipeline.h"
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
 
 #include "datmo_fusion/common/pose2.h"
+#include "datmo_fusion/ros/messages.h"
 
 namespace datmo {
 
 /// What a drive came to, scan by scan.
 class DriveSummary {
  public:
-  /// Takes what the pipeline made of one message.
-  void add(const Pipeline::Output& output);
+  /// Takes what a stage has published.
+  void add(const Publication& publication);
 
   std::size_t fusedGrids() const { return fused_grids_; }
   std::size_t fusedLists() const { return fused_lists_; }          ///< of objects
@@ -29,6 +33,9 @@ class DriveSummary {
   std::size_t tracks() const { return track_ids_.size(); }
 
  private:
+  void addPose(const geometry_msgs::PoseWithCovarianceStamped& pose);
+  void addTracks(const std::string& topic, const TrackArray& tracks);
+
   std::size_t fused_grids_ = 0;
   std::size_t fused_lists_ = 0;
   std::size_t dropped_objects_ = 0;
@@ -47,7 +54,7 @@ struct RunTime {
 };
 
 /// The table at the end: the drive, the time of each stage, speed, and what was dropped and why.
-void printTable(std::ostream& out, const DriveSummary& drive, const Pipeline& pipeline,
+void printTable(std::ostream& out, const DriveSummary& drive, const GraphRunner& graph,
                 const InputRefusals& refusals, const RunTime& time);
 
 }  // namespace datmo

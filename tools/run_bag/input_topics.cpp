@@ -4,6 +4,10 @@
 
 #include <rosbag/view.h>
 
+#include "datmo_fusion/ros/grid_fusion_stage.h"
+#include "datmo_fusion/ros/object_fusion_stage.h"
+#include "datmo_fusion/ros/track_fusion_stage.h"
+
 namespace datmo {
 
 namespace {
@@ -232,20 +236,23 @@ std::vector<std::string> InputTopics::all() const {
 }
 
 InputTopics findTopics(const rosbag::Bag& bag, const Arguments& arguments,
-                       const PipelineOptions& options) {
+                       const SensorSet& sensors) {
   InputTopics topics;
   topics.scan = arguments.inputTopic("scan");
   topics.echoes = arguments.inputTopic("echoes");
   findScanTopics(bag, arguments, topics);
-  topics.motion = motionTopics(bag, arguments, options.shared.motion);
+  topics.motion = motionTopics(bag, arguments, sensors.shared().motion);
   if (arguments.low_level_fusion) {
-    findLowLevelTopics(bag, arguments, options.low_level.grid_fusion, topics);
+    findLowLevelTopics(bag, arguments, sensors.options<GridFusionStageOptions>("grid_fusion"),
+                       topics);
   }
   if (arguments.object_fusion) {
-    findObjectTopics(bag, arguments, options.object_fusion, topics);
+    findObjectTopics(bag, arguments, sensors.options<ObjectFusionStageOptions>("object_fusion"),
+                     topics);
   }
   if (arguments.track_fusion) {
-    findTrackTopics(bag, arguments, options.track_level.track_fusion, topics);
+    findTrackTopics(bag, arguments, sensors.options<TrackFusionStageOptions>("track_fusion"),
+                    topics);
   }
   if (arguments.with_truth) {
     topics.truth = truthTopics(bag);

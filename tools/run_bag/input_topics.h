@@ -5,10 +5,11 @@
 #include <vector>
 
 #include "arguments.h"
-#include "pipeline_options.h"
-#include "wiring.h"
+#include "sensor_set.h"
 
 #include <rosbag/bag.h>
+
+#include "datmo_fusion/ros/stage_graph.h"
 
 namespace datmo {
 
@@ -54,6 +55,6 @@ struct InputTopics {
 /// Looks for what the stages need. Throws std::runtime_error that names what is missing, and what
 /// the bag holds.
 InputTopics findTopics(const rosbag::Bag& bag, const Arguments& arguments,
-                       const PipelineOptions& options);
+                       const SensorSet& sensors);
 
 }  // namespace datmo

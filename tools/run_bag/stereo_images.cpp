@@ -137,9 +137,8 @@ cv::Mat rectified(const cv::Mat& image, const image_geometry::PinholeCameraModel
 
 }  // namespace
 
-StereoImages::StereoImages(const StereoImagesOptions& options, bool rectified,
-                           StageMonitor& monitor)
-    : rectified_(rectified),
+StereoImages::StereoImages(const StereoImagesOptions& options, StageMonitor& monitor)
+    : rectified_(options.rectified),
       monitor_(monitor),
       pairs_(options.approximate_sync ? options.pair_tolerance : 0.0),
       left_stamps_(kRestartAfter),
@@ -231,6 +230,21 @@ sensor_msgs::PointCloud2Ptr StereoImages::cloudOf(const StereoPair& pair) const 
   processor_->processPoints2(disparity, colour, left_image->encoding, model, *cloud);
   cloud->header = left_image->header;
   return cloud;
+}
+
+void StereoImages::connect(StagePorts& ports) {
+  const auto points = ports.out<sensor_msgs::PointCloud2>("points2");
+  for (const auto& [side, name] :
+       {std::pair(StereoSide::kLeft, "left/"), std::pair(StereoSide::kRight, "right/")}) {
+    ports.in<sensor_msgs::CameraInfo>(std::string(name) + "camera_info",
+                                      [this, points, side = side](const auto& info, Stamp /*now*/) {
+                                        points.publish(takeInfo(side, info));
+                                      });
+    ports.in<sensor_msgs::Image>(std::string(name) + "image",
+                                 [this, points, side = side](const auto& image, Stamp /*now*/) {
+                                   points.publish(takeImage(side, image));
+                                 });
+  }
 }
 
 }  // namespace datmo

@@ -9,6 +9,7 @@
 
 #include <sensor_msgs/PointCloud2.h>
 
+#include "datmo_fusion/ros/stage.h"
 #include "datmo_fusion/ros/stage_monitor.h"
 #include "datmo_fusion/ros/stamp_check.h"
 
@@ -24,12 +25,13 @@ namespace datmo {
 /// for each pixel; NaN where no disparity was found. Its stamp is the left image's.
 ///
 /// Bad input is dropped through the monitor, never thrown.
-class StereoImages {
+class StereoImages : public Stage {
  public:
-  /// `rectified`: the images are already; if not, they are rectified by their calibration.
+  using Options = StereoImagesOptions;
+
   /// `monitor` must outlive the stage. Throws OptionError.
-  StereoImages(const StereoImagesOptions& options, bool rectified, StageMonitor& monitor);
-  ~StereoImages();
+  StereoImages(const StereoImagesOptions& options, StageMonitor& monitor);
+  ~StereoImages() override;
   StereoImages(const StereoImages&) = delete;
   StereoImages& operator=(const StereoImages&) = delete;
 
@@ -38,6 +40,8 @@ class StereoImages {
   sensor_msgs::PointCloud2Ptr takeImage(StereoSide side, const sensor_msgs::ImageConstPtr& image);
   sensor_msgs::PointCloud2Ptr takeInfo(StereoSide side,
                                        const sensor_msgs::CameraInfoConstPtr& info);
+
+  void connect(StagePorts& ports) override;
 
  private:
   /// Whichever camera jumps back first, both begin anew. These three throw InputError.

@@ -40,6 +40,8 @@ void visitSemiGlobal(OptionVisitor& visitor, StereoImagesOptions& options) {
 }  // namespace
 
 void StereoImagesOptions::visit(OptionVisitor& visitor) {
+  visitor.toggle({"rectified", "", "the images are rectified; whoever feeds them says so"},
+                 rectified);
   visitor.toggle({"approximate_sync", "", "the stamps of left and right image may differ"},
                  approximate_sync);
   visitor.number(

@@ -79,12 +79,11 @@ TextOutputs::TextOutputs(TextFiles files) : files_(std::move(files)) {
   }
 }
 
-void TextOutputs::add(const Pipeline::Output& output) {
-  for (const GridSlamOutput& slam : output.slam) {
-    addPose(*slam.pose);
-  }
-  for (const TrackArrayPtr& tracks : output.tracks) {
-    addTracks(*tracks);
+void TextOutputs::add(const Publication& publication) {
+  if (const auto pose = publication.as<geometry_msgs::PoseWithCovarianceStamped>()) {
+    addPose(*pose);
+  } else if (publication.topic == "tracks") {
+    addTracks(*publication.as<TrackArray>());
   }
 }
 

@@ -4,10 +4,13 @@
 #include <map>
 #include <string>
 
-#include "pipeline.h"
+#include "graph_runner.h"
 #include "text_files.h"
 
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+
 #include "datmo_fusion/common/pose2.h"
+#include "datmo_fusion/ros/messages.h"
 
 namespace datmo {
 
@@ -33,8 +36,8 @@ class TextOutputs {
   /// written.
   explicit TextOutputs(TextFiles files);
 
-  /// Takes what the pipeline made of one message.
-  void add(const Pipeline::Output& output);
+  /// Takes what a stage has published.
+  void add(const Publication& publication);
 
   const std::string& tum() const { return tum_; }
   const std::string& kitti() const { return kitti_; }

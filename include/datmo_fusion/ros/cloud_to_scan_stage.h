@@ -9,6 +9,7 @@
 
 #include "datmo_fusion/ros/frame_options.h"
 #include "datmo_fusion/ros/lidar_cloud_conversion.h"
+#include "datmo_fusion/ros/stage.h"
 #include "datmo_fusion/ros/stage_monitor.h"
 #include "datmo_fusion/ros/stamp_check.h"
 #include "datmo_fusion/ros/transform_buffer.h"
@@ -35,14 +36,18 @@ struct CloudToScanOutput {
 
 /// CloudToScan between messages: the same one serves the nodelet and the bag runner. Bad input is
 /// dropped or warned of through the monitor, never thrown.
-class CloudToScanStage {
+class CloudToScanStage : public Stage {
  public:
+  using Options = CloudToScanStageOptions;
+
   /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
   CloudToScanStage(const CloudToScanStageOptions& options, const TransformBuffer& transforms,
                    StageMonitor& monitor);
 
   /// Of a 3D lidar whose frame tf knows. Nothing if the cloud was dropped.
   std::optional<CloudToScanOutput> takeCloud(const sensor_msgs::PointCloud2& message);
+
+  void connect(StagePorts& ports) override;
 
  private:
   void warnOf(const ConvertedCloud& converted, const PlanarScan& scan);

@@ -12,6 +12,7 @@
 #include "datmo_fusion/fusion/grid_matcher.h"
 #include "datmo_fusion/ros/fusion_inputs.h"
 #include "datmo_fusion/ros/motion_input.h"
+#include "datmo_fusion/ros/stage.h"
 #include "datmo_fusion/ros/stage_monitor.h"
 #include "datmo_fusion/ros/stamp_check.h"
 
@@ -36,8 +37,10 @@ struct GridFusionOutput {
 /// GridMatcher and GridFuser between messages: the same ones serve the nodelet and the bag runner.
 /// What is let in, and what is said of a source that is missed: FusionInputs. When the clock jumps
 /// back all state is forgotten.
-class GridFusionStage {
+class GridFusionStage : public Stage {
  public:
+  using Options = GridFusionStageOptions;
+
   /// `monitor` must outlive the stage. Throws OptionError.
   GridFusionStage(const GridFusionStageOptions& options, StageMonitor& monitor);
 
@@ -61,6 +64,10 @@ class GridFusionStage {
   /// The rule by its name, from the next set on. Throws OptionError for a name that there is not.
   void setRule(const std::string& name) { fuser_.setRule(fusionRule(name)); }
 
+  void connect(StagePorts& ports) override;
+  bool publishNext(Stamp now) override;
+  double maxWait() const override { return options_.matcher.longest_wait; }
+
  private:
   void forgetAfter(Arrival arrival);
 
@@ -69,6 +76,8 @@ class GridFusionStage {
   FusionInputs inputs_;
   GridMatcher matcher_;
   GridFuser fuser_;
+  StagePublisher<nav_msgs::OccupancyGrid> fused_;
+  StagePublisher<nav_msgs::OccupancyGrid> conflict_;
 };
 
 }  // namespace datmo

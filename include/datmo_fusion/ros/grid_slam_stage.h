@@ -16,6 +16,7 @@
 #include "datmo_fusion/ros/motion_options.h"
 #include "datmo_fusion/ros/scan_conversion.h"
 #include "datmo_fusion/ros/scan_extent.h"
+#include "datmo_fusion/ros/stage.h"
 #include "datmo_fusion/ros/stage_monitor.h"
 #include "datmo_fusion/ros/stamp_check.h"
 #include "datmo_fusion/ros/transform_buffer.h"
@@ -55,8 +56,10 @@ struct GridSlamOutput {
 /// the pose; odom -> base_link itself comes from whoever makes the odometry, and may be ahead of
 /// the scan. It is left out while odometry is silent. Without odometry, or with a motion that other
 /// sensors tell, map and odom are the same, and odom -> base_link is the pose.
-class GridSlamStage {
+class GridSlamStage : public Stage {
  public:
+  using Options = GridSlamStageOptions;
+
   /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
   GridSlamStage(const GridSlamStageOptions& options, const TransformBuffer& transforms,
                 StageMonitor& monitor);
@@ -79,6 +82,8 @@ class GridSlamStage {
   /// when the scan's results are on their way: the chain waits for them, and nobody for the map,
   /// which may take as long to write as all stages need for the scan.
   nav_msgs::OccupancyGridPtr mapIfDue(Stamp stamp);
+
+  void connect(StagePorts& ports) override;
 
  private:
   /// Speed, yaw rate and pose of the vehicle as its odometry knows them.

@@ -9,6 +9,7 @@
 #include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/ros/motion_input.h"
 #include "datmo_fusion/ros/scan_conversion.h"
+#include "datmo_fusion/ros/stage.h"
 #include "datmo_fusion/ros/stage_monitor.h"
 #include "datmo_fusion/ros/stamp_check.h"
 #include "datmo_fusion/ros/transform_buffer.h"
@@ -32,8 +33,10 @@ struct LidarGridStageOptions {
 ///
 /// A scan is compensated for the vehicle's motion by odometry, where the vehicle has none by the
 /// poses of the SLAM; where neither has come, all its beams are taken as measured at once.
-class LidarGridStage {
+class LidarGridStage : public Stage {
  public:
+  using Options = LidarGridStageOptions;
+
   /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
   LidarGridStage(const LidarGridStageOptions& options, const TransformBuffer& transforms,
                  StageMonitor& monitor);
@@ -47,6 +50,8 @@ class LidarGridStage {
   /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan. Null if it was dropped.
   template <typename Message>
   nav_msgs::OccupancyGridPtr takeScan(const Message& message);
+
+  void connect(StagePorts& ports) override;
 
  private:
   template <typename Message>

@@ -14,6 +14,8 @@
 #include "datmo_fusion/common/twist2.h"
 #include "datmo_fusion/ros/frame_options.h"
 #include "datmo_fusion/ros/motion_options.h"
+#include "datmo_fusion/ros/shared_options.h"
+#include "datmo_fusion/ros/stage.h"
 #include "datmo_fusion/ros/stage_monitor.h"
 #include "datmo_fusion/ros/stamp_check.h"
 #include "datmo_fusion/ros/transform_buffer.h"
@@ -26,6 +28,13 @@ struct MotionStageOptions {
   StreamOptions input;
 };
 
+/// It has no section of its own: `motion` is of all stages.
+template <>
+inline MotionStageOptions readStageOptions(const OptionValues& /*values*/,
+                                           const SharedOptions& shared) {
+  return {shared.frames, shared.motion, StreamOptions()};
+}
+
 /// Odometry for vehicles whose driver publishes none: from the twist of some sensor, or from the
 /// yaw rate of an Imu and the speed of a twist or of the wheels, as MotionOptions says. The same
 /// one serves the nodelet and the bag runner. Bad input is dropped through the monitor, never
@@ -37,8 +46,10 @@ struct MotionStageOptions {
 ///
 /// Angular velocities and twists are turned from their sensor's frame to the vehicle's by the mount
 /// that tf or `mounts` tells; one without frame_id is taken to be in the vehicle's.
-class MotionStage {
+class MotionStage : public Stage {
  public:
+  using Options = MotionStageOptions;
+
   /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
   MotionStage(const MotionStageOptions& options, const TransformBuffer& transforms,
               StageMonitor& monitor);
@@ -50,6 +61,8 @@ class MotionStage {
   nav_msgs::OdometryPtr takeTwist(const geometry_msgs::TwistWithCovarianceStamped& message);
   /// `velocity` in rad/s of each wheel, forward positive.
   nav_msgs::OdometryPtr takeWheels(const sensor_msgs::JointState& message);
+
+  void connect(StagePorts& ports) override;
 
  private:
   struct StampedSpeed {

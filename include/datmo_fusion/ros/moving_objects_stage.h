@@ -6,6 +6,7 @@
 #include "datmo_fusion/detection/moving_object_detector.h"
 #include "datmo_fusion/road/border_filter.h"
 #include "datmo_fusion/ros/messages.h"
+#include "datmo_fusion/ros/stage.h"
 #include "datmo_fusion/ros/stage_monitor.h"
 #include "datmo_fusion/ros/stamp_check.h"
 
@@ -30,8 +31,10 @@ struct MovingObjectsOutput {
 /// MovingObjectDetector and BorderFilter between messages: the same one serves the nodelet and the
 /// bag runner. Bad input is dropped through the monitor, never thrown. Without borders that are new
 /// enough all objects pass.
-class MovingObjectsStage {
+class MovingObjectsStage : public Stage {
  public:
+  using Options = MovingObjectsStageOptions;
+
   /// `monitor` must outlive the stage. Throws OptionError.
   MovingObjectsStage(const MovingObjectsStageOptions& options, StageMonitor& monitor);
 
@@ -40,6 +43,8 @@ class MovingObjectsStage {
 
   /// None if the scan was dropped.
   std::optional<MovingObjectsOutput> takeSplitScan(const SplitScanMessage& message);
+
+  void connect(StagePorts& ports) override;
 
  private:
   /// The borders that serve a scan; none, and the monitor warned, if there are none.

@@ -15,6 +15,7 @@
 #include "datmo_fusion/ros/fusion_inputs.h"
 #include "datmo_fusion/ros/messages.h"
 #include "datmo_fusion/ros/motion_input.h"
+#include "datmo_fusion/ros/stage.h"
 #include "datmo_fusion/ros/stage_monitor.h"
 #include "datmo_fusion/ros/stamp_check.h"
 
@@ -37,8 +38,10 @@ struct ObjectFusionStageOptions {
 /// A list is fused once: a source slower than the reference is not heard twice. One that was in no
 /// set is counted. Objects and views that do not tell their sensor are taken for their source's
 /// own; views that are not valid are left out, and said.
-class ObjectFusionStage {
+class ObjectFusionStage : public Stage {
  public:
+  using Options = ObjectFusionStageOptions;
+
   /// `monitor` must outlive the stage. Throws OptionError.
   ObjectFusionStage(const ObjectFusionStageOptions& options, StageMonitor& monitor);
 
@@ -62,6 +65,10 @@ class ObjectFusionStage {
   /// that is waited for still comes. `now`: ROS time.
   ObjectArrayPtr next(Stamp now);
 
+  void connect(StagePorts& ports) override;
+  bool publishNext(Stamp now) override;
+  double maxWait() const override { return options_.matcher.longest_wait; }
+
  private:
   using Matched = MatchedSamples<ObjectList>;
 
@@ -78,6 +85,7 @@ class ObjectFusionStage {
   FusionInputs inputs_;
   SourceMatcher<ObjectList> matcher_;
   ObjectFuser fuser_;
+  StagePublisher<ObjectArray> fused_;
   std::deque<SplitScan> scans_;  ///< newer than the last set, by rising stamp
   std::uint64_t times_without_scan_ = 0;
   std::uint64_t bad_objects_ = 0;

@@ -4,6 +4,7 @@
 
 #include "datmo_fusion/road/road_border_detector.h"
 #include "datmo_fusion/ros/messages.h"
+#include "datmo_fusion/ros/stage.h"
 #include "datmo_fusion/ros/stage_monitor.h"
 #include "datmo_fusion/ros/stamp_check.h"
 
@@ -19,13 +20,17 @@ struct RoadBorderStageOptions {
 /// RoadBorderDetector between messages: the same one serves the nodelet and the bag runner. Bad
 /// input is dropped through the monitor, never thrown. When the clock jumps back, or the map gives
 /// way to one of another frame, the road is forgotten.
-class RoadBorderStage {
+class RoadBorderStage : public Stage {
  public:
+  using Options = RoadBorderStageOptions;
+
   /// `monitor` must outlive the stage. Throws OptionError.
   RoadBorderStage(const RoadBorderStageOptions& options, StageMonitor& monitor);
 
   /// The road in the frame of the map that the scan was split by; null if the scan was dropped.
   RoadBordersPtr takeSplitScan(const SplitScanMessage& message);
+
+  void connect(StagePorts& ports) override;
 
  private:
   void restart(const std::string& reason, const std::string& why);

@@ -6,6 +6,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/PointCloud2.h>
 
+#include "datmo_fusion/ros/stage.h"
 #include "datmo_fusion/ros/stage_monitor.h"
 #include "datmo_fusion/ros/stereo_input.h"
 #include "datmo_fusion/ros/transform_buffer.h"
@@ -23,8 +24,10 @@ struct StereoGridStageOptions : StereoInputOptions {
 /// StereoGridModel between messages: the same one serves the nodelet and the bag runner. Bad input
 /// is dropped or warned of through the monitor, never thrown. When the clock jumps back the road of
 /// the last clouds is forgotten.
-class StereoGridStage {
+class StereoGridStage : public Stage {
  public:
+  using Options = StereoGridStageOptions;
+
   /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
   StereoGridStage(const StereoGridStageOptions& options, const TransformBuffer& transforms,
                   StageMonitor& monitor);
@@ -34,6 +37,8 @@ class StereoGridStage {
 
   /// Null if the cloud was dropped.
   nav_msgs::OccupancyGridPtr takeCloud(const sensor_msgs::PointCloud2& message);
+
+  void connect(StagePorts& ports) override;
 
  private:
   /// Throws InputError (`bad_camera`) for one that is not mounted as one that sees the road.

@@ -5,6 +5,7 @@
 
 #include "datmo_fusion/detection/stereo_object_detector.h"
 #include "datmo_fusion/ros/messages.h"
+#include "datmo_fusion/ros/stage.h"
 #include "datmo_fusion/ros/stage_monitor.h"
 #include "datmo_fusion/ros/stereo_input.h"
 #include "datmo_fusion/ros/transform_buffer.h"
@@ -20,8 +21,10 @@ struct StereoObjectsStageOptions : StereoInputOptions {
 /// StereoObjectDetector between messages: the same one serves the nodelet and the bag runner. Bad
 /// input is dropped through the monitor, never thrown. When the clock jumps back the road of the
 /// last clouds is forgotten.
-class StereoObjectsStage {
+class StereoObjectsStage : public Stage {
  public:
+  using Options = StereoObjectsStageOptions;
+
   /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
   StereoObjectsStage(const StereoObjectsStageOptions& options, const TransformBuffer& transforms,
                      StageMonitor& monitor);
@@ -31,6 +34,8 @@ class StereoObjectsStage {
 
   /// Objects in the vehicle's frame at the cloud's stamp; null if the cloud was dropped.
   ObjectArrayPtr takeCloud(const sensor_msgs::PointCloud2& message);
+
+  void connect(StagePorts& ports) override;
 
  private:
   /// Throws InputError (`bad_camera`) for one that is not mounted as one that sees the road.

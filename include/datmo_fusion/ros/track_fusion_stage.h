@@ -8,6 +8,7 @@
 #include "datmo_fusion/ros/frame_options.h"
 #include "datmo_fusion/ros/fusion_inputs.h"
 #include "datmo_fusion/ros/messages.h"
+#include "datmo_fusion/ros/stage.h"
 #include "datmo_fusion/ros/stage_monitor.h"
 #include "datmo_fusion/ros/stamp_check.h"
 
@@ -32,8 +33,10 @@ struct TrackFusionStageOptions {
 ///
 /// A list serves until there is a nearer one of its source. Tracks that do not tell their sensor
 /// are taken for their source's own. Tracks and views that are not valid are left out, and said.
-class TrackFusionStage {
+class TrackFusionStage : public Stage {
  public:
+  using Options = TrackFusionStageOptions;
+
   /// `monitor` must outlive the stage. Throws OptionError.
   TrackFusionStage(const TrackFusionStageOptions& options, StageMonitor& monitor);
 
@@ -51,6 +54,10 @@ class TrackFusionStage {
   /// The scheme by its name, from the next set on. Throws OptionError for a name that there is not.
   void setScheme(const std::string& name) { fuser_.setScheme(name); }
 
+  void connect(StagePorts& ports) override;
+  bool publishNext(Stamp now) override;
+  double maxWait() const override { return options_.matcher.longest_wait; }
+
  private:
   void forgetAfter(Arrival arrival);
   TrackList listOf(const std::string& source, const TrackArray& message);
@@ -61,6 +68,7 @@ class TrackFusionStage {
   FusionInputs inputs_;
   SourceMatcher<TrackList> matcher_;
   TrackFuser fuser_;
+  StagePublisher<TrackArray> fused_;
 };
 
 }  // namespace datmo

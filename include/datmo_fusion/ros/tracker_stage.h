@@ -6,6 +6,7 @@
 #include "datmo_fusion/ros/frame_options.h"
 #include "datmo_fusion/ros/messages.h"
 #include "datmo_fusion/ros/scan_views.h"
+#include "datmo_fusion/ros/stage.h"
 #include "datmo_fusion/ros/stage_monitor.h"
 #include "datmo_fusion/ros/stamp_check.h"
 #include "datmo_fusion/ros/transform_buffer.h"
@@ -28,8 +29,10 @@ struct TrackerStageOptions {
 /// Objects wait in a bounded queue until the vehicle's pose at their stamp is known, from the split
 /// scan in which they were found, or else from tf; nothing blocks. Bad input is dropped through the
 /// monitor, never thrown. When the clock jumps back all tracks are forgotten.
-class TrackerStage {
+class TrackerStage : public Stage {
  public:
+  using Options = TrackerStageOptions;
+
   /// `transforms` and `monitor` must outlive the stage. With a clock the tracker keeps to its time
   /// budget; without one its output depends on nothing but its input. Throws OptionError.
   TrackerStage(const TrackerStageOptions& options, const TransformBuffer& transforms,
@@ -46,6 +49,10 @@ class TrackerStage {
   /// are none. Objects that have waited for longer than transform_wait are dropped. To be called
   /// until null, after each new input and after new transforms.
   TrackArrayPtr next(Stamp now);
+
+  void connect(StagePorts& ports) override;
+  bool publishNext(Stamp now) override;
+  double maxWait() const override { return options_.transform_wait; }
 
  private:
   struct Waiting {
@@ -68,6 +75,7 @@ class TrackerStage {
   StampCheck stamps_;
   ScanViews scan_views_;
   std::deque<Waiting> queue_;
+  StagePublisher<TrackArray> tracks_;
 };
 
 }  // namespace datmo

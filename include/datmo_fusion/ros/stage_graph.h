@@ -1,0 +1,43 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "datmo_fusion/common/options.h"
+
+namespace datmo {
+
+/// What the stereo camera's points come from.
+enum class StereoPoints { kClouds, kRectifiedImages, kRawImages };
+
+/// What a user switches on and off (perception.launch, run_bag).
+struct GraphSwitches {
+  bool scan_from_cloud = false;  ///< the scans are made of a 3D lidar's clouds
+  StereoPoints stereo = StereoPoints::kClouds;
+  bool low_level_fusion = false;
+  bool road_border = false;
+  bool stereo_objects = false;  ///< objects are found in the stereo camera's points
+  bool object_fusion = false;
+  bool track_fusion = false;
+};
+
+/// One stage of the graph.
+struct GraphStage {
+  std::string name;  ///< of the node, and of its section in a sensor set's yaml file
+  std::string type;  ///< of the nodelet: several stages may have one
+  std::map<std::string, std::string> remaps;  ///< the stage's topic -> the graph's
+  OptionValues parameters;                    ///< that the switches set, over the section's
+
+  /// The graph's name of one of the stage's topics.
+  std::string resolved(const std::string& topic) const;
+};
+
+/// The stages and what connects them, each before those that it feeds. perception.launch starts the
+/// same; a test holds the two together.
+///
+/// A stage's topics are its own names for them (Stage::connect); two stages are connected where
+/// the resolved names are equal. A new stage is one row here, and one in stageTypes().
+std::vector<GraphStage> stageGraph(const GraphSwitches& switches);
+
+}  // namespace datmo

@@ -1,0 +1,29 @@
+// The stages of the laser scanner, from scans to objects, and the tracker, as nodelets.
+#include "stage_nodelet.h"
+
+#include <pluginlib/class_list_macros.hpp>
+
+#include "datmo_fusion/ros/grid_slam_stage.h"
+#include "datmo_fusion/ros/lidar_grid_stage.h"
+#include "datmo_fusion/ros/motion_stage.h"
+#include "datmo_fusion/ros/moving_objects_stage.h"
+#include "datmo_fusion/ros/road_border_stage.h"
+#include "datmo_fusion/ros/tracker_stage.h"
+
+namespace datmo {
+
+using GridSlamNodelet = StageNodelet<GridSlamStage>;
+using LidarGridNodelet = StageNodelet<LidarGridStage>;
+using MotionNodelet = StageNodelet<MotionStage>;
+using MovingObjectsNodelet = StageNodelet<MovingObjectsStage>;
+using RoadBorderNodelet = StageNodelet<RoadBorderStage>;
+using TrackerNodelet = StageNodelet<TrackerStage>;
+
+}  // namespace datmo
+
+PLUGINLIB_EXPORT_CLASS(datmo::GridSlamNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(datmo::LidarGridNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(datmo::MotionNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(datmo::MovingObjectsNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(datmo::RoadBorderNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(datmo::TrackerNodelet, nodelet::Nodelet)

@@ -1,0 +1,73 @@
+#include "stage_host.h"
+
+#include <string>
+#include <utility>
+
+namespace datmo {
+
+namespace {
+
+/// s; how late it may be found out that a message is not waited for any more.
+constexpr double kPollPeriod = 0.02;
+
+}  // namespace
+
+StageHost::StageHost(ros::NodeHandle node, ros::NodeHandle private_node, Stage& stage,
+                     StageMonitor& monitor, TransformBuffer* transforms, double silence_after)
+    : node_(std::move(node)), stage_(stage), monitor_(monitor) {
+  stage_.connect(*this);
+  reporter_ = std::make_unique<StageReporter>(node_, std::move(private_node), monitor_,
+                                              requiredInputs(), silence_after);
+  if (transforms != nullptr) {
+    transforms_ = std::make_unique<TransformSubscription>(node_, *transforms, monitor_,
+                                                          [this] { publishReady(); });
+  }
+  for (const StageInput& input : inputs_) {
+    subscribe(input);
+  }
+  if (stage_.maxWait() > 0.0) {
+    timer_ = node_.createTimer(ros::Duration(kPollPeriod),
+                               [this](const ros::TimerEvent& /*event*/) { publishReady(); });
+  }
+}
+
+void StageHost::addInput(StageInput input) { inputs_.push_back(std::move(input)); }
+
+StageOutput::Publish StageHost::addOutput(StageOutput output) { return output.advertise(node_); }
+
+std::vector<std::string> StageHost::requiredInputs() const {
+  std::vector<std::string> required;
+  for (const StageInput& input : inputs_) {
+    if (input.required) {
+      required.push_back(input.topic);
+    }
+  }
+  return required;
+}
+
+void StageHost::subscribe(const StageInput& input) {
+  if (input.booked_as != input.topic) {
+    reporter_->alsoOn(input.booked_as, node_.resolveName(input.topic));
+  }
+  const auto take = [this, take = input.take](const AnyMessage& message, Stamp now) {
+    take(message, now);
+    publishTiming();
+    publishReady();
+  };
+  subscribers_.push_back(input.subscribe(node_, monitor_, take));
+}
+
+void StageHost::publishReady() {
+  while (stage_.publishNext(toStamp(ros::Time::now()))) {
+    publishTiming();
+  }
+}
+
+void StageHost::publishTiming() {
+  if (monitor_.processedCount() > timed_) {
+    timed_ = monitor_.processedCount();
+    reporter_->publishTiming();
+  }
+}
+
+}  // namespace datmo

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <ros/node_handle.h>
+
+#include "datmo_fusion/ros/stage.h"
+#include "datmo_fusion/ros/stage_reporter.h"
+#include "datmo_fusion/ros/transform_subscription.h"
+
+namespace datmo {
+
+/// Hosts a stage live: what it declares becomes subscribers and publishers, what it says goes to
+/// diagnostics and the console, and what it makes is timed. All of it lives in the callback queue
+/// of `node`, which serves one message after the other.
+class StageHost : private StagePorts {
+ public:
+  /// `transforms` null: the stage does not ask tf. `silence_after`: s. All must outlive the host.
+  StageHost(ros::NodeHandle node, ros::NodeHandle private_node, Stage& stage, StageMonitor& monitor,
+            TransformBuffer* transforms, double silence_after);
+
+ private:
+  void addInput(StageInput input) override;
+  StageOutput::Publish addOutput(StageOutput output) override;
+
+  std::vector<std::string> requiredInputs() const;
+  void subscribe(const StageInput& input);
+  void publishReady();
+  /// What was made since the last call goes to the topic of times.
+  void publishTiming();
+
+  ros::NodeHandle node_;
+  Stage& stage_;
+  StageMonitor& monitor_;
+  std::vector<StageInput> inputs_;
+  std::uint64_t timed_ = 0;  ///< results
+  std::unique_ptr<StageReporter> reporter_;
+  std::unique_ptr<TransformSubscription> transforms_;
+  std::vector<ros::Subscriber> subscribers_;
+  ros::Timer timer_;
+};
+
+}  // namespace datmo

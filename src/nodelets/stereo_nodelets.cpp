@@ -1,0 +1,17 @@
+// The stages of the stereo camera as nodelets.
+#include "stage_nodelet.h"
+
+#include <pluginlib/class_list_macros.hpp>
+
+#include "datmo_fusion/ros/stereo_grid_stage.h"
+#include "datmo_fusion/ros/stereo_objects_stage.h"
+
+namespace datmo {
+
+using StereoGridNodelet = StageNodelet<StereoGridStage>;
+using StereoObjectsNodelet = StageNodelet<StereoObjectsStage>;
+
+}  // namespace datmo
+
+PLUGINLIB_EXPORT_CLASS(datmo::StereoGridNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(datmo::StereoObjectsNodelet, nodelet::Nodelet)

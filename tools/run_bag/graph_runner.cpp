@@ -1,0 +1,193 @@
+#include "graph_runner.h"
+
+#include <algorithm>
+
+#include "stage_types.h"
+
+#include "datmo_fusion/ros/grid_slam_stage.h"
+
+namespace datmo {
+
+namespace {
+
+constexpr char kTransforms[] = "/tf";
+constexpr char kStaticTransforms[] = "/tf_static";
+
+/// The graph up to the last stage, or all of it.
+std::vector<GraphStage> graphUntil(const GraphSwitches& switches, const std::string& last) {
+  std::vector<GraphStage> graph = stageGraph(switches);
+  const auto is_last = [&last](const GraphStage& stage) { return stage.type == last; };
+  const auto after = std::find_if(graph.rbegin(), graph.rend(), is_last).base();
+  if (after != graph.begin()) {
+    graph.erase(after, graph.end());
+  }
+  return graph;
+}
+
+OptionValues valuesOf(const GraphStage& row, const SensorSet& sensors) {
+  OptionValues values = sensors.values(row.name);
+  for (const auto& [key, value] : row.parameters) {
+    values[key] = value;
+  }
+  return values;
+}
+
+}  // namespace
+
+/// The ports of one stage.
+class GraphRunner::Ports : public StagePorts {
+ public:
+  Ports(GraphRunner& runner, Node& node) : runner_(runner), node_(node) {}
+
+ private:
+  void addInput(StageInput input) override { node_.inputs.push_back(std::move(input)); }
+
+  StageOutput::Publish addOutput(StageOutput output) override {
+    return [&runner = runner_, topic = node_.row.resolved(output.topic),
+            type = output.data_type](const AnyMessage& message) {
+      runner.publish({topic, type, message});
+    };
+  }
+
+  GraphRunner& runner_;
+  Node& node_;
+};
+
+GraphRunner::GraphRunner(const SensorSet& sensors, const GraphSwitches& switches,
+                         const std::string& last_stage)
+    : shared_(sensors.shared()),
+      transforms_(sensors.options<GridSlamStageOptions>("grid_slam").input.restart_after, shared_,
+                  inputs_monitor_) {
+  for (const GraphStage& row : graphUntil(switches, last_stage)) {
+    addStage(row, sensors);
+  }
+}
+
+void GraphRunner::addStage(const GraphStage& row, const SensorSet& sensors) {
+  Node node{row, std::make_unique<StageMonitor>(row.name), nullptr, {}};
+  node.stage = stageTypes().at(row.type).make(valuesOf(row, sensors), shared_,
+                                              {transforms_, *node.monitor, StepClock()});
+  Ports ports(*this, node);
+  node.stage->connect(ports);
+  nodes_.push_back(std::move(node));
+}
+
+void GraphRunner::takeStaticTransforms(const tf2_msgs::TFMessage& message) {
+  transforms_.addStatic(message);
+}
+
+bool GraphRunner::isFromSlam(const geometry_msgs::TransformStamped& transform) const {
+  const auto& [frames, mounts, motion] = shared_;
+  return transform.child_frame_id == frames.odom ||
+         (!motion.fromOdometry() && transform.child_frame_id == frames.base);
+}
+
+Publications GraphRunner::takeTransforms(const tf2_msgs::TFMessage& message, Stamp now) {
+  tf2_msgs::TFMessage others = message;
+  auto& transforms = others.transforms;
+  transforms.erase(std::remove_if(transforms.begin(), transforms.end(),
+                                  [&](const auto& transform) { return isFromSlam(transform); }),
+                   transforms.end());
+  transforms_.add(others);
+  return settle(now);
+}
+
+Publications GraphRunner::takeAny(const Publication& message, Stamp now) {
+  deliver(message);
+  return settle(now);
+}
+
+Publications GraphRunner::finish(Stamp now) {
+  Publications all;
+  Stamp end = now;
+  for (std::size_t stage = 0; stage < nodes_.size(); ++stage) {
+    end = end + nodes_[stage].stage->maxWait();
+    Publications published = settle(end, stage);
+    std::move(published.begin(), published.end(), std::back_inserter(all));
+  }
+  return all;
+}
+
+Publications GraphRunner::settle(Stamp now, std::size_t first) {
+  do {
+    while (!waiting_.empty()) {
+      serveNext(now);
+    }
+  } while (publishNext(now, first));
+  return std::exchange(published_, {});
+}
+
+void GraphRunner::serveNext(Stamp now) {
+  const auto first = waiting_.begin();
+  const auto& [stage, input, age] = first->first;
+  Node& node = nodes_[stage];
+  const AnyMessage message = first->second;
+  const StageInput::Take& take = node.inputs[input].take;
+  waiting_.erase(first);
+  take(message, now);
+  bookTime(node);
+}
+
+bool GraphRunner::publishNext(Stamp now, std::size_t first) {
+  for (std::size_t stage = first; stage < nodes_.size(); ++stage) {
+    if (nodes_[stage].stage->publishNext(now)) {
+      bookTime(nodes_[stage]);
+      return true;
+    }
+  }
+  return false;
+}
+
+void GraphRunner::deliver(const Publication& message) {
+  for (std::size_t stage = 0; stage < nodes_.size(); ++stage) {
+    const Node& node = nodes_[stage];
+    for (std::size_t input = 0; input < node.inputs.size(); ++input) {
+      if (node.row.resolved(node.inputs[input].topic) == message.topic &&
+          node.inputs[input].data_type == message.data_type) {
+        waiting_.emplace(Turn(stage, input, delivered_++), message.message);
+      }
+    }
+  }
+}
+
+void GraphRunner::publish(const Publication& message) {
+  if (message.topic == kTransforms) {
+    transforms_.add(*message.as<tf2_msgs::TFMessage>());
+  } else if (message.topic == kStaticTransforms) {
+    transforms_.addStatic(*message.as<tf2_msgs::TFMessage>());
+  }
+  published_.push_back(message);
+  deliver(message);
+}
+
+void GraphRunner::bookTime(Node& node) {
+  if (node.monitor->processedCount() > node.timed) {
+    node.timed = node.monitor->processedCount();
+    times_.add(node.row.name, node.monitor->lastProcessed().seconds);
+  }
+}
+
+bool GraphRunner::has(const std::string& stage) const {
+  return std::any_of(nodes_.begin(), nodes_.end(),
+                     [&stage](const Node& node) { return node.row.name == stage; });
+}
+
+std::vector<const StageMonitor*> GraphRunner::monitors() const {
+  std::vector<const StageMonitor*> monitors{&inputs_monitor_};
+  for (const Node& node : nodes_) {
+    monitors.push_back(node.monitor.get());
+  }
+  return monitors;
+}
+
+std::vector<const StageMonitor*> GraphRunner::doors() const {
+  std::vector<const StageMonitor*> doors{&inputs_monitor_};
+  for (const Node& node : nodes_) {
+    if (node.row.type != "tracker") {
+      doors.push_back(node.monitor.get());
+    }
+  }
+  return doors;
+}
+
+}  // namespace datmo

@@ -1,0 +1,110 @@
+#include "sensor_set.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "stage_types.h"
+#include "yaml_options.h"
+#include <yaml-cpp/yaml.h>
+
+#include "datmo_fusion/common/nearest_name.h"
+#include "datmo_fusion/ros/stage_graph.h"
+
+namespace datmo {
+
+namespace {
+
+/// Nodes that are no stages: they draw live alone.
+const std::vector<std::string> kDisplays = {"markers", "lidar_markers", "stereo_markers",
+                                            "grid_views", "camera_view"};
+
+/// All stages that there may be.
+std::vector<GraphStage> wholeGraph() {
+  return stageGraph({true, StereoPoints::kRectifiedImages, true, true, true, true, true});
+}
+
+/// The type of the stage that a section is of; empty for one of no stage.
+std::string typeOf(const std::string& section) {
+  for (const GraphStage& stage : wholeGraph()) {
+    // What a sensor set says of `motion` is of all stages.
+    if (stage.name == section && section != kMotionSection) {
+      return stage.type;
+    }
+  }
+  return "";
+}
+
+std::vector<std::string> sectionNames() {
+  std::vector<std::string> names{kFramesSection, kMountsSection, kMotionSection};
+  for (const GraphStage& stage : wholeGraph()) {
+    if (stage.name != kMotionSection) {
+      names.push_back(stage.name);
+    }
+  }
+  names.insert(names.end(), kDisplays.begin(), kDisplays.end());
+  return names;
+}
+
+void checkSectionName(const std::string& file, const std::string& name) {
+  const std::vector<std::string> names = sectionNames();
+  if (std::find(names.begin(), names.end(), name) != names.end()) {
+    return;
+  }
+  std::string list;
+  for (const std::string& each : names) {
+    list += (list.empty() ? "" : ", ") + each;
+  }
+  throw OptionError(file + ": " + name + ": no such section; the nearest one is " +
+                    nearestName(name, {names.begin(), names.end()}) + " (there are " + list + ")");
+}
+
+}  // namespace
+
+SensorSet::SensorSet(const std::string& file) : file_(file) {
+  const YAML::Node root = loadYaml(file);
+  if (!root.IsMap()) {
+    throw OptionError(file + ": expected sections: frames, grid_slam, tracker and others");
+  }
+  for (const auto& entry : root) {
+    checkSectionName(file, keyOf(entry.first));
+  }
+  for (const auto& entry : root) {
+    const std::string name = keyOf(entry.first);
+    if (std::find(kDisplays.begin(), kDisplays.end(), name) == kDisplays.end()) {
+      sections_[name] = optionValues(entry.second);
+    }
+  }
+  try {
+    shared_ =
+        readSharedOptions(values(kFramesSection), values(kMountsSection), values(kMotionSection));
+  } catch (const OptionError& error) {
+    throw OptionError(file + ": " + error.what());
+  }
+  for (const GraphStage& stage : wholeGraph()) {
+    check(stage.name);
+  }
+}
+
+OptionValues SensorSet::values(const std::string& section) const {
+  const auto found = sections_.find(section);
+  return found == sections_.end() ? OptionValues() : found->second;
+}
+
+void SensorSet::set(const std::string& section, const std::string& key, const OptionValue& value) {
+  sections_[section][key] = value;
+  check(section);
+}
+
+void SensorSet::check(const std::string& section) const {
+  const std::string type = typeOf(section);
+  if (type.empty()) {
+    return;
+  }
+  try {
+    stageTypes().at(type).check(values(section), shared_);
+  } catch (const OptionError& error) {
+    throw OptionError(file_ + ": " + section + ": " + error.what());
+  }
+}
+
+}  // namespace datmo

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "datmo_fusion/ros/shared_options.h"
+
+namespace datmo {
+
+/// The options of all stages: the sections of config/<sensor set>.yaml.
+class SensorSet {
+ public:
+  /// Reads a yaml file, and checks the sections of all stages. Throws OptionError that names file,
+  /// section and key.
+  explicit SensorSet(const std::string& file);
+
+  /// Sections `frames`, `mounts` and `motion`.
+  const SharedOptions& shared() const { return shared_; }
+
+  /// What the file says in a section; nothing if it has none of this name.
+  OptionValues values(const std::string& section) const;
+
+  /// The options of a stage. Throws OptionError.
+  template <typename Options>
+  Options options(const std::string& section) const {
+    return readStageOptions<Options>(values(section), shared_);
+  }
+
+  /// A value in place of the file's. Throws OptionError that names the section.
+  void set(const std::string& section, const std::string& key, const OptionValue& value);
+
+ private:
+  void check(const std::string& section) const;
+
+  std::string file_;
+  std::map<std::string, OptionValues> sections_;
+  SharedOptions shared_;
+};
+
+}  // namespace datmo

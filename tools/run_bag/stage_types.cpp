@@ -1,0 +1,54 @@
+#include "stage_types.h"
+
+#include "stereo_images.h"
+
+#include "datmo_fusion/ros/cloud_to_scan_stage.h"
+#include "datmo_fusion/ros/grid_fusion_stage.h"
+#include "datmo_fusion/ros/grid_slam_stage.h"
+#include "datmo_fusion/ros/lidar_grid_stage.h"
+#include "datmo_fusion/ros/motion_stage.h"
+#include "datmo_fusion/ros/moving_objects_stage.h"
+#include "datmo_fusion/ros/object_fusion_stage.h"
+#include "datmo_fusion/ros/road_border_stage.h"
+#include "datmo_fusion/ros/stereo_grid_stage.h"
+#include "datmo_fusion/ros/stereo_objects_stage.h"
+#include "datmo_fusion/ros/track_fusion_stage.h"
+#include "datmo_fusion/ros/tracker_stage.h"
+
+namespace datmo {
+
+namespace {
+
+template <typename MadeStage>
+StageType typeOf() {
+  using Options = typename MadeStage::Options;
+  return {[](const OptionValues& values, const SharedOptions& shared) {
+            readStageOptions<Options>(values, shared);
+          },
+          [](const OptionValues& values, const SharedOptions& shared, const StageContext& context) {
+            return makeStage<MadeStage>(readStageOptions<Options>(values, shared), context);
+          }};
+}
+
+}  // namespace
+
+const std::map<std::string, StageType>& stageTypes() {
+  static const std::map<std::string, StageType> types{
+      {"cloud_to_scan", typeOf<CloudToScanStage>()},
+      {"grid_fusion", typeOf<GridFusionStage>()},
+      {"grid_slam", typeOf<GridSlamStage>()},
+      {"lidar_grid", typeOf<LidarGridStage>()},
+      {"motion", typeOf<MotionStage>()},
+      {"moving_objects", typeOf<MovingObjectsStage>()},
+      {"object_fusion", typeOf<ObjectFusionStage>()},
+      {"road_border", typeOf<RoadBorderStage>()},
+      {"stereo_grid", typeOf<StereoGridStage>()},
+      {"stereo_image_proc", typeOf<StereoImages>()},
+      {"stereo_objects", typeOf<StereoObjectsStage>()},
+      {"track_fusion", typeOf<TrackFusionStage>()},
+      {"tracker", typeOf<TrackerStage>()},
+  };
+  return types;
+}
+
+}  // namespace datmo
