@@ -45,10 +45,10 @@ std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
   add(true,
       {"tracker", "tracker", {{"objects", tracked_objects}, {"tracks", tracks_of_tracker}}, {}});
   // What the scanner saw is not what the camera could see.
-  add(switches.track_fusion, {"stereo_tracker",
-                              "tracker",
-                              {{"objects", "objects/stereo"}, {"tracks", "tracks/stereo"}},
-                              {{"scan_view", false}}});
+  add(switches.stereo_tracker, {"stereo_tracker",
+                                "tracker",
+                                {{"objects", "objects/stereo"}, {"tracks", "tracks/stereo"}},
+                                {{"scan_view", false}}});
   add(switches.track_fusion, {"track_fusion", "track_fusion", {{"tracks/fused", "tracks"}}, {}});
   return graph;
 }

@@ -32,12 +32,12 @@ TEST_F(FusedRun, EveryScanIsFusedWithClouds) {
     EXPECT_EQ(count(arguments_.output, topic), kScanCount) << topic;
   }
   EXPECT_FALSE(holds(table, "dropped")) << table;
-  EXPECT_FALSE(holds(table, "stereo_images")) << table;
+  EXPECT_FALSE(holds(table, "stereo_image_proc")) << table;
 }
 
 TEST_F(FusedRun, CloudsAreMadeOfImagesWhereThereAreNone) {
   appendImages();
-  EXPECT_TRUE(holds(run(), "stereo_images"));
+  EXPECT_TRUE(holds(run(), "stereo_image_proc"));
   expectGrids();
 }
 
@@ -54,7 +54,7 @@ TEST_F(FusedRun, ImagesServeInPlaceOfCloudsOnDemand) {
   arguments_.remappings["/left_image"] = "/stereo/left/image_rect";
   EXPECT_TRUE(holds(failure(), "/stereo/left/image_rect"));
   appendImages();
-  EXPECT_TRUE(holds(run(), "stereo_images"));
+  EXPECT_TRUE(holds(run(), "stereo_image_proc"));
 }
 
 TEST_F(FusedRun, ImagesLeadToTheSameGridsAsTheirClouds) {

@@ -52,7 +52,7 @@ TEST_F(ObjectFusedRun, CloudsMadeOfImagesServeBothLevels) {
   expectObjects(kCloudCount);
   EXPECT_EQ(count(arguments_.output, "/grids/stereo"), kCloudCount);
   const std::string times = bytes(arguments_.times);
-  const std::string made = times.substr(times.find("stereo_images"));
+  const std::string made = times.substr(times.find("stereo_image_proc"));
   EXPECT_EQ(made.find("\"runs\": " + std::to_string(kClouds)), made.find("\"runs\"")) << times;
 }
 
@@ -62,7 +62,7 @@ TEST_F(ObjectFusedRun, ImagesLeadToTheSameAsTheirClouds) {
   run();
   const auto of_clouds = listsOf<ObjectArray>("/objects/stereo");
   arguments_.stereo_from_images = true;
-  EXPECT_TRUE(holds(run(), "stereo_images"));
+  EXPECT_TRUE(holds(run(), "stereo_image_proc"));
   EXPECT_EQ(of_clouds, listsOf<ObjectArray>("/objects/stereo"));
 }
 

@@ -75,7 +75,7 @@ class StereoRunBag : public RunBag {
 
   /// What stereo_image_proc makes of the images.
   void appendClouds() const {
-    StageMonitor monitor("stereo_images");
+    StageMonitor monitor("stereo_image_proc");
     StereoImagesOptions options;
     options.stereo_algorithm = 1;
     options.disparity_range = 32;

@@ -239,27 +239,27 @@ SensorSet readSensorsFor(const Arguments& arguments) {
   return sensors;
 }
 
-/// Whether a level takes the objects of the stereo camera.
-bool usesStereoObjects(const Arguments& arguments, const SensorSet& sensors) {
-  const auto is_used = [](const std::vector<std::string>& sources) {
-    return std::find(sources.begin(), sources.end(), "stereo") != sources.end();
-  };
-  return (arguments.object_fusion &&
-          is_used(
-              sensors.options<ObjectFusionStageOptions>("object_fusion").fuser.sourcesInUse())) ||
-         (arguments.track_fusion &&
-          is_used(sensors.options<TrackFusionStageOptions>("track_fusion").fuser.sourcesInUse()));
+bool usesStereo(const std::vector<std::string>& sources) {
+  return std::find(sources.begin(), sources.end(), "stereo") != sources.end();
 }
 
 GraphSwitches switchesOf(const Arguments& arguments, const SensorSet& sensors,
                          const InputTopics& topics) {
-  return {!topics.cloud.empty(),
-          topics.stereo.input(),
-          arguments.low_level_fusion,
-          arguments.road_border,
-          usesStereoObjects(arguments, sensors),
-          arguments.object_fusion,
-          arguments.track_fusion};
+  GraphSwitches switches;
+  switches.scan_from_cloud = !topics.cloud.empty();
+  switches.stereo = topics.stereo.input();
+  switches.low_level_fusion = arguments.low_level_fusion;
+  switches.road_border = arguments.road_border;
+  switches.object_fusion = arguments.object_fusion;
+  switches.track_fusion = arguments.track_fusion;
+  switches.stereo_tracker =
+      arguments.track_fusion &&
+      usesStereo(sensors.options<TrackFusionStageOptions>("track_fusion").fuser.sourcesInUse());
+  switches.stereo_objects =
+      switches.stereo_tracker ||
+      (arguments.object_fusion &&
+       usesStereo(sensors.options<ObjectFusionStageOptions>("object_fusion").fuser.sourcesInUse()));
+  return switches;
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ struct GraphSwitches {
   bool road_border = false;
   bool stereo_objects = false;  ///< objects are found in the stereo camera's points
   bool object_fusion = false;
+  bool stereo_tracker = false;  ///< the stereo camera's objects are tracked by themselves
   bool track_fusion = false;
 };
 

@@ -1,0 +1,45 @@
+// The graph of stages as JSON, for the test that holds perception.launch against it:
+// print_stage_graph [SWITCH...], e.g. low_level_fusion.
+#include <iostream>
+#include <set>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "datmo_fusion/ros/stage_graph.h"
+
+namespace {
+
+nlohmann::json toJson(const datmo::GraphStage& stage) {
+  nlohmann::json parameters = nlohmann::json::object();
+  for (const auto& [key, value] : stage.parameters) {
+    parameters[key] = std::get<bool>(value);
+  }
+  nlohmann::json remaps = nlohmann::json::object();
+  for (const auto& [from, to] : stage.remaps) {
+    if (from != to) {
+      remaps[from] = to;
+    }
+  }
+  return {{"type", stage.type}, {"remaps", remaps}, {"parameters", parameters}};
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  const std::set<std::string> on(words + 1, words + count);
+  const auto is_on = [&on](const char* name) { return on.count(name) > 0; };
+  datmo::GraphSwitches switches;
+  switches.scan_from_cloud = is_on("cloud");
+  switches.low_level_fusion = is_on("low_level_fusion");
+  switches.road_border = is_on("road_border");
+  switches.stereo_objects = is_on("stereo_objects");
+  switches.object_fusion = is_on("object_fusion");
+  switches.stereo_tracker = is_on("track_fusion");
+  switches.track_fusion = is_on("track_fusion");
+  nlohmann::json stages = nlohmann::json::object();
+  for (const datmo::GraphStage& stage : stageGraph(switches)) {
+    stages[stage.name] = toJson(stage);
+  }
+  std::cout << stages << '\n';
+}

@@ -1,0 +1,72 @@
+#!/usr/bin/python3
+"""perception.launch starts the stages of the graph that run_bag runs, with the same topics and the same
+parameters, for every combination of switches."""
+
+import itertools
+import json
+import os
+import subprocess
+import unittest
+from pathlib import Path
+
+import roslaunch.config
+
+PACKAGE = Path(__file__).resolve().parents[2]
+SWITCHES = ("cloud", "low_level_fusion", "road_border", "stereo_objects", "object_fusion", "track_fusion")
+DISPLAYS = {"markers", "lidar_markers", "stereo_markers", "grid_views", "camera_view"}
+
+
+def graph_stages(switches):
+    """The stages of the graph: name -> type, remaps, parameters."""
+    text = subprocess.run([os.environ["DATMO_FUSION_PRINT_STAGE_GRAPH"], *switches], check=True,
+                          stdout=subprocess.PIPE).stdout
+    return json.loads(text)
+
+
+def launched_stages(switches):
+    """The same of perception.launch; topics that are remapped to themselves are left out."""
+    words = [f"{switch}:={str(switch in switches).lower()}" for switch in SWITCHES[1:]]
+    words += ["cloud:=cloud"] if "cloud" in switches else []
+    config = roslaunch.config.load_config_default(
+        [(str(PACKAGE / "launch" / "perception.launch"), words)], None, verbose=False)
+    stages = {}
+    for node in config.nodes:
+        command, _, kind = node.args.partition(" ")
+        if command != "load" or not kind.startswith("datmo_fusion/") or node.name in DISPLAYS:
+            continue
+        stages[node.name] = {
+            "type": kind.split()[0].split("/")[1],
+            "remaps": {a: b for a, b in node.remap_args if a != b},
+            "parameters": {}}
+    return stages, {key: parameter.value for key, parameter in config.params.items()}
+
+
+class StageGraph(unittest.TestCase):
+    maxDiff = None
+
+    @classmethod
+    def setUpClass(cls):
+        others = os.environ.get("ROS_PACKAGE_PATH", "")
+        os.environ["ROS_PACKAGE_PATH"] = f"{PACKAGE}:{others}"
+
+    @staticmethod
+    def combinations():
+        for values in itertools.product([False, True], repeat=len(SWITCHES)):
+            yield [switch for switch, value in zip(SWITCHES, values) if value]
+
+    def test_the_launch_file_starts_the_graph(self):
+        for switches in self.combinations():
+            with self.subTest(switches=switches):
+                expected = graph_stages(switches)
+                launched, parameters = launched_stages(switches)
+                self.assertEqual({name: (stage["type"], stage["remaps"])
+                                  for name, stage in launched.items()},
+                                 {name: (stage["type"], stage["remaps"])
+                                  for name, stage in expected.items()})
+                for name, stage in expected.items():
+                    for key, value in stage["parameters"].items():
+                        self.assertEqual(parameters[f"/{name}/{key}"], value, f"{name}/{key}")
+
+
+if __name__ == "__main__":
+    unittest.main()
