@@ -93,7 +93,8 @@ class CloudsToScans(unittest.TestCase):
         self.assertEqual(len(scan.ranges), 91)
         self.assertAlmostEqual(scan.ranges[45], 10.0, places=3)
         for beam, bearing in ((40, 10.0), (50, -10.0)):  # a beam has the nearest point in it
-            self.assertAlmostEqual(scan.ranges[beam], 10.0 / math.cos(math.radians(bearing)), delta=0.05)
+            expected = 10.0 / math.cos(math.radians(bearing))
+            self.assertAlmostEqual(scan.ranges[beam], expected, delta=0.05)
         self.assertTrue(all(math.isinf(scan.ranges[beam]) for beam in (10, 30, 60, 80)))
 
     def test_every_beam_has_its_own_time(self):

@@ -4,13 +4,15 @@ import sys
 from pathlib import Path
 from typing import NamedTuple, Optional
 
+import numpy as np
+
 from datmo_tools import (
     bag_messages,
     ground_truth,
     kitti_messages,
+    kitti_scans,
     odometry,
-    road_plane,
-    scanner_emulation,
+    transforms,
     truth_messages,
 )
 from datmo_tools.bag_file import MOUNTS_LEAD, whole_bag
@@ -20,10 +22,10 @@ from datmo_tools.kitti_calibration import find_calibration, read_calibration
 from datmo_tools.kitti_images import ImagePairs
 from datmo_tools.kitti_labels import read_labels
 from datmo_tools.kitti_raw import Drive
+from datmo_tools.kitti_scans import DriveScans, ScannerOptions
 from datmo_tools.kitti_tracklets import read_tracklets
 from datmo_tools.odometry import OdometryErrors
 from datmo_tools.progress import Progress
-from datmo_tools.scanner_emulation import ScannerOptions
 
 
 class Options(NamedTuple):
@@ -48,7 +50,7 @@ def convert(folder, bag_path, options, stream=None):
 
     Raises InputError, and leaves no bag behind, where a file or an option cannot be used.
     """
-    scanner_emulation.check(options.scanner)
+    kitti_scans.check(options.scanner)
     conversion = _Conversion(folder, options)
     for notice in conversion.notices():
         print(f"kitti_to_bag: {notice}", file=stream or sys.stderr)
@@ -101,6 +103,7 @@ class _Conversion:
         self._samples = dict(zip(self._motion, samples))
         self._poses = dict(zip(self._motion, poses))
         self._truth = self._read_truth(folder)
+        self._scans = self._make_scans()
 
     def notices(self):
         """Sentences on what is not as in a complete synchronized drive."""
@@ -126,10 +129,19 @@ class _Conversion:
 
     def write_mounts(self, bag, stamp):
         """Writes /tf_static."""
-        message = kitti_messages.static_transforms(
-            stamp, self._calibration, self._options.scanner.height
+        bag.write_latched("/tf_static", stamp, self._mounts(stamp))
+
+    def _mounts(self, stamp):
+        """TFMessage of all mounts."""
+        height = self._options.scanner.height
+        return kitti_messages.static_transforms(stamp, self._calibration, height)
+
+    def _make_scans(self):
+        options, drive = self._options, self._drive
+        section = kitti_scans.configuration(
+            options.scanner, options.fit_road, self._calibration, drive.turn_duration
         )
-        bag.write_latched("/tf_static", stamp, message)
+        return DriveScans(drive, self._frames, section, self._mounts(drive.scan_stamps[0]))
 
     def _read_truth(self, folder):
         """Dictionary frame -> list of MapObject; None where the drive has no labels.
@@ -169,14 +181,13 @@ class _Conversion:
         bag.write("/ground_truth/pose", stamp, pose)
 
     def _write_scan(self, bag, stamp, frame):
-        cloud = self._drive.cloud(frame)
-        plane = road_plane.fit_road_plane(cloud) if self._options.fit_road else road_plane.FLAT
-        scan = scanner_emulation.emulate_scan(cloud, plane.heights(cloud), self._options.scanner)
-        self._write_beams(bag, stamp, scan)
+        scan = self._scans.scan_of(frame)
+        if scan is not None:
+            self._write_beams(bag, stamp, scan)
         if self._options.points:
-            bag.write("/points", stamp, kitti_messages.point_cloud(stamp, cloud))
+            bag.write("/points", stamp, kitti_messages.point_cloud(stamp, self._drive.cloud(frame)))
         if self._truth is not None:
-            hits = cloud[scan.sources[scan.sources >= 0]]
+            hits = self._hits(scan)
             objects = self._truth[frame]
             beams = [ground_truth.points_in_box(hits, item.source, item.box) for item in objects]
             bag.write(
@@ -188,10 +199,21 @@ class _Conversion:
 
         The Velodyne looks ahead at `stamp`, in the middle of the field of view.
         """
-        scanner, turn_duration = self._options.scanner, self._drive.turn_duration
-        half_sweep = round(0.5 * turn_duration * scanner.turn_share)
-        message = kitti_messages.laser_scan(stamp - half_sweep, scan, scanner, turn_duration)
-        bag.write("/scan", stamp + half_sweep, message)
+        turn_duration = self._drive.turn_duration
+        scan.scan_time = turn_duration * 1e-9
+        half_sweep = round(0.5 * turn_duration * self._options.scanner.turn_share)
+        bag.write("/scan", stamp + half_sweep, scan)
+
+    def _hits(self, scan):
+        """Where (n x 2, m, the Velodyne's frame) the beams of a scan, or of None, ended."""
+        if scan is None:
+            return np.zeros((0, 2))
+        ranges = np.array(scan.ranges)
+        bearings = scan.angle_min + scan.angle_increment * np.arange(len(ranges))
+        ends = np.column_stack([ranges * np.cos(bearings), ranges * np.sin(bearings)])
+        yaw = transforms.yaw_of(self._calibration.base_from_velodyne)
+        rotation = np.array([[np.cos(yaw), -np.sin(yaw)], [np.sin(yaw), np.cos(yaw)]])
+        return ends[np.isfinite(ranges)] @ rotation
 
 
 def _chosen_frames(drive, options):

@@ -1,7 +1,7 @@
 """What kitti_to_bag writes, as ROS messages in the frames of the stack's data contract."""
 
 import numpy as np
-from sensor_msgs.msg import CameraInfo, Image, LaserScan, PointCloud2, PointField
+from sensor_msgs.msg import CameraInfo, Image, PointCloud2, PointField
 from tf2_msgs.msg import TFMessage
 
 from datmo_tools import transforms
@@ -9,25 +9,6 @@ from datmo_tools.bag_messages import BASE, SCANNER, header, transform
 
 VELODYNE, IMU = "velodyne", "imu"
 LEFT_CAMERA, RIGHT_CAMERA = "stereo_left_optical", "stereo_right_optical"
-
-
-def laser_scan(stamp, scan, options, turn_duration):
-    """LaserScan of an EmulatedScan with beams at their own times.
-
-    stamp: of the first beam (ns); turn_duration: of the Velodyne (ns).
-    """
-    sweep = turn_duration * options.turn_share
-    return LaserScan(
-        header=header(stamp, SCANNER),
-        angle_min=options.angle_min,
-        angle_max=-options.angle_min,
-        angle_increment=options.angle_increment,
-        time_increment=sweep / (options.beams - 1) * 1e-9,
-        scan_time=turn_duration * 1e-9,
-        range_min=options.range_min,
-        range_max=options.range_max,
-        ranges=scan.ranges.astype(np.float32).tolist(),
-    )
 
 
 def point_cloud(stamp, cloud):
@@ -104,7 +85,5 @@ def static_transforms(stamp, calibration, scanner_height):
 
 
 def scanner_mount(base_from_velodyne, height):
-    """base_link -> scanner (4 x 4): below the Velodyne at `height` (m) above the road, level."""
-    yaw = transforms.yaw_of(base_from_velodyne)
-    rotation = [[np.cos(yaw), -np.sin(yaw), 0.0], [np.sin(yaw), np.cos(yaw), 0.0], [0.0, 0.0, 1.0]]
-    return transforms.rigid(rotation, [*base_from_velodyne[:2, 3], height])
+    """base_link -> scanner (4 x 4): below the Velodyne at `height` (m), in the axes of base_link."""
+    return transforms.rigid(np.eye(3), [*base_from_velodyne[:2, 3], height])

@@ -7,8 +7,8 @@ from pathlib import Path
 from datmo_tools import command_line, kitti_bag
 from datmo_tools.command_line import add_number
 from datmo_tools.errors import InputError
+from datmo_tools.kitti_scans import ScannerOptions
 from datmo_tools.odometry import OdometryErrors
-from datmo_tools.scanner_emulation import ScannerOptions
 
 DESCRIPTION = """\
 Converts a KITTI raw drive, as it is downloaded and unpacked (calib_*.txt in its parent), to a bag:
@@ -18,7 +18,7 @@ unsynced+unrectified (..._extract), whose sensors keep their own rates and whose
 here; it has no true objects, for labels count the frames of the other form.
 
 The scan is an EMULATION of a planar scanner at the bumper: the nearest Velodyne point of each beam
-in a height band above the road. The Velodyne looks down from 1.73 m and so sees over low obstacles.
+in a height band above the road, as clouds_to_scans makes it. The Velodyne looks down from 1.73 m and so sees over low obstacles.
 Returns from the recording car itself are left out. A beam covers the whole way to its neighbours
 unless --beam-width makes it thinner; its range is reported at its own bearing. The Velodyne turns
 to the right, and so does the scan: its first beam is the leftmost, each beam has its own time, and
@@ -74,8 +74,8 @@ def _add_scanner(group, scanner):
         "--road",
         choices=("fit", "flat"),
         default="fit",
-        help="the band is above the plane fitted to the road in each scan, or above the one "
-        "1.73 m below the Velodyne, which pitches with the car (default %(default)s)",
+        help="the band is above the plane fitted to the road in each scan, or above z = 0 of "
+        "base_link, which pitches with the car (default %(default)s)",
     )
 
 

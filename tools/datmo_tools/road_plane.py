@@ -1,4 +1,7 @@
-"""The road's plane in a Velodyne scan, so that a band above it follows slopes and pitching."""
+"""The road's plane in a Velodyne scan, by which stereo grids are judged.
+
+Other means than those that the stack finds the road by.
+"""
 
 from typing import NamedTuple
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from datmo_tools import road_plane, scanner_emulation, transforms
+from datmo_tools import kitti_scans, road_plane, transforms
 from datmo_tools.grid_scores import UNDECIDED
 
 # What is an obstacle, m above the road: over kerbs, and what a car could touch.
@@ -51,7 +51,7 @@ def obstacle_points(cloud, base_from_velodyne):
     """Where (m x 2, m, base_link) obstacles are in a Velodyne cloud (n x 3 or more columns)."""
     heights = road_plane.fit_road_plane(cloud).heights(cloud)
     chosen = (heights >= OBSTACLE_LOW) & (heights <= OBSTACLE_HIGH)
-    chosen &= ~scanner_emulation.on_own_car(cloud[:, 0], cloud[:, 1])
+    chosen &= ~kitti_scans.on_own_car(cloud[:, 0], cloud[:, 1])
     return transforms.apply(base_from_velodyne, cloud[chosen, :3].astype(float))[:, :2]
 
 
