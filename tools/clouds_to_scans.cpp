@@ -5,7 +5,7 @@
 #include "input_bag.h"
 #include "interruption.h"
 #include "output_bag.h"
-#include "run_bag/pipeline_options.h"
+#include "run_bag/sensor_set.h"
 #include <tf2_msgs/TFMessage.h>
 
 #include <rosbag/view.h>
@@ -45,10 +45,11 @@ class CloudConversion {
   CloudConversion(const CloudsToScansArguments& arguments, const rosbag::Bag& input)
       : arguments_(arguments),
         input_(input),
-        options_(readPipelineOptions(arguments.config)),
+        sensors_(arguments.config),
+        options_(sensors_.options<CloudToScanStageOptions>("cloud_to_scan")),
         monitor_("cloud_to_scan"),
-        transforms_(options_.cloud_to_scan.input.restart_after, options_.shared, monitor_),
-        stage_(options_.cloud_to_scan, transforms_, monitor_),
+        transforms_(options_.input.restart_after, sensors_.shared(), monitor_),
+        stage_(options_, transforms_, monitor_),
         output_(arguments.output) {}
 
   ConvertedClouds run() {
@@ -106,7 +107,8 @@ class CloudConversion {
 
   const CloudsToScansArguments& arguments_;
   const rosbag::Bag& input_;
-  PipelineOptions options_;
+  SensorSet sensors_;
+  CloudToScanStageOptions options_;
   StageMonitor monitor_;
   TransformBuffer transforms_;
   CloudToScanStage stage_;
