@@ -47,11 +47,11 @@ def rows(text):
 
 # What list_parameters prints, in short.
 PARAMETERS = """\
-### `lidar_grid`
+## `lidar_grid`
 
 | `effective_range` | m | 50 | 1 to 200 | another one's |
 
-### `stereo_objects`
+## `stereo_objects`
 
 | parameter | unit | default | range | description |
 |---|---|---|---|---|
@@ -59,7 +59,7 @@ PARAMETERS = """\
 | `camera/field_of_view` | rad | 1 | 0.1 to 3 | from left to right |
 | `effective_range` | m | 36 | 1 to 200 | nothing is said beyond it |
 
-### `tracker`, `stereo_tracker`
+## `tracker`, `stereo_tracker`
 
 | `effective_range` | m | 70 | 1 to 200 | another one's |
 """
@@ -236,6 +236,13 @@ class Runs(unittest.TestCase):
 
 
 class CameraViews(unittest.TestCase):
+    def test_defaults_as_list_parameters_prints_them(self):
+        """doc/parameters.md is what it prints: another test holds that."""
+        page = (Path(__file__).parents[2] / "doc" / "parameters.md").read_text(encoding="utf-8")
+        view = self.view("", page)
+        self.assertEqual(view.range, 36.0)
+        self.assertGreater(view.half_angle, 0.3)
+
     def view(self, config, parameters=PARAMETERS):
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "config.yaml"

@@ -55,7 +55,7 @@ def _defaults(program):
         text = output_of(program)
     except (StepFailed, OSError) as error:
         raise InputError(f"{program}: {error}") from error
-    section = re.search(rf"^### [^\n]*`{_STAGE}`.*?(?=^### |\Z)", text, re.DOTALL | re.MULTILINE)
+    section = re.search(rf"^## [^\n]*`{_STAGE}`.*?(?=^## |\Z)", text, re.DOTALL | re.MULTILINE)
     rows = re.findall(r"^\| `([^`]+)` \|[^|]*\| ([-+.\de]+) \|", section[0] if section else "",
                       re.MULTILINE)  # fmt: skip
     defaults = {name: float(value) for name, value in rows}
