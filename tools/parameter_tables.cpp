@@ -12,6 +12,7 @@
 #include "datmo_fusion/ros/object_fusion_stage.h"
 #include "datmo_fusion/ros/road_border_stage.h"
 #include "datmo_fusion/ros/shared_options.h"
+#include "datmo_fusion/ros/static_points_stage.h"
 #include "datmo_fusion/ros/stereo_grid_stage.h"
 #include "datmo_fusion/ros/stereo_objects_stage.h"
 #include "datmo_fusion/ros/track_fusion_stage.h"
@@ -48,6 +49,7 @@ std::string parameterTables() {
          section<GridSlamStageOptions>("`grid_slam`") + "\n" +
          section<RoadBorderStageOptions>("`road_border`") + "\n" +
          section<MovingObjectsStageOptions>("`moving_objects`") + "\n" +
+         section<StaticPointsStageOptions>("`static_points`") + "\n" +
          section<StereoObjectsStageOptions>("`stereo_objects`") + "\n" +
          section<ObjectFusionStageOptions>("`object_fusion`") + "\n" +
          section<TrackerStageOptions>("`tracker`, `stereo_tracker`") + "\n" +

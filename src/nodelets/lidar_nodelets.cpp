@@ -8,6 +8,7 @@
 #include "datmo_fusion/ros/motion_stage.h"
 #include "datmo_fusion/ros/moving_objects_stage.h"
 #include "datmo_fusion/ros/road_border_stage.h"
+#include "datmo_fusion/ros/static_points_stage.h"
 #include "datmo_fusion/ros/tracker_stage.h"
 
 namespace datmo {
@@ -17,6 +18,7 @@ using LidarGridNodelet = StageNodelet<LidarGridStage>;
 using MotionNodelet = StageNodelet<MotionStage>;
 using MovingObjectsNodelet = StageNodelet<MovingObjectsStage>;
 using RoadBorderNodelet = StageNodelet<RoadBorderStage>;
+using StaticPointsNodelet = StageNodelet<StaticPointsStage>;
 using TrackerNodelet = StageNodelet<TrackerStage>;
 
 }  // namespace datmo
@@ -26,4 +28,5 @@ PLUGINLIB_EXPORT_CLASS(datmo::LidarGridNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(datmo::MotionNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(datmo::MovingObjectsNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(datmo::RoadBorderNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(datmo::StaticPointsNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(datmo::TrackerNodelet, nodelet::Nodelet)

@@ -37,6 +37,7 @@ std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
   add(low_level, {"stereo_grid", "stereo_grid", camera, {}});
   add(low_level, {"grid_fusion", "grid_fusion", {}, {}});
   add(true, {"grid_slam", "grid_slam", {{"scan", scan}}, {{"fused_grid", low_level}}});
+  add(switches.static_points, {"static_points", "static_points", {}, {}});
   add(switches.road_border, {"road_border", "road_border", {}, {}});
   add(true, {"moving_objects", "moving_objects", {}, {{"road_borders", switches.road_border}}});
   add(switches.stereo_objects, {"stereo_objects", "stereo_objects", camera, {}});

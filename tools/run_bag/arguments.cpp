@@ -156,6 +156,7 @@ bool setSwitch(const std::string& word, Arguments& arguments) {
       {"--quiet", &arguments.quiet},
       {"--low-level-fusion", &arguments.low_level_fusion},
       {"--road-border", &arguments.road_border},
+      {"--static-points", &arguments.static_points},
       {"--object-fusion", &arguments.object_fusion},
       {"--track-fusion", &arguments.track_fusion},
       {"--stereo-from-images", &arguments.stereo_from_images},
@@ -235,6 +236,7 @@ std::string usage() {
          "  --road-border         finds the borders of the road and leaves out false objects on "
          "and beyond\n"
          "                        them, and writes /road_borders and /objects/dropped\n"
+         "  --static-points       writes what stands still: /static_points and /static_scan\n"
          "  --object-fusion       fuses the objects of scanner and stereo camera before tracker, "
          "and\n"
          "                        writes /objects/stereo and /objects/fused\n"

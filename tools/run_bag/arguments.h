@@ -26,6 +26,7 @@ struct Arguments {
   LastStage last_stage = LastStage::kEnd;
   bool low_level_fusion = false;
   bool road_border = false;
+  bool static_points = false;
   bool object_fusion = false;
   bool track_fusion = false;
   bool stereo_from_images = false;  ///< also where the bag has clouds

@@ -144,15 +144,18 @@ class BagRun {
       text_.add(publication);
       if (isResult(publication)) {
         writeAsOneOf<geometry_msgs::PoseWithCovarianceStamped, nav_msgs::OccupancyGrid,
-                     sensor_msgs::LaserScan, tf2_msgs::TFMessage, SplitScanMessage, RoadBorders,
-                     ObjectArray, DroppedObjects, TrackArray>(time, publication);
+                     sensor_msgs::LaserScan, sensor_msgs::PointCloud2, tf2_msgs::TFMessage,
+                     SplitScanMessage, RoadBorders, ObjectArray, DroppedObjects, TrackArray>(
+            time, publication);
       }
     }
   }
 
   /// What lies between the stages alone is not written: grids on demand, odometry and clouds never.
   bool isResult(const Publication& publication) const {
-    return write_grids_ || publication.topic.rfind("grids/", 0) != 0;
+    const bool is_grid = publication.topic.rfind("grids/", 0) == 0;
+    const bool is_stereo = publication.topic.rfind("stereo/", 0) == 0;
+    return is_grid ? write_grids_ : !is_stereo;
   }
 
   template <typename... Messages>
@@ -250,6 +253,7 @@ GraphSwitches switchesOf(const Arguments& arguments, const SensorSet& sensors,
   switches.stereo = topics.stereo.input();
   switches.low_level_fusion = arguments.low_level_fusion;
   switches.road_border = arguments.road_border;
+  switches.static_points = arguments.static_points;
   switches.object_fusion = arguments.object_fusion;
   switches.track_fusion = arguments.track_fusion;
   switches.stereo_tracker =

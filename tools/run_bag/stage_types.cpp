@@ -10,6 +10,7 @@
 #include "datmo_fusion/ros/moving_objects_stage.h"
 #include "datmo_fusion/ros/object_fusion_stage.h"
 #include "datmo_fusion/ros/road_border_stage.h"
+#include "datmo_fusion/ros/static_points_stage.h"
 #include "datmo_fusion/ros/stereo_grid_stage.h"
 #include "datmo_fusion/ros/stereo_objects_stage.h"
 #include "datmo_fusion/ros/track_fusion_stage.h"
@@ -42,6 +43,7 @@ const std::map<std::string, StageType>& stageTypes() {
       {"moving_objects", typeOf<MovingObjectsStage>()},
       {"object_fusion", typeOf<ObjectFusionStage>()},
       {"road_border", typeOf<RoadBorderStage>()},
+      {"static_points", typeOf<StaticPointsStage>()},
       {"stereo_grid", typeOf<StereoGridStage>()},
       {"stereo_image_proc", typeOf<StereoImages>()},
       {"stereo_objects", typeOf<StereoObjectsStage>()},

@@ -17,6 +17,7 @@ struct GraphSwitches {
   StereoPoints stereo = StereoPoints::kClouds;
   bool low_level_fusion = false;
   bool road_border = false;
+  bool static_points = false;   ///< what stands still comes out, for a navigation stack
   bool stereo_objects = false;  ///< objects are found in the stereo camera's points
   bool object_fusion = false;
   bool stereo_tracker = false;  ///< the stereo camera's objects are tracked by themselves

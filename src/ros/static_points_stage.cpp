@@ -1,0 +1,122 @@
+#include "datmo_fusion/ros/static_points_stage.h"
+
+#include <boost/make_shared.hpp>
+
+#include <sensor_msgs/point_cloud2_iterator.h>
+
+#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/slam/static_scan.h"
+
+namespace datmo {
+
+namespace {
+
+sensor_msgs::PointCloud2ConstPtr toCloud(const std::vector<Point2>& points,
+                                         const std_msgs::Header& header) {
+  auto cloud = boost::make_shared<sensor_msgs::PointCloud2>();
+  cloud->header = header;
+  sensor_msgs::PointCloud2Modifier modifier(*cloud);
+  modifier.setPointCloud2FieldsByString(1, "xyz");
+  modifier.resize(points.size());
+  cloud->is_dense = 1U;
+  sensor_msgs::PointCloud2Iterator<float> xyz(*cloud, "x");
+  for (const Point2& point : points) {
+    xyz[0] = static_cast<float>(point.x());
+    xyz[1] = static_cast<float>(point.y());
+    xyz[2] = 0.0F;
+    ++xyz;
+  }
+  return cloud;
+}
+
+sensor_msgs::LaserScanConstPtr toLaserScan(const ScanField& field, std::vector<float> ranges,
+                                           const std_msgs::Header& header) {
+  if (ranges.empty()) {
+    return nullptr;
+  }
+  auto scan = boost::make_shared<sensor_msgs::LaserScan>();
+  scan->header = header;
+  scan->angle_min = static_cast<float>(field.first_bearing);
+  scan->angle_increment = static_cast<float>(field.beam_spacing);
+  scan->angle_max = static_cast<float>(field.first_bearing +
+                                       static_cast<double>(field.beams - 1) * field.beam_spacing);
+  scan->time_increment = static_cast<float>(field.beam_time);
+  scan->range_min = static_cast<float>(field.least_range);
+  scan->range_max = static_cast<float>(field.range);
+  scan->ranges = std::move(ranges);
+  return scan;
+}
+
+}  // namespace
+
+void StaticPointsStageOptions::visit(OptionVisitor& visitor) {
+  visitor.text({"scan_frame", "",
+                "frame of static_scan; the stage publishes frames/base -> scan_frame: no other "
+                "node may"},
+               scan_frame, {});
+  visitor.toggle({"include_unknown", "",
+                  "end points where the map knows nothing yet count as standing: a navigation "
+                  "stack must not drive into them"},
+                 include_unknown);
+  visitor.group("input", [&] { input.visit(visitor); });
+}
+
+StaticPointsStage::StaticPointsStage(const StaticPointsStageOptions& options, StageMonitor& monitor)
+    : options_(options), monitor_(monitor), stamps_(options.input.restart_after) {
+  checkOptions(options);
+  if (options.scan_frame.empty() || options.scan_frame == options.frames.base) {
+    throw OptionError("scan_frame = '" + options.scan_frame +
+                      "': expected a name other than that of the vehicle's frame, '" +
+                      options.frames.base + "'");
+  }
+}
+
+std::optional<StaticPointsOutput> StaticPointsStage::takeSplitScan(
+    const SplitScanMessage& message) {
+  try {
+    const Stopwatch watch;
+    const SplitScan scan = fromMessage(message);
+    if (stamps_.check(message.header.stamp) == Arrival::kRestart) {
+      monitor_.warned(InputError("clock_restart", "the clock jumped back: begins anew"));
+    }
+    std_msgs::Header at_scanner = message.header;
+    at_scanner.frame_id = options_.scan_frame;
+    StaticPointsOutput output;
+    output.points = toCloud(staticPoints(scan, options_.include_unknown), message.header);
+    output.scan = toLaserScan(scan.field, staticRanges(scan, options_.include_unknown), at_scanner);
+    output.mount = newMount(scan, message.header);
+    monitor_.figure("static points", static_cast<double>(output.points->width));
+    monitor_.processed({scan.stamp, watch.seconds()});
+    return output;
+  } catch (const InputError& error) {
+    monitor_.dropped(error);
+    return std::nullopt;
+  }
+}
+
+tf2_msgs::TFMessageConstPtr StaticPointsStage::newMount(const SplitScan& scan,
+                                                        const std_msgs::Header& header) {
+  const Pose2& mount = scan.scanner_in_base;
+  if (mount_ && mount_->position() == mount.position() && mount_->heading() == mount.heading()) {
+    return nullptr;
+  }
+  mount_ = mount;
+  auto message = boost::make_shared<tf2_msgs::TFMessage>();
+  message->transforms = {toTransform(mount, scan.stamp, header.frame_id, options_.scan_frame)};
+  return message;
+}
+
+void StaticPointsStage::connect(StagePorts& ports) {
+  const auto mounts = ports.out<tf2_msgs::TFMessage>("/tf_static", true);
+  const auto points = ports.out<sensor_msgs::PointCloud2>("static_points");
+  const auto scans = ports.out<sensor_msgs::LaserScan>("static_scan");
+  ports.in<SplitScanMessage>("split_scan", [=](const auto& split_scan, Stamp /*now*/) {
+    if (const auto output = takeSplitScan(*split_scan)) {
+      mounts.publish(output->mount);
+      points.publish(output->points);
+      scans.publish(output->scan);
+    }
+  });
+}
+
+}  // namespace datmo

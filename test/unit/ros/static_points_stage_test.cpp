@@ -1,0 +1,104 @@
+#include "datmo_fusion/ros/static_points_stage.h"
+
+#include <cmath>
+#include <limits>
+
+#include "monitor_counts.h"
+#include "split_scan_samples.h"
+#include <gtest/gtest.h>
+
+#include <sensor_msgs/point_cloud2_iterator.h>
+
+#include "datmo_fusion/ros/message_conversion.h"
+
+namespace datmo {
+namespace {
+
+class StaticPointsStageTest : public testing::Test {
+ protected:
+  std::optional<StaticPointsOutput> take(const SplitScan& scan) {
+    return stage_.takeSplitScan(toMessage(scan, "base_link", "map"));
+  }
+
+  StageMonitor monitor_{"static_points"};
+  StaticPointsStage stage_{StaticPointsStageOptions(), monitor_};
+};
+
+TEST_F(StaticPointsStageTest, WallsComeOutAsCloudAndScan) {
+  const SplitScan scan = samples::scanBetweenWalls(0.0);
+  const auto output = take(scan);
+  ASSERT_TRUE(output);
+  EXPECT_EQ(output->points->header.frame_id, "base_link");
+  EXPECT_EQ(output->points->width, scan.points.size());
+  for (sensor_msgs::PointCloud2ConstIterator<float> y(*output->points, "y"); y != y.end(); ++y) {
+    EXPECT_NEAR(std::abs(*y), samples::kWallBeside, 1e-4);
+  }
+  ASSERT_NE(output->scan, nullptr);
+  EXPECT_EQ(output->scan->header.frame_id, "static_scan");
+  EXPECT_EQ(output->scan->header.stamp, output->points->header.stamp);
+  ASSERT_EQ(output->scan->ranges.size(), scan.field.beams);
+  EXPECT_NEAR(output->scan->angle_min, scan.field.first_bearing, 1e-6);
+  EXPECT_NEAR(output->scan->angle_max, -scan.field.first_bearing, 1e-6);
+  EXPECT_NEAR(output->scan->range_max, scan.field.range, 1e-6);
+  for (const ScanPoint& point : scan.points) {
+    EXPECT_NEAR(output->scan->ranges[point.beam], point.range, 1e-4);
+  }
+}
+
+TEST_F(StaticPointsStageTest, WhatMovesIsNotInThem) {
+  const auto output = take(samples::scanWithMover(Point2(10.0, 0.0), 0.0));
+  ASSERT_TRUE(output);
+  EXPECT_EQ(output->points->width, 0U);
+  EXPECT_TRUE(std::isnan(output->scan->ranges[40]));
+  EXPECT_TRUE(std::isinf(output->scan->ranges[0]));
+}
+
+TEST_F(StaticPointsStageTest, TheScannersMountComesOnceAndWhenItChanges) {
+  SplitScan scan = samples::scanBetweenWalls(0.0);
+  scan.scanner_in_base = Pose2(3.5, 0.0, 0.1);
+  const auto first = take(scan);
+  ASSERT_TRUE(first && first->mount);
+  const auto& transform = first->mount->transforms.at(0);
+  EXPECT_EQ(transform.header.frame_id, "base_link");
+  EXPECT_EQ(transform.child_frame_id, "static_scan");
+  EXPECT_NEAR(transform.transform.translation.x, 3.5, 1e-9);
+  scan.stamp = scan.stamp + 0.1;
+  EXPECT_EQ(take(scan)->mount, nullptr);
+  scan.stamp = scan.stamp + 0.1;
+  scan.scanner_in_base = Pose2(3.0, 0.0, 0.1);
+  EXPECT_NE(take(scan)->mount, nullptr);
+}
+
+TEST_F(StaticPointsStageTest, WithoutAFieldThereIsACloudAndNoScan) {
+  SplitScan scan = samples::scanBetweenWalls(0.0);
+  scan.field = ScanField();
+  const auto output = take(scan);
+  ASSERT_TRUE(output);
+  EXPECT_EQ(output->scan, nullptr);
+  EXPECT_GT(output->points->width, 0U);
+}
+
+TEST_F(StaticPointsStageTest, BadScansAreDroppedAndCounted) {
+  SplitScanMessage message = toMessage(samples::scanBetweenWalls(0.0), "base_link", "map");
+  message.points.front().x = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(stage_.takeSplitScan(message));
+  EXPECT_EQ(monitor_.drops().at("bad_point"), 1U);
+  EXPECT_TRUE(take(samples::scanBetweenWalls(1.0)));
+  EXPECT_FALSE(take(samples::scanBetweenWalls(0.9))) << "its stamp is old";
+}
+
+TEST_F(StaticPointsStageTest, AClockThatJumpsBackBeginsAnew) {
+  EXPECT_TRUE(take(samples::scanBetweenWalls(10.0)));
+  EXPECT_TRUE(take(samples::scanBetweenWalls(0.0)));
+  EXPECT_EQ(monitor_.warnings().at("clock_restart"), 1U);
+}
+
+TEST(StaticPointsStageOptions, TheScansFrameIsItsOwn) {
+  StageMonitor monitor("static_points");
+  StaticPointsStageOptions options;
+  options.scan_frame = "base_link";
+  EXPECT_THROW(StaticPointsStage(options, monitor), OptionError);
+}
+
+}  // namespace
+}  // namespace datmo

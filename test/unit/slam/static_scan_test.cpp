@@ -1,0 +1,74 @@
+#include "datmo_fusion/slam/static_scan.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace datmo {
+namespace {
+
+ScanPoint pointOf(std::uint32_t beam, double range, PointState state) {
+  return {Point2(range, static_cast<double>(beam)), range, 0.0, beam, state};
+}
+
+/// Beam 0 ends on a wall, 1 on a car that moves, 2 where nothing is known, 3 returns nothing, 4 is
+/// blind.
+SplitScan fiveBeams() {
+  SplitScan scan;
+  scan.field.beams = 5;
+  scan.field.beam_spacing = 0.1;
+  scan.field.free_range = 40.0;
+  scan.field.range = 50.0;
+  scan.points = {pointOf(0, 10.0, PointState::kStatic), pointOf(1, 11.0, PointState::kMoving),
+                 pointOf(2, 12.0, PointState::kUnknown)};
+  scan.blind_beams = {4};
+  return scan;
+}
+
+TEST(StaticRanges, MarkWhatStandsAndClearWhatIsFree) {
+  const auto ranges = staticRanges(fiveBeams(), true);
+  ASSERT_EQ(ranges.size(), 5U);
+  EXPECT_EQ(ranges[0], 10.0F);
+  EXPECT_TRUE(std::isnan(ranges[1])) << "a mover neither marks nor clears";
+  EXPECT_EQ(ranges[2], 12.0F);
+  EXPECT_TRUE(std::isinf(ranges[3]) && ranges[3] > 0.0F);
+  EXPECT_TRUE(std::isnan(ranges[4]));
+}
+
+TEST(StaticRanges, WhatIsNotKnownIsLeftOutOnDemand) {
+  EXPECT_TRUE(std::isnan(staticRanges(fiveBeams(), false)[2]));
+}
+
+TEST(StaticRanges, ABeamWithoutReturnSaysNothingWhereTheFieldHasNoFreeRange) {
+  SplitScan scan = fiveBeams();
+  scan.field.free_range = 0.0;
+  EXPECT_TRUE(std::isnan(staticRanges(scan, true)[3]));
+}
+
+TEST(StaticRanges, TheNearestEndPointOfABeamDecides) {
+  SplitScan scan = fiveBeams();
+  scan.points = {pointOf(0, 10.0, PointState::kStatic), pointOf(0, 6.0, PointState::kMoving),
+                 pointOf(1, 11.0, PointState::kMoving), pointOf(1, 7.0, PointState::kStatic)};
+  const auto ranges = staticRanges(scan, true);
+  EXPECT_TRUE(std::isnan(ranges[0])) << "a mover is before the wall";
+  EXPECT_EQ(ranges[1], 7.0F);
+}
+
+TEST(StaticRanges, BeamsBeyondTheFieldAreLeftOut) {
+  SplitScan scan = fiveBeams();
+  scan.points.push_back(pointOf(5, 3.0, PointState::kStatic));
+  scan.blind_beams.push_back(6);
+  EXPECT_EQ(staticRanges(scan, true).size(), 5U);
+  scan.field.beams = 0;
+  EXPECT_TRUE(staticRanges(scan, true).empty());
+}
+
+TEST(StaticPoints, AreThoseThatStand) {
+  EXPECT_EQ(staticPoints(fiveBeams(), true).size(), 2U);
+  const auto known = staticPoints(fiveBeams(), false);
+  ASSERT_EQ(known.size(), 1U);
+  EXPECT_EQ(known.front(), Point2(10.0, 0.0));
+}
+
+}  // namespace
+}  // namespace datmo
