@@ -2,6 +2,7 @@
 
 #include "datmo_fusion/common/option_table.h"
 #include "datmo_fusion/ros/camera_view_options.h"
+#include "datmo_fusion/ros/cloud_objects_stage.h"
 #include "datmo_fusion/ros/cloud_to_scan_stage.h"
 #include "datmo_fusion/ros/grid_fusion_stage.h"
 #include "datmo_fusion/ros/grid_slam_stage.h"
@@ -51,6 +52,7 @@ std::string parameterTables() {
          section<MovingObjectsStageOptions>("`moving_objects`") + "\n" +
          section<StaticPointsStageOptions>("`static_points`") + "\n" +
          section<StereoObjectsStageOptions>("`stereo_objects`") + "\n" +
+         section<CloudObjectsStageOptions>("`cloud_objects`") + "\n" +
          section<ObjectFusionStageOptions>("`object_fusion`") + "\n" +
          section<TrackerStageOptions>("`tracker`, `stereo_tracker`") + "\n" +
          section<TrackFusionStageOptions>("`track_fusion`") + "\n" +

@@ -3,12 +3,15 @@
 
 #include <pluginlib/class_list_macros.hpp>
 
+#include "datmo_fusion/ros/cloud_objects_stage.h"
 #include "datmo_fusion/ros/cloud_to_scan_stage.h"
 
 namespace datmo {
 
+using CloudObjectsNodelet = StageNodelet<CloudObjectsStage>;
 using CloudToScanNodelet = StageNodelet<CloudToScanStage>;
 
 }  // namespace datmo
 
+PLUGINLIB_EXPORT_CLASS(datmo::CloudObjectsNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(datmo::CloudToScanNodelet, nodelet::Nodelet)

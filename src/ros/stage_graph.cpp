@@ -41,6 +41,7 @@ std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
   add(switches.road_border, {"road_border", "road_border", {}, {}});
   add(true, {"moving_objects", "moving_objects", {}, {{"road_borders", switches.road_border}}});
   add(switches.stereo_objects, {"stereo_objects", "stereo_objects", camera, {}});
+  add(switches.cloud_objects, {"cloud_objects", "cloud_objects", {}, {}});
   add(switches.object_fusion,
       {"object_fusion", "object_fusion", {{"objects/lidar", "objects"}}, {}});
   add(true,

@@ -33,6 +33,7 @@ int main(int count, char** words) {
   switches.scan_from_cloud = is_on("cloud");
   switches.low_level_fusion = is_on("low_level_fusion");
   switches.road_border = is_on("road_border");
+  switches.cloud_objects = is_on("cloud_objects");
   switches.static_points = is_on("static_points");
   switches.stereo_objects = is_on("stereo_objects");
   switches.object_fusion = is_on("object_fusion");

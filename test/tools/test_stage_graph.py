@@ -12,7 +12,8 @@ from pathlib import Path
 import roslaunch.config
 
 PACKAGE = Path(__file__).resolve().parents[2]
-SWITCHES = ("cloud", "low_level_fusion", "road_border", "static_points", "stereo_objects", "object_fusion",
+SWITCHES = ("cloud", "low_level_fusion", "road_border", "static_points", "stereo_objects",
+            "cloud_objects", "object_fusion",
             "track_fusion")
 DISPLAYS = {"markers", "lidar_markers", "stereo_markers", "grid_views", "camera_view"}
 

@@ -8,9 +8,10 @@ namespace datmo {
 
 namespace {
 
-const std::array<std::string, 13> kInputTopics = {
+const std::array<std::string, 14> kInputTopics = {
     "scan",
     "cloud",
+    "object_cloud",
     "echoes",
     "odometry",
     "imu",
@@ -157,6 +158,7 @@ bool setSwitch(const std::string& word, Arguments& arguments) {
       {"--low-level-fusion", &arguments.low_level_fusion},
       {"--road-border", &arguments.road_border},
       {"--static-points", &arguments.static_points},
+      {"--cloud-objects", &arguments.cloud_objects},
       {"--object-fusion", &arguments.object_fusion},
       {"--track-fusion", &arguments.track_fusion},
       {"--stereo-from-images", &arguments.stereo_from_images},
@@ -236,6 +238,7 @@ std::string usage() {
          "  --road-border         finds the borders of the road and leaves out false objects on "
          "and beyond\n"
          "                        them, and writes /road_borders and /objects/dropped\n"
+         "  --cloud-objects       finds objects in a 3D lidar's clouds, and writes /objects/cloud\n"
          "  --static-points       writes what stands still: /static_points and /static_scan\n"
          "  --object-fusion       fuses the objects of scanner and stereo camera before tracker, "
          "and\n"
@@ -254,7 +257,8 @@ std::string usage() {
          "map\n"
          "  --kitti TRACKS.txt    the tracks as labels of KITTI's tracking benchmark\n"
          "  --mot TRACKS.txt      the tracks as MOT Challenge has them, on the ground plane\n"
-         "  TOPIC:=...            scan, cloud (a 3D lidar's, in place of scans), echoes,\n"
+         "  TOPIC:=...            scan, cloud (a 3D lidar's, in place of scans), object_cloud\n"
+         "                        (one for --cloud-objects beside scans), echoes,\n"
          "                        odometry, imu, twist, twist_with_covariance,\n"
          "                        joint_states, points2, left_image, right_image, "
          "left_camera_info\n"

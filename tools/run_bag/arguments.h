@@ -27,6 +27,7 @@ struct Arguments {
   bool low_level_fusion = false;
   bool road_border = false;
   bool static_points = false;
+  bool cloud_objects = false;
   bool object_fusion = false;
   bool track_fusion = false;
   bool stereo_from_images = false;  ///< also where the bag has clouds

@@ -128,6 +128,7 @@ class BagRun {
     on<sensor_msgs::LaserScan>(topics.scan, "scan");
     on<sensor_msgs::MultiEchoLaserScan>(topics.echoes, "echoes");
     on<sensor_msgs::PointCloud2>(topics.cloud, "cloud");
+    on<sensor_msgs::PointCloud2>(topics.object_cloud, "cloud");
   }
 
   void readStereo(const StereoTopics& topics) {
@@ -198,7 +199,7 @@ OrderedMessages inOrder(rosbag::View& view, const InputTopics& topics) {
   for (const rosbag::MessageInstance& message : view) {
     const std::string& topic = message.getTopic();
     const bool measured = topic == topics.scan || topic == topics.echoes || topic == topics.cloud ||
-                          topic == topics.stereo.points;
+                          topic == topics.object_cloud || topic == topics.stereo.points;
     messages.emplace(std::make_pair(message.getTime(), measured), message);
   }
   return messages;
@@ -254,6 +255,7 @@ GraphSwitches switchesOf(const Arguments& arguments, const SensorSet& sensors,
   switches.low_level_fusion = arguments.low_level_fusion;
   switches.road_border = arguments.road_border;
   switches.static_points = arguments.static_points;
+  switches.cloud_objects = arguments.cloud_objects;
   switches.object_fusion = arguments.object_fusion;
   switches.track_fusion = arguments.track_fusion;
   switches.stereo_tracker =

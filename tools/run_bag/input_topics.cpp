@@ -116,7 +116,7 @@ void findObjectTopics(const rosbag::Bag& bag, const Arguments& arguments,
     const bool external = holdsTopic(bag, topic) && !holdsPoints(bag, arguments);
     if (source == "stereo" && !external) {
       topics.stereo = neededStereoTopics(bag, arguments, "object_fusion");
-    } else if (source != "lidar") {
+    } else if (source != "lidar" && !(source == "cloud" && arguments.cloud_objects)) {
       topics.objects[topic] = source;
     }
   }
@@ -195,6 +195,16 @@ void findScanTopics(const rosbag::Bag& bag, const Arguments& arguments, InputTop
   }
 }
 
+/// The clouds in which objects are found; without a name those that scans are made of.
+std::string objectCloudTopic(const rosbag::Bag& bag, const Arguments& arguments) {
+  const std::string topic = arguments.inputTopic("object_cloud", arguments.inputTopic("cloud"));
+  if (!holdsTopic(bag, topic)) {
+    failForTopic(bag, "no PointCloud2 on " + topic +
+                          " for --cloud-objects (object_cloud:=TOPIC names another)");
+  }
+  return topic;
+}
+
 }  // namespace
 
 std::vector<std::string> MotionTopics::all() const {
@@ -221,8 +231,9 @@ std::vector<std::string> InputTopics::all() const {
   topics.insert(topics.end(), {"/tf"});
   const std::vector<std::string> motion_topics = motion.all();
   topics.insert(topics.end(), motion_topics.begin(), motion_topics.end());
-  for (const std::string& topic : {scan, echoes, cloud, stereo.points, stereo.left_image,
-                                   stereo.right_image, stereo.left_info, stereo.right_info}) {
+  for (const std::string& topic :
+       {scan, echoes, cloud, object_cloud, stereo.points, stereo.left_image, stereo.right_image,
+        stereo.left_info, stereo.right_info}) {
     if (!topic.empty()) {
       topics.push_back(topic);
     }
@@ -241,6 +252,9 @@ InputTopics findTopics(const rosbag::Bag& bag, const Arguments& arguments,
   topics.scan = arguments.inputTopic("scan");
   topics.echoes = arguments.inputTopic("echoes");
   findScanTopics(bag, arguments, topics);
+  if (arguments.cloud_objects) {
+    topics.object_cloud = objectCloudTopic(bag, arguments);
+  }
   topics.motion = motionTopics(bag, arguments, sensors.shared().motion);
   if (arguments.low_level_fusion) {
     findLowLevelTopics(bag, arguments, sensors.options<GridFusionStageOptions>("grid_fusion"),

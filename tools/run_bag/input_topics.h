@@ -41,6 +41,7 @@ struct MotionTopics {
 struct InputTopics {
   std::string scan;
   std::string cloud;  ///< of a 3D lidar, that scans are made of; empty: there are scans
+  std::string object_cloud;  ///< of a 3D lidar, that objects are found in; empty: they are not
   std::string echoes;
   MotionTopics motion;
   StereoTopics stereo;

@@ -2,6 +2,7 @@
 
 #include "stereo_images.h"
 
+#include "datmo_fusion/ros/cloud_objects_stage.h"
 #include "datmo_fusion/ros/cloud_to_scan_stage.h"
 #include "datmo_fusion/ros/grid_fusion_stage.h"
 #include "datmo_fusion/ros/grid_slam_stage.h"
@@ -35,6 +36,7 @@ StageType typeOf() {
 
 const std::map<std::string, StageType>& stageTypes() {
   static const std::map<std::string, StageType> types{
+      {"cloud_objects", typeOf<CloudObjectsStage>()},
       {"cloud_to_scan", typeOf<CloudToScanStage>()},
       {"grid_fusion", typeOf<GridFusionStage>()},
       {"grid_slam", typeOf<GridSlamStage>()},

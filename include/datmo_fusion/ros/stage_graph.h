@@ -19,6 +19,7 @@ struct GraphSwitches {
   bool road_border = false;
   bool static_points = false;   ///< what stands still comes out, for a navigation stack
   bool stereo_objects = false;  ///< objects are found in the stereo camera's points
+  bool cloud_objects = false;   ///< objects are found in a 3D lidar's clouds
   bool object_fusion = false;
   bool stereo_tracker = false;  ///< the stereo camera's objects are tracked by themselves
   bool track_fusion = false;

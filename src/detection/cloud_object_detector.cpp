@@ -1,0 +1,225 @@
+#include "datmo_fusion/detection/cloud_object_detector.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cloud_outline.h"
+#include "side_box.h"
+#include <pcl/filters/voxel_grid.h>
+#include <pcl/search/kdtree.h>
+#include <pcl/segmentation/extract_clusters.h>
+
+#include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/detection/box_fit.h"
+
+namespace datmo {
+
+namespace {
+
+/// Who saw them.
+constexpr char kSensor[] = "cloud";
+
+/// rad; a side that was seen faces the lidar: a vaguer heading tells no more of where it ends.
+constexpr double kMaxSlant = 0.3;
+
+double square(double value) { return value * value; }
+
+/// What stands on the ground, at the cloud's stamp.
+class Band {
+ public:
+  Band(const CloudObjectDetectorOptions& options, const RoadPlane& ground, const Point2& lidar)
+      : options_(options), ground_(ground), lidar_(lidar) {}
+
+  bool holds(const pcl::PointXYZ& point) const {
+    const double height = ground_.heightOf(point.getVector3fMap().cast<double>());
+    return height >= options_.min_height && height <= options_.max_height &&
+           (Point2(point.x, point.y) - lidar_).norm() <= options_.max_range;
+  }
+
+ private:
+  const CloudObjectDetectorOptions& options_;
+  const RoadPlane& ground_;
+  Point2 lidar_;
+};
+
+/// A point of the sweep at the stamp: what stands is where the vehicle's motion says. Its time goes
+/// along as intensity.
+pcl::PointXYZI atStamp(const pcl::PointXYZ& point, float time, const std::optional<Twist2>& twist) {
+  const Point2 seen(point.x, point.y);
+  const Point2 moved = twist ? arc(*twist, static_cast<double>(time)) * seen : seen;
+  pcl::PointXYZI result;
+  result.x = static_cast<float>(moved.x());
+  result.y = static_cast<float>(moved.y());
+  result.z = point.z;
+  result.intensity = time;
+  return result;
+}
+
+/// Points that are near to each other: their indices, cluster by cluster. They are put together by
+/// the centroids of voxels, so that dense points near the lidar cost no more than far ones.
+std::vector<std::vector<int>> clusters(const TimedPoints::ConstPtr& points,
+                                       const CloudObjectDetectorOptions& options) {
+  if (points->empty()) {
+    return {};  // PCL would complain on the console
+  }
+  pcl::VoxelGrid<pcl::PointXYZI> grid;
+  const auto leaf = static_cast<float>(options.voxel_size);
+  grid.setLeafSize(leaf, leaf, leaf);
+  grid.setSaveLeafLayout(true);
+  grid.setInputCloud(points);
+  TimedPoints::Ptr voxels(new TimedPoints);
+  grid.filter(*voxels);
+
+  std::vector<pcl::PointIndices> groups;
+  pcl::EuclideanClusterExtraction<pcl::PointXYZI> extraction;
+  extraction.setSearchMethod(
+      pcl::search::KdTree<pcl::PointXYZI>::Ptr(new pcl::search::KdTree<pcl::PointXYZI>));
+  extraction.setClusterTolerance(options.cluster_distance);
+  extraction.setInputCloud(voxels);
+  extraction.extract(groups);
+
+  std::vector<std::size_t> cluster_of_voxel(voxels->size());
+  for (std::size_t cluster = 0; cluster < groups.size(); ++cluster) {
+    for (const int voxel : groups[cluster].indices) {
+      cluster_of_voxel[static_cast<std::size_t>(voxel)] = cluster;
+    }
+  }
+  std::vector<std::vector<int>> found(groups.size());
+  for (std::size_t i = 0; i < points->size(); ++i) {
+    const int voxel = grid.getCentroidIndex((*points)[i]);
+    found[cluster_of_voxel.at(static_cast<std::size_t>(voxel))].push_back(static_cast<int>(i));
+  }
+  return found;
+}
+
+/// The box and its sides, of an object whose points are given.
+void setBox(Object& object, const CloudOutline& outline, const Point2& lidar,
+            const CloudObjectDetectorOptions& options) {
+  const BoxFit fit = fitBox(object.points, lidar, options.range_sigma);
+  const double heading_std = std::sqrt(std::min(fit.heading_variance, square(kMaxSlant)));
+  SideBox sides(fit);
+  for (std::size_t side = 0; side < kBoxSides; ++side) {
+    object.side_variance[side] = kHiddenSide;
+    if (sides.isSeen(side)) {
+      object.side_variance[side] =
+          square(fit.noise) / static_cast<double>(fit.points_on_side[side]);
+    } else if (sides.isEndOfSeen(side, heading_std)) {
+      const bool is_first =
+          sides.normal(side).dot(object.points.front() - object.points.back()) > 0.0;
+      const OutlineEnd& end = is_first ? outline.first : outline.last;
+      if (!end.hidden) {
+        // The side ends anywhere before the next column.
+        sides.extend(side, 0.5 * end.gap);
+        object.side_variance[side] =
+            kUniformVariance * square(end.gap) + square(heading_std * sides.across(side));
+      }
+    }
+  }
+  object.box = sides.box();
+  object.heading_variance = fit.heading_variance;
+  turnToLongerSide(object);
+}
+
+void setClass(Object& object, const SeenSize& size, const ObjectClassifier& classifier,
+              double max_doubt) {
+  const ClassProbabilities probabilities = classifier.probabilities(size);
+  const auto best = std::max_element(probabilities.begin(), probabilities.end());
+  object.object_class = static_cast<ObjectClass>(best - probabilities.begin());
+  object.class_probability = *best;
+  object.log_odds = std::clamp(classifier.logOddsOfKnown(probabilities), -max_doubt, 0.0);
+}
+
+}  // namespace
+
+void CloudObjectDetectorOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"min_height", "m", "what is lower above the ground is none of an object's"},
+                 min_height, {0.05, 2.0});
+  visitor.number({"max_height", "m", "nor is what is higher: signs, branches, roofs"}, max_height,
+                 {0.5, 10.0});
+  visitor.number({"max_range", "m", "from the lidar; farther points are left out"}, max_range,
+                 {5.0, 300.0});
+  visitor.number({"voxel_size", "m", "points in a cube of this side are of one object"}, voxel_size,
+                 {0.1, 1.0});
+  visitor.number(
+      {"cluster_distance", "m",
+       "cubes whose points are this near to each other on average are of one object: more "
+       "than voxel_size and than the gap "
+       "between two rows of the lidar at max_range, less than between two objects"},
+      cluster_distance, {0.05, 3.0});
+  visitor.integer({"min_points", "1", "points of an object at least"}, min_points, {1, 1000});
+  visitor.number({"max_size", "m", "a longer cluster is no road user: a wall, a hedge"}, max_size,
+                 {1.0, 50.0});
+  visitor.number({"column_spacing", "rad", "between two columns of the lidar (datasheet)"},
+                 column_spacing, {degrees(0.02), degrees(5.0)});
+  visitor.number({"row_spacing", "rad", "between two of its rows (datasheet)"}, row_spacing,
+                 {degrees(0.02), degrees(5.0)});
+  visitor.number({"range_sigma", "m",
+                  "standard deviation of a point about the side it lies on: bodies are round"},
+                 range_sigma, {0.001, 1.0});
+  visitor.number({"position_sigma", "m",
+                  "of what moves all sides of an object: mount, time, the shape of bodies"},
+                 position_sigma, {0.0, 1.0});
+  visitor.number({"max_doubt", "1", "an unusual size lowers the log odds by no more"}, max_doubt,
+                 {0.0, 20.0});
+  visitor.group("vehicle", [&] { vehicle.visit(visitor); });
+  visitor.group("ground", [&] { ground.visit(visitor); });
+  visitor.group("classifier", [&] { classifier.visit(visitor); });
+}
+
+CloudObjectDetector::CloudObjectDetector(const CloudObjectDetectorOptions& options)
+    : options_(options), classifier_(options.classifier) {
+  checkOptions(options);
+  if (options.min_height >= options.max_height) {
+    throw OptionError("min_height = " + std::to_string(options.min_height) +
+                      ": expected less than max_height = " + std::to_string(options.max_height));
+  }
+  if (options.cluster_distance <= options.voxel_size) {
+    throw OptionError("cluster_distance = " + std::to_string(options.cluster_distance) +
+                      ": expected more than voxel_size = " + std::to_string(options.voxel_size));
+  }
+}
+
+CloudObjects CloudObjectDetector::detect(const LidarCloud& cloud, Stamp stamp,
+                                         const std::optional<Twist2>& twist) const {
+  CloudObjects result;
+  result.list.stamp = stamp;
+  const LidarPoints::Ptr points = toBase(cloud);
+  const std::vector<int> outside = outsideOfVehicle(points, options_.vehicle);
+  result.own_points = points->size() - outside.size();
+  result.ground = findGround(*points, outside, options_.ground);
+  const Point2 lidar = cloud.lidar_in_base.translation().head<2>();
+  const Band band(options_, result.ground.plane, lidar);
+  TimedPoints::Ptr standing(new TimedPoints);
+  for (const int i : outside) {
+    const auto index = static_cast<std::size_t>(i);
+    if (band.holds((*points)[index])) {
+      const float time = cloud.times.empty() ? 0.0F : cloud.times[index];
+      standing->push_back(atStamp((*points)[index], time, twist));
+    }
+  }
+  result.points = standing->size();
+  const CloudColumns columns(*standing, lidar, options_.column_spacing);
+  for (const std::vector<int>& cluster : clusters(standing, options_)) {
+    if (cluster.size() < static_cast<std::size_t>(options_.min_points)) {
+      continue;
+    }
+    const CloudOutline outline = columns.outlineOf(cluster, result.ground.plane);
+    if (outline.size() > options_.max_size) {
+      ++result.too_large;
+      continue;
+    }
+    Object object;
+    object.points = outline.points;
+    object.sensors = {kSensor};
+    object.height = outline.top;
+    object.delay = outline.mean_time;
+    object.position_covariance *= square(options_.position_sigma);
+    setBox(object, outline, lidar, options_);
+    const bool cut = outline.top > options_.max_height - options_.row_spacing * outline.range;
+    setClass(object, outline.seenSize(options_.row_spacing, cut), classifier_, options_.max_doubt);
+    result.list.objects.push_back(std::move(object));
+  }
+  return result;
+}
+
+}  // namespace datmo

@@ -1,0 +1,75 @@
+#include "datmo_fusion/ros/cloud_objects_stage.h"
+
+#include "lidar_messages.h"
+#include "monitor_counts.h"
+#include <gtest/gtest.h>
+
+namespace datmo {
+namespace {
+
+using samples::kStart;
+
+class CloudObjectsStageTest : public testing::Test {
+ protected:
+  CloudObjectsStageTest() {
+    maker_.addGround();
+    maker_.addWall(10.5);
+  }
+
+  /// 0.5 m ahead of the vehicle's origin, 1.7 m above it.
+  void mountLidar() {
+    tf2_msgs::TFMessage message;
+    message.transforms = {samples::transform("base_link", "velodyne", 0.5)};
+    message.transforms[0].transform.translation.z = samples::kLidarHeight;
+    buffer_.addStatic(message);
+  }
+
+  sensor_msgs::PointCloud2 cloudAt(double seconds) const {
+    auto message = samples::lidarMessage(maker_.cloud);
+    message.header.stamp = ros::Time(seconds);
+    return message;
+  }
+
+  samples::LidarCloudMaker maker_;
+  TransformBuffer buffer_{1.0};
+  StageMonitor monitor_{"cloud_objects"};
+  CloudObjectsStage stage_{CloudObjectsStageOptions(), buffer_, monitor_};
+};
+
+TEST_F(CloudObjectsStageTest, ACloudMakesObjectsOfTheVehiclesFrame) {
+  mountLidar();
+  const auto objects = stage_.takeCloud(cloudAt(kStart));
+  ASSERT_NE(objects, nullptr);
+  EXPECT_EQ(objects->header.frame_id, "base_link");
+  EXPECT_EQ(objects->header.stamp, ros::Time(kStart));
+  ASSERT_EQ(objects->objects.size(), 1U);
+  EXPECT_NEAR(objects->objects[0].pose.position.x, 10.5, 0.2);
+  EXPECT_EQ(objects->objects[0].sensors, std::vector<std::string>{"cloud"});
+  EXPECT_EQ(monitor_.processedCount(), 1U);
+}
+
+TEST_F(CloudObjectsStageTest, WithoutAMountACloudIsDropped) {
+  EXPECT_EQ(stage_.takeCloud(cloudAt(kStart)), nullptr);
+  EXPECT_EQ(monitor_.drops().at("missing_transform"), 1U);
+}
+
+TEST_F(CloudObjectsStageTest, BadCloudsAreDroppedAndCounted) {
+  mountLidar();
+  auto without_height = cloudAt(kStart);
+  without_height.fields[2].name = "height";
+  EXPECT_EQ(stage_.takeCloud(without_height), nullptr);
+  EXPECT_EQ(stage_.takeCloud(sensor_msgs::PointCloud2()), nullptr);
+  EXPECT_EQ(monitor_.droppedCount(), 2U);
+  EXPECT_NE(stage_.takeCloud(cloudAt(kStart)), nullptr);
+  EXPECT_EQ(stage_.takeCloud(cloudAt(kStart)), nullptr) << "it was there already";
+}
+
+TEST_F(CloudObjectsStageTest, AClockThatJumpsBackBeginsAnew) {
+  mountLidar();
+  EXPECT_NE(stage_.takeCloud(cloudAt(kStart + 10.0)), nullptr);
+  EXPECT_NE(stage_.takeCloud(cloudAt(kStart)), nullptr);
+  EXPECT_EQ(monitor_.warnings().at("clock_restart"), 1U);
+}
+
+}  // namespace
+}  // namespace datmo
