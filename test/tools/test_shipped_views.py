@@ -48,11 +48,10 @@ class ShippedViews(unittest.TestCase):
 
     def test_the_layout_names_topics_that_there_are(self):
         text = (PACKAGE / "config/foxglove_layout.json").read_text()
-        code = "".join(file.read_text() for folder in ("src/nodelets", "launch", "include")
+        code = "".join(file.read_text() for folder in ("src/nodelets", "src/ros", "launch")
                        for file in (PACKAGE / folder).rglob("*") if file.is_file())
-        code += (PACKAGE / "src/ros/stage_reporter.cpp").read_text()
         for topic in set(re.findall(r'"/([a-z_0-9/]+)', text)) - {"diagnostics", "rosout"}:
-            self.assertRegex(code, f'["/]{topic}"', topic)
+            self.assertTrue(re.search(f'["/]{topic}"', code), topic)
 
     def test_each_stage_has_one_group_of_diagnostics(self):
         groups = yaml.safe_load((PACKAGE / "config/diagnostics/aggregator.yaml").read_text())["analyzers"]

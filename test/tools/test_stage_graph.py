@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """perception.launch starts the stages of the graph that run_bag runs, with the same topics and the same
-parameters, for every combination of switches."""
+parameters, for every combination of levels, with and without all that goes with any of them."""
 
 import itertools
 import json
@@ -12,9 +12,8 @@ from pathlib import Path
 import roslaunch.config
 
 PACKAGE = Path(__file__).resolve().parents[2]
-SWITCHES = ("cloud", "low_level_fusion", "road_border", "static_points", "stereo_objects",
-            "cloud_objects", "object_fusion",
-            "track_fusion")
+LEVELS = ("low_level_fusion", "stereo_objects", "object_fusion", "track_fusion")
+OTHERS = ("cloud", "road_border", "static_points", "cloud_objects")
 DISPLAYS = {"markers", "lidar_markers", "stereo_markers", "grid_views", "camera_view"}
 
 
@@ -27,7 +26,7 @@ def graph_stages(switches):
 
 def launched_stages(switches):
     """The same of perception.launch; topics that are remapped to themselves are left out."""
-    words = [f"{switch}:={str(switch in switches).lower()}" for switch in SWITCHES[1:]]
+    words = [f"{switch}:={str(switch in switches).lower()}" for switch in LEVELS + OTHERS if switch != "cloud"]
     words += ["cloud:=cloud"] if "cloud" in switches else []
     config = roslaunch.config.load_config_default(
         [(str(PACKAGE / "launch" / "perception.launch"), words)], None, verbose=False)
@@ -53,8 +52,10 @@ class StageGraph(unittest.TestCase):
 
     @staticmethod
     def combinations():
-        for values in itertools.product([False, True], repeat=len(SWITCHES)):
-            yield [switch for switch, value in zip(SWITCHES, values) if value]
+        for values in itertools.product([False, True], repeat=len(LEVELS)):
+            levels = [level for level, value in zip(LEVELS, values) if value]
+            yield levels
+            yield [*levels, *OTHERS]
 
     def test_the_launch_file_starts_the_graph(self):
         for switches in self.combinations():
