@@ -3,6 +3,7 @@
 
 #include "datmo_fusion/common/nearest_name.h"
 #include "datmo_fusion/common/options.h"
+#include "datmo_fusion/common/renamed_options.h"
 
 namespace datmo {
 
@@ -117,6 +118,10 @@ void detail::readAll(const OptionValues& values, const OptionWalk& visit) {
   visit(reader);
   for (const auto& [key, value] : values) {
     if (reader.keys().count(key) == 0) {
+      if (const auto renamed = renamedOption(key, reader.keys())) {
+        throw OptionError(key + " = " + toText(value) + ": the option was renamed, expected " +
+                          *renamed);
+      }
       const std::string hint =
           reader.keys().empty() ? "no option at all" : nearestName(key, reader.keys());
       throw OptionError(key + " = " + toText(value) +

@@ -41,7 +41,7 @@ struct SideMoments {
   }
 };
 
-/// Heading and near sides, and what the least squares tell of them.
+/// Heading and near sides, and their least-squares statistics.
 struct Corner {
   double heading;
   NearSides sides;

@@ -75,7 +75,7 @@ std::optional<int> DentSplitter::dent() const {
   return column;
 }
 
-/// 1/m, by how much the middle one of three places is nearer than the line through the others.
+/// 1/m, by how much the middle one of three points is nearer than the line through the others.
 double DentSplitter::above(std::size_t first, std::size_t middle, std::size_t last) const {
   const Place& a = profile_[first];
   const Place& b = profile_[last];

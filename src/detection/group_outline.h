@@ -10,7 +10,7 @@ namespace datmo {
 
 /// Where a group of surfaces ends to one side.
 struct GroupEnd {
-  bool seen = false;    ///< false: it may go on, out of sight
+  bool seen = false;    ///< false: it may continue unseen
   double beyond = 0.0;  ///< m, from the middle of its last column
   double sigma = 0.0;   ///< m
 };

@@ -13,7 +13,7 @@ namespace {
 /// the camera is not quite level.
 constexpr int kLeastRowShare = 20;
 
-/// Along each side of the image, whatever camera is asked for.
+/// Along each side of the image, for any camera.
 constexpr double kMostCells = 8192.0;
 
 }  // namespace

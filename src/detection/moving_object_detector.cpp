@@ -17,7 +17,7 @@ namespace {
 
 constexpr char kSensor[] = "lidar";
 
-/// rad; a side that was seen faces the scanner: a vaguer heading tells no more of where it ends.
+/// rad; a side that was seen faces the scanner: with a vaguer heading its ends are not known.
 constexpr double kMostSlant = 0.3;
 
 /// The points of one segment of the scan that the map does not know as static.
@@ -56,8 +56,8 @@ void MovingObjectDetectorOptions::visit(OptionVisitor& visitor) {
                   "an object is moving if more than this share of its points lies where the map is "
                   "free (thesis 3.3.1: 0, any point)"},
                  moving_share, {0.0, 1.0});
-  visitor.number({"largest_size", "m", "longer things are no objects: walls, hedges"}, largest_size,
-                 {0.5, 100.0});
+  visitor.number({"largest_size", "m", "longer segments are no objects: walls, hedges"},
+                 largest_size, {0.5, 100.0});
   visitor.integer({"least_points", "1", "points that make an object"}, least_points, {1, 1000});
   visitor.number({"range_sigma", "m", "standard deviation of the scanner's range"}, range_sigma,
                  {0.001, 5.0});

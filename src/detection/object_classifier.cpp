@@ -17,7 +17,7 @@ constexpr double kMeanExtent = 10.0;
 /// Directions from which a kind may be looked at, over a quarter turn from straight ahead.
 constexpr int kAspects = 8;
 
-/// m; a side that is seen narrower than this tells nothing of how far it reaches in depth.
+/// m; a side that is seen narrower than this carries no information on its depth.
 constexpr double kLeastFace = 0.1;
 
 /// rad; what keeps to a lane beside the sensor's is seen from ahead or behind, up to so much aside.
@@ -113,7 +113,7 @@ void ObjectClassifierOptions::visit(OptionVisitor& visitor) {
                   "share of the road users that are seen from straight ahead or behind: they keep "
                   "to lanes; the others from anywhere"},
                  ahead_share, {0.0, 1.0});
-  visitor.number({"else_share", "1", "how many other things there are, relative to these kinds"},
+  visitor.number({"else_share", "1", "prior share of other objects, relative to these kinds"},
                  else_share, {0.001, 1000.0});
 }
 

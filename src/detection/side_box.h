@@ -11,7 +11,7 @@ constexpr std::size_t indexOf(BoxSide side) { return static_cast<std::size_t>(si
 
 constexpr std::size_t opposite(std::size_t side) { return side ^ 1U; }
 
-/// A fitted box told by how far its sides are from its middle, to be moved one by one.
+/// A fitted box given by how far its sides are from its middle, to be moved one by one.
 class SideBox {
  public:
   /// `fit` must outlive this.
@@ -29,11 +29,11 @@ class SideBox {
   std::size_t pointsUpTo(std::size_t side) const;
 
   /// Whether a side that was seen ends at this one. With a vague heading (`heading_std`, rad), what
-  /// seems to be the shorter one of two sides may be none: where it ends tells nothing.
+  /// seems to be the shorter one of two sides may be none: its ends carry no information.
   bool isEndOfSeen(std::size_t side, double heading_std) const;
 
-  /// m, of the box along a side whose opposite was seen: a turn of the box moves the place of the
-  /// side, relative to that one, by so much times its angle.
+  /// m, of the box along a side whose opposite was seen: a turn of the box moves the position of
+  /// the side, relative to that one, by so much times its angle.
   double across(std::size_t side) const;
 
   void extend(std::size_t side, double by) { reach_[side] += by; }

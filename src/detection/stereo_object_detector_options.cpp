@@ -17,7 +17,7 @@ void StereoSurfaceOptions::visit(OptionVisitor& visitor) {
                   "a point is one of the road if a depth that is wrong by so many standard "
                   "deviations puts it where it is"},
                  road_sigmas, {0.0, 10.0});
-  visitor.number({"finest_depth", "m", "depths are not told apart finer than this"}, finest_depth,
+  visitor.number({"finest_depth", "m", "resolution of depths: not finer than this"}, finest_depth,
                  {0.02, 1.0});
   visitor.number({"least_visible", "m", "height of surface that must be seen in a column"},
                  least_visible, {0.0, 2.0});
@@ -84,8 +84,8 @@ void StereoObjectDetectorOptions::visit(OptionVisitor& visitor) {
       sure_range, {1.0, 200.0});
   visitor.number({"least_surface", "m^2", "an object of which less is seen is none"}, least_surface,
                  {0.0, 10.0});
-  visitor.number({"largest_size", "m", "longer things are no objects: walls, hedges"}, largest_size,
-                 {0.5, 100.0});
+  visitor.number({"largest_size", "m", "longer segments are no objects: walls, hedges"},
+                 largest_size, {0.5, 100.0});
   visitor.number({"most_else", "1",
                   "what is neither road user nor pole with more than this probability is left out"},
                  most_else, {0.0, 1.0});

@@ -12,14 +12,14 @@ namespace datmo {
 
 namespace {
 
-/// Points that tell the outline of an object, at most: columns beside each other are averaged.
+/// Points of the outline of an object, at most: columns beside each other are averaged.
 constexpr std::size_t kMostPoints = 40;
 
-/// rad; a side that was seen faces the camera: a vaguer heading tells no more of where it ends.
+/// rad; a side that was seen faces the camera: with a vaguer heading its ends are not known.
 constexpr double kMostSlant = 0.3;
 
 /// Sides whose normal is nearer to the line of sight than this (sine of the angle) end in depth, of
-/// which the ends in the image tell nothing.
+/// which the ends in the image carry no information.
 constexpr double kSideways = 0.5;
 
 /// Share of the noise that points within the correlated width have in common.
@@ -143,7 +143,7 @@ void StereoObjectMaker::setClass(Object& object, const GroupOutline& outline) co
   const auto best = std::max_element(probabilities.begin(), probabilities.end());
   object.object_class = static_cast<ObjectClass>(best - probabilities.begin());
   object.class_probability = *best;
-  // Over the odds of the average object: those that the kinds' shares tell.
+  // Over the odds of the average object: those by the kinds' shares.
   const double odds = classifier_.logOddsOfKnown(probabilities);
   object.log_odds = std::clamp(odds, -options_.most_doubt, 0.0);
 }

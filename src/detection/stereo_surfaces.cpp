@@ -10,7 +10,7 @@ namespace {
 /// m; cameras mark a depth that they do not know by a far one.
 constexpr float kBeyondSight = 1000.0F;
 
-/// Whatever is asked for, there are no more columns than in any image, nor bins.
+/// Whatever the options, there are no more columns than in any image, nor bins.
 constexpr double kMostColumns = 4096.0;
 constexpr double kMostBins = 2048.0;
 
@@ -20,7 +20,7 @@ constexpr double kValley = 0.6;
 /// A mode ends where its counts fall below this share of its peak.
 constexpr double kTail = 0.1;
 
-/// Bins (half standard deviations of the depth) to both sides of a mode's peak that tell of it.
+/// Bins (half standard deviations of the depth) to both sides of a mode's peak that support it.
 constexpr int kCore = 3;
 
 /// Heights are counted in slices of this, m.
@@ -29,7 +29,7 @@ constexpr float kSlice = 0.2F;
 /// A slice belongs to a surface that has this share of the points that it would have without holes.
 constexpr double kSliceShare = 0.3;
 
-/// Slices without points in a surface: of a place without texture.
+/// Slices without points in a surface: of a region without texture.
 constexpr int kMostHole = 2;
 
 constexpr std::int32_t kNone = -1;

@@ -7,7 +7,7 @@
 
 namespace datmo {
 
-/// Surfaces that belong together: beside each other at the same depth, as far as its noise tells,
+/// Surfaces that belong together: beside each other at the same depth, within its noise,
 /// with nothing farther away seen between them; or one seen above the other and little behind it,
 /// as a windscreen over a bonnet. What is very different in height is apart, as a pedestrian beside
 /// a pole, and so is what is beyond a dent (DentSplitter). Groups by their first surfaces.

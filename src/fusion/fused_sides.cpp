@@ -18,7 +18,7 @@ using SeenMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4
 /// Sides that were not seen have no information.
 struct SideEstimate {
   SideMatrix information = SideMatrix::Zero();
-  SideVector weighted = SideVector::Zero();  ///< information times place
+  SideVector weighted = SideVector::Zero();  ///< information times position
 };
 
 struct SeenSides {

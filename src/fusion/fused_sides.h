@@ -9,16 +9,16 @@
 
 namespace datmo {
 
-/// The places of the sides behind and ahead along x, then along y, m.
+/// The positions of the sides behind and ahead along x, then along y, m.
 using SideVector = Eigen::Matrix<double, 4, 1>;
 using SideMatrix = Eigen::Matrix4d;
 
-/// Two sources together: the sides that either saw, their places and covariance.
+/// Two sources together: the sides that either saw, their positions and covariance.
 struct FusedSides {
   std::array<bool, kBoxSides> seen{};
   SideVector place = SideVector::Zero();
   SideMatrix covariance = SideMatrix::Zero();
-  /// How far the places move, on average, of a way by which all that the second one saw moves.
+  /// How far the positions move, on average, as a share of a motion of all that the second one saw.
   double weight_of_b = 0.5;
 };
 

@@ -69,8 +69,8 @@ StateEstimate fusedAlong(const JointAxes& joint, const StateEstimate& a, const S
 }
 
 /// With D = E[a a'], 1 - D = E[b b'] and C = E[a b'] in joint axes, the gain is (D - C) (1 - C -
-/// C')^-1. The covariance is told as that of a weighted sum, which is positive whatever the gain
-/// is, and not as D less what b told.
+/// C')^-1. The covariance is computed as that of a weighted sum, which is positive whatever the
+/// gain is, and not as D minus the information of b.
 StateEstimate barShalomCampo(const JointAxes& joint, const StateEstimate& a, const StateEstimate& b,
                              const TrackCovariance& cross) {
   const TrackCovariance identity = TrackCovariance::Identity();

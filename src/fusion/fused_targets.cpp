@@ -23,7 +23,7 @@ bool areTwins(const Track& a, const Track& b, double reach) {
   return !sharesSource(a, b) && (reaches(a.box, b.box, reach) || reaches(b.box, a.box, reach));
 }
 
-/// The surer one first. Whose existence is told a little surer at one time may change at the next,
+/// The surer one first. The order of nearly equal existences may change from one time to the next,
 /// and no object changes its id for that.
 bool isSurer(const FusedTarget* a, const FusedTarget* b) {
   const auto rank = [](const FusedTarget& one) {

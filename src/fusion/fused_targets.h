@@ -24,9 +24,9 @@ struct FusedTarget {
   bool present = true;            ///< a source has a track of it now
   double lost = 0.0;              ///< s, since one had
   bool confirmed = false;         ///< all sources that could see it, and two sensors, had tracks
-  bool wanted = false;            ///< comes out, unless another one is at the same place, and surer
+  bool wanted = false;            ///< published, unless a surer one is at the same position
   bool published = false;         ///< came out
-  /// By number of the source: that it would have detected it lately; none: it was not asked yet.
+  /// By number of the source: that it would have detected it lately; none: not evaluated yet.
   std::vector<std::optional<double>> looked;
 
   /// Id of this source's track of it; none if it has none.
@@ -47,8 +47,9 @@ class FusedTargets {
   void follow(Stamp stamp, double seconds, std::vector<Track> groups,
               const TrackFuserOptions& options);
 
-  /// Publishes those that are wanted; of two at one place (reaches), which no source has tracks of
-  /// both, the surer one: the one that was published before, if both are confirmed or neither is.
+  /// Publishes those that are wanted; of two at one position (reaches), which no source has tracks
+  /// of both, the surer one: the one that was published before, if both are confirmed or neither
+  /// is.
   void publish(double reach);
 
   std::vector<FusedTarget>& all() { return targets_; }

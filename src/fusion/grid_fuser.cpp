@@ -18,12 +18,11 @@ GridFuserOptions::GridFuserOptions() {
 }
 
 void GridFuserOptions::visit(OptionVisitor& visitor) {
-  visitor.text(
-      {"rule", "",
-       "how what several sensors say of a cell becomes one statement: their mean by weight "
-       "(thesis eq. 3.2.5), the word of the first that sees it (3.2.6), the most occupied "
-       "(4.1.8), Bayes for independent sensors, or evidence theory (perspective of 6.2)"},
-      rule, fusionRuleNames());
+  visitor.text({"rule", "",
+                "how the evidence of several sensors on a cell is combined: their mean by weight "
+                "(thesis eq. 3.2.5), the word of the first that sees it (3.2.6), the most occupied "
+                "(4.1.8), Bayes for independent sensors, or evidence theory (perspective of 6.2)"},
+               rule, fusionRuleNames());
   visitor.number({"mover_speed", "m/s",
                   "a cell is not called free where something this fast may have come between a "
                   "source's stamp and the reference's (thesis: 0)"},

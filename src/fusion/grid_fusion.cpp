@@ -88,7 +88,7 @@ class Evidence {
   float open_ = 1.0F;
 };
 
-// The rules: each takes in, source by source, what is said of one cell.
+// The rules: each takes, source by source, the evidence on one cell.
 
 struct WeightedSum {
   float sum = 0.0F;

@@ -29,7 +29,7 @@ void pushOccupied(const SensorGrid& grid, const Pose2& old_base_in_new, SensorGr
 }
 
 /// Where in each row the discs around occupied cells begin (+1) and end (-1): one column more than
-/// the grid has. Sums along a row tell how many discs cover a cell, whatever their radius.
+/// the grid has. Sums along a row count how many disks cover a cell, whatever their radius.
 std::vector<int> discEdges(const SensorGrid& grid, double radius) {
   const GridWindow& window = grid.window();
   const int columns = window.columns;

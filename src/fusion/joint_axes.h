@@ -16,7 +16,7 @@ struct JointAxes {
   TrackCovariance covariance(const TrackCovariance& in_axes) const;
   TrackCovariance covariance(const TrackState& diagonal) const;
 
-  /// A cross-covariance, told in these axes, with no correlation between any part of the one error
+  /// A cross-covariance, given in these axes, with no correlation between any part of the one error
   /// and any of the other above `most_correlation` (more than 0). Below 1 that makes both errors'
   /// joint covariance positive definite.
   TrackCovariance limitedCross(const TrackCovariance& cross, double most_correlation) const;

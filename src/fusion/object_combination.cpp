@@ -43,7 +43,7 @@ struct FusedAxis {
 };
 
 /// Takes an end back that one saw, where the other saw the object reach clearly beyond it: a beam
-/// that ends on a long side tells nothing of its ends.
+/// that ends on a long side carries no information on its ends.
 void dropContradicted(ObjectSides& sides, const ObjectSides& other) {
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const auto i = static_cast<Eigen::Index>(axis);

@@ -196,7 +196,7 @@ class ObjectFuser::Fusion {
     }
   }
 
-  /// What those say of an object that do not see it.
+  /// Evidence on an object from those that do not see it.
   void judge(FusedObject& fused) const {
     weighMotion(fused);
     Object& object = fused.object;

@@ -43,7 +43,7 @@ Point2 sensorOf(const ObjectList& list) {
   return list.views.empty() ? Point2::Zero() : list.views.front().field.sensor_in_base.position();
 }
 
-/// What the scan says of an object of another source; by it, the object may stand still.
+/// Evidence of the scan on an object of another source; it may show that the object is static.
 PlaceTestimony testimonyOf(Object& object, const ScanWitness& witness,
                            const ObjectFuserOptions& options) {
   const double moved = options.association.object_speed * std::abs(object.delay);

@@ -88,7 +88,7 @@ ObjectSides sidesIn(const CommonAxes& axes, const Object& object) {
         return object.side_variance[static_cast<std::size_t>(kToTheLeft[quarter % kBoxSides])];
       };
       const double own = variance(first + direction);
-      // What reaches farthest that way of a box that is turned is a corner: both its sides tell.
+      // The farthest point of a turned box in that direction is a corner: both its sides count.
       const double other = variance(first + direction + (slant > 0.0 ? 1 : kBoxSides - 1));
       const bool is_seen = std::abs(slant) <= kMostTurn || std::isfinite(other);
       sides.along[axis].place[end] = end == 1 ? centre[i] + half[i] : centre[i] - half[i];

@@ -17,7 +17,7 @@ struct SidePair {
   double middle() const { return 0.5 * (place[0] + place[1]); }
 };
 
-/// An object told in given axes.
+/// An object given in the axes.
 struct ObjectSides {
   std::array<SidePair, 2> along;  ///< along the x axis and the y axis
   Eigen::Matrix2d covariance;     ///< m^2, of the box as a whole
@@ -30,12 +30,12 @@ struct CommonHeading {
   bool same_axis = true;  ///< both take the same axis for their length
 };
 
-/// The sides of two boxes are told apart modulo a quarter turn only; so are headings joined, by
+/// The sides of two boxes are distinguished modulo a quarter turn only; so headings are merged, by
 /// what is known of each. Where they contradict each other, that of the box holds which would lose
 /// most by being turned: large and well measured.
 CommonHeading commonHeading(const Object& a, const Object& b);
 
-/// In which two objects are told.
+/// In which two objects are given.
 struct CommonAxes {
   CommonAxes(const Object& a, const Object& b, const CommonHeading& common)
       : pose(0.5 * (a.box.centre.position() + b.box.centre.position()), common.heading),
@@ -46,7 +46,7 @@ struct CommonAxes {
 };
 
 /// Each side of the object is that of the axes' ends which it is nearest to. A box that is turned
-/// for it has sides that are known less well; one that is turned far shows a corner that way, of
+/// for it has sides that are known less well; one that is turned far shows a corner there, of
 /// which both sides must have been seen.
 ObjectSides sidesIn(const CommonAxes& axes, const Object& object);
 

@@ -9,7 +9,7 @@ namespace datmo {
 
 namespace {
 
-/// m: nearer to the sensor than this a bearing tells no direction.
+/// m: nearer to the sensor than this a bearing carries no direction.
 constexpr double kLeastRange = 0.1;
 
 /// A covariance must be positive definite.

@@ -62,8 +62,8 @@ Crossing crossing(const Sight& sight, const Point2& direction) {
   return result;
 }
 
-/// m^2, of the place of an object along this direction (unit vector in its own frame): of the whole
-/// and of the sides that are seen from there.
+/// m^2, of the position of an object along this direction (unit vector in its own frame): of the
+/// whole and of the sides that are seen from there.
 double varianceAlong(const Object& object, const Point2& direction) {
   const Point2 in_base = object.box.centre.rotate(direction);
   const auto side = [&](BoxSide one) {
@@ -76,7 +76,7 @@ double varianceAlong(const Object& object, const Point2& direction) {
          direction.cwiseAbs2().dot(Point2(x, y));
 }
 
-/// Whether a point (box's frame, m) lies on the object, as far as its place is known.
+/// Whether a point (box's frame, m) lies on the object, as far as its position is known.
 bool isAbout(const Point2& point, const Object& object, const Sight& sight,
              const ScanWitnessOptions& options) {
   Point2 excess = (point.cwiseAbs() - sight.half).cwiseMax(0.0);
@@ -108,16 +108,17 @@ bool passesThrough(double range, const Point2& direction, double motion_std, con
 void ScanWitnessOptions::visit(OptionVisitor& visitor) {
   visitor.number({"static_share", "1",
                   "an object that the scanner does not list stands still if at least this share "
-                  "of the beams on its place end there on static points"},
+                  "of the beams at its position end there on static points"},
                  static_share, {0.01, 1.0});
-  visitor.number({"static_reach", "1",
-                  "how far from its near side they may end, in standard deviations of its place: "
-                  "few, since what stands beside it must not freeze it"},
-                 static_reach, {0.0, 10.0});
-  visitor.number({"most_static_reach", "m", "the same, however uncertain its place is"},
+  visitor.number(
+      {"static_reach", "1",
+       "how far from its near side they may end, in standard deviations of its position: "
+       "few, since what stands beside it must not freeze it"},
+      static_reach, {0.0, 10.0});
+  visitor.number({"most_static_reach", "m", "the same, however uncertain its position is"},
                  most_static_reach, {0.0, 20.0});
   visitor.number({"through_reach", "1",
-                  "how far behind it a beam must end that passed through its place, in standard "
+                  "how far behind it a beam must end that passed through its position, in standard "
                   "deviations of it"},
                  through_reach, {0.0, 10.0});
   visitor.number({"body_depth", "m",
@@ -172,8 +173,8 @@ PlaceTestimony ScanWitness::testimony(const Object& object, double motion_std) c
   const double spacing = std::abs(field_.beam_spacing);
   const double width = sight.most - sight.least;
   result.beams = width / spacing;
-  // What is narrower than the way from beam to beam is met by the nearest one, if by any; what lies
-  // beside it may still be a part of it, as far as its place is not known.
+  // What is narrower than the distance between beams is met by the nearest one, if by any; what
+  // lies beside it may still be a part of it, as far as its position is not known.
   const double narrow = std::max(0.0, 0.5 * (spacing - width));
   const double aside =
       std::max(narrow, std::atan2(options_.most_static_reach, sight.scanner.norm()));

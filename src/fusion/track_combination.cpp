@@ -28,7 +28,7 @@ double headingVarianceOf(const Track& track) {
 }
 
 /// Whether the front is where a takes it to be, and not at the other end as b says. Who moves knows
-/// it; if both do, what they know of the velocity tells.
+/// it; if both do, their information on the velocity decides.
 bool aKnowsFront(const Track& a, const Track& b, const TrackState& fused) {
   if (a.moving != b.moving) {
     return a.moving;
@@ -46,7 +46,7 @@ struct Heading {
 };
 
 /// Modulo pi by the variances, then the front. Both follow the same motion, so that the result is
-/// weighted as by covariance intersection: it is never told surer than the surer one.
+/// weighted as by covariance intersection: it is never surer than the surer one.
 Heading fusedHeading(const Track& a, const Track& b, const TrackState& fused) {
   const double of_a = headingVarianceOf(a);
   const double of_b = headingVarianceOf(b);

@@ -14,7 +14,7 @@ namespace datmo {
 
 namespace {
 
-/// Position and velocity: what tells two objects apart. Accelerations are hardly known.
+/// Position and velocity: what distinguishes two objects. Accelerations are hardly known.
 constexpr int kCompared = 4;
 using Compared = Eigen::Matrix<double, kCompared, 1>;
 using ComparedCovariance = Eigen::Matrix<double, kCompared, kCompared>;
@@ -42,13 +42,13 @@ Eigen::Matrix2d centreCovariance(const Box2& box, const TrackComparisonOptions& 
   return axes * centreVariances(box, options).asDiagonal() * axes.transpose();
 }
 
-/// m^2, of a track's place in all directions together.
+/// m^2, of a track's position in all directions together.
 double placeVariance(const Track& track, const TrackComparisonOptions& options) {
   return track.covariance.topLeftCorner<2, 2>().trace() + centreVariances(track.box, options).sum();
 }
 
 /// Logarithm of how much likelier two tracks of these classes are if they are one object: all
-/// classes are equally likely before. Who says of all of them 0 knows nothing.
+/// classes are equally likely before. All 0: not known.
 double logClassRatio(const ClassProbabilities& a, const ClassProbabilities& b) {
   const double all =
       std::accumulate(a.begin(), a.end(), 0.0) * std::accumulate(b.begin(), b.end(), 0.0);
@@ -102,10 +102,11 @@ void TrackComparisonOptions::visit(OptionVisitor& visitor) {
                   "the same along each axis of the box, on top, as a share of its size: sensors "
                   "see other parts of it"},
                  extent_share, {0.0, 1.0});
-  visitor.number({"velocity_std", "m/s",
-                  "standard deviation between the velocities that two trackers tell of one object, "
-                  "beyond what they say: the parts that are seen slide along it"},
-                 velocity_std, {0.0, 10.0});
+  visitor.number(
+      {"velocity_std", "m/s",
+       "standard deviation between the velocities that two trackers estimate for one object, "
+       "beyond what they say: the parts that are seen slide along it"},
+      velocity_std, {0.0, 10.0});
   visitor.number({"unrelated_density", "1/m^2",
                   "tracks that are another object than the one looked at, where there are many"},
                  unrelated_density, {1e-6, 1.0});

@@ -17,12 +17,12 @@ namespace datmo {
 /// `first_correlation`.
 class TrackCorrelations {
  public:
-  /// A new time, `seconds` after the last one. Pairs that were not asked for at the last one are
+  /// A new time, `seconds` after the last one. Pairs that were not requested at the last one are
   /// forgotten.
   void step(double seconds);
 
   /// Of two tracks as their trackers made them, at the present: `sources` of each is itself. Each
-  /// pair is asked for once at each time.
+  /// pair is requested once at each time.
   CrossCovariance between(const Track& a, const Track& b, const TrackPredictionOptions& prediction,
                           const TrackCombinationOptions& options);
 

@@ -171,7 +171,7 @@ class TrackFuser::State {
   }
 
   /// How much each source would have detected each target lately. Who has a track of it is not
-  /// asked: when it loses that, it takes a while until it is missed.
+  /// evaluated: when it loses that, it takes a while until it is missed.
   void look(const std::vector<SourceTracks>& sources, double seconds) {
     const double share =
         options_.looking_time > 0.0 ? -std::expm1(-seconds / options_.looking_time) : 1.0;
@@ -231,7 +231,7 @@ class TrackFuser::State {
     }
     target.track.existence_probability = fusedExistence(witnesses);
     target.track.age = secondsBetween(target.born, stamp);
-    // Two sources that have it from one sensor are one witness.
+    // Two sources that have it from one sensor count once.
     const bool by_two = target.track.sources.size() > 1 && target.track.sensors.size() > 1;
     target.confirmed = target.confirmed || (seen_by_all && by_two);
   }

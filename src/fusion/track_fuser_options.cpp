@@ -19,19 +19,21 @@ TrackFuserOptions::TrackFuserOptions() {
 
 void TrackFuserOptions::visit(OptionVisitor& visitor) {
   visitor.each({"sources", "", "the sensors whose tracks are fused"}, sources);
-  visitor.text({"scheme", "",
-                "which tracks are published (thesis 3.4.2): those of all sources that can see the "
-                "place and those of `beyond` where no other can, the first of these alone, or all"},
-               scheme, trackSchemeNames());
+  visitor.text(
+      {"scheme", "",
+       "which tracks are published (thesis 3.4.2): those of all sources that can see the "
+       "position and those of `beyond` where no other can, the first of these alone, or all"},
+      scheme, trackSchemeNames());
   visitor.text({"beyond", "", "the source whose tracks are published also where no other can see"},
                beyond, {});
   visitor.integer({"most_tracks", "1",
                    "tracks taken from one list, the likeliest ones; bounds the time of a step"},
                   most_tracks, {1, 2000});
-  visitor.number({"can_see", "1",
-                  "a source can see a place where each of its measurements would have detected the "
-                  "object at least so probably, lately: a quarter is several times a second"},
-                 can_see, {0.0, 1.0});
+  visitor.number(
+      {"can_see", "1",
+       "a source can see a position where each of its measurements would have detected the "
+       "object at least so probably, lately: a quarter is several times a second"},
+      can_see, {0.0, 1.0});
   visitor.number({"misses", "1",
                   "what is published of `beyond` alone stays when it comes into view, until a "
                   "source without a track of it would have detected it at least so probably, "
@@ -42,7 +44,7 @@ void TrackFuserOptions::visit(OptionVisitor& visitor) {
                   "once"},
                  looking_time, {0.0, 60.0});
   visitor.number({"twin_reach", "1",
-                  "tracks of different sources are at one place where the box of one, so many "
+                  "tracks of different sources are duplicates where the box of one, so many "
                   "times as large, holds the centre of the other"},
                  twin_reach, {0.0, 10.0});
   visitor.number({"published_existence", "1", "existence probability from which one is published"},

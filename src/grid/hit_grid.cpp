@@ -28,7 +28,7 @@ void forEachAround(CellIndex centre, Visit&& visit) {
 void HitGridOptions::visit(OptionVisitor& visitor) {
   window.visit(visitor);
   visitor.integer({"most_hits", "1",
-                   "that a cell counts: a vehicle that stands hits the same places over and over, "
+                   "that a cell counts: a stationary vehicle hits the same cells over and over, "
                    "which would drown what it sees later; 0: all (thesis 3.5)"},
                   most_hits, {0, kMostHits});
   visitor.number({"cut_share", "1",
@@ -37,7 +37,7 @@ void HitGridOptions::visit(OptionVisitor& visitor) {
                  cut_share, {0.0, 1.0});
   visitor.number({"least_age", "s",
                   "between the first and the last hit in and around a cell: what passes is over a "
-                  "place for less; 0: any (thesis)"},
+                  "cell for less; 0: any (thesis)"},
                  least_age, {0.0, 60.0});
 }
 

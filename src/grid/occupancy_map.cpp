@@ -190,7 +190,7 @@ OccupancyMap::Cell* OccupancyMap::occupy(CellIndex index) {
 void OccupancyMap::hit(const Point2& point) {
   const CellIndex index = window().cellAt(point);
   if (Cell* cell = occupy(index)) {
-    // What is known to within some cells only has no age: a mover blurred so is over a place for
+    // What is known to within some cells only has no age: a mover blurred so is over a cell for
     // longer than it takes to pass.
     if (cell->hits.count == 0.0F) {
       cell->first_hit = now_;
@@ -210,7 +210,7 @@ float OccupancyMap::contradiction(const Cell& cell, CellIndex index, const Point
   const HitDistribution surface = sums.about(window().centreOf(index));
   const Point2 across(-direction.y(), direction.x());
   const double distance = across.dot(surface.mean - from);
-  // The spread of hits at one place may be rounded to below 0.
+  // The spread of hits at one point may be rounded to below 0.
   const double variance = std::max(0.0, across.dot(surface.covariance * across)) +
                           options_.surface_sigma * options_.surface_sigma;
   return static_cast<float>(std::exp(-0.5 * distance * distance / variance));

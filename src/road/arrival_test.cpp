@@ -11,17 +11,18 @@ ArrivalTest::ArrivalTest(const ArrivalTestOptions& options) : options_(options) 
 
 void ArrivalTestOptions::visit(OptionVisitor& visitor) {
   const Bounds share{0.001, 0.999};
-  visitor.number({"seen_when_there", "1", "share of the scans that see a thing where it is"},
+  visitor.number({"seen_when_there", "1", "share of the scans that see an object where it is"},
                  seen_when_there, share);
   visitor.number({"seen_when_gone", "1", "share of the scans that see something where nothing is"},
                  seen_when_gone, share);
-  visitor.number({"seen_of_ghost", "1",
-                  "share of the scans that see something where a place itself reflects now and "
-                  "then, rather too low"},
-                 seen_of_ghost, share);
-  visitor.number({"longest_presence", "s", "for which a thing that moves is at one place"},
+  visitor.number(
+      {"seen_of_ghost", "1",
+       "share of the scans that see something where the background itself reflects now and "
+       "then, rather too low"},
+      seen_of_ghost, share);
+  visitor.number({"longest_presence", "s", "for which a moving object stays at one position"},
                  longest_presence, {0.0, 60.0});
-  visitor.integer({"most_places", "1", "points of a thing that are looked at"}, most_places,
+  visitor.integer({"most_places", "1", "points of an object that are evaluated"}, most_places,
                   {1, 1000});
 }
 

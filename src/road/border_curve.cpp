@@ -19,7 +19,7 @@ double headingChange(const BorderCurve& curve, double along) {
   return along * (curve.curvature + 0.5 * along * curve.curvature_rate);
 }
 
-/// The point a short way on, by the chord.
+/// The point a short distance on, by the chord.
 Pose2 stepFrom(const Pose2& from, const BorderCurve& curve, double along, double step) {
   const double middle = curve.anchor.heading() + headingChange(curve, along + 0.5 * step);
   const double end = curve.anchor.heading() + headingChange(curve, along + step);

@@ -54,7 +54,7 @@ std::optional<BorderOffset> innermostPoint(const std::vector<Point2>& places,
 void BorderFilterOptions::visit(OptionVisitor& visitor) {
   visitor.text({"method", "",
                 "consistent: what lies on a border or beyond is a false alarm unless it came there "
-                "over places that were seen free; thesis: however it moves (thesis 3.5.1)"},
+                "over points that were seen free; thesis: however it moves (thesis 3.5.1)"},
                method, {kConsistent, kThesis});
   visitor.number({"margin", "m", "what is nearer to a border than this lies on it (thesis 3.5.1)"},
                  margin, {0.0, 5.0});

@@ -60,12 +60,12 @@ void finish(std::vector<RoadBorder>& published) {
 }  // namespace
 
 void BorderPublishingOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"ahead", "m", "how far ahead of the vehicle borders are told"}, ahead,
+  visitor.number({"ahead", "m", "how far ahead of the vehicle borders are published"}, ahead,
                  {1.0, 200.0});
   visitor.number({"behind", "m", "how far behind it"}, behind, {0.0, 200.0});
-  visitor.number({"most_sigma", "m", "across: what is less sure is not told"}, most_sigma,
+  visitor.number({"most_sigma", "m", "across: what is less sure is not published"}, most_sigma,
                  {0.05, 10.0});
-  visitor.number({"least_length", "m", "of a piece of border that is told: posts are shorter"},
+  visitor.number({"least_length", "m", "of a published piece of border: posts are shorter"},
                  least_length, {0.0, 50.0});
   visitor.number({"spacing", "m", "of a border's points along the vehicle's heading"}, spacing,
                  {0.1, 20.0});

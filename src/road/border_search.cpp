@@ -40,7 +40,7 @@ int countOf(std::uint64_t bits) {
   return count;
 }
 
-/// A place and direction to look for a border.
+/// A position and direction to search for a border.
 struct Candidate {
   double distance = 0.0;  ///< m, outward
   double heading = 0.0;   ///< rad, outward
@@ -183,7 +183,7 @@ FoundBorder SideSearch::refined(const Candidate& candidate) const {
   const double shape = options_.shape_sigma * options_.shape_sigma;
   const double noise = options_.hit_sigma * options_.hit_sigma;
   for (int i = 0; i < kIterations; ++i) {
-    // A window that holds nothing tells its place to within its width, its heading to a step.
+    // The position of an empty window is known to within its width, its heading to a step.
     Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
     information(0, 0) = 1.0 / (options_.width * options_.width);
     information(1, 1) = 1.0 / (options_.heading_step * options_.heading_step);

@@ -8,7 +8,7 @@ namespace datmo {
 
 namespace {
 
-/// rad; a line that runs so far across the vehicle's heading is no border of its way.
+/// rad; a line that runs so far across the vehicle's heading is no border of its road.
 constexpr double kAcross = degrees(60.0);
 
 /// m ahead or behind; so near to the vehicle no bend takes a border over to the other side.
@@ -20,7 +20,7 @@ double clampTo(const WayInterval& interval, double way) {
   return std::clamp(way, interval.first, interval.last);
 }
 
-/// Of a piece of way, the nearest point to a place.
+/// The nearest arc length of an interval.
 double nearestOf(const std::vector<WayInterval>& pieces, double way) {
   double nearest = way;
   double least = std::numeric_limits<double>::infinity();
@@ -40,7 +40,7 @@ void FollowedBorderOptions::visit(OptionVisitor& visitor) {
   visitor.group("track", [&] { track.visit(visitor); });
   visitor.group("evidence", [&] { evidence.visit(visitor); });
   visitor.number({"range_sigma", "m", "noise of a measured range"}, range_sigma, {0.0, 2.0});
-  visitor.number({"roughness", "m", "by which things along a border stand out of its line"},
+  visitor.number({"roughness", "m", "by which objects along a border stand out of its line"},
                  roughness, {0.01, 2.0});
   visitor.number({"tolerance", "m", "from the line, where a beam that ends has hit the border"},
                  tolerance, {0.05, 5.0});
@@ -49,14 +49,14 @@ void FollowedBorderOptions::visit(OptionVisitor& visitor) {
                   "one"},
                  correlation, {1.0, 100.0});
   visitor.integer({"vouching_hits", "1",
-                   "smoothed hits of a place (thesis eq. 3.5.1) that a hit needs to correct a "
+                   "smoothed hits of a cell (thesis eq. 3.5.1) that a hit needs to correct a "
                    "border: what passes by has fewer"},
                   vouching_hits, {1, 1000});
   visitor.number({"ahead", "m", "how far ahead of the vehicle borders are followed"}, ahead,
                  {5.0, 200.0});
   visitor.number({"behind", "m", "how far behind it they are kept"}, behind, {0.0, 200.0});
   visitor.number({"most_sigma", "m",
-                  "across: where a line is less sure nothing is said of it; less sure as a whole "
+                  "across: where a line is less sure it is not published; less sure as a whole "
                   "it is dropped"},
                  most_sigma, {0.1, 10.0});
   visitor.number({"confirmed_length", "m", "seen stations that make a line a border"},

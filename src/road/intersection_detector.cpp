@@ -28,7 +28,7 @@ double wayOf(const SidePresence& side, int station) {
   return side.first_station + station * side.station_length;
 }
 
-/// The station beside a place of the way, or the nearest one there is.
+/// The station at an arc length, or the nearest one.
 int stationAt(const SidePresence& side, double way) {
   const double station = std::round((way - side.first_station) / side.station_length);
   return static_cast<int>(std::clamp(station, 0.0, stationsOf(side) - 1.0));
@@ -56,23 +56,24 @@ void IntersectionDetectorOptions::visit(OptionVisitor& visitor) {
                  least_opening, {1.0, 50.0});
   visitor.number({"most_opening", "m",
                   "since the last border: behind it the border is lost, or it was no road but an "
-                  "open place"},
+                  "open space"},
                  most_opening, {1.0, 500.0});
   visitor.number({"least_road", "m",
                   "of border that a side had of late: what is open after less is a car park"},
                  least_road, {0.0, 100.0});
-  visitor.number({"road_memory", "m", "way after which a border counts for 37 % of that"},
+  visitor.number({"road_memory", "m", "distance after which a border counts for 37 % of that"},
                  road_memory, {1.0, 1000.0});
   visitor.number({"station_limit", "1",
-                  "highest logarithm of odds that one station tells: its beams have errors in "
+                  "upper limit of the log odds of one station: its beams have errors in "
                   "common"},
                  station_limit, {0.1, 20.0});
-  visitor.number({"evidence_length", "m",
-                  "way between two looks at the sides that are taken to be independent"},
-                 evidence_length, {0.1, 50.0});
-  visitor.number({"road_length", "m", "mean way between two intersections in a town"}, road_length,
-                 {1.0, 10000.0});
-  visitor.number({"crossing_length", "m", "mean way through an intersection"}, crossing_length,
+  visitor.number(
+      {"evidence_length", "m",
+       "distance between two observations of the sides that are taken to be independent"},
+      evidence_length, {0.1, 50.0});
+  visitor.number({"road_length", "m", "mean distance between two intersections in a town"},
+                 road_length, {1.0, 10000.0});
+  visitor.number({"crossing_length", "m", "mean distance through an intersection"}, crossing_length,
                  {1.0, 1000.0});
   visitor.number({"enter_above", "1", "probability from which on the vehicle is at one"},
                  enter_above, {0.01, 0.99});
@@ -175,7 +176,7 @@ void IntersectionDetector::update(const BorderPresence& presence) {
   const double rate = enter_rate + 1.0 / options_.crossing_length;
   const double usual = enter_rate / rate;
   const double before = usual + (probability_ - usual) * std::exp(-rate * step);
-  // One look, however far the step: more would be of places that it has not looked at.
+  // One observation, however far the step: more would be of stations that were not observed.
   const double looks = std::min(1.0, step / options_.evidence_length);
   const double ratio = std::exp(evidence * looks);
   probability_ = before * ratio / (before * ratio + 1.0 - before);

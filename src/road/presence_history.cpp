@@ -65,7 +65,7 @@ void PresenceHistory::moveTo(const Pose2& base_in_map) {
   if (!counted_) {
     counted_ = base_in_map;
   }
-  // Neither the jitter of a standing vehicle's pose nor a way back is a way driven.
+  // Neither the jitter of a standing vehicle's pose nor driving backward is distance driven.
   const Point2 step = counted_->inverse() * base_in_map.position();
   if (step.norm() >= kLeastStep) {
     presence_.way += step.x() > 0.0 ? step.norm() : 0.0;

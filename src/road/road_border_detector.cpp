@@ -31,7 +31,7 @@ RoadBorder borderOf(const FoundBorder& found, double spacing) {
 }  // namespace
 
 RoadBorderDetectorOptions::RoadBorderDetectorOptions() {
-  // Less than the thesis: what is no border is told by the beams that go through it.
+  // Less than the thesis: false borders are refuted by the beams that go through them.
   hit_grid.cut_share = 0.05;
 }
 

@@ -9,8 +9,8 @@ namespace datmo {
 
 namespace {
 
-/// m to the side from the vehicle's axis to that border of its own road that is nearest to a place
-/// ahead; `otherwise` where there is none.
+/// m to the side from the vehicle's axis to that border of its own road that is nearest to a
+/// station ahead; `otherwise` where there is none.
 double distanceTo(const std::vector<RoadBorder>& borders, RoadSide side, const Pose2& map_in_base,
                   double ahead, double otherwise) {
   double nearest = std::numeric_limits<double>::infinity();

@@ -9,21 +9,21 @@
 namespace datmo {
 
 void SightHistoryOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"memory", "s", "how far back what scans saw of a place is known"}, memory,
+  visitor.number({"memory", "s", "how far back the observations of scans are kept"}, memory,
                  {0.1, 60.0});
   visitor.integer({"most_scans", "1", "and how many scans at the most"}, most_scans, {1, 10000});
   visitor.number({"tolerance", "m",
-                  "a beam that ends nearer to the line through a place than this has hit it: twice "
+                  "a beam that ends nearer to the line through a point than this has hit it: twice "
                   "the standard deviation of the range"},
                  tolerance, {0.05, 5.0});
   visitor.number({"bearing_tolerance", "rad",
                   "the same for its bearing: noise, the body's pitch and roll, the pose"},
                  bearing_tolerance, {0.0, 0.1});
   visitor.number({"lit_share", "1",
-                  "part of the angle between two beams that a beam lights: a place beside that is "
+                  "part of the angle between two beams that a beam covers: a point beside that is "
                   "not seen free"},
                  lit_share, {0.05, 1.0});
-  visitor.number({"least_incidence", "rad", "of a beam that tells where it meets a line"},
+  visitor.number({"least_incidence", "rad", "least angle of incidence of a beam at a line"},
                  least_incidence, {0.001, 1.0});
 }
 
@@ -58,7 +58,7 @@ double SightHistory::age(std::size_t back) const {
   return secondsBetween(scans_[back].stamp, scans_.front().stamp);
 }
 
-/// The beam that lights a place (m, scanner's frame), and its bearing; null if there is none.
+/// The beam that covers a point (m, scanner's frame), and its bearing; null if there is none.
 const SightHistory::Beam* SightHistory::beamTowards(const Scan& scan, const Point2& seen,
                                                     double& bearing) const {
   const ScanField& field = scan.field;
@@ -72,7 +72,7 @@ const SightHistory::Beam* SightHistory::beamTowards(const Scan& scan, const Poin
   }
   const double nearest = std::round(index);
   const bool in_field = nearest >= 0.0 && nearest < static_cast<double>(scan.beams.size());
-  // In this form NaN, of a place beyond all numbers, is left out.
+  // In this form NaN, of a point at infinity, is excluded.
   if (!in_field || !(std::abs(nearest - index) <= 0.5 * options_.lit_share)) {
     return nullptr;
   }
@@ -96,7 +96,7 @@ Sight SightHistory::look(std::size_t back, const SightPlace& place) const {
   }
   const double crossing = (seen.x() * direction.y() - seen.y() * direction.x()) / incidence;
   if (crossing <= 0.0) {
-    return Sight::kNothing;  // the beam beside the place leads away from the line
+    return Sight::kNothing;  // the beam beside the point diverges from the line
   }
   // Flat beams meet the line elsewhere for a small error of their bearing.
   const double tolerance =

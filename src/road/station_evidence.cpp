@@ -26,8 +26,8 @@ void StationEvidenceOptions::visit(OptionVisitor& visitor) {
   visitor.number({"clutter", "1", "that it ends there although there is no border"}, clutter,
                  {1e-4, 0.5});
   visitor.number({"most_in_scan", "1",
-                  "change of the logarithm of the odds at a place in one scan: its beams there see "
-                  "the same thing"},
+                  "change of the log odds at a station in one scan: its beams there see "
+                  "the same surface"},
                  most_in_scan, {0.1, 10.0});
   visitor.number(
       {"depth_probability", "1",

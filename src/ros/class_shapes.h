@@ -15,7 +15,7 @@
 
 namespace datmo {
 
-/// What stands on the ground for a thing of a class, in its size (thesis figure 4.13): a box for a
+/// Shape on the ground of an object of a class, in its size (thesis figure 4.13): a box for a
 /// vehicle and for what is not known, a thin cylinder for a pole; with a head on top a cylinder for
 /// a pedestrian and a narrow box for a cyclist. Colours are the caller's.
 struct ClassShape {

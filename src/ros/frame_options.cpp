@@ -9,7 +9,7 @@ void FrameOptions::visit(OptionVisitor& visitor) {
   visitor.text(
       {"scanner", "",
        "frame of the planar scanner, whose height is where the layer of obstacles begins "
-       "that stereo_grid takes (thesis 3.2.2); empty: stereo_grid/scanner_height tells it"},
+       "that stereo_grid takes (thesis 3.2.2); empty: stereo_grid/scanner_height gives it"},
       scanner, {});
   visitor.text({"camera", "",
                 "optical frame of the stereo camera's left camera (x to the right, y down, z "

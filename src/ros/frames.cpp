@@ -51,7 +51,7 @@ tf2::Matrix3x3 axes(const geometry_msgs::Transform& transform) {
   return tf2::Matrix3x3(tf2::Quaternion(q.x, q.y, q.z, q.w));
 }
 
-/// Place and direction of the x axis, seen from above.
+/// Position and direction of the x axis, seen from above.
 Pose2 fromAbove(const geometry_msgs::Transform& transform) {
   const tf2::Vector3 forward = axes(transform).getColumn(0);
   return {transform.translation.x, transform.translation.y, std::atan2(forward.y(), forward.x())};

@@ -85,7 +85,7 @@ void drawTitle(const std::string& text, cv::Mat bar) {
 
 }  // namespace
 
-/// The part of the picture below the title, and the place of the vehicle in it.
+/// The part of the picture below the title, and the position of the vehicle in it.
 struct GridViews::Panel {
   cv::Mat image;
   double ahead = 0.0;    ///< m

@@ -123,7 +123,7 @@ std::vector<Entry> entries() {
       classEntry("pole", ObjectClass::kPole, 2, 2, false),
       classEntry("class not known", ObjectClass::kUnknown, 12, 9, false),
       {"stands (pale)", drawStanding},
-      {"its way in the next second", drawArrow},
+      {"its motion in the next second", drawArrow},
       {"its path", drawPath},
       {"true box, where known", drawTruth},
       pointsEntry("scan: static", ScanPointMessage::STATIC),

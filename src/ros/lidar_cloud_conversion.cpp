@@ -30,7 +30,7 @@ double numberAt(const std::uint8_t* data) {
   return static_cast<double>(number);
 }
 
-/// The times of a cloud's points, as one of its fields tells them.
+/// The times of a cloud's points, from one of its fields.
 class PointTimes {
  public:
   explicit PointTimes(const PointCloud2& message) : stamp_(message.header.stamp.toSec()) {

@@ -61,7 +61,7 @@ void MarkersOptions::visit(OptionVisitor& visitor) {
                  least_size, size);
   visitor.number({"default_height", "m", "of a box whose height is not measured"}, default_height,
                  size);
-  visitor.number({"arrow_time", "s", "a track's arrow is the way of this time"}, arrow_time,
+  visitor.number({"arrow_time", "s", "a track's arrow is its distance in this time"}, arrow_time,
                  {0.0, 10.0});
   visitor.number({"path_time", "s", "a track's path is where it was in this time"}, path_time,
                  {0.0, 600.0});

@@ -4,13 +4,13 @@ namespace datmo {
 
 void MotionOptions::visit(OptionVisitor& visitor) {
   visitor.text({"source", "",
-                "what tells how the vehicle moves: its odometry (nav_msgs/Odometry); a twist "
+                "source of the vehicle's motion: its odometry (nav_msgs/Odometry); a twist "
                 "(TwistStamped, TwistWithCovarianceStamped); the yaw rate of an Imu alone, while "
                 "the speed comes from the scans; that yaw rate and the speed of a twist or of the "
                 "wheels (JointState); or none: all from the scans"},
                source, {"odometry", "twist", "imu", "imu_and_twist", "imu_and_wheels", "none"});
   visitor.toggle({"odometry_pose", "",
-                  "the odometry's poses tell the motion, as a robot's wheel encoders count it; "
+                  "take the motion from the odometry's poses, for a robot's wheel encoders; "
                   "false: its speed and yaw rate do"},
                  odometry_pose);
   visitor.number({"hold", "s",

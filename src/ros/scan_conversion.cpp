@@ -161,7 +161,7 @@ ConvertedScan convert(const Message& message, const ScannerMount& mount,
 void ScanConversionOptions::visit(OptionVisitor& visitor) {
   visitor.number({"free_range", "m",
                   "a beam without return is taken as free up to here (or the scanner's range_max); "
-                  "less than the scanner's reach, since dark things far away return nothing; 0: "
+                  "less than the scanner's reach, since dark objects far away return nothing; 0: "
                   "such beams say nothing"},
                  free_range, {0.0, 500.0});
   visitor.number({"longest_sweep", "s",

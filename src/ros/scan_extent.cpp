@@ -52,7 +52,7 @@ std::optional<InputError> ScanExtent::judge(double reach) const {
   }
   if (0.5 * std::min(window_.length, window_.width) > kMaxExcess * reach) {
     return InputError("large_window",
-                      "the scanner reaches " + meters(reach) + " and sees things up to " +
+                      "the scanner reaches " + meters(reach) + " and detects objects up to " +
                           meters(farthest_) + " away, a small part of " + sizeOf(window_) +
                           ": expected settings of its size, also of the targets (tracker: "
                           "{target: {box: {size}}}); see config/model_car.yaml");

@@ -24,8 +24,8 @@ void TrackerStageOptions::visit(OptionVisitor& visitor) {
   visitor.toggle(
       {"scan_view", "",
        "the objects come from the scanner of split_scan, alone or with other sensors: its "
-       "view tells where they could have been seen; false: from other sensors, and the "
-       "split scan tells the vehicle's pose alone"},
+       "view gives where they could have been seen; false: from other sensors, and the "
+       "labeled scan gives the vehicle's pose alone"},
       scan_view);
   visitor.group("input", [&] { input.visit(visitor); });
   tracker.visit(visitor);

@@ -37,7 +37,7 @@ const std_msgs::ColorRGBA kTire = colour(0.05F, 0.05F, 0.05F);
 const std_msgs::ColorRGBA kHeadLamp = colour(1.0F, 1.0F, 0.85F);
 const std_msgs::ColorRGBA kTailLamp = colour(0.8F, 0.0F, 0.0F);
 
-/// Puts parts together; each place is a share of the body's length, half width and height.
+/// Puts parts together; each position is a share of the body's length, half width and height.
 class Body {
  public:
   Body(std_msgs::Header header, const VehicleBodyOptions& options)

@@ -14,7 +14,7 @@ const LidarGridOptions& checked(const LidarGridOptions& options) {
   return options;
 }
 
-/// From a point to the farthest place in the window, m.
+/// From a point to the farthest point of the window, m.
 double reachFrom(const Point2& point, const GridWindow& window) {
   const Point2 low = window.origin();
   const Point2 high = low + window.cell_size * Point2(window.columns, window.rows);

@@ -22,8 +22,8 @@ constexpr double kVoteSize = 1.0;
 /// Samples without which a cell has no vote.
 constexpr int kLeastSamples = 2;
 
-/// One round of the fit: how far out, as a share of the way, and how far from the last plane, in
-/// tolerances, its points may be. A pitch is small in metres where it is near.
+/// One round of the fit: how far out, as a share of the distance, and how far from the last plane,
+/// in tolerances, its points may be. A pitch is small in metres where it is near.
 struct Round {
   double reach;
   double tolerances;
@@ -122,7 +122,7 @@ class RoadSamples {
     if (depth > 0.0 && depth < options_.farthest && column >= 0.0 &&
         column < static_cast<double>(columns_)) {
       const auto row = static_cast<std::size_t>(depth / kVoteSize);
-      // Lines of sight fall by the camera's height on their way to the road, so that a depth that
+      // Lines of sight fall by the camera's height before they reach the road, so that a depth that
       // is off by its standard deviation lifts or lowers the point.
       const double sigma = camera_height_ * camera_.depthSigma(depth) / depth;
       samples_.push_back({camera_in_base * point.cast<double>(), depth, sigma * sigma,

@@ -10,7 +10,7 @@
 
 namespace datmo {
 
-/// What the evidence of one cloud says of each cell in view: the method `columns` of
+/// Evidence of one cloud on each cell in view: the method `columns` of
 /// StereoGridModel.
 class StereoColumns {
  public:
@@ -26,13 +26,13 @@ class StereoColumns {
   double surfaceAt(const ViewedPlace& place) const;
 
   /// Whether the surface there is no more than what the noise of the depth brings there from
-  /// another place on the line of sight.
+  /// another point on the line of sight.
   bool isSmear(const ViewedPlace& place) const;
 
   /// Whether an object has too little surface in all.
   bool isNoise(const std::vector<CellIndex>& object, const GridWindow& window) const;
 
-  /// Whether enough lines of sight cross a place near the ground.
+  /// Whether enough lines of sight cross a point near the ground.
   bool isSeenThrough(const ViewedPlace& place) const;
 
   /// By what is seen there alone; returns the occupied ones.

@@ -14,7 +14,7 @@ namespace {
 constexpr double kColumnsPerCell = 2.0;
 constexpr double kBinsPerCell = 4.0;
 
-/// Bounds of what is needed of memory, whatever is asked for: as fine as any image.
+/// Bounds of the memory needed, whatever the options: as fine as any image.
 constexpr double kMostColumns = 4096.0;
 constexpr double kMostBins = 2048.0;
 
@@ -80,7 +80,7 @@ StereoEvidence::Scales StereoEvidence::scalesOf(const StereoCloud& cloud, const 
   scales.nearest = static_cast<float>(limits.nearest_depth);
   scales.layer_bottom = static_cast<float>(limits.layer_bottom);
   scales.layer_top = static_cast<float>(limits.layer_top);
-  // Lines from above the layer's bottom to above its top tell nothing.
+  // Lines from above the layer's bottom to above its top carry no information.
   scales.highest = view.cameraHeight() > scales.layer_bottom
                        ? scales.layer_top
                        : std::numeric_limits<float>::infinity();
@@ -150,7 +150,7 @@ inline void StereoEvidence::addObstacle(const ColumnPoint& point, const Scales& 
 }
 
 inline void StereoEvidence::addLine(const ColumnPoint& point, const Scales& scales) {
-  // m that the line falls on its way to the point.
+  // m that the line falls before the point.
   const float fall = scales.camera_height - point.height;
   const float row = 0.5F * scales.tile_rows + fall * point.inverse * scales.tiles_per_tangent;
   if (row >= 0.0F && row < scales.tile_rows) {

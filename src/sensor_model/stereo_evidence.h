@@ -13,7 +13,7 @@ namespace datmo {
 
 /// What the points of one cloud are counted by.
 struct EvidenceLimits {
-  double cell_size = 0.0;        ///< m, of the grid that is asked for
+  double cell_size = 0.0;        ///< m, of the requested grid
   double nearest_depth = 0.0;    ///< m, nearer points are mismatches
   double farthest_depth = 0.0;   ///< m, obstacles beyond are not of interest
   double layer_bottom = 0.0;     ///< m above the road
@@ -23,14 +23,14 @@ struct EvidenceLimits {
 };
 
 /// The points of one cloud, counted in columns of the camera's level image over depth: how many
-/// stand in the layer of obstacles, and how many lines of sight cross each place near the ground.
+/// stand in the layer of obstacles, and how many lines of sight cross each point near the ground.
 class StereoEvidence {
  public:
   /// Forgets what it knew, and counts the cloud's points. `view`: of this cloud.
   void take(const StereoCloud& cloud, const StereoView& view, const EvidenceLimits& limits);
 
   /// Surface (m^2) in the layer of obstacles that is seen from one depth to another (m), within
-  /// `half_width` (m) to either side of a place in view.
+  /// `half_width` (m) to either side of a point in view.
   double surface(const ViewedPlace& place, double half_width, double near, double far) const;
 
   /// Surface (m^2) that one point at a depth (m) stands for, if it faces the camera.
@@ -39,7 +39,7 @@ class StereoEvidence {
     return pixel * pixel * pixels_per_point_;
   }
 
-  /// Lines of sight that cross a place in view between the road and the layer's bottom, within
+  /// Lines of sight that cross a point in view between the road and the layer's bottom, within
   /// `half_width` (m) to either side of it.
   struct Lines {
     int seen = 0;
@@ -57,8 +57,8 @@ class StereoEvidence {
 
   /// What a point is compared with, in the numbers that points have.
   struct Scales {
-    float nearest, layer_bottom, layer_top;    ///< m
-    float highest;                             ///< m above the road, of points that tell anything
+    float nearest, layer_bottom, layer_top;  ///< m
+    float highest;                           ///< m above the road, of points that carry information
     float left, columns_per_tangent, columns;  ///< of the columns
     float tiles_per_tangent, tile_rows;        ///< of the tiles
     float camera_height;                       ///< m above the road
@@ -77,7 +77,7 @@ class StereoEvidence {
     bool on_road;
   };
 
-  /// Whether a point is one, in a column, and tells anything.
+  /// Whether a point is one, in a column, and carries information.
   bool place(const ViewedPoint& point, const Scales& scales, ColumnPoint& placed);
   void addObstacle(const ColumnPoint& point, const Scales& scales);
   void addLine(const ColumnPoint& point, const Scales& scales);

@@ -64,7 +64,7 @@ void StereoColumnsOptions::visit(OptionVisitor& visitor) {
                  doubtful_share, {0.0, 1.0});
   visitor.number({"noise_factor", "1",
                   "an occupied cell becomes unknown if it has less surface than so many times what "
-                  "the noise of the depth alone brings there from another place on the line of "
+                  "the noise of the depth alone brings there from another point on the line of "
                   "sight; 0: none does"},
                  noise_factor, {0.0, 1.2});
   visitor.number({"road_sigmas", "1",
@@ -72,7 +72,7 @@ void StereoColumnsOptions::visit(OptionVisitor& visitor) {
                   "deviations puts it where it is"},
                  road_sigmas, {0.0, 10.0});
   visitor.number({"obstacle_sigmas", "1",
-                  "places nearer to an obstacle than so many standard deviations of its depth are "
+                  "cells nearer to an obstacle than so many standard deviations of its depth are "
                   "not called free"},
                  obstacle_sigmas, {0.0, 10.0});
   visitor.number({"least_seen_share", "1",

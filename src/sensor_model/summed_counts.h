@@ -5,7 +5,7 @@
 
 namespace datmo {
 
-/// A table of counts that tells the sum over any rectangle of it in four look-ups: a summed-area
+/// A table of counts that gives the sum over any rectangle of it in four look-ups: a summed-area
 /// table (Crow, Summed-area tables for texture mapping, 1984).
 class SummedCounts {
  public:

@@ -19,7 +19,7 @@ constexpr double kTurn = 2.0 * kPi;
 constexpr int kSectors = 360;
 constexpr double kSectorWidth = kTurn / kSectors;
 
-/// Sectors with points, and neighbors among them, without which no turn is told.
+/// Sectors with points, and neighbors among them, without which no turn is estimated.
 constexpr std::size_t kMinSectors = 30;
 
 /// Points that are looked at, of however many there are.

@@ -19,7 +19,7 @@ struct End {
 
 /// Step along the surface that the beam hit, as its neighbours show it: the mean of the steps to
 /// those nearer than `longest_step`. If neither is, the surface is met at a flat angle, and the
-/// shorter step tells its direction; but what stands out in front of both is a thing of its own:
+/// shorter step gives its direction; but what stands out in front of both is an object of its own:
 /// none.
 std::optional<Point2> stepAlongSurface(const End* previous, const End& end, const End* next,
                                        double longest_step) {

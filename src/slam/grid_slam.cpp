@@ -24,7 +24,7 @@ std::vector<PointState> judge(const Scan& scan, const OccupancyMap& map, const P
 }
 
 /// The scan with the scanner's own end points alone, where there are any: what others see is off by
-/// their depth's error, no place to find the pose by, and nothing that hides what is behind.
+/// their depth's error, no point to match the pose with, and nothing that hides what is behind.
 Scan measuredScan(const FusedView& view) {
   Scan scan = view.scan;
   if (view.any_measured) {
@@ -36,7 +36,7 @@ Scan measuredScan(const FusedView& view) {
 }
 
 /// What the map takes of a grid: where beams end on what does not move, and occupied cells. What
-/// others alone have seen is no place to match scans with, and is left out where it belongs to a
+/// others alone have seen is no point to match scans with, and is excluded where it belongs to a
 /// mover, whose depth they blur, or lies in space that the map knows to be free.
 GridSight sightOf(const FusedView& view, const std::vector<PointState>& states,
                   const SensorGrid& grid, const OccupancyMap& map, const Pose2& base_in_map) {
@@ -80,8 +80,8 @@ std::vector<std::uint32_t> blindBeams(const Scan& scan) {
   return blind;
 }
 
-/// Leaves out the beams of `measured` whose ends the grid does not confirm, if there are others: by
-/// sensors that contradict each other nothing is told, neither of what is there nor of what is not.
+/// Removes the beams of `measured` whose ends the grid does not confirm, if there are others:
+/// sensors that contradict each other give no evidence, neither of occupied nor of free space.
 void leaveOutContested(const Scan& measured, const FusedView& view, Scan& scan,
                        std::vector<PointState>& states) {
   if (!view.any_measured) {

@@ -5,11 +5,10 @@
 namespace datmo {
 
 void PoseFilterOptions::visit(OptionVisitor& visitor) {
-  visitor.toggle(
-      {"calibrate_odometry", "",
-       "estimate the odometry's scale error and yaw-rate bias on the way; false: take it "
-       "as unbiased (thesis)"},
-      calibrate_odometry);
+  visitor.toggle({"calibrate_odometry", "",
+                  "estimate the odometry's scale error and yaw-rate bias online; false: take it "
+                  "as unbiased (thesis)"},
+                 calibrate_odometry);
   visitor.number({"speed_scale_sigma", "1", "standard deviation of the speed's scale at the start"},
                  speed_scale_sigma, {0.0, 0.5});
   visitor.number(
@@ -65,7 +64,7 @@ void PoseFilter::predictMeasured(const Pose2& motion, double seconds) {
   move(motion, seconds, kSpeedScale, speed_factor, kYawRateBias, -1.0);
   addPoseNoise(motion_model_.covariance(twist, seconds));
   addErrorDrift(seconds);
-  // The odometry tells the velocity, whatever was known of it before.
+  // The odometry gives the velocity, whatever the prior.
   velocity_ = twist;
   covariance_.middleRows<2>(kSpeed).setZero();
   covariance_.middleCols<2>(kSpeed).setZero();

@@ -22,7 +22,7 @@ constexpr double kConverged = 1e-4;
 constexpr double kWallShare = 0.6;
 constexpr double kWallElongation = 2.0;
 
-/// What an end point near these hits tells of its place, 1/m^2. Along a wall it tells nothing: the
+/// Information of an end point near these hits on its position, 1/m^2. Along a wall it is 0: the
 /// hits' mean is only the middle of the `aperture` (m) that they were gathered from.
 Eigen::Matrix2d informationOf(const Eigen::Matrix2d& spread, double point_variance,
                               double aperture) {
@@ -117,7 +117,7 @@ void ScanMatcherOptions::visit(OptionVisitor& visitor) {
   visitor.number(
       {"least_maturity", "1",
        "with odometry: weight of surfaces that have just come into view, and so may move, "
-       "where those in sight that have been hit longest, up to static_after, have 1; "
+       "where the visible ones that have been hit longest, up to static_after, have 1; "
        "1: all alike (thesis)"},
       least_maturity, {0.001, 1.0});
   visitor.integer({"least_points", "1", "end points on known surfaces that make a match"},

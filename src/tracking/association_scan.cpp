@@ -30,7 +30,7 @@ bool isNearer(const Entry& a, const Entry& b) {
   return std::tie(a.distance) < std::tie(b.distance) || (a.distance == b.distance && isLeft(a, b));
 }
 
-/// Of the centre that the sides seen tell, at most, m^2.
+/// Upper limit for the center from the visible sides, m^2.
 double variance(const Object& object) {
   double sum = object.position_covariance.trace();
   for (const double side : object.side_variance) {

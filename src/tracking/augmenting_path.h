@@ -10,7 +10,7 @@
 
 namespace datmo {
 
-/// Finds the cheapest change that gives one row another place: the shortest path from the row by
+/// Finds the cheapest change that gives one row another column: the shortest path from the row by
 /// reduced costs (Dijkstra), along pairs, back along assigned pairs, and through the void, where
 /// one row gives its column up and another one comes to a column.
 ///
@@ -20,11 +20,11 @@ class AugmentingPath {
  public:
   AugmentingPath(const AssignmentCosts& costs, std::pmr::memory_resource* memory);
 
-  /// A row that has nothing yet gets the best place, and is open from then on.
+  /// A row that has nothing yet gets the best column, and is open from then on.
   void add(int row, PricedAssignment& assignment);
 
-  /// An open row gets another place than it has, by the costs given for it. False, and nothing
-  /// changed: there is no other place.
+  /// An open row gets another column than it has, by the costs given for it. False, and nothing
+  /// changed: there is no other column.
   bool replace(int row, const RowCost& row_cost, PricedAssignment& assignment);
 
   /// Entries of the matrix that were looked at until now.
@@ -76,7 +76,7 @@ class AugmentingPath {
   std::pmr::vector<int> waiting_rows_;  ///< without column, reached through the void
 };
 
-/// The best assignment, from one that has nothing yet: one row after the other gets its place.
+/// The best assignment, from one that has nothing yet: one row after the other gets its column.
 /// False: it took more work than allowed, and the rows that were left, in their order, got the
 /// cheapest column that was free; the assignment is valid but not the best, and nor are its prices.
 bool assignAll(const AssignmentCosts& costs, std::int64_t most_work, AugmentingPath& path,

@@ -84,7 +84,7 @@ void BoxSizeOptions::visit(OptionVisitor& visitor) {
   visitor.number(
       {"extent_std", "m",
        "by how much the extent of a rigid body differs from scan to scan beyond what its "
-       "sides' variances tell: mirrors, round corners, another height"},
+       "sides' variances: mirrors, round corners, another height"},
       extent_std, {0.001, 2.0});
   visitor.number(
       {"drift", "m^2/s", "growth of the variance of each size: other parts come in view"}, drift,

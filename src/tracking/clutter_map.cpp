@@ -14,7 +14,7 @@ RollingGrid<double> emptyGrid(const ClutterMapOptions& options) {
 }  // namespace
 
 void ClutterMapOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"cell_size", "m", "size of the places whose false alarms are counted together"},
+  visitor.number({"cell_size", "m", "side of the cells whose false alarms are counted together"},
                  cell_size, {0.5, 100.0});
   visitor.number({"range", "m", "about the vehicle in which they are counted"}, range,
                  {1.0, 500.0});

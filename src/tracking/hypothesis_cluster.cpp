@@ -79,7 +79,7 @@ bool removeUnusedLeaves(TrackTree& tree, std::size_t index,
   return kept > 0;
 }
 
-/// What a hypothesis says of a target `history` scans ago.
+/// What a hypothesis assigned to a target `history` scans ago.
 std::uint64_t nodeAt(const HypothesisCluster& cluster, const GlobalHypothesis& hypothesis,
                      std::size_t tree, std::size_t history) {
   const int leaf = hypothesis.leaf_of_tree[tree];
@@ -88,7 +88,7 @@ std::uint64_t nodeAt(const HypothesisCluster& cluster, const GlobalHypothesis& h
              : cluster.trees[tree].leaves[static_cast<std::size_t>(leaf)].nodes[history];
 }
 
-/// Takes the trees of these indices out, with the weights of what the hypotheses say of them alone.
+/// Takes the trees of these indices out, with the weights that the hypotheses give them alone.
 HypothesisCluster part(HypothesisCluster& cluster, const std::vector<std::size_t>& trees) {
   HypothesisCluster result;
   for (const std::size_t tree : trees) {

@@ -217,7 +217,7 @@ void HypothesisOptions::visit(OptionVisitor& visitor) {
        "scans after which a decision is final (N-scan pruning, thesis 3.3.4): 0 decides "
        "at once"},
       scan_history, {0, static_cast<double>(kMostScanHistory)});
-  visitor.integer({"most_leaves", "1", "ways in which one target may have been seen, kept apart"},
+  visitor.integer({"most_leaves", "1", "observation sequences of one target that are kept"},
                   most_leaves, {1, 1000});
   visitor.number({"least_ratio", "1",
                   "a hypothesis that is less likely than this share of the best one is dropped"},

@@ -14,12 +14,13 @@ namespace {
 
 double clamp(double value, double limit) { return std::max(-limit, std::min(limit, value)); }
 
-/// What the map says of the object's place, as a log-likelihood ratio of moving against standing.
+/// Evidence of the map at the object's position, as a log-likelihood ratio of moving against
+/// standing.
 double mapEvidence(const Object& object, double weight) {
   return object.dynamic_state == DynamicState::kStatic ? -weight : weight * object.moving_fraction;
 }
 
-/// The places of so many objects, about, are what is known of late.
+/// Number of recent objects that are averaged over, approximately.
 constexpr int kStaticMemory = 10;
 
 double staticShare(const Object& object) {
@@ -62,7 +63,7 @@ void MotionEvidenceOptions::visit(OptionVisitor& visitor) {
                   "the map is free (thesis 3.3.1)"},
                  free_space_evidence, kEvidence);
   visitor.number({"most_static_share", "1",
-                  "what moves is seen less often than this in places that are known to be static: "
+                  "movers are seen less often than this at positions that are known to be static: "
                   "parked cars in a row are, however much they are taken for each other"},
                  most_static_share, {0.0, 1.0});
   visitor.number({"least_overrun", "m",

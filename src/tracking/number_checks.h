@@ -7,7 +7,7 @@
 
 #include "datmo_fusion/common/pose2.h"
 
-/// What is asked of the numbers of objects and tracks. NaN compares false with everything, and so
+/// Requirements for the numbers of objects and tracks. NaN compares false with everything, and so
 /// passes none.
 namespace datmo {
 

@@ -53,7 +53,7 @@ Box2 boxHolding(const std::vector<Point2>& points, double heading) {
 }
 
 /// What an object was taken for says little of the whole that it is a part of, or of its own parts;
-/// and in the axes of a target it tells nothing of the target's heading.
+/// and in the axes of a target it carries no information on the target's heading.
 void forgetKind(Object& object) {
   object.object_class = ObjectClass::kUnknown;
   object.class_probability = 0.0;

@@ -45,15 +45,15 @@ struct PricedAssignment {
   std::pmr::vector<double> column_price;
   std::pmr::vector<int> column_of_row;
   std::pmr::vector<int> row_of_column;  ///< kUnassigned: free; kFixed: of a row that keeps it
-  std::pmr::vector<int> open_rows;      ///< that may get another place
+  std::pmr::vector<int> open_rows;      ///< that may get another column
 };
 
 /// Sum over all rows.
 double totalCost(const std::pmr::vector<int>& column_of_row, const AssignmentCosts& costs);
 
 /// Bound from below of how much dearer the assignment becomes once an open row may only have what
-/// `row_cost` allows, which is not what it has: the first step of the path to its new place, and
-/// the last one to its old place (AugmentingPath). kForbidden: there is no other place.
+/// `row_cost` allows, which is not what it has: the first step of the path to its new column, and
+/// the last one to its old column (AugmentingPath). kForbidden: there is no other column.
 double leastIncrease(int row, const RowCost& row_cost, const AssignmentCosts& costs,
                      const PricedAssignment& assignment);
 

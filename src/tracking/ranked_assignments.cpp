@@ -203,7 +203,7 @@ void RankedAssignments::State::split(int part) {
   }
 }
 
-/// The row that must differ stays first; of the others those come first where another place costs
+/// The row that must differ stays first; of the others those come first where another column costs
 /// most, so that the largest parts have the dearest best, and most of them are never searched.
 void RankedAssignments::State::orderRows(int part) {
   const int kept = parts_[part].position + (parts_[part].row == kNone ? 0 : 1);

@@ -10,7 +10,7 @@
 
 namespace datmo {
 
-/// One hypothesis of a cluster with one reading of its objects, and the ways to go on from it: its
+/// One hypothesis of a cluster with one interpretation of its objects, and its continuations: its
 /// assignments of observations to targets, best first. Only those that give a target to each
 /// observation that needs one. All that it is made of must outlive it.
 class RankedHypothesis {

@@ -29,7 +29,7 @@ bool mayCover(const Object& object, const Box2& target, const SplitMergeOptions&
   return widened(object.box, options.margin).contains(target.centre.position());
 }
 
-/// Another reading of some objects: the observations that take their place.
+/// Another interpretation of some objects: the observations that replace them.
 struct Alternative {
   std::vector<std::size_t> sources;  ///< rising
   std::vector<std::size_t> observations;
@@ -153,7 +153,7 @@ bool overlap(const std::vector<std::size_t>& a, const std::vector<std::size_t>& 
   return !common.empty();
 }
 
-/// The reading with the alternative in the place of its sources.
+/// The interpretation with the alternative in place of its sources.
 Interpretation replaced(const Interpretation& objects, const Alternative& alternative) {
   Interpretation result;
   std::set_difference(objects.begin(), objects.end(), alternative.sources.begin(),

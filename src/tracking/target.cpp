@@ -7,7 +7,7 @@ namespace datmo {
 
 namespace {
 
-/// The first object tells where it is; that it may have any velocity is an assumption.
+/// The first object gives its position; that it may have any velocity is an assumption.
 ImmFilter birth(const Object& object, const PositionMeasurement& measured,
                 const TargetOptions& options, const std::optional<TransitionModel>& transitions) {
   StateEstimate estimate;
@@ -22,7 +22,7 @@ ImmFilter birth(const Object& object, const PositionMeasurement& measured,
           transitions};
 }
 
-/// How many times in a row two sensors saw it move; who sees it alone tells nothing new.
+/// How many times in a row two sensors saw it move; one sensor alone adds nothing.
 int sightsAfter(int before, const Object& object, double least_free_share) {
   if (object.sensors.size() < 2) {
     return before;
@@ -70,7 +70,7 @@ void TargetOptions::visit(OptionVisitor& visitor) {
                  fused_free_share, {0.0, 1.0});
   visitor.integer({"fused_vehicle_sights", "1",
                    "times in a row that this is so before it is known of a vehicle, and of what "
-                   "has no class yet; others at first sight (thesis 3.3.4: all)"},
+                   "has no class yet; others at the first detection (thesis 3.3.4: all)"},
                   fused_vehicle_sights, {1, 100});
   visitor.number({"fused_history", "s",
                   "who was followed for longer must have a significant velocity besides"},

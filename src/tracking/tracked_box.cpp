@@ -13,8 +13,8 @@ constexpr double kUnknownSideVariance = kQuarterTurn * kQuarterTurn * kUniformVa
 /// Velocities of successive scans are nearly the same information: logarithm of odds of one.
 constexpr double kMostOddsOfOneVelocity = 2.0;
 
-/// Part of the way from the sides that the filter's centre rests on to those seen now, in one scan:
-/// the filter believes the new ones little as long as the size between them is not known.
+/// Share of the step from the sides that the filter's centre rests on to those seen now, in one
+/// scan: the filter believes the new ones little as long as the size between them is not known.
 constexpr double kHandover = 0.3;
 
 /// The other axis must be as likely as this to become the forward one: no flips to and fro.
@@ -44,7 +44,7 @@ struct SeenAxis {
   }
 };
 
-/// An object, told in the axes of the box that are nearest to its own.
+/// An object, given in the axes of the box that are nearest to its own.
 struct SeenBox {
   double heading;  ///< rad, of the object's axis that is nearest to the box's heading
   std::array<SeenAxis, 2> axes;
@@ -65,7 +65,8 @@ SeenBox seenFrom(double heading, const Object& object) {
            SeenAxis{across ? box.length : box.width, variance(1), variance(3)}}};
 }
 
-/// The centre along one axis is best told by `middle of the sides seen + share * (size - extent)`.
+/// The centre along one axis is best estimated by `middle of the sides seen + share * (size -
+/// extent)`.
 struct AxisMeasurement {
   double share;     ///< -0.5 to 0.5
   double variance;  ///< m^2, of what is independent from scan to scan
@@ -192,7 +193,7 @@ Point2 TrackedBox::followVelocity(const Eigen::Vector2d& velocity,
   const Eigen::Vector2d across(-velocity.y() / speed, velocity.x() / speed);
   const double variance =
       across.dot(covariance * across) / (speed * speed) + options.slip_std * options.slip_std;
-  // Things move along their length: how much farther is the velocity from the other axis?
+  // Objects move along their length: how much farther is the velocity from the other axis?
   const double apart = std::abs(angleBetween(heading_, nearerDirection(direction, heading_)));
   const double odds = 0.5 * kQuarterTurn * (kQuarterTurn - 2.0 * apart) /
                       (variance + std::min(heading_variance_, kUnknownSideVariance));

@@ -17,7 +17,7 @@ void TrackerOptions::visit(OptionVisitor& visitor) {
   visitor.group("duplicates", [&] { duplicates.visit(visitor); });
   visitor.toggle({"require_motion", "",
                   "only what evidently moves becomes a track; off: everything that exists, as for "
-                  "detectors that tell road users from other things"},
+                  "detectors that distinguish road users from other objects"},
                  require_motion);
   constexpr Bounds kHits{1, 100};
   visitor.integer(

@@ -10,7 +10,7 @@ namespace {
 /// Least weight of a row, as a share of its prior's.
 constexpr double kLeastWeight = 0.1;
 
-/// Of a step so long that a mode is hardly ever kept, no rate can be told.
+/// Of a step so long that a mode is hardly ever kept, no rate can be estimated.
 constexpr double kLeastKept = 1e-3;
 
 JumpCounts operator+(const JumpCounts& a, const JumpCounts& b) {
@@ -175,7 +175,7 @@ void TransitionModel::update(const ModeVector& before, const ModeVector& likelih
   const ModeMatrix joint = before.asDiagonal() * matrix_ * likelihoods.asDiagonal();
   const double evidence = joint.sum();
   if (!(evidence > 0.0)) {
-    return;  // less than a double can tell
+    return;  // less than a double resolves
   }
   JumpCounts all = counts();
   for (int from = 0; from < kMotionModes; ++from) {

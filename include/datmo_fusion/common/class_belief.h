@@ -14,7 +14,7 @@ using ClassProbabilities = std::array<double, kObjectClasses>;
 /// contradicts all that the other says nothing is left: all are equally likely.
 ClassProbabilities jointBelief(const ClassProbabilities& a, const ClassProbabilities& b);
 
-/// What an object is, from all that was said of its class until now (Bayes). Before anything was
+/// What an object is, from all class reports so far (Bayes). Before anything was
 /// said all classes are equally likely.
 ///
 /// No class ever becomes impossible: a classifier that errs once tends to err on the same object
@@ -24,8 +24,8 @@ class ClassBelief {
   ClassBelief();
 
   /// One more observation: the class, with a probability of 0 to 1 that it is right; the other
-  /// classes share the rest equally. An unknown class tells nothing, nor does a probability that is
-  /// not above chance (one in kObjectClasses).
+  /// classes share the rest equally. An unknown class carries no information, nor does a
+  /// probability that is not above chance (one in kObjectClasses).
   void update(ObjectClass observed, double probability);
 
   const ClassProbabilities& probabilities() const { return probabilities_; }

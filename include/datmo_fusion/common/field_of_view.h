@@ -4,7 +4,8 @@
 
 namespace datmo {
 
-/// What a sensor looks at that tells objects, not beams: a camera or a detector in point clouds.
+/// Field of view of a sensor that reports objects, not beams: a camera or a detector in point
+/// clouds.
 struct FieldOfView {
   Pose2 sensor_in_base;
   double least_bearing = -kPi;  ///< rad, about the sensor, from its x axis to the left

@@ -33,7 +33,7 @@ inline constexpr double kUnknownHeadingVariance = kPi * kPi * kUniformVariance;
 enum class BoxSide : std::uint8_t { kFront, kRear, kLeft, kRight };
 inline constexpr std::size_t kBoxSides = 4;
 
-/// Variance of a side that was not seen: the object may reach farther, out of sight.
+/// Variance of a side that was not seen: the object may extend farther, unseen.
 inline constexpr double kHiddenSide = std::numeric_limits<double>::infinity();
 
 /// One object that a sensor sees in one measurement, without memory of earlier ones.
@@ -50,7 +50,7 @@ struct Object {
   DynamicState dynamic_state = DynamicState::kUnknown;
   double moving_fraction = 0.0;  ///< 0 to 1, share of the points where the map is free
   /// Logarithm of the odds that it is an object at all, over those of the average detection, by
-  /// what its detector says of it; 0: the detector says nothing.
+  /// as its detector reports it; 0: not reported.
   double log_odds = 0.0;
   /// s: how long after the list's stamp it was seen (negative: before), the mean time of its
   /// points. What moves is where it was then.
@@ -70,7 +70,7 @@ struct ObjectList {
   Stamp stamp;
   std::vector<Object> objects;
   std::vector<SensorView>
-      views;  ///< of sensors that tell objects, not beams; not listed: not known
+      views;  ///< of sensors that report objects, not beams; not listed: not known
 };
 
 }  // namespace datmo

@@ -49,7 +49,7 @@ class OptionVisitor {
   /// Options that stand under a common key: `name/…`.
   void group(const std::string& name, const std::function<void()>& visit_members);
 
-  /// The same options for each of several things, under the name of each: `name/lidar/…`,
+  /// The same options for each of several entries, under the name of each: `name/lidar/…`,
   /// `name/stereo/…`. A name that is set but was not there is one more entry, with the defaults of
   /// `Options`.
   template <typename Options>

@@ -28,7 +28,7 @@ struct ScanField {
   double first_bearing = 0.0;  ///< of beam 0
   double beam_spacing = 0.0;   ///< from a beam to the next one; negative: it is to the right
   std::uint32_t beams = 0;     ///< 0: nothing is known of the field
-  double least_range = 0.0;    ///< m, nearer things give no valid measurement
+  double least_range = 0.0;    ///< m, nearer objects give no valid measurement
   double free_range =
       0.0;             ///< m, a beam without return is known free up to here; 0: it says nothing
   double range = 0.0;  ///< m, nothing is seen farther away
@@ -51,7 +51,7 @@ inline Point2 stepAcross(const Ray& ray, double beam_spacing) {
   return beam_spacing * Point2(-along.y(), along.x());
 }
 
-/// What the map says of the place where a beam ends (thesis 3.1.2, 3.3.1).
+/// State of the end point of a beam in the map (thesis 3.1.2, 3.3.1).
 enum class PointState : std::uint8_t {
   kStatic = 0,   ///< an obstacle is known there
   kMoving = 1,   ///< it has been seen free: whatever is there came in

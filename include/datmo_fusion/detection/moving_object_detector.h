@@ -21,13 +21,13 @@ struct MovingObjectDetectorOptions {
 /// Objects that move, or may move, in a scan that was split by the map (thesis 3.3.1): segments of
 /// neighbouring end points that the map does not know as static, each with a box and its
 /// covariance, and how well each of its sides is known. A side that beams ended on is known to the
-/// range noise; one that only the end of another side tells, to the gap between two beams there; a
-/// side that could not be seen is kHiddenSide. Where an end was seen, the box reaches half a gap
-/// beyond the last point: as far as is expected.
+/// range noise; one that is only known as the end of another side, to the gap between two beams
+/// there; a side that could not be seen is kHiddenSide. Where an end was seen, the box reaches half
+/// a gap beyond the last point: as far as is expected.
 ///
-/// Objects come with dynamic state kMoving (the map has seen their place free), kUnknown (nothing
-/// was known of their place: a tracker finds out) or kStatic (nothing was known of their place, but
-/// it joins on to something static). Objects by rising beam index. No state from scan to scan.
+/// Objects come with dynamic state kMoving (the map has seen their position free), kUnknown
+/// (nothing was known of their position: the tracker decides) or kStatic (nothing was known of it,
+/// but it joins on to something static). Objects by rising beam index. No state from scan to scan.
 class MovingObjectDetector {
  public:
   /// Throws OptionError.

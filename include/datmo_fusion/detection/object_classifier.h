@@ -8,7 +8,7 @@
 
 namespace datmo {
 
-/// How large the things of one kind are: upright boxes.
+/// Size distribution of one kind of object: upright boxes.
 struct KindSize {
   double share = 0.0;                       ///< relative to the other kinds
   double height = 0.0, height_sigma = 0.0;  ///< m

@@ -13,7 +13,7 @@ struct SurfaceEnd {
 };
 
 /// Where a surface ends that the beams of a scan met up to one of its points: between that point
-/// and the place where the next beam would have met it, if that beam went by and saw farther.
+/// and the point where the next beam would have met it, if that beam passed and reached farther.
 class SegmentEnds {
  public:
   /// Of a scan, which must live on. `range_sigma` (m): standard deviation of a range. Surfaces with
@@ -23,7 +23,7 @@ class SegmentEnds {
 
   /// The end of the surface that goes on from a point of the scan along a unit vector, away from
   /// the object; its direction is known to `heading_std` (rad, at least 0). Nothing where the end
-  /// was not seen: something nearer hides it, the surface goes on (as far as the scan tells), the
+  /// was not seen: something nearer hides it, the surface continues (as far as the scan shows), the
   /// field of view ends, the next beam's measurement is not valid, or no next beam on this side
   /// meets the surface.
   std::optional<SurfaceEnd> beyond(const ScanPoint& last, const Point2& along,

@@ -81,7 +81,7 @@ struct StereoObjects {
 ///
 /// The road's plane is found and what stands on it is looked at in columns of the camera's level
 /// image: the surfaces in each column, several behind each other, are grouped over columns; each
-/// group is fitted with a box (fitBox) and told what it is by its size (ObjectClassifier). What is
+/// group is fitted with a box (fitBox) and classified by its size (ObjectClassifier). What is
 /// larger than road users, or more probably anything else, is left out.
 ///
 /// What an object's points have in common of the depth's noise is in its position's covariance,
@@ -92,7 +92,7 @@ struct StereoObjects {
 /// against it, but looking like a road user is no proof of one. `points` are the near outline, left
 /// to right. Objects come from left to right as far as they begin, with dynamic state kUnknown.
 ///
-/// A cloud may be dense or thinned, organised or not: how dense it is, it tells itself. Not thread
+/// A cloud may be dense or thinned, organised or not: its density is estimated from it. Not thread
 /// safe. Keeps the last road plane from cloud to cloud.
 class StereoObjectDetector {
  public:

@@ -23,10 +23,10 @@ CrossCovariance evenCrossCovariance(const CovariancePair& covariances, double co
 ///
 /// Process noise that both share makes their errors alike, measurements make them differ: with the
 /// gains K the recursion is (1 - K_a H) (F P_ab F' + Q) (1 - K_b H)'. A linear filter has 1 - K H =
-/// P_after (F P_before F' + Q)^-1, which its covariances tell without its gain; where there was
-/// no measurement it is 1.
+/// P_after (F P_before F' + Q)^-1, which follows from its covariances without its gain; where there
+/// was no measurement it is 1.
 ///
-/// Exact for Kalman filters of the model `motion` whose covariances are told before and after each
+/// Exact for Kalman filters of the model `motion` whose covariances are known before and after each
 /// step. Of an IMM filter it is an approximation: its covariance also grows by the spread of its
 /// modes, where no error is passed on any more (the factor is kept at 1 or less); and of a step
 /// with other times of measurement than its ends.

@@ -4,7 +4,7 @@
 
 namespace datmo {
 
-/// What one source says of whether an object is there.
+/// What one source reports on the existence of an object.
 struct ExistenceWitness {
   bool has_track = false;
   double existence = 0.0;              ///< 0 to 1, by its own tracker; of no use without track

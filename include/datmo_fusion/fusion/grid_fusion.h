@@ -8,7 +8,7 @@
 
 namespace datmo {
 
-/// How what several sensors say of a cell becomes one statement.
+/// Rule that combines the evidence of several sensors on a cell.
 enum class FusionRule {
   kWeightedSum,     ///< mean of those that know the cell, by weight (thesis eq. 3.2.5)
   kPriority,        ///< the word of the first that sees the cell: vision, then lidar (eq. 3.2.6)

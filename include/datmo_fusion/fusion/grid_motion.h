@@ -8,7 +8,7 @@ namespace datmo {
 /// The grid as the vehicle would have seen it at another time, in the same window.
 ///
 /// `old_base_in_new`: pose of the vehicle at the grid's stamp in its frame at `stamp`. Each cell
-/// takes what was known of the place of its centre; no occupied cell is lost by rounding. A free
+/// takes what was known at its center; no occupied cell is lost by rounding. A free
 /// cell within `mover_way` (m, 0 or more: how far a mover may have come in between) of an occupied
 /// one, from centre to centre, becomes unknown: whoever stood beside it may be there now.
 SensorGrid movedGrid(const SensorGrid& grid, Stamp stamp, const Pose2& old_base_in_new,

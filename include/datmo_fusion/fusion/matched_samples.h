@@ -10,7 +10,7 @@ namespace datmo {
 
 enum class WhyMissing {
   kSilent,    ///< it has said nothing for `silent_after`
-  kNoneNear,  ///< it speaks, but had nothing within `tolerance` when it was asked
+  kNoneNear,  ///< it publishes, but had nothing within `tolerance` of the requested stamp
   kNoMotion,  ///< it had, but how the vehicle moved in between is not known
 };
 

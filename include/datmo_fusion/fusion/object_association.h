@@ -33,8 +33,8 @@ struct ObjectPairing {
 };
 
 /// Compares along each of two axes (those of the surer heading) the sides that both saw; where no
-/// side is common, how far apart the parts are that were seen, which tells little, for the size is
-/// not known. Of what moves by itself the places may differ by `object_speed` times the seconds
+/// side is common, how far apart the visible parts are, which is weak evidence, for the size is
+/// not known. Positions of moving objects may differ by `object_speed` times the seconds
 /// between them, as a standard deviation. Symmetric.
 ObjectPairing pairing(const Object& a, const Object& b, const ObjectAssociationOptions& options);
 

@@ -6,9 +6,9 @@ namespace datmo {
 
 /// Two objects that two sensors saw, taken for one, in the frame of both (thesis 3.3.3).
 ///
-/// Position and size: each sensor measures the places of the sides that it saw, with covariance
+/// Position and size: each sensor measures the positions of the sides that it saw, with covariance
 /// A P A' + V, where P moves the box as a whole (A: to each side) and V holds the sides' own
-/// variances. The places are fused in information form, which for points is the thesis's
+/// variances. The positions are fused in information form, which for points is the thesis's
 /// (x_a / P_a + x_b / P_b) / (1 / P_a + 1 / P_b). A side that one did not see is as the other saw
 /// it; one that neither saw is no nearer than either surely says. The time the object is seen at
 /// (`delay`) is weighted as its position is: right for all constant velocities.

@@ -64,16 +64,16 @@ struct ObjectFusionResult {
 /// Lists of objects of several sources -> one list (thesis 3.3.3).
 ///
 /// Every list is moved by the vehicle's own motion to where the vehicle is at the reference's
-/// stamp; its objects stay where they were at their own time, which `delay` tells. Then each list
+/// stamp; its objects stay where they were at their own time, which `delay` gives. Then each list
 /// in turn is associated with what there is (associate), pairs are fused (combined), and all other
 /// objects kept.
 ///
 /// That it is an object at all: seen by one more source, the log-odds rise by
 /// log(detection_probability / coincidence); not seen by one that looked there (its view, with what
 /// it saw as occluders; of the scanner the scan) they fall by log(1 - p), p being that it would
-/// have been seen. Where beams end on static points in the place of an object of another source, it
-/// stands still: known before the association, so that it is not joined with what moves beside it.
-/// So does a pole, unless it was seen to move.
+/// have been seen. Where beams end on static points at the position of an object of another source,
+/// it stands still: known before the association, so that it is not joined with what moves beside
+/// it. So does a pole, unless it was seen to move.
 ///
 /// Neither the order of a list's objects nor anything before matters. No state.
 class ObjectFuser {

@@ -10,10 +10,10 @@
 
 namespace datmo {
 
-/// Covariance of a place that a sensor measured by range and bearing (thesis 3.3.3), in the frame
+/// Covariance of a position measured by range and bearing (thesis 3.3.3), in the frame
 /// of `from_sensor`.
 ///
-/// @param from_sensor m, from the sensor to the place
+/// @param from_sensor m, from the sensor to the position
 /// @param range_variance m^2
 /// @param bearing_variance rad^2
 Eigen::Matrix2d rangeBearingCovariance(const Point2& from_sensor, double range_variance,
@@ -34,8 +34,8 @@ struct PositionCovarianceOptions {
   /// the same length.
   void check(const std::string& name) const;
 
-  /// m^2, at a place (m) seen from a sensor, both in one frame, by the bin of its range; beyond the
-  /// last bin as in that. Not for empty lists (std::out_of_range).
+  /// m^2, at a position (m) relative to a sensor, both in one frame, by the bin of its range;
+  /// beyond the last bin as in that. Not for empty lists (std::out_of_range).
   Eigen::Matrix2d at(const Point2& place, const Point2& sensor) const;
 };
 

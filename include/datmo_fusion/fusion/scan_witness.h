@@ -18,22 +18,22 @@ struct ScanWitnessOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What a scan says of the place of an object, as shares of the beams that look at it. The rest is
+/// Evidence of a scan at the position of an object, as shares of the beams toward it. The rest is
 /// hidden by what is nearer, blind, outside the field, or ends there on what is not static.
 struct PlaceTestimony {
   double static_share = 0.0;   ///< end there on what the map knows as static
-  double through_share = 0.0;  ///< pass through all of the place
+  double through_share = 0.0;  ///< pass through the whole object's position
   double beams = 0.0;          ///< expected on an object of this width, at least 0
 
   /// How many of them do not end on something that may move there.
   double beamsElsewhere() const { return beams * (static_share + through_share); }
 };
 
-/// What a planar scan that was split by the map says of objects that the scanner's list does not
+/// Evidence of a labeled planar scan on objects that the scanner's list does not
 /// contain, but another sensor's. Vehicle's frame (base_link) at the scan's stamp.
 ///
-/// The other sensor knows the place of the object only so well, and in range worse than across. A
-/// point lies on it if it is no farther from its box than the standard deviation of the place in
+/// The other sensor's position of the object is uncertain, in range more than across. A
+/// point lies on it if it is no farther from its box than the standard deviation of the position in
 /// that direction, also where a side is seen at a flat angle; a beam passes through it if it ends
 /// clearly behind the far side; one that ends before both is hidden, and says nothing of what is
 /// behind.
@@ -45,7 +45,7 @@ class ScanWitness {
   /// `motion_std`: m, how far the object may have moved by itself since it was seen, at least 0.
   PlaceTestimony testimony(const Object& object, double motion_std) const;
 
-  /// Whether the beams on its place end on what is static.
+  /// Whether the beams at its position end on static points.
   bool standsStill(const PlaceTestimony& testimony) const {
     return testimony.static_share >= options_.static_share;
   }

@@ -42,7 +42,7 @@ enum class Serving {
 /// leads to one set, as soon as every other live source has spoken of its stamp or a later one, or
 /// after `longest_wait`; of each other source the sample nearest in time is in the set, of two
 /// equally near ones the earlier. While the reference is silent the next live source by name takes
-/// its place; it has it back when it speaks again.
+/// its role; it has it back when it publishes again.
 ///
 /// A sample that serves once is kept for the next set if that is nearer to it, as far as is known
 /// by then.
@@ -71,7 +71,7 @@ class SourceMatcher {
   /// std::invalid_argument for a source that there is not.
   void add(const std::string& source, Stamp stamp, std::shared_ptr<const Payload> payload);
 
-  /// The next set, by rising stamp; none if nothing is ready. To be asked until there is none.
+  /// The next set, by rising stamp; none if nothing is ready. Call it until there is none.
   /// `now`: time of the data, the newest stamp that the caller has seen.
   std::optional<Matched> next(Stamp now);
 

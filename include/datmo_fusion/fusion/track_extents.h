@@ -10,9 +10,9 @@ namespace datmo {
 /// Two tracks of one object at one time, one of which may have seen less of it, such as the rear of
 /// a vehicle ahead: along each axis of the surer heading the shorter box is made as long as the
 /// other one, as far as that one's extent is known and no guess, which the variance of its own
-/// centre tells. The side that faces its sensor stays where it is, and the centre moves: what a
-/// sensor has not seen lies away from it (as in TrackedBox, within one track). Where the sensor is
-/// abreast, neither side faces it and the centre stays.
+/// center alone allows. The side that faces its sensor stays where it is, and the centre moves:
+/// what a sensor has not seen lies away from it (as in TrackedBox, within one track). Where the
+/// sensor is abreast, neither side faces it and the centre stays.
 ///
 /// The longer box may be too long: the variance of the centre along the axis grows by that of a
 /// uniform distribution between both (of all that is possible, abreast).

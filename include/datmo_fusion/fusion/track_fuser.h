@@ -84,19 +84,20 @@ struct TrackFusionResult {
 /// All tracks are brought to one time. Which of them are one object is decided by what they did
 /// until now (TrackAssociation), the states of those are fused (combined), and the fused track has
 /// an id of its own, which stays while one source loses the object and finds it again. That it
-/// exists: fusedExistence, by what each source could see, as it tells with its tracks.
+/// exists: fusedExistence, by what each source could see, as published with its tracks.
 ///
 /// What is published, of the tracks that are likely enough to exist (thesis 3.4.2):
 ///
-///   - fused_and_beyond: those that all sources have, or had, that can see the place, and two
+///   - fused_and_beyond: those that all sources have, or had, that can see the position, and two
 ///     sensors at least; and those of one source, `beyond`, where no other can see. The thesis's
 ///     list.
 ///     One that comes from there into another's view stays for as long as that needs to confirm it.
 ///   - confirmed_by_all: the first of these alone. For very noisy sensors.
-///   - union: all. `sensors` tells who sees them.
+///   - union: all. `sensors` lists who sees them.
 ///
-/// Of two at one place, of different sources, that have not been taken for one object yet, one is
-/// published: no two bodies are at one place. A source whose view is not known is never missed.
+/// Of two at one position, of different sources, that are not associated yet, one is
+/// published: two bodies cannot be at one position. A source whose view is not known is never
+/// missed.
 ///
 /// Not thread safe; stamps rise.
 class TrackFuser {
@@ -106,7 +107,7 @@ class TrackFuser {
   ~TrackFuser();
 
   /// The tracks at `stamp`, of the newest lists of all sources that speak. A list may have been
-  /// given before; it is no new evidence then. Tracks that do not tell their sensors are their
+  /// given before; it is no new evidence then. Tracks that do not name their sensors are their
   /// source's own. All sources must be in the options (else std::out_of_range).
   TrackFusionResult fuse(Stamp stamp, const std::vector<SourceTracks>& sources);
 

@@ -6,7 +6,7 @@
 
 namespace datmo {
 
-/// Where the hits around a place lie: the local surface with more than the grid's resolution.
+/// Distribution of the hits around a point: the local surface with more than the grid's resolution.
 struct HitDistribution {
   double hits = 0.0;
   Point2 mean = Point2::Zero();                          ///< m, map frame

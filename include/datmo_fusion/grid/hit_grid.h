@@ -20,9 +20,9 @@ struct HitGridOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// How often beams have ended in each cell around the vehicle, whatever the map says of their ends
-/// (thesis 3.5): kerbs and other lasting things stand out, as nothing else is hit again and again
-/// at one place.
+/// How often beams have ended in each cell around the vehicle, whatever their state in the map
+/// (thesis 3.5): curbs and other permanent obstacles stand out, as nothing else is hit again and
+/// again at one position.
 class HitGrid {
  public:
   /// Throws OptionError, also for more cells than any memory holds.
@@ -61,7 +61,7 @@ class HitGrid {
   }
 
   /// Whether the 3 x 3 cells around a cell have been hit for `least_age`: longer than what moves
-  /// stays at a place.
+  /// stays at a position.
   bool isLasting(CellIndex index) const { return isLasting(cells_.atOrEmpty(index)); }
 
   /// Forgets all, as at the start.

@@ -32,7 +32,7 @@ struct OccupancyMapOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What the map takes in of an instantaneous grid, all in the vehicle's frame.
+/// What the map is updated with from an instantaneous grid, all in the vehicle's frame.
 struct GridSight {
   const SensorGrid* grid = nullptr;   ///< its free cells are free
   std::vector<Point2> surfaces;       ///< m, exact points on surfaces that stand still
@@ -65,7 +65,7 @@ class OccupancyMap {
     return static_cast<double>(cells_.atOrEmpty(cell).occupancy);
   }
 
-  /// What the map says of a beam that ends at this point, m (thesis 3.3.1; there without kUnknown,
+  /// State in the map of a beam that ends at this point, m (thesis 3.3.1; there without kUnknown,
   /// footprint, neighbourhood and age). `half_footprint`: from the beam's axis to its edge at this
   /// range, m; what it hit may lie anywhere between. One static cell there makes the point static;
   /// it is moving only if the whole footprint has been seen free.
@@ -83,7 +83,7 @@ class OccupancyMap {
   void update(const Scan& scan, const std::vector<PointState>& states, const Pose2& base_in_map);
 
   /// Takes in an instantaneous grid seen from `base_in_map` (thesis 3.2.5, eq. 3.2.7), as the scan
-  /// above with its cells in place of beams. Its exact points tell where surfaces lie within their
+  /// above with its cells in place of beams. Its exact points give where surfaces lie within their
   /// cells, so that scans can be matched with them; its other cells are occupied and no more.
   void update(const GridSight& sight, const Pose2& base_in_map);
 

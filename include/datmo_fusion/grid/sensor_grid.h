@@ -15,7 +15,7 @@ namespace datmo {
 using Percent = std::int8_t;
 inline constexpr Percent kUnknownPercent = -1;
 
-/// As likely occupied as free: a sensor looked there and could not tell.
+/// As likely occupied as free: a sensor observed the cell without a decision.
 inline constexpr Percent kUndecidedPercent = 50;
 
 inline bool isOccupied(Percent percent) { return percent > kUndecidedPercent; }
@@ -26,7 +26,7 @@ inline Percent toPercent(double probability) {
   return static_cast<Percent>(std::lround(100.0 * probability));
 }
 
-/// What one sensor, or several fused, say at one time of the places around the vehicle: an
+/// What one sensor, or several fused, measured at one time around the vehicle: an
 /// instantaneous occupancy grid (thesis 3.2). Its frame is the vehicle's (base_link) at its stamp;
 /// the window stands still in it, so that grids of the same window differ in nothing but content.
 class SensorGrid {

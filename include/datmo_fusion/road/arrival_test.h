@@ -17,10 +17,10 @@ struct ArrivalTestOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// How sure it is that what is seen at a place came there, and was not there all the time: the
-/// logarithm of the odds of "something came, and the place was free before" over "the place itself
-/// reflects now and then" (a kerb, a hedge, paint), by what scans saw of it before. When it came
-/// is the likeliest time (a generalised likelihood ratio: Page 1954; Basseville and Nikiforov,
+/// Evidence that what is seen at a point has entered free space, and was not there before: the
+/// logarithm of the odds of "something entered, and the point was free before" over "the point
+/// itself reflects now and then" (a kerb, a hedge, paint), by what scans saw of it before. When it
+/// came is the likeliest time (a generalised likelihood ratio: Page 1954; Basseville and Nikiforov,
 /// Detection of abrupt changes, 1993); what was seen since then counts only to find it.
 class ArrivalTest {
  public:

@@ -49,7 +49,7 @@ struct DroppedObject {
 /// Takes objects on and beyond the road's borders that seem to move for false alarms (thesis
 /// 3.5.1), unless they move consistently there (thesis 2.4, 6.2): a pedestrian on the footpath, a
 /// car out of a driveway. What a mover leaves and enters was seen free, and a kerb was not
-/// (ArrivalTest): that is told from the first sight on, before anybody could have tracked it.
+/// (ArrivalTest): that is decided from its first detection on, before it could be tracked.
 ///
 /// An object lies on a border or beyond if all of its points do; by the thesis, if a corner of its
 /// rectangle does, and however it moves. Where no border is known the road is taken to go on as it

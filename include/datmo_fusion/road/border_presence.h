@@ -4,9 +4,9 @@
 
 namespace datmo {
 
-/// Where along the vehicle's way one side has a border, in equal stations.
+/// Where along the vehicle's path one side has a border, in equal stations.
 struct SidePresence {
-  double first_station = 0.0;   ///< m, way that the vehicle has driven at the middle of station 0
+  double first_station = 0.0;   ///< m, distance driven at the middle of station 0
   double station_length = 1.0;  ///< m
   /// 0 to 1 for each station, from behind the vehicle to ahead of it: that a border runs there; 0.5
   /// where nothing is known.
@@ -15,7 +15,7 @@ struct SidePresence {
 
 /// Both sides at one time.
 struct BorderPresence {
-  double way = 0.0;  ///< m that the vehicle has driven up to now
+  double way = 0.0;  ///< m, distance driven up to now
   SidePresence left;
   SidePresence right;
 };

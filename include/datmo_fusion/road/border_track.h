@@ -57,7 +57,7 @@ class BorderTrack {
   int correct(const std::vector<BorderHit>& hits);
 
  private:
-  /// Variance by which the road goes its own way within a distance from the anchor, m^2.
+  /// Variance by which the road deviates within a distance from the anchor, m^2.
   double wander(double along) const;
 
   BorderTrackOptions options_;

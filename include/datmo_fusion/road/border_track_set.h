@@ -27,7 +27,7 @@ class BorderTrackSet {
   const std::vector<FollowedBorder>& borders() const { return borders_; }
 
   /// Takes all lines on to the next scan, drops those that are over, and looks for new ones where
-  /// none explains what was hit: on one side and from one place each time, by turns.
+  /// none explains what was hit: on one side and from one station each time, by turns.
   void update(const BorderScan& scan, const HitGrid& hits, const BorderSearch& search);
 
   void clear();

@@ -59,27 +59,27 @@ class FollowedBorder {
   /// infinite where nothing says that it goes on there.
   double distanceOf(std::size_t beam) const;
 
-  /// Whether a place (m, map frame) lies within a distance (m) of the line where something has been
+  /// Whether a point (m, map frame) lies within a distance (m) of the line where something has been
   /// seen of it, or where it was tried if it is refuted.
   bool explains(const Point2& place, double distance) const;
 
-  /// Takes in what the scan tells of the line; `is_nearest`, one for each beam: of all lines this
+  /// Updates the line with the scan; `is_nearest`, one for each beam: of all lines this
   /// one is nearest to the beam's end.
   void update(const BorderScan& scan, const std::vector<bool>& is_nearest);
 
-  /// Whether it is of no use any more: all of it lies behind or across the way, it is too unsure,
+  /// Whether it is of no use any more: all of it lies behind or across the path, it is too unsure,
   /// or it has been refuted for long.
   bool isOver(const Pose2& vehicle) const;
 
   /// The curve about its anchor, where it may be published or looked at.
   const CurveTable& table() const { return *table_; }
 
-  /// m across; where it is more than most_sigma nothing is said of it.
+  /// m across; where it is more than most_sigma nothing is published.
   double sigmaAt(double along) const;
 
  private:
   /// Whether the line may go on there, `inside` (m) within the ends of where it may at all.
-  /// Whether the end of a beam tells of a border: what passes by makes no new one.
+  /// Whether the end of a beam is evidence of a border: what passes by makes no new one.
   bool tellsOf(const BorderScan::Beam& beam) const;
   bool reaches(double along, double inside = 0.0) const;
   void findReach();

@@ -27,18 +27,19 @@ struct IntersectionDetectorOptions {
 /// Tells whether the vehicle is at an intersection: where, on one side or both, there is no border
 /// for the width of a street at least, where there was one before.
 ///
-/// The thesis (3.5.2) takes any scan without borders for one. Here the openings along the way of
+/// The thesis (3.5.2) takes any scan without borders for one. Here the openings along the path of
 /// the vehicle are evidence for a hidden Markov model with two states, on the road and at an
-/// intersection, that goes on with the way driven and not with time: one that stands keeps its
-/// state, and a few wrong stations make none. A border that was lost, one that never was, a gap in
-/// a row of cars and a yard are no openings.
+/// intersection, that advances with the distance driven and not with time: one that stands keeps
+/// its state, and a few wrong stations make none. A border that was lost, one that never was, a gap
+/// in a row of cars and a yard are no openings.
 class IntersectionDetector {
  public:
   /// Throws OptionError.
   explicit IntersectionDetector(const IntersectionDetectorOptions& options);
 
-  /// Takes in where the borders are now; the way driven rises, or all starts again. The stations
-  /// reach some metres (`least_border`) behind the vehicle at least, and as far ahead as is known.
+  /// Updates with where the borders are now; the distance driven rises, or all starts again. The
+  /// stations reach some metres (`least_border`) behind the vehicle at least, and as far ahead as
+  /// is known.
   void update(const BorderPresence& presence);
 
   /// 0 to 1, that the vehicle is at an intersection.
@@ -51,12 +52,12 @@ class IntersectionDetector {
   void reset();
 
  private:
-  using BorderEnd = std::optional<double>;  ///< m, way driven where the last border ended
+  using BorderEnd = std::optional<double>;  ///< m, distance driven where the last border ended
 
   /// What is known of one side of the road that was driven.
   struct PassedSide {
     BorderEnd border_end;
-    double bordered = 0.0;  ///< m of way with a border, of late
+    double bordered = 0.0;  ///< m of recent distance with a border
   };
 
   void pass(const SidePresence& side, double way, double step, PassedSide& passed) const;
@@ -64,7 +65,7 @@ class IntersectionDetector {
   /// Logarithm of the odds that the side is open beside the vehicle; 0 where nothing is known.
   double openness(const SidePresence& side, double way, PassedSide& passed) const;
   bool isBorder(const SidePresence& side, int station, int toward) const;
-  /// Of the stations between both places (m), none of them farther than a street's width.
+  /// Of the stations between both arc lengths (m), none of them farther than a street's width.
   double meanOpenness(const SidePresence& side, double way, double begin, double end) const;
 
   IntersectionDetectorOptions options_;

@@ -19,7 +19,7 @@ struct PresenceHistoryOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Where along the vehicle's way there are borders, by the evidence of the followed lines. What
+/// Where along the vehicle's path there are borders, by the evidence of the followed lines. What
 /// lies behind stays as it was when the vehicle passed it: a turn does not change the road before
 /// it.
 class PresenceHistory {
@@ -43,7 +43,7 @@ class PresenceHistory {
   PresenceHistoryOptions options_;
   BorderPresence presence_;
   std::optional<Pose2> vehicle_;             ///< map frame
-  std::optional<Pose2> counted_;             ///< map frame, up to where the way is counted
+  std::optional<Pose2> counted_;             ///< map frame, up to where the distance is counted
   std::vector<std::optional<double>> told_;  ///< log odds of one side's stations, by this scan
 };
 

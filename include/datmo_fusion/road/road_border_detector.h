@@ -36,7 +36,7 @@ struct RoadBorderDetectorOptions {
 };
 
 /// Finds the borders of the road in what scans of a planar scanner have hit, follows them, and
-/// tells where they open into an intersection (thesis 3.5).
+/// detects where they open into an intersection (thesis 3.5).
 class RoadBorderDetector {
  public:
   /// Throws OptionError.

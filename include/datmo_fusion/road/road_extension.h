@@ -18,7 +18,7 @@ struct RoadExtensionOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Where the road ends at places beside which no border is known: there the nearest known border is
+/// Where the road ends beside stretches without a known border: there the nearest known border is
 /// taken to go straight on, over the mouth of a side street, past what hides it, and for a time
 /// after the last of it was seen. A guess: good enough to ask who is out there how he came there.
 class RoadExtension {
@@ -28,7 +28,7 @@ class RoadExtension {
   /// The road as it is known now, and the vehicle in its frame.
   void update(const RoadModel& road, const Pose2& base_in_map);
 
-  /// Where a place (m, map frame) lies beside the border of one side that goes on; none if no
+  /// Where a point (m, map frame) lies beside the border of one side that goes on; none if no
   /// border of that side is known nearby.
   std::optional<BorderOffset> offset(RoadSide side, const Point2& place) const;
 

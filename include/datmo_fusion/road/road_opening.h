@@ -27,7 +27,7 @@ struct RoadOpening {
 
 /// The openings about a vehicle: runs of stations where rather no border is, behind one where a
 /// border is (a road whose border was never seen has none). The road is taken to be straight from
-/// the vehicle on; `borders` (map frame) tell how far from it the openings lie.
+/// the vehicle on; `borders` (map frame) give how far from it the openings lie.
 std::vector<RoadOpening> openingsOf(const BorderPresence& presence,
                                     const std::vector<RoadBorder>& borders,
                                     const Pose2& base_in_map, const RoadOpeningOptions& options);

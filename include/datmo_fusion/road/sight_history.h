@@ -20,21 +20,21 @@ struct SightHistoryOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// A place in the map, and the way things run there: a kerb reflects a beam where the beam crosses
-/// it, which for a flat beam may be some way along from the place.
+/// A point in the map, and the direction of the surface there: a curb reflects a beam where the
+/// beam crosses it, which for a grazing beam may be some distance along from the point.
 struct SightPlace {
   Point2 position = Point2::Zero();    ///< m, map frame
   Point2 direction = Point2::UnitX();  ///< of length 1
 };
 
-/// What one scan says of a place.
+/// What one scan observed at a point.
 enum class Sight {
-  kNothing,  ///< it looked elsewhere, or something hid the place
-  kFree,     ///< a beam went through the line along which things run there
+  kNothing,  ///< not in view, or occluded
+  kFree,     ///< a beam crossed the line of the surface
   kHit,      ///< a beam ended on it
 };
 
-/// The beams of the last scans in the map frame, to ask what each of them saw of a place.
+/// The beams of the last scans in the map frame, to look up what each of them observed at a point.
 class SightHistory {
  public:
   explicit SightHistory(const SightHistoryOptions& options);
@@ -48,7 +48,7 @@ class SightHistory {
   /// How long before the newest scan one was taken, s; 0: the newest. `back` below size().
   double age(std::size_t back) const;
 
-  /// What that scan saw of a place, by the beam that looks there.
+  /// What that scan observed at a point, by the beam toward it.
   Sight look(std::size_t back, const SightPlace& place) const;
 
  private:

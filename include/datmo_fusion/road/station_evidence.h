@@ -20,7 +20,7 @@ struct StationEvidenceOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// A piece of way, m.
+/// An interval of arc length, m.
 struct WayInterval {
   double first = 0.0;
   double last = 0.0;
@@ -33,8 +33,8 @@ class StationEvidence {
  public:
   explicit StationEvidence(const StationEvidenceOptions& options);
 
-  /// Nothing is known of what lies outside of `interval` any more, and it may be told of what lies
-  /// inside.
+  /// Nothing is known of what lies outside of `interval` any more, and evidence may be added of
+  /// what lies inside.
   void keepWithin(const WayInterval& interval);
 
   /// One beam of the scan that ended on the line there (m along it), or went through.
@@ -45,7 +45,7 @@ class StationEvidence {
   /// not.
   void addDepth(double along, bool deep);
 
-  /// Takes in what the beams of one scan have told since the last call.
+  /// Applies the evidence of one scan's beams since the last call.
   void endScan();
 
   /// 0 where nothing is known.

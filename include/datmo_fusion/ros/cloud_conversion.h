@@ -52,9 +52,9 @@ inline constexpr double kMostFocalLength = 1e5;    ///< px
 inline constexpr double kLeastBaseline = 0.005;    ///< m
 inline constexpr double kMostBaseline = 10.0;      ///< m
 
-/// What the right camera's info says of a rectified pair: focal length P[0], baseline -P[3] / P[0],
-/// image borders from its width, its region of interest and P[2]. Binning is taken into account.
-/// The noise of depths is left at 0: no message tells it.
+/// Geometry of a rectified pair from the right camera's info: focal length P[0], baseline -P[3] /
+/// P[0], image borders from its width, its region of interest and P[2]. Binning is taken into
+/// account. The noise of depths is left at 0: no message contains it.
 ///
 /// Throws InputError (`bad_camera_info`) for what no stereo camera is like: the left camera's info,
 /// whose baseline is 0, among it.

@@ -73,7 +73,7 @@ void stripSlashes(Message& message) {
 void noteSlash(const std::string& input, const std::string& slashed, StageMonitor& monitor);
 
 /// A message as the stages take it: itself, or a copy without slashes at the front of its frame
-/// ids, which the monitor is told. `input`: its topic.
+/// ids, which is reported to the monitor. `input`: its topic.
 template <typename Message>
 boost::shared_ptr<const Message> withPlainFrames(const std::string& input,
                                                  const boost::shared_ptr<const Message>& message,

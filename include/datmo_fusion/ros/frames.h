@@ -13,7 +13,7 @@ namespace datmo {
 
 /// How a planar scanner is mounted on the vehicle.
 struct ScannerMount {
-  Pose2 scanner_in_base;     ///< the scanner's place and x axis, seen from above
+  Pose2 scanner_in_base;     ///< the scanner's position and x axis, seen from above
   bool upside_down = false;  ///< its bearings count to the right
   double tilt = 0.0;         ///< rad, 0 to pi/2, between the scan plane and the ground
 };

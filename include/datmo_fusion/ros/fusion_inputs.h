@@ -36,7 +36,7 @@ struct LeftOut {
   std::string reason;  ///< as of an InputError
   std::size_t count = 0;
   std::string what;      ///< "bad views"
-  std::string expected;  ///< of such a thing
+  std::string expected;  ///< of such a source
 };
 
 /// Throws OptionError for a source whose topic could not be, or would be one of the stage's own.

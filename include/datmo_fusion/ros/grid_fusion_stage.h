@@ -35,7 +35,7 @@ struct GridFusionOutput {
 };
 
 /// GridMatcher and GridFuser between messages: the same ones serve the nodelet and the bag runner.
-/// What is let in, and what is said of a source that is missed: FusionInputs. When the clock jumps
+/// What is accepted, and how a missing source is reported: FusionInputs. When the clock jumps
 /// back all state is forgotten.
 class GridFusionStage : public Stage {
  public:
@@ -56,7 +56,7 @@ class GridFusionStage : public Stage {
   /// Newest pose of the SLAM; read only where the options say that the vehicle has no odometry.
   void takePose(const geometry_msgs::PoseWithCovarianceStamped& message);
 
-  /// The next set of grids that is ready, fused; none if there is none. To be asked until there is
+  /// The next set of grids that is ready, fused; none if there is none. Call it until there is
   /// none, after each grid and from time to time: nobody knows before whether one that is waited
   /// for still comes. `now`: ROS time.
   std::optional<GridFusionOutput> next(Stamp now);

@@ -64,8 +64,8 @@ class GridSlamStage : public Stage {
   GridSlamStage(const GridSlamStageOptions& options, const TransformBuffer& transforms,
                 StageMonitor& monitor);
 
-  /// Newest odometry, the vehicle's own or that of MotionStage, of which an Imu alone tells no
-  /// speed; not read where the options say that nothing tells the motion.
+  /// Newest odometry, the vehicle's own or that of MotionStage, of which an Imu alone gives no
+  /// speed; not read where the options name no source of motion.
   void takeOdometry(const nav_msgs::Odometry& message);
 
   /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan. None if it was dropped, or waits for
@@ -78,7 +78,7 @@ class GridSlamStage : public Stage {
   /// low-level fusion.
   std::optional<GridSlamOutput> takeGrid(const nav_msgs::OccupancyGrid& message);
 
-  /// The map after the last scan, whose stamp this is; null if it is not its turn. To be asked for
+  /// The map after the last scan, whose stamp this is; null if it is not its turn. To be requested
   /// when the scan's results are on their way: the chain waits for them, and nobody for the map,
   /// which may take as long to write as all stages need for the scan.
   nav_msgs::OccupancyGridPtr mapIfDue(Stamp stamp);

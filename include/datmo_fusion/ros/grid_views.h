@@ -16,9 +16,9 @@
 namespace datmo {
 
 /// Draws grids side by side for a person to compare: in each panel the vehicle is at the same
-/// place, forward is up, and a metre is as long. Free is light, occupied dark, unknown a bluish
-/// gray; where sources contradict each other, the panel `conflict` is red. The panel `map` is
-/// turned into the vehicle's frame by the last pose; all others are of that frame already.
+/// position, forward is up, and the scale is the same. Free is light, occupied dark, unknown a
+/// bluish gray; where sources contradict each other, the panel `conflict` is red. The panel `map`
+/// is turned into the vehicle's frame by the last pose; all others are of that frame already.
 ///
 ///     |<----- panel ----->|<gap>|
 ///     +-------------------+     +--

@@ -58,10 +58,10 @@ visualization_msgs::MarkerArray markersOf(const ObjectArray& objects,
 /// For each track, in namespaces of their own: the shape of its class in the color of the class
 /// ("track bodies", "track heads"), a box where that is not known, pale what stands, the fainter
 /// the less likely the track exists; its outline on the ground ("track outlines"), and one in the
-/// color of who saw it last ("track sensors"); an arrow as long as the way of `arrow_time` ("track
-/// velocities"); above it "#id class speed", the speed of what moves ("track labels"); the ellipse
-/// on the ground that holds the true position with 95 % ("track covariances"); the way it came in
-/// the last `path_time` ("track paths").
+/// color of who saw it last ("track sensors"); an arrow as long as the distance of `arrow_time`
+/// ("track velocities"); above it "#id class speed", the speed of what moves ("track labels"); the
+/// ellipse on the ground that holds the true position with 95 % ("track covariances"); its past
+/// path in the last `path_time` ("track paths").
 visualization_msgs::MarkerArray markersOf(const TrackArray& tracks, const MarkersOptions& options);
 
 /// For each stretch of the road's borders a line ("road borders"), orange on the left, pink on the
@@ -70,8 +70,8 @@ visualization_msgs::MarkerArray markersOf(const TrackArray& tracks, const Marker
 /// fromMessage does.
 visualization_msgs::MarkerArray markersOf(const RoadBorders& road, const MarkersOptions& options);
 
-/// "intersection" and its probability ("intersection"), at the vehicle's place at the scan; nothing
-/// where the road is at none. Throws InputError (`bad_pose`).
+/// "intersection" and its probability ("intersection"), at the vehicle's position at the scan;
+/// nothing where the road is at none. Throws InputError (`bad_pose`).
 void addIntersection(const RoadBorders& road, const SplitScanMessage& scan,
                      const MarkersOptions& options, visualization_msgs::MarkerArray& markers);
 

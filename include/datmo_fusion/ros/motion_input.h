@@ -15,8 +15,8 @@ namespace datmo {
 /// Throws InputError (`wrong_frame`) unless the odometry is of the vehicle, in its frame for that.
 void checkFrames(const nav_msgs::Odometry& message, const FrameOptions& frames);
 
-/// The motion of the vehicle between two stamps, as its odometry tells it; where its speed is not
-/// measured, as the poses of the SLAM do.
+/// The motion of the vehicle between two stamps, as its odometry measures it; where its speed is
+/// not measured, as the poses of the SLAM do.
 class MotionInput {
  public:
   /// Throws OptionError.

@@ -6,7 +6,7 @@
 
 namespace datmo {
 
-/// What tells how the vehicle moves, for all stages: section `motion` of a sensor set.
+/// Source of the vehicle's motion, for all stages: section `motion` of a sensor set.
 struct MotionOptions {
   std::string source = "odometry";
   bool odometry_pose = false;

@@ -45,7 +45,7 @@ inline MotionStageOptions readStageOptions(const OptionValues& /*values*/,
 /// speed is not known: 0 with a variance that says so, and the pose only turns.
 ///
 /// Angular velocities and twists are turned from their sensor's frame to the vehicle's by the mount
-/// that tf or `mounts` tells; one without frame_id is taken to be in the vehicle's.
+/// from tf or `mounts`; one without frame_id is taken to be in the vehicle's.
 class MotionStage : public Stage {
  public:
   using Options = MotionStageOptions;

@@ -32,11 +32,11 @@ struct ObjectFusionStageOptions {
 };
 
 /// Matched lists of objects and ObjectFuser between messages: the same ones serve the nodelet and
-/// the bag runner. What is let in, and what is said of a source that is missed: FusionInputs. When
+/// the bag runner. What is accepted, and how a missing source is reported: FusionInputs. When
 /// the clock jumps back all state is forgotten.
 ///
 /// A list is fused once: a source slower than the reference is not heard twice. One that was in no
-/// set is counted. Objects and views that do not tell their sensor are taken for their source's
+/// set is counted. Objects and views that do not name their sensor are taken for their source's
 /// own; views that are not valid are left out, and said.
 class ObjectFusionStage : public Stage {
  public:
@@ -57,11 +57,11 @@ class ObjectFusionStage : public Stage {
   /// Newest pose of the SLAM; read only where the options say that the vehicle has no odometry.
   void takePose(const geometry_msgs::PoseWithCovarianceStamped& message);
 
-  /// What the scanner saw; it is asked of objects at exactly its stamp.
+  /// What the scanner saw; it serves for objects at exactly its stamp.
   void takeSplitScan(const SplitScanMessage& message);
 
   /// The next set of lists that is ready, fused, at the reference's stamp; null if there is none.
-  /// To be asked until null, after each list and from time to time: nobody knows before whether one
+  /// Call it until null, after each list and from time to time: it is not known before whether one
   /// that is waited for still comes. `now`: ROS time.
   ObjectArrayPtr next(Stamp now);
 

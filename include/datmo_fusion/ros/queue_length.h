@@ -14,7 +14,7 @@
 namespace datmo {
 
 /// How many messages of a type may wait, so that memory is bounded and a hiccup costs nothing: a
-/// second of what tells the motion (a fast Imu), a second of scans and what is made of them, and a
+/// second of motion input (a fast Imu), a second of scans and what is made of them, and a
 /// few clouds or images, of several MB each.
 template <typename Message>
 constexpr std::uint32_t queueLength() {

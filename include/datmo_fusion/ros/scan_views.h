@@ -15,7 +15,7 @@ namespace datmo {
 /// Where the vehicle was at its last scans, as the SLAM found out, and what it could see from
 /// there.
 ///
-/// tf tells the pose too, but only when the odometry that follows the scan has come: up to one of
+/// tf has the pose, too, but only when the odometry that follows the scan has come: up to one of
 /// its periods later, which is longer than all stages need for the scan.
 class ScanViews {
  public:
@@ -31,7 +31,7 @@ class ScanViews {
   std::optional<Pose2> pose(const std_msgs::Header& base, const std::string& fixed_frame) const;
 
   /// What the scanner could see at the stamp and from the frame of the header; null without a split
-  /// scan of that time, and where it does not tell its field. Valid until the next add().
+  /// scan of that time, and where its field is not known. Valid until the next add().
   const Visibility* visibility(const std_msgs::Header& base) const;
 
  private:

@@ -11,7 +11,7 @@
 namespace datmo {
 
 /// How the vehicle moves, for a stage with takeOdometry and takePose: odometry, or the poses of
-/// the SLAM where nothing tells the speed.
+/// the SLAM where no input gives the speed.
 template <typename MovingStage>
 void connectMotion(StagePorts& ports, const MotionOptions& motion, MovingStage& stage) {
   if (motion.hasSpeed()) {

@@ -36,7 +36,7 @@ struct TimingStatus {
   double most = 0.0;
 };
 
-/// Keeps count of what a stage takes in, drops and needs in time; says on the console what is
+/// Counts what a stage receives, drops and needs in time; reports on the console what is
 /// wrong, once for each cause. Not thread safe.
 class StageMonitor {
  public:
@@ -57,7 +57,7 @@ class StageMonitor {
   /// Something is wrong with a message or missing, but the stage goes on with it.
   void warned(const InputError& error);
 
-  /// A figure of the last result that tells its reader how well the stage does, with its unit:
+  /// A figure of merit of the last result, with its unit:
   /// "weakest direction [m]".
   void figure(const std::string& name, double value) { figures_[name] = value; }
 

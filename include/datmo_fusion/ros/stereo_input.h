@@ -15,7 +15,7 @@
 
 namespace datmo {
 
-/// What serves until a camera info has come, and what no message tells.
+/// What serves until a camera info has come, and what no message contains.
 struct StereoCameraOptions : DepthNoiseOptions {
   double focal_length = 0.0;             ///< px; 0: not known
   double baseline = 0.0;                 ///< m; 0: not known, or none

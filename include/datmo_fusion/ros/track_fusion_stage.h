@@ -20,18 +20,18 @@ struct TrackFusionStageOptions {
   SourceMatcherOptions matcher;
   TrackFuserOptions fuser;
 
-  /// A track tells where its object goes, so that a list serves until it is older than any delay of
-  /// a sensor, or a slower sensor's next list has come.
+  /// A track predicts where its object goes, so that a list serves until it is older than any delay
+  /// of a sensor, or a slower sensor's next list has come.
   TrackFusionStageOptions();
 
   void visit(OptionVisitor& visitor);
 };
 
 /// Matched lists of tracks and TrackFuser between messages: the same ones serve the nodelet and the
-/// bag runner. What is let in, and what is said of a source that is missed: FusionInputs. When the
+/// bag runner. What is accepted, and how a missing source is reported: FusionInputs. When the
 /// clock jumps back all state is forgotten; ids go on.
 ///
-/// A list serves until there is a nearer one of its source. Tracks that do not tell their sensor
+/// A list serves until there is a nearer one of its source. Tracks that do not name their sensor
 /// are taken for their source's own. Tracks and views that are not valid are left out, and said.
 class TrackFusionStage : public Stage {
  public:
@@ -47,7 +47,7 @@ class TrackFusionStage : public Stage {
   void takeTracks(const std::string& source, const TrackArray& message, Stamp now);
 
   /// The next set of lists that is ready, fused, at the reference's stamp; null if there is none.
-  /// To be asked until null, after each list and from time to time: nobody knows before whether one
+  /// Call it until null, after each list and from time to time: it is not known before whether one
   /// that is waited for still comes. `now`: ROS time.
   TrackArrayPtr next(Stamp now);
 

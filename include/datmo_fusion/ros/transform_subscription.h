@@ -10,7 +10,7 @@ namespace datmo {
 
 /// Feeds a TransformBuffer from /tf and /tf_static, in the callback queue of `node` (unlike
 /// tf2_ros::TransformListener, which has a thread of its own), so that whoever waits for a
-/// transform is told in the moment it is there.
+/// transform is passed on as soon as it is there.
 class TransformSubscription {
  public:
   /// `buffer` and `monitor` must outlive the subscription; `changed` is called after each message.

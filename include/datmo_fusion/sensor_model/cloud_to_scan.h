@@ -47,7 +47,7 @@ struct PlanarScan {
 
 /// A cloud of a 3D lidar -> the planar scan of what stands in a band of heights above the ground:
 /// the nearest point of each beam. It is an emulation: the lidar looks down, and so sees over low
-/// obstacles into places that a scanner at the bumper would not see.
+/// obstacles where a scanner at the bumper would not see any.
 ///
 /// The same cloud gives the same scan.
 class CloudToScan {

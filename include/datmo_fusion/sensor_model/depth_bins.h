@@ -7,7 +7,7 @@
 
 namespace datmo {
 
-/// Depth ahead of a camera cut into bins as fine as it can tell apart: half a standard deviation of
+/// Depth ahead of a camera cut into bins as fine as its resolution: half a standard deviation of
 /// the depth (for a stereo camera, uniform in disparity: Badino et al. 2007), but no finer than the
 /// cells need.
 class DepthBins {
@@ -37,7 +37,7 @@ class DepthBins {
   float farthest_ = 0.0F;
   float places_per_metre_ = 0.0F;
   std::vector<float> middles_;
-  std::vector<int> bin_at_;  ///< by place: half of the finest bin
+  std::vector<int> bin_at_;  ///< by depth, in halves of the finest bin
   std::vector<int> before_;
 };
 

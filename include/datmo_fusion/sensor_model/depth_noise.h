@@ -64,8 +64,8 @@ class InverseDepthMargin {
 
 /// What a camera measures depth by.
 enum class DepthPrinciple {
-  kStereo,           ///< a pair of cameras; the right one's info tells the baseline
-  kActiveStereo,     ///< a pair inside of a depth camera, whose info tells no baseline
+  kStereo,           ///< a pair of cameras; the right one's info has the baseline
+  kActiveStereo,     ///< a pair inside of a depth camera, whose info has no baseline
   kStructuredLight,  ///< a camera and a projector of a known pattern
   kTimeOfFlight,     ///< how long light travels
 };

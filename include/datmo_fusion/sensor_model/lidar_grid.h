@@ -18,7 +18,7 @@ struct LidarGridOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// One scan -> what it says of each cell around the vehicle: the inverse sensor model of a laser
+/// One scan -> its evidence on each cell around the vehicle: the inverse sensor model of a laser
 /// scanner (thesis 3.2.1, eq. 3.2.1). Free along each beam, as wide as the beam opens; occupied
 /// where it ends, across its width; unknown behind and where no beam looks.
 ///

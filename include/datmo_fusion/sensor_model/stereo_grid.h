@@ -61,7 +61,7 @@ struct StereoGridResult {
 
 class StereoEvidence;
 
-/// One cloud of a stereo or depth camera -> what it says of each cell around the vehicle
+/// One cloud of a stereo or depth camera -> its evidence on each cell around the vehicle
 /// (thesis 3.2.2).
 ///
 /// Method `cones`, the thesis's plain form on a flat road (eq. 3.2.2 to 3.2.4): points in the layer
@@ -73,7 +73,7 @@ class StereoEvidence;
 /// stochastic occupancy grids and dynamic programming, 2007); the road is a plane estimated from
 /// the points; free is only what enough lines of sight cross near the ground.
 ///
-/// A cloud may be dense or thinned, organised or not: how dense it is, it tells itself. Not thread
+/// A cloud may be dense or thinned, organised or not: its density is estimated from it. Not thread
 /// safe. Keeps the last road plane from cloud to cloud.
 class StereoGridModel {
  public:

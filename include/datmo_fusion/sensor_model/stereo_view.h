@@ -8,7 +8,7 @@
 
 namespace datmo {
 
-/// A place as the camera sees it from above: m from the camera along its horizontal heading, and to
+/// A point as the camera sees it from above: m from the camera along its horizontal heading, and to
 /// the right of it.
 struct ViewedPlace {
   double forward = 0.0;
@@ -24,8 +24,8 @@ struct ViewedPoint {
   float height = 0.0F;
 };
 
-/// The camera brought level: however it is pitched, places are told by how far ahead and aside they
-/// are, and points by their height above the road. In this view a column of a level image is a
+/// The camera brought level: however it is pitched, points are given by how far ahead and aside
+/// they are, and points by their height above the road. In this view a column of a level image is a
 /// sector of constant right / forward, and a line of sight stays in its column.
 class StereoView {
  public:

@@ -7,17 +7,17 @@
 
 namespace datmo {
 
-/// Which places the SLAM takes for the obstacles of a fused grid.
+/// Which points the SLAM takes for the obstacles of a fused grid.
 enum class GridEnds {
   kScan,   ///< where a beam ends in an occupied cell: its end, exact to the range noise
   kCells,  ///< the cells' centres (thesis 3.2.5)
 };
 
-/// A scan, seen through the fused grid of the same time: what other sensors refute is gone from it,
-/// and what they add is there.
+/// A scan, corrected by the fused grid of the same time: what other sensors refute is removed,
+/// and what they add is included.
 struct FusedView {
   /// The beams. One that ended in a cell which is not occupied has no hit; one without a hit of its
-  /// own ends at the first occupied cell on its way. Blind beams stay blind, unless the whole scan
+  /// own ends at the first occupied cell along it. Blind beams stay blind, unless the whole scan
   /// is.
   Scan scan;
   /// For each ray of the scan: its end is a measurement of the scanner, not a cell.
@@ -33,8 +33,8 @@ struct FusedView {
 /// beams of its field out of the grid alone.
 FusedView viewThrough(const SensorGrid& grid, const Scan& scan, GridEnds ends);
 
-/// Those of the places (m, base frame) that are not connected with any of the `seeds` by occupied
-/// cells that touch: what does not belong to the same things.
+/// Those of the points (m, base frame) that are not connected with any of the `seeds` by occupied
+/// adjacent cells: what does not belong to the same objects.
 std::vector<Point2> apartFrom(const std::vector<Point2>& seeds, const SensorGrid& grid,
                               const std::vector<Point2>& places);
 

@@ -42,8 +42,8 @@ struct SlamResult {
 /// With low-level fusion the measurement is a grid fused from several sensors (thesis 3.2.5) beside
 /// the scan of the same stamp: beams end only where the grid is occupied, and the map takes its
 /// occupied and free cells. Where the pose comes from, what moves and where exactly a surface lies
-/// is still told by the scanner's own beams as far as the grid confirms them: the cells of others
-/// are coarse, and off by their depth's error, which would look like motion.
+/// is still decided by the scanner's own beams as far as the grid confirms them: the cells of
+/// others are coarse, and off by their depth's error, which would look like motion.
 ///
 /// Map frame: the vehicle's first pose is its origin. Not thread safe; scans in rising stamp order,
 /// which the caller ensures (StampGate).
@@ -61,7 +61,7 @@ class GridSlam {
   SlamResult process(const Scan& scan);
 
   /// Takes the next fused grid, in the vehicle's frame at the scan's stamp. `scan` without rays:
-  /// the scanner is silent, and the grid alone tells pose and movers.
+  /// the scanner is silent, and pose and movers come from the grid alone.
   SlamResult process(const SensorGrid& grid, const Scan& scan);
 
   const OccupancyMap& map() const { return map_; }
@@ -86,15 +86,15 @@ class GridSlam {
   /// Corrects the predicted pose by the scan; returns the scan as compensated for its motion.
   ///
   /// Without odometry the velocity comes from the matches. A scan that was compensated for a wrong
-  /// turn is matched at a wrong heading, which makes the next turn wrong the other way: of beams
-  /// that go all round, such errors never fade. So the scan is compensated again for the motion
-  /// that its own match tells.
+  /// turn is matched at a wrong heading, which makes the next turn wrong in the other direction: of
+  /// beams that go all round, such errors never fade. So the scan is compensated again for the
+  /// motion that its own match gives.
   Scan locate(const Measurement& measurement, SlamResult& result);
 
   /// m/s; for odometry that measures none.
   double estimatedSpeed() const { return filter_.velocity().forward_speed; }
 
-  /// Returns whether odometry told all of the motion.
+  /// Returns whether odometry covered all of the motion.
   bool predict(Stamp stamp);
 
   GridSlamOptions options_;

@@ -17,7 +17,7 @@ inline constexpr double kOdometryMemory = 10.0;
 struct OdometrySample {
   Stamp stamp;
   Twist2 twist;
-  /// Where the odometry has come to, if that is to tell the motion; without it the twist does.
+  /// Pose of the odometry, if the motion is to come from it; without it from the twist.
   std::optional<Pose2> base_in_odom = std::nullopt;
   /// false: the twist's yaw rate alone was measured, as by gyroscopes.
   bool speed_measured = true;

@@ -32,7 +32,7 @@ struct OdometryErrors {
 /// errors of its odometry (wheel radius, bias of the yaw-rate sensor), which the scan matches make
 /// observable. The thesis takes odometry as unbiased; a bias that each match has to take out again
 /// leaves a part of itself in the map at every scan. Without odometry the velocity is a state that
-/// the matches tell, and that changes by a random walk.
+/// the matches give, and that changes by a random walk.
 ///
 /// Called by GridSlam: predict, match, correct.
 class PoseFilter {
@@ -43,7 +43,7 @@ class PoseFilter {
   const OdometryErrors& errors() const { return errors_; }
   PoseWithCovariance pose() const;
 
-  /// As odometry measured it last, or else as the matches tell.
+  /// As odometry measured it last, or else from the matches.
   const Twist2& velocity() const { return velocity_; }
 
   /// After `seconds` (more than 0) of `motion`, measured by odometry and corrected by errors().

@@ -27,8 +27,8 @@ struct ScanMatcherOptions {
 /// A predicted pose of the base in the map.
 struct Prediction {
   PoseWithCovariance pose;  ///< its covariance positive definite
-  /// By odometry. It tells movers from what stands; without it, surfaces that have just come into
-  /// view count in full, because in a turn there may be no others.
+  /// By odometry. It separates movers from static surfaces; without it, surfaces that have just
+  /// come into view count in full, because in a turn there may be no others.
   bool measured = true;
 };
 
@@ -38,7 +38,7 @@ struct MatchQuality {
   double score = 0.0;      ///< 0 to 1, mean occupancy of the map where the scan's beams end
   bool accepted = false;   ///< false: the pose is the prediction alone
   /// m, standard deviation of the position that the match alone would give, in the direction that
-  /// it tells least of; infinite where it tells nothing (a corridor, a guard rail).
+  /// that it observes least; infinite where it observes nothing (a corridor, a guard rail).
   double weakest_sigma = std::numeric_limits<double>::infinity();
   bool degenerate = false;  ///< that direction was left to the prediction
 };
@@ -50,15 +50,15 @@ struct MatchResult {
 
 /// Finds the pose from which a scan fits the map best, around a predicted one.
 ///
-/// First the thesis's way (3.1.1, eq. 3.1.15 and 3.1.17): poses are drawn from the prediction, each
-/// is scored by the map's occupancy at the beams' ends, and the best one is taken. From there the
-/// pose is refined below the size of a cell by Gauss-Newton on the distances of the end points to
-/// the mean of the hits around them, weighed with their spread (the normal distributions transform:
-/// Biber & Strasser, 2003; Stoyanov et al. 2012), with the prediction as prior: first with all hits
-/// in the 3 x 3 cells around a point, which finds the way from afar but rounds off corners, then
-/// with those of the nearest cell. A direction of which the match tells next to nothing (along a
-/// corridor, a guard rail) is left to the prediction (solution remapping: Zhang, Kaess & Singh
-/// 2016), and shows in the covariance.
+/// First the thesis's method (3.1.1, eq. 3.1.15 and 3.1.17): poses are drawn from the prediction,
+/// each is scored by the map's occupancy at the beams' ends, and the best one is taken. From there
+/// the pose is refined below the size of a cell by Gauss-Newton on the distances of the end points
+/// to the mean of the hits around them, weighed with their spread (the normal distributions
+/// transform: Biber & Strasser, 2003; Stoyanov et al. 2012), with the prediction as prior: first
+/// with all hits in the 3 x 3 cells around a point, which has a wide basin of convergence but
+/// rounds off corners, then with those of the nearest cell. A direction that the match hardly
+/// observes (along a corridor, a guard rail) is left to the prediction (solution remapping: Zhang,
+/// Kaess & Singh 2016), and shows in the covariance.
 class ScanMatcher {
  public:
   /// Throws OptionError.
@@ -79,7 +79,7 @@ class ScanMatcher {
 
   struct Task;
 
-  /// The match around this pose, without the direction of which it tells next to nothing.
+  /// The match around this pose, without the direction that it hardly observes.
   Normal linearise(const Task& task, const Pose2& pose, Resolution resolution) const;
   Normal sumOf(const Task& task, const Pose2& pose, Resolution resolution) const;
   double score(const Task& task, const Pose2& pose) const;

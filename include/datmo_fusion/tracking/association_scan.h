@@ -13,7 +13,7 @@
 namespace datmo {
 
 /// What one target may have been seen as in one scan: an object of the scan; several of them, which
-/// are parts of one thing; or a part of one, which is several things.
+/// are parts of one object; or a part of one, which is several objects.
 struct Observation {
   Object object;                     ///< fixed frame
   std::vector<std::size_t> sources;  ///< the scan's objects that it was made of, rising

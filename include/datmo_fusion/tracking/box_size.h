@@ -46,7 +46,7 @@ struct VisibleExtent {
 /// (mean and variance, by a Kalman filter) for each kind of object and each axis that its length
 /// may lie along, weighed by how well the kind had predicted what was seen (a static multiple
 /// model: Bar-Shalom, Li, Kirubarajan 2001, 11.6.2). So the rear of a car, 1.8 m wide, is taken for
-/// that of something 4 m long, and a leg for part of something small, before anything has told
+/// that of something 4 m long, and a leg for part of something small, before anything has indicated
 /// their class (thesis 4.2.4 needs the class for that).
 ///
 /// Where an end is hidden, the visible extent is a lower bound: the size grows to it where it is
@@ -55,7 +55,7 @@ class BoxSize {
  public:
   explicit BoxSize(const BoxSizeOptions& options);
 
-  /// Takes in a class with its probability, 0 to 1; kUnknown tells nothing.
+  /// Updates with a class and its probability, 0 to 1; kUnknown has no effect.
   void classify(ObjectClass object_class, double probability);
 
   /// Takes in what was seen along the first and the second axis, `seconds` >= 0 after the last

@@ -13,7 +13,7 @@ struct ClassBySpeedOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What a moving object is, by what sensors say of it and by its speed: seen from behind, a cyclist
+/// What a moving object is, by the sensors' classes and by its speed: seen from behind, a cyclist
 /// is as wide and as high as somebody who walks. What looks like a person and is too fast to walk
 /// rides, and what is too fast to ride has a motor.
 ///

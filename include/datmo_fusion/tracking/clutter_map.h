@@ -15,14 +15,14 @@ struct ClutterMapOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// How many objects that belong to no confirmed target there are about each place seen from the
-/// vehicle: false alarms, and things that begin to be seen. Learnt from the scans before
+/// How many objects that belong to no confirmed target there are around each position relative to
+/// the vehicle: false alarms, and objects that come into view. Learnt from the scans before
 /// (Musicki, Suvorova, Morelande, Moran, Clutter map and target tracking, 2005).
 class ClutterMap {
  public:
   explicit ClutterMap(const ClutterMapOptions& options);
 
-  /// Objects of no target in one scan, 1/m^2, at a place in the vehicle's frame; 0 where nothing
+  /// Objects of no target in one scan, 1/m^2, at a position in the vehicle's frame; 0 where nothing
   /// was learnt.
   double density(const Point2& place) const { return densities_.atOrEmpty(cellAt(place)); }
 

@@ -34,7 +34,7 @@ HypothesisCluster singleTarget(TrackTree tree);
 /// Both clusters as one, with the `most` likeliest pairs of their hypotheses.
 HypothesisCluster joined(HypothesisCluster a, HypothesisCluster b, std::size_t most);
 
-/// Removes all hypotheses that differ from the best one in what they say of the scan `history`
+/// Removes all hypotheses that differ from the best one in how they explain the scan `history`
 /// scans ago (N-scan pruning: Blackman 2004; thesis 3.3.4). `history` to kMostScanHistory; 0 leaves
 /// the best one alone.
 void pruneHistory(HypothesisCluster& cluster, std::size_t history);
@@ -42,8 +42,8 @@ void pruneHistory(HypothesisCluster& cluster, std::size_t history);
 /// Removes leaves of which this is true, in all hypotheses.
 void removeLeaves(HypothesisCluster& cluster, const std::function<bool(const Target&)>& isLost);
 
-/// Sorts the hypotheses, joins equal ones, and removes leaves and trees that are in none. A cluster
-/// may be left without trees.
+/// Sorts the hypotheses, merges equal ones, and removes leaves and trees that are in none. A
+/// cluster may be left without trees.
 void tidy(HypothesisCluster& cluster);
 
 /// The groups of targets that have shared no object since `oldest_scan`, not even through one that

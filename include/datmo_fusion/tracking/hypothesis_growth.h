@@ -19,7 +19,7 @@ struct HypothesisOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// One way to read the objects of a cluster: which observations there are. Each object of the
+/// One interpretation of the objects of a cluster: which observations there are. Each object of the
 /// cluster is a source of exactly one of them.
 using Interpretation = std::vector<std::size_t>;
 
@@ -34,7 +34,7 @@ struct GrowthContext {
   std::int64_t most_work;      ///< for each hypothesis, see RankedAssignments
 };
 
-/// The cluster after one more scan: of all ways to go on from its hypotheses, by each
+/// The cluster after one more scan: of all continuations of its hypotheses, by each
 /// interpretation, the likeliest `most_hypotheses` (Murty's ranking of each hypothesis's
 /// assignments, taken from all of them best first: Cox and Hingorani 1996). Interpretations: at
 /// least one, the first with the objects by themselves. Leaves must have their scores.

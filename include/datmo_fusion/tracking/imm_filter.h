@@ -41,9 +41,10 @@ ModeVector priorModeProbabilities(const ImmOptions& options);
 /// Interacting multiple models: a Kalman filter for each mode over one common state, mixed before
 /// each step (Blom and Bar-Shalom 1988; Bar-Shalom, Li, Kirubarajan 2001, 11.6.6; thesis 3.3.4).
 ///
-/// Who ceases to stand may have any velocity: what comes from the standing mode into another one is
-/// mixed in with ImmStep::start_variance on top. A mode of probability 0 takes no part, and costs
-/// nothing, until the transition probabilities lead to it. Of fixed size; copies are cheap.
+/// A target that ceases to stand may have any velocity: what comes from the standing mode into
+/// another one is mixed in with ImmStep::start_variance on top. A mode of probability 0 takes no
+/// part, and costs nothing, until the transition probabilities lead to it. Of fixed size; copies
+/// are cheap.
 class ImmFilter {
  public:
   /// All modes start from the same estimate. Probabilities sum to 1. With `transitions`, the filter
@@ -55,8 +56,8 @@ class ImmFilter {
   /// are after a missed detection.
   void predict(const ImmStep& step);
 
-  /// Each mode takes in the measurement and is weighed by how well it had predicted it; none that
-  /// was possible falls below `least_probability`, so that it can come back. Returns the
+  /// Each mode is updated with the measurement and weighted by how well it had predicted it; none
+  /// that was possible falls below `least_probability`, so that it can come back. Returns the
   /// logLikelihood of the measurement, as it was before.
   double update(const PositionMeasurement& measured, double least_probability);
 

@@ -25,7 +25,7 @@ struct PositionMeasurement {
 /// than 0: other coordinates of the same state.
 StateEstimate carriedOn(const StateEstimate& estimate, double seconds);
 
-/// What a measurement tells that was not expected.
+/// Innovation: measurement minus prediction.
 struct Innovation {
   Eigen::Vector2d residual;    ///< m, measured minus predicted
   Eigen::Matrix2d covariance;  ///< m^2, of the residual

@@ -41,30 +41,31 @@ bool mayBeAsFastAs(const StateEstimate& estimate, double significance, double sp
 ///    below 0 (CUSUM: Page, Continuous inspection schemes, 1954), so that one that starts to move
 ///    after a rest is found as quickly.
 /// 2. One object against chance: the track score (Sittler 1964; Blackman 2004), from the likelihood
-///    of each object in the motion filter, the density of false objects, what the detector says of
+///    of each object in the motion filter, the density of false objects, the detector's evidence of
 ///    it, and the misses where it could have been seen. Objects of a single point are mostly false,
 ///    so their density is higher.
-/// 3. It left its place: from where the first sum began to where it is now it reaches farther than
+/// 3. It left its position: from where the first sum began to where it is now it reaches farther
+/// than
 ///    something of its length that stands. A side that comes into view little by little, and goes
 ///    out of view again, is not motion. The more of its points lie where the map was free, the
-///    less it can have stood there half hidden: then the way alone counts. Along an axis neither
-///    end of which is seen there is no way at all: what is seen of a row of parked cars goes along
-///    with the vehicle.
+///    less it can have stood there half hidden: then the displacement alone counts. Along an axis
+///    neither end of which is seen there is no displacement at all: what is seen of a row of parked
+///    cars goes along with the vehicle.
 /// 4. Its estimated velocity is significant.
-/// 5. Of late it was hardly seen in places that are known to be static.
+/// 5. Recently it was hardly seen at positions that are known to be static.
 ///
 /// In both sums one scan counts for a limited amount, so that no outlier decides; points where the
-/// map is free count for motion, and a place that the map knows as static counts against it.
+/// map is free count for motion, and a position that the map knows as static counts against it.
 class MotionEvidence {
  public:
-  /// Of an object in the fixed frame, at its first sight.
+  /// Of an object in the fixed frame, at its first detection.
   MotionEvidence(const Object& object, const MotionEvidenceOptions& options);
 
   void predict(double seconds, const MotionEvidenceOptions& options);
 
-  /// Takes in an object in the fixed frame, its place, and how likely that place was by the motion
+  /// Updates with an object in the fixed frame, its position, and how likely that was by the motion
   /// filter before its update: logarithm of a density of 1/m^2. `detection_probability`: that it
-  /// would be seen at that place.
+  /// would be seen at that position.
   void update(const Object& object, const PositionMeasurement& measured,
               double moving_log_likelihood, double detection_probability,
               const MotionEvidenceOptions& options);
@@ -108,7 +109,7 @@ class MotionEvidence {
   Box2 longest_;
   int objects_ = 1;      ///< since the anchor
   double free_share_;    ///< mean over them
-  double static_share_;  ///< of the last ones, those in a place that is known to be static
+  double static_share_;  ///< of the last ones, those at a position that is known to be static
   PositionMeasurement standing_;
 };
 

@@ -11,7 +11,7 @@
 namespace datmo {
 
 /// Multiple hypothesis tracking (Reid 1979; Cox and Hingorani 1996; Blackman 2004; thesis 3.3.4):
-/// the tree of ways in which each target may have been seen, the global hypotheses of each cluster
+/// the tree of observations that may belong to each target, the global hypotheses of each cluster
 /// of targets that compete for objects, and pruning of decisions a few scans old.
 ///
 /// With one hypothesis, no scan history, and neither split nor merged objects it does the same as

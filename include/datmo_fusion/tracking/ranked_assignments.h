@@ -7,8 +7,8 @@
 
 namespace datmo {
 
-/// All assignments of one problem, the best first (Murty 1968), each found only when it is asked
-/// for.
+/// All assignments of one problem, the best first (Murty 1968), each found only when it is
+/// requested for.
 ///
 /// Every assignment that was returned splits the ones that are left into those that differ from it
 /// in the first row, those that agree there and differ in the second, and so on. With the

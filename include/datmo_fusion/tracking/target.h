@@ -35,7 +35,7 @@ struct TargetOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// That two things of which nothing is known are of the same class.
+/// That two objects of which nothing is known are of the same class.
 inline constexpr double kChanceOfClass = 1.0 / static_cast<double>(kObjectClasses);
 
 /// No observation of a scan.
@@ -72,8 +72,8 @@ class Target {
     return box_.measurementOf(object);
   }
 
-  /// That an object is of this target's class, by what is said of both; of one whose class is not
-  /// known it is chance: one in kObjectClasses.
+  /// That an object is of this target's class, by the classes reported for both; of one whose class
+  /// is not known it is chance: one in kObjectClasses.
   double sameClassProbability(const Object& object) const;
 
   bool evidentlyMoves(const TargetOptions& options) const {
@@ -83,9 +83,9 @@ class Target {
   /// Two sensors see it now, one of which sees it move (thesis 3.3.3), and nothing that it did
   /// before says that it stands.
   ///
-  /// The thesis takes that for a fact at first sight. But vehicles stand at every kerb, and what is
-  /// beside one, or an echo of the kerb below it, looks as if it moved: that one moves has to be
-  /// seen more than once. Who was followed for longer has shown by then whether it moves.
+  /// The thesis takes that for a fact at the first detection. But vehicles stand at every curb, and
+  /// what is beside one, or an echo of the kerb below it, looks as if it moved: that one moves has
+  /// to be seen more than once. Who was followed for longer has shown by then whether it moves.
   bool isSeenMovingByTwo(const TargetOptions& options) const;
 
   /// It was taken for a moving object because two sensors saw it so, and has had the time to show

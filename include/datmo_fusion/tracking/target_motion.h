@@ -26,7 +26,7 @@ TargetMotionOptions pedestrianMotion();
 TargetMotionOptions cyclistMotion();
 
 /// One linear motion over one time step: x' = transition x + w, w ~ N(0, noise). No motion depends
-/// on the place: the first two columns of the transition are those of the identity.
+/// on the position: the first two columns of the transition are those of the identity.
 struct LinearMotion {
   TrackCovariance transition;
   TrackCovariance noise;
@@ -48,8 +48,9 @@ LinearMotion constantAcceleration(const TargetMotionOptions& options, double sec
 /// Standing still over `seconds` >= 0: the position stays, but for a slow random walk of density
 /// `standing_density`, and velocity and acceleration go to zero exponentially, within
 /// `standing_fading`, up to a rest of `standing_speed_std` (m/s, and as much in m/s^2) that keeps
-/// the covariance regular. What velocity is left on the way does not move the position: this is the
-/// model of an object that has come to rest, not of how it brakes. Discretised exactly, as above.
+/// the covariance regular. What velocity is left during the step does not move the position: this
+/// is the model of an object that has come to rest, not of how it brakes. Discretised exactly, as
+/// above.
 LinearMotion standingStill(const TargetMotionOptions& options, double seconds);
 
 /// What is added to the variance of each component when an object ceases to stand: it may have any

@@ -20,7 +20,8 @@ struct BestTarget {
 struct AssociationCounts {
   std::uint64_t refused_births = 0;  ///< new objects that found no room
   std::uint64_t cut_hypotheses = 0;  ///< likely enough, but beyond the bounds
-  std::uint64_t hurried_steps = 0;   ///< that ran out of time, and took the single most likely way
+  std::uint64_t hurried_steps =
+      0;  ///< that ran out of time, and kept the single most likely hypothesis
 };
 
 /// The targets that are followed, and the decision which object of each scan is of which of them.

@@ -50,7 +50,7 @@ struct Track {
   Box2 box;               ///< centre is the state's position
   double height = 0.0;    ///< m, 0: not measured
   double yaw_rate = 0.0;  ///< rad/s
-  /// rad^2, of the box's heading; modulo pi until motion has told its sign.
+  /// rad^2, of the box's heading; modulo pi until motion has fixed its sign.
   double heading_variance = kUnknownHeadingVariance;
   bool moving = false;  ///< false: it has moved, and stands now
   ClassProbabilities class_probabilities{};

@@ -10,7 +10,7 @@ namespace datmo {
 /// 0 to 1, its covariance symmetric and positive definite.
 bool isValid(const Track& track);
 
-/// Whether something can be looked up in a fan: its numbers are finite, its place up to 1e9 m, its
+/// Whether a fan can be looked up: its numbers are finite, its position up to 1e9 m, its
 /// spacing is not 0, no beam reaches less than 0, and there are kMostBeams of them at most. One
 /// without beams is valid: nothing is known of the view.
 bool isValid(const ViewFan& fan);

@@ -11,10 +11,10 @@
 
 namespace datmo {
 
-/// Scans back to which the branches of a track tree can be told apart, at most.
+/// Scans back to which the branches of a track tree can be distinguished, at most.
 inline constexpr std::size_t kMostScanHistory = 8;
 
-/// One way in which a target may have been seen up to now: a leaf of its track tree.
+/// One sequence of observations of a target up to now: a leaf of its track tree.
 ///
 /// The tree itself is not stored. Of its nodes a leaf knows its own and those of the last scans,
 /// newest first; 0: before the target was first seen.
@@ -33,7 +33,7 @@ struct Leaf {
   }
 };
 
-/// All ways in which one target may have been seen; at least one.
+/// All observation sequences of one target; at least one.
 struct TrackTree {
   std::vector<Leaf> leaves;
 

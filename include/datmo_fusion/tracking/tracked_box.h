@@ -27,9 +27,10 @@ struct TrackedBoxOptions {
 /// detection and tracking for autonomous urban driving, 2009, section 3.1). So neither a side that
 /// comes into view nor a size that becomes better known is motion. The error of the size is the
 /// same in every scan, hence no measurement noise: it is a considered parameter of the filter
-/// (Schmidt 1966), whose part in the centre `centreCovariance` tells.
+/// (Schmidt 1966), whose part in the center is `centreCovariance`.
 ///
-/// The sides do not tell front from rear, nor surely length from width: motion does. Cheap to copy.
+/// The sides do not distinguish front from rear, nor surely length from width: motion does. Cheap
+/// to copy.
 class TrackedBox {
  public:
   /// From the first object, in the fixed frame.
@@ -38,7 +39,7 @@ class TrackedBox {
   /// To `seconds` >= 0 ahead.
   void predict(double seconds, const TrackedBoxOptions& options);
 
-  /// The centre of this box (m, fixed frame), as the sides seen of the object tell. Its covariance
+  /// The centre of this box (m, fixed frame), from the visible sides of the object. Its covariance
   /// has what differs from scan to scan; where the sides seen are not those of the last time, also
   /// what the unknown size makes of that.
   PositionMeasurement measurementOf(const Object& object) const;
@@ -48,9 +49,9 @@ class TrackedBox {
   /// while the sides that were seen stay where they are.
   Point2 update(const Object& object, double seconds, const TrackedBoxOptions& options);
 
-  /// Takes in a significant velocity (m/s, fixed frame) and its covariance: it tells which side is
-  /// the front, and the heading if it is surer than the sides. Returns by how much the centre
-  /// moves, as `update` does.
+  /// Updates with a significant velocity (m/s, fixed frame) and its covariance, which decides which
+  /// side is the front, and the heading if it is surer than the sides. Returns by how much the
+  /// centre moves, as `update` does.
   Point2 followVelocity(const Eigen::Vector2d& velocity, const Eigen::Matrix2d& covariance,
                         const TrackedBoxOptions& options);
 
@@ -63,7 +64,7 @@ class TrackedBox {
   /// rad^2, of the heading; where the sign is not known, modulo pi.
   double headingVariance() const;
 
-  /// Motion has told which of the two ends is the front.
+  /// Motion has decided which of the two ends is the front.
   bool signKnown() const { return sign_known_; }
 
   /// m^2, of length and width.

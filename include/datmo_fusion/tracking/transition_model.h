@@ -69,7 +69,7 @@ ModeMatrix transitionMatrix(const JumpCounts& counts, double seconds);
 /// "it was not in mode i", nothing counted, with 1 - sum_j x_ij. The mean of the mixture is p_ij +
 /// (x_ij - p_ij sum_l x_il) / (A + 1), which is the estimator of the paper. The paper counts one
 /// more observation of every row in every step; here the Dirichlet distribution that stands for the
-/// mixture has its total variance too, so that data that tell nothing change nothing.
+/// mixture has its total variance too, so that uninformative data change nothing.
 ///
 /// Beyond the paper: rows are kept as rates (JumpCounts), so that steps of all lengths teach the
 /// same; what was learnt fades towards the prior; no rate leaves its bounds.
@@ -112,7 +112,7 @@ class TransitionPriors {
   std::optional<TransitionModel> modelOf(ObjectClass object_class) const;
 
   /// The counts of a class with no more than the weight of learning/prior_exposure, so that a
-  /// target can go its own way.
+  /// target can deviate.
   JumpCounts of(ObjectClass object_class) const;
 
   /// Takes in what a target has shown; once, at its end. What any class shows is also the prior of

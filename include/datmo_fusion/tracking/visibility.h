@@ -45,15 +45,15 @@ class Visibility {
              const VisibilityOptions& options);
 
   /// By all of these fans, each a sensor's (see join()), which are valid (isValid); of none nothing
-  /// is known, and one without beams tells nothing.
+  /// is known, and one without beams carries no information.
   Visibility(const std::vector<ViewFan>& fans, const VisibilityOptions& options);
 
   /// Another sensor looked as well: from now on an object is detected if either sees it,
   /// independently.
   void join(const Visibility& other) { others_.push_back(other); }
 
-  /// That an object of this box is detected, averaged over the places where it may be: `sigma` is
-  /// the standard deviation of its centre along each axis (m, at least 0). Between
+  /// That an object of this box is detected, averaged over the positions where it may be: `sigma`
+  /// is the standard deviation of its centre along each axis (m, at least 0). Between
   /// `least_probability` and `most_probability`.
   double detectionProbability(const Box2& box, double sigma) const;
 
