@@ -57,7 +57,7 @@ void oneBigCluster(benchmark::State& state) {
   state.counters["cut"] = best.cut ? 1.0 : 0.0;
 }
 BENCHMARK(oneBigCluster)
-    ->ArgName("most_work")
+    ->ArgName("max_work")
     ->Arg(kUnlimitedWork)
     ->Arg(5000000)
     ->Unit(benchmark::kMillisecond);

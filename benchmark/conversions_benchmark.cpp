@@ -36,14 +36,14 @@ void scanFromMessage(benchmark::State& state) {
 }
 BENCHMARK(scanFromMessage)->ArgName("beams")->Arg(81)->Arg(641)->Unit(benchmark::kMicrosecond);
 
-void splitScanToMessage(benchmark::State& state) {
+void labeledScanToMessage(benchmark::State& state) {
   StreetDrive drive({static_cast<int>(state.range(0))});
-  const SplitScan scan = splitScan(drive.next(), PointState::kStatic);
+  const LabeledScan scan = labeledScan(drive.next(), PointState::kStatic);
   for (auto _ : state) {
     benchmark::DoNotOptimize(toMessage(scan, "base_link", "map"));
   }
 }
-BENCHMARK(splitScanToMessage)->ArgName("beams")->Arg(81)->Arg(641)->Unit(benchmark::kMicrosecond);
+BENCHMARK(labeledScanToMessage)->ArgName("beams")->Arg(81)->Arg(641)->Unit(benchmark::kMicrosecond);
 
 void mapToMessage(benchmark::State& state, Settings (*settings_of)()) {
   const Settings settings = settings_of();

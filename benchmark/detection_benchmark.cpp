@@ -13,13 +13,13 @@
 namespace datmo {
 namespace {
 
-SplitScan scanOfMovers(benchmark::State& state) {
+LabeledScan scanOfMovers(benchmark::State& state) {
   StreetDrive drive({static_cast<int>(state.range(0))});
-  return splitScan(drive.next(), PointState::kMoving);
+  return labeledScan(drive.next(), PointState::kMoving);
 }
 
 void segmentation(benchmark::State& state) {
-  const SplitScan scan = scanOfMovers(state);
+  const LabeledScan scan = scanOfMovers(state);
   const SegmentationOptions options;
   for (auto _ : state) {
     benchmark::DoNotOptimize(segmentPoints(scan.points, options));
@@ -35,9 +35,10 @@ std::vector<Point2> cornerOfCar(int points) {
   Random random(1);
   std::vector<Point2> corner;
   for (int i = 0; i < points; ++i) {
-    const double way = (kLength + kWidth) * i / points;
-    const Point2 place = way < kWidth ? Point2(0.0, kWidth - way) : Point2(way - kWidth, 0.0);
-    corner.emplace_back(place + Point2(random.normal(kNoise), random.normal(kNoise)));
+    const double arc_length = (kLength + kWidth) * i / points;
+    const Point2 position =
+        arc_length < kWidth ? Point2(0.0, kWidth - arc_length) : Point2(arc_length - kWidth, 0.0);
+    corner.emplace_back(position + Point2(random.normal(kNoise), random.normal(kNoise)));
   }
   return corner;
 }
@@ -53,7 +54,7 @@ void boxFit(benchmark::State& state) {
 BENCHMARK(boxFit)->ArgName("points")->Arg(3)->Arg(10)->Arg(100)->Unit(benchmark::kMicrosecond);
 
 void detection(benchmark::State& state) {
-  const SplitScan scan = scanOfMovers(state);
+  const LabeledScan scan = scanOfMovers(state);
   const MovingObjectDetector detector{MovingObjectDetectorOptions{}};
   for (auto _ : state) {
     benchmark::DoNotOptimize(detector.detect(scan));

@@ -56,13 +56,13 @@ BENCHMARK_CAPTURE(fusion, dempster_shafer, FusionRule::kDempsterShafer)
 void gridMotion(benchmark::State& state) {
   const SensorGrid grid = fullGrid(0);
   const Pose2 motion(-0.4, 0.01, -0.005);
-  const double mover_way = 0.01 * static_cast<double>(state.range(0));
+  const double mover_distance = 0.01 * static_cast<double>(state.range(0));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(movedGrid(grid, Stamp(), motion, mover_way));
+    benchmark::DoNotOptimize(movedGrid(grid, Stamp(), motion, mover_distance));
   }
 }
 BENCHMARK(gridMotion)
-    ->ArgName("mover_way")
+    ->ArgName("mover_distance")
     ->Arg(0)
     ->Arg(60)
     ->Arg(150)

@@ -33,13 +33,13 @@ void gridScroll(benchmark::State& state) {
   Point2 position = Point2::Zero();
   for (auto _ : state) {
     position += Point2(step, step);
-    map.centreOn(position);
+    map.centerOn(position);
   }
   benchmark::DoNotOptimize(map.occupancy({0, 0}));
   state.counters["edge_cells"] = map.window().columns;
 }
 BENCHMARK(gridScroll)
-    ->ArgNames({"metres", "cells"})
+    ->ArgNames({"meters", "cells"})
     ->ArgsProduct({{50, 100, 200, 400}, {0, 1, 2}})
     ->Unit(benchmark::kMicrosecond);
 

@@ -27,7 +27,7 @@ class FollowedTarget {
   void step() {
     filter_.predict(step_);
     benchmark::DoNotOptimize(filter_.estimate());
-    filter_.update(seen(), options_.least_probability);
+    filter_.update(seen(), options_.min_probability);
   }
 
   PositionMeasurement seen() {

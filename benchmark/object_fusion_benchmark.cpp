@@ -13,18 +13,18 @@ namespace datmo {
 namespace {
 
 /// Cars and pedestrians over the field of view of both sensors, as one of them sees them.
-std::vector<Object> objectsSeen(const std::vector<Box2>& truth, double sigma, Random& random) {
+std::vector<Object> observedObjects(const std::vector<Box2>& truth, double sigma, Random& random) {
   constexpr double kSideVariance = 0.01;
   std::vector<Object> objects;
   for (const Box2& box : truth) {
     Object object;
     object.box = box;
-    object.box.centre = Pose2(box.centre.x() + random.normal(sigma),
-                              box.centre.y() + random.normal(sigma), box.centre.heading());
+    object.box.center = Pose2(box.center.x() + random.normal(sigma),
+                              box.center.y() + random.normal(sigma), box.center.heading());
     object.position_covariance = Eigen::Matrix2d::Identity() * sigma * sigma;
     object.heading_variance = kSideVariance;
     object.side_variance = {kHiddenSide, kSideVariance, kSideVariance, kHiddenSide};
-    object.points.assign(10, box.centre.position());
+    object.points.assign(10, box.center.position());
     objects.push_back(object);
   }
   return objects;
@@ -52,13 +52,13 @@ void objectFusion(benchmark::State& state) {
     for (const Box2& box : roadUsers(count - seen.size(), random)) {
       seen.push_back(box);
     }
-    source.list.objects = objectsSeen(seen, 0.2, random);
+    source.list.objects = observedObjects(seen, 0.2, random);
   }
   sources[0].source = "lidar";
   sources[1].source = "stereo";
   sources[1].list.views = {{"stereo", {Pose2(1.5, 0.0, 0.0), -0.6, 0.6, 36.0, 60.0}}};
   StreetDrive drive({static_cast<int>(state.range(1))});
-  const SplitScan scan = splitScan(drive.next(), PointState::kStatic);
+  const LabeledScan scan = labeledScan(drive.next(), PointState::kStatic);
   const ObjectFuser fuser{ObjectFuserOptions()};
   for (auto _ : state) {
     benchmark::DoNotOptimize(fuser.fuse(sources, &scan));

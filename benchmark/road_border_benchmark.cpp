@@ -22,12 +22,13 @@ class SplitDrive {
  public:
   explicit SplitDrive(const StreetOptions& street) : drive_(street) {}
 
-  SplitScan next() {
+  LabeledScan next() {
     const Scan& scan = drive_.next();
     first_ = first_.value_or(scan.stamp);
-    SplitScan split = splitScan(scan, PointState::kUnknown);
-    const double way = drive_.odometry().twist.forward_speed * secondsBetween(*first_, scan.stamp);
-    split.base_in_map.pose = Pose2(way, 0.0, 0.0);
+    LabeledScan split = labeledScan(scan, PointState::kUnknown);
+    const double arc_length =
+        drive_.odometry().twist.forward_speed * secondsBetween(*first_, scan.stamp);
+    split.base_in_map.pose = Pose2(arc_length, 0.0, 0.0);
     split.field = scan.field;
     split.field.first_bearing = scan.rays.front().bearing;
     split.field.beams = static_cast<std::uint32_t>(scan.rays.size());
@@ -81,7 +82,7 @@ void borderSearch(benchmark::State& state) {
   HitGrid hits(settings.road_border.hit_grid);
   Pose2 vehicle;
   for (int i = 0; i < kWarmUp; ++i) {
-    const SplitScan scan = drive.next();
+    const LabeledScan scan = drive.next();
     hits.update(scan);
     vehicle = scan.base_in_map.pose;
   }

@@ -52,7 +52,7 @@ void scorePoses(benchmark::State& state) {
   const auto poses = static_cast<int>(state.range(1));
   RunningSlam slam({}, {static_cast<int>(state.range(0))});
   const PoseWithCovariance prediction = slam.step().split.base_in_map;
-  const auto points = endPoints(slam.lastScan(), GridSlamOptions{}.longest_step);
+  const auto points = endPoints(slam.lastScan(), GridSlamOptions{}.max_step);
   ScanMatcherOptions options;
   options.samples = poses;
   options.refinement_steps = 0;
@@ -105,7 +105,7 @@ void slamStepInWindow(benchmark::State& state) {
   timeSteps(state, options, {StreetOptions{}.beams, static_cast<double>(state.range(1))});
 }
 BENCHMARK(slamStepInWindow)
-    ->ArgNames({"metres", "speed"})
+    ->ArgNames({"meters", "speed"})
     ->ArgsProduct({{50, 100, 200, 400}, {0, 8}})
     ->Unit(benchmark::kMicrosecond);
 

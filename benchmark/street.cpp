@@ -66,8 +66,8 @@ OdometrySample StreetDrive::odometry() const {
   return {scans_[step_ % scans_.size()].stamp, {speed_, 0.0}};
 }
 
-SplitScan splitScan(const Scan& scan, PointState state) {
-  SplitScan split;
+LabeledScan labeledScan(const Scan& scan, PointState state) {
+  LabeledScan split;
   split.stamp = scan.stamp;
   split.scanner_in_base = scan.scanner_in_base;
   for (const Ray& ray : scan.rays) {

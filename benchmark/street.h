@@ -34,6 +34,6 @@ class StreetDrive {
 };
 
 /// All end points of a scan, as if the map had said this of each of them.
-SplitScan splitScan(const Scan& scan, PointState state);
+LabeledScan labeledScan(const Scan& scan, PointState state);
 
 }  // namespace datmo

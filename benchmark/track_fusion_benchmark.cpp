@@ -28,18 +28,18 @@ struct Source {
 };
 
 /// On 100 m x 60 m, one in each cell of a grid, so that none are in one place.
-std::vector<Point2> placesOnStreet(std::size_t count, Random& random) {
+std::vector<Point2> positionsOnStreet(std::size_t count, Random& random) {
   constexpr std::size_t kRows = 10;
   const std::size_t columns = count / kRows + 1;
   const double cell = 100.0 / static_cast<double>(columns);
-  std::vector<Point2> places;
+  std::vector<Point2> positions;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t row = i % kRows;
     const std::size_t column = i / kRows;
-    places.emplace_back((static_cast<double>(column) + random.uniform(0.2, 0.8)) * cell,
-                        (static_cast<double>(row) + random.uniform(0.3, 0.7)) * 6.0 - 30.0);
+    positions.emplace_back((static_cast<double>(column) + random.uniform(0.2, 0.8)) * cell,
+                           (static_cast<double>(row) + random.uniform(0.3, 0.7)) * 6.0 - 30.0);
   }
-  return places;
+  return positions;
 }
 
 ViewFan viewOf(const Source& source, double seconds) {
@@ -56,14 +56,14 @@ ViewFan viewOf(const Source& source, double seconds) {
   return view;
 }
 
-Track trackAt(const Point2& place, double sigma, Stamp stamp) {
+Track trackAt(const Point2& position, double sigma, Stamp stamp) {
   TrackState variance;
   variance << sigma * sigma, sigma * sigma, 0.25, 0.25, 0.25, 0.25;
   Track track;
-  track.state << place, kVelocity, 0.0, 0.0;
+  track.state << position, kVelocity, 0.0, 0.0;
   track.covariance = variance.asDiagonal();
   track.mode_probabilities = {0.8, 0.05, 0.05, 0.05, 0.05};
-  track.box = {Pose2(place, 0.0), 4.5, 1.8};
+  track.box = {Pose2(position, 0.0), 4.5, 1.8};
   track.heading_variance = 0.01;
   track.moving = true;
   track.class_probabilities = {0.1, 0.1, 0.1, 0.6, 0.1};
@@ -72,7 +72,7 @@ Track trackAt(const Point2& place, double sigma, Stamp stamp) {
   track.hits = kHistory;
   for (int i = kHistory - 1; i >= 0; --i) {
     const double ago = i * kStep;
-    track.history.push_back({stamp + -ago, Pose2(place - kVelocity * ago, 0.0)});
+    track.history.push_back({stamp + -ago, Pose2(position - kVelocity * ago, 0.0)});
   }
   return track;
 }
@@ -96,10 +96,10 @@ void trackFusion(benchmark::State& state, const std::string& method) {
   const auto count = static_cast<std::size_t>(state.range(0));
   const auto pairs = static_cast<std::size_t>(state.range(1));
   Random random(1);
-  const std::vector<Point2> places = placesOnStreet(2 * count - pairs, random);
-  const auto own = places.begin() + static_cast<std::ptrdiff_t>(count);
-  std::vector<Source> sources = {{"lidar", 0.1, {places.begin(), own}}, {"stereo", 0.2, {}}};
-  sources[1].cars.assign(own - static_cast<std::ptrdiff_t>(pairs), places.end());
+  const std::vector<Point2> positions = positionsOnStreet(2 * count - pairs, random);
+  const auto own = positions.begin() + static_cast<std::ptrdiff_t>(count);
+  std::vector<Source> sources = {{"lidar", 0.1, {positions.begin(), own}}, {"stereo", 0.2, {}}};
+  sources[1].cars.assign(own - static_cast<std::ptrdiff_t>(pairs), positions.end());
   TrackFuserOptions options;
   options.combination.method = method;
   TrackFuser fuser(options);

@@ -24,9 +24,9 @@ constexpr int kWarmUp = 30;
 /// vehicles.
 constexpr int kTargetsEach = 10;
 
-Object vehicleAt(const Point2& place) {
+Object vehicleAt(const Point2& position) {
   Object object;
-  object.box = {Pose2(place.x(), place.y(), 0.0), 4.0, 1.8};
+  object.box = {Pose2(position.x(), position.y(), 0.0), 4.0, 1.8};
   object.position_covariance = kPositionSigma * kPositionSigma * Eigen::Matrix2d::Identity();
   object.dynamic_state = DynamicState::kMoving;
   object.moving_fraction = 1.0;
@@ -38,16 +38,16 @@ Object vehicleAt(const Point2& place) {
 ObjectList crowd(int targets, int false_alarms, int step, Random& random) {
   ObjectList list;
   list.stamp = Stamp::fromSeconds(1000.0 + kPeriod * step);
-  const double way = kSpeed * kPeriod * step;
+  const double distance = kSpeed * kPeriod * step;
   for (int i = 0; i < targets; ++i) {
     const Point2 noise(random.normal(kPositionSigma), random.normal(kPositionSigma));
-    const Point2 place(kSpacing * (i / kAbreast), kSpacing * (i % kAbreast));
-    list.objects.push_back(vehicleAt(Point2(way, 0.0) + place + noise));
+    const Point2 position(kSpacing * (i / kAbreast), kSpacing * (i % kAbreast));
+    list.objects.push_back(vehicleAt(Point2(distance, 0.0) + position + noise));
   }
   const double length = kSpacing * targets / kAbreast;
   for (int i = 0; i < false_alarms; ++i) {
     const double x = random.uniform(0.0, length);
-    list.objects.push_back(vehicleAt({way + x, random.uniform(0.0, kSpacing * kAbreast)}));
+    list.objects.push_back(vehicleAt({distance + x, random.uniform(0.0, kSpacing * kAbreast)}));
   }
   return list;
 }
@@ -57,8 +57,8 @@ void trackerStep(benchmark::State& state, const std::string& association) {
   TrackerOptions options;
   options.association = association;
   // Room for all: the shipped limits are for what a step may take, which is measured here.
-  options.gating.most_targets = kTargetsEach * targets;
-  options.intake.most_objects = 2 * targets;
+  options.gating.max_targets = kTargetsEach * targets;
+  options.intake.max_objects = 2 * targets;
   Tracker tracker(options);
   Random random(1);
   int step = 0;

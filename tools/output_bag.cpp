@@ -11,7 +11,7 @@
 namespace datmo {
 
 bool isSameFile(const std::string& a, const std::string& b) {
-  std::error_code not_there;  // then they are not the same, unless they are spelt the same
+  std::error_code not_there;  // then they are not the same, unless they are spelled the same
   return a == b || std::filesystem::equivalent(a, b, not_there);
 }
 

@@ -34,7 +34,7 @@ constexpr const char* kHead =
     "Keys of the sections of `config/*.yaml`, one section a nodelet. Live they are the nodelet's "
     "private\n"
     "parameters (`/grid_slam/map/cell_size`). What a sensor set does not name has the default. A "
-    "misspelt key,\n"
+    "misspelled key,\n"
     "or a value out of range, is refused with a message that names it.\n\n";
 
 }  // namespace

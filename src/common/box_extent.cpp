@@ -5,7 +5,7 @@
 namespace datmo {
 
 double extentAlong(const Box2& box, const Point2& direction) {
-  const Point2 local = box.centre.rotation().transpose() * direction;
+  const Point2 local = box.center.rotation().transpose() * direction;
   return box.length * std::abs(local.x()) + box.width * std::abs(local.y());
 }
 

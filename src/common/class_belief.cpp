@@ -18,7 +18,7 @@ constexpr double kKnown = 0.5;
 std::size_t indexOf(ObjectClass object_class) { return static_cast<std::size_t>(object_class); }
 
 /// Of relative probabilities; of zeros alone nothing is known.
-ClassProbabilities normalisedWithDoubt(ClassProbabilities relative) {
+ClassProbabilities normalizedWithDoubt(ClassProbabilities relative) {
   const double sum = std::accumulate(relative.begin(), relative.end(), 0.0);
   for (double& value : relative) {
     value = sum > 0.0 ? (1.0 - kDoubt) * value / sum + kDoubt * kChance : kChance;
@@ -33,7 +33,7 @@ ClassProbabilities jointBelief(const ClassProbabilities& a, const ClassProbabili
   for (std::size_t i = 0; i < kObjectClasses; ++i) {
     product[i] = a[i] * b[i];
   }
-  return normalisedWithDoubt(product);
+  return normalizedWithDoubt(product);
 }
 
 ClassBelief::ClassBelief() { probabilities_.fill(kChance); }
@@ -46,7 +46,7 @@ void ClassBelief::update(ObjectClass observed, double probability) {
   for (std::size_t i = 0; i < kObjectClasses; ++i) {
     probabilities_[i] *= i == indexOf(observed) ? probability : other;
   }
-  probabilities_ = normalisedWithDoubt(probabilities_);
+  probabilities_ = normalizedWithDoubt(probabilities_);
 }
 
 double ClassBelief::probability(ObjectClass object_class) const {

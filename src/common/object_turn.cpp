@@ -7,8 +7,8 @@ namespace datmo {
 void turnByQuarter(Object& object) {
   const auto [front, rear, left, right] = object.side_variance;
   object.side_variance = {left, right, rear, front};
-  const Pose2& centre = object.box.centre;
-  object.box = {Pose2(centre.position(), centre.heading() + kQuarterTurn), object.box.width,
+  const Pose2& center = object.box.center;
+  object.box = {Pose2(center.position(), center.heading() + kQuarterTurn), object.box.width,
                 object.box.length};
 }
 

@@ -43,13 +43,13 @@ class TableWriter : public OptionVisitor {
 
  private:
   static std::string range(const Bounds& bounds) {
-    const bool from = std::isfinite(bounds.least);
-    const bool to = std::isfinite(bounds.most);
+    const bool from = std::isfinite(bounds.min);
+    const bool to = std::isfinite(bounds.max);
     if (from && to) {
-      return toText(bounds.least) + " to " + toText(bounds.most);
+      return toText(bounds.min) + " to " + toText(bounds.max);
     }
-    return from ? "at least " + toText(bounds.least)
-           : to ? "at most " + toText(bounds.most)
+    return from ? "at least " + toText(bounds.min)
+           : to ? "at most " + toText(bounds.max)
                 : "any number";
   }
 

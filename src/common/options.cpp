@@ -11,12 +11,12 @@ namespace {
 class Checker : public OptionVisitor {
  public:
   void number(const OptionInfo& info, double& value, const Bounds& bounds) override {
-    if (std::isfinite(value) && value >= bounds.least && value <= bounds.most) {
+    if (std::isfinite(value) && value >= bounds.min && value <= bounds.max) {
       return;
     }
     std::ostringstream message;
-    message << key(info) << " = " << value << ": expected a number from " << bounds.least << " to "
-            << bounds.most << " " << info.unit << " (" << info.description << ")";
+    message << key(info) << " = " << value << ": expected a number from " << bounds.min << " to "
+            << bounds.max << " " << info.unit << " (" << info.description << ")";
     throw OptionError(message.str());
   }
 

@@ -16,13 +16,13 @@ namespace {
 constexpr int kRefinements = 3;
 
 /// A single point beside a line may be an outlier, two are the other side.
-constexpr std::size_t kLeastAlone = 2;
+constexpr std::size_t kMinAlone = 2;
 
 /// The expected noise counts like this many points besides those that there are.
 constexpr double kNoisePoints = 4.0;
 
 /// rad; no vehicle is a perfect rectangle, however many points there are on it.
-constexpr double kLeastHeadingStd = 0.01;
+constexpr double kMinHeadingStd = 0.01;
 
 /// Weighted moments of the points on one side.
 struct SideMoments {
@@ -58,7 +58,7 @@ Corner refined(const Points& points, const Corner& corner, double sigma) {
   for (const Point2& point : points) {
     const Point2 local = axes(point);
     const double ratio = corner.sides.distance(local) / sigma;
-    const double bound = 1.0 / (1.0 + ratio * ratio / kMostCost);
+    const double bound = 1.0 / (1.0 + ratio * ratio / kMaxCost);
     moments[static_cast<std::size_t>(corner.sides.nearest(local))].add(local, bound * bound);
   }
   const Eigen::Matrix2d across_first = moments[0].scatter();
@@ -77,7 +77,7 @@ Corner refined(const Points& points, const Corner& corner, double sigma) {
   for (int axis = 0; axis < 2; ++axis) {
     const SideMoments& side = moments[static_cast<std::size_t>(axis)];
     if (side.weight > 0.0) {
-      result.sides.place[axis] = turned(side.sum / side.weight)[axis];
+      result.sides.position[axis] = turned(side.sum / side.weight)[axis];
     }
   }
   return result;
@@ -96,13 +96,13 @@ std::array<std::size_t, 2> pointsOnSides(const Points& points, const Corner& cor
   std::array<std::size_t, 2> counts{};
   std::array<std::size_t, 2> alone{};
   for (const Point2& point : points) {
-    const Point2 distances = (axes(point) - corner.sides.place).cwiseAbs();
+    const Point2 distances = (axes(point) - corner.sides.position).cwiseAbs();
     const std::size_t axis = distances.x() <= distances.y() ? 0 : 1;
     ++counts[axis];
     alone[axis] += distances.maxCoeff() > kOnLine * noise ? 1 : 0;
   }
   const std::size_t smaller = counts[0] < counts[1] ? 0 : 1;
-  if (alone[smaller] < kLeastAlone || 2 * alone[smaller] < counts[smaller]) {
+  if (alone[smaller] < kMinAlone || 2 * alone[smaller] < counts[smaller]) {
     counts[1 - smaller] += counts[smaller];
     counts[smaller] = 0;
   }
@@ -120,11 +120,11 @@ BoxFit boxAround(const Points& points, const Point2& scanner, const Corner& corn
     if (counts[i] == 0) {
       continue;
     }
-    const double place = corner.sides.place[axis];
+    const double position = corner.sides.position[axis];
     const bool ahead = corner.sides.ahead[i];
-    double& near = ahead ? extent.most[axis] : extent.least[axis];
-    double& far = ahead ? extent.least[axis] : extent.most[axis];
-    near = place;
+    double& near = ahead ? extent.max[axis] : extent.min[axis];
+    double& far = ahead ? extent.min[axis] : extent.max[axis];
+    near = position;
     if (std::abs(far - near) < kOnLine * noise || (far < near) != ahead) {
       far = near;
     }
@@ -133,17 +133,17 @@ BoxFit boxAround(const Points& points, const Point2& scanner, const Corner& corn
     fit.points_on_side[static_cast<std::size_t>(side)] = counts[i];
   }
   const Pose2 turn(Point2::Zero(), corner.heading);
-  const Point2 size = extent.most - extent.least;
-  fit.box = {Pose2(scanner + turn.rotate(0.5 * (extent.least + extent.most)), corner.heading),
+  const Point2 size = extent.max - extent.min;
+  fit.box = {Pose2(scanner + turn.rotate(0.5 * (extent.min + extent.max)), corner.heading),
              size.x(), size.y()};
   return fit;
 }
 
 /// Its side is across the line of sight.
 BoxFit boxOfPoint(const Point2& point, const Point2& scanner, double sigma) {
-  const Point2 sight = point - scanner;
+  const Point2 ray = point - scanner;
   BoxFit fit;
-  fit.box.centre = Pose2(point, std::atan2(sight.y(), sight.x()));
+  fit.box.center = Pose2(point, std::atan2(ray.y(), ray.x()));
   fit.noise = sigma;
   fit.points_on_side[static_cast<std::size_t>(BoxSide::kRear)] = 1;
   return fit;
@@ -175,7 +175,7 @@ BoxFit fitBox(const std::vector<Point2>& points, const Point2& scanner, double s
   BoxFit fit = boxAround(seen, scanner, corner, noise);
   if (corner.information > 0.0) {
     fit.heading_variance =
-        std::min(kUnknownHeadingVariance, kLeastHeadingStd * kLeastHeadingStd +
+        std::min(kUnknownHeadingVariance, kMinHeadingStd * kMinHeadingStd +
                                               noise * noise / corner.information +
                                               search.spreadAbout(corner.heading));
   }

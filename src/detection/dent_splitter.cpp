@@ -45,7 +45,7 @@ void DentSplitter::profileOf(const SurfaceGroup& group) {
   }
 }
 
-/// The side towards the camera of the convex hull (Andrew 1979).
+/// The side toward the camera of the convex hull (Andrew 1979).
 void DentSplitter::hullOfProfile() {
   hull_.clear();
   for (std::size_t i = 0; i < profile_.size(); ++i) {
@@ -63,9 +63,9 @@ std::optional<int> DentSplitter::dent() const {
   for (std::size_t side = 0; side + 1 < hull_.size(); ++side) {
     for (std::size_t i = hull_[side] + 1; i < hull_[side + 1]; ++i) {
       const double inverse = profile_[i].inverse;
-      const double least = std::max(options_.dent_sigmas * noise_.inverseSigma(inverse),
-                                    options_.dent * inverse * inverse);
-      const double depth = -above(hull_[side], i, hull_[side + 1]) / least;
+      const double min = std::max(options_.dent_sigmas * noise_.inverseSigma(inverse),
+                                  options_.dent * inverse * inverse);
+      const double depth = -above(hull_[side], i, hull_[side + 1]) / min;
       if (depth > deepest) {
         deepest = depth;
         column = profile_[i].column;
@@ -77,9 +77,9 @@ std::optional<int> DentSplitter::dent() const {
 
 /// 1/m, by how much the middle one of three points is nearer than the line through the others.
 double DentSplitter::above(std::size_t first, std::size_t middle, std::size_t last) const {
-  const Place& a = profile_[first];
-  const Place& b = profile_[last];
-  const Place& between = profile_[middle];
+  const ProfilePoint& a = profile_[first];
+  const ProfilePoint& b = profile_[last];
+  const ProfilePoint& between = profile_[middle];
   const double share = static_cast<double>(between.column - a.column) / (b.column - a.column);
   return between.inverse - (a.inverse + share * (b.inverse - a.inverse));
 }

@@ -11,7 +11,7 @@ namespace datmo {
 /// Indices of surfaces that belong together, by column.
 using SurfaceGroup = std::vector<std::size_t>;
 
-/// What one object shows of itself bulges towards the camera; where a group has a dent, another
+/// What one object shows of itself bulges toward the camera; where a group has a dent, another
 /// object begins: a parked car beside a cyclist, a house behind a car.
 class DentSplitter {
  public:
@@ -24,7 +24,7 @@ class DentSplitter {
 
  private:
   /// In these coordinates straight walls are straight lines.
-  struct Place {
+  struct ProfilePoint {
     int column;
     double inverse;  ///< 1/m: of the depth of the nearest surface in the column
   };
@@ -37,8 +37,8 @@ class DentSplitter {
   const SurfaceColumns& columns_;
   const SurfaceGroupOptions& options_;
   DepthNoise noise_;
-  std::vector<Place> profile_;
-  std::vector<Place> raw_profile_;
+  std::vector<ProfilePoint> profile_;
+  std::vector<ProfilePoint> raw_profile_;
   std::vector<std::size_t> hull_;  ///< indices of the profile
 };
 

@@ -108,7 +108,7 @@ bool OutlineFinder::isBesideNearer(const ColumnSurface& last, Step step) const {
                ? camera_.baseline * columns_.per_tangent * (1.0 / nearer - 1.0 / depth)
                : 0.0;
   };
-  const int reach = static_cast<int>(beside + shadowOf(options_.surfaces.nearest_depth));
+  const int reach = static_cast<int>(beside + shadowOf(options_.surfaces.min_depth));
   const int direction = static_cast<int>(step);
   for (int i = 1; i <= reach; ++i) {
     const int column = last.column + direction * i;

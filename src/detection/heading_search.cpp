@@ -17,11 +17,11 @@ double costOf(const Points& points, double heading, double variance) {
   double cost = 0.0;
   Point2 farthest = Point2::Zero();  // from each side
   for (const Point2& point : points) {
-    const Point2 distances = (axes(point) - sides.place).cwiseAbs();
+    const Point2 distances = (axes(point) - sides.position).cwiseAbs();
     farthest = farthest.cwiseMax(distances);
     const double nearest = distances.minCoeff();
     const double square = nearest * nearest;
-    cost += square / (variance + square / kMostCost);
+    cost += square / (variance + square / kMaxCost);
   }
   const bool both = farthest.minCoeff() > kOnLine * std::sqrt(variance);
   return both ? cost + std::log(static_cast<double>(points.size())) : cost;
@@ -32,20 +32,20 @@ double costOf(const Points& points, double heading, double variance) {
 HeadingSearch::HeadingSearch(const Points& points, double sigma) {
   const Extent extent = extentOf(points, Axes(0.0));
   // The best of the headings that are tried is up to half a step off.
-  const double slant = 0.25 * heading(1) * (extent.most - extent.least).norm();
+  const double slant = 0.25 * heading(1) * (extent.max - extent.min).norm();
   for (std::size_t i = 0; i < kHeadings; ++i) {
     costs_[i] = costOf(points, heading(i), sigma * sigma + slant * slant);
   }
   best_ = static_cast<std::size_t>(std::min_element(costs_.begin(), costs_.end()) - costs_.begin());
 }
 
-double HeadingSearch::spreadAbout(double centre) const {
+double HeadingSearch::spreadAbout(double center) const {
   double sum = 0.0;
   double total = 0.0;
   for (std::size_t i = 0; i < kHeadings; ++i) {
     const double weight = std::exp(0.5 * (costs_[best_] - costs_[i]));
     const double apart =
-        std::max(0.0, std::abs(std::remainder(heading(i) - centre, kQuarterTurn)) - heading(1));
+        std::max(0.0, std::abs(std::remainder(heading(i) - center, kQuarterTurn)) - heading(1));
     sum += weight * apart * apart;
     total += weight;
   }

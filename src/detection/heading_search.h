@@ -19,7 +19,7 @@ class HeadingSearch {
 
   /// Variance of the likely headings about this one, modulo a quarter turn, rad^2; what the steps
   /// themselves make of it left out.
-  double spreadAbout(double centre) const;
+  double spreadAbout(double center) const;
 
  private:
   static constexpr std::size_t kHeadings = 15;

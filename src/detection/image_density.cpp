@@ -11,22 +11,22 @@ namespace {
 
 /// Rows of the image with fewer points than this share of the fullest one's are not of the image:
 /// the camera is not quite level.
-constexpr int kLeastRowShare = 20;
+constexpr int kMinRowShare = 20;
 
 /// Along each side of the image, for any camera.
-constexpr double kMostCells = 8192.0;
+constexpr double kMaxCells = 8192.0;
 
 }  // namespace
 
 void ImageDensity::reset(const StereoCamera& camera) {
   left_ = static_cast<float>(camera.left_tangent);
   const double width = camera.right_tangent - camera.left_tangent;
-  const double per_tangent = std::min({camera.focal_length, kMostCells / width,
-                                       kMostCells / (2.0 * static_cast<double>(kHighestTangent))});
+  const double per_tangent = std::min({camera.focal_length, kMaxCells / width,
+                                       kMaxCells / (2.0 * static_cast<double>(kMaxTangent))});
   per_tangent_ = static_cast<float>(per_tangent);
   cell_pixels_ = camera.focal_length / per_tangent;
   columns_ = static_cast<float>(std::ceil(width * per_tangent));
-  rows_ = std::ceil(2.0F * kHighestTangent * per_tangent_);
+  rows_ = std::ceil(2.0F * kMaxTangent * per_tangent_);
   tile_columns_ = static_cast<std::size_t>(columns_) / kTileSize + 1;
   in_column_.assign(static_cast<std::size_t>(columns_), 0);
   in_row_.assign(static_cast<std::size_t>(rows_), 0);
@@ -38,20 +38,20 @@ double ImageDensity::pixelsPerPoint() const {
   return std::max(1.0, datmo::pixelsPerPoint(tiles_, tile * tile));
 }
 
-double ImageDensity::highestTangent() const {
+double ImageDensity::maxTangent() const {
   const auto fullest = std::max_element(in_row_.begin(), in_row_.end());
   const auto first = std::find_if(in_row_.begin(), in_row_.end(), [&](int count) {
-    return count > 0 && count * kLeastRowShare >= *fullest;
+    return count > 0 && count * kMinRowShare >= *fullest;
   });
   const auto row = static_cast<float>(first - in_row_.begin());
-  return static_cast<double>(kHighestTangent - row / per_tangent_);
+  return static_cast<double>(kMaxTangent - row / per_tangent_);
 }
 
 bool ImageDensity::hasPoints(double from, double to) const {
   const auto column = [&](double tangent) {
-    const double place =
+    const double position =
         std::floor((tangent - static_cast<double>(left_)) * static_cast<double>(per_tangent_));
-    return static_cast<std::ptrdiff_t>(std::clamp(place, 0.0, static_cast<double>(columns_)));
+    return static_cast<std::ptrdiff_t>(std::clamp(position, 0.0, static_cast<double>(columns_)));
   };
   const auto end = std::min(column(to) + 1, static_cast<std::ptrdiff_t>(in_column_.size()));
   return std::any_of(in_column_.begin() + std::min(column(from), end), in_column_.begin() + end,

@@ -17,7 +17,7 @@ class ImageDensity {
   /// A point at these tangents: to the right, and above the horizon.
   void add(float right, float up) {
     const float column = (right - left_) * per_tangent_;
-    const float row = (kHighestTangent - up) * per_tangent_;
+    const float row = (kMaxTangent - up) * per_tangent_;
     if (column >= 0.0F && column < columns_ && row >= 0.0F && row < rows_) {
       const auto x = static_cast<std::size_t>(column);
       const auto y = static_cast<std::size_t>(row);
@@ -31,14 +31,14 @@ class ImageDensity {
   double pixelsPerPoint() const;
 
   /// Above the horizon: up to where there are points.
-  double highestTangent() const;
+  double maxTangent() const;
 
   /// Whether there is a point between two tangents to the right.
   bool hasPoints(double from, double to) const;
 
  private:
-  static constexpr std::size_t kTileSize = 16;    ///< cells
-  static constexpr float kHighestTangent = 1.0F;  ///< above and below the horizon
+  static constexpr std::size_t kTileSize = 16;  ///< cells
+  static constexpr float kMaxTangent = 1.0F;    ///< above and below the horizon
 
   // Cells are pixels, but in images larger than any.
   float left_ = 0.0F;         ///< tangent of the image's left border

@@ -18,7 +18,7 @@ namespace {
 constexpr char kSensor[] = "lidar";
 
 /// rad; a side that was seen faces the scanner: with a vaguer heading its ends are not known.
-constexpr double kMostSlant = 0.3;
+constexpr double kMaxSlant = 0.3;
 
 /// The points of one segment of the scan that the map does not know as static.
 std::vector<ScanPoint> notStatic(const std::vector<ScanPoint>& points, const Segment& segment) {
@@ -56,9 +56,9 @@ void MovingObjectDetectorOptions::visit(OptionVisitor& visitor) {
                   "an object is moving if more than this share of its points lies where the map is "
                   "free (thesis 3.3.1: 0, any point)"},
                  moving_share, {0.0, 1.0});
-  visitor.number({"largest_size", "m", "longer segments are no objects: walls, hedges"},
-                 largest_size, {0.5, 100.0});
-  visitor.integer({"least_points", "1", "points that make an object"}, least_points, {1, 1000});
+  visitor.number({"max_size", "m", "longer segments are no objects: walls, hedges"}, max_size,
+                 {0.5, 100.0});
+  visitor.integer({"min_points", "1", "points that make an object"}, min_points, {1, 1000});
   visitor.number({"range_sigma", "m", "standard deviation of the scanner's range"}, range_sigma,
                  {0.001, 5.0});
   visitor.number({"position_sigma", "m",
@@ -72,17 +72,17 @@ MovingObjectDetector::MovingObjectDetector(const MovingObjectDetectorOptions& op
   checkOptions(options);
 }
 
-ObjectList MovingObjectDetector::detect(const SplitScan& scan) const {
+ObjectList MovingObjectDetector::detect(const LabeledScan& scan) const {
   ObjectList list{scan.stamp, {}, {}};
   for (const Segment& whole : segmentPoints(scan.points, options_.segmentation)) {
     const std::vector<ScanPoint> points = notStatic(scan.points, whole);
     const bool touches_static = points.size() < whole.size();
     for (const Segment& segment : segmentPoints(points, options_.segmentation)) {
-      if (segment.size() < static_cast<std::size_t>(options_.least_points)) {
+      if (segment.size() < static_cast<std::size_t>(options_.min_points)) {
         continue;
       }
       Object object = makeObject(points, segment, scan);
-      if (object.box.length > options_.largest_size) {
+      if (object.box.length > options_.max_size) {
         continue;
       }
       if (touches_static && object.dynamic_state == DynamicState::kUnknown) {
@@ -96,7 +96,7 @@ ObjectList MovingObjectDetector::detect(const SplitScan& scan) const {
 }
 
 Object MovingObjectDetector::makeObject(const std::vector<ScanPoint>& points,
-                                        const Segment& segment, const SplitScan& scan) const {
+                                        const Segment& segment, const LabeledScan& scan) const {
   Object object;
   for (const std::size_t i : segment) {
     object.points.push_back(points[i].position);
@@ -114,10 +114,10 @@ Object MovingObjectDetector::makeObject(const std::vector<ScanPoint>& points,
 
 /// The box and its sides, of an object whose points are given, from the first to the last beam.
 void MovingObjectDetector::setBox(Object& object, const ScanPoint& first, const ScanPoint& last,
-                                  const SplitScan& scan) const {
+                                  const LabeledScan& scan) const {
   const BoxFit fit = fitBox(object.points, scan.scanner_in_base.position(), options_.range_sigma);
-  const SegmentEnds ends(scan, options_.range_sigma, options_.segmentation.longest_gap);
-  const double heading_std = std::sqrt(std::min(fit.heading_variance, kMostSlant * kMostSlant));
+  const SegmentEnds ends(scan, options_.range_sigma, options_.segmentation.max_gap);
+  const double heading_std = std::sqrt(std::min(fit.heading_variance, kMaxSlant * kMaxSlant));
   SideBox sides(fit);
   for (std::size_t side = 0; side < kBoxSides; ++side) {
     object.side_variance[side] = kHiddenSide;

@@ -18,7 +18,7 @@ constexpr double kMeanExtent = 10.0;
 constexpr int kAspects = 8;
 
 /// m; a side that is seen narrower than this carries no information on its depth.
-constexpr double kLeastFace = 0.1;
+constexpr double kMinFace = 0.1;
 
 /// rad; what keeps to a lane beside the sensor's is seen from ahead or behind, up to so much aside.
 constexpr double kAhead = degrees(20.0);
@@ -56,9 +56,9 @@ double likelihoodAt(double aspect, const SeenSize& seen, const KindSize& kind) {
   const double c = std::cos(aspect);
   const double across_variance =
       square(kind.length_sigma * s) + square(kind.width_sigma * c) + square(seen.across_sigma);
-  const double least = std::max(kLeastFace, 2.0 * seen.across_sigma);
-  const bool side_seen = kind.length * s > least;
-  const bool end_seen = kind.width * c > least;
+  const double min = std::max(kMinFace, 2.0 * seen.across_sigma);
+  const bool side_seen = kind.length * s > min;
+  const bool end_seen = kind.width * c > min;
   const double along = std::max(side_seen ? kind.length * c : 0.0, end_seen ? kind.width * s : 0.0);
   const double along_variance = square(side_seen ? kind.length_sigma * c : kind.width_sigma) +
                                 square(kind.relief_sigma) + square(seen.along_sigma);
@@ -113,8 +113,8 @@ void ObjectClassifierOptions::visit(OptionVisitor& visitor) {
                   "share of the road users that are seen from straight ahead or behind: they keep "
                   "to lanes; the others from anywhere"},
                  ahead_share, {0.0, 1.0});
-  visitor.number({"else_share", "1", "prior share of other objects, relative to these kinds"},
-                 else_share, {0.001, 1000.0});
+  visitor.number({"other_share", "1", "prior share of other objects, relative to these kinds"},
+                 other_share, {0.001, 1000.0});
 }
 
 ObjectClassifier::ObjectClassifier(const ObjectClassifierOptions& options) : options_(options) {
@@ -134,7 +134,7 @@ ClassProbabilities ObjectClassifier::probabilities(const SeenSize& seen) const {
   add(ObjectClass::kVehicle, options_.truck);
   add(ObjectClass::kPole, options_.pole);
   result[static_cast<std::size_t>(ObjectClass::kUnknown)] =
-      options_.else_share * likelihoodOfAny(seen.height, kMeanHeight, seen.higher) *
+      options_.other_share * likelihoodOfAny(seen.height, kMeanHeight, seen.higher) *
       likelihoodOfAny(seen.across, kMeanExtent, seen.wider) *
       likelihoodOfAny(seen.along, kMeanExtent, seen.wider);
   const double sum = std::accumulate(result.begin(), result.end(), 0.0);
@@ -155,7 +155,7 @@ double ObjectClassifier::logOddsOfKnown(const ClassProbabilities& probabilities)
                        o.truck.share + o.pole.share;
   const double other = std::clamp(probabilities[static_cast<std::size_t>(ObjectClass::kUnknown)],
                                   kSure, 1.0 - kSure);
-  return std::log((1.0 - other) / other) - std::log(std::max(kSure, known) / o.else_share);
+  return std::log((1.0 - other) / other) - std::log(std::max(kSure, known) / o.other_share);
 }
 
 }  // namespace datmo

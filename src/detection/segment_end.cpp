@@ -22,31 +22,31 @@ Point2 turned(const Point2& vector, double angle) {
 
 std::optional<SurfaceEnd> SegmentEnds::beyond(const ScanPoint& last, const Point2& along,
                                               double heading_std) const {
-  const Point2 sight = (last.position - scan_.scanner_in_base.position()).normalized();
+  const Point2 ray = (last.position - scan_.scanner_in_base.position()).normalized();
   // Beams rise to the left if their spacing is positive.
-  const bool to_left = cross(sight, along) > 0.0;
+  const bool to_left = cross(ray, along) > 0.0;
   const std::optional<std::uint32_t> next =
       nextBeam(last.beam, to_left == (scan_.field.beam_spacing > 0.0) ? 1 : -1);
   if (!next) {
     return std::nullopt;
   }
   const double steps = static_cast<double>(*next) - static_cast<double>(last.beam);
-  const Point2 next_sight = turned(sight, scan_.field.beam_spacing * steps);
+  const Point2 next_ray = turned(ray, scan_.field.beam_spacing * steps);
   double expected = 0.0;
   double widest = 0.0;
   for (const double turn : {-heading_std, heading_std, 0.0}) {
     // Where last + gap * along = range * next_sight, from the scanner.
     const Point2 direction = turned(along, turn);
-    const double determinant = cross(direction, next_sight);
-    const double gap = -last.range * cross(sight, next_sight) / determinant;
-    const double range = last.range * cross(direction, sight) / determinant;
-    if (!(gap > 0.0 && gap <= longest_gap_ && range > 0.0) || !seesFartherThan(*next, range)) {
+    const double determinant = cross(direction, next_ray);
+    const double gap = -last.range * cross(ray, next_ray) / determinant;
+    const double range = last.range * cross(direction, ray) / determinant;
+    if (!(gap > 0.0 && gap <= max_gap_ && range > 0.0) || !seesFartherThan(*next, range)) {
       return std::nullopt;
     }
     expected = 0.5 * gap;
     widest = std::max(widest, gap);
   }
-  const double slant = range_sigma_ * sight.dot(along);
+  const double slant = range_sigma_ * ray.dot(along);
   return SurfaceEnd{expected, kUniformVariance * widest * widest + slant * slant};
 }
 

@@ -10,33 +10,33 @@ namespace {
 double gapBetween(const ScanPoint& first, const ScanPoint& second,
                   const SegmentationOptions& options) {
   if (!options.adaptive) {
-    return options.longest_gap;
+    return options.max_gap;
   }
   const double angle = std::abs(angleBetween(first.bearing, second.bearing));
-  if (angle >= options.least_incidence) {
-    return options.longest_gap;
+  if (angle >= options.min_incidence) {
+    return options.max_gap;
   }
   const double range = std::min(first.range, second.range);
-  const double reach = range * std::sin(angle) / std::sin(options.least_incidence - angle);
-  return std::min(options.shortest_gap + reach, options.longest_gap);
+  const double reach = range * std::sin(angle) / std::sin(options.min_incidence - angle);
+  return std::min(options.min_gap + reach, options.max_gap);
 }
 
 }  // namespace
 
 void SegmentationOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"longest_gap", "m", "points further apart are two objects (thesis 3.3.1: 2 m)"},
-                 longest_gap, {0.05, 20.0});
+  visitor.number({"max_gap", "m", "points further apart are two objects (thesis 3.3.1: 2 m)"},
+                 max_gap, {0.05, 20.0});
   visitor.number(
-      {"shortest_gap", "m", "adaptive: points nearer than this are one object, whatever the range"},
-      shortest_gap, {0.0, 20.0});
+      {"min_gap", "m", "adaptive: points nearer than this are one object, whatever the range"},
+      min_gap, {0.0, 20.0});
   visitor.toggle({"adaptive", "",
                   "let the gap grow with range and beam spacing (Borges & Aldon 2004); false: "
-                  "longest_gap everywhere (thesis)"},
+                  "max_gap everywhere (thesis)"},
                  adaptive);
   visitor.number(
-      {"least_incidence", "rad",
+      {"min_incidence", "rad",
        "adaptive: flattest angle between a beam and a surface that is kept in one piece"},
-      least_incidence, {0.05, 1.5});
+      min_incidence, {0.05, 1.5});
 }
 
 std::vector<Segment> segmentPoints(const std::vector<ScanPoint>& points,

@@ -15,7 +15,7 @@ constexpr double kSureOfCorner = 0.15;
 Point2 SideBox::normal(std::size_t side) const {
   static const std::array<Point2, kBoxSides> kNormals = {Point2(1.0, 0.0), Point2(-1.0, 0.0),
                                                          Point2(0.0, 1.0), Point2(0.0, -1.0)};
-  return Pose2(Point2::Zero(), fit_.box.centre.heading()).rotate(kNormals[side]);
+  return Pose2(Point2::Zero(), fit_.box.center.heading()).rotate(kNormals[side]);
 }
 
 std::size_t SideBox::pointsUpTo(std::size_t side) const {
@@ -25,8 +25,8 @@ std::size_t SideBox::pointsUpTo(std::size_t side) const {
 }
 
 bool SideBox::isEndOfSeen(std::size_t side, double heading_std) const {
-  const std::size_t least = heading_std < kSureOfCorner ? 0 : fit_.points_on_side[opposite(side)];
-  return pointsUpTo(side) > 0 && pointsUpTo(side) >= least;
+  const std::size_t min = heading_std < kSureOfCorner ? 0 : fit_.points_on_side[opposite(side)];
+  return pointsUpTo(side) > 0 && pointsUpTo(side) >= min;
 }
 
 double SideBox::across(std::size_t side) const {
@@ -36,7 +36,7 @@ double SideBox::across(std::size_t side) const {
 
 Box2 SideBox::box() const {
   const Point2 middle(0.5 * (reach_[0] - reach_[1]), 0.5 * (reach_[2] - reach_[3]));
-  return {Pose2(fit_.box.centre * middle, fit_.box.centre.heading()), reach_[0] + reach_[1],
+  return {Pose2(fit_.box.center * middle, fit_.box.center.heading()), reach_[0] + reach_[1],
           reach_[2] + reach_[3]};
 }
 
@@ -44,7 +44,7 @@ void turnToLongerSide(Object& object) {
   if (object.box.width > object.box.length) {
     turnByQuarter(object);
   }
-  const double heading = object.box.centre.heading();
+  const double heading = object.box.center.heading();
   if (heading > kQuarterTurn || heading <= -kQuarterTurn) {
     turnByQuarter(object);
     turnByQuarter(object);

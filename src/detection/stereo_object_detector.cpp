@@ -24,8 +24,8 @@ FieldOfView fieldOf(const StereoCamera& camera, const StereoView& view,
   const Point2 ahead = view.positionOf({1.0, 0.0}) - view.position();
   FieldOfView field;
   field.sensor_in_base = Pose2(view.position(), std::atan2(ahead.y(), ahead.x()));
-  field.least_bearing = -std::atan(camera.right_tangent);
-  field.most_bearing = -std::atan(camera.left_tangent);
+  field.min_bearing = -std::atan(camera.right_tangent);
+  field.max_bearing = -std::atan(camera.left_tangent);
   field.sure_range = std::min(options.sure_range, options.effective_range);
   field.range = options.effective_range;
   return field;
@@ -58,13 +58,13 @@ class StereoObjectDetector::State {
     for (const SurfaceGroup& group :
          groupSurfaces(surfaces_.columns(), cloud.camera, options_.groups)) {
       const GroupOutline outline = finder.outlineOf(group);
-      if (outline.surface < options_.least_surface || outline.length > options_.largest_size ||
+      if (outline.surface < options_.min_surface || outline.length > options_.max_size ||
           outline.depth > options_.effective_range) {
         continue;
       }
       Object object = maker.objectOf(outline);
       if (object.object_class != ObjectClass::kUnknown ||
-          object.class_probability <= options_.most_else) {
+          object.class_probability <= options_.max_other) {
         result.list.objects.push_back(std::move(object));
       }
     }

@@ -3,15 +3,14 @@
 namespace datmo {
 
 void StereoSurfaceOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"nearest_depth", "m", "nearer points are mismatches"}, nearest_depth,
-                 {0.05, 10.0});
-  visitor.number({"least_height", "m", "lower points are of the road, kerbs and low plants"},
-                 least_height, {0.05, 2.0});
+  visitor.number({"min_depth", "m", "nearer points are mismatches"}, min_depth, {0.05, 10.0});
+  visitor.number({"min_height", "m", "lower points are of the road, curbs and low plants"},
+                 min_height, {0.05, 2.0});
   visitor.number({"layer_top", "m",
-                  "points between least_height and this make objects: higher, one sees over road "
+                  "points between min_height and this make objects: higher, one sees over road "
                   "users at what is behind them"},
                  layer_top, {0.3, 5.0});
-  visitor.number({"highest", "m", "up to here it is looked how high objects are"}, highest,
+  visitor.number({"max_height", "m", "up to here it is looked how high objects are"}, max_height,
                  {2.0, 20.0});
   visitor.number({"road_sigmas", "1",
                   "a point is one of the road if a depth that is wrong by so many standard "
@@ -19,9 +18,9 @@ void StereoSurfaceOptions::visit(OptionVisitor& visitor) {
                  road_sigmas, {0.0, 10.0});
   visitor.number({"finest_depth", "m", "resolution of depths: not finer than this"}, finest_depth,
                  {0.02, 1.0});
-  visitor.number({"least_visible", "m", "height of surface that must be seen in a column"},
-                 least_visible, {0.0, 2.0});
-  visitor.integer({"least_points", "1", "and points"}, least_points, {1, 1000});
+  visitor.number({"min_visible", "m", "height of surface that must be seen in a column"},
+                 min_visible, {0.0, 2.0});
+  visitor.integer({"min_points", "1", "and points"}, min_points, {1, 1000});
 }
 
 void SurfaceGroupOptions::visit(OptionVisitor& visitor) {
@@ -31,7 +30,7 @@ void SurfaceGroupOptions::visit(OptionVisitor& visitor) {
                   "depth from a surface to one of the same object that is seen above it: from a "
                   "bonnet to the windscreen"},
                  stacked_gap, {0.0, 5.0});
-  visitor.number({"depth_gap", "m", "neighbouring surfaces of one object differ in depth by less"},
+  visitor.number({"depth_gap", "m", "neighboring surfaces of one object differ in depth by less"},
                  depth_gap, {0.01, 5.0});
   visitor.number({"depth_sigmas", "1", "or by so many standard deviations of the depth"},
                  depth_sigmas, {0.0, 10.0});
@@ -82,16 +81,16 @@ void StereoObjectDetectorOptions::visit(OptionVisitor& visitor) {
   visitor.number(
       {"sure_range", "m", "up to here all is found that can be seen; from there on less and less"},
       sure_range, {1.0, 200.0});
-  visitor.number({"least_surface", "m^2", "an object of which less is seen is none"}, least_surface,
+  visitor.number({"min_surface", "m^2", "an object of which less is seen is none"}, min_surface,
                  {0.0, 10.0});
-  visitor.number({"largest_size", "m", "longer segments are no objects: walls, hedges"},
-                 largest_size, {0.5, 100.0});
-  visitor.number({"most_else", "1",
+  visitor.number({"max_size", "m", "longer segments are no objects: walls, hedges"}, max_size,
+                 {0.5, 100.0});
+  visitor.number({"max_other", "1",
                   "what is neither road user nor pole with more than this probability is left out"},
-                 most_else, {0.0, 1.0});
-  visitor.number({"most_doubt", "1",
+                 max_other, {0.0, 1.0});
+  visitor.number({"max_doubt", "1",
                   "so much at most does its size speak against an object: logarithm of odds"},
-                 most_doubt, {0.0, 20.0});
+                 max_doubt, {0.0, 20.0});
 }
 
 }  // namespace datmo

@@ -13,10 +13,10 @@ namespace datmo {
 namespace {
 
 /// Points of the outline of an object, at most: columns beside each other are averaged.
-constexpr std::size_t kMostPoints = 40;
+constexpr std::size_t kMaxPoints = 40;
 
 /// rad; a side that was seen faces the camera: with a vaguer heading its ends are not known.
-constexpr double kMostSlant = 0.3;
+constexpr double kMaxSlant = 0.3;
 
 /// Sides whose normal is nearer to the line of sight than this (sine of the angle) end in depth, of
 /// which the ends in the image carry no information.
@@ -46,7 +46,7 @@ StereoObjectMaker::StereoObjectMaker(const StereoObjectDetectorOptions& options,
       camera_(camera),
       view_(view),
       columns_(surfaces.columns()),
-      highest_tangent_(surfaces.density().highestTangent()) {}
+      max_tangent_(surfaces.density().maxTangent()) {}
 
 Object StereoObjectMaker::objectOf(const GroupOutline& outline) const {
   Object object;
@@ -61,7 +61,7 @@ Object StereoObjectMaker::objectOf(const GroupOutline& outline) const {
 
 std::vector<Point2> StereoObjectMaker::pointsOf(const GroupOutline& outline) const {
   std::vector<Point2> points;
-  const std::size_t bundle = (outline.columns.size() + kMostPoints - 1) / kMostPoints;
+  const std::size_t bundle = (outline.columns.size() + kMaxPoints - 1) / kMaxPoints;
   for (std::size_t begin = 0; begin < outline.columns.size(); begin += bundle) {
     const std::size_t end = std::min(begin + bundle, outline.columns.size());
     double inverse = 0.0;
@@ -81,11 +81,11 @@ std::vector<Point2> StereoObjectMaker::pointsOf(const GroupOutline& outline) con
 Eigen::Matrix2d StereoObjectMaker::covarianceOf(const GroupOutline& outline) const {
   const double middle = 0.5 * (columns_.tangentOf(outline.columns.front().column) +
                                columns_.tangentOf(outline.columns.back().column));
-  const Point2 sight = view_.positionOf({1.0, middle}) - view_.position();
+  const Point2 ray = view_.positionOf({1.0, middle}) - view_.position();
   const Point2 aside = toRight();
   const double along = options_.noise.common * camera_.depthSigma(outline.depth);
   const double across = options_.noise.edge_sigma * outline.depth / camera_.focal_length;
-  return square(along) * sight * sight.transpose() + square(across) * aside * aside.transpose() +
+  return square(along) * ray * ray.transpose() + square(across) * aside * aside.transpose() +
          square(options_.noise.body_sigma) * Eigen::Matrix2d::Identity();
 }
 
@@ -99,7 +99,7 @@ void StereoObjectMaker::setBox(Object& object, const GroupOutline& outline) cons
                         columns_.per_tangent;
   const double alike = std::max(1.0, kCorrelatedShare * options_.noise.correlated_width / bundle);
   fit.heading_variance = std::min(kUnknownHeadingVariance, alike * fit.heading_variance);
-  const double heading_std = std::sqrt(std::min(fit.heading_variance, square(kMostSlant)));
+  const double heading_std = std::sqrt(std::min(fit.heading_variance, square(kMaxSlant)));
   SideBox sides(fit);
   for (std::size_t side = 0; side < kBoxSides; ++side) {
     object.side_variance[side] = kHiddenSide;
@@ -124,8 +124,8 @@ SeenSize StereoObjectMaker::sizeOf(const GroupOutline& outline) const {
   const double edge = options_.noise.edge_sigma * outline.depth / camera_.focal_length;
   const double noise = columnNoise(outline.depth);
   const double seen_up_to =
-      std::min(view_.cameraHeight() + highest_tangent_ * outline.depth - kBothEnds * edge,
-               options_.surfaces.highest - kBelowHighest);
+      std::min(view_.cameraHeight() + max_tangent_ * outline.depth - kBothEnds * edge,
+               options_.surfaces.max_height - kBelowHighest);
   SeenSize seen;
   seen.height = outline.top;
   seen.height_sigma = std::hypot(options_.noise.height_sigma, kBothEnds * edge);
@@ -145,7 +145,7 @@ void StereoObjectMaker::setClass(Object& object, const GroupOutline& outline) co
   object.class_probability = *best;
   // Over the odds of the average object: those by the kinds' shares.
   const double odds = classifier_.logOddsOfKnown(probabilities);
-  object.log_odds = std::clamp(odds, -options_.most_doubt, 0.0);
+  object.log_odds = std::clamp(odds, -options_.max_doubt, 0.0);
 }
 
 }  // namespace datmo

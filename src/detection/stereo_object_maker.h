@@ -44,7 +44,7 @@ class StereoObjectMaker {
   const StereoCamera& camera_;
   const StereoView& view_;
   const SurfaceColumns& columns_;
-  double highest_tangent_;  ///< of the image, above the horizon
+  double max_tangent_;  ///< of the image, above the horizon
 };
 
 }  // namespace datmo

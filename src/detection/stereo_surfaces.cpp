@@ -8,11 +8,11 @@ namespace datmo {
 namespace {
 
 /// m; cameras mark a depth that they do not know by a far one.
-constexpr float kBeyondSight = 1000.0F;
+constexpr float kMaxDepth = 1000.0F;
 
 /// Whatever the options, there are no more columns than in any image, nor bins.
-constexpr double kMostColumns = 4096.0;
-constexpr double kMostBins = 2048.0;
+constexpr double kMaxColumns = 4096.0;
+constexpr double kMaxBins = 2048.0;
 
 /// Two modes are two surfaces if the counts between them fall below this share of both.
 constexpr double kValley = 0.6;
@@ -30,7 +30,7 @@ constexpr float kSlice = 0.2F;
 constexpr double kSliceShare = 0.3;
 
 /// Slices without points in a surface: of a region without texture.
-constexpr int kMostHole = 2;
+constexpr int kMaxHole = 2;
 
 constexpr std::int32_t kNone = -1;
 
@@ -49,23 +49,23 @@ void StereoSurfaces::takePoints(const StereoCloud& cloud, const StereoView& view
   density_.reset(cloud.camera);
   points_ = 0;
   upright_.clear();
-  const auto nearest = static_cast<float>(options.nearest_depth);
-  const auto most_depth = static_cast<float>(farthest);
-  const auto least = static_cast<float>(options.least_height);
-  const auto highest = static_cast<float>(options.highest);
+  const auto nearest = static_cast<float>(options.min_depth);
+  const auto max_depth = static_cast<float>(farthest);
+  const auto min = static_cast<float>(options.min_height);
+  const auto highest = static_cast<float>(options.max_height);
   const float camera_height = view.cameraHeight();
   // A depth that is off by its noise lifts a point of the road by this much of height / depth.
   const InverseDepthMargin road_margin(cloud.camera.noise, options.road_sigmas);
   for (std::size_t i = 0; i < cloud.points.count; ++i) {
     const ViewedPoint point = view(cloud.points[i]);
-    if (!(point.forward > nearest && point.forward < kBeyondSight)) {
+    if (!(point.forward > nearest && point.forward < kMaxDepth)) {
       continue;
     }
     ++points_;
     const float inverse = 1.0F / point.forward;
     const float right = point.right * inverse;
     density_.add(right, (point.height - camera_height) * inverse);
-    if (point.height >= least && point.height < highest && point.forward < most_depth &&
+    if (point.height >= min && point.height < highest && point.forward < max_depth &&
         point.height * inverse > road_margin.at(inverse) * camera_height) {
       upright_.push_back({right, point.forward, point.height});
     }
@@ -76,13 +76,13 @@ void StereoSurfaces::countLayer(const StereoCamera& camera, const StereoSurfaceO
                                 double farthest) {
   const double width = camera.right_tangent - camera.left_tangent;
   const double pixels =
-      std::max(std::sqrt(density_.pixelsPerPoint()), width * camera.focal_length / kMostColumns);
+      std::max(std::sqrt(density_.pixelsPerPoint()), width * camera.focal_length / kMaxColumns);
   columns_.count = std::max(1, static_cast<int>(std::lround(width * camera.focal_length / pixels)));
   columns_.left = camera.left_tangent;
   columns_.per_tangent = columns_.count / width;
   left_ = static_cast<float>(columns_.left);
   per_tangent_ = static_cast<float>(columns_.per_tangent);
-  depth_bins_ = DepthBins(camera, farthest, std::max(options.finest_depth, farthest / kMostBins));
+  depth_bins_ = DepthBins(camera, farthest, std::max(options.finest_depth, farthest / kMaxBins));
   bins_ = static_cast<std::size_t>(depth_bins_.size());
   counts_.assign(static_cast<std::size_t>(columns_.count) * bins_, 0);
   const auto top = static_cast<float>(options.layer_top);
@@ -156,13 +156,13 @@ void StereoSurfaces::addModes(int column, const StereoSurfaceOptions& options) {
 }
 
 void StereoSurfaces::addMode(const Mode& mode, const StereoSurfaceOptions& options) {
-  const auto least = static_cast<int>(kTail * smooth_[static_cast<std::size_t>(mode.peak)]);
+  const auto min = static_cast<int>(kTail * smooth_[static_cast<std::size_t>(mode.peak)]);
   int first = mode.peak;
-  while (first > mode.first_bin && smooth_[static_cast<std::size_t>(first - 1)] > least) {
+  while (first > mode.first_bin && smooth_[static_cast<std::size_t>(first - 1)] > min) {
     --first;
   }
   int end = mode.peak + 1;
-  while (end < mode.end_bin && smooth_[static_cast<std::size_t>(end)] > least) {
+  while (end < mode.end_bin && smooth_[static_cast<std::size_t>(end)] > min) {
     ++end;
   }
   const auto pointsIn = [&](int begin_bin, int end_bin) {
@@ -177,7 +177,7 @@ void StereoSurfaces::addMode(const Mode& mode, const StereoSurfaceOptions& optio
   const int points = pointsIn(first, end);
   const double depth = static_cast<double>(depth_bins_.middle(mode.peak));
   // The peak may be that of the columns beside it alone.
-  if (points < options.least_points || points < options.least_visible * pointsPerMetre(depth) ||
+  if (points < options.min_points || points < options.min_visible * pointsPerMeter(depth) ||
       pointsIn(core, core_end) == 0) {
     return;
   }
@@ -196,7 +196,7 @@ std::size_t StereoSurfaces::slicesUpTo(double height) {
 
 void StereoSurfaces::measure(const StereoSurfaceOptions& options) {
   const std::size_t count = columns_.surfaces.size();
-  const std::size_t slices = slicesUpTo(options.highest);
+  const std::size_t slices = slicesUpTo(options.max_height);
   inverse_sums_.assign(count, 0.0);
   slices_.assign(count * slices, 0);
   const auto top = static_cast<float>(options.layer_top);
@@ -223,15 +223,15 @@ void StereoSurfaces::measure(const StereoSurfaceOptions& options) {
 /// From the fullest slice as far up and down as it goes on, but for holes.
 void StereoSurfaces::setHeights(ColumnSurface& surface, const std::uint16_t* slices,
                                 const StereoSurfaceOptions& options) const {
-  const auto end = static_cast<int>(slicesUpTo(options.highest));
+  const auto end = static_cast<int>(slicesUpTo(options.max_height));
   const double dense =
-      static_cast<double>(kSlice) * pointsPerMetre(static_cast<double>(surface.depth));
-  const double least = std::max(1.0, kSliceShare * dense);
+      static_cast<double>(kSlice) * pointsPerMeter(static_cast<double>(surface.depth));
+  const double min = std::max(1.0, kSliceShare * dense);
   const auto start = static_cast<int>(std::max_element(slices, slices + end) - slices);
   const auto reach = [&](int step) {
     int last = start;
-    for (int i = start; i >= 0 && i < end && std::abs(i - last) <= kMostHole + 1; i += step) {
-      last = slices[i] >= least ? i : last;
+    for (int i = start; i >= 0 && i < end && std::abs(i - last) <= kMaxHole + 1; i += step) {
+      last = slices[i] >= min ? i : last;
     }
     return last;
   };

@@ -44,7 +44,7 @@ struct SurfaceColumns {
 /// through v-disparity representation, 2002; surfaces in columns: Badino, Franke, Pfeiffer, The
 /// stixel world, 2009).
 ///
-/// A cloud may be dense or thinned, organised or not: columns are as wide as its points are apart.
+/// A cloud may be dense or thinned, organized or not: columns are as wide as its points are apart.
 class StereoSurfaces {
  public:
   /// Forgets what it knew. `view`: of this cloud. `farthest`: m.
@@ -91,7 +91,7 @@ class StereoSurfaces {
   /// Slices of height that points are counted in.
   static std::size_t slicesUpTo(double height);
   /// Points one above the other in a column, for each m at a depth (m).
-  double pointsPerMetre(double depth) const { return columns_.per_tangent / depth; }
+  double pointsPerMeter(double depth) const { return columns_.per_tangent / depth; }
 
   DepthBins depth_bins_;
   ImageDensity density_;
@@ -103,8 +103,8 @@ class StereoSurfaces {
 
   std::vector<Upright> upright_;
   std::vector<std::uint16_t> counts_;     ///< points of the layer, by column and bin
-  std::vector<int> smooth_;               ///< of one column: over neighbouring columns and bins
-  std::vector<int> raw_;                  ///< of one column: over neighbouring columns
+  std::vector<int> smooth_;               ///< of one column: over neighboring columns and bins
+  std::vector<int> raw_;                  ///< of one column: over neighboring columns
   std::vector<std::int32_t> surface_at_;  ///< by column and bin: index of a surface, or -1
   std::vector<double> inverse_sums_;      ///< 1/m, by surface
   std::vector<std::uint16_t> slices_;     ///< points by surface and height

@@ -37,8 +37,8 @@ class SurfaceLinks {
     findMixed();
     for (std::size_t i = 0; i < columns_.surfaces.size(); ++i) {
       if (!mixed_[i]) {
-        joinAbove(i);
-        joinBeside(i);
+        mergeAbove(i);
+        mergeBeside(i);
       }
     }
     return sets_.sets();
@@ -73,19 +73,19 @@ class SurfaceLinks {
 
   bool isBetweenLarger(const ColumnSurface& surface, int reach) const {
     const float gap = gapAt(surface.depth);
-    const float least = surface.points / kMixedShare;
+    const float min = surface.points / kMixedShare;
     bool farther = false;
     bool nearer = false;
     const int end = std::min(columns_.count, surface.column + reach + 1);
     for (std::size_t j = begin(std::max(0, surface.column - reach)); j < begin(end); ++j) {
-      farther = farther || (at(j).depth > surface.depth + gap && at(j).points > least);
-      nearer = nearer || (at(j).depth < surface.depth - gap && at(j).points > least);
+      farther = farther || (at(j).depth > surface.depth + gap && at(j).points > min);
+      nearer = nearer || (at(j).depth < surface.depth - gap && at(j).points > min);
     }
     return farther && nearer;
   }
 
   /// With what is seen above it, little behind it.
-  void joinAbove(std::size_t i) {
+  void mergeAbove(std::size_t i) {
     const ColumnSurface& surface = at(i);
     const float gap = std::max(static_cast<float>(options_.stacked_gap), gapAt(surface.depth));
     for (std::size_t j = i + 1; j < begin(surface.column + 1); ++j) {
@@ -97,7 +97,7 @@ class SurfaceLinks {
   }
 
   /// With what is beside it, as far as nothing is seen between them that is farther away.
-  void joinBeside(std::size_t i) {
+  void mergeBeside(std::size_t i) {
     const ColumnSurface& surface = at(i);
     const double width = columns_.widthAt(static_cast<double>(surface.depth));
     const int reach = std::max(1, static_cast<int>(options_.lateral_gap / width));

@@ -26,13 +26,13 @@ CrossCovariance evenCrossCovariance(const CovariancePair& covariances, double co
 
 CrossCovariance steppedCrossCovariance(const CrossCovariance& cross, const CovariancePair& before,
                                        const CovariancePair& after, const LinearMotion& motion,
-                                       double most_correlation) {
+                                       double max_correlation) {
   const TrackCovariance predicted =
       motion.transition * cross * motion.transition.transpose() + motion.noise;
   const CrossCovariance stepped = keptError(before.a, after.a, motion) * predicted *
                                   keptError(before.b, after.b, motion).transpose();
   const JointAxes joint(after.a, after.b);
-  return joint.axes * joint.limitedCross(stepped, most_correlation) * joint.axes.transpose();
+  return joint.axes * joint.limitedCross(stepped, max_correlation) * joint.axes.transpose();
 }
 
 }  // namespace datmo

@@ -10,7 +10,7 @@ namespace datmo {
 namespace {
 
 /// m^2, added to the variance of each side: keeps the information finite.
-constexpr double kLeastSideVariance = 1e-8;
+constexpr double kMinSideVariance = 1e-8;
 
 /// Of the sides that were seen.
 using SeenMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>;
@@ -56,7 +56,7 @@ SideEstimate estimateOf(const ObjectSides& sides) {
       covariance(i, j) = sides.covariance(static_cast<Eigen::Index>(axisOf(seen[i])),
                                           static_cast<Eigen::Index>(axisOf(seen[j])));
     }
-    covariance(i, i) += sides.along[axisOf(seen[i])].variance[endOf(seen[i])] + kLeastSideVariance;
+    covariance(i, i) += sides.along[axisOf(seen[i])].variance[endOf(seen[i])] + kMinSideVariance;
   }
   const SeenMatrix information = inverse(covariance);
   SideEstimate estimate;
@@ -64,7 +64,7 @@ SideEstimate estimateOf(const ObjectSides& sides) {
     for (Eigen::Index j = 0; j < seen.count; ++j) {
       estimate.information(seen[i], seen[j]) = information(i, j);
       estimate.weighted[seen[i]] +=
-          information(i, j) * sides.along[axisOf(seen[j])].place[endOf(seen[j])];
+          information(i, j) * sides.along[axisOf(seen[j])].position[endOf(seen[j])];
     }
   }
   return estimate;
@@ -96,7 +96,7 @@ FusedSides fusedSides(const ObjectSides& sides_a, const ObjectSides& sides_b) {
       result.covariance(seen[i], seen[j]) = covariance(i, j);
     }
   }
-  result.place = result.covariance * (a.weighted + b.weighted);
+  result.position = result.covariance * (a.weighted + b.weighted);
   if (seen.count > 0) {
     const double moved = (result.covariance * b.information).cwiseProduct(kSameAxis).sum();
     result.weight_of_b = std::clamp(moved / static_cast<double>(seen.count), 0.0, 1.0);

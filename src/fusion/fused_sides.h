@@ -16,7 +16,7 @@ using SideMatrix = Eigen::Matrix4d;
 /// Two sources together: the sides that either saw, their positions and covariance.
 struct FusedSides {
   std::array<bool, kBoxSides> seen{};
-  SideVector place = SideVector::Zero();
+  SideVector position = SideVector::Zero();
   SideMatrix covariance = SideMatrix::Zero();
   /// How far the positions move, on average, as a share of a motion of all that the second one saw.
   double weight_of_b = 0.5;

@@ -12,10 +12,10 @@ namespace {
 /// Weight of covariance intersection that an estimate keeps which is worse in every respect. With
 /// a few percent of it the weight moves smoothly: by the determinant alone it would jump from the
 /// one to the other of two estimates that are as good.
-constexpr double kLeastWeight = 0.01;
+constexpr double kMinWeight = 0.01;
 
 /// The search for it.
-constexpr int kMostSteps = 60;
+constexpr int kMaxSteps = 60;
 constexpr double kWeightTolerance = 1e-12;
 
 /// Of the second estimate, in joint axes.
@@ -28,11 +28,11 @@ struct FusedShares {
 /// w a^-1 + (1 - w) b^-1, times (w (1 - w))^least. Its logarithm is concave, and steep at both
 /// ends, so that its slope is 0 at one weight between them.
 double intersectionWeight(const TrackState& share) {
-  constexpr double kEnds = kLeastWeight * kTrackState;
+  constexpr double kEnds = kMinWeight * kTrackState;
   double low = 0.0;
   double high = 1.0;
   double weight = 0.5;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const TrackState terms = (1.0 - 2.0 * share.array()) /
                              (weight * (1.0 - share.array()) + (1.0 - weight) * share.array());
     const double rest = 1.0 - weight;
@@ -96,10 +96,10 @@ void TrackCombinationOptions::visit(OptionVisitor& visitor) {
                 "makes (Bar-Shalom and Campo 1986); or information, as if there were none, "
                 "which is over-confident"},
                method, {kCovarianceIntersection, kBarShalomCampo, kInformation});
-  visitor.number({"most_correlation", "1",
+  visitor.number({"max_correlation", "1",
                   "of the errors of two trackers in bar_shalom_campo; at 1 the difference of "
                   "both would be known exactly"},
-                 most_correlation, {0.01, 0.999});
+                 max_correlation, {0.01, 0.999});
   visitor.number({"first_correlation", "1",
                   "the same when both have just been found to follow one object, as they have done "
                   "for a while (Chen, Kirubarajan and Bar-Shalom 2003: about 0.4)"},
@@ -110,7 +110,7 @@ StateEstimate fusedState(const StateEstimate& a, const StateEstimate& b,
                          const CrossCovariance& cross, const TrackCombinationOptions& options) {
   const JointAxes joint(a.covariance, b.covariance);
   if (options.method == TrackCombinationOptions::kBarShalomCampo) {
-    return barShalomCampo(joint, a, b, joint.limitedCross(cross, options.most_correlation));
+    return barShalomCampo(joint, a, b, joint.limitedCross(cross, options.max_correlation));
   }
   const bool is_intersection = options.method == TrackCombinationOptions::kCovarianceIntersection;
   return fusedAlong(joint, a, b,

@@ -19,7 +19,7 @@ bool sharesSource(const Track& a, const Track& b) {
   });
 }
 
-bool areTwins(const Track& a, const Track& b, double reach) {
+bool areDuplicates(const Track& a, const Track& b, double reach) {
   return !sharesSource(a, b) && (reaches(a.box, b.box, reach) || reaches(b.box, a.box, reach));
 }
 
@@ -191,7 +191,7 @@ void FusedTargets::publish(double reach) {
   for (std::size_t i = 0; i < surest.size(); ++i) {
     for (std::size_t j = 0; j < i && surest[i]->published; ++j) {
       surest[i]->published =
-          !surest[j]->published || !areTwins(surest[i]->track, surest[j]->track, reach);
+          !surest[j]->published || !areDuplicates(surest[i]->track, surest[j]->track, reach);
     }
   }
 }

@@ -15,7 +15,7 @@ constexpr float kPercent = 100.0F;
 
 /// Half a percent, as finely as grids speak: nobody is surer for log-odds, which would else have no
 /// end.
-constexpr float kLeastProbability = 0.005F;
+constexpr float kMinProbability = 0.005F;
 
 /// Less agreement than the rounding of floats leaves.
 constexpr float kNoAgreement = 1e-6F;
@@ -40,8 +40,7 @@ Meaning meaningOf(float said, const GridSourceOptions& source) {
   meaning.may_be_occupied = 1.0F - std::max(0.0F, -evidence);
   meaning.may_be_free = 1.0F - std::max(0.0F, evidence);
   meaning.open = std::min(meaning.may_be_occupied, meaning.may_be_free);
-  meaning.probability =
-      std::clamp(0.5F + 0.5F * evidence, kLeastProbability, 1.0F - kLeastProbability);
+  meaning.probability = std::clamp(0.5F + 0.5F * evidence, kMinProbability, 1.0F - kMinProbability);
   meaning.weighed = static_cast<float>(source.weight) * kPercent * said;
   return meaning;
 }
@@ -68,7 +67,7 @@ Percent rounded(float value) {
   return static_cast<Percent>(value + kHalf);
 }
 
-/// The evidence of several sources on one cell, combined by Dempster's rule but not normalised.
+/// The evidence of several sources on one cell, combined by Dempster's rule but not normalized.
 class Evidence {
  public:
   void take(const Meaning& meaning) {
@@ -110,9 +109,9 @@ struct Priority {
 };
 
 struct Maximum {
-  Percent most = kUnknownPercent;
-  void take(const Source&, Percent said, const Meaning&) { most = std::max(most, said); }
-  Percent result(const Evidence&) const { return most; }
+  Percent max = kUnknownPercent;
+  void take(const Source&, Percent said, const Meaning&) { max = std::max(max, said); }
+  Percent result(const Evidence&) const { return max; }
 };
 
 /// The odds themselves multiply: the same without a logarithm.

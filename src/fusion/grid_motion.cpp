@@ -12,7 +12,7 @@ namespace datmo {
 
 namespace {
 
-/// Occupied cells go where their centre has come to: no other cell's centre may lie in them now.
+/// Occupied cells go where their center has come to: no other cell's center may lie in them now.
 void pushOccupied(const SensorGrid& grid, const Pose2& old_base_in_new, SensorGrid& moved) {
   const GridWindow& window = grid.window();
   const Eigen::Matrix2d rotation = old_base_in_new.rotation();
@@ -20,21 +20,21 @@ void pushOccupied(const SensorGrid& grid, const Pose2& old_base_in_new, SensorGr
     if (!isOccupied(percent)) {
       return;
     }
-    const CellIndex place =
-        window.cellAt(old_base_in_new.position() + rotation * window.centreOf(cell));
-    if (window.contains(place)) {
-      moved.at(place) = std::max(moved.at(place), percent);
+    const CellIndex position =
+        window.cellAt(old_base_in_new.position() + rotation * window.centerOf(cell));
+    if (window.contains(position)) {
+      moved.at(position) = std::max(moved.at(position), percent);
     }
   });
 }
 
-/// Where in each row the discs around occupied cells begin (+1) and end (-1): one column more than
+/// Where in each row the disks around occupied cells begin (+1) and end (-1): one column more than
 /// the grid has. Sums along a row count how many disks cover a cell, whatever their radius.
-std::vector<int> discEdges(const SensorGrid& grid, double radius) {
+std::vector<int> diskEdges(const SensorGrid& grid, double radius) {
   const GridWindow& window = grid.window();
   const int columns = window.columns;
   const int reach = static_cast<int>(std::min<double>(radius, window.rows));
-  std::vector<int> half_widths;  // by row from the disc's centre
+  std::vector<int> half_widths;  // by row from the disk's center
   for (int row = 0; row <= reach; ++row) {
     const double half = std::sqrt(radius * radius - static_cast<double>(row) * row);
     half_widths.push_back(static_cast<int>(std::min<double>(half, columns)));
@@ -59,15 +59,15 @@ std::vector<int> discEdges(const SensorGrid& grid, double radius) {
 
 /// `radius`: cells.
 void forgetFreeAroundOccupied(SensorGrid& grid, double radius) {
-  const std::vector<int> edges = discEdges(grid, radius);
+  const std::vector<int> edges = diskEdges(grid, radius);
   const int columns = grid.window().columns;
   const int* edge = edges.data();
   Percent* cell = grid.cells().data();
   for (int row = 0; row < grid.window().rows; ++row, ++edge) {
-    int discs = 0;
+    int disks = 0;
     for (int column = 0; column < columns; ++column, ++cell) {
-      discs += *edge++;
-      *cell = discs > 0 && isFree(*cell) ? kUnknownPercent : *cell;
+      disks += *edge++;
+      *cell = disks > 0 && isFree(*cell) ? kUnknownPercent : *cell;
     }
   }
 }
@@ -75,13 +75,13 @@ void forgetFreeAroundOccupied(SensorGrid& grid, double radius) {
 }  // namespace
 
 SensorGrid movedGrid(const SensorGrid& grid, Stamp stamp, const Pose2& old_base_in_new,
-                     double mover_way) {
+                     double mover_distance) {
   SensorGrid moved(stamp, grid.window());
   resample(grid, old_base_in_new, grid.window(),
            [&moved](CellIndex cell, Percent percent) { moved.at(cell) = percent; });
   pushOccupied(grid, old_base_in_new, moved);
-  if (mover_way >= grid.window().cell_size) {
-    forgetFreeAroundOccupied(moved, mover_way / grid.window().cell_size);
+  if (mover_distance >= grid.window().cell_size) {
+    forgetFreeAroundOccupied(moved, mover_distance / grid.window().cell_size);
   }
   return moved;
 }

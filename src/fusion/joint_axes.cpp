@@ -10,7 +10,7 @@ namespace datmo {
 namespace {
 
 /// Of the sum, that either has along any axis: rounding leaves no digits of less.
-constexpr double kLeastShare = 1e-12;
+constexpr double kMinShare = 1e-12;
 
 /// Added to the variances of both, of which each sum is 1, so that the sum's Cholesky factor has
 /// digits; and by how much more where that does not suffice.
@@ -19,7 +19,7 @@ constexpr double kNextRepair = 10.0;
 
 /// A cross-covariance whose correlations have a larger norm is nonsense, and only its directions
 /// count: singular values of less than the root of the rounding of the largest would be lost.
-constexpr double kMostNorm = 10.0;
+constexpr double kMaxNorm = 10.0;
 
 using Solver = Eigen::SelfAdjointEigenSolver<TrackCovariance>;
 
@@ -59,7 +59,7 @@ JointAxes::JointAxes(const TrackCovariance& a, const TrackCovariance& b) {
   const TrackCovariance whitening = inverseOfLower(lower);
   const TrackCovariance whitened = whitening * part * whitening.transpose();
   const Solver solver(0.5 * (whitened + whitened.transpose()));
-  share = solver.eigenvalues().cwiseMax(kLeastShare).cwiseMin(1.0 - kLeastShare);
+  share = solver.eigenvalues().cwiseMax(kMinShare).cwiseMin(1.0 - kMinShare);
   axes = scale.asDiagonal() * (lower * solver.eigenvectors());
   inverse = solver.eigenvectors().transpose() * whitening * to_scale.asDiagonal();
 }
@@ -74,20 +74,20 @@ TrackCovariance JointAxes::covariance(const TrackState& diagonal) const {
 }
 
 TrackCovariance JointAxes::limitedCross(const TrackCovariance& cross,
-                                        double most_correlation) const {
+                                        double max_correlation) const {
   const TrackState std_a = share.cwiseSqrt();
   const TrackState std_b = (1.0 - share.array()).sqrt();
   TrackCovariance in_axes = inverse * cross * inverse.transpose();
   TrackCovariance correlations =
       std_a.cwiseInverse().asDiagonal() * in_axes * std_b.cwiseInverse().asDiagonal();
   const double norm = correlations.norm();
-  if (norm <= most_correlation) {
+  if (norm <= max_correlation) {
     return in_axes;  // no singular value is more
   }
-  correlations *= std::min(1.0, kMostNorm / norm);
+  correlations *= std::min(1.0, kMaxNorm / norm);
   const Solver solver(correlations.transpose() * correlations);
   const TrackState singular = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-  const TrackState kept = most_correlation * singular.cwiseMax(most_correlation).cwiseInverse();
+  const TrackState kept = max_correlation * singular.cwiseMax(max_correlation).cwiseInverse();
   return std_a.asDiagonal() * correlations * solver.eigenvectors() * kept.asDiagonal() *
          solver.eigenvectors().transpose() * std_b.asDiagonal();
 }

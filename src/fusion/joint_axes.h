@@ -17,9 +17,9 @@ struct JointAxes {
   TrackCovariance covariance(const TrackState& diagonal) const;
 
   /// A cross-covariance, given in these axes, with no correlation between any part of the one error
-  /// and any of the other above `most_correlation` (more than 0). Below 1 that makes both errors'
+  /// and any of the other above `max_correlation` (more than 0). Below 1 that makes both errors'
   /// joint covariance positive definite.
-  TrackCovariance limitedCross(const TrackCovariance& cross, double most_correlation) const;
+  TrackCovariance limitedCross(const TrackCovariance& cross, double max_correlation) const;
 
   TrackCovariance axes;
   TrackCovariance inverse;  ///< of `axes`

@@ -18,7 +18,7 @@ namespace datmo {
 namespace {
 
 /// m^2, of the difference between two sides: keeps weights finite.
-constexpr double kLeastSideVariance = 1e-8;
+constexpr double kMinSideVariance = 1e-8;
 
 double square(double value) { return value * value; }
 
@@ -44,7 +44,7 @@ bool mayBeOfOneClass(const Object& a, const Object& b) {
 }
 
 /// What the scan knows to stand is no part of what it does not: a person beside a tree or a parked
-/// car, or an echo of the kerb below it.
+/// car, or an echo of the curb below it.
 bool oneStands(const Object& a, const Object& b) { return standsStill(a) != standsStill(b); }
 
 /// By how much two objects differ along an axis, m, and what that is uncertain by besides the
@@ -59,16 +59,16 @@ Difference differenceOf(const SidePair& a, const SidePair& b, double unknown_siz
   double weighted = 0.0;
   for (std::size_t end = 0; end < 2; ++end) {
     if (a.isSeen(end) && b.isSeen(end)) {
-      const double weight = 1.0 / std::max(a.variance[end] + b.variance[end], kLeastSideVariance);
+      const double weight = 1.0 / std::max(a.variance[end] + b.variance[end], kMinSideVariance);
       weights += weight;
-      weighted += weight * (b.place[end] - a.place[end]);
+      weighted += weight * (b.position[end] - a.position[end]);
     }
   }
   if (weights > 0.0) {
     return {weighted / weights, 1.0 / weights};
   }
-  const double beyond = std::max(0.0, b.place[0] - a.place[1]);
-  const double before = std::max(0.0, a.place[0] - b.place[1]);
+  const double beyond = std::max(0.0, b.position[0] - a.position[1]);
+  const double before = std::max(0.0, a.position[0] - b.position[1]);
   // Where the sides that face each other were both seen, nothing hidden fills the gap.
   const std::size_t of_a = beyond > 0.0 ? 1 : 0;
   const bool bounded = beyond + before > 0.0 && a.isSeen(of_a) && b.isSeen(1 - of_a);
@@ -78,7 +78,7 @@ Difference differenceOf(const SidePair& a, const SidePair& b, double unknown_siz
 
 /// Bounds of one object on how far apart a pair may be.
 struct Extent {
-  double radius;    ///< m, of the sides from the centre
+  double radius;    ///< m, of the sides from the center
   double variance;  ///< m^2, of a side along any axis, at most
 };
 
@@ -117,7 +117,7 @@ std::vector<int> assignOptimally(const std::vector<Object>& known, const std::ve
                               motionVariance(known[j], added[i], options);
       const double reach =
           std::sqrt(options.gate * variance) + extents_added[i].radius + extents_known[j].radius;
-      const Point2 apart = added[i].box.centre.position() - known[j].box.centre.position();
+      const Point2 apart = added[i].box.center.position() - known[j].box.center.position();
       if (apart.squaredNorm() > reach * reach) {
         continue;
       }
@@ -127,19 +127,19 @@ std::vector<int> assignOptimally(const std::vector<Object>& known, const std::ve
       }
     }
   }
-  return solveAssignment(cost, Eigen::VectorXd::Zero(rows), options.most_work).column_of_row;
+  return solveAssignment(cost, Eigen::VectorXd::Zero(rows), options.max_work).column_of_row;
 }
 
 /// Middle of the side that is nearest to the sensor (thesis 3.3.2: of the front line segment).
 Point2 nearMiddle(const Box2& box, const Point2& sensor) {
-  Point2 nearest = box.centre.position();
-  double least = std::numeric_limits<double>::infinity();
+  Point2 nearest = box.center.position();
+  double min = std::numeric_limits<double>::infinity();
   for (const Point2& side : {Point2(0.5 * box.length, 0.0), Point2(-0.5 * box.length, 0.0),
                              Point2(0.0, 0.5 * box.width), Point2(0.0, -0.5 * box.width)}) {
-    const Point2 middle = box.centre * side;
+    const Point2 middle = box.center * side;
     const double distance = (middle - sensor).norm();
-    if (distance < least) {
-      least = distance;
+    if (distance < min) {
+      min = distance;
       nearest = middle;
     }
   }
@@ -152,22 +152,22 @@ std::vector<int> assignNearest(const std::vector<Object>& known, const std::vect
   std::vector<double> distance(added.size(), 0.0);
   std::vector<int> owner(known.size(), kUnassigned);
   for (std::size_t i = 0; i < added.size(); ++i) {
-    const Point2 place = nearMiddle(added[i].box, sensor);
-    const double range = (place - sensor).norm();
-    double least = options.nearest_distance * range / options.nearest_range;
-    for (std::size_t j = 0; range <= options.nearest_range && j < known.size(); ++j) {
-      const double apart = (nearMiddle(known[j].box, sensor) - place).norm();
-      if (apart < least) {
-        least = apart;
+    const Point2 position = nearMiddle(added[i].box, sensor);
+    const double range = (position - sensor).norm();
+    double min = options.min_distance * range / options.min_range;
+    for (std::size_t j = 0; range <= options.min_range && j < known.size(); ++j) {
+      const double apart = (nearMiddle(known[j].box, sensor) - position).norm();
+      if (apart < min) {
+        min = apart;
         result[i] = static_cast<int>(j);
       }
     }
-    distance[i] = least;
+    distance[i] = min;
     if (result[i] == kUnassigned) {
       continue;
     }
     int& owned = owner[static_cast<std::size_t>(result[i])];
-    const int loser = owned == kUnassigned || least < distance[static_cast<std::size_t>(owned)]
+    const int loser = owned == kUnassigned || min < distance[static_cast<std::size_t>(owned)]
                           ? std::exchange(owned, static_cast<int>(i))
                           : static_cast<int>(i);
     if (loser != kUnassigned) {
@@ -182,8 +182,8 @@ std::vector<int> assignNearest(const std::vector<Object>& known, const std::vect
 void ObjectAssociationOptions::visit(OptionVisitor& visitor) {
   visitor.text({"association", "",
                 "which objects of two sensors are one: the likeliest assignment over all pairs, "
-                "or each to its nearest neighbour (thesis 3.3.3)"},
-               association, {kOptimal, kNearestNeighbour});
+                "or each to its nearest neighbor (thesis 3.3.3)"},
+               association, {kOptimal, kNearestNeighbor});
   visitor.number({"gate", "1",
                   "optimal: largest Mahalanobis distance squared of a pair: 13.8 is the 99.9 % "
                   "quantile of chi-square with two degrees of freedom"},
@@ -204,17 +204,17 @@ void ObjectAssociationOptions::visit(OptionVisitor& visitor) {
                   "optimal: how far an object reaches beyond what was seen of it, as a standard "
                   "deviation: allowed where two sensors saw no side in common"},
                  unknown_size_std, {0.0, 20.0});
-  visitor.integer({"most_work", "1",
+  visitor.integer({"max_work", "1",
                    "optimal: pairs looked at (1 ns each) before the objects that are left take the "
                    "best one that is free"},
-                  most_work, {1000, 1e9});
-  visitor.number({"nearest_distance", "m",
-                  "nearest_neighbour: two objects at nearest_range are one if they are nearer than "
+                  max_work, {1000, 1e9});
+  visitor.number({"min_distance", "m",
+                  "nearest_neighbor: two objects at min_range are one if they are nearer than "
                   "this, others in proportion to their range (thesis 3.3.3: 5)"},
-                 nearest_distance, {0.1, 100.0});
-  visitor.number({"nearest_range", "m",
-                  "nearest_neighbour: objects farther away are not associated (thesis: 36)"},
-                 nearest_range, {1.0, 1000.0});
+                 min_distance, {0.1, 100.0});
+  visitor.number(
+      {"min_range", "m", "nearest_neighbor: objects farther away are not associated (thesis: 36)"},
+      min_range, {1.0, 1000.0});
 }
 
 ObjectPairing pairing(const Object& a, const Object& b, const ObjectAssociationOptions& options) {

@@ -20,10 +20,10 @@ namespace {
 constexpr double kClearly = 4.0;
 
 /// m^2, of the position of a result.
-constexpr double kLeastVariance = 1e-8;
+constexpr double kMinVariance = 1e-8;
 
 /// Correlation of a result: its covariance must be positive definite.
-constexpr double kMostCorrelation = 0.999;
+constexpr double kMaxCorrelation = 0.999;
 
 double fusedVariance(double a, double b) { return a * b / (a + b); }
 
@@ -51,7 +51,7 @@ void dropContradicted(ObjectSides& sides, const ObjectSides& other) {
     for (std::size_t end = 0; end < 2; ++end) {
       SidePair& own = sides.along[axis];
       const SidePair& seen = other.along[axis];
-      const double beyond = (end == 0 ? -1.0 : 1.0) * (seen.place[end] - own.place[end]);
+      const double beyond = (end == 0 ? -1.0 : 1.0) * (seen.position[end] - own.position[end]);
       const double sigma = std::sqrt(of_whole + own.variance[end]);
       if (own.isSeen(end) && !seen.isSeen(end) && beyond > kClearly * sigma) {
         own.variance[end] = kHiddenSide;
@@ -74,17 +74,17 @@ FusedAxis jointExtent(const ObjectSides& a, const ObjectSides& b, std::size_t ax
     const double share_of_b = of_a / (of_a + of_b);
     const double middle = (1.0 - share_of_b) * seen_a.middle() + share_of_b * seen_b.middle();
     const double half = 0.5 * sureExtent(a, b, axis);
-    result.sides.place = {middle - half, middle + half};
+    result.sides.position = {middle - half, middle + half};
     result.common_variance = fusedVariance(of_a, of_b);
   } else {
     const double less_sure = 0.5 * (std::sqrt(of_a) - std::sqrt(of_b));
     const double off_a = std::min(std::max(0.0, less_sure), 0.5 * seen_a.extent());
     const double off_b = std::min(std::max(0.0, -less_sure), 0.5 * seen_b.extent());
-    result.sides.place = {std::min(seen_a.place[0] + off_a, seen_b.place[0] + off_b),
-                          std::max(seen_a.place[1] - off_a, seen_b.place[1] - off_b)};
+    result.sides.position = {std::min(seen_a.position[0] + off_a, seen_b.position[0] + off_b),
+                             std::max(seen_a.position[1] - off_a, seen_b.position[1] - off_b)};
     result.common_variance = std::max(of_a, of_b);
   }
-  result.common_variance = std::max(result.common_variance, kLeastVariance);
+  result.common_variance = std::max(result.common_variance, kMinVariance);
   return result;
 }
 
@@ -100,13 +100,13 @@ FusedAxis fusedAxis(const FusedSides& fused, const ObjectSides& a, const ObjectS
   FusedAxis result;
   result.sides.variance = {kHiddenSide, kHiddenSide};
   if (sees_behind && sees_ahead) {
-    const double least = std::min(fused.covariance(behind, behind), fused.covariance(ahead, ahead));
-    // More in common than they have makes the centre less sure, never surer.
+    const double min = std::min(fused.covariance(behind, behind), fused.covariance(ahead, ahead));
+    // More in common than they have makes the center less sure, never surer.
     result.common_variance =
-        std::max({fused.covariance(behind, ahead), std::min(of_whole, least), kLeastVariance});
-    const double middle = 0.5 * (fused.place[behind] + fused.place[ahead]);
-    result.sides.place = {std::min(fused.place[behind], middle),
-                          std::max(fused.place[ahead], middle)};
+        std::max({fused.covariance(behind, ahead), std::min(of_whole, min), kMinVariance});
+    const double middle = 0.5 * (fused.position[behind] + fused.position[ahead]);
+    result.sides.position = {std::min(fused.position[behind], middle),
+                             std::max(fused.position[ahead], middle)};
     for (std::size_t end = 0; end < 2; ++end) {
       const Eigen::Index side = behind + static_cast<Eigen::Index>(end);
       result.sides.variance[end] =
@@ -114,13 +114,14 @@ FusedAxis fusedAxis(const FusedSides& fused, const ObjectSides& a, const ObjectS
     }
   } else if (sees_behind || sees_ahead) {
     const Eigen::Index side = sees_ahead ? ahead : behind;
-    const double place = fused.place[side];
-    result.common_variance = std::max(fused.covariance(side, side), kLeastVariance);
+    const double position = fused.position[side];
+    result.common_variance = std::max(fused.covariance(side, side), kMinVariance);
     result.sides.variance[sees_ahead ? 1 : 0] = 0.0;
-    result.sides.place = {sees_ahead ? place - extent : place, sees_ahead ? place : place + extent};
+    result.sides.position = {sees_ahead ? position - extent : position,
+                             sees_ahead ? position : position + extent};
   } else {
     const FusedAxis joint = jointExtent(a, b, axis);
-    result.sides.place = joint.sides.place;
+    result.sides.position = joint.sides.position;
     result.common_variance = joint.common_variance;
   }
   return result;
@@ -129,18 +130,18 @@ FusedAxis fusedAxis(const FusedSides& fused, const ObjectSides& a, const ObjectS
 /// m^2, of x and y of the box as a whole: what all sides that were seen have in common, for more
 /// would make some corner surer than it is.
 double commonCovariance(const FusedSides& fused, const std::array<FusedAxis, 2>& axes) {
-  double least = kMostCorrelation * std::sqrt(axes[0].common_variance * axes[1].common_variance);
+  double min = kMaxCorrelation * std::sqrt(axes[0].common_variance * axes[1].common_variance);
   double sign = 0.0;
   for (Eigen::Index x = 0; x < 2; ++x) {
     for (Eigen::Index y = 2; y < 4; ++y) {
       if (fused.seen[static_cast<std::size_t>(x)] && fused.seen[static_cast<std::size_t>(y)]) {
         const double value = fused.covariance(x, y);
-        least = sign * value < 0.0 ? 0.0 : std::min(least, std::abs(value));
+        min = sign * value < 0.0 ? 0.0 : std::min(min, std::abs(value));
         sign = value < 0.0 ? -1.0 : 1.0;
       }
     }
   }
-  return sign * least;
+  return sign * min;
 }
 
 /// Box, position and the variances of its sides; returns the share of `b` in them.

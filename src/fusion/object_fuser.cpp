@@ -17,7 +17,7 @@ namespace datmo {
 namespace {
 
 /// Beyond this, odds are certainty, and sums of them lose the rest.
-constexpr double kMostLogOdds = 20.0;
+constexpr double kMaxLogOdds = 20.0;
 
 /// Of a class to be taken for known.
 constexpr double kKnownClass = 0.5;
@@ -27,7 +27,7 @@ struct FusedObject {
   Object object;
   std::vector<bool> seen_by;
   std::size_t scan_points = 0;  ///< the scanner's points on it
-  PlaceTestimony testimony;     ///< of the scan, about what another source sees of it
+  PositionEvidence evidence;    ///< of the scan, about what another source sees of it
 };
 
 double positionStd(const Object& object) {
@@ -60,10 +60,10 @@ void ObjectSourceOptions::visit(OptionVisitor& visitor) {
                   "that it lists an object that it could see: one that it does not list is so much "
                   "less likely"},
                  detection_probability, {0.01, 0.99});
-  visitor.number({"coincidence", "1",
+  visitor.number({"false_agreement_probability", "1",
                   "that a false object of another source has one of this source in its gate, by "
                   "chance"},
-                 coincidence, {0.001, 1.0});
+                 false_agreement_probability, {0.001, 1.0});
   visitor.group("covariance", [&] { covariance.visit(visitor); });
 }
 
@@ -77,16 +77,16 @@ void ObjectFuserOptions::visit(OptionVisitor& visitor) {
   visitor.text({"scanner", "",
                 "the source whose list the split scan belongs to; it lists nothing that is static"},
                scanner, {});
-  visitor.integer({"most_objects", "1",
+  visitor.integer({"max_objects", "1",
                    "objects taken from one list, the nearest ones; bounds the time of a step"},
-                  most_objects, {1, 10000});
-  visitor.number({"least_moving_share", "1",
+                  max_objects, {1, 10000});
+  visitor.number({"min_moving_share", "1",
                   "an object moves if at least this share of the beams on what all sources see of "
                   "it ends where the map is free; as moving_share of moving_objects"},
-                 least_moving_share, {0.0, 1.0});
+                 min_moving_share, {0.0, 1.0});
   association.visit(visitor);
   visitor.group("visibility", [&] { visibility.visit(visitor); });
-  visitor.group("witness", [&] { witness.visit(visitor); });
+  visitor.group("scan_support", [&] { scan_support.visit(visitor); });
 }
 
 std::vector<std::string> ObjectFuserOptions::sourcesInUse() const {
@@ -111,15 +111,16 @@ ObjectFuser::ObjectFuser(const ObjectFuserOptions& options) : options_(options) 
 class ObjectFuser::Fusion {
  public:
   Fusion(const ObjectFuserOptions& options, const std::vector<SourceObjects>& sources,
-         const SplitScan* scan)
+         const LabeledScan* scan)
       : options_(options), sources_(sources) {
     if (scan != nullptr) {
-      witness_.emplace(*scan, options_.witness);
+      scan_support_.emplace(*scan, options_.scan_support);
     }
     result_.list.stamp = sources.at(0).list.stamp;
     for (const SourceObjects& source : sources) {
-      intakes_.push_back(takeIn(source, result_.list.stamp, witness_ ? &*witness_ : nullptr,
-                                options, result_.counts));
+      intakes_.push_back(ingest(source, result_.list.stamp,
+                                scan_support_ ? &*scan_support_ : nullptr, options,
+                                result_.counts));
       const std::vector<SensorView>& views = intakes_.back().list.views;
       result_.list.views.insert(result_.list.views.end(), views.begin(), views.end());
     }
@@ -152,7 +153,7 @@ class ObjectFuser::Fusion {
     const std::vector<int> matches =
         associate(known, intake.list.objects, intake.sensor, options_.association);
     const ObjectSourceOptions& own = optionsOf(source);
-    const double seen_too = std::log(own.detection_probability / own.coincidence);
+    const double seen_too = std::log(own.detection_probability / own.false_agreement_probability);
     for (std::size_t i = 0; i < matches.size(); ++i) {
       if (matches[i] == kUnassigned) {
         objects_.push_back(
@@ -175,8 +176,8 @@ class ObjectFuser::Fusion {
     fused.seen_by[source] = true;
     if (sources_[source].source == options_.scanner) {
       fused.scan_points = intake.list.objects[index].points.size();
-    } else if (intake.testimonies[index].beams > fused.testimony.beams) {
-      fused.testimony = intake.testimonies[index];
+    } else if (intake.scan_evidence[index].beams > fused.evidence.beams) {
+      fused.evidence = intake.scan_evidence[index];
     }
   }
 
@@ -184,14 +185,14 @@ class ObjectFuser::Fusion {
   /// much of it moves as is its share of the beams that look there and are not hidden.
   void weighMotion(FusedObject& fused) const {
     Object& object = fused.object;
-    const double others = fused.testimony.beamsElsewhere();
+    const double others = fused.evidence.beamsElsewhere();
     if (fused.scan_points == 0 || others <= 0.0) {
       return;
     }
     const auto own = static_cast<double>(fused.scan_points);
     object.moving_fraction *= own / (own + others);
     if (object.dynamic_state == DynamicState::kMoving &&
-        object.moving_fraction < options_.least_moving_share) {
+        object.moving_fraction < options_.min_moving_share) {
       object.dynamic_state = DynamicState::kUnknown;
     }
   }
@@ -205,8 +206,8 @@ class ObjectFuser::Fusion {
         continue;
       }
       const double detection = optionsOf(source).detection_probability;
-      if (witness_ && sources_[source].source == options_.scanner) {
-        const double met = std::min(1.0, fused.testimony.beams) * fused.testimony.through_share;
+      if (scan_support_ && sources_[source].source == options_.scanner) {
+        const double met = std::min(1.0, fused.evidence.beams) * fused.evidence.through_share;
         object.log_odds += std::log1p(-detection * met);
       } else if (intakes_[source].visibility) {
         const double visible =
@@ -217,19 +218,19 @@ class ObjectFuser::Fusion {
     if (isPole(object)) {
       takeForStanding(object);
     }
-    object.log_odds = std::clamp(object.log_odds, -kMostLogOdds, kMostLogOdds);
+    object.log_odds = std::clamp(object.log_odds, -kMaxLogOdds, kMaxLogOdds);
   }
 
   const ObjectFuserOptions& options_;
   const std::vector<SourceObjects>& sources_;
-  std::optional<ScanWitness> witness_;
+  std::optional<ScanSupport> scan_support_;
   std::vector<ObjectIntake> intakes_;
   std::vector<FusedObject> objects_;
   ObjectFusionResult result_;
 };
 
 ObjectFusionResult ObjectFuser::fuse(const std::vector<SourceObjects>& sources,
-                                     const SplitScan* scan) const {
+                                     const LabeledScan* scan) const {
   return Fusion(options_, sources, scan).run();
 }
 

@@ -14,28 +14,28 @@ namespace datmo {
 
 namespace {
 
-auto place(const Object& object) {
+auto position(const Object& object) {
   const Box2& box = object.box;
-  return std::make_tuple(box.centre.x(), box.centre.y(), box.centre.heading(), box.length,
+  return std::make_tuple(box.center.x(), box.center.y(), box.center.heading(), box.length,
                          box.width, object.height, object.log_odds);
 }
 
 /// The objects that are valid, the nearest ones if there are too many, in an order of their own.
-std::vector<Object> accepted(const ObjectList& list, std::size_t most, ObjectFusionCounts& counts) {
+std::vector<Object> accepted(const ObjectList& list, std::size_t max, ObjectFusionCounts& counts) {
   std::vector<Object> objects;
   std::copy_if(list.objects.begin(), list.objects.end(), std::back_inserter(objects), isValid);
   counts.rejected += list.objects.size() - objects.size();
-  if (objects.size() > most) {
+  if (objects.size() > max) {
     std::sort(objects.begin(), objects.end(), [](const Object& a, const Object& b) {
-      const double to_a = a.box.centre.position().norm();
-      const double to_b = b.box.centre.position().norm();
-      return to_a < to_b || (to_a == to_b && place(a) < place(b));
+      const double to_a = a.box.center.position().norm();
+      const double to_b = b.box.center.position().norm();
+      return to_a < to_b || (to_a == to_b && position(a) < position(b));
     });
-    counts.refused += objects.size() - most;
-    objects.resize(most);
+    counts.refused += objects.size() - max;
+    objects.resize(max);
   }
   std::sort(objects.begin(), objects.end(),
-            [](const Object& a, const Object& b) { return place(a) < place(b); });
+            [](const Object& a, const Object& b) { return position(a) < position(b); });
   return objects;
 }
 
@@ -44,34 +44,34 @@ Point2 sensorOf(const ObjectList& list) {
 }
 
 /// Evidence of the scan on an object of another source; it may show that the object is static.
-PlaceTestimony testimonyOf(Object& object, const ScanWitness& witness,
-                           const ObjectFuserOptions& options) {
+PositionEvidence evidenceOf(Object& object, const ScanSupport& scan_support,
+                            const ObjectFuserOptions& options) {
   const double moved = options.association.object_speed * std::abs(object.delay);
-  const PlaceTestimony testimony = witness.testimony(object, moved);
-  if (witness.standsStill(testimony)) {
+  const PositionEvidence evidence = scan_support.evidence(object, moved);
+  if (scan_support.standsStill(evidence)) {
     takeForStanding(object);
   }
-  return testimony;
+  return evidence;
 }
 
 }  // namespace
 
-ObjectIntake takeIn(const SourceObjects& source, Stamp reference, const ScanWitness* witness,
+ObjectIntake ingest(const SourceObjects& source, Stamp reference, const ScanSupport* scan_support,
                     const ObjectFuserOptions& options, ObjectFusionCounts& counts) {
   const PositionCovarianceOptions& covariance = options.sources.at(source.source).covariance;
-  const bool is_heard = witness != nullptr && source.source != options.scanner;
+  const bool is_heard = scan_support != nullptr && source.source != options.scanner;
   const double later = secondsBetween(reference, source.list.stamp);
   const Point2 sensor = sensorOf(source.list);
   ObjectIntake intake;
   for (Object& listed :
-       accepted(source.list, static_cast<std::size_t>(options.most_objects), counts)) {
+       accepted(source.list, static_cast<std::size_t>(options.max_objects), counts)) {
     if (!covariance.empty()) {
-      listed.position_covariance = covariance.at(listed.box.centre.position(), sensor);
+      listed.position_covariance = covariance.at(listed.box.center.position(), sensor);
     }
     Object object = transformed(source.base_in_reference, listed);
     object.delay += later;
-    intake.testimonies.push_back(is_heard ? testimonyOf(object, *witness, options)
-                                          : PlaceTestimony());
+    intake.scan_evidence.push_back(is_heard ? evidenceOf(object, *scan_support, options)
+                                            : PositionEvidence());
     intake.list.objects.push_back(std::move(object));
   }
   intake.sensor = source.base_in_reference * sensor;

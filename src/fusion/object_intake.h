@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "datmo_fusion/fusion/object_fuser.h"
-#include "datmo_fusion/fusion/scan_witness.h"
+#include "datmo_fusion/fusion/scan_support.h"
 #include "datmo_fusion/tracking/visibility.h"
 
 namespace datmo {
@@ -12,14 +12,15 @@ namespace datmo {
 /// One source's objects, brought to where the vehicle was at the reference's stamp.
 struct ObjectIntake {
   ObjectList list;  ///< valid objects, in an order of their own, and views; reference's stamp
-  std::vector<PlaceTestimony> testimonies;  ///< of the scan, of each; of the scanner's own: none
-  Point2 sensor = Point2::Zero();           ///< m, from where it looks
-  std::optional<Visibility> visibility;     ///< of all its views; none: not known
+  std::vector<PositionEvidence>
+      scan_evidence;                     ///< of the scan, of each; of the scanner's own: none
+  Point2 sensor = Point2::Zero();        ///< m, from where it looks
+  std::optional<Visibility> visibility;  ///< of all its views; none: not known
 };
 
 /// @param witness null: nothing is known of what the scanner saw
 /// @param counts of what is left out, added to
-ObjectIntake takeIn(const SourceObjects& source, Stamp reference, const ScanWitness* witness,
+ObjectIntake ingest(const SourceObjects& source, Stamp reference, const ScanSupport* scan_support,
                     const ObjectFuserOptions& options, ObjectFusionCounts& counts);
 
 /// Unless it was seen to move.

@@ -12,15 +12,14 @@ namespace {
 constexpr double kUnknownSideVariance = kQuarterTurn * kQuarterTurn * kUniformVariance;
 
 /// rad^2; no box is a perfect rectangle.
-constexpr double kLeastHeadingVariance = 1e-6;
+constexpr double kMinHeadingVariance = 1e-6;
 
 /// rad; headings that differ by more are not one heading with noise: one of them is wrong.
-constexpr double kMostTurn = 0.3;
+constexpr double kMaxTurn = 0.3;
 
 /// Of a heading modulo a quarter turn beyond knowing nothing, 1/rad^2.
 double informationOf(double variance) {
-  return std::max(0.0,
-                  1.0 / std::max(variance, kLeastHeadingVariance) - 1.0 / kUnknownSideVariance);
+  return std::max(0.0, 1.0 / std::max(variance, kMinHeadingVariance) - 1.0 / kUnknownSideVariance);
 }
 
 /// How much an object's box would lose by being turned: length over uncertainty, squared.
@@ -42,8 +41,8 @@ double stiffnessOf(const Object& object) {
 }  // namespace
 
 CommonHeading commonHeading(const Object& a, const Object& b) {
-  const double from = a.box.centre.heading();
-  const double turn = angleBetween(from, b.box.centre.heading());
+  const double from = a.box.center.heading();
+  const double turn = angleBetween(from, b.box.center.heading());
   const double quarters = std::round(turn / kQuarterTurn);
   const double apart = turn - quarters * kQuarterTurn;
   const double of_a = informationOf(a.heading_variance);
@@ -53,7 +52,7 @@ CommonHeading commonHeading(const Object& a, const Object& b) {
   CommonHeading common;
   common.variance = known > 0.0 ? 1.0 / (known + 1.0 / kUnknownSideVariance)
                                 : std::min(a.heading_variance, b.heading_variance);
-  if (std::abs(apart) > kMostTurn) {
+  if (std::abs(apart) > kMaxTurn) {
     const double stiffer = stiffnessOf(b) - stiffnessOf(a);
     share_of_b = stiffer > 0.0 || (stiffer == 0.0 && of_b > of_a) ? 1.0 : 0.0;
     common.variance = share_of_b > 0.0 ? b.heading_variance : a.heading_variance;
@@ -69,8 +68,8 @@ ObjectSides sidesIn(const CommonAxes& axes, const Object& object) {
                                                          BoxSide::kRear, BoxSide::kRight};
   const Box2& box = object.box;
   const Eigen::Matrix2d to_axes = axes.rotation.transpose();
-  const Point2 centre = to_axes * (box.centre.position() - axes.pose.position());
-  const double turn = angleBetween(box.centre.heading(), axes.pose.heading());
+  const Point2 center = to_axes * (box.center.position() - axes.pose.position());
+  const double turn = angleBetween(box.center.heading(), axes.pose.heading());
   const double quarters = std::round(turn / kQuarterTurn);
   const double slant = turn - quarters * kQuarterTurn;
   const auto first = static_cast<std::size_t>(std::lround(quarters) + 4);
@@ -90,8 +89,8 @@ ObjectSides sidesIn(const CommonAxes& axes, const Object& object) {
       const double own = variance(first + direction);
       // The farthest point of a turned box in that direction is a corner: both its sides count.
       const double other = variance(first + direction + (slant > 0.0 ? 1 : kBoxSides - 1));
-      const bool is_seen = std::abs(slant) <= kMostTurn || std::isfinite(other);
-      sides.along[axis].place[end] = end == 1 ? centre[i] + half[i] : centre[i] - half[i];
+      const bool is_seen = std::abs(slant) <= kMaxTurn || std::isfinite(other);
+      sides.along[axis].position[end] = end == 1 ? center[i] + half[i] : center[i] - half[i];
       sides.along[axis].variance[end] = is_seen ? own + turned * turned : kHiddenSide;
     }
   }

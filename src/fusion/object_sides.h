@@ -9,12 +9,12 @@ namespace datmo {
 
 /// The two sides of a box that are across one axis.
 struct SidePair {
-  std::array<double, 2> place{};     ///< m along the axis: of the side behind, of the one ahead
+  std::array<double, 2> position{};  ///< m along the axis: of the side behind, of the one ahead
   std::array<double, 2> variance{};  ///< m^2, by itself; kHiddenSide: not seen
 
   bool isSeen(std::size_t end) const { return std::isfinite(variance[end]); }
-  double extent() const { return place[1] - place[0]; }
-  double middle() const { return 0.5 * (place[0] + place[1]); }
+  double extent() const { return position[1] - position[0]; }
+  double middle() const { return 0.5 * (position[0] + position[1]); }
 };
 
 /// An object given in the axes.
@@ -38,7 +38,7 @@ CommonHeading commonHeading(const Object& a, const Object& b);
 /// In which two objects are given.
 struct CommonAxes {
   CommonAxes(const Object& a, const Object& b, const CommonHeading& common)
-      : pose(0.5 * (a.box.centre.position() + b.box.centre.position()), common.heading),
+      : pose(0.5 * (a.box.center.position() + b.box.center.position()), common.heading),
         rotation(pose.rotation()) {}
 
   Pose2 pose;                ///< midway between both, along their common heading

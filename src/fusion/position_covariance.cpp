@@ -10,7 +10,7 @@ namespace datmo {
 namespace {
 
 /// m: nearer to the sensor than this a bearing carries no direction.
-constexpr double kLeastRange = 0.1;
+constexpr double kMinRange = 0.1;
 
 /// A covariance must be positive definite.
 constexpr Bounds kVariance{1e-9, 1e6};
@@ -20,7 +20,7 @@ constexpr Bounds kVariance{1e-9, 1e6};
 Eigen::Matrix2d rangeBearingCovariance(const Point2& from_sensor, double range_variance,
                                        double bearing_variance) {
   const double range = from_sensor.norm();
-  if (range < kLeastRange) {
+  if (range < kMinRange) {
     return range_variance * Eigen::Matrix2d::Identity();
   }
   const Point2 along = from_sensor / range;
@@ -49,8 +49,8 @@ void PositionCovarianceOptions::check(const std::string& name) const {
   }
 }
 
-Eigen::Matrix2d PositionCovarianceOptions::at(const Point2& place, const Point2& sensor) const {
-  const Point2 line = place - sensor;
+Eigen::Matrix2d PositionCovarianceOptions::at(const Point2& position, const Point2& sensor) const {
+  const Point2 line = position - sensor;
   const double last = static_cast<double>(range_variance.size()) - 1.0;
   const double bin = std::min(std::floor(line.norm() / bin_width), last);
   const auto i = static_cast<std::size_t>(std::max(bin, 0.0));

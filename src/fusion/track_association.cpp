@@ -19,8 +19,9 @@ void TrackAssociationOptions::visit(OptionVisitor& visitor) {
                   "sum of log-likelihood ratios from which two tracks are one (Wald 1947: the "
                   "logarithm of the inverse rate of false pairs)"},
                  required, {0.0, 100.0});
-  visitor.number({"loyalty", "1", "by how much it may fall below that before they part"}, loyalty,
-                 {0.0, 100.0});
+  visitor.number(
+      {"association_hysteresis", "1", "by how much it may fall below that before they part"},
+      association_hysteresis, {0.0, 100.0});
 }
 
 TrackAssociation::TrackAssociation(const TrackAssociationOptions& options) : options_(options) {
@@ -59,7 +60,7 @@ void TrackAssociation::compareAll(Stamp stamp, const std::vector<PresentTracks>&
   }
 }
 
-/// What is far apart leaves no trace: so there are as many pairs as neighbours.
+/// What is far apart leaves no trace: so there are as many pairs as neighbors.
 std::optional<double> TrackAssociation::scoreOf(Stamp stamp, const Track& a, const Track& b,
                                                 bool fresh, const PairKey& key) {
   const TrackComparison now = compare(a, b, options_.comparison);
@@ -78,14 +79,15 @@ std::optional<double> TrackAssociation::scoreOf(Stamp stamp, const Track& a, con
   if (fresh || pair.evidence.empty()) {
     pair.evidence.look(stamp, now.log_likelihood_ratio, options_.evidence);
   }
-  const double loyalty = pair.together ? options_.loyalty : 0.0;
+  const double association_hysteresis = pair.together ? options_.association_hysteresis : 0.0;
   if (options_.test == TrackAssociationOptions::kParallel) {
     return in_gate && areParallel(a, b, options_.parallel)
-               ? std::make_optional(options_.comparison.gate - now.squared_distance + loyalty)
+               ? std::make_optional(options_.comparison.gate - now.squared_distance +
+                                    association_hysteresis)
                : std::nullopt;
   }
   return in_gate || pair.together
-             ? std::make_optional(pair.evidence.sum() - options_.required + loyalty)
+             ? std::make_optional(pair.evidence.sum() - options_.required + association_hysteresis)
              : std::nullopt;
 }
 
@@ -98,8 +100,8 @@ void TrackAssociation::join(std::vector<TrackGroup>& groups,
     column_of[before].resize(sources[before].tracks.size());
   }
   for (Eigen::Index column = 0; column < columns; ++column) {
-    for (const TrackPlace& place : groups[static_cast<std::size_t>(column)]) {
-      column_of[place.list][place.track] = column;
+    for (const TrackPosition& position : groups[static_cast<std::size_t>(column)]) {
+      column_of[position.list][position.track] = column;
     }
   }
   Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(rows, columns);
@@ -141,13 +143,13 @@ void TrackAssociation::remember(Stamp stamp, const std::vector<TrackGroup>& grou
   }
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> group_of;
   for (std::size_t group = 0; group < groups.size(); ++group) {
-    for (const TrackPlace& place : groups[group]) {
-      group_of[{place.list, place.track}] = group;
+    for (const TrackPosition& position : groups[group]) {
+      group_of[{position.list, position.track}] = group;
     }
   }
   for (const Candidate& candidate : candidates_) {
-    const auto groupOf = [&](const TrackPlace& place) {
-      return group_of.at({place.list, place.track});
+    const auto groupOf = [&](const TrackPosition& position) {
+      return group_of.at({position.list, position.track});
     };
     const auto pair = pairs_.find(candidate.key);
     if (pair != pairs_.end() && groupOf(candidate.one) == groupOf(candidate.other)) {

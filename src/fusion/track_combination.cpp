@@ -13,18 +13,18 @@ namespace datmo {
 namespace {
 
 /// rad; headings that differ by more are not one heading with noise: one of them is wrong.
-constexpr double kMostTurn = 0.3;
+constexpr double kMaxTurn = 0.3;
 
 /// rad^2; nobody knows a heading better.
-constexpr double kLeastHeadingVariance = 1e-6;
+constexpr double kMinHeadingVariance = 1e-6;
 
-/// m^2, of a box's centre along an axis: no weight is without end.
-constexpr double kLeastCentreVariance = 1e-9;
+/// m^2, of a box's center along an axis: no weight is without end.
+constexpr double kMinCenterVariance = 1e-9;
 
-double headingOf(const Track& track) { return track.box.centre.heading(); }
+double headingOf(const Track& track) { return track.box.center.heading(); }
 
 double headingVarianceOf(const Track& track) {
-  return std::clamp(track.heading_variance, kLeastHeadingVariance, kUnknownHeadingVariance);
+  return std::clamp(track.heading_variance, kMinHeadingVariance, kUnknownHeadingVariance);
 }
 
 /// Whether the front is where a takes it to be, and not at the other end as b says. Who moves knows
@@ -34,7 +34,7 @@ bool aKnowsFront(const Track& a, const Track& b, const TrackState& fused) {
     return a.moving;
   }
   const auto order = [&](const Track& track) {
-    const double ahead = Point2(fused.segment<2>(2)).dot(track.box.centre.rotation().col(0));
+    const double ahead = Point2(fused.segment<2>(2)).dot(track.box.center.rotation().col(0));
     return std::make_tuple(ahead < 0.0, headingVarianceOf(track), headingOf(track));
   };
   return order(a) <= order(b);
@@ -56,7 +56,7 @@ Heading fusedHeading(const Track& a, const Track& b, const TrackState& fused) {
   const double apart = opposite ? normalizeAngle(turn + kPi) : turn;
   double share_of_b = of_a / (of_a + of_b);
   Heading heading{};
-  if (std::abs(apart) > kMostTurn) {
+  if (std::abs(apart) > kMaxTurn) {
     const bool a_is_surer =
         std::make_tuple(of_a, headingOf(a)) <= std::make_tuple(of_b, headingOf(b));
     share_of_b = a_is_surer ? 0.0 : 1.0;
@@ -74,7 +74,7 @@ Heading fusedHeading(const Track& a, const Track& b, const TrackState& fused) {
   return heading;
 }
 
-/// Extents of a box along the axes of another heading, and what is known of its centre there.
+/// Extents of a box along the axes of another heading, and what is known of its center there.
 struct AxisSizes {
   Eigen::Vector2d size;      ///< m
   Eigen::Vector2d variance;  ///< m^2
@@ -87,16 +87,16 @@ AxisSizes sizesAlong(double heading, const Track& track) {
   const Eigen::Matrix2d axes = Pose2(0.0, 0.0, heading).rotation();
   const Eigen::Matrix2d along = axes.transpose() * track.covariance.topLeftCorner<2, 2>() * axes;
   return {across ? Eigen::Vector2d(box.width, box.length) : Eigen::Vector2d(box.length, box.width),
-          along.diagonal().cwiseMax(kLeastCentreVariance)};
+          along.diagonal().cwiseMax(kMinCenterVariance)};
 }
 
-Box2 fusedBox(const Track& a, const Track& b, const Pose2& centre) {
-  const AxisSizes of_a = sizesAlong(centre.heading(), a);
-  const AxisSizes of_b = sizesAlong(centre.heading(), b);
+Box2 fusedBox(const Track& a, const Track& b, const Pose2& center) {
+  const AxisSizes of_a = sizesAlong(center.heading(), a);
+  const AxisSizes of_b = sizesAlong(center.heading(), b);
   const Eigen::Vector2d size =
       (of_a.size.cwiseProduct(of_b.variance) + of_b.size.cwiseProduct(of_a.variance))
           .cwiseQuotient(of_a.variance + of_b.variance);
-  return {centre, size.x(), size.y()};
+  return {center, size.x(), size.y()};
 }
 
 template <typename Value>
@@ -126,7 +126,7 @@ std::array<double, kMotionModes> averagedModes(const std::array<double, kMotionM
   return modes;
 }
 
-std::vector<SourceTrack> joinedSources(const Track& a, const Track& b) {
+std::vector<SourceTrack> mergedSources(const Track& a, const Track& b) {
   std::vector<SourceTrack> all = a.sources;
   all.insert(all.end(), b.sources.begin(), b.sources.end());
   const auto key = [](const SourceTrack& one) { return std::tie(one.source, one.id); };
@@ -160,7 +160,7 @@ Track combined(Track a, const Track& b, const CrossCovariance& cross,
   a.since_update = std::min(a.since_update, b.since_update);
   a.hits = saturatedSum(a.hits, b.hits);
   a.sensors = sortedUnion(a.sensors, b.sensors);
-  a.sources = joinedSources(a, b);
+  a.sources = mergedSources(a, b);
   a.objects.clear();
   return a;
 }

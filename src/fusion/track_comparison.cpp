@@ -20,7 +20,7 @@ using Compared = Eigen::Matrix<double, kCompared, 1>;
 using ComparedCovariance = Eigen::Matrix<double, kCompared, kCompared>;
 
 /// No class is ever impossible (ClassBelief): the least ratio of "same class" against chance.
-constexpr double kLeastClassRatio = 0.05;
+constexpr double kMinClassRatio = 0.05;
 
 /// Farther than this many times the gate nothing is compared: most pairs, and quickly.
 constexpr double kFarBeyond = 2.0;
@@ -29,22 +29,22 @@ const double kLogOfTurn = std::log(2.0 * kPi);
 
 double square(double value) { return value * value; }
 
-/// m^2, along the axes of the box: where a sensor takes the centre of a body to be that it sees a
+/// m^2, along the axes of the box: where a sensor takes the center of a body to be that it sees a
 /// part of.
-Eigen::Vector2d centreVariances(const Box2& box, const TrackComparisonOptions& options) {
+Eigen::Vector2d centerVariances(const Box2& box, const TrackComparisonOptions& options) {
   return {square(options.body_std) + square(options.extent_share * box.length),
           square(options.body_std) + square(options.extent_share * box.width)};
 }
 
 /// The same in the fixed frame.
-Eigen::Matrix2d centreCovariance(const Box2& box, const TrackComparisonOptions& options) {
-  const Eigen::Matrix2d axes = box.centre.rotation();
-  return axes * centreVariances(box, options).asDiagonal() * axes.transpose();
+Eigen::Matrix2d centerCovariance(const Box2& box, const TrackComparisonOptions& options) {
+  const Eigen::Matrix2d axes = box.center.rotation();
+  return axes * centerVariances(box, options).asDiagonal() * axes.transpose();
 }
 
 /// m^2, of a track's position in all directions together.
-double placeVariance(const Track& track, const TrackComparisonOptions& options) {
-  return track.covariance.topLeftCorner<2, 2>().trace() + centreVariances(track.box, options).sum();
+double positionVariance(const Track& track, const TrackComparisonOptions& options) {
+  return track.covariance.topLeftCorner<2, 2>().trace() + centerVariances(track.box, options).sum();
 }
 
 /// Logarithm of how much likelier two tracks of these classes are if they are one object: all
@@ -56,7 +56,7 @@ double logClassRatio(const ClassProbabilities& a, const ClassProbabilities& b) {
     return 0.0;
   }
   const double same = std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-  return std::log(std::max(kLeastClassRatio, same / all * static_cast<double>(kObjectClasses)));
+  return std::log(std::max(kMinClassRatio, same / all * static_cast<double>(kObjectClasses)));
 }
 
 /// Of unrelated tracks, of position and velocity, 1/(m^4/s^2).
@@ -95,7 +95,7 @@ void TrackComparisonOptions::visit(OptionVisitor& visitor) {
                   "freedom"},
                  gate, {0.0, 1000.0});
   visitor.number({"body_std", "m",
-                  "standard deviation of where a sensor takes a body's centre to be: no road user "
+                  "standard deviation of where a sensor takes a body's center to be: no road user "
                   "is a box"},
                  body_std, {0.0, 5.0});
   visitor.number({"extent_share", "1",
@@ -117,7 +117,7 @@ void TrackComparisonOptions::visit(OptionVisitor& visitor) {
 
 TrackComparison compare(const Track& a, const Track& b, const TrackComparisonOptions& options) {
   const Compared difference = a.state.head<kCompared>() - b.state.head<kCompared>();
-  const double variance = placeVariance(a, options) + placeVariance(b, options);
+  const double variance = positionVariance(a, options) + positionVariance(b, options);
   if (difference.head<2>().squaredNorm() > kFarBeyond * options.gate * variance) {
     const double infinity = std::numeric_limits<double>::infinity();
     return {infinity, -infinity};
@@ -125,7 +125,7 @@ TrackComparison compare(const Track& a, const Track& b, const TrackComparisonOpt
   ComparedCovariance covariance = a.covariance.topLeftCorner<kCompared, kCompared>() +
                                   b.covariance.topLeftCorner<kCompared, kCompared>();
   covariance.topLeftCorner<2, 2>() +=
-      centreCovariance(a.box, options) + centreCovariance(b.box, options);
+      centerCovariance(a.box, options) + centerCovariance(b.box, options);
   covariance.bottomRightCorner<2, 2>().diagonal().array() += square(options.velocity_std);
   const Eigen::LLT<ComparedCovariance> root(covariance);
   const double squared_distance = root.matrixL().solve(difference).squaredNorm();
@@ -154,7 +154,7 @@ bool areParallel(const Track& a, const Track& b, const ParallelTracksOptions& op
     sum.y += difference.y;
     ++points;
   };
-  add(a.box.centre, b.box.centre);
+  add(a.box.center, b.box.center);
   for (const PathPoint& point : a.history) {
     const auto after =
         std::lower_bound(b.history.begin(), b.history.end(), point.stamp,

@@ -21,7 +21,7 @@ CrossCovariance TrackCorrelations::between(const Track& a, const Track& b,
       known == before_.end()
           ? evenCrossCovariance(now, options.first_correlation)
           : steppedCrossCovariance(known->second.cross, known->second.covariances, now,
-                                   motionOf(a, seconds_, prediction), options.most_correlation);
+                                   motionOf(a, seconds_, prediction), options.max_correlation);
   present_[key] = {cross, now};
   return cross;
 }

@@ -10,11 +10,11 @@ namespace datmo {
 
 namespace {
 
-/// An extent is twice as uncertain as the centre, which lies half of it behind the side that is
+/// An extent is twice as uncertain as the center, which lies half of it behind the side that is
 /// seen; one that differs by two standard deviations is believed half.
-constexpr double kExtentPerCentre = 4.0;
+constexpr double kExtentPerCenter = 4.0;
 
-/// m, standard deviation of the centre along the axis.
+/// m, standard deviation of the center along the axis.
 double sigmaAlong(const Track& track, const Point2& axis) {
   return std::sqrt(std::max(0.0, axis.dot(track.covariance.topLeftCorner<2, 2>() * axis)));
 }
@@ -22,7 +22,7 @@ double sigmaAlong(const Track& track, const Point2& axis) {
 /// m, how long a track of this extent is likely to be, of which another one says that it is longer.
 double believedExtent(double shorter, const Track& longer, const Point2& axis) {
   const double more = extentAlong(longer.box, axis) - shorter;
-  const double sigma = kExtentPerCentre * sigmaAlong(longer, axis);
+  const double sigma = kExtentPerCenter * sigmaAlong(longer, axis);
   return shorter + more * (more * more / (more * more + sigma * sigma));
 }
 
@@ -32,8 +32,8 @@ void extend(Track& track, double extent, const Point2& axis, const Point2& senso
   if (missing <= 0.0) {
     return;
   }
-  const Point2 centre = track.state.head<2>();
-  const double to_sensor = axis.dot(sensor - centre);
+  const Point2 center = track.state.head<2>();
+  const double to_sensor = axis.dot(sensor - center);
   const bool abreast = std::abs(to_sensor) <= 0.5 * extent;
   const double away = to_sensor > 0.0 ? -1.0 : 1.0;
   const double range = abreast ? missing : 0.5 * missing;
@@ -42,9 +42,9 @@ void extend(Track& track, double extent, const Point2& axis, const Point2& senso
   if (!abreast) {
     track.state.head<2>() += 0.5 * missing * away * axis;
   }
-  const Point2 own = track.box.centre.rotation().transpose() * axis;
+  const Point2 own = track.box.center.rotation().transpose() * axis;
   (std::abs(own.x()) >= std::abs(own.y()) ? track.box.length : track.box.width) += missing;
-  track.box.centre = Pose2(track.state.head<2>(), track.box.centre.heading());
+  track.box.center = Pose2(track.state.head<2>(), track.box.center.heading());
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ void extend(Track& track, double extent, const Point2& axis, const Point2& senso
 void reconcileExtents(Track& a, const std::optional<Point2>& sensor_of_a, Track& b,
                       const std::optional<Point2>& sensor_of_b) {
   const Track& surer = a.heading_variance <= b.heading_variance ? a : b;
-  const Eigen::Matrix2d axes = surer.box.centre.rotation();
+  const Eigen::Matrix2d axes = surer.box.center.rotation();
   for (int i = 0; i < 2; ++i) {
     const Point2 axis = axes.col(i);
     const double of_a = extentAlong(a.box, axis);

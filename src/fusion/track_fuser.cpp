@@ -24,14 +24,14 @@ double positionStd(const Track& track) {
 }
 
 /// The likeliest ones, by rising id.
-void keepLikeliest(std::vector<Track>& tracks, std::size_t most) {
-  if (tracks.size() <= most) {
+void keepLikeliest(std::vector<Track>& tracks, std::size_t max) {
+  if (tracks.size() <= max) {
     return;
   }
   std::stable_sort(tracks.begin(), tracks.end(), [](const Track& a, const Track& b) {
     return a.existence_probability > b.existence_probability;
   });
-  tracks.resize(most);
+  tracks.resize(max);
   std::sort(tracks.begin(), tracks.end(),
             [](const Track& a, const Track& b) { return a.id < b.id; });
 }
@@ -56,14 +56,14 @@ class TrackFuser::State {
     stamp_ = stamp;
     TrackFusionResult result;
     result.list.stamp = stamp;
-    const std::vector<PresentTracks> present = takeIn(stamp, sources, result.counts);
+    const std::vector<PresentTracks> present = ingest(stamp, sources, result.counts);
     const std::vector<TrackGroup> groups = association_.associate(stamp, present);
     correlations_.step(seconds);
     targets_.follow(stamp, seconds, fused(groups, present, sensorsOf(sources), result.counts),
                     options_);
     look(sources, seconds);
     judgeAll(stamp, present);
-    targets_.publish(options_.twin_reach);
+    targets_.publish(options_.duplicate_gate_scale);
     publish(result);
     for (const SourceTracks& source : sources) {
       result.list.views.insert(result.list.views.end(), source.list->views.begin(),
@@ -89,7 +89,7 @@ class TrackFuser::State {
   }
 
  private:
-  std::vector<PresentTracks> takeIn(Stamp stamp, const std::vector<SourceTracks>& sources,
+  std::vector<PresentTracks> ingest(Stamp stamp, const std::vector<SourceTracks>& sources,
                                     TrackFusionCounts& counts) {
     std::vector<PresentTracks> present;
     for (const SourceTracks& source : sources) {
@@ -101,7 +101,7 @@ class TrackFuser::State {
                    std::back_inserter(own.tracks), [](const Track& one) { return isValid(one); });
       counts.rejected += source.list->tracks.size() - own.tracks.size();
       const std::size_t valid = own.tracks.size();
-      keepLikeliest(own.tracks, static_cast<std::size_t>(options_.most_tracks));
+      keepLikeliest(own.tracks, static_cast<std::size_t>(options_.max_tracks));
       counts.refused += valid - own.tracks.size();
       for (Track& track : own.tracks) {
         track = predicted(std::move(track), secondsBetween(source.list->stamp, stamp),
@@ -219,17 +219,17 @@ class TrackFuser::State {
   }
 
   void judge(FusedTarget& target, Stamp stamp, const std::vector<PresentTracks>& present) const {
-    std::vector<ExistenceWitness> witnesses;
+    std::vector<ExistenceReport> reports;
     bool seen_by_all = true;
     for (std::size_t source = 0; source < names_.size(); ++source) {
       const TrackSourceOptions& own = options_.sources.at(names_[source]);
       const Track* const track = trackOf(target, source, present);
       const double looked = target.looked[source].value_or(0.0);
-      witnesses.push_back({track != nullptr, track != nullptr ? track->existence_probability : 0.0,
-                           looked, own.detection_probability, own.coincidence});
+      reports.push_back({track != nullptr, track != nullptr ? track->existence_probability : 0.0,
+                         looked, own.detection_probability, own.false_agreement_probability});
       seen_by_all = seen_by_all && (track != nullptr || looked < options_.can_see);
     }
-    target.track.existence_probability = fusedExistence(witnesses);
+    target.track.existence_probability = fusedExistence(reports);
     target.track.age = secondsBetween(target.born, stamp);
     // Two sources that have it from one sensor count once.
     const bool by_two = target.track.sources.size() > 1 && target.track.sensors.size() > 1;
@@ -237,7 +237,7 @@ class TrackFuser::State {
   }
 
   bool isWanted(const FusedTarget& target) const {
-    const bool is_beyond = options_.scheme == TrackFuserOptions::kFusedAndBeyond &&
+    const bool is_beyond = options_.scheme == TrackFuserOptions::kFusedPlusFallback &&
                            target.track.sources.size() == 1 && target.member(options_.beyond) &&
                            !isInOthersView(target);
     return target.track.existence_probability >= options_.published_existence &&
@@ -247,10 +247,10 @@ class TrackFuser::State {
   /// So that a source without a track of it speaks against it: of one that is published already
   /// when it has had time to confirm its own.
   bool isInOthersView(const FusedTarget& target) const {
-    const double least =
+    const double min =
         target.published ? std::max(options_.can_see, options_.misses) : options_.can_see;
     return std::any_of(target.looked.begin(), target.looked.end(),
-                       [least](const auto& looked) { return looked.value_or(0.0) >= least; });
+                       [min](const auto& looked) { return looked.value_or(0.0) >= min; });
   }
 
   void publish(TrackFusionResult& result) {

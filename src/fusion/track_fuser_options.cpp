@@ -7,9 +7,9 @@ void TrackSourceOptions::visit(OptionVisitor& visitor) {
   visitor.number({"detection_probability", "1",
                   "that it has a track of a moving object that it could see for looking_time"},
                  detection_probability, {0.01, 0.99});
-  visitor.number({"coincidence", "1",
+  visitor.number({"false_agreement_probability", "1",
                   "that it has one, by chance, that agrees with a false track of another source"},
-                 coincidence, {0.001, 1.0});
+                 false_agreement_probability, {0.001, 1.0});
 }
 
 TrackFuserOptions::TrackFuserOptions() {
@@ -26,9 +26,9 @@ void TrackFuserOptions::visit(OptionVisitor& visitor) {
       scheme, trackSchemeNames());
   visitor.text({"beyond", "", "the source whose tracks are published also where no other can see"},
                beyond, {});
-  visitor.integer({"most_tracks", "1",
+  visitor.integer({"max_tracks", "1",
                    "tracks taken from one list, the likeliest ones; bounds the time of a step"},
-                  most_tracks, {1, 2000});
+                  max_tracks, {1, 2000});
   visitor.number(
       {"can_see", "1",
        "a source can see a position where each of its measurements would have detected the "
@@ -43,10 +43,10 @@ void TrackFuserOptions::visit(OptionVisitor& visitor) {
                   "time constant of that probability: who has just come into view is not missed at "
                   "once"},
                  looking_time, {0.0, 60.0});
-  visitor.number({"twin_reach", "1",
+  visitor.number({"duplicate_gate_scale", "1",
                   "tracks of different sources are duplicates where the box of one, so many "
-                  "times as large, holds the centre of the other"},
-                 twin_reach, {0.0, 10.0});
+                  "times as large, holds the center of the other"},
+                 duplicate_gate_scale, {0.0, 10.0});
   visitor.number({"published_existence", "1", "existence probability from which one is published"},
                  published_existence, {0.0, 1.0});
   visitor.number({"memory", "s",
@@ -83,7 +83,7 @@ std::vector<std::string> TrackFuserOptions::sourcesInUse() const {
 }
 
 const std::vector<std::string>& trackSchemeNames() {
-  static const std::vector<std::string> names = {TrackFuserOptions::kFusedAndBeyond,
+  static const std::vector<std::string> names = {TrackFuserOptions::kFusedPlusFallback,
                                                  TrackFuserOptions::kConfirmedByAll,
                                                  TrackFuserOptions::kUnion};
   return names;

@@ -52,7 +52,7 @@ Track predicted(Track track, double seconds, const TrackPredictionOptions& optio
   track.state = estimate.mean;
   track.covariance = estimate.covariance;
   const double turn = track.moving ? track.yaw_rate * seconds : 0.0;
-  track.box.centre = Pose2(estimate.mean.head<2>(), track.box.centre.heading() + turn);
+  track.box.center = Pose2(estimate.mean.head<2>(), track.box.center.heading() + turn);
   // No less sure than knowing nothing, nor surer than before.
   const double drifted = track.heading_variance + options.heading_drift * std::abs(seconds);
   track.heading_variance =

@@ -12,7 +12,7 @@ int cellsAlong(double length, double cell_size) {
 }
 
 /// Cells of about 50 bytes in a map: more do not fit the memory of a vehicle's computer.
-constexpr double kMostCells = 2.5e7;
+constexpr double kMaxCells = 2.5e7;
 
 }  // namespace
 
@@ -26,9 +26,9 @@ void GridWindowOptions::visit(OptionVisitor& visitor) {
 GridWindow GridWindowOptions::window() const {
   checkOptions(*this);
   const double cells = length / cell_size * (width / cell_size);
-  if (cells > kMostCells) {
+  if (cells > kMaxCells) {
     throw OptionError("length, width and cell_size make " + toText(cells) +
-                      " cells: expected at most " + toText(kMostCells));
+                      " cells: expected at most " + toText(kMaxCells));
   }
   const int columns = cellsAlong(length, cell_size);
   const int rows = cellsAlong(width, cell_size);

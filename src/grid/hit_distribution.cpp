@@ -2,9 +2,9 @@
 
 namespace datmo {
 
-void CellHits::add(const Eigen::Vector2f& offset, float most) {
-  if (count >= most) {
-    const float keep = (most - 1.0F) / count;
+void CellHits::add(const Eigen::Vector2f& offset, float max) {
+  if (count >= max) {
+    const float keep = (max - 1.0F) / count;
     count *= keep;
     sum *= keep;
     squares *= keep;

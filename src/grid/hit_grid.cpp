@@ -7,7 +7,7 @@ namespace datmo {
 namespace {
 
 /// Nine times as many, and the table of all values up to there, are small numbers still.
-constexpr int kMostHits = 100000;
+constexpr int kMaxHits = 100000;
 
 const HitGridOptions& checked(const HitGridOptions& options) {
   checkOptions(options);
@@ -15,9 +15,9 @@ const HitGridOptions& checked(const HitGridOptions& options) {
 }
 
 template <typename Visit>
-void forEachAround(CellIndex centre, Visit&& visit) {
-  for (int row = centre.row - 1; row <= centre.row + 1; ++row) {
-    for (int column = centre.column - 1; column <= centre.column + 1; ++column) {
+void forEachAround(CellIndex center, Visit&& visit) {
+  for (int row = center.row - 1; row <= center.row + 1; ++row) {
+    for (int column = center.column - 1; column <= center.column + 1; ++column) {
       visit(CellIndex{column, row});
     }
   }
@@ -27,38 +27,38 @@ void forEachAround(CellIndex centre, Visit&& visit) {
 
 void HitGridOptions::visit(OptionVisitor& visitor) {
   window.visit(visitor);
-  visitor.integer({"most_hits", "1",
+  visitor.integer({"max_hits", "1",
                    "that a cell counts: a stationary vehicle hits the same cells over and over, "
                    "which would drown what it sees later; 0: all (thesis 3.5)"},
-                  most_hits, {0, kMostHits});
+                  max_hits, {0, kMaxHits});
   visitor.number({"cut_share", "1",
                   "cells with a smoothed count below this share of the highest are noise or what "
                   "has moved (thesis 3.5.2: 0.1)"},
                  cut_share, {0.0, 1.0});
-  visitor.number({"least_age", "s",
+  visitor.number({"min_age", "s",
                   "between the first and the last hit in and around a cell: what passes is over a "
                   "cell for less; 0: any (thesis)"},
-                 least_age, {0.0, 60.0});
+                 min_age, {0.0, 60.0});
 }
 
 HitGrid::HitGrid(const HitGridOptions& options)
     : options_(checked(options)),
-      most_hits_(options.most_hits > 0 ? options.most_hits : kMostHits),
+      max_hits_(options.max_hits > 0 ? options.max_hits : kMaxHits),
       cells_(options.window.window(), Cell{}),
       cells_with_(1, 0) {}
 
-void HitGrid::update(const SplitScan& scan) {
+void HitGrid::update(const LabeledScan& scan) {
   const Pose2& base_in_map = scan.base_in_map.pose;
-  centreOn(base_in_map.position());
+  centerOn(base_in_map.position());
   for (const ScanPoint& point : scan.points) {
     add(base_in_map * point.position, scan.stamp);
   }
 }
 
-void HitGrid::centreOn(const Point2& centre) {
+void HitGrid::centerOn(const Point2& center) {
   const GridWindow old = window();
-  const GridWindow next = cells_.windowOn(centre);
-  cells_.centreOn(centre, [&](CellIndex cell) { leave(cell, next); });
+  const GridWindow next = cells_.windowOn(center);
+  cells_.centerOn(center, [&](CellIndex cell) { leave(cell, next); });
   forEachCellOutside(window(), old, [&](CellIndex cell) { enter(cell); });
 }
 
@@ -69,21 +69,21 @@ void HitGrid::leave(CellIndex cell, const GridWindow& next) {
   setSmoothed(cell, 0);
 }
 
-void HitGrid::enter(CellIndex centre) {
+void HitGrid::enter(CellIndex center) {
   int sum = 0;
-  Cell& entered = cells_.at(centre);
-  forEachAround(centre, [&](CellIndex index) {
+  Cell& entered = cells_.at(center);
+  forEachAround(center, [&](CellIndex index) {
     const Cell& cell = cells_.atOrEmpty(index);
     sum += cell.hits;
     if (cell.hits > 0) {
       entered.first_hit = entered.last_hit = std::max(entered.last_hit, cell.last_hit);
     }
   });
-  setSmoothed(centre, sum);
+  setSmoothed(center, sum);
 }
 
-void HitGrid::addAround(CellIndex centre, int hits, const GridWindow& counts) {
-  forEachAround(centre, [&](CellIndex cell) {
+void HitGrid::addAround(CellIndex center, int hits, const GridWindow& counts) {
+  forEachAround(center, [&](CellIndex cell) {
     if (window().contains(cell) && counts.contains(cell)) {
       setSmoothed(cell, cells_.at(cell).smoothed + hits);
     }
@@ -111,12 +111,12 @@ void HitGrid::setSmoothed(CellIndex index, int value) {
   }
 }
 
-void HitGrid::touchAround(CellIndex centre, Stamp stamp) {
+void HitGrid::touchAround(CellIndex center, Stamp stamp) {
   if (!first_stamp_) {
     first_stamp_ = stamp;
   }
   const float now = static_cast<float>(secondsBetween(*first_stamp_, stamp));
-  forEachAround(centre, [&](CellIndex index) {
+  forEachAround(center, [&](CellIndex index) {
     if (window().contains(index)) {
       Cell& cell = cells_.at(index);
       cell.last_hit = now;
@@ -132,17 +132,17 @@ void HitGrid::add(const Point2& point, Stamp stamp) {
   }
   touchAround(index, stamp);
   Cell& cell = cells_.at(index);
-  if (cell.hits < most_hits_) {
+  if (cell.hits < max_hits_) {
     ++cell.hits;
     addAround(index, 1, window());
   }
   // When it is full the mean follows what is seen now.
-  const Eigen::Vector2f offset = (point - window().centreOf(index)).cast<float>();
+  const Eigen::Vector2f offset = (point - window().centerOf(index)).cast<float>();
   cell.mean += (offset - cell.mean) / static_cast<float>(cell.hits);
 }
 
 Point2 HitGrid::meanHit(CellIndex cell) const {
-  return window().centreOf(cell) + cells_.atOrEmpty(cell).mean.cast<double>();
+  return window().centerOf(cell) + cells_.atOrEmpty(cell).mean.cast<double>();
 }
 
 void HitGrid::reset() { *this = HitGrid(options_); }

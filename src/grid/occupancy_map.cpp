@@ -22,7 +22,7 @@ const OccupancyMapOptions& checked(const OccupancyMapOptions& options) {
 
 /// A cell that is occupied holds its hits to this many at the most, so that the surface follows
 /// what is seen now.
-constexpr float kMostHits = 50.0F;
+constexpr float kMaxHits = 50.0F;
 
 }  // namespace
 
@@ -30,7 +30,7 @@ OccupancyMap::OccupancyMap(const OccupancyMapOptions& options)
     : options_(checked(options)),
       hit_log_odds_(logOdds(options.hit_probability)),
       free_log_odds_(logOdds(options.free_probability)),
-      log_odds_limit_(-logOdds(options.least_probability)),
+      log_odds_limit_(-logOdds(options.min_probability)),
       cells_(options.window.window(), Cell{}) {}
 
 bool OccupancyMap::isStatic(const Cell& cell) const {
@@ -50,7 +50,7 @@ bool OccupancyMap::isGhost(const Cell& cell) const {
 
 template <typename Test>
 bool OccupancyMap::anyNear(CellIndex cell, Test&& test) const {
-  const int reach = options_.static_neighbourhood;
+  const int reach = options_.static_neighborhood;
   for (int row = cell.row - reach; row <= cell.row + reach; ++row) {
     for (int column = cell.column - reach; column <= cell.column + reach; ++column) {
       if (test(cells_.atOrEmpty({column, row}))) {
@@ -78,9 +78,9 @@ PointState OccupancyMap::judge(const Point2& point, const Point2& half_footprint
 
 template <typename Visit>
 void OccupancyMap::forEachSurfaceAround(const Point2& point, Visit&& visit) const {
-  const CellIndex centre = window().cellAt(point);
-  for (int row = centre.row - 1; row <= centre.row + 1; ++row) {
-    for (int column = centre.column - 1; column <= centre.column + 1; ++column) {
+  const CellIndex center = window().cellAt(point);
+  for (int row = center.row - 1; row <= center.row + 1; ++row) {
+    for (int column = center.column - 1; column <= center.column + 1; ++column) {
       const Cell& cell = cells_.atOrEmpty({column, row});
       if (hasSurface(cell)) {
         visit(cell, CellIndex{column, row});
@@ -92,22 +92,22 @@ void OccupancyMap::forEachSurfaceAround(const Point2& point, Visit&& visit) cons
 std::optional<HitDistribution> OccupancyMap::hitsAround(const Point2& point) const {
   HitSums sums;
   forEachSurfaceAround(point, [&](const Cell& cell, CellIndex index) {
-    sums.add(cell.hits, window().centreOf(index) - point, maturity(cell));
+    sums.add(cell.hits, window().centerOf(index) - point, maturity(cell));
   });
   return sums.empty() ? std::nullopt : std::make_optional(sums.about(point));
 }
 
 std::optional<HitDistribution> OccupancyMap::nearestHits(const Point2& point) const {
   const Cell* nearest = nullptr;
-  Point2 place;
-  double least_distance = std::numeric_limits<double>::infinity();
+  Point2 location;
+  double min_distance = std::numeric_limits<double>::infinity();
   forEachSurfaceAround(point, [&](const Cell& cell, CellIndex index) {
-    const Point2 centre = window().centreOf(index);
-    const double distance = (centre + cell.hits.mean() - point).squaredNorm();
-    if (distance < least_distance) {
-      least_distance = distance;
+    const Point2 center = window().centerOf(index);
+    const double distance = (center + cell.hits.mean() - point).squaredNorm();
+    if (distance < min_distance) {
+      min_distance = distance;
       nearest = &cell;
-      place = centre;
+      location = center;
     }
   });
   if (nearest == nullptr) {
@@ -115,7 +115,7 @@ std::optional<HitDistribution> OccupancyMap::nearestHits(const Point2& point) co
   }
   HitSums sums;
   sums.add(nearest->hits, Point2::Zero(), maturity(*nearest));
-  return sums.about(place);
+  return sums.about(location);
 }
 
 void OccupancyMap::beginUpdate(Stamp stamp) {
@@ -139,13 +139,13 @@ void OccupancyMap::update(const Scan& scan, const std::vector<PointState>& state
   }
 }
 
-void OccupancyMap::update(const GridSight& sight, const Pose2& base_in_map) {
-  beginUpdate(sight.grid->stamp());
-  for (const Point2& point : sight.surfaces) {
+void OccupancyMap::update(const GridUpdate& grid_update, const Pose2& base_in_map) {
+  beginUpdate(grid_update.grid->stamp());
+  for (const Point2& point : grid_update.surfaces) {
     hit(base_in_map * point);
   }
-  for (const Point2& centre : sight.cells) {
-    occupy(window().cellAt(base_in_map * centre));
+  for (const Point2& center : grid_update.cells) {
+    occupy(window().cellAt(base_in_map * center));
   }
   const auto count = [&](const std::vector<Point2>& ends, int Cell::*counter) {
     for (const Point2& end : ends) {
@@ -155,13 +155,13 @@ void OccupancyMap::update(const GridSight& sight, const Pose2& base_in_map) {
       }
     }
   };
-  count(sight.surfaces, &Cell::believed);
-  count(sight.movers, &Cell::believed);
-  count(sight.refuted, &Cell::refuted);
-  const Point2 from = base_in_map * sight.viewpoint;
-  resample(*sight.grid, base_in_map, window(), [&](CellIndex cell, Percent percent) {
+  count(grid_update.surfaces, &Cell::believed);
+  count(grid_update.movers, &Cell::believed);
+  count(grid_update.refuted, &Cell::refuted);
+  const Point2 from = base_in_map * grid_update.viewpoint;
+  resample(*grid_update.grid, base_in_map, window(), [&](CellIndex cell, Percent percent) {
     if (isFree(percent)) {
-      pass(cell, from, (window().centreOf(cell) - from).normalized());
+      pass(cell, from, (window().centerOf(cell) - from).normalized());
     }
   });
 }
@@ -196,7 +196,7 @@ void OccupancyMap::hit(const Point2& point) {
       cell->first_hit = now_;
     }
     cell->last_hit = now_;
-    cell->hits.add((point - window().centreOf(index)).cast<float>(), kMostHits);
+    cell->hits.add((point - window().centerOf(index)).cast<float>(), kMaxHits);
   }
 }
 
@@ -207,7 +207,7 @@ float OccupancyMap::contradiction(const Cell& cell, CellIndex index, const Point
   }
   HitSums sums;
   sums.add(cell.hits, Point2::Zero(), maturity(cell));
-  const HitDistribution surface = sums.about(window().centreOf(index));
+  const HitDistribution surface = sums.about(window().centerOf(index));
   const Point2 across(-direction.y(), direction.x());
   const double distance = across.dot(surface.mean - from);
   // The spread of hits at one point may be rounded to below 0.

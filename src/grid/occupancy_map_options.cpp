@@ -11,10 +11,10 @@ void OccupancyMapOptions::visit(OptionVisitor& visitor) {
                   "occupancy of a cell that a beam passes (thesis 3.2.1: 0.2; weaker here, because "
                   "a beam of a poor scanner passes close to obstacles that it does not see)"},
                  free_probability, {0.01, 0.49});
-  visitor.number({"least_probability", "1",
+  visitor.number({"min_probability", "1",
                   "a cell's occupancy stays between this and 1 - this, so that the map can change "
                   "its mind (Hess et al. 2016)"},
-                 least_probability, {0.0001, 0.3});
+                 min_probability, {0.0001, 0.3});
   visitor.number(
       {"beam_width", "rad",
        "opening angle in which a beam is free up to its end (thesis 3.2.1: the spacing of "
@@ -36,10 +36,10 @@ void OccupancyMapOptions::visit(OptionVisitor& visitor) {
        "between the first and the last hit of a static cell: longer than a mover takes to "
        "pass over it (thesis: 0)"},
       static_after, {0.0, 60.0});
-  visitor.integer({"static_neighbourhood", "cells",
+  visitor.integer({"static_neighborhood", "cells",
                    "a static cell this near to an end point makes it static: range noise and pose "
                    "error (thesis: 0)"},
-                  static_neighbourhood, {0, 5});
+                  static_neighborhood, {0, 5});
   visitor.integer(
       {"ghost_after", "1",
        "where other sensors have refuted so many ends of beams the scanner sees what is "

@@ -11,7 +11,7 @@
 
 namespace datmo {
 
-/// Draws for rviz. In: split_scan, road_borders, objects, objects/dropped, tracks,
+/// Draws for rviz. In: labeled_scan, road_borders, objects, objects/dropped, tracks,
 /// ground_truth/objects. Out: markers, while somebody looks; legend, once.
 class MarkersNodelet : public nodelet::Nodelet {
  private:
@@ -21,7 +21,7 @@ class MarkersNodelet : public nodelet::Nodelet {
     markers_ = node.advertise<visualization_msgs::MarkerArray>("markers", kQueue);
     legend_ = node.advertise<sensor_msgs::Image>("legend", 1, true);
     legend_.publish(drawLegend());
-    split_scan_ = node.subscribe("split_scan", kQueue, &MarkersNodelet::takeSplitScan, this);
+    labeled_scan_ = node.subscribe("labeled_scan", kQueue, &MarkersNodelet::takeLabeledScan, this);
     borders_ = node.subscribe("road_borders", kQueue, &MarkersNodelet::takeBorders, this);
     objects_ = node.subscribe("objects", kQueue, &MarkersNodelet::takeObjects, this);
     dropped_ = node.subscribe("objects/dropped", kQueue, &MarkersNodelet::takeDropped, this);
@@ -29,9 +29,9 @@ class MarkersNodelet : public nodelet::Nodelet {
     truth_ = node.subscribe("ground_truth/objects", kQueue, &MarkersNodelet::takeTruth, this);
   }
 
-  void takeSplitScan(const SplitScanConstPtr& message) {
+  void takeLabeledScan(const LabeledScanConstPtr& message) {
     last_scan_ = message;
-    draw("split_scan", *message);
+    draw("labeled_scan", *message);
     if (markers_.getNumSubscribers() > 0) {
       publish("vehicle", vehicleMarkers(message->header, options_.vehicle));
     }
@@ -50,7 +50,7 @@ class MarkersNodelet : public nodelet::Nodelet {
     }
     try {
       visualization_msgs::MarkerArray markers = markersOf(message, options_);
-      place(message, markers);
+      transformToFrame(message, markers);
       publish(source, std::move(markers));
     } catch (const InputError& error) {
       NODELET_WARN_THROTTLE(1.0, "%s are not drawn: %s", source.c_str(), error.what());
@@ -63,22 +63,25 @@ class MarkersNodelet : public nodelet::Nodelet {
   }
 
   /// Objects of the last scan go where the scan was seen from: tf may not know yet.
-  void place(const std_msgs::Header& header, visualization_msgs::MarkerArray& markers) const {
+  void transformToFrame(const std_msgs::Header& header,
+                        visualization_msgs::MarkerArray& markers) const {
     if (last_scan_ && last_scan_->header.stamp == header.stamp) {
-      placeInMap(*last_scan_, markers);
+      transformToMap(*last_scan_, markers);
     }
   }
 
-  void place(const ObjectArray& objects, visualization_msgs::MarkerArray& markers) const {
-    place(objects.header, markers);
+  void transformToFrame(const ObjectArray& objects,
+                        visualization_msgs::MarkerArray& markers) const {
+    transformToFrame(objects.header, markers);
   }
 
-  void place(const DroppedObjects& dropped, visualization_msgs::MarkerArray& markers) const {
-    place(dropped.header, markers);
+  void transformToFrame(const DroppedObjects& dropped,
+                        visualization_msgs::MarkerArray& markers) const {
+    transformToFrame(dropped.header, markers);
   }
 
   /// An intersection is where the vehicle is.
-  void place(const RoadBorders& road, visualization_msgs::MarkerArray& markers) const {
+  void transformToFrame(const RoadBorders& road, visualization_msgs::MarkerArray& markers) const {
     if (last_scan_) {
       addIntersection(road, *last_scan_, options_, markers);
     }
@@ -86,17 +89,18 @@ class MarkersNodelet : public nodelet::Nodelet {
 
   /// All else is where it says.
   template <typename Message>
-  void place(const Message& /*message*/, visualization_msgs::MarkerArray& /*markers*/) const {}
+  void transformToFrame(const Message& /*message*/,
+                        visualization_msgs::MarkerArray& /*markers*/) const {}
 
   /// A second of messages: enough for a hiccup, and bounded.
   static constexpr std::uint32_t kQueue = 20;
 
   MarkersOptions options_;
   StaleMarkers stale_;
-  SplitScanConstPtr last_scan_;
+  LabeledScanConstPtr last_scan_;
   ros::Publisher markers_;
   ros::Publisher legend_;
-  ros::Subscriber split_scan_;
+  ros::Subscriber labeled_scan_;
   ros::Subscriber borders_;
   ros::Subscriber objects_;
   ros::Subscriber dropped_;

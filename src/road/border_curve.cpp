@@ -56,8 +56,8 @@ double CurveTable::last() const {
 
 std::size_t CurveTable::nearest(double along) const {
   const double index = std::round((along - first_) / kStep);
-  const auto most = static_cast<double>(stations_.size() - 1);
-  return static_cast<std::size_t>(std::min(most, std::max(0.0, index)));
+  const auto max = static_cast<double>(stations_.size() - 1);
+  return static_cast<std::size_t>(std::min(max, std::max(0.0, index)));
 }
 
 Pose2 CurveTable::at(double along) const {
@@ -68,20 +68,20 @@ Pose2 CurveTable::at(double along) const {
           std::atan2(station.direction.y(), station.direction.x())};
 }
 
-CurvePlace CurveTable::locate(const Point2& point) const {
+CurvePoint CurveTable::locate(const Point2& point) const {
   const Point2 ahead = anchor_.rotate(Point2(1.0, 0.0));
-  CurvePlace place{ahead.dot(point - anchor_.position()), 0.0};
+  CurvePoint location{ahead.dot(point - anchor_.position()), 0.0};
   for (int i = 0; i < kFootSteps; ++i) {
-    const std::size_t index = nearest(place.along);
+    const std::size_t index = nearest(location.along);
     const Station& station = stations_[index];
     const Point2 from = point - station.position;
-    place.along = first_ + static_cast<double>(index) * kStep + station.direction.dot(from);
-    place.aside = station.direction.x() * from.y() - station.direction.y() * from.x();
-    if (nearest(place.along) == index) {
+    location.along = first_ + static_cast<double>(index) * kStep + station.direction.dot(from);
+    location.aside = station.direction.x() * from.y() - station.direction.y() * from.x();
+    if (nearest(location.along) == index) {
       break;
     }
   }
-  return place;
+  return location;
 }
 
 }  // namespace datmo

@@ -12,12 +12,12 @@ namespace datmo {
 namespace {
 
 std::vector<Point2> inMap(const Pose2& base_in_map, const Object& object) {
-  std::vector<Point2> places;
-  places.reserve(object.points.size());
+  std::vector<Point2> positions;
+  positions.reserve(object.points.size());
   for (const Point2& point : object.points) {
-    places.push_back(base_in_map * point);
+    positions.push_back(base_in_map * point);
   }
-  return places;
+  return positions;
 }
 
 /// The corner that lies farthest beyond a border; none if no corner lies beside it.
@@ -34,11 +34,11 @@ std::optional<BorderOffset> outermostCorner(const Object& object, const Pose2& b
 }
 
 /// The point that lies farthest on the road; none if a point lies beside no part of the border.
-std::optional<BorderOffset> innermostPoint(const std::vector<Point2>& places,
+std::optional<BorderOffset> innermostPoint(const std::vector<Point2>& positions,
                                            const RoadBorder& border) {
   std::optional<BorderOffset> innermost;
-  for (const Point2& place : places) {
-    const auto offset = offsetFrom(border, place);
+  for (const Point2& position : positions) {
+    const auto offset = offsetFrom(border, position);
     if (!offset) {
       return std::nullopt;
     }
@@ -60,7 +60,7 @@ void BorderFilterOptions::visit(OptionVisitor& visitor) {
                  margin, {0.0, 5.0});
   visitor.number({"sigmas", "1", "standard deviations of the border that are added to the margin"},
                  sigmas, {0.0, 10.0});
-  visitor.number({"most_sigma", "m", "a border that is known less well drops nothing"}, most_sigma,
+  visitor.number({"max_sigma", "m", "a border that is known less well drops nothing"}, max_sigma,
                  {0.01, 10.0});
   visitor.number(
       {"reach", "m", "what lies farther beyond a border is left alone: another road may be there"},
@@ -72,14 +72,14 @@ void BorderFilterOptions::visit(OptionVisitor& visitor) {
                   "the same beyond a border, where less reflects: a footpath, a driveway"},
                  required_beyond, {-100.0, 100.0});
   visitor.group("history", [&] { history.visit(visitor); });
-  visitor.group("arrival", [&] { arrival.visit(visitor); });
+  visitor.group("free_space_entry", [&] { free_space_entry.visit(visitor); });
   visitor.group("extension", [&] { extension.visit(visitor); });
 }
 
 BorderFilter::BorderFilter(const BorderFilterOptions& options)
     : options_(options),
       history_(options.history),
-      arrival_(options.arrival),
+      entry_test_(options.free_space_entry),
       extension_(options.extension) {
   checkOptions(options);
 }
@@ -89,7 +89,7 @@ void BorderFilter::reset() {
   extension_.reset();
 }
 
-std::vector<DroppedObject> BorderFilter::filter(const SplitScan& scan, const RoadModel& road,
+std::vector<DroppedObject> BorderFilter::filter(const LabeledScan& scan, const RoadModel& road,
                                                 ObjectList& objects) {
   history_.add(scan);
   extension_.update(road, scan.base_in_map.pose);
@@ -114,35 +114,34 @@ std::optional<DroppedObject> BorderFilter::falseAlarm(const Object& object,
     return std::nullopt;
   }
   const bool as_thesis = options_.method == BorderFilterOptions::kThesis;
-  const std::vector<Point2> places = inMap(base_in_map, object);
-  std::optional<Outside> outside = outsideKnown(object, places, base_in_map, road);
+  const std::vector<Point2> positions = inMap(base_in_map, object);
+  std::optional<Outside> outside = outsideKnown(object, positions, base_in_map, road);
   if (!outside && !as_thesis) {
-    outside = outsideExtension(places);
+    outside = outsideExtension(positions);
   }
   if (!outside) {
     return std::nullopt;
   }
-  std::vector<SightPlace> sights;
-  sights.reserve(places.size());
-  for (const Point2& place : places) {
-    sights.push_back({place, outside->offset.direction});
+  std::vector<ReflectionPoint> reflection_points;
+  reflection_points.reserve(positions.size());
+  for (const Point2& position : positions) {
+    reflection_points.push_back({position, outside->offset.direction});
   }
-  outside->reason.motion_evidence = arrival_.evidence(history_, sights);
+  outside->reason.motion_evidence = entry_test_.evidence(history_, reflection_points);
   const bool is_false = as_thesis || outside->reason.motion_evidence < outside->required;
   return is_false ? std::make_optional(outside->reason) : std::nullopt;
 }
 
-std::optional<BorderFilter::Outside> BorderFilter::outsideKnown(const Object& object,
-                                                                const std::vector<Point2>& places,
-                                                                const Pose2& base_in_map,
-                                                                const RoadModel& road) const {
+std::optional<BorderFilter::Outside> BorderFilter::outsideKnown(
+    const Object& object, const std::vector<Point2>& positions, const Pose2& base_in_map,
+    const RoadModel& road) const {
   std::optional<Outside> nearest;
   for (const RoadBorder& border : road.borders) {
     const auto offset = options_.method == BorderFilterOptions::kThesis
                             ? outermostCorner(object, base_in_map, border)
-                            : innermostPoint(places, border);
+                            : innermostPoint(positions, border);
     // In this form a standard deviation that is not a number is too high.
-    if (!offset || !(offset->sigma <= options_.most_sigma)) {
+    if (!offset || !(offset->sigma <= options_.max_sigma)) {
       continue;
     }
     const double margin = options_.margin + options_.sigmas * offset->sigma;
@@ -162,11 +161,11 @@ std::optional<BorderFilter::Outside> BorderFilter::outsideKnown(const Object& ob
 }
 
 std::optional<BorderFilter::Outside> BorderFilter::outsideExtension(
-    const std::vector<Point2>& places) const {
+    const std::vector<Point2>& positions) const {
   for (const RoadSide side : {RoadSide::kLeft, RoadSide::kRight}) {
     std::optional<BorderOffset> innermost;
-    for (const Point2& place : places) {
-      const auto offset = extension_.offset(side, place);
+    for (const Point2& position : positions) {
+      const auto offset = extension_.offset(side, position);
       if (offset && (!innermost || offset->outward < innermost->outward)) {
         innermost = offset;
       }

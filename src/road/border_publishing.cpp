@@ -22,13 +22,13 @@ using Stations = std::vector<StationPoint>;
 void enter(const FollowedBorder& border, const Pose2& map_in_vehicle,
            const BorderPublishingOptions& options, Stations& stations) {
   const CurveTable& table = border.table();
-  const double way = border.track().way();
-  for (const WayInterval& piece : border.evidence().pieces()) {
-    if (piece.last - piece.first < options.least_length) {
+  const double arc_length = border.track().arcLength();
+  for (const ArcLengthInterval& piece : border.evidence().pieces()) {
+    if (piece.last - piece.first < options.min_length) {
       continue;
     }
     for (double at = piece.first; at <= piece.last; at += 0.5 * options.spacing) {
-      const double along = at - way;
+      const double along = at - arc_length;
       if (along < table.first() || along > table.last()) {
         continue;
       }
@@ -37,7 +37,7 @@ void enter(const FollowedBorder& border, const Pose2& map_in_vehicle,
       const Point2 seen = map_in_vehicle * position;
       const double index = std::floor((seen.x() + options.behind) / options.spacing);
       const double outward = border.side() == RoadSide::kLeft ? seen.y() : -seen.y();
-      if (sigma > options.most_sigma || index < 0.0 ||
+      if (sigma > options.max_sigma || index < 0.0 ||
           index >= static_cast<double>(stations.size())) {
         continue;
       }
@@ -63,10 +63,10 @@ void BorderPublishingOptions::visit(OptionVisitor& visitor) {
   visitor.number({"ahead", "m", "how far ahead of the vehicle borders are published"}, ahead,
                  {1.0, 200.0});
   visitor.number({"behind", "m", "how far behind it"}, behind, {0.0, 200.0});
-  visitor.number({"most_sigma", "m", "across: what is less sure is not published"}, most_sigma,
+  visitor.number({"max_sigma", "m", "across: what is less sure is not published"}, max_sigma,
                  {0.05, 10.0});
-  visitor.number({"least_length", "m", "of a published piece of border: posts are shorter"},
-                 least_length, {0.0, 50.0});
+  visitor.number({"min_length", "m", "of a published piece of border: posts are shorter"},
+                 min_length, {0.0, 50.0});
   visitor.number({"spacing", "m", "of a border's points along the vehicle's heading"}, spacing,
                  {0.1, 20.0});
 }

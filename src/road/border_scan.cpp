@@ -6,7 +6,7 @@
 
 namespace datmo {
 
-BorderScan borderScan(const SplitScan& scan, const HitGrid& hits, double seconds) {
+BorderScan borderScan(const LabeledScan& scan, const HitGrid& hits, double seconds) {
   const Pose2& vehicle = scan.base_in_map.pose;
   BorderScan result;
   result.scanner = vehicle * scan.scanner_in_base;

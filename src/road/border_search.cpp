@@ -21,7 +21,7 @@ const BorderSearchOptions& checked(const BorderSearchOptions& options) {
 /// outward.
 struct HitCell {
   Point2 mean;    ///< of its hits
-  Point2 centre;  ///< of the cell
+  Point2 center;  ///< of the cell
   int hits;
   int smoothed;
 };
@@ -94,7 +94,7 @@ void SideSearch::gather(const HitGrid& hits) {
   };
   walkRectangle(hits.window(), {from_ * middle, far - near, outer - inner}, [&](CellIndex cell) {
     if (const int smoothed = hits.cutSmoothed(cell); smoothed > 0) {
-      cells_.push_back({mirrored(hits.meanHit(cell)), mirrored(hits.window().centreOf(cell)),
+      cells_.push_back({mirrored(hits.meanHit(cell)), mirrored(hits.window().centerOf(cell)),
                         hits.hits(cell), smoothed});
     }
   });
@@ -107,23 +107,23 @@ void SideSearch::score(double heading, std::vector<Candidate>& best,
   const double c = std::cos(heading);
   const double s = std::sin(heading);
   const double half_width = 0.5 * options_.width;
-  const double sections_per_metre = options_.sections / options_.length;
+  const double sections_per_meter = options_.sections / options_.length;
   for (const HitCell& cell : cells_) {
     // A window's frame begins on the line across the vehicle, at its distance outward.
-    const double y = cell.centre.y() - options_.first_distance;
-    const double across_first = c * y - s * cell.centre.x();
+    const double y = cell.center.y() - options_.first_distance;
+    const double across_first = c * y - s * cell.center.x();
     const double per_window = c * options_.step;
     const int first =
         std::max(0, static_cast<int>(std::ceil((across_first - half_width) / per_window)));
     const int last = std::min(
         windows_ - 1, static_cast<int>(std::floor((across_first + half_width) / per_window)));
     for (int i = first; i <= last; ++i) {
-      const double along = c * cell.centre.x() + s * (y - i * options_.step);
+      const double along = c * cell.center.x() + s * (y - i * options_.step);
       if (along < 0.0 || along > options_.length) {
         continue;
       }
       const int section =
-          std::min(options_.sections - 1, static_cast<int>(along * sections_per_metre));
+          std::min(options_.sections - 1, static_cast<int>(along * sections_per_meter));
       Window& window = windows[static_cast<std::size_t>(i)];
       window.hits += cell.smoothed;
       window.sections |= std::uint64_t{1} << section;
@@ -155,12 +155,12 @@ std::vector<Candidate> SideSearch::bestOfEachDistance() const {
 }
 
 std::optional<FoundBorder> SideSearch::find() const {
-  const double least = options_.score == "hits" ? options_.least_hits : options_.least_share;
+  const double min = options_.score == "hits" ? options_.min_hits : options_.min_share;
   const bool take_first = options_.take == "first";
   const std::vector<Candidate> best = bestOfEachDistance();
   const Candidate* found = nullptr;
   for (std::size_t i = 0; i < best.size(); ++i) {
-    if (best[i].score <= 0.0 || best[i].score < least ||
+    if (best[i].score <= 0.0 || best[i].score < min ||
         (found != nullptr && best[i].score <= found->score)) {
       if (found != nullptr && take_first) {
         break;

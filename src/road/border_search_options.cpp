@@ -29,10 +29,9 @@ void BorderSearchOptions::visit(OptionVisitor& visitor) {
                 "the same for any speed and scanner; or hits: the sum over all cells (thesis "
                 "3.5.3)"},
                score, {"share", "hits"});
-  visitor.number({"least_share", "1", "of a border, where the score is share"}, least_share,
+  visitor.number({"min_share", "1", "of a border, where the score is share"}, min_share,
                  {0.0, 1.0});
-  visitor.number({"least_hits", "1", "of a border, where the score is hits"}, least_hits,
-                 {0.0, 1.0e9});
+  visitor.number({"min_hits", "1", "of a border, where the score is hits"}, min_hits, {0.0, 1.0e9});
   visitor.text({"take", "",
                 "first: of the windows that are a border's by their score the nearest one whose "
                 "next one has no higher score; or highest: of all (thesis 3.5 has both)"},

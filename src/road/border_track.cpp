@@ -19,7 +19,7 @@ Eigen::Vector4d offsetRow(double along) {
 
 void BorderTrackOptions::visit(OptionVisitor& visitor) {
   visitor.number({"offset_drift", "m/m^0.5",
-                  "by which a border leaves the clothoid to the side: kerbs and parked cars do not "
+                  "by which a border leaves the clothoid to the side: curbs and parked cars do not "
                   "stand in one line"},
                  offset_drift, {0.0, 1.0});
   visitor.number({"heading_drift", "rad/m^0.5", "the same of its heading"}, heading_drift,
@@ -34,7 +34,7 @@ void BorderTrackOptions::visit(OptionVisitor& visitor) {
                  curvature_rate_sigma, {0.0, 0.01});
   visitor.number({"curvature_rate_length", "m",
                   "for how long curvature goes on changing: roads end a transition within some "
-                  "tens of metres"},
+                  "tens of meters"},
                  curvature_rate_length, {1.0, 1000.0});
   visitor.number({"map_drift", "m/s^0.5", "random walk of the map under the vehicle"}, map_drift,
                  {0.0, 1.0});
@@ -73,7 +73,7 @@ void BorderTrack::advance(double along, double seconds) {
   transition.row(3) *= kept;
   curve_ = curve_.movedAlong(along);
   curve_.curvature_rate *= kept;
-  way_ += along;
+  arc_length_ += along;
 
   covariance_ = (transition * covariance_ * transition.transpose()).eval();
   covariance_(0, 0) +=
@@ -88,14 +88,14 @@ int BorderTrack::correct(const std::vector<BorderHit>& hits) {
   Eigen::Vector4d pull = Eigen::Vector4d::Zero();
   int taken = 0;
   for (const BorderHit& hit : hits) {
-    const Eigen::Vector4d row = offsetRow(hit.place.along);
-    const double variance = hit.variance + wander(hit.place.along);
+    const Eigen::Vector4d row = offsetRow(hit.position.along);
+    const double variance = hit.variance + wander(hit.position.along);
     const double spread = row.dot(covariance_ * row) + variance;
-    if (square(hit.place.aside) > square(options_.gate) * spread) {
+    if (square(hit.position.aside) > square(options_.gate) * spread) {
       continue;
     }
     information += row * row.transpose() / variance;
-    pull += row * (hit.place.aside / variance);
+    pull += row * (hit.position.aside / variance);
     ++taken;
   }
   if (taken == 0) {

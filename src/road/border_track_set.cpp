@@ -11,7 +11,7 @@ namespace datmo {
 namespace {
 
 /// Windows that are tried one beyond the other in one search: beyond lines that were refuted.
-constexpr int kMostWindows = 3;
+constexpr int kMaxWindows = 3;
 
 double outwardOf(RoadSide side, double to_left) {
   return side == RoadSide::kLeft ? to_left : -to_left;
@@ -19,12 +19,12 @@ double outwardOf(RoadSide side, double to_left) {
 
 /// Whether two followed lines are one: they run side by side where either is seen.
 bool sameLine(const FollowedBorder& one, const FollowedBorder& other, double distance) {
-  const std::vector<WayInterval> pieces = one.evidence().pieces();
+  const std::vector<ArcLengthInterval> pieces = one.evidence().pieces();
   if (one.side() != other.side() || pieces.empty()) {
     return false;
   }
-  const double first = pieces.front().first - one.track().way();
-  const double last = pieces.back().last - one.track().way();
+  const double first = pieces.front().first - one.track().arcLength();
+  const double last = pieces.back().last - one.track().arcLength();
   for (const double along : {first, 0.5 * (first + last), last}) {
     const Point2 point = one.table().at(along).position();
     if (std::abs(other.table().locate(point).aside) > distance) {
@@ -42,7 +42,7 @@ void BorderTrackSetOptions::visit(OptionVisitor& visitor) {
                   {-50.0, 100.0});
   visitor.number({"same_distance", "m", "lines nearer to each other are one border"}, same_distance,
                  {0.05, 5.0});
-  visitor.integer({"most_borders", "1", "that are followed at a time"}, most_borders, {1, 1000});
+  visitor.integer({"max_borders", "1", "that are followed at a time"}, max_borders, {1, 1000});
 }
 
 void BorderTrackSet::clear() {
@@ -57,12 +57,12 @@ void BorderTrackSet::update(const BorderScan& scan, const HitGrid& hits,
       std::remove_if(borders_.begin(), borders_.end(),
                      [&](const FollowedBorder& border) { return border.isOver(scan.scanner); }),
       borders_.end());
-  dropTwins();
-  const std::size_t places = options_.search_from.size();
-  if (places > 0) {
+  removeDuplicates();
+  const std::size_t positions = options_.search_from.size();
+  if (positions > 0) {
     const RoadSide side = turn_ % 2 == 0 ? RoadSide::kLeft : RoadSide::kRight;
-    const double ahead = options_.search_from[turn_ / 2 % places];
-    turn_ = (turn_ + 1) % (2 * places);
+    const double ahead = options_.search_from[turn_ / 2 % positions];
+    turn_ = (turn_ + 1) % (2 * positions);
     searchFrom(hits, search, scan.scanner * Pose2(ahead, 0.0, 0.0), side);
   }
 }
@@ -84,7 +84,7 @@ void BorderTrackSet::follow(const BorderScan& scan) {
   }
 }
 
-void BorderTrackSet::dropTwins() {
+void BorderTrackSet::removeDuplicates() {
   for (std::size_t i = 0; i < borders_.size(); ++i) {
     for (std::size_t j = borders_.size(); j-- > 0;) {
       const bool both_tried = borders_[i].state() == FollowedBorder::State::kConfirmed &&
@@ -114,14 +114,14 @@ const FollowedBorder* BorderTrackSet::alongside(const FoundBorder& found) const 
 void BorderTrackSet::searchFrom(const HitGrid& hits, const BorderSearch& search, const Pose2& from,
                                 RoadSide side) {
   Pose2 begin = from;
-  for (int i = 0; i < kMostWindows; ++i) {
+  for (int i = 0; i < kMaxWindows; ++i) {
     const std::optional<FoundBorder> found = search.search(hits, begin, side);
     if (!found) {
       return;
     }
     const FollowedBorder* known = alongside(*found);
     if (known == nullptr) {
-      if (static_cast<int>(borders_.size()) < options_.most_borders) {
+      if (static_cast<int>(borders_.size()) < options_.max_borders) {
         borders_.emplace_back(options_.border, *found);
       }
       return;

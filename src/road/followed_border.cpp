@@ -16,18 +16,18 @@ constexpr double kBeside = 10.0;
 
 double square(double value) { return value * value; }
 
-double clampTo(const WayInterval& interval, double way) {
-  return std::clamp(way, interval.first, interval.last);
+double clampTo(const ArcLengthInterval& interval, double arc_length) {
+  return std::clamp(arc_length, interval.first, interval.last);
 }
 
 /// The nearest arc length of an interval.
-double nearestOf(const std::vector<WayInterval>& pieces, double way) {
-  double nearest = way;
-  double least = std::numeric_limits<double>::infinity();
-  for (const WayInterval& piece : pieces) {
-    const double candidate = clampTo(piece, way);
-    if (std::abs(candidate - way) < least) {
-      least = std::abs(candidate - way);
+double nearestOf(const std::vector<ArcLengthInterval>& pieces, double arc_length) {
+  double nearest = arc_length;
+  double min = std::numeric_limits<double>::infinity();
+  for (const ArcLengthInterval& piece : pieces) {
+    const double candidate = clampTo(piece, arc_length);
+    if (std::abs(candidate - arc_length) < min) {
+      min = std::abs(candidate - arc_length);
       nearest = candidate;
     }
   }
@@ -55,10 +55,10 @@ void FollowedBorderOptions::visit(OptionVisitor& visitor) {
   visitor.number({"ahead", "m", "how far ahead of the vehicle borders are followed"}, ahead,
                  {5.0, 200.0});
   visitor.number({"behind", "m", "how far behind it they are kept"}, behind, {0.0, 200.0});
-  visitor.number({"most_sigma", "m",
+  visitor.number({"max_sigma", "m",
                   "across: where a line is less sure it is not published; less sure as a whole "
                   "it is dropped"},
-                 most_sigma, {0.1, 10.0});
+                 max_sigma, {0.1, 10.0});
   visitor.number({"confirmed_length", "m", "seen stations that make a line a border"},
                  confirmed_length, {1.0, 50.0});
   visitor.number(
@@ -71,7 +71,7 @@ void FollowedBorderOptions::visit(OptionVisitor& visitor) {
                  street_depth, {1.0, 100.0});
   visitor.number(
       {"passage_from", "m",
-       "a beam that crosses a line nearer to the scanner may go over what is low: a kerb"},
+       "a beam that crosses a line nearer to the scanner may go over what is low: a curb"},
       passage_from, {0.0, 100.0});
   visitor.number({"trial_time", "s", "in which a line has to become a border"}, trial_time,
                  {0.0, 60.0});
@@ -93,7 +93,7 @@ double FollowedBorder::sigmaAt(double along) const {
   return std::sqrt(std::max(0.0, track_.varianceAt(along)));
 }
 
-bool FollowedBorder::tellsOf(const BorderScan::Beam& beam) const {
+bool FollowedBorder::informsAbout(const BorderScan::Beam& beam) const {
   return beam.lasting || state_ == State::kConfirmed;
 }
 
@@ -111,18 +111,18 @@ void FollowedBorder::advance(const BorderScan& scan) {
 
 void FollowedBorder::findReach() {
   reach_.clear();
-  for (const WayInterval& piece : evidence_.pieces()) {
-    reach_.push_back({piece.first - track_.way() - options_.growth,
-                      piece.last - track_.way() + options_.growth});
+  for (const ArcLengthInterval& piece : evidence_.pieces()) {
+    reach_.push_back({piece.first - track_.arcLength() - options_.growth,
+                      piece.last - track_.arcLength() + options_.growth});
   }
   if (state_ == State::kTrial) {
     const double margin = std::max(0.0, options_.growth - options_.fitted_growth);
-    reach_.push_back({-track_.way() - margin, found_length_ - track_.way() + margin});
+    reach_.push_back({-track_.arcLength() - margin, found_length_ - track_.arcLength() + margin});
   }
 }
 
 bool FollowedBorder::reaches(double along, double inside) const {
-  return std::any_of(reach_.begin(), reach_.end(), [&](const WayInterval& piece) {
+  return std::any_of(reach_.begin(), reach_.end(), [&](const ArcLengthInterval& piece) {
     return along >= piece.first + inside && along <= piece.last - inside;
   });
 }
@@ -132,8 +132,8 @@ double FollowedBorder::distanceOf(std::size_t beam) const {
   return here ? std::abs(places_[beam].aside) : std::numeric_limits<double>::infinity();
 }
 
-bool FollowedBorder::explains(const Point2& place, double distance) const {
-  const CurvePlace beside = table_->locate(place);
+bool FollowedBorder::explains(const Point2& position, double distance) const {
+  const CurvePoint beside = table_->locate(position);
   return std::abs(beside.aside) <= distance && reaches(beside.along);
 }
 
@@ -147,10 +147,10 @@ void FollowedBorder::update(const BorderScan& scan, const std::vector<bool>& is_
 }
 
 void FollowedBorder::moveAnchor(const BorderScan& scan) {
-  const double foot = track_.way() + table_->locate(scan.scanner.position()).along;
+  const double foot = track_.arcLength() + table_->locate(scan.scanner.position()).along;
   // Where nothing has been seen the line is only an extrapolation.
-  const double way = std::max(nearestOf(evidence_.pieces(), foot), foot - options_.behind);
-  const double step = std::clamp(way - track_.way(), table_->first(), table_->last());
+  const double arc_length = std::max(nearestOf(evidence_.pieces(), foot), foot - options_.behind);
+  const double step = std::clamp(arc_length - track_.arcLength(), table_->first(), table_->last());
   track_.advance(step, scan.seconds);
   table_.emplace(track_.curve(), -options_.behind, options_.ahead);
   evidence_.keepWithin({foot - options_.behind, foot + options_.ahead});
@@ -161,16 +161,16 @@ void FollowedBorder::correct(const BorderScan& scan, const std::vector<bool>& is
   const double unfitted = std::max(0.0, options_.growth - options_.fitted_growth);
   for (std::size_t i = 0; i < scan.beams.size(); ++i) {
     const BorderScan::Beam& beam = scan.beams[i];
-    const CurvePlace& place = places_[i];
+    const CurvePoint& position = places_[i];
     if (!beam.hit || !beam.lasting || beam.hits_there < options_.vouching_hits || !is_nearest[i] ||
-        std::abs(place.aside) > options_.tolerance || !reaches(place.along, unfitted)) {
+        std::abs(position.aside) > options_.tolerance || !reaches(position.along, unfitted)) {
       continue;
     }
-    const Point2 line = table_->at(place.along).rotate(Point2(1.0, 0.0));
+    const Point2 line = table_->at(position.along).rotate(Point2(1.0, 0.0));
     const Point2 ray = (beam.end - scan.scanner.position()).normalized();
     const double across = line.x() * ray.y() - line.y() * ray.x();
     const double variance = square(options_.range_sigma * across) + square(options_.roughness);
-    taken_.push_back({place, options_.correlation * variance});
+    taken_.push_back({position, options_.correlation * variance});
   }
   track_.correct(taken_);
 }
@@ -182,26 +182,26 @@ void FollowedBorder::weigh(const BorderScan& scan, const std::vector<bool>& is_n
   bool seen = false;
   for (std::size_t i = 0; i < scan.beams.size(); ++i) {
     const BorderScan::Beam& beam = scan.beams[i];
-    const CurvePlace& end = places_[i];
+    const CurvePoint& end = places_[i];
     const double end_outward = outward * end.aside;
     if (beam.hit && std::abs(end_outward) <= options_.tolerance) {
-      if (is_nearest[i] && tellsOf(beam) && sigmaAt(end.along) <= options_.most_sigma) {
-        evidence_.addHit(track_.way() + end.along);
-        evidence_.addDepth(track_.way() + end.along, false);
+      if (is_nearest[i] && informsAbout(beam) && sigmaAt(end.along) <= options_.max_sigma) {
+        evidence_.addHit(track_.arcLength() + end.along);
+        evidence_.addDepth(track_.arcLength() + end.along, false);
         seen = true;
       }
     } else if (end_outward > options_.tolerance && from_outward < 0.0) {
       const double share = from_outward / (from_outward - end_outward);
       const Point2 crossing = from + share * (beam.end - from);
       const double along = table_->locate(crossing).along;
-      if (sigmaAt(along) <= options_.most_sigma) {
+      if (sigmaAt(along) <= options_.max_sigma) {
         if ((crossing - from).norm() >= options_.passage_from) {
-          evidence_.addPassage(track_.way() + along);
+          evidence_.addPassage(track_.arcLength() + along);
         }
         const bool deep = end_outward > options_.street_depth;
         // What a slanting beam hits far along the line does not bound it where it went through.
         if (deep || std::abs(end.along - along) < options_.growth) {
-          evidence_.addDepth(track_.way() + along, deep);
+          evidence_.addDepth(track_.arcLength() + along, deep);
         }
       }
     }
@@ -232,9 +232,10 @@ bool FollowedBorder::isOver(const Pose2& vehicle) const {
   if (state_ == State::kRefuted) {
     return age_ > options_.refuted_time;
   }
-  const CurvePlace place = table_->locate(vehicle.position());
-  const double nearest = nearestOf(evidence_.pieces(), track_.way() + place.along) - track_.way();
-  if (track_.varianceAt(nearest) > square(options_.most_sigma)) {
+  const CurvePoint position = table_->locate(vehicle.position());
+  const double nearest =
+      nearestOf(evidence_.pieces(), track_.arcLength() + position.along) - track_.arcLength();
+  if (track_.varianceAt(nearest) > square(options_.max_sigma)) {
     return true;
   }
   const Pose2 seen = vehicle.inverse() * table_->at(nearest);

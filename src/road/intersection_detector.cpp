@@ -13,9 +13,9 @@ const IntersectionDetectorOptions& checked(const IntersectionDetectorOptions& op
     throw OptionError("leave_below is " + toText(options.leave_below) +
                       ": expected at most enter_above, " + toText(options.enter_above));
   }
-  if (options.least_opening > options.most_opening) {
-    throw OptionError("least_opening is " + toText(options.least_opening) +
-                      ": expected at most most_opening, " + toText(options.most_opening));
+  if (options.min_opening > options.max_opening) {
+    throw OptionError("min_opening is " + toText(options.min_opening) +
+                      ": expected at most max_opening, " + toText(options.max_opening));
   }
   return options;
 }
@@ -24,13 +24,13 @@ double logOdds(double probability) { return std::log(probability / (1.0 - probab
 
 int stationsOf(const SidePresence& side) { return static_cast<int>(side.probability.size()); }
 
-double wayOf(const SidePresence& side, int station) {
+double arcLengthOf(const SidePresence& side, int station) {
   return side.first_station + station * side.station_length;
 }
 
 /// The station at an arc length, or the nearest one.
-int stationAt(const SidePresence& side, double way) {
-  const double station = std::round((way - side.first_station) / side.station_length);
+int stationAt(const SidePresence& side, double arc_length) {
+  const double station = std::round((arc_length - side.first_station) / side.station_length);
   return static_cast<int>(std::clamp(station, 0.0, stationsOf(side) - 1.0));
 }
 
@@ -48,19 +48,19 @@ void IntersectionDetectorOptions::visit(OptionVisitor& visitor) {
   visitor.number({"border_above", "1", "a station whose probability is higher has a border"},
                  border_above, {0.5, 0.99});
   visitor.number(
-      {"least_border", "m", "of which half are stations with a border: a single one is none"},
-      least_border, {0.0, 50.0});
-  visitor.number({"least_opening", "m",
+      {"min_border", "m", "of which half are stations with a border: a single one is none"},
+      min_border, {0.0, 50.0});
+  visitor.number({"min_opening", "m",
                   "without a border: a street of 6 m or more, whose corners are rounded; yards and "
                   "gaps between cars are narrower"},
-                 least_opening, {1.0, 50.0});
-  visitor.number({"most_opening", "m",
+                 min_opening, {1.0, 50.0});
+  visitor.number({"max_opening", "m",
                   "since the last border: behind it the border is lost, or it was no road but an "
                   "open space"},
-                 most_opening, {1.0, 500.0});
-  visitor.number({"least_road", "m",
-                  "of border that a side had of late: what is open after less is a car park"},
-                 least_road, {0.0, 100.0});
+                 max_opening, {1.0, 500.0});
+  visitor.number(
+      {"min_road", "m", "of border that a side had of late: what is open after less is a car park"},
+      min_road, {0.0, 100.0});
   visitor.number({"road_memory", "m", "distance after which a border counts for 37 % of that"},
                  road_memory, {1.0, 1000.0});
   visitor.number({"station_limit", "1",
@@ -94,7 +94,7 @@ bool IntersectionDetector::isBorder(const SidePresence& side, int station, int t
     return false;
   }
   const int stations =
-      std::max(1, static_cast<int>(std::lround(options_.least_border / side.station_length)));
+      std::max(1, static_cast<int>(std::lround(options_.min_border / side.station_length)));
   int with_border = 0;
   for (int i = 0; i < stations; ++i) {
     const int at = station + toward * i;
@@ -103,10 +103,10 @@ bool IntersectionDetector::isBorder(const SidePresence& side, int station, int t
   return 2 * with_border >= stations;
 }
 
-double IntersectionDetector::meanOpenness(const SidePresence& side, double way, double begin,
+double IntersectionDetector::meanOpenness(const SidePresence& side, double arc_length, double begin,
                                           double end) const {
-  const int first = stationAt(side, std::max(begin, way - options_.least_opening));
-  const int last = stationAt(side, std::min(end, way + options_.least_opening));
+  const int first = stationAt(side, std::max(begin, arc_length - options_.min_opening));
+  const int last = stationAt(side, std::min(end, arc_length + options_.min_opening));
   double sum = 0.0;
   for (int i = first; i <= last; ++i) {
     const double open = 1.0 - side.probability[static_cast<std::size_t>(i)];
@@ -115,30 +115,30 @@ double IntersectionDetector::meanOpenness(const SidePresence& side, double way, 
   return sum / (last - first + 1);
 }
 
-void IntersectionDetector::pass(const SidePresence& side, double way, double step,
+void IntersectionDetector::pass(const SidePresence& side, double arc_length, double step,
                                 PassedSide& passed) const {
   const bool has_border = !side.probability.empty() && side.station_length > 0.0 &&
-                          isBorder(side, stationAt(side, way), -1);
+                          isBorder(side, stationAt(side, arc_length), -1);
   passed.bordered =
       passed.bordered * std::exp(-step / options_.road_memory) + (has_border ? step : 0.0);
 }
 
-double IntersectionDetector::openness(const SidePresence& side, double way,
+double IntersectionDetector::openness(const SidePresence& side, double arc_length,
                                       PassedSide& passed) const {
   BorderEnd& border_end = passed.border_end;
   if (side.probability.empty() || !(side.station_length > 0.0)) {
     return 0.0;
   }
-  const int here = stationAt(side, way);
+  const int here = stationAt(side, arc_length);
   for (int i = here; i >= 0; --i) {
     if (isBorder(side, i, -1)) {
-      border_end = std::max(border_end.value_or(wayOf(side, i)), wayOf(side, i));
+      border_end = std::max(border_end.value_or(arcLengthOf(side, i)), arcLengthOf(side, i));
       break;
     }
   }
   // A few parked cars are no road.
-  const bool is_road = passed.bordered >= options_.least_road;
-  if (!border_end || way - *border_end > options_.most_opening || !is_road) {
+  const bool is_road = passed.bordered >= options_.min_road;
+  if (!border_end || arc_length - *border_end > options_.max_opening || !is_road) {
     return 0.0;
   }
   const double half_station = 0.5 * side.station_length;
@@ -149,29 +149,29 @@ double IntersectionDetector::openness(const SidePresence& side, double way,
   }
   const bool ends = next < stationsOf(side);
   const double end =
-      wayOf(side, std::min(next, stationsOf(side) - 1)) + (ends ? -1.0 : 1.0) * half_station;
-  if (way <= begin || (ends && end - begin < options_.least_opening)) {
+      arcLengthOf(side, std::min(next, stationsOf(side) - 1)) + (ends ? -1.0 : 1.0) * half_station;
+  if (arc_length <= begin || (ends && end - begin < options_.min_opening)) {
     return -options_.station_limit;
   }
-  return end - begin < options_.least_opening
+  return end - begin < options_.min_opening
              ? 0.0
-             : meanOpenness(side, way, begin + half_station, end - half_station);
+             : meanOpenness(side, arc_length, begin + half_station, end - half_station);
 }
 
 void IntersectionDetector::update(const BorderPresence& presence) {
-  const double way = presence.way;
-  if (!std::isfinite(way)) {
+  const double arc_length = presence.arc_length;
+  if (!std::isfinite(arc_length)) {
     return;
   }
-  if (last_way_ && way < *last_way_) {
+  if (last_arc_length_ && arc_length < *last_arc_length_) {
     reset();
   }
-  const double step = way - last_way_.value_or(way);
-  last_way_ = way;
-  pass(presence.left, way, step, left_);
-  pass(presence.right, way, step, right_);
-  const double evidence =
-      combined(openness(presence.left, way, left_), openness(presence.right, way, right_));
+  const double step = arc_length - last_arc_length_.value_or(arc_length);
+  last_arc_length_ = arc_length;
+  pass(presence.left, arc_length, step, left_);
+  pass(presence.right, arc_length, step, right_);
+  const double evidence = combined(openness(presence.left, arc_length, left_),
+                                   openness(presence.right, arc_length, right_));
   const double enter_rate = 1.0 / options_.road_length;
   const double rate = enter_rate + 1.0 / options_.crossing_length;
   const double usual = enter_rate / rate;
@@ -185,7 +185,7 @@ void IntersectionDetector::update(const BorderPresence& presence) {
 }
 
 void IntersectionDetector::reset() {
-  last_way_.reset();
+  last_arc_length_.reset();
   left_ = {};
   right_ = {};
   probability_ = 0.0;

@@ -8,8 +8,8 @@ namespace datmo {
 
 namespace {
 
-constexpr double kStation = 1.0;    ///< m
-constexpr double kLeastStep = 0.2;  ///< m, that counts as driven
+constexpr double kStation = 1.0;  ///< m
+constexpr double kMinStep = 0.2;  ///< m, that counts as driven
 
 /// Without any knowledge.
 constexpr double kUnknown = 0.5;
@@ -17,13 +17,14 @@ constexpr double kUnknown = 0.5;
 double probabilityOf(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); }
 
 /// Evidence of a line at a station; a gap that its piece bridges is a border as the piece is.
-double logOddsOf(const FollowedBorder& border, const std::vector<WayInterval>& pieces, double way) {
-  for (const WayInterval& piece : pieces) {
-    if (way >= piece.first && way <= piece.last) {
+double logOddsOf(const FollowedBorder& border, const std::vector<ArcLengthInterval>& pieces,
+                 double arc_length) {
+  for (const ArcLengthInterval& piece : pieces) {
+    if (arc_length >= piece.first && arc_length <= piece.last) {
       return border.evidence().saturation();
     }
   }
-  return -border.evidence().openLogOdds(way);
+  return -border.evidence().openLogOdds(arc_length);
 }
 
 }  // namespace
@@ -47,7 +48,8 @@ void PresenceHistory::reset() {
 }
 
 void PresenceHistory::shift(SidePresence& side) const {
-  const double first = kStation * (std::floor((presence_.way - options_.behind) / kStation) + 0.5);
+  const double first =
+      kStation * (std::floor((presence_.arc_length - options_.behind) / kStation) + 0.5);
   const auto count =
       static_cast<std::size_t>(std::ceil((options_.ahead + options_.behind) / kStation)) + 1;
   const auto passed = static_cast<std::ptrdiff_t>(
@@ -67,8 +69,8 @@ void PresenceHistory::moveTo(const Pose2& base_in_map) {
   }
   // Neither the jitter of a standing vehicle's pose nor driving backward is distance driven.
   const Point2 step = counted_->inverse() * base_in_map.position();
-  if (step.norm() >= kLeastStep) {
-    presence_.way += step.x() > 0.0 ? step.norm() : 0.0;
+  if (step.norm() >= kMinStep) {
+    presence_.arc_length += step.x() > 0.0 ? step.norm() : 0.0;
     counted_ = base_in_map;
   }
   shift(presence_.left);
@@ -77,33 +79,34 @@ void PresenceHistory::moveTo(const Pose2& base_in_map) {
 
 void PresenceHistory::take(const std::vector<FollowedBorder>& borders, RoadSide which,
                            double seconds, SidePresence& side) {
-  told_.assign(side.probability.size(), std::nullopt);
+  updated_.assign(side.probability.size(), std::nullopt);
   const Pose2 map_in_base = vehicle_->inverse();
   for (const FollowedBorder& border : borders) {
     if (border.side() != which || border.state() != FollowedBorder::State::kConfirmed) {
       continue;
     }
-    const std::vector<WayInterval> pieces = border.evidence().pieces();
+    const std::vector<ArcLengthInterval> pieces = border.evidence().pieces();
     const CurveTable& table = border.table();
     for (double along = table.first(); along <= table.last(); along += 0.5 * kStation) {
       const double ahead = (map_in_base * table.at(along).position()).x();
-      const double log_odds = logOddsOf(border, pieces, border.track().way() + along);
+      const double log_odds = logOddsOf(border, pieces, border.track().arcLength() + along);
       const double index =
-          std::floor((presence_.way + ahead - side.first_station) / kStation + 0.5);
+          std::floor((presence_.arc_length + ahead - side.first_station) / kStation + 0.5);
       if (ahead < -options_.updated_to || index < 0.0 ||
-          index >= static_cast<double>(told_.size()) || log_odds == 0.0) {
+          index >= static_cast<double>(updated_.size()) || log_odds == 0.0) {
         continue;
       }
-      std::optional<double>& told = told_[static_cast<std::size_t>(index)];
-      told = std::max(told.value_or(log_odds), log_odds);
+      std::optional<double>& updated = updated_[static_cast<std::size_t>(index)];
+      updated = std::max(updated.value_or(log_odds), log_odds);
     }
   }
   const double kept = std::exp(-seconds / options_.forget_time);
-  for (std::size_t i = 0; i < told_.size(); ++i) {
+  for (std::size_t i = 0; i < updated_.size(); ++i) {
     double& probability = side.probability[i];
-    const double ahead = side.first_station + static_cast<double>(i) * kStation - presence_.way;
-    if (told_[i]) {
-      probability = probabilityOf(*told_[i]);
+    const double ahead =
+        side.first_station + static_cast<double>(i) * kStation - presence_.arc_length;
+    if (updated_[i]) {
+      probability = probabilityOf(*updated_[i]);
     } else if (ahead > 0.0) {
       probability = kUnknown + kept * (probability - kUnknown);
     }

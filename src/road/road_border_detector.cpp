@@ -48,12 +48,12 @@ void RoadBorderDetectorOptions::visit(OptionVisitor& visitor) {
   visitor.group("openings", [&] { openings.visit(visitor); });
   visitor.group("side_streets", [&] { side_streets.visit(visitor); });
   visitor.group("published", [&] { published.visit(visitor); });
-  visitor.number({"longest_gap", "s", "between two scans; after a longer one all is forgotten"},
-                 longest_gap, {0.01, 1000.0});
-  visitor.number({"longest_step", "m",
+  visitor.number({"max_gap", "s", "between two scans; after a longer one all is forgotten"},
+                 max_gap, {0.01, 1000.0});
+  visitor.number({"max_step", "m",
                   "of the vehicle between two scans; after a longer one, a jump of the map, all is "
                   "forgotten"},
-                 longest_step, {0.1, 1000.0});
+                 max_step, {0.1, 1000.0});
 }
 
 RoadBorderDetector::RoadBorderDetector(const RoadBorderDetectorOptions& options)
@@ -65,18 +65,17 @@ RoadBorderDetector::RoadBorderDetector(const RoadBorderDetectorOptions& options)
       intersection_(options.intersection),
       side_streets_(options.side_streets) {}
 
-std::optional<double> RoadBorderDetector::secondsSinceLast(const SplitScan& scan) const {
+std::optional<double> RoadBorderDetector::secondsSinceLast(const LabeledScan& scan) const {
   if (!vehicle_) {
     return std::nullopt;
   }
   const double seconds = secondsBetween(road_.stamp, scan.stamp);
   const double step = (scan.base_in_map.pose.position() - vehicle_->position()).norm();
-  const bool belongs =
-      seconds >= 0.0 && seconds <= options_.longest_gap && step <= options_.longest_step;
+  const bool belongs = seconds >= 0.0 && seconds <= options_.max_gap && step <= options_.max_step;
   return belongs ? std::make_optional(seconds) : std::nullopt;
 }
 
-const RoadModel& RoadBorderDetector::update(const SplitScan& scan) {
+const RoadModel& RoadBorderDetector::update(const LabeledScan& scan) {
   const std::optional<double> seconds = secondsSinceLast(scan);
   if (!seconds) {
     reset();
@@ -103,7 +102,7 @@ void RoadBorderDetector::search(const Pose2& scanner) {
   road_.intersection_probability = road_.at_intersection ? 1.0 : 0.0;
 }
 
-void RoadBorderDetector::follow(const SplitScan& scan, double seconds) {
+void RoadBorderDetector::follow(const LabeledScan& scan, double seconds) {
   tracks_.update(borderScan(scan, hits_, seconds), hits_, search_);
   road_.borders = publishedBorders(tracks_.borders(), *vehicle_, options_.published);
   presence_.update(tracks_.borders(), *vehicle_, seconds);

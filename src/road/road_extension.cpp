@@ -23,13 +23,12 @@ Pose2 away(const Point2& point, const Point2& from) {
 void RoadExtensionOptions::visit(OptionVisitor& visitor) {
   visitor.number({"length", "m", "that a border is taken to go on beyond its end; 0: it does not"},
                  length, {0.0, 200.0});
-  visitor.number({"memory_way", "m",
+  visitor.number({"memory_distance", "m",
                   "that the vehicle drives, for which a side without any border is taken to be "
                   "bounded as it was"},
-                 memory_way, {0.0, 1000.0});
-  visitor.number(
-      {"most_turn", "rad", "of the vehicle from that border: then it is in another road"},
-      most_turn, {0.0, kPi});
+                 memory_distance, {0.0, 1000.0});
+  visitor.number({"max_turn", "rad", "of the vehicle from that border: then it is in another road"},
+                 max_turn, {0.0, kPi});
 }
 
 RoadExtension::RoadExtension(const RoadExtensionOptions& options) : options_(options) {
@@ -68,31 +67,31 @@ void RoadExtension::update(const RoadModel& road, const Pose2& base_in_map) {
   for (Side& side : sides_) {
     const bool is_over =
         side.last &&
-        ((side.seen_from - base_in_map.position()).norm() > options_.memory_way ||
-         std::abs(angleBetween(side.last->heading(), base_in_map.heading())) > options_.most_turn);
+        ((side.seen_from - base_in_map.position()).norm() > options_.memory_distance ||
+         std::abs(angleBetween(side.last->heading(), base_in_map.heading())) > options_.max_turn);
     if (is_over) {
       side.last.reset();
     }
   }
 }
 
-std::optional<BorderOffset> RoadExtension::offset(RoadSide which, const Point2& place) const {
+std::optional<BorderOffset> RoadExtension::offset(RoadSide which, const Point2& position) const {
   const Side& side = sides_[indexOf(which)];
   const double outward_is_left = which == RoadSide::kLeft ? 1.0 : -1.0;
   std::optional<BorderOffset> result;
-  double least = options_.length;
+  double min = options_.length;
   // Each border has two ends: the first leads back, the second ahead.
   for (std::size_t i = 0; i < side.ends.size(); ++i) {
-    const Point2 seen = side.ends[i].inverse() * place;
+    const Point2 seen = side.ends[i].inverse() * position;
     const double ahead = i % 2 == 1 ? 1.0 : -1.0;
-    if (seen.x() > 0.0 && seen.x() < least) {
-      least = seen.x();
+    if (seen.x() > 0.0 && seen.x() < min) {
+      min = seen.x();
       result = BorderOffset{outward_is_left * ahead * seen.y(), 0.0,
                             side.ends[i].rotate(Point2::UnitX())};
     }
   }
   if (side.ends.empty() && side.last) {
-    result = BorderOffset{outward_is_left * (side.last->inverse() * place).y(), 0.0,
+    result = BorderOffset{outward_is_left * (side.last->inverse() * position).y(), 0.0,
                           side.last->rotate(Point2::UnitX())};
   }
   return result;

@@ -37,9 +37,9 @@ void RoadOpeningOptions::visit(OptionVisitor& visitor) {
                  border_above, {0.0, 1.0});
   visitor.number({"open_below", "1", "probability of a border below which the road is open"},
                  open_below, {0.0, 1.0});
-  visitor.number({"least_length", "m", "along the road; streets are wider, kerbs are rounded"},
-                 least_length, {0.5, 100.0});
-  visitor.number({"most_length", "m", "along the road; longer ones are no streets"}, most_length,
+  visitor.number({"min_length", "m", "along the road; streets are wider, curbs are rounded"},
+                 min_length, {0.5, 100.0});
+  visitor.number({"max_length", "m", "along the road; longer ones are no streets"}, max_length,
                  {0.5, 1000.0});
   visitor.number(
       {"usual_distance", "m", "from the vehicle to an opening on a side without any known border"},
@@ -62,10 +62,10 @@ std::vector<RoadOpening> openingsOf(const BorderPresence& presence,
         continue;
       }
       const double length = static_cast<double>(i - begin) * stations.station_length;
-      if (behind_border && length >= options.least_length && length <= options.most_length) {
+      if (behind_border && length >= options.min_length && length <= options.max_length) {
         const double middle = 0.5 * (static_cast<double>(begin) + static_cast<double>(i) - 1.0);
         const double ahead =
-            stations.first_station + middle * stations.station_length - presence.way;
+            stations.first_station + middle * stations.station_length - presence.arc_length;
         const double aside = distanceTo(borders, side, map_in_base, ahead, options.usual_distance);
         openings.push_back(
             {side, base_in_map * Pose2(ahead, outward * aside, outward * 0.5 * kPi), length});

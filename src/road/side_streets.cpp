@@ -12,7 +12,7 @@ namespace {
 /// m, from a point of a published border to the next.
 constexpr double kPointStep = 1.0;
 /// At a time: four streets have half as many.
-constexpr std::size_t kMostKnown = 16;
+constexpr std::size_t kMaxStreets = 16;
 
 }  // namespace
 
@@ -29,7 +29,7 @@ void SideStreetOptions::visit(OptionVisitor& visitor) {
                  {0.0, 10.0});
   visitor.number({"memory", "s", "for which a border is known that was not found again"}, memory,
                  {0.0, 60.0});
-  visitor.number({"start", "m", "from the vehicle's border outward: the corners' kerbs are round"},
+  visitor.number({"start", "m", "from the vehicle's border outward: the corners' curbs are round"},
                  start, {0.0, 20.0});
   visitor.number({"same_distance", "m", "two borders nearer to each other are one"}, same_distance,
                  {0.0, 10.0});
@@ -69,7 +69,7 @@ void SideStreets::lookInto(const HitGrid& hits, const RoadOpening& opening, Stam
                                     [&](const Known& other) { return isSame(other, *found); });
     if (known != known_.end()) {
       *known = {*found, opening.side, stamp};
-    } else if (known_.size() < kMostKnown) {
+    } else if (known_.size() < kMaxStreets) {
       known_.push_back({*found, opening.side, stamp});
     }
   }

@@ -21,14 +21,14 @@ int indexOf(double along) {
 }  // namespace
 
 void StationEvidenceOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"hit_probability", "1", "that a beam that crosses a border ends there: of kerbs"},
+  visitor.number({"hit_probability", "1", "that a beam that crosses a border ends there: of curbs"},
                  hit_probability, {0.01, 0.99});
   visitor.number({"clutter", "1", "that it ends there although there is no border"}, clutter,
                  {1e-4, 0.5});
-  visitor.number({"most_in_scan", "1",
+  visitor.number({"max_per_scan", "1",
                   "change of the log odds at a station in one scan: its beams there see "
                   "the same surface"},
-                 most_in_scan, {0.1, 10.0});
+                 max_per_scan, {0.1, 10.0});
   visitor.number(
       {"depth_probability", "1",
        "that a beam through the mouth of a street sees deep into it, and that one beside "
@@ -47,7 +47,7 @@ StationEvidence::StationEvidence(const StationEvidenceOptions& options)
       passage_(std::log((1.0 - options.hit_probability) / (1.0 - options.clutter))),
       depth_(std::log(options.depth_probability / (1.0 - options.depth_probability))) {}
 
-void StationEvidence::keepWithin(const WayInterval& interval) {
+void StationEvidence::keepWithin(const ArcLengthInterval& interval) {
   const int first = indexOf(interval.first);
   const int last = std::max(first, indexOf(interval.last));
   const bool apart = first >= first_ + static_cast<int>(stations_.size()) || last < first_;
@@ -84,32 +84,32 @@ StationEvidence::Station* StationEvidence::stationAt(double along) {
 
 void StationEvidence::addHit(double along) {
   if (Station* station = stationAt(along)) {
-    station->told += hit_;
+    station->update += hit_;
   }
 }
 
 void StationEvidence::addPassage(double along) {
   if (Station* station = stationAt(along)) {
-    station->told += passage_;
+    station->update += passage_;
   }
 }
 
 void StationEvidence::addDepth(double along, bool deep) {
   if (Station* station = stationAt(along)) {
-    station->open_told += deep ? depth_ : -depth_;
+    station->open_update += deep ? depth_ : -depth_;
   }
 }
 
 void StationEvidence::endScan() {
-  const auto add = [this](double told, double& sum) {
-    const double step = std::clamp(told, -options_.most_in_scan, options_.most_in_scan);
+  const auto add = [this](double update, double& sum) {
+    const double step = std::clamp(update, -options_.max_per_scan, options_.max_per_scan);
     sum = std::clamp(sum + step, -options_.saturation, options_.saturation);
   };
   for (Station& station : stations_) {
-    add(station.told, station.log_odds);
-    add(station.open_told, station.open_log_odds);
-    station.told = 0.0;
-    station.open_told = 0.0;
+    add(station.update, station.log_odds);
+    add(station.open_update, station.open_log_odds);
+    station.update = 0.0;
+    station.open_update = 0.0;
   }
 }
 
@@ -123,8 +123,8 @@ double StationEvidence::openLogOdds(double along) const {
   return station != nullptr ? station->open_log_odds : 0.0;
 }
 
-std::vector<WayInterval> StationEvidence::pieces() const {
-  std::vector<WayInterval> pieces;
+std::vector<ArcLengthInterval> StationEvidence::pieces() const {
+  std::vector<ArcLengthInterval> pieces;
   double begin = first_ * kStation;
   for (const Station& station : stations_) {
     if (station.log_odds >= options_.seen) {

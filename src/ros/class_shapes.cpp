@@ -42,8 +42,8 @@ ClassShape shapeOf(const std_msgs::Header& header, const std::string& name,
                    ObjectClass object_class, const geometry_msgs::Pose& pose,
                    const geometry_msgs::Vector3& size, const MarkersOptions& options) {
   geometry_msgs::Vector3 whole;
-  whole.x = std::max(size.x, options.least_size);
-  whole.y = std::max(size.y, options.least_size);
+  whole.x = std::max(size.x, options.min_size);
+  whole.y = std::max(size.y, options.min_size);
   whole.z = size.z > 0.0 ? size.z : options.default_height;
   const double diameter = kHeadShare * whole.z;
   geometry_msgs::Vector3 below_head = whole;
@@ -69,15 +69,15 @@ ClassShape shapeOf(const std_msgs::Header& header, const std::string& name,
   return {standing(header, name, Marker::CUBE, pose, whole), std::nullopt};
 }
 
-std_msgs::ColorRGBA colourOfSensors(const std::vector<std::string>& sensors, float opacity) {
+std_msgs::ColorRGBA colorOfSensors(const std::vector<std::string>& sensors, float opacity) {
   if (sensors.size() > 1) {
-    return colour(1.0F, 0.9F, 0.1F, opacity);
+    return color(1.0F, 0.9F, 0.1F, opacity);
   }
   const std::string name = sensors.empty() ? "" : sensors.front();
   if (name == "lidar") {
-    return colour(0.7F, 0.4F, 1.0F, opacity);
+    return color(0.7F, 0.4F, 1.0F, opacity);
   }
-  return name == "stereo" ? colour(0.1F, 0.9F, 0.9F, opacity) : colour(0.6F, 0.6F, 0.6F, opacity);
+  return name == "stereo" ? color(0.1F, 0.9F, 0.9F, opacity) : color(0.6F, 0.6F, 0.6F, opacity);
 }
 
 std::string namesOf(const std::vector<std::string>& sensors) {
@@ -94,8 +94,8 @@ Marker outlineOf(const std_msgs::Header& header, const std::string& name,
   Marker marker = makeMarker(header, name, Marker::LINE_STRIP);
   marker.pose = pose;
   marker.scale.x = options.line_width;
-  const double x = 0.5 * std::max(size.x, options.least_size);
-  const double y = 0.5 * std::max(size.y, options.least_size);
+  const double x = 0.5 * std::max(size.x, options.min_size);
+  const double y = 0.5 * std::max(size.y, options.min_size);
   marker.points = {pointAt(x, y), pointAt(-x, y), pointAt(-x, -y), pointAt(x, -y), pointAt(x, y)};
   return marker;
 }

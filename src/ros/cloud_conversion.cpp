@@ -17,14 +17,14 @@ using sensor_msgs::PointField;
 
 /// Where P (3 x 4, row by row) of a camera info holds them.
 constexpr std::size_t kFocalLength = 0;
-constexpr std::size_t kImageCentre = 2;
+constexpr std::size_t kImageCenter = 2;
 constexpr std::size_t kBaseline = 3;  // times -focal length
 
 /// The middle of the first pixel is at 0, so that the image begins this much before it (px).
 constexpr double kHalfPixel = 0.5;
 
 /// Of half of a field of view: 85 degrees.
-constexpr double kMostTangent = 12.0;
+constexpr double kMaxTangent = 12.0;
 
 constexpr std::size_t kPackedStep = 3 * sizeof(float);
 
@@ -86,7 +86,7 @@ void checkPoints(const PointsView& points) {
 }
 
 /// NaN compares false with everything, and so is never within.
-bool isWithin(double value, double least, double most) { return value >= least && value <= most; }
+bool isWithin(double value, double min, double max) { return value >= min && value <= max; }
 
 /// Focal length and image borders.
 StereoCamera pinholeCamera(const CameraInfo& info) {
@@ -97,15 +97,15 @@ StereoCamera pinholeCamera(const CameraInfo& info) {
   camera.focal_length = full_focal_length / binning;
   const double first = info.roi.x_offset - kHalfPixel;
   const double columns = info.roi.width > 0 ? info.roi.width : info.width;
-  camera.left_tangent = (first - info.P[kImageCentre]) / full_focal_length;
-  camera.right_tangent = (first + columns - info.P[kImageCentre]) / full_focal_length;
+  camera.left_tangent = (first - info.P[kImageCenter]) / full_focal_length;
+  camera.right_tangent = (first + columns - info.P[kImageCenter]) / full_focal_length;
   return camera;
 }
 
 bool isValid(const StereoCamera& camera) {
-  return isWithin(camera.focal_length, kLeastFocalLength, kMostFocalLength) &&
-         isWithin(camera.left_tangent, -kMostTangent, kMostTangent) &&
-         isWithin(camera.right_tangent, -kMostTangent, kMostTangent) &&
+  return isWithin(camera.focal_length, kMinFocalLength, kMaxFocalLength) &&
+         isWithin(camera.left_tangent, -kMaxTangent, kMaxTangent) &&
+         isWithin(camera.right_tangent, -kMaxTangent, kMaxTangent) &&
          camera.left_tangent < camera.right_tangent;
 }
 
@@ -183,12 +183,12 @@ void CloudPoints::replace(std::vector<std::uint8_t> packed) {
 StereoCamera stereoCamera(const CameraInfo& right) {
   StereoCamera camera = pinholeCamera(right);
   camera.baseline = -right.P[kBaseline] / right.P[kFocalLength];
-  if (!isValid(camera) || !isWithin(camera.baseline, kLeastBaseline, kMostBaseline)) {
+  if (!isValid(camera) || !isWithin(camera.baseline, kMinBaseline, kMaxBaseline)) {
     refuse("bad_camera_info", "camera info with a focal length of ", camera.focal_length,
            " px, a baseline of ", camera.baseline, " m, and a view from ", camera.left_tangent,
            " to ", camera.right_tangent, " (tangents): expected the right camera's, with ",
-           kLeastFocalLength, " to ", kMostFocalLength, " px and ", kLeastBaseline, " to ",
-           kMostBaseline, " m; a depth camera has none: set camera/depth_noise");
+           kMinFocalLength, " to ", kMaxFocalLength, " px and ", kMinBaseline, " to ", kMaxBaseline,
+           " m; a depth camera has none: set camera/depth_noise");
   }
   return camera;
 }
@@ -198,8 +198,8 @@ StereoCamera depthCamera(const CameraInfo& info) {
   if (!isValid(camera)) {
     refuse("bad_camera_info", "camera info with a focal length of ", camera.focal_length,
            " px, and a view from ", camera.left_tangent, " to ", camera.right_tangent,
-           " (tangents): expected the depth image's, with ", kLeastFocalLength, " to ",
-           kMostFocalLength, " px in P");
+           " (tangents): expected the depth image's, with ", kMinFocalLength, " to ",
+           kMaxFocalLength, " px in P");
   }
   return camera;
 }

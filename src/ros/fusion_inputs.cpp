@@ -153,7 +153,7 @@ InputError FusionInputs::warningOf(const MissingSource& missing) const {
     case WhyMissing::kNoneNear:
       return {"late_source", none + "in time for " + silent_after + ": expected one within " +
                                  std::to_string(options.tolerance) + " s of the reference's stamp" +
-                                 " and after " + std::to_string(options.longest_wait) +
+                                 " and after " + std::to_string(options.max_wait) +
                                  " s at most; goes on without it"};
     case WhyMissing::kNoMotion:
       return {"no_motion", none + "used for " + silent_after +

@@ -16,11 +16,11 @@ namespace datmo {
 namespace {
 
 /// Cell sizes (m) beyond these are of no grid around a vehicle.
-constexpr double kLeastCellSize = 1e-3;
-constexpr double kMostCellSize = 100.0;
+constexpr double kMinCellSize = 1e-3;
+constexpr double kMaxCellSize = 100.0;
 
-constexpr double kMicrometresPerMetre = 1e6;
-constexpr Percent kMostPercent = 100;
+constexpr double kMicrometersPerMeter = 1e6;
+constexpr Percent kMaxPercent = 100;
 
 /// Of a cell, or of a turn in rad: what is less is rounding.
 constexpr double kLatticeTolerance = 1e-2;
@@ -35,20 +35,20 @@ template <typename... Parts>
 
 double cellSize(float resolution) {
   // NaN compares false with everything.
-  if (!(resolution >= kLeastCellSize && resolution <= kMostCellSize)) {
-    refuse("grid with cells of ", resolution, " m: expected ", kLeastCellSize, " to ",
-           kMostCellSize, " m");
+  if (!(resolution >= kMinCellSize && resolution <= kMaxCellSize)) {
+    refuse("grid with cells of ", resolution, " m: expected ", kMinCellSize, " to ", kMaxCellSize,
+           " m");
   }
-  return std::round(static_cast<double>(resolution) * kMicrometresPerMetre) / kMicrometresPerMetre;
+  return std::round(static_cast<double>(resolution) * kMicrometersPerMeter) / kMicrometersPerMeter;
 }
 
 /// The cell whose lower left corner is at the origin.
 CellIndex cornerAt(const Pose2& origin, double cell_size) {
   const double column = std::round(origin.x() / cell_size);
   const double row = std::round(origin.y() / cell_size);
-  if (std::max(std::abs(column), std::abs(row)) > GridWindow::kFarthestCell) {
+  if (std::max(std::abs(column), std::abs(row)) > GridWindow::kMaxCell) {
     refuse("grid with its origin at ", origin.x(), ", ", origin.y(), " m: expected it at most ",
-           GridWindow::kFarthestCell, " cells of ", cell_size, " m from the vehicle");
+           GridWindow::kMaxCell, " cells of ", cell_size, " m from the vehicle");
   }
   const double off =
       std::max(std::abs(column * cell_size - origin.x()), std::abs(row * cell_size - origin.y()));
@@ -67,9 +67,9 @@ GridWindow windowOf(const nav_msgs::OccupancyGrid& message) {
     refuse("grid of ", info.width, " x ", info.height, " cells with ", message.data.size(),
            " values: expected one for each cell, and at least one");
   }
-  if (std::max(info.width, info.height) > GridWindow::kFarthestCell) {
+  if (std::max(info.width, info.height) > GridWindow::kMaxCell) {
     refuse("grid of ", info.width, " x ", info.height, " cells: expected at most ",
-           GridWindow::kFarthestCell, " in a row");
+           GridWindow::kMaxCell, " in a row");
   }
   const double cell_size = cellSize(info.resolution);
   return {cell_size, static_cast<int>(info.width), static_cast<int>(info.height),
@@ -78,9 +78,9 @@ GridWindow windowOf(const nav_msgs::OccupancyGrid& message) {
 
 /// `cells`: at least one.
 void checkValues(const std::vector<Percent>& cells) {
-  const auto [least, most] = std::minmax_element(cells.begin(), cells.end());
-  if (*least < kUnknownPercent || *most > kMostPercent) {
-    refuse("grid with cells from ", int{*least}, " to ", int{*most},
+  const auto [min, max] = std::minmax_element(cells.begin(), cells.end());
+  if (*min < kUnknownPercent || *max > kMaxPercent) {
+    refuse("grid with cells from ", int{*min}, " to ", int{*max},
            ": expected -1 (unknown) or 0 to 100 percent");
   }
 }

@@ -18,7 +18,7 @@ namespace datmo {
 namespace {
 
 /// A second of a fast scanner: more than grid fusion waits for a slow sensor.
-constexpr std::size_t kMostWaitingScans = 50;
+constexpr std::size_t kMaxWaitingScans = 50;
 
 /// The hold of the odometry is said once, for all stages.
 GridSlamOptions slamOptions(const GridSlamStageOptions& options) {
@@ -36,8 +36,8 @@ void GridSlamStageOptions::visit(OptionVisitor& visitor) {
                  fused_grid);
   visitor.number({"map_period", "s", "least time between two maps, of the scans' stamps"},
                  map_period, {0.0, 3600.0});
-  visitor.number({"most_tilt", "rad", "a scan plane tilted by more than this is warned of"},
-                 most_tilt, {0.0, kPi / 2.0});
+  visitor.number({"max_tilt", "rad", "a scan plane tilted by more than this is warned of"},
+                 max_tilt, {0.0, kPi / 2.0});
   visitor.group("input", [&] { input.visit(visitor); });
   visitor.group("scan", [&] { scan.visit(visitor); });
   slam.visit(visitor);
@@ -128,9 +128,9 @@ template std::optional<GridSlamOutput> GridSlamStage::takeScan(
 void GridSlamStage::keep(const Scan& scan) {
   last_field_ = {scan.stamp, scan.scanner_in_base, scan.field, {}};
   scans_.push_back(scan);
-  if (scans_.size() > kMostWaitingScans) {
+  if (scans_.size() > kMaxWaitingScans) {
     scans_.pop_front();
-    monitor_.dropped(InputError("no_fused_grid", "more than " + std::to_string(kMostWaitingScans) +
+    monitor_.dropped(InputError("no_fused_grid", "more than " + std::to_string(kMaxWaitingScans) +
                                                      " scans wait for their fused grid: expected "
                                                      "one from grid_fusion, dropped the oldest"));
   }
@@ -207,11 +207,11 @@ void GridSlamStage::warnOf(const ScannerMount& mount, const ConvertedScan& conve
   if (converted.unusable_times) {
     monitor_.warned(*converted.unusable_times);
   }
-  if (mount.tilt > options_.most_tilt) {
-    monitor_.warned(InputError("tilted_scanner",
-                               "scan plane tilted by " + std::to_string(toDegrees(mount.tilt)) +
-                                   " degrees: expected at most " +
-                                   std::to_string(toDegrees(options_.most_tilt))));
+  if (mount.tilt > options_.max_tilt) {
+    monitor_.warned(InputError("tilted_scanner", "scan plane tilted by " +
+                                                     std::to_string(toDegrees(mount.tilt)) +
+                                                     " degrees: expected at most " +
+                                                     std::to_string(toDegrees(options_.max_tilt))));
   }
   if (const auto misfit = extent_.take(converted.scan)) {
     monitor_.warned(*misfit);
@@ -239,12 +239,12 @@ void GridSlamStage::showMatch(const SlamResult& result) {
 GridSlamOutput GridSlamStage::outputOf(const SlamResult& result) {
   const Stamp stamp = result.split.stamp;
   GridSlamOutput output;
-  output.split_scan = boost::make_shared<SplitScanMessage>(
+  output.labeled_scan = boost::make_shared<LabeledScanMessage>(
       toMessage(result.split, options_.frames.base, options_.frames.map));
   output.pose = boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>();
   output.pose->header.stamp = toTime(stamp);
   output.pose->header.frame_id = options_.frames.map;
-  output.pose->pose = output.split_scan->pose;
+  output.pose->pose = output.labeled_scan->pose;
   output.transforms = transformsTo(result.split.base_in_map.pose, stamp);
   for (const geometry_msgs::TransformStamped& transform : output.transforms) {
     monitor_.announce(transform.child_frame_id, transform.header.frame_id + " -> " +
@@ -288,7 +288,7 @@ nav_msgs::OccupancyGridPtr GridSlamStage::mapIfDue(Stamp stamp) {
 void GridSlamStage::connect(StagePorts& ports) {
   const auto transforms = ports.out<tf2_msgs::TFMessage>("/tf");
   const auto pose = ports.out<geometry_msgs::PoseWithCovarianceStamped>("pose");
-  const auto split_scan = ports.out<SplitScanMessage>("split_scan");
+  const auto labeled_scan = ports.out<LabeledScanMessage>("labeled_scan");
   const auto map = ports.out<nav_msgs::OccupancyGrid>("map", true);
   const auto publish = [=](const std::optional<GridSlamOutput>& output) {
     if (!output) {
@@ -298,8 +298,8 @@ void GridSlamStage::connect(StagePorts& ports) {
     message->transforms = output->transforms;
     transforms.publish(message);
     pose.publish(output->pose);
-    split_scan.publish(output->split_scan);
-    map.publish(mapIfDue(toStamp(output->split_scan->header.stamp)));
+    labeled_scan.publish(output->labeled_scan);
+    map.publish(mapIfDue(toStamp(output->labeled_scan->header.stamp)));
   };
   if (options_.motion.fromOdometry() || options_.motion.fromSensors()) {
     ports.in<nav_msgs::Odometry>(

@@ -25,15 +25,15 @@ const std::string kMap = "map";
 const std::string kConflict = "conflict";
 
 /// What no screen shows and no network carries.
-constexpr double kMostPixels = 2e7;
+constexpr double kMaxPixels = 2e7;
 
-using Colour = cv::Vec3b;  // red, green, blue
+using Color = cv::Vec3b;  // red, green, blue
 
-const Colour kFree(245, 245, 245);
-const Colour kOccupied(20, 20, 20);
-const Colour kContradiction(205, 0, 0);
-const Colour kUnknown(112, 124, 142);
-const Colour kNoGrid(52, 54, 60);
+const Color kFree(245, 245, 245);
+const Color kOccupied(20, 20, 20);
+const Color kContradiction(205, 0, 0);
+const Color kUnknown(112, 124, 142);
+const Color kNoGrid(52, 54, 60);
 const cv::Scalar kTitleBar(30, 32, 36);
 const cv::Scalar kTitleText(235, 235, 235);
 const cv::Scalar kVehicle(0, 110, 255);
@@ -46,18 +46,18 @@ constexpr double kVehicleLength = 4.0;
 constexpr double kVehicleWidth = 1.8;
 
 /// By percent, the last one for unknown.
-using Palette = std::array<Colour, 102>;
+using Palette = std::array<Color, 102>;
 constexpr std::size_t kUnknownSlot = 101;
-constexpr double kMostPercent = 100.0;
+constexpr double kMaxPercent = 100.0;
 
 /// Sensors that are careful contradict each other weakly, and that is to be seen too.
 constexpr double kConflictExponent = 0.5;
 
 /// From free to `full`, which has 100 percent; with an `exponent` below 1 little shows more.
-Palette paletteTo(const Colour& full, double exponent) {
+Palette paletteTo(const Color& full, double exponent) {
   Palette palette;
   for (std::size_t percent = 0; percent < kUnknownSlot; ++percent) {
-    const double share = std::pow(static_cast<double>(percent) / kMostPercent, exponent);
+    const double share = std::pow(static_cast<double>(percent) / kMaxPercent, exponent);
     for (int channel = 0; channel < 3; ++channel) {
       palette[percent][channel] =
           cv::saturate_cast<std::uint8_t>((1.0 - share) * kFree[channel] + share * full[channel]);
@@ -73,7 +73,7 @@ const Palette& paletteOf(const std::string& panel) {
   return panel == kConflict ? kContradictions : kOccupancy;
 }
 
-const Colour& colourOf(Percent percent, const Palette& palette) {
+const Color& colorOf(Percent percent, const Palette& palette) {
   return palette[percent == kUnknownPercent ? kUnknownSlot : static_cast<std::size_t>(percent)];
 }
 
@@ -90,27 +90,27 @@ struct GridViews::Panel {
   cv::Mat image;
   double ahead = 0.0;    ///< m
   double to_side = 0.0;  ///< m
-  double pixels_per_metre = 0.0;
+  double pixels_per_meter = 0.0;
 
   /// The middle of a pixel in the vehicle's frame, m.
   Point2 pointAt(int row, int column) const {
-    return {ahead - (row + 0.5) / pixels_per_metre, to_side - (column + 0.5) / pixels_per_metre};
+    return {ahead - (row + 0.5) / pixels_per_meter, to_side - (column + 0.5) / pixels_per_meter};
   }
 
   cv::Point pixelAt(double x, double y) const {
-    return {cvFloor((to_side - y) * pixels_per_metre), cvFloor((ahead - x) * pixels_per_metre)};
+    return {cvFloor((to_side - y) * pixels_per_meter), cvFloor((ahead - x) * pixels_per_meter)};
   }
 
   void drawCells(const SensorGrid& grid, const Pose2& base_in_grid, const Palette& palette) {
     const Point2 corner = base_in_grid * pointAt(0, 0);
-    const Point2 along_row = base_in_grid.rotate({0.0, -1.0 / pixels_per_metre});
-    const Point2 along_column = base_in_grid.rotate({-1.0 / pixels_per_metre, 0.0});
+    const Point2 along_row = base_in_grid.rotate({0.0, -1.0 / pixels_per_meter});
+    const Point2 along_column = base_in_grid.rotate({-1.0 / pixels_per_meter, 0.0});
     for (int row = 0; row < image.rows; ++row) {
       const Point2 start = corner + row * along_column;
-      auto* const pixels = image.ptr<Colour>(row);
+      auto* const pixels = image.ptr<Color>(row);
       for (int column = 0; column < image.cols; ++column) {
         const CellIndex cell = grid.window().cellAt(start + column * along_row);
-        pixels[column] = colourOf(grid.atOrUnknown(cell), palette);
+        pixels[column] = colorOf(grid.atOrUnknown(cell), palette);
       }
     }
   }
@@ -127,17 +127,17 @@ struct GridViews::Panel {
 GridViews::GridViews(const GridViewsOptions& options)
     : options_(options), panels_(options.panelNames()) {
   checkOptions(options);
-  const auto pixels = [&options](double metres) {
-    return static_cast<int>(std::lround(metres * options.pixels_per_metre));
+  const auto pixels = [&options](double meters) {
+    return static_cast<int>(std::lround(meters * options.pixels_per_meter));
   };
   panel_width_ = pixels(2.0 * options.to_side);
   panel_height_ = pixels(options.ahead + options.behind);
-  const double most = kMostPixels / static_cast<double>(panels_.size());
-  if (static_cast<double>(panel_width_) * panel_height_ > most) {
-    throw OptionError("pixels_per_metre = " + std::to_string(options.pixels_per_metre) +
+  const double max = kMaxPixels / static_cast<double>(panels_.size());
+  if (static_cast<double>(panel_width_) * panel_height_ > max) {
+    throw OptionError("pixels_per_meter = " + std::to_string(options.pixels_per_meter) +
                       " gives panels of " + std::to_string(panel_width_) + " x " +
                       std::to_string(panel_height_) + " pixels: expected fewer than " +
-                      std::to_string(std::lround(most)) + " in each");
+                      std::to_string(std::lround(max)) + " in each");
   }
 }
 
@@ -162,7 +162,7 @@ sensor_msgs::ImagePtr GridViews::draw() const {
   message->encoding = sensor_msgs::image_encodings::RGB8;
   message->width = static_cast<std::uint32_t>(step * static_cast<int>(panels_.size()) - kGap);
   message->height = static_cast<std::uint32_t>(kTitleHeight + panel_height_);
-  message->step = message->width * static_cast<std::uint32_t>(sizeof(Colour));
+  message->step = message->width * static_cast<std::uint32_t>(sizeof(Color));
   message->data.resize(std::size_t{message->step} * message->height);
   cv::Mat image(static_cast<int>(message->height), static_cast<int>(message->width), CV_8UC3,
                 message->data.data());
@@ -170,7 +170,7 @@ sensor_msgs::ImagePtr GridViews::draw() const {
   int left = 0;
   for (const std::string& name : panels_) {
     const cv::Mat below = image({left, kTitleHeight, panel_width_, panel_height_});
-    Panel panel{below, options_.ahead, options_.to_side, options_.pixels_per_metre};
+    Panel panel{below, options_.ahead, options_.to_side, options_.pixels_per_meter};
     const std::string problem = drawGrid(name, panel);
     panel.drawVehicle();
     drawTitle(problem.empty() ? name : name + ": " + problem,

@@ -14,9 +14,9 @@ void GridViewsOptions::visit(OptionVisitor& visitor) {
                 "`conflict`, `map`; separated by spaces"},
                panels, {});
   visitor.number({"ahead", "m", "how much is seen ahead of the vehicle"}, ahead, length);
-  visitor.number({"behind", "m", "how much is seen behind it"}, behind, {0.0, length.most});
+  visitor.number({"behind", "m", "how much is seen behind it"}, behind, {0.0, length.max});
   visitor.number({"to_side", "m", "how much is seen to each side of it"}, to_side, length);
-  visitor.number({"pixels_per_metre", "px/m", "scale of all panels"}, pixels_per_metre,
+  visitor.number({"pixels_per_meter", "px/m", "scale of all panels"}, pixels_per_meter,
                  {0.5, 50.0});
   visitor.number({"rate", "Hz", "the most pictures in a second"}, rate, {0.1, 30.0});
   visitor.number({"silent_after", "s",

@@ -10,8 +10,8 @@
 namespace datmo {
 
 void LidarGridStageOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"most_tilt", "rad", "a scan plane tilted by more than this is warned of"},
-                 most_tilt, {0.0, kQuarterTurn});
+  visitor.number({"max_tilt", "rad", "a scan plane tilted by more than this is warned of"},
+                 max_tilt, {0.0, kQuarterTurn});
   visitor.group("input", [&] { input.visit(visitor); });
   visitor.group("scan", [&] { scan.visit(visitor); });
   grid.visit(visitor);
@@ -82,11 +82,11 @@ void LidarGridStage::warnOf(const ScannerMount& mount, const ConvertedScan& conv
   if (converted.unusable_times) {
     monitor_.warned(*converted.unusable_times);
   }
-  if (mount.tilt > options_.most_tilt) {
-    monitor_.warned(InputError("tilted_scanner",
-                               "scan plane tilted by " + std::to_string(toDegrees(mount.tilt)) +
-                                   " degrees: expected at most " +
-                                   std::to_string(toDegrees(options_.most_tilt))));
+  if (mount.tilt > options_.max_tilt) {
+    monitor_.warned(InputError("tilted_scanner", "scan plane tilted by " +
+                                                     std::to_string(toDegrees(mount.tilt)) +
+                                                     " degrees: expected at most " +
+                                                     std::to_string(toDegrees(options_.max_tilt))));
   }
   const BeamCounts& beams = converted.beams;
   monitor_.figure("beams with a hit", static_cast<double>(beams.hits));

@@ -14,17 +14,17 @@ constexpr float kPaleness = 0.5F;
 std_msgs::ColorRGBA fullColorOf(ObjectClass object_class) {
   switch (object_class) {
     case ObjectClass::kVehicle:
-      return colour(0.05F, 0.4F, 0.95F);
+      return color(0.05F, 0.4F, 0.95F);
     case ObjectClass::kPedestrian:
-      return colour(0.9F, 0.05F, 0.55F);
+      return color(0.9F, 0.05F, 0.55F);
     case ObjectClass::kCyclist:
-      return colour(0.05F, 0.65F, 0.15F);
+      return color(0.05F, 0.65F, 0.15F);
     case ObjectClass::kPole:
-      return colour(0.5F, 0.35F, 0.15F);
+      return color(0.5F, 0.35F, 0.15F);
     case ObjectClass::kUnknown:
       break;
   }
-  return colour(0.5F, 0.25F, 0.8F);
+  return color(0.5F, 0.25F, 0.8F);
 }
 
 }  // namespace
@@ -34,26 +34,26 @@ std_msgs::ColorRGBA colorOfClass(ObjectClass object_class, bool moving, float op
   const auto channel = [moving](float value) {
     return moving ? value : kPaleness + (1.0F - kPaleness) * value;
   };
-  return colour(channel(full.r), channel(full.g), channel(full.b), opacity);
+  return color(channel(full.r), channel(full.g), channel(full.b), opacity);
 }
 
 std_msgs::ColorRGBA colorOfPoint(std::uint8_t state) {
   switch (state) {
     case ScanPointMessage::STATIC:
-      return colour(0.0F, 0.5F, 0.55F);
+      return color(0.0F, 0.5F, 0.55F);
     case ScanPointMessage::MOVING:
-      return colour(1.0F, 0.2F, 0.1F);
+      return color(1.0F, 0.2F, 0.1F);
     default:
-      return colour(0.6F, 0.6F, 0.6F);
+      return color(0.6F, 0.6F, 0.6F);
   }
 }
 
 std_msgs::ColorRGBA colorOfBorder(RoadSide side, float brightness, float opacity) {
-  const auto left = colour(brightness, 0.55F * brightness, 0.1F * brightness, opacity);
-  const auto right = colour(brightness, 0.35F * brightness, 0.8F * brightness, opacity);
+  const auto left = color(brightness, 0.55F * brightness, 0.1F * brightness, opacity);
+  const auto right = color(brightness, 0.35F * brightness, 0.8F * brightness, opacity);
   return side == RoadSide::kLeft ? left : right;
 }
 
-std_msgs::ColorRGBA colorOfOwnVehicle() { return colour(0.95F, 0.8F, 0.1F); }
+std_msgs::ColorRGBA colorOfOwnVehicle() { return color(0.95F, 0.8F, 0.1F); }
 
 }  // namespace datmo

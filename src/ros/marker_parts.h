@@ -9,7 +9,7 @@
 
 namespace datmo {
 
-inline std_msgs::ColorRGBA colour(float red, float green, float blue, float alpha = 1.0F) {
+inline std_msgs::ColorRGBA color(float red, float green, float blue, float alpha = 1.0F) {
   std_msgs::ColorRGBA result;
   result.r = red;
   result.g = green;

@@ -57,8 +57,8 @@ void MarkersOptions::visit(OptionVisitor& visitor) {
   visitor.number({"line_width", "m", "width of outlines; arrows go by it"}, line_width, size);
   visitor.number({"text_height", "m", "height of the letters of a track's label"}, text_height,
                  size);
-  visitor.number({"least_size", "m", "a box that was seen smaller is drawn this long and wide"},
-                 least_size, size);
+  visitor.number({"min_size", "m", "a box that was seen smaller is drawn this long and wide"},
+                 min_size, size);
   visitor.number({"default_height", "m", "of a box whose height is not measured"}, default_height,
                  size);
   visitor.number({"arrow_time", "s", "a track's arrow is its distance in this time"}, arrow_time,
@@ -68,7 +68,7 @@ void MarkersOptions::visit(OptionVisitor& visitor) {
   visitor.group("vehicle", [&] { vehicle.visit(visitor); });
 }
 
-MarkerArray markersOf(const SplitScanMessage& scan, const MarkersOptions& options) {
+MarkerArray markersOf(const LabeledScanMessage& scan, const MarkersOptions& options) {
   std_msgs::Header header = scan.header;
   header.frame_id = scan.map_frame;
   Marker marker = makeMarker(header, "scan", Marker::POINTS);
@@ -99,14 +99,14 @@ MarkerArray markersOf(const ObjectArray& objects, const MarkersOptions& options)
   for (const ObjectMessage& object : objects.objects) {
     const bool moves = object.dynamic_state == ObjectMessage::STATE_MOVING;
     add(outlineOf(objects.header, "objects", object.pose, object.size, options),
-        colourOfSensors(object.sensors, moves ? 1.0F : kPale));
+        colorOfSensors(object.sensors, moves ? 1.0F : kPale));
     const ObjectClass object_class = classFromMessage(object.classification);
     if (object_class != ObjectClass::kUnknown) {
       const ClassShape shape =
           shapeOf(objects.header, "object", object_class, object.pose, object.size, options);
-      add(shape.body, colourOfSensors(object.sensors, kBody));
+      add(shape.body, colorOfSensors(object.sensors, kBody));
       if (shape.head) {
-        add(*shape.head, colourOfSensors(object.sensors, kBody));
+        add(*shape.head, colorOfSensors(object.sensors, kBody));
       }
     }
     ++id;
@@ -122,14 +122,14 @@ MarkerArray markersOf(const TrueObjectArray& objects, const MarkersOptions& opti
           dashed(outlineOf(objects.header, "ground truth", object.pose, object.size, options));
       marker.id = static_cast<int>(object.id);
       marker.scale.x = kThin * options.line_width;
-      marker.color = colour(0.25F, 0.25F, 0.25F);
+      marker.color = color(0.25F, 0.25F, 0.25F);
       markers.markers.push_back(marker);
     }
   }
   return markers;
 }
 
-void placeInMap(const SplitScanMessage& scan, MarkerArray& markers) {
+void transformToMap(const LabeledScanMessage& scan, MarkerArray& markers) {
   const Pose2 base_in_map = fromMessage(scan.pose.pose);
   for (Marker& marker : markers.markers) {
     const double z = marker.pose.position.z;

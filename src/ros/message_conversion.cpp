@@ -13,7 +13,7 @@ namespace datmo {
 
 namespace {
 
-/// Quaternions travel as doubles; one that is off by more than this was never normalised.
+/// Quaternions travel as doubles; one that is off by more than this was never normalized.
 constexpr double kUnitLengthTolerance = 1e-3;
 
 /// Where the 6 x 6 covariances of ROS (x, y, z, roll, pitch, yaw) hold ours over x, y and heading.
@@ -57,7 +57,7 @@ ScanFieldMessage toMessage(const ScanField& field) {
   message.first_bearing = field.first_bearing;
   message.beam_spacing = field.beam_spacing;
   message.beams = field.beams;
-  message.least_range = static_cast<float>(field.least_range);
+  message.min_range = static_cast<float>(field.min_range);
   message.free_range = static_cast<float>(field.free_range);
   message.range = static_cast<float>(field.range);
   message.beam_time = field.beam_time;
@@ -66,17 +66,17 @@ ScanFieldMessage toMessage(const ScanField& field) {
 
 ScanField fromMessage(const ScanFieldMessage& message) {
   const ScanField field{message.first_bearing, message.beam_spacing, message.beams,
-                        message.least_range,   message.free_range,   message.range,
+                        message.min_range,     message.free_range,   message.range,
                         message.beam_time};
-  const bool finite = std::isfinite(field.first_bearing + field.beam_spacing + field.least_range +
+  const bool finite = std::isfinite(field.first_bearing + field.beam_spacing + field.min_range +
                                     field.free_range + field.range + field.beam_time);
-  if (!finite || (field.beams > 0 && field.beam_spacing == 0.0) || field.beams > kMostBeams) {
+  if (!finite || (field.beams > 0 && field.beam_spacing == 0.0) || field.beams > kMaxBeams) {
     throw InputError("bad_field", "split scan of " + std::to_string(field.beams) + " beams from " +
                                       std::to_string(field.first_bearing) + " rad every " +
                                       std::to_string(field.beam_spacing) + " rad up to " +
                                       std::to_string(field.range) +
                                       " m: expected finite numbers, a spacing and at most " +
-                                      std::to_string(kMostBeams) + " beams");
+                                      std::to_string(kMaxBeams) + " beams");
   }
   return field;
 }
@@ -145,15 +145,15 @@ OdometrySample toSample(const nav_msgs::Odometry& message) {
   if (!isPlausible(twist)) {
     throw InputError("bad_odometry", "odometry with speed " + std::to_string(twist.forward_speed) +
                                          " m/s and yaw rate " + std::to_string(twist.yaw_rate) +
-                                         " rad/s: expected at most " + std::to_string(kMostSpeed) +
-                                         " m/s and " + std::to_string(kMostYawRate) + " rad/s");
+                                         " rad/s: expected at most " + std::to_string(kMaxSpeed) +
+                                         " m/s and " + std::to_string(kMaxYawRate) + " rad/s");
   }
   return {toStamp(message.header.stamp), twist};
 }
 
-SplitScanMessage toMessage(const SplitScan& scan, const std::string& base_frame,
-                           const std::string& map_frame) {
-  SplitScanMessage message;
+LabeledScanMessage toMessage(const LabeledScan& scan, const std::string& base_frame,
+                             const std::string& map_frame) {
+  LabeledScanMessage message;
   message.header = header(scan.stamp, base_frame);
   message.map_frame = map_frame;
   message.pose = toMessage(scan.base_in_map);
@@ -166,8 +166,8 @@ SplitScanMessage toMessage(const SplitScan& scan, const std::string& base_frame,
   return message;
 }
 
-SplitScan fromMessage(const SplitScanMessage& message) {
-  SplitScan scan;
+LabeledScan fromMessage(const LabeledScanMessage& message) {
+  LabeledScan scan;
   scan.stamp = toStamp(message.header.stamp);
   scan.base_in_map = fromMessage(message.pose);
   const geometry_msgs::Pose2D& scanner = message.scanner;

@@ -64,8 +64,8 @@ Arrival MotionInput::take(const geometry_msgs::PoseWithCovarianceStamped& messag
   if (!isPlausible({speed, twist.yaw_rate})) {
     throw InputError("pose_jump", "pose that moved at " + std::to_string(speed) + " m/s and " +
                                       std::to_string(twist.yaw_rate) + " rad/s: expected at most " +
-                                      std::to_string(kMostSpeed) + " m/s and " +
-                                      std::to_string(kMostYawRate) + " rad/s");
+                                      std::to_string(kMaxSpeed) + " m/s and " +
+                                      std::to_string(kMaxYawRate) + " rad/s");
   }
   // What the vehicle did up to this pose is what it is expected to do after it.
   buffer_.add({last_pose_->stamp, twist, pose});

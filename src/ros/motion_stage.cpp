@@ -13,7 +13,7 @@ namespace datmo {
 namespace {
 
 /// (m/s)^2: of a speed of which nothing is known.
-constexpr double kUnknownSpeedVariance = kMostSpeed * kMostSpeed;
+constexpr double kUnknownSpeedVariance = kMaxSpeed * kMaxSpeed;
 
 /// First element of a covariance in sensor_msgs/Imu whose quantity the sensor does not measure.
 constexpr double kNotMeasured = -1.0;
@@ -22,8 +22,8 @@ Twist2 checked(const Twist2& twist, const std::string& what) {
   if (!isPlausible(twist)) {
     throw InputError("bad_motion", what + " with speed " + std::to_string(twist.forward_speed) +
                                        " m/s and yaw rate " + std::to_string(twist.yaw_rate) +
-                                       " rad/s: expected at most " + std::to_string(kMostSpeed) +
-                                       " m/s and " + std::to_string(kMostYawRate) + " rad/s");
+                                       " rad/s: expected at most " + std::to_string(kMaxSpeed) +
+                                       " m/s and " + std::to_string(kMaxYawRate) + " rad/s");
   }
   return twist;
 }

@@ -44,11 +44,11 @@ void MovingObjectsStage::takeRoadBorders(const RoadBorders& message) {
   }
 }
 
-std::optional<MovingObjectsOutput> MovingObjectsStage::takeSplitScan(
-    const SplitScanMessage& message) {
+std::optional<MovingObjectsOutput> MovingObjectsStage::takeLabeledScan(
+    const LabeledScanMessage& message) {
   try {
     const Stopwatch watch;
-    const SplitScan scan = fromMessage(message);
+    const LabeledScan scan = fromMessage(message);
     if (stamps_.check(message.header.stamp) == Arrival::kRestart) {
       border_filter_.reset();
     }
@@ -88,8 +88,8 @@ std::optional<RoadModel> MovingObjectsStage::roadAt(Stamp stamp, const std::stri
   return road_;
 }
 
-DroppedObjectsPtr MovingObjectsStage::dropAtBorders(const SplitScan& scan,
-                                                    const SplitScanMessage& message,
+DroppedObjectsPtr MovingObjectsStage::dropAtBorders(const LabeledScan& scan,
+                                                    const LabeledScanMessage& message,
                                                     ObjectList& objects) {
   const std::optional<RoadModel> road = roadAt(scan.stamp, message.map_frame);
   if (!road) {
@@ -109,13 +109,13 @@ void MovingObjectsStage::connect(StagePorts& ports) {
     ports.in<RoadBorders>(
         "road_borders", [this](const auto& borders, Stamp /*now*/) { takeRoadBorders(*borders); });
   }
-  ports.in<SplitScanMessage>("split_scan",
-                             [this, objects, dropped](const auto& scan, Stamp /*now*/) {
-                               if (const auto found = takeSplitScan(*scan)) {
-                                 objects.publish(found->objects);
-                                 dropped.publish(found->dropped);
-                               }
-                             });
+  ports.in<LabeledScanMessage>("labeled_scan",
+                               [this, objects, dropped](const auto& scan, Stamp /*now*/) {
+                                 if (const auto found = takeLabeledScan(*scan)) {
+                                   objects.publish(found->objects);
+                                   dropped.publish(found->dropped);
+                                 }
+                               });
 }
 
 }  // namespace datmo

@@ -21,7 +21,7 @@ Enumeration named(std::uint8_t value, Enumeration last) {
 
 Object fromMessage(const ObjectMessage& message) {
   Object object;
-  object.box = {boxCentre(message.pose), message.size.x, message.size.y};
+  object.box = {boxCenter(message.pose), message.size.x, message.size.y};
   object.position_covariance = Eigen::Map<const Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(
       message.position_covariance.data());
   object.heading_variance = message.heading_variance;
@@ -45,8 +45,8 @@ FieldOfViewMessage toMessage(const SensorView& view) {
   FieldOfViewMessage message;
   message.sensor = view.sensor;
   message.pose = toPose2D(view.field.sensor_in_base);
-  message.least_bearing = static_cast<float>(view.field.least_bearing);
-  message.most_bearing = static_cast<float>(view.field.most_bearing);
+  message.min_bearing = static_cast<float>(view.field.min_bearing);
+  message.max_bearing = static_cast<float>(view.field.max_bearing);
   message.sure_range = static_cast<float>(view.field.sure_range);
   message.range = static_cast<float>(view.field.range);
   return message;
@@ -55,15 +55,15 @@ FieldOfViewMessage toMessage(const SensorView& view) {
 /// NaN compares false with everything.
 bool isValid(const FieldOfViewMessage& view) {
   const geometry_msgs::Pose2D& pose = view.pose;
-  const double width = static_cast<double>(view.most_bearing) - view.least_bearing;
-  return std::isfinite(pose.x + pose.y + pose.theta) && std::isfinite(view.least_bearing) &&
+  const double width = static_cast<double>(view.max_bearing) - view.min_bearing;
+  return std::isfinite(pose.x + pose.y + pose.theta) && std::isfinite(view.min_bearing) &&
          width > 0.0 && width <= 2.0 * kPi + kRounding && view.sure_range >= 0.0F &&
          view.sure_range <= view.range && std::isfinite(view.range);
 }
 
 SensorView fromMessage(const FieldOfViewMessage& message) {
   return {message.sensor,
-          {toPose2(message.pose), message.least_bearing, message.most_bearing, message.sure_range,
+          {toPose2(message.pose), message.min_bearing, message.max_bearing, message.sure_range,
            message.range}};
 }
 
@@ -71,7 +71,7 @@ SensorView fromMessage(const FieldOfViewMessage& message) {
 
 ObjectMessage toMessage(const Object& object) {
   ObjectMessage message;
-  message.pose = toMessage(object.box.centre);
+  message.pose = toMessage(object.box.center);
   message.size = size(object.box, object.height);
   Eigen::Map<Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(message.position_covariance.data()) =
       object.position_covariance;

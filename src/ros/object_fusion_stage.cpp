@@ -20,7 +20,7 @@ namespace {
 constexpr char kObjectList[] = "object list";
 
 /// A second and more of a fast scanner: longer than a list may wait (SourceMatcherOptions).
-constexpr std::size_t kMostScans = 64;
+constexpr std::size_t kMaxScans = 64;
 
 /// Names of the sources with such a list.
 std::string sourcesWith(const std::vector<SourceObjects>& lists,
@@ -93,18 +93,18 @@ void ObjectFusionStage::takePose(const geometry_msgs::PoseWithCovarianceStamped&
   forgetAfter(inputs_.takeMotion(message));
 }
 
-void ObjectFusionStage::takeSplitScan(const SplitScanMessage& message) {
+void ObjectFusionStage::takeLabeledScan(const LabeledScanMessage& message) {
   try {
     if (message.header.frame_id != options_.frames.base) {
       throw InputError("wrong_frame", "split scan in '" + message.header.frame_id +
                                           "': expected '" + options_.frames.base + "'");
     }
-    SplitScan scan = fromMessage(message);
+    LabeledScan scan = fromMessage(message);
     if (!scans_.empty() && scan.stamp < scans_.back().stamp) {
       scans_.clear();  // a looped bag
     }
     scans_.push_back(std::move(scan));
-    if (scans_.size() > kMostScans) {
+    if (scans_.size() > kMaxScans) {
       scans_.pop_front();
     }
   } catch (const InputError& error) {
@@ -112,8 +112,8 @@ void ObjectFusionStage::takeSplitScan(const SplitScanMessage& message) {
   }
 }
 
-std::optional<SplitScan> ObjectFusionStage::takeScanAt(Stamp stamp) {
-  std::optional<SplitScan> found;
+std::optional<LabeledScan> ObjectFusionStage::takeScanAt(Stamp stamp) {
+  std::optional<LabeledScan> found;
   while (!scans_.empty() && scans_.front().stamp <= stamp) {
     if (scans_.front().stamp == stamp) {
       found = std::move(scans_.front());
@@ -145,7 +145,7 @@ ObjectArrayPtr ObjectFusionStage::next(Stamp now) {
   }
   std::vector<MissingSource> missing = matched->missing;
   const std::vector<SourceObjects> lists = movedLists(*matched, missing);
-  const std::optional<SplitScan> scan = takeScanAt(matched->stamp());
+  const std::optional<LabeledScan> scan = takeScanAt(matched->stamp());
   times_without_scan_ += scan ? 0 : 1;
   const ObjectFusionResult result = fuser_.fuse(lists, scan ? &*scan : nullptr);
   inputs_.report(matched->stamp(), missing);
@@ -168,14 +168,12 @@ void ObjectFusionStage::report(const std::vector<SourceObjects>& lists,
                                      "covariance that is not positive definite: left out"));
   }
   if (counts.refused > 0) {
-    const auto most = static_cast<std::size_t>(options_.fuser.most_objects);
-    const auto is_long = [most](const std::vector<Object>& objects) {
-      return objects.size() > most;
-    };
-    monitor_.warned(
-        InputError("many_objects", std::to_string(counts.refused) + " objects of " +
-                                       sourcesWith(lists, is_long) + " beyond most_objects = " +
-                                       std::to_string(most) + " of a list: left out the farthest"));
+    const auto max = static_cast<std::size_t>(options_.fuser.max_objects);
+    const auto is_long = [max](const std::vector<Object>& objects) { return objects.size() > max; };
+    monitor_.warned(InputError("many_objects", std::to_string(counts.refused) + " objects of " +
+                                                   sourcesWith(lists, is_long) +
+                                                   " beyond max_objects = " + std::to_string(max) +
+                                                   " of a list: left out the farthest"));
   }
   bad_objects_ += counts.rejected;
   objects_too_many_ += counts.refused;
@@ -189,8 +187,8 @@ void ObjectFusionStage::report(const std::vector<SourceObjects>& lists,
 void ObjectFusionStage::connect(StagePorts& ports) {
   fused_ = ports.out<ObjectArray>("objects/fused");
   connectMotion(ports, options_.motion, *this);
-  ports.optionalIn<SplitScanMessage>(
-      "split_scan", [this](const auto& scan, Stamp /*now*/) { takeSplitScan(*scan); });
+  ports.optionalIn<LabeledScanMessage>(
+      "labeled_scan", [this](const auto& scan, Stamp /*now*/) { takeLabeledScan(*scan); });
   for (const std::string& source : sources()) {
     ports.in<ObjectArray>("objects/" + source, [this, source](const auto& objects, Stamp now) {
       takeObjects(source, *objects, now);

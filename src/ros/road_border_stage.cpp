@@ -19,10 +19,10 @@ RoadBorderStage::RoadBorderStage(const RoadBorderStageOptions& options, StageMon
   checkOptions(options);
 }
 
-RoadBordersPtr RoadBorderStage::takeSplitScan(const SplitScanMessage& message) {
+RoadBordersPtr RoadBorderStage::takeLabeledScan(const LabeledScanMessage& message) {
   try {
     const Stopwatch watch;
-    const SplitScan scan = fromMessage(message);
+    const LabeledScan scan = fromMessage(message);
     if (message.map_frame.empty()) {
       throw InputError("wrong_frame", "split scan without map_frame: expected the map's name");
     }
@@ -62,8 +62,8 @@ void RoadBorderStage::show(const RoadModel& road) {
 
 void RoadBorderStage::connect(StagePorts& ports) {
   const auto borders = ports.out<RoadBorders>("road_borders");
-  ports.in<SplitScanMessage>("split_scan", [this, borders](const auto& scan, Stamp /*now*/) {
-    borders.publish(takeSplitScan(*scan));
+  ports.in<LabeledScanMessage>("labeled_scan", [this, borders](const auto& scan, Stamp /*now*/) {
+    borders.publish(takeLabeledScan(*scan));
   });
 }
 

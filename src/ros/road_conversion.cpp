@@ -16,7 +16,7 @@ namespace {
 
 /// s: a day. What was not seen for longer is no border that anybody follows, and the message's
 /// duration ends somewhere.
-constexpr double kLongestUnseen = 86400.0;
+constexpr double kMaxUnseen = 86400.0;
 
 /// NaN compares false with everything.
 bool isProbability(double value) { return value >= 0.0 && value <= 1.0; }
@@ -26,9 +26,9 @@ InputError badBorder(const std::string& what, const std::string& expected) {
 }
 
 void checkAge(double unseen) {
-  if (!(unseen >= 0.0 && unseen <= kLongestUnseen)) {
+  if (!(unseen >= 0.0 && unseen <= kMaxUnseen)) {
     throw badBorder("unseen for " + std::to_string(unseen) + " s",
-                    "0 to " + std::to_string(kLongestUnseen) + " s");
+                    "0 to " + std::to_string(kMaxUnseen) + " s");
   }
 }
 
@@ -78,10 +78,10 @@ void check(const RoadBorders& message) {
     check(border);
     points += border.points.size();
   }
-  if (points > kMostBorderPoints) {
+  if (points > kMaxBorderPoints) {
     throw InputError("many_points", "borders of " + std::to_string(points) +
                                         " points in all: expected at most " +
-                                        std::to_string(kMostBorderPoints));
+                                        std::to_string(kMaxBorderPoints));
   }
 }
 
@@ -93,10 +93,10 @@ RoadBorderMessage toMessage(const RoadBorder& border) {
   checkAge(border.unseen_for);  // the message's duration throws another error
   message.unseen = ros::Duration(border.unseen_for);
   for (const BorderPoint& point : border.points) {
-    geometry_msgs::Point32 place;
-    place.x = static_cast<float>(point.position.x());
-    place.y = static_cast<float>(point.position.y());
-    message.points.push_back(place);
+    geometry_msgs::Point32 position;
+    position.x = static_cast<float>(point.position.x());
+    position.y = static_cast<float>(point.position.y());
+    message.points.push_back(position);
     message.sigma.push_back(static_cast<float>(point.sigma));
   }
   return message;
@@ -110,8 +110,8 @@ RoadBorder fromMessage(const RoadBorderMessage& message) {
   border.unseen_for = message.unseen.toSec();
   border.points.reserve(message.points.size());
   std::transform(message.points.begin(), message.points.end(), message.sigma.begin(),
-                 std::back_inserter(border.points), [](const auto& place, float sigma) {
-                   return BorderPoint{{place.x, place.y}, sigma};
+                 std::back_inserter(border.points), [](const auto& position, float sigma) {
+                   return BorderPoint{{position.x, position.y}, sigma};
                  });
   return border;
 }

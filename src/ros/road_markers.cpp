@@ -28,7 +28,7 @@ constexpr float kDim = 0.6F;
 
 /// Line widths of a sure border, one that hardly is one, and those beside it.
 constexpr double kSureWidth = 3.0;
-constexpr double kLeastWidth = 1.0;
+constexpr double kMinWidth = 1.0;
 constexpr double kBandWidth = 0.4;
 
 /// Standard deviations from a border to the lines beside it: 95 % of where it may be.
@@ -37,7 +37,7 @@ constexpr double kBandSigmas = 2.0;
 /// Letters beside those of a track.
 constexpr double kSmallText = 0.5;
 
-std_msgs::ColorRGBA colourOf(const RoadBorder& border) {
+std_msgs::ColorRGBA colorOf(const RoadBorder& border) {
   const float opacity = kFaint + (1.0F - kFaint) * static_cast<float>(border.probability);
   const float light = border.side_street ? kDim : 1.0F;
   return colorOfBorder(border.side, light, opacity);
@@ -50,8 +50,7 @@ geometry_msgs::Point pointAt(const Point2& position) {
 Marker lineOf(const std_msgs::Header& header, const RoadBorder& border,
               const MarkersOptions& options) {
   Marker marker = makeMarker(header, "road borders", Marker::LINE_STRIP);
-  marker.scale.x =
-      options.line_width * (kLeastWidth + (kSureWidth - kLeastWidth) * border.probability);
+  marker.scale.x = options.line_width * (kMinWidth + (kSureWidth - kMinWidth) * border.probability);
   for (const BorderPoint& point : border.points) {
     marker.points.push_back(pointAt(point.position));
   }
@@ -120,7 +119,7 @@ MarkerArray markersOf(const RoadBorders& message, const MarkersOptions& options)
     for (Marker marker :
          {lineOf(message.header, border, options), bandOf(message.header, border, options)}) {
       marker.id = id;
-      marker.color = colourOf(border);
+      marker.color = colorOf(border);
       markers.markers.push_back(marker);
     }
     ++id;
@@ -128,7 +127,7 @@ MarkerArray markersOf(const RoadBorders& message, const MarkersOptions& options)
   return markers;
 }
 
-void addIntersection(const RoadBorders& road, const SplitScanMessage& scan,
+void addIntersection(const RoadBorders& road, const LabeledScanMessage& scan,
                      const MarkersOptions& options, MarkerArray& markers) {
   if (road.at_intersection == 0) {
     return;
@@ -138,7 +137,7 @@ void addIntersection(const RoadBorders& road, const SplitScanMessage& scan,
   marker.pose = toMessage(fromMessage(scan.pose.pose));
   marker.pose.position.z = options.default_height + options.text_height;
   marker.scale.z = options.text_height;
-  marker.color = colour(1.0F, 1.0F, 1.0F);
+  marker.color = color(1.0F, 1.0F, 1.0F);
   marker.text = formatted("intersection %.2f", static_cast<double>(road.intersection_probability));
   markers.markers.push_back(marker);
 }
@@ -152,7 +151,7 @@ MarkerArray markersOf(const DroppedObjects& dropped, const MarkersOptions& optio
          {outlineOf(dropped.header, "dropped objects", object.pose, object.size, options),
           labelOf(dropped.header, one, options)}) {
       marker.id = id;
-      marker.color = colour(0.5F, 0.5F, 0.5F);
+      marker.color = color(0.5F, 0.5F, 0.5F);
       markers.markers.push_back(marker);
     }
     ++id;

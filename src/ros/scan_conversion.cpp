@@ -17,7 +17,7 @@ constexpr float kNoReturn = std::numeric_limits<float>::infinity();
 
 /// No scanner of a vehicle sees farther (m); drivers also say "no limit" and "no return" with
 /// numbers of any size.
-constexpr float kLongestReach = 1000.0F;
+constexpr float kMaxReach = 1000.0F;
 
 template <typename Message>
 void checkGeometry(const Message& message) {
@@ -43,9 +43,9 @@ void checkSize(const Message& message) {
   if (message.ranges.empty()) {
     throw InputError("empty_scan", "scan without beams: expected at least one");
   }
-  if (message.ranges.size() > kMostBeams) {
+  if (message.ranges.size() > kMaxBeams) {
     throw InputError("wrong_size", "scan with " + std::to_string(message.ranges.size()) +
-                                       " beams: expected at most " + std::to_string(kMostBeams));
+                                       " beams: expected at most " + std::to_string(kMaxBeams));
   }
   const double steps =
       (static_cast<double>(message.angle_max) - message.angle_min) / message.angle_increment;
@@ -60,16 +60,16 @@ void checkSize(const Message& message) {
 /// What is wrong with the time increment; NaN compares false with everything, and so is never
 /// right.
 template <typename Message>
-std::optional<InputError> faultOfTimes(const Message& message, double longest_sweep) {
+std::optional<InputError> faultOfTimes(const Message& message, double max_sweep) {
   const double sweep =
       static_cast<double>(message.time_increment) * static_cast<double>(message.ranges.size() - 1);
-  if (message.time_increment >= 0.0F && sweep <= longest_sweep) {
+  if (message.time_increment >= 0.0F && sweep <= max_sweep) {
     return std::nullopt;
   }
   return InputError("bad_beam_times",
                     "scan with " + std::to_string(message.ranges.size()) +
                         " beams and a time increment of " + std::to_string(message.time_increment) +
-                        " s: expected 0 or more, and at most " + std::to_string(longest_sweep) +
+                        " s: expected 0 or more, and at most " + std::to_string(max_sweep) +
                         " s for all beams; takes them as measured at once");
 }
 
@@ -112,8 +112,8 @@ ScanField fieldOf(const Message& message, const ScannerMount& mount, double time
   field.first_bearing = side * message.angle_min;
   field.beam_spacing = side * message.angle_increment;
   field.beams = static_cast<std::uint32_t>(message.ranges.size());
-  field.least_range = message.range_min;
-  field.range = std::min(message.range_max, kLongestReach);
+  field.min_range = message.range_min;
+  field.range = std::min(message.range_max, kMaxReach);
   field.free_range = std::min(options.free_range, field.range);
   field.beam_time = time_increment;
   return field;
@@ -125,7 +125,7 @@ ConvertedScan convert(const Message& message, const ScannerMount& mount,
   checkGeometry(message);
   checkSize(message);
   ConvertedScan converted;
-  converted.unusable_times = faultOfTimes(message, options.longest_sweep);
+  converted.unusable_times = faultOfTimes(message, options.max_sweep);
   const double time_increment =
       converted.unusable_times ? 0.0 : static_cast<double>(message.time_increment);
   Scan& scan = converted.scan;
@@ -133,7 +133,7 @@ ConvertedScan convert(const Message& message, const ScannerMount& mount,
   scan.scanner_in_base = mount.scanner_in_base;
   scan.field = fieldOf(message, mount, time_increment, options);
   scan.rays.reserve(message.ranges.size());
-  const float reach = std::min(message.range_max, kLongestReach);
+  const float reach = std::min(message.range_max, kMaxReach);
   const double free_range = scan.field.free_range;
   for (std::uint32_t beam = 0; beam < message.ranges.size(); ++beam) {
     const float range = rangeOf(message.ranges[beam], message.range_min, reach);
@@ -164,10 +164,10 @@ void ScanConversionOptions::visit(OptionVisitor& visitor) {
                   "less than the scanner's reach, since dark objects far away return nothing; 0: "
                   "such beams say nothing"},
                  free_range, {0.0, 500.0});
-  visitor.number({"longest_sweep", "s",
+  visitor.number({"max_sweep", "s",
                   "from the first to the last beam; a scan that says more (slow rotating scanners "
                   "turn 5 times a second) has no usable beam times and is not motion-compensated"},
-                 longest_sweep, {0.0, 2.0});
+                 max_sweep, {0.0, 2.0});
 }
 
 ConvertedScan toScan(const sensor_msgs::LaserScan& message, const ScannerMount& mount,

@@ -10,7 +10,7 @@ namespace {
 
 /// A second and more of a fast scanner: fused objects may have waited so long for those of another
 /// sensor.
-constexpr std::size_t kMostViews = 64;
+constexpr std::size_t kMaxViews = 64;
 
 }  // namespace
 
@@ -18,8 +18,8 @@ ScanViews::ScanViews(const VisibilityOptions& options) : options_(options) {
   checkOptions(options);
 }
 
-void ScanViews::add(const SplitScanMessage& message) {
-  const SplitScan scan = fromMessage(message);
+void ScanViews::add(const LabeledScanMessage& message) {
+  const LabeledScan scan = fromMessage(message);
   if (!views_.empty() && message.header.stamp < views_.back().base.stamp) {
     views_.clear();
   }
@@ -27,7 +27,7 @@ void ScanViews::add(const SplitScanMessage& message) {
   if (scan.field.beams > 0) {
     views_.back().visibility.emplace(scan, options_);
   }
-  if (views_.size() > kMostViews) {
+  if (views_.size() > kMaxViews) {
     views_.pop_front();
   }
 }

@@ -19,9 +19,9 @@ constexpr std::size_t kRateWindow = 50;
 constexpr std::size_t kTimingWindow = 1000;
 
 template <typename Value>
-void pushBounded(std::deque<Value>& values, const Value& value, std::size_t most) {
+void pushBounded(std::deque<Value>& values, const Value& value, std::size_t max) {
   values.push_back(value);
-  if (values.size() > most) {
+  if (values.size() > max) {
     values.pop_front();
   }
 }

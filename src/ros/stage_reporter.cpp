@@ -120,7 +120,7 @@ void StageReporter::listCounts(DiagnosticStatusWrapper& status) const {
   status.add("processed", monitor_.processedCount());
   status.addf("processing time, median [ms]", "%.2f", milliseconds(timing.median));
   status.addf("processing time, 99th percentile [ms]", "%.2f", milliseconds(timing.percentile_99));
-  status.addf("processing time, most [ms]", "%.2f", milliseconds(timing.most));
+  status.addf("processing time, most [ms]", "%.2f", milliseconds(timing.max));
   for (const auto& [name, value] : monitor_.figures()) {
     status.addf(name, "%.4g", value);
   }

@@ -41,7 +41,7 @@ sensor_msgs::LaserScanConstPtr toLaserScan(const ScanField& field, std::vector<f
   scan->angle_max = static_cast<float>(field.first_bearing +
                                        static_cast<double>(field.beams - 1) * field.beam_spacing);
   scan->time_increment = static_cast<float>(field.beam_time);
-  scan->range_min = static_cast<float>(field.least_range);
+  scan->range_min = static_cast<float>(field.min_range);
   scan->range_max = static_cast<float>(field.range);
   scan->ranges = std::move(ranges);
   return scan;
@@ -71,11 +71,11 @@ StaticPointsStage::StaticPointsStage(const StaticPointsStageOptions& options, St
   }
 }
 
-std::optional<StaticPointsOutput> StaticPointsStage::takeSplitScan(
-    const SplitScanMessage& message) {
+std::optional<StaticPointsOutput> StaticPointsStage::takeLabeledScan(
+    const LabeledScanMessage& message) {
   try {
     const Stopwatch watch;
-    const SplitScan scan = fromMessage(message);
+    const LabeledScan scan = fromMessage(message);
     if (stamps_.check(message.header.stamp) == Arrival::kRestart) {
       monitor_.warned(InputError("clock_restart", "the clock jumped back: begins anew"));
     }
@@ -94,7 +94,7 @@ std::optional<StaticPointsOutput> StaticPointsStage::takeSplitScan(
   }
 }
 
-tf2_msgs::TFMessageConstPtr StaticPointsStage::newMount(const SplitScan& scan,
+tf2_msgs::TFMessageConstPtr StaticPointsStage::newMount(const LabeledScan& scan,
                                                         const std_msgs::Header& header) {
   const Pose2& mount = scan.scanner_in_base;
   if (mount_ && mount_->position() == mount.position() && mount_->heading() == mount.heading()) {
@@ -110,8 +110,8 @@ void StaticPointsStage::connect(StagePorts& ports) {
   const auto mounts = ports.out<tf2_msgs::TFMessage>("/tf_static", true);
   const auto points = ports.out<sensor_msgs::PointCloud2>("static_points");
   const auto scans = ports.out<sensor_msgs::LaserScan>("static_scan");
-  ports.in<SplitScanMessage>("split_scan", [=](const auto& split_scan, Stamp /*now*/) {
-    if (const auto output = takeSplitScan(*split_scan)) {
+  ports.in<LabeledScanMessage>("labeled_scan", [=](const auto& labeled_scan, Stamp /*now*/) {
+    if (const auto output = takeLabeledScan(*labeled_scan)) {
       mounts.publish(output->mount);
       points.publish(output->points);
       scans.publish(output->scan);

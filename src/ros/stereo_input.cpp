@@ -8,11 +8,11 @@ namespace datmo {
 
 void StereoCameraOptions::visit(OptionVisitor& visitor) {
   visitor.number({"focal_length", "px", "until a camera info has come; 0: not known"}, focal_length,
-                 {0.0, kMostFocalLength});
+                 {0.0, kMaxFocalLength});
   visitor.number({"baseline", "m",
                   "stereo: until a camera info has come, 0: not known; active_stereo: between its "
                   "two cameras; structured_light: from the camera to the projector at its right"},
-                 baseline, {0.0, kMostBaseline});
+                 baseline, {0.0, kMaxBaseline});
   visitor.number({"field_of_view", "rad", "from left to right, until a camera info has come"},
                  field_of_view, {degrees(5.0), degrees(150.0)});
   visitor.number({"min_depth", "m", "nearer points are left out: the camera's data sheet"},
@@ -34,7 +34,7 @@ StereoInput::StereoInput(const StereoInputOptions& options, const TransformBuffe
       stamps_(options.input.restart_after) {
   checkOptions(options);
   const StereoCameraOptions& camera = options.camera;
-  if (principle_ == DepthPrinciple::kActiveStereo && camera.baseline < kLeastBaseline) {
+  if (principle_ == DepthPrinciple::kActiveStereo && camera.baseline < kMinBaseline) {
     throw OptionError("camera/baseline = " + std::to_string(camera.baseline) +
                       ": expected that of the data sheet, in m, for depth_noise: active_stereo");
   }

@@ -60,7 +60,7 @@ SourceTrack fromMessage(const SourceTrackMessage& message) { return {message.sou
 TrackMessage toMessage(const Track& track) {
   TrackMessage message;
   message.id = track.id;
-  message.pose = toMessage(track.box.centre);
+  message.pose = toMessage(track.box.center);
   message.size = size(track.box, track.height);
   message.velocity = planar(track.state(2), track.state(3));
   message.acceleration = planar(track.state(4), track.state(5));
@@ -95,7 +95,7 @@ Track fromMessage(const TrackMessage& message) {
       message.velocity.y, message.acceleration.x, message.acceleration.y;
   track.covariance = Eigen::Map<const CovarianceMessage>(message.covariance.data());
   track.mode_probabilities = fromFloats<kMotionModes>(message.mode_probabilities);
-  track.box = {boxCentre(message.pose), message.size.x, message.size.y};
+  track.box = {boxCenter(message.pose), message.size.x, message.size.y};
   track.height = message.size.z;
   track.yaw_rate = message.yaw_rate;
   track.heading_variance = message.heading_variance;
@@ -120,7 +120,7 @@ ViewFanMessage toMessage(const ViewFan& fan) {
   message.sensor = toPose2D(fan.sensor);
   message.first_bearing = static_cast<float>(fan.first_bearing);
   message.beam_spacing = static_cast<float>(fan.beam_spacing);
-  message.least_range = static_cast<float>(fan.least_range);
+  message.min_range = static_cast<float>(fan.min_range);
   message.sure_range = static_cast<float>(fan.sure_range);
   message.range = static_cast<float>(fan.range);
   message.by_beams = fan.by_beams;
@@ -130,7 +130,7 @@ ViewFanMessage toMessage(const ViewFan& fan) {
 
 ViewFan fromMessage(const ViewFanMessage& message) {
   return {toPose2(message.sensor), message.first_bearing,
-          message.beam_spacing,    message.least_range,
+          message.beam_spacing,    message.min_range,
           message.sure_range,      message.range,
           message.by_beams != 0,   std::vector<double>(message.reach.begin(), message.reach.end())};
 }

@@ -79,15 +79,15 @@ TrackList TrackFusionStage::listOf(const std::string& source, const TrackArray& 
   TrackList list = fromMessage(message);
   inputs_.report(source, {"bad_view", message.views.size() - list.views.size(), "bad views",
                           "finite numbers, a beam_spacing that is not 0, no reach below 0, and " +
-                              std::to_string(kMostBeams) + " beams at most"});
+                              std::to_string(kMaxBeams) + " beams at most"});
   list.tracks = validTracks(list.tracks);
   inputs_.report(source, {"bad_track", message.tracks.size() - list.tracks.size(), "bad tracks",
                           "finite numbers in range, a covariance that is positive definite, and an "
                           "id from 1 on that is there once"});
-  const auto most = static_cast<std::size_t>(options_.fuser.most_tracks);
-  const std::size_t beyond = list.tracks.size() - std::min(list.tracks.size(), most);
+  const auto max = static_cast<std::size_t>(options_.fuser.max_tracks);
+  const std::size_t beyond = list.tracks.size() - std::min(list.tracks.size(), max);
   inputs_.report(source, {"many_tracks", beyond, "tracks too many",
-                          "most_tracks = " + std::to_string(most) + " at most, the surest ones"});
+                          "max_tracks = " + std::to_string(max) + " at most, the surest ones"});
   return list;
 }
 

@@ -43,7 +43,7 @@ std_msgs::ColorRGBA colorOf(const TrackMessage& track, float opacity) {
 /// Of lines and letters.
 std_msgs::ColorRGBA inkOf(const TrackMessage& track) {
   const auto full = colorOfClass(classFromMessage(track.classification), true, 1.0F);
-  return colour(kInk * full.r, kInk * full.g, kInk * full.b);
+  return color(kInk * full.r, kInk * full.g, kInk * full.b);
 }
 
 double heightOf(const TrackMessage& track, const MarkersOptions& options) {
@@ -69,7 +69,7 @@ Marker labelOf(const std_msgs::Header& header, const TrackMessage& track,
                const MarkersOptions& options) {
   Marker marker = makeMarker(header, "track labels", Marker::TEXT_VIEW_FACING);
   marker.pose.position = track.pose.position;
-  const double to_end = 0.5 * std::max({track.size.x, track.size.y, options.least_size});
+  const double to_end = 0.5 * std::max({track.size.x, track.size.y, options.min_size});
   marker.pose.position.z = heightOf(track, options) + to_end + 0.5 * options.text_height;
   marker.scale.z = options.text_height;
   marker.text = labelText(track);
@@ -138,7 +138,7 @@ void addBody(const std_msgs::Header& header, const TrackMessage& track, float op
   }
   add(groundOutline(header, "track outlines", track, options), track, inkOf(track), markers);
   add(groundOutline(header, "track sensors", track, options), track,
-      colourOfSensors(track.sensors, 1.0F), markers);
+      colorOfSensors(track.sensors, 1.0F), markers);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace datmo {
 namespace {
 
 /// Three seconds of a fast scanner: more than any transform is worth waiting for.
-constexpr std::size_t kMostWaiting = 50;
+constexpr std::size_t kMaxWaiting = 50;
 
 }  // namespace
 
@@ -23,7 +23,7 @@ void TrackerStageOptions::visit(OptionVisitor& visitor) {
                  transform_wait, {0.0, 5.0});
   visitor.toggle(
       {"scan_view", "",
-       "the objects come from the scanner of split_scan, alone or with other sensors: its "
+       "the objects come from the scanner of labeled_scan, alone or with other sensors: its "
        "view gives where they could have been seen; false: from other sensors, and the "
        "labeled scan gives the vehicle's pose alone"},
       scan_view);
@@ -42,7 +42,7 @@ TrackerStage::TrackerStage(const TrackerStageOptions& options, const TransformBu
   checkOptions(options);
 }
 
-void TrackerStage::takeSplitScan(const SplitScanMessage& message) {
+void TrackerStage::takeLabeledScan(const LabeledScanMessage& message) {
   try {
     scan_views_.add(message);
   } catch (const InputError& error) {
@@ -55,9 +55,9 @@ void TrackerStage::takeObjects(const ObjectArrayConstPtr& message, Stamp now) {
     if (stamps_.check(message->header.stamp) == Arrival::kRestart) {
       restart();
     }
-    if (queue_.size() >= kMostWaiting) {
+    if (queue_.size() >= kMaxWaiting) {
       queue_.pop_front();
-      monitor_.dropped(InputError("queue_full", "more than " + std::to_string(kMostWaiting) +
+      monitor_.dropped(InputError("queue_full", "more than " + std::to_string(kMaxWaiting) +
                                                     " messages wait for a transform: dropped the "
                                                     "oldest"));
     }
@@ -117,20 +117,20 @@ void TrackerStage::report(const TrackerCounts& before, const TrackerCounts& afte
   }
   if (after.intake.refused > before.intake.refused) {
     monitor_.warned(
-        InputError("many_objects", "more objects than intake/most_objects: left out the farthest"));
+        InputError("many_objects", "more objects than intake/max_objects: left out the farthest"));
   }
   if (after.association.refused_births > before.association.refused_births) {
     monitor_.warned(
-        InputError("many_targets", "more targets than gating/most_targets: new objects wait"));
+        InputError("many_targets", "more targets than gating/max_targets: new objects wait"));
   }
-  if (after.association.hurried_steps > before.association.hurried_steps) {
+  if (after.association.best_only_steps > before.association.best_only_steps) {
     monitor_.warned(InputError("time_budget",
                                "a step took longer than time_budget: went on with the most likely "
                                "hypothesis alone"));
   }
   monitor_.figure("hypotheses cut", static_cast<double>(after.association.cut_hypotheses));
   monitor_.figure("steps beyond the time budget",
-                  static_cast<double>(after.association.hurried_steps));
+                  static_cast<double>(after.association.best_only_steps));
 }
 
 bool TrackerStage::hasWaitedTooLong(const Waiting& waiting, Stamp now) const {
@@ -146,8 +146,8 @@ void TrackerStage::restart() {
 
 void TrackerStage::connect(StagePorts& ports) {
   tracks_ = ports.out<TrackArray>("tracks");
-  ports.optionalIn<SplitScanMessage>(
-      "split_scan", [this](const auto& scan, Stamp /*now*/) { takeSplitScan(*scan); });
+  ports.optionalIn<LabeledScanMessage>(
+      "labeled_scan", [this](const auto& scan, Stamp /*now*/) { takeLabeledScan(*scan); });
   ports.in<ObjectArray>("objects",
                         [this](const auto& objects, Stamp now) { takeObjects(objects, now); });
 }

@@ -32,10 +32,10 @@ constexpr double kLamp = 0.02;          // of the length
 constexpr double kLampWidth = 0.2;      // of the width
 
 const std_msgs::ColorRGBA kPaint = colorOfOwnVehicle();
-const std_msgs::ColorRGBA kGlass = colour(0.1F, 0.14F, 0.2F);
-const std_msgs::ColorRGBA kTire = colour(0.05F, 0.05F, 0.05F);
-const std_msgs::ColorRGBA kHeadLamp = colour(1.0F, 1.0F, 0.85F);
-const std_msgs::ColorRGBA kTailLamp = colour(0.8F, 0.0F, 0.0F);
+const std_msgs::ColorRGBA kGlass = color(0.1F, 0.14F, 0.2F);
+const std_msgs::ColorRGBA kTire = color(0.05F, 0.05F, 0.05F);
+const std_msgs::ColorRGBA kHeadLamp = color(1.0F, 1.0F, 0.85F);
+const std_msgs::ColorRGBA kTailLamp = color(0.8F, 0.0F, 0.0F);
 
 /// Puts parts together; each position is a share of the body's length, half width and height.
 class Body {

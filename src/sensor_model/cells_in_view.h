@@ -12,18 +12,18 @@ namespace datmo {
 struct FieldOfView {
   double left_tangent = 0.0;  ///< right / forward
   double right_tangent = 0.0;
-  double nearest_depth = 0.0;    ///< m, along the camera's heading
+  double min_depth = 0.0;        ///< m, along the camera's heading
   double effective_range = 0.0;  ///< m, from the camera
 
-  bool contains(const ViewedPlace& place) const {
-    return place.forward > nearest_depth && place.right >= left_tangent * place.forward &&
-           place.right <= right_tangent * place.forward &&
-           place.forward * place.forward + place.right * place.right <=
+  bool contains(const PointInView& position) const {
+    return position.forward > min_depth && position.right >= left_tangent * position.forward &&
+           position.right <= right_tangent * position.forward &&
+           position.forward * position.forward + position.right * position.right <=
                effective_range * effective_range;
   }
 };
 
-/// `visit(CellIndex, ViewedPlace)` for each cell of the window whose centre is in view, row by row.
+/// `visit(CellIndex, PointInView)` for each cell of the window whose center is in view, row by row.
 template <typename Visit>
 void forEachCellInView(const GridWindow& window, const StereoView& view, const FieldOfView& field,
                        Visit&& visit) {
@@ -36,9 +36,9 @@ void forEachCellInView(const GridWindow& window, const StereoView& view, const F
   for (int row = std::max(low.row, corner.row); row < end_row; ++row) {
     for (int column = std::max(low.column, corner.column); column < end_column; ++column) {
       const CellIndex cell{column, row};
-      const ViewedPlace place = view.placeOf(window.centreOf(cell));
-      if (field.contains(place)) {
-        visit(cell, place);
+      const PointInView position = view.viewedPoint(window.centerOf(cell));
+      if (field.contains(position)) {
+        visit(cell, position);
       }
     }
   }

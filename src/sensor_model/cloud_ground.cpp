@@ -82,7 +82,7 @@ void CloudGroundOptions::visit(OptionVisitor& visitor) {
   visitor.number({"voxel_size", "m", "one point for each square of this side supports the plane"},
                  voxel_size, {0.05, 2.0});
   visitor.number({"tolerance", "m",
-                  "points farther from the plane are none of the ground's: less than a kerb's "
+                  "points farther from the plane are none of the ground's: less than a curb's "
                   "height"},
                  tolerance, {0.01, 0.5});
   visitor.integer(

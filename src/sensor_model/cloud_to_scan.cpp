@@ -150,7 +150,7 @@ class Band {
 void CloudToScanOptions::visit(OptionVisitor& visitor) {
   visitor.number({"min_height", "m",
                   "lower end of the band above the ground in which points are obstacles: over "
-                  "kerbs and over what the ground's plane misses"},
+                  "curbs and over what the ground's plane misses"},
                  min_height, {-0.5, 5.0});
   visitor.number({"max_height", "m",
                   "its upper end: high enough for two rows of the lidar where objects are far, "

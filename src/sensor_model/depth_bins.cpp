@@ -6,7 +6,7 @@
 namespace datmo {
 
 DepthBins::DepthBins(const StereoCamera& camera, double farthest, double finest)
-    : farthest_(static_cast<float>(farthest)), places_per_metre_(static_cast<float>(2.0 / finest)) {
+    : farthest_(static_cast<float>(farthest)), bins_per_meter_(static_cast<float>(2.0 / finest)) {
   std::vector<double> ends;
   for (double begin = 0.0; begin < farthest;) {
     const double end = begin + std::max(finest, 0.5 * camera.depthSigma(begin));
@@ -14,12 +14,12 @@ DepthBins::DepthBins(const StereoCamera& camera, double farthest, double finest)
     ends.push_back(end);
     begin = end;
   }
-  const auto places = static_cast<std::size_t>(std::ceil(2.0 * farthest / finest)) + 1;
-  bin_at_.reserve(places);
-  before_.reserve(places);
+  const auto half_bins = static_cast<std::size_t>(std::ceil(2.0 * farthest / finest)) + 1;
+  bin_at_.reserve(half_bins);
+  before_.reserve(half_bins);
   int bin = 0;
-  for (std::size_t place = 0; place < places; ++place) {
-    const double depth = (static_cast<double>(place) + 0.5) * 0.5 * finest;
+  for (std::size_t half_bin = 0; half_bin < half_bins; ++half_bin) {
+    const double depth = (static_cast<double>(half_bin) + 0.5) * 0.5 * finest;
     while (bin + 1 < size() && depth >= ends[static_cast<std::size_t>(bin)]) {
       ++bin;
     }

@@ -24,10 +24,10 @@ double reachFrom(const Point2& point, const GridWindow& window) {
 /// Writes what beams say into a grid.
 class BeamWriter {
  public:
-  BeamWriter(SensorGrid& grid, double beam_width, double least_incidence)
-      : grid_(grid), beam_width_(beam_width), cut_per_turn_(1.0 / std::tan(least_incidence)) {}
+  BeamWriter(SensorGrid& grid, double beam_width, double min_incidence)
+      : grid_(grid), beam_width_(beam_width), cut_per_turn_(1.0 / std::tan(min_incidence)) {}
 
-  /// A surface that is met at a flat angle comes towards the scanner on one side of the beam: away
+  /// A surface that is met at a flat angle comes toward the scanner on one side of the beam: away
   /// from its axis the beam is free as far as such a surface lets it.
   void pass(const Ray& ray, Percent free) {
     const Beam beam = beamOf(ray);
@@ -85,13 +85,13 @@ void LidarGridOptions::visit(OptionVisitor& visitor) {
       {"free_probability", "1", "occupancy of the cells that a beam passes (thesis 3.2.1)"},
       free_probability, {0.01, 0.49});
   visitor.number({"beam_width", "rad",
-                  "opening angle of a beam; 0: it reaches half way to its neighbours (thesis "
+                  "opening angle of a beam; 0: it reaches half way to its neighbors (thesis "
                   "3.2.1: each cell asks the nearest beam)"},
                  beam_width, {0.0, 0.2});
-  visitor.number({"least_incidence", "rad",
+  visitor.number({"min_incidence", "rad",
                   "flattest angle at which a beam meets a surface: the flatter, the shorter the "
                   "beam's borders are free; pi/2: as far as its axis (thesis)"},
-                 least_incidence, {0.01, kQuarterTurn});
+                 min_incidence, {0.01, kQuarterTurn});
 }
 
 LidarGridModel::LidarGridModel(const LidarGridOptions& options)
@@ -101,11 +101,11 @@ SensorGrid LidarGridModel::grid(const Scan& scan) const {
   SensorGrid grid(scan.stamp, window_);
   const double beam_width =
       options_.beam_width > 0.0 ? options_.beam_width : std::abs(scan.field.beam_spacing);
-  BeamWriter writer(grid, beam_width, options_.least_incidence);
+  BeamWriter writer(grid, beam_width, options_.min_incidence);
   for (const Ray& ray : scan.rays) {
     writer.pass(ray, toPercent(options_.free_probability));
   }
-  // After all that is free: an end wins over a neighbour that passes beside it.
+  // After all that is free: an end wins over a neighbor that passes beside it.
   for (const Ray& ray : scan.rays) {
     if (ray.hit) {
       writer.end(ray, toPercent(options_.occupied_probability));

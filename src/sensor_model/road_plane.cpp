@@ -13,17 +13,17 @@ namespace datmo {
 
 namespace {
 
-/// Points that are looked at, of however many there are: a few for each square metre.
-constexpr std::size_t kMostSamples = 8000;
+/// Points that are looked at, of however many there are: a few for each square meter.
+constexpr std::size_t kMaxSamples = 8000;
 
 /// Side of the cells that have one vote each, m.
 constexpr double kVoteSize = 1.0;
 
 /// Samples without which a cell has no vote.
-constexpr int kLeastSamples = 2;
+constexpr int kMinSamples = 2;
 
 /// One round of the fit: how far out, as a share of the distance, and how far from the last plane,
-/// in tolerances, its points may be. A pitch is small in metres where it is near.
+/// in tolerances, its points may be. A pitch is small in meters where it is near.
 struct Round {
   double reach;
   double tolerances;
@@ -38,7 +38,7 @@ struct Sample {
   std::size_t cell = 0;                                ///< that it votes in
 };
 
-/// A square metre's points that are near to the last plane.
+/// A square meter's points that are near to the last plane.
 struct Vote {
   Eigen::Vector3d position_sum = Eigen::Vector3d::Zero();
   double variance_sum = 0.0;
@@ -74,7 +74,7 @@ class PlaneFit {
   int votes_ = 0;
 };
 
-/// The square metres where the road is looked for, and the points in them.
+/// The square meters where the road is looked for, and the points in them.
 class RoadSamples {
  public:
   RoadSamples(const StereoCloud& cloud, const RoadPlaneOptions& options)
@@ -82,10 +82,10 @@ class RoadSamples {
         camera_(cloud.camera),
         camera_height_(cloud.camera_in_base.translation().z()),
         columns_(static_cast<std::size_t>(std::ceil(2.0 * options.half_width / kVoteSize))),
-        cells_(columns_ * static_cast<std::size_t>(std::ceil(options.farthest / kVoteSize))) {
+        cells_(columns_ * static_cast<std::size_t>(std::ceil(options.max_distance / kVoteSize))) {
     const StereoView view(cloud, RoadPlane());
-    const std::size_t stride = cloud.points.count / kMostSamples + 1;
-    samples_.reserve(kMostSamples);
+    const std::size_t stride = cloud.points.count / kMaxSamples + 1;
+    samples_.reserve(kMaxSamples);
     for (std::size_t begin = 0; begin + stride <= cloud.points.count; begin += stride) {
       add(cloud.points[begin + offset(begin / stride, stride)], view, cloud.camera_in_base);
     }
@@ -93,7 +93,7 @@ class RoadSamples {
 
   /// Through the samples that are near to a plane.
   PlaneFit fitNear(const RoadPlane& plane, const Round& round) const {
-    const double reach = round.reach * options_.farthest;
+    const double reach = round.reach * options_.max_distance;
     const double tolerance = round.tolerances * options_.tolerance;
     std::vector<Vote> votes(cells_);
     for (const Sample& sample : samples_) {
@@ -104,7 +104,7 @@ class RoadSamples {
     }
     PlaneFit fit;
     for (const Vote& vote : votes) {
-      if (vote.count >= kLeastSamples) {
+      if (vote.count >= kMinSamples) {
         fit.add(vote.position_sum / vote.count,
                 options_.tolerance * options_.tolerance + vote.variance_sum / vote.count);
       }
@@ -119,7 +119,7 @@ class RoadSamples {
     const double depth = seen.forward;
     const double column = (seen.right + options_.half_width) / kVoteSize;
     // In this order what is not a number is left out.
-    if (depth > 0.0 && depth < options_.farthest && column >= 0.0 &&
+    if (depth > 0.0 && depth < options_.max_distance && column >= 0.0 &&
         column < static_cast<double>(columns_)) {
       const auto row = static_cast<std::size_t>(depth / kVoteSize);
       // Lines of sight fall by the camera's height before they reach the road, so that a depth that
@@ -154,19 +154,19 @@ void RoadPlaneOptions::visit(OptionVisitor& visitor) {
                   "find the road's plane in the points; false: the road is flat, z = 0 of the "
                   "vehicle's frame (thesis 3.2.2)"},
                  estimate);
-  visitor.number({"farthest", "m", "how far ahead of the camera the road is looked for"}, farthest,
-                 {5.0, 100.0});
+  visitor.number({"max_distance", "m", "how far ahead of the camera the road is looked for"},
+                 max_distance, {5.0, 100.0});
   visitor.number({"half_width", "m", "how far to either side of it"}, half_width, {1.0, 50.0});
   visitor.number({"tolerance", "m",
-                  "points farther from the plane are none of the road's: less than a kerb's "
+                  "points farther from the plane are none of the road's: less than a curb's "
                   "height; beside that, they may be off by the noise of their depth"},
                  tolerance, {0.01, 0.5});
-  visitor.integer({"least_cells", "1", "square metres of road without which no plane is credible"},
-                  least_cells, {3, 1000});
-  visitor.number({"most_slope", "m/m", "a plane steeper than this against the vehicle is no road"},
-                 most_slope, {0.0, 0.5});
-  visitor.number({"most_height", "m", "nor one farther from the vehicle's z = 0 at its origin"},
-                 most_height, {0.0, 2.0});
+  visitor.integer({"min_cells", "1", "square meters of road without which no plane is credible"},
+                  min_cells, {3, 1000});
+  visitor.number({"max_slope", "m/m", "a plane steeper than this against the vehicle is no road"},
+                 max_slope, {0.0, 0.5});
+  visitor.number({"max_height", "m", "nor one farther from the vehicle's z = 0 at its origin"},
+                 max_height, {0.0, 2.0});
 }
 
 RoadPlaneEstimator::RoadPlaneEstimator(const RoadPlaneOptions& options) : options_(options) {
@@ -182,16 +182,16 @@ std::optional<RoadPlane> RoadPlaneEstimator::update(const StereoCloud& cloud) {
   bool seen = false;
   for (const Round& round : kRounds) {
     const PlaneFit fit = road.fitNear(plane, round);
-    seen = fit.votes() >= options_.least_cells;
+    seen = fit.votes() >= options_.min_cells;
     if (seen) {
       plane = fit.plane();
     }
   }
   // In this order a plane that is none is not credible.
   const bool credible = plane.heightOf(cloud.camera_in_base.translation()) > 0.0 &&
-                        std::abs(plane.height) <= options_.most_height &&
-                        std::abs(plane.slope_x) <= options_.most_slope &&
-                        std::abs(plane.slope_y) <= options_.most_slope;
+                        std::abs(plane.height) <= options_.max_height &&
+                        std::abs(plane.slope_x) <= options_.max_slope &&
+                        std::abs(plane.slope_y) <= options_.max_slope;
   if (!seen || !credible) {
     return std::nullopt;
   }

@@ -39,34 +39,35 @@ StereoColumns::Depths StereoColumns::around(double depth, double sigmas) const {
   // is cut where nothing is of interest any more.
   const double inverse = 1.0 / depth;
   const double inverse_sigma = noise_.inverseSigma(inverse);
-  const double least_inverse = 1.0 / (2.0 * field_.effective_range);
+  const double min_inverse = 1.0 / (2.0 * field_.effective_range);
   return {1.0 / (inverse + sigmas * inverse_sigma),
-          1.0 / std::max(least_inverse, inverse - sigmas * inverse_sigma)};
+          1.0 / std::max(min_inverse, inverse - sigmas * inverse_sigma)};
 }
 
-double StereoColumns::surfaceAt(const ViewedPlace& place) const {
-  const Depths depths = around(place.forward, 1.0);
-  return evidence_.surface(place, half_cell_, std::min(depths.near, place.forward - half_cell_),
-                           std::max(depths.far, place.forward + half_cell_));
+double StereoColumns::surfaceAt(const PointInView& position) const {
+  const Depths depths = around(position.forward, 1.0);
+  return evidence_.surface(position, half_cell_,
+                           std::min(depths.near, position.forward - half_cell_),
+                           std::max(depths.far, position.forward + half_cell_));
 }
 
-bool StereoColumns::isSmear(const ViewedPlace& place) const {
-  const double inverse_sigma = noise_.inverseSigma(1.0 / place.forward);
-  const double sigma = inverse_sigma * place.forward * place.forward;
+bool StereoColumns::isSmear(const PointInView& position) const {
+  const double inverse_sigma = noise_.inverseSigma(1.0 / position.forward);
+  const double sigma = inverse_sigma * position.forward * position.forward;
   if (2.0 * sigma <= half_cell_) {
     return false;
   }
-  const double surface = surfaceAt(place);
+  const double surface = surfaceAt(position);
   // The window that surface is counted in widens the noise.
   const double half_window = std::max(half_cell_, sigma);
   const double variance = sigma * sigma + half_window * half_window / 3.0;
   for (double sigmas = -kSmearReach; sigmas <= kSmearReach; sigmas += kSmearStep) {
-    const double depth = 1.0 / (1.0 / place.forward + sigmas * inverse_sigma);
-    const double offset = depth - place.forward;
+    const double depth = 1.0 / (1.0 / position.forward + sigmas * inverse_sigma);
+    const double offset = depth - position.forward;
     if (depth > 0.0 && depth < 2.0 * field_.effective_range && std::abs(offset) > half_cell_) {
       const double share = std::exp(-0.5 * offset * offset / variance);
       if (surface <
-          options_.columns.noise_factor * share * surfaceAt({depth, place.tangent() * depth})) {
+          options_.columns.noise_factor * share * surfaceAt({depth, position.tangent() * depth})) {
         return true;
       }
     }
@@ -74,10 +75,10 @@ bool StereoColumns::isSmear(const ViewedPlace& place) const {
   return false;
 }
 
-bool StereoColumns::isSeenThrough(const ViewedPlace& place) const {
-  const StereoEvidence::Lines lines = evidence_.linesAcross(place, half_cell_);
-  return lines.seen >= options_.columns.least_lines &&
-         lines.seen >= options_.columns.least_seen_share * lines.expected;
+bool StereoColumns::isSeenThrough(const PointInView& position) const {
+  const StereoEvidence::Lines lines = evidence_.linesAcross(position, half_cell_);
+  return lines.seen >= options_.columns.min_lines &&
+         lines.seen >= options_.columns.min_seen_share * lines.expected;
 }
 
 std::vector<CellIndex> StereoColumns::markCells(SensorGrid& grid) const {
@@ -85,14 +86,14 @@ std::vector<CellIndex> StereoColumns::markCells(SensorGrid& grid) const {
   const Percent free = toPercent(options_.free_probability);
   const StereoColumnsOptions& limits = options_.columns;
   std::vector<CellIndex> occupied_cells;
-  forEachCellInView(grid.window(), view_, field_, [&](CellIndex cell, const ViewedPlace& place) {
-    const double surface = surfaceAt(place);
-    const double least = std::max(limits.least_surface,
-                                  limits.least_points * evidence_.surfaceOfPoint(place.forward));
-    if (surface >= least) {
+  forEachCellInView(grid.window(), view_, field_, [&](CellIndex cell, const PointInView& position) {
+    const double surface = surfaceAt(position);
+    const double min = std::max(limits.min_surface,
+                                limits.min_points * evidence_.surfaceOfPoint(position.forward));
+    if (surface >= min) {
       grid.at(cell) = occupied;
       occupied_cells.push_back(cell);
-    } else if (surface < limits.doubtful_share * least && isSeenThrough(place)) {
+    } else if (surface < limits.doubtful_share * min && isSeenThrough(position)) {
       grid.at(cell) = free;
     }
   });
@@ -102,13 +103,13 @@ std::vector<CellIndex> StereoColumns::markCells(SensorGrid& grid) const {
 bool StereoColumns::isNoise(const std::vector<CellIndex>& object, const GridWindow& window) const {
   double surface = 0.0;
   for (const CellIndex cell : object) {
-    const ViewedPlace place = view_.placeOf(window.centreOf(cell));
-    const Depths depths = around(place.forward, 1.0);
-    // What the cell's neighbours count as theirs too is shared with them.
+    const PointInView position = view_.viewedPoint(window.centerOf(cell));
+    const Depths depths = around(position.forward, 1.0);
+    // What the cell's neighbors count as theirs too is shared with them.
     const double share = std::min(1.0, 2.0 * half_cell_ / (depths.far - depths.near));
-    surface += share * surfaceAt(place);
+    surface += share * surfaceAt(position);
   }
-  return surface < options_.columns.least_object_surface;
+  return surface < options_.columns.min_object_surface;
 }
 
 std::vector<CellIndex> StereoColumns::withoutNoise(const std::vector<CellIndex>& occupied,
@@ -117,7 +118,7 @@ std::vector<CellIndex> StereoColumns::withoutNoise(const std::vector<CellIndex>&
   for (const auto& object : objectsOf(occupied, grid.window())) {
     const bool is_noise = isNoise(object, grid.window());
     for (const CellIndex cell : object) {
-      if (is_noise || isSmear(view_.placeOf(grid.window().centreOf(cell)))) {
+      if (is_noise || isSmear(view_.viewedPoint(grid.window().centerOf(cell)))) {
         grid.at(cell) = kUnknownPercent;
       } else {
         left.push_back(cell);
@@ -128,8 +129,8 @@ std::vector<CellIndex> StereoColumns::withoutNoise(const std::vector<CellIndex>&
 }
 
 void StereoColumns::clearMargin(CellIndex occupied, SensorGrid& grid) const {
-  const ViewedPlace place = view_.placeOf(grid.window().centreOf(occupied));
-  const Depths depths = around(place.forward, options_.columns.obstacle_sigmas);
+  const PointInView position = view_.viewedPoint(grid.window().centerOf(occupied));
+  const Depths depths = around(position.forward, options_.columns.obstacle_sigmas);
   const auto clear = [&grid](CellIndex cell) {
     for (int row = cell.row - 1; row <= cell.row + 1; ++row) {
       for (int column = cell.column - 1; column <= cell.column + 1; ++column) {
@@ -139,8 +140,8 @@ void StereoColumns::clearMargin(CellIndex occupied, SensorGrid& grid) const {
       }
     }
   };
-  walkRay(grid.window(), view_.positionOf({depths.near, place.tangent() * depths.near}),
-          view_.positionOf({depths.far, place.tangent() * depths.far}), clear);
+  walkRay(grid.window(), view_.positionOf({depths.near, position.tangent() * depths.near}),
+          view_.positionOf({depths.far, position.tangent() * depths.far}), clear);
 }
 
 }  // namespace datmo

@@ -23,17 +23,17 @@ class StereoColumns {
 
  private:
   /// m^2 in the layer of obstacles in a cell there; around it as far as the depth is uncertain.
-  double surfaceAt(const ViewedPlace& place) const;
+  double surfaceAt(const PointInView& position) const;
 
   /// Whether the surface there is no more than what the noise of the depth brings there from
   /// another point on the line of sight.
-  bool isSmear(const ViewedPlace& place) const;
+  bool isSmear(const PointInView& position) const;
 
   /// Whether an object has too little surface in all.
   bool isNoise(const std::vector<CellIndex>& object, const GridWindow& window) const;
 
   /// Whether enough lines of sight cross a point near the ground.
-  bool isSeenThrough(const ViewedPlace& place) const;
+  bool isSeenThrough(const PointInView& position) const;
 
   /// By what is seen there alone; returns the occupied ones.
   std::vector<CellIndex> markCells(SensorGrid& grid) const;
@@ -43,7 +43,7 @@ class StereoColumns {
                                       SensorGrid& grid) const;
 
   /// Free cells that may be where an occupied one seems to be become unknown: along the line of
-  /// sight by the noise of the depth, and all neighbours.
+  /// sight by the noise of the depth, and all neighbors.
   void clearMargin(CellIndex occupied, SensorGrid& grid) const;
 
   /// From the nearest to the farthest depth (m) that is within so many standard deviations of a

@@ -16,13 +16,15 @@ namespace {
 /// What an object hides: bearings from the camera (rad, rising to the right), and beyond which
 /// range (m).
 struct Cone {
-  double least_bearing = std::numeric_limits<double>::infinity();
-  double most_bearing = -std::numeric_limits<double>::infinity();
+  double min_bearing = std::numeric_limits<double>::infinity();
+  double max_bearing = -std::numeric_limits<double>::infinity();
   double range = std::numeric_limits<double>::infinity();
 };
 
-double bearingOf(const ViewedPlace& place) { return std::atan2(place.right, place.forward); }
-double rangeOf(const ViewedPlace& place) { return std::hypot(place.right, place.forward); }
+double bearingOf(const PointInView& position) {
+  return std::atan2(position.right, position.forward);
+}
+double rangeOf(const PointInView& position) { return std::hypot(position.right, position.forward); }
 
 /// How many points of the layer each cell holds (eq. 3.2.2): the thesis's grid of counts.
 RollingGrid<int> countPoints(const StereoGridOptions& options, const StereoCloud& cloud,
@@ -31,15 +33,15 @@ RollingGrid<int> countPoints(const StereoGridOptions& options, const StereoCloud
   RollingGrid<int> grid(window, 0);
   for (std::size_t i = 0; i < cloud.points.count; ++i) {
     const ViewedPoint point = view(cloud.points[i]);
-    const ViewedPlace place{point.forward, point.right};
+    const PointInView position{point.forward, point.right};
     if (!(point.forward > 0.0F && std::isfinite(point.forward))) {
       continue;
     }
     ++counts.points;
     const double height = point.height - cloud.scanner_height;
-    if (height > 0.0 && height < options.layer_thickness && field.contains(place)) {
+    if (height > 0.0 && height < options.layer_thickness && field.contains(position)) {
       ++counts.in_layer;
-      const CellIndex cell = window.cellAt(view.positionOf(place));
+      const CellIndex cell = window.cellAt(view.positionOf(position));
       if (window.contains(cell)) {
         ++grid.at(cell);
       }
@@ -48,7 +50,7 @@ RollingGrid<int> countPoints(const StereoGridOptions& options, const StereoCloud
   return grid;
 }
 
-/// Sum over a cell and its eight neighbours (eq. 3.2.3).
+/// Sum over a cell and its eight neighbors (eq. 3.2.3).
 int sumAround(const RollingGrid<int>& counts, CellIndex cell) {
   int sum = 0;
   for (int row = cell.row - 1; row <= cell.row + 1; ++row) {
@@ -63,20 +65,20 @@ Cone coneOf(const std::vector<CellIndex>& object, const GridWindow& window,
             const StereoView& view) {
   Cone cone;
   for (const CellIndex cell : object) {
-    const ViewedPlace place = view.placeOf(window.centreOf(cell));
-    const double bearing = bearingOf(place);
-    cone.least_bearing = std::min(cone.least_bearing, bearing);
-    cone.most_bearing = std::max(cone.most_bearing, bearing);
-    cone.range = std::min(cone.range, rangeOf(place));
+    const PointInView position = view.viewedPoint(window.centerOf(cell));
+    const double bearing = bearingOf(position);
+    cone.min_bearing = std::min(cone.min_bearing, bearing);
+    cone.max_bearing = std::max(cone.max_bearing, bearing);
+    cone.range = std::min(cone.range, rangeOf(position));
   }
   return cone;
 }
 
-bool isHidden(const ViewedPlace& place, const std::vector<Cone>& cones) {
-  const double bearing = bearingOf(place);
-  const double range = rangeOf(place);
+bool isHidden(const PointInView& position, const std::vector<Cone>& cones) {
+  const double bearing = bearingOf(position);
+  const double range = rangeOf(position);
   return std::any_of(cones.begin(), cones.end(), [&](const Cone& cone) {
-    return bearing >= cone.least_bearing && bearing <= cone.most_bearing && range > cone.range;
+    return bearing >= cone.min_bearing && bearing <= cone.max_bearing && range > cone.range;
   });
 }
 
@@ -88,7 +90,7 @@ StereoCounts fillByCones(const StereoGridOptions& options, const StereoCloud& cl
   const GridWindow& window = grid.window();
   const RollingGrid<int> counts = countPoints(options, cloud, view, field, window, result);
   std::vector<CellIndex> occupied;
-  forEachCellInView(window, view, field, [&](CellIndex cell, const ViewedPlace& /*place*/) {
+  forEachCellInView(window, view, field, [&](CellIndex cell, const PointInView& /*place*/) {
     if (sumAround(counts, cell) > options.cones.threshold) {
       grid.at(cell) = toPercent(options.occupied_probability);
       occupied.push_back(cell);
@@ -98,10 +100,10 @@ StereoCounts fillByCones(const StereoGridOptions& options, const StereoCloud& cl
   for (const auto& object : objectsOf(occupied, window)) {
     cones.push_back(coneOf(object, window, view));
   }
-  forEachCellInView(window, view, field, [&](CellIndex cell, const ViewedPlace& place) {
+  forEachCellInView(window, view, field, [&](CellIndex cell, const PointInView& position) {
     if (!isOccupied(grid.at(cell))) {
       grid.at(cell) =
-          isHidden(place, cones) ? kUndecidedPercent : toPercent(options.free_probability);
+          isHidden(position, cones) ? kUndecidedPercent : toPercent(options.free_probability);
     }
   });
   return result;

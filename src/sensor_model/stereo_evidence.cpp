@@ -15,16 +15,16 @@ constexpr double kColumnsPerCell = 2.0;
 constexpr double kBinsPerCell = 4.0;
 
 /// Bounds of the memory needed, whatever the options: as fine as any image.
-constexpr double kMostColumns = 4096.0;
-constexpr double kMostBins = 2048.0;
+constexpr double kMaxColumns = 4096.0;
+constexpr double kMaxBins = 2048.0;
 
 /// m; cameras mark a depth that they do not know by a far one.
-constexpr float kBeyondSight = 1000.0F;
+constexpr float kMaxDepth = 1000.0F;
 
 /// How dense the points are is taken from square tiles of the image: about so wide, px, and up to
 /// this tangent above and below the horizon.
 constexpr double kTileSize = 16.0;
-constexpr double kHighestTangent = 1.0;
+constexpr double kMaxTangent = 1.0;
 
 /// Of clouds with more points, the line of sight of each second one is counted, or of fewer.
 constexpr std::size_t kEnoughLines = 100000;
@@ -56,11 +56,11 @@ void StereoEvidence::prepare(const StereoCamera& camera, const EvidenceLimits& l
   focal_length_ = camera.focal_length;
   left_ = camera.left_tangent;
   layer_bottom_ = limits.layer_bottom;
-  bins_ = DepthBins(camera, limits.farthest_depth,
-                    std::max(limits.cell_size / kBinsPerCell, limits.farthest_depth / kMostBins));
+  bins_ = DepthBins(camera, limits.max_depth,
+                    std::max(limits.cell_size / kBinsPerCell, limits.max_depth / kMaxBins));
   const double width = camera.right_tangent - camera.left_tangent;
-  const double finest = std::max({limits.cell_size / limits.farthest_depth / kColumnsPerCell,
-                                  1.0 / focal_length_, width / kMostColumns});
+  const double finest = std::max({limits.cell_size / limits.max_depth / kColumnsPerCell,
+                                  1.0 / focal_length_, width / kMaxColumns});
   columns_ = static_cast<int>(std::ceil(width / finest));
   columns_per_tangent_ = columns_ / width;
   obstacles_.reset(bins_.size() + 1, columns_);
@@ -69,7 +69,7 @@ void StereoEvidence::prepare(const StereoCamera& camera, const EvidenceLimits& l
   const double column_size = focal_length_ / columns_per_tangent_;
   tile_shift_ = std::max(0, static_cast<int>(std::lround(std::log2(kTileSize / column_size))));
   const double tiles_per_tangent = columns_per_tangent_ / (1 << tile_shift_);
-  tile_rows_ = static_cast<int>(std::ceil(2.0 * kHighestTangent * tiles_per_tangent));
+  tile_rows_ = static_cast<int>(std::ceil(2.0 * kMaxTangent * tiles_per_tangent));
   tile_columns_ = (columns_ >> tile_shift_) + 1;
   tiles_.assign(static_cast<std::size_t>(tile_rows_) * static_cast<std::size_t>(tile_columns_), 0);
 }
@@ -77,7 +77,7 @@ void StereoEvidence::prepare(const StereoCamera& camera, const EvidenceLimits& l
 StereoEvidence::Scales StereoEvidence::scalesOf(const StereoCloud& cloud, const StereoView& view,
                                                 const EvidenceLimits& limits) const {
   Scales scales;
-  scales.nearest = static_cast<float>(limits.nearest_depth);
+  scales.nearest = static_cast<float>(limits.min_depth);
   scales.layer_bottom = static_cast<float>(limits.layer_bottom);
   scales.layer_top = static_cast<float>(limits.layer_top);
   // Lines from above the layer's bottom to above its top carry no information.
@@ -106,7 +106,7 @@ void StereoEvidence::addPoints(const StereoCloud& cloud, const StereoView& view,
     std::size_t next_line = begin + begin / kRun % line_step_;
     for (std::size_t i = begin; i < end; ++i) {
       ColumnPoint point;
-      if (place(view(points[i]), scales, point)) {
+      if (locate(view(points[i]), scales, point)) {
         addObstacle(point, scales);
         if (i >= next_line) {
           addLine(point, scales);
@@ -117,9 +117,9 @@ void StereoEvidence::addPoints(const StereoCloud& cloud, const StereoView& view,
   }
 }
 
-inline bool StereoEvidence::place(const ViewedPoint& point, const Scales& scales,
-                                  ColumnPoint& placed) {
-  if (!(point.forward > scales.nearest && point.forward < kBeyondSight)) {
+inline bool StereoEvidence::locate(const ViewedPoint& point, const Scales& scales,
+                                   ColumnPoint& placed) {
+  if (!(point.forward > scales.nearest && point.forward < kMaxDepth)) {
     return false;
   }
   ++points_;
@@ -177,11 +177,11 @@ double StereoEvidence::pixelsPerLine() const {
   return pixelsPerPoint(tiles_, tile_size * tile_size);
 }
 
-StereoEvidence::Columns StereoEvidence::columnsAt(const ViewedPlace& place,
+StereoEvidence::Columns StereoEvidence::columnsAt(const PointInView& position,
                                                   double half_width) const {
   // In columns; those are in whose middles are.
-  const double middle = (place.tangent() - left_) * columns_per_tangent_;
-  const double half = half_width / place.forward * columns_per_tangent_;
+  const double middle = (position.tangent() - left_) * columns_per_tangent_;
+  const double half = half_width / position.forward * columns_per_tangent_;
   const int first = std::max(0, roundedUp(middle - half - 0.5));
   const int end = std::min(columns_, roundedUp(middle + half - 0.5));
   if (first < end) {
@@ -191,21 +191,21 @@ StereoEvidence::Columns StereoEvidence::columnsAt(const ViewedPlace& place,
   return {nearest, nearest + 1};
 }
 
-double StereoEvidence::surface(const ViewedPlace& place, double half_width, double near,
+double StereoEvidence::surface(const PointInView& position, double half_width, double near,
                                double far) const {
-  const Columns columns = columnsAt(place, half_width);
+  const Columns columns = columnsAt(position, half_width);
   const int first =
       std::min(bins_.before(static_cast<float>(std::max(0.0, near))), bins_.size() - 1);
   const int end = std::max(first + 1, bins_.before(static_cast<float>(far)));
-  return obstacles_.sum(first, end, columns.first, columns.end) * surfaceOfPoint(place.forward);
+  return obstacles_.sum(first, end, columns.first, columns.end) * surfaceOfPoint(position.forward);
 }
 
-StereoEvidence::Lines StereoEvidence::linesAcross(const ViewedPlace& place,
+StereoEvidence::Lines StereoEvidence::linesAcross(const PointInView& position,
                                                   double half_width) const {
-  const Columns columns = columnsAt(place, half_width);
-  const int bin = bins_.at(static_cast<float>(place.forward));
+  const Columns columns = columnsAt(position, half_width);
+  const int bin = bins_.at(static_cast<float>(position.forward));
   const double across = (columns.end - columns.first) * focal_length_ / columns_per_tangent_;
-  const double high = layer_bottom_ / place.forward * focal_length_;
+  const double high = layer_bottom_ / position.forward * focal_length_;
   return {lines_.sum(0, bin + 1, columns.first, columns.end), across * high / pixels_per_line_};
 }
 

@@ -14,8 +14,8 @@ namespace datmo {
 /// What the points of one cloud are counted by.
 struct EvidenceLimits {
   double cell_size = 0.0;        ///< m, of the requested grid
-  double nearest_depth = 0.0;    ///< m, nearer points are mismatches
-  double farthest_depth = 0.0;   ///< m, obstacles beyond are not of interest
+  double min_depth = 0.0;        ///< m, nearer points are mismatches
+  double max_depth = 0.0;        ///< m, obstacles beyond are not of interest
   double layer_bottom = 0.0;     ///< m above the road
   double layer_top = 0.0;        ///< m above the road
   double road_sigmas = 0.0;      ///< of the depth: what is so near to the road is on it
@@ -31,7 +31,7 @@ class StereoEvidence {
 
   /// Surface (m^2) in the layer of obstacles that is seen from one depth to another (m), within
   /// `half_width` (m) to either side of a point in view.
-  double surface(const ViewedPlace& place, double half_width, double near, double far) const;
+  double surface(const PointInView& position, double half_width, double near, double far) const;
 
   /// Surface (m^2) that one point at a depth (m) stands for, if it faces the camera.
   double surfaceOfPoint(double depth) const {
@@ -45,7 +45,7 @@ class StereoEvidence {
     int seen = 0;
     double expected = 0.0;  ///< in an image without holes
   };
-  Lines linesAcross(const ViewedPlace& place, double half_width) const;
+  Lines linesAcross(const PointInView& position, double half_width) const;
 
   std::size_t points() const { return points_; }
   std::size_t inLayer() const { return in_layer_; }
@@ -78,7 +78,7 @@ class StereoEvidence {
   };
 
   /// Whether a point is one, in a column, and carries information.
-  bool place(const ViewedPoint& point, const Scales& scales, ColumnPoint& placed);
+  bool locate(const ViewedPoint& point, const Scales& scales, ColumnPoint& placed);
   void addObstacle(const ColumnPoint& point, const Scales& scales);
   void addLine(const ColumnPoint& point, const Scales& scales);
   void prepare(const StereoCamera& camera, const EvidenceLimits& limits);
@@ -87,7 +87,7 @@ class StereoEvidence {
   double pixelsPerLine() const;
 
   /// At least one.
-  Columns columnsAt(const ViewedPlace& place, double half_width) const;
+  Columns columnsAt(const PointInView& position, double half_width) const;
 
   DepthBins bins_;
   int columns_ = 0;

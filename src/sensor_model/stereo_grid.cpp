@@ -20,18 +20,17 @@ constexpr char kCones[] = "cones";
 constexpr double kBeyondRange = 2.0;
 
 FieldOfView fieldOf(const StereoGridOptions& options, const StereoCamera& camera) {
-  return {camera.left_tangent, camera.right_tangent, options.nearest_depth,
-          options.effective_range};
+  return {camera.left_tangent, camera.right_tangent, options.min_depth, options.effective_range};
 }
 
 EvidenceLimits limitsOf(const StereoGridOptions& options, const StereoCloud& cloud) {
   EvidenceLimits limits;
   limits.cell_size = options.window.cell_size;
-  limits.nearest_depth = options.nearest_depth;
-  limits.farthest_depth = std::min(
+  limits.min_depth = options.min_depth;
+  limits.max_depth = std::min(
       2.0 * options.effective_range,
       options.effective_range + kBeyondRange * cloud.camera.depthSigma(options.effective_range));
-  limits.layer_bottom = std::max(options.least_layer_height, cloud.scanner_height);
+  limits.layer_bottom = std::max(options.min_layer_height, cloud.scanner_height);
   limits.layer_top = limits.layer_bottom + options.layer_thickness;
   limits.road_sigmas = options.columns.road_sigmas;
   limits.obstacle_sigmas = options.columns.obstacle_sigmas;
@@ -42,23 +41,23 @@ EvidenceLimits limitsOf(const StereoGridOptions& options, const StereoCloud& clo
 
 void StereoConesOptions::visit(OptionVisitor& visitor) {
   visitor.integer({"threshold", "1",
-                   "a cell with more points than this in it and its eight neighbours is occupied "
+                   "a cell with more points than this in it and its eight neighbors is occupied "
                    "(V_thr of thesis eq. 3.2.3)"},
                   threshold, {0, 1000000});
 }
 
 void StereoColumnsOptions::visit(OptionVisitor& visitor) {
   visitor.number(
-      {"least_surface", "m^2",
+      {"min_surface", "m^2",
        "a cell is occupied in which at least so much surface is seen between the layer's "
-       "bottom and its top; a pole of 0.1 m width has 0.1 m^2 for each metre of height"},
-      least_surface, {0.0001, 10.0});
+       "bottom and its top; a pole of 0.1 m width has 0.1 m^2 for each meter of height"},
+      min_surface, {0.0001, 10.0});
   visitor.integer(
-      {"least_points", "1", "and at least so many points: far away, one has much surface"},
-      least_points, {1, 10000});
-  visitor.number({"least_object_surface", "m^2",
-                  "neighbouring cells with less surface than this in all are noise"},
-                 least_object_surface, {0.0, 100.0});
+      {"min_points", "1", "and at least so many points: far away, one has much surface"},
+      min_points, {1, 10000});
+  visitor.number({"min_object_surface", "m^2",
+                  "neighboring cells with less surface than this in all are noise"},
+                 min_object_surface, {0.0, 100.0});
   visitor.number({"doubtful_share", "1",
                   "a cell with this share of what makes it occupied is not called free any more"},
                  doubtful_share, {0.0, 1.0});
@@ -75,12 +74,12 @@ void StereoColumnsOptions::visit(OptionVisitor& visitor) {
                   "cells nearer to an obstacle than so many standard deviations of its depth are "
                   "not called free"},
                  obstacle_sigmas, {0.0, 10.0});
-  visitor.number({"least_seen_share", "1",
+  visitor.number({"min_seen_share", "1",
                   "a cell is free if at least this share of the lines of sight that cross it below "
                   "the layer of obstacles, in an image without holes, does so: whatever reaches up "
                   "to the layer would have stopped them"},
-                 least_seen_share, {0.0, 1.0});
-  visitor.integer({"least_lines", "1", "and at least so many of them"}, least_lines, {1, 10000});
+                 min_seen_share, {0.0, 1.0});
+  visitor.integer({"min_lines", "1", "and at least so many of them"}, min_lines, {1, 10000});
 }
 
 void StereoGridOptions::visit(OptionVisitor& visitor) {
@@ -94,14 +93,14 @@ void StereoGridOptions::visit(OptionVisitor& visitor) {
                  occupied_probability, {0.51, 1.0});
   visitor.number({"free_probability", "1", "of a free cell being occupied (thesis figure 3.4)"},
                  free_probability, {0.0, 0.49});
-  visitor.number({"least_layer_height", "m",
+  visitor.number({"min_layer_height", "m",
                   "the layer of obstacles begins at the planar scanner's height, but not nearer to "
                   "the road than this (columns only)"},
-                 least_layer_height, {0.05, 2.0});
+                 min_layer_height, {0.05, 2.0});
   visitor.number({"layer_thickness", "m", "height of the layer of obstacles (thesis eq. 3.2.2)"},
                  layer_thickness, {0.1, 5.0});
-  visitor.number({"nearest_depth", "m", "nearer points are mismatches (columns only)"},
-                 nearest_depth, {0.05, 10.0});
+  visitor.number({"min_depth", "m", "nearer points are mismatches (columns only)"}, min_depth,
+                 {0.05, 10.0});
   visitor.number({"effective_range", "m", "nothing is said beyond it (thesis 3.2.2: 36 m)"},
                  effective_range, {1.0, 200.0});
   visitor.group("columns", [&] { columns.visit(visitor); });

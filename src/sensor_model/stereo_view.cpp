@@ -8,7 +8,7 @@ namespace datmo {
 namespace {
 
 /// Least horizontal part of the optical axis, 0 to 1: steeper, the camera has no heading.
-constexpr double kLeastLevel = 0.1;
+constexpr double kMinLevel = 0.1;
 
 /// m: cameras measure depths from the nearer to the farther one.
 constexpr double kNearDepth = 0.1;
@@ -20,7 +20,7 @@ bool isPositive(const DepthNoise& noise) {
 
 void checkCamera(const StereoCamera& camera) {
   const bool measures = camera.focal_length > 0.0 && camera.baseline >= 0.0 &&
-                        camera.noise.disparity_at_metre > 0.0 && isPositive(camera.noise);
+                        camera.noise.disparity_at_meter > 0.0 && isPositive(camera.noise);
   // In this order a number that is not one is refused as well.
   if (!measures || !(camera.right_tangent > camera.left_tangent)) {
     throw std::invalid_argument(
@@ -36,7 +36,7 @@ StereoView::StereoView(const StereoCloud& cloud, const RoadPlane& road)
   checkCamera(cloud.camera);
   const Eigen::Matrix3d rotation = cloud.camera_in_base.linear();
   const Point2 axis = rotation.col(2).head<2>();
-  if (!(axis.norm() > kLeastLevel)) {
+  if (!(axis.norm() > kMinLevel)) {
     throw std::invalid_argument(
         "stereo camera: expected to look along the ground, not at it, with its points in the "
         "optical frame (REP 103: z ahead); if theirs is another one, name it in frames/camera");

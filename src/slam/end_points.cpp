@@ -10,37 +10,37 @@ namespace datmo {
 
 namespace {
 
-/// The end point of a beam, and what its neighbours are compared by.
+/// The end point of a beam, and what its neighbors are compared by.
 struct End {
   Point2 position;
   double range;
   Point2 across;  ///< from this beam to the next one at this range, m
 };
 
-/// Step along the surface that the beam hit, as its neighbours show it: the mean of the steps to
-/// those nearer than `longest_step`. If neither is, the surface is met at a flat angle, and the
+/// Step along the surface that the beam hit, as its neighbors show it: the mean of the steps to
+/// those nearer than `max_step`. If neither is, the surface is met at a flat angle, and the
 /// shorter step gives its direction; but what stands out in front of both is an object of its own:
 /// none.
 std::optional<Point2> stepAlongSurface(const End* previous, const End& end, const End* next,
-                                       double longest_step) {
+                                       double max_step) {
   Point2 sum = Point2::Zero();
   int steps = 0;
   std::optional<Point2> shortest;
   bool stands_out = true;
-  for (const End* neighbour : {previous, next}) {
-    if (neighbour == nullptr) {
+  for (const End* neighbor : {previous, next}) {
+    if (neighbor == nullptr) {
       continue;
     }
-    const double sign = neighbour == next ? 1.0 : -1.0;
-    const Point2 step = sign * (neighbour->position - end.position);
-    if (step.norm() < longest_step) {
+    const double sign = neighbor == next ? 1.0 : -1.0;
+    const Point2 step = sign * (neighbor->position - end.position);
+    if (step.norm() < max_step) {
       sum += step;
       ++steps;
     }
     if (!shortest || step.norm() < shortest->norm()) {
       shortest = step;
     }
-    stands_out = stands_out && end.range < neighbour->range;
+    stands_out = stands_out && end.range < neighbor->range;
   }
   if (steps > 0) {
     return Point2(sum / steps);
@@ -60,7 +60,7 @@ std::vector<End> endsOf(const Scan& scan) {
 
 }  // namespace
 
-std::vector<EndPoint> endPoints(const Scan& scan, double longest_step) {
+std::vector<EndPoint> endPoints(const Scan& scan, double max_step) {
   const std::vector<End> ends = endsOf(scan);
   std::vector<EndPoint> points;
   points.reserve(ends.size());
@@ -68,7 +68,7 @@ std::vector<EndPoint> endPoints(const Scan& scan, double longest_step) {
     const End* previous = i > 0 ? &ends[i - 1] : nullptr;
     const End* next = i + 1 < ends.size() ? &ends[i + 1] : nullptr;
     const Point2 interval =
-        stepAlongSurface(previous, ends[i], next, longest_step).value_or(ends[i].across);
+        stepAlongSurface(previous, ends[i], next, max_step).value_or(ends[i].across);
     points.push_back({ends[i].position, kUniformVariance * interval * interval.transpose()});
   }
   return points;

@@ -25,7 +25,7 @@ std::vector<PointState> judge(const Scan& scan, const OccupancyMap& map, const P
 
 /// The scan with the scanner's own end points alone, where there are any: what others see is off by
 /// their depth's error, no point to match the pose with, and nothing that hides what is behind.
-Scan measuredScan(const FusedView& view) {
+Scan measuredScan(const GridMaskedScan& view) {
   Scan scan = view.scan;
   if (view.any_measured) {
     for (std::size_t i = 0; i < scan.rays.size(); ++i) {
@@ -38,9 +38,9 @@ Scan measuredScan(const FusedView& view) {
 /// What the map takes of a grid: where beams end on what does not move, and occupied cells. What
 /// others alone have seen is no point to match scans with, and is excluded where it belongs to a
 /// mover, whose depth they blur, or lies in space that the map knows to be free.
-GridSight sightOf(const FusedView& view, const std::vector<PointState>& states,
-                  const SensorGrid& grid, const OccupancyMap& map, const Pose2& base_in_map) {
-  GridSight sight;
+GridUpdate gridUpdateOf(const GridMaskedScan& view, const std::vector<PointState>& states,
+                        const SensorGrid& grid, const OccupancyMap& map, const Pose2& base_in_map) {
+  GridUpdate grid_update;
   std::vector<Point2> others = view.cells;
   for (std::size_t i = 0; i < view.scan.rays.size(); ++i) {
     const Ray& ray = view.scan.rays[i];
@@ -50,18 +50,19 @@ GridSight sightOf(const FusedView& view, const std::vector<PointState>& states,
     if (view.any_measured && !view.measured[i]) {
       others.push_back(ray.end);
     } else {
-      (states[i] == PointState::kMoving ? sight.movers : sight.surfaces).push_back(ray.end);
+      (states[i] == PointState::kMoving ? grid_update.movers : grid_update.surfaces)
+          .push_back(ray.end);
     }
   }
-  std::vector<Point2>& target = view.any_measured ? sight.cells : sight.surfaces;
-  for (const Point2& place : apartFrom(sight.movers, grid, others)) {
-    if (map.judge(base_in_map * place) != PointState::kMoving) {
-      target.push_back(place);
+  std::vector<Point2>& target = view.any_measured ? grid_update.cells : grid_update.surfaces;
+  for (const Point2& position : excludeConnectedTo(grid_update.movers, grid, others)) {
+    if (map.judge(base_in_map * position) != PointState::kMoving) {
+      target.push_back(position);
     }
   }
-  sight.refuted = view.refuted;
-  sight.viewpoint = view.scan.scanner_in_base.position();
-  return sight;
+  grid_update.refuted = view.refuted;
+  grid_update.viewpoint = view.scan.scanner_in_base.position();
+  return grid_update;
 }
 
 /// Beams of the scan that have no ray.
@@ -82,8 +83,8 @@ std::vector<std::uint32_t> blindBeams(const Scan& scan) {
 
 /// Removes the beams of `measured` whose ends the grid does not confirm, if there are others:
 /// sensors that contradict each other give no evidence, neither of occupied nor of free space.
-void leaveOutContested(const Scan& measured, const FusedView& view, Scan& scan,
-                       std::vector<PointState>& states) {
+void removeConflictingBeams(const Scan& measured, const GridMaskedScan& view, Scan& scan,
+                            std::vector<PointState>& states) {
   if (!view.any_measured) {
     return;
   }
@@ -99,9 +100,10 @@ void leaveOutContested(const Scan& measured, const FusedView& view, Scan& scan,
   states.resize(kept);
 }
 
-SplitScan split(const Scan& scan, const std::vector<PointState>& states,
-                const PoseWithCovariance& base_in_map) {
-  SplitScan result{scan.stamp, base_in_map, scan.scanner_in_base, scan.field, blindBeams(scan), {}};
+LabeledScan split(const Scan& scan, const std::vector<PointState>& states,
+                  const PoseWithCovariance& base_in_map) {
+  LabeledScan result{scan.stamp, base_in_map,      scan.scanner_in_base,
+                     scan.field, blindBeams(scan), {}};
   for (std::size_t i = 0; i < scan.rays.size(); ++i) {
     const Ray& ray = scan.rays[i];
     if (ray.hit) {
@@ -123,11 +125,11 @@ void GridSlamOptions::visit(OptionVisitor& visitor) {
                   "a scan as measured at once (thesis)"},
                  motion_compensation);
   visitor.number(
-      {"longest_step", "m", "neighbouring end points further apart are on different surfaces"},
-      longest_step, {0.05, 20.0});
+      {"max_step", "m", "neighboring end points further apart are on different surfaces"}, max_step,
+      {0.05, 20.0});
   visitor.text({"grid_ends", "",
                 "where the obstacles of a fused grid lie: 'scan', where a beam ends in an occupied "
-                "cell, 'cells', at the cells' centres (thesis 3.2.5)"},
+                "cell, 'cells', at the cells' centers (thesis 3.2.5)"},
                grid_ends, {"scan", "cells"});
   visitor.integer({"seed", "1", "of the random numbers with which poses are drawn"}, seed,
                   {0, 2147483647});
@@ -166,10 +168,11 @@ Scan GridSlam::compensated(const Scan& scan) const {
   return compensateMotion(scan, measured ? twistOf(*measured, duration) : filter_.velocity());
 }
 
-FusedView GridSlam::viewOf(const Measurement& measurement, const Scan& compensated_scan) const {
+GridMaskedScan GridSlam::viewOf(const Measurement& measurement,
+                                const Scan& compensated_scan) const {
   if (measurement.grid != nullptr) {
     const GridEnds ends = options_.grid_ends == "scan" ? GridEnds::kScan : GridEnds::kCells;
-    return viewThrough(*measurement.grid, compensated_scan, ends);
+    return maskScanWithGrid(*measurement.grid, compensated_scan, ends);
   }
   return {compensated_scan, std::vector<bool>(compensated_scan.rays.size(), true), true, {}, {}};
 }
@@ -180,7 +183,7 @@ Scan GridSlam::locate(const Measurement& measurement, SlamResult& result) {
   Scan scan = compensated(measurement.scan);
   for (int pass = 0; pass < (guessed ? kPassesWithoutOdometry : 1); ++pass) {
     const Scan seen = measuredScan(viewOf(measurement, scan));
-    const MatchResult match = matcher_.match(map_, endPoints(seen, options_.longest_step),
+    const MatchResult match = matcher_.match(map_, endPoints(seen, options_.max_step),
                                              {predicted.pose(), result.odometry_used}, random_);
     filter_ = predicted;
     filter_.correct(match.pose);
@@ -201,24 +204,24 @@ SlamResult GridSlam::process(const Measurement& measurement) {
   Scan scan = compensated(measurement.scan);
   if (stamp_) {
     result.odometry_used = predict(scan.stamp);
-    map_.centreOn(filter_.pose().pose.position());
+    map_.centerOn(filter_.pose().pose.position());
     scan = locate(measurement, result);
   }
   const PoseWithCovariance base_in_map = filter_.pose();
-  const FusedView view = viewOf(measurement, scan);
+  const GridMaskedScan view = viewOf(measurement, scan);
   Scan own = measuredScan(view);
   std::vector<PointState> states = judge(own, map_, base_in_map.pose);
   if (measurement.grid != nullptr) {
     const SensorGrid free_cells = withoutFreeEdges(*measurement.grid);
-    GridSight sight = sightOf(view, states, *measurement.grid, map_, base_in_map.pose);
-    sight.grid = &free_cells;
-    map_.update(sight, base_in_map.pose);
+    GridUpdate grid_update = gridUpdateOf(view, states, *measurement.grid, map_, base_in_map.pose);
+    grid_update.grid = &free_cells;
+    map_.update(grid_update, base_in_map.pose);
   } else {
     map_.update(scan, states, base_in_map.pose);
   }
   stamp_ = scan.stamp;
   result.odometry_errors = filter_.errors();
-  leaveOutContested(scan, view, own, states);
+  removeConflictingBeams(scan, view, own, states);
   result.split = split(own, states, base_in_map);
   return result;
 }

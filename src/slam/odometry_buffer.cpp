@@ -37,7 +37,7 @@ std::optional<Pose2> OdometryBuffer::motion(Stamp from, Stamp to, const Odometry
                        [](Stamp stamp, const Piece& piece) { return stamp < piece.sample.stamp; });
   // The first sample also serves for the time just before it.
   auto piece = later == pieces_.begin() ? later : std::prev(later);
-  if (piece == pieces_.end() || secondsBetween(from, piece->sample.stamp) > longest_hold_) {
+  if (piece == pieces_.end() || secondsBetween(from, piece->sample.stamp) > max_hold_) {
     return std::nullopt;
   }
   Pose2 motion;
@@ -45,7 +45,7 @@ std::optional<Pose2> OdometryBuffer::motion(Stamp from, Stamp to, const Odometry
   while (at < to) {
     const auto next = std::next(piece);
     const Stamp until = next == pieces_.end() ? to : std::min(to, next->sample.stamp);
-    if (!piece->to_next && secondsBetween(piece->sample.stamp, until) > longest_hold_) {
+    if (!piece->to_next && secondsBetween(piece->sample.stamp, until) > max_hold_) {
       return std::nullopt;
     }
     Twist2 twist = errors.correct(piece->sample.twist);

@@ -61,7 +61,7 @@ struct ScanMatcher::Normal {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   int points = 0;
-  double most_maturity = 0.0;
+  double max_maturity = 0.0;
   double weakest_sigma = std::numeric_limits<double>::infinity();  ///< m, of the position
   bool degenerate = false;
 
@@ -115,13 +115,13 @@ void ScanMatcherOptions::visit(OptionVisitor& visitor) {
                   "(along a corridor, a guard rail) is left to the prediction"},
                  degenerate_sigma, {0.01, 1000.0});
   visitor.number(
-      {"least_maturity", "1",
+      {"min_maturity", "1",
        "with odometry: weight of surfaces that have just come into view, and so may move, "
        "where the visible ones that have been hit longest, up to static_after, have 1; "
        "1: all alike (thesis)"},
-      least_maturity, {0.001, 1.0});
-  visitor.integer({"least_points", "1", "end points on known surfaces that make a match"},
-                  least_points, {1, 10000});
+      min_maturity, {0.001, 1.0});
+  visitor.integer({"min_points", "1", "end points on known surfaces that make a match"}, min_points,
+                  {1, 10000});
 }
 
 ScanMatcher::ScanMatcher(const ScanMatcherOptions& options) : options_(options) {
@@ -178,8 +178,8 @@ ScanMatcher::Normal ScanMatcher::sumOf(const Task& task, const Pose2& pose,
     // not been there for long may be a mover: a platoon that keeps pace would take the pose along.
     const double maturity =
         surface->maturity < task.full_maturity ? surface->maturity / task.full_maturity : 1.0;
-    const double weight = std::exp(-0.5 * distance) * std::max(options_.least_maturity, maturity);
-    normal.most_maturity = std::max(normal.most_maturity, surface->maturity);
+    const double weight = std::exp(-0.5 * distance) * std::max(options_.min_maturity, maturity);
+    normal.max_maturity = std::max(normal.max_maturity, surface->maturity);
     Eigen::Matrix<double, 2, 3> jacobian;
     jacobian << 1.0, 0.0, -turned.y(), 0.0, 1.0, turned.x();
     normal.information += weight * jacobian.transpose() * information * jacobian;
@@ -191,7 +191,7 @@ ScanMatcher::Normal ScanMatcher::sumOf(const Task& task, const Pose2& pose,
   return normal;
 }
 
-ScanMatcher::Normal ScanMatcher::linearise(const Task& task, const Pose2& pose,
+ScanMatcher::Normal ScanMatcher::linearize(const Task& task, const Pose2& pose,
                                            Resolution resolution) const {
   Normal normal = sumOf(task, pose, resolution);
   normal.leaveOutWeak(options_.degenerate_sigma);
@@ -201,7 +201,7 @@ ScanMatcher::Normal ScanMatcher::linearise(const Task& task, const Pose2& pose,
 Pose2 ScanMatcher::refine(const Task& task, Resolution resolution, Pose2 pose) const {
   const Eigen::Matrix3d prior = task.prediction.covariance.inverse();
   for (int step = 0; step < options_.refinement_steps; ++step) {
-    const Normal normal = linearise(task, pose, resolution);
+    const Normal normal = linearize(task, pose, resolution);
     const Eigen::Vector3d move =
         (normal.information + prior)
             .ldlt()
@@ -219,19 +219,19 @@ MatchResult ScanMatcher::match(const OccupancyMap& map, const std::vector<EndPoi
   MatchResult result{prediction.pose, {}};
   Task task{map, points, prediction.pose};
   Pose2 pose = bestSample(task, random);
-  const Normal coarse = sumOf(task, pose, Resolution::kNeighbourhood);
+  const Normal coarse = sumOf(task, pose, Resolution::kNeighborhood);
   result.quality.matched_points = coarse.points;
-  if (coarse.points < options_.least_points) {
+  if (coarse.points < options_.min_points) {
     return result;
   }
   // In a map that has just begun nothing is mature yet.
   task.full_maturity =
-      prediction.measured ? std::max(coarse.most_maturity, options_.least_maturity) : 0.0;
-  for (const Resolution resolution : {Resolution::kNeighbourhood, Resolution::kCell}) {
+      prediction.measured ? std::max(coarse.max_maturity, options_.min_maturity) : 0.0;
+  for (const Resolution resolution : {Resolution::kNeighborhood, Resolution::kCell}) {
     pose = refine(task, resolution, pose);
   }
-  const Normal normal = linearise(task, pose, Resolution::kCell);
-  if (normal.points < options_.least_points) {
+  const Normal normal = linearize(task, pose, Resolution::kCell);
+  if (normal.points < options_.min_points) {
     return result;
   }
   result.pose.pose = pose;

@@ -16,7 +16,7 @@ bool stands(const ScanPoint& point, bool include_unknown) {
 
 }  // namespace
 
-std::vector<float> staticRanges(const SplitScan& scan, bool include_unknown) {
+std::vector<float> staticRanges(const LabeledScan& scan, bool include_unknown) {
   const float without_return = scan.field.free_range > 0.0 ? kNoReturn : kNothingKnown;
   std::vector<float> ranges(scan.field.beams, without_return);
   for (const std::uint32_t beam : scan.blind_beams) {
@@ -36,7 +36,7 @@ std::vector<float> staticRanges(const SplitScan& scan, bool include_unknown) {
   return ranges;
 }
 
-std::vector<Point2> staticPoints(const SplitScan& scan, bool include_unknown) {
+std::vector<Point2> staticPoints(const LabeledScan& scan, bool include_unknown) {
   std::vector<Point2> points;
   for (const ScanPoint& point : scan.points) {
     if (stands(point, include_unknown)) {

@@ -12,7 +12,7 @@ namespace {
 double diagonal(const Box2& box) { return std::hypot(box.length, box.width); }
 
 Box2 moved(const Pose2& frame, const Box2& box) {
-  return {frame * box.centre, box.length, box.width};
+  return {frame * box.center, box.length, box.width};
 }
 
 double detectionProbability(const Target& target, const AssociationScan& scan) {
@@ -25,17 +25,17 @@ double detectionProbability(const Target& target, const AssociationScan& scan) {
 std::vector<std::size_t> nearObjects(const Target& target, const AssociationScan& scan,
                                      const AssociationOptions& options) {
   const Box2 box = target.box();
-  const Point2& place = box.centre.position();
+  const Point2& position = box.center.position();
   const double sigma = std::sqrt(target.positionCovariance().trace());
   const double reach =
       std::sqrt(options.gate) * (sigma + scan.noise) + 0.5 * scan.extent + 0.5 * diagonal(box);
-  const auto x = [](const Observation& o) { return o.object.box.centre.x(); };
+  const auto x = [](const Observation& o) { return o.object.box.center.x(); };
   const auto end = scan.observations.begin() + static_cast<std::ptrdiff_t>(scan.objects);
-  auto first = std::lower_bound(scan.observations.begin(), end, place.x() - reach,
-                                [&](const Observation& o, double least) { return x(o) < least; });
+  auto first = std::lower_bound(scan.observations.begin(), end, position.x() - reach,
+                                [&](const Observation& o, double min) { return x(o) < min; });
   std::vector<std::pair<double, std::size_t>> near;
-  for (; first != end && x(*first) <= place.x() + reach; ++first) {
-    const double distance2 = (first->object.box.centre.position() - place).squaredNorm();
+  for (; first != end && x(*first) <= position.x() + reach; ++first) {
+    const double distance2 = (first->object.box.center.position() - position).squaredNorm();
     if (distance2 <= reach * reach) {
       near.emplace_back(distance2, static_cast<std::size_t>(first - scan.observations.begin()));
     }
@@ -56,20 +56,20 @@ void AssociationOptions::visit(OptionVisitor& visitor) {
                   "largest Mahalanobis distance squared between an object and a target: 13.8 is "
                   "the 99.9 % quantile of chi-square with two degrees of freedom"},
                  gate, {0.1, 1000.0});
-  visitor.number({"least_same_class", "1",
+  visitor.number({"min_same_class", "1",
                   "an object is not of a target where the probability that both are of one class "
                   "is smaller (thesis 3.3.4: classes that differ)"},
-                 least_same_class, {0.0, 1.0});
-  visitor.integer({"most_candidates", "1",
+                 min_same_class, {0.0, 1.0});
+  visitor.integer({"max_candidates", "1",
                    "objects that one target may be seen as in one scan, the nearest ones; bounds "
                    "the time of a step"},
-                  most_candidates, {1, 1000});
-  visitor.integer({"most_targets", "1", "targets followed at a time; bounds the time of a step"},
-                  most_targets, {1, 5000});
-  visitor.integer({"most_work", "1",
+                  max_candidates, {1, 1000});
+  visitor.integer({"max_targets", "1", "targets followed at a time; bounds the time of a step"},
+                  max_targets, {1, 5000});
+  visitor.integer({"max_work", "1",
                    "pairs looked at for one assignment (1 ns to 2 ns each) before the targets that "
                    "are left take the nearest free object"},
-                  most_work, {1000, 1e9});
+                  max_work, {1000, 1e9});
 }
 
 TargetScores scoresOf(const Target& target, const AssociationScan& scan, double existence,
@@ -80,7 +80,7 @@ TargetScores scoresOf(const Target& target, const AssociationScan& scan, double 
   scores.missed = std::log1p(-seen);
   scores.seen = std::log(seen) - scores.missed;
   for (const std::size_t object : nearObjects(target, scan, options)) {
-    if (scores.candidates.size() >= static_cast<std::size_t>(options.most_candidates)) {
+    if (scores.candidates.size() >= static_cast<std::size_t>(options.max_candidates)) {
       break;
     }
     addCandidate(target, scan, object, options, scores);
@@ -94,7 +94,7 @@ void addCandidate(const Target& target, const AssociationScan& scan, std::size_t
                   const AssociationOptions& options, TargetScores& scores) {
   const Observation& observation = scan.observations[index];
   const double same_class = target.sameClassProbability(observation.object);
-  if (same_class < options.least_same_class) {
+  if (same_class < options.min_same_class) {
     return;
   }
   const PositionMeasurement measured = target.measurementOf(observation.object);

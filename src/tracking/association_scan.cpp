@@ -18,13 +18,13 @@ struct Entry {
   double distance;  ///< m, from the vehicle
 };
 
-auto place(const Entry& entry) {
+auto position(const Entry& entry) {
   const Box2& box = entry.object.box;
-  return std::make_tuple(box.centre.x(), box.centre.y(), box.centre.heading(), box.length,
+  return std::make_tuple(box.center.x(), box.center.y(), box.center.heading(), box.length,
                          box.width, entry.object.log_odds);
 }
 
-bool isLeft(const Entry& a, const Entry& b) { return place(a) < place(b); }
+bool isLeft(const Entry& a, const Entry& b) { return position(a) < position(b); }
 
 bool isNearer(const Entry& a, const Entry& b) {
   return std::tie(a.distance) < std::tie(b.distance) || (a.distance == b.distance && isLeft(a, b));
@@ -59,27 +59,27 @@ void ScanIntakeOptions::visit(OptionVisitor& visitor) {
                   "objects of no target in one scan, new ones and false alarms, where none were "
                   "seen of late: an object must be likelier for its target"},
                  new_density, {1e-9, 10.0});
-  visitor.integer({"most_objects", "1",
+  visitor.integer({"max_objects", "1",
                    "objects taken from one list, the nearest ones; bounds the time of a step"},
-                  most_objects, {1, 10000});
+                  max_objects, {1, 10000});
 }
 
-AssociationScan takeIn(const std::vector<Object>& objects, const Pose2& base_in_fixed,
+AssociationScan ingest(const std::vector<Object>& objects, const Pose2& base_in_fixed,
                        const Visibility& visibility, const ClutterMap& clutter,
                        const ScanIntakeOptions& options, ScanIntakeCounts& counts) {
   std::vector<Entry> entries;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     Object object = transformed(base_in_fixed, objects[i]);
     if (isValid(object)) {
-      entries.push_back({std::move(object), i, objects[i].box.centre.position().norm()});
+      entries.push_back({std::move(object), i, objects[i].box.center.position().norm()});
     }
   }
   counts.rejected += objects.size() - entries.size();
-  const auto most = static_cast<std::size_t>(options.most_objects);
-  if (entries.size() > most) {
+  const auto max = static_cast<std::size_t>(options.max_objects);
+  if (entries.size() > max) {
     std::sort(entries.begin(), entries.end(), isNearer);
-    counts.refused += entries.size() - most;
-    entries.resize(most);
+    counts.refused += entries.size() - max;
+    entries.resize(max);
   }
   counts.accepted += entries.size();
   std::sort(entries.begin(), entries.end(), isLeft);
@@ -92,7 +92,7 @@ AssociationScan takeIn(const std::vector<Object>& objects, const Pose2& base_in_
     const Box2& box = entry.object.box;
     scan.noise = std::max(scan.noise, std::sqrt(variance(entry.object)));
     scan.extent = std::max(scan.extent, std::hypot(box.length, box.width));
-    const Point2& in_base = objects[entry.listed].box.centre.position();
+    const Point2& in_base = objects[entry.listed].box.center.position();
     const double density = options.new_density + clutter.density(in_base);
     const bool starts = entry.object.dynamic_state != DynamicState::kStatic;
     scan.observations.push_back(

@@ -12,11 +12,11 @@ constexpr int kVoid = -2;
 
 void giveCheapestFree(int row, const AssignmentCosts& costs, PricedAssignment& assignment) {
   int cheapest = kUnassigned;
-  double least = costs.unassigned[row];
+  double min = costs.unassigned[row];
   for (int column = 0; column < costs.columns(); ++column) {
-    if (assignment.row_of_column[column] == kUnassigned && costs.pairs(row, column) < least) {
+    if (assignment.row_of_column[column] == kUnassigned && costs.pairs(row, column) < min) {
       cheapest = column;
-      least = costs.pairs(row, column);
+      min = costs.pairs(row, column);
     }
   }
   assignment.column_of_row[row] = cheapest;
@@ -240,10 +240,10 @@ void AugmentingPath::apply(const Search& search, PricedAssignment& assignment) c
   }
 }
 
-bool assignAll(const AssignmentCosts& costs, std::int64_t most_work, AugmentingPath& path,
+bool assignAll(const AssignmentCosts& costs, std::int64_t max_work, AugmentingPath& path,
                PricedAssignment& assignment) {
   int row = 0;
-  for (; row < costs.rows() && path.work() <= most_work; ++row) {
+  for (; row < costs.rows() && path.work() <= max_work; ++row) {
     path.add(row, assignment);
   }
   const bool all = row == costs.rows();

@@ -79,7 +79,7 @@ class AugmentingPath {
 /// The best assignment, from one that has nothing yet: one row after the other gets its column.
 /// False: it took more work than allowed, and the rows that were left, in their order, got the
 /// cheapest column that was free; the assignment is valid but not the best, and nor are its prices.
-bool assignAll(const AssignmentCosts& costs, std::int64_t most_work, AugmentingPath& path,
+bool assignAll(const AssignmentCosts& costs, std::int64_t max_work, AugmentingPath& path,
                PricedAssignment& assignment);
 
 }  // namespace datmo

@@ -8,14 +8,14 @@ namespace datmo {
 namespace {
 
 /// No hypothesis falls farther below the best one, so that it can come back: logarithm of odds.
-constexpr double kLeastLogWeight = -12.0;
+constexpr double kMinLogWeight = -12.0;
 
 /// Mahalanobis distance squared of an extent that is hardly of this object: three sigma.
 constexpr double kFarOff = 9.0;
 
 /// Odds that a classifier which is sure of itself gives: it may err all the same.
 constexpr double kSurestClass = 0.999;
-constexpr double kLeastClass = 1e-6;
+constexpr double kMinClass = 1e-6;
 
 /// Vehicle, cyclist, pedestrian, anything else.
 constexpr int kClasses = 4;
@@ -41,7 +41,7 @@ double square(double value) { return value * value; }
 /// Takes an extent into one estimate; returns the logarithm of how likely it was, up to a term that
 /// is the same for all estimates. One that is far off may be of two objects, or of a side that was
 /// taken for another: it raises doubts only, which let in the third of its kind.
-double takeIn(const VisibleExtent& seen, double noise, double& mean, double& variance) {
+double ingest(const VisibleExtent& seen, double noise, double& mean, double& variance) {
   const double residual = seen.length - mean;
   if (!seen.whole && residual <= 0.0) {
     return 0.0;
@@ -104,7 +104,7 @@ BoxSize::BoxSize(const BoxSizeOptions& options) {
     hypotheses_[kAxes * kind + 1] = {
         log_weight, {prior.width, prior.length}, {width_variance, length_variance}};
   }
-  summarise();
+  summarize();
 }
 
 void BoxSize::classify(ObjectClass object_class, double probability) {
@@ -112,12 +112,12 @@ void BoxSize::classify(ObjectClass object_class, double probability) {
     return;
   }
   const double sure = std::min(probability, kSurestClass);
-  const double others = std::max(kLeastClass, (1.0 - sure) / static_cast<double>(kClasses - 1));
+  const double others = std::max(kMinClass, (1.0 - sure) / static_cast<double>(kClasses - 1));
   for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
     hypotheses_[i].log_weight +=
-        std::log(isOfClass(i / kAxes, object_class) ? std::max(kLeastClass, sure) : others);
+        std::log(isOfClass(i / kAxes, object_class) ? std::max(kMinClass, sure) : others);
   }
-  summarise();
+  summarize();
 }
 
 void BoxSize::update(const std::array<VisibleExtent, 2>& seen, double seconds,
@@ -125,18 +125,18 @@ void BoxSize::update(const std::array<VisibleExtent, 2>& seen, double seconds,
   for (Hypothesis& hypothesis : hypotheses_) {
     for (std::size_t axis = 0; axis < kAxes; ++axis) {
       hypothesis.variance[axis] += options.drift * seconds;
-      hypothesis.log_weight += takeIn(seen[axis], seen[axis].variance + square(options.extent_std),
+      hypothesis.log_weight += ingest(seen[axis], seen[axis].variance + square(options.extent_std),
                                       hypothesis.mean[axis], hypothesis.variance[axis]);
     }
   }
-  summarise();
+  summarize();
 }
 
 void BoxSize::addOddsAlongFirst(double log_odds) {
   for (std::size_t i = 0; i < hypotheses_.size(); i += kAxes) {
     hypotheses_[i].log_weight += log_odds;
   }
-  summarise();
+  summarize();
 }
 
 void BoxSize::swapAxes() {
@@ -147,11 +147,11 @@ void BoxSize::swapAxes() {
       std::swap(hypotheses_[k].variance[0], hypotheses_[k].variance[1]);
     }
   }
-  summarise();
+  summarize();
 }
 
 /// Weights relative to the best one, and the moments of the mixture.
-void BoxSize::summarise() {
+void BoxSize::summarize() {
   double best = hypotheses_[0].log_weight;
   for (const Hypothesis& hypothesis : hypotheses_) {
     best = std::max(best, hypothesis.log_weight);
@@ -162,7 +162,7 @@ void BoxSize::summarise() {
   Eigen::Vector2d squares = Eigen::Vector2d::Zero();
   for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
     Hypothesis& hypothesis = hypotheses_[i];
-    hypothesis.log_weight = std::max(hypothesis.log_weight - best, kLeastLogWeight);
+    hypothesis.log_weight = std::max(hypothesis.log_weight - best, kMinLogWeight);
     const double weight = std::exp(hypothesis.log_weight);
     total += weight;
     along_first += i % kAxes == 0 ? weight : 0.0;

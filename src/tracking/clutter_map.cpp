@@ -34,8 +34,8 @@ void ClutterMap::learn(const std::vector<Point2>& unexplained, double seconds) {
       densities_.at({column, row}) *= 1.0 - gain;
     }
   }
-  for (const Point2& place : unexplained) {
-    const CellIndex cell = cellAt(place);
+  for (const Point2& position : unexplained) {
+    const CellIndex cell = cellAt(position);
     if (window.contains(cell)) {
       densities_.at(cell) += gain / (options_.cell_size * options_.cell_size);
     }

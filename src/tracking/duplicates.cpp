@@ -34,16 +34,16 @@ bool isPartOf(const Placed& part, const Placed& whole, const DuplicateOptions& o
 bool reaches(Box2 box, const Box2& other, double scale) {
   box.length *= scale;
   box.width *= scale;
-  const Point2& point = other.centre.position();
+  const Point2& point = other.center.position();
   const double diagonal = box.length + box.width;  // at least: a quick answer for most pairs
-  return (point - box.centre.position()).squaredNorm() <= diagonal * diagonal &&
+  return (point - box.center.position()).squaredNorm() <= diagonal * diagonal &&
          box.contains(point);
 }
 
 void DuplicateOptions::visit(OptionVisitor& visitor) {
   visitor.number({"reach", "1",
                   "two targets may be parts of one object where the box of one, this many times as "
-                  "large, holds the centre of the other"},
+                  "large, holds the center of the other"},
                  reach, {0.0, 10.0});
   visitor.number({"velocity_gate", "1",
                   "they are if their velocities are within this Mahalanobis distance squared: 5.99 "

@@ -26,7 +26,7 @@ double logSum(double a, double b) {
 }
 
 /// Hypotheses that say the same become one.
-void joinEqual(std::vector<GlobalHypothesis>& hypotheses) {
+void mergeEqual(std::vector<GlobalHypothesis>& hypotheses) {
   std::map<std::vector<int>, double> weights;
   for (const GlobalHypothesis& hypothesis : hypotheses) {
     const auto found = weights.emplace(hypothesis.leaf_of_tree, hypothesis.log_weight);
@@ -54,17 +54,17 @@ void sortByWeight(std::vector<GlobalHypothesis>& hypotheses) {
 /// left.
 bool removeUnusedLeaves(TrackTree& tree, std::size_t index,
                         std::vector<GlobalHypothesis>& hypotheses) {
-  std::vector<int> place(tree.leaves.size(), kAbsent);
+  std::vector<int> index_of(tree.leaves.size(), kAbsent);
   for (const GlobalHypothesis& hypothesis : hypotheses) {
     const int leaf = hypothesis.leaf_of_tree[index];
     if (leaf != kAbsent) {
-      place[static_cast<std::size_t>(leaf)] = 0;
+      index_of[static_cast<std::size_t>(leaf)] = 0;
     }
   }
   int kept = 0;
-  for (std::size_t leaf = 0; leaf < place.size(); ++leaf) {
-    if (place[leaf] != kAbsent) {
-      place[leaf] = kept;
+  for (std::size_t leaf = 0; leaf < index_of.size(); ++leaf) {
+    if (index_of[leaf] != kAbsent) {
+      index_of[leaf] = kept;
       if (static_cast<std::size_t>(kept) != leaf) {
         tree.leaves[static_cast<std::size_t>(kept)] = std::move(tree.leaves[leaf]);
       }
@@ -74,7 +74,7 @@ bool removeUnusedLeaves(TrackTree& tree, std::size_t index,
   tree.leaves.erase(tree.leaves.begin() + kept, tree.leaves.end());
   for (GlobalHypothesis& hypothesis : hypotheses) {
     int& leaf = hypothesis.leaf_of_tree[index];
-    leaf = leaf == kAbsent ? kAbsent : place[static_cast<std::size_t>(leaf)];
+    leaf = leaf == kAbsent ? kAbsent : index_of[static_cast<std::size_t>(leaf)];
   }
   return kept > 0;
 }
@@ -101,7 +101,7 @@ HypothesisCluster part(HypothesisCluster& cluster, const std::vector<std::size_t
     }
     result.hypotheses.push_back(std::move(hypothesis));
   }
-  tidy(result);
+  canonicalize(result);
   return result;
 }
 
@@ -127,7 +127,7 @@ HypothesisCluster singleTarget(TrackTree tree) {
   return cluster;
 }
 
-HypothesisCluster joined(HypothesisCluster a, HypothesisCluster b, std::size_t most) {
+HypothesisCluster merge(HypothesisCluster a, HypothesisCluster b, std::size_t max) {
   HypothesisCluster result;
   result.trees = std::move(a.trees);
   std::move(b.trees.begin(), b.trees.end(), std::back_inserter(result.trees));
@@ -143,9 +143,9 @@ HypothesisCluster joined(HypothesisCluster a, HypothesisCluster b, std::size_t m
     }
   }
   sortByWeight(result.hypotheses);
-  if (result.hypotheses.size() > most) {
-    result.hypotheses.resize(most);
-    tidy(result);
+  if (result.hypotheses.size() > max) {
+    result.hypotheses.resize(max);
+    canonicalize(result);
   }
   return result;
 }
@@ -163,7 +163,7 @@ void pruneHistory(HypothesisCluster& cluster, std::size_t history) {
   auto& hypotheses = cluster.hypotheses;
   hypotheses.erase(std::remove_if(hypotheses.begin(), hypotheses.end(), disagrees),
                    hypotheses.end());
-  tidy(cluster);
+  canonicalize(cluster);
 }
 
 void removeLeaves(HypothesisCluster& cluster, const std::function<bool(const Target&)>& isLost) {
@@ -182,11 +182,11 @@ void removeLeaves(HypothesisCluster& cluster, const std::function<bool(const Tar
     }
   }
   if (changed) {
-    tidy(cluster);
+    canonicalize(cluster);
   }
 }
 
-void tidy(HypothesisCluster& cluster) {
+void canonicalize(HypothesisCluster& cluster) {
   std::size_t kept = 0;
   std::vector<std::size_t> trees;
   for (std::size_t tree = 0; tree < cluster.trees.size(); ++tree) {
@@ -210,7 +210,7 @@ void tidy(HypothesisCluster& cluster) {
       hypothesis.leaf_of_tree.resize(kept);
     }
   }
-  joinEqual(cluster.hypotheses);
+  mergeEqual(cluster.hypotheses);
   sortByWeight(cluster.hypotheses);
 }
 
@@ -220,17 +220,17 @@ std::vector<HypothesisCluster> split(HypothesisCluster cluster, std::uint64_t ol
                              [&](const TreeLink& link) { return link.scan < oldest_scan; }),
               links.end());
   // Targets that are gone still link those that are left: they come after these.
-  std::map<std::uint64_t, std::size_t> place;
+  std::map<std::uint64_t, std::size_t> index_of;
   for (const TrackTree& tree : cluster.trees) {
-    place.emplace(tree.number(), place.size());
+    index_of.emplace(tree.number(), index_of.size());
   }
   for (const TreeLink& link : links) {
-    place.emplace(link.first, place.size());
-    place.emplace(link.second, place.size());
+    index_of.emplace(link.first, index_of.size());
+    index_of.emplace(link.second, index_of.size());
   }
-  DisjointSets groups(place.size());
+  DisjointSets groups(index_of.size());
   for (const TreeLink& link : links) {
-    groups.join(place[link.first], place[link.second]);
+    groups.join(index_of[link.first], index_of[link.second]);
   }
   std::vector<HypothesisCluster> result;
   for (std::vector<std::size_t>& group : groups.sets()) {
@@ -244,7 +244,7 @@ std::vector<HypothesisCluster> split(HypothesisCluster cluster, std::uint64_t ol
     }
     result.push_back(part(cluster, group));
     std::copy_if(links.begin(), links.end(), std::back_inserter(result.back().links),
-                 [&](const TreeLink& link) { return groups.find(place[link.first]) == first; });
+                 [&](const TreeLink& link) { return groups.find(index_of[link.first]) == first; });
   }
   return result;
 }

@@ -49,9 +49,8 @@ StateEstimate estimateOf(const TrackState& origin, const Moments& moments) {
 void ImmOptions::visit(OptionVisitor& visitor) {
   ClassMotionOptions::visit(visitor);
   visitor.group("transitions", [&] { transitions.visit(visitor); });
-  visitor.number(
-      {"least_probability", "1", "no mode becomes less likely, so that it can come back"},
-      least_probability, {1e-9, 0.1});
+  visitor.number({"min_probability", "1", "no mode becomes less likely, so that it can come back"},
+                 min_probability, {1e-9, 0.1});
 }
 
 ImmStep immStep(const ImmOptions& options, double seconds, ObjectClass object_class) {
@@ -103,7 +102,7 @@ void ImmFilter::predict(const ImmStep& step) {
   combine();
 }
 
-double ImmFilter::update(const PositionMeasurement& measured, double least_probability) {
+double ImmFilter::update(const PositionMeasurement& measured, double min_probability) {
   const ModeLikelihoods likelihoods = likelihoodsOf(measured);
   const ModeVector weights = probabilities_.cwiseProduct(likelihoods.relative);
   const double total = weights.sum();
@@ -111,7 +110,7 @@ double ImmFilter::update(const PositionMeasurement& measured, double least_proba
     double& probability = probabilities_[static_cast<int>(mode)];
     if (probability > 0.0) {
       modes_[mode] = datmo::update(modes_[mode], measured);
-      probability = std::max(weights[static_cast<int>(mode)] / total, least_probability);
+      probability = std::max(weights[static_cast<int>(mode)] / total, min_probability);
     }
   }
   probabilities_ /= probabilities_.sum();

@@ -9,7 +9,7 @@ namespace datmo {
 namespace {
 
 /// Rounding must not make the two halves drift apart.
-void symmetrise(TrackCovariance& covariance) {
+void symmetrize(TrackCovariance& covariance) {
   covariance.triangularView<Eigen::StrictlyLower>() = covariance.transpose();
 }
 
@@ -59,7 +59,7 @@ StateEstimate predict(const StateEstimate& estimate, const LinearMotion& motion)
   covariance.topRightCorner<2, 4>() = moved * b.transpose();
   covariance.bottomRightCorner<4, 4>() = b * rest * b.transpose();
   covariance += motion.noise;
-  symmetrise(covariance);
+  symmetrize(covariance);
   return result;
 }
 
@@ -82,7 +82,7 @@ StateEstimate update(const StateEstimate& predicted, const PositionMeasurement& 
   result.covariance.topRightCorner<2, 4>() = kept * cross;
   result.covariance.bottomRightCorner<4, 4>() =
       predicted.covariance.bottomRightCorner<4, 4>() - gain * cross;
-  symmetrise(result.covariance);
+  symmetrize(result.covariance);
   return result;
 }
 

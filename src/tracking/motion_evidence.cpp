@@ -41,16 +41,16 @@ void MotionEvidenceOptions::visit(OptionVisitor& visitor) {
                   "(Wald 1947: the logarithm of the inverse rate of false alarms)"},
                  required_against_chance, kEvidence);
   visitor.number(
-      {"most_evidence", "1",
+      {"max_evidence", "1",
        "to which both sums are limited, so that a track that lost its object ends, and one that "
        "stops stands"},
-      most_evidence, kEvidence);
-  visitor.number({"least_evidence", "1",
+      max_evidence, kEvidence);
+  visitor.number({"min_evidence", "1",
                   "below which the sum against chance does not fall: 0 forgets that its first "
                   "objects did not belong together"},
-                 least_evidence, {-100.0, 0.0});
+                 min_evidence, {-100.0, 0.0});
   visitor.number({"standing_drift", "m^2/s",
-                  "random walk of the visible centre of an object that stands: its root is how far "
+                  "random walk of the visible center of an object that stands: its root is how far "
                   "it slides in one second"},
                  standing_drift, {1e-6, 100.0});
   visitor.number({"required_against_standing", "1",
@@ -62,19 +62,19 @@ void MotionEvidenceOptions::visit(OptionVisitor& visitor) {
                   "log-likelihood ratio that a scan adds when all points of the object lie where "
                   "the map is free (thesis 3.3.1)"},
                  free_space_evidence, kEvidence);
-  visitor.number({"most_static_share", "1",
+  visitor.number({"max_static_share", "1",
                   "movers are seen less often than this at positions that are known to be static: "
                   "parked cars in a row are, however much they are taken for each other"},
-                 most_static_share, {0.0, 1.0});
-  visitor.number({"least_overrun", "m",
+                 max_static_share, {0.0, 1.0});
+  visitor.number({"min_overrun", "m",
                   "how much farther than its own length an object reaches from where it stood"},
-                 least_overrun, {0.0, 100.0});
+                 min_overrun, {0.0, 100.0});
   visitor.number({"unseen_share", "1",
                   "an object that stands may be longer than it was ever seen by this share"},
                  unseen_share, {0.0, 10.0});
   visitor.number({"overrun_significance", "1", "the same in standard deviations"},
                  overrun_significance, {0.0, 100.0});
-  visitor.number({"least_speed", "m/s", "slower than this nothing counts as moving"}, least_speed,
+  visitor.number({"min_speed", "m/s", "slower than this nothing counts as moving"}, min_speed,
                  {0.0, 100.0});
   visitor.number({"speed_significance", "1",
                   "least Mahalanobis distance squared of the velocity from zero: 5.99 is the 95 % "
@@ -82,30 +82,30 @@ void MotionEvidenceOptions::visit(OptionVisitor& visitor) {
                  speed_significance, {0.0, 1000.0});
 }
 
-bool velocityIsSignificant(const StateEstimate& estimate, double significance, double least_speed) {
+bool velocityIsSignificant(const StateEstimate& estimate, double significance, double min_speed) {
   const Eigen::Vector2d velocity = estimate.mean.segment<2>(2);
   const Eigen::Matrix2d covariance = estimate.covariance.block<2, 2>(2, 2);
-  return velocity.norm() >= least_speed &&
+  return velocity.norm() >= min_speed &&
          velocity.dot(covariance.inverse() * velocity) >= significance;
 }
 
 bool mayBeAsFastAs(const StateEstimate& estimate, double significance, double speed) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
   solver.computeDirect(estimate.covariance.block<2, 2>(2, 2), Eigen::EigenvaluesOnly);
-  const double most_variance = std::max(0.0, solver.eigenvalues().maxCoeff());
-  return estimate.mean.segment<2>(2).norm() + std::sqrt(significance * most_variance) >= speed;
+  const double max_variance = std::max(0.0, solver.eigenvalues().maxCoeff());
+  return estimate.mean.segment<2>(2).norm() + std::sqrt(significance * max_variance) >= speed;
 }
 
 MotionEvidence::MotionEvidence(const Object& object, const MotionEvidenceOptions& options)
-    : against_chance_(std::max(options.least_evidence, object.log_odds)),
-      anchor_(placeOf(object)),
+    : against_chance_(std::max(options.min_evidence, object.log_odds)),
+      anchor_(observedBox(object)),
       present_(anchor_),
       longest_(object.box),
       free_share_(object.moving_fraction),
       static_share_(staticShare(object)),
-      standing_{object.box.centre.position(), object.position_covariance} {}
+      standing_{object.box.center.position(), object.position_covariance} {}
 
-MotionEvidence::Place MotionEvidence::placeOf(const Object& object) {
+MotionEvidence::ObservedBox MotionEvidence::observedBox(const Object& object) {
   const auto isSeen = [&](BoxSide side) {
     return std::isfinite(object.side_variance[static_cast<std::size_t>(side)]);
   };
@@ -116,7 +116,7 @@ MotionEvidence::Place MotionEvidence::placeOf(const Object& object) {
   };
   const Eigen::Vector2d seen(known(BoxSide::kFront, BoxSide::kRear),
                              known(BoxSide::kLeft, BoxSide::kRight));
-  const Eigen::Matrix2d axes = object.box.centre.rotation();
+  const Eigen::Matrix2d axes = object.box.center.rotation();
   return {object.box, object.position_covariance, object.moving_fraction, staticShare(object),
           axes * seen.asDiagonal() * axes.transpose()};
 }
@@ -137,7 +137,7 @@ void MotionEvidence::update(const Object& object, const PositionMeasurement& mea
   const Innovation innovation{measured.position - standing_.position,
                               standing_.covariance + measured.covariance};
   const double ratio = moving_log_likelihood - innovation.logLikelihood();
-  present_ = placeOf(object);
+  present_ = observedBox(object);
   ++objects_;
   free_share_ += (object.moving_fraction - free_share_) / objects_;
   static_share_ += (staticShare(object) - static_share_) / std::min(objects_, kStaticMemory);
@@ -169,37 +169,38 @@ void MotionEvidence::addAgainstStanding(double ratio, const MotionEvidenceOption
     startHere();
     static_share_ = present_.static_share;
   }
-  against_standing_ = std::min(options.most_evidence, std::max(0.0, against_standing_ + ratio));
+  against_standing_ = std::min(options.max_evidence, std::max(0.0, against_standing_ + ratio));
 }
 
 void MotionEvidence::addAgainstChance(double ratio, const MotionEvidenceOptions& options) {
   against_chance_ =
-      std::min(options.most_evidence, std::max(options.least_evidence, against_chance_ + ratio));
+      std::min(options.max_evidence, std::max(options.min_evidence, against_chance_ + ratio));
 }
 
 bool MotionEvidence::suffices(const StateEstimate& estimate,
                               const MotionEvidenceOptions& options) const {
   return against_chance_ >= options.required_against_chance &&
          against_standing_ >= options.required_against_standing &&
-         static_share_ <= options.most_static_share && leftItsPlace(options) &&
-         velocityIsSignificant(estimate, options.speed_significance, options.least_speed);
+         static_share_ <= options.max_static_share && leftItsAnchor(options) &&
+         velocityIsSignificant(estimate, options.speed_significance, options.min_speed);
 }
 
-bool MotionEvidence::leftItsPlace(const MotionEvidenceOptions& options) const {
-  const Eigen::Vector2d way = anchor_.measured * present_.measured *
-                              (present_.box.centre.position() - anchor_.box.centre.position());
-  const double distance = way.norm();
+bool MotionEvidence::leftItsAnchor(const MotionEvidenceOptions& options) const {
+  const Eigen::Vector2d displacement =
+      anchor_.measured * present_.measured *
+      (present_.box.center.position() - anchor_.box.center.position());
+  const double distance = displacement.norm();
   if (distance == 0.0) {
     return false;
   }
-  const Eigen::Vector2d direction = way / distance;
+  const Eigen::Vector2d direction = displacement / distance;
   const double seen =
       0.5 * (extentAlong(present_.box, direction) + extentAlong(anchor_.box, direction));
   const double standing_length = (1.0 + options.unseen_share) * extentAlong(longest_, direction);
   const double overrun = distance - (1.0 - free_share_) * (standing_length - seen);
   const double deviation =
       std::sqrt(direction.dot((present_.covariance + anchor_.covariance) * direction));
-  return overrun >= options.least_overrun && overrun >= options.overrun_significance * deviation;
+  return overrun >= options.min_overrun && overrun >= options.overrun_significance * deviation;
 }
 
 }  // namespace datmo

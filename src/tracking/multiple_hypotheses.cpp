@@ -48,12 +48,12 @@ void MultipleHypotheses::predict(double seconds) {
 }
 
 void MultipleHypotheses::associate(AssociationScan& scan, const StepBudget& budget) {
-  const std::uint64_t hurried = counts_.hurried_steps;
+  const std::uint64_t hurried = counts_.best_only_steps;
   score(scan);
-  joinCompeting(scan.objects);
+  mergeCompeting(scan.objects);
   const std::size_t followed = targets();
-  const auto most = static_cast<std::size_t>(options_.most_targets);
-  room_ = followed < most ? most - followed : 0;
+  const auto max = static_cast<std::size_t>(options_.max_targets);
+  room_ = followed < max ? max - followed : 0;
 
   std::vector<bool> claimed(scan.objects, false);
   std::vector<HypothesisCluster> next;
@@ -61,13 +61,13 @@ void MultipleHypotheses::associate(AssociationScan& scan, const StepBudget& budg
     for (const std::size_t object : candidateObjects(cluster)) {
       claimed[object] = true;
     }
-    grow(std::move(cluster), scan, budget, next);
+    expandCluster(std::move(cluster), scan, budget, next);
   }
   startTargets(scan, claimed, next);
   clusters_ = std::move(next);
   next_number_ += scan.objects;
   ++scan_number_;
-  counts_.hurried_steps = std::min(counts_.hurried_steps, hurried + 1);
+  counts_.best_only_steps = std::min(counts_.best_only_steps, hurried + 1);
 }
 
 void MultipleHypotheses::score(const AssociationScan& scan) {
@@ -83,7 +83,7 @@ void MultipleHypotheses::score(const AssociationScan& scan) {
 }
 
 /// Clusters that may have been seen as the same object become one.
-void MultipleHypotheses::joinCompeting(std::size_t objects) {
+void MultipleHypotheses::mergeCompeting(std::size_t objects) {
   constexpr std::size_t kNobody = kUnseen;
   std::vector<std::size_t> claimer(objects, kNobody);
   DisjointSets groups(clusters_.size());
@@ -96,31 +96,32 @@ void MultipleHypotheses::joinCompeting(std::size_t objects) {
       }
     }
   }
-  const auto most = static_cast<std::size_t>(hypothesis_options_.most_hypotheses);
+  const auto max = static_cast<std::size_t>(hypothesis_options_.max_hypotheses);
   std::vector<HypothesisCluster> result;
   for (const std::vector<std::size_t>& group : groups.sets()) {
     HypothesisCluster cluster = std::move(clusters_[group.front()]);
     for (std::size_t i = 1; i < group.size(); ++i) {
-      cluster = joined(std::move(cluster), std::move(clusters_[group[i]]), most);
+      cluster = merge(std::move(cluster), std::move(clusters_[group[i]]), max);
     }
     result.push_back(std::move(cluster));
   }
   clusters_ = std::move(result);
 }
 
-void MultipleHypotheses::grow(HypothesisCluster cluster, AssociationScan& scan,
-                              const StepBudget& budget, std::vector<HypothesisCluster>& next) {
+void MultipleHypotheses::expandCluster(HypothesisCluster cluster, AssociationScan& scan,
+                                       const StepBudget& budget,
+                                       std::vector<HypothesisCluster>& next) {
   const bool late = budget.isSpent();
-  counts_.hurried_steps += late ? 1 : 0;
-  const bool hurry = late || cluster.trees.size() >
-                                 static_cast<std::size_t>(hypothesis_options_.most_joint_targets);
+  counts_.best_only_steps += late ? 1 : 0;
+  const bool best_only = late || cluster.trees.size() > static_cast<std::size_t>(
+                                                            hypothesis_options_.max_joint_targets);
   std::vector<Interpretation> interpretations{candidateObjects(cluster)};
-  if (!hurry) {
+  if (!best_only) {
     addSplitAndMerged(cluster, scan, options_, split_merge_, interpretations);
   }
-  const GrowthContext context{scan,         target_options_, hypothesis_options_, scan_number_,
-                              next_number_, hurry,           options_.most_work};
-  HypothesisCluster whole = grown(cluster, interpretations, context, next_node_, room_, counts_);
+  const ExpansionContext context{scan,         target_options_, hypothesis_options_, scan_number_,
+                                 next_number_, best_only,       options_.max_work};
+  HypothesisCluster whole = expand(cluster, interpretations, context, next_node_, room_, counts_);
   const auto history = static_cast<std::size_t>(hypothesis_options_.scan_history);
   if (whole.hypotheses.size() > 1) {
     pruneHistory(whole, history);

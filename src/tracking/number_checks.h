@@ -13,16 +13,18 @@ namespace datmo {
 
 /// Nothing on the ground is farther away or larger (m), faster (m/s) or older (s): squares of such
 /// numbers stay far from the limits of a double.
-inline constexpr double kMost = 1e9;
+inline constexpr double kMaxMagnitude = 1e9;
 
-inline bool isModerate(double value) { return std::abs(value) <= kMost; }
+inline bool isModerate(double value) { return std::abs(value) <= kMaxMagnitude; }
 
-inline bool isPlace(const Point2& point) { return isModerate(point.x()) && isModerate(point.y()); }
+inline bool isPosition(const Point2& point) {
+  return isModerate(point.x()) && isModerate(point.y());
+}
 
 /// Finite, and not negative.
 inline bool isAmount(double value) { return std::isfinite(value) && value >= 0.0; }
 
-inline bool isModerateAmount(double value) { return value >= 0.0 && value <= kMost; }
+inline bool isModerateAmount(double value) { return value >= 0.0 && value <= kMaxMagnitude; }
 
 inline bool isShare(double value) { return value >= 0.0 && value <= 1.0; }
 

@@ -10,7 +10,7 @@ namespace datmo {
 namespace {
 
 /// s, before or after its list's stamp: no sensor takes as long for one measurement.
-constexpr double kLongestDelay = 10.0;
+constexpr double kMaxDelay = 10.0;
 
 bool areSides(const std::array<double, kBoxSides>& variances) {
   return std::all_of(variances.begin(), variances.end(),
@@ -20,19 +20,19 @@ bool areSides(const std::array<double, kBoxSides>& variances) {
 }  // namespace
 
 bool isValid(const Object& object) {
-  const Pose2& centre = object.box.centre;
-  return isPlace(centre.position()) && std::isfinite(centre.heading()) &&
+  const Pose2& center = object.box.center;
+  return isPosition(center.position()) && std::isfinite(center.heading()) &&
          isModerateAmount(object.box.length) && isModerateAmount(object.box.width) &&
-         std::all_of(object.points.begin(), object.points.end(), isPlace) &&
+         std::all_of(object.points.begin(), object.points.end(), isPosition) &&
          isAmount(object.heading_variance) && areSides(object.side_variance) &&
          std::isfinite(object.log_odds) && isAmount(object.height) &&
-         std::abs(object.delay) <= kLongestDelay && isShare(object.moving_fraction) &&
+         std::abs(object.delay) <= kMaxDelay && isShare(object.moving_fraction) &&
          isShare(object.class_probability) && isCovariance(object.position_covariance);
 }
 
 Object transformed(const Pose2& frame_in_parent, const Object& object) {
   Object result = object;
-  result.box.centre = frame_in_parent * object.box.centre;
+  result.box.center = frame_in_parent * object.box.center;
   const Eigen::Matrix2d rotation = frame_in_parent.rotation();
   const Eigen::Matrix2d turned = rotation * object.position_covariance * rotation.transpose();
   result.position_covariance = 0.5 * (turned + turned.transpose());

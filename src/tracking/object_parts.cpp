@@ -11,8 +11,8 @@ namespace {
 
 /// Outward normals of the sides of a box, in the order of BoxSide.
 std::array<Point2, kBoxSides> normalsOf(const Box2& box) {
-  const Point2 ahead = box.centre.rotate(Point2::UnitX());
-  const Point2 left = box.centre.rotate(Point2::UnitY());
+  const Point2 ahead = box.center.rotate(Point2::UnitX());
+  const Point2 left = box.center.rotate(Point2::UnitY());
   return {ahead, -ahead, left, -left};
 }
 
@@ -41,15 +41,15 @@ double sideVariance(const Object& object, const Point2& direction) {
 Box2 boxHolding(const std::vector<Point2>& points, double heading) {
   const Pose2 axes(Point2::Zero(), heading);
   const Pose2 back = axes.inverse();
-  Point2 least = back * points.front();
-  Point2 most = least;
+  Point2 min = back * points.front();
+  Point2 max = min;
   for (const Point2& point : points) {
     const Point2 local = back * point;
-    least = least.cwiseMin(local);
-    most = most.cwiseMax(local);
+    min = min.cwiseMin(local);
+    max = max.cwiseMax(local);
   }
-  const Point2 size = most - least;
-  return {Pose2(axes * Point2(0.5 * (least + most)), heading), size.x(), size.y()};
+  const Point2 size = max - min;
+  return {Pose2(axes * Point2(0.5 * (min + max)), heading), size.x(), size.y()};
 }
 
 /// What an object was taken for says little of the whole that it is a part of, or of its own parts;

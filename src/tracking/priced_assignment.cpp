@@ -8,42 +8,42 @@ namespace datmo {
 
 namespace {
 
-double leastOut(int row, const RowCost& row_cost, const PricedAssignment& assignment) {
-  double least = row_cost.unassigned;
+double minOut(int row, const RowCost& row_cost, const PricedAssignment& assignment) {
+  double min = row_cost.unassigned;
   for (std::size_t column = 0; column < assignment.column_price.size(); ++column) {
     if (assignment.row_of_column[column] != kFixed) {
-      least = std::min(least, row_cost.columns[column] - assignment.column_price[column]);
+      min = std::min(min, row_cost.columns[column] - assignment.column_price[column]);
     }
   }
-  return least - assignment.row_price[row];
+  return min - assignment.row_price[row];
 }
 
 /// From the void, where the column may stay, or from another open row.
-double leastIntoColumn(int column, int row, const AssignmentCosts& costs,
-                       const PricedAssignment& assignment) {
-  double least = 0.0;
+double minIntoColumn(int column, int row, const AssignmentCosts& costs,
+                     const PricedAssignment& assignment) {
+  double min = 0.0;
   for (const int other : assignment.open_rows) {
     if (other != row) {
-      least = std::min(least, costs.pairs(other, column) - assignment.row_price[other]);
+      min = std::min(min, costs.pairs(other, column) - assignment.row_price[other]);
     }
   }
-  return least - assignment.column_price[column];
+  return min - assignment.column_price[column];
 }
 
 /// From an open row that gives its column up, or from a free column.
-double leastIntoVoid(const AssignmentCosts& costs, const PricedAssignment& assignment) {
-  double least = kForbidden;
+double minIntoVoid(const AssignmentCosts& costs, const PricedAssignment& assignment) {
+  double min = kForbidden;
   for (const int row : assignment.open_rows) {
     if (assignment.column_of_row[row] != kUnassigned) {
-      least = std::min(least, costs.unassigned[row] - assignment.row_price[row]);
+      min = std::min(min, costs.unassigned[row] - assignment.row_price[row]);
     }
   }
   for (std::size_t column = 0; column < assignment.column_price.size(); ++column) {
     if (assignment.row_of_column[column] == kUnassigned) {
-      least = std::min(least, assignment.column_price[column]);
+      min = std::min(min, assignment.column_price[column]);
     }
   }
-  return least;
+  return min;
 }
 
 }  // namespace
@@ -73,15 +73,15 @@ double totalCost(const std::pmr::vector<int>& column_of_row, const AssignmentCos
   return sum;
 }
 
-double leastIncrease(int row, const RowCost& row_cost, const AssignmentCosts& costs,
-                     const PricedAssignment& assignment) {
-  const double out = leastOut(row, row_cost, assignment);
+double minIncrease(int row, const RowCost& row_cost, const AssignmentCosts& costs,
+                   const PricedAssignment& assignment) {
+  const double out = minOut(row, row_cost, assignment);
   if (out == kForbidden) {
     return kForbidden;
   }
   const int column = assignment.column_of_row[row];
-  const double in = column == kUnassigned ? leastIntoVoid(costs, assignment)
-                                          : leastIntoColumn(column, row, costs, assignment);
+  const double in = column == kUnassigned ? minIntoVoid(costs, assignment)
+                                          : minIntoColumn(column, row, costs, assignment);
   return std::max(out + in, 0.0);
 }
 

@@ -54,8 +54,8 @@ double totalCost(const std::pmr::vector<int>& column_of_row, const AssignmentCos
 /// Bound from below of how much dearer the assignment becomes once an open row may only have what
 /// `row_cost` allows, which is not what it has: the first step of the path to its new column, and
 /// the last one to its old column (AugmentingPath). kForbidden: there is no other column.
-double leastIncrease(int row, const RowCost& row_cost, const AssignmentCosts& costs,
-                     const PricedAssignment& assignment);
+double minIncrease(int row, const RowCost& row_cost, const AssignmentCosts& costs,
+                   const PricedAssignment& assignment);
 
 /// Throws std::invalid_argument where they do not belong together.
 void checkSizes(const CostMatrix& cost, const Eigen::VectorXd& unassigned_cost);

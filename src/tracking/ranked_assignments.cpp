@@ -36,14 +36,14 @@ struct Part {
 
 /// In the queue: a part, or one that a part was split into and that was not searched yet.
 struct Candidate {
-  double least_cost = 0.0;  ///< of a part: exact, else a lower bound
+  double min_cost = 0.0;  ///< of a part: exact, else a lower bound
   int part = 0;
   int position = kNone;  ///< of the row, in the order of `part`, that is to differ; kNone: a part
   int number = 0;
 
   /// Order of the queue, which has the greatest on top.
   bool operator<(const Candidate& other) const {
-    return least_cost != other.least_cost ? least_cost > other.least_cost : number > other.number;
+    return min_cost != other.min_cost ? min_cost > other.min_cost : number > other.number;
   }
 };
 
@@ -56,11 +56,11 @@ struct RowBound {
 
 class RankedAssignments::State {
  public:
-  State(CostMatrix cost, Eigen::VectorXd unassigned_cost, std::int64_t most_work)
+  State(CostMatrix cost, Eigen::VectorXd unassigned_cost, std::int64_t max_work)
       : memory_(buffer_.data(), buffer_.size()),
         cost_(std::move(cost)),
         unassigned_cost_(std::move(unassigned_cost)),
-        most_work_(most_work),
+        max_work_(max_work),
         path_(costs_, &memory_),
         present_(costs_.rows(), costs_.columns(), &memory_),
         allowed_(&memory_),
@@ -84,7 +84,7 @@ class RankedAssignments::State {
   void search(const Candidate& candidate);
   double bound(int part, int row);
   RowCost allowed(int part, int row);
-  void push(double least_cost, int part, int position);
+  void push(double min_cost, int part, int position);
   Candidate pop();
 
   const int* columnsOf(int part) const {
@@ -99,7 +99,7 @@ class RankedAssignments::State {
   CostMatrix cost_;
   Eigen::VectorXd unassigned_cost_;
   AssignmentCosts costs_{cost_, unassigned_cost_};
-  std::int64_t most_work_;
+  std::int64_t max_work_;
   std::int64_t bounding_work_ = 0;  ///< entries that were looked at for bounds
   bool cut_ = false;
   AugmentingPath path_;
@@ -131,7 +131,7 @@ std::optional<Assignment> RankedAssignments::State::next() {
     split(std::exchange(returned_, kNone));
   }
   while (!queue_.empty()) {
-    if (path_.work() + bounding_work_ > most_work_) {
+    if (path_.work() + bounding_work_ > max_work_) {
       cut_ = true;
       return std::nullopt;
     }
@@ -146,7 +146,7 @@ std::optional<Assignment> RankedAssignments::State::next() {
 }
 
 Assignment RankedAssignments::State::first() {
-  cut_ = !assignAll(costs_, most_work_, path_, present_);
+  cut_ = !assignAll(costs_, max_work_, path_, present_);
   orders_.resize(costs_.rows());
   std::iota(orders_.begin(), orders_.end(), 0);
   keep({});
@@ -239,7 +239,7 @@ void RankedAssignments::State::search(const Candidate& candidate) {
 /// Of how much dearer the best of a part becomes where this row differs.
 double RankedAssignments::State::bound(int part, int row) {
   bounding_work_ += costs_.columns();
-  return leastIncrease(row, allowed(part, row), costs_, present_);
+  return minIncrease(row, allowed(part, row), costs_, present_);
 }
 
 /// What a row may have that is to differ from the part's best, and from all that was taken away
@@ -258,8 +258,8 @@ RowCost RankedAssignments::State::allowed(int part, int row) {
   }
 }
 
-void RankedAssignments::State::push(double least_cost, int part, int position) {
-  queue_.push_back({least_cost, part, position, pushed_++});
+void RankedAssignments::State::push(double min_cost, int part, int position) {
+  queue_.push_back({min_cost, part, position, pushed_++});
   std::push_heap(queue_.begin(), queue_.end());
 }
 
@@ -271,9 +271,9 @@ Candidate RankedAssignments::State::pop() {
 }
 
 RankedAssignments::RankedAssignments(CostMatrix cost, Eigen::VectorXd unassigned_cost,
-                                     std::int64_t most_work) {
+                                     std::int64_t max_work) {
   checkSizes(cost, unassigned_cost);
-  state_ = std::make_unique<State>(std::move(cost), std::move(unassigned_cost), most_work);
+  state_ = std::make_unique<State>(std::move(cost), std::move(unassigned_cost), max_work);
 }
 
 RankedAssignments::~RankedAssignments() = default;

@@ -46,7 +46,7 @@ double RankedHypothesis::bound() const {
   return bound;
 }
 
-void RankedHypothesis::rank(std::int64_t most_work) {
+void RankedHypothesis::rank(std::int64_t max_work) {
   const Interpretation& columns = *interpretation_;
   CostMatrix costs(rows_.size(), columns.size());
   costs.setConstant(kForbidden);
@@ -62,7 +62,7 @@ void RankedHypothesis::rank(std::int64_t most_work) {
     costs.col(column).array() -= kReward;
   }
   const Eigen::VectorXd no_cost = Eigen::VectorXd::Zero(costs.rows());
-  ranked_ = std::make_unique<RankedAssignments>(std::move(costs), no_cost, most_work);
+  ranked_ = std::make_unique<RankedAssignments>(std::move(costs), no_cost, max_work);
   advance();
 }
 

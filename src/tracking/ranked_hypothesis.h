@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "datmo_fusion/tracking/hypothesis_cluster.h"
-#include "datmo_fusion/tracking/hypothesis_growth.h"
+#include "datmo_fusion/tracking/hypothesis_expansion.h"
 #include "datmo_fusion/tracking/ranked_assignments.h"
 
 namespace datmo {
@@ -23,7 +23,7 @@ class RankedHypothesis {
 
   /// Finds the best assignment, if there is any; with no more than this work (see
   /// RankedAssignments); to be called before all below.
-  void rank(std::int64_t most_work);
+  void rank(std::int64_t max_work);
 
   /// The work allowed was not enough, and the present assignment may not be the best.
   bool cut() const { return ranked_->cut(); }

@@ -22,11 +22,11 @@ Box2 widened(Box2 box, double margin) {
 
 bool mayBePartOf(const Object& object, const Box2& target, const SplitMergeOptions& options) {
   const Box2 around = widened(target, options.margin);
-  return around.contains(object.box.centre.position()) && object.box.length <= around.length;
+  return around.contains(object.box.center.position()) && object.box.length <= around.length;
 }
 
 bool mayCover(const Object& object, const Box2& target, const SplitMergeOptions& options) {
-  return widened(object.box, options.margin).contains(target.centre.position());
+  return widened(object.box, options.margin).contains(target.center.position());
 }
 
 /// Another interpretation of some objects: the observations that replace them.
@@ -92,7 +92,7 @@ class Reader {
     log_density -=
         static_cast<double>(inside.size() - 1) *
         std::log(options_.split_probability / area(widened(target.box, options_.margin)));
-    const Object whole = unionOf(parts, target.box.centre.heading());
+    const Object whole = unionOf(parts, target.box.center.heading());
     result.push_back({inside, {observe(whole, inside, log_density, target.tree)}});
   }
 
@@ -118,11 +118,11 @@ class Reader {
     const double log_density =
         0.5 * (scan_.observations[index].log_density -
                std::log(options_.merge_probability * area(widened(object.box, options_.margin))));
-    const Point2 way = covered[1].box.centre.position() - covered[0].box.centre.position();
+    const Point2 displacement = covered[1].box.center.position() - covered[0].box.center.position();
     Alternative both{{index}, {}};
     for (std::size_t i = 0; i < 2; ++i) {
-      const Object part = partOf(object, std::move(points[i]), covered[i].box.centre.heading(),
-                                 i == 0 ? way : Point2(-way));
+      const Object part = partOf(object, std::move(points[i]), covered[i].box.center.heading(),
+                                 i == 0 ? displacement : Point2(-displacement));
       both.observations.push_back(observe(part, {index}, log_density, covered[i].tree));
     }
     result.push_back(std::move(both));
@@ -176,10 +176,10 @@ void SplitMergeOptions::visit(OptionVisitor& visitor) {
                  merge_probability, {0.0, 1.0});
   visitor.number({"margin", "m", "how far outside of a target's box its parts may lie"}, margin,
                  {0.01, 10.0});
-  visitor.integer({"most_readings", "1",
+  visitor.integer({"max_readings", "1",
                    "readings of a cluster's objects, of each by itself and others; bounds the time "
                    "of a step"},
-                  most_readings, {1, 100});
+                  max_readings, {1, 100});
 }
 
 std::vector<std::size_t> relatedObjects(const Target& target, const AssociationScan& scan,
@@ -191,13 +191,13 @@ std::vector<std::size_t> relatedObjects(const Target& target, const AssociationS
   const bool splits = options.split_probability > 0.0;
   const bool merges = options.merge_probability > 0.0;
   const Box2 box = target.box();
-  const double x = box.centre.x();
+  const double x = box.center.x();
   const double reach = 0.5 * (scan.extent + box.length + box.width) + 2.0 * options.margin;
   const auto end = scan.observations.begin() + static_cast<std::ptrdiff_t>(scan.objects);
   auto next = std::lower_bound(
       scan.observations.begin(), end, x - reach,
-      [](const Observation& o, double least) { return o.object.box.centre.x() < least; });
-  for (; next != end && next->object.box.centre.x() <= x + reach; ++next) {
+      [](const Observation& o, double min) { return o.object.box.center.x() < min; });
+  for (; next != end && next->object.box.center.x() <= x + reach; ++next) {
     if ((splits && mayBePartOf(next->object, box, options)) ||
         (merges && mayCover(next->object, box, options))) {
       result.push_back(static_cast<std::size_t>(next - scan.observations.begin()));
@@ -215,9 +215,9 @@ void addSplitAndMerged(HypothesisCluster& cluster, AssociationScan& scan,
   Interpretation all = objects;
   std::vector<std::size_t> replaced_objects;
   std::size_t used = 0;
-  const auto most = static_cast<std::size_t>(options.most_readings);
+  const auto max = static_cast<std::size_t>(options.max_readings);
   for (const Alternative& alternative : alternatives) {
-    if (interpretations.size() < most) {
+    if (interpretations.size() < max) {
       interpretations.push_back(replaced(objects, alternative));
     }
     if (!overlap(replaced_objects, alternative.sources)) {
@@ -228,8 +228,8 @@ void addSplitAndMerged(HypothesisCluster& cluster, AssociationScan& scan,
       ++used;
     }
   }
-  if (used > 1 && most > 1) {
-    interpretations.resize(std::min(interpretations.size(), most - 1));
+  if (used > 1 && max > 1) {
+    interpretations.resize(std::min(interpretations.size(), max - 1));
     interpretations.push_back(all);
   }
 }

@@ -23,13 +23,13 @@ ImmFilter birth(const Object& object, const PositionMeasurement& measured,
 }
 
 /// How many times in a row two sensors saw it move; one sensor alone adds nothing.
-int sightsAfter(int before, const Object& object, double least_free_share) {
+int detectionsAfter(int before, const Object& object, double min_free_share) {
   if (object.sensors.size() < 2) {
     return before;
   }
   const bool moves = object.dynamic_state == DynamicState::kMoving &&
                      object.object_class != ObjectClass::kPole &&
-                     object.moving_fraction >= least_free_share;
+                     object.moving_fraction >= min_free_share;
   return moves ? before + 1 : 0;
 }
 
@@ -60,7 +60,7 @@ void TargetOptions::visit(OptionVisitor& visitor) {
                   "standard deviation of each component of the velocity of a new object"},
                  birth_speed_std, {0.1, 100.0});
   visitor.number({"stop_speed", "m/s",
-                  "a moving object stands when it is slower; below evidence/least_speed, so that "
+                  "a moving object stands when it is slower; below evidence/min_speed, so that "
                   "noise does not switch it"},
                  stop_speed, {0.01, 100.0});
   visitor.number({"fused_free_share", "1",
@@ -68,16 +68,16 @@ void TargetOptions::visit(OptionVisitor& visitor) {
                   "is free for it to be known as moving at once: less may be an echo beside "
                   "something that stands"},
                  fused_free_share, {0.0, 1.0});
-  visitor.integer({"fused_vehicle_sights", "1",
+  visitor.integer({"fused_vehicle_detections", "1",
                    "times in a row that this is so before it is known of a vehicle, and of what "
                    "has no class yet; others at the first detection (thesis 3.3.4: all)"},
-                  fused_vehicle_sights, {1, 100});
+                  fused_vehicle_detections, {1, 100});
   visitor.number({"fused_history", "s",
                   "who was followed for longer must have a significant velocity besides"},
                  fused_history, {0.0, 60.0});
   visitor.number({"fused_proof_time", "s",
                   "who was known as moving at once and is not seen to move in this time, nor may "
-                  "be, is no track: a person of 1.4 m/s goes twice evidence/least_overrun"},
+                  "be, is no track: a person of 1.4 m/s goes twice evidence/min_overrun"},
                  fused_proof_time, {0.0, 60.0});
 }
 
@@ -87,9 +87,9 @@ Target::Target(const Object& object, std::size_t index, std::uint64_t number,
       filter_(birth(object, box_.measurementOf(object), options, transitions)),
       evidence_(object, options.evidence),
       number_(number),
-      seen_as_(index),
+      measurement_index_(index),
       height_(object.height),
-      sights_of_two_(sightsAfter(0, object, options.fused_free_share)),
+      detections_of_two_(detectionsAfter(0, object, options.fused_free_share)),
       sensors_(std::make_shared<const std::vector<std::string>>(object.sensors)) {
   class_.update(object.object_class, object.class_probability);
 }
@@ -100,7 +100,7 @@ void Target::predict(double seconds, const ImmSteps& steps, const TargetOptions&
   evidence_.predict(seconds, options.evidence);
   age_ += seconds;
   since_update_ += seconds;
-  seen_as_ = kUnseen;
+  measurement_index_ = kUnseen;
 }
 
 void Target::update(const Object& object, std::size_t index, double detection_probability,
@@ -108,7 +108,7 @@ void Target::update(const Object& object, std::size_t index, double detection_pr
   const PositionMeasurement measured = measurementOf(object);
   evidence_.update(object, measured, filter_.logLikelihood(measured), detection_probability,
                    options.evidence);
-  filter_.update(measured, options.filter.least_probability);
+  filter_.update(measured, options.filter.min_probability);
   const Point2 shift = box_.update(object, since_update_, options.box);
   filter_.shift(shift);
   evidence_.shift(shift);
@@ -119,10 +119,10 @@ void Target::update(const Object& object, std::size_t index, double detection_pr
                                       estimate.covariance.block<2, 2>(2, 2), options.box));
   }
   ++hits_;
-  seen_as_ = index;
+  measurement_index_ = index;
   since_update_ = 0.0;
   height_ = object.height > 0.0 ? object.height : height_;
-  sights_of_two_ = sightsAfter(sights_of_two_, object, options.fused_free_share);
+  detections_of_two_ = detectionsAfter(detections_of_two_, object, options.fused_free_share);
   if (object.sensors != *sensors_) {
     sensors_ = std::make_shared<const std::vector<std::string>>(object.sensors);
   }
@@ -143,13 +143,14 @@ double Target::sameClassProbability(const Object& object) const {
 bool Target::isSeenMovingByTwo(const TargetOptions& options) const {
   const bool person =
       objectClass() == ObjectClass::kPedestrian || objectClass() == ObjectClass::kCyclist;
-  if (sensors_->size() < 2 || sights_of_two_ < (person ? 1 : options.fused_vehicle_sights)) {
+  if (sensors_->size() < 2 ||
+      detections_of_two_ < (person ? 1 : options.fused_vehicle_detections)) {
     return false;
   }
   return followed() <= options.fused_history
              ? mayMove(options)
              : velocityIsSignificant(filter_.estimate(), options.evidence.speed_significance,
-                                     options.evidence.least_speed);
+                                     options.evidence.min_speed);
 }
 
 double Target::existenceProbability(const TargetOptions& options) const {
@@ -168,7 +169,7 @@ void Target::judgeMotion(const TargetOptions& options) {
   if (evidence_.seemsToStand() || estimate.mean.segment<2>(2).norm() < options.stop_speed) {
     moving_ = false;
   } else if (velocityIsSignificant(estimate, options.evidence.speed_significance,
-                                   options.evidence.least_speed)) {
+                                   options.evidence.min_speed)) {
     moving_ = true;
   }
 }

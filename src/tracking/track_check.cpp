@@ -11,15 +11,17 @@ namespace datmo {
 
 namespace {
 
-bool isPose(const Pose2& pose) { return isPlace(pose.position()) && std::isfinite(pose.heading()); }
+bool isPose(const Pose2& pose) {
+  return isPosition(pose.position()) && std::isfinite(pose.heading());
+}
 
 bool isBox(const Box2& box) {
-  return isPose(box.centre) && isModerateAmount(box.length) && isModerateAmount(box.width);
+  return isPose(box.center) && isModerateAmount(box.length) && isModerateAmount(box.width);
 }
 
 bool isState(const TrackState& state, const TrackCovariance& covariance) {
-  return (state.array().abs() <= kMost).all() && isCovariance(covariance) &&
-         covariance.diagonal().maxCoeff() <= kMost * kMost;
+  return (state.array().abs() <= kMaxMagnitude).all() && isCovariance(covariance) &&
+         covariance.diagonal().maxCoeff() <= kMaxMagnitude * kMaxMagnitude;
 }
 
 template <std::size_t count>
@@ -42,8 +44,8 @@ bool isValid(const Track& track) {
 bool isValid(const ViewFan& fan) {
   return isPose(fan.sensor) && std::isfinite(fan.first_bearing) &&
          std::isfinite(fan.beam_spacing) && std::isfinite(1.0 / fan.beam_spacing) &&
-         std::isfinite(fan.least_range) && std::isfinite(fan.sure_range) &&
-         std::isfinite(fan.range) && fan.reach.size() <= kMostBeams &&
+         std::isfinite(fan.min_range) && std::isfinite(fan.sure_range) &&
+         std::isfinite(fan.range) && fan.reach.size() <= kMaxBeams &&
          std::all_of(fan.reach.begin(), fan.reach.end(), isAmount);
 }
 

@@ -12,7 +12,7 @@ void TrackPaths::extend(TrackList& list, double seconds) {
     if (old != paths_.end()) {
       path = std::move(old->second);
     }
-    path.push_back({list.stamp, track.box.centre});
+    path.push_back({list.stamp, track.box.center});
     while (secondsBetween(path.front().stamp, list.stamp) > seconds) {
       path.pop_front();
     }

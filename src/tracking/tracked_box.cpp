@@ -11,9 +11,9 @@ namespace {
 constexpr double kUnknownSideVariance = kQuarterTurn * kQuarterTurn * kUniformVariance;
 
 /// Velocities of successive scans are nearly the same information: logarithm of odds of one.
-constexpr double kMostOddsOfOneVelocity = 2.0;
+constexpr double kMaxOddsOfOneVelocity = 2.0;
 
-/// Share of the step from the sides that the filter's centre rests on to those seen now, in one
+/// Share of the step from the sides that the filter's center rests on to those seen now, in one
 /// scan: the filter believes the new ones little as long as the size between them is not known.
 constexpr double kHandover = 0.3;
 
@@ -54,25 +54,25 @@ SeenBox seenFrom(double heading, const Object& object) {
   constexpr std::array<BoxSide, kBoxSides> kToTheLeft = {BoxSide::kFront, BoxSide::kLeft,
                                                          BoxSide::kRear, BoxSide::kRight};
   const Box2& box = object.box;
-  const auto turn = static_cast<std::size_t>(quartersBetween(box.centre.heading(), heading));
+  const auto turn = static_cast<std::size_t>(quartersBetween(box.center.heading(), heading));
   const auto variance = [&](std::size_t quarter) {
     const BoxSide side = kToTheLeft[(turn + quarter) % kBoxSides];
     return object.side_variance[static_cast<std::size_t>(side)];
   };
   const bool across = turn % 2 == 1;
-  return {normalizeAngle(box.centre.heading() + static_cast<double>(turn) * kQuarterTurn),
+  return {normalizeAngle(box.center.heading() + static_cast<double>(turn) * kQuarterTurn),
           {SeenAxis{across ? box.width : box.length, variance(0), variance(2)},
            SeenAxis{across ? box.length : box.width, variance(1), variance(3)}}};
 }
 
-/// The centre along one axis is best estimated by `middle of the sides seen + share * (size -
+/// The center along one axis is best estimated by `middle of the sides seen + share * (size -
 /// extent)`.
 struct AxisMeasurement {
   double share;     ///< -0.5 to 0.5
   double variance;  ///< m^2, of what is independent from scan to scan
 };
 
-/// Least squares over both sides and the size as it is known, whose error moves the centre away
+/// Least squares over both sides and the size as it is known, whose error moves the center away
 /// from either side: C = [a + P/4, -P/4; -P/4, b + P/4].
 AxisMeasurement measured(const SeenAxis& seen, double size, double size_variance,
                          double last_share) {
@@ -115,18 +115,18 @@ void TrackedBoxOptions::visit(OptionVisitor& visitor) {
   visitor.number({"heading_drift", "rad^2/s", "growth of the heading's variance while not seen"},
                  heading_drift, {0.0, 10.0});
   visitor.number({"slip_std", "rad",
-                  "standard deviation of the angle between heading and velocity of the centre: it "
+                  "standard deviation of the angle between heading and velocity of the center: it "
                   "is not zero in bends"},
                  slip_std, {0.0, 1.0});
-  visitor.number({"reverse_speed", "m/s", "faster than this nothing moves backwards"},
-                 reverse_speed, {0.0, 100.0});
+  visitor.number({"reverse_speed", "m/s", "faster than this nothing moves backward"}, reverse_speed,
+                 {0.0, 100.0});
   visitor.number({"reverse_time", "s",
-                  "nothing moves backwards for longer, nor for longer than it moved ahead before"},
+                  "nothing moves backward for longer, nor for longer than it moved ahead before"},
                  reverse_time, {0.0, 1000.0});
 }
 
 TrackedBox::TrackedBox(const Object& object, const TrackedBoxOptions& options)
-    : heading_(object.box.centre.heading()),
+    : heading_(object.box.center.heading()),
       heading_variance_(kUnknownHeadingVariance),
       size_(options.size) {
   anchor_share_ = sharesOf(seenFrom(heading_, object), size_, anchor_share_);
@@ -154,7 +154,7 @@ PositionMeasurement TrackedBox::measurementOf(const Object& object) const {
     extent[axis] = sides.extent;
     variance[axis] = along.variance + change * change * size_variance;
   }
-  return {object.box.centre.position() - turned(seen.heading, share.cwiseProduct(extent)) +
+  return {object.box.center.position() - turned(seen.heading, share.cwiseProduct(extent)) +
               turned(heading_, share.cwiseProduct(size_.mean())),
           object.position_covariance + alongAxes(seen.heading, variance), object.delay};
 }
@@ -197,7 +197,7 @@ Point2 TrackedBox::followVelocity(const Eigen::Vector2d& velocity,
   const double apart = std::abs(angleBetween(heading_, nearerDirection(direction, heading_)));
   const double odds = 0.5 * kQuarterTurn * (kQuarterTurn - 2.0 * apart) /
                       (variance + std::min(heading_variance_, kUnknownSideVariance));
-  size_.addOddsAlongFirst(std::clamp(odds, -kMostOddsOfOneVelocity, kMostOddsOfOneVelocity));
+  size_.addOddsAlongFirst(std::clamp(odds, -kMaxOddsOfOneVelocity, kMaxOddsOfOneVelocity));
   if (size_.probabilityAlongFirst() < 1.0 - kSureOfOtherAxis) {
     turnByQuarters(1);
     sign_known_ = false;
@@ -212,7 +212,7 @@ Point2 TrackedBox::followVelocity(const Eigen::Vector2d& velocity,
   return offset() - before;
 }
 
-Eigen::Matrix2d TrackedBox::centreCovariance() const {
+Eigen::Matrix2d TrackedBox::centerCovariance() const {
   const Eigen::Vector2d lever = offset();
   const Eigen::Vector2d swing(-lever.y(), lever.x());
   const double turn_variance = std::min(heading_variance_, kUnknownSideVariance);
@@ -220,8 +220,8 @@ Eigen::Matrix2d TrackedBox::centreCovariance() const {
          turn_variance * swing * swing.transpose();
 }
 
-Box2 TrackedBox::at(const Point2& centre) const {
-  return {Pose2(centre, heading_), size_.mean().x(), size_.mean().y()};
+Box2 TrackedBox::at(const Point2& center) const {
+  return {Pose2(center, heading_), size_.mean().x(), size_.mean().y()};
 }
 
 double TrackedBox::headingVariance() const {
@@ -230,16 +230,16 @@ double TrackedBox::headingVariance() const {
                   heading_variance_ + other_axis * kQuarterTurn * kQuarterTurn);
 }
 
-/// From the sides that were seen to the centre, m, fixed frame.
+/// From the sides that were seen to the center, m, fixed frame.
 Eigen::Vector2d TrackedBox::offset() const {
   return turned(heading_, anchor_share_.cwiseProduct(size_.mean()));
 }
 
 /// First motion is ahead, and so is fast motion; otherwise it may be reversing.
 void TrackedBox::takeFrontAhead(double direction, double speed, const TrackedBoxOptions& options) {
-  const bool backwards = std::cos(direction - heading_) < 0.0;
-  ahead_ += backwards ? -since_velocity_ : since_velocity_;
-  if (backwards && (!sign_known_ || speed > options.reverse_speed || ahead_ < 0.0)) {
+  const bool backward = std::cos(direction - heading_) < 0.0;
+  ahead_ += backward ? -since_velocity_ : since_velocity_;
+  if (backward && (!sign_known_ || speed > options.reverse_speed || ahead_ < 0.0)) {
     turnByQuarters(2);
     ahead_ = 0.0;
   }

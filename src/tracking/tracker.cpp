@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "datmo_fusion/tracking/multiple_hypotheses.h"
-#include "datmo_fusion/tracking/nearest_neighbour.h"
+#include "datmo_fusion/tracking/nearest_neighbor.h"
 #include "datmo_fusion/tracking/track_paths.h"
 
 namespace datmo {
@@ -25,8 +25,8 @@ double positionStd(const Target& target) {
 }
 
 std::unique_ptr<TargetSet> makeTargets(const TrackerOptions& options) {
-  if (options.association == TrackerOptions::kGlobalNearestNeighbour) {
-    return std::make_unique<NearestNeighbourTargets>(options.target, options.gating);
+  if (options.association == TrackerOptions::kGlobalNearestNeighbor) {
+    return std::make_unique<NearestNeighborTargets>(options.target, options.gating);
   }
   return std::make_unique<MultipleHypotheses>(options.target, options.gating, options.hypotheses,
                                               options.split_merge);
@@ -52,7 +52,7 @@ class Tracker::State {
     targets_->predict(seconds);
     removeLost();
     AssociationScan scan =
-        takeIn(list.objects, base_in_fixed, visibility, clutter_, options_.intake, counts_.intake);
+        ingest(list.objects, base_in_fixed, visibility, clutter_, options_.intake, counts_.intake);
     scan.transition_priors = &transition_priors_;
     makeRoom(scan.objects, seconds);
     targets_->associate(scan, budget);
@@ -100,8 +100,8 @@ class Tracker::State {
   /// So that new objects are never refused for the sake of old false alarms.
   void makeRoom(std::size_t objects, double seconds) {
     const std::vector<BestTarget> all = targets_->best();
-    const auto most = static_cast<std::size_t>(options_.gating.most_targets);
-    if (all.size() + objects <= most) {
+    const auto max = static_cast<std::size_t>(options_.gating.max_targets);
+    if (all.size() + objects <= max) {
       return;
     }
     std::vector<const Target*> unlikely;
@@ -115,7 +115,7 @@ class Tracker::State {
       return std::make_tuple(existence(*a), a->hits(), a->number()) <
              std::make_tuple(existence(*b), b->hits(), b->number());
     });
-    unlikely.resize(std::min(unlikely.size(), all.size() + objects - most));
+    unlikely.resize(std::min(unlikely.size(), all.size() + objects - max));
     std::set<std::uint64_t> numbers;
     for (const Target* target : unlikely) {
       numbers.insert(target->number());
@@ -135,18 +135,18 @@ class Tracker::State {
   }
 
   /// How long a track that was followed for this time may go unseen.
-  double silenceAfter(double followed, double most) const {
-    return std::min(most, std::max(options_.tentative_silence, followed));
+  double silenceAfter(double followed, double max) const {
+    return std::min(max, std::max(options_.tentative_silence, followed));
   }
 
   bool isLost(const Target& target) const {
     const double allowed = target.confirmed()
                                ? silenceAfter(target.followed(), options_.confirmed_silence)
                                : options_.tentative_silence;
-    return (target.confirmed() && existence(target) < options_.least_existence) ||
-           (options_.require_motion && target.turnedOutToStand(options_.target)) ||
+    return (target.confirmed() && existence(target) < options_.min_existence) ||
+           (options_.require_motion && target.motionRefuted(options_.target)) ||
            target.sinceUpdate() > allowed ||
-           !(positionStd(target) <= options_.most_position_std);  // nor what is not a number
+           !(positionStd(target) <= options_.max_position_std);  // nor what is not a number
   }
 
   double existence(const Target& target) const {
@@ -184,7 +184,8 @@ class Tracker::State {
   bool deservesTrack(const Target& target) const {
     const bool fused = target.sensors().size() > 1;
     const int hits = fused ? options_.fused_confirmation_hits : options_.confirmation_hits;
-    return target.seenAs() != kUnseen && target.hits() >= static_cast<std::uint32_t>(hits) &&
+    return target.measurementIndex() != kUnseen &&
+           target.hits() >= static_cast<std::uint32_t>(hits) &&
            (!options_.require_motion || seemsToMove(target)) &&
            target.objectClass() != ObjectClass::kPole &&
            existence(target) >= options_.confirmation_existence;
@@ -194,9 +195,9 @@ class Tracker::State {
   void learnClutter(const AssociationScan& scan, double seconds) {
     std::vector<bool> explained(scan.objects, false);
     for (const BestTarget& best : targets_->best()) {
-      const std::size_t seen_as = best.target->seenAs();
-      if (best.target->confirmed() && seen_as != kUnseen) {
-        for (const std::size_t source : scan.observations[seen_as].sources) {
+      const std::size_t measurement_index = best.target->measurementIndex();
+      if (best.target->confirmed() && measurement_index != kUnseen) {
+        for (const std::size_t source : scan.observations[measurement_index].sources) {
           explained[source] = true;
         }
       }
@@ -205,7 +206,7 @@ class Tracker::State {
     for (std::size_t i = 0; i < scan.objects; ++i) {
       if (!explained[i]) {
         unexplained.push_back(scan.fixed_in_base *
-                              scan.observations[i].object.box.centre.position());
+                              scan.observations[i].object.box.center.position());
       }
     }
     clutter_.learn(unexplained, seconds);
@@ -227,8 +228,8 @@ class Tracker::State {
   Track trackOf(const BestTarget& best, const AssociationScan& scan) const {
     Track track = best.target->track(options_.target);
     track.existence_probability = best.probability * existence(*best.target);
-    if (best.target->seenAs() != kUnseen) {
-      track.objects = scan.listedSources(best.target->seenAs());
+    if (best.target->measurementIndex() != kUnseen) {
+      track.objects = scan.listedSources(best.target->measurementIndex());
     }
     return track;
   }

@@ -5,8 +5,8 @@ namespace datmo {
 void TrackerOptions::visit(OptionVisitor& visitor) {
   visitor.text({"association", "",
                 "which object is of which target: multiple hypotheses over several scans (Reid "
-                "1979; thesis 3.3.4), or the global nearest neighbour of each scan by itself"},
-               association, {kMultipleHypotheses, kGlobalNearestNeighbour});
+                "1979; thesis 3.3.4), or the global nearest neighbor of each scan by itself"},
+               association, {kMultipleHypotheses, kGlobalNearestNeighbor});
   visitor.group("hypotheses", [&] { hypotheses.visit(visitor); });
   visitor.group("split_merge", [&] { split_merge.visit(visitor); });
   visitor.group("intake", [&] { intake.visit(visitor); });
@@ -32,8 +32,8 @@ void TrackerOptions::visit(OptionVisitor& visitor) {
       {"confirmation_existence", "1", "existence probability from which a target is confirmed"},
       confirmation_existence, kProbability);
   visitor.number(
-      {"least_existence", "1", "existence probability below which a confirmed track is deleted"},
-      least_existence, kProbability);
+      {"min_existence", "1", "existence probability below which a confirmed track is deleted"},
+      min_existence, kProbability);
   visitor.number({"published_existence", "1",
                   "existence probability from which a confirmed track is published"},
                  published_existence, kProbability);
@@ -48,9 +48,9 @@ void TrackerOptions::visit(OptionVisitor& visitor) {
                   "a track not seen for longer is not published; less long if it was followed for "
                   "less than twice that, but no less than an unconfirmed one is kept"},
                  published_silence, kSilence);
-  visitor.number({"most_position_std", "m",
+  visitor.number({"max_position_std", "m",
                   "a target is deleted when the standard deviation of its position is larger"},
-                 most_position_std, {0.1, 100.0});
+                 max_position_std, {0.1, 100.0});
   visitor.number({"history_time", "s", "how much of its path is published with a track"},
                  history_time, {0.0, 60.0});
   visitor.number({"time_budget", "s",

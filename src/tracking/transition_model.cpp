@@ -8,10 +8,10 @@ namespace datmo {
 namespace {
 
 /// Least weight of a row, as a share of its prior's.
-constexpr double kLeastWeight = 0.1;
+constexpr double kMinWeight = 0.1;
 
 /// Of a step so long that a mode is hardly ever kept, no rate can be estimated.
-constexpr double kLeastKept = 1e-3;
+constexpr double kMinKept = 1e-3;
 
 JumpCounts operator+(const JumpCounts& a, const JumpCounts& b) {
   return {a.jumps + b.jumps, a.exposure + b.exposure};
@@ -34,27 +34,27 @@ ModeVector sojournTimes(const TransitionOptions& options) {
 /// any weight is left becomes the prior's.
 void boundRow(JumpCounts& counts, int from, const JumpCounts& prior,
               const TransitionLearningOptions& options) {
-  if (counts.exposure[from] < kLeastWeight * prior.exposure[from]) {
+  if (counts.exposure[from] < kMinWeight * prior.exposure[from]) {
     counts.exposure[from] = prior.exposure[from];
     counts.jumps.row(from) = prior.jumps.row(from);
   }
-  const double least = counts.exposure[from] / options.most_sojourn;
-  // Where the bounds contradict each other, most_sojourn holds.
-  const double most = std::max(least, counts.exposure[from] / options.least_sojourn);
-  const double floor = options.least_share * std::max(counts.jumps.row(from).sum(), least);
+  const double min = counts.exposure[from] / options.max_sojourn;
+  // Where the bounds contradict each other, max_sojourn holds.
+  const double max = std::max(min, counts.exposure[from] / options.min_sojourn);
+  const double floor = options.min_share * std::max(counts.jumps.row(from).sum(), min);
   for (int to = 0; to < kMotionModes; ++to) {
     double& jumps = counts.jumps(from, to);
     jumps = prior.jumps(from, to) > 0.0 ? std::max(jumps, floor) : 0.0;
   }
   const double sum = counts.jumps.row(from).sum();
   if (sum > 0.0) {
-    counts.jumps.row(from) *= std::clamp(sum, least, most) / sum;
+    counts.jumps.row(from) *= std::clamp(sum, min, max) / sum;
   }
 }
 
 /// The counts with no row of more than this exposure (s).
-JumpCounts limited(JumpCounts counts, double most_exposure) {
-  const ModeVector factor = (most_exposure / counts.exposure.array()).min(1.0);
+JumpCounts limited(JumpCounts counts, double max_exposure) {
+  const ModeVector factor = (max_exposure / counts.exposure.array()).min(1.0);
   return {factor.asDiagonal() * counts.jumps, factor.cwiseProduct(counts.exposure)};
 }
 
@@ -84,12 +84,12 @@ void TransitionLearningOptions::visit(OptionVisitor& visitor) {
       class_exposure, kExposure);
   visitor.number({"forgetting", "s", "time constant with which a target forgets what it has shown"},
                  forgetting, {0.1, 1e6});
-  visitor.number({"least_sojourn", "s", "no mode lasts less on average, whatever is learnt"},
-                 least_sojourn, {0.01, 10.0});
-  visitor.number({"most_sojourn", "s", "no mode lasts longer on average, whatever is learnt"},
-                 most_sojourn, {1.0, 1e6});
-  visitor.number({"least_share", "1", "of all jumps from a mode, each goes to each other mode"},
-                 least_share, {0.0, 0.2});
+  visitor.number({"min_sojourn", "s", "no mode lasts less on average, whatever is learned"},
+                 min_sojourn, {0.01, 10.0});
+  visitor.number({"max_sojourn", "s", "no mode lasts longer on average, whatever is learned"},
+                 max_sojourn, {1.0, 1e6});
+  visitor.number({"min_share", "1", "of all jumps from a mode, each goes to each other mode"},
+                 min_share, {0.0, 0.2});
 }
 
 void TransitionOptions::visit(OptionVisitor& visitor) {
@@ -104,7 +104,7 @@ void TransitionOptions::visit(OptionVisitor& visitor) {
   visitor.toggle({"standing", "", "whether standing is a mode; false: the four of thesis 3.3.4"},
                  standing);
   visitor.toggle({"adaptive", "",
-                  "whether the transition probabilities are learnt while tracking (thesis 3.3.4; "
+                  "whether the transition probabilities are learned while tracking (thesis 3.3.4; "
                   "Jilkov & Li 2004); false: they follow from the sojourn times alone"},
                  adaptive);
   visitor.group("learning", [&] { learning.visit(visitor); });
@@ -187,7 +187,7 @@ void TransitionModel::update(const ModeVector& before, const ModeVector& likelih
 /// `joint`: probabilities that the mode was `from` and is each one now.
 void TransitionModel::updateRow(JumpCounts& counts, int from, const ModeVector& joint) const {
   const ModeVector mean = matrix_.row(from).transpose();
-  if (mean[from] < kLeastKept || mean[from] >= 1.0) {
+  if (mean[from] < kMinKept || mean[from] >= 1.0) {
     return;
   }
   const double strength = counts.exposure[from] / seconds_;

@@ -14,7 +14,7 @@ namespace {
 constexpr double kFanSpacing = degrees(0.25);
 
 /// Nothing that a sensor detects is narrower (m): a leg, a post.
-constexpr double kLeastWidth = 0.1;
+constexpr double kMinWidth = 0.1;
 
 /// More beams than this add nothing to the chance that one returns.
 constexpr double kManyBeams = 50.0;
@@ -34,8 +34,8 @@ class Visibility::Outline {
 
   bool holdsSensor() const { return (sensor_.cwiseAbs() - half_).maxCoeff() <= 0.0; }
 
-  double distance() const { return distance_; }    ///< m, of the centre
-  double width() const { return most_ - least_; }  ///< rad
+  double distance() const { return distance_; }  ///< m, of the center
+  double width() const { return max_ - min_; }   ///< rad
 
   /// Calls `use(bearing, crossing)` for the lines through the middles of so many equal parts of the
   /// width; bearing in rad, about the sensor.
@@ -50,31 +50,31 @@ class Visibility::Outline {
   Point2 sensor_;    ///< m, in the box's frame
   double distance_;  ///< m
   double bearing_;   ///< rad
-  double towards_;   ///< rad, of the line from the sensor to the centre in the box's frame
-  double least_;     ///< rad, right edge, from the bearing
-  double most_;      ///< rad, left edge
+  double toward_;    ///< rad, of the line from the sensor to the center in the box's frame
+  double min_;       ///< rad, right edge, from the bearing
+  double max_;       ///< rad, left edge
 };
 
 Visibility::Outline::Outline(const Box2& box, const Pose2& sensor)
-    : half_(0.5 * std::max(box.length, kLeastWidth), 0.5 * std::max(box.width, kLeastWidth)) {
-  const double heading = box.centre.heading();
-  const Point2 line = box.centre.position() - sensor.position();
+    : half_(0.5 * std::max(box.length, kMinWidth), 0.5 * std::max(box.width, kMinWidth)) {
+  const double heading = box.center.heading();
+  const Point2 line = box.center.position() - sensor.position();
   const double c = std::cos(heading);
   const double s = std::sin(heading);
-  const Point2 to_centre(c * line.x() + s * line.y(), c * line.y() - s * line.x());
-  sensor_ = -to_centre;
-  distance_ = to_centre.norm();
-  towards_ = std::atan2(to_centre.y(), to_centre.x());
-  bearing_ = towards_ + heading - sensor.heading();
-  least_ = 0.0;
-  most_ = 0.0;
+  const Point2 to_center(c * line.x() + s * line.y(), c * line.y() - s * line.x());
+  sensor_ = -to_center;
+  distance_ = to_center.norm();
+  toward_ = std::atan2(to_center.y(), to_center.x());
+  bearing_ = toward_ + heading - sensor.heading();
+  min_ = 0.0;
+  max_ = 0.0;
   for (const double x : {-half_.x(), half_.x()}) {
     for (const double y : {-half_.y(), half_.y()}) {
-      const Point2 corner(to_centre.x() + x, to_centre.y() + y);
-      const double cross = to_centre.x() * corner.y() - to_centre.y() * corner.x();
-      const double offset = std::atan2(cross, to_centre.dot(corner));
-      least_ = std::min(least_, offset);
-      most_ = std::max(most_, offset);
+      const Point2 corner(to_center.x() + x, to_center.y() + y);
+      const double cross = to_center.x() * corner.y() - to_center.y() * corner.x();
+      const double offset = std::atan2(cross, to_center.dot(corner));
+      min_ = std::min(min_, offset);
+      max_ = std::max(max_, offset);
     }
   }
 }
@@ -97,8 +97,8 @@ void Visibility::Outline::forEachLook(std::size_t parts, const Use& use) const {
   const double step = width() / static_cast<double>(parts);
   const double c = std::cos(step);
   const double s = std::sin(step);
-  double offset = least_ + 0.5 * step;
-  Point2 direction(std::cos(towards_ + offset), std::sin(towards_ + offset));
+  double offset = min_ + 0.5 * step;
+  Point2 direction(std::cos(toward_ + offset), std::sin(toward_ + offset));
   for (std::size_t part = 0; part < parts; ++part) {
     use(bearing_ + offset, crossing(direction));
     offset += step;
@@ -112,13 +112,13 @@ void VisibilityOptions::visit(OptionVisitor& visitor) {
                   "chance that one beam that meets an object returns; it falls from the scan's "
                   "free_range on to 0 at the scanner's reach"},
                  beam_detection, {0.01, 0.999});
-  visitor.number({"most_probability", "1",
+  visitor.number({"max_probability", "1",
                   "that an object is detected which many beams meet: segmentation may still join "
                   "it to something else"},
-                 most_probability, {0.1, 0.999});
-  visitor.number({"least_probability", "1",
+                 max_probability, {0.1, 0.999});
+  visitor.number({"min_probability", "1",
                   "that an object is detected which no beam can reach: the view may be wrong"},
-                 least_probability, {0.0, 0.1});
+                 min_probability, {0.0, 0.1});
   visitor.number({"unknown_probability", "1",
                   "that an object is detected when nothing is known of the sensor's view"},
                  unknown_probability, {0.1, 0.999});
@@ -132,13 +132,13 @@ Visibility::Visibility(const VisibilityOptions& options) : options_(options) {
   checkOptions(options);
 }
 
-Visibility::Visibility(const SplitScan& scan, const VisibilityOptions& options)
+Visibility::Visibility(const LabeledScan& scan, const VisibilityOptions& options)
     : Visibility(options) {
   const ScanField& field = scan.field;
   ViewFan fan{scan.scanner_in_base,
               field.first_bearing,
               field.beam_spacing,
-              field.least_range,
+              field.min_range,
               field.free_range > 0.0 ? field.free_range : field.range,
               field.range,
               true,
@@ -160,8 +160,8 @@ Visibility::Visibility(const FieldOfView& view, const std::vector<Box2>& seen,
                        const VisibilityOptions& options)
     : Visibility(options) {
   const double beams =
-      std::max(0.0, std::round((view.most_bearing - view.least_bearing) / kFanSpacing));
-  setFan({view.sensor_in_base, view.least_bearing + 0.5 * kFanSpacing, kFanSpacing, 0.0,
+      std::max(0.0, std::round((view.max_bearing - view.min_bearing) / kFanSpacing));
+  setFan({view.sensor_in_base, view.min_bearing + 0.5 * kFanSpacing, kFanSpacing, 0.0,
           view.sure_range, view.range, false,
           std::vector<double>(static_cast<std::size_t>(beams), view.range)});
   for (const Box2& box : seen) {
@@ -232,7 +232,7 @@ double Visibility::clearShare(const Looks& looks, const Shift& shift) const {
   std::size_t clear = 0;
   for (const Look& look : looks) {
     const double range = look.range + shift.range;
-    const bool in_range = range >= fan_.least_range && range <= fan_.range;
+    const bool in_range = range >= fan_.min_range && range <= fan_.range;
     const auto beam = beamAt(look.bearing + shift.bearing);
     if (in_range && beam && range <= fan_.reach[*beam] + options_.blocking_distance) {
       ++clear;
@@ -262,7 +262,7 @@ double Visibility::detectionProbability(const Box2& box, double sigma) const {
   for (const Visibility& other : others_) {
     missed *= 1.0 - other.detectionProbability(box, sigma);
   }
-  return std::min(1.0 - missed, options_.most_probability);
+  return std::min(1.0 - missed, options_.max_probability);
 }
 
 double Visibility::ownDetectionProbability(const Box2& box, double sigma) const {
@@ -290,8 +290,8 @@ double Visibility::ownDetectionProbability(const Box2& box, double sigma) const 
                          seenAt({0.0, -step})) /
                             6.0;
   }
-  return std::clamp(options_.most_probability * mean, options_.least_probability,
-                    options_.most_probability);
+  return std::clamp(options_.max_probability * mean, options_.min_probability,
+                    options_.max_probability);
 }
 
 }  // namespace datmo

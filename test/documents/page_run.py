@@ -35,9 +35,9 @@ def make_folder(folder, source, environment_folder, installed):
     """
     share = environment_folder / "share" / "datmo_fusion"
     for name in TREE:
-        place = share / name if installed and (share / name).exists() else source / name
-        if place.exists():
-            (folder / name).symlink_to(place)
+        position = share / name if installed and (share / name).exists() else source / name
+        if position.exists():
+            (folder / name).symlink_to(position)
     # No link: rosrun leaves out what lies below PACKAGE/build, which a link would hide.
     (folder / "devel").mkdir()
     (folder / "devel" / "setup.bash").write_text(f"source '{environment_folder}/setup.bash'\n")

@@ -3,7 +3,7 @@
 
 The scanner is emulated from the Velodyne (see kitti_to_bag --help); the odometry is 3 % too long
 and turns 0.5 deg/s too much, and would end 8 % of the way off. What is asked of "the cyclist" and
-of "the van" is asked of every cyclist and vehicle that moves and is labelled in nearly every frame;
+of "the van" is asked of every cyclist and vehicle that moves and is labeled in nearly every frame;
 the objects are picked by that, not by their ids.
 """
 
@@ -19,10 +19,10 @@ from evaluated_run import RUN_BAG, evaluated
 CONFIG = Path(__file__).resolve().parents[2] / "config" / "kitti.yaml"
 ODOMETRY_ERRORS = ("--odometry-scale-error", "0.03", "--odometry-yaw-bias", "0.5")
 
-# All that moves has to be found, wherever it is labelled: in the cameras' view.
+# All that moves has to be found, wherever it is labeled: in the cameras' view.
 ASKED = (
     "truth/visible_to=none",
-    "truth/least_time_seen=0",
+    "truth/min_time_seen=0",
     "region/range=500",
     "region/half_angle=0.7",
 )

@@ -21,7 +21,7 @@ SEEDS = (1, 2)
 # All that moves has to be found, seen or not.
 ASKED = ("truth/visible_to=none",)
 
-LEAST_TIME_HIDDEN = 1.0  # s
+MIN_TIME_HIDDEN = 1.0  # s
 MIN_TRACKED = 0.95  # of the frames from the first track until the car comes out again
 MAX_TRACKED_ALONE = 0.6  # of the frames in which it is hidden
 
@@ -35,7 +35,7 @@ class Hidden(NamedTuple):
     seen_by_camera: float  # share of the time
 
 
-def longest_gap(flags):
+def max_gap(flags):
     """First and last index of the longest run of zeros."""
     runs, start = [], None
     for i, flag in enumerate([*flags, 1]):
@@ -60,7 +60,7 @@ def hidden_time(recorded):
     first = next(i for i, item in enumerate(seen) if item[1])
     last = max(i for i, item in enumerate(seen) if item[1])
     seen = seen[first : last + 1]
-    start, end = longest_gap([item[1] for item in seen])
+    start, end = max_gap([item[1] for item in seen])
     by_camera = [item[2] for item in seen[start : end + 1]]
     return Hidden(seen[0][3], seen[start][0], seen[end][0], sum(by_camera) / len(by_camera))
 
@@ -113,7 +113,7 @@ class HiddenCar(unittest.TestCase):
         for seed in SEEDS:
             with self.subTest(seed=seed), tempfile.TemporaryDirectory() as folder:
                 hidden, fused, alone = self.run_seed(folder, seed)
-                self.assertGreaterEqual(hidden.end - hidden.start, LEAST_TIME_HIDDEN)
+                self.assertGreaterEqual(hidden.end - hidden.start, MIN_TIME_HIDDEN)
                 self.assertEqual(hidden.seen_by_camera, 1.0)
 
                 ids = self.ids_from_first_track(fused, hidden)

@@ -20,7 +20,7 @@ CONFIG = ROOT / "config" / "demonstrator.yaml"
 SIMULATE = os.environ.get("SIMULATE", "simulate")
 
 # What the scanner sees moving has to be found at any distance.
-ASKED = ("truth/visible_to=scanner", "truth/least_time_seen=1.0", "region/range=500")
+ASKED = ("truth/visible_to=scanner", "truth/min_time_seen=1.0", "region/range=500")
 MIN_MOVERS = 6
 MAX_POSE_ERROR = 0.01  # of the way
 MAX_POSE_ERROR_WITHOUT_ODOMETRY = 0.02

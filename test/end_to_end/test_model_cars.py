@@ -21,7 +21,7 @@ BAGS = ROOT.parent / "shared" / "data" / "datmo_bags"
 CONFIG = ROOT / "config" / "model_car.yaml"
 
 # A tenth of a real car's.
-ASKED = ("matching/gate=0.4", "matching/distance=to_centre")
+ASKED = ("matching/gate=0.4", "matching/distance=to_center")
 
 MAX_POSE_ERROR = 0.06  # m, root mean square
 MAX_POSITION_ERROR = 0.5 * 0.118 + 0.005  # m

@@ -23,9 +23,9 @@ SEEDS = (1, 2)
 MAX_STRAIGHT_RMS = 0.3  # m, within 20 m
 MAX_CURVE_RMS = 0.5
 MIN_FOUND = 0.5  # within 20 m, seen before or not
-# Of what is published: house fronts behind kerbs, and lines across the mouths of junctions.
+# Of what is published: house fronts behind curbs, and lines across the mouths of junctions.
 MAX_FALSE_SHARE = 0.3
-# Where a sharp bend hides the kerb and the land behind it is open, as at a side street.
+# Where a sharp bend hides the curb and the land behind it is open, as at a side street.
 MAX_FALSE_IN_BENDS = 2
 
 

@@ -63,10 +63,10 @@ class BadParametersTest : public testing::Test {
   std::vector<std::string> fatal_;
 };
 
-TEST_F(BadParametersTest, AMisspeltKeyNamesTheNearestOne) {
-  ros::param::set("/misspelt/map/cellsize", 0.2);
-  EXPECT_FALSE(load("/misspelt", "grid_slam"));
-  expectOneMessageWith({"/misspelt", "map/cellsize", "0.2", "map/cell_size"});
+TEST_F(BadParametersTest, AMisspelledKeyNamesTheNearestOne) {
+  ros::param::set("/misspelled/map/cellsize", 0.2);
+  EXPECT_FALSE(load("/misspelled", "grid_slam"));
+  expectOneMessageWith({"/misspelled", "map/cellsize", "0.2", "map/cell_size"});
   EXPECT_TRUE(loaded().empty());
 }
 
@@ -77,9 +77,9 @@ TEST_F(BadParametersTest, AValueOutOfRangeNamesTheRange) {
 }
 
 TEST_F(BadParametersTest, AWrongTypeNamesTheType) {
-  ros::param::set("/wrong_type/least_points", "many");
+  ros::param::set("/wrong_type/min_points", "many");
   EXPECT_FALSE(load("/wrong_type", "moving_objects"));
-  expectOneMessageWith({"/wrong_type", "least_points", "'many'", "a whole number"});
+  expectOneMessageWith({"/wrong_type", "min_points", "'many'", "a whole number"});
 }
 
 TEST_F(BadParametersTest, OnceItIsRightTheNodeletStarts) {

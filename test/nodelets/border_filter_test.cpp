@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "labeled_scan_door.h"
 #include "ros/road_samples.h"
-#include "split_scan_door.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/ros/road_conversion.h"
@@ -14,12 +14,12 @@
 namespace datmo {
 namespace {
 
-class BorderFilterDoor : public SplitScanDoor {
+class BorderFilterDoor : public LabeledScanDoor {
  public:
-  BorderFilterDoor() : SplitScanDoor("moving_objects") {}
+  BorderFilterDoor() : LabeledScanDoor("moving_objects") {}
 
   bool waitForNodelet() {
-    return SplitScanDoor::waitForNodelet() && waitFor([this] {
+    return LabeledScanDoor::waitForNodelet() && waitFor([this] {
              return road_borders_.getNumSubscribers() >= 1 && dropped_.getNumPublishers() >= 1;
            });
   }
@@ -84,7 +84,7 @@ TEST_F(BorderFilterTest, BeforeBordersComeAllPasses) {
   EXPECT_TRUE(door_->waitForMessage("no road_borders yet")) << door_->diagnosticMessage();
 }
 
-TEST_F(BorderFilterTest, AnObjectOnTheBorderIsDroppedAndToldOf) {
+TEST_F(BorderFilterTest, AnObjectOnTheBorderIsDroppedAndReported) {
   now_ += 0.06;
   ASSERT_TRUE(door_->sendRoad(roadNow()));
   ASSERT_NO_FATAL_FAILURE(scan());

@@ -26,7 +26,7 @@ tf2_msgs::TFMessage message(const geometry_msgs::TransformStamped& transform) {
 }  // namespace
 
 Listener::Listener() {
-  subscribers_ = {keep("pose", poses), keep("map", maps), keep("split_scan", split_scans),
+  subscribers_ = {keep("pose", poses), keep("map", maps), keep("labeled_scan", labeled_scans),
                   keep("objects", objects), keep("tracks", tracks)};
   subscribers_.push_back(node_.subscribe<StageTiming>(
       "timing", kQueue, [this](const StageTimingConstPtr& timing) { ++timings[timing->stage]; }));
@@ -48,8 +48,8 @@ ros::Subscriber Listener::keep(const std::string& topic,
       [&kept](const boost::shared_ptr<const Message>& arrived) { kept.push_back(arrived); });
 }
 
-bool Listener::waitFor(const std::function<bool()>& condition, double most_seconds) {
-  const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(most_seconds);
+bool Listener::waitFor(const std::function<bool()>& condition, double max_seconds) {
+  const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(max_seconds);
   while (!condition()) {
     if (ros::SteadyTime::now() > end || !ros::ok()) {
       return false;

@@ -24,8 +24,8 @@ class Listener {
  public:
   Listener();
 
-  /// Until the condition holds; false if it does not within `most_seconds` of the computer's clock.
-  bool waitFor(const std::function<bool()>& condition, double most_seconds = 20.0);
+  /// Until the condition holds; false if it does not within `max_seconds` of the computer's clock.
+  bool waitFor(const std::function<bool()>& condition, double max_seconds = 20.0);
 
   /// Until the three nodelets are connected with this test, and have reported.
   bool waitForNodelets();
@@ -36,7 +36,7 @@ class Listener {
 
   std::vector<geometry_msgs::PoseWithCovarianceStampedConstPtr> poses;
   std::vector<nav_msgs::OccupancyGridConstPtr> maps;
-  std::vector<SplitScanConstPtr> split_scans;
+  std::vector<LabeledScanConstPtr> labeled_scans;
   std::vector<ObjectArrayConstPtr> objects;
   std::vector<TrackArrayConstPtr> tracks;
   std::map<std::string, int> timings;  ///< by stage

@@ -37,7 +37,7 @@ Chain* ChainTest::chain_ = nullptr;
 
 TEST_F(ChainTest, NoScanIsDropped) {
   EXPECT_TRUE(chain_->waitFor([&] { return chain_->poses.size() == kScans; }));
-  EXPECT_TRUE(chain_->waitFor([&] { return chain_->split_scans.size() == kScans; }));
+  EXPECT_TRUE(chain_->waitFor([&] { return chain_->labeled_scans.size() == kScans; }));
   EXPECT_TRUE(chain_->waitFor([&] { return chain_->objects.size() == kScans; }));
   EXPECT_EQ(chain_->tracks.size(), kScans);
   for (const std::string stage : {"grid_slam", "moving_objects", "tracker"}) {
@@ -46,7 +46,7 @@ TEST_F(ChainTest, NoScanIsDropped) {
   }
 }
 
-TEST_F(ChainTest, DiagnosticsTellHowWellTheScanFits) {
+TEST_F(ChainTest, DiagnosticsReportHowWellTheScanFits) {
   EXPECT_TRUE(
       chain_->waitFor([&] { return chain_->diagnostic("grid_slam", "points matched") > 0.0; }));
   EXPECT_GT(chain_->diagnostic("grid_slam", "match score, 0 to 1"), 0.0);

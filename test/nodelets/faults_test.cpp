@@ -1,5 +1,5 @@
 // What goes wrong on the road: each fault is counted and named in the diagnostics, nothing crashes,
-// and the chain is right again afterwards. The tests go through one drive, in this order.
+// and the chain is right again afterward. The tests go through one drive, in this order.
 #include <functional>
 #include <limits>
 

@@ -69,18 +69,18 @@ sensor_msgs::LaserScan painted(sensor_msgs::LaserScan scan) {
   return scan;
 }
 
-Percent percentAt(const nav_msgs::OccupancyGrid& message, const Point2& place) {
+Percent percentAt(const nav_msgs::OccupancyGrid& message, const Point2& position) {
   const SensorGrid grid = fromMessage(message);
-  return grid.atOrUnknown(grid.window().cellAt(place));
+  return grid.atOrUnknown(grid.window().cellAt(position));
 }
 
-/// Whether a cell is occupied whose centre is in the box, in the vehicle's frame, or 0.3 m from it.
+/// Whether a cell is occupied whose center is in the box, in the vehicle's frame, or 0.3 m from it.
 bool isOccupiedAt(const nav_msgs::OccupancyGrid& message, const Box2& box) {
   constexpr double kNear = 0.3;  // m, a cell
   const SensorGrid grid = fromMessage(message);
   bool found = false;
   grid.forEach([&](CellIndex cell, Percent percent) {
-    found = found || (isOccupied(percent) && box.distanceTo(grid.window().centreOf(cell)) < kNear);
+    found = found || (isOccupied(percent) && box.distanceTo(grid.window().centerOf(cell)) < kNear);
   });
   return found;
 }
@@ -112,7 +112,7 @@ class LowLevelTest : public StereoDriveTest<LowLevel> {
     now_ += kStep;
   }
 
-  /// Places in the vehicle's frame, m.
+  /// PositionsTest in the vehicle's frame, m.
   static Point2 paint() { return {3.6 + kPaintAhead, 0.1}; }
   static Point2 behindTheVehicle() { return {-10.0, -11.0}; }
 
@@ -138,7 +138,7 @@ TEST_F(LowLevelTest, BothSensorsLeadToAFusedGridForEachScan) {
   EXPECT_EQ(fused.header.frame_id, "base_link");
   const double then = fused.header.stamp.toSec() - World::kStart;
   Box2 car = world_.otherCar(then);
-  car.centre = world_.baseInMap(then).inverse() * car.centre;
+  car.center = world_.baseInMap(then).inverse() * car.center;
   EXPECT_TRUE(isOccupiedAt(fused, car));
   EXPECT_TRUE(isFree(percentAt(fused, {8.0, 0.0}))) << "the road before it";
   EXPECT_EQ(chain_->diagnostic("grid_fusion", "dropped"), 0.0);

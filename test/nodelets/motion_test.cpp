@@ -82,10 +82,10 @@ TEST(Motion, AnImuAndATwistLeadToOdometryAndPoses) {
   ASSERT_TRUE(door.waitFor([&] {
     now += 0.01;
     door.sendScan(now);
-    return !door.split_scans.empty();
+    return !door.labeled_scans.empty();
   })) << door.diagnosticMessage("grid_slam");
-  EXPECT_EQ(door.split_scans.back()->header.frame_id, "robot");
-  EXPECT_NEAR(door.split_scans.back()->scanner.x, 1.0, 1e-9) << "as mounts says";
+  EXPECT_EQ(door.labeled_scans.back()->header.frame_id, "robot");
+  EXPECT_NEAR(door.labeled_scans.back()->scanner.x, 1.0, 1e-9) << "as mounts says";
 }
 
 }  // namespace

@@ -106,11 +106,11 @@ class ObjectFusionTest : public testing::Test {
   static const ObjectArray& last() { return *lists_->fused.back(); }
 
   /// The sensors that saw the object nearest to a place in the last list (m); none if there is none
-  /// within a metre.
+  /// within a meter.
   static Sensors sensorsAt(double ahead, double left) {
     for (const ObjectMessage& object : last().objects) {
-      const Point2 place(object.pose.position.x, object.pose.position.y);
-      if ((place - Point2(ahead, left)).norm() < 1.0) {
+      const Point2 position(object.pose.position.x, object.pose.position.y);
+      if ((position - Point2(ahead, left)).norm() < 1.0) {
         return object.sensors;
       }
     }

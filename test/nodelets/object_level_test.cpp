@@ -56,7 +56,7 @@ class ObjectLevelTest : public StereoDriveTest<ObjectLevel> {
   const ObjectMessage* otherCarIn(const ObjectArray& list) const {
     const double then = list.header.stamp.toSec() - World::kStart;
     Box2 car = world_.otherCar(then);
-    car.centre = world_.baseInMap(then).inverse() * car.centre;
+    car.center = world_.baseInMap(then).inverse() * car.center;
     const auto found =
         std::find_if(list.objects.begin(), list.objects.end(), [&](const ObjectMessage& object) {
           return car.distanceTo({object.pose.position.x, object.pose.position.y}) < 1.0;
@@ -121,7 +121,7 @@ TEST_F(ObjectLevelTest, BadCloudsAreCounted) {
   ASSERT_NO_FATAL_FAILURE(driveOn(0.5));
 }
 
-TEST_F(ObjectLevelTest, AnotherSystemMayTellTheStereoObjects) {
+TEST_F(ObjectLevelTest, AnotherSystemMayPublishTheStereoObjects) {
   ObjectArray list;
   list.header.frame_id = "base_link";
   list.header.stamp = ros::Time(World::kStart + now_);

@@ -6,18 +6,18 @@
 #include <string>
 #include <vector>
 
-#include "split_scan_door.h"
+#include "labeled_scan_door.h"
 #include <gtest/gtest.h>
 
 namespace datmo {
 namespace {
 
-class RoadBorderDoor : public SplitScanDoor {
+class RoadBorderDoor : public LabeledScanDoor {
  public:
-  RoadBorderDoor() : SplitScanDoor("road_border") {}
+  RoadBorderDoor() : LabeledScanDoor("road_border") {}
 
   bool waitForNodelet() {
-    return SplitScanDoor::waitForNodelet() &&
+    return LabeledScanDoor::waitForNodelet() &&
            waitFor([this] { return road_borders_.getNumPublishers() >= 1; });
   }
 
@@ -41,7 +41,7 @@ class RoadBorderTest : public testing::Test {
 
   /// One step of the drive; waits for its road.
   static void step() {
-    const SplitScan scan = samples::scanBetweenWalls(now_);
+    const LabeledScan scan = samples::scanBetweenWalls(now_);
     door_->setClock(now_);
     door_->send(scan);
     ASSERT_TRUE(door_->waitFor([&] {
@@ -60,9 +60,9 @@ class RoadBorderTest : public testing::Test {
   /// Sends the scan of now after `spoil`; expects that it is counted under `key`, said, and leads
   /// to nothing.
   static void expectDropped(const std::string& reason,
-                            const std::function<void(SplitScanMessage&)>& spoil) {
+                            const std::function<void(LabeledScanMessage&)>& spoil) {
     const std::size_t before = door_->roads.size();
-    SplitScanMessage scan = toMessage(samples::scanBetweenWalls(now_), "base_link", "map");
+    LabeledScanMessage scan = toMessage(samples::scanBetweenWalls(now_), "base_link", "map");
     spoil(scan);
     door_->send(scan);
     EXPECT_TRUE(door_->waitForCount("dropped: " + reason, 1.0)) << reason;
@@ -100,12 +100,12 @@ TEST_F(RoadBorderTest, WallsOnBothSidesAreTheBorders) {
   EXPECT_EQ(last().at_intersection, 0);
 }
 
-TEST_F(RoadBorderTest, DiagnosticsTellWhatIsFound) {
+TEST_F(RoadBorderTest, DiagnosticsReportWhatIsFound) {
   EXPECT_TRUE(door_->waitForCount("processed", 32.0));
   EXPECT_TRUE(
       door_->waitFor([] { return door_->diagnostic("stretches of border on the left") >= 1.0; }));
   EXPECT_GE(door_->diagnostic("stretches of border on the right"), 1.0);
-  EXPECT_EQ(door_->diagnostic("split_scan received"), 32.0);
+  EXPECT_EQ(door_->diagnostic("labeled_scan received"), 32.0);
   EXPECT_EQ(door_->diagnostic("dropped"), 0.0);
   EXPECT_TRUE(door_->waitFor([] { return door_->timings["road_border"] == 32; }));
 }
@@ -126,7 +126,7 @@ TEST_F(RoadBorderTest, ScansThatAreNoneAreCounted) {
 TEST_F(RoadBorderTest, SilenceIsSaid) {
   now_ += 3.0;
   door_->setClock(now_);
-  EXPECT_TRUE(door_->waitForMessage("no split_scan for")) << door_->diagnosticMessage();
+  EXPECT_TRUE(door_->waitForMessage("no labeled_scan for")) << door_->diagnosticMessage();
   ASSERT_NO_FATAL_FAILURE(driveOn(1.0));
   EXPECT_TRUE(door_->waitForMessage("runs")) << door_->diagnosticMessage();
 }

@@ -17,7 +17,7 @@ constexpr double kHalfWidth = 12.0;     // m, of the street
 constexpr double kPillarSpacing = 6.0;  // m
 constexpr double kScannerAhead = 3.6;   // m
 constexpr int kBeams = 161;
-constexpr float kMostRange = 60.0F;  // m
+constexpr float kMaxRange = 60.0F;  // m
 
 constexpr double kHeightOfThings = 2.0;  // m
 constexpr double kScannerHeight = 0.5;   // m
@@ -103,11 +103,11 @@ sensor_msgs::LaserScan World::scan(double seconds) const {
   message.angle_max = static_cast<float>(degrees(80.0));
   message.angle_increment = static_cast<float>(degrees(1.0));
   message.range_min = 0.5F;
-  message.range_max = kMostRange;
+  message.range_max = kMaxRange;
   const Pose2 scanner = baseInMap(seconds) * Pose2(kScannerAhead, 0.0, 0.0);
   for (int beam = 0; beam < kBeams; ++beam) {
     const auto range = static_cast<float>(rangeAlong(scanner, degrees(beam - 80.0), boxes));
-    message.ranges.push_back(range < kMostRange ? range : std::numeric_limits<float>::infinity());
+    message.ranges.push_back(range < kMaxRange ? range : std::numeric_limits<float>::infinity());
   }
   return message;
 }
@@ -174,7 +174,7 @@ sensor_msgs::PointCloud2 World::cloud(double seconds) const {
       const double down = (row - 0.5 * (kRows - 1)) / kFocalLength;
       const double road = down > 0.0 ? kCameraHeight / down : 1e9;
       const double depth = std::min(road, thing);
-      if (depth < kMostRange && kCameraHeight - down * depth < kHeightOfThings) {
+      if (depth < kMaxRange && kCameraHeight - down * depth < kHeightOfThings) {
         for (const double number : {right * depth, down * depth, depth}) {
           numbers.push_back(static_cast<float>(number));
         }

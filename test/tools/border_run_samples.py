@@ -20,7 +20,7 @@ from datmo_fusion.msg import (
     RoadBorder,
     RoadBorders,
     ScanPoint,
-    SplitScan,
+    LabeledScan,
     TrueObjectArray,
     TrueRoadBorders,
 )
@@ -59,16 +59,16 @@ def write_run(path, count=11, borders=(LEFT, RIGHT), truth=True):
     with whole_bag(path, "test") as bag:
         for i in range(count):
             stamp = START + i * STEP
-            place = Pose(Point(0.0, SPEED * i * STEP * 1e-9, 0.0),
+            position = Pose(Point(0.0, SPEED * i * STEP * 1e-9, 0.0),
                          Quaternion(*transforms.quaternion_of_yaw(HEADING)))  # fmt: skip
             in_map = bag_messages.header(stamp, "map")
             in_base = bag_messages.header(stamp, "base_link")
             pose = PoseWithCovarianceStamped(header=in_map)
-            pose.pose.pose = place
+            pose.pose.pose = position
             bag.write("/pose", stamp, pose)
-            scan = SplitScan(header=in_base, map_frame="map", pose=pose.pose)
+            scan = LabeledScan(header=in_base, map_frame="map", pose=pose.pose)
             scan.points = [ScanPoint(x=10.0, y=0.0, state=ScanPoint.MOVING)]
-            bag.write("/split_scan", stamp, scan)
+            bag.write("/labeled_scan", stamp, scan)
             bag.write("/road_borders", stamp, RoadBorders(header=in_map, borders=borders))
             kept = [object_at(10.0, 0.0), object_at(20.0, 0.0)]
             kept[0].dynamic_state = Object.STATE_MOVING
@@ -76,17 +76,17 @@ def write_run(path, count=11, borders=(LEFT, RIGHT), truth=True):
             dropped = [DroppedObject(object=object_at(5.0, -3.0))]
             bag.write("/objects/dropped", stamp, DroppedObjects(header=in_base, objects=dropped))
             if truth:
-                _write_truth(bag, stamp, place)
+                _write_truth(bag, stamp, position)
 
 
-def _write_truth(bag, stamp, place):
+def _write_truth(bag, stamp, position):
     header = bag_messages.header(stamp, "map")
-    pose = (DRIFT, place.position.y, HEADING)
+    pose = (DRIFT, position.position.y, HEADING)
     true_pose = bag_messages.planar_odometry(stamp, "map", "base_link", pose, SPEED, 0.0)
     bag.write("/ground_truth/pose", stamp, true_pose)
     bag.write("/ground_truth/objects", stamp, TrueObjectArray(header=header))
-    kerb = Polyline([Point32(DRIFT - 4.0, 0.0, 0.0), Point32(DRIFT - 4.0, 40.0, 0.0)])
-    message = TrueRoadBorders(header=header, borders=[kerb], at_intersection=True)
+    curb = Polyline([Point32(DRIFT - 4.0, 0.0, 0.0), Point32(DRIFT - 4.0, 40.0, 0.0)])
+    message = TrueRoadBorders(header=header, borders=[curb], at_intersection=True)
     bag.write("/ground_truth/road_borders", stamp, message)
 
 

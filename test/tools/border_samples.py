@@ -21,16 +21,16 @@ from track_samples import DRIFT, PERIOD, START, car
 FRAMES = 21
 STEP = 1.0  # m, from frame to frame
 
-KERBS = (((-100.0, 5.0), (200.0, 5.0)), ((-100.0, -5.0), (200.0, -5.0)))
+CURBS = (((-100.0, 5.0), (200.0, 5.0)), ((-100.0, -5.0), (200.0, -5.0)))
 
 SIGMA = 0.2  # m, of published points
 
 
-def along(*places):
+def along(*positions):
     """Function of the frame: true poses (x, y, yaw) on a straight way, or those that are given."""
 
     def at(frame):
-        return places[frame] if places else (STEP * frame, 0.0, 0.0)
+        return positions[frame] if positions else (STEP * frame, 0.0, 0.0)
 
     return at
 
@@ -50,10 +50,10 @@ def border(side, *points, sigma=SIGMA, side_street=False, frames=range(FRAMES)):
         local = [transforms.relative(base, [x, y, 0.0]) for x, y in points]
         # The run takes the vehicle to be where DRIFT moves its true place to.
         run_base = transforms.compose(DRIFT, base)
-        places = [transforms.compose(run_base, point) for point in local]
+        positions = [transforms.compose(run_base, point) for point in local]
         return RoadBorder(
-            side=side, points=[Point32(place[0], place[1], 0.0) for place in places],
-            sigma=[sigma] * len(places), probability=0.9, side_street=side_street,
+            side=side, points=[Point32(position[0], position[1], 0.0) for position in positions],
+            sigma=[sigma] * len(positions), probability=0.9, side_street=side_street,
         )  # fmt: skip
 
     return at
@@ -69,16 +69,16 @@ def right(y, first=-60.0, last=120.0, **others):
     return border(RoadBorder.RIGHT, (first, y), (last, y), **others)
 
 
-def write_drive(path, borders, kerbs=KERBS, objects=(), way=along(), at_intersection=()):
+def write_drive(path, borders, curbs=CURBS, objects=(), trajectory=along(), at_intersection=()):
     """A bag of run_bag --road-border --with-truth.
 
-    borders: as border() gives them, None: without their topic; kerbs: lines of the true map;
+    borders: as border() gives them, None: without their topic; curbs: lines of the true map;
     objects: as parked() gives them; at_intersection: frames.
     """
     with whole_bag(path, "test") as bag:
         for frame in range(FRAMES):
             stamp = START + frame * PERIOD
-            header, base = bag_messages.header(stamp, "map"), np.array(way(frame))
+            header, base = bag_messages.header(stamp, "map"), np.array(trajectory(frame))
             if borders is not None:
                 present = [item(frame, base) for item in borders]
                 present = [item for item in present if item is not None]
@@ -92,7 +92,7 @@ def write_drive(path, borders, kerbs=KERBS, objects=(), way=along(), at_intersec
             bag.write("/ground_truth/pose", stamp, true_pose)
             truth = TrueObjectArray(header=header, objects=[item(frame) for item in objects])
             bag.write("/ground_truth/objects", stamp, truth)
-            lines = [Polyline([Point32(x, y, 0.0) for x, y in line]) for line in kerbs]
+            lines = [Polyline([Point32(x, y, 0.0) for x, y in line]) for line in curbs]
             state = TrueRoadBorders(header=header, borders=lines)
             state.at_intersection = frame in at_intersection
             bag.write("/ground_truth/road_borders", stamp, state)

@@ -50,7 +50,7 @@ def sample_series(objects, frames):
     error = [None if 10 * i < 2 * frames else 0.2 + 0.01 * (i % 7) for i in range(frames)]
     found = sum(item["found"] for item in objects)
     tracked = [0 if value is None else found for value in error]
-    way = [0.5 * i for i in range(frames)]
+    distance = [0.5 * i for i in range(frames)]
     return {
         "time_s": times, "true_objects": [len(objects)] * frames, "tracked": tracked,
         "missed": [len(objects) - count for count in tracked],
@@ -59,11 +59,11 @@ def sample_series(objects, frames):
         "pose_error_m": [0.001 * i for i in range(frames)],
         "true_paths": [sample_path(item, frames) for item in objects],
         "track_paths": [
-            {"id": number, "time_s": times, "x_m": way, "y_m": [number - 69.5] * frames}
+            {"id": number, "time_s": times, "x_m": distance, "y_m": [number - 69.5] * frames}
             for number in (71, 81, 99)
         ],
-        "ego_true": {"x_m": way, "y_m": [0.0] * frames},
-        "ego_estimated": {"x_m": way, "y_m": [0.1] * frames},
+        "ego_true": {"x_m": distance, "y_m": [0.0] * frames},
+        "ego_estimated": {"x_m": distance, "y_m": [0.1] * frames},
     }  # fmt: skip
 
 
@@ -82,7 +82,7 @@ def sample_run(name="drive.bag", objects=2, frames=10, label="Car", **changes):
         "hota": {"hota": 0.35, "deta": 0.4, "assa": 0.5, "loca": 0.9,
                  "alphas": [i / 20 for i in range(1, 20)],
                  "hota_alpha": [0.5 - i / 60 for i in range(1, 20)]},
-        "gospa": {"mean_m": 2.5, "localisation_m": 0.4, "missed_m": 1.6, "false_m": 0.5,
+        "gospa": {"mean_m": 2.5, "localization_m": 0.4, "missed_m": 1.6, "false_m": 0.5,
                   "cutoff_m": 5.0},
         "errors": {"position_rmse_m": 0.25, "velocity_rmse_mps": 0.5, "heading_rmse_rad": 0.1,
                    "heading_modulo_pi_rmse_rad": 0.05, "samples": 8},
@@ -103,7 +103,7 @@ def sample_run(name="drive.bag", objects=2, frames=10, label="Car", **changes):
                    "false_moving_objects_frames": 0.5, "false_moving_objects_episodes": 2,
                    "intersections": None, "intersections_found": None,
                    "intersections_false": None},
-        "pose": {"end_error_m": 0.01, "end_error_deg": 0.2, "way_m": 4.5, "end_error_share": 0.002,
+        "pose": {"end_error_m": 0.01, "end_error_deg": 0.2, "path_length_m": 4.5, "end_error_share": 0.002,
                  "position_rmse_m": 0.005, "heading_rmse_rad": 0.002, "largest_jump_m": 0.003,
                  "relative": [{"distance_m": 10.0, "translation_m": 0.05, "rotation_deg": 0.1,
                                "pairs": 4}],

@@ -68,7 +68,7 @@ TEST_F(RunBagOnClouds, EveryCloudLeadsToAScanAndAPose) {
   run();
   EXPECT_EQ(count(arguments_.output, "/cloud_scan"), std::size_t{kScans});
   EXPECT_EQ(count(arguments_.output, "/pose"), std::size_t{kScans});
-  EXPECT_EQ(count(arguments_.output, "/split_scan"), std::size_t{kScans});
+  EXPECT_EQ(count(arguments_.output, "/labeled_scan"), std::size_t{kScans});
   EXPECT_GE(count(arguments_.output, "/tf_static"), 1U) << "where the scans are from";
 }
 

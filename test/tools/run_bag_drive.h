@@ -21,7 +21,7 @@
 
 namespace datmo {
 
-// A small drive that is written here: a car between two walls, at 5 m/s towards a third.
+// A small drive that is written here: a car between two walls, at 5 m/s toward a third.
 inline constexpr double kSpeed = 5.0;    // m/s
 inline constexpr double kPeriod = 0.06;  // s
 inline constexpr int kScans = 30;

@@ -28,7 +28,7 @@ TEST_F(FusedRun, EveryScanIsFusedWithClouds) {
   appendClouds();
   const std::string table = run();
   expectGrids();
-  for (const char* topic : {"/pose", "/split_scan", "/objects", "/tracks", "/tf"}) {
+  for (const char* topic : {"/pose", "/labeled_scan", "/objects", "/tracks", "/tf"}) {
     EXPECT_EQ(count(arguments_.output, topic), kScanCount) << topic;
   }
   EXPECT_FALSE(holds(table, "dropped")) << table;

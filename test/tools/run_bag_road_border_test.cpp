@@ -41,8 +41,8 @@ TEST_F(RoadBorderRun, BordersAreOfTheScanInTheFrameOfTheMap) {
   run();
   rosbag::Bag bag(arguments_.output);
   std::vector<std_msgs::Header> scans;
-  for (const auto& message : rosbag::View(bag, rosbag::TopicQuery("/split_scan"))) {
-    scans.push_back(message.instantiate<SplitScanMessage>()->header);
+  for (const auto& message : rosbag::View(bag, rosbag::TopicQuery("/labeled_scan"))) {
+    scans.push_back(message.instantiate<LabeledScanMessage>()->header);
   }
   std::size_t i = 0;
   for (const auto& message : rosbag::View(bag, rosbag::TopicQuery("/road_borders"))) {

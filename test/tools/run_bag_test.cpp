@@ -25,7 +25,7 @@ namespace {
 
 TEST_F(RunBag, EveryScanLeadsToResults) {
   const std::string table = run();
-  for (const char* topic : {"/pose", "/split_scan", "/objects", "/tracks", "/tf"}) {
+  for (const char* topic : {"/pose", "/labeled_scan", "/objects", "/tracks", "/tf"}) {
     EXPECT_EQ(count(arguments_.output, topic), static_cast<std::size_t>(kScans)) << topic;
   }
   EXPECT_EQ(count(arguments_.output, "/map"), 4U);  // 1.74 s, one every 0.5 s
@@ -125,7 +125,7 @@ TEST_F(RunBag, MissingMountLeavesNoScan) {
   EXPECT_TRUE(holds(message, "base_link -> scanner")) << message;
 }
 
-TEST_F(RunBag, MisspeltKeyIsNamedWithItsSection) {
+TEST_F(RunBag, MisspelledKeyIsNamedWithItsSection) {
   writeConfig("grid_slam: {map_perod: 1.0}\n");
   const std::string message = failure();
   EXPECT_TRUE(holds(message, arguments_.config + ": grid_slam: map_perod")) << message;

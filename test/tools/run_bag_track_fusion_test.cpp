@@ -90,7 +90,7 @@ TEST_F(TrackFusedRun, StereoCameraHasATrackerOfItsOwn) {
   EXPECT_FALSE(holds(table, "stereo_objects")) << table;
 }
 
-TEST_F(TrackFusedRun, ScannersSightIsNoneOfTheStereoTracker) {
+TEST_F(TrackFusedRun, ScannersFieldIsNoneOfTheStereoTracker) {
   appendEachScan("/objects/stereo", pedestrianAt);
   run();
   for (const TrackArray& list : listsOf<TrackArray>("/tracks/stereo")) {
@@ -101,7 +101,7 @@ TEST_F(TrackFusedRun, ScannersSightIsNoneOfTheStereoTracker) {
 
 TEST_F(TrackFusedRun, TrackersOptionsAreTheirOwn) {
   appendEachScan("/objects/stereo", pedestrianAt);
-  writeConfig("{stereo_tracker: {most_position_std: 0.1}}");
+  writeConfig("{stereo_tracker: {max_position_std: 0.1}}");
   run();
   EXPECT_FALSE(listsOf<TrackArray>("/tracks/lidar").back().tracks.empty());
   EXPECT_TRUE(listsOf<TrackArray>("/tracks/stereo").back().tracks.empty()) << "none is so sure";
@@ -153,8 +153,7 @@ TEST_F(TrackFusedRun, TracksOfOtherSourcesComeFromTheBag) {
 }
 
 TEST_F(TrackFusedRun, TracksThatWaitAtTheEndAreServed) {
-  writeConfig(
-      "{track_fusion: {sources: {radar: {use: true}}, longest_wait: 0.5, silent_after: 10}}");
+  writeConfig("{track_fusion: {sources: {radar: {use: true}}, max_wait: 0.5, silent_after: 10}}");
   appendClouds();
   run();
   expectTracks(kCloudCount);

@@ -52,13 +52,13 @@ def car_at(number, x, y=0.0):
 
 
 def run_messages():
-    """Topic -> messages of a run that follows the car half a metre beside it, by id 7."""
+    """Topic -> messages of a run that follows the car half a meter beside it, by id 7."""
     messages = {"/tracks": [], "/pose": []}
     for i in range(FRAMES):
-        way = SPEED * PERIOD * i
-        tracks = [track_at(7, way + CAR_AHEAD, 0.5)]
+        distance = SPEED * PERIOD * i
+        tracks = [track_at(7, distance + CAR_AHEAD, 0.5)]
         pose = PoseWithCovarianceStamped(header=header("map", i))
-        pose.pose.pose = pose_at(way)
+        pose.pose.pose = pose_at(distance)
         pose.pose.covariance = identity(6)
         messages["/tracks"].append(TrackArray(header=header("map", i), tracks=tracks))
         messages["/pose"].append(pose)
@@ -69,10 +69,10 @@ def truth_messages():
     """Topic -> messages of a car ahead of a vehicle that follows it, along x of the map."""
     messages = {"/ground_truth/objects": [], "/ground_truth/pose": []}
     for i in range(FRAMES):
-        way = SPEED * PERIOD * i
-        objects = [car_at(1, way + CAR_AHEAD)]
+        distance = SPEED * PERIOD * i
+        objects = [car_at(1, distance + CAR_AHEAD)]
         pose = Odometry(header=header("map", i), child_frame_id="base_link_ground_truth")
-        pose.pose.pose = pose_at(way)
+        pose.pose.pose = pose_at(distance)
         messages["/ground_truth/objects"].append(
             TrueObjectArray(header=header("map", i), objects=objects)
         )

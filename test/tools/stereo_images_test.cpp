@@ -95,17 +95,17 @@ TEST_F(StereoImagesTest, WallStandsWhereItIs) {
   }
 }
 
-TEST_F(StereoImagesTest, ColoursAndRawImagesGiveTheSamePoints) {
+TEST_F(StereoImagesTest, ColorsAndRawImagesGiveTheSamePoints) {
   StageMonitor monitor("stereo_images");
   StereoImages rectified(semiGlobal(), monitor);
   StereoImages raw(unrectified(semiGlobal()), monitor);
   const PointCloud2Ptr gray = take(rectified, kStart);
   ASSERT_TRUE(gray);
   for (const char* encoding : {"rgb8", "bgr8"}) {
-    const PointCloud2Ptr coloured =
+    const PointCloud2Ptr colored =
         take(rectified, kStart + (encoding[0] == 'r' ? 0.1 : 0.2), encoding);
-    ASSERT_TRUE(coloured) << encoding;
-    EXPECT_EQ(coloured->data, gray->data) << encoding;
+    ASSERT_TRUE(colored) << encoding;
+    EXPECT_EQ(colored->data, gray->data) << encoding;
   }
   const PointCloud2Ptr from_raw = take(raw, kStart);
   ASSERT_TRUE(from_raw);

@@ -146,13 +146,13 @@ class Contents(Conversion):
 class Clocks(Conversion):
     LINES = [flaser(time, (x, 0, 0)) for time, x in ((0.0, 0), (0.9, 1), (0.4, 2), (0.6, 3))]
 
-    def places(self):
+    def positions(self):
         return [m.pose.pose.position.x for m in self.messages("/odometry")]
 
     def test_log(self):
         said = self.convert(*self.LINES, options=["--clock", "log"])
         self.assertEqual(self.times("/scan"), [0.0, 0.4, 0.6, 0.9])
-        self.assertEqual(self.places(), [0.0, 2.0, 3.0, 1.0])
+        self.assertEqual(self.positions(), [0.0, 2.0, 3.0, 1.0])
         self.assertEqual(self.messages("/log_stamps"), [])
         self.assertIn(f"{self.log}: 1 of 4 scans, the first in line 3, are stamped no later", said)
         self.assertIn("sorted by stamp", said)
@@ -164,7 +164,7 @@ class Clocks(Conversion):
         around their mean, 0.273333 s.
         """
         said = self.convert(*self.LINES)
-        self.assertEqual(self.places(), [0.0, 1.0, 2.0, 3.0])
+        self.assertEqual(self.positions(), [0.0, 1.0, 2.0, 3.0])
         np.testing.assert_allclose(
             self.times("/scan"), [0.0, 0.453333, 0.633333, 0.813333], atol=2e-6
         )
@@ -196,7 +196,7 @@ class Clocks(Conversion):
         stamps = [int(s) for s in 1000 * np.arange(500) + generator.normal(0, 2000, 500)]
         moved = rising(stamps, [300] * 499)
         self.assertGreaterEqual(min(np.diff(moved)), 299)  # rounded
-        # No feasible neighbour is nearer: the residuals of each run of moved stamps cancel.
+        # No feasible neighbor is nearer: the residuals of each run of moved stamps cancel.
         self.assertAlmostEqual(float(np.mean(np.subtract(moved, stamps))), 0.0, delta=1.0)
 
     def test_typical_steps_stand_bursts_and_pauses(self):

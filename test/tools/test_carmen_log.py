@@ -218,7 +218,7 @@ class Mounts(unittest.TestCase):
         pose, _ = self.mount("PARAM robot_frontlaser_offset 0.9", *lines)
         np.testing.assert_allclose(pose, [0.2, 0.0, 0.1], atol=1e-12)
 
-    def test_setting_where_the_lines_do_not_tell(self):
+    def test_setting_where_the_lines_have_none(self):
         lines = (
             "PARAM robot_frontlaser_offset 0.3",
             "PARAM robot_frontlaser_side_offset -0.1",

@@ -205,7 +205,7 @@ class Motion(Tool):
         self.assertAlmostEqual(content["mounts"]["imu"]["roll"], 0.5 * math.pi, delta=0.01)
         self.assertNotIn("yaw_sign", kinds, out)
 
-    def test_nothing_tells_the_motion(self):
+    def test_no_source_of_motion(self):
         _, _, content = self.run_tool(without(simulated.recording(), "/odometry", "/tf", "/imu"))
         self.assertEqual(content["motion"]["source"], "none")
 

@@ -147,8 +147,8 @@ class Runs(unittest.TestCase):
                          "--out", str(self.out), *words])  # fmt: skip
         return code, out.getvalue(), err.getvalue()
 
-    def words_of(self, *place):
-        return self.out.joinpath(*place).read_text().split()
+    def words_of(self, *position):
+        return self.out.joinpath(*position).read_text().split()
 
     def test_each_set_at_each_level(self):
         code, out, _ = self.compare()
@@ -183,7 +183,7 @@ class Runs(unittest.TestCase):
         words = self.words_of("data_set_2", "low+object", "result.bag")
         self.assertLessEqual({"--low-level-fusion", "--object-fusion"}, set(words))
 
-    def test_labelled_drive(self):
+    def test_labeled_drive(self):
         (self.folder / "drive_0005").mkdir()
         code, out, _ = self.compare("--sets", "--levels", "none", kitti="drive_0005")
         self.assertEqual(code, 0)
@@ -203,7 +203,7 @@ class Runs(unittest.TestCase):
         runs = json.loads((self.out / "comparison.json").read_text())["runs"]
         self.assertIsNone(runs[2]["figures"])
 
-    def test_program_that_is_ended_is_told(self):
+    def test_program_that_is_ended_is_reported(self):
         self.run_bag("kill -SEGV $$")
         out = self.compare("--sets", "1", "--levels", "none")[1]
         self.assertIn("data_set_1, none: run_bag: ended by signal 11 (Segmentation fault)", out)
@@ -260,7 +260,7 @@ class CameraViews(unittest.TestCase):
         for config in ("", "tracker: {effective_range: 9}", "stereo_objects: {camera: {}}"):
             self.assertEqual(self.view(config), CameraView(36.0, 0.5), config)
 
-    def test_defaults_that_are_not_told_are_named(self):
+    def test_defaults_that_are_not_given_are_named(self):
         with self.assertRaisesRegex(InputError, "effective_range"):
             self.view("", PARAMETERS.replace("36", "''"))
 

@@ -28,7 +28,7 @@ class DriveSummary(unittest.TestCase):
     def setUp(self):
         self.summary = demo_summary.DriveSummary()
 
-    def test_distance_goes_along_the_way(self):
+    def test_distance_is_path_length(self):
         for x, y in [(0.0, 0.0), (3.0, 4.0), (3.0, 10.0)]:
             self.summary.add_pose(x, y)
         self.assertEqual(self.summary.scans, 3)

@@ -14,7 +14,7 @@ sys.path.insert(0, str(SOURCE / "test" / "documents"))
 from command_blocks import blocks_of  # noqa: E402
 
 PAGES = [SOURCE / "README.md", *sorted((SOURCE / "doc").glob("*.md"))]
-LONGEST_README = 200  # lines
+MAX_README_LINES = 200  # lines
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 # Names that the examples choose, and what stands for any name in doc/parameters.md.
 CHOSEN = {"/radar/": "/stereo/", "/laser/": "/<frame>/"}
@@ -48,7 +48,7 @@ def keys_of(tree, prefix=""):
 @unittest.skipUnless(PAGES[0].exists(), "no README.md here")
 class Documents(unittest.TestCase):
     def test_readme_is_short(self):
-        self.assertLessEqual(len(PAGES[0].read_text().splitlines()), LONGEST_README)
+        self.assertLessEqual(len(PAGES[0].read_text().splitlines()), MAX_README_LINES)
 
     def test_local_links_lead_to_files(self):
         for page in PAGES:

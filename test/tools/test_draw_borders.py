@@ -74,7 +74,7 @@ class Recordings(Folder):
         self.assertEqual(len(self.moment(0.1, history=0.2).earlier), 1)
 
     def test_truth_is_seen_from_the_true_pose(self):
-        """The map has drifted by 3 m; the true kerb is 4 m to the left of the true vehicle."""
+        """The map has drifted by 3 m; the true curb is 4 m to the left of the true vehicle."""
         write_run(self.bag)
         truth = self.moment(0.5).truth
         self.assert_points(truth.borders[0], [(-5.0, 4.0), (35.0, 4.0)])
@@ -124,7 +124,7 @@ class Lines(unittest.TestCase):
 
 
 class Images(Folder):
-    def test_places_on_the_road(self):
+    def test_positions_on_the_road(self):
         """Focal length 100, middle 50, 40, 1.5 m above the road."""
         write_images(self.drive)
         image = read_images(self.drive, CAMERA, [START])[START]
@@ -152,9 +152,9 @@ class Images(Folder):
         draw_image(figure.add_axes([0.0, 0.0, 1.0, 1.0]), image, moment, (0.0, 0.0, np.pi / 2))
         canvas.draw()
         red, _, blue, _ = np.moveaxis(np.asarray(canvas.buffer_rgba()).astype(int), -1, 0)
-        coloured = blue > red + 50
-        self.assertTrue(coloured[47:49, 30].any())
-        self.assertFalse(coloured[:, 75:].any() or coloured[:30].any())
+        colored = blue > red + 50
+        self.assertTrue(colored[47:49, 30].any())
+        self.assertFalse(colored[:, 75:].any() or colored[:30].any())
 
     def test_bad_input(self):
         write_images(self.drive, encoding="16UC1")

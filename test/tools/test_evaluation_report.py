@@ -64,7 +64,7 @@ class Metrics(unittest.TestCase):
         self.assertEqual(cost(0.0), math.inf)
 
     def test_all_figures_are_in_the_sample(self):
-        """A misspelt path shows "-" for ever: what the sample leaves open is open on purpose."""
+        """A misspelled path shows "-" for ever: what the sample leaves open is open on purpose."""
         run = sample_run()
         empty = [
             m.path

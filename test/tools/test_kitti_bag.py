@@ -137,11 +137,11 @@ class Contents(Conversion):
             first = next(bag.read_messages()).topic
         self.assertEqual((header["latching"], first), (b"1", "/tf_static"))
         mounts = {item.child_frame_id: item.transform.translation for item in message.transforms}
-        places = {
+        positions = {
             frame: (round(at.x, 6), round(at.y, 6), round(at.z, 6)) for frame, at in mounts.items()
         }
         self.assertEqual(
-            places,
+            positions,
             {
                 "scanner": (0.8, 0.0, 0.6),
                 "velodyne": (0.8, 0.0, 1.73),
@@ -240,7 +240,7 @@ class Errors(Conversion):
             self.assertIn(text, said)
         self.assertEqual([path.name for path in self.root.iterdir()], ["2011_09_26"])
 
-    def test_file_that_breaks_half_way(self):
+    def test_truncated_file(self):
         path = self.drive / "velodyne_points" / "data" / "0000000003.bin"
         path.write_bytes(path.read_bytes()[:-1])
         self.assert_refused(str(path), "15 bytes, expected a multiple of 16")

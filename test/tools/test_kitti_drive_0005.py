@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""kitti_to_bag on the recorded drive: beams lie on the labelled objects, the truth is sane."""
+"""kitti_to_bag on the recorded drive: beams lie on the labeled objects, the truth is sane."""
 
 import contextlib
 import io
@@ -31,10 +31,10 @@ class Drive0005(unittest.TestCase):
     def setUpClass(cls):
         with tempfile.TemporaryDirectory() as folder:
             messages = converted(folder)
-            labelled = converted(folder, "--labels", str(LABELS))
+            labeled = converted(folder, "--labels", str(LABELS))
         cls.by_topic = {topic: [m for t, m in messages if t == topic] for topic, _ in messages}
         cls.tracklets = by_object(messages)
-        cls.labels = by_object(labelled)
+        cls.labels = by_object(labeled)
 
     def test_every_frame_is_there(self):
         for topic in ("/scan", "/odometry", "/tf", "/ground_truth/pose", "/ground_truth/objects"):
@@ -45,15 +45,15 @@ class Drive0005(unittest.TestCase):
         self.assertGreater(np.mean(np.isfinite(ranges)), 0.9)  # a street between walls and hedges
         self.assertGreater(ranges[:, 38:43].min(), 2.7)
 
-    def test_way(self):
+    def test_distance(self):
         """The speed makes 71.3 m; the GPS says 69.4 m, and the Velodyne against walls 71.5 m."""
-        places = np.array(
+        positions = np.array(
             [
                 [m.pose.pose.position.x, m.pose.pose.position.y]
                 for m in self.by_topic["/ground_truth/pose"]
             ]
         )
-        self.assertAlmostEqual(np.hypot(*np.diff(places, axis=0).T).sum(), 71.3, delta=0.1)
+        self.assertAlmostEqual(np.hypot(*np.diff(positions, axis=0).T).sum(), 71.3, delta=0.1)
 
     def test_clean_odometry_follows_the_true_pose(self):
         """They share the speed, not the course: the gyroscope's against the GPS/IMU's."""
@@ -100,7 +100,7 @@ class Drive0005(unittest.TestCase):
                 )
 
     def through_the_whole_drive(self, label):
-        """The object of that label which moves and is labelled in every frame."""
+        """The object of that label which moves and is labeled in every frame."""
         found = [
             seen
             for seen in (list(seen.values()) for seen in self.tracklets.values())

@@ -156,7 +156,7 @@ class Synchronized(Conversion):
         self.assertEqual(found, {name: TYPES[name] for name in names})
 
 
-class Places(Conversion):
+class PositionsTest(Conversion):
     def test_calibration_in_the_drive(self):
         for path in self.drive.parent.glob("calib_*.txt"):
             path.rename(self.drive / path.name)

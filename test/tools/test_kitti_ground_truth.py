@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Labelled boxes in the map: place, velocity, moving or not, beams on them."""
+"""Labeled boxes in the map: place, velocity, moving or not, beams on them."""
 
 import unittest
 

@@ -9,7 +9,7 @@ from datmo_tools import odometry, transforms
 from datmo_tools.ego_pose import EgoMotion, course_offset, poses_from_gps, poses_from_velocity
 from datmo_tools.kitti_raw import Oxts
 from datmo_tools.odometry import OdometryErrors
-from tiny_drive import METRE_IN_LONGITUDE
+from tiny_drive import METER_IN_LONGITUDE
 
 SECOND = 10**9
 RIGHT_ANGLE = math.pi / 2
@@ -20,7 +20,7 @@ def driving(count, speed=10.0, yaw_rate=0.0, yaw=0.0, step=SECOND, leftward=0.0)
     seconds = [i * step / SECOND for i in range(count)]
     records = [
         Oxts(
-            0.0, 8.0 + speed * t * METRE_IN_LONGITUDE, yaw + yaw_rate * t, speed, leftward, yaw_rate
+            0.0, 8.0 + speed * t * METER_IN_LONGITUDE, yaw + yaw_rate * t, speed, leftward, yaw_rate
         )
         for t in seconds
     ]
@@ -78,7 +78,7 @@ class EgoPose(unittest.TestCase):
 
     def test_gps_at_latitude_60_is_half_as_wide(self):
         records = [
-            Oxts(60.0, 8.0 + 2.0 * i * METRE_IN_LONGITUDE, 0.0, 0.0, 0.0, 0.0) for i in range(2)
+            Oxts(60.0, 8.0 + 2.0 * i * METER_IN_LONGITUDE, 0.0, 0.0, 0.0, 0.0) for i in range(2)
         ]
         np.testing.assert_allclose(poses_from_gps(records)[1], [1.0, 0.0, 0.0], atol=1e-6)
 

@@ -165,7 +165,7 @@ class Labels(TinyDrive):
         return read_labels(self.path, self.left_from_velodyne)
 
     def test_camera_box_in_the_velodyne_frame(self):
-        """Bottom centre 3 m left of, 1.5 m below, 10 m ahead of the camera, heading right."""
+        """Bottom center 3 m left of, 1.5 m below, 10 m ahead of the camera, heading right."""
         self.path.write_text(
             "0 -1 DontCare -1 -1 -10 1 2 3 4 -1000 -1000 -1000 -10 -1 -1 -1\n" + self.LINE
         )

@@ -33,11 +33,11 @@ class LaunchRefusals(unittest.TestCase):
         file.write_text(text)
         return f"config:={file}"
 
-    def test_a_misspelt_section(self):
+    def test_a_misspelled_section(self):
         said = self.refusal("perception.launch", self.config("grid_slm: {map_period: 1.0}\n"))
         self.assertIn("sensors.yaml: grid_slm: no such section; the nearest one is grid_slam", said)
 
-    def test_a_misspelt_key(self):
+    def test_a_misspelled_key(self):
         said = self.refusal("perception.launch", self.config("grid_slam: {map_perod: 1.0}\n"))
         self.assertIn("map_perod = 1: expected a key that is read; the nearest one is map_period", said)
 
@@ -45,7 +45,7 @@ class LaunchRefusals(unittest.TestCase):
         said = self.refusal("replay.launch", "bag:=a.bag", self.config("grid_slm: {}\n"))
         self.assertIn("grid_slm", said)
 
-    def test_a_misspelt_argument(self):
+    def test_a_misspelled_argument(self):
         said = self.refusal("replay.launch", "bag:=a.bag", "odometri:=/odom")
         self.assertIn("no argument odometri: did you mean odometry?", said)
 

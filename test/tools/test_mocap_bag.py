@@ -112,7 +112,7 @@ class Truth(Conversion):
             self.assertAlmostEqual(message.twist.twist.linear.x, EGO_SPEED, places=6)
 
     def test_others_at_the_stamps_of_the_scans(self):
-        self.convert(*EXACT, "--object-centre", "0.1", "0.02", "180")
+        self.convert(*EXACT, "--object-center", "0.1", "0.02", "180")
         found = self.messages("/ground_truth/objects")
         self.assertEqual(len(found), SCANS)
         for message in found:
@@ -131,12 +131,12 @@ class Truth(Conversion):
 
     def test_beams_on_the_other_car(self):
         """Straight ahead 1.9 m from the scanner is its rear side, 0.1 m from its middle."""
-        size = ("--object-size", "0.2", "0.1", "0.1", "--object-centre", "0", "0", "0")
-        centred = (*EXACT, *size, "--mount", "0", "0", "0")
-        self.convert(*centred, ranges=[5.0, 1.9, 5.0, 5.0])
+        size = ("--object-size", "0.2", "0.1", "0.1", "--object-center", "0", "0", "0")
+        centered = (*EXACT, *size, "--mount", "0", "0", "0")
+        self.convert(*centered, ranges=[5.0, 1.9, 5.0, 5.0])
         first = self.messages("/ground_truth/objects")[0].objects[0]
         self.assertEqual((first.lidar_beams, first.visible_to), (1, ["scanner"]))
-        self.convert(*centred, ranges=[5.0, 3.0, 5.0, 5.0])
+        self.convert(*centered, ranges=[5.0, 3.0, 5.0, 5.0])
         first = self.messages("/ground_truth/objects")[0].objects[0]
         self.assertEqual((first.lidar_beams, first.visible_to), (0, []))
 

@@ -50,7 +50,7 @@ class Table(unittest.TestCase):
         for column, law in ((table.range, (*RANGE_LAW, 4)), (table.bearing, (*BEARING_LAW, -2))):
             # Within a bin ranges differ: the mean of the law over the bin is what is measured.
             edges = np.linspace(-1.0, 1.0, 21)
-            within = table.centres[:, np.newaxis] + 0.5 * table.bin_width * edges
+            within = table.centers[:, np.newaxis] + 0.5 * table.bin_width * edges
             true = np.mean(law[0] + law[1] * np.maximum(within, 0.1) ** law[2], axis=1)
             known = column.measured
             spread = np.sqrt(2.0 / column.count[known]) * column.difference_variance[known]
@@ -113,8 +113,8 @@ class Table(unittest.TestCase):
         column = covariance_table(hidden, 2.0, 30.0, 30).range
         self.assertFalse(np.any(column.measured[:6]))
         self.assertTrue(np.all(column.measured[6:]))
-        centres = (np.arange(15) + 0.5) * 2.0
-        true = RANGE_LAW[0] + RANGE_LAW[1] * centres**4
+        centers = (np.arange(15) + 0.5) * 2.0
+        true = RANGE_LAW[0] + RANGE_LAW[1] * centers**4
         np.testing.assert_allclose(column.variance[:6], true[:6], rtol=0.5)
 
     def test_gaps_are_filled_by_the_law(self):
@@ -123,11 +123,11 @@ class Table(unittest.TestCase):
         column = covariance_table(chosen, 2.0, 36.0, 30).range
         filled = ~column.measured
         self.assertEqual(np.flatnonzero(filled).tolist(), [0, 5, 6, 7, *range(12, 18)])
-        centres = (np.arange(18) + 0.5) * 2.0
-        true = RANGE_LAW[0] + RANGE_LAW[1] * centres**4
+        centers = (np.arange(18) + 0.5) * 2.0
+        true = RANGE_LAW[0] + RANGE_LAW[1] * centers**4
         np.testing.assert_allclose(column.variance[filled], true[filled], rtol=0.25)
 
-    def test_bias_is_told_and_added_only_on_demand(self):
+    def test_bias_is_reported_and_added_only_on_demand(self):
         biased = pairs(bias=0.5)
         column = covariance_table(biased, 2.0, 30.0, 30).range
         np.testing.assert_allclose(column.bias[1:5], 0.5, atol=0.05)
@@ -216,13 +216,13 @@ class Tool(unittest.TestCase):
             items.append(object_at(near[0] + 2.0, near[1], yaw=math.pi, delay=delay, variance=1e-6))
         return ObjectArray(header=bag_messages.header(stamp, "base_link"), objects=items)
 
-    def tracks(self, stamp, way):
-        """Of all cars, half a metre off; way: of the vehicle, m."""
+    def tracks(self, stamp, distance):
+        """Of all cars, half a meter off; way: of the vehicle, m."""
         tracks = []
         for i in range(10):
-            middle = Point(way + self.ahead(stamp, i) + 2.5, 3.0 * i - 13.5, 0.0)
-            place = Pose(middle, Quaternion(0.0, 0.0, 0.0, 1.0))
-            tracks.append(Track(pose=place, size=Vector3(4.0, 1.8, 0.0), moving=True,
+            middle = Point(distance + self.ahead(stamp, i) + 2.5, 3.0 * i - 13.5, 0.0)
+            position = Pose(middle, Quaternion(0.0, 0.0, 0.0, 1.0))
+            tracks.append(Track(pose=position, size=Vector3(4.0, 1.8, 0.0), moving=True,
                                 velocity=Vector3(self.CAR_SPEED, 0.0, 0.0)))  # fmt: skip
         return TrackArray(header=bag_messages.header(stamp, "map"), tracks=tracks)
 
@@ -266,14 +266,14 @@ class Tool(unittest.TestCase):
         paired = []
         for runs in ([str(self.bag)], [str(self.bag)] * 2):
             score = self.root / "score.json"
-            self.calibrate("--json", str(score), "--least-pairs", "5", runs=runs)
+            self.calibrate("--json", str(score), "--min-pairs", "5", runs=runs)
             paired.append(json.loads(score.read_text())["objects"]["paired"])
         self.assertEqual(paired[1], 2 * paired[0])
         self.assertGreater(paired[0], 0)
 
     def test_plots(self):
         self.write("/objects", "/objects/stereo", rounds=20)
-        words = ("--least-pairs", "10", "--source", "other")
+        words = ("--min-pairs", "10", "--source", "other")
         starts = {"a.svg": b"<?xml", "b.svg": b"<?xml", "a.pdf": b"%PDF", "a.png": b"\x89PNG"}
         for name, start in starts.items():
             self.calibrate("--plot", str(self.root / name), *words)

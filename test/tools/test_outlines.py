@@ -18,16 +18,16 @@ def seen(x, y, yaw=0.0, size=(4.0, 2.0), sides=(0.0, 0.0, 0.0, 0.0)):
                 0, 0.0)  # fmt: skip
 
 
-def outline(*place, viewpoint=(0.0, 0.0), **words):
-    return Outline(seen(*place, **words), viewpoint)
+def outline(*position, viewpoint=(0.0, 0.0), **words):
+    return Outline(seen(*position, **words), viewpoint)
 
 
 class Outlines(unittest.TestCase):
     def test_line_of_sight_meets_the_near_side(self):
-        for place, reach, facing in (((10.0, 0.0), 8.0, 1.0), ((10.0, 0.0, math.pi / 2), 9.0, 1.0),
+        for position, reach, facing in (((10.0, 0.0), 8.0, 1.0), ((10.0, 0.0, math.pi / 2), 9.0, 1.0),
                                      ((10.0, 0.0, math.pi), 8.0, 1.0),
                                      ((0.0, -5.0), None, None)):  # fmt: skip
-            hit = outline(*place).hit(0.0)
+            hit = outline(*position).hit(0.0)
             self.assertEqual(hit is None, reach is None)
             if hit is not None:
                 self.assertAlmostEqual(hit.range, reach)
@@ -113,7 +113,7 @@ class Offsets(unittest.TestCase):
         apart = offset(outline(10.0, 0.0, **wall), outline(10.0, 0.0, **wall))
         np.testing.assert_allclose(apart.jacobian[0], (1.0, -1.0), atol=1e-3)
 
-    def test_sides_that_look_different_ways(self):
+    def test_sides_that_face_different_directions(self):
         apart = offset(outline(10.0, 0.0, math.pi / 4), outline(10.0, 0.0))
         self.assertTrue(np.isnan(apart.value[1]))
 

@@ -54,7 +54,7 @@ class Metric(unittest.TestCase):
         errors = self.errors([(0, 0, 0), (0, 0, 3.1)], relation(0, 1, 0, 0, -3.1))
         self.assertAlmostEqual(errors.rotation[0], 2 * math.pi - 6.2)
 
-    def test_backwards_in_time(self):
+    def test_backward_in_time(self):
         poses = [(0, 0, 0), (1, 0, math.pi / 2)]
         errors = self.errors(poses, relation(1, 0, 0, 1, -math.pi / 2))
         np.testing.assert_allclose([errors.translation, errors.rotation], 0.0, atol=1e-9)
@@ -155,14 +155,14 @@ class Tool(Files):
         self.assertIn("relations used", out)
         figures = json.loads(report.read_text())
         self.assertEqual((figures["used"], figures["not_covered"]), (2, 1))
-        for key, mean, most in (
+        for key, mean, maximum in (
             ("translation_m", 0.25, 0.5),
             ("rotation_deg", 1.0, 2.0),
             ("squared_translation_m2", 0.125, 0.25),
             ("squared_rotation_deg2", 2.0, 4.0),
         ):
             self.assertAlmostEqual(figures[key]["mean"], mean)
-            self.assertAlmostEqual(figures[key]["max"], most)
+            self.assertAlmostEqual(figures[key]["max"], maximum)
 
     def test_types_with_a_pose(self):
         self.write_relations("1000 1001 1 0 0 0 0 0")
@@ -205,8 +205,8 @@ class Tool(Files):
 
     def test_moved_stamps(self):
         """The scan at 0.9 s was taken before those at 0.4 and 0.6 s: relations know that."""
-        places = (0.0, 0.0), (0.9, 1.0), (0.4, 2.0), (0.6, 3.0)
-        lines = [flaser(time, (x, 0.0, 0.0)) for time, x in places]
+        positions = (0.0, 0.0), (0.9, 1.0), (0.4, 2.0), (0.6, 3.0)
+        lines = [flaser(time, (x, 0.0, 0.0)) for time, x in positions]
         write_log(self.root / "drive.clf", *lines)
         self.write_relations("1000 1000.9 1 0 0 0 0 0", "1000.9 1000.6 2 0 0 0 0 0")
         for clock in ("log", "order"):

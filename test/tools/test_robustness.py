@@ -9,7 +9,7 @@ import unittest
 from pathlib import Path
 
 from datmo_tools.robustness import main
-from datmo_tools.robustness_summary import summarise, table
+from datmo_tools.robustness_summary import summarize, table
 
 
 def run(movers, seed, jump, at_10, at_70=None, scene="road"):
@@ -26,7 +26,7 @@ def run(movers, seed, jump, at_10, at_70=None, scene="road"):
 class Summary(unittest.TestCase):
     def test_failures_errors_and_ratio(self):
         # Without movers the error at 10 m is (0.1 + 0.3) / 2 = 0.2, with them (0.2 + 0.4) / 2 = 0.3.
-        summary = summarise([
+        summary = summarize([
             run(0, 1, 0.1, 0.1, 0.5), run(0, 2, 0.2, 0.3),
             run(8, 1, 1.0, 0.2), run(8, 2, 1.5, 0.4),
         ])
@@ -41,23 +41,23 @@ class Summary(unittest.TestCase):
 
     def test_run_without_score_is_no_failure_of_the_pose(self):
         broken = {"scene": "road", "movers": 0, "seed": 2, "error": "no", "pose": None}
-        row = summarise([run(0, 1, 2.0, 0.1), broken])[0]
+        row = summarize([run(0, 1, 2.0, 0.1), broken])[0]
         self.assertEqual((row["runs"], row["without_score"], row["failure_rate"]), (1, 1, 1.0))
 
     def test_nothing_scored(self):
         broken = {"scene": "road", "movers": 0, "seed": 2, "error": "no", "pose": None}
-        row = summarise([broken])[0]
+        row = summarize([broken])[0]
         self.assertEqual((row["failure_rate"], row["worst_jump_m"], row["relative"]),
                          (None, None, []))
         self.assertEqual(table([row]).splitlines()[1].split(), ["road", "0", "0", "0", "-", "-"])
 
     def test_scenes_are_compared_with_themselves(self):
-        summary = summarise([run(0, 1, 0.1, 0.1), run(8, 1, 0.1, 0.2, scene="rails"),
+        summary = summarize([run(0, 1, 0.1, 0.1), run(8, 1, 0.1, 0.2, scene="rails"),
                              run(0, 1, 0.1, 0.4, scene="rails")])
         self.assertAlmostEqual(summary[1]["relative"][0]["ratio"], 0.5)
 
     def test_table(self):
-        text = table(summarise([run(0, 1, 0.1, 0.1, 0.5), run(16, 1, 1.25, 0.2, 0.5)]))
+        text = table(summarize([run(0, 1, 0.1, 0.1, 0.5), run(16, 1, 1.25, 0.2, 0.5)]))
         heading, still, moving = text.splitlines()
         self.assertEqual(len({len(heading), len(still), len(moving)}), 1)
         self.assertEqual(moving.split(), ["road", "16", "1", "1", "100%", "1.25", "m",

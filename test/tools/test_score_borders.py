@@ -12,7 +12,7 @@ from pathlib import Path
 from datmo_tools.border_tally import BANDS
 from datmo_tools.score_borders import main
 
-from border_samples import KERBS, along, border, left, parked, right, write_drive
+from border_samples import CURBS, along, border, left, parked, right, write_drive
 from datmo_fusion.msg import RoadBorder
 
 NEAR, WHOLE = BANDS.index((0.0, 20.0)), -1
@@ -69,8 +69,8 @@ class Tool(unittest.TestCase):
         self.assertEqual((both["rms_m"], both["mean_nees"]), (None, None))
         self.assertEqual(score["false"]["false_share"], None)
 
-    def test_side_without_kerb_is_not_asked(self):
-        score = self.score(right(-5.0), kerbs=KERBS[1:])
+    def test_side_without_curb_is_not_asked(self):
+        score = self.score(right(-5.0), curbs=CURBS[1:])
         self.assertEqual(score["borders"]["left"][WHOLE]["stations"], 0)
         self.assertEqual(score["borders"]["all"][WHOLE]["found_share"], 1.0)
 
@@ -86,29 +86,29 @@ class Tool(unittest.TestCase):
         row = [parked(i + 1, -36.0 + 6.0 * i, -4.0) for i in range(21)]
         on_right = self.score(right(-3.0), objects=row)["borders"]["right"][WHOLE]
         self.assertAlmostEqual(on_right["rms_m"], 0.0, 4)
-        self.assertAlmostEqual(on_right["kerb_rms_m"], 2.0, 4)
+        self.assertAlmostEqual(on_right["curb_rms_m"], 2.0, 4)
         on_right = self.score(right(-5.0), objects=row)["borders"]["right"][WHOLE]
         self.assertAlmostEqual(on_right["mean_m"], 2.0, 4)
-        self.assertAlmostEqual(on_right["kerb_rms_m"], 0.0, 4)
+        self.assertAlmostEqual(on_right["curb_rms_m"], 0.0, 4)
         unbridged = self.score(right(-5.0), objects=row, options=["--bridged", "0"])
         self.assertAlmostEqual(unbridged["borders"]["right"][WHOLE]["near_share"], 1.0 / 3.0, 2)
 
     def test_curve(self):
-        """To the left round a centre 100 m away, at 10 m/s."""
+        """To the left round a center 100 m away, at 10 m/s."""
         turned = [0.01 * i for i in range(21)]
-        way = along(*((100.0 * math.sin(a), 100.0 * (1.0 - math.cos(a)), a) for a in turned))
+        trajectory = along(*((100.0 * math.sin(a), 100.0 * (1.0 - math.cos(a)), a) for a in turned))
 
         def arc(radius):
             angles = [0.005 * i for i in range(-200, 301)]
             return [(radius * math.sin(a), 100.0 - radius * math.cos(a)) for a in angles]
 
-        kerbs = [arc(95.0), arc(105.0)]
-        score = self.score(border(RoadBorder.LEFT, *arc(95.3)), kerbs=kerbs, way=way)
+        curbs = [arc(95.0), arc(105.0)]
+        score = self.score(border(RoadBorder.LEFT, *arc(95.3)), curbs=curbs, trajectory=trajectory)
         curve = score["borders"]["curve"]
         self.assertEqual(score["borders"]["straight"][WHOLE]["stations"], 0)
         self.assertAlmostEqual(curve[1]["mean_m"], -0.3, 2)
         self.assertAlmostEqual(curve[1]["found_share"], 0.5)
-        score = self.score(kerbs=kerbs, way=way, options=["--curve-radius", "80"])
+        score = self.score(curbs=curbs, trajectory=trajectory, options=["--curve-radius", "80"])
         self.assertEqual(score["borders"]["curve"][WHOLE]["stations"], 0)
 
     def test_junction_is_not_asked(self):
@@ -125,7 +125,7 @@ class Tool(unittest.TestCase):
         self.assertEqual(on_right["published"], 0)
 
     def test_false_borders(self):
-        """Of 40 m of one on the road, and of one beyond the kerb; one where no kerb is."""
+        """Of 40 m of one on the road, and of one beyond the curb; one where no curb is."""
         score = self.score(left(2.0, 0.0, 40.0), right(-9.0, 0.0, 40.0))["false"]
         self.assertEqual(score["false_share"], 1.0)
         self.assertEqual(score["lists_with_false"], 21)
@@ -133,22 +133,22 @@ class Tool(unittest.TestCase):
         self.assertEqual([(item["side"], item["where"]) for item in score["episodes"]],
                          [("left", "road"), ("right", "beyond")])  # fmt: skip
         self.assertEqual(score["episodes"][0]["lists"], 21)
-        score = self.score(left(5.0, 0.0, 40.0), kerbs=KERBS[1:])["false"]
+        score = self.score(left(5.0, 0.0, 40.0), curbs=CURBS[1:])["false"]
         self.assertEqual(score["by_where_m"]["open"], score["false_m"])
         self.assertGreater(score["false_m"], 0.0)
 
     def test_false_border_in_a_junction(self):
-        """Kerbs are open from x = 0 to x = 20 m, and a border goes on over the opening."""
-        kerbs = [((-100.0, y), (0.0, y)) for y in (5.0, -5.0)]
-        kerbs += [((20.0, y), (200.0, y)) for y in (5.0, -5.0)]
-        score = self.score(left(5.0), kerbs=kerbs, at_intersection=range(21))["false"]
+        """Curbs are open from x = 0 to x = 20 m, and a border goes on over the opening."""
+        curbs = [((-100.0, y), (0.0, y)) for y in (5.0, -5.0)]
+        curbs += [((20.0, y), (200.0, y)) for y in (5.0, -5.0)]
+        score = self.score(left(5.0), curbs=curbs, at_intersection=range(21))["false"]
         self.assertEqual(score["by_where_m"]["junction"], score["false_m"])
         self.assertAlmostEqual(score["episodes"][0]["longest_m"], 20.0 - 2.0 * 1.5, 0)
 
     def test_truth_of_another_bag(self):
         write_drive(self.bag, [left(5.0)])
         drive = self.bag.with_name("drive.bag")
-        write_drive(drive, None, kerbs=[((-100.0, 6.0), (200.0, 6.0))])
+        write_drive(drive, None, curbs=[((-100.0, 6.0), (200.0, 6.0))])
         score = self.run_tool("--drive", str(drive), "--found-within", "1.1")[2]
         self.assertAlmostEqual(score["borders"]["left"][WHOLE]["mean_m"], -1.0, 4)
 

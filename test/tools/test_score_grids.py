@@ -23,7 +23,7 @@ from datmo_fusion.msg import TrueEchoes, TrueObject, TrueObjectArray
 
 SECOND = 10**9
 START = 1000 * SECOND
-BODY, KERB, PAINT = TrueEchoes.BODY, TrueEchoes.KERB, TrueEchoes.PAINT
+BODY, CURB, PAINT = TrueEchoes.BODY, TrueEchoes.CURB, TrueEchoes.PAINT
 EDGES = [0.0, 10.0, 20.0, 36.0]
 
 # The optical axes (x right, y down, z forward) in a vehicle's (x forward, y left, z up).
@@ -102,36 +102,36 @@ class Scores(unittest.TestCase):
 
     def test_paint_that_is_gone(self):
         near, far, aside = (8.5, 0.5), (25.5, 0.5), (3.5, 15.5)
-        found = [(*place, PAINT) for place in (near, far, aside)]
+        found = [(*position, PAINT) for position in (near, far, aside)]
         scores = self.scores(grid(near, far, aside), grid(near), found)
         self.assert_tally(scores.paint_gone, [2, 1, 0, 0, 1], [3, 2, 1, 0, 1])
         self.assert_tally(scores.bodies_lost, [0] * 5, [0] * 5)
 
     def test_bodies_that_are_lost(self):
-        places = (8.5, 0.5), (15.5, 0.5), (38.5, 0.5)
-        found = [(*place, BODY) for place in places]
-        scores = self.scores(grid(*places), grid((8.5, 0.5)), found)
+        positions = (8.5, 0.5), (15.5, 0.5), (38.5, 0.5)
+        found = [(*position, BODY) for position in positions]
+        scores = self.scores(grid(*positions), grid((8.5, 0.5)), found)
         self.assert_tally(scores.bodies_lost, [2, 1, 0, 1, 0], [3, 2, 1, 1, 0])
 
     def test_what_does_not_count(self):
-        """Kerbs; paint in the cell of a body; cells that the lidar's grid has not; twice one."""
-        found = [(8.5, 0.5, PAINT), (8.7, 0.3, BODY), (9.5, 0.5, KERB), (10.5, 0.5, PAINT),
+        """Curbs; paint in the cell of a body; cells that the lidar's grid has not; twice one."""
+        found = [(8.5, 0.5, PAINT), (8.7, 0.3, BODY), (9.5, 0.5, CURB), (10.5, 0.5, PAINT),
                  (12.1, 0.5, PAINT), (12.2, 0.5, PAINT), (55.0, 0.5, PAINT)]
         scores = self.scores(grid((8.5, 0.5), (9.5, 0.5), (12.5, 0.5)), grid(), found)
         self.assert_tally(scores.paint_gone, [1, 1, 0, 1, 0], [1, 1, 0, 1, 0])
         self.assert_tally(scores.bodies_lost, [1, 1, 1, 0, 0], [1, 1, 1, 0, 0])
 
     def test_hidden_cells_are_not_in_view(self):
-        places = (8.5, 0.5), (15.5, 0.5)
-        scores = self.scores(grid(*places), grid(), [(*place, PAINT) for place in places],
+        positions = (8.5, 0.5), (15.5, 0.5)
+        scores = self.scores(grid(*positions), grid(), [(*position, PAINT) for position in positions],
                              standing=[(12.0, 0.5, 0.0, 4.0, 2.0, 1.5)])
         self.assert_tally(scores.paint_gone, [2, 1, 1, 0, 0], [2, 1, 1, 0, 0])
 
     def test_undecided_is_not_occupied(self):
         fused = grid()
         fused.cells[20, 8:10] = 50, -1
-        places = (8.5, 0.5), (9.5, 0.5)
-        scores = self.scores(grid(*places), fused, [(*place, BODY) for place in places])
+        positions = (8.5, 0.5), (9.5, 0.5)
+        scores = self.scores(grid(*positions), fused, [(*position, BODY) for position in positions])
         self.assert_tally(scores.bodies_lost, [2, 2, 2, 0, 0], [2, 2, 2, 0, 0])
 
     def test_poles(self):
@@ -191,7 +191,7 @@ class Tool(unittest.TestCase):
 
     RANGES = (9.0, 15.0, math.inf)
     SURFACES = (BODY, PAINT, TrueEchoes.NOTHING)
-    PLACES = ((9.0 * math.cos(0.1), -9.0 * math.sin(0.1)), (15.0, 0.0))
+    POSITIONS = ((9.0 * math.cos(0.1), -9.0 * math.sin(0.1)), (15.0, 0.0))
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -244,8 +244,8 @@ class Tool(unittest.TestCase):
         return out.getvalue(), errors.getvalue(), figures
 
     def test_both_kinds_of_scan(self):
-        self.write(self.run_bag, ("/grids/lidar", self.grid_message(*self.PLACES)),
-                   ("/grids/fused", self.grid_message(self.PLACES[0], (12.5, 5.5))))
+        self.write(self.run_bag, ("/grids/lidar", self.grid_message(*self.POSITIONS)),
+                   ("/grids/fused", self.grid_message(self.POSITIONS[0], (12.5, 5.5))))
         for kind in (LaserScan, MultiEchoLaserScan):
             self.write(self.drive, *self.drive_messages(echoes_as=kind))
             out, _, figures = self.score()

@@ -47,11 +47,11 @@ def pose(frame):
     return message
 
 
-def tracks(frame, *places):
+def tracks(frame, *positions):
     """TrackArray of (id, x, y)."""
     message = TrackArray()
     message.header = Header(stamp=simulated.ros_time(0.1 * frame), frame_id="map")
-    for number, x, y in places:
+    for number, x, y in positions:
         track = Track(id=number)
         track.pose.position = Point(x, y, 0.0)
         track.pose.orientation = Quaternion(0.0, 0.0, 0.0, 1.0)

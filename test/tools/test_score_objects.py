@@ -62,7 +62,7 @@ class Lists(unittest.TestCase):
         self.assertEqual(self.assert_near([True], seen(20.0, 0.0), truths=cars), [(0, 0)])
 
     def test_what_moves_is_where_it_was_then(self):
-        """50 ms late, a car at 20 m/s is a metre ahead."""
+        """50 ms late, a car at 20 m/s is a meter ahead."""
         errors = score_list([seen(21.0, 0.0, delay=0.05)], [true(20.0, 0.0, velocity=(20.0, 0.0))])
         self.assertAlmostEqual(errors.matches[0][2].along, 0.0)
 
@@ -85,9 +85,9 @@ class Lists(unittest.TestCase):
 
 
 def true_object(number, x, y, classification=VEHICLE, speed=0.0, visible_to=("stereo",)):
-    place = Pose(Point(x, y, 0.0), Quaternion(*transforms.quaternion_of_yaw(math.pi / 2)))
+    position = Pose(Point(x, y, 0.0), Quaternion(*transforms.quaternion_of_yaw(math.pi / 2)))
     return TrueObject(
-        id=number, classification=classification, pose=place, size=Vector3(4.0, 2.0, 1.5),
+        id=number, classification=classification, pose=position, size=Vector3(4.0, 2.0, 1.5),
         velocity=Vector3(0.0, speed, 0.0), moving=speed != 0.0, visible_to=list(visible_to),
     )  # fmt: skip
 
@@ -180,8 +180,8 @@ class Tool(unittest.TestCase):
         self.assertEqual(figures["false_per_list"], 0.0)
 
     def test_region(self):
-        places = (8.0, 0.0), (0.0, 12.0), (16.0, 0.0)
-        self.write("/objects/stereo", *(object_at(*place) for place in places))
+        positions = (8.0, 0.0), (0.0, 12.0), (16.0, 0.0)
+        self.write("/objects/stereo", *(object_at(*position) for position in positions))
         words = ("--half-angle", "0.1", "--range", "15.1")
         figures = self.score(*words)[2]["/objects/stereo"]
         self.assertEqual(figures["bands_m"], [[0.0, 10.0], [10.0, 15.1]])
@@ -189,8 +189,8 @@ class Tool(unittest.TestCase):
         self.assertEqual(figures["objects_per_list"], 1.0)
 
     def test_object_that_is_not_finite_is_left_out(self):
-        places = (8.0, 0.0), (math.nan, 0.0)
-        self.write("/objects/stereo", *(object_at(*place) for place in places))
+        positions = (8.0, 0.0), (math.nan, 0.0)
+        self.write("/objects/stereo", *(object_at(*position) for position in positions))
         figures = self.score()[2]["/objects/stereo"]
         self.assertEqual(figures["objects_per_list"], 1.0)
         self.assertEqual(figures["recall"]["vehicle"]["count"][-1], 1)

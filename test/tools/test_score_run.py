@@ -29,7 +29,7 @@ class WholeRun(ScoreRunCase):
         self.assertEqual(report["clear_mot"]["mota"], 1.0)
         self.assertAlmostEqual(report["errors"]["position_rmse_m"], 0.5)
         self.assertAlmostEqual(report["consistency"]["position"]["mean_nees"], 0.25)
-        self.assertAlmostEqual(report["pose"]["way_m"], 20.0)
+        self.assertAlmostEqual(report["pose"]["path_length_m"], 20.0)
         self.assertAlmostEqual(report["pose"]["end_error_m"], 0.0)
         self.assertEqual(report["pose"]["mean_nees"], 0.0)
         self.assertEqual(report["objects"][0]["track_ids"], [7])
@@ -116,7 +116,7 @@ class WholeRun(ScoreRunCase):
 
     def test_options_from_file_and_command_line(self):
         options = self.folder / "options.yaml"
-        options.write_text("matching: {gate: 0.4, distance: to_centre}\nregion: {range: 40.0}\n")
+        options.write_text("matching: {gate: 0.4, distance: to_center}\nregion: {range: 40.0}\n")
         report = self.score("--options", options, "--set", "region/range=30")
         self.assertEqual(report["clear_mot"]["matches"], 0)
         self.assertEqual(report["options"]["matching/gate"], 0.4)
@@ -189,7 +189,7 @@ class BadUsage(ScoreRunCase):
         self.refuse(self.run_bag, "--out", expected=["--out: expected a value"])
         self.refuse(self.run_bag, "--set", "gate", expected=["gate", "key=value"])
 
-    def test_misspelt_and_bad_options(self):
+    def test_misspelled_and_bad_options(self):
         options = self.folder / "options.yaml"
         options.write_text("matching: {gte: 1.0}\n")
         self.refuse(self.run_bag, "--options", options,

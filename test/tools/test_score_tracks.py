@@ -130,7 +130,7 @@ class Tool(unittest.TestCase):
         false = passed["false"][0]
         self.assertEqual((false["id"], false["frames"], false["members"]),
                          (2, 11, [["lidar", 8], ["stereo", 5]]))  # fmt: skip
-        self.assertEqual(false["place_m"], [15.0, 8.5])
+        self.assertEqual(false["position_m"], [15.0, 8.5])
         self.assertAlmostEqual(false["range_m"], math.hypot(*at), places=2)
         self.assertEqual(false["nearest"],
                          {"id": 2, "label": "Car", "moving": False, "distance_m": 0.0})  # fmt: skip
@@ -185,9 +185,9 @@ class Tool(unittest.TestCase):
     def test_hidden_from_the_camera(self):
         self.write([track(3, 25.0, -20.0)], views=[view(reach=30.0)])
         false = self.score()["false"]["lidar"]
-        self.assertEqual((false["in_view"], false["in_sight"]), (1, 0))
+        self.assertEqual((false["in_view"], false["visible"]), (1, 0))
         self.write([track(3, 25.0, -20.0)], views=[view(reach=32.0)])
-        self.assertEqual(self.score()["false"]["lidar"]["in_sight"], 1)
+        self.assertEqual(self.score()["false"]["lidar"]["visible"], 1)
 
     def test_no_views(self):
         self.write([track(3, 25.0, -20.0)], views=[])

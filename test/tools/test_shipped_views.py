@@ -65,7 +65,7 @@ class ShippedViews(unittest.TestCase):
                                     "imu", "twist", "joint_states", "cloud") if name in takes}
         self.assertLessEqual(inputs, arguments_of(PACKAGE / "launch/record.launch", str))
 
-    def test_record_records_what_it_is_told(self):
+    def test_record_records_the_given_topics(self):
         words = recorder("scan:=/front")
         for word in ("/front", "odometry", "/tf", "/tf_static", "--lz4"):
             self.assertIn(word, words)

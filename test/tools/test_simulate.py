@@ -132,16 +132,16 @@ class Contract(unittest.TestCase):
         checked = 0
         for message, time in self.messages["/ground_truth/objects"]:
             for item in message.objects:
-                place = (item.pose.position.x, item.pose.position.y)
+                position = (item.pose.position.x, item.pose.position.y)
                 if item.id in last and (time - last[item.id][1]).to_sec() < 0.07:
                     seconds = (time - last[item.id][1]).to_sec()
                     before = last[item.id][0]
-                    self.assertAlmostEqual(place[0], before[0] + seconds * item.velocity.x,
+                    self.assertAlmostEqual(position[0], before[0] + seconds * item.velocity.x,
                                            delta=0.05)
-                    self.assertAlmostEqual(place[1], before[1] + seconds * item.velocity.y,
+                    self.assertAlmostEqual(position[1], before[1] + seconds * item.velocity.y,
                                            delta=0.05)
                     checked += item.moving
-                last[item.id] = (place, time)
+                last[item.id] = (position, time)
         self.assertGreater(checked, 500)
 
     def test_echoes_are_ordered_and_in_range(self):
@@ -198,7 +198,7 @@ class Stereo(unittest.TestCase):
             self.assertGreater(len(points), 20000)
             self.assertTrue(np.all((points[:, 2] > 2.999) & (points[:, 2] < 60.001)))
 
-    def test_camera_infos_tell_the_geometry(self):
+    def test_camera_infos_have_the_geometry(self):
         for (left, _), (right, _), (cloud, _) in zip(*(self.messages[topic] for topic in (
                 "/stereo/left/camera_info", "/stereo/right/camera_info", "/stereo/points2"))):
             self.assertEqual(left.header, right.header)
@@ -212,8 +212,8 @@ class Stereo(unittest.TestCase):
         camera, = [mount for mount in mounts.transforms
                    if mount.child_frame_id == "stereo_left_optical"]
         self.assertEqual(camera.header.frame_id, "base_link")
-        place, turn = camera.transform.translation, camera.transform.rotation
-        self.assertEqual((place.x, place.y, place.z), (1.8, 0.17, 1.3))
+        position, turn = camera.transform.translation, camera.transform.rotation
+        self.assertEqual((position.x, position.y, position.z), (1.8, 0.17, 1.3))
         self.assertEqual((turn.x, turn.y, turn.z, turn.w), (-0.5, 0.5, -0.5, 0.5))
 
     def test_truth_names_the_camera(self):

@@ -46,7 +46,7 @@ class OfAProcess(unittest.TestCase):
             ProcessUsage(5.0, 11.0, 31.5, 33.0),
             ProcessUsage(6.0, 19.0, 99.0, 99.0),  # after
         ]
-        use = process_usage.summarise(samples, 1.0, 5.0)
+        use = process_usage.summarize(samples, 1.0, 5.0)
         self.assertAlmostEqual(use["cpu_share"], 0.25)
         self.assertEqual(use["memory_peak_mib"], 33.0)
         self.assertEqual(use["memory_growth_mib"], 1.5)
@@ -62,7 +62,7 @@ class Live(unittest.TestCase):
             "unanswered": 1,
             "stages": {"tracker": [0.0005]},
         }
-        figures = speed_live.summarise(times, samples)
+        figures = speed_live.summarize(times, samples)
         self.assertEqual((figures["scans"], figures["unanswered"]), (4, 1))
         self.assertAlmostEqual(figures["latency_ms"]["median"], 2.0)
         self.assertAlmostEqual(figures["latency_ms"]["percentile_99"], 2.98)
@@ -80,7 +80,7 @@ class Micro(unittest.TestCase):
     def test_one_repetition_counts_itself(self):
         report = {"benchmarks": [micro_run("step", 3.0, time_unit="ms", per_pose=2e-6)]}
         self.assertEqual(
-            speed_micro.summarise(report), {"step": {"cpu_us": 3000.0, "per_pose_us": 2.0}}
+            speed_micro.summarize(report), {"step": {"cpu_us": 3000.0, "per_pose_us": 2.0}}
         )
 
     def test_of_several_the_median_counts(self):
@@ -93,7 +93,7 @@ class Micro(unittest.TestCase):
                 micro_run("step", 4.0, aggregate_name="median", **aggregate),
             ]
         }
-        self.assertEqual(speed_micro.summarise(report), {"step": {"cpu_us": 4.0}})
+        self.assertEqual(speed_micro.summarize(report), {"step": {"cpu_us": 4.0}})
 
     def test_a_fit(self):
         fit = {"run_name": "grow", "run_type": "aggregate", "repetitions": 5}
@@ -105,13 +105,13 @@ class Micro(unittest.TestCase):
             ]
         }  # fmt: skip
         self.assertEqual(
-            speed_micro.summarise(report), {"grow/fit": {"cpu_us": 2.0, "error": 0.02}}
+            speed_micro.summarize(report), {"grow/fit": {"cpu_us": 2.0, "error": 0.02}}
         )
 
     def test_a_benchmark_that_failed_is_named(self):
         report = {"benchmarks": [micro_run("step", 0, error_occurred=True, error_message="why")]}
         with self.assertRaisesRegex(InputError, "step: why"):
-            speed_micro.summarise(report)
+            speed_micro.summarize(report)
 
 
 def report_of(micro, commit="a"):

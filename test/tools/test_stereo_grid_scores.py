@@ -31,7 +31,7 @@ OPTICAL = np.array([[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
 LEFT = StereoView(transforms.rigid(OPTICAL, [0.0, 0.0, 1.7]), (-1.0, 1.0), 25.0, 0.01)
 VIEW = CommonView(LEFT, 1.0, -1.0)
 
-# 60 x 40 cells of half a metre, ahead of the vehicle.
+# 60 x 40 cells of half a meter, ahead of the vehicle.
 ROWS, COLUMNS, CELL = 40, 60, 0.5
 ORIGIN = np.array([0.0, -10.0])
 
@@ -113,7 +113,7 @@ class Clouds(unittest.TestCase):
 
 
 class Tool(unittest.TestCase):
-    """A drive at 10 m/s towards a post 10 m ahead of the first of two clouds."""
+    """A drive at 10 m/s toward a post 10 m ahead of the first of two clouds."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -147,12 +147,12 @@ class Tool(unittest.TestCase):
     def write_run(self, *grids):
         """grids: stamp and the place (x, y) of the one occupied cell."""
         with whole_bag(self.folder / "run.bag", "test") as bag:
-            for stamp, place in grids:
+            for stamp, position in grids:
                 message = OccupancyGrid(header=bag_messages.header(stamp, "base_link"))
                 message.info = MapMetaData(resolution=CELL, width=COLUMNS, height=ROWS)
                 message.info.origin = Pose(orientation=Quaternion(w=1.0))
                 message.info.origin.position.x, message.info.origin.position.y = ORIGIN
-                message.data = grid(place).cells.ravel().tolist()
+                message.data = grid(position).cells.ravel().tolist()
                 bag.write("/grids/stereo", stamp, message)
 
     def run_tool(self, *words):

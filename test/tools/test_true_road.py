@@ -47,12 +47,12 @@ class Rows(unittest.TestCase):
         bounded = np.ones(len(depths), dtype=bool) if bounded is None else bounded
         return row_of(depths, bounded, 1.0, OPTIONS)
 
-    def test_vehicle_is_parked_where_it_is_near_the_kerb(self):
-        kerb = np.array([5.0, 5.0, 5.0, 5.0, NONE])
+    def test_vehicle_is_parked_where_it_is_near_the_curb(self):
+        curb = np.array([5.0, 5.0, 5.0, 5.0, NONE])
         near = np.array([[3.0, NONE], [2.0, NONE], [3.5, 3.0], [6.0, NONE], [3.0, NONE]])
         far = np.array([[4.5, NONE], [3.5, NONE], [4.5, 4.8], [8.0, NONE], [4.5, NONE]])
-        # By the kerb; on the lane; two, of which the nearer one counts; beyond the kerb; no kerb.
-        depths = depths_of_vehicles(kerb, near, far)
+        # By the curb; on the lane; two, of which the nearer one counts; beyond the curb; no curb.
+        depths = depths_of_vehicles(curb, near, far)
         np.testing.assert_allclose(depths, [2.0, NONE, 2.0, NONE, NONE])
 
     def test_short_gap_is_bridged(self):
@@ -60,7 +60,7 @@ class Rows(unittest.TestCase):
         np.testing.assert_allclose(row.depth[3:8], [2.0, 1.75, 1.5, 1.25, 1.0])
         self.assertFalse(np.any(row.open))
 
-    def test_in_a_gap_longer_than_a_car_the_kerb_does_too(self):
+    def test_in_a_gap_longer_than_a_car_the_curb_does_too(self):
         row = self.row((4, 2.0), (8, NONE), (4, 2.0))
         np.testing.assert_allclose(row.depth, 2.0)
         self.assertEqual(np.flatnonzero(row.open).tolist(), list(range(4, 12)))

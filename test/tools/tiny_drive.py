@@ -10,7 +10,7 @@ from pathlib import Path
 FRAMES = 4
 WIDTH, HEIGHT = 8, 4
 FOCAL, BASELINE = 10.0, 0.5
-METRE_IN_LONGITUDE = 180.0 / (3.141592653589793 * 6378137.0)  # degrees, at the equator
+METER_IN_LONGITUDE = 180.0 / (3.141592653589793 * 6378137.0)  # degrees, at the equator
 
 CAM_TO_CAM = f"""\
 calib_time: 09-Jan-2012 13:57:47
@@ -38,7 +38,7 @@ TRACKLET_POSE = (
 def make_drive(root, frames=FRAMES, points=((10.0, 0.0, -1.23, 0.5),), van_x=12.0, van_step=0.0):
     """Makes the drive below `root` (a folder's name) and returns its folder.
 
-    points: of every cloud; van_x: where the van's centre stands in the first cloud, m ahead, and
+    points: of every cloud; van_x: where the van's center stands in the first cloud, m ahead, and
     van_step: how much further ahead it is from frame to frame.
     """
     folder = Path(root) / "2011_09_26" / "2011_09_26_drive_0001_sync"
@@ -100,9 +100,9 @@ def _make_raw_images(folder):
 
 
 def oxts_line(frame, speed=10.0, yaw=0.0, yaw_rate=0.0):
-    """A record of the GPS/IMU `frame` metres east of longitude 8 on the equator."""
+    """A record of the GPS/IMU `frame` meters east of longitude 8 on the equator."""
     fields = [0.0] * 30
-    fields[1] = 8.0 + frame * METRE_IN_LONGITUDE
+    fields[1] = 8.0 + frame * METER_IN_LONGITUDE
     fields[5], fields[8], fields[22] = yaw, speed, yaw_rate
     return " ".join(repr(field) for field in fields)
 

@@ -42,10 +42,10 @@ def car(number, x, y, speed=0.0, visible_to=EVERYWHERE, label="Car",
     """Function of the frame: a TrueObject of 4 m x 2 m that drives along x from there."""
 
     def at(frame):
-        place = Point(x + speed * frame * PERIOD * 1e-9, y, 0.0)
+        position = Point(x + speed * frame * PERIOD * 1e-9, y, 0.0)
         return TrueObject(
             id=number, label=label, classification=classification,
-            pose=Pose(place, Quaternion(0.0, 0.0, 0.0, 1.0)), size=Vector3(4.0, 2.0, 1.5),
+            pose=Pose(position, Quaternion(0.0, 0.0, 0.0, 1.0)), size=Vector3(4.0, 2.0, 1.5),
             velocity=Vector3(speed, 0.0, 0.0), moving=speed != 0.0, visible_to=list(visible_to),
         )  # fmt: skip
 
@@ -61,11 +61,11 @@ def track(number, x, y, speed=0.0, frames=range(FRAMES), sources=(), sources_fro
     def at(frame):
         if frame not in frames:
             return None
-        place = transforms.compose(DRIFT, [x + speed * frame * PERIOD * 1e-9, y, 0.0])
+        position = transforms.compose(DRIFT, [x + speed * frame * PERIOD * 1e-9, y, 0.0])
         turned = speed * np.array([math.cos(DRIFT[2]), math.sin(DRIFT[2])])
         members = sources if frame >= sources_from else sources[:1]
         return Track(
-            id=number, pose=Pose(Point(place[0], place[1], 0.0), Quaternion(0.0, 0.0, 0.0, 1.0)),
+            id=number, pose=Pose(Point(position[0], position[1], 0.0), Quaternion(0.0, 0.0, 0.0, 1.0)),
             velocity=Vector3(turned[0], turned[1], 0.0), moving=moving,
             sources=[SourceTrack(*member) for member in members],
         )  # fmt: skip

@@ -16,7 +16,7 @@ namespace datmo {
 
 /// Upright on the ground, sides along the axes; m.
 struct MadeBox {
-  Eigen::Vector3d least, most;
+  Eigen::Vector3d min, max;
 };
 
 /// A piece of road without texture: no disparity is found there; m.
@@ -124,8 +124,8 @@ class MadeCloud {
       nearest = std::numeric_limits<double>::infinity();
     }
     for (const MadeBox& box : scene.boxes) {
-      const Eigen::Array3d one = (box.least - origin).array() / direction.array();
-      const Eigen::Array3d other = (box.most - origin).array() / direction.array();
+      const Eigen::Array3d one = (box.min - origin).array() / direction.array();
+      const Eigen::Array3d other = (box.max - origin).array() / direction.array();
       const double enter = one.min(other).maxCoeff();
       const double leave = one.max(other).minCoeff();
       if (enter > 0.0 && enter < leave) {

@@ -14,8 +14,9 @@ namespace datmo {
 
 /// Where a beam from the origin of a box's frame at `from` along `direction` enters the box: the
 /// way to there, m. Nothing if it misses it.
-inline std::optional<double> wayInto(const Box2& box, const Point2& from, const Point2& direction) {
-  const Pose2 to_box = box.centre.inverse();
+inline std::optional<double> distanceInto(const Box2& box, const Point2& from,
+                                          const Point2& direction) {
+  const Pose2 to_box = box.center.inverse();
   const Point2 start = to_box * from;
   const Point2 along = to_box.rotate(direction);
   const Point2 half(0.5 * box.length, 0.5 * box.width);
@@ -48,15 +49,16 @@ struct RayCaster {
   }
 
   /// What it sees of boxes of which all points are moving, with noise on the ranges.
-  SplitScan scan(const std::vector<Box2>& boxes, Random& random) const {
-    SplitScan scan;
+  LabeledScan scan(const std::vector<Box2>& boxes, Random& random) const {
+    LabeledScan scan;
     scan.field = field;
     for (std::uint32_t beam = 0; beam < field.beams; ++beam) {
       const double bearing = field.first_bearing + field.beam_spacing * beam;
       const Point2 direction(std::cos(bearing), std::sin(bearing));
       double range = field.range;
       for (const Box2& box : boxes) {
-        range = std::fmin(range, wayInto(box, Point2::Zero(), direction).value_or(field.range));
+        range =
+            std::fmin(range, distanceInto(box, Point2::Zero(), direction).value_or(field.range));
       }
       if (range < field.range) {
         range += random.normal(range_sigma);

@@ -6,25 +6,25 @@ from typing import NamedTuple
 import numpy as np
 
 from datmo_tools import transforms
-from datmo_tools.object_truth import LONGEST_GAP
+from datmo_tools.object_truth import MAX_GAP
 from datmo_tools.pose_path import read_path
 from datmo_tools.segments import ray_crossings, segments_of
 from datmo_tools.stamps import NANOSECONDS
 from datmo_tools.track_frames import POSE
-from datmo_tools.true_road import MOST_SLANT, REACH, TURN
+from datmo_tools.true_road import MAX_SLANT, REACH, TURN
 
 # m along the way, from the vehicle (base_link): what counts.
 BEHIND, AHEAD = 10.0, 40.0
 
 # rad, from the vehicle's heading to that of its way: what is farther round a corner is not seen.
-MOST_TURN = math.radians(60.0)
+MAX_TURN = math.radians(60.0)
 
 
 class Frame(NamedTuple):
     """One list of borders, laid on the map of the truth at the vehicle's pose."""
 
     stamp: int  # ns
-    way: float  # m along the way, of the vehicle
+    arc_length: float  # m along the way, of the vehicle
     lines: list  # of (SeenBorder, its points in the map of the truth)
 
 
@@ -35,7 +35,7 @@ class Samples(NamedTuple):
     left: np.ndarray  # n, bool: of the left border
     curved: np.ndarray  # n, bool
     error: np.ndarray  # n, m, positive: too far out; NaN: no border was published
-    kerb_error: np.ndarray  # n, the same from the plain kerb
+    curb_error: np.ndarray  # n, the same from the plain curb
     sigma: np.ndarray  # n, m, as published there
 
     def where(self, chosen):
@@ -48,14 +48,14 @@ def frames_of(run, lists, road):
     truth (TrueRoad): the estimated pose of the vehicle is laid on its true one, so that the drift
     of the map does not count. Raises InputError."""
     poses = read_path(run, POSE)
-    nearest = LONGEST_GAP * NANOSECONDS
+    nearest = MAX_GAP * NANOSECONDS
     frames = []
     for item in lists:
         if max(poses.distance_from(item.stamp), road.poses.distance_from(item.stamp)) > nearest:
             continue
         base, true_base = poses.at(item.stamp), road.poses.at(item.stamp)
         lines = [(border, _moved(border.points, base, true_base)) for border in item.borders]
-        frames.append(Frame(item.stamp, road.way_at(item.stamp), lines))
+        frames.append(Frame(item.stamp, road.arc_length_at(item.stamp), lines))
     return frames
 
 
@@ -64,17 +64,17 @@ def samples_of(frames, road):
     the vehicle and not round a corner."""
     parts = []
     for frame in frames:
-        part = road.stations.between(frame.way - BEHIND, frame.way + AHEAD)
+        part = road.stations.between(frame.arc_length - BEHIND, frame.arc_length + AHEAD)
         turned = road.stations.headings[part] - road.poses.at(frame.stamp)[2]
-        in_sight = np.abs(transforms.normalise_angle(turned)) <= MOST_TURN
-        asked = in_sight & ~road.stations.at_intersection[part]
+        visible = np.abs(transforms.normalize_angle(turned)) <= MAX_TURN
+        asked = visible & ~road.stations.at_intersection[part]
         for name, side in road.sides.items():
             seen, sigma = _seen(frame, road.stations, part, name)
             here = side.part(part)
             found = Samples(
-                road.stations.way[part] - frame.way, np.full(len(seen), name == "left"),
-                here.curved, here.errors(seen), here.kerb_errors(seen), sigma)  # fmt: skip
-            parts.append(found.where(asked & np.isfinite(here.kerb)))
+                road.stations.arc_length[part] - frame.arc_length, np.full(len(seen), name == "left"),
+                here.curved, here.errors(seen), here.curb_errors(seen), sigma)  # fmt: skip
+            parts.append(found.where(asked & np.isfinite(here.curb)))
     return Samples(*(np.concatenate([np.empty(0), *values]) for values in zip(*parts)))
 
 
@@ -94,18 +94,18 @@ def _seen(frame, stations, part, name):
         if border.side_street or border.side == name
     ]
     segments = segments_of([line for _, line in borders])
-    places, headings = stations.places[part], stations.headings[part]
+    positions, headings = stations.positions[part], stations.headings[part]
     if not borders:
-        return np.full((2, len(places)), np.nan)
-    distances, share = ray_crossings(places, headings + TURN[name], segments)
-    slant = transforms.normalise_angle(segments.headings() - headings[:, np.newaxis])
-    along = np.abs(np.sin(slant)) <= np.sin(MOST_SLANT)
+        return np.full((2, len(positions)), np.nan)
+    distances, share = ray_crossings(positions, headings + TURN[name], segments)
+    slant = transforms.normalize_angle(segments.headings() - headings[:, np.newaxis])
+    along = np.abs(np.sin(slant)) <= np.sin(MAX_SLANT)
     of_street = _of_segments(borders, lambda item: np.full(len(item.sigma), item.side_street))
     with np.errstate(invalid="ignore"):
         along &= (np.abs(distances) <= REACH) & ((distances > 0.0) | ~of_street[0])
     far = np.where(along, np.abs(distances), np.inf)
     nearest = np.argmin(far, axis=1)
-    rows = np.arange(len(places))
+    rows = np.arange(len(positions))
     begin, end = (sigma[nearest] for sigma in _of_segments(borders, lambda item: item.sigma))
     there = np.isfinite(far[rows, nearest])
     share = share[rows, nearest]

@@ -19,11 +19,11 @@ KINDS = {IMAGE: "sensor_msgs/Image", INFO: "sensor_msgs/CameraInfo"}
 # Encodings, and where red, green and blue lie in a pixel.
 CHANNELS = {"mono8": (0,), "rgb8": (0, 1, 2), "bgr8": (2, 1, 0)}
 
-LONGEST_GAP = 0.2  # s from the borders to the image
+MAX_GAP = 0.2  # s from the borders to the image
 STEP = 0.25  # m, of a line that the camera bends
 NEAREST = 1.0  # m ahead of the camera; nearer is out of its view and would not project
 MARKS = (10.0, 20.0, 30.0, 40.0)  # m ahead of base_link, that are written beside the borders
-POINT = "#fde047"  # colour of the scan, on gray
+POINT = "#fde047"  # color of the scan, on gray
 
 
 class CameraImage(NamedTuple):
@@ -55,7 +55,7 @@ def read_images(path, camera, stamps):
     for topic in kinds:
         if topic not in topics:
             raise InputError(f"{path}: nothing on {topic}, expected a bag with rectified images")
-    found = nearest_messages(path, kinds, stamps, round(LONGEST_GAP * NANOSECONDS))
+    found = nearest_messages(path, kinds, stamps, round(MAX_GAP * NANOSECONDS))
     images, infos = (found[topic] for topic in kinds)
     with opened(path) as bag:
         mounts = mounts_of([message for _, message, _ in bag.read_messages([MOUNTS])])
@@ -98,9 +98,9 @@ def _write_distance(ax, image, line, distance, shade):
     """Writes a distance ahead (m) where the line has it first."""
     beyond = np.flatnonzero((line[:-1, 0] < distance) & (line[1:, 0] >= distance))
     if len(beyond):
-        place = image.seen(line[beyond[:1]])[0]
-        ax.plot(*place, "o", color=shade, markersize=2.5)
-        ax.annotate(f"{distance:g} m", place, xytext=(2, 2), textcoords="offset points", fontsize=6,
+        position = image.seen(line[beyond[:1]])[0]
+        ax.plot(*position, "o", color=shade, markersize=2.5)
+        ax.annotate(f"{distance:g} m", position, xytext=(2, 2), textcoords="offset points", fontsize=6,
                     color=shade, annotation_clip=True)  # fmt: skip
 
 
@@ -108,8 +108,8 @@ def _finely(line):
     """The line (n x 2) with points STEP apart at most."""
     lengths = np.hypot(*np.diff(line, axis=0).T)
     along = np.concatenate([[0.0], np.cumsum(lengths)])
-    places = np.linspace(0.0, along[-1], max(2, int(np.ceil(along[-1] / STEP)) + 1))
-    return np.column_stack([np.interp(places, along, line[:, i]) for i in (0, 1)])
+    positions = np.linspace(0.0, along[-1], max(2, int(np.ceil(along[-1] / STEP)) + 1))
+    return np.column_stack([np.interp(positions, along, line[:, i]) for i in (0, 1)])
 
 
 def _camera_image(path, image, info, mounts):

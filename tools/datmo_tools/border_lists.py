@@ -33,9 +33,9 @@ class BorderList(NamedTuple):
 
 
 class TrueBorders(NamedTuple):
-    """All kerbs of the scene, and when the vehicle is at an intersection."""
+    """All curbs of the scene, and when the vehicle is at an intersection."""
 
-    kerbs: list  # of arrays n x 2, m, in the map of the truth
+    curbs: list  # of arrays n x 2, m, in the map of the truth
     stamps: np.ndarray  # ns, rising
     at_intersection: np.ndarray  # bool, of each stamp
 
@@ -57,20 +57,20 @@ def read_borders(path):
 def border_list(path, message):
     """BorderList of a message in the bag at `path` (Path). Raises InputError as read_borders."""
     stamp = message.header.stamp.to_nsec()
-    place = f"{path}: {BORDERS} at {stamp / NANOSECONDS:.6f} s"
-    return BorderList(stamp, [_border(place, item) for item in message.borders])
+    location = f"{path}: {BORDERS} at {stamp / NANOSECONDS:.6f} s"
+    return BorderList(stamp, [_border(location, item) for item in message.borders])
 
 
 def read_true_borders(path):
     """TrueBorders of a drive. Raises InputError where there are none, or of another type."""
-    states, kerbs = {}, []
+    states, curbs = {}, []
     for message in _messages(path, TRUE_BORDERS, TrueRoadBorders, "a drive with true borders"):
         if not states:  # each message has them all
-            kerbs = [_points(line.points) for line in message.borders if len(line.points) > 1]
+            curbs = [_points(line.points) for line in message.borders if len(line.points) > 1]
         states.setdefault(message.header.stamp.to_nsec(), message.at_intersection)
     stamps = sorted(states)
     at_intersection = np.array([states[stamp] for stamp in stamps], dtype=bool)
-    return TrueBorders(kerbs, np.array(stamps), at_intersection)
+    return TrueBorders(curbs, np.array(stamps), at_intersection)
 
 
 def _messages(path, topic, kind, expected):
@@ -90,15 +90,15 @@ def _messages(path, topic, kind, expected):
     return messages
 
 
-def _border(place, item):
+def _border(location, item):
     points, sigma = _points(item.points), np.array(item.sigma, dtype=float)
     if len(points) < 2 or len(sigma) != len(points) or item.side not in SIDES:
         raise InputError(
-            f"{place}: a border of side {item.side} with {len(points)} points and {len(sigma)} "
+            f"{location}: a border of side {item.side} with {len(points)} points and {len(sigma)} "
             "sigmas, expected a known side, two points or more, and one sigma for each"
         )
     if not (np.all(np.isfinite(points)) and np.all(np.isfinite(sigma)) and np.all(sigma >= 0.0)):
-        raise InputError(f"{place}: a border that is not finite, expected finite points and sigmas")
+        raise InputError(f"{location}: a border that is not finite, expected finite points and sigmas")
     return SeenBorder(SIDES[item.side], points, sigma, item.probability, item.unseen.to_sec(),
                       item.side_street)  # fmt: skip
 

@@ -11,17 +11,17 @@ from datmo_tools.border_lists import BORDERS, TRUE_BORDERS, border_list
 from datmo_tools.errors import InputError
 from datmo_tools.grid_recordings import TRUE_OBJECTS, TRUE_POSE
 from datmo_tools.nearest_messages import check_kinds, nearest_messages, stamps_of, topics_of
-from datmo_tools.object_truth import LONGEST_GAP, NONE, TRUE_OBJECT_ARRAY, Asked, Region, Truth
+from datmo_tools.object_truth import MAX_GAP, NONE, TRUE_OBJECT_ARRAY, Asked, Region, Truth
 from datmo_tools.outlines import CORNERS
 from datmo_tools.pose_path import planar, read_path
 from datmo_tools.stamps import NANOSECONDS
 
-SPLIT_SCAN, POSE = "/split_scan", "/pose"
+SPLIT_SCAN, POSE = "/labeled_scan", "/pose"
 OBJECTS, DROPPED = "/objects", "/objects/dropped"
 
 KINDS = {
     BORDERS: "datmo_fusion/RoadBorders",
-    SPLIT_SCAN: "datmo_fusion/SplitScan",
+    SPLIT_SCAN: "datmo_fusion/LabeledScan",
     OBJECTS: "datmo_fusion/ObjectArray",
     DROPPED: "datmo_fusion/DroppedObjects",
     TRUE_BORDERS: "datmo_fusion/TrueRoadBorders",
@@ -126,7 +126,7 @@ class Run:
             border_list(self._path, road).borders,
             road.at_intersection,
             road.intersection_probability,
-            _places(points),
+            _positions(points),
             np.array([point.state for point in points], dtype=int),
             np.concatenate([np.empty((0, 2)), *earlier]),
             [_box(item) for item in kept if item.dynamic_state == Object.STATE_MOVING],
@@ -138,7 +138,7 @@ class Run:
     def _truths(self, stamps):
         """Dictionary stamp -> TrueRoad."""
         truth = Truth(self._path)
-        tolerance = round(LONGEST_GAP * NANOSECONDS)
+        tolerance = round(MAX_GAP * NANOSECONDS)
         roads = nearest_messages(self._path, [TRUE_BORDERS], stamps, tolerance)[TRUE_BORDERS]
         truths = {}
         for stamp in stamps:
@@ -147,7 +147,7 @@ class Run:
                 road, base = roads.get(stamp), truth.base_at(stamp)
                 borders = road.borders if road else []
                 truths[stamp] = TrueRoad(
-                    [seen_from(base, _places(border.points)) for border in borders],
+                    [seen_from(base, _positions(border.points)) for border in borders],
                     [corners(state.pose, state.size) for state in states if state.asked],
                     road.at_intersection if road else None,
                 )
@@ -173,13 +173,13 @@ def with_heading(points):
 
 
 def corners(pose, size):
-    """4 x 2, m: of a box with its centre at a pose (x, y, yaw), in the frame of the pose."""
+    """4 x 2, m: of a box with its center at a pose (x, y, yaw), in the frame of the pose."""
     return transforms.compose(pose, with_heading(CORNERS * size))[:, :2]
 
 
 def _in_map(scan):
-    """End points (n x 2, m) of a SplitScan, in the map by its own pose."""
-    points = with_heading(_places(scan.points))
+    """End points (n x 2, m) of a LabeledScan, in the map by its own pose."""
+    points = with_heading(_positions(scan.points))
     return transforms.compose(planar(scan.pose.pose), points)[:, :2]
 
 
@@ -187,5 +187,5 @@ def _box(message):
     return corners(np.array(planar(message.pose)), np.array([message.size.x, message.size.y]))
 
 
-def _places(points):
+def _positions(points):
     return np.array([(point.x, point.y) for point in points], dtype=float).reshape(-1, 2)

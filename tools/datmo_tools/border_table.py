@@ -14,7 +14,7 @@ OF_ALL = (
     ("90 %, m", lambda item: rounded(item["quantile_90_m"], 2)),
     ("95 %, m", lambda item: rounded(item["quantile_95_m"], 2)),
     ("within 0.5 m, %", lambda item: percent(item["near_share"])),
-    ("from the kerb, RMS, m", lambda item: rounded(item["kerb_rms_m"], 2)),
+    ("from the curb, RMS, m", lambda item: rounded(item["curb_rms_m"], 2)),
     ("beyond the gate", lambda item: f"{item['beyond_gate']} of {item['published']}"),
     ("sigma, mean, m", lambda item: rounded(item["mean_sigma_m"], 2)),
     ("NEES, mean", lambda item: rounded(item["mean_nees"], 2)),
@@ -52,8 +52,8 @@ def _false(item):
     longest = sorted(item["episodes"], key=lambda one: -one["lists"] * one["longest_m"])
     lines += [
         f"  {one['side']}, {one['where']}, {one['longest_m']:g} m, from {one['from_s']:.2f} s to "
-        f"{one['to_s']:.2f} s, {one['lists']} lists, at map ({one['place_m'][0]:g}, "
-        f"{one['place_m'][1]:g})"
+        f"{one['to_s']:.2f} s, {one['lists']} lists, at map ({one['position_m'][0]:g}, "
+        f"{one['position_m'][1]:g})"
         for one in longest[:EPISODES]
     ]
     return "\n".join(lines)

@@ -21,7 +21,7 @@ NEAR = 0.5  # m, an error that is small
 # 95 % of the squares of one normal error, over its variance, are below.
 GATE_95 = 3.84
 
-LEAST_SIGMA = 1e-6  # m
+MIN_SIGMA = 1e-6  # m
 
 
 def tally(samples, gate, found_within):
@@ -49,7 +49,7 @@ def _figures(samples, gate, found_within):
     published = samples.where(np.isfinite(samples.error))
     counted = published.where(np.abs(published.error) <= gate)
     size = np.abs(counted.error)
-    nees = (counted.error / np.maximum(counted.sigma, LEAST_SIGMA)) ** 2
+    nees = (counted.error / np.maximum(counted.sigma, MIN_SIGMA)) ** 2
     return {
         "stations": len(samples.ahead),
         "published": len(published.ahead),
@@ -61,8 +61,8 @@ def _figures(samples, gate, found_within):
         "quantile_90_m": _quantile(size, 0.9),
         "quantile_95_m": _quantile(size, 0.95),
         "near_share": _mean(size <= NEAR),
-        "kerb_rms_m": _root_mean_square(
-            published.kerb_error[np.abs(published.kerb_error) <= gate]
+        "curb_rms_m": _root_mean_square(
+            published.curb_error[np.abs(published.curb_error) <= gate]
         ),
         "mean_sigma_m": _mean(counted.sigma),
         "mean_nees": _mean(nees),

@@ -7,7 +7,7 @@ from matplotlib.patches import Patch
 from datmo_fusion.msg import RoadBorder, ScanPoint
 from datmo_tools.border_lists import SIDES
 from datmo_tools.border_recordings import edge, seen_from
-from datmo_tools.evaluation_style import COLOURS, FALSE, INK, TRUTH
+from datmo_tools.evaluation_style import COLORS, FALSE, INK, TRUTH
 from datmo_tools.stamps import NANOSECONDS
 
 BEHIND, AHEAD, ASIDE = 16.0, 46.0, 20.0  # m that are shown
@@ -15,9 +15,9 @@ TICKS = 10.0  # m
 AHEAD_NAME, LEFT_NAME = "ahead (m)", "to the left (m)"
 SHAPE = 2.0 * ASIDE / (BEHIND + AHEAD)  # height over width
 
-LEFT, RIGHT, MOVING = COLOURS[0], COLOURS[1], COLOURS[2]
+LEFT, RIGHT, MOVING = COLORS[0], COLORS[1], COLORS[2]
 SHADES = {SIDES[RoadBorder.LEFT]: LEFT, SIDES[RoadBorder.RIGHT]: RIGHT}
-STATES = {ScanPoint.STATIC: "#0f172a", ScanPoint.MOVING: COLOURS[5], ScanPoint.UNKNOWN: COLOURS[4]}
+STATES = {ScanPoint.STATIC: "#0f172a", ScanPoint.MOVING: COLORS[5], ScanPoint.UNKNOWN: COLORS[4]}
 
 EARLIER = "#a16207"
 
@@ -93,7 +93,7 @@ def legend_handles(with_truth):
         line(FALSE, "dropped object", **ring),
     ]
     if with_truth:
-        handles.append(line(TRUTH, "true kerb", linewidth=3.5))
+        handles.append(line(TRUTH, "true curb", linewidth=3.5))
         handles.append(Patch(color=TRUTH, alpha=0.35, linewidth=0.0, label="true object"))
     return handles
 

@@ -36,7 +36,7 @@ square."""
 
 TOPICS = {"lidar": "/objects", "stereo": "/objects/stereo", "tracks": "/tracks", "pose": "/pose"}
 
-LEAST_PAIRS = 30  # of a bin: its variance is known to a quarter (2 / 30, square root)
+MIN_PAIRS = 30  # of a bin: its variance is known to a quarter (2 / 30, square root)
 BIN_WIDTH = 2.0  # m; thesis 3.3.3
 RANGE = 36.0  # m; thesis 3.3.3
 DISPARITY_SIGMA = 0.25  # px; as the simulator's default
@@ -116,7 +116,7 @@ def _run(values):
     depth_sigma = _depth_sigma(values.drive, values.disparity_sigma)
     pairs, counts = read_pairs(values.runs, values.lidar, values.stereo, values.tracks, values.pose)
     table = covariance_table(
-        pairs, values.bin_width, values.range, values.least_pairs, values.with_bias
+        pairs, values.bin_width, values.range, values.min_pairs, values.with_bias
     )
     print(summary(table, counts))
     text = as_yaml(table, values.source, values.runs)
@@ -143,7 +143,7 @@ def _parser():
     add("--source", default="stereo", help="name in object_fusion/sources (default %(default)s)")
     for name, topic in TOPICS.items():
         add(f"--{name}", default=topic, metavar="TOPIC", help="(default %(default)s)")
-    add("--least-pairs", type=command_line.count, default=LEAST_PAIRS, metavar="N",
+    add("--min-pairs", type=command_line.count, default=MIN_PAIRS, metavar="N",
         help="of a bin; with fewer it is filled in (default %(default)s)")  # fmt: skip
     add("--with-bias", action="store_true", help="the variance is about zero, not about the mean")
     command_line.add_number(parser, "--bin-width", BIN_WIDTH, "M", "m")

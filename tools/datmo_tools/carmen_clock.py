@@ -19,17 +19,17 @@ from datmo_tools.carmen_log import Record
 
 CLOCKS = ("log", "order")
 
-# The typical time between two scans is the median, over a neighbourhood of scans to both sides, of
+# The typical time between two scans is the median, over a neighborhood of scans to both sides, of
 # spans of so many scans: bursts even out, pauses do not count, and the rate may change.
 TYPICAL_OVER = 10
-NEIGHBOURHOOD = 100
+NEIGHBORHOOD = 100
 # A scanner turns evenly: a scan follows the one before after this share of the typical time, or
 # later.
-LEAST_SHARE = 0.9
+MIN_SHARE = 0.9
 
 # Odometry this close to a scan or to earlier odometry tells no speed, for its stamps and digits are
 # too coarse, and no news.
-LEAST_STEP = 20_000_000  # ns
+MIN_STEP = 20_000_000  # ns
 
 
 class TimedRecord(NamedTuple):
@@ -48,22 +48,22 @@ def timeline(records, clock):
     """TimedRecords in rising order of stamps; `clock`: one of CLOCKS.
 
     records: in the order of the file. All scans are there, but with the clock `log` those with a
-    stamp that was there before. Odometry lines are there where they fit in (LEAST_STEP).
+    stamp that was there before. Odometry lines are there where they fit in (MIN_STEP).
     """
     timed = _by_stamp(records) if clock == "log" else _by_order(records)
     return _thinned(timed)
 
 
-def rising(stamps, least_steps):
+def rising(stamps, min_steps):
     """Stamps (ns) nearest to `stamps` in least squares of which each follows the one before by
-    `least_steps` (ns, one for each pair of neighbours) or more.
+    `min_steps` (ns, one for each pair of neighbors) or more.
 
     Isotonic regression by pooling adjacent violators (Barlow et al., "Statistical inference under
     order restrictions", 1972), of what the stamps have beyond the least steps.
     """
-    least = np.concatenate([[0], np.cumsum(least_steps, dtype=np.int64)])
+    minimum = np.concatenate([[0], np.cumsum(min_steps, dtype=np.int64)])
     pools = []  # mean and number of stamps that are moved to one line
-    for stamp, offset in zip(stamps, least):
+    for stamp, offset in zip(stamps, minimum):
         mean, count = float(stamp - stamps[0] - offset), 1
         while pools and pools[-1][0] > mean:
             before, more = pools.pop()
@@ -71,7 +71,7 @@ def rising(stamps, least_steps):
             count += more
         pools.append((mean, count))
     slack = np.repeat([mean for mean, _ in pools], [count for _, count in pools])
-    return [stamps[0] + round(extra) + int(offset) for extra, offset in zip(slack, least)]
+    return [stamps[0] + round(extra) + int(offset) for extra, offset in zip(slack, minimum)]
 
 
 def typical_steps(stamps):
@@ -80,8 +80,8 @@ def typical_steps(stamps):
     spans = np.asarray(stamps[over:]) - np.asarray(stamps[:-over])
     steps = []
     for i in range(len(stamps) - 1):
-        centre = min(max(i - over // 2, 0), len(spans) - 1)
-        near = spans[max(centre - NEIGHBOURHOOD, 0) : centre + NEIGHBOURHOOD + 1]
+        center = min(max(i - over // 2, 0), len(spans) - 1)
+        near = spans[max(center - NEIGHBORHOOD, 0) : center + NEIGHBORHOOD + 1]
         steps.append(max(int(np.median(near)) // over, 2))
     return steps
 
@@ -96,22 +96,22 @@ def _by_stamp(records):
 
 def _by_order(records):
     timed = [TimedRecord(record.line.stamp, record) for record in records]
-    places = [i for i, item in enumerate(timed) if item.is_scan]
-    stamps = [timed[i].stamp for i in places]
+    positions = [i for i, item in enumerate(timed) if item.is_scan]
+    stamps = [timed[i].stamp for i in positions]
     if len(stamps) > 1:
-        stamps = rising(stamps, [int(LEAST_SHARE * step) for step in typical_steps(stamps)])
-    for i, stamp in zip(places, stamps):
+        stamps = rising(stamps, [int(MIN_SHARE * step) for step in typical_steps(stamps)])
+    for i, stamp in zip(positions, stamps):
         timed[i] = timed[i]._replace(stamp=stamp)
     return timed
 
 
 def _thinned(timed):
-    """Without the odometry that does not fit between its neighbours."""
+    """Without the odometry that does not fit between its neighbors."""
     kept = []
     next_scan = _next_scans(timed)
     for item, scan in zip(timed, next_scan):
-        after = not kept or item.stamp >= kept[-1].stamp + LEAST_STEP
-        before = scan is None or item.stamp <= scan - LEAST_STEP
+        after = not kept or item.stamp >= kept[-1].stamp + MIN_STEP
+        before = scan is None or item.stamp <= scan - MIN_STEP
         if item.is_scan or (after and before):
             kept.append(item)
     return kept

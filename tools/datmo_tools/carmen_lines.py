@@ -24,10 +24,10 @@ OTHER_KINDS = re.compile(
 # ROBOTLASER lines of CARMEN's first releases have neither remissions nor the turn axis: behind the
 # readings stand two poses, two speeds, two safety distances, ipc time, host and the logger's time.
 OLD_FORM_FIELDS = 13
-MOST_READINGS = 100_000  # more is a broken line, not a scanner
+MAX_READINGS = 100_000  # more is a broken line, not a scanner
 # A message on a file that is no log names a kind of its lines by so many letters.
-MOST_LETTERS = 30
-MOST_FIELD_OF_VIEW = 2.0 * math.pi + 1e-3  # rad: a turn, however it was rounded
+MAX_LETTERS = 30
+MAX_FIELD_OF_VIEW = 2.0 * math.pi + 1e-3  # rad: a turn, however it was rounded
 
 
 class LaserLine(NamedTuple):
@@ -78,7 +78,7 @@ def parse_line(words):
 
 def shown(kind):
     """The name of a kind for a message, without control characters."""
-    return ascii(kind[:MOST_LETTERS])[1:-1]
+    return ascii(kind[:MAX_LETTERS])[1:-1]
 
 
 class _Fields:
@@ -100,8 +100,8 @@ class _Fields:
     def count(self, name):
         """The next field, a number of readings."""
         text = self.text(name)
-        if not text.isdigit() or int(text) > MOST_READINGS:
-            raise ValueError(f"{name} is '{text}', expected 0 to {MOST_READINGS}")
+        if not text.isdigit() or int(text) > MAX_READINGS:
+            raise ValueError(f"{name} is '{text}', expected 0 to {MAX_READINGS}")
         return int(text)
 
     def numbers(self, count, name):
@@ -173,7 +173,7 @@ def _new_laser(fields):
         fields.skip(fields.count("the number of remissions"), "remissions")
     laser, robot = fields.numbers(3, "the laser's pose"), fields.numbers(3, "the robot's pose")
     fields.skip(4 if is_old_form else 5, "speeds and safety distances")
-    if not 0.0 < step * (len(ranges) - 1) <= MOST_FIELD_OF_VIEW:
+    if not 0.0 < step * (len(ranges) - 1) <= MAX_FIELD_OF_VIEW:
         raise ValueError(f"{len(ranges)} readings every {step} rad, expected them within one turn")
     if range_max <= 0.0:
         raise ValueError(f"the maximum range is {range_max} m, expected more than 0")

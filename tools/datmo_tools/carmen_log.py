@@ -11,9 +11,9 @@ from datmo_tools.errors import InputError
 
 OPENERS = {".bz2": bz2.open, ".gz": gzip.open}
 
-# Stamps of neighbouring lines may be mixed up by as much, as messages waited on their way to the
+# Stamps of neighboring lines may be mixed up by as much, as messages waited on their way to the
 # logger; a clock that jumps back further was set, or the file holds two recordings.
-MOST_DISORDER = 10.0  # s
+MAX_DISORDER = 10.0  # s
 
 
 class Record(NamedTuple):
@@ -111,9 +111,9 @@ def _check_order(path, kind, records):
     latest = records[0].line.stamp
     for record in records:
         back = (latest - record.line.stamp) * 1e-9
-        if back > MOST_DISORDER:
+        if back > MAX_DISORDER:
             raise InputError(
                 f"{path}:{record.number}: {kind} is stamped {back:.3f} s before an earlier line, "
-                f"expected rising stamps (at most {MOST_DISORDER:g} s mixed up)"
+                f"expected rising stamps (at most {MAX_DISORDER:g} s mixed up)"
             )
         latest = max(latest, record.line.stamp)

@@ -6,8 +6,8 @@ from datmo_tools import transforms
 from datmo_tools.errors import InputError
 
 # The scanner's and the robot's pose in a line are rounded, and interpolated to its stamp.
-MOST_POSITION_SPREAD = 0.02  # m
-MOST_YAW_SPREAD = 0.02  # rad
+MAX_POSITION_SPREAD = 0.02  # m
+MAX_YAW_SPREAD = 0.02  # rad
 
 # CARMEN's settings for the place of the front laser: ahead, to the left, and turned (m, m, rad).
 FRONT_SETTINGS = (
@@ -28,8 +28,8 @@ def scanner_mount(path, log, scans):
     mounts = np.array([transforms.relative(scan.robot_pose, scan.laser_pose) for scan in scans])
     setting = _setting(path, log)
     spread = np.abs(mounts - mounts[0])
-    spread[:, 2] = np.abs(transforms.normalise_angle(mounts[:, 2] - mounts[0, 2]))
-    limits = (MOST_POSITION_SPREAD, MOST_POSITION_SPREAD, MOST_YAW_SPREAD)
+    spread[:, 2] = np.abs(transforms.normalize_angle(mounts[:, 2] - mounts[0, 2]))
+    limits = (MAX_POSITION_SPREAD, MAX_POSITION_SPREAD, MAX_YAW_SPREAD)
     fixed = np.all(spread.max(axis=0) <= limits)
     if fixed and (setting is None or np.any(mounts[0] != 0.0) or not np.any(setting)):
         return mounts[0], None

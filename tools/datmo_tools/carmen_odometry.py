@@ -3,7 +3,7 @@
 import numpy as np
 
 from datmo_tools import odometry, transforms
-from datmo_tools.carmen_clock import LEAST_STEP
+from datmo_tools.carmen_clock import MIN_STEP
 from datmo_tools.odometry import OdometrySample
 
 # Standard deviations of the rates that wheels indoors measure: what slips, and rounded encoders.
@@ -15,7 +15,7 @@ def samples(stamps, poses):
     """List of OdometrySample of rising stamps (ns) and planar poses (x, y, yaw).
 
     The stack holds a twist until the next odometry comes; so it is the mean to the next pose, or,
-    where that is too near to tell a speed, to the first one at least LEAST_STEP away.
+    where that is too near to tell a speed, to the first one at least MIN_STEP away.
     """
     rates = _rates(stamps, poses)
     result = []
@@ -34,7 +34,7 @@ def samples(stamps, poses):
 def _rates(stamps, poses):
     """(speed, yaw rate) at each stamp; at the end those before go on."""
     rates = []
-    later = np.searchsorted(np.asarray(stamps), np.asarray(stamps) + LEAST_STEP)
+    later = np.searchsorted(np.asarray(stamps), np.asarray(stamps) + MIN_STEP)
     for i, (stamp, j) in enumerate(zip(stamps, later)):
         if j < len(stamps):
             motion = transforms.relative(poses[i], poses[j])

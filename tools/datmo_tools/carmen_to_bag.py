@@ -52,8 +52,8 @@ def _parser():
     add("--field-of-view", type=command_line.number, metavar="DEG", help=field)
     reach = "no return from here on, in m, or from the line's own maximum"
     command_line.add_number(parser, "--range-max", defaults.range_max, "M", reach)
-    place = "the scanner's place on the robot, if not the log's (m, m, degrees)"
-    add("--mount", type=command_line.number, nargs=3, metavar=("X", "Y", "YAW"), help=place)
+    position = "the scanner's place on the robot, if not the log's (m, m, degrees)"
+    add("--mount", type=command_line.number, nargs=3, metavar=("X", "Y", "YAW"), help=position)
     sweep = "s from the first beam to the last; a SICK LMS takes 1/150 for half a turn"
     command_line.add_number(parser, "--sweep-time", defaults.sweep_time, "S", sweep)
     add("--skip-malformed", action="store_true", help="leave broken and unknown lines out")

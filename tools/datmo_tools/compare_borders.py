@@ -14,7 +14,7 @@ saw moving: in how many of its frames it is tracked. An object is lost that is t
 without borders, and in none with them. Counts are score_run's."""
 
 # All objects that the scanner saw moving, however briefly, at any distance.
-SETTINGS = ("truth/visible_to=scanner", "truth/least_time_seen=0", "region/range=500")
+SETTINGS = ("truth/visible_to=scanner", "truth/min_time_seen=0", "region/range=500")
 
 
 def main(arguments=None, program=None):

@@ -20,7 +20,7 @@ from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
 Drives the scenes data_set_1 to data_set_3, simulated with a stereo camera (10 MB for each second),
-and a labelled KITTI drive, where there is one, through the stack at several levels of fusion, and
+and a labeled KITTI drive, where there is one, through the stack at several levels of fusion, and
 prints what became of their moving objects beside the thesis's table 3.2. Each drive is recorded
 once, for all levels. Bags and scores of each stay in a folder of its own, for evaluate, all figures
 in comparison.json, and a picture of them in comparison.svg. A run that gives no score is reported,
@@ -54,7 +54,7 @@ def _compare(values):
         for result in results
     ]))  # fmt: skip
     for drive in drives:
-        # The thesis counts them; of a labelled drive each can be looked at.
+        # The thesis counts them; of a labeled drive each can be looked at.
         if drive.published is None:
             runs = [(item.level, item.figures) for item in results if item.drive is drive]
             title = f"Moving objects of {drive.name}: tracked in so many of their frames, %"

@@ -8,11 +8,11 @@ from datmo_tools.passed_tracks import has_passed, movers
 from datmo_tools.stamps import NANOSECONDS
 from datmo_tools.track_frames import Newest, follow, sightings_of
 
-# Between two lists that are further apart than this no time counts, s: as score_run's longest_gap.
-LONGEST_STEP = 0.5
+# Between two lists that are further apart than this no time counts, s: as score_run's max_gap.
+MAX_STEP = 0.5
 
-# No tracker can confirm in time what is visible for less, s: as score_run's truth/least_time_seen.
-LEAST_SEEN = 1.0
+# No tracker can confirm in time what is visible for less, s: as score_run's truth/min_time_seen.
+MIN_SEEN = 1.0
 
 # About the present, in which a track shows what it follows, ns: the noise of a few lists evens out,
 # and a track that goes over to another object is soon on that.
@@ -30,12 +30,12 @@ class Followers:
         """frames: TrackFrames; gate: m."""
         self._gate = gate
         self._followed = {}  # (track id, stamp) -> object id, or None
-        for number, sightings in sightings_of(frames).items():
-            stamps = [frame.stamp for frame, _ in sightings]
+        for number, observations in sightings_of(frames).items():
+            stamps = [frame.stamp for frame, _ in observations]
             for stamp in stamps:
                 begin = bisect.bisect_left(stamps, stamp - FOLLOW_HALF_WINDOW)
                 end = bisect.bisect_right(stamps, stamp + FOLLOW_HALF_WINDOW)
-                about = follow(sightings[begin:end], gate, movers)
+                about = follow(observations[begin:end], gate, movers)
                 self._followed[number, stamp] = about.object
 
     def on(self, frame):
@@ -66,7 +66,7 @@ class Together:
     def add(self, stamp, has_passed_now, reach, followed_by):
         """reach: of the object, m from the vehicle; followed_by: sources that have a track of it.
         """
-        if self.last is not None and stamp - self.last <= LONGEST_STEP * NANOSECONDS:
+        if self.last is not None and stamp - self.last <= MAX_STEP * NANOSECONDS:
             self._duration += stamp - self.last
         self.first = stamp if self.first is None else self.first
         self.last = stamp
@@ -130,16 +130,16 @@ def score_confirmed(fused, members, gate, soon, sensors):
 
 def _add_tracks(entry, stamp, number, on):
     """The object's tracks, and the least distance between two of different sources."""
-    places = []
+    positions = []
     for source, (then, tracks) in on.items():
         entry.tracks.update((source, track.id) for track in tracks[number])
         seconds = (stamp - then) / NANOSECONDS
-        places.append([track.place_at(seconds) for track in tracks[number]])
+        positions.append([track.position_at(seconds) for track in tracks[number]])
     entry.distances.append(
         min(
             float(np.hypot(*(one - other)))
-            for i, ones in enumerate(places)
-            for others in places[i + 1 :]
+            for i, ones in enumerate(positions)
+            for others in positions[i + 1 :]
             for one in ones
             for other in others
         )
@@ -172,10 +172,10 @@ def _visible_summary(visible, confirmed, soon):
         for number, item in visible.items()
         if item.delay is not None and number in confirmed and _in_time(confirmed[number], soon)
     }
-    long = {number: item for number, item in visible.items() if item.seconds >= LEAST_SEEN}
+    long = {number: item for number, item in visible.items() if item.seconds >= MIN_SEEN}
     return {
         **_counts(visible, in_time),
-        "least_seen_s": LEAST_SEEN,
+        "min_seen_s": MIN_SEEN,
         "for_that_long": _counts(long, in_time),
         "frames": sum(item.frames for item in visible.values()),
         "passed_frames": sum(item.passed_frames for item in visible.values()),

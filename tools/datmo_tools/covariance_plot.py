@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from datmo_tools.evaluation_style import FALSE, INK, TRUTH, colour, picture
+from datmo_tools.evaluation_style import FALSE, INK, TRUTH, series_color, picture
 
 NEAR_BINS = 2
 HEADROOM = 1.3  # over the highest point, for the legend
@@ -32,22 +32,22 @@ def covariance_plot(table, kind, depth_sigma=None):
 
 
 def _ranges(table):
-    return np.linspace(0.5 * table.bin_width, table.bin_width * len(table.centres), 200)
+    return np.linspace(0.5 * table.bin_width, table.bin_width * len(table.centers), 200)
 
 
 def _draw(ax, table, column, scale):
     """scale: of the unit that is drawn."""
-    sigmas, centres, measured = scale * np.sqrt(column.variance), table.centres, column.measured
+    sigmas, centers, measured = scale * np.sqrt(column.variance), table.centers, column.measured
     ranges = _ranges(table)
     # A standard deviation of n samples is known to a share of 1 / sqrt(2 n) of itself.
     spread = sigmas[measured] / np.sqrt(2.0 * column.count[measured])
-    ax.plot(ranges, scale * np.sqrt(column.law.at(ranges)), color=colour(0), label="fitted law")
-    ax.errorbar(centres[measured], sigmas[measured], spread, fmt="o", color=INK, markersize=4,
+    ax.plot(ranges, scale * np.sqrt(column.law.at(ranges)), color=series_color(0), label="fitted law")
+    ax.errorbar(centers[measured], sigmas[measured], spread, fmt="o", color=INK, markersize=4,
                 label="measured")  # fmt: skip
-    ax.plot(centres[~measured], sigmas[~measured], "o", color=INK, markersize=4,
+    ax.plot(centers[~measured], sigmas[~measured], "o", color=INK, markersize=4,
             markerfacecolor="none", label="not measured: of the law")  # fmt: skip
-    ax.plot(centres, scale * np.sqrt(column.known_variance), color=TRUTH, label="known, taken out")
-    ax.plot(centres, scale * np.abs(column.bias), ".", color=colour(1), label="bias, absolute")
+    ax.plot(centers, scale * np.sqrt(column.known_variance), color=TRUTH, label="known, taken out")
+    ax.plot(centers, scale * np.abs(column.bias), ".", color=series_color(1), label="bias, absolute")
     # A bearing's deviation has no bound near the sensor: the first bins do not set the scale.
     scaling = sigmas[NEAR_BINS:] if len(sigmas) > NEAR_BINS else sigmas
     ax.set_ylim(0.0, HEADROOM * float(np.max(scaling)))

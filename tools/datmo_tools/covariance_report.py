@@ -56,8 +56,8 @@ def _numbers(values):
 
 def _bins(table):
     """One line for each bin."""
-    for i, centre in enumerate(table.centres):
-        near, far = centre - 0.5 * table.bin_width, centre + 0.5 * table.bin_width
+    for i, center in enumerate(table.centers):
+        near, far = center - 0.5 * table.bin_width, center + 0.5 * table.bin_width
         texts = []
         for column, scale, unit in ((table.range, 1.0, "m"), (table.bearing, DEGREES, "deg")):
             text = f"{column.count[i]} pairs"
@@ -79,8 +79,8 @@ def summary(table, counts):
     """The table as text for the terminal; counts: of object_pairs."""
     headings = ["pairs", "bias", "known", "sd", ""]
     rows = [["range, m", *headings, *headings]]
-    for i, centre in enumerate(table.centres):
-        cells = [f"{centre:g}"]
+    for i, center in enumerate(table.centers):
+        cells = [f"{center:g}"]
         for column, scale in ((table.range, 1.0), (table.bearing, DEGREES)):
             items = (column.bias[i], np.sqrt(column.known_variance[i]), np.sqrt(column.variance[i]))
             cells.append(str(column.count[i]))

@@ -14,7 +14,7 @@ KEPT_VARIANCE = 0.97334
 
 # Of the variance of the differences: where less of it is the camera's own, it is too little to be
 # measured beside what is known.
-LEAST_SHARE = 0.1
+MIN_SHARE = 0.1
 
 FIT_STEPS = 50
 
@@ -99,58 +99,58 @@ class CovarianceTable(NamedTuple):
     bearing: Column  # rad^2
 
     @property
-    def centres(self):
+    def centers(self):
         """Of the bins, m."""
         return (np.arange(len(self.range.count)) + 0.5) * self.bin_width
 
 
 # How errors grow with range. A stereo camera's depth: with its square (thesis 3.3.3 measures it;
 # disparities of constant noise explain it). Bearing: that of pixels, and of what is seen as the
-# middle of an object, which is some centimetres whatever the range.
+# middle of an object, which is some centimeters whatever the range.
 RANGE_POWER, BEARING_POWER = 4, -2
 
 
-def covariance_table(pairs, bin_width, reach, least_pairs, with_bias=False):
+def covariance_table(pairs, bin_width, reach, min_pairs, with_bias=False):
     """CovarianceTable of Pairs (object_pairs).
 
-    bin_width: m; reach: m, up to where there are bins; least_pairs: of a bin that is measured;
+    bin_width: m; reach: m, up to where there are bins; min_pairs: of a bin that is measured;
     with_bias: variance about zero, not about the mean. Raises InputError for fewer than two
     measured bins of range or of bearing.
     """
     bins = int(np.ceil(reach / bin_width - 1e-9))
     values = np.array(pairs, dtype=float).reshape(-1, 5)
     index = np.floor(values[:, 0] / bin_width).astype(int)
-    centres = (np.arange(bins) + 0.5) * bin_width
+    centers = (np.arange(bins) + 0.5) * bin_width
 
     def column(name, difference, known, power):
         seen = [np.isfinite(values[:, difference]) & (index == i) for i in range(bins)]
         members = [(values[chosen, difference], values[chosen, known]) for chosen in seen]
-        enough = sum(len(differences) >= least_pairs for differences, _ in members)
+        enough = sum(len(differences) >= min_pairs for differences, _ in members)
         if enough < 2:
             raise InputError(
                 f"{sum(map(np.sum, seen))} pairs with {name}; {enough} bins of {bin_width:g} m "
-                f"within {reach:g} m have {least_pairs} or more, expected two bins: bags with more "
-                f"traffic, several are taken together{_wider_bins(values, bin_width, least_pairs)}"
+                f"within {reach:g} m have {min_pairs} or more, expected two bins: bags with more "
+                f"traffic, several are taken together{_wider_bins(values, bin_width, min_pairs)}"
             )
-        return _column(members, centres, least_pairs, power, with_bias)
+        return _column(members, centers, min_pairs, power, with_bias)
 
     return CovarianceTable(
         bin_width, column("range", 1, 3, RANGE_POWER), column("bearing", 2, 4, BEARING_POWER)
     )
 
 
-def _wider_bins(values, bin_width, least_pairs):
+def _wider_bins(values, bin_width, min_pairs):
     """The advice to take bins of so many times the width, where these would have enough pairs."""
     seen = [values[np.isfinite(values[:, difference]), 0] for difference in (1, 2)]
     farthest = np.max(values[:, 0], initial=0.0)
     for width in np.arange(2 * bin_width, farthest, bin_width):
         counts = [np.bincount((ranges / width).astype(int)) for ranges in seen]
-        if all(np.count_nonzero(count >= least_pairs) >= 2 for count in counts):
+        if all(np.count_nonzero(count >= min_pairs) >= 2 for count in counts):
             return f", or --bin-width {width:g}"
     return ""
 
 
-def _column(members, centres, least_pairs, power, with_bias):
+def _column(members, centers, min_pairs, power, with_bias):
     count = np.zeros(len(members), dtype=int)
     bias, difference_variance, known_variance = np.full((3, len(members)), np.nan)
     for i, (differences, known) in enumerate(members):
@@ -158,20 +158,20 @@ def _column(members, centres, least_pairs, power, with_bias):
             continue
         spread = robust_spread(differences)
         count[i], bias[i] = spread.count, spread.bias
-        if len(differences) >= least_pairs:
+        if len(differences) >= min_pairs:
             difference_variance[i] = spread.variance + with_bias * spread.bias**2
             known_variance[i] = np.median(known)
     enough = np.isfinite(difference_variance)
     if np.any(difference_variance[enough] <= 0.0):
         raise InputError("pairs of a bin differ by nothing at all, expected two sensors' objects")
     own = difference_variance - known_variance
-    measured = enough & (own >= LEAST_SHARE * difference_variance)
+    measured = enough & (own >= MIN_SHARE * difference_variance)
     if not np.any(measured):
-        known_variance = np.minimum(known_variance, (1.0 - LEAST_SHARE) * difference_variance)
-    law = fitted_law(centres[enough], difference_variance[enough], known_variance[enough],
+        known_variance = np.minimum(known_variance, (1.0 - MIN_SHARE) * difference_variance)
+    law = fitted_law(centers[enough], difference_variance[enough], known_variance[enough],
                      count[enough], power)  # fmt: skip
     # A law without a constant may be nothing near the sensor, or everywhere.
-    least = LEAST_SHARE * np.min(own[measured] if np.any(measured) else law.at(centres)[enough])
-    variance = np.where(measured, own, np.maximum(law.at(centres), least))
+    minimum = MIN_SHARE * np.min(own[measured] if np.any(measured) else law.at(centers)[enough])
+    variance = np.where(measured, own, np.maximum(law.at(centers), minimum))
     columns = (count, bias, difference_variance, known_variance, enough, measured, variance)
     return Column(*columns, law)

@@ -29,7 +29,7 @@ the scanner alone; the thesis's tables 3.4 and 3.5 have columns of these runs, a
 Their bags and scores are in a folder `road_border` within the set's."""
 
 # All objects count that the scanner saw moving, as in the thesis, also those gone in a moment.
-SCORE_OPTIONS = ("truth/least_time_seen=0", "truth/visible_to=scanner")
+SCORE_OPTIONS = ("truth/min_time_seen=0", "truth/visible_to=scanner")
 
 STEREO_OPTIONS = ("stereo/enabled=true", "ground_truth/echoes=true")
 

@@ -1,7 +1,7 @@
 """GPS/IMU records -> planar poses of base_link in the map, and the pose at any time between.
 
 The heading is the GPS/IMU's. For the position there are two sources: its velocity, integrated, is
-smooth and drifts slowly; its latitude and longitude are absolute, but walk by metres where few
+smooth and drifts slowly; its latitude and longitude are absolute, but walk by meters where few
 satellites are seen. Full Velodyne clouds of drive 0005, aligned scan to map, say how far: after 71
 m the velocity is 0.4 m off, the latitude and longitude 2.7 m. A map of one drive needs the first.
 """
@@ -23,11 +23,11 @@ def poses_from_velocity(stamps, records):
     yaw = np.unwrap([record.yaw for record in records])
     speed = np.array([record.forward_speed for record in records])
     duration = np.diff(np.array(stamps) - stamps[0]) * 1e-9
-    travelled = 0.5 * (speed[1:] + speed[:-1]) * duration
+    traveled = 0.5 * (speed[1:] + speed[:-1]) * duration
     course = 0.5 * (yaw[1:] + yaw[:-1]) - yaw[0] + course_offset(records)
-    x = np.concatenate([[0.0], np.cumsum(travelled * np.cos(course))])
-    y = np.concatenate([[0.0], np.cumsum(travelled * np.sin(course))])
-    return np.stack([x, y, transforms.normalise_angle(yaw - yaw[0])], axis=-1)
+    x = np.concatenate([[0.0], np.cumsum(traveled * np.cos(course))])
+    y = np.concatenate([[0.0], np.cumsum(traveled * np.sin(course))])
+    return np.stack([x, y, transforms.normalize_angle(yaw - yaw[0])], axis=-1)
 
 
 def course_offset(records):

@@ -62,8 +62,8 @@ def best_runs(metric, runs):
     shown = {i: text for i, text in shown.items() if text != NO_VALUE}
     if metric.cost is None or len(set(shown.values())) < 2:
         return set()
-    least = min(metric.cost(float(text)) for text in shown.values())
-    return {i for i, text in shown.items() if metric.cost(float(text)) == least}
+    minimum = min(metric.cost(float(text)) for text in shown.values())
+    return {i for i, text in shown.items() if metric.cost(float(text)) == minimum}
 
 
 def extent(run):

@@ -5,7 +5,7 @@ Each function returns an SVG element.
 
 import numpy as np
 
-from datmo_tools.evaluation_style import FALSE, INK, MISSED, TRUTH, WIDTH, colour, drawing, plain
+from datmo_tools.evaluation_style import FALSE, INK, MISSED, TRUTH, WIDTH, series_color, drawing, plain
 
 ROW = 0.2  # inch
 BAR = 0.76  # of a row
@@ -16,7 +16,7 @@ JITTER = 0.5  # of a period: a later frame is not the next one
 
 
 def timeline(run):
-    """A row for each object; its bar changes colour where another track takes over.
+    """A row for each object; its bar changes color where another track takes over.
 
     Pale is a track on an object that did not have to be found then. Objects that neither had to be
     found nor have a track are left out.
@@ -55,7 +55,7 @@ def _draw_row(ax, y, path, period, room):
         for number, duty in zip(path["track_id"], required)
     ]
     bars = spans(times, tracked, period)
-    shades = {number: colour(i) for i, number in enumerate(dict.fromkeys(k[0] for *_, k in bars))}
+    shades = {number: series_color(i) for i, number in enumerate(dict.fromkeys(k[0] for *_, k in bars))}
     for number, duty in dict.fromkeys(key for *_, key in bars):
         chosen = [bar for bar in bars if bar[2] == (number, duty)]
         _draw_bars(ax, y, chosen, facecolors=shades[number], alpha=1.0 if duty else PALE)
@@ -101,11 +101,11 @@ def birds_eye(run):
             _write_number(ax, path)
         for path in series["track_paths"]:
             if path["id"] in on_truth:
-                _line(ax, path, "track", color=colour(0), linewidth=1.1)
+                _line(ax, path, "track", color=series_color(0), linewidth=1.1)
             else:
                 _line(ax, path, "track on no true object", color=FALSE, linewidth=1.4)
         _line(ax, series["ego_true"], "vehicle, true", color=INK, linewidth=1.4)
-        _line(ax, series["ego_estimated"], "vehicle, estimated", color=colour(1), linestyle="--")
+        _line(ax, series["ego_estimated"], "vehicle, estimated", color=series_color(1), linestyle="--")
         ax.set_aspect("equal", adjustable="datalim")
         ax.set(xlabel="x (m)", ylabel="y (m)")
         _legend_of_kinds(ax)
@@ -137,15 +137,15 @@ def _required_part(path):
 def _write_number(ax, path):
     """The object's id where it is first seen."""
     if path["x_m"]:
-        place = (path["x_m"][0], path["y_m"][0])
-        ax.annotate(str(path["id"]), place, fontsize=7, color="#475569", clip_on=True)
+        position = (path["x_m"][0], path["y_m"][0])
+        ax.annotate(str(path["id"]), position, fontsize=7, color="#475569", clip_on=True)
 
 
 def _legend_of_kinds(ax):
     """One entry a kind of line, above the map."""
     handles = dict(zip(*reversed(ax.get_legend_handles_labels())))
-    place = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.2}
-    ax.legend(list(handles.values()), list(handles), ncol=len(handles), **place)
+    position = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.2}
+    ax.legend(list(handles.values()), list(handles), ncol=len(handles), **position)
 
 
 def _xy(path):

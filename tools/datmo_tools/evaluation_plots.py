@@ -6,7 +6,7 @@ Each function returns an SVG element. names: of the runs, for the legends.
 import numpy as np
 from matplotlib.ticker import FuncFormatter
 
-from datmo_tools.evaluation_style import FALSE, INK, MISSED, TRUTH, colour, drawing, plain
+from datmo_tools.evaluation_style import FALSE, INK, MISSED, TRUTH, series_color, drawing, plain
 
 ROW = 0.32  # inch, of a plot with a row for each item
 NAMES_WIDTH = 2.4  # inch, for the names of the rows
@@ -39,7 +39,7 @@ def counts_over_time(run):
         times, false = _numbers(series["time_s"]), _numbers(series["false"])
         tracked, missed = _numbers(series["tracked"]), _numbers(series["missed"])
         fill = {"step": "post", "linewidth": 0.0}
-        ax.fill_between(times, 0.0, tracked, color=colour(0), label="tracked", **fill)
+        ax.fill_between(times, 0.0, tracked, color=series_color(0), label="tracked", **fill)
         ax.fill_between(times, tracked, tracked + missed, color=MISSED, label="missed", **fill)
         ax.fill_between(times, -false, 0.0, color=FALSE, label="false tracks", **fill)
         ax.axhline(0.0, color=INK, linewidth=0.8)
@@ -52,7 +52,7 @@ def counts_over_time(run):
 
 
 def hota_over_alpha(runs, names):
-    """HOTA at each localisation threshold alpha; its mean is the HOTA of the table."""
+    """HOTA at each localization threshold alpha; its mean is the HOTA of the table."""
 
     def draw(ax):
         for i, (run, name) in enumerate(zip(runs, names)):
@@ -61,7 +61,7 @@ def hota_over_alpha(runs, names):
             mean = "-" if hota["hota"] is None else f"{100.0 * hota['hota']:.1f} %"
             label = f"{plain(name)}: mean {mean}"
             alphas = _numbers(hota["alphas"])[: len(values)]  # no values where nothing was scored
-            ax.plot(alphas, values, "o-", color=colour(i), ms=3.5, label=label)
+            ax.plot(alphas, values, "o-", color=series_color(i), ms=3.5, label=label)
         ax.set(xlim=(0.0, 1.0), ylim=(0.0, 100.0), ylabel="HOTA (%)")
         ax.set_xlabel("alpha: similarity that is asked of a match")
         ax.legend(loc="lower left")
@@ -110,7 +110,7 @@ def pose_over_time(runs, names):
 def stage_times(runs, names):
     """Median (dot), 99th percentile (bar) and worst time of each stage for a message."""
     rows = [
-        (_row_name(stage, name, runs), times, colour(i))
+        (_row_name(stage, name, runs), times, series_color(i))
         for i, (run, name) in enumerate(zip(runs, names))
         for stage, times in sorted((run.get("timing") or {}).items())
     ]
@@ -127,13 +127,13 @@ def stage_times(runs, names):
 
 
 def _consistency_rows(runs, names):
-    """(name, what score_run says, colour) of each state of each run."""
+    """(name, what score_run says, color) of each state of each run."""
     rows = []
     for state in ("position", "velocity", "pose of the vehicle"):
         for i, (run, name) in enumerate(zip(runs, names)):
             item = run["consistency"].get(state, run["pose"])
             if item is not None:
-                rows.append((_row_name(state, name, runs), item, colour(i)))
+                rows.append((_row_name(state, name, runs), item, series_color(i)))
     return rows
 
 
@@ -154,7 +154,7 @@ def _plot_series(ax, runs, names, key):
         ax.plot(
             _numbers(series["time_s"]),
             _numbers(series[key]),
-            color=colour(i),
+            color=series_color(i),
             linewidth=1.0,
             alpha=0.9,
             label=plain(name),
@@ -164,8 +164,8 @@ def _plot_series(ax, runs, names, key):
 def _legend_of_runs(ax, runs):
     """Above the plot; one run needs none."""
     if len(runs) > 1:
-        place = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.0}
-        ax.legend(ncol=len(runs), **place)
+        position = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.0}
+        ax.legend(ncol=len(runs), **position)
 
 
 def _finish(ax, title, unit, runs):

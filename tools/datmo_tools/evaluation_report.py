@@ -7,7 +7,7 @@ from datmo_tools import evaluation_object_plots as object_plots
 from datmo_tools import evaluation_plots as plots
 from datmo_tools.evaluation_metrics import best_runs, extent, short_names
 from datmo_tools.evaluation_sections import OBJECT_METRICS, SECTIONS, STANDING_METRICS, sections_of
-from datmo_tools.evaluation_style import PAGE_STYLE, colour
+from datmo_tools.evaluation_style import PAGE_STYLE, series_color
 
 TILES = {
     "hota.hota": "HOTA",
@@ -85,7 +85,7 @@ def _of_one_run(run, name, runs):
     of = f": {name}" if len(runs) > 1 else ""
     yield _block(
         "Who was tracked when" + of,
-        "When a true object has to be found: with a track on it (blue; another colour where "
+        "When a true object has to be found: with a track on it (blue; another color where "
         "another track takes over; the number is its id), or without (red). Pale: a track on it "
         "while it does not have to be found.",
         object_plots.timeline(run),
@@ -93,7 +93,7 @@ def _of_one_run(run, name, runs):
     yield _block("Tracked, missed, false" + of, "", plots.counts_over_time(run))
     yield _block(
         "Seen from above" + of,
-        "In the map of the truth. Wide and grey: true objects, with their id where they come up.",
+        "In the map of the truth. Wide and gray: true objects, with their id where they come up.",
         object_plots.birds_eye(run),
     )
     yield _block(
@@ -116,7 +116,7 @@ def _block(title, hint, content):
 
 def _summary(runs, names):
     lines = [
-        f"<li><span class='dot' style='background:{colour(i)}'></span><b>{escape(name)}</b> "
+        f"<li><span class='dot' style='background:{series_color(i)}'></span><b>{escape(name)}</b> "
         f"{escape(run['run'])}: {extent(run)}</li>"
         for i, (run, name) in enumerate(zip(runs, names))
     ]

@@ -24,7 +24,7 @@ def _percent(name, path, cost=higher, digits=1):
     return Metric(name, path, "%", PERCENT, digits, cost)
 
 
-def _metres(name, path):
+def _meters(name, path):
     return Metric(name, path, "m", 1.0, 2, lower)
 
 
@@ -47,7 +47,7 @@ SECTIONS = (
         "Bernardin and Stiefelhagen 2008",
         (
             _percent("MOTA", "clear_mot.mota"),
-            _metres("MOTP, distance of matches", "clear_mot.motp_m"),
+            _meters("MOTP, distance of matches", "clear_mot.motp_m"),
             Metric("required", "clear_mot.required", "frames"),
             Metric("misses", "clear_mot.misses", "frames", cost=lower),
             Metric("false positives", "clear_mot.false_positives", "frames", cost=lower),
@@ -74,24 +74,24 @@ SECTIONS = (
             _percent("HOTA", "hota.hota"),
             _percent("DetA, detection", "hota.deta"),
             _percent("AssA, association", "hota.assa"),
-            _percent("LocA, localisation", "hota.loca"),
+            _percent("LocA, localization", "hota.loca"),
         ),
     ),
     Section(
         "GOSPA",
         "Rahmathullah et al. 2017",
         (
-            _metres("GOSPA, mean of frames", "gospa.mean_m"),
-            _metres("part of localisation", "gospa.localisation_m"),
-            _metres("part of missed objects", "gospa.missed_m"),
-            _metres("part of false tracks", "gospa.false_m"),
+            _meters("GOSPA, mean of frames", "gospa.mean_m"),
+            _meters("part of localization", "gospa.localization_m"),
+            _meters("part of missed objects", "gospa.missed_m"),
+            _meters("part of false tracks", "gospa.false_m"),
         ),
     ),
     Section(
         "Errors of matched tracks",
-        "root mean square, position of the centres",
+        "root mean square, position of the centers",
         (
-            _metres("position", "errors.position_rmse_m"),
+            _meters("position", "errors.position_rmse_m"),
             Metric("velocity", "errors.velocity_rmse_mps", "m/s", 1.0, 2, lower),
             _degrees("heading", "errors.heading_rmse_rad"),
             _degrees("heading, front or back", "errors.heading_modulo_pi_rmse_rad"),
@@ -101,7 +101,7 @@ SECTIONS = (
         "Errors of matched tracks near the vehicle",
         "within score_run's near_range of it",
         (
-            _metres("position", "near_errors.position_rmse_m"),
+            _meters("position", "near_errors.position_rmse_m"),
             Metric("velocity", "near_errors.velocity_rmse_mps", "m/s", 1.0, 2, lower),
         ),
     ),
@@ -168,13 +168,13 @@ SECTIONS = (
         "Pose of the vehicle",
         "relative errors: Kuemmerle et al. 2009",
         (
-            Metric("way", "pose.way_m", "m", 1.0, 1),
-            _metres("end point", "pose.end_error_m"),
+            Metric("distance", "pose.path_length_m", "m", 1.0, 1),
+            _meters("end point", "pose.end_error_m"),
             _percent("end point, of the way", "pose.end_error_share", lower, digits=2),
             Metric("heading at the end", "pose.end_error_deg", "deg", 1.0, 2, lower),
-            _metres("position, root mean square", "pose.position_rmse_m"),
+            _meters("position, root mean square", "pose.position_rmse_m"),
             _degrees("heading, root mean square", "pose.heading_rmse_rad", 2),
-            _metres("largest jump within 1 s", "pose.largest_jump_m"),
+            _meters("largest jump within 1 s", "pose.largest_jump_m"),
             *_honesty("the pose", "pose", 3),
         ),
     ),

@@ -23,7 +23,7 @@ FAINT = "#cbd5e1"
 TRUTH = "#94a3b8"
 MISSED = "#fca5a5"
 FALSE = "#dc2626"
-COLOURS = ("#2563eb", "#ea580c", "#059669", "#9333ea", "#0891b2", "#db2777", "#854d0e", "#475569")
+COLORS = ("#2563eb", "#ea580c", "#059669", "#9333ea", "#0891b2", "#db2777", "#854d0e", "#475569")
 
 # Texts stay texts, so that the page's font is theirs. A fixed salt: the same input, the same bytes.
 STYLE = {
@@ -51,9 +51,9 @@ STYLE = {
 }
 
 
-def colour(index):
-    """Colour of the run, or of an object's track, with this index; they repeat."""
-    return COLOURS[index % len(COLOURS)]
+def series_color(index):
+    """Color of the run, or of an object's track, with this index; they repeat."""
+    return COLORS[index % len(COLORS)]
 
 
 def plain(text):

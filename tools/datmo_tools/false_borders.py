@@ -11,10 +11,10 @@ from datmo_tools.stamps import NANOSECONDS
 STEP = 0.5  # m, between the places of a border that are looked at
 
 # A false stretch is told of from this length on, m.
-LEAST_LENGTH = 3.0
+MIN_LENGTH = 3.0
 
 # Stretches of two messages are one if they are not farther apart, m and s.
-MOST_APART, LONGEST_PAUSE = 10.0, 1.0
+MAX_APART, MAX_PAUSE = 10.0, 1.0
 
 # Where a false stretch is: on the carriageway, in a junction, beyond the true border, or where the
 # truth knows no border.
@@ -37,7 +37,7 @@ class Stretch(NamedTuple):
 def score_false(frames, road, gate):
     """Score of the false borders in some Frames, one that JSON can hold.
 
-    gate: m, farther than that from a kerb, a parked vehicle and its row a border is false. Looked
+    gate: m, farther than that from a curb, a parked vehicle and its row a border is false. Looked
     at is what is within AHEAD of the vehicle.
     """
     published = 0.0
@@ -48,7 +48,7 @@ def score_false(frames, road, gate):
         published += total
         for item in found:
             lengths[item.where] += item.length
-        long = [item for item in found if item.length >= LEAST_LENGTH]
+        long = [item for item in found if item.length >= MIN_LENGTH]
         affected += bool(long)
         stretches += long
     wrong = sum(lengths.values())
@@ -69,33 +69,33 @@ def _false_stretches(frame, road, gate):
     lines = nearby(road.lines, base, AHEAD + gate)
     total, found = 0.0, []
     for border, line in frame.lines:
-        places = _resampled(line)
-        places = places[np.hypot(*(places - base).T) <= AHEAD]
-        total += STEP * len(places)
-        false = np.flatnonzero(distances_to(places, lines) > gate)
+        positions = _resampled(line)
+        positions = positions[np.hypot(*(positions - base).T) <= AHEAD]
+        total += STEP * len(positions)
+        false = np.flatnonzero(distances_to(positions, lines) > gate)
         for run in np.split(false, np.flatnonzero(np.diff(false) > 1) + 1):
             if len(run):
-                middle = places[run[len(run) // 2]]
-                where = _where(middle, frame.way, road, gate)
+                middle = positions[run[len(run) // 2]]
+                where = _where(middle, frame.arc_length, road, gate)
                 found.append(Stretch(frame.stamp, border.side, where, STEP * len(run), middle))
     return total, found
 
 
 def _resampled(line):
-    way = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
-    at = np.arange(0.5 * STEP, way[-1], STEP)
-    return np.stack([np.interp(at, way, line[:, i]) for i in range(2)], axis=-1)
+    arc_length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
+    at = np.arange(0.5 * STEP, arc_length[-1], STEP)
+    return np.stack([np.interp(at, arc_length, line[:, i]) for i in range(2)], axis=-1)
 
 
-def _where(place, way, road, gate):
-    part = road.stations.between(way - BESIDE, way + BESIDE)
-    apart = place - road.stations.places[part]
+def _where(position, arc_length, road, gate):
+    part = road.stations.between(arc_length - BESIDE, arc_length + BESIDE)
+    apart = position - road.stations.positions[part]
     nearest = part.start + int(np.argmin(np.hypot(*apart.T)))
     if road.stations.at_intersection[nearest]:
         return JUNCTION
     heading = road.stations.headings[nearest]
     left = np.array([-np.sin(heading), np.cos(heading)])
-    offset = float((place - road.stations.places[nearest]) @ left)
+    offset = float((position - road.stations.positions[nearest]) @ left)
     side = road.sides["left" if offset > 0.0 else "right"]
     end = side.innermost()[nearest]
     if np.isnan(end):
@@ -119,7 +119,7 @@ def _continues(last, item):
     pause = (item.stamp - last.stamp) / NANOSECONDS
     apart = np.hypot(*(item.middle - last.middle))
     same = (last.side, last.where) == (item.side, item.where)
-    return same and pause <= LONGEST_PAUSE and apart <= MOST_APART
+    return same and pause <= MAX_PAUSE and apart <= MAX_APART
 
 
 def _account(episode):
@@ -131,5 +131,5 @@ def _account(episode):
         "side": longest.side,
         "where": longest.where,
         "longest_m": longest.length,
-        "place_m": [round(float(value), 2) for value in longest.middle],
+        "position_m": [round(float(value), 2) for value in longest.middle],
     }

@@ -7,14 +7,14 @@ import numpy as np
 from datmo_tools.passed_tracks import account
 from datmo_tools.track_frames import Newest, sightings_of
 from datmo_tools.track_matching import Verdict
-from datmo_tools.track_views import is_in_sight, is_in_view
+from datmo_tools.track_views import is_visible, is_in_view
 
 
 class FalseTrack(NamedTuple):
     """One that is false in most of its frames, as score_run counts them."""
 
     id: int
-    sightings: list  # of (TrackFrame, row) in which it counts
+    observations: list  # of (TrackFrame, row) in which it counts
     false: list  # of them, those in which it is false
 
 
@@ -22,10 +22,10 @@ def false_tracks(frames):
     """List of FalseTrack in some TrackFrames of one list."""
     found = []
     counted = sightings_of(frames, lambda frame, row: frame.verdicts[row] is not None)
-    for number, sightings in counted.items():
-        false = [(frame, row) for frame, row in sightings if frame.verdicts[row] == Verdict.FALSE]
-        if 2 * len(false) > len(sightings):
-            found.append(FalseTrack(number, sightings, false))
+    for number, observations in counted.items():
+        false = [(frame, row) for frame, row in observations if frame.verdicts[row] == Verdict.FALSE]
+        if 2 * len(false) > len(observations):
+            found.append(FalseTrack(number, observations, false))
     return found
 
 
@@ -47,13 +47,13 @@ def reduction(before, after):
 
 def _score_list(frames, views, gate):
     found = false_tracks(frames)
-    in_view = [item for item in found if _mostly(item.sightings, views, is_in_view)]
+    in_view = [item for item in found if _mostly(item.observations, views, is_in_view)]
     accounts = []
     for item in in_view:
         sort = _sort(item.false, gate)
-        in_sight = _mostly(item.sightings, views, is_in_sight)
-        told = account(item.id, item.sightings, item.false)
-        accounts.append({**told, "what": sort, "in_sight": in_sight})
+        visible = _mostly(item.observations, views, is_visible)
+        described = account(item.id, item.observations, item.false)
+        accounts.append({**described, "what": sort, "visible": visible})
     in_frames = sum(
         verdict == Verdict.FALSE and _is(frame, row, views, is_in_view)
         for frame in frames
@@ -62,7 +62,7 @@ def _score_list(frames, views, gate):
     return {
         "all": len(found),
         "in_view": len(in_view),
-        "in_sight": sum(item["in_sight"] for item in accounts),
+        "visible": sum(item["visible"] for item in accounts),
         "in_view_frames": in_frames,
         "frames": len(frames),
         "by_what": {key: sum(item["what"] == key for item in accounts) for key in SORTS},
@@ -73,10 +73,10 @@ def _score_list(frames, views, gate):
 SORTS = ("double", "standing road user", "other object", "nothing")
 
 
-def _sort(sightings, gate):
+def _sort(observations, gate):
     """What a false track is on in most of its false frames: one of SORTS; the first of equals."""
     counts = dict.fromkeys(SORTS, 0)
-    for frame, row in sightings:
+    for frame, row in observations:
         near = frame.distances[row] <= gate
         moment = frame.moment
         groups = near & moment.movers, near & moment.users, near, np.array([True])
@@ -84,8 +84,8 @@ def _sort(sightings, gate):
     return max(SORTS, key=counts.get)
 
 
-def _mostly(sightings, views, test):
-    return 2 * sum(_is(frame, row, views, test) for frame, row in sightings) > len(sightings)
+def _mostly(observations, views, test):
+    return 2 * sum(_is(frame, row, views, test) for frame, row in observations) > len(observations)
 
 
 def _is(frame, row, views, test):

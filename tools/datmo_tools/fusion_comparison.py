@@ -7,7 +7,7 @@ NOTE = """\
 Levels of fusion: none, the scanner alone; low, grids of scanner and stereo camera (thesis 3.2);
 object, objects of both (thesis 3.3); track, tracks of both (thesis 3.4). Missed: moving objects that
 no track ever matched, of those that the scanner saw moving, however briefly, and, by any, of those
-that either sensor did; of a labelled drive, of all that move in the camera's view. Beside it what the
+that either sensor did; of a labeled drive, of all that move in the camera's view. Beside it what the
 thesis missed without and with fusion of objects (table 3.2): its data sets were driven, ours are
 simulated streets with as many seconds and moving objects. False: tracks on nothing that moves;
 false, in view: the same within the stereo camera's range and field of view. RMSE: of the position of

@@ -21,11 +21,11 @@ LEVELS = {
 
 # All objects count that were seen moving, as in the thesis, also those gone in a moment: by the
 # scanner, so that all levels have the same to find, and by any sensor.
-BY_SCANNER = ("truth/least_time_seen=0", "truth/visible_to=scanner")
-BY_ANY = ("truth/least_time_seen=0", "truth/visible_to=any")
+BY_SCANNER = ("truth/min_time_seen=0", "truth/visible_to=scanner")
+BY_ANY = ("truth/min_time_seen=0", "truth/visible_to=any")
 
 # Labels know the camera's view alone, and not which sensor sees what: all that moves in it counts.
-LABELLED = ("truth/least_time_seen=0", "truth/visible_to=none", "region/range=500",
+LABELED = ("truth/min_time_seen=0", "truth/visible_to=none", "region/range=500",
             "region/half_angle=0.7")  # fmt: skip
 
 # The GPS/IMU's odometry is better than wheels': 3 % too long, and 0.5 deg/s too much to the left.
@@ -53,12 +53,12 @@ class Simulated(NamedTuple):
 
 
 class Kitti(NamedTuple):
-    """A labelled KITTI raw drive."""
+    """A labeled KITTI raw drive."""
 
     folder: Path  # ..._drive_NUMBER_sync
     config: Path
     published: Optional[Published] = None
-    score_options: tuple = LABELLED
+    score_options: tuple = LABELED
     wide_score_options: Optional[tuple] = None
 
     @property

@@ -2,7 +2,7 @@
 
 from matplotlib.ticker import MaxNLocator
 
-from datmo_tools.evaluation_style import colour, picture, plain
+from datmo_tools.evaluation_style import series_color, picture, plain
 
 ROW = 0.24  # inch, of a level
 AROUND = 0.75  # inch, of titles and axes above and below the rows
@@ -48,7 +48,7 @@ def comparison_plot(rows, kind):
                 dots = _dots(rows, drive, levels, value)
                 shift = SPREAD * ((i + 0.5) / len(drives) - 0.5)
                 ax.plot([x for x, _ in dots], [y + shift for _, y in dots], "o", markersize=4.5,
-                        color=colour(i), label=plain(drive), clip_on=False)  # fmt: skip
+                        color=series_color(i), label=plain(drive), clip_on=False)  # fmt: skip
             _finish(ax, title, levels)
         axes.flat[0].legend(loc="lower left", bbox_to_anchor=(0.0, 1.12), borderaxespad=0.0,
                             ncol=len(drives))  # fmt: skip

@@ -123,7 +123,7 @@ def mount_of(path, mounts, frame):
     return mounts[frame]
 
 
-def _rigid(place, turn):
+def _rigid(position, turn):
     x, y, z, w = turn.x, turn.y, turn.z, turn.w
     rotation = np.array(
         [
@@ -132,7 +132,7 @@ def _rigid(place, turn):
             [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
         ]
     )
-    return transforms.rigid(rotation, [place.x, place.y, place.z])
+    return transforms.rigid(rotation, [position.x, position.y, position.z])
 
 
 def view_of(path, infos, mounts, reach, disparity_sigma):

@@ -37,7 +37,7 @@ class Grid(NamedTuple):
         inside = np.all((found >= 0) & (found < [columns, rows]), axis=1)
         return np.unique(found[inside], axis=0)
 
-    def centres(self, cells):
+    def centers(self, cells):
         """Middles (n x 2, m) of cells given by their indices."""
         return self.origin + (cells + 0.5) * self.cell_size
 
@@ -53,7 +53,7 @@ class Grid(NamedTuple):
         rows, columns = np.nonzero(
             self.cells[first[1] : last[1] + 1, first[0] : last[0] + 1] > UNDECIDED
         )
-        return self.centres(np.column_stack([columns, rows]) + first)
+        return self.centers(np.column_stack([columns, rows]) + first)
 
 
 class StereoView(NamedTuple):
@@ -109,9 +109,9 @@ class Bodies(NamedTuple):
         cosine, sine = np.cos(self.poses[:, 2]), np.sin(self.poses[:, 2])
         turn = np.stack([np.stack([cosine, sine]), np.stack([-sine, cosine])])
         start = np.einsum("ijn,nj->ni", turn, begin - self.poses[:, :2])
-        way = np.einsum("ijn,mj->mni", turn, ends - begin)
+        ray = np.einsum("ijn,mj->mni", turn, ends - begin)
         with np.errstate(divide="ignore", invalid="ignore"):
-            near, far = ((side * self.sizes - start) / way for side in (-0.5, 0.5))
+            near, far = ((side * self.sizes - start) / ray for side in (-0.5, 0.5))
         borders = np.stack([near, far])
         enter = np.fmax.reduce(borders.min(axis=0), axis=2)
         leave = np.fmin.reduce(borders.max(axis=0), axis=2)
@@ -161,9 +161,9 @@ class GridScores:
         paint = paint[~_among(paint, obstacles)]
         for tally, cells in ((self.paint_gone, paint), (self.bodies_lost, obstacles)):
             cells = cells[lidar.occupied(cells)]
-            centres = lidar.centres(cells)
-            hidden = self._view.hidden(centres, bodies)
-            ranges = np.where(hidden, np.inf, self._view.ranges(centres))
+            centers = lidar.centers(cells)
+            hidden = self._view.hidden(centers, bodies)
+            ranges = np.where(hidden, np.inf, self._view.ranges(centers))
             tally.add(ranges, ~fused.occupied(cells))
         ranges = self._view.ranges(poles)
         poles, ranges = poles[np.isfinite(ranges)], ranges[np.isfinite(ranges)]

@@ -1,4 +1,4 @@
-"""Labelled boxes -> objects in the map: world velocity, moving or not, and who sees them."""
+"""Labeled boxes -> objects in the map: world velocity, moving or not, and who sees them."""
 
 from typing import NamedTuple
 
@@ -11,7 +11,7 @@ from datmo_tools import transforms
 VELOCITY_HALF_WINDOW = 0.5  # s
 MOVING_HALF_WINDOW = 1.0  # s
 
-# Labels of parked cars drift by a few tenths of a metre as the car drives past; nothing that takes
+# Labels of parked cars drift by a few tenths of a meter as the car drives past; nothing that takes
 # part in traffic is slower than half a slow walk.
 MOVING_SPEED = 0.5  # m/s
 
@@ -21,12 +21,12 @@ BOX_TOLERANCE = 0.2  # m
 
 
 class MapObject(NamedTuple):
-    """A labelled object of one frame in the map."""
+    """A labeled object of one frame in the map."""
 
     source: object  # the TrueObject that it comes from
     box: object  # the TrueBox of this frame, in the Velodyne's frame
-    pose: np.ndarray  # x, y (m), yaw (rad) of the box's centre
-    z: float  # m, centre above the road
+    pose: np.ndarray  # x, y (m), yaw (rad) of the box's center
+    z: float  # m, center above the road
     velocity: np.ndarray  # vx, vy in m/s; 0 where it does not move
     moving: bool
 

@@ -1,7 +1,7 @@
-"""A label_02 file of KITTI tracking (boxes in the rectified camera's frame) -> labelled objects.
+"""A label_02 file of KITTI tracking (boxes in the rectified camera's frame) -> labeled objects.
 
 Source: the readme of the KITTI tracking devkit: frame, track id, type, truncated, occluded, alpha,
-image box (4), height, width, length, bottom centre x y z, rotation about the camera's y axis.
+image box (4), height, width, length, bottom center x y z, rotation about the camera's y axis.
 """
 
 import math
@@ -53,7 +53,7 @@ def _add(objects, fields, velodyne_from_left):
     frame, number, label, _, occluded = fields[:5]
     height, width, length, x, y, z, rotation = fields[10:FIELDS]
     known = objects.setdefault(number, TrueObject(number, label, length, width, height, {}))
-    centre = transforms.apply(velodyne_from_left, np.array([[x, y - 0.5 * height, z]]))[0]
+    center = transforms.apply(velodyne_from_left, np.array([[x, y - 0.5 * height, z]]))[0]
     forward = velodyne_from_left[:3, :3] @ [math.cos(rotation), 0.0, -math.sin(rotation)]
     yaw = math.atan2(forward[1], forward[0])
-    known.boxes[frame] = TrueBox(*centre, yaw, occlusion_share(occluded))
+    known.boxes[frame] = TrueBox(*center, yaw, occlusion_share(occluded))

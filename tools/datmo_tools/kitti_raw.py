@@ -67,7 +67,7 @@ class Drive:
 
     @property
     def scan_stamps(self):
-        """Stamps (ns) of the frames; of a lost scan what lies between its neighbours."""
+        """Stamps (ns) of the frames; of a lost scan what lies between its neighbors."""
         return self._scans.stamps
 
     @property

@@ -37,7 +37,7 @@ class ScannerOptions(NamedTuple):
     field_of_view: float = 160.0  # degrees, first to last beam, symmetric about straight ahead
     range_min: float = 1.0  # m
     range_max: float = 50.0  # m: beyond, one beam at most meets an object (thesis 1.3.3)
-    band_low: float = 0.3  # m above the road: over kerbs and over what the road plane misses
+    band_low: float = 0.3  # m above the road: over curbs and over what the road plane misses
     band_high: float = (
         0.9  # m: two rows of the Velodyne (0.4 degrees) at 40 m, under bonnets and bumpers
     )
@@ -100,9 +100,9 @@ def configuration(options, fit_road, calibration, turn_duration):
 
     The Velodyne turns to the right and looks ahead at the stamp, in the middle of its turn: clouds
     of drive 0005, aligned a second apart, fit best if their beams are taken as 1.1 times a turn's
-    share of time earlier towards the left.
+    share of time earlier toward the left.
     """
-    ahead, left = (float(way) for way in calibration.base_from_velodyne[:2, 3])
+    ahead, left = (float(arc_length) for arc_length in calibration.base_from_velodyne[:2, 3])
     return {
         "scan_frame": SCANNER,
         "min_height": options.band_low,

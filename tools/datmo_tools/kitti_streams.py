@@ -20,7 +20,7 @@ BOUNDS = ("timestamps_start.txt", "timestamps_end.txt")
 class Stream:
     """Stamps and files of one sensor.
 
-    stamps: ns, of every line; of a line without stamp what lies between its neighbours.
+    stamps: ns, of every line; of a line without stamp what lies between its neighbors.
     """
 
     def __init__(self, folder, suffixes, max_disorder=0.0):

@@ -1,4 +1,4 @@
-"""tracklet_labels.xml of a KITTI raw drive -> labelled objects."""
+"""tracklet_labels.xml of a KITTI raw drive -> labeled objects."""
 
 import math
 import xml.etree.ElementTree as ElementTree

@@ -37,7 +37,7 @@ SHORT_RANGES = (
 MOUNT = np.array([-0.152, 0.0, math.radians(0.3)])
 
 LABEL = "Car"
-NO_CENTRE = np.zeros(3)
+NO_CENTER = np.zeros(3)
 
 
 class Options(NamedTuple):
@@ -56,7 +56,7 @@ class Options(NamedTuple):
     scan_delay: float = -0.015  # s from a scan's stamp to its first beam, on motion capture's clock
     range_errors: tuple = SHORT_RANGES  # rising (range, by how much it is short), m; linear between
     object_size: tuple = (0.455, 0.205, 0.2)  # m: length, width, height
-    object_centre: np.ndarray = np.array([0.07, 0.0, 0.0])  # x, y, yaw from the markers' origin
+    object_center: np.ndarray = np.array([0.07, 0.0, 0.0])  # x, y, yaw from the markers' origin
     moving_speed: float = 0.1  # m/s
 
 
@@ -86,9 +86,9 @@ class _Conversion:
             self._sweep = _scan_period(recording, self._scans)
         ego_path = seen_path(recording, options.ego_topic)
         origin = ego_path.at(max(self._scans[0][0], ego_path.stamps[0]))
-        self._ego = CapturedBody(ego_path, origin, NO_CENTRE)
+        self._ego = CapturedBody(ego_path, origin, NO_CENTER)
         self._objects = [
-            CapturedBody(seen_path(recording, topic), origin, options.object_centre)
+            CapturedBody(seen_path(recording, topic), origin, options.object_center)
             for topic in options.object_topics
         ]
         self._sources = [

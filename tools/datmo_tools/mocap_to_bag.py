@@ -99,9 +99,9 @@ def _add_scanner(group, defaults):
 def _add_truth(group, defaults):
     add = command_line.add_number
     add(group, "--object-size", list(defaults.object_size), ("L", "W", "H"), "of the others, m")
-    centre = "middle of their body, seen from the markers' origin: m, m, degrees"
-    turned = [*defaults.object_centre[:2].tolist(), math.degrees(defaults.object_centre[2])]
-    add(group, "--object-centre", turned, ("X", "Y", "YAW"), centre)
+    center = "middle of their body, seen from the markers' origin: m, m, degrees"
+    turned = [*defaults.object_center[:2].tolist(), math.degrees(defaults.object_center[2])]
+    add(group, "--object-center", turned, ("X", "Y", "YAW"), center)
     add(group, "--moving-speed", defaults.moving_speed, "V", "m/s; what is slower stands")
 
 
@@ -133,7 +133,7 @@ def _options(values):
         scan_delay=values.scan_delay,
         range_errors=tuple(values.range_errors),
         object_size=tuple(values.object_size),
-        object_centre=_pose(values.object_centre),
+        object_center=_pose(values.object_center),
         moving_speed=values.moving_speed,
     )
 

@@ -9,12 +9,12 @@ from datmo_tools.errors import InputError
 from datmo_tools.ground_truth import fitted_velocities
 from datmo_tools.pose_path import PosePath, read_path
 
-# Half the time over which a line is fitted to poses: a millimetre of noise at 120 poses a second is
+# Half the time over which a line is fitted to poses: a millimeter of noise at 120 poses a second is
 # 3 mm/s then, and a car's acceleration hardly changes in it.
 HALF_WINDOW = 0.1  # s
 
 # Where motion capture lost sight of the markers for longer, nothing is known.
-LONGEST_GAP = 50_000_000  # ns, to the nearest pose
+MAX_GAP = 50_000_000  # ns, to the nearest pose
 
 
 def seen_path(recording, topic):
@@ -47,20 +47,20 @@ class BodyState(NamedTuple):
 class CapturedBody:
     """A body over time."""
 
-    def __init__(self, path, origin, centre):
-        """path: PosePath of the markers; origin: the map's place in its frame; centre: the body's
+    def __init__(self, path, origin, center):
+        """path: PosePath of the markers; origin: the map's place in its frame; center: the body's
         in the markers' (both x, y, yaw)."""
         local = transforms.relative(origin, path.poses)
-        poses = np.array([transforms.compose(pose, centre) for pose in local])
+        poses = np.array([transforms.compose(pose, center) for pose in local])
         self.path = PosePath(path.stamps, poses)
         self._seconds = (path.stamps - path.stamps[0]) * 1e-9
         yaws = np.unwrap(poses[:, 2])[:, None]
-        places = np.column_stack([poses[:, :2], yaws])
-        self._rates = fitted_velocities(self._seconds, places, HALF_WINDOW)
+        positions = np.column_stack([poses[:, :2], yaws])
+        self._rates = fitted_velocities(self._seconds, positions, HALF_WINDOW)
 
     def at(self, stamp):
         """BodyState at `stamp` (ns); None where motion capture did not see it."""
-        if self.path.distance_from(stamp) > LONGEST_GAP:
+        if self.path.distance_from(stamp) > MAX_GAP:
             return None
         instant = (stamp - self.path.stamps[0]) * 1e-9
         vx, vy, yaw_rate = (np.interp(instant, self._seconds, rate) for rate in self._rates.T)

@@ -14,7 +14,7 @@ OBJECT_ARRAY, TRACK_ARRAY = "datmo_fusion/ObjectArray", "datmo_fusion/TrackArray
 class Seen(NamedTuple):
     """One object that a sensor sees; poses in base_link at the stamp of its list."""
 
-    pose: np.ndarray  # x, y (m), yaw (rad) of the box's centre
+    pose: np.ndarray  # x, y (m), yaw (rad) of the box's center
     size: np.ndarray  # m: length along the heading, width
     covariance: np.ndarray  # 2 x 2, m^2, of the position
     side_variance: np.ndarray  # 4, m^2: front, rear, left, right; infinite: not seen
@@ -23,7 +23,7 @@ class Seen(NamedTuple):
 
     @property
     def range(self):
-        """Of the centre, m from base_link."""
+        """Of the center, m from base_link."""
         return float(np.hypot(*self.pose[:2]))
 
     @property

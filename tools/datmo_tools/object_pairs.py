@@ -12,7 +12,7 @@ from datmo_tools.outlines import Outline, offset
 from datmo_tools.stamps import NANOSECONDS
 
 # From an image to the scan that is nearest in time, s: more than half a turn of a slow scanner.
-LONGEST_GAP = 0.1
+MAX_GAP = 0.1
 
 TRACK_MARGIN = 1.0  # m: a track's object lies within its box, or so much beside it
 SIZE_DIFFERENCE = 1.5  # m: between the widths that two sensors see; two beams of 2 degrees at 20 m
@@ -41,7 +41,7 @@ class Counts(NamedTuple):
         return Counts(*(mine + its for mine, its in zip(self, other)))
 
 
-class Sighting(NamedTuple):
+class Observation(NamedTuple):
     """A moving object of the lidar, in base_link at the stamp of the camera's list."""
 
     item: Seen
@@ -50,8 +50,8 @@ class Sighting(NamedTuple):
 
     def at(self, seconds):
         """Seen as it would have been then."""
-        way = self.velocity * (seconds - self.seconds)
-        return self.item._replace(pose=self.item.pose + np.append(way, 0.0))
+        displacement = self.velocity * (seconds - self.seconds)
+        return self.item._replace(pose=self.item.pose + np.append(displacement, 0.0))
 
 
 def paired_objects(lidar_lists, camera_lists, tracks, path):
@@ -66,10 +66,10 @@ def paired_objects(lidar_lists, camera_lists, tracks, path):
     for camera in camera_lists if tracked else ():
         apart = np.abs(times - camera.stamp)
         nearest = int(np.argmin(apart))
-        if apart[nearest] <= LONGEST_GAP * NANOSECONDS:
+        if apart[nearest] <= MAX_GAP * NANOSECONDS:
             lidar = tracked[nearest]
-            sightings = _sightings(lidar, tracks[lidar.stamp], camera.stamp, path)
-            new_pairs, new_counts = _pairs(sightings, camera)
+            observations = _sightings(lidar, tracks[lidar.stamp], camera.stamp, path)
+            new_pairs, new_counts = _pairs(observations, camera)
             pairs += new_pairs
             counts += new_counts
     return pairs, counts
@@ -85,7 +85,7 @@ def _sightings(lidar, boxes, stamp, path):
     pose_then, pose_now = path.at(lidar.stamp), path.at(stamp)
     late = (lidar.stamp - stamp) / NANOSECONDS
     turn = transforms.relative(pose_now, pose_then)[2]
-    sightings = []
+    observations = []
     for item in lidar.objects:
         in_map = transforms.compose(pose_then, item.pose)
         box = _box_on(in_map, boxes)
@@ -96,8 +96,8 @@ def _sightings(lidar, boxes, stamp, path):
                 covariance=rotation @ item.covariance @ rotation.T,
             )
             velocity = _rotation(-pose_now[2]) @ box.velocity
-            sightings.append(Sighting(moved, late + item.delay, velocity))
-    return sightings
+            observations.append(Observation(moved, late + item.delay, velocity))
+    return observations
 
 
 def _rotation(angle):
@@ -115,22 +115,22 @@ def _box_on(pose, boxes):
     return boxes[min(near)[1]] if near else None
 
 
-def _pairs(sightings, camera):
+def _pairs(observations, camera):
     """One image's."""
     outlines = [Outline(item, camera.viewpoint) for item in camera.objects]
     others = [
-        [Outline(sighting.at(item.delay), camera.viewpoint) for item in camera.objects]
-        for sighting in sightings
+        [Outline(observation.at(item.delay), camera.viewpoint) for item in camera.objects]
+        for observation in observations
     ]
     distances = np.array([
         [_scaled_distance(mine.near_point(), its.near_point()) for mine, its in zip(outlines, row)]
         for row in others
-    ]).reshape(len(sightings), len(outlines))  # fmt: skip
+    ]).reshape(len(observations), len(outlines))  # fmt: skip
     distances[distances > 1.0] = np.inf
     found = _mutual(distances)
     pairs, unlike = [], 0
     for i, j in found:
-        if not _alike(sightings[i].item, camera.objects[j]):
+        if not _alike(observations[i].item, camera.objects[j]):
             unlike += 1
             continue
         apart = offset(outlines[j], others[i][j])
@@ -138,7 +138,7 @@ def _pairs(sightings, camera):
             pairs.append(_pair(camera.objects[j], apart, camera.viewpoint))
     hidden = len(found) - unlike - len(pairs)
     return pairs, Counts(
-        len(sightings), len(sightings) - len(found), unlike, hidden, len(pairs)
+        len(observations), len(observations) - len(found), unlike, hidden, len(pairs)
     )
 
 
@@ -154,11 +154,11 @@ def _mutual(distances):
     ]
 
 
-def _scaled_distance(seen, place):
-    """1: at the gate, an ellipse along the line of sight to `place`; both about the sensor."""
-    reach = max(float(np.hypot(*place)), np.finfo(float).tiny)
-    along = place / reach
-    apart = seen - place
+def _scaled_distance(seen, position):
+    """1: at the gate, an ellipse along the line of sight to `position`; both about the sensor."""
+    reach = max(float(np.hypot(*position)), np.finfo(float).tiny)
+    along = position / reach
+    apart = seen - position
     across = along[0] * apart[1] - along[1] * apart[0]
     return np.hypot(apart @ along / max(NEAR_ALONG, THESIS_GATE * reach), across / NEAR_ACROSS)
 

@@ -13,7 +13,7 @@ from datmo_tools.outlines import Outline, offset
 NEAR_ACROSS = 1.0  # m
 NEAR_ALONG = 1.0  # m, at least
 
-THESIS_GATE = 5.0 / 36.0  # m for each metre of range: up to here a stereo object is the lidar's
+THESIS_GATE = 5.0 / 36.0  # m for each meter of range: up to here a stereo object is the lidar's
 
 # 95 % of chi-square with two degrees of freedom.
 GATE_95 = 5.991
@@ -32,7 +32,7 @@ class TrueState(NamedTuple):
 
     @property
     def range(self):
-        """Of the centre, m from base_link."""
+        """Of the center, m from base_link."""
         return float(np.hypot(*self.pose[:2]))
 
     def after(self, delay):
@@ -67,12 +67,12 @@ def score_list(objects, truths, viewpoint=(0.0, 0.0)):
     objects: of Seen; truths: of TrueState at the stamp of the list; viewpoint: of the sensor, m.
     """
     distances = np.full((len(objects), len(truths)), np.inf)
-    places = np.array([truth.pose[:2] for truth in truths]).reshape(-1, 2)
+    positions = np.array([truth.pose[:2] for truth in truths]).reshape(-1, 2)
     velocities = np.array([truth.velocity for truth in truths]).reshape(-1, 2)
     halves = np.array([0.5 * np.hypot(*truth.size) for truth in truths])
     for i, item in enumerate(objects):
         point = Outline(item, viewpoint).near_point() + viewpoint
-        apart = np.linalg.norm(places + velocities * item.delay - point, axis=1)
+        apart = np.linalg.norm(positions + velocities * item.delay - point, axis=1)
         for j in np.flatnonzero(apart <= halves + _along_gate(point, viewpoint)):
             distances[i, j] = scaled_distance(point, truths[j].after(item.delay), viewpoint)
     matches = [
@@ -119,7 +119,7 @@ def _distance_to(corners):
 
 def _pairs(distances, objects, truths):
     """The nearest pairs first, each object and each true one once; of equal ones that with the
-    nearer centres."""
+    nearer centers."""
     candidates = sorted(
         (distances[i, j], np.hypot(*(objects[i].pose[:2] - truths[j].pose[:2])), i, j)
         for i, j in np.argwhere(distances <= 1.0)

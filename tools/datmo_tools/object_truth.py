@@ -16,8 +16,8 @@ TRUE_OBJECT_ARRAY = "datmo_fusion/TrueObjectArray"
 
 ANY, NONE = "any", "none"  # sensors that must see an object: one at least; it is not asked
 
-# From the stamp of a list to that of a truth, s: as score_run's longest_silence.
-LONGEST_GAP = 0.2
+# From the stamp of a list to that of a truth, s: as score_run's max_silence.
+MAX_GAP = 0.2
 
 
 class Region(NamedTuple):
@@ -78,7 +78,7 @@ class Truth:
         """List of TrueState at `stamp` (ns), with what is Asked; None: no truth is near in time."""
         nearest = int(self._stamps[np.argmin(np.abs(self._stamps - stamp))])
         late = (stamp - nearest) / NANOSECONDS
-        if abs(late) > LONGEST_GAP or self._poses.distance_from(stamp) > LONGEST_GAP * NANOSECONDS:
+        if abs(late) > MAX_GAP or self._poses.distance_from(stamp) > MAX_GAP * NANOSECONDS:
             return None
         return _states(self._objects[nearest], self.base_at(stamp), late, asked)
 

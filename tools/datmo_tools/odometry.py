@@ -70,17 +70,17 @@ def integrate(stamps, speeds, yaw_rates, errors):
 
 
 def propagated(covariance, pose, speed, yaw_rate, duration, variances):
-    """Covariance (3 x 3) of the pose after one arc from `pose`, linearised at the arc's middle.
+    """Covariance (3 x 3) of the pose after one arc from `pose`, linearized at the arc's middle.
 
     variances: of the speed and of the yaw rate during the arc.
     """
     middle = pose[2] + 0.5 * yaw_rate * duration
     cosine, sine = math.cos(middle), math.sin(middle)
-    travelled = speed * duration
+    traveled = speed * duration
     by_pose = np.array(
-        [[1.0, 0.0, -travelled * sine], [0.0, 1.0, travelled * cosine], [0.0, 0.0, 1.0]]
+        [[1.0, 0.0, -traveled * sine], [0.0, 1.0, traveled * cosine], [0.0, 0.0, 1.0]]
     )
     by_rates = duration * np.array(
-        [[cosine, -0.5 * travelled * sine], [sine, 0.5 * travelled * cosine], [0.0, 1.0]]
+        [[cosine, -0.5 * traveled * sine], [sine, 0.5 * traveled * cosine], [0.0, 1.0]]
     )
     return by_pose @ covariance @ by_pose.T + by_rates @ np.diag(variances) @ by_rates.T

@@ -19,7 +19,7 @@ NORMALS = np.array([(0.0, 1.0), (-1.0, 0.0), (0.0, -1.0), (1.0, 0.0)])
 
 # More slanting sides tell no range: what is off across the line of sight changes it more (cosine of
 # 60 degrees).
-LEAST_FACING = 0.5
+MIN_FACING = 0.5
 
 # Corners that look farther apart than this are not the same (cosine of 30 degrees).
 SAME_CORNER = np.cos(np.radians(30.0))
@@ -57,9 +57,9 @@ class Outline:
         turned = np.array([(np.cos(yaw), np.sin(yaw)), (-np.sin(yaw), np.cos(yaw))])
         self._normals = NORMALS @ turned
         self._variances = np.asarray(seen.side_variance)[list(SIDES)]
-        centre = np.asarray(seen.pose[:2]) - np.asarray(viewpoint)
-        self.bearing = float(np.arctan2(centre[1], centre[0]))
-        self._turns = transforms.normalise_angle(_bearings(self._corners) - self.bearing)
+        center = np.asarray(seen.pose[:2]) - np.asarray(viewpoint)
+        self.bearing = float(np.arctan2(center[1], center[0]))
+        self._turns = transforms.normalize_angle(_bearings(self._corners) - self.bearing)
         # rad: of the right end, and of the left one.
         self.bearings = self.bearing + np.array([self._turns.min(), self._turns.max()])
 
@@ -86,8 +86,8 @@ class Outline:
         for i in np.flatnonzero(facing > 0.0):
             reach = -float(self._normals[i] @ self._corners[i]) / float(facing[i])
             edge = self._corners[(i + 1) % 4] - self._corners[i]
-            way, whole = float((reach * along - self._corners[i]) @ edge), float(edge @ edge)
-            within = whole > NEGLIGIBLE and -NEGLIGIBLE <= way <= whole + NEGLIGIBLE
+            step, whole = float((reach * along - self._corners[i]) @ edge), float(edge @ edge)
+            within = whole > NEGLIGIBLE and -NEGLIGIBLE <= step <= whole + NEGLIGIBLE
             if within and reach > NEAREST and (best is None or reach < best.range):
                 normal, variance = self._normals[i], float(self._variances[i])
                 best = Hit(reach, normal, float(facing[i]), variance)
@@ -95,7 +95,7 @@ class Outline:
 
     def near_point(self):
         """Where the line of sight in the middle of its bearings meets it (x, y, m, about the
-        sensor); its centre where none does."""
+        sensor); its center where none does."""
         bearing = float(np.mean(self.bearings))
         found = self.hit(bearing)
         if found is None:
@@ -127,7 +127,7 @@ def offset(outline, other):
     jacobians = np.zeros((2, 2, 2))
     hits = outline.hit(common), other.hit(common)
     reach = float(np.hypot(*other.near_point()))
-    if all(hit is not None and hit.facing >= LEAST_FACING for hit in hits):
+    if all(hit is not None and hit.facing >= MIN_FACING for hit in hits):
         reach = hits[1].range
         if all(np.isfinite(hit.variance) for hit in hits):
             value[0] = hits[0].range - reach
@@ -158,7 +158,7 @@ def _same_corners(outline, other):
 
 def _near(bearing, middle):
     """The same bearing, within half a turn of another one."""
-    return middle + float(transforms.normalise_angle(bearing - middle))
+    return middle + float(transforms.normalize_angle(bearing - middle))
 
 
 def _bearings(rays):

@@ -1,4 +1,4 @@
-"""Rows of parked vehicles along a kerb: where they leave off, the road's side of them ends it.
+"""Rows of parked vehicles along a curb: where they leave off, the road's side of them ends it.
 
 All in arrays over stations along a way, equally spaced, that look to one side of it.
 """
@@ -15,22 +15,22 @@ from datmo_tools.object_truth import TRUE_OBJECT_ARRAY
 from datmo_tools.outlines import CORNERS
 from datmo_tools.pose_path import planar, read_messages
 
-# A vehicle is parked along a kerb if its far side is within this of it (m), or beyond it.
-MOST_FROM_KERB = 1.0
+# A vehicle is parked along a curb if its far side is within this of it (m), or beyond it.
+MAX_FROM_CURB = 1.0
 
 
 class RowOptions(NamedTuple):
     """What is a row."""
 
     bridged: float = 10.0  # m, longest gap in a row that ends the road as the row does
-    car_length: float = 5.0  # m; in a longer gap, and this far beyond its ends, the kerb may, too
+    car_length: float = 5.0  # m; in a longer gap, and this far beyond its ends, the curb may, too
 
 
 class Row(NamedTuple):
     """The row along one side."""
 
-    depth: np.ndarray  # n, m, from the kerb to the row's line; NaN: no row
-    open: np.ndarray  # n, bool: the kerb would do as well
+    depth: np.ndarray  # n, m, from the curb to the row's line; NaN: no row
+    open: np.ndarray  # n, bool: the curb would do as well
 
 
 def parked_boxes(path):
@@ -52,22 +52,22 @@ def parked_boxes(path):
     return np.array(corners).reshape(-1, 4, 2)
 
 
-def depths_of_vehicles(kerb, near, far):
-    """n, m: how far parked vehicles reach from the kerb into the road; NaN where none does.
+def depths_of_vehicles(curb, near, far):
+    """n, m: how far parked vehicles reach from the curb into the road; NaN where none does.
 
-    kerb: n, m, from the way; NaN: none; near, far: n x k, m, sides of k boxes as the way sees them;
+    curb: n, m, from the way; NaN: none; near, far: n x k, m, sides of k boxes as the way sees them;
     NaN where it looks past a box.
     """
     with np.errstate(invalid="ignore"):
-        parked = (kerb[:, np.newaxis] - far <= MOST_FROM_KERB) & (near < kerb[:, np.newaxis])
+        parked = (curb[:, np.newaxis] - far <= MAX_FROM_CURB) & (near < curb[:, np.newaxis])
     faces = np.where(parked, near, np.inf).min(axis=1, initial=np.inf)
-    return np.where(np.isfinite(faces), kerb - faces, np.nan)
+    return np.where(np.isfinite(faces), curb - faces, np.nan)
 
 
 def row_of(depths, bounded, spacing, options):
     """Row of depths_of_vehicles().
 
-    bounded: n, bool: there is a kerb, and no junction; a row does not go on where there is not;
+    bounded: n, bool: there is a curb, and no junction; a row does not go on where there is not;
     spacing: m, of the stations.
     """
     depths = np.where(bounded, depths, np.nan)

@@ -37,17 +37,17 @@ def score_passed(fused, members, gate):
         and has_passed(frame.tracks[row], members),
     )
     false, on_user = [], 0
-    for number, sightings in judged.items():
-        if follow(sightings, gate, movers).is_true:
+    for number, observations in judged.items():
+        if follow(observations, gate, movers).is_true:
             continue
-        on_road_user = follow(sightings, gate, road_users).is_true
+        on_road_user = follow(observations, gate, road_users).is_true
         on_user += on_road_user
         off = [
             (frame, row)
-            for frame, row in sightings
+            for frame, row in observations
             if not len(frame.near(row, gate, movers(frame.moment)))
         ]
-        false.append({**account(number, sightings, off), "on_standing_road_user": on_road_user})
+        false.append({**account(number, observations, off), "on_standing_road_user": on_road_user})
     true = len(judged) - len(false)
     return {
         "tracks": len(both), "judged": len(judged),
@@ -59,26 +59,26 @@ def score_passed(fused, members, gate):
     }  # fmt: skip
 
 
-def account(number, sightings, off):
+def account(number, observations, off):
     """Where a false track is, and what is there in truth.
 
-    number: its id; sightings: of (TrackFrame, row), where it counts; off: those of them in which it
+    number: its id; observations: of (TrackFrame, row), where it counts; off: those of them in which it
     is on nothing that moves, of which the middle one is told; all of them, if there are none.
     """
-    frame, row = (off or sightings)[len(off or sightings) // 2]
+    frame, row = (off or observations)[len(off or observations) // 2]
     track = frame.tracks[row]
-    place = frame.places[row]
-    in_map = transforms.compose(frame.moment.base, np.append(place, 0.0))
+    position = frame.positions[row]
+    in_map = transforms.compose(frame.moment.base, np.append(position, 0.0))
     return {
         "id": number,
-        "from_s": sightings[0][0].stamp / NANOSECONDS,
-        "to_s": sightings[-1][0].stamp / NANOSECONDS,
-        "frames": len(sightings),
+        "from_s": observations[0][0].stamp / NANOSECONDS,
+        "to_s": observations[-1][0].stamp / NANOSECONDS,
+        "frames": len(observations),
         "frames_off": len(off),
         "stamp_s": frame.stamp / NANOSECONDS,
-        "place_m": [round(float(value), 2) for value in in_map[:2]],
-        "range_m": round(float(np.hypot(*place)), 2),
-        "bearing_deg": round(float(np.degrees(np.arctan2(place[1], place[0]))), 1),
+        "position_m": [round(float(value), 2) for value in in_map[:2]],
+        "range_m": round(float(np.hypot(*position)), 2),
+        "bearing_deg": round(float(np.degrees(np.arctan2(position[1], position[0]))), 1),
         "speed_mps": round(float(np.hypot(*track.velocity)), 2),
         "members": [list(member) for member in track.sources],
         "nearest": _nearest(frame, row),
@@ -103,9 +103,9 @@ def _score_pairs(judged, members, gate):
     """Whether the members of the fused tracks follow the same road user, pair by pair."""
     newest = {source: Newest(frames) for source, frames in members.items()}
     counts, wrong = {"right": 0, "wrong": 0, "on_nothing": 0}, []
-    for number, sightings in judged.items():
-        for pair, places in _pairs(sightings, newest).items():
-            follows = [follow(seen, gate, road_users) for seen in places]
+    for number, observations in judged.items():
+        for pair, positions in _pairs(observations, newest).items():
+            follows = [follow(seen, gate, road_users) for seen in positions]
             objects = [item.object if item.is_true else None for item in follows]
             if None in objects:
                 counts["on_nothing"] += 1
@@ -115,26 +115,26 @@ def _score_pairs(judged, members, gate):
                 counts["wrong"] += 1
                 wrong.append({
                     "id": number, "members": [list(member) for member in pair],
-                    "objects": objects, "frames": len(places[0]),
-                    "from_s": places[0][0][0].stamp / NANOSECONDS,
+                    "objects": objects, "frames": len(positions[0]),
+                    "from_s": positions[0][0][0].stamp / NANOSECONDS,
                 })  # fmt: skip
     known = counts["right"] + counts["wrong"]
     return {**counts, "right_share": _share(counts["right"], known), "wrong_pairs": wrong}
 
 
-def _pairs(sightings, newest):
+def _pairs(observations, newest):
     """Dictionary members -> for each member its sightings, of one fused track."""
     pairs = {}
-    for frame, row in sightings:
+    for frame, row in observations:
         members = tuple(sorted(item for item in frame.tracks[row].sources if item[0] in newest))
-        seen = [_sighting(newest[source].at(frame.stamp), number) for source, number in members]
+        seen = [_observation(newest[source].at(frame.stamp), number) for source, number in members]
         if None not in seen:
-            for places, item in zip(pairs.setdefault(members, [[] for _ in members]), seen):
-                places.append(item)
+            for positions, item in zip(pairs.setdefault(members, [[] for _ in members]), seen):
+                positions.append(item)
     return pairs
 
 
-def _sighting(frame, number):
+def _observation(frame, number):
     """(TrackFrame, row) of a track by its id; None: it is not there."""
     for row, track in enumerate(frame.tracks if frame is not None else ()):
         if track.id == number:

@@ -39,7 +39,7 @@ def _mebibytes(text):
     return int(text.split()[0]) / KIB_IN_MIB
 
 
-def summarise(samples, begin, end):
+def summarize(samples, begin, end):
     """Use between two times (s), of samples in their order: at least two of them in between.
 
     Memory grows from the end of the first quarter on: by then what is allocated once is there.

@@ -38,7 +38,7 @@ class Statistics(NamedTuple):
 
     mean: float
     std: float  # of the values themselves, as published: divided by their number
-    most: float
+    maximum: float
 
 
 def read_relations(path):

@@ -12,7 +12,7 @@ from datmo_tools import command_line, simulated_run
 from datmo_tools.errors import InputError
 from datmo_tools.programs import StepFailed
 from datmo_tools.progress import Progress
-from datmo_tools.robustness_summary import summarise, table
+from datmo_tools.robustness_summary import summarize, table
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
@@ -53,7 +53,7 @@ def _benchmark(values):
         for seed in range(1, values.seeds + 1)
     ]
     runs = _run_all(cases, values)
-    summary = summarise(runs)
+    summary = summarize(runs)
     report = {"format": FORMAT, "config": str(values.config), "summary": summary, "runs": runs}
     write_whole(values.out.parent, {values.out.name: json.dumps(report, indent=1) + "\n"})
     print(table(summary))

@@ -2,7 +2,7 @@
 
 import statistics
 
-LARGEST_JUMP = 1.0  # m; more is a failure
+MAX_JUMP = 1.0  # m; more is a failure
 
 # Heading, key, format of its values, width.
 COLUMNS = (
@@ -15,7 +15,7 @@ COLUMNS = (
 )
 
 
-def summarise(runs):
+def summarize(runs):
     """One dictionary for each scene and number of movers, in the order of their first run.
 
     runs: dictionaries with scene, movers, seed and pose (as in score_run's JSON; None: no score,
@@ -49,7 +49,7 @@ def _row(scene, movers, runs):
     failed = [
         run["seed"]
         for run in runs
-        if run["pose"] is not None and run["pose"]["largest_jump_m"] > LARGEST_JUMP
+        if run["pose"] is not None and run["pose"]["largest_jump_m"] > MAX_JUMP
     ]
     return {
         "scene": scene,

@@ -99,9 +99,9 @@ def _tracks_at(lists, stamps, stamp):
 
 def _distances(tracks, group):
     """Tracks x labels, m."""
-    places = np.array([track.pose[:2] for track in tracks]).reshape(-1, 1, 2)
+    points = np.array([track.pose[:2] for track in tracks]).reshape(-1, 1, 2)
     positions = np.array([label.position for label in group]).reshape(1, -1, 2)
-    return np.linalg.norm(places - positions, axis=2)
+    return np.linalg.norm(points - positions, axis=2)
 
 
 def _result(labels, found, switches, distances, gate):

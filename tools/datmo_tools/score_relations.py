@@ -98,8 +98,8 @@ def _by_log_stamps(path, bag):
 
 
 def _figures(values):
-    mean, std, most = statistics(values)
-    return {"mean": mean, "std": std, "max": most}
+    mean, std, maximum = statistics(values)
+    return {"mean": mean, "std": std, "max": maximum}
 
 
 def _run(values):

@@ -53,7 +53,7 @@ beams (0.4 degrees). What moved by itself between cloud and grid (up to 0.05 s) 
 CLOUDS = "/points"
 
 DISPARITY_SIGMA = 0.5  # px: the median error of semi-global matching on drive 0005
-LONGEST_GAP = 0.1  # s, from a grid to the nearest cloud: a turn of the Velodyne
+MAX_GAP = 0.1  # s, from a grid to the nearest cloud: a turn of the Velodyne
 
 # Bands together: those that the targets are stated for.
 SUMS = ((0.0, 15.0), (0.0, REACH))
@@ -80,7 +80,7 @@ def score(run, drive, topic="/grids/stereo", disparity_sigma=DISPARITY_SIGMA, fi
         for name, raw, _ in bag.read_messages([topic], raw=True):
             stamp, grid = grid_of(run, name, raw)
             nearest = int(stamps[np.argmin(np.abs(stamps - stamp))])
-            if abs(nearest - stamp) > LONGEST_GAP * NANOSECONDS:
+            if abs(nearest - stamp) > MAX_GAP * NANOSECONDS:
                 left_out += 1
                 continue
             points = moved(clouds[nearest], path.at(nearest), path.at(stamp))
@@ -88,7 +88,7 @@ def score(run, drive, topic="/grids/stereo", disparity_sigma=DISPARITY_SIGMA, fi
             used += 1
     if used == 0:
         raise InputError(
-            f"{run}: of {left_out} grids on {topic} none is within {LONGEST_GAP:g} s of a cloud in "
+            f"{run}: of {left_out} grids on {topic} none is within {MAX_GAP:g} s of a cloud in "
             f"{drive}, expected one or more"
         )
     return {

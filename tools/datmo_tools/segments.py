@@ -62,9 +62,9 @@ def distances_to(points, segments):
     return np.concatenate([np.empty(0), *parts])
 
 
-def nearby(segments, place, radius):
+def nearby(segments, position, radius):
     """Segments that come within a radius (m) of a place."""
-    near = _distances(np.asarray(place, dtype=float).reshape(1, 2), segments)[0] <= radius
+    near = _distances(np.asarray(position, dtype=float).reshape(1, 2), segments)[0] <= radius
     return Segments(segments.begin[near], segments.end[near])
 
 

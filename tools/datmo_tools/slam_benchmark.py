@@ -14,7 +14,7 @@ from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
 Takes CARMEN logs through carmen_to_bag and run_bag (grid SLAM alone: the online pose, nothing
-corrected afterwards) with one configuration for all, and scores the poses with the relations.
+corrected afterward) with one configuration for all, and scores the poses with the relations.
 Prints a table with the figures that Kuemmerle et al. published for the log (2009) beside ours, and
 what a scan cost."""
 

@@ -39,12 +39,12 @@ def measure(drive, launch_file, folder):
     samples = _run(drive, launch_file, recorded, log)
     try:
         times = json.loads(recorded.read_text(encoding="utf-8"))
-        return summarise(times, samples)
+        return summarize(times, samples)
     except (OSError, ValueError, StopIteration, IndexError) as error:
         raise InputError(f"{drive.bag}: no scan led to tracks; {_last_line(log)}") from error
 
 
-def summarise(times, samples):
+def summarize(times, samples):
     """Figures of one run: `times` as record_latency writes them, `samples` of the process."""
     return {
         "scans": len(times["latency"]) + times["unanswered"],
@@ -53,7 +53,7 @@ def summarise(times, samples):
         "processing_ms": {
             stage: _distribution(values) for stage, values in times["stages"].items()
         },
-        **process_usage.summarise(samples, times["first_scan"], times["last_scan"]),
+        **process_usage.summarize(samples, times["first_scan"], times["last_scan"]),
     }
 
 

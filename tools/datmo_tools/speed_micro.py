@@ -10,7 +10,7 @@ REPETITIONS = 5  # of which the median counts
 
 
 def measure(program, folder, quick=False):
-    """Median times by benchmark (see `summarise`); `program`: benchmark_hot_paths."""
+    """Median times by benchmark (see `summarize`); `program`: benchmark_hot_paths."""
     output = folder / "micro.json"
     options = ["--benchmark_out_format=json", f"--benchmark_out={output}"]
     options += [f"--benchmark_repetitions={1 if quick else REPETITIONS}"]
@@ -18,10 +18,10 @@ def measure(program, folder, quick=False):
     done = subprocess.run([str(program), *options], check=False, stdout=subprocess.DEVNULL)
     if done.returncode != 0:
         raise InputError(f"{program}: failed with exit code {done.returncode}")
-    return summarise(json.loads(output.read_text(encoding="utf-8")))
+    return summarize(json.loads(output.read_text(encoding="utf-8")))
 
 
-def summarise(report):
+def summarize(report):
     """Name -> figures, from Google Benchmark's JSON: the median of a benchmark's repetitions.
 
     CPU time, because others may use the machine meanwhile. A fitted growth is NAME/fit.

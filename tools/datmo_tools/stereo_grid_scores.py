@@ -11,7 +11,7 @@ import numpy as np
 from datmo_tools import kitti_scans, road_plane, transforms
 from datmo_tools.grid_scores import UNDECIDED
 
-# What is an obstacle, m above the road: over kerbs, and what a car could touch.
+# What is an obstacle, m above the road: over curbs, and what a car could touch.
 OBSTACLE_LOW, OBSTACLE_HIGH = 0.3, 2.0
 
 BAND_EDGES = (0.0, 5.0, 10.0, 15.0, 20.0, 25.0)  # m from the camera over ground
@@ -103,7 +103,7 @@ def _cells_where(chosen):
 def _within(grid, cells, view, reach):
     """Those of the cells that are in view; those up to the reach, which may go beyond the view's."""
     wide = view._replace(left=view.left._replace(reach=reach))
-    return cells[np.isfinite(wide.ranges(grid.centres(cells)))]
+    return cells[np.isfinite(wide.ranges(grid.centers(cells)))]
 
 
 def _has_partner(grid, cells, others, view):
@@ -112,10 +112,10 @@ def _has_partner(grid, cells, others, view):
         return np.zeros(len(cells), dtype=bool)
     offsets = np.abs(cells[:, np.newaxis, :] - others[np.newaxis, :, :])
     beside = offsets.max(axis=2) <= 1
-    sigmas = view.depth_sigmas(grid.centres(cells))
+    sigmas = view.depth_sigmas(grid.centers(cells))
     near = np.hypot(offsets[..., 0], offsets[..., 1]) * grid.cell_size <= sigmas[:, np.newaxis]
     return np.any(beside | near, axis=1)
 
 
 def _by_band(grid, cells, view):
-    return np.histogram(view.ranges(grid.centres(cells)), BAND_EDGES)[0]
+    return np.histogram(view.ranges(grid.centers(cells)), BAND_EDGES)[0]

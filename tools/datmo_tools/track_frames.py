@@ -7,7 +7,7 @@ import numpy as np
 
 from datmo_fusion.msg import Object
 from datmo_tools import transforms
-from datmo_tools.object_truth import LONGEST_GAP, Truth
+from datmo_tools.object_truth import MAX_GAP, Truth
 from datmo_tools.pose_path import read_path
 from datmo_tools.stamps import NANOSECONDS
 from datmo_tools.track_matching import TrackMatcher, distances_to_boxes
@@ -18,7 +18,7 @@ POSE = "/pose"  # estimated, of the run
 ROAD_USERS = (Object.CLASS_PEDESTRIAN, Object.CLASS_CYCLIST, Object.CLASS_VEHICLE)
 
 # A list is of the present for so long, s: as the fusion of tracks takes them.
-OLDEST_LIST = 0.6
+MAX_LIST_AGE = 0.6
 
 
 class Moment(NamedTuple):
@@ -39,7 +39,7 @@ class TrackFrame(NamedTuple):
 
     stamp: int  # ns
     tracks: list  # of SeenTrack
-    places: np.ndarray  # n x 2, m, base_link
+    positions: np.ndarray  # n x 2, m, base_link
     moment: Moment
     distances: np.ndarray  # n x m, m, from the tracks to the boxes of the true objects
     partners: list  # index of the true object that it is matched to, of those that move; or None
@@ -78,7 +78,7 @@ class Scene:
 
     def _moment(self, stamp):
         if stamp not in self._moments:
-            known = self._poses.distance_from(stamp) <= LONGEST_GAP * NANOSECONDS
+            known = self._poses.distance_from(stamp) <= MAX_GAP * NANOSECONDS
             states = self._truth.at(stamp, self._asked) if known else None
             self._moments[stamp] = None if states is None else self._as_moment(stamp, states)
         return self._moments[stamp]
@@ -99,10 +99,10 @@ class Scene:
     def _frame(self, item, moment, matcher):
         base = self._poses.at(item.stamp)
         poses = np.array([track.pose for track in item.tracks]).reshape(-1, 3)
-        places = transforms.relative(base, poses)[:, :2]
-        distances = distances_to_boxes(places, moment.poses, moment.sizes)
-        frame = TrackFrame(item.stamp, item.tracks, places, moment, distances,
-                           [None] * len(places), [None] * len(places))  # fmt: skip
+        positions = transforms.relative(base, poses)[:, :2]
+        distances = distances_to_boxes(positions, moment.poses, moment.sizes)
+        frame = TrackFrame(item.stamp, item.tracks, positions, moment, distances,
+                           [None] * len(positions), [None] * len(positions))  # fmt: skip
         rows = [row for row, track in enumerate(item.tracks) if self._counts(frame, row, track)]
         columns = np.flatnonzero(moment.movers)
         partners, verdicts = matcher.match(
@@ -116,7 +116,7 @@ class Scene:
     def _counts(self, frame, row, track):
         if not track.moving:
             return False
-        in_region = self._asked.region.contains(frame.places[row])
+        in_region = self._asked.region.contains(frame.positions[row])
         return in_region or len(frame.near(row, self.gate, frame.moment.required)) > 0
 
 
@@ -131,7 +131,7 @@ class Newest:
     def at(self, stamp):
         """The newest one that is not after `stamp` (ns) and of the present; None: there is none."""
         after = bisect.bisect_right(self._stamps, stamp)
-        if after == 0 or stamp - self._stamps[after - 1] > OLDEST_LIST * NANOSECONDS:
+        if after == 0 or stamp - self._stamps[after - 1] > MAX_LIST_AGE * NANOSECONDS:
             return None
         return self._items[after - 1]
 
@@ -149,30 +149,30 @@ class Follow(NamedTuple):
         return 2 * self.near > self.frames
 
 
-def follow(sightings, gate, among):
+def follow(observations, gate, among):
     """Follow of one track.
 
-    sightings: of (TrackFrame, row); among: function of a Moment, which true objects count (bool
+    observations: of (TrackFrame, row); among: function of a Moment, which true objects count (bool
     array). The object is that with the least sum of distances, none of which counts as more than
     the gate (m).
     """
     gains, counts = {}, {}
-    for frame, row in sightings:
+    for frame, row in observations:
         for column in frame.near(row, gate, among(frame.moment)):
             number = int(frame.moment.ids[column])
             gains[number] = gains.get(number, 0.0) + gate - frame.distances[row, column]
             counts[number] = counts.get(number, 0) + 1
     if not gains:
-        return Follow(None, len(sightings), 0)
+        return Follow(None, len(observations), 0)
     best = max(gains, key=lambda number: (gains[number], counts[number], -number))
-    return Follow(best, len(sightings), counts[best])
+    return Follow(best, len(observations), counts[best])
 
 
 def sightings_of(frames, wanted=lambda frame, row: True):
     """Dictionary track id -> list of (TrackFrame, row), of the rows that are wanted."""
-    sightings = {}
+    observations = {}
     for frame in frames:
         for row, track in enumerate(frame.tracks):
             if wanted(frame, row):
-                sightings.setdefault(track.id, []).append((frame, row))
-    return sightings
+                observations.setdefault(track.id, []).append((frame, row))
+    return observations

@@ -20,7 +20,7 @@ class SeenTrack(NamedTuple):
     moving: bool
     sources: tuple  # of (source, id): tracks that it was fused of
 
-    def place_at(self, seconds):
+    def position_at(self, seconds):
         """x, y (m) so much later (s) at its velocity."""
         return self.pose[:2] + self.velocity * seconds
 

@@ -13,12 +13,12 @@ class Verdict(enum.Enum):
     FALSE = "false"  # neither
 
 
-def distances_to_boxes(places, poses, sizes):
+def distances_to_boxes(positions, poses, sizes):
     """Distances (n x m, m) of places (n x 2) from boxes, 0 inside.
 
-    poses: m x 3, x, y (m), yaw (rad) of their centres; sizes: m x 2, length, width (m).
+    poses: m x 3, x, y (m), yaw (rad) of their centers; sizes: m x 2, length, width (m).
     """
-    apart = places[:, np.newaxis] - poses[np.newaxis, :, :2]
+    apart = positions[:, np.newaxis] - poses[np.newaxis, :, :2]
     cosine, sine = np.cos(poses[:, 2]), np.sin(poses[:, 2])
     along = cosine * apart[..., 0] + sine * apart[..., 1]
     across = cosine * apart[..., 1] - sine * apart[..., 0]

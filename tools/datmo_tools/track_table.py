@@ -63,7 +63,7 @@ def _objects(item):
         rows.append(["visible to both", *[NO_VALUE] * 4])
     else:
         rows.append(_row("visible to both", visible, visible))
-        long = f"  for {visible['least_seen_s']:g} s or more"
+        long = f"  for {visible['min_seen_s']:g} s or more"
         rows.append(_row(long, visible["for_that_long"]))
     lines = [aligned(rows)]
     lines += [f"  late or never: {_object_text(late)}" for late in both["late_or_never"]]
@@ -110,7 +110,7 @@ def _false(item):
     for name in LISTS:
         one = item[name]
         frames = _ratio(one["in_view_frames"], one["frames"])
-        rows.append([name, str(one["all"]), str(one["in_view"]), str(one["in_sight"]),
+        rows.append([name, str(one["all"]), str(one["in_view"]), str(one["visible"]),
                      rounded(frames, 3),
                      *(str(one["by_what"][sort]) for sort in sorts)])  # fmt: skip
     lines = [
@@ -132,7 +132,7 @@ def _false_text(item):
     return (
         f"track {item['id']}{members} from {item['from_s']:.2f} s to {item['to_s']:.2f} s, "
         f"{item['frames_off']} of {item['frames']} frames; at {item['stamp_s']:.2f} s in map "
-        f"({item['place_m'][0]:g}, {item['place_m'][1]:g}), {item['range_m']:g} m at "
+        f"({item['position_m'][0]:g}, {item['position_m'][1]:g}), {item['range_m']:g} m at "
         f"{item['bearing_deg']:g} deg, {item['speed_mps']:g} m/s, {there}"
     )
 

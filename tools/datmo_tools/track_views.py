@@ -4,40 +4,40 @@ import math
 
 import numpy as np
 
-from datmo_tools.transforms import normalise_angle
+from datmo_tools.transforms import normalize_angle
 
 # A track may be so much behind what ended a beam, m: that may be the track's own object.
 BLOCKING_DISTANCE = 0.5
 
 
-def is_in_view(views, place):
+def is_in_view(views, position):
     """Whether a place (x, y, m, in the frame of the views) is in the sector and range of one of
     the ViewFans."""
-    return any(_beam_at(view, place) is not None for view in views)
+    return any(_beam_at(view, position) is not None for view in views)
 
 
-def is_in_sight(views, place):
+def is_visible(views, position):
     """The same, and nothing that was seen is before it."""
     for view in views:
-        beam = _beam_at(view, place)
-        if beam is not None and _range(view, place) <= view.reach[beam] + BLOCKING_DISTANCE:
+        beam = _beam_at(view, position)
+        if beam is not None and _range(view, position) <= view.reach[beam] + BLOCKING_DISTANCE:
             return True
     return False
 
 
-def _beam_at(view, place):
+def _beam_at(view, position):
     """Index of the fan's beam nearest to it; None: it is out of sector or range."""
     if not view.reach or view.beam_spacing == 0.0:
         return None
-    if not view.least_range <= _range(view, place) <= view.range:
+    if not view.min_range <= _range(view, position) <= view.range:
         return None
-    bearing = math.atan2(place[1] - view.sensor.y, place[0] - view.sensor.x) - view.sensor.theta
+    bearing = math.atan2(position[1] - view.sensor.y, position[0] - view.sensor.x) - view.sensor.theta
     # About the fan's middle, so that one that is half a turn wide has no seam.
     half = 0.5 * (len(view.reach) - 1)
     middle = view.first_bearing + half * view.beam_spacing
-    beam = round(half + float(normalise_angle(bearing - middle)) / view.beam_spacing)
+    beam = round(half + float(normalize_angle(bearing - middle)) / view.beam_spacing)
     return beam if 0 <= beam < len(view.reach) else None
 
 
-def _range(view, place):
-    return float(np.hypot(place[0] - view.sensor.x, place[1] - view.sensor.y))
+def _range(view, position):
+    return float(np.hypot(position[0] - view.sensor.x, position[1] - view.sensor.y))

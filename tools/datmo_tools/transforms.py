@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 
-def normalise_angle(angle):
+def normalize_angle(angle):
     """Angle(s) in rad, brought to [-pi, pi)."""
     return (np.asarray(angle) + math.pi) % (2.0 * math.pi) - math.pi
 
@@ -64,7 +64,7 @@ def compose(pose, local):
     cosine, sine = math.cos(pose[2]), math.sin(pose[2])
     x = pose[0] + cosine * local[..., 0] - sine * local[..., 1]
     y = pose[1] + sine * local[..., 0] + cosine * local[..., 1]
-    return np.stack([x, y, normalise_angle(pose[2] + local[..., 2])], axis=-1)
+    return np.stack([x, y, normalize_angle(pose[2] + local[..., 2])], axis=-1)
 
 
 def relative(origin, pose):
@@ -72,7 +72,7 @@ def relative(origin, pose):
     pose = np.asarray(pose, dtype=float)
     cosine, sine = math.cos(origin[2]), math.sin(origin[2])
     dx, dy = pose[..., 0] - origin[0], pose[..., 1] - origin[1]
-    yaw = normalise_angle(pose[..., 2] - origin[2])
+    yaw = normalize_angle(pose[..., 2] - origin[2])
     return np.stack([cosine * dx + sine * dy, -sine * dx + cosine * dy, yaw], axis=-1)
 
 

@@ -11,15 +11,15 @@ _OCCLUSION_SHARES = {0: 0.0, 1: 0.5, 2: 1.0}
 class TrueBox(NamedTuple):
     """A box of one frame, upright in the Velodyne's frame."""
 
-    x: float  # m, centre
+    x: float  # m, center
     y: float  # m
-    z: float  # m, centre
+    z: float  # m, center
     yaw: float  # rad
     occlusion: float  # 0 to 1 in the annotator's view, negative: not known
 
 
 class TrueObject(NamedTuple):
-    """One labelled object: its boxes by frame."""
+    """One labeled object: its boxes by frame."""
 
     number: int
     label: str  # KITTI's name of the class

@@ -13,9 +13,9 @@ from datmo_tools.pose_path import read_messages
 WHEELS = ("FL", "FR", "BL", "BR")
 
 # The IMU's bias is told by so many samples at which no wheel turned; by fewer it is not.
-LEAST_STANDING = 20
+MIN_STANDING = 20
 
-LEAST_GRAVITY = 5.0  # m/s^2, of the mean acceleration: about half of what it is
+MIN_GRAVITY = 5.0  # m/s^2, of the mean acceleration: about half of what it is
 
 # Standard deviations of the rates: encoders that count ticks, and an IMU on a car that shakes.
 ERRORS = OdometryErrors(speed_noise=0.1, yaw_rate_noise=0.05)
@@ -54,13 +54,13 @@ def _yaw_rates(measured, standing):
     """Turn about the vertical (n, rad/s); measured: n x 6, angular velocity and acceleration."""
     gravity = np.mean(measured[:, 3:], axis=0)
     strength = np.linalg.norm(gravity)
-    if not strength > LEAST_GRAVITY:
+    if not strength > MIN_GRAVITY:
         raise InputError(
             f"accelerations of the IMU: mean {strength:.2f} m/s^2, expected gravity (more than "
-            f"{LEAST_GRAVITY}): which way is up is not known"
+            f"{MIN_GRAVITY}): which way is up is not known"
         )
     rates = measured[:, :3] @ (gravity / strength)
-    bias = np.mean(rates[standing]) if np.count_nonzero(standing) >= LEAST_STANDING else 0.0
+    bias = np.mean(rates[standing]) if np.count_nonzero(standing) >= MIN_STANDING else 0.0
     return rates - bias
 
 

@@ -53,9 +53,9 @@ TrackConsistency scoreConsistency(const Frames& frames, const Matching& matching
   for (std::size_t i = 0; i < frames.size(); ++i) {
     forEachHit(frames[i], matching[i], [&](const TrueState& truth, const TrackState& track) {
       position.add(
-          normalisedErrorSquared<2>(track.box.centre.position() - truth.box.centre.position(),
+          normalizedErrorSquared<2>(track.box.center.position() - truth.box.center.position(),
                                     track.covariance.topLeftCorner<2, 2>()));
-      velocity.add(normalisedErrorSquared<2>(track.velocity - truth.velocity,
+      velocity.add(normalizedErrorSquared<2>(track.velocity - truth.velocity,
                                              track.covariance.bottomRightCorner<2, 2>()));
     });
   }

@@ -9,7 +9,7 @@
 
 namespace datmo::evaluation {
 
-/// Are the covariances honest? The normalised estimation error squared, e^T P^-1 e, of an honest
+/// Are the covariances honest? The normalized estimation error squared, e^T P^-1 e, of an honest
 /// filter is chi-square distributed with the error's dimension as degrees of freedom (Bar-Shalom,
 /// Li and Kirubarajan, Estimation with Applications to Tracking and Navigation, 2001, section
 /// 5.4). Above the bounds the filter is too sure of itself, below them not sure enough.
@@ -35,7 +35,7 @@ double chiSquareQuantile(double probability, double degrees_of_freedom);
 
 /// e^T P^-1 e of one error; none: the covariance is not positive definite.
 template <int dimension>
-std::optional<double> normalisedErrorSquared(
+std::optional<double> normalizedErrorSquared(
     const Eigen::Matrix<double, dimension, 1>& error,
     const Eigen::Matrix<double, dimension, dimension>& covariance) {
   const Eigen::LLT<Eigen::Matrix<double, dimension, dimension>> factors(covariance);

@@ -9,22 +9,22 @@ namespace {
 /// A place in the map where something was last seen to move that does not.
 struct Episode {
   Stamp last;
-  Point2 place;
+  Point2 position;
 };
 
 /// Counts places, not detections.
 class Episodes {
  public:
-  Episodes(double gate, double longest_gap) : gate_(gate), longest_gap_(longest_gap) {}
+  Episodes(double gate, double max_gap) : gate_(gate), max_gap_(max_gap) {}
 
-  void add(Stamp stamp, const Point2& place) {
+  void add(Stamp stamp, const Point2& position) {
     const auto known = std::find_if(open_.begin(), open_.end(), [&](const Episode& episode) {
-      return (episode.place - place).norm() <= gate_;
+      return (episode.position - position).norm() <= gate_;
     });
     if (known != open_.end()) {
-      *known = {stamp, place};
+      *known = {stamp, position};
     } else {
-      open_.push_back({stamp, place});
+      open_.push_back({stamp, position});
       ++count_;
     }
   }
@@ -32,7 +32,7 @@ class Episodes {
   void closeOld(Stamp now) {
     open_.erase(std::remove_if(open_.begin(), open_.end(),
                                [&](const Episode& episode) {
-                                 return secondsBetween(episode.last, now) > longest_gap_;
+                                 return secondsBetween(episode.last, now) > max_gap_;
                                }),
                 open_.end());
   }
@@ -41,17 +41,17 @@ class Episodes {
 
  private:
   double gate_;
-  double longest_gap_;
+  double max_gap_;
   std::vector<Episode> open_;
   std::size_t count_ = 0;
 };
 
-bool isOnObject(const Point2& place, const std::vector<TrueState>& objects,
+bool isOnObject(const Point2& position, const std::vector<TrueState>& objects,
                 const MatchOptions& options) {
-  TrackState at_place;
-  at_place.box.centre = Pose2(place, 0.0);
+  TrackState at_position;
+  at_position.box.center = Pose2(position, 0.0);
   return std::any_of(objects.begin(), objects.end(), [&](const TrueState& object) {
-    return matchDistance(object, at_place, options) <= options.gate;
+    return matchDistance(object, at_position, options) <= options.gate;
   });
 }
 
@@ -77,11 +77,11 @@ FalseDetections countFalseDetections(const std::vector<RecordedDetections>& reco
     ++result.frames;
     episodes.closeOld(detections.stamp);
     for (const Point2& seen : detections.moving) {
-      const Point2 place = view->base_in_map * seen;
-      if (scene.isInRegion(view->base_in_map, place) &&
-          !isOnObject(place, view->objects, matching)) {
+      const Point2 position = view->base_in_map * seen;
+      if (scene.isInRegion(view->base_in_map, position) &&
+          !isOnObject(position, view->objects, matching)) {
         ++result.detections;
-        episodes.add(detections.stamp, place);
+        episodes.add(detections.stamp, position);
       }
     }
   }

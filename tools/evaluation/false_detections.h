@@ -21,7 +21,7 @@ struct FalseDetections {
 };
 
 /// A detection is false if it lies in the region and further than the gate from the box (or the
-/// centre, as MatchOptions say) of every object that moves or has moved. It goes on as long as the
+/// center, as MatchOptions say) of every object that moves or has moved. It goes on as long as the
 /// next one comes within the gate of it and within ScoreOptions::detection_gap.
 FalseDetections countFalseDetections(const std::vector<RecordedDetections>& recorded,
                                      const TrueScene& scene, const ScoreOptions& options);

@@ -11,7 +11,7 @@ std::optional<double> FalseMovers::perFrame() const {
   return static_cast<double>(tracks) / static_cast<double>(frames);
 }
 
-FalseMovers countFalseMovers(const Frames& frames, const Matching& matching, double least_speed) {
+FalseMovers countFalseMovers(const Frames& frames, const Matching& matching, double min_speed) {
   FalseMovers result;
   result.frames = frames.size();
   for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -19,7 +19,7 @@ FalseMovers countFalseMovers(const Frames& frames, const Matching& matching, dou
     for (std::size_t track = 0; track < frames[i].tracks.size(); ++track) {
       const bool near = std::any_of(candidates.begin(), candidates.end(),
                                     [&](const Candidate& pair) { return pair.track == track; });
-      const bool fast = frames[i].tracks[track].velocity.norm() > least_speed;
+      const bool fast = frames[i].tracks[track].velocity.norm() > min_speed;
       result.tracks += fast && !near ? 1 : 0;
     }
   }

@@ -16,8 +16,8 @@ struct FalseMovers {
   std::optional<double> perFrame() const;
 };
 
-/// A track is a false mover if it is faster than `least_speed` (m/s) and not within the gate of any
+/// A track is a false mover if it is faster than `min_speed` (m/s) and not within the gate of any
 /// true object, matched or not. `matching` is of these frames.
-FalseMovers countFalseMovers(const Frames& frames, const Matching& matching, double least_speed);
+FalseMovers countFalseMovers(const Frames& frames, const Matching& matching, double min_speed);
 
 }  // namespace datmo::evaluation

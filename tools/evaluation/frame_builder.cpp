@@ -14,7 +14,7 @@ bool isBefore(const Frame& a, const Frame& b) { return a.stamp < b.stamp; }
 /// The track, seen from the map that `run_in_truth` leads to.
 TrackState moved(const TrackState& track, const Pose2& run_in_truth) {
   TrackState result = track;
-  result.box.centre = run_in_truth * track.box.centre;
+  result.box.center = run_in_truth * track.box.center;
   result.velocity = run_in_truth.rotate(track.velocity);
   Eigen::Matrix4d turn = Eigen::Matrix4d::Zero();
   turn.topLeftCorner<2, 2>() = run_in_truth.rotation();
@@ -64,7 +64,7 @@ std::vector<TrackState> tracksThatCount(const RecordedTracks& recorded, const Po
       continue;
     }
     const TrackState state = moved(track.state, run_in_truth);
-    if (scene.isInRegion(view.base_in_map, state.box.centre.position()) ||
+    if (scene.isInRegion(view.base_in_map, state.box.center.position()) ||
         isOnRequired(state, view.objects, options.metrics.matching)) {
       tracks.push_back(state);
     }
@@ -79,10 +79,10 @@ bool isNear(const Frames& frames, Stamp stamp, double seconds) {
          (after != frames.begin() && secondsBetween((after - 1)->stamp, stamp) <= seconds);
 }
 
-Frames silentFrames(const Frames& frames, const TrueScene& scene, double longest_silence) {
+Frames silentFrames(const Frames& frames, const TrueScene& scene, double max_silence) {
   Frames silent;
   for (const Stamp stamp : scene.stamps()) {
-    if (isNear(frames, stamp, longest_silence)) {
+    if (isNear(frames, stamp, max_silence)) {
       continue;
     }
     if (const auto view = scene.at(stamp)) {
@@ -93,12 +93,12 @@ Frames silentFrames(const Frames& frames, const TrueScene& scene, double longest
 }
 
 /// How long each object has to be found in all, s.
-std::map<std::uint32_t, double> requiredTimes(const Frames& frames, double longest_gap) {
+std::map<std::uint32_t, double> requiredTimes(const Frames& frames, double max_gap) {
   std::map<std::uint32_t, double> times;
   for (std::size_t i = 1; i < frames.size(); ++i) {
     const double step = secondsBetween(frames[i - 1].stamp, frames[i].stamp);
     for (const TrueState& object : frames[i].truths) {
-      const bool counts = object.duty == Duty::kRequired && step <= longest_gap;
+      const bool counts = object.duty == Duty::kRequired && step <= max_gap;
       times[object.id] += counts ? step : 0.0;
     }
   }
@@ -106,10 +106,10 @@ std::map<std::uint32_t, double> requiredTimes(const Frames& frames, double longe
 }
 
 void excuseBriefObjects(Frames& frames, const ScoreOptions& options) {
-  auto times = requiredTimes(frames, options.longest_gap);
+  auto times = requiredTimes(frames, options.max_gap);
   for (Frame& frame : frames) {
     for (TrueState& object : frame.truths) {
-      if (times[object.id] < options.truth.least_time_seen) {
+      if (times[object.id] < options.truth.min_time_seen) {
         object.duty = Duty::kOptional;
       }
     }
@@ -137,7 +137,7 @@ BuiltFrames buildFrames(const std::vector<RecordedTracks>& tracks, const Traject
   if (built.frames.empty()) {
     return built;
   }
-  const Frames silent = silentFrames(built.frames, scene, options.longest_silence);
+  const Frames silent = silentFrames(built.frames, scene, options.max_silence);
   built.frames.insert(built.frames.end(), silent.begin(), silent.end());
   std::sort(built.frames.begin(), built.frames.end(), isBefore);
   excuseBriefObjects(built.frames, options);

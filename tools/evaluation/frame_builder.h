@@ -18,7 +18,7 @@ struct BuiltFrames {
 
 /// Brings tracks and truth together: a frame for each message with tracks, at its stamp and in the
 /// map of the truth, and one without tracks for each stamp of the truth at which the run is silent
-/// (ScoreOptions::longest_silence), so before its first tracks and after its last ones as well.
+/// (ScoreOptions::max_silence), so before its first tracks and after its last ones as well.
 ///
 /// Left out are tracks that do not count: those that stand, if moving ones alone are wanted, and
 /// those out of the region that are not on an object that has to be found.

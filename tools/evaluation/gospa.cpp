@@ -8,21 +8,21 @@ namespace datmo::evaluation {
 
 namespace {
 
-std::vector<Point2> requiredCentres(const Frame& frame) {
+std::vector<Point2> requiredCenters(const Frame& frame) {
   std::vector<Point2> result;
   for (const TrueState& truth : frame.truths) {
     if (truth.duty == Duty::kRequired) {
-      result.push_back(truth.box.centre.position());
+      result.push_back(truth.box.center.position());
     }
   }
   return result;
 }
 
-std::vector<Point2> scoredCentres(const Frame& frame, const FrameMatching& matching) {
+std::vector<Point2> scoredCenters(const Frame& frame, const FrameMatching& matching) {
   std::vector<Point2> result;
   for (std::size_t i = 0; i < frame.tracks.size(); ++i) {
     if (matching.verdicts[i] != Verdict::kNeutral) {
-      result.push_back(frame.tracks[i].box.centre.position());
+      result.push_back(frame.tracks[i].box.center.position());
     }
   }
   return result;
@@ -32,7 +32,7 @@ std::vector<Point2> scoredCentres(const Frame& frame, const FrameMatching& match
 
 void GospaOptions::visit(OptionVisitor& visitor) {
   visitor.number({"cutoff", "m",
-                  "distance of centres from which a track is no estimate of an object (c of "
+                  "distance of centers from which a track is no estimate of an object (c of "
                   "Rahmathullah et al. 2017): about a car's length; a miss or a false track costs "
                   "it over the square root of 2"},
                  cutoff, {0.01, 1000.0});
@@ -52,13 +52,13 @@ Gospa gospa(const std::vector<Point2>& truths, const std::vector<Point2>& tracks
     }
   }
   const std::vector<std::size_t> chosen = choosePairs(pairs);
-  double localisation = 0.0;
+  double localization = 0.0;
   for (const std::size_t index : chosen) {
-    localisation += square_of_cutoff - pairs[index].gain;
+    localization += square_of_cutoff - pairs[index].gain;
   }
   const double missed = 0.5 * square_of_cutoff * static_cast<double>(truths.size() - chosen.size());
   const double wrong = 0.5 * square_of_cutoff * static_cast<double>(tracks.size() - chosen.size());
-  return {std::sqrt(localisation + missed + wrong), std::sqrt(localisation), std::sqrt(missed),
+  return {std::sqrt(localization + missed + wrong), std::sqrt(localization), std::sqrt(missed),
           std::sqrt(wrong)};
 }
 
@@ -68,7 +68,7 @@ std::vector<Gospa> gospaOfFrames(const Frames& frames, const Matching& matching,
   result.reserve(frames.size());
   for (std::size_t i = 0; i < frames.size(); ++i) {
     result.push_back(
-        gospa(requiredCentres(frames[i]), scoredCentres(frames[i], matching[i]), options));
+        gospa(requiredCenters(frames[i]), scoredCenters(frames[i], matching[i]), options));
   }
   return result;
 }
@@ -81,7 +81,7 @@ std::optional<Gospa> meanGospa(const std::vector<Gospa>& frames) {
   Gospa mean;
   for (const Gospa& frame : frames) {
     mean.total += share * frame.total;
-    mean.localisation += share * frame.localisation;
+    mean.localization += share * frame.localization;
     mean.missed += share * frame.missed;
     mean.false_tracks += share * frame.false_tracks;
   }

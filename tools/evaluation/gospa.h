@@ -19,19 +19,19 @@ struct GospaOptions {
 /// sum up to the square of the total.
 struct Gospa {
   double total = 0.0;
-  double localisation = 0.0;  ///< of the pairs nearer than the cutoff
+  double localization = 0.0;  ///< of the pairs nearer than the cutoff
   double missed = 0.0;        ///< true objects without a track
   double false_tracks = 0.0;  ///< tracks without a true object
 };
 
-/// Generalised optimal sub-pattern assignment metric with p = 2 and alpha = 2 (Rahmathullah,
+/// Generalized optimal sub-pattern assignment metric with p = 2 and alpha = 2 (Rahmathullah,
 /// García-Fernández and Svensson, Generalized optimal sub-pattern assignment metric, FUSION 2017)
 /// over the plane's points, in m.
 Gospa gospa(const std::vector<Point2>& truths, const std::vector<Point2>& tracks,
             const GospaOptions& options);
 
-/// GOSPA of each frame, over the centres of the required truths and of the tracks that are not
-/// neutral. Centres, whatever the gate measures: the distance to a box is no metric.
+/// GOSPA of each frame, over the centers of the required truths and of the tracks that are not
+/// neutral. Centers, whatever the gate measures: the distance to a box is no metric.
 std::vector<Gospa> gospaOfFrames(const Frames& frames, const Matching& matching,
                                  const GospaOptions& options);
 

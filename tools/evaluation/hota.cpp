@@ -13,10 +13,10 @@ constexpr int kAlphas = 19;  // Luiten et al. 2021
 constexpr double kAlphaStep = 0.05;
 // Similarities are differences of rounded numbers; one that equals alpha must count.
 constexpr double kRounding = 1e-9;
-// Weights of matching, association and localisation in the choice of matches (Luiten et al.
+// Weights of matching, association and localization in the choice of matches (Luiten et al.
 // 2021), so far apart that what comes first decides.
 constexpr double kMatchGain = 1e4;
-constexpr double kLocalisationGain = 1e-6;
+constexpr double kLocalizationGain = 1e-6;
 
 /// What the matches of one alpha amount to.
 struct Level {
@@ -82,7 +82,7 @@ class LevelScorer {
         able.push_back(pair);
         gains.push_back(
             {pair.candidate.truth, pair.candidate.track,
-             kMatchGain + potential[pair.encounter] + kLocalisationGain * similarity(pair)});
+             kMatchGain + potential[pair.encounter] + kLocalizationGain * similarity(pair)});
       }
     }
     for (const std::size_t index : choosePairs(gains)) {

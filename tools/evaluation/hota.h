@@ -13,7 +13,7 @@ struct HotaScores {
   std::optional<double> hota;  ///< 0 to 1, mean over alpha; none: neither objects nor tracks
   std::optional<double> deta;  ///< detection accuracy, likewise
   std::optional<double> assa;  ///< association accuracy, likewise; 0 where nothing is matched
-  /// Localisation accuracy: mean similarity of the matches, over the alphas that have some.
+  /// Localization accuracy: mean similarity of the matches, over the alphas that have some.
   std::optional<double> loca;
   std::vector<double> alphas;      ///< 0.05, 0.10, … 0.95: least similarity of a match
   std::vector<double> hota_alpha;  ///< HOTA at each of them; empty: hota is none

@@ -11,7 +11,7 @@ namespace datmo::evaluation {
 namespace {
 
 constexpr const char* kToBox = "to_box";
-constexpr const char* kToCentre = "to_centre";
+constexpr const char* kToCenter = "to_center";
 
 /// Matches frame after frame, and remembers who was last seen with whom.
 class Matcher {
@@ -104,9 +104,9 @@ void MatchOptions::visit(OptionVisitor& visitor) {
                   "Stiefelhagen 2008, threshold T); about a car's width"},
                  gate, {0.01, 100.0});
   visitor.text({"distance", "",
-                "from a track's centre to the true box (to_box, 0 inside: a scanner sees one side "
-                "of a long object) or to its centre (to_centre)"},
-               distance, {kToBox, kToCentre});
+                "from a track's center to the true box (to_box, 0 inside: a scanner sees one side "
+                "of a long object) or to its center (to_center)"},
+               distance, {kToBox, kToCenter});
 }
 
 std::size_t FrameMatching::falseTracks() const {
@@ -114,9 +114,9 @@ std::size_t FrameMatching::falseTracks() const {
 }
 
 double matchDistance(const TrueState& truth, const TrackState& track, const MatchOptions& options) {
-  const Point2& centre = track.box.centre.position();
-  return options.distance == kToCentre ? (centre - truth.box.centre.position()).norm()
-                                       : truth.box.distanceTo(centre);
+  const Point2& center = track.box.center.position();
+  return options.distance == kToCenter ? (center - truth.box.center.position()).norm()
+                                       : truth.box.distanceTo(center);
 }
 
 std::vector<Candidate> candidatesOf(const Frame& frame, const MatchOptions& options) {
@@ -127,7 +127,7 @@ std::vector<Candidate> candidatesOf(const Frame& frame, const MatchOptions& opti
     for (std::size_t j = 0; j < frame.tracks.size(); ++j) {
       const TrackState& track = frame.tracks[j];
       // Spares the distance to the box of nearly all pairs.
-      if ((track.box.centre.position() - truth.box.centre.position()).squaredNorm() >
+      if ((track.box.center.position() - truth.box.center.position()).squaredNorm() >
           reach * reach) {
         continue;
       }

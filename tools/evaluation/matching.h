@@ -15,7 +15,7 @@ namespace datmo::evaluation {
 /// When a track may be of a true object.
 struct MatchOptions {
   double gate = 2.0;                ///< m
-  std::string distance = "to_box";  ///< or "to_centre"
+  std::string distance = "to_box";  ///< or "to_center"
 
   void visit(OptionVisitor& visitor);
 };
@@ -27,8 +27,8 @@ struct Candidate {
   double distance = 0.0;  ///< m, at most the gate
 };
 
-/// From the track's centre to the true object as the options want it, m: to the nearest point of
-/// its box (0 inside), or to its centre.
+/// From the track's center to the true object as the options want it, m: to the nearest point of
+/// its box (0 inside), or to its center.
 double matchDistance(const TrueState& truth, const TrackState& track, const MatchOptions& options);
 
 /// All pairs of a frame within the gate, by rising truth, then rising track.

@@ -14,14 +14,14 @@ namespace {
 class ObjectTable {
  public:
   void addFrame(const TrueState& truth, Stamp stamp) {
-    const auto [place, is_new] = places_.emplace(truth.id, entries_.size());
+    const auto [position, is_new] = places_.emplace(truth.id, entries_.size());
     if (is_new) {
       entries_.emplace_back();
       entries_.back().score.id = truth.id;
       entries_.back().score.classification = truth.classification;
       entries_.back().score.first = stamp;
     }
-    ObjectScore& score = entries_[place->second].score;
+    ObjectScore& score = entries_[position->second].score;
     score.last = stamp;
     ++score.required_frames;
   }

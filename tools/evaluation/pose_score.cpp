@@ -8,7 +8,7 @@ namespace datmo::evaluation {
 
 namespace {
 
-/// m: within a manoeuvre, and along a street; the errors of the one are the matcher's, those of the
+/// m: within a maneuver, and along a street; the errors of the one are the matcher's, those of the
 /// other the drift.
 constexpr std::array<double, 2> kRelationDistances = {10.0, 70.0};
 
@@ -18,7 +18,7 @@ struct PosePair {
   Pose2 estimated;
   Pose2 truth;
   Eigen::Matrix3d covariance;  ///< x (m), y (m), heading (rad), map of the truth
-  double way = 0.0;            ///< m, true, since the first pair
+  double path_length = 0.0;    ///< m, true, since the first pair
 
   Pose2 error() const { return truth.inverse() * estimated; }
 };
@@ -35,7 +35,7 @@ PosePairs pairsOf(const Trajectory& estimated, const Trajectory& truth, const Po
           pairs.empty() ? 0.0 : (true_pose->position() - pairs.back().truth.position()).norm();
       pairs.push_back({pose.stamp, run_in_truth * pose.pose.pose, *true_pose,
                        turn * pose.pose.covariance * turn.transpose(),
-                       step + (pairs.empty() ? 0.0 : pairs.back().way)});
+                       step + (pairs.empty() ? 0.0 : pairs.back().path_length)});
     }
   }
   return pairs;
@@ -73,9 +73,9 @@ RelativePoseError relativeError(const PosePairs& pairs, double distance) {
   double translation = 0.0;
   double rotation = 0.0;
   for (auto from = pairs.begin(); from != pairs.end(); ++from) {
-    const auto to =
-        std::lower_bound(from, pairs.end(), from->way + distance,
-                         [](const PosePair& pair, double way) { return pair.way < way; });
+    const auto to = std::lower_bound(
+        from, pairs.end(), from->path_length + distance,
+        [](const PosePair& pair, double path_length) { return pair.path_length < path_length; });
     if (to == pairs.end()) {
       break;
     }
@@ -96,7 +96,7 @@ Consistency consistencyOf(const PosePairs& pairs) {
   for (const PosePair& pair : pairs) {
     const Point2 position = pair.estimated.position() - pair.truth.position();
     const Eigen::Vector3d error(position.x(), position.y(), pair.error().heading());
-    sum.add(normalisedErrorSquared<3>(error, pair.covariance));
+    sum.add(normalizedErrorSquared<3>(error, pair.covariance));
   }
   return sum.result();
 }
@@ -113,9 +113,9 @@ std::optional<PoseScore> scorePoses(const Trajectory& estimated, const Trajector
   PoseScore score;
   score.end_error = last.error().position().norm();
   score.end_heading_error = std::abs(last.error().heading());
-  score.way = last.way;
-  if (score.way > 0.0) {
-    score.end_share = score.end_error / score.way;
+  score.path_length = last.path_length;
+  if (score.path_length > 0.0) {
+    score.end_share = score.end_error / score.path_length;
   }
   score.position_rmse =
       rootMeanSquare(pairs, [](const PosePair& pair) { return pair.error().position().norm(); });

@@ -22,7 +22,7 @@ struct RelativePoseError {
 struct PoseScore {
   double end_error = 0.0;           ///< m, at the last pose
   double end_heading_error = 0.0;   ///< rad, 0 to pi
-  double way = 0.0;                 ///< m, true, from the first to the last pose
+  double path_length = 0.0;         ///< m, true, from the first to the last pose
   std::optional<double> end_share;  ///< end error by way; none: it stood
   double position_rmse = 0.0;       ///< m
   double heading_rmse = 0.0;        ///< rad

@@ -35,7 +35,7 @@ struct RecordedTracks {
 /// Where the detection of one measurement saw moving objects.
 struct RecordedDetections {
   Stamp stamp;
-  std::vector<Point2> moving;  ///< m, centres, frame of the vehicle
+  std::vector<Point2> moving;  ///< m, centers, frame of the vehicle
 };
 
 struct RecordedIntersection {

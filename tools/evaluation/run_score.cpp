@@ -61,11 +61,11 @@ std::vector<EgoPoses> egoPoses(const Frames& frames, const Trajectory& truth,
 
 StateErrors nearErrors(const Frames& frames, const Matching& matching,
                        const std::vector<EgoPoses>& ego, double range) {
-  std::vector<Point2> places;
+  std::vector<Point2> positions;
   for (const EgoPoses& poses : ego) {
-    places.push_back(poses.truth.position());
+    positions.push_back(poses.truth.position());
   }
-  return scoreNearErrors(frames, matching, places, range);
+  return scoreNearErrors(frames, matching, positions, range);
 }
 
 std::map<std::uint32_t, std::string> labelsOf(const RecordedTruth& truth) {
@@ -83,7 +83,7 @@ std::map<std::uint32_t, std::string> labelsOf(const RecordedTruth& truth) {
 RunScore scoreRun(const RecordedRun& run, const RecordedTruth& truth, const ScoreOptions& options) {
   checkOptions(options);
   const TrueScene scene(truth, options);
-  const Trajectory estimated(run.poses, options.longest_gap);
+  const Trajectory estimated(run.poses, options.max_gap);
   const auto alignment = alignAtFirstPose(estimated, scene.trajectory());
   BuiltFrames built = buildFrames(run.tracks, estimated, alignment, scene, options);
   if (built.frames.empty()) {

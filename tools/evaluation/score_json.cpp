@@ -70,13 +70,13 @@ json toJson(const HotaScores& score) {
 
 json gospaJson(const std::optional<Gospa>& score, double cutoff) {
   json result = {{"mean_m", nullptr},
-                 {"localisation_m", nullptr},
+                 {"localization_m", nullptr},
                  {"missed_m", nullptr},
                  {"false_m", nullptr},
                  {"cutoff_m", cutoff}};
   if (score) {
     result["mean_m"] = score->total;
-    result["localisation_m"] = score->localisation;
+    result["localization_m"] = score->localization;
     result["missed_m"] = score->missed;
     result["false_m"] = score->false_tracks;
   }
@@ -196,7 +196,7 @@ json poseJson(const std::optional<PoseScore>& score) {
                  [](const RelativePoseError& error) { return toJson(error); });
   return {{"end_error_m", score->end_error},
           {"end_error_deg", toDegrees(score->end_heading_error)},
-          {"way_m", score->way},
+          {"path_length_m", score->path_length},
           {"end_error_share", orNull(score->end_share)},
           {"position_rmse_m", score->position_rmse},
           {"heading_rmse_rad", score->heading_rmse},

@@ -7,7 +7,7 @@ namespace datmo::evaluation {
 namespace {
 
 /// No sensor of a car sees further.
-constexpr double kMostRange = 500.0;  // m
+constexpr double kMaxRange = 500.0;  // m
 
 }  // namespace
 
@@ -29,7 +29,7 @@ void RegionOptions::visit(OptionVisitor& visitor) {
   visitor.number({"range", "m",
                   "true objects within it of the true vehicle have to be found, and tracks count "
                   "as false (thesis 1.3.3: the scanner sees a car up to about 50 m)"},
-                 range, {1.0, kMostRange});
+                 range, {1.0, kMaxRange});
   visitor.number({"half_angle", "rad",
                   "the same to either side of straight ahead; less where the truth knows one side "
                   "only, as KITTI's labels, 0.7"},
@@ -49,14 +49,14 @@ void TruthOptions::visit(OptionVisitor& visitor) {
                 "sensor that must have the object in sight, e.g. scanner; any: one at least; "
                 "none: also what no sensor sees has to be found"},
                visible_to, {});
-  visitor.integer({"least_beams", "1", "of the scan that end on the object"}, least_beams,
+  visitor.integer({"min_beams", "1", "of the scan that end on the object"}, min_beams,
                   {0.0, 10000.0});
-  visitor.number({"least_speed", "m/s", "of the object, besides that the truth says it moves"},
-                 least_speed, {0.0, kMostSpeed});
-  visitor.number({"least_time_seen", "s",
+  visitor.number({"min_speed", "m/s", "of the object, besides that the truth says it moves"},
+                 min_speed, {0.0, kMaxSpeed});
+  visitor.number({"min_time_seen", "s",
                   "in all, that the object meets the other conditions: who is seen for less need "
                   "not be found, since no tracker can confirm it before it is gone"},
-                 least_time_seen, {0.0, 3600.0});
+                 min_time_seen, {0.0, 3600.0});
 }
 
 void ScoreOptions::visit(OptionVisitor& visitor) {
@@ -74,16 +74,16 @@ void ScoreOptions::visit(OptionVisitor& visitor) {
                  moving_tracks_only);
   visitor.number({"near_range", "m",
                   "errors of tracks are also given of the objects within it of the true vehicle"},
-                 near_range, {1.0, kMostRange});
+                 near_range, {1.0, kMaxRange});
   metrics.visit(visitor);
-  visitor.number({"longest_gap", "s",
+  visitor.number({"max_gap", "s",
                   "nothing is interpolated or scored in a gap of the truth or of the poses that is "
                   "longer"},
-                 longest_gap, {0.001, 10.0});
-  visitor.number({"longest_silence", "s",
+                 max_gap, {0.001, 10.0});
+  visitor.number({"max_silence", "s",
                   "a stamp of the truth further from any tracks counts as one without tracks, so "
                   "that silence is no way to be right"},
-                 longest_silence, {0.001, 10.0});
+                 max_silence, {0.001, 10.0});
   visitor.number({"detection_gap", "s",
                   "a false moving object that comes back at the same place within it is the same "
                   "one"},

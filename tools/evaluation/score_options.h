@@ -45,9 +45,9 @@ struct ClassOptions {
 struct TruthOptions {
   ClassOptions classes;
   std::string visible_to = "any";  ///< sensor; "any": one at least; "none": not asked
-  int least_beams = 0;
-  double least_speed = 0.0;      ///< m/s
-  double least_time_seen = 1.0;  ///< s
+  int min_beams = 0;
+  double min_speed = 0.0;      ///< m/s
+  double min_time_seen = 1.0;  ///< s
 
   void visit(OptionVisitor& visitor);
 };
@@ -69,8 +69,8 @@ struct ScoreOptions {
   bool moving_tracks_only = true;
   double near_range = 20.0;  ///< m
   TrackScoreOptions metrics;
-  double longest_gap = 0.5;             ///< s
-  double longest_silence = 0.2;         ///< s
+  double max_gap = 0.5;                 ///< s
+  double max_silence = 0.2;             ///< s
   double detection_gap = 0.5;           ///< s
   double intersection_merge_gap = 1.0;  ///< s
 

@@ -62,12 +62,12 @@ class RunBuilder {
 
  private:
   std::size_t encounter(std::size_t object, std::size_t track) {
-    const auto [place, is_new] =
+    const auto [position, is_new] =
         encounters_.emplace(std::make_pair(object, track), run_.encounters.size());
     if (is_new) {
       run_.encounters.push_back({object, track});
     }
-    return place->second;
+    return position->second;
   }
 
   IdCounter objects_;

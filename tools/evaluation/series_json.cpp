@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Millimetres and milliseconds: the report stays small.
+/// Millimeters and milliseconds: the report stays small.
 double rounded(double value) { return std::round(1e3 * value) / 1e3; }
 
 template <typename Items, typename Value>
@@ -29,10 +29,10 @@ double timeOf(const RunScore& score, const Frame& frame) {
   return rounded(secondsBetween(score.frames.front().stamp, frame.stamp));
 }
 
-void addPlace(json& path, double time, const Point2& place) {
+void addPosition(json& path, double time, const Point2& position) {
   path["time_s"].push_back(time);
-  path["x_m"].push_back(rounded(place.x()));
-  path["y_m"].push_back(rounded(place.y()));
+  path["x_m"].push_back(rounded(position.x()));
+  path["y_m"].push_back(rounded(position.y()));
 }
 
 json valuesOf(const std::map<std::uint32_t, json>& paths) {
@@ -54,7 +54,7 @@ json truePaths(const RunScore& score) {
       json& path = paths[object.id];
       path["id"] = object.id;
       path["label"] = score.truth_labels.at(object.id);
-      addPlace(path, timeOf(score, frame), object.box.centre.position());
+      addPosition(path, timeOf(score, frame), object.box.center.position());
       path["track_id"].push_back(trackId(frame, score.tracks.matching.at(i), truth));
       path["required"].push_back(object.duty == Duty::kRequired);
     }
@@ -68,7 +68,7 @@ json trackPaths(const RunScore& score) {
     for (const TrackState& track : frame.tracks) {
       json& path = paths[track.id];
       path["id"] = track.id;
-      addPlace(path, timeOf(score, frame), track.box.centre.position());
+      addPosition(path, timeOf(score, frame), track.box.center.position());
     }
   }
   return valuesOf(paths);

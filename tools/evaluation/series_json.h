@@ -6,7 +6,8 @@
 namespace datmo::evaluation {
 
 /// What plots over time and over the ground are drawn from: one value for each frame, and the paths
-/// of true objects, tracks and the vehicle. Places and times are rounded to what a plot can show.
+/// of true objects, tracks and the vehicle. PositionsTest and times are rounded to what a plot can
+/// show.
 nlohmann::json seriesJson(const RunScore& score);
 
 }  // namespace datmo::evaluation

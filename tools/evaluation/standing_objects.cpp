@@ -17,12 +17,12 @@ std::set<std::uint32_t> idsUnderFalseTracks(const std::vector<TrueState>& standi
       continue;
     }
     const TrueState* nearest = nullptr;
-    double least = options.gate;
+    double min = options.gate;
     for (const TrueState& object : standing) {
       const double distance = matchDistance(object, frame.tracks[track], options);
-      if (distance <= least) {
+      if (distance <= min) {
         nearest = &object;
-        least = distance;
+        min = distance;
       }
     }
     if (nearest != nullptr) {

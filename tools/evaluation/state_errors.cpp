@@ -9,9 +9,9 @@ namespace datmo::evaluation {
 
 void StateErrorSum::add(const TrueState& truth, const TrackState& track) {
   const double heading =
-      std::abs(angleBetween(truth.box.centre.heading(), track.box.centre.heading()));
+      std::abs(angleBetween(truth.box.center.heading(), track.box.center.heading()));
   const double heading_modulo_pi = std::min(heading, kPi - heading);
-  position_ += (track.box.centre.position() - truth.box.centre.position()).squaredNorm();
+  position_ += (track.box.center.position() - truth.box.center.position()).squaredNorm();
   velocity_ += (track.velocity - truth.velocity).squaredNorm();
   heading_ += heading * heading;
   heading_modulo_pi_ += heading_modulo_pi * heading_modulo_pi;
@@ -41,11 +41,11 @@ StateErrors scoreStateErrors(const Frames& frames, const Matching& matching) {
 }
 
 StateErrors scoreNearErrors(const Frames& frames, const Matching& matching,
-                            const std::vector<Point2>& places, double range) {
+                            const std::vector<Point2>& positions, double range) {
   StateErrorSum sum;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     forEachHit(frames[i], matching[i], [&](const TrueState& truth, const TrackState& track) {
-      if ((truth.box.centre.position() - places[i]).norm() <= range) {
+      if ((truth.box.center.position() - positions[i]).norm() <= range) {
         sum.add(truth, track);
       }
     });

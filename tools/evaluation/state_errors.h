@@ -10,7 +10,7 @@ namespace datmo::evaluation {
 
 /// Root mean square errors of tracks that are matched to required truths; none: no sample.
 struct StateErrors {
-  std::optional<double> position;  ///< of the box's centre, m
+  std::optional<double> position;  ///< of the box's center, m
   std::optional<double> velocity;  ///< of the vector, m/s
   std::optional<double> heading;   ///< rad, 0 to pi
   /// rad, 0 to pi / 2: front and rear may be exchanged.
@@ -37,6 +37,6 @@ StateErrors scoreStateErrors(const Frames& frames, const Matching& matching);
 
 /// The same of the objects within a range (m) of a place, which is another one in each frame.
 StateErrors scoreNearErrors(const Frames& frames, const Matching& matching,
-                            const std::vector<Point2>& places, double range);
+                            const std::vector<Point2>& positions, double range);
 
 }  // namespace datmo::evaluation

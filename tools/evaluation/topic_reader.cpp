@@ -6,8 +6,8 @@
 
 namespace datmo::evaluation {
 
-void TopicReader::fail(const std::string& place, const std::string& what) const {
-  throw std::runtime_error(bag_.getFileName() + ": " + place + ": " + what);
+void TopicReader::fail(const std::string& location, const std::string& what) const {
+  throw std::runtime_error(bag_.getFileName() + ": " + location + ": " + what);
 }
 
 void TopicReader::takeHeader(const std_msgs::Header& header) {

@@ -35,18 +35,18 @@ class TopicReader {
       failForTopic(bag_,
                    std::string("no ") + ros::message_traits::datatype<Message>() + " on " + topic_);
     }
-    std::string place = topic_;
+    std::string location = topic_;
     try {
       rosbag::View view(bag_, rosbag::TopicQuery(topic_));
       for (const rosbag::MessageInstance& instance : view) {
         failIfInterrupted();
-        place = topic_;
+        location = topic_;
         const auto message = read<Message>(instance);
-        place += " at " + std::to_string(message->header.stamp.toSec()) + " s";
+        location += " at " + std::to_string(message->header.stamp.toSec()) + " s";
         take(*message);
       }
     } catch (const std::exception& error) {
-      fail(place, error.what());
+      fail(location, error.what());
     }
   }
 
@@ -79,7 +79,7 @@ class TopicReader {
   const std::string& topic() const { return topic_; }
 
  private:
-  [[noreturn]] void fail(const std::string& place, const std::string& what) const;
+  [[noreturn]] void fail(const std::string& location, const std::string& what) const;
   void takeHeader(const std_msgs::Header& header);
   void checkOnce(Stamp before, Stamp stamp) const;
   void failIfInterrupted() const;

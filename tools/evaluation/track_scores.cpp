@@ -11,7 +11,7 @@ void TrackScoreOptions::visit(OptionVisitor& visitor) {
   visitor.group("gospa", [&] { gospa.visit(visitor); });
   visitor.number({"false_mover_speed", "m/s",
                   "a false track counts as a false mover if it is faster than half a slow walk"},
-                 false_mover_speed, {0.0, kMostSpeed});
+                 false_mover_speed, {0.0, kMaxSpeed});
 }
 
 TrackScores scoreTracks(const Frames& frames, const TrackScoreOptions& options) {

@@ -5,8 +5,8 @@
 
 namespace datmo::evaluation {
 
-Trajectory::Trajectory(std::vector<StampedPose> poses, double longest_gap)
-    : poses_(std::move(poses)), longest_gap_(longest_gap) {}
+Trajectory::Trajectory(std::vector<StampedPose> poses, double max_gap)
+    : poses_(std::move(poses)), max_gap_(max_gap) {}
 
 std::optional<Pose2> Trajectory::at(Stamp stamp) const {
   const auto found =
@@ -22,7 +22,7 @@ std::optional<Pose2> Trajectory::at(Stamp stamp) const {
   const StampedPose& from = *(after - 1);
   const double step = secondsBetween(from.stamp, after->stamp);
   const double share = secondsBetween(from.stamp, stamp) / step;
-  if (step > longest_gap_ || share < -1.0 || share > 2.0) {
+  if (step > max_gap_ || share < -1.0 || share > 2.0) {
     return std::nullopt;
   }
   const Pose2 motion = from.pose.pose.inverse() * after->pose.pose;

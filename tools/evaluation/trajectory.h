@@ -10,11 +10,11 @@ namespace datmo::evaluation {
 /// Poses over time, interpolated between their stamps.
 class Trajectory {
  public:
-  /// `poses`: by rising stamp. `longest_gap` (s, more than 0): nothing is interpolated between
+  /// `poses`: by rising stamp. `max_gap` (s, more than 0): nothing is interpolated between
   /// poses further apart, nor carried on beyond the ends for longer.
-  Trajectory(std::vector<StampedPose> poses, double longest_gap);
+  Trajectory(std::vector<StampedPose> poses, double max_gap);
 
-  /// Linear in distance and turn between the neighbours. Beyond the ends the last step goes on, for
+  /// Linear in distance and turn between the neighbors. Beyond the ends the last step goes on, for
   /// one such step at the most: scans and poses of one drive need not end with the same stamp.
   /// None further away, and in a gap.
   std::optional<Pose2> at(Stamp stamp) const;
@@ -23,7 +23,7 @@ class Trajectory {
 
  private:
   std::vector<StampedPose> poses_;
-  double longest_gap_;
+  double max_gap_;
 };
 
 /// Which frame an estimate is laid on the truth with.

@@ -44,18 +44,18 @@ const RecordedObject* find(const RecordedObjects& objects, std::uint32_t id) {
 /// The object `seconds` after (negative: before) it was as recorded.
 RecordedObject carried(const RecordedObject& object, double seconds) {
   RecordedObject result = object;
-  const Pose2& centre = object.state.box.centre;
-  result.state.box.centre =
-      Pose2(centre.position() + seconds * object.state.velocity, centre.heading());
+  const Pose2& center = object.state.box.center;
+  result.state.box.center =
+      Pose2(center.position() + seconds * object.state.velocity, center.heading());
   return result;
 }
 
 /// `share`: 0 at `from`, 1 at `to`.
 RecordedObject between(const RecordedObject& from, const RecordedObject& to, double share) {
   RecordedObject result = share < 0.5 ? from : to;
-  const Pose2& start = from.state.box.centre;
-  const Pose2& end = to.state.box.centre;
-  result.state.box.centre =
+  const Pose2& start = from.state.box.center;
+  const Pose2& end = to.state.box.center;
+  result.state.box.center =
       Pose2(start.position() + share * (end.position() - start.position()),
             start.heading() + share * angleBetween(start.heading(), end.heading()));
   result.state.velocity = from.state.velocity + share * (to.state.velocity - from.state.velocity);
@@ -79,9 +79,9 @@ std::vector<RecordedObject> between(const RecordedObjects& from, const RecordedO
   return result;
 }
 
-/// What is recorded at the stamp, or between its neighbours; none outside, and in a gap.
+/// What is recorded at the stamp, or between its neighbors; none outside, and in a gap.
 std::optional<std::vector<RecordedObject>> objectsAt(const std::vector<RecordedObjects>& recorded,
-                                                     Stamp stamp, double longest_gap) {
+                                                     Stamp stamp, double max_gap) {
   const auto after =
       std::lower_bound(recorded.begin(), recorded.end(), stamp,
                        [](const RecordedObjects& objects, Stamp s) { return objects.stamp < s; });
@@ -89,7 +89,7 @@ std::optional<std::vector<RecordedObject>> objectsAt(const std::vector<RecordedO
     return after->objects;
   }
   if (after == recorded.begin() || after == recorded.end() ||
-      secondsBetween((after - 1)->stamp, after->stamp) > longest_gap) {
+      secondsBetween((after - 1)->stamp, after->stamp) > max_gap) {
     return std::nullopt;
   }
   return between(*(after - 1), *after, stamp);
@@ -98,7 +98,7 @@ std::optional<std::vector<RecordedObject>> objectsAt(const std::vector<RecordedO
 }  // namespace
 
 TrueScene::TrueScene(const RecordedTruth& truth, const ScoreOptions& options)
-    : options_(options), trajectory_(truth.poses, options.longest_gap) {
+    : options_(options), trajectory_(truth.poses, options.max_gap) {
   const std::set<std::uint32_t> movers = idsOfMovers(truth.objects);
   movers_ = selected(truth.objects, movers, true);
   standing_ = selected(truth.objects, movers, false);
@@ -107,7 +107,7 @@ TrueScene::TrueScene(const RecordedTruth& truth, const ScoreOptions& options)
 }
 
 std::optional<TrueScene::View> TrueScene::at(Stamp stamp) const {
-  const auto objects = objectsAt(movers_, stamp, options_.longest_gap);
+  const auto objects = objectsAt(movers_, stamp, options_.max_gap);
   const auto base_in_map = trajectory_.at(stamp);
   if (!objects || !base_in_map) {
     return std::nullopt;
@@ -121,7 +121,7 @@ std::optional<TrueScene::View> TrueScene::at(Stamp stamp) const {
 }
 
 std::vector<TrueState> TrueScene::standingAt(Stamp stamp) const {
-  const auto objects = objectsAt(standing_, stamp, options_.longest_gap);
+  const auto objects = objectsAt(standing_, stamp, options_.max_gap);
   const auto base_in_map = trajectory_.at(stamp);
   std::vector<TrueState> standing;
   if (objects && base_in_map) {
@@ -141,14 +141,14 @@ bool TrueScene::isInRegion(const Pose2& base_in_map, const Point2& point) const 
 }
 
 Duty TrueScene::dutyOf(const RecordedObject& object, const Pose2& base_in_map) const {
-  const bool moves = object.moving && object.state.velocity.norm() >= options_.truth.least_speed;
+  const bool moves = object.moving && object.state.velocity.norm() >= options_.truth.min_speed;
   return moves && isWanted(object, base_in_map) ? Duty::kRequired : Duty::kOptional;
 }
 
 bool TrueScene::isWanted(const RecordedObject& object, const Pose2& base_in_map) const {
-  return object.lidar_beams >= options_.truth.least_beams && isSeen(object) &&
+  return object.lidar_beams >= options_.truth.min_beams && isSeen(object) &&
          isWantedClass(object.state.classification) &&
-         isInRegion(base_in_map, object.state.box.centre.position());
+         isInRegion(base_in_map, object.state.box.center.position());
 }
 
 bool TrueScene::isSeen(const RecordedObject& object) const {

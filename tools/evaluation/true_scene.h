@@ -23,8 +23,8 @@ class TrueScene {
     std::vector<TrueState> objects;  ///< that move at some time
   };
 
-  /// Objects are interpolated between their two neighbouring stamps; what is seen of them is as at
-  /// the nearer one. One that only one neighbour has is carried there with its velocity. None
+  /// Objects are interpolated between their two neighboring stamps; what is seen of them is as at
+  /// the nearer one. One that only one neighbor has is carried there with its velocity. None
   /// outside of the recording, and in a gap of it.
   std::optional<View> at(Stamp stamp) const;
 

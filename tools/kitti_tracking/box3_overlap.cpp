@@ -25,19 +25,19 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-Eigen::Vector2d groundCentre(const Box3& box) { return {box.x, box.z}; }
+Eigen::Vector2d groundCenter(const Box3& box) { return {box.x, box.z}; }
 
 /// Corners on the ground in x and z from `origin`, in the turning direction from x to z.
 Polygon footprint(const Box3& box, const Eigen::Vector2d& origin) {
   const Eigen::Vector2d ahead(std::cos(box.rotation_y), -std::sin(box.rotation_y));
   const Eigen::Vector2d half_length = 0.5 * box.length * ahead;
   const Eigen::Vector2d half_width = 0.5 * box.width * Eigen::Vector2d(-ahead.y(), ahead.x());
-  const Eigen::Vector2d centre = groundCentre(box) - origin;
+  const Eigen::Vector2d center = groundCenter(box) - origin;
   Polygon polygon;
-  polygon.add(centre + half_length - half_width);
-  polygon.add(centre + half_length + half_width);
-  polygon.add(centre - half_length + half_width);
-  polygon.add(centre - half_length - half_width);
+  polygon.add(center + half_length - half_width);
+  polygon.add(center + half_length + half_width);
+  polygon.add(center - half_length + half_width);
+  polygon.add(center - half_length - half_width);
   return polygon;
 }
 
@@ -71,7 +71,7 @@ double area(const Polygon& polygon) {
 /// Whether circles around the footprints touch.
 bool mayMeet(const Box3& a, const Box3& b) {
   const double reach = 0.5 * (std::hypot(a.length, a.width) + std::hypot(b.length, b.width));
-  return (groundCentre(a) - groundCentre(b)).squaredNorm() <= reach * reach;
+  return (groundCenter(a) - groundCenter(b)).squaredNorm() <= reach * reach;
 }
 
 double volume(const Box3& box) { return box.length * box.width * box.height; }
@@ -82,7 +82,7 @@ double groundIntersection(const Box3& a, const Box3& b) {
   if (!mayMeet(a, b)) {
     return 0.0;
   }
-  const Eigen::Vector2d origin = groundCentre(a);
+  const Eigen::Vector2d origin = groundCenter(a);
   const Polygon knife = footprint(b, origin);
   Polygon rest = footprint(a, origin);
   for (std::size_t i = 0; i < knife.size && rest.size > 0; ++i) {

@@ -11,7 +11,7 @@ struct Box3 {
   double length = 0.0;      ///< m, along x at rotation_y 0
   double width = 0.0;       ///< m, along z at rotation_y 0
   double height = 0.0;      ///< m, from y upwards
-  double rotation_y = 0.0;  ///< rad, about y: a box at pi / 2 points backwards, to -z
+  double rotation_y = 0.0;  ///< rad, about y: a box at pi / 2 points backward, to -z
 };
 
 /// Area that both boxes cover on the ground, m^2. Sizes must not be negative.

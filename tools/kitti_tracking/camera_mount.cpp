@@ -11,7 +11,7 @@ namespace datmo::kitti {
 namespace {
 
 /// Nearer to the camera's plane than this a point has no usable place in the image, m.
-constexpr double kLeastDepth = 0.1;
+constexpr double kMinDepth = 0.1;
 
 Eigen::Isometry3d isometry(const Projection& matrix) {
   Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
@@ -47,15 +47,15 @@ Box2 CameraMount::onGround(const Box3& box) const {
 }
 
 Box3 CameraMount::standing(const Box2& box_in_base, double bottom, double height) const {
-  const Pose2 centre = camera_in_base_.inverse() * box_in_base.centre;
+  const Pose2 center = camera_in_base_.inverse() * box_in_base.center;
   Box3 box;
-  box.x = -centre.y();
+  box.x = -center.y();
   box.y = bottom;
-  box.z = centre.x();
+  box.z = center.x();
   box.length = box_in_base.length;
   box.width = box_in_base.width;
   box.height = height;
-  box.rotation_y = rotationOf(centre.heading());
+  box.rotation_y = rotationOf(center.heading());
   return box;
 }
 
@@ -65,7 +65,7 @@ ImageBox CameraMount::inImage(const Box3& box) const {
   const Box2 ground{Pose2(box.z, -box.x, headingOf(box.rotation_y)), box.length, box.width};
   for (const Point2& corner : ground.corners()) {
     for (const double y : {box.y, box.y - box.height}) {
-      const double depth = std::max(kLeastDepth, corner.x());
+      const double depth = std::max(kMinDepth, corner.x());
       const Eigen::Vector3d pixel =
           image_from_camera_ * Eigen::Vector4d(-corner.y(), y, depth, 1.0);
       const double column = std::clamp(pixel.x() / pixel.z(), 0.0, image_.width - 1.0);
@@ -87,8 +87,8 @@ double CameraMount::bearingOf(double column) const {
   return std::atan((image_from_camera_(0, 2) - column) / image_from_camera_(0, 0));
 }
 
-double CameraMount::leastBearing() const { return bearingOf(image_.width); }
+double CameraMount::minBearing() const { return bearingOf(image_.width); }
 
-double CameraMount::mostBearing() const { return bearingOf(0.0); }
+double CameraMount::maxBearing() const { return bearingOf(0.0); }
 
 }  // namespace datmo::kitti

@@ -8,7 +8,7 @@
 
 namespace datmo::kitti {
 
-/// Size of the left colour image, px. KITTI's rectified images differ by some pixels.
+/// Size of the left color image, px. KITTI's rectified images differ by some pixels.
 struct ImageSize {
   double width = 1242.0;
   double height = 375.0;
@@ -44,8 +44,8 @@ class CameraMount {
   static double alpha(const Box3& box);
 
   /// Bearings about the camera, rad to the left, that are in the image.
-  double leastBearing() const;
-  double mostBearing() const;
+  double minBearing() const;
+  double maxBearing() const;
 
  private:
   double bearingOf(double column) const;

@@ -7,10 +7,10 @@ namespace datmo::kitti {
 
 namespace {
 
-bool inOnePlace(const Box2& a, const Box2& b) {
-  const double distance = (a.centre.position() - b.centre.position()).norm();
+bool isSamePosition(const Box2& a, const Box2& b) {
+  const double distance = (a.center.position() - b.center.position()).norm();
   const bool near = distance <= a.length + a.width + b.length + b.width;
-  return near && (a.contains(b.centre.position()) || b.contains(a.centre.position()));
+  return near && (a.contains(b.center.position()) || b.contains(a.center.position()));
 }
 
 /// Logarithm of one plus the odds.
@@ -27,7 +27,7 @@ double taken(const Object& object, std::size_t own, const std::vector<ObjectList
       continue;
     }
     for (const Object& other : lists[i].objects) {
-      if (inOnePlace(object.box, other.box)) {
+      if (isSamePosition(object.box, other.box)) {
         sum += softPlus(other.log_odds);
       }
     }

@@ -84,8 +84,8 @@ const ClassTracking::Memory* ClassTracking::remember(const Track& track, const O
   if (track.objects.empty()) {
     return found == memories_.end() ? nullptr : &found->second;
   }
-  const std::size_t seen_as = track.objects.front();
-  const Box3& box = detections.at(seen_as).box;
+  const std::size_t measurement_index = track.objects.front();
+  const Box3& box = detections.at(measurement_index).box;
   if (found == memories_.end()) {
     const VerticalExtent vertical(box.y, box.height, options_.vertical);
     found = memories_.emplace(track.id, Memory{vertical, tracks_.stamp, 0.0, 0}).first;
@@ -95,7 +95,7 @@ const ClassTracking::Memory* ClassTracking::remember(const Track& track, const O
     vertical.update(box.y, box.height, options_.vertical);
     found->second.stamp = tracks_.stamp;
   }
-  found->second.log_odds += objects.objects.at(seen_as).log_odds;
+  found->second.log_odds += objects.objects.at(measurement_index).log_odds;
   ++found->second.detections;
   return &found->second;
 }
@@ -106,13 +106,13 @@ double ClassTracking::scoreOf(const Memory& memory) const {
 }
 
 TrackedObject ClassTracking::rowOf(const Track& track, const Memory& memory, int frame) const {
-  const Pose2 centre = base_in_fixed_.inverse() * track.box.centre;
+  const Pose2 center = base_in_fixed_.inverse() * track.box.center;
   TrackedObject row;
   row.frame = frame;
   row.id = static_cast<int>(track.id);
   row.type = type_;
   row.occluded = track.objects.empty() ? kUnknownOcclusion : 0;
-  row.box = mount_.standing({centre, track.box.length, track.box.width}, memory.vertical.bottom(),
+  row.box = mount_.standing({center, track.box.length, track.box.width}, memory.vertical.bottom(),
                             memory.vertical.height());
   row.image_box = mount_.inImage(row.box);
   row.alpha = CameraMount::alpha(row.box);

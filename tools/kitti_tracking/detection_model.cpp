@@ -31,20 +31,20 @@ Eigen::Matrix2d covarianceOf(double direction, double along, double across) {
 
 void DetectionModelOptions::visit(OptionVisitor& visitor) {
   constexpr Bounds kSigma{0.001, 5.0};
-  constexpr Bounds kPerMetre{0.0, 0.1};
+  constexpr Bounds kPerMeter{0.0, 0.1};
   visitor.number({"score_slope", "1",
                   "how the logarithm of the odds that a detection is true rises with its score"},
                  score_slope, {0.01, 100.0});
   visitor.number({"score_even", "1", "score at which a detection is as often true as false"},
                  score_even, {-100.0, 100.0});
-  visitor.number({"along_sigma", "m", "of the centre along the line of sight, at the sensor"},
+  visitor.number({"along_sigma", "m", "of the center along the line of sight, at the sensor"},
                  along_sigma, kSigma);
-  visitor.number({"along_per_metre", "1", "what a metre of range adds to along_sigma"},
-                 along_per_metre, kPerMetre);
-  visitor.number({"across_sigma", "m", "of the centre across the line of sight, at the sensor"},
+  visitor.number({"along_per_meter", "1", "what a meter of range adds to along_sigma"},
+                 along_per_meter, kPerMeter);
+  visitor.number({"across_sigma", "m", "of the center across the line of sight, at the sensor"},
                  across_sigma, kSigma);
-  visitor.number({"across_per_metre", "1", "what a metre of range adds to across_sigma"},
-                 across_per_metre, kPerMetre);
+  visitor.number({"across_per_meter", "1", "what a meter of range adds to across_sigma"},
+                 across_per_meter, kPerMeter);
   visitor.number({"length_sigma", "m", "of the length, beside what moves the box as a whole"},
                  length_sigma, kSigma);
   visitor.number({"width_sigma", "m", "the same of the width"}, width_sigma, kSigma);
@@ -63,11 +63,11 @@ DetectionModel::DetectionModel(const DetectionModelOptions& options) : options_(
 Object DetectionModel::object(const Detection& detection, const CameraMount& mount) const {
   Object object;
   object.box = mount.onGround(detection.box);
-  const Point2 sight = object.box.centre.position() - mount.cameraInBase().position();
-  const double range = sight.norm();
+  const Point2 ray = object.box.center.position() - mount.cameraInBase().position();
+  const double range = ray.norm();
   object.position_covariance = covarianceOf(
-      std::atan2(sight.y(), sight.x()), options_.along_sigma + range * options_.along_per_metre,
-      options_.across_sigma + range * options_.across_per_metre);
+      std::atan2(ray.y(), ray.x()), options_.along_sigma + range * options_.along_per_meter,
+      options_.across_sigma + range * options_.across_per_meter);
   object.heading_variance = square(options_.heading_sigma);
   // Either of two opposite sides has half of the variance of the size between them.
   const double end = 0.5 * square(options_.length_sigma);
@@ -81,7 +81,7 @@ Object DetectionModel::object(const Detection& detection, const CameraMount& mou
 }
 
 FieldOfView DetectionModel::view(const CameraMount& mount) const {
-  return {mount.cameraInBase(), mount.leastBearing(), mount.mostBearing(), options_.sure_range,
+  return {mount.cameraInBase(), mount.minBearing(), mount.maxBearing(), options_.sure_range,
           options_.range};
 }
 

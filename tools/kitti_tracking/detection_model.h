@@ -13,9 +13,9 @@ struct DetectionModelOptions {
   double score_slope = 0.9;          ///< 1
   double score_even = 2.5;           ///< 1
   double along_sigma = 0.06;         ///< m
-  double along_per_metre = 2.5e-3;   ///< 1
+  double along_per_meter = 2.5e-3;   ///< 1
   double across_sigma = 0.04;        ///< m
-  double across_per_metre = 1.2e-3;  ///< 1
+  double across_per_meter = 1.2e-3;  ///< 1
   double length_sigma = 0.2;         ///< m
   double width_sigma = 0.07;         ///< m
   double heading_sigma = 0.05;       ///< rad

@@ -12,7 +12,7 @@ namespace {
 using State = Eigen::Vector2d;
 
 /// It has settled long before, unless matches come and go.
-constexpr int kMostIterations = 10;
+constexpr int kMaxIterations = 10;
 /// Further steps than these are below what a pose is good for.
 constexpr double kSettledSpeed = 1e-3;    // m/s
 constexpr double kSettledYawRate = 1e-5;  // rad/s
@@ -33,7 +33,7 @@ struct Match {
   double distance2() const { return difference.dot(information * difference); }
 };
 
-/// One step of the vehicle: what is expected in its frame before, what is seen in that afterwards.
+/// One step of the vehicle: what is expected in its frame before, what is seen in that afterward.
 struct Step {
   double seconds;
   std::vector<Landmark> expected;
@@ -41,7 +41,7 @@ struct Step {
   double gate;              ///< m
   double outlier_distance;  ///< 1
 
-  std::optional<Match> match(const Landmark& sighting, const Pose2& before_in_after) const;
+  std::optional<Match> match(const Landmark& observation, const Pose2& before_in_after) const;
   std::vector<Match> matches(const State& state) const;
 
   /// What a match counts for: little, where it is off by more than outlier_distance.
@@ -55,18 +55,18 @@ struct Step {
   double cost(const State& state) const;
 };
 
-std::optional<Match> Step::match(const Landmark& sighting, const Pose2& before_in_after) const {
+std::optional<Match> Step::match(const Landmark& observation, const Pose2& before_in_after) const {
   const Landmark* nearest = nullptr;
   Match match;
-  double least = gate * gate;
+  double min = gate * gate;
   for (const Landmark& landmark : expected) {
-    const Point2 place = before_in_after * landmark.position;
-    const Point2 difference = sighting.position - place;
-    if (difference.squaredNorm() < least) {
-      least = difference.squaredNorm();
+    const Point2 point = before_in_after * landmark.position;
+    const Point2 difference = observation.position - point;
+    if (difference.squaredNorm() < min) {
+      min = difference.squaredNorm();
       nearest = &landmark;
       match.difference = difference;
-      match.expected = place;
+      match.expected = point;
     }
   }
   if (nearest == nullptr) {
@@ -74,7 +74,7 @@ std::optional<Match> Step::match(const Landmark& sighting, const Pose2& before_i
   }
   const Eigen::Matrix2d turn = before_in_after.rotation();
   match.information =
-      (turn * nearest->covariance * turn.transpose() + sighting.covariance).inverse();
+      (turn * nearest->covariance * turn.transpose() + observation.covariance).inverse();
   return match;
 }
 
@@ -84,8 +84,8 @@ std::vector<Match> Step::matches(const State& state) const {
   const Pose2 before_in_after = motionOf(state, seconds).inverse();
   std::vector<Match> result;
   result.reserve(seen.size());
-  for (const Landmark& sighting : seen) {
-    if (const auto found = match(sighting, before_in_after)) {
+  for (const Landmark& observation : seen) {
+    if (const auto found = match(observation, before_in_after)) {
       result.push_back(*found);
     }
   }
@@ -103,14 +103,14 @@ double Step::cost(const State& state) const {
 }
 
 /// How the place of a landmark in the vehicle's frame changes with speed and yaw rate.
-Eigen::Matrix2d jacobian(const Point2& place, const State& state, double seconds) {
+Eigen::Matrix2d jacobian(const Point2& point, const State& state, double seconds) {
   const double half_turn = 0.5 * state[1] * seconds;
   const double c = std::cos(half_turn);
   const double s = std::sin(half_turn);
   const double sideways = 0.5 * state[0] * seconds * seconds;
   Eigen::Matrix2d result;
   result.col(0) = -seconds * Point2(c, -s);
-  result.col(1) = -seconds * Point2(-place.y(), place.x()) - sideways * Point2(s, c);
+  result.col(1) = -seconds * Point2(-point.y(), point.x()) - sideways * Point2(s, c);
   return result;
 }
 
@@ -132,13 +132,13 @@ State searched(const Step& step, const Gaussian& prior) {
   const int speeds = searchSteps(sigma[0], grid[0]);
   const int yaw_rates = searchSteps(sigma[1], grid[1]);
   State best = prior.mean;
-  double least = step.cost(best);
+  double min = step.cost(best);
   for (int i = -speeds; i <= speeds; ++i) {
     for (int j = -yaw_rates; j <= yaw_rates; ++j) {
       const State off(i * grid[0], j * grid[1]);
       const double cost = step.cost(prior.mean + off) + 0.5 * off.dot(prior.information * off);
-      if (cost < least) {
-        least = cost;
+      if (cost < min) {
+        min = cost;
         best = prior.mean + off;
       }
     }
@@ -147,11 +147,11 @@ State searched(const Step& step, const Gaussian& prior) {
 }
 
 /// Gauss-Newton steps from `start` to the most likely state; the prior where too little is seen.
-Gaussian correct(const Step& step, const Gaussian& prior, State start, std::size_t least_matches) {
+Gaussian correct(const Step& step, const Gaussian& prior, State start, std::size_t min_matches) {
   Gaussian result{start, prior.information};
-  for (int i = 0; i < kMostIterations; ++i) {
+  for (int i = 0; i < kMaxIterations; ++i) {
     const std::vector<Match> matches = step.matches(result.mean);
-    if (matches.size() < least_matches) {
+    if (matches.size() < min_matches) {
       return prior;
     }
     Eigen::Matrix2d information = prior.information;
@@ -189,8 +189,8 @@ void EgoMotionOptions::visit(OptionVisitor& visitor) {
   visitor.number(
       {"outlier_distance", "1", "a match that is off by so many standard deviations counts half"},
       outlier_distance, {0.5, 10.0});
-  visitor.integer({"least_matches", "1", "with fewer, speed and yaw rate stay as they were"},
-                  least_matches, {1, 100});
+  visitor.integer({"min_matches", "1", "with fewer, speed and yaw rate stay as they were"},
+                  min_matches, {1, 100});
 }
 
 EgoMotion::EgoMotion(const EgoMotionOptions& options) : options_(options) {
@@ -213,8 +213,8 @@ void EgoMotion::step(double seconds, const std::vector<Landmark>& expected,
   covariance_.diagonal() +=
       (seconds * State(options_.acceleration_std, options_.yaw_acceleration_std)).cwiseAbs2();
   const Gaussian prior{state_, covariance_.inverse()};
-  const auto least_matches = static_cast<std::size_t>(options_.least_matches);
-  const Gaussian corrected = correct(step, prior, searched(step, prior), least_matches);
+  const auto min_matches = static_cast<std::size_t>(options_.min_matches);
+  const Gaussian corrected = correct(step, prior, searched(step, prior), min_matches);
   state_ = corrected.mean;
   covariance_ = corrected.information.inverse();
   base_in_fixed_ = base_in_fixed_ * motionOf(state_, seconds);

@@ -17,7 +17,7 @@ struct EgoMotionOptions {
   double first_yaw_rate_std = 0.2;    ///< rad/s
   double gate = 3.0;                  ///< m
   double outlier_distance = 3.0;      ///< 1
-  int least_matches = 2;
+  int min_matches = 2;
 
   void visit(OptionVisitor& visitor);
 };

@@ -10,20 +10,20 @@ namespace {
 // Limits of Weng et al. 2020, as in the evaluation of KITTI's own tracking benchmark.
 
 /// px: what is as high or less in the image is no false positive.
-constexpr double kLeastImageHeight = 25.0;
+constexpr double kMinImageHeight = 25.0;
 /// Share of a track's image in a region where nobody cares from which on it is not looked at.
-constexpr double kMostInDontCare = 0.5;
+constexpr double kMaxInDontCare = 0.5;
 /// What is occluded or truncated more need not be found: "largely occluded" still must be.
-constexpr int kMostOccluded = 2;
-constexpr int kMostTruncated = 0;
+constexpr int kMaxOccluded = 2;
+constexpr int kMaxTruncated = 0;
 
-bool isNeighbour(ObjectType type, ObjectType evaluated) {
+bool isNeighbor(ObjectType type, ObjectType evaluated) {
   return (evaluated == ObjectType::kCar && type == ObjectType::kVan) ||
          (evaluated == ObjectType::kPedestrian && type == ObjectType::kPersonSitting);
 }
 
 bool isLookedAt(ObjectType type, ObjectType evaluated) {
-  return type == evaluated || isNeighbour(type, evaluated);
+  return type == evaluated || isNeighbor(type, evaluated);
 }
 
 double area(const ImageBox& box) {
@@ -35,7 +35,7 @@ ImageBox intersection(const ImageBox& a, const ImageBox& b) {
           std::min(a.bottom, b.bottom)};
 }
 
-bool isSmall(const ImageBox& box) { return std::abs(box.bottom - box.top) <= kLeastImageHeight; }
+bool isSmall(const ImageBox& box) { return std::abs(box.bottom - box.top) <= kMinImageHeight; }
 
 /// Numbers trajectories in the order in which they turn up.
 class Numbering {
@@ -73,21 +73,21 @@ std::map<int, FrameRows> rowsByFrame(const Sequence& sequence, ObjectType evalua
 
 bool isInDontCare(const ImageBox& box, const std::vector<const TrackedObject*>& dont_cares) {
   return std::any_of(dont_cares.begin(), dont_cares.end(), [&box](const TrackedObject* region) {
-    return area(intersection(box, region->image_box)) > kMostInDontCare * area(box);
+    return area(intersection(box, region->image_box)) > kMaxInDontCare * area(box);
   });
 }
 
 bool isRequired(const TrackedObject& label, ObjectType evaluated) {
-  return !isNeighbour(label.type, evaluated) && label.occluded <= kMostOccluded &&
-         label.truncated <= kMostTruncated;
+  return !isNeighbor(label.type, evaluated) && label.occluded <= kMaxOccluded &&
+         label.truncated <= kMaxTruncated;
 }
 
-std::vector<Candidate> candidatesOf(const FrameRows& rows, double least_overlap) {
+std::vector<Candidate> candidatesOf(const FrameRows& rows, double min_overlap) {
   std::vector<Candidate> candidates;
   for (std::size_t truth = 0; truth < rows.labels.size(); ++truth) {
     for (std::size_t track = 0; track < rows.results.size(); ++track) {
       const double overlap = overlap3d(rows.labels[truth]->box, rows.results[track]->box);
-      if (overlap >= least_overlap) {
+      if (overlap >= min_overlap) {
         candidates.push_back({truth, track, overlap});
       }
     }
@@ -102,11 +102,11 @@ EvaluatedFrame evaluatedFrame(const FrameRows& rows, const EvaluatedKind& kind, 
     frame.truths.push_back({truths.of(label->id), isRequired(*label, kind.type)});
   }
   for (const TrackedObject* result : rows.results) {
-    const bool optional = isNeighbour(result->type, kind.type) || isSmall(result->image_box) ||
+    const bool optional = isNeighbor(result->type, kind.type) || isSmall(result->image_box) ||
                           isInDontCare(result->image_box, rows.dont_cares);
     frame.tracks.push_back({tracks.of(result->id), optional});
   }
-  frame.candidates = candidatesOf(rows, kind.least_overlap);
+  frame.candidates = candidatesOf(rows, kind.min_overlap);
   return frame;
 }
 

@@ -12,20 +12,20 @@ namespace datmo::kitti {
 /// What the evaluation looks at: objects of one class, found where the overlap is enough.
 struct EvaluatedKind {
   ObjectType type = ObjectType::kCar;  ///< car, pedestrian or cyclist
-  double least_overlap = 0.25;         ///< 3D, above 0 to 1
+  double min_overlap = 0.25;           ///< 3D, above 0 to 1
 };
 
-/// A label of the class, or of a neighbour of it (Van for Car, Person_sitting for Pedestrian).
+/// A label of the class, or of a neighbor of it (Van for Car, Person_sitting for Pedestrian).
 struct Truth {
   std::size_t trajectory = 0;
-  /// Whether it must be found. Neighbours, what is truncated and what is hardly to be seen may be.
+  /// Whether it must be found. Neighbors, what is truncated and what is hardly to be seen may be.
   bool required = true;
 };
 
-/// A result of the class or of a neighbour of it.
+/// A result of the class or of a neighbor of it.
 struct Track {
   std::size_t trajectory = 0;
-  /// Whether it is no false positive where it matches nothing: a neighbour, one whose image is too
+  /// Whether it is no false positive where it matches nothing: a neighbor, one whose image is too
   /// small, one in a region where nobody cares.
   bool optional = false;
 };

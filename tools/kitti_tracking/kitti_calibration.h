@@ -11,7 +11,7 @@ using Projection = Eigen::Matrix<double, 3, 4>;
 /// Where the sensors of a KITTI tracking sequence are. A point is a column, with a 1 below it where
 /// the matrix has four columns; m, px.
 struct Calibration {
-  Projection image_from_camera = Projection::Zero();        ///< P2: rectified -> left colour image
+  Projection image_from_camera = Projection::Zero();        ///< P2: rectified -> left color image
   Eigen::Matrix3d rectification = Eigen::Matrix3d::Zero();  ///< R0_rect: camera 0 -> rectified
   Projection camera_from_velodyne = Projection::Zero();     ///< Tr_velo_to_cam, to camera 0
   Projection velodyne_from_imu = Projection::Zero();        ///< Tr_imu_to_velo

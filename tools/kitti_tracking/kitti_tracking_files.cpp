@@ -31,8 +31,8 @@ constexpr int kGreatest = std::numeric_limits<int>::max();
 constexpr int kNobodysId = -1;
 /// The files hold -1 where nothing is known.
 constexpr int kUnknownLevel = -1;
-constexpr int kMostTruncated = 2;
-constexpr int kMostOccluded = 3;
+constexpr int kMaxTruncated = 2;
+constexpr int kMaxOccluded = 3;
 /// As the labels have.
 constexpr int kDecimals = 6;
 
@@ -78,8 +78,8 @@ TrackedObject readTrackedObject(const TextLine& line) {
   object.type = readType(line, 2);
   const bool counts = object.type != ObjectType::kDontCare;
   object.id = line.integer(1, "id", counts ? 0 : kNobodysId, kGreatest);
-  object.truncated = line.integer(3, "truncated", kUnknownLevel, kMostTruncated);
-  object.occluded = line.integer(4, "occluded", kUnknownLevel, kMostOccluded);
+  object.truncated = line.integer(3, "truncated", kUnknownLevel, kMaxTruncated);
+  object.occluded = line.integer(4, "occluded", kUnknownLevel, kMaxOccluded);
   object.alpha = line.number(5, "alpha");
   object.image_box = readImageBox(line, 6);
   if (counts) {

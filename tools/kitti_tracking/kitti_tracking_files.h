@@ -25,7 +25,7 @@ enum class ObjectType {
 /// As it stands in the files: "Car", "Person_sitting".
 std::string nameOf(ObjectType type);
 
-/// A rectangle in the left colour image, px.
+/// A rectangle in the left color image, px.
 struct ImageBox {
   double left = 0.0;
   double top = 0.0;
@@ -33,7 +33,7 @@ struct ImageBox {
   double bottom = 0.0;
 };
 
-/// One object in one frame, labelled or tracked: one line of a label or result file,
+/// One object in one frame, labeled or tracked: one line of a label or result file,
 /// `frame id type truncated occluded alpha left top right bottom h w l x y z ry [score]`.
 struct TrackedObject {
   int frame = 0;

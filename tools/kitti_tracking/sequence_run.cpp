@@ -91,7 +91,7 @@ class Runner {
       }
       for (const Object& object : objects[i].objects) {
         if (isLikely(object)) {
-          seen.push_back({object.box.centre.position(), object.position_covariance});
+          seen.push_back({object.box.center.position(), object.position_covariance});
         }
       }
     }
@@ -145,8 +145,8 @@ void RunOptions::visit(OptionVisitor& visitor) {
   visitor.group("ego_motion", [&] { ego_motion.visit(visitor); });
   visitor.number({"frame_period", "s", "from a frame to the next one"}, frame_period,
                  {0.001, 10.0});
-  visitor.number({"image_width", "px", "of the left colour image"}, image.width, {1.0, 1e5});
-  visitor.number({"image_height", "px", "of the left colour image"}, image.height, {1.0, 1e5});
+  visitor.number({"image_width", "px", "of the left color image"}, image.width, {1.0, 1e5});
+  visitor.number({"image_height", "px", "of the left color image"}, image.height, {1.0, 1e5});
 }
 
 SequenceRun runSequence(const DetectedSequence& sequence, const RunOptions& options) {

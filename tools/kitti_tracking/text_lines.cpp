@@ -36,8 +36,8 @@ void dropCarriageReturn(std::string& line) {
 
 }  // namespace
 
-TextLine::TextLine(std::string place, std::vector<std::string> columns)
-    : place_(std::move(place)), columns_(std::move(columns)) {}
+TextLine::TextLine(std::string position, std::vector<std::string> columns)
+    : position_(std::move(position)), columns_(std::move(columns)) {}
 
 double TextLine::number(std::size_t column, const std::string& name) const {
   const std::string& text = columns_.at(column);
@@ -49,11 +49,11 @@ double TextLine::number(std::size_t column, const std::string& name) const {
   return value;
 }
 
-int TextLine::integer(std::size_t column, const std::string& name, int least, int most) const {
+int TextLine::integer(std::size_t column, const std::string& name, int min, int max) const {
   const double value = number(column, name);
-  if (value < least || value > most || value != std::floor(value)) {
+  if (value < min || value > max || value != std::floor(value)) {
     fail(name + " '" + columns_.at(column) + "'",
-         "a whole number of " + std::to_string(least) + " to " + std::to_string(most));
+         "a whole number of " + std::to_string(min) + " to " + std::to_string(max));
   }
   return static_cast<int>(value);
 }
@@ -73,7 +73,7 @@ void TextLine::expectColumns(std::size_t count) const {
 }
 
 void TextLine::fail(const std::string& found, const std::string& expected) const {
-  throw std::runtime_error(place_ + ": " + found + ", expected " + expected);
+  throw std::runtime_error(position_ + ": " + found + ", expected " + expected);
 }
 
 void forEachLine(const std::string& file, char separator,

@@ -11,14 +11,14 @@ namespace datmo::kitti {
 /// names file, line number, column, value and what was expected.
 class TextLine {
  public:
-  TextLine(std::string place, std::vector<std::string> columns);
+  TextLine(std::string position, std::vector<std::string> columns);
 
   const std::vector<std::string>& columns() const { return columns_; }
 
-  /// The column's text as a finite number, as a whole one of at least `least` and at most `most`,
+  /// The column's text as a finite number, as a whole one of at least `min` and at most `max`,
   /// as a number of at least 0. `name` is that of the column in messages.
   double number(std::size_t column, const std::string& name) const;
-  int integer(std::size_t column, const std::string& name, int least, int most) const;
+  int integer(std::size_t column, const std::string& name, int min, int max) const;
   double size(std::size_t column, const std::string& name) const;
 
   void expectColumns(std::size_t count) const;
@@ -27,7 +27,7 @@ class TextLine {
   [[noreturn]] void fail(const std::string& found, const std::string& expected) const;
 
  private:
-  std::string place_;
+  std::string position_;
   std::vector<std::string> columns_;
 };
 

@@ -51,7 +51,7 @@ enum class Averaging {
   kRepeated,
 };
 
-/// `kind.least_overlap` above 0 to 1.
+/// `kind.min_overlap` above 0 to 1.
 TrackingScore evaluateTracking(const std::vector<Sequence>& sequences, const EvaluatedKind& kind,
                                Averaging averaging = Averaging::kOnce);
 

@@ -62,7 +62,7 @@ std::optional<double> shareOf(std::size_t part, const ThresholdScore& score) {
 std::string line(const TrackingScore& score) {
   const ThresholdScore& best = score.best;
   Row row(nameOf(score.kind.type));
-  row.fraction(score.kind.least_overlap);
+  row.fraction(score.kind.min_overlap);
   row.percent(score.samota).percent(score.amota).percent(score.amotp);
   row.percent(best.mota()).percent(best.motp());
   row.count(best.id_switches).count(best.fragmentations);
@@ -100,7 +100,7 @@ nlohmann::json toJson(const TrackingScore& score) {
     levels.push_back(toJson(level));
   }
   return {{"class", nameOf(score.kind.type)},
-          {"least_overlap", score.kind.least_overlap},
+          {"min_overlap", score.kind.min_overlap},
           {"samota", evaluation::orNull(score.samota)},
           {"amota", evaluation::orNull(score.amota)},
           {"amotp", evaluation::orNull(score.amotp)},

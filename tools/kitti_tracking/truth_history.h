@@ -7,7 +7,7 @@
 
 namespace datmo::kitti {
 
-/// What became of one true trajectory in one of the frames in which it is labelled.
+/// What became of one true trajectory in one of the frames in which it is labeled.
 struct TruthRecord {
   int track = kUnassigned;  ///< trajectory that it is matched to
   bool required = true;
@@ -22,7 +22,7 @@ struct TruthSummary {
   Coverage coverage = Coverage::kNotRequired;
 };
 
-/// Summary of the labelled frames of a trajectory in their order (they may have gaps). As KITTI's
+/// Summary of the labeled frames of a trajectory in their order (they may have gaps). As KITTI's
 /// tracking benchmark and Weng et al. 2020 count:
 /// - an id switch is a match to another track than the last one, if the frame before is matched
 /// too:

@@ -228,7 +228,7 @@ std::string usage() {
          "               [TOPIC:=TOPIC_OF_THE_BAG ...]\n"
          "Takes the scans and the odometry of a bag through the stack, as fast as it goes, and "
          "writes\n"
-         "/pose, /map, /split_scan, /objects, /tracks and /tf to another bag.\n"
+         "/pose, /map, /labeled_scan, /objects, /tracks and /tf to another bag.\n"
          "  --config CONFIG.yaml  the sensor set, e.g. config/demonstrator.yaml\n"
          "  --with-truth          copies /ground_truth/* along\n"
          "  --quiet               no progress bar and no table\n"

@@ -146,7 +146,7 @@ class BagRun {
       if (isResult(publication)) {
         writeAsOneOf<geometry_msgs::PoseWithCovarianceStamped, nav_msgs::OccupancyGrid,
                      sensor_msgs::LaserScan, sensor_msgs::PointCloud2, tf2_msgs::TFMessage,
-                     SplitScanMessage, RoadBorders, ObjectArray, DroppedObjects, TrackArray>(
+                     LabeledScanMessage, RoadBorders, ObjectArray, DroppedObjects, TrackArray>(
             time, publication);
       }
     }

@@ -7,7 +7,7 @@
 namespace datmo {
 
 /// Takes a bag through the pipeline, in the order of the messages' record times, as fast as it
-/// goes, and writes what comes out to a bag: /pose, /map, /split_scan, /objects, /tracks, /tf.
+/// goes, and writes what comes out to a bag: /pose, /map, /labeled_scan, /objects, /tracks, /tf.
 /// With --until some of them, with --write-grids /grids/* too, with --road-border /road_borders
 /// and /objects/dropped, with --object-fusion /objects/stereo and /objects/fused, with
 /// --track-fusion /objects/stereo, /tracks/lidar and /tracks/stereo. Prints a table to `out` at the

@@ -221,13 +221,13 @@ sensor_msgs::PointCloud2Ptr StereoImages::cloudOf(const StereoPair& pair) const 
   const auto rectify = [this](const cv_bridge::CvImageConstPtr& image, const auto& camera) {
     return rectified_ ? image->image : rectified(image->image, camera);
   };
-  const cv::Mat colour = rectify(cv_bridge::toCvShare(left_image), model.left());
+  const cv::Mat color = rectify(cv_bridge::toCvShare(left_image), model.left());
   const cv::Mat left = rectify(cv_bridge::toCvShare(left_image, encodings::MONO8), model.left());
   const cv::Mat right = rectify(cv_bridge::toCvShare(right_image, encodings::MONO8), model.right());
   stereo_msgs::DisparityImage disparity;
   processor_->processDisparity(left, right, model, disparity);
   auto cloud = boost::make_shared<sensor_msgs::PointCloud2>();
-  processor_->processPoints2(disparity, colour, left_image->encoding, model, *cloud);
+  processor_->processPoints2(disparity, color, left_image->encoding, model, *cloud);
   cloud->header = left_image->header;
   return cloud;
 }

@@ -10,7 +10,7 @@ namespace datmo {
 namespace {
 
 /// Frames of one camera that wait for the other: as many as the nodelets' queues hold.
-constexpr std::size_t kLongestQueue = 5;
+constexpr std::size_t kMaxQueue = 5;
 
 }  // namespace
 
@@ -41,19 +41,19 @@ void StereoPairs::clear() {
 
 CameraFrame* StereoPairs::frameAt(StereoSide side, Stamp stamp) {
   Frames& frames = framesOf(side);
-  auto place = std::find_if(frames.begin(), frames.end(),
-                            [&](const CameraFrame& frame) { return !(frame.stamp < stamp); });
-  if (place != frames.end() && place->stamp == stamp) {
-    return &*place;
+  auto position = std::find_if(frames.begin(), frames.end(),
+                               [&](const CameraFrame& frame) { return !(frame.stamp < stamp); });
+  if (position != frames.end() && position->stamp == stamp) {
+    return &*position;
   }
-  if (frames.size() == kLongestQueue) {
+  if (frames.size() == kMaxQueue) {
     ++unpaired_;
-    if (place == frames.begin()) {
+    if (position == frames.begin()) {
       return nullptr;
     }
     frames.pop_front();
   }
-  return &*frames.insert(place, CameraFrame{stamp, nullptr, nullptr});
+  return &*frames.insert(position, CameraFrame{stamp, nullptr, nullptr});
 }
 
 std::optional<StereoPair> StereoPairs::pairWith(StereoSide side, const CameraFrame& frame) {

@@ -34,7 +34,7 @@ std::vector<Body> standingBodies(const World& world) {
 Body bodyAt(const Mover& mover, const std::string& label, double time) {
   ObjectState object;
   object.kind = mover.kind;
-  object.centre = mover.centre(time);
+  object.center = mover.center(time);
   return bodyOf(object.solid(), label);
 }
 
@@ -47,7 +47,7 @@ std::vector<Body> movingBodies(const World& world, double time) {
 }
 
 bool meet(const Body& a, const Body& b) {
-  return (a.bound.centre - b.bound.centre).norm() <= a.bound.radius + b.bound.radius &&
+  return (a.bound.center - b.bound.center).norm() <= a.bound.radius + b.bound.radius &&
          overlap(a.solid.outline, b.solid.outline);
 }
 
@@ -61,7 +61,7 @@ const Body* firstMet(const Body& body, BodyIterator first, BodyIterator last) {
 }
 
 Collision collisionOf(const Body& body, const Body& other, double time) {
-  return {time, body.label, other.label, body.bound.centre};
+  return {time, body.label, other.label, body.bound.center};
 }
 
 }  // namespace

@@ -9,14 +9,14 @@ namespace datmo::simulator {
 
 /// Two things that are in the same place.
 struct Collision {
-  double time = 0.0;              ///< s
-  std::string mover;              ///< label of the one that moves
-  std::string other;              ///< of what it meets
-  Point2 place = Point2::Zero();  ///< m, the mover's middle
+  double time = 0.0;                 ///< s
+  std::string mover;                 ///< label of the one that moves
+  std::string other;                 ///< of what it meets
+  Point2 position = Point2::Zero();  ///< m, the mover's middle
 };
 
 /// The first time in `duration` (s) at which something that moves, the ego vehicle included, shares
-/// ground with another body; kerbs and paint do not count.
+/// ground with another body; curbs and paint do not count.
 std::optional<Collision> firstCollision(const World& world, double duration);
 
 /// The same for one more mover, which is not among the world's.

@@ -18,7 +18,7 @@ struct Extent {
 };
 
 Extent extentOf(const ObjectState& object, const Point2& from) {
-  const Point2 to_middle = object.centre.position() - from;
+  const Point2 to_middle = object.center.position() - from;
   Extent extent;
   extent.middle = std::atan2(to_middle.y(), to_middle.x());
   if (object.kind.round) {
@@ -47,17 +47,17 @@ int beamsOn(const ObjectState& object, const EchoScan& scan) {
 void GroundTruthOptions::visit(OptionVisitor& visitor) {
   visitor.number({"radius", "m", "objects within it round the vehicle are in the ground truth"},
                  radius, {0.0, 1000.0});
-  visitor.number({"least_visible_share", "1",
+  visitor.number({"min_visible_share", "1",
                   "share of an object's width that must be in a sensor's sight for it to be named "
                   "visible"},
-                 least_visible_share, {0.0, 1.0});
+                 min_visible_share, {0.0, 1.0});
   visitor.toggle({"echoes", "", "records what each beam's nearest echo came from"}, echoes);
 }
 
 LineOfSight lookAt(const ObjectState& object, const Viewpoint& view, const World& world,
                    const WorldState& state) {
   const Pose2 sensor = state.base * view.sensor_in_base;
-  const double distance = (object.centre.position() - sensor.position()).norm();
+  const double distance = (object.center.position() - sensor.position()).norm();
   const double reach = distance + 0.5 * (object.kind.length + object.kind.width);
   const RayCaster caster(world, state, sensor.position(), reach);
   const HeightBand level{view.height, 0.0, 0.0};
@@ -84,7 +84,7 @@ std::vector<ObjectTruth> objectTruths(const World& world, const WorldState& stat
                                       const GroundTruthOptions& options) {
   std::vector<ObjectTruth> truths;
   for (const ObjectState& object : state.objects) {
-    if ((object.centre.position() - state.base.position()).norm() > options.radius) {
+    if ((object.center.position() - state.base.position()).norm() > options.radius) {
       continue;
     }
     ObjectTruth truth;
@@ -93,7 +93,7 @@ std::vector<ObjectTruth> objectTruths(const World& world, const WorldState& stat
     truth.occlusion = lookAt(object, views.front(), world, state).hidden;
     for (const Viewpoint& view : views) {
       const double visible = lookAt(object, view, world, state).visible;
-      if (visible > 0.0 && visible >= options.least_visible_share) {
+      if (visible > 0.0 && visible >= options.min_visible_share) {
         truth.visible_to.push_back(view.sensor);
       }
     }

@@ -12,8 +12,8 @@
 namespace datmo::simulator {
 
 struct GroundTruthOptions {
-  double radius = 60.0;              ///< m
-  double least_visible_share = 0.5;  ///< 0 to 1
+  double radius = 60.0;            ///< m
+  double min_visible_share = 0.5;  ///< 0 to 1
   bool echoes = false;
 
   void visit(OptionVisitor& visitor);

@@ -9,8 +9,8 @@ namespace {
 
 void check(const LaserScannerOptions& options) {
   checkOptions(options);
-  if (options.least_range >= options.effective_range) {
-    throw OptionError("least_range = " + std::to_string(options.least_range) +
+  if (options.min_range >= options.effective_range) {
+    throw OptionError("min_range = " + std::to_string(options.min_range) +
                       ": expected less than effective_range, " +
                       std::to_string(options.effective_range) + " m");
   }
@@ -44,7 +44,7 @@ LaserScanner::LaserScanner(const LaserScannerOptions& options, const RandomStrea
 Viewpoint LaserScanner::viewpoint() const {
   return {"scanner", Pose2(options_.mount_x, options_.mount_y, degrees(options_.mount_heading)),
           options_.mount_height, degrees(options_.field_of_view),
-          std::min(options_.effective_range, options_.most_range)};
+          std::min(options_.effective_range, options_.max_range)};
 }
 
 EchoScan LaserScanner::measure(const World& world, double time) {
@@ -66,7 +66,7 @@ EchoScan LaserScanner::measure(const World& world, double time) {
     BeamFaults faults;
     faults.azimuth = azimuth_shake + random_.normal(degrees(options_.azimuth_noise));
     faults.pitch = pitch_shake;
-    faults.kerbs = random_.chance(options_.kerb_hit_probability);
+    faults.curbs = random_.chance(options_.curb_hit_probability);
     faults.paint = random_.chance(options_.paint_hit_probability);
     const double bearing = degrees(beam * options_.beam_spacing - 0.5 * options_.field_of_view);
     scan.beams.push_back(measureBeam(caster, scanner, bearing, faults));
@@ -121,7 +121,7 @@ std::vector<Echo> LaserScanner::castBeam(const RayCaster& caster, double heading
 std::optional<RayHit> LaserScanner::castSubRay(const RayCaster& caster, double heading,
                                                const HeightBand& band,
                                                const BeamFaults& faults) const {
-  double reach = std::min(options_.effective_range, options_.most_range);
+  double reach = std::min(options_.effective_range, options_.max_range);
   std::optional<RayHit> nearest = caster.nearest(heading, band, Surface::kBody, reach);
   const auto take = [&](Surface surface, double farthest) {
     reach = std::min(nearest ? nearest->range : reach, farthest);
@@ -129,8 +129,8 @@ std::optional<RayHit> LaserScanner::castSubRay(const RayCaster& caster, double h
       nearest = hit;
     }
   };
-  if (faults.kerbs) {
-    take(Surface::kKerb, reach);
+  if (faults.curbs) {
+    take(Surface::kCurb, reach);
   }
   if (faults.paint) {
     take(Surface::kPaint, options_.paint_range);
@@ -148,14 +148,14 @@ std::vector<Echo> LaserScanner::reported(std::vector<Echo> targets) {
       echoes.push_back(target);
     }
   }
-  const double most = std::min(options_.effective_range, options_.most_range);
+  const double max = std::min(options_.effective_range, options_.max_range);
   for (Echo& echo : echoes) {
     echo.true_range = echo.range;
     echo.range += random_.normal(options_.range_noise);
   }
   echoes.erase(std::remove_if(echoes.begin(), echoes.end(),
                               [&](const Echo& echo) {
-                                return echo.range < options_.least_range || echo.range > most;
+                                return echo.range < options_.min_range || echo.range > max;
                               }),
                echoes.end());
   std::sort(echoes.begin(), echoes.end(), nearer);

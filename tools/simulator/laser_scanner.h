@@ -22,8 +22,8 @@ struct LaserScannerOptions {
   double beam_spacing = 2.0;      ///< deg
   double scan_rate = 16.6;        ///< Hz
   double sweep_duration = 0.0;    ///< s
-  double least_range = 1.0;       ///< m
-  double most_range = 150.0;      ///< m
+  double min_range = 1.0;         ///< m
+  double max_range = 150.0;       ///< m
   double effective_range = 50.0;  ///< m
 
   double horizontal_opening = 1.0;    ///< deg
@@ -38,7 +38,7 @@ struct LaserScannerOptions {
   double azimuth_noise = 0.1;          ///< deg
   double azimuth_shake = 0.2;          ///< deg
   double pitch_shake = 0.3;            ///< deg
-  double kerb_hit_probability = 0.5;   ///< 0 to 1
+  double curb_hit_probability = 0.5;   ///< 0 to 1
   double paint_hit_probability = 0.1;  ///< 0 to 1
   double paint_range = 30.0;           ///< m
 
@@ -82,7 +82,7 @@ class LaserScanner {
   struct BeamFaults {
     double azimuth = 0.0;  ///< rad
     double pitch = 0.0;    ///< rad
-    bool kerbs = false;    ///< kerbs reflect this time
+    bool curbs = false;    ///< curbs reflect this time
     bool paint = false;    ///< paint reflects this time
   };
 

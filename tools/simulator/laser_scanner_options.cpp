@@ -25,8 +25,8 @@ void visitBeams(LaserScannerOptions& o, OptionVisitor& visitor) {
                   "from the first to the last beam of a scan, which a moving vehicle distorts; 0: "
                   "all beams at once"},
                  o.sweep_duration, {0.0, 1.0});
-  visitor.number({"least_range", "m", "thesis 1.3.3: 1"}, o.least_range, {0.0, 10.0});
-  visitor.number({"most_range", "m", "of the hardware; thesis 1.3.3: 150"}, o.most_range,
+  visitor.number({"min_range", "m", "thesis 1.3.3: 1"}, o.min_range, {0.0, 10.0});
+  visitor.number({"max_range", "m", "of the hardware; thesis 1.3.3: 150"}, o.max_range,
                  {1.0, 500.0});
   visitor.number({"effective_range", "m",
                   "echoes beyond it are dropped; thesis 1.3.3: 50, because a farther object gets "
@@ -69,8 +69,8 @@ void visitFaults(LaserScannerOptions& o, OptionVisitor& visitor) {
                   "standard deviation of a nod of the whole scan: shaking beams (thesis 1.3.3)"},
                  o.pitch_shake, {0.0, 5.0});
   visitor.number(
-      {"kerb_hit_probability", "1", "that a beam which lights a kerb is reflected by it"},
-      o.kerb_hit_probability, {0.0, 1.0});
+      {"curb_hit_probability", "1", "that a beam which lights a curb is reflected by it"},
+      o.curb_hit_probability, {0.0, 1.0});
   visitor.number({"paint_hit_probability", "1",
                   "that a beam which lights white paint on the road is reflected by it: false "
                   "returns from lane markings (thesis 1.3.3, fig. 3.8)"},

@@ -144,7 +144,7 @@ void addNoise(DisparityImage& image, double sigma, double common_share, int patc
   }
 }
 
-void addOutliers(DisparityImage& image, double share, int patch, double least, double most,
+void addOutliers(DisparityImage& image, double share, int patch, double min, double max,
                  RandomStream& random) {
   const int width = std::max(1, patch / image.column_step);
   const int height = std::max(1, patch / image.row_step);
@@ -153,7 +153,7 @@ void addOutliers(DisparityImage& image, double share, int patch, double least, d
       if (!random.chance(share)) {
         continue;
       }
-      const double disparity = least + random.uniform() * (most - least);
+      const double disparity = min + random.uniform() * (max - min);
       for (int row = top; row < std::min(image.rows, top + height); ++row) {
         for (int column = left; column < std::min(image.columns, left + width); ++column) {
           image.measured[image.slot(column, row)] = disparity;

@@ -17,13 +17,13 @@ void removeHidden(DisparityImage& image);
 void mixEdges(DisparityImage& image, int width, double probability, RandomStream& random);
 
 /// Adds noise of standard deviation `sigma` (px); `common_share` (0 to 1) of its variance is
-/// common to neighbours, over patches of `patch` px.
+/// common to neighbors, over patches of `patch` px.
 void addNoise(DisparityImage& image, double sigma, double common_share, int patch,
               RandomStream& random);
 
 /// Wrong matches: a share (0 to 1) of all patches of `patch` px gets one disparity of its own, any
-/// from `least` to `most` px.
-void addOutliers(DisparityImage& image, double share, int patch, double least, double most,
+/// from `min` to `max` px.
+void addOutliers(DisparityImage& image, double share, int patch, double min, double max,
                  RandomStream& random);
 
 }  // namespace datmo::simulator

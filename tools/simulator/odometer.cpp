@@ -6,7 +6,7 @@ void OdometerOptions::visit(OptionVisitor& visitor) {
   visitor.number({"rate", "Hz", "measurements of speed and yaw rate; assumed"}, rate,
                  {0.1, 1000.0});
   visitor.number({"speed_scale_error", "1",
-                  "measured speed is too large by this share of it (tyre radius); assumed"},
+                  "measured speed is too large by this share of it (tire radius); assumed"},
                  speed_scale_error, {-0.5, 0.5});
   visitor.number({"speed_noise", "m/s", "standard deviation; assumed"}, speed_noise, {0.0, 10.0});
   visitor.number({"yaw_rate_bias", "deg/s", "constant error; assumed"}, yaw_rate_bias,

@@ -19,8 +19,8 @@ double headingOf(const Point2& leg) { return std::atan2(leg.y(), leg.x()); }
 /// Way along each leg that the arc at the corner between them takes, m.
 double tangentLength(const Point2& before, const Point2& after, double corner_radius) {
   const double turn = std::abs(angleBetween(headingOf(before), headingOf(after)));
-  const double most = 0.5 * std::min(before.norm(), after.norm());
-  return std::min(corner_radius * std::tan(0.5 * turn), most);
+  const double max = 0.5 * std::min(before.norm(), after.norm());
+  return std::min(corner_radius * std::tan(0.5 * turn), max);
 }
 
 void check(const Polyline& points, double corner_radius) {
@@ -76,18 +76,19 @@ void Path::append(const Pose2& start, double curvature, double length) {
   }
 }
 
-PathPoint Path::at(double way) const {
-  if (way > length_) {
+PathPoint Path::at(double arc_length) const {
+  if (arc_length > length_) {
     const PathPoint end = at(length_);
-    return {end.pose * Pose2(way - length_, 0.0, 0.0), 0.0};
+    return {end.pose * Pose2(arc_length - length_, 0.0, 0.0), 0.0};
   }
-  if (way < 0.0) {
-    return {pieces_.front().start * Pose2(way, 0.0, 0.0), 0.0};
+  if (arc_length < 0.0) {
+    return {pieces_.front().start * Pose2(arc_length, 0.0, 0.0), 0.0};
   }
-  const auto next = std::upper_bound(pieces_.begin(), pieces_.end(), way,
-                                     [](double w, const Piece& piece) { return w < piece.way; });
+  const auto next =
+      std::upper_bound(pieces_.begin(), pieces_.end(), arc_length,
+                       [](double w, const Piece& piece) { return w < piece.arc_length; });
   const Piece& piece = *std::prev(next);
-  const double along = way - piece.way;
+  const double along = arc_length - piece.arc_length;
   return {piece.start * arc({1.0, piece.curvature}, along), piece.curvature};
 }
 
@@ -98,7 +99,7 @@ Polyline Path::points(double arc_step) const {
                           ? 1
                           : std::max(1, static_cast<int>(std::ceil(piece.length / arc_step)));
     for (int i = 0; i < steps; ++i) {
-      line.push_back(at(piece.way + piece.length * i / steps).pose.position());
+      line.push_back(at(piece.arc_length + piece.length * i / steps).pose.position());
     }
   }
   line.push_back(at(length_).pose.position());

@@ -17,15 +17,15 @@ struct PathPoint {
 /// A polyline whose corners are rounded by circular arcs, measured by the way along it.
 class Path {
  public:
-  /// `points`: at least two, m, no two neighbours the same and no turning back on the spot.
+  /// `points`: at least two, m, no two neighbors the same and no turning back on the spot.
   /// `corner_radius`: m, at least 0; where a leg is too short for it, the arc is made smaller.
   /// Throws std::invalid_argument on other input.
   Path(const Polyline& points, double corner_radius);
 
   double length() const { return length_; }
 
-  /// `way`: m from the start; beyond the ends the path goes straight on.
-  PathPoint at(double way) const;
+  /// `arc_length`: m from the start; beyond the ends the path goes straight on.
+  PathPoint at(double arc_length) const;
 
   /// Points along the path: the ends of the legs, and the arcs in steps of at most `arc_step` (m).
   Polyline points(double arc_step) const;
@@ -35,7 +35,7 @@ class Path {
     Pose2 start;
     double curvature = 0.0;
     double length = 0.0;
-    double way = 0.0;  ///< m along the path at the start of the piece
+    double arc_length = 0.0;  ///< m along the path at the start of the piece
   };
 
   void append(const Pose2& start, double curvature, double length);

@@ -15,16 +15,16 @@ RayCaster::RayCaster(const World& world, const WorldState& state, const Point2& 
 void RayCaster::addWithin(const std::vector<Solid>& solids, double reach) {
   for (const Solid& solid : solids) {
     const Circle bound = boundingCircle(solid.outline);
-    if ((bound.centre - origin_).norm() <= reach + bound.radius) {
+    if ((bound.center - origin_).norm() <= reach + bound.radius) {
       candidates_.push_back({&solid, bound});
     }
   }
 }
 
 bool RayCaster::mayMeet(const Candidate& candidate, const Point2& direction) const {
-  const Point2 to_centre = candidate.bound.centre - origin_;
-  const double along = to_centre.dot(direction);
-  const double across = direction.x() * to_centre.y() - direction.y() * to_centre.x();
+  const Point2 to_center = candidate.bound.center - origin_;
+  const double along = to_center.dot(direction);
+  const double across = direction.x() * to_center.y() - direction.y() * to_center.x();
   return along >= -candidate.bound.radius && std::abs(across) <= candidate.bound.radius;
 }
 
@@ -37,8 +37,8 @@ std::optional<RayHit> RayCaster::nearest(double heading, const HeightBand& band,
       continue;
     }
     const std::optional<double> range = rangeTo(candidate.solid->outline, ray);
-    const double most = best ? best->range : reach;
-    if (range && *range <= most && band.lights(candidate.solid->height, *range)) {
+    const double max = best ? best->range : reach;
+    if (range && *range <= max && band.lights(candidate.solid->height, *range)) {
       best = RayHit{*range, candidate.solid->object, surface};
     }
   }

@@ -43,7 +43,7 @@ class RayCaster {
   std::optional<RayHit> nearest(double heading, const HeightBand& band, Surface surface,
                                 double reach) const;
 
-  /// All that stands (bodies and kerbs, not paint) along a heading (rad, world frame) and begins
+  /// All that stands (bodies and curbs, not paint) along a heading (rad, world frame) and begins
   /// ahead of the origin, not farther than `reach`; the nearest first. Heights are left to the
   /// caller: a low thing hides only a part of what is behind it.
   std::vector<Passage> passages(double heading, double reach) const;

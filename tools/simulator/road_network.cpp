@@ -11,9 +11,9 @@ namespace {
 
 /// Step (m) in which lines along roads are sampled to find where other roads open into them.
 constexpr double kSampleStep = 0.25;
-/// Points nearer than this (m) to the straight line between their neighbours are left out.
+/// Points nearer than this (m) to the straight line between their neighbors are left out.
 constexpr double kStraight = 1e-3;
-/// Pieces of a corner between two kerbs.
+/// Pieces of a corner between two curbs.
 constexpr int kCornerPieces = 6;
 /// Zebra stripes and the gaps between them, m (Richtlinien fuer Fussgaengerueberwege: 0.5 m).
 constexpr double kStripe = 0.5;
@@ -37,7 +37,7 @@ bool covers(const Road& road, const Point2& point, double reach) {
   return false;
 }
 
-/// The same line without points that lie on the straight line between their neighbours.
+/// The same line without points that lie on the straight line between their neighbors.
 Polyline simplified(const Polyline& line) {
   Polyline simple{line.front()};
   for (std::size_t i = 1; i + 1 < line.size(); ++i) {
@@ -79,45 +79,45 @@ Polyline bend(const Point2& from, const Point2& control, const Point2& to) {
 RoadNetwork::RoadNetwork(std::vector<Road> roads, std::vector<Crossing> crossings)
     : roads_(std::move(roads)), crossings_(std::move(crossings)) {
   for (std::size_t i = 0; i < roads_.size(); ++i) {
-    addKerbs(i);
+    addCurbs(i);
   }
   addCorners();
 }
 
-void RoadNetwork::addKerbs(std::size_t road) {
+void RoadNetwork::addCurbs(std::size_t road) {
   const Road& street = roads_[road];
   const double length = street.middle.length();
   for (const double left : {0.5 * street.width, -0.5 * street.width}) {
     const Point2 first = beside(road, 0.0, left).position();
     const Point2 last = beside(road, length, left).position();
-    for (const Polyline& kerb : sideLines(road, left, 0.0, length, street.corner_radius)) {
-      if (kerb.front() != first) {
-        kerb_ends_.push_back({road, kerb.front(), (kerb[0] - kerb[1]).normalized()});
+    for (const Polyline& curb : sideLines(road, left, 0.0, length, street.corner_radius)) {
+      if (curb.front() != first) {
+        curb_ends_.push_back({road, curb.front(), (curb[0] - curb[1]).normalized()});
       }
-      if (kerb.back() != last) {
-        kerb_ends_.push_back(
-            {road, kerb.back(), (kerb.back() - kerb[kerb.size() - 2]).normalized()});
+      if (curb.back() != last) {
+        curb_ends_.push_back(
+            {road, curb.back(), (curb.back() - curb[curb.size() - 2]).normalized()});
       }
-      kerbs_.push_back(kerb);
+      curbs_.push_back(curb);
     }
   }
 }
 
 void RoadNetwork::addCorners() {
-  for (std::size_t i = 0; i < kerb_ends_.size(); ++i) {
-    const KerbEnd& end = kerb_ends_[i];
+  for (std::size_t i = 0; i < curb_ends_.size(); ++i) {
+    const CurbEnd& end = curb_ends_[i];
     std::size_t partner = i;
     double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t j = 0; j < kerb_ends_.size(); ++j) {
-      const double distance = (kerb_ends_[j].position - end.position).norm();
-      if (kerb_ends_[j].road != end.road && distance < nearest) {
+    for (std::size_t j = 0; j < curb_ends_.size(); ++j) {
+      const double distance = (curb_ends_[j].position - end.position).norm();
+      if (curb_ends_[j].road != end.road && distance < nearest) {
         partner = j;
         nearest = distance;
       }
     }
-    const KerbEnd& other = kerb_ends_[partner];
+    const CurbEnd& other = curb_ends_[partner];
     if (partner > i) {
-      kerbs_.push_back(bend(end.position,
+      curbs_.push_back(bend(end.position,
                             meetingPoint(end.position, end.ahead, other.position, other.ahead),
                             other.position));
     }
@@ -132,7 +132,7 @@ std::vector<Box2> RoadNetwork::paint() const {
   for (const Crossing& crossing : crossings_) {
     const double half = 0.5 * roads_[crossing.road].width;
     for (double left = -half + kStripe; left < half; left += 2.0 * kStripe) {
-      boxes.push_back({beside(crossing.road, crossing.way, left), crossing.length, kStripe});
+      boxes.push_back({beside(crossing.road, crossing.arc_length, left), crossing.length, kStripe});
     }
   }
   return boxes;
@@ -144,21 +144,22 @@ void RoadNetwork::addDashes(std::size_t road, std::vector<Box2>& boxes) const {
     return;
   }
   const double period = street.dash_length + street.dash_gap;
-  for (double way = 0.5 * period; way < street.middle.length(); way += period) {
+  for (double arc_length = 0.5 * period; arc_length < street.middle.length();
+       arc_length += period) {
     const bool on_crossing =
         std::any_of(crossings_.begin(), crossings_.end(), [&](const Crossing& crossing) {
-          return crossing.road == road &&
-                 std::abs(crossing.way - way) < 0.5 * (crossing.length + street.dash_length);
+          return crossing.road == road && std::abs(crossing.arc_length - arc_length) <
+                                              0.5 * (crossing.length + street.dash_length);
         });
-    const Pose2 middle = beside(road, way, 0.0);
+    const Pose2 middle = beside(road, arc_length, 0.0);
     if (!on_crossing && !onOtherRoad(road, middle.position(), street.corner_radius)) {
       boxes.push_back({middle, street.dash_length, street.paint_width});
     }
   }
 }
 
-Pose2 RoadNetwork::beside(std::size_t road, double way, double left) const {
-  return roads_[road].middle.at(way).pose * Pose2(0.0, left, 0.0);
+Pose2 RoadNetwork::beside(std::size_t road, double arc_length, double left) const {
+  return roads_[road].middle.at(arc_length).pose * Pose2(0.0, left, 0.0);
 }
 
 std::vector<Polyline> RoadNetwork::sideLines(std::size_t road, double left, double from, double to,

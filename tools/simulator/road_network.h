@@ -13,8 +13,8 @@ namespace datmo::simulator {
 struct Road {
   std::string name;
   Path middle;
-  double width = 0.0;          ///< m, from kerb to kerb
-  double corner_radius = 0.0;  ///< m, of the kerbs where other roads open into it
+  double width = 0.0;          ///< m, from curb to curb
+  double corner_radius = 0.0;  ///< m, of the curbs where other roads open into it
   double dash_length = 0.0;    ///< m, of the dashed middle line; 0: none
   double dash_gap = 0.0;       ///< m
   double paint_width = 0.0;    ///< m, of the middle line
@@ -23,12 +23,12 @@ struct Road {
 /// A zebra crossing.
 struct Crossing {
   std::size_t road = 0;
-  double way = 0.0;     ///< m along the road, of its middle
-  double length = 0.0;  ///< m along the road
+  double arc_length = 0.0;  ///< m along the road, of its middle
+  double length = 0.0;      ///< m along the road
 };
 
-/// The streets of a scene. Where two of them meet, kerbs, fronts and paint are left open, and the
-/// kerbs are joined by rounded corners.
+/// The streets of a scene. Where two of them meet, curbs, fronts and paint are left open, and the
+/// curbs are joined by rounded corners.
 class RoadNetwork {
  public:
   RoadNetwork() = default;
@@ -36,14 +36,15 @@ class RoadNetwork {
 
   const std::vector<Road>& roads() const { return roads_; }
 
-  /// All kerbs, the corners of junctions as pieces of their own.
-  const std::vector<Polyline>& kerbs() const { return kerbs_; }
+  /// All curbs, the corners of junctions as pieces of their own.
+  const std::vector<Polyline>& curbs() const { return curbs_; }
 
   /// White paint: dashes and zebra stripes.
   std::vector<Box2> paint() const;
 
-  /// Pose beside a road, heading along it; `left` in m from the middle line, `way` in m along it.
-  Pose2 beside(std::size_t road, double way, double left) const;
+  /// Pose beside a road, heading along it; `left` in m from the middle line, `arc_length` in m
+  /// along it.
+  Pose2 beside(std::size_t road, double arc_length, double left) const;
 
   /// The line along a road at `left` m from its middle line, from one way (m) to another, without
   /// what is on another road or nearer to one than `clearance` (m).
@@ -53,16 +54,16 @@ class RoadNetwork {
   /// Whether a place on `road` is also on another one or nearer to it than `clearance` (m).
   bool onOtherRoad(std::size_t road, const Point2& point, double clearance) const;
 
-  /// Inside a junction, the openings of its kerbs included.
+  /// Inside a junction, the openings of its curbs included.
   bool atIntersection(const Point2& point) const;
 
  private:
-  void addKerbs(std::size_t road);
+  void addCurbs(std::size_t road);
   void addCorners();
   void addDashes(std::size_t road, std::vector<Box2>& boxes) const;
 
-  /// Where a kerb stops for a junction.
-  struct KerbEnd {
+  /// Where a curb stops for a junction.
+  struct CurbEnd {
     std::size_t road = 0;
     Point2 position = Point2::Zero();
     Point2 ahead = Point2::UnitX();  ///< into the junction, length 1
@@ -70,8 +71,8 @@ class RoadNetwork {
 
   std::vector<Road> roads_;
   std::vector<Crossing> crossings_;
-  std::vector<Polyline> kerbs_;
-  std::vector<KerbEnd> kerb_ends_;
+  std::vector<Polyline> curbs_;
+  std::vector<CurbEnd> curb_ends_;
 };
 
 }  // namespace datmo::simulator

@@ -41,8 +41,8 @@ RoadNetwork readRoads(const YAML::Node& scene) {
 }
 
 /// m to the left of the road's middle line.
-double leftOf(const Road& road, const std::string& side, double from_kerb) {
-  const double from_middle = 0.5 * road.width + from_kerb;
+double leftOf(const Road& road, const std::string& side, double from_curb) {
+  const double from_middle = 0.5 * road.width + from_curb;
   return side == "left" ? from_middle : -from_middle;
 }
 
@@ -73,35 +73,36 @@ std::set<int> readLeftOut(const YAML::Node& entry) {
   }
 }
 
-/// What stands on another road, or in the bend of its kerb, is left out.
+/// What stands on another road, or in the bend of its curb, is left out.
 void addRow(const YAML::Node& entry, World& world) {
   const auto item = readItem<RowItem>(entry, {"kinds", "leave_out"});
   const std::vector<std::string> kinds = readKinds(entry);
   const std::set<int> left_out = readLeftOut(entry);
   const std::size_t road_index = findRoad(item.road, world.roads().roads());
   const Road& road = world.roads().roads()[road_index];
-  const double left = leftOf(road, item.side, item.from_kerb);
+  const double left = leftOf(road, item.side, item.from_curb);
   const Pose2 turned(0.0, 0.0, item.side == "left" ? kPi : 0.0);
-  int place = 0;
-  for (double way = item.from; way <= item.to; way = item.from + place * item.spacing) {
-    const std::string& kind = kinds[static_cast<std::size_t>(place) % kinds.size()];
-    const Pose2 pose = world.roads().beside(road_index, way, left) * turned;
-    if (left_out.count(place) == 0 &&
+  int position = 0;
+  for (double arc_length = item.from; arc_length <= item.to;
+       arc_length = item.from + position * item.spacing) {
+    const std::string& kind = kinds[static_cast<std::size_t>(position) % kinds.size()];
+    const Pose2 pose = world.roads().beside(road_index, arc_length, left) * turned;
+    if (left_out.count(position) == 0 &&
         !world.roads().onOtherRoad(road_index, pose.position(), road.corner_radius)) {
       world.addStanding(objectKind(kind), pose);
     }
-    ++place;
+    ++position;
   }
 }
 
 void addFront(const YAML::Node& entry, World& world) {
   const auto item = readItem<FrontItem>(entry);
   const std::size_t road_index = findRoad(item.road, world.roads().roads());
-  const double left = leftOf(world.roads().roads()[road_index], item.side, item.from_kerb);
+  const double left = leftOf(world.roads().roads()[road_index], item.side, item.from_curb);
   for (double from = item.from; from < item.to; from += item.piece + item.gap) {
     const double to = std::min(from + item.piece, item.to);
     for (const Polyline& line :
-         world.roads().sideLines(road_index, left, from, to, item.from_kerb)) {
+         world.roads().sideLines(road_index, left, from, to, item.from_curb)) {
       for (std::size_t i = 0; i + 1 < line.size(); ++i) {
         world.addSolid({Segment{line[i], line[i + 1]}, item.height, Surface::kBody, kNoObject});
       }
@@ -113,33 +114,33 @@ Mover readMover(const YAML::Node& entry, double duration) {
   const auto item = readItem<ActorItem>(entry, {"path", "speed"});
   const Mover mover{objectKind(item.kind), Path(readPoints(entry, "path"), item.corner_radius),
                     readSpeed(entry), item.start};
-  const double way = mover.start + mover.speed.way(duration);
-  if (way > mover.path.length()) {
+  const double arc_length = mover.start + mover.speed.distance(duration);
+  if (arc_length > mover.path.length()) {
     std::ostringstream message;
-    message << "path of " << mover.path.length() << " m: expected at least the " << way
+    message << "path of " << mover.path.length() << " m: expected at least the " << arc_length
             << " m of start and speed in " << duration << " s";
     throw OptionError(message.str());
   }
   return mover;
 }
 
-void checkOrder(const std::string& what, double least, double most) {
-  if (least > most) {
-    throw OptionError("least_" + what + " = " + std::to_string(least) + ": expected at most most_" +
-                      what + ", " + std::to_string(most));
+void checkOrder(const std::string& what, double min, double max) {
+  if (min > max) {
+    throw OptionError("least_" + what + " = " + std::to_string(min) + ": expected at most most_" +
+                      what + ", " + std::to_string(max));
   }
 }
 
 Lane readLane(const YAML::Node& entry) {
   const auto item = readItem<LaneItem>(entry, {"path", "kinds"});
-  checkOrder("speed", item.least_speed, item.most_speed);
-  checkOrder("ahead", item.least_ahead, item.most_ahead);
+  checkOrder("speed", item.min_speed, item.max_speed);
+  checkOrder("ahead", item.min_ahead, item.max_ahead);
   Lane lane{Path(readPoints(entry, "path"), item.corner_radius),
             {},
-            item.least_speed,
-            item.most_speed,
-            item.least_ahead,
-            item.most_ahead};
+            item.min_speed,
+            item.max_speed,
+            item.min_ahead,
+            item.max_ahead};
   for (const std::string& kind : readKinds(entry)) {
     lane.kinds.push_back(objectKind(kind));
   }
@@ -173,8 +174,8 @@ void refuseCollisions(const World& world, double duration) {
   if (const auto collision = firstCollision(world, duration)) {
     std::ostringstream message;
     message << collision->mover << " and " << collision->other << " collide at ["
-            << collision->place.x() << ", " << collision->place.y() << "] after " << collision->time
-            << " s: expected free ways";
+            << collision->position.x() << ", " << collision->position.y() << "] after "
+            << collision->time << " s: expected free ways";
     throw OptionError(message.str());
   }
 }

@@ -7,22 +7,22 @@ namespace datmo::simulator {
 
 namespace {
 
-constexpr Bounds kWay{-1e5, 1e5};
+constexpr Bounds kArcLength{-1e5, 1e5};
 
 void visitStretch(OptionVisitor& visitor, std::string& road, std::string& side, double& from,
                   double& to) {
   visitor.text({"road", "", "name of the road beside which it is"}, road, {});
   visitor.text({"side", "", "of the road, looking along it"}, side, {"left", "right"});
-  visitor.number({"from", "m", "start along the road's middle line"}, from, kWay);
-  visitor.number({"to", "m", "end along the road's middle line"}, to, kWay);
+  visitor.number({"from", "m", "start along the road's middle line"}, from, kArcLength);
+  visitor.number({"to", "m", "end along the road's middle line"}, to, kArcLength);
 }
 
 }  // namespace
 
 void RoadItem::visit(OptionVisitor& visitor) {
   visitor.text({"name", "", "by which other entries call the road"}, name, {});
-  visitor.number({"width", "m", "from kerb to kerb"}, width, {2.0, 100.0});
-  visitor.number({"corner_radius", "m", "of the middle line's bends and of the kerbs at junctions"},
+  visitor.number({"width", "m", "from curb to curb"}, width, {2.0, 100.0});
+  visitor.number({"corner_radius", "m", "of the middle line's bends and of the curbs at junctions"},
                  corner_radius, {0.5, 200.0});
   visitor.number({"dash_length", "m", "of the white middle line; 0: none"}, dash_length,
                  {0.0, 1000.0});
@@ -32,7 +32,7 @@ void RoadItem::visit(OptionVisitor& visitor) {
 
 void CrossingItem::visit(OptionVisitor& visitor) {
   visitor.text({"road", "", "name of the road that has the zebra crossing"}, road, {});
-  visitor.number({"at", "m", "its middle along the road's middle line"}, at, kWay);
+  visitor.number({"at", "m", "its middle along the road's middle line"}, at, kArcLength);
   visitor.number({"length", "m", "of the stripes, along the road"}, length, {1.0, 20.0});
 }
 
@@ -40,13 +40,13 @@ void RowItem::visit(OptionVisitor& visitor) {
   visitStretch(visitor, road, side, from, to);
   visitor.number({"spacing", "m", "from the middle of one thing to that of the next"}, spacing,
                  {0.5, 1000.0});
-  visitor.number({"from_kerb", "m", "from the kerb to the middle; negative: on the carriageway"},
-                 from_kerb, {-50.0, 50.0});
+  visitor.number({"from_curb", "m", "from the curb to the middle; negative: on the carriageway"},
+                 from_curb, {-50.0, 50.0});
 }
 
 void FrontItem::visit(OptionVisitor& visitor) {
   visitStretch(visitor, road, side, from, to);
-  visitor.number({"from_kerb", "m", "from the kerb outwards"}, from_kerb, {0.5, 100.0});
+  visitor.number({"from_curb", "m", "from the curb outwards"}, from_curb, {0.5, 100.0});
   visitor.number({"piece", "m", "length of an unbroken piece"}, piece, {0.5, 1000.0});
   visitor.number({"gap", "m", "between pieces; 0: unbroken"}, gap, {0.0, 1000.0});
   visitor.number({"height", "m", "8 for a building, 1 for a fence"}, height, {0.1, 100.0});
@@ -62,17 +62,17 @@ void ActorItem::visit(OptionVisitor& visitor) {
 void LaneItem::visit(OptionVisitor& visitor) {
   visitor.number({"corner_radius", "m", "of the arcs at the corners of its path"}, corner_radius,
                  {0.0, 200.0});
-  visitor.number({"least_speed", "m/s", "of the movers in it"}, least_speed, {0.1, 100.0});
-  visitor.number({"most_speed", "m/s", "of the movers in it"}, most_speed, {0.1, 100.0});
-  visitor.number({"least_ahead", "m", "along the lane, of the ego vehicle when they meet"},
-                 least_ahead, {-500.0, 500.0});
-  visitor.number({"most_ahead", "m", "along the lane, of the ego vehicle when they meet"},
-                 most_ahead, {-500.0, 500.0});
+  visitor.number({"min_speed", "m/s", "of the movers in it"}, min_speed, {0.1, 100.0});
+  visitor.number({"max_speed", "m/s", "of the movers in it"}, max_speed, {0.1, 100.0});
+  visitor.number({"min_ahead", "m", "along the lane, of the ego vehicle when they meet"}, min_ahead,
+                 {-500.0, 500.0});
+  visitor.number({"max_ahead", "m", "along the lane, of the ego vehicle when they meet"}, max_ahead,
+                 {-500.0, 500.0});
 }
 
 void SimulationOptions::visit(OptionVisitor& visitor) {
-  constexpr double kMostSeed = 2147483647.0;
-  visitor.integer({"seed", "1", "of all random numbers"}, seed, {0.0, kMostSeed});
+  constexpr double kMaxSeed = 2147483647.0;
+  visitor.integer({"seed", "1", "of all random numbers"}, seed, {0.0, kMaxSeed});
   visitor.number({"duration", "s", "of the bag"}, duration, {0.1, 36000.0});
   visitor.text({"compression", "", "of the bag"}, compression, {"none", "bz2", "lz4"});
   visitor.group("scanner", [&] { scanner.visit(visitor); });

@@ -34,7 +34,7 @@ struct RowItem {
   double from = 0.0;
   double to = 0.0;
   double spacing = 10.0;
-  double from_kerb = 0.0;
+  double from_curb = 0.0;
 
   void visit(OptionVisitor& visitor);
 };
@@ -45,7 +45,7 @@ struct FrontItem {
   std::string side = "right";
   double from = 0.0;
   double to = 0.0;
-  double from_kerb = 4.0;
+  double from_curb = 4.0;
   double piece = 20.0;
   double gap = 0.0;
   double height = 8.0;
@@ -65,10 +65,10 @@ struct ActorItem {
 /// A path for random traffic.
 struct LaneItem {
   double corner_radius = 6.0;
-  double least_speed = 10.0;
-  double most_speed = 15.0;
-  double least_ahead = 0.0;
-  double most_ahead = 0.0;
+  double min_speed = 10.0;
+  double max_speed = 15.0;
+  double min_ahead = 0.0;
+  double max_ahead = 0.0;
 
   void visit(OptionVisitor& visitor);
 };

@@ -4,11 +4,11 @@
 
 namespace datmo::simulator {
 
-void readAt(const std::string& place, const std::function<void()>& read) {
+void readAt(const std::string& location, const std::function<void()>& read) {
   try {
     read();
   } catch (const std::invalid_argument& error) {
-    throw OptionError(place + ": " + error.what());
+    throw OptionError(location + ": " + error.what());
   }
 }
 

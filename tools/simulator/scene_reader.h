@@ -14,8 +14,8 @@
 
 namespace datmo::simulator {
 
-/// Runs `read` and puts `place` before the message of what it throws.
-void readAt(const std::string& place, const std::function<void()>& read);
+/// Runs `read` and puts `location` before the message of what it throws.
+void readAt(const std::string& location, const std::function<void()>& read);
 
 /// Rows of `columns` numbers each. Throws OptionError for anything else.
 std::vector<std::vector<double>> readRows(const std::string& key, const YAML::Node& node,

@@ -26,7 +26,7 @@ void cutWithSlab(double origin, double direction, double half, double& enter, do
 }
 
 std::optional<RaySpan> spanInBox(const Box2& box, const HalfLine& ray) {
-  const Pose2 world_in_box = box.centre.inverse();
+  const Pose2 world_in_box = box.center.inverse();
   const Point2 origin = world_in_box * ray.origin;
   const Point2 direction = world_in_box.rotate(ray.direction);
   double enter = -std::numeric_limits<double>::infinity();
@@ -40,9 +40,9 @@ std::optional<RaySpan> spanInBox(const Box2& box, const HalfLine& ray) {
 }
 
 std::optional<RaySpan> spanInCircle(const Circle& circle, const HalfLine& ray) {
-  const Point2 to_centre = circle.centre - ray.origin;
-  const double along = to_centre.dot(ray.direction);
-  const double across = cross(ray.direction, to_centre);
+  const Point2 to_center = circle.center - ray.origin;
+  const double along = to_center.dot(ray.direction);
+  const double across = cross(ray.direction, to_center);
   const double half_chord_squared = circle.radius * circle.radius - across * across;
   if (half_chord_squared < 0.0) {
     return std::nullopt;
@@ -87,15 +87,15 @@ std::vector<Point2> corners(const Shape& shape) {
 }
 
 struct Interval {
-  double least = std::numeric_limits<double>::infinity();
-  double most = -std::numeric_limits<double>::infinity();
+  double min = std::numeric_limits<double>::infinity();
+  double max = -std::numeric_limits<double>::infinity();
 };
 
 Interval project(const std::vector<Point2>& points, const Point2& axis) {
   Interval interval;
   for (const Point2& point : points) {
-    interval.least = std::min(interval.least, point.dot(axis));
-    interval.most = std::max(interval.most, point.dot(axis));
+    interval.min = std::min(interval.min, point.dot(axis));
+    interval.max = std::max(interval.max, point.dot(axis));
   }
   return interval;
 }
@@ -107,7 +107,7 @@ bool separatedByEdgesOf(const std::vector<Point2>& a, const std::vector<Point2>&
     for (const Point2& axis : {edge, Point2(-edge.y(), edge.x())}) {
       const Interval of_a = project(a, axis);
       const Interval of_b = project(b, axis);
-      if (of_a.most < of_b.least || of_b.most < of_a.least) {
+      if (of_a.max < of_b.min || of_b.max < of_a.min) {
         return true;
       }
     }
@@ -126,7 +126,7 @@ Circle boundingCircle(const Shape& shape) {
     return *circle;
   }
   if (const auto* box = std::get_if<Box2>(&shape)) {
-    return {box->centre.position(), 0.5 * Point2(box->length, box->width).norm()};
+    return {box->center.position(), 0.5 * Point2(box->length, box->width).norm()};
   }
   const auto& segment = std::get<Segment>(shape);
   return {0.5 * (segment.start + segment.end), 0.5 * (segment.end - segment.start).norm()};
@@ -155,17 +155,17 @@ double distanceTo(const Shape& shape, const Point2& point) {
     return box->distanceTo(point);
   }
   if (const auto* circle = std::get_if<Circle>(&shape)) {
-    return std::max(0.0, (point - circle->centre).norm() - circle->radius);
+    return std::max(0.0, (point - circle->center).norm() - circle->radius);
   }
   return distanceToSegment(std::get<Segment>(shape), point);
 }
 
 bool overlap(const Shape& a, const Shape& b) {
   if (const auto* circle = std::get_if<Circle>(&a)) {
-    return distanceTo(b, circle->centre) <= circle->radius;
+    return distanceTo(b, circle->center) <= circle->radius;
   }
   if (const auto* circle = std::get_if<Circle>(&b)) {
-    return distanceTo(a, circle->centre) <= circle->radius;
+    return distanceTo(a, circle->center) <= circle->radius;
   }
   const std::vector<Point2> corners_a = corners(a);
   const std::vector<Point2> corners_b = corners(b);

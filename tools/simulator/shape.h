@@ -9,7 +9,7 @@
 namespace datmo::simulator {
 
 struct Circle {
-  Point2 centre = Point2::Zero();
+  Point2 center = Point2::Zero();
   double radius = 0.0;  ///< m
 };
 

@@ -33,8 +33,8 @@ Message emptyScan(const LaserScannerOptions& options, Stamp stamp) {
   message.angle_increment = static_cast<float>(degrees(options.beam_spacing));
   message.time_increment = gaps > 0 ? static_cast<float>(options.sweep_duration / gaps) : 0.0F;
   message.scan_time = static_cast<float>(1.0 / options.scan_rate);
-  message.range_min = static_cast<float>(options.least_range);
-  message.range_max = static_cast<float>(std::min(options.effective_range, options.most_range));
+  message.range_min = static_cast<float>(options.min_range);
+  message.range_max = static_cast<float>(std::min(options.effective_range, options.max_range));
   return message;
 }
 
@@ -52,7 +52,7 @@ TrueObject toMessage(const ObjectTruth& truth, const Pose2& world_in_map) {
   message.id = truth.state.id;
   message.label = kind.label;
   message.classification = static_cast<std::uint8_t>(kind.object_class);
-  message.pose = datmo::toMessage(world_in_map * truth.state.centre);
+  message.pose = datmo::toMessage(world_in_map * truth.state.center);
   message.pose.position.z = 0.5 * kind.height;
   message.size.x = kind.length;
   message.size.y = kind.width;
@@ -70,8 +70,8 @@ std::uint8_t surfaceOf(const Echo& echo) {
   switch (echo.surface) {
     case Surface::kBody:
       return TrueEchoes::BODY;
-    case Surface::kKerb:
-      return TrueEchoes::KERB;
+    case Surface::kCurb:
+      return TrueEchoes::CURB;
     case Surface::kPaint:
       break;
   }
@@ -161,9 +161,9 @@ TrueRoadBorders toTrueBorders(const RoadNetwork& roads, const WorldState& state,
   TrueRoadBorders message;
   message.header = header(stamp, kMapFrame);
   message.at_intersection = roads.atIntersection(state.base.position());
-  for (const Polyline& kerb : roads.kerbs()) {
+  for (const Polyline& curb : roads.curbs()) {
     ::datmo_fusion::Polyline border;
-    for (const Point2& point : kerb) {
+    for (const Point2& point : curb) {
       border.points.push_back(toPoint32(world_in_map * point));
     }
     message.borders.push_back(border);

@@ -42,19 +42,19 @@ double SpeedProfile::speed(double time) const {
   return last->speed + share * (next->speed - last->speed);
 }
 
-double SpeedProfile::way(double time) const {
+double SpeedProfile::distance(double time) const {
   double driven = 0.0;
   double since = 0.0;
   for (const SpeedPoint& point : points_) {
     if (point.time > since && point.time < time) {
-      driven += wayBetween(since, point.time);
+      driven += distanceBetween(since, point.time);
       since = point.time;
     }
   }
-  return driven + wayBetween(since, time);
+  return driven + distanceBetween(since, time);
 }
 
-double SpeedProfile::wayBetween(double from, double to) const {
+double SpeedProfile::distanceBetween(double from, double to) const {
   return 0.5 * (speed(from) + speed(to)) * (to - from);
 }
 

@@ -22,10 +22,10 @@ class SpeedProfile {
   double speed(double time) const;
 
   /// Way driven since time 0, m.
-  double way(double time) const;
+  double distance(double time) const;
 
  private:
-  double wayBetween(double from, double to) const;
+  double distanceBetween(double from, double to) const;
 
   std::vector<SpeedPoint> points_;
 };

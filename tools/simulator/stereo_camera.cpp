@@ -11,10 +11,10 @@ namespace {
 
 void check(const StereoCameraOptions& options) {
   checkOptions(options);
-  if (options.least_range >= options.most_range) {
-    throw OptionError("stereo/least_range = " + std::to_string(options.least_range) +
-                      ": expected less than stereo/most_range, " +
-                      std::to_string(options.most_range) + " m");
+  if (options.min_range >= options.max_range) {
+    throw OptionError("stereo/min_range = " + std::to_string(options.min_range) +
+                      ": expected less than stereo/max_range, " +
+                      std::to_string(options.max_range) + " m");
   }
 }
 
@@ -34,7 +34,7 @@ StereoCamera::StereoCamera(const StereoCameraOptions& options, std::uint64_t see
 Viewpoint StereoCamera::viewpoint() const {
   const double half_field = std::atan(0.5 * options_.image_width / options_.focal_length);
   return {"stereo", Pose2(options_.mount_x, options_.mount_y, 0.0), options_.mount_height,
-          2.0 * half_field, std::min(options_.effective_range, options_.most_range)};
+          2.0 * half_field, std::min(options_.effective_range, options_.max_range)};
 }
 
 StereoPoints StereoCamera::measure(const World& world, double time) {
@@ -45,7 +45,7 @@ StereoPoints StereoCamera::measure(const World& world, double time) {
   addNoise(image, options_.disparity_noise, options_.noise_common_share, options_.noise_patch,
            random_);
   addOutliers(image, options_.outlier_share, options_.outlier_patch,
-              options_.disparityAt(options_.most_range), options_.disparityAt(options_.least_range),
+              options_.disparityAt(options_.max_range), options_.disparityAt(options_.min_range),
               random_);
   return {time, pointsOf(image)};
 }
@@ -62,7 +62,7 @@ DisparityImage StereoCamera::look(const World& world, const WorldState& state, d
   image.measured = image.seen;
   const Pose2 camera = state.base * viewpoint().sensor_in_base;
   const double corner = std::hypot(1.0, options_.middleColumn() / options_.focal_length);
-  const RayCaster caster(world, state, camera.position(), corner * options_.most_range);
+  const RayCaster caster(world, state, camera.position(), corner * options_.max_range);
   for (int column = 0; column < image.columns; ++column) {
     lookAlongColumn(caster, camera, column, nod, image);
   }
@@ -78,13 +78,13 @@ void StereoCamera::lookAlongColumn(const RayCaster& caster, const Pose2& camera,
       (column * options_.column_step - options_.middleColumn()) / options_.focal_length;
   const double range_per_depth = std::hypot(1.0, right);
   const double heading = camera.heading() - std::atan(right);
-  const double reach = options_.most_range * range_per_depth;
+  const double reach = options_.max_range * range_per_depth;
   const std::vector<Passage> passages = caster.passages(heading, reach);
   const HalfLine ray = halfLine(camera.position(), heading);
   for (int row = 0; row < image.rows; ++row) {
     const double down = (row * options_.row_step - options_.middleRow()) / options_.focal_length;
-    const SightLine line{options_.mount_height, (down - nod) / range_per_depth, reach};
-    const std::optional<SightEnd> end = endOf(line, passages);
+    const SlopedRay line{options_.mount_height, (down - nod) / range_per_depth, reach};
+    const std::optional<RayEnd> end = endOf(line, passages);
     if (!end) {
       continue;
     }
@@ -97,14 +97,14 @@ void StereoCamera::lookAlongColumn(const RayCaster& caster, const Pose2& camera,
 }
 
 std::vector<Eigen::Vector3f> StereoCamera::pointsOf(const DisparityImage& image) const {
-  const double least = options_.disparityAt(options_.most_range);
-  const double most = options_.disparityAt(options_.least_range);
+  const double min = options_.disparityAt(options_.max_range);
+  const double max = options_.disparityAt(options_.min_range);
   std::vector<Eigen::Vector3f> points;
   for (int row = 0; row < image.rows; ++row) {
     const double down = (row * options_.row_step - options_.middleRow()) / options_.focal_length;
     for (int column = 0; column < image.columns; ++column) {
       const double disparity = image.measured[image.slot(column, row)];
-      if (disparity < least || disparity > most) {
+      if (disparity < min || disparity > max) {
         continue;
       }
       const double right =

@@ -6,7 +6,7 @@
 
 #include "simulator/disparity_image.h"
 #include "simulator/random_stream.h"
-#include "simulator/sight_line.h"
+#include "simulator/sloped_ray.h"
 #include "simulator/surface_texture.h"
 #include "simulator/viewpoint.h"
 #include "simulator/world.h"
@@ -31,8 +31,8 @@ struct StereoCameraOptions {
   double focal_length = 380.0;    ///< px
   int column_step = 1;            ///< px
   int row_step = 1;               ///< px
-  double least_range = 3.0;       ///< m
-  double most_range = 60.0;       ///< m
+  double min_range = 3.0;         ///< m
+  double max_range = 60.0;        ///< m
   double effective_range = 36.0;  ///< m
 
   double disparity_noise = 0.25;  ///< px
@@ -64,7 +64,7 @@ struct StereoPoints {
 };
 
 /// Looks into a world with two cameras side by side, level, and gives the points that matching
-/// their images finds. Paint on the road is road to it; a kerb is a low solid.
+/// their images finds. Paint on the road is road to it; a curb is a low solid.
 class StereoCamera {
  public:
   /// `seed`: of the run. Throws OptionError for options that contradict each other.

@@ -19,24 +19,24 @@ void visitMount(StereoCameraOptions& o, OptionVisitor& visitor) {
 }
 
 void visitImages(StereoCameraOptions& o, OptionVisitor& visitor) {
-  constexpr double kMostPixels = 4096.0;
+  constexpr double kMaxPixels = 4096.0;
   visitor.number({"rate", "Hz", "pairs of images; thesis 1.3.3: about 12"}, o.rate, {0.1, 100.0});
   visitor.number({"latency", "s", "from a pair's exposure, its stamp, to its points; assumed"},
                  o.latency, {0.0, 1.0});
   visitor.integer({"image_width", "px", "of the rectified and down-sampled images; assumed"},
-                  o.image_width, {16.0, kMostPixels});
+                  o.image_width, {16.0, kMaxPixels});
   visitor.integer({"image_height", "px",
                    "of these images: cut to what lies ahead, the road from 4 m on; assumed"},
-                  o.image_height, {16.0, kMostPixels});
+                  o.image_height, {16.0, kMaxPixels});
   visitor.number({"focal_length", "px", "of these images: 68 deg from side to side; assumed"},
                  o.focal_length, {10.0, 10000.0});
   visitor.integer(
       {"column_step", "px", "a point for every so many columns: fewer make a smaller bag"},
       o.column_step, {1.0, 64.0});
   visitor.integer({"row_step", "px", "a point for every so many rows"}, o.row_step, {1.0, 64.0});
-  visitor.number({"least_range", "m", "depth of the nearest points; assumed"}, o.least_range,
+  visitor.number({"min_range", "m", "depth of the nearest points; assumed"}, o.min_range,
                  {0.1, 100.0});
-  visitor.number({"most_range", "m", "depth of the farthest points; assumed"}, o.most_range,
+  visitor.number({"max_range", "m", "depth of the farthest points; assumed"}, o.max_range,
                  {1.0, 1000.0});
   visitor.number({"effective_range", "m",
                   "what is farther away does not count as visible in the ground truth; thesis "
@@ -49,7 +49,7 @@ void visitMatching(StereoCameraOptions& o, OptionVisitor& visitor) {
       {"disparity_noise", "px", "standard deviation: two of them are 5 m at 36 m (thesis 3.3.3)"},
       o.disparity_noise, {0.0, 10.0});
   visitor.number({"noise_common_share", "1",
-                  "share of the noise's variance that neighbours have in common, as matching by "
+                  "share of the noise's variance that neighbors have in common, as matching by "
                   "windows or paths makes it; assumed"},
                  o.noise_common_share, {0.0, 1.0});
   visitor.integer({"noise_patch", "px", "over which noise is common; assumed"}, o.noise_patch,

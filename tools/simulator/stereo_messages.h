@@ -13,7 +13,7 @@ namespace datmo::simulator {
 /// Where the left camera sits: base_link -> stereo_left_optical (x right, y down, z forward).
 geometry_msgs::TransformStamped toMount(const StereoCameraOptions& options, Stamp stamp);
 
-/// As stereo_image_proc publishes points, but for the colours and the holes: a list of x, y, z
+/// As stereo_image_proc publishes points, but for the colors and the holes: a list of x, y, z
 /// (float32, m) without those that were not found.
 sensor_msgs::PointCloud2 toCloud(const StereoPoints& points, Stamp stamp);
 

@@ -9,7 +9,7 @@ namespace {
 /// Cubes begin off the middles and borders of solids, where rounding would flicker between two.
 constexpr double kOffset = 0.137;
 
-/// SplitMix64's finaliser (Steele, Lea, Flood, "Fast splittable pseudorandom number generators",
+/// SplitMix64's finalizer (Steele, Lea, Flood, "Fast splittable pseudorandom number generators",
 /// 2014): each bit of the result hangs on each bit of the value.
 std::uint64_t mixed(std::uint64_t value) {
   value += 0x9e3779b97f4a7c15ULL;
@@ -27,10 +27,10 @@ double toShare(std::uint64_t hash) {
 /// The point as the solid itself sees it.
 Point2 inFrameOf(const Solid& solid, const Point2& point) {
   if (const auto* box = std::get_if<Box2>(&solid.outline)) {
-    return box->centre.inverse() * point;
+    return box->center.inverse() * point;
   }
   if (const auto* circle = std::get_if<Circle>(&solid.outline)) {
-    return point - circle->centre;
+    return point - circle->center;
   }
   return point;
 }
@@ -44,10 +44,10 @@ SurfaceTexture::SurfaceTexture(double patch, double share_on_solids, double shar
       share_on_road_(share_on_road),
       seed_(seed) {}
 
-bool SurfaceTexture::isEven(const SightEnd& end, const Point2& point) const {
-  const Point2 place = end.solid != nullptr ? inFrameOf(*end.solid, point) : point;
+bool SurfaceTexture::isEven(const RayEnd& end, const Point2& point) const {
+  const Point2 position = end.solid != nullptr ? inFrameOf(*end.solid, point) : point;
   std::uint64_t hash = mixed(seed_ ^ (end.solid != nullptr ? end.solid->object : kNoObject));
-  for (const double coordinate : {place.x(), place.y(), end.height}) {
+  for (const double coordinate : {position.x(), position.y(), end.height}) {
     const auto index = static_cast<std::int64_t>(std::floor((coordinate + kOffset) / patch_));
     hash = mixed(hash ^ static_cast<std::uint64_t>(index));
   }

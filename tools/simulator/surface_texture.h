@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "simulator/sight_line.h"
+#include "simulator/sloped_ray.h"
 
 namespace datmo::simulator {
 
@@ -18,7 +18,7 @@ class SurfaceTexture {
   SurfaceTexture(double patch, double share_on_solids, double share_on_road, std::uint64_t seed);
 
   /// Whether the place where a sight line ends is even. `point`: m, world frame.
-  bool isEven(const SightEnd& end, const Point2& point) const;
+  bool isEven(const RayEnd& end, const Point2& point) const;
 
  private:
   double patch_;

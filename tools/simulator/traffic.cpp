@@ -9,11 +9,11 @@ namespace datmo::simulator {
 namespace {
 
 /// Draws after which a mover is given up; lanes that are not full need a few.
-constexpr int kMostDraws = 1000;
+constexpr int kMaxDraws = 1000;
 /// m; how finely a lane is searched for its place beside the ego vehicle.
 constexpr double kSearchStep = 1.0;
 
-double between(double least, double most, double share) { return least + share * (most - least); }
+double between(double min, double max, double share) { return min + share * (max - min); }
 
 template <typename Item>
 const Item& oneOf(const std::vector<Item>& items, RandomStream& random) {
@@ -21,12 +21,12 @@ const Item& oneOf(const std::vector<Item>& items, RandomStream& random) {
 }
 
 /// m along the path, of its place nearest to a point.
-double wayBeside(const Path& path, const Point2& point) {
+double arcLengthBeside(const Path& path, const Point2& point) {
   double nearest = 0.0;
-  for (double way = 0.0; way <= path.length(); way += kSearchStep) {
-    if ((path.at(way).pose.position() - point).norm() <
+  for (double arc_length = 0.0; arc_length <= path.length(); arc_length += kSearchStep) {
+    if ((path.at(arc_length).pose.position() - point).norm() <
         (path.at(nearest).pose.position() - point).norm()) {
-      nearest = way;
+      nearest = arc_length;
     }
   }
   return nearest;
@@ -36,10 +36,11 @@ Mover draw(const std::vector<Lane>& lanes, double duration, const Mover& ego,
            RandomStream& random) {
   const Lane& lane = oneOf(lanes, random);
   const ObjectKind& kind = oneOf(lane.kinds, random);
-  const double speed = between(lane.least_speed, lane.most_speed, random.uniform());
+  const double speed = between(lane.min_speed, lane.max_speed, random.uniform());
   const double meeting = between(0.0, duration, random.uniform());
-  const double ahead = between(lane.least_ahead, lane.most_ahead, random.uniform());
-  const double start = wayBeside(lane.path, ego.axle(meeting).position()) + ahead - speed * meeting;
+  const double ahead = between(lane.min_ahead, lane.max_ahead, random.uniform());
+  const double start =
+      arcLengthBeside(lane.path, ego.axle(meeting).position()) + ahead - speed * meeting;
   return {kind, lane.path, SpeedProfile({{0.0, speed}}), start};
 }
 
@@ -50,7 +51,7 @@ bool isFree(const World& world, Mover mover, double gap, double duration) {
 
 bool addMover(const std::vector<Lane>& lanes, const TrafficOptions& options, double duration,
               RandomStream& random, World& world) {
-  for (int i = 0; i < kMostDraws; ++i) {
+  for (int i = 0; i < kMaxDraws; ++i) {
     const Mover mover = draw(lanes, duration, world.ego(), random);
     if (isFree(world, mover, options.gap, duration)) {
       world.addMover(mover);

@@ -23,10 +23,10 @@ struct TrafficOptions {
 struct Lane {
   Path path;
   std::vector<ObjectKind> kinds;  ///< at least one
-  double least_speed = 0.0;       ///< m/s
-  double most_speed = 0.0;        ///< m/s, at least `least_speed`
-  double least_ahead = 0.0;       ///< m along the lane, of the ego vehicle when it is met
-  double most_ahead = 0.0;        ///< m, at least `least_ahead`
+  double min_speed = 0.0;         ///< m/s
+  double max_speed = 0.0;         ///< m/s, at least `min_speed`
+  double min_ahead = 0.0;         ///< m along the lane, of the ego vehicle when it is met
+  double max_ahead = 0.0;         ///< m, at least `min_ahead`
 };
 
 /// Adds movers to the world, each drawn from the stream: its lane, kind and constant speed, the

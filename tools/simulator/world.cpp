@@ -8,8 +8,8 @@ namespace datmo::simulator {
 
 namespace {
 
-/// Kerb stones of German city streets stand 10 to 15 cm above the road.
-constexpr double kKerbHeight = 0.12;
+/// Curb stones of German city streets stand 10 to 15 cm above the road.
+constexpr double kCurbHeight = 0.12;
 /// Slower than this (m/s) is standing in the ground truth.
 constexpr double kStandstill = 0.1;
 
@@ -46,23 +46,23 @@ const ObjectKind& objectKind(const std::string& key) {
 }
 
 Solid ObjectState::solid() const {
-  const Shape outline = kind.round ? Shape(Circle{centre.position(), 0.5 * kind.width}) : box();
+  const Shape outline = kind.round ? Shape(Circle{center.position(), 0.5 * kind.width}) : box();
   return {outline, kind.height, Surface::kBody, id};
 }
 
-Pose2 Mover::axle(double time) const { return path.at(start + speed.way(time)).pose; }
+Pose2 Mover::axle(double time) const { return path.at(start + speed.distance(time)).pose; }
 
 Twist2 Mover::twist(double time) const {
   const double forward = speed.speed(time);
-  return {forward, forward * path.at(start + speed.way(time)).curvature};
+  return {forward, forward * path.at(start + speed.distance(time)).curvature};
 }
 
-Pose2 Mover::centre(double time) const { return axle(time) * Pose2(kind.axle_to_centre, 0.0, 0.0); }
+Pose2 Mover::center(double time) const { return axle(time) * Pose2(kind.axle_to_center, 0.0, 0.0); }
 
 World::World(RoadNetwork roads, Mover ego) : roads_(std::move(roads)), ego_(std::move(ego)) {
-  for (const Polyline& kerb : roads_.kerbs()) {
-    for (std::size_t i = 0; i + 1 < kerb.size(); ++i) {
-      addSolid({Segment{kerb[i], kerb[i + 1]}, kKerbHeight, Surface::kKerb, kNoObject});
+  for (const Polyline& curb : roads_.curbs()) {
+    for (std::size_t i = 0; i + 1 < curb.size(); ++i) {
+      addSolid({Segment{curb[i], curb[i + 1]}, kCurbHeight, Surface::kCurb, kNoObject});
     }
   }
   for (const Box2& paint : roads_.paint()) {
@@ -70,11 +70,11 @@ World::World(RoadNetwork roads, Mover ego) : roads_(std::move(roads)), ego_(std:
   }
 }
 
-void World::addStanding(const ObjectKind& kind, const Pose2& centre) {
+void World::addStanding(const ObjectKind& kind, const Pose2& center) {
   ObjectState state;
   state.id = static_cast<std::uint32_t>(standing_.size()) + 1;
   state.kind = kind;
-  state.centre = centre;
+  state.center = center;
   standing_.push_back(state);
   addSolid(state.solid());
 }
@@ -90,9 +90,9 @@ WorldState World::at(double time) const {
     ObjectState object;
     object.id = static_cast<std::uint32_t>(state.objects.size()) + 1;
     object.kind = mover.kind;
-    object.centre = mover.centre(time);
+    object.center = mover.center(time);
     object.velocity =
-        object.centre.rotate({twist.forward_speed, twist.yaw_rate * mover.kind.axle_to_centre});
+        object.center.rotate({twist.forward_speed, twist.yaw_rate * mover.kind.axle_to_center});
     object.moving = twist.forward_speed > kStandstill;
     state.objects.push_back(object);
     state.moving_solids.push_back(object.solid());

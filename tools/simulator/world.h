@@ -17,11 +17,11 @@ namespace datmo::simulator {
 /// How a solid answers a beam of light.
 enum class Surface {
   kBody,   ///< reflects, and hides what is behind it
-  kKerb,   ///< an edge so low that it reflects only sometimes, and hides nothing
+  kCurb,   ///< an edge so low that it reflects only sometimes, and hides nothing
   kPaint,  ///< white paint on the road, flat; reflects by mistake (thesis 1.3.3)
 };
 
-/// No object of the ground truth: buildings, fences, kerbs.
+/// No object of the ground truth: buildings, fences, curbs.
 inline constexpr std::uint32_t kNoObject = 0;
 
 /// A thing on the road, as an upright prism.
@@ -41,7 +41,7 @@ struct ObjectKind {
   double width = 0.0;           ///< m
   double height = 0.0;          ///< m
   bool round = false;           ///< a circle of diameter `width`
-  double axle_to_centre = 0.0;  ///< m, from the point that follows the path (the rear axle)
+  double axle_to_center = 0.0;  ///< m, from the point that follows the path (the rear axle)
 };
 
 /// All kinds that scenes are made of: car, van, truck, cyclist, pedestrian, pole, tree.
@@ -57,11 +57,11 @@ const ObjectKind& objectKind(const std::string& key);
 struct ObjectState {
   std::uint32_t id = kNoObject;
   ObjectKind kind;
-  Pose2 centre;
-  Point2 velocity = Point2::Zero();  ///< m/s, of the centre over ground
+  Pose2 center;
+  Point2 velocity = Point2::Zero();  ///< m/s, of the center over ground
   bool moving = false;
 
-  Box2 box() const { return {centre, kind.length, kind.width}; }
+  Box2 box() const { return {center, kind.length, kind.width}; }
   Solid solid() const;
 };
 
@@ -76,7 +76,7 @@ struct Mover {
   Pose2 axle(double time) const;
   Twist2 twist(double time) const;
   /// Pose of the box's middle.
-  Pose2 centre(double time) const;
+  Pose2 center(double time) const;
 };
 
 /// What is there at one time; the sensors measure this.
@@ -96,13 +96,13 @@ class World {
 
   void addSolid(const Solid& solid) { fixed_solids_.push_back(solid); }
   /// An object that never moves.
-  void addStanding(const ObjectKind& kind, const Pose2& centre);
+  void addStanding(const ObjectKind& kind, const Pose2& center);
   void addMover(const Mover& mover) { movers_.push_back(mover); }
 
   const RoadNetwork& roads() const { return roads_; }
   const Mover& ego() const { return ego_; }
   const std::vector<Mover>& movers() const { return movers_; }
-  /// All that never moves, kerbs, paint and standing objects included.
+  /// All that never moves, curbs, paint and standing objects included.
   const std::vector<Solid>& fixedSolids() const { return fixed_solids_; }
 
   /// `time`: s since the start. Ids of objects are the same at all times: first what stands, then

@@ -6,9 +6,9 @@
 
 namespace datmo {
 
-/// A rectangle on the ground: its centre and heading, its length along the heading and its width.
+/// A rectangle on the ground: its center and heading, its length along the heading and its width.
 struct Box2 {
-  Pose2 centre;
+  Pose2 center;
   double length = 0.0;  ///< m, at least 0
   double width = 0.0;   ///< m, at least 0
 

@@ -8,10 +8,10 @@ namespace datmo {
 /// clouds.
 struct FieldOfView {
   Pose2 sensor_in_base;
-  double least_bearing = -kPi;  ///< rad, about the sensor, from its x axis to the left
-  double most_bearing = kPi;    ///< rad, more than the least one, by 2 pi at most
-  double sure_range = 0.0;      ///< m, up to here it finds all that it can see
-  double range = 0.0;           ///< m, from there on less and less of it, up to here
+  double min_bearing = -kPi;  ///< rad, about the sensor, from its x axis to the left
+  double max_bearing = kPi;   ///< rad, more than the least one, by 2 pi at most
+  double sure_range = 0.0;    ///< m, up to here it finds all that it can see
+  double range = 0.0;         ///< m, from there on less and less of it, up to here
 };
 
 }  // namespace datmo

@@ -39,7 +39,7 @@ inline constexpr double kHiddenSide = std::numeric_limits<double>::infinity();
 /// One object that a sensor sees in one measurement, without memory of earlier ones.
 struct Object {
   Box2 box;                                                           ///< frame of the list
-  Eigen::Matrix2d position_covariance = Eigen::Matrix2d::Identity();  ///< m^2, of the box's centre
+  Eigen::Matrix2d position_covariance = Eigen::Matrix2d::Identity();  ///< m^2, of the box's center
   double heading_variance = kUnknownHeadingVariance;                  ///< rad^2, modulo pi
   /// m^2, of each side along its normal, by itself: on top of the position's covariance, which
   /// moves the box as a whole. 0 or more, or kHiddenSide.

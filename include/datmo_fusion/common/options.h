@@ -19,8 +19,8 @@ struct OptionInfo {
 
 /// Closed interval of the values that an option may take.
 struct Bounds {
-  double least = -std::numeric_limits<double>::infinity();
-  double most = std::numeric_limits<double>::infinity();
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
 };
 
 /// An option that has no valid value: the message names it, its value and what was expected.
@@ -102,7 +102,7 @@ void checkOptions(const Options& options) {
 /// number is wanted.
 ///
 /// Throws OptionError for a value of the wrong type, one that checkOptions refuses, and a key that
-/// no option has (a misspelt one): the message names the nearest key there is.
+/// no option has (a misspelled one): the message names the nearest key there is.
 template <typename Options>
 Options readOptions(const OptionValues& values) {
   Options options;

@@ -20,7 +20,7 @@ struct Ray {
 };
 
 /// A scan has at most as many beams: their index has 16 bits in messages.
-inline constexpr std::uint32_t kMostBeams = 65536;
+inline constexpr std::uint32_t kMaxBeams = 65536;
 
 /// Where the beams of a scan look, and how far: those too that saw nothing. Bearings in rad about
 /// the scanner, from its x axis to the left.
@@ -28,7 +28,7 @@ struct ScanField {
   double first_bearing = 0.0;  ///< of beam 0
   double beam_spacing = 0.0;   ///< from a beam to the next one; negative: it is to the right
   std::uint32_t beams = 0;     ///< 0: nothing is known of the field
-  double least_range = 0.0;    ///< m, nearer objects give no valid measurement
+  double min_range = 0.0;      ///< m, nearer objects give no valid measurement
   double free_range =
       0.0;             ///< m, a beam without return is known free up to here; 0: it says nothing
   double range = 0.0;  ///< m, nothing is seen farther away
@@ -68,7 +68,7 @@ struct ScanPoint {
 };
 
 /// A scan split into static and moving points, and the pose from which it was seen.
-struct SplitScan {
+struct LabeledScan {
   Stamp stamp;
   PoseWithCovariance base_in_map;
   Pose2 scanner_in_base;

@@ -12,7 +12,7 @@ struct ViewFan {
   Pose2 sensor;                ///< in the frame of whoever holds the fan
   double first_bearing = 0.0;  ///< rad, about the sensor, of beam 0
   double beam_spacing = 0.0;   ///< rad, not 0; negative: from left to right
-  double least_range = 0.0;    ///< m
+  double min_range = 0.0;      ///< m
   double sure_range = 0.0;     ///< m, up to here an object is seen as well as a near one
   double range = 0.0;          ///< m, from there on less and less of it, up to here
   /// A scanner, which detects what one of its beams meets; else what is not hidden is seen, by its

@@ -9,9 +9,9 @@ namespace datmo {
 
 struct MovingObjectDetectorOptions {
   SegmentationOptions segmentation;
-  double moving_share = 0.3;   ///< 0 to 1
-  double largest_size = 20.0;  ///< m
-  int least_points = 1;
+  double moving_share = 0.3;  ///< 0 to 1
+  double max_size = 20.0;     ///< m
+  int min_points = 1;
   double range_sigma = 0.1;      ///< m
   double position_sigma = 0.05;  ///< m
 
@@ -19,7 +19,7 @@ struct MovingObjectDetectorOptions {
 };
 
 /// Objects that move, or may move, in a scan that was split by the map (thesis 3.3.1): segments of
-/// neighbouring end points that the map does not know as static, each with a box and its
+/// neighboring end points that the map does not know as static, each with a box and its
 /// covariance, and how well each of its sides is known. A side that beams ended on is known to the
 /// range noise; one that is only known as the end of another side, to the gap between two beams
 /// there; a side that could not be seen is kHiddenSide. Where an end was seen, the box reaches half
@@ -34,13 +34,13 @@ class MovingObjectDetector {
   explicit MovingObjectDetector(const MovingObjectDetectorOptions& options);
 
   /// Objects in the frame of the scan's points (base_link).
-  ObjectList detect(const SplitScan& scan) const;
+  ObjectList detect(const LabeledScan& scan) const;
 
  private:
   Object makeObject(const std::vector<ScanPoint>& points, const Segment& segment,
-                    const SplitScan& scan) const;
+                    const LabeledScan& scan) const;
   void setBox(Object& object, const ScanPoint& first, const ScanPoint& last,
-              const SplitScan& scan) const;
+              const LabeledScan& scan) const;
 
   MovingObjectDetectorOptions options_;
 };

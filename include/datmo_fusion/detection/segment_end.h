@@ -17,9 +17,9 @@ struct SurfaceEnd {
 class SegmentEnds {
  public:
   /// Of a scan, which must live on. `range_sigma` (m): standard deviation of a range. Surfaces with
-  /// points farther apart than `longest_gap` (m) are not followed.
-  SegmentEnds(const SplitScan& scan, double range_sigma, double longest_gap)
-      : scan_(scan), range_sigma_(range_sigma), longest_gap_(longest_gap) {}
+  /// points farther apart than `max_gap` (m) are not followed.
+  SegmentEnds(const LabeledScan& scan, double range_sigma, double max_gap)
+      : scan_(scan), range_sigma_(range_sigma), max_gap_(max_gap) {}
 
   /// The end of the surface that goes on from a point of the scan along a unit vector, away from
   /// the object; its direction is known to `heading_std` (rad, at least 0). Nothing where the end
@@ -33,9 +33,9 @@ class SegmentEnds {
   std::optional<std::uint32_t> nextBeam(std::uint32_t beam, int step) const;
   bool seesFartherThan(std::uint32_t beam, double range) const;
 
-  const SplitScan& scan_;
+  const LabeledScan& scan_;
   double range_sigma_;
-  double longest_gap_;
+  double max_gap_;
 };
 
 }  // namespace datmo

@@ -13,14 +13,14 @@ namespace datmo {
 
 /// What of a cloud are upright surfaces.
 struct StereoSurfaceOptions {
-  double nearest_depth = 0.5;   ///< m
-  double least_height = 0.3;    ///< m
-  double layer_top = 2.2;       ///< m
-  double highest = 5.0;         ///< m
-  double road_sigmas = 2.0;     ///< standard deviations of the depth
-  double finest_depth = 0.1;    ///< m
-  double least_visible = 0.35;  ///< m
-  int least_points = 3;
+  double min_depth = 0.5;     ///< m
+  double min_height = 0.3;    ///< m
+  double layer_top = 2.2;     ///< m
+  double max_height = 5.0;    ///< m
+  double road_sigmas = 2.0;   ///< standard deviations of the depth
+  double finest_depth = 0.1;  ///< m
+  double min_visible = 0.35;  ///< m
+  int min_points = 3;
 
   void visit(OptionVisitor& visitor);
 };
@@ -60,10 +60,10 @@ struct StereoObjectDetectorOptions {
   RoadPlaneOptions road;
   double effective_range = 36.0;  ///< m
   double sure_range = 25.0;       ///< m
-  double least_surface = 0.15;    ///< m^2
-  double largest_size = 12.0;     ///< m
-  double most_else = 0.9;         ///< 0 to 1
-  double most_doubt = 3.0;        ///< logarithm of odds
+  double min_surface = 0.15;      ///< m^2
+  double max_size = 12.0;         ///< m
+  double max_other = 0.9;         ///< 0 to 1
+  double max_doubt = 3.0;         ///< logarithm of odds
 
   void visit(OptionVisitor& visitor);
 };
@@ -92,7 +92,7 @@ struct StereoObjects {
 /// against it, but looking like a road user is no proof of one. `points` are the near outline, left
 /// to right. Objects come from left to right as far as they begin, with dynamic state kUnknown.
 ///
-/// A cloud may be dense or thinned, organised or not: its density is estimated from it. Not thread
+/// A cloud may be dense or thinned, organized or not: its density is estimated from it. Not thread
 /// safe. Keeps the last road plane from cloud to cloud.
 class StereoObjectDetector {
  public:

@@ -31,11 +31,11 @@ CrossCovariance evenCrossCovariance(const CovariancePair& covariances, double co
 /// modes, where no error is passed on any more (the factor is kept at 1 or less); and of a step
 /// with other times of measurement than its ends.
 ///
-/// `most_correlation` (above 0, below 1): no part of the one error is correlated more with any of
+/// `max_correlation` (above 0, below 1): no part of the one error is correlated more with any of
 /// the other, so that their joint covariance is positive definite whatever comes in. The
 /// covariances must be positive definite.
 CrossCovariance steppedCrossCovariance(const CrossCovariance& cross, const CovariancePair& before,
                                        const CovariancePair& after, const LinearMotion& motion,
-                                       double most_correlation);
+                                       double max_correlation);
 
 }  // namespace datmo

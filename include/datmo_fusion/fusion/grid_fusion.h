@@ -43,7 +43,7 @@ struct WeighedGrid {
 struct FusedGrids {
   SensorGrid fused;
   /// Percent of the evidence that contradicts itself, whatever the rule: the mass that Dempster's
-  /// rule without its normalisation gives to the empty set. Unknown where no two know.
+  /// rule without its normalization gives to the empty set. Unknown where no two know.
   SensorGrid conflict;
 };
 
@@ -53,7 +53,7 @@ struct FusedGrids {
 ///
 /// Evidence of a source that says p: 2p - 1 for occupied, or 1 - 2p for free, the rest for either
 /// of them; times its reliability (Shafer, A mathematical theory of evidence, 1976). As a
-/// probability, which kLogOdds takes, that is p drawn towards 1/2. kDempsterShafer gives the
+/// probability, which kLogOdds takes, that is p drawn toward 1/2. kDempsterShafer gives the
 /// pignistic probability (Smets & Kennes, The transferable belief model, 1994): what is open counts
 /// half for occupied. Certain sources that contradict each other leave the cell undecided.
 FusedGrids fuseGrids(FusionRule rule, const std::vector<WeighedGrid>& grids);

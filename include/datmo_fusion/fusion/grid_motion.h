@@ -9,9 +9,9 @@ namespace datmo {
 ///
 /// `old_base_in_new`: pose of the vehicle at the grid's stamp in its frame at `stamp`. Each cell
 /// takes what was known at its center; no occupied cell is lost by rounding. A free
-/// cell within `mover_way` (m, 0 or more: how far a mover may have come in between) of an occupied
-/// one, from centre to centre, becomes unknown: whoever stood beside it may be there now.
+/// cell within `mover_distance` (m, 0 or more: how far a mover may have come in between) of an
+/// occupied one, from center to center, becomes unknown: whoever stood beside it may be there now.
 SensorGrid movedGrid(const SensorGrid& grid, Stamp stamp, const Pose2& old_base_in_new,
-                     double mover_way);
+                     double mover_distance);
 
 }  // namespace datmo

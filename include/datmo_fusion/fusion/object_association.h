@@ -10,7 +10,7 @@ namespace datmo {
 
 struct ObjectAssociationOptions {
   static constexpr char kOptimal[] = "optimal";
-  static constexpr char kNearestNeighbour[] = "nearest_neighbour";
+  static constexpr char kNearestNeighbor[] = "nearest_neighbor";
 
   std::string association = kOptimal;
   double gate = 13.8;                ///< 1
@@ -18,9 +18,9 @@ struct ObjectAssociationOptions {
   double object_speed = 10.0;        ///< m/s
   double body_std = 0.2;             ///< m
   double unknown_size_std = 1.0;     ///< m
-  int most_work = 2000000;
-  double nearest_distance = 5.0;  ///< m
-  double nearest_range = 36.0;    ///< m
+  int max_work = 2000000;
+  double min_distance = 5.0;  ///< m
+  double min_range = 36.0;    ///< m
 
   void visit(OptionVisitor& visitor);
 };
@@ -44,8 +44,8 @@ ObjectPairing pairing(const Object& a, const Object& b, const ObjectAssociationO
 /// optimal: the assignment that is likeliest over all pairs (solveAssignment), at the scores of
 /// `pairing`; a pair must be likelier than two objects.
 ///
-/// nearest_neighbour: thesis 3.3.3; the nearest one, where the middle of the side that faces the
-/// sensor is nearer than `nearest_distance` times range / `nearest_range`. Of several that have the
+/// nearest_neighbor: thesis 3.3.3; the nearest one, where the middle of the side that faces the
+/// sensor is nearer than `min_distance` times range / `min_range`. Of several that have the
 /// same nearest one the nearest keeps it. No classes.
 ///
 /// @param sensor m, of `added`, from where ranges are counted and near sides are seen

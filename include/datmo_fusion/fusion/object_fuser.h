@@ -10,7 +10,7 @@
 #include "datmo_fusion/common/scan.h"
 #include "datmo_fusion/fusion/object_association.h"
 #include "datmo_fusion/fusion/position_covariance.h"
-#include "datmo_fusion/fusion/scan_witness.h"
+#include "datmo_fusion/fusion/scan_support.h"
 #include "datmo_fusion/tracking/visibility.h"
 
 namespace datmo {
@@ -18,8 +18,8 @@ namespace datmo {
 /// One source of objects.
 struct ObjectSourceOptions {
   bool use = true;
-  double detection_probability = 0.5;  ///< 1
-  double coincidence = 0.1;            ///< 1
+  double detection_probability = 0.5;        ///< 1
+  double false_agreement_probability = 0.1;  ///< 1
   PositionCovarianceOptions covariance;
 
   void visit(OptionVisitor& visitor);
@@ -28,11 +28,11 @@ struct ObjectSourceOptions {
 struct ObjectFuserOptions {
   std::map<std::string, ObjectSourceOptions> sources;  ///< by name; at first lidar and stereo
   std::string scanner = "lidar";                       ///< name of a source
-  int most_objects = 500;
-  double least_moving_share = 0.3;  ///< 0 to 1
+  int max_objects = 500;
+  double min_moving_share = 0.3;  ///< 0 to 1
   ObjectAssociationOptions association;
   VisibilityOptions visibility;
-  ScanWitnessOptions witness;
+  ScanSupportOptions scan_support;
 
   ObjectFuserOptions();
 
@@ -84,7 +84,7 @@ class ObjectFuser {
   /// The first list is the reference; all sources must be in the options, and there must be one
   /// (else std::out_of_range).
   /// `scan`: what the planar scanner saw at the reference's stamp, in its frame; null: not known.
-  ObjectFusionResult fuse(const std::vector<SourceObjects>& sources, const SplitScan* scan) const;
+  ObjectFusionResult fuse(const std::vector<SourceObjects>& sources, const LabeledScan* scan) const;
 
  private:
   class Fusion;

@@ -36,7 +36,7 @@ struct PositionCovarianceOptions {
 
   /// m^2, at a position (m) relative to a sensor, both in one frame, by the bin of its range;
   /// beyond the last bin as in that. Not for empty lists (std::out_of_range).
-  Eigen::Matrix2d at(const Point2& place, const Point2& sensor) const;
+  Eigen::Matrix2d at(const Point2& position, const Point2& sensor) const;
 };
 
 }  // namespace datmo

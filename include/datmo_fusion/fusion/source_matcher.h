@@ -22,7 +22,7 @@ namespace datmo {
 struct SourceMatcherOptions {
   std::string reference = "lidar";
   double tolerance = 0.1;     ///< s
-  double longest_wait = 0.1;  ///< s
+  double max_wait = 0.1;      ///< s
   double silent_after = 0.5;  ///< s
 
   void visit(OptionVisitor& visitor);
@@ -40,7 +40,7 @@ enum class Serving {
 
 /// Which samples of several sources belong together in time. Each sample of the reference source
 /// leads to one set, as soon as every other live source has spoken of its stamp or a later one, or
-/// after `longest_wait`; of each other source the sample nearest in time is in the set, of two
+/// after `max_wait`; of each other source the sample nearest in time is in the set, of two
 /// equally near ones the earlier. While the reference is silent the next live source by name takes
 /// its role; it has it back when it publishes again.
 ///
@@ -99,7 +99,7 @@ class SourceMatcher {
   using Entry = typename std::map<std::string, Source>::value_type;
 
   /// Of each source, so that no rate fills the memory; at 50 Hz those of more than a second.
-  static constexpr std::size_t kMostSamples = 64;
+  static constexpr std::size_t kMaxSamples = 64;
 
   bool isSilent(const Source& source, Stamp now) const {
     return secondsBetween(source.last.value_or(first_.value_or(now)), now) >= options_.silent_after;
@@ -153,7 +153,7 @@ void SourceMatcher<Payload>::add(const std::string& name, Stamp stamp,
   }
   source.last = stamp;
   source.samples.push_back({stamp, std::move(payload)});
-  if (source.samples.size() > kMostSamples) {
+  if (source.samples.size() > kMaxSamples) {
     dropOldest(source);
   }
 }
@@ -219,7 +219,7 @@ auto SourceMatcher<Payload>::pending(Source& source) const -> Sample* {
 
 template <typename Payload>
 bool SourceMatcher<Payload>::isComplete(Stamp stamp, Stamp now) const {
-  return secondsBetween(stamp, now) >= options_.longest_wait ||
+  return secondsBetween(stamp, now) >= options_.max_wait ||
          std::all_of(sources_.begin(), sources_.end(), [&](const Entry& entry) {
            const Source& source = entry.second;
            return isSilent(source, now) || (source.last && *source.last >= stamp);

@@ -25,8 +25,8 @@ struct TrackAssociationOptions {
   TrackComparisonOptions comparison;
   WindowedEvidenceOptions evidence;
   ParallelTracksOptions parallel;
-  double required = 6.9;  ///< 1
-  double loyalty = 10.0;  ///< 1
+  double required = 6.9;                 ///< 1
+  double association_hysteresis = 10.0;  ///< 1
 
   void visit(OptionVisitor& visitor);
 };
@@ -39,13 +39,13 @@ struct PresentTracks {
 };
 
 /// One track of those.
-struct TrackPlace {
+struct TrackPosition {
   std::size_t list = 0;  ///< index of its source's PresentTracks
   std::size_t track = 0;
 };
 
 /// Tracks that are one object, of different sources; at least one.
-using TrackGroup = std::vector<TrackPlace>;
+using TrackGroup = std::vector<TrackPosition>;
 
 /// Decides which tracks of several sources are one object, by all that they did until now.
 ///
@@ -57,9 +57,9 @@ using TrackGroup = std::vector<TrackPlace>;
 /// parallel: thesis 3.4.2; two tracks in each other's gate are one if they were parallel over the
 /// history that they have in common.
 ///
-/// In both, one-to-one between sources and likeliest over all pairs, with a lead (`loyalty`) for
-/// those who were one before: accumulated, these also stay one until they differ by as much more
-/// than it takes to become one.
+/// In both, one-to-one between sources and likeliest over all pairs, with a lead
+/// (`association_hysteresis`) for those who were one before: accumulated, these also stay one until
+/// they differ by as much more than it takes to become one.
 class TrackAssociation {
  public:
   /// Throws OptionError.
@@ -86,9 +86,9 @@ class TrackAssociation {
   };
   /// Two tracks of different sources that may be one object now.
   struct Candidate {
-    TrackPlace one;
-    TrackPlace other;    ///< of a later list
-    double score = 0.0;  ///< more than 0: one object
+    TrackPosition one;
+    TrackPosition other;  ///< of a later list
+    double score = 0.0;   ///< more than 0: one object
     PairKey key;
   };
 

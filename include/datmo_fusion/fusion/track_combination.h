@@ -15,7 +15,7 @@ struct TrackCombinationOptions {
   static constexpr char kInformation[] = "information";
 
   std::string method = kCovarianceIntersection;
-  double most_correlation = 0.95;  ///< 1
+  double max_correlation = 0.95;   ///< 1
   double first_correlation = 0.4;  ///< 1
 
   void visit(OptionVisitor& visitor);
@@ -28,7 +28,7 @@ struct TrackCombinationOptions {
 /// the weight of the least determinant, in which position and velocity need no common unit; one
 /// that is better in every respect has nearly all of it. bar_shalom_campo: of least variance by the
 /// cross-covariance E[(a - x) (b - x)'] (Bar-Shalom & Campo 1986), no more of which is believed
-/// than `most_correlation`. information: as if they were independent; over-confident. The last two
+/// than `max_correlation`. information: as if they were independent; over-confident. The last two
 /// alone do without `cross`.
 ///
 /// Both covariances positive definite, which the result's is too. Symmetric: a, b, cross as b, a,
@@ -38,9 +38,9 @@ StateEstimate fusedState(const StateEstimate& a, const StateEstimate& b,
 
 /// Two tracks at one time, taken for one object.
 ///
-/// State by fusedState, the box's centre is its position. The heading is known modulo pi by its
-/// variance, and by the motion where the front is. A tracker infers the centre from the sides that
-/// it saw and the size that it thinks of, so the one whose centre is surer along an axis of the box
+/// State by fusedState, the box's center is its position. The heading is known modulo pi by its
+/// variance, and by the motion where the front is. A tracker infers the center from the sides that
+/// it saw and the size that it thinks of, so the one whose center is surer along an axis of the box
 /// also knows better how far the box reaches along it: so are the sizes weighted. Height: the
 /// greater one, for what is seen in part looks lower than it is. Class by Bayes from even odds.
 /// What both know of the motion mode and the yaw rate is the same motion seen twice, no more

@@ -27,7 +27,7 @@ struct TrackComparison {
 ///
 /// By position, velocity and class. The statistical distance has both covariances as if they were
 /// independent: what errors the two have in common makes them agree better than that. What two
-/// sensors take for the centre of a body differs by which parts of it they see, by a share of its
+/// sensors take for the center of a body differs by which parts of it they see, by a share of its
 /// size, and that is no noise of either track.
 TrackComparison compare(const Track& a, const Track& b, const TrackComparisonOptions& options);
 

@@ -10,11 +10,11 @@ namespace datmo {
 /// Two tracks of one object at one time, one of which may have seen less of it, such as the rear of
 /// a vehicle ahead: along each axis of the surer heading the shorter box is made as long as the
 /// other one, as far as that one's extent is known and no guess, which the variance of its own
-/// center alone allows. The side that faces its sensor stays where it is, and the centre moves:
+/// center alone allows. The side that faces its sensor stays where it is, and the center moves:
 /// what a sensor has not seen lies away from it (as in TrackedBox, within one track). Where the
-/// sensor is abreast, neither side faces it and the centre stays.
+/// sensor is abreast, neither side faces it and the center stays.
 ///
-/// The longer box may be too long: the variance of the centre along the axis grows by that of a
+/// The longer box may be too long: the variance of the center along the axis grows by that of a
 /// uniform distribution between both (of all that is possible, abreast).
 ///
 /// @param sensor_of_a, sensor_of_b m, fixed frame: from where the tracks are seen; none: not known,

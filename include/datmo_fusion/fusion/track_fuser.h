@@ -19,28 +19,28 @@ namespace datmo {
 /// One source of tracks.
 struct TrackSourceOptions {
   bool use = true;
-  double detection_probability = 0.8;  ///< 1
-  double coincidence = 0.1;            ///< 1
+  double detection_probability = 0.8;        ///< 1
+  double false_agreement_probability = 0.1;  ///< 1
 
   void visit(OptionVisitor& visitor);
 };
 
 struct TrackFuserOptions {
-  static constexpr char kFusedAndBeyond[] = "fused_and_beyond";
+  static constexpr char kFusedPlusFallback[] = "fused_plus_fallback";
   static constexpr char kConfirmedByAll[] = "confirmed_by_all";
   static constexpr char kUnion[] = "union";
 
   std::map<std::string, TrackSourceOptions> sources;  ///< by name; at first lidar and stereo
-  std::string scheme = kFusedAndBeyond;
+  std::string scheme = kFusedPlusFallback;
   std::string beyond = "lidar";  ///< name of a source
-  int most_tracks = 200;
-  double can_see = 0.25;             ///< 1
-  double misses = 0.75;              ///< 1
-  double looking_time = 1.0;         ///< s
-  double twin_reach = 1.0;           ///< 1
-  double published_existence = 0.5;  ///< 1
-  double memory = 1.5;               ///< s
-  double history_time = 3.0;         ///< s
+  int max_tracks = 200;
+  double can_see = 0.25;              ///< 1
+  double misses = 0.75;               ///< 1
+  double looking_time = 1.0;          ///< s
+  double duplicate_gate_scale = 1.0;  ///< 1
+  double published_existence = 0.5;   ///< 1
+  double memory = 1.5;                ///< s
+  double history_time = 3.0;          ///< s
   TrackPredictionOptions prediction;
   TrackAssociationOptions association;
   TrackCombinationOptions combination;
@@ -88,7 +88,7 @@ struct TrackFusionResult {
 ///
 /// What is published, of the tracks that are likely enough to exist (thesis 3.4.2):
 ///
-///   - fused_and_beyond: those that all sources have, or had, that can see the position, and two
+///   - fused_plus_fallback: those that all sources have, or had, that can see the position, and two
 ///     sensors at least; and those of one source, `beyond`, where no other can see. The thesis's
 ///     list.
 ///     One that comes from there into another's view stays for as long as that needs to confirm it.

@@ -16,7 +16,7 @@ struct TrackPredictionOptions : ClassMotionOptions {
 /// likely class.
 ///
 /// What moves turns at its yaw rate (coordinatedTurn). What stands stays where it is; but it may
-/// start, so it becomes less sure as if it moved. Time that runs backwards is the same motion with
+/// start, so it becomes less sure as if it moved. Time that runs backward is the same motion with
 /// velocity and yaw rate reversed: the process noise is that of the time between, to either side.
 LinearMotion motionOf(const Track& track, double seconds, const TrackPredictionOptions& options);
 

@@ -17,7 +17,7 @@ struct Beam {
 };
 
 /// The lines of a fan that covers the beam, from its right border to its left one; at its end two
-/// neighbours are at most one cell apart. `visit(Point2 to)` for the end of each.
+/// neighbors are at most one cell apart. `visit(Point2 to)` for the end of each.
 template <typename Visit>
 void forEachLine(const GridWindow& window, const Beam& beam, Visit&& visit) {
   const double spread = beam.width * beam.range;

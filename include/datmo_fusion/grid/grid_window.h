@@ -24,11 +24,11 @@ struct GridWindow {
   CellIndex corner;
 
   /// The cell that holds a point of the map frame; it may lie outside of the window. What is
-  /// farther than kFarthestCell, or not a number, is at that limit.
+  /// farther than kMaxCell, or not a number, is at that limit.
   CellIndex cellAt(const Point2& point) const { return {indexAt(point.x()), indexAt(point.y())}; }
 
-  /// Centre of a cell in the map frame, m.
-  Point2 centreOf(CellIndex cell) const {
+  /// Center of a cell in the map frame, m.
+  Point2 centerOf(CellIndex cell) const {
     return {(cell.column + 0.5) * cell_size, (cell.row + 0.5) * cell_size};
   }
 
@@ -41,11 +41,11 @@ struct GridWindow {
   }
 
   /// Cells from the frame's origin: sums and differences of two indices stay within an int.
-  static constexpr int kFarthestCell = 1 << 28;
+  static constexpr int kMaxCell = 1 << 28;
 
  private:
   int indexAt(double coordinate) const {
-    constexpr double kFarthest = kFarthestCell;
+    constexpr double kFarthest = kMaxCell;
     // In this order NaN becomes the lower limit.
     const double index = std::max(-kFarthest, std::floor(coordinate / cell_size));
     return static_cast<int>(std::min(kFarthest, index));

@@ -14,24 +14,24 @@ struct HitDistribution {
   double maturity = 0.0;  ///< 0 to 1, 1: hit for as long as what stands still
 };
 
-/// The hits in one cell, as sums relative to the cell's centre, so that floats do.
+/// The hits in one cell, as sums relative to the cell's center, so that floats do.
 struct CellHits {
   float count = 0.0F;
   Eigen::Vector2f sum = Eigen::Vector2f::Zero();      ///< m
   Eigen::Vector3f squares = Eigen::Vector3f::Zero();  ///< m^2: xx, xy, yy
 
-  /// One more, `offset` (m) from the centre; older ones fade so that there are `most` at the most,
+  /// One more, `offset` (m) from the center; older ones fade so that there are `max` at the most,
   /// and the surface follows what is seen now.
-  void add(const Eigen::Vector2f& offset, float most);
+  void add(const Eigen::Vector2f& offset, float max);
 
-  /// m, from the centre; there must be hits.
+  /// m, from the center; there must be hits.
   Point2 mean() const { return (sum / count).cast<double>(); }
 };
 
 /// The hits of several cells, put together.
 class HitSums {
  public:
-  /// `shift`: of the cell's centre from the common reference, m. `maturity`: of the cell, 0 to 1.
+  /// `shift`: of the cell's center from the common reference, m. `maturity`: of the cell, 0 to 1.
   void add(const CellHits& cell, const Point2& shift, double maturity);
 
   bool empty() const { return hits_ <= 0.0; }

@@ -13,9 +13,9 @@ namespace datmo {
 
 struct HitGridOptions {
   GridWindowOptions window;
-  int most_hits = 10;      ///< that a cell counts; 0: all
+  int max_hits = 10;       ///< that a cell counts; 0: all
   double cut_share = 0.1;  ///< of the highest smoothed count
-  double least_age = 1.0;  ///< s, between first and last hit
+  double min_age = 1.0;    ///< s, between first and last hit
 
   void visit(OptionVisitor& visitor);
 };
@@ -31,11 +31,11 @@ class HitGrid {
   const GridWindow& window() const { return cells_.window(); }
 
   /// Moves the window with the vehicle and counts the ends of the scan's beams.
-  void update(const SplitScan& scan);
+  void update(const LabeledScan& scan);
 
-  /// Moves the window so that `centre` (m, map frame) lies in its middle cell; what is outside then
+  /// Moves the window so that `center` (m, map frame) lies in its middle cell; what is outside then
   /// is forgotten.
-  void centreOn(const Point2& centre);
+  void centerOn(const Point2& center);
 
   /// Counts a hit at a point, m, map frame; one outside of the window is nothing. By rising stamps.
   void add(const Point2& point, Stamp stamp);
@@ -43,7 +43,7 @@ class HitGrid {
   /// H of a cell; 0 outside of the window.
   int hits(CellIndex cell) const { return cells_.atOrEmpty(cell).hits; }
 
-  /// Mean of the hits in a cell, m, map frame; its centre where there are none.
+  /// Mean of the hits in a cell, m, map frame; its center where there are none.
   Point2 meanHit(CellIndex cell) const;
 
   /// S of a cell: the hits in the 3 x 3 cells around it that are in the window (eq. 3.5.1).
@@ -53,14 +53,14 @@ class HitGrid {
   int highest() const { return highest_; }
 
   /// S of a cell; 0 where it is less than `cut_share` of the highest (eq. 3.5.2) or, beyond the
-  /// thesis, where the 3 x 3 cells have not been hit for `least_age`.
+  /// thesis, where the 3 x 3 cells have not been hit for `min_age`.
   int cutSmoothed(CellIndex index) const {
     const Cell& cell = cells_.atOrEmpty(index);
     const bool passes = cell.smoothed >= options_.cut_share * highest_ && isLasting(cell);
     return passes ? cell.smoothed : 0;
   }
 
-  /// Whether the 3 x 3 cells around a cell have been hit for `least_age`: longer than what moves
+  /// Whether the 3 x 3 cells around a cell have been hit for `min_age`: longer than what moves
   /// stays at a position.
   bool isLasting(CellIndex index) const { return isLasting(cells_.atOrEmpty(index)); }
 
@@ -71,25 +71,25 @@ class HitGrid {
   struct Cell {
     std::int32_t hits = 0;
     std::int32_t smoothed = 0;
-    Eigen::Vector2f mean = Eigen::Vector2f::Zero();  ///< m, of the hits from the cell's centre
+    Eigen::Vector2f mean = Eigen::Vector2f::Zero();  ///< m, of the hits from the cell's center
     float first_hit = 0.0F;  ///< s since the first of all, in the 3 x 3 cells around
     float last_hit = 0.0F;   ///< s since the first of all, in the 3 x 3 cells around
   };
 
   bool isLasting(const Cell& cell) const {
-    return static_cast<double>(cell.last_hit - cell.first_hit) >= options_.least_age;
+    return static_cast<double>(cell.last_hit - cell.first_hit) >= options_.min_age;
   }
 
   /// As much more (or less) for the sums of the cells around, of those that `counts` in a window.
-  void addAround(CellIndex centre, int hits, const GridWindow& counts);
+  void addAround(CellIndex center, int hits, const GridWindow& counts);
   void setSmoothed(CellIndex cell, int value);
   /// Takes a cell out that is not in the `next` window.
   void leave(CellIndex cell, const GridWindow& next);
-  void enter(CellIndex centre);
-  void touchAround(CellIndex centre, Stamp stamp);
+  void enter(CellIndex center);
+  void touchAround(CellIndex center, Stamp stamp);
 
   HitGridOptions options_;
-  int most_hits_;
+  int max_hits_;
   RollingGrid<Cell> cells_;
   /// How many cells have each S but 0, so that the highest is known when some leave.
   std::vector<std::int32_t> cells_with_;

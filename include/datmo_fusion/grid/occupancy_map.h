@@ -17,26 +17,26 @@ namespace datmo {
 
 struct OccupancyMapOptions {
   GridWindowOptions window;
-  double hit_probability = 0.8;     ///< of a cell in which a beam ends
-  double free_probability = 0.4;    ///< of a cell that a beam passes
-  double least_probability = 0.02;  ///< to which a cell is clamped; 1 - it at the other end
-  double beam_width = 0.0;          ///< rad, in which a beam is free up to its end
-  double surface_sigma = 0.2;       ///< m, 0: a beam frees each cell that it passes
-  double moving_below = 0.3;        ///< occupancy that counts as seen free
-  double static_above = 0.7;        ///< occupancy that counts as occupied
-  double static_after = 0.8;        ///< s, between first and last hit of a static cell
-  int static_neighbourhood = 1;     ///< cells around an end point that vouch for it
-  int ghost_after = 2;              ///< ends that others have refuted
-  double ghost_share = 0.1;         ///< of all ends of beams in a cell
+  double hit_probability = 0.8;   ///< of a cell in which a beam ends
+  double free_probability = 0.4;  ///< of a cell that a beam passes
+  double min_probability = 0.02;  ///< to which a cell is clamped; 1 - it at the other end
+  double beam_width = 0.0;        ///< rad, in which a beam is free up to its end
+  double surface_sigma = 0.2;     ///< m, 0: a beam frees each cell that it passes
+  double moving_below = 0.3;      ///< occupancy that counts as seen free
+  double static_above = 0.7;      ///< occupancy that counts as occupied
+  double static_after = 0.8;      ///< s, between first and last hit of a static cell
+  int static_neighborhood = 1;    ///< cells around an end point that vouch for it
+  int ghost_after = 2;            ///< ends that others have refuted
+  double ghost_share = 0.1;       ///< of all ends of beams in a cell
 
   void visit(OptionVisitor& visitor);
 };
 
 /// What the map is updated with from an instantaneous grid, all in the vehicle's frame.
-struct GridSight {
+struct GridUpdate {
   const SensorGrid* grid = nullptr;   ///< its free cells are free
   std::vector<Point2> surfaces;       ///< m, exact points on surfaces that stand still
-  std::vector<Point2> cells;          ///< m, centres of further cells that are occupied
+  std::vector<Point2> cells;          ///< m, centers of further cells that are occupied
   std::vector<Point2> movers;         ///< m, ends of beams on what moves
   std::vector<Point2> refuted;        ///< m, ends of beams where others have seen nothing
   Point2 viewpoint = Point2::Zero();  ///< m, from where they were seen
@@ -48,7 +48,7 @@ struct GridSight {
 /// can be matched below the size of a cell, and since when it has been hit, so that the trail of a
 /// slow mover in unknown space is not mistaken for a wall. Within one scan a cell is updated once,
 /// and a hit wins over a beam that passes (as in Cartographer, Hess et al. 2016). Where other
-/// sensors have refuted the scanner (kerbs, paint on the road) it is remembered for when they look
+/// sensors have refuted the scanner (curbs, paint on the road) it is remembered for when they look
 /// elsewhere.
 class OccupancyMap {
  public:
@@ -58,7 +58,7 @@ class OccupancyMap {
   const GridWindow& window() const { return cells_.window(); }
 
   /// Moves the window with the vehicle (m, map frame).
-  void centreOn(const Point2& position) { cells_.centreOn(position); }
+  void centerOn(const Point2& position) { cells_.centerOn(position); }
 
   /// Occupancy probability of a cell, 0 to 1; 0.5 where nothing is known.
   double occupancy(CellIndex cell) const {
@@ -66,7 +66,7 @@ class OccupancyMap {
   }
 
   /// State in the map of a beam that ends at this point, m (thesis 3.3.1; there without kUnknown,
-  /// footprint, neighbourhood and age). `half_footprint`: from the beam's axis to its edge at this
+  /// footprint, neighborhood and age). `half_footprint`: from the beam's axis to its edge at this
   /// range, m; what it hit may lie anywhere between. One static cell there makes the point static;
   /// it is moving only if the whole footprint has been seen free.
   PointState judge(const Point2& point, const Point2& half_footprint = Point2::Zero()) const;
@@ -85,7 +85,7 @@ class OccupancyMap {
   /// Takes in an instantaneous grid seen from `base_in_map` (thesis 3.2.5, eq. 3.2.7), as the scan
   /// above with its cells in place of beams. Its exact points give where surfaces lie within their
   /// cells, so that scans can be matched with them; its other cells are occupied and no more.
-  void update(const GridSight& sight, const Pose2& base_in_map);
+  void update(const GridUpdate& grid_update, const Pose2& base_in_map);
 
   /// Row by row from the lower left corner: 0 to 100 percent, -1 where nothing is known
   /// (nav_msgs/OccupancyGrid).

@@ -31,7 +31,7 @@ struct WalkAxis {
 }  // namespace detail
 
 /// Visits every cell that the line from one point to another crosses, in order, with both end
-/// cells: Amanatides & Woo, A fast voxel traversal algorithm for ray tracing, 1987. Neighbours in
+/// cells: Amanatides & Woo, A fast voxel traversal algorithm for ray tracing, 1987. Neighbors in
 /// the walk share a side. `visit(CellIndex)` is also called outside of the window.
 template <typename Visit>
 void walkRay(const GridWindow& window, const Point2& from, const Point2& to, Visit&& visit) {

@@ -10,7 +10,7 @@ namespace datmo {
 
 /// A rectangle that may be turned.
 struct Rectangle {
-  Pose2 centre;         ///< m and rad, map frame
+  Pose2 center;         ///< m and rad, map frame
   double length = 0.0;  ///< m, along the heading
   double width = 0.0;   ///< m, across it
 };
@@ -37,32 +37,32 @@ struct Span {
 
 }  // namespace detail
 
-/// Visits the cells of a window whose centre lies in a rectangle, row by row: `visit(CellIndex)`.
+/// Visits the cells of a window whose center lies in a rectangle, row by row: `visit(CellIndex)`.
 /// Only those are touched (the thesis, 3.5, asks of each cell in the upright rectangle around
 /// whether it is one).
 template <typename Visit>
 void walkRectangle(const GridWindow& window, const Rectangle& rectangle, Visit&& visit) {
-  const double c = std::cos(rectangle.centre.heading());
-  const double s = std::sin(rectangle.centre.heading());
+  const double c = std::cos(rectangle.center.heading());
+  const double s = std::sin(rectangle.center.heading());
   const double half_length = 0.5 * rectangle.length;
   const double half_width = 0.5 * rectangle.width;
-  // Cells by their centre: cell i of an axis has it at (i + 0.5) * cell_size. In this order of min
+  // Cells by their center: cell i of an axis has it at (i + 0.5) * cell_size. In this order of min
   // and max NaN is a limit too.
-  const auto lastUpTo = [&](double coordinate, int least, int most) {
+  const auto lastUpTo = [&](double coordinate, int min, int max) {
     const double index = std::floor(coordinate / window.cell_size - 0.5);
-    return static_cast<int>(std::min(most + 0.0, std::max(least - 1.0, index)));
+    return static_cast<int>(std::min(max + 0.0, std::max(min - 1.0, index)));
   };
-  const auto firstFrom = [&](double coordinate, int least, int most) {
+  const auto firstFrom = [&](double coordinate, int min, int max) {
     const double index = std::ceil(coordinate / window.cell_size - 0.5);
-    return static_cast<int>(std::min(most + 1.0, std::max(least + 0.0, index)));
+    return static_cast<int>(std::min(max + 1.0, std::max(min + 0.0, index)));
   };
-  const CellIndex least = window.corner;
-  const CellIndex most{least.column + window.columns - 1, least.row + window.rows - 1};
+  const CellIndex min = window.corner;
+  const CellIndex max{min.column + window.columns - 1, min.row + window.rows - 1};
   const double reach = std::abs(s) * half_length + std::abs(c) * half_width;
-  const double middle = rectangle.centre.y();
-  const int last_row = lastUpTo(middle + reach, least.row, most.row);
-  for (int row = firstFrom(middle - reach, least.row, most.row); row <= last_row; ++row) {
-    // Along the row, `x` from the rectangle's centre: what is inside lies between both long sides
+  const double middle = rectangle.center.y();
+  const int last_row = lastUpTo(middle + reach, min.row, max.row);
+  for (int row = firstFrom(middle - reach, min.row, max.row); row <= last_row; ++row) {
+    // Along the row, `x` from the rectangle's center: what is inside lies between both long sides
     // and between both short ones.
     const double y = (row + 0.5) * window.cell_size - middle;
     detail::Span span;
@@ -71,10 +71,9 @@ void walkRectangle(const GridWindow& window, const Rectangle& rectangle, Visit&&
     if (span.first > span.last) {
       continue;
     }
-    const double x = rectangle.centre.x();
-    const int last = lastUpTo(x + span.last, least.column, most.column);
-    for (int column = firstFrom(x + span.first, least.column, most.column); column <= last;
-         ++column) {
+    const double x = rectangle.center.x();
+    const int last = lastUpTo(x + span.last, min.column, max.column);
+    for (int column = firstFrom(x + span.first, min.column, max.column); column <= last; ++column) {
       visit(CellIndex{column, row});
     }
   }

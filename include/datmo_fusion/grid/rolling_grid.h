@@ -22,7 +22,7 @@ class RollingGrid {
     moveTo(window.corner);
   }
 
-  /// `columns` and `rows` more than 0, `cell_size` (m) more than 0. The window's centre is the
+  /// `columns` and `rows` more than 0, `cell_size` (m) more than 0. The window's center is the
   /// origin of the map frame.
   RollingGrid(int columns, int rows, double cell_size, const Cell& empty)
       : RollingGrid(GridWindow{cell_size, columns, rows, {-columns / 2, -rows / 2}}, empty) {}
@@ -38,26 +38,26 @@ class RollingGrid {
     return window_.contains(cell) ? cells_[slot(cell)] : empty_;
   }
 
-  /// The window as centreOn would move it.
-  GridWindow windowOn(const Point2& centre) const {
+  /// The window as centerOn would move it.
+  GridWindow windowOn(const Point2& center) const {
     GridWindow window = window_;
-    const CellIndex middle = window_.cellAt(centre);
+    const CellIndex middle = window_.cellAt(center);
     window.corner = {middle.column - window_.columns / 2, middle.row - window_.rows / 2};
     return window;
   }
 
-  /// Moves the window so that `centre` (m, map frame) lies in its middle cell.
-  void centreOn(const Point2& centre) {
+  /// Moves the window so that `center` (m, map frame) lies in its middle cell.
+  void centerOn(const Point2& center) {
     const GridWindow old = window_;
-    moveTo(windowOn(centre).corner);
+    moveTo(windowOn(center).corner);
     forEachCellOutside(window_, old, [this](CellIndex cell) { at(cell) = empty_; });
   }
 
   /// The same; before anything changes, `leave(CellIndex)` for each cell that will be outside.
   template <typename Leave>
-  void centreOn(const Point2& centre, Leave&& leave) {
-    forEachCellOutside(window_, windowOn(centre), leave);
-    centreOn(centre);
+  void centerOn(const Point2& center, Leave&& leave) {
+    forEachCellOutside(window_, windowOn(center), leave);
+    centerOn(center);
   }
 
  private:

@@ -19,7 +19,7 @@ struct BorderCurve {
 };
 
 /// Where a point lies beside a line.
-struct CurvePlace {
+struct CurvePoint {
   double along = 0.0;  ///< m, from the anchor
   double aside = 0.0;  ///< m, to the left of the line
 };
@@ -37,7 +37,7 @@ class CurveTable {
   Pose2 at(double along) const;
 
   /// The foot of the perpendicular on the line; beyond its ends on the line straight on.
-  CurvePlace locate(const Point2& point) const;
+  CurvePoint locate(const Point2& point) const;
 
  private:
   struct Station {

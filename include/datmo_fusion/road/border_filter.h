@@ -8,11 +8,11 @@
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/scan.h"
-#include "datmo_fusion/road/arrival_test.h"
 #include "datmo_fusion/road/border_offset.h"
+#include "datmo_fusion/road/free_space_entry_test.h"
 #include "datmo_fusion/road/road_extension.h"
 #include "datmo_fusion/road/road_model.h"
-#include "datmo_fusion/road/sight_history.h"
+#include "datmo_fusion/road/scan_history.h"
 
 namespace datmo {
 
@@ -23,12 +23,12 @@ struct BorderFilterOptions {
   std::string method = kConsistent;
   double margin = 0.5;              ///< m
   double sigmas = 1.0;              ///< 1
-  double most_sigma = 1.0;          ///< m
+  double max_sigma = 1.0;           ///< m
   double reach = 30.0;              ///< m
   double required_on_border = 3.0;  ///< 1
   double required_beyond = 1.0;     ///< 1
-  SightHistoryOptions history;
-  ArrivalTestOptions arrival;
+  ScanHistoryOptions history;
+  FreeSpaceEntryTestOptions free_space_entry;
   RoadExtensionOptions extension;
 
   void visit(OptionVisitor& visitor);
@@ -43,13 +43,13 @@ struct DroppedObject {
   DropReason reason = DropReason::kOnBorder;
   RoadSide side = RoadSide::kLeft;
   double beyond = 0.0;  ///< m from the border to it, away from the road; negative: it reaches in
-  double motion_evidence = 0.0;  ///< as ArrivalTest says
+  double motion_evidence = 0.0;  ///< as FreeSpaceEntryTest says
 };
 
 /// Takes objects on and beyond the road's borders that seem to move for false alarms (thesis
 /// 3.5.1), unless they move consistently there (thesis 2.4, 6.2): a pedestrian on the footpath, a
-/// car out of a driveway. What a mover leaves and enters was seen free, and a kerb was not
-/// (ArrivalTest): that is decided from its first detection on, before it could be tracked.
+/// car out of a driveway. What a mover leaves and enters was seen free, and a curb was not
+/// (FreeSpaceEntryTest): that is decided from its first detection on, before it could be tracked.
 ///
 /// An object lies on a border or beyond if all of its points do; by the thesis, if a corner of its
 /// rectangle does, and however it moves. Where no border is known the road is taken to go on as it
@@ -62,7 +62,7 @@ class BorderFilter {
   /// Removes from `objects`, which were found in `scan`, what is a false alarm by `road` (map
   /// frame); returns what was removed. Scans by rising stamps, all of them: those without objects
   /// too.
-  std::vector<DroppedObject> filter(const SplitScan& scan, const RoadModel& road,
+  std::vector<DroppedObject> filter(const LabeledScan& scan, const RoadModel& road,
                                     ObjectList& objects);
 
   /// Forgets where the road went on when no border was known.
@@ -80,16 +80,16 @@ class BorderFilter {
   };
 
   /// By the borders that are known.
-  std::optional<Outside> outsideKnown(const Object& object, const std::vector<Point2>& places,
+  std::optional<Outside> outsideKnown(const Object& object, const std::vector<Point2>& positions,
                                       const Pose2& base_in_map, const RoadModel& road) const;
   /// Where none is known, by how the road goes on.
-  std::optional<Outside> outsideExtension(const std::vector<Point2>& places) const;
+  std::optional<Outside> outsideExtension(const std::vector<Point2>& positions) const;
   std::optional<DroppedObject> falseAlarm(const Object& object, const Pose2& base_in_map,
                                           const RoadModel& road) const;
 
   BorderFilterOptions options_;
-  SightHistory history_;
-  ArrivalTest arrival_;
+  ScanHistory history_;
+  FreeSpaceEntryTest entry_test_;
   RoadExtension extension_;
 };
 

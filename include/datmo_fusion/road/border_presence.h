@@ -15,7 +15,7 @@ struct SidePresence {
 
 /// Both sides at one time.
 struct BorderPresence {
-  double way = 0.0;  ///< m, distance driven up to now
+  double arc_length = 0.0;  ///< m, distance driven up to now
   SidePresence left;
   SidePresence right;
 };

@@ -9,11 +9,11 @@
 namespace datmo {
 
 struct BorderPublishingOptions {
-  double ahead = 40.0;        ///< m
-  double behind = 10.0;       ///< m
-  double spacing = 1.0;       ///< m
-  double most_sigma = 1.0;    ///< m
-  double least_length = 3.0;  ///< m
+  double ahead = 40.0;      ///< m
+  double behind = 10.0;     ///< m
+  double spacing = 1.0;     ///< m
+  double max_sigma = 1.0;   ///< m
+  double min_length = 3.0;  ///< m
 
   void visit(OptionVisitor& visitor);
 };

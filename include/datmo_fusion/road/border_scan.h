@@ -22,6 +22,6 @@ struct BorderScan {
 };
 
 /// Of a scan that `hits` has counted: all beams but those that are blind.
-BorderScan borderScan(const SplitScan& scan, const HitGrid& hits, double seconds);
+BorderScan borderScan(const LabeledScan& scan, const HitGrid& hits, double seconds);
 
 }  // namespace datmo

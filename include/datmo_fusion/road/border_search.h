@@ -24,8 +24,8 @@ struct BorderSearchOptions {
   double heading_step = 0.05;   ///< rad
   int sections = 20;
   std::string score = "share";  ///< or "hits"
-  double least_share = 0.4;     ///< 0 to 1
-  double least_hits = 500.0;
+  double min_share = 0.4;       ///< 0 to 1
+  double min_hits = 500.0;
   std::string take = "first";  ///< or "highest"
   double hit_sigma = 0.2;      ///< m
   double shape_sigma = 0.1;    ///< m

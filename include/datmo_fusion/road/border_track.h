@@ -24,7 +24,7 @@ struct BorderTrackOptions {
 
 /// A point that was seen on a border.
 struct BorderHit {
-  CurvePlace place;       ///< beside the line
+  CurvePoint position;    ///< beside the line
   double variance = 0.0;  ///< m^2 across the line: of the measurement and of the border's shape
 };
 
@@ -32,7 +32,7 @@ struct BorderHit {
 /// to the left (m), heading (rad), curvature (1/m) and curvature rate (1/m^2) at its anchor, which
 /// goes along with the vehicle. The line is fixed to the map: the vehicle's motion moves nothing
 /// but the anchor, along the line, and so no error comes from it; what roads and maps do that no
-/// clothoid does is noise for each metre that the anchor goes, and each second.
+/// clothoid does is noise for each meter that the anchor goes, and each second.
 class BorderTrack {
  public:
   /// From a straight piece: covariance over its offset and heading at its anchor.
@@ -45,7 +45,7 @@ class BorderTrack {
   const Eigen::Matrix4d& covariance() const { return covariance_; }
 
   /// Way of the anchor along the line since the track began, m.
-  double way() const { return way_; }
+  double arcLength() const { return arc_length_; }
 
   /// Variance of the line across itself, m^2, `along` (m) from the anchor.
   double varianceAt(double along) const;
@@ -63,7 +63,7 @@ class BorderTrack {
   BorderTrackOptions options_;
   BorderCurve curve_;
   Eigen::Matrix4d covariance_ = Eigen::Matrix4d::Zero();
-  double way_ = 0.0;
+  double arc_length_ = 0.0;
 };
 
 }  // namespace datmo

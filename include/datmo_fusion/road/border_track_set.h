@@ -14,7 +14,7 @@ struct BorderTrackSetOptions {
   FollowedBorderOptions border;
   std::vector<double> search_from{0.0, 12.0};  ///< m
   double same_distance = 0.7;                  ///< m
-  int most_borders = 16;                       ///< 1
+  int max_borders = 16;                        ///< 1
 
   void visit(OptionVisitor& visitor);
 };
@@ -34,7 +34,7 @@ class BorderTrackSet {
 
  private:
   void follow(const BorderScan& scan);
-  void dropTwins();
+  void removeDuplicates();
   void searchFrom(const HitGrid& hits, const BorderSearch& search, const Pose2& from,
                   RoadSide side);
   const FollowedBorder* alongside(const FoundBorder& found) const;

@@ -21,7 +21,7 @@ struct FollowedBorderOptions {
   int vouching_hits = 3;          ///< 1
   double ahead = 45.0;            ///< m
   double behind = 20.0;           ///< m
-  double most_sigma = 1.0;        ///< m
+  double max_sigma = 1.0;         ///< m
   double confirmed_length = 6.0;  ///< m
   double growth = 8.0;            ///< m
   double fitted_growth = 3.0;     ///< m
@@ -61,7 +61,7 @@ class FollowedBorder {
 
   /// Whether a point (m, map frame) lies within a distance (m) of the line where something has been
   /// seen of it, or where it was tried if it is refuted.
-  bool explains(const Point2& place, double distance) const;
+  bool explains(const Point2& position, double distance) const;
 
   /// Updates the line with the scan; `is_nearest`, one for each beam: of all lines this
   /// one is nearest to the beam's end.
@@ -74,13 +74,13 @@ class FollowedBorder {
   /// The curve about its anchor, where it may be published or looked at.
   const CurveTable& table() const { return *table_; }
 
-  /// m across; where it is more than most_sigma nothing is published.
+  /// m across; where it is more than max_sigma nothing is published.
   double sigmaAt(double along) const;
 
  private:
   /// Whether the line may go on there, `inside` (m) within the ends of where it may at all.
   /// Whether the end of a beam is evidence of a border: what passes by makes no new one.
-  bool tellsOf(const BorderScan::Beam& beam) const;
+  bool informsAbout(const BorderScan::Beam& beam) const;
   bool reaches(double along, double inside = 0.0) const;
   void findReach();
   void moveAnchor(const BorderScan& scan);
@@ -95,10 +95,10 @@ class FollowedBorder {
   StationEvidence evidence_;
   double found_length_;  ///< m
   std::optional<CurveTable> table_;
-  std::vector<WayInterval> reach_;  ///< m from the anchor, where the line may go on
-  std::vector<CurvePlace> places_;  ///< of the ends of the scan's beams
-  std::vector<BorderHit> taken_;    ///< of one scan; a member to spare memory
-  double age_ = 0.0;                ///< s in the state
+  std::vector<ArcLengthInterval> reach_;  ///< m from the anchor, where the line may go on
+  std::vector<CurvePoint> places_;        ///< of the ends of the scan's beams
+  std::vector<BorderHit> taken_;          ///< of one scan; a member to spare memory
+  double age_ = 0.0;                      ///< s in the state
   double unseen_for_ = 0.0;
 };
 

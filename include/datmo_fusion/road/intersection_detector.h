@@ -9,11 +9,11 @@ namespace datmo {
 
 struct IntersectionDetectorOptions {
   double border_above = 0.65;     ///< 1
-  double least_border = 5.0;      ///< m
-  double least_opening = 8.0;     ///< m
-  double least_road = 15.0;       ///< m
+  double min_border = 5.0;        ///< m
+  double min_opening = 8.0;       ///< m
+  double min_road = 15.0;         ///< m
   double road_memory = 60.0;      ///< m
-  double most_opening = 45.0;     ///< m
+  double max_opening = 45.0;      ///< m
   double station_limit = 2.0;     ///< 1
   double evidence_length = 1.5;   ///< m
   double road_length = 150.0;     ///< m
@@ -38,7 +38,7 @@ class IntersectionDetector {
   explicit IntersectionDetector(const IntersectionDetectorOptions& options);
 
   /// Updates with where the borders are now; the distance driven rises, or all starts again. The
-  /// stations reach some metres (`least_border`) behind the vehicle at least, and as far ahead as
+  /// stations reach some meters (`min_border`) behind the vehicle at least, and as far ahead as
   /// is known.
   void update(const BorderPresence& presence);
 
@@ -60,16 +60,16 @@ class IntersectionDetector {
     double bordered = 0.0;  ///< m of recent distance with a border
   };
 
-  void pass(const SidePresence& side, double way, double step, PassedSide& passed) const;
+  void pass(const SidePresence& side, double arc_length, double step, PassedSide& passed) const;
 
   /// Logarithm of the odds that the side is open beside the vehicle; 0 where nothing is known.
-  double openness(const SidePresence& side, double way, PassedSide& passed) const;
+  double openness(const SidePresence& side, double arc_length, PassedSide& passed) const;
   bool isBorder(const SidePresence& side, int station, int toward) const;
   /// Of the stations between both arc lengths (m), none of them farther than a street's width.
-  double meanOpenness(const SidePresence& side, double way, double begin, double end) const;
+  double meanOpenness(const SidePresence& side, double arc_length, double begin, double end) const;
 
   IntersectionDetectorOptions options_;
-  std::optional<double> last_way_;
+  std::optional<double> last_arc_length_;
   PassedSide left_;
   PassedSide right_;
   double probability_ = 0.0;

@@ -42,9 +42,9 @@ class PresenceHistory {
 
   PresenceHistoryOptions options_;
   BorderPresence presence_;
-  std::optional<Pose2> vehicle_;             ///< map frame
-  std::optional<Pose2> counted_;             ///< map frame, up to where the distance is counted
-  std::vector<std::optional<double>> told_;  ///< log odds of one side's stations, by this scan
+  std::optional<Pose2> vehicle_;                ///< map frame
+  std::optional<Pose2> counted_;                ///< map frame, up to where the distance is counted
+  std::vector<std::optional<double>> updated_;  ///< log odds of one side's stations, by this scan
 };
 
 }  // namespace datmo

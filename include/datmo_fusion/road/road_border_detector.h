@@ -29,8 +29,8 @@ struct RoadBorderDetectorOptions {
   RoadOpeningOptions openings;
   SideStreetOptions side_streets;
   BorderPublishingOptions published;
-  double longest_gap = 2.0;    ///< s
-  double longest_step = 10.0;  ///< m
+  double max_gap = 2.0;    ///< s
+  double max_step = 10.0;  ///< m
 
   void visit(OptionVisitor& visitor);
 };
@@ -44,16 +44,16 @@ class RoadBorderDetector {
 
   /// Takes in a scan, by rising stamps; the road about the vehicle as far as it is known then.
   /// After a gap or a jump of the pose all is forgotten first.
-  const RoadModel& update(const SplitScan& scan);
+  const RoadModel& update(const LabeledScan& scan);
 
   /// Forgets all, as at the start.
   void reset();
 
  private:
   /// Time since the last scan, s; none if what is known does not belong to this one.
-  std::optional<double> secondsSinceLast(const SplitScan& scan) const;
+  std::optional<double> secondsSinceLast(const LabeledScan& scan) const;
   void search(const Pose2& scanner);
-  void follow(const SplitScan& scan, double seconds);
+  void follow(const LabeledScan& scan, double seconds);
 
   RoadBorderDetectorOptions options_;
   HitGrid hits_;

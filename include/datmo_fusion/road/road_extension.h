@@ -11,9 +11,9 @@
 namespace datmo {
 
 struct RoadExtensionOptions {
-  double length = 30.0;      ///< m
-  double memory_way = 50.0;  ///< m
-  double most_turn = 0.8;    ///< rad
+  double length = 30.0;           ///< m
+  double memory_distance = 50.0;  ///< m
+  double max_turn = 0.8;          ///< rad
 
   void visit(OptionVisitor& visitor);
 };
@@ -30,7 +30,7 @@ class RoadExtension {
 
   /// Where a point (m, map frame) lies beside the border of one side that goes on; none if no
   /// border of that side is known nearby.
-  std::optional<BorderOffset> offset(RoadSide side, const Point2& place) const;
+  std::optional<BorderOffset> offset(RoadSide side, const Point2& position) const;
 
   /// Forgets all, as at the start.
   void reset();

@@ -20,7 +20,7 @@ struct BorderPoint {
   double sigma = 0.0;                ///< m, standard deviation across the border
 };
 
-/// One stretch of a border of the road: a kerb, or the road's side of a row of parked cars.
+/// One stretch of a border of the road: a curb, or the road's side of a row of parked cars.
 struct RoadBorder {
   RoadSide side = RoadSide::kLeft;
   /// It bounds a street that opens into the vehicle's, on `side` of it: what lies beyond it may be

@@ -11,7 +11,7 @@ namespace datmo {
 struct StationEvidenceOptions {
   double hit_probability = 0.1;    ///< 1
   double clutter = 0.015;          ///< 1
-  double most_in_scan = 1.5;       ///< 1
+  double max_per_scan = 1.5;       ///< 1
   double depth_probability = 0.6;  ///< 1
   double saturation = 4.0;         ///< 1
   double seen = 1.5;               ///< 1
@@ -21,12 +21,12 @@ struct StationEvidenceOptions {
 };
 
 /// An interval of arc length, m.
-struct WayInterval {
+struct ArcLengthInterval {
   double first = 0.0;
   double last = 0.0;
 };
 
-/// How sure it is that a line is a border at each metre of it: logarithm of the odds, raised by
+/// How sure it is that a line is a border at each meter of it: logarithm of the odds, raised by
 /// beams that end on it, lowered by those that go on through it. A scan counts once, and the sum is
 /// held within bounds, as what a vehicle sees while it stands is always the same.
 class StationEvidence {
@@ -35,7 +35,7 @@ class StationEvidence {
 
   /// Nothing is known of what lies outside of `interval` any more, and evidence may be added of
   /// what lies inside.
-  void keepWithin(const WayInterval& interval);
+  void keepWithin(const ArcLengthInterval& interval);
 
   /// One beam of the scan that ended on the line there (m along it), or went through.
   void addHit(double along);
@@ -60,7 +60,7 @@ class StationEvidence {
 
   /// Where the line is a border: from the first to the last station seen of each piece; gaps of
   /// `bridged_gap` between two stations are left out, shorter ones belong to the piece.
-  std::vector<WayInterval> pieces() const;
+  std::vector<ArcLengthInterval> pieces() const;
 
   /// Stations by themselves that are seen.
   int seenStations() const;
@@ -68,9 +68,9 @@ class StationEvidence {
  private:
   struct Station {
     double log_odds = 0.0;
-    double told = 0.0;  ///< by this scan
+    double update = 0.0;  ///< by this scan
     double open_log_odds = 0.0;
-    double open_told = 0.0;
+    double open_update = 0.0;
   };
 
   /// The number of stations where there is none.

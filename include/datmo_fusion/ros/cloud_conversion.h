@@ -47,10 +47,10 @@ class CloudPoints {
 };
 
 /// Bounds of what a stereo camera may be like.
-inline constexpr double kLeastFocalLength = 10.0;  ///< px
-inline constexpr double kMostFocalLength = 1e5;    ///< px
-inline constexpr double kLeastBaseline = 0.005;    ///< m
-inline constexpr double kMostBaseline = 10.0;      ///< m
+inline constexpr double kMinFocalLength = 10.0;  ///< px
+inline constexpr double kMaxFocalLength = 1e5;   ///< px
+inline constexpr double kMinBaseline = 0.005;    ///< m
+inline constexpr double kMaxBaseline = 10.0;     ///< m
 
 /// Geometry of a rectified pair from the right camera's info: focal length P[0], baseline -P[3] /
 /// P[0], image borders from its width, its region of interest and P[2]. Binning is taken into

@@ -34,7 +34,7 @@ void visitFrames(nav_msgs::Odometry& message, const Visit& visit) {
 }
 
 template <typename Visit>
-void visitFrames(SplitScanMessage& message, const Visit& visit) {
+void visitFrames(LabeledScanMessage& message, const Visit& visit) {
   visit(message.header.frame_id);
   visit(message.map_frame);
 }

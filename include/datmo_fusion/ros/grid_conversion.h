@@ -12,7 +12,7 @@ namespace datmo {
 nav_msgs::OccupancyGrid toMessage(SensorGrid grid, const std::string& base_frame);
 
 /// The frame is not looked at. Messages hold the cell size as a float: it is taken as the whole
-/// number of micrometres that is meant, so that grids of the same window have equal windows again.
+/// number of micrometers that is meant, so that grids of the same window have equal windows again.
 ///
 /// Throws InputError (`bad_grid`): a cell size that is not finite or beyond that of any grid, an
 /// origin that is turned, not on the lattice or beyond any grid, another number of cells than

@@ -66,7 +66,7 @@ class GridFusionStage : public Stage {
 
   void connect(StagePorts& ports) override;
   bool publishNext(Stamp now) override;
-  double maxWait() const override { return options_.matcher.longest_wait; }
+  double maxWait() const override { return options_.matcher.max_wait; }
 
  private:
   void forgetAfter(Arrival arrival);

@@ -28,8 +28,8 @@ struct GridSlamStageOptions {
   FrameOptions frames;   ///< of all stages
   MotionOptions motion;  ///< of all stages
   bool fused_grid = false;
-  double map_period = 1.0;          ///< s
-  double most_tilt = degrees(5.0);  ///< rad
+  double map_period = 1.0;         ///< s
+  double max_tilt = degrees(5.0);  ///< rad
   StreamOptions input;
   ScanConversionOptions scan;
   GridSlamOptions slam;
@@ -39,7 +39,7 @@ struct GridSlamStageOptions {
 
 /// What one scan or fused grid led to, ready to be published.
 struct GridSlamOutput {
-  SplitScanPtr split_scan;
+  LabeledScanPtr labeled_scan;
   geometry_msgs::PoseWithCovarianceStampedPtr pose;
   std::vector<geometry_msgs::TransformStamped> transforms;
 };

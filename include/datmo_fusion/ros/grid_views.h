@@ -25,9 +25,9 @@ namespace datmo {
 ///     | title             |     |      kTitleHeight
 ///     +-------------------+     +--
 ///     |         x ^       |     |
-///     |     y <---+       |     |      (ahead + behind) * pixels_per_metre
+///     |     y <---+       |     |      (ahead + behind) * pixels_per_meter
 ///     +-------------------+     +--
-///       2 to_side * pixels_per_metre
+///       2 to_side * pixels_per_meter
 class GridViews {
  public:
   static constexpr int kTitleHeight = 24;  ///< px

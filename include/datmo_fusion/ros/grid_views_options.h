@@ -13,7 +13,7 @@ struct GridViewsOptions {
   double ahead = 40.0;            ///< m
   double behind = 5.0;            ///< m
   double to_side = 20.0;          ///< m
-  double pixels_per_metre = 8.0;  ///< px/m
+  double pixels_per_meter = 8.0;  ///< px/m
   double rate = 5.0;              ///< Hz
   double silent_after = 1.0;      ///< s
 

@@ -18,9 +18,9 @@
 namespace datmo {
 
 struct LidarGridStageOptions {
-  FrameOptions frames;              ///< of all stages
-  double most_tilt = degrees(5.0);  ///< rad
-  MotionOptions motion;             ///< of all stages
+  FrameOptions frames;             ///< of all stages
+  double max_tilt = degrees(5.0);  ///< rad
+  MotionOptions motion;            ///< of all stages
   StreamOptions input;
   ScanConversionOptions scan;
   LidarGridOptions grid;

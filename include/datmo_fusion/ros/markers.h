@@ -26,7 +26,7 @@ struct MarkersOptions {
   double point_size = 0.3;      ///< m
   double line_width = 0.12;     ///< m
   double text_height = 1.1;     ///< m
-  double least_size = 0.3;      ///< m
+  double min_size = 0.3;        ///< m
   double default_height = 1.5;  ///< m
   double arrow_time = 1.0;      ///< s
   double path_time = 3.0;       ///< s
@@ -38,9 +38,9 @@ struct MarkersOptions {
 /// Messages -> what rviz draws. One namespace for each kind of marker, ids that stay with what they
 /// stand for; the frame is the message's own unless said otherwise.
 
-/// The end points of a scan ("scan"), coloured by state, in the map frame of the pose they were
+/// The end points of a scan ("scan"), colored by state, in the map frame of the pose they were
 /// seen from.
-visualization_msgs::MarkerArray markersOf(const SplitScanMessage& scan,
+visualization_msgs::MarkerArray markersOf(const LabeledScanMessage& scan,
                                           const MarkersOptions& options);
 
 /// The vehicle's own body ("vehicle"): a car of boxes and wheels in the frame of the scan, with
@@ -48,8 +48,8 @@ visualization_msgs::MarkerArray markersOf(const SplitScanMessage& scan,
 visualization_msgs::MarkerArray vehicleMarkers(const std_msgs::Header& scan,
                                                const VehicleBodyOptions& options);
 
-/// Outlines of the objects' boxes ("objects"), coloured by who saw them: violet the lidar, cyan
-/// stereo, yellow both, grey others; pale what is not seen to move. Of a known class also its shape
+/// Outlines of the objects' boxes ("objects"), colored by who saw them: violet the lidar, cyan
+/// stereo, yellow both, gray others; pale what is not seen to move. Of a known class also its shape
 /// ("object bodies", "object heads"): a box for a vehicle, a cylinder with a head for a pedestrian,
 /// a narrow box with a head for a cyclist, a thin cylinder for a pole.
 visualization_msgs::MarkerArray markersOf(const ObjectArray& objects,
@@ -72,21 +72,21 @@ visualization_msgs::MarkerArray markersOf(const RoadBorders& road, const Markers
 
 /// "intersection" and its probability ("intersection"), at the vehicle's position at the scan;
 /// nothing where the road is at none. Throws InputError (`bad_pose`).
-void addIntersection(const RoadBorders& road, const SplitScanMessage& scan,
+void addIntersection(const RoadBorders& road, const LabeledScanMessage& scan,
                      const MarkersOptions& options, visualization_msgs::MarkerArray& markers);
 
-/// Of what was left out: a grey outline ("dropped objects"), and why, how far it reaches beyond the
+/// Of what was left out: a gray outline ("dropped objects"), and why, how far it reaches beyond the
 /// border, and what speaks for its motion ("dropped labels").
 visualization_msgs::MarkerArray markersOf(const DroppedObjects& dropped,
                                           const MarkersOptions& options);
 
-/// Dashed grey outlines of the true objects that move ("ground truth"), thinner than all others.
+/// Dashed gray outlines of the true objects that move ("ground truth"), thinner than all others.
 visualization_msgs::MarkerArray markersOf(const TrueObjectArray& objects,
                                           const MarkersOptions& options);
 
 /// Brings markers from the vehicle's frame to the map by the pose of the scan they were made
 /// from. Throws InputError (`bad_pose`).
-void placeInMap(const SplitScanMessage& scan, visualization_msgs::MarkerArray& markers);
+void transformToMap(const LabeledScanMessage& scan, visualization_msgs::MarkerArray& markers);
 
 /// Knows what is drawn, so that what is gone is deleted.
 class StaleMarkers {

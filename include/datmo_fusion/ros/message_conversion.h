@@ -39,12 +39,12 @@ OdometrySample toSample(const nav_msgs::Odometry& message);
 /// A value without a name is kUnknown.
 ObjectClass classFromMessage(std::uint8_t value);
 
-SplitScanMessage toMessage(const SplitScan& scan, const std::string& base_frame,
-                           const std::string& map_frame);
+LabeledScanMessage toMessage(const LabeledScan& scan, const std::string& base_frame,
+                             const std::string& map_frame);
 
 /// Throws InputError: `bad_pose` for one of the vehicle or the scanner, `bad_field` for one of the
 /// beams, `bad_point` for points that are not finite or of no known state.
-SplitScan fromMessage(const SplitScanMessage& message);
+LabeledScan fromMessage(const LabeledScanMessage& message);
 
 ObjectArray toMessage(const ObjectList& list, const std::string& base_frame);
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <datmo_fusion/DroppedObjects.h>
+#include <datmo_fusion/LabeledScan.h>
 #include <datmo_fusion/ObjectArray.h>
 #include <datmo_fusion/RoadBorders.h>
-#include <datmo_fusion/SplitScan.h>
 #include <datmo_fusion/StageTiming.h>
 #include <datmo_fusion/TrackArray.h>
 #include <datmo_fusion/TrueEchoes.h>
@@ -23,20 +23,20 @@ using RoadBorderMessage = datmo_fusion::RoadBorder;
 using ScanFieldMessage = datmo_fusion::ScanField;
 using ScanPointMessage = datmo_fusion::ScanPoint;
 using SourceTrackMessage = datmo_fusion::SourceTrack;
-using SplitScanMessage = datmo_fusion::SplitScan;
+using LabeledScanMessage = datmo_fusion::LabeledScan;
 using TrackMessage = datmo_fusion::Track;
 using ViewFanMessage = datmo_fusion::ViewFan;
 using datmo_fusion::DroppedObjects;
 using datmo_fusion::DroppedObjectsConstPtr;
 using datmo_fusion::DroppedObjectsPtr;
+using datmo_fusion::LabeledScanConstPtr;
+using datmo_fusion::LabeledScanPtr;
 using datmo_fusion::ObjectArray;
 using datmo_fusion::ObjectArrayConstPtr;
 using datmo_fusion::ObjectArrayPtr;
 using datmo_fusion::RoadBorders;
 using datmo_fusion::RoadBordersConstPtr;
 using datmo_fusion::RoadBordersPtr;
-using datmo_fusion::SplitScanConstPtr;
-using datmo_fusion::SplitScanPtr;
 using datmo_fusion::StageTiming;
 using datmo_fusion::StageTimingConstPtr;
 using datmo_fusion::TrackArray;

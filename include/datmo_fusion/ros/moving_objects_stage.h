@@ -42,14 +42,14 @@ class MovingObjectsStage : public Stage {
   void takeRoadBorders(const RoadBorders& message);
 
   /// None if the scan was dropped.
-  std::optional<MovingObjectsOutput> takeSplitScan(const SplitScanMessage& message);
+  std::optional<MovingObjectsOutput> takeLabeledScan(const LabeledScanMessage& message);
 
   void connect(StagePorts& ports) override;
 
  private:
   /// The borders that serve a scan; none, and the monitor warned, if there are none.
   std::optional<RoadModel> roadAt(Stamp stamp, const std::string& map_frame);
-  DroppedObjectsPtr dropAtBorders(const SplitScan& scan, const SplitScanMessage& message,
+  DroppedObjectsPtr dropAtBorders(const LabeledScan& scan, const LabeledScanMessage& message,
                                   ObjectList& objects);
 
   MovingObjectsStageOptions options_;

@@ -58,7 +58,7 @@ class ObjectFusionStage : public Stage {
   void takePose(const geometry_msgs::PoseWithCovarianceStamped& message);
 
   /// What the scanner saw; it serves for objects at exactly its stamp.
-  void takeSplitScan(const SplitScanMessage& message);
+  void takeLabeledScan(const LabeledScanMessage& message);
 
   /// The next set of lists that is ready, fused, at the reference's stamp; null if there is none.
   /// Call it until null, after each list and from time to time: it is not known before whether one
@@ -67,7 +67,7 @@ class ObjectFusionStage : public Stage {
 
   void connect(StagePorts& ports) override;
   bool publishNext(Stamp now) override;
-  double maxWait() const override { return options_.matcher.longest_wait; }
+  double maxWait() const override { return options_.matcher.max_wait; }
 
  private:
   using Matched = MatchedSamples<ObjectList>;
@@ -76,7 +76,7 @@ class ObjectFusionStage : public Stage {
   std::vector<SourceObjects> movedLists(const Matched& matched,
                                         std::vector<MissingSource>& missing) const;
   /// None without a scan of this stamp. Sets come by rising stamp: older scans are dropped.
-  std::optional<SplitScan> takeScanAt(Stamp stamp);
+  std::optional<LabeledScan> takeScanAt(Stamp stamp);
   void forgetAfter(Arrival arrival);
   void report(const std::vector<SourceObjects>& lists, const ObjectFusionCounts& counts);
 
@@ -86,7 +86,7 @@ class ObjectFusionStage : public Stage {
   SourceMatcher<ObjectList> matcher_;
   ObjectFuser fuser_;
   StagePublisher<ObjectArray> fused_;
-  std::deque<SplitScan> scans_;  ///< newer than the last set, by rising stamp
+  std::deque<LabeledScan> scans_;  ///< newer than the last set, by rising stamp
   std::uint64_t times_without_scan_ = 0;
   std::uint64_t bad_objects_ = 0;
   std::uint64_t objects_too_many_ = 0;

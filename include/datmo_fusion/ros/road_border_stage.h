@@ -28,7 +28,7 @@ class RoadBorderStage : public Stage {
   RoadBorderStage(const RoadBorderStageOptions& options, StageMonitor& monitor);
 
   /// The road in the frame of the map that the scan was split by; null if the scan was dropped.
-  RoadBordersPtr takeSplitScan(const SplitScanMessage& message);
+  RoadBordersPtr takeLabeledScan(const LabeledScanMessage& message);
 
   void connect(StagePorts& ports) override;
 

@@ -11,12 +11,12 @@
 namespace datmo {
 
 /// The borders of one road have at most as many points in all: no road about a vehicle needs more.
-inline constexpr std::size_t kMostBorderPoints = 10000;
+inline constexpr std::size_t kMaxBorderPoints = 10000;
 
 /// Throws InputError: `bad_border` for a stretch of fewer than two points, points or an age that
 /// are not finite, another number of standard deviations than of points or one below zero, a side
 /// without a name, a probability that is none; `bad_road` for the probability of an intersection;
-/// `many_points` for more than kMostBorderPoints.
+/// `many_points` for more than kMaxBorderPoints.
 RoadBorders toMessage(const RoadModel& road, const std::string& fixed_frame);
 
 /// The inverse, to the message's precision (places and probabilities are single); throws the same.

@@ -14,8 +14,8 @@
 namespace datmo {
 
 struct ScanConversionOptions {
-  double free_range = 40.0;     ///< m
-  double longest_sweep = 0.25;  ///< s
+  double free_range = 40.0;  ///< m
+  double max_sweep = 0.25;   ///< s
 
   void visit(OptionVisitor& visitor);
 };
@@ -38,7 +38,7 @@ struct ConvertedScan {
 /// the beam before it, the first one's at the header's stamp. A beam without return is free up to
 /// `free_range` or range_max, whichever is nearer.
 ///
-/// A time increment that is not finite, negative or makes the sweep longer than `longest_sweep`
+/// A time increment that is not finite, negative or makes the sweep longer than `max_sweep`
 /// does not cost the scan.
 ///
 /// Throws InputError: `empty_scan` (no beams), `bad_geometry` (angles or range limits that are not

@@ -24,7 +24,7 @@ class ScanViews {
 
   /// Takes a split scan; an older one than the newest begins anew (a looped bag). Throws InputError
   /// (`bad_pose`, `bad_field`, `bad_point`).
-  void add(const SplitScanMessage& scan);
+  void add(const LabeledScanMessage& scan);
 
   /// Pose of the vehicle's frame in another one, at exactly the stamp of the header, which also
   /// names the vehicle's frame; none if no split scan said so.

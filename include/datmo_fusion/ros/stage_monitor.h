@@ -33,7 +33,7 @@ struct Processed {
 struct TimingStatus {
   double median = 0.0;
   double percentile_99 = 0.0;
-  double most = 0.0;
+  double max = 0.0;
 };
 
 /// Counts what a stage receives, drops and needs in time; reports on the console what is

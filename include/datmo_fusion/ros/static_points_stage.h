@@ -45,12 +45,12 @@ class StaticPointsStage : public Stage {
   StaticPointsStage(const StaticPointsStageOptions& options, StageMonitor& monitor);
 
   /// None if the scan was dropped.
-  std::optional<StaticPointsOutput> takeSplitScan(const SplitScanMessage& message);
+  std::optional<StaticPointsOutput> takeLabeledScan(const LabeledScanMessage& message);
 
   void connect(StagePorts& ports) override;
 
  private:
-  tf2_msgs::TFMessageConstPtr newMount(const SplitScan& scan, const std_msgs::Header& header);
+  tf2_msgs::TFMessageConstPtr newMount(const LabeledScan& scan, const std_msgs::Header& header);
 
   StaticPointsStageOptions options_;
   StageMonitor& monitor_;

@@ -40,7 +40,7 @@ class TrackerStage : public Stage {
 
   /// Where the vehicle was at this scan, and (`scan_view`) what it saw. It may come before or after
   /// the scan's objects.
-  void takeSplitScan(const SplitScanMessage& message);
+  void takeLabeledScan(const LabeledScanMessage& message);
 
   /// Puts objects into the queue. `now`: ROS time.
   void takeObjects(const ObjectArrayConstPtr& message, Stamp now);

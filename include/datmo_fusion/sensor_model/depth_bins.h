@@ -24,18 +24,18 @@ class DepthBins {
   bool contains(float depth) const { return depth >= 0.0F && depth < farthest_; }
 
   /// The bin that holds a depth which contains() says is inside.
-  int at(float depth) const { return bin_at_[place(depth)]; }
+  int at(float depth) const { return bin_at_[indexOf(depth)]; }
 
   /// How many bins have their middle nearer than this depth (0 or more, or not a number: all).
-  int before(float depth) const { return depth < farthest_ ? before_[place(depth)] : size(); }
+  int before(float depth) const { return depth < farthest_ ? before_[indexOf(depth)] : size(); }
 
  private:
-  std::size_t place(float depth) const {
-    return static_cast<std::size_t>(depth * places_per_metre_);
+  std::size_t indexOf(float depth) const {
+    return static_cast<std::size_t>(depth * bins_per_meter_);
   }
 
   float farthest_ = 0.0F;
-  float places_per_metre_ = 0.0F;
+  float bins_per_meter_ = 0.0F;
   std::vector<float> middles_;
   std::vector<int> bin_at_;  ///< by depth, in halves of the finest bin
   std::vector<int> before_;

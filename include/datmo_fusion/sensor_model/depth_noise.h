@@ -8,16 +8,16 @@ namespace datmo {
 
 /// How the noise of a camera's depth grows with the depth: the standard deviation is
 ///
-///   constant + linear * depth + depth^2 * disparity_sigma / disparity_at_metre,
+///   constant + linear * depth + depth^2 * disparity_sigma / disparity_at_meter,
 ///
 /// which holds cameras that triangulate (the last term: a point `depth` m away has a disparity of
-/// disparity_at_metre / depth) as well as those that measure a time of flight (the first two).
+/// disparity_at_meter / depth) as well as those that measure a time of flight (the first two).
 /// Stages take the noise from here alone, and none of its terms.
 struct DepthNoise {
   double constant = 0.0;            ///< m
   double linear = 0.0;              ///< m / m; sigma() must be more than 0 at all depths
   double disparity_sigma = 0.0;     ///< px, 0 or more
-  double disparity_at_metre = 1.0;  ///< px m, more than 0: focal length times baseline
+  double disparity_at_meter = 1.0;  ///< px m, more than 0: focal length times baseline
 
   /// Of cameras that match disparities: a pair, or a camera and a projector.
   static DepthNoise ofDisparity(double focal_length, double baseline, double disparity_sigma) {
@@ -30,11 +30,11 @@ struct DepthNoise {
   }
 
   /// 1/m
-  double quadratic() const { return disparity_sigma / disparity_at_metre; }
+  double quadratic() const { return disparity_sigma / disparity_at_meter; }
 
   /// Standard deviation of a depth, m. `depth`: m, 0 or more.
   double sigma(double depth) const {
-    return constant + linear * depth + depth * depth * disparity_sigma / disparity_at_metre;
+    return constant + linear * depth + depth * depth * disparity_sigma / disparity_at_meter;
   }
 
   /// Standard deviation of an inverse depth, 1/m, to first order in the noise; the same at all

@@ -12,8 +12,8 @@ struct LidarGridOptions {
   GridWindowOptions window;
   double occupied_probability = 0.8;
   double free_probability = 0.2;
-  double beam_width = 0.0;                 ///< rad
-  double least_incidence = degrees(10.0);  ///< rad
+  double beam_width = 0.0;               ///< rad
+  double min_incidence = degrees(10.0);  ///< rad
 
   void visit(OptionVisitor& visitor);
 };
@@ -23,7 +23,7 @@ struct LidarGridOptions {
 /// where it ends, across its width; unknown behind and where no beam looks.
 ///
 /// In: a Scan that is compensated for the vehicle's motion (slam/motion_compensation). Out: to
-/// grid fusion. Beyond the thesis: a beam is as wide as it opens, not as its neighbours are apart;
+/// grid fusion. Beyond the thesis: a beam is as wide as it opens, not as its neighbors are apart;
 /// a beam without return is free as far as it is known to see.
 class LidarGridModel {
  public:

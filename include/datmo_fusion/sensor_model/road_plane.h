@@ -23,12 +23,12 @@ struct RoadPlane {
 
 struct RoadPlaneOptions {
   bool estimate = true;
-  double farthest = 30.0;    ///< m
-  double half_width = 8.0;   ///< m
-  double tolerance = 0.1;    ///< m
-  int least_cells = 30;      ///< cells of 1 m x 1 m
-  double most_slope = 0.1;   ///< m / m
-  double most_height = 0.4;  ///< m
+  double max_distance = 30.0;  ///< m
+  double half_width = 8.0;     ///< m
+  double tolerance = 0.1;      ///< m
+  int min_cells = 30;          ///< cells of 1 m x 1 m
+  double max_slope = 0.1;      ///< m / m
+  double max_height = 0.4;     ///< m
 
   void visit(OptionVisitor& visitor);
 };
@@ -36,7 +36,7 @@ struct RoadPlaneOptions {
 /// Finds the road's plane in the points of a stereo camera, so that the layer of obstacles follows
 /// slopes and pitching; the thesis takes the road as flat (3.2.2).
 ///
-/// Trimmed least squares from the last plane on, one vote for each square metre of road, first near
+/// Trimmed least squares from the last plane on, one vote for each square meter of road, first near
 /// the vehicle, then farther out: no random samples, so the same clouds give the same planes. Keeps
 /// the last plane from cloud to cloud.
 class RoadPlaneEstimator {

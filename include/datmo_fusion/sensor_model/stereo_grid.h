@@ -21,15 +21,15 @@ struct StereoConesOptions {
 
 /// When what is seen in the columns of the image makes a cell occupied or free.
 struct StereoColumnsOptions {
-  double least_surface = 0.01;  ///< m^2
-  int least_points = 3;
-  double least_object_surface = 0.05;  ///< m^2
-  double doubtful_share = 0.5;         ///< 0 to 1
+  double min_surface = 0.01;  ///< m^2
+  int min_points = 3;
+  double min_object_surface = 0.05;  ///< m^2
+  double doubtful_share = 0.5;       ///< 0 to 1
   double noise_factor = 1.0;
-  double road_sigmas = 2.0;       ///< standard deviations of the depth
-  double obstacle_sigmas = 1.5;   ///< standard deviations of the depth
-  double least_seen_share = 0.3;  ///< 0 to 1
-  int least_lines = 3;
+  double road_sigmas = 2.0;      ///< standard deviations of the depth
+  double obstacle_sigmas = 1.5;  ///< standard deviations of the depth
+  double min_seen_share = 0.3;   ///< 0 to 1
+  int min_lines = 3;
 
   void visit(OptionVisitor& visitor);
 };
@@ -39,10 +39,10 @@ struct StereoGridOptions {
   std::string method = "columns";
   double occupied_probability = 0.8;
   double free_probability = 0.2;
-  double least_layer_height = 0.2;  ///< m
-  double layer_thickness = 1.0;     ///< m
-  double nearest_depth = 0.5;       ///< m
-  double effective_range = 36.0;    ///< m
+  double min_layer_height = 0.2;  ///< m
+  double layer_thickness = 1.0;   ///< m
+  double min_depth = 0.5;         ///< m
+  double effective_range = 36.0;  ///< m
   StereoColumnsOptions columns;
   StereoConesOptions cones;
   RoadPlaneOptions road;
@@ -73,7 +73,7 @@ class StereoEvidence;
 /// stochastic occupancy grids and dynamic programming, 2007); the road is a plane estimated from
 /// the points; free is only what enough lines of sight cross near the ground.
 ///
-/// A cloud may be dense or thinned, organised or not: its density is estimated from it. Not thread
+/// A cloud may be dense or thinned, organized or not: its density is estimated from it. Not thread
 /// safe. Keeps the last road plane from cloud to cloud.
 class StereoGridModel {
  public:

@@ -10,7 +10,7 @@ namespace datmo {
 
 /// A point as the camera sees it from above: m from the camera along its horizontal heading, and to
 /// the right of it.
-struct ViewedPlace {
+struct PointInView {
   double forward = 0.0;
   double right = 0.0;
 
@@ -40,14 +40,14 @@ class StereoView {
   }
 
   /// `position`: base frame, m.
-  ViewedPlace placeOf(const Point2& position) const {
-    const Point2 way = position - position_;
-    return {way.dot(heading_), heading_.y() * way.x() - heading_.x() * way.y()};
+  PointInView viewedPoint(const Point2& position) const {
+    const Point2 offset = position - position_;
+    return {offset.dot(heading_), heading_.y() * offset.x() - heading_.x() * offset.y()};
   }
 
   /// Base frame, m.
-  Point2 positionOf(const ViewedPlace& place) const {
-    return position_ + place.forward * heading_ + place.right * Point2(heading_.y(), -heading_.x());
+  Point2 positionOf(const PointInView& point) const {
+    return position_ + point.forward * heading_ + point.right * Point2(heading_.y(), -heading_.x());
   }
 
   /// Of the camera, in the base frame, m.

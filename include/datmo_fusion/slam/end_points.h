@@ -18,10 +18,10 @@ struct EndPoint {
 ///
 /// Beams hit a surface at arbitrary points: the same surface, seen from a little further on, is
 /// sampled anywhere between two of them. `sampling` is this uncertainty, as a uniform distribution
-/// over the step to the neighbouring end points. Neighbours within `longest_step` (m) lie on the
+/// over the step to the neighboring end points. Neighbors within `max_step` (m) lie on the
 /// same surface; where there is none, the step is the shorter one (a surface met at a flat angle),
-/// or, for an end point in front of both neighbours (an object of its own), the spacing of the
+/// or, for an end point in front of both neighbors (an object of its own), the spacing of the
 /// beams across the line of sight.
-std::vector<EndPoint> endPoints(const Scan& scan, double longest_step);
+std::vector<EndPoint> endPoints(const Scan& scan, double max_step);
 
 }  // namespace datmo

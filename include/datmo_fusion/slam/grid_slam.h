@@ -6,7 +6,7 @@
 #include "datmo_fusion/common/random.h"
 #include "datmo_fusion/common/scan.h"
 #include "datmo_fusion/grid/occupancy_map.h"
-#include "datmo_fusion/slam/fused_view.h"
+#include "datmo_fusion/slam/grid_masked_scan.h"
 #include "datmo_fusion/slam/odometry_buffer.h"
 #include "datmo_fusion/slam/pose_filter.h"
 #include "datmo_fusion/slam/scan_matcher.h"
@@ -20,7 +20,7 @@ struct GridSlamOptions {
   ScanMatcherOptions matcher;
   double odometry_hold = 0.5;  ///< s
   bool motion_compensation = true;
-  double longest_step = 5.0;  ///< m
+  double max_step = 5.0;  ///< m
   std::string grid_ends = "scan";
   int seed = 1;
 
@@ -29,7 +29,7 @@ struct GridSlamOptions {
 
 /// What one scan led to.
 struct SlamResult {
-  SplitScan split;                 ///< the scan's end points, judged against the map, and the pose
+  LabeledScan split;               ///< the scan's end points, judged against the map, and the pose
   bool odometry_used = false;      ///< false: predicted with the last estimated velocity
   MatchQuality match;              ///< how well the scan fits the map
   OdometryErrors odometry_errors;  ///< as estimated so far
@@ -79,7 +79,7 @@ class GridSlam {
   };
 
   /// The scan of a measurement as the grid, if there is one, lets it stand.
-  FusedView viewOf(const Measurement& measurement, const Scan& compensated_scan) const;
+  GridMaskedScan viewOf(const Measurement& measurement, const Scan& compensated_scan) const;
 
   SlamResult process(const Measurement& measurement);
 

@@ -25,21 +25,20 @@ struct OdometrySample {
 
 /// No vehicle is faster (m/s) or spins faster (rad/s): what says so is broken, or a pose that
 /// jumped.
-inline constexpr double kMostSpeed = 150.0;
-inline constexpr double kMostYawRate = 20.0;
+inline constexpr double kMaxSpeed = 150.0;
+inline constexpr double kMaxYawRate = 20.0;
 
 /// Also false for NaN.
 inline bool isPlausible(const Twist2& twist) {
-  return std::abs(twist.forward_speed) <= kMostSpeed && std::abs(twist.yaw_rate) <= kMostYawRate;
+  return std::abs(twist.forward_speed) <= kMaxSpeed && std::abs(twist.yaw_rate) <= kMaxYawRate;
 }
 
 /// A short time of odometry, from which the motion between two scans is put together.
 class OdometryBuffer {
  public:
-  /// `longest_hold`: how long (s) a sample serves after its stamp when no newer one has come.
+  /// `max_hold`: how long (s) a sample serves after its stamp when no newer one has come.
   /// `memory`: how much of it (s) is kept.
-  OdometryBuffer(double longest_hold, double memory)
-      : longest_hold_(longest_hold), memory_(memory) {}
+  OdometryBuffer(double max_hold, double memory) : max_hold_(max_hold), memory_(memory) {}
 
   /// Samples in rising stamp order; one that is not newer than the last is left out.
   void add(const OdometrySample& sample);
@@ -64,7 +63,7 @@ class OdometryBuffer {
   /// Takes the mean motion between two samples from their poses, if they have any.
   static void connect(Piece& from, const OdometrySample& to);
 
-  double longest_hold_;
+  double max_hold_;
   double memory_;
   std::deque<Piece> pieces_;
 };

@@ -18,8 +18,8 @@ struct ScanMatcherOptions {
   double point_sigma = 0.2;        ///< m
   double information_share = 0.5;  ///< 0 to 1
   double degenerate_sigma = 0.5;   ///< m
-  double least_maturity = 0.02;    ///< 0 to 1
-  int least_points = 5;            ///< for a match
+  double min_maturity = 0.02;      ///< 0 to 1
+  int min_points = 5;              ///< for a match
 
   void visit(OptionVisitor& visitor);
 };
@@ -73,14 +73,14 @@ class ScanMatcher {
 
   /// Which hits of the map an end point is compared with.
   enum class Resolution {
-    kNeighbourhood,  ///< all in 3 x 3 cells: found from afar
-    kCell,           ///< those of the nearest cell: exact
+    kNeighborhood,  ///< all in 3 x 3 cells: found from afar
+    kCell,          ///< those of the nearest cell: exact
   };
 
   struct Task;
 
   /// The match around this pose, without the direction that it hardly observes.
-  Normal linearise(const Task& task, const Pose2& pose, Resolution resolution) const;
+  Normal linearize(const Task& task, const Pose2& pose, Resolution resolution) const;
   Normal sumOf(const Task& task, const Pose2& pose, Resolution resolution) const;
   double score(const Task& task, const Pose2& pose) const;
   Pose2 bestSample(const Task& task, Random& random) const;

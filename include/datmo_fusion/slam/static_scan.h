@@ -13,9 +13,9 @@ namespace datmo {
 ///
 /// `include_unknown`: end points where the map knows nothing yet count as standing. Empty without
 /// beams in the field; end points of beams beyond the field are left out.
-std::vector<float> staticRanges(const SplitScan& scan, bool include_unknown);
+std::vector<float> staticRanges(const LabeledScan& scan, bool include_unknown);
 
 /// The end points that stand, m, frame of the scan; with `include_unknown` as above.
-std::vector<Point2> staticPoints(const SplitScan& scan, bool include_unknown);
+std::vector<Point2> staticPoints(const LabeledScan& scan, bool include_unknown);
 
 }  // namespace datmo

@@ -31,10 +31,10 @@ inline constexpr std::int64_t kUnlimitedWork = std::numeric_limits<std::int64_t>
 /// row has to itself, is never stored. Equal costs: the earlier column, and a column rather than
 /// none.
 ///
-/// `most_work`: once more entries of the matrix than this were looked at (about 1 ns each), the
+/// `max_work`: once more entries of the matrix than this were looked at (about 1 ns each), the
 /// rows that are left, in their order, get the cheapest column that is free. Counted, not timed:
 /// the same input gives the same output. Throws std::invalid_argument on sizes that do not match.
 Assignment solveAssignment(const CostMatrix& cost, const Eigen::VectorXd& unassigned_cost,
-                           std::int64_t most_work = kUnlimitedWork);
+                           std::int64_t max_work = kUnlimitedWork);
 
 }  // namespace datmo

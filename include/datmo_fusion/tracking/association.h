@@ -10,11 +10,11 @@
 namespace datmo {
 
 struct AssociationOptions {
-  double gate = 13.8;              ///< 1
-  double least_same_class = 0.02;  ///< 1
-  int most_candidates = 8;
-  int most_targets = 600;
-  int most_work = 2000000;
+  double gate = 13.8;            ///< 1
+  double min_same_class = 0.02;  ///< 1
+  int max_candidates = 8;
+  int max_targets = 600;
+  int max_work = 2000000;
 
   void visit(OptionVisitor& visitor);
 };

@@ -24,7 +24,7 @@ struct Observation {
 
 /// One scan as the association sees it, in the fixed frame.
 struct AssociationScan {
-  /// First the objects by themselves, by rising x of their centres; then what else they may be.
+  /// First the objects by themselves, by rising x of their centers; then what else they may be.
   std::vector<Observation> observations;
   std::size_t objects = 0;          ///< how many are objects by themselves
   std::vector<std::size_t> listed;  ///< where each object stood in the sensor's list
@@ -33,7 +33,7 @@ struct AssociationScan {
 
   const Visibility* visibility = nullptr;  ///< vehicle's frame
   Pose2 fixed_in_base;
-  const TransitionPriors* transition_priors = nullptr;  ///< null: nothing is learnt of jumps
+  const TransitionPriors* transition_priors = nullptr;  ///< null: nothing is learned of jumps
 
   /// How a new target of this class changes between motion modes; none: by the options alone.
   std::optional<TransitionModel> transitionsOf(ObjectClass object_class) const;
@@ -44,7 +44,7 @@ struct AssociationScan {
 
 struct ScanIntakeOptions {
   double new_density = 2.5e-4;  ///< 1/m^2
-  int most_objects = 500;
+  int max_objects = 500;
 
   void visit(OptionVisitor& visitor);
 };
@@ -58,7 +58,7 @@ struct ScanIntakeCounts {
 
 /// Takes in the objects of one time, in the vehicle's frame. `visibility` must outlive the scan.
 /// The order of the objects does not matter.
-AssociationScan takeIn(const std::vector<Object>& objects, const Pose2& base_in_fixed,
+AssociationScan ingest(const std::vector<Object>& objects, const Pose2& base_in_fixed,
                        const Visibility& visibility, const ClutterMap& clutter,
                        const ScanIntakeOptions& options, ScanIntakeCounts& counts);
 

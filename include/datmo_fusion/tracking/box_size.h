@@ -86,7 +86,7 @@ class BoxSize {
     std::array<double, kAxes> variance;  ///< m^2
   };
 
-  void summarise();
+  void summarize();
 
   /// By kind; within one, length along the first axis, along the second.
   std::array<Hypothesis, kKinds * kAxes> hypotheses_;

@@ -16,15 +16,15 @@ struct ClutterMapOptions {
 };
 
 /// How many objects that belong to no confirmed target there are around each position relative to
-/// the vehicle: false alarms, and objects that come into view. Learnt from the scans before
+/// the vehicle: false alarms, and objects that come into view. Learned from the scans before
 /// (Musicki, Suvorova, Morelande, Moran, Clutter map and target tracking, 2005).
 class ClutterMap {
  public:
   explicit ClutterMap(const ClutterMapOptions& options);
 
   /// Objects of no target in one scan, 1/m^2, at a position in the vehicle's frame; 0 where nothing
-  /// was learnt.
-  double density(const Point2& place) const { return densities_.atOrEmpty(cellAt(place)); }
+  /// was learned.
+  double density(const Point2& position) const { return densities_.atOrEmpty(cellAt(position)); }
 
   /// Takes in where such objects were in one scan (m, vehicle's frame), `seconds` >= 0 after the
   /// last one.
@@ -34,7 +34,7 @@ class ClutterMap {
   void clear();
 
  private:
-  CellIndex cellAt(const Point2& place) const { return densities_.window().cellAt(place); }
+  CellIndex cellAt(const Point2& position) const { return densities_.window().cellAt(position); }
 
   ClutterMapOptions options_;
   RollingGrid<double> densities_;  ///< 1/m^2, about the vehicle

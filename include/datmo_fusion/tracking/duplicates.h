@@ -10,7 +10,7 @@
 
 namespace datmo {
 
-/// Whether a box of `scale` times its size holds the other's centre.
+/// Whether a box of `scale` times its size holds the other's center.
 bool reaches(Box2 box, const Box2& other, double scale);
 
 struct DuplicateOptions {

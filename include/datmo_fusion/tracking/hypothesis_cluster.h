@@ -31,11 +31,11 @@ struct HypothesisCluster {
 /// A cluster of one target that has just been seen for the first time.
 HypothesisCluster singleTarget(TrackTree tree);
 
-/// Both clusters as one, with the `most` likeliest pairs of their hypotheses.
-HypothesisCluster joined(HypothesisCluster a, HypothesisCluster b, std::size_t most);
+/// Both clusters as one, with the `max` likeliest pairs of their hypotheses.
+HypothesisCluster merge(HypothesisCluster a, HypothesisCluster b, std::size_t max);
 
 /// Removes all hypotheses that differ from the best one in how they explain the scan `history`
-/// scans ago (N-scan pruning: Blackman 2004; thesis 3.3.4). `history` to kMostScanHistory; 0 leaves
+/// scans ago (N-scan pruning: Blackman 2004; thesis 3.3.4). `history` to kMaxScanHistory; 0 leaves
 /// the best one alone.
 void pruneHistory(HypothesisCluster& cluster, std::size_t history);
 
@@ -44,7 +44,7 @@ void removeLeaves(HypothesisCluster& cluster, const std::function<bool(const Tar
 
 /// Sorts the hypotheses, merges equal ones, and removes leaves and trees that are in none. A
 /// cluster may be left without trees.
-void tidy(HypothesisCluster& cluster);
+void canonicalize(HypothesisCluster& cluster);
 
 /// The groups of targets that have shared no object since `oldest_scan`, not even through one that
 /// is gone, as clusters of their own.

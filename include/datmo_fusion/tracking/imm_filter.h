@@ -14,7 +14,7 @@ namespace datmo {
 
 struct ImmOptions : ClassMotionOptions {
   TransitionOptions transitions;
-  double least_probability = 1e-3;
+  double min_probability = 1e-3;
 
   void visit(OptionVisitor& visitor);
 };
@@ -57,9 +57,9 @@ class ImmFilter {
   void predict(const ImmStep& step);
 
   /// Each mode is updated with the measurement and weighted by how well it had predicted it; none
-  /// that was possible falls below `least_probability`, so that it can come back. Returns the
+  /// that was possible falls below `min_probability`, so that it can come back. Returns the
   /// logLikelihood of the measurement, as it was before.
-  double update(const PositionMeasurement& measured, double least_probability);
+  double update(const PositionMeasurement& measured, double min_probability);
 
   /// Logarithm of the density of a measurement over all modes, of 1/m^2.
   double logLikelihood(const PositionMeasurement& measured) const;
@@ -68,7 +68,7 @@ class ImmFilter {
   /// it that is followed.
   void shift(const Point2& offset);
 
-  /// As the class of the target becomes known; without effect where nothing is learnt.
+  /// As the class of the target becomes known; without effect where nothing is learned.
   void setTransitionPrior(const JumpCounts& prior);
 
   /// Mean and covariance of the mixture of all modes.

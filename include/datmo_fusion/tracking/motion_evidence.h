@@ -10,24 +10,24 @@ struct MotionEvidenceOptions {
   double false_density = 0.02;             ///< 1/m^2
   double echo_density = 0.2;               ///< 1/m^2
   double required_against_chance = 9.0;    ///< 1
-  double most_evidence = 20.0;             ///< 1
-  double least_evidence = 0.0;             ///< 1
+  double max_evidence = 20.0;              ///< 1
+  double min_evidence = 0.0;               ///< 1
   double standing_drift = 1.0;             ///< m^2/s
   double required_against_standing = 3.0;  ///< 1
   double scan_limit = 2.0;                 ///< 1
   double free_space_evidence = 0.7;        ///< 1
-  double most_static_share = 0.3;          ///< 1
-  double least_overrun = 1.0;              ///< m
+  double max_static_share = 0.3;           ///< 1
+  double min_overrun = 1.0;                ///< m
   double unseen_share = 0.5;               ///< 1
   double overrun_significance = 2.0;       ///< 1
-  double least_speed = 0.8;                ///< m/s
+  double min_speed = 0.8;                  ///< m/s
   double speed_significance = 5.99;        ///< 1
 
   void visit(OptionVisitor& visitor);
 };
 
 /// Whether v' P^-1 v of a velocity exceeds a chi-square quantile, and its norm a least speed (m/s).
-bool velocityIsSignificant(const StateEstimate& estimate, double significance, double least_speed);
+bool velocityIsSignificant(const StateEstimate& estimate, double significance, double min_speed);
 
 /// Whether a velocity is compatible with this speed (m/s) or a higher one, at this chi-square
 /// quantile.
@@ -37,7 +37,7 @@ bool mayBeAsFastAs(const StateEstimate& estimate, double significance, double sp
 /// stands, and only its visible part slides while the vehicle passes; or its objects do not belong
 /// together, and chance put them in a row. Motion is accepted when five tests agree:
 /// 1. Moving against standing: the log-likelihood ratio of the measurements by the motion filter
-///    and by a standing object whose visible centre drifts as a random walk, summed up but never
+///    and by a standing object whose visible center drifts as a random walk, summed up but never
 ///    below 0 (CUSUM: Page, Continuous inspection schemes, 1954), so that one that starts to move
 ///    after a rest is found as quickly.
 /// 2. One object against chance: the track score (Sittler 1964; Blackman 2004), from the likelihood
@@ -73,7 +73,7 @@ class MotionEvidence {
   /// The present scan shows no object of this target, and would have with this probability.
   void miss(double detection_probability, const MotionEvidenceOptions& options);
 
-  /// The target's centre turned out to lie elsewhere in it (m, fixed frame): no motion.
+  /// The target's center turned out to lie elsewhere in it (m, fixed frame): no motion.
   void shift(const Point2& offset) { standing_.position += offset; }
 
   /// All five tests agree; `estimate` is that of the motion filter.
@@ -88,24 +88,24 @@ class MotionEvidence {
 
  private:
   /// Where the object was seen at one time.
-  struct Place {
+  struct ObservedBox {
     Box2 box;
     Eigen::Matrix2d covariance;
     double free_share;         ///< 0 to 1, of its points: those that lie where the map is free
     double static_share;       ///< 1: known to be static, else 0
     Eigen::Matrix2d measured;  ///< projector on the axes of which one end at least was seen
   };
-  static Place placeOf(const Object& object);
+  static ObservedBox observedBox(const Object& object);
   void startHere();
 
   void addAgainstStanding(double ratio, const MotionEvidenceOptions& options);
   void addAgainstChance(double ratio, const MotionEvidenceOptions& options);
-  bool leftItsPlace(const MotionEvidenceOptions& options) const;
+  bool leftItsAnchor(const MotionEvidenceOptions& options) const;
 
   double against_standing_ = 0.0;
   double against_chance_ = 0.0;
-  Place anchor_;
-  Place present_;
+  ObservedBox anchor_;
+  ObservedBox present_;
   Box2 longest_;
   int objects_ = 1;      ///< since the anchor
   double free_share_;    ///< mean over them

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "datmo_fusion/tracking/hypothesis_cluster.h"
-#include "datmo_fusion/tracking/hypothesis_growth.h"
+#include "datmo_fusion/tracking/hypothesis_expansion.h"
 #include "datmo_fusion/tracking/split_merge.h"
 #include "datmo_fusion/tracking/target_set.h"
 
@@ -15,7 +15,7 @@ namespace datmo {
 /// of targets that compete for objects, and pruning of decisions a few scans old.
 ///
 /// With one hypothesis, no scan history, and neither split nor merged objects it does the same as
-/// NearestNeighbourTargets.
+/// NearestNeighborTargets.
 class MultipleHypotheses : public TargetSet {
  public:
   MultipleHypotheses(const TargetOptions& target, const AssociationOptions& association,
@@ -34,9 +34,9 @@ class MultipleHypotheses : public TargetSet {
 
  private:
   void score(const AssociationScan& scan);
-  void joinCompeting(std::size_t objects);
-  void grow(HypothesisCluster cluster, AssociationScan& scan, const StepBudget& budget,
-            std::vector<HypothesisCluster>& next);
+  void mergeCompeting(std::size_t objects);
+  void expandCluster(HypothesisCluster cluster, AssociationScan& scan, const StepBudget& budget,
+                     std::vector<HypothesisCluster>& next);
   void startTargets(const AssociationScan& scan, const std::vector<bool>& claimed,
                     std::vector<HypothesisCluster>& next);
   std::size_t targets() const;

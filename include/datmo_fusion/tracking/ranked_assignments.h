@@ -17,10 +17,10 @@ namespace datmo {
 /// once its lower bound is the least of all.
 class RankedAssignments {
  public:
-  /// As solveAssignment(), throws the same; `most_work` is for all assignments together. It takes
+  /// As solveAssignment(), throws the same; `max_work` is for all assignments together. It takes
   /// memory of rows + columns for each assignment that was looked at.
   RankedAssignments(CostMatrix cost, Eigen::VectorXd unassigned_cost,
-                    std::int64_t most_work = kUnlimitedWork);
+                    std::int64_t max_work = kUnlimitedWork);
   ~RankedAssignments();
   RankedAssignments(RankedAssignments&&) noexcept;
   RankedAssignments& operator=(RankedAssignments&&) noexcept;

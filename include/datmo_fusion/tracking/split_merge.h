@@ -4,7 +4,7 @@
 
 #include "datmo_fusion/tracking/association.h"
 #include "datmo_fusion/tracking/hypothesis_cluster.h"
-#include "datmo_fusion/tracking/hypothesis_growth.h"
+#include "datmo_fusion/tracking/hypothesis_expansion.h"
 
 namespace datmo {
 
@@ -12,7 +12,7 @@ struct SplitMergeOptions {
   double split_probability = 0.1;   ///< 1
   double merge_probability = 0.05;  ///< 1
   double margin = 0.5;              ///< m
-  int most_readings = 6;            ///< 1
+  int max_readings = 6;             ///< 1
 
   void visit(OptionVisitor& visitor);
 };

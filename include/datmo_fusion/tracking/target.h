@@ -28,7 +28,7 @@ struct TargetOptions {
   double birth_speed_std = 8.0;    ///< m/s
   double stop_speed = 0.4;         ///< m/s
   double fused_free_share = 0.8;   ///< 1
-  int fused_vehicle_sights = 2;
+  int fused_vehicle_detections = 2;
   double fused_history = 0.5;     ///< s
   double fused_proof_time = 2.0;  ///< s
 
@@ -84,13 +84,13 @@ class Target {
   /// before says that it stands.
   ///
   /// The thesis takes that for a fact at the first detection. But vehicles stand at every curb, and
-  /// what is beside one, or an echo of the kerb below it, looks as if it moved: that one moves has
+  /// what is beside one, or an echo of the curb below it, looks as if it moved: that one moves has
   /// to be seen more than once. Who was followed for longer has shown by then whether it moves.
   bool isSeenMovingByTwo(const TargetOptions& options) const;
 
   /// It was taken for a moving object because two sensors saw it so, and has had the time to show
   /// that it does not move.
-  bool turnedOutToStand(const TargetOptions& options) const {
+  bool motionRefuted(const TargetOptions& options) const {
     return confirmed() && !has_moved_ && followed() > options.fused_proof_time && !mayMove(options);
   }
 
@@ -101,7 +101,7 @@ class Target {
   /// It becomes a track; `moves`: as far as is known now.
   void confirm(std::uint32_t id, bool moves);
 
-  /// As its class becomes known; without effect where nothing is learnt.
+  /// As its class becomes known; without effect where nothing is learned.
   void setTransitionPrior(const JumpCounts& prior) { filter_.setTransitionPrior(prior); }
   bool confirmed() const { return id_ != 0; }
   std::uint32_t id() const { return id_; }
@@ -109,14 +109,14 @@ class Target {
 
   const ImmFilter& filter() const { return filter_; }
   Box2 box() const { return box_.at(filter_.estimate().mean.head<2>()); }
-  /// m^2, of the box's centre: by the filter, and by the size that is not known.
+  /// m^2, of the box's center: by the filter, and by the size that is not known.
   Eigen::Matrix2d positionCovariance() const {
-    return filter_.estimate().covariance.topLeftCorner<2, 2>() + box_.centreCovariance();
+    return filter_.estimate().covariance.topLeftCorner<2, 2>() + box_.centerCovariance();
   }
   ObjectClass objectClass() const { return class_.mostLikely(); }
   const std::vector<std::string>& sensors() const { return *sensors_; }
   /// Index of its object in the present scan; kUnseen: missed.
-  std::size_t seenAs() const { return seen_as_; }
+  std::size_t measurementIndex() const { return measurement_index_; }
   std::uint32_t hits() const { return hits_; }
   double sinceUpdate() const { return since_update_; }  ///< s
   /// s, from the first to the last object.
@@ -129,7 +129,7 @@ class Target {
   void judgeMotion(const TargetOptions& options);
   bool mayMove(const TargetOptions& options) const {
     return mayBeAsFastAs(filter_.estimate(), options.evidence.speed_significance,
-                         options.evidence.least_speed);
+                         options.evidence.min_speed);
   }
 
   TrackedBox box_;
@@ -137,14 +137,14 @@ class Target {
   MotionEvidence evidence_;
   std::uint64_t number_;
   std::uint32_t id_ = 0;
-  std::size_t seen_as_;
+  std::size_t measurement_index_;
   std::uint32_t hits_ = 1;
   bool moving_ = false;
   bool has_moved_ = false;  ///< as it was seen to, once at least
   double age_ = 0.0;
   double since_update_ = 0.0;
   double height_;
-  int sights_of_two_;  ///< in a row: two sensors saw it, one of them saw it move
+  int detections_of_two_;  ///< in a row: two sensors saw it, one of them saw it move
   ClassBelief class_;
   std::shared_ptr<const std::vector<std::string>> sensors_;  ///< shared: a target is copied often
 };

@@ -39,7 +39,7 @@ struct LinearMotion {
 /// The velocity turns; the state's acceleration does not drive it. That acceleration is the
 /// centripetal one and a rest that the model does not explain, which fades exponentially to
 /// N(0, acceleration_std^2). So all models share one state, no covariance becomes singular, and the
-/// discretisation is exact: two steps equal one of their sum, and a step of 0 s changes nothing.
+/// discretization is exact: two steps equal one of their sum, and a step of 0 s changes nothing.
 LinearMotion coordinatedTurn(double turn_rate, const TargetMotionOptions& options, double seconds);
 
 /// Constant acceleration over `seconds` >= 0 with white noise on the jerk (ibid., 6.2.3).
@@ -49,7 +49,7 @@ LinearMotion constantAcceleration(const TargetMotionOptions& options, double sec
 /// `standing_density`, and velocity and acceleration go to zero exponentially, within
 /// `standing_fading`, up to a rest of `standing_speed_std` (m/s, and as much in m/s^2) that keeps
 /// the covariance regular. What velocity is left during the step does not move the position: this
-/// is the model of an object that has come to rest, not of how it brakes. Discretised exactly, as
+/// is the model of an object that has come to rest, not of how it brakes. Discretized exactly, as
 /// above.
 LinearMotion standingStill(const TargetMotionOptions& options, double seconds);
 

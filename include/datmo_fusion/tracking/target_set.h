@@ -20,7 +20,7 @@ struct BestTarget {
 struct AssociationCounts {
   std::uint64_t refused_births = 0;  ///< new objects that found no room
   std::uint64_t cut_hypotheses = 0;  ///< likely enough, but beyond the bounds
-  std::uint64_t hurried_steps =
+  std::uint64_t best_only_steps =
       0;  ///< that ran out of time, and kept the single most likely hypothesis
 };
 

@@ -47,7 +47,7 @@ struct Track {
   TrackState state = TrackState::Zero();
   TrackCovariance covariance = TrackCovariance::Identity();
   std::array<double, kMotionModes> mode_probabilities{};
-  Box2 box;               ///< centre is the state's position
+  Box2 box;               ///< center is the state's position
   double height = 0.0;    ///< m, 0: not measured
   double yaw_rate = 0.0;  ///< rad/s
   /// rad^2, of the box's heading; modulo pi until motion has fixed its sign.

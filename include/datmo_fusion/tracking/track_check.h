@@ -11,7 +11,7 @@ namespace datmo {
 bool isValid(const Track& track);
 
 /// Whether a fan can be looked up: its numbers are finite, its position up to 1e9 m, its
-/// spacing is not 0, no beam reaches less than 0, and there are kMostBeams of them at most. One
+/// spacing is not 0, no beam reaches less than 0, and there are kMaxBeams of them at most. One
 /// without beams is valid: nothing is known of the view.
 bool isValid(const ViewFan& fan);
 

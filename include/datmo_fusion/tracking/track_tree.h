@@ -12,7 +12,7 @@
 namespace datmo {
 
 /// Scans back to which the branches of a track tree can be distinguished, at most.
-inline constexpr std::size_t kMostScanHistory = 8;
+inline constexpr std::size_t kMaxScanHistory = 8;
 
 /// One sequence of observations of a target up to now: a leaf of its track tree.
 ///
@@ -20,7 +20,7 @@ inline constexpr std::size_t kMostScanHistory = 8;
 /// newest first; 0: before the target was first seen.
 struct Leaf {
   Target target;
-  std::array<std::uint64_t, kMostScanHistory + 1> nodes{};
+  std::array<std::uint64_t, kMaxScanHistory + 1> nodes{};
   TargetScores scores;               ///< against the present scan
   std::vector<std::size_t> related;  ///< of its objects: see relatedObjects()
 

@@ -21,13 +21,13 @@ struct TrackedBoxOptions {
 
 /// Heading and size of a tracked object; its position is the filter's.
 ///
-/// The filter follows the centre, but what is seen of an object are its near sides. The centre is
+/// The filter follows the center, but what is seen of an object are its near sides. The center is
 /// measured from them: with both opposite sides seen it lies between them, with one it lies half
 /// the present size behind it (the anchor point of Petrovskaya & Thrun, Model based vehicle
 /// detection and tracking for autonomous urban driving, 2009, section 3.1). So neither a side that
 /// comes into view nor a size that becomes better known is motion. The error of the size is the
 /// same in every scan, hence no measurement noise: it is a considered parameter of the filter
-/// (Schmidt 1966), whose part in the center is `centreCovariance`.
+/// (Schmidt 1966), whose part in the center is `centerCovariance`.
 ///
 /// The sides do not distinguish front from rear, nor surely length from width: motion does. Cheap
 /// to copy.
@@ -39,27 +39,27 @@ class TrackedBox {
   /// To `seconds` >= 0 ahead.
   void predict(double seconds, const TrackedBoxOptions& options);
 
-  /// The centre of this box (m, fixed frame), from the visible sides of the object. Its covariance
+  /// The center of this box (m, fixed frame), from the visible sides of the object. Its covariance
   /// has what differs from scan to scan; where the sides seen are not those of the last time, also
   /// what the unknown size makes of that.
   PositionMeasurement measurementOf(const Object& object) const;
 
   /// Takes in the size, class and heading of an object, `seconds` >= 0 after the last one. Returns
-  /// by how much the centre moves (m, fixed frame), because size or heading are known better now
+  /// by how much the center moves (m, fixed frame), because size or heading are known better now
   /// while the sides that were seen stay where they are.
   Point2 update(const Object& object, double seconds, const TrackedBoxOptions& options);
 
   /// Updates with a significant velocity (m/s, fixed frame) and its covariance, which decides which
   /// side is the front, and the heading if it is surer than the sides. Returns by how much the
-  /// centre moves, as `update` does.
+  /// center moves, as `update` does.
   Point2 followVelocity(const Eigen::Vector2d& velocity, const Eigen::Matrix2d& covariance,
                         const TrackedBoxOptions& options);
 
   /// What the unknown size and heading add to the covariance of the filter's position, m^2, fixed
   /// frame; the filter does not know of it.
-  Eigen::Matrix2d centreCovariance() const;
+  Eigen::Matrix2d centerCovariance() const;
 
-  Box2 at(const Point2& centre) const;
+  Box2 at(const Point2& center) const;
 
   /// rad^2, of the heading; where the sign is not known, modulo pi.
   double headingVariance() const;
@@ -79,11 +79,11 @@ class TrackedBox {
   double heading_;
   double heading_variance_;
   double since_velocity_ = 0.0;  ///< s
-  /// s, how much longer it moved ahead than backwards; below 0 it turns round.
+  /// s, how much longer it moved ahead than backward; below 0 it turns round.
   double ahead_ = 0.0;
   bool sign_known_ = false;
   BoxSize size_;
-  /// The centre that was measured last is `anchor + share * size`, along each axis: -0.5 behind the
+  /// The center that was measured last is `anchor + share * size`, along each axis: -0.5 behind the
   /// front (left) side, 0 midway between two sides, 0.5 ahead of the rear (right) side.
   Eigen::Vector2d anchor_share_ = Eigen::Vector2d::Zero();
 };

@@ -7,7 +7,7 @@
 #include "datmo_fusion/tracking/association_scan.h"
 #include "datmo_fusion/tracking/clutter_map.h"
 #include "datmo_fusion/tracking/duplicates.h"
-#include "datmo_fusion/tracking/hypothesis_growth.h"
+#include "datmo_fusion/tracking/hypothesis_expansion.h"
 #include "datmo_fusion/tracking/split_merge.h"
 #include "datmo_fusion/tracking/target.h"
 #include "datmo_fusion/tracking/visibility.h"
@@ -16,7 +16,7 @@ namespace datmo {
 
 struct TrackerOptions {
   static constexpr char kMultipleHypotheses[] = "mht";
-  static constexpr char kGlobalNearestNeighbour[] = "gnn";
+  static constexpr char kGlobalNearestNeighbor[] = "gnn";
 
   std::string association = kMultipleHypotheses;
   HypothesisOptions hypotheses;
@@ -31,12 +31,12 @@ struct TrackerOptions {
   int confirmation_hits = 3;
   int fused_confirmation_hits = 1;
   double confirmation_existence = 0.5;  ///< 1
-  double least_existence = 0.25;        ///< 1
+  double min_existence = 0.25;          ///< 1
   double published_existence = 0.5;     ///< 1
   double tentative_silence = 0.5;       ///< s
   double confirmed_silence = 3.0;       ///< s
   double published_silence = 1.5;       ///< s
-  double most_position_std = 5.0;       ///< m
+  double max_position_std = 5.0;        ///< m
   double history_time = 3.0;            ///< s
   double time_budget = 0.03;            ///< s
 

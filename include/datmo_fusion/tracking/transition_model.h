@@ -19,9 +19,9 @@ struct TransitionLearningOptions {
   double prior_exposure = 20.0;   ///< s
   double class_exposure = 300.0;  ///< s
   double forgetting = 60.0;       ///< s
-  double least_sojourn = 0.3;     ///< s
-  double most_sojourn = 300.0;    ///< s
-  double least_share = 0.02;
+  double min_sojourn = 0.3;       ///< s
+  double max_sojourn = 300.0;     ///< s
+  double min_share = 0.02;
 
   void visit(OptionVisitor& visitor);
 };
@@ -58,7 +58,7 @@ ModeVector priorModeProbabilities(const TransitionOptions& options);
 /// whatever the step; more than one jump within a step is not thought of.
 ModeMatrix transitionMatrix(const JumpCounts& counts, double seconds);
 
-/// The transition probabilities of one target, learnt while it is followed: the quasi-Bayesian
+/// The transition probabilities of one target, learned while it is followed: the quasi-Bayesian
 /// estimator of Jilkov and Li, Online Bayesian Estimation of Transition Probabilities for Markovian
 /// Jump Systems, IEEE Trans. Signal Processing 52(6), 2004, for time steps that vary.
 ///
@@ -72,7 +72,7 @@ ModeMatrix transitionMatrix(const JumpCounts& counts, double seconds);
 /// mixture has its total variance too, so that uninformative data change nothing.
 ///
 /// Beyond the paper: rows are kept as rates (JumpCounts), so that steps of all lengths teach the
-/// same; what was learnt fades towards the prior; no rate leaves its bounds.
+/// same; what was learned fades toward the prior; no rate leaves its bounds.
 class TransitionModel {
  public:
   TransitionModel(const JumpCounts& prior, const TransitionLearningOptions& options);
@@ -85,7 +85,7 @@ class TransitionModel {
   /// not all 0, in any unit.
   void update(const ModeVector& before, const ModeVector& likelihoods);
 
-  /// Exchanges the prior, as when the class becomes known; what was learnt stays.
+  /// Exchanges the prior, as when the class becomes known; what was learned stays.
   void setPrior(const JumpCounts& prior);
 
   /// What this target has shown by itself, beyond its prior; may be negative.

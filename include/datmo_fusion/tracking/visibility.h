@@ -15,8 +15,8 @@ namespace datmo {
 
 struct VisibilityOptions {
   double beam_detection = 0.9;       ///< 1
-  double most_probability = 0.95;    ///< 1
-  double least_probability = 0.02;   ///< 1
+  double max_probability = 0.95;     ///< 1
+  double min_probability = 0.02;     ///< 1
   double unknown_probability = 0.5;  ///< 1
   double blocking_distance = 0.5;    ///< m
 
@@ -38,7 +38,7 @@ class Visibility {
   /// By the beams of this scan, whatever they hit; those without return reach as far as the scanner
   /// sees, blind ones nowhere. A scan whose field is not known gives an unknown view. The beams
   /// start at the scanner's pose at the scan's stamp.
-  Visibility(const SplitScan& scan, const VisibilityOptions& options);
+  Visibility(const LabeledScan& scan, const VisibilityOptions& options);
 
   /// By a field of view and the boxes (base frame) of what was seen in it, behind which nothing is.
   Visibility(const FieldOfView& view, const std::vector<Box2>& seen,
@@ -53,8 +53,8 @@ class Visibility {
   void join(const Visibility& other) { others_.push_back(other); }
 
   /// That an object of this box is detected, averaged over the positions where it may be: `sigma`
-  /// is the standard deviation of its centre along each axis (m, at least 0). Between
-  /// `least_probability` and `most_probability`.
+  /// is the standard deviation of its center along each axis (m, at least 0). Between
+  /// `min_probability` and `max_probability`.
   double detectionProbability(const Box2& box, double sigma) const;
 
   /// Of this sensor and of all that joined it, as far as their views are known.

@@ -39,9 +39,9 @@ TEST(Box2, DistanceToSideCornerAndInside) {
 
 TEST(Box2, NoPointIsFartherFromTheBoxThanFromItsCorners) {
   std::mt19937_64 random(1);
-  std::uniform_real_distribution<double> metres(-30.0, 30.0);
+  std::uniform_real_distribution<double> meters(-30.0, 30.0);
   for (int i = 0; i < 200; ++i) {
-    const Point2 point(metres(random), metres(random));
+    const Point2 point(meters(random), meters(random));
     double to_corner = std::numeric_limits<double>::infinity();
     for (const Point2& corner : kCar.corners()) {
       to_corner = std::min(to_corner, (corner - point).norm());

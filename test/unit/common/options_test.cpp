@@ -118,7 +118,7 @@ TEST(ReadOptions, NumbersThatAreNotFiniteAreRefusedWithoutBoundsToo) {
   expectMentions(errorOf({{"gain", std::numeric_limits<double>::infinity()}}), {"gain", "inf"});
 }
 
-TEST(ReadOptions, AMisspeltKeyIsRefusedAndTheNearestKeyNamed) {
+TEST(ReadOptions, AMisspelledKeyIsRefusedAndTheNearestKeyNamed) {
   expectMentions(errorOf({{"map/cellsize", 0.1}}), {"map/cellsize", "0.1", "map/cell_size"});
   expectMentions(errorOf({{"cell_size", 0.1}}), {"cell_size", "map/cell_size"});
   expectMentions(errorOf({{"odometri", true}}), {"odometri", "nearest one is odometry"});
@@ -149,11 +149,11 @@ TEST(OptionTable, HasALineForEachOption) {
 
 TEST(OptionTable, HalfOpenRangesSaySo) {
   struct HalfOpen {
-    double least = 1.0;
-    double most = 1.0;
+    double min = 1.0;
+    double max = 1.0;
     void visit(OptionVisitor& visitor) {
-      visitor.number({"a", "m", ""}, least, {0.5});
-      visitor.number({"b", "m", ""}, most, {-std::numeric_limits<double>::infinity(), 2.5});
+      visitor.number({"a", "m", ""}, min, {0.5});
+      visitor.number({"b", "m", ""}, max, {-std::numeric_limits<double>::infinity(), 2.5});
     }
   };
   const std::string table = optionTable<HalfOpen>();

@@ -10,12 +10,12 @@ namespace {
 
 class RandomPoses {
  public:
-  Pose2 next() { return {metres_(random_), metres_(random_), radians_(random_)}; }
-  Point2 point() { return {metres_(random_), metres_(random_)}; }
+  Pose2 next() { return {meters_(random_), meters_(random_), radians_(random_)}; }
+  Point2 point() { return {meters_(random_), meters_(random_)}; }
 
  private:
   std::mt19937_64 random_{1};
-  std::uniform_real_distribution<double> metres_{-50.0, 50.0};
+  std::uniform_real_distribution<double> meters_{-50.0, 50.0};
   std::uniform_real_distribution<double> radians_{-kPi, kPi};
 };
 

@@ -12,7 +12,7 @@ TEST(Quantile, IsTheNearestRank) {
   EXPECT_DOUBLE_EQ(quantile(values, 0.21), 2.0);
 }
 
-TEST(Quantile, EndsAreTheLeastAndTheMost) {
+TEST(Quantile, EndsAreTheMinimumAndTheMaximum) {
   const std::vector<double> values = {5.0, 1.0, 4.0};
   EXPECT_DOUBLE_EQ(quantile(values, 0.0), 1.0);
   EXPECT_DOUBLE_EQ(quantile(values, 1.0), 5.0);

@@ -30,7 +30,7 @@ std::vector<Point2> lShape(const Box2& box) {
   return points;
 }
 
-Point2 behindOnTheRight(const Box2& box) { return box.centre * Point2(-15.0, -12.0); }
+Point2 behindOnTheRight(const Box2& box) { return box.center * Point2(-15.0, -12.0); }
 
 std::size_t seenSides(const BoxFit& fit) {
   std::size_t count = 0;
@@ -49,8 +49,8 @@ TEST(BoxFitTest, NoPointsAreRefused) {
 
 TEST(BoxFitTest, OnePointIsASideWithoutLengthAcrossTheLineOfSight) {
   const BoxFit fit = fitBox({{3.0, 3.0}}, Point2(1.0, 1.0), kSigma);
-  EXPECT_TRUE(fit.box.centre.position().isApprox(Point2(3.0, 3.0)));
-  EXPECT_NEAR(fit.box.centre.heading(), degrees(45.0), 1e-12);
+  EXPECT_TRUE(fit.box.center.position().isApprox(Point2(3.0, 3.0)));
+  EXPECT_NEAR(fit.box.center.heading(), degrees(45.0), 1e-12);
   EXPECT_DOUBLE_EQ(fit.box.length, 0.0);
   EXPECT_DOUBLE_EQ(fit.box.width, 0.0);
   EXPECT_DOUBLE_EQ(fit.heading_variance, kUnknownHeadingVariance);
@@ -59,7 +59,7 @@ TEST(BoxFitTest, OnePointIsASideWithoutLengthAcrossTheLineOfSight) {
 
 TEST(BoxFitTest, TwoPointsAreMostLikelyOneSideButMayBeTwo) {
   const BoxFit fit = fitBox({{10.0, 0.0}, {11.0, 1.0}}, Point2::Zero(), kSigma);
-  EXPECT_NEAR(betweenSides(fit.box.centre.heading(), degrees(45.0)), 0.0, 1e-9);
+  EXPECT_NEAR(betweenSides(fit.box.center.heading(), degrees(45.0)), 0.0, 1e-9);
   EXPECT_NEAR(std::max(fit.box.length, fit.box.width), std::sqrt(2.0), 1e-9);
   EXPECT_NEAR(std::min(fit.box.length, fit.box.width), 0.0, 1e-9);
   EXPECT_EQ(seenSides(fit), 1U);
@@ -74,8 +74,8 @@ TEST(BoxFitTest, TheOrderOfThePointsDoesNotMatter) {
     const BoxFit one = fitBox(points, behindOnTheRight(truth), kSigma);
     std::reverse(points.begin(), points.end());
     const BoxFit other = fitBox(points, behindOnTheRight(truth), kSigma);
-    EXPECT_NEAR(one.box.centre.heading(), other.box.centre.heading(), 1e-9);
-    EXPECT_TRUE(one.box.centre.position().isApprox(other.box.centre.position(), 1e-9));
+    EXPECT_NEAR(one.box.center.heading(), other.box.center.heading(), 1e-9);
+    EXPECT_TRUE(one.box.center.position().isApprox(other.box.center.position(), 1e-9));
   }
 }
 
@@ -83,16 +83,16 @@ TEST(BoxFitTest, AnLShapeGivesTheWholeRectangleAtAnyHeading) {
   for (double heading = -88.0; heading <= 90.0; heading += 7.0) {
     const Box2 truth{Pose2(12.0, -3.0, degrees(heading)), 4.4, 1.8};
     const BoxFit fit = fitBox(lShape(truth), behindOnTheRight(truth), kSigma);
-    EXPECT_NEAR(betweenSides(truth.centre.heading(), fit.box.centre.heading()), 0.0, degrees(0.1))
+    EXPECT_NEAR(betweenSides(truth.center.heading(), fit.box.center.heading()), 0.0, degrees(0.1))
         << heading;
     EXPECT_NEAR(std::max(fit.box.length, fit.box.width), 4.4, 0.02) << heading;
     EXPECT_NEAR(std::min(fit.box.length, fit.box.width), 1.8, 0.02) << heading;
-    EXPECT_LT((fit.box.centre.position() - truth.centre.position()).norm(), 0.02) << heading;
+    EXPECT_LT((fit.box.center.position() - truth.center.position()).norm(), 0.02) << heading;
     EXPECT_EQ(seenSides(fit), 2U) << heading;
   }
 }
 
-TEST(BoxFitTest, OneSideHasNoDepthAndTellsWhichSideItIs) {
+TEST(BoxFitTest, OneSideHasNoDepthButIsIdentified) {
   std::vector<Point2> points;
   addSide(points, Point2(10.0, -0.9), Point2(10.0, 0.9));
   const BoxFit from_behind = fitBox(points, Point2::Zero(), kSigma);
@@ -132,9 +132,9 @@ TEST(BoxFitTest, HeadingVarianceOfALineIsThatOfTheRegression) {
 TEST(BoxFitTest, AnOutlierDoesNotTurnTheBox) {
   const Box2 truth{Pose2(12.0, -3.0, degrees(20.0)), 4.4, 1.8};
   std::vector<Point2> points = lShape(truth);
-  points.push_back(truth.centre * Point2(0.3, 0.2));  // through a window
+  points.push_back(truth.center * Point2(0.3, 0.2));  // through a window
   const BoxFit fit = fitBox(points, behindOnTheRight(truth), kSigma);
-  EXPECT_NEAR(betweenSides(truth.centre.heading(), fit.box.centre.heading()), 0.0, degrees(0.2));
+  EXPECT_NEAR(betweenSides(truth.center.heading(), fit.box.center.heading()), 0.0, degrees(0.2));
 }
 
 TEST(BoxFitTest, NoisyHeadingsAreAsGoodAsTheirVariance) {
@@ -150,7 +150,7 @@ TEST(BoxFitTest, NoisyHeadingsAreAsGoodAsTheirVariance) {
       point += Point2(random.normal(kNoise), random.normal(kNoise));
     }
     const BoxFit fit = fitBox(points, behindOnTheRight(truth), kNoise);
-    const double error = betweenSides(truth.centre.heading(), fit.box.centre.heading());
+    const double error = betweenSides(truth.center.heading(), fit.box.center.heading());
     squares += error * error / fit.heading_variance;
     far_off += error * error > 9.0 * fit.heading_variance ? 1 : 0;
   }
@@ -167,7 +167,7 @@ TEST(BoxFitTest, AnyPointsGiveAFiniteBox) {
       points.emplace_back(random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0));
     }
     const BoxFit fit = fitBox(points, Point2(random.uniform(-5.0, 5.0), 0.0), kSigma);
-    EXPECT_TRUE(std::isfinite(fit.box.centre.x() + fit.box.centre.y()));
+    EXPECT_TRUE(std::isfinite(fit.box.center.x() + fit.box.center.y()));
     EXPECT_GE(fit.box.length, 0.0);
     EXPECT_GE(fit.box.width, 0.0);
     EXPECT_LT(std::hypot(fit.box.length, fit.box.width), 9.0);
@@ -179,7 +179,7 @@ TEST(BoxFitTest, AnyPointsGiveAFiniteBox) {
 
 TEST(BoxFitTest, CoincidingPointsDoNotMatter) {
   const BoxFit fit = fitBox({{1.0, 1.0}, {1.0, 1.0}, {1.0, 1.0}}, Point2::Zero(), kSigma);
-  EXPECT_TRUE(fit.box.centre.position().isApprox(Point2(1.0, 1.0)));
+  EXPECT_TRUE(fit.box.center.position().isApprox(Point2(1.0, 1.0)));
   EXPECT_DOUBLE_EQ(fit.box.length, 0.0);
   EXPECT_DOUBLE_EQ(fit.heading_variance, kUnknownHeadingVariance);
 }

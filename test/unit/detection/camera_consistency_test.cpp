@@ -28,7 +28,7 @@ Consistency consistencyOf(MadeScene scene, double distance,
     const std::vector<Object> objects = objectsIn(scene, options);
     EXPECT_EQ(objects.size(), 1U);
     if (objects.size() == 1) {
-      const double error = -rearOf(objects[0]).place - distance;
+      const double error = -rearOf(objects[0]).position - distance;
       const double variance = objects[0].position_covariance(0, 0) + rearOf(objects[0]).variance;
       mean.squares += error * error / variance / kClouds;
       mean.bias += error / kClouds;
@@ -45,7 +45,7 @@ Consistency consistencyAt(double distance) {
   });
 }
 
-TEST(StereoObjectDetector, KnowsHowWellItKnowsAPlace) {
+TEST(StereoObjectDetector, KnowsTheUncertaintyOfAPosition) {
   const Consistency middle = consistencyAt(15.0);
   EXPECT_LT(middle.squares, 1.5);
   EXPECT_GT(middle.squares, 0.2);
@@ -61,9 +61,9 @@ StereoObjectDetectorOptions ofARoom() {
   StereoObjectDetectorOptions options = ofBoxes();
   options.noise.body_sigma = 0.02;
   options.effective_range = 6.0;
-  options.road.farthest = 6.0;
+  options.road.max_distance = 6.0;
   options.road.half_width = 3.0;
-  options.road.least_cells = 5;
+  options.road.min_cells = 5;
   return options;
 }
 

@@ -17,7 +17,7 @@ constexpr double kBodyFloor = 0.2;  // m above the ground, of what has wheels
 /// The sides of an upright box that face the lidar at (0.5, 0), points 5 cm apart, as far as 1 mm.
 void addBox(LidarCloudMaker& maker, const Box2& box, double height) {
   const Point2 lidar(0.5, 0.0);
-  const Pose2& at = box.centre;
+  const Pose2& at = box.center;
   const Point2 seen = at.inverse() * lidar;
   const double end = 0.5 * box.length;
   const double side = 0.5 * box.width;
@@ -55,7 +55,7 @@ TEST(CloudObjectDetectorTest, TwoCarsAndAPedestrianOnARoad) {
   ASSERT_EQ(found.list.objects.size(), 3U);
   auto& objects = found.list.objects;
   std::sort(objects.begin(), objects.end(),
-            [](const Object& a, const Object& b) { return a.box.centre.x() < b.box.centre.x(); });
+            [](const Object& a, const Object& b) { return a.box.center.x() < b.box.center.x(); });
   EXPECT_EQ(objects[0].object_class, ObjectClass::kPedestrian);
   EXPECT_EQ(objects[1].object_class, ObjectClass::kVehicle);
   EXPECT_EQ(objects[2].object_class, ObjectClass::kVehicle);
@@ -70,9 +70,9 @@ TEST(CloudObjectDetectorTest, ACarsBoxIsWhereItsSeenSidesAre) {
   const CloudObjects found = detect(maker);
   ASSERT_EQ(found.list.objects.size(), 1U);
   const Object& car = found.list.objects.front();
-  EXPECT_NEAR(std::remainder(car.box.centre.heading(), kPi), 0.0, degrees(3.0));
-  EXPECT_NEAR(car.box.centre.x(), 12.0, 0.2);
-  EXPECT_NEAR(car.box.centre.y(), 3.0, 0.2);
+  EXPECT_NEAR(std::remainder(car.box.center.heading(), kPi), 0.0, degrees(3.0));
+  EXPECT_NEAR(car.box.center.x(), 12.0, 0.2);
+  EXPECT_NEAR(car.box.center.y(), 3.0, 0.2);
   EXPECT_NEAR(car.box.length, 4.2, 0.25);
   EXPECT_NEAR(car.box.width, 1.8, 0.25);
   const auto unknown_sides =
@@ -90,7 +90,7 @@ TEST(CloudObjectDetectorTest, WhatIsBehindSomethingNearerEndsNobodyKnowsWhere) {
   const auto& objects = found.list.objects;
   ASSERT_GE(objects.size(), 2U);
   const auto hidden = [](const Object& object) {
-    return object.box.centre.x() > 15.0 &&
+    return object.box.center.x() > 15.0 &&
            std::count(object.side_variance.begin(), object.side_variance.end(), kHiddenSide) > 1;
   };
   EXPECT_TRUE(std::any_of(objects.begin(), objects.end(), hidden));
@@ -130,7 +130,7 @@ TEST(CloudObjectDetectorTest, BehindTheLidarAnObjectIsOne) {
   addBox(maker, {Pose2(-12.0, 0.0, 0.0), 4.2, 1.8}, 1.5);
   const CloudObjects found = detect(maker);
   ASSERT_EQ(found.list.objects.size(), 1U);
-  EXPECT_NEAR(found.list.objects.front().box.centre.y(), 0.0, 0.15);
+  EXPECT_NEAR(found.list.objects.front().box.center.y(), 0.0, 0.15);
 }
 
 TEST(CloudObjectDetectorTest, PointsAreWhereTheVehiclesMotionSays) {
@@ -167,7 +167,7 @@ TEST(CloudObjectDetectorTest, TheSameCloudGivesTheSameObjects) {
   const CloudObjects one = detect(maker);
   const CloudObjects other = detect(maker);
   ASSERT_EQ(one.list.objects.size(), other.list.objects.size());
-  EXPECT_EQ(one.list.objects.front().box.centre.x(), other.list.objects.front().box.centre.x());
+  EXPECT_EQ(one.list.objects.front().box.center.x(), other.list.objects.front().box.center.x());
 }
 
 TEST(CloudObjectDetectorTest, OptionsThatContradictEachOtherAreRefused) {

@@ -54,18 +54,18 @@ inline StereoObjectDetectorOptions ofBoxes() {
 
 inline const Object& nearest(const std::vector<Object>& objects) {
   return *std::min_element(objects.begin(), objects.end(), [](const Object& a, const Object& b) {
-    return a.box.centre.x() < b.box.centre.x();
+    return a.box.center.x() < b.box.center.x();
   });
 }
 
 struct Side {
-  double place;     ///< m, along its normal
+  double position;  ///< m, along its normal
   double variance;  ///< m^2
 };
 
 /// The side of an object that looks most into a direction.
-inline Side sideTowards(const Object& object, const Point2& direction) {
-  const Pose2 turn(Point2::Zero(), object.box.centre.heading());
+inline Side sideToward(const Object& object, const Point2& direction) {
+  const Pose2 turn(Point2::Zero(), object.box.center.heading());
   const std::array<Point2, kBoxSides> normals = {turn.rotate({1.0, 0.0}), turn.rotate({-1.0, 0.0}),
                                                  turn.rotate({0.0, 1.0}), turn.rotate({0.0, -1.0})};
   std::size_t best = 0;
@@ -73,10 +73,10 @@ inline Side sideTowards(const Object& object, const Point2& direction) {
     best = normals[i].dot(direction) > normals[best].dot(direction) ? i : best;
   }
   const double half = 0.5 * (best < 2 ? object.box.length : object.box.width);
-  return {normals[best].dot(object.box.centre.position()) + half, object.side_variance[best]};
+  return {normals[best].dot(object.box.center.position()) + half, object.side_variance[best]};
 }
-inline Side rearOf(const Object& object) { return sideTowards(object, {-1.0, 0.0}); }
-inline Side leftOf(const Object& object) { return sideTowards(object, {0.0, 1.0}); }
-inline Side rightOf(const Object& object) { return sideTowards(object, {0.0, -1.0}); }
+inline Side rearOf(const Object& object) { return sideToward(object, {-1.0, 0.0}); }
+inline Side leftOf(const Object& object) { return sideToward(object, {0.0, 1.0}); }
+inline Side rightOf(const Object& object) { return sideToward(object, {0.0, -1.0}); }
 
 }  // namespace datmo

@@ -16,8 +16,8 @@ struct End {
   PointState state;
 };
 
-SplitScan splitScan(const std::vector<End>& ends) {
-  SplitScan scan;
+LabeledScan labeledScan(const std::vector<End>& ends) {
+  LabeledScan scan;
   scan.stamp = Stamp::fromSeconds(5.0);
   scan.field = {degrees(-80.0), degrees(2.0), 181, 0.5, 60.0, 80.0};
   for (const End& end : ends) {
@@ -36,7 +36,7 @@ constexpr PointState kS = PointState::kStatic;
 constexpr PointState kM = PointState::kMoving;
 constexpr PointState kU = PointState::kUnknown;
 
-ObjectList detect(const SplitScan& scan, const MovingObjectDetectorOptions& options = {}) {
+ObjectList detect(const LabeledScan& scan, const MovingObjectDetectorOptions& options = {}) {
   return MovingObjectDetector(options).detect(scan);
 }
 
@@ -48,14 +48,14 @@ struct SeenSides {
 SeenSides sidesAcross(const Object& object) {
   const auto [front, rear, left, right] = object.side_variance;
   // Its heading, in (-90, 90] degrees, is along x or to the left.
-  return std::abs(object.box.centre.heading()) < degrees(45.0)
+  return std::abs(object.box.center.heading()) < degrees(45.0)
              ? SeenSides{rear, front, left, right}
-             : (object.box.centre.heading() > 0.0 ? SeenSides{left, right, front, rear}
+             : (object.box.center.heading() > 0.0 ? SeenSides{left, right, front, rear}
                                                   : SeenSides{right, left, rear, front});
 }
 
 TEST(MovingObjectDetectorTest, ObjectsWereSeenAtTheMeanTimeOfTheirBeams) {
-  SplitScan scan = splitScan({{5.0, 40, kM}, {5.0, 41, kM}, {5.0, 42, kM}, {5.0, 120, kM}});
+  LabeledScan scan = labeledScan({{5.0, 40, kM}, {5.0, 41, kM}, {5.0, 42, kM}, {5.0, 120, kM}});
   EXPECT_EQ(detect(scan).objects.front().delay, 0.0);
   scan.field.beam_time = 1e-3;
   const ObjectList list = detect(scan);
@@ -65,18 +65,18 @@ TEST(MovingObjectDetectorTest, ObjectsWereSeenAtTheMeanTimeOfTheirBeams) {
 }
 
 TEST(MovingObjectDetectorTest, AnEmptyScanHasNoObjects) {
-  const ObjectList list = detect(splitScan({}));
+  const ObjectList list = detect(labeledScan({}));
   EXPECT_TRUE(list.objects.empty());
   EXPECT_EQ(list.stamp, Stamp::fromSeconds(5.0));
 }
 
 TEST(MovingObjectDetectorTest, WhatIsStaticIsNoObject) {
-  EXPECT_TRUE(detect(splitScan({{10.0, 40, kS}, {10.0, 41, kS}})).objects.empty());
+  EXPECT_TRUE(detect(labeledScan({{10.0, 40, kS}, {10.0, 41, kS}})).objects.empty());
 }
 
-TEST(MovingObjectDetectorTest, MovingAndUnknownSegmentsAreTold) {
+TEST(MovingObjectDetectorTest, MovingAndUnknownSegmentsAreReported) {
   const ObjectList list =
-      detect(splitScan({{10.0, 10, kM}, {10.0, 11, kM}, {20.0, 40, kU}, {20.0, 41, kU}}));
+      detect(labeledScan({{10.0, 10, kM}, {10.0, 11, kM}, {20.0, 40, kU}, {20.0, 41, kU}}));
   ASSERT_EQ(list.objects.size(), 2U);
   EXPECT_EQ(list.objects[0].dynamic_state, DynamicState::kMoving);
   EXPECT_DOUBLE_EQ(list.objects[0].moving_fraction, 1.0);
@@ -86,14 +86,14 @@ TEST(MovingObjectDetectorTest, MovingAndUnknownSegmentsAreTold) {
 }
 
 TEST(MovingObjectDetectorTest, AScannerThatTurnsToTheRightSeesTheSameObjects) {
-  SplitScan left = splitScan({{12.0, 10, kM},
-                              {11.9, 11, kM},
-                              {20.0, 40, kU},
-                              {20.5, 41, kU},
-                              {21.2, 42, kM},
-                              {30.0, 60, kS}});
+  LabeledScan left = labeledScan({{12.0, 10, kM},
+                                  {11.9, 11, kM},
+                                  {20.0, 40, kU},
+                                  {20.5, 41, kU},
+                                  {21.2, 42, kM},
+                                  {30.0, 60, kS}});
   left.field.beams = 81;
-  SplitScan right = left;
+  LabeledScan right = left;
   std::reverse(right.points.begin(), right.points.end());
   for (ScanPoint& point : right.points) {
     point.beam = 80 - point.beam;
@@ -108,8 +108,8 @@ TEST(MovingObjectDetectorTest, AScannerThatTurnsToTheRightSeesTheSameObjects) {
     const Object& one = expected.objects[i];
     const Object& other = list.objects[i];
     EXPECT_EQ(one.dynamic_state, other.dynamic_state);
-    EXPECT_TRUE(one.box.centre.position().isApprox(other.box.centre.position(), 1e-9));
-    EXPECT_NEAR(one.box.centre.heading(), other.box.centre.heading(), 1e-9);
+    EXPECT_TRUE(one.box.center.position().isApprox(other.box.center.position(), 1e-9));
+    EXPECT_NEAR(one.box.center.heading(), other.box.center.heading(), 1e-9);
     EXPECT_NEAR(one.box.length, other.box.length, 1e-9);
     EXPECT_NEAR(one.heading_variance, other.heading_variance, 1e-9);
     for (std::size_t side = 0; side < kBoxSides; ++side) {
@@ -122,8 +122,8 @@ TEST(MovingObjectDetectorTest, AScannerThatTurnsToTheRightSeesTheSameObjects) {
 }
 
 TEST(MovingObjectDetectorTest, TheThesisTakesAnyMovingPoint) {
-  const SplitScan scan =
-      splitScan({{10.0, 40, kM}, {10.0, 41, kU}, {10.0, 42, kU}, {10.0, 43, kU}});
+  const LabeledScan scan =
+      labeledScan({{10.0, 40, kM}, {10.0, 41, kU}, {10.0, 42, kU}, {10.0, 43, kU}});
   EXPECT_EQ(detect(scan).objects.at(0).dynamic_state, DynamicState::kUnknown);
   MovingObjectDetectorOptions thesis;
   thesis.moving_share = 0.0;
@@ -131,14 +131,14 @@ TEST(MovingObjectDetectorTest, TheThesisTakesAnyMovingPoint) {
 }
 
 TEST(MovingObjectDetectorTest, AStaticPointNextToAMoverDoesNotHideIt) {
-  const ObjectList list = detect(splitScan({{10.0, 40, kM}, {10.2, 41, kS}, {10.1, 42, kM}}));
+  const ObjectList list = detect(labeledScan({{10.0, 40, kM}, {10.2, 41, kS}, {10.1, 42, kM}}));
   ASSERT_EQ(list.objects.size(), 1U);
   EXPECT_EQ(list.objects[0].points.size(), 2U);
 }
 
 TEST(MovingObjectDetectorTest, WhatJoinsOnToAWallIsPartOfIt) {
   const ObjectList list =
-      detect(splitScan({{10.0, 40, kU}, {10.0, 41, kU}, {10.0, 42, kS}, {10.0, 43, kS}}));
+      detect(labeledScan({{10.0, 40, kU}, {10.0, 41, kU}, {10.0, 42, kS}, {10.0, 43, kS}}));
   ASSERT_EQ(list.objects.size(), 1U);
   EXPECT_EQ(list.objects[0].dynamic_state, DynamicState::kStatic);
   EXPECT_EQ(list.objects[0].points.size(), 2U);
@@ -146,7 +146,7 @@ TEST(MovingObjectDetectorTest, WhatJoinsOnToAWallIsPartOfIt) {
 
 TEST(MovingObjectDetectorTest, WhatMovesNextToAWallStillMoves) {
   const ObjectList list =
-      detect(splitScan({{10.0, 40, kM}, {10.0, 41, kM}, {10.0, 42, kS}, {10.0, 43, kS}}));
+      detect(labeledScan({{10.0, 40, kM}, {10.0, 41, kM}, {10.0, 42, kS}, {10.0, 43, kS}}));
   ASSERT_EQ(list.objects.size(), 1U);
   EXPECT_EQ(list.objects[0].dynamic_state, DynamicState::kMoving);
 }
@@ -156,14 +156,14 @@ TEST(MovingObjectDetectorTest, AHedgeIsNoObject) {
   for (std::uint32_t beam = 0; beam < 81; ++beam) {
     hedge.push_back({15.0, beam, kU});
   }
-  EXPECT_TRUE(detect(splitScan(hedge)).objects.empty());
+  EXPECT_TRUE(detect(labeledScan(hedge)).objects.empty());
 }
 
 TEST(MovingObjectDetectorTest, APointIsASideOfOneSpacing) {
   // Beam 40 looks along x.
-  const Object object = detect(splitScan({{20.0, 40, kM}})).objects.at(0);
+  const Object object = detect(labeledScan({{20.0, 40, kM}})).objects.at(0);
   const double spacing = 20.0 * std::tan(degrees(2.0));
-  EXPECT_TRUE(object.box.centre.position().isApprox(Point2(20.0, 0.0), 1e-9));
+  EXPECT_TRUE(object.box.center.position().isApprox(Point2(20.0, 0.0), 1e-9));
   EXPECT_NEAR(object.box.length, spacing, 1e-9) << "expected: none to two of them";
   EXPECT_NEAR(object.box.width, 0.0, 1e-9);
   const SeenSides sides = sidesAcross(object);
@@ -175,11 +175,11 @@ TEST(MovingObjectDetectorTest, APointIsASideOfOneSpacing) {
 
 TEST(MovingObjectDetectorTest, AnEndBehindSomethingNearerIsHidden) {
   const std::vector<End> rear = {{20.0, 39, kM}, {19.98, 40, kM}, {20.0, 41, kM}};
-  const SeenSides open = sidesAcross(detect(splitScan(rear)).objects.at(0));
+  const SeenSides open = sidesAcross(detect(labeledScan(rear)).objects.at(0));
   EXPECT_TRUE(std::isfinite(open.left) && std::isfinite(open.right));
   std::vector<End> behind_a_tree = rear;
   behind_a_tree.push_back({8.0, 42, kS});
-  const SeenSides hidden = sidesAcross(detect(splitScan(behind_a_tree)).objects.at(0));
+  const SeenSides hidden = sidesAcross(detect(labeledScan(behind_a_tree)).objects.at(0));
   EXPECT_EQ(hidden.left, kHiddenSide);
   EXPECT_TRUE(std::isfinite(hidden.right));
   EXPECT_TRUE(std::isfinite(hidden.near));
@@ -191,8 +191,8 @@ TEST(MovingObjectDetectorTest, TwoSidesOfACarGiveItsWholeBox) {
   RayCaster scanner(degrees(120.0), degrees(0.25), 0.0);
   const Box2 car{Pose2(15.0, 6.0, degrees(10.0)), 4.4, 1.8};
   const Object object = detect(scanner.scan({car}, random)).objects.at(0);
-  EXPECT_NEAR(object.box.centre.heading(), degrees(10.0), degrees(0.2));
-  EXPECT_LT((object.box.centre.position() - car.centre.position()).norm(), 0.1);
+  EXPECT_NEAR(object.box.center.heading(), degrees(10.0), degrees(0.2));
+  EXPECT_LT((object.box.center.position() - car.center.position()).norm(), 0.1);
   EXPECT_NEAR(object.box.length, 4.4, 0.2);
   EXPECT_NEAR(object.box.width, 1.8, 0.1);
   for (const double variance : object.side_variance) {
@@ -214,8 +214,9 @@ double sideNees(const RayCaster& scanner, double length, double width) {
   int sides = 0;
   for (int i = 0; i < 1000; ++i) {
     const double bearing = random.uniform(-1.0, 1.0);
-    const Point2 place = random.uniform(6.0, 25.0) * Point2(std::cos(bearing), std::sin(bearing));
-    const Box2 truth{Pose2(place, random.uniform(-kPi, kPi)), length, width};
+    const Point2 position =
+        random.uniform(6.0, 25.0) * Point2(std::cos(bearing), std::sin(bearing));
+    const Box2 truth{Pose2(position, random.uniform(-kPi, kPi)), length, width};
     const std::vector<Object> objects = detector.detect(scanner.scan({truth}, random)).objects;
     if (objects.size() != 1) {
       continue;  // seen in pieces
@@ -228,15 +229,15 @@ double sideNees(const RayCaster& scanner, double length, double width) {
       }
       // Where the side's normal through its middle leaves the true box.
       const Box2& box = objects[0].box;
-      const double direction = box.centre.heading() + kDirections[side];
+      const double direction = box.center.heading() + kDirections[side];
       const double reach = 0.5 * (side < 2 ? box.length : box.width);
-      const double turn = std::round(angleBetween(truth.centre.heading(), direction) / kPi * 2.0);
+      const double turn = std::round(angleBetween(truth.center.heading(), direction) / kPi * 2.0);
       const double true_reach = 0.5 * (std::fmod(std::abs(turn), 2.0) < 0.5 ? length : width);
-      const double normal = truth.centre.heading() + turn * 0.5 * kPi;
+      const double normal = truth.center.heading() + turn * 0.5 * kPi;
       const Point2 middle =
-          box.centre.position() + reach * Point2(std::cos(direction), std::sin(direction));
+          box.center.position() + reach * Point2(std::cos(direction), std::sin(direction));
       const double error =
-          Point2(std::cos(normal), std::sin(normal)).dot(middle - place) - true_reach;
+          Point2(std::cos(normal), std::sin(normal)).dot(middle - position) - true_reach;
       sum += error * error / (variance + options.position_sigma * options.position_sigma);
       ++sides;
     }
@@ -258,11 +259,11 @@ TEST(MovingObjectDetectorTest, SidesAreAsGoodAsTheirVariance) {
 }
 
 TEST(MovingObjectDetectorTest, HeadingIsSurerTheLongerTheObject) {
-  const double pair = detect(splitScan({{10.0, 38, kM}, {10.0, 39, kM}, {10.0, 40, kM}}))
+  const double pair = detect(labeledScan({{10.0, 38, kM}, {10.0, 39, kM}, {10.0, 40, kM}}))
                           .objects[0]
                           .heading_variance;
   const double wide =
-      detect(splitScan(
+      detect(labeledScan(
                  {{10.0, 38, kM}, {10.0, 39, kM}, {10.0, 40, kM}, {10.0, 41, kM}, {10.0, 42, kM}}))
           .objects[0]
           .heading_variance;
@@ -271,7 +272,7 @@ TEST(MovingObjectDetectorTest, HeadingIsSurerTheLongerTheObject) {
 
 TEST(MovingObjectDetectorTest, RefusesBadOptions) {
   MovingObjectDetectorOptions options;
-  options.segmentation.longest_gap = -2.0;
+  options.segmentation.max_gap = -2.0;
   EXPECT_THROW(MovingObjectDetector{options}, OptionError);
 }
 

@@ -31,7 +31,7 @@ ObjectClass likeliest(const SeenSize& size) {
   return static_cast<ObjectClass>(std::max_element(all.begin(), all.end()) - all.begin());
 }
 
-TEST(ObjectClassifier, TellsKindsBySize) {
+TEST(ObjectClassifier, ClassifiesKindsBySize) {
   EXPECT_EQ(likeliest(seen(1.75, 0.5)), ObjectClass::kPedestrian);
   EXPECT_EQ(likeliest(seen(1.75, 1.6)), ObjectClass::kCyclist) << "from the side";
   EXPECT_EQ(likeliest(seen(1.75, 0.8, 1.4)), ObjectClass::kCyclist) << "from ahead, a little aside";
@@ -50,7 +50,7 @@ TEST(ObjectClassifier, ProbabilitiesSumToOneHoweverOddTheSize) {
   }
 }
 
-TEST(ObjectClassifier, SaysByItsProbabilityWhatCanNotBeTold) {
+TEST(ObjectClassifier, ItsProbabilityShowsWhatCannotBeClassified) {
   EXPECT_LT(probability(seen(1.72, 0.6), ObjectClass::kPedestrian), 0.9)
       << "a cyclist from behind looks like that as well";
   EXPECT_GT(probability(seen(1.5, 4.2, 1.8), ObjectClass::kVehicle), 0.9);
@@ -67,7 +67,7 @@ TEST(ObjectClassifier, WhatWasNotSeenMayBeLarger) {
   EXPECT_GT(probability(low, ObjectClass::kPole), short_pole) << "the image ends there";
 }
 
-TEST(ObjectClassifier, TellsHowMuchSpeaksForOneOfItsKinds) {
+TEST(ObjectClassifier, ReportsTheEvidenceForOneOfItsKinds) {
   const ObjectClassifier classifier{ObjectClassifierOptions()};
   const auto odds = [&](const SeenSize& size) {
     return classifier.logOddsOfKnown(classifier.probabilities(size));

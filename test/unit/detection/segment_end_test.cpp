@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kSpacing = 0.01;  ///< rad
 constexpr double kSigma = 0.05;    ///< m
-constexpr double kLongestGap = 2.0;
+constexpr double kMaxGap = 2.0;
 constexpr std::uint32_t kLast = 5;
 constexpr double kRange = 10.0;
 
@@ -20,15 +20,15 @@ ScanPoint pointOf(std::uint32_t beam, double range, double spacing = kSpacing) {
 }
 
 /// Beams 0 to 9; beam 5 looks along x and ends at 10 m.
-SplitScan scanWithLast() {
-  SplitScan scan;
+LabeledScan scanWithLast() {
+  LabeledScan scan;
   scan.field = {-kLast * kSpacing, kSpacing, 10, 0.5, 40.0, 80.0};
   scan.points = {pointOf(kLast, kRange)};
   return scan;
 }
 
-std::optional<SurfaceEnd> leftEnd(const SplitScan& scan, const Point2& along = Point2(0.0, 1.0)) {
-  return SegmentEnds(scan, kSigma, kLongestGap).beyond(scan.points.front(), along, 0.0);
+std::optional<SurfaceEnd> leftEnd(const LabeledScan& scan, const Point2& along = Point2(0.0, 1.0)) {
+  return SegmentEnds(scan, kSigma, kMaxGap).beyond(scan.points.front(), along, 0.0);
 }
 
 TEST(SegmentEndTest, ASurfaceAcrossTheBeamsEndsHalfASpacingOnIfTheNextBeamGoesBy) {
@@ -52,9 +52,9 @@ TEST(SegmentEndTest, AtAFlatAngleTheGapIsLong) {
 }
 
 TEST(SegmentEndTest, AVagueDirectionMakesTheEndVague) {
-  const SplitScan scan = scanWithLast();
+  const LabeledScan scan = scanWithLast();
   const Point2 along(std::cos(0.5), std::sin(0.5));
-  const SegmentEnds ends(scan, kSigma, kLongestGap);
+  const SegmentEnds ends(scan, kSigma, kMaxGap);
   const auto exact = ends.beyond(scan.points.front(), along, 0.0);
   const auto vague = ends.beyond(scan.points.front(), along, 0.2);
   ASSERT_TRUE(exact && vague);
@@ -62,14 +62,14 @@ TEST(SegmentEndTest, AVagueDirectionMakesTheEndVague) {
   EXPECT_GT(vague->variance, 2.0 * exact->variance);
 }
 
-TEST(SegmentEndTest, ASurfaceAlongTheBeamsHasNoEndThatTheyTell) {
+TEST(SegmentEndTest, ASurfaceAlongTheBeamsHasNoKnownEnd) {
   EXPECT_FALSE(leftEnd(scanWithLast(), Point2(1.0, 0.0)));
   EXPECT_FALSE(leftEnd(scanWithLast(), Point2(std::cos(0.005), std::sin(0.005))))
       << "the next beam never meets it";
 }
 
 TEST(SegmentEndTest, SomethingNearerHidesTheEnd) {
-  SplitScan scan = scanWithLast();
+  LabeledScan scan = scanWithLast();
   scan.points.push_back(pointOf(kLast + 1, 6.0));
   EXPECT_FALSE(leftEnd(scan));
   scan.points.back() = pointOf(kLast + 1, 20.0);
@@ -77,21 +77,21 @@ TEST(SegmentEndTest, SomethingNearerHidesTheEnd) {
 }
 
 TEST(SegmentEndTest, ASurfaceThatGoesOnHasNotEnded) {
-  SplitScan scan = scanWithLast();
+  LabeledScan scan = scanWithLast();
   scan.points.push_back(pointOf(kLast + 1, kRange + 2.0 * kSigma));
   EXPECT_FALSE(leftEnd(scan));
 }
 
 TEST(SegmentEndTest, OnlyTheBeamOnThatSideCounts) {
-  SplitScan scan = scanWithLast();
+  LabeledScan scan = scanWithLast();
   scan.points.insert(scan.points.begin(), pointOf(kLast - 1, 6.0));
-  const SegmentEnds ends(scan, kSigma, kLongestGap);
+  const SegmentEnds ends(scan, kSigma, kMaxGap);
   EXPECT_TRUE(ends.beyond(scan.points[1], Point2(0.0, 1.0), 0.0));
   EXPECT_FALSE(ends.beyond(scan.points[1], Point2(0.0, -1.0), 0.0));
 }
 
 TEST(SegmentEndTest, WithoutReturnItIsSeenAsFarAsTheBeamIsKnownFree) {
-  SplitScan scan = scanWithLast();
+  LabeledScan scan = scanWithLast();
   scan.field.free_range = 9.0;
   EXPECT_FALSE(leftEnd(scan));
   scan.field.free_range = 11.0;
@@ -99,7 +99,7 @@ TEST(SegmentEndTest, WithoutReturnItIsSeenAsFarAsTheBeamIsKnownFree) {
 }
 
 TEST(SegmentEndTest, TheEdgeOfTheFieldAndABlindBeamHideTheEnd) {
-  SplitScan scan = scanWithLast();
+  LabeledScan scan = scanWithLast();
   scan.blind_beams = {kLast + 1};
   EXPECT_FALSE(leftEnd(scan));
   scan.blind_beams = {kLast - 1};
@@ -111,7 +111,7 @@ TEST(SegmentEndTest, TheEdgeOfTheFieldAndABlindBeamHideTheEnd) {
 }
 
 TEST(SegmentEndTest, AScannerThatTurnsToTheRightSeesTheSameEnds) {
-  SplitScan scan = scanWithLast();
+  LabeledScan scan = scanWithLast();
   scan.field.beam_spacing = -kSpacing;
   scan.points.push_back(pointOf(kLast + 1, 6.0, -kSpacing));  // to the right
   EXPECT_TRUE(leftEnd(scan));

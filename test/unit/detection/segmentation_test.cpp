@@ -18,7 +18,7 @@ ScanPoint polar(double range, double bearing_degrees) {
 SegmentationOptions fixedGap(double gap) {
   SegmentationOptions options;
   options.adaptive = false;
-  options.longest_gap = gap;
+  options.max_gap = gap;
   return options;
 }
 
@@ -28,13 +28,13 @@ TEST(SegmentationTest, NoPointsNoSegments) {
 
 TEST(SegmentationTest, TheLongestGapHoldsWhereTheShortestIsSetLonger) {
   SegmentationOptions options;
-  options.longest_gap = 0.3;
-  options.shortest_gap = 0.6;
+  options.max_gap = 0.3;
+  options.min_gap = 0.6;
   EXPECT_EQ(segmentPoints({polar(10.0, 0.0), polar(10.4, 0.0)}, options).size(), 2U);
   EXPECT_EQ(segmentPoints({polar(10.0, 0.0), polar(10.2, 0.0)}, options).size(), 1U);
 }
 
-TEST(SegmentationTest, CutsWhereNeighboursAreTooFarApart) {
+TEST(SegmentationTest, CutsWhereNeighborsAreTooFarApart) {
   const std::vector<ScanPoint> points = {polar(10.0, 0.0), polar(10.0, 2.0), polar(13.0, 4.0),
                                          polar(13.0, 6.0)};
   const auto segments = segmentPoints(points, fixedGap(2.0));
@@ -75,9 +75,9 @@ TEST(SegmentationTest, AdaptiveKeepsAFarWallWholeAndANearGapApart) {
 
 TEST(SegmentationTest, AdaptiveGapFollowsItsFormulaAndItsLimits) {
   SegmentationOptions options;
-  options.shortest_gap = 0.1;
-  options.longest_gap = 2.0;
-  options.least_incidence = 0.5;
+  options.min_gap = 0.1;
+  options.max_gap = 2.0;
+  options.min_incidence = 0.5;
   const double angle = degrees(2.0);
   const double gap = 0.1 + 10.0 * std::sin(angle) / std::sin(0.5 - angle);
   ASSERT_LT(gap, 2.0);

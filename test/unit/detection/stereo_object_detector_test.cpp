@@ -20,12 +20,12 @@ TEST(StereoObjectDetector, FindsACarAhead) {
   EXPECT_EQ(car.object_class, ObjectClass::kVehicle);
   EXPECT_GT(car.class_probability, 0.5);
   EXPECT_NEAR(car.height, 1.5, 0.1);
-  EXPECT_NEAR(-rearOf(car).place, 10.0, 0.1);
-  EXPECT_NEAR(leftOf(car).place, 0.9, 0.1);
-  EXPECT_NEAR(rightOf(car).place, 0.9, 0.1);
+  EXPECT_NEAR(-rearOf(car).position, 10.0, 0.1);
+  EXPECT_NEAR(leftOf(car).position, 0.9, 0.1);
+  EXPECT_NEAR(rightOf(car).position, 0.9, 0.1);
   EXPECT_LT(leftOf(car).variance, 0.1);
   EXPECT_LT(rightOf(car).variance, 0.1);
-  EXPECT_EQ(sideTowards(car, {1.0, 0.0}).variance, kHiddenSide) << "it faces away";
+  EXPECT_EQ(sideToward(car, {1.0, 0.0}).variance, kHiddenSide) << "it faces away";
   EXPECT_EQ(car.sensors, std::vector<std::string>{"stereo"});
   EXPECT_EQ(car.dynamic_state, DynamicState::kUnknown);
   EXPECT_FALSE(car.points.empty());
@@ -40,11 +40,11 @@ TEST(StereoObjectDetector, FindsACarFarAwayInNoise) {
   const Object& car = objects.front();
   EXPECT_EQ(car.object_class, ObjectClass::kVehicle);
   const double sigma = std::sqrt(car.position_covariance(0, 0) + rearOf(car).variance);
-  EXPECT_NEAR(-rearOf(car).place, 25.0, 3.0 * sigma);
+  EXPECT_NEAR(-rearOf(car).position, 25.0, 3.0 * sigma);
   EXPECT_LT(sigma, 1.0);
 }
 
-TEST(StereoObjectDetector, TellsPedestrianCyclistAndPole) {
+TEST(StereoObjectDetector, DistinguishesPedestrianCyclistAndPole) {
   const std::vector<Object> objects =
       objectsIn(sceneOf({pedestrianAt(10.0, 3.0), boxAt(10.0, 0.0, {0.6, 1.6, 1.75}),
                          boxAt(10.0, -3.0, {0.15, 0.15, 4.0})}));
@@ -54,10 +54,10 @@ TEST(StereoObjectDetector, TellsPedestrianCyclistAndPole) {
   EXPECT_EQ(objects[2].object_class, ObjectClass::kPole);
 }
 
-TEST(StereoObjectDetector, LeavesOutWallsHousesAndKerbs) {
+TEST(StereoObjectDetector, LeavesOutWallsHousesAndCurbs) {
   EXPECT_TRUE(objectsIn(sceneOf({wallAt(16.0, 30.0)})).empty()) << "a long one, 2 m high";
   EXPECT_TRUE(objectsIn(sceneOf({boxAt(16.0, 0.0, {5.0, 5.0, 9.0})})).empty()) << "a high one";
-  EXPECT_TRUE(objectsIn(sceneOf({boxAt(6.0, 3.0, {20.0, 1.0, 0.15})})).empty()) << "a kerb";
+  EXPECT_TRUE(objectsIn(sceneOf({boxAt(6.0, 3.0, {20.0, 1.0, 0.15})})).empty()) << "a curb";
   EXPECT_TRUE(objectsIn(sceneOf({})).empty());
 }
 
@@ -67,27 +67,27 @@ TEST(StereoObjectDetector, WhatLooksLikeNoRoadUserHasOddsAgainstIt) {
   ASSERT_EQ(objects.size(), 2U);
   EXPECT_EQ(objects[0].log_odds, 0.0) << "no proof of one";
   EXPECT_LT(objects[1].log_odds, -0.5) << "hedge";
-  EXPECT_GE(objects[1].log_odds, -StereoObjectDetectorOptions().most_doubt);
+  EXPECT_GE(objects[1].log_odds, -StereoObjectDetectorOptions().max_doubt);
 }
 
 TEST(StereoObjectDetector, SeesWhatIsBehindAndAboveNearerThings) {
   const std::vector<Object> objects =
       objectsIn(sceneOf({carAt(9.0, 0.0), boxAt(18.0, 0.0, {9.0, 2.5, 3.4})}));
   ASSERT_EQ(objects.size(), 2U) << "a truck, seen over a car";
-  EXPECT_NEAR(-rearOf(nearest(objects)).place, 9.0, 0.1);
+  EXPECT_NEAR(-rearOf(nearest(objects)).position, 9.0, 0.1);
   const bool first = &nearest(objects) == &objects[0];
-  EXPECT_NEAR(-rearOf(objects[first ? 1 : 0]).place, 18.0, 0.2);
+  EXPECT_NEAR(-rearOf(objects[first ? 1 : 0]).position, 18.0, 0.2);
 }
 
 TEST(StereoObjectDetector, MarksAnEndThatSomethingNearerHides) {
   const std::vector<Object> objects =
       objectsIn(sceneOf({boxAt(7.0, 0.6, {0.6, 1.2, 1.9}), carAt(15.0, 0.0)}));
   ASSERT_EQ(objects.size(), 2U);
-  const bool first = objects[0].box.centre.x() > 12.0;
+  const bool first = objects[0].box.center.x() > 12.0;
   const Object& car = objects[first ? 0 : 1];
   EXPECT_EQ(leftOf(car).variance, kHiddenSide);
   EXPECT_LT(rightOf(car).variance, 0.1);
-  EXPECT_NEAR(rightOf(car).place, 0.9, 0.15);
+  EXPECT_NEAR(rightOf(car).position, 0.9, 0.15);
 }
 
 TEST(StereoObjectDetector, MarksAnEndAtTheImagesBorder) {
@@ -98,23 +98,23 @@ TEST(StereoObjectDetector, MarksAnEndAtTheImagesBorder) {
   EXPECT_LT(leftOf(objects[0]).variance, 0.2);
 }
 
-TEST(StereoObjectDetector, TellsNothingOfWhatTheRightCameraDoesNotSee) {
+TEST(StereoObjectDetector, HasNoEvidenceOnWhatTheRightCameraDoesNotSee) {
   // The left camera sees the car's left side, the right one does not: it is 0.5 m to the right.
   const std::vector<Object> objects = objectsIn(sceneOf({carAt(8.5, 2.85)}));
   ASSERT_EQ(objects.size(), 1U);
   EXPECT_EQ(leftOf(objects[0]).variance, kHiddenSide);
 }
 
-TEST(StereoObjectDetector, TellsThingsApartThatTouchInTheImage) {
+TEST(StereoObjectDetector, SeparatesObjectsThatTouchInTheImage) {
   MadeScene scene =
       sceneOf({boxAt(12.0, -1.9, {1.8, 0.6, 1.75}), boxAt(10.0, -3.25, {5.2, 2.0, 2.2})});
   scene.disparity_noise = 0.25;
   const std::vector<Object> objects = objectsIn(scene);
   ASSERT_EQ(objects.size(), 2U) << "a cyclist who passes a parked van";
-  const bool first = objects[0].box.centre.y() > objects[1].box.centre.y();
+  const bool first = objects[0].box.center.y() > objects[1].box.center.y();
   const Object& cyclist = objects[first ? 0 : 1];
-  EXPECT_NEAR(cyclist.box.centre.y(), -1.9, 0.3);
-  EXPECT_NEAR(-rearOf(cyclist).place, 12.0, 0.3);
+  EXPECT_NEAR(cyclist.box.center.y(), -1.9, 0.3);
+  EXPECT_NEAR(-rearOf(cyclist).position, 12.0, 0.3);
 }
 
 TEST(StereoObjectDetector, APedestrianAtAPoleIsNotAPartOfIt) {
@@ -132,7 +132,7 @@ TEST(StereoObjectDetector, SeesAWholeObjectThroughItsHoles) {
   const std::vector<Object> objects = objectsIn(scene);
   ASSERT_EQ(objects.size(), 1U);
   EXPECT_NEAR(objects[0].height, 1.5, 0.15);
-  EXPECT_NEAR(-rearOf(objects[0]).place, 12.0, 0.3);
+  EXPECT_NEAR(-rearOf(objects[0]).position, 12.0, 0.3);
 }
 
 TEST(StereoObjectDetector, SaysNothingBeyondItsRange) {
@@ -151,9 +151,9 @@ TEST(StereoObjectDetector, ThinnedCloudsShowTheSame) {
     ASSERT_EQ(objects.size(), 2U) << step;
     EXPECT_EQ(objects[0].object_class, ObjectClass::kVehicle) << step;
     EXPECT_EQ(objects[1].object_class, ObjectClass::kPedestrian) << step;
-    EXPECT_NEAR(-rearOf(objects[0]).place, 12.0, 0.15) << step;
+    EXPECT_NEAR(-rearOf(objects[0]).position, 12.0, 0.15) << step;
     EXPECT_NEAR(objects[0].height, 1.5, 0.2) << step;
-    EXPECT_NEAR(leftOf(objects[1]).place + rightOf(objects[1]).place, 0.5, 0.1) << step;
+    EXPECT_NEAR(leftOf(objects[1]).position + rightOf(objects[1]).position, 0.5, 0.1) << step;
   }
 }
 
@@ -161,20 +161,20 @@ TEST(StereoObjectDetector, OrderOfPointsDoesNotMatter) {
   MadeScene scene = sceneOf({carAt(12.0, 1.0), pedestrianAt(9.0, -2.0)});
   scene.disparity_noise = 0.25;
   MadeCloud made(scene);
-  MadeCloud backwards;
+  MadeCloud backward;
   const PointsView points = made.cloud().points;
   for (std::size_t i = points.count; i-- > 0;) {
-    backwards.add(points[i].cast<double>());
+    backward.add(points[i].cast<double>());
   }
   StereoObjectDetectorOptions options;
   options.road.estimate = false;  // it looks at some of the points
   const std::vector<Object> one = detect(made, options).list.objects;
-  const std::vector<Object> other = detect(backwards, options).list.objects;
+  const std::vector<Object> other = detect(backward, options).list.objects;
   ASSERT_EQ(one.size(), 2U);
   ASSERT_EQ(other.size(), 2U);
   for (std::size_t i = 0; i < one.size(); ++i) {
-    EXPECT_NEAR(one[i].box.centre.x(), other[i].box.centre.x(), 1e-4);
-    EXPECT_NEAR(one[i].box.centre.y(), other[i].box.centre.y(), 1e-4);
+    EXPECT_NEAR(one[i].box.center.x(), other[i].box.center.x(), 1e-4);
+    EXPECT_NEAR(one[i].box.center.y(), other[i].box.center.y(), 1e-4);
     EXPECT_EQ(one[i].object_class, other[i].object_class);
   }
 }
@@ -190,7 +190,7 @@ TEST(StereoObjectDetector, SameCloudsGiveTheSameObjects) {
   ASSERT_EQ(first.objects.size(), 2U);
   ASSERT_EQ(again.objects.size(), 2U);
   for (std::size_t i = 0; i < first.objects.size(); ++i) {
-    EXPECT_EQ(first.objects[i].box.centre.position(), again.objects[i].box.centre.position());
+    EXPECT_EQ(first.objects[i].box.center.position(), again.objects[i].box.center.position());
     EXPECT_EQ(first.objects[i].heading_variance, again.objects[i].heading_variance);
     EXPECT_EQ(first.objects[i].class_probability, again.objects[i].class_probability);
   }
@@ -204,7 +204,7 @@ TEST(StereoObjectDetector, FollowsTheRoad) {
   EXPECT_NEAR(objects[0].height, 1.5, 0.15);
 }
 
-TEST(StereoObjectDetector, TellsWhereItLooks) {
+TEST(StereoObjectDetector, ReportsItsFieldOfView) {
   MadeScene scene = sceneOf({});
   scene.camera_yaw = 0.3;
   MadeCloud made(scene);
@@ -217,8 +217,8 @@ TEST(StereoObjectDetector, TellsWhereItLooks) {
   EXPECT_EQ(view.sensor, "stereo");
   EXPECT_NEAR(view.field.sensor_in_base.x(), kCameraX, 1e-9);
   EXPECT_NEAR(view.field.sensor_in_base.heading(), 0.3, 1e-6);
-  EXPECT_NEAR(view.field.least_bearing, -std::atan(0.5), 1e-9);
-  EXPECT_NEAR(view.field.most_bearing, std::atan(0.5), 1e-9);
+  EXPECT_NEAR(view.field.min_bearing, -std::atan(0.5), 1e-9);
+  EXPECT_NEAR(view.field.max_bearing, std::atan(0.5), 1e-9);
   EXPECT_EQ(view.field.range, StereoObjectDetectorOptions().effective_range);
   EXPECT_LE(view.field.sure_range, view.field.range);
 }
@@ -254,11 +254,11 @@ TEST(StereoObjectDetector, RefusesCamerasThatMeasureNothing) {
 TEST(StereoObjectDetector, UncertaintyLiesAlongTheLineOfSightAndGrowsWithDepth) {
   const std::vector<Object> objects = objectsIn(sceneOf({pedestrianAt(20.0, 6.0)}), ofBoxes());
   ASSERT_EQ(objects.size(), 1U);
-  const Point2 sight = (objects[0].box.centre.position() - Point2(kCameraX, 0.0)).normalized();
-  const Point2 aside(-sight.y(), sight.x());
+  const Point2 ray = (objects[0].box.center.position() - Point2(kCameraX, 0.0)).normalized();
+  const Point2 aside(-ray.y(), ray.x());
   const Eigen::Matrix2d& covariance = objects[0].position_covariance;
-  EXPECT_GT(sight.dot(covariance * sight), 4.0 * aside.dot(covariance * aside));
-  EXPECT_NEAR(sight.dot(covariance * aside), 0.0, 0.05 * sight.dot(covariance * sight));
+  EXPECT_GT(ray.dot(covariance * ray), 4.0 * aside.dot(covariance * aside));
+  EXPECT_NEAR(ray.dot(covariance * aside), 0.0, 0.05 * ray.dot(covariance * ray));
   const std::vector<Object> near = objectsIn(sceneOf({pedestrianAt(10.0, 3.0)}), ofBoxes());
   ASSERT_EQ(near.size(), 1U);
   EXPECT_LT(near[0].position_covariance.trace(), 0.5 * covariance.trace());

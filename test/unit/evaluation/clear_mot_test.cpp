@@ -70,7 +70,7 @@ TEST(ClearMot, LateBeginningAndEarlyEndAreNoFragmentation) {
   EXPECT_EQ(result.fragmentations, 0U);
 }
 
-TEST(ClearMot, TwoTracksThatChangePlaces) {
+TEST(ClearMot, TwoTracksThatSwapPositions) {
   // Each object gets another track: 1 - 2 / 4.
   const ClearMot result =
       score(FrameMaker()

@@ -26,7 +26,7 @@ Consistency ofRandomErrors(const Eigen::Matrix2d& truth, const Eigen::Matrix2d& 
   for (int i = 0; i < 2000; ++i) {
     const double first = normal(engine);
     const double second = normal(engine);
-    sum.add(normalisedErrorSquared<2>(root * Eigen::Vector2d(first, second), claimed));
+    sum.add(normalizedErrorSquared<2>(root * Eigen::Vector2d(first, second), claimed));
   }
   return sum.result();
 }
@@ -51,11 +51,11 @@ TEST(Consistency, NoneWithoutSamples) {
 TEST(Consistency, MeanOfHandComputedSamples) {
   NeesSum sum(2);
   // 2^2 / 4 + 1^2 / 1 = 2.
-  sum.add(normalisedErrorSquared<2>({2.0, 1.0}, matrix(4.0, 0.0, 1.0)));
+  sum.add(normalizedErrorSquared<2>({2.0, 1.0}, matrix(4.0, 0.0, 1.0)));
   // The inverse is [[2, -1], [-1, 2]] / 3: (2 - 1 - 1 + 2) / 3 = 2 / 3.
-  sum.add(normalisedErrorSquared<2>({1.0, 1.0}, matrix(2.0, 1.0, 2.0)));
+  sum.add(normalizedErrorSquared<2>({1.0, 1.0}, matrix(2.0, 1.0, 2.0)));
   // 3^2 = 9, beyond 5.99.
-  sum.add(normalisedErrorSquared<2>({0.0, 3.0}, matrix(1.0, 0.0, 1.0)));
+  sum.add(normalizedErrorSquared<2>({0.0, 3.0}, matrix(1.0, 0.0, 1.0)));
   const Consistency result = sum.result();
   EXPECT_NEAR(result.mean_nees.value(), (2.0 + 2.0 / 3.0 + 9.0) / 3.0, 1e-12);
   EXPECT_DOUBLE_EQ(result.inside_share.value(), 2.0 / 3.0);
@@ -66,7 +66,7 @@ TEST(Consistency, BoundsOfTheMeanOfFiftySamples) {
   // The hundred degrees of freedom of the tables: [74.2, 129.6] / 50.
   NeesSum sum(2);
   for (int i = 0; i < 50; ++i) {
-    sum.add(normalisedErrorSquared<2>({1.0, 0.0}, matrix(1.0, 0.0, 1.0)));
+    sum.add(normalizedErrorSquared<2>({1.0, 0.0}, matrix(1.0, 0.0, 1.0)));
   }
   EXPECT_NEAR(sum.result().lower.value(), 1.484, 0.001);
   EXPECT_NEAR(sum.result().upper.value(), 2.591, 0.001);
@@ -90,9 +90,9 @@ TEST(Consistency, TooSureAndNotSureEnough) {
 
 TEST(Consistency, CovariancesThatAreNoneAreCounted) {
   NeesSum sum(2);
-  sum.add(normalisedErrorSquared<2>({1.0, 1.0}, Eigen::Matrix2d::Zero()));
-  sum.add(normalisedErrorSquared<2>({1.0, 1.0}, matrix(1.0, 2.0, 1.0)));
-  sum.add(normalisedErrorSquared<2>({1.0, 1.0},
+  sum.add(normalizedErrorSquared<2>({1.0, 1.0}, Eigen::Matrix2d::Zero()));
+  sum.add(normalizedErrorSquared<2>({1.0, 1.0}, matrix(1.0, 2.0, 1.0)));
+  sum.add(normalizedErrorSquared<2>({1.0, 1.0},
                                     matrix(std::numeric_limits<double>::quiet_NaN(), 0.0, 1.0)));
   EXPECT_EQ(sum.result().samples, 0U);
   EXPECT_EQ(sum.result().unusable, 3U);

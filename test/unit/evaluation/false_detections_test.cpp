@@ -20,8 +20,8 @@ RecordedTruth drivePastParkedCar() {
 FalseDetections countOf(const std::vector<std::pair<double, std::vector<Point2>>>& detections,
                         const ScoreOptions& options = {}) {
   std::vector<RecordedDetections> recorded;
-  for (const auto& [seconds, places] : detections) {
-    recorded.push_back({Stamp::fromSeconds(seconds), places});
+  for (const auto& [seconds, positions] : detections) {
+    recorded.push_back({Stamp::fromSeconds(seconds), positions});
   }
   return countFalseDetections(recorded, TrueScene(drivePastParkedCar(), options), options);
 }
@@ -47,14 +47,14 @@ TEST(CountFalseDetections, OutOfTheRegionNothingCounts) {
   EXPECT_EQ(countOf({{1.0, {Point2(-49.9, 0.0)}}}).detections, 1U);
 }
 
-TEST(CountFalseDetections, APlaceIsOneEpisodeForAsLongAsItGoesOn) {
-  const Point2 place(5.0, 5.0);
+TEST(CountFalseDetections, APositionIsOneEpisodeForAsLongAsItLasts) {
+  const Point2 position(5.0, 5.0);
   const Point2 beside(6.9, 5.0);
   const Point2 elsewhere(5.0, 8.0);
-  EXPECT_EQ(countOf({{0.1, {place}}, {0.2, {beside}}, {0.3, {beside}}}).episodes, 1U);
-  EXPECT_EQ(countOf({{0.1, {place}}, {0.2, {elsewhere}}}).episodes, 2U);
-  EXPECT_EQ(countOf({{0.1, {place}}, {0.5, {place}}}).episodes, 1U);
-  EXPECT_EQ(countOf({{0.1, {place}}, {0.7, {place}}}).episodes, 2U);
+  EXPECT_EQ(countOf({{0.1, {position}}, {0.2, {beside}}, {0.3, {beside}}}).episodes, 1U);
+  EXPECT_EQ(countOf({{0.1, {position}}, {0.2, {elsewhere}}}).episodes, 2U);
+  EXPECT_EQ(countOf({{0.1, {position}}, {0.5, {position}}}).episodes, 1U);
+  EXPECT_EQ(countOf({{0.1, {position}}, {0.7, {position}}}).episodes, 2U);
 }
 
 TEST(CountFalseDetections, WithoutTruthNothingIsScored) {

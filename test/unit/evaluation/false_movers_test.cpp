@@ -6,10 +6,10 @@
 namespace datmo::evaluation {
 namespace {
 
-constexpr double kLeastSpeed = 0.5;  // m/s
+constexpr double kMinSpeed = 0.5;  // m/s
 
 FalseMovers count(const Frames& frames) {
-  return countFalseMovers(frames, matchFrames(frames, MatchOptions()), kLeastSpeed);
+  return countFalseMovers(frames, matchFrames(frames, MatchOptions()), kMinSpeed);
 }
 
 TrackState fastTrackAt(std::uint32_t id, double x) {

@@ -22,7 +22,7 @@ RecordedTracks tracksAt(double seconds, const std::vector<RecordedTrack>& tracks
 BuiltFrames build(const std::vector<RecordedTracks>& tracks, const RecordedTruth& truth,
                   const ScoreOptions& options, const std::vector<StampedPose>& estimated) {
   const TrueScene scene(truth, options);
-  const Trajectory trajectory(estimated, options.longest_gap);
+  const Trajectory trajectory(estimated, options.max_gap);
   return buildFrames(tracks, trajectory, alignAtFirstPose(trajectory, scene.trajectory()), scene,
                      options);
 }
@@ -46,8 +46,8 @@ std::size_t trackCount(const Frames& frames, Stamp stamp) {
 TEST(BuildFrames, TruthIsBroughtToTheStampsOfTheTracks) {
   const auto frames = framesOf({tracksAt(0.05, {}), tracksAt(0.15, {})}, drivingCar(0.2));
   ASSERT_EQ(frames.size(), 2U);
-  EXPECT_NEAR(frames[0].truths.at(0).box.centre.x(), 10.5, 1e-9);
-  EXPECT_NEAR(frames[1].truths.at(0).box.centre.x(), 11.5, 1e-9);
+  EXPECT_NEAR(frames[0].truths.at(0).box.center.x(), 10.5, 1e-9);
+  EXPECT_NEAR(frames[1].truths.at(0).box.center.x(), 11.5, 1e-9);
 }
 
 TEST(BuildFrames, SilenceIsFramesWithoutTracks) {
@@ -99,16 +99,16 @@ TEST(BuildFrames, BriefObjectsNeedNotBeFound) {
   for (int i = 0; i <= 20; ++i) {
     tracks.push_back(tracksAt(0.1 * i, {}));
   }
-  options.truth.least_time_seen = 1.95;
+  options.truth.min_time_seen = 1.95;
   EXPECT_EQ(framesOf(tracks, drivingCar(), options).at(5).truths.at(0).duty, Duty::kRequired);
-  options.truth.least_time_seen = 2.05;
+  options.truth.min_time_seen = 2.05;
   EXPECT_EQ(framesOf(tracks, drivingCar(), options).at(5).truths.at(0).duty, Duty::kOptional);
 }
 
 TEST(BuildFrames, InASingleFrameObjectsAreThereForNoTime) {
-  const auto duty = [](double least_time_seen) {
+  const auto duty = [](double min_time_seen) {
     ScoreOptions options;
-    options.truth.least_time_seen = least_time_seen;
+    options.truth.min_time_seen = min_time_seen;
     const auto frames = framesOf({tracksAt(0.1, {})}, drivingCar(0.2), options);
     EXPECT_EQ(frames.size(), 1U);
     return frames.at(0).truths.at(0).duty;
@@ -132,7 +132,7 @@ TrackState alignedTrack(const std::string& align) {
   ScoreOptions options = optionsForBriefObjects();
   options.align = align;
   RecordedTrack track = movingTrackAt(7, 0.0, 13.0);
-  track.state.box.centre = Pose2(0.0, 13.0, kPi / 2);
+  track.state.box.center = Pose2(0.0, 13.0, kPi / 2);
   track.state.velocity = Point2(0.0, 10.0);
   track.state.covariance.diagonal() << 1.0, 4.0, 9.0, 16.0;
   const auto built = build({tracksAt(1.0, {track})}, drivingCar(), options, turnedAndDrifting());
@@ -147,9 +147,9 @@ TrackState alignedTrack(const std::string& align) {
 
 TEST(BuildFrames, PoseAtStampTakesTheDriftOut) {
   const TrackState track = alignedTrack("pose_at_stamp");
-  EXPECT_NEAR(track.box.centre.x(), 10.0, 1e-9);
-  EXPECT_NEAR(track.box.centre.y(), 0.0, 1e-9);
-  EXPECT_NEAR(track.box.centre.heading(), 0.0, 1e-9);
+  EXPECT_NEAR(track.box.center.x(), 10.0, 1e-9);
+  EXPECT_NEAR(track.box.center.y(), 0.0, 1e-9);
+  EXPECT_NEAR(track.box.center.heading(), 0.0, 1e-9);
   EXPECT_NEAR(track.velocity.x(), 10.0, 1e-9);
   EXPECT_NEAR((track.covariance.diagonal() - Eigen::Vector4d(4.0, 1.0, 16.0, 9.0)).norm(), 0.0,
               1e-9);
@@ -157,15 +157,15 @@ TEST(BuildFrames, PoseAtStampTakesTheDriftOut) {
 
 TEST(BuildFrames, FirstPoseLeavesTheDriftIn) {
   const TrackState track = alignedTrack("first_pose");
-  EXPECT_NEAR(track.box.centre.x(), 13.0, 1e-9);
-  EXPECT_NEAR(track.box.centre.y(), 0.0, 1e-9);
+  EXPECT_NEAR(track.box.center.x(), 13.0, 1e-9);
+  EXPECT_NEAR(track.box.center.y(), 0.0, 1e-9);
   EXPECT_NEAR(track.velocity.x(), 10.0, 1e-9);
 }
 
 TEST(BuildFrames, NoneTakesTheMapAsItIs) {
   const TrackState track = alignedTrack("none");
-  EXPECT_NEAR(track.box.centre.x(), 0.0, 1e-9);
-  EXPECT_NEAR(track.box.centre.y(), 13.0, 1e-9);
+  EXPECT_NEAR(track.box.center.x(), 0.0, 1e-9);
+  EXPECT_NEAR(track.box.center.y(), 13.0, 1e-9);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ TEST(Gospa, EmptySetsAreTheSame) { EXPECT_EQ(gospa({}, {}, kCutoff4).total, 0.0)
 TEST(Gospa, OnePair) {
   const Gospa result = gospa({Point2(0.0, 0.0)}, {Point2(0.0, 3.0)}, kCutoff4);
   EXPECT_DOUBLE_EQ(result.total, 3.0);
-  EXPECT_DOUBLE_EQ(result.localisation, 3.0);
+  EXPECT_DOUBLE_EQ(result.localization, 3.0);
   EXPECT_EQ(result.missed, 0.0);
   EXPECT_EQ(result.false_tracks, 0.0);
 }
@@ -46,7 +46,7 @@ TEST(Gospa, AMissAndAFalseTrackCostHalfTheSquareEach) {
 TEST(Gospa, PairsBeyondTheCutoffAreMissesAndFalseTracks) {
   const Gospa result = gospa({Point2(0.0, 0.0)}, {Point2(9.0, 0.0)}, kCutoff4);
   EXPECT_DOUBLE_EQ(result.total, 4.0);
-  EXPECT_EQ(result.localisation, 0.0);
+  EXPECT_EQ(result.localization, 0.0);
   EXPECT_DOUBLE_EQ(result.missed, std::sqrt(8.0));
   EXPECT_DOUBLE_EQ(result.false_tracks, std::sqrt(8.0));
 }
@@ -55,7 +55,7 @@ TEST(Gospa, PartsAddUpInSquares) {
   // A pair at 1 m and a miss: sqrt(1 + 16 / 2).
   const Gospa result = gospa({Point2(0.0, 0.0), Point2(50.0, 0.0)}, {Point2(1.0, 0.0)}, kCutoff4);
   EXPECT_DOUBLE_EQ(result.total, 3.0);
-  EXPECT_DOUBLE_EQ(result.localisation, 1.0);
+  EXPECT_DOUBLE_EQ(result.localization, 1.0);
   EXPECT_DOUBLE_EQ(result.missed, std::sqrt(8.0));
 }
 
@@ -94,7 +94,7 @@ TEST(Gospa, AFramesObjectsAndTracksThatCount) {
   EXPECT_DOUBLE_EQ(result[0].false_tracks, std::sqrt(8.0));
 }
 
-TEST(Gospa, CentresCountWhateverTheGateMeasures) {
+TEST(Gospa, CentersCountWhateverTheGateMeasures) {
   TrueState truck = truthAt(1, 0.0);
   truck.box.length = 8.0;
   const Frames frames = FrameMaker().add({truck}, {trackAt(1, 3.0)}).frames();
@@ -106,7 +106,7 @@ TEST(Gospa, MeanOverFrames) {
   EXPECT_FALSE(meanGospa({}));
   const Gospa mean = meanGospa({{5.0, 3.0, 4.0, 0.0}, {2.0, 0.0, 0.0, 2.0}}).value();
   EXPECT_DOUBLE_EQ(mean.total, 3.5);
-  EXPECT_DOUBLE_EQ(mean.localisation, 1.5);
+  EXPECT_DOUBLE_EQ(mean.localization, 1.5);
   EXPECT_DOUBLE_EQ(mean.missed, 2.0);
   EXPECT_DOUBLE_EQ(mean.false_tracks, 1.0);
 }

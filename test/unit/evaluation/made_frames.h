@@ -8,11 +8,11 @@
 
 namespace datmo::evaluation {
 
-/// A required object without extent at (x, y), m: all distances to it are those of centres.
+/// A required object without extent at (x, y), m: all distances to it are those of centers.
 inline TrueState truthAt(std::uint32_t id, double x, double y = 0.0) {
   TrueState truth;
   truth.id = id;
-  truth.box.centre = Pose2(x, y, 0.0);
+  truth.box.center = Pose2(x, y, 0.0);
   return truth;
 }
 
@@ -26,7 +26,7 @@ inline TrueState optionalAt(std::uint32_t id, double x, double y = 0.0) {
 inline TrackState trackAt(std::uint32_t id, double x, double y = 0.0) {
   TrackState track;
   track.id = id;
-  track.box.centre = Pose2(x, y, 0.0);
+  track.box.center = Pose2(x, y, 0.0);
   track.covariance = Eigen::Matrix4d::Identity();
   return track;
 }

@@ -38,7 +38,7 @@ inline RecordedObject carAt(std::uint32_t id, double x, double y = 0.0) {
 inline RecordedTrack movingTrackAt(std::uint32_t id, double x, double y = 0.0) {
   RecordedTrack track;
   track.state.id = id;
-  track.state.box.centre = Pose2(x, y, 0.0);
+  track.state.box.center = Pose2(x, y, 0.0);
   track.state.velocity = Point2(10.0, 0.0);
   track.state.covariance = Eigen::Matrix4d::Identity();
   return track;
@@ -47,7 +47,7 @@ inline RecordedTrack movingTrackAt(std::uint32_t id, double x, double y = 0.0) {
 /// Options under which an object counts however briefly it is there.
 inline ScoreOptions optionsForBriefObjects() {
   ScoreOptions options;
-  options.truth.least_time_seen = 0.0;
+  options.truth.min_time_seen = 0.0;
   return options;
 }
 

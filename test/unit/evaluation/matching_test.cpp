@@ -33,21 +33,21 @@ TEST(Matching, TheGateBelongsToIt) {
   EXPECT_EQ(matching[1].falseTracks(), 1U);
 }
 
-TEST(Matching, DistanceToTheBoxOrItsCentre) {
+TEST(Matching, DistanceToTheBoxOrItsCenter) {
   TrueState truck = truthAt(1, 10.0, 5.0);
   truck.box = {Pose2(10.0, 5.0, degrees(90.0)), 8.0, 2.0};
   // The truck stands along y, from 1 to 9.
   const TrackState behind = trackAt(1, 10.0, -0.5);
   const TrackState beside = trackAt(2, 10.5, 8.0);
   const MatchOptions to_box;
-  const MatchOptions to_centre{2.0, "to_centre"};
+  const MatchOptions to_center{2.0, "to_center"};
   EXPECT_NEAR(matchDistance(truck, behind, to_box), 1.5, 1e-12);
-  EXPECT_NEAR(matchDistance(truck, behind, to_centre), 5.5, 1e-12);
+  EXPECT_NEAR(matchDistance(truck, behind, to_center), 5.5, 1e-12);
   EXPECT_EQ(matchDistance(truck, beside, to_box), 0.0);
-  EXPECT_NEAR(matchDistance(truck, beside, to_centre), std::hypot(0.5, 3.0), 1e-12);
+  EXPECT_NEAR(matchDistance(truck, beside, to_center), std::hypot(0.5, 3.0), 1e-12);
   const Frame frame{Stamp(), {truck}, {behind, beside}};
   EXPECT_EQ(candidatesOf(frame, to_box).size(), 2U);
-  EXPECT_TRUE(candidatesOf(frame, to_centre).empty());
+  EXPECT_TRUE(candidatesOf(frame, to_center).empty());
 }
 
 TEST(Matching, AsManyAsPossibleBeforeNearest) {

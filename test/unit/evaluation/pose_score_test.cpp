@@ -10,7 +10,7 @@
 namespace datmo::evaluation {
 namespace {
 
-constexpr double kLongestGap = 0.5;  // s
+constexpr double kMaxGap = 0.5;  // s
 
 /// 100 m along x with 10 m/s, a pose every 0.1 s, as `pose_at` (argument: m driven) sees it.
 Trajectory driveOf(const std::function<Pose2(double)>& pose_at) {
@@ -18,11 +18,11 @@ Trajectory driveOf(const std::function<Pose2(double)>& pose_at) {
   for (int i = 0; i <= 100; ++i) {
     poses.push_back(poseAt(0.1 * i, pose_at(1.0 * i)));
   }
-  return {poses, kLongestGap};
+  return {poses, kMaxGap};
 }
 
 Trajectory truth() {
-  return driveOf([](double way) { return Pose2(way, 0.0, 0.0); });
+  return driveOf([](double path_length) { return Pose2(path_length, 0.0, 0.0); });
 }
 
 PoseScore scoreOf(const std::function<Pose2(double)>& pose_at) {
@@ -33,18 +33,20 @@ PoseScore scoreOf(const std::function<Pose2(double)>& pose_at) {
 
 TEST(ScorePoses, TheSamePosesInAnotherMapHaveNoError) {
   const Pose2 elsewhere(7.0, -3.0, 2.0);
-  const PoseScore score = scoreOf([&](double way) { return elsewhere * Pose2(way, 0.0, 0.0); });
+  const PoseScore score =
+      scoreOf([&](double path_length) { return elsewhere * Pose2(path_length, 0.0, 0.0); });
   EXPECT_NEAR(score.end_error, 0.0, 1e-9);
   EXPECT_NEAR(score.end_heading_error, 0.0, 1e-9);
-  EXPECT_NEAR(score.way, 100.0, 1e-9);
+  EXPECT_NEAR(score.path_length, 100.0, 1e-9);
   EXPECT_NEAR(score.position_rmse, 0.0, 1e-9);
   EXPECT_NEAR(score.largest_jump, 0.0, 1e-9);
   ASSERT_EQ(score.relative.size(), 2U);
   EXPECT_NEAR(score.relative[1].translation.value(), 0.0, 1e-9);
 }
 
-TEST(ScorePoses, AScaleErrorGrowsWithTheWay) {
-  const PoseScore score = scoreOf([](double way) { return Pose2(1.02 * way, 0.0, 0.0); });
+TEST(ScorePoses, AScaleErrorGrowsWithTheDistance) {
+  const PoseScore score =
+      scoreOf([](double path_length) { return Pose2(1.02 * path_length, 0.0, 0.0); });
   EXPECT_NEAR(score.end_error, 2.0, 1e-9);
   EXPECT_NEAR(score.end_share.value(), 0.02, 1e-9);
   // Mean of (0.02 i)^2 over i = 0 ... 100: 0.0004 * 338350 / 101.
@@ -60,23 +62,28 @@ TEST(ScorePoses, AScaleErrorGrowsWithTheWay) {
 }
 
 TEST(ScorePoses, AWrongTurnIsInTheHeadingOfTheRelations) {
-  const PoseScore score = scoreOf([](double way) { return Pose2(way, 0.0, 0.001 * way); });
+  const PoseScore score =
+      scoreOf([](double path_length) { return Pose2(path_length, 0.0, 0.001 * path_length); });
   EXPECT_NEAR(score.end_heading_error, 0.1, 1e-9);
   EXPECT_NEAR(score.relative[0].rotation.value(), 0.01, 1e-9);
   EXPECT_NEAR(score.heading_rmse, 0.001 * std::sqrt(338350.0 / 101.0), 1e-9);
 }
 
 TEST(ScorePoses, AJumpIsFoundWhateverTheDriftBefore) {
-  const PoseScore score =
-      scoreOf([](double way) { return Pose2(way, way < 50.0 ? 0.001 * way : 1.5, 0.0); });
+  const PoseScore score = scoreOf([](double path_length) {
+    return Pose2(path_length, path_length < 50.0 ? 0.001 * path_length : 1.5, 0.0);
+  });
   EXPECT_NEAR(score.largest_jump, 1.5 - 0.04, 1e-9);  // from 40 m, one second before
 }
 
 TEST(ScorePoses, ErrorsAreOfOneSizeWhereverTheVehicleHeads) {
-  // Always one metre too far to the vehicle's left from 2 s on, while it turns round.
-  const auto turning = [](double way) { return Pose2(way, 0.0, 0.05 * way); };
-  const auto estimated = driveOf(
-      [&](double way) { return turning(way) * (way < 20.0 ? Pose2() : Pose2(0.0, 1.0, 0.0)); });
+  // Always one meter too far to the vehicle's left from 2 s on, while it turns round.
+  const auto turning = [](double path_length) {
+    return Pose2(path_length, 0.0, 0.05 * path_length);
+  };
+  const auto estimated = driveOf([&](double path_length) {
+    return turning(path_length) * (path_length < 20.0 ? Pose2() : Pose2(0.0, 1.0, 0.0));
+  });
   const auto score = scorePoses(estimated, driveOf(turning));
   ASSERT_TRUE(score);
   EXPECT_NEAR(score->largest_jump, 1.0, 1e-9);
@@ -85,8 +92,9 @@ TEST(ScorePoses, ErrorsAreOfOneSizeWhereverTheVehicleHeads) {
 TEST(ScorePoses, AnOldDriftIsNoJumpWhenTheVehicleTurns) {
   // 50 m with a scale error, and then a turn on the spot.
   const auto driven = [](double scale) {
-    return driveOf([scale](double way) {
-      return Pose2(scale * std::min(way, 50.0), 0.0, 0.05 * std::max(0.0, way - 50.0));
+    return driveOf([scale](double path_length) {
+      return Pose2(scale * std::min(path_length, 50.0), 0.0,
+                   0.05 * std::max(0.0, path_length - 50.0));
     });
   };
   const auto score = scorePoses(driven(1.02), driven(1.0));
@@ -99,7 +107,7 @@ TEST(ScorePoses, AStandingVehicleHasNoShareAndNoRelations) {
   const auto standing = driveOf([](double) { return Pose2(); });
   const auto score = scorePoses(standing, standing);
   ASSERT_TRUE(score);
-  EXPECT_EQ(score->way, 0.0);
+  EXPECT_EQ(score->path_length, 0.0);
   EXPECT_FALSE(score->end_share);
   EXPECT_FALSE(score->relative[0].translation);
   EXPECT_FALSE(score->relative[0].rotation);
@@ -115,7 +123,7 @@ TEST(ScorePoses, NeesIsTheErrorInUnitsOfTheCovariance) {
     pose.pose.covariance.diagonal() << 100.0, 4.0, 0.01;
     poses.push_back(pose);
   }
-  const auto score = scorePoses({poses, kLongestGap}, truth());
+  const auto score = scorePoses({poses, kMaxGap}, truth());
   ASSERT_TRUE(score);
   EXPECT_EQ(score->consistency.samples, 11U);
   EXPECT_EQ(score->consistency.degrees_of_freedom, 3);
@@ -130,8 +138,8 @@ TEST(ScorePoses, WithoutCovarianceThereIsNoNees) {
 }
 
 TEST(ScorePoses, WithoutOverlapThereIsNoScore) {
-  EXPECT_FALSE(scorePoses({{poseAt(90.0, Pose2())}, kLongestGap}, truth()));
-  EXPECT_FALSE(scorePoses({{}, kLongestGap}, truth()));
+  EXPECT_FALSE(scorePoses({{poseAt(90.0, Pose2())}, kMaxGap}, truth()));
+  EXPECT_FALSE(scorePoses({{}, kMaxGap}, truth()));
 }
 
 }  // namespace

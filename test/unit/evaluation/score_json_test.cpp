@@ -6,7 +6,7 @@
 namespace datmo::evaluation {
 namespace {
 
-/// A car that drives along x from 10 m, for 2 s, before a standing vehicle; a track half a metre
+/// A car that drives along x from 10 m, for 2 s, before a standing vehicle; a track half a meter
 /// beside it from 0.5 s on.
 struct Drive {
   RecordedRun run;
@@ -117,7 +117,7 @@ TEST(ScoreJson, OptionsStandUnderTheirKeys) {
   EXPECT_EQ(options["align"], "pose_at_stamp");
   EXPECT_EQ(options["region/range"], 50.0);
   EXPECT_EQ(options["truth/classes/vehicle"], true);
-  EXPECT_EQ(options["truth/least_beams"], 0);
+  EXPECT_EQ(options["truth/min_beams"], 0);
   EXPECT_EQ(options["matching/gate"], 2.0);
 }
 

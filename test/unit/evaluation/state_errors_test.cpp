@@ -14,8 +14,8 @@ namespace {
 StateErrors errorsOfHeadings(double truth_heading, double track_heading) {
   TrueState truth = truthAt(1, 0.0);
   TrackState track = trackAt(1, 0.0);
-  truth.box.centre = Pose2(0.0, 0.0, truth_heading);
-  track.box.centre = Pose2(0.0, 0.0, track_heading);
+  truth.box.center = Pose2(0.0, 0.0, truth_heading);
+  track.box.center = Pose2(0.0, 0.0, track_heading);
   StateErrorSum sum;
   sum.add(truth, track);
   return sum.result();

@@ -122,7 +122,7 @@ TEST_P(RandomRuns, TheTruthItselfIsPerfect) {
     frame.tracks.clear();
     for (const TrueState& truth : frame.truths) {
       frame.tracks.push_back(
-          trackAt(truth.id, truth.box.centre.position().x(), truth.box.centre.position().y()));
+          trackAt(truth.id, truth.box.center.position().x(), truth.box.center.position().y()));
     }
   }
   const TrackScores scores = scoreTracks(frames, TrackScoreOptions());

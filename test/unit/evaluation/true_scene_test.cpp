@@ -27,13 +27,13 @@ bool isRequired(const RecordedObject& object, const ScoreOptions& options = {}) 
   return objects.size() == 1 && objects.front().duty == Duty::kRequired;
 }
 
-TEST(TrueScene, ObjectsAreInterpolatedBetweenTheirNeighbours) {
+TEST(TrueScene, ObjectsAreInterpolatedBetweenTheirNeighbors) {
   RecordedObject later = carAt(1, 12.0, 1.0);
   later.state.velocity = Point2(20.0, 4.0);
   const auto objects = objectsAt(truthOf({carAt(1, 10.0)}, {later}), 1.05);
   ASSERT_EQ(objects.size(), 1U);
-  EXPECT_NEAR(objects[0].box.centre.x(), 10.5, 1e-9);
-  EXPECT_NEAR(objects[0].box.centre.y(), 0.25, 1e-9);
+  EXPECT_NEAR(objects[0].box.center.x(), 10.5, 1e-9);
+  EXPECT_NEAR(objects[0].box.center.y(), 0.25, 1e-9);
   EXPECT_NEAR(objects[0].velocity.x(), 12.5, 1e-9);
   EXPECT_NEAR(objects[0].velocity.y(), 1.0, 1e-9);
 }
@@ -41,19 +41,19 @@ TEST(TrueScene, ObjectsAreInterpolatedBetweenTheirNeighbours) {
 TEST(TrueScene, HeadingsAreInterpolatedTheShorterWayRound) {
   RecordedObject earlier = carAt(1, 10.0);
   RecordedObject later = earlier;
-  earlier.state.box.centre = Pose2(10.0, 0.0, 3.0);
-  later.state.box.centre = Pose2(10.0, 0.0, -3.0);
+  earlier.state.box.center = Pose2(10.0, 0.0, 3.0);
+  later.state.box.center = Pose2(10.0, 0.0, -3.0);
   const auto objects = objectsAt(truthOf({earlier}, {later}), 1.1);
-  EXPECT_NEAR(std::abs(objects.at(0).box.centre.heading()), kPi, 1e-9);
+  EXPECT_NEAR(std::abs(objects.at(0).box.center.heading()), kPi, 1e-9);
 }
 
-TEST(TrueScene, AnObjectThatOneNeighbourHasIsCarriedWithItsVelocity) {
+TEST(TrueScene, AnObjectThatOneNeighborHasIsCarriedWithItsVelocity) {
   const auto ends = objectsAt(truthOf({carAt(1, 10.0)}, {}), 1.1);
   ASSERT_EQ(ends.size(), 1U);
-  EXPECT_NEAR(ends[0].box.centre.x(), 11.0, 1e-9);
+  EXPECT_NEAR(ends[0].box.center.x(), 11.0, 1e-9);
   const auto begins = objectsAt(truthOf({}, {carAt(1, 10.0)}), 1.1);
   ASSERT_EQ(begins.size(), 1U);
-  EXPECT_NEAR(begins[0].box.centre.x(), 9.0, 1e-9);
+  EXPECT_NEAR(begins[0].box.center.x(), 9.0, 1e-9);
 }
 
 TEST(TrueScene, NothingIsKnownOutsideAndInAGap) {
@@ -62,7 +62,7 @@ TEST(TrueScene, NothingIsKnownOutsideAndInAGap) {
   EXPECT_FALSE(scene.at(Stamp::fromSeconds(0.99)));
   EXPECT_FALSE(scene.at(Stamp::fromSeconds(1.21)));
   EXPECT_TRUE(scene.at(Stamp::fromSeconds(1.1)));
-  options.longest_gap = 0.19;
+  options.max_gap = 0.19;
   EXPECT_FALSE(TrueScene(truthOf({}, {}), options).at(Stamp::fromSeconds(1.1)));
 }
 
@@ -87,7 +87,7 @@ TEST(TrueScene, TheRegionIsAboutTheVehicle) {
   EXPECT_FALSE(isRequired(carAt(1, -10.0), options));
 }
 
-TEST(TrueScene, SensorsInSightAreAskedFor) {
+TEST(TrueScene, SensorsWithAViewAreRequired) {
   RecordedObject car = carAt(1, 10.0);
   ScoreOptions options;
   options.truth.visible_to = "camera";
@@ -102,12 +102,12 @@ TEST(TrueScene, SensorsInSightAreAskedFor) {
 
 TEST(TrueScene, SpeedAndBeamsAreAskedFor) {
   ScoreOptions options;
-  options.truth.least_speed = 10.1;
+  options.truth.min_speed = 10.1;
   EXPECT_FALSE(isRequired(carAt(1, 10.0), options));
-  options.truth.least_speed = 9.9;
-  options.truth.least_beams = 4;
+  options.truth.min_speed = 9.9;
+  options.truth.min_beams = 4;
   EXPECT_FALSE(isRequired(carAt(1, 10.0), options));
-  options.truth.least_beams = 3;
+  options.truth.min_beams = 3;
   EXPECT_TRUE(isRequired(carAt(1, 10.0), options));
 }
 

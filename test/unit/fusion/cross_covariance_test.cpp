@@ -12,7 +12,7 @@ namespace {
 using JointCovariance = Eigen::Matrix<double, 2 * kTrackState, 2 * kTrackState>;
 
 constexpr double kStep = 0.1;  ///< s
-constexpr double kMost = 0.999;
+constexpr double kMaxMagnitude = 0.999;
 
 JointCovariance jointOf(const CovariancePair& pair, const CrossCovariance& cross) {
   JointCovariance joint;
@@ -49,7 +49,7 @@ TEST(CrossCovarianceTest, OneStepIsByHand) {
   const TrackCovariance identity = TrackCovariance::Identity();
   const CrossCovariance cross =
       steppedCrossCovariance(identity * 0.5, {identity * 3.0, identity}, {identity, identity},
-                             {identity, identity}, kMost);
+                             {identity, identity}, kMaxMagnitude);
   EXPECT_TRUE(cross.isApprox(identity * (0.25 * 1.5 * 0.5), 1e-9));
 }
 
@@ -73,8 +73,8 @@ TEST(CrossCovarianceTest, IsThatOfTheGainsOfKalmanFilters) {
       by_gains = by_gains * keptBy(b.covariance, measurement(0.25)).transpose();
       b = update(b, measurement(0.25));
     }
-    recursive =
-        steppedCrossCovariance(recursive, before, {a.covariance, b.covariance}, motion, kMost);
+    recursive = steppedCrossCovariance(recursive, before, {a.covariance, b.covariance}, motion,
+                                       kMaxMagnitude);
     EXPECT_TRUE(recursive.isApprox(by_gains, 1e-6)) << step;
   }
   EXPECT_GT(greatestCorrelation({a.covariance, b.covariance}, recursive), 0.5);
@@ -89,7 +89,8 @@ TEST(CrossCovarianceTest, WithoutMeasurementsItGrowsByTheProcessNoise) {
   const CrossCovariance cross = evenCrossCovariance(before, 0.3);
   const CrossCovariance expected =
       motion.transition * cross * motion.transition.transpose() + motion.noise;
-  EXPECT_TRUE(steppedCrossCovariance(cross, before, after, motion, kMost).isApprox(expected, 1e-6));
+  EXPECT_TRUE(
+      steppedCrossCovariance(cross, before, after, motion, kMaxMagnitude).isApprox(expected, 1e-6));
 }
 
 TEST(CrossCovarianceTest, AnEvenOneHasItsCorrelation) {
@@ -125,7 +126,8 @@ TEST(CrossCovarianceTest, ErrorsThatGrowAreNotPassedOn) {
   const CovariancePair before{identity, identity};
   const CovariancePair after{identity * 100.0, identity * 100.0};
   const LinearMotion rest{identity, identity * 1e-3};
-  const CrossCovariance cross = steppedCrossCovariance(identity * 0.5, before, after, rest, kMost);
+  const CrossCovariance cross =
+      steppedCrossCovariance(identity * 0.5, before, after, rest, kMaxMagnitude);
   EXPECT_TRUE(cross.isApprox(identity * 0.501, 1e-9));
 }
 

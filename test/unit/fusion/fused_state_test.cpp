@@ -18,7 +18,7 @@ constexpr char kInformation[] = "information";
 const std::vector<std::string> kMethods = {kIntersection, kCampo, kInformation};
 
 /// The weight that covariance intersection keeps of what tells nothing new, of 1.
-constexpr double kLeastWeight = 0.02;
+constexpr double kMinWeight = 0.02;
 
 TrackCombinationOptions by(const std::string& method) {
   TrackCombinationOptions options;
@@ -26,8 +26,8 @@ TrackCombinationOptions by(const std::string& method) {
   return options;
 }
 
-StateEstimate estimateAt(double place, double variance) {
-  return {TrackState::Constant(place), TrackCovariance::Identity() * variance};
+StateEstimate estimateAt(double position, double variance) {
+  return {TrackState::Constant(position), TrackCovariance::Identity() * variance};
 }
 
 StateEstimate fusedBy(const std::string& method, const StateEstimate& a, const StateEstimate& b,
@@ -99,15 +99,15 @@ TEST(FusedStateTest, IntersectionHasTheLeastDeterminant) {
     const StateEstimate fused = fusedBy(kIntersection, a, b);
     const double found = -std::log(fused.covariance.determinant());
     EXPECT_LE(found, best + 1e-3);
-    EXPECT_GE(found, best - kTrackState * kLeastWeight);
+    EXPECT_GE(found, best - kTrackState * kMinWeight);
   }
 }
 
-TEST(FusedStateTest, IntersectionLeavesWhatTellsNothingNew) {
+TEST(FusedStateTest, IntersectionIgnoresWhatHasNoNewInformation) {
   const StateEstimate sure = estimateAt(0.0, 1.0);
   const StateEstimate fused = fusedBy(kIntersection, sure, estimateAt(1.0, 4.0));
-  EXPECT_NEAR(fused.covariance(0, 0), 1.0, kLeastWeight);
-  EXPECT_NEAR(fused.mean[0], 0.0, kLeastWeight);
+  EXPECT_NEAR(fused.covariance(0, 0), 1.0, kMinWeight);
+  EXPECT_NEAR(fused.mean[0], 0.0, kMinWeight);
 }
 
 TEST(FusedStateTest, TheWeightOfIntersectionDoesNotJump) {
@@ -225,7 +225,7 @@ TEST(FusedStateTest, OptionsAreChecked) {
   EXPECT_NO_THROW(checkOptions(TrackCombinationOptions()));
   EXPECT_THROW(checkOptions(by("average")), OptionError);
   TrackCombinationOptions options;
-  options.most_correlation = 1.0;
+  options.max_correlation = 1.0;
   EXPECT_THROW(checkOptions(options), OptionError);
 }
 

@@ -56,7 +56,7 @@ TEST(FusedTargetsTest, AConfirmedOneThatHardlyExistsAnyMoreHidesNothing) {
             Ids{2});
 }
 
-TEST(FusedTargetsTest, OfTwoAtOnePlaceTheSameOneIsPublished) {
+TEST(FusedTargetsTest, OfTwoAtOnePositionTheSameOneIsPublished) {
   TrackFuser fuser(withScheme(TrackFuserOptions::kUnion));
   for (int i = 0; i < 6; ++i) {
     const double t = 0.1 * i;
@@ -68,7 +68,7 @@ TEST(FusedTargetsTest, OfTwoAtOnePlaceTheSameOneIsPublished) {
   }
 }
 
-TEST(FusedTargetsTest, ASourceThatTellsNoBeamsIsNotMissed) {
+TEST(FusedTargetsTest, ASourceWithoutBeamsIsNotMissed) {
   TrackFuser fuser{TrackFuserOptions()};
   ViewFan unknown;
   unknown.beam_spacing = degrees(1.0);
@@ -78,7 +78,7 @@ TEST(FusedTargetsTest, ASourceThatTellsNoBeamsIsNotMissed) {
   EXPECT_NEAR(result.list.tracks[0].existence_probability, 0.9, 1e-9);
 }
 
-/// How long a car that comes towards the vehicle has not been published since it was first, when
+/// How long a car that comes toward the vehicle has not been published since it was first, when
 /// the camera has a track of it `needed` s after it came into its view.
 double secondsHidden(double needed) {
   TrackFuser fuser{TrackFuserOptions()};
@@ -113,8 +113,8 @@ TEST(FusedTargetsTest, ItIsAsOldAsTheOldestOfItsTracks) {
 
 TEST(FusedTargetsTest, WhoIsSurestOfItIsNoEvidenceBesidesItself) {
   TrackFuserOptions options;
-  options.sources["lidar"].coincidence = 0.1;
-  options.sources["stereo"].coincidence = 0.8;
+  options.sources["lidar"].false_agreement_probability = 0.1;
+  options.sources["stereo"].false_agreement_probability = 0.8;
   const auto existence = [&](double by_lidar, double by_stereo) {
     TrackFuser fuser(options);
     const auto result = fuser.fuse(at(0.0), {lidar(0.0, {far("lidar", 9.0, by_lidar)}),

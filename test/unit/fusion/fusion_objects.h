@@ -13,7 +13,7 @@ constexpr std::size_t sideIndex(BoxSide side) { return static_cast<std::size_t>(
 /// axis.
 inline Object pointObject(double x, double y, double sigma, const std::string& sensor = "lidar") {
   Object object;
-  object.box.centre = Pose2(x, y, 0.0);
+  object.box.center = Pose2(x, y, 0.0);
   object.position_covariance = Eigen::Matrix2d::Identity() * sigma * sigma;
   object.sensors = {sensor};
   return object;

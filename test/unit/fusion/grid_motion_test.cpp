@@ -58,7 +58,7 @@ TEST(GridMotionTest, NoMotionIsTheIdentity) {
   EXPECT_EQ(moved.stamp(), Stamp{2});
 }
 
-TEST(GridMotionTest, WhatStandsStillComesNearerWhenTheVehicleDrivesTowardsIt) {
+TEST(GridMotionTest, WhatStandsStillComesNearerWhenTheVehicleDrivesTowardIt) {
   SensorGrid grid = allFree();
   grid.at({10, 3}) = kOccupied;
   // 2 m ahead: the old frame is 2 m behind.
@@ -71,7 +71,7 @@ TEST(GridMotionTest, WhatStandsStillComesNearerWhenTheVehicleDrivesTowardsIt) {
 
 TEST(GridMotionTest, AQuarterTurnTurnsTheGrid) {
   SensorGrid grid = allFree();
-  grid.at({10, 3}) = kOccupied;  // centre (5.25, 1.75)
+  grid.at({10, 3}) = kOccupied;  // center (5.25, 1.75)
   const SensorGrid moved = movedGrid(grid, Stamp{2}, Pose2(0.0, 0.0, kQuarterTurn), 0.0);
   EXPECT_EQ(occupiedCells(moved), std::vector<CellIndex>({{-4, 10}}));  // (-1.75, 5.25)
 }
@@ -85,7 +85,7 @@ TEST(GridMotionTest, NoOccupiedCellIsLostByRotation) {
     const SensorGrid moved = movedGrid(grid, Stamp{2}, motion, 0.0);
     EXPECT_GE(occupiedCells(moved).size(), occupiedCells(grid).size());
     for (const CellIndex cell : occupiedCells(grid)) {
-      EXPECT_EQ(moved.at(kWindow.cellAt(motion * kWindow.centreOf(cell))), kOccupied);
+      EXPECT_EQ(moved.at(kWindow.cellAt(motion * kWindow.centerOf(cell))), kOccupied);
     }
   }
 }
@@ -116,9 +116,9 @@ TEST(GridMotionTest, NothingFreeIsLeftWhereAMoverMayHaveCome) {
   grid.at({4, 3}) = kUndecidedPercent;
   const SensorGrid moved = movedGrid(grid, Stamp{2}, Pose2(), 1.2);
   moved.forEach([&](CellIndex cell, Percent percent) {
-    const Point2 centre = kWindow.centreOf(cell);
-    const double distance = std::min((centre - kWindow.centreOf({2, 3})).norm(),
-                                     (centre - kWindow.centreOf({3, 3})).norm());
+    const Point2 center = kWindow.centerOf(cell);
+    const double distance = std::min((center - kWindow.centerOf({2, 3})).norm(),
+                                     (center - kWindow.centerOf({3, 3})).norm());
     const Percent before = grid.at(cell);
     EXPECT_EQ(percent, distance <= 1.2 && isFree(before) ? kUnknownPercent : before)
         << cell.column << ", " << cell.row;

@@ -20,7 +20,7 @@ ObjectAssociationOptions exact() {
 
 ObjectAssociationOptions nearest() {
   ObjectAssociationOptions options;
-  options.association = ObjectAssociationOptions::kNearestNeighbour;
+  options.association = ObjectAssociationOptions::kNearestNeighbor;
   return options;
 }
 
@@ -46,7 +46,7 @@ TEST(ObjectAssociationTest, BeyondTheGateThereIsNoPair) {
 }
 
 TEST(ObjectAssociationTest, SidesAreComparedThatBothSaw) {
-  // The scanner sees the rear of a truck, and a metre of its side; the other sensor all of it.
+  // The scanner sees the rear of a truck, and a meter of its side; the other sensor all of it.
   Object part = boxObject(10.5, 0.0, 1.0, 2.0, 0.001);
   hide(part, BoxSide::kFront);
   Object whole = boxObject(14.0, 0.0, 8.0, 2.0, 0.001, "stereo");
@@ -65,7 +65,7 @@ TEST(ObjectAssociationTest, WithoutACommonSideTheSizeIsNotKnown) {
   hide(right, BoxSide::kLeft);
   EXPECT_NEAR(pairing(left, right, options).squared_distance, 9.0 / 1.02, 1e-3);
   // Where they overlap they agree.
-  right.box.centre = Pose2(10.0, 2.0, 0.0);
+  right.box.center = Pose2(10.0, 2.0, 0.0);
   EXPECT_NEAR(pairing(left, right, options).squared_distance, 0.0, 1e-9);
 }
 
@@ -79,15 +79,15 @@ TEST(ObjectAssociationTest, AGapBetweenSidesThatWereSeenIsNoUnknownSize) {
   EXPECT_FALSE(pairing(car, echo, ObjectAssociationOptions()).possible);
   // Either may fill the gap where it is not seen to end.
   hide(car, BoxSide::kLeft);
-  car.box.centre = Pose2(10.2, -1.0, 0.0);
+  car.box.center = Pose2(10.2, -1.0, 0.0);
   EXPECT_TRUE(pairing(echo, car, ObjectAssociationOptions()).possible);
 }
 
 TEST(ObjectAssociationTest, PairingIsSymmetric) {
   Object a = boxObject(10.0, 3.0, 1.0, 2.0, 0.01);
   Object b = boxObject(10.2, 3.1, 2.0, 1.2, 0.02, "stereo");
-  a.box.centre = Pose2(a.box.centre.position(), 0.3);
-  b.box.centre = Pose2(b.box.centre.position(), -1.4);
+  a.box.center = Pose2(a.box.center.position(), 0.3);
+  b.box.center = Pose2(b.box.center.position(), -1.4);
   b.delay = 0.05;
   hide(b, BoxSide::kLeft);
   const ObjectAssociationOptions options;
@@ -115,7 +115,7 @@ TEST(ObjectAssociationTest, DifferentClassesAreDifferentObjects) {
   EXPECT_TRUE(pairing(walker, plain, options).possible);
 }
 
-TEST(ObjectAssociationTest, TheAssignmentIsBestOverAllWhereTheNearestNeighbourFails) {
+TEST(ObjectAssociationTest, TheAssignmentIsBestOverAllWhereTheNearestNeighborFails) {
   // Three in a row, 1 m apart; the other sensor sees all of them 0.6 m farther to the left, and so
   // each but the last one nearer to the next.
   std::vector<Object> known;
@@ -141,7 +141,7 @@ TEST(ObjectAssociationTest, APairMustBeLikelierThanTwoObjects) {
   EXPECT_EQ(associate(known, added, Point2::Zero(), options), std::vector<int>{kUnassigned});
 }
 
-TEST(ObjectAssociationTest, TheNearestNeighbourIsThatOfTheThesis) {
+TEST(ObjectAssociationTest, TheNearestNeighborIsThatOfTheThesis) {
   const std::vector<Object> known = {pointObject(18.0, 0.0, 0.1), pointObject(37.0, 0.0, 0.1)};
   const auto match = [&](double x, double y) {
     return associate(known, {pointObject(x, y, 0.1, "stereo")}, Point2::Zero(), nearest())[0];
@@ -153,14 +153,14 @@ TEST(ObjectAssociationTest, TheNearestNeighbourIsThatOfTheThesis) {
   EXPECT_EQ(match(36.5, 0.0), kUnassigned);
 }
 
-TEST(ObjectAssociationTest, TheNearestNeighbourComparesFrontSides) {
+TEST(ObjectAssociationTest, TheNearestNeighborComparesFrontSides) {
   // The scanner sees the rear only; of the other sensor's car the rear is as near.
   const std::vector<Object> known = {pointObject(10.0, 0.0, 0.1)};
   const std::vector<Object> added = {boxObject(12.5, 0.0, 5.0, 2.0, 0.01, "stereo")};
   EXPECT_EQ(associate(known, added, Point2::Zero(), nearest())[0], 0);
 }
 
-TEST(ObjectAssociationTest, OfTwoWithTheSameNearestNeighbourTheNearerKeepsIt) {
+TEST(ObjectAssociationTest, OfTwoWithTheSameNearestNeighborTheNearerKeepsIt) {
   const std::vector<Object> known = {pointObject(20.0, 0.0, 0.1)};
   const std::vector<Object> added = {pointObject(20.0, 1.0, 0.1), pointObject(20.0, -0.5, 0.1),
                                      pointObject(20.0, 0.8, 0.1)};

@@ -27,11 +27,11 @@ TEST(ObjectCombinationTest, PointsAreFusedAsInTheThesis) {
   const Eigen::Matrix2d of_a = a.position_covariance.inverse();
   const Eigen::Matrix2d of_b = b.position_covariance.inverse();
   const Eigen::Matrix2d covariance = (of_a + of_b).inverse();
-  const Point2 place =
-      covariance * (of_a * a.box.centre.position() + of_b * b.box.centre.position());
+  const Point2 position =
+      covariance * (of_a * a.box.center.position() + of_b * b.box.center.position());
   const Object fused = combined(a, b);
-  EXPECT_NEAR(fused.box.centre.x(), place.x(), 1e-5);
-  EXPECT_NEAR(fused.box.centre.y(), place.y(), 1e-5);
+  EXPECT_NEAR(fused.box.center.x(), position.x(), 1e-5);
+  EXPECT_NEAR(fused.box.center.y(), position.y(), 1e-5);
   EXPECT_NEAR((fused.position_covariance - covariance).norm(), 0.0, 1e-5);
   for (const double variance : fused.side_variance) {
     EXPECT_NEAR(variance, 0.0, 1e-5);
@@ -41,11 +41,11 @@ TEST(ObjectCombinationTest, PointsAreFusedAsInTheThesis) {
 TEST(ObjectCombinationTest, RangeOfTheOneAndBearingOfTheOtherMeet) {
   Object lidar = pointObject(20.0, 0.0, 0.1);
   Object stereo = pointObject(22.0, 0.5, 0.1, "stereo");
-  lidar.position_covariance = rangeBearingCovariance(lidar.box.centre.position(), 0.01, 0.01);
-  stereo.position_covariance = rangeBearingCovariance(stereo.box.centre.position(), 4.0, 1e-5);
+  lidar.position_covariance = rangeBearingCovariance(lidar.box.center.position(), 0.01, 0.01);
+  stereo.position_covariance = rangeBearingCovariance(stereo.box.center.position(), 4.0, 1e-5);
   const Object fused = combined(lidar, stereo);
-  EXPECT_NEAR(fused.box.centre.x(), 20.0, 0.05);
-  EXPECT_NEAR(fused.box.centre.y(), 0.5, 0.05);
+  EXPECT_NEAR(fused.box.center.x(), 20.0, 0.05);
+  EXPECT_NEAR(fused.box.center.y(), 0.5, 0.05);
   EXPECT_LT(fused.position_covariance(0, 0), 0.01);
   EXPECT_LT(fused.position_covariance(1, 1), 0.01);
 }
@@ -60,9 +60,9 @@ TEST(ObjectCombinationTest, ASideThatOneDidNotSeeIsAsTheOtherSawIt) {
   stereo.position_covariance = Eigen::Matrix2d::Identity() * 0.04;
   const Object fused = combined(lidar, stereo);
   const Box2& box = fused.box;
-  EXPECT_NEAR(box.centre.x() - 0.5 * box.length, 10.0, 0.01);
-  EXPECT_NEAR(box.centre.y() + 0.5 * box.width, 1.0, 0.01);
-  EXPECT_NEAR(box.centre.y() - 0.5 * box.width, -1.0, 0.01);
+  EXPECT_NEAR(box.center.x() - 0.5 * box.length, 10.0, 0.01);
+  EXPECT_NEAR(box.center.y() + 0.5 * box.width, 1.0, 0.01);
+  EXPECT_NEAR(box.center.y() - 0.5 * box.width, -1.0, 0.01);
   EXPECT_EQ(fused.side_variance[sideIndex(BoxSide::kFront)], kHiddenSide);
   EXPECT_TRUE(std::isfinite(fused.side_variance[sideIndex(BoxSide::kRight)]));
   // The right side is known by the other one's size, which the left side ties to the surer place.
@@ -89,18 +89,18 @@ TEST(ObjectCombinationTest, ASideThatNobodySawStaysHidden) {
   EXPECT_EQ(fused.side_variance[sideIndex(BoxSide::kLeft)], kHiddenSide);
   EXPECT_EQ(fused.side_variance[sideIndex(BoxSide::kRight)], kHiddenSide);
   EXPECT_EQ(fused.side_variance[sideIndex(BoxSide::kFront)], kHiddenSide);
-  EXPECT_NEAR(fused.box.centre.y(), 0.3 * 0.0025 / (0.0025 + 0.25), 1e-6);
+  EXPECT_NEAR(fused.box.center.y(), 0.3 * 0.0025 / (0.0025 + 0.25), 1e-6);
 }
 
-TEST(ObjectCombinationTest, BoxesThatAreToldAQuarterTurnApartAreOne) {
+TEST(ObjectCombinationTest, BoxesThatAreAQuarterTurnApartAreOne) {
   const Object a = boxObject(10.0, 0.0, 4.0, 2.0, 0.01);
   Object b = boxObject(10.0, 0.0, 2.0, 4.0, 0.01, "stereo");
-  b.box.centre = Pose2(10.0, 0.0, kQuarterTurn);
+  b.box.center = Pose2(10.0, 0.0, kQuarterTurn);
   hide(b, BoxSide::kLeft);  // the end at the negative x axis
   const Object fused = combined(a, b);
   EXPECT_NEAR(fused.box.length, 4.0, 1e-3);
   EXPECT_NEAR(fused.box.width, 2.0, 1e-3);
-  EXPECT_NEAR(std::abs(std::cos(fused.box.centre.heading())), 1.0, 1e-6);
+  EXPECT_NEAR(std::abs(std::cos(fused.box.center.heading())), 1.0, 1e-6);
   const auto& sides = fused.side_variance;
   EXPECT_GT(sides[sideIndex(BoxSide::kRear)], sides[sideIndex(BoxSide::kFront)]);
 }
@@ -111,38 +111,38 @@ TEST(ObjectCombinationTest, TheLengthIsAlongTheAxisOnWhichBothAgree) {
   const Object b = boxObject(10.0, 0.0, 1.2, 2.0, 0.01, "stereo");
   const Object fused = combined(a, b);
   EXPECT_NEAR(fused.box.length, 1.1, 0.05);
-  EXPECT_NEAR(fused.box.centre.heading(), 0.0, 1e-6);
+  EXPECT_NEAR(fused.box.center.heading(), 0.0, 1e-6);
 }
 
 TEST(ObjectCombinationTest, HeadingsAreFusedByWhatIsKnownOfThem) {
   Object a = boxObject(10.0, 0.0, 4.0, 2.0, 0.01);
   Object b = boxObject(10.0, 0.0, 4.0, 2.0, 0.01, "stereo");
-  b.box.centre = Pose2(10.0, 0.0, 0.2);
-  EXPECT_NEAR(combined(a, b).box.centre.heading(), 0.1, 1e-3);
+  b.box.center = Pose2(10.0, 0.0, 0.2);
+  EXPECT_NEAR(combined(a, b).box.center.heading(), 0.1, 1e-3);
   EXPECT_NEAR(combined(a, b).heading_variance, 0.0005, 1e-5);
   b.heading_variance = kUnknownHeadingVariance;
-  EXPECT_NEAR(combined(a, b).box.centre.heading(), 0.0, 1e-6);
+  EXPECT_NEAR(combined(a, b).box.center.heading(), 0.0, 1e-6);
   EXPECT_NEAR(combined(a, b).heading_variance, 0.001, 1e-6);
   a.heading_variance = kUnknownHeadingVariance;
   EXPECT_EQ(combined(a, b).heading_variance, kUnknownHeadingVariance);
 }
 
 TEST(ObjectCombinationTest, OfHeadingsThatContradictEachOtherThatOfTheBetterMeasuredBoxHolds) {
-  // The rear of a car, to the centimetre, but its heading may as well be another one; the other
+  // The rear of a car, to the centimeter, but its heading may as well be another one; the other
   // sensor has taken it for a corner.
   Object rear = boxObject(20.0, 0.0, 0.0, 1.8, 0.0025);
   rear.heading_variance = kUnknownHeadingVariance;
   Object corner = boxObject(20.5, 0.0, 1.3, 1.3, 0.01, "stereo");
-  corner.box.centre = Pose2(20.5, 0.0, 0.7);
+  corner.box.center = Pose2(20.5, 0.0, 0.7);
   corner.position_covariance = Eigen::Matrix2d::Identity() * 0.25;
   const Object fused = combined(rear, corner);
-  EXPECT_NEAR(std::cos(fused.box.centre.heading()), 1.0, 1e-6);
+  EXPECT_NEAR(std::cos(fused.box.center.heading()), 1.0, 1e-6);
   EXPECT_EQ(fused.heading_variance, rear.heading_variance);
-  EXPECT_NEAR(fused.box.centre.x() - 0.5 * fused.box.length, 20.0, 0.05);
+  EXPECT_NEAR(fused.box.center.x() - 0.5 * fused.box.length, 20.0, 0.05);
   // A post has no heading that could be right.
   Object post = rear;
   post.box.width = 0.1;
-  EXPECT_NEAR(combined(post, corner).box.centre.heading(), 0.7, 1e-6);
+  EXPECT_NEAR(combined(post, corner).box.center.heading(), 0.7, 1e-6);
 }
 
 TEST(ObjectCombinationTest, EndsOfABoxThatIsTurnedFarAreNoFarSides) {
@@ -151,11 +151,11 @@ TEST(ObjectCombinationTest, EndsOfABoxThatIsTurnedFarAreNoFarSides) {
   Object line = boxObject(20.0, 0.0, 0.0, 0.6, 0.01);
   hide(line, BoxSide::kFront);
   Object car = boxObject(22.0, 0.0, 4.0, 1.8, 0.01, "stereo");
-  car.box.centre = Pose2(22.0, 0.0, 0.5);
+  car.box.center = Pose2(22.0, 0.0, 0.5);
   hide(car, BoxSide::kFront);
   hide(car, BoxSide::kRight);
   const Object fused = combined(line, car);
-  ASSERT_NEAR(fused.box.centre.heading(), 0.5, 1e-6);
+  ASSERT_NEAR(fused.box.center.heading(), 0.5, 1e-6);
   EXPECT_EQ(fused.side_variance[sideIndex(BoxSide::kFront)], kHiddenSide);
   // The corner that reaches farthest to the right is that of the line's hidden side.
   EXPECT_EQ(fused.side_variance[sideIndex(BoxSide::kRight)], kHiddenSide);
@@ -163,14 +163,14 @@ TEST(ObjectCombinationTest, EndsOfABoxThatIsTurnedFarAreNoFarSides) {
   EXPECT_TRUE(std::isfinite(fused.side_variance[sideIndex(BoxSide::kLeft)]));
 }
 
-TEST(ObjectCombinationTest, TheSurerOneTellsWhichWayItHeads) {
+TEST(ObjectCombinationTest, TheSurerOneDecidesTheDirection) {
   Object a = boxObject(10.0, 0.0, 4.0, 2.0, 0.01);
   Object b = boxObject(10.0, 0.0, 4.0, 2.0, 0.01, "stereo");
-  b.box.centre = Pose2(10.0, 0.0, kPi);
+  b.box.center = Pose2(10.0, 0.0, kPi);
   b.heading_variance = 1e-4;
-  EXPECT_NEAR(std::cos(combined(a, b).box.centre.heading()), -1.0, 1e-6);
+  EXPECT_NEAR(std::cos(combined(a, b).box.center.heading()), -1.0, 1e-6);
   b.heading_variance = 1e-2;
-  EXPECT_NEAR(std::cos(combined(a, b).box.centre.heading()), 1.0, 1e-6);
+  EXPECT_NEAR(std::cos(combined(a, b).box.center.heading()), 1.0, 1e-6);
 }
 
 TEST(ObjectCombinationTest, OrderDoesNotMatter) {
@@ -179,8 +179,8 @@ TEST(ObjectCombinationTest, OrderDoesNotMatter) {
     Object a = boxObject(20.0 + random.normal(0.3), random.normal(0.3), random.uniform(0.0, 5.0),
                          random.uniform(0.0, 2.0), random.uniform(0.0, 0.1));
     Object b = boxObject(20.0, 0.0, 4.0, 2.0, random.uniform(0.0, 0.5), "stereo");
-    a.box.centre = Pose2(a.box.centre.position(), random.uniform(-kPi, kPi));
-    b.box.centre = Pose2(b.box.centre.position(), random.uniform(-kPi, kPi));
+    a.box.center = Pose2(a.box.center.position(), random.uniform(-kPi, kPi));
+    b.box.center = Pose2(b.box.center.position(), random.uniform(-kPi, kPi));
     b.heading_variance = 0.02;
     for (std::size_t side = 0; side < kBoxSides; ++side) {
       a.side_variance[side] = random.chance(0.4) ? kHiddenSide : a.side_variance[side];
@@ -189,8 +189,8 @@ TEST(ObjectCombinationTest, OrderDoesNotMatter) {
     const Object one = combined(a, b);
     const Object other = combined(b, a);
     ASSERT_TRUE(isValid(one));
-    EXPECT_NEAR((one.box.centre.position() - other.box.centre.position()).norm(), 0.0, 1e-6);
-    EXPECT_NEAR(std::cos(one.box.centre.heading() - other.box.centre.heading()), 1.0, 1e-9);
+    EXPECT_NEAR((one.box.center.position() - other.box.center.position()).norm(), 0.0, 1e-6);
+    EXPECT_NEAR(std::cos(one.box.center.heading() - other.box.center.heading()), 1.0, 1e-9);
     EXPECT_NEAR(one.box.length, other.box.length, 1e-6);
     EXPECT_NEAR((one.position_covariance - other.position_covariance).norm(), 0.0, 1e-6);
     EXPECT_NEAR(one.delay, other.delay, 1e-9);
@@ -215,14 +215,14 @@ Object measured(const Box2& truth, const Eigen::Matrix2d& covariance,
   const Eigen::Matrix2d root = covariance.llt().matrixL();
   const Point2 shift = root * Point2(random.normal(1.0), random.normal(1.0));
   const Point2 middle(0.5 * (reach[0] - reach[1]), 0.5 * (reach[2] - reach[3]));
-  object.box = {Pose2(truth.centre * middle + shift, truth.centre.heading()), reach[0] + reach[1],
+  object.box = {Pose2(truth.center * middle + shift, truth.center.heading()), reach[0] + reach[1],
                 reach[2] + reach[3]};
   return object;
 }
 
 /// Of the front left corner, whose two sides must be seen.
 double squaredError(const Object& fused, const Box2& truth) {
-  const Eigen::Matrix2d to_box = fused.box.centre.rotation().transpose();
+  const Eigen::Matrix2d to_box = fused.box.center.rotation().transpose();
   Eigen::Matrix2d covariance = to_box * fused.position_covariance * to_box.transpose();
   covariance(0, 0) += fused.side_variance[sideIndex(BoxSide::kFront)];
   covariance(1, 1) += fused.side_variance[sideIndex(BoxSide::kLeft)];
@@ -231,7 +231,7 @@ double squaredError(const Object& fused, const Box2& truth) {
 }
 
 /// What a pair of sensors sees of a car.
-struct SightCase {
+struct SidesCase {
   std::string name;
   std::array<double, kBoxSides> of_lidar;
   std::array<double, kBoxSides> of_stereo;
@@ -243,7 +243,7 @@ TEST(ObjectCombinationTest, CovariancesAreHonest) {
   // Mean of 5000 values of chi-square with two degrees of freedom: 2 +- 3.3 * 2 / sqrt(5000).
   constexpr double kBound = 0.094;
   const double hidden = kHiddenSide;
-  const std::vector<SightCase> cases = {
+  const std::vector<SidesCase> cases = {
       {"all sides", {0.01, 0.01, 0.01, 0.01}, {0.04, 0.04, 0.04, 0.04}, 2.0 - kBound},
       {"near sides", {0.001, hidden, 0.001, hidden}, {0.04, hidden, 0.04, hidden}, 2.0 - kBound},
       {"one sees more", {0.001, hidden, 0.04, hidden}, {0.04, 0.04, 0.04, 0.04}, 2.0 - kBound},
@@ -252,7 +252,7 @@ TEST(ObjectCombinationTest, CovariancesAreHonest) {
   const Box2 truth{Pose2(18.0, 6.0, 0.4), 4.4, 1.8};
   const Eigen::Matrix2d of_lidar = Eigen::Matrix2d::Identity() * 0.0025;
   const Eigen::Matrix2d of_stereo = rangeBearingCovariance({18.0, 6.0}, 0.5, 4e-5);
-  for (const SightCase& one : cases) {
+  for (const SidesCase& one : cases) {
     Random random(7);
     double sum = 0.0;
     for (int i = 0; i < kRuns; ++i) {
@@ -272,7 +272,7 @@ TEST(ObjectCombinationTest, TheTimeIsWeightedAsThePosition) {
   b.delay = -0.05;
   const Object fused = combined(a, b);
   EXPECT_NEAR(fused.delay, -0.045, 1e-6);
-  EXPECT_NEAR(fused.box.centre.x(), 10.0 + 10.0 * fused.delay, 1e-6);
+  EXPECT_NEAR(fused.box.center.x(), 10.0 + 10.0 * fused.delay, 1e-6);
 }
 
 TEST(ObjectCombinationTest, ClassesAreFusedByBayes) {

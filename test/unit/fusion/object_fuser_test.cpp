@@ -36,8 +36,8 @@ Object poleAt(double x, double y, double probability) {
 }
 
 /// 81 beams, a degree apart, to the front; those within 5 degrees end at this range.
-SplitScan scanAhead(double range, PointState state) {
-  SplitScan scan;
+LabeledScan scanAhead(double range, PointState state) {
+  LabeledScan scan;
   scan.stamp = kReference;
   scan.field = {-degrees(40.0), degrees(1.0), 81, 0.5, 80.0, 80.0, 0.0};
   for (std::uint32_t beam = 35; beam <= 45; ++beam) {
@@ -49,7 +49,7 @@ SplitScan scanAhead(double range, PointState state) {
 }
 
 ObjectFusionResult fuse(const std::vector<SourceObjects>& sources,
-                        const SplitScan* scan = nullptr) {
+                        const LabeledScan* scan = nullptr) {
   return ObjectFuser(ObjectFuserOptions()).fuse(sources, scan);
 }
 
@@ -77,7 +77,7 @@ TEST(ObjectFuserTest, ListsAreBroughtToTheStampOfTheReference) {
   stereo.list.views = {ahead("stereo")};
   const auto alone = fuse({heard("lidar", {}), stereo}).list;
   ASSERT_EQ(alone.objects.size(), 1U);
-  EXPECT_NEAR(alone.objects[0].box.centre.x(), 10.0, 1e-9);
+  EXPECT_NEAR(alone.objects[0].box.center.x(), 10.0, 1e-9);
   EXPECT_NEAR(alone.objects[0].delay, -0.04, 1e-9);
   ASSERT_EQ(alone.views.size(), 1U);
   EXPECT_NEAR(alone.views[0].field.sensor_in_base.x(), 0.0, 1e-9);
@@ -99,7 +99,7 @@ TEST(ObjectFuserTest, OrderOfTheObjectsDoesNotMatter) {
   const auto list = fuse({heard("lidar", lidar), heard("stereo", stereo)}).list;
   ASSERT_EQ(list.objects.size(), expected.objects.size());
   for (std::size_t i = 0; i < list.objects.size(); ++i) {
-    EXPECT_EQ(list.objects[i].box.centre.position(), expected.objects[i].box.centre.position());
+    EXPECT_EQ(list.objects[i].box.center.position(), expected.objects[i].box.center.position());
     EXPECT_EQ(list.objects[i].sensors, expected.objects[i].sensors);
   }
 }
@@ -120,7 +120,7 @@ TEST(ObjectFuserTest, AThirdSourceJoinsWhatTwoSee) {
 TEST(ObjectFuserTest, SeenByTwoIsLikelierToBeAnObject) {
   ObjectFuserOptions options;
   options.sources["stereo"].detection_probability = 0.6;
-  options.sources["stereo"].coincidence = 0.1;
+  options.sources["stereo"].false_agreement_probability = 0.1;
   const auto list = ObjectFuser(options)
                         .fuse({heard("lidar", {pointObject(10.0, 0.0, 0.1)}),
                                heard("stereo", {pointObject(10.0, 0.0, 0.3, "stereo")})},
@@ -142,8 +142,8 @@ TEST(ObjectFuserTest, NotSeenByOneThatLookedThereIsLessLikely) {
   stereo.list.views = {ahead("stereo")};
   const auto list = fuser.fuse({heard("lidar", lidar), stereo}, nullptr).list;
   ASSERT_EQ(list.objects.size(), 4U);
-  const double seen = options.visibility.most_probability;
-  const double hidden = options.visibility.least_probability;
+  const double seen = options.visibility.max_probability;
+  const double hidden = options.visibility.min_probability;
   for (const Object& object : not_known.objects) {
     EXPECT_EQ(object.log_odds, 0.0);
   }
@@ -155,15 +155,15 @@ TEST(ObjectFuserTest, NotSeenByOneThatLookedThereIsLessLikely) {
 TEST(ObjectFuserTest, TheScanSaysWhatTheScannerDoesNotList) {
   const std::vector<SourceObjects> sources = {
       heard("lidar", {}), heard("stereo", {boxObject(20.0, 0.0, 1.0, 2.0, 0.01, "stereo")})};
-  const SplitScan on_static = scanAhead(19.5, PointState::kStatic);
+  const LabeledScan on_static = scanAhead(19.5, PointState::kStatic);
   const Object standing = fuse(sources, &on_static).list.objects.at(0);
   EXPECT_EQ(standing.dynamic_state, DynamicState::kStatic);
   EXPECT_EQ(standing.log_odds, 0.0);
-  const SplitScan behind = scanAhead(40.0, PointState::kStatic);
+  const LabeledScan behind = scanAhead(40.0, PointState::kStatic);
   const Object doubtful = fuse(sources, &behind).list.objects.at(0);
   EXPECT_EQ(doubtful.dynamic_state, DynamicState::kUnknown);
   EXPECT_NEAR(doubtful.log_odds, std::log(1.0 - 0.8), 1e-9);
-  const SplitScan before = scanAhead(10.0, PointState::kStatic);
+  const LabeledScan before = scanAhead(10.0, PointState::kStatic);
   const Object hidden = fuse(sources, &before).list.objects.at(0);
   EXPECT_EQ(hidden.dynamic_state, DynamicState::kUnknown);
   EXPECT_EQ(hidden.log_odds, 0.0);
@@ -172,7 +172,7 @@ TEST(ObjectFuserTest, TheScanSaysWhatTheScannerDoesNotList) {
 TEST(ObjectFuserTest, ALittleThatMovesBeforeWhatStandsDoesNotMakeItMove) {
   // Of the beams on what stereo sees, 4 of 9 end on static points: too few to say that it stands.
   const SourceObjects stereo = heard("stereo", {boxObject(20.0, 0.0, 1.0, 3.0, 0.04, "stereo")});
-  SplitScan scan = scanAhead(19.5, PointState::kStatic);
+  LabeledScan scan = scanAhead(19.5, PointState::kStatic);
   for (ScanPoint& point : scan.points) {
     point.state = point.bearing > -degrees(0.5) ? PointState::kMoving : PointState::kStatic;
   }
@@ -185,10 +185,10 @@ TEST(ObjectFuserTest, ALittleThatMovesBeforeWhatStandsDoesNotMakeItMove) {
     lidar.points.assign(points, Point2(19.5, 0.5));
     return fuse({heard("lidar", {lidar}), stereo}, &scan).list;
   };
-  const auto most = fusedWith(5);
-  ASSERT_EQ(most.objects.size(), 1U);
-  EXPECT_EQ(most.objects[0].dynamic_state, DynamicState::kMoving);
-  EXPECT_LT(most.objects[0].moving_fraction, 0.7);
+  const auto max = fusedWith(5);
+  ASSERT_EQ(max.objects.size(), 1U);
+  EXPECT_EQ(max.objects[0].dynamic_state, DynamicState::kMoving);
+  EXPECT_LT(max.objects[0].moving_fraction, 0.7);
   const auto little = fusedWith(1);
   ASSERT_EQ(little.objects.size(), 1U);
   EXPECT_EQ(little.objects[0].dynamic_state, DynamicState::kUnknown);
@@ -239,7 +239,7 @@ TEST(ObjectFuserTest, AScannerThatIsNoSourceIsRefused) {
 
 TEST(ObjectFuserTest, InvalidObjectsAreCountedAndTheOthersKept) {
   std::vector<Object> stereo(6, pointObject(20.0, 0.0, 0.1, "stereo"));
-  stereo[0].box.centre = Pose2(std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0);
+  stereo[0].box.center = Pose2(std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0);
   stereo[1].position_covariance.setZero();
   stereo[2].position_covariance << 1.0, 2.0, 2.0, 1.0;
   stereo[3].side_variance[0] = -1.0;
@@ -256,14 +256,14 @@ TEST(ObjectFuserTest, OfAThousandObjectsTheNearestAreTaken) {
     lidar.push_back(pointObject(0.1 * (1000 - i), 1.0, 0.01));
   }
   ObjectFuserOptions options;
-  options.most_objects = 200;
+  options.max_objects = 200;
   const auto [list, counts] =
       ObjectFuser(options).fuse({heard("lidar", lidar), heard("stereo", lidar)}, nullptr);
   EXPECT_EQ(counts.refused, 1600U);
   EXPECT_EQ(list.objects.size(), 200U);
   EXPECT_EQ(counts.fused, 200U);
   for (const Object& object : list.objects) {
-    EXPECT_LE(object.box.centre.x(), 20.0 + 1e-6);
+    EXPECT_LE(object.box.center.x(), 20.0 + 1e-6);
   }
 }
 

@@ -20,12 +20,12 @@ Track lidarCar() { return carTrack(10.0, 2.0, 5.0, 0.0, "lidar", 3); }
 Track stereoCar() { return carTrack(10.4, 2.2, 5.2, 0.0, "stereo", 8); }
 
 void turnTo(Track& track, double heading) {
-  track.box.centre = Pose2(track.box.centre.position(), heading);
+  track.box.center = Pose2(track.box.center.position(), heading);
 }
 
 double fusedHeading(const Track& a, const Track& b) {
-  const double heading = combined(a, b, kNoCross, kOptions).box.centre.heading();
-  const double other = combined(b, a, kNoCross, kOptions).box.centre.heading();
+  const double heading = combined(a, b, kNoCross, kOptions).box.center.heading();
+  const double other = combined(b, a, kNoCross, kOptions).box.center.heading();
   EXPECT_NEAR(std::cos(heading - other), 1.0, 1e-9) << heading << " or " << other;
   return heading;
 }
@@ -34,7 +34,7 @@ TEST(TrackCombinationTest, TheStateIsFusedAndTheBoxIsThere) {
   const Track fused = combined(lidarCar(), stereoCar(), kNoCross, kOptions);
   EXPECT_NEAR(fused.state[0], 10.2, 1e-9);
   EXPECT_NEAR(fused.state[2], 5.1, 1e-9);
-  EXPECT_NEAR((fused.box.centre.position() - fused.state.head<2>()).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((fused.box.center.position() - fused.state.head<2>()).norm(), 0.0, 1e-12);
   EXPECT_NEAR(fused.covariance(0, 0), 0.04, 1e-9);
 }
 
@@ -75,8 +75,8 @@ TEST(TrackCombinationTest, TheFrontIsWhereTheMotionSays) {
   EXPECT_NEAR(std::cos(fusedHeading(a, b)), -1.0, 1e-9);  // of the surer one
 }
 
-TEST(TrackCombinationTest, TheSizeIsThatOfWhoIsSurerOfTheCentre) {
-  // The lidar sees the rear: it knows the width, and not where the centre lies along the car.
+TEST(TrackCombinationTest, TheSizeIsThatOfWhoIsSurerOfTheCenter) {
+  // The lidar sees the rear: it knows the width, and not where the center lies along the car.
   Track a = lidarCar();
   a.box.length = 3.0;
   a.covariance(0, 0) = 1.0;
@@ -99,7 +99,7 @@ TEST(TrackCombinationTest, SizesAreThoseAlongTheCommonAxes) {
   turnTo(a, kQuarterTurn);
   a.heading_variance = 0.005;
   const Box2 box = combined(a, stereoCar(), kNoCross, kOptions).box;
-  EXPECT_NEAR(box.centre.heading(), kQuarterTurn, 1e-9);
+  EXPECT_NEAR(box.center.heading(), kQuarterTurn, 1e-9);
   EXPECT_NEAR(box.length, 1.8, 1e-9);
   EXPECT_NEAR(box.width, 4.5, 1e-9);
 }
@@ -175,7 +175,7 @@ TEST(TrackCombinationTest, OrderDoesNotMatterNorDoTheAxesOfTheMap) {
   const auto turned = [&](Track track) {
     track.state = turn * track.state;
     track.covariance = turn * track.covariance * turn.transpose();
-    track.box.centre = Pose2(0.0, 0.0, angle) * track.box.centre;
+    track.box.center = Pose2(0.0, 0.0, angle) * track.box.center;
     return track;
   };
   for (int i = 0; i < 200; ++i) {
@@ -194,7 +194,7 @@ TEST(TrackCombinationTest, OrderDoesNotMatterNorDoTheAxesOfTheMap) {
          {std::pair(one, swapped), std::pair(turned(one), other)}) {
       EXPECT_TRUE(actual.state.isApprox(expected.state, 1e-6));
       EXPECT_TRUE(actual.covariance.isApprox(expected.covariance, 1e-6));
-      EXPECT_NEAR(std::cos(actual.box.centre.heading() - expected.box.centre.heading()), 1.0, 1e-9);
+      EXPECT_NEAR(std::cos(actual.box.center.heading() - expected.box.center.heading()), 1.0, 1e-9);
       EXPECT_NEAR(actual.heading_variance, expected.heading_variance, 1e-9);
       EXPECT_NEAR(actual.box.length, expected.box.length, 1e-6);
       EXPECT_NEAR(actual.box.width, expected.box.width, 1e-6);

@@ -27,7 +27,7 @@ Track withHistory(Track track, double seconds, int points, double offset, double
     const double t = seconds - 0.1 * i;
     track.history.push_back({Stamp::fromSeconds(t), Pose2(10.0 * t, offset, heading)});
   }
-  track.box.centre = track.history.back().pose;
+  track.box.center = track.history.back().pose;
   return track;
 }
 
@@ -68,7 +68,7 @@ TEST(TrackComparisonTest, IsSymmetricAndDoesNotHangOnTheAxes) {
     const TrackCovariance turn = stateRotation(1.0);
     track.state = turn * track.state;
     track.covariance = turn * track.covariance * turn.transpose();
-    track.box.centre = Pose2(0.0, 0.0, 1.0) * track.box.centre;
+    track.box.center = Pose2(0.0, 0.0, 1.0) * track.box.center;
     return track;
   };
   EXPECT_NEAR(compare(turned(a), turned(b), options).squared_distance, one.squared_distance,

@@ -1,5 +1,5 @@
 // Two Kalman filters follow one object by measurements of their own: is the fused state as sure as
-// it says? By the normalised estimation error squared (NEES) of many seeded runs (Bar-Shalom, Li,
+// it says? By the normalized estimation error squared (NEES) of many seeded runs (Bar-Shalom, Li,
 // Kirubarajan 2001, 5.4.2).
 
 #include <cmath>
@@ -35,8 +35,8 @@ struct Consistency {
 /// Chi-square of kTrackState * kRuns degrees of freedom, nearly normal: three sigma and a bit, so
 /// that one test in a thousand would fail by chance.
 const double kBound = 3.3 * std::sqrt(2.0 * kTrackState / kRuns);
-const double kLeastNees = kTrackState - kBound;
-const double kMostNees = kTrackState + kBound;
+const double kMinNees = kTrackState - kBound;
+const double kMaxNees = kTrackState + kBound;
 
 TrackState drawn(const TrackCovariance& covariance, Random& random) {
   const TrackCovariance root = covariance.llt().matrixL();
@@ -95,7 +95,7 @@ class TwoTrackers {
       follow(b_, step, run.truth, run.b);
     }
     cross_ = steppedCrossCovariance(cross_, before, covariances(), motion_,
-                                    TrackCombinationOptions().most_correlation);
+                                    TrackCombinationOptions().max_correlation);
   }
 
   void follow(const TrackerSetting& tracker, int step, const TrackState& truth,
@@ -147,23 +147,23 @@ class TrackConsistencyTest : public ::testing::TestWithParam<ConsistencyCase> {
 
 TEST_P(TrackConsistencyTest, EachTrackerIsHonest) {
   for (const Consistency& alone : {trackers_.ofA(), trackers_.ofB()}) {
-    EXPECT_GT(alone.nees, kLeastNees);
-    EXPECT_LT(alone.nees, kMostNees);
+    EXPECT_GT(alone.nees, kMinNees);
+    EXPECT_LT(alone.nees, kMaxNees);
   }
 }
 
 TEST_P(TrackConsistencyTest, InformationFusionIsOverConfident) {
-  EXPECT_GT(trackers_.fusedBy("information").nees, kMostNees);
+  EXPECT_GT(trackers_.fusedBy("information").nees, kMaxNees);
 }
 
 TEST_P(TrackConsistencyTest, CovarianceIntersectionIsNot) {
-  EXPECT_LT(trackers_.fusedBy("covariance_intersection").nees, kMostNees);
+  EXPECT_LT(trackers_.fusedBy("covariance_intersection").nees, kMaxNees);
 }
 
 TEST_P(TrackConsistencyTest, BarShalomCampoIsAsSureAsItSays) {
   const Consistency fused = trackers_.fusedBy("bar_shalom_campo");
-  EXPECT_GT(fused.nees, kLeastNees);
-  EXPECT_LT(fused.nees, kMostNees);
+  EXPECT_GT(fused.nees, kMinNees);
+  EXPECT_LT(fused.nees, kMaxNees);
 }
 
 TEST_P(TrackConsistencyTest, FusedStatesAreNoWorseThanTheBetterTracker) {

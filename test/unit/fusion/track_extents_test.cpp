@@ -14,13 +14,13 @@ Track lorry(double length) {
   Track track = carTrack(20.0 + 0.5 * length, 0.0, 10.0, 0.0);
   track.box.length = length;
   track.box.width = 2.5;
-  track.covariance(0, 0) = 1e-14;  // its centre is known
+  track.covariance(0, 0) = 1e-14;  // its center is known
   track.covariance(1, 1) = 1e-14;
   return track;
 }
 
-TEST(TrackExtentsTest, AGuessedExtentIsBelievedAsFarAsItsCentreIsSure) {
-  // 7 m more; half of it where two standard deviations of the extent, four of the centre, are that.
+TEST(TrackExtentsTest, AGuessedExtentIsBelievedAsFarAsItsCenterIsSure) {
+  // 7 m more; half of it where two standard deviations of the extent, four of the center, are that.
   Track guessed = lorry(9.0);
   guessed.covariance(0, 0) = 1.75 * 1.75;
   Track rear = lorry(2.0);
@@ -36,7 +36,7 @@ TEST(TrackExtentsTest, WhoSawJustTheRearIsExtendedAwayFromTheSensor) {
   EXPECT_NEAR(rear.box.length, 9.0, kRounding);
   EXPECT_NEAR(rear.box.width, 2.5, kRounding);
   EXPECT_NEAR(rear.state.x(), 24.5, kRounding);
-  EXPECT_NEAR(rear.box.centre.x(), 24.5, kRounding);
+  EXPECT_NEAR(rear.box.center.x(), 24.5, kRounding);
   EXPECT_NEAR(rear.state.y(), 0.0, kRounding);
   // Uniform over 3.5 m: 12.25 / 12 m^2 more along the axis, nothing across.
   EXPECT_NEAR(rear.covariance(0, 0), 12.25 / 12.0, kRounding);
@@ -48,7 +48,7 @@ TEST(TrackExtentsTest, WhoSawJustTheRearIsExtendedAwayFromTheSensor) {
 TEST(TrackExtentsTest, IsTheSameWhicheverIsFirstAndWhereverTheFrontIs) {
   Track whole = lorry(9.0);
   Track rear = lorry(2.0);
-  rear.box.centre = Pose2(rear.box.centre.position(), kPi);
+  rear.box.center = Pose2(rear.box.center.position(), kPi);
   reconcileExtents(rear, kSensor, whole, kSensor);
   EXPECT_NEAR(rear.state.x(), 24.5, kRounding);
   EXPECT_NEAR(whole.state.x(), 24.5, kRounding);
@@ -59,7 +59,7 @@ TEST(TrackExtentsTest, FromTheOtherSideItGrowsTheOtherWay) {
   Track front = lorry(9.0);
   front.box.length = 2.0;
   front.state.x() = 28.0;  // its front is at 29 m
-  front.box.centre = Pose2(28.0, 0.0, 0.0);
+  front.box.center = Pose2(28.0, 0.0, 0.0);
   reconcileExtents(whole, kSensor, front, Point2(50.0, 0.0));
   EXPECT_NEAR(front.state.x(), 24.5, kRounding);
 }
@@ -75,7 +75,7 @@ TEST(TrackExtentsTest, AHeadingThatIsOffByAQuarterTurnIsNoMatter) {
   EXPECT_NEAR(rear.state.x(), 24.5, kRounding);
 }
 
-TEST(TrackExtentsTest, AbreastTheCentreStaysAndIsLessSure) {
+TEST(TrackExtentsTest, AbreastTheCenterStaysAndIsLessSure) {
   Track whole = lorry(9.0);
   Track part = lorry(9.0);
   part.box.length = 3.0;

@@ -38,7 +38,7 @@ TrackFusionResult afterTwoSeconds(const std::string& scheme) {
 }
 
 TEST(TrackFuserTest, TheThesissListIsWhatBothSeeAndTheScannersBeyond) {
-  const TrackFusionResult result = afterTwoSeconds(TrackFuserOptions::kFusedAndBeyond);
+  const TrackFusionResult result = afterTwoSeconds(TrackFuserOptions::kFusedPlusFallback);
   ASSERT_EQ(result.list.tracks.size(), 2U);
   const Track& both = result.list.tracks[0];
   EXPECT_EQ(both.sensors, (std::vector<std::string>{"lidar", "stereo"}));
@@ -60,7 +60,7 @@ TEST(TrackFuserTest, ConfirmedByAllIsWhatBothSee) {
   EXPECT_EQ(result.list.tracks[0].sources.size(), 2U);
 }
 
-TEST(TrackFuserTest, TwoSourcesThatHaveItFromOneSensorAreOneWitness) {
+TEST(TrackFuserTest, TwoSourcesThatHaveItFromOneSensorCountOnce) {
   // With fusion of objects besides, the first tracker hears the camera, too.
   const auto published = [](const std::vector<std::string>& sensors) {
     TrackFuser fuser{TrackFuserOptions()};
@@ -216,7 +216,7 @@ TEST(TrackFuserTest, ListsOfOtherTimesAreBroughtToTheTimeOfFusion) {
 
 TEST(TrackFuserTest, BadTracksAreCountedAndTheOthersGoOn) {
   TrackFuserOptions options = withScheme(TrackFuserOptions::kUnion);
-  options.most_tracks = 2;
+  options.max_tracks = 2;
   TrackFuser fuser(options);
   Track bad = driving(0.0, 0.0, "lidar", 7);
   bad.state.x() = std::numeric_limits<double>::quiet_NaN();

@@ -30,7 +30,7 @@ TEST(TrackPredictionTest, GoesStraightWithoutAYawRate) {
   EXPECT_NEAR(ahead.state[0], 12.0, 1e-9);
   EXPECT_NEAR(ahead.state[1], 1.6, 1e-9);
   EXPECT_NEAR(ahead.state[2], 5.0, 1e-9);
-  EXPECT_NEAR(ahead.box.centre.heading(), track.box.centre.heading(), 1e-9);
+  EXPECT_NEAR(ahead.box.center.heading(), track.box.center.heading(), 1e-9);
   // Variance of the place, of the velocity for 0.4 s, and of white acceleration (t^3 / 3).
   const double density = kOptions.motion.acceleration_density;
   EXPECT_NEAR(ahead.covariance(0, 0), 0.04 + 0.16 * 0.25 + density * 0.064 / 3.0, 1e-9);
@@ -46,11 +46,11 @@ TEST(TrackPredictionTest, TurnsAtItsYawRate) {
   EXPECT_NEAR(turned.state[0], 10.0, 1e-9);
   EXPECT_NEAR(turned.state[1], 10.0, 1e-9);
   EXPECT_NEAR(turned.state[3], 5.0, 1e-9);
-  EXPECT_NEAR(turned.box.centre.heading(), kQuarterTurn, 1e-9);
-  EXPECT_NEAR((turned.box.centre.position() - turned.state.head<2>()).norm(), 0.0, 1e-12);
+  EXPECT_NEAR(turned.box.center.heading(), kQuarterTurn, 1e-9);
+  EXPECT_NEAR((turned.box.center.position() - turned.state.head<2>()).norm(), 0.0, 1e-12);
 }
 
-TEST(TrackPredictionTest, ThereAndBackIsTheSamePlaceButLessSure) {
+TEST(TrackPredictionTest, ThereAndBackIsTheSamePositionButLessSure) {
   Track track = carTrack(3.0, 4.0, 5.0, -2.0);
   track.yaw_rate = -0.4;
   track.state.tail<2>() << -0.8, -2.0;  // the centripetal one
@@ -58,7 +58,7 @@ TEST(TrackPredictionTest, ThereAndBackIsTheSamePlaceButLessSure) {
   const Track back = predicted(before, 0.5, kOptions);
   EXPECT_GT((before.state - track.state).norm(), 1.0);
   EXPECT_NEAR((back.state - track.state).norm(), 0.0, 1e-9);
-  EXPECT_NEAR(back.box.centre.heading(), track.box.centre.heading(), 1e-9);
+  EXPECT_NEAR(back.box.center.heading(), track.box.center.heading(), 1e-9);
   EXPECT_NEAR(back.age, track.age, 1e-9);
   for (int i = 0; i < 4; ++i) {
     EXPECT_GT(back.covariance(i, i), track.covariance(i, i));
@@ -85,7 +85,7 @@ TEST(TrackPredictionTest, WhatStandsStaysAndMayStart) {
   for (const double seconds : {0.5, -0.5}) {
     const Track later = predicted(track, seconds, kOptions);
     EXPECT_EQ(later.state.head<2>(), track.state.head<2>());
-    EXPECT_EQ(later.box.centre.heading(), track.box.centre.heading());
+    EXPECT_EQ(later.box.center.heading(), track.box.center.heading());
     EXPECT_GT(later.covariance(0, 0), track.covariance(0, 0));
     EXPECT_GT(later.covariance(2, 2), track.covariance(2, 2));
   }

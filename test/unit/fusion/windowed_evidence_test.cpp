@@ -43,7 +43,7 @@ TEST(WindowedEvidenceTest, DoesNotHangOnTheRateOfLooks) {
   EXPECT_NEAR(sumAtRate(10.0, 1.5, 2.0), sumAtRate(40.0, 1.5, 2.0), kRounding);
 }
 
-TEST(WindowedEvidenceTest, OneLookIsLimitedEitherWay) {
+TEST(WindowedEvidenceTest, OneObservationIsLimitedInBothDirections) {
   WindowedEvidence evidence;
   evidence.look(at(0.0), 1000.0, options());
   EXPECT_NEAR(evidence.sum(), 10.0, kRounding);

@@ -28,7 +28,7 @@ TEST(BeamWalkTest, TheBordersOfTheFanAreHalfTheWidthFromItsAxis) {
   EXPECT_NEAR(ends[1].y(), 2.0 + 5.0 * std::sin(0.05), 1e-12);
 }
 
-TEST(BeamWalkTest, NeighboursEndAtMostACellApart) {
+TEST(BeamWalkTest, NeighborsEndAtMostACellApart) {
   for (const double range : {1.0, 7.0, 49.9, 50.1}) {
     const std::vector<Point2> ends = linesOf({{0.0, 0.0}, {range, 0.0}, range, 0.2});
     for (std::size_t i = 1; i < ends.size(); ++i) {

@@ -49,18 +49,18 @@ TEST(Resample, ByWholeCellsTheGridIsShifted) {
 TEST(Resample, ByAQuarterTurnRowsBecomeColumns) {
   const Cells cells = resampled(numbered(), Pose2(0.0, 0.0, kQuarterTurn), kTarget);
   EXPECT_EQ(cells.size(), 24U);
-  // The centre of (-3, -2) is (-1.25, -0.75); turned to the left it is (0.75, -1.25).
+  // The center of (-3, -2) is (-1.25, -0.75); turned to the left it is (0.75, -1.25).
   EXPECT_EQ(cells.at({1, -3}), 0);
 }
 
-TEST(Resample, EachCellTakesWhatTheGridKnowsOfItsCentre) {
+TEST(Resample, EachCellTakesWhatTheGridKnowsOfItsCenter) {
   const SensorGrid grid = numbered();
   const Pose2 pose(2.3, -1.1, 0.7);
   const Cells cells = resampled(grid, pose, kTarget);
   EXPECT_NEAR(static_cast<double>(cells.size()), 24.0, 4.0);
   for (const auto& [cell, percent] : cells) {
-    const Point2 place = pose.inverse() * kTarget.centreOf({cell.first, cell.second});
-    EXPECT_EQ(percent, grid.at(kSource.cellAt(place)));
+    const Point2 position = pose.inverse() * kTarget.centerOf({cell.first, cell.second});
+    EXPECT_EQ(percent, grid.at(kSource.cellAt(position)));
   }
 }
 

@@ -11,11 +11,11 @@ namespace {
 
 constexpr Stamp kAnyTime{};
 
-HitGridOptions smallOptions(int most_hits) {
+HitGridOptions smallOptions(int max_hits) {
   HitGridOptions options;
   options.window = {6.0, 4.5, 0.3};
-  options.most_hits = most_hits;
-  options.least_age = 0.0;
+  options.max_hits = max_hits;
+  options.min_age = 0.0;
   return options;
 }
 
@@ -76,7 +76,7 @@ TEST(HitGridTest, WhatIsBelowATenthOfTheHighestIsCut) {
 
 TEST(HitGridTest, WhatPassesIsCutAndWhatLastsIsNot) {
   HitGridOptions options = smallOptions(0);
-  options.least_age = 1.0;
+  options.min_age = 1.0;
   HitGrid grid(options);
   const auto at = [](double seconds) { return Stamp::fromSeconds(100.0 + seconds); };
   for (const double seconds : {0.0, 0.3, 0.6}) {
@@ -105,17 +105,17 @@ TEST(HitGridTest, ACellCountsUpToItsLimitAndItsMeanFollows) {
 
 TEST(HitGridTest, SumsAndHighestStayExactWhereverTheWindowMoves) {
   Random random(3);
-  for (const int most_hits : {0, 4}) {
-    HitGrid grid(smallOptions(most_hits));
-    Point2 centre = Point2::Zero();
+  for (const int max_hits : {0, 4}) {
+    HitGrid grid(smallOptions(max_hits));
+    Point2 center = Point2::Zero();
     for (int i = 0; i < 150; ++i) {
       for (int hit = 0; hit < 60; ++hit) {
         // Some places are hit more than others; some hits are outside.
-        grid.add(centre + Point2(random.normal(1.5), random.normal(1.5)), kAnyTime);
+        grid.add(center + Point2(random.normal(1.5), random.normal(1.5)), kAnyTime);
       }
       expectSumsOf(grid);
-      centre += Point2(random.normal(0.7), random.normal(0.7));
-      grid.centreOn(centre);
+      center += Point2(random.normal(0.7), random.normal(0.7));
+      grid.centerOn(center);
       expectSumsOf(grid);
     }
   }
@@ -124,15 +124,15 @@ TEST(HitGridTest, SumsAndHighestStayExactWhereverTheWindowMoves) {
 TEST(HitGridTest, AFarMoveForgetsAll) {
   HitGrid grid(smallOptions(0));
   grid.add({0.1, 0.1}, kAnyTime);
-  grid.centreOn({1.0e12, 5.0});
+  grid.centerOn({1.0e12, 5.0});
   EXPECT_EQ(grid.highest(), 0);
-  grid.centreOn({0.0, 0.0});
+  grid.centerOn({0.0, 0.0});
   EXPECT_EQ(grid.hits({0, 0}), 0);
 }
 
 TEST(HitGridTest, AScanCountsFromItsPoseWhateverTheMapSays) {
   HitGrid grid(smallOptions(0));
-  SplitScan scan;
+  LabeledScan scan;
   scan.base_in_map.pose = Pose2(100.0, 50.0, kQuarterTurn);
   for (const PointState state : {PointState::kStatic, PointState::kMoving, PointState::kUnknown}) {
     ScanPoint point;
@@ -147,7 +147,7 @@ TEST(HitGridTest, AScanCountsFromItsPoseWhateverTheMapSays) {
 
 TEST(HitGridTest, StartsAgain) {
   HitGrid grid(smallOptions(0));
-  grid.centreOn({10.0, 0.0});
+  grid.centerOn({10.0, 0.0});
   grid.add({10.0, 0.0}, kAnyTime);
   grid.reset();
   EXPECT_EQ(grid.highest(), 0);

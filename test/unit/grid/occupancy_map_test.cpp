@@ -129,10 +129,10 @@ TEST(OccupancyMapTest, JudgesFreeStaticAndUnknown) {
   EXPECT_EQ(map.judge({3.5, 5.5}), PointState::kUnknown);
 }
 
-TEST(OccupancyMapTest, AStaticCellVouchesForItsNeighbours) {
+TEST(OccupancyMapTest, AStaticCellVouchesForItsNeighbors) {
   OccupancyMapOptions options = smallMap();
   for (const int reach : {0, 1}) {
-    options.static_neighbourhood = reach;
+    options.static_neighborhood = reach;
     OccupancyMap map(options);
     for (int i = 0; i <= 10; ++i) {
       updateWith(map, scanTo({{7.5, 0.5}}, 0.1 * i));
@@ -143,7 +143,7 @@ TEST(OccupancyMapTest, AStaticCellVouchesForItsNeighbours) {
 
 TEST(OccupancyMapTest, AWideBeamIsMovingOnlyIfItsWholeFootprintWasFree) {
   OccupancyMapOptions options = smallMap();
-  options.static_neighbourhood = 0;
+  options.static_neighborhood = 0;
   OccupancyMap map(options);
   for (int i = 0; i <= 10; ++i) {
     updateWith(map, scanTo({{9.5, 0.5}, {9.5, 1.5}, {4.5, 3.5}}, 0.1 * i));
@@ -180,7 +180,7 @@ TEST(OccupancyMapTest, ANewOccupantOfAFreedCellIsYoungAgain) {
   EXPECT_NE(map.judge({7.5, 0.5}), PointState::kStatic);
 }
 
-TEST(OccupancyMapTest, HitsKeepTheirPlaceBelowACell) {
+TEST(OccupancyMapTest, HitsKeepTheirSubCellPosition) {
   OccupancyMap map(smallMap());
   updateWith(map, scanTo({{4.9, 0.2}, {5.1, 0.2}, {4.9, 0.4}, {5.1, 0.4}}));
   const auto hits = map.hitsAround({4.5, 0.5});
@@ -276,10 +276,10 @@ TEST(OccupancyMapTest, ABeamThroughASurfaceFreesItsCell) {
   EXPECT_NEAR(occupancyAfterABeam(0.0, {0.0, 5.2}, {9.0, 5.2}), through, 1e-5);
 }
 
-TEST(OccupancyMapTest, TheImageOfAMovedWindowShowsTheSamePlaces) {
+TEST(OccupancyMapTest, TheImageOfAMovedWindowShowsTheSameCells) {
   OccupancyMap map(smallMap());
   updateWith(map, scanTo({{4.5, 0.5}}));
-  map.centreOn({3.0, -2.0});
+  map.centerOn({3.0, -2.0});
   const GridWindow window = map.window();
   const std::vector<std::int8_t> image = map.occupancyImage();
   ASSERT_EQ(image.size(), static_cast<std::size_t>(window.columns * window.rows));

@@ -56,7 +56,7 @@ TEST(RayWalkTest, EveryCellOfAWalkIsCrossedByTheLine) {
     const Point2 normal = Point2(from.y() - to.y(), to.x() - from.x()).normalized();
     const double half_cell = 0.5 * (std::abs(normal.x()) + std::abs(normal.y()));
     for (const CellIndex cell : walk(from, to)) {
-      ASSERT_LE(std::abs(normal.dot(kWindow.centreOf(cell) - from)), half_cell + 1e-9);
+      ASSERT_LE(std::abs(normal.dot(kWindow.centerOf(cell) - from)), half_cell + 1e-9);
     }
   }
 }

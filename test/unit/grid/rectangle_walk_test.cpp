@@ -21,13 +21,13 @@ std::vector<CellIndex> walk(const Rectangle& rectangle) {
 /// Asks of each cell of the window whether it is one, row by row.
 std::vector<CellIndex> bruteForce(const Rectangle& rectangle) {
   std::vector<CellIndex> cells;
-  const Pose2 map_in_rectangle = rectangle.centre.inverse();
+  const Pose2 map_in_rectangle = rectangle.center.inverse();
   for (int row = kWindow.corner.row; row < kWindow.corner.row + kWindow.rows; ++row) {
     for (int column = kWindow.corner.column; column < kWindow.corner.column + kWindow.columns;
          ++column) {
-      const Point2 centre = map_in_rectangle * kWindow.centreOf({column, row});
-      if (std::abs(centre.x()) <= 0.5 * rectangle.length &&
-          std::abs(centre.y()) <= 0.5 * rectangle.width) {
+      const Point2 center = map_in_rectangle * kWindow.centerOf({column, row});
+      if (std::abs(center.x()) <= 0.5 * rectangle.length &&
+          std::abs(center.y()) <= 0.5 * rectangle.width) {
         cells.push_back({column, row});
       }
     }
@@ -36,7 +36,7 @@ std::vector<CellIndex> bruteForce(const Rectangle& rectangle) {
 }
 
 TEST(RectangleWalkTest, AnUprightRectangleByHand) {
-  // Centres lie at 0.15, 0.45, 0.75, ... m: two columns, three rows.
+  // Centers lie at 0.15, 0.45, 0.75, ... m: two columns, three rows.
   EXPECT_EQ(walk({Pose2(0.3, 3.15, 0.0), 0.5, 0.7}),
             (std::vector<CellIndex>{{0, 9}, {1, 9}, {0, 10}, {1, 10}, {0, 11}, {1, 11}}));
 }

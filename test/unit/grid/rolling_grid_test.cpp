@@ -32,10 +32,10 @@ class RollingGridTest : public ::testing::Test {
   }
 
   /// After a move: cells that stayed keep their content, the others are empty.
-  void expectMoved(const Point2& centre) {
+  void expectMoved(const Point2& center) {
     fill();
     const GridWindow before = grid_.window();
-    grid_.centreOn(centre);
+    grid_.centerOn(center);
     forEachCell([&](CellIndex cell) {
       EXPECT_EQ(grid_.at(cell), before.contains(cell) ? tag(cell) : kEmpty)
           << "cell " << cell.column << ", " << cell.row;
@@ -53,7 +53,7 @@ TEST_F(RollingGridTest, ACellHoldsItsLowerLeftBorder) {
   EXPECT_EQ(window.cellAt({0.0, 0.0}), (CellIndex{0, 0}));
   EXPECT_EQ(window.cellAt({0.4999, 0.5}), (CellIndex{0, 1}));
   EXPECT_EQ(window.cellAt({-0.0001, -0.5}), (CellIndex{-1, -1}));
-  EXPECT_TRUE(window.centreOf({-1, 2}).isApprox(Point2(-0.25, 1.25)));
+  EXPECT_TRUE(window.centerOf({-1, 2}).isApprox(Point2(-0.25, 1.25)));
 }
 
 TEST_F(RollingGridTest, MovesInEveryDirectionKeepWhatStaysInside) {
@@ -65,20 +65,20 @@ TEST_F(RollingGridTest, MovesInEveryDirectionKeepWhatStaysInside) {
 }
 
 TEST_F(RollingGridTest, AMoveByLessThanACellKeepsAll) {
-  grid_.centreOn({0.25, 0.25});
+  grid_.centerOn({0.25, 0.25});
   fill();
-  grid_.centreOn({0.49, 0.01});
+  grid_.centerOn({0.49, 0.01});
   forEachCell([this](CellIndex cell) { EXPECT_EQ(grid_.at(cell), tag(cell)); });
 }
 
 TEST_F(RollingGridTest, AFarMoveEmptiesAll) {
   fill();
-  grid_.centreOn({1.0e6, -1.0e6});
+  grid_.centerOn({1.0e6, -1.0e6});
   forEachCell([this](CellIndex cell) { EXPECT_EQ(grid_.at(cell), kEmpty); });
 }
 
 TEST_F(RollingGridTest, WhatIsTooFarForAnIndexIsAtTheLimit) {
-  constexpr int kLimit = GridWindow::kFarthestCell;
+  constexpr int kLimit = GridWindow::kMaxCell;
   const GridWindow& window = grid_.window();
   EXPECT_EQ(window.cellAt({1.0e300, -1.0e300}), (CellIndex{kLimit, -kLimit}));
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -86,18 +86,18 @@ TEST_F(RollingGridTest, WhatIsTooFarForAnIndexIsAtTheLimit) {
             (CellIndex{-kLimit, kLimit}));
   expectMoved({1.0e12, -1.0e12});
   grid_.at(window.corner) = 1;
-  grid_.centreOn({0.0, 0.0});
+  grid_.centerOn({0.0, 0.0});
   forEachCell([this](CellIndex cell) { EXPECT_EQ(grid_.at(cell), kEmpty); });
 }
 
 TEST_F(RollingGridTest, WhatLeavesIsShownOnceWhileAllIsStillThere) {
-  for (const Point2& centre : {Point2(0.1, 0.1), Point2(1.0, -0.5), Point2(-2.0, 7.0)}) {
-    grid_.centreOn({0.0, 0.0});
+  for (const Point2& center : {Point2(0.1, 0.1), Point2(1.0, -0.5), Point2(-2.0, 7.0)}) {
+    grid_.centerOn({0.0, 0.0});
     fill();
     const GridWindow before = grid_.window();
-    const GridWindow after = grid_.windowOn(centre);
+    const GridWindow after = grid_.windowOn(center);
     std::set<int> left;
-    grid_.centreOn(centre, [&](CellIndex cell) {
+    grid_.centerOn(center, [&](CellIndex cell) {
       EXPECT_EQ(grid_.window().corner, before.corner);
       EXPECT_EQ(grid_.at(cell), tag(cell));
       EXPECT_FALSE(after.contains(cell));

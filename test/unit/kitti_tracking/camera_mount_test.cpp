@@ -16,18 +16,18 @@ TEST(CameraMountTest, TheCameraStandsWhereTheCalibrationSays) {
 TEST(CameraMountTest, BoxesOnTheGround) {
   // 3 m to the right and 20 m ahead of the camera; at rotation 0 it points to the right.
   const Box2 box = madeCamera().onGround(boxAt(3.0, 20.0));
-  EXPECT_NEAR(box.centre.x(), 21.0, 1e-12);
-  EXPECT_NEAR(box.centre.y(), -3.3, 1e-12);
-  EXPECT_NEAR(box.centre.heading(), -kPi / 2.0, 1e-12);
+  EXPECT_NEAR(box.center.x(), 21.0, 1e-12);
+  EXPECT_NEAR(box.center.y(), -3.3, 1e-12);
+  EXPECT_NEAR(box.center.heading(), -kPi / 2.0, 1e-12);
   EXPECT_EQ(box.length, 4.0);
   EXPECT_EQ(box.width, 2.0);
 }
 
 TEST(CameraMountTest, RotationTurnsToTheRight) {
   const CameraMount mount = madeCamera();
-  EXPECT_NEAR(std::abs(mount.onGround(boxAt(0.0, 10.0, kPi / 2.0)).centre.heading()), kPi, 1e-12)
-      << "towards the camera";
-  EXPECT_NEAR(mount.onGround(boxAt(0.0, 10.0, -kPi / 2.0)).centre.heading(), 0.0, 1e-12)
+  EXPECT_NEAR(std::abs(mount.onGround(boxAt(0.0, 10.0, kPi / 2.0)).center.heading()), kPi, 1e-12)
+      << "toward the camera";
+  EXPECT_NEAR(mount.onGround(boxAt(0.0, 10.0, -kPi / 2.0)).center.heading(), 0.0, 1e-12)
       << "away from it";
 }
 
@@ -72,11 +72,11 @@ TEST(CameraMountTest, ImagesAreCutAtTheBorders) {
 }
 
 TEST(CameraMountTest, TheFieldIsThatOfTheImage) {
-  EXPECT_NEAR(madeCamera().mostBearing(), std::atan(600.0 / 700.0), 1e-12);
-  EXPECT_NEAR(madeCamera().leastBearing(), -std::atan(600.0 / 700.0), 1e-12);
+  EXPECT_NEAR(madeCamera().maxBearing(), std::atan(600.0 / 700.0), 1e-12);
+  EXPECT_NEAR(madeCamera().minBearing(), -std::atan(600.0 / 700.0), 1e-12);
 }
 
-TEST(CameraMountTest, AlphaIsTheRotationLessTheDirectionOfSight) {
+TEST(CameraMountTest, AlphaIsTheRotationMinusTheViewingDirection) {
   EXPECT_NEAR(CameraMount::alpha(boxAt(10.0, 10.0, 1.0)), 1.0 - kPi / 4.0, 1e-12);
   EXPECT_NEAR(CameraMount::alpha(boxAt(0.0, 10.0, -2.0)), -2.0, 1e-12);
 }

@@ -16,7 +16,7 @@ Object objectAt(double x, double log_odds, double length = 1.8, double width = 0
 
 ObjectList listOf(const std::vector<Object>& objects) { return {Stamp{}, objects, {}}; }
 
-TEST(ClassCompetition, InOnePlaceTheOddsAreDivided) {
+TEST(ClassCompetition, AtOnePositionTheOddsAreDivided) {
   std::vector<ObjectList> lists = {listOf({objectAt(10.0, 1.0)}), listOf({objectAt(10.5, 2.0)})};
   compete(lists);
   EXPECT_NEAR(lists[0].objects[0].log_odds, 1.0 - std::log(1.0 + std::exp(2.0)), 1e-12);
@@ -39,7 +39,7 @@ TEST(ClassCompetition, OthersAreLeftAlone) {
   EXPECT_EQ(lists[1].objects[0].log_odds, 2.0) << "somewhere else";
 }
 
-TEST(ClassCompetition, ASmallBoxInALargeOneIsInOnePlace) {
+TEST(ClassCompetition, ASmallBoxInALargeOneIsAtOnePosition) {
   std::vector<ObjectList> lists = {listOf({objectAt(10.0, 4.0, 5.0, 2.0)}),
                                    listOf({objectAt(12.0, 1.0, 0.6, 0.6)})};
   compete(lists);

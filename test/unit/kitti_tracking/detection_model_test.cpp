@@ -22,12 +22,12 @@ TEST(DetectionModelTest, TheScoreIsTheLogarithmOfOdds) {
   EXPECT_EQ(model.object(detectionAt(0.0, 20.0), madeCamera()).log_odds, 1.0);
 }
 
-TEST(DetectionModelTest, ErrorsAreLargerAlongTheSightAndFarAway) {
+TEST(DetectionModelTest, ErrorsAreLargerAlongTheLineOfSightAndFarAway) {
   DetectionModelOptions options;
   options.along_sigma = 0.1;
-  options.along_per_metre = 0.01;
+  options.along_per_meter = 0.01;
   options.across_sigma = 0.05;
-  options.across_per_metre = 0.001;
+  options.across_per_meter = 0.001;
   const DetectionModel model(options);
   const Object ahead = model.object(detectionAt(0.0, 20.0), madeCamera());
   EXPECT_NEAR(ahead.position_covariance(0, 0), 0.09, 1e-12) << "0.1 + 20 * 0.01, squared";
@@ -66,7 +66,7 @@ TEST(DetectionModelTest, LooksAtWhatIsInTheImage) {
   options.range = 60.0;
   const FieldOfView view = DetectionModel(options).view(madeCamera());
   EXPECT_NEAR(view.sensor_in_base.x(), 1.0, 1e-12);
-  EXPECT_NEAR(view.most_bearing, std::atan(600.0 / 700.0), 1e-12);
+  EXPECT_NEAR(view.max_bearing, std::atan(600.0 / 700.0), 1e-12);
   EXPECT_EQ(view.sure_range, 30.0);
   EXPECT_EQ(view.range, 60.0);
 }

@@ -24,19 +24,19 @@ std::vector<Point2> parkedCars() {
   return cars;
 }
 
-std::vector<Landmark> landmarksAt(const std::vector<Point2>& places) {
+std::vector<Landmark> landmarksAt(const std::vector<Point2>& positions) {
   std::vector<Landmark> landmarks;
-  for (const Point2& place : places) {
-    landmarks.push_back({place, kCovariance});
+  for (const Point2& position : positions) {
+    landmarks.push_back({position, kCovariance});
   }
   return landmarks;
 }
 
 /// Those within 40 m ahead, in the vehicle's frame.
-std::vector<Landmark> seenFrom(const Pose2& base, const std::vector<Point2>& places) {
+std::vector<Landmark> seenFrom(const Pose2& base, const std::vector<Point2>& positions) {
   std::vector<Landmark> seen;
-  for (const Point2& place : places) {
-    const Point2 local = base.inverse() * place;
+  for (const Point2& position : positions) {
+    const Point2 local = base.inverse() * position;
     if (local.x() > 0.0 && local.norm() < 40.0) {
       seen.push_back({local, kCovariance});
     }
@@ -49,9 +49,9 @@ class Drive {
  public:
   explicit Drive(const EgoMotionOptions& options = {}) : ego(options) {}
 
-  void frame(const Twist2& twist, const std::vector<Point2>& places) {
+  void frame(const Twist2& twist, const std::vector<Point2>& positions) {
     truth = truth * arc(twist, kPeriod);
-    const std::vector<Landmark> seen = seenFrom(truth, places);
+    const std::vector<Landmark> seen = seenFrom(truth, positions);
     ego.step(kPeriod, expected_, seen);
     expected_.clear();
     for (const Landmark& landmark : seen) {
@@ -75,9 +75,9 @@ TEST(EgoMotionTest, FindsSpeedAndYawRateFromParkedCars) {
   EXPECT_NEAR(drive.ego.twist().forward_speed, 8.0, 0.05);
   EXPECT_NEAR(drive.ego.twist().yaw_rate, 0.1, 0.005);
   // Nothing told of the first step, and of the second one hardly how fast the vehicle turns.
-  const Pose2 way = drive.ego.baseInFixed();
-  EXPECT_NEAR(std::abs(angleBetween(way.heading(), drive.truth.heading())), 0.0, 0.05);
-  EXPECT_NEAR(way.position().norm(), drive.truth.position().norm(), 1.5);
+  const Pose2 distance = drive.ego.baseInFixed();
+  EXPECT_NEAR(std::abs(angleBetween(distance.heading(), drive.truth.heading())), 0.0, 0.05);
+  EXPECT_NEAR(distance.position().norm(), drive.truth.position().norm(), 1.5);
 }
 
 TEST(EgoMotionTest, FindsAnySpeedAtTheSecondFrame) {
@@ -103,11 +103,11 @@ TEST(EgoMotionTest, CarsThatMoveDoNotDecide) {
   const Twist2 twist{10.0, 0.0};
   Drive drive;
   for (int i = 0; i < 40; ++i) {
-    std::vector<Point2> places = parkedCars();
-    places.emplace_back(15.0 + 1.2 * i, 1.5);
-    places.emplace_back(40.0 + 1.4 * i, -2.0);
-    places.emplace_back(180.0 - 1.3 * i, 2.0);
-    drive.frame(twist, places);
+    std::vector<Point2> positions = parkedCars();
+    positions.emplace_back(15.0 + 1.2 * i, 1.5);
+    positions.emplace_back(40.0 + 1.4 * i, -2.0);
+    positions.emplace_back(180.0 - 1.3 * i, 2.0);
+    drive.frame(twist, positions);
   }
   EXPECT_NEAR(drive.ego.twist().forward_speed, 10.0, 0.1);
   EXPECT_NEAR(drive.ego.twist().yaw_rate, 0.0, 0.005);
@@ -142,17 +142,17 @@ TEST(EgoMotionTest, TheErrorsAreAsLargeAsItSays) {
   // NEES of speed and yaw rate over noise of the sightings; the places expected are exact.
   Random random(7);
   const Eigen::Matrix2d exact = 1e-6 * Eigen::Matrix2d::Identity();
-  const std::vector<Point2> places = parkedCars();
+  const std::vector<Point2> positions = parkedCars();
   double sum = 0.0;
   constexpr int kRuns = 200;
   for (int run = 0; run < kRuns; ++run) {
     EgoMotion ego{EgoMotionOptions()};
     const Pose2 base = arc({7.0, 0.05}, kPeriod);
-    std::vector<Landmark> seen = seenFrom(base, places);
+    std::vector<Landmark> seen = seenFrom(base, positions);
     for (Landmark& landmark : seen) {
       landmark.position += Point2(random.normal(0.1), random.normal(0.1));
     }
-    std::vector<Landmark> expected = landmarksAt(places);
+    std::vector<Landmark> expected = landmarksAt(positions);
     for (Landmark& landmark : expected) {
       landmark.covariance = exact;
     }

@@ -30,7 +30,7 @@ TEST(EvaluatedSequence, OtherClassesAreNotLookedAt) {
   EXPECT_EQ(evaluated({person}, {}, ObjectType::kPedestrian).truths, 0U);
 }
 
-TEST(EvaluatedSequence, NeighboursNeedNotBeFound) {
+TEST(EvaluatedSequence, NeighborsNeedNotBeFound) {
   EXPECT_TRUE(isRequired(rowAt(0, 1, 0.0)));
   EXPECT_FALSE(isRequired(rowAt(0, 1, 0.0, ObjectType::kVan)));
   EXPECT_TRUE(isRequired(rowAt(0, 1, 0.0, ObjectType::kPedestrian), ObjectType::kPedestrian));

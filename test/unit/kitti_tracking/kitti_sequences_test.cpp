@@ -31,7 +31,7 @@ std::vector<std::string> filesIn(const fs::path& folder) {
   return files;
 }
 
-/// The labels, and the labelled objects as results.
+/// The labels, and the labeled objects as results.
 std::vector<Sequence> perfectRuns() {
   std::vector<Sequence> sequences;
   for (const std::string& file : filesIn(kFolder / "label_02")) {

@@ -67,14 +67,14 @@ TEST_F(KittiTrackingFiles, EmptyLinesCarriageReturnsAndManyBlanks) {
 }
 
 TEST_F(KittiTrackingFiles, BadLabelsNameFileLineValueAndWhatWasExpected) {
-  const std::string place = folder_.path() + "/0000.txt:3: ";
-  EXPECT_EQ(labelError("0 1 Car"), place + "3 columns, expected 17");
+  const std::string position = folder_.path() + "/0000.txt:3: ";
+  EXPECT_EQ(labelError("0 1 Car"), position + "3 columns, expected 17");
   const std::string tail = " 0 0 0 1 1 2 2 1.5 1.6 4 0 0 9 0";
   EXPECT_EQ(labelError("1.5 1 Car" + tail),
-            place + "frame '1.5', expected a whole number of 0 to 2147483647");
-  expectHas(labelError("x 1 Car" + tail), place + "frame 'x', expected a finite number");
-  expectHas(labelError("0 -1 Car" + tail), place + "id '-1', expected a whole number of 0 to");
-  expectHas(labelError("0 1 Bus" + tail), place + "type 'Bus', expected one of Car, Van,");
+            position + "frame '1.5', expected a whole number of 0 to 2147483647");
+  expectHas(labelError("x 1 Car" + tail), position + "frame 'x', expected a finite number");
+  expectHas(labelError("0 -1 Car" + tail), position + "id '-1', expected a whole number of 0 to");
+  expectHas(labelError("0 1 Bus" + tail), position + "type 'Bus', expected one of Car, Van,");
 }
 
 TEST_F(KittiTrackingFiles, BadNumbersInLabels) {

@@ -12,7 +12,7 @@ std::string errorOf(const std::vector<std::string>& words) {
   return messageOf([&words] { parseScoreArguments(words); });
 }
 
-TEST(ScoreArguments, AllClassesAndPublishedOverlapsUnlessTold) {
+TEST(ScoreArguments, AllClassesAndPublishedOverlapsByDefault) {
   const ScoreArguments arguments = parseScoreArguments({"labels", "results"});
   EXPECT_EQ(arguments.labels, "labels");
   EXPECT_EQ(arguments.results, "results");
@@ -20,9 +20,9 @@ TEST(ScoreArguments, AllClassesAndPublishedOverlapsUnlessTold) {
   EXPECT_TRUE(arguments.output.empty());
   ASSERT_EQ(arguments.kinds.size(), 9U);
   EXPECT_EQ(arguments.kinds.front().type, ObjectType::kCar);
-  EXPECT_EQ(arguments.kinds.front().least_overlap, 0.25);
+  EXPECT_EQ(arguments.kinds.front().min_overlap, 0.25);
   EXPECT_EQ(arguments.kinds.back().type, ObjectType::kCyclist);
-  EXPECT_EQ(arguments.kinds.back().least_overlap, 0.7);
+  EXPECT_EQ(arguments.kinds.back().min_overlap, 0.7);
 }
 
 TEST(ScoreArguments, OneClassAndOverlap) {
@@ -31,7 +31,7 @@ TEST(ScoreArguments, OneClassAndOverlap) {
                            "report.json", "--averaging", "repeated"});
   ASSERT_EQ(arguments.kinds.size(), 1U);
   EXPECT_EQ(arguments.kinds[0].type, ObjectType::kPedestrian);
-  EXPECT_EQ(arguments.kinds[0].least_overlap, 0.5);
+  EXPECT_EQ(arguments.kinds[0].min_overlap, 0.5);
   EXPECT_EQ(arguments.averaging, Averaging::kRepeated);
   EXPECT_EQ(arguments.output, "report.json");
 }

@@ -20,7 +20,7 @@ RunOptions runOptions() {
     one.tracker.confirmation_hits = 1;
     one.tracker.confirmation_existence = 0.0;
     one.tracker.published_existence = 0.001;
-    one.tracker.least_existence = 0.001;
+    one.tracker.min_existence = 0.001;
   }
   options.image = {1200.0, 360.0};
   return options;

@@ -24,7 +24,7 @@ void expectCounts(const TruthSummary& summary, std::size_t id_switches,
   EXPECT_EQ(summary.fragmentations, fragmentations);
 }
 
-TEST(TruthHistory, OneTrackAllTheWay) {
+TEST(TruthHistory, OneTrackForTheWholeDrive) {
   expectCounts(summaryOf({5, 5, 5, 5}), 0, 0);
   EXPECT_EQ(summaryOf({5, 5, 5, 5}).coverage, Coverage::kMostly);
 }

@@ -1,6 +1,6 @@
 #include "datmo_fusion/road/border_filter.h"
 
-#include "sight_samples.h"
+#include "scan_history_samples.h"
 #include <gtest/gtest.h>
 
 namespace datmo {
@@ -21,10 +21,10 @@ RoadModel straightRoad() {
   return road;
 }
 
-Object movingAt(const Point2& place) {
+Object movingAt(const Point2& position) {
   Object object;
-  object.box = {Pose2(place, 0.0), 0.5, 0.5};
-  object.points = {place};
+  object.box = {Pose2(position, 0.0), 0.5, 0.5};
+  object.points = {position};
   object.dynamic_state = DynamicState::kMoving;
   return object;
 }
@@ -32,12 +32,12 @@ Object movingAt(const Point2& place) {
 class BorderFilterTest : public testing::Test {
  protected:
   /// A second of scans in which nothing is at the place, or something in every other scan.
-  void watch(BorderFilter& filter, const Point2& place, bool reflects) {
+  void watch(BorderFilter& filter, const Point2& position, bool reflects) {
     for (int i = 0; i < 16; ++i) {
       ObjectList none;
       const bool hit = reflects && i % 2 == 0;
-      filter.filter(scanOf(hit ? std::vector<Point2>{place} : std::vector<Point2>{}, 0.06 * i), {},
-                    none);
+      filter.filter(scanOf(hit ? std::vector<Point2>{position} : std::vector<Point2>{}, 0.06 * i),
+                    {}, none);
     }
   }
 
@@ -53,9 +53,9 @@ class BorderFilterTest : public testing::Test {
 };
 
 TEST_F(BorderFilterTest, DropsWhatReflectsOnABorder) {
-  const Point2 kerb(20.0, 4.2);
-  watch(filter_, kerb, true);
-  const auto dropped = seenAfter(filter_, movingAt(kerb));
+  const Point2 curb(20.0, 4.2);
+  watch(filter_, curb, true);
+  const auto dropped = seenAfter(filter_, movingAt(curb));
   ASSERT_EQ(dropped.size(), 1U);
   EXPECT_TRUE(list_.objects.empty());
   EXPECT_EQ(dropped[0].reason, DropReason::kOnBorder);
@@ -173,7 +173,7 @@ TEST_F(BorderFilterTest, WithoutARoadAllPass) {
   EXPECT_TRUE(seenAfter(filter_, movingAt({20.0, 4.2})).empty());
 }
 
-TEST_F(BorderFilterTest, AfterAResetItKnowsNoFreePlaces) {
+TEST_F(BorderFilterTest, AfterAResetItKnowsNoFreePoints) {
   const Point2 footpath(20.0, 5.735);  // in the middle of a beam
   watch(filter_, footpath, false);
   filter_.reset();

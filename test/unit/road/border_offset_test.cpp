@@ -22,7 +22,7 @@ TEST(BorderOffsetTest, OutwardIsAwayFromTheRoad) {
   EXPECT_DOUBLE_EQ(offsetFrom(right, {5.0, 2.0})->outward, -2.0);
 }
 
-TEST(BorderOffsetTest, SigmaIsThatOfThePlaceOnTheBorder) {
+TEST(BorderOffsetTest, SigmaIsThatOfThePointOnTheBorder) {
   const RoadBorder border = borderOf(RoadSide::kLeft, {{{0.0, 0.0}, 0.2}, {{10.0, 0.0}, 0.4}});
   EXPECT_NEAR(offsetFrom(border, {2.5, 1.0})->sigma, 0.25, 1e-12);
 }

@@ -1,13 +1,13 @@
 #include "datmo_fusion/road/border_scan.h"
 
-#include "sight_samples.h"
+#include "scan_history_samples.h"
 #include <gtest/gtest.h>
 
 namespace datmo {
 namespace {
 
 TEST(BorderScanTest, HoldsAllBeamsButTheBlindOnes) {
-  SplitScan scan = samples::scanOf({{20.0, 0.0}}, 0.0);
+  LabeledScan scan = samples::scanOf({{20.0, 0.0}}, 0.0);
   scan.blind_beams = {0, 80};
   const BorderScan beams = borderScan(scan, HitGrid{HitGridOptions{}}, 0.06);
   ASSERT_EQ(beams.beams.size(), 79U);
@@ -18,7 +18,7 @@ TEST(BorderScanTest, HoldsAllBeamsButTheBlindOnes) {
 }
 
 TEST(BorderScanTest, OfAnUnknownFieldItHoldsTheHits) {
-  SplitScan scan = samples::scanOf({{20.0, 0.0}, {10.0, 3.0}}, 0.0);
+  LabeledScan scan = samples::scanOf({{20.0, 0.0}, {10.0, 3.0}}, 0.0);
   scan.field = {};
   const BorderScan beams = borderScan(scan, HitGrid{HitGridOptions{}}, 0.06);
   ASSERT_EQ(beams.beams.size(), 2U);
@@ -28,10 +28,10 @@ TEST(BorderScanTest, OfAnUnknownFieldItHoldsTheHits) {
 
 TEST(BorderScanTest, KnowsWhatLasts) {
   HitGrid hits{HitGridOptions{}};
-  const SplitScan first = samples::scanOf({{20.0, 0.0}}, 0.0);
+  const LabeledScan first = samples::scanOf({{20.0, 0.0}}, 0.0);
   hits.update(first);
   EXPECT_FALSE(borderScan(first, hits, 0.0).beams[40].lasting);
-  const SplitScan second = samples::scanOf({{20.0, 0.0}}, 1.5);
+  const LabeledScan second = samples::scanOf({{20.0, 0.0}}, 1.5);
   hits.update(second);
   EXPECT_TRUE(borderScan(second, hits, 1.5).beams[40].lasting) << "hit for more than 1 s";
   EXPECT_EQ(borderScan(second, hits, 1.5).beams[40].hits_there, 2);

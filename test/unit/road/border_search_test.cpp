@@ -13,7 +13,7 @@ namespace {
 /// Of hits whatever their age.
 HitGridOptions ageless() {
   HitGridOptions options;
-  options.least_age = 0.0;
+  options.min_age = 0.0;
   return options;
 }
 
@@ -21,15 +21,15 @@ BorderSearchOptions thesisForm() {
   BorderSearchOptions options;
   options.heading_range = 0.0;
   options.score = "hits";
-  options.least_hits = 300.0;
+  options.min_hits = 300.0;
   return options;
 }
 
 /// Hits on a straight border: `begin` is where it begins and how it runs, m, map frame.
 void addLine(HitGrid& hits, const Pose2& begin, double length, double sigma = 0.1,
-             int hits_per_metre = 15) {
+             int hits_per_meter = 15) {
   Random random(1);
-  const int count = static_cast<int>(length) * hits_per_metre;
+  const int count = static_cast<int>(length) * hits_per_meter;
   for (int i = 0; i < count; ++i) {
     hits.add(begin * Point2(length * i / count, random.normal(sigma)), Stamp());
   }
@@ -131,12 +131,12 @@ TEST_F(BorderSearchTest, TheThesissFormSumsTheHitsUnderUprightWindows) {
   // One hit counts in nine cells, all of which lie in the window at 4.6 m: from 4.1 to 5.1 m.
   hits_.add({10.0, 4.65}, Stamp());
   BorderSearchOptions options = thesisForm();
-  options.least_hits = 9.0;
+  options.min_hits = 9.0;
   const std::optional<FoundBorder> border =
       BorderSearch(options).search(hits_, Pose2(), RoadSide::kLeft);
   ASSERT_TRUE(border);
   EXPECT_EQ(border->score, 9.0);
-  options.least_hits = 9.5;
+  options.min_hits = 9.5;
   EXPECT_FALSE(BorderSearch(options).search(hits_, Pose2(), RoadSide::kLeft));
 }
 

@@ -15,7 +15,7 @@ namespace {
 /// off in offset, heading, curvature and curvature rate.
 Eigen::Vector4d errorOf(const BorderTrack& estimate, const BorderCurve& truth) {
   const CurveTable table(truth, -5.0, 60.0);
-  const CurvePlace foot = table.locate(estimate.curve().anchor.position());
+  const CurvePoint foot = table.locate(estimate.curve().anchor.position());
   const BorderCurve there = truth.movedAlong(foot.along);
   return {foot.aside, angleBetween(there.anchor.heading(), estimate.curve().anchor.heading()),
           estimate.curve().curvature - there.curvature,
@@ -52,8 +52,8 @@ class BorderTrackTest : public testing::TestWithParam<BorderCurve> {
     const double anchor = true_line.locate(track.curve().anchor.position()).along;
     std::vector<BorderHit> hits;
     for (double along = 0.0; along <= 20.0; along += 2.5) {
-      const Pose2 place = true_line.at(anchor + along);
-      hits.push_back({seen.locate(place * Point2(0.0, normal(sigma))), sigma * sigma});
+      const Pose2 position = true_line.at(anchor + along);
+      hits.push_back({seen.locate(position * Point2(0.0, normal(sigma))), sigma * sigma});
     }
     track.correct(hits);
   }
@@ -105,9 +105,9 @@ TEST(BorderTrack, FootOfAPointOnACurve) {
   const BorderCurve arc{Pose2(0.0, 0.0, 0.0), 0.02, 0.0};
   const CurveTable table(arc, -10.0, 40.0);
   const BorderCurve there = arc.movedAlong(20.0);
-  const CurvePlace place = table.locate(there.anchor * Point2(0.0, 3.0));
-  EXPECT_NEAR(place.along, 20.0, 0.02);
-  EXPECT_NEAR(place.aside, 3.0, 0.01);
+  const CurvePoint position = table.locate(there.anchor * Point2(0.0, 3.0));
+  EXPECT_NEAR(position.along, 20.0, 0.02);
+  EXPECT_NEAR(position.aside, 3.0, 0.01);
 }
 
 TEST(BorderTrack, OffsetByHand) {
@@ -128,7 +128,7 @@ TEST(BorderTrack, LeavesOutWhatIsBeyondTheGate) {
   EXPECT_EQ(track.curve().anchor.y(), 0.0);
 }
 
-TEST(BorderTrack, GrowsUnsureWithTheWayAndWithTime) {
+TEST(BorderTrack, UncertaintyGrowsWithDistanceAndTime) {
   const Eigen::Matrix2d covariance = Eigen::Vector2d(0.01, 1e-6).asDiagonal();
   BorderTrack driven(BorderTrackOptions(), Pose2(), covariance);
   BorderTrack standing = driven;
@@ -137,7 +137,7 @@ TEST(BorderTrack, GrowsUnsureWithTheWayAndWithTime) {
   standing.advance(0.0, 1.0);
   EXPECT_GT(standing.varianceAt(0.0), before);
   EXPECT_GT(driven.varianceAt(0.0), standing.varianceAt(0.0));
-  EXPECT_NEAR(driven.way(), 10.0, 1e-12);
+  EXPECT_NEAR(driven.arcLength(), 10.0, 1e-12);
 }
 
 TEST(BorderTrack, CovarianceStaysPositive) {

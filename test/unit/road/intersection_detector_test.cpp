@@ -25,9 +25,9 @@ constexpr double kOpen = 0.1;
 constexpr double kUnknown = 0.5;
 
 /// What is known from 20 m behind the vehicle to 30 m ahead.
-SidePresence sideAt(double way, double elsewhere, const Pieces& pieces) {
+SidePresence sideAt(double arc_length, double elsewhere, const Pieces& pieces) {
   SidePresence side;
-  side.first_station = std::floor(way) - 20.0;
+  side.first_station = std::floor(arc_length) - 20.0;
   for (int i = 0; i < 50; ++i) {
     const double station = side.first_station + i;
     double probability = elsewhere;
@@ -53,11 +53,12 @@ Drive drive(IntersectionDetector& detector, const Pieces& left, const Pieces& ri
             double elsewhere = kBorder, double length = 150.0) {
   Drive result;
   bool before = false;
-  for (double way = 0.0; way < length; way += kStep) {
-    detector.update({way, sideAt(way, elsewhere, left), sideAt(way, elsewhere, right)});
+  for (double arc_length = 0.0; arc_length < length; arc_length += kStep) {
+    detector.update(
+        {arc_length, sideAt(arc_length, elsewhere, left), sideAt(arc_length, elsewhere, right)});
     if (detector.atIntersection()) {
-      result.first_at = result.first_at < 0.0 ? way : result.first_at;
-      result.last_at = way;
+      result.first_at = result.first_at < 0.0 ? arc_length : result.first_at;
+      result.last_at = arc_length;
       result.found += before ? 0 : 1;
     }
     before = detector.atIntersection();
@@ -117,10 +118,10 @@ TEST_F(IntersectionDetectorTest, WhereThereNeverWasABorderThereIsNone) {
   expectNone({}, {}, kUnknown);
 }
 
-TEST_F(IntersectionDetectorTest, WhereTheRoadEndsInAnOpenPlaceItIsOverSomeWayOn) {
+TEST_F(IntersectionDetectorTest, WhereTheRoadEndsInOpenSpaceItIsOverAfterSomeDistance) {
   const Drive result = drive(detector_, {{50, 500, kOpen}}, {{50, 500, kOpen}});
   EXPECT_EQ(result.found, 1);
-  EXPECT_LT(result.last_at, 50.0 + IntersectionDetectorOptions().most_opening + 30.0);
+  EXPECT_LT(result.last_at, 50.0 + IntersectionDetectorOptions().max_opening + 30.0);
 }
 
 TEST_F(IntersectionDetectorTest, OneSideOnlyIsEnoughToLeave) {
@@ -155,8 +156,9 @@ TEST_F(IntersectionDetectorTest, OneThatStandsKeepsItsState) {
     const bool before = detector_.atIntersection();
     const double probability = detector_.probability();
     for (int i = 0; i < 1000; ++i) {
-      const double way = stop - kStep;
-      detector_.update({way, sideAt(way, kUnknown, {}), sideAt(way, kUnknown, {})});
+      const double arc_length = stop - kStep;
+      detector_.update(
+          {arc_length, sideAt(arc_length, kUnknown, {}), sideAt(arc_length, kUnknown, {})});
     }
     EXPECT_EQ(detector_.atIntersection(), before);
     EXPECT_NEAR(detector_.probability(), probability, 1e-9);
@@ -164,7 +166,7 @@ TEST_F(IntersectionDetectorTest, OneThatStandsKeepsItsState) {
   }
 }
 
-TEST_F(IntersectionDetectorTest, AWayThatBeginsAgainForgets) {
+TEST_F(IntersectionDetectorTest, ADistanceThatRestartsForgets) {
   const Pieces open{{50, 70, kOpen}};
   drive(detector_, open, open, kBorder, 60.0);
   ASSERT_TRUE(detector_.atIntersection());
@@ -188,7 +190,7 @@ TEST(IntersectionDetectorOptionsTest, BadOnesAreRefused) {
   options.leave_below = 0.95;
   EXPECT_THROW(IntersectionDetector{options}, OptionError);
   options = {};
-  options.least_opening = 50.0;
+  options.min_opening = 50.0;
   EXPECT_THROW(IntersectionDetector{options}, OptionError);
 }
 

@@ -7,29 +7,29 @@
 namespace datmo {
 namespace {
 
-TEST(PresenceHistoryTest, CountsTheWayThatIsDriven) {
+TEST(PresenceHistoryTest, CountsTheDistanceDriven) {
   PresenceHistory history{PresenceHistoryOptions{}};
   for (int i = 0; i <= 100; ++i) {
     history.update({}, Pose2(0.1 * i, 0.0, 0.0), 0.06);
   }
-  EXPECT_NEAR(history.presence().way, 10.0, 0.2);
+  EXPECT_NEAR(history.presence().arc_length, 10.0, 0.2);
 }
 
-TEST(PresenceHistoryTest, TheJitterOfAStandingVehicleIsNoWay) {
+TEST(PresenceHistoryTest, TheJitterOfAStationaryVehicleIsNoDistance) {
   PresenceHistory history{PresenceHistoryOptions{}};
   Random random(1);
   for (int i = 0; i < 1000; ++i) {
     history.update({}, Pose2(random.normal(0.01), random.normal(0.01), 0.0), 0.06);
   }
-  EXPECT_LT(history.presence().way, 0.2);
+  EXPECT_LT(history.presence().arc_length, 0.2);
 }
 
-TEST(PresenceHistoryTest, AWayBackIsNotCounted) {
+TEST(PresenceHistoryTest, DrivingBackwardIsNotCounted) {
   PresenceHistory history{PresenceHistoryOptions{}};
   for (int i = 0; i <= 20; ++i) {
     history.update({}, Pose2(-0.5 * i, 0.0, 0.0), 0.06);
   }
-  EXPECT_DOUBLE_EQ(history.presence().way, 0.0);
+  EXPECT_DOUBLE_EQ(history.presence().arc_length, 0.0);
 }
 
 TEST(PresenceHistoryTest, WithoutBordersNothingIsKnown) {

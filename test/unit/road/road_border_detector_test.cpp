@@ -26,8 +26,8 @@ class RoadBorderDetectorTest : public testing::Test {
   static constexpr double kSigma = 0.1;    ///< m
 
   /// What a scanner with 161 beams of 1 degree sees from a pose.
-  SplitScan scanFrom(const Pose2& pose) {
-    SplitScan scan;
+  LabeledScan scanFrom(const Pose2& pose) {
+    LabeledScan scan;
     scan.stamp = stamp_;
     scan.base_in_map.pose = pose;
     scan.scanner_in_base = Pose2(3.0, 0.0, 0.0);
@@ -180,12 +180,12 @@ TEST_F(RoadBorderDetectorTest, ForgetsAllAfterAJumpAGapAndAReset) {
 }
 
 TEST_F(RoadBorderDetectorTest, SaysTheSameOfTheSameScans) {
-  std::vector<SplitScan> scans;
+  std::vector<LabeledScan> scans;
   for (int i = 0; i < 60; ++i) {
     scans.push_back(scanFrom(Pose2(0.5 * i, 0.0, 0.0)));
   }
   RoadBorderDetector again{RoadBorderDetectorOptions()};
-  for (const SplitScan& scan : scans) {
+  for (const LabeledScan& scan : scans) {
     const RoadModel first = detector_.update(scan);
     const RoadModel second = again.update(scan);
     ASSERT_EQ(first.borders.size(), second.borders.size());

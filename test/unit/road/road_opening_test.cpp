@@ -28,7 +28,7 @@ void open(SidePresence& side, double from, double to, double probability = 0.1) 
 class RoadOpeningTest : public testing::Test {
  protected:
   RoadOpeningTest() {
-    presence_.way = 100.0;
+    presence_.arc_length = 100.0;
     presence_.left = bordered();
     presence_.right = bordered();
     RoadBorder right;

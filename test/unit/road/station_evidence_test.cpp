@@ -44,7 +44,7 @@ TEST_F(StationEvidenceTest, ManyBeamsOfAScanCountAsOneAndAllScansAreHeld) {
     evidence_.addHit(5.5);
   }
   evidence_.endScan();
-  EXPECT_EQ(evidence_.logOdds(5.5), options_.most_in_scan);
+  EXPECT_EQ(evidence_.logOdds(5.5), options_.max_per_scan);
   hit(5.0, 6.0, 100);
   EXPECT_EQ(evidence_.logOdds(5.5), options_.saturation);
 }
@@ -81,7 +81,7 @@ TEST_F(StationEvidenceTest, IsForgottenOutsideOfWhatIsKept) {
   EXPECT_TRUE(evidence_.pieces().empty());
 }
 
-TEST_F(StationEvidenceTest, DepthTellsThatTheRoadIsOpen) {
+TEST_F(StationEvidenceTest, DepthShowsThatTheRoadIsOpen) {
   evidence_.addDepth(5.5, true);
   evidence_.addDepth(7.5, false);
   evidence_.endScan();
@@ -90,7 +90,7 @@ TEST_F(StationEvidenceTest, DepthTellsThatTheRoadIsOpen) {
   EXPECT_EQ(evidence_.openLogOdds(9.5), 0.0);
 }
 
-TEST(StationEvidenceLimitsTest, PlacesOutOfThisWorldDoNoHarm) {
+TEST(StationEvidenceLimitsTest, PointsAtInfinityAreHarmless) {
   StationEvidence evidence{StationEvidenceOptions{}};
   for (const double far : {1e300, -1e300, std::numeric_limits<double>::quiet_NaN()}) {
     evidence.keepWithin({far, far + 65.0});

@@ -59,7 +59,7 @@ TEST(CloudConversion, FieldsAreFoundByTheirNamesAtAnyOffset) {
   EXPECT_EQ(points.view()[0], Eigen::Vector3f(2.0F, 3.0F, 1.0F));
 }
 
-TEST(CloudConversion, PointsWithoutColourMayLieClose) {
+TEST(CloudConversion, PointsWithoutColorMayLieClose) {
   sensor_msgs::PointCloud2 message = cloud({});
   message.fields.pop_back();
   message.width = 4;
@@ -70,7 +70,7 @@ TEST(CloudConversion, PointsWithoutColourMayLieClose) {
   expectPoints(CloudPoints(message).view());
 }
 
-TEST(CloudConversion, OrganisedCloudsAreReadRowByRow) {
+TEST(CloudConversion, OrganizedCloudsAreReadRowByRow) {
   for (const std::uint32_t padding : {0U, 1U, 16U}) {
     for (const bool cut_last : {false, true}) {
       const sensor_msgs::PointCloud2 message = twoRows(padding, cut_last);

@@ -60,10 +60,10 @@ TEST(FrameIds, BothEndsOfEachTransformAreStripped) {
   message.transforms[1].child_frame_id = "/base_link";
   const auto plain = withPlainFrames("/tf", asConst(message), monitor);
   EXPECT_EQ(plain->transforms[1].child_frame_id, "base_link");
-  SplitScanMessage scan;
+  LabeledScanMessage scan;
   scan.header.frame_id = "base_link";
   scan.map_frame = "/map";
-  EXPECT_EQ(withPlainFrames("split_scan", asConst(scan), monitor)->map_frame, "map");
+  EXPECT_EQ(withPlainFrames("labeled_scan", asConst(scan), monitor)->map_frame, "map");
 }
 
 }  // namespace

@@ -46,14 +46,14 @@ TEST(GridConversion, ThereAndBackIsTheSame) {
 }
 
 TEST(GridConversion, WindowsOfAnyCellSizeAreTheSameThereAndBack) {
-  for (int millimetres = 20; millimetres <= 5000; millimetres += 7) {
+  for (int millimeters = 20; millimeters <= 5000; millimeters += 7) {
     GridWindowOptions options;
     options.length = 50.0;
     options.width = 30.0;
-    options.cell_size = millimetres / 1000.0;
+    options.cell_size = millimeters / 1000.0;
     const GridWindow window = options.window();
     const SensorGrid grid = fromMessage(toMessage(SensorGrid({}, window), "base_link"));
-    EXPECT_EQ(grid.window(), window) << millimetres << " mm";
+    EXPECT_EQ(grid.window(), window) << millimeters << " mm";
   }
 }
 

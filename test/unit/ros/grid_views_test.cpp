@@ -27,7 +27,7 @@ GridViewsOptions smallViews() {
   options.ahead = 10.0;
   options.behind = 2.0;
   options.to_side = 5.0;
-  options.pixels_per_metre = 10.0;
+  options.pixels_per_meter = 10.0;
   return options;
 }
 
@@ -88,7 +88,7 @@ TEST(GridViews, ACellAheadAndLeftIsUpAndLeft) {
   EXPECT_EQ(pixelAt(*image, 0, 6.25, 3.55), kFree);
 }
 
-TEST(GridViews, ShadesTellHowSure) {
+TEST(GridViews, ShadesShowProbability) {
   SensorGrid grid = freeGrid();
   grid.at(grid.window().cellAt({6.2, 3.2})) = 40;
   grid.at(grid.window().cellAt({6.2, -3.2})) = kUnknownPercent;
@@ -209,9 +209,9 @@ TEST(GridViews, BadOptionsAreRefused) {
   }
   GridViewsOptions options = smallViews();
   options.ahead = 500.0;
-  options.pixels_per_metre = 50.0;
+  options.pixels_per_meter = 50.0;
   EXPECT_THROW(GridViews{options}, OptionError) << "panels of 500 x 25100 pixels";
-  options.pixels_per_metre = 0.0;
+  options.pixels_per_meter = 0.0;
   EXPECT_THROW(GridViews{options}, OptionError);
 }
 

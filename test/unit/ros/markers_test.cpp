@@ -126,8 +126,8 @@ TEST(Markers, PeopleHaveHeadsAndAreAsTallAsTheyAre) {
   EXPECT_EQ(find(tracksOfClass(ObjectMessage::CLASS_VEHICLE), "track heads", 7), nullptr);
 }
 
-TEST(Markers, OutlinesTellWhoSawIt) {
-  const auto colourOf = [](const std::vector<std::string>& sensors) {
+TEST(Markers, OutlinesShowTheSensors) {
+  const auto colorOf = [](const std::vector<std::string>& sensors) {
     TrackArray tracks;
     tracks.tracks = {makeTrack(7)};
     tracks.tracks[0].sensors = sensors;
@@ -139,13 +139,13 @@ TEST(Markers, OutlinesTellWhoSawIt) {
     EXPECT_EQ(track.color, find(markersOf(objects, MarkersOptions()), "objects", 0)->color);
     return track.color;
   };
-  const auto lidar = colourOf({"lidar"});
-  const auto stereo = colourOf({"stereo"});
-  const auto both = colourOf({"lidar", "stereo"});
+  const auto lidar = colorOf({"lidar"});
+  const auto stereo = colorOf({"stereo"});
+  const auto both = colorOf({"lidar", "stereo"});
   EXPECT_NE(lidar, stereo);
   EXPECT_NE(lidar, both);
   EXPECT_NE(stereo, both);
-  EXPECT_NE(colourOf({"radar"}), lidar);
+  EXPECT_NE(colorOf({"radar"}), lidar);
 }
 
 TEST(Markers, ObjectsThatAreNotSeenToMoveArePaleAndShowTheClassTheyHave) {
@@ -262,8 +262,8 @@ TEST(Markers, ABoxIsTheFainterTheLessLikelyItExists) {
   EXPECT_FLOAT_EQ(find(markers, "track labels", 7)->color.a, 1.0F);
 }
 
-TEST(Markers, ScanPointsAreColouredByStateInTheMap) {
-  SplitScanMessage scan;
+TEST(Markers, ScanPointsAreColoredByStateInTheMap) {
+  LabeledScanMessage scan;
   scan.header.frame_id = "base_link";
   scan.map_frame = "map";
   scan.pose.pose = toMessage(Pose2(1.0, 2.0, 0.0));
@@ -281,7 +281,7 @@ TEST(Markers, ScanPointsAreColouredByStateInTheMap) {
 }
 
 TEST(Markers, ScanWithoutPointsDrawsNothing) {
-  EXPECT_TRUE(markersOf(SplitScanMessage(), MarkersOptions()).markers.empty());
+  EXPECT_TRUE(markersOf(LabeledScanMessage(), MarkersOptions()).markers.empty());
 }
 
 TEST(Markers, BoxSeenAsAPointIsDrawnInLeastSize) {
@@ -290,7 +290,7 @@ TEST(Markers, BoxSeenAsAPointIsDrawnInLeastSize) {
   const MarkersOptions options;
   const MarkerArray markers = markersOf(objects, options);
   ASSERT_EQ(markers.markers.size(), 1U);
-  EXPECT_DOUBLE_EQ(markers.markers[0].points[0].x, 0.5 * options.least_size);
+  EXPECT_DOUBLE_EQ(markers.markers[0].points[0].x, 0.5 * options.min_size);
 }
 
 TEST(Markers, OnlyMovingTruthIsDrawn) {
@@ -321,7 +321,7 @@ TEST(Markers, TruthIsDashed) {
 }
 
 TEST(Markers, ObjectsArePlacedWhereTheScanWasSeenFrom) {
-  SplitScanMessage scan;
+  LabeledScanMessage scan;
   scan.map_frame = "map";
   scan.pose.pose = toMessage(Pose2(100.0, 50.0, kPi / 2.0));
   ObjectArray objects;
@@ -329,7 +329,7 @@ TEST(Markers, ObjectsArePlacedWhereTheScanWasSeenFrom) {
   objects.objects.resize(1);
   objects.objects[0].pose = toMessage(Pose2(10.0, 0.0, 0.25));
   MarkerArray markers = markersOf(objects, MarkersOptions());
-  placeInMap(scan, markers);
+  transformToMap(scan, markers);
   EXPECT_EQ(markers.markers[0].header.frame_id, "map");
   const Pose2 pose = fromMessage(markers.markers[0].pose);
   EXPECT_NEAR(pose.x(), 100.0, 1e-9);
@@ -338,11 +338,11 @@ TEST(Markers, ObjectsArePlacedWhereTheScanWasSeenFrom) {
 }
 
 TEST(Markers, PoseThatIsNotFiniteIsRefused) {
-  SplitScanMessage scan;
+  LabeledScanMessage scan;
   scan.pose.pose = toMessage(Pose2());
   scan.pose.pose.position.x = std::nan("");
   MarkerArray markers;
-  EXPECT_THROW(placeInMap(scan, markers), InputError);
+  EXPECT_THROW(transformToMap(scan, markers), InputError);
 }
 
 TEST(StaleMarkers, WhatIsNotDrawnAgainIsDeletedOnce) {

@@ -60,8 +60,8 @@ TEST(OdometryConversion, TakesSpeedAndYawRateAndRefusesNanAndTheImpossible) {
   EXPECT_EQ(samples::reasonOf([&] { toSample(message); }), "bad_odometry");
 }
 
-SplitScan splitScan() {
-  SplitScan scan;
+LabeledScan labeledScan() {
+  LabeledScan scan;
   scan.stamp = kStamp;
   scan.base_in_map.pose = Pose2(10.0, 20.0, 0.5);
   scan.base_in_map.covariance.diagonal() << 0.1, 0.2, 0.3;
@@ -72,22 +72,22 @@ SplitScan splitScan() {
   return scan;
 }
 
-TEST(SplitScanConversion, ThereAndBack) {
-  const SplitScanMessage message = toMessage(splitScan(), "base_link", "map");
+TEST(LabeledScanConversion, ThereAndBack) {
+  const LabeledScanMessage message = toMessage(labeledScan(), "base_link", "map");
   EXPECT_EQ(message.header.frame_id, "base_link");
   EXPECT_EQ(message.map_frame, "map");
-  const SplitScan back = fromMessage(message);
+  const LabeledScan back = fromMessage(message);
   EXPECT_EQ(back.stamp, kStamp);
   EXPECT_NEAR(back.base_in_map.pose.heading(), 0.5, 1e-12);
-  EXPECT_EQ(back.base_in_map.covariance, splitScan().base_in_map.covariance);
+  EXPECT_EQ(back.base_in_map.covariance, labeledScan().base_in_map.covariance);
   EXPECT_NEAR(back.scanner_in_base.heading(), 0.25, 1e-12);
   EXPECT_EQ(back.field.first_bearing, -1.25);
   EXPECT_EQ(back.field.beam_spacing, 0.125);
   EXPECT_EQ(back.field.beams, 21U);
-  EXPECT_EQ(back.field.least_range, 0.5);
+  EXPECT_EQ(back.field.min_range, 0.5);
   EXPECT_EQ(back.field.free_range, 40.0);
   EXPECT_EQ(back.field.range, 80.0);
-  EXPECT_EQ(back.blind_beams, splitScan().blind_beams);
+  EXPECT_EQ(back.blind_beams, labeledScan().blind_beams);
   ASSERT_EQ(back.points.size(), 1U);
   EXPECT_EQ(back.points[0].position, Point2(5.0, 1.0));
   EXPECT_EQ(back.points[0].range, 1.5);
@@ -96,8 +96,8 @@ TEST(SplitScanConversion, ThereAndBack) {
   EXPECT_EQ(back.points[0].state, PointState::kMoving);
 }
 
-TEST(SplitScanConversion, BadPointsAreRefused) {
-  SplitScanMessage message = toMessage(splitScan(), "base_link", "map");
+TEST(LabeledScanConversion, BadPointsAreRefused) {
+  LabeledScanMessage message = toMessage(labeledScan(), "base_link", "map");
   message.points[0].state = 3;
   EXPECT_EQ(samples::reasonOf([&] { fromMessage(message); }), "bad_point");
   message.points[0].state = 0;
@@ -105,9 +105,9 @@ TEST(SplitScanConversion, BadPointsAreRefused) {
   EXPECT_EQ(samples::reasonOf([&] { fromMessage(message); }), "bad_point");
 }
 
-TEST(SplitScanConversion, BadFieldsAreRefused) {
+TEST(LabeledScanConversion, BadFieldsAreRefused) {
   const auto reason = [](const std::function<void(ScanFieldMessage&)>& spoil) {
-    SplitScanMessage message = toMessage(splitScan(), "base_link", "map");
+    LabeledScanMessage message = toMessage(labeledScan(), "base_link", "map");
     spoil(message.field);
     return samples::reasonOf([&] { fromMessage(message); });
   };
@@ -119,8 +119,8 @@ TEST(SplitScanConversion, BadFieldsAreRefused) {
   EXPECT_EQ(reason([](auto& field) { field.beams = 65536; }), "");
 }
 
-TEST(SplitScanConversion, AScannerNowhereIsRefused) {
-  SplitScanMessage message = toMessage(splitScan(), "base_link", "map");
+TEST(LabeledScanConversion, AScannerNowhereIsRefused) {
+  LabeledScanMessage message = toMessage(labeledScan(), "base_link", "map");
   message.scanner.theta = kNan;
   EXPECT_EQ(samples::reasonOf([&] { fromMessage(message); }), "bad_pose");
 }
@@ -153,7 +153,7 @@ TEST(MapConversion, HoldsAfterTheWindowHasMoved) {
   options.window.width = 60.0;
   OccupancyMap map(options);
   for (const double x : {0.1, 7.3, 14.5}) {
-    map.centreOn(Point2(x, -x));
+    map.centerOn(Point2(x, -x));
     const Pose2 base_in_map(x, -x, kPi / 2.0);
     map.update(beamAhead(6.05, kStamp + x), {PointState::kStatic}, base_in_map);
     const auto grid = toMessage(map, kStamp, "map");

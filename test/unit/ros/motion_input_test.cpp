@@ -34,14 +34,14 @@ geometry_msgs::PoseWithCovarianceStamped pose(double seconds) {
   return message;
 }
 
-MotionInput inputWith(bool with_odometry, bool poses_tell = false) {
+MotionInput inputWith(bool with_odometry, bool use_poses = false) {
   MotionOptions options;
   options.source = with_odometry ? "odometry" : "none";
-  options.odometry_pose = poses_tell;
+  options.odometry_pose = use_poses;
   return MotionInput(options, {}, 1.0);
 }
 
-TEST(MotionInput, OdometryTellsTheMotionBySpeedOrByPose) {
+TEST(MotionInput, OdometryGivesTheMotionBySpeedOrByPose) {
   MotionInput by_speed = inputWith(true);
   MotionInput by_pose = inputWith(true, true);
   for (const double t : {100.0, 100.1, 100.2}) {

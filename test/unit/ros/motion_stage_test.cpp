@@ -58,7 +58,7 @@ class MotionStageTest : public testing::Test {
   TransformBuffer buffer_{1.0, upsideDown(), monitor_};
 };
 
-TEST_F(MotionStageTest, ATwistBecomesOdometryThatCountsTheWay) {
+TEST_F(MotionStageTest, ATwistBecomesOdometryThatCountsTheDistance) {
   MotionStage stage = stageOf("twist");
   ASSERT_TRUE(stage.takeTwist(twist(100.0, 2.0)));
   const auto odometry = stage.takeTwist(twist(100.5, 4.0, 0.1));
@@ -89,7 +89,7 @@ TEST_F(MotionStageTest, YawRateOfTheImuAndSpeedOfTheTwist) {
   EXPECT_EQ(drops(monitor_, "no_speed"), 2U);
 }
 
-TEST_F(MotionStageTest, WheelsTellTheSpeedByTheirRadius) {
+TEST_F(MotionStageTest, WheelsGiveTheSpeedByTheirRadius) {
   MotionStage stage = stageOf("imu_and_wheels");
   EXPECT_FALSE(stage.takeWheels(wheels(100.0, {10.0, 12.0})));
   EXPECT_NEAR(stage.takeImu(imu(100.01, 0.0))->twist.twist.linear.x, 0.25 * 11.0, 1e-12);

@@ -2,9 +2,9 @@
 
 #include <limits>
 
+#include "labeled_scan_samples.h"
 #include "message_samples.h"
 #include "road_samples.h"
-#include "split_scan_samples.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/ros/message_conversion.h"
@@ -23,8 +23,8 @@ class MovingObjectsStageTest : public testing::Test {
     return options;
   }
 
-  std::optional<MovingObjectsOutput> take(const SplitScan& scan) {
-    return stage_.takeSplitScan(toMessage(scan, "base_link", "map"));
+  std::optional<MovingObjectsOutput> take(const LabeledScan& scan) {
+    return stage_.takeLabeledScan(toMessage(scan, "base_link", "map"));
   }
 
   void takeRoad(double seconds, const std::string& frame = "map") {
@@ -38,22 +38,22 @@ class MovingObjectsStageTest : public testing::Test {
   Point2 on_border_{10.0, 3.1};
 };
 
-TEST(MovingObjectsStageWithoutBordersTest, ServesASplitScanOnceAndDropsBadOnes) {
+TEST(MovingObjectsStageWithoutBordersTest, ServesALabeledScanOnceAndDropsBadOnes) {
   StageMonitor monitor("moving_objects");
   MovingObjectsStage stage({}, monitor);
-  SplitScan scan;
+  LabeledScan scan;
   scan.stamp = Stamp::fromSeconds(samples::kStart);
-  const SplitScanMessage message = toMessage(scan, "base_link", "map");
-  const auto output = stage.takeSplitScan(message);
+  const LabeledScanMessage message = toMessage(scan, "base_link", "map");
+  const auto output = stage.takeLabeledScan(message);
   ASSERT_TRUE(output);
   EXPECT_EQ(output->objects->header.frame_id, "base_link");
   EXPECT_EQ(output->objects->header.stamp, message.header.stamp);
   EXPECT_FALSE(output->dropped);
-  EXPECT_FALSE(stage.takeSplitScan(message));
+  EXPECT_FALSE(stage.takeLabeledScan(message));
   EXPECT_EQ(monitor.drops().at("repeated_stamp"), 1U);
-  SplitScanMessage bad = message;
+  LabeledScanMessage bad = message;
   bad.pose.pose.orientation.w = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(stage.takeSplitScan(bad));
+  EXPECT_FALSE(stage.takeLabeledScan(bad));
   EXPECT_EQ(monitor.drops().at("bad_pose"), 1U);
 }
 

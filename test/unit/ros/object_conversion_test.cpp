@@ -27,7 +27,7 @@ TEST(ObjectConversion, ThereAndBack) {
   EXPECT_EQ(back.stamp, kStamp);
   ASSERT_EQ(back.objects.size(), 1U);
   const Object& got = back.objects[0];
-  EXPECT_NEAR(got.box.centre.heading(), 0.5, 1e-12);
+  EXPECT_NEAR(got.box.center.heading(), 0.5, 1e-12);
   EXPECT_EQ(got.box.length, 4.0);
   EXPECT_EQ(got.box.width, 2.0);
   EXPECT_EQ(got.position_covariance, object.position_covariance);

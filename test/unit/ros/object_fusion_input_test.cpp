@@ -47,7 +47,7 @@ TEST_F(ObjectFusionStageTest, BadObjectsAreLeftOutAndTheirSourceIsNamed) {
   bad[0].position_covariance.setZero();
   bad[1].position_covariance << 1.0, 2.0, 2.0, 1.0;
   bad[2].position_covariance(0, 1) = kNan;
-  bad[3].box.centre = {kNan, 0.0, 0.0};
+  bad[3].box.center = {kNan, 0.0, 0.0};
   bad[4].side_variance[0] = -1.0;
   for (std::size_t i = 0; i < bad.size(); ++i) {
     const double t = 100.0 + 0.1 * static_cast<double>(i);
@@ -65,10 +65,10 @@ TEST_F(ObjectFusionStageTest, BadObjectsAreLeftOutAndTheirSourceIsNamed) {
 TEST_F(ObjectFusionStageTest, BadViewsAreLeftOutAndSaid) {
   ObjectArray objects = list(100.0, {car("stereo", 20.0, 0.0)});
   objects.views.resize(2);
-  objects.views[0].least_bearing = -30.0F;  // degrees
-  objects.views[0].most_bearing = 30.0F;
-  objects.views[1].least_bearing = -0.5F;
-  objects.views[1].most_bearing = 0.5F;
+  objects.views[0].min_bearing = -30.0F;  // degrees
+  objects.views[0].max_bearing = 30.0F;
+  objects.views[1].min_bearing = -0.5F;
+  objects.views[1].max_bearing = 0.5F;
   take("lidar", 100.0);
   take("stereo", objects);
   const auto fused = nextAt(100.0);
@@ -88,15 +88,15 @@ TEST_F(ObjectFusionStageTest, OfAThousandObjectsTheFarthestAreLeftOut) {
   take("stereo", list(100.0, many));
   const auto fused = nextAt(100.0);
   ASSERT_TRUE(fused);
-  const auto most = static_cast<std::size_t>(options_.fuser.most_objects);
-  EXPECT_EQ(fused->objects.size(), most + 1);
+  const auto max = static_cast<std::size_t>(options_.fuser.max_objects);
+  EXPECT_EQ(fused->objects.size(), max + 1);
   EXPECT_EQ(warnings("many_objects"), 1U);
   EXPECT_NE(monitor_.lastError().find("stereo"), std::string::npos);
   EXPECT_TRUE(bothAt(100.1));
   EXPECT_EQ(warnings("many_objects"), 1U);
 }
 
-TEST_F(ObjectFusionStageTest, ObjectsThatDoNotTellTheirSensorAreTheSources) {
+TEST_F(ObjectFusionStageTest, ObjectsWithoutSensorAreTheSources) {
   Object object = car("stereo", 20.0, 0.0);
   object.sensors.clear();
   take("stereo", list(100.0, {object}));
@@ -117,8 +117,8 @@ TEST_F(ObjectFusionStageTest, AJumpBackStartsAnew) {
 
 /// Beams one degree apart, straight ahead in the middle; all that look at the car's place end there
 /// on what the map knows.
-SplitScanMessage wallAt(double ahead, double seconds) {
-  SplitScan scan;
+LabeledScanMessage wallAt(double ahead, double seconds) {
+  LabeledScan scan;
   scan.stamp = Stamp::fromSeconds(seconds);
   scan.field.beams = 181;
   scan.field.first_bearing = -kPi / 2.0;
@@ -134,7 +134,7 @@ SplitScanMessage wallAt(double ahead, double seconds) {
   return toMessage(scan, "base_link", "map");
 }
 
-class ObjectFusionWitnessTest : public ObjectFusionStageTest {
+class ObjectFusionScanSupportTest : public ObjectFusionStageTest {
  protected:
   /// State of the one object that stereo sees and the scanner does not list.
   std::uint8_t stateAt(double seconds) {
@@ -145,44 +145,44 @@ class ObjectFusionWitnessTest : public ObjectFusionStageTest {
   }
 };
 
-TEST_F(ObjectFusionWitnessTest, TheScanOfTheSameStampTellsWhatStandsStill) {
+TEST_F(ObjectFusionScanSupportTest, TheScanOfTheSameStampShowsWhatIsStatic) {
   EXPECT_EQ(stateAt(100.0), ObjectMessage::STATE_UNKNOWN) << "no scan";
-  stage_.takeSplitScan(wallAt(18.0, 100.1));
+  stage_.takeLabeledScan(wallAt(18.0, 100.1));
   EXPECT_EQ(stateAt(100.1), ObjectMessage::STATE_STATIC);
   EXPECT_EQ(stateAt(100.2), ObjectMessage::STATE_UNKNOWN) << "the scan is of another time";
   EXPECT_EQ(figure("fused without a split scan"), 2.0);
 }
 
-TEST_F(ObjectFusionWitnessTest, AScanMayComeBeforeOthers) {
+TEST_F(ObjectFusionScanSupportTest, AScanMayComeBeforeOthers) {
   for (int i = 0; i < 40; ++i) {
-    stage_.takeSplitScan(wallAt(18.0, 100.0 + 0.02 * i));
+    stage_.takeLabeledScan(wallAt(18.0, 100.0 + 0.02 * i));
   }
   EXPECT_EQ(stateAt(100.0), ObjectMessage::STATE_STATIC);
 }
 
-TEST_F(ObjectFusionWitnessTest, BadScansAreDroppedAndCounted) {
-  SplitScanMessage scan = wallAt(18.0, 100.0);
+TEST_F(ObjectFusionScanSupportTest, BadScansAreDroppedAndCounted) {
+  LabeledScanMessage scan = wallAt(18.0, 100.0);
   scan.points[0].x = std::numeric_limits<float>::infinity();
-  stage_.takeSplitScan(scan);
+  stage_.takeLabeledScan(scan);
   EXPECT_EQ(drops("bad_point"), 1U);
   scan = wallAt(18.0, 100.0);
   scan.header.frame_id = "scanner";
-  stage_.takeSplitScan(scan);
+  stage_.takeLabeledScan(scan);
   EXPECT_EQ(drops("wrong_frame"), 1U);
   EXPECT_EQ(stateAt(100.0), ObjectMessage::STATE_UNKNOWN);
 }
 
-TEST_F(ObjectFusionWitnessTest, AJumpBackForgetsTheScans) {
+TEST_F(ObjectFusionScanSupportTest, AJumpBackForgetsTheScans) {
   EXPECT_TRUE(bothAt(199.0));
-  stage_.takeSplitScan(wallAt(18.0, 200.0));
+  stage_.takeLabeledScan(wallAt(18.0, 200.0));
   EXPECT_TRUE(bothAt(100.0));
   EXPECT_EQ(warnings("clock_restart"), 1U);
   EXPECT_EQ(stateAt(200.0), ObjectMessage::STATE_UNKNOWN);
 }
 
-TEST_F(ObjectFusionWitnessTest, AScanOfANewRunIsNotLostBehindThoseOfTheOldOne) {
-  stage_.takeSplitScan(wallAt(18.0, 200.0));
-  stage_.takeSplitScan(wallAt(18.0, 100.0));
+TEST_F(ObjectFusionScanSupportTest, AScanOfANewRunIsNotLostBehindThoseOfTheOldOne) {
+  stage_.takeLabeledScan(wallAt(18.0, 200.0));
+  stage_.takeLabeledScan(wallAt(18.0, 100.0));
   EXPECT_EQ(stateAt(100.0), ObjectMessage::STATE_STATIC);
 }
 
@@ -195,7 +195,7 @@ TEST(ObjectFusionStageOptionsTest, BadOptionsAreRefused) {
   };
   refused([](auto& options) { options.matcher.reference = "radar"; });
   refused([](auto& options) { options.fuser.sources["lidar"].use = false; });
-  refused([](auto& options) { options.matcher.longest_wait = kNan; });
+  refused([](auto& options) { options.matcher.max_wait = kNan; });
   for (const char* const name : {"fused", "", "2nd", "rear-lidar", "a b"}) {
     refused([&](auto& options) { options.fuser.sources[name].use = true; });
   }

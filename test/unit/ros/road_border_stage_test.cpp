@@ -2,8 +2,8 @@
 
 #include <limits>
 
+#include "labeled_scan_samples.h"
 #include "monitor_counts.h"
-#include "split_scan_samples.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/ros/message_conversion.h"
@@ -11,7 +11,7 @@
 namespace datmo {
 namespace {
 
-SplitScanMessage scanAtStart() {
+LabeledScanMessage scanAtStart() {
   return toMessage(samples::scanBetweenWalls(0.0), "base_link", "map");
 }
 
@@ -19,7 +19,8 @@ class RoadBorderStageTest : public testing::Test {
  protected:
   /// Some time after samples::kStart.
   RoadBordersPtr scanAt(double seconds) {
-    return stage_.takeSplitScan(toMessage(samples::scanBetweenWalls(seconds), "base_link", "map"));
+    return stage_.takeLabeledScan(
+        toMessage(samples::scanBetweenWalls(seconds), "base_link", "map"));
   }
 
   /// The road after some seconds of scans.
@@ -36,9 +37,9 @@ class RoadBorderStageTest : public testing::Test {
 };
 
 TEST_F(RoadBorderStageTest, EachScanMakesARoadInTheFrameOfTheMap) {
-  SplitScanMessage scan = scanAtStart();
+  LabeledScanMessage scan = scanAtStart();
   scan.map_frame = "world";
-  const auto road = stage_.takeSplitScan(scan);
+  const auto road = stage_.takeLabeledScan(scan);
   ASSERT_NE(road, nullptr);
   EXPECT_EQ(road->header.stamp, scan.header.stamp);
   EXPECT_EQ(road->header.frame_id, "world");
@@ -59,13 +60,13 @@ TEST_F(RoadBorderStageTest, WallsBesideTheRoadAreItsBorders) {
 }
 
 TEST_F(RoadBorderStageTest, BadScansAreDroppedAndCounted) {
-  SplitScanMessage lost = scanAtStart();
+  LabeledScanMessage lost = scanAtStart();
   lost.pose.pose.position.x = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(stage_.takeSplitScan(lost), nullptr);
+  EXPECT_EQ(stage_.takeLabeledScan(lost), nullptr);
   EXPECT_EQ(samples::drops(monitor_, "bad_pose"), 1U);
-  SplitScanMessage nowhere = scanAtStart();
+  LabeledScanMessage nowhere = scanAtStart();
   nowhere.map_frame.clear();
-  EXPECT_EQ(stage_.takeSplitScan(nowhere), nullptr);
+  EXPECT_EQ(stage_.takeLabeledScan(nowhere), nullptr);
   EXPECT_EQ(samples::drops(monitor_, "wrong_frame"), 1U);
   EXPECT_NE(scanAt(0.0), nullptr);
 }
@@ -90,11 +91,11 @@ TEST_F(RoadBorderStageTest, ARestartOfTheClockForgetsTheRoad) {
 
 TEST_F(RoadBorderStageTest, AnotherMapIsAnotherRoad) {
   drive(0.0);
-  SplitScanMessage scan = scanAtStart();
+  LabeledScanMessage scan = scanAtStart();
   scan.header.stamp += ros::Duration(5.0);
   scan.points.clear();
   scan.map_frame = "world";
-  const auto road = stage_.takeSplitScan(scan);
+  const auto road = stage_.takeLabeledScan(scan);
   ASSERT_NE(road, nullptr);
   EXPECT_TRUE(road->borders.empty());
   EXPECT_EQ(samples::warnings(monitor_, "other_map"), 1U);

@@ -111,8 +111,8 @@ TEST(RoadConversion, PointsAreBoundedOverAllBorders) {
       message.borders.assign(4, border);
     };
   };
-  EXPECT_EQ(reasonAfter(filled(kMostBorderPoints)), "");
-  EXPECT_EQ(reasonAfter(filled(kMostBorderPoints + 4)), "many_points");
+  EXPECT_EQ(reasonAfter(filled(kMaxBorderPoints)), "");
+  EXPECT_EQ(reasonAfter(filled(kMaxBorderPoints + 4)), "many_points");
 }
 
 TEST(RoadConversion, WhatIsWrongIsSaidWithItsValue) {
@@ -127,7 +127,7 @@ TEST(RoadConversion, WhatIsWrongIsSaidWithItsValue) {
   }
 }
 
-TEST(RoadConversion, DroppedObjectsTellWhy) {
+TEST(RoadConversion, DroppedObjectsHaveAReason) {
   DroppedObject dropped;
   dropped.object.box = {{5.0, 6.0, 0.0}, 4.0, 2.0};
   dropped.reason = DropReason::kBeyondBorder;

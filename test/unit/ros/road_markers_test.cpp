@@ -26,14 +26,14 @@ Marker get(const MarkerArray& markers, const std::string& name, int id) {
   return found == nullptr ? Marker() : *found;
 }
 
-SplitScanMessage scanFrom(const Pose2& pose) {
-  SplitScanMessage scan;
+LabeledScanMessage scanFrom(const Pose2& pose) {
+  LabeledScanMessage scan;
   scan.map_frame = "map";
   scan.pose.pose = toMessage(pose);
   return scan;
 }
 
-TEST(RoadMarkers, EachStretchIsALineInTheColourOfItsSide) {
+TEST(RoadMarkers, EachStretchIsALineInTheColorOfItsSide) {
   const MarkerArray markers = markersOfRoad(samples::straightRoad());
   const Marker left = get(markers, "road borders", 0);
   const Marker right = get(markers, "road borders", 1);
@@ -87,7 +87,7 @@ TEST(RoadMarkers, BadBordersAreNotDrawn) {
   EXPECT_EQ(samples::reasonOf([&] { markersOf(message, MarkersOptions()); }), "bad_border");
 }
 
-TEST(RoadMarkers, AnIntersectionIsToldAtTheVehicle) {
+TEST(RoadMarkers, AnIntersectionIsShownAtTheVehicle) {
   RoadModel road = samples::straightRoad();
   road.intersection_probability = 0.93;
   MarkerArray markers;
@@ -102,7 +102,7 @@ TEST(RoadMarkers, AnIntersectionIsToldAtTheVehicle) {
   EXPECT_DOUBLE_EQ(text.pose.position.y, 8.0);
 }
 
-TEST(RoadMarkers, DroppedObjectsAreGreyAndTellWhy) {
+TEST(RoadMarkers, DroppedObjectsAreGrayAndHaveAReason) {
   DroppedObjects dropped;
   dropped.header.frame_id = "base_link";
   dropped.objects.resize(2);

@@ -11,7 +11,7 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-/// One metre ahead of the vehicle's origin, looking ahead.
+/// One meter ahead of the vehicle's origin, looking ahead.
 ScannerMount bumper() {
   ScannerMount mount;
   mount.scanner_in_base = Pose2(1.0, 0.0, 0.0);
@@ -42,7 +42,7 @@ TEST(ScanConversion, BeamsEndWhereTheScannerPoints) {
 }
 
 /// Of the beams that have a ray, as the field tells them and as they are.
-void expectFieldTellsBearings(const Scan& scan) {
+void expectFieldMatchesBearings(const Scan& scan) {
   for (const Ray& ray : scan.rays) {
     EXPECT_NEAR(
         angleBetween(scan.field.first_bearing + scan.field.beam_spacing * ray.beam, ray.bearing),
@@ -50,15 +50,15 @@ void expectFieldTellsBearings(const Scan& scan) {
   }
 }
 
-TEST(ScanConversion, TheFieldTellsOfAllBeams) {
+TEST(ScanConversion, TheFieldCoversAllBeams) {
   ScanConversionOptions options;
   options.free_range = 15.0;
   const Scan scan = toScan(samples::laserScan({kNan, kInfinity, 4.0F}), bumper(), options).scan;
   EXPECT_EQ(scan.field.beams, 3U);
-  EXPECT_EQ(scan.field.least_range, 1.0);
+  EXPECT_EQ(scan.field.min_range, 1.0);
   EXPECT_EQ(scan.field.free_range, 15.0);
   EXPECT_EQ(scan.field.range, 20.0);
-  expectFieldTellsBearings(scan);
+  expectFieldMatchesBearings(scan);
 }
 
 TEST(ScanConversion, ATurnedScannerTurnsItsBeams) {
@@ -75,7 +75,7 @@ TEST(ScanConversion, UpsideDownMirrorsTheBeams) {
   const Scan scan = toScan(samples::laserScan(), mount, {}).scan;
   expectEnd(scan.rays[0], 0.0, 2.0);
   expectEnd(scan.rays[2], 0.0, -4.0);
-  expectFieldTellsBearings(scan);
+  expectFieldMatchesBearings(scan);
   EXPECT_NEAR(scan.rays[0].bearing, kPi / 2.0, 1e-6);
 }
 
@@ -86,7 +86,7 @@ TEST(ScanConversion, AScannerThatTurnsTheOtherWayRound) {
   const Scan scan = convert(message).scan;
   expectEnd(scan.rays[0], 1.0, 2.0);
   EXPECT_NEAR(scan.field.beam_spacing, -kPi / 2.0, 1e-6);
-  expectFieldTellsBearings(scan);
+  expectFieldMatchesBearings(scan);
 }
 
 TEST(ScanConversion, EachBeamHasItsTimeWhicheverWayTheScannerTurns) {
@@ -123,7 +123,7 @@ TEST(ScanConversion, ASweepMayLastAsLongAsTheOptionSays) {
   auto message = samples::laserScan();
   message.time_increment = 0.2F;  // two steps: 0.4 s
   ScanConversionOptions options;
-  options.longest_sweep = 0.5;
+  options.max_sweep = 0.5;
   EXPECT_FALSE(toScan(message, bumper(), options).unusable_times);
 }
 

@@ -7,8 +7,8 @@
 namespace datmo {
 namespace {
 
-SplitScanMessage scanAt(double seconds, double x) {
-  SplitScan scan;
+LabeledScanMessage scanAt(double seconds, double x) {
+  LabeledScan scan;
   scan.stamp = Stamp::fromSeconds(seconds);
   scan.base_in_map.pose = Pose2(x, 2.0, 0.5);
   return toMessage(scan, "base_link", "map");
@@ -52,7 +52,7 @@ TEST(ScanViewsTest, ABoundedNumberIsKept) {
 }
 
 TEST(ScanViewsTest, WhatTheScanOfThatStampCouldSee) {
-  SplitScan scan;
+  LabeledScan scan;
   scan.stamp = Stamp::fromSeconds(1.0);
   scan.field = {degrees(-90.0), degrees(1.0), 181, 0.1, 40.0, 80.0};
   ScanViews views{VisibilityOptions()};

@@ -40,14 +40,14 @@ TEST(StageMonitor, AClockSetBackStartsTheRateAnew) {
 
 TEST(StageMonitor, TimingOfAHundredMessages) {
   StageMonitor monitor("stage");
-  EXPECT_EQ(monitor.timing().most, 0.0);
+  EXPECT_EQ(monitor.timing().max, 0.0);
   for (int i = 100; i > 0; --i) {
     monitor.processed({Stamp{i}, 0.001 * i});
   }
   EXPECT_EQ(monitor.processedCount(), 100U);
   EXPECT_DOUBLE_EQ(monitor.timing().median, 0.05);
   EXPECT_DOUBLE_EQ(monitor.timing().percentile_99, 0.099);
-  EXPECT_DOUBLE_EQ(monitor.timing().most, 0.1);
+  EXPECT_DOUBLE_EQ(monitor.timing().max, 0.1);
   EXPECT_EQ(monitor.lastProcessed().stamp, Stamp{1});
 }
 

@@ -70,8 +70,8 @@ TEST_F(GridSlamStageTest, AScanMakesAllOutputs) {
   odometryAt(100.0);
   const auto output = scanAt(100.0);
   ASSERT_TRUE(output);
-  EXPECT_EQ(output->split_scan->header.frame_id, "base_link");
-  EXPECT_EQ(output->split_scan->points.size(), 3U);
+  EXPECT_EQ(output->labeled_scan->header.frame_id, "base_link");
+  EXPECT_EQ(output->labeled_scan->points.size(), 3U);
   EXPECT_EQ(output->pose->header.frame_id, "map");
   EXPECT_EQ(output->pose->header.stamp, ros::Time(100.0));
   ASSERT_EQ(output->transforms.size(), 1U);
@@ -220,7 +220,7 @@ TEST_F(GridSlamStageTest, BeamsAreBroughtToTheStampOfTheScan) {
   const auto output = stage_.takeScan(scan);
   ASSERT_TRUE(output);
   // At 8 m/s the beam ahead starts 0.08 m further on, and the last one 0.16 m.
-  const auto& points = output->split_scan->points;
+  const auto& points = output->labeled_scan->points;
   ASSERT_EQ(points.size(), 3U);
   EXPECT_NEAR(points[0].x, 3.6, 1e-6);
   EXPECT_NEAR(points[1].x, 3.6 + 3.0 + 0.08, 1e-6);
@@ -228,7 +228,7 @@ TEST_F(GridSlamStageTest, BeamsAreBroughtToTheStampOfTheScan) {
   EXPECT_EQ(monitor_.warningCount(), 0U);
 }
 
-TEST_F(GridSlamStageTest, OdometryPosesTellTheMotionIfTheyAreAskedFor) {
+TEST_F(GridSlamStageTest, OdometryPosesGiveTheMotionOnDemand) {
   options_.motion.odometry_pose = true;
   GridSlamStage stage(options_, buffer_, monitor_);
   mountScanner();
@@ -278,9 +278,9 @@ class TrackerStageTest : public testing::Test {
   }
 
   void scanPoseAt(double seconds, const std::string& map_frame = "map") {
-    SplitScan scan;
+    LabeledScan scan;
     scan.stamp = Stamp::fromSeconds(seconds);
-    stage_.takeSplitScan(toMessage(scan, "base_link", map_frame));
+    stage_.takeLabeledScan(toMessage(scan, "base_link", map_frame));
   }
 
   TrackArrayPtr nextAt(double seconds) { return stage_.next(Stamp::fromSeconds(seconds)); }
@@ -317,9 +317,9 @@ TEST_F(TrackerStageTest, ThePoseOfTheirScanServesBeforeTfDoes) {
 }
 
 TEST_F(TrackerStageTest, ABadPoseOfAScanIsDropped) {
-  SplitScanMessage scan = toMessage(SplitScan(), "base_link", "map");
+  LabeledScanMessage scan = toMessage(LabeledScan(), "base_link", "map");
   scan.pose.pose.orientation.w = std::numeric_limits<double>::quiet_NaN();
-  stage_.takeSplitScan(scan);
+  stage_.takeLabeledScan(scan);
   EXPECT_EQ(monitor_.drops().at("bad_pose"), 1U);
 }
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "labeled_scan_samples.h"
 #include "monitor_counts.h"
-#include "split_scan_samples.h"
 #include <gtest/gtest.h>
 
 #include <sensor_msgs/point_cloud2_iterator.h>
@@ -16,8 +16,8 @@ namespace {
 
 class StaticPointsStageTest : public testing::Test {
  protected:
-  std::optional<StaticPointsOutput> take(const SplitScan& scan) {
-    return stage_.takeSplitScan(toMessage(scan, "base_link", "map"));
+  std::optional<StaticPointsOutput> take(const LabeledScan& scan) {
+    return stage_.takeLabeledScan(toMessage(scan, "base_link", "map"));
   }
 
   StageMonitor monitor_{"static_points"};
@@ -25,7 +25,7 @@ class StaticPointsStageTest : public testing::Test {
 };
 
 TEST_F(StaticPointsStageTest, WallsComeOutAsCloudAndScan) {
-  const SplitScan scan = samples::scanBetweenWalls(0.0);
+  const LabeledScan scan = samples::scanBetweenWalls(0.0);
   const auto output = take(scan);
   ASSERT_TRUE(output);
   EXPECT_EQ(output->points->header.frame_id, "base_link");
@@ -54,7 +54,7 @@ TEST_F(StaticPointsStageTest, WhatMovesIsNotInThem) {
 }
 
 TEST_F(StaticPointsStageTest, TheScannersMountComesOnceAndWhenItChanges) {
-  SplitScan scan = samples::scanBetweenWalls(0.0);
+  LabeledScan scan = samples::scanBetweenWalls(0.0);
   scan.scanner_in_base = Pose2(3.5, 0.0, 0.1);
   const auto first = take(scan);
   ASSERT_TRUE(first && first->mount);
@@ -70,7 +70,7 @@ TEST_F(StaticPointsStageTest, TheScannersMountComesOnceAndWhenItChanges) {
 }
 
 TEST_F(StaticPointsStageTest, WithoutAFieldThereIsACloudAndNoScan) {
-  SplitScan scan = samples::scanBetweenWalls(0.0);
+  LabeledScan scan = samples::scanBetweenWalls(0.0);
   scan.field = ScanField();
   const auto output = take(scan);
   ASSERT_TRUE(output);
@@ -79,9 +79,9 @@ TEST_F(StaticPointsStageTest, WithoutAFieldThereIsACloudAndNoScan) {
 }
 
 TEST_F(StaticPointsStageTest, BadScansAreDroppedAndCounted) {
-  SplitScanMessage message = toMessage(samples::scanBetweenWalls(0.0), "base_link", "map");
+  LabeledScanMessage message = toMessage(samples::scanBetweenWalls(0.0), "base_link", "map");
   message.points.front().x = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_FALSE(stage_.takeSplitScan(message));
+  EXPECT_FALSE(stage_.takeLabeledScan(message));
   EXPECT_EQ(monitor_.drops().at("bad_point"), 1U);
   EXPECT_TRUE(take(samples::scanBetweenWalls(1.0)));
   EXPECT_FALSE(take(samples::scanBetweenWalls(0.9))) << "its stamp is old";

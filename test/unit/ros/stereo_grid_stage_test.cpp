@@ -70,7 +70,7 @@ TEST_F(StereoGridStageTest, ACloudMakesAGridOfItsStampInTheVehiclesFrame) {
   EXPECT_EQ(monitor_.droppedCount() + monitor_.warningCount(), 0U);
 }
 
-TEST_F(StereoGridStageTest, DiagnosticsTellWhatWasSeen) {
+TEST_F(StereoGridStageTest, DiagnosticsReportWhatWasSeen) {
   mountSensors();
   takeAt(kStart);
   const auto& figures = monitor_.figures();

@@ -59,7 +59,7 @@ TEST_F(StereoObjectsStageTest, ACloudMakesObjectsOfItsStampInTheVehiclesFrame) {
   EXPECT_EQ(monitor_.droppedCount() + monitor_.warningCount(), 0U);
 }
 
-TEST_F(StereoObjectsStageTest, DiagnosticsTellWhatWasSeen) {
+TEST_F(StereoObjectsStageTest, DiagnosticsReportWhatWasSeen) {
   const sensor_msgs::PointCloud2 cloud = carAt(kStart);
   stage_.takeCloud(cloud);
   const auto& figures = monitor_.figures();
@@ -102,8 +102,8 @@ TEST_F(StereoObjectsStageTest, ACameraThatLooksStraightDownIsRefused) {
 /// Over a road with scattered points, which are not of anything.
 TEST_F(StereoObjectsStageTest, WhateverTheCloudItsObjectsAreValid) {
   std::mt19937 random(1);
-  const auto between = [&](double least, double most) {
-    return least + (most - least) * static_cast<double>(random()) / std::mt19937::max();
+  const auto between = [&](double min, double max) {
+    return min + (max - min) * static_cast<double>(random()) / std::mt19937::max();
   };
   std::size_t objects = 0;
   for (int i = 0; i < 20; ++i) {
@@ -118,7 +118,7 @@ TEST_F(StereoObjectsStageTest, WhateverTheCloudItsObjectsAreValid) {
     const ObjectArrayPtr array = stage_.takeCloud(cloud);
     ASSERT_TRUE(array);
     for (const Object& object : fromMessage(*array).objects) {
-      EXPECT_TRUE(isValid(object)) << i << ": " << object.box.centre.x();
+      EXPECT_TRUE(isValid(object)) << i << ": " << object.box.center.x();
       ++objects;
     }
   }

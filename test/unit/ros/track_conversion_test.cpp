@@ -94,8 +94,8 @@ TEST(TrackConversion, ThereAndBack) {
   EXPECT_EQ(got.state, track.state);
   EXPECT_EQ(got.covariance, track.covariance);
   EXPECT_EQ(got.mode_probabilities, track.mode_probabilities);
-  EXPECT_EQ(got.box.centre.position(), track.box.centre.position());
-  EXPECT_NEAR(got.box.centre.heading(), track.box.centre.heading(), 1e-12);
+  EXPECT_EQ(got.box.center.position(), track.box.center.position());
+  EXPECT_NEAR(got.box.center.heading(), track.box.center.heading(), 1e-12);
   EXPECT_EQ(got.box.length, track.box.length);
   EXPECT_EQ(got.box.width, track.box.width);
   EXPECT_EQ(got.height, track.height);
@@ -128,7 +128,7 @@ TEST(TrackConversion, ViewsThereAndBack) {
   EXPECT_EQ(got.sensor.heading(), view.sensor.heading());
   EXPECT_EQ(got.first_bearing, view.first_bearing);
   EXPECT_EQ(got.beam_spacing, view.beam_spacing);
-  EXPECT_EQ(got.least_range, view.least_range);
+  EXPECT_EQ(got.min_range, view.min_range);
   EXPECT_EQ(got.sure_range, view.sure_range);
   EXPECT_EQ(got.range, view.range);
   EXPECT_EQ(got.by_beams, view.by_beams);

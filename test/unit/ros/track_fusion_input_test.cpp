@@ -134,7 +134,7 @@ TEST_F(TrackFusionStageTest, OfAThousandTracksTheSurestAreTaken) {
   EXPECT_EQ(figure("tracks too many of stereo"), 800.0);
   const auto fused = nextAt(100.0);
   ASSERT_TRUE(fused);
-  ASSERT_EQ(fused->tracks.size(), static_cast<std::size_t>(options_.fuser.most_tracks));
+  ASSERT_EQ(fused->tracks.size(), static_cast<std::size_t>(options_.fuser.max_tracks));
   EXPECT_TRUE(std::all_of(fused->tracks.begin(), fused->tracks.end(), [](const auto& track) {
     return track.pose.position.y > 7999.0;
   })) << "those that hardly exist are left out";
@@ -144,7 +144,7 @@ TEST_F(TrackFusionStageTest, OfAThousandTracksTheSurestAreTaken) {
 
 TEST(TrackFusionStageOptionsTest, DelaysToHalfASecondAreServedByDefault) {
   const TrackFusionStageOptions options;
-  EXPECT_GE(options.matcher.tolerance, 0.5 + options.matcher.longest_wait);
+  EXPECT_GE(options.matcher.tolerance, 0.5 + options.matcher.max_wait);
   EXPECT_GT(options.matcher.silent_after, options.matcher.tolerance);
 }
 

@@ -46,7 +46,7 @@ TEST_F(TrackFusionStageTest, WhatBothFollowIsOneTrack) {
   EXPECT_EQ(figure("tracks published"), 1.0);
 }
 
-TEST_F(TrackFusionStageTest, TracksThatDoNotTellTheirSensorAreTheSources) {
+TEST_F(TrackFusionStageTest, TracksWithoutSensorAreTheSources) {
   Track car = carTrack("", 11, 100.0);
   car.sensors.clear();
   take("lidar", list(100.0, {car}));
@@ -116,7 +116,7 @@ TEST_F(TrackFusionStageTest, ADelayedSourceIsWaitedForNoLongerThanItMay) {
       newest = fused->header.stamp.toSec();
     }
     if (at > 100.5 && at < 102.0) {
-      EXPECT_GE(newest, at - options_.matcher.longest_wait - 0.051);
+      EXPECT_GE(newest, at - options_.matcher.max_wait - 0.051);
     }
   }
 }
@@ -197,7 +197,7 @@ TEST_F(TrackFusionStageTest, TheSchemeChangesFromTheNextSetOn) {
   stage_.setScheme(TrackFuserOptions::kUnion);
   EXPECT_EQ(nextAt(100.0)->tracks.size(), 2U);
   EXPECT_THROW(stage_.setScheme("by luck"), OptionError);
-  stage_.setScheme(TrackFuserOptions::kFusedAndBeyond);
+  stage_.setScheme(TrackFuserOptions::kFusedPlusFallback);
   take("lidar", list(100.1, {carTrack("lidar", 1, 100.1)}));
   take("stereo", list(100.1, {carTrack("stereo", 2, 100.1, 30.0)}));
   const auto fused = nextAt(100.1);

@@ -41,7 +41,7 @@ class TrackerViewsTest : public testing::Test {
     if (camera == Camera::kBlocked) {
       list.objects.push_back(van());
     }
-    stage_.takeSplitScan(toMessage(scan(scanner), "base_link", "map"));
+    stage_.takeLabeledScan(toMessage(scan(scanner), "base_link", "map"));
     stage_.takeObjects(boost::make_shared<ObjectArray>(toMessage(list, "base_link")), list.stamp);
     const TrackArrayPtr tracks = stage_.next(list.stamp);
     views_ = tracks ? tracks->views.size() : 0;
@@ -88,8 +88,8 @@ class TrackerViewsTest : public testing::Test {
     return object;
   }
 
-  SplitScan scan(Scanner scanner) const {
-    SplitScan scan;
+  LabeledScan scan(Scanner scanner) const {
+    LabeledScan scan;
     scan.stamp = Stamp::fromSeconds(time_);
     if (scanner != Scanner::kSilent) {
       scan.field = {-kHalfField, 2.0 * kHalfField / (kBeams - 1), kBeams, 0.1, 80.0, 80.0};
@@ -141,13 +141,13 @@ TEST_F(TrackerViewsTest, WithoutACameraTheScanDecidesAlone) {
   EXPECT_NEAR(kPeriod * lifeWithout(Scanner::kBlocked, Camera::kNone), silence, kPeriod);
 }
 
-TEST_F(TrackerViewsTest, AScanThatDoesNotTellItsFieldDoesNotDoubtWhatTheCameraCannotSee) {
+TEST_F(TrackerViewsTest, AScanWithoutFieldIsNoEvidenceAgainstWhatTheCameraCannotSee) {
   follow();
   const double silence = TrackerOptions().published_silence;
   EXPECT_NEAR(kPeriod * lifeWithout(Scanner::kSilent, Camera::kBlocked), silence, kPeriod);
 }
 
-TEST_F(TrackerViewsTest, TheTracksTellWhatTheirSensorsCouldSee) {
+TEST_F(TrackerViewsTest, TheTracksHaveWhatTheirSensorsCouldSee) {
   step(Scanner::kFree, Camera::kFree, {});
   EXPECT_EQ(views(), 2U);
   step(Scanner::kFree, Camera::kNone, {});
@@ -180,7 +180,7 @@ TEST_F(CameraTrackerTest, WhatTheCameraWouldSeeEnds) {
   EXPECT_LE(lifeWithout(Scanner::kFree, Camera::kFree), 10);
 }
 
-TEST_F(CameraTrackerTest, TheTracksTellTheCamerasViewAlone) {
+TEST_F(CameraTrackerTest, TheTracksHaveTheCamerasViewAlone) {
   step(Scanner::kFree, Camera::kFree, {});
   EXPECT_EQ(views(), 1U);
 }

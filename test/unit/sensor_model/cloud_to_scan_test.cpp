@@ -41,7 +41,7 @@ TEST(CloudToScanTest, AWallOnAFlatRoadIsWhereItIs) {
 TEST(CloudToScanTest, OnlyTheBandCounts) {
   LidarCloudMaker maker;
   maker.addGround();
-  maker.add(5.5, 0.0, 0.1);   // kerb
+  maker.add(5.5, 0.0, 0.1);   // curb
   maker.add(6.5, 0.0, 2.5);   // sign
   maker.add(12.5, 0.0, 0.6);  // obstacle
   maker.add(14.5, 0.0, 0.6);  // behind it
@@ -53,7 +53,7 @@ TEST(CloudToScanTest, OnlyTheBandCounts) {
 TEST(CloudToScanTest, HeightsAreAboveTheSlopingRoad) {
   LidarCloudMaker maker;
   maker.addGround(0.0, 0.05, 0.0);
-  maker.add(20.5, 0.0, 0.05 * 20.5 + 0.1);  // a kerb, 1.1 m above the vehicle's z = 0
+  maker.add(20.5, 0.0, 0.05 * 20.5 + 0.1);  // a curb, 1.1 m above the vehicle's z = 0
   maker.add(25.5, 0.0, 0.05 * 25.5 + 0.6);
   const PlanarScan scan = CloudToScan(oneDegree()).scan(maker.cloud);
   ASSERT_TRUE(scan.ground.seen);
@@ -138,7 +138,7 @@ TEST(CloudToScanTest, ThinBeamsMissWhatIsBetweenThem) {
   EXPECT_TRUE(std::isinf(rangeAt(CloudToScan(options).scan(maker.cloud), 0.0)));
 }
 
-TEST(CloudToScanTest, ATurnThatTheManualTellsTimesTheBeams) {
+TEST(CloudToScanTest, ATurnFromTheManualTimesTheBeams) {
   LidarCloudMaker maker;
   maker.addGround();
   CloudToScanOptions options = oneDegree();

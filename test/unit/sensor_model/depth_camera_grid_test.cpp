@@ -22,9 +22,9 @@ StereoGridOptions inARoom() {
   options.window.width = 16.0;
   options.window.cell_size = 0.1;
   options.effective_range = 6.0;
-  options.road.farthest = 6.0;
+  options.road.max_distance = 6.0;
   options.road.half_width = 3.0;
-  options.road.least_cells = 5;
+  options.road.min_cells = 5;
   return options;
 }
 
@@ -48,7 +48,7 @@ TEST(DepthCameraGrid, DepthCamerasSeeAWallWhereItIs) {
     std::size_t on_wall = 0;
     std::size_t elsewhere = 0;
     result.grid.forEach([&](CellIndex cell, Percent percent) {
-      const Point2 position = result.grid.window().centreOf(cell);
+      const Point2 position = result.grid.window().centerOf(cell);
       if (isOccupied(percent)) {
         // A cell to either side: the wall is on the border of two, and its noise below a cell.
         ++(std::abs(position.x() - 5.0) < 0.2 && std::abs(position.y()) < 1.6 ? on_wall

@@ -82,7 +82,7 @@ TEST(LidarGridTest, TheProbabilitiesAreThoseOfTheOptions) {
 TEST(LidarGridTest, ABeamIsOccupiedAcrossItsWidthAtItsEndAndFreeBefore) {
   LidarGridOptions options = smallGrid();
   options.beam_width = 0.2;  // at 9 m: 0.9 m to each side of 0.5
-  options.least_incidence = kQuarterTurn;
+  options.min_incidence = kQuarterTurn;
   const SensorGrid grid = LidarGridModel(options).grid(scanOf({rayTo({0.0, 0.5}, {9.0, 0.5})}));
   EXPECT_EQ(grid.at({9, 0}), kOccupied);
   EXPECT_EQ(grid.at({8, 1}), kOccupied);   // 9 m at 0.1 rad: (8.955, 1.398)
@@ -96,7 +96,7 @@ TEST(LidarGridTest, ABeamIsOccupiedAcrossItsWidthAtItsEndAndFreeBefore) {
 TEST(LidarGridTest, BesideItsAxisABeamIsFreeAsFarAsAFlatSurfaceLetsIt) {
   LidarGridOptions options = smallGrid();
   options.beam_width = 0.2;
-  options.least_incidence = std::atan(0.2);  // a line at 0.1 rad is half as long
+  options.min_incidence = std::atan(0.2);  // a line at 0.1 rad is half as long
   const LidarGridModel model(options);
   const SensorGrid hit = model.grid(scanOf({rayTo({0.0, 0.5}, {9.0, 0.5})}));
   EXPECT_EQ(hit.at({7, 0}), kFree);
@@ -117,20 +117,20 @@ TEST(LidarGridTest, TheEndOfAWideBeamHasNoGaps) {
       if (percent != kOccupied) {
         return;
       }
-      int neighbours = 0;
+      int neighbors = 0;
       for (const CellIndex side :
            {CellIndex{cell.column + 1, cell.row}, CellIndex{cell.column - 1, cell.row},
             CellIndex{cell.column, cell.row + 1}, CellIndex{cell.column, cell.row - 1}}) {
-        neighbours += grid.atOrUnknown(side) == kOccupied ? 1 : 0;
+        neighbors += grid.atOrUnknown(side) == kOccupied ? 1 : 0;
       }
-      EXPECT_GE(neighbours, 1);
-      ends_of_the_arc += neighbours == 1 ? 1 : 0;
+      EXPECT_GE(neighbors, 1);
+      ends_of_the_arc += neighbors == 1 ? 1 : 0;
     });
     EXPECT_EQ(ends_of_the_arc, 2) << bearing;
   }
 }
 
-TEST(LidarGridTest, WithoutAWidthABeamReachesHalfWayToItsNeighbours) {
+TEST(LidarGridTest, WithoutAWidthABeamReachesHalfWayToItsNeighbors) {
   LidarGridOptions options = smallGrid();
   options.beam_width = 0.2;
   const std::vector<Ray> rays = {rayTo({0.0, 0.5}, {9.0, 0.5})};
@@ -184,9 +184,9 @@ TEST(LidarGridTest, AgreesWithTheThesisAwayFromTheEndsOfTheBeams) {
   const double margin = 2.0 * options.window.cell_size;
   int compared = 0;
   grid.forEach([&](CellIndex cell, Percent percent) {
-    const Point2 centre = grid.window().centreOf(cell);
-    const double distance = centre.norm();
-    const double beams = std::atan2(centre.y(), centre.x()) / spacing;
+    const Point2 center = grid.window().centerOf(cell);
+    const double distance = center.norm();
+    const double beams = std::atan2(center.y(), center.x()) / spacing;
     const double nearest = std::round(beams);
     const double to_border = (0.5 - std::abs(beams - nearest)) * spacing * distance;
     if (std::abs(nearest) > 40.0 || to_border < margin) {

@@ -27,7 +27,7 @@ TEST(RoadPlaneTest, AFlatRoadIsFlat) {
   EXPECT_NEAR(plane->slope_y, 0.0, 0.0005);
 }
 
-TEST(RoadPlaneTest, APitchIsFoundBothWaysAndWithNoise) {
+TEST(RoadPlaneTest, APitchIsFoundInBothDirectionsAndWithNoise) {
   for (const double pitch : {-0.03, -0.01, 0.01, 0.03}) {
     MadeScene scene;
     scene.unknown_pitch = pitch;
@@ -59,14 +59,14 @@ TEST(RoadPlaneTest, AnIncredibleSlopeIsNoRoad) {
   scene.unknown_pitch = 0.2;
   EXPECT_FALSE(planeOf(scene));
   RoadPlaneOptions options;
-  options.most_slope = 0.01;
+  options.max_slope = 0.01;
   scene.unknown_pitch = 0.02;
   MadeCloud made(scene);
   EXPECT_FALSE(RoadPlaneEstimator(options).update(made.cloud()));
 }
 
 TEST(RoadPlaneTest, TheLastPlaneIsWhatTheNextOneStartsFrom) {
-  // 60 mm a metre in one step is too far from flat; in two it is not.
+  // 60 mm a meter in one step is too far from flat; in two it is not.
   RoadPlaneEstimator estimator((RoadPlaneOptions()));
   for (const double pitch : {0.03, 0.06}) {
     MadeScene scene;

@@ -38,7 +38,7 @@ std::size_t count(const SensorGrid& grid, Percent percent) {
   return static_cast<std::size_t>(std::count(grid.cells().begin(), grid.cells().end(), percent));
 }
 
-/// Whether a cell or one of its eight neighbours is occupied.
+/// Whether a cell or one of its eight neighbors is occupied.
 bool isOccupiedNear(const SensorGrid& grid, CellIndex cell) {
   for (int row = cell.row - 1; row <= cell.row + 1; ++row) {
     for (int column = cell.column - 1; column <= cell.column + 1; ++column) {
@@ -105,7 +105,7 @@ TEST(StereoGridTest, NoiseOfTheDepthSmearsAWallByLessThanItDoesThePoints) {
   int near = 0;
   grid.forEach([&](CellIndex cell, Percent percent) {
     if (isOccupied(percent)) {
-      const double offset = std::abs(grid.window().centreOf(cell).x() - 25.0);
+      const double offset = std::abs(grid.window().centerOf(cell).x() - 25.0);
       ++occupied;
       near += offset < sigma ? 1 : 0;
       EXPECT_LT(offset, 2.5 * sigma);
@@ -115,7 +115,7 @@ TEST(StereoGridTest, NoiseOfTheDepthSmearsAWallByLessThanItDoesThePoints) {
   EXPECT_GE(near, 0.9 * occupied);
 }
 
-TEST(StereoGridTest, PlacesThatAnObstacleMayStandInAreNotFree) {
+TEST(StereoGridTest, CellsThatMayHoldAnObstacleAreNotFree) {
   MadeScene scene;
   scene.boxes = {wallAt(25.0, 8.0)};
   scene.disparity_noise = 0.25;
@@ -219,14 +219,14 @@ TEST(StereoGridTest, PointsThatAreNoneChangeNothing) {
   MadeCloud dirty(scene);
   const double infinity = std::numeric_limits<double>::infinity();
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const double most = std::numeric_limits<float>::max();
-  for (const double z : {nan, infinity, -infinity, -10.0, 0.0, most, -most, 1e-30}) {
-    for (const double other : {nan, infinity, -infinity, most, -most, 0.0}) {
+  const double max = std::numeric_limits<float>::max();
+  for (const double z : {nan, infinity, -infinity, -10.0, 0.0, max, -max, 1e-30}) {
+    for (const double other : {nan, infinity, -infinity, max, -max, 0.0}) {
       dirty.add({0.0, other, z});
       dirty.add({other, 0.0, z});
     }
   }
-  for (const double bad : {nan, infinity, -infinity, most, -most}) {
+  for (const double bad : {nan, infinity, -infinity, max, -max}) {
     dirty.add({bad, 0.0, 10.0});
     dirty.add({0.0, bad, 10.0});
   }
@@ -310,7 +310,7 @@ TEST(StereoGridTest, ACameraThatMeasuresNothingIsRefused) {
     refused([&](StereoCamera& camera) { camera.focal_length = bad; });
     refused([&](StereoCamera& camera) { camera.baseline = bad; });
     refused([&](StereoCamera& camera) { camera.noise.disparity_sigma = bad; });
-    refused([&](StereoCamera& camera) { camera.noise.disparity_at_metre = bad; });
+    refused([&](StereoCamera& camera) { camera.noise.disparity_at_meter = bad; });
     refused([&](StereoCamera& camera) { camera.noise = DepthNoise::ofPolynomial(bad, 0.0, 0.0); });
   }
   refused([](StereoCamera& camera) { camera.focal_length = 0.0; });

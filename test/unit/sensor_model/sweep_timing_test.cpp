@@ -37,7 +37,7 @@ TEST(SweepTimingTest, OneToTheRightComesToThemTheOtherWayRound) {
   EXPECT_NEAR(sweep.timeAt(degrees(180.0)), 0.075, 1e-9);
 }
 
-TEST(SweepTimingTest, TheTimesOfPointsTellTheTurn) {
+TEST(SweepTimingTest, TheTimesOfPointsGiveTheTurn) {
   for (const bool clockwise : {false, true}) {
     const SweepTiming truth{degrees(123.4), clockwise, 0.1, -0.05};
     const Ring ring(truth);
@@ -51,13 +51,13 @@ TEST(SweepTimingTest, TheTimesOfPointsTellTheTurn) {
   }
 }
 
-TEST(SweepTimingTest, PointsOfOneTimeTellNone) {
+TEST(SweepTimingTest, PointsOfOneTimeGiveNone) {
   Ring ring(SweepTiming{0.0, false, 0.1, 0.0});
   ring.times.assign(ring.times.size(), 0.01F);
   EXPECT_FALSE(sweepOf(ring.points, ring.times, {0.0, 0.0}));
 }
 
-TEST(SweepTimingTest, TimesThatDoNotFollowTheBearingTellNone) {
+TEST(SweepTimingTest, TimesThatDoNotFollowTheBearingGiveNone) {
   Ring ring(SweepTiming{0.0, false, 0.1, 0.0});
   for (std::size_t i = 0; i < ring.times.size(); ++i) {
     ring.times[i] = static_cast<float>(0.05 + 0.05 * std::sin(0.01 * static_cast<double>(i)));
@@ -65,7 +65,7 @@ TEST(SweepTimingTest, TimesThatDoNotFollowTheBearingTellNone) {
   EXPECT_FALSE(sweepOf(ring.points, ring.times, {0.0, 0.0}));
 }
 
-TEST(SweepTimingTest, NoPointsTellNone) { EXPECT_FALSE(sweepOf({}, {}, {0.0, 0.0})); }
+TEST(SweepTimingTest, NoPointsGiveNone) { EXPECT_FALSE(sweepOf({}, {}, {0.0, 0.0})); }
 
 TEST(SweepTimingTest, TheManualsTurnIsThere) {
   SweepOptions options;

@@ -28,7 +28,7 @@ struct Seen {
 
 Seen lookRound(const Scene& scene) {
   const double period = 1.0 / scene.options.scanner.scan_rate;
-  const double share = scene.options.ground_truth.least_visible_share;
+  const double share = scene.options.ground_truth.min_visible_share;
   const Viewpoint view =
       LaserScanner(scene.options.scanner, RandomStream(1, "scanner")).viewpoint();
   Seen seen;
@@ -36,7 +36,7 @@ Seen lookRound(const Scene& scene) {
   for (int scan = 0; scan * period < scene.options.duration; ++scan) {
     const WorldState state = scene.world.at(scan * period);
     for (const ObjectState& object : state.objects) {
-      const double distance = (object.centre.position() - state.base.position()).norm();
+      const double distance = (object.center.position() - state.base.position()).norm();
       if (object.moving && distance <= scene.options.ground_truth.radius &&
           lookAt(object, view, scene.world, state).visible >= share) {
         seen.moving.insert(object.id);

@@ -13,16 +13,16 @@ LineOfSight lookAtFirst(const World& world) {
   return lookAt(state.objects.at(0), kView, world, state);
 }
 
-World worldWithCar(const Pose2& centre) {
+World worldWithCar(const Pose2& center) {
   World world = emptyWorld();
-  world.addStanding(objectKind("car"), centre);
+  world.addStanding(objectKind("car"), center);
   return world;
 }
 
 TEST(LookAt, FreeObjectIsVisible) {
-  const LineOfSight sight = lookAtFirst(worldWithCar({20.0, 0.0, kPi / 2.0}));
-  EXPECT_DOUBLE_EQ(sight.hidden, 0.0);
-  EXPECT_DOUBLE_EQ(sight.visible, 1.0);
+  const LineOfSight line_of_sight = lookAtFirst(worldWithCar({20.0, 0.0, kPi / 2.0}));
+  EXPECT_DOUBLE_EQ(line_of_sight.hidden, 0.0);
+  EXPECT_DOUBLE_EQ(line_of_sight.visible, 1.0);
 }
 
 TEST(LookAt, WallHidesAllOrHalf) {
@@ -39,16 +39,16 @@ TEST(LookAt, WallHidesAllOrHalf) {
 TEST(LookAt, LowThingsAndThingsBehindHideNothing) {
   World world = worldWithCar({20.0, 0.0, kPi / 2.0});
   world.addSolid(wallAt(10.0, 0.3));
-  world.addSolid({Segment{{11.0, -9.0}, {11.0, 9.0}}, 0.12, Surface::kKerb, kNoObject});
+  world.addSolid({Segment{{11.0, -9.0}, {11.0, 9.0}}, 0.12, Surface::kCurb, kNoObject});
   world.addSolid(wallAt(30.0));
   EXPECT_DOUBLE_EQ(lookAtFirst(world).hidden, 0.0);
 }
 
 TEST(LookAt, FieldOfViewAndRangeEndVisibilityButAreNoOcclusion) {
-  for (const Pose2& centre : {Pose2(-20.0, 0.0, 0.0), Pose2(55.0, 0.0, 0.0)}) {
-    const LineOfSight sight = lookAtFirst(worldWithCar(centre));
-    EXPECT_DOUBLE_EQ(sight.hidden, 0.0);
-    EXPECT_DOUBLE_EQ(sight.visible, 0.0);
+  for (const Pose2& center : {Pose2(-20.0, 0.0, 0.0), Pose2(55.0, 0.0, 0.0)}) {
+    const LineOfSight line_of_sight = lookAtFirst(worldWithCar(center));
+    EXPECT_DOUBLE_EQ(line_of_sight.hidden, 0.0);
+    EXPECT_DOUBLE_EQ(line_of_sight.visible, 0.0);
   }
 }
 
@@ -67,13 +67,13 @@ TEST(ObjectTruths, CountsTheBeamsThatEndOnTheObject) {
 
 TEST(ObjectTruths, NamesEachSensorThatSeesEnough) {
   World world = worldWithCar({20.0, 0.0, kPi / 2.0});
-  Viewpoint backwards = kView;
-  backwards.sensor = "rear";
-  backwards.sensor_in_base = Pose2(0.0, 0.0, kPi);
+  Viewpoint backward = kView;
+  backward.sensor = "rear";
+  backward.sensor_in_base = Pose2(0.0, 0.0, kPi);
   Viewpoint camera = kView;
   camera.sensor = "camera";
   const auto truths =
-      objectTruths(world, world.at(0.0), {}, {kView, backwards, camera}, GroundTruthOptions());
+      objectTruths(world, world.at(0.0), {}, {kView, backward, camera}, GroundTruthOptions());
   EXPECT_EQ(truths.at(0).visible_to, (std::vector<std::string>{"scanner", "camera"}));
 }
 
@@ -96,7 +96,7 @@ TEST(World, MoverTurnsAboutItsRearAxle) {
   EXPECT_TRUE(object.moving);
   EXPECT_NEAR(object.velocity.norm(), std::sqrt(25.0 + 0.675 * 0.675), 1e-9);
   const Point2 difference =
-      (later.objects.at(0).centre.position() - object.centre.position()) / 1e-5;
+      (later.objects.at(0).center.position() - object.center.position()) / 1e-5;
   EXPECT_NEAR((difference - object.velocity).norm(), 0.0, 1e-3);
 }
 

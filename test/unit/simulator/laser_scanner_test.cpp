@@ -115,13 +115,13 @@ TEST(LaserScanner, DetectionFallsWithAngularWidth) {
   EXPECT_DOUBLE_EQ(hitShare(wide, options), 1.0);
 }
 
-TEST(LaserScanner, KerbReflectsSometimesAndOnlyWhereItIsLit) {
+TEST(LaserScanner, CurbReflectsSometimesAndOnlyWhereItIsLit) {
   LaserScannerOptions options = idealScanner();
-  options.kerb_hit_probability = 0.3;
+  options.curb_hit_probability = 0.3;
   // The lower edge of the beam comes down to 0.12 m at 0.33 / tan(1.5 deg) = 12.6 m.
   for (const double x : {12.0, 13.0}) {
     World world = emptyWorld();
-    world.addSolid({Segment{{x, -50.0}, {x, 50.0}}, 0.12, Surface::kKerb, kNoObject});
+    world.addSolid({Segment{{x, -50.0}, {x, 50.0}}, 0.12, Surface::kCurb, kNoObject});
     EXPECT_NEAR(hitShare(world, options), x < 12.6 ? 0.0 : 0.3, 0.03);
   }
 }
@@ -152,9 +152,9 @@ TEST(LaserScanner, PaintBehindABodyIsHidden) {
 TEST(LaserScanner, EchoKnowsWhatItCameFrom) {
   LaserScannerOptions options = idealScanner();
   options.range_noise = 0.5;
-  options.kerb_hit_probability = 1.0;
+  options.curb_hit_probability = 1.0;
   options.paint_hit_probability = 1.0;
-  for (const Surface surface : {Surface::kBody, Surface::kKerb, Surface::kPaint}) {
+  for (const Surface surface : {Surface::kBody, Surface::kCurb, Surface::kPaint}) {
     World world = emptyWorld();
     world.addSolid({Box2{{21.0, 0.0, 0.0}, 2.0, 4.0}, 0.12, surface, 5});
     const Echo echo = middleBeam(scannerWith(options).measure(world, 0.0)).at(0);
@@ -227,7 +227,7 @@ TEST(LaserScanner, SweptBeamsSeeTheVehicleMove) {
 
 TEST(LaserScanner, ContradictionsAreRefused) {
   LaserScannerOptions options;
-  options.least_range = 10.0;
+  options.min_range = 10.0;
   options.effective_range = 5.0;
   EXPECT_THROW(scannerWith(options), OptionError);
   options = LaserScannerOptions();

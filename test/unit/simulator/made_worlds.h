@@ -32,7 +32,7 @@ inline LaserScannerOptions idealScanner() {
   options.azimuth_shake = 0.0;
   options.pitch_shake = 0.0;
   options.full_detection_share = 0.01;
-  options.kerb_hit_probability = 0.0;
+  options.curb_hit_probability = 0.0;
   options.paint_hit_probability = 0.0;
   return options;
 }

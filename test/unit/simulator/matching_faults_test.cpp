@@ -68,7 +68,7 @@ TEST(AddNoise, HasItsDeviationAndItsCommonPart) {
   constexpr int kSide = 200;
   constexpr double kSigma = 0.25;
   double variance = 0.0;
-  double with_neighbour = 0.0;
+  double with_neighbor = 0.0;
   RandomStream random = stream();
   constexpr int kImages = 20;
   for (int i = 0; i < kImages; ++i) {
@@ -78,13 +78,13 @@ TEST(AddNoise, HasItsDeviationAndItsCommonPart) {
       for (int column = 0; column + 1 < kSide; ++column) {
         const double error = image.measured[image.slot(column, row)] - 20.0;
         variance += error * error;
-        with_neighbour += error * (image.measured[image.slot(column + 1, row)] - 20.0);
+        with_neighbor += error * (image.measured[image.slot(column + 1, row)] - 20.0);
       }
     }
   }
   const double count = kImages * kSide * (kSide - 1.0);
   EXPECT_NEAR(std::sqrt(variance / count), kSigma, 0.01);
-  EXPECT_NEAR(with_neighbour / variance, 0.6, 0.03);
+  EXPECT_NEAR(with_neighbor / variance, 0.6, 0.03);
 }
 
 TEST(AddNoise, LeavesHolesAlone) {

@@ -36,14 +36,14 @@ TEST(Odometer, WithoutErrorsFollowsTheTruth) {
   EXPECT_NEAR(odometry.pose.pose.heading(), truth.heading(), 1e-9);
 }
 
-TEST(Odometer, ScaleErrorMakesTheWayLonger) {
+TEST(Odometer, ScaleErrorMakesTheDistanceLonger) {
   OdometerOptions options = idealOdometer();
   options.speed_scale_error = 0.03;
   const World world(RoadNetwork(), egoAlongX(10.0));
   EXPECT_NEAR(drive(world, options, 10.0).pose.pose.x(), 103.0, 1e-6);
 }
 
-TEST(Odometer, BiasTurnsTheWay) {
+TEST(Odometer, BiasTurnsThePath) {
   OdometerOptions options = idealOdometer();
   options.yaw_rate_bias = 0.5;
   const World world(RoadNetwork(), egoAlongX(10.0));

@@ -47,12 +47,12 @@ TEST(Path, GoesStraightOnBeyondItsEnds) {
   EXPECT_DOUBLE_EQ(path.at(12.0).pose.x(), 12.0);
 }
 
-TEST(Path, WayIsLengthAlongThePath) {
+TEST(Path, ArcLengthIsLengthAlongThePath) {
   const Path path({{0.0, 0.0}, {20.0, 0.0}, {30.0, 15.0}, {10.0, 30.0}}, 4.0);
   constexpr double kStep = 1e-3;
-  for (double way = 0.0; way + kStep < path.length(); way += 0.05) {
-    const Pose2 before = path.at(way).pose;
-    const Pose2 after = path.at(way + kStep).pose;
+  for (double arc_length = 0.0; arc_length + kStep < path.length(); arc_length += 0.05) {
+    const Pose2 before = path.at(arc_length).pose;
+    const Pose2 after = path.at(arc_length + kStep).pose;
     EXPECT_NEAR((after.position() - before.position()).norm(), kStep, 1e-8);
     EXPECT_LE(std::abs(angleBetween(before.heading(), after.heading())), kStep / 4.0 + 1e-9);
   }
@@ -70,19 +70,19 @@ TEST(SpeedProfile, BrakesEvenly) {
   EXPECT_DOUBLE_EQ(profile.speed(1.0), 10.0);
   EXPECT_DOUBLE_EQ(profile.speed(3.0), 5.0);
   EXPECT_DOUBLE_EQ(profile.speed(9.0), 0.0);
-  EXPECT_DOUBLE_EQ(profile.way(2.0), 20.0);
-  EXPECT_DOUBLE_EQ(profile.way(3.0), 27.5);
-  EXPECT_DOUBLE_EQ(profile.way(9.0), 30.0);
+  EXPECT_DOUBLE_EQ(profile.distance(2.0), 20.0);
+  EXPECT_DOUBLE_EQ(profile.distance(3.0), 27.5);
+  EXPECT_DOUBLE_EQ(profile.distance(9.0), 30.0);
 }
 
-TEST(SpeedProfile, WayIsTheSumOfSpeed) {
+TEST(SpeedProfile, DistanceIsTheIntegralOfSpeed) {
   const SpeedProfile profile({{0.0, 3.0}, {1.5, 8.0}, {2.0, 8.0}, {6.0, 0.5}});
   double sum = 0.0;
   constexpr double kStep = 1e-3;
   for (int i = 0; i < 8000; ++i) {
     sum += kStep * profile.speed((i + 0.5) * kStep);
   }
-  EXPECT_NEAR(profile.way(8.0), sum, 1e-6);
+  EXPECT_NEAR(profile.distance(8.0), sum, 1e-6);
 }
 
 TEST(SpeedProfile, BadInputIsRefused) {

@@ -15,11 +15,11 @@ RoadNetwork cross() {
           {{0, 20.0, 4.0}}};
 }
 
-TEST(RoadNetwork, SingleRoadHasTwoStraightKerbs) {
+TEST(RoadNetwork, SingleRoadHasTwoStraightCurbs) {
   const RoadNetwork network(
       {{"main", Path({{0.0, 0.0}, {50.0, 0.0}}, 5.0), 10.0, 4.0, 0.0, 6.0, 0.12}}, {});
-  ASSERT_EQ(network.kerbs().size(), 2U);
-  const Polyline& left = network.kerbs()[0];
+  ASSERT_EQ(network.curbs().size(), 2U);
+  const Polyline& left = network.curbs()[0];
   ASSERT_EQ(left.size(), 2U);
   EXPECT_EQ(left[0], Point2(0.0, 5.0));
   EXPECT_EQ(left[1], Point2(50.0, 5.0));
@@ -28,10 +28,10 @@ TEST(RoadNetwork, SingleRoadHasTwoStraightKerbs) {
 
 TEST(RoadNetwork, CrossingRoadsLeaveTheJunctionOpen) {
   const RoadNetwork network = cross();
-  // Two kerbs of two roads in two pieces each, and four corners.
-  EXPECT_EQ(network.kerbs().size(), 12U);
-  for (const Polyline& kerb : network.kerbs()) {
-    for (const Point2& point : kerb) {
+  // Two curbs of two roads in two pieces each, and four corners.
+  EXPECT_EQ(network.curbs().size(), 12U);
+  for (const Polyline& curb : network.curbs()) {
+    for (const Point2& point : curb) {
       const bool on_main = std::abs(point.y()) < 5.0 - 1e-6;
       const bool on_side = std::abs(point.x()) < 4.0 - 1e-6;
       EXPECT_FALSE(on_main || on_side) << point.transpose();
@@ -39,15 +39,15 @@ TEST(RoadNetwork, CrossingRoadsLeaveTheJunctionOpen) {
   }
 }
 
-TEST(RoadNetwork, CornersJoinTheKerbs) {
+TEST(RoadNetwork, CornersJoinTheCurbs) {
   const RoadNetwork network = cross();
   for (std::size_t i = 8; i < 12; ++i) {
-    const Polyline& corner = network.kerbs()[i];
+    const Polyline& corner = network.curbs()[i];
     for (const Point2& end : {corner.front(), corner.back()}) {
-      const auto touches = [&end](const Polyline& kerb) {
-        return kerb.front() == end || kerb.back() == end;
+      const auto touches = [&end](const Polyline& curb) {
+        return curb.front() == end || curb.back() == end;
       };
-      EXPECT_EQ(std::count_if(network.kerbs().begin(), network.kerbs().begin() + 8, touches), 1);
+      EXPECT_EQ(std::count_if(network.curbs().begin(), network.curbs().begin() + 8, touches), 1);
     }
   }
 }
@@ -57,12 +57,12 @@ TEST(RoadNetwork, RoadThatEndsInAnotherOpensOneSideOnly) {
       {{"main", Path({{-50.0, 0.0}, {50.0, 0.0}}, 5.0), 10.0, 4.0, 0.0, 6.0, 0.12},
        {"side", Path({{0.0, -50.0}, {0.0, 0.0}}, 5.0), 8.0, 4.0, 0.0, 6.0, 0.12}},
       {});
-  const auto whole = [](const Polyline& kerb) {
-    return kerb.front() == Point2(-50.0, 5.0) && kerb.back() == Point2(50.0, 5.0);
+  const auto whole = [](const Polyline& curb) {
+    return curb.front() == Point2(-50.0, 5.0) && curb.back() == Point2(50.0, 5.0);
   };
-  EXPECT_EQ(std::count_if(network.kerbs().begin(), network.kerbs().end(), whole), 1);
+  EXPECT_EQ(std::count_if(network.curbs().begin(), network.curbs().end(), whole), 1);
   // Left one whole, right one in two; two of the side road; two corners.
-  EXPECT_EQ(network.kerbs().size(), 7U);
+  EXPECT_EQ(network.curbs().size(), 7U);
 }
 
 TEST(RoadNetwork, KnowsItsIntersection) {
@@ -81,16 +81,16 @@ TEST(RoadNetwork, PaintsDashesOutsideTheJunctionAndZebraStripes) {
   EXPECT_EQ(std::count_if(paint.begin(), paint.end(), is_dash), 9);
   EXPECT_EQ(paint.size(), 9U + 10U);
   for (const Box2& box : paint) {
-    EXPECT_GT(std::abs(box.centre.x()), 8.0);
-    EXPECT_LT(std::abs(box.centre.y()), 5.0);
+    EXPECT_GT(std::abs(box.center.x()), 8.0);
+    EXPECT_LT(std::abs(box.center.y()), 5.0);
   }
 }
 
-TEST(RoadNetwork, PlacesBesideARoadFollowItsDirection) {
-  const Pose2 place = cross().beside(1, 10.0, 4.0);
-  EXPECT_NEAR(place.x(), -4.0, 1e-12);
-  EXPECT_NEAR(place.y(), -40.0, 1e-12);
-  EXPECT_NEAR(place.heading(), kPi / 2.0, 1e-12);
+TEST(RoadNetwork, PositionsBesideARoadFollowItsDirection) {
+  const Pose2 position = cross().beside(1, 10.0, 4.0);
+  EXPECT_NEAR(position.x(), -4.0, 1e-12);
+  EXPECT_NEAR(position.y(), -40.0, 1e-12);
+  EXPECT_NEAR(position.heading(), kPi / 2.0, 1e-12);
 }
 
 }  // namespace

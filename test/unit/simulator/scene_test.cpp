@@ -18,7 +18,7 @@ roads:
   - {name: main, points: [[0, 0], [100, 0]], width: 12.0}
 ego: {path: [[0, -2], [100, -2]], speed: [[0, 8.0]]}
 rows:
-  - {road: main, side: left, kinds: [car, pole], from: 10, to: 40, spacing: 10, from_kerb: -1.1, leave_out: [2]}
+  - {road: main, side: left, kinds: [car, pole], from: 10, to: 40, spacing: 10, from_curb: -1.1, leave_out: [2]}
 fronts:
   - {road: main, side: right, from: 0, to: 40, piece: 15, gap: 5}
 actors:
@@ -37,9 +37,9 @@ class SceneFile : public testing::Test {
   /// The small scene with one part of it replaced.
   Scene readWith(const std::string& part, const std::string& replacement) {
     std::string text = kSmallScene;
-    const std::size_t place = text.find(part);
-    EXPECT_NE(place, std::string::npos) << part;
-    return readScene(write(text.replace(place, part.size(), replacement)));
+    const std::size_t position = text.find(part);
+    EXPECT_NE(position, std::string::npos) << part;
+    return readScene(write(text.replace(position, part.size(), replacement)));
   }
 
   /// The message of the refusal; empty if the scene was taken.
@@ -67,11 +67,11 @@ TEST_F(SceneFile, BecomesAWorld) {
   const WorldState state = scene.world.at(1.0);
   ASSERT_EQ(state.objects.size(), 4U);
   EXPECT_EQ(state.objects[0].kind.label, "Car");
-  EXPECT_NEAR(state.objects[0].centre.y(), 4.9, 1e-12);
-  EXPECT_NEAR(state.objects[0].centre.heading(), kPi, 1e-12);
+  EXPECT_NEAR(state.objects[0].center.y(), 4.9, 1e-12);
+  EXPECT_NEAR(state.objects[0].center.heading(), kPi, 1e-12);
   EXPECT_EQ(state.objects[1].kind.label, "Pole");
   EXPECT_EQ(state.objects[2].kind.label, "Pole") << "the car in the third place is left out";
-  EXPECT_NEAR(state.objects[2].centre.x(), 40.0, 1e-12);
+  EXPECT_NEAR(state.objects[2].center.x(), 40.0, 1e-12);
   EXPECT_EQ(state.objects[3].kind.label, "Cyclist");
   EXPECT_NEAR(state.objects[3].velocity.x(), 4.0, 1e-12);
   EXPECT_NEAR(state.base.x(), 8.0, 1e-12);
@@ -83,7 +83,7 @@ TEST_F(SceneFile, OverridesReplaceItsOptions) {
   EXPECT_EQ(scene.options.seed, 9);
 }
 
-TEST_F(SceneFile, RefusalsNameFilePlaceValueAndWhatWasExpected) {
+TEST_F(SceneFile, RefusalsNameFileLocationValueAndWhatWasExpected) {
   std::string message = refusal("width: 12.0", "width: wide");
   EXPECT_IN_ORDER(message, "simulator_scene_test.yaml: roads[0]: width", "'wide'");
   message = refusal("width: 12.0", "width: 0.5");
@@ -121,7 +121,7 @@ TEST_F(SceneFile, PathThatIsTooShortForItsSpeedIsRefused) {
 TEST_F(SceneFile, BodiesThatCollideAreRefused) {
   const std::string message = refusal("[[20, 2], [80, 2]]", "[[50, -2], [20, -2]]");
   EXPECT_IN_ORDER(message, "ego vehicle and Cyclist collide at", "expected free ways");
-  EXPECT_NE(refusal("from_kerb: -1.1", "from_kerb: -4.0"), "");
+  EXPECT_NE(refusal("from_curb: -1.1", "from_curb: -4.0"), "");
 }
 
 TEST_F(SceneFile, MissingOrBrokenFileIsNamed) {
@@ -139,7 +139,7 @@ TEST_F(SceneFile, MissingOrBrokenFileIsNamed) {
 /// The scene that is shipped.
 const std::string kIntersection = std::string(DATMO_FUSION_SCENES) + "/intersection.yaml";
 
-TEST(Intersection, NothingIsEverInTheSamePlace) {
+TEST(Intersection, NothingIsEverAtTheSamePosition) {
   const Scene scene = readScene(kIntersection);
   EXPECT_FALSE(firstCollision(scene.world, scene.options.duration));
 }

@@ -39,22 +39,22 @@ TEST(RangeTo, SegmentAcrossAndParallel) {
   EXPECT_FALSE(rangeTo(Segment{{5.0, 0.0}, {7.0, 0.0}}, kAlongX));
 }
 
-TEST(RangeTo, FromInsideItIsTheWayOut) {
+TEST(RangeTo, FromInsideItIsTheDistanceOut) {
   EXPECT_DOUBLE_EQ(*rangeTo(Box2{{0.0, 0.0, 0.0}, 4.0, 2.0}, kAlongX), 2.0);
   EXPECT_DOUBLE_EQ(*rangeTo(Circle{{0.0, 0.0}, 3.0}, kAlongX), 3.0);
 }
 
 TEST(RangeTo, HitPointLiesOnTheOutline) {
   std::mt19937_64 random(1);
-  std::uniform_real_distribution<double> place(-20.0, 20.0);
+  std::uniform_real_distribution<double> position(-20.0, 20.0);
   std::uniform_real_distribution<double> heading(-kPi, kPi);
   int hits = 0;
   for (int i = 0; i < 2000; ++i) {
-    const Box2 box{{place(random), place(random), heading(random)}, 4.5, 1.8};
-    const HalfLine ray = halfLine({place(random), place(random)}, heading(random));
+    const Box2 box{{position(random), position(random), heading(random)}, 4.5, 1.8};
+    const HalfLine ray = halfLine({position(random), position(random)}, heading(random));
     if (const auto range = rangeTo(box, ray)) {
       const Point2 hit = ray.origin + *range * ray.direction;
-      const Point2 local = box.centre.inverse() * hit;
+      const Point2 local = box.center.inverse() * hit;
       const double outside = std::max(std::abs(local.x()) - 2.25, std::abs(local.y()) - 0.9);
       EXPECT_NEAR(outside, 0.0, 1e-9);
       ++hits;
@@ -86,7 +86,7 @@ TEST(Overlap, CirclesAndSegments) {
 TEST(BoundingCircle, HoldsTheCorners) {
   const Circle circle = boundingCircle(Box2{{1.0, 2.0, 0.3}, 8.0, 6.0});
   EXPECT_DOUBLE_EQ(circle.radius, 5.0);
-  EXPECT_EQ(circle.centre, Point2(1.0, 2.0));
+  EXPECT_EQ(circle.center, Point2(1.0, 2.0));
   EXPECT_DOUBLE_EQ(boundingCircle(Segment{{0.0, 0.0}, {4.0, 0.0}}).radius, 2.0);
 }
 

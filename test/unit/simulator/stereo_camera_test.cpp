@@ -188,8 +188,8 @@ TEST(StereoCamera, NodMovesAllPointsUpOrDown) {
 
 TEST(StereoCamera, NothingOutsideItsRanges) {
   StereoCameraOptions options;
-  options.least_range = 8.0;
-  options.most_range = 20.0;
+  options.min_range = 8.0;
+  options.max_range = 20.0;
   World world = emptyWorld();
   world.addSolid(wallAt(21.0));
   const auto points = pointsIn(world, options);
@@ -225,7 +225,7 @@ TEST(StereoCamera, TruthNamesWhatItSees) {
 
 TEST(StereoCamera, ContradictionsAreRefused) {
   StereoCameraOptions options;
-  options.least_range = options.most_range;
+  options.min_range = options.max_range;
   EXPECT_THROW(StereoCamera(options, 1), OptionError);
   options = StereoCameraOptions();
   options.baseline = 0.0;

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kPatch = 0.4;
 
-SightEnd endOn(const Solid& solid, double height) { return {10.0, height, &solid}; }
+RayEnd endOn(const Solid& solid, double height) { return {10.0, height, &solid}; }
 
 TEST(SurfaceTexture, SharesAreAsAsked) {
   const SurfaceTexture texture(kPatch, 0.2, 0.5, 1);
@@ -41,9 +41,9 @@ TEST(SurfaceTexture, MovesWithItsObject) {
   const Solid before{Box2{{0.0, 0.0, 0.0}, 4.4, 1.8}, 1.5, Surface::kBody, 7};
   const Solid after{Box2{{50.0, 20.0, 1.0}, 4.4, 1.8}, 1.5, Surface::kBody, 7};
   for (double y = -0.9; y < 0.9; y += 0.07) {
-    const Point2 place(-2.2, y);
-    EXPECT_EQ(texture.isEven(endOn(before, 0.7), place),
-              texture.isEven(endOn(after, 0.7), Pose2(50.0, 20.0, 1.0) * place));
+    const Point2 position(-2.2, y);
+    EXPECT_EQ(texture.isEven(endOn(before, 0.7), position),
+              texture.isEven(endOn(after, 0.7), Pose2(50.0, 20.0, 1.0) * position));
   }
 }
 

@@ -27,10 +27,10 @@ class Course {
         walls_.push_back({side[i], side[i + 1]});
       }
     }
-    for (double way = 10.0; way < ego().path.length(); way += 12.0) {
-      const Pose2 place = ego().path.at(way).pose;
-      walls_.push_back({place * Point2(0.0, 5.0), place * Point2(0.0, 8.0)});
-      walls_.push_back({place * Point2(6.0, -5.0), place * Point2(6.0, -8.0)});
+    for (double arc_length = 10.0; arc_length < ego().path.length(); arc_length += 12.0) {
+      const Pose2 location = ego().path.at(arc_length).pose;
+      walls_.push_back({location * Point2(0.0, 5.0), location * Point2(0.0, 8.0)});
+      walls_.push_back({location * Point2(6.0, -5.0), location * Point2(6.0, -8.0)});
     }
     for (const Segment& wall : walls_) {
       world_.addSolid({wall, 3.0, Surface::kBody, kNoObject});
@@ -40,14 +40,14 @@ class Course {
   const World& world() const { return world_; }
 
   double distanceToWall(const Point2& point) const {
-    double least = std::numeric_limits<double>::infinity();
+    double min = std::numeric_limits<double>::infinity();
     for (const Segment& wall : walls_) {
       const Point2 along = wall.end - wall.start;
       const double part = (point - wall.start).dot(along) / along.squaredNorm();
       const Point2 foot = wall.start + std::clamp(part, 0.0, 1.0) * along;
-      least = std::min(least, (point - foot).norm());
+      min = std::min(min, (point - foot).norm());
     }
-    return least;
+    return min;
   }
 
  private:

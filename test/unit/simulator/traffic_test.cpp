@@ -52,11 +52,11 @@ TEST(Traffic, MoreOfItLeavesTheFirstMoversAsTheyAre) {
 }
 
 TEST(Traffic, SeedsDiffer) {
-  std::set<double> places;
+  std::set<double> positions;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    places.insert(worldWith(1, seed).movers().front().axle(0.0).x());
+    positions.insert(worldWith(1, seed).movers().front().axle(0.0).x());
   }
-  EXPECT_EQ(places.size(), 10U);
+  EXPECT_EQ(positions.size(), 10U);
 }
 
 TEST(Traffic, KeepsTheGap) {

@@ -105,7 +105,7 @@ TEST_F(FusedSlamInTheYard, WhatOthersAloneSeeDoesNotMoveAndIsMappedWhereNothingW
   EXPECT_EQ(moving(result), 0);
   const Pose2 base = result.split.base_in_map.pose;
   const auto occupancy = [&](CellIndex cell) {
-    return slam_.map().occupancy(slam_.map().window().cellAt(base * grid.window().centreOf(cell)));
+    return slam_.map().occupancy(slam_.map().window().cellAt(base * grid.window().centerOf(cell)));
   };
   EXPECT_LT(occupancy(in_free_space), 0.5);
   EXPECT_GT(occupancy(behind), 0.6);

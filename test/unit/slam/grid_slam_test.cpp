@@ -122,7 +122,7 @@ TEST(GridSlamTest, AScanWithoutRaysMovesByOdometryAlone) {
   EXPECT_TRUE(result.split.points.empty());
 }
 
-TEST(GridSlamTest, TheSplitScanTellsOfBeamsThatSawNothing) {
+TEST(GridSlamTest, TheLabeledScanHasBeamsWithoutReturn) {
   Scan scan;
   scan.stamp = Stamp::fromSeconds(1000.0);
   scan.field = {degrees(-2.0), degrees(1.0), 5, 0.5, 40.0, 80.0};
@@ -134,7 +134,7 @@ TEST(GridSlamTest, TheSplitScanTellsOfBeamsThatSawNothing) {
     ray.end = Point2(10.0, 0.0);
     scan.rays.push_back(ray);
   }
-  const SplitScan split = GridSlam{GridSlamOptions{}}.process(scan).split;
+  const LabeledScan split = GridSlam{GridSlamOptions{}}.process(scan).split;
   EXPECT_EQ(split.field.beams, 5U);
   EXPECT_EQ(split.field.range, 80.0);
   ASSERT_EQ(split.points.size(), 1U);
@@ -161,7 +161,7 @@ Scan corridorScan(double seconds) {
   return scan;
 }
 
-TEST(GridSlamTest, BetweenEndlessWallsTheWayIsLeftToTheOdometry) {
+TEST(GridSlamTest, BetweenEndlessWallsTheDistanceIsLeftToTheOdometry) {
   // The scans are all alike. Standing still would fit them best; the odometry knows better.
   GridSlam slam{GridSlamOptions{}};
   SlamResult result;

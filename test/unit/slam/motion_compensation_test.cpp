@@ -101,7 +101,7 @@ TEST_P(MotionCompensation, KeepsRaysWhole) {
   }
 }
 
-TEST_P(MotionCompensation, TheFieldTellsWhereTheBeamsLookNow) {
+TEST_P(MotionCompensation, TheFieldHasTheCurrentBearings) {
   const Scan at_once = compensateMotion(scanOf(GetParam()), GetParam().twist);
   for (const Ray& ray : at_once.rays) {
     const double told = at_once.field.first_bearing + at_once.field.beam_spacing * ray.beam;
@@ -114,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(Sweeps, MotionCompensation,
                                          Sweep{"ToTheRight", -2.0, 0.0444, {14.0, 0.3}},
                                          Sweep{"TurningOnTheSpot", 2.0, 0.1, {0.0, 1.5}},
                                          Sweep{"TurningAgainstTheBeams", -4.0, 0.1, {5.0, 1.5}},
-                                         Sweep{"Backwards", 2.0, 0.1, {-3.0, -0.8}}),
+                                         Sweep{"Backward", 2.0, 0.1, {-3.0, -0.8}}),
                          [](const auto& sweep) { return std::string(sweep.param.name); });
 
 TEST(MotionCompensationOf, RaysWithoutTimesChangesNothing) {

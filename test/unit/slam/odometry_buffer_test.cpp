@@ -52,7 +52,7 @@ TEST_F(OdometryBufferTest, SilenceLongerThanTheHoldGivesNothing) {
   EXPECT_FALSE(buffer_.motion(at(1.2), at(4.1))) << "a gap in the middle";
 }
 
-TEST_F(OdometryBufferTest, PosesTellTheMotionBetweenThemAlsoOverAGap) {
+TEST_F(OdometryBufferTest, PosesGiveTheMotionBetweenThemAlsoOverAGap) {
   const Pose2 first(5.0, -2.0, 0.4);
   const Pose2 motion = arc({1.5, 0.2}, 3.0);
   buffer_.add({at(1.0), {0.0, 0.0}, first});

@@ -68,7 +68,7 @@ TEST(PoseFilterTest, WithoutCalibrationNothingIsLearned) {
 }
 
 TEST(PoseFilterTest, TheCovarianceHoldsTheError) {
-  // Normalised estimation error squared of the pose over independent drives: 3 on average; 200 runs
+  // Normalized estimation error squared of the pose over independent drives: 3 on average; 200 runs
   // have a mean between 2.67 and 3.35 with 95 % if the covariance is exact. The filter's odometry
   // noise is larger than the drive's, so that it may only be too modest.
   double sum = 0.0;

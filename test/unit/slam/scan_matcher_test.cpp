@@ -146,7 +146,7 @@ TEST(ScanMatcherTest, ACorridorsDirectionIsLeftToThePrediction) {
   EXPECT_LT(result.pose.covariance(1, 1), 0.1 * priorCovariance()(1, 1));
 }
 
-TEST(ScanMatcherTest, ACornerTellsAllDirections) {
+TEST(ScanMatcherTest, ACornerConstrainsAllDirections) {
   const std::vector<Point2> points = corner();
   const OccupancyMap map = mapOf(points);
   Random random(1);
@@ -170,7 +170,7 @@ TEST(ScanMatcherTest, MoversInTheScanDoNotPullThePose) {
 
 /// Where the pose goes along a corridor, m, when the rear of a car that has just come into view is
 /// 0.3 m further than the map has it: 0.3 m back if it is taken for standing.
-double shiftByNewcomer(double least_maturity, bool measured) {
+double shiftByNewcomer(double min_maturity, bool measured) {
   OccupancyMap map = emptyMap();
   see(map, corridor(), 10.0, 12);
   std::vector<Point2> rear;
@@ -181,7 +181,7 @@ double shiftByNewcomer(double least_maturity, bool measured) {
   addWall(seen, {6.4, -1.0}, {6.4, 1.0});
   addWall(seen, {-4.1, -3.11}, {5.2, -3.11});
   ScanMatcherOptions options;
-  options.least_maturity = least_maturity;
+  options.min_maturity = min_maturity;
   Prediction prediction = prior();
   prediction.measured = measured;
   Random random(1);
@@ -189,12 +189,12 @@ double shiftByNewcomer(double least_maturity, bool measured) {
 }
 
 TEST(ScanMatcherTest, WhatHasJustComeIntoViewDoesNotTakeThePoseAlong) {
-  EXPECT_NEAR(shiftByNewcomer(ScanMatcherOptions{}.least_maturity, true), 0.0, 0.02);
+  EXPECT_NEAR(shiftByNewcomer(ScanMatcherOptions{}.min_maturity, true), 0.0, 0.02);
   EXPECT_LT(shiftByNewcomer(1.0, true), -0.15) << "all alike";
 }
 
 TEST(ScanMatcherTest, WithoutOdometryWhatHasJustComeIntoViewCounts) {
-  EXPECT_LT(shiftByNewcomer(ScanMatcherOptions{}.least_maturity, false), -0.15);
+  EXPECT_LT(shiftByNewcomer(ScanMatcherOptions{}.min_maturity, false), -0.15);
 }
 
 TEST(ScanMatcherTest, WithoutAMapThePredictionIsTheAnswer) {

@@ -13,8 +13,8 @@ ScanPoint pointOf(std::uint32_t beam, double range, PointState state) {
 
 /// Beam 0 ends on a wall, 1 on a car that moves, 2 where nothing is known, 3 returns nothing, 4 is
 /// blind.
-SplitScan fiveBeams() {
-  SplitScan scan;
+LabeledScan fiveBeams() {
+  LabeledScan scan;
   scan.field.beams = 5;
   scan.field.beam_spacing = 0.1;
   scan.field.free_range = 40.0;
@@ -40,13 +40,13 @@ TEST(StaticRanges, WhatIsNotKnownIsLeftOutOnDemand) {
 }
 
 TEST(StaticRanges, ABeamWithoutReturnSaysNothingWhereTheFieldHasNoFreeRange) {
-  SplitScan scan = fiveBeams();
+  LabeledScan scan = fiveBeams();
   scan.field.free_range = 0.0;
   EXPECT_TRUE(std::isnan(staticRanges(scan, true)[3]));
 }
 
 TEST(StaticRanges, TheNearestEndPointOfABeamDecides) {
-  SplitScan scan = fiveBeams();
+  LabeledScan scan = fiveBeams();
   scan.points = {pointOf(0, 10.0, PointState::kStatic), pointOf(0, 6.0, PointState::kMoving),
                  pointOf(1, 11.0, PointState::kMoving), pointOf(1, 7.0, PointState::kStatic)};
   const auto ranges = staticRanges(scan, true);
@@ -55,7 +55,7 @@ TEST(StaticRanges, TheNearestEndPointOfABeamDecides) {
 }
 
 TEST(StaticRanges, BeamsBeyondTheFieldAreLeftOut) {
-  SplitScan scan = fiveBeams();
+  LabeledScan scan = fiveBeams();
   scan.points.push_back(pointOf(5, 3.0, PointState::kStatic));
   scan.blind_beams.push_back(6);
   EXPECT_EQ(staticRanges(scan, true).size(), 5U);

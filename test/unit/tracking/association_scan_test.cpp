@@ -14,7 +14,7 @@ namespace {
 class AssociationScanTest : public testing::Test {
  protected:
   AssociationScan take(const std::vector<Object>& objects, const Pose2& base = Pose2()) {
-    return takeIn(objects, base, visibility_, clutter_, options_, counts_);
+    return ingest(objects, base, visibility_, clutter_, options_, counts_);
   }
 
   Visibility visibility_{VisibilityOptions()};
@@ -23,19 +23,19 @@ class AssociationScanTest : public testing::Test {
   ScanIntakeCounts counts_;
 };
 
-std::vector<double> placesOf(const AssociationScan& scan) {
-  std::vector<double> places;
+std::vector<double> positionsOf(const AssociationScan& scan) {
+  std::vector<double> positions;
   for (const Observation& observation : scan.observations) {
-    places.push_back(observation.object.box.centre.x());
+    positions.push_back(observation.object.box.center.x());
   }
-  return places;
+  return positions;
 }
 
-TEST_F(AssociationScanTest, ObjectsByRisingXInTheFixedFrameWithTheirPlaceInTheList) {
+TEST_F(AssociationScanTest, ObjectsByRisingXInTheFixedFrameWithTheirIndexInTheList) {
   const AssociationScan scan =
       take({objectAt(3.0, 0.0), objectAt(1.0, 0.0), objectAt(2.0, 0.0)}, Pose2(10.0, 5.0, 0.0));
-  EXPECT_EQ(placesOf(scan), (std::vector<double>{11.0, 12.0, 13.0}));
-  EXPECT_EQ(scan.observations[0].object.box.centre.y(), 5.0);
+  EXPECT_EQ(positionsOf(scan), (std::vector<double>{11.0, 12.0, 13.0}));
+  EXPECT_EQ(scan.observations[0].object.box.center.y(), 5.0);
   EXPECT_EQ(scan.objects, 3U);
   EXPECT_EQ(scan.listed, (std::vector<std::size_t>{1, 2, 0}));
   EXPECT_EQ(scan.observations[2].sources, std::vector<std::size_t>{2});
@@ -52,26 +52,26 @@ TEST_F(AssociationScanTest, SourcesOfAUnionAreListedInTheOrderOfTheList) {
 TEST_F(AssociationScanTest, TheOrderOfTheListDoesNotMatter) {
   std::vector<Object> objects;
   std::mt19937_64 engine(1);
-  std::uniform_real_distribution<double> place(-40.0, 40.0);
+  std::uniform_real_distribution<double> position(-40.0, 40.0);
   for (int i = 0; i < 50; ++i) {
-    objects.push_back(objectAt(i % 5, place(engine)));
+    objects.push_back(objectAt(i % 5, position(engine)));
   }
-  options_.most_objects = 30;
+  options_.max_objects = 30;
   const AssociationScan first = take(objects);
   std::shuffle(objects.begin(), objects.end(), engine);
   const AssociationScan second = take(objects);
   ASSERT_EQ(first.objects, 30U);
   for (std::size_t i = 0; i < first.objects; ++i) {
-    EXPECT_EQ(first.observations[i].object.box.centre.position(),
-              second.observations[i].object.box.centre.position());
+    EXPECT_EQ(first.observations[i].object.box.center.position(),
+              second.observations[i].object.box.center.position());
   }
 }
 
 TEST_F(AssociationScanTest, TheFarthestFromTheVehicleAreRefused) {
-  options_.most_objects = 2;
+  options_.max_objects = 2;
   const AssociationScan scan =
       take({objectAt(9.0, 0.0), objectAt(-1.0, 0.0), objectAt(4.0, 0.0)}, Pose2(-9.0, 0.0, 0.0));
-  EXPECT_EQ(placesOf(scan), (std::vector<double>{-10.0, -5.0}));
+  EXPECT_EQ(positionsOf(scan), (std::vector<double>{-10.0, -5.0}));
   EXPECT_EQ(counts_.accepted, 2U);
   EXPECT_EQ(counts_.refused, 1U);
   EXPECT_EQ(counts_.rejected, 0U);
@@ -91,7 +91,7 @@ TEST_F(AssociationScanTest, DensityIsThatOfNewObjectsAndOfClutterSeenFromTheVehi
   ClutterMap clutter(map_options);
   clutter.learn({Point2(5.0, 5.0)}, 1000.0 * map_options.learning_time);
   const Pose2 base(100.0, 0.0, 0.0);
-  const AssociationScan scan = takeIn({objectAt(5.0, 5.0), objectAt(35.0, 5.0)}, base, visibility_,
+  const AssociationScan scan = ingest({objectAt(5.0, 5.0), objectAt(35.0, 5.0)}, base, visibility_,
                                       clutter, options_, counts_);
   const double area = map_options.cell_size * map_options.cell_size;
   EXPECT_NEAR(std::exp(scan.observations[0].log_density), options_.new_density + 1.0 / area, 1e-9);

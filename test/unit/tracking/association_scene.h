@@ -17,7 +17,7 @@ class ScanSource {
  public:
   /// Lives as long as this source.
   AssociationScan scan(const std::vector<Object>& objects) {
-    return takeIn(objects, Pose2(), visibility_, clutter_, ScanIntakeOptions(), counts_);
+    return ingest(objects, Pose2(), visibility_, clutter_, ScanIntakeOptions(), counts_);
   }
 
   double detectionProbability() const { return VisibilityOptions().unknown_probability; }
@@ -42,9 +42,9 @@ inline Target predictedAt(double x, double y, std::uint64_t number = 1) {
   return target;
 }
 
-inline std::vector<Object> objectsAlong(const std::vector<double>& places) {
+inline std::vector<Object> objectsAlong(const std::vector<double>& positions) {
   std::vector<Object> objects;
-  for (const double x : places) {
+  for (const double x : positions) {
     objects.push_back(objectAt(x, 0.0));
   }
   return objects;
@@ -59,10 +59,10 @@ inline void see(TargetSet& targets, ScanSource& source, const std::vector<Object
 }
 
 /// What the target of this number was seen as in the last scan; kUnseen too if there is none.
-inline std::size_t seenAs(const TargetSet& targets, std::uint64_t number) {
+inline std::size_t measurementIndex(const TargetSet& targets, std::uint64_t number) {
   for (const BestTarget& best : targets.best()) {
     if (best.target->number() == number) {
-      return best.target->seenAs();
+      return best.target->measurementIndex();
     }
   }
   return kUnseen;

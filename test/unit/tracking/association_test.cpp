@@ -74,7 +74,7 @@ TEST_F(AssociationTest, TheQuickAnswerLosesNothingWithinTheGate) {
     objects.push_back(objectAt(0.1 * i, 0.03 * i));
     objects.back().box.length = i % 3 == 0 ? 8.0 : 0.5;
   }
-  options_.most_candidates = 1000;
+  options_.max_candidates = 1000;
   std::size_t expected = 0;
   for (const Object& object : objects) {
     const Innovation innovation =
@@ -87,7 +87,7 @@ TEST_F(AssociationTest, TheQuickAnswerLosesNothingWithinTheGate) {
 }
 
 TEST_F(AssociationTest, OfManyTheNearestAreCandidates) {
-  options_.most_candidates = 2;
+  options_.max_candidates = 2;
   EXPECT_EQ(candidatesOf(predictedAt(0.0, 0.0), objectsAlong({-0.9, -0.2, 0.1, 0.6})),
             (std::vector<std::size_t>{1, 2}));
 }

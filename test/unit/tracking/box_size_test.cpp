@@ -56,7 +56,7 @@ TEST(BoxSize, ItGrowsToAVisiblePartThatIsLongerAndNeverShrinksByABound) {
   EXPECT_NEAR(size.mean().x(), last, 0.01);
 }
 
-TEST(BoxSize, ARearTellsTheKindAndTheKindTheLength) {
+TEST(BoxSize, ARearImpliesTheKindAndTheKindTheLength) {
   const BoxSizeOptions options;
   const BoxSize car = afterRear(1.8, options);
   EXPECT_NEAR(car.mean().x(), options.vehicle.length, 0.5);

@@ -13,8 +13,8 @@ double turnRateOf(ObjectClass object_class) {
   return ImmOptions().motionOf(object_class).turn_rate;
 }
 
-Object seenAs(ObjectClass object_class, double probability, const Point2& place) {
-  Object object = objectAt(place.x(), place.y());
+Object measurementIndex(ObjectClass object_class, double probability, const Point2& position) {
+  Object object = objectAt(position.x(), position.y());
   object.object_class = object_class;
   object.class_probability = probability;
   return object;
@@ -48,16 +48,16 @@ double predictionErrorOf(ObjectClass object_class) {
   constexpr int kScans = 200;
   const TargetOptions options;
   const ImmSteps steps = immSteps(options.filter, kPeriod);
-  const auto placeAt = [&](int i) {
+  const auto positionAt = [&](int i) {
     const double angle = kTurnRate * kPeriod * i;
     return Point2(kSpeed / kTurnRate * Point2(std::cos(angle), std::sin(angle)));
   };
-  Target target(seenAs(object_class, 0.9, placeAt(0)), 0, 1, options);
+  Target target(measurementIndex(object_class, 0.9, positionAt(0)), 0, 1, options);
   double error = 0.0;
   for (int i = 1; i <= kScans; ++i) {
     target.predict(kPeriod, steps, options);
-    error += (target.filter().estimate().mean.head<2>() - placeAt(i)).norm() / kScans;
-    target.update(seenAs(object_class, 0.9, placeAt(i)), 0, 0.9, options);
+    error += (target.filter().estimate().mean.head<2>() - positionAt(i)).norm() / kScans;
+    target.update(measurementIndex(object_class, 0.9, positionAt(i)), 0, 0.9, options);
   }
   return error;
 }

@@ -14,41 +14,41 @@ class ClutterMapTest : public testing::Test {
 
   ClutterMapOptions options_;
   ClutterMap map_{options_};
-  const Point2 place_{12.0, -7.0};
+  const Point2 position_{12.0, -7.0};
 };
 
-TEST_F(ClutterMapTest, NothingIsKnownAtFirst) { EXPECT_EQ(map_.density(place_), 0.0); }
+TEST_F(ClutterMapTest, NothingIsKnownAtFirst) { EXPECT_EQ(map_.density(position_), 0.0); }
 
 TEST_F(ClutterMapTest, OneObjectInEachScanBecomesOneByArea) {
   for (int i = 0; i < 1000; ++i) {
-    map_.learn({place_}, 0.1);
+    map_.learn({position_}, 0.1);
   }
-  EXPECT_NEAR(map_.density(place_), 1.0 / area(), 1e-3 / area());
-  EXPECT_EQ(map_.density(place_), map_.density(Point2(18.0, -1.0))) << "the same cell";
+  EXPECT_NEAR(map_.density(position_), 1.0 / area(), 1e-3 / area());
+  EXPECT_EQ(map_.density(position_), map_.density(Point2(18.0, -1.0))) << "the same cell";
   EXPECT_EQ(map_.density(Point2(22.0, -7.0)), 0.0) << "the next cell";
 }
 
 TEST_F(ClutterMapTest, TimeCountsNotTheNumberOfScans) {
   ClutterMap quick(options_);
   for (int i = 0; i < 40; ++i) {
-    quick.learn({place_}, 0.05);
+    quick.learn({position_}, 0.05);
   }
-  map_.learn({place_}, 2.0);
-  EXPECT_NEAR(quick.density(place_), map_.density(place_), 1e-12);
-  EXPECT_NEAR(map_.density(place_), (1.0 - std::exp(-2.0 / options_.learning_time)) / area(),
+  map_.learn({position_}, 2.0);
+  EXPECT_NEAR(quick.density(position_), map_.density(position_), 1e-12);
+  EXPECT_NEAR(map_.density(position_), (1.0 - std::exp(-2.0 / options_.learning_time)) / area(),
               1e-12);
 }
 
 TEST_F(ClutterMapTest, ForgetsWithTheSameTimeConstant) {
-  map_.learn({place_, place_}, 3.0);
-  const double before = map_.density(place_);
+  map_.learn({position_, position_}, 3.0);
+  const double before = map_.density(position_);
   map_.learn({}, options_.learning_time);
-  EXPECT_NEAR(map_.density(place_), before * std::exp(-1.0), 1e-12);
+  EXPECT_NEAR(map_.density(position_), before * std::exp(-1.0), 1e-12);
 }
 
 TEST_F(ClutterMapTest, NoTimeTeachesNothing) {
-  map_.learn({place_}, 0.0);
-  EXPECT_EQ(map_.density(place_), 0.0);
+  map_.learn({position_}, 0.0);
+  EXPECT_EQ(map_.density(position_), 0.0);
 }
 
 TEST_F(ClutterMapTest, WhatIsFarAwayOrNotANumberIsLeftOut) {
@@ -60,10 +60,10 @@ TEST_F(ClutterMapTest, WhatIsFarAwayOrNotANumberIsLeftOut) {
 }
 
 TEST_F(ClutterMapTest, ClearForgetsAll) {
-  map_.learn({place_}, 1.0);
-  EXPECT_GT(map_.density(place_), 0.0);
+  map_.learn({position_}, 1.0);
+  EXPECT_GT(map_.density(position_), 0.0);
   map_.clear();
-  EXPECT_EQ(map_.density(place_), 0.0);
+  EXPECT_EQ(map_.density(position_), 0.0);
 }
 
 }  // namespace

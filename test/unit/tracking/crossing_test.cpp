@@ -12,17 +12,17 @@ constexpr double kSeconds = 4.0;  // they meet half way
 constexpr int kScans = 40;
 
 /// One goes from the right to the left of the other, both ahead.
-Point2 placeOf(int target, double seconds) {
+Point2 positionOf(int target, double seconds) {
   const double side = target == 0 ? 1.0 : -1.0;
   return {4.0 * seconds, side * (2.5 - 5.0 * seconds / kSeconds)};
 }
 
 /// Id of the track nearest to a place, within 1 m; 0: none.
-std::uint32_t idAt(const TrackList& list, const Point2& place) {
+std::uint32_t idAt(const TrackList& list, const Point2& position) {
   double nearest = 1.0;
   std::uint32_t id = 0;
   for (const Track& track : list.tracks) {
-    const double distance = (track.state.head<2>() - place).norm();
+    const double distance = (track.state.head<2>() - position).norm();
     if (distance < nearest) {
       nearest = distance;
       id = track.id;
@@ -43,19 +43,19 @@ int idsKept(const TrackerOptions& options, std::uint64_t seed) {
     const double seconds = i * kSeconds / kScans;
     std::vector<Object> objects;
     for (const int target : {0, 1}) {
-      const Point2 place = placeOf(target, seconds);
+      const Point2 position = positionOf(target, seconds);
       const double dx = noise(engine);
       const double dy = noise(engine);
       if (luck(engine) < 0.85) {
-        objects.push_back(objectAt(place.x() + dx, place.y() + dy));
+        objects.push_back(objectAt(position.x() + dx, position.y() + dy));
       }
       if (luck(engine) < 0.15) {
-        objects.push_back(objectAt(place.x() + 8.0 * dy, place.y() + 8.0 * dx));
+        objects.push_back(objectAt(position.x() + 8.0 * dy, position.y() + 8.0 * dx));
       }
     }
     scene.scan(objects);
     for (const int target : {0, 1}) {
-      const std::uint32_t id = idAt(scene.tracks(), placeOf(target, seconds));
+      const std::uint32_t id = idAt(scene.tracks(), positionOf(target, seconds));
       if (i == 12) {
         before[target] = id;
       } else if (i == kScans - 1) {
@@ -74,7 +74,7 @@ int idsKeptOver(const TrackerOptions& options, std::uint64_t seeds) {
   return kept;
 }
 
-TEST(Crossing, SeveralHypothesesKeepMoreIdsThanTheNearestNeighbour) {
+TEST(Crossing, SeveralHypothesesKeepMoreIdsThanTheNearestNeighbor) {
   TrackerOptions options;
   options.require_motion = false;
   options.duplicates.reach = 0.0;  // only the association decides
@@ -83,7 +83,7 @@ TEST(Crossing, SeveralHypothesesKeepMoreIdsThanTheNearestNeighbour) {
   const int nearest = idsKeptOver(options, 100);
   RecordProperty("several", several);
   RecordProperty("nearest", nearest);
-  EXPECT_GE(several, nearest + 5) << "of 200, nearest neighbour: " << nearest;
+  EXPECT_GE(several, nearest + 5) << "of 200, nearest neighbor: " << nearest;
   EXPECT_GE(several, 180);
 }
 

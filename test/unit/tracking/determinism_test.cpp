@@ -12,7 +12,7 @@ RandomSceneOptions ambiguous() {
   RandomSceneOptions options;
   options.targets = 10;
   options.range = 8.0;
-  options.most_clutter = 10;
+  options.max_clutter = 10;
   return options;
 }
 
@@ -70,7 +70,7 @@ TEST(Determinism, AClockThatIsNeverLateChangesNothing) {
     const std::vector<Object> objects = scene.next();
     expectSame(first.scan(objects), second.scan(objects));
   }
-  EXPECT_EQ(second.tracker().counts().association.hurried_steps, 0U);
+  EXPECT_EQ(second.tracker().counts().association.best_only_steps, 0U);
 }
 
 TEST(Determinism, AClockThatIsAlwaysLateIsCountedAndTracksAllTheSame) {
@@ -82,7 +82,7 @@ TEST(Determinism, AClockThatIsAlwaysLateIsCountedAndTracksAllTheSame) {
   }
   ASSERT_EQ(scene.tracks().tracks.size(), 1U);
   EXPECT_NEAR(scene.tracks().tracks[0].state[2], 5.0, 0.6);
-  EXPECT_EQ(scene.tracker().counts().association.hurried_steps, 29U) << "but the first scan";
+  EXPECT_EQ(scene.tracker().counts().association.best_only_steps, 29U) << "but the first scan";
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ Object walkerAt(double x, double y, double log_odds = 2.0) {
   return classified(fusedAt(x, y, log_odds), ObjectClass::kPedestrian, 0.8);
 }
 
-TEST(FusedObjects, PeopleAreTrackedAtFirstSight) {
+TEST(FusedObjects, PeopleAreTrackedAtTheFirstDetection) {
   TrackingScene scene;
   const TrackList& list = scene.scan({walkerAt(10.0, 0.0)});
   ASSERT_EQ(list.tracks.size(), 1U);
@@ -45,7 +45,7 @@ TEST(FusedObjects, PeopleAreTrackedAtFirstSight) {
   EXPECT_EQ(list.tracks[0].hits, 1U);
 }
 
-TEST(FusedObjects, VehiclesAndWhatHasNoClassAfterSomeSightsInARow) {
+TEST(FusedObjects, VehiclesAndWhatHasNoClassAfterSomeDetectionsInARow) {
   for (const ObjectClass object_class : {ObjectClass::kVehicle, ObjectClass::kUnknown}) {
     TrackingScene scene;
     Object echo_beside_it = fusedAt(10.0, 0.0);
@@ -53,11 +53,11 @@ TEST(FusedObjects, VehiclesAndWhatHasNoClassAfterSomeSightsInARow) {
     scene.scan({classified(fusedAt(10.0, 0.0), object_class, 0.8)});
     EXPECT_TRUE(scene.tracks().tracks.empty());
     scene.scan({classified(echo_beside_it, object_class, 0.8)});
-    for (int i = 1; i < TargetOptions().fused_vehicle_sights; ++i) {
+    for (int i = 1; i < TargetOptions().fused_vehicle_detections; ++i) {
       scene.scan({classified(fusedAt(10.5 + 0.5 * i, 0.0), object_class, 0.8)});
       EXPECT_TRUE(scene.tracks().tracks.empty()) << "not in a row";
     }
-    const Object last = fusedAt(10.5 + 0.5 * TargetOptions().fused_vehicle_sights, 0.0);
+    const Object last = fusedAt(10.5 + 0.5 * TargetOptions().fused_vehicle_detections, 0.0);
     EXPECT_EQ(scene.scan({classified(last, object_class, 0.8)}).tracks.size(), 1U);
   }
 }
@@ -115,7 +115,7 @@ TEST(FusedObjects, WhatStoodUntilNowDoesNotMoveForOneEcho) {
   EXPECT_EQ(scene.tracker().counts().confirmed_tracks, 0U);
 }
 
-TEST(FusedObjects, WhatCameByAndWasSeenByStereoOnlyIsTrackedAtTheFirstFusedSight) {
+TEST(FusedObjects, WhatPassedAndWasSeenByStereoOnlyIsTrackedAtTheFirstFusedDetection) {
   TrackingScene scene;
   double x = 10.0;
   for (int i = 0; i < 4; ++i) {
@@ -136,7 +136,7 @@ TEST(FusedObjects, ATrackOfOneFalseCoincidenceEndsSoon) {
   EXPECT_NEAR(0.1 * steps, TargetOptions().fused_proof_time, 0.11) << "its parked car stands";
 }
 
-TEST(FusedObjects, AWalkerTrackedAtFirstSightStaysTracked) {
+TEST(FusedObjects, APedestrianTrackedAtTheFirstDetectionStaysTracked) {
   TrackingScene scene;
   for (int i = 0; i < 60; ++i) {
     const double x = 10.0 + 0.1 * kWalking * i;
@@ -186,7 +186,7 @@ TEST(FusedObjects, AClassThatChangesForGoodChangesThatOfTheTrack) {
   EXPECT_GT(track.class_probabilities[static_cast<std::size_t>(ObjectClass::kCyclist)], 0.8);
 }
 
-TEST(FusedObjects, NeighboursOfDifferentClassesKeepTheirTracksWhereTheyPass) {
+TEST(FusedObjects, NeighborsOfDifferentClassesKeepTheirTracksWhereTheyPass) {
   TrackingScene scene;
   const auto walker = [&](double x) {
     const Object object = fusedAt(x + scene.noise(0.2), 0.5 + scene.noise(0.2));

@@ -1,5 +1,5 @@
 // With one hypothesis, no scan history, and neither split nor merged objects, multiple hypothesis
-// tracking is the global nearest neighbour.
+// tracking is the global nearest neighbor.
 #include <cstdint>
 
 #include "random_scene.h"
@@ -8,7 +8,7 @@
 namespace datmo {
 namespace {
 
-TrackerOptions nearestNeighbour() {
+TrackerOptions nearestNeighbor() {
   TrackerOptions options;
   options.association = "gnn";
   options.require_motion = false;  // more tracks
@@ -16,9 +16,9 @@ TrackerOptions nearestNeighbour() {
 }
 
 TrackerOptions singleHypothesis() {
-  TrackerOptions options = nearestNeighbour();
+  TrackerOptions options = nearestNeighbor();
   options.association = "mht";
-  options.hypotheses.most_hypotheses = 1;
+  options.hypotheses.max_hypotheses = 1;
   options.hypotheses.scan_history = 0;
   options.split_merge.split_probability = 0.0;
   options.split_merge.merge_probability = 0.0;
@@ -30,7 +30,7 @@ void expectSame(const Track& a, const Track& b) {
   EXPECT_EQ(a.state, b.state);
   EXPECT_EQ(a.covariance, b.covariance);
   EXPECT_EQ(a.mode_probabilities, b.mode_probabilities);
-  EXPECT_EQ(a.box.centre.heading(), b.box.centre.heading());
+  EXPECT_EQ(a.box.center.heading(), b.box.center.heading());
   EXPECT_EQ(a.box.length, b.box.length);
   EXPECT_EQ(a.existence_probability, b.existence_probability);
   EXPECT_EQ(a.since_update, b.since_update);
@@ -69,7 +69,7 @@ TEST(GnnEquality, SparseScenes) {
   std::size_t compared = 0;
   for (std::uint64_t seed = 0; seed < 200 && !testing::Test::HasFailure(); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    compared += compare(RandomSceneOptions(), seed, nearestNeighbour(), singleHypothesis());
+    compared += compare(RandomSceneOptions(), seed, nearestNeighbor(), singleHypothesis());
   }
   EXPECT_GT(compared, 10000U);
 }
@@ -78,11 +78,11 @@ TEST(GnnEquality, CrowdedScenes) {
   RandomSceneOptions crowd;
   crowd.targets = 12;
   crowd.range = 6.0;
-  crowd.most_clutter = 12;
+  crowd.max_clutter = 12;
   std::size_t compared = 0;
   for (std::uint64_t seed = 0; seed < 100 && !testing::Test::HasFailure(); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    compared += compare(crowd, seed, nearestNeighbour(), singleHypothesis());
+    compared += compare(crowd, seed, nearestNeighbor(), singleHypothesis());
   }
   EXPECT_GT(compared, 10000U);
 }
@@ -90,11 +90,11 @@ TEST(GnnEquality, CrowdedScenes) {
 TEST(GnnEquality, MoreHypothesesAreNotTheSame) {
   RandomSceneOptions crowd;
   crowd.range = 6.0;
-  TrackerOptions several = nearestNeighbour();
+  TrackerOptions several = nearestNeighbor();
   several.association = "mht";
   int different = 0;
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    TrackingScene first(nearestNeighbour());
+    TrackingScene first(nearestNeighbor());
     TrackingScene second(several);
     RandomScene scene(seed, crowd);
     for (int scan = 0; scan < 30; ++scan) {

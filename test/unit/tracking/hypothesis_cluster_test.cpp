@@ -61,13 +61,13 @@ TEST(HypothesisCluster, ASingleTargetIsCertain) {
   expectHypotheses(cluster, {1.0}, {{0}});
 }
 
-TEST(HypothesisCluster, TidyJoinsEqualOnesSortsAndRemovesWhatIsUnused) {
+TEST(HypothesisCluster, CanonicalizeMergesEqualOnesSortsAndRemovesWhatIsUnused) {
   HypothesisCluster cluster;
   cluster.trees = {treeOf(1, {{1}, {2}, {3}}), treeOf(2, {{4}}), treeOf(3, {{5}, {6}})};
   // The second leaf of the first tree and the whole second one are in none.
   cluster.hypotheses = {hypothesisOf(0.3, {2, kAbsent, kAbsent}),
                         hypothesisOf(0.2, {0, kAbsent, 1}), hypothesisOf(0.15, {0, kAbsent, 1})};
-  tidy(cluster);
+  canonicalize(cluster);
   EXPECT_EQ(numbersOf(cluster), (std::vector<std::uint64_t>{1, 3}));
   expectHypotheses(cluster, {0.35 / 0.65, 0.3 / 0.65}, {{0, 0}, {1, kAbsent}});
   ASSERT_EQ(cluster.trees[0].leaves.size(), 2U);
@@ -77,7 +77,7 @@ TEST(HypothesisCluster, TidyJoinsEqualOnesSortsAndRemovesWhatIsUnused) {
   EXPECT_EQ(cluster.trees[1].leaves[0].nodes[0], 6U);
 }
 
-TEST(HypothesisCluster, JoinedHasAllPairsBestFirst) {
+TEST(HypothesisCluster, MergedHasAllPairsBestFirst) {
   HypothesisCluster a;
   a.trees = {treeOf(1, {{1}, {2}})};
   a.hypotheses = {hypothesisOf(1.0, {1}), hypothesisOf(0.5, {0})};
@@ -86,13 +86,13 @@ TEST(HypothesisCluster, JoinedHasAllPairsBestFirst) {
   b.trees = {treeOf(2, {{3}, {4}}), treeOf(3, {{5}})};
   b.hypotheses = {hypothesisOf(1.0, {0, 0}), hypothesisOf(0.1, {1, kAbsent})};
   b.links = {{8, 2, 3}};
-  const HypothesisCluster both = joined(a, b, 10);
+  const HypothesisCluster both = merge(a, b, 10);
   EXPECT_EQ(numbersOf(both), (std::vector<std::uint64_t>{1, 2, 3}));
   expectHypotheses(both, {1.0 / 1.65, 0.5 / 1.65, 0.1 / 1.65, 0.05 / 1.65},
                    {{1, 0, 0}, {0, 0, 0}, {1, 1, kAbsent}, {0, 1, kAbsent}});
   EXPECT_EQ(both.links.size(), 2U);
 
-  const HypothesisCluster few = joined(a, b, 2);
+  const HypothesisCluster few = merge(a, b, 2);
   expectHypotheses(few, {1.0 / 1.5, 0.5 / 1.5}, {{1, 0, 0}, {0, 0, 0}});
   EXPECT_EQ(few.trees[1].leaves.size(), 1U) << "the other one is in no pair that is left";
 }
@@ -146,7 +146,7 @@ HypothesisCluster threeTargets() {
   cluster.trees = {treeOf(1, {{1}, {2}}), treeOf(2, {{3}, {4}}), treeOf(3, {{5}, {6}})};
   cluster.hypotheses = {hypothesisOf(0.7 * 0.6, {0, 0, 0}), hypothesisOf(0.3 * 0.6, {1, 1, 0}),
                         hypothesisOf(0.7 * 0.4, {0, 0, 1}), hypothesisOf(0.3 * 0.4, {1, 1, 1})};
-  tidy(cluster);
+  canonicalize(cluster);
   return cluster;
 }
 

@@ -16,24 +16,24 @@ constexpr int kTargets = 240;  // of one class, one after the other
 constexpr int kTaught = 80;    // of them before the comparison starts
 constexpr int kWarmUp = 10;    // steps until the velocity is known
 constexpr int kCounted = 190;  // steps, each target
-constexpr double kLeastProbability = 1e-3;
+constexpr double kMinProbability = 1e-3;
 
 struct Comparison {
   std::vector<double> fixed_velocity;       ///< mean squared error of each target, m^2/s^2
   std::vector<double> velocity_change;      ///< the same, adaptive less fixed
-  std::vector<double> fixed_normalised;     ///< see normalisedError
-  std::vector<double> adaptive_normalised;  ///< the same
-  JumpCounts learnt;
+  std::vector<double> fixed_normalized;     ///< see normalizedError
+  std::vector<double> adaptive_normalized;  ///< the same
+  JumpCounts learned;
 };
 
 /// Mean errors of one filter over the life of one target.
 struct Errors {
   double velocity = 0.0;
-  double normalised = 0.0;
+  double normalized = 0.0;
 
   void add(const TrackState& truth, const StateEstimate& estimate) {
     velocity += (truth - estimate.mean).segment<2>(2).squaredNorm() / kCounted;
-    normalised += normalisedError(truth, estimate) / kCounted;
+    normalized += normalizedError(truth, estimate) / kCounted;
   }
 };
 
@@ -50,7 +50,7 @@ std::array<Errors, 2> follow(std::array<ImmFilter, 2>& filters, JumpSystem& obje
     const PositionMeasurement seen = object.measure();
     for (std::size_t filter = 0; filter < filters.size(); ++filter) {
       filters[filter].predict(step);
-      filters[filter].update(seen, kLeastProbability);
+      filters[filter].update(seen, kMinProbability);
       if (i >= kWarmUp) {
         errors[filter].add(object.truth(), filters[filter].estimate());
       }
@@ -76,11 +76,11 @@ Comparison compare(const JumpCounts& truth) {
     if (target >= kTaught) {
       result.fixed_velocity.push_back(fixed.velocity);
       result.velocity_change.push_back(adaptive.velocity - fixed.velocity);
-      result.fixed_normalised.push_back(fixed.normalised);
-      result.adaptive_normalised.push_back(adaptive.normalised);
+      result.fixed_normalized.push_back(fixed.normalized);
+      result.adaptive_normalized.push_back(adaptive.normalized);
     }
   }
-  result.learnt = priors.of(ObjectClass::kVehicle);
+  result.learned = priors.of(ObjectClass::kVehicle);
   return result;
 }
 
@@ -107,28 +107,28 @@ double divergence(const JumpCounts& truth, const JumpCounts& estimate) {
   return (p.array() * (p.array() / q.array()).log()).sum() / kMotionModes;
 }
 
-TEST(ImmAdaptation, WrongTransitionsAreLearntAndErrorsShrink) {
+TEST(ImmAdaptation, WrongTransitionsAreLearnedAndErrorsShrink) {
   const JumpCounts truth = restlessLeftTurners();
   const Comparison result = compare(truth);
-  EXPECT_LT(divergence(truth, result.learnt), 0.5 * divergence(truth, assumed()));
+  EXPECT_LT(divergence(truth, result.learned), 0.5 * divergence(truth, assumed()));
 
   const SampleMean change(result.velocity_change);
   EXPECT_LT(change.mean + change.bound, 0.0) << "not better with 95 %";
-  const SampleMean fixed(result.fixed_normalised);
-  const SampleMean adaptive(result.adaptive_normalised);
+  const SampleMean fixed(result.fixed_normalized);
+  const SampleMean adaptive(result.adaptive_normalized);
   EXPECT_LT(std::abs(adaptive.mean - 4.0), std::abs(fixed.mean - 4.0));
   EXPECT_NEAR(adaptive.mean, 4.0, adaptive.bound);
 }
 
 TEST(ImmAdaptation, RightTransitionsStayAndErrorsDoNotGrow) {
   const Comparison result = compare(assumed());
-  EXPECT_LT(divergence(assumed(), result.learnt),
+  EXPECT_LT(divergence(assumed(), result.learned),
             0.1 * divergence(restlessLeftTurners(), assumed()));
 
   // No more than 1 % of the squared error may be lost, with 95 %.
   const SampleMean change(result.velocity_change);
   EXPECT_LT(change.mean + change.bound, 0.01 * SampleMean(result.fixed_velocity).mean);
-  const SampleMean adaptive(result.adaptive_normalised);
+  const SampleMean adaptive(result.adaptive_normalized);
   EXPECT_NEAR(adaptive.mean, 4.0, adaptive.bound);
 }
 

@@ -31,7 +31,7 @@ ImmFilter follow(const std::function<Point2(double)>& path, double seconds,
   for (double time = kPeriod; time < seconds; time += kPeriod) {
     filter.predict(step);
     const Point2 seen = path(time) + Point2(noise(engine), noise(engine));
-    filter.update({seen, Eigen::Matrix2d::Identity() * kSigma * kSigma}, options.least_probability);
+    filter.update({seen, Eigen::Matrix2d::Identity() * kSigma * kSigma}, options.min_probability);
   }
   return filter;
 }
@@ -84,9 +84,9 @@ TEST(ImmFilter, MissesGrowTheCovarianceAndTendToThePriorModes) {
         immStep(options, kPeriod).transition.transpose() * filter.modeProbabilities();
     filter.predict(immStep(options, kPeriod));
     EXPECT_TRUE(filter.modeProbabilities().isApprox(expected, 1e-12));
-    const double grown = filter.estimate().covariance.topLeftCorner<4, 4>().trace();
-    EXPECT_GT(grown, trace);
-    trace = grown;
+    const double expand = filter.estimate().covariance.topLeftCorner<4, 4>().trace();
+    EXPECT_GT(expand, trace);
+    trace = expand;
   }
 }
 
@@ -117,7 +117,7 @@ TEST(ImmFilter, WithEqualModesItIsOneKalmanFilter) {
   }
   EXPECT_TRUE(filter.estimate().mean.isApprox(single.mean, 1e-9));
   EXPECT_TRUE(filter.estimate().covariance.isApprox(single.covariance, 1e-9));
-  // Shares of time stay as they are, but for the discretisation of the jumps.
+  // Shares of time stay as they are, but for the discretization of the jumps.
   EXPECT_TRUE(filter.modeProbabilities().isApprox(priorModeProbabilities(ImmOptions()), 0.02));
 }
 
@@ -127,9 +127,9 @@ TEST(ImmFilter, AMeasurementFarAwayUnderflowsNothing) {
   filter.predict(immStep(options, kPeriod));
   const PositionMeasurement far{Point2(1e4, -1e4), Eigen::Matrix2d::Identity() * 1e-4};
   EXPECT_TRUE(std::isfinite(filter.logLikelihood(far)));
-  filter.update(far, options.least_probability);
+  filter.update(far, options.min_probability);
   EXPECT_NEAR(filter.modeProbabilities().sum(), 1.0, 1e-12);
-  EXPECT_GE(filter.modeProbabilities().minCoeff(), 0.9 * options.least_probability);
+  EXPECT_GE(filter.modeProbabilities().minCoeff(), 0.9 * options.min_probability);
   EXPECT_TRUE(filter.estimate().mean.allFinite());
   EXPECT_TRUE(filter.estimate().covariance.allFinite());
 }
@@ -147,15 +147,15 @@ ImmOptions withoutStanding() {
 }
 
 TEST(Standing, AnObjectThatStandsHasNoVelocityAndStaysInTheMode) {
-  const auto place = [](double) { return Point2(3.0, 4.0); };
+  const auto point = [](double) { return Point2(3.0, 4.0); };
   for (const double seconds : {3.0, 10.0, 60.0}) {
-    const ImmFilter filter = follow(place, seconds);
+    const ImmFilter filter = follow(point, seconds);
     EXPECT_GT(filter.modeProbabilities()[kStanding], 0.9) << seconds;
     EXPECT_LT(speedOf(filter), 0.1) << seconds;
     EXPECT_LT(velocityStd(filter), 0.15) << seconds;
-    EXPECT_LT((filter.estimate().mean.head<2>() - place(0.0)).norm(), 0.05) << seconds;
+    EXPECT_LT((filter.estimate().mean.head<2>() - point(0.0)).norm(), 0.05) << seconds;
   }
-  EXPECT_GT(velocityStd(follow(place, 10.0, withoutStanding())), 0.2);
+  EXPECT_GT(velocityStd(follow(point, 10.0, withoutStanding())), 0.2);
 }
 
 TEST(Standing, TheEstimateFollowsWithinASecondOfTheStart) {
@@ -201,7 +201,7 @@ TEST(Standing, SwitchedOffItHasNoProbability) {
   for (int i = 0; i < 50; ++i) {
     filter.predict(immStep(options, kPeriod));
     EXPECT_EQ(filter.modeProbabilities()[kStanding], 0.0);
-    filter.update({Point2::Zero(), Eigen::Matrix2d::Identity() * 0.01}, options.least_probability);
+    filter.update({Point2::Zero(), Eigen::Matrix2d::Identity() * 0.01}, options.min_probability);
     EXPECT_EQ(filter.modeProbabilities()[kStanding], 0.0);
     EXPECT_NEAR(filter.modeProbabilities().sum(), 1.0, 1e-12);
   }
@@ -213,10 +213,10 @@ TEST(ImmFilter, UpdateReturnsTheLogLikelihood) {
   filter.predict(immStep(options, kPeriod));
   const PositionMeasurement seen{Point2(10.1, 0.2), Eigen::Matrix2d::Identity() * 0.04};
   const double expected = filter.logLikelihood(seen);
-  EXPECT_NEAR(filter.update(seen, options.least_probability), expected, 1e-12);
+  EXPECT_NEAR(filter.update(seen, options.min_probability), expected, 1e-12);
 }
 
-TEST(ImmFilter, AShiftMovesThePlaceAndNothingElse) {
+TEST(ImmFilter, AShiftMovesThePositionAndNothingElse) {
   const ImmStep step = immStep(ImmOptions(), kPeriod);
   ImmFilter filter = follow([](double t) { return Point2(5.0 * t, 0.0); }, 2.0);
   ImmFilter shifted = filter;
@@ -243,7 +243,7 @@ TEST(ImmFilter, FarFromTheOriginNoDigitsAreLost) {
   EXPECT_TRUE(there.modeProbabilities().isApprox(here.modeProbabilities(), 1e-6));
 }
 
-TEST(ImmFilter, WhatMayNotBeLearntEqualsTheFixedTransitions) {
+TEST(ImmFilter, WhatMayNotBeLearnedEqualsTheFixedTransitions) {
   ImmOptions options;
   options.transitions.adaptive = true;
   options.transitions.learning.prior_exposure = 1e5;
@@ -286,7 +286,7 @@ TEST_P(JumpingModes, ErrorsAndInnovationsAreConsistent) {
       filter.update(seen, 0.0);
     }
     innovations.push_back(sum / kSteps);
-    errors.push_back(normalisedError(object.truth(), filter.estimate()));
+    errors.push_back(normalizedError(object.truth(), filter.estimate()));
   }
   // Of right covariances the means are 4 and 2 whatever the distribution, but its spread is not
   // that of chi-square: a mixture is not normal, least of all one of standing and moving.

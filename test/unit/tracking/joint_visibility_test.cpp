@@ -44,7 +44,7 @@ TEST(JointVisibility, WithoutViewsItIsTheScans) {
 TEST(JointVisibility, WithoutAScanItIsThatOfTheViewsAlone) {
   const ObjectList list{{}, {}, {{"camera", fieldOf(degrees(30.0))}}};
   EXPECT_GT(seen(nullptr, list, kVan), 0.9);
-  EXPECT_EQ(seen(nullptr, list, kToTheLeft), kOptions.least_probability)
+  EXPECT_EQ(seen(nullptr, list, kToTheLeft), kOptions.min_probability)
       << "an unknown view does not add its chance";
 }
 
@@ -62,21 +62,21 @@ TEST(JointVisibility, IndependentChancesJoin) {
   const FieldOfView weak{Pose2(), degrees(-90.0), degrees(90.0), 20.0, 60.0};
   const Box2 box{{far, 0.0, 0.0}, 0.6, 0.6};
   const double one = Visibility(weak, {}, kOptions).detectionProbability(box, 0.0);
-  ASSERT_NEAR(one, 0.5 * kOptions.most_probability, 0.01);
+  ASSERT_NEAR(one, 0.5 * kOptions.max_probability, 0.01);
   EXPECT_NEAR(seen(nullptr, {{}, {}, {{"a", weak}, {"b", weak}}}, box),
               1.0 - (1.0 - one) * (1.0 - one), 1e-9);
   const FieldOfView clear = fieldOf(degrees(90.0));
-  EXPECT_EQ(seen(nullptr, {{}, {}, {{"a", clear}, {"b", clear}}}, box), kOptions.most_probability)
+  EXPECT_EQ(seen(nullptr, {{}, {}, {{"a", clear}, {"b", clear}}}, box), kOptions.max_probability)
       << "nothing is surer than that";
 }
 
 TEST(JointVisibility, WhatASensorSawHidesWhatIsBehindItFromThatSensorAlone) {
   ObjectList list{{}, {objectOf(kVan, {"camera"})}, {{"camera", fieldOf(degrees(30.0))}}};
-  EXPECT_EQ(seen(nullptr, list, kBehindVan), kOptions.least_probability);
+  EXPECT_EQ(seen(nullptr, list, kBehindVan), kOptions.min_probability);
   list.objects[0].sensors = {"lidar"};
   EXPECT_GT(seen(nullptr, list, kBehindVan), 0.9) << "the camera looked over it";
   list.objects[0].sensors = {"lidar", "camera"};
-  EXPECT_EQ(seen(nullptr, list, kBehindVan), kOptions.least_probability);
+  EXPECT_EQ(seen(nullptr, list, kBehindVan), kOptions.min_probability);
   list.views.push_back({"roadside", {Pose2(60.0, 0.0, kPi), -0.5, 0.5, 60.0, 60.0}});
   EXPECT_GT(seen(nullptr, list, kBehindVan), 0.9) << "seen from the other side";
 }

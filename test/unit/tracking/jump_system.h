@@ -77,8 +77,8 @@ class JumpSystem {
   int mode_ = 0;
 };
 
-/// Normalised squared error of position and velocity: 4 on average where the filter is consistent.
-inline double normalisedError(const TrackState& truth, const StateEstimate& estimate) {
+/// Normalized squared error of position and velocity: 4 on average where the filter is consistent.
+inline double normalizedError(const TrackState& truth, const StateEstimate& estimate) {
   const Eigen::Vector4d error = (truth - estimate.mean).head<4>();
   const Eigen::Matrix4d covariance = estimate.covariance.topLeftCorner<4, 4>();
   return error.dot(covariance.ldlt().solve(error));

@@ -13,11 +13,11 @@ namespace {
 /// 95 % bounds of the mean of `count` chi-square values with `degrees` degrees of freedom; normal
 /// for the large counts used here.
 struct ChiSquareMean {
-  double least;
-  double most;
+  double min;
+  double max;
   ChiSquareMean(int degrees, int count)
-      : least(degrees - 1.96 * std::sqrt(2.0 * degrees / count)),
-        most(degrees + 1.96 * std::sqrt(2.0 * degrees / count)) {}
+      : min(degrees - 1.96 * std::sqrt(2.0 * degrees / count)),
+        max(degrees + 1.96 * std::sqrt(2.0 * degrees / count)) {}
 };
 
 TEST(KalmanFilter, UpdateByHand) {
@@ -110,7 +110,7 @@ class Consistency : public testing::TestWithParam<int> {
   std::normal_distribution<double> distribution_{0.0, 1.0};
 };
 
-TEST_P(Consistency, NormalisedErrorsAreChiSquare) {
+TEST_P(Consistency, NormalizedErrorsAreChiSquare) {
   constexpr int kRuns = 400;
   constexpr int kSteps = 50;
   const LinearMotion motion =
@@ -134,11 +134,11 @@ TEST_P(Consistency, NormalisedErrorsAreChiSquare) {
     error_sum += error.dot(estimate.covariance.ldlt().solve(error));
   }
   const ChiSquareMean nees(kTrackState, kRuns);
-  EXPECT_GT(error_sum / kRuns, nees.least);
-  EXPECT_LT(error_sum / kRuns, nees.most);
+  EXPECT_GT(error_sum / kRuns, nees.min);
+  EXPECT_LT(error_sum / kRuns, nees.max);
   const ChiSquareMean nis(2, kRuns * kSteps);
-  EXPECT_GT(innovation_sum / (kRuns * kSteps), nis.least);
-  EXPECT_LT(innovation_sum / (kRuns * kSteps), nis.most);
+  EXPECT_GT(innovation_sum / (kRuns * kSteps), nis.min);
+  EXPECT_LT(innovation_sum / (kRuns * kSteps), nis.max);
 }
 
 INSTANTIATE_TEST_SUITE_P(Modes, Consistency, testing::Range(0, kMotionModes));

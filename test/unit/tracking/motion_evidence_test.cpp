@@ -28,8 +28,8 @@ Object seenAt(double x, double length, std::size_t points = 3) {
   return object;
 }
 
-PositionMeasurement placeOf(const Object& object) {
-  return {object.box.centre.position(), object.position_covariance};
+PositionMeasurement observedBox(const Object& object) {
+  return {object.box.center.position(), object.position_covariance};
 }
 
 class MotionEvidenceTest : public testing::Test {
@@ -37,7 +37,7 @@ class MotionEvidenceTest : public testing::Test {
   void see(const Object& object, int times = 1) {
     for (int i = 0; i < times; ++i) {
       evidence_.predict(0.1, options_);
-      evidence_.update(object, placeOf(object), kWellPredicted, kDetection, options_);
+      evidence_.update(object, observedBox(object), kWellPredicted, kDetection, options_);
     }
   }
   bool suffices() const { return evidence_.suffices(movingEstimate(), options_); }
@@ -46,7 +46,7 @@ class MotionEvidenceTest : public testing::Test {
   MotionEvidence evidence_{seenAt(0.0, 1.0), options_};
 };
 
-TEST_F(MotionEvidenceTest, AnObjectThatLeavesItsPlaceMoves) {
+TEST_F(MotionEvidenceTest, AnObjectThatLeavesItsPositionMoves) {
   for (int i = 1; i <= 10; ++i) {
     see(seenAt(0.5 * i, 1.0));
   }
@@ -60,7 +60,7 @@ Object flankAt(double x, double length) {
   return object;
 }
 
-TEST_F(MotionEvidenceTest, AFlankWithoutEndsDoesNotLeaveItsPlaceAlongIt) {
+TEST_F(MotionEvidenceTest, AFlankWithoutEndsDoesNotLeaveItsPositionAlongIt) {
   // What a camera sees of a row of parked cars goes along with it.
   evidence_ = MotionEvidence(flankAt(0.0, 4.0), options_);
   for (int i = 1; i <= 40; ++i) {
@@ -69,7 +69,7 @@ TEST_F(MotionEvidenceTest, AFlankWithoutEndsDoesNotLeaveItsPlaceAlongIt) {
   }
 }
 
-TEST_F(MotionEvidenceTest, APersonWithoutEndsLeavesItsPlace) {
+TEST_F(MotionEvidenceTest, APersonWithoutEndsLeavesItsPosition) {
   const auto personAt = [](double x) {
     Object object = flankAt(x, 0.5);
     object.object_class = ObjectClass::kPedestrian;
@@ -82,17 +82,17 @@ TEST_F(MotionEvidenceTest, APersonWithoutEndsLeavesItsPlace) {
   EXPECT_TRUE(suffices());
 }
 
-TEST_F(MotionEvidenceTest, AFlankLeavesItsPlaceAcross) {
+TEST_F(MotionEvidenceTest, AFlankLeavesItsPositionAcross) {
   evidence_ = MotionEvidence(flankAt(0.0, 4.0), options_);
   for (int i = 1; i <= 10; ++i) {
     Object object = flankAt(0.0, 4.0);
-    object.box.centre = Pose2(0.0, 0.5 * i, 0.0);
+    object.box.center = Pose2(0.0, 0.5 * i, 0.0);
     see(object);
   }
   EXPECT_TRUE(suffices());
 }
 
-TEST_F(MotionEvidenceTest, FromWhereAnEndIsSeenTheWayCounts) {
+TEST_F(MotionEvidenceTest, FromWhereAnEndIsSeenTheDisplacementCounts) {
   evidence_ = MotionEvidence(flankAt(0.0, 4.0), options_);
   for (int i = 1; i <= 10; ++i) {
     see(flankAt(0.5 * i, 4.0));
@@ -110,21 +110,21 @@ TEST_F(MotionEvidenceTest, NoneOfItWithoutASpeed) {
     see(seenAt(0.5 * i, 1.0));
   }
   StateEstimate slow = movingEstimate();
-  slow.mean[2] = 0.9 * options_.least_speed;
+  slow.mean[2] = 0.9 * options_.min_speed;
   EXPECT_FALSE(evidence_.suffices(slow, options_));
   StateEstimate uncertain = movingEstimate();
   uncertain.covariance *= 1e4;
   EXPECT_FALSE(evidence_.suffices(uncertain, options_));
 }
 
-TEST_F(MotionEvidenceTest, AGrowingSideDoesNotLeaveItsPlace) {
+TEST_F(MotionEvidenceTest, AGrowingSideDoesNotLeaveItsPosition) {
   for (int i = 1; i <= 10; ++i) {
     see(seenAt(0.25 * i, 1.0 + 0.5 * i));
   }
   EXPECT_FALSE(suffices());
 }
 
-TEST_F(MotionEvidenceTest, WhatIsOftenSeenInStaticPlacesIsTakenForOtherThingsInTurn) {
+TEST_F(MotionEvidenceTest, WhatIsOftenSeenAtStaticPositionsIsTakenForOtherObjectsInTurn) {
   for (int i = 1; i <= 30; ++i) {
     Object object = seenAt(0.5 * i, 1.0);
     object.dynamic_state = i % 2 == 0 ? DynamicState::kStatic : DynamicState::kUnknown;
@@ -138,7 +138,7 @@ TEST_F(MotionEvidenceTest, WhatIsOftenSeenInStaticPlacesIsTakenForOtherThingsInT
   EXPECT_TRUE(suffices());
 }
 
-TEST_F(MotionEvidenceTest, InFreeSpaceAShorterWayIsEnough) {
+TEST_F(MotionEvidenceTest, InFreeSpaceAShorterDisplacementIsEnough) {
   // A box of 4 m goes 2.5 m: it could have stood there half hidden, but not where the map was free.
   MotionEvidence in_unknown_space(seenAt(0.0, 4.0), options_);
   Object free_object = seenAt(0.0, 4.0);
@@ -149,19 +149,19 @@ TEST_F(MotionEvidenceTest, InFreeSpaceAShorterWayIsEnough) {
       Object object = seenAt(0.25 * i, 4.0);
       object.moving_fraction = evidence == &in_free_space ? 1.0 : 0.0;
       evidence->predict(0.1, options_);
-      evidence->update(object, placeOf(object), kWellPredicted, kDetection, options_);
+      evidence->update(object, observedBox(object), kWellPredicted, kDetection, options_);
     }
   }
   EXPECT_FALSE(in_unknown_space.suffices(movingEstimate(), options_));
   EXPECT_TRUE(in_free_space.suffices(movingEstimate(), options_));
 }
 
-TEST_F(MotionEvidenceTest, ASideThatComesIntoViewAndGoesOutAgainDoesNotLeaveItsPlace) {
+TEST_F(MotionEvidenceTest, ASideThatComesIntoViewAndGoesOutAgainDoesNotLeaveItsPosition) {
   for (int i = 1; i <= 6; ++i) {
     see(seenAt(0.25 * i, 1.0 + 0.5 * i));  // 4 m long from -0.5 m on
   }
   for (int i = 1; i <= 6; ++i) {
-    see(seenAt(1.5 + 0.25 * i, 4.0 - 0.5 * i));  // its last metre
+    see(seenAt(1.5 + 0.25 * i, 4.0 - 0.5 * i));  // its last meter
   }
   EXPECT_FALSE(suffices());
 }
@@ -180,7 +180,7 @@ TEST_F(MotionEvidenceTest, IsolatedEchoesNeedMoreScansThanObjects) {
       ++scans;
       const Object object = seenAt(0.8 * scans, 0.0, points);
       evidence.predict(0.1, options_);
-      evidence.update(object, placeOf(object), kWellPredicted, kDetection, options_);
+      evidence.update(object, observedBox(object), kWellPredicted, kDetection, options_);
     }
     return scans;
   };
@@ -218,24 +218,24 @@ TEST_F(MotionEvidenceTest, AMissWhereNothingCouldBeSeenCostsLittle) {
 
 TEST_F(MotionEvidenceTest, TheScoreStaysWithinItsLimits) {
   see(seenAt(0.0, 1.0), 100);
-  EXPECT_EQ(evidence_.score(), options_.most_evidence);
+  EXPECT_EQ(evidence_.score(), options_.max_evidence);
   for (int i = 0; i < 100; ++i) {
     evidence_.miss(0.5, options_);
   }
-  EXPECT_EQ(evidence_.score(), options_.least_evidence);
+  EXPECT_EQ(evidence_.score(), options_.min_evidence);
 
   see(seenAt(0.0, 1.0));
   constexpr double kFarOff = -20.0;
-  evidence_.update(seenAt(0.0, 1.0), placeOf(seenAt(0.0, 1.0)), kFarOff, kDetection, options_);
-  EXPECT_EQ(evidence_.score(), options_.least_evidence);
+  evidence_.update(seenAt(0.0, 1.0), observedBox(seenAt(0.0, 1.0)), kFarOff, kDetection, options_);
+  EXPECT_EQ(evidence_.score(), options_.min_evidence);
 }
 
-TEST_F(MotionEvidenceTest, FreeSpaceSpeaksForMotionAndAStaticPlaceAgainst) {
+TEST_F(MotionEvidenceTest, FreeSpaceIsEvidenceForMotionAndAStaticPositionAgainst) {
   // Just as likely by both filters: only the map decides.
   const auto seemsToStandAfter = [this](const Object& object) {
     MotionEvidence evidence(object, options_);
     const Innovation standing{Eigen::Vector2d::Zero(), 2.0 * object.position_covariance};
-    evidence.update(object, placeOf(object), standing.logLikelihood(), kDetection, options_);
+    evidence.update(object, observedBox(object), standing.logLikelihood(), kDetection, options_);
     return evidence.seemsToStand();
   };
   EXPECT_FALSE(seemsToStandAfter(objectAt(0.0, 0.0, DynamicState::kMoving)));

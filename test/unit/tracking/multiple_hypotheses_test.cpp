@@ -5,7 +5,7 @@
 #include "association_scene.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/tracking/nearest_neighbour.h"
+#include "datmo_fusion/tracking/nearest_neighbor.h"
 
 namespace datmo {
 namespace {
@@ -58,7 +58,7 @@ TEST_F(MultipleHypothesesTest, WeighsTheHypothesesOfADoubtfulScan) {
   const double second = weightOf(objectAt(0.45, 0.0));
   ASSERT_GT(second, first);
   ASSERT_EQ(result.best().size(), 2U);
-  EXPECT_EQ(seenAs(result, 1), 1U);
+  EXPECT_EQ(measurementIndex(result, 1), 1U);
   EXPECT_DOUBLE_EQ(probabilityOf(result, 1), 1.0) << "it exists in all of them";
   // The other object is of a new target, if it is not of the first one: missed, or seen as the
   // second.
@@ -88,7 +88,7 @@ TEST_F(MultipleHypothesesTest, AMissSpeaksAgainstWhatHasMoreTargets) {
 }
 
 TEST_F(MultipleHypothesesTest, WhatIsUnlikelyIsDropped) {
-  hypotheses_.least_ratio = 0.9;
+  hypotheses_.min_ratio = 0.9;
   EXPECT_EQ(probabilityOf(inDoubt(), 2), 1.0);
 }
 
@@ -122,7 +122,7 @@ void turnOffBesideAnother(Targets& targets, ScanSource& source, bool another) {
   }
 }
 
-TEST_F(MultipleHypothesesTest, LaterScansDecideAnewWhatTheNearestNeighbourGotWrong) {
+TEST_F(MultipleHypothesesTest, LaterScansDecideAnewWhatTheNearestNeighborGotWrong) {
   MultipleHypotheses alone = targets();
   turnOffBesideAnother(alone, source_, false);
   MultipleHypotheses result = targets();
@@ -134,7 +134,7 @@ TEST_F(MultipleHypothesesTest, LaterScansDecideAnewWhatTheNearestNeighbourGotWro
       << "as if the other object had never been there";
   EXPECT_EQ(found.id(), 3U);
 
-  NearestNeighbourTargets nearest{TargetOptions(), AssociationOptions()};
+  NearestNeighborTargets nearest{TargetOptions(), AssociationOptions()};
   turnOffBesideAnother(nearest, source_, true);
   EXPECT_FALSE(nearest.best().front().target->filter().estimate().mean.isApprox(
       expected.filter().estimate().mean, 1e-3));
@@ -150,8 +150,8 @@ TEST_F(MultipleHypothesesTest, SurelyDifferentClassesAreNeverTheSameTarget) {
   MultipleHypotheses result = targets();
   see(result, source_, {of(ObjectClass::kCyclist)});
   see(result, source_, {of(ObjectClass::kVehicle)});
-  EXPECT_EQ(seenAs(result, 1), kUnseen);
-  EXPECT_EQ(seenAs(result, 2), 0U);
+  EXPECT_EQ(measurementIndex(result, 1), kUnseen);
+  EXPECT_EQ(measurementIndex(result, 2), 0U);
   EXPECT_EQ(probabilityOf(result, 2), 1.0);
   see(result, source_, {of(ObjectClass::kUnknown)});
   EXPECT_EQ(result.best().size(), 2U);
@@ -175,13 +175,13 @@ TEST_F(MultipleHypothesesTest, ACrowdIsCutToTheBestHypothesesAndCounted) {
   MultipleHypotheses result = targets();
   crowd(result, source_, 25);
   EXPECT_GT(result.counts().cut_hypotheses, 0U);
-  EXPECT_EQ(result.counts().hurried_steps, 0U);
+  EXPECT_EQ(result.counts().best_only_steps, 0U);
   EXPECT_GE(result.best().size(), 25U);
 }
 
 TEST_F(MultipleHypothesesTest, FullTreesEndTheSearch) {
-  hypotheses_.most_leaves = 1;
-  hypotheses_.least_ratio = 0.0;
+  hypotheses_.max_leaves = 1;
+  hypotheses_.min_ratio = 0.0;
   MultipleHypotheses result = targets();
   crowd(result, source_, 25);
   EXPECT_GT(result.counts().cut_hypotheses, 0U);
@@ -191,7 +191,7 @@ TEST_F(MultipleHypothesesTest, FullTreesEndTheSearch) {
 }
 
 TEST_F(MultipleHypothesesTest, OfATooLargeClusterTheBestHypothesisIsFollowed) {
-  hypotheses_.most_joint_targets = 10;
+  hypotheses_.max_joint_targets = 10;
   MultipleHypotheses result = targets();
   crowd(result, source_, 25);
   EXPECT_GT(result.counts().cut_hypotheses, 0U);
@@ -200,28 +200,29 @@ TEST_F(MultipleHypothesesTest, OfATooLargeClusterTheBestHypothesisIsFollowed) {
   }
 }
 
-TEST_F(MultipleHypothesesTest, OutOfTimeItDecidesAsTheNearestNeighbour) {
+TEST_F(MultipleHypothesesTest, OutOfTimeItDecidesAsTheNearestNeighbor) {
   double now = 0.0;
   const StepClock clock = [&now] { return now += 1.0; };
   MultipleHypotheses result = targets();
-  NearestNeighbourTargets nearest{TargetOptions(), AssociationOptions()};
+  NearestNeighborTargets nearest{TargetOptions(), AssociationOptions()};
   for (const std::vector<double>& scan :
        std::vector<std::vector<double>>{{0.0, 9.0}, {-0.5, 0.45, 9.5}, {0.2, 0.9, 10.0}}) {
     see(result, source_, objectsAlong(scan), StepBudget(clock, 0.5));
     see(nearest, source_, objectsAlong(scan));
     ASSERT_EQ(result.best().size(), nearest.best().size());
     for (std::size_t i = 0; i < result.best().size(); ++i) {
-      EXPECT_EQ(result.best()[i].target->seenAs(), nearest.best()[i].target->seenAs());
+      EXPECT_EQ(result.best()[i].target->measurementIndex(),
+                nearest.best()[i].target->measurementIndex());
       EXPECT_EQ(result.best()[i].probability, 1.0);
     }
   }
-  EXPECT_EQ(result.counts().hurried_steps, 2U) << "once for each step with targets";
+  EXPECT_EQ(result.counts().best_only_steps, 2U) << "once for each step with targets";
   see(result, source_, {}, StepBudget(clock, 1e9));
-  EXPECT_EQ(result.counts().hurried_steps, 2U);
+  EXPECT_EQ(result.counts().best_only_steps, 2U);
 }
 
 TEST_F(MultipleHypothesesTest, AFullListRefusesNewObjectsAndCountsEachOnce) {
-  association_.most_targets = 2;
+  association_.max_targets = 2;
   MultipleHypotheses result = targets();
   see(result, source_, objectsAlong({0.0, 10.0, 20.0}));
   EXPECT_EQ(result.best().size(), 2U);

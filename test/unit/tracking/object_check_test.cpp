@@ -10,13 +10,13 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-TEST(ObjectCheck, TransformTurnsPlaceCovarianceAndPoints) {
+TEST(ObjectCheck, TransformTurnsPositionCovarianceAndPoints) {
   Object object = objectAt(2.0, 0.0);
   object.position_covariance = Eigen::Vector2d(4.0, 1.0).asDiagonal();
   object.points = {Point2(1.0, 0.0)};
   const Object turned = transformed(Pose2(10.0, 0.0, 0.5 * kPi), object);
-  EXPECT_TRUE(turned.box.centre.position().isApprox(Point2(10.0, 2.0), 1e-12));
-  EXPECT_NEAR(turned.box.centre.heading(), 0.5 * kPi, 1e-12);
+  EXPECT_TRUE(turned.box.center.position().isApprox(Point2(10.0, 2.0), 1e-12));
+  EXPECT_NEAR(turned.box.center.heading(), 0.5 * kPi, 1e-12);
   const Eigen::Matrix2d expected = Eigen::Vector2d(1.0, 4.0).asDiagonal();
   EXPECT_TRUE(turned.position_covariance.isApprox(expected, 1e-12));
   EXPECT_TRUE(turned.points[0].isApprox(Point2(10.0, 1.0), 1e-12));
@@ -94,7 +94,7 @@ TEST(ObjectCheck, PointsAreFinite) {
   EXPECT_FALSE(isValid(object));
 }
 
-TEST(ObjectCheck, RefusesPlacesAndSizesWhoseSquaresOverflow) {
+TEST(ObjectCheck, RefusesPositionsAndSizesWhoseSquaresOverflow) {
   Object object = objectAt(1.0, 2.0);
   object.box.length = 1e200;
   EXPECT_FALSE(isValid(object));

@@ -14,7 +14,7 @@ struct RandomSceneOptions {
   double speed_std = 3.0;   ///< m/s, of each component
   double detection = 0.85;  ///< 1
   double noise_std = 0.15;  ///< m
-  int most_clutter = 5;     ///< false objects in one scan
+  int max_clutter = 5;      ///< false objects in one scan
 };
 
 /// Things that go straight on across each other, missed at times, among false objects; seeded.
@@ -39,7 +39,7 @@ class RandomScene {
         objects.push_back(objectAt(places_[i].x() + noise.x(), places_[i].y() + noise.y()));
       }
     }
-    const int clutter = std::uniform_int_distribution<int>(0, options_.most_clutter)(engine_);
+    const int clutter = std::uniform_int_distribution<int>(0, options_.max_clutter)(engine_);
     for (int i = 0; i < clutter; ++i) {
       const double x = uniform();
       objects.push_back(objectAt(x, uniform()));

@@ -23,24 +23,24 @@ class BruteForce {
  public:
   explicit BruteForce(const Problem& problem)
       : problem_(problem), taken_(static_cast<std::size_t>(problem.cost.cols()), false) {
-    place(0, 0.0);
+    assign(0, 0.0);
     std::sort(costs_.begin(), costs_.end());
   }
 
   const std::vector<double>& costs() const { return costs_; }
 
  private:
-  void place(int row, double sum) {
+  void assign(int row, double sum) {
     if (row == problem_.cost.rows()) {
       costs_.push_back(sum);
       return;
     }
-    place(row + 1, sum + problem_.none[row]);
+    assign(row + 1, sum + problem_.none[row]);
     for (std::size_t column = 0; column < taken_.size(); ++column) {
       const double cost = problem_.cost(row, static_cast<int>(column));
       if (!taken_[column] && cost < kForbidden) {
         taken_[column] = true;
-        place(row + 1, sum + cost);
+        assign(row + 1, sum + cost);
         taken_[column] = false;
       }
     }

@@ -74,7 +74,7 @@ TEST_F(SplitMergeReadings, PartsOfATargetAsOne) {
   EXPECT_EQ(whole.sources, (std::vector<std::size_t>{0, 1}));
   EXPECT_TRUE(whole.needs_target);
   EXPECT_FALSE(whole.starts_target);
-  EXPECT_TRUE(whole.object.box.centre.position().isZero(1e-12));
+  EXPECT_TRUE(whole.object.box.center.position().isZero(1e-12));
   EXPECT_NEAR(whole.object.box.length, 5.0, 1e-12);
   EXPECT_NEAR(whole.object.box.width, 2.0, 1e-12);
   EXPECT_EQ(whole.object.points.size(), 8U);
@@ -147,8 +147,8 @@ TEST_F(SplitMergeReadings, OneObjectAsTwoTargets) {
   EXPECT_EQ(left.sources, std::vector<std::size_t>{0});
   EXPECT_TRUE(right.needs_target && left.needs_target);
   EXPECT_EQ(right.object.points.size(), 2U);
-  EXPECT_NEAR(right.object.box.centre.y(), -0.65, 1e-12);
-  EXPECT_NEAR(left.object.box.centre.y(), 0.65, 1e-12);
+  EXPECT_NEAR(right.object.box.center.y(), -0.65, 1e-12);
+  EXPECT_NEAR(left.object.box.center.y(), 0.65, 1e-12);
   EXPECT_NEAR(left.object.box.width, 0.5, 1e-12);
   EXPECT_EQ(right.object.object_class, ObjectClass::kUnknown);
   const auto side = [](const Observation& o, BoxSide which) {
@@ -190,10 +190,10 @@ TEST_F(SplitMergeReadings, SeveralAtOnceAndNoMoreThanAllowed) {
   EXPECT_EQ(readings_[1], (Interpretation{2, 3, 4}));
   EXPECT_EQ(readings_[2], (Interpretation{0, 1, 5}));
   EXPECT_EQ(readings_[3], (Interpretation{4, 5}));
-  for (const int most : {1, 2, 3}) {
-    options_.most_readings = most;
+  for (const int max : {1, 2, 3}) {
+    options_.max_readings = max;
     twoVans();
-    EXPECT_LE(readings_.size(), static_cast<std::size_t>(most));
+    EXPECT_LE(readings_.size(), static_cast<std::size_t>(max));
   }
 }
 

@@ -88,14 +88,14 @@ TEST(SplitMerge, WithoutSplitsAPartIsTakenForTheWhole) {
   EXPECT_LT(scene.tracks().tracks.front().objects.size(), 2U);
 }
 
-TEST(SplitMerge, AUnionTellsNothingNewOfTheHeading) {
+TEST(SplitMerge, AUnionHasNoNewInformationOnTheHeading) {
   // The union has the heading that the target has already.
   TrackingScene scene;
   splitVan(scene, 20);
   TrackerOptions options;
   options.split_merge.split_probability = 0.0;
   ASSERT_EQ(scene.tracks().tracks.size(), 1U);
-  EXPECT_NEAR(scene.tracks().tracks.front().box.centre.heading(), 0.0, 0.02);
+  EXPECT_NEAR(scene.tracks().tracks.front().box.center.heading(), 0.0, 0.02);
 }
 
 TEST(SplitMerge, AnUnconfirmedTargetClaimsNoParts) {
@@ -160,7 +160,7 @@ TEST(SplitMerge, WithoutMergesOneOfThemCoasts) {
 
 TEST(SplitMerge, ReadingsAreBounded) {
   TrackerOptions options;
-  options.split_merge.most_readings = 1;
+  options.split_merge.max_readings = 1;
   TrackingScene scene(options);
   splitVan(scene, 3);
   ASSERT_FALSE(scene.tracks().tracks.empty());

@@ -1,5 +1,5 @@
 // What stands must not seem to move because of how stereo errs: its depth is uncertain by up to a
-// metre and more, and the error of one frame is much like that of the last one.
+// meter and more, and the error of one frame is much like that of the last one.
 #include <cmath>
 #include <random>
 

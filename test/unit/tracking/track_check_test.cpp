@@ -66,10 +66,10 @@ TEST(TrackCheck, RefusesEachBadNumber) {
   }
 }
 
-TEST(TrackCheck, PlacesAreFiniteAndNotTooFar) {
+TEST(TrackCheck, PositionsAreFiniteAndNotTooFar) {
   for (const double bad : {kNan, kInfinity, 1e200}) {
     Track track = goodTrack();
-    track.box.centre = Pose2(bad, 5.0, 0.0);
+    track.box.center = Pose2(bad, 5.0, 0.0);
     EXPECT_FALSE(isValid(track)) << bad;
     track = goodTrack();
     track.history[0].pose = Pose2(9.0, bad, 0.0);
@@ -79,7 +79,7 @@ TEST(TrackCheck, PlacesAreFiniteAndNotTooFar) {
     EXPECT_FALSE(isValid(track)) << "state " << bad;
   }
   Track track = goodTrack();
-  track.box.centre = Pose2(10.0, 5.0, kNan);
+  track.box.center = Pose2(10.0, 5.0, kNan);
   EXPECT_FALSE(isValid(track)) << "heading";
 }
 
@@ -140,7 +140,7 @@ TEST(TrackCheck, FansCanBeLookedUp) {
   EXPECT_TRUE(isValid(fan)) << "from left to right";
   fan.reach.clear();
   EXPECT_TRUE(isValid(fan)) << "nothing is known";
-  fan.reach.assign(kMostBeams, 1.0);
+  fan.reach.assign(kMaxBeams, 1.0);
   EXPECT_TRUE(isValid(fan));
   fan.reach.push_back(1.0);
   EXPECT_FALSE(isValid(fan)) << "too many beams";
@@ -152,7 +152,7 @@ TEST(TrackCheck, RefusesBadFans) {
       [](ViewFan& fan, double bad) { fan.sensor = Pose2(0.0, 0.0, bad); },
       [](ViewFan& fan, double bad) { fan.first_bearing = bad; },
       [](ViewFan& fan, double bad) { fan.beam_spacing = bad; },
-      [](ViewFan& fan, double bad) { fan.least_range = bad; },
+      [](ViewFan& fan, double bad) { fan.min_range = bad; },
       [](ViewFan& fan, double bad) { fan.sure_range = bad; },
       [](ViewFan& fan, double bad) { fan.range = bad; },
       [](ViewFan& fan, double bad) { fan.reach[1] = bad; },

@@ -103,7 +103,7 @@ TEST(TrackLife, TwoSensorsOfWhichOneSeesItMoveConfirmAtOnce) {
   fused.class_probability = 0.8;
   scene.scan({fused});
   EXPECT_TRUE(scene.tracks().tracks.empty()) << "one sensor";
-  fused.box.centre = Pose2(30.0, 5.0, 0.0);
+  fused.box.center = Pose2(30.0, 5.0, 0.0);
   fused.sensors = {"lidar", "camera"};
   scene.scan({fused});
   ASSERT_EQ(scene.tracks().tracks.size(), 1U);
@@ -121,7 +121,7 @@ TEST(TrackLife, HistoryIsWhereItWasPublishedOldestFirst) {
       continue;
     }
     const Track& track = scene.tracks().tracks[0];
-    published.push_back({scene.tracks().stamp, track.box.centre});
+    published.push_back({scene.tracks().stamp, track.box.center});
     ASSERT_FALSE(track.history.empty());
     ASSERT_LE(track.history.size(), published.size());
     const std::size_t skipped = published.size() - track.history.size();

@@ -1,4 +1,4 @@
-// Boxes that drive past a simulated scanner, from its beams to the tracked centre: is the centre
+// Boxes that drive past a simulated scanner, from its beams to the tracked center: is the center
 // where it is said to be, and is a part that comes into view no motion?
 
 #include <algorithm>
@@ -57,11 +57,11 @@ class Follower {
 
   int objects() const { return objects_; }
   const TrackedBox& box() const { return box_; }
-  Point2 centre() const { return estimate_.mean.head<2>(); }
+  Point2 center() const { return estimate_.mean.head<2>(); }
   Eigen::Vector2d velocity() const { return estimate_.mean.segment<2>(2); }
   Eigen::Matrix2d velocityCovariance() const { return estimate_.covariance.block<2, 2>(2, 2); }
-  Eigen::Matrix2d centreCovariance() const {
-    return estimate_.covariance.topLeftCorner<2, 2>() + box_.centreCovariance();
+  Eigen::Matrix2d centerCovariance() const {
+    return estimate_.covariance.topLeftCorner<2, 2>() + box_.centerCovariance();
   }
 
  private:
@@ -112,7 +112,7 @@ struct Traffic {
 
 /// Means over one instant of each of many drives.
 struct Consistency {
-  double position = 0.0;  ///< NEES of the centre, 2 degrees of freedom
+  double position = 0.0;  ///< NEES of the center, 2 degrees of freedom
   double velocity = 0.0;  ///< NEES of its velocity
   double length_error = 0.0;
   int drives = 0;
@@ -132,8 +132,8 @@ Consistency consistencyOf(const Traffic& traffic, const RayCaster& scanner) {
     const int instant = static_cast<int>(random.uniform(10.0, kScans));
     std::optional<Follower> follower;
     for (int scan = 0; scan <= instant; ++scan) {
-      const double way = traffic.speed * kPeriod * (scan - kScans / 2);
-      const Box2 truth{middle * Pose2(way, 0.0, 0.0), traffic.length, traffic.width};
+      const double distance = traffic.speed * kPeriod * (scan - kScans / 2);
+      const Box2 truth{middle * Pose2(distance, 0.0, 0.0), traffic.length, traffic.width};
       if (follower) {
         follower->predict();
       }
@@ -144,15 +144,15 @@ Consistency consistencyOf(const Traffic& traffic, const RayCaster& scanner) {
         follower.emplace(*object, TrackedBoxOptions());
       }
       if (scan == instant && follower && object && follower->objects() > 5) {
-        const Eigen::Vector2d velocity = truth.centre.rotate(Eigen::Vector2d(traffic.speed, 0.0));
-        result.position += squaredDistance(follower->centre() - truth.centre.position(),
-                                           follower->centreCovariance());
+        const Eigen::Vector2d velocity = truth.center.rotate(Eigen::Vector2d(traffic.speed, 0.0));
+        result.position += squaredDistance(follower->center() - truth.center.position(),
+                                           follower->centerCovariance());
         result.velocity +=
             squaredDistance(follower->velocity() - velocity, follower->velocityCovariance());
-        const Box2 box = follower->box().at(follower->centre());
+        const Box2 box = follower->box().at(follower->center());
         result.length_error += std::abs(box.length - traffic.length);
         result.turned_round +=
-            follower->box().signKnown() && std::cos(box.centre.heading() - middle.heading()) < 0.0;
+            follower->box().signKnown() && std::cos(box.center.heading() - middle.heading()) < 0.0;
         ++result.drives;
       }
     }
@@ -169,7 +169,7 @@ double upperBound(int samples) { return 2.0 + 1.96 * 2.0 / std::sqrt(samples); }
 
 class TrackedBoxDrives : public testing::TestWithParam<Traffic> {};
 
-TEST_P(TrackedBoxDrives, TheCentreIsWhereItIsSaidToBe) {
+TEST_P(TrackedBoxDrives, TheCenterIsWhereItIsSaidToBe) {
   const RayCaster fine(degrees(180.0), degrees(0.5), 0.05);
   const RayCaster coarse(degrees(180.0), degrees(2.0), 0.2);
   for (const RayCaster& scanner : {fine, coarse}) {
@@ -218,7 +218,7 @@ TEST(TrackedBoxSimulation, ACarThatComesFromBehindAWallDoesNotJump) {
         continue;
       }
       follower->update(*object);
-      const Box2 box = follower->box().at(follower->centre());
+      const Box2 box = follower->box().at(follower->center());
       longest = std::max(longest, std::max(box.length, box.width));
       if (follower->objects() > 8) {
         const Eigen::Vector2d error = follower->velocity() - Eigen::Vector2d(0.0, kSpeed);

@@ -23,7 +23,7 @@ Object wholeBox(double heading, double length, double width) {
 /// longer side.
 Object rearAt(double x) {
   Object object = wholeBox(0.5 * kPi, 1.8, 0.0);
-  object.box.centre = Pose2(x, 0.0, 0.5 * kPi);
+  object.box.center = Pose2(x, 0.0, 0.5 * kPi);
   object.side_variance[static_cast<std::size_t>(BoxSide::kRight)] = kHiddenSide;  // at larger x
   return object;
 }
@@ -36,7 +36,7 @@ Object frontAt(double x) {
   return object;
 }
 
-double headingOf(const TrackedBox& box) { return box.at(Point2::Zero()).centre.heading(); }
+double headingOf(const TrackedBox& box) { return box.at(Point2::Zero()).center.heading(); }
 
 TrackedBox convergedOn(const Object& object, const TrackedBoxOptions& options, int scans = 30) {
   TrackedBox box(object, options);
@@ -68,7 +68,7 @@ TEST(TrackedBox, SizeConvergesToWhatIsSeen) {
   EXPECT_LT(std::sqrt(box.sizeVariance().maxCoeff()), 0.06);
 }
 
-TEST(TrackedBox, BetweenTwoSidesTheCentreIsMeasuredByBoth) {
+TEST(TrackedBox, BetweenTwoSidesTheCenterIsMeasuredByBoth) {
   const TrackedBoxOptions options;
   Object object = wholeBox(0.0, 4.9, 2.0);
   const TrackedBox box(object, options);
@@ -77,7 +77,7 @@ TEST(TrackedBox, BetweenTwoSidesTheCentreIsMeasuredByBoth) {
   // Mean of two sides, each with half the weight.
   EXPECT_NEAR(measured.covariance(0, 0), object.position_covariance(0, 0) + 0.5 * kSideVariance,
               1e-9);
-  EXPECT_NEAR(box.centreCovariance()(0, 0), 0.0, 1e-9) << "the size does not matter to it";
+  EXPECT_NEAR(box.centerCovariance()(0, 0), 0.0, 1e-9) << "the size does not matter to it";
 }
 
 TEST(TrackedBox, OfTwoSidesTheSurerOneCountsMoreWhereTheSizeIsKnown) {
@@ -86,12 +86,12 @@ TEST(TrackedBox, OfTwoSidesTheSurerOneCountsMoreWhereTheSizeIsKnown) {
   Object object = wholeBox(0.0, 4.0, 1.8);  // the front seems nearer than it is
   object.side_variance[static_cast<std::size_t>(BoxSide::kFront)] = 1.0;
   const PositionMeasurement measured = box.measurementOf(object);
-  // 2 m behind the centre of what is seen there is the rear, and 2.2 m ahead of that the centre.
+  // 2 m behind the center of what is seen there is the rear, and 2.2 m ahead of that the center.
   EXPECT_NEAR(measured.position.x(), 0.2, 0.02);
   EXPECT_LT(measured.covariance(0, 0) - object.position_covariance(0, 0), 1.2 * kSideVariance);
 }
 
-TEST(TrackedBox, BehindOneSideTheCentreIsHalfTheSizeAway) {
+TEST(TrackedBox, BehindOneSideTheCenterIsHalfTheSizeAway) {
   const TrackedBoxOptions options;
   const TrackedBox box = drivingAhead(options);
   const double depth = box.at(Point2::Zero()).length;
@@ -102,8 +102,8 @@ TEST(TrackedBox, BehindOneSideTheCentreIsHalfTheSizeAway) {
   // The unknown length is the same in every scan: no noise, but a part of the covariance.
   EXPECT_NEAR(measured.covariance(0, 0), rearAt(10.0).position_covariance(0, 0) + kSideVariance,
               1e-9);
-  EXPECT_NEAR(box.centreCovariance()(0, 0), 0.25 * box.sizeVariance().maxCoeff(), 1e-9);
-  EXPECT_GT(box.centreCovariance()(0, 0), 0.2 * 0.2);
+  EXPECT_NEAR(box.centerCovariance()(0, 0), 0.25 * box.sizeVariance().maxCoeff(), 1e-9);
+  EXPECT_GT(box.centerCovariance()(0, 0), 0.2 * 0.2);
 }
 
 TEST(TrackedBox, TheOtherSideIsTrustedOnlyAsFarAsTheSizeIsKnown) {
@@ -118,7 +118,7 @@ TEST(TrackedBox, TheOtherSideIsTrustedOnlyAsFarAsTheSizeIsKnown) {
     box.update(front, 0.1, options);
   }
   EXPECT_NEAR(box.measurementOf(front).covariance(0, 0), before, 1e-3)
-      << "by then the filter's centre rests on the front";
+      << "by then the filter's center rests on the front";
 }
 
 TEST(TrackedBox, WithNeitherSideSeenItIsAnywhereInWhatTheBoxLeaves) {
@@ -132,12 +132,12 @@ TEST(TrackedBox, WithNeitherSideSeenItIsAnywhereInWhatTheBoxLeaves) {
   EXPECT_NEAR(measured.covariance(0, 0) - middle.position_covariance(0, 0), 3.0 * 3.0 / 12.0, 0.02);
 }
 
-TEST(TrackedBox, GrowthMovesTheCentreAndLeavesTheSideThatWasSeen) {
+TEST(TrackedBox, GrowthMovesTheCenterAndLeavesTheSideThatWasSeen) {
   const TrackedBoxOptions options;
   TrackedBox box = convergedOn(rearAt(10.0), options);
   Object longer = wholeBox(0.0, 8.0, 1.8);
   longer.side_variance[static_cast<std::size_t>(BoxSide::kFront)] = kHiddenSide;
-  longer.box.centre = Pose2(14.0, 0.0, 0.0);
+  longer.box.center = Pose2(14.0, 0.0, 0.0);
   const Point2 before = box.measurementOf(longer).position;
   const Point2 shift = box.update(longer, 0.1, options);
   const Point2 after = box.measurementOf(longer).position;
@@ -184,7 +184,7 @@ TEST(TrackedBox, AFullTurnHasNoFlip) {
   }
 }
 
-TEST(TrackedBox, MotionTellsTheLengthFromTheWidth) {
+TEST(TrackedBox, MotionDistinguishesLengthFromWidth) {
   const TrackedBoxOptions options;
   TrackedBox box(wholeBox(0.0, 1.8, 0.8), options);
   for (int i = 0; i < 10; ++i) {
@@ -201,13 +201,13 @@ TEST(TrackedBox, TakingTheRearForTheFrontMovesNothing) {
   const TrackedBoxOptions options;
   TrackedBox box = drivingAhead(options);
   const PositionMeasurement before = box.measurementOf(rearAt(10.0));
-  const Eigen::Matrix2d considered = box.centreCovariance();
+  const Eigen::Matrix2d considered = box.centerCovariance();
   const Point2 shift = box.followVelocity(Eigen::Vector2d(-6.0, 0.0), kVelocityCovariance, options);
   EXPECT_NEAR(std::abs(headingOf(box)), kPi, 1e-6);
   EXPECT_TRUE(shift.isZero(0.02));
   EXPECT_TRUE(box.measurementOf(rearAt(10.0)).position.isApprox(before.position, 1e-2));
   EXPECT_TRUE(box.measurementOf(rearAt(10.0)).covariance.isApprox(before.covariance, 1e-2));
-  EXPECT_TRUE(box.centreCovariance().isApprox(considered, 0.05));
+  EXPECT_TRUE(box.centerCovariance().isApprox(considered, 0.05));
 }
 
 TEST(TrackedBox, MotionGivesTheSignAndReversingKeepsIt) {
@@ -224,7 +224,7 @@ TEST(TrackedBox, MotionGivesTheSignAndReversingKeepsIt) {
   EXPECT_NEAR(headingOf(box), 0.0, 1e-6);
 }
 
-TEST(TrackedBox, TheVelocityTellsTheHeadingOnlyWhereItIsSurer) {
+TEST(TrackedBox, TheVelocityGivesTheHeadingOnlyWhereItIsSurer) {
   const TrackedBoxOptions options;
   const Eigen::Vector2d velocity = 5.0 * Eigen::Vector2d(std::cos(0.2), std::sin(0.2));
   TrackedBox sure = convergedOn(wholeBox(0.0, 4.4, 1.8), options);

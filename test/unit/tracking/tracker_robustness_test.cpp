@@ -35,8 +35,8 @@ TEST(TrackerRobustness, RejectsBrokenObjectsAndTakesTheRest) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
   std::vector<Object> broken(8, objectAt(3.0, 3.0));
-  broken[0].box.centre = Pose2(nan, 0.0, 0.0);
-  broken[1].box.centre = Pose2(0.0, -inf, 0.0);
+  broken[0].box.center = Pose2(nan, 0.0, 0.0);
+  broken[1].box.center = Pose2(0.0, -inf, 0.0);
   broken[2].box.length = nan;
   broken[3].box.width = -1.0;
   broken[4].position_covariance.setZero();
@@ -110,7 +110,7 @@ TEST(TrackerRobustness, EmptyListsFromTheStart) {
 
 TEST(TrackerRobustness, ResetForgetsTheCounts) {
   TrackerOptions options;
-  options.gating.most_targets = 1;
+  options.gating.max_targets = 1;
   TrackingScene scene(options);
   scene.scan({objectAt(1.0, 0.0), objectAt(20.0, 0.0)});
   EXPECT_EQ(scene.tracker().counts().association.refused_births, 1U);
@@ -122,14 +122,14 @@ TEST(TrackerRobustness, ResetForgetsTheCounts) {
 
 TEST(TrackerRobustness, AThousandObjectsAtOnePointAreBounded) {
   TrackerOptions options;
-  options.gating.most_targets = 300;  // fewer than objects are taken in
+  options.gating.max_targets = 300;  // fewer than objects are taken in
   TrackingScene scene(options);
   for (int i = 0; i < 3; ++i) {
     scene.scan(std::vector<Object>(1000, objectAt(10.0, 0.0)));
   }
   const TrackerCounts& counts = scene.tracker().counts();
-  const auto taken = static_cast<std::uint64_t>(options.intake.most_objects);
-  const auto followed = static_cast<std::uint64_t>(options.gating.most_targets);
+  const auto taken = static_cast<std::uint64_t>(options.intake.max_objects);
+  const auto followed = static_cast<std::uint64_t>(options.gating.max_targets);
   EXPECT_EQ(counts.intake.accepted, 3U * taken);
   EXPECT_EQ(counts.intake.refused, 3U * (1000U - taken));
   EXPECT_GE(counts.association.refused_births, 3U * (taken - followed));

@@ -20,8 +20,8 @@ std::set<std::uint32_t> idsOf(const TrackList& list) {
 }
 
 /// Scans until the first track is published; -1: never.
-int scansUntilConfirmed(TrackingScene& scene, double speed, int most, DynamicState state) {
-  for (int scan = 1; scan <= most; ++scan) {
+int scansUntilConfirmed(TrackingScene& scene, double speed, int max, DynamicState state) {
+  for (int scan = 1; scan <= max; ++scan) {
     const double x = 15.0 + speed * scene.nextTime();
     if (!scene.scan({objectAt(x + scene.noise(0.1), 2.0 + scene.noise(0.1), state)})
              .tracks.empty()) {
@@ -77,8 +77,8 @@ TEST(Tracker, EstimatesStateInTheFixedFrameFromAMovingVehicle) {
   EXPECT_NEAR(track.state[1], -10.0 + 3.0 * 4.0, 0.3);
   EXPECT_NEAR(track.state[2], 0.0, 0.5);
   EXPECT_NEAR(track.state[3], 3.0, 0.5);
-  EXPECT_NEAR(angleBetween(track.box.centre.heading(), 0.5 * kPi), 0.0, 0.2);
-  EXPECT_EQ(track.box.centre.position(), Point2(track.state.head<2>()));
+  EXPECT_NEAR(angleBetween(track.box.center.heading(), 0.5 * kPi), 0.0, 0.2);
+  EXPECT_EQ(track.box.center.position(), Point2(track.state.head<2>()));
   EXPECT_NEAR(track.age, 3.9, 1e-6);
   EXPECT_EQ(track.hits, 40U);
 }
@@ -121,7 +121,7 @@ TEST(Tracker, NeverStartsFromAStaticObjectButFollowsOneThatIsTracked) {
   EXPECT_EQ(scene.tracks().tracks.front().since_update, 0.0);
 }
 
-TEST(Tracker, KeepsTheIdThroughMissedScansAndCoastsOnTheWay) {
+TEST(Tracker, KeepsTheIdThroughMissedScansAndCoasts) {
   TrackingScene scene;
   for (int i = 0; i < 60; ++i) {
     const double x = 6.0 * (scene.nextTime() - 100.0);
@@ -190,11 +190,11 @@ TEST(Tracker, CrossingTargetsKeepTheirIds) {
 TEST(Tracker, ClutterIsNotPublished) {
   TrackingScene scene;
   std::mt19937_64 engine(3);
-  std::uniform_real_distribution<double> place(-40.0, 40.0);
+  std::uniform_real_distribution<double> position(-40.0, 40.0);
   for (int i = 0; i < 200; ++i) {
     std::vector<Object> objects;
     for (int k = 0; k < 5; ++k) {
-      objects.push_back(objectAt(place(engine), place(engine)));
+      objects.push_back(objectAt(position(engine), position(engine)));
     }
     scene.scan(objects);
   }
@@ -211,7 +211,7 @@ TEST(Tracker, AnObjectThatStopsStaysATrackThatStands) {
   }
   ASSERT_EQ(idsOf(scene.tracks()), std::set<std::uint32_t>{1});
   EXPECT_FALSE(scene.tracks().tracks.front().moving);
-  EXPECT_NEAR(scene.tracks().tracks.front().box.centre.heading(), 0.0, 0.2);
+  EXPECT_NEAR(scene.tracks().tracks.front().box.center.heading(), 0.0, 0.2);
 }
 
 TEST(Tracker, IdsRiseAndAreNotReusedAfterDeathOrReset) {

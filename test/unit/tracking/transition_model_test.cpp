@@ -17,9 +17,9 @@ TransitionLearningOptions plainLearning(double prior_exposure) {
   options.prior_exposure = prior_exposure;
   options.class_exposure = 1e5;
   options.forgetting = 1e6;
-  options.least_sojourn = 0.01;
-  options.most_sojourn = 1e6;
-  options.least_share = 0.0;
+  options.min_sojourn = 0.01;
+  options.max_sojourn = 1e6;
+  options.min_share = 0.0;
   return options;
 }
 
@@ -92,7 +92,7 @@ TEST(TransitionModel, AJumpThatIsSeenIsCountedOnce) {
   }
 }
 
-TEST(TransitionModel, DataThatTellNothingChangeNothing) {
+TEST(TransitionModel, UninformativeDataChangeNothing) {
   const TransitionLearningOptions options = plainLearning(2.0);
   TransitionModel model(priorCounts(options), options);
   model.predict(kPeriod);
@@ -115,8 +115,8 @@ TEST(TransitionModel, TheMeanIsThatOfJilkovAndLi) {
     const ModeVector alpha = 20.0 * p.row(i).transpose();
     const double expected_likelihood = p.row(i).dot(likelihoods);
     const ModeVector g = 1.0 + m[i] / evidence * (likelihoods.array() - expected_likelihood);
-    const ModeVector grown = alpha + alpha.cwiseProduct(g) / alpha.dot(g);
-    EXPECT_TRUE(after.row(i).transpose().isApprox(grown / grown.sum(), 1e-9)) << i;
+    const ModeVector expand = alpha + alpha.cwiseProduct(g) / alpha.dot(g);
+    EXPECT_TRUE(after.row(i).transpose().isApprox(expand / expand.sum(), 1e-9)) << i;
   }
 }
 
@@ -196,10 +196,10 @@ TEST(TransitionModel, ForgetsInSecondsNotInSteps) {
   EXPECT_TRUE(other.learned().jumps.isApprox(model.learned().jumps, 1e-9));
 }
 
-TEST(TransitionModel, NothingLearntLeavesTheBounds) {
+TEST(TransitionModel, NothingLearnedLeavesTheBounds) {
   TransitionLearningOptions options;
   options.forgetting = 1e6;
-  options.most_sojourn = 50.0;
+  options.max_sojourn = 50.0;
   TransitionModel model(countsOfSojourns(TransitionOptions()), options);
   for (int i = 0; i < 5000; ++i) {
     model.predict(kPeriod);
@@ -208,10 +208,10 @@ TEST(TransitionModel, NothingLearntLeavesTheBounds) {
     model.update(ModeVector::Unit(2), ModeVector::Unit(2));
   }
   const JumpCounts counts = model.counts();
-  EXPECT_NEAR(sojourn(counts, 0), options.least_sojourn, 1e-9);
-  EXPECT_NEAR(sojourn(counts, 2), options.most_sojourn, 1e-9);
+  EXPECT_NEAR(sojourn(counts, 0), options.min_sojourn, 1e-9);
+  EXPECT_NEAR(sojourn(counts, 2), options.max_sojourn, 1e-9);
   for (const int to : {2, 3, 4}) {
-    EXPECT_GT(counts.jumps(0, to), 0.9 * options.least_share * counts.jumps.row(0).sum());
+    EXPECT_GT(counts.jumps(0, to), 0.9 * options.min_share * counts.jumps.row(0).sum());
   }
   EXPECT_TRUE(transitionMatrix(counts, kPeriod).rowwise().sum().isOnes(1e-12));
 }
@@ -230,7 +230,7 @@ TEST(TransitionModel, ExtremeStepsAndLikelihoodsStayFinite) {
   }
 }
 
-TEST(TransitionModel, ANewPriorKeepsWhatWasLearnt) {
+TEST(TransitionModel, ANewPriorKeepsWhatWasLearned) {
   const TransitionLearningOptions options = plainLearning(2.0);
   TransitionModel model(priorCounts(options), options);
   model.predict(kPeriod);
@@ -286,8 +286,8 @@ TEST_F(Priors, TheirWeightIsBounded) {
     EXPECT_LE(priors.of(ObjectClass::kVehicle).exposure.maxCoeff(),
               options_.learning.prior_exposure * (1.0 + 1e-9));
   }
-  // However much was learnt, a class can change its mind.
-  const double learnt = sojourn(priors.of(ObjectClass::kVehicle), 0);
+  // However much was learned, a class can change its mind.
+  const double learned_sojourn = sojourn(priors.of(ObjectClass::kVehicle), 0);
   for (int i = 0; i < 100; ++i) {
     TransitionModel calm = *priors.modelOf(ObjectClass::kVehicle);
     for (int j = 0; j < 100; ++j) {
@@ -296,10 +296,10 @@ TEST_F(Priors, TheirWeightIsBounded) {
     }
     priors.learn(ObjectClass::kVehicle, calm);
   }
-  EXPECT_GT(sojourn(priors.of(ObjectClass::kVehicle), 0), 3.0 * learnt);
+  EXPECT_GT(sojourn(priors.of(ObjectClass::kVehicle), 0), 3.0 * learned_sojourn);
 }
 
-TEST_F(Priors, WithoutStandingItIsNeverLearnt) {
+TEST_F(Priors, WithoutStandingItIsNeverLearned) {
   options_.standing = false;
   TransitionPriors priors(options_);
   priors.learn(ObjectClass::kVehicle, restlessTarget(priors, ObjectClass::kVehicle));

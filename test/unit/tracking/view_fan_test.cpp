@@ -15,7 +15,7 @@ const VisibilityOptions kOptions;
 
 /// 181 beams ahead, some of them blind, some ending at a wall, from a scanner in front.
 Visibility scanner() {
-  SplitScan scan;
+  LabeledScan scan;
   scan.scanner_in_base = Pose2(3.0, 0.5, 0.2);
   scan.field = {degrees(-90.0), degrees(1.0), 181, 0.5, 40.0, 80.0};
   scan.blind_beams = {30, 31, 32, 33, 34, 35};
@@ -38,7 +38,7 @@ Visibility both() {
 }
 
 /// All around, near and far.
-std::vector<Box2> places() {
+std::vector<Box2> positions() {
   std::vector<Box2> boxes;
   for (double x = -20.0; x <= 80.0; x += 4.7) {
     for (double y = -30.0; y <= 40.0; y += 5.3) {
@@ -51,7 +51,7 @@ std::vector<Box2> places() {
 TEST(ViewFan, AVisibilityOfItsFansIsTheSame) {
   for (const Visibility& original : {scanner(), camera(), both()}) {
     const Visibility again(original.fans(), kOptions);
-    for (const Box2& box : places()) {
+    for (const Box2& box : positions()) {
       EXPECT_EQ(again.detectionProbability(box, 0.5), original.detectionProbability(box, 0.5));
     }
   }
@@ -67,12 +67,12 @@ TEST(ViewFan, OneOfEachSensorWhoseViewIsKnown) {
   EXPECT_EQ(joint.fans().size(), 1U);
 }
 
-TEST(ViewFan, TellsWhatTheScanDid) {
+TEST(ViewFan, ReportsWhatTheScanDid) {
   const ViewFan fan = scanner().fans().at(0);
   EXPECT_EQ(fan.sensor.x(), 3.0);
   EXPECT_EQ(fan.first_bearing, degrees(-90.0));
   EXPECT_EQ(fan.beam_spacing, degrees(1.0));
-  EXPECT_EQ(fan.least_range, 0.5);
+  EXPECT_EQ(fan.min_range, 0.5);
   EXPECT_EQ(fan.sure_range, 40.0);
   EXPECT_EQ(fan.range, 80.0);
   ASSERT_EQ(fan.reach.size(), 181U);
@@ -103,8 +103,8 @@ TEST(ViewFan, InAnotherFrameItSeesTheSame) {
     fan = transformed(base_in_fixed, fan);
   }
   const Visibility moved(fans, kOptions);
-  for (const Box2& box : places()) {
-    const Box2 moved_box{base_in_fixed * box.centre, box.length, box.width};
+  for (const Box2& box : positions()) {
+    const Box2 moved_box{base_in_fixed * box.center, box.length, box.width};
     EXPECT_NEAR(moved.detectionProbability(moved_box, 0.5), both().detectionProbability(box, 0.5),
                 1e-6);
   }

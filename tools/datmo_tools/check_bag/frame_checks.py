@@ -5,7 +5,7 @@ import math
 from datmo_tools.check_bag.motion_signal import planar_mount
 from datmo_tools.check_bag.transform_table import bare
 
-MAX_TILT = math.radians(5.0)  # as grid_slam/most_tilt
+MAX_TILT = math.radians(5.0)  # as grid_slam/max_tilt
 MOUNT_MOVES = 0.02  # m
 MOUNT_TURNS = math.radians(1.0)
 

@@ -26,7 +26,7 @@ class MotionSignal:
 
     def motions(self, starts, ends):
         """n x 2, m: how far between each two times, seen from the vehicle at the first one."""
-        first, last = self._places(starts), self._places(ends)
+        first, last = self._positions(starts), self._positions(ends)
         heading = np.interp(starts, self.stamps, self.headings)
         apart = last - first
         cosine, sine = np.cos(heading), np.sin(heading)
@@ -34,7 +34,7 @@ class MotionSignal:
             [cosine * apart[:, 0] + sine * apart[:, 1], cosine * apart[:, 1] - sine * apart[:, 0]]
         )
 
-    def _places(self, times):
+    def _positions(self, times):
         columns = [np.interp(times, self.stamps, self.positions[:, axis]) for axis in (0, 1)]
         return np.column_stack(columns)
 
@@ -49,7 +49,7 @@ class MotionSignal:
         times = np.arange(self.stamps[0], self.stamps[-1], 0.1)
         if len(times) < 2:
             return np.zeros(0)
-        return np.linalg.norm(np.diff(self._places(times), axis=0), axis=1) / 0.1
+        return np.linalg.norm(np.diff(self._positions(times), axis=0), axis=1) / 0.1
 
 
 def _rising(stamps):

@@ -85,14 +85,14 @@ def _nearest(echoes, message):
     return min(valid) if valid else math.inf
 
 
-def cloud_sample(message, most_points=20000):
+def cloud_sample(message, max_points=20000):
     """CloudSample of a PointCloud2; without points where x, y, z are not three floats."""
     fields = {field.name: field for field in message.fields}
     points = np.zeros((0, 3))
     if all(name in fields and fields[name].datatype == 7 for name in "xyz"):
         points = _points(message, [fields[name].offset for name in "xyz"])
     points = points[np.all(np.isfinite(points), axis=1)]
-    points = points[:: max(1, len(points) // most_points)]
+    points = points[:: max(1, len(points) // max_points)]
     return CloudSample(
         message.header.frame_id, message.width, message.height, tuple(fields), points
     )

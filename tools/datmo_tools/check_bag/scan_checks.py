@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 MIN_SCANS = 20  # for what a beam does in all scans
-LONGEST_SWEEP = 0.25  # s, as scan/longest_sweep
+MAX_SWEEP = 0.25  # s, as scan/max_sweep
 NO_RETURN_SHARE = 0.02  # of all beams, from which on a convention is reported
 DEAD_WIDTH = math.radians(1.0)  # narrower runs of dead beams are not reported
 OWN_SHARE = 0.8  # of the scans, in which a beam ends at the vehicle itself
@@ -153,7 +153,7 @@ def _check_times(recording, name, scan, findings):
             "time_increment", name, f"time_increment is {scan.time_increment} s, expected 0 or more",
             "All beams are taken as measured at once: correct it in the driver.",
         )  # fmt: skip
-    elif sweep > LONGEST_SWEEP or (period > 0.0 and sweep > 1.1 * period):
+    elif sweep > MAX_SWEEP or (period > 0.0 and sweep > 1.1 * period):
         findings.warn(
             "time_increment", name,
             f"by time_increment a scan takes {sweep:.3f} s, and one comes every {period:.3f} s",

@@ -12,7 +12,7 @@ from scipy.spatial import cKDTree
 MAX_POINTS = 300  # of the later scan that are matched
 STEPS = 20
 MIN_PAIRS = 20
-LARGEST_GAP = 6.0  # of the median distance between neighbors: farther ones are no line
+MAX_GAP = 6.0  # of the median distance between neighbors: farther ones are no line
 
 
 class ScanMatch(NamedTuple):
@@ -40,7 +40,7 @@ class Outline:
         if len(self.points) < 3:
             return np.zeros((0, 2)), np.zeros((0, 2))
         before, middle, after = self.points[:-2], self.points[1:-1], self.points[2:]
-        limit = np.maximum(LARGEST_GAP * abs(spacing) * ranges[1:-1], 0.05)
+        limit = np.maximum(MAX_GAP * abs(spacing) * ranges[1:-1], 0.05)
         near = np.linalg.norm(middle - before, axis=1) < limit
         near &= np.linalg.norm(after - middle, axis=1) < limit
         along = (after - before)[near]
@@ -60,17 +60,17 @@ class Outline:
 
     def _refined(self, points, motion):
         gate = max(0.06 * self.reach, 0.2)
-        least = max(0.006 * self.reach, 0.03)
+        minimum = max(0.006 * self.reach, 0.03)
         for _ in range(STEPS):
             pairs = self._pairs(points, motion, gate)
             if pairs is None:
                 return None
             step = _step(*pairs)
             motion = _moved(motion, step)
-            if np.abs(step).max() < 1e-4 and gate <= least:
+            if np.abs(step).max() < 1e-4 and gate <= minimum:
                 break
-            gate = max(0.7 * gate, least)
-        return self._result(points, motion, least)
+            gate = max(0.7 * gate, minimum)
+        return self._result(points, motion, minimum)
 
     def _pairs(self, points, motion, gate):
         moved = _applied(points, motion)

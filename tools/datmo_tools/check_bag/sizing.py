@@ -25,9 +25,9 @@ ROBOT_MOTION = {
 # People as a low scanner sees them: one or two legs, 0.1 m to 0.5 m, that swing by about 0.15 m about
 # the body. A person who stands is one as well, so nothing has to be seen to move first.
 PEOPLE_OBJECTS = {
-    "largest_size": 3.0,  # m
+    "max_size": 3.0,  # m
     "position_sigma": 0.15,  # m
-    "segmentation": {"longest_gap": 0.6, "shortest_gap": 0.2},  # m
+    "segmentation": {"max_gap": 0.6, "min_gap": 0.2},  # m
 }
 PEOPLE_TRACKER = {
     "require_motion": False,
@@ -39,8 +39,8 @@ PEOPLE_TRACKER = {
         "stop_speed": 0.2,  # m/s
         "evidence": {
             "standing_drift": 0.05,  # m^2/s
-            "least_overrun": 0.4,  # m
-            "least_speed": 0.4,  # m/s
+            "min_overrun": 0.4,  # m
+            "min_speed": 0.4,  # m/s
         },
         "box": {
             "size": {
@@ -54,7 +54,7 @@ PEOPLE_TRACKER = {
             },
         },
     },
-    "most_position_std": 1.0,  # m
+    "max_position_std": 1.0,  # m
 }  # fmt: skip
 
 
@@ -151,7 +151,7 @@ def _set_noise(sections, measured):
 def _set_small(sections, measured):
     speed = max(measured.speed or 0.0, MIN_INITIAL_SPEED)
     slam = _at(sections, "grid_slam")
-    slam["longest_step"] = 0.5
+    slam["max_step"] = 0.5
     _at(slam, "map")["static_after"] = STATIC_AFTER
     slam["motion"] = {**ROBOT_MOTION, "initial_speed_sigma": round(speed, 1)}
     _at(sections, "moving_objects").update(copy.deepcopy(PEOPLE_OBJECTS))

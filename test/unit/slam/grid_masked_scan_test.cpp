@@ -1,4 +1,4 @@
-#include "datmo_fusion/slam/fused_view.h"
+#include "datmo_fusion/slam/grid_masked_scan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,18 +41,18 @@ SensorGrid gridWith(const std::vector<CellIndex>& occupied) {
 
 constexpr double kNothing = INFINITY;
 
-TEST(FusedViewTest, ABeamThatTheGridConfirmsKeepsItsExactEnd) {
-  const FusedView view =
-      viewThrough(gridWith({{10, 0}}), scanOf({kNothing, 10.3, kNothing}), GridEnds::kScan);
+TEST(GridMaskedScanTest, ABeamThatTheGridConfirmsKeepsItsExactEnd) {
+  const GridMaskedScan view =
+      maskScanWithGrid(gridWith({{10, 0}}), scanOf({kNothing, 10.3, kNothing}), GridEnds::kScan);
   EXPECT_TRUE(view.scan.rays[1].hit);
   EXPECT_TRUE(view.measured[1]);
   EXPECT_TRUE(view.any_measured);
   EXPECT_DOUBLE_EQ(view.scan.rays[1].range, 10.3);
 }
 
-TEST(FusedViewTest, ABeamThatTheGridRefutesHasNoHit) {
-  const FusedView view =
-      viewThrough(gridWith({}), scanOf({kNothing, 10.3, kNothing}), GridEnds::kScan);
+TEST(GridMaskedScanTest, ABeamThatTheGridRefutesHasNoHit) {
+  const GridMaskedScan view =
+      maskScanWithGrid(gridWith({}), scanOf({kNothing, 10.3, kNothing}), GridEnds::kScan);
   EXPECT_FALSE(view.scan.rays[1].hit);
   EXPECT_FALSE(view.any_measured);
   EXPECT_TRUE(view.cells.empty());
@@ -60,23 +60,23 @@ TEST(FusedViewTest, ABeamThatTheGridRefutesHasNoHit) {
   EXPECT_NEAR(view.refuted[0].x(), 10.3, 1e-9);
 }
 
-TEST(FusedViewTest, UndecidedIsNotConfirmed) {
+TEST(GridMaskedScanTest, UndecidedIsNotConfirmed) {
   SensorGrid grid = gridWith({});
   grid.at({10, 0}) = kUndecidedPercent;
   EXPECT_TRUE(
-      viewThrough(grid, scanOf({kNothing, 10.3, kNothing}), GridEnds::kScan).refuted.empty());
+      maskScanWithGrid(grid, scanOf({kNothing, 10.3, kNothing}), GridEnds::kScan).refuted.empty());
   EXPECT_FALSE(
-      viewThrough(grid, scanOf({kNothing, 10.3, kNothing}), GridEnds::kScan).scan.rays[1].hit);
+      maskScanWithGrid(grid, scanOf({kNothing, 10.3, kNothing}), GridEnds::kScan).scan.rays[1].hit);
 }
 
-TEST(FusedViewTest, BeyondTheWindowTheBeamIsBelieved) {
+TEST(GridMaskedScanTest, BeyondTheWindowTheBeamIsBelieved) {
   Scan scan = scanOf({kNothing, 30.0, kNothing});
-  EXPECT_TRUE(viewThrough(gridWith({}), scan, GridEnds::kScan).measured[1]);
+  EXPECT_TRUE(maskScanWithGrid(gridWith({}), scan, GridEnds::kScan).measured[1]);
 }
 
-TEST(FusedViewTest, ABeamWithoutHitEndsAtWhatOthersSee) {
-  const FusedView view = viewThrough(gridWith({{5, 5}, {8, 8}}),
-                                     scanOf({kNothing, kNothing, kNothing}), GridEnds::kScan);
+TEST(GridMaskedScanTest, ABeamWithoutHitEndsAtWhatOthersSee) {
+  const GridMaskedScan view = maskScanWithGrid(
+      gridWith({{5, 5}, {8, 8}}), scanOf({kNothing, kNothing, kNothing}), GridEnds::kScan);
   const Ray& ray = view.scan.rays[2];
   EXPECT_TRUE(ray.hit);
   EXPECT_FALSE(view.measured[2]);
@@ -85,54 +85,55 @@ TEST(FusedViewTest, ABeamWithoutHitEndsAtWhatOthersSee) {
   EXPECT_NEAR(ray.end.y(), 5.5, 1e-9);
 }
 
-TEST(FusedViewTest, OfTheScannersOwnEndAndANearerCellTheEndCounts) {
-  const FusedView view =
-      viewThrough(gridWith({{5, 0}, {10, 0}}), scanOf({kNothing, 10.3, kNothing}), GridEnds::kScan);
+TEST(GridMaskedScanTest, OfTheScannersOwnEndAndANearerCellTheEndCounts) {
+  const GridMaskedScan view = maskScanWithGrid(gridWith({{5, 0}, {10, 0}}),
+                                               scanOf({kNothing, 10.3, kNothing}), GridEnds::kScan);
   EXPECT_DOUBLE_EQ(view.scan.rays[1].range, 10.3);
   ASSERT_EQ(view.cells.size(), 1U);
   EXPECT_EQ(view.cells[0], Point2(5.5, 0.5));
 }
 
-TEST(FusedViewTest, CellsAcrossABeamsWidthAreItsOwn) {
+TEST(GridMaskedScanTest, CellsAcrossABeamsWidthAreItsOwn) {
   Scan scan = scanOf({kNothing, 10.3, kNothing});
   scan.field.beam_spacing = degrees(20.0);  // 3.6 m wide at 10.3 m
   const SensorGrid grid = gridWith({{10, -2}, {10, -1}, {10, 0}, {10, 1}, {10, 6}});
-  const FusedView view = viewThrough(grid, scan, GridEnds::kScan);
+  const GridMaskedScan view = maskScanWithGrid(grid, scan, GridEnds::kScan);
   ASSERT_EQ(view.cells.size(), 1U);
   EXPECT_EQ(view.cells[0], Point2(10.5, 6.5));
 }
 
-TEST(FusedViewTest, OfCellsAllEndsAreCentres) {
-  const FusedView view =
-      viewThrough(gridWith({{10, 0}}), scanOf({kNothing, 10.1, kNothing}), GridEnds::kCells);
+TEST(GridMaskedScanTest, OfCellsAllEndsAreCenters) {
+  const GridMaskedScan view =
+      maskScanWithGrid(gridWith({{10, 0}}), scanOf({kNothing, 10.1, kNothing}), GridEnds::kCells);
   EXPECT_TRUE(view.scan.rays[1].hit);
   EXPECT_FALSE(view.any_measured);
   EXPECT_NEAR(view.scan.rays[1].range, 10.5, 1e-9);
 }
 
-TEST(FusedViewTest, ASilentScannersBeamsAreMadeOfTheGrid) {
+TEST(GridMaskedScanTest, ASilentScannersBeamsAreMadeOfTheGrid) {
   Scan silent = scanOf({});
-  const FusedView view = viewThrough(gridWith({{10, 0}}), silent, GridEnds::kScan);
+  const GridMaskedScan view = maskScanWithGrid(gridWith({{10, 0}}), silent, GridEnds::kScan);
   ASSERT_EQ(view.scan.rays.size(), 3U);
   EXPECT_FALSE(view.scan.rays[0].hit);
   EXPECT_TRUE(view.scan.rays[1].hit);
   EXPECT_FALSE(view.any_measured);
 }
 
-TEST(FusedViewTest, BlindBeamsStayBlind) {
+TEST(GridMaskedScanTest, BlindBeamsStayBlind) {
   Scan scan = scanOf({kNothing, 10.3, kNothing});
   scan.rays.erase(scan.rays.begin());
-  EXPECT_EQ(viewThrough(gridWith({{5, -6}}), scan, GridEnds::kScan).scan.rays.size(), 2U);
+  EXPECT_EQ(maskScanWithGrid(gridWith({{5, -6}}), scan, GridEnds::kScan).scan.rays.size(), 2U);
 }
 
-TEST(ApartFrom, WhatTouchesASeedByOccupiedCellsIsLeftOut) {
+TEST(ExcludeConnectedTo, WhatTouchesASeedByOccupiedCellsIsLeftOut) {
   const SensorGrid grid = gridWith({{3, 3}, {4, 4}, {5, 4}, {8, 4}});
-  const std::vector<Point2> places = {{5.5, 4.5}, {8.5, 4.5}};
-  const std::vector<Point2> apart = apartFrom({{3.2, 3.9}}, grid, places);
+  const std::vector<Point2> positions = {{5.5, 4.5}, {8.5, 4.5}};
+  const std::vector<Point2> apart = excludeConnectedTo({{3.2, 3.9}}, grid, positions);
   ASSERT_EQ(apart.size(), 1U);
-  EXPECT_EQ(apart[0], places[1]);
-  EXPECT_EQ(apartFrom({}, grid, places).size(), 2U);
-  EXPECT_EQ(apartFrom({{0.5, 0.5}}, grid, places).size(), 2U) << "the seed's own cell is free";
+  EXPECT_EQ(apart[0], positions[1]);
+  EXPECT_EQ(excludeConnectedTo({}, grid, positions).size(), 2U);
+  EXPECT_EQ(excludeConnectedTo({{0.5, 0.5}}, grid, positions).size(), 2U)
+      << "the seed's own cell is free";
 }
 
 TEST(WithoutFreeEdges, OnlyFreeCellsBesideOccupiedOnesBecomeUnknown) {

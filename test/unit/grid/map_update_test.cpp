@@ -14,42 +14,42 @@ OccupancyMapOptions smallMap() {
 }
 
 /// What an instantaneous grid of 20 x 20 cells about the vehicle shows, second by second.
-class MapSightTest : public testing::Test {
+class MapUpdateTest : public testing::Test {
  protected:
-  void show(const GridSight& sight, double seconds, const Pose2& base_in_map = Pose2()) {
+  void show(const GridUpdate& grid_update, double seconds, const Pose2& base_in_map = Pose2()) {
     SensorGrid grid(Stamp::fromSeconds(1000.0 + seconds), smallMap().window.window());
     for (const CellIndex cell : free_) {
       grid.at(cell) = 20;
     }
-    GridSight complete = sight;
+    GridUpdate complete = grid_update;
     complete.grid = &grid;
     map_.update(complete, base_in_map);
   }
 
-  static GridSight surfaceAt(const Point2& point) { return {nullptr, {point}, {}, {}, {}, {}}; }
-  static GridSight cellAt(const Point2& point) { return {nullptr, {}, {point}, {}, {}, {}}; }
-  static GridSight moverAt(const Point2& point) { return {nullptr, {}, {}, {point}, {}, {}}; }
-  static GridSight refutedAt(const Point2& point) { return {nullptr, {}, {}, {}, {point}, {}}; }
+  static GridUpdate surfaceAt(const Point2& point) { return {nullptr, {point}, {}, {}, {}, {}}; }
+  static GridUpdate cellAt(const Point2& point) { return {nullptr, {}, {point}, {}, {}, {}}; }
+  static GridUpdate moverAt(const Point2& point) { return {nullptr, {}, {}, {point}, {}, {}}; }
+  static GridUpdate refutedAt(const Point2& point) { return {nullptr, {}, {}, {}, {point}, {}}; }
 
   std::vector<CellIndex> free_;
   OccupancyMap map_{smallMap()};
 };
 
-TEST_F(MapSightTest, FreeCellsBecomeFreeWhereTheVehicleIs) {
+TEST_F(MapUpdateTest, FreeCellsBecomeFreeWhereTheVehicleIs) {
   free_ = {{3, 0}};
   show({}, 0.0, Pose2(2.0, 1.0, 0.0));
   EXPECT_LT(map_.occupancy({5, 1}), 0.5);
   EXPECT_EQ(map_.occupancy({3, 0}), 0.5);
 }
 
-TEST_F(MapSightTest, AnExactPointIsASurfaceToMatchWith) {
+TEST_F(MapUpdateTest, AnExactPointIsASurfaceToMatchWith) {
   show(surfaceAt({4.2, 0.3}), 0.0);
   EXPECT_GT(map_.occupancy({4, 0}), 0.5);
   ASSERT_TRUE(map_.nearestHits({4.2, 0.3}).has_value());
   EXPECT_NEAR(map_.nearestHits({4.2, 0.3})->mean.x(), 4.2, 1e-6);
 }
 
-TEST_F(MapSightTest, ACellIsOccupiedAndNoSurface) {
+TEST_F(MapUpdateTest, ACellIsOccupiedAndNoSurface) {
   for (int i = 0; i < 20; ++i) {
     show(cellAt({4.5, 0.5}), 0.1 * i);
   }
@@ -58,7 +58,7 @@ TEST_F(MapSightTest, ACellIsOccupiedAndNoSurface) {
   EXPECT_EQ(map_.judge({4.5, 0.5}), PointState::kUnknown) << "it has no age";
 }
 
-TEST_F(MapSightTest, ASurfaceInACellOfOthersAgesFromItsOwnFirstHit) {
+TEST_F(MapUpdateTest, ASurfaceInACellOfOthersAgesFromItsOwnFirstHit) {
   show(cellAt({4.5, 0.5}), 0.0);
   show(cellAt({4.5, 0.5}), 5.0);
   show(surfaceAt({4.5, 0.5}), 5.1);
@@ -67,7 +67,7 @@ TEST_F(MapSightTest, ASurfaceInACellOfOthersAgesFromItsOwnFirstHit) {
   EXPECT_EQ(map_.judge({4.5, 0.5}), PointState::kStatic);
 }
 
-TEST_F(MapSightTest, WhereTheScannerWasRefutedOftenNothingMoves) {
+TEST_F(MapUpdateTest, WhereTheScannerWasRefutedOftenNothingMoves) {
   free_ = {{4, 0}, {8, 0}};
   for (int i = 0; i < 5; ++i) {
     show({}, 0.1 * i);
@@ -80,7 +80,7 @@ TEST_F(MapSightTest, WhereTheScannerWasRefutedOftenNothingMoves) {
   EXPECT_EQ(map_.judge({8.5, 0.5}), PointState::kMoving) << "elsewhere it is believed";
 }
 
-TEST_F(MapSightTest, WhereMuchTrafficPassesAFewRefutedEndsAreAMistake) {
+TEST_F(MapUpdateTest, WhereMuchTrafficPassesAFewRefutedEndsAreAMistake) {
   free_ = {{4, 0}};
   for (int i = 0; i < 30; ++i) {
     show(moverAt({4.5, 0.5}), 0.1 * i);
@@ -93,7 +93,7 @@ TEST_F(MapSightTest, WhereMuchTrafficPassesAFewRefutedEndsAreAMistake) {
   EXPECT_EQ(map_.judge({4.5, 0.5}), PointState::kUnknown) << "4 of 34";
 }
 
-TEST_F(MapSightTest, RefutedEndsMayBeForgotten) {
+TEST_F(MapUpdateTest, RefutedEndsMayBeForgotten) {
   OccupancyMapOptions options = smallMap();
   options.ghost_after = 0;
   map_ = OccupancyMap(options);
@@ -104,11 +104,11 @@ TEST_F(MapSightTest, RefutedEndsMayBeForgotten) {
   EXPECT_EQ(map_.judge({4.5, 0.5}), PointState::kMoving);
 }
 
-TEST_F(MapSightTest, WhatLiesBesideTheWindowIsLeftOut) {
-  GridSight sight = surfaceAt({400.0, 0.0});
-  sight.cells = {{0.0, -400.0}};
-  sight.refuted = {{-400.0, 0.0}};
-  show(sight, 0.0);
+TEST_F(MapUpdateTest, WhatLiesBesideTheWindowIsLeftOut) {
+  GridUpdate grid_update = surfaceAt({400.0, 0.0});
+  grid_update.cells = {{0.0, -400.0}};
+  grid_update.refuted = {{-400.0, 0.0}};
+  show(grid_update, 0.0);
   EXPECT_EQ(map_.occupancy({9, 0}), 0.5);
 }
 

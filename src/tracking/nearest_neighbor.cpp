@@ -1,4 +1,4 @@
-#include "datmo_fusion/tracking/nearest_neighbour.h"
+#include "datmo_fusion/tracking/nearest_neighbor.h"
 
 #include <algorithm>
 
@@ -6,18 +6,18 @@
 
 namespace datmo {
 
-NearestNeighbourTargets::NearestNeighbourTargets(const TargetOptions& target,
-                                                 const AssociationOptions& association)
+NearestNeighborTargets::NearestNeighborTargets(const TargetOptions& target,
+                                               const AssociationOptions& association)
     : target_options_(target), options_(association) {}
 
-void NearestNeighbourTargets::predict(double seconds) {
+void NearestNeighborTargets::predict(double seconds) {
   const ImmSteps steps = immSteps(target_options_.filter, seconds);
   for (Target& target : targets_) {
     target.predict(seconds, steps, target_options_);
   }
 }
 
-void NearestNeighbourTargets::associate(AssociationScan& scan, const StepBudget& /*budget*/) {
+void NearestNeighborTargets::associate(AssociationScan& scan, const StepBudget& /*budget*/) {
   std::vector<TargetScores> scores;
   CostMatrix costs(targets_.size(), scan.objects);
   costs.setConstant(kForbidden);
@@ -31,7 +31,7 @@ void NearestNeighbourTargets::associate(AssociationScan& scan, const StepBudget&
   }
   // Costs are relative to a miss and a birth, which so cost nothing.
   const Eigen::VectorXd no_cost = Eigen::VectorXd::Zero(costs.rows());
-  const Assignment assignment = solveAssignment(costs, no_cost, options_.most_work);
+  const Assignment assignment = solveAssignment(costs, no_cost, options_.max_work);
   counts_.cut_hypotheses += assignment.cut ? 1 : 0;
   const std::vector<int>& object_of_target = assignment.column_of_row;
 
@@ -50,14 +50,14 @@ void NearestNeighbourTargets::associate(AssociationScan& scan, const StepBudget&
   next_number_ += scan.objects;
 }
 
-void NearestNeighbourTargets::startTargets(const AssociationScan& scan,
-                                           const std::vector<bool>& explained) {
+void NearestNeighborTargets::startTargets(const AssociationScan& scan,
+                                          const std::vector<bool>& explained) {
   for (std::size_t object = 0; object < scan.objects; ++object) {
     const Observation& observation = scan.observations[object];
     if (explained[object] || !observation.starts_target) {
       continue;
     }
-    if (targets_.size() >= static_cast<std::size_t>(options_.most_targets)) {
+    if (targets_.size() >= static_cast<std::size_t>(options_.max_targets)) {
       ++counts_.refused_births;
       continue;
     }
@@ -66,7 +66,7 @@ void NearestNeighbourTargets::startTargets(const AssociationScan& scan,
   }
 }
 
-std::vector<BestTarget> NearestNeighbourTargets::best() const {
+std::vector<BestTarget> NearestNeighborTargets::best() const {
   std::vector<BestTarget> result;
   for (const Target& target : targets_) {
     result.push_back({&target, 1.0});
@@ -74,8 +74,8 @@ std::vector<BestTarget> NearestNeighbourTargets::best() const {
   return result;
 }
 
-void NearestNeighbourTargets::change(std::uint64_t number,
-                                     const std::function<void(Target&)>& change) {
+void NearestNeighborTargets::change(std::uint64_t number,
+                                    const std::function<void(Target&)>& change) {
   for (Target& target : targets_) {
     if (target.number() == number) {
       change(target);
@@ -83,7 +83,7 @@ void NearestNeighbourTargets::change(std::uint64_t number,
   }
 }
 
-void NearestNeighbourTargets::removeIf(const std::function<bool(const Target&)>& isLost) {
+void NearestNeighborTargets::removeIf(const std::function<bool(const Target&)>& isLost) {
   targets_.erase(std::remove_if(targets_.begin(), targets_.end(), isLost), targets_.end());
 }
 

@@ -1,4 +1,4 @@
-#include "datmo_fusion/slam/fused_view.h"
+#include "datmo_fusion/slam/grid_masked_scan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +12,9 @@ namespace {
 
 /// `visit(CellIndex)` for the 3 x 3 cells around one.
 template <typename Visit>
-void forEachAround(CellIndex centre, Visit&& visit) {
-  for (int row = centre.row - 1; row <= centre.row + 1; ++row) {
-    for (int column = centre.column - 1; column <= centre.column + 1; ++column) {
+void forEachAround(CellIndex center, Visit&& visit) {
+  for (int row = center.row - 1; row <= center.row + 1; ++row) {
+    for (int column = center.column - 1; column <= center.column + 1; ++column) {
       visit(CellIndex{column, row});
     }
   }
@@ -41,10 +41,10 @@ std::vector<Ray> raysOfField(const Scan& scan) {
   return rays;
 }
 
-/// Lets the ray end where it passes the centre of a cell nearest.
-void endAt(const Point2& centre, Ray& ray) {
+/// Lets the ray end where it passes the center of a cell nearest.
+void endAt(const Point2& center, Ray& ray) {
   const Point2 direction = (ray.end - ray.origin).normalized();
-  ray.range = std::max(0.0, direction.dot(centre - ray.origin));
+  ray.range = std::max(0.0, direction.dot(center - ray.origin));
   ray.end = ray.origin + ray.range * direction;
   ray.hit = true;
 }
@@ -71,14 +71,14 @@ class Unexplained {
             [&](CellIndex cell) { forEachAround(cell, [&](CellIndex near) { forget(near); }); });
   }
 
-  std::vector<Point2> centres() const {
-    std::vector<Point2> centres;
+  std::vector<Point2> centers() const {
+    std::vector<Point2> centers;
     rest_.forEach([&](CellIndex cell, Percent percent) {
       if (isOccupied(percent)) {
-        centres.push_back(rest_.window().centreOf(cell));
+        centers.push_back(rest_.window().centerOf(cell));
       }
     });
-    return centres;
+    return centers;
   }
 
  private:
@@ -93,8 +93,8 @@ class Unexplained {
 
 }  // namespace
 
-FusedView viewThrough(const SensorGrid& grid, const Scan& scan, GridEnds ends) {
-  FusedView view;
+GridMaskedScan maskScanWithGrid(const SensorGrid& grid, const Scan& scan, GridEnds ends) {
+  GridMaskedScan view;
   view.scan = scan;
   if (view.scan.rays.empty()) {
     view.scan.rays = raysOfField(scan);
@@ -111,7 +111,7 @@ FusedView viewThrough(const SensorGrid& grid, const Scan& scan, GridEnds ends) {
     ray.hit = measured;
     if (!measured) {
       if (const auto cell = confirmed ? std::make_optional(end) : firstOccupied(grid, ray)) {
-        endAt(grid.window().centreOf(*cell), ray);
+        endAt(grid.window().centerOf(*cell), ray);
       }
     }
     if (ray.hit) {
@@ -120,12 +120,12 @@ FusedView viewThrough(const SensorGrid& grid, const Scan& scan, GridEnds ends) {
     view.measured.push_back(measured);
     view.any_measured = view.any_measured || measured;
   }
-  view.cells = unexplained.centres();
+  view.cells = unexplained.centers();
   return view;
 }
 
-std::vector<Point2> apartFrom(const std::vector<Point2>& seeds, const SensorGrid& grid,
-                              const std::vector<Point2>& places) {
+std::vector<Point2> excludeConnectedTo(const std::vector<Point2>& seeds, const SensorGrid& grid,
+                                       const std::vector<Point2>& positions) {
   SensorGrid rest = grid;
   std::vector<CellIndex> open;
   const auto reach = [&](CellIndex cell) {
@@ -143,9 +143,9 @@ std::vector<Point2> apartFrom(const std::vector<Point2>& seeds, const SensorGrid
     forEachAround(cell, reach);
   }
   std::vector<Point2> apart;
-  for (const Point2& place : places) {
-    if (isOccupied(rest.atOrUnknown(grid.window().cellAt(place)))) {
-      apart.push_back(place);
+  for (const Point2& position : positions) {
+    if (isOccupied(rest.atOrUnknown(grid.window().cellAt(position)))) {
+      apart.push_back(position);
     }
   }
   return apart;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "chain.h"
-#include "ros/split_scan_samples.h"
+#include "ros/labeled_scan_samples.h"
 
 #include <rosgraph_msgs/Clock.h>
 
@@ -16,17 +16,17 @@ namespace datmo {
 
 /// A nodelet that takes split scans, and a scripted grid_slam before it. Times count from the start
 /// of the drive, samples::kStart.
-class SplitScanDoor : public Listener {
+class LabeledScanDoor : public Listener {
  public:
   static constexpr double kStep = 1.0 / 16.0;  // s
 
-  explicit SplitScanDoor(std::string nodelet) : nodelet_(std::move(nodelet)) {}
+  explicit LabeledScanDoor(std::string nodelet) : nodelet_(std::move(nodelet)) {}
 
   /// Until the nodelet listens and reports.
   bool waitForNodelet() {
     setClock(-kStep);
     return waitFor(
-        [this] { return split_scan_.getNumSubscribers() >= 1 && !diagnosticMessage().empty(); });
+        [this] { return labeled_scan_.getNumSubscribers() >= 1 && !diagnosticMessage().empty(); });
   }
 
   void setClock(double seconds) {
@@ -35,8 +35,8 @@ class SplitScanDoor : public Listener {
     clock_.publish(clock);
   }
 
-  void send(const SplitScanMessage& message) { split_scan_.publish(message); }
-  void send(const SplitScan& scan) { send(toMessage(scan, "base_link", "map")); }
+  void send(const LabeledScanMessage& message) { labeled_scan_.publish(message); }
+  void send(const LabeledScan& scan) { send(toMessage(scan, "base_link", "map")); }
 
   double diagnostic(const std::string& key) const { return Listener::diagnostic(nodelet_, key); }
   std::string diagnosticMessage() const { return Listener::diagnosticMessage(nodelet_); }
@@ -59,7 +59,7 @@ class SplitScanDoor : public Listener {
  private:
   std::string nodelet_;
   ros::Publisher clock_ = node_.advertise<rosgraph_msgs::Clock>("/clock", kQueue, true);
-  ros::Publisher split_scan_ = node_.advertise<SplitScanMessage>("split_scan", kQueue);
+  ros::Publisher labeled_scan_ = node_.advertise<LabeledScanMessage>("labeled_scan", kQueue);
 };
 
 }  // namespace datmo

@@ -1,4 +1,4 @@
-#include "simulator/sight_line.h"
+#include "simulator/sloped_ray.h"
 
 #include "made_worlds.h"
 #include <gtest/gtest.h>
@@ -9,13 +9,13 @@ namespace {
 constexpr double kReach = 100.0;
 
 /// What a line of sight from 1.3 m above the origin ends on, along x.
-std::optional<SightEnd> endAlongX(const World& world, double fall) {
+std::optional<RayEnd> endAlongX(const World& world, double fall) {
   // The solids of the end live in the world, not in the state, because nothing moves here.
   const RayCaster caster(world, world.at(0.0), Point2::Zero(), kReach);
   return endOf({1.3, fall, kReach}, caster.passages(0.0, kReach));
 }
 
-TEST(SightLine, EndsOnTheRoadOrInTheSky) {
+TEST(SlopedRay, EndsOnTheRoadOrInTheSky) {
   const World world = emptyWorld();
   const auto road = endAlongX(world, 0.1);
   ASSERT_TRUE(road);
@@ -25,7 +25,7 @@ TEST(SightLine, EndsOnTheRoadOrInTheSky) {
   EXPECT_FALSE(endAlongX(world, 0.01));  // 130 m away
 }
 
-TEST(SightLine, EndsOnTheFaceThatItMeets) {
+TEST(SlopedRay, EndsOnTheFaceThatItMeets) {
   World world = emptyWorld();
   world.addSolid(wallAt(20.0));
   const auto end = endAlongX(world, 0.05);
@@ -37,7 +37,7 @@ TEST(SightLine, EndsOnTheFaceThatItMeets) {
   EXPECT_FALSE(endAlongX(world, -0.09));  // over it
 }
 
-TEST(SightLine, GoesOverALowThingToWhatIsBehind) {
+TEST(SlopedRay, GoesOverALowThingToWhatIsBehind) {
   World world = emptyWorld();
   world.addSolid(wallAt(10.0, 1.0));
   world.addSolid(wallAt(20.0));
@@ -45,7 +45,7 @@ TEST(SightLine, GoesOverALowThingToWhatIsBehind) {
   EXPECT_NEAR(endAlongX(world, 0.031)->range, 10.0, 1e-9);
 }
 
-TEST(SightLine, EndsOnTheTopOfALowThing) {
+TEST(SlopedRay, EndsOnTheTopOfALowThing) {
   World world = emptyWorld();
   world.addSolid({Box2{{10.0, 0.0, 0.0}, 4.0, 2.0}, 0.5, Surface::kBody, kNoObject});
   const auto end = endAlongX(world, 0.08);
@@ -55,9 +55,9 @@ TEST(SightLine, EndsOnTheTopOfALowThing) {
   EXPECT_NEAR(endAlongX(world, 0.06)->range, 1.3 / 0.06, 1e-9);  // behind it
 }
 
-TEST(SightLine, KerbsStandAndPaintDoesNot) {
+TEST(SlopedRay, CurbsStandAndPaintDoesNot) {
   World world = emptyWorld();
-  world.addSolid({Segment{{10.0, -5.0}, {10.0, 5.0}}, 0.12, Surface::kKerb, kNoObject});
+  world.addSolid({Segment{{10.0, -5.0}, {10.0, 5.0}}, 0.12, Surface::kCurb, kNoObject});
   world.addSolid({Box2{{6.0, 0.0, 0.0}, 3.0, 2.0}, 0.0, Surface::kPaint, kNoObject});
   EXPECT_NEAR(endAlongX(world, 0.12)->range, 10.0, 1e-9);
   EXPECT_EQ(endAlongX(world, 0.2)->solid, nullptr);

@@ -1,4 +1,4 @@
-#include "datmo_fusion/tracking/hypothesis_growth.h"
+#include "datmo_fusion/tracking/hypothesis_expansion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,13 +17,13 @@ namespace {
 
 /// Assignments that are looked at for each hypothesis that may be kept: where track trees are full,
 /// hardly any of the many that are left finds room.
-constexpr std::size_t kMostLooks = 10;
+constexpr std::size_t kMaxScans = 10;
 
 /// The cluster of the next scan, as its hypotheses come in.
 class Builder {
  public:
-  Builder(const HypothesisCluster& cluster, const GrowthContext& context, std::uint64_t& next_node,
-          std::size_t& room, AssociationCounts& counts)
+  Builder(const HypothesisCluster& cluster, const ExpansionContext& context,
+          std::uint64_t& next_node, std::size_t& room, AssociationCounts& counts)
       : old_(cluster),
         context_(context),
         next_node_(next_node),
@@ -34,19 +34,21 @@ class Builder {
 
   /// Adds the present assignment of a source, unless it needs more leaves than there may be.
   void add(const RankedHypothesis& source) {
-    const std::vector<std::size_t> seen_as = source.observations();
-    if (!hasRoomFor(source.parent(), seen_as)) {
+    const std::vector<std::size_t> measurement_index = source.observations();
+    if (!hasRoomFor(source.parent(), measurement_index)) {
       ++counts_.cut_hypotheses;
       return;
     }
     GlobalHypothesis child{source.weight(), {}};
     for (std::size_t tree = 0; tree < old_.trees.size(); ++tree) {
       const int leaf = source.parent().leaf_of_tree[tree];
-      child.leaf_of_tree.push_back(leaf == kAbsent ? kAbsent : leafFor(tree, leaf, seen_as[tree]));
+      child.leaf_of_tree.push_back(leaf == kAbsent ? kAbsent
+                                                   : leafFor(tree, leaf, measurement_index[tree]));
     }
     child.leaf_of_tree.resize(trees_.size(), kAbsent);
     for (const std::size_t observation : source.interpretation()) {
-      if (std::find(seen_as.begin(), seen_as.end(), observation) == seen_as.end()) {
+      if (std::find(measurement_index.begin(), measurement_index.end(), observation) ==
+          measurement_index.end()) {
         startTarget(observation, child);
       }
     }
@@ -62,7 +64,7 @@ class Builder {
     }
     HypothesisCluster result{std::move(trees_), std::move(hypotheses_), old_.links};
     linkSharers(result);
-    tidy(result);
+    canonicalize(result);
     return result;
   }
 
@@ -83,12 +85,13 @@ class Builder {
     return kAbsent;
   }
 
-  bool hasRoomFor(const GlobalHypothesis& parent, const std::vector<std::size_t>& seen_as) const {
+  bool hasRoomFor(const GlobalHypothesis& parent,
+                  const std::vector<std::size_t>& measurement_index) const {
     for (std::size_t tree = 0; tree < old_.trees.size(); ++tree) {
       const int leaf = parent.leaf_of_tree[tree];
       const bool full =
-          trees_[tree].leaves.size() >= static_cast<std::size_t>(context_.options.most_leaves);
-      if (leaf != kAbsent && full && find(tree, leaf, seen_as[tree]) == kAbsent) {
+          trees_[tree].leaves.size() >= static_cast<std::size_t>(context_.options.max_leaves);
+      if (leaf != kAbsent && full && find(tree, leaf, measurement_index[tree]) == kAbsent) {
         return false;
       }
     }
@@ -166,7 +169,7 @@ class Builder {
   }
 
   const HypothesisCluster& old_;
-  const GrowthContext& context_;
+  const ExpansionContext& context_;
   std::uint64_t& next_node_;
   std::size_t& room_;
   AssociationCounts& counts_;
@@ -180,16 +183,17 @@ class Builder {
 
 std::vector<RankedHypothesis> sourcesOf(const HypothesisCluster& cluster,
                                         const std::vector<Interpretation>& interpretations,
-                                        const GrowthContext& context, AssociationCounts& counts) {
+                                        const ExpansionContext& context,
+                                        AssociationCounts& counts) {
   std::vector<RankedHypothesis> sources;
   double best = -std::numeric_limits<double>::infinity();
   for (const GlobalHypothesis& hypothesis : cluster.hypotheses) {
     for (const Interpretation& interpretation : interpretations) {
       RankedHypothesis source(cluster, context.scan, hypothesis, interpretation);
-      if (source.bound() < best + std::log(context.options.least_ratio)) {
+      if (source.bound() < best + std::log(context.options.min_ratio)) {
         continue;
       }
-      source.rank(context.most_work);
+      source.rank(context.max_work);
       counts.cut_hypotheses += source.cut() ? 1 : 0;
       if (source.isDone()) {
         continue;
@@ -198,7 +202,7 @@ std::vector<RankedHypothesis> sourcesOf(const HypothesisCluster& cluster,
         best = std::max(best, source.weight());
       }
       sources.push_back(std::move(source));
-      if (context.hurry) {
+      if (context.best_only) {
         return sources;
       }
     }
@@ -209,29 +213,29 @@ std::vector<RankedHypothesis> sourcesOf(const HypothesisCluster& cluster,
 }  // namespace
 
 void HypothesisOptions::visit(OptionVisitor& visitor) {
-  visitor.integer({"most_hypotheses", "1",
+  visitor.integer({"max_hypotheses", "1",
                    "global hypotheses that a cluster of targets keeps (the m best by Murty 1968)"},
-                  most_hypotheses, {1, 1000});
+                  max_hypotheses, {1, 1000});
   visitor.integer(
       {"scan_history", "1",
        "scans after which a decision is final (N-scan pruning, thesis 3.3.4): 0 decides "
        "at once"},
-      scan_history, {0, static_cast<double>(kMostScanHistory)});
-  visitor.integer({"most_leaves", "1", "observation sequences of one target that are kept"},
-                  most_leaves, {1, 1000});
-  visitor.number({"least_ratio", "1",
+      scan_history, {0, static_cast<double>(kMaxScanHistory)});
+  visitor.integer({"max_leaves", "1", "observation sequences of one target that are kept"},
+                  max_leaves, {1, 1000});
+  visitor.number({"min_ratio", "1",
                   "a hypothesis that is less likely than this share of the best one is dropped"},
-                 least_ratio, {0.0, 1.0});
+                 min_ratio, {0.0, 1.0});
   visitor.integer(
-      {"most_joint_targets", "1",
+      {"max_joint_targets", "1",
        "a cluster of more targets keeps a single hypothesis; bounds the time of a step"},
-      most_joint_targets, {1, 1000});
+      max_joint_targets, {1, 1000});
 }
 
-HypothesisCluster grown(const HypothesisCluster& cluster,
-                        const std::vector<Interpretation>& interpretations,
-                        const GrowthContext& context, std::uint64_t& next_node, std::size_t& room,
-                        AssociationCounts& counts) {
+HypothesisCluster expand(const HypothesisCluster& cluster,
+                         const std::vector<Interpretation>& interpretations,
+                         const ExpansionContext& context, std::uint64_t& next_node,
+                         std::size_t& room, AssociationCounts& counts) {
   std::vector<RankedHypothesis> sources = sourcesOf(cluster, interpretations, context, counts);
   const auto isLess = [&](std::size_t a, std::size_t b) {
     return std::make_pair(sources[a].weight(), b) < std::make_pair(sources[b].weight(), a);
@@ -240,17 +244,17 @@ HypothesisCluster grown(const HypothesisCluster& cluster,
   for (std::size_t i = 0; i < sources.size(); ++i) {
     queue.push(i);
   }
-  const std::size_t most =
-      context.hurry ? 1 : static_cast<std::size_t>(context.options.most_hypotheses);
-  const double lowest = std::log(context.options.least_ratio);
-  counts.cut_hypotheses += context.hurry ? cluster.hypotheses.size() - 1 : 0;
+  const std::size_t max =
+      context.best_only ? 1 : static_cast<std::size_t>(context.options.max_hypotheses);
+  const double lowest = std::log(context.options.min_ratio);
+  counts.cut_hypotheses += context.best_only ? cluster.hypotheses.size() - 1 : 0;
   Builder builder(cluster, context, next_node, room, counts);
   for (std::size_t looks = 0; !queue.empty(); ++looks) {
     RankedHypothesis& source = sources[queue.top()];
     if (builder.size() > 0 && source.weight() < builder.bestWeight() + lowest) {
       break;
     }
-    if (builder.size() == most || looks == kMostLooks * most) {
+    if (builder.size() == max || looks == kMaxScans * max) {
       ++counts.cut_hypotheses;
       break;
     }

@@ -1,4 +1,4 @@
-#include "datmo_fusion/road/sight_history.h"
+#include "datmo_fusion/road/scan_history.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +8,10 @@
 
 namespace datmo {
 
-void SightHistoryOptions::visit(OptionVisitor& visitor) {
+void ScanHistoryOptions::visit(OptionVisitor& visitor) {
   visitor.number({"memory", "s", "how far back the observations of scans are kept"}, memory,
                  {0.1, 60.0});
-  visitor.integer({"most_scans", "1", "and how many scans at the most"}, most_scans, {1, 10000});
+  visitor.integer({"max_scans", "1", "and how many scans at the most"}, max_scans, {1, 10000});
   visitor.number({"tolerance", "m",
                   "a beam that ends nearer to the line through a point than this has hit it: twice "
                   "the standard deviation of the range"},
@@ -23,15 +23,15 @@ void SightHistoryOptions::visit(OptionVisitor& visitor) {
                   "part of the angle between two beams that a beam covers: a point beside that is "
                   "not seen free"},
                  lit_share, {0.05, 1.0});
-  visitor.number({"least_incidence", "rad", "least angle of incidence of a beam at a line"},
-                 least_incidence, {0.001, 1.0});
+  visitor.number({"min_incidence", "rad", "least angle of incidence of a beam at a line"},
+                 min_incidence, {0.001, 1.0});
 }
 
-SightHistory::SightHistory(const SightHistoryOptions& options) : options_(options) {
+ScanHistory::ScanHistory(const ScanHistoryOptions& options) : options_(options) {
   checkOptions(options);
 }
 
-void SightHistory::add(const SplitScan& scan) {
+void ScanHistory::add(const LabeledScan& scan) {
   Scan seen;
   seen.stamp = scan.stamp;
   seen.map_in_scanner = (scan.base_in_map.pose * scan.scanner_in_base).inverse();
@@ -48,21 +48,21 @@ void SightHistory::add(const SplitScan& scan) {
     }
   }
   scans_.push_front(std::move(seen));
-  while (scans_.size() > static_cast<std::size_t>(options_.most_scans) ||
+  while (scans_.size() > static_cast<std::size_t>(options_.max_scans) ||
          age(scans_.size() - 1) > options_.memory) {
     scans_.pop_back();
   }
 }
 
-double SightHistory::age(std::size_t back) const {
+double ScanHistory::age(std::size_t back) const {
   return secondsBetween(scans_[back].stamp, scans_.front().stamp);
 }
 
 /// The beam that covers a point (m, scanner's frame), and its bearing; null if there is none.
-const SightHistory::Beam* SightHistory::beamTowards(const Scan& scan, const Point2& seen,
-                                                    double& bearing) const {
+const ScanHistory::Beam* ScanHistory::beamToward(const Scan& scan, const Point2& seen,
+                                                 double& bearing) const {
   const ScanField& field = scan.field;
-  if (scan.beams.empty() || field.beam_spacing == 0.0 || seen.norm() <= field.least_range) {
+  if (scan.beams.empty() || field.beam_spacing == 0.0 || seen.norm() <= field.min_range) {
     return nullptr;
   }
   const double turned = normalizeAngle(std::atan2(seen.y(), seen.x()) - field.first_bearing);
@@ -80,31 +80,31 @@ const SightHistory::Beam* SightHistory::beamTowards(const Scan& scan, const Poin
   return &scan.beams[static_cast<std::size_t>(nearest)];
 }
 
-Sight SightHistory::look(std::size_t back, const SightPlace& place) const {
+BeamOutcome ScanHistory::look(std::size_t back, const ReflectionPoint& location) const {
   const Scan& scan = scans_[back];
-  const Point2 seen = scan.map_in_scanner * place.position;
+  const Point2 seen = scan.map_in_scanner * location.position;
   double bearing = 0.0;
-  const Beam* beam = beamTowards(scan, seen, bearing);
+  const Beam* beam = beamToward(scan, seen, bearing);
   if (beam == nullptr) {
-    return Sight::kNothing;
+    return BeamOutcome::kNothing;
   }
   const Point2 along_beam(std::cos(bearing), std::sin(bearing));
-  const Point2 direction = scan.map_in_scanner.rotate(place.direction);
+  const Point2 direction = scan.map_in_scanner.rotate(location.direction);
   const double incidence = along_beam.x() * direction.y() - along_beam.y() * direction.x();
-  if (std::abs(incidence) < std::sin(options_.least_incidence)) {
-    return Sight::kNothing;
+  if (std::abs(incidence) < std::sin(options_.min_incidence)) {
+    return BeamOutcome::kNothing;
   }
   const double crossing = (seen.x() * direction.y() - seen.y() * direction.x()) / incidence;
   if (crossing <= 0.0) {
-    return Sight::kNothing;  // the beam beside the point diverges from the line
+    return BeamOutcome::kNothing;  // the beam beside the point diverges from the line
   }
   // Flat beams meet the line elsewhere for a small error of their bearing.
   const double tolerance =
       options_.tolerance + options_.bearing_tolerance * crossing / std::abs(incidence);
   if (beam->hit && std::abs(beam->reach - crossing) <= tolerance) {
-    return Sight::kHit;
+    return BeamOutcome::kHit;
   }
-  return beam->reach > crossing + tolerance ? Sight::kFree : Sight::kNothing;
+  return beam->reach > crossing + tolerance ? BeamOutcome::kFree : BeamOutcome::kNothing;
 }
 
 }  // namespace datmo

@@ -8,19 +8,19 @@
 
 namespace datmo {
 
-struct ScanWitnessOptions {
-  double static_share = 0.6;       ///< 0 to 1
-  double static_reach = 1.0;       ///< 1
-  double most_static_reach = 2.0;  ///< m
-  double through_reach = 2.0;      ///< 1
-  double body_depth = 0.5;         ///< m
+struct ScanSupportOptions {
+  double static_share = 0.6;      ///< 0 to 1
+  double static_reach = 1.0;      ///< 1
+  double max_static_reach = 2.0;  ///< m
+  double through_reach = 2.0;     ///< 1
+  double body_depth = 0.5;        ///< m
 
   void visit(OptionVisitor& visitor);
 };
 
 /// Evidence of a scan at the position of an object, as shares of the beams toward it. The rest is
 /// hidden by what is nearer, blind, outside the field, or ends there on what is not static.
-struct PlaceTestimony {
+struct PositionEvidence {
   double static_share = 0.0;   ///< end there on what the map knows as static
   double through_share = 0.0;  ///< pass through the whole object's position
   double beams = 0.0;          ///< expected on an object of this width, at least 0
@@ -37,17 +37,17 @@ struct PlaceTestimony {
 /// that direction, also where a side is seen at a flat angle; a beam passes through it if it ends
 /// clearly behind the far side; one that ends before both is hidden, and says nothing of what is
 /// behind.
-class ScanWitness {
+class ScanSupport {
  public:
   /// Throws OptionError.
-  ScanWitness(const SplitScan& scan, const ScanWitnessOptions& options);
+  ScanSupport(const LabeledScan& scan, const ScanSupportOptions& options);
 
   /// `motion_std`: m, how far the object may have moved by itself since it was seen, at least 0.
-  PlaceTestimony testimony(const Object& object, double motion_std) const;
+  PositionEvidence evidence(const Object& object, double motion_std) const;
 
   /// Whether the beams at its position end on static points.
-  bool standsStill(const PlaceTestimony& testimony) const {
-    return testimony.static_share >= options_.static_share;
+  bool standsStill(const PositionEvidence& evidence) const {
+    return evidence.static_share >= options_.static_share;
   }
 
  private:
@@ -63,7 +63,7 @@ class ScanWitness {
   /// The beam nearest to this index; none outside the field.
   const Beam* beam(double index) const;
 
-  ScanWitnessOptions options_;
+  ScanSupportOptions options_;
   Pose2 scanner_in_base_;
   ScanField field_;
   std::vector<Beam> beams_;

@@ -1,11 +1,11 @@
-#include "simulator/sight_line.h"
+#include "simulator/sloped_ray.h"
 
 namespace datmo::simulator {
 
-std::optional<SightEnd> endOf(const SightLine& line, const std::vector<Passage>& passages) {
-  std::optional<SightEnd> nearest;
+std::optional<RayEnd> endOf(const SlopedRay& line, const std::vector<Passage>& passages) {
+  std::optional<RayEnd> nearest;
   double reach = line.reach;
-  const auto take = [&](const SightEnd& end) {
+  const auto take = [&](const RayEnd& end) {
     if (end.range <= reach) {
       nearest = end;
       reach = end.range;

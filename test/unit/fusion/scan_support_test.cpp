@@ -1,4 +1,4 @@
-#include "datmo_fusion/fusion/scan_witness.h"
+#include "datmo_fusion/fusion/scan_support.h"
 
 #include <cmath>
 #include <cstdint>
@@ -15,8 +15,8 @@ constexpr std::uint32_t kBeams = 161;
 
 /// Beams a degree apart, from 80 degrees on the right to 80 on the left (or the other way round),
 /// none of which meets anything.
-SplitScan emptyScan(bool from_the_left = false) {
-  SplitScan scan;
+LabeledScan emptyScan(bool from_the_left = false) {
+  LabeledScan scan;
   scan.scanner_in_base = Pose2(2.0, 0.0, 0.0);
   scan.field = {-degrees(80.0), degrees(1.0), kBeams, 0.5, 60.0, 80.0, 0.0};
   if (from_the_left) {
@@ -27,7 +27,7 @@ SplitScan emptyScan(bool from_the_left = false) {
 }
 
 /// All beams from one bearing to another one (rad) end at this x (m, base frame).
-void addWall(SplitScan& scan, double x, PointState state, double from = -1.0, double to = 1.0) {
+void addWall(LabeledScan& scan, double x, PointState state, double from = -1.0, double to = 1.0) {
   for (std::uint32_t beam = 0; beam < kBeams; ++beam) {
     const double bearing = scan.field.first_bearing + beam * scan.field.beam_spacing;
     if (bearing >= from && bearing <= to) {
@@ -45,116 +45,116 @@ Object car(double sigma) {
   return object;
 }
 
-PlaceTestimony testimony(const SplitScan& scan, const Object& object, double motion_std = 0.0) {
-  return ScanWitness(scan, ScanWitnessOptions()).testimony(object, motion_std);
+PositionEvidence evidence(const LabeledScan& scan, const Object& object, double motion_std = 0.0) {
+  return ScanSupport(scan, ScanSupportOptions()).evidence(object, motion_std);
 }
 
-TEST(ScanWitnessTest, BeamsThatEndThereOnStaticPointsSayThatItStands) {
+TEST(ScanSupportTest, BeamsThatEndThereOnStaticPointsSayThatItStands) {
   for (const bool from_the_left : {false, true}) {
-    SplitScan scan = emptyScan(from_the_left);
+    LabeledScan scan = emptyScan(from_the_left);
     addWall(scan, 22.5, PointState::kStatic);
-    const ScanWitness witness(scan, ScanWitnessOptions());
-    const PlaceTestimony said = witness.testimony(car(1.0), 0.0);
+    const ScanSupport scan_support(scan, ScanSupportOptions());
+    const PositionEvidence said = scan_support.evidence(car(1.0), 0.0);
     EXPECT_EQ(said.static_share, 1.0);
     EXPECT_EQ(said.through_share, 0.0);
     EXPECT_NEAR(said.beams, toDegrees(2.0 * std::atan2(0.9, 20.0)), 1e-6);
-    EXPECT_TRUE(witness.standsStill(said));
+    EXPECT_TRUE(scan_support.standsStill(said));
   }
 }
 
-TEST(ScanWitnessTest, BeamsThatEndThereOnOtherPointsSayNothing) {
+TEST(ScanSupportTest, BeamsThatEndThereOnOtherPointsSayNothing) {
   for (const PointState state : {PointState::kMoving, PointState::kUnknown}) {
-    SplitScan scan = emptyScan();
+    LabeledScan scan = emptyScan();
     addWall(scan, 22.0, state);
-    const PlaceTestimony said = testimony(scan, car(1.0));
+    const PositionEvidence said = evidence(scan, car(1.0));
     EXPECT_EQ(said.static_share, 0.0);
     EXPECT_EQ(said.through_share, 0.0);
   }
 }
 
-TEST(ScanWitnessTest, BeamsThatEndFarBehindPassedThrough) {
-  SplitScan scan = emptyScan();
+TEST(ScanSupportTest, BeamsThatEndFarBehindPassedThrough) {
+  LabeledScan scan = emptyScan();
   addWall(scan, 30.0, PointState::kStatic);
-  EXPECT_EQ(testimony(scan, car(1.0)).through_share, 1.0);
-  EXPECT_EQ(testimony(scan, car(1.0)).static_share, 0.0);
+  EXPECT_EQ(evidence(scan, car(1.0)).through_share, 1.0);
+  EXPECT_EQ(evidence(scan, car(1.0)).static_share, 0.0);
   // Its far side may be there, or have been there a moment ago.
-  EXPECT_EQ(testimony(scan, car(4.0)).through_share, 0.0);
-  EXPECT_EQ(testimony(scan, car(1.0), 4.0).through_share, 0.0);
+  EXPECT_EQ(evidence(scan, car(4.0)).through_share, 0.0);
+  EXPECT_EQ(evidence(scan, car(1.0), 4.0).through_share, 0.0);
 }
 
-TEST(ScanWitnessTest, WhatIsHiddenIsNotJudged) {
-  SplitScan scan = emptyScan();
+TEST(ScanSupportTest, WhatIsHiddenIsNotJudged) {
+  LabeledScan scan = emptyScan();
   addWall(scan, 12.0, PointState::kStatic);
-  const PlaceTestimony said = testimony(scan, car(1.0));
+  const PositionEvidence said = evidence(scan, car(1.0));
   EXPECT_EQ(said.static_share, 0.0);
   EXPECT_EQ(said.through_share, 0.0);
 }
 
-TEST(ScanWitnessTest, ACarHiddenFromTheScannerInFrontOfAWallDoesNotStand) {
+TEST(ScanSupportTest, ACarHiddenFromTheScannerInFrontOfAWallDoesNotStand) {
   // A van hides all of it but the right edge, beside which the wall is seen.
-  SplitScan scan = emptyScan();
+  LabeledScan scan = emptyScan();
   addWall(scan, 23.5, PointState::kStatic, -1.0, -degrees(1.5));
   addWall(scan, 10.0, PointState::kMoving, -degrees(1.5), 1.0);
-  const ScanWitness witness(scan, ScanWitnessOptions());
-  EXPECT_FALSE(witness.standsStill(witness.testimony(car(2.0), 0.0)));
+  const ScanSupport scan_support(scan, ScanSupportOptions());
+  EXPECT_FALSE(scan_support.standsStill(scan_support.evidence(car(2.0), 0.0)));
 }
 
-TEST(ScanWitnessTest, AParkedRowBehindDoesNotFreezeWhatPasses) {
-  SplitScan scan = emptyScan();
+TEST(ScanSupportTest, AParkedRowBehindDoesNotFreezeWhatPasses) {
+  LabeledScan scan = emptyScan();
   addWall(scan, 25.0, PointState::kStatic);
-  const ScanWitness witness(scan, ScanWitnessOptions());
-  EXPECT_FALSE(witness.standsStill(witness.testimony(car(1.0), 0.0)));
+  const ScanSupport scan_support(scan, ScanSupportOptions());
+  EXPECT_FALSE(scan_support.standsStill(scan_support.evidence(car(1.0), 0.0)));
 }
 
-TEST(ScanWitnessTest, BeamsWithoutReturnPassThroughAsFarAsTheyAreKnownFree) {
-  SplitScan scan = emptyScan();
-  EXPECT_EQ(testimony(scan, car(1.0)).through_share, 1.0);
+TEST(ScanSupportTest, BeamsWithoutReturnPassThroughAsFarAsTheyAreKnownFree) {
+  LabeledScan scan = emptyScan();
+  EXPECT_EQ(evidence(scan, car(1.0)).through_share, 1.0);
   scan.field.free_range = 15.0;
-  EXPECT_EQ(testimony(scan, car(1.0)).through_share, 0.0);
+  EXPECT_EQ(evidence(scan, car(1.0)).through_share, 0.0);
   scan.field.free_range = 0.0;
-  EXPECT_EQ(testimony(scan, car(1.0)).through_share, 0.0);
+  EXPECT_EQ(evidence(scan, car(1.0)).through_share, 0.0);
 }
 
-TEST(ScanWitnessTest, BlindBeamsSayNothing) {
-  SplitScan scan = emptyScan();
+TEST(ScanSupportTest, BlindBeamsSayNothing) {
+  LabeledScan scan = emptyScan();
   for (std::uint32_t beam = 0; beam < kBeams; ++beam) {
     scan.blind_beams.push_back(beam);
   }
-  EXPECT_EQ(testimony(scan, car(1.0)).through_share, 0.0);
+  EXPECT_EQ(evidence(scan, car(1.0)).through_share, 0.0);
 }
 
-TEST(ScanWitnessTest, OutsideTheFieldNothingIsKnown) {
-  const SplitScan scan = emptyScan();
+TEST(ScanSupportTest, OutsideTheFieldNothingIsKnown) {
+  const LabeledScan scan = emptyScan();
   Object behind = car(1.0);
-  behind.box.centre = Pose2(-20.0, 0.0, 0.0);
-  const PlaceTestimony said = testimony(scan, behind);
+  behind.box.center = Pose2(-20.0, 0.0, 0.0);
+  const PositionEvidence said = evidence(scan, behind);
   EXPECT_EQ(said.static_share, 0.0);
   EXPECT_EQ(said.through_share, 0.0);
   // Half of it is: the rest is not taken for free.
   Object at_edge = car(1.0);
-  at_edge.box.centre = Pose2(
+  at_edge.box.center = Pose2(
       scan.scanner_in_base * (20.0 * Point2(std::cos(degrees(80.0)), std::sin(degrees(80.0)))),
       degrees(80.0));
-  const double share = testimony(scan, at_edge).through_share;
+  const double share = evidence(scan, at_edge).through_share;
   EXPECT_GT(share, 0.3);
   EXPECT_LT(share, 0.7);
 }
 
-TEST(ScanWitnessTest, AThinPoleIsLookedAtByTheNearestBeam) {
-  SplitScan scan = emptyScan();
+TEST(ScanSupportTest, AThinPoleIsLookedAtByTheNearestBeam) {
+  LabeledScan scan = emptyScan();
   Object pole = pointObject(0.0, 0.0, 0.1, "stereo");
   pole.box = {Pose2(scan.scanner_in_base *
                         (20.0 * Point2(std::cos(degrees(10.4)), std::sin(degrees(10.4)))),
                     0.0),
               0.1, 0.1};
-  const PlaceTestimony said = testimony(scan, pole);
+  const PositionEvidence said = evidence(scan, pole);
   EXPECT_EQ(said.through_share, 1.0);
   EXPECT_LT(said.beams, 0.5);
 }
 
-TEST(ScanWitnessTest, WhereAWholeTurnEndsNoBeamIsMissed) {
+TEST(ScanSupportTest, WhereAWholeTurnEndsNoBeamIsMissed) {
   // 514.3 beams are a turn: the last one and the first are nearer together than others.
-  SplitScan scan = emptyScan();
+  LabeledScan scan = emptyScan();
   scan.field.beam_spacing = degrees(0.7);
   scan.field.first_bearing = -kPi;
   scan.field.beams = 514;
@@ -164,22 +164,22 @@ TEST(ScanWitnessTest, WhereAWholeTurnEndsNoBeamIsMissed) {
     scan.points.push_back({end, 20.0, bearing, beam, PointState::kStatic});
   }
   Object behind = car(1.0);
-  behind.box.centre = Pose2(-18.5, 0.0, 0.0);
-  EXPECT_EQ(testimony(scan, behind).static_share, 1.0);
+  behind.box.center = Pose2(-18.5, 0.0, 0.0);
+  EXPECT_EQ(evidence(scan, behind).static_share, 1.0);
 }
 
-TEST(ScanWitnessTest, BeamsFinerThanThoseOfAnyScannerSayNothing) {
-  SplitScan scan = emptyScan();
+TEST(ScanSupportTest, BeamsFinerThanThoseOfAnyScannerSayNothing) {
+  LabeledScan scan = emptyScan();
   scan.field.beam_spacing = 1e-9;
-  EXPECT_EQ(testimony(scan, car(1.0)).beams, 0.0);
+  EXPECT_EQ(evidence(scan, car(1.0)).beams, 0.0);
 }
 
-TEST(ScanWitnessTest, WithoutAFieldOrAroundTheScannerNothingIsKnown) {
-  SplitScan scan = emptyScan();
+TEST(ScanSupportTest, WithoutAFieldOrAroundTheScannerNothingIsKnown) {
+  LabeledScan scan = emptyScan();
   Object around = boxObject(2.0, 0.0, 2.0, 2.0, 0.01, "stereo");
-  EXPECT_EQ(testimony(scan, around).through_share, 0.0);
+  EXPECT_EQ(evidence(scan, around).through_share, 0.0);
   scan.field = ScanField();
-  EXPECT_EQ(testimony(scan, car(1.0)).through_share, 0.0);
+  EXPECT_EQ(evidence(scan, car(1.0)).through_share, 0.0);
 }
 
 }  // namespace

@@ -7,12 +7,12 @@
 
 namespace datmo {
 
-/// Global nearest neighbour: the one most likely association of each scan by itself, the sum of
+/// Global nearest neighbor: the one most likely association of each scan by itself, the sum of
 /// scores over all pairs being optimal. What multiple hypotheses are with a single one, and no scan
 /// history.
-class NearestNeighbourTargets : public TargetSet {
+class NearestNeighborTargets : public TargetSet {
  public:
-  NearestNeighbourTargets(const TargetOptions& target, const AssociationOptions& association);
+  NearestNeighborTargets(const TargetOptions& target, const AssociationOptions& association);
 
   void predict(double seconds) override;
   void associate(AssociationScan& scan, const StepBudget& budget) override;

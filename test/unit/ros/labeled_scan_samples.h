@@ -25,13 +25,13 @@ inline ScanField wideField() {
 
 /// A scan in which something seems to move at one place (m, base frame = map), some time (s) after
 /// kStart.
-inline SplitScan scanWithMover(const Point2& place, double seconds) {
-  SplitScan scan;
+inline LabeledScan scanWithMover(const Point2& position, double seconds) {
+  LabeledScan scan;
   scan.stamp = Stamp::fromSeconds(kStart + seconds);
   scan.field = wideField();
-  const double bearing = std::atan2(place.y(), place.x());
+  const double bearing = std::atan2(position.y(), position.x());
   const double beam = (bearing - scan.field.first_bearing) / scan.field.beam_spacing;
-  scan.points = {{place, place.norm(), bearing, static_cast<std::uint32_t>(std::lround(beam)),
+  scan.points = {{position, position.norm(), bearing, static_cast<std::uint32_t>(std::lround(beam)),
                   PointState::kMoving}};
   return scan;
 }
@@ -39,9 +39,9 @@ inline SplitScan scanWithMover(const Point2& place, double seconds) {
 inline constexpr double kWallBeside = 5.0;  // m, from the vehicle's way to each wall
 
 /// A scan between two walls along x, from a vehicle that drives between them at 5 m/s since kStart.
-inline SplitScan scanBetweenWalls(double seconds) {
+inline LabeledScan scanBetweenWalls(double seconds) {
   constexpr double kSpeed = 5.0;  // m/s
-  SplitScan scan;
+  LabeledScan scan;
   scan.stamp = Stamp::fromSeconds(kStart + seconds);
   scan.base_in_map.pose = Pose2(kSpeed * seconds, 0.0, 0.0);
   scan.field = wideField();

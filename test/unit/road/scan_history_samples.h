@@ -11,9 +11,9 @@ namespace datmo::samples {
 /// What a scanner at the base frame's origin sees: 81 beams, 2 degrees apart, to both sides of x,
 /// known free up to 40 m. The beams nearest to the places (m, map frame) end there; the vehicle is
 /// at `base_in_map`, `seconds` after the start.
-inline SplitScan scanOf(const std::vector<Point2>& places, double seconds,
-                        const Pose2& base_in_map = {}) {
-  SplitScan scan;
+inline LabeledScan scanOf(const std::vector<Point2>& positions, double seconds,
+                          const Pose2& base_in_map = {}) {
+  LabeledScan scan;
   scan.stamp = Stamp::fromSeconds(100.0 + seconds);
   scan.base_in_map.pose = base_in_map;
   scan.field.beams = 81;
@@ -21,8 +21,8 @@ inline SplitScan scanOf(const std::vector<Point2>& places, double seconds,
   scan.field.first_bearing = -40.0 * scan.field.beam_spacing;
   scan.field.free_range = 40.0;
   scan.field.range = 50.0;
-  for (const Point2& place : places) {
-    const Point2 seen = base_in_map.inverse() * place;
+  for (const Point2& position : positions) {
+    const Point2 seen = base_in_map.inverse() * position;
     ScanPoint point;
     point.position = seen;
     point.range = seen.norm();
