@@ -193,7 +193,7 @@ class Tool(unittest.TestCase):
         self.write([track(3, 25.0, -20.0)], views=[])
         out, _, score = self.run_tool()
         self.assertEqual((score["false"]["views"], score["false"]["reduction"]), (False, None))
-        self.assertIn("tells no views", out)
+        self.assertIn("has no views", out)
 
     def test_object_that_changes_its_track(self):
         self.write(fused=[track(1, 20.0, 0.0, SPEED, range(0, 5)),

@@ -17,7 +17,7 @@ COUNTS = (
     ("false", "intersections_false"),
 )
 
-# What a reduction is told of.
+# Quantities whose reduction is reported.
 REDUCED = ("false_moving_objects_episodes", "false_moving_objects_frames", "false_tracks")
 
 

@@ -1,4 +1,4 @@
-"""Published borders beside the true road, station by station along the way ahead."""
+"""Published borders beside the true road, station by station along the path ahead."""
 
 import math
 from typing import NamedTuple
@@ -13,10 +13,10 @@ from datmo_tools.stamps import NANOSECONDS
 from datmo_tools.track_frames import POSE
 from datmo_tools.true_road import MAX_SLANT, REACH, TURN
 
-# m along the way, from the vehicle (base_link): what counts.
+# m of arc length, from the vehicle (base_link): what counts.
 BEHIND, AHEAD = 10.0, 40.0
 
-# rad, from the vehicle's heading to that of its way: what is farther round a corner is not seen.
+# rad, from the vehicle's heading to that of its path: what is farther around a corner is not seen.
 MAX_TURN = math.radians(60.0)
 
 
@@ -24,14 +24,14 @@ class Frame(NamedTuple):
     """One list of borders, laid on the map of the truth at the vehicle's pose."""
 
     stamp: int  # ns
-    arc_length: float  # m along the way, of the vehicle
+    arc_length: float  # m along the path, of the vehicle
     lines: list  # of (SeenBorder, its points in the map of the truth)
 
 
 class Samples(NamedTuple):
     """n stations of many frames; what stands in both sides' arrays of one frame is one station."""
 
-    ahead: np.ndarray  # n, m along the way from the vehicle
+    ahead: np.ndarray  # n, m along the path from the vehicle
     left: np.ndarray  # n, bool: of the left border
     curved: np.ndarray  # n, bool
     error: np.ndarray  # n, m, positive: too far out; NaN: no border was published
@@ -84,10 +84,10 @@ def _moved(points, base, true_base):
 
 
 def _seen(frame, stations, part, name):
-    """Distance (m) across the way, and sigma (m), of the nearest border of that side at each
-    station of the part (slice); NaN where there is none. A border that slants across the way is not
+    """Distance (m) across the path, and sigma (m), of the nearest border of that side at each
+    station of the part (slice); NaN where there is none. A border that slants across the path is not
     the one along it; those of a side street, which both lie on one side of the vehicle, are left
-    and right ones where the way leads into it."""
+    and right ones where the path leads into it."""
     borders = [
         (border, line)
         for border, line in frame.lines

@@ -3,7 +3,7 @@
 from datmo_tools.border_tally import GROUPS
 from datmo_tools.text_table import aligned, percent, rounded
 
-# Headings, and the cell of one band: by group of places, and of all of them.
+# Headings, and the cell of one band: by group of stations, and of all of them.
 BY_GROUP = (
     ("found, %", lambda item: f"{percent(item['found_share'])} of {item['stations']}"),
     ("error, RMS, m", lambda item: rounded(item["rms_m"], 2)),
@@ -22,7 +22,7 @@ OF_ALL = (
     ("in 95 % gate, %", lambda item: percent(item["in_gate_95"])),
 )
 
-EPISODES = 10  # told of
+EPISODES = 10  # listed
 
 
 def table(result):

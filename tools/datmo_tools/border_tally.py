@@ -4,7 +4,7 @@ import numpy as np
 
 from datmo_tools.border_errors import AHEAD, BEHIND
 
-# m along the way, from the vehicle; the last two are sums of others.
+# m along the path, from the vehicle; the last two are sums of others.
 BANDS = ((-BEHIND, 0.0), (0.0, 10.0), (10.0, 20.0), (20.0, 30.0), (30.0, AHEAD),
          (0.0, 20.0), (-BEHIND, AHEAD))  # fmt: skip
 

@@ -73,7 +73,7 @@ def title(moment):
 
 
 def legend_handles(with_truth):
-    """One for each kind of thing that is drawn."""
+    """One for each kind of object that is drawn."""
     def line(shade, label, **style):
         return Line2D([], [], color=shade, label=label, **style)
 
@@ -104,7 +104,7 @@ def _draw_border(ax, base, border):
     ax.fill(*np.concatenate([left, right[::-1]]).T, color=shade, alpha=BAND * alpha, linewidth=0.0)
     line = seen_from(base, border.points)
     ax.plot(*line.T, color=shade, alpha=alpha, linestyle=line_style(border))
-    # Where a stretch ends is what tells side streets from gaps.
+    # The ends of stretches distinguish side streets from gaps.
     ax.plot(*line[[0, -1]].T, "|", color=shade, alpha=alpha, markersize=5.0)
 
 

@@ -26,11 +26,11 @@ velocities: each the other's nearest within 1 m across the line of sight, and wi
 saw: the near side along the line of sight, and the bearings of its corners.
 
 Of the differences in each bin of range outliers beyond three robust standard deviations are left
-out; taken out of their variance is what the lidar says of itself, and the camera of the sides that
+out; subtracted from their variance are the lidar's own, and the camera's of the sides that
 it saw, which object_fusion adds by itself. Where a bin has too few pairs, or what is known hides
 the rest, the law that fits all bins fills in: a + b range^4 for range, a + b / range^2 for bearing.
 
-Ranges are counted from the camera's place, which its lists tell. The lidar is taken for unbiased;
+Ranges are from the camera's position, which is in its lists. The lidar is taken for unbiased;
 a mean difference is printed as bias. Object fusion does not take it out: --with-bias adds its
 square."""
 

@@ -27,7 +27,7 @@ def camera_view(config, programs):
     """CameraView of a sensor set.
 
     config: its yaml file (Path), or else the stage's defaults, which the program list_parameters in
-    the folder `programs` (Path) tells. Raises InputError.
+    in the folder `programs` (Path). Raises InputError.
     """
     try:
         sections = yaml.safe_load(config.read_text(encoding="utf-8")) or {}

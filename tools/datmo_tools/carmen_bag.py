@@ -16,7 +16,7 @@ from datmo_tools.errors import InputError
 from datmo_tools.progress import Progress
 from datmo_tools.stamps import to_ros_time
 
-# Tells for each scan's stamp the one in the log; only where stamps were moved.
+# The log's stamp for each scan's; only where stamps were moved.
 LOG_STAMPS_TOPIC = "/log_stamps"
 
 # Nothing is so near to the mirror of a scanner: a reading of 0 is a fault.
@@ -105,7 +105,7 @@ def laser_scan(stamp, line, options):
 def _bearings(line, field_of_view):
     """Bearing of the first beam and the step to the next (rad).
 
-    A line that does not tell is of a SICK over half a turn from -90 degrees on: an odd number of
+    A line without it is of a SICK over half a turn from -90 degrees on: an odd number of
     readings (181, 361) ends at +90 degrees, an even one (180, 360) a step before.
     """
     count = len(line.ranges)
@@ -129,7 +129,7 @@ def _notes(path, log, scans, timed, options):
     if late:
         done = {
             "log": f"sorted by stamp, {len(scans) - used} with a stamp twice left out",
-            "order": f"their stamps moved; {LOG_STAMPS_TOPIC} tells the log's",
+            "order": f"their stamps moved; {LOG_STAMPS_TOPIC} has the log's",
         }
         notes.append(
             f"{path}: {len(late)} of {len(scans)} scans, the first in line {late[0].number}, are "

@@ -1,10 +1,10 @@
 """The records of a CARMEN log in an order of rising stamps, which a bag needs.
 
 Old logs carry the time at which a message reached the logger, not the time of the measurement:
-with a busy computer the stamps of the lines come in bursts, and mixed up. There are two ways to
+with a busy computer the stamps of the lines come in bursts, and mixed up. There are two methods to
 make them rise, and neither is the truth:
 
-log:   every record keeps its stamp, and the records are sorted by it. Scans may change places.
+log:   every record keeps its stamp, and the records are sorted by it. Scans may change their order.
 order: the records keep the order of the file, in which they were measured; the scans' stamps are
        moved, all together by as little as possible, until they rise nearly as evenly as the scanner
        turns. Stamps that do already stay as they are.
@@ -27,13 +27,13 @@ NEIGHBORHOOD = 100
 # later.
 MIN_SHARE = 0.9
 
-# Odometry this close to a scan or to earlier odometry tells no speed, for its stamps and digits are
+# Odometry this close to a scan or to earlier odometry gives no speed, for its stamps and digits are
 # too coarse, and no news.
 MIN_STEP = 20_000_000  # ns
 
 
 class TimedRecord(NamedTuple):
-    """A record at its place in time."""
+    """A record at its time."""
 
     stamp: int  # ns
     record: Record

@@ -35,9 +35,9 @@ class LaserLine(NamedTuple):
 
     stamp: int  # ns
     ranges: np.ndarray  # m, from right to left; +inf where the log says so
-    first_bearing: float  # rad in the scanner's frame; NaN: the line does not tell
-    step: float  # rad between beams; NaN: the line does not tell
-    range_max: float  # m, +inf: the line does not tell
+    first_bearing: float  # rad in the scanner's frame; NaN: not in the line
+    step: float  # rad between beams; NaN: not in the line
+    range_max: float  # m, +inf: not in the line
     laser_pose: np.ndarray  # x, y, yaw of the scanner, in the odometry's frame
     robot_pose: np.ndarray  # x, y, yaw of the robot by its odometry
 

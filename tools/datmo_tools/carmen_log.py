@@ -11,7 +11,7 @@ from datmo_tools.errors import InputError
 
 OPENERS = {".bz2": bz2.open, ".gz": gzip.open}
 
-# Stamps of neighboring lines may be mixed up by as much, as messages waited on their way to the
+# Stamps of neighboring lines may be mixed up by as much, as messages waited before the
 # logger; a clock that jumps back further was set, or the file holds two recordings.
 MAX_DISORDER = 10.0  # s
 
@@ -34,7 +34,7 @@ class CarmenLog(NamedTuple):
 
 
 def read_log(path, laser=None, skip_malformed=False):
-    """CarmenLog of the file at `path` (Path; .bz2 and .gz are unpacked on the way).
+    """CarmenLog of the file at `path` (Path; .bz2 and .gz are unpacked).
 
     laser: kind of the laser's lines; None: the first of LASERS that the log holds. Raises
     InputError with file and line: what cannot be read, a broken line or one of an unknown kind

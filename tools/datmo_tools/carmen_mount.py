@@ -9,7 +9,7 @@ from datmo_tools.errors import InputError
 MAX_POSITION_SPREAD = 0.02  # m
 MAX_YAW_SPREAD = 0.02  # rad
 
-# CARMEN's settings for the place of the front laser: ahead, to the left, and turned (m, m, rad).
+# CARMEN's settings for the pose of the front laser: ahead, to the left, and turned (m, m, rad).
 FRONT_SETTINGS = (
     "robot_frontlaser_offset",
     "robot_frontlaser_side_offset",
@@ -21,9 +21,9 @@ FRONT_LASERS = ("FLASER", "ROBOTLASER1")
 def scanner_mount(path, log, scans):
     """Pose (x, y, yaw) of the scanner in base_link, and a note on it for the user (or None).
 
-    Scans tell the scanner's pose beside the robot's. Logs that were worked over hold a corrected
-    pose in its place, or the robot's; there the settings of the log count. path: of the log, for
-    messages; scans: its LaserLines. Raises InputError where nothing tells the mount.
+    Scans have the scanner's pose beside the robot's. Logs that were worked over hold a corrected
+    pose instead, or the robot's; there the settings of the log count. path: of the log, for
+    messages; scans: its LaserLines. Raises InputError where the mount is not known.
     """
     mounts = np.array([transforms.relative(scan.robot_pose, scan.laser_pose) for scan in scans])
     setting = _setting(path, log)

@@ -15,7 +15,7 @@ def samples(stamps, poses):
     """List of OdometrySample of rising stamps (ns) and planar poses (x, y, yaw).
 
     The stack holds a twist until the next odometry comes; so it is the mean to the next pose, or,
-    where that is too near to tell a speed, to the first one at least MIN_STEP away.
+    where that is too near for a speed, to the first one at least MIN_STEP away.
     """
     rates = _rates(stamps, poses)
     result = []

@@ -15,13 +15,13 @@ DESCRIPTION = """\
 Converts a log of the robot software CARMEN (also .bz2 or .gz) to a bag: /scan, /odometry, /tf,
 /tf_static.
 
-The scanner's mount is where the log says that the laser is on the robot; a log does not tell its
+The scanner's mount is where the log says that the laser is on the robot; a log does not contain its
 height. Readings at or beyond the greatest range become +inf: no return. The odometry is what stands
 in the scans' lines, and ODOM lines between them; its twist is the mean motion to the next pose.
 
 Stamps are the log's ipc times, to which relations files refer. If those of the scans do not rise,
 the scans stay in the order of the file, in which they were measured; their stamps are moved as
-little as it needs to make them rise evenly, and /log_stamps tells the log's, for score_relations
+little as it needs to make them rise evenly, and /log_stamps has the log's, for score_relations
 (--clock order). With --clock log the scans are sorted by the log's stamps instead."""
 
 
@@ -47,12 +47,12 @@ def _parser():
     clock = "whose order counts (default: log if the stamps of the scans rise, else order)"
     add("--clock", choices=CLOCKS, help=clock)
     field = (
-        "first to last beam (default: what the line tells; a SICK's half turn where it does not)"
+        "first to last beam (default: what the line says; a SICK's half turn where it does not)"
     )
     add("--field-of-view", type=command_line.number, metavar="DEG", help=field)
     reach = "no return from here on, in m, or from the line's own maximum"
     command_line.add_number(parser, "--range-max", defaults.range_max, "M", reach)
-    position = "the scanner's place on the robot, if not the log's (m, m, degrees)"
+    position = "the scanner's pose on the robot, if not the log's (m, m, degrees)"
     add("--mount", type=command_line.number, nargs=3, metavar=("X", "Y", "YAW"), help=position)
     sweep = "s from the first beam to the last; a SICK LMS takes 1/150 for half a turn"
     command_line.add_number(parser, "--sweep-time", defaults.sweep_time, "S", sweep)

@@ -15,7 +15,7 @@ def run(name, work, product="bag"):
     """Calls `work()`, which writes a `product`; returns the exit code of the tool `name`.
 
     An InputError and an interruption end with one line on standard error and the code 1. A kill
-    counts as Ctrl-C, so that `work` cleans up on the way out.
+    counts as Ctrl-C, so that `work` cleans up.
     """
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:

@@ -8,7 +8,7 @@ DEGREES = np.degrees(1.0)
 
 NOTE = """\
 Left range (m), right bearing (degrees). Known: standard deviation of the differences by what the
-lidar says of itself and the camera of the sides that it saw; sd: the camera's own."""
+lidar's own and the camera's of the sides that it saw; sd: the camera's own."""
 
 
 def as_yaml(table, source, runs):

@@ -84,9 +84,9 @@ class Column(NamedTuple):
     count: np.ndarray  # pairs without outliers
     bias: np.ndarray  # NaN: no pairs
     difference_variance: np.ndarray  # of the camera's less the lidar's; NaN: too few pairs
-    known_variance: np.ndarray  # of it, what is told by the lidar and the camera's sides
+    known_variance: np.ndarray  # of it, that of the lidar and the camera's sides
     enough: np.ndarray  # whether the bin has enough pairs
-    measured: np.ndarray  # whether it tells the camera's variance: not where what is known hides it
+    measured: np.ndarray  # whether it determines the camera's variance: not where the known part dominates
     variance: np.ndarray  # the camera's: measured, or that of the law
     law: Law
 

@@ -74,7 +74,7 @@ def extent(run):
 
 
 def short_names(paths):
-    """A name for each run: its file's without ending, and as many folders as tell them apart."""
+    """A name for each run: its file's without ending, and as many folders as make them unique."""
     parts = [path.replace("\\", "/").split("/") for path in paths]
     parts = [[*folders, _without_ending(name)] for *folders, name in parts]
     count = 1

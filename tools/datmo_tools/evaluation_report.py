@@ -31,7 +31,7 @@ def page(runs):
         _tiles(runs[0]) if len(runs) == 1 else "",
         _block("Figures", _hint_of_best(runs), _metrics(runs, names)),
         *(of_each + of_all if len(runs) == 1 else of_all + of_each),
-        _block("Options", "As score_run was told, or its defaults.", _options(runs[0])),
+        _block("Options", "As given to score_run, or its defaults.", _options(runs[0])),
     ]
     return (
         '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'

@@ -170,7 +170,7 @@ SECTIONS = (
         (
             Metric("distance", "pose.path_length_m", "m", 1.0, 1),
             _meters("end point", "pose.end_error_m"),
-            _percent("end point, of the way", "pose.end_error_share", lower, digits=2),
+            _percent("end point, of the distance", "pose.end_error_share", lower, digits=2),
             Metric("heading at the end", "pose.end_error_deg", "deg", 1.0, 2, lower),
             _meters("position, root mean square", "pose.position_rmse_m"),
             _degrees("heading, root mean square", "pose.heading_rmse_rad", 2),
@@ -193,7 +193,7 @@ OBJECT_METRICS = (
 )
 
 STANDING_METRICS = (
-    Metric("in sight", "frames", "frames"),
+    Metric("visible", "frames", "frames"),
     Metric("with a false track on it", "tracked_frames", "frames"),
 )
 

@@ -15,7 +15,7 @@ DPI = 150  # of a picture in pixels
 RIGHT, BOTTOM = 0.2, 0.5  # inch: margins of every figure
 BETWEEN_ROWS = 0.4  # of a row's height, where a picture does not say
 
-# Of files, and what each would say of the hour it was made in.
+# Of files, and of their time of creation.
 KINDS = {"svg": ("Date",), "pdf": ("CreationDate",), "png": ()}
 
 INK = "#1f2937"
@@ -99,7 +99,7 @@ def _figure(height, draw, left, top, between, subplots):
 
 
 def _element(figure):
-    """The <svg> alone, as wide as its place on the page, without what only a file needs."""
+    """The <svg> alone, as wide as its column on the page, without what only a file needs."""
     text = io.StringIO()
     figure.savefig(text, format="svg", transparent=True)
     head, body = re.search(r"(<svg[^>]*>)(.*)", text.getvalue(), re.DOTALL).groups()

@@ -8,9 +8,9 @@ from datmo_tools.border_errors import AHEAD
 from datmo_tools.segments import distances_to, nearby
 from datmo_tools.stamps import NANOSECONDS
 
-STEP = 0.5  # m, between the places of a border that are looked at
+STEP = 0.5  # m, between the sampled points of a border
 
-# A false stretch is told of from this length on, m.
+# A false stretch is listed from this length on, m.
 MIN_LENGTH = 3.0
 
 # Stretches of two messages are one if they are not farther apart, m and s.
@@ -20,7 +20,7 @@ MAX_APART, MAX_PAUSE = 10.0, 1.0
 # truth knows no border.
 ROAD, JUNCTION, BEYOND, OPEN = WHERE = ("road", "junction", "beyond", "open")
 
-# The way that a false stretch may be beside, m before and behind the vehicle.
+# The part of the path that a false stretch may be beside, m before and behind the vehicle.
 BESIDE = 60.0
 
 

@@ -34,7 +34,7 @@ def score_false(frames_by_list, view_lists, gate):
 
     frames_by_list: dictionary name -> TrackFrames; view_lists: TrackLists with the views of the
     camera; gate: m. A track is in view if it is in the sector and range of one of the views in most
-    of its frames, and in sight if nothing is before it either.
+    of its frames, and visible if nothing occludes it either.
     """
     views = Newest([item for item in view_lists if item.views])
     return {name: _score_list(frames, views, gate) for name, frames in frames_by_list.items()}

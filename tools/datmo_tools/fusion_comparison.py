@@ -12,7 +12,7 @@ thesis missed without and with fusion of objects (table 3.2): its data sets were
 simulated streets with as many seconds and moving objects. False: tracks on nothing that moves;
 false, in view: the same within the stereo camera's range and field of view. RMSE: of the position of
 matched tracks, and, near, of those within 20 m. Class right: of the frames of matched tracks. Delay:
-from the first sight of an object to its first track, mean. Time: mean of all stages together for one
+from the first detection of an object to its first track, mean. Time: mean of all stages together for one
 scan, without the matching of images."""
 
 # Levels at which the thesis has a count: its field in Published.

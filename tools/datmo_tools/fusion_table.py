@@ -27,7 +27,7 @@ RUN_COLUMNS = (
     ("tracks", lambda report: report["thesis"]["tracks"]),
     ("of them false", lambda report: report["thesis"]["false_tracks"]),
     ("MOTA, %", lambda report: percent(report["clear_mot"]["mota"])),
-    ("end point, % of the way", lambda report: percent(report["pose"]["end_error_share"], 2)),
+    ("end point, % of the distance", lambda report: percent(report["pose"]["end_error_share"], 2)),
 )
 
 # The same in the score of score_grids: percent of the cells, or poles, in the camera's view.

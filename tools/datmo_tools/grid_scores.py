@@ -15,13 +15,13 @@ from datmo_tools import transforms
 
 UNDECIDED = 50  # percent: occupied is more
 
-# A body hides what is this far behind the place where the line of sight meets it. What is nearer is
+# A body hides what is this far behind the point where the line of sight meets it. What is nearer is
 # on the body, or beside it by the scanner's noise.
 HIDDEN_BEHIND = 1.0  # m
 
 
 class Grid(NamedTuple):
-    """What a grid of one stamp says of the cells around the vehicle."""
+    """Cells around the vehicle in a grid of one stamp."""
 
     cell_size: float  # m
     origin: np.ndarray  # x, y of its lower left corner in base_link, m
@@ -104,7 +104,7 @@ class Bodies(NamedTuple):
     def met_at(self, begin, ends):
         """Where lines over ground from `begin` (2) to `ends` (m x 2) first meet the boxes.
 
-        m x n, as share of the way; infinite: the line passes by, or begins in the box.
+        m x n, as share of the distance; infinite: the line passes by, or begins in the box.
         """
         cosine, sine = np.cos(self.poses[:, 2]), np.sin(self.poses[:, 2])
         turn = np.stack([np.stack([cosine, sine]), np.stack([-sine, cosine])])
@@ -119,7 +119,7 @@ class Bodies(NamedTuple):
 
 
 class Tally:
-    """How many of some things have a property: of all, of those in view, and by their range."""
+    """How many of some objects have a property: of all, of those in view, and by their range."""
 
     def __init__(self, edges):
         """edges: of the bands of range, rising, m; the last one is where the view ends."""

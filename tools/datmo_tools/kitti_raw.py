@@ -17,7 +17,7 @@ from datmo_tools.stamps import NANOSECONDS
 
 OXTS_FIELDS = 30
 CLOUD_FIELDS = 4  # x, y, z, reflectance
-NOMINAL_TURN = NANOSECONDS // 10  # of the Velodyne, where a single scan does not tell it
+NOMINAL_TURN = NANOSECONDS // 10  # of the Velodyne, where a single scan does not contain it
 
 # Records of the GPS/IMU that may be lost, or stamped no later than one before, as in some of the
 # unsynchronized drives: the pose between them is interpolated.
@@ -180,7 +180,7 @@ def _check_folder(folder):
     if folder.is_file() and folder.suffix == ".zip":
         raise InputError(
             f"{folder}: {expected}; 'unzip {folder}' makes it, and the zip of the day's "
-            "calibration is unpacked at the same place"
+            "calibration is unpacked in the same folder"
         )
     if not folder.is_dir():
         raise InputError(f"{folder}: {expected}")

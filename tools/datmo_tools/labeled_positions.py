@@ -1,4 +1,4 @@
-"""Positions of people or things that were labeled in a recording, brought to a run's map."""
+"""Positions of people or objects that were labeled in a recording, brought to a run's map."""
 
 from typing import NamedTuple
 
@@ -74,7 +74,7 @@ def _checked(recording, topic, message):
     pose = getattr(message, "pose", None)
     pose = getattr(pose, "pose", pose)
     if not hasattr(pose, "position") or not hasattr(message, "id"):
-        raise InputError(f"{recording}: {topic} has no pose and id, expected one of a thing each")
+        raise InputError(f"{recording}: {topic} has no pose and id, expected one of an object each")
     return message
 
 

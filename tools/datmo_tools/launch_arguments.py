@@ -1,4 +1,4 @@
-"""What roslaunch does not say of a command line: arguments that no launch file takes, and a stack that
+"""What roslaunch does not check in a command line: arguments that no launch file takes, and a stack that
 runs on the same master already.
 
 usage: check_launch

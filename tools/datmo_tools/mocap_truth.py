@@ -13,7 +13,7 @@ from datmo_tools.pose_path import PosePath, read_path
 # 3 mm/s then, and a car's acceleration hardly changes in it.
 HALF_WINDOW = 0.1  # s
 
-# Where motion capture lost sight of the markers for longer, nothing is known.
+# Where motion capture lost the markers for longer, nothing is known.
 MAX_GAP = 50_000_000  # ns, to the nearest pose
 
 
@@ -48,7 +48,7 @@ class CapturedBody:
     """A body over time."""
 
     def __init__(self, path, origin, center):
-        """path: PosePath of the markers; origin: the map's place in its frame; center: the body's
+        """path: PosePath of the markers; origin: the map's pose in its frame; center: the body's
         in the markers' (both x, y, yaw)."""
         local = transforms.relative(origin, path.poses)
         poses = np.array([transforms.compose(pose, center) for pose in local])

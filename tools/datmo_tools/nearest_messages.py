@@ -62,5 +62,5 @@ def _stamp(data):
 
 
 def _message(raw):
-    """raw: type's name, bytes, MD5 sum, place in the bag, class."""
+    """raw: type's name, bytes, MD5 sum, position in the bag, class."""
     return raw[4]().deserialize(raw[1])

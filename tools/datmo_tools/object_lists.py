@@ -40,7 +40,7 @@ class SeenList(NamedTuple):
 
     stamp: int  # ns
     objects: list  # of Seen
-    viewpoints: dict  # sensor -> x, y (m) of those that the message tells the view of
+    viewpoints: dict  # sensor -> x, y (m) of those whose view is in the message
 
     @property
     def viewpoint(self):
@@ -59,7 +59,7 @@ class MovingBox(NamedTuple):
 def read_lists(path, topics):
     """Dictionary topic -> list of SeenList in the order of the bag, of topics that have any.
 
-    Objects with a place, size or covariance that is not finite are left out, as in the stack.
+    Objects with a position, size or covariance that is not finite are left out, as in the stack.
 
     Raises InputError for another type.
     """

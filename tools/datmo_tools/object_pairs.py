@@ -106,7 +106,7 @@ def _rotation(angle):
 
 
 def _box_on(pose, boxes):
-    """The MovingBox whose middle is nearest, of those that a place (x, y, ..., m) lies within."""
+    """The MovingBox whose middle is nearest, of those that contain a position (x, y, ..., m)."""
     near = [
         (np.hypot(*(box.pose[:2] - pose[:2])), i)
         for i, box in enumerate(boxes)

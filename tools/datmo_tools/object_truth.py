@@ -27,7 +27,7 @@ class Region(NamedTuple):
     half_angle: float = math.pi  # rad, to either side of straight ahead
 
     def contains(self, pose):
-        """Whether a place (x, y, ..., base_link) is in it."""
+        """Whether a position (x, y, ..., base_link) is in it."""
         bearing = math.atan2(pose[1], pose[0])
         return math.hypot(pose[0], pose[1]) <= self.range and abs(bearing) <= self.half_angle
 

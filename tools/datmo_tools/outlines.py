@@ -17,7 +17,7 @@ CORNERS = 0.5 * np.array([(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)])
 SIDES = (2, 1, 3, 0)
 NORMALS = np.array([(0.0, 1.0), (-1.0, 0.0), (0.0, -1.0), (1.0, 0.0)])
 
-# More slanting sides tell no range: what is off across the line of sight changes it more (cosine of
+# More slanting sides carry no range: what is off across the line of sight changes it more (cosine of
 # 60 degrees).
 MIN_FACING = 0.5
 
@@ -111,9 +111,9 @@ class Offset(NamedTuple):
 
     range: float  # m, of the other one
     value: np.ndarray  # m; NaN: not both saw it. Positive: too far, too far to the left
-    jacobian: np.ndarray  # 2 x 2, of the value by the place of the box
+    jacobian: np.ndarray  # 2 x 2, of the value by the position of the box
     sides_variance: np.ndarray  # 2, m^2, by the variances of the one's own sides
-    other_covariance: np.ndarray  # 2 x 2, m^2, by all that the other one says of itself
+    other_covariance: np.ndarray  # 2 x 2, m^2, from all of the other one's own
 
 
 def offset(outline, other):

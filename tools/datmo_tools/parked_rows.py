@@ -1,6 +1,6 @@
 """Rows of parked vehicles along a curb: where they leave off, the road's side of them ends it.
 
-All in arrays over stations along a way, equally spaced, that look to one side of it.
+All in arrays over stations along a path, equally spaced, that look to one side of it.
 """
 
 from typing import NamedTuple
@@ -55,7 +55,7 @@ def parked_boxes(path):
 def depths_of_vehicles(curb, near, far):
     """n, m: how far parked vehicles reach from the curb into the road; NaN where none does.
 
-    curb: n, m, from the way; NaN: none; near, far: n x k, m, sides of k boxes as the way sees them;
+    curb: n, m, from the path; NaN: none; near, far: n x k, m, sides of k boxes as seen from the path;
     NaN where it looks past a box.
     """
     with np.errstate(invalid="ignore"):

@@ -63,7 +63,7 @@ def account(number, observations, off):
     """Where a false track is, and what is there in truth.
 
     number: its id; observations: of (TrackFrame, row), where it counts; off: those of them in which it
-    is on nothing that moves, of which the middle one is told; all of them, if there are none.
+    is on nothing that moves, of which the middle one is reported; all of them, if there are none.
     """
     frame, row = (off or observations)[len(off or observations) // 2]
     track = frame.tracks[row]

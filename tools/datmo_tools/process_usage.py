@@ -1,4 +1,4 @@
-"""What a process uses of the computer, as Linux tells it in /proc."""
+"""What a process uses of the computer, from Linux's /proc."""
 
 import os
 from pathlib import Path

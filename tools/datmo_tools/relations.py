@@ -1,9 +1,9 @@
-"""The accuracy of a path by relations between places: the metric of the SLAM benchmark.
+"""The accuracy of a path by relations between poses: the metric of the SLAM benchmark.
 
 Source: Kuemmerle et al., "On measuring the accuracy of SLAM algorithms", Autonomous Robots 27(4),
 2009, equations 4 to 6. A relation says where the robot was at one time, seen from where it was at
 another; the error of a path is what its own relation between these times differs by. No frame has
-to be laid on another, and an error at one place counts only where places are compared across it.
+to be laid on another, and an error at one pose counts only where poses are compared across it.
 """
 
 from typing import NamedTuple

@@ -11,7 +11,7 @@ from datmo_tools.kitti_calibration import VELODYNE_HEIGHT
 
 # Where the road is looked for, in the Velodyne's frame.
 NEAR, FAR, HALF_WIDTH = 3.0, 40.0, 8.0  # m ahead, m ahead, m to either side
-CELL = 1.0  # m: one height for each cell, so that near places do not outweigh far ones
+CELL = 1.0  # m: one height for each cell, so that near points do not outweigh far ones
 LOW_SHARE = 0.25  # this quantile of a cell's heights stands for its floor
 
 # Cells further than this (m) from the plane are left out, step by step: what stands on the road.

@@ -17,14 +17,14 @@ from datmo_tools.true_road import TrueRoad
 DESCRIPTION = """\
 Scores the borders of the road (/road_borders of run_bag --road-border; thesis 3.5) with the truth
 of a drive. Looked at is the road that the vehicle drives, from 10 m behind it to 40 m ahead along
-its true way, each half meter, outside of junctions and not round a corner of more than 60 degrees;
+its true path, each half meter, outside of junctions and not round a corner of more than 60 degrees;
 the run's map is laid on the truth's at the vehicle's pose, so that its drift does not count.
 
   true border  the end of what can be driven on: the curb, or the line of the road-side faces of the
                vehicles that stand along it throughout, bridged over gaps of up to --bridged. In a
                gap longer than --car-length, and this far beyond the ends of a row, curb and row are
                both right: the one that is nearer to what was published counts
-  found        of the true places, seen before or not, those with a published border within
+  found        of the true stations, seen before or not, those with a published border within
                --found-within of the true one
   error        of published borders across the true one, positive: too far out. Those farther off
                than --gate do not count in it, they are counted by themselves; from the curb: the

@@ -30,8 +30,8 @@ def main(arguments=None):
 def score(poses, relations_file, topic="/pose", recording=None, tolerance=TOLERANCE):
     """Score of the poses on `topic` in a bag, as a dictionary that JSON can hold.
 
-    poses, relations_file: Path; recording: bag (Path) that tells the log's stamps, where they were
-    moved (see carmen_to_bag; None: `poses` itself may tell them). tolerance: s between a
+    poses, relations_file: Path; recording: bag (Path) with the log's stamps, where they were
+    moved (see carmen_to_bag; None: `poses` itself may have them). tolerance: s between a
     relation's time and the nearest pose. Raises InputError, also if no relation is covered.
     """
     relations = read_relations(relations_file)
@@ -78,7 +78,7 @@ def table(result):
 
 
 def _by_log_stamps(path, bag):
-    """The path at the log's stamps, if `bag` tells them: poses at scans, by their new order."""
+    """The path at the log's stamps, if `bag` has them: poses at scans, by their new order."""
     references = read_messages(bag, LOG_STAMPS_TOPIC)
     if not references:
         return path

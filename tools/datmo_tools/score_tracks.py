@@ -31,10 +31,10 @@ ones, against /tracks/lidar and /tracks/stereo, which they are made of, and the 
                both sensors
   false        tracks within the camera's view (sector and range, as published with /tracks/stereo)
                that match no true object in most of their frames, as score_run counts them: of each
-               list; in sight: nothing that the camera saw is before them
+               list; visible: nothing that the camera saw occludes them
   ghosts       fused tracks on an object that has another one; objects that change their track
 
-What is false, late or missed is listed with its stamp and place. KITTI's labels know the camera's
+What is false, late or missed is listed with its stamp and position. KITTI's labels know the camera's
 view alone, and not which sensor sees what: --visible-to none --range 500 --half-angle 0.7."""
 
 FUSED = "/tracks"

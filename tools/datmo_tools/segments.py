@@ -63,7 +63,7 @@ def distances_to(points, segments):
 
 
 def nearby(segments, position, radius):
-    """Segments that come within a radius (m) of a place."""
+    """Segments that come within a radius (m) of a point."""
     near = _distances(np.asarray(position, dtype=float).reshape(1, 2), segments)[0] <= radius
     return Segments(segments.begin[near], segments.end[near])
 

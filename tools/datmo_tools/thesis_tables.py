@@ -10,7 +10,7 @@ and intersections. The columns say of which order the counts are, not who is bet
 
 
 class Published(NamedTuple):
-    """What the thesis says of one data set."""
+    """The thesis's figures for one data set."""
 
     seconds: int
     moving_objects: int

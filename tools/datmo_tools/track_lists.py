@@ -36,7 +36,7 @@ class TrackList(NamedTuple):
 def read_track_lists(path, topics):
     """Dictionary topic -> list of TrackList by rising stamp.
 
-    Tracks with a place or velocity that is not finite are left out. Raises InputError for another
+    Tracks with a position or velocity that is not finite are left out. Raises InputError for another
     type, for two messages of one stamp, and where there is nothing on a topic.
     """
     lists = {topic: {} for topic in topics}

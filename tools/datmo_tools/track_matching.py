@@ -14,7 +14,7 @@ class Verdict(enum.Enum):
 
 
 def distances_to_boxes(positions, poses, sizes):
-    """Distances (n x m, m) of places (n x 2) from boxes, 0 inside.
+    """Distances (n x m, m) of positions (n x 2) from boxes, 0 inside.
 
     poses: m x 3, x, y (m), yaw (rad) of their centers; sizes: m x 2, length, width (m).
     """

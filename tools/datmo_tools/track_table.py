@@ -104,9 +104,9 @@ def _object_text(item):
 
 def _false(item):
     if not item["views"]:
-        return "False tracks: /tracks/stereo tells no views, so none is known to be within them"
+        return "False tracks: /tracks/stereo has no views, so none is known to be within them"
     sorts = list(item["fused"]["by_what"])
-    rows = [["false tracks", "all", "in view", "in sight", "in a list", *sorts]]
+    rows = [["false tracks", "all", "in view", "visible", "in a list", *sorts]]
     for name in LISTS:
         one = item[name]
         frames = _ratio(one["in_view_frames"], one["frames"])

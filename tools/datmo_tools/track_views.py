@@ -11,7 +11,7 @@ BLOCKING_DISTANCE = 0.5
 
 
 def is_in_view(views, position):
-    """Whether a place (x, y, m, in the frame of the views) is in the sector and range of one of
+    """Whether a position (x, y, m, in the frame of the views) is in the sector and range of one of
     the ViewFans."""
     return any(_beam_at(view, position) is not None for view in views)
 

@@ -1,4 +1,4 @@
-"""The true road about the way that a vehicle drove: where it ends to the left and to the right."""
+"""The true road around the path that a vehicle drove: where it ends to the left and to the right."""
 
 import math
 from typing import NamedTuple
@@ -14,10 +14,10 @@ from datmo_tools.segments import BATCH, Segments, ray_crossings, segments_of
 
 SPACING = 0.5  # m, of the stations
 
-# The way goes straight on before the first pose and after the last one, m.
+# The path goes straight on before the first pose and after the last one, m.
 BEYOND = 50.0
 
-# To either side of the way, m: as far as the thesis looks, 25 windows of 0.9 m.
+# To either side of the path, m: as far as the thesis looks, 25 windows of 0.9 m.
 REACH = 22.5
 
 # A curb runs with the road, rad: one that turns off by more is another road's.
@@ -30,14 +30,14 @@ CURVATURE_BASE = 15.0
 # m: a junction begins so far before the first scan in it, at 16 m/s.
 JUNCTION_MARGIN = 1.0
 
-# m: places of two scans in a row that are in the same junction are nearer to each other.
+# m: positions of two scans in a row that are in the same junction are nearer to each other.
 MAX_STEP = 5.0
 
 TURN = {"left": 0.5 * math.pi, "right": -0.5 * math.pi}
 
 
 class Stations(NamedTuple):
-    """n places along the way, in the map of the truth."""
+    """n stations along the path, in the map of the truth."""
 
     arc_length: np.ndarray  # n, m from the first pose
     positions: np.ndarray  # n x 2, m
@@ -45,18 +45,18 @@ class Stations(NamedTuple):
     at_intersection: np.ndarray  # n, bool
 
     def between(self, first, last):
-        """slice of those from one way (m) to another."""
+        """slice of those from one arc length (m) to another."""
         return slice(*np.searchsorted(self.arc_length, [first, last]).tolist())
 
 
 class TrueSide(NamedTuple):
-    """One side of the road; distances in m across the way, NaN where there is no curb."""
+    """One side of the road; distances in m across the path, NaN where there is no curb."""
 
     curb: np.ndarray  # n, to the curb
     row: np.ndarray  # n, to the line of parked vehicles; NaN: none
     open: np.ndarray  # n, bool: in a gap of the row, curb and row would do
     curved: np.ndarray  # n, bool
-    cosine: np.ndarray  # n, from distances across the way to those across the border
+    cosine: np.ndarray  # n, from distances across the path to those across the border
 
     def errors(self, seen):
         """n, m across the border: of borders `seen` at these distances, positive: too far out."""
@@ -70,7 +70,7 @@ class TrueSide(NamedTuple):
         return (seen - self.curb) * self.cosine
 
     def innermost(self):
-        """n, m across the way: where the road ends at the nearest."""
+        """n, m across the path: where the road ends at the nearest."""
         return np.fmin(self.curb, self.row)
 
     def part(self, part):
@@ -109,7 +109,7 @@ class TrueRoad:
         self.lines = _lines(self.stations, self.sides, borders.curbs, boxes)
 
     def arc_length_at(self, stamp):
-        """m along the way, of the vehicle at `stamp` (ns)."""
+        """m along the path, of the vehicle at `stamp` (ns)."""
         return float(np.interp(_seconds(stamp, self._start), self._seconds, self._arc_length))
 
 
@@ -118,7 +118,7 @@ def _seconds(stamps, start):
 
 
 def _stations(arc_length, poses, curbs, crossed):
-    """crossed: m along the way, of stamps at which the vehicle is at an intersection."""
+    """crossed: m along the path, of stamps at which the vehicle is at an intersection."""
     moved = np.concatenate([[True], np.diff(arc_length) > 0.0])
     arc_length, poses = arc_length[moved], poses[moved]
     before = _free_distance(poses[0, :2], poses[0, 2] + math.pi, curbs)
@@ -139,7 +139,7 @@ def _free_distance(position, heading, curbs):
 
 
 def _marked(at, crossed):
-    """Which stations are at one of the places `crossed`, or between two of the same junction."""
+    """Which stations are at one of the stations `crossed`, or between two of the same junction."""
     marks = np.sort(crossed)
     if not len(marks):
         return np.zeros(len(at), dtype=bool)
@@ -163,7 +163,7 @@ def _side(stations, turn, curbs, boxes, rows, curve_radius):
 
 
 def _curb(stations, rays, curbs):
-    """Distance and heading (as the way runs) of the nearest curb; NaN: none, or it turns off."""
+    """Distance and heading (along the path) of the nearest curb; NaN: none, or it turns off."""
     curb, headings = np.full((2, len(rays)), np.nan)
     if not len(curbs.begin):
         return curb, headings

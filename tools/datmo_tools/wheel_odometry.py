@@ -12,7 +12,7 @@ from datmo_tools.pose_path import read_messages
 
 WHEELS = ("FL", "FR", "BL", "BR")
 
-# The IMU's bias is told by so many samples at which no wheel turned; by fewer it is not.
+# The IMU's bias is estimated from so many samples at which no wheel turned; by fewer it is not.
 MIN_STANDING = 20
 
 MIN_GRAVITY = 5.0  # m/s^2, of the mean acceleration: about half of what it is
@@ -36,8 +36,8 @@ def read_odometry(recording, wheels_topic, imu_topic, wheel_radius):
     """List of OdometrySample at the IMU's stamps.
 
     The speed is the median of the four wheels (fields FL, FR, BL, BR, rad/s; an encoder that counts
-    double does not disturb it), as it was last told; the yaw rate is the turn about the vertical,
-    which gravity tells, however the IMU is mounted, less its mean while no wheel turns.
+    double does not disturb it), as last measured; the yaw rate is the turn about the vertical,
+    from gravity, however the IMU is mounted, less its mean while no wheel turns.
     Raises InputError where a topic is of another type, or empty.
     """
     wheels = _read_wheels(recording, wheels_topic)

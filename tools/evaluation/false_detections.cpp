@@ -6,13 +6,13 @@ namespace datmo::evaluation {
 
 namespace {
 
-/// A place in the map where something was last seen to move that does not.
+/// A position in the map where something static was last seen to move.
 struct Episode {
   Stamp last;
   Point2 position;
 };
 
-/// Counts places, not detections.
+/// Counts positions, not detections.
 class Episodes {
  public:
   Episodes(double gate, double max_gap) : gate_(gate), max_gap_(max_gap) {}

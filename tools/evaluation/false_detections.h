@@ -14,7 +14,7 @@ namespace datmo::evaluation {
 struct FalseDetections {
   std::size_t frames = 0;      ///< measurements that were scored
   std::size_t detections = 0;  ///< false ones, summed over the frames
-  std::size_t episodes = 0;    ///< the same, each place counted once for as long as it goes on
+  std::size_t episodes = 0;    ///< the same, each position counted once for as long as it lasts
 
   /// Mean number of false ones in a frame; none: no frame.
   std::optional<double> perFrame() const;

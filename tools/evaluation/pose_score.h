@@ -9,10 +9,10 @@
 
 namespace datmo::evaluation {
 
-/// Mean error of the motion between poses that lie this far apart on the true way.
+/// Mean error of the motion between poses that lie this far apart on the true path.
 struct RelativePoseError {
   double distance = 0.0;              ///< m
-  std::optional<double> translation;  ///< m; none: the way is shorter
+  std::optional<double> translation;  ///< m; none: the path is shorter
   std::optional<double> rotation;     ///< rad
   std::size_t pairs = 0;
 };
@@ -23,7 +23,7 @@ struct PoseScore {
   double end_error = 0.0;           ///< m, at the last pose
   double end_heading_error = 0.0;   ///< rad, 0 to pi
   double path_length = 0.0;         ///< m, true, from the first to the last pose
-  std::optional<double> end_share;  ///< end error by way; none: it stood
+  std::optional<double> end_share;  ///< end error by path length; none: stationary
   double position_rmse = 0.0;       ///< m
   double heading_rmse = 0.0;        ///< rad
   double largest_jump = 0.0;        ///< m, see kJumpTime

@@ -63,7 +63,7 @@ struct RecordedObject {
   TrueState state;
   std::string label;                    ///< the source's own name of the class
   bool moving = false;                  ///< over ground, at this stamp
-  std::vector<std::string> visible_to;  ///< sensors that have it in sight
+  std::vector<std::string> visible_to;  ///< sensors that it is visible to
   int lidar_beams = 0;                  ///< that end on it
 };
 

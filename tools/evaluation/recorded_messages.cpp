@@ -71,7 +71,7 @@ TrueState stateOf(const TrueObject& message) {
   return state;
 }
 
-/// Reads the part of a message that has an id; what is wrong with it is said of this id.
+/// Reads the part of a message that has an id; errors name this id.
 template <typename Item>
 auto read(const std::string& what, const Item& item, std::set<std::uint32_t>& ids) {
   const std::string name = what + " " + std::to_string(item.id);

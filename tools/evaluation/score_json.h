@@ -17,7 +17,7 @@ struct ScoredFiles {
 };
 
 /// The score as a report for programs: units are in the names (_m, _s, _rad …), null is what has no
-/// sample, times are in s since `start_s`, places in the map of the truth.
+/// sample, times are in s since `start_s`, positions in the map of the truth.
 nlohmann::json toJson(const RunScore& score, const ScoreOptions& options, const ScoredFiles& files);
 
 }  // namespace datmo::evaluation

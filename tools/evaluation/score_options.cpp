@@ -46,7 +46,7 @@ void ClassOptions::visit(OptionVisitor& visitor) {
 void TruthOptions::visit(OptionVisitor& visitor) {
   visitor.group("classes", [&] { classes.visit(visitor); });
   visitor.text({"visible_to", "",
-                "sensor that must have the object in sight, e.g. scanner; any: one at least; "
+                "sensor that the object must be visible to, e.g. scanner; any: one at least; "
                 "none: also what no sensor sees has to be found"},
                visible_to, {});
   visitor.integer({"min_beams", "1", "of the scan that end on the object"}, min_beams,
@@ -82,12 +82,13 @@ void ScoreOptions::visit(OptionVisitor& visitor) {
                  max_gap, {0.001, 10.0});
   visitor.number({"max_silence", "s",
                   "a stamp of the truth further from any tracks counts as one without tracks, so "
-                  "that silence is no way to be right"},
+                  "so that silence is not rewarded"},
                  max_silence, {0.001, 10.0});
-  visitor.number({"detection_gap", "s",
-                  "a false moving object that comes back at the same place within it is the same "
-                  "one"},
-                 detection_gap, {0.001, 60.0});
+  visitor.number(
+      {"detection_gap", "s",
+       "a false moving object that comes back at the same position within it is the same "
+       "one"},
+      detection_gap, {0.001, 60.0});
   visitor.number(
       {"intersection_merge_gap", "s", "two intersections with less time between them are one"},
       intersection_merge_gap, {0.0, 60.0});

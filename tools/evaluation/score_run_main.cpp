@@ -12,7 +12,7 @@
 
 namespace {
 
-/// Whatever stands in the way of a report: bags, options, an interruption.
+/// Whatever prevents a report: bags, options, an interruption.
 constexpr int kNoReport = 2;
 
 }  // namespace

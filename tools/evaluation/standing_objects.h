@@ -13,7 +13,7 @@ namespace datmo::evaluation {
 struct StandingObject {
   std::uint32_t id = 0;
   ObjectClass classification = ObjectClass::kUnknown;
-  std::size_t frames = 0;          ///< in which it is in sight and in the region
+  std::size_t frames = 0;          ///< in which it is visible and in the region
   std::size_t tracked_frames = 0;  ///< of them, those with a false track on it
 };
 

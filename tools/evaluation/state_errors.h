@@ -35,7 +35,7 @@ class StateErrorSum {
 /// Over all frames. `matching` is of these frames.
 StateErrors scoreStateErrors(const Frames& frames, const Matching& matching);
 
-/// The same of the objects within a range (m) of a place, which is another one in each frame.
+/// The same of the objects within a range (m) of a position, which differs in each frame.
 StateErrors scoreNearErrors(const Frames& frames, const Matching& matching,
                             const std::vector<Point2>& positions, double range);
 

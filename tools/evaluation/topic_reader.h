@@ -28,7 +28,7 @@ class TopicReader {
   bool isThere() const { return holdsTopic(bag_, topic_); }
 
   /// Calls `take` with each message, in the order of their record times; what `take` throws is
-  /// passed on with the place. Throws where there is none, and after an interruption.
+  /// passed on with the location. Throws where there is none, and after an interruption.
   template <typename Message, typename Take>
   void forEach(const Take& take) {
     if (!isThere()) {

@@ -10,7 +10,7 @@ namespace datmo::kitti {
 
 namespace {
 
-/// Nearer to the camera's plane than this a point has no usable place in the image, m.
+/// Nearer to the camera's plane than this a point has no usable image position, m.
 constexpr double kMinDepth = 0.1;
 
 Eigen::Isometry3d isometry(const Projection& matrix) {

@@ -40,7 +40,7 @@ class CameraMount {
     return box.left > 0.0 && box.right < image_.width - 1.0;
   }
 
-  /// Heading as seen from the camera, rad: rotation_y less the direction of sight.
+  /// Heading as seen from the camera, rad: rotation_y minus the viewing direction.
   static double alpha(const Box3& box);
 
   /// Bearings about the camera, rad to the left, that are in the image.

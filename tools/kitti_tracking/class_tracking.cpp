@@ -4,7 +4,7 @@ namespace datmo::kitti {
 
 namespace {
 
-/// Existence probability of the tracks by which the vehicle's motion is told.
+/// Existence probability of the tracks that the vehicle's motion is estimated from.
 constexpr double kSureOfTrack = 0.8;
 
 /// As the labels say it: what is not detected may be hidden.

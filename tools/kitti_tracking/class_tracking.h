@@ -32,7 +32,7 @@ class ClassTracking {
   /// Throws OptionError.
   ClassTracking(ObjectType type, const ClassTrackingOptions& options, const CameraMount& mount);
 
-  /// What the detections of one frame tell, vehicle's frame, in their order.
+  /// Results for the detections of one frame, vehicle's frame, in their order.
   ObjectList objects(const std::vector<Detection>& detections, Stamp stamp) const;
 
   /// Takes what objects() has made of the next frame's detections, the vehicle's pose, and the
@@ -62,7 +62,7 @@ class ClassTracking {
   /// said so: the mean is drawn to what false tracks have, the less the longer a track is.
   double scoreOf(const Memory& memory) const;
 
-  /// Takes in the track's detection, if it has one now. Null for a track that never had one.
+  /// Updates with the track's detection, if it has one now. Null for a track that never had one.
   const Memory* remember(const Track& track, const ObjectList& objects,
                          const std::vector<Detection>& detections);
   TrackedObject rowOf(const Track& track, const Memory& memory, int frame) const;

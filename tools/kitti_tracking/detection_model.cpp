@@ -21,7 +21,8 @@ ObjectClass classOf(ObjectType type) {
 
 double square(double value) { return value * value; }
 
-/// Covariance of a position seen in this direction (rad), of the axes along and across the sight.
+/// Covariance of a position seen in this direction (rad), of the axes along and across the line of
+/// sight.
 Eigen::Matrix2d covarianceOf(double direction, double along, double across) {
   const Eigen::Matrix2d axes = Pose2(Point2::Zero(), direction).rotation();
   return axes * Point2(square(along), square(across)).asDiagonal() * axes.transpose();

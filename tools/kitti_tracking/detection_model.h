@@ -25,7 +25,7 @@ struct DetectionModelOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What the boxes of a 3D detector tell of objects.
+/// Measurement model of the boxes of a 3D detector.
 class DetectionModel {
  public:
   /// Throws OptionError.

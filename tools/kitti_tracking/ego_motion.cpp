@@ -27,8 +27,8 @@ constexpr double kSearchSigmas = 2.0;
 
 /// A sighting, and what is expected nearest to it.
 struct Match {
-  Point2 difference;            ///< m, from the expected place to the seen one, vehicle's frame
-  Point2 expected;              ///< m, vehicle's frame
+  Point2 difference;  ///< m, from the expected position to the observed one, vehicle's frame
+  Point2 expected;    ///< m, vehicle's frame
   Eigen::Matrix2d information;  ///< 1/m^2, of the difference
   double distance2() const { return difference.dot(information * difference); }
 };
@@ -102,7 +102,7 @@ double Step::cost(const State& state) const {
   return 0.5 * scale * sum;
 }
 
-/// How the place of a landmark in the vehicle's frame changes with speed and yaw rate.
+/// How the position of a landmark in the vehicle's frame changes with speed and yaw rate.
 Eigen::Matrix2d jacobian(const Point2& point, const State& state, double seconds) {
   const double half_turn = 0.5 * state[1] * seconds;
   const double c = std::cos(half_turn);

@@ -22,7 +22,7 @@ struct EgoMotionOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Something at an uncertain place.
+/// A landmark at an uncertain position.
 struct Landmark {
   Point2 position = Point2::Zero();                          ///< m
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< m^2

@@ -7,7 +7,7 @@
 
 namespace datmo::kitti {
 
-/// What KITTI tracking calls things (Geiger et al., Are we ready for autonomous driving? The KITTI
+/// Labels of KITTI tracking (Geiger et al., Are we ready for autonomous driving? The KITTI
 /// vision benchmark suite, CVPR 2012).
 enum class ObjectType {
   kCar,
@@ -55,7 +55,7 @@ struct Detection {
   ImageBox image_box;
   double score = 0.0;  ///< unbounded: greater is surer
   Box3 box;
-  double alpha = 0.0;  ///< rad; where the file has none: what ry and the place tell
+  double alpha = 0.0;  ///< rad; where the file has none: from ry and the position
 };
 
 /// Labels, in the order of the file. Empty lines are passed over, here and below. Throws

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 using datmo::kitti::DetectedSequence;
 using datmo::kitti::SequenceRun;
 
-/// Whatever stands in the way of tracks: arguments, files.
+/// Whatever prevents tracks: arguments, files.
 constexpr int kNoTracks = 2;
 
 /// Folders of the detections, in the order of kTrackedTypes.

@@ -11,7 +11,7 @@
 
 namespace {
 
-/// Whatever stands in the way of a score: arguments, files.
+/// Whatever prevents a score: arguments, files.
 constexpr int kNoScore = 2;
 
 void writeScores(const datmo::kitti::ScoreArguments& arguments) {

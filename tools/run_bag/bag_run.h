@@ -11,7 +11,7 @@ namespace datmo {
 /// With --until some of them, with --write-grids /grids/* too, with --road-border /road_borders
 /// and /objects/dropped, with --object-fusion /objects/stereo and /objects/fused, with
 /// --track-fusion /objects/stereo, /tracks/lidar and /tracks/stereo. Prints a table to `out` at the
-/// end and a bar to `progress` on the way (null: none); with --quiet neither. With --times it
+/// end and a bar to `progress` (null: none); with --quiet neither. With --times it
 /// writes the stages' times to a JSON file.
 ///
 /// Throws NoUsableInput if all messages on a topic were refused, no scan could be used or no tracks

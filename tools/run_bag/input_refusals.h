@@ -23,7 +23,7 @@ class InputRefusals {
   /// One reason for which messages of a topic were refused.
   struct Reason {
     std::uint64_t messages = 0;
-    std::string last;  ///< what was said of the last one
+    std::string last;  ///< message for the last one
   };
 
   struct Topic {

@@ -145,7 +145,7 @@ std::string neededMotionTopic(const rosbag::Bag& bag, const Arguments& arguments
   const std::string name = arguments.inputTopic(topic);
   if (!holdsTopic(bag, name)) {
     failForTopic(bag, "no " + type + " on " + name + " (give its topic, " + topic +
-                          ":=/..., or what else tells the motion, in " + arguments.config +
+                          ":=/..., or another source of motion, in " + arguments.config +
                           ": motion: {source: ...}, one of odometry, twist, imu, imu_and_twist, "
                           "imu_and_wheels, none)");
   }

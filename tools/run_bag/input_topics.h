@@ -26,7 +26,7 @@ struct StereoTopics {
   StereoPoints input() const;
 };
 
-/// The names that what tells the motion has in the bag; empty: not read.
+/// Topics of the motion inputs in the bag; empty: not read.
 struct MotionTopics {
   std::string odometry;
   std::string imu;
@@ -40,7 +40,7 @@ struct MotionTopics {
 /// The names that our inputs have in the bag.
 struct InputTopics {
   std::string scan;
-  std::string cloud;  ///< of a 3D lidar, that scans are made of; empty: there are scans
+  std::string cloud;         ///< of a 3D lidar, that scans are made of; empty: there are scans
   std::string object_cloud;  ///< of a 3D lidar, that objects are found in; empty: they are not
   std::string echoes;
   MotionTopics motion;

@@ -27,7 +27,7 @@ std::vector<GraphStage> wholeGraph() {
 /// The type of the stage that a section is of; empty for one of no stage.
 std::string typeOf(const std::string& section) {
   for (const GraphStage& stage : wholeGraph()) {
-    // What a sensor set says of `motion` is of all stages.
+    // The section `motion` of a sensor set is for all stages.
     if (stage.name == section && section != kMotionSection) {
       return stage.type;
     }

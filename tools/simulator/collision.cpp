@@ -6,7 +6,7 @@ namespace datmo::simulator {
 
 namespace {
 
-/// s; at 15 m/s a thing moves by less than its own length.
+/// s; at 15 m/s an object moves by less than its own length.
 constexpr double kStep = 0.05;
 
 struct Body {

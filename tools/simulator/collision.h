@@ -7,7 +7,7 @@
 
 namespace datmo::simulator {
 
-/// Two things that are in the same place.
+/// Two objects at the same position.
 struct Collision {
   double time = 0.0;                 ///< s
   std::string mover;                 ///< label of the one that moves

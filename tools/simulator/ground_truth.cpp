@@ -48,7 +48,7 @@ void GroundTruthOptions::visit(OptionVisitor& visitor) {
   visitor.number({"radius", "m", "objects within it round the vehicle are in the ground truth"},
                  radius, {0.0, 1000.0});
   visitor.number({"min_visible_share", "1",
-                  "share of an object's width that must be in a sensor's sight for it to be named "
+                  "share of an object's width that must be visible to a sensor for it to be named "
                   "visible"},
                  min_visible_share, {0.0, 1.0});
   visitor.toggle({"echoes", "", "records what each beam's nearest echo came from"}, echoes);

@@ -33,7 +33,7 @@ struct LineOfSight {
   double visible = 0.0;  ///< 0 to 1, share not hidden, in the field of view and in range
 };
 
-/// Looks from the sensor's place, at its height, at an object of the state.
+/// Looks from the sensor's position, at its height, at an object of the state.
 LineOfSight lookAt(const ObjectState& object, const Viewpoint& view, const World& world,
                    const WorldState& state);
 

@@ -78,7 +78,7 @@ class LaserScanner {
   Viewpoint viewpoint() const;
 
  private:
-  /// Ways in which one beam differs from the ideal one.
+  /// Errors of one beam.
   struct BeamFaults {
     double azimuth = 0.0;  ///< rad
     double pitch = 0.0;    ///< rad

@@ -83,7 +83,7 @@ class SmoothNoise {
   std::vector<double> corners_;
 };
 
-/// The nearest thing within `reach` columns beside a pixel, as far as it is of another surface.
+/// The nearest surface within `reach` columns beside a pixel, as far as it is of another surface.
 double nearerBeside(const DisparityImage& image, int column, int row, int reach) {
   const double own = image.seen[image.slot(column, row)];
   double nearest = own;

@@ -12,7 +12,7 @@ namespace datmo::simulator {
 /// things, and what lies left of the right image.
 void removeHidden(DisparityImage& image);
 
-/// At most `width` px beside a nearer thing, and with this probability (0 to 1), background gets a
+/// At most `width` px beside a nearer object, and with this probability (0 to 1), background gets a
 /// disparity between its own and the nearer one.
 void mixEdges(DisparityImage& image, int width, double probability, RandomStream& random);
 

@@ -16,7 +16,7 @@ constexpr double kSharpest = degrees(175.0);
 
 double headingOf(const Point2& leg) { return std::atan2(leg.y(), leg.x()); }
 
-/// Way along each leg that the arc at the corner between them takes, m.
+/// Length along each leg that the arc at the corner between them takes, m.
 double tangentLength(const Point2& before, const Point2& after, double corner_radius) {
   const double turn = std::abs(angleBetween(headingOf(before), headingOf(after)));
   const double max = 0.5 * std::min(before.norm(), after.norm());

@@ -8,13 +8,13 @@ namespace datmo::simulator {
 
 using Polyline = std::vector<Point2>;
 
-/// Where a path leads to after some way.
+/// Point of a path at an arc length.
 struct PathPoint {
   Pose2 pose;              ///< on the path, heading along it
   double curvature = 0.0;  ///< 1/m, positive to the left
 };
 
-/// A polyline whose corners are rounded by circular arcs, measured by the way along it.
+/// A polyline whose corners are rounded by circular arcs, parameterized by arc length.
 class Path {
  public:
   /// `points`: at least two, m, no two neighbors the same and no turning back on the spot.

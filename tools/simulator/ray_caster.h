@@ -13,7 +13,7 @@ struct HeightBand {
   double low_slope = 0.0;      ///< tangent of the lower edge's angle above the horizon
   double high_slope = 0.0;     ///< of the upper edge's
 
-  /// Whether a thing of this height (m), standing on the road at this range (m), is lit.
+  /// Whether an object of this height (m), standing on the road at this range (m), is lit.
   bool lights(double height, double range) const {
     return sensor_height + low_slope * range <= height && sensor_height + high_slope * range >= 0.0;
   }
@@ -26,13 +26,13 @@ struct RayHit {
   Surface surface = Surface::kBody;
 };
 
-/// The way of a ray over a solid that stands in it.
+/// The passage of a ray through a solid.
 struct Passage {
   RaySpan span;                  ///< m from the ray's origin, over the solid's outline
   const Solid* solid = nullptr;  ///< lives as long as the world and its state
 };
 
-/// Sends rays from one place into the world at one time; only what is within reach is looked at.
+/// Sends rays from one position into the world at one time; only what is within reach is looked at.
 class RayCaster {
  public:
   /// `reach`: m, the longest ray that will be asked for. Keeps references to both: they must live
@@ -45,7 +45,7 @@ class RayCaster {
 
   /// All that stands (bodies and curbs, not paint) along a heading (rad, world frame) and begins
   /// ahead of the origin, not farther than `reach`; the nearest first. Heights are left to the
-  /// caller: a low thing hides only a part of what is behind it.
+  /// caller: a low object hides only a part of what is behind it.
   std::vector<Passage> passages(double heading, double reach) const;
 
  private:

@@ -46,12 +46,12 @@ class RoadNetwork {
   /// along it.
   Pose2 beside(std::size_t road, double arc_length, double left) const;
 
-  /// The line along a road at `left` m from its middle line, from one way (m) to another, without
-  /// what is on another road or nearer to one than `clearance` (m).
+  /// The line along a road at `left` m from its middle line, from one arc length (m) to another,
+  /// without what is on another road or nearer to one than `clearance` (m).
   std::vector<Polyline> sideLines(std::size_t road, double left, double from, double to,
                                   double clearance) const;
 
-  /// Whether a place on `road` is also on another one or nearer to it than `clearance` (m).
+  /// Whether a point on `road` is also on another one or nearer to it than `clearance` (m).
   bool onOtherRoad(std::size_t road, const Point2& point, double clearance) const;
 
   /// Inside a junction, the openings of its curbs included.

@@ -69,7 +69,7 @@ std::set<int> readLeftOut(const YAML::Node& entry) {
     const auto numbers = entry["leave_out"].as<std::vector<int>>();
     return {numbers.begin(), numbers.end()};
   } catch (const YAML::Exception&) {
-    throw OptionError("leave_out: expected a list of whole numbers, 0 for the first place");
+    throw OptionError("leave_out: expected a list of whole numbers, 0 for the first position");
   }
 }
 

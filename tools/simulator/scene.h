@@ -35,8 +35,8 @@ struct Scene {
 /// Reads a scene file (rosbag_fixtures/README.md says what is in one). `overrides` replace options
 /// of its section `options`, by full key.
 ///
-/// Throws OptionError that names the file, the place in it, the value and what was expected: for a
-/// key that nobody reads, a value out of bounds, a path that is too short for its speeds, and
+/// Throws OptionError that names the file, the location in it, the value and what was expected: for
+/// a key that nobody reads, a value out of bounds, a path that is too short for its speeds, and
 /// bodies that run into each other.
 Scene readScene(const std::string& file, const OptionValues& overrides = {});
 

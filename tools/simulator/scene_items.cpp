@@ -38,7 +38,7 @@ void CrossingItem::visit(OptionVisitor& visitor) {
 
 void RowItem::visit(OptionVisitor& visitor) {
   visitStretch(visitor, road, side, from, to);
-  visitor.number({"spacing", "m", "from the middle of one thing to that of the next"}, spacing,
+  visitor.number({"spacing", "m", "from the middle of one object to that of the next"}, spacing,
                  {0.5, 1000.0});
   visitor.number({"from_curb", "m", "from the curb to the middle; negative: on the carriageway"},
                  from_curb, {-50.0, 50.0});

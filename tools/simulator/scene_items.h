@@ -27,7 +27,7 @@ struct CrossingItem {
   void visit(OptionVisitor& visitor);
 };
 
-/// Things of one kind, or of several in turn, beside a road.
+/// Objects of one kind, or of several in turn, beside a road.
 struct RowItem {
   std::string road;
   std::string side = "right";

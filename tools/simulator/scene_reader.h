@@ -28,7 +28,7 @@ Polyline readPoints(const YAML::Node& entry, const std::string& key);
 SpeedProfile readSpeed(const YAML::Node& entry);
 
 /// Calls `read` for each entry of the list under `key`, if there is one; what it throws is put in
-/// its place (`roads[0]: ...`).
+/// its location (`roads[0]: ...`).
 void readList(const YAML::Node& scene, const std::string& key,
               const std::function<void(const YAML::Node&)>& read);
 

@@ -18,7 +18,7 @@ struct Segment {
   Point2 end = Point2::Zero();
 };
 
-/// Outline of a thing on the ground, m, world frame.
+/// Outline of an object on the ground, m, world frame.
 using Shape = std::variant<Box2, Circle, Segment>;
 
 /// A half line; `direction` has length 1.

@@ -10,11 +10,11 @@ namespace datmo::simulator {
 /// A ray that sinks or climbs in the upright plane through the heading of some passages.
 struct SlopedRay {
   double height = 0.0;  ///< m above the road, at the start
-  double fall = 0.0;    ///< m per m of way over ground; negative: it climbs
+  double fall = 0.0;    ///< m per m of distance over ground; negative: it climbs
   double reach = 0.0;   ///< m over ground
 };
 
-/// What a sight line ends on.
+/// What a ray ends on.
 struct RayEnd {
   double range = 0.0;            ///< m over ground
   double height = 0.0;           ///< m above the road

@@ -21,7 +21,7 @@ class SpeedProfile {
   /// m/s at a time (s).
   double speed(double time) const;
 
-  /// Way driven since time 0, m.
+  /// Distance driven since time 0, m.
   double distance(double time) const;
 
  private:

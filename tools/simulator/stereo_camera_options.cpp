@@ -54,16 +54,17 @@ void visitMatching(StereoCameraOptions& o, OptionVisitor& visitor) {
                  o.noise_common_share, {0.0, 1.0});
   visitor.integer({"noise_patch", "px", "over which noise is common; assumed"}, o.noise_patch,
                   {1.0, 512.0});
-  visitor.number({"weak_texture_patch", "m", "size of a place without texture; assumed"},
+  visitor.number({"weak_texture_patch", "m", "size of a patch without texture; assumed"},
                  o.weak_texture_patch, {0.01, 100.0});
   visitor.number(
-      {"weak_texture_share", "1", "share of such places on what stands: no points there; assumed"},
+      {"weak_texture_share", "1", "share of such patches on objects: no points there; assumed"},
       o.weak_texture_share, {0.0, 1.0});
-  visitor.number({"weak_road_share", "1", "share of such places on the road; assumed"},
+  visitor.number({"weak_road_share", "1", "share of such patches on the road; assumed"},
                  o.weak_road_share, {0.0, 1.0});
-  visitor.integer({"edge_width", "px",
-                   "so far beside a nearer thing the background's disparity may be wrong; assumed"},
-                  o.edge_width, {0.0, 64.0});
+  visitor.integer(
+      {"edge_width", "px",
+       "so far beside a nearer object the background's disparity may be wrong; assumed"},
+      o.edge_width, {0.0, 64.0});
   visitor.number({"edge_mixing", "1", "probability that it is, and lies between the two; assumed"},
                  o.edge_mixing, {0.0, 1.0});
   visitor.number({"outlier_share", "1", "share of wrong matches, at any depth; assumed"},

@@ -17,7 +17,7 @@ geometry_msgs::TransformStamped toMount(const StereoCameraOptions& options, Stam
 /// (float32, m) without those that were not found.
 sensor_msgs::PointCloud2 toCloud(const StereoPoints& points, Stamp stamp);
 
-/// Of rectified images; the right camera's projection tells the baseline (P[3] = -f B).
+/// Of rectified images; the right camera's projection has the baseline (P[3] = -f B).
 sensor_msgs::CameraInfo toLeftInfo(const StereoCameraOptions& options, Stamp stamp);
 sensor_msgs::CameraInfo toRightInfo(const StereoCameraOptions& options, Stamp stamp);
 

@@ -17,7 +17,7 @@ class SurfaceTexture {
   /// road. `seed`: of the run.
   SurfaceTexture(double patch, double share_on_solids, double share_on_road, std::uint64_t seed);
 
-  /// Whether the place where a sight line ends is even. `point`: m, world frame.
+  /// Whether the point where a ray ends is even. `point`: m, world frame.
   bool isEven(const RayEnd& end, const Point2& point) const;
 
  private:

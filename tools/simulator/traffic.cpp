@@ -10,7 +10,7 @@ namespace {
 
 /// Draws after which a mover is given up; lanes that are not full need a few.
 constexpr int kMaxDraws = 1000;
-/// m; how finely a lane is searched for its place beside the ego vehicle.
+/// m; how finely a lane is searched for the arc length beside the ego vehicle.
 constexpr double kSearchStep = 1.0;
 
 double between(double min, double max, double share) { return min + share * (max - min); }
@@ -20,7 +20,7 @@ const Item& oneOf(const std::vector<Item>& items, RandomStream& random) {
   return items[static_cast<std::size_t>(random.uniform() * static_cast<double>(items.size()))];
 }
 
-/// m along the path, of its place nearest to a point.
+/// arc length of the path nearest to a point, m.
 double arcLengthBeside(const Path& path, const Point2& point) {
   double nearest = 0.0;
   for (double arc_length = 0.0; arc_length <= path.length(); arc_length += kSearchStep) {

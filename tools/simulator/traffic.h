@@ -34,7 +34,7 @@ struct Lane {
 /// lane it is then; so all of them come near. What would come nearer than the gap to a body ahead
 /// or behind is drawn again.
 ///
-/// Throws OptionError where there is no lane, or where no free way is found for a mover.
+/// Throws OptionError where there is no lane, or where no free lane is found for a mover.
 void addTraffic(const std::vector<Lane>& lanes, const TrafficOptions& options, double duration,
                 RandomStream random, World& world);
 

@@ -24,7 +24,7 @@ enum class Surface {
 /// No object of the ground truth: buildings, fences, curbs.
 inline constexpr std::uint32_t kNoObject = 0;
 
-/// A thing on the road, as an upright prism.
+/// An object on the road, as an upright prism.
 struct Solid {
   Shape outline;
   double height = 0.0;  ///< m above the road

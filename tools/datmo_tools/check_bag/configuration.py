@@ -8,7 +8,7 @@ from datmo_tools.check_bag.motion_checks import poses_are_better
 from datmo_tools.check_bag.sizing import is_small, settings
 from datmo_tools.check_bag.yaml_text import frames_section, mounts_section
 
-# Stages that wait for a stereo camera unless they are told that there is none.
+# Stages that wait for a stereo camera unless configured without one.
 STEREO_FUSIONS = "grid_fusion", "object_fusion"
 
 
@@ -44,7 +44,7 @@ def sections(recording, roles, results, measured):
 
 
 def motion_section(recording, roles, results):
-    """Section motion: what tells the vehicle's motion."""
+    """Section motion: source of the vehicle's motion."""
     source = motion_source(roles, recording)
     section = {} if source == "odometry" else {"source": source}
     if source == "odometry" and poses_are_better(results):

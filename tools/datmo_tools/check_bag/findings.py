@@ -13,7 +13,7 @@ class Severity(enum.IntEnum):
 
 
 class Finding(NamedTuple):
-    """One thing that was found."""
+    """One finding."""
 
     severity: Severity
     kind: str  # a name for programs, as `stamp_gap`
@@ -23,7 +23,7 @@ class Finding(NamedTuple):
 
 
 class Findings:
-    """Collects findings; at most one of a kind for each place."""
+    """Collects findings; at most one of a kind for each topic or frame."""
 
     def __init__(self):
         self._items = {}

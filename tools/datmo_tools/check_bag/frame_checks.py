@@ -143,7 +143,7 @@ def _check_mount(recording, roles, findings):
 def _report_missing_mount(recording, roles, findings):
     frames = recording.transforms.frames()
     known = "tf does not have it at all" if roles.scan_frame not in frames else (
-        "tf has both, but no way from one to the other"
+        "tf has both, but does not connect them"
         if roles.base_frame in frames else f"tf does not have {roles.base_frame}"
     )  # fmt: skip
     findings.error(

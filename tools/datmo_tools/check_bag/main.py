@@ -15,7 +15,7 @@ from datmo_tools.whole_files import write_whole
 DESCRIPTION = """\
 Says what a recording holds, what is wrong with it for this package, and how to start.
 
-It reads the bag without a master and tells: what is missing for each level of fusion; rates, gaps
+It reads the bag without a master and reports: what is missing for each level of fusion; rates, gaps
 and order of stamps; clock offsets between the scanner and odometry or IMU, and scale and sign of
 these, by the motion that the scans themselves see; frames and mounts; beams that are dead or see the vehicle
 itself; reach against the window; calibration of cameras. Then it writes a first yaml with what

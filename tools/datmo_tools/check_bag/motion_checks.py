@@ -141,7 +141,7 @@ def _check_distances(result, where, findings):
             f"the scans move {fit.scale:.2f} times as far as {source} says",
             f"Multiply the wheel radius of the odometry's driver by {fit.scale:.2f}.",
         )  # fmt: skip
-    # Turns tell the delay better: a wrong mount does not change them.
+    # Turns show the delay better: a wrong mount does not change them.
     if result.turns is None:
         _check_delay(fit, result, where, findings)
 
@@ -182,7 +182,7 @@ def _check_pose_against_twist(results, roles, findings):
 
 
 def check_mount_yaw(result, motions, mount, roles, findings):
-    """Adds where the scanner looks another way than its mount says, by where it moves to."""
+    """Adds where the scanner looks in another direction than its mount says, by where it moves to."""
     if result is None or result.signal.positions is None or mount is None:
         return
     starts, ends = motions.starts, motions.ends

@@ -33,7 +33,7 @@ def fit_turns(signal, motions):
 
 
 def fit_distances(signal, motions, base_motions):
-    """MotionFit of the way forward, where the scans know it; None where there is too little."""
+    """MotionFit of the forward motion, where the scans know it; None where there is too little."""
     if signal is None or signal.positions is None:
         return None
     known = motions.certain

@@ -87,7 +87,7 @@ class OdometrySamples:
         self._rows = []
 
     def add(self, message, stamp):
-        """Takes in an Odometry."""
+        """Adds an Odometry."""
         pose, twist = message.pose.pose, message.twist.twist
         turn = pose.orientation
         yaw = math.atan2(
@@ -130,7 +130,7 @@ class TwistSamples:
         self._rows = []
 
     def add(self, message, stamp):
-        """Takes in a TwistStamped or TwistWithCovarianceStamped."""
+        """Adds a TwistStamped or TwistWithCovarianceStamped."""
         twist = getattr(message.twist, "twist", message.twist)
         self._rows.append((stamp, twist.linear.x, twist.angular.z))
 
@@ -148,7 +148,7 @@ class ImuSamples:
         self._rows = []
 
     def add(self, message, stamp):
-        """Takes in an Imu."""
+        """Adds an Imu."""
         rate, pull = message.angular_velocity, message.linear_acceleration
         self._rows.append((stamp, rate.x, rate.y, rate.z, pull.x, pull.y, pull.z))
 

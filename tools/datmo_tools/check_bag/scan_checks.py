@@ -18,7 +18,7 @@ REACH_PERCENTILE = 98.0
 
 
 class ScannerFacts(NamedTuple):
-    """What the scans say of their scanner."""
+    """Properties of the scanner from its scans."""
 
     beams: int
     spacing: float  # rad

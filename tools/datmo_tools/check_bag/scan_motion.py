@@ -1,4 +1,4 @@
-"""The vehicle's motion as the scans themselves tell it, from a bounded number of pairs of scans."""
+"""The vehicle's motion estimated from the scans alone, from a bounded number of pairs of scans."""
 
 from typing import NamedTuple
 
@@ -13,7 +13,7 @@ MAX_TRAVEL = 0.04  # of the reach, between them
 MIN_SHARE = 0.5  # of the points that have to be matched
 MIN_WEAKEST = 0.12  # below: a corridor, along which the motion is not known
 
-GUESS_SHIFT, GUESS_TURN = 0.4, 0.04  # m, rad: from nearer starts the matching ends at one place
+GUESS_SHIFT, GUESS_TURN = 0.4, 0.04  # m, rad: from nearer starts the matching converges to one pose
 
 
 class ScanMotions(NamedTuple):

@@ -59,7 +59,7 @@ PEOPLE_TRACKER = {
 
 
 class Measured(NamedTuple):
-    """What the recording says of scanner and vehicle."""
+    """Properties of scanner and vehicle from the recording."""
 
     reach: float  # m
     spacing: float  # rad

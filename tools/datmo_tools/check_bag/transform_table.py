@@ -25,7 +25,7 @@ class Edge:
         self.valid = True  # finite, with a quaternion of norm 1
 
     def add(self, matrix, stamp):
-        """Takes in one transform; None: not a rigid one."""
+        """Adds one transform; None: not a rigid one."""
         self.count += 1
         if matrix is None:
             self.valid = False
@@ -47,7 +47,7 @@ class TransformTable:
         self.slashed = set()  # frames as they were written, with their slash
 
     def add(self, message, static, start):
-        """Takes in a TFMessage; `start`: of the recording, ns."""
+        """Adds a TFMessage; `start`: of the recording, ns."""
         for item in message.transforms:
             names = item.header.frame_id, item.child_frame_id
             self.slashed.update(name for name in names if name.startswith("/"))
@@ -108,7 +108,7 @@ class TransformTable:
         return matrix
 
     def path(self, target, source):
-        """Edges on the way between two frames; empty where there is none."""
+        """Edges of the path between two frames; empty where there is none."""
         up_source, up_target = self.ancestors(source), self.ancestors(target)
         common = next((frame for frame in up_source if frame in up_target), None)
         if common is None:

@@ -38,7 +38,7 @@ def frames_section(roles):
 
 
 def mounts_section(recording, roles):
-    """Section mounts: frames without a way to the base frame, at 0 until they are measured."""
+    """Section mounts: frames not connected to the base frame, at 0 until they are measured."""
     section = {}
     if _lacks_mount(recording, roles, roles.scan_frame):
         section[roles.scan_frame] = dict(AT_BASE, yaw=0.0)
@@ -53,7 +53,7 @@ def mounts_section(recording, roles):
 
 
 def imu_frame_without_mount(recording, roles):
-    """Frame of the IMU if it tells the motion and has no way to the base frame; "" otherwise."""
+    """Frame of the IMU if it is the source of motion and not connected to the base frame; "" otherwise."""
     if not roles.imu or "imu" not in motion_source(roles, recording).split("_"):
         return ""
     frame = bare(recording.topics[roles.imu].frame())
@@ -63,7 +63,7 @@ def imu_frame_without_mount(recording, roles):
 def _tilt(up):
     """Mount of an IMU that feels gravity against `up` (unit vector in its frame, or None).
 
-    A yaw rate asks for neither its place nor its yaw.
+    A yaw rate needs neither its position nor its yaw.
     """
     if up is None:
         return {"roll": 0.0, "pitch": 0.0}
