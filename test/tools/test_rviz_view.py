@@ -23,8 +23,9 @@ def text_of(pattern):
 
 
 def published():
-    """Topics that nodelets advertise, and those that perception.launch remaps theirs to."""
+    """Topics that nodelets advertise and stages declare, and those that perception.launch remaps theirs to."""
     topics = set(re.findall(r'advertise<[^>]+>\(\s*"([^"]+)"', text_of("src/nodelets/*")))
+    topics |= set(re.findall(r'\.out<[^>]+>\(\s*"([^"]+)"', text_of("src/ros/*_stage.cpp")))
     launch = text_of("launch/perception.launch")
     renamed = re.findall(r'<remap from="([^"]+)" to="([^"$]+)"', launch)
     topics |= {new for old, new in renamed if old in topics}
