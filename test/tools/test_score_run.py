@@ -4,6 +4,8 @@
 import json
 import unittest
 
+import numpy as np
+from datmo_tools.track_matching import TrackMatcher, Verdict
 from score_run_bags import (
     CAR_AHEAD,
     FRAMES,
@@ -133,6 +135,29 @@ class WholeRun(ScoreRunCase):
         self.run_messages["/tracker/tracks"] = self.run_messages.pop("/tracks")
         report = self.score("--set", "topics/tracks=/tracker/tracks")
         self.assertEqual(report["clear_mot"]["mota"], 1.0)
+
+    def test_the_python_matcher_matches_alike(self):
+        """Crowds in which the nearest pairs are often not the best ones, over three seeds."""
+        gate = 2.0
+        for seed in range(3):
+            random = np.random.default_rng(seed)
+            matcher, hits, misses, false = TrackMatcher(gate), 0, 0, 0
+            for i in range(FRAMES):
+                ahead = np.array([CAR_AHEAD + i, 0.0])
+                objects, tracks = (ahead + random.uniform(-2.5, 2.5, (n, 2)) for n in (4, 5))
+                distances = np.linalg.norm(tracks[:, np.newaxis] - objects, axis=2)
+                partners, verdicts = matcher.match([11, 12, 13, 14, 15], [1, 2, 3, 4],
+                                                   np.ones(4, dtype=bool), distances)  # fmt: skip
+                hits += verdicts.count(Verdict.HIT)
+                false += verdicts.count(Verdict.FALSE)
+                misses += 4 - sum(partner is not None for partner in partners)
+                self.truth_messages["/ground_truth/objects"][i].objects = [
+                    car_at(j + 1, *position) for j, position in enumerate(objects)]
+                self.run_messages["/tracks"][i].tracks = [
+                    track_at(j + 11, *position) for j, position in enumerate(tracks)]
+            found = self.score("--set", "matching/distance=to_center")["clear_mot"]
+            self.assertEqual((found["matches"], found["misses"], found["false_positives"]),
+                             (hits, misses, false), seed)
 
     def test_a_run_that_finds_nothing_is_a_run(self):
         for message in self.run_messages["/tracks"]:

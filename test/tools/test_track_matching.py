@@ -40,8 +40,19 @@ class Matching(unittest.TestCase):
                                    np.array(required), distances)  # fmt: skip
         self.assertEqual(found, (partners, verdicts))
 
-    def test_nearest_pairs_first(self):
+    def test_least_sum_of_distances(self):
         self.assert_match([1, 0], [HIT, HIT], [[1.0, 0.4], [0.9, 0.5]])
+
+    def test_more_matches_before_nearer_ones(self):
+        """The nearest pair alone would leave the other two without a match."""
+        self.assert_match([0, 1], [HIT, HIT], [[1.9, 0.4], [2.5, 0.5]])
+
+    def test_nobody(self):
+        matcher = TrackMatcher(2.0)
+        none = np.zeros((0, 0))
+        self.assertEqual(matcher.match([], [], np.zeros(0, dtype=bool), none), ([], []))
+        self.assertEqual(matcher.match([1], [], np.zeros(0, dtype=bool), np.zeros((1, 0))),
+                         ([None], [FALSE]))
 
     def test_beyond_the_gate(self):
         self.assert_match([None], [FALSE], [[2.1, 3.0]])

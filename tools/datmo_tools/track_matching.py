@@ -3,6 +3,7 @@
 import enum
 
 import numpy as np
+from scipy.optimize import linear_sum_assignment
 
 
 class Verdict(enum.Enum):
@@ -31,8 +32,9 @@ class TrackMatcher:
     """Gives each true object at most one track and each track at most one true object, through the
     frames of one list of tracks (Bernardin and Stiefelhagen 2008, as score_run).
 
-    In each frame first come the pairs that were last matched to each other, then the nearest ones;
-    objects that have to be found before those that need not.
+    In each frame first come the pairs that were last matched to each other; of the others, as many
+    as can be within the gate, with the least sum of distances. Objects that have to be found come
+    before those that need not. A test holds it against score_run's matching.cpp.
     """
 
     def __init__(self, gate):
@@ -45,20 +47,34 @@ class TrackMatcher:
 
         required: m, of bool; distances: n x m, m.
         """
-        partners, taken = [None] * len(track_ids), set()
+        partners = [None] * len(track_ids)
         for duty in (True, False):
-            rows, columns = np.nonzero((distances <= self._gate) & (required == duty))
-            pairs = sorted(
-                (not self._were_partners(track_ids[i], object_ids[j]), distances[i, j], i, j)
-                for i, j in zip(rows.tolist(), columns.tolist())
-            )
-            for _, _, i, j in pairs:
-                if partners[i] is None and j not in taken:
-                    partners[i] = j
-                    taken.add(j)
-                    self._track_of[object_ids[j]] = track_ids[i]
-                    self._object_of[track_ids[i]] = object_ids[j]
+            allowed = (distances <= self._gate) & (required == duty)
+            self._keep_partners(track_ids, object_ids, allowed, partners)
+            self._assign_rest(track_ids, object_ids, allowed, distances, partners)
         return partners, self._verdicts(partners, required, distances)
+
+    def _keep_partners(self, track_ids, object_ids, allowed, partners):
+        for j, i in np.argwhere(allowed.T).tolist():
+            is_open = partners[i] is None and j not in partners
+            if is_open and self._were_partners(track_ids[i], object_ids[j]):
+                self._pair(track_ids, object_ids, partners, i, j)
+
+    def _assign_rest(self, track_ids, object_ids, allowed, distances, partners):
+        rows = [i for i, partner in enumerate(partners) if partner is None]
+        columns = [j for j in range(len(object_ids)) if j not in partners]
+        is_open = allowed[np.ix_(rows, columns)]
+        # Worth more than any sum of distances: one more match always pays.
+        match_gain = self._gate * (len(object_ids) + 1)
+        gains = np.where(is_open, match_gain - distances[np.ix_(rows, columns)], 0.0)
+        for a, b in zip(*linear_sum_assignment(gains, maximize=True)):
+            if is_open[a, b]:
+                self._pair(track_ids, object_ids, partners, rows[a], columns[b])
+
+    def _pair(self, track_ids, object_ids, partners, i, j):
+        partners[i] = j
+        self._track_of[object_ids[j]] = track_ids[i]
+        self._object_of[track_ids[i]] = object_ids[j]
 
     def _were_partners(self, track, item):
         return self._track_of.get(item) == track and self._object_of.get(track) == item
