@@ -18,6 +18,7 @@ constexpr std::array<std::pair<const char*, DepthPrinciple>, 4> kPrinciples = {{
 
 std::vector<std::string> principleNames() {
   std::vector<std::string> names;
+  names.reserve(kPrinciples.size());
   for (const auto& [name, principle] : kPrinciples) {
     names.emplace_back(name);
   }
