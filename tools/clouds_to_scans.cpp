@@ -12,6 +12,7 @@
 #include <sensor_msgs/PointCloud2.h>
 
 #include "datmo_fusion/ros/cloud_to_scan_stage.h"
+#include "datmo_fusion/ros/frame_ids.h"
 
 namespace datmo {
 
@@ -69,17 +70,23 @@ class CloudConversion {
   }
 
  private:
+  /// A message with its frames as the stages take them.
+  template <typename Message>
+  boost::shared_ptr<const Message> plain(const rosbag::MessageInstance& message) {
+    return withPlainFrames<Message>(message.getTopic(), read<Message>(message), monitor_);
+  }
+
   /// All of them before the first cloud, wherever they stand in the bag.
   void takeMounts() {
     for (const auto& message : rosbag::View(input_, rosbag::TopicQuery(kStaticTransforms))) {
-      transforms_.addStatic(*read<tf2_msgs::TFMessage>(message));
+      transforms_.addStatic(*plain<tf2_msgs::TFMessage>(message));
     }
   }
 
   void take(const rosbag::MessageInstance& message) {
     const std::string& topic = message.getTopic();
     if (topic == kTransforms) {
-      transforms_.add(*read<tf2_msgs::TFMessage>(message));
+      transforms_.add(*plain<tf2_msgs::TFMessage>(message));
     }
     if (topic == arguments_.cloud_topic) {
       takeCloud(message);
@@ -90,7 +97,7 @@ class CloudConversion {
   }
 
   void takeCloud(const rosbag::MessageInstance& message) {
-    const auto scan = stage_.takeCloud(*read<sensor_msgs::PointCloud2>(message));
+    const auto scan = stage_.takeCloud(*plain<sensor_msgs::PointCloud2>(message));
     if (!scan) {
       ++result_.dropped;
       return;

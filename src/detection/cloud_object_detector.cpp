@@ -107,7 +107,10 @@ void setBox(Object& object, const CloudOutline& outline, const Point2& lidar,
       const bool is_first =
           sides.normal(side).dot(object.points.front() - object.points.back()) > 0.0;
       const OutlineEnd& end = is_first ? outline.first : outline.last;
-      if (!end.hidden) {
+      // A single column has both ends.
+      const bool hidden =
+          object.points.size() == 1 ? outline.first.hidden || outline.last.hidden : end.hidden;
+      if (!hidden) {
         // The side ends anywhere before the next column.
         sides.extend(side, 0.5 * end.gap);
         object.side_variance[side] =
@@ -166,12 +169,32 @@ void CloudObjectDetectorOptions::visit(OptionVisitor& visitor) {
   visitor.group("classifier", [&] { classifier.visit(visitor); });
 }
 
+namespace {
+
+/// Cells of the grid of voxels that a cloud may span, so that it takes 400 MB at most.
+constexpr double kMaxVoxels = 1e8;
+
+/// The ground may slope, and the band of heights with it.
+double voxelsOf(const CloudObjectDetectorOptions& options) {
+  const double across = 2.0 * options.max_range;
+  const double up =
+      options.max_height - options.min_height + 2.0 * options.ground.max_slope * across;
+  return across / options.voxel_size * across / options.voxel_size * up / options.voxel_size;
+}
+
+}  // namespace
+
 CloudObjectDetector::CloudObjectDetector(const CloudObjectDetectorOptions& options)
     : options_(options), classifier_(options.classifier) {
   checkOptions(options);
   if (options.min_height >= options.max_height) {
     throw OptionError("min_height = " + std::to_string(options.min_height) +
                       ": expected less than max_height = " + std::to_string(options.max_height));
+  }
+  if (voxelsOf(options) > kMaxVoxels) {
+    throw OptionError("voxel_size = " + std::to_string(options.voxel_size) +
+                      ": expected more, so that the clouds out to max_range = " +
+                      std::to_string(options.max_range) + " have at most 100 million voxels");
   }
   if (options.cluster_distance <= options.voxel_size) {
     throw OptionError("cluster_distance = " + std::to_string(options.cluster_distance) +

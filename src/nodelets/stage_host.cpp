@@ -33,7 +33,14 @@ StageHost::StageHost(ros::NodeHandle node, ros::NodeHandle private_node, Stage& 
 
 void StageHost::addInput(StageInput input) { inputs_.push_back(std::move(input)); }
 
-StageOutput::Publish StageHost::addOutput(StageOutput output) { return output.advertise(node_); }
+StageOutput::Publish StageHost::addOutput(StageOutput output) {
+  // A result is on its way with its first message: what the stage writes after it (the map) is not
+  // waited for.
+  return [this, publish = output.advertise(node_)](const AnyMessage& message) {
+    publish(message);
+    publishTiming();
+  };
+}
 
 std::vector<std::string> StageHost::requiredInputs() const {
   std::vector<std::string> required;

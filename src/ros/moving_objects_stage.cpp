@@ -104,8 +104,9 @@ DroppedObjectsPtr MovingObjectsStage::dropAtBorders(const LabeledScan& scan,
 
 void MovingObjectsStage::connect(StagePorts& ports) {
   const auto objects = ports.out<ObjectArray>("objects");
-  const auto dropped = ports.out<DroppedObjects>("objects/dropped");
+  StagePublisher<DroppedObjects> dropped;
   if (options_.road_borders) {
+    dropped = ports.out<DroppedObjects>("objects/dropped");
     ports.in<RoadBorders>(
         "road_borders", [this](const auto& borders, Stamp /*now*/) { takeRoadBorders(*borders); });
   }

@@ -1,5 +1,7 @@
 #include "datmo_fusion/ros/static_points_stage.h"
 
+#include <utility>
+
 #include <boost/make_shared.hpp>
 
 #include <sensor_msgs/point_cloud2_iterator.h>
@@ -42,7 +44,7 @@ sensor_msgs::LaserScanConstPtr toLaserScan(const ScanField& field, std::vector<f
                                        static_cast<double>(field.beams - 1) * field.beam_spacing);
   scan->time_increment = static_cast<float>(field.beam_time);
   scan->range_min = static_cast<float>(field.min_range);
-  scan->range_max = static_cast<float>(field.range);
+  scan->range_max = static_cast<float>(staticRange(field));
   scan->ranges = std::move(ranges);
   return scan;
 }

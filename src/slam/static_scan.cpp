@@ -1,5 +1,6 @@
 #include "datmo_fusion/slam/static_scan.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace datmo {
@@ -16,6 +17,10 @@ bool stands(const ScanPoint& point, bool include_unknown) {
 
 }  // namespace
 
+double staticRange(const ScanField& field) {
+  return field.free_range > 0.0 ? std::min(field.free_range, field.range) : field.range;
+}
+
 std::vector<float> staticRanges(const LabeledScan& scan, bool include_unknown) {
   const float without_return = scan.field.free_range > 0.0 ? kNoReturn : kNothingKnown;
   std::vector<float> ranges(scan.field.beams, without_return);
@@ -29,8 +34,10 @@ std::vector<float> staticRanges(const LabeledScan& scan, bool include_unknown) {
   for (const ScanPoint& point : scan.points) {
     if (point.beam < ranges.size() && point.range < nearest[point.beam]) {
       nearest[point.beam] = point.range;
-      ranges[point.beam] =
-          stands(point, include_unknown) ? static_cast<float>(point.range) : kNothingKnown;
+      const bool is_known = point.range <= staticRange(scan.field);
+      ranges[point.beam] = is_known && stands(point, include_unknown)
+                               ? static_cast<float>(point.range)
+                               : kNothingKnown;
     }
   }
   return ranges;

@@ -194,6 +194,23 @@ class Contents(Conversion):
             (7, Object.CLASS_PEDESTRIAN),
         )
 
+    def write_unusable_cloud(self, frame):
+        cloud = np.full(4, np.nan, "<f4")
+        cloud.tofile(self.drive / "velodyne_points" / "data" / f"{frame:010d}.bin")
+
+    def test_an_unusable_cloud_has_no_scan(self):
+        self.write_unusable_cloud(1)
+        self.run_tool()
+        self.assertEqual(len(self.messages("/scan")), tiny_drive.FRAMES - 1)
+        self.assertEqual(len(self.messages("/ground_truth/objects")), tiny_drive.FRAMES)
+
+    def test_a_drive_of_unusable_clouds_is_refused(self):
+        for frame in range(tiny_drive.FRAMES):
+            self.write_unusable_cloud(frame)
+        said = self.run_tool(expected_code=1)
+        self.assertIn("no cloud of the drive leads to a scan", said)
+        self.assertFalse(self.bag.exists())
+
     def test_part_of_a_drive_starts_at_its_own_origin(self):
         self.run_tool("--start", "1", "--end", "3")
         self.assertEqual(len(self.messages("/scan")), 2)

@@ -64,6 +64,7 @@ def convert(folder, bag_path, options, stream=None):
         for done, event in enumerate(events, 1):
             event.write(bag, event.stamp, event.frame)
             progress.update(done)
+        conversion.check_scans()
 
 
 class _Event(NamedTuple):
@@ -104,6 +105,7 @@ class _Conversion:
         self._poses = dict(zip(self._motion, poses))
         self._truth = self._read_truth(folder)
         self._scans = self._make_scans()
+        self._written_scans = 0
 
     def notices(self):
         """Sentences on what is not as in a complete synchronized drive."""
@@ -130,6 +132,14 @@ class _Conversion:
     def write_mounts(self, bag, stamp):
         """Writes /tf_static."""
         bag.write_latched("/tf_static", stamp, self._mounts(stamp))
+
+    def check_scans(self):
+        """Raises InputError if not one scan was written."""
+        if not self._written_scans:
+            raise InputError(
+                "no cloud of the drive leads to a scan, expected points in the scanner's band; "
+                "see --scan-band and --road"
+            )
 
     def _mounts(self, stamp):
         """TFMessage of all mounts."""
@@ -203,6 +213,7 @@ class _Conversion:
         scan.scan_time = turn_duration * 1e-9
         half_sweep = round(0.5 * turn_duration * self._options.scanner.turn_share)
         bag.write("/scan", stamp + half_sweep, scan)
+        self._written_scans += 1
 
     def _hits(self, scan):
         """Where (n x 2, m, the Velodyne's frame) the beams of a scan, or of None, ended."""

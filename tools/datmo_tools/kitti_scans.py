@@ -29,6 +29,9 @@ COARSEST_RESOLUTION = 10.0  # degrees: the coarsest
 
 CHUNK = 50  # clouds at a time: what is made of a drive in between stays small on the disk
 
+# Exit code of clouds_to_scans where no cloud of a chunk leads to a scan.
+NO_USABLE_CLOUD = 2
+
 
 class ScannerOptions(NamedTuple):
     """Geometry of the emulated scanner; the defaults are the demonstrator's (thesis 1.3.3)."""
@@ -164,6 +167,8 @@ class DriveScans:
             try:
                 programs.call(self._program, clouds, scans, "--config", config)
             except programs.StepFailed as error:
+                if error.code == NO_USABLE_CLOUD:
+                    return dict.fromkeys(frames)
                 raise InputError(f"{error} (frames {frames[0]} to {frames[-1]})") from error
             with rosbag.Bag(str(scans)) as bag:
                 messages = [message for _, message, _ in bag.read_messages(["/scan"])]

@@ -14,6 +14,7 @@ class StepFailed(Exception):
 
     def __init__(self, step, said, code=1):
         """code: of its exit; negative: of the signal that ended it."""
+        self.code = code
         lines = said.strip().splitlines()
         if code < 0:
             super().__init__(f"{step}: ended by signal {-code} ({signal.strsignal(-code)})")

@@ -1,6 +1,7 @@
 #include "graph_runner.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "stage_types.h"
 

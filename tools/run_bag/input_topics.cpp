@@ -1,5 +1,7 @@
 #include "input_topics.h"
 
+#include <stdexcept>
+
 #include "input_bag.h"
 
 #include <rosbag/view.h>
@@ -254,6 +256,11 @@ InputTopics findTopics(const rosbag::Bag& bag, const Arguments& arguments,
   findScanTopics(bag, arguments, topics);
   if (arguments.cloud_objects) {
     topics.object_cloud = objectCloudTopic(bag, arguments);
+    if (!topics.cloud.empty() && topics.object_cloud != topics.cloud) {
+      throw std::runtime_error("object_cloud:=" + topics.object_cloud +
+                               " with scans made of the clouds on " + topics.cloud +
+                               ": expected one 3D lidar, or object_cloud beside a planar scan");
+    }
   }
   topics.motion = motionTopics(bag, arguments, sensors.shared().motion);
   if (arguments.low_level_fusion) {

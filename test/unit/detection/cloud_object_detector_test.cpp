@@ -176,6 +176,10 @@ TEST(CloudObjectDetectorTest, OptionsThatContradictEachOtherAreRefused) {
   options.max_height = 1.0;
   EXPECT_THROW(CloudObjectDetector{options}, OptionError);
   options = CloudObjectDetectorOptions();
+  options.max_range = 300.0;
+  options.voxel_size = 0.1;
+  EXPECT_THROW(CloudObjectDetector{options}, OptionError) << "more voxels than memory holds";
+  options = CloudObjectDetectorOptions();
   options.cluster_distance = options.voxel_size;
   EXPECT_THROW(CloudObjectDetector{options}, OptionError);
 }

@@ -39,7 +39,7 @@ TEST_F(StaticPointsStageTest, WallsComeOutAsCloudAndScan) {
   ASSERT_EQ(output->scan->ranges.size(), scan.field.beams);
   EXPECT_NEAR(output->scan->angle_min, scan.field.first_bearing, 1e-6);
   EXPECT_NEAR(output->scan->angle_max, -scan.field.first_bearing, 1e-6);
-  EXPECT_NEAR(output->scan->range_max, scan.field.range, 1e-6);
+  EXPECT_NEAR(output->scan->range_max, scan.field.free_range, 1e-6) << "free no farther";
   for (const ScanPoint& point : scan.points) {
     EXPECT_NEAR(output->scan->ranges[point.beam], point.range, 1e-4);
   }

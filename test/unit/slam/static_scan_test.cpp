@@ -45,6 +45,16 @@ TEST(StaticRanges, ABeamWithoutReturnSaysNothingWhereTheFieldHasNoFreeRange) {
   EXPECT_TRUE(std::isnan(staticRanges(scan, true)[3]));
 }
 
+TEST(StaticRanges, NothingIsToldBeyondWhatABeamWithoutReturnClears) {
+  LabeledScan scan = fiveBeams();
+  EXPECT_EQ(staticRange(scan.field), 40.0);
+  scan.points = {pointOf(0, 45.0, PointState::kStatic)};
+  EXPECT_TRUE(std::isnan(staticRanges(scan, true)[0]));
+  scan.field.free_range = 0.0;
+  EXPECT_EQ(staticRange(scan.field), 50.0);
+  EXPECT_EQ(staticRanges(scan, true)[0], 45.0F);
+}
+
 TEST(StaticRanges, TheNearestEndPointOfABeamDecides) {
   LabeledScan scan = fiveBeams();
   scan.points = {pointOf(0, 10.0, PointState::kStatic), pointOf(0, 6.0, PointState::kMoving),
