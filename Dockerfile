@@ -1,5 +1,6 @@
 # Debian 12:               docker build -t datmo_fusion .
 # Ubuntu 20.04, Noetic:    docker build -t datmo_fusion --build-arg BASE=ros:noetic-ros-base-focal .
+#   (its base needs CLI11 as well: scripts/packages_ubuntu_20.04.txt)
 # docker run --rm -it datmo_fusion: a shell in which rosrun and roslaunch find the package.
 ARG BASE=debian:12
 FROM ${BASE}

@@ -3,24 +3,19 @@
 // start.
 #include <cstdlib>
 #include <iostream>
-#include <string>
-#include <vector>
 
+#include "command_line.h"
 #include "run_bag/sensor_set.h"
 
 int main(int count, char** words) {
-  const std::vector<std::string> files(words + 1, words + count);
-  const bool asks_for_help = count == 2 && (files[0] == "-h" || files[0] == "--help");
-  if (files.size() != 1 || asks_for_help) {
-    (asks_for_help ? std::cout : std::cerr) << "usage: check_configuration CONFIG.yaml\n";
-    return asks_for_help ? EXIT_SUCCESS : EXIT_FAILURE;
-  }
-  try {
-    datmo::SensorSet{files[0]};
-  } catch (const std::exception& error) {
-    std::cerr << "check_configuration: " << error.what() << '\n';
-    return EXIT_FAILURE;
-  }
-  std::cout << files[0] << '\n';
-  return EXIT_SUCCESS;
+  return datmo::runProgram(
+      "check_configuration", EXIT_FAILURE, count, words, [](const auto& given) {
+        std::string file;
+        datmo::CommandLine line("check_configuration", "Reads a sensor set and prints its path.",
+                                "files");
+        line.addFile("CONFIG.yaml", file, "the sensor set")->required();
+        line.read(given);
+        datmo::SensorSet{file};
+        std::cout << file << '\n';
+      });
 }

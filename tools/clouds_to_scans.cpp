@@ -1,7 +1,9 @@
 #include "clouds_to_scans.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "command_line.h"
 #include "input_bag.h"
 #include "interruption.h"
 #include "output_bag.h"
@@ -18,22 +20,19 @@ namespace datmo {
 
 namespace {
 
+constexpr char kCloud[] = "cloud";
+constexpr char kScan[] = "scan";
 constexpr char kStaticTransforms[] = "/tf_static";
 constexpr char kTransforms[] = "/tf";
 
-std::string withSlash(const std::string& topic) {
-  return topic.empty() || topic.front() == '/' ? topic : "/" + topic;
-}
+constexpr char kDescription[] =
+    "Copies a bag with a planar scan on /scan in place of each cloud of a 3D lidar on /cloud, as\n"
+    "the nodelet cloud_to_scan makes it.";
 
-/// `name:=topic`; false if the word is another one.
-bool takeTopic(const std::string& word, const std::string& name, std::string& topic) {
-  const std::string prefix = name + ":=";
-  if (word.compare(0, prefix.size(), prefix) != 0 || word.size() == prefix.size()) {
-    return false;
-  }
-  topic = withSlash(word.substr(prefix.size()));
-  return true;
-}
+constexpr char kFooter[] =
+    "cloud:=TOPIC and scan:=TOPIC name other topics.\n"
+    "Exit code: 0 when done; 1 for a command line, yaml file or bag that is wrong, and when\n"
+    "interrupted; 2 when no cloud could be used. After 1 and 2 no output bag is left.";
 
 /// When the last beam of a scan has been measured.
 ros::Time endOf(const sensor_msgs::LaserScan& scan) {
@@ -62,7 +61,7 @@ class CloudConversion {
       take(message);
     }
     if (result_.scans == 0) {
-      throw NoUsableCloud(arguments_.input + ": none of " + std::to_string(result_.dropped) +
+      throw NoUsableInput(arguments_.input + ": none of " + std::to_string(result_.dropped) +
                           " clouds on " + arguments_.cloud_topic + " could be used");
     }
     output_.finish();
@@ -125,41 +124,22 @@ class CloudConversion {
 
 }  // namespace
 
-std::string cloudsToScansUsage() {
-  return "usage: clouds_to_scans IN.bag OUT.bag --config CONFIG.yaml [--keep-clouds]\n"
-         "                       [cloud:=TOPIC] [scan:=TOPIC]\n"
-         "Copies a bag with a planar scan on /scan in place of each cloud of a 3D lidar on "
-         "/cloud,\n"
-         "as the nodelet cloud_to_scan makes it.\n"
-         "  --config CONFIG.yaml  the sensor set, with a section cloud_to_scan\n"
-         "  --keep-clouds         copies the clouds, too\n"
-         "  cloud:=, scan:=       other topics\n"
-         "Exit code: 0 when done; 1 for a command line, yaml file or bag that is wrong, and when\n"
-         "interrupted; 2 when no cloud could be used. After 1 and 2 no output bag is left.\n";
-}
-
-CloudsToScansArguments parseCloudsToScans(const std::vector<std::string>& words) {
+CloudsToScansArguments parseCloudsToScans(std::vector<std::string> words) {
   CloudsToScansArguments arguments;
-  std::vector<std::string> bags;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i] == "--config" && i + 1 < words.size()) {
-      arguments.config = words[++i];
-    } else if (words[i] == "--keep-clouds") {
-      arguments.keep_clouds = true;
-    } else if (words[i].compare(0, 1, "-") == 0) {
-      throw CloudsToScansUsageError(words[i] + ": expected --config CONFIG.yaml or --keep-clouds");
-    } else if (!takeTopic(words[i], "cloud", arguments.cloud_topic) &&
-               !takeTopic(words[i], "scan", arguments.scan_topic)) {
-      bags.push_back(words[i]);
-    }
+  for (const Remapping& one : takeRemappings(words, {kCloud, kScan})) {
+    (one.ours == kCloud ? arguments.cloud_topic : arguments.scan_topic) = one.theirs;
   }
-  if (bags.size() != 2 || arguments.config.empty()) {
-    throw CloudsToScansUsageError("expected IN.bag, OUT.bag and --config CONFIG.yaml");
-  }
-  arguments.input = bags[0];
-  arguments.output = bags[1];
+  CommandLine line("clouds_to_scans", kDescription, "bags");
+  line.footer(kFooter);
+  line.addFile("IN.bag", arguments.input, "with the clouds")->required();
+  line.addFile("OUT.bag", arguments.output, "with the scans")->required();
+  line.addFile("--config", arguments.config,
+               "the sensor set, with a section cloud_to_scan; required", "CONFIG.yaml")
+      ->required();
+  line.add_flag("--keep-clouds", arguments.keep_clouds, "copies the clouds, too");
+  line.read(std::move(words));
   if (isSameFile(arguments.input, arguments.output)) {
-    throw CloudsToScansUsageError(arguments.output + ": expected another bag than the input");
+    throw UsageError(arguments.output + ": expected another bag than the input");
   }
   return arguments;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -17,22 +16,8 @@ struct CloudsToScansArguments {
   bool keep_clouds = false;
 };
 
-/// A command line that is wrong: says how.
-class CloudsToScansUsageError : public std::invalid_argument {
- public:
-  using std::invalid_argument::invalid_argument;
-};
-
-/// No cloud of the bag could be used: says why.
-class NoUsableCloud : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-std::string cloudsToScansUsage();
-
-/// Throws CloudsToScansUsageError.
-CloudsToScansArguments parseCloudsToScans(const std::vector<std::string>& words);
+/// Throws UsageError, and Answer for --help.
+CloudsToScansArguments parseCloudsToScans(std::vector<std::string> words);
 
 struct ConvertedClouds {
   std::size_t scans = 0;
@@ -43,8 +28,8 @@ struct ConvertedClouds {
 /// cloud. A scan is recorded when its last beam has been measured, not before its cloud's stamp;
 /// the mount of its frame is written to /tf_static before all.
 ///
-/// Throws OptionError for the yaml file, std::runtime_error for bags, and NoUsableCloud; no output
-/// bag is left then.
+/// Throws OptionError for the yaml file, std::runtime_error for bags, and NoUsableInput if no cloud
+/// could be used; no output bag is left then.
 ConvertedClouds convertClouds(const CloudsToScansArguments& arguments);
 
 }  // namespace datmo

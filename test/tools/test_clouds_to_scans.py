@@ -144,7 +144,7 @@ class CloudsToScans(unittest.TestCase):
         self.write()
         good = [str(self.input), str(self.output), "--config", str(self.config)]
         for words, said in (
-            (good[:2], "expected IN.bag, OUT.bag and --config"),
+            (good[:2], "2 bags are named: expected IN.bag OUT.bag --config"),
             ([*good, "--fast"], "--fast"),
             ([good[0], good[0], *good[2:]], "expected another bag"),
             ([str(self.folder / "no.bag"), *good[1:]], "no.bag"),

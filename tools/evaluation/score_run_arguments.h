@@ -15,11 +15,9 @@ struct ScoreRunArguments {
   ScoreOptions options;
 };
 
-/// How `score_run` is called.
-std::string scoreRunUsage();
-
-/// Reads the command line, and the options' file that it names. Throws OptionError that says what
-/// is wrong and what was expected.
-ScoreRunArguments parseScoreRunArguments(const std::vector<std::string>& words);
+/// Reads the words behind the program's name, and the options' file that they name. Throws
+/// OptionError that says what is wrong and what was expected, and Answer for --help and
+/// --list-options.
+ScoreRunArguments parseScoreRunArguments(std::vector<std::string> words);
 
 }  // namespace datmo::evaluation

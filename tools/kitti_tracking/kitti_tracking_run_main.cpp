@@ -1,10 +1,11 @@
-// Detections of KITTI tracking sequences -> tracks in KITTI's format: see runUsage().
+// Detections of KITTI tracking sequences -> tracks in KITTI's format: see run_arguments.cpp.
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <string>
 #include <vector>
 
+#include "command_line.h"
 #include "kitti_tracking/run_arguments.h"
 #include "kitti_tracking/sequence_folders.h"
 #include "kitti_tracking/sequence_run.h"
@@ -68,16 +69,7 @@ void runAll(const datmo::kitti::RunArguments& arguments) {
 }  // namespace
 
 int main(int count, char** words) {
-  const std::vector<std::string> given(words + 1, words + count);
-  if (given == std::vector<std::string>{"--help"} || given == std::vector<std::string>{"-h"}) {
-    std::cout << datmo::kitti::runUsage();
-    return 0;
-  }
-  try {
+  return datmo::runProgram("kitti_tracking_run", kNoTracks, count, words, [](const auto& given) {
     runAll(datmo::kitti::parseRunArguments(given));
-  } catch (const std::exception& error) {
-    std::cerr << "kitti_tracking_run: " << error.what() << '\n';
-    return kNoTracks;
-  }
-  return 0;
+  });
 }

@@ -1,8 +1,10 @@
-// Tracks and labels in KITTI's tracking format -> a table, and a report as JSON: see scoreUsage().
+// Tracks and labels in KITTI's tracking format -> a table, and a report as JSON: see
+// score_arguments.cpp.
 #include <iostream>
 #include <string>
 #include <vector>
 
+#include "command_line.h"
 #include "kitti_tracking/score_arguments.h"
 #include "kitti_tracking/sequence_folders.h"
 #include "kitti_tracking/tracking_evaluation.h"
@@ -29,16 +31,7 @@ void writeScores(const datmo::kitti::ScoreArguments& arguments) {
 }  // namespace
 
 int main(int count, char** words) {
-  const std::vector<std::string> given(words + 1, words + count);
-  if (given == std::vector<std::string>{"--help"} || given == std::vector<std::string>{"-h"}) {
-    std::cout << datmo::kitti::scoreUsage();
-    return 0;
-  }
-  try {
+  return datmo::runProgram("kitti_tracking_score", kNoScore, count, words, [](const auto& given) {
     writeScores(datmo::kitti::parseScoreArguments(given));
-  } catch (const std::exception& error) {
-    std::cerr << "kitti_tracking_score: " << error.what() << '\n';
-    return kNoScore;
-  }
-  return 0;
+  });
 }

@@ -15,11 +15,8 @@ struct RunArguments {
   RunOptions options;
 };
 
-/// How `kitti_tracking_run` is called.
-std::string runUsage();
-
-/// Reads the command line and the configurations. Throws OptionError that says what is wrong and
-/// what was expected.
-RunArguments parseRunArguments(const std::vector<std::string>& words);
+/// Reads the words behind the program's name, and the configurations. Throws OptionError that says
+/// what is wrong and what was expected, and Answer for --help.
+RunArguments parseRunArguments(std::vector<std::string> words);
 
 }  // namespace datmo::kitti

@@ -16,10 +16,8 @@ struct ScoreArguments {
   std::string output;  ///< report, empty: none
 };
 
-/// How `kitti_tracking_score` is called.
-std::string scoreUsage();
-
-/// Reads the command line. Throws OptionError that says what is wrong and what was expected.
-ScoreArguments parseScoreArguments(const std::vector<std::string>& words);
+/// Reads the words behind the program's name. Throws OptionError that says what is wrong and what
+/// was expected, and Answer for --help.
+ScoreArguments parseScoreArguments(std::vector<std::string> words);
 
 }  // namespace datmo::kitti

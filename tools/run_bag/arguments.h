@@ -1,20 +1,14 @@
 #pragma once
 
 #include <map>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "command_line.h"
 #include "last_stage.h"
 #include "text_files.h"
 
 namespace datmo {
-
-/// The command line cannot be understood; the message says what and how it should be.
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// What `run_bag` is asked to do.
 struct Arguments {
@@ -47,10 +41,7 @@ struct Arguments {
 /// The type of the stage; empty for kEnd.
 std::string stageType(LastStage stage);
 
-/// How `run_bag` is called.
-std::string usage();
-
-/// Throws UsageError.
-Arguments parseArguments(const std::vector<std::string>& words);
+/// Reads the words behind the program's name. Throws UsageError, and Answer for --help.
+Arguments parseArguments(std::vector<std::string> words);
 
 }  // namespace datmo

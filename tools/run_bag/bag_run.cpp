@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "command_line.h"
 #include "drive_summary.h"
 #include "graph_runner.h"
 #include "input_bag.h"

@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "command_line.h"
+
 namespace datmo {
 
 namespace {

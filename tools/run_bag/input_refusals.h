@@ -2,20 +2,12 @@
 
 #include <cstdint>
 #include <map>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "datmo_fusion/ros/stage_monitor.h"
 
 namespace datmo {
-
-/// All messages of a topic that the stages need were refused, or nothing came out; the message says
-/// what, why, how many and what was expected.
-class NoUsableInput : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// Which messages of which topic the stages refused, and why.
 class InputRefusals {
