@@ -72,7 +72,10 @@ CameraView::CameraView(const CameraViewOptions& options, const TransformBuffer& 
     : options_(options),
       transforms_(transforms),
       monitor_(monitor),
-      stamps_(options.input.restart_after) {
+      runner_(monitor, options.input, "forgets all images", [this] {
+        queue_.clear();
+        tracks_.clear();
+      }) {
   checkOptions(options);
 }
 
@@ -95,23 +98,18 @@ void CameraView::takeCameraInfo(const sensor_msgs::CameraInfo& message) {
 }
 
 void CameraView::takeTracks(const TrackArrayConstPtr& message) {
-  const Stamp stamp = toStamp(message->header.stamp);
-  const double restart = options_.input.restart_after;
-  if (!tracks_.empty() && secondsBetween(stamp, toStamp(tracks_.back()->header.stamp)) > restart) {
-    tracks_.clear();
-  }
-  tracks_.push_back(message);
-  if (tracks_.size() > kMaxTrackLists) {
-    tracks_.pop_front();
-  }
+  runner_.serve([&] {
+    runner_.check("tracks", message->header.stamp);
+    tracks_.push_back(message);
+    if (tracks_.size() > kMaxTrackLists) {
+      tracks_.pop_front();
+    }
+  });
 }
 
 void CameraView::takeImage(const sensor_msgs::ImageConstPtr& message, Stamp now) {
-  try {
-    if (stamps_.check(message->header.stamp) == Arrival::kRestart) {
-      monitor_.warned(InputError("clock_restart", "the clock jumped back: forgets all images"));
-      queue_.clear();
-    }
+  runner_.serve([&] {
+    runner_.check("image", message->header.stamp);
     checkCamera(*message);
     if (queue_.size() >= kMaxImages) {
       queue_.pop_front();
@@ -119,9 +117,7 @@ void CameraView::takeImage(const sensor_msgs::ImageConstPtr& message, Stamp now)
                                                     " images wait: dropped the oldest"));
     }
     queue_.push_back({message, now});
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-  }
+  });
 }
 
 /// Throws InputError (`missing_camera_info`, `wrong_size`, `wrong_frame`).

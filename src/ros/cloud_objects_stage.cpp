@@ -4,7 +4,6 @@
 
 #include <boost/make_shared.hpp>
 
-#include "datmo_fusion/ros/descriptions.h"
 #include "datmo_fusion/ros/frames.h"
 #include "datmo_fusion/ros/message_conversion.h"
 #include "datmo_fusion/ros/stage_inputs.h"
@@ -27,33 +26,17 @@ CloudObjectsStage::CloudObjectsStage(const CloudObjectsStageOptions& options,
       transforms_(transforms),
       monitor_(monitor),
       detector_(options.detector),
-      stamps_(options.input.restart_after),
-      motion_(options.motion, options.frames, options.input.restart_after) {
+      runner_(monitor, options.input, "begins anew", [this] { motion_.reset(); }),
+      motion_(options.motion, options.frames, runner_) {
   checkOptions(options);
 }
 
-template <typename Message>
-void CloudObjectsStage::takeMotion(const Message& message) {
-  try {
-    if (motion_.take(message) == Arrival::kRestart) {
-      stamps_ = StampCheck(options_.input.restart_after);
-    }
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-  }
-}
-
 ObjectArrayPtr CloudObjectsStage::takeCloud(const sensor_msgs::PointCloud2& message) {
-  monitor_.describe("cloud", [&] { return descriptionOf(message); });
-  try {
-    const Stopwatch watch;
+  return runner_.serve("cloud", message, [&] {
     ConvertedCloud converted = toLidarCloud(message, options_.max_sweep);
     converted.cloud.lidar_in_base =
         sensorMount(transforms_.core(), options_.frames.base, message.header.frame_id);
-    if (stamps_.check(message.header.stamp) == Arrival::kRestart) {
-      monitor_.warned(InputError("clock_restart", "the clock jumped back: begins anew"));
-      motion_.reset();
-    }
+    runner_.check("cloud", message.header.stamp);
     if (converted.unusable_times) {
       monitor_.warned(*converted.unusable_times);
     }
@@ -62,12 +45,9 @@ ObjectArrayPtr CloudObjectsStage::takeCloud(const sensor_msgs::PointCloud2& mess
         detector_.detect(converted.cloud, stamp, twistDuring(converted, stamp));
     show(objects, converted);
     auto array = boost::make_shared<ObjectArray>(toMessage(objects.list, options_.frames.base));
-    monitor_.processed({stamp, watch.seconds()});
+    runner_.processed(stamp);
     return array;
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-    return nullptr;
-  }
+  });
 }
 
 std::optional<Twist2> CloudObjectsStage::twistDuring(const ConvertedCloud& converted,

@@ -29,7 +29,7 @@ CloudToScanStage::CloudToScanStage(const CloudToScanStageOptions& options,
       transforms_(transforms),
       monitor_(monitor),
       model_(options.scan),
-      stamps_(options.input.restart_after) {
+      runner_(monitor, options.input, "begins anew") {
   checkOptions(options);
   if (options.scan_frame.empty() || options.scan_frame == options.frames.base) {
     throw OptionError("scan_frame = '" + options.scan_frame +
@@ -40,26 +40,20 @@ CloudToScanStage::CloudToScanStage(const CloudToScanStageOptions& options,
 
 std::optional<CloudToScanOutput> CloudToScanStage::takeCloud(
     const sensor_msgs::PointCloud2& message) {
-  try {
-    const Stopwatch watch;
+  return runner_.serve([&] {
     ConvertedCloud converted = toLidarCloud(message, options_.max_sweep);
     LidarCloud& cloud = converted.cloud;
     cloud.lidar_in_base =
         sensorMount(transforms_.core(), options_.frames.base, message.header.frame_id);
-    if (stamps_.check(message.header.stamp) == Arrival::kRestart) {
-      monitor_.warned(InputError("clock_restart", "the clock jumped back: begins anew"));
-    }
+    runner_.check("cloud", message.header.stamp);
     const PlanarScan scan = model_.scan(cloud);
     warnOf(converted, scan);
     show(converted, scan);
     CloudToScanOutput output{toMessage(scan, message.header.stamp),
                              newMount(cloud.lidar_in_base, message.header.stamp)};
-    monitor_.processed({toStamp(output.scan->header.stamp), watch.seconds()});
-    return output;
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-    return std::nullopt;
-  }
+    runner_.processed(toStamp(output.scan->header.stamp));
+    return std::make_optional(output);
+  });
 }
 
 void CloudToScanStage::warnOf(const ConvertedCloud& converted, const PlanarScan& scan) {

@@ -23,19 +23,16 @@ void checkSourceNames(const std::vector<std::string>& sources, const std::string
   }
 }
 
-FusionInputs::FusionInputs(const FusionInputOptions& options, StageMonitor& monitor)
-    : options_(options), monitor_(monitor) {
+FusionInputs::FusionInputs(const FusionInputOptions& options, StageRunner& runner)
+    : options_(options), runner_(runner) {
   if (options.motion) {
-    motion_.emplace(*options.motion, options.frames, options.input.restart_after);
-  }
-  for (const std::string& source : options.sources) {
-    stamps_.emplace(source, StampCheck(options.input.restart_after));
+    motion_.emplace(*options.motion, options.frames, runner);
   }
 }
 
-Arrival FusionInputs::take(const std::string& source, const std_msgs::Header& header, Stamp now) {
-  const auto stamps = stamps_.find(source);
-  if (stamps == stamps_.end()) {
+void FusionInputs::take(const std::string& source, const std_msgs::Header& header, Stamp now) {
+  const std::vector<std::string>& sources = options_.sources;
+  if (std::find(sources.begin(), sources.end(), source) == sources.end()) {
     throw InputError("unknown_source", options_.what + " of '" + source +
                                            "': expected one of the sources that are in use");
   }
@@ -45,21 +42,13 @@ Arrival FusionInputs::take(const std::string& source, const std_msgs::Header& he
   }
   const Arrived arrived{toStamp(header.stamp), now};
   checkAhead(source, arrived.stamp, now);
-  const Arrival arrival = stamps->second.check(header.stamp);
-  if (arrival == Arrival::kRestart) {
-    if (motion_) {
-      motion_->reset();
-    }
-    restart();
-    stamps->second.check(header.stamp);
-  }
+  runner_.check(source, header.stamp);
   if (!newest_ || arrived.stamp > newest_->stamp) {
     newest_ = arrived;
   }
   if (source == options_.matcher.reference) {
     reference_ = arrived;
   }
-  return arrival;
 }
 
 void FusionInputs::checkAhead(const std::string& source, Stamp stamp, Stamp now) const {
@@ -79,29 +68,9 @@ void FusionInputs::checkAhead(const std::string& source, Stamp stamp, Stamp now)
   }
 }
 
-template <typename Message>
-Arrival FusionInputs::takeAnyMotion(const Message& message) {
-  try {
-    const Arrival arrival = motion_.value().take(message);
-    if (arrival == Arrival::kRestart) {
-      restart();
-    }
-    return arrival;
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-    return Arrival::kNext;
-  }
-}
-
-template Arrival FusionInputs::takeAnyMotion(const nav_msgs::Odometry& message);
-template Arrival FusionInputs::takeAnyMotion(
-    const geometry_msgs::PoseWithCovarianceStamped& message);
-
-void FusionInputs::restart() {
-  monitor_.warned(
-      InputError("clock_restart", "the clock jumped back: forgets all " + options_.what + "s"));
-  for (auto& [source, stamps] : stamps_) {
-    stamps = StampCheck(options_.input.restart_after);
+void FusionInputs::reset() {
+  if (motion_) {
+    motion_->reset();
   }
   newest_.reset();
   reference_.reset();
@@ -121,17 +90,18 @@ void FusionInputs::report(const std::string& source, const LeftOut& left_out) {
     return;
   }
   const std::string things = left_out.what + " of " + source;
-  monitor_.warned(InputError(left_out.reason, std::to_string(left_out.count) + " " + things +
-                                                  ": expected " + left_out.expected +
-                                                  "; left out"));
-  monitor_.figure(things, static_cast<double>(left_out_[things] += left_out.count));
+  runner_.monitor().warned(InputError(left_out.reason, std::to_string(left_out.count) + " " +
+                                                           things + ": expected " +
+                                                           left_out.expected + "; left out"));
+  runner_.monitor().figure(things, static_cast<double>(left_out_[things] += left_out.count));
 }
 
 void FusionInputs::report(Stamp stamp, const std::vector<MissingSource>& missing) {
   std::map<std::string, Absence> absences;
   for (const MissingSource& one : missing) {
     const std::string& source = one.source;
-    monitor_.figure("fused without " + source, static_cast<double>(++times_missed_[source]));
+    runner_.monitor().figure("fused without " + source,
+                             static_cast<double>(++times_missed_[source]));
     const auto before = absences_.find(source);
     Absence& absence = absences[source];
     absence = before == absences_.end() ? Absence{stamp, {}} : before->second;
@@ -139,7 +109,7 @@ void FusionInputs::report(Stamp stamp, const std::vector<MissingSource>& missing
     const bool lasts = one.why == WhyMissing::kSilent ||
                        secondsBetween(absence.since, stamp) >= options_.matcher.silent_after;
     if (lasts && absence.said.insert(one.why).second) {
-      monitor_.warned(warningOf(one));
+      runner_.monitor().warned(warningOf(one));
     }
   }
   absences_ = std::move(absences);

@@ -24,57 +24,52 @@ void GridFusionStageOptions::visit(OptionVisitor& visitor) {
 GridFusionStage::GridFusionStage(const GridFusionStageOptions& options, StageMonitor& monitor)
     : options_(options),
       monitor_(monitor),
+      runner_(monitor, options.input, std::string("forgets all ") + kGrid + "s",
+              [this] { reset(); }),
       inputs_({options.frames.base, options.frames, options.motion, options.input, options.matcher,
                options.fuser.sourcesInUse(), kGrid},
-              monitor),
+              runner_),
       matcher_(options.matcher, options.fuser.sourcesInUse()),
       fuser_(options.fuser) {
   checkOptions(options);
   checkSourceNames(sources(), kGrid, {"fused", "conflict"});
 }
 
-void GridFusionStage::forgetAfter(Arrival arrival) {
-  if (arrival == Arrival::kRestart) {
-    matcher_.reset();
-  }
+void GridFusionStage::reset() {
+  inputs_.reset();
+  matcher_.reset();
 }
 
 void GridFusionStage::takeGrid(const std::string& source, const nav_msgs::OccupancyGrid& message,
                                Stamp now) {
-  try {
+  runner_.serve([&] {
     SensorGrid grid = fromMessage(message);
-    forgetAfter(inputs_.take(source, message.header, now));
-    matcher_.add(source, std::move(grid));
-  } catch (const WrongWindowError& error) {
-    monitor_.dropped(InputError("wrong_window", error.what()));
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-  }
-}
-
-void GridFusionStage::takeOdometry(const nav_msgs::Odometry& message) {
-  forgetAfter(inputs_.takeMotion(message));
-}
-
-void GridFusionStage::takePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
-  forgetAfter(inputs_.takeMotion(message));
+    inputs_.take(source, message.header, now);
+    try {
+      matcher_.add(source, std::move(grid));
+    } catch (const WrongWindowError& error) {
+      throw InputError("wrong_window", error.what());
+    }
+  });
 }
 
 std::optional<GridFusionOutput> GridFusionStage::next(Stamp now) {
-  const Stopwatch watch;
-  const std::optional<MatchedGrids> matched = inputs_.nextOf(matcher_, now);
-  if (!matched) {
-    return std::nullopt;
-  }
+  return runner_.serve([&]() -> std::optional<GridFusionOutput> {
+    const std::optional<MatchedGrids> matched = inputs_.nextOf(matcher_, now);
+    return matched ? std::make_optional(fuse(*matched)) : std::nullopt;
+  });
+}
+
+GridFusionOutput GridFusionStage::fuse(const MatchedGrids& matched) {
   FusionResult result =
-      fuser_.fuse(*matched, [this](Stamp from, Stamp to) { return inputs_.motion(from, to); });
-  inputs_.report(matched->stamp(), result.missing);
+      fuser_.fuse(matched, [this](Stamp from, Stamp to) { return inputs_.motion(from, to); });
+  inputs_.report(matched.stamp(), result.missing);
   const auto toOutput = [this](SensorGrid& grid) {
     return boost::make_shared<nav_msgs::OccupancyGrid>(
         toMessage(std::move(grid), options_.frames.base));
   };
   const GridFusionOutput output{toOutput(result.grids.fused), toOutput(result.grids.conflict)};
-  monitor_.processed({matched->stamp(), watch.seconds()});
+  runner_.processed(matched.stamp());
   return output;
 }
 

@@ -8,7 +8,6 @@
 #include <boost/make_shared.hpp>
 #include <tf2_msgs/TFMessage.h>
 
-#include "datmo_fusion/ros/descriptions.h"
 #include "datmo_fusion/ros/grid_conversion.h"
 #include "datmo_fusion/ros/message_conversion.h"
 #include "datmo_fusion/ros/motion_input.h"
@@ -50,9 +49,7 @@ GridSlamStage::GridSlamStage(const GridSlamStageOptions& options, const Transfor
       monitor_(monitor),
       slam_(slamOptions(options)),
       extent_(options.slam.map.window),
-      scan_stamps_(options.input.restart_after),
-      odometry_stamps_(options.input.restart_after),
-      grid_stamps_(options.input.restart_after) {
+      runner_(monitor, options.input, "starts with a new map", [this] { reset(); }) {
   checkOptions(options);
   checkOptions(options.motion);
   checkFrames(options.frames);
@@ -62,20 +59,17 @@ void GridSlamStage::takeOdometry(const nav_msgs::Odometry& message) {
   if (!options_.motion.fromOdometry() && !options_.motion.fromSensors()) {
     return;
   }
-  monitor_.describe("odometry", [&] { return descriptionOf(message); });
-  try {
+  runner_.serve("odometry", message, [&] {
     checkFrames(message, options_.frames);
     OdometryPose odometry{toSample(message), fromMessage(message.pose.pose)};
     if (options_.motion.fromOdometry() && options_.motion.odometry_pose) {
       odometry.sample.base_in_odom = odometry.base_in_odom;
     }
     odometry.sample.speed_measured = options_.motion.hasSpeed();
-    checkStamp(odometry_stamps_, message.header.stamp);
+    runner_.check("odometry", message.header.stamp);
     slam_.addOdometry(odometry.sample);
     keep(odometry);
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-  }
+  });
 }
 
 void GridSlamStage::keep(const OdometryPose& odometry) {
@@ -102,23 +96,18 @@ std::optional<Pose2> GridSlamStage::baseInOdom(Stamp stamp) const {
 
 template <typename Message>
 std::optional<GridSlamOutput> GridSlamStage::takeScan(const Message& message) {
-  monitor_.describe("scan", [&] { return descriptionOf(message); });
-  try {
-    const Stopwatch watch;
+  return runner_.serve("scan", message, [&]() -> std::optional<GridSlamOutput> {
     const ScannerMount mount =
         scannerMount(transforms_.core(), options_.frames.base, message.header.frame_id);
     const ConvertedScan converted = toScan(message, mount, options_.scan);
-    checkStamp(scan_stamps_, message.header.stamp);
+    runner_.check("scan", message.header.stamp);
     warnOf(mount, converted);
     if (options_.fused_grid) {
       keep(converted.scan);
       return std::nullopt;
     }
-    return finish(slam_.process(converted.scan), watch);
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-    return std::nullopt;
-  }
+    return finish(slam_.process(converted.scan));
+  });
 }
 
 template std::optional<GridSlamOutput> GridSlamStage::takeScan(const sensor_msgs::LaserScan&);
@@ -137,19 +126,15 @@ void GridSlamStage::keep(const Scan& scan) {
 }
 
 std::optional<GridSlamOutput> GridSlamStage::takeGrid(const nav_msgs::OccupancyGrid& message) {
-  try {
+  return runner_.serve([&]() -> std::optional<GridSlamOutput> {
     if (!options_.fused_grid) {
       throw InputError("unexpected_grid", "a fused grid: expected none while fused_grid is false");
     }
-    const Stopwatch watch;
     checkBaseFrame(message.header.frame_id);
     const SensorGrid grid = fromMessage(message);
-    checkStamp(grid_stamps_, message.header.stamp);
-    return finish(slam_.process(grid, scanAt(grid.stamp())), watch);
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-    return std::nullopt;
-  }
+    runner_.check("grid", message.header.stamp);
+    return finish(slam_.process(grid, scanAt(grid.stamp())));
+  });
 }
 
 Scan GridSlamStage::scanAt(Stamp stamp) {
@@ -170,10 +155,10 @@ Scan GridSlamStage::scanAt(Stamp stamp) {
   return scan;
 }
 
-GridSlamOutput GridSlamStage::finish(const SlamResult& result, const Stopwatch& watch) {
+GridSlamOutput GridSlamStage::finish(const SlamResult& result) {
   showMatch(result);
   GridSlamOutput output = outputOf(result);
-  monitor_.processed({result.split.stamp, watch.seconds()});
+  runner_.processed(result.split.stamp);
   return output;
 }
 
@@ -184,19 +169,8 @@ void GridSlamStage::checkBaseFrame(const std::string& frame) const {
   }
 }
 
-void GridSlamStage::checkStamp(StampCheck& stamps, const ros::Time& stamp) {
-  if (stamps.check(stamp) == Arrival::kRestart) {
-    restart();
-    stamps.check(stamp);
-  }
-}
-
-void GridSlamStage::restart() {
-  monitor_.warned(InputError("clock_restart", "the clock jumped back: starts with a new map"));
+void GridSlamStage::reset() {
   slam_.reset();
-  scan_stamps_ = StampCheck(options_.input.restart_after);
-  odometry_stamps_ = StampCheck(options_.input.restart_after);
-  grid_stamps_ = StampCheck(options_.input.restart_after);
   scans_.clear();
   odometry_.clear();
   last_map_.reset();

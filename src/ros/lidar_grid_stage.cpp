@@ -2,7 +2,6 @@
 
 #include <boost/make_shared.hpp>
 
-#include "datmo_fusion/ros/descriptions.h"
 #include "datmo_fusion/ros/grid_conversion.h"
 #include "datmo_fusion/ros/stage_inputs.h"
 #include "datmo_fusion/slam/motion_compensation.h"
@@ -23,55 +22,24 @@ LidarGridStage::LidarGridStage(const LidarGridStageOptions& options,
       transforms_(transforms),
       monitor_(monitor),
       model_(options.grid),
-      stamps_(options.input.restart_after),
-      motion_(options.motion, options.frames, options.input.restart_after) {
+      runner_(monitor, options.input, "forgets how the vehicle moved", [this] { motion_.reset(); }),
+      motion_(options.motion, options.frames, runner_) {
   checkOptions(options);
-}
-
-void LidarGridStage::takeOdometry(const nav_msgs::Odometry& message) { takeMotion(message); }
-
-void LidarGridStage::takePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
-  takeMotion(message);
-}
-
-template <typename Message>
-void LidarGridStage::takeMotion(const Message& message) {
-  try {
-    if (motion_.take(message) == Arrival::kRestart) {
-      warnOfRestart();
-      stamps_ = StampCheck(options_.input.restart_after);
-    }
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-  }
-}
-
-void LidarGridStage::warnOfRestart() {
-  monitor_.warned(
-      InputError("clock_restart", "the clock jumped back: forgets how the vehicle moved"));
 }
 
 template <typename Message>
 nav_msgs::OccupancyGridPtr LidarGridStage::takeScan(const Message& message) {
-  monitor_.describe("scan", [&] { return descriptionOf(message); });
-  try {
-    const Stopwatch watch;
+  return runner_.serve("scan", message, [&] {
     const ScannerMount mount =
         scannerMount(transforms_.core(), options_.frames.base, message.header.frame_id);
     const ConvertedScan converted = toScan(message, mount, options_.scan);
-    if (stamps_.check(message.header.stamp) == Arrival::kRestart) {
-      warnOfRestart();
-      motion_.reset();
-    }
+    runner_.check("scan", message.header.stamp);
     warnOf(mount, converted);
     auto grid = boost::make_shared<nav_msgs::OccupancyGrid>(
         toMessage(model_.grid(compensated(converted.scan)), options_.frames.base));
-    monitor_.processed({converted.scan.stamp, watch.seconds()});
+    runner_.processed(converted.scan.stamp);
     return grid;
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-    return nullptr;
-  }
+  });
 }
 
 template nav_msgs::OccupancyGridPtr LidarGridStage::takeScan(const sensor_msgs::LaserScan&);

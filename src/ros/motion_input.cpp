@@ -7,6 +7,13 @@
 
 namespace datmo {
 
+namespace {
+
+/// No source of a stage that fuses several can have this name.
+constexpr char kMotionStream[] = "/motion";
+
+}  // namespace
+
 void checkFrames(const nav_msgs::Odometry& message, const FrameOptions& frames) {
   const std::string& odom = message.header.frame_id;
   const std::string& base = message.child_frame_id;
@@ -22,39 +29,37 @@ void checkFrames(const nav_msgs::Odometry& message, const FrameOptions& frames) 
                                       frames.base + "' in '" + frames.odom + "'" + remedy);
 }
 
-MotionInput::MotionInput(const MotionOptions& options, FrameOptions frames, double restart_after)
+MotionInput::MotionInput(const MotionOptions& options, FrameOptions frames, StageRunner& runner)
     : options_(options),
       frames_(std::move(frames)),
-      restart_after_(restart_after),
-      stamps_(restart_after),
+      runner_(runner),
       buffer_(options.hold, kOdometryMemory) {
   checkOptions(options);
 }
 
-Arrival MotionInput::take(const nav_msgs::Odometry& message) {
+void MotionInput::take(const nav_msgs::Odometry& message) {
   if (!options_.hasSpeed()) {
-    return Arrival::kNext;
+    return;
   }
   checkFrames(message, frames_);
   OdometrySample sample = toSample(message);
   if (options_.fromOdometry() && options_.odometry_pose) {
     sample.base_in_odom = fromMessage(message.pose.pose);
   }
-  const Arrival arrival = checkStamp(message.header.stamp);
+  runner_.check(kMotionStream, message.header.stamp);
   buffer_.add(sample);
-  return arrival;
 }
 
-Arrival MotionInput::take(const geometry_msgs::PoseWithCovarianceStamped& message) {
+void MotionInput::take(const geometry_msgs::PoseWithCovarianceStamped& message) {
   if (options_.hasSpeed()) {
-    return Arrival::kNext;
+    return;
   }
   const Pose2 pose = fromMessage(message.pose.pose);
-  const Arrival arrival = checkStamp(message.header.stamp);
+  runner_.check(kMotionStream, message.header.stamp);
   const std::optional<StampedPose> before = last_pose_;
   last_pose_ = {toStamp(message.header.stamp), pose};
   if (!before) {
-    return arrival;
+    return;
   }
   const double seconds = secondsBetween(before->stamp, last_pose_->stamp);
   const Pose2 motion = before->pose.inverse() * pose;
@@ -69,20 +74,9 @@ Arrival MotionInput::take(const geometry_msgs::PoseWithCovarianceStamped& messag
   }
   // What the vehicle did up to this pose is what it is expected to do after it.
   buffer_.add({last_pose_->stamp, twist, pose});
-  return arrival;
-}
-
-Arrival MotionInput::checkStamp(const ros::Time& stamp) {
-  const Arrival arrival = stamps_.check(stamp);
-  if (arrival == Arrival::kRestart) {
-    reset();
-    stamps_.check(stamp);
-  }
-  return arrival;
 }
 
 void MotionInput::reset() {
-  stamps_ = StampCheck(restart_after_);
   buffer_ = OdometryBuffer(options_.hold, kOdometryMemory);
   last_pose_.reset();
 }

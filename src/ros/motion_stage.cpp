@@ -32,13 +32,15 @@ Twist2 checked(const Twist2& twist, const std::string& what) {
 
 MotionStage::MotionStage(const MotionStageOptions& options, const TransformBuffer& transforms,
                          StageMonitor& monitor)
-    : options_(options), transforms_(transforms), monitor_(monitor) {
+    : options_(options),
+      transforms_(transforms),
+      runner_(monitor, options.input, "forgets how the vehicle moved", [this] { reset(); }) {
   checkOptions(options.motion);
   checkFrames(options.frames);
 }
 
 nav_msgs::OdometryPtr MotionStage::takeImu(const sensor_msgs::Imu& message) {
-  try {
+  return runner_.serve([&]() -> nav_msgs::OdometryPtr {
     if (message.angular_velocity_covariance[0] == kNotMeasured) {
       throw InputError("no_angular_velocity",
                        "Imu whose angular_velocity_covariance says that it measures none: expected "
@@ -46,13 +48,10 @@ nav_msgs::OdometryPtr MotionStage::takeImu(const sensor_msgs::Imu& message) {
     }
     const Eigen::Vector3d turn = inBase(message.header.frame_id, message.angular_velocity);
     const Twist2 turning = checked({0.0, turn.z()}, "Imu");
-    checkStamp("imu", message.header.stamp);
+    runner_.check("imu", message.header.stamp);
     return odometryOf(message.header.stamp,
                       {speedAt(toStamp(message.header.stamp)), turning.yaw_rate});
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-    return nullptr;
-  }
+  });
 }
 
 nav_msgs::OdometryPtr MotionStage::takeTwist(const geometry_msgs::TwistStamped& message) {
@@ -66,21 +65,18 @@ nav_msgs::OdometryPtr MotionStage::takeTwist(
 
 nav_msgs::OdometryPtr MotionStage::takeTwist(const std_msgs::Header& header,
                                              const geometry_msgs::Twist& message) {
-  try {
+  return runner_.serve([&]() -> nav_msgs::OdometryPtr {
     const Twist2 twist = checked(
         {inBase(header.frame_id, message.linear).x(), inBase(header.frame_id, message.angular).z()},
         "twist");
-    checkStamp("twist", header.stamp);
+    runner_.check("twist", header.stamp);
     return options_.motion.usesImu() ? keepSpeed(toStamp(header.stamp), twist.forward_speed)
                                      : odometryOf(header.stamp, twist);
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-    return nullptr;
-  }
+  });
 }
 
 nav_msgs::OdometryPtr MotionStage::takeWheels(const sensor_msgs::JointState& message) {
-  try {
+  return runner_.serve([&]() -> nav_msgs::OdometryPtr {
     const auto& rates = message.velocity;
     if (rates.empty()) {
       throw InputError("no_wheel_speed",
@@ -89,12 +85,9 @@ nav_msgs::OdometryPtr MotionStage::takeWheels(const sensor_msgs::JointState& mes
     const double mean =
         std::accumulate(rates.begin(), rates.end(), 0.0) / static_cast<double>(rates.size());
     const Twist2 twist = checked({options_.motion.wheel_radius * mean, 0.0}, "wheels");
-    checkStamp("wheels", message.header.stamp);
+    runner_.check("wheels", message.header.stamp);
     return keepSpeed(toStamp(message.header.stamp), twist.forward_speed);
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-    return nullptr;
-  }
+  });
 }
 
 nav_msgs::OdometryPtr MotionStage::keepSpeed(Stamp stamp, double speed) {
@@ -129,22 +122,13 @@ Eigen::Vector3d MotionStage::inBase(const std::string& frame,
   return sensorMount(transforms_.core(), base, frame).linear() * in_sensor;
 }
 
-void MotionStage::checkStamp(const std::string& input, const ros::Time& stamp) {
-  const StampCheck fresh(options_.input.restart_after);
-  if (stamps_.try_emplace(input, fresh).first->second.check(stamp) != Arrival::kRestart) {
-    return;
-  }
-  monitor_.warned(
-      InputError("clock_restart", "the clock jumped back: forgets how the vehicle moved"));
-  stamps_.clear();
-  stamps_.try_emplace(input, fresh).first->second.check(stamp);
+void MotionStage::reset() {
   speed_.reset();
   last_.reset();
   base_in_odom_ = Pose2();
 }
 
 nav_msgs::OdometryPtr MotionStage::odometryOf(const ros::Time& stamp, const Twist2& twist) {
-  const Stopwatch watch;
   const Stamp now = toStamp(stamp);
   if (last_) {
     base_in_odom_ = base_in_odom_ * arc(last_twist_, secondsBetween(*last_, now));
@@ -159,7 +143,7 @@ nav_msgs::OdometryPtr MotionStage::odometryOf(const ros::Time& stamp, const Twis
   odometry->twist.twist.linear.x = twist.forward_speed;
   odometry->twist.twist.angular.z = twist.yaw_rate;
   odometry->twist.covariance[0] = options_.motion.hasSpeed() ? 0.0 : kUnknownSpeedVariance;
-  monitor_.processed({now, watch.seconds()});
+  runner_.processed(now);
   return odometry;
 }
 

@@ -28,7 +28,8 @@ MovingObjectsStage::MovingObjectsStage(const MovingObjectsStageOptions& options,
       monitor_(monitor),
       detector_(options.detector),
       border_filter_(options.border_filter),
-      stamps_(options.input.restart_after) {
+      runner_(monitor, options.input, "forgets what was dropped at the borders of the road",
+              [this] { border_filter_.reset(); }) {
   checkOptions(options);
 }
 
@@ -36,34 +37,26 @@ void MovingObjectsStage::takeRoadBorders(const RoadBorders& message) {
   if (!options_.road_borders) {
     return;
   }
-  try {
+  runner_.serve([&] {
     road_ = fromMessage(message);
     road_frame_ = message.header.frame_id;
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-  }
+  });
 }
 
 std::optional<MovingObjectsOutput> MovingObjectsStage::takeLabeledScan(
     const LabeledScanMessage& message) {
-  try {
-    const Stopwatch watch;
+  return runner_.serve([&] {
     const LabeledScan scan = fromMessage(message);
-    if (stamps_.check(message.header.stamp) == Arrival::kRestart) {
-      border_filter_.reset();
-    }
+    runner_.check("labeled_scan", message.header.stamp);
     ObjectList objects = detector_.detect(scan);
     MovingObjectsOutput output;
     if (options_.road_borders) {
       output.dropped = dropAtBorders(scan, message, objects);
     }
     output.objects = boost::make_shared<ObjectArray>(toMessage(objects, message.header.frame_id));
-    monitor_.processed({scan.stamp, watch.seconds()});
-    return output;
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-    return std::nullopt;
-  }
+    runner_.processed(scan.stamp);
+    return std::make_optional(output);
+  });
 }
 
 std::optional<RoadModel> MovingObjectsStage::roadAt(Stamp stamp, const std::string& map_frame) {

@@ -45,26 +45,27 @@ void ObjectFusionStageOptions::visit(OptionVisitor& visitor) {
 ObjectFusionStage::ObjectFusionStage(const ObjectFusionStageOptions& options, StageMonitor& monitor)
     : options_(options),
       monitor_(monitor),
+      runner_(monitor, options.input, std::string("forgets all ") + kObjectList + "s",
+              [this] { reset(); }),
       inputs_({options.frames.base, options.frames, options.motion, options.input, options.matcher,
                options.fuser.sourcesInUse(), kObjectList},
-              monitor),
+              runner_),
       matcher_(options.matcher, options.fuser.sourcesInUse(), Serving::kOnce),
       fuser_(options.fuser) {
   checkOptions(options);
   checkSourceNames(sources(), kObjectList, {"fused"});
 }
 
-void ObjectFusionStage::forgetAfter(Arrival arrival) {
-  if (arrival == Arrival::kRestart) {
-    matcher_.reset();
-    scans_.clear();
-  }
+void ObjectFusionStage::reset() {
+  inputs_.reset();
+  matcher_.reset();
+  scans_.clear();
 }
 
 void ObjectFusionStage::takeObjects(const std::string& source, const ObjectArray& message,
                                     Stamp now) {
-  try {
-    forgetAfter(inputs_.take(source, message.header, now));
+  runner_.serve([&] {
+    inputs_.take(source, message.header, now);
     const auto list = std::make_shared<ObjectList>(fromMessage(message));
     for (Object& object : list->objects) {
       if (object.sensors.empty()) {
@@ -80,36 +81,22 @@ void ObjectFusionStage::takeObjects(const std::string& source, const ObjectArray
                             "finite numbers, bearings in rad from the least to the most one, a "
                             "turn apart at most, and sure_range up to range"});
     matcher_.add(source, list->stamp, list);
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-  }
-}
-
-void ObjectFusionStage::takeOdometry(const nav_msgs::Odometry& message) {
-  forgetAfter(inputs_.takeMotion(message));
-}
-
-void ObjectFusionStage::takePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
-  forgetAfter(inputs_.takeMotion(message));
+  });
 }
 
 void ObjectFusionStage::takeLabeledScan(const LabeledScanMessage& message) {
-  try {
+  runner_.serve([&] {
     if (message.header.frame_id != options_.frames.base) {
       throw InputError("wrong_frame", "split scan in '" + message.header.frame_id +
                                           "': expected '" + options_.frames.base + "'");
     }
     LabeledScan scan = fromMessage(message);
-    if (!scans_.empty() && scan.stamp < scans_.back().stamp) {
-      scans_.clear();  // a looped bag
-    }
+    runner_.check("/labeled_scan", message.header.stamp);
     scans_.push_back(std::move(scan));
     if (scans_.size() > kMaxScans) {
       scans_.pop_front();
     }
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-  }
+  });
 }
 
 std::optional<LabeledScan> ObjectFusionStage::takeScanAt(Stamp stamp) {
@@ -138,20 +125,22 @@ std::vector<SourceObjects> ObjectFusionStage::movedLists(
 }
 
 ObjectArrayPtr ObjectFusionStage::next(Stamp now) {
-  const Stopwatch watch;
-  const std::optional<Matched> matched = inputs_.nextOf(matcher_, now);
-  if (!matched) {
-    return nullptr;
-  }
-  std::vector<MissingSource> missing = matched->missing;
-  const std::vector<SourceObjects> lists = movedLists(*matched, missing);
-  const std::optional<LabeledScan> scan = takeScanAt(matched->stamp());
+  return runner_.serve([&] {
+    const std::optional<Matched> matched = inputs_.nextOf(matcher_, now);
+    return matched ? fuse(*matched) : nullptr;
+  });
+}
+
+ObjectArrayPtr ObjectFusionStage::fuse(const Matched& matched) {
+  std::vector<MissingSource> missing = matched.missing;
+  const std::vector<SourceObjects> lists = movedLists(matched, missing);
+  const std::optional<LabeledScan> scan = takeScanAt(matched.stamp());
   times_without_scan_ += scan ? 0 : 1;
   const ObjectFusionResult result = fuser_.fuse(lists, scan ? &*scan : nullptr);
-  inputs_.report(matched->stamp(), missing);
+  inputs_.report(matched.stamp(), missing);
   report(lists, result.counts);
   auto fused = boost::make_shared<ObjectArray>(toMessage(result.list, options_.frames.base));
-  monitor_.processed({matched->stamp(), watch.seconds()});
+  runner_.processed(matched.stamp());
   return fused;
 }
 

@@ -15,38 +15,33 @@ void RoadBorderStageOptions::visit(OptionVisitor& visitor) {
 }
 
 RoadBorderStage::RoadBorderStage(const RoadBorderStageOptions& options, StageMonitor& monitor)
-    : monitor_(monitor), detector_(options.detector), stamps_(options.input.restart_after) {
+    : monitor_(monitor),
+      detector_(options.detector),
+      runner_(monitor, options.input, "forgets the road", [this] {
+        detector_.reset();
+        map_frame_.clear();
+      }) {
   checkOptions(options);
 }
 
 RoadBordersPtr RoadBorderStage::takeLabeledScan(const LabeledScanMessage& message) {
-  try {
-    const Stopwatch watch;
+  return runner_.serve([&] {
     const LabeledScan scan = fromMessage(message);
     if (message.map_frame.empty()) {
       throw InputError("wrong_frame", "split scan without map_frame: expected the map's name");
     }
-    if (stamps_.check(message.header.stamp) == Arrival::kRestart) {
-      restart("clock_restart", "the clock jumped back");
-    } else if (!map_frame_.empty() && message.map_frame != map_frame_) {
-      restart("other_map",
-              "the map is '" + message.map_frame + "', it was '" + map_frame_ + "' before");
+    runner_.check("labeled_scan", message.header.stamp);
+    if (!map_frame_.empty() && message.map_frame != map_frame_) {
+      runner_.reset("other_map",
+                    "the map is '" + message.map_frame + "', it was '" + map_frame_ + "' before");
     }
     map_frame_ = message.map_frame;
     const RoadModel& road = detector_.update(scan);
     show(road);
     auto borders = boost::make_shared<RoadBorders>(toMessage(road, map_frame_));
-    monitor_.processed({scan.stamp, watch.seconds()});
+    runner_.processed(scan.stamp);
     return borders;
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-    return nullptr;
-  }
-}
-
-void RoadBorderStage::restart(const std::string& reason, const std::string& why) {
-  monitor_.warned(InputError(reason, why + ": forgets the road"));
-  detector_.reset();
+  });
 }
 
 void RoadBorderStage::show(const RoadModel& road) {

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "datmo_fusion/ros/message_conversion.h"
-
 namespace datmo {
 
 namespace {
@@ -18,11 +16,7 @@ ScanViews::ScanViews(const VisibilityOptions& options) : options_(options) {
   checkOptions(options);
 }
 
-void ScanViews::add(const LabeledScanMessage& message) {
-  const LabeledScan scan = fromMessage(message);
-  if (!views_.empty() && message.header.stamp < views_.back().base.stamp) {
-    views_.clear();
-  }
+void ScanViews::add(const LabeledScanMessage& message, const LabeledScan& scan) {
   views_.push_back({message.header, message.map_frame, scan.base_in_map.pose, std::nullopt});
   if (scan.field.beams > 0) {
     views_.back().visibility.emplace(scan, options_);

@@ -64,7 +64,7 @@ void StaticPointsStageOptions::visit(OptionVisitor& visitor) {
 }
 
 StaticPointsStage::StaticPointsStage(const StaticPointsStageOptions& options, StageMonitor& monitor)
-    : options_(options), monitor_(monitor), stamps_(options.input.restart_after) {
+    : options_(options), monitor_(monitor), runner_(monitor, options.input, "begins anew") {
   checkOptions(options);
   if (options.scan_frame.empty() || options.scan_frame == options.frames.base) {
     throw OptionError("scan_frame = '" + options.scan_frame +
@@ -75,12 +75,9 @@ StaticPointsStage::StaticPointsStage(const StaticPointsStageOptions& options, St
 
 std::optional<StaticPointsOutput> StaticPointsStage::takeLabeledScan(
     const LabeledScanMessage& message) {
-  try {
-    const Stopwatch watch;
+  return runner_.serve([&] {
     const LabeledScan scan = fromMessage(message);
-    if (stamps_.check(message.header.stamp) == Arrival::kRestart) {
-      monitor_.warned(InputError("clock_restart", "the clock jumped back: begins anew"));
-    }
+    runner_.check("labeled_scan", message.header.stamp);
     std_msgs::Header at_scanner = message.header;
     at_scanner.frame_id = options_.scan_frame;
     StaticPointsOutput output;
@@ -88,12 +85,9 @@ std::optional<StaticPointsOutput> StaticPointsStage::takeLabeledScan(
     output.scan = toLaserScan(scan.field, staticRanges(scan, options_.include_unknown), at_scanner);
     output.mount = newMount(scan, message.header);
     monitor_.figure("static points", static_cast<double>(output.points->width));
-    monitor_.processed({scan.stamp, watch.seconds()});
-    return output;
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-    return std::nullopt;
-  }
+    runner_.processed(scan.stamp);
+    return std::make_optional(output);
+  });
 }
 
 tf2_msgs::TFMessageConstPtr StaticPointsStage::newMount(const LabeledScan& scan,

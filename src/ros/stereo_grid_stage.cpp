@@ -5,7 +5,6 @@
 
 #include <boost/make_shared.hpp>
 
-#include "datmo_fusion/ros/descriptions.h"
 #include "datmo_fusion/ros/frames.h"
 #include "datmo_fusion/ros/grid_conversion.h"
 #include "datmo_fusion/ros/stage_inputs.h"
@@ -25,41 +24,30 @@ StereoGridStage::StereoGridStage(const StereoGridStageOptions& options,
     : options_(options),
       transforms_(transforms),
       monitor_(monitor),
+      runner_(monitor, options.input, "forgets the road of the last clouds",
+              [this] { model_.reset(); }),
       input_(options, transforms),
       model_(options.grid) {
   checkOptions(options);
 }
 
 void StereoGridStage::takeCameraInfo(const sensor_msgs::CameraInfo& message) {
-  try {
-    input_.take(message);
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-  }
+  runner_.serve([&] { input_.take(message); });
 }
 
 nav_msgs::OccupancyGridPtr StereoGridStage::takeCloud(const sensor_msgs::PointCloud2& message) {
-  monitor_.describe("points2", [&] { return descriptionOf(message); });
-  try {
-    const Stopwatch watch;
+  return runner_.serve("points2", message, [&] {
     CloudPoints points(message);
     StereoCloud cloud = input_.cloudOf(message.header, points);
     cloud.scanner_height = scannerHeight();
-    if (input_.check(message.header) == Arrival::kRestart) {
-      monitor_.warned(InputError("clock_restart",
-                                 "the clock jumped back: forgets the road of the last clouds"));
-      model_.reset();
-    }
+    runner_.check("points2", message.header.stamp);
     StereoGridResult result = gridOf(cloud);
     show(result);
     auto grid = boost::make_shared<nav_msgs::OccupancyGrid>(
         toMessage(std::move(result.grid), options_.frames.base));
-    monitor_.processed({cloud.stamp, watch.seconds()});
+    runner_.processed(cloud.stamp);
     return grid;
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-    return nullptr;
-  }
+  });
 }
 
 StereoGridResult StereoGridStage::gridOf(const StereoCloud& cloud) {

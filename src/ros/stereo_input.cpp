@@ -30,8 +30,7 @@ void StereoInputOptions::visit(OptionVisitor& visitor) {
 StereoInput::StereoInput(const StereoInputOptions& options, const TransformBuffer& transforms)
     : options_(options),
       principle_(depthPrinciple(options.camera.principle)),
-      transforms_(transforms),
-      stamps_(options.input.restart_after) {
+      transforms_(transforms) {
   checkOptions(options);
   const StereoCameraOptions& camera = options.camera;
   if (principle_ == DepthPrinciple::kActiveStereo && camera.baseline < kMinBaseline) {

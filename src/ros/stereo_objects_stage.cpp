@@ -4,7 +4,6 @@
 
 #include <boost/make_shared.hpp>
 
-#include "datmo_fusion/ros/descriptions.h"
 #include "datmo_fusion/ros/message_conversion.h"
 #include "datmo_fusion/ros/stage_inputs.h"
 
@@ -19,39 +18,28 @@ StereoObjectsStage::StereoObjectsStage(const StereoObjectsStageOptions& options,
                                        const TransformBuffer& transforms, StageMonitor& monitor)
     : options_(options),
       monitor_(monitor),
+      runner_(monitor, options.input, "forgets the road of the last clouds",
+              [this] { detector_.reset(); }),
       input_(options, transforms),
       detector_(options.detector) {
   checkOptions(options);
 }
 
 void StereoObjectsStage::takeCameraInfo(const sensor_msgs::CameraInfo& message) {
-  try {
-    input_.take(message);
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-  }
+  runner_.serve([&] { input_.take(message); });
 }
 
 ObjectArrayPtr StereoObjectsStage::takeCloud(const sensor_msgs::PointCloud2& message) {
-  monitor_.describe("points2", [&] { return descriptionOf(message); });
-  try {
-    const Stopwatch watch;
+  return runner_.serve("points2", message, [&] {
     CloudPoints points(message);
     const StereoCloud cloud = input_.cloudOf(message.header, points);
-    if (input_.check(message.header) == Arrival::kRestart) {
-      monitor_.warned(InputError("clock_restart",
-                                 "the clock jumped back: forgets the road of the last clouds"));
-      detector_.reset();
-    }
+    runner_.check("points2", message.header.stamp);
     const StereoObjects objects = objectsOf(cloud);
     show(objects);
     auto array = boost::make_shared<ObjectArray>(toMessage(objects.list, options_.frames.base));
-    monitor_.processed({cloud.stamp, watch.seconds()});
+    runner_.processed(cloud.stamp);
     return array;
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-    return nullptr;
-  }
+  });
 }
 
 StereoObjects StereoObjectsStage::objectsOf(const StereoCloud& cloud) {

@@ -49,30 +49,29 @@ void TrackFusionStageOptions::visit(OptionVisitor& visitor) {
 TrackFusionStage::TrackFusionStage(const TrackFusionStageOptions& options, StageMonitor& monitor)
     : options_(options),
       monitor_(monitor),
+      runner_(monitor, options.input, std::string("forgets all ") + kTrackList + "s",
+              [this] { reset(); }),
       inputs_({options.frames.map, options.frames, std::nullopt, options.input, options.matcher,
                options.fuser.sourcesInUse(), kTrackList},
-              monitor),
+              runner_),
       matcher_(options.matcher, options.fuser.sourcesInUse(), Serving::kOften),
       fuser_(options.fuser) {
   checkOptions(options);
   checkSourceNames(sources(), kTrackList, {"fused"});
 }
 
-void TrackFusionStage::forgetAfter(Arrival arrival) {
-  if (arrival == Arrival::kRestart) {
-    matcher_.reset();
-    fuser_.reset();
-  }
+void TrackFusionStage::reset() {
+  inputs_.reset();
+  matcher_.reset();
+  fuser_.reset();
 }
 
 void TrackFusionStage::takeTracks(const std::string& source, const TrackArray& message, Stamp now) {
-  try {
-    forgetAfter(inputs_.take(source, message.header, now));
+  runner_.serve([&] {
+    inputs_.take(source, message.header, now);
     const auto list = std::make_shared<TrackList>(listOf(source, message));
     matcher_.add(source, list->stamp, list);
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-  }
+  });
 }
 
 TrackList TrackFusionStage::listOf(const std::string& source, const TrackArray& message) {
@@ -92,24 +91,26 @@ TrackList TrackFusionStage::listOf(const std::string& source, const TrackArray& 
 }
 
 TrackArrayPtr TrackFusionStage::next(Stamp now) {
-  const Stopwatch watch;
-  const auto matched = inputs_.nextOf(matcher_, now);
-  if (!matched) {
-    return nullptr;
-  }
+  return runner_.serve([&] {
+    const std::optional<Matched> matched = inputs_.nextOf(matcher_, now);
+    return matched ? fuse(*matched) : nullptr;
+  });
+}
+
+TrackArrayPtr TrackFusionStage::fuse(const Matched& matched) {
   std::vector<SourceTracks> lists;
-  for (const SourceSample<TrackList>& one : matched->samples) {
+  for (const SourceSample<TrackList>& one : matched.samples) {
     lists.push_back({one.source, one.payload});
   }
-  const TrackFusionResult result = fuser_.fuse(matched->stamp(), lists);
-  inputs_.report(matched->stamp(), matched->missing);
+  const TrackFusionResult result = fuser_.fuse(matched.stamp(), lists);
+  inputs_.report(matched.stamp(), matched.missing);
   report(result.counts);
   auto fused = boost::make_shared<TrackArray>(toMessage(result.list, options_.frames.map));
   if (!fused->tracks.empty()) {
     monitor_.announce("track",
                       "first track: " + descriptionOf(fused->tracks.front(), options_.frames.map));
   }
-  monitor_.processed({matched->stamp(), watch.seconds()});
+  runner_.processed(matched.stamp());
   return fused;
 }
 

@@ -37,24 +37,22 @@ TrackerStage::TrackerStage(const TrackerStageOptions& options, const TransformBu
       transforms_(transforms),
       monitor_(monitor),
       tracker_(options.tracker, std::move(clock)),
-      stamps_(options.input.restart_after),
+      runner_(monitor, options.input, "forgets all tracks", [this] { reset(); }),
       scan_views_(options.tracker.visibility) {
   checkOptions(options);
 }
 
 void TrackerStage::takeLabeledScan(const LabeledScanMessage& message) {
-  try {
-    scan_views_.add(message);
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-  }
+  runner_.serve([&] {
+    const LabeledScan scan = fromMessage(message);
+    runner_.check("labeled_scan", message.header.stamp);
+    scan_views_.add(message, scan);
+  });
 }
 
 void TrackerStage::takeObjects(const ObjectArrayConstPtr& message, Stamp now) {
-  try {
-    if (stamps_.check(message->header.stamp) == Arrival::kRestart) {
-      restart();
-    }
+  runner_.serve([&] {
+    runner_.check("objects", message->header.stamp);
     if (queue_.size() >= kMaxWaiting) {
       queue_.pop_front();
       monitor_.dropped(InputError("queue_full", "more than " + std::to_string(kMaxWaiting) +
@@ -62,24 +60,19 @@ void TrackerStage::takeObjects(const ObjectArrayConstPtr& message, Stamp now) {
                                                     "oldest"));
     }
     queue_.push_back({message, now});
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-  }
+  });
 }
 
 TrackArrayPtr TrackerStage::next(Stamp now) {
   while (!queue_.empty()) {
     const Waiting waiting = queue_.front();
-    try {
-      const Pose2 base_in_fixed = baseInFixed(waiting.objects->header);
-      queue_.pop_front();
-      return track(*waiting.objects, base_in_fixed);
-    } catch (const InputError& error) {
-      if (!hasWaitedTooLong(waiting, now)) {
-        return nullptr;
-      }
-      queue_.pop_front();
-      monitor_.dropped(error);
+    if (!hasWaitedTooLong(waiting, now) && !knowsPose(waiting.objects->header)) {
+      return nullptr;
+    }
+    queue_.pop_front();
+    const auto tracks = runner_.serve([&] { return track(*waiting.objects); });
+    if (tracks) {
+      return tracks;
     }
   }
   return nullptr;
@@ -92,8 +85,17 @@ Pose2 TrackerStage::baseInFixed(const std_msgs::Header& base) const {
   return planarPose(transforms_.core(), options_.frames.map, base.frame_id, base.stamp);
 }
 
-TrackArrayPtr TrackerStage::track(const ObjectArray& objects, const Pose2& base_in_fixed) {
-  const Stopwatch watch;
+bool TrackerStage::knowsPose(const std_msgs::Header& base) const {
+  try {
+    baseInFixed(base);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+TrackArrayPtr TrackerStage::track(const ObjectArray& objects) {
+  const Pose2 base_in_fixed = baseInFixed(objects.header);
   const TrackerCounts before = tracker_.counts();
   const ObjectList list = fromMessage(objects);
   const Visibility* scan = options_.scan_view ? scan_views_.visibility(objects.header) : nullptr;
@@ -105,7 +107,7 @@ TrackArrayPtr TrackerStage::track(const ObjectArray& objects, const Pose2& base_
     monitor_.announce("track",
                       "first track: " + descriptionOf(tracks->tracks.front(), options_.frames.map));
   }
-  monitor_.processed({list.stamp, watch.seconds()});
+  runner_.processed(list.stamp);
   return tracks;
 }
 
@@ -138,10 +140,10 @@ bool TrackerStage::hasWaitedTooLong(const Waiting& waiting, Stamp now) const {
   return waited > options_.transform_wait || waited < 0.0;
 }
 
-void TrackerStage::restart() {
-  monitor_.warned(InputError("clock_restart", "the clock jumped back: forgets all tracks"));
+void TrackerStage::reset() {
   tracker_.reset();
   queue_.clear();
+  scan_views_.clear();
 }
 
 void TrackerStage::connect(StagePorts& ports) {

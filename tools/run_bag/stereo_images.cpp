@@ -24,9 +24,6 @@ namespace encodings = sensor_msgs::image_encodings;
 const std::map<std::string, std::size_t> kPixelSizes = {
     {encodings::MONO8, 1}, {encodings::RGB8, 3}, {encodings::BGR8, 3}};
 
-/// A stamp that is this much older than the newest is a restart of the clock, s.
-constexpr double kRestartAfter = StreamOptions().restart_after;
-
 /// Disparities are searched in blocks of so many (OpenCV).
 constexpr int kDisparityBlock = 16;
 
@@ -141,8 +138,7 @@ StereoImages::StereoImages(const StereoImagesOptions& options, StageMonitor& mon
     : rectified_(options.rectified),
       monitor_(monitor),
       pairs_(options.approximate_sync ? options.pair_tolerance : 0.0),
-      left_stamps_(kRestartAfter),
-      right_stamps_(kRestartAfter) {
+      runner_(monitor, StreamOptions(), "forgets all images", [this] { pairs_.clear(); }) {
   checkOptions(options);
   processor_ = makeProcessor(options);
 }
@@ -151,33 +147,16 @@ StereoImages::~StereoImages() = default;
 
 sensor_msgs::PointCloud2Ptr StereoImages::takeImage(StereoSide side,
                                                     const sensor_msgs::ImageConstPtr& image) {
-  try {
-    checkStamp(side, image->header.stamp);
+  return runner_.serve([&] {
+    runner_.check(side == StereoSide::kLeft ? "left" : "right", image->header.stamp);
     checkImage(*image);
     return serve(pairs_.takeImage(side, image));
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-    return nullptr;
-  }
+  });
 }
 
 sensor_msgs::PointCloud2Ptr StereoImages::takeInfo(StereoSide side,
                                                    const sensor_msgs::CameraInfoConstPtr& info) {
-  try {
-    return serve(pairs_.takeInfo(side, info));
-  } catch (const InputError& error) {
-    monitor_.dropped(error);
-    return nullptr;
-  }
-}
-
-void StereoImages::checkStamp(StereoSide side, const ros::Time& stamp) {
-  StampCheck& stamps = side == StereoSide::kLeft ? left_stamps_ : right_stamps_;
-  StampCheck& others = side == StereoSide::kLeft ? right_stamps_ : left_stamps_;
-  if (stamps.check(stamp) == Arrival::kRestart) {
-    others = StampCheck(kRestartAfter);
-    pairs_.clear();
-  }
+  return runner_.serve([&] { return serve(pairs_.takeInfo(side, info)); });
 }
 
 sensor_msgs::PointCloud2Ptr StereoImages::serve(const std::optional<StereoPair>& pair) {
@@ -191,10 +170,9 @@ sensor_msgs::PointCloud2Ptr StereoImages::serve(const std::optional<StereoPair>&
   if (!pair) {
     return nullptr;
   }
-  const Stopwatch watch;
   try {
     const sensor_msgs::PointCloud2Ptr cloud = cloudOf(*pair);
-    monitor_.processed({pair->left.stamp, watch.seconds()});
+    runner_.processed(pair->left.stamp);
     return cloud;
   } catch (const InputError&) {
     throw;

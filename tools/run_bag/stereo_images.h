@@ -10,8 +10,7 @@
 #include <sensor_msgs/PointCloud2.h>
 
 #include "datmo_fusion/ros/stage.h"
-#include "datmo_fusion/ros/stage_monitor.h"
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/stage_runner.h"
 
 namespace stereo_image_proc {
 class StereoProcessor;
@@ -44,8 +43,7 @@ class StereoImages : public Stage {
   void connect(StagePorts& ports) override;
 
  private:
-  /// Whichever camera jumps back first, both begin anew. These three throw InputError.
-  void checkStamp(StereoSide side, const ros::Time& stamp);
+  /// These two throw InputError.
   sensor_msgs::PointCloud2Ptr serve(const std::optional<StereoPair>& pair);
   sensor_msgs::PointCloud2Ptr cloudOf(const StereoPair& pair) const;
 
@@ -53,8 +51,7 @@ class StereoImages : public Stage {
   StageMonitor& monitor_;
   StereoPairs pairs_;
   std::uint64_t unpaired_ = 0;  ///< frames that were reported
-  StampCheck left_stamps_;
-  StampCheck right_stamps_;
+  StageRunner runner_;
   std::unique_ptr<stereo_image_proc::StereoProcessor> processor_;
 };
 

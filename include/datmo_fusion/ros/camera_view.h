@@ -11,8 +11,7 @@
 
 #include "datmo_fusion/ros/camera_view_options.h"
 #include "datmo_fusion/ros/messages.h"
-#include "datmo_fusion/ros/stage_monitor.h"
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/stage_runner.h"
 #include "datmo_fusion/ros/transform_buffer.h"
 #include "datmo_fusion/vision/box_projection.h"
 
@@ -28,8 +27,8 @@ namespace datmo {
 /// the stamp of its list, the nearest in time, to the image's. An image waits until tf knows where
 /// the camera was; nothing blocks. Bad input is dropped through the monitor, never thrown:
 /// `missing_camera_info`, `bad_camera_info`, `wrong_size`, `wrong_frame`, `bad_encoding`,
-/// `missing_transform`, and what StampCheck drops. An image for which no tracks are near enough in
-/// time is shown without boxes (`old_tracks`, a warning).
+/// `missing_transform`, and what StageRunner::check drops. An image for which no tracks are near
+/// enough in time is shown without boxes (`old_tracks`, a warning).
 class CameraView {
  public:
   /// `transforms` and `monitor` must outlive this. Throws OptionError.
@@ -64,7 +63,7 @@ class CameraView {
   CameraViewOptions options_;
   const TransformBuffer& transforms_;
   StageMonitor& monitor_;
-  StampCheck stamps_;
+  StageRunner runner_;
   sensor_msgs::CameraInfo info_;
   std::optional<PinholeCamera> camera_;
   double shift_ = 0.0;  ///< m, of the camera to the right of its frame's origin

@@ -12,8 +12,7 @@
 #include "datmo_fusion/ros/messages.h"
 #include "datmo_fusion/ros/motion_input.h"
 #include "datmo_fusion/ros/stage.h"
-#include "datmo_fusion/ros/stage_monitor.h"
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/stage_runner.h"
 #include "datmo_fusion/ros/transform_buffer.h"
 
 namespace datmo {
@@ -50,7 +49,9 @@ class CloudObjectsStage : public Stage {
 
  private:
   template <typename Message>
-  void takeMotion(const Message& message);
+  void takeMotion(const Message& message) {
+    runner_.serve([&] { motion_.take(message); });
+  }
 
   /// Of the vehicle during the sweep; none if the points have no times, or it is not known.
   std::optional<Twist2> twistDuring(const ConvertedCloud& converted, Stamp stamp) const;
@@ -60,7 +61,7 @@ class CloudObjectsStage : public Stage {
   const TransformBuffer& transforms_;
   StageMonitor& monitor_;
   CloudObjectDetector detector_;
-  StampCheck stamps_;
+  StageRunner runner_;
   MotionInput motion_;
 };
 

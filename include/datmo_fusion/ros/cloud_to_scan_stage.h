@@ -10,8 +10,7 @@
 #include "datmo_fusion/ros/frame_options.h"
 #include "datmo_fusion/ros/lidar_cloud_conversion.h"
 #include "datmo_fusion/ros/stage.h"
-#include "datmo_fusion/ros/stage_monitor.h"
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/stage_runner.h"
 #include "datmo_fusion/ros/transform_buffer.h"
 #include "datmo_fusion/sensor_model/cloud_to_scan.h"
 
@@ -60,7 +59,7 @@ class CloudToScanStage : public Stage {
   const TransformBuffer& transforms_;
   StageMonitor& monitor_;
   CloudToScan model_;
-  StampCheck stamps_;
+  StageRunner runner_;
   std::optional<Eigen::Vector3d> mount_;  ///< m, that was put out last
 };
 

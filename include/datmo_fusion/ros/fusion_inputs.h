@@ -15,8 +15,7 @@
 #include "datmo_fusion/fusion/source_matcher.h"
 #include "datmo_fusion/ros/input_error.h"
 #include "datmo_fusion/ros/motion_input.h"
-#include "datmo_fusion/ros/stage_monitor.h"
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/stage_runner.h"
 
 namespace datmo {
 
@@ -47,7 +46,7 @@ void checkSourceNames(const std::vector<std::string>& sources, const std::string
 /// The door of a stage that fuses several sources: which messages are let in, what time it is, how
 /// the vehicle moved, and which source is missed.
 ///
-/// Bad input is never thrown to the caller of the stage. A source that falls silent is said once
+/// A source that falls silent is said once
 /// until it is fused again, and so is one that for as long is always too late or whose motion is
 /// not known.
 ///
@@ -59,21 +58,24 @@ void checkSourceNames(const std::vector<std::string>& sources, const std::string
 /// caller's clock says. So the two clocks need not agree.
 class FusionInputs {
  public:
-  /// `monitor` must outlive it. Throws OptionError.
-  FusionInputs(const FusionInputOptions& options, StageMonitor& monitor);
+  /// `runner`: of the stage, which is to call reset() when it is reset itself; it must outlive the
+  /// inputs. Throws OptionError.
+  FusionInputs(const FusionInputOptions& options, StageRunner& runner);
 
-  /// One message of a source. `now`: ROS time. kRestart: the clock has jumped back, and the stage
-  /// is to forget what came before this message.
-  ///
-  /// Throws InputError: `unknown_source`, `wrong_frame`, `stamp_ahead` and those of StampCheck.
-  Arrival take(const std::string& source, const std_msgs::Header& header, Stamp now);
+  /// One message of a source. `now`: ROS time. Throws InputError: `unknown_source`, `wrong_frame`,
+  /// `stamp_ahead` and those of StageRunner::check.
+  void take(const std::string& source, const std_msgs::Header& header, Stamp now);
 
-  /// Newest motion, as MotionInput reads it; bad one is dropped through the monitor. kRestart: as
-  /// above. Only where the options ask for motion (else std::bad_optional_access).
-  Arrival takeMotion(const nav_msgs::Odometry& message) { return takeAnyMotion(message); }
-  Arrival takeMotion(const geometry_msgs::PoseWithCovarianceStamped& message) {
-    return takeAnyMotion(message);
+  /// Newest motion, as MotionInput reads it; bad one is dropped through the monitor. Only where the
+  /// options ask for motion (else std::bad_optional_access). `Message`: nav_msgs::Odometry or
+  /// geometry_msgs::PoseWithCovarianceStamped.
+  template <typename Message>
+  void takeMotion(const Message& message) {
+    runner_.serve([&] { motion_.value().take(message); });
   }
+
+  /// Forgets everything.
+  void reset();
 
   /// What a message of this source has that cannot be used, if there is any: warns and keeps count.
   void report(const std::string& source, const LeftOut& left_out);
@@ -98,8 +100,8 @@ class FusionInputs {
   template <typename Payload>
   void reportUnserved(const SourceMatcher<Payload>& matcher) {
     for (const std::string& source : options_.sources) {
-      monitor_.figure("lists of " + source + " not fused",
-                      static_cast<double>(matcher.unserved(source)));
+      runner_.monitor().figure("lists of " + source + " not fused",
+                               static_cast<double>(matcher.unserved(source)));
     }
   }
 
@@ -116,11 +118,7 @@ class FusionInputs {
     std::set<WhyMissing> said;  ///< reasons that have been warned of
   };
 
-  template <typename Message>
-  Arrival takeAnyMotion(const Message& message);
-
   void checkAhead(const std::string& source, Stamp stamp, Stamp now) const;
-  void restart();
 
   /// Time of the data at this ROS time; none before the first message.
   std::optional<Stamp> dataTime(Stamp now) const;
@@ -128,9 +126,8 @@ class FusionInputs {
   InputError warningOf(const MissingSource& missing) const;
 
   FusionInputOptions options_;
-  StageMonitor& monitor_;
+  StageRunner& runner_;
   std::optional<MotionInput> motion_;
-  std::map<std::string, StampCheck> stamps_;  ///< by source
   std::optional<Arrived> newest_;
   std::optional<Arrived> reference_;                   ///< the newest of the reference
   std::map<std::string, Absence> absences_;            ///< by source

@@ -13,8 +13,7 @@
 #include "datmo_fusion/ros/fusion_inputs.h"
 #include "datmo_fusion/ros/motion_input.h"
 #include "datmo_fusion/ros/stage.h"
-#include "datmo_fusion/ros/stage_monitor.h"
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/stage_runner.h"
 
 namespace datmo {
 
@@ -51,10 +50,12 @@ class GridFusionStage : public Stage {
   void takeGrid(const std::string& source, const nav_msgs::OccupancyGrid& message, Stamp now);
 
   /// Newest odometry; not read where the options say that the vehicle has none.
-  void takeOdometry(const nav_msgs::Odometry& message);
+  void takeOdometry(const nav_msgs::Odometry& message) { inputs_.takeMotion(message); }
 
   /// Newest pose of the SLAM; read only where the options say that the vehicle has no odometry.
-  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message);
+  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
+    inputs_.takeMotion(message);
+  }
 
   /// The next set of grids that is ready, fused; none if there is none. Call it until there is
   /// none, after each grid and from time to time: nobody knows before whether one that is waited
@@ -69,10 +70,12 @@ class GridFusionStage : public Stage {
   double maxWait() const override { return options_.matcher.max_wait; }
 
  private:
-  void forgetAfter(Arrival arrival);
+  GridFusionOutput fuse(const MatchedGrids& matched);
+  void reset();
 
   GridFusionStageOptions options_;
   StageMonitor& monitor_;
+  StageRunner runner_;
   FusionInputs inputs_;
   GridMatcher matcher_;
   GridFuser fuser_;

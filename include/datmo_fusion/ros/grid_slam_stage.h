@@ -17,8 +17,7 @@
 #include "datmo_fusion/ros/scan_conversion.h"
 #include "datmo_fusion/ros/scan_extent.h"
 #include "datmo_fusion/ros/stage.h"
-#include "datmo_fusion/ros/stage_monitor.h"
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/stage_runner.h"
 #include "datmo_fusion/ros/transform_buffer.h"
 #include "datmo_fusion/slam/grid_slam.h"
 
@@ -105,14 +104,12 @@ class GridSlamStage : public Stage {
 
   void checkBaseFrame(const std::string& frame) const;
 
-  /// Whichever stream jumps back first, both begin anew. Throws InputError.
-  void checkStamp(StampCheck& stamps, const ros::Time& stamp);
-  void restart();
+  void reset();
   void warnOf(const ScannerMount& mount, const ConvertedScan& converted);
 
   /// For diagnostics.
   void showMatch(const SlamResult& result);
-  GridSlamOutput finish(const SlamResult& result, const Stopwatch& watch);
+  GridSlamOutput finish(const SlamResult& result);
   GridSlamOutput outputOf(const SlamResult& result);
   std::vector<geometry_msgs::TransformStamped> transformsTo(const Pose2& base_in_map, Stamp stamp);
 
@@ -121,9 +118,7 @@ class GridSlamStage : public Stage {
   StageMonitor& monitor_;
   GridSlam slam_;
   ScanExtent extent_;
-  StampCheck scan_stamps_;
-  StampCheck odometry_stamps_;
-  StampCheck grid_stamps_;
+  StageRunner runner_;
   std::deque<OdometryPose> odometry_;  ///< of the last seconds, by rising stamp
   std::deque<Scan> scans_;             ///< that wait for their fused grid, by rising stamp
   Scan last_field_;                    ///< of the last scan: mount and field, without rays

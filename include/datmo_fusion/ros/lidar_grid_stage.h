@@ -10,8 +10,7 @@
 #include "datmo_fusion/ros/motion_input.h"
 #include "datmo_fusion/ros/scan_conversion.h"
 #include "datmo_fusion/ros/stage.h"
-#include "datmo_fusion/ros/stage_monitor.h"
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/stage_runner.h"
 #include "datmo_fusion/ros/transform_buffer.h"
 #include "datmo_fusion/sensor_model/lidar_grid.h"
 
@@ -42,10 +41,10 @@ class LidarGridStage : public Stage {
                  StageMonitor& monitor);
 
   /// Newest odometry; not read where the options say that the vehicle has none.
-  void takeOdometry(const nav_msgs::Odometry& message);
+  void takeOdometry(const nav_msgs::Odometry& message) { takeMotion(message); }
 
   /// Newest pose of the SLAM; read only where the options say that the vehicle has no odometry.
-  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message);
+  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message) { takeMotion(message); }
 
   /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan. Null if it was dropped.
   template <typename Message>
@@ -55,8 +54,9 @@ class LidarGridStage : public Stage {
 
  private:
   template <typename Message>
-  void takeMotion(const Message& message);
-  void warnOfRestart();
+  void takeMotion(const Message& message) {
+    runner_.serve([&] { motion_.take(message); });
+  }
   void warnOf(const ScannerMount& mount, const ConvertedScan& converted);
   Scan compensated(const Scan& scan) const;
 
@@ -64,7 +64,7 @@ class LidarGridStage : public Stage {
   const TransformBuffer& transforms_;
   StageMonitor& monitor_;
   LidarGridModel model_;
-  StampCheck stamps_;
+  StageRunner runner_;
   MotionInput motion_;
 };
 

@@ -7,7 +7,7 @@
 
 #include "datmo_fusion/ros/frame_options.h"
 #include "datmo_fusion/ros/motion_options.h"
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/stage_runner.h"
 #include "datmo_fusion/slam/odometry_buffer.h"
 
 namespace datmo {
@@ -19,22 +19,22 @@ void checkFrames(const nav_msgs::Odometry& message, const FrameOptions& frames);
 /// not measured, as the poses of the SLAM do.
 class MotionInput {
  public:
-  /// Throws OptionError.
-  MotionInput(const MotionOptions& options, FrameOptions frames, double restart_after);
+  /// `runner`: of the stage, which is to call reset() when it is reset itself; it must outlive the
+  /// input. Throws OptionError.
+  MotionInput(const MotionOptions& options, FrameOptions frames, StageRunner& runner);
 
-  /// kRestart: the clock jumped back, and all that was there before is forgotten. Not read where
-  /// the speed is not measured. Throws InputError (`wrong_frame`, `bad_odometry`, `bad_pose`, and
-  /// those of StampCheck).
-  Arrival take(const nav_msgs::Odometry& message);
+  /// Not read where the speed is not measured. Throws InputError (`wrong_frame`, `bad_odometry`,
+  /// `bad_pose`, and those of StageRunner::check).
+  void take(const nav_msgs::Odometry& message);
 
   /// The same for the vehicle's pose in a frame that does not move; read only where its speed
-  /// is not measured. Throws InputError (`bad_pose`, `pose_jump`, and those of StampCheck).
-  Arrival take(const geometry_msgs::PoseWithCovarianceStamped& message);
+  /// is not measured. Throws InputError (`bad_pose`, `pose_jump`, and those of StageRunner::check).
+  void take(const geometry_msgs::PoseWithCovarianceStamped& message);
 
   /// From one stamp to a later one; none if it is not known (OdometryBuffer::motion).
   std::optional<Pose2> between(Stamp from, Stamp to) const { return buffer_.motion(from, to); }
 
-  /// Forgets everything: the clock of another input has jumped back.
+  /// Forgets everything.
   void reset();
 
  private:
@@ -43,13 +43,9 @@ class MotionInput {
     Pose2 pose;
   };
 
-  /// Throws InputError.
-  Arrival checkStamp(const ros::Time& stamp);
-
   MotionOptions options_;
   FrameOptions frames_;
-  double restart_after_;
-  StampCheck stamps_;
+  StageRunner& runner_;
   OdometryBuffer buffer_;
   std::optional<StampedPose> last_pose_;  ///< of the SLAM
 };

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 
@@ -16,8 +15,7 @@
 #include "datmo_fusion/ros/motion_options.h"
 #include "datmo_fusion/ros/shared_options.h"
 #include "datmo_fusion/ros/stage.h"
-#include "datmo_fusion/ros/stage_monitor.h"
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/stage_runner.h"
 #include "datmo_fusion/ros/transform_buffer.h"
 
 namespace datmo {
@@ -80,17 +78,14 @@ class MotionStage : public Stage {
   /// Turns a vector from a sensor's frame to the vehicle's. Throws InputError.
   Eigen::Vector3d inBase(const std::string& frame, const geometry_msgs::Vector3& vector) const;
 
-  /// Of one input. When the clock jumps back, all inputs begin anew. Throws InputError.
-  void checkStamp(const std::string& input, const ros::Time& stamp);
-
+  void reset();
   nav_msgs::OdometryPtr odometryOf(const ros::Time& stamp, const Twist2& twist);
 
   MotionStageOptions options_;
   const TransformBuffer& transforms_;
-  StageMonitor& monitor_;
-  std::map<std::string, StampCheck> stamps_;  ///< by input
-  std::optional<StampedSpeed> speed_;         ///< the newest
-  std::optional<Stamp> last_;                 ///< of the odometry
+  StageRunner runner_;
+  std::optional<StampedSpeed> speed_;  ///< the newest
+  std::optional<Stamp> last_;          ///< of the odometry
   Twist2 last_twist_;
   Pose2 base_in_odom_;
 };

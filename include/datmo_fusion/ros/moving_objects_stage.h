@@ -7,8 +7,7 @@
 #include "datmo_fusion/road/border_filter.h"
 #include "datmo_fusion/ros/messages.h"
 #include "datmo_fusion/ros/stage.h"
-#include "datmo_fusion/ros/stage_monitor.h"
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/stage_runner.h"
 
 namespace datmo {
 
@@ -56,7 +55,7 @@ class MovingObjectsStage : public Stage {
   StageMonitor& monitor_;
   MovingObjectDetector detector_;
   BorderFilter border_filter_;
-  StampCheck stamps_;
+  StageRunner runner_;
   std::optional<RoadModel> road_;  ///< the newest
   std::string road_frame_;
 };

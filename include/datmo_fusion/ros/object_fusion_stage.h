@@ -16,8 +16,7 @@
 #include "datmo_fusion/ros/messages.h"
 #include "datmo_fusion/ros/motion_input.h"
 #include "datmo_fusion/ros/stage.h"
-#include "datmo_fusion/ros/stage_monitor.h"
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/stage_runner.h"
 
 namespace datmo {
 
@@ -52,10 +51,12 @@ class ObjectFusionStage : public Stage {
   void takeObjects(const std::string& source, const ObjectArray& message, Stamp now);
 
   /// Newest odometry; not read where the options say that the vehicle has none.
-  void takeOdometry(const nav_msgs::Odometry& message);
+  void takeOdometry(const nav_msgs::Odometry& message) { inputs_.takeMotion(message); }
 
   /// Newest pose of the SLAM; read only where the options say that the vehicle has no odometry.
-  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message);
+  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
+    inputs_.takeMotion(message);
+  }
 
   /// What the scanner saw; it serves for objects at exactly its stamp.
   void takeLabeledScan(const LabeledScanMessage& message);
@@ -77,11 +78,13 @@ class ObjectFusionStage : public Stage {
                                         std::vector<MissingSource>& missing) const;
   /// None without a scan of this stamp. Sets come by rising stamp: older scans are dropped.
   std::optional<LabeledScan> takeScanAt(Stamp stamp);
-  void forgetAfter(Arrival arrival);
+  ObjectArrayPtr fuse(const Matched& matched);
+  void reset();
   void report(const std::vector<SourceObjects>& lists, const ObjectFusionCounts& counts);
 
   ObjectFusionStageOptions options_;
   StageMonitor& monitor_;
+  StageRunner runner_;
   FusionInputs inputs_;
   SourceMatcher<ObjectList> matcher_;
   ObjectFuser fuser_;

@@ -5,8 +5,7 @@
 #include "datmo_fusion/road/road_border_detector.h"
 #include "datmo_fusion/ros/messages.h"
 #include "datmo_fusion/ros/stage.h"
-#include "datmo_fusion/ros/stage_monitor.h"
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/stage_runner.h"
 
 namespace datmo {
 
@@ -33,12 +32,11 @@ class RoadBorderStage : public Stage {
   void connect(StagePorts& ports) override;
 
  private:
-  void restart(const std::string& reason, const std::string& why);
   void show(const RoadModel& road);
 
   StageMonitor& monitor_;
   RoadBorderDetector detector_;
-  StampCheck stamps_;
+  StageRunner runner_;
   std::string map_frame_;  ///< of the last scan; empty before the first
 };
 

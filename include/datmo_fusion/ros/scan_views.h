@@ -7,6 +7,7 @@
 #include <std_msgs/Header.h>
 
 #include "datmo_fusion/common/pose2.h"
+#include "datmo_fusion/common/scan.h"
 #include "datmo_fusion/ros/messages.h"
 #include "datmo_fusion/tracking/visibility.h"
 
@@ -22,9 +23,11 @@ class ScanViews {
   /// Throws OptionError.
   explicit ScanViews(const VisibilityOptions& options);
 
-  /// Takes a split scan; an older one than the newest begins anew (a looped bag). Throws InputError
-  /// (`bad_pose`, `bad_field`, `bad_point`).
-  void add(const LabeledScanMessage& scan);
+  /// Takes a split scan, newer than those before, and what its message says.
+  void add(const LabeledScanMessage& message, const LabeledScan& scan);
+
+  /// Forgets all scans: the clock has jumped back.
+  void clear() { views_.clear(); }
 
   /// Pose of the vehicle's frame in another one, at exactly the stamp of the header, which also
   /// names the vehicle's frame; none if no split scan said so.

@@ -13,8 +13,7 @@
 #include "datmo_fusion/ros/frame_options.h"
 #include "datmo_fusion/ros/messages.h"
 #include "datmo_fusion/ros/stage.h"
-#include "datmo_fusion/ros/stage_monitor.h"
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/stage_runner.h"
 
 namespace datmo {
 
@@ -54,7 +53,7 @@ class StaticPointsStage : public Stage {
 
   StaticPointsStageOptions options_;
   StageMonitor& monitor_;
-  StampCheck stamps_;
+  StageRunner runner_;
   std::optional<Pose2> mount_;  ///< of the scanner in the vehicle's frame, that was put out last
 };
 

@@ -7,7 +7,7 @@
 #include <sensor_msgs/PointCloud2.h>
 
 #include "datmo_fusion/ros/stage.h"
-#include "datmo_fusion/ros/stage_monitor.h"
+#include "datmo_fusion/ros/stage_runner.h"
 #include "datmo_fusion/ros/stereo_input.h"
 #include "datmo_fusion/ros/transform_buffer.h"
 #include "datmo_fusion/sensor_model/stereo_grid.h"
@@ -51,6 +51,7 @@ class StereoGridStage : public Stage {
   StereoGridStageOptions options_;
   const TransformBuffer& transforms_;
   StageMonitor& monitor_;
+  StageRunner runner_;
   StereoInput input_;
   StereoGridModel model_;
 };

@@ -53,9 +53,6 @@ class StereoInput {
   /// `no_valid_point` if none is within the camera's range).
   StereoCloud cloudOf(const std_msgs::Header& header, CloudPoints& points) const;
 
-  /// How the cloud's stamp follows the last one's. Throws InputError (StampCheck).
-  Arrival check(const std_msgs::Header& header) { return stamps_.check(header.stamp); }
-
  private:
   /// Throws InputError (`missing_camera_info`).
   StereoCamera camera() const;
@@ -65,7 +62,6 @@ class StereoInput {
   StereoInputOptions options_;
   DepthPrinciple principle_;
   const TransformBuffer& transforms_;
-  StampCheck stamps_;
   std::optional<StereoCamera> camera_;  ///< as the last camera info says
 };
 

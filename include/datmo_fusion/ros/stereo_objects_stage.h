@@ -6,7 +6,7 @@
 #include "datmo_fusion/detection/stereo_object_detector.h"
 #include "datmo_fusion/ros/messages.h"
 #include "datmo_fusion/ros/stage.h"
-#include "datmo_fusion/ros/stage_monitor.h"
+#include "datmo_fusion/ros/stage_runner.h"
 #include "datmo_fusion/ros/stereo_input.h"
 #include "datmo_fusion/ros/transform_buffer.h"
 
@@ -44,6 +44,7 @@ class StereoObjectsStage : public Stage {
 
   StereoObjectsStageOptions options_;
   StageMonitor& monitor_;
+  StageRunner runner_;
   StereoInput input_;
   StereoObjectDetector detector_;
 };

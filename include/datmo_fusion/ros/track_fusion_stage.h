@@ -9,8 +9,7 @@
 #include "datmo_fusion/ros/fusion_inputs.h"
 #include "datmo_fusion/ros/messages.h"
 #include "datmo_fusion/ros/stage.h"
-#include "datmo_fusion/ros/stage_monitor.h"
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/stage_runner.h"
 
 namespace datmo {
 
@@ -59,12 +58,16 @@ class TrackFusionStage : public Stage {
   double maxWait() const override { return options_.matcher.max_wait; }
 
  private:
-  void forgetAfter(Arrival arrival);
+  using Matched = MatchedSamples<TrackList>;
+
+  TrackArrayPtr fuse(const Matched& matched);
+  void reset();
   TrackList listOf(const std::string& source, const TrackArray& message);
   void report(const TrackFusionCounts& counts);
 
   TrackFusionStageOptions options_;
   StageMonitor& monitor_;
+  StageRunner runner_;
   FusionInputs inputs_;
   SourceMatcher<TrackList> matcher_;
   TrackFuser fuser_;

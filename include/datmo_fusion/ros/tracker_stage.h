@@ -7,8 +7,7 @@
 #include "datmo_fusion/ros/messages.h"
 #include "datmo_fusion/ros/scan_views.h"
 #include "datmo_fusion/ros/stage.h"
-#include "datmo_fusion/ros/stage_monitor.h"
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/stage_runner.h"
 #include "datmo_fusion/ros/transform_buffer.h"
 #include "datmo_fusion/tracking/tracker.h"
 
@@ -60,11 +59,14 @@ class TrackerStage : public Stage {
     Stamp since;
   };
 
-  void restart();
+  void reset();
 
   /// Throws InputError (`missing_transform`).
   Pose2 baseInFixed(const std_msgs::Header& base) const;
-  TrackArrayPtr track(const ObjectArray& objects, const Pose2& base_in_fixed);
+  bool knowsPose(const std_msgs::Header& base) const;
+
+  /// Throws InputError.
+  TrackArrayPtr track(const ObjectArray& objects);
   void report(const TrackerCounts& before, const TrackerCounts& after);
   bool hasWaitedTooLong(const Waiting& waiting, Stamp now) const;
 
@@ -72,7 +74,7 @@ class TrackerStage : public Stage {
   const TransformBuffer& transforms_;
   StageMonitor& monitor_;
   Tracker tracker_;
-  StampCheck stamps_;
+  StageRunner runner_;
   ScanViews scan_views_;
   std::deque<Waiting> queue_;
   StagePublisher<TrackArray> tracks_;

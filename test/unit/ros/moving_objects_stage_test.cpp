@@ -111,6 +111,7 @@ TEST_F(MovingObjectsStageTest, AJumpBackForgetsWhatWasSeenFree) {
   EXPECT_EQ(take(scanWithMover(footpath, 11.2))->objects->objects.size(), 1U);
   takeRoad(0.0);
   EXPECT_EQ(take(scanWithMover(footpath, 0.0))->objects->objects.size(), 0U);
+  EXPECT_EQ(monitor_.warnings().at("clock_restart"), 1U);
 }
 
 }  // namespace

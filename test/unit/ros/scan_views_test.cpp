@@ -14,12 +14,16 @@ LabeledScanMessage scanAt(double seconds, double x) {
   return toMessage(scan, "base_link", "map");
 }
 
+void add(ScanViews& views, const LabeledScanMessage& message) {
+  views.add(message, fromMessage(message));
+}
+
 std_msgs::Header baseAt(double seconds) { return scanAt(seconds, 0.0).header; }
 
 TEST(ScanViewsTest, ThePoseOfTheSameStampAndFrames) {
   ScanViews views{VisibilityOptions()};
-  views.add(scanAt(1.0, 10.0));
-  views.add(scanAt(2.0, 20.0));
+  add(views, scanAt(1.0, 10.0));
+  add(views, scanAt(2.0, 20.0));
   const auto pose = views.pose(baseAt(1.0), "map");
   ASSERT_TRUE(pose);
   EXPECT_DOUBLE_EQ(pose->x(), 10.0);
@@ -32,11 +36,13 @@ TEST(ScanViewsTest, ThePoseOfTheSameStampAndFrames) {
   EXPECT_FALSE(views.pose(other, "map"));
 }
 
-TEST(ScanViewsTest, AJumpBackBeginsAnew) {
+TEST(ScanViewsTest, ClearedTheyBeginAnew) {
   ScanViews views{VisibilityOptions()};
-  views.add(scanAt(1.0, 10.0));
-  views.add(scanAt(2.0, 20.0));
-  views.add(scanAt(1.0, 30.0));
+  add(views, scanAt(1.0, 10.0));
+  add(views, scanAt(2.0, 20.0));
+  views.clear();
+  EXPECT_FALSE(views.pose(baseAt(1.0), "map"));
+  add(views, scanAt(1.0, 30.0));
   EXPECT_DOUBLE_EQ(views.pose(baseAt(1.0), "map")->x(), 30.0);
   EXPECT_FALSE(views.pose(baseAt(2.0), "map"));
 }
@@ -44,7 +50,7 @@ TEST(ScanViewsTest, AJumpBackBeginsAnew) {
 TEST(ScanViewsTest, ABoundedNumberIsKept) {
   ScanViews views{VisibilityOptions()};
   for (int i = 1; i <= 1000; ++i) {
-    views.add(scanAt(i, i));
+    add(views, scanAt(i, i));
   }
   EXPECT_TRUE(views.pose(baseAt(1000.0), "map"));
   EXPECT_TRUE(views.pose(baseAt(950.0), "map")) << "a second before, at 50 Hz";
@@ -56,7 +62,7 @@ TEST(ScanViewsTest, WhatTheScanOfThatStampCouldSee) {
   scan.stamp = Stamp::fromSeconds(1.0);
   scan.field = {degrees(-90.0), degrees(1.0), 181, 0.1, 40.0, 80.0};
   ScanViews views{VisibilityOptions()};
-  views.add(toMessage(scan, "base_link", "map"));
+  add(views, toMessage(scan, "base_link", "map"));
   const Box2 ahead{{20.0, 0.0, 0.0}, 4.0, 2.0};
   const Box2 behind{{-20.0, 0.0, 0.0}, 4.0, 2.0};
   const Visibility* visibility = views.visibility(baseAt(1.0));
@@ -64,7 +70,7 @@ TEST(ScanViewsTest, WhatTheScanOfThatStampCouldSee) {
   EXPECT_GT(visibility->detectionProbability(ahead, 0.0), 0.9);
   EXPECT_LT(visibility->detectionProbability(behind, 0.0), 0.1);
   EXPECT_EQ(views.visibility(baseAt(1.1)), nullptr) << "no scan of that time";
-  views.add(scanAt(1.2, 0.0));
+  add(views, scanAt(1.2, 0.0));
   EXPECT_EQ(views.visibility(baseAt(1.2)), nullptr) << "a scan that does not tell its field";
 }
 

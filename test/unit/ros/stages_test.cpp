@@ -308,12 +308,40 @@ TEST_F(TrackerStageTest, ThePoseOfTheirScanServesBeforeTfDoes) {
   objectsAt(100.0);
   scanPoseAt(99.94);
   EXPECT_FALSE(nextAt(100.0)) << "only the pose at their own stamp counts";
-  scanPoseAt(100.0, "world");
-  EXPECT_FALSE(nextAt(100.0)) << "and only in the frame of the tracks";
   scanPoseAt(100.0);
   const auto tracks = nextAt(100.0);
   ASSERT_TRUE(tracks);
   EXPECT_EQ(tracks->header.stamp, ros::Time(100.0));
+}
+
+TEST_F(TrackerStageTest, ThePoseOfTheirScanServesOnlyInTheFrameOfTheTracks) {
+  poseAt(99.9);
+  objectsAt(100.0);
+  scanPoseAt(100.0, "world");
+  EXPECT_FALSE(nextAt(100.0));
+}
+
+TEST_F(TrackerStageTest, AScanOfARestartedClockForgetsAllTracksOnce) {
+  poseAt(99.9);
+  objectsAt(110.0);
+  scanPoseAt(110.0);
+  EXPECT_TRUE(nextAt(110.0));
+  scanPoseAt(100.0);
+  objectsAt(100.0);
+  EXPECT_TRUE(nextAt(100.0));
+  EXPECT_EQ(monitor_.warnings().at("clock_restart"), 1U);
+}
+
+TEST_F(TrackerStageTest, ThoseThatWaitedTooLongMakeRoomForTheNext) {
+  objectsAt(100.0);
+  objectsAt(100.1);
+  scanPoseAt(100.1);
+  poseAt(99.9);
+  EXPECT_FALSE(nextAt(100.1)) << "the first waits";
+  const auto tracks = nextAt(100.5);
+  ASSERT_TRUE(tracks);
+  EXPECT_EQ(tracks->header.stamp, ros::Time(100.1));
+  EXPECT_EQ(monitor_.drops().at("missing_transform"), 1U);
 }
 
 TEST_F(TrackerStageTest, ABadPoseOfAScanIsDropped) {
