@@ -27,10 +27,10 @@ void ImageDensity::reset(const StereoCamera& camera) {
   cell_pixels_ = camera.focal_length / per_tangent;
   columns_ = static_cast<float>(std::ceil(width * per_tangent));
   rows_ = std::ceil(2.0F * kMaxTangent * per_tangent_);
-  tile_columns_ = static_cast<std::size_t>(columns_) / kTileSize + 1;
+  tile_columns_ = static_cast<int>(columns_) / kTileSize + 1;
   in_column_.assign(static_cast<std::size_t>(columns_), 0);
   in_row_.assign(static_cast<std::size_t>(rows_), 0);
-  tiles_.assign((static_cast<std::size_t>(rows_) / kTileSize + 1) * tile_columns_, 0);
+  tiles_.assign(rowMajorSize(tile_columns_, static_cast<int>(rows_) / kTileSize + 1), 0);
 }
 
 double ImageDensity::pixelsPerPoint() const {

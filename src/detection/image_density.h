@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "datmo_fusion/grid/row_major.h"
 #include "datmo_fusion/sensor_model/stereo_cloud.h"
 
 namespace datmo {
@@ -19,11 +20,11 @@ class ImageDensity {
     const float column = (right - left_) * per_tangent_;
     const float row = (kMaxTangent - up) * per_tangent_;
     if (column >= 0.0F && column < columns_ && row >= 0.0F && row < rows_) {
-      const auto x = static_cast<std::size_t>(column);
-      const auto y = static_cast<std::size_t>(row);
-      ++in_column_[x];
-      ++in_row_[y];
-      ++tiles_[(y / kTileSize) * tile_columns_ + x / kTileSize];
+      const int x = static_cast<int>(column);
+      const int y = static_cast<int>(row);
+      ++in_column_[static_cast<std::size_t>(x)];
+      ++in_row_[static_cast<std::size_t>(y)];
+      ++tiles_[rowMajorIndex(x / kTileSize, y / kTileSize, tile_columns_)];
     }
   }
 
@@ -37,8 +38,8 @@ class ImageDensity {
   bool hasPoints(double from, double to) const;
 
  private:
-  static constexpr std::size_t kTileSize = 16;  ///< cells
-  static constexpr float kMaxTangent = 1.0F;    ///< above and below the horizon
+  static constexpr int kTileSize = 16;        ///< cells
+  static constexpr float kMaxTangent = 1.0F;  ///< above and below the horizon
 
   // Cells are pixels, but in images larger than any.
   float left_ = 0.0F;         ///< tangent of the image's left border
@@ -46,7 +47,7 @@ class ImageDensity {
   double cell_pixels_ = 1.0;  ///< px, side of a cell
   float columns_ = 0.0F;
   float rows_ = 0.0F;
-  std::size_t tile_columns_ = 0;
+  int tile_columns_ = 0;
   std::vector<int> in_column_;
   std::vector<int> in_row_;
   std::vector<int> tiles_;  ///< row by row

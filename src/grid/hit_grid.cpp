@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "datmo_fusion/grid/neighborhood.h"
+
 namespace datmo {
 
 namespace {
@@ -12,15 +14,6 @@ constexpr int kMaxHits = 100000;
 const HitGridOptions& checked(const HitGridOptions& options) {
   checkOptions(options);
   return options;
-}
-
-template <typename Visit>
-void forEachAround(CellIndex center, Visit&& visit) {
-  for (int row = center.row - 1; row <= center.row + 1; ++row) {
-    for (int column = center.column - 1; column <= center.column + 1; ++column) {
-      visit(CellIndex{column, row});
-    }
-  }
 }
 
 }  // namespace
@@ -72,7 +65,7 @@ void HitGrid::leave(CellIndex cell, const GridWindow& next) {
 void HitGrid::enter(CellIndex center) {
   int sum = 0;
   Cell& entered = cells_.at(center);
-  forEachAround(center, [&](CellIndex index) {
+  forEachNeighbor(center, [&](CellIndex index) {
     const Cell& cell = cells_.atOrEmpty(index);
     sum += cell.hits;
     if (cell.hits > 0) {
@@ -83,7 +76,7 @@ void HitGrid::enter(CellIndex center) {
 }
 
 void HitGrid::addAround(CellIndex center, int hits, const GridWindow& counts) {
-  forEachAround(center, [&](CellIndex cell) {
+  forEachNeighbor(center, [&](CellIndex cell) {
     if (window().contains(cell) && counts.contains(cell)) {
       setSmoothed(cell, cells_.at(cell).smoothed + hits);
     }
@@ -116,7 +109,7 @@ void HitGrid::touchAround(CellIndex center, Stamp stamp) {
     first_stamp_ = stamp;
   }
   const float now = static_cast<float>(secondsBetween(*first_stamp_, stamp));
-  forEachAround(center, [&](CellIndex index) {
+  forEachNeighbor(center, [&](CellIndex index) {
     if (window().contains(index)) {
       Cell& cell = cells_.at(index);
       cell.last_hit = now;

@@ -6,6 +6,7 @@
 
 #include "datmo_fusion/grid/beam_walk.h"
 #include "datmo_fusion/grid/grid_resampling.h"
+#include "datmo_fusion/grid/neighborhood.h"
 
 namespace datmo {
 
@@ -50,15 +51,8 @@ bool OccupancyMap::isGhost(const Cell& cell) const {
 
 template <typename Test>
 bool OccupancyMap::anyNear(CellIndex cell, Test&& test) const {
-  const int reach = options_.static_neighborhood;
-  for (int row = cell.row - reach; row <= cell.row + reach; ++row) {
-    for (int column = cell.column - reach; column <= cell.column + reach; ++column) {
-      if (test(cells_.atOrEmpty({column, row}))) {
-        return true;
-      }
-    }
-  }
-  return false;
+  return anyNeighbor(cell, options_.static_neighborhood,
+                     [&](CellIndex near) { return test(cells_.atOrEmpty(near)); });
 }
 
 PointState OccupancyMap::judge(const Point2& point, const Point2& half_footprint) const {
@@ -78,15 +72,12 @@ PointState OccupancyMap::judge(const Point2& point, const Point2& half_footprint
 
 template <typename Visit>
 void OccupancyMap::forEachSurfaceAround(const Point2& point, Visit&& visit) const {
-  const CellIndex center = window().cellAt(point);
-  for (int row = center.row - 1; row <= center.row + 1; ++row) {
-    for (int column = center.column - 1; column <= center.column + 1; ++column) {
-      const Cell& cell = cells_.atOrEmpty({column, row});
-      if (hasSurface(cell)) {
-        visit(cell, CellIndex{column, row});
-      }
+  forEachNeighbor(window().cellAt(point), [&](CellIndex index) {
+    const Cell& cell = cells_.atOrEmpty(index);
+    if (hasSurface(cell)) {
+      visit(cell, index);
     }
-  }
+  });
 }
 
 std::optional<HitDistribution> OccupancyMap::hitsAround(const Point2& point) const {
@@ -256,8 +247,7 @@ void OccupancyMap::passBeam(const Ray& ray, const Pose2& base_in_map) {
 std::vector<std::int8_t> OccupancyMap::occupancyImage() const {
   constexpr std::int8_t kNothingKnown = -1;
   std::vector<std::int8_t> image;
-  image.reserve(static_cast<std::size_t>(window().columns) *
-                static_cast<std::size_t>(window().rows));
+  image.reserve(rowMajorSize(window().columns, window().rows));
   const CellIndex corner = window().corner;
   for (int row = corner.row; row < corner.row + window().rows; ++row) {
     for (int column = corner.column; column < corner.column + window().columns; ++column) {

@@ -1,10 +1,5 @@
 #include "datmo_fusion/ros/grid_slam_stage.h"
 
-#include <algorithm>
-#include <cmath>
-#include <iterator>
-#include <utility>
-
 #include <boost/make_shared.hpp>
 #include <tf2_msgs/TFMessage.h>
 
@@ -15,9 +10,6 @@
 namespace datmo {
 
 namespace {
-
-/// A second of a fast scanner: more than grid fusion waits for a slow sensor.
-constexpr std::size_t kMaxWaitingScans = 50;
 
 /// The hold of the odometry is said once, for all stages.
 GridSlamOptions slamOptions(const GridSlamStageOptions& options) {
@@ -49,7 +41,9 @@ GridSlamStage::GridSlamStage(const GridSlamStageOptions& options, const Transfor
       monitor_(monitor),
       slam_(slamOptions(options)),
       extent_(options.slam.map.window),
-      runner_(monitor, options.input, "starts with a new map", [this] { reset(); }) {
+      runner_(monitor, options.input, "starts with a new map", [this] { reset(); }),
+      odometry_poses_(options.motion.hold),
+      scans_(monitor) {
   checkOptions(options);
   checkOptions(options.motion);
   checkFrames(options.frames);
@@ -61,37 +55,16 @@ void GridSlamStage::takeOdometry(const nav_msgs::Odometry& message) {
   }
   runner_.serve("odometry", message, [&] {
     checkFrames(message, options_.frames);
-    OdometryPose odometry{toSample(message), fromMessage(message.pose.pose)};
+    OdometrySample sample = toSample(message);
+    const Pose2 base_in_odom = fromMessage(message.pose.pose);
     if (options_.motion.fromOdometry() && options_.motion.odometry_pose) {
-      odometry.sample.base_in_odom = odometry.base_in_odom;
+      sample.base_in_odom = base_in_odom;
     }
-    odometry.sample.speed_measured = options_.motion.hasSpeed();
+    sample.speed_measured = options_.motion.hasSpeed();
     runner_.check("odometry", message.header.stamp);
-    slam_.addOdometry(odometry.sample);
-    keep(odometry);
+    slam_.addOdometry(sample);
+    odometry_poses_.add(sample.stamp, sample.twist, base_in_odom);
   });
-}
-
-void GridSlamStage::keep(const OdometryPose& odometry) {
-  odometry_.push_back(odometry);
-  while (secondsBetween(odometry_.front().sample.stamp, odometry.sample.stamp) > kOdometryMemory) {
-    odometry_.pop_front();
-  }
-}
-
-std::optional<Pose2> GridSlamStage::baseInOdom(Stamp stamp) const {
-  const auto later = std::upper_bound(
-      odometry_.begin(), odometry_.end(), stamp,
-      [](Stamp at, const OdometryPose& odometry) { return at < odometry.sample.stamp; });
-  const auto nearest = later == odometry_.begin() ? later : std::prev(later);
-  if (nearest == odometry_.end()) {
-    return std::nullopt;
-  }
-  const double seconds = secondsBetween(nearest->sample.stamp, stamp);
-  if (std::abs(seconds) > options_.motion.hold) {
-    return std::nullopt;
-  }
-  return nearest->base_in_odom * arc(nearest->sample.twist, seconds);
 }
 
 template <typename Message>
@@ -103,7 +76,7 @@ std::optional<GridSlamOutput> GridSlamStage::takeScan(const Message& message) {
     runner_.check("scan", message.header.stamp);
     warnOf(mount, converted);
     if (options_.fused_grid) {
-      keep(converted.scan);
+      scans_.add(converted.scan);
       return std::nullopt;
     }
     return finish(slam_.process(converted.scan));
@@ -114,17 +87,6 @@ template std::optional<GridSlamOutput> GridSlamStage::takeScan(const sensor_msgs
 template std::optional<GridSlamOutput> GridSlamStage::takeScan(
     const sensor_msgs::MultiEchoLaserScan&);
 
-void GridSlamStage::keep(const Scan& scan) {
-  last_field_ = {scan.stamp, scan.scanner_in_base, scan.field, {}};
-  scans_.push_back(scan);
-  if (scans_.size() > kMaxWaitingScans) {
-    scans_.pop_front();
-    monitor_.dropped(InputError("no_fused_grid", "more than " + std::to_string(kMaxWaitingScans) +
-                                                     " scans wait for their fused grid: expected "
-                                                     "one from grid_fusion, dropped the oldest"));
-  }
-}
-
 std::optional<GridSlamOutput> GridSlamStage::takeGrid(const nav_msgs::OccupancyGrid& message) {
   return runner_.serve([&]() -> std::optional<GridSlamOutput> {
     if (!options_.fused_grid) {
@@ -133,26 +95,8 @@ std::optional<GridSlamOutput> GridSlamStage::takeGrid(const nav_msgs::OccupancyG
     checkBaseFrame(message.header.frame_id);
     const SensorGrid grid = fromMessage(message);
     runner_.check("grid", message.header.stamp);
-    return finish(slam_.process(grid, scanAt(grid.stamp())));
+    return finish(slam_.process(grid, scans_.take(grid.stamp())));
   });
-}
-
-Scan GridSlamStage::scanAt(Stamp stamp) {
-  while (!scans_.empty() && scans_.front().stamp < stamp) {
-    scans_.pop_front();
-    monitor_.dropped(
-        InputError("scan_without_grid", "a scan without fused grid: expected one of its stamp"));
-  }
-  if (!scans_.empty() && scans_.front().stamp == stamp) {
-    Scan scan = std::move(scans_.front());
-    scans_.pop_front();
-    return scan;
-  }
-  monitor_.warned(InputError("no_scan_for_grid",
-                             "no scan of the fused grid's stamp: goes on with the grid alone"));
-  Scan scan = last_field_;
-  scan.stamp = stamp;
-  return scan;
 }
 
 GridSlamOutput GridSlamStage::finish(const SlamResult& result) {
@@ -172,29 +116,18 @@ void GridSlamStage::checkBaseFrame(const std::string& frame) const {
 void GridSlamStage::reset() {
   slam_.reset();
   scans_.clear();
-  odometry_.clear();
+  odometry_poses_.clear();
   last_map_.reset();
   degenerate_scans_ = 0;
 }
 
 void GridSlamStage::warnOf(const ScannerMount& mount, const ConvertedScan& converted) {
-  if (converted.unusable_times) {
-    monitor_.warned(*converted.unusable_times);
-  }
-  if (mount.tilt > options_.max_tilt) {
-    monitor_.warned(InputError("tilted_scanner", "scan plane tilted by " +
-                                                     std::to_string(toDegrees(mount.tilt)) +
-                                                     " degrees: expected at most " +
-                                                     std::to_string(toDegrees(options_.max_tilt))));
+  for (const InputError& fault :
+       faultsOf(mount, converted, options_.max_tilt, "goes on with the predicted pose")) {
+    monitor_.warned(fault);
   }
   if (const auto misfit = extent_.take(converted.scan)) {
     monitor_.warned(*misfit);
-  }
-  const BeamCounts& beams = converted.beams;
-  if (beams.hits == 0 && beams.no_return == 0) {
-    monitor_.warned(InputError("no_valid_beam", "scan with " + std::to_string(beams.dropped) +
-                                                    " beams, none of them valid: goes on with the "
-                                                    "predicted pose"));
   }
 }
 
@@ -236,7 +169,7 @@ std::vector<geometry_msgs::TransformStamped> GridSlamStage::transformsTo(const P
     return {odom_in_map({}),
             toTransform(base_in_map, stamp, options_.frames.odom, options_.frames.base)};
   }
-  const std::optional<Pose2> base_in_odom = baseInOdom(stamp);
+  const std::optional<Pose2> base_in_odom = odometry_poses_.at(stamp);
   if (!base_in_odom) {
     monitor_.warned(
         InputError("silent_odometry",

@@ -47,21 +47,10 @@ template nav_msgs::OccupancyGridPtr LidarGridStage::takeScan(
     const sensor_msgs::MultiEchoLaserScan&);
 
 void LidarGridStage::warnOf(const ScannerMount& mount, const ConvertedScan& converted) {
-  if (converted.unusable_times) {
-    monitor_.warned(*converted.unusable_times);
+  for (const InputError& fault : faultsOf(mount, converted, options_.max_tilt, "says nothing")) {
+    monitor_.warned(fault);
   }
-  if (mount.tilt > options_.max_tilt) {
-    monitor_.warned(InputError("tilted_scanner", "scan plane tilted by " +
-                                                     std::to_string(toDegrees(mount.tilt)) +
-                                                     " degrees: expected at most " +
-                                                     std::to_string(toDegrees(options_.max_tilt))));
-  }
-  const BeamCounts& beams = converted.beams;
-  monitor_.figure("beams with a hit", static_cast<double>(beams.hits));
-  if (beams.hits == 0 && beams.no_return == 0) {
-    monitor_.warned(InputError("no_valid_beam", "scan with " + std::to_string(beams.dropped) +
-                                                    " beams, none of them valid: says nothing"));
-  }
+  monitor_.figure("beams with a hit", static_cast<double>(converted.beams.hits));
 }
 
 Scan LidarGridStage::compensated(const Scan& scan) const {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/ros/input_error.h"
 #include "datmo_fusion/ros/stamp_check.h"
 
@@ -178,6 +179,25 @@ ConvertedScan toScan(const sensor_msgs::LaserScan& message, const ScannerMount& 
 ConvertedScan toScan(const sensor_msgs::MultiEchoLaserScan& message, const ScannerMount& mount,
                      const ScanConversionOptions& options) {
   return convert(message, mount, options);
+}
+
+std::vector<InputError> faultsOf(const ScannerMount& mount, const ConvertedScan& converted,
+                                 double max_tilt, const std::string& without_beams) {
+  std::vector<InputError> faults;
+  if (converted.unusable_times) {
+    faults.push_back(*converted.unusable_times);
+  }
+  if (mount.tilt > max_tilt) {
+    faults.emplace_back("tilted_scanner",
+                        "scan plane tilted by " + std::to_string(toDegrees(mount.tilt)) +
+                            " degrees: expected at most " + std::to_string(toDegrees(max_tilt)));
+  }
+  const BeamCounts& beams = converted.beams;
+  if (beams.hits == 0 && beams.no_return == 0) {
+    faults.emplace_back("no_valid_beam", "scan with " + std::to_string(beams.dropped) +
+                                             " beams, none of them valid: " + without_beams);
+  }
+  return faults;
 }
 
 }  // namespace datmo

@@ -77,10 +77,7 @@ double StereoGridStage::scannerHeight() {
 void StereoGridStage::show(const StereoGridResult& result) {
   monitor_.figure("points of the cloud", static_cast<double>(result.points));
   monitor_.figure("points in the layer of obstacles", static_cast<double>(result.in_layer));
-  monitor_.figure("road seen, 0 or 1", result.road_seen ? 1.0 : 0.0);
-  monitor_.figure("road's height [m]", result.road.height);
-  monitor_.figure("road's slope ahead [m/m]", result.road.slope_x);
-  monitor_.figure("road's slope to the left [m/m]", result.road.slope_y);
+  showRoad(result.road_seen, result.road, monitor_);
 }
 
 void StereoGridStage::connect(StagePorts& ports) {

@@ -91,4 +91,11 @@ StereoCamera StereoInput::configuredCamera() const {
   return camera;
 }
 
+void showRoad(bool seen, const RoadPlane& road, StageMonitor& monitor) {
+  monitor.figure("road seen, 0 or 1", seen ? 1.0 : 0.0);
+  monitor.figure("road's height [m]", road.height);
+  monitor.figure("road's slope ahead [m/m]", road.slope_x);
+  monitor.figure("road's slope to the left [m/m]", road.slope_y);
+}
+
 }  // namespace datmo

@@ -53,10 +53,7 @@ StereoObjects StereoObjectsStage::objectsOf(const StereoCloud& cloud) {
 void StereoObjectsStage::show(const StereoObjects& objects) {
   monitor_.figure("objects", static_cast<double>(objects.list.objects.size()));
   monitor_.figure("points of the cloud", static_cast<double>(objects.points));
-  monitor_.figure("road seen, 0 or 1", objects.road_seen ? 1.0 : 0.0);
-  monitor_.figure("road's height [m]", objects.road.height);
-  monitor_.figure("road's slope ahead [m/m]", objects.road.slope_x);
-  monitor_.figure("road's slope to the left [m/m]", objects.road.slope_y);
+  showRoad(objects.road_seen, objects.road, monitor_);
 }
 
 void StereoObjectsStage::connect(StagePorts& ports) {

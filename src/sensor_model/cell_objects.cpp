@@ -1,5 +1,6 @@
 #include "cell_objects.h"
 
+#include "datmo_fusion/grid/neighborhood.h"
 #include "datmo_fusion/grid/rolling_grid.h"
 
 namespace datmo {
@@ -11,15 +12,13 @@ std::vector<CellIndex> takeObject(CellIndex seed, RollingGrid<char>& left) {
   std::vector<CellIndex> object = {seed};
   left.at(seed) = 0;
   for (std::size_t i = 0; i < object.size(); ++i) {
-    const CellIndex cell = object[i];
-    for (int row = cell.row - 1; row <= cell.row + 1; ++row) {
-      for (int column = cell.column - 1; column <= cell.column + 1; ++column) {
-        if (left.atOrEmpty({column, row}) != 0) {
-          left.at({column, row}) = 0;
-          object.push_back({column, row});
-        }
+    const CellIndex center = object[i];
+    forEachNeighbor(center, [&](CellIndex cell) {
+      if (left.atOrEmpty(cell) != 0) {
+        left.at(cell) = 0;
+        object.push_back(cell);
       }
-    }
+    });
   }
   return object;
 }

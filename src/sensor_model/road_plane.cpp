@@ -7,6 +7,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "datmo_fusion/grid/row_major.h"
 #include "datmo_fusion/sensor_model/stereo_view.h"
 
 namespace datmo {
@@ -81,8 +82,9 @@ class RoadSamples {
       : options_(options),
         camera_(cloud.camera),
         camera_height_(cloud.camera_in_base.translation().z()),
-        columns_(static_cast<std::size_t>(std::ceil(2.0 * options.half_width / kVoteSize))),
-        cells_(columns_ * static_cast<std::size_t>(std::ceil(options.max_distance / kVoteSize))) {
+        columns_(static_cast<int>(std::ceil(2.0 * options.half_width / kVoteSize))),
+        cells_(
+            rowMajorSize(columns_, static_cast<int>(std::ceil(options.max_distance / kVoteSize)))) {
     const StereoView view(cloud, RoadPlane());
     const std::size_t stride = cloud.points.count / kMaxSamples + 1;
     samples_.reserve(kMaxSamples);
@@ -121,12 +123,12 @@ class RoadSamples {
     // In this order what is not a number is left out.
     if (depth > 0.0 && depth < options_.max_distance && column >= 0.0 &&
         column < static_cast<double>(columns_)) {
-      const auto row = static_cast<std::size_t>(depth / kVoteSize);
+      const auto row = static_cast<int>(depth / kVoteSize);
       // Lines of sight fall by the camera's height before they reach the road, so that a depth that
       // is off by its standard deviation lifts or lowers the point.
       const double sigma = camera_height_ * camera_.depthSigma(depth) / depth;
       samples_.push_back({camera_in_base * point.cast<double>(), depth, sigma * sigma,
-                          row * columns_ + static_cast<std::size_t>(column)});
+                          rowMajorIndex(static_cast<int>(column), row, columns_)});
     }
   }
 
@@ -142,7 +144,7 @@ class RoadSamples {
   const RoadPlaneOptions& options_;
   StereoCamera camera_;
   double camera_height_;  ///< m
-  std::size_t columns_;
+  int columns_;
   std::size_t cells_;
   std::vector<Sample> samples_;
 };

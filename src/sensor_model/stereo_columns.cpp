@@ -5,6 +5,7 @@
 
 #include "cell_objects.h"
 
+#include "datmo_fusion/grid/neighborhood.h"
 #include "datmo_fusion/grid/ray_walk.h"
 
 namespace datmo {
@@ -131,14 +132,12 @@ std::vector<CellIndex> StereoColumns::withoutNoise(const std::vector<CellIndex>&
 void StereoColumns::clearMargin(CellIndex occupied, SensorGrid& grid) const {
   const PointInView position = view_.viewedPoint(grid.window().centerOf(occupied));
   const Depths depths = around(position.forward, options_.columns.obstacle_sigmas);
-  const auto clear = [&grid](CellIndex cell) {
-    for (int row = cell.row - 1; row <= cell.row + 1; ++row) {
-      for (int column = cell.column - 1; column <= cell.column + 1; ++column) {
-        if (isFree(grid.atOrUnknown({column, row}))) {
-          grid.at({column, row}) = kUnknownPercent;
-        }
+  const auto clear = [&grid](CellIndex center) {
+    forEachNeighbor(center, [&grid](CellIndex cell) {
+      if (isFree(grid.atOrUnknown(cell))) {
+        grid.at(cell) = kUnknownPercent;
       }
-    }
+    });
   };
   walkRay(grid.window(), view_.positionOf({depths.near, position.tangent() * depths.near}),
           view_.positionOf({depths.far, position.tangent() * depths.far}), clear);

@@ -7,6 +7,7 @@
 
 #include "cell_objects.h"
 
+#include "datmo_fusion/grid/neighborhood.h"
 #include "datmo_fusion/grid/rolling_grid.h"
 
 namespace datmo {
@@ -53,11 +54,7 @@ RollingGrid<int> countPoints(const StereoGridOptions& options, const StereoCloud
 /// Sum over a cell and its eight neighbors (eq. 3.2.3).
 int sumAround(const RollingGrid<int>& counts, CellIndex cell) {
   int sum = 0;
-  for (int row = cell.row - 1; row <= cell.row + 1; ++row) {
-    for (int column = cell.column - 1; column <= cell.column + 1; ++column) {
-      sum += counts.atOrEmpty({column, row});
-    }
-  }
+  forEachNeighbor(cell, [&](CellIndex near) { sum += counts.atOrEmpty(near); });
   return sum;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "datmo_fusion/grid/row_major.h"
 #include "datmo_fusion/sensor_model/point_density.h"
 
 namespace datmo {
@@ -71,7 +72,7 @@ void StereoEvidence::prepare(const StereoCamera& camera, const EvidenceLimits& l
   const double tiles_per_tangent = columns_per_tangent_ / (1 << tile_shift_);
   tile_rows_ = static_cast<int>(std::ceil(2.0 * kMaxTangent * tiles_per_tangent));
   tile_columns_ = (columns_ >> tile_shift_) + 1;
-  tiles_.assign(static_cast<std::size_t>(tile_rows_) * static_cast<std::size_t>(tile_columns_), 0);
+  tiles_.assign(rowMajorSize(tile_columns_, tile_rows_), 0);
 }
 
 StereoEvidence::Scales StereoEvidence::scalesOf(const StereoCloud& cloud, const StereoView& view,
@@ -154,8 +155,7 @@ inline void StereoEvidence::addLine(const ColumnPoint& point, const Scales& scal
   const float fall = scales.camera_height - point.height;
   const float row = 0.5F * scales.tile_rows + fall * point.inverse * scales.tiles_per_tangent;
   if (row >= 0.0F && row < scales.tile_rows) {
-    const int tile = static_cast<int>(row) * tile_columns_ + (point.column >> tile_shift_);
-    ++tiles_[static_cast<std::size_t>(tile)];
+    ++tiles_[rowMajorIndex(point.column >> tile_shift_, static_cast<int>(row), tile_columns_)];
   }
   // From where to where the line is below the layer, and nothing stops it.
   const float per_fall = point.forward / fall;

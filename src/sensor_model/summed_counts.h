@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "datmo_fusion/grid/row_major.h"
+
 namespace datmo {
 
 /// A table of counts that gives the sum over any rectangle of it in four look-ups: a summed-area
@@ -11,8 +13,8 @@ class SummedCounts {
  public:
   /// All 0, and not yet summed. Keeps its memory.
   void reset(int rows, int columns) {
-    stride_ = static_cast<std::size_t>(columns) + 1;
-    counts_.assign((static_cast<std::size_t>(rows) + 1) * stride_, 0);
+    columns_ = columns + 1;
+    counts_.assign(rowMajorSize(columns_, rows + 1), 0);
   }
 
   /// Before sumUp(); row and column must be in the table.
@@ -20,11 +22,12 @@ class SummedCounts {
 
   /// After the last add(), before the first sum().
   void sumUp() {
-    for (std::size_t begin = stride_; begin < counts_.size(); begin += stride_) {
+    const std::size_t row_size = slot(1, 0);
+    for (std::size_t begin = row_size; begin < counts_.size(); begin += row_size) {
       int row_sum = 0;
-      for (std::size_t i = begin; i < begin + stride_; ++i) {
+      for (std::size_t i = begin; i < begin + row_size; ++i) {
         row_sum += counts_[i];
-        counts_[i] = row_sum + counts_[i - stride_];
+        counts_[i] = row_sum + counts_[i - row_size];
       }
     }
   }
@@ -36,11 +39,9 @@ class SummedCounts {
   }
 
  private:
-  std::size_t slot(int row, int column) const {
-    return static_cast<std::size_t>(row) * stride_ + static_cast<std::size_t>(column);
-  }
+  std::size_t slot(int row, int column) const { return rowMajorIndex(column, row, columns_); }
 
-  std::size_t stride_ = 1;
+  int columns_ = 1;          ///< with the one of zeros
   std::vector<int> counts_;  ///< with a row and a column of zeros before the others
 };
 

@@ -4,21 +4,12 @@
 #include <cmath>
 #include <optional>
 
+#include "datmo_fusion/grid/neighborhood.h"
 #include "datmo_fusion/grid/ray_walk.h"
 
 namespace datmo {
 
 namespace {
-
-/// `visit(CellIndex)` for the 3 x 3 cells around one.
-template <typename Visit>
-void forEachAround(CellIndex center, Visit&& visit) {
-  for (int row = center.row - 1; row <= center.row + 1; ++row) {
-    for (int column = center.column - 1; column <= center.column + 1; ++column) {
-      visit(CellIndex{column, row});
-    }
-  }
-}
 
 /// The beam as far as the field reaches, without a hit.
 Ray rayOf(const Scan& scan, std::uint32_t beam) {
@@ -68,7 +59,7 @@ class Unexplained {
   void explain(const Ray& ray, double beam_spacing) {
     const Point2 half_footprint = 0.5 * stepAcross(ray, beam_spacing);
     walkRay(rest_.window(), ray.end - half_footprint, ray.end + half_footprint,
-            [&](CellIndex cell) { forEachAround(cell, [&](CellIndex near) { forget(near); }); });
+            [&](CellIndex cell) { forEachNeighbor(cell, [&](CellIndex near) { forget(near); }); });
   }
 
   std::vector<Point2> centers() const {
@@ -140,7 +131,7 @@ std::vector<Point2> excludeConnectedTo(const std::vector<Point2>& seeds, const S
   while (!open.empty()) {
     const CellIndex cell = open.back();
     open.pop_back();
-    forEachAround(cell, reach);
+    forEachNeighbor(cell, reach);
   }
   std::vector<Point2> apart;
   for (const Point2& position : positions) {
@@ -157,7 +148,7 @@ SensorGrid withoutFreeEdges(const SensorGrid& grid) {
     if (!isOccupied(percent)) {
       return;
     }
-    forEachAround(cell, [&](CellIndex near) {
+    forEachNeighbor(cell, [&](CellIndex near) {
       if (grid.window().contains(near) && isFree(grid.at(near))) {
         result.at(near) = kUnknownPercent;
       }

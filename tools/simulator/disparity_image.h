@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "datmo_fusion/grid/row_major.h"
+
 namespace datmo::simulator {
 
 /// No disparity: the sky, a hole, beyond the ranges.
@@ -18,10 +20,7 @@ struct DisparityImage {
   std::vector<double> seen;      ///< true ones, row by row
   std::vector<double> measured;  ///< what the matching makes of them
 
-  std::size_t slot(int column, int row) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-           static_cast<std::size_t>(column);
-  }
+  std::size_t slot(int column, int row) const { return rowMajorIndex(column, row, columns); }
 };
 
 }  // namespace datmo::simulator

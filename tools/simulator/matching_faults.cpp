@@ -50,7 +50,7 @@ class SmoothNoise {
   SmoothNoise(const DisparityImage& image, int patch, RandomStream& random)
       : patch_(patch), columns_(image.columns * image.column_step / patch + 2) {
     const int rows = image.rows * image.row_step / patch + 2;
-    corners_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows));
+    corners_.resize(rowMajorSize(columns_, rows));
     for (double& corner : corners_) {
       corner = random.normal(1.0);
     }
@@ -69,8 +69,7 @@ class SmoothNoise {
 
  private:
   double between(int left, int row, double across) const {
-    const auto first = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                       static_cast<std::size_t>(left);
+    const std::size_t first = rowMajorIndex(left, row, columns_);
     return (1.0 - across) * corners_[first] + across * corners_[first + 1];
   }
   /// Of a value between two independent ones of standard deviation 1.

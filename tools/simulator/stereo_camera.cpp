@@ -57,8 +57,7 @@ DisparityImage StereoCamera::look(const World& world, const WorldState& state, d
   image.rows = count(options_.image_height, options_.row_step);
   image.column_step = options_.column_step;
   image.row_step = options_.row_step;
-  image.seen.assign(static_cast<std::size_t>(image.columns) * static_cast<std::size_t>(image.rows),
-                    kNoDisparity);
+  image.seen.assign(rowMajorSize(image.columns, image.rows), kNoDisparity);
   image.measured = image.seen;
   const Pose2 camera = state.base * viewpoint().sensor_in_base;
   const double corner = std::hypot(1.0, options_.middleColumn() / options_.focal_length);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "datmo_fusion/grid/grid_window.h"
+#include "datmo_fusion/grid/row_major.h"
 
 namespace datmo {
 
@@ -15,10 +16,7 @@ class RollingGrid {
  public:
   /// A window of at least one cell.
   RollingGrid(const GridWindow& window, const Cell& empty)
-      : window_(window),
-        empty_(empty),
-        cells_(static_cast<std::size_t>(window.columns) * static_cast<std::size_t>(window.rows),
-               empty) {
+      : window_(window), empty_(empty), cells_(rowMajorSize(window.columns, window.rows), empty) {
     moveTo(window.corner);
   }
 
@@ -76,8 +74,7 @@ class RollingGrid {
     const int column =
         wrap(cell.column, window_.corner.column, corner_slot_.column, window_.columns);
     const int row = wrap(cell.row, window_.corner.row, corner_slot_.row, window_.rows);
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(window_.columns) +
-           static_cast<std::size_t>(column);
+    return rowMajorIndex(column, row, window_.columns);
   }
 
   void moveTo(CellIndex corner) {

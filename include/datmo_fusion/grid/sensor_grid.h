@@ -7,6 +7,7 @@
 
 #include "datmo_fusion/common/stamp.h"
 #include "datmo_fusion/grid/grid_window.h"
+#include "datmo_fusion/grid/row_major.h"
 
 namespace datmo {
 
@@ -36,8 +37,7 @@ class SensorGrid {
   SensorGrid(Stamp stamp, const GridWindow& window)
       : stamp_(stamp),
         window_(window),
-        cells_(static_cast<std::size_t>(window.columns) * static_cast<std::size_t>(window.rows),
-               kUnknownPercent) {}
+        cells_(rowMajorSize(window.columns, window.rows), kUnknownPercent) {}
 
   Stamp stamp() const { return stamp_; }
   const GridWindow& window() const { return window_; }
@@ -69,9 +69,8 @@ class SensorGrid {
 
  private:
   std::size_t slot(CellIndex cell) const {
-    return static_cast<std::size_t>(cell.row - window_.corner.row) *
-               static_cast<std::size_t>(window_.columns) +
-           static_cast<std::size_t>(cell.column - window_.corner.column);
+    return rowMajorIndex(cell.column - window_.corner.column, cell.row - window_.corner.row,
+                         window_.columns);
   }
 
   Stamp stamp_;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,7 +18,9 @@
 #include "datmo_fusion/ros/stage.h"
 #include "datmo_fusion/ros/stage_runner.h"
 #include "datmo_fusion/ros/transform_buffer.h"
+#include "datmo_fusion/ros/waiting_scans.h"
 #include "datmo_fusion/slam/grid_slam.h"
+#include "datmo_fusion/slam/odometry_poses.h"
 
 namespace datmo {
 
@@ -85,23 +86,6 @@ class GridSlamStage : public Stage {
   void connect(StagePorts& ports) override;
 
  private:
-  /// Speed, yaw rate and pose of the vehicle as its odometry knows them.
-  struct OdometryPose {
-    OdometrySample sample;
-    Pose2 base_in_odom;
-  };
-
-  void keep(const OdometryPose& odometry);
-
-  /// The scan that waits for the grid of this stamp; without rays if there is none. Those before it
-  /// are forgotten.
-  Scan scanAt(Stamp stamp);
-  void keep(const Scan& scan);
-
-  /// The vehicle in the odometry's frame, from the last odometry up to the stamp or else the first
-  /// one after it; none if that is too far away in time.
-  std::optional<Pose2> baseInOdom(Stamp stamp) const;
-
   void checkBaseFrame(const std::string& frame) const;
 
   void reset();
@@ -119,9 +103,8 @@ class GridSlamStage : public Stage {
   GridSlam slam_;
   ScanExtent extent_;
   StageRunner runner_;
-  std::deque<OdometryPose> odometry_;  ///< of the last seconds, by rising stamp
-  std::deque<Scan> scans_;             ///< that wait for their fused grid, by rising stamp
-  Scan last_field_;                    ///< of the last scan: mount and field, without rays
+  OdometryPoses odometry_poses_;
+  WaitingScans scans_;
   std::optional<Stamp> last_map_;
   std::uint64_t degenerate_scans_ = 0;
 };

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/MultiEchoLaserScan.h>
@@ -51,5 +53,11 @@ ConvertedScan toScan(const sensor_msgs::LaserScan& message, const ScannerMount& 
 /// The same for several echoes a beam: the nearest valid one counts.
 ConvertedScan toScan(const sensor_msgs::MultiEchoLaserScan& message, const ScannerMount& mount,
                      const ScanConversionOptions& options);
+
+/// What a scan is used in spite of: `bad_beam_times`, `tilted_scanner` where the scan plane is
+/// tilted by more than `max_tilt` (rad), `no_valid_beam`. `without_beams`: what follows from the
+/// last one.
+std::vector<InputError> faultsOf(const ScannerMount& mount, const ConvertedScan& converted,
+                                 double max_tilt, const std::string& without_beams);
 
 }  // namespace datmo

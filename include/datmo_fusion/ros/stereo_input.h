@@ -9,8 +9,10 @@
 #include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/ros/cloud_conversion.h"
 #include "datmo_fusion/ros/frame_options.h"
+#include "datmo_fusion/ros/stage_monitor.h"
 #include "datmo_fusion/ros/stamp_check.h"
 #include "datmo_fusion/ros/transform_buffer.h"
+#include "datmo_fusion/sensor_model/road_plane.h"
 #include "datmo_fusion/sensor_model/stereo_cloud.h"
 
 namespace datmo {
@@ -64,5 +66,8 @@ class StereoInput {
   const TransformBuffer& transforms_;
   std::optional<StereoCamera> camera_;  ///< as the last camera info says
 };
+
+/// The road under a cloud, as figures.
+void showRoad(bool seen, const RoadPlane& road, StageMonitor& monitor);
 
 }  // namespace datmo

@@ -248,5 +248,29 @@ TEST(MultiEchoConversion, NoEchoIsNoReturnAndABadOneIsDropped) {
   EXPECT_EQ(converted.beams.dropped, 1U);
 }
 
+std::vector<std::string> faultReasons(const ScannerMount& mount, const ConvertedScan& converted) {
+  std::vector<std::string> reasons;
+  for (const InputError& fault : faultsOf(mount, converted, degrees(5.0), "says nothing")) {
+    reasons.push_back(fault.reason());
+  }
+  return reasons;
+}
+
+TEST(ScanConversion, AGoodScanHasNoFaults) {
+  EXPECT_TRUE(faultReasons(bumper(), convert(samples::laserScan())).empty());
+}
+
+TEST(ScanConversion, FaultsThatDoNotCostTheScanAreNamed) {
+  ScannerMount tilted = bumper();
+  tilted.tilt = degrees(6.0);
+  ConvertedScan nothing;
+  nothing.beams.dropped = 3;
+  nothing.unusable_times = InputError("bad_beam_times", "too long");
+  EXPECT_EQ(faultReasons(tilted, nothing),
+            (std::vector<std::string>{"bad_beam_times", "tilted_scanner", "no_valid_beam"}));
+  EXPECT_STREQ(faultsOf(bumper(), nothing, degrees(5.0), "says nothing").back().what(),
+               "scan with 3 beams, none of them valid: says nothing");
+}
+
 }  // namespace
 }  // namespace datmo

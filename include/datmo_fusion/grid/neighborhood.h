@@ -1,0 +1,30 @@
+#pragma once
+
+#include "datmo_fusion/grid/cell_index.h"
+
+namespace datmo {
+
+/// Whether `test(CellIndex)` holds for a cell within `reach` columns and rows of another one,
+/// itself among them; row by row, and no further than the first one for which it does.
+template <typename Test>
+bool anyNeighbor(CellIndex center, int reach, Test&& test) {
+  for (int row = center.row - reach; row <= center.row + reach; ++row) {
+    for (int column = center.column - reach; column <= center.column + reach; ++column) {
+      if (test(CellIndex{column, row})) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Calls `visit(CellIndex)` for a cell and the eight around it, row by row.
+template <typename Visit>
+void forEachNeighbor(CellIndex center, Visit&& visit) {
+  anyNeighbor(center, 1, [&visit](CellIndex cell) {
+    visit(cell);
+    return false;
+  });
+}
+
+}  // namespace datmo

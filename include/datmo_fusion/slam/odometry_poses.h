@@ -1,0 +1,38 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "datmo_fusion/common/pose2.h"
+#include "datmo_fusion/common/stamp.h"
+#include "datmo_fusion/common/twist2.h"
+
+namespace datmo {
+
+/// Where the vehicle was in its odometry's frame over the last kOdometryMemory seconds.
+class OdometryPoses {
+ public:
+  /// `hold`: how long (s) before and after its stamp a pose serves, moved by its twist.
+  explicit OdometryPoses(double hold) : hold_(hold) {}
+
+  /// By rising stamp.
+  void add(Stamp stamp, const Twist2& twist, const Pose2& base_in_odom);
+
+  /// From the last pose up to the stamp, or else the first one after it; none if that is too far
+  /// away in time.
+  std::optional<Pose2> at(Stamp stamp) const;
+
+  void clear() { poses_.clear(); }
+
+ private:
+  struct MovingPose {
+    Stamp stamp;
+    Twist2 twist;
+    Pose2 base_in_odom;
+  };
+
+  double hold_;
+  std::deque<MovingPose> poses_;
+};
+
+}  // namespace datmo

@@ -1,0 +1,125 @@
+#include "bag_to_graph.h"
+
+#include "command_line.h"
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <geometry_msgs/TwistStamped.h>
+#include <geometry_msgs/TwistWithCovarianceStamped.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <nav_msgs/Odometry.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/Imu.h>
+#include <sensor_msgs/JointState.h>
+#include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/MultiEchoLaserScan.h>
+#include <sensor_msgs/PointCloud2.h>
+
+namespace datmo {
+
+BagToGraph::BagToGraph(const InputTopics& topics, GraphRunner& graph, DriveSummary& drive,
+                       OutputBag& output, const Arguments& arguments)
+    : graph_(graph),
+      drive_(drive),
+      output_(output),
+      write_grids_(arguments.write_grids),
+      refusals_(graph.doors()),
+      text_(arguments.text) {
+  readMotion(topics);
+  readScans(topics);
+  readStereo(topics.stereo);
+  readSources(topics);
+}
+
+void BagToGraph::readSources(const InputTopics& topics) {
+  for (const auto& [topic, source] : topics.grids) {
+    on<nav_msgs::OccupancyGrid>(topic, "grids/" + source);
+  }
+  for (const auto& [topic, source] : topics.objects) {
+    on<ObjectArray>(topic, "objects/" + source);
+  }
+  for (const auto& [topic, source] : topics.tracks) {
+    on<TrackArray>(topic, "tracks/" + source);
+  }
+}
+
+void BagToGraph::takeStaticTransforms(const rosbag::Bag& bag) {
+  rosbag::View view(bag, rosbag::TopicQuery("/tf_static"));
+  for (const rosbag::MessageInstance& message : view) {
+    graph_.takeStaticTransforms(*plain<tf2_msgs::TFMessage>(message));
+  }
+}
+
+void BagToGraph::take(const rosbag::MessageInstance& message) {
+  const auto reader = readers_.find(message.getTopic());
+  if (reader == readers_.end()) {
+    output_.copy(message);
+    return;
+  }
+  write(message.getTime(), reader->second(message, toStamp(message.getTime())));
+  refusals_.book(message.getTopic());
+}
+
+void BagToGraph::readMotion(const InputTopics& topics) {
+  readers_["/tf"] = [this](const rosbag::MessageInstance& message, Stamp now) {
+    return graph_.takeTransforms(*plain<tf2_msgs::TFMessage>(message), now);
+  };
+  const MotionTopics& motion = topics.motion;
+  on<nav_msgs::Odometry>(motion.odometry, "odometry");
+  on<sensor_msgs::Imu>(motion.imu, "imu");
+  on<geometry_msgs::TwistStamped>(motion.twist, "twist");
+  on<geometry_msgs::TwistWithCovarianceStamped>(motion.twist_with_covariance,
+                                                "twist_with_covariance");
+  on<sensor_msgs::JointState>(motion.joint_states, "joint_states");
+}
+
+void BagToGraph::readScans(const InputTopics& topics) {
+  on<sensor_msgs::LaserScan>(topics.scan, "scan");
+  on<sensor_msgs::MultiEchoLaserScan>(topics.echoes, "echoes");
+  on<sensor_msgs::PointCloud2>(topics.cloud, "cloud");
+  on<sensor_msgs::PointCloud2>(topics.object_cloud, "cloud");
+}
+
+void BagToGraph::readStereo(const StereoTopics& topics) {
+  on<sensor_msgs::PointCloud2>(topics.points, "stereo/points2");
+  on<sensor_msgs::Image>(topics.left_image, "stereo/left/image_rect");
+  on<sensor_msgs::CameraInfo>(topics.left_info, "stereo/left/camera_info");
+  on<sensor_msgs::Image>(topics.right_image, "stereo/right/image_rect");
+  on<sensor_msgs::CameraInfo>(topics.right_info, "stereo/right/camera_info");
+}
+
+void BagToGraph::write(const ros::Time& time, const Publications& published) {
+  for (const Publication& publication : published) {
+    drive_.add(publication);
+    text_.add(publication);
+    if (isResult(publication)) {
+      writeAsOneOf<geometry_msgs::PoseWithCovarianceStamped, nav_msgs::OccupancyGrid,
+                   sensor_msgs::LaserScan, sensor_msgs::PointCloud2, tf2_msgs::TFMessage,
+                   LabeledScanMessage, RoadBorders, ObjectArray, DroppedObjects, TrackArray>(
+          time, publication);
+    }
+  }
+}
+
+/// What lies between the stages alone is not written: grids on demand, odometry and clouds never.
+bool BagToGraph::isResult(const Publication& publication) const {
+  const bool is_grid = publication.topic.rfind("grids/", 0) == 0;
+  const bool is_stereo = publication.topic.rfind("stereo/", 0) == 0;
+  return is_grid ? write_grids_ : !is_stereo;
+}
+
+template <typename... Messages>
+void BagToGraph::writeAsOneOf(const ros::Time& time, const Publication& publication) {
+  (writeIf(time, publication.topic, publication.as<Messages>()), ...);
+}
+
+template <typename Message>
+void BagToGraph::writeIf(const ros::Time& time, const std::string& topic,
+                         const boost::shared_ptr<const Message>& message) {
+  if (message) {
+    output_.write(withSlash(topic), time, *message);
+  }
+}
+
+}  // namespace datmo
