@@ -4,8 +4,6 @@
 import json
 import unittest
 
-import numpy as np
-from datmo_tools.track_matching import TrackMatcher, Verdict
 from score_run_bags import (
     CAR_AHEAD,
     FRAMES,
@@ -136,28 +134,29 @@ class WholeRun(ScoreRunCase):
         report = self.score("--set", "topics/tracks=/tracker/tracks")
         self.assertEqual(report["clear_mot"]["mota"], 1.0)
 
-    def test_the_python_matcher_matches_alike(self):
-        """Crowds in which the nearest pairs are often not the best ones, over three seeds."""
-        gate = 2.0
-        for seed in range(3):
-            random = np.random.default_rng(seed)
-            matcher, hits, misses, false = TrackMatcher(gate), 0, 0, 0
-            for i in range(FRAMES):
-                ahead = np.array([CAR_AHEAD + i, 0.0])
-                objects, tracks = (ahead + random.uniform(-2.5, 2.5, (n, 2)) for n in (4, 5))
-                distances = np.linalg.norm(tracks[:, np.newaxis] - objects, axis=2)
-                partners, verdicts = matcher.match([11, 12, 13, 14, 15], [1, 2, 3, 4],
-                                                   np.ones(4, dtype=bool), distances)  # fmt: skip
-                hits += verdicts.count(Verdict.HIT)
-                false += verdicts.count(Verdict.FALSE)
-                misses += 4 - sum(partner is not None for partner in partners)
-                self.truth_messages["/ground_truth/objects"][i].objects = [
-                    car_at(j + 1, *position) for j, position in enumerate(objects)]
-                self.run_messages["/tracks"][i].tracks = [
-                    track_at(j + 11, *position) for j, position in enumerate(tracks)]
-            found = self.score("--set", "matching/distance=to_center")["clear_mot"]
-            self.assertEqual((found["matches"], found["misses"], found["false_positives"]),
-                             (hits, misses, false), seed)
+    def test_matches_of_each_frame(self):
+        """Two cars that change their tracks halfway, and a track of neither."""
+        for i, (truth, tracks) in enumerate(zip(self.truth_messages["/ground_truth/objects"],
+                                                self.run_messages["/tracks"])):
+            x = CAR_AHEAD + i
+            numbers = (7, 8) if i < FRAMES // 2 else (8, 7)
+            truth.objects = [car_at(1, x, 0.0), car_at(2, x, 6.0)]
+            tracks.tracks = [track_at(numbers[0], x, 0.25), track_at(9, x, -9.0)]
+            tracks.tracks += [track_at(numbers[1], x, 6.5)] * (i > 0)
+        file = self.folder / "matches.json"
+        report = self.score("--matches", str(file), "--set", "matching/distance=to_center")
+        with open(file, encoding="utf-8") as text:
+            frames = json.load(text)["frames"]
+        self.assertEqual([frame["stamp_ns"] for frame in frames],
+                         [item.header.stamp.to_nsec() for item in self.run_messages["/tracks"]])
+        self.assertEqual(frames[0]["matches"], [
+            {"truth_id": 1, "track_id": 7, "distance_m": 0.25, "required": True}])
+        self.assertEqual((frames[0]["missed"], frames[0]["false"]), ([2], [9]))
+        self.assertEqual([pair["track_id"] for pair in frames[-1]["matches"]], [8, 7])
+        changed = [(i, item["truth_id"], item["from"], item["to"])
+                   for i, frame in enumerate(frames) for item in frame["switches"]]
+        self.assertEqual(changed, [(FRAMES // 2, 1, 7, 8), (FRAMES // 2, 2, 8, 7)])
+        self.assertEqual(report["clear_mot"]["id_switches"], 2)
 
     def test_a_run_that_finds_nothing_is_a_run(self):
         for message in self.run_messages["/tracks"]:

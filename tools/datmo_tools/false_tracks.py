@@ -6,7 +6,6 @@ import numpy as np
 
 from datmo_tools.passed_tracks import account
 from datmo_tools.track_frames import Newest, sightings_of
-from datmo_tools.track_matching import Verdict
 from datmo_tools.track_views import is_visible, is_in_view
 
 
@@ -21,9 +20,9 @@ class FalseTrack(NamedTuple):
 def false_tracks(frames):
     """List of FalseTrack in some TrackFrames of one list."""
     found = []
-    counted = sightings_of(frames, lambda frame, row: frame.verdicts[row] is not None)
+    counted = sightings_of(frames, lambda frame, row: frame.counts(row))
     for number, observations in counted.items():
-        false = [(frame, row) for frame, row in observations if frame.verdicts[row] == Verdict.FALSE]
+        false = [(frame, row) for frame, row in observations if frame.is_false(row)]
         if 2 * len(false) > len(observations):
             found.append(FalseTrack(number, observations, false))
     return found
@@ -55,9 +54,9 @@ def _score_list(frames, views, gate):
         described = account(item.id, item.observations, item.false)
         accounts.append({**described, "what": sort, "visible": visible})
     in_frames = sum(
-        verdict == Verdict.FALSE and _is(frame, row, views, is_in_view)
+        frame.is_false(row) and _is(frame, row, views, is_in_view)
         for frame in frames
-        for row, verdict in enumerate(frame.verdicts)
+        for row in range(len(frame.tracks))
     )
     return {
         "all": len(found),

@@ -46,6 +46,9 @@ class Asked(NamedTuple):
         return seen and self.region.contains(pose) and (item.moving or not self.moving_only)
 
 
+ANYTHING = Asked(Region(math.inf), NONE)
+
+
 class Truth:
     """True objects and poses of one drive."""
 

@@ -33,8 +33,7 @@ def score_passed(fused, members, gate):
     both = sightings_of(fused, lambda frame, row: has_passed(frame.tracks[row], members))
     judged = sightings_of(
         fused,
-        lambda frame, row: frame.verdicts[row] is not None
-        and has_passed(frame.tracks[row], members),
+        lambda frame, row: frame.counts(row) and has_passed(frame.tracks[row], members),
     )
     false, on_user = [], 0
     for number, observations in judged.items():

@@ -1,16 +1,20 @@
 """Command line of score_labeled_positions."""
 
 import argparse
+import tempfile
 from pathlib import Path
 
 import numpy as np
+from geometry_msgs.msg import Point, Pose, Quaternion
 
-from datmo_tools import command_line
+from datmo_fusion.msg import Track, TrackArray, TrueObject, TrueObjectArray
+from datmo_tools import bag_messages, command_line
+from datmo_tools.bag_file import whole_bag
 from datmo_tools.errors import InputError
 from datmo_tools.labeled_positions import LabelOptions, read_labels
+from datmo_tools.score_run import matches
 from datmo_tools.stamps import NANOSECONDS
 from datmo_tools.track_lists import read_track_lists
-from datmo_tools.track_matching import TrackMatcher
 
 DESCRIPTION = """\
 Scores the tracks of a result of run_bag against positions that were labeled in the recording, as
@@ -22,6 +26,7 @@ What is not labeled is not judged: labels of some people say nothing of false tr
 
 TRACKS = "/tracks"
 GATE = 0.5  # m
+EVERYWHERE = 500.0  # m
 TRACK_TOLERANCE = 0.05  # s, from the stamp of a label to that of the nearest list of tracks
 
 
@@ -63,59 +68,70 @@ def score(run, recording, options, gate=GATE):
     labels = read_labels(recording, run, options)
     if not labels:
         raise InputError(f"{recording}: no label of {options.topic} is of a scan, expected some")
-    lists = {item.stamp: item for item in read_track_lists(run, [TRACKS])[TRACKS]}
-    stamps = np.array(sorted(lists))
-    matcher, last, distances = TrackMatcher(gate), {}, []
-    found, switches = {}, []
-    for stamp in sorted({label.stamp for label in labels}):
-        group = [label for label in labels if label.stamp == stamp]
-        tracks = _tracks_at(lists, stamps, stamp)
-        apart = _distances(tracks, group)
-        partners, _ = matcher.match(
-            [track.id for track in tracks], [label.id for label in group],
-            np.ones(len(group), dtype=bool), apart,
-        )  # fmt: skip
-        of_label = {column: row for row, column in enumerate(partners) if column is not None}
-        for column, label in enumerate(group):
-            hits, count = found.get(label.id, (0, 0))
-            row = of_label.get(column)
-            found[label.id] = hits + (row is not None), count + 1
-            if row is None:
-                continue
-            distances.append(float(apart[row, column]))
-            if last.setdefault(label.id, tracks[row].id) != tracks[row].id:
-                switches.append({"stamp_s": stamp / NANOSECONDS, "id": label.id,
-                                 "from": last[label.id], "to": tracks[row].id})  # fmt: skip
-            last[label.id] = tracks[row].id
-    return _result(labels, found, switches, distances, gate)
+    lists = read_track_lists(run, [TRACKS])[TRACKS]
+    # Of any type in the recording, in score_run's bags a number from 0 on.
+    ids = sorted({label.id for label in labels})
+    labels = [label._replace(id=ids.index(label.id)) for label in labels]
+    found, switches, distances = {name: [] for name in ids}, [], []
+    for stamp, frame in _matched(labels, lists, gate).items():
+        distances += frame.distances.values()
+        for number in frame.required:
+            found[ids[number]].append(number in frame.objects.values())
+        switches += [
+            {"stamp_s": stamp / NANOSECONDS, "id": ids[number], "from": last, "to": present}
+            for number, (last, present) in frame.switches.items()
+        ]
+    return _result(len(labels), found, switches, distances, gate)
 
 
-def _tracks_at(lists, stamps, stamp):
-    if not len(stamps):
-        return []
-    nearest = stamps[np.argmin(np.abs(stamps - stamp))]
-    return lists[nearest].tracks if abs(nearest - stamp) <= TRACK_TOLERANCE * NANOSECONDS else []
+def _matched(labels, lists, gate):
+    """Dictionary stamp (ns) -> FrameMatches of the labels there and the tracks nearest in time."""
+    stamps = np.array([item.stamp for item in lists])
+    options = {"align": "none", "moving_tracks_only": False, "truth/visible_to": "none",
+               "truth/min_time_seen": 0.0, "region/range": EVERYWHERE, "matching/gate": gate,
+               "matching/distance": "to_center"}  # fmt: skip
+    with tempfile.TemporaryDirectory(prefix="labels_") as folder:
+        laid_together = Path(folder) / "labels.bag"
+        with whole_bag(laid_together, "evaluate") as bag:
+            for stamp in sorted({label.stamp for label in labels}):
+                nearest = lists[int(np.argmin(np.abs(stamps - stamp)))]
+                is_near = abs(nearest.stamp - stamp) <= TRACK_TOLERANCE * NANOSECONDS
+                tracks = nearest.tracks if is_near else []
+                there = [label for label in labels if label.stamp == stamp]
+                for topic, message in _messages(stamp, tracks, there).items():
+                    bag.write(topic, stamp, message)
+        return matches(laid_together, None, options)
 
 
-def _distances(tracks, group):
-    """Tracks x labels, m."""
-    points = np.array([track.pose[:2] for track in tracks]).reshape(-1, 1, 2)
-    positions = np.array([label.position for label in group]).reshape(1, -1, 2)
-    return np.linalg.norm(points - positions, axis=2)
-
-
-def _result(labels, found, switches, distances, gate):
+def _messages(stamp, tracks, labels):
+    header = bag_messages.header(stamp, bag_messages.MAP)
+    about = (*labels[0].position, 0.0)
+    objects = [TrueObject(id=label.id, pose=_pose(label.position), moving=True) for label in labels]
     return {
-        "positions": len(labels),
+        TRACKS: TrackArray(header=header, tracks=[
+            Track(id=track.id, pose=_pose(track.pose)) for track in tracks]),
+        "/ground_truth/objects": TrueObjectArray(header=header, objects=objects),
+        "/ground_truth/pose": bag_messages.planar_odometry(
+            stamp, bag_messages.MAP, bag_messages.BASE, about, 0.0, 0.0),
+    }  # fmt: skip
+
+
+def _pose(position):
+    return Pose(Point(position[0], position[1], 0.0), Quaternion(0.0, 0.0, 0.0, 1.0))
+
+
+def _result(count, found, switches, distances, gate):
+    return {
+        "positions": count,
         "found": len(distances),
-        "found_share": len(distances) / len(labels),
+        "found_share": len(distances) / count,
         "gate_m": gate,
         "median_distance_m": float(np.median(distances)) if distances else None,
         "id_switches": len(switches),
         "ids": len(found),
-        "ids_never_found": sorted(name for name, (hits, _) in found.items() if hits == 0),
-        "by_id": {str(name): {"found": hits, "positions": count}
-                  for name, (hits, count) in sorted(found.items())},
+        "ids_never_found": sorted(name for name, hits in found.items() if not any(hits)),
+        "by_id": {str(name): {"found": sum(hits), "positions": len(hits)}
+                  for name, hits in sorted(found.items())},
         "switches": switches,
     }  # fmt: skip
 

@@ -1,15 +1,27 @@
-"""Calls score_run, which scores one run, and reads what it wrote."""
+"""Calls score_run, which matches tracks to true objects and scores one run; reads what it wrote."""
 
 import json
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from typing import NamedTuple
 
 from datmo_tools import programs
 from datmo_tools.errors import InputError
 
 FORMAT = 1  # of score_run's JSON that is understood here
+
+
+class FrameMatches(NamedTuple):
+    """What score_run made of one list of tracks. Tracks that do not count are in none of these."""
+
+    objects: dict  # id of a track -> that of its true object
+    distances: dict  # id of a track -> m, to that object
+    required: set  # ids of the true objects that have to be found
+    false: set  # ids of the tracks of no object
+    counted: set  # ids of all tracks that count
+    switches: dict  # id of an object -> ids of the track that it had last, and of that it has
 
 
 def find_score_run(beside=None):
@@ -23,13 +35,55 @@ def score(program, run, truth, settings):
     truth: bag with the truth, or None where the run's holds it; settings: words for the command
     line of score_run. Where it fails it has said why: its exit code becomes ours (SystemExit).
     """
-    bags = [str(run)] if truth is None else [str(run), str(truth)]
-    with tempfile.TemporaryDirectory(prefix="evaluate_") as folder:
-        report = Path(folder) / "score.json"
-        done = subprocess.run([program, *bags, *settings, "--out", str(report)], check=False)
+
+    def call(words):
+        done = subprocess.run([program, *words], check=False)
         if done.returncode != 0:
             raise SystemExit(done.returncode if done.returncode > 0 else 1)
-        scored = json.loads(report.read_text(encoding="utf-8"))
-    if scored["format"] != FORMAT:
-        raise InputError(f"{program} writes format {scored['format']}, expected {FORMAT}")
-    return scored
+
+    return _written(call, [*_bags(run, truth), *settings, "--out"])
+
+
+def matches(run, truth, options):
+    """Dictionary stamp (ns) -> FrameMatches of the bag `run`.
+
+    truth: as in score(); options: dictionary of score_run's. Raises InputError where it fails.
+    """
+    settings = [word for key, value in options.items() for word in ("--set", f"{key}={value}")]
+
+    def call(words):
+        try:
+            programs.call(Path(find_score_run()), *words)
+        except programs.StepFailed as error:
+            raise InputError(str(error)) from error
+
+    written = _written(call, [*_bags(run, truth), *settings, "--matches"])
+    return {frame["stamp_ns"]: _frame_matches(frame) for frame in written["frames"]}
+
+
+def _bags(run, truth):
+    return [str(run)] if truth is None else [str(run), str(truth)]
+
+
+def _written(call, words):
+    """What `call`, of score_run with the words and a file, writes there."""
+    with tempfile.TemporaryDirectory(prefix="score_run_") as folder:
+        file = Path(folder) / "written.json"
+        call([*words, str(file)])
+        written = json.loads(file.read_text(encoding="utf-8"))
+    if written["format"] != FORMAT:
+        raise InputError(f"score_run writes format {written['format']}, expected {FORMAT}")
+    return written
+
+
+def _frame_matches(frame):
+    pairs = frame["matches"]
+    objects = {pair["track_id"]: pair["truth_id"] for pair in pairs}
+    return FrameMatches(
+        objects,
+        {pair["track_id"]: pair["distance_m"] for pair in pairs},
+        {pair["truth_id"] for pair in pairs if pair["required"]} | set(frame["missed"]),
+        set(frame["false"]),
+        {*objects, *frame["false"], *frame["neutral"]},
+        {item["truth_id"]: (item["from"], item["to"]) for item in frame["switches"]},
+    )

@@ -8,7 +8,7 @@ from datmo_tools import command_line
 from datmo_tools.confirmed_objects import score_confirmed
 from datmo_tools.errors import InputError
 from datmo_tools.false_tracks import reduction, score_false
-from datmo_tools.object_truth import ANY, NONE, Asked, Region
+from datmo_tools.object_truth import ANY, NONE, Region
 from datmo_tools.passed_tracks import score_passed
 from datmo_tools.region_options import add_region, region_of
 from datmo_tools.track_frames import Scene
@@ -72,9 +72,8 @@ def score(run, drive=None, limits=Limits()):
     topics = {"fused": FUSED, **{source: f"{FUSED}/{source}" for source in SENSORS}}
     lists = read_track_lists(run, topics.values())
     lists = {name: lists[topic] for name, topic in topics.items()}
-    asked = Asked(limits.region, limits.visible_to, moving_only=True)
-    scene = Scene(run, drive or run, asked, limits.gate)
-    frames = {name: scene.frames(items) for name, items in lists.items()}
+    scene = Scene(run, drive or run, limits.region, limits.visible_to, limits.gate)
+    frames = {name: scene.frames(topics[name], items) for name, items in lists.items()}
     if not frames["fused"]:
         raise InputError(f"{run}: no list of tracks has a stamp near one of truth and pose")
     fused, members = frames["fused"], {source: frames[source] for source in SENSORS}

@@ -7,10 +7,10 @@ import numpy as np
 
 from datmo_fusion.msg import Object
 from datmo_tools import transforms
-from datmo_tools.object_truth import MAX_GAP, Truth
+from datmo_tools.object_truth import ANYTHING, Truth
 from datmo_tools.pose_path import read_path
+from datmo_tools.score_run import FrameMatches, matches
 from datmo_tools.stamps import NANOSECONDS
-from datmo_tools.track_matching import TrackMatcher, distances_to_boxes
 
 POSE = "/pose"  # estimated, of the run
 
@@ -42,8 +42,15 @@ class TrackFrame(NamedTuple):
     positions: np.ndarray  # n x 2, m, base_link
     moment: Moment
     distances: np.ndarray  # n x m, m, from the tracks to the boxes of the true objects
-    partners: list  # index of the true object that it is matched to, of those that move; or None
-    verdicts: list  # Verdict; None: it does not count, since it stands or is out of the region
+    matches: FrameMatches
+
+    def counts(self, row):
+        """Whether it is moving, and in the region or on an object that has to be found."""
+        return self.tracks[row].id in self.matches.counted
+
+    def is_false(self, row):
+        """Whether it counts and is on no true object that moves at some time."""
+        return self.tracks[row].id in self.matches.false
 
     def near(self, row, gate, among):
         """Indices of the true objects (those of the bool array `among`) within the gate (m)."""
@@ -53,37 +60,35 @@ class TrackFrame(NamedTuple):
 class Scene:
     """True objects about the vehicle, as the run takes itself to see them: tracks are laid on the
     truth by the estimated pose of the vehicle on its true one, so that the drift of the map does
-    not count (as score_run does)."""
+    not count. Which track is of which object is score_run's to say."""
 
-    def __init__(self, run, drive, asked, gate):
-        """run, drive: bags (Path); asked: of the objects that have to be found (Asked); gate: m,
-        within which a track may be of an object. Raises InputError."""
-        self.gate = gate
-        self._asked = asked
+    def __init__(self, run, drive, region, visible_to, gate):
+        """run, drive: bags (Path); region: in which objects have to be found; visible_to: sensor
+        that must see them, ANY or NONE; gate: m, within which a track may be of an object. Raises
+        InputError."""
+        self._bags = run, drive
+        self._options = {
+            "region/range": region.range, "region/half_angle": region.half_angle,
+            "truth/visible_to": visible_to, "truth/min_time_seen": 0.0, "matching/gate": gate,
+        }  # fmt: skip
         self._truth = Truth(drive)
-        self._truth.check_seen_by(asked.sensor)
+        self._truth.check_seen_by(visible_to)
         self._movers = self._truth.movers()
         self._poses = read_path(run, POSE)
-        self._moments = {}
 
-    def frames(self, lists):
-        """List of TrackFrame of those lists (TrackList, by rising stamp) whose truth is known."""
-        matcher = TrackMatcher(self.gate)
+    def frames(self, topic, lists):
+        """List of TrackFrame of the lists of a topic (TrackList, by rising stamp) that score_run
+        knows the truth of."""
+        found = matches(*self._bags, {**self._options, "topics/tracks": topic})
         frames = []
         for item in lists:
-            moment = self._moment(item.stamp)
-            if moment is not None:
-                frames.append(self._frame(item, moment, matcher))
+            states = self._truth.at(item.stamp, ANYTHING) if item.stamp in found else None
+            if states is not None:
+                moment = self._moment(item.stamp, states, found[item.stamp].required)
+                frames.append(self._frame(item, moment, found[item.stamp]))
         return frames
 
-    def _moment(self, stamp):
-        if stamp not in self._moments:
-            known = self._poses.distance_from(stamp) <= MAX_GAP * NANOSECONDS
-            states = self._truth.at(stamp, self._asked) if known else None
-            self._moments[stamp] = None if states is None else self._as_moment(stamp, states)
-        return self._moments[stamp]
-
-    def _as_moment(self, stamp, states):
+    def _moment(self, stamp, states, required):
         ids = [state.source.id for state in states]
         return Moment(
             self._truth.base_at(stamp),
@@ -93,31 +98,29 @@ class Scene:
             np.array([state.size for state in states]).reshape(-1, 2),
             np.array([number in self._movers for number in ids], dtype=bool),
             np.array([state.classification in ROAD_USERS for state in states], dtype=bool),
-            np.array([state.asked for state in states], dtype=bool),
+            np.array([number in required for number in ids], dtype=bool),
         )
 
-    def _frame(self, item, moment, matcher):
+    def _frame(self, item, moment, matched):
         base = self._poses.at(item.stamp)
         poses = np.array([track.pose for track in item.tracks]).reshape(-1, 3)
         positions = transforms.relative(base, poses)[:, :2]
         distances = distances_to_boxes(positions, moment.poses, moment.sizes)
-        frame = TrackFrame(item.stamp, item.tracks, positions, moment, distances,
-                           [None] * len(positions), [None] * len(positions))  # fmt: skip
-        rows = [row for row, track in enumerate(item.tracks) if self._counts(frame, row, track)]
-        columns = np.flatnonzero(moment.movers)
-        partners, verdicts = matcher.match(
-            [item.tracks[row].id for row in rows], moment.ids[columns].tolist(),
-            moment.required[columns], distances[np.ix_(rows, columns)])  # fmt: skip
-        for row, partner, verdict in zip(rows, partners, verdicts):
-            frame.partners[row] = None if partner is None else int(columns[partner])
-            frame.verdicts[row] = verdict
-        return frame
+        return TrackFrame(item.stamp, item.tracks, positions, moment, distances, matched)
 
-    def _counts(self, frame, row, track):
-        if not track.moving:
-            return False
-        in_region = self._asked.region.contains(frame.positions[row])
-        return in_region or len(frame.near(row, self.gate, frame.moment.required)) > 0
+
+def distances_to_boxes(positions, poses, sizes):
+    """Distances (n x m, m) of positions (n x 2) from boxes, 0 inside.
+
+    poses: m x 3, x, y (m), yaw (rad) of their centers; sizes: m x 2, length, width (m).
+    """
+    apart = positions[:, np.newaxis] - poses[np.newaxis, :, :2]
+    cosine, sine = np.cos(poses[:, 2]), np.sin(poses[:, 2])
+    along = cosine * apart[..., 0] + sine * apart[..., 1]
+    across = cosine * apart[..., 1] - sine * apart[..., 0]
+    outside = [np.maximum(np.abs(along) - 0.5 * sizes[:, 0], 0.0),
+               np.maximum(np.abs(across) - 0.5 * sizes[:, 1], 0.0)]  # fmt: skip
+    return np.hypot(*outside)
 
 
 class Newest:

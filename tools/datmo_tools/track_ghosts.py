@@ -11,25 +11,20 @@ def score_ghosts(frames, gate):
     objects there have other tracks. An id switch is an object that has to be found and is matched
     to another track than last time.
     """
-    ghost_frames, ghosts, switches, last = 0, {}, {}, {}
-    labels = {}
+    ghost_frames, ghosts, switches, labels = 0, {}, {}, {}
     for frame in frames:
         of_frame = 0
-        for row, verdict in enumerate(frame.verdicts):
+        labels.update((item.id, item.label) for item in frame.moment.items)
+        for row, track in enumerate(frame.tracks):
             near = frame.near(row, gate, frame.moment.movers)
-            if verdict is None or frame.partners[row] is not None or not len(near):
+            if not frame.counts(row) or track.id in frame.matches.objects or not len(near):
                 continue
             item = frame.moment.items[near[np.argmin(frame.distances[row, near])]]
-            labels[item.id] = item.label
             ghosts[item.id] = ghosts.get(item.id, 0) + 1
             of_frame += 1
         ghost_frames += of_frame > 0
-        for row, partner in enumerate(frame.partners):
-            if partner is not None and frame.moment.required[partner]:
-                item, track = frame.moment.items[partner], frame.tracks[row].id
-                labels[item.id] = item.label
-                switches[item.id] = switches.get(item.id, 0) + (last.get(item.id, track) != track)
-                last[item.id] = track
+        for number in frame.matches.switches:
+            switches[number] = switches.get(number, 0) + 1
     named = {
         number: {"id": number, "label": labels[number], "ghost_frames": ghosts.get(number, 0),
                  "id_switches": switches.get(number, 0)}
@@ -40,5 +35,5 @@ def score_ghosts(frames, gate):
         "ghost_frames": ghost_frames,
         "ghosts": sum(ghosts.values()),
         "id_switches": sum(switches.values()),
-        "objects": [item for item in named.values() if item["ghost_frames"] + item["id_switches"]],
+        "objects": list(named.values()),
     }

@@ -17,7 +17,7 @@ class EventCounter {
  public:
   explicit EventCounter(const MatchOptions& options) : options_(options) {}
 
-  void add(const Frame& frame, const FrameMatching& matching) {
+  void add(std::size_t number, const Frame& frame, const FrameMatching& matching) {
     for (std::size_t i = 0; i < frame.truths.size(); ++i) {
       const TrueState& truth = frame.truths[i];
       const int track = matching.track_of_truth[i];
@@ -28,7 +28,7 @@ class EventCounter {
       if (track == kUnassigned) {
         addMiss(past_[truth.id]);
       } else {
-        addMatch(truth, frame.tracks[static_cast<std::size_t>(track)], past_[truth.id]);
+        addMatch(number, truth, frame.tracks[static_cast<std::size_t>(track)], past_[truth.id]);
       }
     }
     counts_.false_positives += matching.falseTracks();
@@ -49,10 +49,12 @@ class EventCounter {
     past.missed_since = past.matched;
   }
 
-  void addMatch(const TrueState& truth, const TrackState& track, Past& past) {
+  void addMatch(std::size_t number, const TrueState& truth, const TrackState& track, Past& past) {
     ++counts_.matches;
     distance_ += matchDistance(truth, track, options_);
-    counts_.id_switches += past.matched && past.track != track.id ? 1 : 0;
+    if (past.matched && past.track != track.id) {
+      counts_.switches.push_back({number, truth.id, past.track, track.id});
+    }
     counts_.fragmentations += past.missed_since ? 1 : 0;
     past = {true, track.id, false};
   }
@@ -83,11 +85,11 @@ ClearMot scoreClearMot(const Frames& frames, const Matching& matching,
                        const MatchOptions& options) {
   EventCounter counter(options);
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    counter.add(frames[i], matching[i]);
+    counter.add(i, frames[i], matching[i]);
   }
   ClearMot result = counter.counts();
   if (result.required > 0) {
-    const std::size_t errors = result.misses + result.false_positives + result.id_switches;
+    const std::size_t errors = result.misses + result.false_positives + result.switches.size();
     result.mota = 1.0 - static_cast<double>(errors) / static_cast<double>(result.required);
   }
   if (result.matches > 0) {

@@ -1,11 +1,21 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "evaluation/matching.h"
 
 namespace datmo::evaluation {
+
+/// An object is matched to another track than last time.
+struct IdSwitch {
+  std::size_t frame = 0;
+  std::uint32_t truth = 0;  ///< ids
+  std::uint32_t from = 0;
+  std::uint32_t to = 0;
+};
 
 /// The CLEAR-MOT metrics (Bernardin and Stiefelhagen, Evaluating multiple object tracking
 /// performance: the CLEAR MOT metrics, EURASIP Journal on Image and Video Processing, 2008).
@@ -14,7 +24,7 @@ struct ClearMot {
   std::size_t matches = 0;          ///< of them, those with a track
   std::size_t misses = 0;           ///< of them, those without
   std::size_t false_positives = 0;  ///< tracks of no object, summed over the frames
-  std::size_t id_switches = 0;      ///< an object is matched to another track than last time
+  std::vector<IdSwitch> switches;   ///< by rising frame
   std::size_t fragmentations = 0;   ///< an object is missed, and later matched again
   /// 1 - (misses + false positives + id switches) / required, at most 1; none: nothing required.
   std::optional<double> mota;

@@ -50,7 +50,7 @@ json toJson(const ClearMot& score) {
           {"motp_m", orNull(score.motp)},
           {"misses", score.misses},
           {"false_positives", score.false_positives},
-          {"id_switches", score.id_switches},
+          {"id_switches", score.switches.size()},
           {"fragmentations", score.fragmentations},
           {"required", score.required},
           {"matches", score.matches},

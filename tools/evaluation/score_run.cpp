@@ -5,6 +5,7 @@
 #include <string>
 
 #include "evaluation/bag_loading.h"
+#include "evaluation/matches_json.h"
 #include "evaluation/run_score.h"
 #include "evaluation/score_json.h"
 #include "whole_file.h"
@@ -33,6 +34,10 @@ void writeScore(const ScoreRunArguments& arguments, std::ostream& out, std::ostr
   const ScoredFiles files{arguments.run, arguments.truth};
   try {
     const RunScore score = scoreRun(run, truth, arguments.options);
+    if (!arguments.matches.empty()) {
+      const MatchOptions& matching = arguments.options.metrics.matching;
+      writeWholeFile(arguments.matches, textOf(matchesJson(score, matching)));
+    }
     const std::string report = textOf(toJson(score, arguments.options, files));
     if (arguments.output.empty()) {
       out << report;

@@ -18,6 +18,7 @@ struct Words {
   std::string truth;
   std::string options;
   std::string output;
+  std::string matches;
   std::vector<std::string> assignments;
 };
 
@@ -52,15 +53,19 @@ ScoreRunArguments parseScoreRunArguments(std::vector<std::string> words) {
   line.addRepeated("--set", given.assignments, "one of the options, e.g. matching/gate=1.5",
                    "KEY=VALUE");
   line.addFile("--out", given.output, "else to standard output", "REPORT.json");
+  line.addFile("--matches", given.matches, "which track is of which object, frame by frame",
+               "MATCHES.json");
   line.addAnswer("--list-options", optionTable<ScoreOptions>, "prints all options as a table");
   line.read(std::move(words));
   const std::string& truth = given.truth.empty() ? given.run : given.truth;
-  for (const std::string& input : {given.run, truth, given.options}) {
-    if (!given.output.empty() && isSameFile(given.output, input)) {
-      throw UsageError(given.output + ": the report must not be an input");
+  for (const std::string& output : {given.output, given.matches}) {
+    for (const std::string& input : {given.run, truth, given.options}) {
+      if (!output.empty() && isSameFile(output, input)) {
+        throw UsageError(output + ": the report must not be an input");
+      }
     }
   }
-  return {given.run, truth, given.output, readScoreOptions(given)};
+  return {given.run, truth, given.output, given.matches, readScoreOptions(given)};
 }
 
 }  // namespace datmo::evaluation

@@ -9,9 +9,10 @@ namespace datmo::evaluation {
 
 /// What `score_run` is asked to do.
 struct ScoreRunArguments {
-  std::string run;     ///< bag
-  std::string truth;   ///< bag, maybe the same
-  std::string output;  ///< report, empty: standard output
+  std::string run;      ///< bag
+  std::string truth;    ///< bag, maybe the same
+  std::string output;   ///< report, empty: standard output
+  std::string matches;  ///< matches of each frame, empty: not wanted
   ScoreOptions options;
 };
 

@@ -15,7 +15,7 @@ TEST(ClearMot, PerfectRun) {
   EXPECT_EQ(result.required, 3U);
   EXPECT_EQ(result.matches, 3U);
   EXPECT_EQ(result.misses + result.false_positives, 0U);
-  EXPECT_EQ(result.id_switches + result.fragmentations, 0U);
+  EXPECT_EQ(result.switches.size() + result.fragmentations, 0U);
   EXPECT_DOUBLE_EQ(result.mota.value(), 1.0);
   EXPECT_DOUBLE_EQ(result.motp.value(), 0.0);
   EXPECT_DOUBLE_EQ(result.mostly_tracked.value(), 1.0);
@@ -44,7 +44,7 @@ TEST(ClearMot, AllMissed) {
 TEST(ClearMot, AnIdSwitch) {
   // 1 - 1 / 4.
   const ClearMot result = score(followedBy({1, 1, 2, 2}));
-  EXPECT_EQ(result.id_switches, 1U);
+  EXPECT_EQ(result.switches.size(), 1U);
   EXPECT_EQ(result.fragmentations, 0U);
   EXPECT_DOUBLE_EQ(result.mota.value(), 0.75);
 }
@@ -53,14 +53,14 @@ TEST(ClearMot, AFragmentation) {
   // 1 - 1 miss / 4.
   const ClearMot result = score(followedBy({1, 0, 1, 1}));
   EXPECT_EQ(result.fragmentations, 1U);
-  EXPECT_EQ(result.id_switches, 0U);
+  EXPECT_EQ(result.switches.size(), 0U);
   EXPECT_DOUBLE_EQ(result.mota.value(), 0.75);
 }
 
 TEST(ClearMot, AGapAndAnotherIdIsBoth) {
   const ClearMot result = score(followedBy({1, 0, 0, 2}));
   EXPECT_EQ(result.fragmentations, 1U);
-  EXPECT_EQ(result.id_switches, 1U);
+  EXPECT_EQ(result.switches.size(), 1U);
   EXPECT_DOUBLE_EQ(result.mota.value(), 1.0 - 3.0 / 4.0);
 }
 
@@ -77,7 +77,7 @@ TEST(ClearMot, TwoTracksThatSwapPositions) {
                 .add({truthAt(1, 0.0), truthAt(2, 9.0)}, {trackAt(1, 0.0), trackAt(2, 9.0)})
                 .add({truthAt(1, 0.0), truthAt(2, 9.0)}, {trackAt(1, 9.0), trackAt(2, 0.0)})
                 .frames());
-  EXPECT_EQ(result.id_switches, 2U);
+  EXPECT_EQ(result.switches.size(), 2U);
   EXPECT_DOUBLE_EQ(result.mota.value(), 0.5);
 }
 
@@ -86,7 +86,7 @@ TEST(ClearMot, ANearerTrackBesideTheKeptOneIsFalseAndNoSwitch) {
                                     .add({truthAt(1, 0.0)}, {trackAt(1, 0.0)})
                                     .add({truthAt(1, 0.0)}, {trackAt(1, 1.0), trackAt(2, 0.1)})
                                     .frames());
-  EXPECT_EQ(result.id_switches, 0U);
+  EXPECT_EQ(result.switches.size(), 0U);
   EXPECT_EQ(result.false_positives, 1U);
   EXPECT_DOUBLE_EQ(result.mota.value(), 0.5);
 }
@@ -125,7 +125,7 @@ TEST(ClearMot, FramesWithoutDutyAreNoPartOfAnObjectsLife) {
   EXPECT_EQ(result.misses, 0U);
   EXPECT_EQ(result.false_positives, 0U);
   EXPECT_EQ(result.fragmentations, 0U);
-  EXPECT_EQ(result.id_switches, 1U);
+  EXPECT_EQ(result.switches.size(), 1U);
 }
 
 }  // namespace

@@ -1,17 +1,15 @@
 #!/usr/bin/python3
-"""Which track is of which true object, and what is in a camera's view: cases worked out by hand."""
+"""How far tracks are from true boxes, and what is in a camera's view: cases worked out by hand."""
 
 import math
 import unittest
 
 import numpy as np
-from datmo_tools.track_matching import TrackMatcher, Verdict, distances_to_boxes
+from datmo_tools.track_frames import distances_to_boxes
 from datmo_tools.track_views import is_visible, is_in_view
 from geometry_msgs.msg import Pose2D
 
 from datmo_fusion.msg import ViewFan
-
-HIT, NEUTRAL, FALSE = Verdict.HIT, Verdict.NEUTRAL, Verdict.FALSE
 
 
 class Distances(unittest.TestCase):
@@ -26,49 +24,6 @@ class Distances(unittest.TestCase):
         none = np.empty((0, 2))
         self.assertEqual(distances_to_boxes(none, np.empty((0, 3)), none).shape, (0, 0))
         self.assertEqual(distances_to_boxes(np.zeros((2, 2)), np.empty((0, 3)), none).shape, (2, 0))
-
-
-class Matching(unittest.TestCase):
-    """Tracks 1, 2 and objects 7, 8, within 2 m."""
-
-    def setUp(self):
-        self.matcher = TrackMatcher(2.0)
-
-    def assert_match(self, partners, verdicts, distances, required=(True, True)):
-        distances = np.array(distances)
-        found = self.matcher.match([1, 2][: len(distances)], [7, 8][: distances.shape[1]],
-                                   np.array(required), distances)  # fmt: skip
-        self.assertEqual(found, (partners, verdicts))
-
-    def test_least_sum_of_distances(self):
-        self.assert_match([1, 0], [HIT, HIT], [[1.0, 0.4], [0.9, 0.5]])
-
-    def test_more_matches_before_nearer_ones(self):
-        """The nearest pair alone would leave the other two without a match."""
-        self.assert_match([0, 1], [HIT, HIT], [[1.9, 0.4], [2.5, 0.5]])
-
-    def test_nobody(self):
-        matcher = TrackMatcher(2.0)
-        none = np.zeros((0, 0))
-        self.assertEqual(matcher.match([], [], np.zeros(0, dtype=bool), none), ([], []))
-        self.assertEqual(matcher.match([1], [], np.zeros(0, dtype=bool), np.zeros((1, 0))),
-                         ([None], [FALSE]))
-
-    def test_beyond_the_gate(self):
-        self.assert_match([None], [FALSE], [[2.1, 3.0]])
-
-    def test_second_track_on_an_object(self):
-        """False where the object has to be found, else as little wrong as the first."""
-        self.assert_match([0, None], [HIT, FALSE], [[0.5], [1.0]], [True])
-        self.assert_match([0, None], [NEUTRAL, NEUTRAL], [[0.5], [1.0]], [False])
-
-    def test_partners_stay(self):
-        self.assert_match([0, None], [HIT, FALSE], [[0.5], [1.0]], [True])
-        self.assert_match([None, None], [FALSE, FALSE], [[3.0], [3.0]], [True])
-        self.assert_match([0, None], [HIT, FALSE], [[1.5], [0.0]], [True])
-
-    def test_required_objects_first(self):
-        self.assert_match([1], [HIT], [[0.1, 1.9]], [False, True])
 
 
 class Views(unittest.TestCase):
