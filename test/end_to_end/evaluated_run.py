@@ -5,7 +5,7 @@ import os
 import tempfile
 from pathlib import Path
 
-from datmo_tools.evaluate import main
+from datmo_tools.evaluate.tracks import main
 
 RUN_BAG = os.environ.get("RUN_BAG", "run_bag")
 SCORE_RUN = os.environ.get("SCORE_RUN", "score_run")

@@ -12,7 +12,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from datmo_tools.kitti_to_bag import main as kitti_to_bag
+from datmo_tools.convert.kitti_to_bag import main as kitti_to_bag
 from drive_0005 import DRIVE, needs_drive_0005
 from evaluated_run import RUN_BAG, evaluated
 

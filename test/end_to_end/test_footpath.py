@@ -8,8 +8,8 @@ matter of luck.
 import tempfile
 import unittest
 
-from datmo_tools.border_comparison import comparison_table
-from datmo_tools.compare_borders import compare
+from datmo_tools.evaluate.border_comparison import comparison_table
+from datmo_tools.evaluate.compare_borders import compare
 from evaluated_run import SCORE_RUN
 from road_border_run import computed, simulated
 

@@ -11,7 +11,7 @@ import unittest
 from pathlib import Path
 
 import yaml
-from datmo_tools.evaluation_sections import OBJECT_METRICS, sections_of
+from datmo_tools.evaluate.sections import OBJECT_METRICS, sections_of
 from evaluated_run import RUN_BAG, evaluated
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -8,7 +8,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from datmo_tools.score_grids import score, table
+from datmo_tools.evaluate.grids import score, table
 from evaluated_run import RUN_BAG, evaluated
 from test_intersection import ASKED, CONFIG, MAX_POSE_ERROR, SCENE, SIMULATE
 

@@ -13,7 +13,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from datmo_tools.mocap_to_bag import main as mocap_to_bag
+from datmo_tools.convert.mocap_to_bag import main as mocap_to_bag
 from evaluated_run import RUN_BAG, evaluated
 
 ROOT = Path(__file__).resolve().parents[2]

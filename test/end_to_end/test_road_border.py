@@ -10,9 +10,9 @@ from pathlib import Path
 
 import rosbag
 from datmo_tools.bag_file import whole_bag
-from datmo_tools.border_lists import BORDERS, read_borders
-from datmo_tools.border_tally import BANDS
-from datmo_tools.score_borders import score
+from datmo_tools.evaluate.border_lists import BORDERS, read_borders
+from datmo_tools.evaluate.border_tally import BANDS
+from datmo_tools.evaluate.borders import score
 from evaluated_run import evaluated
 from road_border_run import computed, simulated
 

@@ -9,8 +9,8 @@ import os
 import unittest
 from pathlib import Path
 
-from datmo_tools.carmen_bag import Options
-from datmo_tools.slam_benchmark import benchmark, find_pairs, table
+from datmo_tools.convert.carmen_bag import Options
+from datmo_tools.experiments.slam_benchmark import benchmark, find_pairs, table
 
 ROOT = Path(__file__).resolve().parents[2]
 DATA = ROOT.parent / "shared" / "data" / "slam2d"

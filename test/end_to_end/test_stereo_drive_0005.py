@@ -14,8 +14,8 @@ from pathlib import Path
 
 import rosbag
 import yaml
-from datmo_tools.kitti_to_bag import main as kitti_to_bag
-from datmo_tools.score_stereo_grid import score, table
+from datmo_tools.convert.kitti_to_bag import main as kitti_to_bag
+from datmo_tools.evaluate.stereo_grids import score, table
 from drive_0005 import DRIVE, needs_drive_0005
 from evaluated_run import RUN_BAG, evaluated
 from test_drive_0005 import ASKED, CONFIG, ODOMETRY_ERRORS, WHOLE_DRIVE

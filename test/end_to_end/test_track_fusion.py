@@ -9,8 +9,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from datmo_tools.score_tracks import score
-from datmo_tools.track_lists import read_track_lists
+from datmo_tools.evaluate.track_fusion import score
+from datmo_tools.evaluate.track_lists import read_track_lists
 from evaluated_run import RUN_BAG
 from test_intersection import CONFIG, SCENE, SIMULATE
 

@@ -6,8 +6,8 @@ import genpy
 import numpy as np
 from datmo_tools import bag_messages, transforms
 from datmo_tools.bag_file import whole_bag
-from datmo_tools.kitti_calibration import Camera
-from datmo_tools.kitti_messages import LEFT_CAMERA, camera_info, gray_image
+from datmo_tools.convert.kitti_calibration import Camera
+from datmo_tools.convert.kitti_messages import LEFT_CAMERA, camera_info, gray_image
 from geometry_msgs.msg import Point, Point32, Pose, PoseWithCovarianceStamped, Quaternion
 from tf2_msgs.msg import TFMessage
 

@@ -10,9 +10,9 @@ from pathlib import Path
 
 import numpy as np
 import rosbag
-from datmo_tools import carmen_odometry
-from datmo_tools.carmen_clock import rising, typical_steps
-from datmo_tools.carmen_to_bag import main
+from datmo_tools.convert import carmen_odometry
+from datmo_tools.convert.carmen_clock import rising, typical_steps
+from datmo_tools.convert.carmen_to_bag import main
 from tiny_log import START, flaser, odom, robot_laser, write_log
 
 ORIGIN = (0.0, 0.0, 0.0)

@@ -8,9 +8,9 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-from datmo_tools.carmen_lines import parse_line
-from datmo_tools.carmen_log import out_of_order, read_log, scans_of
-from datmo_tools.carmen_mount import scanner_mount
+from datmo_tools.convert.carmen_lines import parse_line
+from datmo_tools.convert.carmen_log import out_of_order, read_log, scans_of
+from datmo_tools.convert.carmen_mount import scanner_mount
 from datmo_tools.errors import InputError
 from tiny_log import flaser, odom, robot_laser, write_log
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import rosbag
 import rospy
-from datmo_tools import kitti_messages
+from datmo_tools.convert import kitti_messages
 from datmo_tools.bag_messages import transform
 from nav_msgs.msg import Odometry
 from tf2_msgs.msg import TFMessage

@@ -53,7 +53,7 @@ class Outputs(unittest.TestCase):
         with contextlib.redirect_stderr(said), self.assertRaises(SystemExit):
             options = ["/nowhere.bag", "/nowhere.bag", "--json", str(self.root)]
             with mock.patch.object(sys, "argv", ["score_grids", *options]):
-                run_tool("score_grids")
+                run_tool("score_grids", "evaluate.grids")
         self.assertIn("--json", said.getvalue())
         self.assertIn("is a folder", said.getvalue())
 

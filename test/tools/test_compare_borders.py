@@ -8,10 +8,10 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from datmo_tools.border_comparison import comparison, comparison_table
-from datmo_tools.border_runs import BorderRuns, border_runs_table
-from datmo_tools.border_tally import BANDS
-from datmo_tools.compare_borders import main
+from datmo_tools.evaluate.border_comparison import comparison, comparison_table
+from datmo_tools.experiments.border_runs import BorderRuns, border_runs_table
+from datmo_tools.evaluate.border_tally import BANDS
+from datmo_tools.evaluate.compare_borders import main
 
 
 def report(false_moving, in_a_scan, tracked, **counts):

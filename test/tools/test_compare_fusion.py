@@ -8,12 +8,12 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from datmo_tools.camera_view import LIST_PARAMETERS, CameraView, camera_view
-from datmo_tools.compare_fusion import main
+from datmo_tools.experiments.camera_view import LIST_PARAMETERS, CameraView, camera_view
+from datmo_tools.experiments.compare_fusion import main
 from datmo_tools.errors import InputError
-from datmo_tools.fusion_comparison import comparison_table, figures, objects_table
-from datmo_tools.fusion_drives import within
-from datmo_tools.thesis_tables import PUBLISHED
+from datmo_tools.experiments.fusion_comparison import comparison_table, figures, objects_table
+from datmo_tools.experiments.fusion_drives import within
+from datmo_tools.evaluate.thesis_tables import PUBLISHED
 
 TIMES = {"grid_slam": {"runs": 10, "mean_s": 0.002}, "stereo_objects": {"runs": 5, "mean_s": 0.01},
          "stereo_images": {"runs": 10, "mean_s": 1.0}}  # fmt: skip

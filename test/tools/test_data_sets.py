@@ -9,9 +9,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from datmo_tools.data_sets import main
-from datmo_tools.fusion_table import FusionRuns, fusion_table
-from datmo_tools.thesis_tables import PUBLISHED, thesis_tables
+from datmo_tools.experiments.data_sets import main
+from datmo_tools.experiments.fusion_table import FusionRuns, fusion_table
+from datmo_tools.evaluate.thesis_tables import PUBLISHED, thesis_tables
 
 ROOT = Path(__file__).resolve().parents[2]
 THESIS = ROOT.parent / "shared" / "thesis" / "baig_2012_multisensor_fusion.txt"

@@ -8,13 +8,13 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-from datmo_tools.border_images import draw_image, read_images
-from datmo_tools.border_lists import SeenBorder
-from datmo_tools.border_recordings import Run, corners, edge
-from datmo_tools.border_views import FAINTEST, line_style, opacity, title
-from datmo_tools.draw_borders import main
+from datmo_tools.evaluate.border_images import draw_image, read_images
+from datmo_tools.evaluate.border_lists import SeenBorder
+from datmo_tools.evaluate.border_recordings import Run, corners, edge
+from datmo_tools.evaluate.border_views import FAINTEST, line_style, opacity, title
+from datmo_tools.evaluate.draw_borders import main
 from datmo_tools.errors import InputError
-from datmo_tools.nearest_messages import nearest_messages, stamps_of
+from datmo_tools.evaluate.nearest_messages import nearest_messages, stamps_of
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 

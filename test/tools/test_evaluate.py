@@ -11,8 +11,8 @@ from pathlib import Path
 from unittest import mock
 
 from datmo_tools.errors import InputError
-from datmo_tools.evaluate import main
-from datmo_tools.score_run import find_score_run
+from datmo_tools.evaluate.tracks import main
+from datmo_tools.evaluate.score_run import find_score_run
 from datmo_tools.whole_files import write_whole
 from evaluation_sample import sample_run
 

@@ -7,9 +7,9 @@ import unittest
 import xml.etree.ElementTree as ElementTree
 from html.parser import HTMLParser
 
-from datmo_tools import evaluation_object_plots as object_plots
-from datmo_tools import evaluation_plots as plots
-from datmo_tools.evaluation_metrics import (
+from datmo_tools.evaluate import object_plots
+from datmo_tools.evaluate import plots
+from datmo_tools.evaluate.metrics import (
     Metric,
     best_runs,
     extent,
@@ -18,10 +18,10 @@ from datmo_tools.evaluation_metrics import (
     near,
     short_names,
 )
-from datmo_tools.evaluation_report import page
-from datmo_tools.evaluation_sections import OBJECT_METRICS, sections_of
-from datmo_tools.evaluation_style import plain
-from datmo_tools.evaluation_table import table
+from datmo_tools.evaluate.page import page
+from datmo_tools.evaluate.sections import OBJECT_METRICS, sections_of
+from datmo_tools.evaluate.plot_style import plain
+from datmo_tools.evaluate.run_table import table
 from evaluation_sample import sample_run
 
 

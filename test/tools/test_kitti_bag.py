@@ -13,7 +13,7 @@ import numpy as np
 import rosbag
 import tiny_drive
 from datmo_fusion.msg import Object
-from datmo_tools.kitti_to_bag import main
+from datmo_tools.convert.kitti_to_bag import main
 from datmo_tools.progress import Progress
 
 
@@ -300,7 +300,7 @@ class Errors(Conversion):
         self.assert_refused("(4 of 4)", options=["--allow-missing-scans"])
 
     def test_interruption(self):
-        with mock.patch("datmo_tools.kitti_raw.Drive.cloud", side_effect=KeyboardInterrupt):
+        with mock.patch("datmo_tools.convert.kitti_raw.Drive.cloud", side_effect=KeyboardInterrupt):
             self.assert_refused("interrupted, no bag written")
 
     def test_number_that_is_none(self):

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import rosbag
 from datmo_fusion.msg import Object
-from datmo_tools.kitti_to_bag import main
+from datmo_tools.convert.kitti_to_bag import main
 from drive_0005 import DRIVE, LABELS, needs_drive_0005
 
 

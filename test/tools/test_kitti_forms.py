@@ -12,7 +12,7 @@ import numpy as np
 import rosbag
 import tiny_drive
 from datmo_fusion.msg import Object
-from datmo_tools.kitti_to_bag import main
+from datmo_tools.convert.kitti_to_bag import main
 
 TYPES = {
     "Car": Object.CLASS_VEHICLE,

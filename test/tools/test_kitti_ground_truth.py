@@ -5,8 +5,8 @@ import unittest
 
 import numpy as np
 from datmo_tools import transforms
-from datmo_tools.ground_truth import fitted_velocities, objects_by_frame, points_in_box
-from datmo_tools.true_boxes import TrueBox, TrueObject, occlusion_share
+from datmo_tools.convert.ground_truth import fitted_velocities, objects_by_frame, points_in_box
+from datmo_tools.convert.true_boxes import TrueBox, TrueObject, occlusion_share
 
 BASE_FROM_VELODYNE = transforms.rigid(np.eye(3), [0.8, 0.0, 1.73])
 TENTH = 10**8  # ns

@@ -5,10 +5,11 @@ import math
 import unittest
 
 import numpy as np
-from datmo_tools import odometry, transforms
-from datmo_tools.ego_pose import EgoMotion, course_offset, poses_from_gps, poses_from_velocity
-from datmo_tools.kitti_raw import Oxts
-from datmo_tools.odometry import OdometryErrors
+from datmo_tools import transforms
+from datmo_tools.convert import odometry
+from datmo_tools.convert.ego_pose import EgoMotion, course_offset, poses_from_gps, poses_from_velocity
+from datmo_tools.convert.kitti_raw import Oxts
+from datmo_tools.convert.odometry import OdometryErrors
 from tiny_drive import METER_IN_LONGITUDE
 
 SECOND = 10**9

@@ -9,10 +9,10 @@ import numpy as np
 import tiny_drive
 from datmo_tools import transforms
 from datmo_tools.errors import InputError
-from datmo_tools.kitti_calibration import read_calibration
-from datmo_tools.kitti_labels import read_labels
-from datmo_tools.kitti_raw import Drive
-from datmo_tools.kitti_tracklets import read_tracklets
+from datmo_tools.convert.kitti_calibration import read_calibration
+from datmo_tools.convert.kitti_labels import read_labels
+from datmo_tools.convert.kitti_raw import Drive
+from datmo_tools.convert.kitti_tracklets import read_tracklets
 
 
 class TinyDrive(unittest.TestCase):

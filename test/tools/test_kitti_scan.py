@@ -4,10 +4,11 @@
 import unittest
 
 import numpy as np
-from datmo_tools import kitti_scans, road_plane
+from datmo_tools.convert import kitti_scans
+from datmo_tools.evaluate import road_plane
 from datmo_tools.errors import InputError
-from datmo_tools.kitti_scans import ScannerOptions
-from datmo_tools.road_plane import FLAT, RoadPlane, fit_road_plane
+from datmo_tools.convert.kitti_scans import ScannerOptions
+from datmo_tools.evaluate.road_plane import FLAT, RoadPlane, fit_road_plane
 
 class Scanner(unittest.TestCase):
     def test_options_that_describe_no_scanner(self):

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import rosbag
 from datmo_tools.bag_file import whole_bag
-from datmo_tools.merge_bags import main
+from datmo_tools.convert.merge_bags import main
 from std_msgs.msg import String
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import rosbag
-from datmo_tools.mocap_to_bag import main
+from datmo_tools.convert.mocap_to_bag import main
 from datmo_tools.pose_path import planar
 from tiny_capture import SCANS, START, write_recording
 

@@ -13,10 +13,10 @@ import numpy as np
 import yaml
 from datmo_tools import bag_messages
 from datmo_tools.bag_file import whole_bag
-from datmo_tools.calibrate_object_covariance import main
-from datmo_tools.covariance_table import covariance_table, fitted_law, robust_spread
+from datmo_tools.evaluate.calibrate_object_covariance import main
+from datmo_tools.evaluate.covariance_table import covariance_table, fitted_law, robust_spread
 from datmo_tools.errors import InputError
-from datmo_tools.object_pairs import Pair
+from datmo_tools.evaluate.object_pairs import Pair
 from geometry_msgs.msg import Point, Pose, Pose2D, Quaternion, Vector3
 
 from datmo_fusion.msg import FieldOfView, ObjectArray, Track, TrackArray

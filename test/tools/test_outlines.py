@@ -5,8 +5,8 @@ import math
 import unittest
 
 import numpy as np
-from datmo_tools.object_lists import Seen
-from datmo_tools.outlines import Outline, offset
+from datmo_tools.evaluate.object_lists import Seen
+from datmo_tools.evaluate.outlines import Outline, offset
 
 HIDDEN = math.inf
 

@@ -11,11 +11,12 @@ from pathlib import Path
 
 import numpy as np
 import rosbag
-from datmo_tools import bag_messages, carmen_to_bag
+from datmo_tools import bag_messages
+from datmo_tools.convert import carmen_to_bag
 from datmo_tools.errors import InputError
 from datmo_tools.pose_path import PosePath
-from datmo_tools.relations import Relation, errors_of, read_relations, statistics
-from datmo_tools.score_relations import main, score
+from datmo_tools.evaluate.relations import Relation, errors_of, read_relations, statistics
+from datmo_tools.evaluate.slam import main, score
 from datmo_tools.stamps import to_ros_time
 from geometry_msgs.msg import Point, PoseStamped, PoseWithCovarianceStamped, Quaternion
 from tiny_log import START, flaser, write_log

@@ -8,8 +8,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from datmo_tools.robustness import main
-from datmo_tools.robustness_summary import summarize, table
+from datmo_tools.experiments.robustness import main
+from datmo_tools.experiments.robustness_summary import summarize, table
 
 
 def run(movers, seed, jump, at_10, at_70=None, scene="road"):

@@ -9,8 +9,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from datmo_tools.border_tally import BANDS
-from datmo_tools.score_borders import main
+from datmo_tools.evaluate.border_tally import BANDS
+from datmo_tools.evaluate.borders import main
 
 from border_samples import CURBS, along, border, left, parked, right, write_drive
 from datmo_fusion.msg import RoadBorder

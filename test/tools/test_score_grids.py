@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 import rosbag
 from datmo_tools import bag_messages, transforms
-from datmo_tools.grid_scores import Bodies, Echoes, Grid, GridScores, StereoView, Tally
-from datmo_tools.score_grids import main
+from datmo_tools.evaluate.grid_scores import Bodies, Echoes, Grid, GridScores, StereoView, Tally
+from datmo_tools.evaluate.grids import main
 from geometry_msgs.msg import Quaternion, TransformStamped, Vector3
 from nav_msgs.msg import OccupancyGrid
 from sensor_msgs.msg import CameraInfo, LaserEcho, LaserScan, MultiEchoLaserScan

@@ -17,7 +17,7 @@ from visualization_msgs.msg import Marker
 
 import simulated_recording as simulated
 from datmo_fusion.msg import Track, TrackArray
-from datmo_tools.score_labeled_positions import main
+from datmo_tools.evaluate.labels import main
 from datmo_tools.transforms import quaternion_of_yaw
 
 LABELS = "/people"

@@ -12,9 +12,9 @@ from pathlib import Path
 import numpy as np
 from datmo_tools import bag_messages, transforms
 from datmo_tools.bag_file import whole_bag
-from datmo_tools.object_lists import Seen
-from datmo_tools.object_scores import TrueState, score_list
-from datmo_tools.score_objects import main
+from datmo_tools.evaluate.object_lists import Seen
+from datmo_tools.evaluate.object_scores import TrueState, score_list
+from datmo_tools.evaluate.objects import main
 from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
 from nav_msgs.msg import OccupancyGrid
 

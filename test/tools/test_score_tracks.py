@@ -11,7 +11,7 @@ from pathlib import Path
 
 from datmo_tools import bag_messages
 from datmo_tools.bag_file import whole_bag
-from datmo_tools.score_tracks import main
+from datmo_tools.evaluate.track_fusion import main
 from nav_msgs.msg import OccupancyGrid
 
 from datmo_fusion.msg import Object

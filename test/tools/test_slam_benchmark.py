@@ -8,7 +8,7 @@ import unittest
 from pathlib import Path
 
 from datmo_tools.errors import InputError
-from datmo_tools.slam_benchmark import find_pairs, main, table
+from datmo_tools.experiments.slam_benchmark import find_pairs, main, table
 
 
 def figures(mean):

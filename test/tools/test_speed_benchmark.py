@@ -8,10 +8,16 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from datmo_tools import process_usage, speed_benchmark, speed_live, speed_micro, speed_report
-from datmo_tools.speed_context import cmake_cache, devel_space
+from datmo_tools.experiments import (
+    process_usage,
+    speed_benchmark,
+    speed_live,
+    speed_micro,
+    speed_report,
+)
+from datmo_tools.experiments.speed_context import cmake_cache, devel_space
 from datmo_tools.errors import InputError
-from datmo_tools.process_usage import ProcessUsage
+from datmo_tools.experiments.process_usage import ProcessUsage
 
 
 class OfAProcess(unittest.TestCase):

@@ -10,12 +10,13 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-from datmo_tools import bag_messages, kitti_messages, transforms
+from datmo_tools import bag_messages, transforms
+from datmo_tools.convert import kitti_messages
 from datmo_tools.bag_file import whole_bag
-from datmo_tools.grid_scores import Grid, StereoView
-from datmo_tools.kitti_calibration import Camera
-from datmo_tools.score_stereo_grid import main
-from datmo_tools.stereo_grid_scores import NOTHING, CommonView, count, moved, obstacle_points
+from datmo_tools.evaluate.grid_scores import Grid, StereoView
+from datmo_tools.convert.kitti_calibration import Camera
+from datmo_tools.evaluate.stereo_grids import main
+from datmo_tools.evaluate.stereo_grid_scores import NOTHING, CommonView, count, moved, obstacle_points
 from geometry_msgs.msg import Pose, Quaternion
 from nav_msgs.msg import MapMetaData, OccupancyGrid
 from tf2_msgs.msg import TFMessage

@@ -5,8 +5,8 @@ import math
 import unittest
 
 import numpy as np
-from datmo_tools.track_frames import distances_to_boxes
-from datmo_tools.track_views import is_visible, is_in_view
+from datmo_tools.evaluate.track_frames import distances_to_boxes
+from datmo_tools.evaluate.track_views import is_visible, is_in_view
 from geometry_msgs.msg import Pose2D
 
 from datmo_fusion.msg import ViewFan

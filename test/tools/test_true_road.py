@@ -5,8 +5,8 @@ import math
 import unittest
 
 import numpy as np
-from datmo_tools.parked_rows import RowOptions, depths_of_vehicles, row_of
-from datmo_tools.segments import distances_to, nearby, ray_crossings, segments_of
+from datmo_tools.evaluate.parked_rows import RowOptions, depths_of_vehicles, row_of
+from datmo_tools.evaluate.segments import distances_to, nearby, ray_crossings, segments_of
 
 NONE = math.nan
 OPTIONS = RowOptions(bridged=10.0, car_length=5.0)

@@ -1,0 +1,1 @@
+"""Recordings of other sources become bags of the stack."""

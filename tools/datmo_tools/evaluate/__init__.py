@@ -1,0 +1,1 @@
+"""What the stack computed against what was true."""

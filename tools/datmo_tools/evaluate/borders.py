@@ -1,0 +1,120 @@
+"""Command line of score_borders."""
+
+import argparse
+from pathlib import Path
+from typing import NamedTuple
+
+from datmo_tools import command_line
+from datmo_tools.evaluate.border_errors import frames_of, samples_of
+from datmo_tools.evaluate.border_lists import read_borders
+from datmo_tools.evaluate.border_table import table
+from datmo_tools.evaluate.border_tally import BANDS, tally
+from datmo_tools.errors import InputError
+from datmo_tools.evaluate.false_borders import score_false
+from datmo_tools.evaluate.parked_rows import RowOptions
+from datmo_tools.evaluate.true_road import TrueRoad
+
+DESCRIPTION = """\
+Scores the borders of the road (/road_borders of run_bag --road-border; thesis 3.5) with the truth
+of a drive. Looked at is the road that the vehicle drives, from 10 m behind it to 40 m ahead along
+its true path, each half meter, outside of junctions and not round a corner of more than 60 degrees;
+the run's map is laid on the truth's at the vehicle's pose, so that its drift does not count.
+
+  true border  the end of what can be driven on: the curb, or the line of the road-side faces of the
+               vehicles that stand along it throughout, bridged over gaps of up to --bridged. In a
+               gap longer than --car-length, and this far beyond the ends of a row, curb and row are
+               both right: the one that is nearer to what was published counts
+  found        of the true stations, seen before or not, those with a published border within
+               --found-within of the true one
+  error        of published borders across the true one, positive: too far out. Those farther off
+               than --gate do not count in it, they are counted by themselves; from the curb: the
+               same error from the plain curb
+  NEES         square of the error over the variance that was published: 1 in the mean and 0.45 in
+               the median if it is honest, and then 95 % are within the gate
+  false        borders within 40 m that are more than --false-from off every curb, parked vehicle
+               and row: on the road, in a junction, beyond the true border, or where none is known
+
+A road is a curve where its curb's radius is less than --curve-radius. Whether intersections are
+found says score_run."""
+
+GATE = 3.0  # m
+FOUND_WITHIN = 1.0  # m
+FALSE_FROM = 1.5  # m
+CURVE_RADIUS = 300.0  # m
+
+
+class Limits(NamedTuple):
+    """What counts."""
+
+    gate: float = GATE  # m, farther off a border is not one of this road
+    found_within: float = FOUND_WITHIN  # m, of the true border
+    false_from: float = FALSE_FROM  # m, off all that ends a road
+    curve_radius: float = CURVE_RADIUS  # m
+    rows: RowOptions = RowOptions()
+
+
+def main(arguments=None):
+    """Runs the command line; returns its exit code."""
+    values = _parser().parse_args(arguments)
+    return command_line.run("score_borders", lambda: _run(values), product="score")
+
+
+def score(run, drive=None, limits=Limits()):
+    """Score of the borders in the bag `run` (Path) as a dictionary that JSON can hold.
+
+    drive: bag with the truth (Path), by default `run`. Raises InputError, also where nothing can be
+    scored.
+    """
+    drive = drive or run
+    lists = read_borders(run)
+    road = TrueRoad(drive, limits.rows, limits.curve_radius)
+    frames = frames_of(run, lists, road)
+    if not frames:
+        raise InputError(f"{run}: no list of borders has a stamp near one of truth and pose")
+    return {
+        "run": str(run), "drive": str(drive),
+        "lists": len(frames), "without_truth": len(lists) - len(frames),
+        "gate_m": limits.gate, "found_within_m": limits.found_within,
+        "false_from_m": limits.false_from, "curve_radius_m": limits.curve_radius,
+        "bridged_m": limits.rows.bridged, "car_length_m": limits.rows.car_length,
+        "bands_m": [list(band) for band in BANDS],
+        "borders": tally(samples_of(frames, road), limits.gate, limits.found_within),
+        "false": score_false(frames, road, limits.false_from),
+    }  # fmt: skip
+
+
+def _run(values):
+    for name in ("gate", "found_within", "false_from", "curve_radius", "car_length"):
+        if getattr(values, name) <= 0.0:
+            option = name.replace("_", "-")
+            raise InputError(f"--{option} is {getattr(values, name):g}, expected more than 0")
+    if values.bridged < 0.0:
+        raise InputError(f"--bridged is {values.bridged:g}, expected 0 or more")
+    rows = RowOptions(values.bridged, values.car_length)
+    limits = Limits(values.gate, values.found_within, values.false_from, values.curve_radius, rows)
+    result = score(values.run, values.drive, limits)
+    print(table(result))
+    command_line.write_json(values.json, result)
+
+
+def _parser():
+    parser = argparse.ArgumentParser(
+        prog="score_borders",
+        description=DESCRIPTION,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add = parser.add_argument
+    add("run", type=Path, metavar="RESULT.bag", help="bag of run_bag --road-border")
+    add("--drive", type=Path, metavar="DRIVE.bag",
+        help="bag with ground truth (default: RESULT.bag, of run_bag --with-truth)")  # fmt: skip
+    for name, default, text in (
+        ("--gate", GATE, "from the true border, farther off no error counts, m"),
+        ("--found-within", FOUND_WITHIN, "of the true border it is found, m"),
+        ("--false-from", FALSE_FROM, "off all that ends a road a border is false, m"),
+        ("--curve-radius", CURVE_RADIUS, "below which a road is a curve, m"),
+        ("--bridged", RowOptions().bridged, "longest gap that the line of a row bridges, m"),
+        ("--car-length", RowOptions().car_length, "longest gap in which the curb does not do, m"),
+    ):  # fmt: skip
+        command_line.add_number(parser, name, default, "M", text)
+    command_line.add_json(parser)
+    return parser

@@ -1,0 +1,154 @@
+"""Command line of calibrate_object_covariance."""
+
+import argparse
+from pathlib import Path
+
+from datmo_tools import command_line
+from datmo_tools.bag_input import opened
+from datmo_tools.evaluate.covariance_report import as_dictionary, as_yaml, summary
+from datmo_tools.evaluate.covariance_table import covariance_table
+from datmo_tools.errors import InputError
+from datmo_tools.evaluate.grid_recordings import CAMERA_INFOS, MOUNTS, mounts_of, view_of
+from datmo_tools.evaluate.object_lists import read_lists, read_moving_boxes
+from datmo_tools.evaluate.object_pairs import Counts, paired_objects
+from datmo_tools.pose_path import read_path
+from datmo_tools.whole_files import write_whole
+
+DESCRIPTION = """\
+Measures how far a stereo camera's objects are off in range and bearing, by range (thesis 3.3.3:
+"calculated empirically", there by hand), and writes it as yaml that object_fusion loads.
+
+From bags with the objects of both sensors (run_bag --object-fusion) it pairs the lidar's objects
+that are tracked as moving (of what stands the map may have taken a part away) with the camera's, by
+their near sides (thesis 3.3.2), brought to one time by the vehicle's poses and the tracks'
+velocities: each the other's nearest within 1 m across the line of sight, and within 1 m, or
+5 m x range / 36 m if that is more, along it, of classes and sizes that agree. Compared is what both
+saw: the near side along the line of sight, and the bearings of its corners.
+
+Of the differences in each bin of range outliers beyond three robust standard deviations are left
+out; subtracted from their variance are the lidar's own, and the camera's of the sides that
+it saw, which object_fusion adds by itself. Where a bin has too few pairs, or what is known hides
+the rest, the law that fits all bins fills in: a + b range^4 for range, a + b / range^2 for bearing.
+
+Ranges are from the camera's position, which is in its lists. The lidar is taken for unbiased;
+a mean difference is printed as bias. Object fusion does not take it out: --with-bias adds its
+square."""
+
+TOPICS = {"lidar": "/objects", "stereo": "/objects/stereo", "tracks": "/tracks", "pose": "/pose"}
+
+MIN_PAIRS = 30  # of a bin: its variance is known to a quarter (2 / 30, square root)
+BIN_WIDTH = 2.0  # m; thesis 3.3.3
+RANGE = 36.0  # m; thesis 3.3.3
+DISPARITY_SIGMA = 0.25  # px; as the simulator's default
+
+
+def main(arguments=None):
+    """Runs the command line; returns its exit code."""
+    values = _parser().parse_args(arguments)
+    return command_line.run("calibrate_object_covariance", lambda: _run(values), product="table")
+
+
+def read_pairs(runs, lidar, stereo, tracks, pose):
+    """List of Pair and Counts of the bags `runs` (Paths) together; lidar ... pose: topics.
+
+    Raises InputError for a bag without objects of both.
+    """
+    pairs, counts = [], Counts()
+    for run in runs:
+        lists = read_lists(run, (lidar, stereo))
+        for topic in (lidar, stereo):
+            if topic not in lists:
+                raise InputError(
+                    f"{run}: nothing on {topic}, expected a bag of run_bag --object-fusion with "
+                    f"objects of both sensors on {lidar} and {stereo}"
+                )
+        new_pairs, new_counts = paired_objects(
+            lists[lidar], lists[stereo], read_moving_boxes(run, tracks), read_path(run, pose)
+        )
+        pairs += new_pairs
+        counts += new_counts
+    return pairs, counts
+
+
+def _depth_sigma(drive, disparity_sigma):
+    """Function of depth (m) -> its standard deviation (m), of the camera in a bag; None: no bag."""
+    if drive is None:
+        return None
+    with opened(drive) as bag:
+        mounts = mounts_of([message for _, message, _ in bag.read_messages([MOUNTS])])
+        infos = {topic: message for topic, message, _ in bag.read_messages(CAMERA_INFOS)}
+    return view_of(drive, infos, mounts, RANGE, disparity_sigma).depth_sigma
+
+
+def _check(values):
+    for name in ("bin_width", "range", "disparity_sigma"):
+        if getattr(values, name) <= 0.0:
+            option = "--" + name.replace("_", "-")
+            raise InputError(f"{option} is {getattr(values, name):g}, expected more than 0")
+    if values.range <= values.bin_width:
+        raise InputError(
+            f"--range is {values.range:g}, expected more than --bin-width, {values.bin_width:g}"
+        )
+
+
+def _plotter(path):
+    """Function that plots, by the name's ending; None: no plot is wanted.
+
+    It needs matplotlib, and is loaded before the work is done in vain.
+    """
+    if path is None:
+        return None
+    try:
+        # pylint: disable=import-outside-toplevel
+        from datmo_tools.evaluate.covariance_plot import covariance_plot
+        from datmo_tools.evaluate.plot_style import KINDS
+    except ImportError as error:
+        raise InputError(f"{error}: expected the package python3-matplotlib") from error
+    kind = path.suffix[1:].lower()
+    if kind not in KINDS:
+        raise InputError(f"--plot {path}: expected a name that ends in .{', .'.join(KINDS)}")
+    return lambda table, sigma: covariance_plot(table, kind, sigma)
+
+
+def _run(values):
+    _check(values)
+    plot = _plotter(values.plot)
+    depth_sigma = _depth_sigma(values.drive, values.disparity_sigma)
+    pairs, counts = read_pairs(values.runs, values.lidar, values.stereo, values.tracks, values.pose)
+    table = covariance_table(
+        pairs, values.bin_width, values.range, values.min_pairs, values.with_bias
+    )
+    print(summary(table, counts))
+    text = as_yaml(table, values.source, values.runs)
+    write_whole(values.out.parent, {values.out.name: text})
+    if plot is not None:
+        write_whole(values.plot.parent, {values.plot.name: plot(table, depth_sigma)})
+    command_line.write_json(values.json, as_dictionary(table, counts))
+
+
+def _parser():
+    parser = argparse.ArgumentParser(
+        prog="calibrate_object_covariance",
+        description=DESCRIPTION,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add = parser.add_argument
+    add("runs", nargs="+", type=Path, metavar="RUN.bag", help="bags of run_bag --object-fusion")
+    add("--out", type=command_line.output_file, default=Path("object_covariance.yaml"),
+        metavar="FILE.yaml", help="the table (default %(default)s)")  # fmt: skip
+    add("--plot", type=command_line.output_file, metavar="FILE",
+        help="picture of it: .svg, .pdf or .png")  # fmt: skip
+    add("--drive", type=Path, metavar="DRIVE.bag",
+        help="with the camera's calibration: the plot shows what theory expects too")  # fmt: skip
+    add("--source", default="stereo", help="name in object_fusion/sources (default %(default)s)")
+    for name, topic in TOPICS.items():
+        add(f"--{name}", default=topic, metavar="TOPIC", help="(default %(default)s)")
+    add("--min-pairs", type=command_line.count, default=MIN_PAIRS, metavar="N",
+        help="of a bin; with fewer it is filled in (default %(default)s)")  # fmt: skip
+    add("--with-bias", action="store_true", help="the variance is about zero, not about the mean")
+    command_line.add_number(parser, "--bin-width", BIN_WIDTH, "M", "m")
+    command_line.add_number(parser, "--range", RANGE, "M", "up to where there are bins, m")
+    command_line.add_number(parser, "--disparity-sigma", DISPARITY_SIGMA, "PX",
+                            "standard deviation of disparities for --drive, px")  # fmt: skip
+    command_line.add_json(parser)
+    return parser

@@ -1,0 +1,55 @@
+"""Command line of compare_borders."""
+
+import argparse
+from pathlib import Path
+
+from datmo_tools import command_line
+from datmo_tools.evaluate.border_comparison import comparison, comparison_table
+from datmo_tools.evaluate.score_run import find_score_run, score
+
+DESCRIPTION = """\
+Compares two results of run_bag on the same drive, without and with --road-border: false moving
+objects before tracking, tracks, intersections found, and each true moving object that the scanner
+saw moving: in how many of its frames it is tracked. An object is lost that is tracked in some frame
+without borders, and in none with them. Counts are score_run's."""
+
+# All objects that the scanner saw moving, however briefly, at any distance.
+SETTINGS = ("truth/visible_to=scanner", "truth/min_time_seen=0", "region/range=500")
+
+
+def main(arguments=None, program=None):
+    """Runs the command line; returns its exit code. program: of score_run, by default beside."""
+    values = _parser().parse_args(arguments)
+    return command_line.run("compare_borders", lambda: _run(values, program), product="score")
+
+
+def compare(without, with_borders, drive=None, program=None):
+    """comparison() of two bags (Path); drive: bag with the truth, by default each has its own.
+
+    Raises InputError where there is no score_run, and SystemExit where it fails.
+    """
+    program = program or find_score_run()
+    settings = [word for assignment in SETTINGS for word in ("--set", assignment)]
+    reports = [score(program, run, drive, settings) for run in (without, with_borders)]
+    return comparison(*reports)
+
+
+def _run(values, program):
+    result = compare(values.without, values.with_borders, values.drive, program)
+    print(comparison_table(result))
+    command_line.write_json(values.json, result)
+
+
+def _parser():
+    parser = argparse.ArgumentParser(
+        prog="compare_borders",
+        description=DESCRIPTION,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add = parser.add_argument
+    add("without", type=Path, metavar="WITHOUT.bag", help="bag of run_bag")
+    add("with_borders", type=Path, metavar="WITH.bag", help="bag of run_bag --road-border")
+    add("--drive", type=Path, metavar="DRIVE.bag",
+        help="bag with ground truth (default: each its own, of run_bag --with-truth)")  # fmt: skip
+    command_line.add_json(parser)
+    return parser

@@ -1,0 +1,95 @@
+"""Command line of draw_borders."""
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+
+from datmo_tools import command_line
+from datmo_tools.errors import InputError
+from datmo_tools.whole_files import write_whole
+
+DESCRIPTION = """\
+Draws the borders of the road that a run found (run_bag --road-border), as sheets of pictures of
+chosen moments: from above, with the scan, the objects that were kept and dropped, and what is true
+where the bag knows it (run_bag --with-truth); and with --images borders and scan laid into the
+camera's images.
+
+In the images all lies on the road, which is the plane on which base_link stands: the points of a
+scan below where its beams ended, and where the road slopes or the vehicle pitches, what is far
+ahead seems off by that. A border is the fainter the less probable it is."""
+
+PERIOD = 5.0  # s
+HISTORY = 3.0  # s
+ROWS = 4
+CAMERA = "/stereo/left"
+
+
+def main(arguments=None):
+    """Runs the command line; returns its exit code."""
+    values = _parser().parse_args(arguments)
+    return command_line.run("draw_borders", lambda: _run(values), product="picture")
+
+
+def _run(values):
+    # Matplotlib is not needed for --help.
+    try:
+        # pylint: disable=import-outside-toplevel
+        from datmo_tools.evaluate.border_images import read_images
+        from datmo_tools.evaluate.border_recordings import Run
+        from datmo_tools.evaluate.border_sheets import sheets
+        from datmo_tools.evaluate.plot_style import KINDS
+    except ImportError as error:
+        raise InputError(f"{error}: expected the package python3-matplotlib") from error
+    kind = values.out.suffix[1:].lower()
+    if kind not in KINDS:
+        raise InputError(f"--out {values.out}: expected a name that ends in .{', .'.join(KINDS)}")
+    if values.every <= 0.0:
+        raise InputError(f"--every is {values.every:g}, expected more than 0")
+    if values.history < 0.0:
+        raise InputError(f"--history is {values.history:g}, expected 0 or more")
+    run = Run(values.run)
+    stamps = run.nearest_stamps(values.at or np.arange(0.0, run.duration, values.every))
+    images = None
+    if values.images is not None:
+        images = read_images(values.images, values.camera.rstrip("/"), stamps)
+        if not images:
+            raise InputError(f"{values.images}: no image with a stamp near those of {values.run}")
+    pictures = sheets(run.moments(stamps, values.history), images, run.poses, kind, values.rows)
+    write_whole(values.out.parent, dict(zip(_names(values.out, len(pictures)), pictures)))
+
+
+def _names(out, count):
+    """File names of the sheets: --out itself, or numbered ones."""
+    if count == 1:
+        return [out.name]
+    return [f"{out.stem}_{number}{out.suffix}" for number in range(1, count + 1)]
+
+
+def _times(text):
+    return [command_line.number(word) for word in text.split(",")]
+
+
+def _parser():
+    parser = argparse.ArgumentParser(
+        prog="draw_borders",
+        description=DESCRIPTION,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add = parser.add_argument
+    add("run", type=Path, metavar="RUN.bag", help="bag of run_bag --road-border")
+    add("--out", type=command_line.output_file, default=Path("road_borders.png"), metavar="FILE",
+        help=".png, .svg or .pdf; several sheets are numbered (default %(default)s)")  # fmt: skip
+    add("--at", type=_times, metavar="S,S", help="times, s since the run's first borders")
+    add("--every", type=command_line.number, default=PERIOD, metavar="S",
+        help="between two pictures where --at names none, s (default %(default)s)")  # fmt: skip
+    command_line.add_number(parser, "--history", HISTORY, "S",
+                            "for so long before it earlier scans are shown, s")  # fmt: skip
+    add("--images", type=Path, metavar="DRIVE.bag",
+        help="with rectified images, their camera_info and /tf_static, of the drive that the run "
+        "was made from (kitti_to_bag --images)")  # fmt: skip
+    add("--camera", default=CAMERA, metavar="NAME",
+        help="of NAME/image_rect and NAME/camera_info (default %(default)s)")  # fmt: skip
+    add("--rows", type=command_line.count, default=ROWS, metavar="N",
+        help="of pictures on a sheet (default %(default)s)")  # fmt: skip
+    return parser

@@ -1,0 +1,218 @@
+"""What score_grids reads: the grids of a run, and the drive that the run was made from."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from nav_msgs.msg import OccupancyGrid
+
+from datmo_tools import transforms
+from datmo_tools.bag_input import opened
+from datmo_tools.bag_messages import BASE
+from datmo_tools.errors import InputError
+from datmo_tools.evaluate.grid_scores import Bodies, Echoes, Grid, StereoView
+from datmo_tools.pose_path import planar
+
+SCANS = ("/echoes", "/scan")
+TRUE_ECHOES, TRUE_OBJECTS = "/ground_truth/echoes", "/ground_truth/objects"
+TRUE_POSE = "/ground_truth/pose"
+CAMERA_INFOS = ("/stereo/left/camera_info", "/stereo/right/camera_info")
+MOUNTS = "/tf_static"
+
+# As the simulator names them.
+STEREO, POLE = "stereo", "Pole"
+
+
+class Moment(NamedTuple):
+    """What is true at the stamp of a scan."""
+
+    echoes: Echoes
+    bodies: Bodies
+    poles: np.ndarray  # n x 2, base_link, m: thin ones that the camera sees
+
+
+class Drive(NamedTuple):
+    """A recording of the sensors with ground truth."""
+
+    view: StereoView
+    moments: dict  # stamp (ns) -> Moment
+
+
+def read_drive(path, reach, disparity_sigma):
+    """Drive in the bag at `path` (Path).
+
+    reach: effective range of the camera, m; disparity_sigma: standard deviation, px. A scan whose
+    truth is not there has no Moment. Raises InputError if there is none at all, or no camera.
+    """
+    kept = {topic: [] for topic in (MOUNTS, TRUE_OBJECTS, TRUE_POSE, TRUE_ECHOES, *SCANS)}
+    infos = {}
+    with opened(path) as bag:
+        for topic, message, _ in bag.read_messages([*kept, *CAMERA_INFOS]):
+            if topic in kept:
+                kept[topic].append(message)
+            else:
+                infos[topic] = message
+    mounts = mounts_of(kept[MOUNTS])
+    view = view_of(path, infos, mounts, reach, disparity_sigma)
+    moments = _moments(path, kept, mounts)
+    if not moments:
+        raise InputError(
+            f"{path}: no scan with {TRUE_ECHOES}, {TRUE_OBJECTS} and {TRUE_POSE} of its stamp, "
+            "expected a drive of 'simulate SCENE DRIVE --set stereo/enabled=true --set "
+            "ground_truth/echoes=true'"
+        )
+    return Drive(view, moments)
+
+
+def grid_pairs(path, first_topic, second_topic):
+    """Yields (stamp, Grid, Grid) for each stamp (ns) with a grid on both topics of the bag.
+
+    Raises InputError for another type, and for grids of one stamp that differ in their windows.
+    """
+    waiting = {}
+    with opened(path) as bag:
+        for topic, raw, _ in bag.read_messages([first_topic, second_topic], raw=True):
+            stamp, grid = grid_of(path, topic, raw)
+            other_topic, other = waiting.get(stamp, (topic, None))
+            if other_topic == topic:
+                waiting[stamp] = (topic, grid)
+                continue
+            pair = (other, grid) if topic == second_topic else (grid, other)
+            _check_same_window(path, stamp, *pair)
+            yield (stamp, *pair)
+            # Grids are published in the order of their stamps: older ones wait in vain.
+            waiting = {late: kept for late, kept in waiting.items() if late > stamp}
+
+
+def grid_of(path, topic, raw):
+    """Stamp and Grid of a message as it lies in the bag: a grid has 100,000 cells and more."""
+    kind, data = raw[0], raw[1]
+    if kind != "nav_msgs/OccupancyGrid":
+        raise InputError(f"{path}: {topic} is {kind}, expected nav_msgs/OccupancyGrid")
+    message = OccupancyGrid().deserialize_numpy(data, np)
+    info = message.info
+    cells = np.asarray(message.data, dtype=np.int8).reshape(info.height, info.width)
+    origin = np.array([info.origin.position.x, info.origin.position.y])
+    return message.header.stamp.to_nsec(), Grid(info.resolution, origin, cells)
+
+
+def _check_same_window(path, stamp, first, second):
+    same = first.cells.shape == second.cells.shape and first.cell_size == second.cell_size
+    if not (same and np.allclose(first.origin, second.origin)):
+        raise InputError(
+            f"{path}: grids of {stamp * 1e-9:.6f} s have {first.cells.shape} cells of "
+            f"{first.cell_size:g} m and {second.cells.shape} of {second.cell_size:g} m, expected "
+            "the same window"
+        )
+
+
+def mounts_of(messages):
+    """Dictionary frame -> 4 x 4 transform in base_link."""
+    return {
+        item.child_frame_id: _rigid(item.transform.translation, item.transform.rotation)
+        for message in messages
+        for item in message.transforms
+        if item.header.frame_id == BASE
+    }
+
+
+def mount_of(path, mounts, frame):
+    """The mount of one sensor (4 x 4). Raises InputError if it is not there."""
+    if frame not in mounts:
+        raise InputError(f"{path}: {MOUNTS} has no {BASE} -> {frame}, expected the sensor's mount")
+    return mounts[frame]
+
+
+def _rigid(position, turn):
+    x, y, z, w = turn.x, turn.y, turn.z, turn.w
+    rotation = np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+    return transforms.rigid(rotation, [position.x, position.y, position.z])
+
+
+def view_of(path, infos, mounts, reach, disparity_sigma):
+    """StereoView of the camera; infos: dictionary topic -> CameraInfo, of CAMERA_INFOS.
+
+    Raises InputError where one is missing or no stereo camera's.
+    """
+    for topic in CAMERA_INFOS:
+        if topic not in infos:
+            raise InputError(f"{path}: nothing on {topic}, expected a drive with a stereo camera")
+    left, right = (infos[topic] for topic in CAMERA_INFOS)
+    focal, middle, baseline_term = left.P[0], left.P[2], -right.P[3]
+    if not (focal > 0.0 and baseline_term > 0.0):
+        raise InputError(
+            f"{path}: {CAMERA_INFOS[1]} has P[0] = {focal:g} and P[3] = {right.P[3]:g}, expected "
+            "the focal length and minus its product with the baseline"
+        )
+    tangents = (-middle / focal, (left.width - 1 - middle) / focal)
+    camera = mount_of(path, mounts, left.header.frame_id)
+    return StereoView(camera, tangents, reach, disparity_sigma / baseline_term)
+
+
+def _moments(path, kept, mounts):
+    poses = {message.header.stamp.to_nsec(): message for message in kept[TRUE_POSE]}
+    objects = {message.header.stamp.to_nsec(): message.objects for message in kept[TRUE_OBJECTS]}
+    truths = {message.header.stamp.to_nsec(): message for message in kept[TRUE_ECHOES]}
+    moments = {}
+    for scan in (message for topic in SCANS for message in kept[topic]):
+        stamp = scan.header.stamp.to_nsec()
+        if stamp in poses and stamp in objects and stamp in truths:
+            scanner = mount_of(path, mounts, scan.header.frame_id)
+            echoes = _echoes(path, scan, truths[stamp], scanner, poses[stamp].twist.twist)
+            base = planar(poses[stamp].pose.pose)
+            moments[stamp] = Moment(
+                echoes, _bodies(objects[stamp], base), _poles(objects[stamp], base)
+            )
+    return moments
+
+
+def _echoes(path, scan, truth, scanner, twist):
+    """twist: the vehicle's, by which beams of a scan that takes time are brought to its stamp."""
+    if len(truth.surfaces) != len(scan.ranges):
+        raise InputError(
+            f"{path}: {TRUE_ECHOES} at {scan.header.stamp.to_sec():.6f} s has "
+            f"{len(truth.surfaces)} beams, the scan {len(scan.ranges)}, expected as many"
+        )
+    ranges = np.array([_nearest(beam) for beam in scan.ranges])
+    bearings = scan.angle_min + scan.angle_increment * np.arange(len(ranges))
+    ends = np.column_stack([ranges * np.cos(bearings), ranges * np.sin(bearings), 0.0 * bearings])
+    found = np.flatnonzero(np.isfinite(ranges))
+    points = [
+        transforms.compose(
+            transforms.arc(twist.linear.x, twist.angular.z, beam * scan.time_increment),
+            np.append(transforms.apply(scanner, ends[beam])[:2], 0.0),
+        )[:2]
+        for beam in found
+    ]
+    surfaces = np.frombuffer(truth.surfaces, dtype=np.uint8)[found]
+    return Echoes(np.array(points).reshape(-1, 2), surfaces)
+
+
+def _nearest(beam):
+    """Range of the nearest echo: of a LaserScan's beam, which is a number, or of a LaserEcho."""
+    if isinstance(beam, float):
+        return beam
+    return min(beam.echoes, default=math.inf)
+
+
+def _bodies(objects, base):
+    sizes = np.array([(item.size.x, item.size.y) for item in objects]).reshape(-1, 2)
+    heights = np.array([item.size.z for item in objects])
+    return Bodies(_seen_from(base, objects), sizes, heights)
+
+
+def _poles(objects, base):
+    seen = [item for item in objects if item.label == POLE and STEREO in item.visible_to]
+    return _seen_from(base, seen)[:, :2]
+
+
+def _seen_from(base, objects):
+    """Poses (n x 3) of objects in base_link; base: its pose in the map."""
+    poses = np.array([planar(item.pose) for item in objects]).reshape(-1, 3)
+    return transforms.relative(base, poses)

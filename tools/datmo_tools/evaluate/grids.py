@@ -1,0 +1,121 @@
+"""Command line of score_grids."""
+
+import argparse
+import math
+from pathlib import Path
+
+from datmo_tools import command_line
+from datmo_tools.errors import InputError
+from datmo_tools.evaluate.grid_recordings import grid_pairs, read_drive
+from datmo_tools.evaluate.grid_scores import GridScores
+
+DESCRIPTION = """\
+Scores the fused grids of a run against the truth of the simulated drive that it was made from
+(simulate with stereo/enabled=true and ground_truth/echoes=true): of the cells that white paint put
+into the lidar's grid, how many fusion took away; of the cells of true obstacles, how many it lost;
+and at how many stamps a thin pole that the camera sees is in the fused grid and in the lidar's. In
+view is what lies in the camera's image and effective range, and not behind a true object."""
+
+# Ends of the bands of range, m, as far as they lie within the camera's effective range.
+BANDS = (0.0, 10.0, 20.0)
+
+EFFECTIVE_RANGE = 36.0  # m; thesis 3.3.3
+DISPARITY_SIGMA = 0.25  # px; as the simulator's default
+
+ROWS = (
+    ("paint cells gone", "paint_gone"),
+    ("obstacle cells lost", "bodies_lost"),
+    ("poles in lidar grid", "poles_in_lidar"),
+    ("poles in fused grid", "poles_in_fused"),
+)
+
+
+def main(arguments=None):
+    """Runs the command line; returns its exit code."""
+    values = _parser().parse_args(arguments)
+    return command_line.run("score_grids", lambda: _run(values), product="score")
+
+
+def score(run, drive, lidar="/grids/lidar", fused="/grids/fused", reach=EFFECTIVE_RANGE,
+          disparity_sigma=DISPARITY_SIGMA):  # fmt: skip
+    """Score of the grids in the bag `run` (Path) against the drive's bag (Path), as a dictionary
+    that JSON can hold.
+
+    lidar, fused: topics; reach: effective range of the camera, m; disparity_sigma: px. Raises
+    InputError, also if the two have no stamp in common.
+    """
+    edges = [*(edge for edge in BANDS if edge < reach), reach]
+    recorded = read_drive(drive, reach, disparity_sigma)
+    scores = GridScores(recorded.view, edges)
+    used = 0
+    for stamp, lidar_grid, fused_grid in grid_pairs(run, lidar, fused):
+        moment = recorded.moments.get(stamp)
+        if moment is not None:
+            scores.add(lidar_grid, fused_grid, moment.echoes, moment.bodies, moment.poles)
+            used += 1
+    if used == 0:
+        raise InputError(
+            f"{run}: no stamp with both {lidar} and {fused} that is one of {len(recorded.moments)} "
+            f"scans with truth in {drive}"
+        )
+    columns = ["whole grid", "in view"]
+    columns += [f"{near:g}-{far:g} m" for near, far in zip(edges, edges[1:])]
+    return {
+        "run": str(run),
+        "drive": str(drive),
+        "scans_with_truth": len(recorded.moments),
+        "scans_scored": used,
+        "columns": columns,
+        **{key: _figures(getattr(scores, key)) for _, key in ROWS},
+    }
+
+
+def table(result):
+    """The score as text."""
+    lines = [f"{'':<22}" + "".join(f"{column:>16}" for column in result["columns"])]
+    for name, key in ROWS:
+        cells = zip(result[key]["percent"], result[key]["of"])
+        lines.append(f"{name:<22}" + "".join(f"{_share(*cell):>16}" for cell in cells))
+    lines.append(f"{result['scans_scored']} of {result['scans_with_truth']} scans scored")
+    return "\n".join(lines)
+
+
+def _share(percent, count):
+    return f"{percent:.1f}% of {count}" if count else "-"
+
+
+def _figures(tally):
+    percent = [None if math.isnan(share) else float(share) for share in tally.percent()]
+    return {"count": tally.having.tolist(), "of": tally.total.tolist(), "percent": percent}
+
+
+def _run(values):
+    for name in ("effective_range", "disparity_sigma"):
+        if getattr(values, name) <= 0.0:
+            option = "--" + name.replace("_", "-")
+            raise InputError(f"{option} is {getattr(values, name)}, expected more than 0")
+    result = score(values.run, values.drive, values.lidar, values.fused, values.effective_range,
+                   values.disparity_sigma)  # fmt: skip
+    print(table(result))
+    command_line.write_json(values.json, result)
+
+
+def _parser():
+    parser = argparse.ArgumentParser(
+        prog="score_grids",
+        description=DESCRIPTION,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add = parser.add_argument
+    add("run", type=Path, metavar="RUN.bag", help="bag of run_bag")
+    add("drive", type=Path, metavar="DRIVE.bag", help="bag of simulate")
+    for source in ("lidar", "fused"):
+        add(f"--{source}", default=f"/grids/{source}", metavar="TOPIC",
+            help="of the grids (default %(default)s)")  # fmt: skip
+    command_line.add_number(parser, "--effective-range", EFFECTIVE_RANGE, "M",
+                            "how far the camera is to be believed, m")  # fmt: skip
+    command_line.add_number(parser, "--disparity-sigma", DISPARITY_SIGMA, "PX",
+                            "standard deviation of disparities, px: how far off along the line of "
+                            "sight a pole may be")  # fmt: skip
+    command_line.add_json(parser)
+    return parser

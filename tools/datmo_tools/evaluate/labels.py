@@ -1,0 +1,148 @@
+"""Command line of score_labeled_positions."""
+
+import argparse
+import tempfile
+from pathlib import Path
+
+import numpy as np
+from geometry_msgs.msg import Point, Pose, Quaternion
+
+from datmo_fusion.msg import Track, TrackArray, TrueObject, TrueObjectArray
+from datmo_tools import bag_messages, command_line
+from datmo_tools.bag_file import whole_bag
+from datmo_tools.errors import InputError
+from datmo_tools.evaluate.labeled_positions import LabelOptions, read_labels
+from datmo_tools.evaluate.score_run import matches
+from datmo_tools.stamps import NANOSECONDS
+from datmo_tools.evaluate.track_lists import read_track_lists
+
+DESCRIPTION = """\
+Scores the tracks of a result of run_bag against positions that were labeled in the recording, as
+messages of any type with `pose` and `id`: how many have a track within --gate, each track for one
+label and each label for one track, and how often a labeled id goes over to another track. A label
+may have a header; without one it is of the scan recorded last before it, in that scan's frame.
+
+What is not labeled is not judged: labels of some people say nothing of false tracks."""
+
+TRACKS = "/tracks"
+GATE = 0.5  # m
+EVERYWHERE = 500.0  # m
+TRACK_TOLERANCE = 0.05  # s, from the stamp of a label to that of the nearest list of tracks
+
+
+def main(arguments=None):
+    """Runs the command line; returns its exit code."""
+    values = _parser().parse_args(arguments)
+    return command_line.run(
+        "score_labeled_positions", lambda: _run(values), product="score"
+    )
+
+
+def _parser():
+    parser = argparse.ArgumentParser(
+        prog="score_labeled_positions",
+        description=DESCRIPTION,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add = parser.add_argument
+    add("result", type=Path, help="result of run_bag, with /tracks and /pose")
+    add("recording", type=Path, help="the bag that it was made from, with the labels")
+    add("--labels", required=True, metavar="TOPIC", help="topic of the labels")
+    add("--scan", default="/scan", metavar="TOPIC", help="of the scans (default %(default)s)")
+    add("--base", default="base_link", metavar="FRAME", help="of the vehicle (default %(default)s)")
+    add("--frame", default="", help="of labels without a header (default: that of the scans)")
+    command_line.add_number(parser, "--gate", GATE, "M", "largest distance of a match, m")
+    command_line.add_json(parser)
+    return parser
+
+
+def _run(values):
+    options = LabelOptions(values.labels, values.scan, values.frame, values.base)
+    result = score(values.result, values.recording, options, values.gate)
+    print(text(result))
+    command_line.write_json(values.json, result)
+
+
+def score(run, recording, options, gate=GATE):
+    """Score as a dictionary that JSON can hold. Raises InputError."""
+    labels = read_labels(recording, run, options)
+    if not labels:
+        raise InputError(f"{recording}: no label of {options.topic} is of a scan, expected some")
+    lists = read_track_lists(run, [TRACKS])[TRACKS]
+    # Of any type in the recording, in score_run's bags a number from 0 on.
+    ids = sorted({label.id for label in labels})
+    labels = [label._replace(id=ids.index(label.id)) for label in labels]
+    found, switches, distances = {name: [] for name in ids}, [], []
+    for stamp, frame in _matched(labels, lists, gate).items():
+        distances += frame.distances.values()
+        for number in frame.required:
+            found[ids[number]].append(number in frame.objects.values())
+        switches += [
+            {"stamp_s": stamp / NANOSECONDS, "id": ids[number], "from": last, "to": present}
+            for number, (last, present) in frame.switches.items()
+        ]
+    return _result(len(labels), found, switches, distances, gate)
+
+
+def _matched(labels, lists, gate):
+    """Dictionary stamp (ns) -> FrameMatches of the labels there and the tracks nearest in time."""
+    stamps = np.array([item.stamp for item in lists])
+    options = {"align": "none", "moving_tracks_only": False, "truth/visible_to": "none",
+               "truth/min_time_seen": 0.0, "region/range": EVERYWHERE, "matching/gate": gate,
+               "matching/distance": "to_center"}  # fmt: skip
+    with tempfile.TemporaryDirectory(prefix="labels_") as folder:
+        laid_together = Path(folder) / "labels.bag"
+        with whole_bag(laid_together, "evaluate") as bag:
+            for stamp in sorted({label.stamp for label in labels}):
+                nearest = lists[int(np.argmin(np.abs(stamps - stamp)))]
+                is_near = abs(nearest.stamp - stamp) <= TRACK_TOLERANCE * NANOSECONDS
+                tracks = nearest.tracks if is_near else []
+                there = [label for label in labels if label.stamp == stamp]
+                for topic, message in _messages(stamp, tracks, there).items():
+                    bag.write(topic, stamp, message)
+        return matches(laid_together, None, options)
+
+
+def _messages(stamp, tracks, labels):
+    header = bag_messages.header(stamp, bag_messages.MAP)
+    about = (*labels[0].position, 0.0)
+    objects = [TrueObject(id=label.id, pose=_pose(label.position), moving=True) for label in labels]
+    return {
+        TRACKS: TrackArray(header=header, tracks=[
+            Track(id=track.id, pose=_pose(track.pose)) for track in tracks]),
+        "/ground_truth/objects": TrueObjectArray(header=header, objects=objects),
+        "/ground_truth/pose": bag_messages.planar_odometry(
+            stamp, bag_messages.MAP, bag_messages.BASE, about, 0.0, 0.0),
+    }  # fmt: skip
+
+
+def _pose(position):
+    return Pose(Point(position[0], position[1], 0.0), Quaternion(0.0, 0.0, 0.0, 1.0))
+
+
+def _result(count, found, switches, distances, gate):
+    return {
+        "positions": count,
+        "found": len(distances),
+        "found_share": len(distances) / count,
+        "gate_m": gate,
+        "median_distance_m": float(np.median(distances)) if distances else None,
+        "id_switches": len(switches),
+        "ids": len(found),
+        "ids_never_found": sorted(name for name, hits in found.items() if not any(hits)),
+        "by_id": {str(name): {"found": sum(hits), "positions": len(hits)}
+                  for name, hits in sorted(found.items())},
+        "switches": switches,
+    }  # fmt: skip
+
+
+def text(result):
+    """The score for people."""
+    median = result["median_distance_m"]
+    return "\n".join([
+        f"labeled positions with a track within {result['gate_m']:.2f} m: {result['found']} of "
+        f"{result['positions']} ({100.0 * result['found_share']:.1f} %)",
+        f"median distance: {'-' if median is None else f'{median:.2f} m'}",
+        f"id switches: {result['id_switches']} of {result['ids']} labeled ids; never found: "
+        f"{len(result['ids_never_found'])}",
+    ])  # fmt: skip

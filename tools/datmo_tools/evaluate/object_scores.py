@@ -1,0 +1,144 @@
+"""Objects of one measurement against true ones: what is found, what is false, how far off."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from datmo_tools import transforms
+from datmo_tools.evaluate.object_lists import Seen
+from datmo_tools.evaluate.outlines import Outline, offset
+
+# An object is near a true one within this of its box: across the line of sight, and along it, where
+# it grows with the range by thesis 3.3.3 (5 m at 36 m; see THESIS_GATE).
+NEAR_ACROSS = 1.0  # m
+NEAR_ALONG = 1.0  # m, at least
+
+THESIS_GATE = 5.0 / 36.0  # m for each meter of range: up to here a stereo object is the lidar's
+
+# 95 % of chi-square with two degrees of freedom.
+GATE_95 = 5.991
+
+
+class TrueState(NamedTuple):
+    """A true object at a stamp, in base_link."""
+
+    pose: np.ndarray  # x, y (m), yaw (rad)
+    size: np.ndarray  # m: length, width
+    velocity: np.ndarray  # m/s over ground: vx, vy
+    classification: int  # Object.CLASS_*
+    moving: bool
+    asked: bool  # it has to be found: in the region, and seen by the sensor
+    source: object = None  # the TrueObject that it comes from
+
+    @property
+    def range(self):
+        """Of the center, m from base_link."""
+        return float(np.hypot(*self.pose[:2]))
+
+    def after(self, delay):
+        """The same so much later (s)."""
+        moved = np.append(self.pose[:2] + self.velocity * delay, self.pose[2])
+        return self._replace(pose=moved)
+
+    def box(self):
+        """As a sensor that sees it exactly would see it."""
+        exact = np.zeros((2, 2)), np.zeros(4)
+        return Seen(self.pose, self.size, *exact, self.classification, 0.0)
+
+
+class Errors(NamedTuple):
+    """How far an object's near side is from that of the true object it is of; NaN: not seen."""
+
+    along: float  # m, along the line of sight: positive is too far
+    across: float  # m, to the left
+    nees: float  # of both, by the object's own covariance
+
+
+class ListScore(NamedTuple):
+    """What became of one list."""
+
+    matches: list  # of (index of the object, index of the true one, Errors), no index twice
+    near: np.ndarray  # n objects: whether a true object is near
+
+
+def score_list(objects, truths, viewpoint=(0.0, 0.0)):
+    """ListScore.
+
+    objects: of Seen; truths: of TrueState at the stamp of the list; viewpoint: of the sensor, m.
+    """
+    distances = np.full((len(objects), len(truths)), np.inf)
+    positions = np.array([truth.pose[:2] for truth in truths]).reshape(-1, 2)
+    velocities = np.array([truth.velocity for truth in truths]).reshape(-1, 2)
+    halves = np.array([0.5 * np.hypot(*truth.size) for truth in truths])
+    for i, item in enumerate(objects):
+        point = Outline(item, viewpoint).near_point() + viewpoint
+        apart = np.linalg.norm(positions + velocities * item.delay - point, axis=1)
+        for j in np.flatnonzero(apart <= halves + _along_gate(point, viewpoint)):
+            distances[i, j] = scaled_distance(point, truths[j].after(item.delay), viewpoint)
+    matches = [
+        (i, j, _errors(objects[i], truths[j].after(objects[i].delay), viewpoint))
+        for i, j in _pairs(distances, objects, truths)
+    ]
+    return ListScore(matches, np.any(distances <= 1.0, axis=1))
+
+
+def scaled_distance(point, truth, viewpoint):
+    """Distance of a point (x, y) from the box of a TrueState, 0 inside; 1 is as far as near goes,
+    along the line of sight and across it."""
+    ray = np.asarray(point) - np.asarray(viewpoint)
+    reach = float(np.hypot(*ray))
+    along = ray / reach if reach > 0.0 else np.array([1.0, 0.0])
+    gate = _along_gate(point, viewpoint)
+    axes = np.array([along / gate, np.array([-along[1], along[0]]) / NEAR_ACROSS])
+    return _distance_to(_corners(truth, point) @ axes.T)
+
+
+def _along_gate(point, viewpoint):
+    """m; never less than across."""
+    reach = float(np.hypot(*(np.asarray(point) - np.asarray(viewpoint))))
+    return max(NEAR_ALONG, THESIS_GATE * reach)
+
+
+def _corners(truth, origin):
+    """4 x 2, in turn, about the origin."""
+    halves = 0.5 * np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)]) * truth.size
+    local = np.column_stack([halves, np.zeros(4)])
+    return transforms.compose(truth.pose, local)[:, :2] - np.asarray(origin)
+
+
+def _distance_to(corners):
+    """From the origin to a parallelogram, 0 inside."""
+    edges = np.roll(corners, -1, axis=0) - corners
+    turns = edges[:, 0] * -corners[:, 1] + edges[:, 1] * corners[:, 0]
+    if np.all(turns >= 0.0) or np.all(turns <= 0.0):
+        return 0.0
+    lengths = np.maximum(np.sum(edges**2, axis=1), np.finfo(float).tiny)
+    shares = np.clip(np.sum(-corners * edges, axis=1) / lengths, 0.0, 1.0)
+    return float(np.hypot(*(corners + shares[:, np.newaxis] * edges).T).min())
+
+
+def _pairs(distances, objects, truths):
+    """The nearest pairs first, each object and each true one once; of equal ones that with the
+    nearer centers."""
+    candidates = sorted(
+        (distances[i, j], np.hypot(*(objects[i].pose[:2] - truths[j].pose[:2])), i, j)
+        for i, j in np.argwhere(distances <= 1.0)
+    )
+    taken, found, pairs = set(), set(), []
+    for _, _, i, j in candidates:
+        if i not in taken and j not in found:
+            taken.add(i)
+            found.add(j)
+            pairs.append((int(i), int(j)))
+    return pairs
+
+
+def _errors(item, truth, viewpoint):
+    """Of what the object saw of its near side."""
+    apart = offset(Outline(item, viewpoint), Outline(truth.box(), viewpoint))
+    nees = np.nan
+    if not np.any(np.isnan(apart.value)):
+        covariance = apart.jacobian @ item.covariance @ apart.jacobian.T
+        covariance += np.diag(apart.sides_variance)
+        nees = float(apart.value @ np.linalg.solve(covariance, apart.value))
+    return Errors(float(apart.value[0]), float(apart.value[1]), nees)

@@ -1,0 +1,165 @@
+"""Command line of score_objects."""
+
+import argparse
+from pathlib import Path
+
+from datmo_tools import command_line
+from datmo_tools.errors import InputError
+from datmo_tools.evaluate.object_lists import read_lists
+from datmo_tools.evaluate.object_scores import score_list
+from datmo_tools.evaluate.object_tally import ALL, CLASSES, MOVING, ObjectTally
+from datmo_tools.evaluate.object_truth import ANY, NONE, Asked, Region, Truth
+from datmo_tools.evaluate.region_options import add_region, region_of
+from datmo_tools.text_table import NO_VALUE, aligned, percent, rounded
+
+DESCRIPTION = """\
+Scores the objects of single measurements (/objects, /objects/stereo, /objects/fused of a run),
+before tracking, against the true objects of the drive that the run was made from:
+
+  recall       of the true objects that the sensor sees, how many are found, by class and range
+  precision    of the objects, how many are near a true one, moving or not; what stands in the
+               world and is no true object (walls, fences, what KITTI does not label) is false
+  class right  of the objects that are found, by their true class
+  error        of the near side along the line of sight (positive: too far), and of its corners
+               across it (to the left), as far as they are seen; mean and standard deviation
+  NEES         of both by the object's own covariance: 2 in the mean and 1.39 in the median if it is
+               honest, and then 95 % of the objects are within the gate
+
+Near is what lies, with the nearest point in the middle of its bearings, within 1 m of the true box
+across the line of sight, and within 1 m, or 5 m x range / 36 m if that is more, along it (thesis
+3.3.3). A true object is found by one object only; others near it are doubles.
+
+KITTI's labels know the camera's view alone, and not which sensor sees what:
+--visible-to none --half-angle 0.7."""
+
+# The sensor that must see a true object for it to be asked of a topic.
+SENSORS = {"/objects": "scanner", "/objects/stereo": "stereo", "/objects/fused": ANY}
+
+BANDS = (0.0, 10.0, 20.0, 30.0, 40.0)  # m, as far as they lie within --range
+RANGE = 36.0  # m; thesis 3.3.3
+
+
+def main(arguments=None):
+    """Runs the command line; returns its exit code."""
+    values = _parser().parse_args(arguments)
+    return command_line.run("score_objects", lambda: _run(values), product="score")
+
+
+def score(run, drive, topics=None, visible_to=None, region=Region(RANGE), moving_only=False):
+    """Score of the objects in the bag `run` (Path) against the drive's bag (Path), as a dictionary
+    that JSON can hold.
+
+    topics: those of SENSORS that are there by default; visible_to: sensor that must see a true
+    object, by default that of SENSORS; moving_only: what stands is not asked. Raises InputError,
+    also where nothing can be scored.
+    """
+    lists = read_lists(run, topics or SENSORS)
+    for topic in topics or ():
+        if topic not in lists:
+            raise InputError(f"{run}: nothing on {topic}, expected lists of objects")
+    if not lists:
+        raise InputError(f"{run}: nothing on {', '.join(SENSORS)}, expected lists of objects")
+    truth = Truth(drive)
+    scores = {
+        topic: _score_topic(
+            lists[topic], truth, Asked(region, visible_to or SENSORS.get(topic, ANY), moving_only)
+        )
+        for topic in topics or SENSORS
+        if topic in lists
+    }
+    if not any(item["lists"] for item in scores.values()):
+        raise InputError(f"{run}: no list has a stamp near one of the truth in {drive}")
+    return {"run": str(run), "drive": str(drive), "range_m": region.range,
+            "half_angle_rad": region.half_angle, "moving_only": moving_only,
+            "topics": scores}  # fmt: skip
+
+
+def _score_topic(lists, truth, asked):
+    truth.check_seen_by(asked.sensor)
+    region = asked.region
+    tally = ObjectTally([*(edge for edge in BANDS if edge < region.range), region.range])
+    for item in lists:
+        truths = truth.at(item.stamp, asked)
+        if truths is not None:
+            result = score_list(item.objects, truths, item.viewpoint)
+            tally.add(item.objects, truths, result, region)
+    without = len(lists) - tally.lists
+    return {"visible_to": asked.sensor, "lists_without_truth": without, **tally.result()}
+
+
+def table(result):
+    """The score as text."""
+    return "\n\n".join(_topic_text(topic, item) for topic, item in result["topics"].items())
+
+
+def _topic_text(topic, item):
+    bands = [f"{near:g}-{far:g} m" for near, far in item["bands_m"]] + ["all"]
+    recall = [["recall, %", *bands, "class right, %"]]
+    for group in (*CLASSES, MOVING, ALL):
+        right = item["class_right"].get(group)
+        shares = _shares(item["recall"][group])
+        if item["recall"][group]["of"][-1]:
+            recall.append([group, *shares, percent(right["share"]) if right else ""])
+    precision = [["precision, %", *bands]]
+    for group in (*CLASSES, ALL):
+        if item["precision"][group]["of"][-1]:
+            precision.append([group, *_shares(item["precision"][group])])
+    errors = [["error", *bands], *_error_rows(item["errors"])]
+    counts = (
+        f"{item['lists']} lists ({item['lists_without_truth']} more without truth), in each "
+        f"{item['objects_per_list']:.2f} objects, {item['false_per_list']:.2f} false, "
+        f"{item['doubles_per_list']:.2f} doubles"
+    )
+    heading = f"{topic}, true objects visible to {item['visible_to']}"
+    return "\n\n".join([f"{heading}\n{counts}", *map(aligned, (recall, precision, errors))])
+
+
+def _shares(item):
+    return [
+        NO_VALUE if share is None else f"{percent(share)} of {of}"
+        for share, of in zip(item["share"], item["of"])
+    ]
+
+
+def _error_rows(errors):
+    for key in ("along", "across"):
+        yield [f"{key}, m", *(_mean_and_sd(item, key) for item in errors)]
+        yield [f"of {key}", *(str(item[f"{key}_count"]) for item in errors)]
+    yield ["NEES, mean", *(rounded(item["mean_nees"], 2) for item in errors)]
+    yield ["NEES, median", *(rounded(item["median_nees"], 2) for item in errors)]
+    yield ["in 95 % gate, %", *(percent(item["in_gate"]) for item in errors)]
+    yield ["of both", *(str(item["nees_count"]) for item in errors)]
+
+
+def _mean_and_sd(item, key):
+    if not item[f"{key}_count"]:
+        return NO_VALUE
+    return f"{item[key + '_mean_m']:+.2f} ± {item[key + '_sd_m']:.2f}"
+
+
+def _run(values):
+    result = score(values.run, values.drive, values.topic, values.visible_to, region_of(values),
+                   values.moving_only)  # fmt: skip
+    print(table(result))
+    command_line.write_json(values.json, result)
+
+
+def _parser():
+    parser = argparse.ArgumentParser(
+        prog="score_objects",
+        description=DESCRIPTION,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add = parser.add_argument
+    add("run", type=Path, metavar="RUN.bag", help="bag of run_bag")
+    add("drive", type=Path, metavar="DRIVE.bag", help="bag with ground truth: of simulate or "
+        "kitti_to_bag, or RUN.bag itself (run_bag --with-truth)")  # fmt: skip
+    add("--topic", action="append",
+        help=f"of objects; may be repeated (default: {', '.join(SENSORS)}, if there)")  # fmt: skip
+    add("--visible-to", metavar="SENSOR",
+        help=f"that must see a true object, {ANY}, or {NONE}: not asked (default: scanner for "
+        f"/objects, stereo for /objects/stereo, else {ANY})")  # fmt: skip
+    add("--moving-only", action="store_true", help="true objects that stand need not be found")
+    add_region(parser, RANGE)
+    command_line.add_json(parser)
+    return parser

@@ -1,0 +1,24 @@
+"""Command-line options of the region in which a score counts."""
+
+import math
+
+from datmo_tools import command_line
+from datmo_tools.errors import InputError
+from datmo_tools.evaluate.object_truth import Region
+
+
+def add_region(parser, default_range):
+    """The options --range and --half-angle, for region_of(); default_range: m."""
+    command_line.add_number(parser, "--range", default_range, "M",
+                            "that counts, about the vehicle, m")  # fmt: skip
+    command_line.add_number(parser, "--half-angle", math.pi, "RAD",
+                            "the same to either side of straight ahead, rad")  # fmt: skip
+
+
+def region_of(values):
+    """Region of parsed options. Raises InputError where one is out of bounds."""
+    if values.range <= 0.0:
+        raise InputError(f"--range is {values.range:g}, expected more than 0")
+    if not 0.0 < values.half_angle <= math.pi:
+        raise InputError(f"--half-angle is {values.half_angle:g}, expected more than 0, at most pi")
+    return Region(values.range, values.half_angle)

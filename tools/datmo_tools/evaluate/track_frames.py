@@ -1,0 +1,181 @@
+"""Tracks of a run and what is true at their stamps, side by side."""
+
+import bisect
+from typing import NamedTuple, Optional
+
+import numpy as np
+
+from datmo_fusion.msg import Object
+from datmo_tools import transforms
+from datmo_tools.evaluate.object_truth import ANYTHING, Truth
+from datmo_tools.pose_path import read_path
+from datmo_tools.evaluate.score_run import FrameMatches, matches
+from datmo_tools.stamps import NANOSECONDS
+
+POSE = "/pose"  # estimated, of the run
+
+# What takes part in traffic; poles and trees are true objects as well.
+ROAD_USERS = (Object.CLASS_PEDESTRIAN, Object.CLASS_CYCLIST, Object.CLASS_VEHICLE)
+
+# A list is of the present for so long, s: as the fusion of tracks takes them.
+MAX_LIST_AGE = 0.6
+
+
+class Moment(NamedTuple):
+    """What is true at one stamp, in base_link; arrays in the order of the objects."""
+
+    base: np.ndarray  # true x, y (m), yaw (rad) of base_link in the map of the truth
+    items: list  # of TrueObject, in the map of the truth
+    ids: np.ndarray
+    poses: np.ndarray  # n x 3: x, y (m), yaw (rad)
+    sizes: np.ndarray  # n x 2, m: length, width
+    movers: np.ndarray  # bool: it moves at some time of the drive
+    users: np.ndarray  # bool: a road user, moving or not
+    required: np.ndarray  # bool: it has to be found
+
+
+class TrackFrame(NamedTuple):
+    """One list of tracks; all of the tracks' lists in their order."""
+
+    stamp: int  # ns
+    tracks: list  # of SeenTrack
+    positions: np.ndarray  # n x 2, m, base_link
+    moment: Moment
+    distances: np.ndarray  # n x m, m, from the tracks to the boxes of the true objects
+    matches: FrameMatches
+
+    def counts(self, row):
+        """Whether it is moving, and in the region or on an object that has to be found."""
+        return self.tracks[row].id in self.matches.counted
+
+    def is_false(self, row):
+        """Whether it counts and is on no true object that moves at some time."""
+        return self.tracks[row].id in self.matches.false
+
+    def near(self, row, gate, among):
+        """Indices of the true objects (those of the bool array `among`) within the gate (m)."""
+        return np.flatnonzero((self.distances[row] <= gate) & among)
+
+
+class Scene:
+    """True objects about the vehicle, as the run takes itself to see them: tracks are laid on the
+    truth by the estimated pose of the vehicle on its true one, so that the drift of the map does
+    not count. Which track is of which object is score_run's to say."""
+
+    def __init__(self, run, drive, region, visible_to, gate):
+        """run, drive: bags (Path); region: in which objects have to be found; visible_to: sensor
+        that must see them, ANY or NONE; gate: m, within which a track may be of an object. Raises
+        InputError."""
+        self._bags = run, drive
+        self._options = {
+            "region/range": region.range, "region/half_angle": region.half_angle,
+            "truth/visible_to": visible_to, "truth/min_time_seen": 0.0, "matching/gate": gate,
+        }  # fmt: skip
+        self._truth = Truth(drive)
+        self._truth.check_seen_by(visible_to)
+        self._movers = self._truth.movers()
+        self._poses = read_path(run, POSE)
+
+    def frames(self, topic, lists):
+        """List of TrackFrame of the lists of a topic (TrackList, by rising stamp) that score_run
+        knows the truth of."""
+        found = matches(*self._bags, {**self._options, "topics/tracks": topic})
+        frames = []
+        for item in lists:
+            states = self._truth.at(item.stamp, ANYTHING) if item.stamp in found else None
+            if states is not None:
+                moment = self._moment(item.stamp, states, found[item.stamp].required)
+                frames.append(self._frame(item, moment, found[item.stamp]))
+        return frames
+
+    def _moment(self, stamp, states, required):
+        ids = [state.source.id for state in states]
+        return Moment(
+            self._truth.base_at(stamp),
+            [state.source for state in states],
+            np.array(ids, dtype=int),
+            np.array([state.pose for state in states]).reshape(-1, 3),
+            np.array([state.size for state in states]).reshape(-1, 2),
+            np.array([number in self._movers for number in ids], dtype=bool),
+            np.array([state.classification in ROAD_USERS for state in states], dtype=bool),
+            np.array([number in required for number in ids], dtype=bool),
+        )
+
+    def _frame(self, item, moment, matched):
+        base = self._poses.at(item.stamp)
+        poses = np.array([track.pose for track in item.tracks]).reshape(-1, 3)
+        positions = transforms.relative(base, poses)[:, :2]
+        distances = distances_to_boxes(positions, moment.poses, moment.sizes)
+        return TrackFrame(item.stamp, item.tracks, positions, moment, distances, matched)
+
+
+def distances_to_boxes(positions, poses, sizes):
+    """Distances (n x m, m) of positions (n x 2) from boxes, 0 inside.
+
+    poses: m x 3, x, y (m), yaw (rad) of their centers; sizes: m x 2, length, width (m).
+    """
+    apart = positions[:, np.newaxis] - poses[np.newaxis, :, :2]
+    cosine, sine = np.cos(poses[:, 2]), np.sin(poses[:, 2])
+    along = cosine * apart[..., 0] + sine * apart[..., 1]
+    across = cosine * apart[..., 1] - sine * apart[..., 0]
+    outside = [np.maximum(np.abs(along) - 0.5 * sizes[:, 0], 0.0),
+               np.maximum(np.abs(across) - 0.5 * sizes[:, 1], 0.0)]  # fmt: skip
+    return np.hypot(*outside)
+
+
+class Newest:
+    """The newest of some items with a stamp (ns), at any time."""
+
+    def __init__(self, items):
+        """items: by rising stamp."""
+        self._items = items
+        self._stamps = [item.stamp for item in items]
+
+    def at(self, stamp):
+        """The newest one that is not after `stamp` (ns) and of the present; None: there is none."""
+        after = bisect.bisect_right(self._stamps, stamp)
+        if after == 0 or stamp - self._stamps[after - 1] > MAX_LIST_AGE * NANOSECONDS:
+            return None
+        return self._items[after - 1]
+
+
+class Follow(NamedTuple):
+    """What a track follows in some frames."""
+
+    object: Optional[int]  # id of the true object that it is nearest to, by all of them
+    frames: int
+    near: int  # of them, those in which it is within the gate of it
+
+    @property
+    def is_true(self):
+        """Whether it follows it in most of the frames."""
+        return 2 * self.near > self.frames
+
+
+def follow(observations, gate, among):
+    """Follow of one track.
+
+    observations: of (TrackFrame, row); among: function of a Moment, which true objects count (bool
+    array). The object is that with the least sum of distances, none of which counts as more than
+    the gate (m).
+    """
+    gains, counts = {}, {}
+    for frame, row in observations:
+        for column in frame.near(row, gate, among(frame.moment)):
+            number = int(frame.moment.ids[column])
+            gains[number] = gains.get(number, 0.0) + gate - frame.distances[row, column]
+            counts[number] = counts.get(number, 0) + 1
+    if not gains:
+        return Follow(None, len(observations), 0)
+    best = max(gains, key=lambda number: (gains[number], counts[number], -number))
+    return Follow(best, len(observations), counts[best])
+
+
+def sightings_of(frames, wanted=lambda frame, row: True):
+    """Dictionary track id -> list of (TrackFrame, row), of the rows that are wanted."""
+    observations = {}
+    for frame in frames:
+        for row, track in enumerate(frame.tracks):
+            if wanted(frame, row):
+                observations.setdefault(track.id, []).append((frame, row))
+    return observations

@@ -1,0 +1,1 @@
+"""Many runs, their figures side by side."""

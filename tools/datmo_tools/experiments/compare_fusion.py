@@ -1,0 +1,187 @@
+"""The levels of fusion on the same drives: the command line and the runs."""
+
+import argparse
+import json
+import os
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from pathlib import Path
+from typing import NamedTuple, Optional
+
+from datmo_tools import command_line, programs
+from datmo_tools.experiments import simulated_run
+from datmo_tools.experiments.camera_view import LIST_PARAMETERS, camera_view
+from datmo_tools.errors import InputError
+from datmo_tools.experiments.fusion_comparison import comparison_table, figures, objects_table
+from datmo_tools.experiments.fusion_drives import LEVELS, Kitti, data_sets, within
+from datmo_tools.experiments.fusion_plot import comparison_plot
+from datmo_tools.programs import StepFailed
+from datmo_tools.progress import Progress
+from datmo_tools.evaluate.thesis_tables import PUBLISHED
+from datmo_tools.whole_files import write_whole
+
+DESCRIPTION = """\
+Drives the scenes data_set_1 to data_set_3, simulated with a stereo camera (10 MB for each second),
+and a labeled KITTI drive, where there is one, through the stack at several levels of fusion, and
+prints what became of their moving objects beside the thesis's table 3.2. Each drive is recorded
+once, for all levels. Bags and scores of each stay in a folder of its own, for evaluate, all figures
+in comparison.json, and a picture of them in comparison.svg. A run that gives no score is reported,
+and the others go on; the exit code is then 1."""
+
+
+class Result(NamedTuple):
+    """What came of one drive at one level."""
+
+    drive: object  # of fusion_drives
+    level: str  # of LEVELS
+    figures: Optional[dict] = None
+    failure: Optional[str] = None
+
+
+def main(arguments=None):
+    """Runs the command line; returns its exit code."""
+    values = _parser().parse_args(arguments)
+    complete = []
+    code = command_line.run("compare_fusion", lambda: complete.append(_compare(values)), "table")
+    return code or int(not complete[0])
+
+
+def _compare(values):
+    """Whether all runs gave a score."""
+    drives, notes = _drives(values)
+    views = {drive.config: camera_view(drive.config, values.programs) for drive in drives}
+    results = _run_all(drives, views, values)
+    print(comparison_table([
+        (result.drive.name, result.drive.published, result.level, result.figures)
+        for result in results
+    ]))  # fmt: skip
+    for drive in drives:
+        # The thesis counts them; of a labeled drive each can be looked at.
+        if drive.published is None:
+            runs = [(item.level, item.figures) for item in results if item.drive is drive]
+            title = f"Moving objects of {drive.name}: tracked in so many of their frames, %"
+            print(f"\n{title}\n{objects_table(runs)}")
+    pictures = [(result.drive.name, result.level, result.figures) for result in results]
+    write_whole(values.out, {"comparison.json": _as_json(results),
+                             "comparison.svg": comparison_plot(pictures, "svg")})  # fmt: skip
+    # What one drive fails with at its recording, all levels say.
+    failures = [result.failure for result in results if result.failure is not None]
+    where = f"bags, scores, comparison.json and comparison.svg: {values.out}"
+    closing = [*notes, *dict.fromkeys(failures), where]
+    print("\n" + "\n".join(closing))
+    return not failures
+
+
+def _drives(values):
+    """The drives, and notes of what is not there."""
+    programs.check(values.programs, [*simulated_run.STEPS, LIST_PARAMETERS])
+    drives, notes = data_sets(values.scenes, values.config, values.sets), []
+    for file in [drive.scene for drive in drives] + [values.config, values.kitti_config]:
+        if not file.is_file():
+            raise InputError(f"{file}: no such file, expected a yaml file")
+    if values.kitti.is_dir():
+        programs.check(values.programs, ["kitti_to_bag"])
+        drives.append(Kitti(values.kitti, values.kitti_config))
+    else:
+        notes.append(f"{values.kitti}: not there, so no KITTI drive (--kitti names one)")
+    return drives, notes
+
+
+def _run_all(drives, views, values):
+    """Results of all drives at all levels, in this order.
+
+    views: of their cameras (CameraView), by sensor set.
+    """
+    with ThreadPoolExecutor(values.jobs) as pool:
+        # Workers take what was submitted first: who waits for a recording, waits for one at work.
+        recordings = [pool.submit(_record, drive, values) for drive in drives]
+        runs = [
+            pool.submit(_run, drive, level, recording, views[drive.config], values)
+            for drive, recording in zip(drives, recordings)
+            for level in values.levels
+        ]
+        try:
+            with Progress(len(runs), "runs") as progress:
+                for done, _ in enumerate(as_completed(runs), start=1):
+                    progress.update(done)
+        except BaseException:
+            pool.shutdown(cancel_futures=True)
+            raise
+    return [run.result() for run in runs]
+
+
+def _record(drive, values):
+    """The drive's bag (Path)."""
+    recorded = values.out / drive.name / "drive.bag"
+    if not (values.reuse_drives and recorded.is_file()):
+        recorded.parent.mkdir(parents=True, exist_ok=True)
+        drive.record(values.programs, recorded)
+    return recorded
+
+
+def _run(drive, level, recording, view, values):
+    """Result of one drive at one level."""
+    try:
+        recorded = recording.result()
+    except (StepFailed, OSError) as error:
+        return Result(drive, level, failure=f"{drive.name}: {error}")
+    folder = recorded.parent / level
+    try:
+        folder.mkdir(exist_ok=True)
+        found = _figures(drive, level, recorded, folder, view, values)
+        return Result(drive, level, found)
+    except (StepFailed, OSError) as error:
+        return Result(drive, level, failure=f"{drive.name}, {level}: {error}")
+
+
+def _figures(drive, level, recorded, folder, view, values):
+    built, times = values.programs, folder / "times.json"
+    borders = ("--road-border",) if values.road_border else ()
+    report = simulated_run.run_recorded(
+        recorded, built, drive.config, folder, drive.score_options,
+        (*LEVELS[level], *borders, "--times", times))  # fmt: skip
+    wide_report = drive.wide_score_options and simulated_run.score(
+        folder / "result.bag", built, drive.wide_score_options, folder / "score_any_sensor.json")
+    view_report = simulated_run.score(
+        folder / "result.bag", built, within(view, drive.score_options),
+        folder / "score_in_view.json")  # fmt: skip
+    return figures(report, wide_report, view_report,
+                   json.loads(times.read_text(encoding="utf-8")))  # fmt: skip
+
+
+def _as_json(results):
+    runs = [
+        {"drive": result.drive.name, "level": result.level, "failure": result.failure,
+         "figures": result.figures}
+        for result in results
+    ]  # fmt: skip
+    return json.dumps({"runs": runs}, indent=2) + "\n"
+
+
+def _parser():
+    parser = argparse.ArgumentParser(
+        prog="compare_fusion",
+        description=DESCRIPTION,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add = parser.add_argument
+    add("--scenes", required=True, type=Path, metavar="DIR", help="folder of the scenes")
+    add("--config", required=True, type=Path, metavar="CONFIG.yaml",
+        help="the sensor set of the scenes")  # fmt: skip
+    add("--kitti", required=True, type=Path, metavar="DRIVE",
+        help="folder ..._drive_NUMBER_sync; where it is not there, it is left out")  # fmt: skip
+    add("--kitti-config", required=True, type=Path, metavar="CONFIG.yaml", help="its sensor set")
+    add("--programs", required=True, type=Path, metavar="DIR",
+        help="folder of simulate, run_bag, score_run and kitti_to_bag")  # fmt: skip
+    add("--levels", nargs="+", choices=list(LEVELS), default=list(LEVELS),
+        help="of fusion (default: all)")  # fmt: skip
+    add("--road-border", action="store_true", help="all levels with borders of the road")
+    numbers = list(range(1, len(PUBLISHED) + 1))
+    add("--sets", nargs="*", type=int, choices=numbers, default=numbers,
+        help="data sets (default: all)")  # fmt: skip
+    add("--jobs", type=command_line.count, default=os.cpu_count(), metavar="N",
+        help="runs at a time (default: all cores)")  # fmt: skip
+    add("--reuse-drives", action="store_true",
+        help="takes the recordings that an earlier run left in the folder")  # fmt: skip
+    add("--out", type=command_line.output_folder, default=Path("compare_fusion"), metavar="DIR",
+        help="for bags and scores (default %(default)s)")  # fmt: skip
+    return parser

@@ -1,0 +1,125 @@
+"""The figures of runs at several levels of fusion, and their table."""
+
+from datmo_tools.experiments.fusion_table import time_per_scan
+from datmo_tools.text_table import NO_VALUE, aligned, percent, rounded
+
+NOTE = """\
+Levels of fusion: none, the scanner alone; low, grids of scanner and stereo camera (thesis 3.2);
+object, objects of both (thesis 3.3); track, tracks of both (thesis 3.4). Missed: moving objects that
+no track ever matched, of those that the scanner saw moving, however briefly, and, by any, of those
+that either sensor did; of a labeled drive, of all that move in the camera's view. Beside it what the
+thesis missed without and with fusion of objects (table 3.2): its data sets were driven, ours are
+simulated streets with as many seconds and moving objects. False: tracks on nothing that moves;
+false, in view: the same within the stereo camera's range and field of view. RMSE: of the position of
+matched tracks, and, near, of those within 20 m. Class right: of the frames of matched tracks. Delay:
+from the first detection of an object to its first track, mean. Time: mean of all stages together for one
+scan, without the matching of images."""
+
+# Levels at which the thesis has a count: its field in Published.
+THESIS_MISSED = {"none": "missed", "object": "missed_with_fusion"}
+
+# What is kept of each moving object.
+OBJECT_KEYS = ("id", "label", "class", "first_s", "last_s", "required_frames", "tracked_frames",
+               "track_ids", "delay_s")  # fmt: skip
+
+
+def figures(report, wide_report, view_report, stages):
+    """Figures of one run, as a dictionary that JSON can hold; None for what there is not.
+
+    report: of score_run; wide_report: the same with objects that any sensor sees, or None;
+    view_report: the same within the camera's view alone; stages: of run_bag --times.
+    """
+    counts = report["thesis"]
+    wide = wide_report["thesis"] if wide_report else {}
+    return {
+        "moving_objects": counts["moving_objects"],
+        "missed_objects": counts["missed_objects"],
+        "moving_objects_any_sensor": wide.get("moving_objects"),
+        "missed_objects_any_sensor": wide.get("missed_objects"),
+        "tracks": counts["tracks"],
+        "false_tracks": counts["false_tracks"],
+        "false_tracks_in_view": view_report["thesis"]["false_tracks"],
+        "mota": report["clear_mot"]["mota"],
+        "idf1": report["identity"]["idf1"],
+        "position_rmse_m": report["errors"]["position_rmse_m"],
+        "near_position_rmse_m": report["near_errors"]["position_rmse_m"],
+        "class_right_share": report["classes"]["right_share"],
+        "mean_delay_s": report["delay"]["mean_s"],
+        "time_per_scan_ms": time_per_scan(stages),
+        "objects": [{key: item[key] for key in OBJECT_KEYS} for item in report["objects"]],
+    }
+
+
+def comparison_table(rows):
+    """Text of the table.
+
+    rows: (name of the drive, Published or None, level, figures() or None where the run failed).
+    """
+    headings = ["drive", "level", "thesis missed", *(heading for heading, _ in _COLUMNS)]
+    lines = [headings]
+    for name, published, level, run in rows:
+        cells = [NO_VALUE if run is None else cell(run) for _, cell in _COLUMNS]
+        lines.append([name, level, _thesis_missed(published, level), *cells])
+    return f"{NOTE}\n\n{aligned(lines)}"
+
+
+def objects_table(runs):
+    """Text of a table of the moving objects of one drive, and in how many of their frames they were
+    tracked (%).
+
+    runs: (level, figures() or None where the run failed), of one drive or more.
+    """
+    known = [(level, run) for level, run in runs if run is not None]
+    objects = {item["id"]: item for _, run in known for item in run["objects"]}
+    rows = [["object", "from, s", "to, s", "frames", *(level for level, _ in known)]]
+    for number, item in objects.items():
+        cells = [f"{item['label']} {number}", f"{item['first_s']:.1f}", f"{item['last_s']:.1f}"]
+        cells.append(str(item["required_frames"]))
+        rows.append(cells + [_tracked(run["objects"], number) for _, run in known])
+    return aligned(rows)
+
+
+def _tracked(objects, number):
+    """Share of the frames, and by how many tracks if not by one."""
+    item = next((item for item in objects if item["id"] == number), None)
+    if item is None:
+        return NO_VALUE
+    share = percent(item["tracked_frames"] / item["required_frames"])
+    ids = len(item["track_ids"])
+    return share if ids <= 1 else f"{share} ({ids} ids)"
+
+
+def _of(count, total):
+    def cell(run):
+        return NO_VALUE if run[count] is None else f"{run[count]} of {run[total]}"
+
+    return cell
+
+
+def _percent(key):
+    return lambda run: percent(run[key])
+
+
+def _rounded(key, digits):
+    return lambda run: rounded(run[key], digits)
+
+
+_COLUMNS = (
+    ("missed", _of("missed_objects", "moving_objects")),
+    ("by any", _of("missed_objects_any_sensor", "moving_objects_any_sensor")),
+    ("tracks", lambda run: str(run["tracks"])),
+    ("of them false", lambda run: str(run["false_tracks"])),
+    ("false, in view", lambda run: str(run["false_tracks_in_view"])),
+    ("MOTA, %", _percent("mota")),
+    ("IDF1, %", _percent("idf1")),
+    ("RMSE, m", _rounded("position_rmse_m", 2)),
+    ("near", _rounded("near_position_rmse_m", 2)),
+    ("class right, %", _percent("class_right_share")),
+    ("delay, s", _rounded("mean_delay_s", 2)),
+    ("time, ms", _rounded("time_per_scan_ms", 1)),
+)
+
+
+def _thesis_missed(published, level):
+    field = THESIS_MISSED.get(level)
+    return NO_VALUE if published is None or field is None else str(getattr(published, field))

@@ -1,0 +1,163 @@
+"""CARMEN logs through the stack's SLAM, scored with their relations: command line and runs."""
+
+import argparse
+import json
+import tempfile
+from pathlib import Path
+
+from datmo_tools import command_line, programs
+from datmo_tools.convert import carmen_bag
+from datmo_tools.convert.carmen_clock import CLOCKS
+from datmo_tools.errors import InputError
+from datmo_tools.evaluate.relations import read_relations
+from datmo_tools.evaluate.slam import score
+from datmo_tools.whole_files import write_whole
+
+DESCRIPTION = """\
+Takes CARMEN logs through carmen_to_bag and run_bag (grid SLAM alone: the online pose, nothing
+corrected afterward) with one configuration for all, and scores the poses with the relations.
+Prints a table with the figures that Kuemmerle et al. published for the log (2009) beside ours, and
+what a scan cost."""
+
+FORMAT = 1  # of the JSON file
+PROGRAMS = ("run_bag",)
+
+# Translational errors, m: mean and standard deviation, by the log's name. Source: table 1 of
+# Kuemmerle et al., "On measuring the accuracy of SLAM algorithms", Autonomous Robots 27(4), 2009.
+PUBLISHED = {
+    "intel": {
+        "scan matching": (0.220, 0.296),
+        "particle filter (RBPF)": (0.070, 0.083),
+        "graph mapping": (0.031, 0.026),
+    }
+}
+
+
+def main(arguments=None):
+    """Runs the command line; returns its exit code."""
+    values = _parser().parse_args(arguments)
+    return command_line.run("slam_benchmark", lambda: _run(values), product="score")
+
+
+def find_pairs(folder):
+    """Sorted list of (log, relations) in `folder` (Path): logs with NAME.relations beside them.
+
+    Raises InputError if there is none.
+    """
+    pairs = [
+        (log, relations)
+        for relations in sorted(folder.glob("*.relations"))
+        for log in sorted(folder.glob(f"{relations.stem}.*"))
+        if log != relations
+    ]
+    if not pairs:
+        raise InputError(f"{folder}: no log with relations, expected NAME.clf and NAME.relations")
+    return pairs
+
+
+def benchmark(log, relations, built, config, options=carmen_bag.Options()):
+    """Result (dict that JSON can hold) of one log (Path) with its relations (Path).
+
+    built: folder (Path) of run_bag; config: yaml file (Path). Raises InputError and
+    programs.StepFailed.
+    """
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        recorded, computed, times = (folder / file for file in ("in.bag", "out.bag", "times.json"))
+        carmen_bag.convert(log, recorded, options)
+        stage = ("--until", "grid_slam", "--times", times, "--quiet")
+        programs.call(built / "run_bag", recorded, computed, "--config", config, *stage)
+        return {
+            "log": log.name.split(".")[0],
+            "pose": _without_files(score(computed, relations, recording=recorded)),
+            "odometry": _without_files(score(recorded, relations, "/odometry")),
+            "time": json.loads(times.read_text(encoding="utf-8"))["grid_slam"],
+        }
+
+
+def table(results):
+    """The results as text."""
+    lines = [
+        f"{'':<28}{'translation, m':>19}{'rotation, deg':>22}{'relations':>12}{'scans':>8}"
+        f"{'ms a scan: mean, median, 99 %':>32}"
+    ]
+    for result in results:
+        time = result["time"]
+        cost = "".join(
+            f"{1e3 * time[key]:9.3f}" for key in ("mean_s", "median_s", "percentile_99_s")
+        )
+        lines.append(result["log"])
+        lines.append(_row("  odometry alone", result["odometry"]))
+        lines.append(
+            f"{_row('  grid_slam, online pose', result['pose'])}{time['runs']:8d}{cost:>32}"
+        )
+        for method, (mean, std) in PUBLISHED.get(result["log"], {}).items():
+            lines.append(f"{'  published: ' + method:<36}{mean:5.3f} +- {std:5.3f}")
+    if any(result["log"] in PUBLISHED for result in results):
+        lines.append("published: by Kuemmerle et al., 2009")
+    return "\n".join(lines)
+
+
+def _row(name, scored):
+    translation, rotation = scored["translation_m"], scored["rotation_deg"]
+    total = scored["used"] + scored["not_covered"]
+    return (
+        f"{name:<33}{translation['mean']:8.3f} +-{translation['std']:7.3f}"
+        f"{rotation['mean']:9.2f} +-{rotation['std']:7.2f}{scored['used']:7d}/{total}"
+    )
+
+
+def _without_files(scored):
+    """The score without the names of temporary files."""
+    return {key: value for key, value in scored.items() if key not in ("poses", "relations")}
+
+
+def _run(values):
+    pairs = _pairs(values.files)
+    programs.check(values.programs, PROGRAMS)
+    _check_files(pairs, values.config)
+    options = carmen_bag.Options(clock=values.clock)
+    try:
+        results = [
+            benchmark(log, relations, values.programs, values.config, options)
+            for log, relations in pairs
+        ]
+    except programs.StepFailed as error:
+        raise InputError(str(error)) from error
+    print(table(results))
+    if values.out is not None:
+        report = {"format": FORMAT, "clock": values.clock, "results": results}
+        write_whole(values.out.parent, {values.out.name: json.dumps(report, indent=2) + "\n"})
+
+
+def _check_files(pairs, config):
+    """Raises InputError for what would end the last log's run after minutes."""
+    for file in [config, *(log for log, _ in pairs)]:
+        if not file.is_file():
+            raise InputError(f"{file}: no such file")
+    for _, relations in pairs:
+        read_relations(relations)
+
+
+def _pairs(files):
+    if len(files) == 1:
+        return find_pairs(files[0])
+    if len(files) % 2 == 1:
+        raise InputError(f"{len(files)} files, expected LOG RELATIONS pairs, or one folder")
+    return list(zip(files[::2], files[1::2]))
+
+
+def _parser():
+    parser = argparse.ArgumentParser(
+        prog="slam_benchmark",
+        description=DESCRIPTION,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add = parser.add_argument
+    files = "pairs of log and relations file, or one folder with NAME.clf and NAME.relations"
+    add("files", type=Path, nargs="+", metavar="FILE", help=files)
+    add("--programs", type=Path, required=True, metavar="FOLDER", help="where run_bag is")
+    add("--config", type=Path, required=True, metavar="FILE.yaml", help="the sensor set")
+    add("--clock", choices=CLOCKS, default="order", help="see carmen_to_bag (default %(default)s)")
+    add("--out", type=command_line.output_file, metavar="FILE.json", help="writes all figures there")
+    return parser

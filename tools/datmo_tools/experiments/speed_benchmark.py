@@ -1,0 +1,117 @@
+"""How fast the stack is: the command line, and what is measured in which order."""
+
+import argparse
+import json
+import subprocess
+import tempfile
+from pathlib import Path
+
+from datmo_tools import command_line, programs
+from datmo_tools.experiments import speed_live, speed_micro, speed_report
+from datmo_tools.errors import InputError
+from datmo_tools.progress import Progress
+from datmo_tools.experiments.speed_context import describe, devel_space
+from datmo_tools.experiments.speed_live import LiveDrive
+from datmo_tools.whole_files import write_whole
+
+DESCRIPTION = """\
+Measures how fast the stack is. micro: the hot paths, each alone, in processor time. live: the
+nodelets on a drive that is played at its own pace, at the demonstrator's settings and at heavy
+ones: latency from a scan's departure at another process to the arrival of its tracks there, both
+transports included; processor time and memory of the nodelets' process. Each live figure is the
+median over the runs. All figures go to a JSON file; --compare prints two such files side by side."""
+
+QUICK = "--duration=3"  # s of a drive
+HEAVY_SCANNER = ("scanner/beam_spacing=0.25", "scanner/horizontal_opening=0.25")
+
+
+def main(arguments=None):
+    """Runs the command line; returns its exit code."""
+    values = _parser().parse_args(arguments)
+    work = _compare if values.compare else _measure
+    return command_line.run("speed_benchmark", lambda: work(values), "report")
+
+
+def _compare(values):
+    old, new = map(speed_report.read, values.compare)
+    print(speed_report.comparison(old, new))
+
+
+def _measure(values):
+    parts = values.parts or speed_report.MEASURED
+    unknown = set(parts) - set(speed_report.MEASURED)
+    if unknown:
+        raise InputError(f"{sorted(unknown)[0]}: expected micro or live")
+    report = {"format": speed_report.FORMAT, "context": describe(values.source, values.build)}
+    with tempfile.TemporaryDirectory(prefix="benchmark_") as folder:
+        if "micro" in parts:
+            program = _program(values, "benchmark_hot_paths")
+            report["micro"] = speed_micro.measure(program, Path(folder), values.quick)
+        if "live" in parts:
+            report["live"] = _measure_live(values, Path(folder))
+    write_whole(values.out.parent, {values.out.name: json.dumps(report, indent=1) + "\n"})
+    print(speed_report.table(report))
+    print(f"\nall of it: {values.out}")
+
+
+def _measure_live(values, folder):
+    """Figures of each drive, the median over the runs."""
+    launch_file = values.source / "benchmark" / "live.launch"
+    drives = _drives(values, folder)
+    runs = {name: [] for name in drives}
+    count = 1 if values.quick else values.runs
+    with Progress(count * len(drives), "live runs") as progress:
+        for _ in range(count):
+            for name, drive in drives.items():
+                runs[name].append(speed_live.measure(drive, launch_file, folder))
+                progress.update(sum(map(len, runs.values())))
+    return {name: speed_report.medians(figures) for name, figures in runs.items()}
+
+
+def _drives(values, folder):
+    """The intersection, as the demonstrator and as a heavy scanner see it."""
+    fixtures = values.source / "rosbag_fixtures"
+    heavy_bag = folder / "heavy.bag"
+    _simulate(values, fixtures / "scenes" / "intersection.yaml", heavy_bag, HEAVY_SCANNER)
+    demonstrator = values.source / "config" / "demonstrator.yaml"
+    heavy = values.source / "benchmark" / "heavy.yaml"
+    play_options = QUICK if values.quick else ""
+    return {
+        "demonstrator": LiveDrive(fixtures / "intersection.bag", demonstrator, play_options),
+        "heavy": LiveDrive(heavy_bag, heavy, play_options),
+    }
+
+
+def _simulate(values, scene, bag, options):
+    settings = [word for option in options for word in ("--set", option)]
+    program = _program(values, "simulate")
+    done = subprocess.run([program, scene, bag, "--quiet", *settings], check=False)
+    if done.returncode != 0:
+        raise InputError(f"{scene}: simulate failed with exit code {done.returncode}")
+
+
+def _program(values, name):
+    folder = devel_space(values.build) / "lib" / "datmo_fusion"
+    programs.check(folder, (name,))
+    return folder / name
+
+
+def _parser():
+    parser = argparse.ArgumentParser(
+        prog="speed_benchmark",
+        description=DESCRIPTION,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add = parser.add_argument
+    add("parts", nargs="*", metavar="micro|live", help="what to measure (default: both)")
+    add("--compare", nargs=2, type=Path, metavar=("OLD.json", "NEW.json"),
+        help="print two results side by side instead")  # fmt: skip
+    add("--runs", type=command_line.count, default=3, metavar="N",
+        help="live runs (default %(default)s)")  # fmt: skip
+    add("--quick", action="store_true", help="one short run of everything: does it work?")
+    add("--source", type=Path, default=Path.cwd(), metavar="DIR", help="sources (default: here)")
+    add("--build", type=Path, default=Path("build"), metavar="DIR",
+        help="where they are built (default %(default)s)")  # fmt: skip
+    add("--out", type=command_line.output_file, default=Path("benchmark.json"), metavar="FILE.json",
+        help="all figures (default %(default)s)")  # fmt: skip
+    return parser
