@@ -5,7 +5,7 @@ import os
 import tempfile
 from pathlib import Path
 
-from datmo_tools.evaluate.tracks import main
+from datmo_tools.evaluate.main import main
 
 RUN_BAG = os.environ.get("RUN_BAG", "run_bag")
 SCORE_RUN = os.environ.get("SCORE_RUN", "score_run")
@@ -18,7 +18,7 @@ def evaluated(run, truth, settings=()):
     """
     words = [word for assignment in settings for word in ("--set", assignment)]
     with tempfile.TemporaryDirectory() as folder:
-        code = main([str(run), "--truth", str(truth), "--out", folder, *words], SCORE_RUN)
+        code = main(["tracks", str(run), "--truth", str(truth), "--out", folder, *words], SCORE_RUN)
         if code != 0:
             raise RuntimeError(f"evaluate ended with {code}")
-        return json.loads((Path(folder) / "report.json").read_text(encoding="utf-8"))["runs"][0]
+        return json.loads((Path(folder) / "tracks.json").read_text(encoding="utf-8"))["runs"][0]

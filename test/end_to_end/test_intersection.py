@@ -11,7 +11,7 @@ import unittest
 from pathlib import Path
 
 import yaml
-from datmo_tools.evaluate.sections import OBJECT_METRICS, sections_of
+from datmo_tools.evaluate.metric_groups import OBJECT_METRICS, metric_groups
 from evaluated_run import RUN_BAG, evaluated
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -65,8 +65,8 @@ class Intersection(unittest.TestCase):
 
     def assert_all_is_measured(self, result):
         """What evaluate shows is in what score_run writes, under the same names."""
-        for section in sections_of([result]):
-            for metric in section.metrics:
+        for group in metric_groups([result]):
+            for metric in group.metrics:
                 measured = metric.value(result) is not None
                 self.assertNotEqual(measured, metric.path in NOT_MEASURED, metric.path)
         for metric in OBJECT_METRICS:

@@ -8,11 +8,12 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from datmo_tools.evaluate.grids import score, table
+from datmo_tools.evaluate.grids import score, sections
+from datmo_tools.evaluate.report import as_text
 from evaluated_run import RUN_BAG, evaluated
 from test_intersection import ASKED, CONFIG, MAX_POSE_ERROR, SCENE, SIMULATE
 
-IN_VIEW = 1  # column of score_grids
+IN_VIEW = 1  # column of evaluate grids
 
 MIN_PAINT_GONE = 75.0  # percent of the false cells
 MAX_OBSTACLES_LOST = 2.0  # percent of the true ones
@@ -41,10 +42,10 @@ class LowLevelFusion(unittest.TestCase):
             cls.alone = run_stack(recorded, alone)
             cls.fused = run_stack(recorded, fused, "--low-level-fusion", "--write-grids")
             cls.grids = score(fused, recorded)
-            print(f"\n{table(cls.grids)}", flush=True)
+            print(f"\n{as_text(sections(cls.grids))}", flush=True)
 
     def percent(self, row):
-        """Of a row of score_grids, in the camera's view."""
+        """Of a row of evaluate grids, in the camera's view."""
         self.assertGreater(self.grids[row]["of"][IN_VIEW], 0)
         return self.grids[row]["percent"][IN_VIEW]
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The Intel Research Lab of the SLAM benchmark through carmen_to_bag, run_bag and score_relations.
+"""The Intel Research Lab of the SLAM benchmark through carmen_to_bag, run_bag and evaluate slam.
 
 Kuemmerle et al., "On measuring the accuracy of SLAM algorithms", 2009, published for this log: scan
 matching 0.220 m, Rao-Blackwellized particle filter 0.070 m, graph mapping 0.031 m.

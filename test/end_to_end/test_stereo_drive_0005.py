@@ -15,7 +15,8 @@ from pathlib import Path
 import rosbag
 import yaml
 from datmo_tools.convert.kitti_to_bag import main as kitti_to_bag
-from datmo_tools.evaluate.stereo_grids import score, table
+from datmo_tools.evaluate.report import as_text
+from datmo_tools.evaluate.stereo_grids import score, sections
 from drive_0005 import DRIVE, needs_drive_0005
 from evaluated_run import RUN_BAG, evaluated
 from test_drive_0005 import ASKED, CONFIG, ODOMETRY_ERRORS, WHOLE_DRIVE
@@ -69,7 +70,7 @@ class StereoDrive(unittest.TestCase):
     def scored(computed, thinned, **settings):
         """The band NEAR of the score, which is printed."""
         result = score(computed, thinned, **settings)
-        print(f"\n{settings}\n{table(result)}", flush=True)
+        print(f"\n{settings}\n{as_text(sections(result))}", flush=True)
         return next(band for band in result["bands"] if (band["from"], band["to"]) == NEAR)
 
     def test_obstacles_of_the_stereo_grid_are_there(self):

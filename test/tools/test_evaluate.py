@@ -11,7 +11,7 @@ from pathlib import Path
 from unittest import mock
 
 from datmo_tools.errors import InputError
-from datmo_tools.evaluate.tracks import main
+from datmo_tools.evaluate.main import main
 from datmo_tools.evaluate.score_run import find_score_run
 from datmo_tools.whole_files import write_whole
 from evaluation_sample import sample_run
@@ -52,7 +52,8 @@ class CommandLine(unittest.TestCase):
         out, err = io.StringIO(), io.StringIO()
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
             try:
-                code = main([*map(str, words), "--out", str(self.out)], str(self.program))
+                words = ["tracks", *map(str, words), "--out", str(self.out)]
+                code = main(words, str(self.program))
             except SystemExit as ending:
                 code = ending.code
         return code, out.getvalue(), err.getvalue()
@@ -65,11 +66,11 @@ class CommandLine(unittest.TestCase):
         code, out, _ = self.evaluate(bag)
         self.assertEqual(code, 0)
         self.assertIn("MOTA", out)
-        self.assertIn(str(self.out / "report.html"), out)
+        self.assertIn(str(self.out / "tracks.html"), out)
         self.assertEqual(
-            sorted(path.name for path in self.out.iterdir()), ["report.html", "report.json"]
+            sorted(path.name for path in self.out.iterdir()), ["tracks.html", "tracks.json"]
         )
-        report = json.loads((self.out / "report.json").read_text())
+        report = json.loads((self.out / "tracks.json").read_text())
         self.assertEqual(report, {"format": 1, "runs": [sample_run(str(bag))]})
         self.assertEqual(self.calls(), [[str(bag), "--out"]])
 
@@ -83,9 +84,9 @@ class CommandLine(unittest.TestCase):
         better = self.bag("b.bag", clear_mot={"mota": 0.6})
         code, out, _ = self.evaluate("--compare", self.bag("a.bag"), better)
         self.assertEqual(code, 0)
-        mota = next(line for line in out.splitlines() if line.startswith("  MOTA"))
+        mota = next(line for line in out.splitlines() if line.startswith("MOTA"))
         self.assertEqual(mota.split(), ["MOTA", "%", "40.0", "60.0*"])
-        report = json.loads((self.out / "report.json").read_text())
+        report = json.loads((self.out / "tracks.json").read_text())
         self.assertEqual([run["clear_mot"]["mota"] for run in report["runs"]], [0.4, 0.6])
 
     def test_runs_on_different_drives(self):
@@ -104,17 +105,17 @@ class CommandLine(unittest.TestCase):
 
     def test_failure_leaves_the_report_of_before(self):
         self.evaluate(self.bag("a.bag"))
-        before = (self.out / "report.html").read_bytes()
+        before = (self.out / "tracks.html").read_bytes()
         bad = self.folder / "bad.bag"
         bad.write_text("fail 2")
         self.evaluate(bad)
-        self.assertEqual((self.out / "report.html").read_bytes(), before)
+        self.assertEqual((self.out / "tracks.html").read_bytes(), before)
 
     def test_same_input_same_bytes(self):
         pages = []
         for _ in range(2):
             self.evaluate(self.bag("a.bag"))
-            pages.append((self.out / "report.html").read_bytes())
+            pages.append((self.out / "tracks.html").read_bytes())
         self.assertTrue(pages[0] == pages[1])
 
     def test_wrong_usage(self):

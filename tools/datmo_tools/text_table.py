@@ -1,13 +1,16 @@
 """Tables as text."""
 
+from tabulate import tabulate
+
 NO_VALUE = "-"  # of what was not measured
 
 
 def aligned(rows):
-    """Rows of cells, the first one headings, as columns that line up."""
-    widths = [max(map(len, column)) for column in zip(*rows)]
-    lines = ["  ".join(f"{cell:>{width}}" for cell, width in zip(row, widths)) for row in rows]
-    return "\n".join(lines)
+    """Rows of cells as columns that line up, the first of them to the left; empty rows are left out.
+    """
+    rows = [row for row in rows if any(row)]
+    alignment = ("left", *["right"] * (len(rows[0]) - 1))
+    return tabulate(rows, tablefmt="plain", colalign=alignment, disable_numparse=True)
 
 
 def rounded(value, digits):

@@ -22,7 +22,7 @@ in the scans' lines, and ODOM lines between them; its twist is the mean motion t
 
 Stamps are the log's ipc times, to which relations files refer. If those of the scans do not rise,
 the scans stay in the order of the file, in which they were measured; their stamps are moved as
-little as it needs to make them rise evenly, and /log_stamps has the log's, for score_relations
+little as it needs to make them rise evenly, and /log_stamps has the log's, for evaluate slam
 (--clock order). With --clock log the scans are sorted by the log's stamps instead."""
 
 

@@ -22,7 +22,7 @@ def sheets(moments, images, poses, kind, rows):
     """List of the bytes of the sheets.
 
     moments: of border_recordings; images: dictionary stamp -> CameraImage, None: views from above
-    only; poses: PosePath of base_link in the map; kind: of evaluation_style.KINDS; rows: of a
+    only; poses: PosePath of base_link in the map; kind: of plot_style.KINDS; rows: of a
     sheet.
     """
     each = rows if images is not None else rows * COLUMNS

@@ -1,7 +1,8 @@
-"""The score of score_borders as text."""
+"""The report of evaluate borders."""
 
 from datmo_tools.evaluate.border_tally import GROUPS
-from datmo_tools.text_table import aligned, percent, rounded
+from datmo_tools.evaluate.report import Section
+from datmo_tools.text_table import percent, rounded
 
 # Headings, and the cell of one band: by group of stations, and of all of them.
 BY_GROUP = (
@@ -25,21 +26,21 @@ OF_ALL = (
 EPISODES = 10  # listed
 
 
-def table(result):
-    """Text of a score of score_borders (dict)."""
+def sections(result):
+    """List of Section of a score of evaluate borders (dict)."""
     bands = [f"{near:g}-{far:g} m" if near >= 0.0 else f"{near:g} to {far:g} m"
              for near, far in result["bands_m"]]  # fmt: skip
-    parts = [f"{result['lists']} lists of borders ({result['without_truth']} more without truth)"]
+    lists = f"{result['lists']} lists of borders ({result['without_truth']} more without truth)"
+    parts = [Section(lines=[lists])]
     for heading, cell in BY_GROUP:
         rows = [[heading, *bands]]
         for group in GROUPS:
             if result["borders"][group][-1]["stations"]:
                 rows.append([group, *(cell(item) for item in result["borders"][group])])
-        parts.append(aligned(rows))
+        parts.append(Section(rows=rows))
     rows = [["all", *bands]]
     rows += [[heading, *map(cell, result["borders"]["all"])] for heading, cell in OF_ALL]
-    parts.append(aligned(rows))
-    return "\n\n".join([*parts, _false(result["false"])])
+    return [*parts, Section(rows=rows), Section(lines=_false(result["false"]))]
 
 
 def _false(item):
@@ -56,4 +57,4 @@ def _false(item):
         f"{one['position_m'][1]:g})"
         for one in longest[:EPISODES]
     ]
-    return "\n".join(lines)
+    return lines

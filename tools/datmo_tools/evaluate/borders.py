@@ -1,13 +1,13 @@
-"""Command line of score_borders."""
+"""evaluate borders."""
 
-import argparse
 from pathlib import Path
 from typing import NamedTuple
 
 from datmo_tools import command_line
+from datmo_tools.evaluate.arguments import add_truth
 from datmo_tools.evaluate.border_errors import frames_of, samples_of
 from datmo_tools.evaluate.border_lists import read_borders
-from datmo_tools.evaluate.border_table import table
+from datmo_tools.evaluate.border_table import sections
 from datmo_tools.evaluate.border_tally import BANDS, tally
 from datmo_tools.errors import InputError
 from datmo_tools.evaluate.false_borders import score_false
@@ -35,7 +35,7 @@ the run's map is laid on the truth's at the vehicle's pose, so that its drift do
                and row: on the road, in a junction, beyond the true border, or where none is known
 
 A road is a curve where its curb's radius is less than --curve-radius. Whether intersections are
-found says score_run."""
+found says evaluate tracks."""
 
 GATE = 3.0  # m
 FOUND_WITHIN = 1.0  # m
@@ -51,12 +51,6 @@ class Limits(NamedTuple):
     false_from: float = FALSE_FROM  # m, off all that ends a road
     curve_radius: float = CURVE_RADIUS  # m
     rows: RowOptions = RowOptions()
-
-
-def main(arguments=None):
-    """Runs the command line; returns its exit code."""
-    values = _parser().parse_args(arguments)
-    return command_line.run("score_borders", lambda: _run(values), product="score")
 
 
 def score(run, drive=None, limits=Limits()):
@@ -83,7 +77,8 @@ def score(run, drive=None, limits=Limits()):
     }  # fmt: skip
 
 
-def _run(values):
+def evaluate(values):
+    """The score, and its sections. Raises InputError."""
     for name in ("gate", "found_within", "false_from", "curve_radius", "car_length"):
         if getattr(values, name) <= 0.0:
             option = name.replace("_", "-")
@@ -92,21 +87,15 @@ def _run(values):
         raise InputError(f"--bridged is {values.bridged:g}, expected 0 or more")
     rows = RowOptions(values.bridged, values.car_length)
     limits = Limits(values.gate, values.found_within, values.false_from, values.curve_radius, rows)
-    result = score(values.run, values.drive, limits)
-    print(table(result))
-    command_line.write_json(values.json, result)
+    result = score(values.run, values.truth, limits)
+    return result, sections(result)
 
 
-def _parser():
-    parser = argparse.ArgumentParser(
-        prog="score_borders",
-        description=DESCRIPTION,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+def add_arguments(parser):
+    """Of this subcommand, for argparse."""
     add = parser.add_argument
     add("run", type=Path, metavar="RESULT.bag", help="bag of run_bag --road-border")
-    add("--drive", type=Path, metavar="DRIVE.bag",
-        help="bag with ground truth (default: RESULT.bag, of run_bag --with-truth)")  # fmt: skip
+    add_truth(parser)
     for name, default, text in (
         ("--gate", GATE, "from the true border, farther off no error counts, m"),
         ("--found-within", FOUND_WITHIN, "of the true border it is found, m"),
@@ -116,5 +105,3 @@ def _parser():
         ("--car-length", RowOptions().car_length, "longest gap in which the curb does not do, m"),
     ):  # fmt: skip
         command_line.add_number(parser, name, default, "M", text)
-    command_line.add_json(parser)
-    return parser

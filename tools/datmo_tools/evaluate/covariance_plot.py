@@ -11,7 +11,7 @@ HEADROOM = 1.3  # over the highest point, for the legend
 def covariance_plot(table, kind, depth_sigma=None):
     """Bytes of the picture.
 
-    kind: of evaluation_style.KINDS; depth_sigma: function of depth (m) -> standard deviation (m)
+    kind: of plot_style.KINDS; depth_sigma: function of depth (m) -> standard deviation (m)
     that theory expects straight ahead, or None.
     """
 

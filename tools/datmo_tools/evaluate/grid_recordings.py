@@ -1,4 +1,4 @@
-"""What score_grids reads: the grids of a run, and the drive that the run was made from."""
+"""What evaluate grids reads: the grids of a run, and the drive that the run was made from."""
 
 import math
 from typing import NamedTuple

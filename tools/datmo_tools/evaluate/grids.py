@@ -1,6 +1,5 @@
-"""Command line of score_grids."""
+"""evaluate grids."""
 
-import argparse
 import math
 from pathlib import Path
 
@@ -8,6 +7,8 @@ from datmo_tools import command_line
 from datmo_tools.errors import InputError
 from datmo_tools.evaluate.grid_recordings import grid_pairs, read_drive
 from datmo_tools.evaluate.grid_scores import GridScores
+from datmo_tools.evaluate.report import Section
+from datmo_tools.text_table import NO_VALUE
 
 DESCRIPTION = """\
 Scores the fused grids of a run against the truth of the simulated drive that it was made from
@@ -28,12 +29,6 @@ ROWS = (
     ("poles in lidar grid", "poles_in_lidar"),
     ("poles in fused grid", "poles_in_fused"),
 )
-
-
-def main(arguments=None):
-    """Runs the command line; returns its exit code."""
-    values = _parser().parse_args(arguments)
-    return command_line.run("score_grids", lambda: _run(values), product="score")
 
 
 def score(run, drive, lidar="/grids/lidar", fused="/grids/fused", reach=EFFECTIVE_RANGE,
@@ -70,18 +65,17 @@ def score(run, drive, lidar="/grids/lidar", fused="/grids/fused", reach=EFFECTIV
     }
 
 
-def table(result):
-    """The score as text."""
-    lines = [f"{'':<22}" + "".join(f"{column:>16}" for column in result["columns"])]
+def sections(result):
+    """List of Section of a score."""
+    rows = [["", *result["columns"]]]
     for name, key in ROWS:
-        cells = zip(result[key]["percent"], result[key]["of"])
-        lines.append(f"{name:<22}" + "".join(f"{_share(*cell):>16}" for cell in cells))
-    lines.append(f"{result['scans_scored']} of {result['scans_with_truth']} scans scored")
-    return "\n".join(lines)
+        rows.append([name, *map(_share, result[key]["percent"], result[key]["of"])])
+    scored = f"{result['scans_scored']} of {result['scans_with_truth']} scans scored"
+    return [Section(rows=rows, lines=[scored])]
 
 
 def _share(percent, count):
-    return f"{percent:.1f}% of {count}" if count else "-"
+    return f"{percent:.1f}% of {count}" if count else NO_VALUE
 
 
 def _figures(tally):
@@ -89,23 +83,19 @@ def _figures(tally):
     return {"count": tally.having.tolist(), "of": tally.total.tolist(), "percent": percent}
 
 
-def _run(values):
+def evaluate(values):
+    """The score, and its sections. Raises InputError."""
     for name in ("effective_range", "disparity_sigma"):
         if getattr(values, name) <= 0.0:
             option = "--" + name.replace("_", "-")
             raise InputError(f"{option} is {getattr(values, name)}, expected more than 0")
     result = score(values.run, values.drive, values.lidar, values.fused, values.effective_range,
                    values.disparity_sigma)  # fmt: skip
-    print(table(result))
-    command_line.write_json(values.json, result)
+    return result, sections(result)
 
 
-def _parser():
-    parser = argparse.ArgumentParser(
-        prog="score_grids",
-        description=DESCRIPTION,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+def add_arguments(parser):
+    """Of this subcommand, for argparse."""
     add = parser.add_argument
     add("run", type=Path, metavar="RUN.bag", help="bag of run_bag")
     add("drive", type=Path, metavar="DRIVE.bag", help="bag of simulate")
@@ -117,5 +107,3 @@ def _parser():
     command_line.add_number(parser, "--disparity-sigma", DISPARITY_SIGMA, "PX",
                             "standard deviation of disparities, px: how far off along the line of "
                             "sight a pole may be")  # fmt: skip
-    command_line.add_json(parser)
-    return parser

@@ -1,6 +1,5 @@
-"""Command line of score_labeled_positions."""
+"""evaluate labels."""
 
-import argparse
 import tempfile
 from pathlib import Path
 
@@ -12,8 +11,10 @@ from datmo_tools import bag_messages, command_line
 from datmo_tools.bag_file import whole_bag
 from datmo_tools.errors import InputError
 from datmo_tools.evaluate.labeled_positions import LabelOptions, read_labels
+from datmo_tools.evaluate.report import Section
 from datmo_tools.evaluate.score_run import matches
 from datmo_tools.stamps import NANOSECONDS
+from datmo_tools.text_table import rounded
 from datmo_tools.evaluate.track_lists import read_track_lists
 
 DESCRIPTION = """\
@@ -30,20 +31,8 @@ EVERYWHERE = 500.0  # m
 TRACK_TOLERANCE = 0.05  # s, from the stamp of a label to that of the nearest list of tracks
 
 
-def main(arguments=None):
-    """Runs the command line; returns its exit code."""
-    values = _parser().parse_args(arguments)
-    return command_line.run(
-        "score_labeled_positions", lambda: _run(values), product="score"
-    )
-
-
-def _parser():
-    parser = argparse.ArgumentParser(
-        prog="score_labeled_positions",
-        description=DESCRIPTION,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+def add_arguments(parser):
+    """Of this subcommand, for argparse."""
     add = parser.add_argument
     add("result", type=Path, help="result of run_bag, with /tracks and /pose")
     add("recording", type=Path, help="the bag that it was made from, with the labels")
@@ -52,15 +41,13 @@ def _parser():
     add("--base", default="base_link", metavar="FRAME", help="of the vehicle (default %(default)s)")
     add("--frame", default="", help="of labels without a header (default: that of the scans)")
     command_line.add_number(parser, "--gate", GATE, "M", "largest distance of a match, m")
-    command_line.add_json(parser)
-    return parser
 
 
-def _run(values):
+def evaluate(values):
+    """The score, and its sections. Raises InputError."""
     options = LabelOptions(values.labels, values.scan, values.frame, values.base)
     result = score(values.result, values.recording, options, values.gate)
-    print(text(result))
-    command_line.write_json(values.json, result)
+    return result, sections(result)
 
 
 def score(run, recording, options, gate=GATE):
@@ -136,13 +123,13 @@ def _result(count, found, switches, distances, gate):
     }  # fmt: skip
 
 
-def text(result):
-    """The score for people."""
+def sections(result):
+    """List of Section of a score."""
     median = result["median_distance_m"]
-    return "\n".join([
+    return [Section(lines=[
         f"labeled positions with a track within {result['gate_m']:.2f} m: {result['found']} of "
         f"{result['positions']} ({100.0 * result['found_share']:.1f} %)",
-        f"median distance: {'-' if median is None else f'{median:.2f} m'}",
+        f"median distance: {rounded(median, 2)} m",
         f"id switches: {result['id_switches']} of {result['ids']} labeled ids; never found: "
         f"{len(result['ids_never_found'])}",
-    ])  # fmt: skip
+    ])]  # fmt: skip

@@ -1,16 +1,15 @@
-"""Command line of score_objects."""
+"""evaluate objects."""
 
-import argparse
 from pathlib import Path
 
-from datmo_tools import command_line
 from datmo_tools.errors import InputError
 from datmo_tools.evaluate.object_lists import read_lists
 from datmo_tools.evaluate.object_scores import score_list
 from datmo_tools.evaluate.object_tally import ALL, CLASSES, MOVING, ObjectTally
 from datmo_tools.evaluate.object_truth import ANY, NONE, Asked, Region, Truth
-from datmo_tools.evaluate.region_options import add_region, region_of
-from datmo_tools.text_table import NO_VALUE, aligned, percent, rounded
+from datmo_tools.evaluate.report import Section
+from datmo_tools.evaluate.arguments import add_region, add_truth, region_of
+from datmo_tools.text_table import NO_VALUE, percent, rounded
 
 DESCRIPTION = """\
 Scores the objects of single measurements (/objects, /objects/stereo, /objects/fused of a run),
@@ -39,20 +38,14 @@ BANDS = (0.0, 10.0, 20.0, 30.0, 40.0)  # m, as far as they lie within --range
 RANGE = 36.0  # m; thesis 3.3.3
 
 
-def main(arguments=None):
-    """Runs the command line; returns its exit code."""
-    values = _parser().parse_args(arguments)
-    return command_line.run("score_objects", lambda: _run(values), product="score")
+def score(run, drive=None, topics=None, visible_to=None, region=Region(RANGE), moving_only=False):
+    """Score of the objects in the bag `run` (Path) as a dictionary that JSON can hold.
 
-
-def score(run, drive, topics=None, visible_to=None, region=Region(RANGE), moving_only=False):
-    """Score of the objects in the bag `run` (Path) against the drive's bag (Path), as a dictionary
-    that JSON can hold.
-
-    topics: those of SENSORS that are there by default; visible_to: sensor that must see a true
-    object, by default that of SENSORS; moving_only: what stands is not asked. Raises InputError,
-    also where nothing can be scored.
+    drive: bag with the truth (Path), by default `run`; topics: those of SENSORS that are there by
+    default; visible_to: sensor that must see a true object, by default that of SENSORS;
+    moving_only: what stands is not asked. Raises InputError, also where nothing can be scored.
     """
+    drive = drive or run
     lists = read_lists(run, topics or SENSORS)
     for topic in topics or ():
         if topic not in lists:
@@ -87,12 +80,12 @@ def _score_topic(lists, truth, asked):
     return {"visible_to": asked.sensor, "lists_without_truth": without, **tally.result()}
 
 
-def table(result):
-    """The score as text."""
-    return "\n\n".join(_topic_text(topic, item) for topic, item in result["topics"].items())
+def sections(result):
+    """List of Section of a score."""
+    return [section for topic in result["topics"].items() for section in _of_topic(*topic)]
 
 
-def _topic_text(topic, item):
+def _of_topic(topic, item):
     bands = [f"{near:g}-{far:g} m" for near, far in item["bands_m"]] + ["all"]
     recall = [["recall, %", *bands, "class right, %"]]
     for group in (*CLASSES, MOVING, ALL):
@@ -111,7 +104,8 @@ def _topic_text(topic, item):
         f"{item['doubles_per_list']:.2f} doubles"
     )
     heading = f"{topic}, true objects visible to {item['visible_to']}"
-    return "\n\n".join([f"{heading}\n{counts}", *map(aligned, (recall, precision, errors))])
+    tables = (recall, precision, errors)
+    return [Section(heading, lines=[counts]), *(Section(rows=rows) for rows in tables)]
 
 
 def _shares(item):
@@ -137,23 +131,18 @@ def _mean_and_sd(item, key):
     return f"{item[key + '_mean_m']:+.2f} ± {item[key + '_sd_m']:.2f}"
 
 
-def _run(values):
-    result = score(values.run, values.drive, values.topic, values.visible_to, region_of(values),
+def evaluate(values):
+    """The score, and its sections. Raises InputError."""
+    result = score(values.run, values.truth, values.topic, values.visible_to, region_of(values),
                    values.moving_only)  # fmt: skip
-    print(table(result))
-    command_line.write_json(values.json, result)
+    return result, sections(result)
 
 
-def _parser():
-    parser = argparse.ArgumentParser(
-        prog="score_objects",
-        description=DESCRIPTION,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+def add_arguments(parser):
+    """Of this subcommand, for argparse."""
     add = parser.add_argument
     add("run", type=Path, metavar="RUN.bag", help="bag of run_bag")
-    add("drive", type=Path, metavar="DRIVE.bag", help="bag with ground truth: of simulate or "
-        "kitti_to_bag, or RUN.bag itself (run_bag --with-truth)")  # fmt: skip
+    add_truth(parser)
     add("--topic", action="append",
         help=f"of objects; may be repeated (default: {', '.join(SENSORS)}, if there)")  # fmt: skip
     add("--visible-to", metavar="SENSOR",
@@ -161,5 +150,3 @@ def _parser():
         f"/objects, stereo for /objects/stereo, else {ANY})")  # fmt: skip
     add("--moving-only", action="store_true", help="true objects that stand need not be found")
     add_region(parser, RANGE)
-    command_line.add_json(parser)
-    return parser

@@ -1,6 +1,5 @@
-"""Command line of score_relations."""
+"""evaluate slam."""
 
-import argparse
 import math
 import sys
 from pathlib import Path
@@ -10,6 +9,7 @@ from datmo_tools.convert.carmen_bag import LOG_STAMPS_TOPIC
 from datmo_tools.errors import InputError
 from datmo_tools.pose_path import PosePath, read_messages, read_path
 from datmo_tools.evaluate.relations import errors_of, read_relations, statistics
+from datmo_tools.evaluate.report import Section
 from datmo_tools.stamps import NANOSECONDS
 
 DESCRIPTION = """\
@@ -19,12 +19,6 @@ translational and the rotational error, and of their squares."""
 
 # At a robot's pace nothing is known of a pose further off in time.
 TOLERANCE = 0.5  # s
-
-
-def main(arguments=None):
-    """Runs the command line; returns its exit code."""
-    values = _parser().parse_args(arguments)
-    return command_line.run("score_relations", lambda: _run(values), product="score")
 
 
 def score(poses, relations_file, topic="/pose", recording=None, tolerance=TOLERANCE):
@@ -58,23 +52,18 @@ def score(poses, relations_file, topic="/pose", recording=None, tolerance=TOLERA
     }
 
 
-def table(result):
-    """The score as text."""
-    rows = (
+def sections(result):
+    """List of Section of a score."""
+    rows = [[f"error of {result['topic']}", "mean", "std", "max"]]
+    for name, key in (
         ("translation, m", "translation_m"),
         ("rotation, deg", "rotation_deg"),
         ("translation squared, m^2", "squared_translation_m2"),
         ("rotation squared, deg^2", "squared_rotation_deg2"),
-    )
-    lines = [f"{'error of ' + result['topic']:<28}{'mean':>12}{'std':>12}{'max':>12}"]
-    for name, key in rows:
-        figures = result[key]
-        lines.append(
-            f"{name:<28}{figures['mean']:12.4f}{figures['std']:12.4f}{figures['max']:12.4f}"
-        )
-    lines.append(f"{'relations used':<28}{result['used']:12d}")
-    lines.append(f"{'relations not covered':<28}{result['not_covered']:12d}")
-    return "\n".join(lines)
+    ):
+        rows.append([name, *(f"{result[key][figure]:.4f}" for figure in ("mean", "std", "max"))])
+    counts = f"{result['used']} relations used, {result['not_covered']} not covered"
+    return [Section(rows=rows, lines=[counts])]
 
 
 def _by_log_stamps(path, bag):
@@ -102,27 +91,23 @@ def _figures(values):
     return {"mean": mean, "std": std, "max": maximum}
 
 
-def _run(values):
+def evaluate(values):
+    """The score, and its sections. Raises InputError."""
     if values.tolerance < 0.0:
         raise InputError(f"--tolerance is {values.tolerance}, expected 0 s or more")
     result = score(values.poses, values.relations, values.topic, values.recording, values.tolerance)
     if result["not_covered"]:
         print(
-            f"score_relations: {result['not_covered']} of "
+            f"evaluate: {result['not_covered']} of "
             f"{result['used'] + result['not_covered']} relations are not covered: no pose within "
             f"{values.tolerance:g} s of their times",
             file=sys.stderr,
         )
-    print(table(result))
-    command_line.write_json(values.json, result)
+    return result, sections(result)
 
 
-def _parser():
-    parser = argparse.ArgumentParser(
-        prog="score_relations",
-        description=DESCRIPTION,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+def add_arguments(parser):
+    """Of this subcommand, for argparse."""
     add = parser.add_argument
     add("poses", type=Path, metavar="POSES.bag", help="bag of run_bag, or a recording")
     add("relations", type=Path, metavar="RELATIONS", help="lines of: t1 t2 x y z roll pitch yaw")
@@ -132,5 +117,3 @@ def _parser():
     add("--recording", type=Path, metavar="BAG", help=recording)
     near = "s between a relation's time and the nearest pose, at the most"
     command_line.add_number(parser, "--tolerance", TOLERANCE, "S", near)
-    command_line.add_json(parser)
-    return parser

@@ -1,6 +1,5 @@
-"""Command line of score_stereo_grid."""
+"""evaluate stereo_grids."""
 
-import argparse
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +19,8 @@ from datmo_tools.evaluate.grid_recordings import (
 )
 from datmo_tools.pose_path import read_path
 from datmo_tools.stamps import NANOSECONDS
+from datmo_tools.text_table import rounded
+from datmo_tools.evaluate.report import Section
 from datmo_tools.evaluate.stereo_grid_scores import (
     BAND_EDGES,
     NOTHING,
@@ -60,12 +61,6 @@ MAX_GAP = 0.1  # s, from a grid to the nearest cloud: a turn of the Velodyne
 SUMS = ((0.0, 15.0), (0.0, REACH))
 
 
-def main(arguments=None):
-    """Runs the command line; returns its exit code."""
-    values = _parser().parse_args(arguments)
-    return command_line.run("score_stereo_grid", lambda: _run(values), product="score")
-
-
 def score(run, drive, topic="/grids/stereo", disparity_sigma=DISPARITY_SIGMA, first_column=0.0):
     """Score of the grids on `topic` in the bag `run` (Path) against the drive's bag (Path), as a
     dictionary that JSON can hold.
@@ -102,26 +97,22 @@ def score(run, drive, topic="/grids/stereo", disparity_sigma=DISPARITY_SIGMA, fi
     }
 
 
-def table(result):
-    """The score as text."""
-    heads = ("precision", "of occupied", "recall", "of obstacles", "called free")
-    lines = [f"{result['topic']:<16}" + "".join(f"{head:>14}" for head in heads)]
-    for band in result["bands"]:
-        cells = (
-            _text(band["precision"]),
-            band["occupied"],
-            _text(band["recall"]),
-            band["true"],
-            _text(band["called_free"]),
-        )
-        name = f"{band['from']:g} to {band['to']:g} m"
-        lines.append(f"{name:<16}" + "".join(f"{cell:>14}" for cell in cells))
-    lines.append(f"{result['grids']} grids, {result['grids_without_cloud']} more without a cloud")
-    return "\n".join(lines)
-
-
-def _text(share):
-    return "-" if share is None else f"{share:.3f}"
+def sections(result):
+    """List of Section of a score."""
+    rows = [[result["topic"], "precision", "of occupied", "recall", "of obstacles", "called free"]]
+    rows += [
+        [
+            f"{band['from']:g} to {band['to']:g} m",
+            rounded(band["precision"], 3),
+            str(band["occupied"]),
+            rounded(band["recall"], 3),
+            str(band["true"]),
+            rounded(band["called_free"], 3),
+        ]
+        for band in result["bands"]
+    ]
+    scored = f"{result['grids']} grids, {result['grids_without_cloud']} more without a cloud"
+    return [Section(rows=rows, lines=[scored])]
 
 
 def _read_drive(path, disparity_sigma, first_column):
@@ -170,7 +161,8 @@ def _band(counts, near, far):
     }
 
 
-def _run(values):
+def evaluate(values):
+    """The score, and its sections. Raises InputError."""
     if values.disparity_sigma <= 0.0:
         raise InputError(f"--disparity-sigma is {values.disparity_sigma}, expected more than 0")
     if values.first_column < 0.0:
@@ -178,16 +170,11 @@ def _run(values):
     result = score(
         values.run, values.drive, values.topic, values.disparity_sigma, values.first_column
     )
-    print(table(result))
-    command_line.write_json(values.json, result)
+    return result, sections(result)
 
 
-def _parser():
-    parser = argparse.ArgumentParser(
-        prog="score_stereo_grid",
-        description=DESCRIPTION,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+def add_arguments(parser):
+    """Of this subcommand, for argparse."""
     add = parser.add_argument
     add("run", type=Path, metavar="RUN.bag", help="bag of run_bag --low-level-fusion --write-grids")
     add("drive", type=Path, metavar="DRIVE.bag", help="bag of kitti_to_bag --points --images")
@@ -197,5 +184,3 @@ def _parser():
                             "be")  # fmt: skip
     command_line.add_number(parser, "--first-column", 0.0, "PX",
                             "of the left image that counts")  # fmt: skip
-    command_line.add_json(parser)
-    return parser

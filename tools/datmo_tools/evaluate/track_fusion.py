@@ -1,6 +1,5 @@
-"""Command line of score_tracks."""
+"""evaluate track_fusion."""
 
-import argparse
 from pathlib import Path
 from typing import NamedTuple
 
@@ -10,11 +9,11 @@ from datmo_tools.errors import InputError
 from datmo_tools.evaluate.false_tracks import reduction, score_false
 from datmo_tools.evaluate.object_truth import ANY, NONE, Region
 from datmo_tools.evaluate.passed_tracks import score_passed
-from datmo_tools.evaluate.region_options import add_region, region_of
+from datmo_tools.evaluate.arguments import add_region, add_truth, region_of
 from datmo_tools.evaluate.track_frames import Scene
 from datmo_tools.evaluate.track_ghosts import score_ghosts
 from datmo_tools.evaluate.track_lists import read_track_lists
-from datmo_tools.evaluate.track_table import table
+from datmo_tools.evaluate.track_table import sections
 
 DESCRIPTION = """\
 Scores the fusion of tracks (thesis 3.4) in a result of run_bag --track-fusion: /tracks, the fused
@@ -57,12 +56,6 @@ class Limits(NamedTuple):
     soon: float = SOON  # s, within which what both follow has to pass
 
 
-def main(arguments=None):
-    """Runs the command line; returns its exit code."""
-    values = _parser().parse_args(arguments)
-    return command_line.run("score_tracks", lambda: _run(values), product="score")
-
-
 def score(run, drive=None, limits=Limits()):
     """Score of the tracks in the bag `run` (Path) as a dictionary that JSON can hold.
 
@@ -103,26 +96,21 @@ def _per_frame(item):
     return item["in_view_frames"] / item["frames"] if item["frames"] else 0.0
 
 
-def _run(values):
+def evaluate(values):
+    """The score, and its sections. Raises InputError."""
     for name in ("gate", "soon"):
         if getattr(values, name) <= 0.0:
             raise InputError(f"--{name} is {getattr(values, name):g}, expected more than 0")
     limits = Limits(region_of(values), values.visible_to, values.gate, values.soon)
-    result = score(values.run, values.drive, limits)
-    print(table(result))
-    command_line.write_json(values.json, result)
+    result = score(values.run, values.truth, limits)
+    return result, sections(result)
 
 
-def _parser():
-    parser = argparse.ArgumentParser(
-        prog="score_tracks",
-        description=DESCRIPTION,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+def add_arguments(parser):
+    """Of this subcommand, for argparse."""
     add = parser.add_argument
     add("run", type=Path, metavar="RESULT.bag", help="bag of run_bag --track-fusion")
-    add("--drive", type=Path, metavar="DRIVE.bag",
-        help="bag with ground truth (default: RESULT.bag, of run_bag --with-truth)")  # fmt: skip
+    add_truth(parser)
     add("--visible-to", default=ANY, metavar="SENSOR",
         help="that must see a true object for it to have to be found, "
         f"{ANY}, or {NONE}: not asked (default %(default)s)")  # fmt: skip
@@ -131,5 +119,3 @@ def _parser():
                             "from a track to the box of its true object, m")  # fmt: skip
     command_line.add_number(parser, "--soon", SOON, "S",
                             "within which what both sensors follow has to pass, s")  # fmt: skip
-    command_line.add_json(parser)
-    return parser

@@ -1,13 +1,14 @@
-"""The score of score_tracks as text."""
+"""The report of evaluate track_fusion."""
 
-from datmo_tools.text_table import NO_VALUE, aligned, percent, rounded
+from datmo_tools.text_table import NO_VALUE, percent, rounded
+from datmo_tools.evaluate.report import Section
 from datmo_tools.evaluate.thesis_tables import PUBLISHED
 
 LISTS = ("lidar", "stereo", "fused")
 
 
-def table(result):
-    """Text of a score of score_tracks (dict)."""
+def sections(result):
+    """List of Section of a score (dict)."""
     parts = [
         _counts(result),
         _passed(result["passed"]),
@@ -16,13 +17,14 @@ def table(result):
         _ghosts(result["ghosts"]),
     ]
     if result["without_truth"]:
-        parts.insert(0, f"{result['without_truth']} lists without truth are left out")
-    return "\n\n".join(parts)
+        left_out = f"{result['without_truth']} lists without truth are left out"
+        parts.insert(0, Section(lines=[left_out]))
+    return parts
 
 
 def _counts(result):
     tracks = result["tracks"]
-    rows = [["table 3.3", "lidar", "stereo", "of both"]]
+    rows = [["", "lidar", "stereo", "of both"]]
     rows.append(["this run", str(tracks["lidar"]), str(tracks["stereo"]),
                  str(result["passed"]["tracks"])])  # fmt: skip
     rows += [
@@ -30,7 +32,7 @@ def _counts(result):
          str(item.parallel_tracks)]
         for number, item in enumerate(PUBLISHED, start=1)
     ]  # fmt: skip
-    return aligned(rows)
+    return Section("Table 3.3: tracks", rows=rows)
 
 
 def _passed(item):
@@ -50,7 +52,7 @@ def _passed(item):
         f"{wrong['frames']} frames"
         for wrong in pairs["wrong_pairs"]
     ]
-    return "\n".join(lines)
+    return Section(lines=lines)
 
 
 def _objects(item):
@@ -58,15 +60,14 @@ def _objects(item):
     both, visible = item["followed_by_all"], item["visible_to_all"]
     rows = [["true moving objects", "there", "passed, %", f"within {soon:g} s, %", "frames, %"]]
     rows.append(_row("followed by both", both, both))
-    rows.append(_row(f"  for {soon:g} s or more", both["for_that_long"]))
+    rows.append(_row(f"of them for {soon:g} s or more", both["for_that_long"]))
     if visible is None:
         rows.append(["visible to both", *[NO_VALUE] * 4])
     else:
         rows.append(_row("visible to both", visible, visible))
-        long = f"  for {visible['min_seen_s']:g} s or more"
+        long = f"of them for {visible['min_seen_s']:g} s or more"
         rows.append(_row(long, visible["for_that_long"]))
-    lines = [aligned(rows)]
-    lines += [f"  late or never: {_object_text(late)}" for late in both["late_or_never"]]
+    lines = [f"  late or never: {_object_text(late)}" for late in both["late_or_never"]]
     lines += [
         f"  never: {_object_text(never)}"
         + "".join(
@@ -75,7 +76,7 @@ def _objects(item):
         )
         for never in (visible or {"never": []})["never"]
     ]
-    return "\n".join(lines)
+    return Section(rows=rows, lines=lines)
 
 
 def _row(name, item, frames=None):
@@ -104,7 +105,8 @@ def _object_text(item):
 
 def _false(item):
     if not item["views"]:
-        return "False tracks: /tracks/stereo has no views, so none is known to be within them"
+        text = "False tracks: /tracks/stereo has no views, so none is known to be within them"
+        return Section(lines=[text])
     sorts = list(item["fused"]["by_what"])
     rows = [["false tracks", "all", "in view", "visible", "in a list", *sorts]]
     for name in LISTS:
@@ -114,12 +116,11 @@ def _false(item):
                      rounded(frames, 3),
                      *(str(one["by_what"][sort]) for sort in sorts)])  # fmt: skip
     lines = [
-        aligned(rows),
         f"fewer than the lidar's in view: {percent(item['reduction'])} % of the tracks, "
         f"{percent(item['frames_reduction'])} % in a list",
     ]
     lines += [f"  false: {_false_text(false)}" for false in item["fused"]["tracks"]]
-    return "\n".join(lines)
+    return Section(rows=rows, lines=lines)
 
 
 def _false_text(item):
@@ -143,13 +144,12 @@ def _ghosts(item):
         one = item[name]
         rows.append([name, str(one["ghost_frames"]), str(one["frames"]), str(one["ghosts"]),
                      str(one["id_switches"])])  # fmt: skip
-    lines = [aligned(rows)]
-    lines += [
+    lines = [
         f"  {one['label']} {one['id']}: ghosts in {one['ghost_frames']} frames, "
         f"{one['id_switches']} id switches"
         for one in item["fused"]["objects"]
     ]
-    return "\n".join(lines)
+    return Section(rows=rows, lines=lines)
 
 
 def _of(count, total):

@@ -14,7 +14,7 @@ class BorderRuns(NamedTuple):
     with_borders: dict
     times: dict  # of run_bag, without borders
     border_times: dict
-    borders: dict  # of score_borders
+    borders: dict  # of evaluate borders
 
 
 NOTE = """\
@@ -33,7 +33,7 @@ HEADINGS = ("false moving objects", "in a scan", "fewer, %", "in a scan, fewer, 
 BORDER_HEADINGS = ("found, straight, %", "curve, %", "RMS, straight, m", "curve, m", "in gate, %",
                    "false, %")  # fmt: skip
 
-NEAR_BAND = [0.0, 20.0]  # m, of score_borders
+NEAR_BAND = [0.0, 20.0]  # m, of evaluate borders
 
 
 def border_runs_table(results):

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import NamedTuple, Optional
 
 from datmo_tools import command_line
-from datmo_tools.evaluate import borders as score_borders, grids as score_grids
+from datmo_tools.evaluate import borders, grids
 from datmo_tools.experiments import simulated_run
 from datmo_tools.experiments.border_runs import BorderRuns, border_runs_table
 from datmo_tools.errors import InputError
@@ -62,13 +62,13 @@ def _run_all(values):
             raise InputError(f"{file}: no such file, expected a yaml file")
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         results = list(pool.map(lambda scene: _run(scene, values), scenes))
-    borders = [result.borders for result in results]
-    with_borders = [runs and runs.with_borders for runs in borders]
+    border_runs = [result.borders for result in results]
+    with_borders = [runs and runs.with_borders for runs in border_runs]
     print(thesis_tables([result.report for result in results], with_borders))
     if values.low_level_fusion:
         print("\n" + fusion_table([result.fusion for result in results]))
     if values.road_border:
-        print("\n" + border_runs_table(borders))
+        print("\n" + border_runs_table(border_runs))
     failures = [result.failure for result in results if result.failure is not None]
     print("\n" + "\n".join(failures or [f"bags and scores: {values.out}"]))
     return not failures
@@ -112,16 +112,17 @@ def _timed_run(recorded_in, folder, values, run_options):
 def _fused(folder, values, alone):
     """FusionRuns: the run that there is, and one with low-level fusion."""
     fused = _timed_run(folder, folder / "fused", values, ("--low-level-fusion", "--write-grids"))
-    grids = score_grids.score(folder / "fused" / "result.bag", folder / "drive.bag")
-    return FusionRuns(alone.report, fused.report, _read(alone.times), _read(fused.times), grids)
+    fused_grids = grids.score(folder / "fused" / "result.bag", folder / "drive.bag")
+    return FusionRuns(alone.report, fused.report, _read(alone.times), _read(fused.times),
+                      fused_grids)  # fmt: skip
 
 
 def _with_borders(folder, values, alone):
     """BorderRuns: the run that there is, and one with borders of the road."""
     bordered = _timed_run(folder, folder / "road_border", values, ("--road-border",))
-    borders = score_borders.score(folder / "road_border" / "result.bag")
+    found = borders.score(folder / "road_border" / "result.bag")
     return BorderRuns(alone.report, bordered.report, _read(alone.times), _read(bordered.times),
-                      borders)  # fmt: skip
+                      found)  # fmt: skip
 
 
 def _read(file):

@@ -36,7 +36,7 @@ def comparison_plot(rows, kind):
     """Bytes of the picture: for each figure a plot with a row for each level, a dot for each drive.
 
     rows: (name of the drive, level, figures() or None where the run failed); kind: of
-    evaluation_style.KINDS.
+    plot_style.KINDS.
     """
     levels = list(dict.fromkeys(level for _, level, _ in rows))
     drives = list(dict.fromkeys(drive for drive, _, _ in rows))

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 from datmo_tools.text_table import NO_VALUE, aligned, percent, rounded
 
-IN_VIEW = "in view"  # column of score_grids
+IN_VIEW = "in view"  # column of evaluate grids
 
 IMAGE_MATCHING = "stereo_images"  # stage of run_bag
 
@@ -16,7 +16,7 @@ class FusionRuns(NamedTuple):
     fused: dict
     times: dict  # of run_bag, scanner alone
     fused_times: dict
-    grids: dict  # of score_grids, with fusion
+    grids: dict  # of evaluate grids, with fusion
 
 
 # Heading, and the value in the report of score_run, as a function of it.
@@ -30,7 +30,7 @@ RUN_COLUMNS = (
     ("end point, % of the distance", lambda report: percent(report["pose"]["end_error_share"], 2)),
 )
 
-# The same in the score of score_grids: percent of the cells, or poles, in the camera's view.
+# The same in the score of evaluate grids: percent of the cells, or poles, in the camera's view.
 GRID_COLUMNS = (
     ("paint cells gone, %", "paint_gone"),
     ("obstacle cells lost, %", "bodies_lost"),

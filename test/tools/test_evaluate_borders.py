@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""score_borders on drives of two seconds whose score is worked out by hand."""
+"""evaluate borders on drives of two seconds whose score is worked out by hand."""
 
 import contextlib
 import io
@@ -10,7 +10,7 @@ import unittest
 from pathlib import Path
 
 from datmo_tools.evaluate.border_tally import BANDS
-from datmo_tools.evaluate.borders import main
+from datmo_tools.evaluate.main import main
 
 from border_samples import CURBS, along, border, left, parked, right, write_drive
 from datmo_fusion.msg import RoadBorder
@@ -27,9 +27,9 @@ class Tool(unittest.TestCase):
 
     def run_tool(self, *words, code=0):
         """What the tool says on standard output and error, and writes as JSON."""
-        out, errors, file = io.StringIO(), io.StringIO(), self.bag.with_name("score.json")
+        out, errors, file = io.StringIO(), io.StringIO(), self.bag.with_name("borders.json")
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
-            arguments = [str(self.bag), "--json", str(file), *words]
+            arguments = ["borders", str(self.bag), "--out", str(file.parent), *words]
             self.assertEqual(main(arguments), code, errors.getvalue())
         return out.getvalue(), errors.getvalue(), json.loads(file.read_text()) if not code else None
 
@@ -149,7 +149,7 @@ class Tool(unittest.TestCase):
         write_drive(self.bag, [left(5.0)])
         drive = self.bag.with_name("drive.bag")
         write_drive(drive, None, curbs=[((-100.0, 6.0), (200.0, 6.0))])
-        score = self.run_tool("--drive", str(drive), "--found-within", "1.1")[2]
+        score = self.run_tool("--truth", str(drive), "--found-within", "1.1")[2]
         self.assertAlmostEqual(score["borders"]["left"][WHOLE]["mean_m"], -1.0, 4)
 
     def test_table(self):
@@ -173,7 +173,7 @@ class Tool(unittest.TestCase):
         write_drive(self.bag, [left(math.nan)])
         self.assertIn("a border that is not finite", self.run_tool(code=1)[1])
         write_drive(self.bag, [left(5.0)])
-        self.assertIn("no such file", self.run_tool("--drive", "/nowhere", code=1)[1])
+        self.assertIn("no such file", self.run_tool("--truth", "/nowhere", code=1)[1])
 
 
 if __name__ == "__main__":

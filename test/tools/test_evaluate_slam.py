@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""score_relations on paths and relations that are worked out by hand."""
+"""evaluate slam on paths and relations that are worked out by hand."""
 
 import contextlib
 import io
@@ -16,7 +16,8 @@ from datmo_tools.convert import carmen_to_bag
 from datmo_tools.errors import InputError
 from datmo_tools.pose_path import PosePath
 from datmo_tools.evaluate.relations import Relation, errors_of, read_relations, statistics
-from datmo_tools.evaluate.slam import main, score
+from datmo_tools.evaluate.main import main
+from datmo_tools.evaluate.slam import score
 from datmo_tools.stamps import to_ros_time
 from geometry_msgs.msg import Point, PoseStamped, PoseWithCovarianceStamped, Quaternion
 from tiny_log import START, flaser, write_log
@@ -102,7 +103,7 @@ class Files(unittest.TestCase):
         """What the tool says on standard output and error."""
         out, errors = io.StringIO(), io.StringIO()
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
-            code = main([str(self.bag), str(self.relations), *options])
+            code = main(["slam", str(self.bag), str(self.relations), "--out", str(self.root), *options])
         self.assertEqual(code, expected_code, errors.getvalue())
         return out.getvalue(), errors.getvalue()
 
@@ -150,10 +151,10 @@ class Tool(Files):
     def test_table_and_json(self):
         self.write_bag("/pose", pose(0, 0.0), pose(1, 1.0), pose(2, 2.5, yaw=math.radians(2)))
         self.write_relations("1000 1001 1 0 0 0 0 0", "1001 1002 1 0 0 0 0 0", "1 2 0 0 0 0 0 0")
-        report = self.root / "score.json"
-        out, errors = self.run_tool("--json", str(report))
+        report = self.root / "slam.json"
+        out, errors = self.run_tool()
         self.assertIn("1 of 3 relations are not covered", errors)
-        self.assertIn("relations used", out)
+        self.assertIn("2 relations used, 1 not covered", out)
         figures = json.loads(report.read_text())
         self.assertEqual((figures["used"], figures["not_covered"]), (2, 1))
         for key, mean, maximum in (
@@ -191,8 +192,8 @@ class Tool(Files):
     def test_pose_that_is_no_number(self):
         self.write_bag("/pose", pose(0, 0.0), pose(1, math.nan), pose(2, 1.0))
         self.write_relations("1000 1002 1 0 0 0 0 0")
-        report = self.root / "score.json"
-        out, errors = self.run_tool("--json", str(report), expected_code=1)
+        report = self.root / "slam.json"
+        out, errors = self.run_tool(expected_code=1)
         self.assertIn(f"{self.bag}: /pose at 1001.000000 s", errors)
         self.assertEqual(out, "")
         self.assertFalse(report.exists())

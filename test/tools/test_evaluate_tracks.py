@@ -18,11 +18,19 @@ from datmo_tools.evaluate.metrics import (
     near,
     short_names,
 )
-from datmo_tools.evaluate.page import page
-from datmo_tools.evaluate.sections import OBJECT_METRICS, sections_of
+from datmo_tools.evaluate.report import as_page, as_text
+from datmo_tools.evaluate.run_report import sections
+from datmo_tools.evaluate.metric_groups import OBJECT_METRICS, metric_groups
 from datmo_tools.evaluate.plot_style import plain
-from datmo_tools.evaluate.run_table import table
 from evaluation_sample import sample_run
+
+
+def table(runs):
+    return as_text(sections(runs))
+
+
+def page(runs):
+    return as_page("Evaluation", sections(runs))
 
 
 def find_line(text, begin):
@@ -68,8 +76,8 @@ class Metrics(unittest.TestCase):
         run = sample_run()
         empty = [
             m.path
-            for section in sections_of([run])
-            for m in section.metrics
+            for group in metric_groups([run])
+            for m in group.metrics
             if m.value(run) is None
         ]
         self.assertEqual(
@@ -101,15 +109,16 @@ class Table(unittest.TestCase):
     def test_objects(self):
         text = table([sample_run()])
         self.assertEqual(
-            find_line(text, "1  Car"), "1 Car 0.0 0.5 10 8 80.0 0.12 0.25 0.50 5.7 71 81".split()
+            find_line(text, "1   "), "1 Car vehicle 0.0 0.5 10 8 80.0 0.12 0.25 0.50 5.7 71 81".split()
         )
-        self.assertEqual(find_line(text, "2  Car")[-1], "MISSED")
+        self.assertEqual(find_line(text, "2   ")[-1], "MISSED")
 
     def test_objects_of_several_runs(self):
         other = sample_run("other.bag", objects=1)  # misses the only one that it shares
         text = table([sample_run(), other])
-        self.assertEqual(find_line(text, "1  Car"), "1 Car 80.0 % 0.12 s 2 MISSED".split())
-        self.assertEqual(find_line(text, "2  Car"), "2 Car MISSED -".split())
+        of_other = text[text.index("Objects: other") :]
+        self.assertEqual(find_line(text, "1   ")[-2:], ["71", "81"])
+        self.assertEqual(find_line(of_other, "1   ")[-1], "MISSED")
 
     def test_objects_that_never_move(self):
         line = next(x for x in table([sample_run()]).splitlines() if "never move" in x)
@@ -175,7 +184,7 @@ class Page(unittest.TestCase):
     def test_figures_are_there(self):
         text = re.sub(r"<[^>]+>", " ", page([sample_run()]))
         for expected in (
-            r"MOTP, distance of matches\s+0\.25\s+m",
+            r"MOTP, distance of matches\s+m\s+0\.25",
             r"1 of 2\s+objects found",
             r"gate\s+2\.0",
             r"Car\s+vehicle\s+0\.0\s+0\.5\s+10\s+8",
@@ -184,7 +193,7 @@ class Page(unittest.TestCase):
 
     def test_best_is_marked(self):
         runs = [sample_run("a.bag"), sample_run("b.bag", clear_mot={"mota": 0.6})]
-        self.assertIn("<td class='value'>40.0</td><td class='best'>60.0</td>", page(runs))
+        self.assertIn('<td>40.0</td><td class="best">60.0*</td>', page(runs))
 
     def test_a_run_of_which_little_is_known(self):
         run = sample_run(objects=0, frames=1, pose=None, timing=None)

@@ -1,4 +1,4 @@
-"""The figures of score_run that are shown: their names and units, in sections.
+"""The figures of score_run that are shown: their names and units, in groups.
 
 The definitions are score_run's; the papers named here are where they come from.
 """
@@ -12,7 +12,7 @@ DEGREES = math.degrees(1.0)
 PERCENT = 100.0
 
 
-class Section(NamedTuple):
+class MetricGroup(NamedTuple):
     """Metrics that belong together."""
 
     title: str
@@ -41,8 +41,8 @@ def _honesty(quantity, path, degrees_of_freedom):
     )
 
 
-SECTIONS = (
-    Section(
+METRIC_GROUPS = (
+    MetricGroup(
         "Tracking, CLEAR-MOT",
         "Bernardin and Stiefelhagen 2008",
         (
@@ -58,7 +58,7 @@ SECTIONS = (
             _percent("mostly lost objects", "clear_mot.mostly_lost", lower, digits=0),
         ),
     ),
-    Section(
+    MetricGroup(
         "Identity, IDF1",
         "Ristani et al. 2016",
         (
@@ -67,7 +67,7 @@ SECTIONS = (
             _percent("IDR, recall", "identity.idr"),
         ),
     ),
-    Section(
+    MetricGroup(
         "HOTA",
         "Luiten et al. 2021",
         (
@@ -77,7 +77,7 @@ SECTIONS = (
             _percent("LocA, localization", "hota.loca"),
         ),
     ),
-    Section(
+    MetricGroup(
         "GOSPA",
         "Rahmathullah et al. 2017",
         (
@@ -87,7 +87,7 @@ SECTIONS = (
             _meters("part of false tracks", "gospa.false_m"),
         ),
     ),
-    Section(
+    MetricGroup(
         "Errors of matched tracks",
         "root mean square, position of the centers",
         (
@@ -97,7 +97,7 @@ SECTIONS = (
             _degrees("heading, front or back", "errors.heading_modulo_pi_rmse_rad"),
         ),
     ),
-    Section(
+    MetricGroup(
         "Errors of matched tracks near the vehicle",
         "within score_run's near_range of it",
         (
@@ -105,7 +105,7 @@ SECTIONS = (
             Metric("velocity", "near_errors.velocity_rmse_mps", "m/s", 1.0, 2, lower),
         ),
     ),
-    Section(
+    MetricGroup(
         "Class of matched tracks",
         "of the frames in which the true class is known",
         (
@@ -117,7 +117,7 @@ SECTIONS = (
             Metric("of no known class", "classes.silent", "frames", cost=lower),
         ),
     ),
-    Section(
+    MetricGroup(
         "Delay to the first track of an object",
         "from the first frame in which it has to be found, of those that were found",
         (
@@ -125,7 +125,7 @@ SECTIONS = (
             Metric("median", "delay.median_s", "s", 1.0, 2, lower),
         ),
     ),
-    Section(
+    MetricGroup(
         "Honesty of the covariance",
         "Bar-Shalom et al. 2001",
         (
@@ -135,7 +135,7 @@ SECTIONS = (
             _percent("inside the 95 % bound", "consistency.velocity.inside_share", near(95.0)),
         ),
     ),
-    Section(
+    MetricGroup(
         "Counts of the thesis",
         "Baig 2012, tables 3.2 to 3.5",
         (
@@ -164,7 +164,7 @@ SECTIONS = (
             Metric("false (3.5)", "thesis.intersections_false", cost=lower),
         ),
     ),
-    Section(
+    MetricGroup(
         "Pose of the vehicle",
         "relative errors: Kuemmerle et al. 2009",
         (
@@ -198,13 +198,13 @@ STANDING_METRICS = (
 )
 
 
-def sections_of(runs):
-    """SECTIONS, the pose's relative errors and the times of the stages, as the runs hold them."""
+def metric_groups(runs):
+    """METRIC_GROUPS, the pose's relative errors and the times of the stages, as the runs hold them."""
     return [
-        section._replace(metrics=section.metrics + _relative_errors(runs))
-        if section.title.startswith("Pose")
-        else section
-        for section in SECTIONS
+        group._replace(metrics=group.metrics + _relative_errors(runs))
+        if group.title.startswith("Pose")
+        else group
+        for group in METRIC_GROUPS
     ] + _timing(runs)
 
 
@@ -230,7 +230,7 @@ def _timing(runs):
     )
     if not metrics:
         return []
-    return [Section("Time of each stage", "messages of type StageTiming", metrics)]
+    return [MetricGroup("Time of each stage", "messages of type StageTiming", metrics)]
 
 
 def _has_latency(run, stage):

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""score_grids on grids and drives that are worked out by hand."""
+"""evaluate grids on grids and drives that are worked out by hand."""
 
 import contextlib
 import io
@@ -13,7 +13,7 @@ import numpy as np
 import rosbag
 from datmo_tools import bag_messages, transforms
 from datmo_tools.evaluate.grid_scores import Bodies, Echoes, Grid, GridScores, StereoView, Tally
-from datmo_tools.evaluate.grids import main
+from datmo_tools.evaluate.main import main
 from geometry_msgs.msg import Quaternion, TransformStamped, Vector3
 from nav_msgs.msg import OccupancyGrid
 from sensor_msgs.msg import CameraInfo, LaserEcho, LaserScan, MultiEchoLaserScan
@@ -236,9 +236,9 @@ class Tool(unittest.TestCase):
 
     def score(self, *options, code=0):
         """What the tool says on standard output and error, and writes as JSON."""
-        out, errors, file = io.StringIO(), io.StringIO(), self.root / "score.json"
+        out, errors, file = io.StringIO(), io.StringIO(), self.root / "grids.json"
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
-            arguments = [str(self.run_bag), str(self.drive), "--json", str(file), *options]
+            arguments = ["grids", str(self.run_bag), str(self.drive), "--out", str(self.root), *options]
             self.assertEqual(main(arguments), code, errors.getvalue())
         figures = json.loads(file.read_text()) if code == 0 else None
         return out.getvalue(), errors.getvalue(), figures

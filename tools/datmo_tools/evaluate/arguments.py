@@ -1,10 +1,17 @@
-"""Command-line options of the region in which a score counts."""
+"""What several subcommands of evaluate take."""
 
 import math
+from pathlib import Path
 
 from datmo_tools import command_line
 from datmo_tools.errors import InputError
 from datmo_tools.evaluate.object_truth import Region
+
+
+def add_truth(parser):
+    """The option --truth; None: not given."""
+    parser.add_argument("--truth", type=Path, metavar="DRIVE.bag",
+                        help="bag with the truth (default: the run's own, of run_bag --with-truth)")  # fmt: skip
 
 
 def add_region(parser, default_range):

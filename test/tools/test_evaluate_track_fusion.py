@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""score_tracks on drives of one second whose score is worked out by hand."""
+"""evaluate track_fusion on drives of one second whose score is worked out by hand."""
 
 import contextlib
 import io
@@ -11,7 +11,7 @@ from pathlib import Path
 
 from datmo_tools import bag_messages
 from datmo_tools.bag_file import whole_bag
-from datmo_tools.evaluate.track_fusion import main
+from datmo_tools.evaluate.main import main
 from nav_msgs.msg import OccupancyGrid
 
 from datmo_fusion.msg import Object
@@ -34,9 +34,9 @@ class Tool(unittest.TestCase):
 
     def run_tool(self, *words, code=0):
         """What the tool says on standard output and error, and writes as JSON."""
-        out, errors, file = io.StringIO(), io.StringIO(), self.bag.with_name("score.json")
+        out, errors, file = io.StringIO(), io.StringIO(), self.bag.with_name("track_fusion.json")
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
-            arguments = [str(self.bag), "--json", str(file), *words]
+            arguments = ["track_fusion", str(self.bag), "--out", str(file.parent), *words]
             self.assertEqual(main(arguments), code, errors.getvalue())
         return out.getvalue(), errors.getvalue(), json.loads(file.read_text()) if not code else None
 
@@ -218,7 +218,7 @@ class Tool(unittest.TestCase):
         self.write(fused=[track(1, 20.0, 0.0, SPEED)])
         drive = self.bag.with_name("drive.bag")
         write_run(drive, {}, [car(1, 20.0, 8.0, SPEED)])
-        self.assertEqual(self.score("--drive", str(drive))["false"]["fused"]["all"], 1)
+        self.assertEqual(self.score("--truth", str(drive))["false"]["fused"]["all"], 1)
         self.assertEqual(self.score()["false"]["fused"]["all"], 0)
 
     def test_bad_input(self):
@@ -227,7 +227,7 @@ class Tool(unittest.TestCase):
         self.assertIn("no true object is visible to radar, only to scanner, stereo", said)
         for name in ("range", "gate", "soon", "half-angle"):
             self.assertIn(f"--{name} is 0", self.run_tool(f"--{name}", "0", code=1)[1])
-        self.assertIn("no such file", self.run_tool("--drive", "/nowhere", code=1)[1])
+        self.assertIn("no such file", self.run_tool("--truth", "/nowhere", code=1)[1])
         write_run(self.bag, {"/tracks": [], "/tracks/lidar": []}, [DRIVING])
         said = self.run_tool(code=1)[1]
         self.assertIn("nothing on /tracks/stereo, expected a bag of run_bag --track-fusion", said)

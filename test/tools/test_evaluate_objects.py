@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""score_objects on lists and truths that are worked out by hand."""
+"""evaluate objects on lists and truths that are worked out by hand."""
 
 import contextlib
 import io
@@ -14,7 +14,7 @@ from datmo_tools import bag_messages, transforms
 from datmo_tools.bag_file import whole_bag
 from datmo_tools.evaluate.object_lists import Seen
 from datmo_tools.evaluate.object_scores import TrueState, score_list
-from datmo_tools.evaluate.objects import main
+from datmo_tools.evaluate.main import main
 from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
 from nav_msgs.msg import OccupancyGrid
 
@@ -124,9 +124,10 @@ class Tool(unittest.TestCase):
 
     def score(self, *words, code=0):
         """What the tool says on standard output and error, and writes as JSON."""
-        out, errors, file = io.StringIO(), io.StringIO(), self.bag.with_name("score.json")
+        out, errors, file = io.StringIO(), io.StringIO(), self.bag.with_name("objects.json")
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
-            arguments = [str(self.bag), str(self.drive), "--json", str(file), *words]
+            arguments = ["objects", str(self.bag), "--truth", str(self.drive), "--out",
+                         str(file.parent), *words]  # fmt: skip
             self.assertEqual(main(arguments), code, errors.getvalue())
         figures = json.loads(file.read_text())["topics"] if code == 0 else None
         return out.getvalue(), errors.getvalue(), figures

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""score_stereo_grid on grids and clouds that are counted by hand."""
+"""evaluate stereo_grids on grids and clouds that are counted by hand."""
 
 import contextlib
 import io
@@ -15,7 +15,7 @@ from datmo_tools.convert import kitti_messages
 from datmo_tools.bag_file import whole_bag
 from datmo_tools.evaluate.grid_scores import Grid, StereoView
 from datmo_tools.convert.kitti_calibration import Camera
-from datmo_tools.evaluate.stereo_grids import main
+from datmo_tools.evaluate.main import main
 from datmo_tools.evaluate.stereo_grid_scores import NOTHING, CommonView, count, moved, obstacle_points
 from geometry_msgs.msg import Pose, Quaternion
 from nav_msgs.msg import MapMetaData, OccupancyGrid
@@ -160,12 +160,12 @@ class Tool(unittest.TestCase):
         out, err = io.StringIO(), io.StringIO()
         bags = [str(self.folder / name) for name in ("run.bag", "drive.bag")]
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-            code = main([*bags, *words])
+            code = main(["stereo_grids", *bags, "--out", str(self.folder), *words])
         return code, out.getvalue(), err.getvalue()
 
     def bands(self):
-        file = self.folder / "score.json"
-        code, _, err = self.run_tool("--json", str(file))
+        file = self.folder / "stereo_grids.json"
+        code, _, err = self.run_tool()
         self.assertEqual((code, err), (0, ""))
         bands = json.loads(file.read_text(encoding="utf-8"))["bands"]
         return {(band["from"], band["to"]): band for band in bands}

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""score_labeled_positions on a run of one second whose score is worked out by hand."""
+"""evaluate labels on a run of one second whose score is worked out by hand."""
 
 import contextlib
 import io
@@ -17,7 +17,7 @@ from visualization_msgs.msg import Marker
 
 import simulated_recording as simulated
 from datmo_fusion.msg import Track, TrackArray
-from datmo_tools.evaluate.labels import main
+from datmo_tools.evaluate.main import main
 from datmo_tools.transforms import quaternion_of_yaw
 
 LABELS = "/people"
@@ -82,9 +82,10 @@ class Tool(unittest.TestCase):
                 at = simulated.ros_time(0.1 * frame)
                 bag.write("/pose", pose(frame), at)
                 bag.write("/tracks", tracks(frame, *lists.get(frame, ())), at)
-        out, file = io.StringIO(), self.folder / "score.json"
+        out, file = io.StringIO(), self.folder / "labels.json"
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
-            arguments = [str(result), str(recording), "--labels", LABELS, "--json", str(file)]
+            arguments = ["labels", str(result), str(recording), "--labels", LABELS, "--out",
+                         str(self.folder)]  # fmt: skip
             self.assertEqual(main([*arguments, *words]), code, out.getvalue())
         return json.loads(file.read_text()) if code == 0 else out.getvalue()
 

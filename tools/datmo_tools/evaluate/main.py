@@ -1,0 +1,70 @@
+"""Command line of evaluate."""
+
+import argparse
+from pathlib import Path
+
+from datmo_tools import command_line
+from datmo_tools.evaluate import (
+    borders,
+    classes,
+    grids,
+    labels,
+    objects,
+    slam,
+    stereo_grids,
+    track_fusion,
+    tracks,
+)
+from datmo_tools.evaluate.report import as_text, write
+
+DESCRIPTION = """\
+Scores what a run computed against what was true: a table on the terminal, and in a folder a file of
+JSON and a page that needs no network, both named after the subcommand. What cannot be scored ends
+with what is missing in which file, and no report. evaluate SUBCOMMAND --help says what is scored."""
+
+# Each has DESCRIPTION, add_arguments(parser), and evaluate(values): the score as a dictionary that
+# JSON can hold, and its sections.
+SUBCOMMANDS = {
+    "tracks": (tracks, "tracks, pose and times of one run, or of several side by side"),
+    "classes": (classes, "the classes of the tracks"),
+    "track_fusion": (track_fusion, "the fusion of tracks: which of two sensors are of one object"),
+    "labels": (labels, "tracks at positions that were labeled in a recording"),
+    "objects": (objects, "the objects of single measurements, before tracking"),
+    "borders": (borders, "the borders of the road"),
+    "grids": (grids, "fused grids, on simulated drives"),
+    "stereo_grids": (stereo_grids, "stereo grids, by the Velodyne of a KITTI drive"),
+    "slam": (slam, "poses, by the relations of the SLAM benchmark"),
+}
+
+
+def main(arguments=None, score_run=None):
+    """Runs the command line; returns its exit code.
+
+    score_run: the program that matches tracks and scores a run; by default the one that is
+    installed beside.
+    """
+    values = _parser().parse_args(arguments)
+    values.score_run = score_run
+    return command_line.run("evaluate", lambda: _evaluate(values), product="report")
+
+
+def _evaluate(values):
+    name = values.subcommand
+    result, sections = SUBCOMMANDS[name][0].evaluate(values)
+    write(values.out, name, f"Evaluation: {name.replace('_', ' ')}", result, sections)
+    print(as_text(sections))
+    print(f"\nreport: {values.out / name}.html, {values.out / name}.json")
+
+
+def _parser():
+    parser = argparse.ArgumentParser(prog="evaluate", description=DESCRIPTION,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)  # fmt: skip
+    subparsers = parser.add_subparsers(dest="subcommand", required=True, metavar="SUBCOMMAND")
+    for name, (module, short) in SUBCOMMANDS.items():
+        subparser = subparsers.add_parser(
+            name, help=short, description=module.DESCRIPTION,
+            formatter_class=argparse.RawDescriptionHelpFormatter)  # fmt: skip
+        module.add_arguments(subparser)
+        subparser.add_argument("--out", type=command_line.output_folder, default=Path("evaluation"),
+                               metavar="DIR", help="folder of the report (default %(default)s)")  # fmt: skip
+    return parser

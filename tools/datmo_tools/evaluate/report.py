@@ -1,0 +1,52 @@
+"""The one form of a report: sections, as text for a terminal, and as a page that needs no network."""
+
+import json
+from pathlib import Path
+from typing import NamedTuple
+
+import jinja2
+
+from datmo_tools.text_table import aligned
+from datmo_tools.whole_files import write_whole
+
+TEMPLATE = "report.html"  # beside this file
+BEST = "*"  # ends the cell that is best of its row
+MISSED = "MISSED"  # the last cell of a row of what was not found
+
+
+class Section(NamedTuple):
+    """What belongs together. A page shows all of it, a terminal rows and lines."""
+
+    title: str = ""
+    hint: str = ""  # what it shows, for a page
+    rows: tuple = ()  # of cells (text), the first row headings
+    lines: tuple = ()  # of text
+    tiles: tuple = ()  # of (name, figure, unit): for a page
+    picture: str = ""  # an <svg> element: for a page
+    is_narrow: bool = False  # a page has room for two side by side
+    for_page: bool = False  # alone
+
+
+def as_text(sections):
+    """What a terminal shows."""
+    blocks = []
+    for section in sections:
+        if (section.rows or section.lines) and not section.for_page:
+            table = [aligned(section.rows)] if section.rows else []
+            blocks.append("\n".join([*filter(None, [section.title]), *table, *section.lines]))
+    return "\n\n".join(blocks)
+
+
+def as_page(title, sections):
+    """HTML."""
+    loader = jinja2.FileSystemLoader(Path(__file__).parent)
+    environment = jinja2.Environment(loader=loader, autoescape=True, trim_blocks=True,
+                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)  # fmt: skip
+    template = environment.get_template(TEMPLATE)
+    return template.render(title=title, sections=sections, best=BEST, missed=MISSED)
+
+
+def write(folder, name, title, result, sections):
+    """Writes `name`.json, the result (dict), and `name`.html to the folder (Path), both or none."""
+    page = as_page(title, sections)
+    write_whole(folder, {f"{name}.json": json.dumps(result) + "\n", f"{name}.html": page})
