@@ -47,6 +47,9 @@ void TrackerStage::takeLabeledScan(const LabeledScanMessage& message) {
     const LabeledScan scan = fromMessage(message);
     runner_.check("labeled_scan", message.header.stamp);
     scan_views_.add(message, scan);
+    if (options_.scan_view && message.map_frame == options_.frames.map) {
+      tracker_.addScan(scan);
+    }
   });
 }
 

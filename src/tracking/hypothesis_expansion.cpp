@@ -109,7 +109,7 @@ class Builder {
     if (observation == kUnseen) {
       leaf.target.miss(seen, context_.target);
     } else {
-      leaf.target.update(context_.scan.observations[observation].object, observation, seen,
+      leaf.target.update(context_.scan.observations[observation], observation, seen,
                          context_.target);
       noteUse(observation, leaf.target.number());
     }

@@ -43,7 +43,7 @@ void NearestNeighborTargets::associate(AssociationScan& scan, const StepBudget& 
       continue;
     }
     const auto object = static_cast<std::size_t>(object_of_target[i]);
-    targets_[i].update(scan.observations[object].object, object, seen, target_options_);
+    targets_[i].update(scan.observations[object], object, seen, target_options_);
     explained[object] = true;
   }
   startTargets(scan, explained);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "datmo_fusion/tracking/association_scan.h"
+
 namespace datmo {
 
 namespace {
@@ -33,6 +35,9 @@ int detectionsAfter(int before, const Object& object, double min_free_share) {
   return moves ? before + 1 : 0;
 }
 
+/// Most that one scan adds to the association score or takes from it: no outlier decides.
+constexpr double kScanLimit = 8.0;
+
 /// m/s, but for one standard deviation.
 double sureSpeed(const StateEstimate& estimate) {
   const Eigen::Vector2d velocity = estimate.mean.segment<2>(2);
@@ -51,6 +56,7 @@ void TargetOptions::visit(OptionVisitor& visitor) {
   visitor.group("filter", [&] { filter.visit(visitor); });
   visitor.group("box", [&] { box.visit(visitor); });
   visitor.group("evidence", [&] { evidence.visit(visitor); });
+  visitor.group("motion_likelihood", [&] { motion_likelihood.visit(visitor); });
   visitor.group("class_by_speed", [&] { class_by_speed.visit(visitor); });
   visitor.number({"birth_probability", "1",
                   "that a new object of no target is something that will be followed, and not a "
@@ -92,6 +98,7 @@ Target::Target(const Object& object, std::size_t index, std::uint64_t number,
       detections_of_two_(detectionsAfter(0, object, options.fused_free_share)),
       sensors_(std::make_shared<const std::vector<std::string>>(object.sensors)) {
   class_.update(object.object_class, object.class_probability);
+  seen_points_.add(object, object.delay, options.motion_likelihood.window);
 }
 
 void Target::predict(double seconds, const ImmSteps& steps, const TargetOptions& options) {
@@ -103,11 +110,15 @@ void Target::predict(double seconds, const ImmSteps& steps, const TargetOptions&
   measurement_index_ = kUnseen;
 }
 
-void Target::update(const Object& object, std::size_t index, double detection_probability,
+void Target::update(const Observation& observation, std::size_t index, double detection_probability,
                     const TargetOptions& options) {
+  const Object& object = observation.object;
   const PositionMeasurement measured = measurementOf(object);
-  evidence_.update(object, measured, filter_.logLikelihood(measured), detection_probability,
-                   options.evidence);
+  const double likelihood = filter_.logLikelihood(measured);
+  evidence_.update(object, measured, likelihood, detection_probability, options.evidence);
+  association_score_ +=
+      std::clamp(likelihood + std::log(detection_probability) - observation.log_density,
+                 -kScanLimit, kScanLimit);
   filter_.update(measured, options.filter.min_probability);
   const Point2 shift = box_.update(object, since_update_, options.box);
   filter_.shift(shift);
@@ -128,6 +139,30 @@ void Target::update(const Object& object, std::size_t index, double detection_pr
   }
   class_.update(object.object_class, object.class_probability);
   has_moved_ = has_moved_ || evidentlyMoves(options);
+  if (!confirmed()) {
+    seen_points_.add(object, age_ + object.delay, options.motion_likelihood.window);
+  }
+}
+
+void Target::miss(double detection_probability, const TargetOptions& options) {
+  evidence_.miss(detection_probability, options.evidence);
+  association_score_ += std::log(1.0 - detection_probability);
+}
+
+bool Target::movesByBeams(const ScanHistory& history, Stamp now,
+                          const TargetOptions& options) const {
+  const StateEstimate& estimate = filter_.estimate();
+  const MovingBody body{box(), box_.sizeVariance(), estimate.mean.segment<2>(2),
+                        0.5 * estimate.covariance.block<2, 2>(2, 2).trace()};
+  const BeamEvidence beams =
+      beamEvidence(history, seen_points_, body, now, age_, options.motion_likelihood);
+  if (beams.observed == 0) {
+    return evidentlyMoves(options);
+  }
+  return motionProbability(beams, association_score_, options.motion_likelihood) >=
+             options.motion_likelihood.required_probability &&
+         velocityIsSignificant(estimate, options.evidence.speed_significance,
+                               options.evidence.min_speed);
 }
 
 double Target::sameClassProbability(const Object& object) const {
@@ -161,6 +196,7 @@ double Target::existenceProbability(const TargetOptions& options) const {
 void Target::confirm(std::uint32_t id, bool moves) {
   id_ = id;
   moving_ = moves;
+  seen_points_.clear();
 }
 
 /// Between the two speeds it stays as it was.

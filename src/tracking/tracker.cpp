@@ -42,6 +42,7 @@ class Tracker::State {
         unknown_view_(options.visibility),
         clutter_(options.clutter),
         transition_priors_(options.target.filter.transitions),
+        scans_(options.scans),
         targets_(makeTargets(options)) {}
 
   TrackList process(const ObjectList& list, const Pose2& base_in_fixed,
@@ -68,6 +69,8 @@ class Tracker::State {
     return tracks;
   }
 
+  void addScan(const LabeledScan& scan) { scans_.add(scan); }
+
   const Visibility& unknownView() const { return unknown_view_; }
   const TrackerCounts& counts() const { return counts_; }
 
@@ -75,6 +78,7 @@ class Tracker::State {
     targets_->clear();
     clutter_.clear();
     transition_priors_ = TransitionPriors(options_.target.filter.transitions);
+    scans_.clear();
     paths_.clear();
     stamp_.reset();
     counts_ = TrackerCounts();
@@ -178,7 +182,8 @@ class Tracker::State {
 
   /// By what it did, or by what two sensors see of it.
   bool seemsToMove(const Target& target) const {
-    return target.evidentlyMoves(options_.target) || target.isSeenMovingByTwo(options_.target);
+    return target.movesByBeams(scans_, *stamp_, options_.target) ||
+           target.isSeenMovingByTwo(options_.target);
   }
 
   bool deservesTrack(const Target& target) const {
@@ -186,9 +191,9 @@ class Tracker::State {
     const int hits = fused ? options_.fused_confirmation_hits : options_.confirmation_hits;
     return target.measurementIndex() != kUnseen &&
            target.hits() >= static_cast<std::uint32_t>(hits) &&
-           (!options_.require_motion || seemsToMove(target)) &&
            target.objectClass() != ObjectClass::kPole &&
-           existence(target) >= options_.confirmation_existence;
+           existence(target) >= options_.confirmation_existence &&
+           (!options_.require_motion || seemsToMove(target));
   }
 
   /// What belongs to a confirmed target is no clutter.
@@ -239,6 +244,7 @@ class Tracker::State {
   Visibility unknown_view_;
   ClutterMap clutter_;
   TransitionPriors transition_priors_;
+  ScanHistory scans_;
   std::unique_ptr<TargetSet> targets_;
   TrackPaths paths_;
   std::optional<Stamp> stamp_;
@@ -252,6 +258,8 @@ Tracker::Tracker(const TrackerOptions& options, StepClock clock) {
 }
 
 Tracker::~Tracker() = default;
+
+void Tracker::addScan(const LabeledScan& scan) { state_->addScan(scan); }
 
 TrackList Tracker::process(const ObjectList& objects, const Pose2& base_in_fixed,
                            const Visibility& visibility) {

@@ -13,6 +13,7 @@ void TrackerOptions::visit(OptionVisitor& visitor) {
   visitor.group("gating", [&] { gating.visit(visitor); });
   visitor.group("clutter", [&] { clutter.visit(visitor); });
   visitor.group("visibility", [&] { visibility.visit(visitor); });
+  visitor.group("scans", [&] { scans.visit(visitor); });
   visitor.group("target", [&] { target.visit(visitor); });
   visitor.group("duplicates", [&] { duplicates.visit(visitor); });
   visitor.toggle({"require_motion", "",

@@ -12,7 +12,7 @@
 #include "datmo_fusion/road/free_space_entry_test.h"
 #include "datmo_fusion/road/road_extension.h"
 #include "datmo_fusion/road/road_model.h"
-#include "datmo_fusion/road/scan_history.h"
+#include "datmo_fusion/visibility/scan_history.h"
 
 namespace datmo {
 

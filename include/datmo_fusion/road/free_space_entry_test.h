@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "datmo_fusion/common/options.h"
-#include "datmo_fusion/road/scan_history.h"
+#include "datmo_fusion/visibility/scan_history.h"
 
 namespace datmo {
 

@@ -30,10 +30,10 @@ class ScanViews {
   void clear() { views_.clear(); }
 
   /// Pose of the vehicle's frame in another one, at exactly the stamp of the header, which also
-  /// names the vehicle's frame; none if no split scan said so.
+  /// names the vehicle's frame; none if no labeled scan said so.
   std::optional<Pose2> pose(const std_msgs::Header& base, const std::string& fixed_frame) const;
 
-  /// What the scanner could see at the stamp and from the frame of the header; null without a split
+  /// What the scanner could see at the stamp and from the frame of the header; null without a labeled
   /// scan of that time, and where its field is not known. Valid until the next add().
   const Visibility* visibility(const std_msgs::Header& base) const;
 

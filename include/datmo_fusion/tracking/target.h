@@ -14,15 +14,20 @@
 #include "datmo_fusion/tracking/class_by_speed.h"
 #include "datmo_fusion/tracking/imm_filter.h"
 #include "datmo_fusion/tracking/motion_evidence.h"
+#include "datmo_fusion/tracking/motion_likelihood.h"
+#include "datmo_fusion/tracking/seen_points.h"
 #include "datmo_fusion/tracking/track.h"
 #include "datmo_fusion/tracking/tracked_box.h"
 
 namespace datmo {
 
+struct Observation;
+
 struct TargetOptions {
   ImmOptions filter;
   TrackedBoxOptions box;
   MotionEvidenceOptions evidence;
+  MotionLikelihoodOptions motion_likelihood;
   ClassBySpeedOptions class_by_speed;
   double birth_probability = 0.2;  ///< 1
   double birth_speed_std = 8.0;    ///< m/s
@@ -56,16 +61,14 @@ class Target {
   /// those of its most likely class do.
   void predict(double seconds, const ImmSteps& steps, const TargetOptions& options);
 
-  /// Takes in an object of the present scan, and its index there. `detection_probability`: as for
-  /// miss().
-  void update(const Object& object, std::size_t index, double detection_probability,
+  /// Takes in what it was seen as in the present scan, and the index of that. Probability of
+  /// detection: as for miss().
+  void update(const Observation& observation, std::size_t index, double detection_probability,
               const TargetOptions& options);
 
   /// The present scan shows no object of this target, and would have with this probability if it
   /// were there.
-  void miss(double detection_probability, const TargetOptions& options) {
-    evidence_.miss(detection_probability, options.evidence);
-  }
+  void miss(double detection_probability, const TargetOptions& options);
 
   /// The object as a measurement of this target's position.
   PositionMeasurement measurementOf(const Object& object) const {
@@ -76,9 +79,14 @@ class Target {
   /// is not known it is chance: one in kObjectClasses.
   double sameClassProbability(const Object& object) const;
 
+  /// By its objects alone.
   bool evidentlyMoves(const TargetOptions& options) const {
     return evidence_.suffices(filter_.estimate(), options.evidence);
   }
+
+  /// By what all beams of the last scans saw at its positions; `now`: the time of its state. Where
+  /// they saw nothing of them, by its objects alone.
+  bool movesByBeams(const ScanHistory& history, Stamp now, const TargetOptions& options) const;
 
   /// Two sensors see it now, one of which sees it move (thesis 3.3.3), and nothing that it did
   /// before says that it stands.
@@ -88,8 +96,8 @@ class Target {
   /// to be seen more than once. Who was followed for longer has shown by then whether it moves.
   bool isSeenMovingByTwo(const TargetOptions& options) const;
 
-  /// It was taken for a moving object because two sensors saw it so, and has had the time to show
-  /// that it does not move.
+  /// It was taken for a moving object before its own motion was evident, and has had the time to
+  /// show that it does not move.
   bool motionRefuted(const TargetOptions& options) const {
     return confirmed() && !has_moved_ && followed() > options.fused_proof_time && !mayMove(options);
   }
@@ -135,6 +143,10 @@ class Target {
   TrackedBox box_;
   ImmFilter filter_;
   MotionEvidence evidence_;
+  /// Logarithm of how much likelier its objects are for one moving object than for clutter. Other
+  /// than the score of existence it is not limited: it looks back at all that is known.
+  double association_score_ = 0.0;
+  SeenPointHistory seen_points_;  ///< until it is confirmed
   std::uint64_t number_;
   std::uint32_t id_ = 0;
   std::size_t measurement_index_;

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "datmo_fusion/common/object.h"
+#include "datmo_fusion/common/scan.h"
 #include "datmo_fusion/tracking/step_budget.h"
 #include "datmo_fusion/tracking/target_set.h"
 #include "datmo_fusion/tracking/track.h"
@@ -37,6 +38,10 @@ class Tracker {
   /// hypotheses; without one, the same input gives the same output on every machine.
   explicit Tracker(const TrackerOptions& options, StepClock clock = {});
   ~Tracker();
+
+  /// Takes the beams of a scan, by rising stamps: they tell what moves (MotionLikelihoodOptions).
+  /// Without them its objects alone do (MotionEvidence).
+  void addScan(const LabeledScan& scan);
 
   /// Takes the objects of one time, in the vehicle's frame, the vehicle's pose in the fixed frame
   /// at that time, and what the sensors could have seen then (base frame). Returns the confirmed

@@ -11,6 +11,7 @@
 #include "datmo_fusion/tracking/split_merge.h"
 #include "datmo_fusion/tracking/target.h"
 #include "datmo_fusion/tracking/visibility.h"
+#include "datmo_fusion/visibility/scan_history.h"
 
 namespace datmo {
 
@@ -25,6 +26,7 @@ struct TrackerOptions {
   AssociationOptions gating;
   ClutterMapOptions clutter;
   VisibilityOptions visibility;
+  ScanHistoryOptions scans;
   TargetOptions target;
   DuplicateOptions duplicates;
   bool require_motion = true;

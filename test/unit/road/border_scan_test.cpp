@@ -1,6 +1,6 @@
 #include "datmo_fusion/road/border_scan.h"
 
-#include "scan_history_samples.h"
+#include "visibility/scan_history_samples.h"
 #include <gtest/gtest.h>
 
 namespace datmo {

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "scan_history_samples.h"
+#include "visibility/scan_history_samples.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/common/random.h"

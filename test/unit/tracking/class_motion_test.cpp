@@ -57,7 +57,7 @@ double predictionErrorOf(ObjectClass object_class) {
   for (int i = 1; i <= kScans; ++i) {
     target.predict(kPeriod, steps, options);
     error += (target.filter().estimate().mean.head<2>() - positionAt(i)).norm() / kScans;
-    target.update(measurementIndex(object_class, 0.9, positionAt(i)), 0, 0.9, options);
+    target.update({measurementIndex(object_class, 0.9, positionAt(i)), {0}}, 0, 0.9, options);
   }
   return error;
 }

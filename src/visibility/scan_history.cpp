@@ -1,4 +1,4 @@
-#include "datmo_fusion/road/scan_history.h"
+#include "datmo_fusion/visibility/scan_history.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +34,9 @@ ScanHistory::ScanHistory(const ScanHistoryOptions& options) : options_(options) 
 void ScanHistory::add(const LabeledScan& scan) {
   Scan seen;
   seen.stamp = scan.stamp;
-  seen.map_in_scanner = (scan.base_in_map.pose * scan.scanner_in_base).inverse();
+  const Pose2 scanner_in_map = scan.base_in_map.pose * scan.scanner_in_base;
+  seen.scanner = scanner_in_map.position();
+  seen.map_in_scanner = scanner_in_map.inverse();
   seen.field = scan.field;
   seen.beams.assign(scan.field.beams, {static_cast<float>(scan.field.free_range), false});
   for (const std::uint32_t beam : scan.blind_beams) {
@@ -89,7 +91,9 @@ BeamOutcome ScanHistory::look(std::size_t back, const ReflectionPoint& location)
     return BeamOutcome::kNothing;
   }
   const Point2 along_beam(std::cos(bearing), std::sin(bearing));
-  const Point2 direction = scan.map_in_scanner.rotate(location.direction);
+  const Point2 direction = location.direction.isZero()
+                               ? Point2(-along_beam.y(), along_beam.x())
+                               : scan.map_in_scanner.rotate(location.direction);
   const double incidence = along_beam.x() * direction.y() - along_beam.y() * direction.x();
   if (std::abs(incidence) < std::sin(options_.min_incidence)) {
     return BeamOutcome::kNothing;

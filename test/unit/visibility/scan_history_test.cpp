@@ -1,4 +1,4 @@
-#include "datmo_fusion/road/scan_history.h"
+#include "datmo_fusion/visibility/scan_history.h"
 
 #include <limits>
 

@@ -24,7 +24,7 @@ struct ScanHistoryOptions {
 /// beam crosses it, which for a grazing beam may be some distance along from the point.
 struct ReflectionPoint {
   Point2 position = Point2::Zero();    ///< m, map frame
-  Point2 direction = Point2::UnitX();  ///< of length 1
+  Point2 direction = Point2::UnitX();  ///< of length 1; zero: not known, it faces the beam
 };
 
 /// What one scan observed at a point.
@@ -47,6 +47,13 @@ class ScanHistory {
 
   /// How long before the newest scan one was taken, s; 0: the newest. `back` below size().
   double age(std::size_t back) const;
+  Stamp stamp(std::size_t back) const { return scans_[back].stamp; }
+
+  /// Where it was taken from, m, map frame.
+  const Point2& scanner(std::size_t back) const { return scans_[back].scanner; }
+
+  /// m, along a beam: an end nearer to a surface than this is on it.
+  double tolerance() const { return options_.tolerance; }
 
   /// What that scan observed at a point, by the beam toward it.
   BeamOutcome look(std::size_t back, const ReflectionPoint& location) const;
@@ -59,6 +66,7 @@ class ScanHistory {
   };
   struct Scan {
     Stamp stamp;
+    Point2 scanner;  ///< m, map frame
     Pose2 map_in_scanner;
     ScanField field;
     std::vector<Beam> beams;

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "datmo_fusion/common/box2.h"
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/common/stamp.h"
+#include "datmo_fusion/tracking/seen_points.h"
+#include "datmo_fusion/visibility/scan_history.h"
+
+namespace datmo {
+
+struct MotionLikelihoodOptions {
+  double window = 2.0;                 ///< s
+  double detection = 0.8;              ///< 1
+  double detection_strength = 10.0;    ///< 1
+  double echo_detection = 0.6;         ///< 1
+  double background = 0.1;             ///< 1
+  double moving_prior = 0.5;           ///< 1
+  double clutter_odds = 1.0e4;         ///< 1
+  double required_probability = 0.9;  ///< 1
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// A target as it is thought to move, now, in the fixed frame.
+struct MovingBody {
+  Box2 box;
+  Eigen::Vector2d size_variance = Eigen::Vector2d::Zero();  ///< m^2, of length and width
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();       ///< m/s
+  double speed_variance = 0.0;                              ///< (m/s)^2, along any axis
+};
+
+/// What the beams of the last scans say of a target.
+struct BeamEvidence {
+  double log_ratio = 0.0;    ///< that it moves over that it stands
+  std::size_t observed = 0;  ///< how often a beam told; 0: nothing is known
+};
+
+/// Asks all beams of a window of scans whether something was at the positions where a target was
+/// seen, at the times when it was seen elsewhere. What stands was there all the time, hidden or
+/// not; what moves left its positions free before it came and after it left, but where its body
+/// still covers them.
+///
+/// One observation is a beam that crossed such a position (ScanHistory::look). If the target moves
+/// the beam ends there with the probability c * detection + (1 - c) * background, where c is the
+/// probability that the moving body covers the position at that time. If it stands the beam ends
+/// there as often as its surface reflects, which is not known: a beta variable of the mean
+/// `detection`, integrated over all beams, so that an edge that is hit now and then is no mover.
+/// Positions of different scans that one scan looks at are next to each other, so their mean
+/// counts; scans are independent.
+///
+/// Of a single echo the surface's direction is not known. Either it faces the beam; or the echo is
+/// the end of one beam that slides along a wall as the vehicle passes, and the surface runs along
+/// the target's motion. What stands is given the better of the two.
+///
+/// Sources of the idea: Wang, Posner, Newman, Model-free detection
+/// and tracking of dynamic objects with 2D lidar, 2015 (one likelihood of all beams); Petrovskaya
+/// and Thrun, Model based vehicle detection and tracking for autonomous urban driving, 2009,
+/// section 4 (free space before and behind).
+///
+/// `now`: the time of `body`, `clock` (s) the same on the clock of `seen`.
+BeamEvidence beamEvidence(const ScanHistory& history, const SeenPointHistory& seen,
+                          const MovingBody& body, Stamp now, double clock,
+                          const MotionLikelihoodOptions& options);
+
+/// That a target moves and is one object: neither something that stands nor a chain of false
+/// alarms. `association_score`: logarithm of how much likelier its objects are for one moving
+/// object than for clutter of the density where they are.
+double motionProbability(const BeamEvidence& evidence, double association_score,
+                         const MotionLikelihoodOptions& options);
+
+}  // namespace datmo

@@ -1,0 +1,221 @@
+#include "datmo_fusion/tracking/motion_likelihood.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace datmo {
+
+namespace {
+
+/// s; positions of the same scan are seen by the very beams that are asked.
+constexpr double kSameScan = 0.03;
+
+double square(double value) { return value * value; }
+
+/// That a normal variable of this standard deviation lies within +-`half` of `offset`'s origin:
+/// by the nearer end alone, as the farther one matters little.
+double insideProbability(double offset, double half, double sigma) {
+  return 0.5 * std::erfc((std::abs(offset) - half) / (std::sqrt(2.0) * sigma));
+}
+
+/// Where the moving body was at other times.
+class Coverage {
+ public:
+  Coverage(const MovingBody& body, double tolerance)
+      : body_(body), fixed_in_box_(body.box.center.inverse()), tolerance_(tolerance) {}
+
+  /// That it covers a position (m, fixed frame) `since` s before now.
+  double at(const Point2& position, double since) const {
+    const Point2 in_box = fixed_in_box_ * (position + since * body_.velocity);
+    const double drift = square(tolerance_) + square(since) * body_.speed_variance;
+    const auto along = [&](double offset, double size, double size_variance) {
+      // A side moves by half of what the size is wrong.
+      return insideProbability(offset, 0.5 * size, std::sqrt(drift + 0.25 * size_variance));
+    };
+    return along(in_box.x(), body_.box.length, body_.size_variance.x()) *
+           along(in_box.y(), body_.box.width, body_.size_variance.y());
+  }
+
+ private:
+  const MovingBody& body_;
+  Pose2 fixed_in_box_;
+  double tolerance_;
+};
+
+/// std::lgamma writes a global variable, which threads share.
+double logGamma(double value) {
+  int sign = 0;
+  return lgamma_r(value, &sign);
+}
+
+double logBeta(double a, double b) { return logGamma(a) + logGamma(b) - logGamma(a + b); }
+
+/// Beams that crossed positions of a target; of beams that count in part, the parts.
+struct CrossingBeams {
+  double hits = 0.0;
+  double misses = 0.0;
+  double expected_hits = 0.0;  ///< if something stands there, as the options' detection has it
+  double log_moving = 0.0;     ///< logarithm of the likelihood if it moves
+  std::size_t observed = 0;
+
+  void add(BeamOutcome outcome, double covered, double detection, double background) {
+    const double hit = covered * detection + (1.0 - covered) * background;
+    const bool ends = outcome == BeamOutcome::kHit;
+    (ends ? hits : misses) += 1.0;
+    expected_hits += detection;
+    log_moving += std::log(ends ? hit : 1.0 - hit);
+    ++observed;
+  }
+
+  void add(const CrossingBeams& other, double weight) {
+    hits += weight * other.hits;
+    misses += weight * other.misses;
+    expected_hits += weight * other.expected_hits;
+    log_moving += weight * other.log_moving;
+    observed += other.observed;
+  }
+
+  /// Logarithm of the likelihood if it stands: how well it reflects is a beta variable.
+  double logStanding(double detection_strength) const {
+    const double expected = expected_hits / (hits + misses);
+    const double prior_hits = detection_strength * expected;
+    const double prior_misses = detection_strength * (1.0 - expected);
+    return logBeta(prior_hits + hits, prior_misses + misses) - logBeta(prior_hits, prior_misses);
+  }
+
+  BeamEvidence evidence(double detection_strength) const {
+    return observed == 0 ? BeamEvidence{}
+                         : BeamEvidence{log_moving - logStanding(detection_strength), observed};
+  }
+};
+
+/// The 95 % quantile of chi-square with one degree of freedom.
+constexpr double kSignificant = 3.84;
+
+/// s, over which the scanner's own velocity is taken.
+constexpr double kVelocityTime = 0.3;
+
+Point2 scannerVelocity(const ScanHistory& history) {
+  std::size_t back = 1;
+  while (back + 1 < history.size() && history.age(back) < kVelocityTime) {
+    ++back;
+  }
+  return (history.scanner(0) - history.scanner(back)) / history.age(back);
+}
+
+double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// Whether its motion is that of the end of one beam along a surface that stands, as the scanner
+/// moves past it: the bearing stays, and the surface does not lie on the scanner's own path.
+bool maySlide(const ScanHistory& history, const MovingBody& body) {
+  if (history.size() < 2 || body.velocity.isZero()) {
+    return false;
+  }
+  const Point2 line_of_sight = body.box.center.position() - history.scanner(0);
+  const double across = cross(line_of_sight.normalized(), body.velocity - scannerVelocity(history));
+  const double offset = std::abs(cross(line_of_sight, body.velocity.normalized()));
+  return square(across) < kSignificant * body.speed_variance && offset >= body.box.width;
+}
+
+/// What the beams of one scan say of the positions of `seen`, at `time` on its clock.
+class ScanBeams {
+ public:
+  ScanBeams(const ScanHistory& history, const MovingBody& body, double clock,
+            const MotionLikelihoodOptions& options)
+      : history_(history), coverage_(body, history.tolerance()), clock_(clock), options_(options) {}
+
+  /// `echo_direction`: of the surface at single echoes; zero: it faces the beam.
+  CrossingBeams of(std::size_t back, double time, const SeenPoints& seen,
+                   const Point2& echo_direction) const {
+    CrossingBeams beams;
+    const double detection = seen.isEcho() ? options_.echo_detection : options_.detection;
+    for (const ReflectionPoint& point : seen.points) {
+      const Point2& direction = point.direction.isZero() ? echo_direction : point.direction;
+      const BeamOutcome outcome = history_.look(back, {point.position, direction});
+      if (outcome != BeamOutcome::kNothing) {
+        const double covered = coverage_.at(point.position, clock_ - time);
+        beams.add(outcome, covered, detection, options_.background);
+      }
+    }
+    return beams;
+  }
+
+ private:
+  const ScanHistory& history_;
+  Coverage coverage_;
+  double clock_;
+  const MotionLikelihoodOptions& options_;
+};
+
+}  // namespace
+
+void MotionLikelihoodOptions::visit(OptionVisitor& visitor) {
+  constexpr Bounds kProbability{0.01, 0.99};
+  visitor.number({"window", "s",
+                  "how far back beams are asked what they saw where a target was seen; slow ones "
+                  "need longer to leave their position"},
+                 window, {0.1, 60.0});
+  visitor.number({"detection", "1", "that a beam ends on a surface that it meets, on average"},
+                 detection, kProbability);
+  visitor.number({"detection_strength", "1",
+                  "how alike surfaces reflect: the beta distribution of their detection counts as "
+                  "many beams; few: what was missed may be an edge or a hedge that reflects badly"},
+                 detection_strength, {0.1, 1e6});
+  visitor.number({"echo_detection", "1",
+                  "the same near a single echo, of which it is not known how far it reaches"},
+                 echo_detection, kProbability);
+  visitor.number({"background", "1", "that a beam ends where nothing is that was seen before"},
+                 background, kProbability);
+  visitor.number({"moving_prior", "1",
+                  "that a target that the map does not know as static moves, before its beams are "
+                  "asked"},
+                 moving_prior, kProbability);
+  visitor.number({"clutter_odds", "1",
+                  "chains of false alarms, of all that can be made of them, for each object that "
+                  "moves"},
+                 clutter_odds, {1.0, 1e12});
+  visitor.number({"required_probability", "1",
+                  "that a target moves, from which on it does: its sweep draws the operating curve "
+                  "of missed frames against false tracks"},
+                 required_probability, {0.5, 0.999999});
+}
+
+BeamEvidence beamEvidence(const ScanHistory& history, const SeenPointHistory& seen,
+                          const MovingBody& body, Stamp now, double clock,
+                          const MotionLikelihoodOptions& options) {
+  const ScanBeams scan_beams(history, body, clock, options);
+  const auto sumWith = [&](const Point2& echo_direction) {
+    CrossingBeams sum;
+    for (std::size_t back = 0; back < history.size(); ++back) {
+      const double time = clock + secondsBetween(now, history.stamp(back));
+      if (time < clock - options.window) {
+        break;
+      }
+      CrossingBeams of_scan;
+      int asked = 0;
+      for (const auto& points : seen.scans()) {
+        if (std::abs(time - points->time) >= kSameScan) {
+          of_scan.add(scan_beams.of(back, time, *points, echo_direction), 1.0);
+          ++asked;
+        }
+      }
+      sum.add(of_scan, 1.0 / std::max(1, asked));
+    }
+    return sum.evidence(options.detection_strength);
+  };
+  const BeamEvidence facing = sumWith(Point2::Zero());
+  if (!maySlide(history, body)) {
+    return facing;
+  }
+  const BeamEvidence sliding = sumWith(body.velocity.normalized());
+  return {std::min(facing.log_ratio, sliding.log_ratio), facing.observed};
+}
+
+double motionProbability(const BeamEvidence& evidence, double association_score,
+                         const MotionLikelihoodOptions& options) {
+  const double stands = (1.0 - options.moving_prior) / options.moving_prior;
+  return 1.0 / (1.0 + stands * std::exp(-evidence.log_ratio) +
+                options.clutter_odds * std::exp(-association_score));
+}
+
+}  // namespace datmo

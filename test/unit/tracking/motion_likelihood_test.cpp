@@ -1,0 +1,157 @@
+#include "datmo_fusion/tracking/motion_likelihood.h"
+
+#include <cmath>
+#include <vector>
+
+#include "visibility/scan_history_samples.h"
+#include <gtest/gtest.h>
+
+namespace datmo {
+namespace {
+
+using samples::scanOf;
+
+/// An object whose points are given, in the fixed frame.
+Object objectOf(const std::vector<Point2>& points) {
+  Object object;
+  object.points = points;
+  return object;
+}
+
+class BeamEvidenceTest : public testing::Test {
+ protected:
+  /// A scan `seconds` after the start, with ends of beams at these positions.
+  void scan(double seconds, const std::vector<Point2>& ends) {
+    history_.add(scanOf(ends, seconds));
+  }
+
+  void see(double seconds, const std::vector<Point2>& points) {
+    seen_.add(objectOf(points), seconds, options_.window);
+  }
+
+  BeamEvidence evidence(double seconds, const MovingBody& body) const {
+    return beamEvidence(history_, seen_, body, Stamp::fromSeconds(100.0 + seconds), seconds,
+                        options_);
+  }
+
+  /// A body that never covered (20, 0), for certain.
+  static MovingBody elsewhere() { return {{Pose2(40.0, 20.0, 0.0), 4.0, 2.0}}; }
+
+  MotionLikelihoodOptions options_;
+  ScanHistory history_{ScanHistoryOptions{}};
+  SeenPointHistory seen_;
+};
+
+TEST_F(BeamEvidenceTest, WithoutScansNothingIsKnown) {
+  see(0.0, {{20.0, 0.0}});
+  const BeamEvidence nothing = evidence(0.0, elsewhere());
+  EXPECT_EQ(nothing.observed, 0U);
+  EXPECT_EQ(nothing.log_ratio, 0.0);
+}
+
+TEST_F(BeamEvidenceTest, TheScanInWhichItWasSeenSaysNothing) {
+  scan(0.0, {{20.0, 0.0}});
+  see(0.0, {{20.0, 0.0}});
+  EXPECT_EQ(evidence(0.0, elsewhere()).observed, 0U);
+}
+
+TEST_F(BeamEvidenceTest, ABeamThatPassedBeforeSpeaksForMotion) {
+  scan(0.0, {});
+  scan(0.1, {{20.0, 0.0}});
+  see(0.1, {{20.0, 0.0}});
+  const BeamEvidence entered = evidence(0.1, elsewhere());
+  EXPECT_EQ(entered.observed, 1U);
+  EXPECT_NEAR(entered.log_ratio, std::log(0.9 / 0.4), 1e-9) << "of a single echo";
+}
+
+TEST_F(BeamEvidenceTest, ABeamThatPassesAfterwardSpeaksForMotionToo) {
+  scan(0.0, {{20.0, 0.0}});
+  see(0.0, {{20.0, 0.0}});
+  scan(0.1, {});
+  EXPECT_NEAR(evidence(0.1, elsewhere()).log_ratio, std::log(0.9 / 0.4), 1e-9);
+}
+
+TEST_F(BeamEvidenceTest, ABeamThatEndedThereBeforeSpeaksAgainstMotion) {
+  scan(0.0, {{20.0, 0.0}});
+  scan(0.1, {{20.0, 0.0}});
+  see(0.1, {{20.0, 0.0}});
+  EXPECT_NEAR(evidence(0.1, elsewhere()).log_ratio, std::log(0.1 / 0.6), 1e-9);
+}
+
+TEST_F(BeamEvidenceTest, SurfacesCountForMoreThanEchoes) {
+  const std::vector<Point2> side{{20.0, -0.7}, {20.0, 0.0}, {20.0, 0.7}};
+  scan(0.0, {});
+  scan(0.1, side);
+  see(0.1, side);
+  const BeamEvidence entered = evidence(0.1, elsewhere());
+  EXPECT_EQ(entered.observed, 3U);
+  // Three misses of a surface of which 8 beams hit and 2 missed: 2/10, 3/11, 4/12.
+  EXPECT_NEAR(entered.log_ratio, 3.0 * std::log(0.9) - std::log(24.0 / 1320.0), 1e-9);
+}
+
+TEST_F(BeamEvidenceTest, WhatIsHitNowAndThenMayStand) {
+  const std::vector<Point2> edge{{20.0, 0.0}};
+  scan(0.0, {});
+  scan(0.1, edge);
+  scan(0.2, {});
+  scan(0.3, edge);
+  see(0.3, edge);
+  // An echo's 6 hits and 4 misses: a miss 4/10, a hit 6/11, a miss 5/12.
+  const double stands = 4.0 / 10.0 * 6.0 / 11.0 * 5.0 / 12.0;
+  EXPECT_NEAR(evidence(0.3, elsewhere()).log_ratio, std::log(0.9 * 0.1 * 0.9 / stands), 1e-9);
+}
+
+TEST_F(BeamEvidenceTest, WhatIsNeverHitBeforehandIsSoonNoEdge) {
+  const std::vector<Point2> side{{20.0, -0.7}, {20.0, 0.0}, {20.0, 0.7}};
+  for (int i = 0; i < 5; ++i) {
+    scan(0.1 * i, {});
+  }
+  see(0.5, side);
+  EXPECT_GT(evidence(0.5, elsewhere()).log_ratio, std::log(1e3));
+}
+
+TEST_F(BeamEvidenceTest, WhereTheBodyCoversItsPositionBothSayTheSame) {
+  scan(0.0, {{20.0, 0.0}});
+  scan(0.1, {{20.0, 0.0}});
+  see(0.1, {{20.0, 0.0}});
+  const MovingBody large{{Pose2(20.0, 0.0, 0.0), 100.0, 100.0}, {0.0, 0.0}, {5.0, 0.0}};
+  EXPECT_NEAR(evidence(0.1, large).log_ratio, 0.0, 1e-6);
+}
+
+TEST_F(BeamEvidenceTest, WhatIsHiddenSaysNothing) {
+  scan(0.0, {{10.0, 0.0}});
+  scan(0.1, {{20.0, 0.0}});
+  see(0.1, {{20.0, 0.0}});
+  EXPECT_EQ(evidence(0.1, elsewhere()).observed, 0U);
+}
+
+TEST_F(BeamEvidenceTest, PositionsSeenInSeveralScansCountInTheirMean) {
+  scan(0.0, {});
+  see(0.1, {{20.0, 0.0}});
+  see(0.2, {{21.0, 0.0}});
+  const BeamEvidence entered = evidence(0.2, elsewhere());
+  EXPECT_EQ(entered.observed, 2U);
+  EXPECT_NEAR(entered.log_ratio, std::log(0.9 / 0.4), 1e-9);
+}
+
+TEST_F(BeamEvidenceTest, BeamsBeforeTheWindowAreNotAsked) {
+  scan(0.0, {});
+  scan(2.5, {{20.0, 0.0}});
+  see(2.5, {{20.0, 0.0}});
+  EXPECT_EQ(evidence(2.5, elsewhere()).observed, 0U);
+}
+
+TEST(MotionProbability, IsThatOfNeitherOfTheTwoOthers) {
+  MotionLikelihoodOptions options;
+  options.clutter_odds = 100.0;
+  const auto probability = [&](double against_standing, double against_clutter) {
+    return motionProbability({against_standing, 1}, against_clutter, options);
+  };
+  EXPECT_NEAR(probability(std::log(19.0), 1e3), 0.95, 1e-9);
+  EXPECT_NEAR(probability(1e3, std::log(1900.0)), 0.95, 1e-9);
+  EXPECT_NEAR(probability(0.0, std::log(100.0)), 1.0 / 3.0, 1e-9);
+  EXPECT_NEAR(probability(-1e3, 1e3), 0.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace datmo
