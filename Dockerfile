@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Debian 12:               docker build -t datmo_fusion .
 # Ubuntu 20.04, Noetic:    docker build -t datmo_fusion --build-arg BASE=ros:noetic-ros-base-focal .
 #   (its base needs CLI11 as well: scripts/packages_ubuntu_20.04.txt)

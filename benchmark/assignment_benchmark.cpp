@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Ranked assignments: the tiny problems of clusters, large ones, and what no data should be.
 
 #include <benchmark/benchmark.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A cloud of a 3D lidar with 64 rows in a street, to a planar scan.
 
 #include <algorithm>

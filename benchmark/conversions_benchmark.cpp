@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Between messages and the core: what each scan costs at the doors.
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Detection of moving objects in one scan: the most there can be, since everything in it may move.
 
 #include <vector>

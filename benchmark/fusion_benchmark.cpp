@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Low-level fusion: the lidar's instantaneous grid, grids brought to another stamp, fused grids.
 
 #include <algorithm>

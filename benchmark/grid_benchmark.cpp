@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The occupancy map: taking in a scan, and moving its window.
 
 #include "settings.h"

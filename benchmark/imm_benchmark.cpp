@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The filter of one target: what a scan costs, and what one more measurement in its gate does.
 
 #include <benchmark/benchmark.h>

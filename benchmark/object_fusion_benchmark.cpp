@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Object-level fusion: two lists of objects of one street, and the scan as a witness.
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // record_latency _output:=FILE.json
 // How long the live chain takes, as another process sees it: hands on each scan that comes on
 // recorded/scan or recorded/echoes, and measures from then until the tracks of the same stamp are

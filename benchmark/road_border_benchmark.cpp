@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Borders of the road: a scan through all of it, the hit grid and the search for borders alone.
 
 #include <cstdint>

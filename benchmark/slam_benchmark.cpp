@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Grid SLAM: one pose of the scan matcher, and one scan through all of it; how the cost grows with
 // beams, poses and the map's size.
 

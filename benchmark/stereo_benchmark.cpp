@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A stereo cloud in a street as stereo_image_proc publishes it, to a grid, and to objects.
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Track-level fusion: two lists of tracks of one street, new ones in every step.
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The tracker: one step with a crowd of confirmed tracks and as many false alarms, by the number of
 // targets, with each kind of association.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # catkin writes setup.* and the Python package to the prefix that is known when CMake configures. So
 # that `cmake --install BUILD --prefix X` puts them into X as well, a prefix that differs is configured
 # first (seconds; nothing is compiled again), and all of it is installed after that. To be included

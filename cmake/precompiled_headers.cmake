@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Precompiled headers: a third of the compiler's time went into the same headers again and again. CMake
 # 3.16 and later; without, or with -DDATMO_FUSION_PRECOMPILE=OFF, all is compiled as it is written.
 option(DATMO_FUSION_PRECOMPILE "precompile headers that most files include" ON)

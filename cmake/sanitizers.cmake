@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 set(DATMO_FUSION_SANITIZE "" CACHE STRING "sanitizers: address,undefined or thread")
 if(DATMO_FUSION_SANITIZE)
   add_compile_options(-fsanitize=${DATMO_FUSION_SANITIZE} -fno-omit-frame-pointer

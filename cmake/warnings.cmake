@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Warnings of our own targets. CI turns them into errors (DATMO_FUSION_WERROR); a user's newer
 # compiler must not break the build.
 option(DATMO_FUSION_WERROR "treat warnings in this package as errors" OFF)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Reads a sensor set's yaml file as run_bag does and prints its path; says what is wrong with it
 // and fails otherwise. perception.launch calls it, so that a file with an unknown section does not
 // start.

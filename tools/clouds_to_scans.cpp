@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "clouds_to_scans.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Prints the parameters of all nodelets as Markdown, as they stand in doc/parameters.md.
 #include <cstdlib>
 #include <iostream>

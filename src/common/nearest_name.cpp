@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/common/nearest_name.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "side_box.h"
 
 #include "datmo_fusion/common/angle.h"

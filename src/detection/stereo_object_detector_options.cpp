@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/detection/stereo_object_detector.h"
 
 namespace datmo {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/fusion/position_covariance.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The stages of a 3D lidar as nodelets: a library of their own, for nothing else links PCL.
 #include "stage_nodelet.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The stages that fuse several sources as nodelets. What a person chooses among while looking at
 // rviz, dynamic_reconfigure changes.
 #include <memory>

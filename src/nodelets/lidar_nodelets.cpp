@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The stages of the laser scanner, from scans to objects, and the tracker, as nodelets.
 #include "stage_nodelet.h"
 

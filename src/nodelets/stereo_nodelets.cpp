@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The stages of the stereo camera as nodelets.
 #include "stage_nodelet.h"
 

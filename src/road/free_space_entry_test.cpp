@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/road/free_space_entry_test.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/grid_slam_stage.h"
 
 #include <boost/make_shared.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/lidar_grid_stage.h"
 
 #include <boost/make_shared.hpp>

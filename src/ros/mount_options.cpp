@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/mount_options.h"
 
 #include <tf2/LinearMath/Quaternion.h>

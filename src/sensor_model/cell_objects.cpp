@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "cell_objects.h"
 
 #include "datmo_fusion/grid/neighborhood.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/tracking/class_by_speed.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/tracking/imm_filter.h"
 
 #include <algorithm>

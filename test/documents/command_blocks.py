@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Command blocks of Markdown pages: what is run as written, and what is left out and why."""
 
 import re

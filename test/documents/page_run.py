@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Runs a page's command blocks as they are written, in one fresh shell."""
 
 import os

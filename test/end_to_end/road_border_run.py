@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Simulated scenes through the stack, without and with borders of the road."""
 
 import os

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """KITTI's drive 0005 through the whole chain, from folder to tracks, against what is asked.
 
 The scanner is emulated from the Velodyne (see kitti_to_bag --help); the odometry is 3 % too long

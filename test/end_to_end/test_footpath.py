@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """What moves on the footpath and near the curb stays tracked when false moving objects at the road's
 borders are left out (thesis 2.4): people who walk along the curb, away from it and along a wall, one
 who steps on to the road, a car out of a driveway, cyclists. With several seeds, so that it is no

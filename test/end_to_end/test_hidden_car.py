@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """A car that a cyclist hides from the scanner (thesis 3.3.3, figures 3.13 and 3.14): with object
 fusion it stays tracked, since the camera sees it past the cyclist; by the scanner alone it is lost.
 """

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """PointRCNN's detections of ten KITTI tracking sequences through kitti_tracking_run and
 kitti_tracking_score.
 

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """1:10 cars with motion capture through mocap_to_bag, run_bag and evaluate: the pose and the track
 of the other car against what motion capture saw.
 

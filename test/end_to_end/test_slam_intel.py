@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """The Intel Research Lab of the SLAM benchmark through carmen_to_bag, run_bag and evaluate slam.
 
 Kuemmerle et al., "On measuring the accuracy of SLAM algorithms", 2009, published for this log: scan

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """KITTI's drive 0005 with low-level fusion: its image pairs, gridded and fused with the emulated
 scan, against its Velodyne and its labels.
 

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Track-level fusion (thesis 3.4) on the simulated intersection: what scanner and stereo camera both
 follow becomes one track, soon, with one id, and where the camera looks no more is false than the
 scanner alone says. With two seeds, so that it is no matter of luck.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A nodelet with a bad parameter does not start, and says why once; its manager and the others go
 // on.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The running moving_objects nodelet with borders of the road, between a scripted grid_slam and a
 // scripted road_border: what it leaves out, and that all passes where the borders are none. The
 // tests go through one drive, in this order.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Image, camera info, tf and tracks through the nodelet to an image with a box; and no image is
 // taken while nobody looks.
 #include "chain.h"

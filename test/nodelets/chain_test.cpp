@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The lidar chain on a made drive: every scan leads to all outputs, and they are right.
 #include "chain.h"
 

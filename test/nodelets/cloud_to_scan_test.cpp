@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The running cloud_to_scan nodelet: the scan and the mount that come of a cloud, and what happens
 // with one that is none.
 #include <cmath>

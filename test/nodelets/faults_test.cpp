@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What goes wrong on the road: each fault is counted and named in the diagnostics, nothing crashes,
 // and the chain is right again afterward. The tests go through one drive, in this order.
 #include <functional>

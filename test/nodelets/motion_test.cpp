@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The running motion and grid_slam nodelets on an Imu and a twist in place of odometry, with frames
 // and mounts from parameters, and frame ids as old drivers write them.
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The running object_fusion nodelet between the lists of a scripted scanner and stereo camera: what
 // comes out, and what happens when one of them is silent or sends what is none. The tests go
 // through one drive, in this order.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Scanner and stereo camera, fused at the object level, on a made drive: what comes out, and what
 // happens when one of them is silent or sends what is none. The tests go through one drive, in this
 // order. They run without low-level fusion and with it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The small bag through replay.launch, faster than it was recorded: no scan is lost on the way, and
 // moving objects are tracked.
 #include <set>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The running road_border nodelet behind a scripted grid_slam: what comes out of scans between two
 // walls, and what happens with scans that are none. The tests go through one drive, in this order.
 #include <cmath>

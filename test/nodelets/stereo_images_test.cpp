@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Raw images of a stereo camera through the nodelets of image_proc and stereo_image_proc, in the
 // same manager, to the grid of stereo_grid and the objects of stereo_objects.
 #include <random>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The running track_fusion nodelet between the tracks of a scripted scanner and stereo camera: what
 // comes out, which scheme of output may be asked for, and what happens when one of them is silent
 // or sends what is none. The tests go through one drive, in this order.

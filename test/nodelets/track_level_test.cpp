@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Scanner and stereo camera, each with a tracker, and their tracks fused, on a made drive: what
 // comes out, and what happens when one of them is silent. The tests go through one drive, in this
 // order. They run with track fusion alone, and with fusion on all levels.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Bags of borders that tests of draw_borders share: a vehicle drives along the map's y axis."""
 
 import math

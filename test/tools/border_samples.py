@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A drive of two seconds along a street, with published borders, that tests of tools share.
 
 The vehicle drives along x from the origin of the true map at 10 m/s. The run has drifted: its map

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Where the recorded drive that the tests are measured on lies, outside of the repository."""
 
 import unittest

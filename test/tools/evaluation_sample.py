@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Runs as score_run writes them, small enough to be checked by eye, for the tests of evaluate."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Messages of objects that tests of tools on lists of objects share."""
 
 from datmo_tools import transforms

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The graph of stages as JSON, for the test that holds perception.launch against it:
 // print_stage_graph [SWITCH...], e.g. low_level_fusion.
 #include <iostream>

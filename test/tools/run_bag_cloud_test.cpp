@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The bag runner on a drive whose scans are made of a 3D lidar's clouds.
 #include <cstring>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Recordings as people have them: slashes in frames, no tf, no odometry, and input that is refused.
 #include "run_bag/input_refusals.h"
 #include "run_bag_drive.h"

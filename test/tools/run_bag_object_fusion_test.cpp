@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The bag runner with object-level fusion: the small drive with a stereo camera that sees a wall,
 // and with another system's objects.
 #include "stereo_drive.h"

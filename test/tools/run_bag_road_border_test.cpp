@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The bag runner with borders of the road, on the small drive between two walls.
 #include <cstddef>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The bag runner on a small drive that is written here.
 #include <csignal>
 #include <filesystem>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Small bags of a run and its truth, and what tests of score_run as a program share."""
 
 import json

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the package ships says the same as the code: the sensor sets and doc/parameters.md.
 #include <filesystem>
 #include <fstream>

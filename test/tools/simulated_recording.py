@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A made-up recording of a car in a street: scanner, odometry, IMU, stereo camera, all correct.
 
 A test takes its messages, makes one fault, and writes them as a bag.

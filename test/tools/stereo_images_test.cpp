@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Clouds of image pairs: a wall whose distance is known by hand, and what is no pair of images.
 #include "run_bag/stereo_images.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which messages of two cameras belong together.
 #include "run_bag/stereo_pairs.h"
 

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Bags that cannot be read: each kind is named, with what to do about it."""
 
 import bz2

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """A devel space or an installed tree as its user has it: a fresh shell that sources its setup.bash.
 
 DATMO_FUSION_SPACE: the folder of setup.bash. DATMO_FUSION_BUILD: where CMake has written what it

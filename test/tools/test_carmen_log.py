@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Reading CARMEN logs: what the lines say, which are left out, what is refused."""
 
 import bz2

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """check_bag finds each fault of a recording, and none in one without."""
 
 import contextlib

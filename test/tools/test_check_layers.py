@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """scripts/check_layers on small made-up trees: a good one passes, each violation is found."""
 
 import subprocess

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """clouds_to_scans: a bag with clouds of a 3D lidar in, one with planar scans out."""
 
 import math

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Reading of command blocks: marks, fences in lists, and what nobody would run."""
 
 import sys

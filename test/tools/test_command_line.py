@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """What all tools share: outputs that cannot be written and modules that are missing are said at once."""
 
 import argparse

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Runs without and with borders of the road beside each other, with pretended scores."""
 
 import contextlib

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """compare_fusion: its table by hand, and its runs with pretended programs."""
 
 import contextlib

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """The thesis's tables beside ours: against the thesis's text, and runs with pretended programs."""
 
 import contextlib

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """The figures of tools/demo_summary on drives that are worked out by hand."""
 
 import importlib.util

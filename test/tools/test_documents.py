@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """README.md and doc/: their links lead somewhere, their yaml names parameters that there are."""
 
 import re

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """draw_borders on small bags whose borders are worked out by hand."""
 
 import contextlib

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """The command line of evaluate, with a stand-in for score_run that copies a score."""
 
 import contextlib

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """evaluate borders on drives of two seconds whose score is worked out by hand."""
 
 import contextlib

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """evaluate labels on a run of one second whose score is worked out by hand."""
 
 import contextlib

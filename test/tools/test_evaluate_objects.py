@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """evaluate objects on lists and truths that are worked out by hand."""
 
 import contextlib

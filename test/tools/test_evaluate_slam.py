@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """evaluate slam on paths and relations that are worked out by hand."""
 
 import contextlib

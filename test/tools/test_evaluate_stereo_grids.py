@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """evaluate stereo_grids on grids and clouds that are counted by hand."""
 
 import contextlib

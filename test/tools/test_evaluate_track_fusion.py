@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """evaluate track_fusion on drives of one second whose score is worked out by hand."""
 
 import contextlib

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """What evaluate says of runs that are known: figures, table, page and plots."""
 
 import math

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """kitti_to_bag on a made-up drive: what stands in the bag, errors, determinism."""
 
 import contextlib

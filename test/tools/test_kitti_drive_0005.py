@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """kitti_to_bag on the recorded drive: beams lie on the labeled objects, the truth is sane."""
 
 import contextlib

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """KITTI raw drives in every form in which they are published, made after the devkit's readme."""
 
 import contextlib

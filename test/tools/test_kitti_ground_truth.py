@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Labeled boxes in the map: place, velocity, moving or not, beams on them."""
 
 import unittest

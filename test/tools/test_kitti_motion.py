@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Transforms, the car's true pose, and its odometry."""
 
 import math

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Every file of a KITTI raw drive: what is read from it, and how a broken one is named."""
 
 import math

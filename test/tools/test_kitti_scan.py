@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Options of the emulated scanner, and the road that stereo grids are judged by."""
 
 import unittest

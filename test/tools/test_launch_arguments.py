@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """The command line of roslaunch: names that no launch file takes are refused, with the nearest one."""
 
 import tempfile

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """roslaunch on the launch files with what it must not take: it ends before a node starts, with one line
 that says what and what was probably meant."""
 

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Parts of a recording become one bag: order, latched topics, errors."""
 
 import contextlib

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """mocap_to_bag on made-up recordings: what stands in the bag, options, errors, determinism."""
 
 import contextlib

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """calibrate_object_covariance on synthetic pairs of known variance, and on small bags."""
 
 import contextlib

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """What a sensor sees of boxes, and how far two are apart, by hand."""
 
 import math

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """The robustness benchmark: its summary by hand, and its runs with programs that only pretend."""
 
 import contextlib

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """config/perception.rviz shows what is published: each topic in it has a publisher, each namespace of
 markers is one that is drawn, and each that is drawn is named, so that none is on by accident."""
 

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """score_run as a program, on bags that it must refuse: exit codes and messages."""
 
 import copy

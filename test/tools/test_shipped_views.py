@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """What the package ships for other people's tools: the Foxglove layout and the groups of the diagnostics
 name topics and nodes that there are, and record.launch takes what the chain takes."""
 

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """The simulator as a program: exit codes, messages, and bags that are the same byte for byte."""
 
 import os

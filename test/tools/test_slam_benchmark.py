@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """slam_benchmark without the stack: which files it takes, its table, what it refuses."""
 
 import contextlib

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Figures of speed_benchmark from small samples that are worked out by hand. Nothing is timed."""
 
 import contextlib

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """perception.launch starts the stages of the graph that run_bag runs, with the same topics and the same
 parameters, for every combination of levels, with and without all that goes with any of them."""
 

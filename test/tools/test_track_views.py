@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """How far tracks are from true boxes, and what is in a camera's view: cases worked out by hand."""
 
 import math

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Segments, and rows of parked vehicles: cases worked out by hand."""
 
 import math

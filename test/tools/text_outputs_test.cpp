@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Results as text: hand-computed lines, and the files of a run.
 #include "run_bag/text_outputs.h"
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Made-up recordings of a scanner with motion capture, as mocap_to_bag reads them."""
 
 import math

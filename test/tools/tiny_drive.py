@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A KITTI raw drive of a few frames, made up so that everything in it can be worked out by hand.
 
 The car drives 1 m a frame (10 m/s, 10 Hz) straight east. All mounts are plain: the Velodyne is 0.8

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """CARMEN logs of a few lines, made up so that everything in them can be worked out by hand."""
 
 START = 1000.0  # s

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A drive of one second with tracks of two sensors and fused ones, that tests of tools share.
 
 The vehicle stands at the origin of the true map and looks along x. The run has drifted: its map is

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The main of every unit test binary: catkin_add_gtest links none.
 #include <gtest/gtest.h>
 

@@ -1,1 +1,2 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Python side of the tools: converters to bags of the stack's data contract."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A bag that is either whole or not there."""
 
 import contextlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Bags that are read: opened, or refused with what is wrong and what to do about it.
 
 tools/input_bag.cpp says the same in the same words.

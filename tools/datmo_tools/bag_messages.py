@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Messages and frames of the stack's data contract that every converter writes."""
 
 import numpy as np

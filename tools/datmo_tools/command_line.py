@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What the command lines of the tools share: how they end, and options that are numbers."""
 
 import argparse

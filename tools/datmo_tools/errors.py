@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The error that a tool shows to its user instead of a traceback."""
 
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What roslaunch does not check in a command line: arguments that no launch file takes, and a stack that
 runs on the same master already.
 

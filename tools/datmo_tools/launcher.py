@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Starts a tool, or says which Debian package the module that it lacks is in."""
 
 import importlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Planar poses over time: reading them from a bag, and the pose at any stamp."""
 
 import math

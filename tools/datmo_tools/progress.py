@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Progress on standard error: a bar on a terminal, a few lines in a log file."""
 
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Publishes the topic `tracks` in another package's messages, for nodes that know those.
 
 usage: publish_tracks_as vision_msgs|derived_object_msgs [tracks:=TOPIC] [ROS remappings]

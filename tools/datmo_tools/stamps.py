@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Stamps: ns since 1970 as integers in the tools, rospy's time in the messages."""
 
 from decimal import Decimal, InvalidOperation

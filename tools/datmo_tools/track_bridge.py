@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Tracks in the messages of other packages: vision_msgs and derived_object_msgs.
 
 Both write into messages that the caller makes, so that neither package is needed to load this module.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Rigid transforms in space (4 x 4 matrices) and in the plane (x, y, yaw)."""
 
 import math

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/frame_builder.h"
 
 #include <algorithm>

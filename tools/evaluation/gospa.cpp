@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/gospa.h"
 
 #include <cmath>

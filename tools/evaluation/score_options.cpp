@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/score_options.h"
 
 #include "datmo_fusion/slam/odometry_buffer.h"

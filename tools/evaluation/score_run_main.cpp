@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Bags of tracks and of truth -> a report as JSON: see score_run.h.
 #include <iostream>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Detections of KITTI tracking sequences -> tracks in KITTI's format: see run_arguments.cpp.
 #include <filesystem>
 #include <iomanip>

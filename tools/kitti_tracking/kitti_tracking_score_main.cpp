@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Tracks and labels in KITTI's tracking format -> a table, and a report as JSON: see
 // score_arguments.cpp.
 #include <iostream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The stack on a bag, without a master: see arguments.cpp and bag_run.h.
 #include <cstdlib>
 #include <iostream>

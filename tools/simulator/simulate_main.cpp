@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A scene file becomes a bag of the demonstrator's sensors with ground truth.
 
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How well positions are known, of stereo and of depth cameras.
 #include <cmath>
 #include <functional>

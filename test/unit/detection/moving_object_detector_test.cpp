@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/detection/moving_object_detector.h"
 
 #include <algorithm>

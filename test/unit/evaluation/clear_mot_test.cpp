@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/clear_mot.h"
 
 #include "made_frames.h"

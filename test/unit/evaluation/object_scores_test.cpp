@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/object_scores.h"
 
 #include "made_frames.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/standing_objects.h"
 
 #include "evaluation/made_frames.h"

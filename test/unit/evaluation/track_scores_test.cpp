@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/track_scores.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/trajectory.h"
 
 #include "evaluation/made_recordings.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/true_scene.h"
 
 #include "evaluation/made_recordings.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Two Kalman filters follow one object by measurements of their own: is the fused state as sure as
 // it says? By the normalized estimation error squared (NEES) of many seeded runs (Bar-Shalom, Li,
 // Kirubarajan 2001, 5.4.2).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/fusion/windowed_evidence.h"
 
 #include <gtest/gtest.h>

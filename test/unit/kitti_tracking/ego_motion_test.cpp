@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "kitti_tracking/ego_motion.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sequences of KITTI tracking, where they are; skipped where they are not.
 #include <filesystem>
 

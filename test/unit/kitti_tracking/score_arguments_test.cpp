@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "kitti_tracking/score_arguments.h"
 
 #include "text_file.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "kitti_tracking/threshold_score.h"
 
 #include <limits>

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/road/border_scan.h"
 
-#include "visibility/scan_history_samples.h"
+#include "scan_history_samples.h"
 #include <gtest/gtest.h>
 
 namespace datmo {

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/road/free_space_entry_test.h"
 
 #include <functional>
 
-#include "visibility/scan_history_samples.h"
+#include "scan_history_samples.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/common/random.h"

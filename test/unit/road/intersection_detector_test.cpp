@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/road/intersection_detector.h"
 
 #include <cmath>

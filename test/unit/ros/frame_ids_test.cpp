@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/frame_ids.h"
 
 #include "monitor_counts.h"

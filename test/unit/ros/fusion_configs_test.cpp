@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What dynamic_reconfigure offers is what the stages know.
 #include <string>
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/stamp_check.h"
 
 #include "message_samples.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/track_fusion_stage.h"
 
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the tracker makes of where several sensors looked: a car that drives ahead of the vehicle is
 // lost by its scanner, or by its camera too.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/sensor_model/depth_noise.h"
 
 #include <gtest/gtest.h>

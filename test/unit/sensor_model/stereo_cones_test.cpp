@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The thesis's plain form, by hand-computed cells: eq. 3.2.2 to 3.2.4.
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The scenes that stand in for the data sets of thesis tables 3.1 and 3.5 hold what those say.
 #include <cmath>
 #include <set>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/slam/end_points.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/slam/grid_slam.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/slam/motion_compensation.h"
 
 #include <cmath>

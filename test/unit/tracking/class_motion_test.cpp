@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Pedestrians, cyclists and vehicles move each in their own way.
 #include <cmath>
 

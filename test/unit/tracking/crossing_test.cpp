@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What later scans are good for: targets that cross at a small angle, missed at times, among false
 // objects.
 #include <cstdint>

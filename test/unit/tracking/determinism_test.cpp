@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The same input gives the same output, in whatever order the objects are listed.
 #include <algorithm>
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the tracker makes of objects that two sensors see, and of their classes.
 #include <cmath>
 #include <random>

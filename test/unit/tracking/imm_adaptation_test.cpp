@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Fixed against adaptive transition probabilities on objects that jump between the modes by a known
 // matrix. Both filters see the same objects, so that their errors are compared in pairs.
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Scans of made scenes through detector and tracker: how soon what moves is a track, and that what
 // stands is none.
 

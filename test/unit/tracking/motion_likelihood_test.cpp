@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/tracking/motion_likelihood.h"
 
 #include <cmath>
 #include <vector>
 
-#include "visibility/scan_history_samples.h"
+#include "scan_history_samples.h"
 #include <gtest/gtest.h>
 
 namespace datmo {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/tracking/multiple_hypotheses.h"
 
 #include <cmath>

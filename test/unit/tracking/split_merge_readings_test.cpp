@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which other readings of a cluster's objects there are, and what they weigh.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What stands must not seem to move because of how stereo errs: its depth is uncertain by up to a
 // meter and more, and the error of one frame is much like that of the last one.
 #include <cmath>

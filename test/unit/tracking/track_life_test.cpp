@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How long a track lives, what it says of its existence, and its history.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Boxes that drive past a simulated scanner, from its beams to the tracked center: is the center
 // where it is said to be, and is a part that comes into view no motion?
 

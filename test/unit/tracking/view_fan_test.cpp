@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What sensors could see as fans of beams: out of a visibility, into another frame, and back.
 #include "datmo_fusion/common/view_fan.h"
 

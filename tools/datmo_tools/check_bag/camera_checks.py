@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Cameras: calibration against images, the stereo baseline, rectification; clouds and depth."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """All checks in their order, and what comes of them."""
 
 from typing import NamedTuple

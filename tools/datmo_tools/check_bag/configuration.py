@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The sections of the yaml and the lines to start with, from all that was measured."""
 
 import shlex

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What check_bag finds: how bad it is, what it is, and what to do about it."""
 
 import enum

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Frames: their names, their tree, and where the sensors are mounted."""
 
 import math

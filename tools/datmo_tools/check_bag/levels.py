@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What a recording has for each level of fusion, and what is missing."""
 
 from typing import NamedTuple

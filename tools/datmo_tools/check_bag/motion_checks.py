@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Odometry, IMU and twist against the motion that the scans see."""
 
 import math

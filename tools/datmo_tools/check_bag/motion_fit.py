@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """How one signal of the vehicle's motion relates to that of the scans: scale, sign, delay."""
 
 from typing import NamedTuple

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What a sensor of the vehicle's own motion says, as heading and distance over time."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Range noise, and how far a beam without return is free, measured from the scans."""
 
 import numpy as np

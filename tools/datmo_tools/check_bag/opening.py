@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Opens a recording, or says why it cannot be read."""
 
 from datmo_tools.bag_input import opened

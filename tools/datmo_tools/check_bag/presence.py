@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Which sensors a recording has, and what serves in place of those that are missing."""
 
 from datmo_tools.check_bag.levels import motion_source

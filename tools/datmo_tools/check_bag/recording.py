@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Reads a recording once, in bounded memory: every stamp, but only some of the messages."""
 
 import struct

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The report that check_bag prints."""
 
 from datmo_tools.check_bag.findings import Severity

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Which topic of a recording serves as which input of the stack."""
 
 from datmo_tools.check_bag import recording as kinds

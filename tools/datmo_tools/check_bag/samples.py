@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What is kept of the messages of a recording: numbers, never whole images or clouds."""
 
 import math

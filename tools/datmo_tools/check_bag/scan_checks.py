@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The scans themselves: geometry, no returns, dead beams, the vehicle's own returns."""
 
 import math

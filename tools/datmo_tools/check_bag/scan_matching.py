@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Motion between two scans by point-to-line registration, from the scans alone.
 
 Source: Censi, "An ICP variant using a point-to-line metric", ICRA 2008.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The vehicle's motion estimated from the scans alone, from a bounded number of pairs of scans."""
 
 from typing import NamedTuple

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Sizes and noises of the stages from what the scanner reaches and how fast the vehicle is."""
 
 import copy

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Stamps of every topic: rate, gaps, jumps, order, and against the time of recording."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The tree of frames that a recording publishes on /tf and /tf_static."""
 
 import math

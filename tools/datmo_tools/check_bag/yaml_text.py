@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The first yaml of a robot: what differs from the defaults, and why."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A CARMEN log -> a bag of the stack's data contract: the order of the work."""
 
 import math

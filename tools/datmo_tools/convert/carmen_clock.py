@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The records of a CARMEN log in an order of rising stamps, which a bag needs.
 
 Old logs carry the time at which a message reached the logger, not the time of the measurement:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """One line of a CARMEN log -> the record it holds.
 
 Source: the format that CARMEN's logger states in the head of its files and in its manual: a line's

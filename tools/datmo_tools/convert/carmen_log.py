@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A CARMEN log file -> its records in the order of the file, and what was not used of it."""
 
 import bz2

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Where the scanner of a CARMEN log is mounted on the robot."""
 
 import numpy as np

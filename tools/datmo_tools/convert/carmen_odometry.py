@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Odometry of a robot whose log holds poses: rates from their differences, and covariances."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """GPS/IMU records -> planar poses of base_link in the map, and the pose at any time between.
 
 The heading is the GPS/IMU's. For the position there are two sources: its velocity, integrated, is

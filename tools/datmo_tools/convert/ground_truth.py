@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Labeled boxes -> objects in the map: world velocity, moving or not, and who sees them."""
 
 from typing import NamedTuple

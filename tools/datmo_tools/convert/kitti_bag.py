@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A KITTI raw drive -> a bag of the stack's data contract: the order of the work."""
 
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Calibration files of a KITTI raw recording day -> mounts and camera matrices.
 
 Source: Geiger et al., "Vision meets robotics: the KITTI dataset", 2013, section IV and its devkit.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The gray stereo images of a KITTI raw drive, rectified where they are not published so."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A label_02 file of KITTI tracking (boxes in the rectified camera's frame) -> labeled objects.
 
 Source: the readme of the KITTI tracking devkit: frame, track id, type, truncated, occluded, alpha,

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What kitti_to_bag writes, as ROS messages in the frames of the stack's data contract."""
 
 import numpy as np

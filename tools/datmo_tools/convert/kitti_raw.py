@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A KITTI raw drive folder -> its frames, checked while read, in both forms that are published.
 
 `..._sync` is synchronized and rectified: line and file i of every sensor are one frame, clouds are

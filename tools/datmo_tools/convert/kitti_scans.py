@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The planar scans of a KITTI drive, made of its Velodyne's clouds by the program clouds_to_scans.
 
 It is an emulation. The Velodyne looks down from 1.73 m, so it sees over low obstacles into places

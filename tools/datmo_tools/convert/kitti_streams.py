@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """One sensor's folder of a KITTI raw drive: timestamps.txt and data/0000000000.*, file by line.
 
 Source: the readme of the raw data's devkit. Where data were lost the published files have gaps: the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """tracklet_labels.xml of a KITTI raw drive -> labeled objects."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A bag of a 2D scanner and motion capture -> a bag of the data contract: the order of the work."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A recorded scan -> one with its beams in the order of time, at their own times and ranges."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Where motion capture saw a body, and how fast it was."""
 
 from typing import NamedTuple

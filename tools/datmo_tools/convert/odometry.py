@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Odometry of the car from the GPS/IMU's speed and yaw rate, worsened as a cheap one would be."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The boxes that the two KITTI truth readers hand on, before they are moved into the map."""
 
 from typing import NamedTuple

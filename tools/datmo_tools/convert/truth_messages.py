@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Ground truth as messages of the stack's data contract."""
 
 from geometry_msgs.msg import Point, Quaternion, Vector3

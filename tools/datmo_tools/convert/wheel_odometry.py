@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Odometry of a small car from the speeds of its wheels and the yaw rate of its IMU."""
 
 from typing import NamedTuple

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A drive's runs without and with borders of the road, beside each other: what became of false and
 of true moving objects."""
 

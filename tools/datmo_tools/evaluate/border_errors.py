@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Published borders beside the true road, station by station along the path ahead."""
 
 import math

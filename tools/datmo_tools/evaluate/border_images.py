@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Borders laid into a camera's images: on the road, which is the plane z = 0 of base_link."""
 
 from typing import NamedTuple

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Borders of the road: as run_bag publishes them, and as the truth has them."""
 
 from typing import NamedTuple

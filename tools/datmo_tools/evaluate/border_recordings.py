@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What draw_borders shows: the borders of a run at some stamps, and what is around them."""
 
 import bisect

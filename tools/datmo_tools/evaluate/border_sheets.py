@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Sheets of pictures of a run's borders."""
 
 from datmo_tools.evaluate.border_images import draw_image

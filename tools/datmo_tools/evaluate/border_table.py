@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The report of evaluate borders."""
 
 from datmo_tools.evaluate.border_tally import GROUPS

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """How far published borders are off, how many are found, and how honest their sigmas are."""
 
 import numpy as np

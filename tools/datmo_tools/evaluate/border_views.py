@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A moment of a run from above, with the vehicle at the origin and driving to the right."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """evaluate borders."""
 
 from pathlib import Path

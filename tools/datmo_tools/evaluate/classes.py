@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """evaluate classes."""
 
 from datmo_tools.evaluate.metrics import short_names

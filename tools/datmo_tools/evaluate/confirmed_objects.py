@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """True moving objects that several sensors' trackers follow: do they pass the test of all?"""
 
 import bisect

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Picture of a CovarianceTable: standard deviations over range."""
 
 import numpy as np

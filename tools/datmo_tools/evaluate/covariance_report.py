@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A CovarianceTable as yaml for object_fusion, as JSON, and as text."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Variances by range bin from differences between two sensors, and the laws that they follow."""
 
 from typing import NamedTuple

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Published borders where nothing ends the road."""
 
 from typing import NamedTuple

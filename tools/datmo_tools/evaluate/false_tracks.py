@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Tracks that say that something moves where nothing is, within the view of the camera."""
 
 from typing import NamedTuple

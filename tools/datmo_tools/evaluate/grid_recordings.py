@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What evaluate grids reads: the grids of a run, and the drive that the run was made from."""
 
 import math

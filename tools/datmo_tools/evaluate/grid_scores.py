@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Occupancy grids against the truth: what a fusion of sensors takes away from the lidar's grid, and
 what it adds.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Positions of people or objects that were labeled in a recording, brought to a run's map."""
 
 from typing import NamedTuple

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The figures of score_run that are shown: their names and units, in groups.
 
 The definitions are score_run's; the papers named here are where they come from.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A figure of score_run as a reader sees it: name, unit, and which run is best in it.
 
 A run is the dictionary that score_run wrote. A figure without a sample is None there, and "-" here.

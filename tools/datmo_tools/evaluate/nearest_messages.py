@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Single messages out of a long bag: those whose stamps are nearest to some stamps.
 
 Only these are unpacked, which is what takes long in Python.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Lists of objects as run_bag writes them."""
 
 from typing import NamedTuple

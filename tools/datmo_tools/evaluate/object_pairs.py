@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Objects that two sensors saw, brought to one time and paired by where they are."""
 
 from typing import NamedTuple

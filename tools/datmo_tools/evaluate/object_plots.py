@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Plots of evaluate of one run's objects: who was tracked when and by which id, and where.
 
 Each function returns an SVG element.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Objects of one measurement against true ones: what is found, what is false, how far off."""
 
 from typing import NamedTuple

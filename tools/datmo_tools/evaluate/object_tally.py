@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Sums over lists of objects: shares by class and by range, and statistics of the errors."""
 
 import numpy as np

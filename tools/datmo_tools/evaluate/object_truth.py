@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The true objects of a drive as seen from the vehicle, at any stamp."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What a sensor sees of a box, and how far two boxes are apart that are one object.
 
 Sensors see different parts of an object, but they all see its near side ("middle point of the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Rows of parked vehicles along a curb: where they leave off, the road's side of them ends it.
 
 All in arrays over stations along a path, equally spaced, that look to one side of it.

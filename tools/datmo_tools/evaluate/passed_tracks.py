@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Fused tracks that passed the test of all sources: are they true (thesis 3.4.2), and are their
 members of one object?"""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """How the plots of evaluate look, and how a figure becomes text for a page.
 
 Needs matplotlib; nothing else of evaluate does but the plots.

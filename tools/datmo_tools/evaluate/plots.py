@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Plots of evaluate over time and over thresholds, of one run or of several in one picture.
 
 Each function returns an SVG element. names: of the runs, for the legends.

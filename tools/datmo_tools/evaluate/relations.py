@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The accuracy of a path by relations between poses: the metric of the SLAM benchmark.
 
 Source: Kuemmerle et al., "On measuring the accuracy of SLAM algorithms", Autonomous Robots 27(4),

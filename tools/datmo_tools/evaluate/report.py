@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The one form of a report: sections, as text for a terminal, and as a page that needs no network."""
 
 import json

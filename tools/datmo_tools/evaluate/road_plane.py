@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The road's plane in a Velodyne scan, by which stereo grids are judged.
 
 Other means than those that the stack finds the road by.

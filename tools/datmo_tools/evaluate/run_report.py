@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The sections of evaluate tracks: of one run, or of several side by side."""
 
 import json

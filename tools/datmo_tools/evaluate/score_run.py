@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Calls score_run, which matches tracks to true objects and scores one run; reads what it wrote."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Lines in the plane as straight segments: where rays cross them, and how far points are off."""
 
 from typing import NamedTuple

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A stereo camera's occupancy grids against a Velodyne's points: precision and recall by range.
 
 A cell is right where the other side has an obstacle within one cell, or within the standard

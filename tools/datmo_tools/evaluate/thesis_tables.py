@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Tables 3.1 to 3.5 of the thesis, with our runs on simulated data sets beside them."""
 
 from typing import NamedTuple

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Tracks of a run and what is true at their stamps, side by side."""
 
 import bisect

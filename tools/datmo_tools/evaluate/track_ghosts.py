@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Two tracks on one object, and objects that change their track."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The report of evaluate track_fusion."""
 
 from datmo_tools.text_table import NO_VALUE, percent, rounded

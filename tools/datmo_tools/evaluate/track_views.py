@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What a sensor could see, by the views that are published with its tracks."""
 
 import math

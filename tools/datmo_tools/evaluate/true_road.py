@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The true road around the path that a vehicle drove: where it ends to the left and to the right."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The simulated data sets without and with borders of the road, side by side."""
 
 from typing import NamedTuple

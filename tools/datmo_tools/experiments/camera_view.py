@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What the stereo camera of a sensor set sees, as stereo_objects has it."""
 
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The levels of fusion on the same drives: the command line and the runs."""
 
 import argparse

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The thesis's experiments on simulated data sets: the command line and the runs."""
 
 import argparse

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The figures of runs at several levels of fusion, and their table."""
 
 from datmo_tools.experiments.fusion_table import time_per_scan

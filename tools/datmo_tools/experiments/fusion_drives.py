@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The drives and the levels of fusion that compare_fusion runs."""
 
 from pathlib import Path

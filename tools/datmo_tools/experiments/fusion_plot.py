@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Picture of the levels of fusion on several drives."""
 
 from matplotlib.ticker import MaxNLocator

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The simulated data sets without and with low-level fusion, side by side."""
 
 from typing import NamedTuple

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What a process uses of the computer, from Linux's /proc."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """How well the pose holds among moving objects, over many seeds: the command line and the runs."""
 
 import argparse

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What the runs of the robustness benchmark come to."""
 
 import statistics

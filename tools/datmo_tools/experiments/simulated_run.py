@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A scene through simulator, stack and score: what the benchmarks on simulated drives share."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """CARMEN logs through the stack's SLAM, scored with their relations: command line and runs."""
 
 import argparse

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """How fast the stack is: the command line, and what is measured in which order."""
 
 import argparse

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Where figures come from: the code, the compiler and the machine."""
 
 import datetime

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The live chain on a drive at its own pace: latency, and what its process uses."""
 
 import contextlib

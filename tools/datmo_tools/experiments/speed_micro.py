@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Runs the hot paths under Google Benchmark, and picks what is worth keeping of its JSON."""
 
 import json

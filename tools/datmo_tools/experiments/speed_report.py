@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The figures of a benchmark as a table, alone or beside those of another one."""
 
 import json
