@@ -34,8 +34,8 @@ class ScanViews {
   /// names the vehicle's frame; none if no labeled scan said so.
   std::optional<Pose2> pose(const std_msgs::Header& base, const std::string& fixed_frame) const;
 
-  /// What the scanner could see at the stamp and from the frame of the header; null without a labeled
-  /// scan of that time, and where its field is not known. Valid until the next add().
+  /// What the scanner could see at the stamp and from the frame of the header; null without a
+  /// labeled scan of that time, and where its field is not known. Valid until the next add().
   const Visibility* visibility(const std_msgs::Header& base) const;
 
  private:
