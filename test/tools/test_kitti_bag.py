@@ -15,7 +15,6 @@ import rosbag
 import tiny_drive
 from datmo_fusion.msg import Object
 from datmo_tools.convert.kitti_to_bag import main
-from datmo_tools.progress import Progress
 
 
 class Conversion(unittest.TestCase):
@@ -321,37 +320,6 @@ class Errors(Conversion):
         self.assertEqual(self.bag.read_bytes(), before)
         self.assertEqual(
             sorted(path.name for path in self.root.iterdir()), ["2011_09_26", "out.bag"]
-        )
-
-
-class Terminal(io.StringIO):
-    def isatty(self):
-        return True
-
-
-class ProgressBar(unittest.TestCase):
-    def test_bar_on_a_terminal(self):
-        stream = Terminal()
-        progress = Progress(200, "work", stream)
-        for done in range(1, 201):
-            progress.update(done)
-        self.assertTrue(stream.getvalue().endswith(f"\rwork [{'#' * 40}] 100 %\n"))
-        self.assertEqual(stream.getvalue().count("\r"), 41)
-
-    def test_bar_that_is_broken_off_leaves_the_line(self):
-        stream = Terminal()
-        with self.assertRaises(ValueError), Progress(200, "work", stream) as progress:
-            progress.update(100)
-            raise ValueError
-        self.assertTrue(stream.getvalue().endswith(" 50 %\n"))
-
-    def test_few_lines_in_a_log(self):
-        stream = io.StringIO()
-        progress = Progress(200, "work", stream)
-        for done in range(1, 201):
-            progress.update(done)
-        self.assertEqual(
-            stream.getvalue(), "work: 0 %\nwork: 25 %\nwork: 50 %\nwork: 75 %\nwork: 100 %\n"
         )
 
 

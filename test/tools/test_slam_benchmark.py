@@ -58,10 +58,10 @@ class Benchmark(unittest.TestCase):
 
     def test_published_figures_stand_beside_the_log_they_are_of(self):
         text = table([result("intel"), result("elsewhere")])
-        ours, other = text.split("elsewhere")
+        ours, other = text.split("elsewhere", 1)
         self.assertIn("0.070 +- 0.083", ours)
-        self.assertIn("0.125 +-  0.125", ours)
-        self.assertIn("0.500    0.400    2.000", ours)
+        self.assertIn("0.125 +- 0.125", ours)
+        self.assertRegex(ours, r"0\.500 +0\.400 +2\.000")
         self.assertNotIn("0.070", other)
         self.assertIn("2/3", other)
 

@@ -7,7 +7,7 @@ import unittest
 
 import numpy as np
 from datmo_tools.evaluate.parked_rows import RowOptions, depths_of_vehicles, row_of
-from datmo_tools.evaluate.segments import distances_to, nearby, ray_crossings, segments_of
+from datmo_tools.evaluate.segments import ray_crossings, segments_of
 
 NONE = math.nan
 OPTIONS = RowOptions(bridged=10.0, car_length=5.0)
@@ -27,16 +27,6 @@ class SegmentGeometry(unittest.TestCase):
         distances, share = ray_crossings(np.zeros((1, 2)), np.zeros(1), self.segments)
         np.testing.assert_allclose(distances, [[1.0, NONE, -2.0]])
         self.assertAlmostEqual(share[0, 0], 0.25)
-
-    def test_distance_from_the_nearest(self):
-        distances = distances_to([(0.0, 0.0), (7.0, 3.0), (1.0, 5.0)], self.segments)
-        np.testing.assert_allclose(distances, [1.0, 2.0, 2.0])
-        self.assertEqual(distances_to([(0.0, 0.0)], segments_of([])).tolist(), [math.inf])
-        self.assertEqual(len(nearby(self.segments, (0.0, 0.0), 1.5).begin), 1)
-
-    def test_segment_without_length(self):
-        point = segments_of([[(3.0, 4.0), (3.0, 4.0)]])
-        np.testing.assert_allclose(distances_to([(0.0, 0.0)], point), [5.0])
 
 
 class Rows(unittest.TestCase):

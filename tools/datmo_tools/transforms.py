@@ -4,6 +4,7 @@
 import math
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 
 def normalize_angle(angle):
@@ -41,21 +42,8 @@ def quaternion_of_yaw(yaw):
 
 
 def quaternion_of(rotation):
-    """Quaternion (x, y, z, w), w >= 0, of a 3 x 3 rotation.
-
-    Source: Bar-Itzhack, "New method for extracting the quaternion from a rotation matrix", 2000:
-    the eigenvector of the largest eigenvalue, which has no special cases and stands rounding.
-    """
-    r = rotation
-    symmetric = np.array(
-        [
-            [r[0, 0] - r[1, 1] - r[2, 2], r[0, 1] + r[1, 0], r[0, 2] + r[2, 0], r[2, 1] - r[1, 2]],
-            [r[0, 1] + r[1, 0], r[1, 1] - r[0, 0] - r[2, 2], r[1, 2] + r[2, 1], r[0, 2] - r[2, 0]],
-            [r[0, 2] + r[2, 0], r[1, 2] + r[2, 1], r[2, 2] - r[0, 0] - r[1, 1], r[1, 0] - r[0, 1]],
-            [r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1], r[0, 0] + r[1, 1] + r[2, 2]],
-        ]
-    )
-    quaternion = np.linalg.eigh(symmetric)[1][:, -1]
+    """Quaternion (x, y, z, w), w >= 0, of a 3 x 3 rotation."""
+    quaternion = Rotation.from_matrix(rotation).as_quat()
     return tuple(quaternion if quaternion[3] >= 0.0 else -quaternion)
 
 

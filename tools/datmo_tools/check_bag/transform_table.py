@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The tree of frames that a recording publishes on /tf and /tf_static."""
 
-import math
-
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from datmo_tools import transforms
 
@@ -35,9 +34,8 @@ class Edge:
             self.matrix = matrix
         self.stamps.append(stamp)
         self.moved = max(self.moved, float(np.linalg.norm(matrix[:3, 3] - self.matrix[:3, 3])))
-        change = self.matrix[:3, :3].T @ matrix[:3, :3]
-        cosine = 0.5 * (np.trace(change) - 1.0)
-        self.turned = max(self.turned, math.acos(min(max(cosine, -1.0), 1.0)))
+        change = Rotation.from_matrix(self.matrix[:3, :3].T @ matrix[:3, :3])
+        self.turned = max(self.turned, float(change.magnitude()))
 
 
 class TransformTable:
@@ -129,16 +127,4 @@ def _matrix(transform):
     norm = np.linalg.norm(quaternion)
     if not (np.all(np.isfinite(translation)) and abs(norm - 1.0) < 1e-2):
         return None
-    return transforms.rigid(rotation_of(quaternion / norm), translation)
-
-
-def rotation_of(quaternion):
-    """3 x 3 rotation of a unit quaternion (x, y, z, w)."""
-    x, y, z, w = quaternion
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
+    return transforms.rigid(Rotation.from_quat(quaternion).as_matrix(), translation)

@@ -8,6 +8,7 @@ from typing import NamedTuple, Optional
 import numpy as np
 from sensor_msgs.msg import LaserScan, TimeReference
 from tf2_msgs.msg import TFMessage
+from tqdm import tqdm
 
 from datmo_tools import bag_messages
 from datmo_tools.convert import carmen_clock, carmen_odometry
@@ -15,7 +16,6 @@ from datmo_tools.bag_file import MOUNTS_LEAD, whole_bag
 from datmo_tools.convert.carmen_log import out_of_order, read_log, scans_of
 from datmo_tools.convert.carmen_mount import scanner_mount
 from datmo_tools.errors import InputError
-from datmo_tools.progress import Progress
 from datmo_tools.stamps import to_ros_time
 
 # The log's stamp for each scan's; only where stamps were moved.
@@ -65,13 +65,12 @@ def _write(bag, timed, mount, options, stream):
     bag.write_latched("/tf_static", max(first - MOUNTS_LEAD, 1), TFMessage([mounts]))
     stamps = [item.stamp for item in timed]
     samples = carmen_odometry.samples(stamps, [_robot_pose(item.record.line) for item in timed])
-    with Progress(len(timed), "carmen_to_bag", stream) as progress:
-        for done, (item, sample) in enumerate(zip(timed, samples), 1):
-            bag.write("/tf", item.stamp, bag_messages.odometry_transform(sample))
-            bag.write("/odometry", item.stamp, bag_messages.odometry(sample))
-            if item.is_scan:
-                _write_scan(bag, item, options)
-            progress.update(done)
+    steps = zip(timed, samples)
+    for item, sample in tqdm(steps, "carmen_to_bag", len(timed), file=stream, disable=None):
+        bag.write("/tf", item.stamp, bag_messages.odometry_transform(sample))
+        bag.write("/odometry", item.stamp, bag_messages.odometry(sample))
+        if item.is_scan:
+            _write_scan(bag, item, options)
 
 
 def _write_scan(bag, item, options):

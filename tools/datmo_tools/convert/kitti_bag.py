@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import NamedTuple, Optional
 
 import numpy as np
+from tqdm import tqdm
 
 from datmo_tools import bag_messages, transforms
 from datmo_tools.convert import ground_truth, kitti_messages, kitti_scans, odometry, truth_messages
@@ -19,7 +20,6 @@ from datmo_tools.convert.kitti_raw import Drive
 from datmo_tools.convert.kitti_scans import DriveScans, ScannerOptions
 from datmo_tools.convert.kitti_tracklets import read_tracklets
 from datmo_tools.convert.odometry import OdometryErrors
-from datmo_tools.progress import Progress
 
 
 class Options(NamedTuple):
@@ -51,13 +51,10 @@ def convert(folder, bag_path, options, stream=None):
     events = sorted(
         conversion.events(), key=lambda event: event.stamp
     )  # stable: equal stamps keep order
-    with whole_bag(bag_path, "kitti_to_bag") as bag, Progress(
-        len(events), "kitti_to_bag", stream
-    ) as progress:
+    with whole_bag(bag_path, "kitti_to_bag") as bag:
         conversion.write_mounts(bag, events[0].stamp - MOUNTS_LEAD)
-        for done, event in enumerate(events, 1):
+        for event in tqdm(events, "kitti_to_bag", file=stream, disable=None):
             event.write(bag, event.stamp, event.frame)
-            progress.update(done)
         conversion.check_scans()
 
 

@@ -7,6 +7,7 @@ from typing import NamedTuple, Optional
 
 import numpy as np
 from tf2_msgs.msg import TFMessage
+from tqdm import tqdm
 
 from datmo_tools import bag_messages, transforms
 from datmo_tools.convert import ground_truth, mocap_scan, truth_messages
@@ -14,7 +15,6 @@ from datmo_tools.bag_file import MOUNTS_LEAD, whole_bag
 from datmo_tools.errors import InputError
 from datmo_tools.convert.mocap_truth import CapturedBody, seen_path
 from datmo_tools.pose_path import read_messages
-from datmo_tools.progress import Progress
 from datmo_tools.convert.true_boxes import UNKNOWN_OCCLUSION, TrueBox, TrueObject
 from datmo_tools.convert.wheel_odometry import has_topics, read_odometry
 
@@ -107,10 +107,8 @@ class _Conversion:
         events += [(sample.stamp, _write_odometry, sample) for sample in self._odometry]
         events.sort(key=lambda event: event[0])  # stable: equal stamps keep order
         self._write_mounts(bag, max(events[0][0] - MOUNTS_LEAD, 1))
-        with Progress(len(events), "mocap_to_bag", stream) as progress:
-            for done, (stamp, write, message) in enumerate(events, 1):
-                write(bag, stamp, message)
-                progress.update(done)
+        for stamp, write, message in tqdm(events, "mocap_to_bag", file=stream, disable=None):
+            write(bag, stamp, message)
 
     def notes(self):
         """What the user should know, as sentences."""

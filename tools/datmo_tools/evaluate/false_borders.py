@@ -4,9 +4,9 @@
 from typing import NamedTuple
 
 import numpy as np
+from shapely.geometry import MultiLineString, Point
 
 from datmo_tools.evaluate.border_errors import AHEAD
-from datmo_tools.evaluate.segments import distances_to, nearby
 from datmo_tools.stamps import NANOSECONDS
 
 STEP = 0.5  # m, between the sampled points of a border
@@ -67,13 +67,15 @@ def score_false(frames, road, gate):
 def _false_stretches(frame, road, gate):
     """Length of what is published (m), and its false Stretches."""
     base = road.poses.at(frame.stamp)[:2]
-    lines = nearby(road.lines, base, AHEAD + gate)
+    near = [line for line in road.lines if line.distance(Point(base)) <= AHEAD + gate]
+    lines = MultiLineString(near)
     total, found = 0.0, []
     for border, line in frame.lines:
         positions = _resampled(line)
         positions = positions[np.hypot(*(positions - base).T) <= AHEAD]
         total += STEP * len(positions)
-        false = np.flatnonzero(distances_to(positions, lines) > gate)
+        false = np.array([i for i, position in enumerate(positions)
+                          if not near or lines.distance(Point(position)) > gate], dtype=int)
         for run in np.split(false, np.flatnonzero(np.diff(false) > 1) + 1):
             if len(run):
                 middle = positions[run[len(run) // 2]]

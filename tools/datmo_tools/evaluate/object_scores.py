@@ -4,10 +4,12 @@
 from typing import NamedTuple
 
 import numpy as np
+from scipy.optimize import linear_sum_assignment
+from shapely.geometry import MultiPoint, Point
 
 from datmo_tools import transforms
 from datmo_tools.evaluate.object_lists import Seen
-from datmo_tools.evaluate.outlines import Outline, offset
+from datmo_tools.evaluate.outlines import CORNERS, Outline, offset
 
 # An object is near a true one within this of its box: across the line of sight, and along it, where
 # it grows with the range by thesis 3.3.3 (5 m at 36 m; see THESIS_GATE).
@@ -15,6 +17,8 @@ NEAR_ACROSS = 1.0  # m
 NEAR_ALONG = 1.0  # m, at least
 
 THESIS_GATE = 5.0 / 36.0  # m for each meter of range: up to here a stereo object is the lidar's
+
+CENTER_WEIGHT = 1e-6  # 1/m: decides between equal distances alone
 
 # 95 % of chi-square with two degrees of freedom.
 GATE_95 = 5.991
@@ -91,7 +95,8 @@ def scaled_distance(point, truth, viewpoint):
     along = ray / reach if reach > 0.0 else np.array([1.0, 0.0])
     gate = _along_gate(point, viewpoint)
     axes = np.array([along / gate, np.array([-along[1], along[0]]) / NEAR_ACROSS])
-    return _distance_to(_corners(truth, point) @ axes.T)
+    corners = transforms.compose(truth.pose, np.column_stack([CORNERS * truth.size, np.zeros(4)]))
+    return MultiPoint((corners[:, :2] - point) @ axes.T).convex_hull.distance(Point(0.0, 0.0))
 
 
 def _along_gate(point, viewpoint):
@@ -100,38 +105,16 @@ def _along_gate(point, viewpoint):
     return max(NEAR_ALONG, THESIS_GATE * reach)
 
 
-def _corners(truth, origin):
-    """4 x 2, in turn, about the origin."""
-    halves = 0.5 * np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)]) * truth.size
-    local = np.column_stack([halves, np.zeros(4)])
-    return transforms.compose(truth.pose, local)[:, :2] - np.asarray(origin)
-
-
-def _distance_to(corners):
-    """From the origin to a parallelogram, 0 inside."""
-    edges = np.roll(corners, -1, axis=0) - corners
-    turns = edges[:, 0] * -corners[:, 1] + edges[:, 1] * corners[:, 0]
-    if np.all(turns >= 0.0) or np.all(turns <= 0.0):
-        return 0.0
-    lengths = np.maximum(np.sum(edges**2, axis=1), np.finfo(float).tiny)
-    shares = np.clip(np.sum(-corners * edges, axis=1) / lengths, 0.0, 1.0)
-    return float(np.hypot(*(corners + shares[:, np.newaxis] * edges).T).min())
-
-
 def _pairs(distances, objects, truths):
-    """The nearest pairs first, each object and each true one once; of equal ones that with the
-    nearer centers."""
-    candidates = sorted(
-        (distances[i, j], np.hypot(*(objects[i].pose[:2] - truths[j].pose[:2])), i, j)
-        for i, j in np.argwhere(distances <= 1.0)
-    )
-    taken, found, pairs = set(), set(), []
-    for _, _, i, j in candidates:
-        if i not in taken and j not in found:
-            taken.add(i)
-            found.add(j)
-            pairs.append((int(i), int(j)))
-    return pairs
+    """As many pairs as can be, each object and each true one once, with the least sum of distances;
+    of equal ones that with the nearer centers."""
+    is_near = distances <= 1.0
+    centers = [[np.hypot(*(item.pose[:2] - truth.pose[:2])) for truth in truths] for item in objects]
+    costs = np.where(is_near, distances + CENTER_WEIGHT * np.reshape(centers, is_near.shape), 0.0)
+    # Worth more than any sum of distances: one more match always pays.
+    gains = np.where(is_near, 1.0 + len(truths) + np.sum(costs.max(axis=0, initial=0.0)) - costs, 0.0)
+    found = zip(*linear_sum_assignment(gains, maximize=True))
+    return [(int(i), int(j)) for i, j in found if is_near[i, j]]
 
 
 def _errors(item, truth, viewpoint):

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Lines in the plane as straight segments: where rays cross them, and how far points are off."""
+"""Lines in the plane as straight segments, and where many rays cross them, all at once."""
 
 from typing import NamedTuple
 
 import numpy as np
 
-# Rays, or points, at a time: so many, and all segments, are in memory.
+# Rays at a time: so many, and all segments, are in memory.
 BATCH = 256
 
 # Sine of the least angle at which a ray crosses a segment.
@@ -49,33 +49,6 @@ def ray_crossings(origins, headings, segments):
     length = np.hypot(along[..., 0], along[..., 1])
     meet = (share >= 0.0) & (share <= 1.0) & (np.abs(slant) > PARALLEL * length)
     return np.where(meet, distance, np.nan), share
-
-
-def distances_to(points, segments):
-    """Distance (m) of each point (m x 2) from the nearest segment; infinite where there is none."""
-    points = np.asarray(points, dtype=float).reshape(-1, 2)
-    if not len(segments.begin):
-        return np.full(len(points), np.inf)
-    parts = [
-        _distances(points[i : i + BATCH], segments).min(axis=1)
-        for i in range(0, len(points), BATCH)
-    ]
-    return np.concatenate([np.empty(0), *parts])
-
-
-def nearby(segments, position, radius):
-    """Segments that come within a radius (m) of a point."""
-    near = _distances(np.asarray(position, dtype=float).reshape(1, 2), segments)[0] <= radius
-    return Segments(segments.begin[near], segments.end[near])
-
-
-def _distances(points, segments):
-    along = segments.end - segments.begin
-    square = np.maximum(np.sum(along**2, axis=1), np.finfo(float).tiny)
-    apart = points[:, np.newaxis] - segments.begin[np.newaxis]
-    share = np.clip(np.sum(apart * along, axis=2) / square, 0.0, 1.0)
-    off = apart - share[..., np.newaxis] * along
-    return np.hypot(off[..., 0], off[..., 1])
 
 
 def _cross(first, second):

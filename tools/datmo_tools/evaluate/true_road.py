@@ -5,6 +5,7 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from shapely.geometry import LineString
 
 from datmo_tools import transforms
 from datmo_tools.evaluate.border_lists import read_true_borders
@@ -83,7 +84,7 @@ class TrueRoad:
     """The road of one drive.
 
     poses: PosePath of the vehicle; stations: Stations; sides: dictionary left, right -> TrueSide;
-    lines: Segments of all that ends a road anywhere.
+    lines: LineStrings of all that ends a road anywhere.
     """
 
     def __init__(self, path, rows, curve_radius):
@@ -224,7 +225,7 @@ def _curvatures(headings, bounded):
 
 
 def _lines(stations, sides, curbs, boxes):
-    """Segments of all that ends a road: curbs, parked vehicles, and the lines of their rows."""
+    """LineStrings of all that ends a road: curbs, parked vehicles, and the lines of their rows."""
     lines = [*curbs, *(np.concatenate([corners, corners[:1]]) for corners in boxes)]
     for name, side in sides.items():
         rays = stations.headings + TURN[name]
@@ -233,4 +234,4 @@ def _lines(stations, sides, curbs, boxes):
         known = np.flatnonzero(np.isfinite(side.row))
         pieces = np.split(known, np.flatnonzero(np.diff(known) > 1) + 1)
         lines += [rows[piece] for piece in pieces if len(piece) > 1]
-    return segments_of(lines)
+    return [LineString(np.asarray(line)[:, :2]) for line in lines if len(line) > 1]

@@ -8,6 +8,8 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 from typing import NamedTuple, Optional
 
+from tqdm import tqdm
+
 from datmo_tools import command_line, programs
 from datmo_tools.experiments import simulated_run
 from datmo_tools.experiments.camera_view import LIST_PARAMETERS, camera_view
@@ -16,7 +18,6 @@ from datmo_tools.experiments.fusion_comparison import comparison_table, figures,
 from datmo_tools.experiments.fusion_drives import LEVELS, Kitti, data_sets, within
 from datmo_tools.experiments.fusion_plot import comparison_plot
 from datmo_tools.programs import StepFailed
-from datmo_tools.progress import Progress
 from datmo_tools.evaluate.thesis_tables import PUBLISHED
 from datmo_tools.whole_files import write_whole
 
@@ -101,9 +102,8 @@ def _run_all(drives, views, values):
             for level in values.levels
         ]
         try:
-            with Progress(len(runs), "runs") as progress:
-                for done, _ in enumerate(as_completed(runs), start=1):
-                    progress.update(done)
+            for _ in tqdm(as_completed(runs), "runs", len(runs)):
+                pass
         except BaseException:
             pool.shutdown(cancel_futures=True)
             raise

@@ -9,11 +9,12 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 from typing import NamedTuple
 
+from tqdm import tqdm
+
 from datmo_tools import command_line
 from datmo_tools.experiments import simulated_run
 from datmo_tools.errors import InputError
 from datmo_tools.programs import StepFailed
-from datmo_tools.progress import Progress
 from datmo_tools.experiments.robustness_summary import summarize, table
 from datmo_tools.whole_files import write_whole
 
@@ -69,12 +70,11 @@ def _benchmark(values):
 def _run_all(cases, values):
     """The runs in the order of the cases, several at a time."""
     runs = {}
-    with ThreadPoolExecutor(values.jobs) as pool, Progress(len(cases), "runs") as progress:
+    with ThreadPoolExecutor(values.jobs) as pool:
         waiting = {pool.submit(_run_case, case, values): case for case in cases}
         try:
-            for done in as_completed(waiting):
+            for done in tqdm(as_completed(waiting), "runs", len(cases)):
                 runs[waiting[done]] = done.result()
-                progress.update(len(runs))
         except BaseException:
             for future in waiting:
                 future.cancel()

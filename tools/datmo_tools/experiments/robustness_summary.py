@@ -3,16 +3,18 @@
 
 import statistics
 
+from datmo_tools.text_table import NO_VALUE, aligned, rounded
+
 MAX_JUMP = 1.0  # m; more is a failure
 
-# Heading, key, format of its values, width.
+# Heading, key, format of its values.
 COLUMNS = (
-    ("scene", "scene", "{}", -16),
-    ("movers", "movers", "{}", 8),
-    ("runs", "runs", "{}", 6),
-    ("failed", "failed", "{}", 8),
-    ("rate", "failure_rate", "{:.0%}", 8),
-    ("worst jump", "worst_jump_m", "{:.2f} m", 12),
+    ("scene", "scene", "{}"),
+    ("movers", "movers", "{}"),
+    ("runs", "runs", "{}"),
+    ("failed", "failed", "{}"),
+    ("rate", "failure_rate", "{:.0%}"),
+    ("worst jump", "worst_jump_m", "{:.2f} m"),
 )
 
 
@@ -36,12 +38,15 @@ def summarize(runs):
 
 def table(summary):
     """Text of a summary."""
-    lines = [_heading(summary)]
+    distances = max((row["relative"] for row in summary), key=len)
+    heads = [head for item in distances for head in (f"error at {item['distance_m']:.0f} m", "ratio")]
+    rows = [[name for name, _, _ in COLUMNS] + heads]
     for row in summary:
-        cells = [_padded(_text(row[key], form), width) for _, key, form, width in COLUMNS]
-        cells += [_error_cell(error) for error in row["relative"]]
-        lines.append("".join(cells))
-    return "\n".join(lines)
+        cells = [_text(row[key], form) for _, key, form in COLUMNS]
+        for error in row["relative"]:
+            cells += [f"{error['translation_m']:.3f} m", rounded(error["ratio"], 2)]
+        rows.append(cells)
+    return aligned(rows)
 
 
 def _row(scene, movers, runs):
@@ -90,22 +95,4 @@ def _ratio(error, still):
 
 
 def _text(value, form):
-    """A number, or a dash where it is not defined."""
-    return "-" if value is None else form.format(value)
-
-
-def _padded(text, width):
-    """To the right, with a negative width to the left."""
-    return text.rjust(width) if width > 0 else text.ljust(-width)
-
-
-def _heading(summary):
-    heading = "".join(_padded(name, width) for name, _, _, width in COLUMNS)
-    distances = max((row["relative"] for row in summary), key=len)
-    texts = [f"error at {error['distance_m']:.0f} m" for error in distances]
-    return heading + "".join(f"{text:>18}  ratio" for text in texts)
-
-
-def _error_cell(error):
-    ratio = "      -" if error["ratio"] is None else f"{error['ratio']:>7.2f}"
-    return f"{error['translation_m']:>16.3f} m{ratio}"
+    return NO_VALUE if value is None else form.format(value)

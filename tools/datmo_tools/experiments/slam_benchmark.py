@@ -12,6 +12,7 @@ from datmo_tools.convert.carmen_clock import CLOCKS
 from datmo_tools.errors import InputError
 from datmo_tools.evaluate.relations import read_relations
 from datmo_tools.evaluate.slam import score
+from datmo_tools.text_table import aligned
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
@@ -78,34 +79,30 @@ def benchmark(log, relations, built, config, options=carmen_bag.Options()):
 
 def table(results):
     """The results as text."""
-    lines = [
-        f"{'':<28}{'translation, m':>19}{'rotation, deg':>22}{'relations':>12}{'scans':>8}"
-        f"{'ms a scan: mean, median, 99 %':>32}"
-    ]
+    rows = [["", "translation, m", "rotation, deg", "relations", "scans",
+             "ms a scan: mean", "median", "99 %"]]  # fmt: skip
     for result in results:
         time = result["time"]
-        cost = "".join(
-            f"{1e3 * time[key]:9.3f}" for key in ("mean_s", "median_s", "percentile_99_s")
-        )
-        lines.append(result["log"])
-        lines.append(_row("  odometry alone", result["odometry"]))
-        lines.append(
-            f"{_row('  grid_slam, online pose', result['pose'])}{time['runs']:8d}{cost:>32}"
-        )
-        for method, (mean, std) in PUBLISHED.get(result["log"], {}).items():
-            lines.append(f"{'  published: ' + method:<36}{mean:5.3f} +- {std:5.3f}")
+        cost = [f"{1e3 * time[key]:.3f}" for key in ("mean_s", "median_s", "percentile_99_s")]
+        log = result["log"]
+        rows.append([*_row(f"{log}, odometry alone", result["odometry"]), *[""] * 4])
+        rows.append([*_row(f"{log}, grid_slam", result["pose"]), str(time["runs"]), *cost])
+        for method, figures in PUBLISHED.get(log, {}).items():
+            rows.append([f"{log}, published: {method}", _spread(*figures, 3), *[""] * 6])
+    notes = ["grid_slam: its pose as it is known online"]
     if any(result["log"] in PUBLISHED for result in results):
-        lines.append("published: by Kuemmerle et al., 2009")
-    return "\n".join(lines)
+        notes.append("published: by Kuemmerle et al., 2009")
+    return "\n".join([aligned(rows), *notes])
 
 
 def _row(name, scored):
-    translation, rotation = scored["translation_m"], scored["rotation_deg"]
-    total = scored["used"] + scored["not_covered"]
-    return (
-        f"{name:<33}{translation['mean']:8.3f} +-{translation['std']:7.3f}"
-        f"{rotation['mean']:9.2f} +-{rotation['std']:7.2f}{scored['used']:7d}/{total}"
-    )
+    figures = [_spread(scored[key]["mean"], scored[key]["std"], digits)
+               for key, digits in (("translation_m", 3), ("rotation_deg", 2))]  # fmt: skip
+    return [name, *figures, f"{scored['used']}/{scored['used'] + scored['not_covered']}"]
+
+
+def _spread(mean, deviation, digits):
+    return f"{mean:.{digits}f} +- {deviation:.{digits}f}"
 
 
 def _without_files(scored):

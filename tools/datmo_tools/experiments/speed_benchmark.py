@@ -7,10 +7,11 @@ import subprocess
 import tempfile
 from pathlib import Path
 
+from tqdm import tqdm
+
 from datmo_tools import command_line, programs
 from datmo_tools.experiments import speed_live, speed_micro, speed_report
 from datmo_tools.errors import InputError
-from datmo_tools.progress import Progress
 from datmo_tools.experiments.speed_context import describe, devel_space
 from datmo_tools.experiments.speed_live import LiveDrive
 from datmo_tools.whole_files import write_whole
@@ -61,11 +62,8 @@ def _measure_live(values, folder):
     drives = _drives(values, folder)
     runs = {name: [] for name in drives}
     count = 1 if values.quick else values.runs
-    with Progress(count * len(drives), "live runs") as progress:
-        for _ in range(count):
-            for name, drive in drives.items():
-                runs[name].append(speed_live.measure(drive, launch_file, folder))
-                progress.update(sum(map(len, runs.values())))
+    for name, drive in tqdm([*drives.items()] * count, "live runs"):
+        runs[name].append(speed_live.measure(drive, launch_file, folder))
     return {name: speed_report.medians(figures) for name, figures in runs.items()}
 
 

@@ -5,10 +5,11 @@ import json
 import statistics
 
 from datmo_tools.errors import InputError
+from datmo_tools.text_table import aligned, rounded
 
 FORMAT = 1  # of the JSON file
 MEASURED = ("micro", "live")  # sections of figures; the others say where they come from
-NUMBER = "{:>12.4g}"
+NUMBER = "{:.4g}"
 
 
 def read(file):
@@ -47,9 +48,7 @@ def _flatten(value, path, flat):
 
 def table(report):
     """A line for each figure."""
-    rows = figures(report)
-    width = max(map(len, rows), default=0)
-    return "\n".join(f"{name:<{width}}" + NUMBER.format(value) for name, value in rows.items())
+    return aligned([(name, NUMBER.format(value)) for name, value in figures(report).items()])
 
 
 def comparison(old, new):
@@ -61,13 +60,12 @@ def comparison(old, new):
     common = [name for name in before if name in after]
     if not common:
         raise InputError("the two benchmarks have no figure in common")
-    width = max(map(len, common))
-    lines = [f"{'':<{width}}{'old':>12}{'new':>12}{'new/old':>10}"]
+    rows = [["", "old", "new", "new/old"]]
     for name in common:
-        ratio = f"{after[name] / before[name]:>10.2f}" if before[name] else f"{'-':>10}"
-        lines.append(
-            f"{name:<{width}}" + NUMBER.format(before[name]) + NUMBER.format(after[name]) + ratio
-        )
+        old_value, new_value = before[name], after[name]
+        ratio = new_value / old_value if old_value else None
+        rows.append([name, NUMBER.format(old_value), NUMBER.format(new_value), rounded(ratio, 2)])
+    lines = [aligned(rows)]
     lines += [f"only in the old one: {name}" for name in before if name not in after]
     lines += [f"only in the new one: {name}" for name in after if name not in before]
     return "\n".join([*_differences(old, new), *lines])
