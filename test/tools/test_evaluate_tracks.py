@@ -164,8 +164,9 @@ class Structure(HTMLParser):
 class Page(unittest.TestCase):
     def test_is_whole_and_fetches_nothing(self):
         for runs in ([sample_run()], [sample_run("a.bag"), sample_run("b.bag")]):
-            structure = Structure()
-            structure.feed(page(runs))
+            structure, text = Structure(), page(runs)
+            structure.feed(text)
+            self.assertTrue(text.startswith("<!DOCTYPE html>"))
             self.assertEqual(structure.open, [])
             self.assertEqual(structure.fetched, [])
             self.assertFalse(structure.tags & {"script", "link", "img", "iframe"})
