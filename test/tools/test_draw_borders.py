@@ -11,7 +11,8 @@ from pathlib import Path
 import numpy as np
 from datmo_tools.evaluate.border_images import draw_image, read_images
 from datmo_tools.evaluate.border_lists import SeenBorder
-from datmo_tools.evaluate.border_recordings import Run, corners, edge
+from datmo_tools.evaluate.border_recordings import Run, edge
+from datmo_tools.evaluate.outlines import corners
 from datmo_tools.evaluate.border_views import FAINTEST, line_style, opacity, title
 from datmo_tools.evaluate.draw_borders import main
 from datmo_tools.errors import InputError

@@ -36,6 +36,13 @@ def yaw_of(transform):
     return math.atan2(transform[1, 0], transform[0, 0])
 
 
+def rigid_of(pose):
+    """4 x 4 transform of a geometry_msgs/Transform whose quaternion is not 0."""
+    shift, turn = pose.translation, pose.rotation
+    rotation = Rotation.from_quat([turn.x, turn.y, turn.z, turn.w]).as_matrix()
+    return rigid(rotation, [shift.x, shift.y, shift.z])
+
+
 def quaternion_of_yaw(yaw):
     """Quaternion (x, y, z, w) of a rotation by `yaw` (rad) about z."""
     return (0.0, 0.0, math.sin(0.5 * yaw), math.cos(0.5 * yaw))
@@ -63,6 +70,21 @@ def relative(origin, pose):
     dx, dy = pose[..., 0] - origin[0], pose[..., 1] - origin[1]
     yaw = normalize_angle(pose[..., 2] - origin[2])
     return np.stack([cosine * dx + sine * dy, -sine * dx + cosine * dy, yaw], axis=-1)
+
+
+def points_in_parent(pose, points):
+    """Points (n x 2, m) in the frame of the planar `pose` (3), in its parent."""
+    return compose(pose, _with_yaw(points))[..., :2]
+
+
+def points_seen_from(origin, points):
+    """Points (n x 2, m) of the frame of the planar pose `origin` (3), as seen from it."""
+    return relative(origin, _with_yaw(points))[..., :2]
+
+
+def _with_yaw(points):
+    points = np.asarray(points, dtype=float)
+    return np.concatenate([points, np.zeros((*points.shape[:-1], 1))], axis=-1)
 
 
 def arc(speed, yaw_rate, duration):

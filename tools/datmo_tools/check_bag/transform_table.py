@@ -127,4 +127,4 @@ def _matrix(transform):
     norm = np.linalg.norm(quaternion)
     if not (np.all(np.isfinite(translation)) and abs(norm - 1.0) < 1e-2):
         return None
-    return transforms.rigid(Rotation.from_quat(quaternion).as_matrix(), translation)
+    return transforms.rigid_of(transform)

@@ -86,9 +86,6 @@ def fitted_velocities(seconds, positions, half_window):
 
 def points_in_box(points, source, box, tolerance=BOX_TOLERANCE):
     """How many points (n x 2 or more columns, the Velodyne's frame) lie in the box from above."""
-    local = transforms.relative(
-        np.array([box.x, box.y, box.yaw]), np.column_stack([points[:, :2], np.zeros(len(points))])
-    )
-    inside = np.abs(local[:, 0]) <= 0.5 * source.length + tolerance
-    inside &= np.abs(local[:, 1]) <= 0.5 * source.width + tolerance
-    return int(np.count_nonzero(inside))
+    local = transforms.points_seen_from([box.x, box.y, box.yaw], points[:, :2])
+    ends = 0.5 * np.array([source.length, source.width]) + tolerance
+    return int(np.count_nonzero(np.all(np.abs(local) <= ends, axis=1)))

@@ -198,8 +198,7 @@ def _scan_period(recording, scans):
 
 def _beams_on(objects, points, scanner):
     """How many of the points (n x 2, m, scanner's frame) lie on each of the MapObjects."""
-    poses = np.column_stack([points, np.zeros(len(points))])
-    in_map = transforms.compose(scanner, poses)
+    in_map = transforms.points_in_parent(scanner, points)
     return [
         ground_truth.points_in_box(in_map, item.source, item.box, BOX_TOLERANCE) for item in objects
     ]

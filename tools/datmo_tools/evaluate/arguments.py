@@ -6,7 +6,7 @@ from pathlib import Path
 
 from datmo_tools import command_line
 from datmo_tools.errors import InputError
-from datmo_tools.evaluate.object_truth import Region
+from datmo_tools.evaluate.truth import Region
 
 
 def add_truth(parser):

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from datmo_tools import transforms
-from datmo_tools.evaluate.object_truth import MAX_GAP
+from datmo_tools.evaluate.truth import MAX_GAP
 from datmo_tools.pose_path import read_path
 from datmo_tools.evaluate.segments import ray_crossings, segments_of
 from datmo_tools.stamps import NANOSECONDS
@@ -80,8 +80,8 @@ def samples_of(frames, road):
 
 
 def _moved(points, base, true_base):
-    poses = np.column_stack([points, np.zeros(len(points))])
-    return transforms.compose(true_base, transforms.relative(base, poses))[:, :2]
+    seen = transforms.points_seen_from(base, points)
+    return transforms.points_in_parent(true_base, seen)
 
 
 def _seen(frame, stations, part, name):

@@ -7,7 +7,7 @@ import numpy as np
 
 from datmo_tools import transforms
 from datmo_tools.bag_input import opened
-from datmo_tools.evaluate.border_recordings import edge, seen_from, with_heading
+from datmo_tools.evaluate.border_recordings import edge
 from datmo_tools.evaluate.border_views import BAND, SHADES, SIGMAS, line_style, opacity
 from datmo_tools.errors import InputError
 from datmo_tools.evaluate.grid_recordings import MOUNTS, mount_of, mounts_of
@@ -74,8 +74,9 @@ def draw_image(ax, image, moment, base):
     """
     height, width = image.pixels.shape[:2]
     ax.imshow(image.pixels, cmap="gray", vmin=0, vmax=255, interpolation="antialiased")
-    in_map = transforms.compose(moment.base, with_heading(moment.points))[:, :2]
-    ax.plot(*image.seen(seen_from(base, in_map)).T, ".", color=POINT, markersize=2.5)
+    in_map = transforms.points_in_parent(moment.base, moment.points)
+    seen = image.seen(transforms.points_seen_from(base, in_map))
+    ax.plot(*seen.T, ".", color=POINT, markersize=2.5)
     for border in moment.borders:
         _draw_border(ax, image, border, base)
     ax.set(xlim=(-0.5, width - 0.5), ylim=(height - 0.5, -0.5))
@@ -84,7 +85,8 @@ def draw_image(ax, image, moment, base):
 
 def _draw_border(ax, image, border, base):
     middle, left, right = (
-        _finely(seen_from(base, edge(border, sigmas))) for sigmas in (0.0, SIGMAS, -SIGMAS)
+        _finely(transforms.points_seen_from(base, edge(border, sigmas)))
+        for sigmas in (0.0, SIGMAS, -SIGMAS)
     )
     shade, alpha = SHADES[border.side], opacity(border)
     outline = np.concatenate([image.seen(left), image.seen(right)[::-1]])

@@ -10,10 +10,18 @@ from datmo_fusion.msg import Object
 from datmo_tools import transforms
 from datmo_tools.evaluate.border_lists import BORDERS, TRUE_BORDERS, border_list
 from datmo_tools.errors import InputError
-from datmo_tools.evaluate.grid_recordings import TRUE_OBJECTS, TRUE_POSE
 from datmo_tools.evaluate.nearest_messages import check_kinds, nearest_messages, stamps_of, topics_of
-from datmo_tools.evaluate.object_truth import MAX_GAP, NONE, TRUE_OBJECT_ARRAY, Asked, Region, Truth
-from datmo_tools.evaluate.outlines import CORNERS
+from datmo_tools.evaluate.truth import (
+    MAX_GAP,
+    NONE,
+    TRUE_OBJECT_ARRAY,
+    TRUE_OBJECTS,
+    TRUE_POSE,
+    Asked,
+    Region,
+    Truth,
+)
+from datmo_tools.evaluate.outlines import corners
 from datmo_tools.pose_path import planar, read_path
 from datmo_tools.stamps import NANOSECONDS
 
@@ -116,7 +124,7 @@ class Run:
         kept = objects.objects if objects else []
         rows = self._rows(stamp - round(history * NANOSECONDS), stamp - 1)
         earlier = [
-            seen_from(base, _in_map(scans[other]))
+            transforms.points_seen_from(base, _in_map(scans[other]))
             for other in self.stamps[slice(*rows)]
             if other in scans
         ]
@@ -148,7 +156,7 @@ class Run:
                 road, base = roads.get(stamp), truth.base_at(stamp)
                 borders = road.borders if road else []
                 truths[stamp] = TrueRoad(
-                    [seen_from(base, _positions(border.points)) for border in borders],
+                    [transforms.points_seen_from(base, _positions(border.points)) for border in borders],
                     [corners(state.pose, state.size) for state in states if state.asked],
                     road.at_intersection if road else None,
                 )
@@ -163,25 +171,9 @@ def edge(border, sigmas):
     return border.points + (sigmas * border.sigma)[:, np.newaxis] * normals
 
 
-def seen_from(base, points):
-    """Points (n x 2, m) of the frame in which base_link is at the pose `base`, in base_link."""
-    return transforms.relative(base, with_heading(points))[:, :2]
-
-
-def with_heading(points):
-    """Points (n x 2) as poses (n x 3) along the x axis, for `transforms`."""
-    return np.column_stack([points, np.zeros(len(points))])
-
-
-def corners(pose, size):
-    """4 x 2, m: of a box with its center at a pose (x, y, yaw), in the frame of the pose."""
-    return transforms.compose(pose, with_heading(CORNERS * size))[:, :2]
-
-
 def _in_map(scan):
     """End points (n x 2, m) of a LabeledScan, in the map by its own pose."""
-    points = with_heading(_positions(scan.points))
-    return transforms.compose(planar(scan.pose.pose), points)[:, :2]
+    return transforms.points_in_parent(planar(scan.pose.pose), _positions(scan.points))
 
 
 def _box(message):

@@ -6,8 +6,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from datmo_fusion.msg import RoadBorder, ScanPoint
+from datmo_tools import transforms
 from datmo_tools.evaluate.border_lists import SIDES
-from datmo_tools.evaluate.border_recordings import edge, seen_from
+from datmo_tools.evaluate.border_recordings import edge
 from datmo_tools.evaluate.plot_style import COLORS, FALSE, INK, TRUTH
 from datmo_tools.stamps import NANOSECONDS
 
@@ -100,10 +101,12 @@ def legend_handles(with_truth):
 
 
 def _draw_border(ax, base, border):
-    left, right = (seen_from(base, edge(border, sigmas)) for sigmas in (SIGMAS, -SIGMAS))
+    left, right = (
+        transforms.points_seen_from(base, edge(border, sigmas)) for sigmas in (SIGMAS, -SIGMAS)
+    )
     shade, alpha = SHADES[border.side], opacity(border)
     ax.fill(*np.concatenate([left, right[::-1]]).T, color=shade, alpha=BAND * alpha, linewidth=0.0)
-    line = seen_from(base, border.points)
+    line = transforms.points_seen_from(base, border.points)
     ax.plot(*line.T, color=shade, alpha=alpha, linestyle=line_style(border))
     # The ends of stretches distinguish side streets from gaps.
     ax.plot(*line[[0, -1]].T, "|", color=shade, alpha=alpha, markersize=5.0)

@@ -12,11 +12,11 @@ from datmo_tools.bag_input import opened
 from datmo_tools.bag_messages import BASE
 from datmo_tools.errors import InputError
 from datmo_tools.evaluate.grid_scores import Bodies, Echoes, Grid, StereoView
+from datmo_tools.evaluate.truth import TRUE_OBJECTS, TRUE_POSE, read_true_objects
 from datmo_tools.pose_path import planar
 
 SCANS = ("/echoes", "/scan")
-TRUE_ECHOES, TRUE_OBJECTS = "/ground_truth/echoes", "/ground_truth/objects"
-TRUE_POSE = "/ground_truth/pose"
+TRUE_ECHOES = "/ground_truth/echoes"
 CAMERA_INFOS = ("/stereo/left/camera_info", "/stereo/right/camera_info")
 MOUNTS = "/tf_static"
 
@@ -45,7 +45,7 @@ def read_drive(path, reach, disparity_sigma):
     reach: effective range of the camera, m; disparity_sigma: standard deviation, px. A scan whose
     truth is not there has no Moment. Raises InputError if there is none at all, or no camera.
     """
-    kept = {topic: [] for topic in (MOUNTS, TRUE_OBJECTS, TRUE_POSE, TRUE_ECHOES, *SCANS)}
+    kept = {topic: [] for topic in (MOUNTS, TRUE_POSE, TRUE_ECHOES, *SCANS)}
     infos = {}
     with opened(path) as bag:
         for topic, message, _ in bag.read_messages([*kept, *CAMERA_INFOS]):
@@ -110,7 +110,7 @@ def _check_same_window(path, stamp, first, second):
 def mounts_of(messages):
     """Dictionary frame -> 4 x 4 transform in base_link."""
     return {
-        item.child_frame_id: _rigid(item.transform.translation, item.transform.rotation)
+        item.child_frame_id: transforms.rigid_of(item.transform)
         for message in messages
         for item in message.transforms
         if item.header.frame_id == BASE
@@ -122,18 +122,6 @@ def mount_of(path, mounts, frame):
     if frame not in mounts:
         raise InputError(f"{path}: {MOUNTS} has no {BASE} -> {frame}, expected the sensor's mount")
     return mounts[frame]
-
-
-def _rigid(position, turn):
-    x, y, z, w = turn.x, turn.y, turn.z, turn.w
-    rotation = np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-    )
-    return transforms.rigid(rotation, [position.x, position.y, position.z])
 
 
 def view_of(path, infos, mounts, reach, disparity_sigma):
@@ -158,7 +146,7 @@ def view_of(path, infos, mounts, reach, disparity_sigma):
 
 def _moments(path, kept, mounts):
     poses = {message.header.stamp.to_nsec(): message for message in kept[TRUE_POSE]}
-    objects = {message.header.stamp.to_nsec(): message.objects for message in kept[TRUE_OBJECTS]}
+    objects = read_true_objects(path)
     truths = {message.header.stamp.to_nsec(): message for message in kept[TRUE_ECHOES]}
     moments = {}
     for scan in (message for topic in SCANS for message in kept[topic]):

@@ -7,9 +7,8 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 from shapely.geometry import MultiPoint, Point
 
-from datmo_tools import transforms
 from datmo_tools.evaluate.object_lists import Seen
-from datmo_tools.evaluate.outlines import CORNERS, Outline, offset
+from datmo_tools.evaluate.outlines import Outline, corners, offset
 
 # An object is near a true one within this of its box: across the line of sight, and along it, where
 # it grows with the range by thesis 3.3.3 (5 m at 36 m; see THESIS_GATE).
@@ -95,8 +94,8 @@ def scaled_distance(point, truth, viewpoint):
     along = ray / reach if reach > 0.0 else np.array([1.0, 0.0])
     gate = _along_gate(point, viewpoint)
     axes = np.array([along / gate, np.array([-along[1], along[0]]) / NEAR_ACROSS])
-    corners = transforms.compose(truth.pose, np.column_stack([CORNERS * truth.size, np.zeros(4)]))
-    return MultiPoint((corners[:, :2] - point) @ axes.T).convex_hull.distance(Point(0.0, 0.0))
+    box = (corners(truth.pose, truth.size) - point) @ axes.T
+    return MultiPoint(box).convex_hull.distance(Point(0.0, 0.0))
 
 
 def _along_gate(point, viewpoint):

@@ -29,6 +29,12 @@ NEAREST = 0.1  # m: no line of sight to what is nearer to the sensor
 NEGLIGIBLE = 1e-9  # m^2
 
 
+def corners(pose, size):
+    """4 x 2, m: of a box of length and width `size` with its center at a pose (x, y, yaw), in the
+    frame of the pose; in turn from the front left one."""
+    return transforms.points_in_parent(pose, CORNERS * size)
+
+
 class Hit(NamedTuple):
     """Where a line of sight meets a box."""
 
@@ -52,8 +58,7 @@ class Outline:
     def __init__(self, seen, viewpoint):
         """viewpoint: x, y (m) of the sensor."""
         self.covariance = seen.covariance
-        local = np.column_stack([CORNERS * seen.size, np.zeros(4)])
-        self._corners = transforms.compose(seen.pose, local)[:, :2] - np.asarray(viewpoint)
+        self._corners = corners(seen.pose, seen.size) - np.asarray(viewpoint)
         yaw = seen.pose[2]
         turned = np.array([(np.cos(yaw), np.sin(yaw)), (-np.sin(yaw), np.cos(yaw))])
         self._normals = NORMALS @ turned

@@ -9,12 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from datmo_fusion.msg import Object
-from datmo_tools import transforms
-from datmo_tools.errors import InputError
-from datmo_tools.evaluate.grid_recordings import TRUE_OBJECTS
-from datmo_tools.evaluate.object_truth import TRUE_OBJECT_ARRAY
-from datmo_tools.evaluate.outlines import CORNERS
-from datmo_tools.pose_path import planar, read_messages
+from datmo_tools.evaluate.outlines import corners
+from datmo_tools.evaluate.truth import read_true_objects
+from datmo_tools.pose_path import planar
 
 # A vehicle is parked along a curb if its far side is within this of it (m), or beyond it.
 MAX_FROM_CURB = 1.0
@@ -37,20 +34,13 @@ class Row(NamedTuple):
 def parked_boxes(path):
     """Corners (n x 4 x 2, m, in the truth's map) of the vehicles that never move in a drive."""
     moving, boxes = set(), {}
-    for message, kind in read_messages(path, TRUE_OBJECTS):
-        if kind != TRUE_OBJECT_ARRAY:
-            raise InputError(f"{path}: {TRUE_OBJECTS} is {kind}, expected {TRUE_OBJECT_ARRAY}")
-        for item in message.objects:
-            if item.moving:
-                moving.add(item.id)
-            elif item.id not in boxes and item.classification == Object.CLASS_VEHICLE:
-                boxes[item.id] = (planar(item.pose), (item.size.x, item.size.y))
-    corners = [
-        transforms.compose(pose, np.column_stack([CORNERS * size, np.zeros(4)]))[:, :2]
-        for number, (pose, size) in boxes.items()
-        if number not in moving
-    ]
-    return np.array(corners).reshape(-1, 4, 2)
+    for item in (item for items in read_true_objects(path).values() for item in items):
+        if item.moving:
+            moving.add(item.id)
+        elif item.id not in boxes and item.classification == Object.CLASS_VEHICLE:
+            boxes[item.id] = corners(planar(item.pose), (item.size.x, item.size.y))
+    parked = [box for number, box in boxes.items() if number not in moving]
+    return np.array(parked).reshape(-1, 4, 2)
 
 
 def depths_of_vehicles(curb, near, far):

@@ -68,7 +68,7 @@ def account(number, observations, off):
     frame, row = (off or observations)[len(off or observations) // 2]
     track = frame.tracks[row]
     position = frame.positions[row]
-    in_map = transforms.compose(frame.moment.base, np.append(position, 0.0))
+    in_map = transforms.points_in_parent(frame.moment.base, position)
     return {
         "id": number,
         "from_s": observations[0][0].stamp / NANOSECONDS,
@@ -76,7 +76,7 @@ def account(number, observations, off):
         "frames": len(observations),
         "frames_off": len(off),
         "stamp_s": frame.stamp / NANOSECONDS,
-        "position_m": [round(float(value), 2) for value in in_map[:2]],
+        "position_m": [round(float(value), 2) for value in in_map],
         "range_m": round(float(np.hypot(*position)), 2),
         "bearing_deg": round(float(np.degrees(np.arctan2(position[1], position[0]))), 1),
         "speed_mps": round(float(np.hypot(*track.velocity)), 2),

@@ -60,8 +60,7 @@ def obstacle_points(cloud, base_from_velodyne):
 
 def moved(points, pose_then, pose_now):
     """`points` (n x 2, m, of the vehicle at one planar pose) as seen from the vehicle at another."""
-    in_map = transforms.compose(pose_then, np.column_stack([points, np.zeros(len(points))]))
-    return transforms.relative(pose_now, in_map)[:, :2]
+    return transforms.points_seen_from(pose_now, transforms.points_in_parent(pose_then, points))
 
 
 class Counts(NamedTuple):

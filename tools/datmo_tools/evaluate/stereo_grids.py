@@ -12,12 +12,12 @@ from datmo_tools.errors import InputError
 from datmo_tools.evaluate.grid_recordings import (
     CAMERA_INFOS,
     MOUNTS,
-    TRUE_POSE,
     grid_of,
     mount_of,
     mounts_of,
     view_of,
 )
+from datmo_tools.evaluate.truth import TRUE_POSE
 from datmo_tools.pose_path import read_path
 from datmo_tools.stamps import NANOSECONDS
 from datmo_tools.text_table import rounded

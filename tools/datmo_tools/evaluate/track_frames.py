@@ -8,7 +8,7 @@ import numpy as np
 
 from datmo_fusion.msg import Object
 from datmo_tools import transforms
-from datmo_tools.evaluate.object_truth import ANYTHING, Truth
+from datmo_tools.evaluate.truth import ANYTHING, Truth
 from datmo_tools.pose_path import read_path
 from datmo_tools.evaluate.score_run import FrameMatches, matches
 from datmo_tools.stamps import NANOSECONDS
@@ -115,13 +115,11 @@ def distances_to_boxes(positions, poses, sizes):
 
     poses: m x 3, x, y (m), yaw (rad) of their centers; sizes: m x 2, length, width (m).
     """
-    apart = positions[:, np.newaxis] - poses[np.newaxis, :, :2]
-    cosine, sine = np.cos(poses[:, 2]), np.sin(poses[:, 2])
-    along = cosine * apart[..., 0] + sine * apart[..., 1]
-    across = cosine * apart[..., 1] - sine * apart[..., 0]
-    outside = [np.maximum(np.abs(along) - 0.5 * sizes[:, 0], 0.0),
-               np.maximum(np.abs(across) - 0.5 * sizes[:, 1], 0.0)]  # fmt: skip
-    return np.hypot(*outside)
+    outside = [
+        np.maximum(np.abs(transforms.points_seen_from(pose, positions)) - 0.5 * size, 0.0)
+        for pose, size in zip(poses, sizes)
+    ]
+    return np.linalg.norm(np.reshape(outside, (len(poses), len(positions), 2)), axis=2).T
 
 
 class Newest:

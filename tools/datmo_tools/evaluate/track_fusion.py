@@ -8,7 +8,7 @@ from datmo_tools import command_line
 from datmo_tools.evaluate.confirmed_objects import score_confirmed
 from datmo_tools.errors import InputError
 from datmo_tools.evaluate.false_tracks import reduction, score_false
-from datmo_tools.evaluate.object_truth import ANY, NONE, Region
+from datmo_tools.evaluate.truth import ANY, NONE, Region
 from datmo_tools.evaluate.passed_tracks import score_passed
 from datmo_tools.evaluate.arguments import add_region, add_truth, region_of
 from datmo_tools.evaluate.track_frames import Scene

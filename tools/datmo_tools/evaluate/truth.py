@@ -8,11 +8,11 @@ import numpy as np
 
 from datmo_tools import transforms
 from datmo_tools.errors import InputError
-from datmo_tools.evaluate.grid_recordings import TRUE_OBJECTS, TRUE_POSE
 from datmo_tools.evaluate.object_scores import TrueState
 from datmo_tools.pose_path import planar, read_messages, read_path
 from datmo_tools.stamps import NANOSECONDS
 
+TRUE_OBJECTS, TRUE_POSE = "/ground_truth/objects", "/ground_truth/pose"
 TRUE_OBJECT_ARRAY = "datmo_fusion/TrueObjectArray"
 
 ANY, NONE = "any", "none"  # sensors that must see an object: one at least; it is not asked
@@ -50,17 +50,24 @@ class Asked(NamedTuple):
 ANYTHING = Asked(Region(math.inf), NONE)
 
 
+def read_true_objects(path):
+    """Dictionary stamp (ns) -> list of TrueObject of a bag (Path). Raises InputError for another
+    type."""
+    objects = {}
+    for message, kind in read_messages(path, TRUE_OBJECTS):
+        if kind != TRUE_OBJECT_ARRAY:
+            raise InputError(f"{path}: {TRUE_OBJECTS} is {kind}, expected {TRUE_OBJECT_ARRAY}")
+        objects[message.header.stamp.to_nsec()] = message.objects
+    return objects
+
+
 class Truth:
     """True objects and poses of one drive."""
 
     def __init__(self, path):
         """path: of the bag (Path). Raises InputError where there are no true objects or poses."""
         self._path = path
-        self._objects = {}
-        for message, kind in read_messages(path, TRUE_OBJECTS):
-            if kind != TRUE_OBJECT_ARRAY:
-                raise InputError(f"{path}: {TRUE_OBJECTS} is {kind}, expected {TRUE_OBJECT_ARRAY}")
-            self._objects[message.header.stamp.to_nsec()] = message.objects
+        self._objects = read_true_objects(path)
         if not self._objects:
             raise InputError(f"{path}: nothing on {TRUE_OBJECTS}, expected a drive with truth")
         self._stamps = np.array(sorted(self._objects))
