@@ -6,6 +6,7 @@ import argparse
 import contextlib
 import io
 import os
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -74,6 +75,11 @@ class Modules(unittest.TestCase):
             self.assertEqual(run_tool("check_bag", "check_bag.main"), 1)
         self.assertEqual(said.getvalue(), "check_bag: Python module rosbag is not there, expected "
                                           "Debian's package python3-rosbag\n")  # fmt: skip
+
+    def test_tool_that_is_no_program(self):
+        words = [sys.executable, "-m", "datmo_tools", "experiments.robustness", "--help"]
+        done = subprocess.run(words, check=True, capture_output=True, text=True)
+        self.assertIn("usage: robustness", done.stdout)
 
     def test_every_tool_is_started_so(self):
         for path in TOOLS.iterdir():

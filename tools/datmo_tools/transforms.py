@@ -39,8 +39,8 @@ def yaw_of(transform):
 def rigid_of(pose):
     """4 x 4 transform of a geometry_msgs/Transform whose quaternion is not 0."""
     shift, turn = pose.translation, pose.rotation
-    rotation = Rotation.from_quat([turn.x, turn.y, turn.z, turn.w]).as_matrix()
-    return rigid(rotation, [shift.x, shift.y, shift.z])
+    rotation = Rotation.from_quat([turn.x, turn.y, turn.z, turn.w])
+    return rigid(rotation.apply(np.eye(3)).T, [shift.x, shift.y, shift.z])
 
 
 def quaternion_of_yaw(yaw):
@@ -48,9 +48,16 @@ def quaternion_of_yaw(yaw):
     return (0.0, 0.0, math.sin(0.5 * yaw), math.cos(0.5 * yaw))
 
 
+def rotation_of(matrix):
+    """scipy's Rotation of a 3 x 3 matrix."""
+    # Before version 1.4, Ubuntu 20.04's is older, it was called a direction cosine matrix.
+    make = getattr(Rotation, "from_matrix", None) or getattr(Rotation, "from_dcm")
+    return make(matrix)
+
+
 def quaternion_of(rotation):
     """Quaternion (x, y, z, w), w >= 0, of a 3 x 3 rotation."""
-    quaternion = Rotation.from_matrix(rotation).as_quat()
+    quaternion = rotation_of(rotation).as_quat()
     return tuple(quaternion if quaternion[3] >= 0.0 else -quaternion)
 
 

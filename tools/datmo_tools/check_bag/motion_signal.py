@@ -4,7 +4,6 @@
 import math
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from datmo_tools import transforms
 
@@ -181,4 +180,4 @@ def planar_mount(matrix):
 
 def euler_degrees(matrix):
     """Roll, pitch, yaw in degrees of a 4 x 4 transform."""
-    return Rotation.from_matrix(matrix[:3, :3]).as_euler("xyz", degrees=True)
+    return transforms.rotation_of(matrix[:3, :3]).as_euler("xyz", degrees=True)

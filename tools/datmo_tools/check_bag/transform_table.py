@@ -2,7 +2,6 @@
 """The tree of frames that a recording publishes on /tf and /tf_static."""
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from datmo_tools import transforms
 
@@ -34,8 +33,8 @@ class Edge:
             self.matrix = matrix
         self.stamps.append(stamp)
         self.moved = max(self.moved, float(np.linalg.norm(matrix[:3, 3] - self.matrix[:3, 3])))
-        change = Rotation.from_matrix(self.matrix[:3, :3].T @ matrix[:3, :3])
-        self.turned = max(self.turned, float(change.magnitude()))
+        change = transforms.rotation_of(self.matrix[:3, :3].T @ matrix[:3, :3])
+        self.turned = max(self.turned, float(np.linalg.norm(change.as_rotvec())))
 
 
 class TransformTable:

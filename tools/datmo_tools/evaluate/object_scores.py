@@ -112,7 +112,7 @@ def _pairs(distances, objects, truths):
     costs = np.where(is_near, distances + CENTER_WEIGHT * np.reshape(centers, is_near.shape), 0.0)
     # Worth more than any sum of distances: one more match always pays.
     gains = np.where(is_near, 1.0 + len(truths) + np.sum(costs.max(axis=0, initial=0.0)) - costs, 0.0)
-    found = zip(*linear_sum_assignment(gains, maximize=True))
+    found = zip(*linear_sum_assignment(-gains))
     return [(int(i), int(j)) for i, j in found if is_near[i, j]]
 
 

@@ -40,7 +40,7 @@ def as_text(sections):
 
 def as_page(title, sections):
     """HTML."""
-    loader = jinja2.FileSystemLoader(Path(__file__).parent)
+    loader = jinja2.FileSystemLoader(str(Path(__file__).parent))
     environment = jinja2.Environment(loader=loader, autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)  # fmt: skip
     template = environment.get_template(TEMPLATE)
