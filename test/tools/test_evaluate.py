@@ -48,12 +48,12 @@ class CommandLine(unittest.TestCase):
         path.write_text(json.dumps(sample_run(str(path), **changes)))
         return path
 
-    def evaluate(self, *words):
+    def evaluate(self, *words, subcommand="tracks"):
         """Exit code, standard output, standard error."""
         out, err = io.StringIO(), io.StringIO()
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
             try:
-                words = ["tracks", *map(str, words), "--out", str(self.out)]
+                words = [subcommand, *map(str, words), "--out", str(self.out)]
                 code = main(words, str(self.program))
             except SystemExit as ending:
                 code = ending.code
@@ -74,6 +74,15 @@ class CommandLine(unittest.TestCase):
         report = json.loads((self.out / "tracks.json").read_text())
         self.assertEqual(report, {"format": 1, "runs": [sample_run(str(bag))]})
         self.assertEqual(self.calls(), [[str(bag), "--out"]])
+
+    def test_classes(self):
+        code, out, _ = self.evaluate(self.bag("a.bag"), subcommand="classes")
+        self.assertEqual(code, 0)
+        rows = [line.split() for line in out.splitlines()]
+        self.assertIn(["pedestrian", "75.0", "4", "0"], rows)
+        self.assertIn(["all", "75.0", "8", "1"], rows)
+        report = json.loads((self.out / "classes.json").read_text())
+        self.assertEqual(report["runs"][0]["classes"]["right"], 6)
 
     def test_truth_and_options_are_passed_on(self):
         bag = self.bag("a.bag")

@@ -2,17 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """evaluate borders on drives of two seconds whose score is worked out by hand."""
 
-import contextlib
-import io
-import json
 import math
-import tempfile
 import unittest
-from pathlib import Path
 
 from datmo_tools.evaluate.border_tally import BANDS
-from datmo_tools.evaluate.main import main
 
+from evaluate_case import EvaluateCase
 from border_samples import CURBS, along, border, left, parked, right, write_drive
 from datmo_fusion.msg import RoadBorder
 
@@ -20,19 +15,13 @@ NEAR, WHOLE = BANDS.index((0.0, 20.0)), -1
 STATIONS = 21 * 100  # of one side, in all frames
 
 
-class Tool(unittest.TestCase):
+class Tool(EvaluateCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.bag = Path(folder.name) / "run.bag"
+        super().setUp()
+        self.bag = self.folder / "run.bag"
 
     def run_tool(self, *words, code=0):
-        """What the tool says on standard output and error, and writes as JSON."""
-        out, errors, file = io.StringIO(), io.StringIO(), self.bag.with_name("borders.json")
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
-            arguments = ["borders", str(self.bag), "--out", str(file.parent), *words]
-            self.assertEqual(main(arguments), code, errors.getvalue())
-        return out.getvalue(), errors.getvalue(), json.loads(file.read_text()) if not code else None
+        return self.evaluate("borders", self.bag, *words, code=code)
 
     def score(self, *borders, options=(), **drive):
         write_drive(self.bag, borders, **drive)

@@ -2,25 +2,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """evaluate grids on grids and drives that are worked out by hand."""
 
-import contextlib
-import io
-import json
 import math
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
 import rosbag
 from datmo_tools import bag_messages, transforms
 from datmo_tools.evaluate.grid_scores import Bodies, Echoes, Grid, GridScores, StereoView, Tally
-from datmo_tools.evaluate.main import main
 from geometry_msgs.msg import Quaternion, TransformStamped, Vector3
 from nav_msgs.msg import OccupancyGrid
 from sensor_msgs.msg import CameraInfo, LaserEcho, LaserScan, MultiEchoLaserScan
 from tf2_msgs.msg import TFMessage
 
 from datmo_fusion.msg import TrueEchoes, TrueObject, TrueObjectArray
+from evaluate_case import EvaluateCase
 
 SECOND = 10**9
 START = 1000 * SECOND
@@ -187,7 +182,7 @@ def pole(x, y, *visible_to):
     return item
 
 
-class Tool(unittest.TestCase):
+class Tool(EvaluateCase):
     """Beams at -0.1, 0, 0.1 rad: a body at 9 m, paint at 15 m, nothing."""
 
     RANGES = (9.0, 15.0, math.inf)
@@ -195,10 +190,8 @@ class Tool(unittest.TestCase):
     POSITIONS = ((9.0 * math.cos(0.1), -9.0 * math.sin(0.1)), (15.0, 0.0))
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.root = Path(folder.name)
-        self.run_bag, self.drive = self.root / "run.bag", self.root / "drive.bag"
+        super().setUp()
+        self.run_bag, self.drive = self.folder / "run.bag", self.folder / "drive.bag"
 
     def write(self, path, *messages):
         with rosbag.Bag(str(path), "w") as bag:
@@ -236,13 +229,7 @@ class Tool(unittest.TestCase):
         return message
 
     def score(self, *options, code=0):
-        """What the tool says on standard output and error, and writes as JSON."""
-        out, errors, file = io.StringIO(), io.StringIO(), self.root / "grids.json"
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
-            arguments = ["grids", str(self.run_bag), str(self.drive), "--out", str(self.root), *options]
-            self.assertEqual(main(arguments), code, errors.getvalue())
-        figures = json.loads(file.read_text()) if code == 0 else None
-        return out.getvalue(), errors.getvalue(), figures
+        return self.evaluate("grids", self.run_bag, self.drive, *options, code=code)
 
     def test_both_kinds_of_scan(self):
         self.write(self.run_bag, ("/grids/lidar", self.grid_message(*self.POSITIONS)),

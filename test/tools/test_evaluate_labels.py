@@ -2,13 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """evaluate labels on a run of one second whose score is worked out by hand."""
 
-import contextlib
-import io
-import json
 import math
-import tempfile
 import unittest
-from pathlib import Path
 
 import rosbag
 from geometry_msgs.msg import Point, PoseWithCovarianceStamped, Quaternion
@@ -18,8 +13,8 @@ from visualization_msgs.msg import Marker
 
 import simulated_recording as simulated
 from datmo_fusion.msg import Track, TrackArray
-from datmo_tools.evaluate.main import main
 from datmo_tools.transforms import quaternion_of_yaw
+from evaluate_case import EvaluateCase
 
 LABELS = "/people"
 RECORDED_AFTER = 0.05  # s, from the stamp of a scan to its record
@@ -60,12 +55,7 @@ def tracks(frame, *positions):
     return message
 
 
-class Tool(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
+class Tool(EvaluateCase):
     def score(self, labels, lists, *words, code=0):
         """labels: (frame, message); lists: frame -> places of tracks."""
         recording, result = self.folder / "in.bag", self.folder / "out.bag"
@@ -83,12 +73,9 @@ class Tool(unittest.TestCase):
                 at = simulated.ros_time(0.1 * frame)
                 bag.write("/pose", pose(frame), at)
                 bag.write("/tracks", tracks(frame, *lists.get(frame, ())), at)
-        out, file = io.StringIO(), self.folder / "labels.json"
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
-            arguments = ["labels", str(result), str(recording), "--labels", LABELS, "--out",
-                         str(self.folder)]  # fmt: skip
-            self.assertEqual(main([*arguments, *words]), code, out.getvalue())
-        return json.loads(file.read_text()) if code == 0 else out.getvalue()
+        words = ("labels", result, recording, "--labels", LABELS, *words)
+        out, errors, score = self.evaluate(*words, code=code)
+        return score or out + errors
 
     def test_label_of_the_scan_before_it(self):
         """2 m ahead of the scanner is 2 m left of it: (1.3, 2) in the map at frame 3."""

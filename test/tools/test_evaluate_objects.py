@@ -2,24 +2,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """evaluate objects on lists and truths that are worked out by hand."""
 
-import contextlib
-import io
-import json
 import math
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
 from datmo_tools import bag_messages, transforms
 from datmo_tools.bag_file import whole_bag
 from datmo_tools.evaluate.object_lists import Seen
 from datmo_tools.evaluate.object_scores import TrueState, score_list
-from datmo_tools.evaluate.main import main
 from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
 from nav_msgs.msg import OccupancyGrid
 
 from datmo_fusion.msg import Object, ObjectArray, TrueObject, TrueObjectArray
+from evaluate_case import EvaluateCase
 from object_samples import object_at
 
 START = 1000 * 10**9
@@ -93,7 +88,7 @@ def true_object(number, x, y, classification=VEHICLE, speed=0.0, visible_to=("st
     )  # fmt: skip
 
 
-class Tool(unittest.TestCase):
+class Tool(EvaluateCase):
     """A vehicle at (100, 50) in the map that looks along its y axis."""
 
     TRUE = (
@@ -103,9 +98,8 @@ class Tool(unittest.TestCase):
     )
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.bag, self.drive = Path(folder.name) / "run.bag", Path(folder.name) / "drive.bag"
+        super().setUp()
+        self.bag, self.drive = self.folder / "run.bag", self.folder / "drive.bag"
         self.write_drive()
 
     def write_drive(self, objects=TRUE):
@@ -124,14 +118,10 @@ class Tool(unittest.TestCase):
             bag.write(topic, stamp, ObjectArray(header=header, objects=objects))
 
     def score(self, *words, code=0):
-        """What the tool says on standard output and error, and writes as JSON."""
-        out, errors, file = io.StringIO(), io.StringIO(), self.bag.with_name("objects.json")
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
-            arguments = ["objects", str(self.bag), "--truth", str(self.drive), "--out",
-                         str(file.parent), *words]  # fmt: skip
-            self.assertEqual(main(arguments), code, errors.getvalue())
-        figures = json.loads(file.read_text())["topics"] if code == 0 else None
-        return out.getvalue(), errors.getvalue(), figures
+        """What it says on standard output and error, and the scores of the topics."""
+        words = ("objects", self.bag, "--truth", self.drive, *words)
+        out, errors, score = self.evaluate(*words, code=code)
+        return out, errors, score and score["topics"]
 
     def test_counts(self):
         """The car found 0.2 m too far, 0.1 s after the truth; a wall, and a double."""

@@ -6,9 +6,7 @@ import contextlib
 import io
 import json
 import math
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
 import rosbag
@@ -17,11 +15,11 @@ from datmo_tools.convert import carmen_to_bag
 from datmo_tools.errors import InputError
 from datmo_tools.pose_path import PosePath
 from datmo_tools.evaluate.relations import Relation, errors_of, read_relations, statistics
-from datmo_tools.evaluate.main import main
 from datmo_tools.evaluate.slam import score
 from datmo_tools.stamps import to_ros_time
 from geometry_msgs.msg import Point, PoseStamped, PoseWithCovarianceStamped, Quaternion
 from tiny_log import START, flaser, write_log
+from evaluate_case import EvaluateCase
 
 SECOND = 10**9
 FAR = 10 * SECOND
@@ -84,13 +82,11 @@ class Metric(unittest.TestCase):
         self.assertEqual(figures, (2.0, 1.0, 3.0))  # divided by two, not by one
 
 
-class Files(unittest.TestCase):
+class Files(EvaluateCase):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.root = Path(temporary.name)
-        self.relations = self.root / "drive.relations"
-        self.bag = self.root / "poses.bag"
+        super().setUp()
+        self.relations = self.folder / "drive.relations"
+        self.bag = self.folder / "poses.bag"
 
     def write_relations(self, *lines):
         self.relations.write_text("".join(line + "\n" for line in lines))
@@ -102,11 +98,7 @@ class Files(unittest.TestCase):
 
     def run_tool(self, *options, expected_code=0):
         """What the tool says on standard output and error."""
-        out, errors = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
-            code = main(["slam", str(self.bag), str(self.relations), "--out", str(self.root), *options])
-        self.assertEqual(code, expected_code, errors.getvalue())
-        return out.getvalue(), errors.getvalue()
+        return self.evaluate("slam", self.bag, self.relations, *options, code=expected_code)[:2]
 
 
 def pose(time, x, yaw=0.0):
@@ -152,7 +144,7 @@ class Tool(Files):
     def test_table_and_json(self):
         self.write_bag("/pose", pose(0, 0.0), pose(1, 1.0), pose(2, 2.5, yaw=math.radians(2)))
         self.write_relations("1000 1001 1 0 0 0 0 0", "1001 1002 1 0 0 0 0 0", "1 2 0 0 0 0 0 0")
-        report = self.root / "slam.json"
+        report = self.folder / "slam.json"
         out, errors = self.run_tool()
         self.assertIn("1 of 3 relations are not covered", errors)
         self.assertIn("2 relations used, 1 not covered", out)
@@ -193,14 +185,14 @@ class Tool(Files):
     def test_pose_that_is_no_number(self):
         self.write_bag("/pose", pose(0, 0.0), pose(1, math.nan), pose(2, 1.0))
         self.write_relations("1000 1002 1 0 0 0 0 0")
-        report = self.root / "slam.json"
+        report = self.folder / "slam.json"
         out, errors = self.run_tool(expected_code=1)
         self.assertIn(f"{self.bag}: /pose at 1001.000000 s", errors)
         self.assertEqual(out, "")
         self.assertFalse(report.exists())
 
     def test_topic_without_poses(self):
-        write_log(self.root / "drive.clf", *(flaser(time, (0.0, 0.0, 0.0)) for time in (0, 1)))
+        write_log(self.folder / "drive.clf", *(flaser(time, (0.0, 0.0, 0.0)) for time in (0, 1)))
         self.convert("log")
         self.write_relations("1000 1001 1 0 0 0 0 0")
         said = self.run_tool("--topic", "/scan", expected_code=1)[1]
@@ -210,7 +202,7 @@ class Tool(Files):
         """The scan at 0.9 s was taken before those at 0.4 and 0.6 s: relations know that."""
         positions = (0.0, 0.0), (0.9, 1.0), (0.4, 2.0), (0.6, 3.0)
         lines = [flaser(time, (x, 0.0, 0.0)) for time, x in positions]
-        write_log(self.root / "drive.clf", *lines)
+        write_log(self.folder / "drive.clf", *lines)
         self.write_relations("1000 1000.9 1 0 0 0 0 0", "1000.9 1000.6 2 0 0 0 0 0")
         for clock in ("log", "order"):
             self.convert(clock)
@@ -220,9 +212,9 @@ class Tool(Files):
 
     def test_recording_of_another_drive(self):
         lines = [flaser(time, (0.0, 0.0, 0.0)) for time in (0, 1)]
-        write_log(self.root / "drive.clf", *lines)
+        write_log(self.folder / "drive.clf", *lines)
         self.convert("order")
-        other = self.root / "other.bag"
+        other = self.folder / "other.bag"
         with rosbag.Bag(str(other), "w") as bag:
             for message in (pose(50, 0.0), pose(51, 0.0)):
                 bag.write("/pose", message, to_ros_time(ns(0)))
@@ -232,7 +224,7 @@ class Tool(Files):
 
     def convert(self, clock):
         with contextlib.redirect_stderr(io.StringIO()):
-            arguments = [str(self.root / "drive.clf"), str(self.bag), "--clock", clock]
+            arguments = [str(self.folder / "drive.clf"), str(self.bag), "--clock", clock]
             self.assertEqual(carmen_to_bag.main(arguments), 0)
 
 

@@ -2,13 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """evaluate stereo_grids on grids and clouds that are counted by hand."""
 
-import contextlib
-import io
-import json
 import math
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
 from datmo_tools import bag_messages, transforms
@@ -16,11 +11,11 @@ from datmo_tools.convert import kitti_messages
 from datmo_tools.bag_file import whole_bag
 from datmo_tools.evaluate.grid_scores import Grid, StereoView
 from datmo_tools.convert.kitti_calibration import Camera
-from datmo_tools.evaluate.main import main
 from datmo_tools.evaluate.stereo_grid_scores import NOTHING, CommonView, count, moved, obstacle_points
 from geometry_msgs.msg import Pose, Quaternion
 from nav_msgs.msg import MapMetaData, OccupancyGrid
 from tf2_msgs.msg import TFMessage
+from evaluate_case import EvaluateCase
 
 MILLISECOND = 10**6
 START = 1000 * 10**9
@@ -114,13 +109,11 @@ class Clouds(unittest.TestCase):
                                    atol=1e-9)  # fmt: skip
 
 
-class Tool(unittest.TestCase):
+class Tool(EvaluateCase):
     """A drive at 10 m/s toward a post 10 m ahead of the first of two clouds."""
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
+        super().setUp()
         self.write_drive()
         self.write_run((START + 20 * MILLISECOND, (9.9, 0.1)))
 
@@ -157,19 +150,14 @@ class Tool(unittest.TestCase):
                 message.data = grid(position).cells.ravel().tolist()
                 bag.write("/grids/stereo", stamp, message)
 
-    def run_tool(self, *words):
-        out, err = io.StringIO(), io.StringIO()
-        bags = [str(self.folder / name) for name in ("run.bag", "drive.bag")]
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-            code = main(["stereo_grids", *bags, "--out", str(self.folder), *words])
-        return code, out.getvalue(), err.getvalue()
+    def run_tool(self, *words, code=0):
+        bags = [self.folder / name for name in ("run.bag", "drive.bag")]
+        return self.evaluate("stereo_grids", *bags, *words, code=code)
 
     def bands(self):
-        file = self.folder / "stereo_grids.json"
-        code, _, err = self.run_tool()
-        self.assertEqual((code, err), (0, ""))
-        bands = json.loads(file.read_text(encoding="utf-8"))["bands"]
-        return {(band["from"], band["to"]): band for band in bands}
+        _, errors, score = self.run_tool()
+        self.assertEqual(errors, "")
+        return {(band["from"], band["to"]): band for band in score["bands"]}
 
     def test_bands_and_sums(self):
         bands = self.bands()
@@ -179,31 +167,30 @@ class Tool(unittest.TestCase):
         self.assertIsNone(bands[(0.0, 5.0)]["precision"])
 
     def test_table(self):
-        code, out, _ = self.run_tool()
-        self.assertEqual(code, 0)
+        out = self.run_tool()[0]
         self.assertRegex(out, r"0 to 15 m +1\.000 +1 +1\.000 +1 +0\.000")
         self.assertIn("1 grids, 0 more without a cloud", out)
 
     def test_grid_long_after_the_clouds_is_left_out(self):
         self.write_run((START, (9.9, 0.1)), (START + 300 * MILLISECOND, (9.9, 0.1)))
-        self.assertIn("1 grids, 1 more without a cloud", self.run_tool()[1])
+        self.assertIn("1 grids, 1 more without a cloud", self.run_tool()[0])
 
     def test_what_is_missing_is_named(self):
         self.write_run((START + 10**10, (9.9, 0.1)))
-        self.assertIn("of 1 grids on /grids/stereo none is within 0.1 s", self.run_tool()[2])
+        self.assertIn("of 1 grids on /grids/stereo none is within 0.1 s", self.run_tool(code=1)[1])
         self.write_drive(clouds=False)
-        self.assertIn("nothing on /points", self.run_tool()[2])
+        self.assertIn("nothing on /points", self.run_tool(code=1)[1])
         (self.folder / "run.bag").write_text("no bag")
-        self.assertEqual(self.run_tool()[0], 1)
+        self.run_tool(code=1)
 
     def test_first_columns_may_be_left_out(self):
-        self.assertRegex(self.run_tool("--first-column", "90")[1], r"0 to 15 m +1\.000 +1 ")
-        out = self.run_tool("--first-column", "110")[1]
+        self.assertRegex(self.run_tool("--first-column", "90")[0], r"0 to 15 m +1\.000 +1 ")
+        out = self.run_tool("--first-column", "110")[0]
         self.assertRegex(out, r"0 to 15 m +- +0 +- +0 +-")  # the post is in column 99
-        self.assertIn("--first-column is -1", self.run_tool("--first-column", "-1")[2])
+        self.assertIn("--first-column is -1", self.run_tool("--first-column", "-1", code=1)[1])
 
     def test_sigma_must_be_more_than_nothing(self):
-        self.assertIn("--disparity-sigma is 0", self.run_tool("--disparity-sigma", "0")[2])
+        self.assertIn("--disparity-sigma is 0", self.run_tool("--disparity-sigma", "0", code=1)[1])
 
 
 class Sums(unittest.TestCase):

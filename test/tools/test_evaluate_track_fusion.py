@@ -2,20 +2,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """evaluate track_fusion on drives of one second whose score is worked out by hand."""
 
-import contextlib
-import io
-import json
 import math
-import tempfile
 import unittest
-from pathlib import Path
 
 from datmo_tools import bag_messages
 from datmo_tools.bag_file import whole_bag
-from datmo_tools.evaluate.main import main
 from nav_msgs.msg import OccupancyGrid
 
 from datmo_fusion.msg import Object
+from evaluate_case import EvaluateCase
 from track_samples import SPEED, START, car, track, view, write_run
 
 DRIVING = car(1, 20.0, 0.0, SPEED)
@@ -23,23 +18,17 @@ PARKED = car(2, 15.0, 8.0)
 POLE = car(3, 10.0, -8.0, label="Pole", classification=Object.CLASS_POLE)
 
 
-class Tool(unittest.TestCase):
+class Tool(EvaluateCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.bag = Path(folder.name) / "run.bag"
+        super().setUp()
+        self.bag = self.folder / "run.bag"
 
     def write(self, lidar=(), stereo=(), fused=(), objects=(DRIVING, PARKED, POLE), views=None):
         lists = {"/tracks/lidar": lidar, "/tracks/stereo": stereo, "/tracks": fused}
         write_run(self.bag, lists, objects, [view()] if views is None else views)
 
     def run_tool(self, *words, code=0):
-        """What the tool says on standard output and error, and writes as JSON."""
-        out, errors, file = io.StringIO(), io.StringIO(), self.bag.with_name("track_fusion.json")
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
-            arguments = ["track_fusion", str(self.bag), "--out", str(file.parent), *words]
-            self.assertEqual(main(arguments), code, errors.getvalue())
-        return out.getvalue(), errors.getvalue(), json.loads(file.read_text()) if not code else None
+        return self.evaluate("track_fusion", self.bag, *words, code=code)
 
     def score(self, *words):
         return self.run_tool(*words)[2]
