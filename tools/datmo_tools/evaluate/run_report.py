@@ -143,7 +143,8 @@ def _values(metric, runs):
 
 
 def _objects(run):
-    rows = [[*heads, "its tracks"] for heads in _headings(OBJECT_METRICS)]
+    names, units = _headings(OBJECT_METRICS)
+    rows = [[*names, "its tracks"], [*units, "ids"]]
     for item in run["objects"]:
         tracks = " ".join(map(str, item["track_ids"])) if item["found"] else MISSED
         rows.append([*_of_object(item, OBJECT_METRICS), tracks])
