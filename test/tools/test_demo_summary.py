@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The figures of tools/demo_summary on drives that are worked out by hand."""
+"""The figures of demo_summary on drives that are worked out by hand."""
 
 import importlib.util
 import unittest
@@ -8,7 +8,7 @@ from importlib.machinery import SourceFileLoader
 from pathlib import Path
 
 LOADER = SourceFileLoader(
-    "demo_summary", str(Path(__file__).resolve().parents[2] / "tools" / "demo_summary"))
+    "demo_summary", str(Path(__file__).resolve().parents[2] / "tools/launch/demo_summary"))
 demo_summary = importlib.util.module_from_spec(
     importlib.util.spec_from_loader("demo_summary", LOADER))
 LOADER.exec_module(demo_summary)

@@ -5,7 +5,7 @@
 #include <optional>
 #include <sstream>
 
-#include "evaluation/json_number.h"
+#include "evaluate/json_number.h"
 
 namespace datmo::kitti {
 

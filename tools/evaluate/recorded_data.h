@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "evaluate/evaluation_data.h"
+
+#include "datmo_fusion/common/pose2.h"
+
+namespace datmo::evaluation {
+
+// What bags hold for the evaluation, without ROS. All lists are by rising stamp, none twice, and
+// all numbers finite: whoever fills them has checked that.
+
+/// Pose of the vehicle (base_link) at one stamp, in the map of the run or of the truth.
+struct StampedPose {
+  Stamp stamp;
+  PoseWithCovariance pose;  ///< covariance zero: not known
+};
+
+/// A published track, in the map of the run.
+struct RecordedTrack {
+  TrackState state;
+  bool moving = true;  ///< false: it stands now
+};
+
+struct RecordedTracks {
+  Stamp stamp;
+  std::vector<RecordedTrack> tracks;  ///< no id twice
+};
+
+/// Where the detection of one measurement saw moving objects.
+struct RecordedDetections {
+  Stamp stamp;
+  std::vector<Point2> moving;  ///< m, centers, frame of the vehicle
+};
+
+struct RecordedIntersection {
+  Stamp stamp;
+  bool at_intersection = false;
+};
+
+/// How long one stage took for its messages.
+struct StageDurations {
+  std::vector<double> processing;  ///< s
+  std::vector<double> latency;     ///< s from the measurement to the result, where it is known
+};
+
+/// What a run of the stack left; parts that its bag does not have are empty (std::nullopt).
+struct RecordedRun {
+  std::vector<RecordedTracks> tracks;
+  std::vector<StampedPose> poses;
+  std::optional<std::vector<RecordedDetections>> detections;
+  std::optional<std::vector<RecordedIntersection>> intersections;
+  std::map<std::string, StageDurations> durations;  ///< by stage
+};
+
+/// What is true of an object at one stamp, in the map of the truth.
+struct RecordedObject {
+  TrueState state;
+  std::string label;                    ///< the source's own name of the class
+  bool moving = false;                  ///< over ground, at this stamp
+  std::vector<std::string> visible_to;  ///< sensors that it is visible to
+  int lidar_beams = 0;                  ///< that end on it
+};
+
+struct RecordedObjects {
+  Stamp stamp;
+  std::vector<RecordedObject> objects;  ///< no id twice
+};
+
+struct RecordedTruth {
+  std::vector<RecordedObjects> objects;
+  std::vector<StampedPose> poses;
+  std::optional<std::vector<RecordedIntersection>> intersections;
+};
+
+}  // namespace datmo::evaluation

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "evaluate/recorded_data.h"
+#include <datmo_fusion/RoadBorders.h>
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <nav_msgs/Odometry.h>
+
+#include "datmo_fusion/ros/messages.h"
+
+namespace datmo::evaluation {
+
+// Messages as the evaluation wants them. All throw InputError for what cannot be scored: a number
+// that is not finite, a pose that is none, a negative size, an id twice in one message.
+
+RecordedTracks toRecorded(const TrackArray& message);
+RecordedObjects toRecorded(const TrueObjectArray& message);
+
+/// Those that are published as moving.
+RecordedDetections toRecorded(const ObjectArray& message);
+
+StampedPose toRecorded(const geometry_msgs::PoseWithCovarianceStamped& message);
+
+/// Of a true pose: its covariance is not looked at.
+StampedPose toRecorded(const nav_msgs::Odometry& message);
+
+RecordedIntersection toRecorded(const datmo_fusion::RoadBorders& message);
+RecordedIntersection toRecorded(const TrueRoadBorders& message);
+
+}  // namespace datmo::evaluation

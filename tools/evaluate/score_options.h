@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "evaluate/track_scores.h"
+
+#include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/common/options.h"
+
+namespace datmo::evaluation {
+
+/// Names of the topics in the bags.
+struct TopicOptions {
+  std::string tracks = "/tracks";
+  std::string pose = "/pose";
+  std::string objects;
+  std::string road_borders = "/road_borders";
+  std::string timing = "/timing";
+  std::string true_objects = "/ground_truth/objects";
+  std::string true_pose = "/ground_truth/pose";
+  std::string true_road_borders = "/ground_truth/road_borders";
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// The part of the surroundings that is scored, about the true vehicle (base_link).
+struct RegionOptions {
+  double range = 50.0;      ///< m
+  double half_angle = kPi;  ///< rad, to either side of straight ahead
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Classes that have to be found.
+struct ClassOptions {
+  bool unknown = true;
+  bool pedestrian = true;
+  bool cyclist = true;
+  bool vehicle = true;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Which true objects have to be found, of those that move at the stamp and lie in the region.
+struct TruthOptions {
+  ClassOptions classes;
+  std::string visible_to = "any";  ///< sensor; "any": one at least; "none": not asked
+  int min_beams = 0;
+  double min_speed = 0.0;      ///< m/s
+  double min_time_seen = 1.0;  ///< s
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// How tracks are laid on the truth.
+enum class TrackAlignment {
+  kPoseAtStamp,  ///< as the vehicle sees them: its estimated pose on its true one at each stamp
+  kFirstPose,    ///< map on map, once
+  kNone,         ///< they are in the map of the truth
+};
+
+/// What counts, and how the two recordings are brought together; unit, range, source of each in
+/// visit().
+struct ScoreOptions {
+  TopicOptions topics;
+  std::string align = "pose_at_stamp";
+  RegionOptions region;
+  TruthOptions truth;
+  bool moving_tracks_only = true;
+  double near_range = 20.0;  ///< m
+  TrackScoreOptions metrics;
+  double max_gap = 0.5;                 ///< s
+  double max_silence = 0.2;             ///< s
+  double detection_gap = 0.5;           ///< s
+  double intersection_merge_gap = 1.0;  ///< s
+
+  void visit(OptionVisitor& visitor);
+
+  TrackAlignment alignment() const;
+};
+
+}  // namespace datmo::evaluation

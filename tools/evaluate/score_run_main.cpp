@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bags of tracks and of truth -> a report as JSON: see score_run.h.
+#include <iostream>
+
+#include "command_line.h"
+#include "evaluate/score_run.h"
+#include "interruption.h"
+
+#include <ros/time.h>
+
+namespace {
+
+/// Whatever prevents a report: bags, options, an interruption.
+constexpr int kNoReport = 2;
+
+}  // namespace
+
+int main(int count, char** words) {
+  return datmo::runProgram("score_run", kNoReport, count, words, [](const auto& given) {
+    const auto arguments = datmo::evaluation::parseScoreRunArguments(given);
+    datmo::noteInterruptions();
+    ros::Time::init();
+    datmo::evaluation::writeScore(arguments, std::cout, std::cerr);
+  });
+}
