@@ -35,7 +35,7 @@ export CCACHE_BASEDIR=${repository%/*} CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_
 
 # What the script that sources this file is for, and how it is called, stands at its head.
 if [[ ${1:-} == -h || ${1:-} == --help ]]; then
-  sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$0"
+  sed -n '3,/^[^#]/s/^# \{0,1\}//p' "$0"
   exit
 fi
 

@@ -42,6 +42,14 @@ def add_number(group, name, default, metavar, description):
     )
 
 
+def check_positive(values, *names):
+    """Raises InputError unless these options, as argparse names them, are more than 0."""
+    for name in names:
+        value = getattr(values, name)
+        if value <= 0.0:
+            raise InputError(f"--{name.replace('_', '-')} is {value:g}, expected more than 0")
+
+
 def add_json(parser):
     """The option --json, for write_json()."""
     help_text = "writes the score there too"

@@ -117,10 +117,7 @@ def _options(values):
         raise InputError(f"--range-errors are {values.range_errors}, expected R and R + E to rise")
     if min(values.object_size) <= 0.0:
         raise InputError(f"--object-size is {values.object_size}, expected lengths above 0 m")
-    if values.wheel_radius <= 0.0:
-        raise InputError(f"--wheel-radius is {values.wheel_radius}, expected more than 0 m")
-    if values.moving_speed <= 0.0:
-        raise InputError(f"--moving-speed is {values.moving_speed}, expected more than 0 m/s")
+    command_line.check_positive(values, "wheel_radius", "moving_speed")
     return mocap_bag.Options(
         scan_topic=values.scan,
         ego_topic=values.ego_pose,

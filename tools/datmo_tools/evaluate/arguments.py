@@ -25,8 +25,7 @@ def add_region(parser, default_range):
 
 def region_of(values):
     """Region of parsed options. Raises InputError where one is out of bounds."""
-    if values.range <= 0.0:
-        raise InputError(f"--range is {values.range:g}, expected more than 0")
+    command_line.check_positive(values, "range")
     if not 0.0 < values.half_angle <= math.pi:
         raise InputError(f"--half-angle is {values.half_angle:g}, expected more than 0, at most pi")
     return Region(values.range, values.half_angle)

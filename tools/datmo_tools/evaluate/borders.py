@@ -80,10 +80,8 @@ def score(run, drive=None, limits=Limits()):
 
 def evaluate(values):
     """The score, and its sections. Raises InputError."""
-    for name in ("gate", "found_within", "false_from", "curve_radius", "car_length"):
-        if getattr(values, name) <= 0.0:
-            option = name.replace("_", "-")
-            raise InputError(f"--{option} is {getattr(values, name):g}, expected more than 0")
+    command_line.check_positive(
+        values, "gate", "found_within", "false_from", "curve_radius", "car_length")  # fmt: skip
     if values.bridged < 0.0:
         raise InputError(f"--bridged is {values.bridged:g}, expected 0 or more")
     rows = RowOptions(values.bridged, values.car_length)

@@ -82,10 +82,7 @@ def _depth_sigma(drive, disparity_sigma):
 
 
 def _check(values):
-    for name in ("bin_width", "range", "disparity_sigma"):
-        if getattr(values, name) <= 0.0:
-            option = "--" + name.replace("_", "-")
-            raise InputError(f"{option} is {getattr(values, name):g}, expected more than 0")
+    command_line.check_positive(values, "bin_width", "range", "disparity_sigma")
     if values.range <= values.bin_width:
         raise InputError(
             f"--range is {values.range:g}, expected more than --bin-width, {values.bin_width:g}"

@@ -86,10 +86,7 @@ def _figures(tally):
 
 def evaluate(values):
     """The score, and its sections. Raises InputError."""
-    for name in ("effective_range", "disparity_sigma"):
-        if getattr(values, name) <= 0.0:
-            option = "--" + name.replace("_", "-")
-            raise InputError(f"{option} is {getattr(values, name)}, expected more than 0")
+    command_line.check_positive(values, "effective_range", "disparity_sigma")
     result = score(values.run, values.drive, values.lidar, values.fused, values.effective_range,
                    values.disparity_sigma)  # fmt: skip
     return result, sections(result)

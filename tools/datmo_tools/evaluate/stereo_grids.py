@@ -164,8 +164,7 @@ def _band(counts, near, far):
 
 def evaluate(values):
     """The score, and its sections. Raises InputError."""
-    if values.disparity_sigma <= 0.0:
-        raise InputError(f"--disparity-sigma is {values.disparity_sigma}, expected more than 0")
+    command_line.check_positive(values, "disparity_sigma")
     if values.first_column < 0.0:
         raise InputError(f"--first-column is {values.first_column:g}, expected 0 or more")
     result = score(

@@ -99,9 +99,7 @@ def _per_frame(item):
 
 def evaluate(values):
     """The score, and its sections. Raises InputError."""
-    for name in ("gate", "soon"):
-        if getattr(values, name) <= 0.0:
-            raise InputError(f"--{name} is {getattr(values, name):g}, expected more than 0")
+    command_line.check_positive(values, "gate", "soon")
     limits = Limits(region_of(values), values.visible_to, values.gate, values.soon)
     result = score(values.run, values.truth, limits)
     return result, sections(result)
