@@ -11,8 +11,8 @@ from tf2_msgs.msg import TFMessage
 from tqdm import tqdm
 
 from datmo_tools import bag_messages
-from datmo_tools.convert import carmen_clock, carmen_odometry
 from datmo_tools.bag_file import MOUNTS_LEAD, whole_bag
+from datmo_tools.convert import carmen_clock, carmen_odometry
 from datmo_tools.convert.carmen_log import out_of_order, read_log, scans_of
 from datmo_tools.convert.carmen_mount import scanner_mount
 from datmo_tools.errors import InputError

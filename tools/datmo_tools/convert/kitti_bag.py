@@ -9,10 +9,9 @@ import numpy as np
 from tqdm import tqdm
 
 from datmo_tools import bag_messages, transforms
-from datmo_tools.convert import ground_truth, kitti_messages, kitti_scans, odometry, truth_messages
 from datmo_tools.bag_file import MOUNTS_LEAD, whole_bag
+from datmo_tools.convert import ground_truth, kitti_messages, kitti_scans, odometry, truth_messages
 from datmo_tools.convert.ego_pose import EgoMotion, poses_from_gps, poses_from_velocity
-from datmo_tools.errors import InputError
 from datmo_tools.convert.kitti_calibration import find_calibration, read_calibration
 from datmo_tools.convert.kitti_images import ImagePairs
 from datmo_tools.convert.kitti_labels import read_labels
@@ -20,6 +19,7 @@ from datmo_tools.convert.kitti_raw import Drive
 from datmo_tools.convert.kitti_scans import DriveScans, ScannerOptions
 from datmo_tools.convert.kitti_tracklets import read_tracklets
 from datmo_tools.convert.odometry import OdometryErrors
+from datmo_tools.errors import InputError
 
 
 class Options(NamedTuple):

@@ -4,9 +4,9 @@
 import numpy as np
 
 from datmo_tools.convert import kitti_messages
-from datmo_tools.errors import InputError
 from datmo_tools.convert.kitti_calibration import read_raw_cameras
 from datmo_tools.convert.kitti_raw import image_library
+from datmo_tools.errors import InputError
 
 SIDES = ("left", "right")
 

@@ -10,8 +10,8 @@ import math
 import numpy as np
 
 from datmo_tools import transforms
-from datmo_tools.errors import InputError
 from datmo_tools.convert.true_boxes import TrueBox, TrueObject, occlusion_share
+from datmo_tools.errors import InputError
 
 FIELDS = 17
 DONT_CARE = "DontCare"

@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from datmo_tools.errors import InputError
 from datmo_tools.convert.kitti_streams import Stream, read_text
+from datmo_tools.errors import InputError
 from datmo_tools.stamps import NANOSECONDS
 
 OXTS_FIELDS = 30

@@ -16,9 +16,9 @@ import rosbag
 import yaml
 
 from datmo_tools import programs
-from datmo_tools.convert import kitti_messages
 from datmo_tools.bag_file import whole_bag
 from datmo_tools.bag_messages import SCANNER
+from datmo_tools.convert import kitti_messages
 from datmo_tools.errors import InputError
 
 # The recording car itself in the Velodyne's frame (m): its bonnet and mirrors return too, and a

@@ -6,11 +6,11 @@ import math
 from pathlib import Path
 
 from datmo_tools import command_line
-from datmo_tools.convert import kitti_bag
 from datmo_tools.command_line import add_number
-from datmo_tools.errors import InputError
+from datmo_tools.convert import kitti_bag
 from datmo_tools.convert.kitti_scans import ScannerOptions
 from datmo_tools.convert.odometry import OdometryErrors
+from datmo_tools.errors import InputError
 
 DESCRIPTION = """\
 Converts a KITTI raw drive, as it is downloaded and unpacked (calib_*.txt in its parent), to a bag:

@@ -4,8 +4,8 @@
 import math
 import xml.etree.ElementTree as ElementTree
 
-from datmo_tools.errors import InputError
 from datmo_tools.convert.true_boxes import TrueBox, TrueObject, occlusion_share
+from datmo_tools.errors import InputError
 
 
 def read_tracklets(path):

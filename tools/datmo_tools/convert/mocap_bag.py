@@ -10,13 +10,13 @@ from tf2_msgs.msg import TFMessage
 from tqdm import tqdm
 
 from datmo_tools import bag_messages, transforms
-from datmo_tools.convert import ground_truth, mocap_scan, truth_messages
 from datmo_tools.bag_file import MOUNTS_LEAD, whole_bag
-from datmo_tools.errors import InputError
+from datmo_tools.convert import ground_truth, mocap_scan, truth_messages
 from datmo_tools.convert.mocap_truth import CapturedBody, seen_path
-from datmo_tools.pose_path import read_messages
 from datmo_tools.convert.true_boxes import UNKNOWN_OCCLUSION, TrueBox, TrueObject
 from datmo_tools.convert.wheel_odometry import has_topics, read_odometry
+from datmo_tools.errors import InputError
+from datmo_tools.pose_path import read_messages
 
 # A beam is counted for an object where it ends within this of its box: noise, and the car's corners
 # are round.

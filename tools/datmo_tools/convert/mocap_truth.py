@@ -6,8 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from datmo_tools import transforms
-from datmo_tools.errors import InputError
 from datmo_tools.convert.ground_truth import fitted_velocities
+from datmo_tools.errors import InputError
 from datmo_tools.pose_path import PosePath, read_path
 
 # Half the time over which a line is fitted to poses: a millimeter of noise at 120 poses a second is

@@ -5,10 +5,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from datmo_tools.convert import odometry
 from datmo_tools.bag_input import opened
-from datmo_tools.errors import InputError
+from datmo_tools.convert import odometry
 from datmo_tools.convert.odometry import OdometryErrors
+from datmo_tools.errors import InputError
 from datmo_tools.pose_path import read_messages
 
 WHEELS = ("FL", "FR", "BL", "BR")

@@ -7,12 +7,12 @@ from typing import NamedTuple
 import numpy as np
 
 from datmo_tools import transforms
-from datmo_tools.evaluate.truth import MAX_GAP
-from datmo_tools.pose_path import read_path
 from datmo_tools.evaluate.segments import ray_crossings, segments_of
-from datmo_tools.stamps import NANOSECONDS
 from datmo_tools.evaluate.track_frames import POSE
 from datmo_tools.evaluate.true_road import MAX_SLANT, REACH, TURN
+from datmo_tools.evaluate.truth import MAX_GAP
+from datmo_tools.pose_path import read_path
+from datmo_tools.stamps import NANOSECONDS
 
 # m of arc length, from the vehicle (base_link): what counts.
 BEHIND, AHEAD = 10.0, 40.0

@@ -7,9 +7,9 @@ import numpy as np
 
 from datmo_tools import transforms
 from datmo_tools.bag_input import opened
+from datmo_tools.errors import InputError
 from datmo_tools.evaluate.border_recordings import edge
 from datmo_tools.evaluate.border_views import BAND, SHADES, SIGMAS, line_style, opacity
-from datmo_tools.errors import InputError
 from datmo_tools.evaluate.grid_recordings import MOUNTS, mount_of, mounts_of
 from datmo_tools.evaluate.nearest_messages import check_kinds, nearest_messages, topics_of
 from datmo_tools.stamps import NANOSECONDS

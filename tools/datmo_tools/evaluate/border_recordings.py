@@ -8,9 +8,10 @@ import numpy as np
 
 from datmo_fusion.msg import Object
 from datmo_tools import transforms
-from datmo_tools.evaluate.border_lists import BORDERS, TRUE_BORDERS, border_list
 from datmo_tools.errors import InputError
+from datmo_tools.evaluate.border_lists import BORDERS, TRUE_BORDERS, border_list
 from datmo_tools.evaluate.nearest_messages import check_kinds, nearest_messages, stamps_of, topics_of
+from datmo_tools.evaluate.outlines import corners
 from datmo_tools.evaluate.truth import (
     MAX_GAP,
     NONE,
@@ -21,7 +22,6 @@ from datmo_tools.evaluate.truth import (
     Region,
     Truth,
 )
-from datmo_tools.evaluate.outlines import corners
 from datmo_tools.pose_path import planar, read_path
 from datmo_tools.stamps import NANOSECONDS
 

@@ -5,12 +5,12 @@ from pathlib import Path
 from typing import NamedTuple
 
 from datmo_tools import command_line
+from datmo_tools.errors import InputError
 from datmo_tools.evaluate.arguments import add_truth
 from datmo_tools.evaluate.border_errors import frames_of, samples_of
 from datmo_tools.evaluate.border_lists import read_borders
 from datmo_tools.evaluate.border_table import sections
 from datmo_tools.evaluate.border_tally import BANDS, tally
-from datmo_tools.errors import InputError
 from datmo_tools.evaluate.false_borders import score_false
 from datmo_tools.evaluate.parked_rows import RowOptions
 from datmo_tools.evaluate.true_road import TrueRoad

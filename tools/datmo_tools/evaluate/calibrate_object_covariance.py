@@ -6,9 +6,9 @@ from pathlib import Path
 
 from datmo_tools import command_line
 from datmo_tools.bag_input import opened
+from datmo_tools.errors import InputError
 from datmo_tools.evaluate.covariance_report import as_dictionary, as_yaml, summary
 from datmo_tools.evaluate.covariance_table import covariance_table
-from datmo_tools.errors import InputError
 from datmo_tools.evaluate.grid_recordings import CAMERA_INFOS, MOUNTS, mounts_of, view_of
 from datmo_tools.evaluate.object_lists import read_lists, read_moving_boxes
 from datmo_tools.evaluate.object_pairs import Counts, paired_objects

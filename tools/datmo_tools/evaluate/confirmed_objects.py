@@ -6,8 +6,8 @@ import bisect
 import numpy as np
 
 from datmo_tools.evaluate.passed_tracks import has_passed, movers
-from datmo_tools.stamps import NANOSECONDS
 from datmo_tools.evaluate.track_frames import Newest, follow, sightings_of
+from datmo_tools.stamps import NANOSECONDS
 
 # Between two lists that are further apart than this no time counts, s: as score_run's max_gap.
 MAX_STEP = 0.5

@@ -14,9 +14,9 @@ from datmo_tools.errors import InputError
 from datmo_tools.evaluate.labeled_positions import LabelOptions, read_labels
 from datmo_tools.evaluate.report import Section
 from datmo_tools.evaluate.score_run import matches
+from datmo_tools.evaluate.track_lists import read_track_lists
 from datmo_tools.stamps import NANOSECONDS
 from datmo_tools.text_table import rounded
-from datmo_tools.evaluate.track_lists import read_track_lists
 
 DESCRIPTION = """\
 Scores the tracks of a result of run_bag against positions that were labeled in the recording, as

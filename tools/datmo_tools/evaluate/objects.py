@@ -4,12 +4,12 @@
 from pathlib import Path
 
 from datmo_tools.errors import InputError
+from datmo_tools.evaluate.arguments import add_region, add_truth, region_of
 from datmo_tools.evaluate.object_lists import read_lists
 from datmo_tools.evaluate.object_scores import score_list
 from datmo_tools.evaluate.object_tally import ALL, CLASSES, MOVING, ObjectTally
-from datmo_tools.evaluate.truth import ANY, NONE, Asked, Region, Truth
 from datmo_tools.evaluate.report import Section
-from datmo_tools.evaluate.arguments import add_region, add_truth, region_of
+from datmo_tools.evaluate.truth import ANY, NONE, Asked, Region, Truth
 from datmo_tools.text_table import NO_VALUE, percent, rounded
 
 DESCRIPTION = """\

@@ -5,8 +5,8 @@ members of one object?"""
 import numpy as np
 
 from datmo_tools import transforms
-from datmo_tools.stamps import NANOSECONDS
 from datmo_tools.evaluate.track_frames import Newest, follow, sightings_of
+from datmo_tools.stamps import NANOSECONDS
 
 
 def has_passed(track, sources):

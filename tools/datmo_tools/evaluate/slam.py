@@ -8,9 +8,9 @@ from pathlib import Path
 from datmo_tools import command_line
 from datmo_tools.convert.carmen_bag import LOG_STAMPS_TOPIC
 from datmo_tools.errors import InputError
-from datmo_tools.pose_path import PosePath, read_messages, read_path
 from datmo_tools.evaluate.relations import errors_of, read_relations, statistics
 from datmo_tools.evaluate.report import Section
+from datmo_tools.pose_path import PosePath, read_messages, read_path
 from datmo_tools.stamps import NANOSECONDS
 
 DESCRIPTION = """\

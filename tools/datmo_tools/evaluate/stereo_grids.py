@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 
 from datmo_tools import command_line
-from datmo_tools.convert import kitti_messages
 from datmo_tools.bag_input import opened
+from datmo_tools.convert import kitti_messages
 from datmo_tools.errors import InputError
 from datmo_tools.evaluate.grid_recordings import (
     CAMERA_INFOS,
@@ -17,10 +17,6 @@ from datmo_tools.evaluate.grid_recordings import (
     mounts_of,
     view_of,
 )
-from datmo_tools.evaluate.truth import TRUE_POSE
-from datmo_tools.pose_path import read_path
-from datmo_tools.stamps import NANOSECONDS
-from datmo_tools.text_table import rounded
 from datmo_tools.evaluate.report import Section
 from datmo_tools.evaluate.stereo_grid_scores import (
     BAND_EDGES,
@@ -31,6 +27,10 @@ from datmo_tools.evaluate.stereo_grid_scores import (
     moved,
     obstacle_points,
 )
+from datmo_tools.evaluate.truth import TRUE_POSE
+from datmo_tools.pose_path import read_path
+from datmo_tools.stamps import NANOSECONDS
+from datmo_tools.text_table import rounded
 
 DESCRIPTION = """\
 Scores the stereo (or fused) grids of a run with the Velodyne of the drive that it was made from

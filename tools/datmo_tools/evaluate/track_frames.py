@@ -8,9 +8,9 @@ import numpy as np
 
 from datmo_fusion.msg import Object
 from datmo_tools import transforms
+from datmo_tools.evaluate.score_run import FrameMatches, matches
 from datmo_tools.evaluate.truth import ANYTHING, Truth
 from datmo_tools.pose_path import read_path
-from datmo_tools.evaluate.score_run import FrameMatches, matches
 from datmo_tools.stamps import NANOSECONDS
 
 POSE = "/pose"  # estimated, of the run

@@ -5,16 +5,16 @@ from pathlib import Path
 from typing import NamedTuple
 
 from datmo_tools import command_line
-from datmo_tools.evaluate.confirmed_objects import score_confirmed
 from datmo_tools.errors import InputError
-from datmo_tools.evaluate.false_tracks import reduction, score_false
-from datmo_tools.evaluate.truth import ANY, NONE, Region
-from datmo_tools.evaluate.passed_tracks import score_passed
 from datmo_tools.evaluate.arguments import add_region, add_truth, region_of
+from datmo_tools.evaluate.confirmed_objects import score_confirmed
+from datmo_tools.evaluate.false_tracks import reduction, score_false
+from datmo_tools.evaluate.passed_tracks import score_passed
 from datmo_tools.evaluate.track_frames import Scene
 from datmo_tools.evaluate.track_ghosts import score_ghosts
 from datmo_tools.evaluate.track_lists import read_track_lists
 from datmo_tools.evaluate.track_table import sections
+from datmo_tools.evaluate.truth import ANY, NONE, Region
 
 DESCRIPTION = """\
 Scores the fusion of tracks (thesis 3.4) in a result of run_bag --track-fusion: /tracks, the fused

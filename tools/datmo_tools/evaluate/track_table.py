@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The report of evaluate track_fusion."""
 
-from datmo_tools.text_table import NO_VALUE, percent, rounded
 from datmo_tools.evaluate.report import Section
 from datmo_tools.evaluate.thesis_tables import PUBLISHED
+from datmo_tools.text_table import NO_VALUE, percent, rounded
 
 LISTS = ("lidar", "stereo", "fused")
 

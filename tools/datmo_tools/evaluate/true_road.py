@@ -9,10 +9,10 @@ from shapely.geometry import LineString
 
 from datmo_tools import transforms
 from datmo_tools.evaluate.border_lists import read_true_borders
-from datmo_tools.evaluate.truth import TRUE_POSE
 from datmo_tools.evaluate.parked_rows import depths_of_vehicles, parked_boxes, row_of
-from datmo_tools.pose_path import read_path
 from datmo_tools.evaluate.segments import BATCH, Segments, ray_crossings, segments_of
+from datmo_tools.evaluate.truth import TRUE_POSE
+from datmo_tools.pose_path import read_path
 
 SPACING = 0.5  # m, of the stations
 

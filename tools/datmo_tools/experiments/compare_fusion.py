@@ -11,14 +11,14 @@ from typing import NamedTuple, Optional
 from tqdm import tqdm
 
 from datmo_tools import command_line, programs
+from datmo_tools.errors import InputError
+from datmo_tools.evaluate.thesis_tables import PUBLISHED
 from datmo_tools.experiments import simulated_run
 from datmo_tools.experiments.camera_view import LIST_PARAMETERS, camera_view
-from datmo_tools.errors import InputError
 from datmo_tools.experiments.fusion_comparison import comparison_table, figures, objects_table
 from datmo_tools.experiments.fusion_drives import LEVELS, Kitti, data_sets, within
 from datmo_tools.experiments.fusion_plot import comparison_plot
 from datmo_tools.programs import StepFailed
-from datmo_tools.evaluate.thesis_tables import PUBLISHED
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\

@@ -9,13 +9,13 @@ from pathlib import Path
 from typing import NamedTuple, Optional
 
 from datmo_tools import command_line
+from datmo_tools.errors import InputError
 from datmo_tools.evaluate import borders, grids
+from datmo_tools.evaluate.thesis_tables import PUBLISHED, thesis_tables
 from datmo_tools.experiments import simulated_run
 from datmo_tools.experiments.border_runs import BorderRuns, border_runs_table
-from datmo_tools.errors import InputError
 from datmo_tools.experiments.fusion_table import FusionRuns, fusion_table
 from datmo_tools.programs import StepFailed
-from datmo_tools.evaluate.thesis_tables import PUBLISHED, thesis_tables
 
 DESCRIPTION = """\
 Drives the scenes data_set_1 to data_set_3 through simulator, stack and score, and prints the

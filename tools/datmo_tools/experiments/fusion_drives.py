@@ -4,9 +4,9 @@
 from pathlib import Path
 from typing import NamedTuple, Optional
 
+from datmo_tools.evaluate.thesis_tables import PUBLISHED, Published
 from datmo_tools.experiments import simulated_run
 from datmo_tools.programs import call
-from datmo_tools.evaluate.thesis_tables import PUBLISHED, Published
 
 # By name, the words for run_bag.
 LEVELS = {

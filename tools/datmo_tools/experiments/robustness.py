@@ -12,10 +12,10 @@ from typing import NamedTuple
 from tqdm import tqdm
 
 from datmo_tools import command_line
-from datmo_tools.experiments import simulated_run
 from datmo_tools.errors import InputError
-from datmo_tools.programs import StepFailed
+from datmo_tools.experiments import simulated_run
 from datmo_tools.experiments.robustness_summary import summarize, table
+from datmo_tools.programs import StepFailed
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\

@@ -10,8 +10,8 @@ from pathlib import Path
 from tqdm import tqdm
 
 from datmo_tools import command_line, programs
-from datmo_tools.experiments import speed_live, speed_micro, speed_report
 from datmo_tools.errors import InputError
+from datmo_tools.experiments import speed_live, speed_micro, speed_report
 from datmo_tools.experiments.speed_context import describe, devel_space
 from datmo_tools.experiments.speed_live import LiveDrive
 from datmo_tools.whole_files import write_whole

@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from datmo_tools.experiments import process_usage
 from datmo_tools.errors import InputError
+from datmo_tools.experiments import process_usage
 
 CALLER = "/benchmark"
 MANAGER = "/perception"  # the process of all nodelets
