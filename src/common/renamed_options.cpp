@@ -12,7 +12,6 @@ namespace {
 const std::map<std::string, std::string> kRenamed = {
     {"across_per_metre", "across_per_meter"},
     {"along_per_metre", "along_per_meter"},
-    {"arrival", "free_space_entry"},
     {"coincidence", "false_agreement_probability"},
     {"else_share", "other_share"},
     {"farthest", "max_distance"},

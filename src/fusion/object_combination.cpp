@@ -216,6 +216,7 @@ Object combined(const Object& a, const Object& b) {
   result.dynamic_state = combinedState(a.dynamic_state, b.dynamic_state);
   result.moving_fraction = std::max(a.moving_fraction, b.moving_fraction);
   result.log_odds = a.log_odds + b.log_odds;
+  result.motion_log_odds = a.motion_log_odds + b.motion_log_odds;
   result.sensors = a.sensors;
   result.sensors.insert(result.sensors.end(), b.sensors.begin(), b.sensors.end());
   std::sort(result.sensors.begin(), result.sensors.end());

@@ -50,93 +50,76 @@ std::optional<BorderOffset> innermostPoint(const std::vector<Point2>& positions,
   return innermost;
 }
 
+DropReason reasonOf(double beyond, double margin) {
+  return beyond > margin ? DropReason::kBeyondBorder : DropReason::kOnBorder;
+}
+
 }  // namespace
 
 void BorderFilterOptions::visit(OptionVisitor& visitor) {
   visitor.text({"method", "",
-                "consistent: what lies on a border or beyond is a false alarm unless it came there "
-                "over points that were seen free; thesis: however it moves (thesis 3.5.1)"},
-               method, {kConsistent, kThesis});
+                "evidence: what lies on a border or beyond is less likely to move; thesis: it is a "
+                "false alarm and dropped, however it moves (thesis 3.5.1)"},
+               method, {kEvidence, kThesis});
   visitor.number({"margin", "m", "what is nearer to a border than this lies on it (thesis 3.5.1)"},
                  margin, {0.0, 5.0});
   visitor.number({"sigmas", "1", "standard deviations of the border that are added to the margin"},
                  sigmas, {0.0, 10.0});
-  visitor.number({"max_sigma", "m", "a border that is known less well drops nothing"}, max_sigma,
+  visitor.number({"max_sigma", "m", "a border that is known less well says nothing"}, max_sigma,
                  {0.01, 10.0});
   visitor.number(
       {"reach", "m", "what lies farther beyond a border is left alone: another road may be there"},
       reach, {0.0, 1000.0});
-  visitor.number({"required_on_border", "1",
-                  "logarithm of the odds of having come for an object on a border to move"},
-                 required_on_border, {-100.0, 100.0});
-  visitor.number({"required_beyond", "1",
-                  "the same beyond a border, where less reflects: a footpath, a driveway"},
-                 required_beyond, {-100.0, 100.0});
-  visitor.group("history", [&] { history.visit(visitor); });
-  visitor.group("free_space_entry", [&] { free_space_entry.visit(visitor); });
+  visitor.number({"motion_log_odds", "1",
+                  "logarithm of the odds that what lies there moves, over those on the road"},
+                 motion_log_odds, {-20.0, 0.0});
   visitor.group("extension", [&] { extension.visit(visitor); });
 }
 
 BorderFilter::BorderFilter(const BorderFilterOptions& options)
-    : options_(options),
-      history_(options.history),
-      entry_test_(options.free_space_entry),
-      extension_(options.extension) {
+    : options_(options), extension_(options.extension) {
   checkOptions(options);
 }
 
-void BorderFilter::reset() {
-  history_.clear();
-  extension_.reset();
-}
-
-std::vector<DroppedObject> BorderFilter::filter(const LabeledScan& scan, const RoadModel& road,
+std::vector<DroppedObject> BorderFilter::filter(const Pose2& base_in_map, const RoadModel& road,
                                                 ObjectList& objects) {
-  history_.add(scan);
-  extension_.update(road, scan.base_in_map.pose);
+  extension_.update(road, base_in_map);
   std::vector<DroppedObject> dropped;
   std::vector<Object> kept;
   for (Object& object : objects.objects) {
-    if (auto alarm = falseAlarm(object, scan.base_in_map.pose, road)) {
-      alarm->object = std::move(object);
-      dropped.push_back(std::move(*alarm));
-    } else {
-      kept.push_back(std::move(object));
+    auto lies_outside = outside(object, base_in_map, road);
+    if (lies_outside && options_.method == BorderFilterOptions::kThesis) {
+      lies_outside->object = std::move(object);
+      dropped.push_back(std::move(*lies_outside));
+      continue;
     }
+    if (lies_outside) {
+      object.dynamic_state = DynamicState::kUnknown;
+      object.motion_log_odds = options_.motion_log_odds;
+    }
+    kept.push_back(std::move(object));
   }
   objects.objects = std::move(kept);
   return dropped;
 }
 
-std::optional<DroppedObject> BorderFilter::falseAlarm(const Object& object,
-                                                      const Pose2& base_in_map,
-                                                      const RoadModel& road) const {
-  if (object.dynamic_state != DynamicState::kMoving || object.points.empty()) {
-    return std::nullopt;
-  }
+std::optional<DroppedObject> BorderFilter::outside(const Object& object, const Pose2& base_in_map,
+                                                   const RoadModel& road) const {
   const bool as_thesis = options_.method == BorderFilterOptions::kThesis;
-  const std::vector<Point2> positions = inMap(base_in_map, object);
-  std::optional<Outside> outside = outsideKnown(object, positions, base_in_map, road);
-  if (!outside && !as_thesis) {
-    outside = outsideExtension(positions);
-  }
-  if (!outside) {
+  if (object.points.empty() || object.dynamic_state == DynamicState::kStatic ||
+      (as_thesis && object.dynamic_state != DynamicState::kMoving)) {
     return std::nullopt;
   }
-  std::vector<ReflectionPoint> reflection_points;
-  reflection_points.reserve(positions.size());
-  for (const Point2& position : positions) {
-    reflection_points.push_back({position, outside->offset.direction});
-  }
-  outside->reason.motion_evidence = entry_test_.evidence(history_, reflection_points);
-  const bool is_false = as_thesis || outside->reason.motion_evidence < outside->required;
-  return is_false ? std::make_optional(outside->reason) : std::nullopt;
+  const std::vector<Point2> positions = inMap(base_in_map, object);
+  const auto known = outsideKnown(object, positions, base_in_map, road);
+  return known || as_thesis ? known : outsideExtension(positions);
 }
 
-std::optional<BorderFilter::Outside> BorderFilter::outsideKnown(
-    const Object& object, const std::vector<Point2>& positions, const Pose2& base_in_map,
-    const RoadModel& road) const {
-  std::optional<Outside> nearest;
+std::optional<DroppedObject> BorderFilter::outsideKnown(const Object& object,
+                                                        const std::vector<Point2>& positions,
+                                                        const Pose2& base_in_map,
+                                                        const RoadModel& road) const {
+  std::optional<DroppedObject> nearest;
   for (const RoadBorder& border : road.borders) {
     const auto offset = options_.method == BorderFilterOptions::kThesis
                             ? outermostCorner(object, base_in_map, border)
@@ -147,21 +130,16 @@ std::optional<BorderFilter::Outside> BorderFilter::outsideKnown(
     }
     const double margin = options_.margin + options_.sigmas * offset->sigma;
     const double reach = border.side_street ? margin : options_.reach;
-    const double before = nearest ? nearest->offset.outward : reach;
+    const double before = nearest ? nearest->beyond : reach;
     if (offset->outward < -margin || offset->outward > before) {
       continue;
     }
-    const bool is_beyond = offset->outward > margin;
-    nearest =
-        Outside{{}, *offset, is_beyond ? options_.required_beyond : options_.required_on_border};
-    nearest->reason.reason = is_beyond ? DropReason::kBeyondBorder : DropReason::kOnBorder;
-    nearest->reason.side = border.side;
-    nearest->reason.beyond = offset->outward;
+    nearest = DroppedObject{{}, reasonOf(offset->outward, margin), border.side, offset->outward};
   }
   return nearest;
 }
 
-std::optional<BorderFilter::Outside> BorderFilter::outsideExtension(
+std::optional<DroppedObject> BorderFilter::outsideExtension(
     const std::vector<Point2>& positions) const {
   for (const RoadSide side : {RoadSide::kLeft, RoadSide::kRight}) {
     std::optional<BorderOffset> innermost;
@@ -173,12 +151,8 @@ std::optional<BorderFilter::Outside> BorderFilter::outsideExtension(
     }
     if (innermost && innermost->outward >= -options_.margin &&
         innermost->outward <= options_.reach) {
-      Outside outside{{}, *innermost, options_.required_beyond};
-      outside.reason.reason =
-          innermost->outward > options_.margin ? DropReason::kBeyondBorder : DropReason::kOnBorder;
-      outside.reason.side = side;
-      outside.reason.beyond = innermost->outward;
-      return outside;
+      return DroppedObject{
+          {}, reasonOf(innermost->outward, options_.margin), side, innermost->outward};
     }
   }
   return std::nullopt;

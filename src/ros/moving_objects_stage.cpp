@@ -15,8 +15,8 @@ void MovingObjectsStageOptions::visit(OptionVisitor& visitor) {
   detector.visit(visitor);
   visitor.toggle(
       {"road_borders", "",
-       "leave out what seems to move on the borders of the road and beyond, but does not "
-       "(thesis 3.5.1); set by the launch file's switch"},
+       "what lies on the borders of the road and beyond is less likely to move (thesis 3.5.1); set "
+       "by the launch file's switch"},
       road_borders);
   visitor.number({"border_age", "s", "older borders than this are not used, and all objects pass"},
                  border_age, {0.0, 60.0});
@@ -29,8 +29,8 @@ MovingObjectsStage::MovingObjectsStage(const MovingObjectsStageOptions& options,
       monitor_(monitor),
       detector_(options.detector),
       border_filter_(options.border_filter),
-      runner_(monitor, options.input, "forgets what was dropped at the borders of the road",
-              [this] { border_filter_.reset(); }) {
+      runner_(monitor, options.input, "forgets how the road goes on",
+              [this] { border_filter_.forgetRoad(); }) {
   checkOptions(options);
 }
 
@@ -90,7 +90,7 @@ DroppedObjectsPtr MovingObjectsStage::dropAtBorders(const LabeledScan& scan,
     border_filter_.forgetRoad();
   }
   const std::vector<DroppedObject> dropped =
-      border_filter_.filter(scan, road.value_or(RoadModel{}), objects);
+      border_filter_.filter(scan.base_in_map.pose, road.value_or(RoadModel{}), objects);
   monitor_.figure("objects dropped at road borders [1]", static_cast<double>(dropped.size()));
   return boost::make_shared<DroppedObjects>(
       toMessage(dropped, scan.stamp, message.header.frame_id));

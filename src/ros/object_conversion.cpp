@@ -34,6 +34,7 @@ Object fromMessage(const ObjectMessage& message) {
   object.dynamic_state = named(message.dynamic_state, DynamicState::kMoving);
   object.moving_fraction = message.moving_fraction;
   object.log_odds = message.log_odds;
+  object.motion_log_odds = message.motion_log_odds;
   object.delay = message.delay;
   object.sensors = message.sensors;
   for (const auto& point : message.points) {
@@ -84,6 +85,7 @@ ObjectMessage toMessage(const Object& object) {
   message.dynamic_state = static_cast<std::uint8_t>(object.dynamic_state);
   message.moving_fraction = static_cast<float>(object.moving_fraction);
   message.log_odds = static_cast<float>(object.log_odds);
+  message.motion_log_odds = static_cast<float>(object.motion_log_odds);
   message.delay = static_cast<float>(object.delay);
   message.sensors = object.sensors;
   for (const Point2& point : object.points) {

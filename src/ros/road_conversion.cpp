@@ -123,7 +123,6 @@ DroppedObjectMessage toMessage(const DroppedObject& dropped) {
   message.reason = static_cast<std::uint8_t>(dropped.reason);
   message.side = static_cast<std::uint8_t>(dropped.side);
   message.beyond = static_cast<float>(dropped.beyond);
-  message.motion_evidence = static_cast<float>(dropped.motion_evidence);
   return message;
 }
 

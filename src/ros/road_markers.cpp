@@ -89,15 +89,10 @@ std::string formatted(const char* format, Values... values) {
   return text.data();
 }
 
-/// To a tenth; without the sign of what is 0 then.
-double tenths(double value) { return std::round(10.0 * value) / 10.0 + 0.0; }
-
-/// "on border 0.3 m, evidence 1.2".
+/// "on border 0.3 m".
 std::string textOf(const DroppedObjectMessage& dropped) {
   const bool on = dropped.reason == DroppedObjectMessage::ON_BORDER;
-  return std::string(on ? "on" : "beyond") + " border" +
-         formatted(" %.1f m, evidence %.1f", tenths(dropped.beyond),
-                   tenths(dropped.motion_evidence));
+  return std::string(on ? "on" : "beyond") + " border" + formatted(" %.1f m", dropped.beyond);
 }
 
 Marker labelOf(const std_msgs::Header& header, const DroppedObjectMessage& dropped,

@@ -212,10 +212,10 @@ BeamEvidence beamEvidence(const ScanHistory& history, const SeenPointHistory& se
   return {std::min(facing.log_ratio, sliding.log_ratio), facing.observed};
 }
 
-double motionProbability(const BeamEvidence& evidence, double association_score,
+double motionProbability(double log_ratio, double association_score,
                          const MotionLikelihoodOptions& options) {
   const double stands = (1.0 - options.moving_prior) / options.moving_prior;
-  return 1.0 / (1.0 + stands * std::exp(-evidence.log_ratio) +
+  return 1.0 / (1.0 + stands * std::exp(-log_ratio) +
                 options.clutter_odds * std::exp(-association_score));
 }
 

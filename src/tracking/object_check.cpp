@@ -26,9 +26,10 @@ bool isValid(const Object& object) {
          isModerateAmount(object.box.length) && isModerateAmount(object.box.width) &&
          std::all_of(object.points.begin(), object.points.end(), isPosition) &&
          isAmount(object.heading_variance) && areSides(object.side_variance) &&
-         std::isfinite(object.log_odds) && isAmount(object.height) &&
-         std::abs(object.delay) <= kMaxDelay && isShare(object.moving_fraction) &&
-         isShare(object.class_probability) && isCovariance(object.position_covariance);
+         std::isfinite(object.log_odds) && std::isfinite(object.motion_log_odds) &&
+         isAmount(object.height) && std::abs(object.delay) <= kMaxDelay &&
+         isShare(object.moving_fraction) && isShare(object.class_probability) &&
+         isCovariance(object.position_covariance);
 }
 
 Object transformed(const Pose2& frame_in_parent, const Object& object) {

@@ -80,6 +80,7 @@ Object unionOf(const std::vector<const Object*>& parts, double heading) {
     whole.dynamic_state = std::max(whole.dynamic_state, part->dynamic_state);
     whole.height = std::max(whole.height, part->height);
     whole.log_odds = std::max(whole.log_odds, part->log_odds);
+    whole.motion_log_odds = std::max(whole.motion_log_odds, part->motion_log_odds);
   }
   whole.moving_fraction =
       whole.points.empty() ? 0.0 : moving_points / static_cast<double>(whole.points.size());

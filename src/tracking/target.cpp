@@ -96,6 +96,7 @@ Target::Target(const Object& object, std::size_t index, std::uint64_t number,
       number_(number),
       measurement_index_(index),
       height_(object.height),
+      motion_log_odds_(object.motion_log_odds),
       detections_of_two_(detectionsAfter(0, object, options.fused_free_share)),
       sensors_(std::make_shared<const std::vector<std::string>>(object.sensors)) {
   class_.update(object.object_class, object.class_probability);
@@ -134,6 +135,7 @@ void Target::update(const Observation& observation, std::size_t index, double de
   measurement_index_ = index;
   since_update_ = 0.0;
   height_ = object.height > 0.0 ? object.height : height_;
+  motion_log_odds_ = object.motion_log_odds;
   detections_of_two_ = detectionsAfter(detections_of_two_, object, options.fused_free_share);
   if (object.sensors != *sensors_) {
     sensors_ = std::make_shared<const std::vector<std::string>>(object.sensors);
@@ -160,7 +162,8 @@ bool Target::movesByBeams(const ScanHistory& history, Stamp now,
   if (beams.observed == 0) {
     return evidentlyMoves(options);
   }
-  return motionProbability(beams, association_score_, options.motion_likelihood) >=
+  return motionProbability(beams.log_ratio + motion_log_odds_, association_score_,
+                           options.motion_likelihood) >=
              options.motion_likelihood.required_probability &&
          velocityIsSignificant(estimate, options.evidence.speed_significance,
                                options.evidence.min_speed);

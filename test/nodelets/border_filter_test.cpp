@@ -85,7 +85,7 @@ TEST_F(BorderFilterTest, BeforeBordersComeAllPasses) {
   EXPECT_TRUE(door_->waitForMessage("no road_borders yet")) << door_->diagnosticMessage();
 }
 
-TEST_F(BorderFilterTest, AnObjectOnTheBorderIsDroppedAndReported) {
+TEST_F(BorderFilterTest, ByTheThesisAnObjectOnTheBorderIsDroppedAndReported) {
   now_ += 0.06;
   ASSERT_TRUE(door_->sendRoad(roadNow()));
   ASSERT_NO_FATAL_FAILURE(scan());

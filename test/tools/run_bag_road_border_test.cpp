@@ -53,15 +53,25 @@ TEST_F(RoadBorderRun, BordersAreOfTheScanInTheFrameOfTheMap) {
   }
 }
 
-TEST_F(RoadBorderRun, WhatIsDroppedIsMissedAmongTheObjectsAndNothingElse) {
+TEST_F(RoadBorderRun, NoObjectIsDropped) {
+  run();
+  const std::size_t kept = objectsOn<ObjectArray>("/objects");
+  EXPECT_EQ(objectsOn<DroppedObjects>("/objects/dropped"), 0U);
+  arguments_.road_border = false;
+  run();
+  EXPECT_EQ(kept, objectsOn<ObjectArray>("/objects"));
+  EXPECT_EQ(count(arguments_.output, "/road_borders"), 0U);
+  EXPECT_EQ(count(arguments_.output, "/objects/dropped"), 0U);
+}
+
+TEST_F(RoadBorderRun, WhatTheThesisDropsIsMissedAmongTheObjectsAndNothingElse) {
+  writeConfig("{moving_objects: {border_filter: {method: thesis}}}");
   run();
   const std::size_t kept = objectsOn<ObjectArray>("/objects");
   const std::size_t dropped = objectsOn<DroppedObjects>("/objects/dropped");
   arguments_.road_border = false;
   run();
   EXPECT_EQ(kept + dropped, objectsOn<ObjectArray>("/objects"));
-  EXPECT_EQ(count(arguments_.output, "/road_borders"), 0U);
-  EXPECT_EQ(count(arguments_.output, "/objects/dropped"), 0U);
 }
 
 TEST_F(RoadBorderRun, SameBagGivesTheSameBytesWithBorders) {

@@ -133,9 +133,10 @@ void addStages(CommandLine& line, Arguments& arguments) {
   line.add_flag("--write-grids", arguments.write_grids,
                 "writes /grids/lidar, /grids/stereo, /grids/fused and /grids/conflict")
       ->needs(low_level);
-  line.add_flag("--road-border", arguments.road_border,
-                "finds the borders of the road and leaves out false objects on and beyond them,\n"
-                "and writes /road_borders and /objects/dropped");
+  line.add_flag(
+      "--road-border", arguments.road_border,
+      "finds the borders of the road, on and beyond which objects are less likely to move,\n"
+      "and writes /road_borders and /objects/dropped");
   line.add_flag("--cloud-objects", arguments.cloud_objects,
                 "finds objects in a 3D lidar's clouds, and writes /objects/cloud");
   line.add_flag("--static-points", arguments.static_points,

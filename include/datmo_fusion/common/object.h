@@ -53,6 +53,9 @@ struct Object {
   /// Logarithm of the odds that it is an object at all, over those of the average detection, by
   /// as its detector reports it; 0: not reported.
   double log_odds = 0.0;
+  /// Logarithm of the odds that what lies where it does moves, over those elsewhere, as the road
+  /// has it: below 0 on its borders and beyond; 0: nothing is known.
+  double motion_log_odds = 0.0;
   /// s: how long after the list's stamp it was seen (negative: before), the mean time of its
   /// points. What moves is where it was then.
   double delay = 0.0;

@@ -8,28 +8,23 @@
 
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/options.h"
-#include "datmo_fusion/common/scan.h"
+#include "datmo_fusion/common/pose2.h"
 #include "datmo_fusion/road/border_offset.h"
-#include "datmo_fusion/road/free_space_entry_test.h"
 #include "datmo_fusion/road/road_extension.h"
 #include "datmo_fusion/road/road_model.h"
-#include "datmo_fusion/visibility/scan_history.h"
 
 namespace datmo {
 
 struct BorderFilterOptions {
-  static constexpr char kConsistent[] = "consistent";
+  static constexpr char kEvidence[] = "evidence";
   static constexpr char kThesis[] = "thesis";
 
-  std::string method = kConsistent;
-  double margin = 0.5;              ///< m
-  double sigmas = 1.0;              ///< 1
-  double max_sigma = 1.0;           ///< m
-  double reach = 30.0;              ///< m
-  double required_on_border = 3.0;  ///< 1
-  double required_beyond = 1.0;     ///< 1
-  ScanHistoryOptions history;
-  FreeSpaceEntryTestOptions free_space_entry;
+  std::string method = kEvidence;
+  double margin = 0.5;            ///< m
+  double sigmas = 1.0;            ///< 1
+  double max_sigma = 1.0;         ///< m
+  double reach = 30.0;            ///< m
+  double motion_log_odds = -2.0;  ///< 1
   RoadExtensionOptions extension;
 
   void visit(OptionVisitor& visitor);
@@ -44,53 +39,45 @@ struct DroppedObject {
   DropReason reason = DropReason::kOnBorder;
   RoadSide side = RoadSide::kLeft;
   double beyond = 0.0;  ///< m from the border to it, away from the road; negative: it reaches in
-  double motion_evidence = 0.0;  ///< as FreeSpaceEntryTest says
 };
 
-/// Takes objects on and beyond the road's borders that seem to move for false alarms (thesis
-/// 3.5.1), unless they move consistently there (thesis 2.4, 6.2): a pedestrian on the footpath, a
-/// car out of a driveway. What a mover leaves and enters was seen free, and a curb was not
-/// (FreeSpaceEntryTest): that is decided from its first detection on, before it could be tracked.
+/// Tells apart what lies on the road from what lies on its borders and beyond, where more stands
+/// and less moves: curbs, hedges, parked rows.
+///
+/// That is evidence and no verdict: such objects are no longer said to move
+/// (DynamicState::kUnknown) and carry the odds that what lies there does (Object::motion_log_odds),
+/// which the tracker weighs against what the beams say (motionProbability), so that a pedestrian on
+/// the footpath or a car out of a driveway is followed nevertheless (thesis 2.4, 6.2). The thesis
+/// takes them for false alarms however they move, and drops them (thesis 3.5.1).
 ///
 /// An object lies on a border or beyond if all of its points do; by the thesis, if a corner of its
-/// rectangle does, and however it moves. Where no border is known the road is taken to go on as it
-/// was (RoadExtension). Objects that nobody says to move are left alone.
+/// rectangle does. Where no border is known the road is taken to go on as it was (RoadExtension).
+/// What is known to stand is left alone, by the thesis all that is not said to move.
 class BorderFilter {
  public:
   /// Throws OptionError.
   explicit BorderFilter(const BorderFilterOptions& options);
 
-  /// Removes from `objects`, which were found in `scan`, what is a false alarm by `road` (map
-  /// frame); returns what was removed. Scans by rising stamps, all of them: those without objects
-  /// too.
-  std::vector<DroppedObject> filter(const LabeledScan& scan, const RoadModel& road,
+  /// Of `objects`, seen from `base_in_map` (the vehicle's pose), those that lie outside `road` (map
+  /// frame) get their odds; by the thesis they are removed and returned.
+  std::vector<DroppedObject> filter(const Pose2& base_in_map, const RoadModel& road,
                                     ObjectList& objects);
 
   /// Forgets where the road went on when no border was known.
   void forgetRoad() { extension_.reset(); }
 
-  /// Forgets all, as at the start.
-  void reset();
-
  private:
-  /// How an object lies on a border or beyond.
-  struct Outside {
-    DroppedObject reason;
-    BorderOffset offset;
-    double required = 0.0;  ///< evidence of motion
-  };
-
+  /// How an object lies on a border or beyond; none: on the road, or nothing is known.
+  std::optional<DroppedObject> outside(const Object& object, const Pose2& base_in_map,
+                                       const RoadModel& road) const;
   /// By the borders that are known.
-  std::optional<Outside> outsideKnown(const Object& object, const std::vector<Point2>& positions,
-                                      const Pose2& base_in_map, const RoadModel& road) const;
+  std::optional<DroppedObject> outsideKnown(const Object& object,
+                                            const std::vector<Point2>& positions,
+                                            const Pose2& base_in_map, const RoadModel& road) const;
   /// Where none is known, by how the road goes on.
-  std::optional<Outside> outsideExtension(const std::vector<Point2>& positions) const;
-  std::optional<DroppedObject> falseAlarm(const Object& object, const Pose2& base_in_map,
-                                          const RoadModel& road) const;
+  std::optional<DroppedObject> outsideExtension(const std::vector<Point2>& positions) const;
 
   BorderFilterOptions options_;
-  ScanHistory history_;
-  FreeSpaceEntryTest entry_test_;
   RoadExtension extension_;
 };
 

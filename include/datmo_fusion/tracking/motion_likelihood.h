@@ -12,14 +12,14 @@
 namespace datmo {
 
 struct MotionLikelihoodOptions {
-  double window = 2.0;                 ///< s
-  double detection = 0.8;              ///< 1
-  double detection_strength = 10.0;    ///< 1
-  double echo_detection = 0.6;         ///< 1
-  double background = 0.1;             ///< 1
-  double moving_prior = 0.5;           ///< 1
-  double clutter_odds = 1.0e4;         ///< 1
-  double required_probability = 0.9;  ///< 1
+  double window = 2.0;                ///< s
+  double detection = 0.8;             ///< 1
+  double detection_strength = 10.0;   ///< 1
+  double echo_detection = 0.6;        ///< 1
+  double background = 0.1;            ///< 1
+  double moving_prior = 0.5;          ///< 1
+  double clutter_odds = 1.0e4;        ///< 1
+  double required_probability = 0.8;  ///< 1
 
   void visit(OptionVisitor& visitor);
 };
@@ -66,9 +66,10 @@ BeamEvidence beamEvidence(const ScanHistory& history, const SeenPointHistory& se
                           const MotionLikelihoodOptions& options);
 
 /// That a target moves and is one object: neither something that stands nor a chain of false
-/// alarms. `association_score`: logarithm of how much likelier its objects are for one moving
-/// object than for clutter of the density where they are.
-double motionProbability(const BeamEvidence& evidence, double association_score,
+/// alarms. `log_ratio`: logarithm of how much likelier what is known of it is if it moves than if
+/// it stands: what the beams say, and where it lies. `association_score`: logarithm of how much
+/// likelier its objects are for one moving object than for clutter of the density where they are.
+double motionProbability(double log_ratio, double association_score,
                          const MotionLikelihoodOptions& options);
 
 }  // namespace datmo

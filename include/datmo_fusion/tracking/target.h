@@ -157,6 +157,7 @@ class Target {
   double age_ = 0.0;
   double since_update_ = 0.0;
   double height_;
+  double motion_log_odds_;
   int detections_of_two_;  ///< in a row: two sensors saw it, one of them saw it move
   ClassBelief class_;
   std::shared_ptr<const std::vector<std::string>> sensors_;  ///< shared: a target is copied often

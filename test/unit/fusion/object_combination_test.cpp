@@ -319,12 +319,14 @@ TEST(ObjectCombinationTest, TheRestOfBothIsKept) {
   b.moving_fraction = 0.8;
   a.log_odds = 0.5;
   b.log_odds = -0.2;
+  a.motion_log_odds = -3.0;
   const Object fused = combined(a, b);
   EXPECT_EQ(fused.sensors, (std::vector<std::string>{"lidar", "stereo"}));
   EXPECT_EQ(fused.points.size(), 3U);
   EXPECT_EQ(fused.height, 1.5);
   EXPECT_EQ(fused.moving_fraction, 0.8);
   EXPECT_DOUBLE_EQ(fused.log_odds, 0.3);
+  EXPECT_DOUBLE_EQ(fused.motion_log_odds, -3.0) << "one of them alone knows the road";
   EXPECT_EQ(combined(fused, a).sensors, fused.sensors);
 }
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/road/border_filter.h"
 
-#include "scan_history_samples.h"
+#include <vector>
+
 #include <gtest/gtest.h>
 
 namespace datmo {
 namespace {
-
-using samples::scanOf;
 
 /// Borders 4 m to the left and to the right of the x axis.
 RoadModel straightRoad() {
@@ -32,20 +31,19 @@ Object movingAt(const Point2& position) {
 
 class BorderFilterTest : public testing::Test {
  protected:
-  /// A second of scans in which nothing is at the place, or something in every other scan.
-  void watch(BorderFilter& filter, const Point2& position, bool reflects) {
-    for (int i = 0; i < 16; ++i) {
-      ObjectList none;
-      const bool hit = reflects && i % 2 == 0;
-      filter.filter(scanOf(hit ? std::vector<Point2>{position} : std::vector<Point2>{}, 0.06 * i),
-                    {}, none);
-    }
+  /// The object as the filter passes it on.
+  Object passed(const Object& object) {
+    list_.objects = {object};
+    EXPECT_TRUE(filter_.filter(Pose2(), road_, list_).empty());
+    return list_.objects.at(0);
   }
 
-  /// What the filter drops of an object that is seen after that second.
-  std::vector<DroppedObject> seenAfter(BorderFilter& filter, const Object& object) {
-    list_.objects = {object};
-    return filter.filter(scanOf(object.points, 1.0), road_, list_);
+  /// Whether the filter takes it for less likely to move than on the road.
+  bool isOutside(const Object& object) {
+    const Object result = passed(object);
+    const bool weighed = result.motion_log_odds < 0.0;
+    EXPECT_EQ(result.dynamic_state, weighed ? DynamicState::kUnknown : object.dynamic_state);
+    return weighed;
   }
 
   RoadModel road_ = straightRoad();
@@ -53,132 +51,120 @@ class BorderFilterTest : public testing::Test {
   BorderFilter filter_{BorderFilterOptions{}};
 };
 
-TEST_F(BorderFilterTest, DropsWhatReflectsOnABorder) {
-  const Point2 curb(20.0, 4.2);
-  watch(filter_, curb, true);
-  const auto dropped = seenAfter(filter_, movingAt(curb));
-  ASSERT_EQ(dropped.size(), 1U);
-  EXPECT_TRUE(list_.objects.empty());
-  EXPECT_EQ(dropped[0].reason, DropReason::kOnBorder);
-  EXPECT_EQ(dropped[0].side, RoadSide::kLeft);
-  EXPECT_NEAR(dropped[0].beyond, 0.2, 1e-9);
-  EXPECT_LT(dropped[0].motion_evidence, 1.0);
-  EXPECT_EQ(dropped[0].object.points.size(), 1U);
+TEST_F(BorderFilterTest, OnABorderItIsLessLikelyToMove) {
+  const Object curb = passed(movingAt({20.0, 4.2}));
+  EXPECT_EQ(curb.motion_log_odds, BorderFilterOptions{}.motion_log_odds);
+  EXPECT_EQ(curb.dynamic_state, DynamicState::kUnknown) << "the tracker decides";
+  EXPECT_EQ(curb.points.size(), 1U);
 }
 
-TEST_F(BorderFilterTest, DropsWhatReflectsBeyondABorder) {
-  const Point2 hedge(20.0, -6.0);
-  watch(filter_, hedge, true);
-  const auto dropped = seenAfter(filter_, movingAt(hedge));
-  ASSERT_EQ(dropped.size(), 1U);
-  EXPECT_EQ(dropped[0].reason, DropReason::kBeyondBorder);
-  EXPECT_EQ(dropped[0].side, RoadSide::kRight);
-}
+TEST_F(BorderFilterTest, BeyondABorderToo) { EXPECT_TRUE(isOutside(movingAt({20.0, -6.0}))); }
 
-TEST_F(BorderFilterTest, KeepsWhatIsOnTheRoad) {
-  const Point2 lane(20.0, 3.0);
-  watch(filter_, lane, true);
-  EXPECT_TRUE(seenAfter(filter_, movingAt(lane)).empty());
-  EXPECT_EQ(list_.objects.size(), 1U);
-}
+TEST_F(BorderFilterTest, OnTheRoadNothingIsSaid) { EXPECT_FALSE(isOutside(movingAt({20.0, 3.0}))); }
 
-TEST_F(BorderFilterTest, KeepsWhoComesAlongTheFootpath) {
-  const Point2 footpath(20.0, 5.735);  // in the middle of a beam
-  watch(filter_, footpath, false);
-  EXPECT_TRUE(seenAfter(filter_, movingAt(footpath)).empty());
-}
-
-TEST_F(BorderFilterTest, TheThesisDropsHimToo) {
-  BorderFilterOptions options;
-  options.method = BorderFilterOptions::kThesis;
-  BorderFilter filter(options);
-  const Point2 footpath(20.0, 5.735);  // in the middle of a beam
-  watch(filter, footpath, false);
-  EXPECT_EQ(seenAfter(filter, movingAt(footpath)).size(), 1U);
-}
-
-TEST_F(BorderFilterTest, ByTheThesisOneCornerIsEnough) {
-  Object car = movingAt({20.0, 3.0});
-  car.box.width = 1.8;  // reaches to 3.9 m
-  watch(filter_, {20.0, 3.0}, true);
-  EXPECT_TRUE(seenAfter(filter_, car).empty());
-  BorderFilterOptions options;
-  options.method = BorderFilterOptions::kThesis;
-  BorderFilter as_thesis(options);
-  EXPECT_EQ(seenAfter(as_thesis, car).size(), 1U);
-}
-
-TEST_F(BorderFilterTest, KeepsWhatReachesIntoTheRoad) {
+TEST_F(BorderFilterTest, WhatReachesIntoTheRoadIsOnIt) {
   Object car = movingAt({20.0, 4.2});
   car.points.emplace_back(20.0, 2.5);
-  watch(filter_, {20.0, 4.2}, true);
-  EXPECT_TRUE(seenAfter(filter_, car).empty());
+  EXPECT_FALSE(isOutside(car));
 }
 
-TEST_F(BorderFilterTest, KeepsWhatNobodySaysToMove) {
+TEST_F(BorderFilterTest, WhatIsNotYetSaidToMoveIsWeighedToo) {
   Object object = movingAt({20.0, 6.0});
-  for (const DynamicState state : {DynamicState::kStatic, DynamicState::kUnknown}) {
-    object.dynamic_state = state;
-    BorderFilter filter{BorderFilterOptions{}};
-    EXPECT_TRUE(seenAfter(filter, object).empty());
-  }
+  object.dynamic_state = DynamicState::kUnknown;
+  EXPECT_TRUE(isOutside(object));
 }
 
-TEST_F(BorderFilterTest, ABorderThatIsHardlyKnownDropsNothing) {
+TEST_F(BorderFilterTest, WhatStandsStands) {
+  Object object = movingAt({20.0, 6.0});
+  object.dynamic_state = DynamicState::kStatic;
+  EXPECT_FALSE(isOutside(object));
+}
+
+TEST_F(BorderFilterTest, ABorderThatIsHardlyKnownSaysNothing) {
   for (RoadBorder& border : road_.borders) {
     for (BorderPoint& point : border.points) {
       point.sigma = 1.5;
     }
   }
-  EXPECT_TRUE(seenAfter(filter_, movingAt({20.0, 6.0})).empty());
+  EXPECT_FALSE(isOutside(movingAt({20.0, 6.0})));
 }
 
-TEST_F(BorderFilterTest, BeyondABorderOfASideStreetNothingIsDropped) {
+TEST_F(BorderFilterTest, BeyondABorderOfASideStreetIsTheStreet) {
   for (RoadBorder& border : road_.borders) {
     border.side_street = true;
   }
-  EXPECT_EQ(seenAfter(filter_, movingAt({20.0, 4.3})).size(), 1U);
-  BorderFilter other{BorderFilterOptions{}};
-  EXPECT_TRUE(seenAfter(other, movingAt({20.0, 6.0})).empty());
+  EXPECT_TRUE(isOutside(movingAt({20.0, 4.3})));
+  EXPECT_FALSE(isOutside(movingAt({20.0, 6.0})));
 }
 
 TEST_F(BorderFilterTest, WhatIsFarBeyondIsAnotherRoad) {
-  EXPECT_TRUE(seenAfter(filter_, movingAt({20.0, 36.0})).empty());
+  EXPECT_FALSE(isOutside(movingAt({20.0, 36.0})));
 }
 
 TEST_F(BorderFilterTest, WhereNoBorderIsKnownItGoesOn) {
   for (RoadBorder& border : road_.borders) {
     border.points.back().position.x() = 10.0;
   }
-  const auto beyond = seenAfter(filter_, movingAt({20.0, 6.0}));
-  ASSERT_EQ(beyond.size(), 1U);
-  EXPECT_EQ(beyond[0].reason, DropReason::kBeyondBorder);
-  BorderFilter other{BorderFilterOptions{}};
-  const auto on = seenAfter(other, movingAt({20.0, -4.3}));
+  EXPECT_TRUE(isOutside(movingAt({20.0, 6.0})));
+  EXPECT_TRUE(isOutside(movingAt({20.0, -4.3})));
+  filter_.forgetRoad();
+  road_ = {};
+  EXPECT_FALSE(isOutside(movingAt({20.0, 6.0})));
+}
+
+TEST_F(BorderFilterTest, WithoutARoadNothingIsSaid) {
+  road_ = {};
+  EXPECT_FALSE(isOutside(movingAt({20.0, 4.2})));
+}
+
+class ThesisBorderFilterTest : public BorderFilterTest {
+ protected:
+  static BorderFilterOptions asThesis() {
+    BorderFilterOptions options;
+    options.method = BorderFilterOptions::kThesis;
+    return options;
+  }
+
+  std::vector<DroppedObject> dropped(const Object& object) {
+    list_.objects = {object};
+    auto result = thesis_.filter(Pose2(), road_, list_);
+    EXPECT_EQ(result.size() + list_.objects.size(), 1U);
+    return result;
+  }
+
+  BorderFilter thesis_{asThesis()};
+};
+
+TEST_F(ThesisBorderFilterTest, DropsWhatLiesOnABorder) {
+  const auto on = dropped(movingAt({20.0, 4.2}));
   ASSERT_EQ(on.size(), 1U);
   EXPECT_EQ(on[0].reason, DropReason::kOnBorder);
-  EXPECT_EQ(on[0].side, RoadSide::kRight);
+  EXPECT_EQ(on[0].side, RoadSide::kLeft);
+  EXPECT_NEAR(on[0].beyond, 0.45, 1e-9) << "of its outermost corner";
+  EXPECT_EQ(on[0].object.points.size(), 1U);
 }
 
-TEST_F(BorderFilterTest, WhoComesThereStays) {
-  for (RoadBorder& border : road_.borders) {
-    border.points.back().position.x() = 10.0;
+TEST_F(ThesisBorderFilterTest, DropsWhatLiesBeyond) {
+  const auto beyond = dropped(movingAt({20.0, -6.0}));
+  ASSERT_EQ(beyond.size(), 1U);
+  EXPECT_EQ(beyond[0].reason, DropReason::kBeyondBorder);
+  EXPECT_EQ(beyond[0].side, RoadSide::kRight);
+}
+
+TEST_F(ThesisBorderFilterTest, OneCornerIsEnough) {
+  Object car = movingAt({20.0, 3.0});
+  EXPECT_TRUE(dropped(car).empty());
+  car.box.width = 1.8;  // reaches to 3.9 m
+  EXPECT_EQ(dropped(car).size(), 1U);
+}
+
+TEST_F(ThesisBorderFilterTest, KeepsWhatNobodySaysToMove) {
+  Object object = movingAt({20.0, 6.0});
+  for (const DynamicState state : {DynamicState::kStatic, DynamicState::kUnknown}) {
+    object.dynamic_state = state;
+    EXPECT_TRUE(dropped(object).empty());
+    EXPECT_EQ(list_.objects[0].motion_log_odds, 0.0);
   }
-  const Point2 side_street(20.0, 5.735);  // in the middle of a beam
-  watch(filter_, side_street, false);
-  EXPECT_TRUE(seenAfter(filter_, movingAt(side_street)).empty());
-}
-
-TEST_F(BorderFilterTest, WithoutARoadAllPass) {
-  road_ = {};
-  EXPECT_TRUE(seenAfter(filter_, movingAt({20.0, 4.2})).empty());
-}
-
-TEST_F(BorderFilterTest, AfterAResetItKnowsNoFreePoints) {
-  const Point2 footpath(20.0, 5.735);  // in the middle of a beam
-  watch(filter_, footpath, false);
-  filter_.reset();
-  EXPECT_EQ(seenAfter(filter_, movingAt(footpath)).size(), 1U);
 }
 
 }  // namespace

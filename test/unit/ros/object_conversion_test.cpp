@@ -22,6 +22,7 @@ TEST(ObjectConversion, ThereAndBack) {
   object.dynamic_state = DynamicState::kMoving;
   object.moving_fraction = 0.5;
   object.log_odds = -2.5;
+  object.motion_log_odds = -3.0;
   object.sensors = {"lidar"};
   object.points = {Point2(4.0, 5.0)};
   const ObjectList back = fromMessage(toMessage(ObjectList{kStamp, {object}, {}}, "base_link"));
@@ -40,6 +41,7 @@ TEST(ObjectConversion, ThereAndBack) {
   EXPECT_EQ(got.dynamic_state, DynamicState::kMoving);
   EXPECT_EQ(got.moving_fraction, 0.5);
   EXPECT_EQ(got.log_odds, -2.5);
+  EXPECT_EQ(got.motion_log_odds, -3.0);
   EXPECT_EQ(got.sensors, object.sensors);
   EXPECT_EQ(got.points.at(0), Point2(4.0, 5.0));
 }

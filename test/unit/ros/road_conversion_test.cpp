@@ -134,7 +134,6 @@ TEST(RoadConversion, DroppedObjectsHaveAReason) {
   dropped.reason = DropReason::kBeyondBorder;
   dropped.side = RoadSide::kRight;
   dropped.beyond = 1.5;
-  dropped.motion_evidence = -0.5;
   const DroppedObjects message =
       toMessage(std::vector<DroppedObject>{dropped}, Stamp::fromSeconds(7.0), "base_link");
   EXPECT_EQ(message.header.frame_id, "base_link");
@@ -146,7 +145,6 @@ TEST(RoadConversion, DroppedObjectsHaveAReason) {
   EXPECT_EQ(got.reason, DroppedObjectMessage::BEYOND_BORDER);
   EXPECT_EQ(got.side, RoadBorderMessage::RIGHT);
   EXPECT_EQ(got.beyond, 1.5F);
-  EXPECT_EQ(got.motion_evidence, -0.5F);
 }
 
 }  // namespace

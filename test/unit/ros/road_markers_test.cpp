@@ -110,10 +110,8 @@ TEST(RoadMarkers, DroppedObjectsAreGrayAndHaveAReason) {
   dropped.objects[0].object.pose = toMessage(Pose2(5.0, 6.0, 0.0));
   dropped.objects[0].object.size.x = 4.0;
   dropped.objects[0].beyond = 0.3F;
-  dropped.objects[0].motion_evidence = -1.25F;
   dropped.objects[1].reason = DroppedObjectMessage::BEYOND_BORDER;
   dropped.objects[1].beyond = 2.0F;
-  dropped.objects[1].motion_evidence = -0.01F;
   const MarkerArray markers = markersOf(dropped, MarkersOptions());
   const Marker outline = get(markers, "dropped objects", 0);
   EXPECT_EQ(outline.header.frame_id, "base_link");
@@ -121,8 +119,8 @@ TEST(RoadMarkers, DroppedObjectsAreGrayAndHaveAReason) {
   EXPECT_EQ(outline.points.at(0).x, 2.0);
   EXPECT_EQ(outline.color.r, outline.color.g);
   EXPECT_EQ(outline.color.r, outline.color.b);
-  EXPECT_EQ(get(markers, "dropped labels", 0).text, "on border 0.3 m, evidence -1.3");
-  EXPECT_EQ(get(markers, "dropped labels", 1).text, "beyond border 2.0 m, evidence 0.0");
+  EXPECT_EQ(get(markers, "dropped labels", 0).text, "on border 0.3 m");
+  EXPECT_EQ(get(markers, "dropped labels", 1).text, "beyond border 2.0 m");
 }
 
 TEST(RoadMarkers, ABorderThatIsGoneIsDeleted) {

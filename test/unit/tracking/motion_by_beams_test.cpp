@@ -25,8 +25,9 @@ class BeamScene {
  public:
   BeamScene(double speed, std::uint64_t seed) : speed_(speed), random_(seed) {}
 
-  /// The tracks after a scan of these boxes (map frame), of which the map knows nothing.
-  TrackList scan(const std::vector<Box2>& boxes) {
+  /// The tracks after a scan of these boxes (map frame), of which the map knows nothing; all lie
+  /// where the odds of motion are these.
+  TrackList scan(const std::vector<Box2>& boxes, double motion_log_odds = 0.0) {
     time_ += kPeriod;
     const Pose2 base_in_map(speed_ * time_, 0.0, 0.0);
     std::vector<Box2> in_base;
@@ -40,7 +41,11 @@ class BeamScene {
       point.state = PointState::kUnknown;
     }
     tracker_.addScan(scan);
-    return tracker_.process(detector_.detect(scan), base_in_map, Visibility(scan, visibility_));
+    ObjectList objects = detector_.detect(scan);
+    for (Object& object : objects.objects) {
+      object.motion_log_odds = motion_log_odds;
+    }
+    return tracker_.process(objects, base_in_map, Visibility(scan, visibility_));
   }
 
   double time() const { return time_; }
@@ -63,7 +68,7 @@ class BeamScene {
 
 /// s until a box of this size, that starts at `start` with this velocity along y, is a track, in
 /// the median over seeds; the vehicle stands before a wall. After 5 s: never.
-double medianDelay(double length, double width, double speed) {
+double medianDelay(double length, double width, double speed, double motion_log_odds = 0.0) {
   std::vector<double> delays;
   for (int seed = 1; seed <= kSeeds; ++seed) {
     BeamScene scene(0.0, static_cast<std::uint64_t>(seed));
@@ -75,7 +80,8 @@ double medianDelay(double length, double width, double speed) {
     double delay = 5.0;
     while (scene.time() - start < 5.0) {
       const double y = -10.0 + speed * (scene.time() - start);
-      if (!scene.scan({wall, {Pose2(15.0, y, kQuarterTurn), length, width}}).tracks.empty()) {
+      const Box2 mover{Pose2(15.0, y, kQuarterTurn), length, width};
+      if (!scene.scan({wall, mover}, motion_log_odds).tracks.empty()) {
         delay = scene.time() - start;
         break;
       }
@@ -87,6 +93,17 @@ double medianDelay(double length, double width, double speed) {
 }
 
 TEST(MotionByBeams, ACarIsATrackWithinHalfASecond) { EXPECT_LE(medianDelay(4.4, 1.8, 8.0), 0.5); }
+
+TEST(MotionByBeams, ACarBeyondABorderIsATrackHardlyLater) {
+  const double on_the_road = medianDelay(4.4, 1.8, 8.0);
+  const double beyond = medianDelay(4.4, 1.8, 8.0, -3.0);
+  EXPECT_GE(beyond, on_the_road);
+  EXPECT_LE(beyond, on_the_road + 3.0 * kPeriod);
+}
+
+TEST(MotionByBeams, WhereNothingMovesNothingDoes) {
+  EXPECT_EQ(medianDelay(4.4, 1.8, 8.0, -20.0), 5.0);
+}
 
 TEST(MotionByBeams, AWalkerIsATrackWithinTwoSeconds) { EXPECT_LE(medianDelay(0.6, 0.6, 1.4), 2.0); }
 

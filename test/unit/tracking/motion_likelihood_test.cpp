@@ -146,7 +146,7 @@ TEST(MotionProbability, IsThatOfNeitherOfTheTwoOthers) {
   MotionLikelihoodOptions options;
   options.clutter_odds = 100.0;
   const auto probability = [&](double against_standing, double against_clutter) {
-    return motionProbability({against_standing, 1}, against_clutter, options);
+    return motionProbability(against_standing, against_clutter, options);
   };
   EXPECT_NEAR(probability(std::log(19.0), 1e3), 0.95, 1e-9);
   EXPECT_NEAR(probability(1e3, std::log(1900.0)), 0.95, 1e-9);

@@ -81,6 +81,10 @@ TEST(ObjectCheck, LogOddsAreFinite) {
   Object object = objectAt(1.0, 2.0);
   object.log_odds = -12.5;
   EXPECT_TRUE(isValid(object));
+  object.motion_log_odds = kNan;
+  EXPECT_FALSE(isValid(object));
+  object.motion_log_odds = -3.0;
+  EXPECT_TRUE(isValid(object));
   object.log_odds = kNan;
   EXPECT_FALSE(isValid(object));
   object.log_odds = std::numeric_limits<double>::infinity();
