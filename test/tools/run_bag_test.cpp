@@ -137,6 +137,22 @@ TEST_F(RunBag, UnknownSectionIsNamed) {
   EXPECT_TRUE(holds(failure(), arguments_.config + ": grid_slm"));
 }
 
+TEST_F(RunBag, APresetsKeysAreCheckedToo) {
+  arguments_.presets = {path("preset.yaml")};
+  std::ofstream(arguments_.presets[0]) << "grid_slam: {map_perod: 1.0}\n";
+  const std::string message = failure();
+  EXPECT_TRUE(holds(message, arguments_.presets[0] + ": grid_slam: map_perod")) << message;
+}
+
+TEST_F(RunBag, TheThesissFormsRunOnEveryScan) {
+  writeDrive();
+  arguments_.road_border = true;
+  arguments_.presets = {DATMO_FUSION_SOURCE_DIR "/config/thesis.yaml"};
+  run();
+  EXPECT_EQ(count(arguments_.output, "/road_borders"), static_cast<std::size_t>(kScans));
+  EXPECT_EQ(count(arguments_.output, "/tracks"), static_cast<std::size_t>(kScans));
+}
+
 TEST_F(RunBag, InterruptionLeavesNoBag) {
   writeDrive();
   noteInterruptions();

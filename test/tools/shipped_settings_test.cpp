@@ -47,6 +47,19 @@ TEST(SensorSets, AreReadWithoutAnUnknownKeyOrABadValue) {
   }
 }
 
+TEST(ThesisPreset, IsLaidOverAnySensorSet) {
+  const std::string thesis = kPackage / "config" / "thesis.yaml";
+  for (const std::string& file : sensorSets()) {
+    const SensorSet sensors(file, {thesis});
+    EXPECT_EQ(std::get<std::string>(sensors.values("road_border").at("method")), "thesis") << file;
+    const OptionValues alone = SensorSet(file).values("moving_objects");
+    const auto range_sigma = alone.find("range_sigma");
+    if (range_sigma != alone.end()) {
+      EXPECT_EQ(sensors.values("moving_objects").at("range_sigma"), range_sigma->second) << file;
+    }
+  }
+}
+
 TEST(ParameterPage, ListsTheParametersAsTheyAre) {
   std::ifstream file(kPackage / "doc" / "parameters.md");
   if (!file) {

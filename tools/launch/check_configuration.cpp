@@ -4,6 +4,8 @@
 // start.
 #include <cstdlib>
 #include <iostream>
+#include <string>
+#include <vector>
 
 #include "command_line.h"
 #include "run_bag/sensor_set.h"
@@ -12,11 +14,13 @@ int main(int count, char** words) {
   return datmo::runProgram(
       "check_configuration", EXIT_FAILURE, count, words, [](const auto& given) {
         std::string file;
+        std::vector<std::string> presets;
         datmo::CommandLine line("check_configuration", "Reads a sensor set and prints its path.",
                                 "files");
         line.addFile("CONFIG.yaml", file, "the sensor set")->required();
+        line.addRepeated("--preset", presets, "laid over the sensor set", "PRESET.yaml");
         line.read(given);
-        datmo::SensorSet{file};
+        datmo::SensorSet(file, presets);
         std::cout << file << '\n';
       });
 }

@@ -67,7 +67,9 @@ void checkOutputs(const Arguments& arguments) {
     if (file.empty()) {
       continue;
     }
-    for (const std::string& input : {arguments.input, arguments.config}) {
+    std::vector<std::string> inputs = arguments.presets;
+    inputs.insert(inputs.end(), {arguments.input, arguments.config});
+    for (const std::string& input : inputs) {
       if (isSameFile(file, input)) {
         throw UsageError("'" + input + "': the output must not be an input");
       }
@@ -109,6 +111,8 @@ void addFiles(CommandLine& line, Arguments& arguments) {
   line.addFile("--config", arguments.config,
                "the sensor set, e.g. config/demonstrator.yaml; required", "CONFIG.yaml")
       ->required();
+  line.addRepeated("--preset", arguments.presets,
+                   "is laid over the sensor set, e.g. config/thesis.yaml", "PRESET.yaml");
   line.addFile("--times", arguments.times, "how long each stage took for a message", "FILE.json");
   line.addFile("--tum", arguments.text.tum,
                "the vehicle's poses as the TUM benchmark has them, base_link in map", "POSES.txt");

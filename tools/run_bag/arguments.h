@@ -13,9 +13,10 @@ namespace datmo {
 
 /// What `run_bag` is asked to do.
 struct Arguments {
-  std::string input;   ///< bag
-  std::string output;  ///< bag
-  std::string config;  ///< yaml file of a sensor set
+  std::string input;                 ///< bag
+  std::string output;                ///< bag
+  std::string config;                ///< yaml file of a sensor set
+  std::vector<std::string> presets;  ///< yaml files that are laid over it
   bool with_truth = false;
   bool quiet = false;
   LastStage last_stage = LastStage::kEnd;

@@ -84,7 +84,7 @@ void checkResults(const Arguments& arguments, const DriveSummary& drive, const G
 }
 
 SensorSet readSensorsFor(const Arguments& arguments) {
-  SensorSet sensors(arguments.config);
+  SensorSet sensors(arguments.config, arguments.presets);
   if (!arguments.grid_rule.empty()) {
     sensors.set("grid_fusion", "rule", arguments.grid_rule);
   }

@@ -62,7 +62,25 @@ void checkSectionName(const std::string& file, const std::string& name) {
 
 }  // namespace
 
-SensorSet::SensorSet(const std::string& file) : file_(file) {
+SensorSet::SensorSet(const std::string& file, const std::vector<std::string>& presets)
+    : file_(file) {
+  read(file);
+  for (const std::string& preset : presets) {
+    read(preset);
+    file_ += " with " + preset;
+  }
+  try {
+    shared_ =
+        readSharedOptions(values(kFramesSection), values(kMountsSection), values(kMotionSection));
+  } catch (const OptionError& error) {
+    throw OptionError(file_ + ": " + error.what());
+  }
+  for (const GraphStage& stage : wholeGraph()) {
+    check(stage.name);
+  }
+}
+
+void SensorSet::read(const std::string& file) {
   const YAML::Node root = loadYaml(file);
   if (!root.IsMap()) {
     throw OptionError(file + ": expected sections: frames, grid_slam, tracker and others");
@@ -73,17 +91,10 @@ SensorSet::SensorSet(const std::string& file) : file_(file) {
   for (const auto& entry : root) {
     const std::string name = keyOf(entry.first);
     if (std::find(kDisplays.begin(), kDisplays.end(), name) == kDisplays.end()) {
-      sections_[name] = optionValues(entry.second);
+      for (auto& [key, value] : optionValues(entry.second)) {
+        sections_[name][key] = value;
+      }
     }
-  }
-  try {
-    shared_ =
-        readSharedOptions(values(kFramesSection), values(kMountsSection), values(kMotionSection));
-  } catch (const OptionError& error) {
-    throw OptionError(file + ": " + error.what());
-  }
-  for (const GraphStage& stage : wholeGraph()) {
-    check(stage.name);
   }
 }
 

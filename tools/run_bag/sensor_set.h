@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "datmo_fusion/ros/shared_options.h"
 
@@ -11,9 +12,10 @@ namespace datmo {
 /// The options of all stages: the sections of config/<sensor set>.yaml.
 class SensorSet {
  public:
-  /// Reads a yaml file, and checks the sections of all stages. Throws OptionError that names file,
-  /// section and key.
-  explicit SensorSet(const std::string& file);
+  /// Reads a yaml file and those of presets, whose values take the place of what stands before
+  /// them, and checks the sections of all stages. Throws OptionError that names file, section and
+  /// key.
+  explicit SensorSet(const std::string& file, const std::vector<std::string>& presets = {});
 
   /// Sections `frames`, `mounts` and `motion`.
   const SharedOptions& shared() const { return shared_; }
@@ -31,9 +33,11 @@ class SensorSet {
   void set(const std::string& section, const std::string& key, const OptionValue& value);
 
  private:
+  /// Takes the values of a file in place of what there is.
+  void read(const std::string& file);
   void check(const std::string& section) const;
 
-  std::string file_;
+  std::string file_;  ///< and the presets'
   std::map<std::string, OptionValues> sections_;
   SharedOptions shared_;
 };
