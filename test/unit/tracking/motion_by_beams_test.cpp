@@ -101,10 +101,6 @@ TEST(MotionByBeams, ACarBeyondABorderIsATrackHardlyLater) {
   EXPECT_LE(beyond, on_the_road + 3.0 * kPeriod);
 }
 
-TEST(MotionByBeams, WhereNothingMovesNothingDoes) {
-  EXPECT_EQ(medianDelay(4.4, 1.8, 8.0, -20.0), 5.0);
-}
-
 TEST(MotionByBeams, AWalkerIsATrackWithinTwoSeconds) { EXPECT_LE(medianDelay(0.6, 0.6, 1.4), 2.0); }
 
 TEST(MotionByBeams, WhatStandsIsNoTrackForWhoStands) { EXPECT_EQ(medianDelay(4.4, 1.8, 0.0), 5.0); }
