@@ -80,7 +80,7 @@ class BuiltSpace(unittest.TestCase):
 
     def test_a_python_tool_finds_the_program_that_it_calls(self):
         """With a bag that is not there: it is score_run that says so."""
-        code, output = run("rosrun", "datmo_fusion", "evaluate", "none.bag", "--out", "none")
+        code, output = run("rosrun", "datmo_fusion", "evaluate", "tracks", "none.bag", "--out", "none")
         self.assertNotEqual(code, 0)
         self.assertRegex(output, "score_run: .*none.bag")
 
