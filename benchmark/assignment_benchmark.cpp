@@ -3,8 +3,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include "datmo_fusion/assignment/ranked_assignments.h"
 #include "datmo_fusion/common/random.h"
-#include "datmo_fusion/tracking/ranked_assignments.h"
 
 namespace datmo {
 namespace {

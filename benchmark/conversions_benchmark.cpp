@@ -7,8 +7,8 @@
 #include "street.h"
 #include <benchmark/benchmark.h>
 
-#include "datmo_fusion/ros/message_conversion.h"
-#include "datmo_fusion/ros/scan_conversion.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/convert/scan_conversion.h"
 
 namespace datmo {
 namespace {

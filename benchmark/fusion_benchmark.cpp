@@ -6,8 +6,8 @@
 #include "street.h"
 #include <benchmark/benchmark.h>
 
-#include "datmo_fusion/fusion/grid_fusion.h"
-#include "datmo_fusion/fusion/grid_motion.h"
+#include "datmo_fusion/fusion/grid/grid_fusion.h"
+#include "datmo_fusion/fusion/grid/grid_motion.h"
 #include "datmo_fusion/sensor_model/lidar_grid.h"
 
 namespace datmo {

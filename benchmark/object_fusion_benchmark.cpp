@@ -8,7 +8,7 @@
 #include <benchmark/benchmark.h>
 
 #include "datmo_fusion/common/random.h"
-#include "datmo_fusion/fusion/object_fuser.h"
+#include "datmo_fusion/fusion/object/object_fuser.h"
 
 namespace datmo {
 namespace {

@@ -24,7 +24,7 @@
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/MultiEchoLaserScan.h>
 
-#include "datmo_fusion/ros/messages.h"
+#include "datmo_fusion/ros/convert/messages.h"
 
 namespace datmo {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "run_bag/sensor_set.h"
 
-#include "datmo_fusion/ros/grid_slam_stage.h"
-#include "datmo_fusion/ros/road_border_stage.h"
+#include "datmo_fusion/ros/stage/grid_slam_stage.h"
+#include "datmo_fusion/ros/stage/road_border_stage.h"
 
 namespace datmo {
 

@@ -10,7 +10,7 @@
 #include <benchmark/benchmark.h>
 
 #include "datmo_fusion/common/random.h"
-#include "datmo_fusion/fusion/track_fuser.h"
+#include "datmo_fusion/fusion/track/track_fuser.h"
 
 namespace datmo {
 namespace {

@@ -6,10 +6,10 @@
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
 
-#include "datmo_fusion/ros/camera_view.h"
+#include "datmo_fusion/ros/display/camera_view.h"
 #include "datmo_fusion/ros/frame_ids.h"
 #include "datmo_fusion/ros/parameters.h"
-#include "datmo_fusion/ros/stage_reporter.h"
+#include "datmo_fusion/ros/stage/stage_reporter.h"
 #include "datmo_fusion/ros/transform_subscription.h"
 
 namespace datmo {

@@ -4,8 +4,8 @@
 
 #include <pluginlib/class_list_macros.hpp>
 
-#include "datmo_fusion/ros/cloud_objects_stage.h"
-#include "datmo_fusion/ros/cloud_to_scan_stage.h"
+#include "datmo_fusion/ros/stage/cloud_objects_stage.h"
+#include "datmo_fusion/ros/stage/cloud_to_scan_stage.h"
 
 namespace datmo {
 

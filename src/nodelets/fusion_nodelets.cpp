@@ -10,9 +10,9 @@
 
 #include <pluginlib/class_list_macros.hpp>
 
-#include "datmo_fusion/ros/grid_fusion_stage.h"
-#include "datmo_fusion/ros/object_fusion_stage.h"
-#include "datmo_fusion/ros/track_fusion_stage.h"
+#include "datmo_fusion/ros/stage/grid_fusion_stage.h"
+#include "datmo_fusion/ros/stage/object_fusion_stage.h"
+#include "datmo_fusion/ros/stage/track_fusion_stage.h"
 
 namespace datmo {
 

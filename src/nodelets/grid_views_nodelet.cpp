@@ -6,7 +6,7 @@
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
 
-#include "datmo_fusion/ros/grid_views.h"
+#include "datmo_fusion/ros/display/grid_views.h"
 #include "datmo_fusion/ros/parameters.h"
 
 namespace datmo {

@@ -4,13 +4,13 @@
 
 #include <pluginlib/class_list_macros.hpp>
 
-#include "datmo_fusion/ros/grid_slam_stage.h"
-#include "datmo_fusion/ros/lidar_grid_stage.h"
-#include "datmo_fusion/ros/motion_stage.h"
-#include "datmo_fusion/ros/moving_objects_stage.h"
-#include "datmo_fusion/ros/road_border_stage.h"
-#include "datmo_fusion/ros/static_points_stage.h"
-#include "datmo_fusion/ros/tracker_stage.h"
+#include "datmo_fusion/ros/stage/grid_slam_stage.h"
+#include "datmo_fusion/ros/stage/lidar_grid_stage.h"
+#include "datmo_fusion/ros/stage/motion_stage.h"
+#include "datmo_fusion/ros/stage/moving_objects_stage.h"
+#include "datmo_fusion/ros/stage/road_border_stage.h"
+#include "datmo_fusion/ros/stage/static_points_stage.h"
+#include "datmo_fusion/ros/stage/tracker_stage.h"
 
 namespace datmo {
 

@@ -5,10 +5,10 @@
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
 
-#include "datmo_fusion/ros/input_error.h"
-#include "datmo_fusion/ros/legend.h"
-#include "datmo_fusion/ros/markers.h"
+#include "datmo_fusion/ros/display/legend.h"
+#include "datmo_fusion/ros/display/markers.h"
 #include "datmo_fusion/ros/parameters.h"
+#include "datmo_fusion/ros/stage/input_error.h"
 
 namespace datmo {
 

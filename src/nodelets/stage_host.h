@@ -8,8 +8,8 @@
 
 #include <ros/node_handle.h>
 
-#include "datmo_fusion/ros/stage.h"
-#include "datmo_fusion/ros/stage_reporter.h"
+#include "datmo_fusion/ros/stage/stage.h"
+#include "datmo_fusion/ros/stage/stage_reporter.h"
 #include "datmo_fusion/ros/transform_subscription.h"
 
 namespace datmo {

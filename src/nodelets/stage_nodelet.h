@@ -8,7 +8,7 @@
 #include <nodelet/nodelet.h>
 
 #include "datmo_fusion/ros/parameters.h"
-#include "datmo_fusion/ros/stage_factory.h"
+#include "datmo_fusion/ros/stage/stage_factory.h"
 
 namespace datmo {
 

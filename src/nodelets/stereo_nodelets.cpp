@@ -4,8 +4,8 @@
 
 #include <pluginlib/class_list_macros.hpp>
 
-#include "datmo_fusion/ros/stereo_grid_stage.h"
-#include "datmo_fusion/ros/stereo_objects_stage.h"
+#include "datmo_fusion/ros/stage/stereo_grid_stage.h"
+#include "datmo_fusion/ros/stage/stereo_objects_stage.h"
 
 namespace datmo {
 

@@ -8,7 +8,7 @@
 #include <tf2/LinearMath/Matrix3x3.h>
 #include <tf2/exceptions.h>
 
-#include "datmo_fusion/ros/input_error.h"
+#include "datmo_fusion/ros/stage/input_error.h"
 
 namespace datmo {
 

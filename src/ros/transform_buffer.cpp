@@ -5,7 +5,7 @@
 
 #include <tf2/LinearMath/Vector3.h>
 
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo {
 

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "datmo_fusion/assignment/ranked_assignments.h"
 #include "datmo_fusion/tracking/hypothesis_cluster.h"
 #include "datmo_fusion/tracking/hypothesis_expansion.h"
-#include "datmo_fusion/tracking/ranked_assignments.h"
 
 namespace datmo {
 

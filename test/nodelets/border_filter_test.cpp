@@ -10,7 +10,7 @@
 #include "ros/road_samples.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/ros/road_conversion.h"
+#include "datmo_fusion/ros/convert/road_conversion.h"
 
 namespace datmo {
 namespace {

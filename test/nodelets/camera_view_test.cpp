@@ -7,7 +7,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 
-#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
 
 namespace datmo {
 namespace {

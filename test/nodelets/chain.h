@@ -14,7 +14,7 @@
 #include <ros/ros.h>
 #include <sensor_msgs/LaserScan.h>
 
-#include "datmo_fusion/ros/messages.h"
+#include "datmo_fusion/ros/convert/messages.h"
 #include "datmo_fusion/ros/transform_buffer.h"
 
 namespace datmo {

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/frames.h"
-#include "datmo_fusion/ros/input_error.h"
-#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/stage/input_error.h"
 
 namespace datmo {
 namespace {

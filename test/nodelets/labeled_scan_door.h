@@ -10,8 +10,8 @@
 
 #include <rosgraph_msgs/Clock.h>
 
-#include "datmo_fusion/ros/message_conversion.h"
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo {
 

@@ -9,10 +9,10 @@
 #include "stereo_drive.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/ros/grid_conversion.h"
-#include "datmo_fusion/ros/grid_fusion_stage.h"
-#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/convert/grid_conversion.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/parameters.h"
+#include "datmo_fusion/ros/stage/grid_fusion_stage.h"
 
 namespace datmo {
 namespace {

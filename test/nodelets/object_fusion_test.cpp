@@ -12,7 +12,7 @@
 
 #include <nav_msgs/Odometry.h>
 
-#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
 
 namespace datmo {
 namespace {

@@ -9,7 +9,7 @@
 
 #include <rosgraph_msgs/Clock.h>
 
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo {
 

@@ -8,7 +8,7 @@
 
 #include <sensor_msgs/Image.h>
 
-#include "datmo_fusion/ros/grid_conversion.h"
+#include "datmo_fusion/ros/convert/grid_conversion.h"
 
 namespace datmo {
 namespace {

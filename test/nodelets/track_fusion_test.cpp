@@ -11,9 +11,9 @@
 #include "source_lists.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/parameters.h"
-#include "datmo_fusion/ros/track_fusion_stage.h"
+#include "datmo_fusion/ros/stage/track_fusion_stage.h"
 
 namespace datmo {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <limits>
 
-#include "datmo_fusion/ros/message_conversion.h"
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo {
 

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "datmo_fusion/ros/stage_graph.h"
+#include "datmo_fusion/ros/stage/stage_graph.h"
 
 namespace {
 

@@ -17,8 +17,8 @@
 #include <sensor_msgs/LaserScan.h>
 
 #include "datmo_fusion/common/angle.h"
-#include "datmo_fusion/ros/message_conversion.h"
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo {
 

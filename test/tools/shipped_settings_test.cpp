@@ -9,9 +9,9 @@
 #include "yaml_options.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/ros/camera_view_options.h"
-#include "datmo_fusion/ros/grid_views_options.h"
-#include "datmo_fusion/ros/markers.h"
+#include "datmo_fusion/ros/display/camera_view_options.h"
+#include "datmo_fusion/ros/display/grid_views_options.h"
+#include "datmo_fusion/ros/display/markers.h"
 
 namespace datmo {
 namespace {

@@ -9,7 +9,7 @@
 #include "run_bag_drive.h"
 #include "stereo_pair_sample.h"
 
-#include "datmo_fusion/ros/messages.h"
+#include "datmo_fusion/ros/convert/messages.h"
 
 namespace datmo {
 

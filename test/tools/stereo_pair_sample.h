@@ -12,7 +12,7 @@
 #include <sensor_msgs/Image.h>
 
 #include "datmo_fusion/common/stamp.h"
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo {
 

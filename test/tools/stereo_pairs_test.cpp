@@ -5,7 +5,7 @@
 #include <boost/make_shared.hpp>
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo {
 namespace {

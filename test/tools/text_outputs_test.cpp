@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/common/angle.h"
-#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
 
 namespace datmo {
 namespace {

@@ -14,8 +14,8 @@
 #include <rosbag/view.h>
 #include <sensor_msgs/PointCloud2.h>
 
-#include "datmo_fusion/ros/cloud_to_scan_stage.h"
 #include "datmo_fusion/ros/frame_ids.h"
+#include "datmo_fusion/ros/stage/cloud_to_scan_stage.h"
 
 namespace datmo {
 

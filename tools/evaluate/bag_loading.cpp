@@ -10,7 +10,7 @@
 
 #include <rosbag/bag.h>
 
-#include "datmo_fusion/ros/input_error.h"
+#include "datmo_fusion/ros/stage/input_error.h"
 
 namespace datmo::evaluation {
 

@@ -8,8 +8,8 @@
 
 #include "evaluate/evaluation_data.h"
 
+#include "datmo_fusion/assignment/assignment.h"
 #include "datmo_fusion/common/options.h"
-#include "datmo_fusion/tracking/assignment.h"
 
 namespace datmo::evaluation {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "datmo_fusion/tracking/assignment.h"
+#include "datmo_fusion/assignment/assignment.h"
 
 namespace datmo::evaluation {
 

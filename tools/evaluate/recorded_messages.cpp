@@ -5,9 +5,9 @@
 #include <sstream>
 #include <string>
 
-#include "datmo_fusion/ros/input_error.h"
-#include "datmo_fusion/ros/message_conversion.h"
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/stage/input_error.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo::evaluation {
 

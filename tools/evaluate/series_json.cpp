@@ -6,7 +6,7 @@
 
 #include "evaluate/json_number.h"
 
-#include "datmo_fusion/tracking/assignment.h"
+#include "datmo_fusion/assignment/assignment.h"
 
 namespace datmo::evaluation {
 

@@ -3,7 +3,7 @@
 
 #include "interruption.h"
 
-#include "datmo_fusion/ros/input_error.h"
+#include "datmo_fusion/ros/stage/input_error.h"
 
 namespace datmo::evaluation {
 

@@ -6,7 +6,7 @@
 
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/options.h"
-#include "datmo_fusion/tracking/visibility.h"
+#include "datmo_fusion/visibility/visibility.h"
 
 namespace datmo::kitti {
 

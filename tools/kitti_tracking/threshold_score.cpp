@@ -5,7 +5,7 @@
 
 #include "kitti_tracking/truth_history.h"
 
-#include "datmo_fusion/tracking/assignment.h"
+#include "datmo_fusion/assignment/assignment.h"
 
 namespace datmo::kitti {
 

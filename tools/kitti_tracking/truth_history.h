@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "datmo_fusion/tracking/assignment.h"
+#include "datmo_fusion/assignment/assignment.h"
 
 namespace datmo::kitti {
 

@@ -22,8 +22,8 @@
 
 #include <rosbag/view.h>
 
-#include "datmo_fusion/ros/object_fusion_stage.h"
-#include "datmo_fusion/ros/track_fusion_stage.h"
+#include "datmo_fusion/ros/stage/object_fusion_stage.h"
+#include "datmo_fusion/ros/stage/track_fusion_stage.h"
 
 namespace datmo {
 

@@ -14,7 +14,7 @@
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 
 #include "datmo_fusion/common/pose2.h"
-#include "datmo_fusion/ros/messages.h"
+#include "datmo_fusion/ros/convert/messages.h"
 
 namespace datmo {
 

@@ -6,7 +6,7 @@
 
 #include "stage_types.h"
 
-#include "datmo_fusion/ros/grid_slam_stage.h"
+#include "datmo_fusion/ros/stage/grid_slam_stage.h"
 
 namespace datmo {
 

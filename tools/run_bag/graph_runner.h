@@ -15,8 +15,8 @@
 #include "stage_times.h"
 #include <tf2_msgs/TFMessage.h>
 
-#include "datmo_fusion/ros/stage.h"
-#include "datmo_fusion/ros/stage_graph.h"
+#include "datmo_fusion/ros/stage/stage.h"
+#include "datmo_fusion/ros/stage/stage_graph.h"
 #include "datmo_fusion/ros/transform_buffer.h"
 
 namespace datmo {

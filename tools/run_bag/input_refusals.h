@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "datmo_fusion/ros/stage_monitor.h"
+#include "datmo_fusion/ros/stage/stage_monitor.h"
 
 namespace datmo {
 

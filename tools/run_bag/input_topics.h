@@ -10,7 +10,7 @@
 
 #include <rosbag/bag.h>
 
-#include "datmo_fusion/ros/stage_graph.h"
+#include "datmo_fusion/ros/stage/stage_graph.h"
 
 namespace datmo {
 

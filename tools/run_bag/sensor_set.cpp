@@ -9,7 +9,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "datmo_fusion/common/nearest_name.h"
-#include "datmo_fusion/ros/stage_graph.h"
+#include "datmo_fusion/ros/stage/stage_graph.h"
 
 namespace datmo {
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "datmo_fusion/ros/stage_factory.h"
+#include "datmo_fusion/ros/stage/stage_factory.h"
 
 namespace datmo {
 

@@ -10,8 +10,8 @@
 
 #include <sensor_msgs/PointCloud2.h>
 
-#include "datmo_fusion/ros/stage.h"
-#include "datmo_fusion/ros/stage_runner.h"
+#include "datmo_fusion/ros/stage/stage.h"
+#include "datmo_fusion/ros/stage/stage_runner.h"
 
 namespace stereo_image_proc {
 class StereoProcessor;

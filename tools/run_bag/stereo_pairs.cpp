@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo {
 

@@ -8,7 +8,7 @@
 #include "whole_file.h"
 
 #include "datmo_fusion/common/angle.h"
-#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
 
 namespace datmo {
 

@@ -11,8 +11,8 @@
 #include "simulator/stereo_messages.h"
 #include <tf2_msgs/TFMessage.h>
 
-#include "datmo_fusion/ros/message_conversion.h"
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo::simulator {
 

@@ -13,7 +13,7 @@
 #include <sensor_msgs/MultiEchoLaserScan.h>
 
 #include "datmo_fusion/common/stamp.h"
-#include "datmo_fusion/ros/messages.h"
+#include "datmo_fusion/ros/convert/messages.h"
 
 namespace datmo::simulator {
 

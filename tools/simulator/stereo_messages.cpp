@@ -5,7 +5,7 @@
 
 #include <sensor_msgs/distortion_models.h>
 
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo::simulator {
 

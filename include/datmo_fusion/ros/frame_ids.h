@@ -10,9 +10,9 @@
 #include <nav_msgs/Odometry.h>
 #include <ros/time.h>
 
-#include "datmo_fusion/ros/messages.h"
-#include "datmo_fusion/ros/stage_monitor.h"
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/convert/messages.h"
+#include "datmo_fusion/ros/stage/stage_monitor.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo {
 

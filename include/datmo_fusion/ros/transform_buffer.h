@@ -10,7 +10,7 @@
 
 #include "datmo_fusion/common/stamp_gate.h"
 #include "datmo_fusion/ros/shared_options.h"
-#include "datmo_fusion/ros/stage_monitor.h"
+#include "datmo_fusion/ros/stage/stage_monitor.h"
 
 namespace datmo {
 

@@ -9,7 +9,7 @@
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/tracking/clutter_map.h"
 #include "datmo_fusion/tracking/transition_model.h"
-#include "datmo_fusion/tracking/visibility.h"
+#include "datmo_fusion/visibility/visibility.h"
 
 namespace datmo {
 

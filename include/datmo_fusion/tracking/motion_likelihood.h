@@ -6,8 +6,8 @@
 #include "datmo_fusion/common/box2.h"
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/stamp.h"
-#include "datmo_fusion/tracking/seen_points.h"
 #include "datmo_fusion/visibility/scan_history.h"
+#include "datmo_fusion/visibility/seen_points.h"
 
 namespace datmo {
 

@@ -16,9 +16,9 @@
 #include "datmo_fusion/tracking/imm_filter.h"
 #include "datmo_fusion/tracking/motion_evidence.h"
 #include "datmo_fusion/tracking/motion_likelihood.h"
-#include "datmo_fusion/tracking/seen_points.h"
 #include "datmo_fusion/tracking/track.h"
 #include "datmo_fusion/tracking/tracked_box.h"
+#include "datmo_fusion/visibility/seen_points.h"
 
 namespace datmo {
 

@@ -10,7 +10,7 @@
 #include "datmo_fusion/tracking/target_set.h"
 #include "datmo_fusion/tracking/track.h"
 #include "datmo_fusion/tracking/tracker_options.h"
-#include "datmo_fusion/tracking/visibility.h"
+#include "datmo_fusion/visibility/visibility.h"
 
 namespace datmo {
 

@@ -11,8 +11,8 @@
 #include "datmo_fusion/tracking/hypothesis_expansion.h"
 #include "datmo_fusion/tracking/split_merge.h"
 #include "datmo_fusion/tracking/target.h"
-#include "datmo_fusion/tracking/visibility.h"
 #include "datmo_fusion/visibility/scan_history.h"
+#include "datmo_fusion/visibility/visibility.h"
 
 namespace datmo {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/fusion/cross_covariance.h"
+#include "datmo_fusion/fusion/track/cross_covariance.h"
 
 #include "fusion_tracks.h"
 #include <Eigen/Cholesky>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/fusion/fused_existence.h"
+#include "datmo_fusion/fusion/object/fused_existence.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/fusion/track_combination.h"
+#include "datmo_fusion/fusion/track/track_combination.h"
 
 namespace datmo {
 namespace {

@@ -7,7 +7,7 @@
 #include "track_sources.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/fusion/track_fuser.h"
+#include "datmo_fusion/fusion/track/track_fuser.h"
 
 namespace datmo {
 namespace {

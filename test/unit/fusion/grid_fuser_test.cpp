@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/fusion/grid_fuser.h"
+#include "datmo_fusion/fusion/grid/grid_fuser.h"
 
 #include <memory>
 #include <optional>

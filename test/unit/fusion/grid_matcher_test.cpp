@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/fusion/grid_matcher.h"
+#include "datmo_fusion/fusion/grid/grid_matcher.h"
 
 #include <optional>
 #include <string>

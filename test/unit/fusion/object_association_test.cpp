@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/fusion/object_association.h"
+#include "datmo_fusion/fusion/object/object_association.h"
 
 #include <cmath>
 #include <vector>
@@ -7,8 +7,8 @@
 #include "fusion_objects.h"
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/assignment/assignment.h"
 #include "datmo_fusion/common/angle.h"
-#include "datmo_fusion/tracking/assignment.h"
 
 namespace datmo {
 namespace {

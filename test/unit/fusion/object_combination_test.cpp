@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/fusion/object_combination.h"
+#include "datmo_fusion/fusion/object/object_combination.h"
 
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/common/random.h"
-#include "datmo_fusion/fusion/position_covariance.h"
+#include "datmo_fusion/fusion/object/position_covariance.h"
 #include "datmo_fusion/tracking/object_check.h"
 
 namespace datmo {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/fusion/object_fuser.h"
+#include "datmo_fusion/fusion/object/object_fuser.h"
 
 #include <algorithm>
 #include <cmath>

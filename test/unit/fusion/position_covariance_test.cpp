@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/fusion/position_covariance.h"
+#include "datmo_fusion/fusion/object/position_covariance.h"
 
 #include <string>
 

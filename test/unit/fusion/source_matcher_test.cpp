@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/fusion/source_matcher.h"
+#include "datmo_fusion/fusion/sync/source_matcher.h"
 
 #include <cmath>
 #include <cstdint>

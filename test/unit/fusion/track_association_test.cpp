@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/fusion/track_association.h"
+#include "datmo_fusion/fusion/track/track_association.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/fusion/track_comparison.h"
+#include "datmo_fusion/fusion/track/track_comparison.h"
 
 #include <cmath>
 #include <limits>

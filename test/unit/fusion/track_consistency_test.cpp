@@ -11,7 +11,7 @@
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/fusion/track_combination.h"
+#include "datmo_fusion/fusion/track/track_combination.h"
 
 namespace datmo {
 namespace {

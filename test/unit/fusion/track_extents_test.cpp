@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/fusion/track_extents.h"
+#include "datmo_fusion/fusion/track/track_extents.h"
 
 #include "fusion_tracks.h"
 #include <gtest/gtest.h>

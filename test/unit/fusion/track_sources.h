@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "datmo_fusion/common/angle.h"
-#include "datmo_fusion/fusion/track_fuser.h"
+#include "datmo_fusion/fusion/track/track_fuser.h"
 
 namespace datmo {
 

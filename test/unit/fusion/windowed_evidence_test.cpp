@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/fusion/windowed_evidence.h"
+#include "datmo_fusion/fusion/track/windowed_evidence.h"
 
 #include <gtest/gtest.h>
 

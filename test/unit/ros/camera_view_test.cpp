@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/ros/camera_view.h"
+#include "datmo_fusion/ros/display/camera_view.h"
 
 #include <cmath>
 
@@ -7,7 +7,7 @@
 #include <boost/make_shared.hpp>
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
 
 namespace datmo {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/ros/cloud_conversion.h"
+#include "datmo_fusion/ros/convert/cloud_conversion.h"
 
 #include <limits>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/ros/cloud_objects_stage.h"
+#include "datmo_fusion/ros/stage/cloud_objects_stage.h"
 
 #include "lidar_messages.h"
 #include "monitor_counts.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/ros/cloud_to_scan_stage.h"
+#include "datmo_fusion/ros/stage/cloud_to_scan_stage.h"
 
 #include <cmath>
 
@@ -7,7 +7,7 @@
 #include "monitor_counts.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/ros/scan_conversion.h"
+#include "datmo_fusion/ros/convert/scan_conversion.h"
 
 namespace datmo {
 namespace {

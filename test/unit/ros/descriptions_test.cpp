@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/ros/descriptions.h"
+#include "datmo_fusion/ros/convert/descriptions.h"
 
 #include <gtest/gtest.h>
 

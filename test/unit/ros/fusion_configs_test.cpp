@@ -7,8 +7,8 @@
 #include <datmo_fusion/TrackFusionConfig.h>
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/fusion/grid_fuser.h"
-#include "datmo_fusion/fusion/track_fuser.h"
+#include "datmo_fusion/fusion/grid/grid_fuser.h"
+#include "datmo_fusion/fusion/track/track_fuser.h"
 
 namespace datmo {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/ros/grid_views.h"
+#include "datmo_fusion/ros/display/grid_views.h"
 
 #include <array>
 
@@ -7,9 +7,9 @@
 #include <boost/make_shared.hpp>
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/ros/grid_conversion.h"
-#include "datmo_fusion/ros/message_conversion.h"
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/convert/grid_conversion.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo {
 namespace {

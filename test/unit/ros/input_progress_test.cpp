@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/ros/input_progress.h"
+#include "datmo_fusion/ros/stage/input_progress.h"
 
 #include <gtest/gtest.h>
 

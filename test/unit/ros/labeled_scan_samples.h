@@ -9,7 +9,7 @@
 
 #include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/common/scan.h"
-#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
 
 namespace datmo::samples {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/ros/legend.h"
+#include "datmo_fusion/ros/display/legend.h"
 
 #include <set>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/ros/lidar_grid_stage.h"
+#include "datmo_fusion/ros/stage/lidar_grid_stage.h"
 
 #include <limits>
 
@@ -7,8 +7,8 @@
 #include "monitor_counts.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/ros/grid_conversion.h"
-#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/convert/grid_conversion.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
 
 namespace datmo {
 namespace {

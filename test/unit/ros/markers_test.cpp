@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/ros/markers.h"
+#include "datmo_fusion/ros/display/markers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include "marker_search.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/ros/input_error.h"
-#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/stage/input_error.h"
 
 namespace datmo {
 namespace {

@@ -11,7 +11,7 @@
 #include <geometry_msgs/TransformStamped.h>
 #include <sensor_msgs/LaserScan.h>
 
-#include "datmo_fusion/ros/input_error.h"
+#include "datmo_fusion/ros/stage/input_error.h"
 
 /// Small valid messages, from which tests make others.
 namespace datmo::samples {

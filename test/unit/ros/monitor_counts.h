@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "datmo_fusion/ros/stage_monitor.h"
+#include "datmo_fusion/ros/stage/stage_monitor.h"
 
 namespace datmo::samples {
 

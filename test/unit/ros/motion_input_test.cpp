@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/ros/motion_input.h"
+#include "datmo_fusion/ros/stage/motion_input.h"
 
 #include <limits>
 
 #include "message_samples.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
 
 namespace datmo {
 namespace {

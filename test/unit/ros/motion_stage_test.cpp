@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/ros/motion_stage.h"
+#include "datmo_fusion/ros/stage/motion_stage.h"
 
 #include <cmath>
 #include <limits>
@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/common/angle.h"
-#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
 
 namespace datmo {
 namespace {

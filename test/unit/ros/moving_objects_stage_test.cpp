@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/ros/moving_objects_stage.h"
+#include "datmo_fusion/ros/stage/moving_objects_stage.h"
 
 #include <limits>
 
@@ -8,8 +8,8 @@
 #include "road_samples.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/ros/message_conversion.h"
-#include "datmo_fusion/ros/road_conversion.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/convert/road_conversion.h"
 
 namespace datmo {
 namespace {

@@ -8,7 +8,7 @@
 #include "object_fusion_sample.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/ros/object_fusion_stage.h"
+#include "datmo_fusion/ros/stage/object_fusion_stage.h"
 
 namespace datmo {
 namespace {

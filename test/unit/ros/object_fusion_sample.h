@@ -9,8 +9,8 @@
 #include "monitor_counts.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/ros/message_conversion.h"
-#include "datmo_fusion/ros/object_fusion_stage.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/stage/object_fusion_stage.h"
 
 namespace datmo {
 

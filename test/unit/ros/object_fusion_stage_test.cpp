@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/ros/object_fusion_stage.h"
+#include "datmo_fusion/ros/stage/object_fusion_stage.h"
 
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/ros/repeat_filter.h"
+#include "datmo_fusion/ros/stage/repeat_filter.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/ros/road_border_stage.h"
+#include "datmo_fusion/ros/stage/road_border_stage.h"
 
 #include <limits>
 
@@ -7,7 +7,7 @@
 #include "monitor_counts.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
 
 namespace datmo {
 namespace {

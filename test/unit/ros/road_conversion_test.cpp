@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/ros/road_conversion.h"
+#include "datmo_fusion/ros/convert/road_conversion.h"
 
 #include <cmath>
 #include <functional>
@@ -8,7 +8,7 @@
 #include "road_samples.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo {
 namespace {

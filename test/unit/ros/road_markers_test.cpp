@@ -5,9 +5,9 @@
 #include "road_samples.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/ros/markers.h"
-#include "datmo_fusion/ros/message_conversion.h"
-#include "datmo_fusion/ros/road_conversion.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/convert/road_conversion.h"
+#include "datmo_fusion/ros/display/markers.h"
 
 namespace datmo {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/ros/scan_extent.h"
+#include "datmo_fusion/ros/display/scan_extent.h"
 
 #include <gtest/gtest.h>
 

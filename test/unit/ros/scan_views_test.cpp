@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/ros/scan_views.h"
+#include "datmo_fusion/ros/display/scan_views.h"
 
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
 
 namespace datmo {
 namespace {

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/common/angle.h"
-#include "datmo_fusion/ros/grid_slam_stage.h"
-#include "datmo_fusion/ros/tracker_stage.h"
+#include "datmo_fusion/ros/stage/grid_slam_stage.h"
+#include "datmo_fusion/ros/stage/tracker_stage.h"
 
 namespace datmo {
 namespace {

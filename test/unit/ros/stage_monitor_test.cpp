@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/ros/stage_monitor.h"
+#include "datmo_fusion/ros/stage/stage_monitor.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/ros/stage_runner.h"
+#include "datmo_fusion/ros/stage/stage_runner.h"
 
 #include <memory>
 #include <optional>

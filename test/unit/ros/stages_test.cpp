@@ -5,10 +5,10 @@
 #include <boost/make_shared.hpp>
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/frames.h"
-#include "datmo_fusion/ros/grid_slam_stage.h"
-#include "datmo_fusion/ros/message_conversion.h"
-#include "datmo_fusion/ros/tracker_stage.h"
+#include "datmo_fusion/ros/stage/grid_slam_stage.h"
+#include "datmo_fusion/ros/stage/tracker_stage.h"
 
 namespace datmo {
 namespace {

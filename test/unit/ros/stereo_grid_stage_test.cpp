@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/ros/stereo_grid_stage.h"
+#include "datmo_fusion/ros/stage/stereo_grid_stage.h"
 
 #include <functional>
 #include <limits>
@@ -8,7 +8,7 @@
 #include "monitor_counts.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/ros/grid_conversion.h"
+#include "datmo_fusion/ros/convert/grid_conversion.h"
 
 namespace datmo {
 namespace {

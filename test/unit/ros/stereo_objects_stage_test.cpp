@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/ros/stereo_objects_stage.h"
+#include "datmo_fusion/ros/stage/stereo_objects_stage.h"
 
 #include <random>
 
@@ -7,7 +7,7 @@
 #include "monitor_counts.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/ros/message_conversion.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/tracking/object_check.h"
 
 namespace datmo {

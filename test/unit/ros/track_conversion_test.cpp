@@ -7,8 +7,8 @@
 #include "message_samples.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/ros/message_conversion.h"
-#include "datmo_fusion/ros/stamp_check.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
 #include "datmo_fusion/tracking/track_check.h"
 
 namespace datmo {

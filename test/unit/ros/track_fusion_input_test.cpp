@@ -8,7 +8,7 @@
 #include "track_fusion_sample.h"
 #include <gtest/gtest.h>
 
-#include "datmo_fusion/ros/track_fusion_stage.h"
+#include "datmo_fusion/ros/stage/track_fusion_stage.h"
 
 namespace datmo {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/ros/track_fusion_stage.h"
+#include "datmo_fusion/ros/stage/track_fusion_stage.h"
 
 #include <map>
 #include <string>

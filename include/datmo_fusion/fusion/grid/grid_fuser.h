@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/fusion/grid/grid_fusion.h"
+#include "datmo_fusion/fusion/grid/grid_matcher.h"
+#include "datmo_fusion/fusion/sync/relative_motion.h"
+
+namespace datmo {
+
+struct GridFuserOptions {
+  std::string rule = "dempster_shafer";
+  double mover_speed = 15.0;                         ///< m/s
+  std::map<std::string, GridSourceOptions> sources;  ///< by name; at first lidar and stereo
+
+  /// Vision has the word where it sees, for a planar scanner takes road paint for obstacles and
+  /// misses thin poles (thesis 3.2.3).
+  GridFuserOptions();
+
+  void visit(OptionVisitor& visitor);
+
+  /// Names of the sources that are in use.
+  std::vector<std::string> sourcesInUse() const;
+};
+
+/// What a set of matched grids led to.
+struct FusionResult {
+  FusedGrids grids;                    ///< at the stamp of the reference's grid
+  std::vector<MissingSource> missing;  ///< those of the set, and those whose motion is not known
+};
+
+/// Brings matched grids to the reference's stamp and fuses them (thesis 3.2.3). What may have moved
+/// by itself between the stamps, at up to `mover_speed`, is not called free (movedGrid).
+class GridFuser {
+ public:
+  /// Throws OptionError.
+  explicit GridFuser(const GridFuserOptions& options);
+
+  FusionRule rule() const { return rule_; }
+  void setRule(FusionRule rule) { rule_ = rule; }
+
+  /// All of the set's sources must be in the options (else std::out_of_range).
+  FusionResult fuse(const MatchedGrids& matched, const MotionBetween& motion) const;
+
+ private:
+  GridFuserOptions options_;
+  FusionRule rule_;
+};
+
+}  // namespace datmo

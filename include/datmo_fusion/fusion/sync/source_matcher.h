@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/common/stamp.h"
+#include "datmo_fusion/fusion/sync/matched_samples.h"
+
+namespace datmo {
+
+struct SourceMatcherOptions {
+  std::string reference = "lidar";
+  double tolerance = 0.1;     ///< s
+  double max_wait = 0.1;      ///< s
+  double silent_after = 0.5;  ///< s
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Throws OptionError for options that are not valid, and for a reference that is not one of the
+/// sources.
+void checkMatcher(const SourceMatcherOptions& options, const std::vector<std::string>& sources);
+
+/// In how many sets a sample may be.
+enum class Serving {
+  kOften,  ///< it is the newest word of its source until there is a newer one
+  kOnce,   ///< it is evidence, which must not be counted twice
+};
+
+/// Which samples of several sources belong together in time. Each sample of the reference source
+/// leads to one set, as soon as every other live source has spoken of its stamp or a later one, or
+/// after `max_wait`; of each other source the sample nearest in time is in the set, of two
+/// equally near ones the earlier. While the reference is silent the next live source by name takes
+/// its role; it has it back when it publishes again.
+///
+/// A sample that serves once is kept for the next set if that is nearer to it, as far as is known
+/// by then.
+///
+/// Silence counts from a source's last stamp; before its first, from the first stamp of any. Pure
+/// data time: what comes out hangs on what is put in, and on nothing else.
+template <typename Payload>
+class SourceMatcher {
+ public:
+  using Matched = MatchedSamples<Payload>;
+
+  /// `sources`: the names of all that may speak. Throws OptionError (checkMatcher).
+  SourceMatcher(const SourceMatcherOptions& options, const std::vector<std::string>& sources,
+                Serving serving)
+      : options_(options), serving_(serving) {
+    checkMatcher(options, sources);
+    for (const std::string& source : sources) {
+      sources_[source];
+    }
+  }
+
+  /// Throws std::invalid_argument for a source that there is not.
+  void checkSource(const std::string& source) const;
+
+  /// One more sample; one that is not newer than the last of its source is left out. Throws
+  /// std::invalid_argument for a source that there is not.
+  void add(const std::string& source, Stamp stamp, std::shared_ptr<const Payload> payload);
+
+  /// The next set, by rising stamp; none if nothing is ready. Call it until there is none.
+  /// `now`: time of the data, the newest stamp that the caller has seen.
+  std::optional<Matched> next(Stamp now);
+
+  /// How many samples of a source have been in no set and will be in none, since the start. Throws
+  /// std::out_of_range for a source that there is not.
+  std::uint64_t unserved(const std::string& source) const { return sources_.at(source).unserved; }
+
+  /// Forgets all samples, as if no source had spoken since the first.
+  void forgetSamples();
+
+  /// Forgets all but the counts: the clock has jumped back.
+  void reset();
+
+ private:
+  struct Sample {
+    Stamp stamp;
+    std::shared_ptr<const Payload> payload;
+    bool served = false;
+  };
+  struct Source {
+    std::deque<Sample> samples;  ///< rising stamps; those that may yet serve
+    std::optional<Stamp> last;   ///< of all its samples
+    std::uint64_t unserved = 0;
+  };
+  using Entry = typename std::map<std::string, Source>::value_type;
+
+  /// Of each source, so that no rate fills the memory; at 50 Hz those of more than a second.
+  static constexpr std::size_t kMaxSamples = 64;
+
+  bool isSilent(const Source& source, Stamp now) const {
+    return secondsBetween(source.last.value_or(first_.value_or(now)), now) >= options_.silent_after;
+  }
+
+  /// The source whose samples lead to sets at this time; null: all are silent.
+  Entry* leader(Stamp now);
+
+  /// The source's oldest sample that may lead to a set; null if there is none.
+  Sample* pending(Source& source) const;
+
+  bool isComplete(Stamp stamp, Stamp now) const;
+
+  /// The source's sample that belongs to this stamp of the leader; null if there is none.
+  Sample* nearest(Source& source, Stamp stamp, const Source& leader) const;
+
+  Matched match(Entry& leader, Sample& sample, Stamp now);
+
+  /// Drops the samples that can be in no set after one of this stamp.
+  void dropPast(Source& source, Stamp stamp) const;
+
+  static void dropOldest(Source& source) {
+    source.unserved += source.samples.front().served ? 0 : 1;
+    source.samples.pop_front();
+  }
+
+  SourceMatcherOptions options_;
+  Serving serving_;
+  std::map<std::string, Source> sources_;
+  std::optional<Stamp> first_;    ///< of all samples since the last reset
+  std::optional<Stamp> matched_;  ///< of the last set
+};
+
+template <typename Payload>
+void SourceMatcher<Payload>::checkSource(const std::string& source) const {
+  if (sources_.count(source) == 0) {
+    throw std::invalid_argument("no source is named " + source);
+  }
+}
+
+template <typename Payload>
+void SourceMatcher<Payload>::add(const std::string& name, Stamp stamp,
+                                 std::shared_ptr<const Payload> payload) {
+  checkSource(name);
+  Source& source = sources_.at(name);
+  if (source.last && stamp <= *source.last) {
+    return;
+  }
+  if (!first_) {
+    first_ = stamp;
+  }
+  source.last = stamp;
+  source.samples.push_back({stamp, std::move(payload)});
+  if (source.samples.size() > kMaxSamples) {
+    dropOldest(source);
+  }
+}
+
+template <typename Payload>
+std::optional<MatchedSamples<Payload>> SourceMatcher<Payload>::next(Stamp now) {
+  Entry* lead = leader(now);
+  if (lead == nullptr) {
+    return std::nullopt;
+  }
+  Sample* sample = pending(lead->second);
+  if (sample == nullptr || !isComplete(sample->stamp, now)) {
+    return std::nullopt;
+  }
+  matched_ = sample->stamp;
+  Matched matched = match(*lead, *sample, now);
+  for (auto& [name, source] : sources_) {
+    dropPast(source, *matched_);
+  }
+  return matched;
+}
+
+template <typename Payload>
+void SourceMatcher<Payload>::forgetSamples() {
+  for (auto& [name, source] : sources_) {
+    while (!source.samples.empty()) {
+      dropOldest(source);
+    }
+    source.last.reset();
+  }
+}
+
+template <typename Payload>
+void SourceMatcher<Payload>::reset() {
+  forgetSamples();
+  first_.reset();
+  matched_.reset();
+}
+
+template <typename Payload>
+auto SourceMatcher<Payload>::leader(Stamp now) -> Entry* {
+  // What waits is served, however long ago it was said.
+  const auto leads = [&](Entry& entry) {
+    return !isSilent(entry.second, now) || pending(entry.second) != nullptr;
+  };
+  const auto reference = sources_.find(options_.reference);
+  if (leads(*reference)) {
+    return &*reference;
+  }
+  const auto other = std::find_if(sources_.begin(), sources_.end(), leads);
+  return other == sources_.end() ? nullptr : &*other;
+}
+
+template <typename Payload>
+auto SourceMatcher<Payload>::pending(Source& source) const -> Sample* {
+  const auto found =
+      std::find_if(source.samples.begin(), source.samples.end(), [&](const Sample& sample) {
+        return (!matched_ || *matched_ < sample.stamp) &&
+               (serving_ == Serving::kOften || !sample.served);
+      });
+  return found == source.samples.end() ? nullptr : &*found;
+}
+
+template <typename Payload>
+bool SourceMatcher<Payload>::isComplete(Stamp stamp, Stamp now) const {
+  return secondsBetween(stamp, now) >= options_.max_wait ||
+         std::all_of(sources_.begin(), sources_.end(), [&](const Entry& entry) {
+           const Source& source = entry.second;
+           return isSilent(source, now) || (source.last && *source.last >= stamp);
+         });
+}
+
+template <typename Payload>
+auto SourceMatcher<Payload>::nearest(Source& source, Stamp stamp, const Source& leader) const
+    -> Sample* {
+  const auto distance = [](Stamp at, const Sample& sample) {
+    return std::abs(secondsBetween(at, sample.stamp));
+  };
+  auto end = source.samples.end();
+  if (serving_ == Serving::kOnce) {
+    const auto next = std::find_if(leader.samples.begin(), leader.samples.end(),
+                                   [stamp](const Sample& sample) { return stamp < sample.stamp; });
+    if (next != leader.samples.end()) {
+      end = std::find_if(source.samples.begin(), end, [&](const Sample& sample) {
+        return distance(next->stamp, sample) < distance(stamp, sample);
+      });
+    }
+  }
+  const auto found = std::min_element(
+      source.samples.begin(), end,
+      [&](const Sample& a, const Sample& b) { return distance(stamp, a) < distance(stamp, b); });
+  return found != end && distance(stamp, *found) <= options_.tolerance ? &*found : nullptr;
+}
+
+template <typename Payload>
+MatchedSamples<Payload> SourceMatcher<Payload>::match(Entry& leader, Sample& sample, Stamp now) {
+  Matched matched;
+  const auto serve = [&matched](const std::string& name, Sample& one) {
+    one.served = true;
+    matched.samples.push_back({name, one.stamp, one.payload});
+  };
+  serve(leader.first, sample);
+  for (auto& [name, source] : sources_) {
+    if (name == leader.first) {
+      continue;
+    }
+    if (Sample* const other = nearest(source, sample.stamp, leader.second)) {
+      serve(name, *other);
+    } else {
+      matched.missing.push_back(
+          {name, isSilent(source, now) ? WhyMissing::kSilent : WhyMissing::kNoneNear});
+    }
+  }
+  return matched;
+}
+
+template <typename Payload>
+void SourceMatcher<Payload>::dropPast(Source& source, Stamp stamp) const {
+  const auto& samples = source.samples;
+  const auto isPast = [&] {
+    return secondsBetween(samples.front().stamp, stamp) > options_.tolerance;
+  };
+  while (!samples.empty() && isPast()) {
+    dropOldest(source);
+  }
+  if (serving_ == Serving::kOften) {
+    return;
+  }
+  // What is older than the last that served would be a step back in time.
+  while (
+      std::any_of(samples.begin(), samples.end(), [](const Sample& one) { return one.served; })) {
+    dropOldest(source);
+  }
+}
+
+}  // namespace datmo

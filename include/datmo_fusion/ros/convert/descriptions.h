@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/MultiEchoLaserScan.h>
+#include <sensor_msgs/PointCloud2.h>
+
+#include "datmo_fusion/ros/convert/messages.h"
+
+namespace datmo {
+
+/// What a message looks like, in a few words for people. Nothing is checked: what a message lacks
+/// is left out, or stands as it is.
+///
+/// "360 beams to 8.0 m in frame laser, 12.5 Hz"; the rate is what the scan says itself.
+std::string descriptionOf(const sensor_msgs::LaserScan& scan);
+std::string descriptionOf(const sensor_msgs::MultiEchoLaserScan& scan);
+
+/// "in odom -> base_link"
+std::string descriptionOf(const nav_msgs::Odometry& odometry);
+
+/// "640 x 480 points in frame camera"
+std::string descriptionOf(const sensor_msgs::PointCloud2& cloud);
+
+/// "id 3, pedestrian, at (4.1, -0.3) m in map"
+std::string descriptionOf(const TrackMessage& track, const std::string& frame);
+
+}  // namespace datmo

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+
+#include "datmo_fusion/ros/convert/messages.h"
+#include "datmo_fusion/ros/display/camera_view_options.h"
+#include "datmo_fusion/ros/stage/stage_runner.h"
+#include "datmo_fusion/ros/transform_buffer.h"
+#include "datmo_fusion/vision/box_projection.h"
+
+namespace cv {
+class Mat;
+}
+
+namespace datmo {
+
+/// Tracks as boxes in perspective on the rectified image of a camera.
+///
+/// Each track is drawn where it was when the image was exposed: it is moved by its velocity from
+/// the stamp of its list, the nearest in time, to the image's. An image waits until tf knows where
+/// the camera was; nothing blocks. Bad input is dropped through the monitor, never thrown:
+/// `missing_camera_info`, `bad_camera_info`, `wrong_size`, `wrong_frame`, `bad_encoding`,
+/// `missing_transform`, and what StageRunner::check drops. An image for which no tracks are near
+/// enough in time is shown without boxes (`old_tracks`, a warning).
+class CameraView {
+ public:
+  /// `transforms` and `monitor` must outlive this. Throws OptionError.
+  CameraView(const CameraViewOptions& options, const TransformBuffer& transforms,
+             StageMonitor& monitor);
+
+  /// Of the rectified images: its matrix P serves; the newest one.
+  void takeCameraInfo(const sensor_msgs::CameraInfo& message);
+
+  void takeTracks(const TrackArrayConstPtr& message);
+
+  /// Puts an image into the queue. `now`: ROS time.
+  void takeImage(const sensor_msgs::ImageConstPtr& message, Stamp now);
+
+  /// The next image of the queue whose tracks and transform are there, as bgr8 with its boxes and
+  /// its own header; null if there is none. To be called until null, after each new input.
+  sensor_msgs::ImagePtr next(Stamp now);
+
+ private:
+  struct Waiting {
+    sensor_msgs::ImageConstPtr image;
+    Stamp since;
+  };
+
+  bool hasWaitedTooLong(const Waiting& waiting, Stamp now) const;
+  const TrackArray* nearestTracks(Stamp stamp) const;
+  void checkCamera(const sensor_msgs::Image& image) const;
+  sensor_msgs::ImagePtr draw(const sensor_msgs::ImageConstPtr& image, bool wait_for_tracks);
+  void drawTracks(const TrackArray& tracks, Stamp stamp, const Eigen::Isometry3d& fixed_in_camera,
+                  cv::Mat& canvas) const;
+
+  CameraViewOptions options_;
+  const TransformBuffer& transforms_;
+  StageMonitor& monitor_;
+  StageRunner runner_;
+  sensor_msgs::CameraInfo info_;
+  std::optional<PinholeCamera> camera_;
+  double shift_ = 0.0;  ///< m, of the camera to the right of its frame's origin
+  std::deque<TrackArrayConstPtr> tracks_;
+  std::deque<Waiting> queue_;
+};
+
+}  // namespace datmo

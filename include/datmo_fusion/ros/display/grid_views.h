@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <sensor_msgs/Image.h>
+
+#include "datmo_fusion/common/pose2.h"
+#include "datmo_fusion/common/stamp.h"
+#include "datmo_fusion/ros/display/grid_views_options.h"
+
+namespace datmo {
+
+/// Draws grids side by side for a person to compare: in each panel the vehicle is at the same
+/// position, forward is up, and the scale is the same. Free is light, occupied dark, unknown a
+/// bluish gray; where sources contradict each other, the panel `conflict` is red. The panel `map`
+/// is turned into the vehicle's frame by the last pose; all others are of that frame already.
+///
+///     |<----- panel ----->|<gap>|
+///     +-------------------+     +--
+///     | title             |     |      kTitleHeight
+///     +-------------------+     +--
+///     |         x ^       |     |
+///     |     y <---+       |     |      (ahead + behind) * pixels_per_meter
+///     +-------------------+     +--
+///       2 to_side * pixels_per_meter
+class GridViews {
+ public:
+  static constexpr int kTitleHeight = 24;  ///< px
+  static constexpr int kGap = 4;           ///< px, between two panels
+
+  /// Throws OptionError: for panels see GridViewsOptions::panelNames; a picture that is too large.
+  explicit GridViews(const GridViewsOptions& options);
+
+  /// From the left.
+  const std::vector<std::string>& panels() const { return panels_; }
+
+  /// The newest grid of a panel. One much older than the newest of all begins a new run of the
+  /// clock: what was taken before is forgotten. Not so the map, which may be as old as it likes.
+  void takeGrid(const std::string& panel, const nav_msgs::OccupancyGridConstPtr& grid);
+
+  /// The newest pose of the vehicle in the map.
+  void takePose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& pose) { pose_ = pose; }
+
+  /// The panels as rgb8, with the header of the grid that came last. A panel without a grid is
+  /// empty, and its title says why: none has come, it is silent, or the reason why it is bad.
+  sensor_msgs::ImagePtr draw() const;
+
+ private:
+  struct Panel;  ///< where it is in the picture
+
+  std::string drawGrid(const std::string& name, Panel& panel) const;
+  const nav_msgs::OccupancyGrid& gridOf(const std::string& name) const;
+  Pose2 baseInGrid(const std::string& name) const;
+
+  GridViewsOptions options_;
+  std::vector<std::string> panels_;
+  int panel_width_;                                               ///< px
+  int panel_height_;                                              ///< px, without the title
+  std::map<std::string, nav_msgs::OccupancyGridConstPtr> grids_;  ///< by panel
+  geometry_msgs::PoseWithCovarianceStampedConstPtr pose_;
+  std_msgs::Header last_;        ///< of the grid that came last
+  std::optional<Stamp> newest_;  ///< of all grids but the map
+};
+
+}  // namespace datmo

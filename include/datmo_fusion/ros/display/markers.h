@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/ros/convert/messages.h"
+
+namespace datmo {
+
+/// The vehicle's own body, in the frame of the scans (base_link).
+struct VehicleBodyOptions {
+  double rear = -1.0;       ///< m
+  double front = 3.2;       ///< m
+  double half_width = 0.9;  ///< m
+  double height = 1.5;      ///< m
+
+  void visit(OptionVisitor& visitor);
+};
+
+struct MarkersOptions {
+  double point_size = 0.3;      ///< m
+  double line_width = 0.12;     ///< m
+  double text_height = 1.1;     ///< m
+  double min_size = 0.3;        ///< m
+  double default_height = 1.5;  ///< m
+  double arrow_time = 1.0;      ///< s
+  double path_time = 3.0;       ///< s
+  VehicleBodyOptions vehicle;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Messages -> what rviz draws. One namespace for each kind of marker, ids that stay with what they
+/// stand for; the frame is the message's own unless said otherwise.
+
+/// The end points of a scan ("scan"), colored by state, in the map frame of the pose they were
+/// seen from.
+visualization_msgs::MarkerArray markersOf(const LabeledScanMessage& scan,
+                                          const MarkersOptions& options);
+
+/// The vehicle's own body ("vehicle"): a car of boxes and wheels in the frame of the scan, with
+/// which it moves.
+visualization_msgs::MarkerArray vehicleMarkers(const std_msgs::Header& scan,
+                                               const VehicleBodyOptions& options);
+
+/// Outlines of the objects' boxes ("objects"), colored by who saw them: violet the lidar, cyan
+/// stereo, yellow both, gray others; pale what is not seen to move. Of a known class also its shape
+/// ("object bodies", "object heads"): a box for a vehicle, a cylinder with a head for a pedestrian,
+/// a narrow box with a head for a cyclist, a thin cylinder for a pole.
+visualization_msgs::MarkerArray markersOf(const ObjectArray& objects,
+                                          const MarkersOptions& options);
+
+/// For each track, in namespaces of their own: the shape of its class in the color of the class
+/// ("track bodies", "track heads"), a box where that is not known, pale what stands, the fainter
+/// the less likely the track exists; its outline on the ground ("track outlines"), and one in the
+/// color of who saw it last ("track sensors"); an arrow as long as the distance of `arrow_time`
+/// ("track velocities"); above it "#id class speed", the speed of what moves ("track labels"); the
+/// ellipse on the ground that holds the true position with 95 % ("track covariances"); its past
+/// path in the last `path_time` ("track paths").
+visualization_msgs::MarkerArray markersOf(const TrackArray& tracks, const MarkersOptions& options);
+
+/// For each stretch of the road's borders a line ("road borders"), orange on the left, pink on the
+/// right, darker those of a side street, the wider and less transparent the likelier, and thin
+/// lines at two standard deviations to its sides ("road border sigmas"). Throws InputError as
+/// fromMessage does.
+visualization_msgs::MarkerArray markersOf(const RoadBorders& road, const MarkersOptions& options);
+
+/// "intersection" and its probability ("intersection"), at the vehicle's position at the scan;
+/// nothing where the road is at none. Throws InputError (`bad_pose`).
+void addIntersection(const RoadBorders& road, const LabeledScanMessage& scan,
+                     const MarkersOptions& options, visualization_msgs::MarkerArray& markers);
+
+/// Of what was left out: a gray outline ("dropped objects"), and why, how far it reaches beyond the
+/// border, and what speaks for its motion ("dropped labels").
+visualization_msgs::MarkerArray markersOf(const DroppedObjects& dropped,
+                                          const MarkersOptions& options);
+
+/// Dashed gray outlines of the true objects that move ("ground truth"), thinner than all others.
+visualization_msgs::MarkerArray markersOf(const TrueObjectArray& objects,
+                                          const MarkersOptions& options);
+
+/// Brings markers from the vehicle's frame to the map by the pose of the scan they were made
+/// from. Throws InputError (`bad_pose`).
+void transformToMap(const LabeledScanMessage& scan, visualization_msgs::MarkerArray& markers);
+
+/// Knows what is drawn, so that what is gone is deleted.
+class StaleMarkers {
+ public:
+  /// Appends a DELETE for each marker of the last call with this `source` that is not drawn again.
+  void replace(const std::string& source, visualization_msgs::MarkerArray& markers);
+
+ private:
+  using Key = std::pair<std::string, int>;  ///< namespace and id
+  std::map<std::string, std::set<Key>> drawn_;
+};
+
+}  // namespace datmo

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <nav_msgs/Odometry.h>
+
+#include "datmo_fusion/fusion/grid/grid_fuser.h"
+#include "datmo_fusion/fusion/grid/grid_matcher.h"
+#include "datmo_fusion/ros/stage/fusion_inputs.h"
+#include "datmo_fusion/ros/stage/motion_input.h"
+#include "datmo_fusion/ros/stage/stage.h"
+#include "datmo_fusion/ros/stage/stage_runner.h"
+
+namespace datmo {
+
+struct GridFusionStageOptions {
+  FrameOptions frames;   ///< of all stages
+  MotionOptions motion;  ///< of all stages
+  StreamOptions input;
+  SourceMatcherOptions matcher;
+  GridFuserOptions fuser;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// What one set of grids led to, ready to be published.
+struct GridFusionOutput {
+  nav_msgs::OccupancyGridPtr fused;
+  nav_msgs::OccupancyGridPtr conflict;
+};
+
+/// GridMatcher and GridFuser between messages: the same ones serve the nodelet and the bag runner.
+/// What is accepted, and how a missing source is reported: FusionInputs. When the clock jumps
+/// back all state is forgotten.
+class GridFusionStage : public Stage {
+ public:
+  using Options = GridFusionStageOptions;
+
+  /// `monitor` must outlive the stage. Throws OptionError.
+  GridFusionStage(const GridFusionStageOptions& options, StageMonitor& monitor);
+
+  /// The sources in use, by name.
+  std::vector<std::string> sources() const { return options_.fuser.sourcesInUse(); }
+
+  /// One grid of a source (else it is dropped: `unknown_source`). `now`: ROS time.
+  void takeGrid(const std::string& source, const nav_msgs::OccupancyGrid& message, Stamp now);
+
+  /// Newest odometry; not read where the options say that the vehicle has none.
+  void takeOdometry(const nav_msgs::Odometry& message) { inputs_.takeMotion(message); }
+
+  /// Newest pose of the SLAM; read only where the options say that the vehicle has no odometry.
+  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
+    inputs_.takeMotion(message);
+  }
+
+  /// The next set of grids that is ready, fused; none if there is none. Call it until there is
+  /// none, after each grid and from time to time: nobody knows before whether one that is waited
+  /// for still comes. `now`: ROS time.
+  std::optional<GridFusionOutput> next(Stamp now);
+
+  /// The rule by its name, from the next set on. Throws OptionError for a name that there is not.
+  void setRule(const std::string& name) { fuser_.setRule(fusionRule(name)); }
+
+  void connect(StagePorts& ports) override;
+  bool publishNext(Stamp now) override;
+  double maxWait() const override { return options_.matcher.max_wait; }
+
+ private:
+  GridFusionOutput fuse(const MatchedGrids& matched);
+  void reset();
+
+  GridFusionStageOptions options_;
+  StageMonitor& monitor_;
+  StageRunner runner_;
+  FusionInputs inputs_;
+  GridMatcher matcher_;
+  GridFuser fuser_;
+  StagePublisher<nav_msgs::OccupancyGrid> fused_;
+  StagePublisher<nav_msgs::OccupancyGrid> conflict_;
+};
+
+}  // namespace datmo

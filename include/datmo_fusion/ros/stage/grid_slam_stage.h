@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <nav_msgs/Odometry.h>
+
+#include "datmo_fusion/ros/convert/messages.h"
+#include "datmo_fusion/ros/convert/scan_conversion.h"
+#include "datmo_fusion/ros/display/scan_extent.h"
+#include "datmo_fusion/ros/frame_options.h"
+#include "datmo_fusion/ros/motion_options.h"
+#include "datmo_fusion/ros/stage/stage.h"
+#include "datmo_fusion/ros/stage/stage_runner.h"
+#include "datmo_fusion/ros/stage/waiting_scans.h"
+#include "datmo_fusion/ros/transform_buffer.h"
+#include "datmo_fusion/slam/grid_slam.h"
+#include "datmo_fusion/slam/odometry_poses.h"
+
+namespace datmo {
+
+struct GridSlamStageOptions {
+  FrameOptions frames;   ///< of all stages
+  MotionOptions motion;  ///< of all stages
+  bool fused_grid = false;
+  double map_period = 1.0;         ///< s
+  double max_tilt = degrees(5.0);  ///< rad
+  StreamOptions input;
+  ScanConversionOptions scan;
+  GridSlamOptions slam;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// What one scan or fused grid led to, ready to be published.
+struct GridSlamOutput {
+  LabeledScanPtr labeled_scan;
+  geometry_msgs::PoseWithCovarianceStampedPtr pose;
+  std::vector<geometry_msgs::TransformStamped> transforms;
+};
+
+/// GridSlam between messages: the same one serves the nodelet and the bag runner.
+///
+/// Bad input is dropped or warned of through the monitor, never thrown. When the clock jumps back
+/// all state is forgotten.
+///
+/// With low-level fusion (`fused_grid`) scans only wait for the fused grid of their stamp, which
+/// sets the pace.
+///
+/// With odometry, map -> odom is chosen so that odom -> base_link, at the scan's stamp, leads to
+/// the pose; odom -> base_link itself comes from whoever makes the odometry, and may be ahead of
+/// the scan. It is left out while odometry is silent. Without odometry, or with a motion that other
+/// sensors tell, map and odom are the same, and odom -> base_link is the pose.
+class GridSlamStage : public Stage {
+ public:
+  using Options = GridSlamStageOptions;
+
+  /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
+  GridSlamStage(const GridSlamStageOptions& options, const TransformBuffer& transforms,
+                StageMonitor& monitor);
+
+  /// Newest odometry, the vehicle's own or that of MotionStage, of which an Imu alone gives no
+  /// speed; not read where the options name no source of motion.
+  void takeOdometry(const nav_msgs::Odometry& message);
+
+  /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan. None if it was dropped, or waits for
+  /// the fused grid of its stamp.
+  template <typename Message>
+  std::optional<GridSlamOutput> takeScan(const Message& message);
+
+  /// The fused grid at the stamp of a scan that was taken before. One of another stamp (the scanner
+  /// is silent) serves alone. None if it was dropped; it is where the options say that there is no
+  /// low-level fusion.
+  std::optional<GridSlamOutput> takeGrid(const nav_msgs::OccupancyGrid& message);
+
+  /// The map after the last scan, whose stamp this is; null if it is not its turn. To be requested
+  /// when the scan's results are on their way: the chain waits for them, and nobody for the map,
+  /// which may take as long to write as all stages need for the scan.
+  nav_msgs::OccupancyGridPtr mapIfDue(Stamp stamp);
+
+  void connect(StagePorts& ports) override;
+
+ private:
+  void checkBaseFrame(const std::string& frame) const;
+
+  void reset();
+  void warnOf(const ScannerMount& mount, const ConvertedScan& converted);
+
+  /// For diagnostics.
+  void showMatch(const SlamResult& result);
+  GridSlamOutput finish(const SlamResult& result);
+  GridSlamOutput outputOf(const SlamResult& result);
+  std::vector<geometry_msgs::TransformStamped> transformsTo(const Pose2& base_in_map, Stamp stamp);
+
+  GridSlamStageOptions options_;
+  const TransformBuffer& transforms_;
+  StageMonitor& monitor_;
+  GridSlam slam_;
+  ScanExtent extent_;
+  StageRunner runner_;
+  OdometryPoses odometry_poses_;
+  WaitingScans scans_;
+  std::optional<Stamp> last_map_;
+  std::uint64_t degenerate_scans_ = 0;
+};
+
+}  // namespace datmo

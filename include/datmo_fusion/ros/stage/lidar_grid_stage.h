@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <nav_msgs/Odometry.h>
+
+#include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/ros/convert/scan_conversion.h"
+#include "datmo_fusion/ros/stage/motion_input.h"
+#include "datmo_fusion/ros/stage/stage.h"
+#include "datmo_fusion/ros/stage/stage_runner.h"
+#include "datmo_fusion/ros/transform_buffer.h"
+#include "datmo_fusion/sensor_model/lidar_grid.h"
+
+namespace datmo {
+
+struct LidarGridStageOptions {
+  FrameOptions frames;             ///< of all stages
+  double max_tilt = degrees(5.0);  ///< rad
+  MotionOptions motion;            ///< of all stages
+  StreamOptions input;
+  ScanConversionOptions scan;
+  LidarGridOptions grid;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// LidarGridModel between messages: the same one serves the nodelet and the bag runner. Bad input
+/// is dropped or warned of through the monitor, never thrown.
+///
+/// A scan is compensated for the vehicle's motion by odometry, where the vehicle has none by the
+/// poses of the SLAM; where neither has come, all its beams are taken as measured at once.
+class LidarGridStage : public Stage {
+ public:
+  using Options = LidarGridStageOptions;
+
+  /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
+  LidarGridStage(const LidarGridStageOptions& options, const TransformBuffer& transforms,
+                 StageMonitor& monitor);
+
+  /// Newest odometry; not read where the options say that the vehicle has none.
+  void takeOdometry(const nav_msgs::Odometry& message) { takeMotion(message); }
+
+  /// Newest pose of the SLAM; read only where the options say that the vehicle has no odometry.
+  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message) { takeMotion(message); }
+
+  /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan. Null if it was dropped.
+  template <typename Message>
+  nav_msgs::OccupancyGridPtr takeScan(const Message& message);
+
+  void connect(StagePorts& ports) override;
+
+ private:
+  template <typename Message>
+  void takeMotion(const Message& message) {
+    runner_.serve([&] { motion_.take(message); });
+  }
+  void warnOf(const ScannerMount& mount, const ConvertedScan& converted);
+  Scan compensated(const Scan& scan) const;
+
+  LidarGridStageOptions options_;
+  const TransformBuffer& transforms_;
+  StageMonitor& monitor_;
+  LidarGridModel model_;
+  StageRunner runner_;
+  MotionInput motion_;
+};
+
+}  // namespace datmo

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "datmo_fusion/detection/moving_object_detector.h"
+#include "datmo_fusion/road/border_filter.h"
+#include "datmo_fusion/ros/convert/messages.h"
+#include "datmo_fusion/ros/stage/stage.h"
+#include "datmo_fusion/ros/stage/stage_runner.h"
+
+namespace datmo {
+
+struct MovingObjectsStageOptions {
+  StreamOptions input;
+  MovingObjectDetectorOptions detector;
+  bool road_borders = false;
+  double border_age = 0.5;  ///< s
+  BorderFilterOptions border_filter;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// What one split scan led to.
+struct MovingObjectsOutput {
+  ObjectArrayPtr objects;     ///< in the frame of the scan
+  DroppedObjectsPtr dropped;  ///< left out of them; null without road borders
+};
+
+/// MovingObjectDetector and BorderFilter between messages: the same one serves the nodelet and the
+/// bag runner. Bad input is dropped through the monitor, never thrown. Without borders that are new
+/// enough all objects pass.
+class MovingObjectsStage : public Stage {
+ public:
+  using Options = MovingObjectsStageOptions;
+
+  /// `monitor` must outlive the stage. Throws OptionError.
+  MovingObjectsStage(const MovingObjectsStageOptions& options, StageMonitor& monitor);
+
+  /// The road for the scans from now on, in the frame of their map; read if `road_borders`.
+  void takeRoadBorders(const RoadBorders& message);
+
+  /// None if the scan was dropped.
+  std::optional<MovingObjectsOutput> takeLabeledScan(const LabeledScanMessage& message);
+
+  void connect(StagePorts& ports) override;
+
+ private:
+  /// The borders that serve a scan; none, and the monitor warned, if there are none.
+  std::optional<RoadModel> roadAt(Stamp stamp, const std::string& map_frame);
+  DroppedObjectsPtr dropAtBorders(const LabeledScan& scan, const LabeledScanMessage& message,
+                                  ObjectList& objects);
+
+  MovingObjectsStageOptions options_;
+  StageMonitor& monitor_;
+  MovingObjectDetector detector_;
+  BorderFilter border_filter_;
+  StageRunner runner_;
+  std::optional<RoadModel> road_;  ///< the newest
+  std::string road_frame_;
+};
+
+}  // namespace datmo

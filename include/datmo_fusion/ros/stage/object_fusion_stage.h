@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <nav_msgs/Odometry.h>
+
+#include "datmo_fusion/common/scan.h"
+#include "datmo_fusion/fusion/object/object_fuser.h"
+#include "datmo_fusion/fusion/sync/source_matcher.h"
+#include "datmo_fusion/ros/convert/messages.h"
+#include "datmo_fusion/ros/stage/fusion_inputs.h"
+#include "datmo_fusion/ros/stage/motion_input.h"
+#include "datmo_fusion/ros/stage/stage.h"
+#include "datmo_fusion/ros/stage/stage_runner.h"
+
+namespace datmo {
+
+struct ObjectFusionStageOptions {
+  FrameOptions frames;   ///< of all stages
+  MotionOptions motion;  ///< of all stages
+  StreamOptions input;
+  SourceMatcherOptions matcher;
+  ObjectFuserOptions fuser;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Matched lists of objects and ObjectFuser between messages: the same ones serve the nodelet and
+/// the bag runner. What is accepted, and how a missing source is reported: FusionInputs. When
+/// the clock jumps back all state is forgotten.
+///
+/// A list is fused once: a source slower than the reference is not heard twice. One that was in no
+/// set is counted. Objects and views that do not name their sensor are taken for their source's
+/// own; views that are not valid are left out, and said.
+class ObjectFusionStage : public Stage {
+ public:
+  using Options = ObjectFusionStageOptions;
+
+  /// `monitor` must outlive the stage. Throws OptionError.
+  ObjectFusionStage(const ObjectFusionStageOptions& options, StageMonitor& monitor);
+
+  /// The sources in use, by name.
+  std::vector<std::string> sources() const { return options_.fuser.sourcesInUse(); }
+
+  /// The objects of one source (else they are dropped: `unknown_source`). `now`: ROS time.
+  void takeObjects(const std::string& source, const ObjectArray& message, Stamp now);
+
+  /// Newest odometry; not read where the options say that the vehicle has none.
+  void takeOdometry(const nav_msgs::Odometry& message) { inputs_.takeMotion(message); }
+
+  /// Newest pose of the SLAM; read only where the options say that the vehicle has no odometry.
+  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
+    inputs_.takeMotion(message);
+  }
+
+  /// What the scanner saw; it serves for objects at exactly its stamp.
+  void takeLabeledScan(const LabeledScanMessage& message);
+
+  /// The next set of lists that is ready, fused, at the reference's stamp; null if there is none.
+  /// Call it until null, after each list and from time to time: it is not known before whether one
+  /// that is waited for still comes. `now`: ROS time.
+  ObjectArrayPtr next(Stamp now);
+
+  void connect(StagePorts& ports) override;
+  bool publishNext(Stamp now) override;
+  double maxWait() const override { return options_.matcher.max_wait; }
+
+ private:
+  using Matched = MatchedSamples<ObjectList>;
+
+  /// The lists of the set whose motion is known; the others are added to `missing`.
+  std::vector<SourceObjects> movedLists(const Matched& matched,
+                                        std::vector<MissingSource>& missing) const;
+  /// None without a scan of this stamp. Sets come by rising stamp: older scans are dropped.
+  std::optional<LabeledScan> takeScanAt(Stamp stamp);
+  ObjectArrayPtr fuse(const Matched& matched);
+  void reset();
+  void report(const std::vector<SourceObjects>& lists, const ObjectFusionCounts& counts);
+
+  ObjectFusionStageOptions options_;
+  StageMonitor& monitor_;
+  StageRunner runner_;
+  FusionInputs inputs_;
+  SourceMatcher<ObjectList> matcher_;
+  ObjectFuser fuser_;
+  StagePublisher<ObjectArray> fused_;
+  std::deque<LabeledScan> scans_;  ///< newer than the last set, by rising stamp
+  std::uint64_t times_without_scan_ = 0;
+  std::uint64_t bad_objects_ = 0;
+  std::uint64_t objects_too_many_ = 0;
+};
+
+}  // namespace datmo

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "datmo_fusion/road/road_border_detector.h"
+#include "datmo_fusion/ros/convert/messages.h"
+#include "datmo_fusion/ros/stage/stage.h"
+#include "datmo_fusion/ros/stage/stage_runner.h"
+
+namespace datmo {
+
+struct RoadBorderStageOptions {
+  StreamOptions input;
+  RoadBorderDetectorOptions detector;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// RoadBorderDetector between messages: the same one serves the nodelet and the bag runner. Bad
+/// input is dropped through the monitor, never thrown. When the clock jumps back, or the map gives
+/// way to one of another frame, the road is forgotten.
+class RoadBorderStage : public Stage {
+ public:
+  using Options = RoadBorderStageOptions;
+
+  /// `monitor` must outlive the stage. Throws OptionError.
+  RoadBorderStage(const RoadBorderStageOptions& options, StageMonitor& monitor);
+
+  /// The road in the frame of the map that the scan was split by; null if the scan was dropped.
+  RoadBordersPtr takeLabeledScan(const LabeledScanMessage& message);
+
+  void connect(StagePorts& ports) override;
+
+ private:
+  void show(const RoadModel& road);
+
+  StageMonitor& monitor_;
+  RoadBorderDetector detector_;
+  StageRunner runner_;
+  std::string map_frame_;  ///< of the last scan; empty before the first
+};
+
+}  // namespace datmo

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+
+#include <boost/pointer_cast.hpp>
+#include <boost/shared_ptr.hpp>
+
+#include <ros/message_traits.h>
+#include <ros/node_handle.h>
+
+#include "datmo_fusion/common/stamp.h"
+#include "datmo_fusion/ros/frame_ids.h"
+#include "datmo_fusion/ros/stage/queue_length.h"
+#include "datmo_fusion/ros/stage/stage_monitor.h"
+
+namespace datmo {
+
+/// A message whose type only its topic knows.
+using AnyMessage = boost::shared_ptr<const void>;
+
+/// One input of a stage, without the type of its messages.
+struct StageInput {
+  using Take = std::function<void(const AnyMessage& message, Stamp now)>;
+  using Subscribe = std::function<ros::Subscriber(ros::NodeHandle& node, StageMonitor& monitor,
+                                                  const Take& take)>;
+
+  std::string topic;      ///< as the stage calls it, before remapping
+  std::string data_type;  ///< "sensor_msgs/LaserScan"
+  std::string booked_as;  ///< the input that the monitor counts it for
+  bool required = true;   ///< its silence is a fault
+  Take take;
+  Subscribe subscribe;  ///< with plain frames, the arrival booked
+};
+
+/// One output of a stage, without the type of its messages.
+struct StageOutput {
+  using Publish = std::function<void(const AnyMessage& message)>;
+
+  std::string topic;  ///< as the stage calls it, before remapping
+  std::string data_type;
+  std::function<Publish(ros::NodeHandle& node)> advertise;
+};
+
+/// What a stage publishes on one topic; without a host nothing.
+template <typename Message>
+class StagePublisher {
+ public:
+  StagePublisher() = default;
+  explicit StagePublisher(StageOutput::Publish publish) : publish_(std::move(publish)) {}
+
+  /// Null is left out.
+  void publish(const boost::shared_ptr<const Message>& message) const {
+    if (message && publish_) {
+      publish_(message);
+    }
+  }
+
+ private:
+  StageOutput::Publish publish_;
+};
+
+/// Where a stage declares what it takes and what it makes. Its host connects them: to topics
+/// (StageHost), or to other stages (GraphRunner).
+///
+/// A host hands the messages of one stage over one after the other. Those that are there at the
+/// same time it hands over in the order in which their inputs were declared.
+class StagePorts {
+ public:
+  virtual ~StagePorts() = default;
+
+  template <typename Message>
+  using Take = std::function<void(const boost::shared_ptr<const Message>& message, Stamp now)>;
+
+  /// An input whose silence is a fault. `now`: ROS time.
+  template <typename Message>
+  void in(const std::string& topic, Take<Message> take) {
+    addInput(inputOf<Message>(topic, topic, true, std::move(take)));
+  }
+
+  /// One that may be silent.
+  template <typename Message>
+  void optionalIn(const std::string& topic, Take<Message> take) {
+    addInput(inputOf<Message>(topic, topic, false, std::move(take)));
+  }
+
+  /// One whose messages may come instead of those of another input.
+  template <typename Message>
+  void inInsteadOf(const std::string& other, const std::string& topic, Take<Message> take) {
+    addInput(inputOf<Message>(topic, other, false, std::move(take)));
+  }
+
+  /// `latched`: who comes late gets the last message.
+  template <typename Message>
+  StagePublisher<Message> out(const std::string& topic, bool latched = false) {
+    const auto advertise = [topic, latched](ros::NodeHandle& node) -> StageOutput::Publish {
+      const std::uint32_t queue = latched ? 1 : queueLength<Message>();
+      return [publisher = node.advertise<Message>(topic, queue, latched)](const AnyMessage& any) {
+        publisher.publish(boost::const_pointer_cast<Message>(typed<Message>(any)));
+      };
+    };
+    return StagePublisher<Message>(
+        addOutput({topic, ros::message_traits::datatype<Message>(), advertise}));
+  }
+
+ protected:
+  virtual void addInput(StageInput input) = 0;
+  virtual StageOutput::Publish addOutput(StageOutput output) = 0;
+
+ private:
+  template <typename Message>
+  static boost::shared_ptr<const Message> typed(const AnyMessage& message) {
+    return boost::static_pointer_cast<const Message>(message);
+  }
+
+  template <typename Message>
+  static StageInput inputOf(const std::string& topic, const std::string& booked_as, bool required,
+                            Take<Message> take) {
+    const auto subscribe = [topic, booked_as](ros::NodeHandle& node, StageMonitor& monitor,
+                                              const StageInput::Take& take_any) {
+      const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
+          [booked_as, &monitor, take_any](const boost::shared_ptr<const Message>& message) {
+            take_any(receive(booked_as, message, monitor), toStamp(ros::Time::now()));
+          };
+      return node.subscribe<Message>(topic, queueLength<Message>(), callback, ros::VoidConstPtr(),
+                                     ros::TransportHints().tcpNoDelay());
+    };
+    return {topic,
+            ros::message_traits::datatype<Message>(),
+            booked_as,
+            required,
+            [take](const AnyMessage& message, Stamp now) { take(typed<Message>(message), now); },
+            subscribe};
+  }
+};
+
+/// A part of the chain from sensors to tracks: declares once what it takes and what it makes, and
+/// runs live, as a nodelet, and on a bag.
+class Stage {
+ public:
+  virtual ~Stage() = default;
+
+  /// Declares inputs and outputs. Called once, before the first message.
+  virtual void connect(StagePorts& ports) = 0;
+
+  /// Publishes the next result that is ready; false if there is none. Asked until then after each
+  /// message and each change of tf, and where `maxWait` says so from time to time.
+  virtual bool publishNext(Stamp /*now*/) { return false; }
+
+  /// s; how long a message may wait for others.
+  virtual double maxWait() const { return 0.0; }
+};
+
+}  // namespace datmo

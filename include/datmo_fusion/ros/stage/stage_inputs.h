@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/PointCloud2.h>
+
+#include "datmo_fusion/ros/motion_options.h"
+#include "datmo_fusion/ros/stage/stage.h"
+
+namespace datmo {
+
+/// How the vehicle moves, for a stage with takeOdometry and takePose: odometry, or the poses of
+/// the SLAM where no input gives the speed.
+template <typename MovingStage>
+void connectMotion(StagePorts& ports, const MotionOptions& motion, MovingStage& stage) {
+  if (motion.hasSpeed()) {
+    ports.in<nav_msgs::Odometry>(
+        motion.odometryTopic(),
+        [&stage](const auto& odometry, Stamp /*now*/) { stage.takeOdometry(*odometry); });
+  } else {
+    ports.in<geometry_msgs::PoseWithCovarianceStamped>(
+        "pose", [&stage](const auto& pose, Stamp /*now*/) { stage.takePose(*pose); });
+  }
+}
+
+/// The stereo camera, for a stage with takeCameraInfo and takeCloud, whose result goes to `output`.
+template <typename StereoStage, typename Message>
+void connectStereo(StagePorts& ports, StereoStage& stage, const StagePublisher<Message>& output) {
+  ports.optionalIn<sensor_msgs::CameraInfo>(
+      "right/camera_info",
+      [&stage](const auto& info, Stamp /*now*/) { stage.takeCameraInfo(*info); });
+  ports.in<sensor_msgs::PointCloud2>("points2", [&stage, output](const auto& cloud, Stamp /*now*/) {
+    output.publish(stage.takeCloud(*cloud));
+  });
+}
+
+}  // namespace datmo

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "datmo_fusion/common/stamp.h"
+#include "datmo_fusion/ros/stage/input_error.h"
+#include "datmo_fusion/ros/stage/repeat_filter.h"
+
+namespace datmo {
+
+/// One input of a stage, as its receiver sees it.
+struct InputStatus {
+  std::uint64_t received = 0;
+  double rate = 0.0;              ///< Hz, over the last messages
+  std::optional<double> silence;  ///< s since the last message; none before the first
+};
+
+/// One message that has led to a result.
+struct Processed {
+  Stamp stamp;           ///< of the measurement
+  double seconds = 0.0;  ///< it took
+};
+
+/// Processing times over the last messages, s; 0 before the first.
+struct TimingStatus {
+  double median = 0.0;
+  double percentile_99 = 0.0;
+  double max = 0.0;
+};
+
+/// Counts what a stage receives, drops and needs in time; reports on the console what is
+/// wrong, once for each cause. Not thread safe.
+class StageMonitor {
+ public:
+  /// `stage`: the nodelet's name; a slash at its front is left out.
+  explicit StageMonitor(const std::string& stage);
+
+  const std::string& stage() const { return stage_; }
+
+  /// A message has come. `now`: ROS time.
+  void received(const std::string& input, Stamp now);
+
+  /// A message has led to a result.
+  void processed(const Processed& message);
+
+  /// A message was dropped.
+  void dropped(const InputError& error);
+
+  /// Something is wrong with a message or missing, but the stage goes on with it.
+  void warned(const InputError& error);
+
+  /// A figure of merit of the last result, with its unit:
+  /// "weakest direction [m]".
+  void figure(const std::string& name, double value) { figures_[name] = value; }
+
+  /// What the messages of an input look like, for people: "360 beams to 8.0 m in laser". Asked for
+  /// once alone.
+  void describe(const std::string& input, const std::function<std::string()>& description);
+
+  /// Something that happens for the first time is worth a line: the first track. Once for each
+  /// `event`.
+  void announce(const std::string& event, const std::string& text);
+
+  bool hasReceived(const std::string& input) const { return inputs_.count(input) != 0; }
+
+  /// Empty if there is none.
+  std::string description(const std::string& input) const;
+
+  /// What was announced since the last call.
+  std::vector<std::string> takeAnnouncements();
+
+  InputStatus input(const std::string& name, Stamp now) const;
+  TimingStatus timing() const;
+  std::uint64_t processedCount() const { return processed_; }
+  const Processed& lastProcessed() const { return last_processed_; }
+  std::uint64_t droppedCount() const;
+  std::uint64_t warningCount() const;
+
+  /// By reason.
+  const std::map<std::string, std::uint64_t>& drops() const { return drops_; }
+  const std::map<std::string, std::uint64_t>& warnings() const { return warnings_; }
+
+  const std::map<std::string, double>& figures() const { return figures_; }
+
+  /// The newest of both kinds; empty before the first.
+  const std::string& lastError() const { return last_error_; }
+
+ private:
+  struct Input {
+    std::uint64_t count = 0;
+    std::deque<Stamp> arrivals;  ///< the last ones
+  };
+
+  void say(const InputError& error);
+
+  std::string stage_;
+  std::map<std::string, Input> inputs_;
+  std::map<std::string, std::uint64_t> drops_;
+  std::map<std::string, std::uint64_t> warnings_;
+  std::map<std::string, double> figures_;
+  std::deque<double> times_;  ///< s, the last ones
+  std::uint64_t processed_ = 0;
+  Processed last_processed_;
+  std::string last_error_;
+  RepeatFilter repeats_;
+  std::map<std::string, std::string> descriptions_;  ///< by input
+  std::set<std::string> events_;                     ///< announced
+  std::vector<std::string> announcements_;           ///< not taken yet
+};
+
+/// Seconds since construction, for Processed::seconds.
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace datmo

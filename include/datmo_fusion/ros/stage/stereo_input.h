@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <sensor_msgs/CameraInfo.h>
+#include <std_msgs/Header.h>
+
+#include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/ros/convert/cloud_conversion.h"
+#include "datmo_fusion/ros/frame_options.h"
+#include "datmo_fusion/ros/stage/stage_monitor.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
+#include "datmo_fusion/ros/transform_buffer.h"
+#include "datmo_fusion/sensor_model/road_plane.h"
+#include "datmo_fusion/sensor_model/stereo_cloud.h"
+
+namespace datmo {
+
+/// What serves until a camera info has come, and what no message contains.
+struct StereoCameraOptions : DepthNoiseOptions {
+  double focal_length = 0.0;             ///< px; 0: not known
+  double baseline = 0.0;                 ///< m; 0: not known, or none
+  double field_of_view = degrees(60.0);  ///< rad
+  double min_depth = 0.0;                ///< m
+  double max_depth = 0.0;                ///< m; 0: no bound
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// What the stages of a stereo or depth camera's clouds have in common.
+struct StereoInputOptions {
+  FrameOptions frames;  ///< of all stages
+  StereoCameraOptions camera;
+  StreamOptions input;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Clouds of a stereo or depth camera as messages -> as the core takes them: with the camera as its
+/// info, or the options until that comes, say, its noise as the options say, and its mount as tf
+/// says. Points out of the camera's range (min_depth, max_depth) are left out.
+class StereoInput {
+ public:
+  /// `transforms` must outlive this. Throws OptionError; for an active_stereo without baseline, and
+  /// a min_depth that is not below max_depth, as well.
+  StereoInput(const StereoInputOptions& options, const TransformBuffer& transforms);
+
+  /// Of the right camera, or of the depth image; the newest one serves. Throws InputError
+  /// (`bad_camera_info`).
+  void take(const sensor_msgs::CameraInfo& message);
+
+  /// `points` of a message with this header; they are brought to the camera's frame, and must
+  /// outlive the result. Throws InputError (`missing_camera_info`, `missing_transform`,
+  /// `no_valid_point` if none is within the camera's range).
+  StereoCloud cloudOf(const std_msgs::Header& header, CloudPoints& points) const;
+
+ private:
+  /// Throws InputError (`missing_camera_info`).
+  StereoCamera camera() const;
+  /// What the options know of it. Throws as camera() does.
+  StereoCamera configuredCamera() const;
+
+  StereoInputOptions options_;
+  DepthPrinciple principle_;
+  const TransformBuffer& transforms_;
+  std::optional<StereoCamera> camera_;  ///< as the last camera info says
+};
+
+/// The road under a cloud, as figures.
+void showRoad(bool seen, const RoadPlane& road, StageMonitor& monitor);
+
+}  // namespace datmo

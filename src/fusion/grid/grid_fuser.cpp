@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/fusion/grid/grid_fuser.h"
+
+#include <cmath>
+#include <cstddef>
+#include <deque>
+
+#include "datmo_fusion/fusion/grid/grid_motion.h"
+
+namespace datmo {
+
+GridFuserOptions::GridFuserOptions() {
+  GridSourceOptions& lidar = sources["lidar"];
+  lidar.priority = 0;
+  lidar.reliability = 0.8;
+  GridSourceOptions& stereo = sources["stereo"];
+  stereo.priority = 1;
+  stereo.reliability = 0.9;
+}
+
+void GridFuserOptions::visit(OptionVisitor& visitor) {
+  visitor.text({"rule", "",
+                "how the evidence of several sensors on a cell is combined: their mean by weight "
+                "(thesis eq. 3.2.5), the word of the first that sees it (3.2.6), the most occupied "
+                "(4.1.8), Bayes for independent sensors, or evidence theory (perspective of 6.2)"},
+               rule, fusionRuleNames());
+  visitor.number({"mover_speed", "m/s",
+                  "a cell is not called free where something this fast may have come between a "
+                  "source's stamp and the reference's (thesis: 0)"},
+                 mover_speed, {0.0, 100.0});
+  visitor.each({"sources", "", "the sensors whose grids are fused"}, sources);
+}
+
+std::vector<std::string> GridFuserOptions::sourcesInUse() const {
+  std::vector<std::string> names;
+  for (const auto& [name, source] : sources) {
+    if (source.use) {
+      names.push_back(name);
+    }
+  }
+  return names;
+}
+
+GridFuser::GridFuser(const GridFuserOptions& options)
+    : options_(options), rule_(fusionRule(options.rule)) {
+  checkOptions(options);
+}
+
+FusionResult GridFuser::fuse(const MatchedGrids& matched, const MotionBetween& motion) const {
+  FusionResult result;
+  result.missing = matched.missing;
+  std::deque<SensorGrid> moved;  // where `grids` point to
+  std::vector<WeighedGrid> grids;
+  for (const MatchedGrid& one : matched.samples) {
+    const std::optional<Pose2> base = baseAt(one.stamp, matched.stamp(), motion);
+    if (!base) {
+      result.missing.push_back({one.source, WhyMissing::kNoMotion});
+      continue;
+    }
+    const SensorGrid* grid = one.payload.get();
+    if (grid->stamp() != matched.stamp()) {
+      const double apart = std::abs(secondsBetween(grid->stamp(), matched.stamp()));
+      moved.push_back(movedGrid(*grid, matched.stamp(), *base, options_.mover_speed * apart));
+      grid = &moved.back();
+    }
+    grids.push_back({grid, options_.sources.at(one.source)});
+  }
+  result.grids = fuseGrids(rule_, grids);
+  return result;
+}
+
+}  // namespace datmo

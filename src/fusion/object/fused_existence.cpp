@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/fusion/object/fused_existence.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace datmo {
+
+namespace {
+
+/// A tracker that is sure may err all the same: the most that it is believed, and the least.
+constexpr double kMaxExistence = 0.999;
+
+double logOdds(double probability) {
+  const double p = std::clamp(probability, 1.0 - kMaxExistence, kMaxExistence);
+  return std::log(p / (1.0 - p));
+}
+
+}  // namespace
+
+double fusedExistence(const std::vector<ExistenceReport>& reports) {
+  const ExistenceReport* surest = nullptr;
+  for (const ExistenceReport& one : reports) {
+    if (one.has_track && (surest == nullptr || one.existence > surest->existence)) {
+      surest = &one;
+    }
+  }
+  if (surest == nullptr) {
+    return 0.0;
+  }
+  double log_odds = logOdds(surest->existence);
+  for (const ExistenceReport& one : reports) {
+    if (&one == surest) {
+      continue;
+    }
+    log_odds +=
+        one.has_track
+            ? std::log(std::max(1.0, one.detection_probability / one.false_agreement_probability))
+            : std::log1p(-one.detection_probability * one.looked);
+  }
+  return 1.0 / (1.0 + std::exp(-log_odds));
+}
+
+}  // namespace datmo

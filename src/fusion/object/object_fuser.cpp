@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/fusion/object/object_fuser.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "object_intake.h"
+
+#include "datmo_fusion/assignment/assignment.h"
+#include "datmo_fusion/fusion/object/object_combination.h"
+
+namespace datmo {
+
+namespace {
+
+/// Beyond this, odds are certainty, and sums of them lose the rest.
+constexpr double kMaxLogOdds = 20.0;
+
+/// Of a class to be taken for known.
+constexpr double kKnownClass = 0.5;
+
+/// An object of the result, and which sources see it.
+struct FusedObject {
+  Object object;
+  std::vector<bool> seen_by;
+  std::size_t scan_points = 0;  ///< the scanner's points on it
+  PositionEvidence evidence;    ///< of the scan, about what another source sees of it
+};
+
+double positionStd(const Object& object) {
+  return std::sqrt(0.5 * object.position_covariance.trace());
+}
+
+bool isPole(const Object& object) {
+  return object.object_class == ObjectClass::kPole && object.class_probability > kKnownClass;
+}
+
+/// Throws OptionError: with a scanner that is no source, its own objects would be judged by its
+/// scan as those of others are.
+void checkScanner(const ObjectFuserOptions& options) {
+  if (options.sources.count(options.scanner) > 0) {
+    return;
+  }
+  std::string names;
+  for (const auto& [name, source] : options.sources) {
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  throw OptionError("scanner = \"" + options.scanner + "\": expected one of the sources (" + names +
+                    ")");
+}
+
+}  // namespace
+
+void ObjectSourceOptions::visit(OptionVisitor& visitor) {
+  visitor.toggle({"use", "", "off: its objects are not read"}, use);
+  visitor.number({"detection_probability", "1",
+                  "that it lists an object that it could see: one that it does not list is so much "
+                  "less likely"},
+                 detection_probability, {0.01, 0.99});
+  visitor.number({"false_agreement_probability", "1",
+                  "that a false object of another source has one of this source in its gate, by "
+                  "chance"},
+                 false_agreement_probability, {0.001, 1.0});
+  visitor.group("covariance", [&] { covariance.visit(visitor); });
+}
+
+ObjectFuserOptions::ObjectFuserOptions() {
+  sources["lidar"].detection_probability = 0.8;
+  sources["stereo"];
+}
+
+void ObjectFuserOptions::visit(OptionVisitor& visitor) {
+  visitor.each({"sources", "", "the sensors whose objects are fused"}, sources);
+  visitor.text({"scanner", "",
+                "the source whose list the split scan belongs to; it lists nothing that is static"},
+               scanner, {});
+  visitor.integer({"max_objects", "1",
+                   "objects taken from one list, the nearest ones; bounds the time of a step"},
+                  max_objects, {1, 10000});
+  visitor.number({"min_moving_share", "1",
+                  "an object moves if at least this share of the beams on what all sources see of "
+                  "it ends where the map is free; as moving_share of moving_objects"},
+                 min_moving_share, {0.0, 1.0});
+  association.visit(visitor);
+  visitor.group("visibility", [&] { visibility.visit(visitor); });
+  visitor.group("scan_support", [&] { scan_support.visit(visitor); });
+}
+
+std::vector<std::string> ObjectFuserOptions::sourcesInUse() const {
+  std::vector<std::string> names;
+  for (const auto& [name, source] : sources) {
+    if (source.use) {
+      names.push_back(name);
+    }
+  }
+  return names;
+}
+
+ObjectFuser::ObjectFuser(const ObjectFuserOptions& options) : options_(options) {
+  checkOptions(options);
+  checkScanner(options);
+  for (const auto& [name, source] : options.sources) {
+    source.covariance.check("sources/" + name + "/covariance");
+  }
+}
+
+/// One call of `fuse`.
+class ObjectFuser::Fusion {
+ public:
+  Fusion(const ObjectFuserOptions& options, const std::vector<SourceObjects>& sources,
+         const LabeledScan* scan)
+      : options_(options), sources_(sources) {
+    if (scan != nullptr) {
+      scan_support_.emplace(*scan, options_.scan_support);
+    }
+    result_.list.stamp = sources.at(0).list.stamp;
+    for (const SourceObjects& source : sources) {
+      intakes_.push_back(ingest(source, result_.list.stamp,
+                                scan_support_ ? &*scan_support_ : nullptr, options,
+                                result_.counts));
+      const std::vector<SensorView>& views = intakes_.back().list.views;
+      result_.list.views.insert(result_.list.views.end(), views.begin(), views.end());
+    }
+  }
+
+  ObjectFusionResult run() {
+    for (std::size_t source = 0; source < intakes_.size(); ++source) {
+      add(source);
+    }
+    for (FusedObject& fused : objects_) {
+      judge(fused);
+      result_.list.objects.push_back(std::move(fused.object));
+    }
+    return std::move(result_);
+  }
+
+ private:
+  const ObjectSourceOptions& optionsOf(std::size_t source) const {
+    return options_.sources.at(sources_[source].source);
+  }
+
+  /// Joins a source's objects with what there is.
+  void add(std::size_t source) {
+    std::vector<Object> known;
+    known.reserve(objects_.size());
+    for (const FusedObject& fused : objects_) {
+      known.push_back(fused.object);
+    }
+    const ObjectIntake& intake = intakes_[source];
+    const std::vector<int> matches =
+        associate(known, intake.list.objects, intake.sensor, options_.association);
+    const ObjectSourceOptions& own = optionsOf(source);
+    const double seen_too = std::log(own.detection_probability / own.false_agreement_probability);
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      if (matches[i] == kUnassigned) {
+        objects_.push_back(
+            {intake.list.objects[i], std::vector<bool>(sources_.size(), false), 0, {}});
+        note(source, i, objects_.back());
+        continue;
+      }
+      FusedObject& fused = objects_[static_cast<std::size_t>(matches[i])];
+      const bool first_pair = std::count(fused.seen_by.begin(), fused.seen_by.end(), true) == 1;
+      result_.counts.fused += first_pair ? 1 : 0;
+      fused.object = combined(fused.object, intake.list.objects[i]);
+      fused.object.log_odds += std::max(0.0, seen_too);
+      note(source, i, fused);
+    }
+  }
+
+  /// One more source sees an object, as its object of this index.
+  void note(std::size_t source, std::size_t index, FusedObject& fused) const {
+    const ObjectIntake& intake = intakes_[source];
+    fused.seen_by[source] = true;
+    if (sources_[source].source == options_.scanner) {
+      fused.scan_points = intake.list.objects[index].points.size();
+    } else if (intake.scan_evidence[index].beams > fused.evidence.beams) {
+      fused.evidence = intake.scan_evidence[index];
+    }
+  }
+
+  /// Of what another source sees, the scanner may see move just what is before or beside it: as
+  /// much of it moves as is its share of the beams that look there and are not hidden.
+  void weighMotion(FusedObject& fused) const {
+    Object& object = fused.object;
+    const double others = fused.evidence.beamsElsewhere();
+    if (fused.scan_points == 0 || others <= 0.0) {
+      return;
+    }
+    const auto own = static_cast<double>(fused.scan_points);
+    object.moving_fraction *= own / (own + others);
+    if (object.dynamic_state == DynamicState::kMoving &&
+        object.moving_fraction < options_.min_moving_share) {
+      object.dynamic_state = DynamicState::kUnknown;
+    }
+  }
+
+  /// Evidence on an object from those that do not see it.
+  void judge(FusedObject& fused) const {
+    weighMotion(fused);
+    Object& object = fused.object;
+    for (std::size_t source = 0; source < sources_.size(); ++source) {
+      if (fused.seen_by[source]) {
+        continue;
+      }
+      const double detection = optionsOf(source).detection_probability;
+      if (scan_support_ && sources_[source].source == options_.scanner) {
+        const double met = std::min(1.0, fused.evidence.beams) * fused.evidence.through_share;
+        object.log_odds += std::log1p(-detection * met);
+      } else if (intakes_[source].visibility) {
+        const double visible =
+            intakes_[source].visibility->detectionProbability(object.box, positionStd(object));
+        object.log_odds += std::log1p(-detection * visible);
+      }
+    }
+    if (isPole(object)) {
+      takeForStanding(object);
+    }
+    object.log_odds = std::clamp(object.log_odds, -kMaxLogOdds, kMaxLogOdds);
+  }
+
+  const ObjectFuserOptions& options_;
+  const std::vector<SourceObjects>& sources_;
+  std::optional<ScanSupport> scan_support_;
+  std::vector<ObjectIntake> intakes_;
+  std::vector<FusedObject> objects_;
+  ObjectFusionResult result_;
+};
+
+ObjectFusionResult ObjectFuser::fuse(const std::vector<SourceObjects>& sources,
+                                     const LabeledScan* scan) const {
+  return Fusion(options_, sources, scan).run();
+}
+
+}  // namespace datmo

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
+#include "joint_axes.h"
+#include <Eigen/Cholesky>
+
+#include "datmo_fusion/fusion/track/track_combination.h"
+
+namespace datmo {
+
+namespace {
+
+/// Weight of covariance intersection that an estimate keeps which is worse in every respect. With
+/// a few percent of it the weight moves smoothly: by the determinant alone it would jump from the
+/// one to the other of two estimates that are as good.
+constexpr double kMinWeight = 0.01;
+
+/// The search for it.
+constexpr int kMaxSteps = 60;
+constexpr double kWeightTolerance = 1e-12;
+
+/// Of the second estimate, in joint axes.
+struct FusedShares {
+  TrackState gain;
+  TrackState variance;
+};
+
+/// Weight of the first estimate: of the greatest determinant of the information
+/// w a^-1 + (1 - w) b^-1, times (w (1 - w))^least. Its logarithm is concave, and steep at both
+/// ends, so that its slope is 0 at one weight between them.
+double intersectionWeight(const TrackState& share) {
+  constexpr double kEnds = kMinWeight * kTrackState;
+  double low = 0.0;
+  double high = 1.0;
+  double weight = 0.5;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const TrackState terms = (1.0 - 2.0 * share.array()) /
+                             (weight * (1.0 - share.array()) + (1.0 - weight) * share.array());
+    const double rest = 1.0 - weight;
+    const double slope = terms.sum() + kEnds / weight - kEnds / rest;
+    const double bend = -terms.squaredNorm() - kEnds / (weight * weight) - kEnds / (rest * rest);
+    (slope > 0.0 ? low : high) = weight;
+    const double newton = weight - slope / bend;
+    const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
+    const bool found = std::abs(next - weight) < kWeightTolerance;
+    weight = next;
+    if (found) {
+      break;
+    }
+  }
+  return weight;
+}
+
+FusedShares intersection(const TrackState& share) {
+  const double weight = intersectionWeight(share);
+  const TrackState of_a = weight * (1.0 - share.array());
+  const TrackState of_b = (1.0 - weight) * share.array();
+  const TrackState sum = of_a + of_b;
+  return {of_b.cwiseQuotient(sum), (share.array() * (1.0 - share.array()) / sum.array()).matrix()};
+}
+
+FusedShares independent(const TrackState& share) {
+  return {share, (share.array() * (1.0 - share.array())).matrix()};
+}
+
+StateEstimate fusedAlong(const JointAxes& joint, const StateEstimate& a, const StateEstimate& b,
+                         const FusedShares& fused) {
+  const TrackState apart = joint.inverse * (b.mean - a.mean);
+  return {a.mean + joint.axes * fused.gain.cwiseProduct(apart), joint.covariance(fused.variance)};
+}
+
+/// With D = E[a a'], 1 - D = E[b b'] and C = E[a b'] in joint axes, the gain is (D - C) (1 - C -
+/// C')^-1. The covariance is computed as that of a weighted sum, which is positive whatever the
+/// gain is, and not as D minus the information of b.
+StateEstimate barShalomCampo(const JointAxes& joint, const StateEstimate& a, const StateEstimate& b,
+                             const TrackCovariance& cross) {
+  const TrackCovariance identity = TrackCovariance::Identity();
+  const TrackCovariance of_a = joint.share.asDiagonal();
+  const TrackCovariance difference = identity - cross - cross.transpose();
+  const TrackCovariance gain = difference.llt().solve((of_a - cross).transpose()).transpose();
+  const TrackCovariance rest = identity - gain;
+  const TrackCovariance mixed = rest * cross * gain.transpose();
+  const TrackCovariance in_axes = rest * of_a * rest.transpose() +
+                                  gain * (identity - of_a) * gain.transpose() + mixed +
+                                  mixed.transpose();
+  return {a.mean + joint.axes * (gain * (joint.inverse * (b.mean - a.mean))),
+          joint.covariance(in_axes)};
+}
+
+}  // namespace
+
+void TrackCombinationOptions::visit(OptionVisitor& visitor) {
+  visitor.text({"method", "",
+                "of fusing the states of two trackers: covariance_intersection, which is "
+                "consistent however their errors are correlated (Julier and Uhlmann 1997); "
+                "bar_shalom_campo, by the correlation that the process noise which they share "
+                "makes (Bar-Shalom and Campo 1986); or information, as if there were none, "
+                "which is over-confident"},
+               method, {kCovarianceIntersection, kBarShalomCampo, kInformation});
+  visitor.number({"max_correlation", "1",
+                  "of the errors of two trackers in bar_shalom_campo; at 1 the difference of "
+                  "both would be known exactly"},
+                 max_correlation, {0.01, 0.999});
+  visitor.number({"first_correlation", "1",
+                  "the same when both have just been found to follow one object, as they have done "
+                  "for a while (Chen, Kirubarajan and Bar-Shalom 2003: about 0.4)"},
+                 first_correlation, {0.0, 0.999});
+}
+
+StateEstimate fusedState(const StateEstimate& a, const StateEstimate& b,
+                         const CrossCovariance& cross, const TrackCombinationOptions& options) {
+  const JointAxes joint(a.covariance, b.covariance);
+  if (options.method == TrackCombinationOptions::kBarShalomCampo) {
+    return barShalomCampo(joint, a, b, joint.limitedCross(cross, options.max_correlation));
+  }
+  const bool is_intersection = options.method == TrackCombinationOptions::kCovarianceIntersection;
+  return fusedAlong(joint, a, b,
+                    is_intersection ? intersection(joint.share) : independent(joint.share));
+}
+
+}  // namespace datmo

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/fusion/track/track_fuser.h"
+
+namespace datmo {
+
+void TrackSourceOptions::visit(OptionVisitor& visitor) {
+  visitor.toggle({"use", "", "off: its tracks are not read"}, use);
+  visitor.number({"detection_probability", "1",
+                  "that it has a track of a moving object that it could see for looking_time"},
+                 detection_probability, {0.01, 0.99});
+  visitor.number({"false_agreement_probability", "1",
+                  "that it has one, by chance, that agrees with a false track of another source"},
+                 false_agreement_probability, {0.001, 1.0});
+}
+
+TrackFuserOptions::TrackFuserOptions() {
+  sources["lidar"];
+  sources["stereo"];
+}
+
+void TrackFuserOptions::visit(OptionVisitor& visitor) {
+  visitor.each({"sources", "", "the sensors whose tracks are fused"}, sources);
+  visitor.text(
+      {"scheme", "",
+       "which tracks are published (thesis 3.4.2): those of all sources that can see the "
+       "position and those of `beyond` where no other can, the first of these alone, or all"},
+      scheme, trackSchemeNames());
+  visitor.text({"beyond", "", "the source whose tracks are published also where no other can see"},
+               beyond, {});
+  visitor.integer({"max_tracks", "1",
+                   "tracks taken from one list, the likeliest ones; bounds the time of a step"},
+                  max_tracks, {1, 2000});
+  visitor.number(
+      {"can_see", "1",
+       "a source can see a position where each of its measurements would have detected the "
+       "object at least so probably, lately: a quarter is several times a second"},
+      can_see, {0.0, 1.0});
+  visitor.number({"misses", "1",
+                  "what is published of `beyond` alone stays when it comes into view, until a "
+                  "source without a track of it would have detected it at least so probably, "
+                  "lately: no tracker confirms at once"},
+                 misses, {0.0, 1.0});
+  visitor.number({"looking_time", "s",
+                  "time constant of that probability: who has just come into view is not missed at "
+                  "once"},
+                 looking_time, {0.0, 60.0});
+  visitor.number({"duplicate_gate_scale", "1",
+                  "tracks of different sources are duplicates where the box of one, so many "
+                  "times as large, holds the center of the other"},
+                 duplicate_gate_scale, {0.0, 10.0});
+  visitor.number({"published_existence", "1", "existence probability from which one is published"},
+                 published_existence, {0.0, 1.0});
+  visitor.number({"memory", "s",
+                  "an object that all sources have lost is known again, by its id, for this time"},
+                 memory, {0.0, 60.0});
+  visitor.number({"history_time", "s", "how much of its path is published with a track"},
+                 history_time, {0.0, 60.0});
+  visitor.group("prediction", [&] { prediction.visit(visitor); });
+  visitor.group("association", [&] { association.visit(visitor); });
+  visitor.group("combination", [&] { combination.visit(visitor); });
+  visitor.group("visibility", [&] { visibility.visit(visitor); });
+}
+
+void TrackFuserOptions::check() const {
+  std::string names;
+  for (const std::string& name : sourcesInUse()) {
+    if (name == beyond) {
+      return;
+    }
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  throw OptionError("beyond = \"" + beyond + "\": expected one of the sources in use (" + names +
+                    ")");
+}
+
+std::vector<std::string> TrackFuserOptions::sourcesInUse() const {
+  std::vector<std::string> names;
+  for (const auto& [name, source] : sources) {
+    if (source.use) {
+      names.push_back(name);
+    }
+  }
+  return names;
+}
+
+const std::vector<std::string>& trackSchemeNames() {
+  static const std::vector<std::string> names = {TrackFuserOptions::kFusedPlusFallback,
+                                                 TrackFuserOptions::kConfirmedByAll,
+                                                 TrackFuserOptions::kUnion};
+  return names;
+}
+
+}  // namespace datmo

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/convert/lidar_cloud_conversion.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+#include "datmo_fusion/ros/convert/cloud_conversion.h"
+
+namespace datmo {
+
+namespace {
+
+using sensor_msgs::PointCloud2;
+using sensor_msgs::PointField;
+
+constexpr std::array<const char*, 4> kTimeFields = {"t", "offset_time", "time", "timestamp"};
+
+constexpr double kNanosecond = 1e-9;  // s
+
+/// Times of more (s) are counted since 1970, not since the stamp.
+constexpr double kEpoch = 1e6;
+
+template <typename Number>
+double numberAt(const std::uint8_t* data) {
+  Number number;
+  std::memcpy(&number, data, sizeof(number));
+  return static_cast<double>(number);
+}
+
+/// The times of a cloud's points, from one of its fields.
+class PointTimes {
+ public:
+  explicit PointTimes(const PointCloud2& message) : stamp_(message.header.stamp.toSec()) {
+    for (const char* name : kTimeFields) {
+      const auto field = std::find_if(message.fields.begin(), message.fields.end(),
+                                      [name](const PointField& f) { return f.name == name; });
+      if (field != message.fields.end() && sizeOf(*field) > 0 &&
+          std::uint64_t{field->offset} + sizeOf(*field) <= message.point_step) {
+        field_ = &*field;
+        return;
+      }
+    }
+  }
+
+  std::string field() const { return field_ != nullptr ? field_->name : ""; }
+
+  /// s after the cloud's stamp. `point`: where its bytes begin.
+  double at(const std::uint8_t* point) const {
+    const std::uint8_t* data = point + field_->offset;
+    switch (field_->datatype) {
+      case PointField::UINT32:
+        return kNanosecond * numberAt<std::uint32_t>(data);
+      case PointField::FLOAT32:
+        return numberAt<float>(data);
+      default:
+        const double time = numberAt<double>(data);
+        return time > kEpoch ? time - stamp_ : time;
+    }
+  }
+
+ private:
+  /// 0: not a type of times.
+  static std::size_t sizeOf(const PointField& field) {
+    switch (field.datatype) {
+      case PointField::UINT32:
+      case PointField::FLOAT32:
+        return sizeof(float);
+      case PointField::FLOAT64:
+        return sizeof(double);
+      default:
+        return 0;
+    }
+  }
+
+  double stamp_;
+  const PointField* field_ = nullptr;
+};
+
+/// The first time that is not near the stamp, said; NaN is not near either.
+std::optional<InputError> faultOf(const std::vector<float>& times, const std::string& field,
+                                  double max_sweep) {
+  const auto bad = std::find_if(times.begin(), times.end(),
+                                [max_sweep](float time) { return !(std::abs(time) <= max_sweep); });
+  if (bad == times.end()) {
+    return std::nullopt;
+  }
+  return InputError("bad_point_times", "cloud with a point " + std::to_string(*bad) +
+                                           " s after its stamp (field " + field +
+                                           "): expected at most " + std::to_string(max_sweep) +
+                                           " s; goes on without the points' times");
+}
+
+}  // namespace
+
+ConvertedCloud toLidarCloud(const PointCloud2& message, double max_sweep) {
+  const CloudPoints points(message);
+  const PointsView& view = points.view();
+  const PointTimes times(message);
+  ConvertedCloud converted;
+  converted.time_field = times.field();
+  LidarCloud& cloud = converted.cloud;
+  cloud.points->reserve(view.count);
+  cloud.times.reserve(converted.time_field.empty() ? 0 : view.count);
+  for (std::size_t i = 0; i < view.count; ++i) {
+    const Eigen::Vector3f point = view[i];
+    if (!point.allFinite()) {
+      continue;
+    }
+    cloud.points->push_back({point.x(), point.y(), point.z()});
+    if (!converted.time_field.empty()) {
+      cloud.times.push_back(static_cast<float>(times.at(view.data + i * view.step)));
+    }
+  }
+  converted.holes = view.count - cloud.points->size();
+  converted.unusable_times = faultOf(cloud.times, converted.time_field, max_sweep);
+  if (converted.unusable_times) {
+    cloud.times.clear();
+  }
+  return converted;
+}
+
+}  // namespace datmo

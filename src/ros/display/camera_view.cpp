@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/display/camera_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "track_drawing.h"
+#include <cv_bridge/cv_bridge.h>
+#include <image_geometry/pinhole_camera_model.h>
+
+#include <sensor_msgs/image_encodings.h>
+#include <tf2/exceptions.h>
+
+#include "datmo_fusion/ros/stage/input_error.h"
+
+namespace datmo {
+
+namespace {
+
+/// Two seconds of a fast scanner's tracks; a second of a camera's images.
+constexpr std::size_t kMaxTrackLists = 50;
+constexpr std::size_t kMaxImages = 30;
+
+/// Pose of a frame in another one at a time. Throws InputError (`missing_transform`).
+Eigen::Isometry3d poseAt(const tf2::BufferCore& transforms, const std::string& parent,
+                         const std::string& child, const ros::Time& time) {
+  try {
+    const auto transform = transforms.lookupTransform(parent, child, time).transform;
+    const auto& q = transform.rotation;
+    const auto& t = transform.translation;
+    Eigen::Isometry3d pose(Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized());
+    pose.translation() = Eigen::Vector3d(t.x, t.y, t.z);
+    return pose;
+  } catch (const tf2::TransformException& error) {
+    throw InputError("missing_transform", "transform " + parent + " -> " + child +
+                                              ": expected on tf (" + error.what() + ")");
+  }
+}
+
+std::string sizeText(std::uint32_t width, std::uint32_t height) {
+  return std::to_string(width) + " x " + std::to_string(height) + " px";
+}
+
+/// Throws InputError (`bad_encoding`).
+cv_bridge::CvImagePtr canvasOf(const sensor_msgs::Image& image) {
+  const auto refuse = [&image](const std::string& why) {
+    return InputError("bad_encoding",
+                      "image of encoding '" + image.encoding + "', " +
+                          sizeText(image.width, image.height) + ", step " +
+                          std::to_string(image.step) + ", " + std::to_string(image.data.size()) +
+                          " bytes: expected a color or gray image (bgr8, rgb8, mono8, Bayer) of "
+                          "that size: " +
+                          why);
+  };
+  if (image.width == 0 || image.height == 0 ||
+      image.data.size() < std::size_t{image.step} * image.height) {
+    throw refuse("pixels are missing");
+  }
+  try {
+    return cv_bridge::toCvCopy(image, sensor_msgs::image_encodings::BGR8);
+  } catch (const cv_bridge::Exception& error) {
+    throw refuse(error.what());
+  } catch (const cv::Exception& error) {
+    throw refuse(error.what());
+  }
+}
+
+}  // namespace
+
+CameraView::CameraView(const CameraViewOptions& options, const TransformBuffer& transforms,
+                       StageMonitor& monitor)
+    : options_(options),
+      transforms_(transforms),
+      monitor_(monitor),
+      runner_(monitor, options.input, "forgets all images", [this] {
+        queue_.clear();
+        tracks_.clear();
+      }) {
+  checkOptions(options);
+}
+
+void CameraView::takeCameraInfo(const sensor_msgs::CameraInfo& message) {
+  const auto& p = message.P;
+  const bool finite =
+      std::all_of(p.begin(), p.end(), [](double value) { return std::isfinite(value); });
+  if (!finite || p[0] <= 0.0 || p[5] <= 0.0) {
+    monitor_.dropped(InputError(
+        "bad_camera_info", "camera info whose matrix P has focal lengths " + std::to_string(p[0]) +
+                               " and " + std::to_string(p[5]) +
+                               " px: expected those of a calibrated camera, more than 0"));
+    return;
+  }
+  image_geometry::PinholeCameraModel model;
+  model.fromCameraInfo(message);
+  info_ = message;
+  camera_ = PinholeCamera{model.fx(), model.fy(), model.cx(), model.cy()};
+  shift_ = -model.Tx() / model.fx();
+}
+
+void CameraView::takeTracks(const TrackArrayConstPtr& message) {
+  runner_.serve([&] {
+    runner_.check("tracks", message->header.stamp);
+    tracks_.push_back(message);
+    if (tracks_.size() > kMaxTrackLists) {
+      tracks_.pop_front();
+    }
+  });
+}
+
+void CameraView::takeImage(const sensor_msgs::ImageConstPtr& message, Stamp now) {
+  runner_.serve([&] {
+    runner_.check("image", message->header.stamp);
+    checkCamera(*message);
+    if (queue_.size() >= kMaxImages) {
+      queue_.pop_front();
+      monitor_.dropped(InputError("queue_full", "more than " + std::to_string(kMaxImages) +
+                                                    " images wait: dropped the oldest"));
+    }
+    queue_.push_back({message, now});
+  });
+}
+
+/// Throws InputError (`missing_camera_info`, `wrong_size`, `wrong_frame`).
+void CameraView::checkCamera(const sensor_msgs::Image& image) const {
+  if (!camera_) {
+    throw InputError("missing_camera_info",
+                     "no camera info has come for the images: expected one of their size and frame "
+                     "(argument camera_info of perception.launch)");
+  }
+  if (image.width != info_.width || image.height != info_.height) {
+    throw InputError("wrong_size", "image of " + sizeText(image.width, image.height) +
+                                       ", but its camera info says " +
+                                       sizeText(info_.width, info_.height) +
+                                       ": expected the rectified image of that camera");
+  }
+  if (image.header.frame_id != info_.header.frame_id) {
+    throw InputError("wrong_frame", "image in frame '" + image.header.frame_id +
+                                        "', but its camera info is in '" + info_.header.frame_id +
+                                        "': expected those of one camera");
+  }
+}
+
+sensor_msgs::ImagePtr CameraView::next(Stamp now) {
+  while (!queue_.empty()) {
+    const Waiting waiting = queue_.front();
+    const bool last_chance = hasWaitedTooLong(waiting, now);
+    try {
+      auto drawn = draw(waiting.image, !last_chance);
+      if (drawn) {
+        queue_.pop_front();
+      }
+      return drawn;
+    } catch (const InputError& error) {
+      if (error.reason() == "missing_transform" && !last_chance) {
+        return nullptr;
+      }
+      queue_.pop_front();
+      monitor_.dropped(error);
+    }
+  }
+  return nullptr;
+}
+
+bool CameraView::hasWaitedTooLong(const Waiting& waiting, Stamp now) const {
+  const double waited = secondsBetween(waiting.since, now);
+  return waited > options_.wait || waited < 0.0;
+}
+
+/// Null if there are none within `track_timeout`.
+const TrackArray* CameraView::nearestTracks(Stamp stamp) const {
+  const TrackArray* nearest = nullptr;
+  double smallest = options_.track_timeout;
+  for (const TrackArrayConstPtr& tracks : tracks_) {
+    const double distance = std::abs(secondsBetween(toStamp(tracks->header.stamp), stamp));
+    if (distance <= smallest) {
+      nearest = tracks.get();
+      smallest = distance;
+    }
+  }
+  return nearest;
+}
+
+/// Null while tracks may come that are nearer. Throws InputError.
+sensor_msgs::ImagePtr CameraView::draw(const sensor_msgs::ImageConstPtr& image,
+                                       bool wait_for_tracks) {
+  const Stamp stamp = toStamp(image->header.stamp);
+  const bool newer = !tracks_.empty() && toStamp(tracks_.back()->header.stamp) >= stamp;
+  if (wait_for_tracks && !newer) {
+    return nullptr;
+  }
+  const Stopwatch watch;
+  const TrackArray* tracks = nearestTracks(stamp);
+  const cv_bridge::CvImagePtr canvas = canvasOf(*image);
+  if (tracks != nullptr) {
+    const Eigen::Isometry3d camera_in_fixed = poseAt(transforms_.core(), tracks->header.frame_id,
+                                                     image->header.frame_id, image->header.stamp);
+    drawTracks(*tracks, stamp, camera_in_fixed.inverse(), canvas->image);
+  } else {
+    monitor_.warned(InputError("old_tracks", "no tracks within " +
+                                                 std::to_string(options_.track_timeout) +
+                                                 " s of an image: shown without boxes"));
+  }
+  monitor_.processed({stamp, watch.seconds()});
+  return canvas->toImageMsg();
+}
+
+void CameraView::drawTracks(const TrackArray& tracks, Stamp stamp,
+                            const Eigen::Isometry3d& fixed_in_camera, cv::Mat& canvas) const {
+  const double later = secondsBetween(toStamp(tracks.header.stamp), stamp);
+  std::vector<TrackBox> boxes;
+  for (const TrackMessage& track : tracks.tracks) {
+    TrackBox box = trackBox(track, later, fixed_in_camera, options_);
+    box.box.pose.pretranslate(Eigen::Vector3d(-shift_, 0.0, 0.0));
+    box.distance = box.box.pose.translation().norm();
+    if (box.distance <= options_.max_distance) {
+      boxes.push_back(box);
+    }
+  }
+  drawTrackBoxes(*camera_, std::move(boxes), options_, canvas);
+}
+
+}  // namespace datmo

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <geometry_msgs/Pose.h>
+#include <geometry_msgs/Vector3.h>
+#include <std_msgs/ColorRGBA.h>
+#include <std_msgs/Header.h>
+#include <visualization_msgs/Marker.h>
+
+#include "datmo_fusion/common/object.h"
+#include "datmo_fusion/ros/display/markers.h"
+
+namespace datmo {
+
+/// Shape on the ground of an object of a class, in its size (thesis figure 4.13): a box for a
+/// vehicle and for what is not known, a thin cylinder for a pole; with a head on top a cylinder for
+/// a pedestrian and a narrow box for a cyclist. Colors are the caller's.
+struct ClassShape {
+  visualization_msgs::Marker body;
+  std::optional<visualization_msgs::Marker> head;
+};
+
+/// In the namespaces "<name> bodies" and "<name> heads".
+ClassShape shapeOf(const std_msgs::Header& header, const std::string& name,
+                   ObjectClass object_class, const geometry_msgs::Pose& pose,
+                   const geometry_msgs::Vector3& size, const MarkersOptions& options);
+
+/// Who saw it: violet the lidar, cyan stereo (as in thesis figure 3.13), yellow two or more, gray
+/// any other one.
+std_msgs::ColorRGBA colorOfSensors(const std::vector<std::string>& sensors, float opacity);
+
+/// "lidar+stereo".
+std::string namesOf(const std::vector<std::string>& sensors);
+
+/// A rectangle on the ground.
+visualization_msgs::Marker outlineOf(const std_msgs::Header& header, const std::string& name,
+                                     const geometry_msgs::Pose& pose,
+                                     const geometry_msgs::Vector3& size,
+                                     const MarkersOptions& options);
+
+}  // namespace datmo

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "marker_colors.h"
+
+#include "marker_parts.h"
+
+#include "datmo_fusion/ros/convert/messages.h"
+
+namespace datmo {
+
+namespace {
+
+/// How far the color of what stands is from its class's to white.
+constexpr float kPaleness = 0.5F;
+
+std_msgs::ColorRGBA fullColorOf(ObjectClass object_class) {
+  switch (object_class) {
+    case ObjectClass::kVehicle:
+      return color(0.05F, 0.4F, 0.95F);
+    case ObjectClass::kPedestrian:
+      return color(0.9F, 0.05F, 0.55F);
+    case ObjectClass::kCyclist:
+      return color(0.05F, 0.65F, 0.15F);
+    case ObjectClass::kPole:
+      return color(0.5F, 0.35F, 0.15F);
+    case ObjectClass::kUnknown:
+      break;
+  }
+  return color(0.5F, 0.25F, 0.8F);
+}
+
+}  // namespace
+
+std_msgs::ColorRGBA colorOfClass(ObjectClass object_class, bool moving, float opacity) {
+  const std_msgs::ColorRGBA full = fullColorOf(object_class);
+  const auto channel = [moving](float value) {
+    return moving ? value : kPaleness + (1.0F - kPaleness) * value;
+  };
+  return color(channel(full.r), channel(full.g), channel(full.b), opacity);
+}
+
+std_msgs::ColorRGBA colorOfPoint(std::uint8_t state) {
+  switch (state) {
+    case ScanPointMessage::STATIC:
+      return color(0.0F, 0.5F, 0.55F);
+    case ScanPointMessage::MOVING:
+      return color(1.0F, 0.2F, 0.1F);
+    default:
+      return color(0.6F, 0.6F, 0.6F);
+  }
+}
+
+std_msgs::ColorRGBA colorOfBorder(RoadSide side, float brightness, float opacity) {
+  const auto left = color(brightness, 0.55F * brightness, 0.1F * brightness, opacity);
+  const auto right = color(brightness, 0.35F * brightness, 0.8F * brightness, opacity);
+  return side == RoadSide::kLeft ? left : right;
+}
+
+std_msgs::ColorRGBA colorOfOwnVehicle() { return color(0.95F, 0.8F, 0.1F); }
+
+}  // namespace datmo

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/display/scan_extent.h"
+
+#include <algorithm>
+#include <string>
+
+namespace datmo {
+
+namespace {
+
+/// Scans after which it is judged: a second or two.
+constexpr std::size_t kScans = 20;
+
+/// Of the end points; fewer outside of the window are far walls that nobody misses.
+constexpr double kMaxOutside = 0.1;
+
+/// Window to both sides, by the scanner's reach: twice is room for what is left behind.
+constexpr double kMaxExcess = 4.0;
+
+std::string meters(double length) {
+  std::string text = std::to_string(length);
+  return text.substr(0, text.find('.') + 2) + " m";
+}
+
+std::string sizeOf(const GridWindowOptions& window) {
+  return "the map's window, " + meters(window.length) + " x " + meters(window.width) +
+         " (grid_slam: {map: {length, width}})";
+}
+
+}  // namespace
+
+std::optional<InputError> ScanExtent::take(const Scan& scan) {
+  if (scans_ >= kScans) {
+    return std::nullopt;
+  }
+  const double half = 0.5 * std::max(window_.length, window_.width);
+  for (const Ray& ray : scan.rays) {
+    if (ray.hit) {
+      ++hits_;
+      outside_ += ray.end.norm() > half ? 1 : 0;
+      farthest_ = std::max(farthest_, ray.range);
+    }
+  }
+  return ++scans_ == kScans ? judge(scan.field.range) : std::nullopt;
+}
+
+std::optional<InputError> ScanExtent::judge(double reach) const {
+  if (static_cast<double>(outside_) > kMaxOutside * static_cast<double>(hits_)) {
+    return InputError("small_window", std::to_string(outside_) + " of the first " +
+                                          std::to_string(hits_) + " end points, up to " +
+                                          meters(farthest_) + " away, lie outside of " +
+                                          sizeOf(window_) + ": expected one of about twice that");
+  }
+  if (0.5 * std::min(window_.length, window_.width) > kMaxExcess * reach) {
+    return InputError("large_window",
+                      "the scanner reaches " + meters(reach) + " and detects objects up to " +
+                          meters(farthest_) + " away, a small part of " + sizeOf(window_) +
+                          ": expected settings of its size, also of the targets (tracker: "
+                          "{target: {box: {size}}}); see config/model_car.yaml");
+  }
+  return std::nullopt;
+}
+
+}  // namespace datmo

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "track_drawing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "marker_colors.h"
+#include "track_label.h"
+#include <opencv2/imgproc.hpp>
+
+#include "datmo_fusion/ros/convert/message_conversion.h"
+
+namespace datmo {
+
+namespace {
+
+constexpr double kNear = 0.3;  // m: nearer than any mounted camera sees another road user
+constexpr double kFullChannel = 255.0;
+constexpr double kLetterHeight = 22.0;  // px, of OpenCV's letters at scale 1
+constexpr int kMargin = 3;              // px, round a label's letters
+const cv::Scalar kText(255, 255, 255);
+
+cv::Scalar toBgr(const std_msgs::ColorRGBA& color) {
+  return kFullChannel * cv::Scalar(color.b, color.g, color.r);
+}
+
+/// Ends far out of the image, of edges beside the camera, are cut first: OpenCV draws with 16 bits.
+void drawEdges(const std::vector<ImageSegment>& edges, const cv::Scalar& color, int line_width,
+               cv::Mat& canvas) {
+  for (const ImageSegment& edge : edges) {
+    cv::Point2l from(std::lround(edge.from.x()), std::lround(edge.from.y()));
+    cv::Point2l to(std::lround(edge.to.x()), std::lround(edge.to.y()));
+    if (cv::clipLine(cv::Size2l(canvas.cols, canvas.rows), from, to)) {
+      cv::line(canvas, from, to, color, line_width, cv::LINE_AA);
+    }
+  }
+}
+
+/// A label: a filled rectangle with letters.
+struct Label {
+  std::string text;
+  double scale = 1.0;  ///< of the letters
+  int baseline = 0;    ///< px, below the letters' feet
+  cv::Rect frame;
+};
+
+/// Above the box; at the upper edge of the image where there is no room.
+Label labelAbove(const TrackBox& box, const Eigen::AlignedBox2d& bounds,
+                 const CameraViewOptions& options, const cv::Size& image) {
+  Label label;
+  label.text = box.text + " " + std::to_string(std::lround(box.distance)) + " m";
+  label.scale = options.text_height / kLetterHeight;
+  const cv::Size letters =
+      cv::getTextSize(label.text, cv::FONT_HERSHEY_SIMPLEX, label.scale, 1, &label.baseline);
+  label.frame.width = letters.width + 2 * kMargin;
+  label.frame.height = letters.height + label.baseline + 2 * kMargin;
+  label.frame.x =
+      std::clamp(cvRound(bounds.min().x()), 0, std::max(0, image.width - label.frame.width));
+  label.frame.y = std::max(0, cvRound(bounds.min().y()) - label.frame.height - options.line_width);
+  return label;
+}
+
+/// Moves a label up until it covers none of those that are there.
+void moveClear(const std::vector<Label>& others, Label& label) {
+  for (bool moved = true; moved && label.frame.y > 0;) {
+    moved = false;
+    for (const Label& other : others) {
+      if ((other.frame & label.frame).area() > 0) {
+        label.frame.y = std::max(0, other.frame.y - label.frame.height);
+        moved = true;
+      }
+    }
+  }
+}
+
+void drawLabel(const Label& label, const cv::Scalar& color, cv::Mat& canvas) {
+  cv::rectangle(canvas, label.frame, color, cv::FILLED);
+  const cv::Point feet(label.frame.x + kMargin,
+                       label.frame.y + label.frame.height - kMargin - label.baseline);
+  cv::putText(canvas, label.text, feet, cv::FONT_HERSHEY_SIMPLEX, label.scale, kText, 1,
+              cv::LINE_AA);
+}
+
+}  // namespace
+
+TrackBox trackBox(const TrackMessage& track, double later, const Eigen::Isometry3d& fixed_in_camera,
+                  const CameraViewOptions& options) {
+  const Pose2 pose = fromMessage(track.pose);
+  Eigen::Isometry3d in_fixed(Eigen::AngleAxisd(pose.heading(), Eigen::Vector3d::UnitZ()));
+  in_fixed.translation() = Eigen::Vector3d(pose.x() + later * track.velocity.x,
+                                           pose.y() + later * track.velocity.y, 0.0);
+  TrackBox result;
+  result.box.pose = fixed_in_camera * in_fixed;
+  result.box.size = {std::max(track.size.x, options.min_size),
+                     std::max(track.size.y, options.min_size),
+                     track.size.z > 0.0 ? track.size.z : options.default_height};
+  const ObjectClass object_class = classFromMessage(track.classification);
+  result.color = toBgr(colorOfClass(object_class, true, 1.0F));
+  result.text = labelText(track);
+  return result;
+}
+
+void drawTrackBoxes(const PinholeCamera& camera, std::vector<TrackBox> boxes,
+                    const CameraViewOptions& options, cv::Mat& canvas) {
+  std::sort(boxes.begin(), boxes.end(), [](const TrackBox& left, const TrackBox& right) {
+    return left.distance < right.distance;
+  });
+  std::vector<Label> labels;
+  for (const TrackBox& box : boxes) {
+    const auto edges = projectBox(camera, box.box, kNear);
+    const auto bounds = boundsInImage(edges, canvas.cols, canvas.rows);
+    if (!bounds.isEmpty()) {
+      drawEdges(edges, box.color, options.line_width, canvas);
+      Label label = labelAbove(box, bounds, options, canvas.size());
+      moveClear(labels, label);
+      drawLabel(label, box.color, canvas);
+      labels.push_back(label);
+    }
+  }
+}
+
+}  // namespace datmo

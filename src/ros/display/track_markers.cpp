@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "class_shapes.h"
+#include "marker_colors.h"
+#include "marker_parts.h"
+#include "track_label.h"
+#include <Eigen/Eigenvalues>
+
+#include "datmo_fusion/common/object.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/display/markers.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
+
+namespace datmo {
+
+namespace {
+
+using visualization_msgs::Marker;
+using visualization_msgs::MarkerArray;
+
+/// The ellipse that holds the true position with 95 %: quantile of chi-square with two degrees of
+/// freedom.
+constexpr double kEllipseGate = 5.991;
+
+/// Opacity of a box that hardly exists, and of one that surely does.
+constexpr float kFaint = 0.1F;
+constexpr float kSolid = 0.9F;
+
+constexpr float kEllipseOpacity = 0.3F;
+
+/// m, just above the ground: not hidden by the map.
+constexpr double kEllipseHeight = 0.02;
+
+/// Share of its class's color that lines and letters have: dark ones are read on a light map.
+constexpr float kInk = 0.45F;
+
+std_msgs::ColorRGBA colorOf(const TrackMessage& track, float opacity) {
+  return colorOfClass(classFromMessage(track.classification), track.moving, opacity);
+}
+
+/// Of lines and letters.
+std_msgs::ColorRGBA inkOf(const TrackMessage& track) {
+  const auto full = colorOfClass(classFromMessage(track.classification), true, 1.0F);
+  return color(kInk * full.r, kInk * full.g, kInk * full.b);
+}
+
+double heightOf(const TrackMessage& track, const MarkersOptions& options) {
+  return track.size.z > 0.0 ? track.size.z : options.default_height;
+}
+
+Marker arrowOf(const std_msgs::Header& header, const TrackMessage& track,
+               const MarkersOptions& options) {
+  Marker marker = makeMarker(header, "track velocities", Marker::ARROW);
+  marker.scale.x = 2.0 * options.line_width;  // shaft
+  marker.scale.y = 5.0 * options.line_width;  // head
+  const geometry_msgs::Point& from = track.pose.position;
+  const double z = heightOf(track, options);
+  marker.points = {pointAt(from.x, from.y, z),
+                   pointAt(from.x + track.velocity.x * options.arrow_time,
+                           from.y + track.velocity.y * options.arrow_time, z)};
+  return marker;
+}
+
+/// So high above the box that it does not cover it where it is looked at from up to 45 degrees
+/// above the ground, whichever way the box is turned.
+Marker labelOf(const std_msgs::Header& header, const TrackMessage& track,
+               const MarkersOptions& options) {
+  Marker marker = makeMarker(header, "track labels", Marker::TEXT_VIEW_FACING);
+  marker.pose.position = track.pose.position;
+  const double to_end = 0.5 * std::max({track.size.x, track.size.y, options.min_size});
+  marker.pose.position.z = heightOf(track, options) + to_end + 0.5 * options.text_height;
+  marker.scale.z = options.text_height;
+  marker.text = labelText(track);
+  return marker;
+}
+
+/// On the ground, where the position is with 95 %.
+Marker ellipseOf(const std_msgs::Header& header, const TrackMessage& track,
+                 const MarkersOptions& options) {
+  Eigen::Matrix2d covariance;
+  covariance << track.covariance[0], track.covariance[1],  //
+      track.covariance[kTrackState], track.covariance[kTrackState + 1];
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
+  solver.computeDirect(covariance);
+  const auto diameter = [&](int axis) {
+    const double variance = std::max(solver.eigenvalues()[axis], 0.0);
+    return std::max(2.0 * std::sqrt(kEllipseGate * variance), options.line_width);
+  };
+  const Eigen::Vector2d major = solver.eigenvectors().col(1);
+  Marker marker = makeMarker(header, "track covariances", Marker::CYLINDER);
+  marker.pose = toMessage(
+      Pose2(track.pose.position.x, track.pose.position.y, std::atan2(major.y(), major.x())));
+  marker.pose.position.z = kEllipseHeight;
+  marker.scale.x = diameter(1);
+  marker.scale.y = diameter(0);
+  marker.scale.z = kEllipseHeight;
+  return marker;
+}
+
+/// Where it was lately.
+Marker pathOf(const std_msgs::Header& header, const TrackMessage& track,
+              const MarkersOptions& options) {
+  Marker marker = makeMarker(header, "track paths", Marker::LINE_STRIP);
+  marker.scale.x = options.line_width;
+  for (const PathPointMessage& point : track.history) {
+    if (secondsBetween(toStamp(point.stamp), toStamp(header.stamp)) <= options.path_time) {
+      marker.points.push_back(pointAt(point.pose.x, point.pose.y, kEllipseHeight));
+    }
+  }
+  return marker;
+}
+
+void add(Marker marker, const TrackMessage& track, const std_msgs::ColorRGBA& color,
+         MarkerArray& markers) {
+  marker.id = static_cast<int>(track.id);
+  marker.color = color;
+  markers.markers.push_back(marker);
+}
+
+Marker groundOutline(const std_msgs::Header& header, const std::string& name,
+                     const TrackMessage& track, const MarkersOptions& options) {
+  Marker outline = outlineOf(header, name, track.pose, track.size, options);
+  outline.pose.position.z = kEllipseHeight;
+  return outline;
+}
+
+/// The class as a shape, and on the ground its outline and who saw it.
+void addBody(const std_msgs::Header& header, const TrackMessage& track, float opacity,
+             const MarkersOptions& options, MarkerArray& markers) {
+  const ObjectClass object_class = classFromMessage(track.classification);
+  const ClassShape shape = shapeOf(header, "track", object_class, track.pose, track.size, options);
+  const std_msgs::ColorRGBA color = colorOf(track, opacity);
+  add(shape.body, track, color, markers);
+  if (shape.head) {
+    add(*shape.head, track, color, markers);
+  }
+  add(groundOutline(header, "track outlines", track, options), track, inkOf(track), markers);
+  add(groundOutline(header, "track sensors", track, options), track,
+      colorOfSensors(track.sensors, 1.0F), markers);
+}
+
+}  // namespace
+
+MarkerArray markersOf(const TrackArray& tracks, const MarkersOptions& options) {
+  MarkerArray markers;
+  const std_msgs::Header& header = tracks.header;
+  for (const TrackMessage& track : tracks.tracks) {
+    const float body = kFaint + (kSolid - kFaint) * track.existence_probability;
+    addBody(header, track, body, options, markers);
+    if (track.moving) {
+      add(arrowOf(header, track, options), track, inkOf(track), markers);
+    }
+    add(labelOf(header, track, options), track, inkOf(track), markers);
+    add(ellipseOf(header, track, options), track, colorOf(track, kEllipseOpacity), markers);
+    const Marker path = pathOf(header, track, options);
+    if (path.points.size() > 1) {  // rviz takes a line of one point for a mistake
+      add(path, track, inkOf(track), markers);
+    }
+  }
+  return markers;
+}
+
+}  // namespace datmo

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/stage/grid_slam_stage.h"
+
+#include <boost/make_shared.hpp>
+#include <tf2_msgs/TFMessage.h>
+
+#include "datmo_fusion/ros/convert/grid_conversion.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/stage/motion_input.h"
+
+namespace datmo {
+
+namespace {
+
+/// The hold of the odometry is said once, for all stages.
+GridSlamOptions slamOptions(const GridSlamStageOptions& options) {
+  GridSlamOptions slam = options.slam;
+  slam.odometry_hold = options.motion.hold;
+  return slam;
+}
+
+}  // namespace
+
+void GridSlamStageOptions::visit(OptionVisitor& visitor) {
+  visitor.toggle({"fused_grid", "",
+                  "the measurement is the grid that grid_fusion made of the scan and other sensors "
+                  "(thesis 3.2.5); false: the scan alone"},
+                 fused_grid);
+  visitor.number({"map_period", "s", "least time between two maps, of the scans' stamps"},
+                 map_period, {0.0, 3600.0});
+  visitor.number({"max_tilt", "rad", "a scan plane tilted by more than this is warned of"},
+                 max_tilt, {0.0, kPi / 2.0});
+  visitor.group("input", [&] { input.visit(visitor); });
+  visitor.group("scan", [&] { scan.visit(visitor); });
+  slam.visit(visitor);
+}
+
+GridSlamStage::GridSlamStage(const GridSlamStageOptions& options, const TransformBuffer& transforms,
+                             StageMonitor& monitor)
+    : options_(options),
+      transforms_(transforms),
+      monitor_(monitor),
+      slam_(slamOptions(options)),
+      extent_(options.slam.map.window),
+      runner_(monitor, options.input, "starts with a new map", [this] { reset(); }),
+      odometry_poses_(options.motion.hold),
+      scans_(monitor) {
+  checkOptions(options);
+  checkOptions(options.motion);
+  checkFrames(options.frames);
+}
+
+void GridSlamStage::takeOdometry(const nav_msgs::Odometry& message) {
+  if (!options_.motion.fromOdometry() && !options_.motion.fromSensors()) {
+    return;
+  }
+  runner_.serve("odometry", message, [&] {
+    checkFrames(message, options_.frames);
+    OdometrySample sample = toSample(message);
+    const Pose2 base_in_odom = fromMessage(message.pose.pose);
+    if (options_.motion.fromOdometry() && options_.motion.odometry_pose) {
+      sample.base_in_odom = base_in_odom;
+    }
+    sample.speed_measured = options_.motion.hasSpeed();
+    runner_.check("odometry", message.header.stamp);
+    slam_.addOdometry(sample);
+    odometry_poses_.add(sample.stamp, sample.twist, base_in_odom);
+  });
+}
+
+template <typename Message>
+std::optional<GridSlamOutput> GridSlamStage::takeScan(const Message& message) {
+  return runner_.serve("scan", message, [&]() -> std::optional<GridSlamOutput> {
+    const ScannerMount mount =
+        scannerMount(transforms_.core(), options_.frames.base, message.header.frame_id);
+    const ConvertedScan converted = toScan(message, mount, options_.scan);
+    runner_.check("scan", message.header.stamp);
+    warnOf(mount, converted);
+    if (options_.fused_grid) {
+      scans_.add(converted.scan);
+      return std::nullopt;
+    }
+    return finish(slam_.process(converted.scan));
+  });
+}
+
+template std::optional<GridSlamOutput> GridSlamStage::takeScan(const sensor_msgs::LaserScan&);
+template std::optional<GridSlamOutput> GridSlamStage::takeScan(
+    const sensor_msgs::MultiEchoLaserScan&);
+
+std::optional<GridSlamOutput> GridSlamStage::takeGrid(const nav_msgs::OccupancyGrid& message) {
+  return runner_.serve([&]() -> std::optional<GridSlamOutput> {
+    if (!options_.fused_grid) {
+      throw InputError("unexpected_grid", "a fused grid: expected none while fused_grid is false");
+    }
+    checkBaseFrame(message.header.frame_id);
+    const SensorGrid grid = fromMessage(message);
+    runner_.check("grid", message.header.stamp);
+    return finish(slam_.process(grid, scans_.take(grid.stamp())));
+  });
+}
+
+GridSlamOutput GridSlamStage::finish(const SlamResult& result) {
+  showMatch(result);
+  GridSlamOutput output = outputOf(result);
+  runner_.processed(result.split.stamp);
+  return output;
+}
+
+void GridSlamStage::checkBaseFrame(const std::string& frame) const {
+  if (frame != options_.frames.base) {
+    throw InputError("wrong_frame",
+                     "fused grid in '" + frame + "': expected '" + options_.frames.base + "'");
+  }
+}
+
+void GridSlamStage::reset() {
+  slam_.reset();
+  scans_.clear();
+  odometry_poses_.clear();
+  last_map_.reset();
+  degenerate_scans_ = 0;
+}
+
+void GridSlamStage::warnOf(const ScannerMount& mount, const ConvertedScan& converted) {
+  for (const InputError& fault :
+       faultsOf(mount, converted, options_.max_tilt, "goes on with the predicted pose")) {
+    monitor_.warned(fault);
+  }
+  if (const auto misfit = extent_.take(converted.scan)) {
+    monitor_.warned(*misfit);
+  }
+}
+
+void GridSlamStage::showMatch(const SlamResult& result) {
+  const MatchQuality& match = result.match;
+  degenerate_scans_ += match.degenerate ? 1 : 0;
+  monitor_.figure("points matched", match.matched_points);
+  monitor_.figure("match score, 0 to 1", match.score);
+  monitor_.figure("weakest direction of the match [m]", match.weakest_sigma);
+  monitor_.figure("scans with a direction left to the odometry",
+                  static_cast<double>(degenerate_scans_));
+  monitor_.figure("odometry's scale error", result.odometry_errors.speed_scale);
+  monitor_.figure("odometry's yaw rate bias [rad/s]", result.odometry_errors.yaw_rate_bias);
+}
+
+GridSlamOutput GridSlamStage::outputOf(const SlamResult& result) {
+  const Stamp stamp = result.split.stamp;
+  GridSlamOutput output;
+  output.labeled_scan = boost::make_shared<LabeledScanMessage>(
+      toMessage(result.split, options_.frames.base, options_.frames.map));
+  output.pose = boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>();
+  output.pose->header.stamp = toTime(stamp);
+  output.pose->header.frame_id = options_.frames.map;
+  output.pose->pose = output.labeled_scan->pose;
+  output.transforms = transformsTo(result.split.base_in_map.pose, stamp);
+  for (const geometry_msgs::TransformStamped& transform : output.transforms) {
+    monitor_.announce(transform.child_frame_id, transform.header.frame_id + " -> " +
+                                                    transform.child_frame_id + " is published");
+  }
+  return output;
+}
+
+std::vector<geometry_msgs::TransformStamped> GridSlamStage::transformsTo(const Pose2& base_in_map,
+                                                                         Stamp stamp) {
+  const auto odom_in_map = [&](const Pose2& pose) {
+    return toTransform(pose, stamp, options_.frames.map, options_.frames.odom);
+  };
+  if (!options_.motion.fromOdometry()) {
+    return {odom_in_map({}),
+            toTransform(base_in_map, stamp, options_.frames.odom, options_.frames.base)};
+  }
+  const std::optional<Pose2> base_in_odom = odometry_poses_.at(stamp);
+  if (!base_in_odom) {
+    monitor_.warned(
+        InputError("silent_odometry",
+                   "no odometry at the scan's stamp: goes on with constant velocity "
+                   "and without " +
+                       options_.frames.map + " -> " + options_.frames.odom +
+                       " (a vehicle without odometry: motion: {source: none} in the yaml "
+                       "file)"));
+    return {};
+  }
+  return {odom_in_map(base_in_map * base_in_odom->inverse())};
+}
+
+nav_msgs::OccupancyGridPtr GridSlamStage::mapIfDue(Stamp stamp) {
+  if (last_map_ && secondsBetween(*last_map_, stamp) < options_.map_period) {
+    return nullptr;
+  }
+  last_map_ = stamp;
+  return boost::make_shared<nav_msgs::OccupancyGrid>(
+      toMessage(slam_.map(), stamp, options_.frames.map));
+}
+
+void GridSlamStage::connect(StagePorts& ports) {
+  const auto transforms = ports.out<tf2_msgs::TFMessage>("/tf");
+  const auto pose = ports.out<geometry_msgs::PoseWithCovarianceStamped>("pose");
+  const auto labeled_scan = ports.out<LabeledScanMessage>("labeled_scan");
+  const auto map = ports.out<nav_msgs::OccupancyGrid>("map", true);
+  const auto publish = [=](const std::optional<GridSlamOutput>& output) {
+    if (!output) {
+      return;
+    }
+    const auto message = boost::make_shared<tf2_msgs::TFMessage>();
+    message->transforms = output->transforms;
+    transforms.publish(message);
+    pose.publish(output->pose);
+    labeled_scan.publish(output->labeled_scan);
+    map.publish(mapIfDue(toStamp(output->labeled_scan->header.stamp)));
+  };
+  if (options_.motion.fromOdometry() || options_.motion.fromSensors()) {
+    ports.in<nav_msgs::Odometry>(
+        options_.motion.odometryTopic(),
+        [this](const auto& odometry, Stamp /*now*/) { takeOdometry(*odometry); });
+  }
+  const auto take_scan = [this, publish](const auto& scan, Stamp /*now*/) {
+    publish(takeScan(*scan));
+  };
+  ports.in<sensor_msgs::LaserScan>("scan", take_scan);
+  ports.inInsteadOf<sensor_msgs::MultiEchoLaserScan>("scan", "echoes", take_scan);
+  if (options_.fused_grid) {
+    ports.in<nav_msgs::OccupancyGrid>(
+        "grids/fused",
+        [this, publish](const auto& grid, Stamp /*now*/) { publish(takeGrid(*grid)); });
+  }
+}
+
+}  // namespace datmo

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/stage/lidar_grid_stage.h"
+
+#include <boost/make_shared.hpp>
+
+#include "datmo_fusion/ros/convert/grid_conversion.h"
+#include "datmo_fusion/ros/stage/stage_inputs.h"
+#include "datmo_fusion/slam/motion_compensation.h"
+
+namespace datmo {
+
+void LidarGridStageOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"max_tilt", "rad", "a scan plane tilted by more than this is warned of"},
+                 max_tilt, {0.0, kQuarterTurn});
+  visitor.group("input", [&] { input.visit(visitor); });
+  visitor.group("scan", [&] { scan.visit(visitor); });
+  grid.visit(visitor);
+}
+
+LidarGridStage::LidarGridStage(const LidarGridStageOptions& options,
+                               const TransformBuffer& transforms, StageMonitor& monitor)
+    : options_(options),
+      transforms_(transforms),
+      monitor_(monitor),
+      model_(options.grid),
+      runner_(monitor, options.input, "forgets how the vehicle moved", [this] { motion_.reset(); }),
+      motion_(options.motion, options.frames, runner_) {
+  checkOptions(options);
+}
+
+template <typename Message>
+nav_msgs::OccupancyGridPtr LidarGridStage::takeScan(const Message& message) {
+  return runner_.serve("scan", message, [&] {
+    const ScannerMount mount =
+        scannerMount(transforms_.core(), options_.frames.base, message.header.frame_id);
+    const ConvertedScan converted = toScan(message, mount, options_.scan);
+    runner_.check("scan", message.header.stamp);
+    warnOf(mount, converted);
+    auto grid = boost::make_shared<nav_msgs::OccupancyGrid>(
+        toMessage(model_.grid(compensated(converted.scan)), options_.frames.base));
+    runner_.processed(converted.scan.stamp);
+    return grid;
+  });
+}
+
+template nav_msgs::OccupancyGridPtr LidarGridStage::takeScan(const sensor_msgs::LaserScan&);
+template nav_msgs::OccupancyGridPtr LidarGridStage::takeScan(
+    const sensor_msgs::MultiEchoLaserScan&);
+
+void LidarGridStage::warnOf(const ScannerMount& mount, const ConvertedScan& converted) {
+  for (const InputError& fault : faultsOf(mount, converted, options_.max_tilt, "says nothing")) {
+    monitor_.warned(fault);
+  }
+  monitor_.figure("beams with a hit", static_cast<double>(converted.beams.hits));
+}
+
+Scan LidarGridStage::compensated(const Scan& scan) const {
+  const double duration = sweepDuration(scan);
+  if (duration == 0.0) {
+    return scan;
+  }
+  const auto motion = motion_.between(scan.stamp, scan.stamp + duration);
+  return motion ? compensateMotion(scan, twistOf(*motion, duration)) : scan;
+}
+
+void LidarGridStage::connect(StagePorts& ports) {
+  const auto grid = ports.out<nav_msgs::OccupancyGrid>("grids/lidar");
+  connectMotion(ports, options_.motion, *this);
+  const auto take_scan = [this, grid](const auto& scan, Stamp /*now*/) {
+    grid.publish(takeScan(*scan));
+  };
+  ports.in<sensor_msgs::LaserScan>("scan", take_scan);
+  ports.inInsteadOf<sensor_msgs::MultiEchoLaserScan>("scan", "echoes", take_scan);
+}
+
+}  // namespace datmo

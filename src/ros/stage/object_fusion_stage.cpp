@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/stage/object_fusion_stage.h"
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <boost/make_shared.hpp>
+
+#include "datmo_fusion/fusion/sync/relative_motion.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/stage/stage_inputs.h"
+#include "datmo_fusion/tracking/object_check.h"
+
+namespace datmo {
+
+namespace {
+
+constexpr char kObjectList[] = "object list";
+
+/// A second and more of a fast scanner: longer than a list may wait (SourceMatcherOptions).
+constexpr std::size_t kMaxScans = 64;
+
+/// Names of the sources with such a list.
+std::string sourcesWith(const std::vector<SourceObjects>& lists,
+                        const std::function<bool(const std::vector<Object>&)>& is_such) {
+  std::string names;
+  for (const SourceObjects& one : lists) {
+    if (is_such(one.list.objects)) {
+      names += (names.empty() ? "" : ", ") + one.source;
+    }
+  }
+  return names;
+}
+
+}  // namespace
+
+void ObjectFusionStageOptions::visit(OptionVisitor& visitor) {
+  visitor.group("input", [&] { input.visit(visitor); });
+  matcher.visit(visitor);
+  fuser.visit(visitor);
+}
+
+ObjectFusionStage::ObjectFusionStage(const ObjectFusionStageOptions& options, StageMonitor& monitor)
+    : options_(options),
+      monitor_(monitor),
+      runner_(monitor, options.input, std::string("forgets all ") + kObjectList + "s",
+              [this] { reset(); }),
+      inputs_({options.frames.base, options.frames, options.motion, options.input, options.matcher,
+               options.fuser.sourcesInUse(), kObjectList},
+              runner_),
+      matcher_(options.matcher, options.fuser.sourcesInUse(), Serving::kOnce),
+      fuser_(options.fuser) {
+  checkOptions(options);
+  checkSourceNames(sources(), kObjectList, {"fused"});
+}
+
+void ObjectFusionStage::reset() {
+  inputs_.reset();
+  matcher_.reset();
+  scans_.clear();
+}
+
+void ObjectFusionStage::takeObjects(const std::string& source, const ObjectArray& message,
+                                    Stamp now) {
+  runner_.serve([&] {
+    inputs_.take(source, message.header, now);
+    const auto list = std::make_shared<ObjectList>(fromMessage(message));
+    for (Object& object : list->objects) {
+      if (object.sensors.empty()) {
+        object.sensors = {source};
+      }
+    }
+    for (SensorView& view : list->views) {
+      if (view.sensor.empty()) {
+        view.sensor = source;
+      }
+    }
+    inputs_.report(source, {"bad_view", message.views.size() - list->views.size(), "bad views",
+                            "finite numbers, bearings in rad from the least to the most one, a "
+                            "turn apart at most, and sure_range up to range"});
+    matcher_.add(source, list->stamp, list);
+  });
+}
+
+void ObjectFusionStage::takeLabeledScan(const LabeledScanMessage& message) {
+  runner_.serve([&] {
+    if (message.header.frame_id != options_.frames.base) {
+      throw InputError("wrong_frame", "split scan in '" + message.header.frame_id +
+                                          "': expected '" + options_.frames.base + "'");
+    }
+    LabeledScan scan = fromMessage(message);
+    runner_.check("/labeled_scan", message.header.stamp);
+    scans_.push_back(std::move(scan));
+    if (scans_.size() > kMaxScans) {
+      scans_.pop_front();
+    }
+  });
+}
+
+std::optional<LabeledScan> ObjectFusionStage::takeScanAt(Stamp stamp) {
+  std::optional<LabeledScan> found;
+  while (!scans_.empty() && scans_.front().stamp <= stamp) {
+    if (scans_.front().stamp == stamp) {
+      found = std::move(scans_.front());
+    }
+    scans_.pop_front();
+  }
+  return found;
+}
+
+std::vector<SourceObjects> ObjectFusionStage::movedLists(
+    const Matched& matched, std::vector<MissingSource>& missing) const {
+  const auto motion = [this](Stamp from, Stamp to) { return inputs_.motion(from, to); };
+  std::vector<SourceObjects> lists;
+  for (const SourceSample<ObjectList>& one : matched.samples) {
+    if (const auto base = baseAt(one.stamp, matched.stamp(), motion)) {
+      lists.push_back({one.source, *one.payload, *base});
+    } else {
+      missing.push_back({one.source, WhyMissing::kNoMotion});
+    }
+  }
+  return lists;
+}
+
+ObjectArrayPtr ObjectFusionStage::next(Stamp now) {
+  return runner_.serve([&] {
+    const std::optional<Matched> matched = inputs_.nextOf(matcher_, now);
+    return matched ? fuse(*matched) : nullptr;
+  });
+}
+
+ObjectArrayPtr ObjectFusionStage::fuse(const Matched& matched) {
+  std::vector<MissingSource> missing = matched.missing;
+  const std::vector<SourceObjects> lists = movedLists(matched, missing);
+  const std::optional<LabeledScan> scan = takeScanAt(matched.stamp());
+  times_without_scan_ += scan ? 0 : 1;
+  const ObjectFusionResult result = fuser_.fuse(lists, scan ? &*scan : nullptr);
+  inputs_.report(matched.stamp(), missing);
+  report(lists, result.counts);
+  auto fused = boost::make_shared<ObjectArray>(toMessage(result.list, options_.frames.base));
+  runner_.processed(matched.stamp());
+  return fused;
+}
+
+void ObjectFusionStage::report(const std::vector<SourceObjects>& lists,
+                               const ObjectFusionCounts& counts) {
+  if (counts.rejected > 0) {
+    const auto is_bad = [](const std::vector<Object>& objects) {
+      return !std::all_of(objects.begin(), objects.end(), isValid);
+    };
+    monitor_.warned(
+        InputError("bad_object", std::to_string(counts.rejected) + " objects of " +
+                                     sourcesWith(lists, is_bad) +
+                                     " with numbers that are not finite or out of range, or a "
+                                     "covariance that is not positive definite: left out"));
+  }
+  if (counts.refused > 0) {
+    const auto max = static_cast<std::size_t>(options_.fuser.max_objects);
+    const auto is_long = [max](const std::vector<Object>& objects) { return objects.size() > max; };
+    monitor_.warned(InputError("many_objects", std::to_string(counts.refused) + " objects of " +
+                                                   sourcesWith(lists, is_long) +
+                                                   " beyond max_objects = " + std::to_string(max) +
+                                                   " of a list: left out the farthest"));
+  }
+  bad_objects_ += counts.rejected;
+  objects_too_many_ += counts.refused;
+  monitor_.figure("objects of two or more sources", static_cast<double>(counts.fused));
+  monitor_.figure("bad objects", static_cast<double>(bad_objects_));
+  monitor_.figure("objects too many", static_cast<double>(objects_too_many_));
+  monitor_.figure("fused without a split scan", static_cast<double>(times_without_scan_));
+  inputs_.reportUnserved(matcher_);
+}
+
+void ObjectFusionStage::connect(StagePorts& ports) {
+  fused_ = ports.out<ObjectArray>("objects/fused");
+  connectMotion(ports, options_.motion, *this);
+  ports.optionalIn<LabeledScanMessage>(
+      "labeled_scan", [this](const auto& scan, Stamp /*now*/) { takeLabeledScan(*scan); });
+  for (const std::string& source : sources()) {
+    ports.in<ObjectArray>("objects/" + source, [this, source](const auto& objects, Stamp now) {
+      takeObjects(source, *objects, now);
+    });
+  }
+}
+
+bool ObjectFusionStage::publishNext(Stamp now) {
+  const ObjectArrayPtr objects = next(now);
+  fused_.publish(objects);
+  return objects != nullptr;
+}
+
+}  // namespace datmo

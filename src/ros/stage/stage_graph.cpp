@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/stage/stage_graph.h"
+
+namespace datmo {
+
+std::string GraphStage::resolved(const std::string& topic) const {
+  const auto remap = remaps.find(topic);
+  return remap == remaps.end() ? topic : remap->second;
+}
+
+std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
+  const std::string scan = switches.scan_from_cloud ? "cloud_scan" : "scan";
+  const std::string tracked_objects = switches.object_fusion ? "objects/fused" : "objects";
+  const std::string tracks_of_tracker = switches.track_fusion ? "tracks/lidar" : "tracks";
+  const std::map<std::string, std::string> camera{
+      {"points2", "stereo/points2"}, {"right/camera_info", "stereo/right/camera_info"}};
+  const std::map<std::string, std::string> images{{"left/image", "stereo/left/image_rect"},
+                                                  {"left/camera_info", "stereo/left/camera_info"},
+                                                  {"right/image", "stereo/right/image_rect"},
+                                                  {"right/camera_info", "stereo/right/camera_info"},
+                                                  {"points2", "stereo/points2"}};
+
+  std::vector<GraphStage> graph;
+  const auto add = [&graph](bool present, const GraphStage& stage) {
+    if (present) {
+      graph.push_back(stage);
+    }
+  };
+  const bool low_level = switches.low_level_fusion;
+  add(switches.scan_from_cloud, {"cloud_to_scan", "cloud_to_scan", {{"scan", scan}}, {}});
+  add(true, {"motion", "motion", {}, {}});
+  add(switches.stereo != StereoPoints::kClouds,
+      {"stereo_image_proc",
+       "stereo_image_proc",
+       images,
+       {{"rectified", switches.stereo == StereoPoints::kRectifiedImages}}});
+  add(low_level, {"lidar_grid", "lidar_grid", {{"scan", scan}}, {}});
+  add(low_level, {"stereo_grid", "stereo_grid", camera, {}});
+  add(low_level, {"grid_fusion", "grid_fusion", {}, {}});
+  add(true, {"grid_slam", "grid_slam", {{"scan", scan}}, {{"fused_grid", low_level}}});
+  add(switches.static_points, {"static_points", "static_points", {}, {}});
+  add(switches.road_border, {"road_border", "road_border", {}, {}});
+  add(true, {"moving_objects", "moving_objects", {}, {{"road_borders", switches.road_border}}});
+  add(switches.stereo_objects, {"stereo_objects", "stereo_objects", camera, {}});
+  add(switches.cloud_objects, {"cloud_objects", "cloud_objects", {}, {}});
+  add(switches.object_fusion,
+      {"object_fusion", "object_fusion", {{"objects/lidar", "objects"}}, {}});
+  add(true,
+      {"tracker", "tracker", {{"objects", tracked_objects}, {"tracks", tracks_of_tracker}}, {}});
+  // What the scanner saw is not what the camera could see.
+  add(switches.stereo_tracker, {"stereo_tracker",
+                                "tracker",
+                                {{"objects", "objects/stereo"}, {"tracks", "tracks/stereo"}},
+                                {{"scan_view", false}}});
+  add(switches.track_fusion, {"track_fusion", "track_fusion", {{"tracks/fused", "tracks"}}, {}});
+  return graph;
+}
+
+}  // namespace datmo

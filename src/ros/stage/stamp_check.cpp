@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/stage/stamp_check.h"
+
+#include <string>
+
+#include "datmo_fusion/ros/stage/input_error.h"
+
+namespace datmo {
+
+Stamp toStamp(const ros::Time& time) { return {static_cast<std::int64_t>(time.toNSec())}; }
+
+ros::Time toTime(Stamp stamp) {
+  ros::Time time;
+  time.fromNSec(static_cast<std::uint64_t>(stamp.nanoseconds));
+  return time;
+}
+
+void StreamOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"restart_after", "s",
+                  "a stamp older than the newest by this is a restart of the clock (a looped bag), "
+                  "and all state is forgotten; one that is less old is late, and dropped"},
+                 restart_after, {0.1, 60.0});
+  visitor.number({"silence_after", "s", "an input that is silent for so long is reported"},
+                 silence_after, {0.1, 60.0});
+}
+
+Arrival StampCheck::check(const ros::Time& time) {
+  if (time.isZero()) {
+    throw InputError("zero_stamp", "stamp 0: expected the time of the measurement");
+  }
+  const auto newest = gate_.newest();
+  switch (gate_.judge(toStamp(time))) {
+    case StampVerdict::kRepeated:
+      throw InputError("repeated_stamp", "stamp " + std::to_string(time.toSec()) +
+                                             " s twice: expected each message once");
+    case StampVerdict::kOld:
+      throw InputError("old_stamp", "stamp " + std::to_string(time.toSec()) +
+                                        " s: expected one later than the newest, " +
+                                        std::to_string(newest->seconds()) + " s");
+    case StampVerdict::kRestart:
+      return Arrival::kRestart;
+    case StampVerdict::kAccept:
+      break;
+  }
+  return Arrival::kNext;
+}
+
+}  // namespace datmo

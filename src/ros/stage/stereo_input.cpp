@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/stage/stereo_input.h"
+
+#include <cmath>
+
+#include "datmo_fusion/ros/frames.h"
+
+namespace datmo {
+
+void StereoCameraOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"focal_length", "px", "until a camera info has come; 0: not known"}, focal_length,
+                 {0.0, kMaxFocalLength});
+  visitor.number({"baseline", "m",
+                  "stereo: until a camera info has come, 0: not known; active_stereo: between its "
+                  "two cameras; structured_light: from the camera to the projector at its right"},
+                 baseline, {0.0, kMaxBaseline});
+  visitor.number({"field_of_view", "rad", "from left to right, until a camera info has come"},
+                 field_of_view, {degrees(5.0), degrees(150.0)});
+  visitor.number({"min_depth", "m", "nearer points are left out: the camera's data sheet"},
+                 min_depth, {0.0, 100.0});
+  visitor.number({"max_depth", "m", "farther points are left out: the same; 0: none are"},
+                 max_depth, {0.0, 1000.0});
+  DepthNoiseOptions::visit(visitor);
+}
+
+void StereoInputOptions::visit(OptionVisitor& visitor) {
+  visitor.group("camera", [&] { camera.visit(visitor); });
+  visitor.group("input", [&] { input.visit(visitor); });
+}
+
+StereoInput::StereoInput(const StereoInputOptions& options, const TransformBuffer& transforms)
+    : options_(options),
+      principle_(depthPrinciple(options.camera.principle)),
+      transforms_(transforms) {
+  checkOptions(options);
+  const StereoCameraOptions& camera = options.camera;
+  if (principle_ == DepthPrinciple::kActiveStereo && camera.baseline < kMinBaseline) {
+    throw OptionError("camera/baseline = " + std::to_string(camera.baseline) +
+                      ": expected that of the data sheet, in m, for depth_noise: active_stereo");
+  }
+  if (camera.max_depth > 0.0 && camera.min_depth >= camera.max_depth) {
+    throw OptionError("camera/min_depth = " + std::to_string(camera.min_depth) +
+                      ": expected less than max_depth = " + std::to_string(camera.max_depth));
+  }
+}
+
+void StereoInput::take(const sensor_msgs::CameraInfo& message) {
+  camera_ = principle_ == DepthPrinciple::kStereo ? stereoCamera(message) : depthCamera(message);
+}
+
+StereoCloud StereoInput::cloudOf(const std_msgs::Header& header, CloudPoints& points) const {
+  const std::string& optical_frame =
+      options_.frames.camera.empty() ? header.frame_id : options_.frames.camera;
+  StereoCloud cloud;
+  cloud.stamp = toStamp(header.stamp);
+  cloud.camera = camera();
+  cloud.camera_in_base = sensorMount(transforms_.core(), options_.frames.base, optical_frame);
+  if (optical_frame != header.frame_id) {
+    points.transform(sensorMount(transforms_.core(), optical_frame, header.frame_id));
+  }
+  if (options_.camera.min_depth > 0.0 || options_.camera.max_depth > 0.0) {
+    points.keepDepths(options_.camera.min_depth, options_.camera.max_depth);
+  }
+  cloud.points = points.view();
+  return cloud;
+}
+
+StereoCamera StereoInput::camera() const {
+  StereoCamera camera = camera_ ? *camera_ : configuredCamera();
+  if (principle_ != DepthPrinciple::kStereo) {
+    camera.baseline = principle_ == DepthPrinciple::kTimeOfFlight ? 0.0 : options_.camera.baseline;
+  }
+  camera.noise = depthNoise(options_.camera, camera.focal_length, camera.baseline);
+  return camera;
+}
+
+StereoCamera StereoInput::configuredCamera() const {
+  const StereoCameraOptions& known = options_.camera;
+  const bool pair = principle_ == DepthPrinciple::kStereo;
+  if (known.focal_length <= 0.0 || (pair && known.baseline <= 0.0)) {
+    throw InputError("missing_camera_info",
+                     pair ? "no info of the right camera yet: expected it, or focal_length and "
+                            "baseline of the parameter group camera"
+                          : "no info of the depth camera yet: expected it, or focal_length of the "
+                            "parameter group camera");
+  }
+  StereoCamera camera;
+  camera.focal_length = known.focal_length;
+  camera.baseline = known.baseline;
+  camera.right_tangent = std::tan(0.5 * known.field_of_view);
+  camera.left_tangent = -camera.right_tangent;
+  return camera;
+}
+
+void showRoad(bool seen, const RoadPlane& road, StageMonitor& monitor) {
+  monitor.figure("road seen, 0 or 1", seen ? 1.0 : 0.0);
+  monitor.figure("road's height [m]", road.height);
+  monitor.figure("road's slope ahead [m/m]", road.slope_x);
+  monitor.figure("road's slope to the left [m/m]", road.slope_y);
+}
+
+}  // namespace datmo

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/visibility/scan_support.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "datmo_fusion/common/angle.h"
+
+namespace datmo {
+
+namespace {
+
+/// Nothing that a sensor detects is narrower (m): a leg, a post.
+constexpr double kMinWidth = 0.1;
+
+/// Where a line from the scanner enters and leaves a box, m.
+struct Crossing {
+  double entry = 0.0;
+  double exit = std::numeric_limits<double>::infinity();
+};
+
+/// A box seen from the scanner.
+struct Silhouette {
+  Point2 scanner;        ///< m, in the box's frame
+  Point2 half;           ///< m
+  double bearing = 0.0;  ///< rad, of the center, in the box's frame
+  double min = 0.0;      ///< rad, right edge, from the bearing
+  double max = 0.0;      ///< rad, left edge
+};
+
+Silhouette silhouetteOf(const Box2& box, const Point2& scanner) {
+  Silhouette silhouette;
+  silhouette.half = 0.5 * Point2(std::max(box.length, kMinWidth), std::max(box.width, kMinWidth));
+  silhouette.scanner = box.center.inverse() * scanner;
+  const Point2 line = -silhouette.scanner;
+  silhouette.bearing = std::atan2(line.y(), line.x());
+  for (const double x : {-silhouette.half.x(), silhouette.half.x()}) {
+    for (const double y : {-silhouette.half.y(), silhouette.half.y()}) {
+      const Point2 corner = line + Point2(x, y);
+      const double cross = line.x() * corner.y() - line.y() * corner.x();
+      const double offset = std::atan2(cross, line.dot(corner));
+      silhouette.min = std::min(silhouette.min, offset);
+      silhouette.max = std::max(silhouette.max, offset);
+    }
+  }
+  return silhouette;
+}
+
+Crossing crossing(const Silhouette& silhouette, const Point2& direction) {
+  Crossing result;
+  for (Eigen::Index axis = 0; axis < 2; ++axis) {
+    if (direction[axis] != 0.0) {
+      const double one = (-silhouette.half[axis] - silhouette.scanner[axis]) / direction[axis];
+      const double other = (silhouette.half[axis] - silhouette.scanner[axis]) / direction[axis];
+      result.entry = std::max(result.entry, std::min(one, other));
+      result.exit = std::min(result.exit, std::max(one, other));
+    }
+  }
+  return result;
+}
+
+/// m^2, of the position of an object along this direction (unit vector in its own frame): of the
+/// whole and of the sides that are seen from there.
+double varianceAlong(const Object& object, const Point2& direction) {
+  const Point2 in_base = object.box.center.rotate(direction);
+  const auto side = [&](BoxSide one) {
+    const double variance = object.side_variance[static_cast<std::size_t>(one)];
+    return std::isfinite(variance) ? variance : 0.0;
+  };
+  const double x = side(direction.x() < 0.0 ? BoxSide::kFront : BoxSide::kRear);
+  const double y = side(direction.y() < 0.0 ? BoxSide::kLeft : BoxSide::kRight);
+  return in_base.dot(object.position_covariance * in_base) +
+         direction.cwiseAbs2().dot(Point2(x, y));
+}
+
+/// Whether a point (box's frame, m) lies on the object, as far as its position is known.
+bool isAbout(const Point2& point, const Object& object, const Silhouette& silhouette,
+             const ScanSupportOptions& options) {
+  Point2 excess = (point.cwiseAbs() - silhouette.half).cwiseMax(0.0);
+  for (Eigen::Index axis = 0; axis < 2; ++axis) {
+    const bool behind = point[axis] * silhouette.scanner[axis] < 0.0;
+    const double unseen = std::max(0.0, options.body_depth - 2.0 * silhouette.half[axis]);
+    excess[axis] = std::max(0.0, excess[axis] - (behind ? unseen : 0.0));
+  }
+  const double distance = excess.norm();
+  if (distance == 0.0) {
+    return true;
+  }
+  const Point2 outwards = excess.cwiseProduct(point.cwiseSign()) / distance;
+  const double sigma = std::sqrt(varianceAlong(object, -outwards));
+  return distance <= std::min(options.static_reach * sigma, options.max_static_reach);
+}
+
+/// Whether a beam goes on beyond all of the object; `direction`: unit vector in the box's frame.
+bool passesThrough(double range, const Point2& direction, double motion_std, const Object& object,
+                   const Silhouette& silhouette, const ScanSupportOptions& options) {
+  const Crossing through = crossing(silhouette, direction);
+  const double variance = varianceAlong(object, direction) + motion_std * motion_std;
+  return range > std::max(through.exit, through.entry + options.body_depth) +
+                     options.through_reach * std::sqrt(variance);
+}
+
+}  // namespace
+
+void ScanSupportOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"static_share", "1",
+                  "an object that the scanner does not list stands still if at least this share "
+                  "of the beams at its position end there on static points"},
+                 static_share, {0.01, 1.0});
+  visitor.number(
+      {"static_reach", "1",
+       "how far from its near side they may end, in standard deviations of its position: "
+       "few, since what stands beside it must not freeze it"},
+      static_reach, {0.0, 10.0});
+  visitor.number({"max_static_reach", "m", "the same, however uncertain its position is"},
+                 max_static_reach, {0.0, 20.0});
+  visitor.number({"through_reach", "1",
+                  "how far behind it a beam must end that passed through its position, in standard "
+                  "deviations of it"},
+                 through_reach, {0.0, 10.0});
+  visitor.number({"body_depth", "m",
+                  "how far behind its near side a beam may meet a body: it has no straight sides"},
+                 body_depth, {0.0, 10.0});
+}
+
+ScanSupport::ScanSupport(const LabeledScan& scan, const ScanSupportOptions& options)
+    : options_(options), scanner_in_base_(scan.scanner_in_base), field_(scan.field) {
+  checkOptions(options);
+  if (2.0 * kPi > kMaxBeams * std::abs(field_.beam_spacing)) {
+    return;  // finer than any scanner: what looks at an object could not be counted in time
+  }
+  beams_.assign(field_.beams, {End::kNothing, field_.free_range});
+  for (const std::uint32_t beam : scan.blind_beams) {
+    if (beam < beams_.size()) {
+      beams_[beam].range = 0.0;
+    }
+  }
+  for (const ScanPoint& point : scan.points) {
+    if (point.beam < beams_.size()) {
+      const bool is_static = point.state == PointState::kStatic;
+      beams_[point.beam] = {is_static ? End::kStaticHit : End::kHit, point.range};
+    }
+  }
+}
+
+double ScanSupport::beamAt(double bearing) const {
+  const double per_turn = 2.0 * kPi / std::abs(field_.beam_spacing);
+  const double index = (bearing - field_.first_bearing) / field_.beam_spacing;
+  // From half a beam before the first one on.
+  return index - per_turn * std::floor((index + 0.5) / per_turn);
+}
+
+const ScanSupport::Beam* ScanSupport::beam(double index) const {
+  const double per_turn = 2.0 * kPi / std::abs(field_.beam_spacing);
+  // A turn need not be a whole number of beams: after it, the nearest one looks there.
+  const double nearest = std::round(index < per_turn - 0.5 ? index : index - per_turn);
+  return nearest >= 0.0 && nearest < static_cast<double>(beams_.size())
+             ? &beams_[static_cast<std::size_t>(nearest)]
+             : nullptr;
+}
+
+PositionEvidence ScanSupport::evidence(const Object& object, double motion_std) const {
+  PositionEvidence result;
+  const Silhouette silhouette = silhouetteOf(object.box, scanner_in_base_.position());
+  const bool inside = (silhouette.scanner.cwiseAbs() - silhouette.half).maxCoeff() <= 0.0;
+  if (beams_.empty() || inside) {
+    return result;
+  }
+  const double to_scanner = object.box.center.heading() - scanner_in_base_.heading();
+  const double spacing = std::abs(field_.beam_spacing);
+  const double width = silhouette.max - silhouette.min;
+  result.beams = width / spacing;
+  // What is narrower than the distance between beams is met by the nearest one, if by any; what
+  // lies beside it may still be a part of it, as far as its position is not known.
+  const double narrow = std::max(0.0, 0.5 * (spacing - width));
+  const double aside =
+      std::max(narrow, std::atan2(options_.max_static_reach, silhouette.scanner.norm()));
+  const double edge = field_.beam_spacing > 0.0 ? silhouette.min - aside : silhouette.max + aside;
+  const double first = std::ceil(beamAt(to_scanner + silhouette.bearing + edge));
+  const auto looks = static_cast<std::size_t>(1.0 + (width + 2.0 * aside) / spacing);
+  double asked = 0.0;
+  for (std::size_t i = 0; i < looks; ++i) {
+    const double index = first + static_cast<double>(i);
+    const Beam* seen = beam(index);
+    const double bearing = field_.first_bearing + index * field_.beam_spacing - to_scanner;
+    const double offset = angleBetween(silhouette.bearing, bearing);
+    const bool meets = offset >= silhouette.min - narrow && offset <= silhouette.max + narrow;
+    const Point2 direction(std::cos(silhouette.bearing + offset),
+                           std::sin(silhouette.bearing + offset));
+    const bool stands =
+        seen != nullptr && seen->end == End::kStaticHit &&
+        isAbout(silhouette.scanner + seen->range * direction, object, silhouette, options_);
+    const bool through =
+        seen != nullptr && !stands && meets &&
+        passesThrough(seen->range, direction, motion_std, object, silhouette, options_);
+    asked += meets || stands ? 1.0 : 0.0;
+    result.static_share += stands ? 1.0 : 0.0;
+    result.through_share += through ? 1.0 : 0.0;
+  }
+  result.static_share /= std::max(1.0, asked);
+  result.through_share /= std::max(1.0, asked);
+  return result;
+}
+
+}  // namespace datmo

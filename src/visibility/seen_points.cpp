@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/visibility/seen_points.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace datmo {
+
+namespace {
+
+/// Scans and points of a scan that are kept: more of them look at the same positions again.
+constexpr std::size_t kMaxScans = 6;
+constexpr std::size_t kMaxPoints = 6;
+
+/// m; nearer points say nothing of the direction between them.
+constexpr double kMinBaseline = 0.05;
+
+/// From a point's neighbor to the other one, of length 1; zero: not known.
+Point2 directionAt(const std::vector<Point2>& points, std::size_t index) {
+  const Point2& before = points[index > 0 ? index - 1 : 0];
+  const Point2& after = points[std::min(index + 1, points.size() - 1)];
+  const Point2 along = after - before;
+  return along.norm() >= kMinBaseline ? Point2(along.normalized()) : Point2::Zero();
+}
+
+}  // namespace
+
+void SeenPointHistory::add(const Object& object, double time, double memory) {
+  const std::size_t size = object.points.size();
+  if (size == 0) {
+    return;
+  }
+  SeenPoints seen{time, {}};
+  const std::size_t taken = std::min(size, kMaxPoints);
+  for (std::size_t i = 0; i < taken; ++i) {
+    const std::size_t index = taken == 1 ? 0 : i * (size - 1) / (taken - 1);
+    seen.points.push_back({object.points[index], directionAt(object.points, index)});
+  }
+  seen_.push_back(std::make_shared<const SeenPoints>(std::move(seen)));
+  const auto recent = std::find_if(seen_.begin(), seen_.end(),
+                                   [&](const auto& scan) { return scan->time >= time - memory; });
+  seen_.erase(seen_.begin(), recent);
+  if (seen_.size() > kMaxScans) {
+    thinOut();
+  }
+}
+
+/// Removes the one without which the smallest gap is left; the first and the last stay.
+void SeenPointHistory::thinOut() {
+  std::size_t crowded = 1;
+  double min_gap = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i + 1 < seen_.size(); ++i) {
+    const double gap = seen_[i + 1]->time - seen_[i - 1]->time;
+    if (gap < min_gap) {
+      min_gap = gap;
+      crowded = i;
+    }
+  }
+  seen_.erase(seen_.begin() + static_cast<std::ptrdiff_t>(crowded));
+}
+
+}  // namespace datmo

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/visibility/visibility.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace datmo {
+
+namespace {
+
+/// Between beams of a fan that stands for a field of view: a pedestrian at 60 m takes two of them.
+constexpr double kFanSpacing = degrees(0.25);
+
+/// Nothing that a sensor detects is narrower (m): a leg, a post.
+constexpr double kMinWidth = 0.1;
+
+/// More beams than this add nothing to the chance that one returns.
+constexpr double kManyBeams = 50.0;
+
+/// Where a straight line enters and leaves a box, m from its start.
+struct Crossing {
+  double entry;
+  double exit;
+};
+
+}  // namespace
+
+/// A box as seen from the sensor.
+class Visibility::Outline {
+ public:
+  Outline(const Box2& box, const Pose2& sensor);
+
+  bool holdsSensor() const { return (sensor_.cwiseAbs() - half_).maxCoeff() <= 0.0; }
+
+  double distance() const { return distance_; }  ///< m, of the center
+  double width() const { return max_ - min_; }   ///< rad
+
+  /// Calls `use(bearing, crossing)` for the lines through the middles of so many equal parts of the
+  /// width; bearing in rad, about the sensor.
+  template <typename Use>
+  void forEachLook(std::size_t parts, const Use& use) const;
+
+ private:
+  /// Of the line that leaves the sensor in this direction, in the box's frame.
+  Crossing crossing(const Point2& direction) const;
+
+  Point2 half_;      ///< m, half of length and width
+  Point2 sensor_;    ///< m, in the box's frame
+  double distance_;  ///< m
+  double bearing_;   ///< rad
+  double toward_;    ///< rad, of the line from the sensor to the center in the box's frame
+  double min_;       ///< rad, right edge, from the bearing
+  double max_;       ///< rad, left edge
+};
+
+Visibility::Outline::Outline(const Box2& box, const Pose2& sensor)
+    : half_(0.5 * std::max(box.length, kMinWidth), 0.5 * std::max(box.width, kMinWidth)) {
+  const double heading = box.center.heading();
+  const Point2 line = box.center.position() - sensor.position();
+  const double c = std::cos(heading);
+  const double s = std::sin(heading);
+  const Point2 to_center(c * line.x() + s * line.y(), c * line.y() - s * line.x());
+  sensor_ = -to_center;
+  distance_ = to_center.norm();
+  toward_ = std::atan2(to_center.y(), to_center.x());
+  bearing_ = toward_ + heading - sensor.heading();
+  min_ = 0.0;
+  max_ = 0.0;
+  for (const double x : {-half_.x(), half_.x()}) {
+    for (const double y : {-half_.y(), half_.y()}) {
+      const Point2 corner(to_center.x() + x, to_center.y() + y);
+      const double cross = to_center.x() * corner.y() - to_center.y() * corner.x();
+      const double offset = std::atan2(cross, to_center.dot(corner));
+      min_ = std::min(min_, offset);
+      max_ = std::max(max_, offset);
+    }
+  }
+}
+
+Crossing Visibility::Outline::crossing(const Point2& direction) const {
+  Crossing crossing{0.0, distance_ + half_.norm()};
+  for (int axis = 0; axis < 2; ++axis) {
+    if (direction[axis] != 0.0) {
+      const double one = (-half_[axis] - sensor_[axis]) / direction[axis];
+      const double other = (half_[axis] - sensor_[axis]) / direction[axis];
+      crossing.entry = std::max(crossing.entry, std::min(one, other));
+      crossing.exit = std::min(crossing.exit, std::max(one, other));
+    }
+  }
+  return crossing;
+}
+
+template <typename Use>
+void Visibility::Outline::forEachLook(std::size_t parts, const Use& use) const {
+  const double step = width() / static_cast<double>(parts);
+  const double c = std::cos(step);
+  const double s = std::sin(step);
+  double offset = min_ + 0.5 * step;
+  Point2 direction(std::cos(toward_ + offset), std::sin(toward_ + offset));
+  for (std::size_t part = 0; part < parts; ++part) {
+    use(bearing_ + offset, crossing(direction));
+    offset += step;
+    direction =
+        Point2(c * direction.x() - s * direction.y(), s * direction.x() + c * direction.y());
+  }
+}
+
+void VisibilityOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"beam_detection", "1",
+                  "chance that one beam that meets an object returns; it falls from the scan's "
+                  "free_range on to 0 at the scanner's reach"},
+                 beam_detection, {0.01, 0.999});
+  visitor.number({"max_probability", "1",
+                  "that an object is detected which many beams meet: segmentation may still join "
+                  "it to something else"},
+                 max_probability, {0.1, 0.999});
+  visitor.number({"min_probability", "1",
+                  "that an object is detected which no beam can reach: the view may be wrong"},
+                 min_probability, {0.0, 0.1});
+  visitor.number({"unknown_probability", "1",
+                  "that an object is detected when nothing is known of the sensor's view"},
+                 unknown_probability, {0.1, 0.999});
+  visitor.number({"blocking_distance", "m",
+                  "a beam that ends nearer than an object by more than this is blocked; less may "
+                  "be the object itself, which is not quite where it is expected"},
+                 blocking_distance, {0.0, 10.0});
+}
+
+Visibility::Visibility(const VisibilityOptions& options) : options_(options) {
+  checkOptions(options);
+}
+
+Visibility::Visibility(const LabeledScan& scan, const VisibilityOptions& options)
+    : Visibility(options) {
+  const ScanField& field = scan.field;
+  ViewFan fan{scan.scanner_in_base,
+              field.first_bearing,
+              field.beam_spacing,
+              field.min_range,
+              field.free_range > 0.0 ? field.free_range : field.range,
+              field.range,
+              true,
+              std::vector<double>(field.beams, field.range)};
+  for (const std::uint32_t beam : scan.blind_beams) {
+    if (beam < fan.reach.size()) {
+      fan.reach[beam] = 0.0;
+    }
+  }
+  for (const ScanPoint& point : scan.points) {
+    if (point.beam < fan.reach.size()) {
+      fan.reach[point.beam] = point.range;
+    }
+  }
+  setFan(std::move(fan));
+}
+
+Visibility::Visibility(const FieldOfView& view, const std::vector<Box2>& seen,
+                       const VisibilityOptions& options)
+    : Visibility(options) {
+  const double beams =
+      std::max(0.0, std::round((view.max_bearing - view.min_bearing) / kFanSpacing));
+  setFan({view.sensor_in_base, view.min_bearing + 0.5 * kFanSpacing, kFanSpacing, 0.0,
+          view.sure_range, view.range, false,
+          std::vector<double>(static_cast<std::size_t>(beams), view.range)});
+  for (const Box2& box : seen) {
+    const Outline outline(box, fan_.sensor);
+    if (outline.holdsSensor()) {
+      continue;
+    }
+    const auto parts = static_cast<std::size_t>(outline.width() / kFanSpacing) + 1;
+    outline.forEachLook(parts, [this](double bearing, const Crossing& crossing) {
+      if (const auto beam = beamAt(bearing)) {
+        // What was seen does not hide itself.
+        fan_.reach[*beam] = std::min(fan_.reach[*beam], crossing.exit);
+      }
+    });
+  }
+}
+
+Visibility::Visibility(const std::vector<ViewFan>& fans, const VisibilityOptions& options)
+    : Visibility(options) {
+  for (const ViewFan& fan : fans) {
+    if (fan_.reach.empty()) {
+      setFan(fan);
+    } else if (!fan.reach.empty()) {
+      others_.emplace_back(std::vector<ViewFan>{fan}, options);
+    }
+  }
+}
+
+void Visibility::setFan(ViewFan fan) {
+  fan_ = std::move(fan);
+  beams_per_radian_ = 1.0 / fan_.beam_spacing;
+  beams_per_turn_ = 2.0 * kPi / std::abs(fan_.beam_spacing);
+}
+
+std::vector<ViewFan> Visibility::fans() const {
+  std::vector<ViewFan> all;
+  if (!fan_.reach.empty()) {
+    all.push_back(fan_);
+  }
+  for (const Visibility& other : others_) {
+    const std::vector<ViewFan> others = other.fans();
+    all.insert(all.end(), others.begin(), others.end());
+  }
+  return all;
+}
+
+std::optional<std::size_t> Visibility::beamAt(double bearing) const {
+  // Beams from half a beam before the first one on, in the direction of the scan.
+  double beam = (bearing - fan_.first_bearing) * beams_per_radian_ + 0.5;
+  if (beam < 0.0 || beam >= beams_per_turn_) {
+    beam -= beams_per_turn_ * std::floor(beam / beams_per_turn_);
+  }
+  // Before the cast, which is undefined for what is no index.
+  const bool inside = beam >= 0.0 && beam < static_cast<double>(fan_.reach.size());
+  return inside ? std::optional<std::size_t>(static_cast<std::size_t>(beam)) : std::nullopt;
+}
+
+Visibility::Looks Visibility::looksAt(const Outline& outline) {
+  Looks looks;
+  std::size_t i = 0;
+  outline.forEachLook(kLooks, [&](double bearing, const Crossing& crossing) {
+    looks[i++] = {bearing, crossing.entry};
+  });
+  return looks;
+}
+
+double Visibility::clearShare(const Looks& looks, const Shift& shift) const {
+  std::size_t clear = 0;
+  for (const Look& look : looks) {
+    const double range = look.range + shift.range;
+    const bool in_range = range >= fan_.min_range && range <= fan_.range;
+    const auto beam = beamAt(look.bearing + shift.bearing);
+    if (in_range && beam && range <= fan_.reach[*beam] + options_.blocking_distance) {
+      ++clear;
+    }
+  }
+  return static_cast<double>(clear) / kLooks;
+}
+
+double Visibility::strengthAt(double range) const {
+  return range <= fan_.sure_range
+             ? 1.0
+             : std::max(0.0, (fan_.range - range) / (fan_.range - fan_.sure_range));
+}
+
+double Visibility::anyReturns(double beams, double chance) {
+  // A width of 2.3 beams is met by two of them, and by a third one three times in ten.
+  const double whole = std::floor(std::min(beams, kManyBeams));
+  const double rest = std::min(beams, kManyBeams) - whole;
+  return 1.0 - std::pow(1.0 - chance, whole) * (1.0 - rest * chance);
+}
+
+double Visibility::detectionProbability(const Box2& box, double sigma) const {
+  if (others_.empty()) {
+    return ownDetectionProbability(box, sigma);
+  }
+  double missed = 1.0 - ownDetectionProbability(box, sigma);
+  for (const Visibility& other : others_) {
+    missed *= 1.0 - other.detectionProbability(box, sigma);
+  }
+  return std::min(1.0 - missed, options_.max_probability);
+}
+
+double Visibility::ownDetectionProbability(const Box2& box, double sigma) const {
+  if (fan_.reach.empty()) {
+    return options_.unknown_probability;
+  }
+  const Outline outline(box, fan_.sensor);
+  if (outline.holdsSensor()) {
+    return options_.unknown_probability;
+  }
+  const double beams = outline.width() * std::abs(beams_per_radian_);
+  const double strength = strengthAt(outline.distance());
+  const Looks looks = looksAt(outline);
+  const auto seenAt = [&](const Shift& shift) {
+    const double clear = clearShare(looks, shift);
+    return fan_.by_beams ? anyReturns(beams * clear, strength * options_.beam_detection)
+                         : strength * clear;
+  };
+  double mean = seenAt({});
+  if (sigma > 0.0) {
+    // Cubature of third order with a point in the middle (Julier & Uhlmann 2004, kappa = 1).
+    const double step = std::sqrt(3.0) * sigma;
+    const double turn = step / outline.distance();
+    mean = mean / 3.0 + (seenAt({turn, 0.0}) + seenAt({-turn, 0.0}) + seenAt({0.0, step}) +
+                         seenAt({0.0, -step})) /
+                            6.0;
+  }
+  return std::clamp(options_.max_probability * mean, options_.min_probability,
+                    options_.max_probability);
+}
+
+}  // namespace datmo
