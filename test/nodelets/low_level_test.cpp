@@ -132,7 +132,9 @@ TEST_F(LowLevelTest, CloudsBeforeTheirMountIsKnownAreCounted) {
 
 TEST_F(LowLevelTest, BothSensorsLeadToAFusedGridForEachScan) {
   ASSERT_NO_FATAL_FAILURE(driveOn(2.0));
-  EXPECT_EQ(chain_->grids["fused"].size(), chain_->grids["lidar"].size());
+  EXPECT_TRUE(chain_->waitFor([] {
+    return chain_->grids["fused"].size() == chain_->grids["lidar"].size();
+  })) << "each of its own connection";
   EXPECT_TRUE(chain_->waitFor(
       [] { return chain_->grids["conflict"].size() == chain_->grids["fused"].size(); }));
   const auto& fused = *chain_->grids["fused"].back();
@@ -193,9 +195,11 @@ TEST_F(LowLevelTest, WithoutStereoTheFusedGridsGoOnWithTheScanner) {
   const ros::Time last = chain_->grids["lidar"].back()->header.stamp;
   EXPECT_TRUE(chain_->waitFor([&] { return chain_->isAt("fused", last); }))
       << "at once, since stereo is silent";
-  EXPECT_EQ(chain_->grids["fused"].size(), chain_->grids["lidar"].size()) << "none is left out";
+  EXPECT_TRUE(chain_->waitFor([] {
+    return chain_->grids["fused"].size() == chain_->grids["lidar"].size();
+  })) << "none is left out";
   EXPECT_TRUE(chain_->waitFor(
-      [] { return chain_->diagnostic("grid_fusion", "warned: silent_source") == 1.0; }));
+      [] { return chain_->diagnostic("grid_fusion", "warned: silent_source") >= 1.0; }));
   EXPECT_GT(chain_->diagnostic("grid_fusion", "fused without stereo"), 5.0);
   EXPECT_TRUE(chain_->waitFor([] {
     return chain_->diagnosticMessage("grid_fusion").find("no grids/stereo") != std::string::npos;
