@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/LU>
+
 namespace datmo {
 
 namespace {
@@ -22,25 +24,26 @@ double insideProbability(double offset, double half, double sigma) {
 /// Where the moving body was at other times.
 class Coverage {
  public:
-  Coverage(const MovingBody& body, double tolerance)
-      : body_(body), fixed_in_box_(body.box.center.inverse()), tolerance_(tolerance) {}
+  Coverage(const MovingBody& body, double range_sigma)
+      : body_(body), fixed_in_box_(body.box.center.inverse()), range_sigma_(range_sigma) {}
 
-  /// That it covers a position (m, fixed frame) `since` s before now.
-  double at(const Point2& position, double since) const {
-    const Point2 in_box = fixed_in_box_ * (position + since * body_.velocity);
-    const double drift = square(tolerance_) + square(since) * body_.speed_variance;
-    const auto along = [&](double offset, double size, double size_variance) {
+  /// That the body lay, `since` s before now, within the tolerance of where a beam crossed a line.
+  double at(const BeamCrossing& crossing, double since) const {
+    const Point2 in_box = fixed_in_box_ * (crossing.position + since * body_.velocity);
+    const Point2 reach = crossing.tolerance * fixed_in_box_.rotate(crossing.along_beam).cwiseAbs();
+    const double drift = square(range_sigma_) + square(since) * body_.speed_variance;
+    const auto along = [&](double offset, double half, double size_variance) {
       // A side moves by half of what the size is wrong.
-      return insideProbability(offset, 0.5 * size, std::sqrt(drift + 0.25 * size_variance));
+      return insideProbability(offset, half, std::sqrt(drift + 0.25 * size_variance));
     };
-    return along(in_box.x(), body_.box.length, body_.size_variance.x()) *
-           along(in_box.y(), body_.box.width, body_.size_variance.y());
+    return along(in_box.x(), 0.5 * body_.box.length + reach.x(), body_.size_variance.x()) *
+           along(in_box.y(), 0.5 * body_.box.width + reach.y(), body_.size_variance.y());
   }
 
  private:
   const MovingBody& body_;
   Pose2 fixed_in_box_;
-  double tolerance_;
+  double range_sigma_;
 };
 
 /// std::lgamma writes a global variable, which threads share.
@@ -86,7 +89,7 @@ struct CrossingBeams {
 
   BeamEvidence evidence(double detection_strength) const {
     return observed == 0 ? BeamEvidence{}
-                         : BeamEvidence{log_moving - logStanding(detection_strength), observed};
+                         : BeamEvidence{log_moving - logStanding(detection_strength), {}, observed};
   }
 };
 
@@ -123,7 +126,10 @@ class ScanBeams {
  public:
   ScanBeams(const ScanHistory& history, const MovingBody& body, double clock,
             const MotionLikelihoodOptions& options)
-      : history_(history), coverage_(body, history.tolerance()), clock_(clock), options_(options) {}
+      : history_(history),
+        coverage_(body, 0.5 * history.tolerance()),
+        clock_(clock),
+        options_(options) {}
 
   /// `echo_direction`: of the surface at single echoes; zero: it faces the beam.
   CrossingBeams of(std::size_t back, double time, const SeenPoints& seen,
@@ -132,10 +138,10 @@ class ScanBeams {
     const double detection = seen.isEcho() ? options_.echo_detection : options_.detection;
     for (const ReflectionPoint& point : seen.points) {
       const Point2& direction = point.direction.isZero() ? echo_direction : point.direction;
-      const BeamOutcome outcome = history_.look(back, {point.position, direction});
-      if (outcome != BeamOutcome::kNothing) {
-        const double covered = coverage_.at(point.position, clock_ - time);
-        beams.add(outcome, covered, detection, options_.background);
+      const BeamCrossing crossing = history_.look(back, {point.position, direction});
+      if (crossing.outcome != BeamOutcome::kNothing) {
+        const double covered = coverage_.at(crossing, clock_ - time);
+        beams.add(crossing.outcome, covered, detection, options_.background);
       }
     }
     return beams;
@@ -167,6 +173,14 @@ void MotionLikelihoodOptions::visit(OptionVisitor& visitor) {
                  echo_detection, kProbability);
   visitor.number({"background", "1", "that a beam ends where nothing is that was seen before"},
                  background, kProbability);
+  visitor.number(
+      {"grazing_share", "1",
+       "of single echoes that stand and keep their bearing: ends of a beam along a wall"},
+      grazing_share, kProbability);
+  visitor.number({"apparent_motion", "1",
+                  "that what stands seems to move: what is seen of it slides, or echoes of "
+                  "different things were joined"},
+                 apparent_motion, kProbability);
   visitor.number({"moving_prior", "1",
                   "that a target that the map does not know as static moves, before its beams are "
                   "asked"},
@@ -204,12 +218,34 @@ BeamEvidence beamEvidence(const ScanHistory& history, const SeenPointHistory& se
     }
     return sum.evidence(options.detection_strength);
   };
-  const BeamEvidence facing = sumWith(Point2::Zero());
-  if (!maySlide(history, body)) {
-    return facing;
+  BeamEvidence evidence = sumWith(Point2::Zero());
+  if (maySlide(history, body)) {
+    evidence.log_ratio_to_grazing = sumWith(body.velocity.normalized()).log_ratio;
   }
-  const BeamEvidence sliding = sumWith(body.velocity.normalized());
-  return {std::min(facing.log_ratio, sliding.log_ratio), facing.observed};
+  return evidence;
+}
+
+double velocityLogRatio(const Eigen::Vector2d& velocity, const Eigen::Matrix2d& covariance,
+                        const std::vector<double>& speed_stds, double apparent_motion) {
+  const auto density = [&](double speed_std) {
+    const Eigen::Matrix2d total = covariance + square(speed_std) * Eigen::Matrix2d::Identity();
+    return std::exp(-0.5 * velocity.dot(total.inverse() * velocity)) /
+           std::sqrt(total.determinant());
+  };
+  double moving = 0.0;
+  for (const double speed_std : speed_stds) {
+    moving += density(speed_std) / static_cast<double>(speed_stds.size());
+  }
+  const double standing = (1.0 - apparent_motion) * density(0.0) + apparent_motion * moving;
+  return std::log(moving / standing);
+}
+
+double motionLogRatio(const BeamEvidence& beams, double velocity_log_ratio, double grazing_share) {
+  const double facing = beams.log_ratio + velocity_log_ratio;
+  return beams.log_ratio_to_grazing
+             ? -std::log((1.0 - grazing_share) * std::exp(-facing) +
+                         grazing_share * std::exp(-*beams.log_ratio_to_grazing))
+             : facing;
 }
 
 double motionProbability(double log_ratio, double association_score,

@@ -162,11 +162,20 @@ bool Target::movesByBeams(const ScanHistory& history, Stamp now,
   if (beams.observed == 0) {
     return evidentlyMoves(options);
   }
-  return motionProbability(beams.log_ratio + motion_log_odds_, association_score_,
-                           options.motion_likelihood) >=
-             options.motion_likelihood.required_probability &&
-         velocityIsSignificant(estimate, options.evidence.speed_significance,
-                               options.evidence.min_speed);
+  const Eigen::Vector2d velocity = estimate.mean.segment<2>(2);
+  // Few are faster than a class's usual speed: two standard deviations.
+  const std::vector<double> speed_stds{0.5 * options.class_by_speed.pedestrian_speed,
+                                       0.5 * options.class_by_speed.cyclist_speed,
+                                       options.birth_speed_std};
+  const double of_velocity =
+      velocityLogRatio(velocity, estimate.covariance.block<2, 2>(2, 2), speed_stds,
+                       options.motion_likelihood.apparent_motion);
+  const double log_ratio =
+      motion_log_odds_ +
+      motionLogRatio(beams, of_velocity, options.motion_likelihood.grazing_share);
+  return velocity.norm() >= options.evidence.min_speed &&
+         motionProbability(log_ratio, association_score_, options.motion_likelihood) >=
+             options.motion_likelihood.required_probability;
 }
 
 double Target::sameClassProbability(const Object& object) const {

@@ -21,6 +21,9 @@ namespace {
 /// as it is kept.
 constexpr double kPublishedShare = 0.5;
 
+/// s, for which a track coasts however young it is.
+constexpr double kMinCoasting = 0.5;
+
 double positionStd(const Target& target) {
   return std::sqrt(target.filter().estimate().covariance.diagonal().head<2>().maxCoeff());
 }
@@ -141,7 +144,7 @@ class Tracker::State {
 
   /// How long a track that was followed for this time may go unseen.
   double silenceAfter(double followed, double max) const {
-    return std::min(max, std::max(options_.tentative_silence, followed));
+    return std::min(max, std::max(kMinCoasting, followed));
   }
 
   bool isLost(const Target& target) const {

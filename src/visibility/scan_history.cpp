@@ -83,13 +83,13 @@ const ScanHistory::Beam* ScanHistory::beamToward(const Scan& scan, const Point2&
   return &scan.beams[static_cast<std::size_t>(nearest)];
 }
 
-BeamOutcome ScanHistory::look(std::size_t back, const ReflectionPoint& location) const {
+BeamCrossing ScanHistory::look(std::size_t back, const ReflectionPoint& location) const {
   const Scan& scan = scans_[back];
   const Point2 seen = scan.map_in_scanner * location.position;
   double bearing = 0.0;
   const Beam* beam = beamToward(scan, seen, bearing);
   if (beam == nullptr) {
-    return BeamOutcome::kNothing;
+    return {};
   }
   const Point2 along_beam(std::cos(bearing), std::sin(bearing));
   const Point2 direction = location.direction.isZero()
@@ -97,19 +97,23 @@ BeamOutcome ScanHistory::look(std::size_t back, const ReflectionPoint& location)
                                : scan.map_in_scanner.rotate(location.direction);
   const double incidence = along_beam.x() * direction.y() - along_beam.y() * direction.x();
   if (std::abs(incidence) < std::sin(options_.min_incidence)) {
-    return BeamOutcome::kNothing;
+    return {};
   }
   const double crossing = (seen.x() * direction.y() - seen.y() * direction.x()) / incidence;
   if (crossing <= 0.0) {
-    return BeamOutcome::kNothing;  // the beam beside the point diverges from the line
+    return {};  // the beam beside the point diverges from the line
   }
   // Flat beams meet the line elsewhere for a small error of their bearing.
   const double tolerance =
       options_.tolerance + options_.bearing_tolerance * crossing / std::abs(incidence);
-  if (beam->hit && std::abs(beam->reach - crossing) <= tolerance) {
-    return BeamOutcome::kHit;
+  const bool ends = beam->hit && std::abs(beam->reach - crossing) <= tolerance;
+  if (!ends && beam->reach <= crossing + tolerance) {
+    return {};
   }
-  return beam->reach > crossing + tolerance ? BeamOutcome::kFree : BeamOutcome::kNothing;
+  const Pose2 scanner_in_map = scan.map_in_scanner.inverse();
+  return {ends ? BeamOutcome::kHit : BeamOutcome::kFree,
+          scanner_in_map * Point2(crossing * along_beam), scanner_in_map.rotate(along_beam),
+          tolerance};
 }
 
 }  // namespace datmo

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "datmo_fusion/common/box2.h"
@@ -12,14 +15,16 @@
 namespace datmo {
 
 struct MotionLikelihoodOptions {
-  double window = 2.0;                ///< s
-  double detection = 0.8;             ///< 1
-  double detection_strength = 10.0;   ///< 1
-  double echo_detection = 0.6;        ///< 1
-  double background = 0.1;            ///< 1
-  double moving_prior = 0.5;          ///< 1
-  double clutter_odds = 1.0e4;        ///< 1
-  double required_probability = 0.8;  ///< 1
+  double window = 2.0;                 ///< s
+  double detection = 0.8;              ///< 1
+  double detection_strength = 10.0;    ///< 1
+  double echo_detection = 0.6;         ///< 1
+  double background = 0.1;             ///< 1
+  double grazing_share = 0.1;          ///< 1
+  double apparent_motion = 0.1;        ///< 1
+  double moving_prior = 0.5;           ///< 1
+  double clutter_odds = 1.0e4;         ///< 1
+  double required_probability = 0.95;  ///< 1
 
   void visit(OptionVisitor& visitor);
 };
@@ -34,7 +39,9 @@ struct MovingBody {
 
 /// What the beams of the last scans say of a target.
 struct BeamEvidence {
-  double log_ratio = 0.0;    ///< that it moves over that it stands
+  double log_ratio = 0.0;  ///< that it moves over that it stands, as a surface that faces the beams
+  /// That it moves over that it is the end of a beam along a wall; none: it cannot be.
+  std::optional<double> log_ratio_to_grazing;
   std::size_t observed = 0;  ///< how often a beam told; 0: nothing is known
 };
 
@@ -53,7 +60,7 @@ struct BeamEvidence {
 ///
 /// Of a single echo the surface's direction is not known. Either it faces the beam; or the echo is
 /// the end of one beam that slides along a wall as the vehicle passes, and the surface runs along
-/// the target's motion. What stands is given the better of the two.
+/// the target's motion (motionLogRatio).
 ///
 /// Sources of the idea: Wang, Posner, Newman, Model-free detection
 /// and tracking of dynamic objects with 2D lidar, 2015 (one likelihood of all beams); Petrovskaya
@@ -65,10 +72,26 @@ BeamEvidence beamEvidence(const ScanHistory& history, const SeenPointHistory& se
                           const MovingBody& body, Stamp now, double clock,
                           const MotionLikelihoodOptions& options);
 
+/// Logarithm of how much likelier a velocity is for a target that moves than for one that stands.
+/// `velocity` (m/s, fixed frame) with `covariance` is that of its filter; the speeds of what moves
+/// are normal, each component of one of `speed_stds` (m/s), all of them as likely. What stands has
+/// an apparent velocity as if it moved with the probability `apparent_motion`: what is seen of it
+/// slides, or echoes of different things were joined. So no velocity alone weighs more than its
+/// inverse. Source: the Bayes factor of nested models, with an outlier component (Kass and Raftery,
+/// Bayes factors, 1995).
+double velocityLogRatio(const Eigen::Vector2d& velocity, const Eigen::Matrix2d& covariance,
+                        const std::vector<double>& speed_stds, double apparent_motion);
+
+/// Logarithm of how much likelier all that was observed is for a target that moves than for one
+/// that stands: by its beams and by its velocity. Of what stands, `grazing_share` are ends of a
+/// beam along a wall, where that may be: these have an apparent velocity, so it says nothing.
+double motionLogRatio(const BeamEvidence& beams, double velocity_log_ratio, double grazing_share);
+
 /// That a target moves and is one object: neither something that stands nor a chain of false
 /// alarms. `log_ratio`: logarithm of how much likelier what is known of it is if it moves than if
-/// it stands: what the beams say, and where it lies. `association_score`: logarithm of how much
-/// likelier its objects are for one moving object than for clutter of the density where they are.
+/// it stands: what the beams say, its velocity, and where it lies. `association_score`: logarithm
+/// of how much likelier its objects are for one moving object than for clutter of the density where
+/// they are.
 double motionProbability(double log_ratio, double association_score,
                          const MotionLikelihoodOptions& options);
 

@@ -36,7 +36,7 @@ struct TrackerOptions {
   double confirmation_existence = 0.5;  ///< 1
   double min_existence = 0.25;          ///< 1
   double published_existence = 0.5;     ///< 1
-  double tentative_silence = 0.5;       ///< s
+  double tentative_silence = 1.0;       ///< s
   double confirmed_silence = 3.0;       ///< s
   double published_silence = 1.5;       ///< s
   double max_position_std = 5.0;        ///< m

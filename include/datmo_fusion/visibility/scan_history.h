@@ -35,6 +35,15 @@ enum class BeamOutcome {
   kHit,      ///< a beam ended on it
 };
 
+/// A beam at the line of a surface. The outcome is kHit if it ended within +-`tolerance` of where
+/// it meets the line, kFree if it went farther.
+struct BeamCrossing {
+  BeamOutcome outcome = BeamOutcome::kNothing;
+  Point2 position = Point2::Zero();    ///< m, map frame: where it meets the line
+  Point2 along_beam = Point2::Zero();  ///< of length 1, map frame
+  double tolerance = 0.0;  ///< m, along the beam: larger where they meet at a flat angle
+};
+
 /// The beams of the last scans in the map frame, to look up what each of them observed at a point.
 class ScanHistory {
  public:
@@ -57,7 +66,7 @@ class ScanHistory {
   double tolerance() const { return options_.tolerance; }
 
   /// What that scan observed at a point, by the beam toward it.
-  BeamOutcome look(std::size_t back, const ReflectionPoint& location) const;
+  BeamCrossing look(std::size_t back, const ReflectionPoint& location) const;
 
  private:
   /// A beam, from the scanner on.

@@ -15,7 +15,7 @@ class ScanHistoryTest : public testing::Test {
  protected:
   /// At something that runs across the x axis.
   BeamOutcome lookAt(const Point2& position) const {
-    return history_.look(0, {position, Point2::UnitY()});
+    return history_.look(0, {position, Point2::UnitY()}).outcome;
   }
 
   ScanHistory history_{ScanHistoryOptions{}};
@@ -34,17 +34,18 @@ TEST_F(ScanHistoryTest, AGrazingBeamMeetsACurbSomeDistanceAlong) {
   const Point2 met(2.0 / std::tan(kPi / 30.0), 2.0);
   history_.add(scanOf({met}, 0.0));
   const Point2 beside(19.6, 2.0);  // the same beam lights it
-  EXPECT_EQ(history_.look(0, {beside, Point2::UnitX()}), BeamOutcome::kHit);
-  EXPECT_EQ(history_.look(0, {beside, Point2::UnitY()}), BeamOutcome::kNothing) << "behind the hit";
+  EXPECT_EQ(history_.look(0, {beside, Point2::UnitX()}).outcome, BeamOutcome::kHit);
+  EXPECT_EQ(history_.look(0, {beside, Point2::UnitY()}).outcome, BeamOutcome::kNothing)
+      << "behind the hit";
 }
 
 TEST_F(ScanHistoryTest, ThePointBesideTheCurbIsFreeIfTheCurbIsSeen) {
   const Point2 met(2.0 / std::tan(kPi / 30.0), 2.0);
   history_.add(scanOf({met}, 0.0));
-  EXPECT_EQ(history_.look(0, {{19.0, 1.8}, Point2::UnitX()}), BeamOutcome::kNothing)
+  EXPECT_EQ(history_.look(0, {{19.0, 1.8}, Point2::UnitX()}).outcome, BeamOutcome::kNothing)
       << "no beam lights it";
   const Point2 in_beam(1.8 / std::tan(kPi / 30.0), 1.8);
-  EXPECT_EQ(history_.look(0, {in_beam, Point2::UnitX()}), BeamOutcome::kFree);
+  EXPECT_EQ(history_.look(0, {in_beam, Point2::UnitX()}).outcome, BeamOutcome::kFree);
 }
 
 TEST_F(ScanHistoryTest, AFlatBeamMayMissTheLineByMore) {
@@ -54,7 +55,7 @@ TEST_F(ScanHistoryTest, AFlatBeamMayMissTheLineByMore) {
   const ReflectionPoint position{{crossing * std::cos(bearing), 2.0}, Point2::UnitX()};
   const auto endsAt = [&](double range, double seconds) {
     history_.add(scanOf({{range * std::cos(bearing), range * std::sin(bearing)}}, seconds));
-    return history_.look(0, position);
+    return history_.look(0, position).outcome;
   };
   EXPECT_EQ(endsAt(crossing + 1.2, 0.0), BeamOutcome::kHit);
   EXPECT_EQ(endsAt(crossing + 1.5, 1.0), BeamOutcome::kFree);
@@ -63,7 +64,7 @@ TEST_F(ScanHistoryTest, AFlatBeamMayMissTheLineByMore) {
 
 TEST_F(ScanHistoryTest, ABeamAlongALineIsNoEvidenceOfIt) {
   history_.add(scanOf({{20.0, 0.0}}, 0.0));
-  EXPECT_EQ(history_.look(0, {{20.0, 0.0}, Point2::UnitX()}), BeamOutcome::kNothing);
+  EXPECT_EQ(history_.look(0, {{20.0, 0.0}, Point2::UnitX()}).outcome, BeamOutcome::kNothing);
 }
 
 TEST(ScanHistorySparseTest, ABeamThatLeadsAwayFromTheLineIsNoEvidenceOfIt) {
@@ -78,8 +79,9 @@ TEST(ScanHistorySparseTest, ABeamThatLeadsAwayFromTheLineIsNoEvidenceOfIt) {
   scan.field.first_bearing = -0.5;
   history.add(scan);
   const Point2 position(10.0 * std::cos(0.2), 10.0 * std::sin(0.2));
-  EXPECT_EQ(history.look(0, {position, {std::cos(0.15), std::sin(0.15)}}), BeamOutcome::kNothing);
-  EXPECT_EQ(history.look(0, {position, Point2::UnitY()}), BeamOutcome::kFree);
+  EXPECT_EQ(history.look(0, {position, {std::cos(0.15), std::sin(0.15)}}).outcome,
+            BeamOutcome::kNothing);
+  EXPECT_EQ(history.look(0, {position, Point2::UnitY()}).outcome, BeamOutcome::kFree);
 }
 
 TEST_F(ScanHistoryTest, SeesFreeWhatABeamWentThrough) {
@@ -138,8 +140,8 @@ TEST_F(ScanHistoryTest, AFullTurnIsSeenAllRound) {
   history_.add(scan);
   EXPECT_EQ(lookAt({10.0, 0.0}), BeamOutcome::kFree);
   EXPECT_EQ(lookAt({-10.0, 0.0}), BeamOutcome::kFree);
-  EXPECT_EQ(history_.look(0, {{0.0, 10.0}, Point2::UnitX()}), BeamOutcome::kFree);
-  EXPECT_EQ(history_.look(0, {{0.0, -10.0}, Point2::UnitX()}), BeamOutcome::kFree);
+  EXPECT_EQ(history_.look(0, {{0.0, 10.0}, Point2::UnitX()}).outcome, BeamOutcome::kFree);
+  EXPECT_EQ(history_.look(0, {{0.0, -10.0}, Point2::UnitX()}).outcome, BeamOutcome::kFree);
 }
 
 TEST_F(ScanHistoryTest, AScanOfAnUnknownFieldSaysNothing) {
