@@ -26,10 +26,22 @@ def sample_object(number, found=True, label="Car"):
         "first_s": 0.0, "last_s": 9 * PERIOD, "required_frames": 10,
         "tracked_frames": 8 if found else 0, "found": found,
         "delay_s": 2 * PERIOD if found else None, "completeness": 0.8 if found else 0.0,
+        "attainable_delay_s": PERIOD, "excess_delay_s": PERIOD if found else None,
+        "delay_ratio": 1.5 if found else None, "beams_per_scan": 2.5,
         "track_ids": [70 + number, 80 + number] if found else [],
         "position_rmse_m": 0.25 if found else None,
         "velocity_rmse_mps": 0.5 if found else None,
         "heading_rmse_rad": 0.1 if found else None,
+    }  # fmt: skip
+
+
+def sample_delays():
+    """Of delays beside the attainable ones."""
+    return {
+        "objects": 1, "told": 1, "told_but_missed": 0,
+        "attainable_s": {"median": PERIOD, "p90": PERIOD},
+        "delay_s": {"median": 2 * PERIOD, "p90": 2 * PERIOD},
+        "excess_s": {"median": PERIOD, "p90": PERIOD}, "ratio": {"median": 1.5, "p90": 1.5},
     }  # fmt: skip
 
 
@@ -95,6 +107,8 @@ def sample_run(name="drive.bag", objects=2, frames=10, label="Car", **changes):
                                  for name, share in (("pedestrian", 0.75), ("cyclist", 0.5),
                                                      ("vehicle", 1.0))}},
         "delay": {"mean_s": 2 * PERIOD, "median_s": 2 * PERIOD, "objects": 1},
+        "attainable": {**sample_delays(), "by_class": {
+            name: sample_delays() for name in ("pedestrian", "cyclist", "vehicle")}},
         "consistency": {"position": whole(2.2), "velocity": whole(7.5)},
         "objects": items,
         "standing_objects": [{"id": 50, "label": label, "class": "vehicle", "frames": 9,

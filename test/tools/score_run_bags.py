@@ -10,9 +10,18 @@ from pathlib import Path
 
 import rosbag
 import rospy
-from geometry_msgs.msg import Point, Pose, PoseWithCovarianceStamped, Quaternion, Vector3
+from geometry_msgs.msg import (
+    Point,
+    Pose,
+    PoseWithCovarianceStamped,
+    Quaternion,
+    TransformStamped,
+    Vector3,
+)
 from nav_msgs.msg import Odometry
+from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Header
+from tf2_msgs.msg import TFMessage
 
 from datmo_fusion.msg import Object, Track, TrackArray, TrueObject, TrueObjectArray
 
@@ -79,6 +88,21 @@ def truth_messages():
         )
         messages["/ground_truth/pose"].append(pose)
     return messages
+
+
+def mount():
+    """A scanner in the middle of the vehicle."""
+    transform = TransformStamped(header=header("base_link", 0), child_frame_id="scanner")
+    transform.transform.rotation.w = 1.0
+    return TFMessage(transforms=[transform])
+
+
+def scan_at(i):
+    """Three beams, the middle one ends on the rear of the car ahead."""
+    return LaserScan(
+        header=header("scanner", i), angle_min=-0.2, angle_max=0.2, angle_increment=0.2,
+        range_min=0.1, range_max=80.0, ranges=[float("inf"), CAR_AHEAD - 2.0, float("inf")],
+    )  # fmt: skip
 
 
 def write(path, messages):

@@ -75,6 +75,11 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(report, {"format": 1, "runs": [sample_run(str(bag))]})
         self.assertEqual(self.calls(), [[str(bag), "--out"]])
 
+    def test_attainable_delays_are_asked_of_score_run(self):
+        bag = self.bag("a.bag")
+        self.assertEqual(self.evaluate(bag, "--attainable", "drive.bag")[0], 0)
+        self.assertEqual(self.calls(), [[str(bag), "--attainable", "drive.bag", "--out"]])
+
     def test_classes(self):
         code, out, _ = self.evaluate(self.bag("a.bag"), subcommand="classes")
         self.assertEqual(code, 0)

@@ -88,6 +88,14 @@ class Metrics(unittest.TestCase):
         for metric in OBJECT_METRICS:
             self.assertIsNotNone(metric.value(run["objects"][0]), metric.path)
 
+    def test_attainable_delays_are_shown_where_there_are_some(self):
+        def titles(run):
+            return [group.title for group in metric_groups([run])]
+
+        self.assertIn("Delay beside the least attainable", titles(sample_run()))
+        without = {**sample_run(), "attainable": None}
+        self.assertNotIn("Delay beside the least attainable", titles(without))
+
     def test_names_of_runs(self):
         self.assertEqual(short_names(["x/a.bag", "y/b.bag"]), ["a", "b"])
         self.assertEqual(short_names(["r/x/o.bag", "r/y/o.bag"]), ["x/o", "y/o"])
@@ -110,7 +118,7 @@ class Table(unittest.TestCase):
     def test_objects(self):
         text = table([sample_run()])
         self.assertEqual(
-            find_line(text, "1   "), "1 Car vehicle 0.0 0.5 10 8 80.0 0.12 0.25 0.50 5.7 71 81".split()
+            find_line(text, "1   "), "1 Car vehicle 0.0 0.5 10 8 80.0 0.12 0.06 1.5 0.25 0.50 5.7 71 81".split()
         )
         self.assertEqual(find_line(text, "2   ")[-1], "MISSED")
 

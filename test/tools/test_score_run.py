@@ -8,11 +8,14 @@ import unittest
 from score_run_bags import (
     CAR_AHEAD,
     FRAMES,
+    PERIOD,
     ScoreRunCase,
     car_at,
     header,
     identity,
+    mount,
     pose_at,
+    scan_at,
     track_at,
     write,
 )
@@ -82,6 +85,35 @@ class WholeRun(ScoreRunCase):
         self.assertAlmostEqual(report["timing"]["tracker"]["worst_ms"], 21.0)
         self.assertAlmostEqual(report["timing"]["tracker"]["latency"]["median_ms"], 4.0)
         self.assertIsNone(report["timing"]["grid_slam"]["latency"])
+
+    def test_attainable_delays(self):
+        """One beam on the rear of a car that keeps 20 m ahead: 10 m/s, told by the second scan."""
+        drive = self.folder / "drive.bag"
+        write(drive, {"/tf_static": [mount()], "/scan": [scan_at(i) for i in range(FRAMES)]})
+        report = self.score("--attainable", drive, "--set", "attainable/range_noise=0.2")
+        car = report["objects"][0]
+        self.assertAlmostEqual(car["attainable_delay_s"], PERIOD)
+        self.assertAlmostEqual(car["excess_delay_s"], -PERIOD)
+        self.assertAlmostEqual(car["delay_ratio"], 0.5)
+        self.assertAlmostEqual(car["beams_per_scan"], 1.0)
+        self.assertEqual(report["attainable"]["told"], 1)
+        self.assertEqual(report["attainable"]["by_class"]["vehicle"]["ratio"]["median"], 0.5)
+
+    def test_attainable_delays_need_scans_and_their_mount(self):
+        self.write_bags()
+        self.assert_no_report(
+            "truth.bag", "LaserScan", "/scan",
+            arguments=(self.run_bag, self.truth_bag, "--attainable", self.truth_bag))  # fmt: skip
+        drive = self.folder / "drive.bag"
+        write(drive, {"/scan": [scan_at(0)]})
+        self.assert_no_report(
+            "drive.bag", "scanner",
+            arguments=(self.run_bag, self.truth_bag, "--attainable", drive))  # fmt: skip
+
+    def test_without_scans_nothing_is_attainable(self):
+        report = self.score()
+        self.assertIsNone(report["attainable"])
+        self.assertNotIn("delay_ratio", report["objects"][0])
 
     def test_objects_are_those_that_the_tracker_took(self):
         def objects(moving):

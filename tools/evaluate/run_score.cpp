@@ -81,7 +81,8 @@ std::map<std::uint32_t, std::string> labelsOf(const RecordedTruth& truth) {
 
 }  // namespace
 
-RunScore scoreRun(const RecordedRun& run, const RecordedTruth& truth, const ScoreOptions& options) {
+RunScore scoreRun(const RecordedRun& run, const RecordedTruth& truth, const ScoreOptions& options,
+                  const std::optional<std::vector<Scan>>& scans) {
   checkOptions(options);
   const TrueScene scene(truth, options);
   const Trajectory estimated(run.poses, options.max_gap);
@@ -94,6 +95,10 @@ RunScore scoreRun(const RecordedRun& run, const RecordedTruth& truth, const Scor
   score.ego = egoPoses(built.frames, scene.trajectory(), estimated, alignment);
   score.left_out = built.left_out;
   score.tracks = scoreTracks(built.frames, options.metrics);
+  if (scans) {
+    score.delays = compareDelays(score.tracks.objects,
+                                 attainableMotions(*scans, scene, options.attainable), *scans);
+  }
   score.near_errors =
       nearErrors(built.frames, score.tracks.matching, score.ego, options.near_range);
   score.standing_objects =

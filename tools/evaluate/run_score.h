@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "evaluate/attainable.h"
 #include "evaluate/evaluation_data.h"
 #include "evaluate/false_detections.h"
 #include "evaluate/intersection_score.h"
@@ -50,6 +51,7 @@ struct RunScore {
   std::vector<EgoPoses> ego;  ///< of each frame
   std::size_t left_out = 0;   ///< messages with tracks outside of the truth or of the poses
   TrackScores tracks;
+  std::optional<std::vector<ComparedDelay>> delays;  ///< of tracks.objects; none: without scans
   StateErrors near_errors;  ///< of tracks, within ScoreOptions::near_range of the true vehicle
   std::vector<StandingObject> standing_objects;
   std::optional<PoseScore> pose;                      ///< none: the run has no poses
@@ -59,8 +61,10 @@ struct RunScore {
   std::map<std::uint32_t, std::string> truth_labels;  ///< by id
 };
 
-/// Scores a run against a truth. Pure. Throws OptionError, and ScoreError if their stamps do not
-/// overlap.
-RunScore scoreRun(const RecordedRun& run, const RecordedTruth& truth, const ScoreOptions& options);
+/// Scores a run against a truth; with the scans of the recording (by rising stamp, none: not
+/// wanted) also its delays against the least attainable ones. Pure. Throws OptionError, and
+/// ScoreError if their stamps do not overlap.
+RunScore scoreRun(const RecordedRun& run, const RecordedTruth& truth, const ScoreOptions& options,
+                  const std::optional<std::vector<Scan>>& scans = std::nullopt);
 
 }  // namespace datmo::evaluation

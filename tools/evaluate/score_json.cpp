@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "evaluate/attainable_json.h"
 #include "evaluate/json_number.h"
 #include "evaluate/series_json.h"
 
@@ -148,6 +149,9 @@ json objectsJson(const RunScore& score) {
                   {"track_ids", object.track_ids}});
     objects.push_back(entry);
   }
+  if (score.delays) {
+    addDelays(*score.delays, objects);
+  }
   return objects;
 }
 
@@ -248,6 +252,7 @@ json toJson(const RunScore& score, const ScoreOptions& options, const ScoredFile
           {"near_errors", nearJson(score.near_errors, options.near_range)},
           {"classes", toJson(tracks.classes)},
           {"delay", toJson(tracks.delay)},
+          {"attainable", score.delays ? delaysJson(tracks.objects, *score.delays) : json()},
           {"consistency",
            {{"position", toJson(tracks.consistency.position)},
             {"velocity", toJson(tracks.consistency.velocity)}}},

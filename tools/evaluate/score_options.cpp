@@ -21,6 +21,8 @@ void TopicOptions::visit(OptionVisitor& visitor) {
                objects, {});
   visitor.text({"road_borders", "", "RoadBorders, optional (thesis table 3.5)"}, road_borders, {});
   visitor.text({"timing", "", "StageTiming, optional"}, timing, {});
+  visitor.text({"scan", "", "LaserScan, for --attainable"}, scan, {});
+  visitor.text({"echoes", "", "MultiEchoLaserScan, the same where there is no scan"}, echoes, {});
   visitor.text({"true_objects", "", "TrueObjectArray"}, true_objects, {});
   visitor.text({"true_pose", "", "Odometry, true pose of the vehicle"}, true_pose, {});
   visitor.text({"true_road_borders", "", "TrueRoadBorders, optional"}, true_road_borders, {});
@@ -77,6 +79,7 @@ void ScoreOptions::visit(OptionVisitor& visitor) {
                   "errors of tracks are also given of the objects within it of the true vehicle"},
                  near_range, {1.0, kMaxRange});
   metrics.visit(visitor);
+  visitor.group("attainable", [&] { attainable.visit(visitor); });
   visitor.number({"max_gap", "s",
                   "nothing is interpolated or scored in a gap of the truth or of the poses that is "
                   "longer"},

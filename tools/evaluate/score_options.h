@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "evaluate/attainable_options.h"
 #include "evaluate/track_scores.h"
 
 #include "datmo_fusion/common/angle.h"
@@ -17,6 +18,8 @@ struct TopicOptions {
   std::string objects;
   std::string road_borders = "/road_borders";
   std::string timing = "/timing";
+  std::string scan = "/scan";
+  std::string echoes = "/echoes";
   std::string true_objects = "/ground_truth/objects";
   std::string true_pose = "/ground_truth/pose";
   std::string true_road_borders = "/ground_truth/road_borders";
@@ -70,6 +73,7 @@ struct ScoreOptions {
   bool moving_tracks_only = true;
   double near_range = 20.0;  ///< m
   TrackScoreOptions metrics;
+  AttainableOptions attainable;
   double max_gap = 0.5;                 ///< s
   double max_silence = 0.2;             ///< s
   double detection_gap = 0.5;           ///< s

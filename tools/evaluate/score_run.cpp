@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluate/score_run.h"
 
+#include <optional>
 #include <ostream>
 #include <stdexcept>
 #include <string>
@@ -8,6 +9,7 @@
 #include "evaluate/bag_loading.h"
 #include "evaluate/matches_json.h"
 #include "evaluate/run_score.h"
+#include "evaluate/scan_loading.h"
 #include "evaluate/score_json.h"
 #include "whole_file.h"
 
@@ -32,9 +34,13 @@ std::string textOf(const nlohmann::json& report) {
 void writeScore(const ScoreRunArguments& arguments, std::ostream& out, std::ostream& remarks) {
   const RecordedRun run = loadRun(arguments.run, arguments.options);
   const RecordedTruth truth = loadTruth(arguments.truth, arguments.options);
+  std::optional<std::vector<Scan>> scans;
+  if (!arguments.scans.empty()) {
+    scans = loadScans(arguments.scans, arguments.options.topics);
+  }
   const ScoredFiles files{arguments.run, arguments.truth};
   try {
-    const RunScore score = scoreRun(run, truth, arguments.options);
+    const RunScore score = scoreRun(run, truth, arguments.options, scans);
     if (!arguments.matches.empty()) {
       const MatchOptions& matching = arguments.options.metrics.matching;
       writeWholeFile(arguments.matches, textOf(matchesJson(score, matching)));

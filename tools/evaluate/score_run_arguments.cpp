@@ -20,6 +20,7 @@ struct Words {
   std::string options;
   std::string output;
   std::string matches;
+  std::string scans;
   std::vector<std::string> assignments;
 };
 
@@ -56,17 +57,22 @@ ScoreRunArguments parseScoreRunArguments(std::vector<std::string> words) {
   line.addFile("--out", given.output, "else to standard output", "REPORT.json");
   line.addFile("--matches", given.matches, "which track is of which object, frame by frame",
                "MATCHES.json");
+  line.addFile(
+      "--attainable", given.scans,
+      "compares delays with the least that its scans allow, of an observer who knows which "
+      "beams end on which object",
+      "DRIVE.bag");
   line.addAnswer("--list-options", optionTable<ScoreOptions>, "prints all options as a table");
   line.read(std::move(words));
   const std::string& truth = given.truth.empty() ? given.run : given.truth;
   for (const std::string& output : {given.output, given.matches}) {
-    for (const std::string& input : {given.run, truth, given.options}) {
+    for (const std::string& input : {given.run, truth, given.options, given.scans}) {
       if (!output.empty() && isSameFile(output, input)) {
         throw UsageError(output + ": the report must not be an input");
       }
     }
   }
-  return {given.run, truth, given.output, given.matches, readScoreOptions(given)};
+  return {given.run, truth, given.output, given.matches, given.scans, readScoreOptions(given)};
 }
 
 }  // namespace datmo::evaluation

@@ -14,6 +14,7 @@ struct ScoreRunArguments {
   std::string truth;    ///< bag, maybe the same
   std::string output;   ///< report, empty: standard output
   std::string matches;  ///< matches of each frame, empty: not wanted
+  std::string scans;    ///< bag with the scans for attainable delays, empty: not wanted
   ScoreOptions options;
 };
 

@@ -42,6 +42,17 @@ def _honesty(quantity, path, degrees_of_freedom):
     )
 
 
+def _attainable(name, path):
+    """Of the objects of a class, or of all."""
+    return (
+        Metric(f"{name}: attainable, median", f"{path}.attainable_s.median", "s", 1.0, 2),
+        Metric(f"{name}: excess, median", f"{path}.excess_s.median", "s", 1.0, 2, lower),
+        Metric(f"{name}: excess, 90 %", f"{path}.excess_s.p90", "s", 1.0, 2, lower),
+        Metric(f"{name}: ratio, median", f"{path}.ratio.median", "1", 1.0, 1, lower),
+        Metric(f"{name}: ratio, 90 %", f"{path}.ratio.p90", "1", 1.0, 1, lower),
+    )
+
+
 METRIC_GROUPS = (
     MetricGroup(
         "Tracking, CLEAR-MOT",
@@ -181,6 +192,21 @@ METRIC_GROUPS = (
     ),
 )
 
+ATTAINABLE_GROUP = MetricGroup(
+    "Delay beside the least attainable",
+    "with --attainable: of an observer who knows which beams end on which object, and its "
+    "shape; excess: delay less that; ratio: (delay + scan period) / (attainable + scan period)",
+    tuple(
+        metric
+        for name, path in (
+            ("all", "attainable"),
+            *((name, f"attainable.by_class.{name}")
+              for name in ("pedestrian", "cyclist", "vehicle")),
+        )
+        for metric in _attainable(name, path)
+    ),
+)
+
 OBJECT_METRICS = (
     Metric("from", "first_s", "s", 1.0, 1),
     Metric("to", "last_s", "s", 1.0, 1),
@@ -188,6 +214,8 @@ OBJECT_METRICS = (
     Metric("tracked", "tracked_frames", "frames"),
     Metric("complete", "completeness", "%", PERCENT, 1),
     Metric("delay", "delay_s", "s", 1.0, 2),
+    Metric("attainable", "attainable_delay_s", "s", 1.0, 2),
+    Metric("ratio", "delay_ratio", "1", 1.0, 1),
     Metric("position", "position_rmse_m", "m", 1.0, 2),
     Metric("velocity", "velocity_rmse_mps", "m/s", 1.0, 2),
     Metric("heading", "heading_rmse_rad", "deg", DEGREES, 1),
@@ -200,13 +228,18 @@ STANDING_METRICS = (
 
 
 def metric_groups(runs):
-    """METRIC_GROUPS, the pose's relative errors and the times of the stages, as the runs hold them."""
+    """What the runs hold: METRIC_GROUPS, the pose's relative errors, attainable delays, times."""
     return [
         group._replace(metrics=group.metrics + _relative_errors(runs))
         if group.title.startswith("Pose")
         else group
         for group in METRIC_GROUPS
-    ] + _timing(runs)
+    ] + _attainable_delays(runs) + _timing(runs)
+
+
+def _attainable_delays(runs):
+    """Where score_run was given the scans."""
+    return [ATTAINABLE_GROUP] if any(run.get("attainable") for run in runs) else []
 
 
 def _relative_errors(runs):

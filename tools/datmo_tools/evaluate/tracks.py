@@ -47,6 +47,8 @@ def _settings(values):
     words = [] if values.options is None else ["--options", str(values.options)]
     for assignment in values.set:
         words += ["--set", assignment]
+    if values.attainable is not None:
+        words += ["--attainable", str(values.attainable)]
     return words
 
 
@@ -57,5 +59,7 @@ def add_arguments(parser):
     bags.add_argument("--compare", nargs="+", type=Path, metavar="BAG", help="bags of several runs")
     add = parser.add_argument
     add_truth(parser)
+    add("--attainable", type=Path, metavar="DRIVE.bag",
+        help="bag with the scans: delays beside the least that they allow")  # fmt: skip
     add("--options", type=Path, metavar="FILE.yaml", help="options of score_run")
     add("--set", action="append", default=[], metavar="KEY=VALUE", help="one option of score_run")
