@@ -36,12 +36,10 @@ class AttainableTest : public ::testing::Test {
 
   RecordedTruth truth_;
   std::vector<Scan> scans_;
-  AttainableOptions options_;
+  AttainableOptions options_ = {0.2, 0.8, 0.5};
 };
 
 TEST_F(AttainableTest, ThresholdIsTheOddsOverThePriorOnes) {
-  options_.required_probability = 0.8;
-  options_.moving_prior = 0.5;
   EXPECT_NEAR(options_.requiredLogRatio(), std::log(4.0), 1e-12);
   options_.moving_prior = 0.2;
   EXPECT_NEAR(options_.requiredLogRatio(), std::log(16.0), 1e-12);
@@ -49,8 +47,6 @@ TEST_F(AttainableTest, ThresholdIsTheOddsOverThePriorOnes) {
 
 TEST_F(AttainableTest, FirstScanThatTellsMotion) {
   // 0.5 v^2 n (n^2 - 1) dt^2 / (12 sigma^2): n = 2: 1/2 * 9 * 0.01 * 6 / 0.48 = 0.5625, 3: 2.25.
-  options_.required_probability = 0.8;
-  options_.moving_prior = 0.5;
   drive(3.0, 10);
   const auto told = motions();
   ASSERT_EQ(told.count(1), 1U);

@@ -11,6 +11,7 @@ from datmo_tools.evaluate import (
     grids,
     labels,
     objects,
+    operating_curve,
     slam,
     stereo_grids,
     track_fusion,
@@ -28,6 +29,7 @@ with what is missing in which file, and no report. evaluate SUBCOMMAND --help sa
 SUBCOMMANDS = {
     "tracks": (tracks, "tracks, pose and times of one run, or of several side by side"),
     "classes": (classes, "the classes of the tracks"),
+    "operating_curve": (operating_curve, "missed frames against false tracks a minute"),
     "track_fusion": (track_fusion, "the fusion of tracks: which of two sensors are of one object"),
     "labels": (labels, "tracks at positions that were labeled in a recording"),
     "objects": (objects, "the objects of single measurements, before tracking"),
