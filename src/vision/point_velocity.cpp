@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/vision/point_velocity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <Eigen/LU>
+
+#include "datmo_fusion/common/angle.h"
+
+namespace datmo {
+namespace {
+
+constexpr double kMinDisparitySigmas = 3.0;
+constexpr int kMaxIterations = 20;
+constexpr double kConverged = 1e-6;  // m/s
+
+void check(const StereoPair& pair) {
+  const bool valid = pair.left.focal_x > 0.0 && pair.left.focal_y > 0.0 && pair.baseline > 0.0 &&
+                     pair.flow_sigma > 0.0 && pair.disparity_sigma > 0.0;
+  if (!valid) {
+    throw std::invalid_argument(
+        "stereo pair: focal lengths, baseline, flow_sigma and disparity_sigma must be more than 0");
+  }
+}
+
+bool usable(const StereoPair& pair, const StereoFeature& feature) {
+  return feature.pixel.allFinite() && std::isfinite(feature.disparity) &&
+         feature.disparity >= kMinDisparitySigmas * pair.disparity_sigma;
+}
+
+Eigen::Vector3d triangulate(const StereoPair& pair, const StereoFeature& feature) {
+  const PinholeCamera& camera = pair.left;
+  const double depth = camera.focal_x * pair.baseline / feature.disparity;
+  return {depth * (feature.pixel.x() - camera.center_x) / camera.focal_x,
+          depth * (feature.pixel.y() - camera.center_y) / camera.focal_y, depth};
+}
+
+/// Of a triangulated point, in the optical frame; the depth is f b / d.
+Eigen::Matrix3d pointCovariance(const StereoPair& pair, const Eigen::Vector3d& point,
+                                double disparity, double pixel_sigma) {
+  const Eigen::Vector3d by_disparity = -point / disparity * pair.disparity_sigma;
+  const Eigen::Vector3d by_pixel(point.z() / pair.left.focal_x * pixel_sigma,
+                                 point.z() / pair.left.focal_y * pixel_sigma, 0.0);
+  Eigen::Matrix3d covariance = by_disparity * by_disparity.transpose();
+  covariance.diagonal() += by_pixel.cwiseAbs2();
+  return covariance;
+}
+
+Eigen::Matrix3d turned(const Eigen::Isometry3d& pose, const Eigen::Matrix3d& covariance) {
+  return pose.linear() * covariance * pose.linear().transpose();
+}
+
+void check(const SharedVelocityOptions& options) {
+  const bool valid = options.outlier_share > 0.0 && options.outlier_share < 1.0 &&
+                     options.max_speed > 0.0 && options.min_inliers > 0.0;
+  if (!valid) {
+    throw std::invalid_argument(
+        "shared velocity: outlier_share must be within (0, 1), max_speed and min_inliers more than "
+        "0");
+  }
+}
+
+/// A point's velocity over the ground, ready to be weighed.
+struct Sample {
+  Eigen::Vector2d velocity;
+  Eigen::Matrix2d information;
+  double density;  ///< of the normal distribution at its mean
+};
+
+std::vector<Sample> samplesOf(const std::vector<PointVelocity>& points) {
+  std::vector<Sample> samples;
+  samples.reserve(points.size());
+  for (const PointVelocity& point : points) {
+    const Eigen::Matrix2d covariance = point.covariance.topLeftCorner<2, 2>();
+    samples.push_back({point.velocity.head<2>(), covariance.inverse(),
+                       1.0 / (2.0 * kPi * std::sqrt(covariance.determinant()))});
+  }
+  return samples;
+}
+
+double squaredDistance(const Sample& sample, const Eigen::Vector2d& velocity) {
+  const Eigen::Vector2d error = sample.velocity - velocity;
+  return error.dot(sample.information * error);
+}
+
+/// Of inliers and outliers, each with its share.
+class Mixture {
+ public:
+  explicit Mixture(const SharedVelocityOptions& options)
+      : inlier_share_(1.0 - options.outlier_share),
+        outlier_(options.outlier_share / (kPi * options.max_speed * options.max_speed)) {}
+
+  double inlierProbability(const Sample& sample, const Eigen::Vector2d& velocity) const {
+    const double inlier = inlierDensity(sample, velocity);
+    return inlier / (inlier + outlier_);
+  }
+
+  double logLikelihood(const std::vector<Sample>& samples, const Eigen::Vector2d& velocity) const {
+    double sum = 0.0;
+    for (const Sample& sample : samples) {
+      sum += std::log(inlierDensity(sample, velocity) + outlier_);
+    }
+    return sum;
+  }
+
+ private:
+  double inlierDensity(const Sample& sample, const Eigen::Vector2d& velocity) const {
+    return inlier_share_ * sample.density * std::exp(-0.5 * squaredDistance(sample, velocity));
+  }
+
+  double inlier_share_;
+  double outlier_;
+};
+
+Eigen::Vector2d mostLikelySample(const std::vector<Sample>& samples, const Mixture& mixture) {
+  Eigen::Vector2d best = Eigen::Vector2d::Zero();
+  double best_likelihood = -std::numeric_limits<double>::infinity();
+  for (const Sample& sample : samples) {
+    const double likelihood = mixture.logLikelihood(samples, sample.velocity);
+    if (likelihood > best_likelihood) {
+      best_likelihood = likelihood;
+      best = sample.velocity;
+    }
+  }
+  return best;
+}
+
+/// One step of expectation maximization: the mean of the samples by their probability at `around`.
+SharedVelocity weightedMean(const std::vector<Sample>& samples, const Mixture& mixture,
+                            const Eigen::Vector2d& around) {
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  SharedVelocity mean;
+  for (const Sample& sample : samples) {
+    const double weight = mixture.inlierProbability(sample, around);
+    information += weight * sample.information;
+    sum += weight * sample.information * sample.velocity;
+    mean.inliers += weight;
+  }
+  mean.covariance = information.inverse();
+  mean.velocity = mean.covariance * sum;
+  return mean;
+}
+
+/// Squared errors of the inliers in units of their noise, by degree of freedom; at least 1.
+double excessScatter(const std::vector<Sample>& samples, const Mixture& mixture,
+                     const SharedVelocity& mean) {
+  double sum = 0.0;
+  for (const Sample& sample : samples) {
+    sum +=
+        mixture.inlierProbability(sample, mean.velocity) * squaredDistance(sample, mean.velocity);
+  }
+  const double degrees_of_freedom = 2.0 * mean.inliers - 2.0;
+  return degrees_of_freedom > 0.0 ? std::max(1.0, sum / degrees_of_freedom) : 1.0;
+}
+
+}  // namespace
+
+std::optional<PointVelocity> pointVelocity(const StereoPair& pair, const StereoFeature& from,
+                                           const Exposure& earlier, const StereoFeature& to,
+                                           const Exposure& later) {
+  check(pair);
+  const double seconds = secondsBetween(earlier.stamp, later.stamp);
+  if (seconds <= 0.0 || !usable(pair, from) || !usable(pair, to) ||
+      !earlier.camera_in_fixed.matrix().allFinite() ||
+      !later.camera_in_fixed.matrix().allFinite()) {
+    return std::nullopt;
+  }
+  const Eigen::Vector3d first = triangulate(pair, from);
+  const Eigen::Vector3d second = triangulate(pair, to);
+  PointVelocity result;
+  result.position = later.camera_in_fixed * second;
+  result.velocity = (result.position - earlier.camera_in_fixed * first) / seconds;
+  // The first pixel says which point is meant, and has no error: the flow has it.
+  result.covariance =
+      (turned(earlier.camera_in_fixed, pointCovariance(pair, first, from.disparity, 0.0)) +
+       turned(later.camera_in_fixed,
+              pointCovariance(pair, second, to.disparity, pair.flow_sigma))) /
+      (seconds * seconds);
+  return result;
+}
+
+std::optional<SharedVelocity> sharedVelocity(const std::vector<PointVelocity>& points,
+                                             const SharedVelocityOptions& options) {
+  check(options);
+  if (points.empty()) {
+    return std::nullopt;
+  }
+  const std::vector<Sample> samples = samplesOf(points);
+  const Mixture mixture(options);
+  Eigen::Vector2d around = mostLikelySample(samples, mixture);
+  SharedVelocity mean = weightedMean(samples, mixture, around);
+  for (int i = 0; i < kMaxIterations && (mean.velocity - around).norm() > kConverged; ++i) {
+    around = mean.velocity;
+    mean = weightedMean(samples, mixture, around);
+  }
+  if (!(mean.inliers >= options.min_inliers) || !mean.velocity.allFinite()) {
+    return std::nullopt;
+  }
+  mean.covariance *= excessScatter(samples, mixture, mean);
+  mean.covariance += options.common_covariance;
+  return mean;
+}
+
+}  // namespace datmo
