@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "parameter_tables.h"
 
+#include <vector>
+
 #include "datmo_fusion/common/option_table.h"
 #include "datmo_fusion/ros/display/camera_view_options.h"
 #include "datmo_fusion/ros/display/grid_views_options.h"
@@ -24,9 +26,16 @@ namespace datmo {
 
 namespace {
 
+/// The options of a section of the sensor sets.
+struct Section {
+  std::string nodelets;
+  std::string public_table;
+  std::string expert_table;
+};
+
 template <typename Options>
-std::string section(const std::string& nodelets) {
-  return "## " + nodelets + "\n\n" + optionTable<Options>();
+Section section(const std::string& nodelets) {
+  return {nodelets, publicOptionTable<Options>(), expertOptionTable<Options>()};
 }
 
 constexpr const char* kHead =
@@ -36,30 +45,57 @@ constexpr const char* kHead =
     "private\n"
     "parameters (`/grid_slam/map/cell_size`). What a sensor set does not name has the default. A "
     "misspelled key,\n"
-    "or a value out of range, is refused with a message that names it.\n\n";
+    "or a value out of range, is refused with a message that names it.\n\n"
+    "*Public* ones depend on sensor, vehicle or city; those that say *live* may be changed while "
+    "the nodelet runs\n"
+    "(`rosrun rqt_reconfigure rqt_reconfigure`). *Expert* ones, below, belong to the method: their "
+    "defaults have a\n"
+    "source, and are changed with its papers at hand.\n\n";
+
+constexpr const char* kPublicHead = "# Public parameters\n\n";
+constexpr const char* kExpertHead = "# Expert parameters\n\n";
+
+std::vector<Section> sections() {
+  return {section<FrameOptions>("`frames`, of all nodelets"),
+          section<MountOptions>("`mounts/<frame>`, of all nodelets, for each sensor without tf"),
+          section<MotionOptions>("`motion`, of all nodelets"),
+          section<CloudToScanStageOptions>("`cloud_to_scan`"),
+          section<LidarGridStageOptions>("`lidar_grid`"),
+          section<StereoGridStageOptions>("`stereo_grid`"),
+          section<GridFusionStageOptions>("`grid_fusion`"),
+          section<GridSlamStageOptions>("`grid_slam`"),
+          section<RoadBorderStageOptions>("`road_border`"),
+          section<MovingObjectsStageOptions>("`moving_objects`"),
+          section<StaticPointsStageOptions>("`static_points`"),
+          section<StereoObjectsStageOptions>("`stereo_objects`"),
+          section<CloudObjectsStageOptions>("`cloud_objects`"),
+          section<ObjectFusionStageOptions>("`object_fusion`"),
+          section<TrackerStageOptions>("`tracker`, `stereo_tracker`"),
+          section<TrackFusionStageOptions>("`track_fusion`"),
+          section<MarkersOptions>("`markers`, `lidar_markers`, `stereo_markers`"),
+          section<GridViewsOptions>("`grid_views`"),
+          section<CameraViewOptions>("`camera_view`")};
+}
+
+/// The sections that have such options.
+std::string part(std::string Section::*table) {
+  std::string page;
+  for (const Section& section : sections()) {
+    if (!(section.*table).empty()) {
+      page += "## " + section.nodelets + "\n\n" + section.*table + "\n";
+    }
+  }
+  return page;
+}
 
 }  // namespace
 
 std::string parameterTables() {
-  return kHead + section<FrameOptions>("`frames`, of all nodelets") + "\n" +
-         section<MountOptions>("`mounts/<frame>`, of all nodelets, for each sensor without tf") +
-         "\n" + section<MotionOptions>("`motion`, of all nodelets") + "\n" +
-         section<CloudToScanStageOptions>("`cloud_to_scan`") + "\n" +
-         section<LidarGridStageOptions>("`lidar_grid`") + "\n" +
-         section<StereoGridStageOptions>("`stereo_grid`") + "\n" +
-         section<GridFusionStageOptions>("`grid_fusion`") + "\n" +
-         section<GridSlamStageOptions>("`grid_slam`") + "\n" +
-         section<RoadBorderStageOptions>("`road_border`") + "\n" +
-         section<MovingObjectsStageOptions>("`moving_objects`") + "\n" +
-         section<StaticPointsStageOptions>("`static_points`") + "\n" +
-         section<StereoObjectsStageOptions>("`stereo_objects`") + "\n" +
-         section<CloudObjectsStageOptions>("`cloud_objects`") + "\n" +
-         section<ObjectFusionStageOptions>("`object_fusion`") + "\n" +
-         section<TrackerStageOptions>("`tracker`, `stereo_tracker`") + "\n" +
-         section<TrackFusionStageOptions>("`track_fusion`") + "\n" +
-         section<MarkersOptions>("`markers`, `lidar_markers`, `stereo_markers`") + "\n" +
-         section<GridViewsOptions>("`grid_views`") + "\n" +
-         section<CameraViewOptions>("`camera_view`");
+  std::string page = kHead;
+  page += kPublicHead + part(&Section::public_table);
+  page += kExpertHead + part(&Section::expert_table);
+  page.pop_back();  // the empty line after the last table
+  return page;
 }
 
 }  // namespace datmo

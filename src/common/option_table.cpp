@@ -2,6 +2,7 @@
 #include "datmo_fusion/common/option_table.h"
 
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 namespace datmo {
@@ -10,7 +11,7 @@ namespace {
 
 class TableWriter : public OptionVisitor {
  public:
-  TableWriter() {
+  explicit TableWriter(std::optional<bool> is_public) : is_public_(is_public) {
     table_ << "| parameter | unit | default | range | description |\n"
            << "|---|---|---|---|---|\n";
   }
@@ -40,7 +41,7 @@ class TableWriter : public OptionVisitor {
     row(info, toText(value), choices.empty() ? "any text" : choices);
   }
 
-  std::string table() const { return table_.str(); }
+  std::string table() const { return has_rows_ ? table_.str() : ""; }
 
  private:
   static std::string range(const Bounds& bounds) {
@@ -63,17 +64,24 @@ class TableWriter : public OptionVisitor {
   }
 
   void row(const OptionInfo& info, const std::string& value, const std::string& range) {
+    if (is_public_ && *is_public_ != (tier(info) >= Tier::kPublic)) {
+      return;
+    }
+    has_rows_ = true;
     table_ << "| `" << key(info) << "` | " << info.unit << " | " << cell(value) << " | "
-           << cell(range) << " | " << cell(info.description) << " |\n";
+           << cell(range) << " | " << cell(info.description)
+           << (tier(info) == Tier::kLive ? "; *live*" : "") << " |\n";
   }
 
+  std::optional<bool> is_public_;
+  bool has_rows_ = false;
   std::ostringstream table_;
 };
 
 }  // namespace
 
-std::string detail::tableOf(const OptionWalk& visit) {
-  TableWriter writer;
+std::string detail::tableOf(const OptionWalk& visit, std::optional<bool> is_public) {
+  TableWriter writer(is_public);
   visit(writer);
   return writer.table();
 }

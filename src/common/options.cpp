@@ -49,21 +49,30 @@ class Checker : public OptionVisitor {
 
 }  // namespace
 
-void OptionVisitor::group(const std::string& name, const std::function<void()>& visit_members) {
-  groups_.push_back(name);
+void OptionVisitor::group(const std::string& name, const std::function<void()>& visit_members,
+                          Tier max) {
+  groups_.push_back({name, max});
   visit_members();
   groups_.pop_back();
 }
 
 std::string OptionVisitor::prefix() const {
   std::string prefix;
-  for (const std::string& group : groups_) {
-    prefix += group + "/";
+  for (const Group& group : groups_) {
+    prefix += group.name + "/";
   }
   return prefix;
 }
 
 std::string OptionVisitor::key(const OptionInfo& info) const { return prefix() + info.name; }
+
+Tier OptionVisitor::tier(const OptionInfo& info) const {
+  Tier tier = info.tier;
+  for (const Group& group : groups_) {
+    tier = std::min(tier, group.max);
+  }
+  return tier;
+}
 
 void detail::checkAll(const OptionWalk& visit) {
   Checker checker;

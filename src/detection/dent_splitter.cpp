@@ -6,6 +6,16 @@
 
 namespace datmo {
 
+namespace {
+
+/// Where what is seen of a group is dented by more, another object begins: one alone bulges, m.
+constexpr double kDent = 1.0;
+
+/// The dent must also be so many standard deviations of the depth.
+constexpr double kDentSigmas = 2.5;
+
+}  // namespace
+
 DentSplitter::DentSplitter(const SurfaceColumns& columns, const StereoCamera& camera,
                            const SurfaceGroupOptions& options)
     : columns_(columns), options_(options), noise_(camera.noise) {}
@@ -64,8 +74,8 @@ std::optional<int> DentSplitter::dent() const {
   for (std::size_t side = 0; side + 1 < hull_.size(); ++side) {
     for (std::size_t i = hull_[side] + 1; i < hull_[side + 1]; ++i) {
       const double inverse = profile_[i].inverse;
-      const double min = std::max(options_.dent_sigmas * noise_.inverseSigma(inverse),
-                                  options_.dent * inverse * inverse);
+      const double min =
+          std::max(kDentSigmas * noise_.inverseSigma(inverse), kDent * inverse * inverse);
       const double depth = -above(hull_[side], i, hull_[side + 1]) / min;
       if (depth > deepest) {
         deepest = depth;

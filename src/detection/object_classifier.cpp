@@ -11,6 +11,10 @@ namespace datmo {
 
 namespace {
 
+/// Share of the road users that are seen from straight ahead or behind: they keep to lanes; the
+/// others from anywhere.
+constexpr double kAheadShare = 0.6;
+
 /// m, mean sizes of anything else, of which nothing more is known: buildings, hedges, bushes.
 constexpr double kMeanHeight = 5.0;
 constexpr double kMeanExtent = 10.0;
@@ -110,10 +114,6 @@ void ObjectClassifierOptions::visit(OptionVisitor& visitor) {
   visitor.group("van", [&] { van.visit(visitor); });
   visitor.group("truck", [&] { truck.visit(visitor); });
   visitor.group("pole", [&] { pole.visit(visitor); });
-  visitor.number({"ahead_share", "1",
-                  "share of the road users that are seen from straight ahead or behind: they keep "
-                  "to lanes; the others from anywhere"},
-                 ahead_share, {0.0, 1.0});
   visitor.number({"other_share", "1", "prior share of other objects, relative to these kinds"},
                  other_share, {0.001, 1000.0});
 }
@@ -126,7 +126,7 @@ ClassProbabilities ObjectClassifier::probabilities(const SeenSize& seen) const {
   ClassProbabilities result{};
   const auto add = [&](ObjectClass object_class, const KindSize& kind) {
     result[static_cast<std::size_t>(object_class)] +=
-        kind.share * likelihood(seen, kind, options_.ahead_share);
+        kind.share * likelihood(seen, kind, kAheadShare);
   };
   add(ObjectClass::kPedestrian, options_.pedestrian);
   add(ObjectClass::kCyclist, options_.cyclist);

@@ -25,10 +25,12 @@ double gapBetween(const ScanPoint& first, const ScanPoint& second,
 }  // namespace
 
 void SegmentationOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"max_gap", "m", "points further apart are two objects (thesis 3.3.1: 2 m)"},
-                 max_gap, {0.05, 20.0});
   visitor.number(
-      {"min_gap", "m", "adaptive: points nearer than this are one object, whatever the range"},
+      {"max_gap", "m", "points further apart are two objects (thesis 3.3.1: 2 m)", Tier::kPublic},
+      max_gap, {0.05, 20.0});
+  visitor.number(
+      {"min_gap", "m", "adaptive: points nearer than this are one object, whatever the range",
+       Tier::kPublic},
       min_gap, {0.0, 20.0});
   visitor.toggle({"adaptive", "",
                   "let the gap grow with range and beam spacing (Borges & Aldon 2004); false: "

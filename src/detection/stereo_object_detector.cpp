@@ -16,6 +16,9 @@ namespace datmo {
 
 namespace {
 
+/// What is neither road user nor pole with more than this probability is left out.
+constexpr double kMaxOther = 0.9;
+
 /// Points up to so many standard deviations beyond the effective range still belong to it.
 constexpr double kBeyondRange = 2.0;
 
@@ -64,8 +67,7 @@ class StereoObjectDetector::State {
         continue;
       }
       Object object = maker.objectOf(outline);
-      if (object.object_class != ObjectClass::kUnknown ||
-          object.class_probability <= options_.max_other) {
+      if (object.object_class != ObjectClass::kUnknown || object.class_probability <= kMaxOther) {
         result.list.objects.push_back(std::move(object));
       }
     }

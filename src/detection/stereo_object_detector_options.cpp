@@ -4,43 +4,23 @@
 namespace datmo {
 
 void StereoSurfaceOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"min_depth", "m", "nearer points are mismatches"}, min_depth, {0.05, 10.0});
+  visitor.number({"min_depth", "m", "nearer points are mismatches", Tier::kPublic}, min_depth,
+                 {0.05, 10.0});
   visitor.number({"min_height", "m", "lower points are of the road, curbs and low plants"},
                  min_height, {0.05, 2.0});
-  visitor.number({"layer_top", "m",
-                  "points between min_height and this make objects: higher, one sees over road "
-                  "users at what is behind them"},
-                 layer_top, {0.3, 5.0});
   visitor.number({"max_height", "m", "up to here it is looked how high objects are"}, max_height,
                  {2.0, 20.0});
-  visitor.number({"road_sigmas", "1",
-                  "a point is one of the road if a depth that is wrong by so many standard "
-                  "deviations puts it where it is"},
-                 road_sigmas, {0.0, 10.0});
   visitor.number({"finest_depth", "m", "resolution of depths: not finer than this"}, finest_depth,
                  {0.02, 1.0});
-  visitor.number({"min_visible", "m", "height of surface that must be seen in a column"},
-                 min_visible, {0.0, 2.0});
-  visitor.integer({"min_points", "1", "and points"}, min_points, {1, 1000});
+  visitor.integer({"min_points", "1", "points that must be seen in a column"}, min_points,
+                  {1, 1000});
 }
 
 void SurfaceGroupOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"lateral_gap", "m", "surfaces farther apart sideways are not of one object"},
-                 lateral_gap, {0.0, 5.0});
-  visitor.number({"stacked_gap", "m",
-                  "depth from a surface to one of the same object that is seen above it: from a "
-                  "bonnet to the windscreen"},
-                 stacked_gap, {0.0, 5.0});
   visitor.number({"depth_gap", "m", "neighboring surfaces of one object differ in depth by less"},
                  depth_gap, {0.01, 5.0});
   visitor.number({"depth_sigmas", "1", "or by so many standard deviations of the depth"},
                  depth_sigmas, {0.0, 10.0});
-  visitor.number({"dent", "m",
-                  "where what is seen of a group is dented by more, another object begins: one "
-                  "alone bulges"},
-                 dent, {0.0, 10.0});
-  visitor.number({"dent_sigmas", "1", "and by so many standard deviations of the depth"},
-                 dent_sigmas, {0.0, 100.0});
   visitor.number(
       {"tall", "m", "what is higher than this does not belong to what is lower than low"}, tall,
       {0.5, 20.0});
@@ -66,9 +46,6 @@ void StereoNoiseOptions::visit(OptionVisitor& visitor) {
       body_sigma, {0.001, 2.0});
   visitor.number({"height_sigma", "m", "standard deviation of heights, besides that of the edge"},
                  height_sigma, {0.001, 2.0});
-  visitor.number({"extent_sigma", "m",
-                  "standard deviation of how far bodies reach in depth, besides that of the depth"},
-                 extent_sigma, {0.001, 2.0});
 }
 
 void StereoObjectDetectorOptions::visit(OptionVisitor& visitor) {
@@ -77,18 +54,17 @@ void StereoObjectDetectorOptions::visit(OptionVisitor& visitor) {
   visitor.group("noise", [&] { noise.visit(visitor); });
   visitor.group("classes", [&] { classes.visit(visitor); });
   visitor.group("road", [&] { road.visit(visitor); });
-  visitor.number({"effective_range", "m", "nothing is said beyond it (thesis 3.3.3: 36 m)"},
-                 effective_range, {1.0, 200.0});
   visitor.number(
-      {"sure_range", "m", "up to here all is found that can be seen; from there on less and less"},
+      {"effective_range", "m", "nothing is said beyond it (thesis 3.3.3: 36 m)", Tier::kPublic},
+      effective_range, {1.0, 200.0});
+  visitor.number(
+      {"sure_range", "m", "up to here all is found that can be seen; from there on less and less",
+       Tier::kPublic},
       sure_range, {1.0, 200.0});
   visitor.number({"min_surface", "m^2", "an object of which less is seen is none"}, min_surface,
                  {0.0, 10.0});
-  visitor.number({"max_size", "m", "longer segments are no objects: walls, hedges"}, max_size,
-                 {0.5, 100.0});
-  visitor.number({"max_other", "1",
-                  "what is neither road user nor pole with more than this probability is left out"},
-                 max_other, {0.0, 1.0});
+  visitor.number({"max_size", "m", "longer segments are no objects: walls, hedges", Tier::kPublic},
+                 max_size, {0.5, 100.0});
   visitor.number({"max_doubt", "1",
                   "so much at most does its size speak against an object: logarithm of odds"},
                  max_doubt, {0.0, 20.0});

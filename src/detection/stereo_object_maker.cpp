@@ -13,6 +13,9 @@ namespace datmo {
 
 namespace {
 
+/// Standard deviation of how far bodies reach in depth, besides that of the depth, m.
+constexpr double kExtentSigma = 0.2;
+
 /// Points of the outline of an object, at most: columns beside each other are averaged.
 constexpr std::size_t kMaxPoints = 40;
 
@@ -134,7 +137,7 @@ SeenSize StereoObjectMaker::sizeOf(const GroupOutline& outline) const {
   seen.across = outline.across;
   seen.across_sigma = kBothEnds * edge;
   seen.along = std::sqrt(std::max(0.0, square(outline.along) - square(kSpreadSigmas * noise)));
-  seen.along_sigma = std::hypot(options_.noise.extent_sigma, std::sqrt(kBothEnds) * noise);
+  seen.along_sigma = std::hypot(kExtentSigma, std::sqrt(kBothEnds) * noise);
   seen.wider = !outline.left.seen || !outline.right.seen;
   return seen;
 }

@@ -8,6 +8,17 @@ namespace datmo {
 
 namespace {
 
+/// Points between min_height and this make objects: higher, one sees over road users at what is
+/// behind them, m.
+constexpr double kLayerTop = 2.2;
+
+/// A point is one of the road if a depth that is wrong by so many standard deviations puts it where
+/// it is.
+constexpr double kRoadSigmas = 2.0;
+
+/// Height of surface that must be seen in a column, m.
+constexpr double kMinVisible = 0.35;
+
 /// m; cameras mark a depth that they do not know by a far one.
 constexpr float kMaxDepth = 1000.0F;
 
@@ -56,7 +67,7 @@ void StereoSurfaces::takePoints(const StereoCloud& cloud, const StereoView& view
   const auto highest = static_cast<float>(options.max_height);
   const float camera_height = view.cameraHeight();
   // A depth that is off by its noise lifts a point of the road by this much of height / depth.
-  const InverseDepthMargin road_margin(cloud.camera.noise, options.road_sigmas);
+  const InverseDepthMargin road_margin(cloud.camera.noise, kRoadSigmas);
   for (std::size_t i = 0; i < cloud.points.count; ++i) {
     const ViewedPoint point = view(cloud.points[i]);
     if (!(point.forward > nearest && point.forward < kMaxDepth)) {
@@ -86,7 +97,7 @@ void StereoSurfaces::countLayer(const StereoCamera& camera, const StereoSurfaceO
   depth_bins_ = DepthBins(camera, farthest, std::max(options.finest_depth, farthest / kMaxBins));
   bins_ = static_cast<std::size_t>(depth_bins_.size());
   counts_.assign(static_cast<std::size_t>(columns_.count) * bins_, 0);
-  const auto top = static_cast<float>(options.layer_top);
+  const auto top = static_cast<float>(kLayerTop);
   const auto border = [&](const Upright& point) {
     return !(point.right >= left_ && point.right <= static_cast<float>(camera.right_tangent));
   };
@@ -178,7 +189,7 @@ void StereoSurfaces::addMode(const Mode& mode, const StereoSurfaceOptions& optio
   const int points = pointsIn(first, end);
   const double depth = static_cast<double>(depth_bins_.middle(mode.peak));
   // The peak may be that of the columns beside it alone.
-  if (points < options.min_points || points < options.min_visible * pointsPerMeter(depth) ||
+  if (points < options.min_points || points < kMinVisible * pointsPerMeter(depth) ||
       pointsIn(core, core_end) == 0) {
     return;
   }
@@ -200,7 +211,7 @@ void StereoSurfaces::measure(const StereoSurfaceOptions& options) {
   const std::size_t slices = slicesUpTo(options.max_height);
   inverse_sums_.assign(count, 0.0);
   slices_.assign(count * slices, 0);
-  const auto top = static_cast<float>(options.layer_top);
+  const auto top = static_cast<float>(kLayerTop);
   for (const Upright& point : upright_) {
     const std::int32_t index =
         surface_at_[slot(columnOf(point.right), depth_bins_.at(point.depth))];

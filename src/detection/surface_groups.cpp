@@ -11,6 +11,13 @@ namespace datmo {
 
 namespace {
 
+/// Surfaces farther apart sideways are not of one object, m.
+constexpr double kLateralGap = 0.4;
+
+/// Depth from a surface to one of the same object that is seen above it: from a bonnet to the
+/// windscreen, m.
+constexpr double kStackedGap = 1.2;
+
 /// m; what begins higher up than this below another surface's top may stand on it.
 constexpr float kOverlap = 0.2F;
 
@@ -88,7 +95,7 @@ class SurfaceLinks {
   /// With what is seen above it, little behind it.
   void mergeAbove(std::size_t i) {
     const ColumnSurface& surface = at(i);
-    const float gap = std::max(static_cast<float>(options_.stacked_gap), gapAt(surface.depth));
+    const float gap = std::max(static_cast<float>(kStackedGap), gapAt(surface.depth));
     for (std::size_t j = i + 1; j < begin(surface.column + 1); ++j) {
       if (at(j).depth - surface.depth < gap && at(j).bottom > surface.top - kOverlap &&
           static_cast<double>(at(j).top) < options_.tall) {
@@ -101,7 +108,7 @@ class SurfaceLinks {
   void mergeBeside(std::size_t i) {
     const ColumnSurface& surface = at(i);
     const double width = columns_.widthAt(static_cast<double>(surface.depth));
-    const int reach = std::max(1, static_cast<int>(options_.lateral_gap / width));
+    const int reach = std::max(1, static_cast<int>(kLateralGap / width));
     const float gap = gapAt(surface.depth);
     for (int step = 1; step <= reach && surface.column + step < columns_.count; ++step) {
       const int column = surface.column + step;

@@ -18,10 +18,12 @@ constexpr double kMaxCells = 2.5e7;
 }  // namespace
 
 void GridWindowOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"length", "m", "extent of the grid along x (thesis 3.3.1)"}, length,
+  visitor.number({"length", "m", "extent of the grid along x (thesis 3.3.1)", Tier::kPublic},
+                 length, {1.0, 2000.0});
+  visitor.number({"width", "m", "extent of the grid along y (thesis 3.3.1)", Tier::kPublic}, width,
                  {1.0, 2000.0});
-  visitor.number({"width", "m", "extent of the grid along y (thesis 3.3.1)"}, width, {1.0, 2000.0});
-  visitor.number({"cell_size", "m", "side of a cell (thesis 3.3.1)"}, cell_size, {0.02, 5.0});
+  visitor.number({"cell_size", "m", "side of a cell (thesis 3.3.1)", Tier::kPublic}, cell_size,
+                 {0.02, 5.0});
 }
 
 GridWindow GridWindowOptions::window() const {

@@ -13,6 +13,13 @@ namespace datmo {
 
 namespace {
 
+/// A ghost is refuted by at least this share of all beams that ended there: a few are refuted by
+/// mistake where much traffic passes.
+constexpr double kGhostShare = 0.1;
+
+/// A cell more occupied than this, for long enough, is static.
+constexpr double kStaticAbove = 0.7;
+
 float logOdds(double probability) {
   return static_cast<float>(std::log(probability / (1.0 - probability)));
 }
@@ -37,7 +44,7 @@ OccupancyMap::OccupancyMap(const OccupancyMapOptions& options)
 
 bool OccupancyMap::isStatic(const Cell& cell) const {
   return hasSurface(cell) && maturity(cell) >= 1.0 &&
-         static_cast<double>(cell.occupancy) >= options_.static_above;
+         static_cast<double>(cell.occupancy) >= kStaticAbove;
 }
 
 double OccupancyMap::maturity(const Cell& cell) const {
@@ -47,7 +54,7 @@ double OccupancyMap::maturity(const Cell& cell) const {
 
 bool OccupancyMap::isGhost(const Cell& cell) const {
   return options_.ghost_after > 0 && cell.refuted >= options_.ghost_after &&
-         cell.refuted >= options_.ghost_share * (cell.refuted + cell.believed);
+         cell.refuted >= kGhostShare * (cell.refuted + cell.believed);
 }
 
 template <typename Test>

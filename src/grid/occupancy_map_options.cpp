@@ -24,14 +24,12 @@ void OccupancyMapOptions::visit(OptionVisitor& visitor) {
   visitor.number({"surface_sigma", "m",
                   "a beam that passes a cell beside the surface in it makes it free only as far as "
                   "it would have hit that surface, which is known to within this (normal "
-                  "distributions occupancy map: Saarinen et al. 2013); 0: always (thesis)"},
+                  "distributions occupancy map: Saarinen et al. 2013); 0: always (thesis)",
+                  Tier::kPublic},
                  surface_sigma, {0.0, 2.0});
   visitor.number({"moving_below", "1",
                   "an end point in a cell less occupied than this is moving (thesis 3.3.1: 0.5)"},
                  moving_below, {0.01, 0.5});
-  visitor.number(
-      {"static_above", "1", "a cell more occupied than this, for long enough, is static"},
-      static_above, {0.5, 0.99});
   visitor.number(
       {"static_after", "s",
        "between the first and the last hit of a static cell: longer than a mover takes to "
@@ -46,10 +44,6 @@ void OccupancyMapOptions::visit(OptionVisitor& visitor) {
        "where other sensors have refuted so many ends of beams the scanner sees what is "
        "no obstacle: what ends there again does not move; 0: forgets them"},
       ghost_after, {0, 1000});
-  visitor.number({"ghost_share", "1",
-                  "and at least this share of all beams that ended there: a few are refuted by "
-                  "mistake where much traffic passes"},
-                 ghost_share, {0.0, 1.0});
 }
 
 }  // namespace datmo

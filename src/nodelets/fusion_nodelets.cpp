@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The stages that fuse several sources as nodelets. What a person chooses among while looking at
-// rviz, dynamic_reconfigure changes.
-#include <memory>
-
-#include "choice_server.h"
+// The stages that fuse several sources as nodelets.
 #include "stage_nodelet.h"
-#include <datmo_fusion/GridFusionConfig.h>
-#include <datmo_fusion/TrackFusionConfig.h>
 
 #include <pluginlib/class_list_macros.hpp>
 
@@ -17,34 +11,8 @@
 namespace datmo {
 
 using ObjectFusionNodelet = StageNodelet<ObjectFusionStage>;
-
-/// The rule of fusion may be changed.
-class GridFusionNodelet : public StageNodelet<GridFusionStage> {
- private:
-  using Config = datmo_fusion::GridFusionConfig;
-
-  void prepare(GridFusionStage& stage, const GridFusionStageOptions& options) override {
-    rule_ = std::make_unique<ChoiceServer<Config>>(
-        getPrivateNodeHandle(), &Config::rule, options.fuser.rule,
-        [&stage](const std::string& rule) { stage.setRule(rule); });
-  }
-
-  std::unique_ptr<ChoiceServer<Config>> rule_;
-};
-
-/// Which tracks come out may be changed.
-class TrackFusionNodelet : public StageNodelet<TrackFusionStage> {
- private:
-  using Config = datmo_fusion::TrackFusionConfig;
-
-  void prepare(TrackFusionStage& stage, const TrackFusionStageOptions& options) override {
-    scheme_ = std::make_unique<ChoiceServer<Config>>(
-        getPrivateNodeHandle(), &Config::scheme, options.fuser.scheme,
-        [&stage](const std::string& scheme) { stage.setScheme(scheme); });
-  }
-
-  std::unique_ptr<ChoiceServer<Config>> scheme_;
-};
+using GridFusionNodelet = StageNodelet<GridFusionStage>;
+using TrackFusionNodelet = StageNodelet<TrackFusionStage>;
 
 }  // namespace datmo
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <memory>
 #include <string>
 #include <utility>
+
+#include "live_server.h"
 
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
@@ -18,6 +21,9 @@ class MarkersNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
     options_ = loadOptions<MarkersOptions>(getPrivateNodeHandle());
+    live_ = std::make_unique<LiveServer>(
+        getPrivateNodeHandle(), [this] { return liveOptions(options_); },
+        [this](const OptionValues& values) { options_ = withLiveValues(options_, values); });
     ros::NodeHandle& node = getNodeHandle();
     markers_ = node.advertise<visualization_msgs::MarkerArray>("markers", kQueue);
     legend_ = node.advertise<sensor_msgs::Image>("legend", 1, true);
@@ -97,6 +103,7 @@ class MarkersNodelet : public nodelet::Nodelet {
   static constexpr std::uint32_t kQueue = 20;
 
   MarkersOptions options_;
+  std::unique_ptr<LiveServer> live_;
   StaleMarkers stale_;
   LabeledScanConstPtr last_scan_;
   ros::Publisher markers_;

@@ -17,6 +17,11 @@ StageHost::StageHost(ros::NodeHandle node, ros::NodeHandle private_node, Stage& 
                      StageMonitor& monitor, TransformBuffer* transforms, double silence_after)
     : node_(std::move(node)), stage_(stage), monitor_(monitor) {
   stage_.connect(*this);
+  if (!stage_.live().empty()) {
+    live_ = std::make_unique<LiveServer>(
+        private_node, [this] { return stage_.live(); },
+        [this](const OptionValues& values) { stage_.change(values); });
+  }
   reporter_ = std::make_unique<StageReporter>(node_, std::move(private_node), monitor_,
                                               requiredInputs(), silence_after);
   if (transforms != nullptr) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "live_server.h"
+
 #include <ros/node_handle.h>
 
 #include "datmo_fusion/ros/stage/stage.h"
@@ -15,7 +17,8 @@
 namespace datmo {
 
 /// Hosts a stage live: what it declares becomes subscribers and publishers, what it says goes to
-/// diagnostics and the console, and what it makes is timed. All of it lives in the callback queue
+/// diagnostics and the console, what it makes is timed, and its live options may be changed
+/// (LiveServer). All of it lives in the callback queue
 /// of `node`, which serves one message after the other.
 class StageHost : private StagePorts {
  public:
@@ -39,6 +42,7 @@ class StageHost : private StagePorts {
   std::vector<StageInput> inputs_;
   std::uint64_t timed_ = 0;  ///< results
   std::unique_ptr<StageReporter> reporter_;
+  std::unique_ptr<LiveServer> live_;
   std::unique_ptr<TransformSubscription> transforms_;
   std::vector<ros::Subscriber> subscribers_;
   ros::Timer timer_;

@@ -15,22 +15,15 @@ namespace datmo {
 /// Any stage as a nodelet: its options from the private namespace, its messages by StageHost.
 template <typename HostedStage>
 class StageNodelet : public nodelet::Nodelet {
- protected:
-  using Options = typename HostedStage::Options;
-
-  /// After the stage was made, before the first message.
-  virtual void prepare(HostedStage& /*stage*/, const Options& /*options*/) {}
-
  private:
   void onInit() override {
-    const auto options = loadOptions<Options>(getPrivateNodeHandle());
+    const auto options = loadOptions<typename HostedStage::Options>(getPrivateNodeHandle());
     monitor_ = std::make_unique<StageMonitor>(getName());
     transforms_ = std::make_unique<TransformBuffer>(
         options.input.restart_after, loadSharedOptions(getPrivateNodeHandle()), *monitor_);
     const Stopwatch watch;
     stage_ = makeStage<HostedStage>(options,
                                     {*transforms_, *monitor_, [watch] { return watch.seconds(); }});
-    prepare(*stage_, options);
     host_ = std::make_unique<StageHost>(getNodeHandle(), getPrivateNodeHandle(), *stage_, *monitor_,
                                         kTakesTransforms<HostedStage> ? transforms_.get() : nullptr,
                                         options.input.silence_after);

@@ -11,6 +11,12 @@ namespace datmo {
 
 namespace {
 
+/// Lines nearer to each other are one border, m.
+constexpr double kSameDistance = 0.7;
+
+/// Lines that are followed at a time.
+constexpr int kMaxBorders = 16;
+
 /// Windows that are tried one beyond the other in one search: beyond lines that were refuted.
 constexpr int kMaxWindows = 3;
 
@@ -41,9 +47,6 @@ void BorderTrackSetOptions::visit(OptionVisitor& visitor) {
   visitor.group("border", [&] { border.visit(visitor); });
   visitor.numbers({"search_from", "m", "ahead of the scanner, where searches begin"}, search_from,
                   {-50.0, 100.0});
-  visitor.number({"same_distance", "m", "lines nearer to each other are one border"}, same_distance,
-                 {0.05, 5.0});
-  visitor.integer({"max_borders", "1", "that are followed at a time"}, max_borders, {1, 1000});
 }
 
 void BorderTrackSet::clear() {
@@ -92,7 +95,7 @@ void BorderTrackSet::removeDuplicates() {
                               borders_[j].state() != FollowedBorder::State::kRefuted;
       if (i != j && both_tried &&
           borders_[i].evidence().seenStations() >= borders_[j].evidence().seenStations() &&
-          sameLine(borders_[j], borders_[i], options_.same_distance)) {
+          sameLine(borders_[j], borders_[i], kSameDistance)) {
         borders_.erase(borders_.begin() + static_cast<std::ptrdiff_t>(j));
         if (j < i) {
           --i;
@@ -105,7 +108,7 @@ void BorderTrackSet::removeDuplicates() {
 const FollowedBorder* BorderTrackSet::alongside(const FoundBorder& found) const {
   const Point2 middle = found.line * Point2(0.5 * found.length, 0.0);
   for (const FollowedBorder& border : borders_) {
-    if (border.side() == found.side && border.explains(middle, options_.same_distance)) {
+    if (border.side() == found.side && border.explains(middle, kSameDistance)) {
       return &border;
     }
   }
@@ -122,7 +125,7 @@ void BorderTrackSet::searchFrom(const HitGrid& hits, const BorderSearch& search,
     }
     const FollowedBorder* known = alongside(*found);
     if (known == nullptr) {
-      if (static_cast<int>(borders_.size()) < options_.max_borders) {
+      if (static_cast<int>(borders_.size()) < kMaxBorders) {
         borders_.emplace_back(options_.border, *found);
       }
       return;

@@ -9,6 +9,31 @@ namespace datmo {
 
 namespace {
 
+/// Smoothed hits of a cell (thesis eq. 3.5.1) that a hit needs to correct a border: what passes by
+/// has fewer.
+constexpr int kVouchingHits = 3;
+
+/// Seen stations that make a line a border, m.
+constexpr double kConfirmedLength = 6.0;
+
+/// How far beyond what was seen of it a line is corrected; at most `growth`, m.
+constexpr double kFittedGrowth = 3.0;
+
+/// A beam that ends so far beyond the line looks into a street: house fronts stand nearer, m.
+constexpr double kStreetDepth = 8.0;
+
+/// A beam that crosses a line nearer to the scanner may go over what is low: a curb, m.
+constexpr double kPassageFrom = 8.0;
+
+/// Time in which a line has to become a border, s.
+constexpr double kTrialTime = 1.0;
+
+/// Time for which a line that became none is not tried again, s.
+constexpr double kRefutedTime = 2.0;
+
+/// Standard deviation by which objects along a border stand out of its line, m.
+constexpr double kRoughness = 0.15;
+
 /// rad; a line that runs so far across the vehicle's heading is no border of its road.
 constexpr double kAcross = degrees(60.0);
 
@@ -41,18 +66,12 @@ void FollowedBorderOptions::visit(OptionVisitor& visitor) {
   visitor.group("track", [&] { track.visit(visitor); });
   visitor.group("evidence", [&] { evidence.visit(visitor); });
   visitor.number({"range_sigma", "m", "noise of a measured range"}, range_sigma, {0.0, 2.0});
-  visitor.number({"roughness", "m", "by which objects along a border stand out of its line"},
-                 roughness, {0.01, 2.0});
   visitor.number({"tolerance", "m", "from the line, where a beam that ends has hit the border"},
                  tolerance, {0.05, 5.0});
   visitor.number({"correlation", "1",
                   "scans that see the same unevenness of a border: their hits count as those of "
                   "one"},
                  correlation, {1.0, 100.0});
-  visitor.integer({"vouching_hits", "1",
-                   "smoothed hits of a cell (thesis eq. 3.5.1) that a hit needs to correct a "
-                   "border: what passes by has fewer"},
-                  vouching_hits, {1, 1000});
   visitor.number({"ahead", "m", "how far ahead of the vehicle borders are followed"}, ahead,
                  {5.0, 200.0});
   visitor.number({"behind", "m", "how far behind it they are kept"}, behind, {0.0, 200.0});
@@ -60,24 +79,9 @@ void FollowedBorderOptions::visit(OptionVisitor& visitor) {
                   "across: where a line is less sure it is not published; less sure as a whole "
                   "it is dropped"},
                  max_sigma, {0.1, 10.0});
-  visitor.number({"confirmed_length", "m", "seen stations that make a line a border"},
-                 confirmed_length, {1.0, 50.0});
   visitor.number(
       {"growth", "m", "beyond the seen pieces of a line, where what is hit may belong to it"},
       growth, {0.0, 50.0});
-  visitor.number({"fitted_growth", "m", "the same, where it corrects the line; at most growth"},
-                 fitted_growth, {0.0, 50.0});
-  visitor.number({"street_depth", "m",
-                  "beyond the line, so far as one sees into a street: house fronts stand nearer"},
-                 street_depth, {1.0, 100.0});
-  visitor.number(
-      {"passage_from", "m",
-       "a beam that crosses a line nearer to the scanner may go over what is low: a curb"},
-      passage_from, {0.0, 100.0});
-  visitor.number({"trial_time", "s", "in which a line has to become a border"}, trial_time,
-                 {0.0, 60.0});
-  visitor.number({"refuted_time", "s", "for which a line that did not is not tried again"},
-                 refuted_time, {0.0, 60.0});
 }
 
 FollowedBorder::FollowedBorder(const FollowedBorderOptions& options, const FoundBorder& found)
@@ -117,7 +121,7 @@ void FollowedBorder::findReach() {
                       piece.last - track_.arcLength() + options_.growth});
   }
   if (state_ == State::kTrial) {
-    const double margin = std::max(0.0, options_.growth - options_.fitted_growth);
+    const double margin = std::max(0.0, options_.growth - kFittedGrowth);
     reach_.push_back({-track_.arcLength() - margin, found_length_ - track_.arcLength() + margin});
   }
 }
@@ -159,18 +163,18 @@ void FollowedBorder::moveAnchor(const BorderScan& scan) {
 
 void FollowedBorder::correct(const BorderScan& scan, const std::vector<bool>& is_nearest) {
   taken_.clear();
-  const double unfitted = std::max(0.0, options_.growth - options_.fitted_growth);
+  const double unfitted = std::max(0.0, options_.growth - kFittedGrowth);
   for (std::size_t i = 0; i < scan.beams.size(); ++i) {
     const BorderScan::Beam& beam = scan.beams[i];
     const CurvePoint& position = places_[i];
-    if (!beam.hit || !beam.lasting || beam.hits_there < options_.vouching_hits || !is_nearest[i] ||
+    if (!beam.hit || !beam.lasting || beam.hits_there < kVouchingHits || !is_nearest[i] ||
         std::abs(position.aside) > options_.tolerance || !reaches(position.along, unfitted)) {
       continue;
     }
     const Point2 line = table_->at(position.along).rotate(Point2(1.0, 0.0));
     const Point2 ray = (beam.end - scan.scanner.position()).normalized();
     const double across = line.x() * ray.y() - line.y() * ray.x();
-    const double variance = square(options_.range_sigma * across) + square(options_.roughness);
+    const double variance = square(options_.range_sigma * across) + square(kRoughness);
     taken_.push_back({position, options_.correlation * variance});
   }
   track_.correct(taken_);
@@ -196,10 +200,10 @@ void FollowedBorder::weigh(const BorderScan& scan, const std::vector<bool>& is_n
       const Point2 crossing = from + share * (beam.end - from);
       const double along = table_->locate(crossing).along;
       if (sigmaAt(along) <= options_.max_sigma) {
-        if ((crossing - from).norm() >= options_.passage_from) {
+        if ((crossing - from).norm() >= kPassageFrom) {
           evidence_.addPassage(track_.arcLength() + along);
         }
-        const bool deep = end_outward > options_.street_depth;
+        const bool deep = end_outward > kStreetDepth;
         // What a slanting beam hits far along the line does not bound it where it went through.
         if (deep || std::abs(end.along - along) < options_.growth) {
           evidence_.addDepth(track_.arcLength() + along, deep);
@@ -215,9 +219,9 @@ void FollowedBorder::judge(double seconds) {
   age_ += seconds;
   State next = state_;
   if (state_ == State::kTrial) {
-    if (evidence_.seenStations() >= options_.confirmed_length) {
+    if (evidence_.seenStations() >= kConfirmedLength) {
       next = State::kConfirmed;
-    } else if (age_ > options_.trial_time) {
+    } else if (age_ > kTrialTime) {
       next = State::kRefuted;
     }
   } else if (state_ == State::kConfirmed && evidence_.seenStations() == 0) {
@@ -231,7 +235,7 @@ void FollowedBorder::judge(double seconds) {
 
 bool FollowedBorder::isOver(const Pose2& vehicle) const {
   if (state_ == State::kRefuted) {
-    return age_ > options_.refuted_time;
+    return age_ > kRefutedTime;
   }
   const CurvePoint position = table_->locate(vehicle.position());
   const double nearest =

@@ -8,6 +8,30 @@ namespace datmo {
 
 namespace {
 
+/// A station whose probability is higher has a border.
+constexpr double kBorderAbove = 0.65;
+
+/// Distance between two observations of the sides that are taken to be independent, m.
+constexpr double kEvidenceLength = 1.5;
+
+/// Upper limit of the log odds of one station: its beams have errors in common.
+constexpr double kStationLimit = 2.0;
+
+/// Distance after which the border that a side had counts for 37 % of its length, m.
+constexpr double kRoadMemory = 60.0;
+
+/// Mean distance between two intersections in a town, m.
+constexpr double kRoadLength = 150.0;
+
+/// Mean distance through an intersection, m.
+constexpr double kCrossingLength = 20.0;
+
+/// Length of which half are stations with a border before a side has one: a single one is none, m.
+constexpr double kMinBorder = 5.0;
+
+/// Border that a side of a road had of late: what is open after less is a car park, m.
+constexpr double kMinRoad = 15.0;
+
 const IntersectionDetectorOptions& checked(const IntersectionDetectorOptions& options) {
   checkOptions(options);
   if (options.leave_below > options.enter_above) {
@@ -46,11 +70,6 @@ double combined(double left, double right) {
 }  // namespace
 
 void IntersectionDetectorOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"border_above", "1", "a station whose probability is higher has a border"},
-                 border_above, {0.5, 0.99});
-  visitor.number(
-      {"min_border", "m", "of which half are stations with a border: a single one is none"},
-      min_border, {0.0, 50.0});
   visitor.number({"min_opening", "m",
                   "without a border: a street of 6 m or more, whose corners are rounded; yards and "
                   "gaps between cars are narrower"},
@@ -59,23 +78,6 @@ void IntersectionDetectorOptions::visit(OptionVisitor& visitor) {
                   "since the last border: behind it the border is lost, or it was no road but an "
                   "open space"},
                  max_opening, {1.0, 500.0});
-  visitor.number(
-      {"min_road", "m", "of border that a side had of late: what is open after less is a car park"},
-      min_road, {0.0, 100.0});
-  visitor.number({"road_memory", "m", "distance after which a border counts for 37 % of that"},
-                 road_memory, {1.0, 1000.0});
-  visitor.number({"station_limit", "1",
-                  "upper limit of the log odds of one station: its beams have errors in "
-                  "common"},
-                 station_limit, {0.1, 20.0});
-  visitor.number(
-      {"evidence_length", "m",
-       "distance between two observations of the sides that are taken to be independent"},
-      evidence_length, {0.1, 50.0});
-  visitor.number({"road_length", "m", "mean distance between two intersections in a town"},
-                 road_length, {1.0, 10000.0});
-  visitor.number({"crossing_length", "m", "mean distance through an intersection"}, crossing_length,
-                 {1.0, 1000.0});
   visitor.number({"enter_above", "1", "probability from which on the vehicle is at one"},
                  enter_above, {0.01, 0.99});
   visitor.number({"leave_below", "1", "probability from which on it is at one no more"},
@@ -89,13 +91,12 @@ IntersectionDetector::IntersectionDetector(const IntersectionDetectorOptions& op
 /// those before or behind it.
 bool IntersectionDetector::isBorder(const SidePresence& side, int station, int toward) const {
   const auto hasBorder = [&](int i) {
-    return side.probability[static_cast<std::size_t>(i)] > options_.border_above;
+    return side.probability[static_cast<std::size_t>(i)] > kBorderAbove;
   };
   if (!hasBorder(station)) {
     return false;
   }
-  const int stations =
-      std::max(1, static_cast<int>(std::lround(options_.min_border / side.station_length)));
+  const int stations = std::max(1, static_cast<int>(std::lround(kMinBorder / side.station_length)));
   int with_border = 0;
   for (int i = 0; i < stations; ++i) {
     const int at = station + toward * i;
@@ -111,7 +112,7 @@ double IntersectionDetector::meanOpenness(const SidePresence& side, double arc_l
   double sum = 0.0;
   for (int i = first; i <= last; ++i) {
     const double open = 1.0 - side.probability[static_cast<std::size_t>(i)];
-    sum += std::clamp(logOdds(open), -options_.station_limit, options_.station_limit);
+    sum += std::clamp(logOdds(open), -kStationLimit, kStationLimit);
   }
   return sum / (last - first + 1);
 }
@@ -120,8 +121,7 @@ void IntersectionDetector::pass(const SidePresence& side, double arc_length, dou
                                 PassedSide& passed) const {
   const bool has_border = !side.probability.empty() && side.station_length > 0.0 &&
                           isBorder(side, stationAt(side, arc_length), -1);
-  passed.bordered =
-      passed.bordered * std::exp(-step / options_.road_memory) + (has_border ? step : 0.0);
+  passed.bordered = passed.bordered * std::exp(-step / kRoadMemory) + (has_border ? step : 0.0);
 }
 
 double IntersectionDetector::openness(const SidePresence& side, double arc_length,
@@ -138,7 +138,7 @@ double IntersectionDetector::openness(const SidePresence& side, double arc_lengt
     }
   }
   // A few parked cars are no road.
-  const bool is_road = passed.bordered >= options_.min_road;
+  const bool is_road = passed.bordered >= kMinRoad;
   if (!border_end || arc_length - *border_end > options_.max_opening || !is_road) {
     return 0.0;
   }
@@ -152,7 +152,7 @@ double IntersectionDetector::openness(const SidePresence& side, double arc_lengt
   const double end =
       arcLengthOf(side, std::min(next, stationsOf(side) - 1)) + (ends ? -1.0 : 1.0) * half_station;
   if (arc_length <= begin || (ends && end - begin < options_.min_opening)) {
-    return -options_.station_limit;
+    return -kStationLimit;
   }
   return end - begin < options_.min_opening
              ? 0.0
@@ -173,12 +173,12 @@ void IntersectionDetector::update(const BorderPresence& presence) {
   pass(presence.right, arc_length, step, right_);
   const double evidence = combined(openness(presence.left, arc_length, left_),
                                    openness(presence.right, arc_length, right_));
-  const double enter_rate = 1.0 / options_.road_length;
-  const double rate = enter_rate + 1.0 / options_.crossing_length;
+  const double enter_rate = 1.0 / kRoadLength;
+  const double rate = enter_rate + 1.0 / kCrossingLength;
   const double usual = enter_rate / rate;
   const double before = usual + (probability_ - usual) * std::exp(-rate * step);
   // One observation, however far the step: more would be of stations that were not observed.
-  const double looks = std::min(1.0, step / options_.evidence_length);
+  const double looks = std::min(1.0, step / kEvidenceLength);
   const double ratio = std::exp(evidence * looks);
   probability_ = before * ratio / (before * ratio + 1.0 - before);
   at_intersection_ =

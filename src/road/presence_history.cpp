@@ -9,6 +9,12 @@ namespace datmo {
 
 namespace {
 
+/// Time constant with which what lies ahead and is seen no more is forgotten, s.
+constexpr double kForgetTime = 5.0;
+
+/// What lies farther behind the vehicle stays as it was, m.
+constexpr double kUpdatedTo = 2.0;
+
 constexpr double kStation = 1.0;  ///< m
 constexpr double kMinStep = 0.2;  ///< m, that counts as driven
 
@@ -33,11 +39,6 @@ double logOddsOf(const FollowedBorder& border, const std::vector<ArcLengthInterv
 void PresenceHistoryOptions::visit(OptionVisitor& visitor) {
   visitor.number({"ahead", "m", "how far ahead of the vehicle"}, ahead, {1.0, 200.0});
   visitor.number({"behind", "m", "how far behind it"}, behind, {0.0, 200.0});
-  visitor.number({"updated_to", "m", "what lies farther behind the vehicle stays as it was"},
-                 updated_to, {0.0, 200.0});
-  visitor.number({"forget_time", "s",
-                  "time constant with which what lies ahead and is seen no more is forgotten"},
-                 forget_time, {0.1, 1000.0});
 }
 
 PresenceHistory::PresenceHistory(const PresenceHistoryOptions& options) : options_(options) {}
@@ -93,15 +94,15 @@ void PresenceHistory::take(const std::vector<FollowedBorder>& borders, RoadSide 
       const double log_odds = logOddsOf(border, pieces, border.track().arcLength() + along);
       const double index =
           std::floor((presence_.arc_length + ahead - side.first_station) / kStation + 0.5);
-      if (ahead < -options_.updated_to || index < 0.0 ||
-          index >= static_cast<double>(updated_.size()) || log_odds == 0.0) {
+      if (ahead < -kUpdatedTo || index < 0.0 || index >= static_cast<double>(updated_.size()) ||
+          log_odds == 0.0) {
         continue;
       }
       std::optional<double>& updated = updated_[static_cast<std::size_t>(index)];
       updated = std::max(updated.value_or(log_odds), log_odds);
     }
   }
-  const double kept = std::exp(-seconds / options_.forget_time);
+  const double kept = std::exp(-seconds / kForgetTime);
   for (std::size_t i = 0; i < updated_.size(); ++i) {
     double& probability = side.probability[i];
     const double ahead =

@@ -66,6 +66,11 @@ RoadBorderDetector::RoadBorderDetector(const RoadBorderDetectorOptions& options)
       intersection_(options.intersection),
       side_streets_(options.side_streets) {}
 
+void RoadBorderDetector::setPublished(const BorderPublishingOptions& options) {
+  checkOptions(options);
+  options_.published = options;
+}
+
 std::optional<double> RoadBorderDetector::secondsSinceLast(const LabeledScan& scan) const {
   if (!vehicle_) {
     return std::nullopt;

@@ -11,6 +11,12 @@ namespace datmo {
 
 namespace {
 
+/// Turn of the vehicle from its last border after which it is in another road, rad.
+constexpr double kMaxTurn = 0.8;
+
+/// Distance driven for which a side without any border is taken to be bounded as it was, m.
+constexpr double kMemoryDistance = 50.0;
+
 std::size_t indexOf(RoadSide side) { return side == RoadSide::kLeft ? 0 : 1; }
 
 /// At one point, heading away from another one.
@@ -24,12 +30,6 @@ Pose2 away(const Point2& point, const Point2& from) {
 void RoadExtensionOptions::visit(OptionVisitor& visitor) {
   visitor.number({"length", "m", "that a border is taken to go on beyond its end; 0: it does not"},
                  length, {0.0, 200.0});
-  visitor.number({"memory_distance", "m",
-                  "that the vehicle drives, for which a side without any border is taken to be "
-                  "bounded as it was"},
-                 memory_distance, {0.0, 1000.0});
-  visitor.number({"max_turn", "rad", "of the vehicle from that border: then it is in another road"},
-                 max_turn, {0.0, kPi});
 }
 
 RoadExtension::RoadExtension(const RoadExtensionOptions& options) : options_(options) {
@@ -68,8 +68,8 @@ void RoadExtension::update(const RoadModel& road, const Pose2& base_in_map) {
   for (Side& side : sides_) {
     const bool is_over =
         side.last &&
-        ((side.seen_from - base_in_map.position()).norm() > options_.memory_distance ||
-         std::abs(angleBetween(side.last->heading(), base_in_map.heading())) > options_.max_turn);
+        ((side.seen_from - base_in_map.position()).norm() > kMemoryDistance ||
+         std::abs(angleBetween(side.last->heading(), base_in_map.heading())) > kMaxTurn);
     if (is_over) {
       side.last.reset();
     }

@@ -10,6 +10,15 @@ namespace datmo {
 
 namespace {
 
+/// Probability of a border that an opening must lie behind.
+constexpr double kBorderAbove = 0.6;
+
+/// Probability of a border below which the road is open.
+constexpr double kOpenBelow = 0.4;
+
+/// From the vehicle to an opening on a side without any known border, m.
+constexpr double kUsualDistance = 5.0;
+
 /// m to the side from the vehicle's axis to that border of its own road that is nearest to a
 /// station ahead; `otherwise` where there is none.
 double distanceTo(const std::vector<RoadBorder>& borders, RoadSide side, const Pose2& map_in_base,
@@ -34,17 +43,10 @@ double distanceTo(const std::vector<RoadBorder>& borders, RoadSide side, const P
 }  // namespace
 
 void RoadOpeningOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"border_above", "1", "probability of a border that an opening must lie behind"},
-                 border_above, {0.0, 1.0});
-  visitor.number({"open_below", "1", "probability of a border below which the road is open"},
-                 open_below, {0.0, 1.0});
   visitor.number({"min_length", "m", "along the road; streets are wider, curbs are rounded"},
                  min_length, {0.5, 100.0});
   visitor.number({"max_length", "m", "along the road; longer ones are no streets"}, max_length,
                  {0.5, 1000.0});
-  visitor.number(
-      {"usual_distance", "m", "from the vehicle to an opening on a side without any known border"},
-      usual_distance, {0.0, 50.0});
 }
 
 std::vector<RoadOpening> openingsOf(const BorderPresence& presence,
@@ -59,7 +61,7 @@ std::vector<RoadOpening> openingsOf(const BorderPresence& presence,
     std::size_t begin = 0;
     for (std::size_t i = 0; i <= stations.probability.size(); ++i) {
       const bool end = i == stations.probability.size();
-      if (!end && stations.probability[i] < options.open_below) {
+      if (!end && stations.probability[i] < kOpenBelow) {
         continue;
       }
       const double length = static_cast<double>(i - begin) * stations.station_length;
@@ -67,11 +69,11 @@ std::vector<RoadOpening> openingsOf(const BorderPresence& presence,
         const double middle = 0.5 * (static_cast<double>(begin) + static_cast<double>(i) - 1.0);
         const double ahead =
             stations.first_station + middle * stations.station_length - presence.arc_length;
-        const double aside = distanceTo(borders, side, map_in_base, ahead, options.usual_distance);
+        const double aside = distanceTo(borders, side, map_in_base, ahead, kUsualDistance);
         openings.push_back(
             {side, base_in_map * Pose2(ahead, outward * aside, outward * 0.5 * kPi), length});
       }
-      behind_border = behind_border || (!end && stations.probability[i] > options.border_above);
+      behind_border = behind_border || (!end && stations.probability[i] > kBorderAbove);
       begin = i + 1;
     }
   }

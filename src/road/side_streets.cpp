@@ -10,6 +10,12 @@ namespace datmo {
 
 namespace {
 
+/// Two borders nearer to each other are one, m.
+constexpr double kSameDistance = 1.5;
+
+/// Two borders are one only if turned by no more than this, rad.
+constexpr double kSameHeading = 0.3;
+
 /// m, from a point of a published border to the next.
 constexpr double kPointStep = 1.0;
 /// At a time: four streets have half as many.
@@ -32,9 +38,6 @@ void SideStreetOptions::visit(OptionVisitor& visitor) {
                  {0.0, 60.0});
   visitor.number({"start", "m", "from the vehicle's border outward: the corners' curbs are round"},
                  start, {0.0, 20.0});
-  visitor.number({"same_distance", "m", "two borders nearer to each other are one"}, same_distance,
-                 {0.0, 10.0});
-  visitor.number({"same_heading", "rad", "and turned by no more"}, same_heading, {0.0, kPi});
   visitor.group("search", [&] { search.visit(visitor); });
 }
 
@@ -78,10 +81,9 @@ void SideStreets::lookInto(const HitGrid& hits, const RoadOpening& opening, Stam
 
 bool SideStreets::isSame(const Known& known, const FoundBorder& found) const {
   const Point2 offset = known.border.line.inverse() * found.line.position();
-  return known.border.side == found.side && std::abs(offset.y()) < options_.same_distance &&
+  return known.border.side == found.side && std::abs(offset.y()) < kSameDistance &&
          std::abs(offset.x()) < known.border.length &&
-         std::abs(angleBetween(known.border.line.heading(), found.line.heading())) <
-             options_.same_heading;
+         std::abs(angleBetween(known.border.line.heading(), found.line.heading())) < kSameHeading;
 }
 
 std::vector<RoadBorder> SideStreets::borders(Stamp stamp) const {

@@ -9,6 +9,10 @@ namespace datmo {
 
 namespace {
 
+/// That a beam through the mouth of a street sees deep into it, and that one beside a street does
+/// not.
+constexpr double kDepthProbability = 0.6;
+
 constexpr double kStation = 1.0;  ///< m
 
 /// Farther stations, and what is no number, are at this limit.
@@ -30,11 +34,6 @@ void StationEvidenceOptions::visit(OptionVisitor& visitor) {
                   "change of the log odds at a station in one scan: its beams there see "
                   "the same surface"},
                  max_per_scan, {0.1, 10.0});
-  visitor.number(
-      {"depth_probability", "1",
-       "that a beam through the mouth of a street sees deep into it, and that one beside "
-       "a street does not"},
-      depth_probability, {0.5, 0.99});
   visitor.number({"saturation", "1", "most that it becomes, up and down"}, saturation, {0.5, 20.0});
   visitor.number({"seen", "1", "from where on there is a border"}, seen, {0.0, 20.0});
   visitor.number(
@@ -46,7 +45,7 @@ StationEvidence::StationEvidence(const StationEvidenceOptions& options)
     : options_(options),
       hit_(std::log(options.hit_probability / options.clutter)),
       passage_(std::log((1.0 - options.hit_probability) / (1.0 - options.clutter))),
-      depth_(std::log(options.depth_probability / (1.0 - options.depth_probability))) {}
+      depth_(std::log(kDepthProbability / (1.0 - kDepthProbability))) {}
 
 void StationEvidence::keepWithin(const ArcLengthInterval& interval) {
   const int first = indexOf(interval.first);

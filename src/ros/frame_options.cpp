@@ -4,17 +4,19 @@
 namespace datmo {
 
 void FrameOptions::visit(OptionVisitor& visitor) {
-  visitor.text({"map", "", "fixed frame of the map, the pose and the tracks"}, map, {});
-  visitor.text({"odom", "", "frame of the odometry"}, odom, {});
-  visitor.text({"base", "", "frame of the vehicle"}, base, {});
-  visitor.text(
-      {"scanner", "",
-       "frame of the planar scanner, whose height is where the layer of obstacles begins "
-       "that stereo_grid takes (thesis 3.2.2); empty: stereo_grid/scanner_height gives it"},
-      scanner, {});
+  visitor.text({"map", "", "fixed frame of the map, the pose and the tracks", Tier::kPublic}, map,
+               {});
+  visitor.text({"odom", "", "frame of the odometry", Tier::kPublic}, odom, {});
+  visitor.text({"base", "", "frame of the vehicle", Tier::kPublic}, base, {});
+  visitor.text({"scanner", "",
+                "frame of the planar scanner, whose height is where the layer of obstacles begins "
+                "that stereo_grid takes (thesis 3.2.2); empty: stereo_grid/scanner_height gives it",
+                Tier::kPublic},
+               scanner, {});
   visitor.text({"camera", "",
                 "optical frame of the stereo camera's left camera (x to the right, y down, z "
-                "ahead); empty: its clouds are in it"},
+                "ahead); empty: its clouds are in it",
+                Tier::kPublic},
                camera, {});
 }
 

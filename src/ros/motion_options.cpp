@@ -8,18 +8,22 @@ void MotionOptions::visit(OptionVisitor& visitor) {
                 "source of the vehicle's motion: its odometry (nav_msgs/Odometry); a twist "
                 "(TwistStamped, TwistWithCovarianceStamped); the yaw rate of an Imu alone, while "
                 "the speed comes from the scans; that yaw rate and the speed of a twist or of the "
-                "wheels (JointState); or none: all from the scans"},
+                "wheels (JointState); or none: all from the scans",
+                Tier::kPublic},
                source, {"odometry", "twist", "imu", "imu_and_twist", "imu_and_wheels", "none"});
   visitor.toggle({"odometry_pose", "",
                   "take the motion from the odometry's poses, for a robot's wheel encoders; "
-                  "false: its speed and yaw rate do"},
+                  "false: its speed and yaw rate do",
+                  Tier::kPublic},
                  odometry_pose);
   visitor.number({"hold", "s",
                   "how long the last odometry, or speed beside an Imu, serves when no newer one "
-                  "comes; after that the pose is predicted with the last estimated velocity"},
+                  "comes; after that the pose is predicted with the last estimated velocity",
+                  Tier::kPublic},
                  hold, {0.0, 10.0});
   visitor.number({"wheel_radius", "m",
-                  "imu_and_wheels: the speed is this times the mean velocity of the JointState"},
+                  "imu_and_wheels: the speed is this times the mean velocity of the JointState",
+                  Tier::kPublic},
                  wheel_radius, {0.001, 5.0});
 }
 

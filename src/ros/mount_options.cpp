@@ -33,15 +33,16 @@ geometry_msgs::TransformStamped toMessage(const std::string& base_frame, const s
 }  // namespace
 
 void MountOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"x", "m", "the sensor's origin in the vehicle's frame, ahead"}, x,
+  visitor.number({"x", "m", "the sensor's origin in the vehicle's frame, ahead", Tier::kPublic}, x,
                  {-kMaxDistance, kMaxDistance});
-  visitor.number({"y", "m", "to the left"}, y, {-kMaxDistance, kMaxDistance});
-  visitor.number({"z", "m", "up"}, z, {-kMaxDistance, kMaxDistance});
-  visitor.number({"yaw", "rad", "about the vehicle's z axis, after pitch and roll"}, yaw,
-                 {-kPi, kPi});
-  visitor.number({"pitch", "rad", "about its y axis, after roll; positive looks down"}, pitch,
-                 {-kPi, kPi});
-  visitor.number({"roll", "rad", "about its x axis"}, roll, {-kPi, kPi});
+  visitor.number({"y", "m", "to the left", Tier::kPublic}, y, {-kMaxDistance, kMaxDistance});
+  visitor.number({"z", "m", "up", Tier::kPublic}, z, {-kMaxDistance, kMaxDistance});
+  visitor.number({"yaw", "rad", "about the vehicle's z axis, after pitch and roll", Tier::kPublic},
+                 yaw, {-kPi, kPi});
+  visitor.number(
+      {"pitch", "rad", "about its y axis, after roll; positive looks down", Tier::kPublic}, pitch,
+      {-kPi, kPi});
+  visitor.number({"roll", "rad", "about its x axis", Tier::kPublic}, roll, {-kPi, kPi});
 }
 
 Mounts readMounts(const OptionValues& values) {

@@ -13,6 +13,10 @@ namespace datmo {
 
 namespace {
 
+/// Samples of RANSAC: with a third of the points on the ground, 120 find it with a probability of
+/// 0.99.
+constexpr int kMaxIterations = 200;
+
 /// Points that are looked at, of however many there are: several for each voxel.
 constexpr std::size_t kMaxSamples = 20000;
 
@@ -86,11 +90,6 @@ void CloudGroundOptions::visit(OptionVisitor& visitor) {
                   "points farther from the plane are none of the ground's: less than a curb's "
                   "height"},
                  tolerance, {0.01, 0.5});
-  visitor.integer(
-      {"max_iterations", "1",
-       "samples of RANSAC: with a third of the points on the ground, 120 find it with a "
-       "probability of 0.99"},
-      max_iterations, {10, 10000});
   visitor.integer({"min_voxels", "1", "squares of ground without which no plane is credible"},
                   min_voxels, {3, 10000});
   visitor.number({"max_slope", "m/m", "a plane steeper than this against the vehicle is no ground"},
@@ -112,7 +111,7 @@ CloudGround findGround(const LidarPoints& points, const std::vector<int>& indice
   search.setAxis(Eigen::Vector3f::UnitZ());
   search.setEpsAngle(std::atan(options.max_slope));
   search.setDistanceThreshold(options.tolerance);
-  search.setMaxIterations(options.max_iterations);
+  search.setMaxIterations(kMaxIterations);
   search.setOptimizeCoefficients(true);
   search.setInputCloud(ground);
   pcl::PointIndices inliers;

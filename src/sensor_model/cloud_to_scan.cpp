@@ -151,20 +151,25 @@ class Band {
 void CloudToScanOptions::visit(OptionVisitor& visitor) {
   visitor.number({"min_height", "m",
                   "lower end of the band above the ground in which points are obstacles: over "
-                  "curbs and over what the ground's plane misses"},
+                  "curbs and over what the ground's plane misses",
+                  Tier::kPublic},
                  min_height, {-0.5, 5.0});
   visitor.number({"max_height", "m",
                   "its upper end: high enough for two rows of the lidar where objects are far, "
-                  "under signs and branches"},
+                  "under signs and branches",
+                  Tier::kPublic},
                  max_height, {-0.5, 5.0});
-  visitor.number({"min_range", "m", "nearer points are left out"}, min_range, {0.0, 100.0});
-  visitor.number({"max_range", "m", "farther points are left out"}, max_range, {0.1, 500.0});
-  visitor.number({"beam_spacing", "rad", "from a beam to the next one"}, beam_spacing,
-                 {degrees(0.02), degrees(10.0)});
+  visitor.number({"min_range", "m", "nearer points are left out", Tier::kPublic}, min_range,
+                 {0.0, 100.0});
+  visitor.number({"max_range", "m", "farther points are left out", Tier::kPublic}, max_range,
+                 {0.1, 500.0});
+  visitor.number({"beam_spacing", "rad", "from a beam to the next one", Tier::kPublic},
+                 beam_spacing, {degrees(0.02), degrees(10.0)});
   visitor.number({"beam_width", "rad", "what one beam covers; 0: all up to its neighbors"},
                  beam_width, {0.0, degrees(10.0)});
-  visitor.number({"field_of_view", "rad", "first to last beam, half of it to either side"},
-                 field_of_view, {degrees(1.0), kTurn + kRounding});
+  visitor.number(
+      {"field_of_view", "rad", "first to last beam, half of it to either side", Tier::kPublic},
+      field_of_view, {degrees(1.0), kTurn + kRounding});
   visitor.number({"blind_width", "rad",
                   "a beam is without measurement (NaN) if the cloud has no point at all this far "
                   "to either side of it: behind the vehicle's own roof, out of the lidar's view"},

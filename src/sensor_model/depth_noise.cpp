@@ -49,11 +49,13 @@ void DepthNoiseOptions::visit(OptionVisitor& visitor) {
   visitor.text({"depth_noise", "",
                 "what the camera measures depth by, which the noise of depths follows from: stereo "
                 "(camera info of a right camera), active_stereo (a depth camera with a pair of "
-                "its own), structured_light, time_of_flight"},
+                "its own), structured_light, time_of_flight",
+                Tier::kPublic},
                principle, principleNames());
   visitor.number({"disparity_sigma", "px",
                   "standard deviation of a disparity, of both forms of stereo; at 0.25 px two "
-                  "standard deviations of the demonstrator's depth are 5 m at 36 m (thesis 3.3.3)"},
+                  "standard deviations of the demonstrator's depth are 5 m at 36 m (thesis 3.3.3)",
+                  Tier::kPublic},
                  disparity_sigma, {0.01, 10.0});
   visitor.group("structured_light", [&] { structured_light.visit(visitor); });
   visitor.group("time_of_flight", [&] { time_of_flight.visit(visitor); });

@@ -87,7 +87,8 @@ void LidarGridOptions::visit(OptionVisitor& visitor) {
       free_probability, {0.01, 0.49});
   visitor.number({"beam_width", "rad",
                   "opening angle of a beam; 0: it reaches half way to its neighbors (thesis "
-                  "3.2.1: each cell asks the nearest beam)"},
+                  "3.2.1: each cell asks the nearest beam)",
+                  Tier::kPublic},
                  beam_width, {0.0, 0.2});
   visitor.number({"min_incidence", "rad",
                   "flattest angle at which a beam meets a surface: the flatter, the shorter the "

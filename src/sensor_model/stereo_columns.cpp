@@ -13,6 +13,24 @@ namespace datmo {
 
 namespace {
 
+/// A cell with this share of what makes it occupied is not called free any more.
+constexpr double kDoubtfulShare = 0.5;
+
+/// An occupied cell becomes unknown if it has less surface than so many times what the noise of the
+/// depth alone brings there from another point on the line of sight; 0: none does.
+constexpr double kNoiseFactor = 1.0;
+
+/// Lines of sight without which no cell is called free.
+constexpr int kMinLines = 3;
+
+/// A cell is free if at least this share of the lines of sight that cross it below the layer of
+/// obstacles, in an image without holes, does so: whatever reaches up to the layer would have
+/// stopped them.
+constexpr double kMinSeenShare = 0.3;
+
+/// Neighboring cells with less surface than this in all are noise, m^2.
+constexpr double kMinObjectSurface = 0.05;
+
 /// What noise brings from elsewhere comes from so far (standard deviations of the depth) at most;
 /// looked for in such steps.
 constexpr double kSmearReach = 2.0;
@@ -68,8 +86,7 @@ bool StereoColumns::isSmear(const PointInView& position) const {
     const double offset = depth - position.forward;
     if (depth > 0.0 && depth < 2.0 * field_.effective_range && std::abs(offset) > half_cell_) {
       const double share = std::exp(-0.5 * offset * offset / variance);
-      if (surface <
-          options_.columns.noise_factor * share * surfaceAt({depth, position.tangent() * depth})) {
+      if (surface < kNoiseFactor * share * surfaceAt({depth, position.tangent() * depth})) {
         return true;
       }
     }
@@ -79,8 +96,7 @@ bool StereoColumns::isSmear(const PointInView& position) const {
 
 bool StereoColumns::isSeenThrough(const PointInView& position) const {
   const StereoEvidence::Lines lines = evidence_.linesAcross(position, half_cell_);
-  return lines.seen >= options_.columns.min_lines &&
-         lines.seen >= options_.columns.min_seen_share * lines.expected;
+  return lines.seen >= kMinLines && lines.seen >= kMinSeenShare * lines.expected;
 }
 
 std::vector<CellIndex> StereoColumns::markCells(SensorGrid& grid) const {
@@ -95,7 +111,7 @@ std::vector<CellIndex> StereoColumns::markCells(SensorGrid& grid) const {
     if (surface >= min) {
       grid.at(cell) = occupied;
       occupied_cells.push_back(cell);
-    } else if (surface < limits.doubtful_share * min && isSeenThrough(position)) {
+    } else if (surface < kDoubtfulShare * min && isSeenThrough(position)) {
       grid.at(cell) = free;
     }
   });
@@ -111,7 +127,7 @@ bool StereoColumns::isNoise(const std::vector<CellIndex>& object, const GridWind
     const double share = std::min(1.0, 2.0 * half_cell_ / (depths.far - depths.near));
     surface += share * surfaceAt(position);
   }
-  return surface < options_.columns.min_object_surface;
+  return surface < kMinObjectSurface;
 }
 
 std::vector<CellIndex> StereoColumns::withoutNoise(const std::vector<CellIndex>& occupied,

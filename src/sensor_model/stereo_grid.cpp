@@ -56,17 +56,6 @@ void StereoColumnsOptions::visit(OptionVisitor& visitor) {
   visitor.integer(
       {"min_points", "1", "and at least so many points: far away, one has much surface"},
       min_points, {1, 10000});
-  visitor.number({"min_object_surface", "m^2",
-                  "neighboring cells with less surface than this in all are noise"},
-                 min_object_surface, {0.0, 100.0});
-  visitor.number({"doubtful_share", "1",
-                  "a cell with this share of what makes it occupied is not called free any more"},
-                 doubtful_share, {0.0, 1.0});
-  visitor.number({"noise_factor", "1",
-                  "an occupied cell becomes unknown if it has less surface than so many times what "
-                  "the noise of the depth alone brings there from another point on the line of "
-                  "sight; 0: none does"},
-                 noise_factor, {0.0, 1.2});
   visitor.number({"road_sigmas", "1",
                   "a point is one of the road if a depth that is wrong by so many standard "
                   "deviations puts it where it is"},
@@ -75,12 +64,6 @@ void StereoColumnsOptions::visit(OptionVisitor& visitor) {
                   "cells nearer to an obstacle than so many standard deviations of its depth are "
                   "not called free"},
                  obstacle_sigmas, {0.0, 10.0});
-  visitor.number({"min_seen_share", "1",
-                  "a cell is free if at least this share of the lines of sight that cross it below "
-                  "the layer of obstacles, in an image without holes, does so: whatever reaches up "
-                  "to the layer would have stopped them"},
-                 min_seen_share, {0.0, 1.0});
-  visitor.integer({"min_lines", "1", "and at least so many of them"}, min_lines, {1, 10000});
 }
 
 void StereoGridOptions::visit(OptionVisitor& visitor) {
@@ -100,10 +83,11 @@ void StereoGridOptions::visit(OptionVisitor& visitor) {
                  min_layer_height, {0.05, 2.0});
   visitor.number({"layer_thickness", "m", "height of the layer of obstacles (thesis eq. 3.2.2)"},
                  layer_thickness, {0.1, 5.0});
-  visitor.number({"min_depth", "m", "nearer points are mismatches (columns only)"}, min_depth,
-                 {0.05, 10.0});
-  visitor.number({"effective_range", "m", "nothing is said beyond it (thesis 3.2.2: 36 m)"},
-                 effective_range, {1.0, 200.0});
+  visitor.number({"min_depth", "m", "nearer points are mismatches (columns only)", Tier::kPublic},
+                 min_depth, {0.05, 10.0});
+  visitor.number(
+      {"effective_range", "m", "nothing is said beyond it (thesis 3.2.2: 36 m)", Tier::kPublic},
+      effective_range, {1.0, 200.0});
   visitor.group("columns", [&] { columns.visit(visitor); });
   visitor.group("cones", [&] { cones.visit(visitor); });
   visitor.group("road", [&] { road.visit(visitor); });

@@ -6,17 +6,19 @@
 namespace datmo {
 
 void MotionModelOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"speed_noise", "m/s", "standard deviation of the speed"}, speed_noise,
-                 {0.001, 10.0});
+  visitor.number({"speed_noise", "m/s", "standard deviation of the speed", Tier::kPublic},
+                 speed_noise, {0.001, 10.0});
   visitor.number({"speed_noise_ratio", "1", "and of it for each m/s of speed: wheel radius, slip"},
                  speed_noise_ratio, {0.0, 1.0});
-  visitor.number({"yaw_rate_noise", "rad/s", "standard deviation of the yaw rate, bias included"},
+  visitor.number({"yaw_rate_noise", "rad/s", "standard deviation of the yaw rate, bias included",
+                  Tier::kPublic},
                  yaw_rate_noise, {0.0001, 3.0});
   visitor.number({"yaw_rate_noise_ratio", "1", "and of it for each rad/s of yaw rate"},
                  yaw_rate_noise_ratio, {0.0, 1.0});
   visitor.number({"side_slip_noise", "m/s", "standard deviation of the speed sideways"},
                  side_slip_noise, {0.0001, 5.0});
-  visitor.number({"acceleration_noise", "m/s^1.5", "without odometry: random walk of the speed"},
+  visitor.number({"acceleration_noise", "m/s^1.5", "without odometry: random walk of the speed",
+                  Tier::kPublic},
                  acceleration_noise, {0.001, 50.0});
   visitor.number(
       {"yaw_acceleration_noise", "rad/s^1.5", "without odometry: random walk of the yaw rate"},

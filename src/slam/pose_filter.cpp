@@ -5,20 +5,27 @@
 
 namespace datmo {
 
+namespace {
+
+/// Random walk of the speed's scale, 1/s^0.5.
+constexpr double kSpeedScaleDrift = 0.0005;
+
+/// Standard deviation of the speed's scale at the start.
+constexpr double kSpeedScaleSigma = 0.05;
+
+/// Random walk of the yaw rate's bias, rad/s^1.5.
+constexpr double kYawRateBiasDrift = 0.0005;
+
+/// Standard deviation of the yaw rate's bias at the start, rad/s.
+constexpr double kYawRateBiasSigma = 0.02;
+
+}  // namespace
+
 void PoseFilterOptions::visit(OptionVisitor& visitor) {
   visitor.toggle({"calibrate_odometry", "",
                   "estimate the odometry's scale error and yaw-rate bias online; false: take it "
                   "as unbiased (thesis)"},
                  calibrate_odometry);
-  visitor.number({"speed_scale_sigma", "1", "standard deviation of the speed's scale at the start"},
-                 speed_scale_sigma, {0.0, 0.5});
-  visitor.number(
-      {"yaw_rate_bias_sigma", "rad/s", "standard deviation of the yaw rate's bias at the start"},
-      yaw_rate_bias_sigma, {0.0, 1.0});
-  visitor.number({"speed_scale_drift", "1/s^0.5", "random walk of the speed's scale"},
-                 speed_scale_drift, {0.0, 0.1});
-  visitor.number({"yaw_rate_bias_drift", "rad/s^1.5", "random walk of the yaw rate's bias"},
-                 yaw_rate_bias_drift, {0.0, 0.1});
 }
 
 PoseFilter::PoseFilter(const PoseFilterOptions& options, const MotionModelOptions& motion)
@@ -26,9 +33,8 @@ PoseFilter::PoseFilter(const PoseFilterOptions& options, const MotionModelOption
   checkOptions(options);
   covariance_.block<2, 2>(kSpeed, kSpeed) = motion_model_.initialVelocityCovariance();
   if (options_.calibrate_odometry) {
-    covariance_(kSpeedScale, kSpeedScale) = options_.speed_scale_sigma * options_.speed_scale_sigma;
-    covariance_(kYawRateBias, kYawRateBias) =
-        options_.yaw_rate_bias_sigma * options_.yaw_rate_bias_sigma;
+    covariance_(kSpeedScale, kSpeedScale) = kSpeedScaleSigma * kSpeedScaleSigma;
+    covariance_(kYawRateBias, kYawRateBias) = kYawRateBiasSigma * kYawRateBiasSigma;
   }
 }
 
@@ -74,10 +80,8 @@ void PoseFilter::predictMeasured(const Pose2& motion, double seconds) {
 
 void PoseFilter::addErrorDrift(double seconds) {
   if (options_.calibrate_odometry) {
-    covariance_(kSpeedScale, kSpeedScale) +=
-        options_.speed_scale_drift * options_.speed_scale_drift * seconds;
-    covariance_(kYawRateBias, kYawRateBias) +=
-        options_.yaw_rate_bias_drift * options_.yaw_rate_bias_drift * seconds;
+    covariance_(kSpeedScale, kSpeedScale) += kSpeedScaleDrift * kSpeedScaleDrift * seconds;
+    covariance_(kYawRateBias, kYawRateBias) += kYawRateBiasDrift * kYawRateBiasDrift * seconds;
   }
 }
 

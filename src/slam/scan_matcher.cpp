@@ -104,9 +104,9 @@ void ScanMatcherOptions::visit(OptionVisitor& visitor) {
       {"refinement_steps", "1",
        "Gauss-Newton steps at each resolution at the most; 0: the best sample as it is (thesis)"},
       refinement_steps, {0, 100});
-  visitor.number(
-      {"point_sigma", "m", "standard deviation of an end point about the surface it hit"},
-      point_sigma, {0.005, 2.0});
+  visitor.number({"point_sigma", "m", "standard deviation of an end point about the surface it hit",
+                  Tier::kPublic},
+                 point_sigma, {0.005, 2.0});
   visitor.number({"information_share", "1",
                   "share of the end points' information that counts: their errors are not "
                   "independent (shape of the surface, pose of earlier scans)"},

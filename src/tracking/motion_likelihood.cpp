@@ -191,7 +191,8 @@ void MotionLikelihoodOptions::visit(OptionVisitor& visitor) {
                  clutter_odds, {1.0, 1e12});
   visitor.number({"required_probability", "1",
                   "that a target moves, from which on it does: its sweep draws the operating curve "
-                  "of missed frames against false tracks"},
+                  "of missed frames against false tracks",
+                  Tier::kLive},
                  required_probability, {0.5, 0.999999});
 }
 

@@ -75,6 +75,8 @@ class Tracker::State {
 
   void addScan(const LabeledScan& scan) { scans_.add(scan); }
 
+  void setOptions(const TrackerOptions& options) { options_ = options; }
+
   const Visibility& unknownView() const { return unknown_view_; }
   const TrackerCounts& counts() const { return counts_; }
 
@@ -262,6 +264,11 @@ Tracker::Tracker(const TrackerOptions& options, StepClock clock) {
 }
 
 Tracker::~Tracker() = default;
+
+void Tracker::setOptions(const TrackerOptions& options) {
+  checkOptions(options);
+  state_->setOptions(options);
+}
 
 void Tracker::addScan(const LabeledScan& scan) { state_->addScan(scan); }
 

@@ -37,7 +37,7 @@ void TrackerOptions::visit(OptionVisitor& visitor) {
       {"min_existence", "1", "existence probability below which a confirmed track is deleted"},
       min_existence, kProbability);
   visitor.number({"published_existence", "1",
-                  "existence probability from which a confirmed track is published"},
+                  "existence probability from which a confirmed track is published", Tier::kLive},
                  published_existence, kProbability);
   constexpr Bounds kSilence{0.0, 60.0};
   visitor.number({"tentative_silence", "s", "an unconfirmed target not seen for longer is deleted"},
@@ -48,11 +48,13 @@ void TrackerOptions::visit(OptionVisitor& visitor) {
                  confirmed_silence, kSilence);
   visitor.number({"published_silence", "s",
                   "a track not seen for longer is not published; less long if it was followed for "
-                  "less than twice that, but no less than an unconfirmed one is kept"},
+                  "less than twice that, but no less than an unconfirmed one is kept",
+                  Tier::kLive},
                  published_silence, kSilence);
-  visitor.number({"max_position_std", "m",
-                  "a target is deleted when the standard deviation of its position is larger"},
-                 max_position_std, {0.1, 100.0});
+  visitor.number(
+      {"max_position_std", "m",
+       "a target is deleted when the standard deviation of its position is larger", Tier::kPublic},
+      max_position_std, {0.1, 100.0});
   visitor.number({"history_time", "s", "how much of its path is published with a track"},
                  history_time, {0.0, 60.0});
   visitor.number({"time_budget", "s",

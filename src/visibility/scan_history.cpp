@@ -9,6 +9,13 @@
 
 namespace datmo {
 
+namespace {
+
+/// Tolerance of an end point's bearing: noise, the body's pitch and roll, the pose, rad.
+constexpr double kBearingTolerance = 0.005;
+
+}  // namespace
+
 void ScanHistoryOptions::visit(OptionVisitor& visitor) {
   visitor.number({"memory", "s", "how far back the observations of scans are kept"}, memory,
                  {0.1, 60.0});
@@ -17,9 +24,6 @@ void ScanHistoryOptions::visit(OptionVisitor& visitor) {
                   "a beam that ends nearer to the line through a point than this has hit it: twice "
                   "the standard deviation of the range"},
                  tolerance, {0.05, 5.0});
-  visitor.number({"bearing_tolerance", "rad",
-                  "the same for its bearing: noise, the body's pitch and roll, the pose"},
-                 bearing_tolerance, {0.0, 0.1});
   visitor.number({"lit_share", "1",
                   "part of the angle between two beams that a beam covers: a point beside that is "
                   "not seen free"},
@@ -104,8 +108,7 @@ BeamCrossing ScanHistory::look(std::size_t back, const ReflectionPoint& location
     return {};  // the beam beside the point diverges from the line
   }
   // Flat beams meet the line elsewhere for a small error of their bearing.
-  const double tolerance =
-      options_.tolerance + options_.bearing_tolerance * crossing / std::abs(incidence);
+  const double tolerance = options_.tolerance + kBearingTolerance * crossing / std::abs(incidence);
   const bool ends = beam->hit && std::abs(beam->reach - crossing) <= tolerance;
   if (!ends && beam->reach <= crossing + tolerance) {
     return {};

@@ -14,6 +14,17 @@ namespace datmo {
 
 namespace {
 
+/// How far from an object's near side static points may end, in standard deviations of its
+/// position: few, since what stands beside it must not freeze it.
+constexpr double kStaticReach = 1.0;
+
+/// How far behind an object a beam must end that passed through it, in standard deviations of its
+/// position.
+constexpr double kThroughReach = 2.0;
+
+/// How far behind its near side a beam may meet a body: it has no straight sides, m.
+constexpr double kBodyDepth = 0.5;
+
 /// Nothing that a sensor detects is narrower (m): a leg, a post.
 constexpr double kMinWidth = 0.1;
 
@@ -83,7 +94,7 @@ bool isAbout(const Point2& point, const Object& object, const Silhouette& silhou
   Point2 excess = (point.cwiseAbs() - silhouette.half).cwiseMax(0.0);
   for (Eigen::Index axis = 0; axis < 2; ++axis) {
     const bool behind = point[axis] * silhouette.scanner[axis] < 0.0;
-    const double unseen = std::max(0.0, options.body_depth - 2.0 * silhouette.half[axis]);
+    const double unseen = std::max(0.0, kBodyDepth - 2.0 * silhouette.half[axis]);
     excess[axis] = std::max(0.0, excess[axis] - (behind ? unseen : 0.0));
   }
   const double distance = excess.norm();
@@ -92,16 +103,16 @@ bool isAbout(const Point2& point, const Object& object, const Silhouette& silhou
   }
   const Point2 outwards = excess.cwiseProduct(point.cwiseSign()) / distance;
   const double sigma = std::sqrt(varianceAlong(object, -outwards));
-  return distance <= std::min(options.static_reach * sigma, options.max_static_reach);
+  return distance <= std::min(kStaticReach * sigma, options.max_static_reach);
 }
 
 /// Whether a beam goes on beyond all of the object; `direction`: unit vector in the box's frame.
 bool passesThrough(double range, const Point2& direction, double motion_std, const Object& object,
-                   const Silhouette& silhouette, const ScanSupportOptions& options) {
+                   const Silhouette& silhouette) {
   const Crossing through = crossing(silhouette, direction);
   const double variance = varianceAlong(object, direction) + motion_std * motion_std;
-  return range > std::max(through.exit, through.entry + options.body_depth) +
-                     options.through_reach * std::sqrt(variance);
+  return range >
+         std::max(through.exit, through.entry + kBodyDepth) + kThroughReach * std::sqrt(variance);
 }
 
 }  // namespace
@@ -111,20 +122,9 @@ void ScanSupportOptions::visit(OptionVisitor& visitor) {
                   "an object that the scanner does not list stands still if at least this share "
                   "of the beams at its position end there on static points"},
                  static_share, {0.01, 1.0});
-  visitor.number(
-      {"static_reach", "1",
-       "how far from its near side they may end, in standard deviations of its position: "
-       "few, since what stands beside it must not freeze it"},
-      static_reach, {0.0, 10.0});
-  visitor.number({"max_static_reach", "m", "the same, however uncertain its position is"},
+  visitor.number({"max_static_reach", "m",
+                  "how far from the near side of an object static points end at most"},
                  max_static_reach, {0.0, 20.0});
-  visitor.number({"through_reach", "1",
-                  "how far behind it a beam must end that passed through its position, in standard "
-                  "deviations of it"},
-                 through_reach, {0.0, 10.0});
-  visitor.number({"body_depth", "m",
-                  "how far behind its near side a beam may meet a body: it has no straight sides"},
-                 body_depth, {0.0, 10.0});
 }
 
 ScanSupport::ScanSupport(const LabeledScan& scan, const ScanSupportOptions& options)
@@ -194,9 +194,8 @@ PositionEvidence ScanSupport::evidence(const Object& object, double motion_std) 
     const bool stands =
         seen != nullptr && seen->end == End::kStaticHit &&
         isAbout(silhouette.scanner + seen->range * direction, object, silhouette, options_);
-    const bool through =
-        seen != nullptr && !stands && meets &&
-        passesThrough(seen->range, direction, motion_std, object, silhouette, options_);
+    const bool through = seen != nullptr && !stands && meets &&
+                         passesThrough(seen->range, direction, motion_std, object, silhouette);
     asked += meets || stands ? 1.0 : 0.0;
     result.static_share += stands ? 1.0 : 0.0;
     result.through_share += through ? 1.0 : 0.0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <tf2_msgs/TFMessage.h>
@@ -95,6 +96,20 @@ std::string askForChoice(const std::string& nodelet, const std::string& choice,
   call.request.config.strs[0].value = value;
   const bool answered = ros::service::call("/" + nodelet + "/set_parameters", call);
   return answered && !call.response.config.strs.empty() ? call.response.config.strs[0].value : "";
+}
+
+double askForNumber(const std::string& nodelet, const std::string& option, double value) {
+  dynamic_reconfigure::Reconfigure call;
+  call.request.config.doubles.resize(1);
+  call.request.config.doubles[0].name = option;
+  call.request.config.doubles[0].value = value;
+  ros::service::call("/" + nodelet + "/set_parameters", call);
+  for (const auto& kept : call.response.config.doubles) {
+    if (kept.name == option) {
+      return kept.value;
+    }
+  }
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 Chain::Chain()

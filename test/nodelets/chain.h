@@ -53,10 +53,12 @@ class Listener {
   std::map<std::string, diagnostic_msgs::DiagnosticStatus> diagnostics_;  ///< by nodelet
 };
 
-/// What the dynamic_reconfigure server of a nodelet keeps after `value` was asked for of one of its
-/// choices.
+/// What a nodelet keeps after `value` was asked for of one of its live options that are text.
 std::string askForChoice(const std::string& nodelet, const std::string& choice,
                          const std::string& value);
+
+/// The same of one that is a number; NaN if there is none of that name.
+double askForNumber(const std::string& nodelet, const std::string& option, double value);
 
 /// Sends the nodelets a drive through a World, with the clock.
 class Chain : public Listener {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The running road_border nodelet behind a scripted grid_slam: what comes out of scans between two
 // walls, and what happens with scans that are none. The tests go through one drive, in this order.
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -85,6 +86,18 @@ class RoadBorderTest : public testing::Test {
     return farthest;
   }
 
+  /// m, from the vehicle to the farthest point of the last borders.
+  static double farthestAhead() {
+    const double vehicle = samples::scanBetweenWalls(now_ - kStep).base_in_map.pose.position().x();
+    double farthest = 0.0;
+    for (const RoadBorderMessage& border : last().borders) {
+      for (const auto& point : border.points) {
+        farthest = std::max(farthest, point.x - vehicle);
+      }
+    }
+    return farthest;
+  }
+
   static RoadBorderDoor* door_;
   static double now_;  // s, of the drive
 };
@@ -122,6 +135,21 @@ TEST_F(RoadBorderTest, ScansThatAreNoneAreCounted) {
   expectDropped("old_stamp", [](auto& scan) { scan.header.stamp -= ros::Duration(0.5); });
   ASSERT_NO_FATAL_FAILURE(driveOn(0.5));
   EXPECT_LT(farthestFromWalls(), 0.5);
+}
+
+TEST_F(RoadBorderTest, WhatIsPublishedChangesWhileItRunsAndNothingIsForgotten) {
+  constexpr double kAhead = 8.0;  // m
+  const double before = farthestAhead();
+  ASSERT_GT(before, kAhead + 5.0);
+  EXPECT_EQ(askForNumber("road_border", "published/ahead", kAhead), kAhead);
+  EXPECT_EQ(ros::param::param("/road_border/published/ahead", 0.0), kAhead);
+  ASSERT_NO_FATAL_FAILURE(step());
+  EXPECT_LE(farthestAhead(), kAhead + 1.5);
+  EXPECT_EQ(askForNumber("road_border", "published/ahead", -1.0), kAhead) << "out of its range";
+  EXPECT_TRUE(std::isnan(askForNumber("road_border", "max_step", 5.0))) << "not live";
+  EXPECT_EQ(askForNumber("road_border", "published/ahead", 40.0), 40.0);
+  ASSERT_NO_FATAL_FAILURE(step());
+  EXPECT_GT(farthestAhead(), before - 2.0) << "what was followed is still there";
 }
 
 TEST_F(RoadBorderTest, SilenceIsSaid) {

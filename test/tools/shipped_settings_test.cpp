@@ -70,5 +70,25 @@ TEST(ParameterPage, ListsTheParametersAsTheyAre) {
   EXPECT_EQ(page.str(), parameterTables()) << "make it anew: list_parameters > doc/parameters.md";
 }
 
+std::size_t countOf(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+TEST(ParameterPage, PublicParametersAreFewAndManyOfThemAreLive) {
+  const std::string page = parameterTables();
+  const std::string of_users = page.substr(0, page.find("# Expert parameters"));
+  ASSERT_LT(of_users.size(), page.size());
+  constexpr std::size_t kMaxPublic = 120;
+  constexpr std::size_t kMinLive = 15;
+  EXPECT_GT(countOf(of_users, "\n| `"), 0U);
+  EXPECT_LE(countOf(of_users, "\n| `"), kMaxPublic);
+  EXPECT_GE(countOf(of_users, "*live* |"), kMinLive);
+  EXPECT_EQ(countOf(page, "*live* |"), countOf(of_users, "*live* |"));
+}
+
 }  // namespace
 }  // namespace datmo

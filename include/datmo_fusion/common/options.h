@@ -11,11 +11,19 @@
 
 namespace datmo {
 
+/// Who sets an option.
+enum class Tier {
+  kExpert,  ///< part of the method: who knows it, its tests, the thesis's preset
+  kPublic,  ///< who has another sensor, vehicle or city
+  kLive     ///< the same, also while the stage runs
+};
+
 /// What a person who sets an option must know about it; stands once, where the option is declared.
 struct OptionInfo {
   std::string name;         ///< key in the yaml file
   std::string unit;         ///< "m", "s", "1" for a pure number, "" for text and switches
   std::string description;  ///< what it does, and its source: thesis section or paper
+  Tier tier = Tier::kExpert;
 };
 
 /// Closed interval of the values that an option may take.
@@ -47,8 +55,9 @@ class OptionVisitor {
   virtual void text(const OptionInfo& info, std::string& value,
                     const std::vector<std::string>& allowed) = 0;
 
-  /// Options that stand under a common key: `name/…`.
-  void group(const std::string& name, const std::function<void()>& visit_members);
+  /// Options that stand under a common key: `name/…`. None of them is of a higher tier than `max`.
+  void group(const std::string& name, const std::function<void()>& visit_members,
+             Tier max = Tier::kLive);
 
   /// The same options for each of several entries, under the name of each: `name/lidar/…`,
   /// `name/stereo/…`. A name that is set but was not there is one more entry, with the defaults of
@@ -75,8 +84,16 @@ class OptionVisitor {
   /// The full key of an option: the names of the groups around it, and its own.
   std::string key(const OptionInfo& info) const;
 
+  /// The tier of an option within the groups around it.
+  Tier tier(const OptionInfo& info) const;
+
  private:
-  std::vector<std::string> groups_;
+  struct Group {
+    std::string name;
+    Tier max;
+  };
+
+  std::vector<Group> groups_;
 };
 
 /// What somebody has set, by full key (`map/cell_size`), wherever it was read from.

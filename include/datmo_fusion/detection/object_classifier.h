@@ -28,7 +28,6 @@ struct ObjectClassifierOptions {
   KindSize van{2.0, 2.1, 0.3, 5.2, 0.6, 1.95, 0.15, 0.5};
   KindSize truck{1.0, 3.4, 0.4, 9.0, 2.5, 2.5, 0.15, 0.4};
   KindSize pole{3.0, 4.5, 1.2, 0.2, 0.1, 0.2, 0.1, 0.05};
-  double ahead_share = 0.6;  ///< 0 to 1
   double other_share = 2.0;  ///< relative to the kinds' shares
 
   void visit(OptionVisitor& visitor);

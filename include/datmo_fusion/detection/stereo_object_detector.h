@@ -16,11 +16,8 @@ namespace datmo {
 struct StereoSurfaceOptions {
   double min_depth = 0.5;     ///< m
   double min_height = 0.3;    ///< m
-  double layer_top = 2.2;     ///< m
   double max_height = 5.0;    ///< m
-  double road_sigmas = 2.0;   ///< standard deviations of the depth
   double finest_depth = 0.1;  ///< m
-  double min_visible = 0.35;  ///< m
   int min_points = 3;
 
   void visit(OptionVisitor& visitor);
@@ -28,12 +25,8 @@ struct StereoSurfaceOptions {
 
 /// Which surfaces belong together.
 struct SurfaceGroupOptions {
-  double lateral_gap = 0.4;   ///< m
   double depth_gap = 0.6;     ///< m
   double depth_sigmas = 1.2;  ///< standard deviations of the depth
-  double stacked_gap = 1.2;   ///< m
-  double dent = 1.0;          ///< m
-  double dent_sigmas = 2.5;   ///< standard deviations of the depth
   double tall = 2.6;          ///< m
   double low = 2.0;           ///< m
 
@@ -48,7 +41,6 @@ struct StereoNoiseOptions {
   double edge_sigma = 1.0;         ///< px
   double body_sigma = 0.2;         ///< m
   double height_sigma = 0.1;       ///< m
-  double extent_sigma = 0.2;       ///< m
 
   void visit(OptionVisitor& visitor);
 };
@@ -63,7 +55,6 @@ struct StereoObjectDetectorOptions {
   double sure_range = 25.0;       ///< m
   double min_surface = 0.15;      ///< m^2
   double max_size = 12.0;         ///< m
-  double max_other = 0.9;         ///< 0 to 1
   double max_doubt = 3.0;         ///< logarithm of odds
 
   void visit(OptionVisitor& visitor);

@@ -24,11 +24,9 @@ struct OccupancyMapOptions {
   double beam_width = 0.0;        ///< rad, in which a beam is free up to its end
   double surface_sigma = 0.2;     ///< m, 0: a beam frees each cell that it passes
   double moving_below = 0.3;      ///< occupancy that counts as seen free
-  double static_above = 0.7;      ///< occupancy that counts as occupied
   double static_after = 0.8;      ///< s, between first and last hit of a static cell
   int static_neighborhood = 1;    ///< cells around an end point that vouch for it
   int ghost_after = 2;            ///< ends that others have refuted
-  double ghost_share = 0.1;       ///< of all ends of beams in a cell
 
   void visit(OptionVisitor& visitor);
 };

@@ -14,8 +14,6 @@ namespace datmo {
 struct BorderTrackSetOptions {
   FollowedBorderOptions border;
   std::vector<double> search_from{0.0, 12.0};  ///< m
-  double same_distance = 0.7;                  ///< m
-  int max_borders = 16;                        ///< 1
 
   void visit(OptionVisitor& visitor);
 };

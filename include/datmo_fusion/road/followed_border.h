@@ -15,21 +15,13 @@ namespace datmo {
 struct FollowedBorderOptions {
   BorderTrackOptions track;
   StationEvidenceOptions evidence;
-  double range_sigma = 0.2;       ///< m
-  double roughness = 0.15;        ///< m
-  double tolerance = 0.5;         ///< m
-  double correlation = 4.0;       ///< 1
-  int vouching_hits = 3;          ///< 1
-  double ahead = 45.0;            ///< m
-  double behind = 20.0;           ///< m
-  double max_sigma = 1.0;         ///< m
-  double confirmed_length = 6.0;  ///< m
-  double growth = 8.0;            ///< m
-  double fitted_growth = 3.0;     ///< m
-  double street_depth = 8.0;      ///< m
-  double passage_from = 8.0;      ///< m
-  double trial_time = 1.0;        ///< s
-  double refuted_time = 2.0;      ///< s
+  double range_sigma = 0.2;  ///< m
+  double tolerance = 0.5;    ///< m
+  double correlation = 4.0;  ///< 1
+  double ahead = 45.0;       ///< m
+  double behind = 20.0;      ///< m
+  double max_sigma = 1.0;    ///< m
+  double growth = 8.0;       ///< m
 
   void visit(OptionVisitor& visitor);
 };

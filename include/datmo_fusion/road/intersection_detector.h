@@ -9,18 +9,10 @@
 namespace datmo {
 
 struct IntersectionDetectorOptions {
-  double border_above = 0.65;     ///< 1
-  double min_border = 5.0;        ///< m
-  double min_opening = 8.0;       ///< m
-  double min_road = 15.0;         ///< m
-  double road_memory = 60.0;      ///< m
-  double max_opening = 45.0;      ///< m
-  double station_limit = 2.0;     ///< 1
-  double evidence_length = 1.5;   ///< m
-  double road_length = 150.0;     ///< m
-  double crossing_length = 20.0;  ///< m
-  double enter_above = 0.9;       ///< 1
-  double leave_below = 0.3;       ///< 1
+  double min_opening = 8.0;   ///< m
+  double max_opening = 45.0;  ///< m
+  double enter_above = 0.9;   ///< 1
+  double leave_below = 0.3;   ///< 1
 
   void visit(OptionVisitor& visitor);
 };

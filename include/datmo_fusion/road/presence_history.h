@@ -12,10 +12,8 @@
 namespace datmo {
 
 struct PresenceHistoryOptions {
-  double ahead = 40.0;       ///< m
-  double behind = 10.0;      ///< m
-  double updated_to = 2.0;   ///< m
-  double forget_time = 5.0;  ///< s
+  double ahead = 40.0;   ///< m
+  double behind = 10.0;  ///< m
 
   void visit(OptionVisitor& visitor);
 };

@@ -43,6 +43,9 @@ class RoadBorderDetector {
   /// Throws OptionError.
   explicit RoadBorderDetector(const RoadBorderDetectorOptions& options);
 
+  /// What is published from the next scan on; nothing is forgotten. Throws OptionError.
+  void setPublished(const BorderPublishingOptions& options);
+
   /// Takes in a scan, by rising stamps; the road about the vehicle as far as it is known then.
   /// After a gap or a jump of the pose all is forgotten first.
   const RoadModel& update(const LabeledScan& scan);

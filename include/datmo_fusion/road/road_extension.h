@@ -12,9 +12,7 @@
 namespace datmo {
 
 struct RoadExtensionOptions {
-  double length = 30.0;           ///< m
-  double memory_distance = 50.0;  ///< m
-  double max_turn = 0.8;          ///< rad
+  double length = 30.0;  ///< m
 
   void visit(OptionVisitor& visitor);
 };

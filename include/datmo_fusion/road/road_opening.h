@@ -10,11 +10,8 @@
 namespace datmo {
 
 struct RoadOpeningOptions {
-  double border_above = 0.6;    ///< 1
-  double open_below = 0.4;      ///< 1
-  double min_length = 6.0;      ///< m
-  double max_length = 40.0;     ///< m
-  double usual_distance = 5.0;  ///< m
+  double min_length = 6.0;   ///< m
+  double max_length = 40.0;  ///< m
 
   void visit(OptionVisitor& visitor);
 };

@@ -16,11 +16,9 @@ namespace datmo {
 struct SideStreetOptions {
   SideStreetOptions();
 
-  double period = 0.25;        ///< s
-  double memory = 3.0;         ///< s
-  double start = 2.0;          ///< m
-  double same_distance = 1.5;  ///< m
-  double same_heading = 0.3;   ///< rad
+  double period = 0.25;  ///< s
+  double memory = 3.0;   ///< s
+  double start = 2.0;    ///< m
   BorderSearchOptions search;
 
   void visit(OptionVisitor& visitor);

@@ -10,13 +10,12 @@
 namespace datmo {
 
 struct StationEvidenceOptions {
-  double hit_probability = 0.1;    ///< 1
-  double clutter = 0.015;          ///< 1
-  double max_per_scan = 1.5;       ///< 1
-  double depth_probability = 0.6;  ///< 1
-  double saturation = 4.0;         ///< 1
-  double seen = 1.5;               ///< 1
-  double bridged_gap = 8.0;        ///< m
+  double hit_probability = 0.1;  ///< 1
+  double clutter = 0.015;        ///< 1
+  double max_per_scan = 1.5;     ///< 1
+  double saturation = 4.0;       ///< 1
+  double seen = 1.5;             ///< 1
+  double bridged_gap = 8.0;      ///< m
 
   void visit(OptionVisitor& visitor);
 };

@@ -16,7 +16,6 @@ struct CloudGroundOptions {
   double half_width = 10.0;    ///< m
   double voxel_size = 0.5;     ///< m
   double tolerance = 0.1;      ///< m
-  int max_iterations = 200;
   int min_voxels = 60;
   double max_slope = 0.1;   ///< m / m
   double max_height = 0.4;  ///< m

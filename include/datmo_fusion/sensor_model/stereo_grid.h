@@ -24,13 +24,8 @@ struct StereoConesOptions {
 struct StereoColumnsOptions {
   double min_surface = 0.01;  ///< m^2
   int min_points = 3;
-  double min_object_surface = 0.05;  ///< m^2
-  double doubtful_share = 0.5;       ///< 0 to 1
-  double noise_factor = 1.0;
   double road_sigmas = 2.0;      ///< standard deviations of the depth
   double obstacle_sigmas = 1.5;  ///< standard deviations of the depth
-  double min_seen_share = 0.3;   ///< 0 to 1
-  int min_lines = 3;
 
   void visit(OptionVisitor& visitor);
 };

@@ -11,10 +11,6 @@ namespace datmo {
 
 struct PoseFilterOptions {
   bool calibrate_odometry = true;
-  double speed_scale_sigma = 0.05;      ///< 1
-  double yaw_rate_bias_sigma = 0.02;    ///< rad/s
-  double yaw_rate_bias_drift = 0.0005;  ///< rad/s per square root of s
-  double speed_scale_drift = 0.0005;    ///< 1 per square root of s
 
   void visit(OptionVisitor& visitor);
 };

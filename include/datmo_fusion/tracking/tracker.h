@@ -40,6 +40,9 @@ class Tracker {
   explicit Tracker(const TrackerOptions& options, StepClock clock = {});
   ~Tracker();
 
+  /// Goes on with other live options (Tier::kLive); all others must be as they were.
+  void setOptions(const TrackerOptions& options);
+
   /// Takes the beams of a scan, by rising stamps: they tell what moves (MotionLikelihoodOptions).
   /// Without them its objects alone do (MotionEvidence).
   void addScan(const LabeledScan& scan);

@@ -11,12 +11,11 @@
 namespace datmo {
 
 struct ScanHistoryOptions {
-  double memory = 4.0;               ///< s
-  int max_scans = 200;               ///< 1
-  double tolerance = 0.4;            ///< m
-  double bearing_tolerance = 0.005;  ///< rad
-  double lit_share = 0.5;            ///< 1
-  double min_incidence = 0.1;        ///< rad
+  double memory = 4.0;         ///< s
+  int max_scans = 200;         ///< 1
+  double tolerance = 0.4;      ///< m
+  double lit_share = 0.5;      ///< 1
+  double min_incidence = 0.1;  ///< rad
 
   void visit(OptionVisitor& visitor);
 };

@@ -11,10 +11,7 @@ namespace datmo {
 
 struct ScanSupportOptions {
   double static_share = 0.6;      ///< 0 to 1
-  double static_reach = 1.0;      ///< 1
   double max_static_reach = 2.0;  ///< m
-  double through_reach = 2.0;     ///< 1
-  double body_depth = 0.5;        ///< m
 
   void visit(OptionVisitor& visitor);
 };

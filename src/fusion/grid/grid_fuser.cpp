@@ -22,11 +22,13 @@ void GridFuserOptions::visit(OptionVisitor& visitor) {
   visitor.text({"rule", "",
                 "how the evidence of several sensors on a cell is combined: their mean by weight "
                 "(thesis eq. 3.2.5), the word of the first that sees it (3.2.6), the most occupied "
-                "(4.1.8), Bayes for independent sensors, or evidence theory (perspective of 6.2)"},
+                "(4.1.8), Bayes for independent sensors, or evidence theory (perspective of 6.2)",
+                Tier::kLive},
                rule, fusionRuleNames());
   visitor.number({"mover_speed", "m/s",
                   "a cell is not called free where something this fast may have come between a "
-                  "source's stamp and the reference's (thesis: 0)"},
+                  "source's stamp and the reference's (thesis: 0)",
+                  Tier::kPublic},
                  mover_speed, {0.0, 100.0});
   visitor.each({"sources", "", "the sensors whose grids are fused"}, sources);
 }

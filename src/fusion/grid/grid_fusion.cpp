@@ -197,7 +197,7 @@ FusionRule fusionRule(const std::string& name) {
 }
 
 void GridSourceOptions::visit(OptionVisitor& visitor) {
-  visitor.toggle({"use", "", "whether this source is fused"}, use);
+  visitor.toggle({"use", "", "whether this source is fused", Tier::kPublic}, use);
   visitor.integer({"priority", "1",
                    "rule priority: of the sources that see a cell the highest has the word (thesis "
                    "eq. 3.2.6: vision before the lidar)"},

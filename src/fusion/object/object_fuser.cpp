@@ -17,6 +17,10 @@ namespace datmo {
 
 namespace {
 
+/// An object moves if at least this share of the beams on what all sources see of it ends where the
+/// map is free; as moving_share of moving_objects.
+constexpr double kMinMovingShare = 0.3;
+
 /// Beyond this, odds are certainty, and sums of them lose the rest.
 constexpr double kMaxLogOdds = 20.0;
 
@@ -56,10 +60,11 @@ void checkScanner(const ObjectFuserOptions& options) {
 }  // namespace
 
 void ObjectSourceOptions::visit(OptionVisitor& visitor) {
-  visitor.toggle({"use", "", "off: its objects are not read"}, use);
+  visitor.toggle({"use", "", "off: its objects are not read", Tier::kPublic}, use);
   visitor.number({"detection_probability", "1",
                   "that it lists an object that it could see: one that it does not list is so much "
-                  "less likely"},
+                  "less likely",
+                  Tier::kPublic},
                  detection_probability, {0.01, 0.99});
   visitor.number({"false_agreement_probability", "1",
                   "that a false object of another source has one of this source in its gate, by "
@@ -81,10 +86,6 @@ void ObjectFuserOptions::visit(OptionVisitor& visitor) {
   visitor.integer({"max_objects", "1",
                    "objects taken from one list, the nearest ones; bounds the time of a step"},
                   max_objects, {1, 10000});
-  visitor.number({"min_moving_share", "1",
-                  "an object moves if at least this share of the beams on what all sources see of "
-                  "it ends where the map is free; as moving_share of moving_objects"},
-                 min_moving_share, {0.0, 1.0});
   association.visit(visitor);
   visitor.group("visibility", [&] { visibility.visit(visitor); });
   visitor.group("scan_support", [&] { scan_support.visit(visitor); });
@@ -192,8 +193,7 @@ class ObjectFuser::Fusion {
     }
     const auto own = static_cast<double>(fused.scan_points);
     object.moving_fraction *= own / (own + others);
-    if (object.dynamic_state == DynamicState::kMoving &&
-        object.moving_fraction < options_.min_moving_share) {
+    if (object.dynamic_state == DynamicState::kMoving && object.moving_fraction < kMinMovingShare) {
       object.dynamic_state = DynamicState::kUnknown;
     }
   }

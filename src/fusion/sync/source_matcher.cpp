@@ -10,8 +10,8 @@ void SourceMatcherOptions::visit(OptionVisitor& visitor) {
                reference, {});
   visitor.number({"tolerance", "s", "what is this near in time is fused with the reference's"},
                  tolerance, {0.0, 1.0});
-  visitor.number({"max_wait", "s", "the reference's waits for the others' at most"}, max_wait,
-                 {0.0, 1.0});
+  visitor.number({"max_wait", "s", "the reference's waits for the others' at most", Tier::kPublic},
+                 max_wait, {0.0, 1.0});
   visitor.number({"silent_after", "s", "a source that says nothing for as long is not waited for"},
                  silent_after, {0.05, 10.0});
 }

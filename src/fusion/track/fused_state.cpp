@@ -101,10 +101,6 @@ void TrackCombinationOptions::visit(OptionVisitor& visitor) {
                   "of the errors of two trackers in bar_shalom_campo; at 1 the difference of "
                   "both would be known exactly"},
                  max_correlation, {0.01, 0.999});
-  visitor.number({"first_correlation", "1",
-                  "the same when both have just been found to follow one object, as they have done "
-                  "for a while (Chen, Kirubarajan and Bar-Shalom 2003: about 0.4)"},
-                 first_correlation, {0.0, 0.999});
 }
 
 StateEstimate fusedState(const StateEstimate& a, const StateEstimate& b,

@@ -8,6 +8,13 @@
 
 namespace datmo {
 
+namespace {
+
+/// By how much the evidence of two tracks that were one may fall below `required` before they part.
+constexpr double kAssociationHysteresis = 10.0;
+
+}  // namespace
+
 void TrackAssociationOptions::visit(OptionVisitor& visitor) {
   visitor.text({"test", "",
                 "when two tracks are one: by their likelihoods, summed over a window, or by the "
@@ -20,9 +27,6 @@ void TrackAssociationOptions::visit(OptionVisitor& visitor) {
                   "sum of log-likelihood ratios from which two tracks are one (Wald 1947: the "
                   "logarithm of the inverse rate of false pairs)"},
                  required, {0.0, 100.0});
-  visitor.number(
-      {"association_hysteresis", "1", "by how much it may fall below that before they part"},
-      association_hysteresis, {0.0, 100.0});
 }
 
 TrackAssociation::TrackAssociation(const TrackAssociationOptions& options) : options_(options) {
@@ -80,7 +84,7 @@ std::optional<double> TrackAssociation::scoreOf(Stamp stamp, const Track& a, con
   if (fresh || pair.evidence.empty()) {
     pair.evidence.look(stamp, now.log_likelihood_ratio, options_.evidence);
   }
-  const double association_hysteresis = pair.together ? options_.association_hysteresis : 0.0;
+  const double association_hysteresis = pair.together ? kAssociationHysteresis : 0.0;
   if (options_.test == TrackAssociationOptions::kParallel) {
     return in_gate && areParallel(a, b, options_.parallel)
                ? std::make_optional(options_.comparison.gate - now.squared_distance +

@@ -15,6 +15,9 @@ namespace datmo {
 
 namespace {
 
+/// Standard deviation of each component of other objects' velocity, m/s.
+constexpr double kUnrelatedSpeed = 8.0;
+
 /// Position and velocity: what distinguishes two objects. Accelerations are hardly known.
 constexpr int kCompared = 4;
 using Compared = Eigen::Matrix<double, kCompared, 1>;
@@ -62,7 +65,7 @@ double logClassRatio(const ClassProbabilities& a, const ClassProbabilities& b) {
 
 /// Of unrelated tracks, of position and velocity, 1/(m^4/s^2).
 double logUnrelatedDensity(const Eigen::Vector2d& velocity, const TrackComparisonOptions& options) {
-  const double variance = square(options.unrelated_speed);
+  const double variance = square(kUnrelatedSpeed);
   return std::log(options.unrelated_density) - std::log(2.0 * kPi * variance) -
          0.5 * velocity.squaredNorm() / variance;
 }
@@ -111,9 +114,6 @@ void TrackComparisonOptions::visit(OptionVisitor& visitor) {
   visitor.number({"unrelated_density", "1/m^2",
                   "tracks that are another object than the one looked at, where there are many"},
                  unrelated_density, {1e-6, 1.0});
-  visitor.number(
-      {"unrelated_speed", "m/s", "standard deviation of each component of their velocity"},
-      unrelated_speed, {0.1, 100.0});
 }
 
 TrackComparison compare(const Track& a, const Track& b, const TrackComparisonOptions& options) {

@@ -3,6 +3,14 @@
 
 namespace datmo {
 
+namespace {
+
+/// Correlation of the errors of two trackers that have just been found to follow one object, as
+/// they have done for a while (Chen, Kirubarajan and Bar-Shalom 2003: about 0.4).
+constexpr double kFirstCorrelation = 0.4;
+
+}  // namespace
+
 void TrackCorrelations::step(double seconds) {
   seconds_ = seconds;
   before_ = std::move(present_);
@@ -20,7 +28,7 @@ CrossCovariance TrackCorrelations::between(const Track& a, const Track& b,
   const auto known = before_.find(key);
   CrossCovariance cross =
       known == before_.end()
-          ? evenCrossCovariance(now, options.first_correlation)
+          ? evenCrossCovariance(now, kFirstCorrelation)
           : steppedCrossCovariance(known->second.cross, known->second.covariances, now,
                                    motionOf(a, seconds_, prediction), options.max_correlation);
   present_[key] = {cross, now};

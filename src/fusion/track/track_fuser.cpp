@@ -20,6 +20,18 @@ namespace datmo {
 
 namespace {
 
+/// A source can see a position where each of its measurements would have detected the object at
+/// least so probably, lately: a quarter is several times a second.
+constexpr double kCanSee = 0.25;
+
+/// Time constant of the probability that a source detects: who has just come into view is not
+/// missed at once, s.
+constexpr double kLookingTime = 1.0;
+
+/// Tracks of different sources are duplicates where the box of one, so many times as large, holds
+/// the center of the other.
+constexpr double kDuplicateGateScale = 1.0;
+
 double positionStd(const Track& track) {
   return std::sqrt(0.5 * track.covariance.topLeftCorner<2, 2>().trace());
 }
@@ -64,7 +76,7 @@ class TrackFuser::State {
                     options_);
     look(sources, seconds);
     judgeAll(stamp, present);
-    targets_.publish(options_.duplicate_gate_scale);
+    targets_.publish(kDuplicateGateScale);
     publish(result);
     for (const SourceTracks& source : sources) {
       result.list.views.insert(result.list.views.end(), source.list->views.begin(),
@@ -73,12 +85,7 @@ class TrackFuser::State {
     return result;
   }
 
-  void setScheme(const std::string& name) {
-    TrackFuserOptions options = options_;
-    options.scheme = name;
-    checkOptions(options);
-    options_ = options;
-  }
+  void setOptions(const TrackFuserOptions& options) { options_ = options; }
 
   void reset() {
     association_.reset();
@@ -174,8 +181,7 @@ class TrackFuser::State {
   /// How much each source would have detected each target lately. Who has a track of it is not
   /// evaluated: when it loses that, it takes a while until it is missed.
   void look(const std::vector<SourceTracks>& sources, double seconds) {
-    const double share =
-        options_.looking_time > 0.0 ? -std::expm1(-seconds / options_.looking_time) : 1.0;
+    const double share = kLookingTime > 0.0 ? -std::expm1(-seconds / kLookingTime) : 1.0;
     std::vector<std::optional<Visibility>> views(names_.size());
     for (const SourceTracks& source : sources) {
       const std::vector<ViewFan>& fans = source.list->views;
@@ -228,7 +234,7 @@ class TrackFuser::State {
       const double looked = target.looked[source].value_or(0.0);
       reports.push_back({track != nullptr, track != nullptr ? track->existence_probability : 0.0,
                          looked, own.detection_probability, own.false_agreement_probability});
-      seen_by_all = seen_by_all && (track != nullptr || looked < options_.can_see);
+      seen_by_all = seen_by_all && (track != nullptr || looked < kCanSee);
     }
     target.track.existence_probability = fusedExistence(reports);
     target.track.age = secondsBetween(target.born, stamp);
@@ -248,8 +254,7 @@ class TrackFuser::State {
   /// So that a source without a track of it speaks against it: of one that is published already
   /// when it has had time to confirm its own.
   bool isInOthersView(const FusedTarget& target) const {
-    const double min =
-        target.published ? std::max(options_.can_see, options_.misses) : options_.can_see;
+    const double min = target.published ? std::max(kCanSee, options_.misses) : kCanSee;
     return std::any_of(target.looked.begin(), target.looked.end(),
                        [min](const auto& looked) { return looked.value_or(0.0) >= min; });
   }
@@ -288,7 +293,10 @@ TrackFusionResult TrackFuser::fuse(Stamp stamp, const std::vector<SourceTracks>&
   return state_->fuse(stamp, sources);
 }
 
-void TrackFuser::setScheme(const std::string& name) { state_->setScheme(name); }
+void TrackFuser::setOptions(const TrackFuserOptions& options) {
+  checkOptions(options);
+  state_->setOptions(options);
+}
 
 void TrackFuser::reset() { state_->reset(); }
 

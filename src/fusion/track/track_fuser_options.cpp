@@ -4,7 +4,7 @@
 namespace datmo {
 
 void TrackSourceOptions::visit(OptionVisitor& visitor) {
-  visitor.toggle({"use", "", "off: its tracks are not read"}, use);
+  visitor.toggle({"use", "", "off: its tracks are not read", Tier::kPublic}, use);
   visitor.number({"detection_probability", "1",
                   "that it has a track of a moving object that it could see for looking_time"},
                  detection_probability, {0.01, 0.99});
@@ -23,32 +23,22 @@ void TrackFuserOptions::visit(OptionVisitor& visitor) {
   visitor.text(
       {"scheme", "",
        "which tracks are published (thesis 3.4.2): those of all sources that can see the "
-       "position and those of `beyond` where no other can, the first of these alone, or all"},
+       "position and those of `beyond` where no other can, the first of these alone, or all",
+       Tier::kLive},
       scheme, trackSchemeNames());
-  visitor.text({"beyond", "", "the source whose tracks are published also where no other can see"},
+  visitor.text({"beyond", "", "the source whose tracks are published also where no other can see",
+                Tier::kPublic},
                beyond, {});
   visitor.integer({"max_tracks", "1",
                    "tracks taken from one list, the likeliest ones; bounds the time of a step"},
                   max_tracks, {1, 2000});
-  visitor.number(
-      {"can_see", "1",
-       "a source can see a position where each of its measurements would have detected the "
-       "object at least so probably, lately: a quarter is several times a second"},
-      can_see, {0.0, 1.0});
   visitor.number({"misses", "1",
                   "what is published of `beyond` alone stays when it comes into view, until a "
                   "source without a track of it would have detected it at least so probably, "
                   "lately: no tracker confirms at once"},
                  misses, {0.0, 1.0});
-  visitor.number({"looking_time", "s",
-                  "time constant of that probability: who has just come into view is not missed at "
-                  "once"},
-                 looking_time, {0.0, 60.0});
-  visitor.number({"duplicate_gate_scale", "1",
-                  "tracks of different sources are duplicates where the box of one, so many "
-                  "times as large, holds the center of the other"},
-                 duplicate_gate_scale, {0.0, 10.0});
-  visitor.number({"published_existence", "1", "existence probability from which one is published"},
+  visitor.number({"published_existence", "1", "existence probability from which one is published",
+                  Tier::kLive},
                  published_existence, {0.0, 1.0});
   visitor.number({"memory", "s",
                   "an object that all sources have lost is known again, by its id, for this time"},

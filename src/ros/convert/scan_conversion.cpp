@@ -164,7 +164,8 @@ void ScanConversionOptions::visit(OptionVisitor& visitor) {
   visitor.number({"free_range", "m",
                   "a beam without return is taken as free up to here (or the scanner's range_max); "
                   "less than the scanner's reach, since dark objects far away return nothing; 0: "
-                  "such beams say nothing"},
+                  "such beams say nothing",
+                  Tier::kPublic},
                  free_range, {0.0, 500.0});
   visitor.number({"max_sweep", "s",
                   "from the first to the last beam; a scan that says more (slow rotating scanners "

@@ -4,8 +4,9 @@
 namespace datmo {
 
 void CameraViewOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"max_distance", "m", "tracks farther from the camera are not drawn"},
-                 max_distance, {1.0, 1000.0});
+  visitor.number(
+      {"max_distance", "m", "tracks farther from the camera are not drawn", Tier::kPublic},
+      max_distance, {1.0, 1000.0});
   visitor.number({"track_timeout", "s",
                   "tracks are moved by their velocity to the image's stamp over at most this time; "
                   "without nearer ones the image is shown without boxes"},
@@ -16,7 +17,8 @@ void CameraViewOptions::visit(OptionVisitor& visitor) {
                  {0.01, 10.0});
   visitor.number({"min_size", "m", "a box that was seen smaller is drawn this long and wide"},
                  min_size, {0.01, 10.0});
-  visitor.number({"text_height", "px", "height of the letters"}, text_height, {5.0, 100.0});
+  visitor.number({"text_height", "px", "height of the letters", Tier::kPublic}, text_height,
+                 {5.0, 100.0});
   visitor.integer({"line_width", "px", "width of the boxes' edges"}, line_width, {1.0, 20.0});
   visitor.group("input", [&] { input.visit(visitor); });
 }

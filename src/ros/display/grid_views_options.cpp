@@ -12,9 +12,11 @@ void GridViewsOptions::visit(OptionVisitor& visitor) {
   const Bounds length{1.0, 500.0};
   visitor.text({"panels", "",
                 "what is drawn from the left: sources of grid_fusion by their names, `fused`, "
-                "`conflict`, `map`; separated by spaces"},
+                "`conflict`, `map`; separated by spaces",
+                Tier::kPublic},
                panels, {});
-  visitor.number({"ahead", "m", "how much is seen ahead of the vehicle"}, ahead, length);
+  visitor.number({"ahead", "m", "how much is seen ahead of the vehicle", Tier::kPublic}, ahead,
+                 length);
   visitor.number({"behind", "m", "how much is seen behind it"}, behind, {0.0, length.max});
   visitor.number({"to_side", "m", "how much is seen to each side of it"}, to_side, length);
   visitor.number({"pixels_per_meter", "px/m", "scale of all panels"}, pixels_per_meter,

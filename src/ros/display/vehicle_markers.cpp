@@ -99,7 +99,8 @@ void VehicleBodyOptions::visit(OptionVisitor& visitor) {
                  {-20.0, 0.0});
   visitor.number({"front", "m", "its front end"}, front, {0.05, 20.0});
   visitor.number({"half_width", "m", "from its middle to either side"}, half_width, {0.05, 5.0});
-  visitor.number({"height", "m", "of its roof over the ground"}, height, {0.05, 10.0});
+  visitor.number({"height", "m", "of its roof over the ground", Tier::kPublic}, height,
+                 {0.05, 10.0});
 }
 
 MarkerArray vehicleMarkers(const std_msgs::Header& scan, const VehicleBodyOptions& options) {

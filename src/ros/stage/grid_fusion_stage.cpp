@@ -74,6 +74,12 @@ GridFusionOutput GridFusionStage::fuse(const MatchedGrids& matched) {
   return output;
 }
 
+void GridFusionStage::change(const OptionValues& values) {
+  const auto changed = withLiveValues(options_, values);
+  fuser_ = GridFuser(changed.fuser);
+  options_ = changed;
+}
+
 void GridFusionStage::connect(StagePorts& ports) {
   fused_ = ports.out<nav_msgs::OccupancyGrid>("grids/fused");
   conflict_ = ports.out<nav_msgs::OccupancyGrid>("grids/conflict");

@@ -26,8 +26,9 @@ void GridSlamStageOptions::visit(OptionVisitor& visitor) {
                   "the measurement is the grid that grid_fusion made of the scan and other sensors "
                   "(thesis 3.2.5); false: the scan alone"},
                  fused_grid);
-  visitor.number({"map_period", "s", "least time between two maps, of the scans' stamps"},
-                 map_period, {0.0, 3600.0});
+  visitor.number(
+      {"map_period", "s", "least time between two maps, of the scans' stamps", Tier::kPublic},
+      map_period, {0.0, 3600.0});
   visitor.number({"max_tilt", "rad", "a scan plane tilted by more than this is warned of"},
                  max_tilt, {0.0, kPi / 2.0});
   visitor.group("input", [&] { input.visit(visitor); });

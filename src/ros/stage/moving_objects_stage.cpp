@@ -96,6 +96,12 @@ DroppedObjectsPtr MovingObjectsStage::dropAtBorders(const LabeledScan& scan,
       toMessage(dropped, scan.stamp, message.header.frame_id));
 }
 
+void MovingObjectsStage::change(const OptionValues& values) {
+  const auto changed = withLiveValues(options_, values);
+  detector_ = MovingObjectDetector(changed.detector);
+  options_ = changed;
+}
+
 void MovingObjectsStage::connect(StagePorts& ports) {
   const auto objects = ports.out<ObjectArray>("objects");
   StagePublisher<DroppedObjects> dropped;

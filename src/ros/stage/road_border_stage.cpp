@@ -16,7 +16,8 @@ void RoadBorderStageOptions::visit(OptionVisitor& visitor) {
 }
 
 RoadBorderStage::RoadBorderStage(const RoadBorderStageOptions& options, StageMonitor& monitor)
-    : monitor_(monitor),
+    : options_(options),
+      monitor_(monitor),
       detector_(options.detector),
       runner_(monitor, options.input, "forgets the road", [this] {
         detector_.reset();
@@ -54,6 +55,12 @@ void RoadBorderStage::show(const RoadModel& road) {
   monitor_.figure("stretches of border on the left", count(RoadSide::kLeft));
   monitor_.figure("stretches of border on the right", count(RoadSide::kRight));
   monitor_.figure("at an intersection, 0 to 1", road.intersection_probability);
+}
+
+void RoadBorderStage::change(const OptionValues& values) {
+  const auto changed = withLiveValues(options_, values);
+  detector_.setPublished(changed.detector.published);
+  options_ = changed;
 }
 
 void RoadBorderStage::connect(StagePorts& ports) {

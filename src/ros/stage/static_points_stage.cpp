@@ -59,7 +59,8 @@ void StaticPointsStageOptions::visit(OptionVisitor& visitor) {
                scan_frame, {});
   visitor.toggle({"include_unknown", "",
                   "end points where the map knows nothing yet count as standing: a navigation "
-                  "stack must not drive into them"},
+                  "stack must not drive into them",
+                  Tier::kPublic},
                  include_unknown);
   visitor.group("input", [&] { input.visit(visitor); });
 }

@@ -14,9 +14,11 @@ namespace datmo {
 
 void StereoGridStageOptions::visit(OptionVisitor& visitor) {
   StereoInputOptions::visit(visitor);
-  visitor.number({"scanner_height", "m",
-                  "the same above the vehicle's frame, where tf does not know it (thesis 3.2.2)"},
-                 scanner_height, {-1.0, 3.0});
+  visitor.number(
+      {"scanner_height", "m",
+       "height of the scanner above the vehicle's frame, where tf does not know it (thesis 3.2.2)",
+       Tier::kPublic},
+      scanner_height, {-1.0, 3.0});
   grid.visit(visitor);
 }
 

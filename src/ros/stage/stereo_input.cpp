@@ -8,14 +8,17 @@
 namespace datmo {
 
 void StereoCameraOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"focal_length", "px", "until a camera info has come; 0: not known"}, focal_length,
-                 {0.0, kMaxFocalLength});
+  visitor.number(
+      {"focal_length", "px", "until a camera info has come; 0: not known", Tier::kPublic},
+      focal_length, {0.0, kMaxFocalLength});
   visitor.number({"baseline", "m",
                   "stereo: until a camera info has come, 0: not known; active_stereo: between its "
-                  "two cameras; structured_light: from the camera to the projector at its right"},
+                  "two cameras; structured_light: from the camera to the projector at its right",
+                  Tier::kPublic},
                  baseline, {0.0, kMaxBaseline});
-  visitor.number({"field_of_view", "rad", "from left to right, until a camera info has come"},
-                 field_of_view, {degrees(5.0), degrees(150.0)});
+  visitor.number(
+      {"field_of_view", "rad", "from left to right, until a camera info has come", Tier::kPublic},
+      field_of_view, {degrees(5.0), degrees(150.0)});
   visitor.number({"min_depth", "m", "nearer points are left out: the camera's data sheet"},
                  min_depth, {0.0, 100.0});
   visitor.number({"max_depth", "m", "farther points are left out: the same; 0: none are"},

@@ -121,6 +121,12 @@ void TrackFusionStage::report(const TrackFusionCounts& counts) {
   inputs_.reportUnserved(matcher_);
 }
 
+void TrackFusionStage::change(const OptionValues& values) {
+  const auto changed = withLiveValues(options_, values);
+  fuser_.setOptions(changed.fuser);
+  options_ = changed;
+}
+
 void TrackFusionStage::connect(StagePorts& ports) {
   fused_ = ports.out<TrackArray>("tracks/fused");
   for (const std::string& source : sources()) {

@@ -150,6 +150,12 @@ void TrackerStage::reset() {
   scan_views_.clear();
 }
 
+void TrackerStage::change(const OptionValues& values) {
+  const auto changed = withLiveValues(options_, values);
+  tracker_.setOptions(changed.tracker);
+  options_ = changed;
+}
+
 void TrackerStage::connect(StagePorts& ports) {
   tracks_ = ports.out<TrackArray>("tracks");
   ports.optionalIn<LabeledScanMessage>(

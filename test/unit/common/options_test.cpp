@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/common/live_options.h"
 #include "datmo_fusion/common/option_table.h"
 
 namespace datmo {
@@ -146,6 +147,68 @@ TEST(OptionTable, HasALineForEachOption) {
             "| `echo` |  | 'nearest' | nearest, last | which one |\n"
             "| `frame` |  | 'map' | any text | fixed frame |\n"
             "| `gain` | 1 | 1 | any number | a\\|b |\n");
+}
+
+/// Options of all tiers; what is in the group is of experts, whatever it says.
+struct TieredOptions {
+  double gate = 2.0;
+  int points = 3;
+  std::string rule = "mean";
+  double noise = 0.1;
+
+  void visit(OptionVisitor& visitor) {
+    visitor.number({"gate", "1", "", Tier::kLive}, gate, {0.0, 10.0});
+    visitor.integer({"points", "1", "", Tier::kPublic}, points, {1, 9});
+    visitor.text({"rule", "", "", Tier::kLive}, rule, {"mean", "most"});
+    visitor.group(
+        "model",
+        [&] {
+          visitor.number({"noise", "m", "", Tier::kLive}, noise, {});
+        },
+        Tier::kExpert);
+  }
+};
+
+TEST(OptionTable, TiersHaveTablesOfTheirOwn) {
+  const std::string of_users = publicOptionTable<TieredOptions>();
+  EXPECT_NE(of_users.find("`gate`"), std::string::npos);
+  EXPECT_NE(of_users.find("*live*"), std::string::npos);
+  EXPECT_NE(of_users.find("`points`"), std::string::npos);
+  EXPECT_EQ(of_users.find("`model/noise`"), std::string::npos);
+  const std::string of_experts = expertOptionTable<TieredOptions>();
+  EXPECT_NE(of_experts.find("`model/noise`"), std::string::npos);
+  EXPECT_EQ(of_experts.find("*live*"), std::string::npos);
+  EXPECT_EQ(of_experts.find("`gate`"), std::string::npos);
+  EXPECT_EQ(publicOptionTable<StageOptions>(), "") << "none of it is public";
+}
+
+TEST(LiveOptions, AreListedWithTheirPresentValues) {
+  TieredOptions options;
+  options.gate = 5.0;
+  const std::vector<LiveOption> live = liveOptions(options);
+  ASSERT_EQ(live.size(), 2U);
+  EXPECT_EQ(live[0].key, "gate");
+  EXPECT_EQ(live[0].value, OptionValue(5.0));
+  EXPECT_EQ(live[0].bounds.max, 10.0);
+  EXPECT_EQ(live[1].choices, std::vector<std::string>({"mean", "most"}));
+}
+
+TEST(LiveOptions, AreChangedAndTheRestStays) {
+  TieredOptions options;
+  options.points = 7;
+  const TieredOptions changed = withLiveValues(options, {{"gate", 4.0}});
+  EXPECT_EQ(changed.gate, 4.0);
+  EXPECT_EQ(changed.points, 7);
+  EXPECT_EQ(changed.rule, "mean");
+}
+
+TEST(LiveOptions, OthersAndBadValuesAreRefused) {
+  const TieredOptions options;
+  EXPECT_THROW(withLiveValues(options, {{"points", 2}}), OptionError);
+  EXPECT_THROW(withLiveValues(options, {{"model/noise", 0.2}}), OptionError);
+  EXPECT_THROW(withLiveValues(options, {{"nothing", 0.2}}), OptionError);
+  EXPECT_THROW(withLiveValues(options, {{"gate", 11.0}}), OptionError);
+  EXPECT_THROW(withLiveValues(options, {{"rule", std::string("least")}}), OptionError);
 }
 
 TEST(OptionTable, HalfOpenRangesSaySo) {

@@ -88,15 +88,6 @@ TEST(GridFuserTest, ASourceWhoseMotionIsNotKnownIsLeftOutAndNamed) {
   EXPECT_EQ(result.missing[1].why, WhyMissing::kNoMotion);
 }
 
-TEST(GridFuserTest, TheRuleMayChangeWhileItRuns) {
-  GridFuser fuser(standingWorld("maximum"));
-  const MatchedGrids both{{matched("lidar", 5.0, {3, 0}), matched("stereo", 5.0, {4, 0})}, {}};
-  EXPECT_EQ(fuser.fuse(both, ahead).grids.fused.at({3, 0}), kOccupied);
-  fuser.setRule(FusionRule::kPriority);
-  EXPECT_EQ(fuser.rule(), FusionRule::kPriority);
-  EXPECT_EQ(fuser.fuse(both, ahead).grids.fused.at({3, 0}), kFree);  // vision has the word
-}
-
 TEST(GridFuserTest, OptionsAreReadUnderTheNameOfEachSource) {
   const auto options = readOptions<GridFuserOptions>({{"rule", std::string("log_odds")},
                                                       {"sources/radar/weight", 0.2},

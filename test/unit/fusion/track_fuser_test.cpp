@@ -98,9 +98,9 @@ TEST(TrackFuserTest, TheSchemeMayChangeWhileItRuns) {
     return fuser.fuse(at(t), {lidar(t, {driving(0.0, t, "lidar")})});
   };
   EXPECT_TRUE(step(0.0).list.tracks.empty());
-  fuser.setScheme(TrackFuserOptions::kUnion);
+  fuser.setOptions(withScheme(TrackFuserOptions::kUnion));
   EXPECT_EQ(step(0.1).list.tracks.size(), 1U);
-  EXPECT_THROW(fuser.setScheme("all"), OptionError);
+  EXPECT_THROW(fuser.setOptions(withScheme("all")), OptionError);
 }
 
 TEST(TrackFuserTest, TheIdStaysWhileOneSensorLosesTheObjectAndFindsItAgain) {

@@ -75,11 +75,11 @@ TEST_F(GridFusionStageTest, GridsOfTheSameStampAreFusedAtOnce) {
 }
 
 TEST_F(GridFusionStageTest, TheRuleChangesWhileItRuns) {
-  stage_.setRule("maximum");
+  stage_.change({{"rule", std::string("maximum")}});
   EXPECT_EQ(bothAt(100.0, kOccupied, kFree)->fused->data[0], kOccupied);
-  stage_.setRule("priority");
+  stage_.change({{"rule", std::string("priority")}});
   EXPECT_EQ(bothAt(100.1, kOccupied, kFree)->fused->data[0], kFree) << "stereo has the word";
-  EXPECT_THROW(stage_.setRule("by luck"), OptionError);
+  EXPECT_THROW(stage_.change({{"rule", std::string("by luck")}}), OptionError);
   EXPECT_EQ(bothAt(100.2, kOccupied, kFree)->fused->data[0], kFree) << "the last one goes on";
 }
 
@@ -87,7 +87,7 @@ TEST_F(GridFusionStageTest, AfterTheLongestWaitItGoesOnWithoutTheOther) {
   bothAt(99.9, kFree, kFree);
   take("lidar", 100.0, kOccupied);
   EXPECT_FALSE(nextAt(100.05));
-  stage_.setRule("maximum");
+  stage_.change({{"rule", std::string("maximum")}});
   const auto output = nextAt(100.11);
   ASSERT_TRUE(output);
   EXPECT_EQ(output->fused->data[0], kOccupied);
@@ -102,7 +102,7 @@ TEST_F(GridFusionStageTest, TheCallersClockNeedNotBeTheStamps) {
 
 TEST_F(GridFusionStageTest, ASilentSourceIsSaidOnceAndTheOthersGoOn) {
   bothAt(100.0, kFree, kFree);
-  stage_.setRule("priority");
+  stage_.change({{"rule", std::string("priority")}});
   int fused = 0;
   for (int i = 1; i < 20; ++i) {
     const double t = 100.0 + 0.1 * i;
@@ -210,7 +210,7 @@ int obstacleIn(const nav_msgs::OccupancyGrid& message) {
 }
 
 TEST_F(GridFusionStageTest, GridsAreMovedByTheOdometryBetweenTheirStamps) {
-  stage_.setRule("priority");
+  stage_.change({{"rule", std::string("priority")}});
   stage_.takeOdometry(odometry(99.9));
   stage_.takeOdometry(odometry(100.0));
   take("stereo", obstacleAt(99.95, 8));
@@ -223,7 +223,7 @@ TEST_F(GridFusionStageTest, GridsAreMovedByTheOdometryBetweenTheirStamps) {
 TEST_F(GridFusionStageTest, WithoutOdometryTheyAreMovedByThePosesOfTheSlam) {
   options_.motion.source = "none";
   GridFusionStage stage(options_, monitor_);
-  stage.setRule("priority");
+  stage.change({{"rule", std::string("priority")}});
   stage.takeOdometry(odometry(0.0));
   for (const double t : {99.7, 99.8, 99.9}) {
     geometry_msgs::PoseWithCovarianceStamped pose;
@@ -240,7 +240,7 @@ TEST_F(GridFusionStageTest, WithoutOdometryTheyAreMovedByThePosesOfTheSlam) {
 }
 
 TEST_F(GridFusionStageTest, ASourceWhoseMotionIsNotKnownIsLeftOut) {
-  stage_.setRule("priority");
+  stage_.change({{"rule", std::string("priority")}});
   take("stereo", obstacleAt(99.95, 8));
   take("lidar", 100.0, kFree);
   const auto output = nextAt(100.2);

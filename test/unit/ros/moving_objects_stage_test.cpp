@@ -117,6 +117,18 @@ TEST_F(MovingObjectsStageTest, BadBordersAreDroppedAndTheLastOnesServe) {
   EXPECT_LT(motionLogOdds(on_border_, 0.0), 0.0);
 }
 
+TEST_F(MovingObjectsStageTest, LiveOptionsServeFromTheNextScanAndTheRoadIsKept) {
+  takeRoad(0.0);
+  EXPECT_LT(motionLogOdds(on_border_, 0.0), 0.0);
+  stage_.change({{"min_points", 1000}});
+  EXPECT_TRUE(take(scanWithMover(on_border_, 0.1))->objects->objects.empty());
+  EXPECT_THROW(stage_.change({{"min_points", 0}}), OptionError);
+  EXPECT_THROW(stage_.change({{"border_age", 1.0}}), OptionError) << "not live";
+  EXPECT_TRUE(take(scanWithMover(on_border_, 0.2))->objects->objects.empty()) << "it stays";
+  stage_.change({{"min_points", 1}});
+  EXPECT_LT(motionLogOdds(on_border_, 0.3), 0.0) << "by the road that came before";
+}
+
 TEST_F(MovingObjectsStageTest, AJumpBackRestarts) {
   takeRoad(10.0);
   EXPECT_LT(motionLogOdds(on_border_, 10.0), 0.0);

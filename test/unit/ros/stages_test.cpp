@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <limits>
 
 #include "message_samples.h"
@@ -343,6 +344,23 @@ TEST_F(TrackerStageTest, ThoseThatWaitedTooLongMakeRoomForTheNext) {
   ASSERT_TRUE(tracks);
   EXPECT_EQ(tracks->header.stamp, ros::Time(100.1));
   EXPECT_EQ(monitor_.drops().at("missing_transform"), 1U);
+}
+
+TEST_F(TrackerStageTest, LiveOptionsAreListedAndChanged) {
+  stage_.change({{"target/motion_likelihood/required_probability", 0.95}});
+  const std::vector<LiveOption> live = stage_.live();
+  const auto changed = std::find_if(live.begin(), live.end(), [](const LiveOption& option) {
+    return option.key == "target/motion_likelihood/required_probability";
+  });
+  ASSERT_NE(changed, live.end());
+  EXPECT_EQ(changed->value, OptionValue(0.95));
+  EXPECT_THROW(stage_.change({{"published_existence", 2.0}}), OptionError);
+  EXPECT_THROW(stage_.change({{"history_time", 1.0}}), OptionError) << "not live";
+}
+
+TEST_F(GridSlamStageTest, AStageWithoutLiveOptionsRefusesThemAll) {
+  EXPECT_TRUE(stage_.live().empty());
+  EXPECT_THROW(stage_.change({{"map_period", 2.0}}), OptionError);
 }
 
 TEST_F(TrackerStageTest, ABadPoseOfAScanIsDropped) {

@@ -41,7 +41,6 @@ class GridFuser {
   explicit GridFuser(const GridFuserOptions& options);
 
   FusionRule rule() const { return rule_; }
-  void setRule(FusionRule rule) { rule_ = rule; }
 
   /// All of the set's sources must be in the options (else std::out_of_range).
   FusionResult fuse(const MatchedGrids& matched, const MotionBetween& motion) const;

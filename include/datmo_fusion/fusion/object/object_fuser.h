@@ -30,7 +30,6 @@ struct ObjectFuserOptions {
   std::map<std::string, ObjectSourceOptions> sources;  ///< by name; at first lidar and stereo
   std::string scanner = "lidar";                       ///< name of a source
   int max_objects = 500;
-  double min_moving_share = 0.3;  ///< 0 to 1
   ObjectAssociationOptions association;
   VisibilityOptions visibility;
   ScanSupportOptions scan_support;

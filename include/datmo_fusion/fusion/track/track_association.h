@@ -26,8 +26,7 @@ struct TrackAssociationOptions {
   TrackComparisonOptions comparison;
   WindowedEvidenceOptions evidence;
   ParallelTracksOptions parallel;
-  double required = 6.9;                 ///< 1
-  double association_hysteresis = 10.0;  ///< 1
+  double required = 6.9;  ///< 1
 
   void visit(OptionVisitor& visitor);
 };

@@ -16,8 +16,7 @@ struct TrackCombinationOptions {
   static constexpr char kInformation[] = "information";
 
   std::string method = kCovarianceIntersection;
-  double max_correlation = 0.95;   ///< 1
-  double first_correlation = 0.4;  ///< 1
+  double max_correlation = 0.95;  ///< 1
 
   void visit(OptionVisitor& visitor);
 };

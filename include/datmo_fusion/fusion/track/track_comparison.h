@@ -12,7 +12,6 @@ struct TrackComparisonOptions {
   double extent_share = 0.25;        ///< 1
   double velocity_std = 0.5;         ///< m/s
   double unrelated_density = 0.002;  ///< 1/m^2
-  double unrelated_speed = 8.0;      ///< m/s
 
   void visit(OptionVisitor& visitor);
 };

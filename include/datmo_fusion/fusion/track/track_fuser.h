@@ -35,13 +35,10 @@ struct TrackFuserOptions {
   std::string scheme = kFusedPlusFallback;
   std::string beyond = "lidar";  ///< name of a source
   int max_tracks = 200;
-  double can_see = 0.25;              ///< 1
-  double misses = 0.75;               ///< 1
-  double looking_time = 1.0;          ///< s
-  double duplicate_gate_scale = 1.0;  ///< 1
-  double published_existence = 0.5;   ///< 1
-  double memory = 1.5;                ///< s
-  double history_time = 3.0;          ///< s
+  double misses = 0.75;              ///< 1
+  double published_existence = 0.5;  ///< 1
+  double memory = 1.5;               ///< s
+  double history_time = 3.0;         ///< s
   TrackPredictionOptions prediction;
   TrackAssociationOptions association;
   TrackCombinationOptions combination;
@@ -112,9 +109,9 @@ class TrackFuser {
   /// source's own. All sources must be in the options (else std::out_of_range).
   TrackFusionResult fuse(Stamp stamp, const std::vector<SourceTracks>& sources);
 
-  /// The scheme by its name, from the next call on. Throws OptionError for a name that there is
-  /// not.
-  void setScheme(const std::string& name);
+  /// Goes on with other live options (Tier::kLive) from the next call on; all others must be as
+  /// they were. Throws OptionError.
+  void setOptions(const TrackFuserOptions& options);
 
   /// Forgets all tracks; ids go on, so that none is reused.
   void reset();

@@ -63,10 +63,9 @@ class GridFusionStage : public Stage {
   /// for still comes. `now`: ROS time.
   std::optional<GridFusionOutput> next(Stamp now);
 
-  /// The rule by its name, from the next set on. Throws OptionError for a name that there is not.
-  void setRule(const std::string& name) { fuser_.setRule(fusionRule(name)); }
-
   void connect(StagePorts& ports) override;
+  std::vector<LiveOption> live() const override { return liveOptions(options_); }
+  void change(const OptionValues& values) override;
   bool publishNext(Stamp now) override;
   double maxWait() const override { return options_.matcher.max_wait; }
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "datmo_fusion/detection/moving_object_detector.h"
 #include "datmo_fusion/road/border_filter.h"
@@ -45,6 +46,8 @@ class MovingObjectsStage : public Stage {
   std::optional<MovingObjectsOutput> takeLabeledScan(const LabeledScanMessage& message);
 
   void connect(StagePorts& ports) override;
+  std::vector<LiveOption> live() const override { return liveOptions(options_); }
+  void change(const OptionValues& values) override;
 
  private:
   /// The borders that serve a scan; none, and the monitor warned, if there are none.

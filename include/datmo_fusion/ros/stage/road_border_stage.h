@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "datmo_fusion/road/road_border_detector.h"
 #include "datmo_fusion/ros/convert/messages.h"
@@ -31,10 +32,13 @@ class RoadBorderStage : public Stage {
   RoadBordersPtr takeLabeledScan(const LabeledScanMessage& message);
 
   void connect(StagePorts& ports) override;
+  std::vector<LiveOption> live() const override { return liveOptions(options_); }
+  void change(const OptionValues& values) override;
 
  private:
   void show(const RoadModel& road);
 
+  RoadBorderStageOptions options_;
   StageMonitor& monitor_;
   RoadBorderDetector detector_;
   StageRunner runner_;

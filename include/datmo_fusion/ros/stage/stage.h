@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <boost/pointer_cast.hpp>
 #include <boost/shared_ptr.hpp>
@@ -12,6 +13,7 @@
 #include <ros/message_traits.h>
 #include <ros/node_handle.h>
 
+#include "datmo_fusion/common/live_options.h"
 #include "datmo_fusion/common/stamp.h"
 #include "datmo_fusion/ros/frame_ids.h"
 #include "datmo_fusion/ros/stage/queue_length.h"
@@ -149,6 +151,15 @@ class Stage {
   /// Publishes the next result that is ready; false if there is none. Asked until then after each
   /// message and each change of tf, and where `maxWait` says so from time to time.
   virtual bool publishNext(Stamp /*now*/) { return false; }
+
+  /// The options that may be changed while it runs, as they are.
+  virtual std::vector<LiveOption> live() const { return {}; }
+
+  /// Changes some of them, for what is published from now on; nothing is forgotten. Throws
+  /// OptionError, and all stay as they are.
+  virtual void change(const OptionValues& values) {
+    detail::setLive(values, [](OptionVisitor& /*visitor*/) {});
+  }
 
   /// s; how long a message may wait for others.
   virtual double maxWait() const { return 0.0; }

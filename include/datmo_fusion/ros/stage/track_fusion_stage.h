@@ -51,10 +51,9 @@ class TrackFusionStage : public Stage {
   /// that is waited for still comes. `now`: ROS time.
   TrackArrayPtr next(Stamp now);
 
-  /// The scheme by its name, from the next set on. Throws OptionError for a name that there is not.
-  void setScheme(const std::string& name) { fuser_.setScheme(name); }
-
   void connect(StagePorts& ports) override;
+  std::vector<LiveOption> live() const override { return liveOptions(options_); }
+  void change(const OptionValues& values) override;
   bool publishNext(Stamp now) override;
   double maxWait() const override { return options_.matcher.max_wait; }
 

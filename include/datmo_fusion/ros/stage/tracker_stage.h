@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <string>
+#include <vector>
 
 #include "datmo_fusion/ros/convert/messages.h"
 #include "datmo_fusion/ros/display/scan_views.h"
@@ -51,6 +52,8 @@ class TrackerStage : public Stage {
   TrackArrayPtr next(Stamp now);
 
   void connect(StagePorts& ports) override;
+  std::vector<LiveOption> live() const override { return liveOptions(options_); }
+  void change(const OptionValues& values) override;
   bool publishNext(Stamp now) override;
   double maxWait() const override { return options_.transform_wait; }
 
