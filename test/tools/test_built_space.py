@@ -34,7 +34,7 @@ ctypes.CDLL("libdatmo_fusion_nodelets.so")
 print(*{line.split()[-1] for line in open("/proc/self/maps") if "libdatmo_fusion" in line})
 """
 IMPORT_PACKAGES = """
-import datmo_fusion.msg, datmo_fusion.cfg.TrackFusionConfig, datmo_tools.evaluate.report
+import datmo_fusion.msg, datmo_tools.evaluate.report
 datmo_tools.evaluate.report.as_page("", [])
 print(datmo_fusion.msg.__file__, datmo_tools.evaluate.__file__)
 """

@@ -26,7 +26,7 @@ def text_of(pattern):
 def published():
     """Topics that nodelets advertise and stages declare, and those that perception.launch remaps theirs to."""
     topics = set(re.findall(r'advertise<[^>]+>\(\s*"([^"]+)"', text_of("src/nodelets/*")))
-    topics |= set(re.findall(r'\.out<[^>]+>\(\s*"([^"]+)"', text_of("src/ros/*_stage.cpp")))
+    topics |= set(re.findall(r'\.out<[^>]+>\(\s*"([^"]+)"', text_of("src/ros/stage/*_stage.cpp")))
     launch = text_of("launch/perception.launch")
     renamed = re.findall(r'<remap from="([^"]+)" to="([^"$]+)"', launch)
     topics |= {new for old, new in renamed if old in topics}
@@ -35,7 +35,7 @@ def published():
 
 def drawn():
     """The namespaces of the markers: those that are named, and those that shapes have two of."""
-    code = text_of("src/ros/*marker*.cpp")
+    code = text_of("src/ros/display/*marker*.cpp")
     made = re.findall(r'(?:makeMarker|outlineOf|groundOutline)\([^;"]*?"([^"]+)"', code)
     shapes = re.findall(r'shapeOf\([^;"]*?"([^"]+)"', code)
     return set(made) | {f"{shape} {part}" for shape in shapes for part in ("bodies", "heads")}
