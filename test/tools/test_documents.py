@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""README.md and doc/: their links lead somewhere, their yaml names parameters that there are."""
+"""README.md and doc/: their links lead somewhere, their yaml names parameters that there are; the
+changelog is sound reStructuredText."""
 
+import io
 import re
 import sys
 import unittest
@@ -15,8 +17,11 @@ sys.path.insert(0, str(SOURCE / "test" / "documents"))
 from command_blocks import blocks_of  # noqa: E402
 
 PAGES = [SOURCE / "README.md", *sorted((SOURCE / "doc").glob("*.md"))]
+LINKED_PAGES = [*PAGES, SOURCE / "rosbag_fixtures" / "README.md"]
+CHANGELOG = SOURCE / "CHANGELOG.rst"
 MAX_README_LINES = 200  # lines
 LINK = re.compile(r"\]\(([^)\s]+)\)")
+HEADING = re.compile(r"^#+ (.*)$", re.MULTILINE)
 # Names that the examples choose, and what stands for any name in doc/parameters.md.
 CHOSEN = {"/radar/": "/stereo/", "/laser/": "/<frame>/"}
 
@@ -30,6 +35,12 @@ def documented_parameters():
         elif row := re.match(r"\| `([^`]+)` \|", line):
             names.update(f"{section}/{row.group(1)}" for section in sections)
     return names
+
+
+def anchors_of(text):
+    """Of the headings of a page, as they are linked to: letters, digits, hyphens for spaces."""
+    return {re.sub(r"[^\w -]", "", heading).strip().lower().replace(" ", "-")
+            for heading in HEADING.findall(text)}  # fmt: skip
 
 
 def documented_name(key):
@@ -51,11 +62,15 @@ class Documents(unittest.TestCase):
     def test_readme_is_short(self):
         self.assertLessEqual(len(PAGES[0].read_text().splitlines()), MAX_README_LINES)
 
-    def test_local_links_lead_to_files(self):
-        for page in PAGES:
+    def test_local_links_lead_to_files_and_headings(self):
+        for page in LINKED_PAGES:
             for link in LINK.findall(page.read_text()):
                 if not link.startswith(("http://", "https://")):
-                    self.assertTrue((page.parent / link.split("#")[0]).exists(), f"{page}: {link}")
+                    file, _, anchor = link.partition("#")
+                    target = page.parent / file if file else page
+                    self.assertTrue(target.exists(), f"{page}: {link}")
+                    if anchor:
+                        self.assertIn(anchor, anchors_of(target.read_text()), f"{page}: {link}")
 
     def test_every_page_is_reached_from_readme(self):
         links = LINK.findall(PAGES[0].read_text())
@@ -70,6 +85,22 @@ class Documents(unittest.TestCase):
                     for key in keys_of(yaml.safe_load(block.text)):
                         known = documented_name(key) in parameters
                         self.assertTrue(known, f"{page}:{block.line}: {key}")
+
+
+class Changelog(unittest.TestCase):
+    def test_it_is_sound(self):
+        """rosdep's and ROS's tools read it; a warning of docutils is an error here."""
+        try:
+            from docutils.core import publish_doctree
+            from docutils.utils import Reporter
+        except ImportError:
+            self.skipTest("needs docutils, expected Debian's package python3-docutils")
+        said = io.StringIO()
+        settings = {"report_level": Reporter.WARNING_LEVEL, "halt_level": Reporter.SEVERE_LEVEL + 1,
+                    "warning_stream": said}  # fmt: skip
+        publish_doctree(CHANGELOG.read_text(encoding="utf-8"), str(CHANGELOG),
+                        settings_overrides=settings)  # fmt: skip
+        self.assertEqual(said.getvalue(), "")
 
 
 if __name__ == "__main__":

@@ -40,17 +40,21 @@ def record(drive, programs, recorded):
     call(programs / "simulate", drive.scene, recorded, "--quiet", *_settings(drive.options))
 
 
-def run_recorded(recorded, programs, config, folder, score_options=(), run_options=()):
-    """The same as run() on a bag that is there (Path): stack and score."""
+def run_recorded(recorded, programs, config, folder, score_options=(), run_options=(), attainable=None):
+    """The same as run() on a bag that is there (Path): stack and score.
+
+    attainable: bag (Path) with the scans, for the least delays that they allow.
+    """
     computed = folder / "result.bag"
     call(programs / "run_bag", recorded, computed, "--config", config, "--with-truth", "--quiet",
          *run_options)  # fmt: skip
-    return score(computed, programs, score_options, folder / "score.json")
+    return score(computed, programs, score_options, folder / "score.json", attainable)
 
 
-def score(computed, programs, score_options, report):
+def score(computed, programs, score_options, report, attainable=None):
     """Report of score_run (dict) on a bag of run_bag (Path), left in the file `report` (Path)."""
-    call(programs / "score_run", computed, *_settings(score_options), "--out", report)
+    scans = () if attainable is None else ("--attainable", attainable)
+    call(programs / "score_run", computed, *_settings(score_options), *scans, "--out", report)
     return json.loads(report.read_text(encoding="utf-8"))
 
 

@@ -1,0 +1,255 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""scripts/figures: what a pass of steps does, how figures are summarized and rendered, and that
+README.md and doc/results.md are what doc/results.json makes of them."""
+
+import contextlib
+import io
+import json
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+from datmo_tools.errors import InputError
+from datmo_tools.figures import data_sets, render, results_file, steps
+from datmo_tools.figures.main import check, main, write_pages
+from datmo_tools.figures.pass_of_steps import run_steps
+from datmo_tools.figures.spread import rounded, spread, spread_of
+from datmo_tools.figures.step import Bench, Job, Step, by_name
+
+ROOT = Path(__file__).resolve().parents[2]
+README = f"# A\n\n{render.BEGIN}\nold\n{render.END}\nrest\n"
+
+PEOPLE = {"positions": 153, "found": 132, "found_share": 0.8627, "median_distance_m": 0.17,
+          "id_switches": 4, "ids": 12, "never_found": 0}  # fmt: skip
+
+
+def results(**figures):
+    """A file of figures with these steps."""
+    done = {name: {"shows": name, "command": "x", "seeds": None, "date": "2026-01-02",
+                   "job_seconds": 1, "figures": value} for name, value in figures.items()}  # fmt: skip
+    return {"format": results_file.FORMAT, "commit": "0123abcd", "date": "2026-01-02",
+            "machine": {"processor": "P", "cores": 2}, "steps": done}  # fmt: skip
+
+
+class InFolder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+
+class Spread(unittest.TestCase):
+    def test_median_and_range(self):
+        self.assertEqual(spread([3, 1, 2]), [2, 1, 3])
+        self.assertEqual(spread([4.0, 1.0]), [2.5, 1.0, 4.0])
+
+    def test_what_one_run_has_not_has_no_spread(self):
+        self.assertIsNone(spread([1, None, 2]))
+        self.assertIsNone(spread([]))
+
+    def test_nested_figures_are_summarized_one_by_one(self):
+        trees = [{"a": {"b": 1}, "c": 5.0}, {"a": {"b": 3}, "c": 7.0}]
+        self.assertEqual(spread_of(trees), {"a": {"b": [2, 1, 3]}, "c": [6.0, 5.0, 7.0]})
+
+    def test_four_digits_are_kept(self):
+        tree = {"a": [0.123456, 12345.678, 7], "b": float("nan"), "c": None}
+        self.assertEqual(rounded(tree), {"a": [0.1235, 12350.0, 7], "b": None, "c": None})
+
+
+class Pooled(unittest.TestCase):
+    """Two data sets of one seed, as one."""
+
+    def result(self, misses, required, delays):
+        counts = dict.fromkeys(data_sets.COUNTS, 1)
+        counts.update(misses=misses, required=required, intersections_found=None)
+        objects = [
+            {"class": "vehicle", "found": delay is not None, "delay_s": delay,
+             "attainable_delay_s": 0.1, "delay_ratio": 2.0} for delay in delays]  # fmt: skip
+        return {"figures": {"runs": {"with": counts}}, "objects": objects}
+
+    def test_counts_are_added_up_before_shares_are_taken(self):
+        # (10 + 28 misses, 2 false, 2 switches) of 100 + 100.
+        pooled = data_sets.pooled([self.result(10, 100, [0.2]), self.result(28, 100, [0.6, None])])
+        self.assertAlmostEqual(pooled["runs"]["with"]["mota"], 1.0 - 42.0 / 200.0)
+        self.assertEqual(pooled["runs"]["with"]["missed_objects"], 2)
+
+    def test_delays_are_those_of_what_was_found(self):
+        delays = data_sets.pooled([self.result(0, 1, [0.2]), self.result(0, 1, [0.6, None])])
+        vehicles = delays["delays"]["vehicle"]
+        self.assertEqual((vehicles["objects"], vehicles["found"]), (3, 2))
+        self.assertAlmostEqual(vehicles["delay_s"], 0.4)
+        self.assertIsNone(delays["delays"]["cyclist"]["delay_s"])
+
+
+class Pass(InFolder):
+    """Steps of a few lines."""
+
+    def setUp(self):
+        super().setUp()
+        self.runs = []
+        self.bench = Bench(ROOT, self.folder, self.folder, self.folder / "data", (1, 2))
+        self.store = results_file.StepStore(self.folder / "out", "0123abcd")
+
+    def step(self, name, work=None, **rest):
+        def counted(folder):
+            self.runs.append(name)
+            return (name, work(folder) if work else {"value": 1.23456})
+
+        return Step(name, "a value", "x", lambda _: [Job("a", counted)], by_name, **rest)
+
+    def run_all(self, *chosen):
+        """(failures, what was said)."""
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(io.StringIO()):
+            failures = run_steps(chosen, self.bench, self.store, 2)
+        return failures, said.getvalue()
+
+    def test_figures_are_kept_with_how_they_were_made(self):
+        step = self.step("one", seeded=True)
+        self.assertEqual(self.run_all(step)[0], [])
+        done = self.store.results([step])
+        self.assertEqual(done["commit"], "0123abcd")
+        self.assertEqual(done["steps"]["one"]["seeds"], [1, 2])
+        self.assertEqual(done["steps"]["one"]["figures"], {"one": {"value": 1.235}})
+
+    def test_what_is_done_does_not_run_again(self):
+        step = self.step("one")
+        self.run_all(step)
+        self.assertIn("one: done at 0123abcd", self.run_all(step)[1])
+        self.assertEqual(self.runs, ["one"])
+
+    def test_of_changed_sources_nothing_counts_as_done(self):
+        self.store = results_file.StepStore(self.folder, "0123abcd" + results_file.CHANGED)
+        for _ in range(2):
+            self.run_all(self.step("one"))
+        self.assertEqual(self.runs, ["one", "one"])
+
+    def test_a_step_without_its_data_is_left_out_and_named(self):
+        failures, said = self.run_all(self.step("one", needs=("drive",)))
+        self.assertEqual((failures, self.runs), ([], []))
+        self.assertRegex(said, "one: left out, .*data/drive is not there")
+
+    def test_a_failed_step_is_reported_and_the_others_go_on(self):
+        def fail(_):
+            raise InputError("no bag")
+
+        bad, broken = self.step("bad", fail), self.step("broken", lambda _: {}["mota"])
+        failures, _ = self.run_all(bad, broken, self.step("good", alone=True))
+        self.assertEqual(sorted(failures), ["bad, a: no bag", "broken, a: KeyError('mota')"])
+        self.assertEqual(list(self.store.results([bad, broken, self.step("good")])["steps"]), ["good"])
+
+    def test_scratch_files_are_gone_afterward(self):
+        self.run_all(self.step("one", lambda folder: (folder / "big.bag").write_text("") and {}))
+        self.assertEqual(list(self.store.folder.rglob("*.bag")), [])
+
+
+class Commit(InFolder):
+    def git(self, *words):
+        identity = ("-c", "user.name=n", "-c", "user.email=e@x")
+        subprocess.run(["git", "-C", str(self.folder), *identity, *words], check=True,
+                       capture_output=True)  # fmt: skip
+
+    def test_documents_may_change_and_sources_may_not(self):
+        self.git("init")
+        for name in ("README.md", "code.cpp"):
+            (self.folder / name).write_text("1")
+        self.git("add", ".")
+        self.git("commit", "-m", "all")
+        commit = results_file.commit_of(self.folder)
+        self.assertRegex(commit, "^[0-9a-f]{8}$")
+        (self.folder / "README.md").write_text("2")
+        self.assertEqual(results_file.commit_of(self.folder), commit)
+        (self.folder / "code.cpp").write_text("2")
+        self.assertEqual(results_file.commit_of(self.folder), commit + results_file.CHANGED)
+
+    def test_no_checkout(self):
+        with self.assertRaisesRegex(InputError, "expected a git checkout"):
+            results_file.commit_of(self.folder)
+
+
+class Pages(InFolder):
+    def setUp(self):
+        super().setUp()
+        (self.folder / "README.md").write_text(README)
+
+    def pages(self, **figures):
+        return render.rendered(self.folder, results(**figures))
+
+    def test_table_stands_between_the_marks(self):
+        text = self.pages(people=PEOPLE)["README.md"]
+        self.assertIn("132 of 153 (86 %), 4 id switches", text)
+        self.assertTrue(text.startswith(f"# A\n\n{render.BEGIN}\n| what |"))
+        self.assertTrue(text.endswith(f"{render.END}\nrest\n"))
+        self.assertNotIn("old", text)
+
+    def test_what_was_not_measured_is_not_there(self):
+        pages = self.pages(people=PEOPLE)
+        self.assertIn("## People about a robot", pages["doc/results.md"])
+        self.assertNotIn("Indoors", pages["doc/results.md"])
+        self.assertIn("`0123abcd`", pages["doc/results.md"])
+
+    def test_rendered_twice_is_the_same(self):
+        write_pages(self.folder, results(people=PEOPLE))
+        first = (self.folder / "README.md").read_text()
+        write_pages(self.folder, results(people=PEOPLE))
+        self.assertEqual((self.folder / "README.md").read_text(), first)
+
+    def test_check_names_pages_that_are_stale(self):
+        made = results(people=dict(PEOPLE))
+        write_pages(self.folder, made)
+        (self.folder / render.FILE).write_text(results_file.as_text(made))
+        self.assertEqual(check(self.folder), 0)
+        made["steps"]["people"]["figures"]["found"] = 131
+        (self.folder / render.FILE).write_text(json.dumps(made))
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said):
+            self.assertEqual(check(self.folder), 1)
+        self.assertIn("doc/results.md: not what doc/results.json makes of it", said.getvalue())
+
+    def test_readme_without_marks_is_refused(self):
+        (self.folder / "README.md").write_text("# A\n")
+        with self.assertRaisesRegex(InputError, "expected the table there"):
+            self.pages(people=PEOPLE)
+
+    def test_figures_as_a_reader_sees_them(self):
+        self.assertEqual(render.spread([2, 1, 3]), "2 (1 to 3)")
+        self.assertEqual(render.spread([2.01, 2.0, 2.04], 1), "2.0")
+        self.assertEqual(render.percent_spread([0.5, 0.25, 0.75]), "50 (25 to 75)")
+        self.assertEqual(render.spread(None), "-")
+        self.assertEqual(render.percent(0.1234, 1), "12.3")
+        self.assertEqual(render.degrees(3.14159265), "180.0")
+
+    def test_lists_of_numbers_take_one_line(self):
+        text = results_file.as_text({"a": [1.5, -2, None], "b": [{"c": 1}]})
+        self.assertIn('"a": [1.5, -2, null]', text)
+        self.assertEqual(json.loads(text), {"a": [1.5, -2, None], "b": [{"c": 1}]})
+
+
+class CommandLine(unittest.TestCase):
+    def run_main(self, *words):
+        out, err = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            code = main(["--source", str(ROOT), *words])
+        return code, out.getvalue() + err.getvalue()
+
+    def test_steps_are_listed(self):
+        code, said = self.run_main("--list")
+        self.assertEqual(code, 0)
+        for step in steps.STEPS:
+            self.assertIn(step.name, said)
+
+    def test_unknown_step(self):
+        code, said = self.run_main("--only", "luck")
+        self.assertEqual(code, 1)
+        self.assertIn("luck: no such step, expected fusion, ", said)
+
+    @unittest.skipUnless((ROOT / render.FILE).is_file(), "scripts/figures has not been run here")
+    def test_the_repositorys_pages_are_what_its_figures_make_of_them(self):
+        code, said = self.run_main("--check")
+        self.assertEqual(code, 0, said)
+
+
+if __name__ == "__main__":
+    unittest.main()

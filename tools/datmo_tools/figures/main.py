@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Command line of scripts/figures."""
+
+import argparse
+import os
+from pathlib import Path
+
+from datmo_tools import command_line
+from datmo_tools.errors import InputError
+from datmo_tools.figures import results_file
+from datmo_tools.figures.pass_of_steps import run_steps
+from datmo_tools.figures.render import FILE, rendered
+from datmo_tools.figures.step import Bench
+from datmo_tools.figures.steps import STEPS
+from datmo_tools.text_table import aligned
+from datmo_tools.whole_files import write_whole
+
+DESCRIPTION = """\
+Measures at one commit what README's table of results and doc/results.md show, writes it to
+doc/results.json, and renders both from it. A step that is done at this commit is not run again, so
+what was interrupted goes on where it was; of sources that were changed since their commit, every
+step runs. Steps whose data is not there, below ../shared/data, are left out and named. A step that
+fails is reported, and the others go on; the exit code is then 1."""
+
+
+def main(arguments=None):
+    """Runs the command line; returns its exit code."""
+    values = _parser().parse_args(arguments)
+    codes = []
+    code = command_line.run("figures", lambda: codes.append(_work(values)), "figures")
+    return code or codes[0]
+
+
+def _work(values):
+    """The exit code."""
+    if values.list:
+        print(steps_table())
+        return 0
+    if values.check:
+        return check(values.source)
+    if not values.render:
+        return _measure(values)
+    write_pages(values.source, results_file.read(values.source / FILE))
+    return 0
+
+
+def steps_table():
+    """What there is to measure, as text."""
+    rows = [["step", "shows", "by", ""]]
+    rows += [[step.name, step.shows, step.command, "on request" if step.on_request else ""]
+             for step in STEPS]  # fmt: skip
+    return aligned(rows)
+
+
+def check(source):
+    """0 if the pages are what the file of figures makes of them, 1 with their names otherwise."""
+    pages = rendered(source, results_file.read(source / FILE))
+    stale = [name for name, text in pages.items()
+             if not (source / name).is_file()
+             or (source / name).read_text(encoding="utf-8") != text]  # fmt: skip
+    for name in stale:
+        print(f"{name}: not what {FILE} makes of it, expected scripts/figures --render")
+    return int(bool(stale))
+
+
+def write_pages(source, results):
+    """Writes README's table and doc/results.md."""
+    for name, text in rendered(source, results).items():
+        write_whole((source / name).parent, {Path(name).name: text})
+
+
+def _measure(values):
+    names = [step.name for step in STEPS]
+    unknown = set(values.only + values.also) - set(names)
+    if unknown:
+        raise InputError(f"{sorted(unknown)[0]}: no such step, expected {', '.join(names)}")
+    bench = Bench(values.source, values.build, values.programs, values.data,
+                  tuple(range(1, values.seeds + 1)))  # fmt: skip
+    store = results_file.StepStore(values.out, results_file.commit_of(values.source))
+    failures = run_steps(_chosen(values), bench, store, values.jobs)
+    results = store.results(STEPS)
+    if results is not None:
+        file = values.source / FILE
+        write_whole(file.parent, {file.name: results_file.as_text(results)})
+        write_pages(values.source, results)
+        print(f"{FILE}, README.md and doc/results.md: {store.commit}, {', '.join(results['steps'])}")
+    for failure in failures:
+        print(failure)
+    return int(bool(failures))
+
+
+def _chosen(values):
+    if values.only:
+        return [step for step in STEPS if step.name in values.only]
+    return [step for step in STEPS if not step.on_request or step.name in values.also]
+
+
+def _parser():
+    parser = argparse.ArgumentParser(
+        prog="figures",
+        description=DESCRIPTION,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add = parser.add_argument
+    folder = {"type": Path, "metavar": "DIR"}
+    add("--source", **folder, default=Path.cwd(), help="root of the sources (default: here)")
+    add("--build", **folder, default=Path("build"), help="where they are built")
+    add("--programs", **folder, default=Path("devel/lib/datmo_fusion"), help="of the build")
+    add("--data", **folder, default=Path("../shared/data"), help="recordings (default %(default)s)")
+    add("--out", type=command_line.output_folder, default=Path("demo_output/figures"), metavar="DIR",
+        help="what is done, by commit, and scratch files (default %(default)s)")  # fmt: skip
+    add("--jobs", type=command_line.count, default=os.cpu_count(), metavar="N",
+        help="at a time (default: all cores)")  # fmt: skip
+    add("--seeds", type=command_line.count, default=5, metavar="N",
+        help="of the simulated data sets, from 1 (default %(default)s)")  # fmt: skip
+    add("--only", nargs="+", default=[], metavar="STEP", help="these steps and no other")
+    add("--also", nargs="+", default=[], metavar="STEP", help="steps on request, too")
+    action = parser.add_mutually_exclusive_group()
+    for name, text in (
+        ("--list", "prints the steps"),
+        ("--render", "measures nothing: renders the pages from doc/results.json"),
+        ("--check", "measures nothing: are the pages what doc/results.json makes of them?"),
+    ):
+        action.add_argument(name, action="store_true", help=text)
+    return parser

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Steps that measure robustness, the operating curve and speed."""
+
+from functools import partial
+
+from datmo_tools.evaluate.thesis_tables import PUBLISHED
+from datmo_tools.experiments import simulated_run
+from datmo_tools.experiments.data_sets import SCORE_OPTIONS
+from datmo_tools.figures.step import Job, read_json
+
+SCENES = ("straight_road", "guard_rails")
+ROBUSTNESS_SEEDS = 10
+
+
+def robustness_jobs(bench):
+    """A job for each scene, whose runs are compared with those without vehicles."""
+    return [Job(scene, partial(_robustness, bench, scene)) for scene in SCENES]
+
+
+def _robustness(bench, scene, folder):
+    report = folder / "robustness.json"
+    bench.experiment("robustness", bench.scene(scene), "--config", bench.config("half_circle"),
+                     "--programs", bench.programs, "--seeds", ROBUSTNESS_SEEDS, "--jobs", 1,
+                     "--out", report)  # fmt: skip
+    keys = ("movers", "runs", "failed", "worst_jump_m", "relative")
+    return scene, [{key: row[key] for key in keys} for row in read_json(report)["summary"]]
+
+
+def operating_curve_jobs(bench):
+    """All data sets together, with borders of the road."""
+    return [Job("data_sets", partial(_operating_curve, bench))]
+
+
+def _operating_curve(bench, folder):
+    drives = [folder / f"data_set_{number}.bag" for number in range(1, len(PUBLISHED) + 1)]
+    for drive in drives:
+        scene = simulated_run.SimulatedDrive(bench.scene(drive.stem))
+        simulated_run.record(scene, bench.programs, drive)
+    options = [word for assignment in SCORE_OPTIONS for word in ("--set", assignment)]
+    curve = bench.evaluated(folder, "operating_curve", *drives, "--config",
+                            bench.config("demonstrator"), "--road-border", *options)  # fmt: skip
+    keys = ("probability", "missed_share", "false_tracks_per_minute")
+    return {
+        "shipped": curve["shipped"],
+        "points": [{key: point[key] for key in keys} for point in curve["points"]],
+    }
+
+
+def speed_jobs(bench):
+    """Hot paths and the live chain, one after the other."""
+    return [Job("benchmark", partial(_speed, bench))]
+
+
+def _speed(bench, folder):
+    report = folder / "speed.json"
+    bench.call("speed_benchmark", "--source", bench.source, "--build", bench.build, "--out", report)
+    measured = read_json(report)
+    return {
+        "cpu_us": {name: run["cpu_us"] for name, run in measured["micro"].items()},
+        "live": {
+            name: {key: run[key] for key in ("scans", "unanswered", "latency_ms")}
+            for name, run in measured["live"].items()
+        },
+    }

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the jobs of many steps, as many at a time as there are cores."""
+
+import shutil
+import time
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from typing import NamedTuple
+
+from tqdm import tqdm
+
+from datmo_tools.errors import InputError
+from datmo_tools.programs import StepFailed
+
+# What a job may end with: a program that gave up, a file or a figure that is not as expected.
+FAILURES = (InputError, StepFailed, OSError, KeyError, TypeError, ValueError)
+
+
+class Outcome(NamedTuple):
+    """Of one job."""
+
+    step: object
+    name: str  # of the job
+    result: object = None
+    seconds: float = 0.0
+    failure: str = ""
+
+
+def run_steps(steps, bench, store, jobs):
+    """Runs the steps that are not done, each of which is stored when its last job is; a list of what
+    failed, as text."""
+    todo = [step for step in steps if _is_due(step, bench, store)]
+    side_by_side = [step for step in todo if not step.alone]
+    failures = _run(side_by_side, bench, store, jobs)
+    for step in todo:
+        if step.alone:
+            failures += _run([step], bench, store, 1)
+    return failures
+
+
+def _is_due(step, bench, store):
+    if store.is_done(step):
+        print(f"{step.name}: done at {store.commit}")
+        return False
+    absent = [name for name in step.needs if not (bench.data / name).exists()]
+    for name in absent:
+        print(f"{step.name}: left out, {bench.data / name} is not there")
+    return not absent
+
+
+def _run(steps, bench, store, jobs):
+    work = [(step, job) for step in steps for job in step.jobs(bench)]
+    outcomes = {step.name: [] for step in steps}
+    counts = {name: sum(step.name == name for step, _ in work) for name in outcomes}
+    failures = []
+    with ThreadPoolExecutor(jobs) as pool:
+        running = [pool.submit(_run_job, step, job, bench, store) for step, job in work]
+        try:
+            for future in tqdm(as_completed(running), "jobs", len(running)):
+                outcome = future.result()
+                same = outcomes[outcome.step.name]
+                same.append(outcome)
+                if len(same) == counts[outcome.step.name]:
+                    failures += _finish(outcome.step, same, bench, store)
+        except BaseException:
+            pool.shutdown(cancel_futures=True)
+            raise
+    return failures
+
+
+def _run_job(step, job, bench, store):
+    folder = store.folder / "scratch" / step.name / job.name
+    shutil.rmtree(folder, ignore_errors=True)
+    started = time.monotonic()
+    try:
+        folder.mkdir(parents=True)
+        result = job.work(folder)
+        return Outcome(step, job.name, result, time.monotonic() - started)
+    except FAILURES as error:
+        what = error if isinstance(error, (InputError, StepFailed, OSError)) else repr(error)
+        return Outcome(step, job.name, failure=f"{step.name}, {job.name}: {what}")
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def _finish(step, outcomes, bench, store):
+    """Stores the step if all its jobs gave something; list of failures."""
+    failures = [outcome.failure for outcome in outcomes if outcome.failure]
+    if failures:
+        return failures
+    seconds = sum(outcome.seconds for outcome in outcomes)
+    # In an order that does not hang on which job was quickest.
+    results = [outcome.result for outcome in sorted(outcomes, key=lambda item: item.name)]
+    store.add(step, step.figures(results), seconds, bench)
+    tqdm.write(f"{step.name}: {seconds:.0f} s of jobs")
+    return []

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The steps that are done at a commit, and the one file of figures that is made of them."""
+
+import datetime
+import json
+import os
+import platform
+import re
+import subprocess
+from pathlib import Path
+
+from datmo_tools.errors import InputError
+from datmo_tools.figures.spread import rounded
+from datmo_tools.figures.step import read_json
+from datmo_tools.whole_files import write_whole
+
+FORMAT = 1
+CHANGED = "-changed"  # ends the name of a commit that the sources have been changed since
+# What may differ from the commit: no figure depends on it.
+DOCUMENTS = (":(exclude)README.md", ":(exclude)CHANGELOG.rst", ":(exclude)doc")
+LIST_OF_NUMBERS = re.compile(r"\[\s+((?:[-+.\deE]+|null)(?:,\s+(?:[-+.\deE]+|null))*)\s+\]")
+
+
+def commit_of(source):
+    """Abbreviated name of the commit that the sources (Path) are at. Raises InputError."""
+    name = _git(source, "rev-parse", "--short=8", "HEAD")
+    changes = _git(source, "status", "--porcelain", "--", ".", *DOCUMENTS)
+    return name + (CHANGED if changes else "")
+
+
+def _git(source, *words):
+    done = subprocess.run(["git", "-C", str(source), *words], check=False, capture_output=True,
+                          encoding="utf-8")  # fmt: skip
+    if done.returncode != 0:
+        raise InputError(f"{source}: no commit of its own, expected a git checkout: {done.stderr}")
+    return done.stdout.strip()
+
+
+class StepStore:
+    """A file for each step that is done at a commit. Of changed sources none counts as done."""
+
+    def __init__(self, folder, commit):
+        """folder (Path): of all commits."""
+        self.folder, self.commit = folder / commit, commit
+
+    def is_done(self, step):
+        """Whether the step need not run again."""
+        return not self.commit.endswith(CHANGED) and self._file(step.name).is_file()
+
+    def add(self, step, figures, seconds, bench):
+        """Keeps what a step came to; seconds: of all its jobs."""
+        record = {
+            "shows": step.shows,
+            "command": step.command,
+            "seeds": list(bench.seeds) if step.seeded else None,
+            "date": datetime.datetime.now(datetime.timezone.utc).date().isoformat(),
+            "job_seconds": round(seconds),
+            "figures": rounded(figures),
+        }
+        write_whole(self.folder, {f"{step.name}.json": json.dumps(record) + "\n"})
+
+    def results(self, steps):
+        """All steps that are done (dict), in the order of `steps`; None where none is."""
+        done = {step.name: read_json(self._file(step.name))
+                for step in steps if self._file(step.name).is_file()}  # fmt: skip
+        if not done:
+            return None
+        date = max(step["date"] for step in done.values())
+        return {"format": FORMAT, "commit": self.commit, "date": date, "machine": machine(),
+                "steps": done}  # fmt: skip
+
+    def _file(self, name):
+        return self.folder / f"{name}.json"
+
+
+def machine():
+    """Processor and cores, for the figures of speed."""
+    lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return {"processor": names[0] if names else platform.machine(), "cores": os.cpu_count()}
+
+
+def as_text(results):
+    """JSON with a line for each figure, lists of numbers on one."""
+    text = json.dumps(results, indent=1, ensure_ascii=False) + "\n"
+    return LIST_OF_NUMBERS.sub(lambda found: "[" + re.sub(r"\s+", " ", found[1]) + "]", text)
+
+
+def read(file):
+    """The file of figures (dict). Raises InputError."""
+    try:
+        results = read_json(file)
+    except (OSError, ValueError) as error:
+        raise InputError(f"{file}: cannot be read: {error}; scripts/figures makes it") from error
+    if results.get("format") != FORMAT:
+        raise InputError(f"{file}: format {results.get('format')}, expected {FORMAT}")
+    return results

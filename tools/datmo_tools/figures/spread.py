@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Median and range of what was measured several times."""
+
+import math
+import statistics
+
+DIGITS = 4  # that are kept of a figure
+
+
+def spread(values):
+    """[median, min, max] of numbers; None where one of them is missing (None), or none is there."""
+    values = list(values)
+    if not values or None in values:
+        return None
+    return [statistics.median(values), min(values), max(values)]
+
+
+def spread_of(trees):
+    """One dictionary of equal nested ones, with the spread() of each figure."""
+    first = trees[0]
+    if isinstance(first, dict):
+        return {key: spread_of([tree[key] for tree in trees]) for key in first}
+    return spread(trees)
+
+
+def rounded(tree):
+    """The same with its numbers rounded to DIGITS significant ones."""
+    if isinstance(tree, dict):
+        return {key: rounded(value) for key, value in tree.items()}
+    if isinstance(tree, (list, tuple)):
+        return [rounded(value) for value in tree]
+    if isinstance(tree, float):
+        return _rounded(tree)
+    return tree
+
+
+def _rounded(value):
+    if not math.isfinite(value):
+        return None
+    return float(f"{value:.{DIGITS}g}")

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a step of scripts/figures is: jobs that run side by side, and what they come to."""
+
+import json
+import sys
+from pathlib import Path
+from typing import Callable, NamedTuple
+
+from datmo_tools import programs
+
+
+class Bench(NamedTuple):
+    """What the steps work with."""
+
+    source: Path  # root of the sources
+    build: Path  # where they are built
+    programs: Path  # folder of the built programs
+    data: Path  # of recordings that are not in the repository
+    seeds: tuple  # of the simulated data sets
+
+    def config(self, name):
+        """Yaml file (Path) of a sensor set."""
+        return self.source / "config" / f"{name}.yaml"
+
+    def scene(self, name):
+        """Yaml file (Path) of a simulated scene."""
+        return self.source / "rosbag_fixtures" / "scenes" / f"{name}.yaml"
+
+    def call(self, program, *words):
+        """Runs a built program to its end. Raises programs.StepFailed."""
+        programs.call(self.programs / program, *words)
+
+    def experiment(self, name, *words):
+        """The same with a tool of datmo_tools.experiments."""
+        programs.call(Path(sys.executable), "-m", "datmo_tools", f"experiments.{name}", *words)
+
+    def evaluated(self, folder, subcommand, *words):
+        """What evaluate writes (dict) to the folder (Path)."""
+        self.call("evaluate", subcommand, *words, "--out", folder)
+        return read_json(folder / f"{subcommand}.json")
+
+
+class Job(NamedTuple):
+    """A part of a step that needs one core."""
+
+    name: str  # of its folder
+    work: Callable  # of that folder (Path), which is deleted after it: what JSON can hold
+
+
+class Step(NamedTuple):
+    """Figures that belong together."""
+
+    name: str
+    shows: str  # in a few words
+    command: str  # that makes such a figure by hand
+    jobs: Callable  # of a Bench: list of Job
+    figures: Callable  # of the list of their results: a dictionary that JSON can hold
+    needs: tuple = ()  # paths below Bench.data
+    seeded: bool = False  # by Bench.seeds
+    on_request: bool = False
+    alone: bool = False  # it measures time: nothing runs beside it
+
+
+def only(results):
+    """Figures of a step with one job."""
+    return results[0]
+
+
+def by_name(results):
+    """Figures of a step whose jobs give (name, figures)."""
+    return dict(sorted(results))
+
+
+def read_json(file):
+    """What a file (Path) holds."""
+    return json.loads(file.read_text(encoding="utf-8"))
