@@ -10,6 +10,7 @@ namespace datmo {
 
 /// A scan as borders are looked for in it: in the map frame.
 struct BorderScan {
+  /// One beam of it.
   struct Beam {
     Point2 end = Point2::Zero();  ///< m; of a beam without return as far as it is known free
     bool hit = false;

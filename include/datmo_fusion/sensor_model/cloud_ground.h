@@ -23,6 +23,7 @@ struct CloudGroundOptions {
   void visit(OptionVisitor& visitor);
 };
 
+/// The ground below a cloud.
 struct CloudGround {
   RoadPlane plane;         ///< z = 0 of the base frame where none was found
   bool seen = false;       ///< found in this cloud

@@ -44,6 +44,7 @@ struct MatchQuality {
   bool degenerate = false;  ///< that direction was left to the prediction
 };
 
+/// The pose from which a scan fits the map best, in the map frame, and how far to trust it.
 struct MatchResult {
   PoseWithCovariance pose;
   MatchQuality quality;

@@ -27,6 +27,7 @@ struct Candidate {
                  ///< of no target"
 };
 
+/// How well the observations of a scan fit a target.
 struct TargetScores {
   double detection_probability = 0.0;  ///< if it exists
   double missed = 0.0;                 ///< logarithm of the probability that it is not seen

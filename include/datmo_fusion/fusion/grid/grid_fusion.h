@@ -41,6 +41,7 @@ struct WeighedGrid {
   GridSourceOptions source;
 };
 
+/// What the fusion of grids gives.
 struct FusedGrids {
   SensorGrid fused;
   /// Percent of the evidence that contradicts itself, whatever the rule: the mass that Dempster's

@@ -56,6 +56,7 @@ struct ObjectFusionCounts {
   std::size_t fused = 0;     ///< objects that two or more sources see
 };
 
+/// One list of all sources.
 struct ObjectFusionResult {
   ObjectList list;  ///< vehicle's frame at the reference's stamp
   ObjectFusionCounts counts;

@@ -18,6 +18,7 @@ enum class WhyMissing {
 /// "silent", "none near", "no motion".
 const char* toText(WhyMissing why);
 
+/// A source without a sample for this fusion, and why.
 struct MissingSource {
   std::string source;
   WhyMissing why = WhyMissing::kSilent;

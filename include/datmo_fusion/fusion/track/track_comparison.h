@@ -16,6 +16,7 @@ struct TrackComparisonOptions {
   void visit(OptionVisitor& visitor);
 };
 
+/// Whether two tracks are of one object.
 struct TrackComparison {
   /// 1, Mahalanobis, of position and velocity: chi-square with four degrees of freedom where the
   /// two are one. Infinity: so far from each other that nothing more was looked at.

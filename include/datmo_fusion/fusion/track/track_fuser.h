@@ -72,6 +72,7 @@ struct TrackFusionCounts {
   std::size_t published = 0;
 };
 
+/// One list of all sources.
 struct TrackFusionResult {
   TrackList list;  ///< at the time of fusion; `views` are those of all sources
   TrackFusionCounts counts;

@@ -30,6 +30,7 @@ struct BeamCounts {
   std::size_t dropped = 0;    ///< NaN, -inf, negative or below range_min: no ray
 };
 
+/// A message as a scan, and what of it could not be used.
 struct ConvertedScan {
   Scan scan;
   BeamCounts beams;

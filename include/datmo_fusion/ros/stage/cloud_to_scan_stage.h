@@ -27,6 +27,7 @@ struct CloudToScanStageOptions {
   void visit(OptionVisitor& visitor);
 };
 
+/// What one cloud gives.
 struct CloudToScanOutput {
   sensor_msgs::LaserScanPtr scan;
   /// base -> the scan's frame, if it is not the one of the last output: the scan's frame lies below

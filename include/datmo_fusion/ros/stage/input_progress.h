@@ -15,6 +15,7 @@ namespace datmo {
 /// what is waited for, and on which topics. Not thread safe.
 class InputProgress {
  public:
+  /// A line for the console.
   struct Line {
     bool is_warning = false;
     std::string text;
