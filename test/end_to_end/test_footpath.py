@@ -8,40 +8,17 @@ matter of luck.
 
 import tempfile
 import unittest
+from pathlib import Path
 
-from datmo_tools.evaluate.border_comparison import comparison_table
-from datmo_tools.evaluate.compare_borders import compare
-from evaluated_run import SCORE_RUN
-from road_border_run import computed, simulated
-
-SEEDS = (1, 2)
-
-MIN_TRACKED = 14  # of 15 that move
-MIN_REDUCTION = 0.5  # of false moving objects, all and in a scan
-# Whose few beams hardly show that he moves may need more of them where most things stand.
-CLEARLY_TRACKED = 0.05  # of the frames of one who moves
-MIN_FRAMES_KEPT = 0.85  # of the frames in which one of the moving objects is tracked
+from bounds import check, seeds
+from scene_figures import footpath
 
 
 class Footpath(unittest.TestCase):
     def test_nobody_is_lost(self):
-        for seed in SEEDS:
-            with self.subTest(seed=seed), tempfile.TemporaryDirectory() as folder:
-                recorded = simulated(folder, "footpath", seed)
-                alone, bordered = computed(recorded), computed(recorded, "--road-border")
-                result = compare(alone, bordered, program=SCORE_RUN)
-                print(f"\nseed {seed}\n{comparison_table(result)}", flush=True)
-                tracked = [item["tracked_frames"]["without"] > 0 for item in result["objects"]]
-                self.assertGreaterEqual(sum(tracked), MIN_TRACKED)
-                clearly = [item["id"] for item in result["objects"]
-                           if item["tracked_frames"]["without"] > CLEARLY_TRACKED * item["required_frames"]]
-                self.assertEqual(set(result["lost"]) & set(clearly), set())
-                frames = result["tracked_frames"]
-                self.assertGreaterEqual(frames["with"], MIN_FRAMES_KEPT * frames["without"])
-                for key in ("false_moving_objects_episodes", "false_moving_objects_frames"):
-                    self.assertGreaterEqual(result["reduction"][key], MIN_REDUCTION, key)
-                self.assertLessEqual(result["with"]["false_tracks"],
-                                     result["without"]["false_tracks"])  # fmt: skip
+        for seed in seeds("footpath"):
+            with tempfile.TemporaryDirectory() as folder:
+                check(self, "footpath", seed, footpath(Path(folder), seed))
 
 
 if __name__ == "__main__":

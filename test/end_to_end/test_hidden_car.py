@@ -12,9 +12,9 @@ from typing import NamedTuple
 
 import rosbag
 from evaluated_run import RUN_BAG, evaluated
-from test_intersection import CONFIG, ROOT, SIMULATE
+from scene_runs import CONFIG, SCENES, SIMULATE
 
-SCENE = ROOT / "rosbag_fixtures" / "scenes" / "hidden_car.yaml"
+SCENE = SCENES / "hidden_car.yaml"
 SEEDS = (1, 2, 3, 4, 5, 6)
 # Of the seeds, with which the car keeps its id all the time: it did with 1, 4 and 6 of them, and with
 # 3 of 8. With the others, while the cyclist moves in front of it, the last beam slides along its flank,

@@ -10,24 +10,11 @@ import unittest
 from pathlib import Path
 
 import rosbag
+from bounds import check, seeds
 from datmo_tools.bag_file import whole_bag
 from datmo_tools.evaluate.border_lists import BORDERS, read_borders
-from datmo_tools.evaluate.border_tally import BANDS
-from datmo_tools.evaluate.borders import score
-from evaluated_run import evaluated
-from road_border_run import computed, simulated
-
-NEAR, WHOLE = BANDS.index((0.0, 20.0)), -1
-
-SEEDS = (1, 2)
-
-MAX_STRAIGHT_RMS = 0.3  # m, within 20 m
-MAX_CURVE_RMS = 0.5
-MIN_FOUND = 0.5  # within 20 m, seen before or not
-# Of what is published: house fronts behind curbs, and lines across the mouths of junctions.
-MAX_FALSE_SHARE = 0.3
-# Where a sharp bend hides the curb and the land behind it is open, as at a side street.
-MAX_FALSE_IN_BENDS = 2
+from scene_figures import SCENES
+from scene_runs import computed, simulated
 
 
 class RoadBorder(unittest.TestCase):
@@ -36,59 +23,29 @@ class RoadBorder(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
 
-    def run_scene(self, scene, seed=1):
-        """The stack's bag (Path) of the scene."""
-        return computed(simulated(self.folder, scene, seed), "--road-border")
-
-    def check_false(self, result):
-        self.assertLessEqual(result["false"]["false_share"], MAX_FALSE_SHARE, result["false"])
+    def check_scene(self, scene):
+        for seed in seeds(scene):
+            check(self, scene, seed, SCENES[scene](self.folder, seed))
 
     def test_bends(self):
-        for seed in SEEDS:
-            with self.subTest(seed=seed):
-                run = self.run_scene("bend", seed)
-                result = score(run)
-                straight, curve = (result["borders"][name][NEAR] for name in ("straight", "curve"))
-                self.assertGreater(min(straight["stations"], curve["stations"]), 5000)
-                self.assertGreaterEqual(straight["found_share"], MIN_FOUND)
-                self.assertGreaterEqual(curve["found_share"], MIN_FOUND)
-                self.assertLessEqual(straight["rms_m"], MAX_STRAIGHT_RMS)
-                self.assertLessEqual(curve["rms_m"], MAX_CURVE_RMS)
-                self.check_false(result)
-                false = evaluated(run, run)["thesis"]["intersections_false"]
-                self.assertLessEqual(false, MAX_FALSE_IN_BENDS)
+        self.check_scene("bend")
 
     def test_turn_at_an_intersection(self):
-        """The vehicle turns off: such an intersection may be missed, but none is told elsewhere."""
-        for seed in SEEDS:
-            with self.subTest(seed=seed):
-                run = self.run_scene("intersection", seed)
-                counts = evaluated(run, run)["thesis"]
-                self.assertEqual(counts["intersections"], 1)
-                self.assertEqual(counts["intersections_false"], 0)
-                self.check_false(score(run))
+        """Such an intersection may be missed, but none is told elsewhere."""
+        self.check_scene("intersection_borders")
+
+    def test_one_side(self):
+        self.check_scene("one_side")
 
     def test_no_road(self):
         """A car park: it is no intersection."""
-        for seed in SEEDS:
+        for seed in seeds("car_park"):
             with self.subTest(seed=seed):
-                run = self.run_scene("car_park", seed)
+                run = computed(simulated(self.folder, "car_park", seed), "--road-border")
                 with rosbag.Bag(str(run)) as bag:
                     states = [item.at_intersection for _, item, _ in bag.read_messages([BORDERS])]
                 self.assertGreater(len(states), 400)
                 self.assertEqual(sum(states), 0)
-
-    def test_one_side(self):
-        for seed in SEEDS:
-            with self.subTest(seed=seed):
-                run = self.run_scene("one_side", seed)
-                result = score(run)
-                self.assertEqual(result["borders"]["left"][WHOLE]["stations"], 0)
-                right = result["borders"]["right"][NEAR]
-                self.assertGreaterEqual(right["found_share"], MIN_FOUND)
-                self.assertLessEqual(right["rms_m"], MAX_STRAIGHT_RMS)
-                self.check_false(result)
-                self.assertEqual(evaluated(run, run)["thesis"]["intersections_false"], 0)
 
     def test_looped_bag(self):
         """Borders begin anew with the bag: the second time they are found as well."""

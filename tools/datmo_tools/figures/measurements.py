@@ -9,7 +9,14 @@ from datmo_tools.experiments.data_sets import SCORE_OPTIONS
 from datmo_tools.figures.step import Job, read_json
 
 SCENES = ("straight_road", "guard_rails")
-ROBUSTNESS_SEEDS = 10
+ROBUSTNESS_SEEDS = 5
+
+# Of all benchmarks those that tell of a stage.
+HOT_PATHS = (
+    "slamStep", "gridUpdate", "detection", "trackerStep", "immPredictAndUpdate", "rankedAssignments",
+    "roadBorderScan", "cloudToScan", "stereoGrid", "stereoObjects", "objectFusion", "trackFusion",
+    "fusion",
+)  # fmt: skip
 
 
 def robustness_jobs(bench):
@@ -56,9 +63,10 @@ def _speed(bench, folder):
     bench.call("speed_benchmark", "--source", bench.source, "--build", bench.build, "--out", report)
     measured = read_json(report)
     return {
-        "cpu_us": {name: run["cpu_us"] for name, run in measured["micro"].items()},
+        "cpu_us": {name: run["cpu_us"] for name, run in measured["micro"].items()
+                   if name.split("/")[0] in HOT_PATHS},
         "live": {
             name: {key: run[key] for key in ("scans", "unanswered", "latency_ms")}
             for name, run in measured["live"].items()
         },
-    }
+    }  # fmt: skip

@@ -15,7 +15,7 @@ STEPS = (
          "scripts/data_sets --road-border", data_sets.jobs, data_sets.figures, seeded=True),
     Step("stereo_grids", "stereo grids against the Velodyne", "evaluate stereo_grids",
          cameras.stereo_grid_jobs, only, (recordings.DRIVE_0005,)),
-    Step("robustness", "pose among moving vehicles", "scripts/robustness --seeds 10",
+    Step("robustness", "pose among moving vehicles", "scripts/robustness --seeds 5",
          measurements.robustness_jobs, by_name),
     Step("kitti_tracking", "tracker on KITTI tracking", "kitti_tracking_run, kitti_tracking_score",
          recordings.kitti_tracking_jobs, only, (recordings.KITTI_TRACKING,)),
