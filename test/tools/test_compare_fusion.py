@@ -17,7 +17,7 @@ from datmo_tools.experiments.fusion_drives import within
 from datmo_tools.evaluate.thesis_tables import PUBLISHED
 
 TIMES = {"grid_slam": {"runs": 10, "mean_s": 0.002}, "stereo_objects": {"runs": 5, "mean_s": 0.01},
-         "stereo_images": {"runs": 10, "mean_s": 1.0}}  # fmt: skip
+         "stereo_image_proc": {"runs": 10, "mean_s": 1.0}}  # fmt: skip
 
 
 def tracked(number, frames, ids):

@@ -243,7 +243,7 @@ class CommandLine(unittest.TestCase):
     def test_unknown_step(self):
         code, said = self.run_main("--only", "luck")
         self.assertEqual(code, 1)
-        self.assertIn("luck: no such step, expected fusion, ", said)
+        self.assertIn("luck: no such step, expected kitti_tracking, ", said)
 
     @unittest.skipUnless((ROOT / render.FILE).is_file(), "scripts/figures has not been run here")
     def test_the_repositorys_pages_are_what_its_figures_make_of_them(self):

@@ -7,7 +7,7 @@ from datmo_tools.text_table import NO_VALUE, aligned, percent, rounded
 
 IN_VIEW = "in view"  # column of evaluate grids
 
-IMAGE_MATCHING = "stereo_images"  # stage of run_bag
+IMAGE_MATCHING = "stereo_image_proc"  # stage of run_bag
 
 
 class FusionRuns(NamedTuple):

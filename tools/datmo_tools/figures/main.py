@@ -27,7 +27,7 @@ def main(arguments=None):
     """Runs the command line; returns its exit code."""
     values = _parser().parse_args(arguments)
     codes = []
-    code = command_line.run("figures", lambda: codes.append(_work(values)), "figures")
+    code = command_line.run("figures", lambda: codes.append(_work(values)), "further figures")
     return code or codes[0]
 
 
@@ -77,16 +77,22 @@ def _measure(values):
     bench = Bench(values.source, values.build, values.programs, values.data,
                   tuple(range(1, values.seeds + 1)))  # fmt: skip
     store = results_file.StepStore(values.out, results_file.commit_of(values.source))
-    failures = run_steps(_chosen(values), bench, store, values.jobs)
-    results = store.results(STEPS)
-    if results is not None:
-        file = values.source / FILE
-        write_whole(file.parent, {file.name: results_file.as_text(results)})
-        write_pages(values.source, results)
-        print(f"{FILE}, README.md and doc/results.md: {store.commit}, {', '.join(results['steps'])}")
+    try:
+        failures = run_steps(_chosen(values), bench, store, values.jobs)
+    finally:
+        _write_done(values.source, store)
     for failure in failures:
         print(failure)
     return int(bool(failures))
+
+
+def _write_done(source, store):
+    """The file of figures and the pages, of all steps that are done at the commit."""
+    results = store.results(STEPS)
+    if results is not None:
+        write_whole((source / FILE).parent, {Path(FILE).name: results_file.as_text(results)})
+        write_pages(source, results)
+        print(f"{FILE}, README.md and doc/results.md: {store.commit}, {', '.join(results['steps'])}")
 
 
 def _chosen(values):
