@@ -120,6 +120,31 @@ class Pass(InFolder):
         self.assertIn("one: done at 0123abcd", self.run_all(step)[1])
         self.assertEqual(self.runs, ["one"])
 
+    def test_other_seeds_run_again(self):
+        step = self.step("one", seeded=True)
+        self.run_all(step)
+        self.bench = self.bench._replace(seeds=(1, 2, 3))
+        self.assertNotIn("done at", self.run_all(step)[1])
+
+    def test_a_step_goes_on_with_the_job_that_failed(self):
+        broken = [True]
+
+        def second(_):
+            if broken:
+                raise InputError("no disk")
+            return ("b", 2)
+
+        def first(_):
+            self.runs.append("a")
+            return ("a", 1)
+
+        step = Step("two", "values", "x", lambda _: [Job("a", first), Job("b", second)], by_name)
+        self.assertEqual(self.run_all(step)[0], ["two, b: no disk"])
+        broken.clear()
+        self.assertEqual(self.run_all(step)[0], [])
+        self.assertEqual(self.runs, ["a"])
+        self.assertEqual(self.store.results([step])["steps"]["two"]["figures"], {"a": 1, "b": 2})
+
     def test_of_changed_sources_nothing_counts_as_done(self):
         self.store = results_file.StepStore(self.folder, "0123abcd" + results_file.CHANGED)
         for _ in range(2):

@@ -38,7 +38,7 @@ def run_steps(steps, bench, store, jobs):
 
 
 def _is_due(step, bench, store):
-    if store.is_done(step):
+    if store.is_done(step, bench):
         print(f"{step.name}: done at {store.commit}")
         return False
     absent = [name for name in step.needs if not (bench.data / name).exists()]
@@ -53,7 +53,7 @@ def _run(steps, bench, store, jobs):
     counts = {name: sum(step.name == name for step, _ in work) for name in outcomes}
     failures = []
     with ThreadPoolExecutor(jobs) as pool:
-        running = [pool.submit(_run_job, step, job, bench, store) for step, job in work]
+        running = [pool.submit(_run_job, step, job, store) for step, job in work]
         try:
             for future in tqdm(as_completed(running), "jobs", len(running)):
                 outcome = future.result()
@@ -67,14 +67,18 @@ def _run(steps, bench, store, jobs):
     return failures
 
 
-def _run_job(step, job, bench, store):
+def _run_job(step, job, store):
+    kept = store.of_job(step, job.name)
+    if kept is not None:
+        return Outcome(step, job.name, *kept)
     folder = store.folder / "scratch" / step.name / job.name
     shutil.rmtree(folder, ignore_errors=True)
     started = time.monotonic()
     try:
         folder.mkdir(parents=True)
-        result = job.work(folder)
-        return Outcome(step, job.name, result, time.monotonic() - started)
+        result, seconds = job.work(folder), time.monotonic() - started
+        store.add_job(step, job.name, result, seconds)
+        return Outcome(step, job.name, result, seconds)
     except FAILURES as error:
         what = error if isinstance(error, (InputError, StepFailed, OSError)) else repr(error)
         return Outcome(step, job.name, failure=f"{step.name}, {job.name}: {what}")

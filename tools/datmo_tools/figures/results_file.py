@@ -37,22 +37,39 @@ def _git(source, *words):
 
 
 class StepStore:
-    """A file for each step that is done at a commit. Of changed sources none counts as done."""
+    """A file for each step, and for each of its jobs, that is done at a commit. Of changed sources none
+    counts as done."""
 
     def __init__(self, folder, commit):
         """folder (Path): of all commits."""
         self.folder, self.commit = folder / commit, commit
 
-    def is_done(self, step):
+    def is_done(self, step, bench):
         """Whether the step need not run again."""
-        return not self.commit.endswith(CHANGED) and self._file(step.name).is_file()
+        file = self._file(step.name)
+        if self.commit.endswith(CHANGED) or not file.is_file():
+            return False
+        return read_json(file)["seeds"] == _seeds(step, bench)
+
+    def of_job(self, step, name):
+        """What add_job() kept of a job: (result, s); None where it has to run."""
+        file = self._job_file(step, name)
+        if self.commit.endswith(CHANGED) or not file.is_file():
+            return None
+        kept = read_json(file)
+        return kept["result"], kept["seconds"]
+
+    def add_job(self, step, name, result, seconds):
+        """Keeps what a job gave, so that a step that is interrupted goes on with the next one."""
+        file = self._job_file(step, name)
+        write_whole(file.parent, {file.name: json.dumps({"result": result, "seconds": seconds})})
 
     def add(self, step, figures, seconds, bench):
         """Keeps what a step came to; seconds: of all its jobs."""
         record = {
             "shows": step.shows,
             "command": step.command,
-            "seeds": list(bench.seeds) if step.seeded else None,
+            "seeds": _seeds(step, bench),
             "date": datetime.datetime.now(datetime.timezone.utc).date().isoformat(),
             "job_seconds": round(seconds),
             "figures": rounded(figures),
@@ -69,8 +86,15 @@ class StepStore:
         return {"format": FORMAT, "commit": self.commit, "date": date, "machine": machine(),
                 "steps": done}  # fmt: skip
 
+    def _job_file(self, step, name):
+        return self.folder / "jobs" / step.name / f"{name}.json"
+
     def _file(self, name):
         return self.folder / f"{name}.json"
+
+
+def _seeds(step, bench):
+    return list(bench.seeds) if step.seeded else None
 
 
 def machine():

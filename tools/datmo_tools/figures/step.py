@@ -68,7 +68,7 @@ def only(results):
 
 def by_name(results):
     """Figures of a step whose jobs give (name, figures)."""
-    return dict(sorted(results))
+    return dict(sorted(map(tuple, results)))  # lists where JSON held them
 
 
 def read_json(file):
