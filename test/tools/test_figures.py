@@ -186,6 +186,8 @@ class Commit(InFolder):
         self.assertRegex(commit, "^[0-9a-f]{8}$")
         (self.folder / "README.md").write_text("2")
         self.assertEqual(results_file.commit_of(self.folder), commit)
+        self.git("commit", "-a", "-m", "page")
+        self.assertEqual(results_file.commit_of(self.folder), commit)
         (self.folder / "code.cpp").write_text("2")
         self.assertEqual(results_file.commit_of(self.folder), commit + results_file.CHANGED)
 

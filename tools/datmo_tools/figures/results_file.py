@@ -16,15 +16,15 @@ from datmo_tools.whole_files import write_whole
 
 FORMAT = 1
 CHANGED = "-changed"  # ends the name of a commit that the sources have been changed since
-# What may differ from the commit: no figure depends on it.
-DOCUMENTS = (":(exclude)README.md", ":(exclude)CHANGELOG.rst", ":(exclude)doc")
+# All but what no figure depends on.
+SOURCES = (".", ":(exclude)README.md", ":(exclude)CHANGELOG.rst", ":(exclude)doc", ":(exclude)test")
 LIST_OF_NUMBERS = re.compile(r"\[\s+((?:[-+.\deE]+|null)(?:,\s+(?:[-+.\deE]+|null))*)\s+\]")
 
 
 def commit_of(source):
-    """Abbreviated name of the commit that the sources (Path) are at. Raises InputError."""
-    name = _git(source, "rev-parse", "--short=8", "HEAD")
-    changes = _git(source, "status", "--porcelain", "--", ".", *DOCUMENTS)
+    """Abbreviated name of the last commit that changed SOURCES in a checkout (Path). Raises InputError."""
+    name = _git(source, "log", "-1", "--abbrev=8", "--format=%h", "--", *SOURCES)
+    changes = _git(source, "status", "--porcelain", "--", *SOURCES)
     return name + (CHANGED if changes else "")
 
 
