@@ -44,6 +44,13 @@ bool holdsTopic(const rosbag::Bag& bag, const std::string& topic) {
   return rosbag::View(bag, rosbag::TopicQuery(topic)).size() > 0;
 }
 
+std::vector<std::uint8_t> bytesOf(const rosbag::MessageInstance& message) {
+  std::vector<std::uint8_t> bytes(message.size());
+  ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+  message.write(stream);
+  return bytes;
+}
+
 void failForTopic(const rosbag::Bag& bag, const std::string& missing) {
   std::string message = bag.getFileName() + ": " + missing + "; the bag holds:";
   for (const std::string& topic : topicsOf(bag)) {

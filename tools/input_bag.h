@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "bounded_stream.h"
+#include <boost/make_shared.hpp>
+
 #include <rosbag/bag.h>
 #include <rosbag/message_instance.h>
+
+#include "datmo_fusion/ros/stage/input_error.h"
 
 namespace datmo {
 
@@ -23,15 +29,29 @@ bool holdsTopic(const rosbag::Bag& bag, const std::string& topic);
 /// holds.
 [[noreturn]] void failForTopic(const rosbag::Bag& bag, const std::string& missing);
 
+/// The bytes of a message as they stand in the bag.
+std::vector<std::uint8_t> bytesOf(const rosbag::MessageInstance& message);
+
 /// The message itself. Throws std::runtime_error that names topic and types if it is none of
-/// `Message`.
+/// `Message`, InputError (`undecodable_message`) that names topic and time if its bytes are broken.
 template <typename Message>
 boost::shared_ptr<Message> read(const rosbag::MessageInstance& message) {
-  if (const auto content = message.instantiate<Message>()) {
-    return content;
+  if (!message.isType<Message>()) {
+    throw std::runtime_error(message.getTopic() + " is " + message.getDataType() + ", expected " +
+                             ros::message_traits::datatype<Message>());
   }
-  throw std::runtime_error(message.getTopic() + " is " + message.getDataType() + ", expected " +
-                           ros::message_traits::datatype<Message>());
+  try {
+    std::vector<std::uint8_t> bytes = bytesOf(message);
+    BoundedStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+    const auto content = boost::make_shared<Message>();
+    stream.next(*content);
+    return content;
+  } catch (const std::exception& error) {
+    throw InputError("undecodable_message", message.getTopic() + " at " +
+                                                std::to_string(message.getTime().toSec()) +
+                                                " s: expected a whole " + message.getDataType() +
+                                                " (" + error.what() + "); skips it");
+  }
 }
 
 }  // namespace datmo

@@ -16,30 +16,45 @@ bool isSameFile(const std::string& a, const std::string& b) {
   return a == b || std::filesystem::equivalent(a, b, not_there);
 }
 
+void OutputBag::Closing::operator()(rosbag::Bag* bag) const {
+  try {
+    bag->close();
+    delete bag;
+  } catch (const std::exception&) {
+    // The disk is full: rosbag's destructor would try it again, and end the program. It is held
+    // here, as what nobody refers to is reported as a leak.
+    [[maybe_unused]] static rosbag::Bag* unclosed = nullptr;
+    unclosed = bag;
+  }
+}
+
 OutputBag::OutputBag(const std::string& file, rosbag::CompressionType compression)
     : file_(file), part_(file + ".part") {
   checkWritable(file_);
   try {
-    bag_.open(part_, rosbag::bagmode::Write);
-    bag_.setCompression(compression);
+    bag_->open(part_, rosbag::bagmode::Write);
+    bag_->setCompression(compression);
   } catch (const rosbag::BagException& error) {
+    std::error_code ignored;
+    std::filesystem::remove(part_, ignored);
     throw std::runtime_error(file_ + ": cannot be written (" + error.what() + ")");
   }
 }
 
 OutputBag::~OutputBag() {
-  // After finish() there is none. A bag that is still open closes into a file without a name.
+  // A bag that is still open closes into a file without a name.
+  // After finish() there is none.
   std::error_code ignored;
   std::filesystem::remove(part_, ignored);
 }
 
 void OutputBag::copy(const rosbag::MessageInstance& message) {
-  bag_.write(message.getTopic(), message.getTime(), message, message.getConnectionHeader());
+  bag_->write(message.getTopic(), message.getTime(), message, message.getConnectionHeader());
 }
 
 void OutputBag::finish() {
   try {
-    bag_.close();
+    bag_->close();
     std::filesystem::rename(part_, file_);
   } catch (const std::exception& error) {
     throw std::runtime_error(file_ + ": cannot be written (" + error.what() + ")");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include <boost/make_shared.hpp>
@@ -28,7 +29,7 @@ class OutputBag {
   /// Stamps before the first that a bag can hold (ros::TIME_MIN) are raised to it.
   template <typename Message>
   void write(const std::string& topic, const ros::Time& time, const Message& message) {
-    bag_.write(topic, time < ros::TIME_MIN ? ros::TIME_MIN : time, message);
+    bag_->write(topic, time < ros::TIME_MIN ? ros::TIME_MIN : time, message);
   }
 
   /// The same for a latched topic: players publish it latched again.
@@ -39,7 +40,7 @@ class OutputBag {
     (*header)["type"] = ros::message_traits::datatype(message);
     (*header)["md5sum"] = ros::message_traits::md5sum(message);
     (*header)["message_definition"] = ros::message_traits::definition(message);
-    bag_.write(topic, time, message, header);
+    bag_->write(topic, time, message, header);
   }
 
   /// A message as it stands in another bag, latched connection and all.
@@ -49,9 +50,14 @@ class OutputBag {
   void finish();
 
  private:
+  /// Deletes a bag if it can be closed: on a full disk it cannot.
+  struct Closing {
+    void operator()(rosbag::Bag* bag) const;
+  };
+
   std::string file_;
   std::string part_;
-  rosbag::Bag bag_;
+  std::unique_ptr<rosbag::Bag, Closing> bag_{new rosbag::Bag};
 };
 
 }  // namespace datmo

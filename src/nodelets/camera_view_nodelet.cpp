@@ -9,6 +9,7 @@
 #include "datmo_fusion/ros/display/camera_view.h"
 #include "datmo_fusion/ros/frame_ids.h"
 #include "datmo_fusion/ros/parameters.h"
+#include "datmo_fusion/ros/stage/guard.h"
 #include "datmo_fusion/ros/stage/stage_reporter.h"
 #include "datmo_fusion/ros/transform_subscription.h"
 
@@ -46,17 +47,22 @@ class CameraViewNodelet : public nodelet::Nodelet {
   }
 
   void takeCameraInfo(const sensor_msgs::CameraInfoConstPtr& message) {
-    view_->takeCameraInfo(*withPlainFrames("camera_info", message, *monitor_));
+    guarded(*monitor_, "camera_info",
+            [&] { view_->takeCameraInfo(*withPlainFrames("camera_info", message, *monitor_)); });
   }
 
   void takeTracks(const TrackArrayConstPtr& message) {
-    view_->takeTracks(withPlainFrames("tracks", message, *monitor_));
-    publish();
+    guarded(*monitor_, "tracks", [&] {
+      view_->takeTracks(withPlainFrames("tracks", message, *monitor_));
+      publish();
+    });
   }
 
   void takeImage(const sensor_msgs::ImageConstPtr& message) {
-    view_->takeImage(receive("image", message, *monitor_), toStamp(ros::Time::now()));
-    publish();
+    guarded(*monitor_, "image", [&] {
+      view_->takeImage(receive("image", message, *monitor_), toStamp(ros::Time::now()));
+      publish();
+    });
   }
 
   void publish() {

@@ -8,6 +8,7 @@
 
 #include "datmo_fusion/ros/display/grid_views.h"
 #include "datmo_fusion/ros/parameters.h"
+#include "datmo_fusion/ros/stage/guard.h"
 
 namespace datmo {
 
@@ -17,6 +18,7 @@ class GridViewsNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
     const auto options = loadOptions<GridViewsOptions>(getPrivateNodeHandle());
+    monitor_ = std::make_unique<StageMonitor>(getName());
     views_ = std::make_unique<GridViews>(options);
     ros::NodeHandle& node = getNodeHandle();
     picture_ = node.advertise<sensor_msgs::Image>("grid_views", 1);
@@ -44,10 +46,11 @@ class GridViewsNodelet : public nodelet::Nodelet {
   void draw() {
     if (news_ && picture_.getNumSubscribers() > 0) {
       news_ = false;
-      picture_.publish(views_->draw());
+      guarded(*monitor_, "timer", [this] { picture_.publish(views_->draw()); });
     }
   }
 
+  std::unique_ptr<StageMonitor> monitor_;
   std::unique_ptr<GridViews> views_;
   bool news_ = false;  ///< a grid has come since the last picture
   ros::Publisher picture_;

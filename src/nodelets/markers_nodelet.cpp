@@ -11,7 +11,7 @@
 #include "datmo_fusion/ros/display/legend.h"
 #include "datmo_fusion/ros/display/markers.h"
 #include "datmo_fusion/ros/parameters.h"
-#include "datmo_fusion/ros/stage/input_error.h"
+#include "datmo_fusion/ros/stage/guard.h"
 
 namespace datmo {
 
@@ -20,6 +20,7 @@ namespace datmo {
 class MarkersNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
+    monitor_ = std::make_unique<StageMonitor>(getName());
     options_ = loadOptions<MarkersOptions>(getPrivateNodeHandle());
     live_ = std::make_unique<LiveServer>(
         getPrivateNodeHandle(), [this] { return liveOptions(options_); },
@@ -55,13 +56,11 @@ class MarkersNodelet : public nodelet::Nodelet {
     if (markers_.getNumSubscribers() == 0) {
       return;
     }
-    try {
+    guarded(*monitor_, source, [&] {
       visualization_msgs::MarkerArray markers = markersOf(message, options_);
       transformToFrame(message, markers);
       publish(source, std::move(markers));
-    } catch (const InputError& error) {
-      NODELET_WARN_THROTTLE(1.0, "%s are not drawn: %s", source.c_str(), error.what());
-    }
+    });
   }
 
   void publish(const std::string& source, visualization_msgs::MarkerArray markers) {
@@ -102,6 +101,7 @@ class MarkersNodelet : public nodelet::Nodelet {
   /// A second of messages: enough for a hiccup, and bounded.
   static constexpr std::uint32_t kQueue = 20;
 
+  std::unique_ptr<StageMonitor> monitor_;
   MarkersOptions options_;
   std::unique_ptr<LiveServer> live_;
   StaleMarkers stale_;

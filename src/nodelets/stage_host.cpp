@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "datmo_fusion/ros/stage/guard.h"
+
 namespace datmo {
 
 namespace {
@@ -32,8 +34,10 @@ StageHost::StageHost(ros::NodeHandle node, ros::NodeHandle private_node, Stage& 
     subscribe(input);
   }
   if (stage_.maxWait() > 0.0) {
-    timer_ = node_.createTimer(ros::Duration(kPollPeriod),
-                               [this](const ros::TimerEvent& /*event*/) { publishReady(); });
+    timer_ =
+        node_.createTimer(ros::Duration(kPollPeriod), [this](const ros::TimerEvent& /*event*/) {
+          guarded(monitor_, "timer", [this] { publishReady(); });
+        });
   }
 }
 
@@ -62,10 +66,12 @@ void StageHost::subscribe(const StageInput& input) {
   if (input.booked_as != input.topic) {
     reporter_->alsoOn(input.booked_as, node_.resolveName(input.topic));
   }
-  const auto take = [this, take = input.take](const AnyMessage& message, Stamp now) {
-    take(message, now);
-    publishTiming();
-    publishReady();
+  const auto take = [this, input](const AnyMessage& message, Stamp now) {
+    guarded(monitor_, input.topic, [&] {
+      input.take(message, now);
+      publishTiming();
+      publishReady();
+    });
   };
   subscribers_.push_back(input.subscribe(node_, monitor_, take));
 }

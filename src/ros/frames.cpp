@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include <geometry_msgs/TransformStamped.h>
 #include <tf2/LinearMath/Matrix3x3.h>
-#include <tf2/exceptions.h>
 
 #include "datmo_fusion/ros/stage/input_error.h"
 
@@ -18,9 +18,22 @@ geometry_msgs::Transform lookUp(const tf2::BufferCore& transforms, const std::st
                                 const std::string& child_frame, const ros::Time& time) {
   try {
     return transforms.lookupTransform(parent_frame, child_frame, time).transform;
-  } catch (const tf2::TransformException& error) {
+  } catch (const std::runtime_error& error) {  // tf2's, and that of ros::Time near its end
     throw InputError("missing_transform", "transform " + parent_frame + " -> " + child_frame +
                                               ": expected on tf (" + error.what() + ")");
+  }
+}
+
+/// Throws InputError for a sensor that is on no vehicle: beams from there are of no use, and those
+/// from infinity never end.
+void checkDistance(const geometry_msgs::Transform& mount, const std::string& name) {
+  const auto& t = mount.translation;
+  const double distance = std::hypot(t.x, t.y, t.z);
+  if (!(distance <= kMaxMountDistance)) {
+    throw InputError("mount_too_far", "mount " + name + " is " + std::to_string(distance) +
+                                          " m from the vehicle's origin: expected at most " +
+                                          std::to_string(kMaxMountDistance) +
+                                          " m; correct it on tf");
   }
 }
 
@@ -33,8 +46,9 @@ geometry_msgs::Transform lookUpMount(const tf2::BufferCore& transforms,
                      "a message without frame_id: expected its sensor's frame; set the frame_id of "
                      "its driver");
   }
+  geometry_msgs::Transform mount;
   try {
-    return lookUp(transforms, base_frame, sensor_frame, ros::Time(0));
+    mount = lookUp(transforms, base_frame, sensor_frame, ros::Time(0));
   } catch (const InputError& error) {
     throw InputError(error.reason(),
                      std::string(error.what()) +
@@ -44,6 +58,8 @@ geometry_msgs::Transform lookUpMount(const tf2::BufferCore& transforms,
                          "rosrun tf2_ros static_transform_publisher X Y Z YAW PITCH ROLL " +
                          base_frame + " " + sensor_frame);
   }
+  checkDistance(mount, base_frame + " -> " + sensor_frame);
+  return mount;
 }
 
 /// Columns: the child's axes in the parent frame.

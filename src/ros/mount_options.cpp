@@ -5,13 +5,11 @@
 
 #include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/ros/frame_ids.h"
+#include "datmo_fusion/ros/frames.h"
 
 namespace datmo {
 
 namespace {
-
-/// No sensor of a vehicle is farther from its origin, m.
-constexpr double kMaxDistance = 100.0;
 
 geometry_msgs::TransformStamped toMessage(const std::string& base_frame, const std::string& frame,
                                           const MountOptions& mount) {
@@ -34,9 +32,10 @@ geometry_msgs::TransformStamped toMessage(const std::string& base_frame, const s
 
 void MountOptions::visit(OptionVisitor& visitor) {
   visitor.number({"x", "m", "the sensor's origin in the vehicle's frame, ahead", Tier::kPublic}, x,
-                 {-kMaxDistance, kMaxDistance});
-  visitor.number({"y", "m", "to the left", Tier::kPublic}, y, {-kMaxDistance, kMaxDistance});
-  visitor.number({"z", "m", "up", Tier::kPublic}, z, {-kMaxDistance, kMaxDistance});
+                 {-kMaxMountDistance, kMaxMountDistance});
+  visitor.number({"y", "m", "to the left", Tier::kPublic}, y,
+                 {-kMaxMountDistance, kMaxMountDistance});
+  visitor.number({"z", "m", "up", Tier::kPublic}, z, {-kMaxMountDistance, kMaxMountDistance});
   visitor.number({"yaw", "rad", "about the vehicle's z axis, after pitch and roll", Tier::kPublic},
                  yaw, {-kPi, kPi});
   visitor.number(

@@ -6,6 +6,7 @@
 #include <tf2/LinearMath/Vector3.h>
 
 #include "datmo_fusion/ros/stage/stamp_check.h"
+#include "datmo_fusion/ros/stage/stamp_range.h"
 
 namespace datmo {
 
@@ -18,6 +19,33 @@ const std::string kMounts = "mounts";
 /// A mount that differs from tf's by more (m, and of the quaternion's elements) is another one:
 /// what rounding to three digits does not make.
 constexpr double kMountTolerance = 2e-3;
+
+/// m, of each coordinate: half of the earth's circumference, which no map's coordinates exceed.
+constexpr double kMaxCoordinate = 2.0e7;
+
+/// By which the squared length of a quaternion may differ from 1, as in tf2.
+constexpr double kQuaternionTolerance = 1e-2;
+
+/// Throws InputError for what is no rigid motion, or at no point of time.
+void check(const geometry_msgs::TransformStamped& stamped) {
+  checkStampRange(stamped.header.stamp);
+  const auto& t = stamped.transform.translation;
+  const auto& q = stamped.transform.rotation;
+  const std::string name = stamped.header.frame_id + " -> " + stamped.child_frame_id;
+  for (const double coordinate : {t.x, t.y, t.z}) {
+    if (!(std::abs(coordinate) <= kMaxCoordinate)) {
+      throw InputError("bad_transform", "transform " + name + " has a coordinate of " +
+                                            std::to_string(coordinate) +
+                                            " m: expected one within 20000 km; ignores it");
+    }
+  }
+  const double squared_length = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+  if (!(std::abs(squared_length - 1.0) <= kQuaternionTolerance)) {
+    throw InputError("bad_transform", "transform " + name + " has a quaternion of length " +
+                                          std::to_string(std::sqrt(squared_length)) +
+                                          ": expected 1; ignores it");
+  }
+}
 
 bool isSame(const geometry_msgs::TransformStamped& one,
             const geometry_msgs::TransformStamped& other) {
@@ -57,7 +85,7 @@ void TransformBuffer::set(const geometry_msgs::TransformStamped& transform, bool
 
 void TransformBuffer::add(const tf2_msgs::TFMessage& message) {
   for (const auto& transform : message.transforms) {
-    if (isNew(transform)) {
+    if (isGood(transform) && isNew(transform)) {
       set(transform, false);
     }
   }
@@ -65,7 +93,21 @@ void TransformBuffer::add(const tf2_msgs::TFMessage& message) {
 
 void TransformBuffer::addStatic(const tf2_msgs::TFMessage& message) {
   for (const auto& transform : message.transforms) {
-    set(transform, true);
+    if (isGood(transform)) {
+      set(transform, true);
+    }
+  }
+}
+
+bool TransformBuffer::isGood(const geometry_msgs::TransformStamped& transform) {
+  try {
+    check(transform);
+    return true;
+  } catch (const InputError& error) {
+    if (monitor_ != nullptr) {
+      monitor_->warned(error);
+    }
+    return false;
   }
 }
 

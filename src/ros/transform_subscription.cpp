@@ -2,6 +2,7 @@
 #include "datmo_fusion/ros/transform_subscription.h"
 
 #include "datmo_fusion/ros/frame_ids.h"
+#include "datmo_fusion/ros/stage/guard.h"
 
 namespace datmo {
 
@@ -19,13 +20,17 @@ TransformSubscription::TransformSubscription(ros::NodeHandle node, TransformBuff
                                              StageMonitor& monitor, std::function<void()> changed) {
   using Callback = boost::function<void(const tf2_msgs::TFMessageConstPtr&)>;
   const Callback add = [&buffer, &monitor, changed](const tf2_msgs::TFMessageConstPtr& message) {
-    buffer.add(*withPlainFrames(kTransforms, message, monitor));
-    changed();
+    guarded(monitor, kTransforms, [&] {
+      buffer.add(*withPlainFrames(kTransforms, message, monitor));
+      changed();
+    });
   };
   const Callback add_static = [&buffer, &monitor,
                                changed](const tf2_msgs::TFMessageConstPtr& message) {
-    buffer.addStatic(*withPlainFrames(kStaticTransforms, message, monitor));
-    changed();
+    guarded(monitor, kStaticTransforms, [&] {
+      buffer.addStatic(*withPlainFrames(kStaticTransforms, message, monitor));
+      changed();
+    });
   };
   const ros::VoidConstPtr untracked;
   const auto hints = ros::TransportHints().tcpNoDelay();

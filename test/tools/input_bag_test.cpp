@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "input_bag.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -8,11 +9,14 @@
 
 #include "bag_fault.h"
 #include "output_bag.h"
+#include "raw_message.h"
 #include "whole_file.h"
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <nav_msgs/OccupancyGrid.h>
+#include <rosbag/view.h>
 #include <std_msgs/String.h>
 
 namespace datmo {
@@ -165,6 +169,65 @@ TEST_F(InputBag, OutputInAFolderWithoutPermission) {
       messageOf([&] { checkWritable(file_); }),
       file_.string() + ": cannot be written (no permission to write in " + folder_.string() + ")");
   fs::permissions(folder_, fs::perms::owner_all);
+}
+
+TEST_F(InputBag, AFullDiskIsSaidAndLeavesNoBag) {
+  const auto write = [this] {
+    OutputBag output(file_);
+    std_msgs::String text;
+    text.data.assign(1U << 20U, 'a');
+    output.write("/text", ros::Time(1.0), text);
+    output.finish();
+  };
+  fs::create_symlink("/dev/full", file_.string() + ".part");
+  EXPECT_NE(messageOf(write), "");
+  EXPECT_FALSE(fs::exists(file_));
+  EXPECT_FALSE(fs::exists(fs::symlink_status(file_.string() + ".part")));
+}
+
+/// Reads a map of which only these bytes are there.
+std::string readingOf(const std::string& file, const RawMessage<nav_msgs::OccupancyGrid>& raw) {
+  {
+    rosbag::Bag bag(file, rosbag::bagmode::Write);
+    bag.write("/map", ros::Time(7.5), raw);
+  }
+  rosbag::Bag bag(file);
+  rosbag::View view(bag);
+  try {
+    return std::to_string(read<nav_msgs::OccupancyGrid>(*view.begin())->data.size());
+  } catch (const InputError& error) {
+    return error.reason() + ": " + error.what();
+  }
+}
+
+TEST_F(InputBag, AMessageIsReadAsItWasWritten) {
+  nav_msgs::OccupancyGrid map;
+  map.data.assign(9, 100);
+  EXPECT_EQ(readingOf(file_, toRaw(map)), "9");
+}
+
+TEST_F(InputBag, AMessageThatIsCutShortIsNamedByTopicAndTime) {
+  nav_msgs::OccupancyGrid map;
+  map.data.assign(9, 100);
+  auto raw = toRaw(map);
+  raw.bytes.resize(40);
+  const std::string reading = readingOf(file_, raw);
+  EXPECT_EQ(reading.find("undecodable_message: /map at 7.500000 s: expected a whole "
+                         "nav_msgs/OccupancyGrid"),
+            0U)
+      << reading;
+}
+
+TEST_F(InputBag, ABrokenLengthIsFoundBeforeMemoryIsTaken) {
+  nav_msgs::OccupancyGrid map;
+  map.data.assign(9, 100);
+  auto raw = toRaw(map);
+  const std::size_t length_at = raw.bytes.size() - 9 - 4;
+  std::fill_n(raw.bytes.begin() + static_cast<std::ptrdiff_t>(length_at), 4, 0xFF);
+  const std::string reading = readingOf(file_, raw);
+  EXPECT_NE(reading.find("an array of 4294967295 elements, of which 9 bytes are left"),
+            std::string::npos)
+      << reading;
 }
 
 }  // namespace

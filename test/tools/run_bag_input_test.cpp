@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Recordings as people have them: slashes in frames, no tf, no odometry, and input that is refused.
+#include "raw_message.h"
 #include "run_bag/input_refusals.h"
 #include "run_bag_drive.h"
 #include <gtest/gtest.h>
@@ -58,6 +59,41 @@ TEST_F(RunBagInput, LeadingSlashesAreStrippedAndCounted) {
   EXPECT_TRUE(holds(table, "messages on /odometry with a leading slash stripped")) << table;
   EXPECT_TRUE(holds(table, "messages on /tf with a leading slash stripped")) << table;
   EXPECT_FALSE(holds(table, "refused")) << table;
+}
+
+TEST_F(RunBagInput, OneUndecodableMessageIsOneMessage) {
+  int written = 0;
+  rewrite([&written](rosbag::Bag& bag, Stamp stamp) {
+    const ros::Time time = toTime(stamp);
+    bag.write("/odometry", time, odometryAt(stamp));
+    bag.write("/tf", time, transform(Pose2(2.0, 0.0, 0.0), stamp, "base_link", "scanner"));
+    RawMessage<sensor_msgs::LaserScan> scan = toRaw(scanAt(stamp));
+    if (++written == kScans / 2) {
+      scan.bytes.resize(30);
+    }
+    bag.write("/scan", time, scan);
+  });
+  const std::string table = run();
+  EXPECT_EQ(count(arguments_.output, "/tracks"), static_cast<std::size_t>(kScans - 1));
+  EXPECT_TRUE(holds(table, "undecodable_message")) << table;
+}
+
+TEST_F(RunBagInput, OneStampAtTheEndOfTimeIsOneMessage) {
+  rewrite([](rosbag::Bag& bag, Stamp stamp) {
+    const ros::Time time = toTime(stamp);
+    nav_msgs::Odometry odometry = odometryAt(stamp);
+    bag.write("/odometry", time, odometry);
+    bag.write("/tf", time, transform(Pose2(2.0, 0.0, 0.0), stamp, "base_link", "scanner"));
+    bag.write("/scan", time, scanAt(stamp));
+    odometry.header.stamp = ros::Time(4294967295U, 0);
+    bag.write("/odometry", time, odometry);
+    auto nobody = transform(Pose2(), stamp, "nobody", "knows");
+    nobody.transforms[0].header.stamp = ros::Time(4294967295U, 0);
+    bag.write("/tf", time, nobody);
+  });
+  const std::string table = run();
+  expectWholeDrive();
+  EXPECT_TRUE(holds(table, "stamp_out_of_range")) << table;
 }
 
 TEST_F(RunBagInput, AMountOfTheYamlFileServesWithoutTf) {

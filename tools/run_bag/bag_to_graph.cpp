@@ -17,6 +17,8 @@
 #include <sensor_msgs/MultiEchoLaserScan.h>
 #include <sensor_msgs/PointCloud2.h>
 
+#include "datmo_fusion/ros/stage/guard.h"
+
 namespace datmo {
 
 BagToGraph::BagToGraph(const InputTopics& topics, GraphRunner& graph, DriveSummary& drive,
@@ -48,7 +50,8 @@ void BagToGraph::readSources(const InputTopics& topics) {
 void BagToGraph::takeStaticTransforms(const rosbag::Bag& bag) {
   rosbag::View view(bag, rosbag::TopicQuery("/tf_static"));
   for (const rosbag::MessageInstance& message : view) {
-    graph_.takeStaticTransforms(*plain<tf2_msgs::TFMessage>(message));
+    guarded(graph_.inputs(), message.getTopic(),
+            [&] { graph_.takeStaticTransforms(*plain<tf2_msgs::TFMessage>(message)); });
   }
 }
 
@@ -58,7 +61,10 @@ void BagToGraph::take(const rosbag::MessageInstance& message) {
     output_.copy(message);
     return;
   }
-  write(message.getTime(), reader->second(message, toStamp(message.getTime())));
+  Publications published;
+  guarded(graph_.inputs(), message.getTopic(),
+          [&] { published = reader->second(message, toStamp(message.getTime())); });
+  write(message.getTime(), published);
   refusals_.book(message.getTopic());
 }
 

@@ -7,6 +7,7 @@
 #include "stage_types.h"
 
 #include "datmo_fusion/ros/stage/grid_slam_stage.h"
+#include "datmo_fusion/ros/stage/guard.h"
 
 namespace datmo {
 
@@ -126,7 +127,7 @@ void GraphRunner::serveNext(Stamp now) {
   const AnyMessage message = first->second;
   const StageInput::Take& take = node.inputs[input].take;
   waiting_.erase(first);
-  take(message, now);
+  guarded(*node.monitor, node.inputs[input].topic, [&] { take(message, now); });
   bookTime(node);
 }
 

@@ -12,6 +12,9 @@
 
 namespace datmo {
 
+/// No sensor of a vehicle is farther from its origin, m.
+constexpr double kMaxMountDistance = 100.0;
+
 /// How a planar scanner is mounted on the vehicle.
 struct ScannerMount {
   Pose2 scanner_in_base;     ///< the scanner's position and x axis, seen from above
@@ -19,7 +22,8 @@ struct ScannerMount {
   double tilt = 0.0;         ///< rad, 0 to pi/2, between the scan plane and the ground
 };
 
-/// The newest mount that tf knows. Throws InputError (`missing_transform`) if it knows none.
+/// The newest mount that tf knows. Throws InputError: `missing_transform` if it knows none,
+/// `mount_too_far` if it is farther than kMaxMountDistance.
 ScannerMount scannerMount(const tf2::BufferCore& transforms, const std::string& base_frame,
                           const std::string& scanner_frame);
 

@@ -18,7 +18,9 @@ namespace datmo {
 /// messages: live from the nodelet's callback queue, in batch from the bag.
 ///
 /// When the clock jumps back (a looped bag) all but the static transforms are forgotten, so that no
-/// pose is interpolated between two runs. Not thread safe beyond what tf2::BufferCore is.
+/// pose is interpolated between two runs. A transform that is not finite, whose quaternion has not
+/// the length 1 or whose stamp cannot be is ignored, and the monitor is warned. Not thread safe
+/// beyond what tf2::BufferCore is.
 class TransformBuffer {
  public:
   explicit TransformBuffer(double restart_after) : restart_after_(restart_after) {}
@@ -33,6 +35,9 @@ class TransformBuffer {
   const tf2::BufferCore& core() const { return core_; }
 
  private:
+  /// Whether it is a rigid motion at a possible time; the monitor is warned if not.
+  bool isGood(const geometry_msgs::TransformStamped& transform);
+
   /// Not the one that was there last; forgets the old run if the clock has jumped back.
   bool isNew(const geometry_msgs::TransformStamped& transform);
 

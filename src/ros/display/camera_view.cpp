@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 #include "track_drawing.h"
@@ -10,7 +11,6 @@
 #include <image_geometry/pinhole_camera_model.h>
 
 #include <sensor_msgs/image_encodings.h>
-#include <tf2/exceptions.h>
 
 #include "datmo_fusion/ros/stage/input_error.h"
 
@@ -32,7 +32,7 @@ Eigen::Isometry3d poseAt(const tf2::BufferCore& transforms, const std::string& p
     Eigen::Isometry3d pose(Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized());
     pose.translation() = Eigen::Vector3d(t.x, t.y, t.z);
     return pose;
-  } catch (const tf2::TransformException& error) {
+  } catch (const std::runtime_error& error) {  // tf2's, and that of ros::Time near its end
     throw InputError("missing_transform", "transform " + parent + " -> " + child +
                                               ": expected on tf (" + error.what() + ")");
   }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "datmo_fusion/ros/stage/input_error.h"
+#include "datmo_fusion/ros/stage/stamp_range.h"
 
 namespace datmo {
 
@@ -28,6 +29,7 @@ Arrival StampCheck::check(const ros::Time& time) {
   if (time.isZero()) {
     throw InputError("zero_stamp", "stamp 0: expected the time of the measurement");
   }
+  checkStampRange(time);
   const auto newest = gate_.newest();
   switch (gate_.judge(toStamp(time))) {
     case StampVerdict::kRepeated:

@@ -22,6 +22,14 @@ TEST(StampCheck, NamesWhatIsWrong) {
   EXPECT_EQ(check.check(ros::Time(5.1)), Arrival::kNext);
 }
 
+TEST(StampCheck, AStampBeyondReasonIsRefusedByItself) {
+  StampCheck check(1.0);
+  check.check(ros::Time(10.0));
+  EXPECT_EQ(samples::reasonOf([&] { check.check(ros::Time(4294967295U, 0)); }),
+            "stamp_out_of_range");
+  EXPECT_EQ(check.check(ros::Time(10.1)), Arrival::kNext);
+}
+
 TEST(StampCheck, TimesGoThereAndBackToTheNanosecond) {
   const ros::Time time(1700000000, 123456789);
   EXPECT_EQ(toTime(toStamp(time)), time);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/transform_buffer.h"
 
+#include <limits>
+
 #include "message_samples.h"
 #include "monitor_counts.h"
 #include <gtest/gtest.h>
@@ -72,6 +74,60 @@ TEST_F(MountedBufferTest, AMountOutlivesAJumpOfTheClock) {
   wheels.transforms[0].header.stamp = ros::Time(100.0);
   buffer_.add(wheels);
   EXPECT_EQ(laserX(), 1.5);
+}
+
+/// What was published before it stays, and the stage is warned.
+class BadTransformTest : public MountedBufferTest {
+ protected:
+  void expectRefused(const tf2_msgs::TFMessage& bad, const std::string& reason) {
+    buffer_.addStatic(tf("base_link", 0.7));
+    buffer_.add(bad);
+    buffer_.addStatic(bad);
+    EXPECT_EQ(laserX(), 0.7);
+    EXPECT_EQ(samples::warnings(monitor_, reason), 2U) << monitor_.lastError();
+  }
+};
+
+TEST_F(BadTransformTest, AStampAtTheEndOfTime) {
+  tf2_msgs::TFMessage bad = tf("base_link", 0.1);
+  bad.transforms[0].header.stamp = ros::Time(4294967295U, 0);
+  expectRefused(bad, "stamp_out_of_range");
+}
+
+TEST_F(BadTransformTest, AMountThatIsNotFinite) {
+  expectRefused(tf("base_link", std::numeric_limits<double>::infinity()), "bad_transform");
+}
+
+TEST_F(BadTransformTest, AMountBeyondTheEarth) {
+  expectRefused(tf("base_link", 1e9), "bad_transform");
+}
+
+TEST_F(BadTransformTest, ARotationThatIsNone) {
+  tf2_msgs::TFMessage bad = tf("base_link", 0.1);
+  bad.transforms[0].transform.rotation.w = 0.5;
+  expectRefused(bad, "bad_transform");
+  bad.transforms[0].transform.rotation.w = std::numeric_limits<double>::quiet_NaN();
+  buffer_.add(bad);
+  EXPECT_EQ(samples::warnings(monitor_, "bad_transform"), 3U);
+}
+
+TEST_F(MountedBufferTest, AMountBeyondAnyVehicleIsRefused) {
+  buffer_.addStatic(tf("base_link", 101.0));
+  EXPECT_EQ(samples::reasonOf([this] { laserX(); }), "mount_too_far");
+}
+
+TEST_F(MountedBufferTest, ALookUpAtTheEndOfTimeIsAnInputError) {
+  tf2_msgs::TFMessage wheels;
+  for (const double seconds : {100.0, 100.1}) {
+    wheels.transforms = {samples::transform("odom", "base_link", 1.0, seconds)};
+    buffer_.add(wheels);
+  }
+  for (const ros::Time& end : {ros::TIME_MAX, ros::Time(4294967295U, 0)}) {
+    EXPECT_EQ(samples::reasonOf([&] { planarPose(buffer_.core(), "odom", "base_link", end); }),
+              "missing_transform");
+    EXPECT_EQ(samples::reasonOf([&] { planarPose(buffer_.core(), "nobody", "knows", end); }),
+              "missing_transform");
+  }
 }
 
 TEST_F(MountedBufferTest, AMissingMountIsSaidWithWhatToDo) {

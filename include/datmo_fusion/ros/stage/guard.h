@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <exception>
+#include <string>
+
+#include "datmo_fusion/ros/stage/stage_monitor.h"
+
+namespace datmo {
+
+/// Runs a callback of a host. No exception leaves it, as one would end the process and all nodelets
+/// with it: it is counted and said through the monitor, and the message that led to it is dropped.
+/// `input`: the topic, or what else called.
+template <typename Callback>
+void guarded(StageMonitor& monitor, const std::string& input, const Callback& callback) {
+  try {
+    callback();
+  } catch (const InputError& error) {
+    monitor.dropped(error);
+  } catch (const std::exception& error) {
+    monitor.dropped(InputError("unexpected_error", "at a message on " + input + ": " +
+                                                       error.what() +
+                                                       ": drops it and goes on; expected no such "
+                                                       "error: please report it"));
+  }
+}
+
+}  // namespace datmo

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <ros/serialization.h>
+
+namespace datmo {
+
+/// The bytes of one message, to be decoded by ros::serialization. Its own IStream takes memory for
+/// as many elements as a broken length says, up to 2^32, before it finds that they are not there.
+class BoundedStream : public ros::serialization::Stream {
+ public:
+  static constexpr ros::serialization::StreamType stream_type =
+      ros::serialization::stream_types::Input;
+
+  BoundedStream(std::uint8_t* data, std::uint32_t size) : Stream(data, size) {}
+
+  template <typename Value>
+  void next(Value& value) {
+    ros::serialization::deserialize(*this, value);
+  }
+
+  /// Throws std::runtime_error if more elements are announced than the bytes that are left can
+  /// hold.
+  template <typename Element, typename Allocator>
+  void next(std::vector<Element, Allocator>& elements) {
+    ros::serialization::Stream peek = *this;
+    std::uint32_t count = 0;
+    const std::uint32_t size = sizeof(count);
+    ros::serialization::IStream length(peek.advance(size), size);
+    length.next(count);
+    static const std::uint32_t min_size =
+        std::max(1U, ros::serialization::serializationLength(Element()));
+    if (count > peek.getLength() / min_size) {
+      throw std::runtime_error("an array of " + std::to_string(count) + " elements, of which " +
+                               std::to_string(peek.getLength()) + " bytes are left");
+    }
+    ros::serialization::deserialize(*this, elements);
+  }
+};
+
+}  // namespace datmo
