@@ -11,6 +11,7 @@
 #include <pcl/segmentation/extract_clusters.h>
 
 #include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/common/square.h"
 #include "datmo_fusion/detection/box_fit.h"
 
 namespace datmo {
@@ -22,8 +23,6 @@ constexpr char kSensor[] = "cloud";
 
 /// rad; a side that was seen faces the lidar: a vaguer heading tells no more of where it ends.
 constexpr double kMaxSlant = 0.3;
-
-double square(double value) { return value * value; }
 
 /// What stands on the ground, at the cloud's stamp.
 class Band {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "datmo_fusion/common/quantile.h"
+#include "datmo_fusion/common/square.h"
 #include "datmo_fusion/common/uniform.h"
 
 namespace datmo {
@@ -20,15 +21,13 @@ constexpr double kNearShare = 0.05;
 constexpr double kFarShare = 0.95;
 
 /// Standard deviations of the depth by which something in front is surely so.
-constexpr double kSurelyApart = 2.0;
+constexpr double kSurelyInFront = 2.0;
 
 /// An end nearer to the border of the image than this, px, may be the border's.
 constexpr double kBorderPixels = 4.0;
 
 /// Standard deviations of where an edge is within which another surface is beside it.
 constexpr double kBesideSigmas = 3.0;
-
-double square(double value) { return value * value; }
 
 }  // namespace
 
@@ -100,7 +99,7 @@ bool OutlineFinder::isAtBorder(const ColumnSurface& last, Step step) const {
 bool OutlineFinder::isBesideNearer(const ColumnSurface& last, Step step) const {
   const auto depth = static_cast<double>(last.depth);
   const double margin =
-      std::max(options_.groups.depth_gap, kSurelyApart * camera_.depthSigma(depth));
+      std::max(options_.groups.depth_gap, kSurelyInFront * camera_.depthSigma(depth));
   const double surely_nearer = depth - margin;
   const double column_pixels = camera_.focal_length / columns_.per_tangent;
   const double beside = 1.0 + std::ceil(kBesideSigmas * options_.noise.edge_sigma / column_pixels);

@@ -9,6 +9,7 @@
 
 #include "side_box.h"
 
+#include "datmo_fusion/common/square.h"
 #include "datmo_fusion/detection/box_fit.h"
 #include "datmo_fusion/detection/segment_end.h"
 
@@ -38,8 +39,6 @@ double movingFraction(const std::vector<ScanPoint>& points, const Segment& segme
   });
   return static_cast<double>(moving) / static_cast<double>(segment.size());
 }
-
-double square(double value) { return value * value; }
 
 /// Mean time of a segment's points, s after the scan's stamp.
 double meanTime(const std::vector<ScanPoint>& points, const Segment& segment, double beam_time) {

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/common/square.h"
 
 namespace datmo {
 
@@ -33,8 +34,6 @@ constexpr double kPartShare = 0.2;
 
 /// Nothing is surer than this: probabilities near to 0 and 1 are those of the kinds' tails.
 constexpr double kSure = 1e-6;
-
-double square(double value) { return value * value; }
 
 /// Probability density of a size that is seen as `seen`, or that it is at least that.
 double likelihood(double seen, double mean, double variance, bool more) {

@@ -7,6 +7,7 @@
 #include "side_box.h"
 
 #include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/common/square.h"
 #include "datmo_fusion/detection/box_fit.h"
 
 namespace datmo {
@@ -37,8 +38,6 @@ constexpr double kBothEnds = 2.0;
 
 /// m; what ends less below the highest that is looked at may be higher.
 constexpr double kBelowHighest = 0.3;
-
-double square(double value) { return value * value; }
 
 }  // namespace
 

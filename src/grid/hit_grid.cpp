@@ -10,7 +10,7 @@ namespace datmo {
 namespace {
 
 /// Nine times as many, and the table of all values up to there, are small numbers still.
-constexpr int kMaxHits = 100000;
+constexpr int kSaturation = 100000;
 
 const HitGridOptions& checked(const HitGridOptions& options) {
   checkOptions(options);
@@ -24,7 +24,7 @@ void HitGridOptions::visit(OptionVisitor& visitor) {
   visitor.integer({"max_hits", "1",
                    "that a cell counts: a stationary vehicle hits the same cells over and over, "
                    "which would drown what it sees later; 0: all (thesis 3.5)"},
-                  max_hits, {0, kMaxHits});
+                  max_hits, {0, kSaturation});
   visitor.number({"cut_share", "1",
                   "cells with a smoothed count below this share of the highest are noise or what "
                   "has moved (thesis 3.5.2: 0.1)"},
@@ -37,7 +37,7 @@ void HitGridOptions::visit(OptionVisitor& visitor) {
 
 HitGrid::HitGrid(const HitGridOptions& options)
     : options_(checked(options)),
-      max_hits_(options.max_hits > 0 ? options.max_hits : kMaxHits),
+      max_hits_(options.max_hits > 0 ? options.max_hits : kSaturation),
       cells_(options.window.window(), Cell{}),
       cells_with_(1, 0) {}
 

@@ -5,11 +5,11 @@
 
 #include <Eigen/LU>
 
+#include "datmo_fusion/common/square.h"
+
 namespace datmo {
 
 namespace {
-
-double square(double value) { return value * value; }
 
 /// How the offset of the line depends on the state at the anchor.
 Eigen::Vector4d offsetRow(double along) {

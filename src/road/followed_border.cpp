@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "datmo_fusion/common/square.h"
+
 namespace datmo {
 
 namespace {
@@ -39,8 +41,6 @@ constexpr double kAcross = degrees(60.0);
 
 /// m ahead or behind; so near to the vehicle no bend takes a border over to the other side.
 constexpr double kBeside = 10.0;
-
-double square(double value) { return value * value; }
 
 double clampTo(const ArcLengthInterval& interval, double arc_length) {
   return std::clamp(arc_length, interval.first, interval.last);

@@ -9,7 +9,7 @@ namespace datmo {
 namespace {
 
 /// A station whose probability is higher has a border.
-constexpr double kBorderAbove = 0.65;
+constexpr double kSureBorder = 0.65;
 
 /// Distance between two observations of the sides that are taken to be independent, m.
 constexpr double kEvidenceLength = 1.5;
@@ -91,7 +91,7 @@ IntersectionDetector::IntersectionDetector(const IntersectionDetectorOptions& op
 /// those before or behind it.
 bool IntersectionDetector::isBorder(const SidePresence& side, int station, int toward) const {
   const auto hasBorder = [&](int i) {
-    return side.probability[static_cast<std::size_t>(i)] > kBorderAbove;
+    return side.probability[static_cast<std::size_t>(i)] > kSureBorder;
   };
   if (!hasBorder(station)) {
     return false;

@@ -15,8 +15,8 @@ constexpr double kForgetTime = 5.0;
 /// What lies farther behind the vehicle stays as it was, m.
 constexpr double kUpdatedTo = 2.0;
 
-constexpr double kStation = 1.0;  ///< m
-constexpr double kMinStep = 0.2;  ///< m, that counts as driven
+constexpr double kStationLength = 1.0;  ///< m
+constexpr double kMinStep = 0.2;        ///< m, that counts as driven
 
 /// Without any knowledge.
 constexpr double kUnknown = 0.5;
@@ -51,12 +51,13 @@ void PresenceHistory::reset() {
 
 void PresenceHistory::shift(SidePresence& side) const {
   const double first =
-      kStation * (std::floor((presence_.arc_length - options_.behind) / kStation) + 0.5);
+      kStationLength *
+      (std::floor((presence_.arc_length - options_.behind) / kStationLength) + 0.5);
   const auto count =
-      static_cast<std::size_t>(std::ceil((options_.ahead + options_.behind) / kStation)) + 1;
+      static_cast<std::size_t>(std::ceil((options_.ahead + options_.behind) / kStationLength)) + 1;
   const auto passed = static_cast<std::ptrdiff_t>(
-      side.probability.empty() ? 0.0 : std::round((first - side.first_station) / kStation));
-  side.station_length = kStation;
+      side.probability.empty() ? 0.0 : std::round((first - side.first_station) / kStationLength));
+  side.station_length = kStationLength;
   side.first_station = first;
   std::vector<double>& values = side.probability;
   values.erase(values.begin(),
@@ -89,11 +90,11 @@ void PresenceHistory::take(const std::vector<FollowedBorder>& borders, RoadSide 
     }
     const std::vector<ArcLengthInterval> pieces = border.evidence().pieces();
     const CurveTable& table = border.table();
-    for (double along = table.first(); along <= table.last(); along += 0.5 * kStation) {
+    for (double along = table.first(); along <= table.last(); along += 0.5 * kStationLength) {
       const double ahead = (map_in_base * table.at(along).position()).x();
       const double log_odds = logOddsOf(border, pieces, border.track().arcLength() + along);
       const double index =
-          std::floor((presence_.arc_length + ahead - side.first_station) / kStation + 0.5);
+          std::floor((presence_.arc_length + ahead - side.first_station) / kStationLength + 0.5);
       if (ahead < -kUpdatedTo || index < 0.0 || index >= static_cast<double>(updated_.size()) ||
           log_odds == 0.0) {
         continue;
@@ -106,7 +107,7 @@ void PresenceHistory::take(const std::vector<FollowedBorder>& borders, RoadSide 
   for (std::size_t i = 0; i < updated_.size(); ++i) {
     double& probability = side.probability[i];
     const double ahead =
-        side.first_station + static_cast<double>(i) * kStation - presence_.arc_length;
+        side.first_station + static_cast<double>(i) * kStationLength - presence_.arc_length;
     if (updated_[i]) {
       probability = probabilityOf(*updated_[i]);
     } else if (ahead > 0.0) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "datmo_fusion/common/square.h"
+
 namespace datmo {
 
 namespace {
@@ -36,8 +38,6 @@ bool isOfClass(std::size_t kind, ObjectClass object_class) {
   }
   return kind == 4;
 }
-
-double square(double value) { return value * value; }
 
 /// Takes an extent into one estimate; returns the logarithm of how likely it was, up to a term that
 /// is the same for all estimates. One that is far off may be of two objects, or of a side that was

@@ -6,14 +6,14 @@
 
 #include <Eigen/LU>
 
+#include "datmo_fusion/common/square.h"
+
 namespace datmo {
 
 namespace {
 
 /// s; positions of the same scan are seen by the very beams that are asked.
 constexpr double kSameScan = 0.03;
-
-double square(double value) { return value * value; }
 
 /// That a normal variable of this standard deviation lies within +-`half` of `offset`'s origin:
 /// by the nearer end alone, as the farther one matters little.

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 
 #include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/visibility/box_silhouette.h"
 
 namespace datmo {
 
@@ -25,55 +25,6 @@ constexpr double kThroughReach = 2.0;
 /// How far behind its near side a beam may meet a body: it has no straight sides, m.
 constexpr double kBodyDepth = 0.5;
 
-/// Nothing that a sensor detects is narrower (m): a leg, a post.
-constexpr double kMinWidth = 0.1;
-
-/// Where a line from the scanner enters and leaves a box, m.
-struct Crossing {
-  double entry = 0.0;
-  double exit = std::numeric_limits<double>::infinity();
-};
-
-/// A box seen from the scanner.
-struct Silhouette {
-  Point2 scanner;        ///< m, in the box's frame
-  Point2 half;           ///< m
-  double bearing = 0.0;  ///< rad, of the center, in the box's frame
-  double min = 0.0;      ///< rad, right edge, from the bearing
-  double max = 0.0;      ///< rad, left edge
-};
-
-Silhouette silhouetteOf(const Box2& box, const Point2& scanner) {
-  Silhouette silhouette;
-  silhouette.half = 0.5 * Point2(std::max(box.length, kMinWidth), std::max(box.width, kMinWidth));
-  silhouette.scanner = box.center.inverse() * scanner;
-  const Point2 line = -silhouette.scanner;
-  silhouette.bearing = std::atan2(line.y(), line.x());
-  for (const double x : {-silhouette.half.x(), silhouette.half.x()}) {
-    for (const double y : {-silhouette.half.y(), silhouette.half.y()}) {
-      const Point2 corner = line + Point2(x, y);
-      const double cross = line.x() * corner.y() - line.y() * corner.x();
-      const double offset = std::atan2(cross, line.dot(corner));
-      silhouette.min = std::min(silhouette.min, offset);
-      silhouette.max = std::max(silhouette.max, offset);
-    }
-  }
-  return silhouette;
-}
-
-Crossing crossing(const Silhouette& silhouette, const Point2& direction) {
-  Crossing result;
-  for (Eigen::Index axis = 0; axis < 2; ++axis) {
-    if (direction[axis] != 0.0) {
-      const double one = (-silhouette.half[axis] - silhouette.scanner[axis]) / direction[axis];
-      const double other = (silhouette.half[axis] - silhouette.scanner[axis]) / direction[axis];
-      result.entry = std::max(result.entry, std::min(one, other));
-      result.exit = std::min(result.exit, std::max(one, other));
-    }
-  }
-  return result;
-}
-
 /// m^2, of the position of an object along this direction (unit vector in its own frame): of the
 /// whole and of the sides that are seen from there.
 double varianceAlong(const Object& object, const Point2& direction) {
@@ -89,12 +40,12 @@ double varianceAlong(const Object& object, const Point2& direction) {
 }
 
 /// Whether a point (box's frame, m) lies on the object, as far as its position is known.
-bool isAbout(const Point2& point, const Object& object, const Silhouette& silhouette,
+bool isAbout(const Point2& point, const Object& object, const BoxSilhouette& silhouette,
              const ScanSupportOptions& options) {
-  Point2 excess = (point.cwiseAbs() - silhouette.half).cwiseMax(0.0);
+  Point2 excess = (point.cwiseAbs() - silhouette.half()).cwiseMax(0.0);
   for (Eigen::Index axis = 0; axis < 2; ++axis) {
-    const bool behind = point[axis] * silhouette.scanner[axis] < 0.0;
-    const double unseen = std::max(0.0, kBodyDepth - 2.0 * silhouette.half[axis]);
+    const bool behind = point[axis] * silhouette.sensor()[axis] < 0.0;
+    const double unseen = std::max(0.0, kBodyDepth - 2.0 * silhouette.half()[axis]);
     excess[axis] = std::max(0.0, excess[axis] - (behind ? unseen : 0.0));
   }
   const double distance = excess.norm();
@@ -108,8 +59,8 @@ bool isAbout(const Point2& point, const Object& object, const Silhouette& silhou
 
 /// Whether a beam goes on beyond all of the object; `direction`: unit vector in the box's frame.
 bool passesThrough(double range, const Point2& direction, double motion_std, const Object& object,
-                   const Silhouette& silhouette) {
-  const Crossing through = crossing(silhouette, direction);
+                   const BoxSilhouette& silhouette) {
+  const LineCrossing through = silhouette.crossing(direction);
   const double variance = varianceAlong(object, direction) + motion_std * motion_std;
   return range >
          std::max(through.exit, through.entry + kBodyDepth) + kThroughReach * std::sqrt(variance);
@@ -165,35 +116,36 @@ const ScanSupport::Beam* ScanSupport::beam(double index) const {
 
 PositionEvidence ScanSupport::evidence(const Object& object, double motion_std) const {
   PositionEvidence result;
-  const Silhouette silhouette = silhouetteOf(object.box, scanner_in_base_.position());
-  const bool inside = (silhouette.scanner.cwiseAbs() - silhouette.half).maxCoeff() <= 0.0;
-  if (beams_.empty() || inside) {
+  const BoxSilhouette silhouette(object.box, scanner_in_base_.position());
+  if (beams_.empty() || silhouette.holdsSensor()) {
     return result;
   }
   const double to_scanner = object.box.center.heading() - scanner_in_base_.heading();
   const double spacing = std::abs(field_.beam_spacing);
-  const double width = silhouette.max - silhouette.min;
+  const double width = silhouette.width();
   result.beams = width / spacing;
   // What is narrower than the distance between beams is met by the nearest one, if by any; what
   // lies beside it may still be a part of it, as far as its position is not known.
   const double narrow = std::max(0.0, 0.5 * (spacing - width));
   const double aside =
-      std::max(narrow, std::atan2(options_.max_static_reach, silhouette.scanner.norm()));
-  const double edge = field_.beam_spacing > 0.0 ? silhouette.min - aside : silhouette.max + aside;
-  const double first = std::ceil(beamAt(to_scanner + silhouette.bearing + edge));
+      std::max(narrow, std::atan2(options_.max_static_reach, silhouette.distance()));
+  const double edge =
+      field_.beam_spacing > 0.0 ? silhouette.right() - aside : silhouette.left() + aside;
+  const double first = std::ceil(beamAt(to_scanner + silhouette.bearing() + edge));
   const auto looks = static_cast<std::size_t>(1.0 + (width + 2.0 * aside) / spacing);
   double asked = 0.0;
   for (std::size_t i = 0; i < looks; ++i) {
     const double index = first + static_cast<double>(i);
     const Beam* seen = beam(index);
     const double bearing = field_.first_bearing + index * field_.beam_spacing - to_scanner;
-    const double offset = angleBetween(silhouette.bearing, bearing);
-    const bool meets = offset >= silhouette.min - narrow && offset <= silhouette.max + narrow;
-    const Point2 direction(std::cos(silhouette.bearing + offset),
-                           std::sin(silhouette.bearing + offset));
+    const double offset = angleBetween(silhouette.bearing(), bearing);
+    const bool meets =
+        offset >= silhouette.right() - narrow && offset <= silhouette.left() + narrow;
+    const Point2 direction(std::cos(silhouette.bearing() + offset),
+                           std::sin(silhouette.bearing() + offset));
     const bool stands =
         seen != nullptr && seen->end == End::kStaticHit &&
-        isAbout(silhouette.scanner + seen->range * direction, object, silhouette, options_);
+        isAbout(silhouette.sensor() + seen->range * direction, object, silhouette, options_);
     const bool through = seen != nullptr && !stands && meets &&
                          passesThrough(seen->range, direction, motion_std, object, silhouette);
     asked += meets || stands ? 1.0 : 0.0;

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "datmo_fusion/visibility/box_silhouette.h"
+
 namespace datmo {
 
 namespace {
@@ -14,29 +16,17 @@ namespace {
 /// Between beams of a fan that stands for a field of view: a pedestrian at 60 m takes two of them.
 constexpr double kFanSpacing = degrees(0.25);
 
-/// Nothing that a sensor detects is narrower (m): a leg, a post.
-constexpr double kMinWidth = 0.1;
-
 /// More beams than this add nothing to the chance that one returns.
 constexpr double kManyBeams = 50.0;
-
-/// Where a straight line enters and leaves a box, m from its start.
-struct Crossing {
-  double entry;
-  double exit;
-};
 
 }  // namespace
 
 /// A box as seen from the sensor.
-class Visibility::Outline {
+class Visibility::Outline : public BoxSilhouette {
  public:
-  Outline(const Box2& box, const Pose2& sensor);
-
-  bool holdsSensor() const { return (sensor_.cwiseAbs() - half_).maxCoeff() <= 0.0; }
-
-  double distance() const { return distance_; }  ///< m, of the center
-  double width() const { return max_ - min_; }   ///< rad
+  Outline(const Box2& box, const Pose2& sensor)
+      : BoxSilhouette(box, sensor.position()),
+        to_sensor_(box.center.heading() - sensor.heading()) {}
 
   /// Calls `use(bearing, crossing)` for the lines through the middles of so many equal parts of the
   /// width; bearing in rad, about the sensor.
@@ -44,65 +34,19 @@ class Visibility::Outline {
   void forEachLook(std::size_t parts, const Use& use) const;
 
  private:
-  /// Of the line that leaves the sensor in this direction, in the box's frame.
-  Crossing crossing(const Point2& direction) const;
-
-  Point2 half_;      ///< m, half of length and width
-  Point2 sensor_;    ///< m, in the box's frame
-  double distance_;  ///< m
-  double bearing_;   ///< rad
-  double toward_;    ///< rad, of the line from the sensor to the center in the box's frame
-  double min_;       ///< rad, right edge, from the bearing
-  double max_;       ///< rad, left edge
+  double to_sensor_;  ///< rad, from bearings in the box's frame to those about the sensor
 };
-
-Visibility::Outline::Outline(const Box2& box, const Pose2& sensor)
-    : half_(0.5 * std::max(box.length, kMinWidth), 0.5 * std::max(box.width, kMinWidth)) {
-  const double heading = box.center.heading();
-  const Point2 line = box.center.position() - sensor.position();
-  const double c = std::cos(heading);
-  const double s = std::sin(heading);
-  const Point2 to_center(c * line.x() + s * line.y(), c * line.y() - s * line.x());
-  sensor_ = -to_center;
-  distance_ = to_center.norm();
-  toward_ = std::atan2(to_center.y(), to_center.x());
-  bearing_ = toward_ + heading - sensor.heading();
-  min_ = 0.0;
-  max_ = 0.0;
-  for (const double x : {-half_.x(), half_.x()}) {
-    for (const double y : {-half_.y(), half_.y()}) {
-      const Point2 corner(to_center.x() + x, to_center.y() + y);
-      const double cross = to_center.x() * corner.y() - to_center.y() * corner.x();
-      const double offset = std::atan2(cross, to_center.dot(corner));
-      min_ = std::min(min_, offset);
-      max_ = std::max(max_, offset);
-    }
-  }
-}
-
-Crossing Visibility::Outline::crossing(const Point2& direction) const {
-  Crossing crossing{0.0, distance_ + half_.norm()};
-  for (int axis = 0; axis < 2; ++axis) {
-    if (direction[axis] != 0.0) {
-      const double one = (-half_[axis] - sensor_[axis]) / direction[axis];
-      const double other = (half_[axis] - sensor_[axis]) / direction[axis];
-      crossing.entry = std::max(crossing.entry, std::min(one, other));
-      crossing.exit = std::min(crossing.exit, std::max(one, other));
-    }
-  }
-  return crossing;
-}
 
 template <typename Use>
 void Visibility::Outline::forEachLook(std::size_t parts, const Use& use) const {
   const double step = width() / static_cast<double>(parts);
   const double c = std::cos(step);
   const double s = std::sin(step);
-  double offset = min_ + 0.5 * step;
-  Point2 direction(std::cos(toward_ + offset), std::sin(toward_ + offset));
+  double toward = bearing() + right() + 0.5 * step;
+  Point2 direction(std::cos(toward), std::sin(toward));
   for (std::size_t part = 0; part < parts; ++part) {
-    use(bearing_ + offset, crossing(direction));
-    offset += step;
+    use(toward + to_sensor_, crossing(direction));
+    toward += step;
     direction =
         Point2(c * direction.x() - s * direction.y(), s * direction.x() + c * direction.y());
   }
@@ -171,7 +115,7 @@ Visibility::Visibility(const FieldOfView& view, const std::vector<Box2>& seen,
       continue;
     }
     const auto parts = static_cast<std::size_t>(outline.width() / kFanSpacing) + 1;
-    outline.forEachLook(parts, [this](double bearing, const Crossing& crossing) {
+    outline.forEachLook(parts, [this](double bearing, const LineCrossing& crossing) {
       if (const auto beam = beamAt(bearing)) {
         // What was seen does not hide itself.
         fan_.reach[*beam] = std::min(fan_.reach[*beam], crossing.exit);
@@ -223,7 +167,7 @@ std::optional<std::size_t> Visibility::beamAt(double bearing) const {
 Visibility::Looks Visibility::looksAt(const Outline& outline) {
   Looks looks;
   std::size_t i = 0;
-  outline.forEachLook(kLooks, [&](double bearing, const Crossing& crossing) {
+  outline.forEachLook(kLooks, [&](double bearing, const LineCrossing& crossing) {
     looks[i++] = {bearing, crossing.entry};
   });
   return looks;

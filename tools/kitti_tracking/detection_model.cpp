@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "datmo_fusion/common/square.h"
+
 namespace datmo::kitti {
 
 namespace {
@@ -19,8 +21,6 @@ ObjectClass classOf(ObjectType type) {
       return ObjectClass::kUnknown;
   }
 }
-
-double square(double value) { return value * value; }
 
 /// Covariance of a position seen in this direction (rad), of the axes along and across the line of
 /// sight.

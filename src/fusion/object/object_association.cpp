@@ -13,15 +13,14 @@
 #include "datmo_fusion/assignment/assignment.h"
 #include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/common/class_belief.h"
+#include "datmo_fusion/common/square.h"
 
 namespace datmo {
 
 namespace {
 
 /// m^2, of the difference between two sides: keeps weights finite.
-constexpr double kMinSideVariance = 1e-8;
-
-double square(double value) { return value * value; }
+constexpr double kMinDifferenceVariance = 1e-8;
 
 bool standsStill(const Object& object) { return object.dynamic_state == DynamicState::kStatic; }
 
@@ -60,7 +59,8 @@ Difference differenceOf(const SidePair& a, const SidePair& b, double unknown_siz
   double weighted = 0.0;
   for (std::size_t end = 0; end < 2; ++end) {
     if (a.isSeen(end) && b.isSeen(end)) {
-      const double weight = 1.0 / std::max(a.variance[end] + b.variance[end], kMinSideVariance);
+      const double weight =
+          1.0 / std::max(a.variance[end] + b.variance[end], kMinDifferenceVariance);
       weights += weight;
       weighted += weight * (b.position[end] - a.position[end]);
     }

@@ -10,6 +10,7 @@
 #include <Eigen/Cholesky>
 
 #include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/common/square.h"
 
 namespace datmo {
 
@@ -30,8 +31,6 @@ constexpr double kMinClassRatio = 0.05;
 constexpr double kFarBeyond = 2.0;
 
 const double kLogOfTurn = std::log(2.0 * kPi);
-
-double square(double value) { return value * value; }
 
 /// m^2, along the axes of the box: where a sensor takes the center of a body to be that it sees a
 /// part of.
