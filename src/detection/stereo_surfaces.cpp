@@ -44,7 +44,7 @@ constexpr double kSliceShare = 0.3;
 /// Slices without points in a surface: of a region without texture.
 constexpr int kMaxHole = 2;
 
-constexpr std::int32_t kNone = -1;
+constexpr std::int32_t kNoSurface = -1;
 
 }  // namespace
 
@@ -112,7 +112,7 @@ void StereoSurfaces::countLayer(const StereoCamera& camera, const StereoSurfaceO
 void StereoSurfaces::findModes(const StereoSurfaceOptions& options) {
   columns_.begin.clear();
   columns_.surfaces.clear();
-  surface_at_.assign(counts_.size(), kNone);
+  surface_at_.assign(counts_.size(), kNoSurface);
   raw_.assign(bins_ + 4, 0);
   smooth_.assign(bins_, 0);
   for (int column = 0; column < columns_.count; ++column) {
@@ -215,7 +215,7 @@ void StereoSurfaces::measure(const StereoSurfaceOptions& options) {
   for (const Upright& point : upright_) {
     const std::int32_t index =
         surface_at_[slot(columnOf(point.right), depth_bins_.at(point.depth))];
-    if (index == kNone) {
+    if (index == kNoSurface) {
       continue;
     }
     const auto surface = static_cast<std::size_t>(index);

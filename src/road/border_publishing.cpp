@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "datmo_fusion/common/log_odds.h"
+
 namespace datmo {
 
 namespace {
@@ -49,8 +51,6 @@ void enter(const FollowedBorder& border, const Pose2& map_in_vehicle,
     }
   }
 }
-
-double probabilityOf(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); }
 
 void finish(std::vector<RoadBorder>& published) {
   if (!published.empty() && published.back().points.size() < 2) {

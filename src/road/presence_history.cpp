@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "datmo_fusion/common/log_odds.h"
+
 namespace datmo {
 
 namespace {
@@ -20,8 +22,6 @@ constexpr double kMinStep = 0.2;        ///< m, that counts as driven
 
 /// Without any knowledge.
 constexpr double kUnknown = 0.5;
-
-double probabilityOf(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); }
 
 /// Evidence of a line at a station; a gap that its piece bridges is a border as the piece is.
 double logOddsOf(const FollowedBorder& border, const std::vector<ArcLengthInterval>& pieces,

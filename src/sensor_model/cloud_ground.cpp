@@ -18,12 +18,12 @@ namespace {
 constexpr int kMaxIterations = 200;
 
 /// Points that are looked at, of however many there are: several for each voxel.
-constexpr std::size_t kMaxSamples = 20000;
+constexpr std::size_t kMaxGroundSamples = 20000;
 
 /// The points that may be of the ground, thinned.
 LidarPoints::Ptr candidates(const LidarPoints& points, const std::vector<int>& indices,
                             const CloudGroundOptions& options) {
-  const std::size_t stride = indices.size() / kMaxSamples + 1;
+  const std::size_t stride = indices.size() / kMaxGroundSamples + 1;
   LidarPoints::Ptr chosen(new LidarPoints);
   chosen->reserve(indices.size() / stride + 1);
   for (std::size_t i = 0; i < indices.size(); i += stride) {

@@ -12,7 +12,6 @@ namespace datmo {
 
 namespace {
 
-constexpr double kTurn = 2.0 * kPi;
 constexpr float kNoReturn = std::numeric_limits<float>::infinity();
 constexpr float kBlind = std::numeric_limits<float>::quiet_NaN();
 

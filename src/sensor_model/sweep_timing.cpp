@@ -14,8 +14,6 @@ namespace datmo {
 
 namespace {
 
-constexpr double kTurn = 2.0 * kPi;
-
 /// Sectors of a degree: finer than a beam of the scan needs, and with many points each.
 constexpr int kSectors = 360;
 constexpr double kSectorWidth = kTurn / kSectors;
@@ -24,7 +22,7 @@ constexpr double kSectorWidth = kTurn / kSectors;
 constexpr std::size_t kMinSectors = 30;
 
 /// Points that are looked at, of however many there are.
-constexpr std::size_t kMaxSamples = 20000;
+constexpr std::size_t kMaxTimedPoints = 20000;
 
 /// A shorter spread of times (s) is none.
 constexpr double kMinSpread = 1e-4;
@@ -56,7 +54,7 @@ class Sectors {
  public:
   Sectors(const LidarPoints& points, const std::vector<float>& times, const Point2& lidar)
       : sectors_(kSectors) {
-    const std::size_t stride = points.size() / kMaxSamples + 1;
+    const std::size_t stride = points.size() / kMaxTimedPoints + 1;
     for (std::size_t i = 0; i < points.size(); i += stride) {
       const double bearing = std::atan2(points[i].y - lidar.y(), points[i].x - lidar.x());
       const int index = static_cast<int>(fullAngle(bearing) / kSectorWidth) % kSectors;

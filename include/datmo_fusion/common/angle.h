@@ -7,6 +7,7 @@ namespace datmo {
 
 inline constexpr double kPi = 3.14159265358979323846;
 inline constexpr double kQuarterTurn = 0.5 * kPi;  ///< rad
+inline constexpr double kTurn = 2.0 * kPi;         ///< rad
 
 /// Degrees to radians.
 constexpr double degrees(double value) { return value * kPi / 180.0; }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "datmo_fusion/common/log_odds.h"
+
 namespace datmo {
 
 namespace {
@@ -38,7 +40,7 @@ double fusedExistence(const std::vector<ExistenceReport>& reports) {
             ? std::log(std::max(1.0, one.detection_probability / one.false_agreement_probability))
             : std::log1p(-one.detection_probability * one.looked);
   }
-  return 1.0 / (1.0 + std::exp(-log_odds));
+  return probabilityOf(log_odds);
 }
 
 }  // namespace datmo

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+
+namespace datmo {
+
+inline double probabilityOf(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); }
+
+}  // namespace datmo
