@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/vision/image_detector.h"
+
+namespace datmo {
+
+struct HogDetectorOptions {
+  double min_score = 0.0;      ///< 1
+  double max_overlap = 0.4;    ///< 1
+  double max_upscaling = 4.0;  ///< 1
+  int max_regions = 20;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// OpenCV's people detector (histograms of oriented gradients: Dalal and Triggs, 2005), which needs
+/// no file. It looks at the regions alone, each scaled so that a person on the road there has the
+/// height it was trained for. Reports pedestrians; it does not tell them from riders. Scores: the
+/// margin of its support vector machine, about 0 to 3.
+class HogDetector : public ImageDetector {
+ public:
+  /// Throws OptionError.
+  explicit HogDetector(const HogDetectorOptions& options);
+  ~HogDetector() override;
+
+  std::vector<ImageDetection> detect(const cv::Mat& image,
+                                     const std::vector<ImageRegion>& regions) override;
+
+ private:
+  class State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace datmo

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/vision/class_reliability.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <string>
+
+namespace datmo {
+
+namespace {
+
+constexpr std::array<ObjectClass, 3> kReported = {ObjectClass::kPedestrian, ObjectClass::kCyclist,
+                                                  ObjectClass::kVehicle};
+
+void checkShapes(const ClassReliabilityOptions& options) {
+  const auto& scores = options.scores;
+  if (scores.empty() || scores.size() != options.right.size()) {
+    throw OptionError("scores of " + std::to_string(scores.size()) + " and right of " +
+                      std::to_string(options.right.size()) +
+                      " numbers: expected one share for each score, and one score at least");
+  }
+  if (std::adjacent_find(scores.begin(), scores.end(), std::greater_equal<>()) != scores.end()) {
+    throw OptionError("scores: expected each to be more than the one before it");
+  }
+  if (options.mistaken.size() != kReported.size() * kObjectClasses) {
+    throw OptionError("mistaken of " + std::to_string(options.mistaken.size()) +
+                      " numbers: expected 3 rows (pedestrian, cyclist, vehicle as reported) of " +
+                      std::to_string(kObjectClasses));
+  }
+}
+
+}  // namespace
+
+void ClassReliabilityOptions::visit(OptionVisitor& visitor) {
+  visitor.numbers({"scores", "1", "reliability curve: scores of the detector, rising"}, scores,
+                  {-1e3, 1e3});
+  visitor.numbers(
+      {"right", "1",
+       "share of the reports of such a score whose class is right (written by calibrate_classes)"},
+      right, {0.0, 1.0});
+  visitor.numbers({"mistaken", "1",
+                   "what wrongly reported objects are, relative: rows pedestrian, cyclist, vehicle "
+                   "as reported; columns unknown, pedestrian, cyclist, vehicle, pole as they are"},
+                  mistaken, {0.0, 1e9});
+}
+
+ClassReliability::ClassReliability(const ClassReliabilityOptions& options) : options_(options) {
+  checkOptions(options);
+  checkShapes(options);
+}
+
+double ClassReliability::right(double score) const {
+  const auto& scores = options_.scores;
+  const auto& shares = options_.right;
+  if (!(score > scores.front())) {
+    return shares.front();
+  }
+  const auto above = std::upper_bound(scores.begin(), scores.end(), score);
+  if (above == scores.end()) {
+    return shares.back();
+  }
+  const auto i = static_cast<std::size_t>(above - scores.begin());
+  const double part = (score - scores[i - 1]) / (scores[i] - scores[i - 1]);
+  return shares[i - 1] + part * (shares[i] - shares[i - 1]);
+}
+
+ClassProbabilities ClassReliability::probabilities(ObjectClass reported, double score) const {
+  ClassProbabilities result = ClassBelief().probabilities();
+  const auto found = std::find(kReported.begin(), kReported.end(), reported);
+  if (found == kReported.end()) {
+    return result;
+  }
+  const auto row = static_cast<std::size_t>(found - kReported.begin()) * kObjectClasses;
+  const auto own = static_cast<std::size_t>(reported);
+  double others = 0.0;
+  for (std::size_t i = 0; i < kObjectClasses; ++i) {
+    others += i == own ? 0.0 : options_.mistaken[row + i];
+  }
+  const double is_right = right(score);
+  const double equally = 1.0 / static_cast<double>(kObjectClasses - 1);
+  for (std::size_t i = 0; i < kObjectClasses; ++i) {
+    const double share = others > 0.0 ? options_.mistaken[row + i] / others : equally;
+    result[i] = i == own ? is_right : (1.0 - is_right) * share;
+  }
+  return result;
+}
+
+}  // namespace datmo

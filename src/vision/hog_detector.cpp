@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/vision/hog_detector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "image_check.h"
+#include <opencv2/imgproc.hpp>
+#include <opencv2/objdetect.hpp>
+
+namespace datmo {
+
+namespace {
+
+// The window of the detector as it was trained: 64 x 128 px, with a person of 96 px in its middle.
+constexpr double kPersonPixels = 96.0;
+constexpr double kPersonWidth = 0.5;    ///< of the window's
+constexpr double kPersonHeight = 0.75;  ///< of the window's
+
+constexpr double kPerson = 1.75;     ///< m
+constexpr double kMargin = 0.75;     ///< m, around a person: the window's, and a step beside it
+constexpr double kScaleStep = 1.06;  ///< from each size of persons that is tried to the next
+constexpr double kSmaller = 1.2;     ///< the smallest that is tried, relative to kPerson
+
+cv::Rect toRect(const Eigen::AlignedBox2d& box) {
+  const int x = static_cast<int>(std::floor(box.min().x()));
+  const int y = static_cast<int>(std::floor(box.min().y()));
+  return {x, y, static_cast<int>(std::ceil(box.max().x())) - x,
+          static_cast<int>(std::ceil(box.max().y())) - y};
+}
+
+/// The part of the image, and beyond its border its outermost pixels.
+cv::Mat cropOf(const cv::Mat& image, const cv::Rect& wanted) {
+  const cv::Rect inside = wanted & cv::Rect(0, 0, image.cols, image.rows);
+  cv::Mat crop;
+  cv::copyMakeBorder(image(inside), crop, inside.y - wanted.y,
+                     wanted.y + wanted.height - inside.y - inside.height, inside.x - wanted.x,
+                     wanted.x + wanted.width - inside.x - inside.width, cv::BORDER_REPLICATE);
+  return crop;
+}
+
+/// Where a person that stands in the region's columns and on its lower edge, or is nearer or
+/// farther by its uncertainty, fits with the detector's margins.
+Eigen::AlignedBox2d searchedPart(const ImageRegion& region) {
+  const double margin = kMargin * region.scale;
+  const double feet = region.box.max().y();
+  Eigen::AlignedBox2d part;
+  part.extend(
+      Eigen::Vector2d(region.search.min().x() - margin, feet - kPerson * region.scale - margin));
+  part.extend(Eigen::Vector2d(region.search.max().x() + margin, feet + margin));
+  return part;
+}
+
+}  // namespace
+
+class HogDetector::State {
+ public:
+  explicit State(const HogDetectorOptions& options) : options_(options) {
+    checkOptions(options);
+    hog_.setSVMDetector(cv::HOGDescriptor::getDefaultPeopleDetector());
+  }
+
+  std::vector<ImageDetection> detect(const cv::Mat& image, std::vector<ImageRegion> regions) const {
+    // The nearest matter most.
+    std::stable_sort(regions.begin(), regions.end(),
+                     [](const auto& a, const auto& b) { return a.scale > b.scale; });
+    regions.resize(std::min(regions.size(), static_cast<std::size_t>(options_.max_regions)));
+    std::vector<ImageDetection> all;
+    for (const ImageRegion& region : regions) {
+      std::vector<ImageDetection> found = detectIn(image, region);
+      std::move(found.begin(), found.end(), std::back_inserter(all));
+    }
+    return withoutDuplicates(std::move(all), options_.max_overlap);
+  }
+
+ private:
+  std::vector<ImageDetection> detectIn(const cv::Mat& image, const ImageRegion& region) const {
+    const double zoom = kSmaller * kPersonPixels / (kPerson * region.scale);
+    if (zoom > options_.max_upscaling) {
+      return {};
+    }
+    const cv::Rect part = toRect(searchedPart(region));
+    cv::Mat scaled;
+    cv::resize(cropOf(image, part), scaled, cv::Size(), zoom, zoom,
+               zoom < 1.0 ? cv::INTER_AREA : cv::INTER_LINEAR);
+    if (scaled.cols < hog_.winSize.width || scaled.rows < hog_.winSize.height) {
+      return {};
+    }
+    std::vector<cv::Rect> windows;
+    std::vector<double> scores;
+    hog_.detectMultiScale(scaled, windows, scores, options_.min_score, cv::Size(8, 8), cv::Size(),
+                          kScaleStep, 0.0);
+    std::vector<ImageDetection> result;
+    for (std::size_t i = 0; i < windows.size(); ++i) {
+      const cv::Rect& window = windows[i];
+      const Eigen::Vector2d middle(window.x + 0.5 * window.width, window.y + 0.5 * window.height);
+      const Eigen::Vector2d half(0.5 * kPersonWidth * window.width,
+                                 0.5 * kPersonHeight * window.height);
+      const Eigen::Vector2d origin(part.x, part.y);
+      result.push_back({{origin + (middle - half) / zoom, origin + (middle + half) / zoom},
+                        ObjectClass::kPedestrian,
+                        scores[i]});
+    }
+    return result;
+  }
+
+  HogDetectorOptions options_;
+  cv::HOGDescriptor hog_;
+};
+
+void HogDetectorOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"min_score", "1", "least margin of a person"}, min_score, {-2.0, 10.0});
+  visitor.number({"max_overlap", "1", "of two persons, intersection over union"}, max_overlap,
+                 {0.0, 1.0});
+  visitor.number({"max_upscaling", "1",
+                  "persons that would have to be enlarged by more are not looked for: those of "
+                  "less than 96 px over this"},
+                 max_upscaling, {1.0, 10.0});
+  visitor.integer({"max_regions", "1", "looked at in an image, the nearest: bounds its time"},
+                  max_regions, {1, 1000});
+}
+
+HogDetector::HogDetector(const HogDetectorOptions& options)
+    : state_(std::make_unique<State>(options)) {}
+
+HogDetector::~HogDetector() = default;
+
+std::vector<ImageDetection> HogDetector::detect(const cv::Mat& image,
+                                                const std::vector<ImageRegion>& regions) {
+  checkImage(image);
+  return state_->detect(image, regions);
+}
+
+}  // namespace datmo

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include <opencv2/core.hpp>
+
+namespace datmo {
+
+/// Throws std::invalid_argument for an image that is no detector's: empty, not of 8 bit, neither
+/// gray nor BGR.
+inline void checkImage(const cv::Mat& image) {
+  if (image.empty() || (image.type() != CV_8UC1 && image.type() != CV_8UC3)) {
+    throw std::invalid_argument("image of " + std::to_string(image.cols) + " x " +
+                                std::to_string(image.rows) + " px, OpenCV type " +
+                                std::to_string(image.type()) +
+                                ": expected a gray or BGR one of 8 bit that is not empty");
+  }
+}
+
+}  // namespace datmo

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/vision/mono_classifier.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+#include <opencv2/core.hpp>
+
+#include "datmo_fusion/tracking/object_check.h"
+#include "datmo_fusion/vision/image_region.h"
+
+namespace datmo {
+
+namespace {
+
+/// By how much less sure a position is reported than the scanner's own, as a variance: what it adds
+/// to the scanner's when they are fused is one hundredth.
+constexpr double kBorrowed = 100.0;
+
+constexpr char kSensor[] = "mono";
+
+const std::array<ObjectClass, 3> kThesisClasses = {ObjectClass::kVehicle, ObjectClass::kCyclist,
+                                                   ObjectClass::kPedestrian};
+
+std::unique_ptr<ImageDetector> makeDetector(const MonoClassifierOptions& options) {
+  checkOptions(options);
+  if (options.detector == MonoClassifierOptions::kDnn) {
+    return std::make_unique<DnnDetector>(options.dnn);
+  }
+  return std::make_unique<HogDetector>(options.hog);
+}
+
+/// m, from the camera over ground to the object's nearest point.
+double rangeTo(const MountedCamera& camera, const Box2& box) {
+  return std::max(kNearestDepth, box.distanceTo(camera.in_base.translation().head<2>()));
+}
+
+/// "Center of gravity" of an object's points (thesis 4.2.3), m; of one without points its box's.
+Point2 centroidOf(const Object& object) {
+  if (object.points.empty()) {
+    return object.box.center.position();
+  }
+  const Point2 sum =
+      std::accumulate(object.points.begin(), object.points.end(), Point2(Point2::Zero()));
+  return sum / static_cast<double>(object.points.size());
+}
+
+/// The rectangle of one class around a position, across the line of sight: as wide as the class is
+/// long and wide in the mean. None where nothing of it is in the image.
+std::optional<ImageRegion> rectangleOf(const MountedCamera& camera, const Point2& position,
+                                       ObjectClass object_class) {
+  const ClassSize size = sizeOf(object_class);
+  const Point2 sight = position - camera.in_base.translation().head<2>();
+  Object upright;
+  upright.box = {Pose2(position, std::atan2(sight.y(), sight.x())), 0.0,
+                 0.5 * (size.length + size.width)};
+  upright.height = size.height;
+  upright.position_covariance.setZero();
+  return regionOf(camera, upright, size.height, std::numeric_limits<double>::min(), 0.0);
+}
+
+}  // namespace
+
+struct MonoClassifier::InView {
+  Object object;
+  ImageRegion region;
+};
+
+MonoClassifierOptions::MonoClassifierOptions() {
+  hog_reliability.scores = {0.0, 1.0, 2.0};
+  hog_reliability.right = {0.3, 0.5, 0.6};
+}
+
+void MonoClassifierOptions::visit(OptionVisitor& visitor) {
+  visitor.text({"method", "",
+                "what the detector sees is associated with the objects, or each object's rectangle "
+                "of each class is looked at (thesis 4.2.3)"},
+               method, {kAssociation, kThesis});
+  visitor.text({"detector", "",
+                "hog: OpenCV's people detector, which needs no file; dnn: a neural network, which "
+                "needs dnn/model",
+                Tier::kPublic},
+               detector, {kHog, kDnn});
+  visitor.group("hog", [&] {
+    hog.visit(visitor);
+    visitor.group("reliability", [&] { hog_reliability.visit(visitor); });
+  });
+  visitor.group("dnn", [&] {
+    dnn.visit(visitor);
+    visitor.group("reliability", [&] { dnn_reliability.visit(visitor); });
+  });
+  visitor.group("range", [&] { range.visit(visitor); });
+  visitor.group("association", [&] { association.visit(visitor); });
+  visitor.number({"default_height", "m", "of an object whose height is not measured"},
+                 default_height, {0.1, 10.0});
+  visitor.number({"min_size", "m", "an object that was seen smaller is this long and wide"},
+                 min_size, {0.01, 10.0});
+  visitor.number({"region_sigmas", "1",
+                  "standard deviations of an object's position that its region has room for"},
+                 region_sigmas, {0.0, 10.0});
+  visitor.number({"min_alone", "1",
+                  "what the image alone sees is an object if its class is at least as probable; 1: "
+                  "none is",
+                  Tier::kPublic},
+                 min_alone, {0.0, 1.0});
+  visitor.number({"thesis_overlap", "1",
+                  "method thesis: a detection is a rectangle's if intersection over union is more"},
+                 thesis_overlap, {0.0, 1.0});
+}
+
+MonoClassifier::MonoClassifier(const MonoClassifierOptions& options)
+    : MonoClassifier(options, makeDetector(options)) {}
+
+MonoClassifier::MonoClassifier(const MonoClassifierOptions& options,
+                               std::unique_ptr<ImageDetector> detector)
+    : options_(options),
+      reliability_(options.detector == MonoClassifierOptions::kDnn ? options.dnn_reliability
+                                                                   : options.hog_reliability),
+      detector_(std::move(detector)) {
+  checkOptions(options);
+}
+
+MonoClassifier::~MonoClassifier() = default;
+
+MonoClassification MonoClassifier::classify(const cv::Mat& image, const MountedCamera& camera,
+                                            const ObjectList& objects) {
+  if (image.cols != std::lround(camera.width) || image.rows != std::lround(camera.height)) {
+    throw std::invalid_argument("image of " + std::to_string(image.cols) + " x " +
+                                std::to_string(image.rows) + " px: expected that of the camera, " +
+                                std::to_string(std::lround(camera.width)) + " x " +
+                                std::to_string(std::lround(camera.height)) + " px");
+  }
+  const std::vector<InView> seen = inView(camera, objects);
+  MonoClassification result = options_.method == MonoClassifierOptions::kThesis
+                                  ? asInThesis(image, camera, seen)
+                                  : byAssociation(image, camera, seen);
+  result.list.stamp = objects.stamp;
+  result.in_view = seen.size();
+  return result;
+}
+
+std::vector<MonoClassifier::InView> MonoClassifier::inView(const MountedCamera& camera,
+                                                           const ObjectList& objects) const {
+  std::vector<InView> seen;
+  for (const Object& object : objects.objects) {
+    if (!isValid(object)) {
+      continue;
+    }
+    if (const auto region = regionOf(camera, object, options_.default_height, options_.min_size,
+                                     options_.region_sigmas)) {
+      seen.push_back({object, *region});
+    }
+  }
+  return seen;
+}
+
+MonoClassification MonoClassifier::byAssociation(const cv::Mat& image, const MountedCamera& camera,
+                                                 const std::vector<InView>& seen) {
+  std::vector<ImageRegion> regions;
+  std::vector<ProjectedObject> projected;
+  for (const InView& one : seen) {
+    regions.push_back(one.region);
+    projected.push_back({one.region, rangeTo(camera, one.object.box),
+                         std::sqrt(0.5 * one.object.position_covariance.trace())});
+  }
+  const std::vector<ImageDetection> detections = detector_->detect(image, regions);
+  const auto matches =
+      associate(projected, detections, camera, options_.range, options_.association);
+  MonoClassification result;
+  result.detections = detections.size();
+  std::vector<bool> is_matched(detections.size(), false);
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (matches[i]) {
+      is_matched[*matches[i]] = true;
+      addClassified(seen[i].object, detections[*matches[i]], result);
+    }
+  }
+  for (std::size_t i = 0; i < detections.size(); ++i) {
+    auto alone = is_matched[i] ? std::nullopt : objectOf(camera, detections[i], options_.range);
+    if (!alone) {
+      continue;
+    }
+    classify(detections[i], *alone);
+    if (alone->object_class != ObjectClass::kUnknown &&
+        alone->class_probability >= options_.min_alone) {
+      result.list.objects.push_back(std::move(*alone));
+      ++result.alone;
+    }
+  }
+  return result;
+}
+
+MonoClassification MonoClassifier::asInThesis(const cv::Mat& image, const MountedCamera& camera,
+                                              const std::vector<InView>& seen) {
+  struct Rectangle {
+    std::size_t object;
+    ObjectClass object_class;
+    ImageRegion region;
+  };
+  std::vector<Rectangle> rectangles;
+  std::vector<ImageRegion> regions;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    for (const ObjectClass object_class : kThesisClasses) {
+      if (const auto region = rectangleOf(camera, centroidOf(seen[i].object), object_class)) {
+        rectangles.push_back({i, object_class, *region});
+        regions.push_back(*region);
+      }
+    }
+  }
+  const std::vector<ImageDetection> detections = detector_->detect(image, regions);
+  std::vector<const ImageDetection*> best(seen.size(), nullptr);
+  for (const Rectangle& rectangle : rectangles) {
+    const ImageDetection*& surest = best[rectangle.object];
+    for (const ImageDetection& one : detections) {
+      if (one.object_class == rectangle.object_class &&
+          overlap(one.box, rectangle.region.box) > options_.thesis_overlap &&
+          (surest == nullptr || one.score > surest->score)) {
+        surest = &one;
+      }
+    }
+  }
+  MonoClassification result;
+  result.detections = detections.size();
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (best[i] != nullptr) {
+      addClassified(seen[i].object, *best[i], result);
+    }
+  }
+  return result;
+}
+
+void MonoClassifier::addClassified(const Object& object, const ImageDetection& detection,
+                                   MonoClassification& result) const {
+  Object classified;
+  classified.box = object.box;
+  classified.position_covariance = kBorrowed * object.position_covariance;
+  classified.side_variance.fill(kHiddenSide);
+  classified.delay = object.delay;
+  // So that it is not taken for another one that moves where the scanner's stands.
+  classified.dynamic_state = object.dynamic_state;
+  classify(detection, classified);
+  if (classified.object_class != ObjectClass::kUnknown) {
+    result.list.objects.push_back(std::move(classified));
+    ++result.classified;
+  }
+}
+
+void MonoClassifier::classify(const ImageDetection& detection, Object& object) const {
+  const ClassProbabilities probabilities =
+      reliability_.probabilities(detection.object_class, detection.score);
+  const auto best = std::max_element(probabilities.begin(), probabilities.end());
+  object.object_class = static_cast<ObjectClass>(best - probabilities.begin());
+  object.class_probability = object.object_class == ObjectClass::kUnknown ? 0.0 : *best;
+  object.sensors = {kSensor};
+}
+
+}  // namespace datmo

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/vision/mono_classifier.h"
+
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "vision/image_samples.h"
+#include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+
+namespace datmo {
+namespace {
+
+using test::detectionOf;
+using test::levelCamera;
+using test::objectAt;
+
+/// Sees the same in each image.
+class FixedDetector : public ImageDetector {
+ public:
+  explicit FixedDetector(std::vector<ImageDetection> seen) : seen_(std::move(seen)) {}
+
+  std::vector<ImageDetection> detect(const cv::Mat& /*image*/,
+                                     const std::vector<ImageRegion>& /*regions*/) override {
+    return seen_;
+  }
+
+ private:
+  std::vector<ImageDetection> seen_;
+};
+
+/// A person whose feet are 10 m ahead, and a car 20 m ahead on the left.
+const ImageDetection kPerson = detectionOf(ObjectClass::kPedestrian, 485, 190, 515, 275);
+const ImageDetection kCar = detectionOf(ObjectClass::kVehicle, 350, 197, 400, 237.5);
+
+/// Whose detector is right in four of five.
+MonoClassifierOptions dnnOptions() {
+  MonoClassifierOptions options;
+  options.detector = MonoClassifierOptions::kDnn;
+  options.dnn_reliability.scores = {0.0};
+  options.dnn_reliability.right = {0.8};
+  return options;
+}
+
+cv::Mat grayImage() { return {400, 1000, CV_8UC1, cv::Scalar(100)}; }
+
+MonoClassification classified(const std::vector<ImageDetection>& seen, const ObjectList& objects,
+                              const MonoClassifierOptions& options = dnnOptions()) {
+  MonoClassifier classifier(options, std::make_unique<FixedDetector>(seen));
+  return classifier.classify(grayImage(), levelCamera(), objects);
+}
+
+TEST(MonoClassifier, NamesTheObjectOfTheScanner) {
+  ObjectList objects;
+  objects.stamp = Stamp::fromSeconds(5.0);
+  objects.objects = {objectAt(10.2, 0.0, 0.4, 0.4, 0.0), objectAt(-5.0, 0.0, 0.4, 0.4, 0.0)};
+  objects.objects[0].dynamic_state = DynamicState::kMoving;
+  const MonoClassification result = classified({kPerson}, objects);
+  EXPECT_EQ(result.in_view, 1U) << "the other is behind";
+  EXPECT_EQ(result.classified, 1U);
+  EXPECT_EQ(result.alone, 0U);
+  ASSERT_EQ(result.list.objects.size(), 1U);
+  const Object& named = result.list.objects[0];
+  EXPECT_EQ(result.list.stamp, objects.stamp);
+  EXPECT_EQ(named.object_class, ObjectClass::kPedestrian);
+  EXPECT_NEAR(named.class_probability, 0.8, 1e-9);
+  EXPECT_EQ(named.sensors, std::vector<std::string>{"mono"});
+  EXPECT_EQ(named.dynamic_state, DynamicState::kMoving);
+  EXPECT_NEAR(named.box.center.x(), 10.2, 1e-12);
+  EXPECT_GE(named.position_covariance(0, 0), 50.0 * objects.objects[0].position_covariance(0, 0))
+      << "the scanner's position must not count twice";
+}
+
+TEST(MonoClassifier, WhatTheScannerDoesNotSeeIsAnObjectByItself) {
+  const MonoClassification result = classified({kPerson, kCar}, ObjectList());
+  EXPECT_EQ(result.alone, 2U);
+  ASSERT_EQ(result.list.objects.size(), 2U);
+  EXPECT_NEAR(result.list.objects[0].box.center.x(), 10.0, 1.0);
+  EXPECT_GT(result.list.objects[1].box.center.y(), 3.0);
+}
+
+TEST(MonoClassifier, AnUnsureOneAloneIsNone) {
+  MonoClassifierOptions options = dnnOptions();
+  options.min_alone = 0.81;
+  EXPECT_TRUE(classified({kPerson}, ObjectList(), options).list.objects.empty());
+}
+
+TEST(MonoClassifier, AsInTheThesisTheRectangleWithTheSurestDetectionWins) {
+  MonoClassifierOptions options = dnnOptions();
+  options.method = MonoClassifierOptions::kThesis;
+  ObjectList objects;
+  objects.objects = {objectAt(10.2, 0.0, 0.4, 0.4, 0.0)};
+  const MonoClassification result = classified({kPerson, kCar}, objects, options);
+  ASSERT_EQ(result.list.objects.size(), 1U) << "what the scanner does not see is not there";
+  EXPECT_EQ(result.list.objects[0].object_class, ObjectClass::kPedestrian);
+}
+
+TEST(MonoClassifier, ObjectsThatAreNotValidAreLeftOut) {
+  ObjectList objects;
+  objects.objects = {objectAt(10.2, 0.0, 0.4, 0.4, 0.0)};
+  objects.objects[0].box.length = -1.0;
+  EXPECT_EQ(classified({}, objects).in_view, 0U);
+}
+
+TEST(MonoClassifier, RefusesAnImageOfAnotherSize) {
+  MonoClassifier classifier(dnnOptions(),
+                            std::make_unique<FixedDetector>(std::vector<ImageDetection>()));
+  EXPECT_THROW(classifier.classify(cv::Mat(10, 10, CV_8UC1), levelCamera(), ObjectList()),
+               std::invalid_argument);
+}
+
+TEST(HogDetector, SeesNobodyInEmptyImages) {
+  MonoClassifier classifier{MonoClassifierOptions()};
+  ObjectList objects;
+  objects.objects = {objectAt(8.0, 0.0, 0.5, 0.5, 0.0), objectAt(8.0, 7.9, 0.5, 0.5, 0.0)};
+  for (const int gray : {0, 100, 255}) {
+    const cv::Mat image(400, 1000, CV_8UC1, cv::Scalar(gray));
+    const MonoClassification result = classifier.classify(image, levelCamera(), objects);
+    EXPECT_EQ(result.in_view, 2U);
+    EXPECT_EQ(result.detections, 0U) << gray;
+  }
+}
+
+TEST(HogDetector, RefusesImagesOfOtherTypes) {
+  HogDetector detector{HogDetectorOptions()};
+  EXPECT_THROW(detector.detect(cv::Mat(), {}), std::invalid_argument);
+  EXPECT_THROW(detector.detect(cv::Mat(10, 10, CV_16UC1), {}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace datmo
