@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "datmo_fusion/risk/host_motion.h"
+
+namespace datmo {
+
+/// What stands and is no track: end points of beams, thinned and in an order in which a moving body
+/// finds those near it.
+class StandingPoints {
+ public:
+  /// `points`: m, fixed frame; those that are not finite are left out. `spacing`: m, more than 0:
+  /// of several in a cell of this size the first is kept.
+  StandingPoints(const std::vector<Point2>& points, double spacing);
+
+  struct Contact {
+    double time = 0.0;  ///< s
+    Point2 point = Point2::Zero();
+  };
+
+  /// The first that a body touches on its path; none if it touches none.
+  std::optional<Contact> firstContact(const BodyPath& path, const BodySize& size) const;
+
+  std::size_t size() const { return points_.size(); }
+
+ private:
+  void checkMove(const BodyMove& move, double start, double step,
+                 std::optional<Contact>& first) const;
+
+  std::vector<Point2> points_;  ///< by rising x
+};
+
+}  // namespace datmo

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/risk/box_contact.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace datmo {
+
+namespace {
+
+/// m; nearer than this is contact: no track is known so well.
+constexpr double kTouching = 0.01;
+
+}  // namespace
+
+double reachAlong(const Point2& axis, const BodyPose& pose, const BodySize& size) {
+  return size.half_length * std::abs(axis.dot(pose.direction)) +
+         size.half_width * std::abs(axis.dot(leftOf(pose.direction)));
+}
+
+BodyPose bodyPose(const Point2& center, double heading) {
+  return {center, heading, {std::cos(heading), std::sin(heading)}};
+}
+
+double BodySize::radius() const {
+  return std::sqrt(half_length * half_length + half_width * half_width);
+}
+
+BodySize bodySize(const Box2& box) { return {0.5 * box.length, 0.5 * box.width}; }
+
+Separation separation(const BodyPose& a, const BodySize& size_a, const BodyPose& b,
+                      const BodySize& size_b) {
+  const Point2 apart = b.center - a.center;
+  const std::array<Point2, 4> axes{a.direction, leftOf(a.direction), b.direction,
+                                   leftOf(b.direction)};
+  Separation best;
+  bool first = true;
+  for (const Point2& axis : axes) {
+    const double along = axis.dot(apart);
+    const double gap = std::abs(along) - reachAlong(axis, a, size_a) - reachAlong(axis, b, size_b);
+    if (first || gap > best.gap) {
+      best.gap = gap;
+      best.axis = along < 0.0 ? Point2(-axis) : axis;
+      first = false;
+    }
+  }
+  return best;
+}
+
+BodyPose BodyMove::at(double share) const {
+  const Point2 center = from.center + share * (to.center - from.center);
+  const double turn = share * (to.heading - from.heading);
+  return turn == 0.0 ? BodyPose{center, from.heading, from.direction}
+                     : bodyPose(center, from.heading + turn);
+}
+
+bool circlesMeet(const CircleMove& a, const CircleMove& b) {
+  const Point2 apart = b.from - a.from;
+  const Point2 drift = (b.to - b.from) - (a.to - a.from);
+  const double reach = a.radius + b.radius + kTouching;
+  const double farthest = reach + drift.lpNorm<1>();
+  if (apart.squaredNorm() > farthest * farthest) {
+    return false;  // most are: the quotient is slow
+  }
+  const double length = drift.squaredNorm();
+  const double nearest = length > 0.0 ? std::clamp(-apart.dot(drift) / length, 0.0, 1.0) : 0.0;
+  return (apart + nearest * drift).squaredNorm() <= reach * reach;
+}
+
+std::optional<double> firstContact(const BodyMove& a, const BodyMove& b) {
+  const double radius_a = a.size.radius();
+  const double radius_b = b.size.radius();
+  if (!circlesMeet({a.from.center, a.to.center, radius_a},
+                   {b.from.center, b.to.center, radius_b})) {
+    return std::nullopt;
+  }
+  const Point2 drift = (b.to.center - b.from.center) - (a.to.center - a.from.center);
+  const double turning = std::abs(a.to.heading - a.from.heading) * radius_a +
+                         std::abs(b.to.heading - b.from.heading) * radius_b;
+  double share = 0.0;
+  while (share <= 1.0) {
+    const Separation apart = separation(a.at(share), a.size, b.at(share), b.size);
+    if (apart.gap <= kTouching) {
+      return share;
+    }
+    // Along this axis the gap closes no faster than that, over the rest of the move.
+    const double closing = turning - apart.axis.dot(drift);
+    if (closing <= 0.0) {
+      return std::nullopt;
+    }
+    share += (apart.gap - 0.5 * kTouching) / closing;
+  }
+  return std::nullopt;
+}
+
+const char* nameOf(StruckSide side) {
+  switch (side) {
+    case StruckSide::kNone:
+      break;
+    case StruckSide::kFront:
+      return "front";
+    case StruckSide::kRear:
+      return "rear";
+    case StruckSide::kLeft:
+      return "left";
+    case StruckSide::kRight:
+      return "right";
+  }
+  return "none";
+}
+
+StruckSide struckSide(const BodyPose& a, const BodySize& size_a, const BodyPose& b,
+                      const BodySize& size_b) {
+  const Point2 apart = b.center - a.center;
+  const double ahead = a.direction.dot(apart);
+  const double aside = leftOf(a.direction).dot(apart);
+  const double gap_ahead =
+      std::abs(ahead) - size_a.half_length - reachAlong(a.direction, b, size_b);
+  const double gap_aside =
+      std::abs(aside) - size_a.half_width - reachAlong(leftOf(a.direction), b, size_b);
+  if (gap_ahead >= gap_aside) {
+    return ahead >= 0.0 ? StruckSide::kFront : StruckSide::kRear;
+  }
+  return aside >= 0.0 ? StruckSide::kLeft : StruckSide::kRight;
+}
+
+}  // namespace datmo

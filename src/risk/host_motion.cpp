@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/risk/host_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace datmo {
+
+namespace {
+
+/// m/s; slower, a yaw rate says nothing about the steering.
+constexpr double kRolling = 0.5;
+
+/// What changes of a state in one second.
+struct Rates {
+  Point2 position;
+  double heading;
+};
+
+/// 1/m, of the rear axle's path.
+double curvatureOf(double speed, double steering, const HostVehicleOptions& vehicle) {
+  const double curvature = std::tan(steering) / vehicle.wheelbase;
+  const double limit = vehicle.max_lateral / std::max(speed * speed, kRolling * kRolling);
+  return std::clamp(curvature, -limit, limit);
+}
+
+Rates ratesOf(double heading, double speed, double curvature) {
+  return {speed * Point2(std::cos(heading), std::sin(heading)), speed * curvature};
+}
+
+/// The speed after a time of an acceleration that does not turn the direction of travel: who stands
+/// stays.
+double speedAfter(double speed, double acceleration, double seconds) {
+  const double after = speed + acceleration * seconds;
+  return speed * after <= 0.0 ? 0.0 : after;
+}
+
+}  // namespace
+
+void HostVehicleOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"length", "m", "of the vehicle, bumper to bumper", Tier::kPublic}, length,
+                 {0.1, 30.0});
+  visitor.number({"width", "m", "of the vehicle without mirrors", Tier::kPublic}, width,
+                 {0.1, 5.0});
+  visitor.number(
+      {"rear_overhang", "m", "from the rear bumper to the rear axle (base_link)", Tier::kPublic},
+      rear_overhang, {0.0, 10.0});
+  visitor.number(
+      {"wheelbase", "m", "from axle to axle; of the bicycle model (thesis 5.3.5)", Tier::kPublic},
+      wheelbase, {0.1, 15.0});
+  visitor.number({"max_steering", "rad", "angle of the front wheels at full lock"}, max_steering,
+                 {0.05, 1.5});
+  visitor.number({"max_steering_rate", "rad/s",
+                  "of the front wheels; a quick driver turns the wheel by 500 degrees a second, "
+                  "geared down by 15"},
+                 max_steering_rate, {0.01, 5.0});
+  visitor.number({"max_braking", "m/s^2",
+                  "deceleration that brakes reach on a dry road within a driver's power; automatic "
+                  "brakes are tested at 6 to 9",
+                  Tier::kPublic},
+                 max_braking, {0.5, 12.0});
+  visitor.number({"max_lateral", "m/s^2",
+                  "lateral acceleration up to which the tires hold and a driver dares to steer"},
+                 max_lateral, {0.5, 12.0});
+}
+
+double steeringOf(double speed, double yaw_rate, const HostVehicleOptions& vehicle) {
+  if (std::abs(speed) < kRolling) {
+    return 0.0;
+  }
+  return std::clamp(std::atan(vehicle.wheelbase * yaw_rate / speed), -vehicle.max_steering,
+                    vehicle.max_steering);
+}
+
+BicycleState bicycleState(const HostState& host) {
+  return {host.pose.position(), host.pose.heading(), host.speed, host.steering};
+}
+
+BicycleState afterStep(const BicycleState& state, const HostCommand& command, double seconds,
+                       const HostVehicleOptions& vehicle) {
+  const double half = 0.5 * seconds;
+  const auto steering_at = [&](double time) {
+    return std::clamp(state.steering + command.steering_rate * time, -vehicle.max_steering,
+                      vehicle.max_steering);
+  };
+  const double speed_mid = speedAfter(state.speed, command.acceleration, half);
+  const double speed_end = speedAfter(state.speed, command.acceleration, seconds);
+  const double curvature_mid = curvatureOf(speed_mid, steering_at(half), vehicle);
+  const double steering_end = steering_at(seconds);
+  const Rates k1 =
+      ratesOf(state.heading, state.speed, curvatureOf(state.speed, state.steering, vehicle));
+  const Rates k2 = ratesOf(state.heading + half * k1.heading, speed_mid, curvature_mid);
+  const Rates k3 = ratesOf(state.heading + half * k2.heading, speed_mid, curvature_mid);
+  const Rates k4 = ratesOf(state.heading + seconds * k3.heading, speed_end,
+                           curvatureOf(speed_end, steering_end, vehicle));
+  const double sixth = seconds / 6.0;
+  return {state.position + sixth * (k1.position + 2.0 * (k2.position + k3.position) + k4.position),
+          state.heading + sixth * (k1.heading + 2.0 * (k2.heading + k3.heading) + k4.heading),
+          speed_end, steering_end};
+}
+
+BodyPose outlineOf(const BicycleState& state, const HostVehicleOptions& vehicle) {
+  BodyPose pose = bodyPose(state.position, state.heading);
+  pose.center += vehicle.middleAhead() * pose.direction;
+  return pose;
+}
+
+Point2 BodyPath::velocity(std::size_t index) const {
+  if (index + 1 >= poses.size()) {
+    return Point2::Zero();
+  }
+  return (poses[index + 1].center - poses[index].center) / step;
+}
+
+std::optional<double> firstContact(const BodyPath& a, const BodySize& size_a, const BodyPath& b,
+                                   const BodySize& size_b) {
+  const std::size_t steps = std::min(a.poses.size(), b.poses.size()) - 1;
+  for (std::size_t i = 0; i < steps; ++i) {
+    const auto share =
+        firstContact({a.poses[i], a.poses[i + 1], size_a}, {b.poses[i], b.poses[i + 1], size_b});
+    if (share) {
+      return (static_cast<double>(i) + *share) * a.step;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace datmo

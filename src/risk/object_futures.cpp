@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/risk/object_futures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+namespace datmo {
+
+namespace {
+
+/// What random numbers are for: a state takes kTrackState of them.
+enum ObjectDraw : std::uint32_t {
+  kDrawState = 0,
+  kDrawHeading = 16,
+  kDrawFirstMode,
+  kDrawStep,
+  kDrawEntered,
+};
+
+/// rad; a box whose heading is less sure than this is turned no farther: beyond, the velocity says
+/// more than the box.
+constexpr double kMaxHeadingSigma = 0.3;
+
+/// m/s; slower than this it has come to rest.
+constexpr double kRest = 1e-3;
+
+std::uint32_t narrow(std::size_t value) { return static_cast<std::uint32_t>(value); }
+
+double turningOf(ObjectClass object_class, const ObjectFutureOptions& options) {
+  switch (object_class) {
+    case ObjectClass::kPedestrian:
+      return options.pedestrian_turning;
+    case ObjectClass::kCyclist:
+    case ObjectClass::kUnknown:  // anything from a pedestrian to a car
+      return options.cyclist_turning;
+    case ObjectClass::kVehicle:
+    case ObjectClass::kPole:
+      break;
+  }
+  return options.vehicle_turning;
+}
+
+/// Turns of most steps are small: their series is right to 1e-5, and much faster.
+Point2 turned(const Point2& vector, double angle) {
+  constexpr double kSmall = 0.1;
+  const double square = angle * angle;
+  const bool small = std::abs(angle) < kSmall;
+  const double c = small ? 1.0 - 0.5 * square : std::cos(angle);
+  const double s = small ? angle * (1.0 - square / 6.0) : std::sin(angle);
+  return {c * vector.x() - s * vector.y(), s * vector.x() + c * vector.y()};
+}
+
+/// The mode whose range of the cumulated probabilities holds the uniform number.
+template <typename Cumulated>
+MotionMode modeAt(const Cumulated& cumulated, double uniform) {
+  int mode = 0;
+  while (mode + 1 < kMotionModes && uniform >= cumulated[mode]) {
+    ++mode;
+  }
+  return static_cast<MotionMode>(mode);
+}
+
+}  // namespace
+
+void HorizonOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"horizon", "s",
+                  "how far the futures reach: contact within 1, 2, 3 and 4 s is reported; the "
+                  "thesis's h (5.3.5), which it leaves open"},
+                 horizon, {4.0, 10.0});
+  visitor.number({"step", "s",
+                  "of the futures; between two steps bodies move evenly, and no contact is missed"},
+                 step, {0.02, 0.5});
+  visitor.integer({"futures", "1",
+                   "joint futures of host and objects; the standard deviation of a probability of "
+                   "one half is 0.03 with 256",
+                   Tier::kPublic},
+                  futures, {16, 4096});
+  visitor.integer({"seed", "1", "of the random numbers: the same seed gives the same risks"}, seed,
+                  {0, 1000000});
+}
+
+std::size_t HorizonOptions::steps() const {
+  return static_cast<std::size_t>(std::llround(std::ceil(horizon / step - 1e-9)));
+}
+
+void ObjectFutureOptions::visit(OptionVisitor& visitor) {
+  constexpr Bounds kTurning{0.0, 3.0};
+  visitor.number({"vehicle_turning", "rad/sqrt(s)",
+                  "random walk of the course of a vehicle between turns: 0.4 m/s to the side after "
+                  "1 s at 14 m/s, as drivers sway in their lane"},
+                 vehicle_turning, kTurning);
+  visitor.number({"cyclist_turning", "rad/sqrt(s)", "the same of cyclists and of unknown objects"},
+                 cyclist_turning, kTurning);
+  visitor.number({"pedestrian_turning", "rad/sqrt(s)",
+                  "the same of pedestrians, who change direction easily (thesis 5.3.5)"},
+                 pedestrian_turning, kTurning);
+  visitor.number({"start_acceleration", "m/s^2",
+                  "standard deviation of the acceleration of what begins to accelerate or brake"},
+                 start_acceleration, {0.0, 10.0});
+  visitor.number({"stop_deceleration", "m/s^2", "with which an object comes to stand"},
+                 stop_deceleration, {0.1, 10.0});
+  visitor.number({"max_acceleration", "m/s^2", "no road user accelerates or brakes harder"},
+                 max_acceleration, {0.1, 15.0});
+  visitor.number({"max_lateral", "m/s^2", "no road user turns harder"}, max_lateral, {0.1, 12.0});
+}
+
+ObjectClass likeliestClass(const Track& track) {
+  const auto& shares = track.class_probabilities;
+  return static_cast<ObjectClass>(std::max_element(shares.begin(), shares.end()) - shares.begin());
+}
+
+MotionMode likeliestMode(const Track& track) {
+  const auto& shares = track.mode_probabilities;
+  return static_cast<MotionMode>(std::max_element(shares.begin(), shares.end()) - shares.begin());
+}
+
+ObjectFutures::ObjectFutures(const Track& track, const ObjectFutureOptions& options,
+                             const HorizonOptions& horizon, const RandomDraws& draws)
+    : track_(track),
+      options_(options),
+      horizon_(horizon),
+      draws_(draws),
+      class_(likeliestClass(track)),
+      root_(track.covariance.llt().matrixL()),
+      cumulated_(transitionMatrix(countsOfSojourns(options.transitions), horizon.step)) {
+  for (int mode = 1; mode < kMotionModes; ++mode) {
+    cumulated_.col(mode) += cumulated_.col(mode - 1);
+  }
+  const TargetMotionOptions& motion = options.motion.motionOf(class_);
+  turning_ = turningOf(class_, options) * std::sqrt(horizon.step);
+  speed_noise_ = std::sqrt(motion.acceleration_density * horizon.step);
+  class_turn_rate_ = motion.turn_rate;
+  heading_sigma_ = std::min(kMaxHeadingSigma, std::sqrt(track.heading_variance));
+}
+
+/// `mode` standing: at rest, whatever the velocity.
+ObjectFutures::State ObjectFutures::stateOf(const TrackState& state, double heading,
+                                            MotionMode mode) const {
+  State result;
+  result.position = state.head<2>();
+  result.heading = heading;
+  result.mode = mode;
+  const Point2 velocity = state.segment<2>(2);
+  const double speed = velocity.norm();
+  if (speed > kRest) {
+    result.course = velocity / speed;
+    result.speed = mode == MotionMode::kStanding ? 0.0 : speed;
+    result.acceleration = std::clamp(result.course.dot(state.tail<2>()), -options_.max_acceleration,
+                                     options_.max_acceleration);
+  }
+  return result;
+}
+
+ObjectFutures::State ObjectFutures::begin(std::size_t future) const {
+  DrawKey key{track_.id, narrow(future), 0, kDrawState};
+  TrackState normals;
+  for (int i = 0; i < kTrackState; ++i) {
+    key.kind = kDrawState + static_cast<std::uint32_t>(i);
+    normals[i] = draws_.normal(key);
+  }
+  std::array<double, kMotionModes> cumulated = track_.mode_probabilities;
+  for (std::size_t mode = 1; mode < kMotionModes; ++mode) {
+    cumulated[mode] += cumulated[mode - 1];
+  }
+  key.kind = kDrawFirstMode;
+  const MotionMode mode = modeAt(cumulated, draws_.uniform(key) * cumulated.back());
+  key.kind = kDrawHeading;
+  const double heading = track_.box.center.heading() + heading_sigma_ * draws_.normal(key);
+  return stateOf(track_.state + root_ * normals, heading, mode);
+}
+
+void ObjectFutures::enter(State& state, MotionMode mode, const DrawKey& key) const {
+  if (state.mode == MotionMode::kStanding && state.speed <= kRest) {
+    // It starts along its box; who walks, wherever to.
+    const double direction =
+        class_ == ObjectClass::kPedestrian ? kTurn * draws_.uniform(key) : state.heading;
+    state.course = {std::cos(direction), std::sin(direction)};
+    state.speed = options_.motion.motionOf(class_).start_speed_std * std::abs(draws_.normal(key));
+  }
+  if (mode == MotionMode::kConstantAcceleration) {
+    state.acceleration = std::clamp(options_.start_acceleration * draws_.normal(key),
+                                    -options_.max_acceleration, options_.max_acceleration);
+  }
+  state.mode = mode;
+}
+
+double ObjectFutures::turnRate(const State& state) const {
+  if (state.mode != MotionMode::kLeftTurn && state.mode != MotionMode::kRightTurn) {
+    return 0.0;
+  }
+  const double rate =
+      std::min(class_turn_rate_, options_.max_lateral / std::max(kRest, state.speed));
+  return state.mode == MotionMode::kLeftTurn ? rate : -rate;
+}
+
+/// `turn`: rad, in this step. The position moves at the mean of the velocities before and after.
+void ObjectFutures::advance(State& state, double turn) const {
+  double acceleration = 0.0;
+  if (state.mode == MotionMode::kConstantAcceleration) {
+    acceleration = state.acceleration;
+  } else if (state.mode == MotionMode::kStanding) {
+    acceleration = -options_.stop_deceleration;
+  }
+  Point2 moved = state.speed * state.course;
+  if (state.speed > kRest) {
+    state.course = turned(state.course, turn);
+    state.heading += turn;
+    state.speed = std::max(0.0, state.speed + acceleration * horizon_.step);
+  } else {
+    state.speed = 0.0;
+  }
+  moved += state.speed * state.course;
+  state.position += 0.5 * horizon_.step * moved;
+}
+
+ObjectFutures::State ObjectFutures::next(const State& state, std::size_t future,
+                                         std::size_t step) const {
+  State after = state;
+  DrawKey key{track_.id, narrow(future), narrow(step) + 1, kDrawStep};
+  const StepDraws drawn = draws_.step(key);
+  const MotionMode mode = modeAt(cumulated_.row(static_cast<int>(state.mode)), drawn.uniform);
+  if (mode != state.mode) {
+    key.kind = kDrawEntered;
+    enter(after, mode, key);
+  }
+  if (after.mode == MotionMode::kStanding) {
+    if (after.speed <= kRest) {
+      return after;
+    }
+  } else {
+    after.speed = std::max(0.0, after.speed + speed_noise_ * drawn.second);
+  }
+  advance(after, turnRate(after) * horizon_.step + turning_ * drawn.first);
+  return after;
+}
+
+BodyPath ObjectFutures::path(std::size_t future) const {
+  BodyPath path{horizon_.step, {}};
+  State state = begin(future);
+  path.poses.push_back(bodyPose(state.position, state.heading));
+  for (std::size_t step = 0; step < horizon_.steps(); ++step) {
+    state = next(state, future, step);
+    path.poses.push_back(bodyPose(state.position, state.heading));
+  }
+  return path;
+}
+
+BodyPath ObjectFutures::nominalPath() const {
+  State state = stateOf(track_.state, track_.box.center.heading(), likeliestMode(track_));
+  BodyPath path{horizon_.step, {bodyPose(state.position, state.heading)}};
+  for (std::size_t step = 0; step < horizon_.steps(); ++step) {
+    advance(state, turnRate(state) * horizon_.step);
+    path.poses.push_back(bodyPose(state.position, state.heading));
+  }
+  return path;
+}
+
+}  // namespace datmo

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/risk/risk_assessor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact_futures.h"
+
+#include "datmo_fusion/common/square.h"
+#include "datmo_fusion/tracking/track_check.h"
+
+namespace datmo {
+
+namespace {
+
+/// m/s; slower the host stands, and braking changes nothing.
+constexpr double kStanding = 0.1;
+
+/// Standard deviations by which a state may be off for an object to be within reach.
+constexpr double kReachSigmas = 4.0;
+
+/// A track without a measured extent is as large as a pedestrian.
+BodySize sizeOf(const Track& track, double least) {
+  return {0.5 * std::max(least, track.box.length), 0.5 * std::max(least, track.box.width)};
+}
+
+double largestDeviation(const TrackCovariance& covariance, int first) {
+  return std::sqrt(covariance(first, first) + covariance(first + 1, first + 1));
+}
+
+FutureContact contactAt(const BodyMove& host, const BodyMove& object, double share, double step) {
+  const Point2 drift =
+      (object.to.center - object.from.center) - (host.to.center - host.from.center);
+  const BodyPose at = object.at(share);
+  FutureContact contact;
+  contact.time = share * step;
+  contact.side = struckSide(host.at(share), host.size, at, object.size);
+  contact.speed = drift.norm() / step;
+  contact.position = at.center;
+  return contact;
+}
+
+/// First contact of one joint future, step by step: the object's is drawn no further than needed.
+std::optional<FutureContact> contactOf(const BodyPath& host, const BodySize& host_size,
+                                       const ObjectFutures& object, const BodySize& size,
+                                       std::size_t future) {
+  const double host_radius = host_size.radius();
+  const double radius = size.radius();
+  ObjectFutures::State from = object.begin(future);
+  for (std::size_t i = 0; i + 1 < host.poses.size(); ++i) {
+    const ObjectFutures::State to = object.next(from, future, i);
+    if (circlesMeet({host.poses[i].center, host.poses[i + 1].center, host_radius},
+                    {from.position, to.position, radius})) {
+      const BodyMove host_move{host.poses[i], host.poses[i + 1], host_size};
+      const BodyMove move{bodyPose(from.position, from.heading), bodyPose(to.position, to.heading),
+                          size};
+      if (const auto share = firstContact(host_move, move)) {
+        FutureContact contact = contactAt(host_move, move, *share, host.step);
+        contact.time += static_cast<double>(i) * host.step;
+        contact.future = future;
+        return contact;
+      }
+    }
+    from = to;
+  }
+  return std::nullopt;
+}
+
+/// A point that stands, on the path of the host.
+FutureContact contactWith(const StandingPoints::Contact& contact, const BodyPath& host,
+                          const BodySize& host_size, std::size_t future) {
+  const auto i =
+      std::min(static_cast<std::size_t>(contact.time / host.step), host.poses.size() - 2);
+  const double share = contact.time / host.step - static_cast<double>(i);
+  const BodyMove move{host.poses[i], host.poses[i + 1], host_size};
+  return {future, contact.time,
+          struckSide(move.at(share), host_size, bodyPose(contact.point, 0.0), BodySize()),
+          host.velocity(i).norm(), contact.point};
+}
+
+/// The points without those of tracks, which have a risk of their own.
+std::vector<Point2> withoutTracks(const std::vector<Point2>& points,
+                                  const std::vector<Track>& tracks, double margin) {
+  std::vector<Point2> rest;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(rest), [&](const Point2& point) {
+    return std::none_of(tracks.begin(), tracks.end(),
+                        [&](const Track& track) { return track.box.distanceTo(point) <= margin; });
+  });
+  return rest;
+}
+
+}  // namespace
+
+void RiskOptions::visit(OptionVisitor& visitor) {
+  visitor.text(
+      {"method", "",
+       "futures: seeded joint futures; to compare with: the circles of thesis 5.3.5, boxes "
+       "at constant velocity, responsibility-sensitive safety",
+       Tier::kPublic},
+      method, {kFutures, kThesis, kBoxes, kRss});
+  visitor.integer({"max_objects", "1",
+                   "tracks that are assessed at most, the surest to exist; bounds the time of a "
+                   "step"},
+                  max_objects, {1, 1000});
+  visitor.number({"max_silence", "s", "a track that was not seen for longer is left out"},
+                 max_silence, {0.0, 10.0});
+  visitor.number({"point_spacing", "m", "of points of what stands: nearer ones count once"},
+                 point_spacing, {0.05, 2.0});
+  visitor.number({"point_margin", "m", "points this near to a track's box are the track's"},
+                 point_margin, {0.0, 5.0});
+  visitor.number({"default_size", "m",
+                  "of a track whose extent was not measured, or is smaller: that of a pedestrian"},
+                 default_size, {0.1, 5.0});
+  visitor.group("vehicle", [&] { vehicle.visit(visitor); });
+  visitor.group("horizon", [&] { horizon.visit(visitor); });
+  visitor.group("host", [&] { host.visit(visitor); });
+  visitor.group("objects", [&] { objects.visit(visitor); });
+  visitor.group("rules", [&] { rules.visit(visitor); });
+  visitor.group("warning", [&] { warning.visit(visitor); });
+}
+
+RiskAssessor::RiskAssessor(const RiskOptions& options)
+    : options_(options),
+      draws_(static_cast<std::uint64_t>(options.horizon.seed)),
+      level_(options.warning) {
+  checkOptions(options);
+  setOptions(options);
+}
+
+void RiskAssessor::setOptions(const RiskOptions& options) {
+  WarningOptions warning = options.warning;
+  if (options.method != RiskOptions::kFutures) {
+    warning.warning_time = options.rules.driver_time;
+    warning.imminent_time = 0.0;
+  }
+  level_.setOptions(warning);
+  options_ = options;
+}
+
+void RiskAssessor::reset() { level_.reset(); }
+
+RiskReport RiskAssessor::assess(const RiskInput& input) {
+  RiskReport report;
+  report.stamp = input.stamp;
+  const std::vector<Track> tracks = admitted(input, report.counts);
+  const auto course = input.road
+                          ? courseSteering(input.host, *input.road, options_.vehicle, options_.host)
+                          : std::nullopt;
+  const HostFutures host(input.host, course, options_.vehicle, options_.host, options_.horizon,
+                         draws_);
+  const bool by_futures = options_.method == RiskOptions::kFutures;
+  report.objects.push_back(ofStanding(input, tracks, host));
+  for (const Track& track : tracks) {
+    if (!reachable(track, input.host)) {
+      ++report.counts.unreachable;
+      ObjectRisk risk;
+      risk.id = track.id;
+      risk.object_class = likeliestClass(track);
+      risk.mode = likeliestMode(track);
+      report.objects.push_back(risk);
+    } else {
+      report.objects.push_back(by_futures ? byFutures(track, host) : byRule(track, host));
+    }
+  }
+  level_.judge(report, std::abs(input.host.speed) > kStanding);
+  return report;
+}
+
+std::vector<Track> RiskAssessor::admitted(const RiskInput& input, RiskCounts& counts) const {
+  const double since_list = secondsBetween(input.tracks.stamp, input.stamp);
+  std::vector<Track> tracks;
+  for (const Track& track : input.tracks.tracks) {
+    if (!isValid(track) || track.id == kStandingId) {
+      ++counts.rejected;
+    } else if (track.since_update + since_list > options_.max_silence) {
+      ++counts.old;
+    } else {
+      tracks.push_back(predicted(track, since_list, prediction_));
+    }
+  }
+  const auto most = static_cast<std::size_t>(options_.max_objects);
+  if (tracks.size() > most) {
+    counts.over_budget = tracks.size() - most;
+    std::stable_sort(tracks.begin(), tracks.end(), [](const Track& a, const Track& b) {
+      return a.existence_probability > b.existence_probability;
+    });
+    tracks.resize(most);
+  }
+  std::stable_sort(tracks.begin(), tracks.end(),
+                   [](const Track& a, const Track& b) { return a.id < b.id; });
+  return tracks;
+}
+
+/// Worst case: both go toward each other, and accelerate as hard as they can.
+bool RiskAssessor::reachable(const Track& track, const HostState& host) const {
+  const double time = options_.horizon.horizon;
+  const double acceleration =
+      options_.objects.max_acceleration +
+      std::max(0.0, std::abs(host.acceleration) + kReachSigmas * options_.host.acceleration_spread);
+  const double speed = std::abs(host.speed) + track.state.segment<2>(2).norm() +
+                       kReachSigmas * largestDeviation(track.covariance, 2);
+  const double size = options_.vehicle.size().radius() + options_.vehicle.middleAhead() +
+                      sizeOf(track, options_.default_size).radius() +
+                      kReachSigmas * largestDeviation(track.covariance, 0);
+  const double distance = (track.state.head<2>() - host.pose.position()).norm();
+  return distance <= size + speed * time + 0.5 * acceleration * square(time);
+}
+
+ObjectRisk RiskAssessor::byFutures(const Track& track, const HostFutures& host) const {
+  ObjectRisk risk;
+  risk.id = track.id;
+  risk.object_class = likeliestClass(track);
+  risk.mode = likeliestMode(track);
+  const BodySize host_size = options_.vehicle.size();
+  const BodySize size = sizeOf(track, options_.default_size);
+  const ObjectFutures object(track, options_.objects, options_.horizon, draws_);
+  const BodyPath nominal = object.nominalPath();
+  risk.post_encroachment = postEncroachmentTime({host.nominal(), host_size, nominal, size});
+  std::vector<FutureContact> contacts;
+  for (std::size_t future = 0; future < host.paths().size(); ++future) {
+    if (const auto contact = contactOf(host.paths()[future], host_size, object, size, future)) {
+      contacts.push_back(*contact);
+    }
+  }
+  if (contacts.empty()) {
+    return risk;
+  }
+  summarize(contacts, host.paths().size(), track.existence_probability, risk);
+  const std::size_t median = contacts[(contacts.size() - 1) / 2].future;
+  setCriticality({host.paths()[median], host_size, object.path(median), size}, options_.vehicle,
+                 risk);
+  return risk;
+}
+
+ObjectRisk RiskAssessor::byRule(const Track& track, const HostFutures& host) const {
+  const BodySize size = options_.vehicle.size();
+  if (options_.method == RiskOptions::kThesis) {
+    return thesisRisk(track, host.nominal(), options_.rules);
+  }
+  if (options_.method == RiskOptions::kBoxes) {
+    return boxRisk(track, host.nominal(), size, options_.rules);
+  }
+  return rssRisk(track, host.nominal(), size, options_.rules);
+}
+
+/// Of the methods to compare with, those that know moving objects alone see nothing that stands.
+ObjectRisk RiskAssessor::ofStanding(const RiskInput& input, const std::vector<Track>& tracks,
+                                    const HostFutures& host) const {
+  ObjectRisk risk;
+  const bool by_futures = options_.method == RiskOptions::kFutures;
+  if (!by_futures && options_.method != RiskOptions::kBoxes) {
+    return risk;
+  }
+  const StandingPoints points(withoutTracks(input.standing, tracks, options_.point_margin),
+                              options_.point_spacing);
+  const BodySize host_size = options_.vehicle.size();
+  std::vector<const BodyPath*> paths{&host.nominal()};
+  if (by_futures) {
+    paths.clear();
+    for (const BodyPath& path : host.paths()) {
+      paths.push_back(&path);
+    }
+  }
+  std::vector<FutureContact> contacts;
+  for (std::size_t future = 0; future < paths.size(); ++future) {
+    if (const auto contact = points.firstContact(*paths[future], host_size)) {
+      contacts.push_back(contactWith(*contact, *paths[future], host_size, future));
+    }
+  }
+  if (contacts.empty()) {
+    return risk;
+  }
+  summarize(contacts, paths.size(), 1.0, risk);
+  const FutureContact& median = contacts[(contacts.size() - 1) / 2];
+  const BodyPath& path = *paths[median.future];
+  const BodyPath still{path.step,
+                       std::vector<BodyPose>(path.poses.size(), bodyPose(median.position, 0.0))};
+  setCriticality({path, host_size, still, BodySize()}, options_.vehicle, risk);
+  risk.post_encroachment = 0.0;
+  if (!by_futures) {
+    risk.time_to_brake = std::max(0.0, risk.median_ttc - options_.rules.vehicle_time);
+  }
+  return risk;
+}
+
+}  // namespace datmo

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/risk/rule_methods.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "datmo_fusion/common/square.h"
+#include "datmo_fusion/risk/object_futures.h"
+
+namespace datmo {
+
+namespace {
+
+/// m/s; slower bodies do not close a gap.
+constexpr double kClosing = 0.01;
+
+Point2 velocityOf(const Track& track) { return track.state.segment<2>(2); }
+
+/// The path at constant velocity, at the times of another one.
+BodyPath straightPath(const Track& track, const BodyPath& times) {
+  BodyPath path{times.step, {}};
+  for (std::size_t i = 0; i < times.poses.size(); ++i) {
+    const double time = static_cast<double>(i) * times.step;
+    path.poses.push_back(
+        bodyPose(track.state.head<2>() + time * velocityOf(track), track.box.center.heading()));
+  }
+  return path;
+}
+
+ObjectRisk riskOf(const Track& track) {
+  ObjectRisk risk;
+  risk.id = track.id;
+  risk.object_class = likeliestClass(track);
+  risk.mode = likeliestMode(track);
+  return risk;
+}
+
+/// Contact at `time` with that probability.
+void setContact(ObjectRisk& risk, double time, double probability, const RuleOptions& options) {
+  for (std::size_t i = 0; i < kRiskTimes; ++i) {
+    risk.contact_probability[i] = time <= static_cast<double>(i + 1) ? probability : 0.0;
+  }
+  risk.early_ttc = time;
+  risk.median_ttc = time;
+  risk.time_to_brake = std::max(0.0, time - options.vehicle_time);
+}
+
+void setStrike(ObjectRisk& risk, const BodyMove& host, const BodyMove& other, double step) {
+  risk.side = struckSide(host.from, host.size, other.from, other.size);
+  const Point2 drift = (other.to.center - other.from.center) - (host.to.center - host.from.center);
+  risk.strike_speed = drift.norm() / step;
+  risk.contact = other.from.center;
+}
+
+BodyMove moveAt(const BodyPath& path, const BodySize& size, double time) {
+  const auto i = std::min(static_cast<std::size_t>(time / path.step), path.poses.size() - 2);
+  return {path.poses[i], path.poses[i + 1], size};
+}
+
+double brakingOf(ObjectClass object_class, const RuleOptions& options) {
+  switch (object_class) {
+    case ObjectClass::kPedestrian:
+      return options.pedestrian_braking;
+    case ObjectClass::kCyclist:
+      return options.cyclist_braking;
+    case ObjectClass::kUnknown:
+    case ObjectClass::kVehicle:
+    case ObjectClass::kPole:
+      break;
+  }
+  return options.vehicle_braking;
+}
+
+/// Gap at which two that approach each other along a line may be, before both have responded: each
+/// goes on for the response time, with an acceleration toward the other, and brakes. `a`, `b`:
+/// speeds toward the other, m/s; less than 0: it goes away, and may brake as hard as it can.
+struct Approach {
+  double speed;
+  double response;      ///< m/s^2, in the response time
+  double braking;       ///< m/s^2, after it
+  double hard_braking;  ///< m/s^2, of one that goes away
+};
+
+double advanceOf(const Approach& body, double time) {
+  if (body.speed < 0.0) {
+    return -square(body.speed) / (2.0 * body.hard_braking);
+  }
+  const double after = body.speed + body.response * time;
+  return body.speed * time + 0.5 * body.response * square(time) +
+         square(after) / (2.0 * body.braking);
+}
+
+struct Gap {
+  double distance;      ///< m; 0 or less: the bodies overlap along this line
+  double toward_other;  ///< m/s, of the host
+  double toward_host;   ///< m/s, of the other
+};
+
+Gap gapAlong(const Point2& axis, double reach, const Point2& apart, const Point2& host,
+             const Point2& other) {
+  const double along = axis.dot(apart);
+  const double side = along < 0.0 ? -1.0 : 1.0;
+  return {std::abs(along) - reach, side * axis.dot(host), -side * axis.dot(other)};
+}
+
+}  // namespace
+
+void RuleOptions::visit(OptionVisitor& visitor) {
+  constexpr Bounds kTime{0.0, 5.0};
+  constexpr Bounds kRadius{0.1, 10.0};
+  constexpr Bounds kBraking{0.1, 15.0};
+  visitor.number({"driver_time", "s", "a driver's reaction (thesis 5.3.5: Zhang et al. 2006)"},
+                 driver_time, kTime);
+  visitor.number({"vehicle_time", "s", "the vehicle's reaction (thesis 5.3.5)"}, vehicle_time,
+                 kTime);
+  visitor.number({"host_radius", "m", "circle of the host (thesis 5.3.5; our assumption)"},
+                 host_radius, kRadius);
+  visitor.number(
+      {"vehicle_radius", "m",
+       "circle of vehicles and all that is no pedestrian (thesis 5.3.5; our assumption)"},
+      vehicle_radius, kRadius);
+  visitor.number({"pedestrian_radius", "m",
+                  "circle of a pedestrian (thesis 5.3.5: predefined; our assumption)"},
+                 pedestrian_radius, kRadius);
+  visitor.number({"growth", "1",
+                  "by which the circle of a vehicle grows with each meter that it goes (thesis "
+                  "5.3.5; our assumption)"},
+                 growth, {0.0, 1.0});
+  visitor.number({"response_time", "s", "of rss (Shalev-Shwartz et al. 2017), as usual values"},
+                 response_time, kTime);
+  visitor.number({"response_acceleration", "m/s^2", "rss: of all, within the response time"},
+                 response_acceleration, {0.0, 10.0});
+  visitor.number({"host_braking", "m/s^2", "rss: that the host is sure to brake with after it"},
+                 host_braking, kBraking);
+  visitor.number({"vehicle_braking", "m/s^2", "rss: that a vehicle ahead brakes with at most"},
+                 vehicle_braking, kBraking);
+  visitor.number({"cyclist_braking", "m/s^2", "rss: the same of a cyclist"}, cyclist_braking,
+                 kBraking);
+  visitor.number(
+      {"pedestrian_braking", "m/s^2", "rss: the same of a pedestrian, who stops at once"},
+      pedestrian_braking, kBraking);
+  visitor.number({"lateral_braking", "m/s^2", "rss: to the side"}, lateral_braking, kBraking);
+  visitor.number({"lateral_acceleration", "m/s^2", "rss: to the side, within the response time"},
+                 lateral_acceleration, {0.0, 10.0});
+  visitor.number({"lateral_margin", "m", "rss: by which all sway in their lane"}, lateral_margin,
+                 {0.0, 5.0});
+}
+
+ObjectRisk thesisRisk(const Track& track, const BodyPath& host, const RuleOptions& options) {
+  ObjectRisk risk = riskOf(track);
+  const bool pedestrian = risk.object_class == ObjectClass::kPedestrian;
+  const double speed = velocityOf(track).norm();
+  const double radius = pedestrian ? options.pedestrian_radius : options.vehicle_radius;
+  const double growth = pedestrian ? 1.0 : options.growth;
+  for (std::size_t i = 0; i < host.poses.size(); ++i) {
+    const double time = static_cast<double>(i) * host.step;
+    const Point2 gone = pedestrian ? Point2(0.0, 0.0) : Point2(time * velocityOf(track));
+    const Point2 center = track.state.head<2>() + gone;
+    const double reach = options.host_radius + radius + growth * speed * time;
+    if ((center - host.poses[i].center).norm() <= reach) {
+      const double reaction = options.driver_time + options.vehicle_time;
+      const double left = host.duration() - reaction;
+      const double share = time <= reaction || left <= 0.0 ? 1.0 : 1.0 - (time - reaction) / left;
+      setContact(risk, time, share, options);
+      const BodySize size = bodySize(track.box);
+      setStrike(risk, moveAt(host, {options.host_radius, options.host_radius}, time),
+                moveAt(straightPath(track, host), size, time), host.step);
+      return risk;
+    }
+  }
+  return risk;
+}
+
+ObjectRisk boxRisk(const Track& track, const BodyPath& host, const BodySize& host_size,
+                   const RuleOptions& options) {
+  ObjectRisk risk = riskOf(track);
+  const BodyPath other = straightPath(track, host);
+  const BodySize size = bodySize(track.box);
+  if (const auto time = firstContact(host, host_size, other, size)) {
+    setContact(risk, *time, 1.0, options);
+    setStrike(risk, moveAt(host, host_size, *time), moveAt(other, size, *time), host.step);
+  }
+  return risk;
+}
+
+ObjectRisk rssRisk(const Track& track, const BodyPath& host, const BodySize& host_size,
+                   const RuleOptions& options) {
+  ObjectRisk risk = riskOf(track);
+  const BodyPose& pose = host.poses.front();
+  const BodyPose other = bodyPose(track.state.head<2>(), track.box.center.heading());
+  const BodySize size = bodySize(track.box);
+  const Point2 apart = other.center - pose.center;
+  const auto reach = [&](const Point2& axis) { return reachAlong(axis, other, size); };
+  const Point2 left = leftOf(pose.direction);
+  const Gap ahead = gapAlong(pose.direction, host_size.half_length + reach(pose.direction), apart,
+                             host.velocity(0), velocityOf(track));
+  const Gap aside = gapAlong(left, host_size.half_width + reach(left), apart, host.velocity(0),
+                             velocityOf(track));
+  const double braking = brakingOf(risk.object_class, options);
+  const double time = options.response_time;
+  const double safe_ahead =
+      advanceOf({ahead.toward_other, options.response_acceleration, options.host_braking,
+                 options.vehicle_braking},
+                time) +
+      advanceOf({ahead.toward_host, options.response_acceleration, options.host_braking, braking},
+                time);
+  const auto lateral = [&](double speed) {
+    return advanceOf(
+        {speed, options.lateral_acceleration, options.lateral_braking, options.lateral_braking},
+        time);
+  };
+  const double safe_aside =
+      options.lateral_margin + lateral(aside.toward_other) + lateral(aside.toward_host);
+  if (ahead.distance >= std::max(0.0, safe_ahead) || aside.distance >= std::max(0.0, safe_aside)) {
+    return risk;
+  }
+  const double closing = ahead.toward_other + ahead.toward_host;
+  const double contact =
+      closing > kClosing ? std::max(0.0, ahead.distance) / closing : host.duration();
+  setContact(risk, std::min(contact, host.duration()), 1.0, options);
+  risk.time_to_brake = 0.0;  // the safe distances hold the response time already
+  risk.side = struckSide(pose, host_size, other, size);
+  risk.strike_speed = (velocityOf(track) - host.velocity(0)).norm();
+  risk.contact = other.center;
+  return risk;
+}
+
+}  // namespace datmo

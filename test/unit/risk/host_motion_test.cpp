@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/risk/host_motion.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/common/twist2.h"
+#include "datmo_fusion/risk/host_futures.h"
+
+namespace datmo {
+namespace {
+
+const HostVehicleOptions kVehicle;
+
+BicycleState drive(BicycleState state, const HostCommand& command, double seconds, int steps) {
+  for (int i = 0; i < steps; ++i) {
+    state = afterStep(state, command, seconds / steps, kVehicle);
+  }
+  return state;
+}
+
+TEST(BicycleModel, GoesStraight) {
+  const BicycleState end = drive({{1, 2}, 0.0, 10.0, 0.0}, {}, 2.0, 10);
+  EXPECT_NEAR(end.position.x(), 21.0, 1e-9);
+  EXPECT_NEAR(end.position.y(), 2.0, 1e-9);
+}
+
+TEST(BicycleModel, AcceleratesExactly) {
+  const BicycleState end = drive({{0, 0}, 0.0, 10.0, 0.0}, {2.0, 0.0}, 2.0, 1);
+  EXPECT_NEAR(end.position.x(), 24.0, 1e-9);
+  EXPECT_NEAR(end.speed, 14.0, 1e-12);
+}
+
+TEST(BicycleModel, FollowsACircle) {
+  const double steering = 0.1;
+  const double yaw_rate = 5.0 * std::tan(steering) / kVehicle.wheelbase;
+  const BicycleState end = drive({{0, 0}, 0.0, 5.0, steering}, {}, 4.0, 20);
+  const Pose2 circle = arc({5.0, yaw_rate}, 4.0);
+  EXPECT_NEAR(end.position.x(), circle.x(), 1e-5);
+  EXPECT_NEAR(end.position.y(), circle.y(), 1e-5);
+  EXPECT_NEAR(end.heading, circle.heading(), 1e-9);
+}
+
+TEST(BicycleModel, ErrorFallsWithTheFourthPowerOfTheStep) {
+  const BicycleState start{{0, 0}, 0.0, 8.0, -0.1};
+  const HostCommand command{1.0, 0.1};
+  const Point2 exact = drive(start, command, 2.0, 2000).position;
+  const double coarse = (drive(start, command, 2.0, 4).position - exact).norm();
+  const double fine = (drive(start, command, 2.0, 8).position - exact).norm();
+  EXPECT_LT(fine, coarse / 10.0);
+  EXPECT_LT(fine, 1e-3);
+}
+
+TEST(BicycleModel, BrakesToRestAndStays) {
+  const BicycleState end = drive({{0, 0}, 0.0, 6.0, 0.0}, {-3.0, 0.0}, 4.0, 40);
+  EXPECT_EQ(end.speed, 0.0);
+  EXPECT_NEAR(end.position.x(), 6.0, 0.01);
+  const BicycleState reversing = drive({{0, 0}, 0.0, -2.0, 0.0}, {1.0, 0.0}, 4.0, 40);
+  EXPECT_EQ(reversing.speed, 0.0);
+  EXPECT_NEAR(reversing.position.x(), -2.0, 0.01);
+}
+
+TEST(BicycleModel, TiresHoldNoSharperTurn) {
+  const BicycleState end = drive({{0, 0}, 0.0, 20.0, 0.5}, {}, 1.0, 10);
+  EXPECT_NEAR(end.heading, kVehicle.max_lateral / 20.0, 1e-9);
+}
+
+TEST(Steering, IsThatOfTheYawRate) {
+  EXPECT_NEAR(steeringOf(5.0, 5.0 * std::tan(0.2) / kVehicle.wheelbase, kVehicle), 0.2, 1e-12);
+  EXPECT_NEAR(steeringOf(-5.0, -5.0 * std::tan(0.2) / kVehicle.wheelbase, kVehicle), 0.2, 1e-12);
+  EXPECT_EQ(steeringOf(0.1, 0.5, kVehicle), 0.0);
+  EXPECT_EQ(steeringOf(1.0, 10.0, kVehicle), kVehicle.max_steering);
+}
+
+RoadModel roadAlong(const std::vector<Point2>& points, double probability = 0.9) {
+  RoadBorder border;
+  border.probability = probability;
+  for (const Point2& point : points) {
+    border.points.push_back({point, 0.1});
+  }
+  RoadModel road;
+  road.borders.push_back(border);
+  return road;
+}
+
+TEST(CourseSteering, KeepsBesideABorderThatGoesStraight) {
+  HostState host;
+  host.speed = 10.0;
+  const auto steering = courseSteering(host, roadAlong({{-10, 3}, {40, 3}}), kVehicle, {});
+  ASSERT_TRUE(steering);
+  EXPECT_NEAR(*steering, 0.0, 1e-12);
+}
+
+TEST(CourseSteering, TurnsWithTheBorder) {
+  HostState host;
+  host.speed = 10.0;
+  // A circle of 50 m radius to the left, with its border 3 m to the right of the host.
+  std::vector<Point2> points;
+  for (double angle = -0.2; angle < 0.8; angle += 0.02) {
+    points.emplace_back(53.0 * std::sin(angle), 50.0 - 53.0 * std::cos(angle));
+  }
+  const auto steering = courseSteering(host, roadAlong(points), kVehicle, {});
+  ASSERT_TRUE(steering);
+  EXPECT_NEAR(std::tan(*steering) / kVehicle.wheelbase, 1.0 / 50.0, 0.002);
+}
+
+TEST(CourseSteering, IsUnknownWithoutABorderThatIsSure) {
+  HostState host;
+  host.speed = 10.0;
+  EXPECT_FALSE(courseSteering(host, {}, kVehicle, {}));
+  EXPECT_FALSE(courseSteering(host, roadAlong({{-10, 3}, {40, 3}}, 0.3), kVehicle, {}));
+  EXPECT_FALSE(courseSteering(host, roadAlong({{-10, 3}, {5, 3}}), kVehicle, {}));
+  host.speed = -2.0;
+  EXPECT_FALSE(courseSteering(host, roadAlong({{-10, 3}, {40, 3}}), kVehicle, {}));
+}
+
+}  // namespace
+}  // namespace datmo

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/risk/object_futures.h"
+
+#include <cmath>
+#include <vector>
+
+#include "risk/risk_samples.h"
+#include <gtest/gtest.h>
+
+namespace datmo {
+namespace {
+
+const HorizonOptions kHorizon;
+const RandomDraws kDraws(1);
+
+/// Sojourn times so long that no mode is left.
+ObjectFutureOptions withoutSwitching() {
+  ObjectFutureOptions options;
+  options.transitions.straight_sojourn = 1e6;
+  options.transitions.accelerating_sojourn = 1e6;
+  options.transitions.turn_sojourn = 1e6;
+  options.transitions.standing_sojourn = 1e6;
+  return options;
+}
+
+struct Spread {
+  Point2 mean = Point2::Zero();
+  double sigma = 0.0;  ///< m, root of the mean squared distance from the mean
+};
+
+Spread endsOf(const ObjectFutures& futures) {
+  std::vector<Point2> ends;
+  Spread spread;
+  for (int i = 0; i < kHorizon.futures; ++i) {
+    ends.push_back(futures.path(static_cast<std::size_t>(i)).poses.back().center);
+    spread.mean += ends.back() / kHorizon.futures;
+  }
+  for (const Point2& end : ends) {
+    spread.sigma += (end - spread.mean).squaredNorm() / kHorizon.futures;
+  }
+  spread.sigma = std::sqrt(spread.sigma);
+  return spread;
+}
+
+TEST(RandomDraws, AreStandardNormalAndUniform) {
+  double sum = 0.0;
+  double squares = 0.0;
+  double uniforms = 0.0;
+  constexpr int kCount = 20000;
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    const double normal = kDraws.normal({3, i, 2, 1});
+    sum += normal;
+    squares += normal * normal;
+    uniforms += kDraws.uniform({3, i, 2, 1});
+  }
+  EXPECT_NEAR(sum / kCount, 0.0, 0.03);
+  EXPECT_NEAR(squares / kCount, 1.0, 0.04);
+  EXPECT_NEAR(uniforms / kCount, 0.5, 0.01);
+}
+
+TEST(RandomDraws, OfOneKeyAreTheSame) {
+  const RandomDraws again(1);
+  const RandomDraws other(2);
+  EXPECT_EQ(kDraws.normal({5, 6, 7, 8}), again.normal({5, 6, 7, 8}));
+  EXPECT_NE(kDraws.normal({5, 6, 7, 8}), other.normal({5, 6, 7, 8}));
+}
+
+TEST(ObjectFutures, KeepTheirVelocityOnAverage) {
+  const Track track = knownTrack(1, {5, 2}, {10, 0});
+  const ObjectFutureOptions options = withoutSwitching();
+  const Spread spread = endsOf(ObjectFutures(track, options, kHorizon, kDraws));
+  EXPECT_NEAR(spread.mean.x(), 45.0, 0.6);
+  EXPECT_NEAR(spread.mean.y(), 2.0, 0.6);
+}
+
+TEST(ObjectFutures, SpreadWithTheCovariance) {
+  Track track = knownTrack(1, {0, 0}, {10, 0});
+  const ObjectFutureOptions options = withoutSwitching();
+  const double known = endsOf(ObjectFutures(track, options, kHorizon, kDraws)).sigma;
+  track.covariance(3, 3) = 4.0;  // 2 m/s to the side, 8 m after 4 s
+  const double uncertain = endsOf(ObjectFutures(track, options, kHorizon, kDraws)).sigma;
+  EXPECT_NEAR(std::sqrt(uncertain * uncertain - known * known), 8.0, 1.2);
+}
+
+TEST(ObjectFutures, WhatStandsStays) {
+  const Track track = knownTrack(1, {5, 2}, {0, 0});
+  const ObjectFutureOptions options = withoutSwitching();
+  const Spread spread = endsOf(ObjectFutures(track, options, kHorizon, kDraws));
+  EXPECT_NEAR(spread.mean.x(), 5.0, 0.01);
+  EXPECT_LT(spread.sigma, 0.05);
+}
+
+TEST(ObjectFutures, WhatBrakesComesToRest) {
+  Track track = knownTrack(1, {0, 0}, {6, 0});
+  track.mode_probabilities = {0.0, 1.0, 0.0, 0.0, 0.0};
+  track.state[4] = -3.0;
+  const ObjectFutureOptions options = withoutSwitching();
+  const ObjectFutures futures(track, options, kHorizon, kDraws);
+  // v^2 / (2 a).
+  EXPECT_NEAR(futures.nominalPath().poses.back().center.x(), 6.0, 0.1);
+  EXPECT_NEAR(endsOf(futures).mean.x(), 6.0, 0.4);
+}
+
+TEST(ObjectFutures, TurnToTheSideOfTheMode) {
+  Track track = knownTrack(1, {0, 0}, {5, 0});
+  track.mode_probabilities = {0.0, 0.0, 1.0, 0.0, 0.0};
+  const ObjectFutureOptions options = withoutSwitching();
+  const BodyPath path = ObjectFutures(track, options, kHorizon, kDraws).nominalPath();
+  const double rate = options.motion.motion.turn_rate;
+  EXPECT_NEAR(path.poses.back().heading, 4.0 * rate, 1e-9);
+  EXPECT_GT(path.poses.back().center.y(), 5.0);
+}
+
+TEST(ObjectFutures, PedestriansTurnMoreFreely) {
+  const Track car = knownTrack(1, {0, 0}, {1.5, 0});
+  const Track pedestrian = knownTrack(1, {0, 0}, {1.5, 0}, ObjectClass::kPedestrian);
+  const ObjectFutureOptions options = withoutSwitching();
+  EXPECT_GT(endsOf(ObjectFutures(pedestrian, options, kHorizon, kDraws)).sigma,
+            1.2 * endsOf(ObjectFutures(car, options, kHorizon, kDraws)).sigma);
+}
+
+TEST(ObjectFutures, SwitchingModesSpreadThem) {
+  const Track track = knownTrack(1, {0, 0}, {10, 0});
+  const ObjectFutureOptions kept = withoutSwitching();
+  const ObjectFutureOptions switching;
+  EXPECT_GT(endsOf(ObjectFutures(track, switching, kHorizon, kDraws)).sigma,
+            1.5 * endsOf(ObjectFutures(track, kept, kHorizon, kDraws)).sigma);
+}
+
+TEST(HorizonOptions, AStepThatDoesNotDivideTheHorizonReachesBeyondIt) {
+  HorizonOptions options;
+  EXPECT_EQ(options.steps(), 20U);
+  options.step = 0.3;
+  EXPECT_EQ(options.steps(), 14U);
+}
+
+}  // namespace
+}  // namespace datmo

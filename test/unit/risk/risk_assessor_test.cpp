@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/risk/risk_assessor.h"
+
+#include <cmath>
+#include <limits>
+
+#include "risk/risk_samples.h"
+#include <gtest/gtest.h>
+
+namespace datmo {
+namespace {
+
+/// The first track's risk in a report of one assessment.
+ObjectRisk riskOfFirst(const RiskInput& input, const RiskOptions& options = {}) {
+  return riskOf(RiskAssessor(options).assess(input), input.tracks.tracks.front().id);
+}
+
+TEST(RiskAssessor, TimeToContactOfAStandingCarAhead) {
+  // Front bumper 3.7 m ahead of base_link, its rear 28 m: 24.3 m at 10 m/s.
+  const ObjectRisk risk = riskOfFirst(inputAt(10.0, {knownTrack(1, {30, 0}, {0, 0})}));
+  EXPECT_GT(risk.contact_probability[2], 0.8);
+  EXPECT_EQ(risk.contact_probability[0], 0.0);
+  EXPECT_NEAR(risk.median_ttc, 2.43, 0.1);
+  EXPECT_LT(risk.early_ttc, risk.median_ttc);
+  EXPECT_EQ(risk.side, StruckSide::kFront);
+  EXPECT_NEAR(risk.strike_speed, 10.0, 0.6);
+  // 10^2 / (2 6) m are braking distance.
+  EXPECT_NEAR(risk.time_to_brake, 1.6, 0.15);
+  EXPECT_NEAR(risk.brake_threat, 100.0 / (2.0 * 24.3) / 6.0, 0.08);
+}
+
+TEST(RiskAssessor, OncomingTrafficInItsLaneIsNoRisk) {
+  const RiskInput input = inputAt(10.0, {knownTrack(1, {50, 3.5}, {-10, 0})});
+  RiskAssessor assessor{RiskOptions()};
+  const RiskReport report = assessor.assess(input);
+  EXPECT_LT(riskOf(report, 1).probability(), 0.3);
+  EXPECT_EQ(report.level, RiskLevel::kNone);
+}
+
+TEST(RiskAssessor, ProbabilitiesRiseWithTimeAndCarryExistence) {
+  RiskInput input = inputAt(10.0, {knownTrack(1, {30, 0}, {0, 0})});
+  const ObjectRisk sure = riskOfFirst(input);
+  input.tracks.tracks[0].existence_probability = 0.5;
+  const ObjectRisk doubtful = riskOfFirst(input);
+  for (std::size_t i = 0; i < kRiskTimes; ++i) {
+    EXPECT_NEAR(doubtful.contact_probability[i], 0.5 * sure.contact_probability[i], 1e-12);
+    EXPECT_GE(sure.contact_probability[i], i == 0 ? 0.0 : sure.contact_probability[i - 1]);
+  }
+  EXPECT_EQ(sure.median_ttc, doubtful.median_ttc);
+}
+
+TEST(RiskAssessor, MirroredScenesHaveMirroredSides) {
+  const ObjectRisk left = riskOfFirst(inputAt(8.0, {knownTrack(1, {16, 12}, {0, -6.5})}));
+  const ObjectRisk right = riskOfFirst(inputAt(8.0, {knownTrack(1, {16, -12}, {0, 6.5})}));
+  EXPECT_NEAR(left.probability(), right.probability(), 0.12);
+  EXPECT_NEAR(left.median_ttc, right.median_ttc, 0.1);
+}
+
+TEST(RiskAssessor, TheSameInputGivesTheSameBits) {
+  RiskInput input =
+      inputAt(10.0, {knownTrack(1, {30, 1}, {2, 0}), knownTrack(2, {25, 9}, {0, -4})});
+  input.standing = {{20, -1.5}, {22, -1.6}};
+  const RiskReport a = RiskAssessor{RiskOptions()}.assess(input);
+  const RiskReport b = RiskAssessor{RiskOptions()}.assess(input);
+  ASSERT_EQ(a.objects.size(), b.objects.size());
+  for (std::size_t i = 0; i < a.objects.size(); ++i) {
+    EXPECT_EQ(a.objects[i].contact_probability, b.objects[i].contact_probability);
+    EXPECT_EQ(a.objects[i].median_ttc, b.objects[i].median_ttc);
+    EXPECT_EQ(a.objects[i].time_to_brake, b.objects[i].time_to_brake);
+  }
+}
+
+TEST(RiskAssessor, AnotherTrackChangesNoRiskOfTheFirst) {
+  const ObjectRisk alone = riskOfFirst(inputAt(10.0, {knownTrack(1, {30, 1}, {2, 0})}));
+  const ObjectRisk with_other =
+      riskOfFirst(inputAt(10.0, {knownTrack(1, {30, 1}, {2, 0}), knownTrack(2, {25, 9}, {0, -4})}));
+  EXPECT_EQ(alone.contact_probability, with_other.contact_probability);
+}
+
+TEST(RiskAssessor, AWallAheadIsARiskAndAParkedRowIsNone) {
+  RiskInput input = inputAt(10.0);
+  for (int i = 0; i < 80; ++i) {
+    input.standing.emplace_back(0.5 * i, -2.5);
+    input.standing.emplace_back(0.5 * i, 4.0);
+  }
+  RiskAssessor assessor{RiskOptions()};
+  EXPECT_LT(riskOf(assessor.assess(input), kStandingId).contact_probability[1], 0.2);
+  input.standing.emplace_back(24.0, 0.0);
+  const ObjectRisk wall = riskOf(assessor.assess(input), kStandingId);
+  EXPECT_GT(wall.contact_probability[2], 0.9);
+  EXPECT_NEAR(wall.median_ttc, 2.03, 0.15);
+}
+
+TEST(RiskAssessor, PointsOfATrackAreTheTracks) {
+  RiskInput input = inputAt(10.0, {knownTrack(1, {30, 0}, {0, 0})});
+  input.standing = {{28.0, 0.5}, {28.0, -0.5}};
+  const RiskReport report = RiskAssessor{RiskOptions()}.assess(input);
+  EXPECT_EQ(riskOf(report, kStandingId).probability(), 0.0);
+  EXPECT_GT(riskOf(report, 1).probability(), 0.8);
+}
+
+TEST(RiskAssessor, WarnsWithAReason) {
+  RiskInput input = inputAt(10.0, {knownTrack(5, {24, 0}, {0, 0})});
+  RiskAssessor assessor{RiskOptions()};
+  assessor.assess(input);
+  input.stamp = input.tracks.stamp = input.stamp + 0.1;
+  const RiskReport report = assessor.assess(input);
+  EXPECT_EQ(report.level, RiskLevel::kWarning);
+  EXPECT_EQ(report.cause, 5U);
+  EXPECT_NE(report.reason.find("vehicle 5 at the front"), std::string::npos) << report.reason;
+}
+
+TEST(RiskAssessor, AStandingHostIsInformedOnly) {
+  RiskInput input = inputAt(0.0, {knownTrack(1, {20, 0}, {-10, 0})});
+  RiskAssessor assessor{RiskOptions()};
+  assessor.assess(input);
+  input.stamp = input.tracks.stamp = input.stamp + 0.2;
+  const RiskReport report = assessor.assess(input);
+  EXPECT_GT(riskOf(report, 1).probability(), 0.5);
+  EXPECT_EQ(report.level, RiskLevel::kInformation);
+}
+
+TEST(RiskAssessor, AReversingHostMeetsWhatIsBehind) {
+  const ObjectRisk risk = riskOfFirst(inputAt(-2.0, {knownTrack(1, {-8, 0}, {0, 0})}));
+  // 8 m less 0.9 m and 2 m at 2 m/s.
+  EXPECT_NEAR(risk.median_ttc, 2.55, 0.3);
+  EXPECT_EQ(risk.side, StruckSide::kRear);
+}
+
+TEST(RiskAssessor, LeavesOutWhatIsNotValidOrOld) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Track not_a_number = knownTrack(1, {20, 0}, {0, 0});
+  not_a_number.covariance(0, 0) = nan;
+  Track indefinite = knownTrack(2, {20, 0}, {0, 0});
+  indefinite.covariance(0, 1) = indefinite.covariance(1, 0) = 1.0;
+  Track old = knownTrack(3, {20, 0}, {0, 0});
+  old.since_update = 1.2;
+  const RiskReport report =
+      RiskAssessor{RiskOptions()}.assess(inputAt(10.0, {not_a_number, indefinite, old}));
+  EXPECT_EQ(report.counts.rejected, 2U);
+  EXPECT_EQ(report.counts.old, 1U);
+  EXPECT_EQ(report.objects.size(), 1U);
+}
+
+TEST(RiskAssessor, OfFiveHundredTracksTheSurest) {
+  std::vector<Track> tracks;
+  for (std::uint32_t i = 1; i <= 500; ++i) {
+    tracks.push_back(knownTrack(i, {20.0 + i, 0}, {0, 0}));
+    tracks.back().existence_probability = i > 400 ? 0.9 : 0.6;
+  }
+  const RiskReport report = RiskAssessor{RiskOptions()}.assess(inputAt(10.0, tracks));
+  EXPECT_EQ(report.counts.over_budget, 436U);
+  EXPECT_EQ(report.objects.size(), 65U);
+  EXPECT_GT(report.objects[1].id, 400U);
+}
+
+TEST(RiskAssessor, WhatIsFarAwayIsUnreachable) {
+  const RiskReport report =
+      RiskAssessor{RiskOptions()}.assess(inputAt(10.0, {knownTrack(1, {400, 0}, {-10, 0})}));
+  EXPECT_EQ(report.counts.unreachable, 1U);
+  EXPECT_EQ(riskOf(report, 1).probability(), 0.0);
+}
+
+TEST(RiskAssessor, AnUnknownClassHasARisk) {
+  const Track track = knownTrack(1, {30, 0}, {0, 0}, ObjectClass::kUnknown);
+  EXPECT_GT(riskOfFirst(inputAt(10.0, {track})).probability(), 0.8);
+}
+
+TEST(RiskAssessor, EveryMethodSeesACarAhead) {
+  for (const char* method : {RiskOptions::kThesis, RiskOptions::kBoxes, RiskOptions::kRss}) {
+    RiskOptions options;
+    options.method = method;
+    const ObjectRisk risk = riskOfFirst(inputAt(10.0, {knownTrack(1, {20, 0}, {0, 0})}), options);
+    EXPECT_EQ(risk.probability(), 1.0) << method;
+  }
+}
+
+TEST(RiskAssessor, RefusesAMethodThatThereIsNot) {
+  RiskOptions options;
+  options.method = "guess";
+  EXPECT_THROW(RiskAssessor{options}, OptionError);
+}
+
+}  // namespace
+}  // namespace datmo

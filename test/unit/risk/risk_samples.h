@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/risk/risk_assessor.h"
+
+namespace datmo {
+
+/// A car that is known well and goes straight on at its velocity.
+inline Track knownTrack(std::uint32_t id, const Point2& position, const Point2& velocity,
+                        ObjectClass object_class = ObjectClass::kVehicle) {
+  Track track;
+  track.id = id;
+  track.state.head<2>() = position;
+  track.state.segment<2>(2) = velocity;
+  track.covariance = 1e-4 * TrackCovariance::Identity();
+  track.moving = velocity.norm() > 0.0;
+  const auto mode = track.moving ? MotionMode::kConstantVelocity : MotionMode::kStanding;
+  track.mode_probabilities[static_cast<std::size_t>(mode)] = 1.0;
+  const double heading = track.moving ? std::atan2(velocity.y(), velocity.x()) : 0.0;
+  const bool pedestrian = object_class == ObjectClass::kPedestrian;
+  track.box = {Pose2(position, heading), pedestrian ? 0.6 : 4.0, pedestrian ? 0.6 : 1.8};
+  track.heading_variance = 1e-4;
+  track.class_probabilities[static_cast<std::size_t>(object_class)] = 1.0;
+  track.existence_probability = 1.0;
+  return track;
+}
+
+/// A host at the origin that goes along x.
+inline RiskInput inputAt(double speed, const std::vector<Track>& tracks = {}) {
+  RiskInput input;
+  input.stamp = Stamp::fromSeconds(100.0);
+  input.host.speed = speed;
+  input.tracks.stamp = input.stamp;
+  input.tracks.tracks = tracks;
+  return input;
+}
+
+/// The risk of a track in a report; fails the test without one.
+inline ObjectRisk riskOf(const RiskReport& report, std::uint32_t id) {
+  for (const ObjectRisk& risk : report.objects) {
+    if (risk.id == id) {
+      return risk;
+    }
+  }
+  ADD_FAILURE() << "no risk of track " << id;
+  return {};
+}
+
+}  // namespace datmo

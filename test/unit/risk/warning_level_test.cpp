@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/risk/warning_level.h"
+
+#include <gtest/gtest.h>
+
+namespace datmo {
+namespace {
+
+ObjectRisk riskWith(double probability, double time_to_brake) {
+  ObjectRisk risk;
+  risk.id = 7;
+  risk.object_class = ObjectClass::kPedestrian;
+  risk.contact_probability.fill(probability);
+  risk.time_to_brake = time_to_brake;
+  risk.median_ttc = 1.6;
+  risk.strike_speed = 8.3;
+  risk.side = StruckSide::kFront;
+  return risk;
+}
+
+class HeldLevel : public ::testing::Test {
+ protected:
+  RiskReport at(double seconds, const ObjectRisk& risk) {
+    RiskReport report;
+    report.stamp = Stamp::fromSeconds(seconds);
+    report.objects = {risk};
+    level_.judge(report, true);
+    return report;
+  }
+
+  WarningLevel level_{WarningOptions()};
+};
+
+TEST(Level, NeedsProbabilityAndTime) {
+  const WarningOptions options;
+  EXPECT_EQ(levelOf(riskWith(0.1, 0.0), true, options), RiskLevel::kNone);
+  EXPECT_EQ(levelOf(riskWith(0.4, 0.0), true, options), RiskLevel::kInformation);
+  EXPECT_EQ(levelOf(riskWith(0.9, 3.0), true, options), RiskLevel::kInformation);
+  EXPECT_EQ(levelOf(riskWith(0.9, 1.0), true, options), RiskLevel::kWarning);
+  EXPECT_EQ(levelOf(riskWith(0.9, 0.1), true, options), RiskLevel::kImminent);
+}
+
+TEST(Level, InformsWhereBrakingDoesNotHelp) {
+  const WarningOptions options;
+  EXPECT_EQ(levelOf(riskWith(0.9, 0.0), false, options), RiskLevel::kInformation);
+  ObjectRisk from_behind = riskWith(0.9, 0.0);
+  from_behind.side = StruckSide::kRear;
+  EXPECT_EQ(levelOf(from_behind, true, options), RiskLevel::kInformation);
+}
+
+TEST_F(HeldLevel, RisesWhenItIsAskedForLongEnough) {
+  EXPECT_EQ(at(0.0, riskWith(0.9, 1.0)).level, RiskLevel::kNone);
+  EXPECT_EQ(at(0.05, riskWith(0.9, 1.0)).level, RiskLevel::kNone);
+  const RiskReport report = at(0.1, riskWith(0.9, 1.0));
+  EXPECT_EQ(report.level, RiskLevel::kWarning);
+  EXPECT_EQ(report.cause, 7U);
+}
+
+TEST_F(HeldLevel, ASingleFrameRaisesNothing) {
+  at(0.0, riskWith(0.9, 1.0));
+  at(0.08, riskWith(0.0, 4.0));
+  EXPECT_EQ(at(0.16, riskWith(0.9, 1.0)).level, RiskLevel::kNone);
+}
+
+TEST_F(HeldLevel, StaysAboutItsThreshold) {
+  at(0.0, riskWith(0.55, 1.3));
+  ASSERT_EQ(at(0.2, riskWith(0.55, 1.3)).level, RiskLevel::kWarning);
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_EQ(at(0.4 + 0.2 * i, riskWith(i % 2 == 0 ? 0.45 : 0.52, 1.6)).level,
+              RiskLevel::kWarning);
+  }
+}
+
+TEST_F(HeldLevel, FallsAfterTheHoldTime) {
+  at(0.0, riskWith(0.9, 1.0));
+  ASSERT_EQ(at(0.2, riskWith(0.9, 1.0)).level, RiskLevel::kWarning);
+  EXPECT_EQ(at(0.9, riskWith(0.0, 4.0)).level, RiskLevel::kWarning);
+  EXPECT_EQ(at(0.9, riskWith(0.0, 4.0)).reason.empty(), false);
+  const RiskReport later = at(1.1, riskWith(0.0, 4.0));
+  EXPECT_EQ(later.level, RiskLevel::kNone);
+  EXPECT_TRUE(later.reason.empty());
+}
+
+TEST_F(HeldLevel, ForgetsOnReset) {
+  at(0.0, riskWith(0.9, 1.0));
+  at(0.2, riskWith(0.9, 1.0));
+  level_.reset();
+  EXPECT_EQ(at(0.3, riskWith(0.0, 4.0)).level, RiskLevel::kNone);
+}
+
+TEST(Reason, SaysWhatWhereAndWhatToDo) {
+  EXPECT_EQ(reasonOf(riskWith(0.82, 0.4)),
+            "pedestrian 7 at the front with 8.3 m/s in 1.6 s (82 %): brake within 0.4 s");
+  EXPECT_EQ(reasonOf(riskWith(0.82, 0.0)),
+            "pedestrian 7 at the front with 8.3 m/s in 1.6 s (82 %): braking no longer avoids it");
+}
+
+TEST(WarningOptions, RefuseWhatIsNoProbability) {
+  WarningOptions options;
+  options.warning_probability = 1.5;
+  EXPECT_THROW(WarningLevel{options}, OptionError);
+}
+
+}  // namespace
+}  // namespace datmo
