@@ -74,8 +74,7 @@ void HorizonOptions::visit(OptionVisitor& visitor) {
                  step, {0.02, 0.5});
   visitor.integer({"futures", "1",
                    "joint futures of host and objects; the standard deviation of a probability of "
-                   "one half is 0.03 with 256",
-                   Tier::kPublic},
+                   "one half is 0.03 with 256"},
                   futures, {16, 4096});
   visitor.integer({"seed", "1", "of the random numbers: the same seed gives the same risks"}, seed,
                   {0, 1000000});

@@ -89,14 +89,23 @@ std::vector<Point2> withoutTracks(const std::vector<Point2>& points,
   return rest;
 }
 
+/// A method without probabilities warns at its reaction time.
+WarningOptions warningOf(const RiskOptions& options) {
+  WarningOptions warning = options.warning;
+  if (options.method != RiskOptions::kFutures) {
+    warning.warning_time = options.rules.driver_time;
+    warning.imminent_time = 0.0;
+  }
+  return warning;
+}
+
 }  // namespace
 
 void RiskOptions::visit(OptionVisitor& visitor) {
   visitor.text(
       {"method", "",
        "futures: seeded joint futures; to compare with: the circles of thesis 5.3.5, boxes "
-       "at constant velocity, responsibility-sensitive safety",
-       Tier::kPublic},
+       "at constant velocity, responsibility-sensitive safety"},
       method, {kFutures, kThesis, kBoxes, kRss});
   visitor.integer({"max_objects", "1",
                    "tracks that are assessed at most, the surest to exist; bounds the time of a "
@@ -122,19 +131,8 @@ void RiskOptions::visit(OptionVisitor& visitor) {
 RiskAssessor::RiskAssessor(const RiskOptions& options)
     : options_(options),
       draws_(static_cast<std::uint64_t>(options.horizon.seed)),
-      level_(options.warning) {
+      level_(warningOf(options)) {
   checkOptions(options);
-  setOptions(options);
-}
-
-void RiskAssessor::setOptions(const RiskOptions& options) {
-  WarningOptions warning = options.warning;
-  if (options.method != RiskOptions::kFutures) {
-    warning.warning_time = options.rules.driver_time;
-    warning.imminent_time = 0.0;
-  }
-  level_.setOptions(warning);
-  options_ = options;
 }
 
 void RiskAssessor::reset() { level_.reset(); }

@@ -48,23 +48,19 @@ const char* nameOf(RiskLevel level) {
 void WarningOptions::visit(OptionVisitor& visitor) {
   constexpr Bounds kProbability{0.0, 1.0};
   constexpr Bounds kTime{0.0, 5.0};
-  visitor.number(
-      {"information_probability", "1",
-       "probability of contact within 4 s from which the driver is informed", Tier::kLive},
-      information_probability, kProbability);
-  visitor.number(
-      {"warning_probability", "1",
-       "the same from which the driver is warned, if braking time runs out", Tier::kLive},
-      warning_probability, kProbability);
+  visitor.number({"information_probability", "1",
+                  "probability of contact within 4 s from which the driver is informed"},
+                 information_probability, kProbability);
+  visitor.number({"warning_probability", "1",
+                  "the same from which the driver is warned, if braking time runs out"},
+                 warning_probability, kProbability);
   visitor.number({"warning_time", "s",
                   "time to brake from which the driver is warned: 1 s of a driver's reaction "
-                  "(thesis 5.3.5; Zhang et al. 2006), and the brakes' and the perception's delay",
-                  Tier::kLive},
+                  "(thesis 5.3.5; Zhang et al. 2006), and the brakes' and the perception's delay"},
                  warning_time, kTime);
-  visitor.number(
-      {"imminent_time", "s",
-       "time to brake from which no driver reacts any more: automatic brakes would", Tier::kLive},
-      imminent_time, kTime);
+  visitor.number({"imminent_time", "s",
+                  "time to brake from which no driver reacts any more: automatic brakes would"},
+                 imminent_time, kTime);
   visitor.number({"raise_time", "s", "how long a level must be asked for before it is given"},
                  raise_time, kTime);
   visitor.number({"hold_time", "s", "how long a level stays when it is not asked for any more"},
@@ -95,11 +91,6 @@ RiskLevel levelOf(const ObjectRisk& risk, bool host_moves, const WarningOptions&
 
 WarningLevel::WarningLevel(const WarningOptions& options) : options_(options) {
   checkOptions(options);
-}
-
-void WarningLevel::setOptions(const WarningOptions& options) {
-  checkOptions(options);
-  options_ = options;
 }
 
 void WarningLevel::reset() {

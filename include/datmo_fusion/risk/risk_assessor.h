@@ -70,10 +70,6 @@ class RiskAssessor {
   /// counted.
   RiskReport assess(const RiskInput& input);
 
-  /// Goes on with other live options (Tier::kLive); all others must be as they were. Throws
-  /// OptionError.
-  void setOptions(const RiskOptions& options);
-
   /// Forgets the level.
   void reset();
 

@@ -44,7 +44,6 @@ class WarningLevel {
   /// Puts level, cause and reason into the report. Stamps rise.
   void judge(RiskReport& report, bool host_moves);
 
-  void setOptions(const WarningOptions& options);
   void reset();
 
  private:
