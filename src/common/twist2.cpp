@@ -30,4 +30,17 @@ Twist2 twistOf(const Pose2& motion, double seconds) {
   return {length / seconds, turn / seconds};
 }
 
+Pose2 screw(const Eigen::Vector3d& motion) {
+  const double half = 0.5 * motion[2];
+  const double chord = std::abs(half) < kStraight ? 1.0 : std::sin(half) / half;
+  return {Pose2(0.0, 0.0, half).rotate(chord * motion.head<2>()), motion[2]};
+}
+
+Eigen::Vector3d screwOf(const Pose2& motion) {
+  const double half = 0.5 * motion.heading();
+  const double chord = std::abs(half) < kStraight ? 1.0 : std::sin(half) / half;
+  const Point2 straight = Pose2(0.0, 0.0, -half).rotate(motion.position()) / chord;
+  return {straight.x(), straight.y(), motion.heading()};
+}
+
 }  // namespace datmo

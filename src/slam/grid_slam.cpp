@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/slam/grid_slam.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "datmo_fusion/slam/motion_compensation.h"
@@ -11,6 +12,10 @@ namespace {
 
 /// Each pass halves what is wrong with the yaw rate, where the beams go all round.
 constexpr int kPassesWithoutOdometry = 4;
+
+/// Without scans the pose follows the odometry before the buffer forgets it, this long (s) behind:
+/// for a scan that is still on its way.
+constexpr double kScanDelay = 0.4 * kOdometryMemory;
 
 /// State of each ray, in order; kUnknown for beams without a hit.
 std::vector<PointState> judge(const Scan& scan, const OccupancyMap& map, const Pose2& base_in_map) {
@@ -146,6 +151,15 @@ GridSlam::GridSlam(const GridSlamOptions& options)
   checkOptions(options);
 }
 
+void GridSlam::addOdometry(const OdometrySample& sample) {
+  odometry_.add(sample);
+  if (stamp_ && secondsBetween(*stamp_, sample.stamp) > 2.0 * kScanDelay) {
+    const Stamp behind = sample.stamp + -kScanDelay;
+    predict(behind);
+    stamp_ = behind;
+  }
+}
+
 bool GridSlam::predict(Stamp stamp) {
   const double seconds = secondsBetween(*stamp_, stamp);
   const auto measured = odometry_.motion(*stamp_, stamp, filter_.errors(), estimatedSpeed());
@@ -155,6 +169,10 @@ bool GridSlam::predict(Stamp stamp) {
     filter_.predictMeasured(*measured, seconds);
   } else {
     filter_.predictTurn(*measured, seconds);
+  }
+  if (const auto corrected = anchor_.correction(stamp, filter_, odometry_)) {
+    filter_ = *corrected;
+    return true;
   }
   return measured && odometry_.measuresSpeed();
 }
@@ -204,7 +222,7 @@ SlamResult GridSlam::process(const Measurement& measurement) {
   SlamResult result;
   Scan scan = compensated(measurement.scan);
   if (stamp_) {
-    result.odometry_used = predict(scan.stamp);
+    result.odometry_used = scan.stamp > *stamp_ && predict(scan.stamp);
     map_.centerOn(filter_.pose().pose.position());
     scan = locate(measurement, result);
   }
@@ -220,7 +238,8 @@ SlamResult GridSlam::process(const Measurement& measurement) {
   } else {
     map_.update(scan, states, base_in_map.pose);
   }
-  stamp_ = scan.stamp;
+  stamp_ = std::max(scan.stamp, stamp_.value_or(scan.stamp));
+  anchor_.keep(scan.stamp, filter_, odometry_);
   result.odometry_errors = filter_.errors();
   removeConflictingBeams(scan, view, own, states);
   result.split = split(own, states, base_in_map);

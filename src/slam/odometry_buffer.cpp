@@ -6,38 +6,72 @@
 
 namespace datmo {
 
-void OdometryBuffer::connect(Piece& from, const OdometrySample& to) {
+namespace {
+
+/// Between poses that are less than this (s) apart a vehicle goes along an arc, and what leads
+/// aside is rounding; over a longer gap its path may have had any shape.
+constexpr double kBentAfter = 1.0;
+
+}  // namespace
+
+void OdometryBuffer::connect(Piece& from, OdometrySample& to) const {
+  from.seconds = secondsBetween(from.sample.stamp, to.stamp);
   if (!from.sample.base_in_odom || !to.base_in_odom) {
     return;
   }
-  const Twist2 mean = twistOf(from.sample.base_in_odom->inverse() * *to.base_in_odom,
-                              secondsBetween(from.sample.stamp, to.stamp));
-  if (isPlausible(mean)) {
-    from.sample.twist = mean;
-    from.to_next = true;
+  const Pose2 motion = from.sample.base_in_odom->inverse() * *to.base_in_odom;
+  const Twist2 mean = twistOf(motion, from.seconds);
+  if (!isPlausible(mean)) {
+    return;
+  }
+  from.to_next = screwOf(motion);
+  if (from.seconds < kBentAfter) {
+    (*from.to_next)[1] = 0.0;
+  }
+  if (!to.twist_measured && from.seconds <= max_hold_) {
+    to.twist = mean;
+    to.twist_measured = true;
   }
 }
 
 void OdometryBuffer::add(const OdometrySample& sample) {
+  Piece newest{sample};
   if (!pieces_.empty()) {
     if (sample.stamp <= pieces_.back().sample.stamp) {
       return;
     }
-    connect(pieces_.back(), sample);
+    connect(pieces_.back(), newest.sample);
   }
-  pieces_.push_back({sample});
-  while (secondsBetween(pieces_.front().sample.stamp, sample.stamp) > memory_) {
+  pieces_.push_back(newest);
+  while (pieces_.size() > 1 && secondsBetween(pieces_[1].sample.stamp, sample.stamp) > memory_) {
     pieces_.pop_front();
   }
 }
 
+OdometryBuffer::Pieces::const_iterator OdometryBuffer::pieceAt(Stamp stamp) const {
+  const auto later =
+      std::upper_bound(pieces_.begin(), pieces_.end(), stamp,
+                       [](Stamp at, const Piece& piece) { return at < piece.sample.stamp; });
+  return later == pieces_.begin() ? later : std::prev(later);
+}
+
+Pose2 OdometryBuffer::motionIn(const Piece& piece, double seconds, const OdometryErrors& errors,
+                               double assumed_speed) {
+  if (!piece.to_next) {
+    Twist2 twist = errors.correct(piece.sample.twist);
+    twist.forward_speed = piece.sample.speed_measured ? twist.forward_speed : assumed_speed;
+    return arc(twist, seconds);
+  }
+  Eigen::Vector3d motion = seconds / piece.seconds * *piece.to_next;
+  motion.head<2>() /= 1.0 + errors.speed_scale;
+  motion[2] -= errors.yaw_rate_bias * seconds;
+  return screw(motion);
+}
+
 std::optional<Pose2> OdometryBuffer::motion(Stamp from, Stamp to, const OdometryErrors& errors,
                                             double assumed_speed) const {
-  const auto later =
-      std::upper_bound(pieces_.begin(), pieces_.end(), from,
-                       [](Stamp stamp, const Piece& piece) { return stamp < piece.sample.stamp; });
   // The first sample also serves for the time just before it.
-  auto piece = later == pieces_.begin() ? later : std::prev(later);
+  auto piece = pieceAt(from);
   if (piece == pieces_.end() || secondsBetween(from, piece->sample.stamp) > max_hold_) {
     return std::nullopt;
   }
@@ -46,12 +80,12 @@ std::optional<Pose2> OdometryBuffer::motion(Stamp from, Stamp to, const Odometry
   while (at < to) {
     const auto next = std::next(piece);
     const Stamp until = next == pieces_.end() ? to : std::min(to, next->sample.stamp);
-    if (!piece->to_next && secondsBetween(piece->sample.stamp, until) > max_hold_) {
+    const bool held =
+        piece->sample.twist_measured && secondsBetween(piece->sample.stamp, until) <= max_hold_;
+    if (!piece->to_next && !held) {
       return std::nullopt;
     }
-    Twist2 twist = errors.correct(piece->sample.twist);
-    twist.forward_speed = piece->sample.speed_measured ? twist.forward_speed : assumed_speed;
-    motion = motion * arc(twist, secondsBetween(at, until));
+    motion = motion * motionIn(*piece, secondsBetween(at, until), errors, assumed_speed);
     at = until;
     if (next == pieces_.end()) {
       break;
@@ -59,6 +93,21 @@ std::optional<Pose2> OdometryBuffer::motion(Stamp from, Stamp to, const Odometry
     piece = next;
   }
   return motion;
+}
+
+bool OdometryBuffer::hasPoses(Stamp from, Stamp to) const {
+  if (pieces_.empty() || from < pieces_.front().sample.stamp || pieces_.back().sample.stamp < to) {
+    return false;
+  }
+  return std::all_of(pieceAt(from), pieces_.end(),
+                     [&](const Piece& piece) { return piece.to_next || to <= piece.sample.stamp; });
+}
+
+std::optional<Stamp> OdometryBuffer::lastPose() const {
+  if (pieces_.empty() || !pieces_.back().sample.base_in_odom) {
+    return std::nullopt;
+  }
+  return pieces_.back().sample.stamp;
 }
 
 }  // namespace datmo

@@ -19,4 +19,12 @@ Pose2 arc(const Twist2& twist, double seconds);
 /// such twist explains is left out.
 Twist2 twistOf(const Pose2& motion, double seconds);
 
+/// Motion at constant velocities, sideways too: `motion` = x (m), y (m) and turn (rad) that the
+/// moving frame itself would measure. The exponential map of SE(2) (Sola et al., A micro Lie theory
+/// for state estimation in robotics, 2018, eq. 156).
+Pose2 screw(const Eigen::Vector3d& motion);
+
+/// The constant velocities, times their duration, that lead to this motion: screw(screwOf(m)) is m.
+Eigen::Vector3d screwOf(const Pose2& motion);
+
 }  // namespace datmo

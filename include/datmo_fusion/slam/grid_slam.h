@@ -8,6 +8,7 @@
 #include "datmo_fusion/common/scan.h"
 #include "datmo_fusion/grid/occupancy_map.h"
 #include "datmo_fusion/slam/grid_masked_scan.h"
+#include "datmo_fusion/slam/odometry_anchor.h"
 #include "datmo_fusion/slam/odometry_buffer.h"
 #include "datmo_fusion/slam/pose_filter.h"
 #include "datmo_fusion/slam/scan_matcher.h"
@@ -54,8 +55,8 @@ class GridSlam {
   explicit GridSlam(const GridSlamOptions& options);
 
   /// Odometry in rising stamp order; it may come before or after the scans that it serves. Only a
-  /// bounded time of it is kept.
-  void addOdometry(const OdometrySample& sample) { odometry_.add(sample); }
+  /// bounded time of it is kept: while scans fail for longer, the pose goes on with it.
+  void addOdometry(const OdometrySample& sample);
 
   /// Takes the next scan, and splits it as compensated for the vehicle's motion. A scan without
   /// rays moves the pose by odometry alone.
@@ -95,16 +96,17 @@ class GridSlam {
   /// m/s; for odometry that measures none.
   double estimatedSpeed() const { return filter_.velocity().forward_speed; }
 
-  /// Returns whether odometry covered all of the motion.
+  /// From the last stamp to a later one. Returns whether odometry covered all of the motion.
   bool predict(Stamp stamp);
 
   GridSlamOptions options_;
   ScanMatcher matcher_;
   OccupancyMap map_;
   OdometryBuffer odometry_;
+  OdometryAnchor anchor_;
   Random random_;
   PoseFilter filter_;
-  std::optional<Stamp> stamp_;  ///< of the last scan
+  std::optional<Stamp> stamp_;  ///< of the pose: the last scan, or odometry since
 };
 
 }  // namespace datmo

@@ -22,6 +22,8 @@ struct OdometrySample {
   std::optional<Pose2> base_in_odom = std::nullopt;
   /// false: the twist's yaw rate alone was measured, as by gyroscopes.
   bool speed_measured = true;
+  /// false: the twist is not to be used, the pose alone is.
+  bool twist_measured = true;
 };
 
 /// No vehicle is faster (m/s) or spins faster (rad/s): what says so is broken, or a pose that
@@ -34,22 +36,30 @@ inline bool isPlausible(const Twist2& twist) {
   return std::abs(twist.forward_speed) <= kMaxSpeed && std::abs(twist.yaw_rate) <= kMaxYawRate;
 }
 
-/// A short time of odometry, from which the motion between two scans is put together.
+/// The last time of odometry, from which the motion between two scans is put together.
 class OdometryBuffer {
  public:
   /// `max_hold`: how long (s) a sample serves after its stamp when no newer one has come.
-  /// `memory`: how much of it (s) is kept.
+  /// `memory`: how much of it (s) is kept, and the sample before.
   OdometryBuffer(double max_hold, double memory) : max_hold_(max_hold), memory_(memory) {}
 
   /// Samples in rising stamp order; one that is not newer than the last is left out.
   void add(const OdometrySample& sample);
 
   /// The vehicle's motion from one stamp to a later one. Between two samples with poses it is what
-  /// leads from one to the other, evenly; else each sample's twist holds from its stamp to the next
-  /// one's. None if the samples do not reach `to` within the longest hold, or begin later than
-  /// `from`. Samples without a measured speed go at `assumed_speed` (m/s), which is taken as it is.
+  /// leads from one to the other, evenly and
+  /// with sideways motion only over a gap, however long they are apart: an encoder goes on counting
+  /// while its messages are lost. Else each sample's twist holds from its stamp to the next one's.
+  /// None if the samples do not reach `to` within the longest hold, or begin later than `from`.
+  /// Samples without a measured speed go at `assumed_speed` (m/s), which is taken as it is.
   std::optional<Pose2> motion(Stamp from, Stamp to, const OdometryErrors& errors = {},
                               double assumed_speed = 0.0) const;
+
+  /// Whether all of the motion between these stamps lies between samples with poses.
+  bool hasPoses(Stamp from, Stamp to) const;
+
+  /// Of the newest sample with a pose; none without one.
+  std::optional<Stamp> lastPose() const;
 
   /// Whether the newest sample has it; false without any.
   bool measuresSpeed() const { return !pieces_.empty() && pieces_.back().sample.speed_measured; }
@@ -58,15 +68,26 @@ class OdometryBuffer {
   /// What is known of the motion from one sample on.
   struct Piece {
     OdometrySample sample;
-    bool to_next = false;  ///< the twist is the measured motion to the next sample
+    /// Measured by the poses (screwOf), to the next sample.
+    std::optional<Eigen::Vector3d> to_next = std::nullopt;
+    double seconds = 0.0;  ///< to the next sample
   };
+  using Pieces = std::deque<Piece>;
 
-  /// Takes the mean motion between two samples from their poses, if they have any.
-  static void connect(Piece& from, const OdometrySample& to);
+  /// Takes the motion between two samples from their poses, if they have any. A sample without a
+  /// twist then has that motion's mean, unless it is too long ago.
+  void connect(Piece& from, OdometrySample& to) const;
+
+  /// That holds at this stamp: the last one before, or else the first one after it.
+  Pieces::const_iterator pieceAt(Stamp stamp) const;
+
+  /// In `seconds` of a piece's time.
+  static Pose2 motionIn(const Piece& piece, double seconds, const OdometryErrors& errors,
+                        double assumed_speed);
 
   double max_hold_;
   double memory_;
-  std::deque<Piece> pieces_;
+  Pieces pieces_;
 };
 
 }  // namespace datmo

@@ -57,11 +57,8 @@ void GridSlamStage::takeOdometry(const nav_msgs::Odometry& message) {
   }
   runner_.serve("odometry", message, [&] {
     checkFrames(message, options_.frames);
-    OdometrySample sample = toSample(message);
+    OdometrySample sample = readOdometry(message, options_.motion, monitor_);
     const Pose2 base_in_odom = fromMessage(message.pose.pose);
-    if (options_.motion.fromOdometry() && options_.motion.odometry_pose) {
-      sample.base_in_odom = base_in_odom;
-    }
     sample.speed_measured = options_.motion.hasSpeed();
     runner_.check("odometry", message.header.stamp);
     slam_.addOdometry(sample);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/stage/motion_input.h"
 
+#include <string>
 #include <utility>
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
@@ -30,6 +31,23 @@ void checkFrames(const nav_msgs::Odometry& message, const FrameOptions& frames) 
                                       frames.base + "' in '" + frames.odom + "'" + remedy);
 }
 
+OdometrySample readOdometry(const nav_msgs::Odometry& message, const MotionOptions& options,
+                            StageMonitor& monitor) {
+  if (!options.fromOdometry() || !options.odometry_pose) {
+    return toSample(message);
+  }
+  OdometrySample sample;
+  sample.stamp = toStamp(message.header.stamp);
+  sample.base_in_odom = fromMessage(message.pose.pose);
+  try {
+    sample.twist = toSample(message).twist;
+  } catch (const InputError& error) {
+    sample.twist_measured = false;
+    monitor.warned(InputError("bad_twist", std::string(error.what()) + "; its pose serves"));
+  }
+  return sample;
+}
+
 MotionInput::MotionInput(const MotionOptions& options, FrameOptions frames, StageRunner& runner)
     : options_(options),
       frames_(std::move(frames)),
@@ -43,10 +61,7 @@ void MotionInput::take(const nav_msgs::Odometry& message) {
     return;
   }
   checkFrames(message, frames_);
-  OdometrySample sample = toSample(message);
-  if (options_.fromOdometry() && options_.odometry_pose) {
-    sample.base_in_odom = fromMessage(message.pose.pose);
-  }
+  const OdometrySample sample = readOdometry(message, options_, runner_.monitor());
   runner_.check(kMotionStream, message.header.stamp);
   buffer_.add(sample);
 }

@@ -63,5 +63,21 @@ TEST(TwistOf, LeavesSidewaysMotionOut) {
   EXPECT_DOUBLE_EQ(twist.yaw_rate, 0.0);
 }
 
+TEST(Screw, IsTheArcWithoutSidewaysMotion) {
+  const Pose2 expected = arc({4.0, 0.6}, 2.0);
+  const Pose2 found = screw({8.0, 0.0, 1.2});
+  EXPECT_NEAR((found.position() - expected.position()).norm(), 0.0, 1e-12);
+  EXPECT_NEAR(found.heading(), 1.2, 1e-12);
+  EXPECT_NEAR((screw({3.0, 1.0, 0.0}).position() - Point2(3.0, 1.0)).norm(), 0.0, 1e-12);
+}
+
+TEST(Screw, ItsPartsComposeToTheWholeMotion) {
+  const Pose2 motion(2.0, -5.0, 2.5);
+  const Eigen::Vector3d velocities = screwOf(motion);
+  const Pose2 composed = screw(0.3 * velocities) * screw(0.7 * velocities);
+  EXPECT_NEAR((composed.position() - motion.position()).norm(), 0.0, 1e-12);
+  EXPECT_NEAR(composed.heading(), 2.5, 1e-12);
+}
+
 }  // namespace
 }  // namespace datmo

@@ -49,7 +49,7 @@ class MovingStage {
       : runner_(monitor_, StreamOptions(), "forgets the motion", [this] { input.reset(); }),
         input(optionsWith(with_odometry, use_poses), {}, runner_) {}
 
-  std::uint64_t restarts() const { return monitor_.warningCount(); }
+  std::uint64_t warningCount() const { return monitor_.warningCount(); }
 
  private:
   StageMonitor monitor_{"stage"};
@@ -101,6 +101,20 @@ TEST(MotionInput, BadOdometryIsRefused) {
   EXPECT_EQ(reasonOf([&] { input.take(odometry(100.0)); }), "repeated_stamp");
 }
 
+TEST(MotionInput, APoseServesWithoutItsAbsurdTwist) {
+  MovingStage stage(true, true);
+  stage.input.take(odometry(100.0));
+  nav_msgs::Odometry spinning = odometry(103.0);
+  spinning.twist.twist.angular.z = 26.0;
+  stage.input.take(spinning);
+  EXPECT_EQ(stage.warningCount(), 1U);
+  EXPECT_NEAR(stage.input.between(at(100.0), at(103.0))->x(), 33.0, 1e-9);
+  EXPECT_FALSE(stage.input.between(at(103.0), at(103.1)));
+  spinning.header.stamp = ros::Time(103.1);
+  spinning.pose.pose.orientation.w = 2.0;
+  EXPECT_EQ(reasonOf([&] { stage.input.take(spinning); }), "bad_pose");
+}
+
 TEST(MotionInput, PosesThatJumpAreRefusedAndTheNextOnesServe) {
   MovingStage stage(false);
   MotionInput& input = stage.input;
@@ -121,7 +135,7 @@ TEST(MotionInput, AJumpBackStartsAnew) {
   MotionInput& input = stage.input;
   input.take(odometry(200.0));
   input.take(odometry(100.0));
-  EXPECT_EQ(stage.restarts(), 1U);
+  EXPECT_EQ(stage.warningCount(), 1U);
   input.take(odometry(100.1));
   EXPECT_NEAR(input.between(at(100.0), at(100.1))->x(), 1.0, 1e-9);
   input.reset();

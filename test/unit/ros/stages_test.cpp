@@ -249,6 +249,27 @@ TEST_F(GridSlamStageTest, OdometryPosesGiveTheMotionOnDemand) {
   EXPECT_NEAR(output->pose->pose.pose.position.x, 0.5, 0.05);
 }
 
+TEST_F(GridSlamStageTest, AnAbsurdTwistAfterAGapLeavesThePoseOfTheOdometry) {
+  options_.motion.odometry_pose = true;
+  GridSlamStage stage(options_, buffer_, monitor_);
+  mountScanner();
+  stage.takeOdometry(odometry(100.0));
+  auto blind = samples::laserScan(std::vector<float>(3, std::numeric_limits<float>::infinity()));
+  blind.header.stamp = ros::Time(100.0);
+  stage.takeScan(blind);
+  nav_msgs::Odometry late = odometry(103.0);
+  late.pose.pose.position.x = odometry(100.0).pose.pose.position.x + 1.5;
+  late.twist.twist.angular.z = 26.0;
+  stage.takeOdometry(late);
+  blind.header.stamp = ros::Time(103.0);
+  const auto output = stage.takeScan(blind);
+  ASSERT_TRUE(output);
+  EXPECT_NEAR(output->pose->pose.pose.position.x, 1.5, 0.1);
+  EXPECT_EQ(output->transforms.size(), 1U);
+  EXPECT_EQ(warnings("bad_twist"), 1U);
+  EXPECT_EQ(monitor_.droppedCount(), 0U);
+}
+
 TEST_F(GridSlamStageTest, BadBeamTimesAreWarnedOf) {
   mountScanner();
   odometryAt(100.0);

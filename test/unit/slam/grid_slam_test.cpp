@@ -206,6 +206,54 @@ TEST(GridSlamTest, AGapOfThreeSecondsIsBridgedByOdometry) {
   EXPECT_LT(positionError(end), 0.15);
 }
 
+/// Turns on the spot at 0.4 rad/s for 2 s, then without a scan for this long, then 2 s on; the
+/// odometry has poses, and is silent as long, and `late` (s) longer.
+Drive driveOverAGap(double gap, double late) {
+  GridSlam slam{GridSlamOptions{}};
+  const Yard yard;
+  const Twist2 twist{0.0, 0.4};
+  Drive end;
+  const int first_after = 20 + static_cast<int>(std::lround(10.0 * gap));
+  for (int i = 0; i < first_after + 20; ++i) {
+    const double seconds = 0.1 * i;
+    end.truth = arc(twist, seconds);
+    if (i < 20 || seconds > 0.1 * first_after + late - 1e-9) {
+      slam.addOdometry({Stamp::fromSeconds(1000.0 + seconds), twist, end.truth});
+    }
+    if (i < 20 || i >= first_after) {
+      end.result = slam.process(yard.scan(end.truth, seconds));
+    }
+  }
+  return end;
+}
+
+TEST(GridSlamTest, AnEncoderCountsOverAGapOfScansAndOdometry) {
+  for (const double gap : {1.0, 3.0, 5.0, 12.0}) {
+    for (const double late : {0.0, 0.1, 0.5}) {
+      const Drive end = driveOverAGap(gap, late);
+      EXPECT_LT(positionError(end), 0.3) << gap << " s, odometry " << late << " s late";
+      EXPECT_NEAR(angleBetween(end.truth.heading(), end.result.split.base_in_map.pose.heading()),
+                  0.0, degrees(2.0))
+          << gap << " s, odometry " << late << " s late";
+    }
+  }
+}
+
+TEST(GridSlamTest, WithoutScansThePoseFollowsTheOdometryForAsLongAsItTakes) {
+  GridSlam slam{GridSlamOptions{}};
+  const Yard yard;
+  Drive end;
+  for (int i = 0; i < 400; ++i) {
+    end.truth = arc({0.5, 0.1}, 0.1 * i);
+    slam.addOdometry({Stamp::fromSeconds(1000.0 + 0.1 * i), {0.5, 0.1}});
+    if (i < 20 || i >= 380) {
+      end.result = slam.process(yard.scan(end.truth, 0.1 * i));
+    }
+  }
+  EXPECT_TRUE(end.result.odometry_used);
+  EXPECT_LT(positionError(end), 0.3);
+}
+
 TEST(GridSlamTest, RefusesBadOptionsByTheirFullName) {
   GridSlamOptions options;
   options.map.window.cell_size = -1.0;

@@ -67,6 +67,32 @@ TEST_F(OdometryBufferTest, PosesGiveTheMotionBetweenThemAlsoOverAGap) {
   EXPECT_NEAR(third->heading(), 0.2, 1e-9);
 }
 
+TEST_F(OdometryBufferTest, PosesCountOverAGapLongerThanTheMemoryAndSidewaysToo) {
+  const Pose2 motion(20.0, -7.0, 1.2);
+  buffer_.add({at(1.0), {0.0, 0.0}, Pose2()});
+  buffer_.add({at(41.0), {0.0, 0.0}, motion});
+  const auto whole = buffer_.motion(at(1.0), at(41.0));
+  ASSERT_TRUE(whole);
+  EXPECT_TRUE(whole->position().isApprox(motion.position(), 1e-9));
+  EXPECT_NEAR(whole->heading(), 1.2, 1e-9);
+  EXPECT_TRUE(buffer_.hasPoses(at(1.0), at(41.0)));
+  EXPECT_FALSE(buffer_.hasPoses(at(1.0), at(41.1))) << "after the last one";
+  EXPECT_FALSE(buffer_.hasPoses(at(0.9), at(41.0))) << "before the first one";
+}
+
+TEST_F(OdometryBufferTest, APoseWithoutATwistServesBackwardsAlone) {
+  OdometrySample counted{at(4.0), {0.0, 26.0}, Pose2(0.0, 0.0, 1.0)};
+  counted.twist_measured = false;
+  buffer_.add({at(1.0), {0.0, 0.0}, Pose2()});
+  buffer_.add(counted);
+  EXPECT_NEAR(buffer_.motion(at(1.0), at(4.0))->heading(), 1.0, 1e-9);
+  EXPECT_FALSE(buffer_.motion(at(1.0), at(4.1))) << "how it moves now is not known";
+  counted.stamp = at(4.2);
+  counted.base_in_odom = Pose2(0.0, 0.0, 1.1);
+  buffer_.add(counted);
+  EXPECT_NEAR(buffer_.motion(at(4.0), at(4.4))->heading(), 0.2, 1e-9) << "as it just did";
+}
+
 TEST_F(OdometryBufferTest, APoseThatJumpsIsNoMotion) {
   buffer_.add({at(1.0), {1.0, 0.0}, Pose2(0.0, 0.0, 0.0)});
   buffer_.add({at(1.1), {1.0, 0.0}, Pose2(500.0, 0.0, 0.0)});

@@ -16,6 +16,12 @@ namespace datmo {
 /// Throws InputError (`wrong_frame`) unless the odometry is of the vehicle, in its frame for that.
 void checkFrames(const nav_msgs::Odometry& message, const FrameOptions& frames);
 
+/// What the options take of odometry: with odometry_pose its pose, too, and then a twist that no
+/// vehicle has (the mean over a gap of clocks, say) is left out and warned of (`bad_twist`): the
+/// pose is what counts. Throws InputError (`bad_odometry`, `bad_pose`).
+OdometrySample readOdometry(const nav_msgs::Odometry& message, const MotionOptions& options,
+                            StageMonitor& monitor);
+
 /// The motion of the vehicle between two stamps, as its odometry measures it; where its speed is
 /// not measured, as the poses of the SLAM do.
 class MotionInput {

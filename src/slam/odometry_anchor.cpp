@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/slam/odometry_anchor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+namespace datmo {
+
+namespace {
+
+/// s between two poses of the odometry that are a gap: beyond the period of any odometry that
+/// serves a scanner, so that the matches of a scan or two in between are left as they are.
+constexpr double kGap = 0.25;
+
+/// Of the squared distance of two poses; chi-squared distribution, 3 degrees of freedom, 0.999.
+constexpr double kContradiction = 16.27;
+
+double squaredDistance(const PoseWithCovariance& a, const PoseWithCovariance& b) {
+  const Eigen::Vector3d difference(b.pose.x() - a.pose.x(), b.pose.y() - a.pose.y(),
+                                   angleBetween(a.pose.heading(), b.pose.heading()));
+  const Eigen::Matrix3d covariance = a.covariance + b.covariance;
+  return difference.dot(covariance.ldlt().solve(difference));
+}
+
+}  // namespace
+
+void OdometryAnchor::keep(Stamp stamp, const PoseFilter& pose, const OdometryBuffer& odometry) {
+  const std::optional<Stamp> last_pose = odometry.lastPose();
+  if (!last_pose) {
+    anchor_.reset();
+    return;
+  }
+  if (!anchor_ || std::abs(secondsBetween(*last_pose, stamp)) <=
+                      std::abs(secondsBetween(*last_pose, anchor_->stamp))) {
+    anchor_.emplace(Anchor{stamp, *last_pose, pose});
+  }
+}
+
+std::optional<PoseFilter> OdometryAnchor::correction(Stamp stamp, const PoseFilter& predicted,
+                                                     const OdometryBuffer& odometry) const {
+  const std::optional<Stamp> last_pose = odometry.lastPose();
+  if (!anchor_ || !last_pose || secondsBetween(anchor_->last_pose, *last_pose) < kGap ||
+      !odometry.hasPoses(anchor_->stamp, std::min(stamp, *last_pose))) {
+    return std::nullopt;
+  }
+  PoseFilter carried = anchor_->pose;
+  const auto motion = odometry.motion(anchor_->stamp, stamp, carried.errors());
+  if (!motion) {
+    return std::nullopt;
+  }
+  carried.predictMeasured(*motion, secondsBetween(anchor_->stamp, stamp));
+  if (squaredDistance(carried.pose(), predicted.pose()) < kContradiction) {
+    return std::nullopt;
+  }
+  return carried;
+}
+
+}  // namespace datmo
