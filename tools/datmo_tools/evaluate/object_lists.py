@@ -21,6 +21,7 @@ class Seen(NamedTuple):
     side_variance: np.ndarray  # 4, m^2: front, rear, left, right; infinite: not seen
     classification: int  # Object.CLASS_*
     delay: float  # s after the list's stamp
+    class_probability: float = 0.0  # of the classification, 0 to 1
 
     @property
     def range(self):
@@ -106,6 +107,7 @@ def _seen_list(message):
             np.array(item.side_variance),
             item.classification,
             item.delay,
+            item.class_probability,
         )
         for item in message.objects
     ]

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from datmo_tools.errors import InputError
 from datmo_tools.evaluate.arguments import add_region, add_truth, region_of
+from datmo_tools.evaluate.class_tally import calibration, class_sections, confusion, reports_of
 from datmo_tools.evaluate.object_lists import read_lists
 from datmo_tools.evaluate.object_scores import score_list
 from datmo_tools.evaluate.object_tally import ALL, CLASSES, MOVING, ObjectTally
@@ -19,7 +20,8 @@ before tracking, against the true objects of the drive that the run was made fro
   recall       of the true objects that the sensor sees, how many are found, by class and range
   precision    of the objects, how many are near a true one, moving or not; what stands in the
                world and is no true object (walls, fences, what KITTI does not label) is false
-  class right  of the objects that are found, by their true class
+  class right  of the objects that are found, by their true class; and what is said of which, by
+               range, and how often it is right at which probability
   error        of the near side along the line of sight (positive: too far), and of its corners
                across it (to the left), as far as they are seen; mean and standard deviation
   NEES         of both by the object's own covariance: 2 in the mean and 1.39 in the median if it is
@@ -72,13 +74,17 @@ def _score_topic(lists, truth, asked):
     truth.check_seen_by(asked.sensor)
     region = asked.region
     tally = ObjectTally([*(edge for edge in BANDS if edge < region.range), region.range])
+    reports = []
     for item in lists:
         truths = truth.at(item.stamp, asked)
         if truths is not None:
             result = score_list(item.objects, truths, item.viewpoint)
             tally.add(item.objects, truths, result, region)
+            reports += reports_of(item.objects, truths, result, region)
     without = len(lists) - tally.lists
-    return {"visible_to": asked.sensor, "lists_without_truth": without, **tally.result()}
+    return {"visible_to": asked.sensor, "lists_without_truth": without, **tally.result(),
+            "confusion": confusion(reports, tally.edges),
+            "calibration": calibration(reports)}  # fmt: skip
 
 
 def sections(result):
@@ -106,7 +112,8 @@ def _of_topic(topic, item):
     )
     heading = f"{topic}, true objects visible to {item['visible_to']}"
     tables = (recall, precision, errors)
-    return [Section(heading, lines=[counts]), *(Section(rows=rows) for rows in tables)]
+    return [Section(heading, lines=[counts]), *(Section(rows=rows) for rows in tables),
+            *class_sections(item)]  # fmt: skip
 
 
 def _shares(item):
