@@ -65,6 +65,20 @@ run_logged() {
   return "$code"
 }
 
+# configure_tree FOLDER CMAKE_OPTION...: as every tree here is. Files of a folder are compiled together,
+# unless the environment says DATMO_FUSION_UNITY=OFF. Debian 12's compiler is known, so its warnings can
+# be errors.
+configure_tree() {
+  local options=(-S "$repository" -B "$1" "-DDATMO_FUSION_UNITY=${DATMO_FUSION_UNITY:-ON}")
+  if grep -q '^VERSION_CODENAME=bookworm' /etc/os-release; then
+    options+=(-DDATMO_FUSION_WERROR=ON)
+  fi
+  if command -v ccache >/dev/null; then
+    options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  fi
+  cmake "${options[@]}" "${@:2}"
+}
+
 # The environment of a built tree, for everything that talks ROS. A master of its own on a free port
 # leaves one that runs already alone.
 use_ros() {

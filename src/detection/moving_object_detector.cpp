@@ -20,7 +20,7 @@ namespace {
 constexpr char kSensor[] = "lidar";
 
 /// rad; a side that was seen faces the scanner: with a vaguer heading its ends are not known.
-constexpr double kMaxSlant = 0.3;
+constexpr double kMaxScannerSlant = 0.3;
 
 /// The points of one segment of the scan that the map does not know as static.
 std::vector<ScanPoint> notStatic(const std::vector<ScanPoint>& points, const Segment& segment) {
@@ -120,7 +120,7 @@ void MovingObjectDetector::setBox(Object& object, const ScanPoint& first, const 
                                   const LabeledScan& scan) const {
   const BoxFit fit = fitBox(object.points, scan.scanner_in_base.position(), options_.range_sigma);
   const SegmentEnds ends(scan, options_.range_sigma, options_.segmentation.max_gap);
-  const double heading_std = std::sqrt(std::min(fit.heading_variance, kMaxSlant * kMaxSlant));
+  const double heading_std = std::sqrt(std::min(fit.heading_variance, kMaxScannerSlant * kMaxScannerSlant));
   SideBox sides(fit);
   for (std::size_t side = 0; side < kBoxSides; ++side) {
     object.side_variance[side] = kHiddenSide;

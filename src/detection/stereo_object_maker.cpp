@@ -21,7 +21,7 @@ constexpr double kExtentSigma = 0.2;
 constexpr std::size_t kMaxPoints = 40;
 
 /// rad; a side that was seen faces the camera: with a vaguer heading its ends are not known.
-constexpr double kMaxSlant = 0.3;
+constexpr double kMaxCameraSlant = 0.3;
 
 /// Sides whose normal is nearer to the line of sight than this (sine of the angle) end in depth, of
 /// which the ends in the image carry no information.
@@ -102,7 +102,7 @@ void StereoObjectMaker::setBox(Object& object, const GroupOutline& outline) cons
                         columns_.per_tangent;
   const double alike = std::max(1.0, kCorrelatedShare * options_.noise.correlated_width / bundle);
   fit.heading_variance = std::min(kUnknownHeadingVariance, alike * fit.heading_variance);
-  const double heading_std = std::sqrt(std::min(fit.heading_variance, square(kMaxSlant)));
+  const double heading_std = std::sqrt(std::min(fit.heading_variance, square(kMaxCameraSlant)));
   SideBox sides(fit);
   for (std::size_t side = 0; side < kBoxSides; ++side) {
     object.side_variance[side] = kHiddenSide;

@@ -12,7 +12,7 @@ namespace datmo {
 namespace {
 
 /// Lines nearer to each other are one border, m.
-constexpr double kSameDistance = 0.7;
+constexpr double kSameBorderDistance = 0.7;
 
 /// Lines that are followed at a time.
 constexpr int kMaxBorders = 16;
@@ -95,7 +95,7 @@ void BorderTrackSet::removeDuplicates() {
                               borders_[j].state() != FollowedBorder::State::kRefuted;
       if (i != j && both_tried &&
           borders_[i].evidence().seenStations() >= borders_[j].evidence().seenStations() &&
-          sameLine(borders_[j], borders_[i], kSameDistance)) {
+          sameLine(borders_[j], borders_[i], kSameBorderDistance)) {
         borders_.erase(borders_.begin() + static_cast<std::ptrdiff_t>(j));
         if (j < i) {
           --i;
@@ -108,7 +108,7 @@ void BorderTrackSet::removeDuplicates() {
 const FollowedBorder* BorderTrackSet::alongside(const FoundBorder& found) const {
   const Point2 middle = found.line * Point2(0.5 * found.length, 0.0);
   for (const FollowedBorder& border : borders_) {
-    if (border.side() == found.side && border.explains(middle, kSameDistance)) {
+    if (border.side() == found.side && border.explains(middle, kSameBorderDistance)) {
       return &border;
     }
   }

@@ -11,7 +11,7 @@ namespace datmo {
 namespace {
 
 /// Two borders nearer to each other are one, m.
-constexpr double kSameDistance = 1.5;
+constexpr double kSameStreetDistance = 1.5;
 
 /// Two borders are one only if turned by no more than this, rad.
 constexpr double kSameHeading = 0.3;
@@ -81,7 +81,7 @@ void SideStreets::lookInto(const HitGrid& hits, const RoadOpening& opening, Stam
 
 bool SideStreets::isSame(const Known& known, const FoundBorder& found) const {
   const Point2 offset = known.border.line.inverse() * found.line.position();
-  return known.border.side == found.side && std::abs(offset.y()) < kSameDistance &&
+  return known.border.side == found.side && std::abs(offset.y()) < kSameStreetDistance &&
          std::abs(offset.x()) < known.border.length &&
          std::abs(angleBetween(known.border.line.heading(), found.line.heading())) < kSameHeading;
 }

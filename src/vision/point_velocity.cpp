@@ -87,9 +87,9 @@ double squaredDistance(const Sample& sample, const Eigen::Vector2d& velocity) {
 }
 
 /// Of inliers and outliers, each with its share.
-class Mixture {
+class VelocityMixture {
  public:
-  explicit Mixture(const SharedVelocityOptions& options)
+  explicit VelocityMixture(const SharedVelocityOptions& options)
       : inlier_share_(1.0 - options.outlier_share),
         outlier_(options.outlier_share / (kPi * options.max_speed * options.max_speed)) {}
 
@@ -115,7 +115,8 @@ class Mixture {
   double outlier_;
 };
 
-Eigen::Vector2d mostLikelySample(const std::vector<Sample>& samples, const Mixture& mixture) {
+Eigen::Vector2d mostLikelySample(const std::vector<Sample>& samples,
+                                 const VelocityMixture& mixture) {
   Eigen::Vector2d best = Eigen::Vector2d::Zero();
   double best_likelihood = -std::numeric_limits<double>::infinity();
   for (const Sample& sample : samples) {
@@ -129,7 +130,7 @@ Eigen::Vector2d mostLikelySample(const std::vector<Sample>& samples, const Mixtu
 }
 
 /// One step of expectation maximization: the mean of the samples by their probability at `around`.
-SharedVelocity weightedMean(const std::vector<Sample>& samples, const Mixture& mixture,
+SharedVelocity weightedMean(const std::vector<Sample>& samples, const VelocityMixture& mixture,
                             const Eigen::Vector2d& around) {
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
@@ -146,7 +147,7 @@ SharedVelocity weightedMean(const std::vector<Sample>& samples, const Mixture& m
 }
 
 /// Squared errors of the inliers in units of their noise, by degree of freedom; at least 1.
-double excessScatter(const std::vector<Sample>& samples, const Mixture& mixture,
+double excessScatter(const std::vector<Sample>& samples, const VelocityMixture& mixture,
                      const SharedVelocity& mean) {
   double sum = 0.0;
   for (const Sample& sample : samples) {
@@ -190,7 +191,7 @@ std::optional<SharedVelocity> sharedVelocity(const std::vector<PointVelocity>& p
     return std::nullopt;
   }
   const std::vector<Sample> samples = samplesOf(points);
-  const Mixture mixture(options);
+  const VelocityMixture mixture(options);
   Eigen::Vector2d around = mostLikelySample(samples, mixture);
   SharedVelocity mean = weightedMean(samples, mixture, around);
   for (int i = 0; i < kMaxIterations && (mean.velocity - around).norm() > kConverged; ++i) {
