@@ -4,8 +4,8 @@
 A test takes its messages, makes one fault, and writes them as a bag.
 """
 
-import copy
 import math
+import pickle
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -189,9 +189,14 @@ def _items():
     return items
 
 
+@lru_cache(maxsize=None)
+def _pickled_items():
+    return pickle.dumps(_items())
+
+
 def recording():
     """List of Item: a recording without fault, as a copy that may be changed."""
-    return copy.deepcopy(_items())
+    return pickle.loads(_pickled_items())  # a tenth of deepcopy's time
 
 
 def write(path, items):
