@@ -120,7 +120,8 @@ void MovingObjectDetector::setBox(Object& object, const ScanPoint& first, const 
                                   const LabeledScan& scan) const {
   const BoxFit fit = fitBox(object.points, scan.scanner_in_base.position(), options_.range_sigma);
   const SegmentEnds ends(scan, options_.range_sigma, options_.segmentation.max_gap);
-  const double heading_std = std::sqrt(std::min(fit.heading_variance, kMaxScannerSlant * kMaxScannerSlant));
+  const double heading_std =
+      std::sqrt(std::min(fit.heading_variance, kMaxScannerSlant * kMaxScannerSlant));
   SideBox sides(fit);
   for (std::size_t side = 0; side < kBoxSides; ++side) {
     object.side_variance[side] = kHiddenSide;
