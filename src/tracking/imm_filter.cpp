@@ -103,7 +103,27 @@ void ImmFilter::predict(const ImmStep& step) {
   combine();
 }
 
-double ImmFilter::update(const PositionMeasurement& measured, double min_probability) {
+template <typename Measurement>
+ImmFilter::ModeLikelihoods ImmFilter::likelihoodsOf(const Measurement& measured) const {
+  ModeVector distances;  // squared
+  ModeVector determinants;
+  for (std::size_t mode = 0; mode < modes_.size(); ++mode) {
+    const Innovation innovation = innovationOf(modes_[mode], measured);
+    const int index = static_cast<int>(mode);
+    distances[index] = innovation.squaredDistance();
+    determinants[index] = innovation.covariance.determinant();
+  }
+  const auto possible = probabilities_.array() > 0.0;
+  const double nearest =
+      possible.select(distances.array(), std::numeric_limits<double>::infinity()).minCoeff();
+  const ModeVector densities =
+      ((nearest - distances.array()) / 2.0).exp() / determinants.array().sqrt();
+  return {possible.select(densities.array(), 0.0), -0.5 * nearest - std::log(2.0 * kPi)};
+}
+
+/// `learn`: it is the first measurement since the prediction, which the transitions learn from.
+template <typename Measurement>
+double ImmFilter::updateModes(const Measurement& measured, double min_probability, bool learn) {
   const ModeLikelihoods likelihoods = likelihoodsOf(measured);
   const ModeVector weights = probabilities_.cwiseProduct(likelihoods.relative);
   const double total = weights.sum();
@@ -115,16 +135,31 @@ double ImmFilter::update(const PositionMeasurement& measured, double min_probabi
     }
   }
   probabilities_ /= probabilities_.sum();
-  if (transitions_) {
+  if (transitions_ && learn) {
     transitions_->update(probabilities_before_, likelihoods.relative);
   }
   combine();
   return likelihoods.log_scale + std::log(total);
 }
 
-double ImmFilter::logLikelihood(const PositionMeasurement& measured) const {
-  const ModeLikelihoods likelihoods = likelihoodsOf(measured);
+double ImmFilter::update(const PositionMeasurement& measured, double min_probability) {
+  return updateModes(measured, min_probability, true);
+}
+
+double ImmFilter::update(const MeasuredVelocity& measured, double min_probability) {
+  return updateModes(measured, min_probability, false);
+}
+
+double ImmFilter::logOverModes(const ModeLikelihoods& likelihoods) const {
   return likelihoods.log_scale + std::log(probabilities_.dot(likelihoods.relative));
+}
+
+double ImmFilter::logLikelihood(const PositionMeasurement& measured) const {
+  return logOverModes(likelihoodsOf(measured));
+}
+
+double ImmFilter::logLikelihood(const MeasuredVelocity& measured) const {
+  return logOverModes(likelihoodsOf(measured));
 }
 
 void ImmFilter::shift(const Point2& offset) {
@@ -138,23 +173,6 @@ void ImmFilter::setTransitionPrior(const JumpCounts& prior) {
   if (transitions_) {
     transitions_->setPrior(prior);
   }
-}
-
-ImmFilter::ModeLikelihoods ImmFilter::likelihoodsOf(const PositionMeasurement& measured) const {
-  ModeVector distances;     // squared
-  ModeVector determinants;  // m^4
-  for (std::size_t mode = 0; mode < modes_.size(); ++mode) {
-    const Innovation innovation = innovationOf(modes_[mode], measured);
-    const int index = static_cast<int>(mode);
-    distances[index] = innovation.squaredDistance();
-    determinants[index] = innovation.covariance.determinant();
-  }
-  const auto possible = probabilities_.array() > 0.0;
-  const double nearest =
-      possible.select(distances.array(), std::numeric_limits<double>::infinity()).minCoeff();
-  const ModeVector densities =
-      ((nearest - distances.array()) / 2.0).exp() / determinants.array().sqrt();
-  return {possible.select(densities.array(), 0.0), -0.5 * nearest - std::log(2.0 * kPi)};
 }
 
 void ImmFilter::combine() {

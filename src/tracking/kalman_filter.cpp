@@ -43,6 +43,11 @@ Innovation innovationOf(const StateEstimate& predicted, const PositionMeasuremen
           predicted.covariance.topLeftCorner<2, 2>() + measured.covariance};
 }
 
+Innovation innovationOf(const StateEstimate& predicted, const MeasuredVelocity& measured) {
+  return {measured.velocity - predicted.mean.segment<2>(2),
+          predicted.covariance.block<2, 2>(2, 2) + measured.covariance};
+}
+
 StateEstimate predict(const StateEstimate& estimate, const LinearMotion& motion) {
   // With the position p and the rest r of the state, a motion is p' = p + A r and r' = B r.
   const Eigen::Matrix<double, 2, 4> a = motion.transition.topRightCorner<2, 4>();
@@ -83,6 +88,21 @@ StateEstimate update(const StateEstimate& predicted, const PositionMeasurement& 
   result.covariance.topRightCorner<2, 4>() = kept * cross;
   result.covariance.bottomRightCorner<4, 4>() =
       predicted.covariance.bottomRightCorner<4, 4>() - gain * cross;
+  symmetrize(result.covariance);
+  return result;
+}
+
+StateEstimate update(const StateEstimate& predicted, const MeasuredVelocity& measured) {
+  const Innovation innovation = innovationOf(predicted, measured);
+  const Eigen::Matrix<double, kTrackState, 2> of_velocity = predicted.covariance.middleCols<2>(2);
+  const Eigen::Matrix<double, kTrackState, 2> gain = of_velocity * innovation.covariance.inverse();
+  // Joseph's form: the covariance stays positive however sure the measurement is.
+  TrackCovariance kept = TrackCovariance::Identity();
+  kept.middleCols<2>(2) -= gain;
+  StateEstimate result;
+  result.mean = predicted.mean + gain * innovation.residual;
+  result.covariance = kept * predicted.covariance * kept.transpose() +
+                      gain * measured.covariance * gain.transpose();
   symmetrize(result.covariance);
   return result;
 }

@@ -164,6 +164,10 @@ void MotionEvidence::miss(double detection_probability, const MotionEvidenceOpti
   addAgainstChance(std::log(1.0 - detection_probability), options);
 }
 
+void MotionEvidence::addVelocity(double ratio, const MotionEvidenceOptions& options) {
+  addAgainstStanding(clamp(ratio, options.scan_limit), options);
+}
+
 void MotionEvidence::addAgainstStanding(double ratio, const MotionEvidenceOptions& options) {
   const bool came_to_rest = against_standing_ > 0.0 && against_standing_ + ratio <= 0.0;
   if (came_to_rest) {

@@ -181,6 +181,10 @@ void MotionLikelihoodOptions::visit(OptionVisitor& visitor) {
                   "that what stands seems to move: what is seen of it slides, or echoes of "
                   "different things were joined"},
                  apparent_motion, kProbability);
+  visitor.number({"wrong_velocity", "1",
+                  "the same of what a sensor measures the velocity of: what it measured is of "
+                  "something else"},
+                 wrong_velocity, kProbability);
   visitor.number({"moving_prior", "1",
                   "that a target that the map does not know as static moves, before its beams are "
                   "asked"},

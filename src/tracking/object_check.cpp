@@ -10,8 +10,22 @@ namespace datmo {
 
 namespace {
 
+/// m/s: a sensor that measures more is broken.
+constexpr double kMaxObjectSpeed = 100.0;
+
 /// s, before or after its list's stamp: no sensor takes as long for one measurement.
 constexpr double kMaxDelay = 10.0;
+
+bool isVelocity(const MeasuredVelocity& measured) {
+  // NaN compares false with everything.
+  return measured.velocity.norm() <= kMaxObjectSpeed && isCovariance(measured.covariance);
+}
+
+/// Of two perpendicular axes that are turned by `rotation`.
+Eigen::Matrix2d turned(const Eigen::Matrix2d& rotation, const Eigen::Matrix2d& covariance) {
+  const Eigen::Matrix2d result = rotation * covariance * rotation.transpose();
+  return 0.5 * (result + result.transpose());
+}
 
 bool areSides(const std::array<double, kBoxSides>& variances) {
   return std::all_of(variances.begin(), variances.end(),
@@ -29,15 +43,19 @@ bool isValid(const Object& object) {
          std::isfinite(object.log_odds) && std::isfinite(object.motion_log_odds) &&
          isAmount(object.height) && std::abs(object.delay) <= kMaxDelay &&
          isShare(object.moving_fraction) && isShare(object.class_probability) &&
-         isCovariance(object.position_covariance);
+         isCovariance(object.position_covariance) &&
+         (!object.velocity || isVelocity(*object.velocity));
 }
 
 Object transformed(const Pose2& frame_in_parent, const Object& object) {
   Object result = object;
   result.box.center = frame_in_parent * object.box.center;
   const Eigen::Matrix2d rotation = frame_in_parent.rotation();
-  const Eigen::Matrix2d turned = rotation * object.position_covariance * rotation.transpose();
-  result.position_covariance = 0.5 * (turned + turned.transpose());
+  result.position_covariance = turned(rotation, object.position_covariance);
+  if (object.velocity) {
+    result.velocity = {rotation * object.velocity->velocity,
+                       turned(rotation, object.velocity->covariance)};
+  }
   for (Point2& point : result.points) {
     point = frame_in_parent * point;
   }

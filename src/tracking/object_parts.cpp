@@ -77,6 +77,10 @@ Object unionOf(const std::vector<const Object*>& parts, double heading) {
     if (part->position_covariance.trace() > whole.position_covariance.trace()) {
       whole.position_covariance = part->position_covariance;
     }
+    if (!whole.velocity || (part->velocity && part->velocity->covariance.trace() <
+                                                  whole.velocity->covariance.trace())) {
+      whole.velocity = part->velocity;
+    }
     whole.dynamic_state = std::max(whole.dynamic_state, part->dynamic_state);
     whole.height = std::max(whole.height, part->height);
     whole.log_odds = std::max(whole.log_odds, part->log_odds);

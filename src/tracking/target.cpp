@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "datmo_fusion/common/square.h"
 #include "datmo_fusion/tracking/association_scan.h"
 
 namespace datmo {
@@ -101,6 +102,9 @@ Target::Target(const Object& object, std::size_t index, std::uint64_t number,
       sensors_(std::make_shared<const std::vector<std::string>>(object.sensors)) {
   class_.update(object.object_class, object.class_probability);
   seen_points_.add(object, object.delay, options.motion_likelihood.window);
+  if (object.velocity) {
+    takeVelocity(*object.velocity, options);
+  }
 }
 
 void Target::predict(double seconds, const ImmSteps& steps, const TargetOptions& options) {
@@ -122,6 +126,9 @@ void Target::update(const Observation& observation, std::size_t index, double de
       std::clamp(likelihood + std::log(detection_probability) - observation.log_density,
                  -kScanLimit, kScanLimit);
   filter_.update(measured, options.filter.min_probability);
+  if (object.velocity) {
+    takeVelocity(*object.velocity, options);
+  }
   const Point2 shift = box_.update(object, since_update_, options.box);
   filter_.shift(shift);
   evidence_.shift(shift);
@@ -157,10 +164,13 @@ bool Target::movesByBeams(const ScanHistory& history, Stamp now,
   const StateEstimate& estimate = filter_.estimate();
   const MovingBody body{box(), box_.sizeVariance(), estimate.mean.segment<2>(2),
                         0.5 * estimate.covariance.block<2, 2>(2, 2).trace()};
-  const BeamEvidence beams =
+  BeamEvidence beams =
       beamEvidence(history, seen_points_, body, now, age_, options.motion_likelihood);
-  if (beams.observed == 0) {
+  if (beams.observed == 0 && !velocity_measured_) {
     return evidentlyMoves(options);
+  }
+  if (velocity_measured_) {
+    beams.log_ratio_to_grazing.reset();  // the end of a beam has no velocity that can be measured
   }
   const Eigen::Vector2d velocity = estimate.mean.segment<2>(2);
   // Few are faster than a class's usual speed: two standard deviations.
@@ -169,7 +179,8 @@ bool Target::movesByBeams(const ScanHistory& history, Stamp now,
                                        options.birth_speed_std};
   const double of_velocity =
       velocityLogRatio(velocity, estimate.covariance.block<2, 2>(2, 2), speed_stds,
-                       options.motion_likelihood.apparent_motion);
+                       velocity_measured_ ? options.motion_likelihood.wrong_velocity
+                                          : options.motion_likelihood.apparent_motion);
   const double log_ratio =
       motion_log_odds_ +
       motionLogRatio(beams, of_velocity, options.motion_likelihood.grazing_share);
@@ -210,6 +221,22 @@ void Target::confirm(std::uint32_t id, bool moves) {
   id_ = id;
   moving_ = moves;
   seen_points_.clear();
+}
+
+/// What was measured is its own velocity, or of something else: then any is as likely as that of a
+/// new object, and it is left out where that explains it better.
+void Target::takeVelocity(const MeasuredVelocity& measured, const TargetOptions& options) {
+  const double wrong = options.motion_likelihood.wrong_velocity;
+  const Eigen::Matrix2d of_new = square(options.birth_speed_std) * Eigen::Matrix2d::Identity();
+  const double own = filter_.logLikelihood(measured);
+  const double other = Innovation{measured.velocity, of_new + measured.covariance}.logLikelihood();
+  if (own + std::log(1.0 - wrong) < other + std::log(wrong)) {
+    return;
+  }
+  velocity_measured_ = true;
+  const double standing = Innovation{measured.velocity, measured.covariance}.logLikelihood();
+  evidence_.addVelocity(own - standing, options.evidence);
+  filter_.update(measured, options.filter.min_probability);
 }
 
 /// Between the two speeds it stays as it was.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include <Eigen/LU>
 
@@ -13,37 +12,15 @@
 namespace datmo {
 namespace {
 
-constexpr double kMinDisparitySigmas = 3.0;
 constexpr int kMaxIterations = 20;
 constexpr double kConverged = 1e-6;  // m/s
 
-void check(const StereoPair& pair) {
-  const bool valid = pair.left.focal_x > 0.0 && pair.left.focal_y > 0.0 && pair.baseline > 0.0 &&
-                     pair.flow_sigma > 0.0 && pair.disparity_sigma > 0.0;
-  if (!valid) {
-    throw std::invalid_argument(
-        "stereo pair: focal lengths, baseline, flow_sigma and disparity_sigma must be more than 0");
-  }
-}
-
-bool usable(const StereoPair& pair, const StereoFeature& feature) {
-  return feature.pixel.allFinite() && std::isfinite(feature.disparity) &&
-         feature.disparity >= kMinDisparitySigmas * pair.disparity_sigma;
-}
-
-Eigen::Vector3d triangulate(const StereoPair& pair, const StereoFeature& feature) {
-  const PinholeCamera& camera = pair.left;
-  const double depth = camera.focal_x * pair.baseline / feature.disparity;
-  return {depth * (feature.pixel.x() - camera.center_x) / camera.focal_x,
-          depth * (feature.pixel.y() - camera.center_y) / camera.focal_y, depth};
-}
-
 /// Of a triangulated point, in the optical frame; the depth is f b / d.
-Eigen::Matrix3d pointCovariance(const StereoPair& pair, const Eigen::Vector3d& point,
+Eigen::Matrix3d pointCovariance(const StereoRig& rig, const Eigen::Vector3d& point,
                                 double disparity, double pixel_sigma) {
-  const Eigen::Vector3d by_disparity = -point / disparity * pair.disparity_sigma;
-  const Eigen::Vector3d by_pixel(point.z() / pair.left.focal_x * pixel_sigma,
-                                 point.z() / pair.left.focal_y * pixel_sigma, 0.0);
+  const Eigen::Vector3d by_disparity = -point / disparity * rig.disparity_sigma;
+  const Eigen::Vector3d by_pixel(point.z() / rig.left.focal_x * pixel_sigma,
+                                 point.z() / rig.left.focal_y * pixel_sigma, 0.0);
   Eigen::Matrix3d covariance = by_disparity * by_disparity.transpose();
   covariance.diagonal() += by_pixel.cwiseAbs2();
   return covariance;
@@ -53,20 +30,11 @@ Eigen::Matrix3d turned(const Eigen::Isometry3d& pose, const Eigen::Matrix3d& cov
   return pose.linear() * covariance * pose.linear().transpose();
 }
 
-void check(const SharedVelocityOptions& options) {
-  const bool valid = options.outlier_share > 0.0 && options.outlier_share < 1.0 &&
-                     options.max_speed > 0.0 && options.min_inliers > 0.0;
-  if (!valid) {
-    throw std::invalid_argument(
-        "shared velocity: outlier_share must be within (0, 1), max_speed and min_inliers more than "
-        "0");
-  }
-}
-
 /// A point's velocity over the ground, ready to be weighed.
 struct Sample {
   Eigen::Vector2d velocity;
   Eigen::Matrix2d information;
+  Eigen::Matrix2d common_covariance;
   double density;  ///< of the normal distribution at its mean
 };
 
@@ -76,6 +44,7 @@ std::vector<Sample> samplesOf(const std::vector<PointVelocity>& points) {
   for (const PointVelocity& point : points) {
     const Eigen::Matrix2d covariance = point.covariance.topLeftCorner<2, 2>();
     samples.push_back({point.velocity.head<2>(), covariance.inverse(),
+                       point.common_covariance.topLeftCorner<2, 2>(),
                        1.0 / (2.0 * kPi * std::sqrt(covariance.determinant()))});
   }
   return samples;
@@ -158,35 +127,59 @@ double excessScatter(const std::vector<Sample>& samples, const VelocityMixture& 
   return degrees_of_freedom > 0.0 ? std::max(1.0, sum / degrees_of_freedom) : 1.0;
 }
 
+/// Of the inliers, on average: their number does not lessen it.
+Eigen::Matrix2d commonCovariance(const std::vector<Sample>& samples, const Mixture& mixture,
+                                 const SharedVelocity& mean) {
+  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  double weights = 0.0;
+  for (const Sample& sample : samples) {
+    const double weight = mixture.inlierProbability(sample, mean.velocity);
+    sum += weight * sample.common_covariance;
+    weights += weight;
+  }
+  return sum / weights;
+}
+
 }  // namespace
 
-std::optional<PointVelocity> pointVelocity(const StereoPair& pair, const StereoFeature& from,
+void SharedVelocityOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"outlier_share", "1",
+                  "features in an object's box that are not the object's, or mismatched"},
+                 outlier_share, {0.001, 0.999});
+  visitor.number({"max_speed", "m/s", "velocities of outliers are uniform up to it"}, max_speed,
+                 {0.1, 200.0});
+  visitor.number({"min_inliers", "1",
+                  "sum of the features' probabilities to be the object's, below which its velocity "
+                  "is not known"},
+                 min_inliers, {0.1, 1000.0});
+}
+
+std::optional<PointVelocity> pointVelocity(const StereoRig& rig, const StereoFeature& from,
                                            const Exposure& earlier, const StereoFeature& to,
                                            const Exposure& later) {
-  check(pair);
+  checkRig(rig);
   const double seconds = secondsBetween(earlier.stamp, later.stamp);
-  if (seconds <= 0.0 || !usable(pair, from) || !usable(pair, to) ||
+  if (seconds <= 0.0 || !isUsable(rig, from) || !isUsable(rig, to) ||
       !earlier.camera_in_fixed.matrix().allFinite() ||
       !later.camera_in_fixed.matrix().allFinite()) {
     return std::nullopt;
   }
-  const Eigen::Vector3d first = triangulate(pair, from);
-  const Eigen::Vector3d second = triangulate(pair, to);
+  const Eigen::Vector3d first = triangulate(rig, from);
+  const Eigen::Vector3d second = triangulate(rig, to);
   PointVelocity result;
   result.position = later.camera_in_fixed * second;
   result.velocity = (result.position - earlier.camera_in_fixed * first) / seconds;
   // The first pixel says which point is meant, and has no error: the flow has it.
   result.covariance =
-      (turned(earlier.camera_in_fixed, pointCovariance(pair, first, from.disparity, 0.0)) +
-       turned(later.camera_in_fixed,
-              pointCovariance(pair, second, to.disparity, pair.flow_sigma))) /
+      (turned(earlier.camera_in_fixed, pointCovariance(rig, first, from.disparity, 0.0)) +
+       turned(later.camera_in_fixed, pointCovariance(rig, second, to.disparity, rig.flow_sigma))) /
       (seconds * seconds);
   return result;
 }
 
 std::optional<SharedVelocity> sharedVelocity(const std::vector<PointVelocity>& points,
                                              const SharedVelocityOptions& options) {
-  check(options);
+  checkOptions(options);
   if (points.empty()) {
     return std::nullopt;
   }
@@ -202,7 +195,7 @@ std::optional<SharedVelocity> sharedVelocity(const std::vector<PointVelocity>& p
     return std::nullopt;
   }
   mean.covariance *= excessScatter(samples, mixture, mean);
-  mean.covariance += options.common_covariance;
+  mean.covariance += commonCovariance(samples, mixture, mean);
   return mean;
 }
 

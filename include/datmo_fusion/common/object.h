@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,12 @@ inline constexpr std::size_t kBoxSides = 4;
 /// Variance of a side that was not seen: the object may extend farther, unseen.
 inline constexpr double kHiddenSide = std::numeric_limits<double>::infinity();
 
+/// How fast something moves over the ground, as a sensor measured it on its surface.
+struct MeasuredVelocity {
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();        ///< m/s, axes of the list's frame
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< m^2/s^2, positive definite
+};
+
 /// One object that a sensor sees in one measurement, without memory of earlier ones.
 struct Object {
   Box2 box;                                                           ///< frame of the list
@@ -49,7 +56,8 @@ struct Object {
   ObjectClass object_class = ObjectClass::kUnknown;
   double class_probability = 0.0;  ///< 0 to 1
   DynamicState dynamic_state = DynamicState::kUnknown;
-  double moving_fraction = 0.0;  ///< 0 to 1, share of the points where the map is free
+  std::optional<MeasuredVelocity> velocity;  ///< none: not measured
+  double moving_fraction = 0.0;              ///< 0 to 1, share of the points where the map is free
   /// Logarithm of the odds that it is an object at all, over those of the average detection, by
   /// as its detector reports it; 0: not reported.
   double log_odds = 0.0;

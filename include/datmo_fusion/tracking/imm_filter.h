@@ -57,13 +57,16 @@ class ImmFilter {
   /// are after a missed detection.
   void predict(const ImmStep& step);
 
-  /// Each mode is updated with the measurement and weighted by how well it had predicted it; none
-  /// that was possible falls below `min_probability`, so that it can come back. Returns the
-  /// logLikelihood of the measurement, as it was before.
+  /// Each mode is updated with the measurement, in the fixed frame, and weighted by how well it had
+  /// predicted it; none that was possible falls below `min_probability`, so that it can come back.
+  /// Returns the logLikelihood of the measurement, as it was before.
   double update(const PositionMeasurement& measured, double min_probability);
 
-  /// Logarithm of the density of a measurement over all modes, of 1/m^2.
+  double update(const MeasuredVelocity& measured, double min_probability);
+
+  /// Logarithm of the density of a measurement over all modes, of 1/m^2 or 1/(m/s)^2.
   double logLikelihood(const PositionMeasurement& measured) const;
+  double logLikelihood(const MeasuredVelocity& measured) const;
 
   /// Moves the position of all modes (m, fixed frame): not the object has moved, but the point of
   /// it that is followed.
@@ -81,9 +84,13 @@ class ImmFilter {
   /// How well the modes had predicted a measurement.
   struct ModeLikelihoods {
     ModeVector relative;  ///< of each mode that is possible, over exp(log_scale); 0 for the others
-    double log_scale;     ///< of 1/m^2
+    double log_scale;     ///< of 1/m^2 or 1/(m/s)^2
   };
-  ModeLikelihoods likelihoodsOf(const PositionMeasurement& measured) const;
+  template <typename Measurement>
+  ModeLikelihoods likelihoodsOf(const Measurement& measured) const;
+  template <typename Measurement>
+  double updateModes(const Measurement& measured, double min_probability, bool learn);
+  double logOverModes(const ModeLikelihoods& likelihoods) const;
   void combine();
 
   std::array<StateEstimate, kMotionModes> modes_;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/pose2.h"
 #include "datmo_fusion/tracking/target_motion.h"
 #include "datmo_fusion/tracking/track.h"
@@ -26,19 +27,20 @@ struct PositionMeasurement {
 /// than 0: other coordinates of the same state.
 StateEstimate carriedOn(const StateEstimate& estimate, double seconds);
 
-/// Innovation: measurement minus prediction.
+/// Innovation: measurement minus prediction, of a position (m) or of a velocity (m/s).
 struct Innovation {
-  Eigen::Vector2d residual;    ///< m, measured minus predicted
-  Eigen::Matrix2d covariance;  ///< m^2, of the residual
+  Eigen::Vector2d residual;    ///< measured minus predicted
+  Eigen::Matrix2d covariance;  ///< of the residual
 
   /// Mahalanobis distance squared; chi-square with two degrees of freedom where the models hold.
   double squaredDistance() const;
 
-  /// Logarithm of the normal density of the residual, of 1/m^2.
+  /// Logarithm of the normal density of the residual, of 1/m^2 or 1/(m/s)^2.
   double logLikelihood() const;
 };
 
 Innovation innovationOf(const StateEstimate& predicted, const PositionMeasurement& measured);
+Innovation innovationOf(const StateEstimate& predicted, const MeasuredVelocity& measured);
 
 StateEstimate predict(const StateEstimate& estimate, const LinearMotion& motion);
 
@@ -47,5 +49,8 @@ StateEstimate predict(const StateEstimate& estimate, const LinearMotion& motion)
 /// and the result stays positive without the cost of Joseph's form (Bar-Shalom, Li, Kirubarajan
 /// 2001, 5.2.3).
 StateEstimate update(const StateEstimate& predicted, const PositionMeasurement& measured);
+
+/// The same with a velocity, in the fixed frame's axes.
+StateEstimate update(const StateEstimate& predicted, const MeasuredVelocity& measured);
 
 }  // namespace datmo

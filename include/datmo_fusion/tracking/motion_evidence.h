@@ -71,6 +71,9 @@ class MotionEvidence {
               double moving_log_likelihood, double detection_probability,
               const MotionEvidenceOptions& options);
 
+  /// A sensor measured its velocity, with this log-likelihood ratio of moving against standing.
+  void addVelocity(double ratio, const MotionEvidenceOptions& options);
+
   /// The present scan shows no object of this target, and would have with this probability.
   void miss(double detection_probability, const MotionEvidenceOptions& options);
 

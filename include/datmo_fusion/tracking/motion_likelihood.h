@@ -22,6 +22,7 @@ struct MotionLikelihoodOptions {
   double background = 0.1;             ///< 1
   double grazing_share = 0.1;          ///< 1
   double apparent_motion = 0.1;        ///< 1
+  double wrong_velocity = 0.02;        ///< 1
   double moving_prior = 0.5;           ///< 1
   double clutter_odds = 1.0e4;         ///< 1
   double required_probability = 0.95;  ///< 1

@@ -85,8 +85,9 @@ class Target {
     return evidence_.suffices(filter_.estimate(), options.evidence);
   }
 
-  /// By what all beams of the last scans saw at its positions; `now`: the time of its state. Where
-  /// they saw nothing of them, by its objects alone.
+  /// By its velocity and by what all beams of the last scans saw at its positions; `now`: the time
+  /// of its state. Where they saw nothing of them and no sensor measured its velocity, by its
+  /// objects alone.
   bool movesByBeams(const ScanHistory& history, Stamp now, const TargetOptions& options) const;
 
   /// Two sensors see it now, one of which sees it move (thesis 3.3.3), and nothing that it did
@@ -135,6 +136,7 @@ class Target {
   Track track(const TargetOptions& options) const;
 
  private:
+  void takeVelocity(const MeasuredVelocity& measured, const TargetOptions& options);
   void judgeMotion(const TargetOptions& options);
   bool mayMove(const TargetOptions& options) const {
     return mayBeAsFastAs(filter_.estimate(), options.evidence.speed_significance,
@@ -153,7 +155,8 @@ class Target {
   std::size_t measurement_index_;
   std::uint32_t hits_ = 1;
   bool moving_ = false;
-  bool has_moved_ = false;  ///< as it was seen to, once at least
+  bool has_moved_ = false;          ///< as it was seen to, once at least
+  bool velocity_measured_ = false;  ///< by some sensor, once at least
   double age_ = 0.0;
   double since_update_ = 0.0;
   double height_;

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "fused_sides.h"
 #include "object_sides.h"
+#include <Eigen/LU>
 
 #include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/common/object_turn.h"
@@ -204,6 +206,21 @@ DynamicState combinedState(DynamicState a, DynamicState b) {
   return DynamicState::kUnknown;
 }
 
+/// Of two independent measurements the mean by their information.
+std::optional<MeasuredVelocity> combinedVelocity(const std::optional<MeasuredVelocity>& a,
+                                                 const std::optional<MeasuredVelocity>& b) {
+  if (!a || !b) {
+    return a ? a : b;
+  }
+  const Eigen::Matrix2d weight_of_b = a->covariance * (a->covariance + b->covariance).inverse();
+  const Eigen::Matrix2d covariance = weight_of_b * b->covariance;
+  return MeasuredVelocity{a->velocity + weight_of_b * (b->velocity - a->velocity),
+                          0.5 * (covariance + covariance.transpose())};
+}
+
+/// What the road says of one position is said once, however many sensors see something there.
+double combinedPrior(double a, double b) { return std::abs(a) >= std::abs(b) ? a : b; }
+
 }  // namespace
 
 Object combined(const Object& a, const Object& b) {
@@ -214,9 +231,10 @@ Object combined(const Object& a, const Object& b) {
   // What is seen in part looks lower than it is.
   result.height = std::max(a.height, b.height);
   result.dynamic_state = combinedState(a.dynamic_state, b.dynamic_state);
+  result.velocity = combinedVelocity(a.velocity, b.velocity);
   result.moving_fraction = std::max(a.moving_fraction, b.moving_fraction);
   result.log_odds = a.log_odds + b.log_odds;
-  result.motion_log_odds = a.motion_log_odds + b.motion_log_odds;
+  result.motion_log_odds = combinedPrior(a.motion_log_odds, b.motion_log_odds);
   result.sensors = a.sensors;
   result.sensors.insert(result.sensors.end(), b.sensors.begin(), b.sensors.end());
   std::sort(result.sensors.begin(), result.sensors.end());

@@ -293,6 +293,31 @@ TEST(ObjectCombinationTest, ClassesAreFusedByBayes) {
   EXPECT_DOUBLE_EQ(combined(a, b).class_probability, combined(b, a).class_probability);
 }
 
+TEST(ObjectCombinationTest, VelocitiesAreFusedByTheirInformation) {
+  Object a = pointObject(10.0, 2.0, 0.1);
+  Object b = pointObject(10.0, 2.0, 0.1, "stereo");
+  EXPECT_FALSE(combined(a, b).velocity);
+  a.velocity = MeasuredVelocity{{2.0, 0.0}, Eigen::Matrix2d::Identity()};
+  for (const Object& fused : {combined(a, b), combined(b, a)}) {
+    ASSERT_TRUE(fused.velocity);
+    EXPECT_EQ(fused.velocity->velocity, a.velocity->velocity);
+  }
+  b.velocity = MeasuredVelocity{{6.0, 0.0}, 3.0 * Eigen::Matrix2d::Identity()};
+  const Object fused = combined(a, b);
+  ASSERT_TRUE(fused.velocity);
+  EXPECT_NEAR(fused.velocity->velocity.x(), 3.0, 1e-12);
+  EXPECT_NEAR(fused.velocity->covariance(0, 0), 0.75, 1e-12);
+}
+
+TEST(ObjectCombinationTest, WhatTheRoadSaysCountsOnce) {
+  Object a = pointObject(10.0, 2.0, 0.1);
+  Object b = pointObject(10.0, 2.0, 0.1, "stereo");
+  a.motion_log_odds = -2.0;
+  EXPECT_EQ(combined(a, b).motion_log_odds, -2.0);
+  b.motion_log_odds = -2.0;
+  EXPECT_EQ(combined(a, b).motion_log_odds, -2.0);
+}
+
 TEST(ObjectCombinationTest, MovingWinsThenStatic) {
   using State = DynamicState;
   const std::vector<std::pair<std::array<State, 2>, State>> cases = {

@@ -104,8 +104,9 @@ class TwoTrackers {
     estimate = predict(estimate, motion_);
     if (step % tracker.every == 0) {
       const Point2 noise(random_.normal(tracker.sigma), random_.normal(tracker.sigma));
-      estimate = update(estimate, {truth.head<2>() + noise,
-                                   Eigen::Matrix2d::Identity() * tracker.sigma * tracker.sigma});
+      estimate = update(estimate, PositionMeasurement{
+                                      truth.head<2>() + noise,
+                                      Eigen::Matrix2d::Identity() * tracker.sigma * tracker.sigma});
     }
   }
 

@@ -32,7 +32,8 @@ ImmFilter follow(const std::function<Point2(double)>& path, double seconds,
   for (double time = kPeriod; time < seconds; time += kPeriod) {
     filter.predict(step);
     const Point2 seen = path(time) + Point2(noise(engine), noise(engine));
-    filter.update({seen, Eigen::Matrix2d::Identity() * kSigma * kSigma}, options.min_probability);
+    filter.update(PositionMeasurement{seen, Eigen::Matrix2d::Identity() * kSigma * kSigma},
+                  options.min_probability);
   }
   return filter;
 }
@@ -202,7 +203,8 @@ TEST(Standing, SwitchedOffItHasNoProbability) {
   for (int i = 0; i < 50; ++i) {
     filter.predict(immStep(options, kPeriod));
     EXPECT_EQ(filter.modeProbabilities()[kStanding], 0.0);
-    filter.update({Point2::Zero(), Eigen::Matrix2d::Identity() * 0.01}, options.min_probability);
+    filter.update(PositionMeasurement{Point2::Zero(), Eigen::Matrix2d::Identity() * 0.01},
+                  options.min_probability);
     EXPECT_EQ(filter.modeProbabilities()[kStanding], 0.0);
     EXPECT_NEAR(filter.modeProbabilities().sum(), 1.0, 1e-12);
   }
@@ -226,7 +228,7 @@ TEST(ImmFilter, AShiftMovesThePositionAndNothingElse) {
   for (ImmFilter* each : {&filter, &shifted}) {
     each->predict(step);
     const Point2 seen = Point2(10.0, 0.1) + (each == &shifted ? offset : Point2::Zero());
-    each->update({seen, Eigen::Matrix2d::Identity() * 0.04}, 1e-3);
+    each->update(PositionMeasurement{seen, Eigen::Matrix2d::Identity() * 0.04}, 1e-3);
   }
   TrackState expected = filter.estimate().mean;
   expected.head<2>() += offset;
@@ -256,7 +258,8 @@ TEST(ImmFilter, WhatMayNotBeLearnedEqualsTheFixedTransitions) {
   for (int i = 1; i < 50; ++i) {
     for (ImmFilter* filter : {&fixed, &adaptive}) {
       filter->predict(step);
-      filter->update({Point2(0.02 * i * i, 0.0), Eigen::Matrix2d::Identity() * 0.01}, 1e-3);
+      filter->update(
+          PositionMeasurement{Point2(0.02 * i * i, 0.0), Eigen::Matrix2d::Identity() * 0.01}, 1e-3);
     }
   }
   EXPECT_TRUE(adaptive.modeProbabilities().isApprox(fixed.modeProbabilities(), 1e-3));
@@ -298,6 +301,20 @@ TEST_P(JumpingModes, ErrorsAndInnovationsAreConsistent) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Standing, JumpingModes, testing::Bool());
+
+TEST(ImmFilter, AMeasuredVelocityTellsAWalkerFromWhatStands) {
+  const ImmOptions options;
+  for (const double speed : {0.0, 1.4}) {
+    ImmFilter filter(startAt(Point2::Zero()), priorModeProbabilities(options));
+    const MeasuredVelocity measured{{speed, 0.0}, 0.04 * Eigen::Matrix2d::Identity()};
+    const double expected = filter.logLikelihood(measured);
+    EXPECT_EQ(filter.update(measured, options.min_probability), expected);
+    filter.predict(immStep(options, kPeriod));
+    filter.update(measured, options.min_probability);
+    EXPECT_NEAR(filter.estimate().mean[2], speed, 0.2);
+    EXPECT_EQ(filter.modeProbabilities()[kStanding] > 0.5, speed == 0.0);
+  }
+}
 
 }  // namespace
 }  // namespace datmo

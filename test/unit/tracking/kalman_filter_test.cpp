@@ -27,7 +27,8 @@ TEST(KalmanFilter, UpdateByHand) {
   predicted.covariance.setIdentity();
   predicted.covariance.diagonal().head<2>().setConstant(3.0);
   predicted.covariance(0, 2) = predicted.covariance(2, 0) = 1.5;
-  const StateEstimate updated = update(predicted, {Point2(14.0, 0.0), Eigen::Matrix2d::Identity()});
+  const StateEstimate updated =
+      update(predicted, PositionMeasurement{Point2(14.0, 0.0), Eigen::Matrix2d::Identity()});
   // Gain 3/4 on the position, 1.5/4 on the velocity.
   EXPECT_NEAR(updated.mean[0], 13.0, 1e-12);
   EXPECT_NEAR(updated.mean[2], 3.5, 1e-12);
@@ -40,9 +41,26 @@ TEST(KalmanFilter, InnovationByHand) {
   StateEstimate predicted;
   predicted.covariance = 3.0 * TrackCovariance::Identity();
   const Innovation innovation =
-      innovationOf(predicted, {Point2(2.0, -4.0), Eigen::Matrix2d::Identity()});
+      innovationOf(predicted, PositionMeasurement{Point2(2.0, -4.0), Eigen::Matrix2d::Identity()});
   EXPECT_NEAR(innovation.squaredDistance(), 20.0 / 4.0, 1e-12);
   EXPECT_NEAR(innovation.logLikelihood(), std::log(std::exp(-2.5) / (2.0 * kPi * 4.0)), 1e-12);
+}
+
+TEST(KalmanFilter, VelocityUpdateByHand) {
+  StateEstimate predicted;
+  predicted.mean << 10.0, 0.0, 2.0, 0.0, 0.0, 0.0;
+  predicted.covariance.setIdentity();
+  predicted.covariance(2, 2) = predicted.covariance(3, 3) = 3.0;
+  predicted.covariance(0, 2) = predicted.covariance(2, 0) = 1.5;
+  const StateEstimate updated =
+      update(predicted, MeasuredVelocity{{6.0, 0.0}, Eigen::Matrix2d::Identity()});
+  // Gain 3/4 on the velocity, 1.5/4 on the position.
+  EXPECT_NEAR(updated.mean[2], 5.0, 1e-12);
+  EXPECT_NEAR(updated.mean[0], 11.5, 1e-12);
+  EXPECT_NEAR(updated.covariance(2, 2), 0.75, 1e-12);
+  EXPECT_NEAR(updated.covariance(0, 0), 1.0 - 1.5 * 1.5 / 4.0, 1e-12);
+  EXPECT_NEAR(updated.covariance(0, 2), 1.5 / 4.0, 1e-12);
+  EXPECT_NEAR(updated.covariance(4, 4), 1.0, 1e-12);
 }
 
 /// The same as a measurement of position + delay * velocity, in the textbook's form.
@@ -81,7 +99,8 @@ TEST(KalmanFilter, CovarianceStaysSymmetricAndPositiveWithExtremeMeasurements) {
   for (int i = 0; i < 1000; ++i) {
     const double variance = i % 2 == 0 ? 1e-8 : 1e8;
     estimate = predict(estimate, constantAcceleration(TargetMotionOptions(), 0.05));
-    estimate = update(estimate, {Point2::Zero(), Eigen::Matrix2d::Identity() * variance});
+    estimate = update(estimate,
+                      PositionMeasurement{Point2::Zero(), Eigen::Matrix2d::Identity() * variance});
   }
   EXPECT_TRUE(estimate.covariance.isApprox(estimate.covariance.transpose(), 1e-12));
   const Eigen::SelfAdjointEigenSolver<TrackCovariance> solver(estimate.covariance);
@@ -128,8 +147,8 @@ TEST_P(Consistency, NormalizedErrorsAreChiSquare) {
       truth = motion.transition * truth + drawn(motion.noise);
       const Point2 seen = truth.head<2>() + noise.llt().matrixL() * normal(2);
       estimate = predict(estimate, motion);
-      innovation_sum += innovationOf(estimate, {seen, noise}).squaredDistance();
-      estimate = update(estimate, {seen, noise});
+      innovation_sum += innovationOf(estimate, PositionMeasurement{seen, noise}).squaredDistance();
+      estimate = update(estimate, PositionMeasurement{seen, noise});
     }
     const TrackState error = truth - estimate.mean;
     error_sum += error.dot(estimate.covariance.ldlt().solve(error));

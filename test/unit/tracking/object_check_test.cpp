@@ -23,6 +23,28 @@ TEST(ObjectCheck, TransformTurnsPositionCovarianceAndPoints) {
   EXPECT_TRUE(turned.points[0].isApprox(Point2(10.0, 1.0), 1e-12));
 }
 
+TEST(ObjectCheck, TransformTurnsTheVelocity) {
+  Object object = objectAt(2.0, 0.0);
+  object.velocity = {Eigen::Vector2d(3.0, 0.0), Eigen::Vector2d(4.0, 1.0).asDiagonal()};
+  const Object turned = transformed(Pose2(10.0, 0.0, 0.5 * kPi), object);
+  ASSERT_TRUE(turned.velocity);
+  EXPECT_TRUE(turned.velocity->velocity.isApprox(Point2(0.0, 3.0), 1e-12));
+  const Eigen::Matrix2d expected = Eigen::Vector2d(1.0, 4.0).asDiagonal();
+  EXPECT_TRUE(turned.velocity->covariance.isApprox(expected, 1e-12));
+}
+
+TEST(ObjectCheck, RefusesAVelocityThatCannotBe) {
+  Object object = objectAt(2.0, 0.0);
+  object.velocity = MeasuredVelocity{{3.0, 0.0}, Eigen::Matrix2d::Identity()};
+  EXPECT_TRUE(isValid(object));
+  for (const double speed : {kNan, 1e4}) {
+    object.velocity->velocity = {speed, 0.0};
+    EXPECT_FALSE(isValid(object)) << speed;
+  }
+  object.velocity = MeasuredVelocity{{3.0, 0.0}, -Eigen::Matrix2d::Identity()};
+  EXPECT_FALSE(isValid(object));
+}
+
 TEST(ObjectCheck, TakesAGoodObjectAndRefusesASkewCovariance) {
   Object object = objectAt(1.0, 2.0);
   EXPECT_TRUE(isValid(object));

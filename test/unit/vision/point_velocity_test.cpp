@@ -13,7 +13,7 @@ namespace datmo {
 namespace {
 
 // Focal length times baseline: 200 px m.
-const StereoPair kPair{{500.0, 500.0, 320.0, 240.0}, 0.4, 0.2, 0.5};
+const StereoRig kRig{{500.0, 500.0, 320.0, 240.0}, 0.4, 0.2, 0.5};
 constexpr double kInterval = 0.1;  // s
 
 StereoFeature project(const Eigen::Vector3d& point) {
@@ -45,10 +45,10 @@ PointVelocity measured(const Eigen::Vector3d& point, const Eigen::Vector3d& velo
                        Random& random) {
   StereoFeature from = seen(point, kEarlier);
   StereoFeature to = seen(point + kInterval * velocity, kLater);
-  from.disparity += random.normal(kPair.disparity_sigma);
-  to.disparity += random.normal(kPair.disparity_sigma);
-  to.pixel += Eigen::Vector2d(random.normal(kPair.flow_sigma), random.normal(kPair.flow_sigma));
-  return pointVelocity(kPair, from, kEarlier, to, kLater).value();
+  from.disparity += random.normal(kRig.disparity_sigma);
+  to.disparity += random.normal(kRig.disparity_sigma);
+  to.pixel += Eigen::Vector2d(random.normal(kRig.flow_sigma), random.normal(kRig.flow_sigma));
+  return pointVelocity(kRig, from, kEarlier, to, kLater).value();
 }
 
 /// Features of an object as large as a pedestrian, this far ahead.
@@ -68,7 +68,7 @@ TEST(PointVelocity, IsAsComputedByHand) {
   later.stamp = earlier.stamp + kInterval;
   // 20 m ahead, 0.15 m to the right within 0.1 s: 3.75 px.
   const auto result =
-      pointVelocity(kPair, {{320.0, 240.0}, 10.0}, earlier, {{323.75, 240.0}, 10.0}, later);
+      pointVelocity(kRig, {{320.0, 240.0}, 10.0}, earlier, {{323.75, 240.0}, 10.0}, later);
   ASSERT_TRUE(result);
   EXPECT_TRUE(result->position.isApprox(Eigen::Vector3d(0.15, 0.0, 20.0), 1e-9));
   EXPECT_TRUE(result->velocity.isApprox(Eigen::Vector3d(1.5, 0.0, 0.0), 1e-9));
@@ -82,7 +82,7 @@ TEST(PointVelocity, IsAsComputedByHand) {
 TEST(PointVelocity, OwnMotionIsTakenOut) {
   const Eigen::Vector3d point(15.0, 3.0, 0.7);
   const auto result =
-      pointVelocity(kPair, seen(point, kEarlier), kEarlier, seen(point, kLater), kLater);
+      pointVelocity(kRig, seen(point, kEarlier), kEarlier, seen(point, kLater), kLater);
   ASSERT_TRUE(result);
   EXPECT_LT(result->velocity.norm(), 1e-6);
   EXPECT_TRUE(result->position.isApprox(point, 1e-9));
@@ -106,11 +106,11 @@ TEST(PointVelocity, BadInputGivesNothing) {
   const StereoFeature feature{{320.0, 240.0}, 10.0};
   const StereoFeature far{{320.0, 240.0}, 1.4};  // less than 3 * 0.5 px
   const StereoFeature hole{{320.0, 240.0}, std::numeric_limits<double>::quiet_NaN()};
-  EXPECT_FALSE(pointVelocity(kPair, far, kEarlier, feature, kLater));
-  EXPECT_FALSE(pointVelocity(kPair, feature, kEarlier, hole, kLater));
-  EXPECT_FALSE(pointVelocity(kPair, feature, kEarlier, feature, kEarlier)) << "no time between";
-  EXPECT_FALSE(pointVelocity(kPair, feature, kLater, feature, kEarlier)) << "time runs back";
-  StereoPair no_baseline = kPair;
+  EXPECT_FALSE(pointVelocity(kRig, far, kEarlier, feature, kLater));
+  EXPECT_FALSE(pointVelocity(kRig, feature, kEarlier, hole, kLater));
+  EXPECT_FALSE(pointVelocity(kRig, feature, kEarlier, feature, kEarlier)) << "no time between";
+  EXPECT_FALSE(pointVelocity(kRig, feature, kLater, feature, kEarlier)) << "time runs back";
+  StereoRig no_baseline = kRig;
   no_baseline.baseline = 0.0;
   EXPECT_THROW(pointVelocity(no_baseline, feature, kEarlier, feature, kLater),
                std::invalid_argument);
@@ -147,20 +147,22 @@ TEST(SharedVelocity, CovarianceIsHonestWithOutliers) {
 
 TEST(SharedVelocity, WhatAllShareDoesNotAverageOut) {
   Random random(4);
-  const auto points = pedestrian(8.0, Eigen::Vector3d::Zero(), 20, random);
-  SharedVelocityOptions options;
-  const auto independent = sharedVelocity(points, options);
-  options.common_covariance = 0.25 * Eigen::Matrix2d::Identity();
-  const auto common = sharedVelocity(points, options);
+  auto points = pedestrian(8.0, Eigen::Vector3d::Zero(), 20, random);
+  const auto independent = sharedVelocity(points, SharedVelocityOptions());
+  for (PointVelocity& point : points) {
+    point.common_covariance = 0.25 * Eigen::Matrix3d::Identity();
+  }
+  const auto common = sharedVelocity(points, SharedVelocityOptions());
   ASSERT_TRUE(independent && common);
-  EXPECT_TRUE(common->covariance.isApprox(independent->covariance + options.common_covariance));
+  const Eigen::Matrix2d expected = independent->covariance + 0.25 * Eigen::Matrix2d::Identity();
+  EXPECT_TRUE(common->covariance.isApprox(expected));
 }
 
 TEST(SharedVelocity, TooFewThatAgreeGiveNothing) {
   EXPECT_FALSE(sharedVelocity({}, SharedVelocityOptions()));
   Random random(5);
   EXPECT_FALSE(
-      sharedVelocity(pedestrian(8.0, Eigen::Vector3d::Zero(), 2, random), SharedVelocityOptions()));
+      sharedVelocity(pedestrian(8.0, Eigen::Vector3d::Zero(), 1, random), SharedVelocityOptions()));
 }
 
 TEST(SharedVelocity, OptionsOutOfRangeAreRefused) {

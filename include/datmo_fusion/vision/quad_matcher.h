@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/vision/camera_motion.h"
+
+namespace cv {
+class Mat;
+}
+
+namespace datmo {
+
+struct QuadMatcherOptions {
+  int max_features = 1500;
+  double min_distance = 5.0;    ///< px
+  double min_quality = 0.005;   ///< 1
+  int window = 15;              ///< px
+  int pyramid_levels = 3;       ///< 1
+  double max_closure = 0.5;     ///< px
+  double max_row_offset = 1.0;  ///< px
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Finds features of the newest image pair in the one before: corners of the left image are
+/// followed to the right one, to the right and the left one before, and back to where they came
+/// from. Who does not come back, or not along the rows of the rectified images, is left out.
+/// Sources: Shi and Tomasi, Good features to track, 1994; Bouguet, Pyramidal implementation of the
+/// Lucas Kanade feature tracker, 2000; the circle of Geiger, Ziegler and Stiller, StereoScan, 2011.
+class QuadMatcher {
+ public:
+  /// Throws OptionError.
+  explicit QuadMatcher(const QuadMatcherOptions& options);
+  ~QuadMatcher();
+
+  /// Rectified, 8 bit gray, of the same size (else std::invalid_argument). Nothing for the first
+  /// pair, and for the first one of another size.
+  std::vector<FeatureQuad> match(const cv::Mat& left, const cv::Mat& right);
+
+  /// Forgets the images, as after construction.
+  void reset();
+
+ private:
+  struct Pyramids;
+
+  QuadMatcherOptions options_;
+  std::unique_ptr<Pyramids> last_;  ///< null: no images yet
+};
+
+}  // namespace datmo

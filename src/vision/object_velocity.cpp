@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/vision/object_velocity.h"
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+namespace datmo {
+
+namespace {
+
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+/// Index of the object that a position on the ground belongs to.
+std::size_t ownerOf(const Point2& position, double margin, const std::vector<Object>& objects) {
+  std::size_t owner = kNone;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const Object& object = objects[i];
+    const Box2& box = object.box;
+    const Point2 in_box = box.center.inverse() * position;
+    const double reach = margin + std::sqrt(object.position_covariance.diagonal().maxCoeff());
+    const bool inside = std::abs(in_box.x()) <= 0.5 * box.length + reach &&
+                        std::abs(in_box.y()) <= 0.5 * box.width + reach;
+    if (inside && in_box.norm() < nearest) {
+      nearest = in_box.norm();
+      owner = i;
+    }
+  }
+  return owner;
+}
+
+}  // namespace
+
+void ObjectVelocityOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"margin", "m", "points so far outside of an object's box may be on it"}, margin,
+                 {0.0, 5.0});
+  visitor.number({"min_height", "m", "lower points are on the road, or on a shadow on it"},
+                 min_height, {0.0, 2.0});
+  visitor.number({"max_height", "m", "higher ones are on no road user"}, max_height, {0.5, 20.0});
+  shared.visit(visitor);
+}
+
+void measureVelocities(const std::vector<PointVelocity>& points,
+                       const ObjectVelocityOptions& options, std::vector<Object>& objects) {
+  checkOptions(options);
+  std::vector<std::vector<PointVelocity>> on_object(objects.size());
+  for (const PointVelocity& point : points) {
+    const double height = point.position.z();
+    if (height < options.min_height || height > options.max_height) {
+      continue;
+    }
+    const std::size_t owner = ownerOf(point.position.head<2>(), options.margin, objects);
+    if (owner != kNone) {
+      on_object[owner].push_back(point);
+    }
+  }
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const std::optional<SharedVelocity> shared = sharedVelocity(on_object[i], options.shared);
+    objects[i].velocity =
+        shared ? std::make_optional(MeasuredVelocity{shared->velocity, shared->covariance})
+               : std::nullopt;
+  }
+}
+
+}  // namespace datmo
