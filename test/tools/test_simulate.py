@@ -179,8 +179,8 @@ class Stereo(unittest.TestCase):
 
     def test_further_topics(self):
         self.assertEqual(sorted(set(self.messages) - set(self.without)), [
-            "/ground_truth/echoes", "/stereo/left/camera_info", "/stereo/points2",
-            "/stereo/right/camera_info"])
+            "/ground_truth/echoes", "/stereo/left/camera_info", "/stereo/point_velocities",
+            "/stereo/points2", "/stereo/right/camera_info"])
 
     def test_other_sensors_measure_the_same(self):
         for topic in ("/echoes", "/odometry", "/tf", "/ground_truth/pose"):
@@ -198,6 +198,16 @@ class Stereo(unittest.TestCase):
             self.assertEqual(len(points), cloud.width)
             self.assertGreater(len(points), 20000)
             self.assertTrue(np.all((points[:, 2] > 2.999) & (points[:, 2] < 60.001)))
+
+    def test_points_with_velocity_come_before_the_points(self):
+        clouds = self.messages["/stereo/point_velocities"]
+        self.assertEqual([(message.header.stamp, time) for message, time in clouds],
+                         [(message.header.stamp, time)
+                          for message, time in self.messages["/stereo/points2"]])
+        self.assertEqual(clouds[0][0].width, 0)
+        for cloud, _ in clouds[1:]:
+            self.assertEqual(cloud.header.frame_id, "base_link")
+            self.assertGreater(cloud.width, 50)
 
     def test_camera_infos_have_the_geometry(self):
         for (left, _), (right, _), (cloud, _) in zip(*(self.messages[topic] for topic in (

@@ -7,11 +7,13 @@
 #include <utility>
 
 #include "output_bag.h"
+#include "simulator/feature_flow.h"
 #include "simulator/simulation_messages.h"
 #include "simulator/stereo_messages.h"
 #include <tf2_msgs/TFMessage.h>
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/convert/velocity_conversion.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo::simulator {
@@ -41,7 +43,11 @@ class Recording {
         scanner_(scene.options.scanner, stream("scanner")),
         odometer_(scene.options.odometer, stream("odometer")) {
     if (scene.options.stereo.enabled) {
-      stereo_.emplace(scene.options.stereo, static_cast<std::uint64_t>(scene.options.seed));
+      const auto seed = static_cast<std::uint64_t>(scene.options.seed);
+      stereo_.emplace(scene.options.stereo, seed);
+      if (scene.options.stereo.features) {
+        features_.emplace(scene.options.stereo, seed);
+      }
     }
   }
 
@@ -121,6 +127,10 @@ class Recording {
     const Stamp ready = stamp + scene_.options.stereo.latency;
     write("/stereo/left/camera_info", ready, toLeftInfo(scene_.options.stereo, stamp));
     write("/stereo/right/camera_info", ready, toRightInfo(scene_.options.stereo, stamp));
+    if (features_) {
+      bag_.write("/stereo/point_velocities", toTime(ready),
+                 *toMessage(features_->measure(scene_.world, time), stamp, "base_link"));
+    }
     write("/stereo/points2", ready, toCloud(points, stamp));
   }
 
@@ -130,6 +140,7 @@ class Recording {
   LaserScanner scanner_;
   Odometer odometer_;
   std::optional<StereoCamera> stereo_;
+  std::optional<FeatureFlow> features_;
 };
 
 rosbag::CompressionType compressionType(const std::string& name) {

@@ -47,6 +47,11 @@ struct StereoCameraOptions {
   double outlier_share = 0.01;       ///< 0 to 1
   int outlier_patch = 4;             ///< px
   double pitch_shake = 0.3;          ///< deg
+  bool features = true;
+  int feature_spacing = 5;            ///< px
+  double feature_share = 0.06;        ///< 0 to 1
+  double feature_noise = 0.12;        ///< px
+  double wrong_feature_share = 0.05;  ///< 0 to 1
 
   void visit(OptionVisitor& visitor);
 
