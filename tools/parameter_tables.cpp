@@ -15,6 +15,7 @@
 #include "datmo_fusion/ros/stage/lidar_grid_stage.h"
 #include "datmo_fusion/ros/stage/moving_objects_stage.h"
 #include "datmo_fusion/ros/stage/object_fusion_stage.h"
+#include "datmo_fusion/ros/stage/point_velocity_stage.h"
 #include "datmo_fusion/ros/stage/road_border_stage.h"
 #include "datmo_fusion/ros/stage/static_points_stage.h"
 #include "datmo_fusion/ros/stage/stereo_grid_stage.h"
@@ -67,6 +68,7 @@ std::vector<Section> sections() {
           section<RoadBorderStageOptions>("`road_border`"),
           section<MovingObjectsStageOptions>("`moving_objects`"),
           section<StaticPointsStageOptions>("`static_points`"),
+          section<PointVelocityStageOptions>("`point_velocity`"),
           section<StereoObjectsStageOptions>("`stereo_objects`"),
           section<CloudObjectsStageOptions>("`cloud_objects`"),
           section<ObjectFusionStageOptions>("`object_fusion`"),

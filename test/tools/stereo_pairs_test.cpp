@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which messages of two cameras belong together.
-#include "run_bag/stereo_pairs.h"
+#include "datmo_fusion/ros/stage/stereo_pairs.h"
 
 #include <boost/make_shared.hpp>
 #include <gtest/gtest.h>

@@ -16,6 +16,7 @@ const std::vector<std::string> kInputTopics = {
     "imu",
     "twist",
     "points2",
+    "point_velocities",
     "left_image",
     "twist_with_covariance",
     "joint_states",
@@ -55,7 +56,7 @@ constexpr char kFooter[] =
     "A topic of the bag under another name is given as TOPIC:=TOPIC_OF_THE_BAG, where TOPIC is\n"
     "scan, cloud (a 3D lidar's, in place of scans), object_cloud (one for --cloud-objects beside\n"
     "scans), echoes, odometry, imu, twist, twist_with_covariance, joint_states, points2,\n"
-    "left_image, right_image, left_camera_info or right_camera_info.\n"
+    "point_velocities, left_image, right_image, left_camera_info or right_camera_info.\n"
     "Exit code: 0 when done; 1 for a command line, yaml file or bag that is wrong or lacks a\n"
     "topic, and when interrupted; 2 when all messages on a topic were refused, no scan could be\n"
     "used or no tracks came out. After 1 and 2 no output bag is left.";

@@ -89,6 +89,7 @@ void BagToGraph::readScans(const InputTopics& topics) {
 }
 
 void BagToGraph::readStereo(const StereoTopics& topics) {
+  on<sensor_msgs::PointCloud2>(topics.velocities, "stereo/point_velocities");
   on<sensor_msgs::PointCloud2>(topics.points, "stereo/points2");
   on<sensor_msgs::Image>(topics.left_image, "stereo/left/image_rect");
   on<sensor_msgs::CameraInfo>(topics.left_info, "stereo/left/camera_info");

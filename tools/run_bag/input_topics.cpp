@@ -62,6 +62,7 @@ StereoTopics stereoTopics(const rosbag::Bag& bag, const Arguments& arguments) {
   if (!arguments.stereo_from_images && holdsTopic(bag, points)) {
     StereoTopics cloud;
     cloud.points = points;
+    cloud.velocities = arguments.inputTopic("point_velocities", "/stereo/point_velocities");
     cloud.right_info = topics.right_info;
     return cloud;
   }
@@ -235,8 +236,8 @@ std::vector<std::string> InputTopics::all() const {
   const std::vector<std::string> motion_topics = motion.all();
   topics.insert(topics.end(), motion_topics.begin(), motion_topics.end());
   for (const std::string& topic :
-       {scan, echoes, cloud, object_cloud, stereo.points, stereo.left_image, stereo.right_image,
-        stereo.left_info, stereo.right_info}) {
+       {scan, echoes, cloud, object_cloud, stereo.points, stereo.velocities, stereo.left_image,
+        stereo.right_image, stereo.left_info, stereo.right_info}) {
     if (!topic.empty()) {
       topics.push_back(topic);
     }

@@ -17,6 +17,7 @@ namespace datmo {
 /// The names that the stereo camera's messages have in the bag; empty: not read.
 struct StereoTopics {
   std::string points;
+  std::string velocities;  ///< points with velocity, beside the points; may hold nothing
   std::string left_image;
   std::string right_image;
   std::string left_info;

@@ -1,29 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stereo_images.h"
 
-#include <array>
-#include <cmath>
-#include <map>
 #include <string>
-#include <vector>
 
 #include <boost/make_shared.hpp>
-#include <cv_bridge/cv_bridge.h>
 #include <image_geometry/stereo_camera_model.h>
 #include <opencv2/imgproc.hpp>
 #include <stereo_image_proc/processor.h>
 
 #include <sensor_msgs/image_encodings.h>
 
+#include "datmo_fusion/ros/convert/stereo_image_conversion.h"
+#include "datmo_fusion/ros/stage/stage_inputs.h"
+
 namespace datmo {
 
 namespace {
 
 namespace encodings = sensor_msgs::image_encodings;
-
-/// Bytes of a pixel, by the encodings that are read.
-const std::map<std::string, std::size_t> kPixelSizes = {
-    {encodings::MONO8, 1}, {encodings::RGB8, 3}, {encodings::BGR8, 3}};
 
 /// Disparities are searched in blocks of so many (OpenCV).
 constexpr int kDisparityBlock = 16;
@@ -52,85 +46,6 @@ std::unique_ptr<stereo_image_proc::StereoProcessor> makeProcessor(
   processor->setP2(static_cast<int>(options.large_change_price));
   processor->setDisp12MaxDiff(options.left_right_difference);
   return processor;
-}
-
-std::string sizeText(std::size_t width, std::size_t height) {
-  return std::to_string(width) + " x " + std::to_string(height);
-}
-
-/// Throws InputError unless the image can be read.
-void checkImage(const sensor_msgs::Image& image) {
-  const auto pixel_size = kPixelSizes.find(image.encoding);
-  if (pixel_size == kPixelSizes.end()) {
-    throw InputError("bad_encoding",
-                     "image of encoding '" + image.encoding + "': expected mono8, rgb8 or bgr8");
-  }
-  const std::size_t row = pixel_size->second * image.width;
-  if (image.width == 0 || image.height == 0 || image.step < row ||
-      image.data.size() != static_cast<std::size_t>(image.step) * image.height) {
-    throw InputError("wrong_size", "image of " + sizeText(image.width, image.height) + " with " +
-                                       std::to_string(image.data.size()) + " bytes in rows of " +
-                                       std::to_string(image.step) + ": expected rows of " +
-                                       std::to_string(row) + " bytes or more, and all of them");
-  }
-}
-
-/// Throws InputError unless the calibration is of the image.
-void checkInfo(const sensor_msgs::CameraInfo& info, const sensor_msgs::Image& image) {
-  if (info.width != image.width || info.height != image.height) {
-    throw InputError("wrong_size", "image of " + sizeText(image.width, image.height) +
-                                       " with a calibration for " +
-                                       sizeText(info.width, info.height) +
-                                       ": expected one for the image's size");
-  }
-  if (info.binning_x > 1 || info.binning_y > 1 || info.roi.width != 0 || info.roi.height != 0) {
-    throw InputError("bad_calibration",
-                     "camera_info with binning or a region of interest:"
-                     " expected whole images");
-  }
-  for (const auto* values : {&info.K[0], &info.P[0]}) {
-    if (!(values[0] > 0.0) || !std::isfinite(values[0])) {
-      throw InputError("bad_calibration", "focal length of " + std::to_string(values[0]) +
-                                              " px: expected more than 0 px (K and P)");
-    }
-  }
-}
-
-/// The two cameras as one. Throws InputError unless they are a rectified stereo pair; the library
-/// would end the process.
-image_geometry::StereoCameraModel modelOf(const sensor_msgs::CameraInfo& left,
-                                          const sensor_msgs::CameraInfo& right) {
-  constexpr std::size_t kFx = 0;
-  constexpr std::size_t kFy = 5;
-  constexpr std::size_t kCy = 6;
-  constexpr std::size_t kTx = 3;
-  for (const std::size_t same : {kFx, kFy, kCy}) {
-    if (left.P[same] != right.P[same]) {
-      throw InputError("bad_calibration",
-                       "P[" + std::to_string(same) + "] is " + std::to_string(left.P[same]) +
-                           " of the left camera and " + std::to_string(right.P[same]) +
-                           " of the right one: expected the same, of a rectified pair");
-    }
-  }
-  if (!(right.P[kTx] < left.P[kTx])) {
-    throw InputError("bad_calibration", "P[3] of the right camera is " +
-                                            std::to_string(right.P[kTx]) +
-                                            ": expected -focal length * baseline, less than 0");
-  }
-  if (left.header.frame_id != right.header.frame_id) {
-    throw InputError("unknown_frame", "cameras in frames '" + left.header.frame_id + "' and '" +
-                                          right.header.frame_id +
-                                          "': expected both in the left camera's (REP 104)");
-  }
-  image_geometry::StereoCameraModel model;
-  model.fromCameraInfo(left, right);
-  return model;
-}
-
-cv::Mat rectified(const cv::Mat& image, const image_geometry::PinholeCameraModel& camera) {
-  cv::Mat result;
-  camera.rectifyImage(image, result, cv::INTER_LINEAR);
-  return result;
 }
 
 }  // namespace
@@ -163,10 +78,7 @@ sensor_msgs::PointCloud2Ptr StereoImages::takeInfo(StereoSide side,
 sensor_msgs::PointCloud2Ptr StereoImages::serve(const std::optional<StereoPair>& pair) {
   if (pairs_.unpaired() > unpaired_) {
     unpaired_ = pairs_.unpaired();
-    monitor_.warned(InputError("unpaired_image",
-                               "an image without its calibration or without one of the other "
-                               "camera: expected all four messages of one stamp, or with "
-                               "approximate_sync of nearly one"));
+    monitor_.warned(unpairedImage());
   }
   if (!pair) {
     return nullptr;
@@ -185,45 +97,21 @@ sensor_msgs::PointCloud2Ptr StereoImages::serve(const std::optional<StereoPair>&
 }
 
 sensor_msgs::PointCloud2Ptr StereoImages::cloudOf(const StereoPair& pair) const {
-  const sensor_msgs::ImageConstPtr& left_image = pair.left.image;
-  const sensor_msgs::ImageConstPtr& right_image = pair.right.image;
-  checkInfo(*pair.left.info, *left_image);
-  checkInfo(*pair.right.info, *right_image);
-  if (left_image->width != right_image->width || left_image->height != right_image->height) {
-    throw InputError("wrong_size", "left image of " +
-                                       sizeText(left_image->width, left_image->height) +
-                                       " and right image of " +
-                                       sizeText(right_image->width, right_image->height) +
-                                       ": expected the same size");
-  }
-  const auto model = modelOf(*pair.left.info, *pair.right.info);
-  const auto rectify = [this](const cv_bridge::CvImageConstPtr& image, const auto& camera) {
-    return rectified_ ? image->image : rectified(image->image, camera);
-  };
-  const cv::Mat color = rectify(cv_bridge::toCvShare(left_image), model.left());
-  const cv::Mat left = rectify(cv_bridge::toCvShare(left_image, encodings::MONO8), model.left());
-  const cv::Mat right = rectify(cv_bridge::toCvShare(right_image, encodings::MONO8), model.right());
+  const image_geometry::StereoCameraModel model = stereoModel(pair);
+  const cv::Mat color = rectifiedImage(pair.left.image, "", model.left(), rectified_);
+  const cv::Mat left = rectifiedImage(pair.left.image, encodings::MONO8, model.left(), rectified_);
+  const cv::Mat right =
+      rectifiedImage(pair.right.image, encodings::MONO8, model.right(), rectified_);
   stereo_msgs::DisparityImage disparity;
   processor_->processDisparity(left, right, model, disparity);
   auto cloud = boost::make_shared<sensor_msgs::PointCloud2>();
-  processor_->processPoints2(disparity, color, left_image->encoding, model, *cloud);
-  cloud->header = left_image->header;
+  processor_->processPoints2(disparity, color, pair.left.image->encoding, model, *cloud);
+  cloud->header = pair.left.image->header;
   return cloud;
 }
 
 void StereoImages::connect(StagePorts& ports) {
-  const auto points = ports.out<sensor_msgs::PointCloud2>("points2");
-  for (const auto& [side, name] :
-       {std::pair(StereoSide::kLeft, "left/"), std::pair(StereoSide::kRight, "right/")}) {
-    ports.in<sensor_msgs::CameraInfo>(std::string(name) + "camera_info",
-                                      [this, points, side = side](const auto& info, Stamp /*now*/) {
-                                        points.publish(takeInfo(side, info));
-                                      });
-    ports.in<sensor_msgs::Image>(std::string(name) + "image",
-                                 [this, points, side = side](const auto& image, Stamp /*now*/) {
-                                   points.publish(takeImage(side, image));
-                                 });
-  }
+  connectImages(ports, *this, ports.out<sensor_msgs::PointCloud2>("points2"));
 }
 
 }  // namespace datmo

@@ -6,12 +6,12 @@
 #include <optional>
 
 #include "stereo_images_options.h"
-#include "stereo_pairs.h"
 
 #include <sensor_msgs/PointCloud2.h>
 
 #include "datmo_fusion/ros/stage/stage.h"
 #include "datmo_fusion/ros/stage/stage_runner.h"
+#include "datmo_fusion/ros/stage/stereo_pairs.h"
 
 namespace stereo_image_proc {
 class StereoProcessor;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "message_parts.h"
 
@@ -20,11 +21,21 @@ Enumeration named(std::uint8_t value, Enumeration last) {
                                                   : Enumeration::kUnknown;
 }
 
+using RowMajor2 = Eigen::Matrix<double, 2, 2, Eigen::RowMajor>;
+
+/// None if the message has none.
+std::optional<MeasuredVelocity> velocityOf(const ObjectMessage& message) {
+  const Eigen::Map<const RowMajor2> covariance(message.velocity_covariance.data());
+  if ((covariance.array() == 0.0).all()) {
+    return std::nullopt;
+  }
+  return MeasuredVelocity{{message.velocity.x, message.velocity.y}, covariance};
+}
+
 Object fromMessage(const ObjectMessage& message) {
   Object object;
   object.box = {boxCenter(message.pose), message.size.x, message.size.y};
-  object.position_covariance = Eigen::Map<const Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(
-      message.position_covariance.data());
+  object.position_covariance = Eigen::Map<const RowMajor2>(message.position_covariance.data());
   object.heading_variance = message.heading_variance;
   std::copy(message.side_variance.begin(), message.side_variance.end(),
             object.side_variance.begin());
@@ -32,6 +43,7 @@ Object fromMessage(const ObjectMessage& message) {
   object.object_class = classFromMessage(message.classification);
   object.class_probability = message.class_probability;
   object.dynamic_state = named(message.dynamic_state, DynamicState::kMoving);
+  object.velocity = velocityOf(message);
   object.moving_fraction = message.moving_fraction;
   object.log_odds = message.log_odds;
   object.motion_log_odds = message.motion_log_odds;
@@ -75,14 +87,18 @@ ObjectMessage toMessage(const Object& object) {
   ObjectMessage message;
   message.pose = toMessage(object.box.center);
   message.size = size(object.box, object.height);
-  Eigen::Map<Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(message.position_covariance.data()) =
-      object.position_covariance;
+  Eigen::Map<RowMajor2>(message.position_covariance.data()) = object.position_covariance;
   message.heading_variance = object.heading_variance;
   std::copy(object.side_variance.begin(), object.side_variance.end(),
             message.side_variance.begin());
   message.classification = static_cast<std::uint8_t>(object.object_class);
   message.class_probability = static_cast<float>(object.class_probability);
   message.dynamic_state = static_cast<std::uint8_t>(object.dynamic_state);
+  if (object.velocity) {
+    message.velocity.x = object.velocity->velocity.x();
+    message.velocity.y = object.velocity->velocity.y();
+    Eigen::Map<RowMajor2>(message.velocity_covariance.data()) = object.velocity->covariance;
+  }
   message.moving_fraction = static_cast<float>(object.moving_fraction);
   message.log_odds = static_cast<float>(object.log_odds);
   message.motion_log_odds = static_cast<float>(object.motion_log_odds);

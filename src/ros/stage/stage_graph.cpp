@@ -14,11 +14,16 @@ std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
   const std::string tracks_of_tracker = switches.track_fusion ? "tracks/lidar" : "tracks";
   const std::map<std::string, std::string> camera{
       {"points2", "stereo/points2"}, {"right/camera_info", "stereo/right/camera_info"}};
+  std::map<std::string, std::string> camera_with_velocities = camera;
+  camera_with_velocities["point_velocities"] = "stereo/point_velocities";
   const std::map<std::string, std::string> images{{"left/image", "stereo/left/image_rect"},
                                                   {"left/camera_info", "stereo/left/camera_info"},
                                                   {"right/image", "stereo/right/image_rect"},
                                                   {"right/camera_info", "stereo/right/camera_info"},
+                                                  {"point_velocities", "stereo/point_velocities"},
                                                   {"points2", "stereo/points2"}};
+  const bool has_images = switches.stereo != StereoPoints::kClouds;
+  const OptionValues rectified{{"rectified", switches.stereo == StereoPoints::kRectifiedImages}};
 
   std::vector<GraphStage> graph;
   const auto add = [&graph](bool present, const GraphStage& stage) {
@@ -29,11 +34,10 @@ std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
   const bool low_level = switches.low_level_fusion;
   add(switches.scan_from_cloud, {"cloud_to_scan", "cloud_to_scan", {{"scan", scan}}, {}});
   add(true, {"motion", "motion", {}, {}});
-  add(switches.stereo != StereoPoints::kClouds,
-      {"stereo_image_proc",
-       "stereo_image_proc",
-       images,
-       {{"rectified", switches.stereo == StereoPoints::kRectifiedImages}}});
+  // Before the points of the same images: what they are of gets its velocity.
+  add(has_images && switches.stereo_objects,
+      {"point_velocity", "point_velocity", images, rectified});
+  add(has_images, {"stereo_image_proc", "stereo_image_proc", images, rectified});
   add(low_level, {"lidar_grid", "lidar_grid", {{"scan", scan}}, {}});
   add(low_level, {"stereo_grid", "stereo_grid", camera, {}});
   add(low_level, {"grid_fusion", "grid_fusion", {}, {}});
@@ -41,7 +45,7 @@ std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
   add(switches.static_points, {"static_points", "static_points", {}, {}});
   add(switches.road_border, {"road_border", "road_border", {}, {}});
   add(true, {"moving_objects", "moving_objects", {}, {{"road_borders", switches.road_border}}});
-  add(switches.stereo_objects, {"stereo_objects", "stereo_objects", camera, {}});
+  add(switches.stereo_objects, {"stereo_objects", "stereo_objects", camera_with_velocities, {}});
   add(switches.cloud_objects, {"cloud_objects", "cloud_objects", {}, {}});
   add(switches.object_fusion,
       {"object_fusion", "object_fusion", {{"objects/lidar", "objects"}}, {}});

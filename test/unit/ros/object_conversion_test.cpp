@@ -20,6 +20,8 @@ TEST(ObjectConversion, ThereAndBack) {
   object.object_class = ObjectClass::kVehicle;
   object.class_probability = 0.75;
   object.dynamic_state = DynamicState::kMoving;
+  object.velocity = MeasuredVelocity{{1.5, -2.0}, Eigen::Matrix2d::Identity()};
+  object.velocity->covariance(0, 1) = object.velocity->covariance(1, 0) = 0.25;
   object.moving_fraction = 0.5;
   object.log_odds = -2.5;
   object.motion_log_odds = -3.0;
@@ -39,11 +41,21 @@ TEST(ObjectConversion, ThereAndBack) {
   EXPECT_EQ(got.object_class, ObjectClass::kVehicle);
   EXPECT_EQ(got.class_probability, 0.75);
   EXPECT_EQ(got.dynamic_state, DynamicState::kMoving);
+  ASSERT_TRUE(got.velocity);
+  EXPECT_EQ(got.velocity->velocity, object.velocity->velocity);
+  EXPECT_EQ(got.velocity->covariance, object.velocity->covariance);
   EXPECT_EQ(got.moving_fraction, 0.5);
   EXPECT_EQ(got.log_odds, -2.5);
   EXPECT_EQ(got.motion_log_odds, -3.0);
   EXPECT_EQ(got.sensors, object.sensors);
   EXPECT_EQ(got.points.at(0), Point2(4.0, 5.0));
+}
+
+TEST(ObjectConversion, AVelocityWithoutCovarianceWasNotMeasured) {
+  ObjectArray message;
+  message.objects.resize(1);
+  message.objects[0].velocity.x = 3.0;
+  EXPECT_FALSE(fromMessage(message).objects[0].velocity);
 }
 
 TEST(ObjectConversion, AnUnknownClassBecomesUnknown) {

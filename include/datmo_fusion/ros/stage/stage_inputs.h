@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+#include <utility>
+
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
 
 #include "datmo_fusion/ros/motion_options.h"
 #include "datmo_fusion/ros/stage/stage.h"
+#include "datmo_fusion/ros/stage/stereo_pairs.h"
 
 namespace datmo {
 
@@ -34,6 +39,24 @@ void connectStereo(StagePorts& ports, StereoStage& stage, const StagePublisher<M
   ports.in<sensor_msgs::PointCloud2>("points2", [&stage, output](const auto& cloud, Stamp /*now*/) {
     output.publish(stage.takeCloud(*cloud));
   });
+}
+
+/// The images of a stereo camera, for a stage with takeImage and takeInfo, whose result goes to
+/// `output`.
+template <typename ImageStage>
+void connectImages(StagePorts& ports, ImageStage& stage,
+                   const StagePublisher<sensor_msgs::PointCloud2>& output) {
+  for (const auto& [side, name] : {std::pair<StereoSide, std::string>(StereoSide::kLeft, "left/"),
+                                   {StereoSide::kRight, "right/"}}) {
+    ports.in<sensor_msgs::CameraInfo>(name + "camera_info",
+                                      [&stage, output, side = side](const auto& info, Stamp) {
+                                        output.publish(stage.takeInfo(side, info));
+                                      });
+    ports.in<sensor_msgs::Image>(name + "image",
+                                 [&stage, output, side = side](const auto& image, Stamp) {
+                                   output.publish(stage.takeImage(side, image));
+                                 });
+  }
 }
 
 }  // namespace datmo

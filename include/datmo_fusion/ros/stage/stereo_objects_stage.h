@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/PointCloud2.h>
 
@@ -10,11 +13,13 @@
 #include "datmo_fusion/ros/stage/stage_runner.h"
 #include "datmo_fusion/ros/stage/stereo_input.h"
 #include "datmo_fusion/ros/transform_buffer.h"
+#include "datmo_fusion/vision/object_velocity.h"
 
 namespace datmo {
 
 struct StereoObjectsStageOptions : StereoInputOptions {
   StereoObjectDetectorOptions detector;
+  ObjectVelocityOptions velocity;
 
   void visit(OptionVisitor& visitor);
 };
@@ -22,6 +27,9 @@ struct StereoObjectsStageOptions : StereoInputOptions {
 /// StereoObjectDetector between messages: the same one serves the nodelet and the bag runner. Bad
 /// input is dropped through the monitor, never thrown. When the clock jumps back the road of the
 /// last clouds is forgotten.
+///
+/// Points with velocity (velocity_conversion.h) of the cloud's stamp that come before it give the
+/// objects their velocities; without, these are not known.
 class StereoObjectsStage : public Stage {
  public:
   using Options = StereoObjectsStageOptions;
@@ -33,14 +41,23 @@ class StereoObjectsStage : public Stage {
   /// Of the right camera; the newest one serves.
   void takeCameraInfo(const sensor_msgs::CameraInfo& message);
 
+  /// Points with velocity, in the vehicle's frame.
+  void takeVelocities(const sensor_msgs::PointCloud2& message);
+
   /// Objects in the vehicle's frame at the cloud's stamp; null if the cloud was dropped.
   ObjectArrayPtr takeCloud(const sensor_msgs::PointCloud2& message);
 
   void connect(StagePorts& ports) override;
 
  private:
+  struct Velocities {
+    Stamp stamp;
+    std::vector<PointVelocity> points;
+  };
+
   /// Throws InputError (`bad_camera`) for one that is not mounted as one that sees the road.
   StereoObjects objectsOf(const StereoCloud& cloud);
+  void measure(StereoObjects& objects);
   void show(const StereoObjects& objects);
 
   StereoObjectsStageOptions options_;
@@ -48,6 +65,7 @@ class StereoObjectsStage : public Stage {
   StageRunner runner_;
   StereoInput input_;
   StereoObjectDetector detector_;
+  std::optional<Velocities> velocities_;  ///< the newest
 };
 
 }  // namespace datmo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "stereo_pairs.h"
+#include "datmo_fusion/ros/stage/stereo_pairs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,6 +78,12 @@ void StereoPairs::dropUpTo(Frames& frames, Stamp stamp) {
     ++unpaired_;
   }
   frames.pop_front();
+}
+
+InputError unpairedImage() {
+  return {"unpaired_image",
+          "an image without its calibration or without one of the other camera: expected all four "
+          "messages of one stamp, or with approximate_sync of nearly one"};
 }
 
 }  // namespace datmo

@@ -9,6 +9,7 @@
 #include <sensor_msgs/Image.h>
 
 #include "datmo_fusion/common/stamp.h"
+#include "datmo_fusion/ros/stage/input_error.h"
 
 namespace datmo {
 
@@ -60,5 +61,8 @@ class StereoPairs {
   Frames right_;
   std::uint64_t unpaired_ = 0;
 };
+
+/// Says that an image found no partner, or no calibration (`unpaired_image`).
+InputError unpairedImage();
 
 }  // namespace datmo

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/PointCloud2.h>
+
+#include "datmo_fusion/ros/frame_options.h"
+#include "datmo_fusion/ros/motion_options.h"
+#include "datmo_fusion/ros/stage/motion_input.h"
+#include "datmo_fusion/ros/stage/stage.h"
+#include "datmo_fusion/ros/stage/stage_runner.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
+#include "datmo_fusion/ros/stage/stereo_pairs.h"
+#include "datmo_fusion/ros/transform_buffer.h"
+#include "datmo_fusion/vision/camera_motion.h"
+#include "datmo_fusion/vision/point_velocity.h"
+#include "datmo_fusion/vision/quad_matcher.h"
+
+namespace datmo {
+
+struct PointVelocityStageOptions {
+  FrameOptions frames;   ///< of all stages
+  MotionOptions motion;  ///< of all stages
+  StreamOptions input;
+  QuadMatcherOptions features;
+  CameraMotionOptions camera_motion;
+  bool rectified = true;
+  bool approximate_sync = false;
+  double pair_tolerance = 0.01;   ///< s
+  double flow_sigma = 0.15;       ///< px
+  double disparity_sigma = 0.15;  ///< px
+  double turn_sigma = 0.05;       ///< rad/s
+  double speed_sigma = 0.5;       ///< m/s
+  double max_interval = 0.5;      ///< s
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Pairs of images of a stereo camera -> points with velocity over the ground: features that are
+/// found in two pairs (QuadMatcher), the camera's own motion (cameraMotion, from odometry on) taken
+/// out. The same one serves the nodelet and the bag runner. Bad input is dropped through the
+/// monitor, never thrown. When the clock jumps back the last images are forgotten.
+class PointVelocityStage : public Stage {
+ public:
+  using Options = PointVelocityStageOptions;
+
+  /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
+  PointVelocityStage(const PointVelocityStageOptions& options, const TransformBuffer& transforms,
+                     StageMonitor& monitor);
+
+  void takeOdometry(const nav_msgs::Odometry& message);
+  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message);
+
+  /// Points in the vehicle's frame at the left image's stamp (velocity_conversion.h), of the pair
+  /// that the message completes; null if there is none, or the pair was dropped. The first pair has
+  /// no point.
+  sensor_msgs::PointCloud2Ptr takeImage(StereoSide side, const sensor_msgs::ImageConstPtr& image);
+  sensor_msgs::PointCloud2Ptr takeInfo(StereoSide side,
+                                       const sensor_msgs::CameraInfoConstPtr& info);
+
+  void connect(StagePorts& ports) override;
+
+ private:
+  struct LastPair {
+    Stamp stamp;
+    Eigen::Isometry3d camera_in_base;
+  };
+
+  void reset();
+  sensor_msgs::PointCloud2Ptr serve(const std::optional<StereoPair>& pair);
+  std::vector<PointVelocity> velocitiesOf(const StereoPair& pair);
+  /// As odometry says; without it, standing still with what a vehicle may do.
+  CameraMotion priorSince(const LastPair& last, const LastPair& now) const;
+
+  PointVelocityStageOptions options_;
+  const TransformBuffer& transforms_;
+  StageMonitor& monitor_;
+  StageRunner runner_;
+  MotionInput motion_;
+  StereoPairs pairs_;
+  std::uint64_t unpaired_ = 0;  ///< frames that were reported
+  QuadMatcher matcher_;
+  std::optional<LastPair> last_;
+};
+
+}  // namespace datmo

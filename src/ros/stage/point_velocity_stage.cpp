@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/stage/point_velocity_stage.h"
+
+#include <exception>
+#include <string>
+#include <utility>
+
+#include <sensor_msgs/image_encodings.h>
+
+#include "datmo_fusion/common/square.h"
+#include "datmo_fusion/ros/convert/stereo_image_conversion.h"
+#include "datmo_fusion/ros/convert/velocity_conversion.h"
+#include "datmo_fusion/ros/frames.h"
+#include "datmo_fusion/ros/stage/stage_inputs.h"
+
+namespace datmo {
+
+namespace {
+
+/// m/s; no vehicle of which odometry says nothing is faster, as a rule.
+constexpr double kUnknownSpeed = 20.0;
+
+/// rad/s, the same of a turn.
+constexpr double kUnknownTurn = 0.5;
+
+Eigen::Isometry3d inSpace(const Pose2& pose) {
+  Eigen::Isometry3d result(Eigen::AngleAxisd(pose.heading(), Eigen::Vector3d::UnitZ()));
+  result.translation().head<2>() = pose.position();
+  return result;
+}
+
+StereoRig rigOf(const image_geometry::StereoCameraModel& model,
+                const PointVelocityStageOptions& options) {
+  const image_geometry::PinholeCameraModel& left = model.left();
+  return {{left.fx(), left.fy(), left.cx(), left.cy()},
+          model.baseline(),
+          options.flow_sigma,
+          options.disparity_sigma};
+}
+
+}  // namespace
+
+void PointVelocityStageOptions::visit(OptionVisitor& visitor) {
+  visitor.group("input", [&] { input.visit(visitor); });
+  visitor.group("features", [&] { features.visit(visitor); });
+  visitor.group("camera_motion", [&] { camera_motion.visit(visitor); });
+  visitor.toggle({"rectified", "", "the images are; if not, they are by their calibration"},
+                 rectified);
+  visitor.toggle(
+      {"approximate_sync", "", "stamps of left and right images may differ by pair_tolerance"},
+      approximate_sync);
+  visitor.number({"pair_tolerance", "s", "with approximate_sync"}, pair_tolerance, {0.0, 1.0});
+  constexpr Bounds kPixels{0.01, 5.0};
+  visitor.number({"flow_sigma", "px",
+                  "standard deviation of a feature's motion from image to image, by axis; measured "
+                  "on KITTI's images: what is left of standing features is 0.10 px at the median"},
+                 flow_sigma, kPixels);
+  visitor.number({"disparity_sigma", "px", "the same of a feature's disparity: 0.09 px"},
+                 disparity_sigma, kPixels);
+  visitor.number({"turn_sigma", "rad/s",
+                  "of the camera about each axis, beyond what the vehicle's odometry says: pitch "
+                  "and roll of its body"},
+                 turn_sigma, {1e-4, 1.0});
+  visitor.number({"speed_sigma", "m/s", "the same along each axis"}, speed_sigma, {1e-3, 10.0});
+  visitor.number(
+      {"max_interval", "s", "between two pairs, beyond which features are not looked for again"},
+      max_interval, {0.02, 5.0});
+}
+
+PointVelocityStage::PointVelocityStage(const PointVelocityStageOptions& options,
+                                       const TransformBuffer& transforms, StageMonitor& monitor)
+    : options_(options),
+      transforms_(transforms),
+      monitor_(monitor),
+      runner_(monitor, options.input, "forgets the last images", [this] { reset(); }),
+      motion_(options.motion, options.frames, runner_),
+      pairs_(options.approximate_sync ? options.pair_tolerance : 0.0),
+      matcher_(options.features) {
+  checkOptions(options);
+}
+
+void PointVelocityStage::reset() {
+  motion_.reset();
+  pairs_.clear();
+  matcher_.reset();
+  last_.reset();
+}
+
+void PointVelocityStage::takeOdometry(const nav_msgs::Odometry& message) {
+  runner_.serve([&] { motion_.take(message); });
+}
+
+void PointVelocityStage::takePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
+  runner_.serve([&] { motion_.take(message); });
+}
+
+sensor_msgs::PointCloud2Ptr PointVelocityStage::takeImage(StereoSide side,
+                                                          const sensor_msgs::ImageConstPtr& image) {
+  return runner_.serve([&] {
+    runner_.check(side == StereoSide::kLeft ? "left" : "right", image->header.stamp);
+    checkImage(*image);
+    return serve(pairs_.takeImage(side, image));
+  });
+}
+
+sensor_msgs::PointCloud2Ptr PointVelocityStage::takeInfo(
+    StereoSide side, const sensor_msgs::CameraInfoConstPtr& info) {
+  return runner_.serve([&] { return serve(pairs_.takeInfo(side, info)); });
+}
+
+sensor_msgs::PointCloud2Ptr PointVelocityStage::serve(const std::optional<StereoPair>& pair) {
+  if (pairs_.unpaired() > std::exchange(unpaired_, pairs_.unpaired())) {
+    monitor_.warned(unpairedImage());
+  }
+  if (!pair) {
+    return nullptr;
+  }
+  try {
+    const std::vector<PointVelocity> points = velocitiesOf(*pair);
+    monitor_.figure("points with velocity", static_cast<double>(points.size()));
+    runner_.processed(pair->left.stamp);
+    return toMessage(points, pair->left.stamp, options_.frames.base);
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {  // of OpenCV, cv_bridge and image_geometry
+    throw InputError("bad_images", std::string("images that cannot be matched: ") + error.what());
+  }
+}
+
+std::vector<PointVelocity> PointVelocityStage::velocitiesOf(const StereoPair& pair) {
+  const image_geometry::StereoCameraModel model = stereoModel(pair);
+  const auto gray = [&](const CameraFrame& frame, const auto& camera) {
+    return rectifiedImage(frame.image, sensor_msgs::image_encodings::MONO8, camera,
+                          options_.rectified);
+  };
+  const std::vector<FeatureQuad> quads =
+      matcher_.match(gray(pair.left, model.left()), gray(pair.right, model.right()));
+  const std::string& frame =
+      options_.frames.camera.empty() ? pair.left.image->header.frame_id : options_.frames.camera;
+  const LastPair now{pair.left.stamp, sensorMount(transforms_.core(), options_.frames.base, frame)};
+  const std::optional<LastPair> last = std::exchange(last_, now);
+  if (!last || secondsBetween(last->stamp, now.stamp) > options_.max_interval) {
+    return {};
+  }
+  const StereoRig rig = rigOf(model, options_);
+  const std::optional<CameraMotion> motion =
+      cameraMotion(rig, quads, priorSince(*last, now), options_.camera_motion);
+  monitor_.figure("features", static_cast<double>(quads.size()));
+  monitor_.figure("camera's motion found, 0 or 1", motion ? 1.0 : 0.0);
+  if (!motion) {
+    return {};
+  }
+  return pointVelocities(rig, quads, *motion, last->stamp, {now.stamp, now.camera_in_base});
+}
+
+CameraMotion PointVelocityStage::priorSince(const LastPair& last, const LastPair& now) const {
+  const double seconds = secondsBetween(last.stamp, now.stamp);
+  const std::optional<Pose2> moved = motion_.between(last.stamp, now.stamp);
+  const double turn = seconds * (moved ? options_.turn_sigma : kUnknownTurn);
+  const double shift = seconds * (moved ? options_.speed_sigma : kUnknownSpeed);
+  CameraMotion prior;
+  if (moved) {
+    prior.earlier_in_later =
+        now.camera_in_base.inverse() * inSpace(moved->inverse()) * last.camera_in_base;
+  }
+  prior.covariance.setZero();
+  prior.covariance.diagonal().head<3>().setConstant(square(turn));
+  prior.covariance.diagonal().tail<3>().setConstant(square(shift));
+  return prior;
+}
+
+void PointVelocityStage::connect(StagePorts& ports) {
+  connectMotion(ports, options_.motion, *this);
+  connectImages(ports, *this, ports.out<sensor_msgs::PointCloud2>("point_velocities"));
+}
+
+}  // namespace datmo
