@@ -16,6 +16,7 @@
 #include "datmo_fusion/ros/stage/moving_objects_stage.h"
 #include "datmo_fusion/ros/stage/object_fusion_stage.h"
 #include "datmo_fusion/ros/stage/point_velocity_stage.h"
+#include "datmo_fusion/ros/stage/risk_stage.h"
 #include "datmo_fusion/ros/stage/road_border_stage.h"
 #include "datmo_fusion/ros/stage/static_points_stage.h"
 #include "datmo_fusion/ros/stage/stereo_grid_stage.h"
@@ -74,6 +75,7 @@ std::vector<Section> sections() {
           section<ObjectFusionStageOptions>("`object_fusion`"),
           section<TrackerStageOptions>("`tracker`, `stereo_tracker`"),
           section<TrackFusionStageOptions>("`track_fusion`"),
+          section<RiskStageOptions>("`risk`"),
           section<MarkersOptions>("`markers`, `lidar_markers`, `stereo_markers`"),
           section<GridViewsOptions>("`grid_views`"),
           section<CameraViewOptions>("`camera_view`")};

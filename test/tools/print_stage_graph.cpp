@@ -40,6 +40,7 @@ int main(int count, char** words) {
   switches.object_fusion = is_on("object_fusion");
   switches.stereo_tracker = is_on("track_fusion");
   switches.track_fusion = is_on("track_fusion");
+  switches.risk = is_on("risk");
   nlohmann::json stages = nlohmann::json::object();
   for (const datmo::GraphStage& stage : stageGraph(switches)) {
     stages[stage.name] = toJson(stage);

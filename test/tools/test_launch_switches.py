@@ -160,6 +160,14 @@ class LaunchSwitches(unittest.TestCase):
                 self.assertEqual(set(nodelets(nodes)),
                                  ALWAYS | members - {"stereo_objects"})
 
+    def test_risk_is_one_more(self):
+        for borders in (False, True):
+            nodes, parameters = loaded("perception.launch", risk=True, road_border=borders,
+                                       odometry="/odom")
+            self.assertEqual(nodelets(nodes)["risk"], "datmo_fusion/risk")
+            self.assertEqual(remapped(nodes["risk"], "odometry"), "/odom")
+            self.assertIs(parameters["/risk/road_borders"], borders)
+
     def test_there_is_a_thread_for_each_nodelet(self):
         for switches, nodes, parameters in self.each("perception.launch"):
             with self.subTest(**switches):

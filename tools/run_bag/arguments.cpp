@@ -29,7 +29,7 @@ const Choices<LastStage> kStages = {
     {"grid_fusion", LastStage::kGridFusion},     {"grid_slam", LastStage::kGridSlam},
     {"road_border", LastStage::kRoadBorder},     {"moving_objects", LastStage::kMovingObjects},
     {"object_fusion", LastStage::kObjectFusion}, {"tracker", LastStage::kTracker},
-    {"track_fusion", LastStage::kTrackFusion}};
+    {"track_fusion", LastStage::kTrackFusion},   {"risk", LastStage::kRisk}};
 
 /// A stage that runs only if its option is given.
 struct OptionalStage {
@@ -46,6 +46,7 @@ constexpr OptionalStage kOptionalStages[] = {
     {"--object-fusion", &Arguments::object_fusion, LastStage::kObjectFusion,
      LastStage::kObjectFusion},
     {"--track-fusion", &Arguments::track_fusion, LastStage::kTrackFusion, LastStage::kTracker},
+    {"--risk", &Arguments::risk, LastStage::kRisk, LastStage::kRisk},
 };
 
 constexpr char kDescription[] =
@@ -126,7 +127,7 @@ void addFiles(CommandLine& line, Arguments& arguments) {
 void addStages(CommandLine& line, Arguments& arguments) {
   line.addChoice("--until", arguments.last_stage, kStages,
                  "goes no further than grid_fusion, grid_slam, road_border, moving_objects,\n"
-                 "object_fusion, tracker or track_fusion",
+                 "object_fusion, tracker, track_fusion or risk",
                  "STAGE");
   CLI::Option* low_level =
       line.add_flag("--low-level-fusion", arguments.low_level_fusion,
@@ -152,6 +153,8 @@ void addStages(CommandLine& line, Arguments& arguments) {
   line.add_flag("--track-fusion", arguments.track_fusion,
                 "follows the stereo camera's objects too and fuses the tracks, and writes\n"
                 "/tracks/lidar, /tracks/stereo and /objects/stereo");
+  line.add_flag("--risk", arguments.risk,
+                "assesses the risk of contact with tracks and with what stands, and writes /risks");
 }
 
 }  // namespace

@@ -106,6 +106,7 @@ GraphSwitches switchesOf(const Arguments& arguments, const SensorSet& sensors,
   switches.cloud_objects = arguments.cloud_objects;
   switches.object_fusion = arguments.object_fusion;
   switches.track_fusion = arguments.track_fusion;
+  switches.risk = arguments.risk;
   switches.stereo_tracker =
       arguments.track_fusion &&
       usesStereo(sensors.options<TrackFusionStageOptions>("track_fusion").fuser.sourcesInUse());

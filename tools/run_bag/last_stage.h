@@ -12,6 +12,7 @@ enum class LastStage {
   kObjectFusion,
   kTracker,
   kTrackFusion,
+  kRisk,
   kEnd  ///< all that there are
 };
 

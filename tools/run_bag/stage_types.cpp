@@ -12,6 +12,7 @@
 #include "datmo_fusion/ros/stage/moving_objects_stage.h"
 #include "datmo_fusion/ros/stage/object_fusion_stage.h"
 #include "datmo_fusion/ros/stage/point_velocity_stage.h"
+#include "datmo_fusion/ros/stage/risk_stage.h"
 #include "datmo_fusion/ros/stage/road_border_stage.h"
 #include "datmo_fusion/ros/stage/static_points_stage.h"
 #include "datmo_fusion/ros/stage/stereo_grid_stage.h"
@@ -47,6 +48,7 @@ const std::map<std::string, StageType>& stageTypes() {
       {"moving_objects", typeOf<MovingObjectsStage>()},
       {"object_fusion", typeOf<ObjectFusionStage>()},
       {"point_velocity", typeOf<PointVelocityStage>()},
+      {"risk", typeOf<RiskStage>()},
       {"road_border", typeOf<RoadBorderStage>()},
       {"static_points", typeOf<StaticPointsStage>()},
       {"stereo_grid", typeOf<StereoGridStage>()},

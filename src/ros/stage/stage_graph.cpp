@@ -57,6 +57,7 @@ std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
                                 {{"objects", "objects/stereo"}, {"tracks", "tracks/stereo"}},
                                 {{"scan_view", false}}});
   add(switches.track_fusion, {"track_fusion", "track_fusion", {{"tracks/fused", "tracks"}}, {}});
+  add(switches.risk, {"risk", "risk", {}, {{"road_borders", switches.road_border}}});
   return graph;
 }
 

@@ -24,6 +24,7 @@ struct GraphSwitches {
   bool object_fusion = false;
   bool stereo_tracker = false;  ///< the stereo camera's objects are tracked by themselves
   bool track_fusion = false;
+  bool risk = false;  ///< of contact between the host and tracks or what stands
 };
 
 /// One stage of the graph.

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nav_msgs/Odometry.h>
+
+#include "datmo_fusion/risk/risk_assessor.h"
+#include "datmo_fusion/ros/convert/messages.h"
+#include "datmo_fusion/ros/convert/risk_conversion.h"
+#include "datmo_fusion/ros/frame_options.h"
+#include "datmo_fusion/ros/motion_options.h"
+#include "datmo_fusion/ros/stage/host_input.h"
+#include "datmo_fusion/ros/stage/stage.h"
+#include "datmo_fusion/ros/stage/stage_runner.h"
+
+namespace datmo {
+
+struct RiskStageOptions {
+  FrameOptions frames;   ///< of all stages
+  MotionOptions motion;  ///< of all stages
+  StreamOptions input;
+  bool road_borders = false;
+  double border_age = 0.5;  ///< s
+  HostInputOptions host_state;
+  RiskOptions risk;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// RiskAssessor between messages: the same one serves the nodelet and the bag runner. Each list of
+/// tracks makes one list of risks at its stamp, with the newest split scan, odometry and borders.
+///
+/// Without odometry the host's motion is that of its poses, which is said. Tracks that are not
+/// valid, not seen for too long or too many are left out, and said. When the clock jumps back all
+/// state is forgotten.
+class RiskStage : public Stage {
+ public:
+  using Options = RiskStageOptions;
+
+  /// `monitor` must outlive the stage. Throws OptionError.
+  RiskStage(const RiskStageOptions& options, StageMonitor& monitor);
+
+  void takeLabeledScan(const LabeledScanMessage& message);
+  void takeOdometry(const nav_msgs::Odometry& message);
+  void takeRoadBorders(const RoadBorders& message);
+
+  /// Null if the message was dropped.
+  RiskArrayPtr takeTracks(const TrackArray& message);
+
+  void connect(StagePorts& ports) override;
+
+ private:
+  std::optional<RoadModel> roadAt(Stamp stamp);
+  void report(const RiskReport& report);
+  void reset();
+
+  RiskStageOptions options_;
+  StageMonitor& monitor_;
+  RiskAssessor assessor_;
+  StageRunner runner_;
+  HostInput host_;
+  std::string map_frame_;         ///< of the newest split scan
+  std::vector<Point2> standing_;  ///< m, map frame, of the newest split scan
+  std::optional<RoadModel> road_;
+  std::string road_frame_;
+};
+
+}  // namespace datmo

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/stage/host_input.h"
+
+#include <cmath>
+#include <utility>
+
+#include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/stage/input_error.h"
+#include "datmo_fusion/ros/stage/motion_input.h"
+
+namespace datmo {
+
+namespace {
+
+/// No source of tracks can have this name.
+constexpr char kOdometryStream[] = "/odometry";
+
+}  // namespace
+
+void HostInputOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"acceleration_time", "s",
+                  "over which the host's acceleration is taken from its speed: long enough for the "
+                  "steps of a wheel encoder"},
+                 acceleration_time, {0.05, 5.0});
+  visitor.number(
+      {"max_age", "s", "how far from the tracks' stamp the newest pose and odometry may be"},
+      max_age, {0.0, 5.0});
+}
+
+HostInput::HostInput(const HostInputOptions& options, const MotionOptions& motion,
+                     FrameOptions frames, StageRunner& runner)
+    : options_(options), motion_(motion), frames_(std::move(frames)), runner_(runner) {
+  checkOptions(options);
+}
+
+void HostInput::add(Twists& twists, const StampedTwist& twist) const {
+  twists.push_back(twist);
+  while (twists.size() > 2 &&
+         secondsBetween(twists.front().stamp, twist.stamp) > options_.acceleration_time) {
+    twists.pop_front();
+  }
+}
+
+void HostInput::take(const nav_msgs::Odometry& message) {
+  checkFrames(message, frames_);
+  const OdometrySample sample = toSample(message);
+  runner_.check(kOdometryStream, message.header.stamp);
+  add(odometry_, {sample.stamp, sample.twist});
+}
+
+void HostInput::take(const LabeledScan& scan) {
+  const Pose2& pose = scan.base_in_map.pose;
+  if (last_pose_) {
+    const double seconds = secondsBetween(last_pose_->stamp, scan.stamp);
+    if (seconds > 0.0) {
+      const Twist2 twist = twistOf(last_pose_->pose.inverse() * pose, seconds);
+      if (isPlausible(twist)) {
+        add(from_poses_, {scan.stamp, twist});
+      }
+    }
+  }
+  last_pose_ = {scan.stamp, pose};
+}
+
+bool HostInput::serves(const Twists& twists, Stamp stamp) const {
+  return !twists.empty() &&
+         std::abs(secondsBetween(twists.back().stamp, stamp)) <= options_.max_age;
+}
+
+bool HostInput::hasOdometry(Stamp stamp) const {
+  return motion_.hasSpeed() && serves(odometry_, stamp);
+}
+
+HostState HostInput::at(Stamp stamp, const HostVehicleOptions& vehicle) const {
+  if (!last_pose_ || std::abs(secondsBetween(last_pose_->stamp, stamp)) > options_.max_age) {
+    throw InputError("no_pose", "no split scan within " + std::to_string(options_.max_age) +
+                                    " s of the tracks: expected labeled_scan of grid_slam");
+  }
+  const Twists& twists = hasOdometry(stamp) ? odometry_ : from_poses_;
+  if (!serves(twists, stamp)) {
+    throw InputError("no_motion", "no odometry and no second pose within " +
+                                      std::to_string(options_.max_age) +
+                                      " s of the tracks: expected the host's speed");
+  }
+  const Twist2& twist = twists.back().twist;
+  HostState host;
+  host.pose = last_pose_->pose * arc(twist, secondsBetween(last_pose_->stamp, stamp));
+  host.speed = twist.forward_speed;
+  host.steering = steeringOf(twist.forward_speed, twist.yaw_rate, vehicle);
+  const double seconds = secondsBetween(twists.front().stamp, twists.back().stamp);
+  if (seconds >= 0.5 * options_.acceleration_time) {
+    host.acceleration = (twist.forward_speed - twists.front().twist.forward_speed) / seconds;
+  }
+  return host;
+}
+
+void HostInput::reset() {
+  odometry_.clear();
+  from_poses_.clear();
+  last_pose_.reset();
+}
+
+}  // namespace datmo

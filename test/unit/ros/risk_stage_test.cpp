@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/stage/risk_stage.h"
+
+#include <cmath>
+#include <limits>
+
+#include "labeled_scan_samples.h"
+#include "monitor_counts.h"
+#include "track_fusion_sample.h"
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/ros/convert/message_conversion.h"
+
+namespace datmo {
+namespace {
+
+constexpr double kHostSpeed = 5.0;  ///< m/s, of samples::scanBetweenWalls
+
+class RiskStageTest : public testing::Test {
+ protected:
+  void scanAt(double seconds) {
+    stage_.takeLabeledScan(toMessage(samples::scanBetweenWalls(seconds), "base_link", "map"));
+  }
+
+  void odometryAt(double seconds, double speed = kHostSpeed) {
+    nav_msgs::Odometry odometry;
+    odometry.header.frame_id = "odom";
+    odometry.header.stamp = ros::Time(samples::kStart + seconds);
+    odometry.child_frame_id = "base_link";
+    odometry.pose.pose.orientation.w = 1.0;
+    odometry.twist.twist.linear.x = speed;
+    stage_.takeOdometry(odometry);
+  }
+
+  /// A car that stands so far ahead of base_link, between the walls.
+  static TrackArray carAhead(double seconds, double ahead) {
+    TrackList list;
+    list.stamp = Stamp::fromSeconds(samples::kStart + seconds);
+    Track track = carTrack("lidar", 7, samples::kStart + seconds);
+    track.state.setZero();
+    track.state[0] = kHostSpeed * seconds + ahead;
+    track.covariance = 0.01 * TrackCovariance::Identity();
+    track.moving = false;
+    track.mode_probabilities = {0.0, 0.0, 0.0, 0.0, 1.0};
+    track.box.center = Pose2(track.state[0], 0.0, 0.0);
+    list.tracks = {track};
+    return toMessage(list, "map");
+  }
+
+  /// The risks of one step with all inputs.
+  RiskArrayPtr step(double seconds, double ahead) {
+    odometryAt(seconds);
+    scanAt(seconds);
+    return stage_.takeTracks(carAhead(seconds, ahead));
+  }
+
+  static RiskMessage riskOf(const RiskArray& risks, std::uint32_t id) {
+    for (const RiskMessage& risk : risks.risks) {
+      if (risk.id == id) {
+        return risk;
+      }
+    }
+    ADD_FAILURE() << "no risk of " << id;
+    return {};
+  }
+
+  StageMonitor monitor_{"risk"};
+  RiskStage stage_{RiskStageOptions(), monitor_};
+};
+
+TEST_F(RiskStageTest, ACarAheadIsARisk) {
+  const auto risks = step(0.0, 17.0);
+  ASSERT_NE(risks, nullptr);
+  EXPECT_EQ(risks->header.frame_id, "map");
+  EXPECT_EQ(risks->header.stamp, ros::Time(samples::kStart));
+  const RiskMessage risk = riskOf(*risks, 7);
+  // 17 m less 3.7 m to the bumper and half of 4 m, at 5 m/s.
+  EXPECT_NEAR(risk.median_ttc, 2.26F, 0.25F);
+  EXPECT_GT(risk.contact_probability[3], 0.8F);
+  EXPECT_EQ(risk.side, RiskMessage::SIDE_FRONT);
+  EXPECT_EQ(risk.classification, static_cast<std::uint8_t>(ObjectClass::kVehicle));
+  EXPECT_EQ(monitor_.processedCount(), 1U);
+}
+
+TEST_F(RiskStageTest, WarnsAndSaysWhy) {
+  step(0.0, 12.0);
+  const auto risks = step(0.2, 11.0);
+  ASSERT_NE(risks, nullptr);
+  EXPECT_GE(risks->level, RiskArray::LEVEL_WARNING);
+  EXPECT_EQ(risks->cause, 7U);
+  EXPECT_NE(risks->reason.find("vehicle 7"), std::string::npos) << risks->reason;
+}
+
+TEST_F(RiskStageTest, WithoutOdometryTheMotionIsThatOfThePoses) {
+  scanAt(0.0);
+  scanAt(0.1);
+  const auto risks = stage_.takeTracks(carAhead(0.1, 17.0));
+  ASSERT_NE(risks, nullptr);
+  EXPECT_NEAR(riskOf(*risks, 7).median_ttc, 2.26F, 0.25F);
+  EXPECT_EQ(samples::warnings(monitor_, "no_odometry"), 1U);
+}
+
+TEST_F(RiskStageTest, WithoutPoseOrMotionThereIsNoRisk) {
+  EXPECT_EQ(stage_.takeTracks(carAhead(0.0, 17.0)), nullptr);
+  EXPECT_EQ(samples::drops(monitor_, "no_pose"), 1U);
+  scanAt(0.1);
+  EXPECT_EQ(stage_.takeTracks(carAhead(0.1, 17.0)), nullptr);
+  EXPECT_EQ(samples::drops(monitor_, "no_motion"), 1U);
+}
+
+TEST_F(RiskStageTest, TracksThatAreNoneAreSaid) {
+  odometryAt(0.0);
+  scanAt(0.0);
+  TrackArray tracks = carAhead(0.0, 17.0);
+  tracks.tracks[0].covariance[0] = std::numeric_limits<double>::quiet_NaN();
+  const auto risks = stage_.takeTracks(tracks);
+  ASSERT_NE(risks, nullptr);
+  EXPECT_EQ(risks->risks.size(), 1U) << "what stands alone";
+  EXPECT_EQ(samples::warnings(monitor_, "bad_track"), 1U);
+}
+
+TEST_F(RiskStageTest, OldTracksAreSaid) {
+  odometryAt(0.0);
+  scanAt(0.0);
+  TrackArray tracks = carAhead(0.0, 17.0);
+  tracks.tracks[0].since_update = ros::Duration(1.5);
+  ASSERT_NE(stage_.takeTracks(tracks), nullptr);
+  EXPECT_EQ(samples::warnings(monitor_, "old_track"), 1U);
+}
+
+TEST_F(RiskStageTest, ManyTracksAreLimitedAndSaid) {
+  odometryAt(0.0);
+  scanAt(0.0);
+  TrackArray tracks = carAhead(0.0, 17.0);
+  for (std::uint32_t id = 8; id < 507; ++id) {
+    tracks.tracks.push_back(tracks.tracks.front());
+    tracks.tracks.back().id = id;
+  }
+  const auto risks = stage_.takeTracks(tracks);
+  ASSERT_NE(risks, nullptr);
+  EXPECT_EQ(risks->risks.size(), 65U);
+  EXPECT_EQ(samples::warnings(monitor_, "many_tracks"), 1U);
+}
+
+TEST_F(RiskStageTest, AnotherFrameIsRefused) {
+  odometryAt(0.0);
+  scanAt(0.0);
+  TrackArray tracks = carAhead(0.0, 17.0);
+  tracks.header.frame_id = "world";
+  EXPECT_EQ(stage_.takeTracks(tracks), nullptr);
+  EXPECT_EQ(samples::drops(monitor_, "wrong_frame"), 1U);
+}
+
+TEST_F(RiskStageTest, AClockThatJumpsBackBeginsAnew) {
+  const auto first = step(0.0, 17.0);
+  step(20.0, 17.0);
+  const auto again = step(0.0, 17.0);
+  ASSERT_NE(first, nullptr);
+  ASSERT_NE(again, nullptr);
+  EXPECT_GE(samples::warnings(monitor_, "clock_restart"), 1U);
+  EXPECT_EQ(*first, *again);
+}
+
+}  // namespace
+}  // namespace datmo
