@@ -2,6 +2,8 @@
 #include "simulator/collision.h"
 
 #include <algorithm>
+#include <variant>
+#include <vector>
 
 namespace datmo::simulator {
 
@@ -61,6 +63,56 @@ const Body* firstMet(const Body& body, BodyIterator first, BodyIterator last) {
   return met == last ? nullptr : &*met;
 }
 
+/// One body that the ego vehicle may meet, at one time.
+struct Met {
+  std::uint32_t object = kNoObject;
+  std::string label;
+  Pose2 center;
+  BodySize size;
+  Point2 velocity = Point2::Zero();
+};
+
+Met metObject(const ObjectState& object) {
+  return {object.id, object.kind.label, object.center, bodySize(object.box()),
+          object.moving ? object.velocity : Point2(Point2::Zero())};
+}
+
+/// What a building is met at: the point of its outline that is nearest to the vehicle.
+Met metFront(const Solid& solid, const Pose2& ego) {
+  const auto* line = std::get_if<Segment>(&solid.outline);
+  Point2 nearest = boundingCircle(solid.outline).center;
+  if (line) {
+    const Point2 along = line->end - line->start;
+    const double share = (ego.position() - line->start).dot(along) / along.squaredNorm();
+    nearest = line->start + std::clamp(share, 0.0, 1.0) * along;
+  }
+  return {kNoObject, "Front", {nearest, 0.0}, BodySize(), Point2::Zero()};
+}
+
+/// What the ego vehicle shares ground with at a time.
+std::optional<Met> metAt(const World& world, double time) {
+  const Body ego = bodyAt(world.ego(), "ego vehicle", time);
+  for (const ObjectState& object : world.at(time).objects) {
+    if (meet(ego, bodyOf(object.solid(), object.kind.label))) {
+      return metObject(object);
+    }
+  }
+  for (const Solid& solid : world.fixedSolids()) {
+    if (solid.surface == Surface::kBody && solid.object == kNoObject &&
+        meet(ego, bodyOf(solid, "Front"))) {
+      return metFront(solid, world.ego().center(time));
+    }
+  }
+  return std::nullopt;
+}
+
+/// m/s, of the middle of the ego vehicle.
+Point2 egoVelocity(const World& world, double time) {
+  constexpr double kShort = 1e-3;  // s
+  const Mover& ego = world.ego();
+  return (ego.center(time).position() - ego.center(time - kShort).position()) / kShort;
+}
+
 Collision collisionOf(const Body& body, const Body& other, double time) {
   return {time, body.label, other.label, body.bound.center};
 }
@@ -95,6 +147,31 @@ std::optional<Collision> firstCollision(const World& world, double duration) {
         return collisionOf(*body, *other, time);
       }
     }
+  }
+  return std::nullopt;
+}
+
+std::optional<EgoContact> firstEgoContact(const World& world, double duration) {
+  constexpr double kPrecision = 1e-3;  // s
+  for (int step = 0; step * kStep <= duration; ++step) {
+    double after = step * kStep;
+    if (!metAt(world, after)) {
+      continue;
+    }
+    double before = std::max(0.0, after - kStep);
+    while (after - before > kPrecision) {
+      const double middle = 0.5 * (before + after);
+      (metAt(world, middle) ? after : before) = middle;
+    }
+    const Met met = *metAt(world, after);
+    const Mover& ego = world.ego();
+    const Pose2 center = ego.center(after);
+    const StruckSide side =
+        struckSide(bodyPose(center.position(), center.heading()),
+                   {0.5 * ego.kind.length, 0.5 * ego.kind.width},
+                   bodyPose(met.center.position(), met.center.heading()), met.size);
+    return EgoContact{after, met.object, met.label, side,
+                      (met.velocity - egoVelocity(world, after)).norm()};
   }
   return std::nullopt;
 }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
 #include "simulator/world.h"
+
+#include "datmo_fusion/risk/box_contact.h"
 
 namespace datmo::simulator {
 
@@ -22,5 +25,17 @@ std::optional<Collision> firstCollision(const World& world, double duration);
 
 /// The same for one more mover, which is not among the world's.
 std::optional<Collision> firstCollision(const World& world, const Mover& newcomer, double duration);
+
+/// The ego vehicle strikes something, or is struck.
+struct EgoContact {
+  double time = 0.0;                    ///< s
+  std::uint32_t object = kNoObject;     ///< id in the ground truth; kNoObject: a building, a fence
+  std::string label;                    ///< of the object
+  StruckSide side = StruckSide::kNone;  ///< of the ego vehicle
+  double speed = 0.0;                   ///< m/s, of one over the other
+};
+
+/// The first contact of the ego vehicle in `duration` (s), to a millisecond; none if there is none.
+std::optional<EgoContact> firstEgoContact(const World& world, double duration);
 
 }  // namespace datmo::simulator

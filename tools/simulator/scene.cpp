@@ -15,6 +15,9 @@ namespace datmo::simulator {
 
 namespace {
 
+/// s; more than a contact's time is off.
+constexpr double kContactMargin = 2e-3;
+
 std::size_t findRoad(const std::string& name, const std::vector<Road>& roads) {
   std::string names;
   for (std::size_t i = 0; i < roads.size(); ++i) {
@@ -171,6 +174,8 @@ World readWorld(const YAML::Node& scene, const SimulationOptions& options) {
   return *world;
 }
 
+/// Bodies other than the ego vehicle may not meet, nor may it without `contact`. Up to its contact:
+/// there the drive ends.
 void refuseCollisions(const World& world, double duration) {
   if (const auto collision = firstCollision(world, duration)) {
     std::ostringstream message;
@@ -193,8 +198,13 @@ Scene readScene(const std::string& file, const OptionValues& overrides) {
       values[key] = value;
     }
     const auto options = readOptions<SimulationOptions>(values);
-    scene.emplace(Scene{options, readWorld(yaml, options)});
-    refuseCollisions(scene->world, options.duration);
+    scene.emplace(Scene{options, readWorld(yaml, options), std::nullopt});
+    if (options.contact) {
+      scene->contact = firstEgoContact(scene->world, options.duration);
+    }
+    // Its last moment is the contact itself.
+    refuseCollisions(scene->world,
+                     scene->contact ? scene->contact->time - kContactMargin : options.duration);
   });
   return *scene;
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "simulator/collision.h"
 #include "simulator/ground_truth.h"
 #include "simulator/laser_scanner.h"
 #include "simulator/odometer.h"
@@ -19,6 +21,7 @@ struct SimulationOptions {
   int seed = 1;
   double duration = 20.0;  ///< s
   std::string compression = "none";
+  bool contact = false;
   LaserScannerOptions scanner;
   StereoCameraOptions stereo;
   OdometerOptions odometer;
@@ -31,6 +34,7 @@ struct SimulationOptions {
 struct Scene {
   SimulationOptions options;
   World world;
+  std::optional<EgoContact> contact;  ///< where the options allow it and it comes to it
 };
 
 /// Reads a scene file (rosbag_fixtures/README.md says what is in one). `overrides` replace options

@@ -76,6 +76,11 @@ void SimulationOptions::visit(OptionVisitor& visitor) {
   visitor.integer({"seed", "1", "of all random numbers"}, seed, {0.0, kMaxSeed});
   visitor.number({"duration", "s", "of the bag"}, duration, {0.1, 36000.0});
   visitor.text({"compression", "", "of the bag"}, compression, {"none", "bz2", "lz4"});
+  visitor.toggle({"contact", "",
+                  "the ego vehicle may run into something: the drive ends there, and "
+                  "/ground_truth/contact says when, with what and how; false: such a scene is "
+                  "refused"},
+                 contact);
   visitor.group("scanner", [&] { scanner.visit(visitor); });
   visitor.group("stereo", [&] { stereo.visit(visitor); });
   visitor.group("odometer", [&] { odometer.visit(visitor); });

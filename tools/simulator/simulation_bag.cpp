@@ -63,6 +63,13 @@ class Recording {
     bag_.writeLatched("/tf_static", toTime(start), message);
   }
 
+  void recordContact() {
+    if (scene_.contact) {
+      const Stamp stamp = Stamp::fromSeconds(kEpoch + scene_.contact->time);
+      write("/ground_truth/contact", stamp, toTrueContact(*scene_.contact, stamp));
+    }
+  }
+
   /// In the order in which measurements of the same time are recorded.
   std::vector<Source> sources() {
     std::vector<Source> sources{{scene_.options.odometer.rate,
@@ -158,12 +165,13 @@ bool writeSimulationBag(const Scene& scene, const std::string& file, const Progr
   Recording recording(scene, bag);
   recording.recordMounts();
   std::vector<Source> sources = recording.sources();
+  const double end = scene.contact ? scene.contact->time : scene.options.duration;
   while (true) {
     Source& next = *std::min_element(
         sources.begin(), sources.end(),
         [](const Source& a, const Source& b) { return a.nextTime() < b.nextTime(); });
     const double time = next.nextTime();
-    if (time >= scene.options.duration) {
+    if (time >= end) {
       break;
     }
     if (!progress(time)) {
@@ -172,6 +180,7 @@ bool writeSimulationBag(const Scene& scene, const std::string& file, const Progr
     next.run(time, Stamp::fromSeconds(kEpoch + time));
     ++next.runs;
   }
+  recording.recordContact();
   bag.finish();
   return true;
 }

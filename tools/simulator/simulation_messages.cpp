@@ -136,6 +136,16 @@ nav_msgs::Odometry toMessage(const Odometry& odometry, Stamp stamp) {
   return message;
 }
 
+datmo_fusion::TrueContact toTrueContact(const EgoContact& contact, Stamp stamp) {
+  datmo_fusion::TrueContact message;
+  message.header = header(stamp, kMapFrame);
+  message.id = contact.object;
+  message.label = contact.label;
+  message.side = static_cast<std::uint8_t>(contact.side);
+  message.strike_speed = static_cast<float>(contact.speed);
+  return message;
+}
+
 nav_msgs::Odometry toTruePose(const WorldState& state, const Pose2& map_in_world, Stamp stamp) {
   nav_msgs::Odometry message;
   message.header = header(stamp, kMapFrame);

@@ -3,10 +3,12 @@
 
 #include <vector>
 
+#include "simulator/collision.h"
 #include "simulator/ground_truth.h"
 #include "simulator/laser_scanner.h"
 #include "simulator/odometer.h"
 #include "simulator/world.h"
+#include <datmo_fusion/TrueContact.h>
 
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/LaserScan.h>
@@ -29,6 +31,8 @@ sensor_msgs::MultiEchoLaserScan toMultiEchoScan(const EchoScan& scan,
 TrueEchoes toTrueEchoes(const EchoScan& scan, Stamp stamp);
 
 nav_msgs::Odometry toMessage(const Odometry& odometry, Stamp stamp);
+
+datmo_fusion::TrueContact toTrueContact(const EgoContact& contact, Stamp stamp);
 
 /// The following are in the frame of the ground truth, the world as `map_in_world` sees it.
 nav_msgs::Odometry toTruePose(const WorldState& state, const Pose2& map_in_world, Stamp stamp);

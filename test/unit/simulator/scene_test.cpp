@@ -61,6 +61,43 @@ class SceneFile : public testing::Test {
   EXPECT_LT((message).find(first), (message).find(second)) << message; \
   EXPECT_NE((message).find(second), std::string::npos) << message
 
+TEST_F(SceneFile, ContactIsTrueWhereItIsAllowed) {
+  // A car that stands in the lane 20 m ahead: from bumper to bumper it is less.
+  const std::string standing =
+      "actors:\n  - {kind: car, path: [[20, -2], [80, -2]], speed: [[0, 0.0]]}\n";
+  const std::string allowed = "duration: 5.0, contact: true,";
+  const std::string text = kSmallScene;
+  const std::string with_car = text.substr(0, text.find("actors:")) + standing;
+  EXPECT_THROW(readScene(write(with_car)), OptionError);
+
+  std::string with_contact = with_car;
+  with_contact.replace(with_contact.find("duration: 5.0,"), 14, allowed);
+  const Scene scene = readScene(write(with_contact));
+  ASSERT_TRUE(scene.contact);
+  const Pose2 ego = scene.world.ego().center(0.0);
+  const ObjectKind& car = objectKind("car");
+  const double gap =
+      20.0 + car.axle_to_center - 0.5 * car.length - ego.x() - 0.5 * scene.world.ego().kind.length;
+  EXPECT_NEAR(scene.contact->time, gap / 8.0, 2e-3);
+  EXPECT_EQ(scene.contact->side, StruckSide::kFront);
+  EXPECT_NEAR(scene.contact->speed, 8.0, 1e-6);
+  EXPECT_EQ(scene.contact->label, "Car");
+  EXPECT_NE(scene.contact->object, kNoObject);
+}
+
+TEST_F(SceneFile, HasNoContactWhereNothingIsMet) {
+  std::string text = kSmallScene;
+  text.replace(text.find("duration: 5.0,"), 14, "duration: 5.0, contact: true,");
+  EXPECT_FALSE(readScene(write(text)).contact);
+}
+
+TEST_F(SceneFile, OthersMayNotMeetBeforeTheContact) {
+  std::string text = kSmallScene;
+  text.replace(text.find("duration: 5.0,"), 14, "duration: 5.0, contact: true,");
+  text += "  - {kind: car, path: [[26, 2], [90, 2]], speed: [[0, 0.0]]}\n";
+  EXPECT_THROW(readScene(write(text)), OptionError);
+}
+
 TEST_F(SceneFile, BecomesAWorld) {
   const Scene scene = readScene(write(kSmallScene));
   EXPECT_DOUBLE_EQ(scene.options.duration, 5.0);
