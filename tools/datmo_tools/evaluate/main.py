@@ -12,6 +12,7 @@ from datmo_tools.evaluate import (
     labels,
     objects,
     operating_curve,
+    risk,
     slam,
     stereo_grids,
     track_fusion,
@@ -36,6 +37,7 @@ SUBCOMMANDS = {
     "borders": (borders, "the borders of the road"),
     "grids": (grids, "fused grids, on simulated drives"),
     "stereo_grids": (stereo_grids, "stereo grids, by the Velodyne of a KITTI drive"),
+    "risk": (risk, "risks of contact, on simulated drives"),
     "slam": (slam, "poses, by the relations of the SLAM benchmark"),
 }
 
