@@ -13,6 +13,7 @@
 #include "datmo_fusion/ros/stage/grid_fusion_stage.h"
 #include "datmo_fusion/ros/stage/grid_slam_stage.h"
 #include "datmo_fusion/ros/stage/lidar_grid_stage.h"
+#include "datmo_fusion/ros/stage/mono_classifier_stage.h"
 #include "datmo_fusion/ros/stage/moving_objects_stage.h"
 #include "datmo_fusion/ros/stage/object_fusion_stage.h"
 #include "datmo_fusion/ros/stage/point_velocity_stage.h"
@@ -72,6 +73,7 @@ std::vector<Section> sections() {
           section<PointVelocityStageOptions>("`point_velocity`"),
           section<StereoObjectsStageOptions>("`stereo_objects`"),
           section<CloudObjectsStageOptions>("`cloud_objects`"),
+          section<MonoClassifierStageOptions>("`mono_classifier`"),
           section<ObjectFusionStageOptions>("`object_fusion`"),
           section<TrackerStageOptions>("`tracker`, `stereo_tracker`"),
           section<TrackFusionStageOptions>("`track_fusion`"),

@@ -246,14 +246,13 @@ class DnnDetector::State {
 void DnnDetectorOptions::visit(OptionVisitor& visitor) {
   visitor.text({"model", "",
                 "path of a YOLO of Darknet (.weights, its .cfg beside it) or a YOLOX (.onnx), "
-                "trained on COCO or on what `labels` says",
-                Tier::kPublic},
+                "trained on COCO or on what `labels` says"},
                model, {});
   visitor.text({"labels", "", "path of the names of its labels, one a line; empty: COCO's 80"},
                labels, {});
-  visitor.integer({"width", "px", "of the network's input, a multiple of 32", Tier::kPublic}, width,
+  visitor.integer({"width", "px", "of the network's input, a multiple of 32"}, width,
                   {64.0, 4096.0});
-  visitor.integer({"height", "px", "the same", Tier::kPublic}, height, {64.0, 4096.0});
+  visitor.integer({"height", "px", "the same"}, height, {64.0, 4096.0});
   visitor.number({"min_score", "1", "least score of what is reported"}, min_score, {0.01, 1.0});
   visitor.number({"max_overlap", "1",
                   "of two things of one class, intersection over union: the surer one stays"},

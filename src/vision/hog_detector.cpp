@@ -100,7 +100,7 @@ class HogDetector::State {
       const Eigen::Vector2d origin(part.x, part.y);
       result.push_back({{origin + (middle - half) / zoom, origin + (middle + half) / zoom},
                         ObjectClass::kPedestrian,
-                        scores[i]});
+                        scores[i] / (1.0 + scores[i])});
     }
     return result;
   }
@@ -110,7 +110,7 @@ class HogDetector::State {
 };
 
 void HogDetectorOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"min_score", "1", "least margin of a person"}, min_score, {-2.0, 10.0});
+  visitor.number({"min_score", "1", "least margin of a person"}, min_score, {0.0, 10.0});
   visitor.number({"max_overlap", "1", "of two persons, intersection over union"}, max_overlap,
                  {0.0, 1.0});
   visitor.number({"max_upscaling", "1",

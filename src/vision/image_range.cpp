@@ -124,9 +124,8 @@ void ImageRangeOptions::visit(OptionVisitor& visitor) {
   visitor.number({"pitch_sigma", "rad",
                   "standard deviation of the camera's pitch over the road: springs and slopes"},
                  pitch_sigma, {0.0001, 0.2});
-  visitor.number(
-      {"max_range", "m", "what the image alone sees farther away is not reported", Tier::kPublic},
-      max_range, {1.0, 500.0});
+  visitor.number({"max_range", "m", "what the image alone sees farther away is not reported"},
+                 max_range, {1.0, 500.0});
 }
 
 std::optional<ImageRange> rangeOf(const MountedCamera& camera, const ImageDetection& detection,

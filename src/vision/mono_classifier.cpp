@@ -72,8 +72,9 @@ struct MonoClassifier::InView {
 };
 
 MonoClassifierOptions::MonoClassifierOptions() {
-  hog_reliability.scores = {0.0, 1.0, 2.0};
-  hog_reliability.right = {0.3, 0.5, 0.6};
+  // It sees people, and does not tell who walks from who rides: little is known of the class.
+  hog_reliability.scores = {0.0, 0.5, 0.7};
+  hog_reliability.right = {0.21, 0.25, 0.3};
 }
 
 void MonoClassifierOptions::visit(OptionVisitor& visitor) {
@@ -83,9 +84,11 @@ void MonoClassifierOptions::visit(OptionVisitor& visitor) {
                method, {kAssociation, kThesis});
   visitor.text({"detector", "",
                 "hog: OpenCV's people detector, which needs no file; dnn: a neural network, which "
-                "needs dnn/model",
-                Tier::kPublic},
+                "needs dnn/model"},
                detector, {kHog, kDnn});
+  visitor.toggle(
+      {"calibrated", "", "off: the detector's class and score as they are, for calibrate_classes"},
+      calibrated);
   visitor.group("hog", [&] {
     hog.visit(visitor);
     visitor.group("reliability", [&] { hog_reliability.visit(visitor); });
@@ -105,8 +108,7 @@ void MonoClassifierOptions::visit(OptionVisitor& visitor) {
                  region_sigmas, {0.0, 10.0});
   visitor.number({"min_alone", "1",
                   "what the image alone sees is an object if its class is at least as probable; 1: "
-                  "none is",
-                  Tier::kPublic},
+                  "none is"},
                  min_alone, {0.0, 1.0});
   visitor.number({"thesis_overlap", "1",
                   "method thesis: a detection is a rectangle's if intersection over union is more"},
@@ -185,6 +187,7 @@ MonoClassification MonoClassifier::byAssociation(const cv::Mat& image, const Mou
     if (!alone) {
       continue;
     }
+    alone->sensors = {kSensor};
     classify(detections[i], *alone);
     if (alone->object_class != ObjectClass::kUnknown &&
         alone->class_probability >= options_.min_alone) {
@@ -241,6 +244,8 @@ void MonoClassifier::addClassified(const Object& object, const ImageDetection& d
   classified.position_covariance = kBorrowed * object.position_covariance;
   classified.side_variance.fill(kHiddenSide);
   classified.delay = object.delay;
+  // Who saw where it is: a name is no second sight of a motion.
+  classified.sensors = object.sensors;
   // So that it is not taken for another one that moves where the scanner's stands.
   classified.dynamic_state = object.dynamic_state;
   classify(detection, classified);
@@ -251,12 +256,16 @@ void MonoClassifier::addClassified(const Object& object, const ImageDetection& d
 }
 
 void MonoClassifier::classify(const ImageDetection& detection, Object& object) const {
+  if (!options_.calibrated) {
+    object.object_class = detection.object_class;
+    object.class_probability = std::clamp(detection.score, 0.0, 1.0);
+    return;
+  }
   const ClassProbabilities probabilities =
       reliability_.probabilities(detection.object_class, detection.score);
   const auto best = std::max_element(probabilities.begin(), probabilities.end());
   object.object_class = static_cast<ObjectClass>(best - probabilities.begin());
   object.class_probability = object.object_class == ObjectClass::kUnknown ? 0.0 : *best;
-  object.sensors = {kSensor};
 }
 
 }  // namespace datmo

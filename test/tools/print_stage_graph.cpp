@@ -4,6 +4,7 @@
 #include <iostream>
 #include <set>
 #include <string>
+#include <variant>
 
 #include <nlohmann/json.hpp>
 
@@ -14,7 +15,7 @@ namespace {
 nlohmann::json toJson(const datmo::GraphStage& stage) {
   nlohmann::json parameters = nlohmann::json::object();
   for (const auto& [key, value] : stage.parameters) {
-    parameters[key] = std::get<bool>(value);
+    std::visit([&, name = key](const auto& plain) { parameters[name] = plain; }, value);
   }
   nlohmann::json remaps = nlohmann::json::object();
   for (const auto& [from, to] : stage.remaps) {
@@ -37,6 +38,7 @@ int main(int count, char** words) {
   switches.cloud_objects = is_on("cloud_objects");
   switches.static_points = is_on("static_points");
   switches.stereo_objects = is_on("stereo_objects");
+  switches.mono = is_on("mono");
   switches.object_fusion = is_on("object_fusion");
   switches.stereo_tracker = is_on("track_fusion");
   switches.track_fusion = is_on("track_fusion");

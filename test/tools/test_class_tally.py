@@ -1,10 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Confusion and calibration of classes on reports worked out by hand."""
+"""Confusion and calibration of classes, and calibrate_classes, on reports worked out by hand."""
 
 import unittest
 
 import numpy as np
+import yaml
+from datmo_tools.errors import InputError
+from datmo_tools.evaluate.calibrate_classes import as_yaml, curve, mistaken, rising
 from datmo_tools.evaluate.class_tally import (
     NOTHING,
     Report,
@@ -61,6 +64,37 @@ class Tally(unittest.TestCase):
 
     def test_a_list_without_classes_has_no_sections(self):
         self.assertEqual(class_sections({"calibration": []}), [])
+
+
+class Calibrate(unittest.TestCase):
+    def test_what_falls_is_pooled(self):
+        np.testing.assert_allclose(rising([0.1, 0.5, 0.3, 0.9], [1, 1, 1, 1]), [0.1, 0.4, 0.4, 0.9])
+        np.testing.assert_allclose(rising([0.6, 0.0], [1, 2]), [0.2, 0.2])
+
+    def test_the_curve_goes_through_the_shares_of_bins(self):
+        scores, shares = curve(reports(1, 3, 0.3) + reports(3, 1, 0.9), 4)
+        np.testing.assert_allclose(scores, [0.3, 0.9])
+        np.testing.assert_allclose(shares, [2 / 6, 4 / 6])
+
+    def test_scores_rise_where_many_are_equal(self):
+        scores, shares = curve(reports(40, 0, 0.5), 10)
+        self.assertEqual(scores, [0.5])
+        self.assertEqual(len(shares), 1)
+
+    def test_without_reports_there_is_no_curve(self):
+        with self.assertRaises(InputError):
+            curve([], 10)
+
+    def test_mistakes_are_counted_by_what_is_there(self):
+        table = np.reshape(mistaken(reports(5, 3, 0.5) + reports(0, 1, 0.5, instead="cyclist")), (3, 5))
+        np.testing.assert_allclose(table[2], [0.5, 0.125, 0.25, 0.0, 0.125])
+        self.assertEqual(table[0][1], 0.0)
+
+    def test_the_section_is_that_of_the_detector(self):
+        section = yaml.safe_load(as_yaml("dnn", reports(8, 2, 0.7), 5))
+        reliability = section["mono_classifier"]["dnn"]["reliability"]
+        self.assertEqual(set(reliability), {"scores", "right", "mistaken"})
+        self.assertEqual(len(reliability["mistaken"]), 15)
 
 
 if __name__ == "__main__":

@@ -189,7 +189,7 @@ class Tool(EvaluateCase):
 
     def test_bad_input(self):
         self.write("/other", object_at(8.0, 0.0))
-        self.assertIn("nothing on /objects, /objects/stereo, /objects/fused", self.score(code=1)[1])
+        self.assertIn("nothing on /objects, /objects/stereo, /objects/mono, /objects/fused", self.score(code=1)[1])
         self.assertIn("nothing on /mine", self.score("--topic", "/mine", code=1)[1])
         self.write("/objects/stereo", object_at(8.0, 0.0), seconds=5.0)
         self.assertIn("no list has a stamp near", self.score(code=1)[1])

@@ -168,6 +168,19 @@ class LaunchSwitches(unittest.TestCase):
             self.assertEqual(remapped(nodes["risk"], "odometry"), "/odom")
             self.assertIs(parameters["/risk/road_borders"], borders)
 
+    def test_mono_fuses_the_objects_of_scanner_and_image(self):
+        for objects in (False, True):
+            with self.subTest(object_fusion=objects):
+                nodes, parameters = loaded("perception.launch", mono=True, object_fusion=objects,
+                                           camera_image="view", camera_info="view_info")
+                expected = ALWAYS | {"mono_classifier", "object_fusion"}
+                self.assertEqual(set(nodelets(nodes)), expected | (OBJECT_LEVEL if objects else set()))
+                self.assertEqual(remapped(nodes["mono_classifier"], "image"), "view")
+                self.assertEqual(remapped(nodes["mono_classifier"], "camera_info"), "view_info")
+                self.assertEqual(remapped(nodes["tracker"], "objects"), "objects/fused")
+                self.assertIs(parameters["/object_fusion/sources/mono/use"], True)
+                self.assertIs(parameters.get("/object_fusion/sources/stereo/use", True), objects)
+
     def test_there_is_a_thread_for_each_nodelet(self):
         for switches, nodes, parameters in self.each("perception.launch"):
             with self.subTest(**switches):

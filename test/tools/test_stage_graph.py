@@ -13,7 +13,7 @@ from pathlib import Path
 import roslaunch.config
 
 PACKAGE = Path(__file__).resolve().parents[2]
-LEVELS = ("low_level_fusion", "stereo_objects", "object_fusion", "track_fusion")
+LEVELS = ("low_level_fusion", "stereo_objects", "object_fusion", "track_fusion", "mono")
 OTHERS = ("cloud", "road_border", "static_points", "cloud_objects", "risk")
 DISPLAYS = {"markers", "lidar_markers", "stereo_markers", "grid_views", "camera_view"}
 

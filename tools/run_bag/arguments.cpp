@@ -87,13 +87,14 @@ void checkOutputs(const Arguments& arguments) {
 
 void checkStages(const Arguments& arguments) {
   for (const OptionalStage& one : kOptionalStages) {
-    const bool is_given = arguments.*one.is_given;
+    const bool by_mono = one.stage == LastStage::kObjectFusion && arguments.mono;
+    const bool is_given = arguments.*one.is_given || by_mono;
     if (arguments.last_stage == one.stage && !is_given) {
       throw UsageError("--until " + stageType(one.stage) + ": expected " + one.option + " with it");
     }
     if (arguments.last_stage < one.earliest_end && is_given) {
-      throw UsageError(std::string(one.option) + ": expected no --until before " +
-                       stageType(one.earliest_end));
+      throw UsageError((by_mono ? "--mono" : std::string(one.option)) +
+                       ": expected no --until before " + stageType(one.earliest_end));
     }
   }
 }
@@ -145,6 +146,9 @@ void addStages(CommandLine& line, Arguments& arguments) {
       "and writes /road_borders and /objects/dropped");
   line.add_flag("--cloud-objects", arguments.cloud_objects,
                 "finds objects in a 3D lidar's clouds, and writes /objects/cloud");
+  line.add_flag("--mono", arguments.mono,
+                "names the scanner's objects by the images of the left camera before tracker, and\n"
+                "writes /objects/mono and /objects/fused");
   line.add_flag("--static-points", arguments.static_points,
                 "writes what stands still: /static_points and /static_scan");
   line.add_flag("--object-fusion", arguments.object_fusion,

@@ -88,6 +88,12 @@ SensorSet readSensorsFor(const Arguments& arguments) {
   if (!arguments.grid_rule.empty()) {
     sensors.set("grid_fusion", "rule", arguments.grid_rule);
   }
+  if (arguments.mono) {
+    sensors.set("object_fusion", "sources/mono/use", true);
+    if (!arguments.object_fusion) {
+      sensors.set("object_fusion", "sources/stereo/use", false);
+    }
+  }
   return sensors;
 }
 
@@ -104,6 +110,7 @@ GraphSwitches switchesOf(const Arguments& arguments, const SensorSet& sensors,
   switches.road_border = arguments.road_border;
   switches.static_points = arguments.static_points;
   switches.cloud_objects = arguments.cloud_objects;
+  switches.mono = arguments.mono;
   switches.object_fusion = arguments.object_fusion;
   switches.track_fusion = arguments.track_fusion;
   switches.risk = arguments.risk;

@@ -32,6 +32,7 @@ BagToGraph::BagToGraph(const InputTopics& topics, GraphRunner& graph, DriveSumma
   readMotion(topics);
   readScans(topics);
   readStereo(topics.stereo);
+  readMono(topics.mono);
   readSources(topics);
 }
 
@@ -95,6 +96,12 @@ void BagToGraph::readStereo(const StereoTopics& topics) {
   on<sensor_msgs::CameraInfo>(topics.left_info, "stereo/left/camera_info");
   on<sensor_msgs::Image>(topics.right_image, "stereo/right/image_rect");
   on<sensor_msgs::CameraInfo>(topics.right_info, "stereo/right/camera_info");
+}
+
+/// The camera of both may be the same: then a message goes to both.
+void BagToGraph::readMono(const MonoTopics& topics) {
+  on<sensor_msgs::Image>(topics.image, "stereo/left/image_rect");
+  on<sensor_msgs::CameraInfo>(topics.info, "stereo/left/camera_info");
 }
 
 void BagToGraph::write(const ros::Time& time, const Publications& published) {

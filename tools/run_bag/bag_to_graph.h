@@ -62,6 +62,7 @@ class BagToGraph {
   void readMotion(const InputTopics& topics);
   void readScans(const InputTopics& topics);
   void readStereo(const StereoTopics& topics);
+  void readMono(const MonoTopics& topics);
   void readSources(const InputTopics& topics);
 
   void write(const ros::Time& time, const Publications& published);

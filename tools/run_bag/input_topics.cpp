@@ -51,6 +51,22 @@ StereoTopics imageTopics(const rosbag::Bag& bag, const Arguments& arguments) {
   return topics;
 }
 
+/// The left camera's rectified images and their info. Throws std::runtime_error for one that is not
+/// there.
+MonoTopics monoTopics(const rosbag::Bag& bag, const Arguments& arguments) {
+  MonoTopics topics;
+  topics.image = arguments.inputTopic("left_image", "/stereo/left/" + kRectifiedName);
+  topics.info = arguments.inputTopic("left_camera_info", infoBeside(topics.image));
+  for (const std::string& topic : {topics.image, topics.info}) {
+    if (!holdsTopic(bag, topic)) {
+      failForTopic(bag, "no " + topic +
+                            " for --mono, which needs a camera's rectified images and " +
+                            "their camera_info (left_image:=TOPIC, left_camera_info:=TOPIC)");
+    }
+  }
+  return topics;
+}
+
 std::string pointsTopic(const Arguments& arguments) {
   return arguments.inputTopic("points2", "/stereo/points2");
 }
@@ -120,7 +136,8 @@ void findObjectTopics(const rosbag::Bag& bag, const Arguments& arguments,
     const bool external = holdsTopic(bag, topic) && !holdsPoints(bag, arguments);
     if (source == "stereo" && !external) {
       topics.stereo = neededStereoTopics(bag, arguments, "object_fusion");
-    } else if (source != "lidar" && !(source == "cloud" && arguments.cloud_objects)) {
+    } else if (source != "lidar" && !(source == "cloud" && arguments.cloud_objects) &&
+               !(source == "mono" && arguments.mono)) {
       topics.objects[topic] = source;
     }
   }
@@ -237,7 +254,7 @@ std::vector<std::string> InputTopics::all() const {
   topics.insert(topics.end(), motion_topics.begin(), motion_topics.end());
   for (const std::string& topic :
        {scan, echoes, cloud, object_cloud, stereo.points, stereo.velocities, stereo.left_image,
-        stereo.right_image, stereo.left_info, stereo.right_info}) {
+        stereo.right_image, stereo.left_info, stereo.right_info, mono.image, mono.info}) {
     if (!topic.empty()) {
       topics.push_back(topic);
     }
@@ -269,7 +286,10 @@ InputTopics findTopics(const rosbag::Bag& bag, const Arguments& arguments,
     findLowLevelTopics(bag, arguments, sensors.options<GridFusionStageOptions>("grid_fusion"),
                        topics);
   }
-  if (arguments.object_fusion) {
+  if (arguments.mono) {
+    topics.mono = monoTopics(bag, arguments);
+  }
+  if (arguments.object_fusion || arguments.mono) {
     findObjectTopics(bag, arguments, sensors.options<ObjectFusionStageOptions>("object_fusion"),
                      topics);
   }

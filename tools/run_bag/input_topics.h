@@ -28,6 +28,12 @@ struct StereoTopics {
   StereoPoints input() const;
 };
 
+/// Those of the camera whose images name objects; empty: not read.
+struct MonoTopics {
+  std::string image;
+  std::string info;
+};
+
 /// Topics of the motion inputs in the bag; empty: not read.
 struct MotionTopics {
   std::string odometry;
@@ -47,6 +53,7 @@ struct InputTopics {
   std::string echoes;
   MotionTopics motion;
   StereoTopics stereo;
+  MonoTopics mono;
   std::map<std::string, std::string> grids;    ///< of sources that no stage makes: topic -> source
   std::map<std::string, std::string> objects;  ///< the same for objects
   std::map<std::string, std::string> tracks;   ///< and for tracks

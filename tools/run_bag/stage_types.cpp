@@ -8,6 +8,7 @@
 #include "datmo_fusion/ros/stage/grid_fusion_stage.h"
 #include "datmo_fusion/ros/stage/grid_slam_stage.h"
 #include "datmo_fusion/ros/stage/lidar_grid_stage.h"
+#include "datmo_fusion/ros/stage/mono_classifier_stage.h"
 #include "datmo_fusion/ros/stage/motion_stage.h"
 #include "datmo_fusion/ros/stage/moving_objects_stage.h"
 #include "datmo_fusion/ros/stage/object_fusion_stage.h"
@@ -44,6 +45,7 @@ const std::map<std::string, StageType>& stageTypes() {
       {"grid_fusion", typeOf<GridFusionStage>()},
       {"grid_slam", typeOf<GridSlamStage>()},
       {"lidar_grid", typeOf<LidarGridStage>()},
+      {"mono_classifier", typeOf<MonoClassifierStage>()},
       {"motion", typeOf<MotionStage>()},
       {"moving_objects", typeOf<MovingObjectsStage>()},
       {"object_fusion", typeOf<ObjectFusionStage>()},

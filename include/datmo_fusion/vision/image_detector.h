@@ -17,7 +17,7 @@ namespace datmo {
 struct ImageDetection {
   Eigen::AlignedBox2d box;  ///< px, may reach out of the image
   ObjectClass object_class = ObjectClass::kUnknown;
-  double score = 0.0;  ///< the higher the surer; its scale is the detector's own
+  double score = 0.0;  ///< 0 to 1, the higher the surer; not calibrated
 };
 
 /// Where in an image an object of the scanner is expected.

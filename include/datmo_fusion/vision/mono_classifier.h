@@ -25,6 +25,7 @@ struct MonoClassifierOptions {
 
   std::string method = kAssociation;
   std::string detector = kHog;
+  bool calibrated = true;
   HogDetectorOptions hog;
   DnnDetectorOptions dnn;
   ClassReliabilityOptions hog_reliability;
@@ -58,8 +59,9 @@ struct MonoClassification {
 /// instead (`method: thesis`): the class whose rectangle has the surest detection in it is taken,
 /// and what the scanner does not see is not there.
 ///
-/// An object in the list is the scanner's with a class and its probability. Its position says next
-/// to nothing, and its sides nothing: they are the scanner's own, which must not count twice.
+/// An object in the list is the scanner's, with its sensors, and with a class and its probability.
+/// Its position says next to nothing, and its sides nothing: they are the scanner's own, which must
+/// not count twice. What the image alone has is of sensor "mono".
 ///
 /// Not thread safe. Same input, same output.
 class MonoClassifier {

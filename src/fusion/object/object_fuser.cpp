@@ -70,6 +70,10 @@ void ObjectSourceOptions::visit(OptionVisitor& visitor) {
                   "that a false object of another source has one of this source in its gate, by "
                   "chance"},
                  false_agreement_probability, {0.001, 1.0});
+  visitor.number({"late_by", "s",
+                  "more than 0: the reference does not wait for its lists, which count when they "
+                  "come, up to this much later"},
+                 late_by, {0.0, 5.0});
   visitor.group("covariance", [&] { covariance.visit(visitor); });
 }
 
@@ -99,6 +103,16 @@ std::vector<std::string> ObjectFuserOptions::sourcesInUse() const {
     }
   }
   return names;
+}
+
+std::map<std::string, double> ObjectFuserOptions::lateSources() const {
+  std::map<std::string, double> late;
+  for (const auto& [name, source] : sources) {
+    if (source.use && source.late_by > 0.0) {
+      late[name] = source.late_by;
+    }
+  }
+  return late;
 }
 
 ObjectFuser::ObjectFuser(const ObjectFuserOptions& options) : options_(options) {

@@ -7,11 +7,8 @@
 #include <vector>
 
 #include "track_drawing.h"
-#include <cv_bridge/cv_bridge.h>
-#include <image_geometry/pinhole_camera_model.h>
 
-#include <sensor_msgs/image_encodings.h>
-
+#include "datmo_fusion/ros/convert/image_conversion.h"
 #include "datmo_fusion/ros/stage/input_error.h"
 
 namespace datmo {
@@ -38,34 +35,6 @@ Eigen::Isometry3d poseAt(const tf2::BufferCore& transforms, const std::string& p
   }
 }
 
-std::string sizeText(std::uint32_t width, std::uint32_t height) {
-  return std::to_string(width) + " x " + std::to_string(height) + " px";
-}
-
-/// Throws InputError (`bad_encoding`).
-cv_bridge::CvImagePtr canvasOf(const sensor_msgs::Image& image) {
-  const auto refuse = [&image](const std::string& why) {
-    return InputError("bad_encoding",
-                      "image of encoding '" + image.encoding + "', " +
-                          sizeText(image.width, image.height) + ", step " +
-                          std::to_string(image.step) + ", " + std::to_string(image.data.size()) +
-                          " bytes: expected a color or gray image (bgr8, rgb8, mono8, Bayer) of "
-                          "that size: " +
-                          why);
-  };
-  if (image.width == 0 || image.height == 0 ||
-      image.data.size() < std::size_t{image.step} * image.height) {
-    throw refuse("pixels are missing");
-  }
-  try {
-    return cv_bridge::toCvCopy(image, sensor_msgs::image_encodings::BGR8);
-  } catch (const cv_bridge::Exception& error) {
-    throw refuse(error.what());
-  } catch (const cv::Exception& error) {
-    throw refuse(error.what());
-  }
-}
-
 }  // namespace
 
 CameraView::CameraView(const CameraViewOptions& options, const TransformBuffer& transforms,
@@ -81,21 +50,7 @@ CameraView::CameraView(const CameraViewOptions& options, const TransformBuffer& 
 }
 
 void CameraView::takeCameraInfo(const sensor_msgs::CameraInfo& message) {
-  const auto& p = message.P;
-  const bool finite =
-      std::all_of(p.begin(), p.end(), [](double value) { return std::isfinite(value); });
-  if (!finite || p[0] <= 0.0 || p[5] <= 0.0) {
-    monitor_.dropped(InputError(
-        "bad_camera_info", "camera info whose matrix P has focal lengths " + std::to_string(p[0]) +
-                               " and " + std::to_string(p[5]) +
-                               " px: expected those of a calibrated camera, more than 0"));
-    return;
-  }
-  image_geometry::PinholeCameraModel model;
-  model.fromCameraInfo(message);
-  info_ = message;
-  camera_ = PinholeCamera{model.fx(), model.fy(), model.cx(), model.cy()};
-  shift_ = -model.Tx() / model.fx();
+  runner_.serve([&] { camera_.take(message); });
 }
 
 void CameraView::takeTracks(const TrackArrayConstPtr& message) {
@@ -111,7 +66,7 @@ void CameraView::takeTracks(const TrackArrayConstPtr& message) {
 void CameraView::takeImage(const sensor_msgs::ImageConstPtr& message, Stamp now) {
   runner_.serve([&] {
     runner_.check("image", message->header.stamp);
-    checkCamera(*message);
+    camera_.check(*message);
     if (queue_.size() >= kMaxImages) {
       queue_.pop_front();
       monitor_.dropped(InputError("queue_full", "more than " + std::to_string(kMaxImages) +
@@ -119,26 +74,6 @@ void CameraView::takeImage(const sensor_msgs::ImageConstPtr& message, Stamp now)
     }
     queue_.push_back({message, now});
   });
-}
-
-/// Throws InputError (`missing_camera_info`, `wrong_size`, `wrong_frame`).
-void CameraView::checkCamera(const sensor_msgs::Image& image) const {
-  if (!camera_) {
-    throw InputError("missing_camera_info",
-                     "no camera info has come for the images: expected one of their size and frame "
-                     "(argument camera_info of perception.launch)");
-  }
-  if (image.width != info_.width || image.height != info_.height) {
-    throw InputError("wrong_size", "image of " + sizeText(image.width, image.height) +
-                                       ", but its camera info says " +
-                                       sizeText(info_.width, info_.height) +
-                                       ": expected the rectified image of that camera");
-  }
-  if (image.header.frame_id != info_.header.frame_id) {
-    throw InputError("wrong_frame", "image in frame '" + image.header.frame_id +
-                                        "', but its camera info is in '" + info_.header.frame_id +
-                                        "': expected those of one camera");
-  }
 }
 
 sensor_msgs::ImagePtr CameraView::next(Stamp now) {
@@ -191,7 +126,7 @@ sensor_msgs::ImagePtr CameraView::draw(const sensor_msgs::ImageConstPtr& image,
   }
   const Stopwatch watch;
   const TrackArray* tracks = nearestTracks(stamp);
-  const cv_bridge::CvImagePtr canvas = canvasOf(*image);
+  const cv_bridge::CvImagePtr canvas = colorCopy(*image);
   if (tracks != nullptr) {
     const Eigen::Isometry3d camera_in_fixed = poseAt(transforms_.core(), tracks->header.frame_id,
                                                      image->header.frame_id, image->header.stamp);
@@ -211,13 +146,13 @@ void CameraView::drawTracks(const TrackArray& tracks, Stamp stamp,
   std::vector<TrackBox> boxes;
   for (const TrackMessage& track : tracks.tracks) {
     TrackBox box = trackBox(track, later, fixed_in_camera, options_);
-    box.box.pose.pretranslate(Eigen::Vector3d(-shift_, 0.0, 0.0));
+    box.box.pose.pretranslate(Eigen::Vector3d(-camera_.shift(), 0.0, 0.0));
     box.distance = box.box.pose.translation().norm();
     if (box.distance <= options_.max_distance) {
       boxes.push_back(box);
     }
   }
-  drawTrackBoxes(*camera_, std::move(boxes), options_, canvas);
+  drawTrackBoxes(camera_.pinhole(), std::move(boxes), options_, canvas);
 }
 
 }  // namespace datmo

@@ -51,7 +51,8 @@ ObjectFusionStage::ObjectFusionStage(const ObjectFusionStageOptions& options, St
       inputs_({options.frames.base, options.frames, options.motion, options.input, options.matcher,
                options.fuser.sourcesInUse(), kObjectList},
               runner_),
-      matcher_(options.matcher, options.fuser.sourcesInUse(), Serving::kOnce),
+      matcher_(options.matcher, options.fuser.sourcesInUse(), Serving::kOnce,
+               options.fuser.lateSources()),
       fuser_(options.fuser) {
   checkOptions(options);
   checkSourceNames(sources(), kObjectList, {"fused"});

@@ -3,6 +3,13 @@
 
 namespace datmo {
 
+namespace {
+
+/// s; a detector in images may take longer than the scanner for some turns.
+constexpr double kMonoLateBy = 0.4;
+
+}  // namespace
+
 std::string GraphStage::resolved(const std::string& topic) const {
   const auto remap = remaps.find(topic);
   return remap == remaps.end() ? topic : remap->second;
@@ -10,7 +17,8 @@ std::string GraphStage::resolved(const std::string& topic) const {
 
 std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
   const std::string scan = switches.scan_from_cloud ? "cloud_scan" : "scan";
-  const std::string tracked_objects = switches.object_fusion ? "objects/fused" : "objects";
+  const bool fuses_objects = switches.object_fusion || switches.mono;
+  const std::string tracked_objects = fuses_objects ? "objects/fused" : "objects";
   const std::string tracks_of_tracker = switches.track_fusion ? "tracks/lidar" : "tracks";
   const std::map<std::string, std::string> camera{
       {"points2", "stereo/points2"}, {"right/camera_info", "stereo/right/camera_info"}};
@@ -24,6 +32,17 @@ std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
                                                   {"points2", "stereo/points2"}};
   const bool has_images = switches.stereo != StereoPoints::kClouds;
   const OptionValues rectified{{"rectified", switches.stereo == StereoPoints::kRectifiedImages}};
+
+  const std::map<std::string, std::string> mono_images{{"image", "stereo/left/image_rect"},
+                                                       {"camera_info", "stereo/left/camera_info"}};
+  OptionValues fused_sources;
+  if (switches.mono) {
+    fused_sources["sources/mono/use"] = true;
+    fused_sources["sources/mono/late_by"] = kMonoLateBy;
+    if (!switches.object_fusion) {
+      fused_sources["sources/stereo/use"] = false;
+    }
+  }
 
   std::vector<GraphStage> graph;
   const auto add = [&graph](bool present, const GraphStage& stage) {
@@ -47,8 +66,9 @@ std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
   add(true, {"moving_objects", "moving_objects", {}, {{"road_borders", switches.road_border}}});
   add(switches.stereo_objects, {"stereo_objects", "stereo_objects", camera_with_velocities, {}});
   add(switches.cloud_objects, {"cloud_objects", "cloud_objects", {}, {}});
-  add(switches.object_fusion,
-      {"object_fusion", "object_fusion", {{"objects/lidar", "objects"}}, {}});
+  add(switches.mono, {"mono_classifier", "mono_classifier", mono_images, {}});
+  add(fuses_objects,
+      {"object_fusion", "object_fusion", {{"objects/lidar", "objects"}}, fused_sources});
   add(true,
       {"tracker", "tracker", {{"objects", tracked_objects}, {"tracks", tracks_of_tracker}}, {}});
   // What the scanner saw is not what the camera could see.

@@ -54,6 +54,34 @@ class SourceMatcherTest : public testing::Test {
   Matcher matcher_{options(), {"stereo", "lidar"}, Serving::kOnce};
 };
 
+TEST(LateSource, HoldsNobodyUpAndCountsWhenItComes) {
+  Matcher matcher({}, {"lidar", "mono"}, Serving::kOnce, {{"mono", 0.3}});
+  const auto add = [&matcher](const char* source, double seconds) {
+    matcher.add(source, at(seconds), std::make_shared<const int>(0));
+  };
+  add("lidar", 0.0);
+  const auto alone = matcher.next(at(0.0));
+  ASSERT_TRUE(alone);
+  EXPECT_EQ(alone->samples.size(), 1U);
+  add("mono", -0.1);  // it took more than a scan
+  EXPECT_FALSE(matcher.next(at(0.0)));
+  add("lidar", 0.1);
+  const auto both = matcher.next(at(0.1));
+  ASSERT_TRUE(both);
+  ASSERT_EQ(both->samples.size(), 2U);
+  EXPECT_EQ(both->samples[1].stamp, at(-0.1));
+  add("lidar", 0.2);
+  EXPECT_EQ(matcher.next(at(0.2))->samples.size(), 1U) << "once";
+}
+
+TEST(LateSource, WhatIsTooLateIsInNoSet) {
+  Matcher matcher({}, {"lidar", "mono"}, Serving::kOnce, {{"mono", 0.3}});
+  matcher.add("mono", at(-0.35), std::make_shared<const int>(0));
+  matcher.add("lidar", at(0.0), std::make_shared<const int>(0));
+  EXPECT_EQ(matcher.next(at(0.0))->samples.size(), 1U);
+  EXPECT_EQ(matcher.unserved("mono"), 1U);
+}
+
 TEST_F(SourceMatcherTest, ThePayloadIsHandedThrough) {
   const auto payload = std::make_shared<const int>(7);
   matcher_.add("lidar", at(0.0), payload);

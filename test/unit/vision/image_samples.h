@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "datmo_fusion/vision/image_region.h"
 
@@ -35,5 +37,19 @@ inline ImageDetection detectionOf(ObjectClass object_class, double left, double 
                                   double bottom, double score = 0.9) {
   return {{Eigen::Vector2d(left, top), Eigen::Vector2d(right, bottom)}, object_class, score};
 }
+
+/// Sees the same in each image.
+class FixedDetector : public ImageDetector {
+ public:
+  explicit FixedDetector(std::vector<ImageDetection> seen) : seen_(std::move(seen)) {}
+
+  std::vector<ImageDetection> detect(const cv::Mat& /*image*/,
+                                     const std::vector<ImageRegion>& /*regions*/) override {
+    return seen_;
+  }
+
+ private:
+  std::vector<ImageDetection> seen_;
+};
 
 }  // namespace datmo::test

@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <stdexcept>
-#include <utility>
 
 #include "vision/image_samples.h"
 #include <gtest/gtest.h>
@@ -13,22 +12,9 @@ namespace datmo {
 namespace {
 
 using test::detectionOf;
+using test::FixedDetector;
 using test::levelCamera;
 using test::objectAt;
-
-/// Sees the same in each image.
-class FixedDetector : public ImageDetector {
- public:
-  explicit FixedDetector(std::vector<ImageDetection> seen) : seen_(std::move(seen)) {}
-
-  std::vector<ImageDetection> detect(const cv::Mat& /*image*/,
-                                     const std::vector<ImageRegion>& /*regions*/) override {
-    return seen_;
-  }
-
- private:
-  std::vector<ImageDetection> seen_;
-};
 
 /// A person whose feet are 10 m ahead, and a car 20 m ahead on the left.
 const ImageDetection kPerson = detectionOf(ObjectClass::kPedestrian, 485, 190, 515, 275);
@@ -56,6 +42,7 @@ TEST(MonoClassifier, NamesTheObjectOfTheScanner) {
   objects.stamp = Stamp::fromSeconds(5.0);
   objects.objects = {objectAt(10.2, 0.0, 0.4, 0.4, 0.0), objectAt(-5.0, 0.0, 0.4, 0.4, 0.0)};
   objects.objects[0].dynamic_state = DynamicState::kMoving;
+  objects.objects[0].sensors = {"lidar"};
   const MonoClassification result = classified({kPerson}, objects);
   EXPECT_EQ(result.in_view, 1U) << "the other is behind";
   EXPECT_EQ(result.classified, 1U);
@@ -65,7 +52,7 @@ TEST(MonoClassifier, NamesTheObjectOfTheScanner) {
   EXPECT_EQ(result.list.stamp, objects.stamp);
   EXPECT_EQ(named.object_class, ObjectClass::kPedestrian);
   EXPECT_NEAR(named.class_probability, 0.8, 1e-9);
-  EXPECT_EQ(named.sensors, std::vector<std::string>{"mono"});
+  EXPECT_EQ(named.sensors, std::vector<std::string>{"lidar"}) << "who saw where it is";
   EXPECT_EQ(named.dynamic_state, DynamicState::kMoving);
   EXPECT_NEAR(named.box.center.x(), 10.2, 1e-12);
   EXPECT_GE(named.position_covariance(0, 0), 50.0 * objects.objects[0].position_covariance(0, 0))
@@ -77,6 +64,7 @@ TEST(MonoClassifier, WhatTheScannerDoesNotSeeIsAnObjectByItself) {
   EXPECT_EQ(result.alone, 2U);
   ASSERT_EQ(result.list.objects.size(), 2U);
   EXPECT_NEAR(result.list.objects[0].box.center.x(), 10.0, 1.0);
+  EXPECT_EQ(result.list.objects[0].sensors, std::vector<std::string>{"mono"});
   EXPECT_GT(result.list.objects[1].box.center.y(), 3.0);
 }
 

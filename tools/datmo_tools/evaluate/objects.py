@@ -35,7 +35,8 @@ KITTI's labels know the camera's view alone, and not which sensor sees what:
 --visible-to none --half-angle 0.7."""
 
 # The sensor that must see a true object for it to be asked of a topic.
-SENSORS = {"/objects": "scanner", "/objects/stereo": "stereo", "/objects/fused": ANY}
+SENSORS = {"/objects": "scanner", "/objects/stereo": "stereo", "/objects/mono": ANY,
+           "/objects/fused": ANY}  # fmt: skip
 
 BANDS = (0.0, 10.0, 20.0, 30.0, 40.0)  # m, as far as they lie within --range
 RANGE = 36.0  # m; thesis 3.3.3

@@ -21,6 +21,7 @@ struct ObjectSourceOptions {
   bool use = true;
   double detection_probability = 0.5;        ///< 1
   double false_agreement_probability = 0.1;  ///< 1
+  double late_by = 0.0;                      ///< s
   PositionCovarianceOptions covariance;
 
   void visit(OptionVisitor& visitor);
@@ -40,6 +41,9 @@ struct ObjectFuserOptions {
 
   /// Names of the sources that are in use.
   std::vector<std::string> sourcesInUse() const;
+
+  /// By how much those of them may be late that are not waited for, s.
+  std::map<std::string, double> lateSources() const;
 };
 
 /// The objects of one source, to be fused with others.

@@ -45,6 +45,9 @@ enum class Serving {
 /// equally near ones the earlier. While the reference is silent the next live source by name takes
 /// its role; it has it back when it publishes again.
 ///
+/// A source that may be late (a detector that takes its time) holds nobody up: its sample is in the
+/// next set after it has come, if that is no more than so much later.
+///
 /// A sample that serves once is kept for the next set if that is nearer to it, as far as is known
 /// by then.
 ///
@@ -55,13 +58,15 @@ class SourceMatcher {
  public:
   using Matched = MatchedSamples<Payload>;
 
-  /// `sources`: the names of all that may speak. Throws OptionError (checkMatcher).
+  /// `sources`: the names of all that may speak; `late_by`: s, by how much those that no set waits
+  /// for may be late. Throws OptionError (checkMatcher).
   SourceMatcher(const SourceMatcherOptions& options, const std::vector<std::string>& sources,
-                Serving serving)
+                Serving serving, const std::map<std::string, double>& late_by = {})
       : options_(options), serving_(serving) {
     checkMatcher(options, sources);
     for (const std::string& source : sources) {
-      sources_[source];
+      const auto late = late_by.find(source);
+      sources_[source].late_by = late == late_by.end() ? 0.0 : late->second;
     }
   }
 
@@ -96,6 +101,7 @@ class SourceMatcher {
     std::deque<Sample> samples;  ///< rising stamps; those that may yet serve
     std::optional<Stamp> last;   ///< of all its samples
     std::uint64_t unserved = 0;
+    double late_by = 0.0;  ///< s; 0: it is waited for
   };
   using Entry = typename std::map<std::string, Source>::value_type;
 
@@ -104,6 +110,12 @@ class SourceMatcher {
 
   bool isSilent(const Source& source, Stamp now) const {
     return secondsBetween(source.last.value_or(first_.value_or(now)), now) >= options_.silent_after;
+  }
+
+  /// Whether a sample of this source may be in a set of this stamp.
+  bool isNear(const Source& source, Stamp of_sample, Stamp of_set) const {
+    const double older = secondsBetween(of_sample, of_set);
+    return older >= -options_.tolerance && older <= std::max(source.late_by, options_.tolerance);
   }
 
   /// The source whose samples lead to sets at this time; null: all are silent.
@@ -223,7 +235,8 @@ bool SourceMatcher<Payload>::isComplete(Stamp stamp, Stamp now) const {
   return secondsBetween(stamp, now) >= options_.max_wait ||
          std::all_of(sources_.begin(), sources_.end(), [&](const Entry& entry) {
            const Source& source = entry.second;
-           return isSilent(source, now) || (source.last && *source.last >= stamp);
+           return source.late_by > 0.0 || isSilent(source, now) ||
+                  (source.last && *source.last >= stamp);
          });
 }
 
@@ -246,7 +259,7 @@ auto SourceMatcher<Payload>::nearest(Source& source, Stamp stamp, const Source& 
   const auto found = std::min_element(
       source.samples.begin(), end,
       [&](const Sample& a, const Sample& b) { return distance(stamp, a) < distance(stamp, b); });
-  return found != end && distance(stamp, *found) <= options_.tolerance ? &*found : nullptr;
+  return found != end && isNear(source, found->stamp, stamp) ? &*found : nullptr;
 }
 
 template <typename Payload>
@@ -275,7 +288,7 @@ template <typename Payload>
 void SourceMatcher<Payload>::dropPast(Source& source, Stamp stamp) const {
   const auto& samples = source.samples;
   const auto isPast = [&] {
-    return secondsBetween(samples.front().stamp, stamp) > options_.tolerance;
+    return samples.front().stamp < stamp && !isNear(source, samples.front().stamp, stamp);
   };
   while (!samples.empty() && isPast()) {
     dropOldest(source);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <deque>
-#include <optional>
 #include <string>
 
 #include <Eigen/Geometry>
@@ -12,9 +11,9 @@
 
 #include "datmo_fusion/ros/convert/messages.h"
 #include "datmo_fusion/ros/display/camera_view_options.h"
+#include "datmo_fusion/ros/stage/camera_input.h"
 #include "datmo_fusion/ros/stage/stage_runner.h"
 #include "datmo_fusion/ros/transform_buffer.h"
-#include "datmo_fusion/vision/box_projection.h"
 
 namespace cv {
 class Mat;
@@ -56,7 +55,6 @@ class CameraView {
 
   bool hasWaitedTooLong(const Waiting& waiting, Stamp now) const;
   const TrackArray* nearestTracks(Stamp stamp) const;
-  void checkCamera(const sensor_msgs::Image& image) const;
   sensor_msgs::ImagePtr draw(const sensor_msgs::ImageConstPtr& image, bool wait_for_tracks);
   void drawTracks(const TrackArray& tracks, Stamp stamp, const Eigen::Isometry3d& fixed_in_camera,
                   cv::Mat& canvas) const;
@@ -65,9 +63,7 @@ class CameraView {
   const TransformBuffer& transforms_;
   StageMonitor& monitor_;
   StageRunner runner_;
-  sensor_msgs::CameraInfo info_;
-  std::optional<PinholeCamera> camera_;
-  double shift_ = 0.0;  ///< m, of the camera to the right of its frame's origin
+  CameraInput camera_;
   std::deque<TrackArrayConstPtr> tracks_;
   std::deque<Waiting> queue_;
 };

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace datmo {
+
+/// Does long work beside the thread that asks for it, always on what was asked for last: one job is
+/// done, one waits at most. Or, for a result that depends on nothing but the input, does each job
+/// at once. All but the work is called by one thread.
+template <typename Job, typename Result>
+class NewestWorker {
+ public:
+  using Work = std::function<Result(const Job&)>;
+
+  /// `work` must not throw. `beside`: in a thread of its own.
+  NewestWorker(Work work, bool beside) : work_(std::move(work)) {
+    if (beside) {
+      thread_ = std::thread([this] { run(); });
+    }
+  }
+
+  /// Waits for the job that is being done; the one that waits is left.
+  ~NewestWorker() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      ends_ = true;
+    }
+    changed_.notify_all();
+    if (thread_.joinable()) {
+      thread_.join();
+    }
+  }
+  NewestWorker(const NewestWorker&) = delete;
+  NewestWorker& operator=(const NewestWorker&) = delete;
+
+  /// Returns whether another job, which had not been begun, was dropped for this one.
+  bool start(Job job) {
+    if (!thread_.joinable()) {
+      done_.push_back(work_(job));
+      return false;
+    }
+    bool drops = false;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      drops = next_.has_value();
+      next_ = std::move(job);
+    }
+    changed_.notify_all();
+    return drops;
+  }
+
+  /// What was done since the last call, in order.
+  std::vector<Result> take() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return std::exchange(done_, {});
+  }
+
+  /// Blocks until no job is being done or waits.
+  void waitUntilIdle() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait(lock, [this] { return !next_ && !busy_; });
+  }
+
+ private:
+  void run() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    while (true) {
+      changed_.wait(lock, [this] { return ends_ || next_; });
+      if (ends_) {
+        return;
+      }
+      const Job job = *std::exchange(next_, std::nullopt);
+      busy_ = true;
+      lock.unlock();
+      Result result = work_(job);
+      lock.lock();
+      busy_ = false;
+      done_.push_back(std::move(result));
+      changed_.notify_all();
+    }
+  }
+
+  Work work_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<Job> next_;
+  std::vector<Result> done_;
+  bool busy_ = false;
+  bool ends_ = false;
+  std::thread thread_;  ///< last: it uses all others
+};
+
+}  // namespace datmo

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The stages of a single camera as nodelets: a library of their own, for nothing else links
+// OpenCV's detectors and networks.
+#include "stage_nodelet.h"
+
+#include <pluginlib/class_list_macros.hpp>
+
+#include "datmo_fusion/ros/stage/mono_classifier_stage.h"
+
+namespace datmo {
+
+using MonoClassifierNodelet = StageNodelet<MonoClassifierStage>;
+
+}  // namespace datmo
+
+PLUGINLIB_EXPORT_CLASS(datmo::MonoClassifierNodelet, nodelet::Nodelet)

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/stage/mono_classifier_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <utility>
+
+#include <boost/make_shared.hpp>
+#include <opencv2/core.hpp>
+
+#include "datmo_fusion/common/square.h"
+#include "datmo_fusion/fusion/sync/relative_motion.h"
+#include "datmo_fusion/ros/convert/image_conversion.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/frames.h"
+#include "datmo_fusion/ros/stage/stage_inputs.h"
+#include "datmo_fusion/tracking/object_check.h"
+
+namespace datmo {
+
+namespace {
+
+/// A second of a fast scanner: longer than an image may wait.
+constexpr std::size_t kMaxLists = 64;
+
+/// As an OptionError: the host stops with its message.
+std::unique_ptr<MonoClassifier> makeClassifier(const MonoClassifierOptions& options) {
+  try {
+    return std::make_unique<MonoClassifier>(options);
+  } catch (const ModelError& error) {
+    throw OptionError(std::string("dnn/model: ") + error.what());
+  }
+}
+
+double contrastOf(const cv::Mat& image) {
+  cv::Scalar mean;
+  cv::Scalar deviation;
+  cv::meanStdDev(image, mean, deviation);
+  return deviation[0];
+}
+
+}  // namespace
+
+void MonoClassifierStageOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"tolerance", "s", "objects of this time around the exposure are looked at"},
+                 tolerance, {0.0, 1.0});
+  visitor.number({"max_wait", "s",
+                  "longest time that an image waits for them; without them it is looked at by "
+                  "itself"},
+                 max_wait, {0.01, 2.0});
+  visitor.number(
+      {"max_age", "s", "an image that is older than the newest objects by more is not looked at"},
+      max_age, {0.0, 10.0});
+  visitor.number({"object_speed", "m/s",
+                  "standard deviation of the objects' speed between their time and the exposure"},
+                 object_speed, {0.0, 100.0});
+  visitor.number({"min_contrast", "1",
+                  "an image whose gray levels have a smaller standard deviation is blank: black, "
+                  "white, covered"},
+                 min_contrast, {0.0, 100.0});
+  visitor.group("input", [&] { input.visit(visitor); });
+  classifier.visit(visitor);
+}
+
+MonoClassifierStage::MonoClassifierStage(const MonoClassifierStageOptions& options,
+                                         const TransformBuffer& transforms, StageMonitor& monitor,
+                                         const StepClock& clock)
+    : MonoClassifierStage(options, transforms, monitor, clock, makeClassifier(options.classifier)) {
+}
+
+MonoClassifierStage::MonoClassifierStage(const MonoClassifierStageOptions& options,
+                                         const TransformBuffer& transforms, StageMonitor& monitor,
+                                         const StepClock& clock,
+                                         std::unique_ptr<MonoClassifier> classifier)
+    : options_(options),
+      transforms_(transforms),
+      monitor_(monitor),
+      runner_(monitor, options.input, "forgets all objects", [this] { reset(); }),
+      motion_(options.motion, options.frames, runner_),
+      classifier_(std::move(classifier)),
+      worker_([this](const Job& job) { return work(*classifier_, job); }, clock != nullptr) {
+  checkOptions(options);
+}
+
+void MonoClassifierStage::reset() {
+  motion_.reset();
+  objects_.clear();
+  waiting_.reset();
+  last_image_.reset();
+  results_.clear();
+  ++run_;  // what the detector still looks at is of no use
+}
+
+void MonoClassifierStage::takeCameraInfo(const sensor_msgs::CameraInfo& message) {
+  runner_.serve([&] { camera_.take(message); });
+}
+
+void MonoClassifierStage::takeObjects(const ObjectArray& message) {
+  runner_.serve([&] {
+    if (message.header.frame_id != options_.frames.base) {
+      throw InputError("wrong_frame", "objects in '" + message.header.frame_id + "': expected '" +
+                                          options_.frames.base + "'");
+    }
+    ObjectList list = fromMessage(message);
+    runner_.check("objects", message.header.stamp);
+    objects_.push_back(std::move(list));
+    if (objects_.size() > kMaxLists) {
+      objects_.pop_front();
+    }
+  });
+}
+
+void MonoClassifierStage::takeImage(const sensor_msgs::ImageConstPtr& message, Stamp now) {
+  runner_.serve([&] {
+    camera_.check(*message);
+    checkPixels(message);
+    runner_.check("image", message->header.stamp);
+    last_image_ = message;
+    if (waiting_) {
+      monitor_.dropped(InputError("overtaken_image",
+                                  "a newer image came before objects of its time: expected objects "
+                                  "at the rate of the images; goes on with the newer one"));
+    }
+    waiting_ = {message, now};
+  });
+}
+
+/// Throws InputError.
+void MonoClassifierStage::checkPixels(const sensor_msgs::ImageConstPtr& image) {
+  const double contrast = contrastOf(grayOrColor(image)->image);
+  if (contrast < options_.min_contrast) {
+    throw InputError("blank_image", "image whose gray levels differ by " +
+                                        std::to_string(contrast) +
+                                        " (standard deviation): expected " +
+                                        std::to_string(options_.min_contrast) +
+                                        " or more; is the camera covered or not exposed?");
+  }
+  if (last_image_ && last_image_->data == image->data &&
+      last_image_->header.stamp < image->header.stamp) {
+    throw InputError("frozen_image",
+                     "image of the same pixels as the last one, which was taken " +
+                         std::to_string(secondsBetween(toStamp(last_image_->header.stamp),
+                                                       toStamp(image->header.stamp))) +
+                         " s before: expected a new exposure");
+  }
+  const Stamp exposure = toStamp(image->header.stamp);
+  const double age = objects_.empty() ? 0.0 : secondsBetween(exposure, objects_.back().stamp);
+  // Of a clock that jumped back it is no older, and begins anew.
+  if (age > options_.max_age && age < options_.input.restart_after) {
+    throw InputError("old_image", "image " + std::to_string(age) +
+                                      " s older than the newest objects: expected at most " +
+                                      std::to_string(options_.max_age) + " s");
+  }
+}
+
+const ObjectList* MonoClassifierStage::nearestObjects(Stamp exposure) const {
+  const ObjectList* nearest = nullptr;
+  double smallest = options_.tolerance;
+  for (const ObjectList& list : objects_) {
+    const double apart = std::abs(secondsBetween(list.stamp, exposure));
+    if (apart <= smallest) {
+      nearest = &list;
+      smallest = apart;
+    }
+  }
+  return nearest;
+}
+
+ObjectList MonoClassifierStage::objectsAt(Stamp exposure) const {
+  ObjectList result;
+  result.stamp = exposure;
+  const ObjectList* list = nearestObjects(exposure);
+  if (list == nullptr) {
+    return result;
+  }
+  const auto motion = [this](Stamp from, Stamp to) { return motion_.between(from, to); };
+  // Of the vehicle at the objects' time, in its frame at the exposure.
+  const auto base = baseAt(list->stamp, exposure, motion);
+  if (!base) {
+    monitor_.warned(InputError("no_motion",
+                               "no objects used: expected to know from odometry or poses how the "
+                               "vehicle moved between their stamp and the image's"));
+    return result;
+  }
+  const double later = secondsBetween(exposure, list->stamp);
+  for (const Object& object : list->objects) {
+    Object moved = transformed(*base, object);
+    moved.delay += later;
+    if (moved.dynamic_state != DynamicState::kStatic) {
+      moved.position_covariance +=
+          square(options_.object_speed * moved.delay) * Eigen::Matrix2d::Identity();
+    }
+    result.objects.push_back(std::move(moved));
+  }
+  return result;
+}
+
+MountedCamera MonoClassifierStage::cameraOf(const sensor_msgs::Image& image) const {
+  const std::string& optical_frame =
+      options_.frames.camera.empty() ? image.header.frame_id : options_.frames.camera;
+  MountedCamera camera;
+  camera.pinhole = camera_.pinhole();
+  camera.width = camera_.width();
+  camera.height = camera_.height();
+  camera.in_base = sensorMount(transforms_.core(), options_.frames.base, optical_frame);
+  camera.in_base.translate(Eigen::Vector3d(camera_.shift(), 0.0, 0.0));
+  return camera;
+}
+
+void MonoClassifierStage::startIfReady(Stamp now) {
+  if (!waiting_) {
+    return;
+  }
+  const Stamp exposure = toStamp(waiting_->image->header.stamp);
+  const double waited = secondsBetween(waiting_->since, now);
+  const bool waits_on = waited >= 0.0 && waited < options_.max_wait;
+  const bool has_newer = !objects_.empty() && objects_.back().stamp >= exposure;
+  if (waits_on && !has_newer && nearestObjects(exposure) == nullptr) {
+    return;
+  }
+  const sensor_msgs::ImageConstPtr image = std::exchange(waiting_, std::nullopt)->image;
+  if (worker_.start({image, cameraOf(*image), objectsAt(exposure), run_})) {
+    monitor_.dropped(InputError("overtaken_image",
+                                "a newer image came before the detector had time for one: expected "
+                                "a faster machine, a smaller network or fewer images a second"));
+  }
+}
+
+MonoClassifierStage::Result MonoClassifierStage::work(MonoClassifier& classifier, const Job& job) {
+  const Stopwatch watch;
+  Result result;
+  result.run = job.run;
+  try {
+    const auto pixels = grayOrColor(job.image);
+    result.classification = classifier.classify(pixels->image, job.camera, job.objects);
+  } catch (const std::exception& error) {  // of OpenCV, in a thread that must not end by it
+    result.error = error.what();
+  }
+  result.seconds = watch.seconds();
+  return result;
+}
+
+ObjectArrayPtr MonoClassifierStage::next(Stamp now) {
+  return runner_.serve([&]() -> ObjectArrayPtr {
+    startIfReady(now);
+    for (Result& result : worker_.take()) {
+      if (result.run == run_) {
+        results_.push_back(std::move(result));
+      }
+    }
+    if (results_.empty()) {
+      return nullptr;
+    }
+    const Result result = std::move(results_.front());
+    results_.pop_front();
+    return show(result);
+  });
+}
+
+/// Throws InputError.
+ObjectArrayPtr MonoClassifierStage::show(const Result& result) {
+  if (!result.error.empty()) {
+    throw InputError("detector_failed", "the detector refused an image: " + result.error);
+  }
+  const MonoClassification& found = result.classification;
+  monitor_.figure("objects in view", static_cast<double>(found.in_view));
+  monitor_.figure("detections", static_cast<double>(found.detections));
+  monitor_.figure("objects classified", static_cast<double>(found.classified));
+  monitor_.figure("objects of the image alone", static_cast<double>(found.alone));
+  monitor_.figure("detector's time [s]", result.seconds);
+  monitor_.processed({found.list.stamp, result.seconds});
+  return boost::make_shared<ObjectArray>(toMessage(found.list, options_.frames.base));
+}
+
+void MonoClassifierStage::connect(StagePorts& ports) {
+  published_ = ports.out<ObjectArray>("objects/mono");
+  connectMotion(ports, options_.motion, *this);
+  ports.optionalIn<sensor_msgs::CameraInfo>(
+      "camera_info", [this](const auto& info, Stamp /*now*/) { takeCameraInfo(*info); });
+  ports.in<ObjectArray>("objects",
+                        [this](const auto& objects, Stamp /*now*/) { takeObjects(*objects); });
+  ports.in<sensor_msgs::Image>("image",
+                               [this](const auto& image, Stamp now) { takeImage(image, now); });
+}
+
+bool MonoClassifierStage::publishNext(Stamp now) {
+  const ObjectArrayPtr objects = next(now);
+  published_.publish(objects);
+  return objects != nullptr;
+}
+
+}  // namespace datmo

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Images, camera info, mount and objects through the nodelet with OpenCV's people detector, in a
+// thread of its own, to lists at the exposures' stamps; an image that was not exposed is counted.
+#include "chain.h"
+#include <gtest/gtest.h>
+
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+
+#include "datmo_fusion/ros/convert/message_conversion.h"
+
+namespace datmo {
+namespace {
+
+constexpr std::uint32_t kWidth = 320;
+constexpr std::uint32_t kHeight = 240;
+constexpr double kFocalLength = 200.0;  // px
+constexpr std::uint8_t kDark = 60;
+constexpr std::uint8_t kBright = 200;
+
+class Camera : public Listener {
+ public:
+  Camera() {
+    lists_ = node_.subscribe<ObjectArray>(
+        "objects/mono", 10,
+        [this](const ObjectArrayConstPtr& message) { named.push_back(message); });
+  }
+
+  bool isHeard() const {
+    return images_.getNumSubscribers() > 0 && objects_.getNumSubscribers() > 0 &&
+           infos_.getNumSubscribers() > 0 && lists_.getNumPublishers() > 0;
+  }
+
+  /// The camera 1.5 m above the ground, an object 10 m ahead; an image of stripes, or of one gray.
+  void send(double seconds, bool exposed) {
+    const ros::Time stamp(seconds);
+    mounts_.publish(mount());
+    infos_.publish(info(stamp));
+    objects_.publish(objects(stamp));
+    images_.publish(image(stamp, exposed));
+  }
+
+  std::vector<ObjectArrayConstPtr> named;
+
+ private:
+  static tf2_msgs::TFMessage mount() {
+    geometry_msgs::TransformStamped transform;
+    transform.header.frame_id = "base_link";
+    transform.child_frame_id = "camera";
+    transform.transform.translation.z = 1.5;
+    transform.transform.rotation.x = -0.5;
+    transform.transform.rotation.y = 0.5;
+    transform.transform.rotation.z = -0.5;
+    transform.transform.rotation.w = 0.5;
+    tf2_msgs::TFMessage message;
+    message.transforms = {transform};
+    return message;
+  }
+
+  static sensor_msgs::CameraInfo info(const ros::Time& stamp) {
+    sensor_msgs::CameraInfo message;
+    message.header.frame_id = "camera";
+    message.header.stamp = stamp;
+    message.width = kWidth;
+    message.height = kHeight;
+    message.K = {kFocalLength, 0.0, 160.0, 0.0, kFocalLength, 120.0, 0.0, 0.0, 1.0};
+    message.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+    message.P = {kFocalLength, 0.0, 160.0, 0.0, 0.0, kFocalLength, 120.0, 0.0, 0.0, 0.0, 1.0, 0.0};
+    return message;
+  }
+
+  static ObjectArray objects(const ros::Time& stamp) {
+    Object object;
+    object.box = {Pose2(10.0, 0.0, 0.0), 0.5, 0.5};
+    ObjectList list;
+    list.stamp = toStamp(stamp);
+    list.objects = {object};
+    return toMessage(list, "base_link");
+  }
+
+  static sensor_msgs::Image image(const ros::Time& stamp, bool exposed) {
+    sensor_msgs::Image message;
+    message.header.frame_id = "camera";
+    message.header.stamp = stamp;
+    message.encoding = "mono8";
+    message.width = kWidth;
+    message.height = kHeight;
+    message.step = kWidth;
+    message.data.assign(std::size_t{kWidth} * kHeight, kDark);
+    const auto period = 2 + static_cast<std::size_t>(stamp.nsec % 7);  // not frozen
+    for (std::size_t i = 0; exposed && i < message.data.size(); i += period) {
+      message.data[i] = kBright;
+    }
+    return message;
+  }
+
+  ros::NodeHandle node_;
+  ros::Publisher mounts_ = node_.advertise<tf2_msgs::TFMessage>("/tf_static", 10);
+  ros::Publisher infos_ = node_.advertise<sensor_msgs::CameraInfo>("camera_info", 10);
+  ros::Publisher images_ = node_.advertise<sensor_msgs::Image>("image", 10);
+  ros::Publisher objects_ = node_.advertise<ObjectArray>("objects", 10);
+  ros::Subscriber lists_;
+};
+
+TEST(MonoClassifierNodeletTest, ListsHaveTheStampsOfExposures) {
+  Camera camera;
+  ASSERT_TRUE(camera.waitFor([&] { return camera.isHeard(); }));
+  double seconds = 1.0;
+  ASSERT_TRUE(camera.waitFor([&] {
+    seconds += 0.1;
+    camera.send(seconds, true);
+    return camera.waitFor([&] { return !camera.named.empty(); }, 0.2);
+  }));
+  const ObjectArray& list = *camera.named.front();
+  EXPECT_EQ(list.header.frame_id, "base_link");
+  EXPECT_GT(list.header.stamp, ros::Time(1.0));
+  EXPECT_LE(list.header.stamp, ros::Time(seconds + 0.01));
+  EXPECT_TRUE(list.objects.empty()) << "nobody is in stripes";
+  EXPECT_TRUE(camera.waitFor([&] {
+    seconds += 0.1;
+    camera.send(seconds, false);
+    return camera.waitFor(
+        [&] { return camera.diagnostic("mono_classifier", "dropped: blank_image") > 0.0; }, 0.2);
+  }));
+}
+
+}  // namespace
+}  // namespace datmo
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "mono_test");
+  return RUN_ALL_TESTS();
+}

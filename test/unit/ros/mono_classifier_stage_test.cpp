@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/stage/mono_classifier_stage.h"
+
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "monitor_counts.h"
+#include "vision/image_samples.h"
+#include <boost/make_shared.hpp>
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/ros/convert/message_conversion.h"
+
+namespace datmo {
+namespace {
+
+using samples::drops;
+using samples::warnings;
+
+constexpr double kStart = 100.0;  // s
+constexpr std::uint32_t kWidth = 1000;
+constexpr std::uint32_t kHeight = 400;
+
+/// As test::levelCamera.
+sensor_msgs::CameraInfo cameraInfo() {
+  sensor_msgs::CameraInfo info;
+  info.header.frame_id = "camera";
+  info.width = kWidth;
+  info.height = kHeight;
+  info.K = {500.0, 0.0, 500.0, 0.0, 500.0, 200.0, 0.0, 0.0, 1.0};
+  info.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+  info.P = {500.0, 0.0, 500.0, 0.0, 0.0, 500.0, 200.0, 0.0, 0.0, 0.0, 1.0, 0.0};
+  return info;
+}
+
+/// Stripes; of another gray each time.
+sensor_msgs::ImagePtr imageAt(double seconds) {
+  static std::uint8_t gray = 0;
+  auto message = boost::make_shared<sensor_msgs::Image>();
+  message->header.frame_id = "camera";
+  message->header.stamp = ros::Time(seconds);
+  message->encoding = "mono8";
+  message->width = kWidth;
+  message->height = kHeight;
+  message->step = kWidth;
+  message->data.assign(std::size_t{kWidth} * kHeight, ++gray);
+  for (std::size_t i = 0; i < message->data.size(); i += 2) {
+    message->data[i] = 255;
+  }
+  return message;
+}
+
+ObjectArray objectsAt(double seconds) {
+  ObjectList list;
+  list.stamp = Stamp::fromSeconds(seconds);
+  list.objects = {test::objectAt(10.2, 0.0, 0.4, 0.4, 0.0)};
+  return toMessage(list, "base_link");
+}
+
+/// A person 10 m ahead in each image.
+class MonoClassifierStageTest : public testing::Test {
+ protected:
+  static MonoClassifierStageOptions stageOptions() {
+    MonoClassifierStageOptions options;
+    options.classifier.detector = MonoClassifierOptions::kDnn;
+    options.classifier.dnn_reliability.scores = {0.0};
+    options.classifier.dnn_reliability.right = {0.8};
+    return options;
+  }
+
+  std::unique_ptr<MonoClassifierStage> makeStage(const StepClock& clock = {}) {
+    auto detector = std::make_unique<test::FixedDetector>(std::vector<ImageDetection>{
+        test::detectionOf(ObjectClass::kPedestrian, 485, 190, 515, 275)});
+    auto classifier =
+        std::make_unique<MonoClassifier>(stageOptions().classifier, std::move(detector));
+    return std::make_unique<MonoClassifierStage>(stageOptions(), transforms_, monitor_, clock,
+                                                 std::move(classifier));
+  }
+
+  void mountCamera() {
+    geometry_msgs::TransformStamped transform;
+    transform.header.frame_id = "base_link";
+    transform.child_frame_id = "camera";
+    transform.transform.translation.z = test::kCameraHeight;
+    transform.transform.rotation.x = -0.5;
+    transform.transform.rotation.y = 0.5;
+    transform.transform.rotation.z = -0.5;
+    transform.transform.rotation.w = 0.5;
+    tf2_msgs::TFMessage message;
+    message.transforms = {transform};
+    transforms_.addStatic(message);
+  }
+
+  ObjectArrayPtr look(const sensor_msgs::ImageConstPtr& image, double waited = 0.0) {
+    const Stamp stamp = toStamp(image->header.stamp);
+    stage_->takeImage(image, stamp);
+    return stage_->next(stamp + waited);
+  }
+
+  /// Whether an image like this is dropped for this reason, and the next good one is not.
+  void expectDropped(const sensor_msgs::ImagePtr& image, const std::string& reason) {
+    mountCamera();
+    stage_->takeCameraInfo(cameraInfo());
+    EXPECT_EQ(look(image, 1.0), nullptr) << reason;
+    EXPECT_EQ(drops(monitor_, reason), 1U) << reason;
+    EXPECT_NE(look(imageAt(kStart + 0.1), 1.0), nullptr);
+  }
+
+  TransformBuffer transforms_{1.0};
+  StageMonitor monitor_{"mono_classifier"};
+  std::unique_ptr<MonoClassifierStage> stage_ = makeStage();
+};
+
+TEST_F(MonoClassifierStageTest, NamesObjectsAtTheExposuresStamp) {
+  mountCamera();
+  stage_->takeCameraInfo(cameraInfo());
+  stage_->takeObjects(objectsAt(kStart));
+  const auto named = look(imageAt(kStart));
+  ASSERT_NE(named, nullptr);
+  EXPECT_EQ(named->header.stamp, ros::Time(kStart));
+  EXPECT_EQ(named->header.frame_id, "base_link");
+  ASSERT_EQ(named->objects.size(), 1U);
+  EXPECT_EQ(named->objects[0].classification, ObjectMessage::CLASS_PEDESTRIAN);
+  EXPECT_NEAR(named->objects[0].pose.position.x, 10.2, 1e-9);
+  EXPECT_EQ(monitor_.processedCount(), 1U);
+}
+
+TEST_F(MonoClassifierStageTest, AnImageWaitsForObjectsOfItsTime) {
+  mountCamera();
+  stage_->takeCameraInfo(cameraInfo());
+  EXPECT_EQ(look(imageAt(kStart)), nullptr);
+  stage_->takeObjects(objectsAt(kStart));
+  const auto named = stage_->next(Stamp::fromSeconds(kStart + 0.01));
+  ASSERT_NE(named, nullptr);
+  EXPECT_NEAR(named->objects.at(0).pose.position.x, 10.2, 1e-9);
+}
+
+TEST_F(MonoClassifierStageTest, WithoutObjectsTheImageIsLookedAtByItself) {
+  mountCamera();
+  stage_->takeCameraInfo(cameraInfo());
+  const auto alone = look(imageAt(kStart), 1.0);
+  ASSERT_NE(alone, nullptr);
+  ASSERT_EQ(alone->objects.size(), 1U);
+  EXPECT_EQ(alone->objects[0].sensors, std::vector<std::string>{"mono"});
+}
+
+TEST_F(MonoClassifierStageTest, WithoutMotionObjectsOfAnotherTimeAreNotUsed) {
+  mountCamera();
+  stage_->takeCameraInfo(cameraInfo());
+  stage_->takeObjects(objectsAt(kStart - 0.05));
+  EXPECT_NE(look(imageAt(kStart)), nullptr);
+  EXPECT_EQ(warnings(monitor_, "no_motion"), 1U);
+}
+
+TEST_F(MonoClassifierStageTest, InAThreadOfItsOwnTheResultIsTheSame) {
+  stage_ = makeStage([] { return 0.0; });
+  mountCamera();
+  stage_->takeCameraInfo(cameraInfo());
+  stage_->takeObjects(objectsAt(kStart));
+  stage_->takeImage(imageAt(kStart), Stamp::fromSeconds(kStart));
+  const auto early = stage_->next(Stamp::fromSeconds(kStart));
+  stage_->waitUntilIdle();
+  const auto late = early ? early : stage_->next(Stamp::fromSeconds(kStart + 0.3));
+  ASSERT_NE(late, nullptr);
+  EXPECT_EQ(late->header.stamp, ros::Time(kStart));
+  EXPECT_EQ(late->objects.size(), 1U);
+}
+
+TEST_F(MonoClassifierStageTest, OfImagesThatWaitTheNewestStays) {
+  mountCamera();
+  stage_->takeCameraInfo(cameraInfo());
+  EXPECT_EQ(look(imageAt(kStart)), nullptr);
+  EXPECT_EQ(look(imageAt(kStart + 0.05)), nullptr);
+  EXPECT_EQ(drops(monitor_, "overtaken_image"), 1U);
+  EXPECT_NE(stage_->next(Stamp::fromSeconds(kStart + 1.0)), nullptr);
+}
+
+TEST_F(MonoClassifierStageTest, WithoutInfoOrMountImagesAreDropped) {
+  EXPECT_EQ(look(imageAt(kStart), 1.0), nullptr);
+  EXPECT_EQ(drops(monitor_, "missing_camera_info"), 1U);
+  stage_->takeCameraInfo(cameraInfo());
+  EXPECT_EQ(look(imageAt(kStart), 1.0), nullptr);
+  EXPECT_EQ(drops(monitor_, "missing_transform"), 1U);
+}
+
+TEST_F(MonoClassifierStageTest, AnInfoOfZerosIsRefused) {
+  sensor_msgs::CameraInfo zeros = cameraInfo();
+  zeros.P.fill(0.0);
+  stage_->takeCameraInfo(zeros);
+  EXPECT_EQ(drops(monitor_, "bad_camera_info"), 1U);
+}
+
+TEST_F(MonoClassifierStageTest, AnInfoOfAnotherSizeIsRefused) {
+  const auto image = imageAt(kStart);
+  image->width = kWidth / 2;
+  image->step = kWidth / 2;
+  expectDropped(image, "wrong_size");
+}
+
+TEST_F(MonoClassifierStageTest, BlackAndWhiteImagesAreRefused) {
+  for (const std::uint8_t gray : {std::uint8_t{0}, std::uint8_t{255}}) {
+    monitor_ = StageMonitor("mono_classifier");
+    stage_ = makeStage();
+    const auto image = imageAt(kStart);
+    image->data.assign(image->data.size(), gray);
+    expectDropped(image, "blank_image");
+  }
+}
+
+TEST_F(MonoClassifierStageTest, HalfImagesAndOtherEncodingsAreRefused) {
+  const auto half = imageAt(kStart);
+  half->data.resize(half->data.size() / 2);
+  expectDropped(half, "bad_encoding");
+  monitor_ = StageMonitor("mono_classifier");
+  stage_ = makeStage();
+  const auto other = imageAt(kStart);
+  other->encoding = "no encoding";
+  expectDropped(other, "bad_encoding");
+}
+
+TEST_F(MonoClassifierStageTest, AFrozenImageIsRefused) {
+  mountCamera();
+  stage_->takeCameraInfo(cameraInfo());
+  const auto first = imageAt(kStart);
+  EXPECT_NE(look(first, 1.0), nullptr);
+  const auto again = boost::make_shared<sensor_msgs::Image>(*first);
+  again->header.stamp = ros::Time(kStart + 0.1);
+  EXPECT_EQ(look(again, 1.0), nullptr);
+  EXPECT_EQ(drops(monitor_, "frozen_image"), 1U);
+}
+
+TEST_F(MonoClassifierStageTest, AnOldImageIsRefused) {
+  mountCamera();
+  stage_->takeCameraInfo(cameraInfo());
+  stage_->takeObjects(objectsAt(kStart + 0.7));
+  EXPECT_EQ(look(imageAt(kStart), 1.0), nullptr);
+  EXPECT_EQ(drops(monitor_, "old_image"), 1U);
+}
+
+TEST_F(MonoClassifierStageTest, AClockThatJumpsBackBeginsAnew) {
+  mountCamera();
+  stage_->takeCameraInfo(cameraInfo());
+  stage_->takeObjects(objectsAt(kStart));
+  EXPECT_NE(look(imageAt(kStart)), nullptr);
+  EXPECT_NE(look(imageAt(kStart - 50.0), 1.0), nullptr);
+  EXPECT_EQ(warnings(monitor_, "clock_restart"), 1U);
+}
+
+TEST_F(MonoClassifierStageTest, ObjectsOfAnotherFrameAreRefused) {
+  ObjectArray objects = objectsAt(kStart);
+  objects.header.frame_id = "map";
+  stage_->takeObjects(objects);
+  EXPECT_EQ(drops(monitor_, "wrong_frame"), 1U);
+}
+
+TEST(MonoClassifierStageModel, OneThatIsMissingStopsItWithAMessage) {
+  TransformBuffer transforms(1.0);
+  StageMonitor monitor("mono_classifier");
+  MonoClassifierStageOptions options;
+  options.classifier.detector = MonoClassifierOptions::kDnn;
+  options.classifier.dnn.model = "/nowhere/model.onnx";
+  try {
+    const MonoClassifierStage stage(options, transforms, monitor);
+    FAIL() << "expected OptionError";
+  } catch (const OptionError& error) {
+    EXPECT_NE(std::string(error.what()).find("/nowhere/model.onnx"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace datmo

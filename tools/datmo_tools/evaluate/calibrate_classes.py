@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Command line of calibrate_classes."""
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+import yaml
+
+from datmo_tools import command_line
+from datmo_tools.errors import InputError
+from datmo_tools.evaluate.arguments import add_region, region_of
+from datmo_tools.evaluate.class_tally import NOTHING, reports_of
+from datmo_tools.evaluate.object_lists import read_lists
+from datmo_tools.evaluate.object_scores import score_list
+from datmo_tools.evaluate.truth import NONE, Asked, Truth
+from datmo_tools.whole_files import write_whole
+
+DESCRIPTION = """\
+Measures how often what an image detector reports with which score is right, on drives with truth,
+and writes it as yaml that mono_classifier loads: its reliability curve, and what was there where it
+was wrong.
+
+The runs must have the detector's own scores: run_bag --mono with mono_classifier/calibrated: false
+and min_alone: 0. Reports are sorted by score into bins of equally many; the share that is right, with
+one right and one wrong report more than were seen, is made to rise with the score (pool adjacent
+violators: Ayer et al. 1955). Calibrate on other drives than those you measure on."""
+
+TOPIC = "/objects/mono"
+REPORTED = ("pedestrian", "cyclist", "vehicle")
+# In the order of ObjectClass.
+ACTUAL = {"unknown": (NOTHING, "unknown"), "pedestrian": ("pedestrian",), "cyclist": ("cyclist",),
+          "vehicle": ("vehicle",), "pole": ("pole",)}  # fmt: skip
+BIN_SIZE = 40  # reports: a share is known to 0.08
+RANGE = 50.0  # m
+
+
+def main(arguments=None):
+    """Runs the command line; returns its exit code."""
+    values = _parser().parse_args(arguments)
+    return command_line.run("calibrate_classes", lambda: _run(values), product="table")
+
+
+def rising(shares, weights):
+    """Shares that never fall, nearest to those given (least squares with weights): where they fall,
+    neighbors are pooled."""
+    pools = []  # of (mean, weight, how many)
+    for share, weight in zip(shares, weights):
+        pools.append((share, weight, 1))
+        while len(pools) > 1 and pools[-2][0] > pools[-1][0]:
+            (a, of_a, count_a), (b, of_b, count_b) = pools[-2:]
+            pools[-2:] = [((a * of_a + b * of_b) / (of_a + of_b), of_a + of_b, count_a + count_b)]
+    return [mean for mean, _, count in pools for _ in range(count)]
+
+
+def curve(reports, bin_size):
+    """(scores, shares) of the reliability curve; scores rise. Raises InputError without reports."""
+    if not reports:
+        raise InputError("no object of a known class in the runs: expected those of a detector")
+    ordered = sorted(reports, key=lambda report: report.probability)
+    bins = np.array_split(np.arange(len(ordered)), max(1, len(ordered) // bin_size))
+    scores, shares, weights = [], [], []
+    for indices in bins:
+        inside = [ordered[i] for i in indices]
+        right = sum(report.is_right for report in inside)
+        score = float(np.mean([report.probability for report in inside]))
+        if scores and score <= scores[-1]:
+            continue  # as many of one score as fill a bin
+        scores.append(score)
+        shares.append((right + 1) / (len(inside) + 2))
+        weights.append(len(inside))
+    return scores, rising(shares, weights)
+
+
+def mistaken(reports):
+    """What wrongly reported objects are: 3 x 5 shares by what is reported and what is there; each
+    class one report more than was seen."""
+    table = []
+    for said in REPORTED:
+        wrong = [report.true for report in reports if report.said == said and not report.is_right]
+        for actual, names in ACTUAL.items():
+            count = sum(name in names for name in wrong)
+            table.append(0.0 if actual == said else (count + 1) / (len(wrong) + len(ACTUAL) - 1))
+    return table
+
+
+def as_yaml(detector, reports, bin_size):
+    """Section of mono_classifier."""
+    scores, shares = curve(reports, bin_size)
+    section = {"scores": [round(value, 3) for value in scores],
+               "right": [round(value, 3) for value in shares],
+               "mistaken": [round(value, 3) for value in mistaken(reports)]}  # fmt: skip
+    return yaml.safe_dump({"mono_classifier": {detector: {"reliability": section}}},
+                          default_flow_style=None, sort_keys=False)  # fmt: skip
+
+
+def _reports(run, drive, topic, region):
+    truth = Truth(drive)
+    lists = read_lists(run, [topic]).get(topic)
+    if not lists:
+        raise InputError(f"{run}: nothing on {topic}, expected a bag of run_bag --mono")
+    reports = []
+    for item in lists:
+        truths = truth.at(item.stamp, Asked(region, NONE))
+        if truths is not None:
+            score = score_list(item.objects, truths, item.viewpoint)
+            reports += reports_of(item.objects, truths, score, region)
+    return reports
+
+
+def _run(values):
+    region = region_of(values)
+    drives = values.truth or values.runs
+    if len(drives) != len(values.runs):
+        raise InputError(f"{len(drives)} --truth for {len(values.runs)} runs: expected one for each")
+    reports = [report for run, drive in zip(values.runs, drives)
+               for report in _reports(run, drive, values.topic, region)]  # fmt: skip
+    text = as_yaml(values.detector, reports, values.bin_size)
+    right = sum(report.is_right for report in reports)
+    print(f"{len(reports)} reports, {right} of them right")
+    print(text, end="")
+    write_whole(values.out.parent, {values.out.name: text})
+
+
+def _parser():
+    parser = argparse.ArgumentParser(
+        prog="calibrate_classes",
+        description=DESCRIPTION,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add = parser.add_argument
+    add("runs", nargs="+", type=Path, metavar="RUN.bag", help="bags of run_bag --mono")
+    add("--truth", action="append", type=Path, metavar="DRIVE.bag",
+        help="with the truth, one for each run in their order (default: the runs themselves)")  # fmt: skip
+    add("--detector", choices=("hog", "dnn"), required=True, help="that the runs were made with")
+    add("--topic", default=TOPIC, help="of the objects (default %(default)s)")
+    add("--bin-size", type=command_line.count, default=BIN_SIZE, metavar="N",
+        help="reports for each point of the curve (default %(default)s)")  # fmt: skip
+    add("--out", type=command_line.output_file, default=Path("class_reliability.yaml"),
+        metavar="FILE.yaml", help="the table (default %(default)s)")  # fmt: skip
+    add_region(parser, RANGE)
+    return parser
