@@ -74,14 +74,15 @@ Projection project(const StereoRig& rig, const Eigen::Vector3d& point) {
 
 /// A feature, ready to be compared: where it was (m, earlier frame), how that changes with the
 /// disparity (m/px), and where it is seen.
-struct Sample {
+struct FeatureSample {
   Eigen::Vector3d point;
   Eigen::Vector3d by_disparity;
   Eigen::Vector3d image;
 };
 
-std::vector<Sample> samplesOf(const StereoRig& rig, const std::vector<FeatureQuad>& quads) {
-  std::vector<Sample> samples;
+std::vector<FeatureSample> featureSamplesOf(const StereoRig& rig,
+                                            const std::vector<FeatureQuad>& quads) {
+  std::vector<FeatureSample> samples;
   samples.reserve(quads.size());
   for (const auto& [earlier, later] : quads) {
     if (isUsable(rig, earlier) && isUsable(rig, later)) {
@@ -101,18 +102,18 @@ struct Equations {
   double squared_residuals = 0.0;  ///< of inliers, in units of their noise
 };
 
-class Estimator {
+class MotionEstimator {
  public:
-  Estimator(const StereoRig& rig, const CameraMotionOptions& options)
+  MotionEstimator(const StereoRig& rig, const CameraMotionOptions& options)
       : rig_(rig),
         moving_share_(options.moving_share),
         moving_density_(options.moving_share / std::pow(2.0 * options.max_residual, 3)) {}
 
   /// `scale`: of the noise.
-  Equations equations(const std::vector<Sample>& samples, const Eigen::Isometry3d& motion,
+  Equations equations(const std::vector<FeatureSample>& samples, const Eigen::Isometry3d& motion,
                       double scale) const {
     Equations sum;
-    for (const Sample& sample : samples) {
+    for (const FeatureSample& sample : samples) {
       const Eigen::Vector3d point = motion * sample.point;
       if (point.z() > kMinDepth) {
         add(sample, point, motion, scale, sum);
@@ -122,8 +123,8 @@ class Estimator {
   }
 
  private:
-  void add(const Sample& sample, const Eigen::Vector3d& point, const Eigen::Isometry3d& motion,
-           double scale, Equations& sum) const {
+  void add(const FeatureSample& sample, const Eigen::Vector3d& point,
+           const Eigen::Isometry3d& motion, double scale, Equations& sum) const {
     const Projection projection = project(rig_, point);
     const Eigen::Vector3d by_disparity =
         projection.by_point * (motion.linear() * sample.by_disparity);
@@ -150,7 +151,7 @@ class Estimator {
 };
 
 /// Squared residuals by degree of freedom where these are more than the noise says; at least 1.
-double excessScatter(const Equations& equations) {
+double excessResidual(const Equations& equations) {
   const double degrees_of_freedom = 3.0 * equations.inliers - 6.0;
   return degrees_of_freedom > 0.0 ? std::max(1.0, equations.squared_residuals / degrees_of_freedom)
                                   : 1.0;
@@ -174,9 +175,9 @@ std::optional<CameraMotion> cameraMotion(const StereoRig& rig,
                                          const CameraMotionOptions& options) {
   checkRig(rig);
   checkOptions(options);
-  const std::vector<Sample> samples = samplesOf(rig, quads);
+  const std::vector<FeatureSample> samples = featureSamplesOf(rig, quads);
   const MotionCovariance known = prior.covariance.inverse();
-  const Estimator estimator(rig, options);
+  const MotionEstimator estimator(rig, options);
   CameraMotion motion = prior;
   for (const double scale : kScales) {
     const Equations equations = estimator.equations(samples, motion.earlier_in_later, scale);
@@ -184,7 +185,7 @@ std::optional<CameraMotion> cameraMotion(const StereoRig& rig,
     const MotionCovariance information = equations.information + known;
     const Vector6d step = information.ldlt().solve(equations.gradient + known * to_prior);
     motion.earlier_in_later = small(step) * motion.earlier_in_later;
-    motion.covariance = excessScatter(equations) * information.inverse();
+    motion.covariance = excessResidual(equations) * information.inverse();
     motion.inliers = equations.inliers;
   }
   const bool found = motion.inliers >= options.min_inliers && motion.covariance.allFinite() &&

@@ -128,7 +128,7 @@ double excessScatter(const std::vector<Sample>& samples, const VelocityMixture& 
 }
 
 /// Of the inliers, on average: their number does not lessen it.
-Eigen::Matrix2d commonCovariance(const std::vector<Sample>& samples, const Mixture& mixture,
+Eigen::Matrix2d commonCovariance(const std::vector<Sample>& samples, const VelocityMixture& mixture,
                                  const SharedVelocity& mean) {
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
   double weights = 0.0;
