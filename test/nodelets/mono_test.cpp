@@ -8,6 +8,7 @@
 #include <sensor_msgs/Image.h>
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo {
 namespace {

@@ -39,7 +39,7 @@ class RiskDoor : public LabeledScanDoor {
     odometry_.publish(odometry);
   }
 
-  void sendTracks(const TrackArray& tracks) { tracks_.publish(tracks); }
+  void sendTracks(const TrackArray& list) { tracks_.publish(list); }
 
   std::vector<RiskArrayConstPtr> risks;
 
