@@ -79,6 +79,8 @@ class LaunchSwitches(unittest.TestCase):
                     expected |= OBJECT_LEVEL
                 if switches["track_fusion"]:
                     expected |= TRACK_LEVEL
+                if switches["stereo_images"] != "none" and "stereo_objects" in expected:
+                    expected |= {"point_velocity"}
                 self.assertEqual(set(nodelets(nodes)), expected)
 
     def test_all_types_are_in_the_package(self):
