@@ -145,7 +145,7 @@ void RiskStage::report(const RiskReport& report) {
 void RiskStage::connect(StagePorts& ports) {
   const auto risks = ports.out<RiskArray>("risks");
   if (options_.motion.hasSpeed()) {
-    ports.optionalIn<nav_msgs::Odometry>(
+    ports.in<nav_msgs::Odometry>(
         options_.motion.odometryTopic(),
         [this](const auto& odometry, Stamp /*now*/) { takeOdometry(*odometry); });
   }
