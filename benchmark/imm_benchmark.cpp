@@ -9,12 +9,12 @@
 namespace datmo {
 namespace {
 
-constexpr double kPeriod = 0.1;         // s
+constexpr double kFilterPeriod = 0.1;         // s
 constexpr double kSpeed = 8.0;          // m/s
 constexpr double kPositionSigma = 0.2;  // m
 
 /// Scans before the clock runs: the velocity is known.
-constexpr int kWarmUp = 20;
+constexpr int kFilterWarmUp = 20;
 
 /// A target that is seen driving ahead, always by the same noise after so many scans.
 class FollowedTarget {
@@ -32,7 +32,7 @@ class FollowedTarget {
   }
 
   PositionMeasurement seen() {
-    const double x = kSpeed * kPeriod * ++scan_;
+    const double x = kSpeed * kFilterPeriod * ++scan_;
     return {Point2(x + random_.normal(kPositionSigma), random_.normal(kPositionSigma)),
             kPositionSigma * kPositionSigma * Eigen::Matrix2d::Identity()};
   }
@@ -41,7 +41,7 @@ class FollowedTarget {
 
  private:
   ImmOptions options_;
-  ImmStep step_ = immStep(options_, kPeriod);
+  ImmStep step_ = immStep(options_, kFilterPeriod);
   ImmFilter filter_{StateEstimate(), priorModeProbabilities(options_)};
   Random random_{1};
   int scan_ = 0;
@@ -58,7 +58,7 @@ BENCHMARK(immPredictAndUpdate)->ArgName("adaptive")->Arg(0)->Arg(1);
 
 void immLogLikelihood(benchmark::State& state) {
   FollowedTarget target;
-  for (int i = 0; i < kWarmUp; ++i) {
+  for (int i = 0; i < kFilterWarmUp; ++i) {
     target.step();
   }
   const PositionMeasurement seen = target.seen();

@@ -16,7 +16,7 @@ namespace datmo {
 namespace {
 
 /// Scans before the clock runs: the grid is filled, and the borders are found.
-constexpr int kWarmUp = 100;
+constexpr int kBorderWarmUp = 100;
 
 /// The drive down the street with exact poses.
 class SplitDrive {
@@ -44,7 +44,7 @@ class SplitDrive {
 void timeScans(benchmark::State& state, const Settings& settings, double speed) {
   SplitDrive drive({settings.beams, speed});
   RoadBorderDetector detector(settings.road_border);
-  for (int i = 0; i < kWarmUp; ++i) {
+  for (int i = 0; i < kBorderWarmUp; ++i) {
     detector.update(drive.next());
   }
   std::size_t borders = 0;
@@ -82,7 +82,7 @@ void borderSearch(benchmark::State& state) {
   SplitDrive drive({settings.beams});
   HitGrid hits(settings.road_border.hit_grid);
   Pose2 vehicle;
-  for (int i = 0; i < kWarmUp; ++i) {
+  for (int i = 0; i < kBorderWarmUp; ++i) {
     const LabeledScan scan = drive.next();
     hits.update(scan);
     vehicle = scan.base_in_map.pose;

@@ -13,14 +13,14 @@ namespace datmo {
 namespace {
 
 /// Scans before the clock runs: the map is filled, and its memory has been touched.
-constexpr int kWarmUp = 100;
+constexpr int kSlamWarmUp = 100;
 
 /// Grid SLAM in the middle of a drive.
 class RunningSlam {
  public:
   RunningSlam(const GridSlamOptions& options, const StreetOptions& street)
       : slam_(options), drive_(street) {
-    for (int i = 0; i < kWarmUp; ++i) {
+    for (int i = 0; i < kSlamWarmUp; ++i) {
       step();
     }
   }

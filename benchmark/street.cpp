@@ -10,7 +10,7 @@ namespace datmo {
 
 namespace {
 
-constexpr double kPeriod = 0.06;   // s, of the demonstrator's scanner: 16.6 Hz
+constexpr double kStreetPeriod = 0.06;   // s, of the demonstrator's scanner: 16.6 Hz
 constexpr double kHalfFov = 80.0;  // degrees
 constexpr double kRangeNoise = 0.05;
 constexpr double kCars = 4.0;     // m, from the vehicle to the parked cars on either side
@@ -52,14 +52,14 @@ Scan scanAt(double x, int beams, Random& random) {
 StreetDrive::StreetDrive(const StreetOptions& options) : speed_(options.speed) {
   Random random(1);
   for (int step = 0; step < kScans; ++step) {
-    scans_.push_back(scanAt(speed_ * kPeriod * step, options.beams, random));
+    scans_.push_back(scanAt(speed_ * kStreetPeriod * step, options.beams, random));
   }
 }
 
 const Scan& StreetDrive::next() {
   ++step_;
   Scan& scan = scans_[step_ % scans_.size()];
-  scan.stamp = Stamp::fromSeconds(1000.0 + kPeriod * static_cast<double>(step_));
+  scan.stamp = Stamp::fromSeconds(1000.0 + kStreetPeriod * static_cast<double>(step_));
   return scan;
 }
 

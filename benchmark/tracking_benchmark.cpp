@@ -12,14 +12,14 @@
 namespace datmo {
 namespace {
 
-constexpr double kPeriod = 0.06;  // s
+constexpr double kObjectsPeriod = 0.06;  // s
 constexpr double kSpeed = 8.0;    // m/s
 constexpr double kSpacing = 8.0;  // m, between the objects, along both axes
 constexpr int kAbreast = 10;
 constexpr double kPositionSigma = 0.2;  // m
 
 /// Steps before the clock runs: all objects have confirmed tracks.
-constexpr int kWarmUp = 30;
+constexpr int kTrackerWarmUp = 30;
 
 /// A false alarm is followed until it was missed for long enough: there are more targets than
 /// vehicles.
@@ -38,8 +38,8 @@ Object vehicleAt(const Point2& position) {
 /// A block of vehicles that drive ahead together, as seen at one step, and false alarms among them.
 ObjectList crowd(int targets, int false_alarms, int step, Random& random) {
   ObjectList list;
-  list.stamp = Stamp::fromSeconds(1000.0 + kPeriod * step);
-  const double distance = kSpeed * kPeriod * step;
+  list.stamp = Stamp::fromSeconds(1000.0 + kObjectsPeriod * step);
+  const double distance = kSpeed * kObjectsPeriod * step;
   for (int i = 0; i < targets; ++i) {
     const Point2 noise(random.normal(kPositionSigma), random.normal(kPositionSigma));
     const Point2 position(kSpacing * (i / kAbreast), kSpacing * (i % kAbreast));
@@ -64,7 +64,7 @@ void trackerStep(benchmark::State& state, const std::string& association) {
   Random random(1);
   int step = 0;
   std::size_t tracks = 0;
-  for (; step < kWarmUp; ++step) {
+  for (; step < kTrackerWarmUp; ++step) {
     const ObjectList list = crowd(targets, targets, step, random);
     tracks = tracker.process(list, Pose2()).tracks.size();
   }

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::command_line_test {
 namespace {
 
 enum class Speed { kSlow, kFast };
@@ -125,4 +125,4 @@ TEST(RunProgramTest, ExitCodes) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::command_line_test

@@ -19,7 +19,7 @@
 #include <rosbag/view.h>
 #include <std_msgs/String.h>
 
-namespace datmo {
+namespace datmo::input_bag_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -231,4 +231,4 @@ TEST_F(InputBag, ABrokenLengthIsFoundBeforeMemoryIsTaken) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::input_bag_test

@@ -7,7 +7,7 @@
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <sensor_msgs/PointCloud2.h>
 
-namespace datmo {
+namespace datmo::run_bag_cloud_test {
 namespace {
 
 /// A road about the scanner and, 0.6 m above it, what its planar scan has.
@@ -98,4 +98,4 @@ TEST_F(RunBagOnClouds, ACloudThatIsNotThereIsNamed) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::run_bag_cloud_test

@@ -7,7 +7,7 @@
 
 #include <nav_msgs/OccupancyGrid.h>
 
-namespace datmo {
+namespace datmo::run_bag_fusion_test {
 namespace {
 
 class FusedRun : public StereoRunBag {
@@ -192,4 +192,4 @@ TEST(FusionArguments, NeedTheSwitch) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::run_bag_fusion_test

@@ -9,7 +9,7 @@
 #include <geometry_msgs/TwistStamped.h>
 #include <sensor_msgs/Imu.h>
 
-namespace datmo {
+namespace datmo::run_bag_input_test {
 namespace {
 
 class RunBagInput : public RunBag {
@@ -215,4 +215,4 @@ TEST_F(RunBagMotion, WhatIsMissingIsNamed) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::run_bag_input_test

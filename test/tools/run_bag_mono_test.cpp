@@ -3,7 +3,7 @@
 #include "stereo_drive.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::run_bag_mono_test {
 namespace {
 
 class MonoRun : public StereoRunBag {
@@ -69,4 +69,4 @@ TEST(MonoArguments, AreRead) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::run_bag_mono_test

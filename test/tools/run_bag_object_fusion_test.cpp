@@ -4,7 +4,7 @@
 #include "stereo_drive.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::run_bag_object_fusion_test {
 namespace {
 
 class ObjectFusedRun : public StereoRunBag {
@@ -172,4 +172,4 @@ TEST(ObjectFusionArguments, ThatGoNotTogetherAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::run_bag_object_fusion_test

@@ -7,7 +7,7 @@
 #include "run_bag_drive.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::run_bag_road_border_test {
 namespace {
 
 constexpr auto kAllScans = static_cast<std::size_t>(kScans);
@@ -111,4 +111,4 @@ TEST(RunBagArguments, BordersGoWithTheStagesThatTheyFeed) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::run_bag_road_border_test

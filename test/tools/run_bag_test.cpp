@@ -21,7 +21,7 @@
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
 
-namespace datmo {
+namespace datmo::run_bag_test {
 namespace {
 
 TEST_F(RunBag, EveryScanLeadsToResults) {
@@ -224,4 +224,4 @@ TEST(StageTimes, SummariesComeInTheOrderOfTheFirstRuns) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::run_bag_test

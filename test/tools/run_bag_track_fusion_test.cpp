@@ -6,7 +6,7 @@
 
 #include "datmo_fusion/tracking/track.h"
 
-namespace datmo {
+namespace datmo::run_bag_track_fusion_test {
 namespace {
 
 using Sensors = std::vector<std::string>;
@@ -254,4 +254,4 @@ TEST(TrackFusionArguments, ThatGoNotTogetherAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::run_bag_track_fusion_test

@@ -13,7 +13,7 @@
 #include "datmo_fusion/ros/display/grid_views_options.h"
 #include "datmo_fusion/ros/display/markers.h"
 
-namespace datmo {
+namespace datmo::shipped_settings_test {
 namespace {
 
 const std::filesystem::path kPackage = DATMO_FUSION_SOURCE_DIR;
@@ -91,4 +91,4 @@ TEST(ParameterPage, PublicParametersAreFewAndManyOfThemAreLive) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::shipped_settings_test

@@ -12,7 +12,7 @@
 
 #include <sensor_msgs/point_cloud2_iterator.h>
 
-namespace datmo {
+namespace datmo::stereo_images_test {
 namespace {
 
 using sensor_msgs::PointCloud2Ptr;
@@ -220,4 +220,4 @@ TEST(StereoImagesOptionsTest, DefaultsAreTheNodelets) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::stereo_images_test

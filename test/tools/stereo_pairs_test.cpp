@@ -7,7 +7,7 @@
 
 #include "datmo_fusion/ros/stage/stamp_check.h"
 
-namespace datmo {
+namespace datmo::stereo_pairs_test {
 namespace {
 
 const Stamp kStart = Stamp::fromSeconds(100.0);
@@ -96,4 +96,4 @@ TEST(StereoPairs, NothingIsLeftAfterClear) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::stereo_pairs_test

@@ -14,7 +14,7 @@
 #include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
-namespace datmo {
+namespace datmo::text_outputs_test {
 namespace {
 
 const ros::Time kStamp(12, 5000000);
@@ -107,4 +107,4 @@ TEST(TextOutputs, AFileThatCannotBeWrittenIsNamedAtTheStart) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::text_outputs_test

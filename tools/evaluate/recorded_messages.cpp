@@ -74,7 +74,7 @@ TrueState stateOf(const TrueObject& message) {
 
 /// Reads the part of a message that has an id; errors name this id.
 template <typename Item>
-auto read(const std::string& what, const Item& item, std::set<std::uint32_t>& ids) {
+auto readState(const std::string& what, const Item& item, std::set<std::uint32_t>& ids) {
   const std::string name = what + " " + std::to_string(item.id);
   if (!ids.insert(item.id).second) {
     throw InputError("repeated_id", name + " twice: expected each id once in a message");
@@ -92,7 +92,7 @@ RecordedTracks toRecorded(const TrackArray& message) {
   RecordedTracks recorded{toStamp(message.header.stamp), {}};
   std::set<std::uint32_t> ids;
   for (const TrackMessage& track : message.tracks) {
-    recorded.tracks.push_back({read("track", track, ids), track.moving != 0});
+    recorded.tracks.push_back({readState("track", track, ids), track.moving != 0});
   }
   return recorded;
 }
@@ -101,7 +101,7 @@ RecordedObjects toRecorded(const TrueObjectArray& message) {
   RecordedObjects recorded{toStamp(message.header.stamp), {}};
   std::set<std::uint32_t> ids;
   for (const TrueObject& object : message.objects) {
-    recorded.objects.push_back({read("object", object, ids), object.label, object.moving != 0,
+    recorded.objects.push_back({readState("object", object, ids), object.label, object.moving != 0,
                                 object.visible_to, object.lidar_beams});
   }
   return recorded;

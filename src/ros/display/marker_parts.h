@@ -8,6 +8,8 @@
 #include <std_msgs/Header.h>
 #include <visualization_msgs/Marker.h>
 
+#include "datmo_fusion/common/pose2.h"
+
 namespace datmo {
 
 inline std_msgs::ColorRGBA color(float red, float green, float blue, float alpha = 1.0F) {
@@ -36,6 +38,10 @@ inline geometry_msgs::Point pointAt(double x, double y, double z = 0.0) {
   point.y = y;
   point.z = z;
   return point;
+}
+
+inline geometry_msgs::Point pointAt(const Point2& position) {
+  return pointAt(position.x(), position.y());
 }
 
 }  // namespace datmo

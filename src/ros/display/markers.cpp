@@ -23,7 +23,7 @@ using visualization_msgs::MarkerArray;
 
 /// The outlines of true objects: width as a share of the other lines', and the length of a dash and
 /// of the gap after it, m.
-constexpr double kThin = 0.7;
+constexpr double kThinLine = 0.7;
 constexpr double kDash = 0.4;
 
 /// The lines of a strip as dashes.
@@ -123,7 +123,7 @@ MarkerArray markersOf(const TrueObjectArray& objects, const MarkersOptions& opti
       Marker marker =
           dashed(outlineOf(objects.header, "ground truth", object.pose, object.size, options));
       marker.id = static_cast<int>(object.id);
-      marker.scale.x = kThin * options.line_width;
+      marker.scale.x = kThinLine * options.line_width;
       marker.color = color(0.25F, 0.25F, 0.25F);
       markers.markers.push_back(marker);
     }

@@ -22,7 +22,7 @@ using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
 /// Opacity of a border that hardly is one; of a sure one it is 1.
-constexpr float kFaint = 0.2F;
+constexpr float kUnsure = 0.2F;
 
 /// Brightness of a side street's borders; of those of the vehicle's own road it is 1.
 constexpr float kDim = 0.6F;
@@ -39,13 +39,9 @@ constexpr double kBandSigmas = 2.0;
 constexpr double kSmallText = 0.5;
 
 std_msgs::ColorRGBA colorOf(const RoadBorder& border) {
-  const float opacity = kFaint + (1.0F - kFaint) * static_cast<float>(border.probability);
+  const float opacity = kUnsure + (1.0F - kUnsure) * static_cast<float>(border.probability);
   const float light = border.side_street ? kDim : 1.0F;
   return colorOfBorder(border.side, light, opacity);
-}
-
-geometry_msgs::Point pointAt(const Point2& position) {
-  return datmo::pointAt(position.x(), position.y());
 }
 
 Marker lineOf(const std_msgs::Header& header, const RoadBorder& border,

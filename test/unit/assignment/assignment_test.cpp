@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::assignment_test {
 namespace {
 
 /// Least cost of the rows from `row` on, by trying everything.
@@ -167,4 +167,4 @@ TEST(Assignment, AThousandEqualColumnsNeedOneLookForEachRow) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::assignment_test

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::ranked_assignments_test {
 namespace {
 
 constexpr double kTolerance = 1e-9;
@@ -228,4 +228,4 @@ TEST(RankedAssignments, WrongSizesAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::ranked_assignments_test

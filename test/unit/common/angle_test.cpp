@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::angle_test {
 namespace {
 
 TEST(Angle, DegreesAndBack) {
@@ -39,4 +39,4 @@ TEST(Angle, BetweenGoesTheShortWay) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::angle_test

@@ -10,7 +10,7 @@
 
 #include "datmo_fusion/common/box_extent.h"
 
-namespace datmo {
+namespace datmo::box2_test {
 namespace {
 
 /// 4 m x 2 m, heading left: it reaches from x 9 to 11 and from y 3 to 7.
@@ -60,4 +60,4 @@ TEST(BoxExtentTest, IsTheShadowOnALine) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::box2_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::class_belief_test {
 namespace {
 
 constexpr double kTolerance = 1e-12;
@@ -97,4 +97,4 @@ TEST(ClassBelief, TwoBeliefsAreJoinedByBayes) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::class_belief_test

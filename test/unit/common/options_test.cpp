@@ -8,7 +8,7 @@
 #include "datmo_fusion/common/live_options.h"
 #include "datmo_fusion/common/option_table.h"
 
-namespace datmo {
+namespace datmo::options_test {
 namespace {
 
 struct MapOptions {
@@ -226,4 +226,4 @@ TEST(OptionTable, HalfOpenRangesSaySo) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::options_test

@@ -6,7 +6,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::pose2_test {
 namespace {
 
 class RandomPoses {
@@ -69,4 +69,4 @@ TEST(Pose2, RotationMatrixTurnsAsRotateDoes) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::pose2_test

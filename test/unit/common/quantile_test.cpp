@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::quantile_test {
 namespace {
 
 TEST(Quantile, IsTheNearestRank) {
@@ -22,4 +22,4 @@ TEST(Quantile, EndsAreTheMinimumAndTheMaximum) {
 TEST(Quantile, OfNoValuesIsZero) { EXPECT_DOUBLE_EQ(quantile({}, 0.5), 0.0); }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::quantile_test

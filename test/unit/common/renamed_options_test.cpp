@@ -8,7 +8,7 @@
 
 #include "datmo_fusion/common/options.h"
 
-namespace datmo {
+namespace datmo::renamed_options_test {
 namespace {
 
 const std::set<std::string> kKeys = {"segmentation/max_gap", "segmentation/min_gap", "max_sigma",
@@ -56,4 +56,4 @@ TEST(RenamedOption, AFormerKeyIsRefusedAndThePresentOneNamed) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::renamed_options_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::stamp_gate_test {
 namespace {
 
 StampVerdict judge(StampGate& gate, double seconds) {
@@ -38,4 +38,4 @@ TEST(StampGate, AJumpBackIsARestartFromItsThresholdOn) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::stamp_gate_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::stamp_test {
 namespace {
 
 TEST(Stamp, SecondsAndBack) {
@@ -28,4 +28,4 @@ TEST(Stamp, Order) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::stamp_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::twist2_test {
 namespace {
 
 TEST(Arc, StraightAhead) {
@@ -80,4 +80,4 @@ TEST(Screw, ItsPartsComposeToTheWholeMotion) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::twist2_test

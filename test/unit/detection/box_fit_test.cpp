@@ -9,7 +9,7 @@
 
 #include "datmo_fusion/common/random.h"
 
-namespace datmo {
+namespace datmo::box_fit_test {
 namespace {
 
 constexpr double kSigma = 0.02;  ///< m
@@ -186,4 +186,4 @@ TEST(BoxFitTest, CoincidingPointsDoNotMatter) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::box_fit_test

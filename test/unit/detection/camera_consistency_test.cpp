@@ -6,7 +6,7 @@
 #include "made_road_users.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::camera_consistency_test {
 namespace {
 
 /// Mean of the squared error of the rear's place over its variance, and the mean error (m).
@@ -109,4 +109,4 @@ TEST(StereoObjectDetector, WithoutBaselineNothingIsHiddenFromASecondCamera) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::camera_consistency_test

@@ -8,7 +8,7 @@
 #include "lidar_samples.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::cloud_object_detector_test {
 namespace {
 
 using samples::LidarCloudMaker;
@@ -186,4 +186,4 @@ TEST(CloudObjectDetectorTest, OptionsThatContradictEachOtherAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::cloud_object_detector_test

@@ -7,7 +7,7 @@
 #include "ray_cast.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::moving_object_detector_test {
 namespace {
 
 /// A scan of 2-degree beams; each entry is range, beam index and state.
@@ -278,4 +278,4 @@ TEST(MovingObjectDetectorTest, RefusesBadOptions) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::moving_object_detector_test

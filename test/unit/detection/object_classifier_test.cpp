@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::object_classifier_test {
 namespace {
 
 /// Seen well, all of it.
@@ -91,4 +91,4 @@ TEST(ObjectClassifier, FollowsItsOptions) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::object_classifier_test

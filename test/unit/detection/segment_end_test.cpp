@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::segment_end_test {
 namespace {
 
 constexpr double kSpacing = 0.01;  ///< rad
@@ -120,4 +120,4 @@ TEST(SegmentEndTest, AScannerThatTurnsToTheRightSeesTheSameEnds) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::segment_end_test

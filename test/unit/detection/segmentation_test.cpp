@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::segmentation_test {
 namespace {
 
 ScanPoint polar(double range, double bearing_degrees) {
@@ -95,4 +95,4 @@ TEST(SegmentationTest, AdaptiveGapFollowsItsFormulaAndItsLimits) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::segmentation_test

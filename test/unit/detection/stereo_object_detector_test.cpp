@@ -11,7 +11,7 @@
 
 #include "datmo_fusion/common/angle.h"
 
-namespace datmo {
+namespace datmo::stereo_object_detector_test {
 namespace {
 
 TEST(StereoObjectDetector, FindsACarAhead) {
@@ -266,4 +266,4 @@ TEST(StereoObjectDetector, UncertaintyLiesAlongTheLineOfSightAndGrowsWithDepth) 
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::stereo_object_detector_test

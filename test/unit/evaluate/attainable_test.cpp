@@ -4,7 +4,7 @@
 #include "made_recordings.h"
 #include <gtest/gtest.h>
 
-namespace datmo::evaluation {
+namespace datmo::evaluation::attainable_test {
 namespace {
 
 constexpr double kPeriod = 0.1;  // s
@@ -101,4 +101,4 @@ TEST_F(AttainableTest, WhatIsToldBeforeItHasToBeFoundIsAttainedAtOnce) {
 }
 
 }  // namespace
-}  // namespace datmo::evaluation
+}  // namespace datmo::evaluation::attainable_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo::evaluation {
+namespace datmo::evaluation::beams_on_box_test {
 namespace {
 
 constexpr double kTolerance = 0.1;  // m
@@ -92,4 +92,4 @@ TEST(BeamsOnBox, TheScannerInTheBoxSeesNothingOfIt) {
 }
 
 }  // namespace
-}  // namespace datmo::evaluation
+}  // namespace datmo::evaluation::beams_on_box_test

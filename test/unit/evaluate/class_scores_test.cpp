@@ -4,7 +4,7 @@
 #include "made_frames.h"
 #include <gtest/gtest.h>
 
-namespace datmo::evaluation {
+namespace datmo::evaluation::class_scores_test {
 namespace {
 
 ClassScores score(const Frames& frames) {
@@ -59,4 +59,4 @@ TEST(ClassScores, OverallAndByTrueClass) {
 }
 
 }  // namespace
-}  // namespace datmo::evaluation
+}  // namespace datmo::evaluation::class_scores_test

@@ -4,7 +4,7 @@
 #include "made_frames.h"
 #include <gtest/gtest.h>
 
-namespace datmo::evaluation {
+namespace datmo::evaluation::clear_mot_test {
 namespace {
 
 ClearMot score(const Frames& frames) {
@@ -130,4 +130,4 @@ TEST(ClearMot, FramesWithoutDutyAreNoPartOfAnObjectsLife) {
 }
 
 }  // namespace
-}  // namespace datmo::evaluation
+}  // namespace datmo::evaluation::clear_mot_test

@@ -9,7 +9,7 @@
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
-namespace datmo::evaluation {
+namespace datmo::evaluation::consistency_test {
 namespace {
 
 Eigen::Matrix2d matrix(double xx, double xy, double yy) {
@@ -114,4 +114,4 @@ TEST(Consistency, PositionAndVelocityOfTheMatches) {
 }
 
 }  // namespace
-}  // namespace datmo::evaluation
+}  // namespace datmo::evaluation::consistency_test

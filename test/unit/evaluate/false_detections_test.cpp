@@ -4,7 +4,7 @@
 #include "evaluate/made_recordings.h"
 #include <gtest/gtest.h>
 
-namespace datmo::evaluation {
+namespace datmo::evaluation::false_detections_test {
 namespace {
 
 /// A car that drives along x from 10 m, for 2 s, past a parked one at (20, 5).
@@ -66,4 +66,4 @@ TEST(CountFalseDetections, WithoutTruthNothingIsScored) {
 }
 
 }  // namespace
-}  // namespace datmo::evaluation
+}  // namespace datmo::evaluation::false_detections_test

@@ -4,7 +4,7 @@
 #include "made_frames.h"
 #include <gtest/gtest.h>
 
-namespace datmo::evaluation {
+namespace datmo::evaluation::false_movers_test {
 namespace {
 
 constexpr double kMinSpeed = 0.5;  // m/s
@@ -44,4 +44,4 @@ TEST(FalseMovers, SecondTracksOfAnObjectAndTracksOfOptionalOnesAreNone) {
 }
 
 }  // namespace
-}  // namespace datmo::evaluation
+}  // namespace datmo::evaluation::false_movers_test

@@ -4,7 +4,7 @@
 #include "evaluate/made_recordings.h"
 #include <gtest/gtest.h>
 
-namespace datmo::evaluation {
+namespace datmo::evaluation::frame_builder_test {
 namespace {
 
 /// A car that drives along x from 10 m, for `seconds`, in front of a standing vehicle.
@@ -170,4 +170,4 @@ TEST(BuildFrames, NoneTakesTheMapAsItIs) {
 }
 
 }  // namespace
-}  // namespace datmo::evaluation
+}  // namespace datmo::evaluation::frame_builder_test

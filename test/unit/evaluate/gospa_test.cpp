@@ -7,7 +7,7 @@
 #include "made_frames.h"
 #include <gtest/gtest.h>
 
-namespace datmo::evaluation {
+namespace datmo::evaluation::gospa_test {
 namespace {
 
 using Points = std::vector<Point2>;
@@ -113,4 +113,4 @@ TEST(Gospa, MeanOverFrames) {
 }
 
 }  // namespace
-}  // namespace datmo::evaluation
+}  // namespace datmo::evaluation::gospa_test

@@ -6,7 +6,7 @@
 #include "made_frames.h"
 #include <gtest/gtest.h>
 
-namespace datmo::evaluation {
+namespace datmo::evaluation::hota_test {
 namespace {
 
 HotaScores score(const Frames& frames) {
@@ -125,4 +125,4 @@ TEST(Hota, NeutralTracksAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace datmo::evaluation
+}  // namespace datmo::evaluation::hota_test

@@ -4,7 +4,7 @@
 #include "made_frames.h"
 #include <gtest/gtest.h>
 
-namespace datmo::evaluation {
+namespace datmo::evaluation::identity_test {
 namespace {
 
 IdentityScores score(const Frames& frames) {
@@ -77,4 +77,4 @@ TEST(Identity, NeutralTracksAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace datmo::evaluation
+}  // namespace datmo::evaluation::identity_test

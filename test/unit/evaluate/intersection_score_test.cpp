@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo::evaluation {
+namespace datmo::evaluation::intersection_score_test {
 namespace {
 
 constexpr double kMergeGap = 1.0;  // s
@@ -60,4 +60,4 @@ TEST(ScoreIntersections, NoneAtAll) {
 }
 
 }  // namespace
-}  // namespace datmo::evaluation
+}  // namespace datmo::evaluation::intersection_score_test

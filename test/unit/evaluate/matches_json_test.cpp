@@ -4,7 +4,7 @@
 #include "evaluate/made_frames.h"
 #include <gtest/gtest.h>
 
-namespace datmo::evaluation {
+namespace datmo::evaluation::matches_json_test {
 namespace {
 
 using nlohmann::json;
@@ -50,4 +50,4 @@ TEST(MatchesJson, SaysWhichObjectChangesItsTrack) {
 }
 
 }  // namespace
-}  // namespace datmo::evaluation
+}  // namespace datmo::evaluation::matches_json_test

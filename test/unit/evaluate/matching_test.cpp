@@ -6,7 +6,7 @@
 
 #include "datmo_fusion/common/angle.h"
 
-namespace datmo::evaluation {
+namespace datmo::evaluation::matching_test {
 namespace {
 
 using Tracks = std::vector<int>;
@@ -166,4 +166,4 @@ TEST(Matching, HitsAreThoseOfRequiredObjects) {
 }
 
 }  // namespace
-}  // namespace datmo::evaluation
+}  // namespace datmo::evaluation::matching_test

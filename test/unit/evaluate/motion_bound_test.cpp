@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo::evaluation {
+namespace datmo::evaluation::motion_bound_test {
 namespace {
 
 constexpr double kSigma = 0.2;   // m
@@ -71,4 +71,4 @@ TEST(MotionBound, NoiseInOneScanCountsAgainstTheOthers) {
 }
 
 }  // namespace
-}  // namespace datmo::evaluation
+}  // namespace datmo::evaluation::motion_bound_test

@@ -4,7 +4,7 @@
 #include "made_frames.h"
 #include <gtest/gtest.h>
 
-namespace datmo::evaluation {
+namespace datmo::evaluation::object_scores_test {
 namespace {
 
 std::vector<ObjectScore> score(const Frames& frames) {
@@ -79,4 +79,4 @@ TEST(ObjectScores, DelaysAreOfThoseThatWereFound) {
 }
 
 }  // namespace
-}  // namespace datmo::evaluation
+}  // namespace datmo::evaluation::object_scores_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo::evaluation {
+namespace datmo::evaluation::pair_choice_test {
 namespace {
 
 using Indices = std::vector<std::size_t>;
@@ -74,4 +74,4 @@ TEST(PairChoice, IsOptimalForRandomPairs) {
 }
 
 }  // namespace
-}  // namespace datmo::evaluation
+}  // namespace datmo::evaluation::pair_choice_test

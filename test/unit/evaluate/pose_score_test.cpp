@@ -8,7 +8,7 @@
 #include "evaluate/made_recordings.h"
 #include <gtest/gtest.h>
 
-namespace datmo::evaluation {
+namespace datmo::evaluation::pose_score_test {
 namespace {
 
 constexpr double kMaxGap = 0.5;  // s
@@ -144,4 +144,4 @@ TEST(ScorePoses, WithoutOverlapThereIsNoScore) {
 }
 
 }  // namespace
-}  // namespace datmo::evaluation
+}  // namespace datmo::evaluation::pose_score_test

@@ -4,7 +4,7 @@
 #include "evaluate/made_recordings.h"
 #include <gtest/gtest.h>
 
-namespace datmo::evaluation {
+namespace datmo::evaluation::score_json_test {
 namespace {
 
 /// A car that drives along x from 10 m, for 2 s, before a standing vehicle; a track half a meter
@@ -156,4 +156,4 @@ TEST(ScoreRun, OptionsOutOfBoundsAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo::evaluation
+}  // namespace datmo::evaluation::score_json_test

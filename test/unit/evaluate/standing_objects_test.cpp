@@ -5,7 +5,7 @@
 #include "evaluate/made_recordings.h"
 #include <gtest/gtest.h>
 
-namespace datmo::evaluation {
+namespace datmo::evaluation::standing_objects_test {
 namespace {
 
 const Stamp kStart = Stamp::fromSeconds(0.0);
@@ -61,4 +61,4 @@ TEST(ScoreStandingObjects, ATrackBeyondTheGateIsOnNone) {
 }
 
 }  // namespace
-}  // namespace datmo::evaluation
+}  // namespace datmo::evaluation::standing_objects_test

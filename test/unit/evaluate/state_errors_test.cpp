@@ -8,7 +8,7 @@
 
 #include "datmo_fusion/common/angle.h"
 
-namespace datmo::evaluation {
+namespace datmo::evaluation::state_errors_test {
 namespace {
 
 /// Of one pair that differs in heading alone.
@@ -68,4 +68,4 @@ TEST(StateErrors, OfRequiredAndMatchedObjectsAlone) {
 }
 
 }  // namespace
-}  // namespace datmo::evaluation
+}  // namespace datmo::evaluation::state_errors_test

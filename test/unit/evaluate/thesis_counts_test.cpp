@@ -4,7 +4,7 @@
 #include "made_frames.h"
 #include <gtest/gtest.h>
 
-namespace datmo::evaluation {
+namespace datmo::evaluation::thesis_counts_test {
 namespace {
 
 ThesisCounts count(const Frames& frames) {
@@ -74,4 +74,4 @@ TEST(ThesisCounts, ConfirmedTracksAndThoseOfThemThatAreTrue) {
 }
 
 }  // namespace
-}  // namespace datmo::evaluation
+}  // namespace datmo::evaluation::thesis_counts_test

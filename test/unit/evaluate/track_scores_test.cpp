@@ -7,7 +7,7 @@
 #include "made_frames.h"
 #include <gtest/gtest.h>
 
-namespace datmo::evaluation {
+namespace datmo::evaluation::track_scores_test {
 namespace {
 
 /// Objects on straight ways, some of them optional, followed by tracks that err, get lost, change
@@ -180,4 +180,4 @@ TEST(TrackScores, OptionsOutOfBoundsAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo::evaluation
+}  // namespace datmo::evaluation::track_scores_test

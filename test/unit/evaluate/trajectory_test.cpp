@@ -4,7 +4,7 @@
 #include "evaluate/made_recordings.h"
 #include <gtest/gtest.h>
 
-namespace datmo::evaluation {
+namespace datmo::evaluation::trajectory_test {
 namespace {
 
 constexpr double kMaxGap = 0.5;  // s
@@ -70,4 +70,4 @@ TEST(AlignAtFirstPose, NeedsAnOverlap) {
 }
 
 }  // namespace
-}  // namespace datmo::evaluation
+}  // namespace datmo::evaluation::trajectory_test

@@ -4,7 +4,7 @@
 #include "evaluate/made_recordings.h"
 #include <gtest/gtest.h>
 
-namespace datmo::evaluation {
+namespace datmo::evaluation::true_scene_test {
 namespace {
 
 const Stamp kEarlier = Stamp::fromSeconds(1.0);
@@ -131,4 +131,4 @@ TEST(TrueScene, ClassesAreChosenOneByOne) {
 }
 
 }  // namespace
-}  // namespace datmo::evaluation
+}  // namespace datmo::evaluation::true_scene_test

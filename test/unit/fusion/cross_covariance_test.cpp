@@ -7,7 +7,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::cross_covariance_test {
 namespace {
 
 using JointCovariance = Eigen::Matrix<double, 2 * kTrackState, 2 * kTrackState>;
@@ -133,4 +133,4 @@ TEST(CrossCovarianceTest, ErrorsThatGrowAreNotPassedOn) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::cross_covariance_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::fused_existence_test {
 namespace {
 
 constexpr double kRounding = 1e-12;
@@ -47,4 +47,4 @@ TEST(FusedExistenceTest, CertaintyCanBeTalkedOutOf) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::fused_existence_test

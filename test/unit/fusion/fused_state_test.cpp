@@ -10,7 +10,7 @@
 
 #include "datmo_fusion/fusion/track/track_combination.h"
 
-namespace datmo {
+namespace datmo::fused_state_test {
 namespace {
 
 constexpr char kIntersection[] = "covariance_intersection";
@@ -231,4 +231,4 @@ TEST(FusedStateTest, OptionsAreChecked) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::fused_state_test

@@ -9,7 +9,7 @@
 
 #include "datmo_fusion/fusion/track/track_fuser.h"
 
-namespace datmo {
+namespace datmo::fused_targets_test {
 namespace {
 
 using Ids = std::vector<std::uint32_t>;
@@ -128,4 +128,4 @@ TEST(FusedTargetsTest, WhoIsSurestOfItIsNoEvidenceBesidesItself) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::fused_targets_test

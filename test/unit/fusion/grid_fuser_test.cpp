@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::grid_fuser_test {
 namespace {
 
 constexpr Percent kOccupied = 80;
@@ -104,4 +104,4 @@ TEST(GridFuserTest, RefusesARuleThatThereIsNot) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::grid_fuser_test

@@ -11,7 +11,7 @@
 
 #include "datmo_fusion/common/random.h"
 
-namespace datmo {
+namespace datmo::grid_fusion_test {
 namespace {
 
 const std::vector<FusionRule> kAllRules = {FusionRule::kWeightedSum, FusionRule::kPriority,
@@ -261,4 +261,4 @@ TEST(GridFusionTest, RefusesNothingAndGridsOfSeveralWindows) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::grid_fusion_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::grid_matcher_test {
 namespace {
 
 const GridWindow kWindow{0.3, 4, 3, {-2, -1}};
@@ -281,4 +281,4 @@ TEST(GridMatcherOneSourceTest, OneSourceNeedsNobody) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::grid_matcher_test

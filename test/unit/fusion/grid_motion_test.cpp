@@ -10,7 +10,7 @@
 
 #include "datmo_fusion/common/random.h"
 
-namespace datmo {
+namespace datmo::grid_motion_test {
 namespace {
 
 constexpr Percent kOccupied = 80;
@@ -146,4 +146,4 @@ TEST(GridMotionTest, AMotionOutOfTheWindowLeavesNothingKnown) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::grid_motion_test

@@ -10,7 +10,7 @@
 #include "datmo_fusion/assignment/assignment.h"
 #include "datmo_fusion/common/angle.h"
 
-namespace datmo {
+namespace datmo::object_association_test {
 namespace {
 
 ObjectAssociationOptions exact() {
@@ -176,4 +176,4 @@ TEST(ObjectAssociationTest, WithoutObjectsThereAreNoPairs) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::object_association_test

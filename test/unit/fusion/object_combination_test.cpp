@@ -17,7 +17,7 @@
 #include "datmo_fusion/fusion/object/position_covariance.h"
 #include "datmo_fusion/tracking/object_check.h"
 
-namespace datmo {
+namespace datmo::object_combination_test {
 namespace {
 
 TEST(ObjectCombinationTest, PointsAreFusedAsInTheThesis) {
@@ -356,4 +356,4 @@ TEST(ObjectCombinationTest, TheRestOfBothIsKept) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::object_combination_test

@@ -14,7 +14,7 @@
 
 #include "datmo_fusion/tracking/object_check.h"
 
-namespace datmo {
+namespace datmo::object_fuser_test {
 namespace {
 
 const Stamp kReference = Stamp::fromSeconds(5.0);
@@ -274,4 +274,4 @@ TEST(ObjectFuserTest, SourcesThatNobodyKnowsAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::object_fuser_test

@@ -8,7 +8,7 @@
 
 #include "datmo_fusion/common/angle.h"
 
-namespace datmo {
+namespace datmo::position_covariance_test {
 namespace {
 
 PositionCovarianceOptions table() {
@@ -73,4 +73,4 @@ TEST(PositionCovarianceTest, VariancesOfZeroAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::position_covariance_test

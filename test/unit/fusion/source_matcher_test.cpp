@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::source_matcher_test {
 namespace {
 
 using Matcher = SourceMatcher<int>;
@@ -231,4 +231,4 @@ TEST(SourceMatcherOptionsTest, AreChecked) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::source_matcher_test

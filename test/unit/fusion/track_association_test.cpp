@@ -7,7 +7,7 @@
 #include "fusion_tracks.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::track_association_test {
 namespace {
 
 Stamp at(double seconds) { return Stamp::fromSeconds(100.0 + seconds); }
@@ -152,4 +152,4 @@ TEST(TrackAssociationTest, BadOptionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::track_association_test

@@ -11,7 +11,7 @@
 #include "fusion_tracks.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::track_combination_test {
 namespace {
 
 const CrossCovariance kNoCross = CrossCovariance::Zero();
@@ -204,4 +204,4 @@ TEST(TrackCombinationTest, OrderDoesNotMatterNorDoTheAxesOfTheMap) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::track_combination_test

@@ -8,7 +8,7 @@
 #include "fusion_tracks.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::track_comparison_test {
 namespace {
 
 constexpr double kRounding = 1e-9;
@@ -155,4 +155,4 @@ TEST(ParallelTracksTest, WithoutHistoryThePresentCounts) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::track_comparison_test

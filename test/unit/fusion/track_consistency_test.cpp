@@ -13,7 +13,7 @@
 
 #include "datmo_fusion/fusion/track/track_combination.h"
 
-namespace datmo {
+namespace datmo::track_consistency_test {
 namespace {
 
 constexpr int kRuns = 400;
@@ -190,4 +190,4 @@ INSTANTIATE_TEST_SUITE_P(Trackers, TrackConsistencyTest,
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::track_consistency_test

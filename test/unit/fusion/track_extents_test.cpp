@@ -4,7 +4,7 @@
 #include "fusion_tracks.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::track_extents_test {
 namespace {
 
 constexpr double kRounding = 1e-9;
@@ -98,4 +98,4 @@ TEST(TrackExtentsTest, EqualBoxesAndUnknownSensorsChangeNothing) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::track_extents_test

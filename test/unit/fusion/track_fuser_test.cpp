@@ -14,7 +14,7 @@
 
 #include "datmo_fusion/tracking/track_check.h"
 
-namespace datmo {
+namespace datmo::track_fuser_test {
 namespace {
 
 /// Drives along y = 0 and is at x when it is 0 s.
@@ -256,4 +256,4 @@ TEST(TrackFuserTest, UnknownSourcesAndBadOptionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::track_fuser_test

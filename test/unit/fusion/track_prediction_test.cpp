@@ -7,7 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::track_prediction_test {
 namespace {
 
 const TrackPredictionOptions kOptions;
@@ -132,4 +132,4 @@ TEST(TrackPredictionTest, OptionsAreChecked) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::track_prediction_test

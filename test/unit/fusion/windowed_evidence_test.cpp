@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::windowed_evidence_test {
 namespace {
 
 constexpr double kRounding = 1e-9;
@@ -66,4 +66,4 @@ TEST(WindowedEvidenceTest, ForgetsWhatIsOlderThanTheWindow) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::windowed_evidence_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::beam_walk_test {
 namespace {
 
 std::vector<Point2> linesOf(const Beam& beam) {
@@ -39,4 +39,4 @@ TEST(BeamWalkTest, NeighborsEndAtMostACellApart) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::beam_walk_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::grid_resampling_test {
 namespace {
 
 constexpr GridWindow kSource{0.5, 6, 4, {-3, -2}};
@@ -76,4 +76,4 @@ TEST(Resample, CellsMayBeOfAnotherSize) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::grid_resampling_test

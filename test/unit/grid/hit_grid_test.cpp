@@ -7,7 +7,7 @@
 
 #include "datmo_fusion/common/random.h"
 
-namespace datmo {
+namespace datmo::hit_grid_test {
 namespace {
 
 constexpr Stamp kAnyTime{};
@@ -164,4 +164,4 @@ TEST(HitGridTest, RefusesBadOptions) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::hit_grid_test

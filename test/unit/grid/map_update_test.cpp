@@ -3,7 +3,7 @@
 
 #include "datmo_fusion/grid/occupancy_map.h"
 
-namespace datmo {
+namespace datmo::map_update_test {
 namespace {
 
 OccupancyMapOptions smallMap() {
@@ -114,4 +114,4 @@ TEST_F(MapUpdateTest, WhatLiesBesideTheWindowIsLeftOut) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::map_update_test

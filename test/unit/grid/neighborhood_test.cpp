@@ -7,7 +7,7 @@
 
 #include "datmo_fusion/grid/row_major.h"
 
-namespace datmo {
+namespace datmo::neighborhood_test {
 namespace {
 
 TEST(ForEachNeighbor, ACellAndTheEightAroundItRowByRow) {
@@ -41,4 +41,4 @@ TEST(RowMajorIndex, CountsRowByRow) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::neighborhood_test

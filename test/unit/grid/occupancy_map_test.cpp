@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::occupancy_map_test {
 namespace {
 
 OccupancyMapOptions smallMap() {
@@ -318,4 +318,4 @@ TEST(OccupancyMapTest, RefusesMoreCellsThanMemoryHolds) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::occupancy_map_test

@@ -8,7 +8,7 @@
 
 #include "datmo_fusion/common/random.h"
 
-namespace datmo {
+namespace datmo::ray_walk_test {
 namespace {
 
 const GridWindow kWindow{1.0, 10, 10, {-5, -5}};
@@ -69,4 +69,4 @@ TEST(RayWalkTest, ThroughCornersAndAlongBordersItStillArrives) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::ray_walk_test

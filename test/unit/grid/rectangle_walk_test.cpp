@@ -8,7 +8,7 @@
 
 #include "datmo_fusion/common/random.h"
 
-namespace datmo {
+namespace datmo::rectangle_walk_test {
 namespace {
 
 const GridWindow kWindow{0.3, 60, 50, {-20, 7}};
@@ -73,4 +73,4 @@ TEST(RectangleWalkTest, ARectangleOverAllIsTheWindow) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::rectangle_walk_test

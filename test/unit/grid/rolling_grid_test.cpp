@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::rolling_grid_test {
 namespace {
 
 /// Every cell of the window holds its own index, so that a cell can be told from any other.
@@ -118,4 +118,4 @@ TEST_F(RollingGridTest, OutsideReadsAsEmpty) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::rolling_grid_test

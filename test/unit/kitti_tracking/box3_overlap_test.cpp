@@ -8,7 +8,7 @@
 
 #include "datmo_fusion/common/angle.h"
 
-namespace datmo::kitti {
+namespace datmo::kitti::box3_overlap_test {
 namespace {
 
 constexpr double kTiny = 1e-12;
@@ -122,4 +122,4 @@ TEST(Overlap3d, NearlyTheSameBox) {
 }
 
 }  // namespace
-}  // namespace datmo::kitti
+}  // namespace datmo::kitti::box3_overlap_test

@@ -4,7 +4,7 @@
 #include "made_camera.h"
 #include <gtest/gtest.h>
 
-namespace datmo::kitti {
+namespace datmo::kitti::camera_mount_test {
 namespace {
 
 TEST(CameraMountTest, TheCameraStandsWhereTheCalibrationSays) {
@@ -83,4 +83,4 @@ TEST(CameraMountTest, AlphaIsTheRotationMinusTheViewingDirection) {
 }
 
 }  // namespace
-}  // namespace datmo::kitti
+}  // namespace datmo::kitti::camera_mount_test

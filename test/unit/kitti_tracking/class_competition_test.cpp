@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo::kitti {
+namespace datmo::kitti::class_competition_test {
 namespace {
 
 Object objectAt(double x, double log_odds, double length = 1.8, double width = 0.6) {
@@ -55,4 +55,4 @@ TEST(ClassCompetition, HugeOddsStayFinite) {
 }
 
 }  // namespace
-}  // namespace datmo::kitti
+}  // namespace datmo::kitti::class_competition_test

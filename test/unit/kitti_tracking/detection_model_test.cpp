@@ -4,7 +4,7 @@
 #include "made_camera.h"
 #include <gtest/gtest.h>
 
-namespace datmo::kitti {
+namespace datmo::kitti::detection_model_test {
 namespace {
 
 Detection detectionAt(double right, double ahead) {
@@ -73,4 +73,4 @@ TEST(DetectionModelTest, LooksAtWhatIsInTheImage) {
 }
 
 }  // namespace
-}  // namespace datmo::kitti
+}  // namespace datmo::kitti::detection_model_test

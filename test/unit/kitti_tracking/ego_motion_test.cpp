@@ -9,7 +9,7 @@
 #include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/common/random.h"
 
-namespace datmo::kitti {
+namespace datmo::kitti::ego_motion_test {
 namespace {
 
 constexpr double kPeriod = 0.1;  // s
@@ -173,4 +173,4 @@ TEST(EgoMotionTest, OptionsOutOfRangeAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo::kitti
+}  // namespace datmo::kitti::ego_motion_test

@@ -4,7 +4,7 @@
 #include "made_rows.h"
 #include <gtest/gtest.h>
 
-namespace datmo::kitti {
+namespace datmo::kitti::evaluated_sequence_test {
 namespace {
 
 EvaluatedSequence evaluated(const std::vector<TrackedObject>& labels,
@@ -94,4 +94,4 @@ TEST(EvaluatedSequence, RowsOfFilesInAnyOrder) {
 }
 
 }  // namespace
-}  // namespace datmo::kitti
+}  // namespace datmo::kitti::evaluated_sequence_test

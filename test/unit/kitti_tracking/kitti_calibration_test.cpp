@@ -4,7 +4,7 @@
 #include "text_file.h"
 #include <gtest/gtest.h>
 
-namespace datmo::kitti {
+namespace datmo::kitti::kitti_calibration_test {
 namespace {
 
 const std::string kTwelve = " 1 2 3 4 5 6 7 8 9 10 11 12\n";
@@ -40,4 +40,4 @@ TEST(KittiCalibration, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace datmo::kitti
+}  // namespace datmo::kitti::kitti_calibration_test

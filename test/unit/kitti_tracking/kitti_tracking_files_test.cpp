@@ -6,7 +6,7 @@
 
 #include "datmo_fusion/common/angle.h"
 
-namespace datmo::kitti {
+namespace datmo::kitti::kitti_tracking_files_test {
 namespace {
 
 const std::string kLabel =
@@ -164,4 +164,4 @@ TEST_F(KittiTrackingFiles, BadDetections) {
 }
 
 }  // namespace
-}  // namespace datmo::kitti
+}  // namespace datmo::kitti::kitti_tracking_files_test

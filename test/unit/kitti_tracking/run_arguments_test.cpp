@@ -4,7 +4,7 @@
 #include "text_file.h"
 #include <gtest/gtest.h>
 
-namespace datmo::kitti {
+namespace datmo::kitti::run_arguments_test {
 namespace {
 
 const std::string kShipped = std::string(DATMO_FUSION_SOURCE_DIR) + "/config/kitti_tracking";
@@ -47,4 +47,4 @@ TEST(RunArgumentsTest, WhatIsWrongIsNamed) {
 }
 
 }  // namespace
-}  // namespace datmo::kitti
+}  // namespace datmo::kitti::run_arguments_test

@@ -6,7 +6,7 @@
 
 #include "datmo_fusion/common/options.h"
 
-namespace datmo::kitti {
+namespace datmo::kitti::score_arguments_test {
 namespace {
 
 std::string errorOf(const std::vector<std::string>& words) {
@@ -54,4 +54,4 @@ TEST(ScoreArguments, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace datmo::kitti
+}  // namespace datmo::kitti::score_arguments_test

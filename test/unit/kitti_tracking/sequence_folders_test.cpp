@@ -5,7 +5,7 @@
 #include "text_file.h"
 #include <gtest/gtest.h>
 
-namespace datmo::kitti {
+namespace datmo::kitti::sequence_folders_test {
 namespace {
 
 class SequenceFolders : public testing::Test {
@@ -50,4 +50,4 @@ TEST_F(SequenceFolders, FoldersThatAreEmptyOrNotThere) {
 }
 
 }  // namespace
-}  // namespace datmo::kitti
+}  // namespace datmo::kitti::sequence_folders_test

@@ -10,7 +10,7 @@
 #include "made_camera.h"
 #include <gtest/gtest.h>
 
-namespace datmo::kitti {
+namespace datmo::kitti::sequence_run_test {
 namespace {
 
 /// As in config/kitti_tracking: all that is detected is published.
@@ -135,4 +135,4 @@ TEST(SequenceRun, WithoutEgoMotionTheVehicleStands) {
 }
 
 }  // namespace
-}  // namespace datmo::kitti
+}  // namespace datmo::kitti::sequence_run_test

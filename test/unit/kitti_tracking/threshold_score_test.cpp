@@ -6,7 +6,7 @@
 #include "made_rows.h"
 #include <gtest/gtest.h>
 
-namespace datmo::kitti {
+namespace datmo::kitti::threshold_score_test {
 namespace {
 
 constexpr double kAll = -std::numeric_limits<double>::infinity();
@@ -118,4 +118,4 @@ TEST(ThresholdScore, ScoresOfTheMatches) {
 }
 
 }  // namespace
-}  // namespace datmo::kitti
+}  // namespace datmo::kitti::threshold_score_test

@@ -6,7 +6,7 @@
 #include "made_rows.h"
 #include <gtest/gtest.h>
 
-namespace datmo::kitti {
+namespace datmo::kitti::tracking_evaluation_test {
 namespace {
 
 constexpr double kTiny = 1e-12;
@@ -145,4 +145,4 @@ TEST(TrackingEvaluation, RepeatedAveragingLeavesShortBinaryFractionsAlone) {
 }
 
 }  // namespace
-}  // namespace datmo::kitti
+}  // namespace datmo::kitti::tracking_evaluation_test

@@ -6,7 +6,7 @@
 #include "made_rows.h"
 #include <gtest/gtest.h>
 
-namespace datmo::kitti {
+namespace datmo::kitti::tracking_report_test {
 namespace {
 
 TrackingScore scoreOf(const EvaluatedKind& kind) {
@@ -58,4 +58,4 @@ TEST(TrackingReport, JsonHasEachLevel) {
 }
 
 }  // namespace
-}  // namespace datmo::kitti
+}  // namespace datmo::kitti::tracking_report_test

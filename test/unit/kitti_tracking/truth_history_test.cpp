@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo::kitti {
+namespace datmo::kitti::truth_history_test {
 namespace {
 
 using Coverage = TruthSummary::Coverage;
@@ -74,4 +74,4 @@ TEST(TruthHistory, AFifthIsPartlyAndLessIsMostlyLost) {
 }
 
 }  // namespace
-}  // namespace datmo::kitti
+}  // namespace datmo::kitti::truth_history_test

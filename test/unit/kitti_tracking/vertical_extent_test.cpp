@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo::kitti {
+namespace datmo::kitti::vertical_extent_test {
 namespace {
 
 const VerticalExtentOptions kOptions;
@@ -40,4 +40,4 @@ TEST(VerticalExtentTest, AfterALongGapOnlyTheNewOneCounts) {
 }
 
 }  // namespace
-}  // namespace datmo::kitti
+}  // namespace datmo::kitti::vertical_extent_test

@@ -7,7 +7,7 @@
 
 #include "datmo_fusion/common/random.h"
 
-namespace datmo {
+namespace datmo::box_contact_test {
 namespace {
 
 constexpr BodySize kCar{2.0, 1.0};
@@ -107,4 +107,4 @@ TEST(StruckSide, IsThatWhichFacesTheOther) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::box_contact_test

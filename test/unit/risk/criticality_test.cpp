@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::criticality_test {
 namespace {
 
 constexpr BodySize kCar{2.0, 1.0};
@@ -98,4 +98,4 @@ TEST(PostEncroachmentTime, IsZeroOfContactAndInfiniteOfPathsApart) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::criticality_test

@@ -8,7 +8,7 @@
 #include "datmo_fusion/common/twist2.h"
 #include "datmo_fusion/risk/host_futures.h"
 
-namespace datmo {
+namespace datmo::host_motion_test {
 namespace {
 
 const HostVehicleOptions kVehicle;
@@ -116,4 +116,4 @@ TEST(CourseSteering, IsUnknownWithoutABorderThatIsSure) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::host_motion_test

@@ -7,7 +7,7 @@
 #include "risk/risk_samples.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::object_futures_test {
 namespace {
 
 const HorizonOptions kHorizon;
@@ -135,4 +135,4 @@ TEST(HorizonOptions, AStepThatDoesNotDivideTheHorizonReachesBeyondIt) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::object_futures_test

@@ -7,7 +7,7 @@
 #include "risk/risk_samples.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::risk_assessor_test {
 namespace {
 
 /// The first track's risk in a report of one assessment.
@@ -182,4 +182,4 @@ TEST(RiskAssessor, RefusesAMethodThatThereIsNot) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::risk_assessor_test

@@ -4,7 +4,7 @@
 #include "risk/risk_samples.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::rule_methods_test {
 namespace {
 
 const RuleOptions kRules;
@@ -70,4 +70,4 @@ TEST(RssRisk, KeepsTheBrakingDistancesOfBoth) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::rule_methods_test

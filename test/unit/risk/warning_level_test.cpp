@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::warning_level_test {
 namespace {
 
 ObjectRisk riskWith(double probability, double time_to_brake) {
@@ -102,4 +102,4 @@ TEST(WarningOptions, RefuseWhatIsNoProbability) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::warning_level_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::border_filter_test {
 namespace {
 
 /// Borders 4 m to the left and to the right of the x axis.
@@ -168,4 +168,4 @@ TEST_F(ThesisBorderFilterTest, KeepsWhatNobodySaysToMove) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::border_filter_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::border_offset_test {
 namespace {
 
 RoadBorder borderOf(RoadSide side, std::vector<BorderPoint> points) {
@@ -51,4 +51,4 @@ TEST(BorderOffsetTest, ALegWithoutLengthIsLeftOut) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::border_offset_test

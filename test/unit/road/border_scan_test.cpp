@@ -4,7 +4,7 @@
 #include "scan_history_samples.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::border_scan_test {
 namespace {
 
 TEST(BorderScanTest, HoldsAllBeamsButTheBlindOnes) {
@@ -39,4 +39,4 @@ TEST(BorderScanTest, KnowsWhatLasts) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::border_scan_test

@@ -8,7 +8,7 @@
 
 #include "datmo_fusion/common/random.h"
 
-namespace datmo {
+namespace datmo::border_search_test {
 namespace {
 
 /// Of hits whatever their age.
@@ -163,4 +163,4 @@ TEST(BorderSearchOptionsTest, BadOnesAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::border_search_test

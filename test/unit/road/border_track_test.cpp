@@ -9,7 +9,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::border_track_test {
 namespace {
 
 /// State of the line `estimate` seen from the true line at the estimate's anchor: by how much it is
@@ -153,4 +153,4 @@ TEST(BorderTrack, CovarianceStaysPositive) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::border_track_test

@@ -9,7 +9,7 @@
 
 #include "datmo_fusion/common/random.h"
 
-namespace datmo {
+namespace datmo::intersection_detector_test {
 namespace {
 
 /// A piece of way, m, along which a side has another probability than the rest.
@@ -196,4 +196,4 @@ TEST(IntersectionDetectorOptionsTest, BadOnesAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::intersection_detector_test

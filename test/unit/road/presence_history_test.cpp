@@ -5,7 +5,7 @@
 
 #include "datmo_fusion/common/random.h"
 
-namespace datmo {
+namespace datmo::presence_history_test {
 namespace {
 
 TEST(PresenceHistoryTest, CountsTheDistanceDriven) {
@@ -44,4 +44,4 @@ TEST(PresenceHistoryTest, WithoutBordersNothingIsKnown) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::presence_history_test

@@ -10,7 +10,7 @@
 
 #include "datmo_fusion/common/random.h"
 
-namespace datmo {
+namespace datmo::road_border_detector_test {
 namespace {
 
 /// A wall along x, m, map frame.
@@ -228,4 +228,4 @@ TEST_F(RoadBorderDetectorTest, RefusesAMethodThatThereIsNot) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::road_border_detector_test

@@ -5,7 +5,7 @@
 
 #include "datmo_fusion/common/angle.h"
 
-namespace datmo {
+namespace datmo::road_extension_test {
 namespace {
 
 /// A border on the left, 4 m from the x axis, from one place along it to another.
@@ -94,4 +94,4 @@ TEST_F(RoadExtensionTest, ForgetsAllByAReset) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::road_extension_test

@@ -5,7 +5,7 @@
 
 #include "datmo_fusion/common/angle.h"
 
-namespace datmo {
+namespace datmo::road_opening_test {
 namespace {
 
 /// Stations of 1 m from 10 m behind the vehicle to 40 m ahead, each with a border.
@@ -102,4 +102,4 @@ TEST_F(RoadOpeningTest, TurnsWithTheVehicle) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::road_opening_test

@@ -5,7 +5,7 @@
 
 #include "datmo_fusion/common/angle.h"
 
-namespace datmo {
+namespace datmo::side_streets_test {
 namespace {
 
 Stamp at(double seconds) { return Stamp::fromSeconds(100.0 + seconds); }
@@ -89,4 +89,4 @@ TEST_F(SideStreetsTest, ForgetsAllByAReset) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::side_streets_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::station_evidence_test {
 namespace {
 
 class StationEvidenceTest : public testing::Test {
@@ -103,4 +103,4 @@ TEST(StationEvidenceLimitsTest, PointsAtInfinityAreHarmless) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::station_evidence_test

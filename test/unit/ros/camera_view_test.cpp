@@ -9,7 +9,7 @@
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
-namespace datmo {
+namespace datmo::camera_view_test {
 namespace {
 
 using samples::drops;
@@ -283,4 +283,4 @@ TEST(CameraViewOptions, ValuesOutOfRangeAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::camera_view_test

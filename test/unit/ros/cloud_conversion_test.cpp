@@ -6,7 +6,7 @@
 #include "cloud_samples.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::cloud_conversion_test {
 namespace {
 
 using samples::cloud;
@@ -221,4 +221,4 @@ TEST(CloudPoints, DepthsOutOfRangeAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::cloud_conversion_test

@@ -5,7 +5,7 @@
 #include "monitor_counts.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::cloud_objects_stage_test {
 namespace {
 
 using samples::kStart;
@@ -73,4 +73,4 @@ TEST_F(CloudObjectsStageTest, AClockThatJumpsBackBeginsAnew) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::cloud_objects_stage_test

@@ -9,7 +9,7 @@
 
 #include "datmo_fusion/ros/convert/scan_conversion.h"
 
-namespace datmo {
+namespace datmo::cloud_to_scan_stage_test {
 namespace {
 
 using samples::kStart;
@@ -144,4 +144,4 @@ TEST_F(CloudToScanStageTest, AScanInTheVehiclesFrameIsNone) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::cloud_to_scan_stage_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::descriptions_test {
 namespace {
 
 TEST(Descriptions, AScanWithAndWithoutItsRate) {
@@ -41,4 +41,4 @@ TEST(Descriptions, ATrackSaysItsClassAndPosition) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::descriptions_test

@@ -6,7 +6,7 @@
 
 #include <sensor_msgs/LaserScan.h>
 
-namespace datmo {
+namespace datmo::frame_ids_test {
 namespace {
 
 using samples::warnings;
@@ -68,4 +68,4 @@ TEST(FrameIds, BothEndsOfEachTransformAreStripped) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::frame_ids_test

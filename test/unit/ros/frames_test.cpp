@@ -8,7 +8,7 @@
 
 #include "datmo_fusion/ros/transform_buffer.h"
 
-namespace datmo {
+namespace datmo::frames_test {
 namespace {
 
 class MountTest : public testing::Test {
@@ -103,4 +103,4 @@ TEST(TransformBuffer, ForgetsTheOldRunWhenTheClockJumpsBack) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::frames_test

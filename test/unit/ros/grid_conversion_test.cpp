@@ -8,7 +8,7 @@
 
 #include "datmo_fusion/grid/grid_window_options.h"
 
-namespace datmo {
+namespace datmo::grid_conversion_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -116,4 +116,4 @@ TEST(GridConversion, MessagesSayWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::grid_conversion_test

@@ -11,7 +11,7 @@
 #include "datmo_fusion/ros/convert/grid_conversion.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
-namespace datmo {
+namespace datmo::grid_fusion_stage_test {
 namespace {
 
 constexpr Percent kOccupied = 80;
@@ -338,4 +338,4 @@ TEST_F(GridFusionStageTest, BadOptionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::grid_fusion_stage_test

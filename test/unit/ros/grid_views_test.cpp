@@ -11,7 +11,7 @@
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
 
-namespace datmo {
+namespace datmo::grid_views_test {
 namespace {
 
 using Pixel = std::array<int, 3>;  // red, green, blue
@@ -217,4 +217,4 @@ TEST(GridViews, BadOptionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::grid_views_test

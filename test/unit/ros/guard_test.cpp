@@ -8,7 +8,7 @@
 
 #include <ros/time.h>
 
-namespace datmo {
+namespace datmo::guard_test {
 namespace {
 
 TEST(Guarded, RunsWhatItIsGiven) {
@@ -34,4 +34,4 @@ TEST(Guarded, NoExceptionOfOthersLeavesIt) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::guard_test

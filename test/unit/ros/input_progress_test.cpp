@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::input_progress_test {
 namespace {
 
 const Stamp kNow = Stamp::fromSeconds(1.0);
@@ -77,4 +77,4 @@ TEST(InputProgress, AScanMayComeOnTwoTopics) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::input_progress_test

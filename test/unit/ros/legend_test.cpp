@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::legend_test {
 namespace {
 
 TEST(Legend, IsAnImageOfItsSizeWithManyColors) {
@@ -23,4 +23,4 @@ TEST(Legend, IsAnImageOfItsSizeWithManyColors) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::legend_test

@@ -6,7 +6,7 @@
 #include "lidar_messages.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::lidar_cloud_conversion_test {
 namespace {
 
 using samples::addTimes;
@@ -94,4 +94,4 @@ TEST(LidarCloudConversionTest, WhatIsNoCloudIsRefused) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::lidar_cloud_conversion_test

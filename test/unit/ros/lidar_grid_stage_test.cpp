@@ -10,7 +10,7 @@
 #include "datmo_fusion/ros/convert/grid_conversion.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
-namespace datmo {
+namespace datmo::lidar_grid_stage_test {
 namespace {
 
 using samples::kStart;
@@ -170,4 +170,4 @@ TEST_F(LidarGridStageTest, BadOptionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::lidar_grid_stage_test

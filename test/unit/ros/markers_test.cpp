@@ -11,7 +11,7 @@
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/input_error.h"
 
-namespace datmo {
+namespace datmo::markers_test {
 namespace {
 
 using samples::find;
@@ -382,4 +382,4 @@ TEST(StaleMarkers, SourcesDoNotDeleteEachOther) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::markers_test

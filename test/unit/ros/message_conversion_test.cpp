@@ -6,7 +6,7 @@
 #include "message_samples.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::message_conversion_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -171,4 +171,4 @@ TEST(MapConversion, HoldsAfterTheWindowHasMoved) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::message_conversion_test

@@ -13,7 +13,7 @@
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
-namespace datmo {
+namespace datmo::mono_classifier_stage_test {
 namespace {
 
 using samples::drops;
@@ -270,4 +270,4 @@ TEST(MonoClassifierStageModel, OneThatIsMissingStopsItWithAMessage) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::mono_classifier_stage_test

@@ -8,7 +8,7 @@
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
-namespace datmo {
+namespace datmo::motion_input_test {
 namespace {
 
 using samples::reasonOf;
@@ -143,4 +143,4 @@ TEST(MotionInput, AJumpBackStartsAnew) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::motion_input_test

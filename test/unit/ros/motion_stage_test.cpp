@@ -11,7 +11,7 @@
 #include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
-namespace datmo {
+namespace datmo::motion_stage_test {
 namespace {
 
 using samples::drops;
@@ -141,4 +141,4 @@ TEST_F(MotionStageTest, AJumpBackStartsAnew) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::motion_stage_test

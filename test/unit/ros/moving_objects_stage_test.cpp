@@ -11,7 +11,7 @@
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/convert/road_conversion.h"
 
-namespace datmo {
+namespace datmo::moving_objects_stage_test {
 namespace {
 
 using samples::scanWithMover;
@@ -138,4 +138,4 @@ TEST_F(MovingObjectsStageTest, AJumpBackRestarts) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::moving_objects_stage_test

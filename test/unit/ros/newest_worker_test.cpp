@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::newest_worker_test {
 namespace {
 
 TEST(NewestWorker, WithoutAThreadEachJobIsDoneAtOnce) {
@@ -57,4 +57,4 @@ TEST(NewestWorker, EndsWithAJobThatWaits) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::newest_worker_test

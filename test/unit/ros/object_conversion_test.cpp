@@ -5,7 +5,7 @@
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
 
-namespace datmo {
+namespace datmo::object_conversion_test {
 namespace {
 
 const Stamp kStamp = Stamp::fromSeconds(samples::kStart);
@@ -69,4 +69,4 @@ TEST(ObjectConversion, AnUnknownClassBecomesUnknown) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::object_conversion_test

@@ -10,7 +10,7 @@
 
 #include "datmo_fusion/ros/stage/object_fusion_stage.h"
 
-namespace datmo {
+namespace datmo::object_fusion_input_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -203,4 +203,4 @@ TEST(ObjectFusionStageOptionsTest, BadOptionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::object_fusion_input_test

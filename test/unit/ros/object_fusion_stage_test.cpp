@@ -7,7 +7,7 @@
 #include "object_fusion_sample.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::object_fusion_stage_test {
 namespace {
 
 TEST_F(ObjectFusionStageTest, ListsOfTheSameStampAreFusedAtOnce) {
@@ -151,4 +151,4 @@ TEST_F(ObjectFusionStageTest, ASourceThatIsAlwaysTooLateIsSaidOnce) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::object_fusion_stage_test

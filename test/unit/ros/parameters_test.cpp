@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::parameters_test {
 namespace {
 
 using XmlRpc::XmlRpcValue;
@@ -45,4 +45,4 @@ TEST(Parameters, AValueInPlaceOfTheNamespaceIsRefused) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::parameters_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::repeat_filter_test {
 namespace {
 
 TEST(RepeatFilter, ThousandsOfTheSameAreSaidOnce) {
@@ -55,4 +55,4 @@ TEST(RepeatFilter, CausesWithoutEndDoNotFillTheConsole) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::repeat_filter_test

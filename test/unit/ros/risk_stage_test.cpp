@@ -11,7 +11,7 @@
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
-namespace datmo {
+namespace datmo::risk_stage_test {
 namespace {
 
 constexpr double kHostSpeed = 5.0;  ///< m/s, of samples::scanBetweenWalls
@@ -162,4 +162,4 @@ TEST_F(RiskStageTest, AClockThatJumpsBackBeginsAnew) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::risk_stage_test

@@ -9,7 +9,7 @@
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
-namespace datmo {
+namespace datmo::road_border_stage_test {
 namespace {
 
 LabeledScanMessage scanAtStart() {
@@ -103,4 +103,4 @@ TEST_F(RoadBorderStageTest, AnotherMapIsAnotherRoad) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::road_border_stage_test

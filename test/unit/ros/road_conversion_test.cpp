@@ -10,7 +10,7 @@
 
 #include "datmo_fusion/ros/stage/stamp_check.h"
 
-namespace datmo {
+namespace datmo::road_conversion_test {
 namespace {
 
 using samples::reasonOf;
@@ -148,4 +148,4 @@ TEST(RoadConversion, DroppedObjectsHaveAReason) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::road_conversion_test

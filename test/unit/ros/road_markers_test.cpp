@@ -9,7 +9,7 @@
 #include "datmo_fusion/ros/convert/road_conversion.h"
 #include "datmo_fusion/ros/display/markers.h"
 
-namespace datmo {
+namespace datmo::road_markers_test {
 namespace {
 
 using samples::find;
@@ -138,4 +138,4 @@ TEST(RoadMarkers, ABorderThatIsGoneIsDeleted) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::road_markers_test

@@ -6,7 +6,7 @@
 #include "message_samples.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::scan_conversion_test {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -274,4 +274,4 @@ TEST(ScanConversion, FaultsThatDoNotCostTheScanAreNamed) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::scan_conversion_test

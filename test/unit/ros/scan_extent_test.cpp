@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::scan_extent_test {
 namespace {
 
 /// Ten beams that end this far ahead.
@@ -62,4 +62,4 @@ TEST(ScanExtent, WithoutAnyHitTheReachIsJudgedAlone) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::scan_extent_test

@@ -5,7 +5,7 @@
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
-namespace datmo {
+namespace datmo::scan_views_test {
 namespace {
 
 LabeledScanMessage scanAt(double seconds, double x) {
@@ -76,4 +76,4 @@ TEST(ScanViewsTest, WhatTheScanOfThatStampCouldSee) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::scan_views_test

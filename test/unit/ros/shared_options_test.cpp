@@ -7,7 +7,7 @@
 #include "datmo_fusion/ros/stage/grid_slam_stage.h"
 #include "datmo_fusion/ros/stage/tracker_stage.h"
 
-namespace datmo {
+namespace datmo::shared_options_test {
 namespace {
 
 /// The message of the OptionError that `read` throws; empty if it throws none.
@@ -101,4 +101,4 @@ TEST(Mounts, TurnAsRollPitchYawAboutFixedAxes) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::shared_options_test

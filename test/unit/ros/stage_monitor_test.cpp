@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::stage_monitor_test {
 namespace {
 
 TEST(StageMonitor, CountsByReason) {
@@ -71,4 +71,4 @@ TEST(StageMonitor, AnInputIsDescribedByItsFirstMessage) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::stage_monitor_test

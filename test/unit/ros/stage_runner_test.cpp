@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::stage_runner_test {
 namespace {
 
 /// A stage with two inputs that remembers how often it was reset.
@@ -97,4 +97,4 @@ TEST(StageRunner, WithoutStateARestartIsSaidAlone) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::stage_runner_test

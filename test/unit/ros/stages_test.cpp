@@ -11,7 +11,7 @@
 #include "datmo_fusion/ros/stage/grid_slam_stage.h"
 #include "datmo_fusion/ros/stage/tracker_stage.h"
 
-namespace datmo {
+namespace datmo::stages_test {
 namespace {
 
 tf2_msgs::TFMessage transforms(std::vector<geometry_msgs::TransformStamped> list) {
@@ -420,4 +420,4 @@ TEST_F(TrackerStageTest, AJumpBackForgetsWhatWaits) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::stages_test

@@ -4,7 +4,7 @@
 #include "message_samples.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::stamp_check_test {
 namespace {
 
 std::string reasonAt(StampCheck& check, double seconds) {
@@ -36,4 +36,4 @@ TEST(StampCheck, TimesGoThereAndBackToTheNanosecond) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::stamp_check_test

@@ -12,7 +12,7 @@
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
-namespace datmo {
+namespace datmo::static_points_stage_test {
 namespace {
 
 class StaticPointsStageTest : public testing::Test {
@@ -102,4 +102,4 @@ TEST(StaticPointsStageOptions, TheScansFrameIsItsOwn) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::static_points_stage_test

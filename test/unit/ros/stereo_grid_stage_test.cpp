@@ -10,7 +10,7 @@
 
 #include "datmo_fusion/ros/convert/grid_conversion.h"
 
-namespace datmo {
+namespace datmo::stereo_grid_stage_test {
 namespace {
 
 using samples::kStart;
@@ -243,4 +243,4 @@ TEST_F(StereoGridStageTest, BadOptionsOfDepthCamerasAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::stereo_grid_stage_test

@@ -10,7 +10,7 @@
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/tracking/object_check.h"
 
-namespace datmo {
+namespace datmo::stereo_objects_stage_test {
 namespace {
 
 using samples::kStart;
@@ -152,4 +152,4 @@ TEST_F(StereoObjectsStageTest, BadOptionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::stereo_objects_stage_test

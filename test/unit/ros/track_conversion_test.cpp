@@ -11,7 +11,7 @@
 #include "datmo_fusion/ros/stage/stamp_check.h"
 #include "datmo_fusion/tracking/track_check.h"
 
-namespace datmo {
+namespace datmo::track_conversion_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -186,4 +186,4 @@ TEST(TrackConversion, ViewsThatAreNoneAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::track_conversion_test

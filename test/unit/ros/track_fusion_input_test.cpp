@@ -10,7 +10,7 @@
 
 #include "datmo_fusion/ros/stage/track_fusion_stage.h"
 
-namespace datmo {
+namespace datmo::track_fusion_input_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -166,4 +166,4 @@ TEST(TrackFusionStageOptionsTest, BadOptionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::track_fusion_input_test

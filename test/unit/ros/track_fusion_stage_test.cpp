@@ -8,7 +8,7 @@
 #include "track_fusion_sample.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::track_fusion_stage_test {
 namespace {
 
 using Members = std::map<std::string, std::uint32_t>;
@@ -208,4 +208,4 @@ TEST_F(TrackFusionStageTest, TheSchemeChangesFromTheNextSetOn) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::track_fusion_stage_test

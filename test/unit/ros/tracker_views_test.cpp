@@ -10,7 +10,7 @@
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/tracker_stage.h"
 
-namespace datmo {
+namespace datmo::tracker_views_test {
 namespace {
 
 constexpr double kPeriod = 0.1;        // s
@@ -192,4 +192,4 @@ TEST_F(TrackerViewsTest, HiddenFromTheCameraItEndsWhereTheScannerWouldSeeIt) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::tracker_views_test

@@ -9,7 +9,7 @@
 
 #include "datmo_fusion/ros/frames.h"
 
-namespace datmo {
+namespace datmo::transform_buffer_test {
 namespace {
 
 class MountedBufferTest : public testing::Test {
@@ -146,4 +146,4 @@ TEST_F(MountedBufferTest, AMissingMountIsSaidWithWhatToDo) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::transform_buffer_test

@@ -6,7 +6,7 @@
 #include "lidar_samples.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::cloud_ground_test {
 namespace {
 
 using samples::LidarCloudMaker;
@@ -89,4 +89,4 @@ TEST(CloudGroundTest, TheSameCloudGivesTheSamePlane) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::cloud_ground_test

@@ -6,7 +6,7 @@
 #include "lidar_samples.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::cloud_to_scan_test {
 namespace {
 
 using samples::LidarCloudMaker;
@@ -188,4 +188,4 @@ TEST(CloudToScanTest, WrongOptionsAreNamed) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::cloud_to_scan_test

@@ -6,7 +6,7 @@
 
 #include "datmo_fusion/sensor_model/stereo_grid.h"
 
-namespace datmo {
+namespace datmo::depth_camera_grid_test {
 namespace {
 
 Percent at(const SensorGrid& grid, double x, double y) {
@@ -89,4 +89,4 @@ TEST(DepthCameraGrid, FreeEndsWhereTheLawOfNoiseSays) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::depth_camera_grid_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::depth_noise_test {
 namespace {
 
 DepthNoise noiseOf(const std::string& principle) {
@@ -77,4 +77,4 @@ TEST(DepthNoise, UnknownPrinciplesAreNamed) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::depth_noise_test

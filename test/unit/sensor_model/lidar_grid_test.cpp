@@ -9,7 +9,7 @@
 
 #include "datmo_fusion/common/random.h"
 
-namespace datmo {
+namespace datmo::lidar_grid_test {
 namespace {
 
 constexpr Percent kOccupied = 80;
@@ -211,4 +211,4 @@ TEST(LidarGridTest, RefusesOptionsOutOfBounds) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::lidar_grid_test

@@ -6,7 +6,7 @@
 #include "made_stereo.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::road_plane_test {
 namespace {
 
 std::optional<RoadPlane> planeOf(const MadeScene& scene) {
@@ -95,4 +95,4 @@ TEST(RoadPlaneTest, SwitchedOffNothingIsEstimated) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::road_plane_test

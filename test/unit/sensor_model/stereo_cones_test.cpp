@@ -8,7 +8,7 @@
 
 #include "datmo_fusion/sensor_model/stereo_grid.h"
 
-namespace datmo {
+namespace datmo::stereo_cones_test {
 namespace {
 
 constexpr Percent kOccupied = 80;
@@ -94,4 +94,4 @@ TEST(StereoConesTest, TheRoadIsTakenAsFlat) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::stereo_cones_test

@@ -10,7 +10,7 @@
 #include "made_stereo.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::stereo_grid_test {
 namespace {
 
 constexpr Percent kOccupied = 80;
@@ -335,4 +335,4 @@ TEST(StereoGridTest, OptionsAreChecked) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::stereo_grid_test

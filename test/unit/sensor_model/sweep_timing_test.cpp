@@ -7,7 +7,7 @@
 
 #include "datmo_fusion/common/angle.h"
 
-namespace datmo {
+namespace datmo::sweep_timing_test {
 namespace {
 
 /// A ring of points, each timed by `timing`.
@@ -80,4 +80,4 @@ TEST(SweepTimingTest, TheManualsTurnIsThere) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::sweep_timing_test

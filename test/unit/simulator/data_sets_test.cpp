@@ -8,7 +8,7 @@
 #include "simulator/scene.h"
 #include <gtest/gtest.h>
 
-namespace datmo::simulator {
+namespace datmo::simulator::data_sets_test {
 namespace {
 
 struct DataSet {
@@ -87,4 +87,4 @@ INSTANTIATE_TEST_SUITE_P(Thesis, DataSetScene,
                          });
 
 }  // namespace
-}  // namespace datmo::simulator
+}  // namespace datmo::simulator::data_sets_test

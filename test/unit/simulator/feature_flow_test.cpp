@@ -7,7 +7,7 @@
 #include "made_worlds.h"
 #include <gtest/gtest.h>
 
-namespace datmo::simulator {
+namespace datmo::simulator::feature_flow_test {
 namespace {
 
 constexpr double kInterval = 1.0 / 12.0;  // s
@@ -104,4 +104,4 @@ TEST(FeatureFlow, SameSeedSamePoints) {
 }
 
 }  // namespace
-}  // namespace datmo::simulator
+}  // namespace datmo::simulator::feature_flow_test

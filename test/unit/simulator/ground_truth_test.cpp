@@ -4,7 +4,7 @@
 #include "made_worlds.h"
 #include <gtest/gtest.h>
 
-namespace datmo::simulator {
+namespace datmo::simulator::ground_truth_test {
 namespace {
 
 const Viewpoint kView{"scanner", Pose2(), 0.45, degrees(160.0), 50.0};
@@ -102,4 +102,4 @@ TEST(World, MoverTurnsAboutItsRearAxle) {
 }
 
 }  // namespace
-}  // namespace datmo::simulator
+}  // namespace datmo::simulator::ground_truth_test

@@ -6,7 +6,7 @@
 #include "made_worlds.h"
 #include <gtest/gtest.h>
 
-namespace datmo::simulator {
+namespace datmo::simulator::laser_scanner_test {
 namespace {
 
 LaserScanner scannerWith(const LaserScannerOptions& options) {
@@ -237,4 +237,4 @@ TEST(LaserScanner, ContradictionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo::simulator
+}  // namespace datmo::simulator::laser_scanner_test

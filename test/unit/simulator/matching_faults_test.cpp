@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo::simulator {
+namespace datmo::simulator::matching_faults_test {
 namespace {
 
 /// Every pixel, all of one disparity.
@@ -115,4 +115,4 @@ TEST(AddOutliers, ShareSizeAndLimits) {
 }
 
 }  // namespace
-}  // namespace datmo::simulator
+}  // namespace datmo::simulator::matching_faults_test

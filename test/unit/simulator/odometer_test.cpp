@@ -6,7 +6,7 @@
 #include "made_worlds.h"
 #include <gtest/gtest.h>
 
-namespace datmo::simulator {
+namespace datmo::simulator::odometer_test {
 namespace {
 
 OdometerOptions idealOdometer() {
@@ -81,4 +81,4 @@ TEST(Odometer, UncertaintyOfThePoseGrows) {
 }
 
 }  // namespace
-}  // namespace datmo::simulator
+}  // namespace datmo::simulator::odometer_test

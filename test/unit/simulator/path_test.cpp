@@ -7,7 +7,7 @@
 #include "simulator/speed_profile.h"
 #include <gtest/gtest.h>
 
-namespace datmo::simulator {
+namespace datmo::simulator::path_test {
 namespace {
 
 TEST(Path, StraightLine) {
@@ -93,4 +93,4 @@ TEST(SpeedProfile, BadInputIsRefused) {
 }
 
 }  // namespace
-}  // namespace datmo::simulator
+}  // namespace datmo::simulator::path_test

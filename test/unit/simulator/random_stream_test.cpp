@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo::simulator {
+namespace datmo::simulator::random_stream_test {
 namespace {
 
 constexpr int kDraws = 100000;
@@ -71,4 +71,4 @@ TEST(RandomStream, ChanceIsAsLikelyAsItSays) {
 }
 
 }  // namespace
-}  // namespace datmo::simulator
+}  // namespace datmo::simulator::random_stream_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo::simulator {
+namespace datmo::simulator::road_network_test {
 namespace {
 
 /// A road of 10 m width along x, and one of 8 m along y that crosses it in the origin.
@@ -95,4 +95,4 @@ TEST(RoadNetwork, PositionsBesideARoadFollowItsDirection) {
 }
 
 }  // namespace
-}  // namespace datmo::simulator
+}  // namespace datmo::simulator::road_network_test

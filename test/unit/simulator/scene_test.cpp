@@ -10,7 +10,7 @@
 #include "simulator/collision.h"
 #include <gtest/gtest.h>
 
-namespace datmo::simulator {
+namespace datmo::simulator::scene_test {
 namespace {
 
 const char* const kSmallScene = R"(
@@ -213,4 +213,4 @@ TEST(Intersection, HasWhatTheDemoNeeds) {
 }
 
 }  // namespace
-}  // namespace datmo::simulator
+}  // namespace datmo::simulator::scene_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo::simulator {
+namespace datmo::simulator::shape_test {
 namespace {
 
 const HalfLine kAlongX = {{0.0, 0.0}, {1.0, 0.0}};
@@ -92,4 +92,4 @@ TEST(BoundingCircle, HoldsTheCorners) {
 }
 
 }  // namespace
-}  // namespace datmo::simulator
+}  // namespace datmo::simulator::shape_test

@@ -4,7 +4,7 @@
 #include "made_worlds.h"
 #include <gtest/gtest.h>
 
-namespace datmo::simulator {
+namespace datmo::simulator::sloped_ray_test {
 namespace {
 
 constexpr double kReach = 100.0;
@@ -65,4 +65,4 @@ TEST(SlopedRay, CurbsStandAndPaintDoesNot) {
 }
 
 }  // namespace
-}  // namespace datmo::simulator
+}  // namespace datmo::simulator::sloped_ray_test

@@ -8,7 +8,7 @@
 #include "simulator/ground_truth.h"
 #include <gtest/gtest.h>
 
-namespace datmo::simulator {
+namespace datmo::simulator::stereo_camera_test {
 namespace {
 
 constexpr double kTolerance = 1e-4;  // m; points are floats
@@ -234,4 +234,4 @@ TEST(StereoCamera, ContradictionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo::simulator
+}  // namespace datmo::simulator::stereo_camera_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo::simulator {
+namespace datmo::simulator::surface_texture_test {
 namespace {
 
 constexpr double kPatch = 0.4;
@@ -55,4 +55,4 @@ TEST(SurfaceTexture, NoneAndAll) {
 }
 
 }  // namespace
-}  // namespace datmo::simulator
+}  // namespace datmo::simulator::surface_texture_test

@@ -9,7 +9,7 @@
 
 #include "datmo_fusion/slam/grid_slam.h"
 
-namespace datmo::simulator {
+namespace datmo::simulator::sweep_test {
 namespace {
 
 /// A scanner that takes 40 ms for its field of view drives through turns at up to 10 m/s. Without
@@ -142,4 +142,4 @@ INSTANTIATE_TEST_SUITE_P(Odometry, SweptDrive, testing::Bool(),
                          [](const auto& with) { return with.param ? "AtTheFirstBeam" : "None"; });
 
 }  // namespace
-}  // namespace datmo::simulator
+}  // namespace datmo::simulator::sweep_test

@@ -10,7 +10,7 @@
 #include "simulator/scene.h"
 #include <gtest/gtest.h>
 
-namespace datmo::simulator {
+namespace datmo::simulator::traffic_test {
 namespace {
 
 constexpr double kDuration = 20.0;
@@ -107,4 +107,4 @@ INSTANTIATE_TEST_SUITE_P(Scenes, RobustnessScene,
                          testing::Values("straight_road.yaml", "guard_rails.yaml"));
 
 }  // namespace
-}  // namespace datmo::simulator
+}  // namespace datmo::simulator::traffic_test

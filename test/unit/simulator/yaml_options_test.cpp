@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::yaml_options_test {
 namespace {
 
 OptionValues valuesOf(const std::string& text) { return optionValues(YAML::Load(text)); }
@@ -73,4 +73,4 @@ TEST(LoadYaml, SectionsAndKeysOfOneNameAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::yaml_options_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::end_points_test {
 namespace {
 
 Scan scanOf(const std::vector<Point2>& ends) {
@@ -53,4 +53,4 @@ TEST(EndPointsTest, WhatStandsOutIsSampledByTheBeamsSpacing) {
 TEST(EndPointsTest, NoBeamsNoPoints) { EXPECT_TRUE(endPoints(Scan{}, 3.0).empty()); }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::end_points_test

@@ -8,7 +8,7 @@
 #include "datmo_fusion/sensor_model/lidar_grid.h"
 #include "datmo_fusion/slam/grid_slam.h"
 
-namespace datmo {
+namespace datmo::fused_slam_test {
 namespace {
 
 /// The yard as a scanner and nobody else sees it.
@@ -131,4 +131,4 @@ TEST_F(FusedSlamInTheYard, TheMapKeepsItsWallsWhileTheVehicleTurns) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::fused_slam_test

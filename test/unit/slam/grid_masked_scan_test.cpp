@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::grid_masked_scan_test {
 namespace {
 
 constexpr GridWindow kWindow{1.0, 40, 40, {-20, -20}};
@@ -149,4 +149,4 @@ TEST(WithoutFreeEdges, OnlyFreeCellsBesideOccupiedOnesBecomeUnknown) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::grid_masked_scan_test

@@ -7,7 +7,7 @@
 #include "yard.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::grid_slam_test {
 namespace {
 
 /// Drives a gentle curve at 4 m/s, 10 scans a second; returns the last result and the true pose.
@@ -266,4 +266,4 @@ TEST(GridSlamTest, RefusesBadOptionsByTheirFullName) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::grid_slam_test

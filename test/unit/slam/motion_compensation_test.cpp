@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::motion_compensation_test {
 namespace {
 
 /// Of the room around the origin in which the vehicle drives, m.
@@ -150,4 +150,4 @@ TEST(MotionCompensationOf, TheSweepLastsToItsLatestRay) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::motion_compensation_test

@@ -5,7 +5,7 @@
 
 #include "datmo_fusion/common/random.h"
 
-namespace datmo {
+namespace datmo::motion_model_test {
 namespace {
 
 TEST(VelocityMotionModelTest, StandardDeviationsGrowWithTimeAndSpeed) {
@@ -63,4 +63,4 @@ TEST(VelocityMotionModelTest, RefusesBadOptions) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::motion_model_test

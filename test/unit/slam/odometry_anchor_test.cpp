@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::odometry_anchor_test {
 namespace {
 
 Stamp at(double seconds) { return Stamp::fromSeconds(seconds); }
@@ -72,4 +72,4 @@ TEST_F(OdometryAnchorTest, OdometryWithoutPosesCorrectsNothing) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::odometry_anchor_test

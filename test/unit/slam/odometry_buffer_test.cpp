@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::odometry_buffer_test {
 namespace {
 
 Stamp at(double seconds) { return Stamp::fromSeconds(seconds); }
@@ -135,4 +135,4 @@ TEST_F(OdometryBufferTest, WithoutAMeasuredSpeedTheYawRateTurnsTheAssumedOne) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::odometry_buffer_test

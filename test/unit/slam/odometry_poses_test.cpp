@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::odometry_poses_test {
 namespace {
 
 Stamp at(double seconds) { return Stamp::fromSeconds(seconds); }
@@ -49,4 +49,4 @@ TEST(OdometryPoses, ThoseOfTheLastSecondsAreKept) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::odometry_poses_test

@@ -6,7 +6,7 @@
 
 #include "datmo_fusion/common/random.h"
 
-namespace datmo {
+namespace datmo::pose_filter_test {
 namespace {
 
 /// What a match with this noise makes of a prior: the product of the two normal distributions.
@@ -146,4 +146,4 @@ TEST(PoseFilterTest, AMeasuredTurnLeavesTheSpeedToTheMatches) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::pose_filter_test

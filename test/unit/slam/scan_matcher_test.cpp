@@ -4,7 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::scan_matcher_test {
 namespace {
 
 /// Points along a wall, every 0.2 m.
@@ -228,4 +228,4 @@ TEST(ScanMatcherTest, TheCovarianceIsPositiveDefiniteAndBelowThePrior) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::scan_matcher_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::static_scan_test {
 namespace {
 
 ScanPoint pointOf(std::uint32_t beam, double range, PointState state) {
@@ -82,4 +82,4 @@ TEST(StaticPoints, AreThoseThatStand) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::static_scan_test

@@ -9,7 +9,7 @@
 #include "tracking_scene.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::association_scan_test {
 namespace {
 
 class AssociationScanTest : public testing::Test {
@@ -115,4 +115,4 @@ TEST_F(AssociationScanTest, NothingInNothingOut) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::association_scan_test

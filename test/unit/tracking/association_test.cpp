@@ -6,7 +6,7 @@
 #include "association_scene.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::association_test {
 namespace {
 
 constexpr double kExistence = 0.6;
@@ -143,4 +143,4 @@ TEST_F(AssociationTest, OnlyObjectsByThemselvesAreFoundOthersAreAdded) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::association_test

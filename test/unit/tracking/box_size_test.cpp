@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::box_size_test {
 namespace {
 
 VisibleExtent whole(double length) { return {length, 0.01, true}; }
@@ -130,4 +130,4 @@ TEST(BoxSize, SwappingTheAxesTwiceChangesNothing) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::box_size_test

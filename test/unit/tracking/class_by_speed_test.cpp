@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::class_by_speed_test {
 namespace {
 
 constexpr ClassProbabilities kPerson{0.02, 0.65, 0.30, 0.02, 0.01};
@@ -45,4 +45,4 @@ TEST(ClassBySpeed, OptionsAreChecked) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::class_by_speed_test

@@ -7,7 +7,7 @@
 
 #include "datmo_fusion/tracking/target.h"
 
-namespace datmo {
+namespace datmo::class_motion_test {
 namespace {
 
 double turnRateOf(ObjectClass object_class) {
@@ -69,4 +69,4 @@ TEST(ClassMotion, OneWhoWalksInCirclesIsPredictedBetterAsAPedestrian) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::class_motion_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::clutter_map_test {
 namespace {
 
 class ClutterMapTest : public testing::Test {
@@ -68,4 +68,4 @@ TEST_F(ClutterMapTest, ClearForgetsAll) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::clutter_map_test

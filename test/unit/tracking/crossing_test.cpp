@@ -6,7 +6,7 @@
 #include "tracking_scene.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::crossing_test {
 namespace {
 
 constexpr double kSeconds = 4.0;  // they meet half way
@@ -89,4 +89,4 @@ TEST(Crossing, SeveralHypothesesKeepMoreIdsThanTheNearestNeighbor) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::crossing_test

@@ -6,7 +6,7 @@
 #include "random_scene.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::determinism_test {
 namespace {
 
 RandomSceneOptions ambiguous() {
@@ -87,4 +87,4 @@ TEST(Determinism, AClockThatIsAlwaysLateIsCountedAndTracksAllTheSame) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::determinism_test

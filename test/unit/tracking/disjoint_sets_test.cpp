@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::disjoint_sets_test {
 namespace {
 
 using Sets = std::vector<std::vector<std::size_t>>;
@@ -24,4 +24,4 @@ TEST(DisjointSets, JoinsThroughOthersWhateverTheOrder) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::disjoint_sets_test

@@ -6,7 +6,7 @@
 #include "tracking_scene.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::fused_objects_test {
 namespace {
 
 constexpr double kWalking = 1.4;  // m/s
@@ -210,4 +210,4 @@ TEST(FusedObjects, NeighborsOfDifferentClassesKeepTheirTracksWhereTheyPass) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::fused_objects_test

@@ -6,7 +6,7 @@
 #include "random_scene.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::gnn_equality_test {
 namespace {
 
 TrackerOptions nearestNeighbor() {
@@ -112,4 +112,4 @@ TEST(GnnEquality, MoreHypothesesAreNotTheSame) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::gnn_equality_test

@@ -7,7 +7,7 @@
 #include "association_scene.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::hypothesis_cluster_test {
 namespace {
 
 using Nodes = std::vector<std::uint64_t>;
@@ -182,4 +182,4 @@ TEST(HypothesisCluster, NothingIsLeftOfNothing) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::hypothesis_cluster_test

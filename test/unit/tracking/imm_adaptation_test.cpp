@@ -10,7 +10,7 @@
 
 #include "datmo_fusion/tracking/imm_filter.h"
 
-namespace datmo {
+namespace datmo::imm_adaptation_test {
 namespace {
 
 constexpr int kTargets = 240;  // of one class, one after the other
@@ -134,4 +134,4 @@ TEST(ImmAdaptation, RightTransitionsStayAndErrorsDoNotGrow) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::imm_adaptation_test

@@ -8,7 +8,7 @@
 #include "jump_system.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::imm_filter_test {
 namespace {
 
 constexpr double kPeriod = 0.1;
@@ -317,4 +317,4 @@ TEST(ImmFilter, AMeasuredVelocityTellsAWalkerFromWhatStands) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::imm_filter_test

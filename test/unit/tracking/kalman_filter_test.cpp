@@ -8,7 +8,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::kalman_filter_test {
 namespace {
 
 /// 95 % bounds of the mean of `count` chi-square values with `degrees` degrees of freedom; normal
@@ -164,4 +164,4 @@ TEST_P(Consistency, NormalizedErrorsAreChiSquare) {
 INSTANTIATE_TEST_SUITE_P(Modes, Consistency, testing::Range(0, kMotionModes));
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::kalman_filter_test

@@ -6,7 +6,7 @@
 #include "tracking_scene.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::measured_velocity_test {
 namespace {
 
 constexpr double kPeriod = 0.1;      // s
@@ -72,4 +72,4 @@ TEST(MeasuredVelocity, OneThatIsOfSomethingElseDoesNotMoveATrack) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::measured_velocity_test

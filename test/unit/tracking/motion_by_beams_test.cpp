@@ -13,7 +13,7 @@
 #include "datmo_fusion/detection/moving_object_detector.h"
 #include "datmo_fusion/tracking/tracker.h"
 
-namespace datmo {
+namespace datmo::motion_by_beams_test {
 namespace {
 
 constexpr double kPeriod = 0.06;  // s
@@ -138,4 +138,4 @@ TEST(MotionByBeams, HousesWithYardsAreSeldomTakenForTraffic) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::motion_by_beams_test

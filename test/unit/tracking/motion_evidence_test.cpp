@@ -6,7 +6,7 @@
 #include "tracking_scene.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::motion_evidence_test {
 namespace {
 
 /// Well known, so that it never is what decides: 5 m/s, with a variance of 0.01 m^2/s^2.
@@ -254,4 +254,4 @@ TEST_F(MotionEvidenceTest, AfterALongRestMotionIsFoundAsQuickly) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::motion_evidence_test

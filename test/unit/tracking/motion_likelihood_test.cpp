@@ -8,7 +8,7 @@
 #include "scan_history_samples.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::motion_likelihood_test {
 namespace {
 
 using samples::scanOf;
@@ -206,4 +206,4 @@ TEST(MotionProbability, IsThatOfNeitherOfTheTwoOthers) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::motion_likelihood_test

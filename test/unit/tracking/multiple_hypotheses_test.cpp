@@ -8,7 +8,7 @@
 
 #include "datmo_fusion/tracking/nearest_neighbor.h"
 
-namespace datmo {
+namespace datmo::multiple_hypotheses_test {
 namespace {
 
 /// Probability of a target of the best hypothesis; 0: none of this number.
@@ -246,4 +246,4 @@ TEST_F(MultipleHypothesesTest, RemovesAndForgetsButNumbersGoOn) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::multiple_hypotheses_test

@@ -4,7 +4,7 @@
 #include "association_scene.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::nearest_neighbor_test {
 namespace {
 
 class NearestNeighborTest : public testing::Test {
@@ -80,4 +80,4 @@ TEST_F(NearestNeighborTest, ChangesRemovesAndForgets) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::nearest_neighbor_test

@@ -6,7 +6,7 @@
 #include "tracking_scene.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::object_check_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -130,4 +130,4 @@ TEST(ObjectCheck, RefusesPositionsAndSizesWhoseSquaresOverflow) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::object_check_test

@@ -7,7 +7,7 @@
 
 #include "datmo_fusion/tracking/split_merge.h"
 
-namespace datmo {
+namespace datmo::split_merge_readings_test {
 namespace {
 
 Object box(double x, double y, double length, double width) {
@@ -199,4 +199,4 @@ TEST_F(SplitMergeReadings, SeveralAtOnceAndNoMoreThanAllowed) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::split_merge_readings_test

@@ -8,7 +8,7 @@
 #include "tracking_scene.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::split_merge_test {
 namespace {
 
 std::set<std::uint32_t> idsOf(const TrackList& list) {
@@ -169,4 +169,4 @@ TEST(SplitMerge, ReadingsAreBounded) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::split_merge_test

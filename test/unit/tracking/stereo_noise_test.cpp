@@ -7,7 +7,7 @@
 #include "tracking_scene.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::stereo_noise_test {
 namespace {
 
 constexpr double kRate = 12.0;            // Hz
@@ -86,4 +86,4 @@ TEST(StereoNoise, WhatDrivesIsOne) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::stereo_noise_test

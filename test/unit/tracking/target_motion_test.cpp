@@ -6,7 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::target_motion_test {
 namespace {
 
 TrackState state(double x, double y, double vx, double vy, double ax, double ay) {
@@ -128,4 +128,4 @@ TEST_P(EveryMotion, NoiseIsSymmetricAndPositive) {
 INSTANTIATE_TEST_SUITE_P(Modes, EveryMotion, testing::Range(0, kMotionModes));
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::target_motion_test

@@ -12,7 +12,7 @@
 
 #include "datmo_fusion/common/scan.h"
 
-namespace datmo {
+namespace datmo::track_check_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -176,4 +176,4 @@ TEST(TrackCheck, RefusesBadFans) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::track_check_test

@@ -5,7 +5,7 @@
 #include "tracking_scene.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::track_life_test {
 namespace {
 
 constexpr double kSpeed = 4.0;  // m/s
@@ -166,4 +166,4 @@ TEST(TrackLife, ClassProbabilitiesFollowWhatWasSaid) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::track_life_test

@@ -16,7 +16,7 @@
 #include "datmo_fusion/tracking/kalman_filter.h"
 #include "datmo_fusion/tracking/tracked_box.h"
 
-namespace datmo {
+namespace datmo::tracked_box_simulation_test {
 namespace {
 
 constexpr double kPeriod = 0.1;  ///< s
@@ -240,4 +240,4 @@ TEST(TrackedBoxSimulation, ACarThatComesFromBehindAWallDoesNotJump) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::tracked_box_simulation_test

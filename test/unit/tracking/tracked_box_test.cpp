@@ -6,7 +6,7 @@
 #include "tracking_scene.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::tracked_box_test {
 namespace {
 
 constexpr double kSideVariance = 0.01;
@@ -241,4 +241,4 @@ TEST(TrackedBox, TheVelocityGivesTheHeadingOnlyWhereItIsSurer) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::tracked_box_test

@@ -8,7 +8,7 @@
 
 #include "datmo_fusion/tracking/tracker.h"
 
-namespace datmo {
+namespace datmo::tracker_robustness_test {
 namespace {
 
 TEST(TrackerRobustness, AGapOfTenSecondsEndsAllTracks) {
@@ -160,4 +160,4 @@ TEST(TrackerRobustness, BadOptionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::tracker_robustness_test

@@ -9,7 +9,7 @@
 #include "tracking_scene.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::tracker_test {
 namespace {
 
 std::set<std::uint32_t> idsOf(const TrackList& list) {
@@ -275,4 +275,4 @@ TEST(Tracker, TwoPartsOfOneVanBecomeOneTrack) {
   EXPECT_GT(scene.tracker().counts().merged_tracks, 0U);
 }
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::tracker_test

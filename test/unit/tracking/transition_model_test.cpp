@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::transition_model_test {
 namespace {
 
 constexpr double kPeriod = 0.1;  // s
@@ -310,4 +310,4 @@ TEST_F(Priors, WithoutStandingItIsNeverLearned) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::transition_model_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::joint_visibility_test {
 namespace {
 
 const VisibilityOptions kOptions;
@@ -83,4 +83,4 @@ TEST(JointVisibility, WhatASensorSawHidesWhatIsBehindItFromThatSensorAlone) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::joint_visibility_test

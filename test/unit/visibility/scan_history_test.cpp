@@ -6,7 +6,7 @@
 #include "scan_history_samples.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::scan_history_test {
 namespace {
 
 using samples::scanOf;
@@ -173,4 +173,4 @@ TEST(ScanHistoryMemoryTest, HoldsNoMoreScansThanItMay) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::scan_history_test

@@ -9,7 +9,7 @@
 
 #include "datmo_fusion/common/angle.h"
 
-namespace datmo {
+namespace datmo::scan_support_test {
 namespace {
 
 constexpr std::uint32_t kBeams = 161;
@@ -184,4 +184,4 @@ TEST(ScanSupportTest, WithoutAFieldOrAroundTheScannerNothingIsKnown) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::scan_support_test

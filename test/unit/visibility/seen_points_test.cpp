@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::seen_points_test {
 namespace {
 
 Object objectOf(const std::vector<Point2>& points) {
@@ -84,4 +84,4 @@ TEST(SeenPointHistory, SpreadsWhatItKeepsOverTheMemory) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::seen_points_test

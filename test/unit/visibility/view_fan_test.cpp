@@ -9,7 +9,7 @@
 
 #include "datmo_fusion/visibility/visibility.h"
 
-namespace datmo {
+namespace datmo::view_fan_test {
 namespace {
 
 const VisibilityOptions kOptions;
@@ -126,4 +126,4 @@ TEST(ViewFan, TheTrackerPublishesThemInTheFixedFrame) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::view_fan_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::visibility_test {
 namespace {
 
 const VisibilityOptions kOptions;
@@ -257,4 +257,4 @@ TEST(Visibility, OptionsOutOfRangeAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::visibility_test

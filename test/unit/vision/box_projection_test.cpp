@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::box_projection_test {
 namespace {
 
 const PinholeCamera kCamera{100.0, 200.0, 320.0, 240.0};
@@ -83,4 +83,4 @@ TEST(BoxProjection, BoundsOfWhatIsOutOfTheImageAreEmpty) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::box_projection_test

@@ -9,7 +9,7 @@
 
 #include "datmo_fusion/common/random.h"
 
-namespace datmo {
+namespace datmo::camera_motion_test {
 namespace {
 
 // Focal length times baseline: 200 px m.
@@ -127,4 +127,4 @@ TEST(CameraMotion, CommonErrorGrowsWithTheDistance) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::camera_motion_test

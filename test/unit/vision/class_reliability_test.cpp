@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::class_reliability_test {
 namespace {
 
 ClassReliabilityOptions curve() {
@@ -69,4 +69,4 @@ TEST(ClassReliability, RefusesCurvesThatAreNone) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::class_reliability_test

@@ -4,7 +4,7 @@
 #include "vision/image_samples.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::detection_association_test {
 namespace {
 
 using test::detectionOf;
@@ -81,4 +81,4 @@ TEST(DetectionAssociation, OfNothingIsNothing) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::detection_association_test

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
-namespace datmo {
+namespace datmo::dnn_detector_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -93,4 +93,4 @@ TEST(DnnDetector, SizesThatNoNetworkHasAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::dnn_detector_test

@@ -7,7 +7,7 @@
 #include "vision/image_samples.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::image_range_test {
 namespace {
 
 using test::detectionOf;
@@ -93,4 +93,4 @@ TEST(ImageRange, OfClassesThatAreReportedAlone) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::image_range_test

@@ -4,7 +4,7 @@
 #include "vision/image_samples.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::image_region_test {
 namespace {
 
 using test::levelCamera;
@@ -54,4 +54,4 @@ TEST(ImageRegion, AnObjectOfNoSizeHasTheLeastOneAndTheDefaultHeight) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::image_region_test

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
-namespace datmo {
+namespace datmo::mono_classifier_test {
 namespace {
 
 using test::detectionOf;
@@ -117,4 +117,4 @@ TEST(HogDetector, RefusesImagesOfOtherTypes) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::mono_classifier_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::network_decoding_test {
 namespace {
 
 const std::vector<NetworkLabel> kLabels = {NetworkLabel::kPerson, NetworkLabel::kOther,
@@ -116,4 +116,4 @@ TEST(ImageDetector, OverlapIsIntersectionOverUnion) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::network_decoding_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::object_velocity_test {
 namespace {
 
 Object objectAt(double x, double y) {
@@ -54,4 +54,4 @@ TEST(ObjectVelocity, WhatWasMeasuredBeforeIsForgotten) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::object_velocity_test

@@ -9,7 +9,7 @@
 
 #include "datmo_fusion/common/random.h"
 
-namespace datmo {
+namespace datmo::point_velocity_test {
 namespace {
 
 // Focal length times baseline: 200 px m.
@@ -175,4 +175,4 @@ TEST(SharedVelocity, OptionsOutOfRangeAreRefused) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::point_velocity_test

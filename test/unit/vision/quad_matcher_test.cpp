@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
-namespace datmo {
+namespace datmo::quad_matcher_test {
 namespace {
 
 constexpr int kWidth = 320;
@@ -80,4 +80,4 @@ TEST(QuadMatcher, RefusesImagesThatAreNoPair) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::quad_matcher_test
