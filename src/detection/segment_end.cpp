@@ -36,7 +36,7 @@ std::optional<SurfaceEnd> SegmentEnds::beyond(const ScanPoint& last, const Point
   double expected = 0.0;
   double widest = 0.0;
   for (const double turn : {-heading_std, heading_std, 0.0}) {
-    // Where last + gap * along = range * next_sight, from the scanner.
+    // Where last + gap * along = range * next_ray, from the scanner.
     const Point2 direction = turned(along, turn);
     const double determinant = cross(direction, next_ray);
     const double gap = -last.range * cross(ray, next_ray) / determinant;

@@ -244,7 +244,7 @@ void MonoClassifier::addClassified(const Object& object, const ImageDetection& d
   classified.position_covariance = kBorrowed * object.position_covariance;
   classified.side_variance.fill(kHiddenSide);
   classified.delay = object.delay;
-  // Who saw where it is: a name is no second sight of a motion.
+  // Who saw where it is: a name is no second observation of a motion.
   classified.sensors = object.sensors;
   // So that it is not taken for another one that moves where the scanner's stands.
   classified.dynamic_state = object.dynamic_state;

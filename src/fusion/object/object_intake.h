@@ -19,7 +19,7 @@ struct ObjectIntake {
   std::optional<Visibility> visibility;  ///< of all its views; none: not known
 };
 
-/// @param witness null: nothing is known of what the scanner saw
+/// @param scan_support null: nothing is known of what the scanner saw
 /// @param counts of what is left out, added to
 ObjectIntake ingest(const SourceObjects& source, Stamp reference, const ScanSupport* scan_support,
                     const ObjectFuserOptions& options, ObjectFusionCounts& counts);

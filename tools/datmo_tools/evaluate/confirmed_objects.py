@@ -6,7 +6,7 @@ import bisect
 import numpy as np
 
 from datmo_tools.evaluate.passed_tracks import has_passed, movers
-from datmo_tools.evaluate.track_frames import Newest, follow, sightings_of
+from datmo_tools.evaluate.track_frames import Newest, follow, observations_of
 from datmo_tools.stamps import NANOSECONDS
 
 # Between two lists that are further apart than this no time counts, s: as score_run's max_gap.
@@ -31,7 +31,7 @@ class Followers:
         """frames: TrackFrames; gate: m."""
         self._gate = gate
         self._followed = {}  # (track id, stamp) -> object id, or None
-        for number, observations in sightings_of(frames).items():
+        for number, observations in observations_of(frames).items():
             stamps = [frame.stamp for frame, _ in observations]
             for stamp in stamps:
                 begin = bisect.bisect_left(stamps, stamp - FOLLOW_HALF_WINDOW)

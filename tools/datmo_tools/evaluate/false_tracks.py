@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from datmo_tools.evaluate.passed_tracks import account
-from datmo_tools.evaluate.track_frames import Newest, sightings_of
+from datmo_tools.evaluate.track_frames import Newest, observations_of
 from datmo_tools.evaluate.track_views import is_visible, is_in_view
 
 
@@ -21,7 +21,7 @@ class FalseTrack(NamedTuple):
 def false_tracks(frames):
     """List of FalseTrack in some TrackFrames of one list."""
     found = []
-    counted = sightings_of(frames, lambda frame, row: frame.counts(row))
+    counted = observations_of(frames, lambda frame, row: frame.counts(row))
     for number, observations in counted.items():
         false = [(frame, row) for frame, row in observations if frame.is_false(row)]
         if 2 * len(false) > len(observations):

@@ -69,7 +69,7 @@ def paired_objects(lidar_lists, camera_lists, tracks, path):
         nearest = int(np.argmin(apart))
         if apart[nearest] <= MAX_GAP * NANOSECONDS:
             lidar = tracked[nearest]
-            observations = _sightings(lidar, tracks[lidar.stamp], camera.stamp, path)
+            observations = _observations(lidar, tracks[lidar.stamp], camera.stamp, path)
             new_pairs, new_counts = _pairs(observations, camera)
             pairs += new_pairs
             counts += new_counts
@@ -81,7 +81,7 @@ def _delay(item):
     return np.median([seen.delay for seen in item.objects] or [0.0]) * NANOSECONDS
 
 
-def _sightings(lidar, boxes, stamp, path):
+def _observations(lidar, boxes, stamp, path):
     """Of a list's objects that a track is on, as seen from the vehicle at `stamp` (ns)."""
     pose_then, pose_now = path.at(lidar.stamp), path.at(stamp)
     late = (lidar.stamp - stamp) / NANOSECONDS

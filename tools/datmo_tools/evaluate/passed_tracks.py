@@ -5,7 +5,7 @@ members of one object?"""
 import numpy as np
 
 from datmo_tools import transforms
-from datmo_tools.evaluate.track_frames import Newest, follow, sightings_of
+from datmo_tools.evaluate.track_frames import Newest, follow, observations_of
 from datmo_tools.stamps import NANOSECONDS
 
 
@@ -31,8 +31,8 @@ def score_passed(fused, members, gate):
     m. A track counts in the frames in which all sources have it and it is published as moving, in
     the region; it is true if it follows one true object in most of them.
     """
-    both = sightings_of(fused, lambda frame, row: has_passed(frame.tracks[row], members))
-    judged = sightings_of(
+    both = observations_of(fused, lambda frame, row: has_passed(frame.tracks[row], members))
+    judged = observations_of(
         fused,
         lambda frame, row: frame.counts(row) and has_passed(frame.tracks[row], members),
     )
@@ -123,7 +123,7 @@ def _score_pairs(judged, members, gate):
 
 
 def _pairs(observations, newest):
-    """Dictionary members -> for each member its sightings, of one fused track."""
+    """Dictionary members -> for each member its observations, of one fused track."""
     pairs = {}
     for frame, row in observations:
         members = tuple(sorted(item for item in frame.tracks[row].sources if item[0] in newest))

@@ -170,7 +170,7 @@ def follow(observations, gate, among):
     return Follow(best, len(observations), counts[best])
 
 
-def sightings_of(frames, wanted=lambda frame, row: True):
+def observations_of(frames, wanted=lambda frame, row: True):
     """Dictionary track id -> list of (TrackFrame, row), of the rows that are wanted."""
     observations = {}
     for frame in frames:

@@ -16,9 +16,9 @@ struct ExistenceReport {
 };
 
 /// That an object exists, by Bayes: as likely as the source says that is surest of it; each other
-/// one that has a track of it, too, multiplies the odds by detection_probability / coincidence (1
-/// at least), and each that has none by 1 - detection_probability * looked. Of no source with a
-/// track: 0.
+/// one that has a track of it, too, multiplies the odds by detection_probability /
+/// false_agreement_probability (1 at least), and each that has none by 1 - detection_probability *
+/// looked. Of no source with a track: 0.
 double fusedExistence(const std::vector<ExistenceReport>& reports);
 
 }  // namespace datmo
