@@ -130,7 +130,7 @@ Mover readMover(const YAML::Node& entry, double duration) {
 
 void checkOrder(const std::string& what, double min, double max) {
   if (min > max) {
-    throw OptionError("least_" + what + " = " + std::to_string(min) + ": expected at most most_" +
+    throw OptionError("min_" + what + " = " + std::to_string(min) + ": expected at most max_" +
                       what + ", " + std::to_string(max));
   }
 }
