@@ -1,104 +1,21 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""check_bag finds each fault of a recording, and none in one without."""
+"""check_bag finds each fault of stamps, motion and frames, and none in a recording without."""
 
 import contextlib
 import io
-import json
 import math
 import os
 import re
 import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 
-import numpy as np
 import simulated_recording as simulated
-import yaml
+from check_bag_case import Tool, each, odometry_of, of_topic, ranges, shifted, without
 from geometry_msgs.msg import TwistStamped
-from sensor_msgs.msg import PointCloud2, PointField
 
 from datmo_tools import transforms
 from datmo_tools.check_bag.main import main
-
-
-def of_topic(items, *topics):
-    return [item for item in items if item.topic in topics]
-
-
-def without(items, *topics):
-    return [item for item in items if item.topic not in topics]
-
-
-def shifted(items, topic, seconds):
-    """With the headers of a topic later by so much; recorded when they were."""
-    for item in of_topic(items, topic):
-        stamp = item.message.header.stamp.to_nsec() + round(seconds * 1e9)
-        item.message.header.stamp = simulated.to_ros_time(stamp)
-    return items
-
-
-def ranges(items, change):
-    """With change(ranges as array) for each scan."""
-    for item in of_topic(items, "/scan"):
-        item.message.ranges = change(np.array(item.message.ranges)).tolist()
-    return items
-
-
-def each(items, topic, change):
-    """With change(message) made to each message of a topic."""
-    for item in of_topic(items, topic):
-        change(item.message)
-    return items
-
-
-def odometry_of(items, pose_at=simulated.pose_at, speed_scale=1.0, yaw_scale=1.0, delay=0.0):
-    """With odometry that a scale or a delay makes wrong, in poses and twists."""
-    pose = np.array([0.0, 0.0, 0.0])
-    before = None
-    for item in of_topic(items, "/odometry"):
-        time = 1e-9 * (item.message.header.stamp.to_nsec() - simulated.START) - delay
-        true = pose_at(time)
-        if before is not None:
-            step = transforms.relative(before, true)
-            arc = np.array([*(speed_scale * step[:2]), yaw_scale * step[2]])
-            pose = transforms.compose(pose, arc)
-        before = true
-        speed, yaw_rate = simulated.motion_at(time)
-        fields = simulated.odometry(0.0, pose, speed_scale * speed, yaw_scale * yaw_rate)
-        item.message.pose, item.message.twist = fields.pose, fields.twist
-    return items
-
-
-def masked(values, first, last, value):
-    values[first:last] = value
-    return values
-
-
-class Tool(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-        self.bag, self.yaml = self.folder / "drive.bag", self.folder / "robot.yaml"
-
-    def run_tool(self, items, code=None):
-        """Findings (kind -> severity), the output, and the yaml's content."""
-        simulated.write(self.bag, items)
-        out, errors, file = io.StringIO(), io.StringIO(), self.folder / "findings.json"
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
-            done = main([str(self.bag), "--out", str(self.yaml), "--json", str(file)])
-        if code is not None:
-            self.assertEqual(done, code, out.getvalue() + errors.getvalue())
-        findings = json.loads(file.read_text())["findings"]
-        content = yaml.safe_load(self.yaml.read_text()) if self.yaml.exists() else None
-        return {item["kind"]: item["severity"] for item in findings}, out.getvalue(), content
-
-    def assert_finds(self, kind, items, severity="warning"):
-        kinds, out, _ = self.run_tool(items, code=1 if severity == "error" else None)
-        self.assertEqual(kinds.get(kind), severity, out)
-        return kinds
 
 
 class CleanRecording(Tool):
@@ -323,118 +240,6 @@ class Frames(Tool):
         items = without(simulated.recording(), "/tf_static")
         self.assert_finds("scanner_tilted", [*items, simulated.Item(0.0, "/tf_static", message)],
                           "error")  # fmt: skip
-
-
-class Scans(Tool):
-    def test_nan_for_no_return(self):
-        def change(values):
-            values[::4] = math.nan
-            return values
-
-        self.assert_finds("nan_ranges", ranges(simulated.recording(), change))
-
-    def test_zero_for_no_return(self):
-        def change(values):
-            values[::4] = 0.0
-            return values
-
-        self.assert_finds("zero_ranges", ranges(simulated.recording(), change))
-
-    def test_largest_value_for_no_return(self):
-        def change(values):
-            values[~(values < 30.0)] = 30.0
-            return values
-
-        self.assert_finds("range_max", ranges(simulated.recording(), change))
-
-    def test_dead_beams(self):
-        items = ranges(simulated.recording(), lambda values: masked(values, 100, 150, math.nan))
-        self.assert_finds("dead_beams", items)
-
-    def test_own_returns(self):
-        items = ranges(simulated.recording(), lambda values: masked(values, 0, 12, 0.6))
-        self.assert_finds("own_returns", items)
-
-    def test_short_reach(self):
-        def cut(message):
-            message.range_max = 8.0
-            values = np.array(message.ranges)
-            message.ranges = np.where(values < 8.0, values, math.inf).tolist()
-
-        items = each(simulated.recording(), "/scan", cut)
-        kinds, _, content = self.run_tool(items)
-        self.assertEqual(kinds["reach_below_window"], "warning")
-        self.assertLess(content["grid_slam"]["map"]["length"], 60.0)
-
-    def test_count_of_beams(self):
-        def cut(message):
-            message.ranges = message.ranges[:-20]
-
-        self.assert_finds("beam_count", each(simulated.recording(), "/scan", cut), "error")
-
-    def test_range_limits(self):
-        def clear(message):
-            message.range_max = 0.0
-
-        self.assert_finds("range_limits", each(simulated.recording(), "/scan", clear), "error")
-
-    def test_time_increment(self):
-        def slow(message):
-            message.time_increment = 0.01
-
-        self.assert_finds("time_increment", each(simulated.recording(), "/scan", slow))
-
-    def test_no_scan(self):
-        self.assert_finds("no_scan", without(simulated.recording(), "/scan"), "error")
-
-    def test_cloud_of_a_3d_lidar_alone(self):
-        cloud = PointCloud2(height=1, width=0, point_step=16, is_dense=True)
-        cloud.fields = [PointField(name, 4 * i, PointField.FLOAT32, 1)
-                        for i, name in enumerate(("x", "y", "z", "intensity"))]  # fmt: skip
-        cloud.header.frame_id, cloud.header.stamp = "velodyne", simulated.ros_time(1.0)
-        items = without(simulated.recording(), "/scan")
-        items.append(simulated.Item(1.0, "/velodyne_points", cloud))
-        simulated.write(self.bag, items)
-        kinds, out, _ = self.run_tool(items, code=1)
-        self.assertEqual(kinds["only_3d_lidar"], "error")
-        self.assertIn("cloud_to_scan", out)
-
-
-class Cameras(Tool):
-    RIGHT = "/stereo/right/camera_info"
-
-    def test_not_calibrated(self):
-        def clear(message):
-            message.K, message.P = [0.0] * 9, [0.0] * 12
-
-        self.assert_finds("camera_info_zero", each(simulated.recording(), self.RIGHT, clear), "error")
-
-    def test_of_another_size(self):
-        def grow(message):
-            message.width *= 2
-
-        self.assert_finds("camera_info_size", each(simulated.recording(), self.RIGHT, grow), "error")
-
-    def test_no_baseline(self):
-        def clear(message):
-            message.P = [*message.P[:3], 0.0, *message.P[4:]]
-
-        self.assert_finds("baseline_zero", each(simulated.recording(), self.RIGHT, clear), "error")
-
-    def test_exchanged(self):
-        def turn(message):
-            message.P = [*message.P[:3], -message.P[3], *message.P[4:]]
-
-        self.assert_finds("baseline_sign", each(simulated.recording(), self.RIGHT, turn), "error")
-
-    def test_no_camera_info(self):
-        self.assert_finds("no_camera_info", without(simulated.recording(), self.RIGHT))
-
-    def test_apart(self):
-        items = shifted(simulated.recording(), "/stereo/right/image_rect", 0.04)
-        _, _, content = self.run_tool(items)
-        self.assert_finds("pair_offset", items)
-        self.assertTrue(content["stereo_image_proc"]["approximate_sync"])
 
 
 class WrittenYaml(Tool):

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "small_map.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/grid/occupancy_map.h"
@@ -6,13 +7,7 @@
 namespace datmo::map_update_test {
 namespace {
 
-OccupancyMapOptions smallMap() {
-  OccupancyMapOptions options;
-  options.window.length = 20.0;
-  options.window.width = 20.0;
-  options.window.cell_size = 1.0;
-  return options;
-}
+using samples::smallMap;
 
 /// What an instantaneous grid of 20 x 20 cells about the vehicle shows, second by second.
 class MapUpdateTest : public testing::Test {

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "datmo_fusion/grid/occupancy_map.h"
+
+namespace datmo::samples {
+
+inline OccupancyMapOptions smallMap() {
+  OccupancyMapOptions options;
+  options.window.length = 20.0;
+  options.window.width = 20.0;
+  options.window.cell_size = 1.0;
+  return options;
+}
+
+/// Beams from the origin of the base frame to these ends.
+inline Scan scanTo(const std::vector<Point2>& ends, double seconds = 0.0, bool hit = true) {
+  Scan scan;
+  scan.stamp = Stamp::fromSeconds(100.0 + seconds);
+  scan.field.beam_spacing = degrees(2.0);
+  for (const Point2& end : ends) {
+    Ray ray;
+    ray.end = end;
+    ray.range = end.norm();
+    ray.bearing = std::atan2(end.y(), end.x());
+    ray.hit = hit;
+    scan.rays.push_back(ray);
+  }
+  return scan;
+}
+
+inline void updateWith(OccupancyMap& map, const Scan& scan, PointState state = PointState::kUnknown,
+                       const Pose2& pose = {}) {
+  map.update(scan, std::vector<PointState>(scan.rays.size(), state), pose);
+}
+
+}  // namespace datmo::samples
