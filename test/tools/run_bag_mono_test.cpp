@@ -30,7 +30,7 @@ TEST_F(MonoRun, EveryImageLeadsToAListThatIsFused) {
   EXPECT_EQ(count(arguments_.output, "/objects/stereo"), 0U) << "there is no right camera";
   EXPECT_EQ(count(arguments_.output, "/tracks"), kScanCount);
   const auto lists = listsOf<ObjectArray>("/objects/mono");
-  for (int i = 0; i < kClouds; ++i) {
+  for (int i = 0; i < kStereoClouds; ++i) {
     EXPECT_EQ(lists[static_cast<std::size_t>(i)].header.stamp, toTime(kStart + i * kCloudPeriod));
   }
 }

@@ -54,7 +54,8 @@ TEST_F(ObjectFusedRun, CloudsMadeOfImagesServeBothLevels) {
   EXPECT_EQ(count(arguments_.output, "/grids/stereo"), kCloudCount);
   const std::string times = bytes(arguments_.times);
   const std::string made = times.substr(times.find("stereo_image_proc"));
-  EXPECT_EQ(made.find("\"runs\": " + std::to_string(kClouds)), made.find("\"runs\"")) << times;
+  EXPECT_EQ(made.find("\"runs\": " + std::to_string(kStereoClouds)), made.find("\"runs\""))
+      << times;
 }
 
 TEST_F(ObjectFusedRun, ImagesLeadToTheSameAsTheirClouds) {

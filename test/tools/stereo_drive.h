@@ -13,10 +13,10 @@
 
 namespace datmo {
 
-inline constexpr int kClouds = 15;                     // one for every second scan
+inline constexpr int kStereoClouds = 15;               // one for every second scan
 inline constexpr double kCloudPeriod = 2.0 * kPeriod;  // s
 inline constexpr auto kScanCount = static_cast<std::size_t>(kScans);
-inline constexpr auto kCloudCount = static_cast<std::size_t>(kClouds);
+inline constexpr auto kCloudCount = static_cast<std::size_t>(kStereoClouds);
 
 /// Forward is z, right is x (REP 103).
 inline geometry_msgs::TransformStamped cameraMount(const std::string& frame) {
@@ -59,7 +59,7 @@ class StereoRunBag : public RunBag {
     tf2_msgs::TFMessage mount;
     mount.transforms.push_back(cameraMount(sample_.frame));
     bag.write("/tf_static", toTime(kStart), mount);
-    for (int i = 0; i < kClouds; ++i) {
+    for (int i = 0; i < kStereoClouds; ++i) {
       write(bag, kStart + i * kCloudPeriod);
     }
   }
