@@ -9,7 +9,7 @@
 namespace datmo {
 namespace {
 
-constexpr double kFilterPeriod = 0.1;         // s
+constexpr double kFilterPeriod = 0.1;   // s
 constexpr double kSpeed = 8.0;          // m/s
 constexpr double kPositionSigma = 0.2;  // m
 

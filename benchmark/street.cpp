@@ -10,8 +10,8 @@ namespace datmo {
 
 namespace {
 
-constexpr double kStreetPeriod = 0.06;   // s, of the demonstrator's scanner: 16.6 Hz
-constexpr double kHalfFov = 80.0;  // degrees
+constexpr double kStreetPeriod = 0.06;  // s, of the demonstrator's scanner: 16.6 Hz
+constexpr double kHalfFov = 80.0;       // degrees
 constexpr double kRangeNoise = 0.05;
 constexpr double kCars = 4.0;     // m, from the vehicle to the parked cars on either side
 constexpr double kHouses = 12.0;  // m, from the vehicle to the houses

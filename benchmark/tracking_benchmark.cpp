@@ -13,8 +13,8 @@ namespace datmo {
 namespace {
 
 constexpr double kObjectsPeriod = 0.06;  // s
-constexpr double kSpeed = 8.0;    // m/s
-constexpr double kSpacing = 8.0;  // m, between the objects, along both axes
+constexpr double kSpeed = 8.0;           // m/s
+constexpr double kSpacing = 8.0;         // m, between the objects, along both axes
 constexpr int kAbreast = 10;
 constexpr double kPositionSigma = 0.2;  // m
 

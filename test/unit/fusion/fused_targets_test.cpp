@@ -122,7 +122,8 @@ TEST(FusedTargetsTest, WhoIsSurestOfItIsNoEvidenceBesidesItself) {
                                              stereo(0.0, {far("stereo", 9.0, by_stereo)})});
     return result.list.tracks.at(0).existence_probability;
   };
-  // Odds of 4; of detection_probability / false_agreement_probability the other one's counts: 8, and 1.
+  // Odds of 4; of detection_probability / false_agreement_probability the other one's counts: 8,
+  // and 1.
   EXPECT_NEAR(existence(0.6, 0.8), 32.0 / 33.0, 1e-9);
   EXPECT_NEAR(existence(0.8, 0.6), 0.8, 1e-9);
 }

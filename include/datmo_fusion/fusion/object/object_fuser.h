@@ -76,9 +76,9 @@ struct ObjectFusionResult {
 /// That it is an object at all: seen by one more source, the log-odds rise by
 /// log(detection_probability / false_agreement_probability); not seen by one that looked there (its
 /// view, with what it saw as occluders; of the scanner the scan) they fall by log(1 - p), p being
-/// that it would have been seen. Where beams end on static points at the position of an object of another source,
-/// it stands still: known before the association, so that it is not joined with what moves beside
-/// it. So does a pole, unless it was seen to move.
+/// that it would have been seen. Where beams end on static points at the position of an object of
+/// another source, it stands still: known before the association, so that it is not joined with
+/// what moves beside it. So does a pole, unless it was seen to move.
 ///
 /// Neither the order of a list's objects nor anything before matters. No state.
 class ObjectFuser {
