@@ -37,6 +37,11 @@ class PosePath:
         after = int(np.clip(np.searchsorted(self.stamps, stamp), 1, len(self.stamps) - 1))
         return int(np.abs(self.stamps[after - 1 : after + 1] - stamp).min())
 
+    def length_between(self, begin, end):
+        """Distance driven between two stamps (ns), m, over the poses between them."""
+        inside = self.poses[(self.stamps >= begin) & (self.stamps <= end)]
+        return float(np.hypot(*np.diff(inside[:, :2], axis=0).T).sum()) if len(inside) > 1 else 0.0
+
     def length(self):
         """Distance driven, m."""
         return float(np.hypot(*np.diff(self.poses[:, :2], axis=0).T).sum())

@@ -1,0 +1,148 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The sweep of gaps: what it takes out of a drive, and its score by hand, with a run_bag that only
+pretends."""
+
+import contextlib
+import io
+import json
+import math
+import tempfile
+import unittest
+from pathlib import Path
+
+import rosbag
+import rospy
+from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
+from std_msgs.msg import String
+
+from datmo_tools.experiments.gap_score import Gap, passed, score, table
+from datmo_tools.experiments.gaps import cut, main
+
+START = 1000  # s
+SPEED = 5.0  # m/s, along x
+
+
+def pose_at(seconds, message, error=0.0, turn=0.0):
+    """`message` filled with the pose at a time, `error` (m) to the left and `turn` (rad) off."""
+    message.header.stamp = rospy.Time.from_sec(START + seconds)
+    pose = message.pose.pose if hasattr(message.pose, "pose") else message.pose
+    pose.position.x, pose.position.y = SPEED * seconds, error
+    pose.orientation.z, pose.orientation.w = math.sin(turn / 2.0), math.cos(turn / 2.0)
+    return message
+
+
+def estimate_at(seconds, error, turn, sigma):
+    message = pose_at(seconds, PoseWithCovarianceStamped(), error, turn)
+    message.pose.covariance = [sigma**2 if i % 7 == 0 else 0.0 for i in range(36)]
+    return message
+
+
+class Gaps(unittest.TestCase):
+    """A drive of 40 s straight on, ten messages a second."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.drive = self.folder / "drive.bag"
+        with rosbag.Bag(str(self.drive), "w") as bag:
+            bag.write("/tf_static", String("mounts"), rospy.Time.from_sec(START))
+            for i in range(400):
+                truth = pose_at(0.1 * i, PoseStamped())
+                bag.write("/ground_truth/pose", truth, truth.header.stamp)
+                for topic in ("/scan", "/odometry", "/tf", "/other"):
+                    bag.write(topic, String(topic), truth.header.stamp)
+
+    def counts(self, kind):
+        written = self.folder / "cut.bag"
+        cut(self.drive, Gap(kind, (START + 20) * 10**9, 2.0), written)
+        with rosbag.Bag(str(written)) as bag:
+            topics = bag.get_type_and_topic_info().topics
+            return {topic: info.message_count for topic, info in topics.items()}
+
+    def test_what_a_gap_takes_out(self):
+        # 12 s before, 2 s, 6 s after: 201 messages, of which the 20 after the gap's begin are gone.
+        whole, holed = 201, 181
+        self.assertEqual(self.counts("scan"), {"/tf_static": 1, "/ground_truth/pose": whole,
+                                               "/scan": holed, "/odometry": whole, "/tf": whole})
+        self.assertEqual(self.counts("odometry")["/scan"], whole)
+        self.assertEqual(self.counts("odometry")["/tf"], holed)
+        both = self.counts("both")
+        self.assertEqual((both["/scan"], both["/odometry"], both["/tf"]), (holed, holed, holed))
+
+    def scored(self, error, turn, sigma):
+        """After a gap of 2 s from 20 s on the pose is off."""
+        computed = self.folder / "computed.bag"
+        with rosbag.Bag(str(computed), "w") as bag:
+            for tenths in (*range(100, 201), *range(221, 281)):
+                off = tenths > 200
+                pose = estimate_at(0.1 * tenths, error * off, turn * off, sigma)
+                bag.write("/pose", pose, pose.header.stamp)
+        return score(computed, self.drive, Gap("both", (START + 20) * 10**9, 2.0))
+
+    def test_within_the_limits(self):
+        result = self.scored(0.6, math.radians(1.0), 0.01)  # at 10.5 m: 0.605 m
+        self.assertTrue(passed(result))
+        self.assertAlmostEqual(result["end"]["position_m"], 0.6, places=6)
+        self.assertAlmostEqual(result["end"]["distance_m"], 40.0, places=6)
+        self.assertAlmostEqual(result["speed_mps"], SPEED, places=6)
+
+    def test_a_wrong_pose_that_is_sure_of_itself(self):
+        result = self.scored(2.0, 0.0, 0.5)
+        self.assertEqual(result["confident_wrong"], 60)
+        self.assertFalse(passed(result))
+
+    def test_a_wrong_pose_that_says_so_is_off_but_not_confident(self):
+        result = self.scored(2.0, 0.0, 1.0)
+        self.assertEqual(result["confident_wrong"], 0)
+        self.assertTrue(result["end"]["beyond"] and result["end"]["admitted"])
+        self.assertFalse(passed(result))
+
+    def test_a_wrong_heading_alone_counts(self):
+        self.assertEqual(self.scored(0.0, math.radians(10.0), 0.01)["confident_wrong"], 60)
+        self.assertEqual(self.scored(0.0, math.radians(10.0), 0.1)["confident_wrong"], 0)
+
+    def test_no_pose_at_all_after_the_gap_is_a_failure(self):
+        computed = self.folder / "computed.bag"
+        with rosbag.Bag(str(computed), "w") as bag:
+            for seconds in (19.0, 20.0):
+                pose = estimate_at(seconds, 0.0, 0.0, 0.1)
+                bag.write("/pose", pose, pose.header.stamp)
+        result = score(computed, self.drive, Gap("scan", (START + 20) * 10**9, 2.0))
+        self.assertFalse(passed(result))
+        run = {"kind": "scan", "seconds": 2.0, "score": result}
+        self.assertEqual(table([run]).splitlines()[1].split()[:4], ["scan", "2", "1", "1"])
+
+    def sweep(self, *words):
+        out = io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(io.StringIO()):
+            code = main([str(self.drive), "--config", str(self.folder / "config.yaml"),
+                         "--programs", str(self.folder), "--out", str(self.folder / "out.json"),
+                         "--seconds", "1", "--every", "10", "--first", "15", *words])  # fmt: skip
+        return code, out.getvalue()
+
+    def test_command_line(self):
+        result = self.folder / "result.bag"
+        (self.folder / "config.yaml").touch()
+        for name, text in (("simulate", "exit 1"), ("run_bag", f'cp {result} "$2"')):
+            program = self.folder / name
+            program.write_text(f"#!/bin/sh\n{text}\n")
+            program.chmod(0o755)
+        for error, expected in ((0.0, 0), (3.0, 1)):
+            with rosbag.Bag(str(result), "w") as bag:
+                for tenths in range(400):
+                    pose = estimate_at(0.1 * tenths, error * (tenths > 150), 0.0, 0.1)
+                    bag.write("/pose", pose, pose.header.stamp)
+            code, out = self.sweep("--kinds", "scan", "both")
+            self.assertEqual(code, expected)
+            runs = json.loads((self.folder / "out.json").read_text())["runs"]
+            # From 15 and 25 s on, and not so late that nothing comes after.
+            self.assertEqual([(run["kind"], run["begin_s"]) for run in runs],
+                             [("scan", 1015.0), ("scan", 1025.0),
+                              ("both", 1015.0), ("both", 1025.0)])  # fmt: skip
+            self.assertEqual("drive, both 1 s from 1015.0 s" in out, bool(error))
+
+
+if __name__ == "__main__":
+    unittest.main()

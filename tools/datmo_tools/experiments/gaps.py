@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What gaps of scans and odometry do to the pose: the command line and the runs."""
+
+import argparse
+import json
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import NamedTuple
+
+from tqdm import tqdm
+
+from datmo_tools import command_line, programs
+from datmo_tools.bag_file import whole_bag
+from datmo_tools.bag_input import opened
+from datmo_tools.errors import InputError
+from datmo_tools.experiments import simulated_run
+from datmo_tools.experiments.gap_score import Gap, passed, score, table
+from datmo_tools.pose_path import read_path
+from datmo_tools.stamps import NANOSECONDS
+from datmo_tools.whole_files import write_whole
+
+DESCRIPTION = """\
+Takes stretches of scans, of odometry or of both out of drives, at regular times, and prints how far
+off the pose ends, and whether it ever claimed to know better than it did. A drive is a scene for
+the simulator, or a bag with /ground_truth/pose. The exit code is 1 where a run ended more than
+0.5 m + 1 % of the distance or 2 degrees off, or had a pose so far off of less than a third of that
+as standard deviation."""
+
+FORMAT = 1  # of the JSON file
+PROGRAMS = ("simulate", "run_bag")
+KINDS = ("scan", "odometry", "both")
+TRUTH = "/ground_truth/pose"
+ODOMETRY = ("/odometry", "/tf")
+SCANS = ("/echoes", "/scan")
+ALWAYS = ("/tf_static", TRUTH)
+# Enough of a drive before the gap that the map is as full as it gets, and after it to be found.
+LEAD = 12.0  # s
+TAIL = 6.0  # s
+
+
+class Case(NamedTuple):
+    """One run."""
+
+    recorded: Path
+    gap: Gap
+
+
+def main(arguments=None):
+    """Runs the command line; returns its exit code."""
+    values = _parser().parse_args(arguments)
+    complete = []
+    code = command_line.run("gaps", lambda: complete.append(_sweep(values)), "report")
+    return code or int(not complete[0])
+
+
+def cut(recorded, gap, written):
+    """Writes the drive (Path) about a gap, without what the gap takes out, to a bag (Path)."""
+    first = gap.begin - round(LEAD * NANOSECONDS)
+    last = gap.end + round(TAIL * NANOSECONDS)
+    gone = {"scan": SCANS, "odometry": ODOMETRY, "both": SCANS + ODOMETRY}[gap.kind]
+    with opened(recorded) as bag, whole_bag(written, "gaps") as out:
+        for topic, message, stamp in bag.read_messages([*ALWAYS, *SCANS, *ODOMETRY]):
+            at = stamp.to_nsec()
+            if topic == "/tf_static":
+                out.write_latched(topic, at if at >= first else first, message)
+            elif first <= at <= last and not (topic in gone and gap.begin < at <= gap.end):
+                out.write(topic, at, message)
+
+
+def gaps_of(recorded, values):
+    """List of Gap at regular times of a drive (Path)."""
+    stamps = read_path(recorded, TRUTH).stamps
+    step = round(values.every * NANOSECONDS)
+    first = int(stamps[0]) + round(values.first * NANOSECONDS)
+    return [
+        Gap(kind, begin, seconds)
+        for kind in values.kinds
+        for seconds in values.seconds
+        for begin in range(first, int(stamps[-1] - (seconds + TAIL) * NANOSECONDS), step)
+    ]
+
+
+def run_case(case, values):
+    """Result (dict) of one run. Raises StepFailed."""
+    with tempfile.TemporaryDirectory(prefix="gaps_") as name:
+        folder = Path(name)
+        drive, computed = folder / "drive.bag", folder / "result.bag"
+        cut(case.recorded, case.gap, drive)
+        options = [word for preset in values.preset for word in ("--preset", preset)]
+        programs.call(values.programs / "run_bag", drive, computed, "--config", values.config,
+                      "--until", "grid_slam", "--quiet", *options)  # fmt: skip
+        scored = score(computed, drive, case.gap)
+    begin = case.gap.begin / NANOSECONDS
+    return {"drive": case.recorded.stem, "kind": case.gap.kind, "begin_s": begin,
+            "seconds": case.gap.seconds, "score": scored}  # fmt: skip
+
+
+def _sweep(values):
+    """Whether all runs passed."""
+    for file in [*values.drives, values.config]:
+        if not file.is_file():
+            raise InputError(f"{file}: no such file, expected a scene, a bag or a yaml file")
+    programs.check(values.programs, PROGRAMS)
+    with tempfile.TemporaryDirectory(prefix="gaps_") as folder:
+        drives = [_recorded(drive, values, Path(folder)) for drive in values.drives]
+        cases = [Case(drive, gap) for drive in drives for gap in gaps_of(drive, values)]
+        with ThreadPoolExecutor(values.jobs) as pool:
+            runs = list(tqdm(pool.map(lambda case: run_case(case, values), cases), "runs",
+                             len(cases)))  # fmt: skip
+    if values.out is not None:
+        report = {"format": FORMAT, "config": str(values.config), "runs": runs}
+        write_whole(values.out.parent, {values.out.name: json.dumps(report, indent=1) + "\n"})
+    print(table(runs))
+    for run in runs:
+        if not passed(run["score"]):
+            print(_line(run))
+    return all(passed(run["score"]) for run in runs)
+
+
+def _line(run):
+    """One run that did not pass, as text."""
+    where = f"{run['drive']}, {run['kind']} {run['seconds']:g} s from {run['begin_s']:.1f} s"
+    scored = run["score"]
+    if scored["without_pose"]:
+        return f"{where}: no pose before it, or none after it"
+    end = scored["end"]
+    return (
+        f"{where} ({scored['speed_mps']:.1f} m/s, turn {scored['turn_deg']:.0f} deg): ends "
+        f"{end['position_m']:.2f} m, {end['heading_deg']:.1f} deg off, "
+        f"sigma {end['sigma_m']:.2f} m, {end['sigma_deg']:.1f} deg; "
+        f"{scored['confident_wrong']} of {scored['scans']} scans "
+        "confident and wrong"
+    )
+
+
+def _recorded(drive, values, folder):
+    """Bag (Path) of a drive; a scene is simulated into `folder`."""
+    if drive.suffix == ".bag":
+        return drive
+    recorded = folder / f"{drive.stem}.bag"
+    options = tuple(values.set)
+    simulated_run.record(simulated_run.SimulatedDrive(drive, options), values.programs, recorded)
+    return recorded
+
+
+def _parser():
+    parser = argparse.ArgumentParser(
+        prog="gaps", description=DESCRIPTION, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    add = parser.add_argument
+    add("drives", nargs="+", type=Path, metavar="DRIVE", help="SCENE.yaml, or DRIVE.bag with truth")
+    add("--config", required=True, type=Path, metavar="CONFIG.yaml", help="the sensor set")
+    add("--programs", required=True, type=Path, metavar="DIR", help="of simulate and run_bag")
+    add("--preset", action="append", default=[], metavar="FILE.yaml", help="of run_bag, repeatable")
+    add("--set", action="append", default=[], metavar="KEY=VALUE", help="of simulate, repeatable")
+    add("--kinds", nargs="+", choices=KINDS, default=KINDS, help="what is missing (default all)")
+    add("--seconds", nargs="+", type=command_line.number, default=[0.2, 0.5, 1.0, 2.0, 5.0],
+        metavar="S", help="lengths of the gaps (default 0.2 0.5 1 2 5)")  # fmt: skip
+    add("--jobs", type=command_line.count, default=1, metavar="N",
+        help="runs at a time (default 1)")  # fmt: skip
+    add("--out", type=command_line.output_file, metavar="FILE.json", help="all runs")
+    command_line.add_number(parser, "--first", 8.0, "S", "time of the first gap")
+    command_line.add_number(parser, "--every", 5.0, "S", "time from a gap to the next one")
+    return parser
