@@ -141,7 +141,7 @@ std::string reasonOf(const ObjectRisk& risk) {
   if (risk.side == StruckSide::kNone) {
     return what + ": contact possible (" + percent + ")";
   }
-  const std::string contact = what + " at the " + nameOf(risk.side) + " with " +
+  std::string contact = what + " at the " + nameOf(risk.side) + " with " +
                               decimal(risk.strike_speed) + " m/s in " + decimal(risk.median_ttc) +
                               " s (" + percent + ")";
   if (risk.side == StruckSide::kRear) {
