@@ -2,10 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -17,6 +14,7 @@
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/stamp.h"
 #include "datmo_fusion/fusion/sync/matched_samples.h"
+#include "datmo_fusion/fusion/sync/sample_queue.h"
 
 namespace datmo {
 
@@ -66,7 +64,7 @@ class SourceMatcher {
     checkMatcher(options, sources);
     for (const std::string& source : sources) {
       const auto late = late_by.find(source);
-      sources_[source].late_by = late == late_by.end() ? 0.0 : late->second;
+      sources_[source].setLateBy(late == late_by.end() ? 0.0 : late->second);
     }
   }
 
@@ -83,7 +81,7 @@ class SourceMatcher {
 
   /// How many samples of a source have been in no set and will be in none, since the start. Throws
   /// std::out_of_range for a source that there is not.
-  std::uint64_t unserved(const std::string& source) const { return sources_.at(source).unserved; }
+  std::uint64_t unserved(const std::string& source) const { return sources_.at(source).unserved(); }
 
   /// Forgets all samples, as if no source had spoken since the first.
   void forgetSamples();
@@ -92,30 +90,19 @@ class SourceMatcher {
   void reset();
 
  private:
-  struct Sample {
-    Stamp stamp;
-    std::shared_ptr<const Payload> payload;
-    bool served = false;
-  };
-  struct Source {
-    std::deque<Sample> samples;  ///< rising stamps; those that may yet serve
-    std::optional<Stamp> last;   ///< of all its samples
-    std::uint64_t unserved = 0;
-    double late_by = 0.0;  ///< s; 0: it is waited for
-  };
+  using Source = SampleQueue<Payload>;
+  using Sample = typename Source::Sample;
   using Entry = typename std::map<std::string, Source>::value_type;
 
-  /// Of each source, so that no rate fills the memory; at 50 Hz those of more than a second.
-  static constexpr std::size_t kMaxSamples = 64;
-
   bool isSilent(const Source& source, Stamp now) const {
-    return secondsBetween(source.last.value_or(first_.value_or(now)), now) >= options_.silent_after;
+    return secondsBetween(source.last().value_or(first_.value_or(now)), now) >=
+           options_.silent_after;
   }
 
   /// Whether a sample of this source may be in a set of this stamp.
   bool isNear(const Source& source, Stamp of_sample, Stamp of_set) const {
     const double older = secondsBetween(of_sample, of_set);
-    return older >= -options_.tolerance && older <= std::max(source.late_by, options_.tolerance);
+    return older >= -options_.tolerance && older <= std::max(source.lateBy(), options_.tolerance);
   }
 
   /// The source whose samples lead to sets at this time; null: all are silent.
@@ -127,17 +114,12 @@ class SourceMatcher {
   bool isComplete(Stamp stamp, Stamp now) const;
 
   /// The source's sample that belongs to this stamp of the leader; null if there is none.
-  Sample* nearest(Source& source, Stamp stamp, const Source& leader) const;
+  Sample* nearest(Source& source, Stamp stamp, Source& leader) const;
 
   Matched match(Entry& leader, Sample& sample, Stamp now);
 
   /// Drops the samples that can be in no set after one of this stamp.
   void dropPast(Source& source, Stamp stamp) const;
-
-  static void dropOldest(Source& source) {
-    source.unserved += source.samples.front().served ? 0 : 1;
-    source.samples.pop_front();
-  }
 
   SourceMatcherOptions options_;
   Serving serving_;
@@ -157,17 +139,8 @@ template <typename Payload>
 void SourceMatcher<Payload>::add(const std::string& name, Stamp stamp,
                                  std::shared_ptr<const Payload> payload) {
   checkSource(name);
-  Source& source = sources_.at(name);
-  if (source.last && stamp <= *source.last) {
-    return;
-  }
-  if (!first_) {
+  if (sources_.at(name).add(stamp, std::move(payload)) && !first_) {
     first_ = stamp;
-  }
-  source.last = stamp;
-  source.samples.push_back({stamp, std::move(payload)});
-  if (source.samples.size() > kMaxSamples) {
-    dropOldest(source);
   }
 }
 
@@ -192,10 +165,7 @@ std::optional<MatchedSamples<Payload>> SourceMatcher<Payload>::next(Stamp now) {
 template <typename Payload>
 void SourceMatcher<Payload>::forgetSamples() {
   for (auto& [name, source] : sources_) {
-    while (!source.samples.empty()) {
-      dropOldest(source);
-    }
-    source.last.reset();
+    source.forget();
   }
 }
 
@@ -222,12 +192,7 @@ auto SourceMatcher<Payload>::leader(Stamp now) -> Entry* {
 
 template <typename Payload>
 auto SourceMatcher<Payload>::pending(Source& source) const -> Sample* {
-  const auto found =
-      std::find_if(source.samples.begin(), source.samples.end(), [&](const Sample& sample) {
-        return (!matched_ || *matched_ < sample.stamp) &&
-               (serving_ == Serving::kOften || !sample.served);
-      });
-  return found == source.samples.end() ? nullptr : &*found;
+  return source.firstAfter(matched_, serving_ == Serving::kOnce);
 }
 
 template <typename Payload>
@@ -235,31 +200,20 @@ bool SourceMatcher<Payload>::isComplete(Stamp stamp, Stamp now) const {
   return secondsBetween(stamp, now) >= options_.max_wait ||
          std::all_of(sources_.begin(), sources_.end(), [&](const Entry& entry) {
            const Source& source = entry.second;
-           return source.late_by > 0.0 || isSilent(source, now) ||
-                  (source.last && *source.last >= stamp);
+           return source.lateBy() > 0.0 || isSilent(source, now) ||
+                  (source.last() && *source.last() >= stamp);
          });
 }
 
 template <typename Payload>
-auto SourceMatcher<Payload>::nearest(Source& source, Stamp stamp, const Source& leader) const
-    -> Sample* {
-  const auto distance = [](Stamp at, const Sample& sample) {
-    return std::abs(secondsBetween(at, sample.stamp));
-  };
-  auto end = source.samples.end();
+auto SourceMatcher<Payload>::nearest(Source& source, Stamp stamp, Source& leader) const -> Sample* {
+  std::optional<Stamp> next;
   if (serving_ == Serving::kOnce) {
-    const auto next = std::find_if(leader.samples.begin(), leader.samples.end(),
-                                   [stamp](const Sample& sample) { return stamp < sample.stamp; });
-    if (next != leader.samples.end()) {
-      end = std::find_if(source.samples.begin(), end, [&](const Sample& sample) {
-        return distance(next->stamp, sample) < distance(stamp, sample);
-      });
-    }
+    const Sample* const after = leader.firstAfter(stamp, false);
+    next = after == nullptr ? std::nullopt : std::optional<Stamp>(after->stamp);
   }
-  const auto found = std::min_element(
-      source.samples.begin(), end,
-      [&](const Sample& a, const Sample& b) { return distance(stamp, a) < distance(stamp, b); });
-  return found != end && isNear(source, found->stamp, stamp) ? &*found : nullptr;
+  Sample* const found = source.nearest(stamp, next);
+  return found != nullptr && isNear(source, found->stamp, stamp) ? found : nullptr;
 }
 
 template <typename Payload>
@@ -286,20 +240,10 @@ MatchedSamples<Payload> SourceMatcher<Payload>::match(Entry& leader, Sample& sam
 
 template <typename Payload>
 void SourceMatcher<Payload>::dropPast(Source& source, Stamp stamp) const {
-  const auto& samples = source.samples;
-  const auto isPast = [&] {
-    return samples.front().stamp < stamp && !isNear(source, samples.front().stamp, stamp);
-  };
-  while (!samples.empty() && isPast()) {
-    dropOldest(source);
-  }
-  if (serving_ == Serving::kOften) {
-    return;
-  }
-  // What is older than the last that served would be a step back in time.
-  while (
-      std::any_of(samples.begin(), samples.end(), [](const Sample& one) { return one.served; })) {
-    dropOldest(source);
+  source.dropWhile(
+      [&](Stamp of_sample) { return of_sample < stamp && !isNear(source, of_sample, stamp); });
+  if (serving_ == Serving::kOnce) {
+    source.dropUpToServed();
   }
 }
 

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "datmo_fusion/common/stamp.h"
+
+namespace datmo {
+
+/// The samples of one source that may yet be in a set, by rising stamp. Bounded: the oldest gives
+/// way.
+template <typename Payload>
+class SampleQueue {
+ public:
+  struct Sample {
+    Stamp stamp;
+    std::shared_ptr<const Payload> payload;
+    bool served = false;
+  };
+
+  /// `late_by`: s, by how much it may be late; 0: sets wait for it.
+  void setLateBy(double late_by) { late_by_ = late_by; }
+  double lateBy() const { return late_by_; }
+
+  /// The last stamp since samples were forgotten, also of a sample that is gone.
+  std::optional<Stamp> last() const { return last_; }
+
+  /// How many samples have been in no set and will be in none, since the start.
+  std::uint64_t unserved() const { return unserved_; }
+
+  /// One that is not newer than the last is left out: false.
+  bool add(Stamp stamp, std::shared_ptr<const Payload> payload) {
+    if (last_ && stamp <= *last_) {
+      return false;
+    }
+    last_ = stamp;
+    samples_.push_back({stamp, std::move(payload)});
+    if (samples_.size() > kMaxSamples) {
+      dropOldest();
+    }
+    return true;
+  }
+
+  /// The oldest sample after a stamp (of all, without one); null if there is none.
+  /// `unserved_only`: of those that have been in no set.
+  Sample* firstAfter(std::optional<Stamp> stamp, bool unserved_only) {
+    return find([&](const Sample& sample) {
+      return (!stamp || *stamp < sample.stamp) && !(unserved_only && sample.served);
+    });
+  }
+
+  /// The sample nearest in time, of two equally near ones the earlier; of those only that are not
+  /// nearer to `next`. Null if there is none.
+  Sample* nearest(Stamp stamp, std::optional<Stamp> next) {
+    const auto distance = [](Stamp at, const Sample& sample) {
+      return std::abs(secondsBetween(at, sample.stamp));
+    };
+    auto end = samples_.end();
+    if (next) {
+      end = std::find_if(samples_.begin(), end, [&](const Sample& sample) {
+        return distance(*next, sample) < distance(stamp, sample);
+      });
+    }
+    const auto found = std::min_element(
+        samples_.begin(), end,
+        [&](const Sample& a, const Sample& b) { return distance(stamp, a) < distance(stamp, b); });
+    return found == end ? nullptr : &*found;
+  }
+
+  /// Drops the oldest ones as long as `isPast(stamp)`.
+  template <typename Predicate>
+  void dropWhile(const Predicate& isPast) {
+    while (!samples_.empty() && isPast(samples_.front().stamp)) {
+      dropOldest();
+    }
+  }
+
+  /// Drops all up to the last that served: what is older would be a step back in time.
+  void dropUpToServed() {
+    while (find([](const Sample& sample) { return sample.served; }) != nullptr) {
+      dropOldest();
+    }
+  }
+
+  /// As if the source had never spoken, but for the count of what served nobody.
+  void forget() {
+    dropWhile([](Stamp) { return true; });
+    last_.reset();
+  }
+
+ private:
+  /// So that no rate fills the memory; at 50 Hz those of more than a second.
+  static constexpr std::size_t kMaxSamples = 64;
+
+  template <typename Predicate>
+  Sample* find(const Predicate& predicate) {
+    const auto found = std::find_if(samples_.begin(), samples_.end(), predicate);
+    return found == samples_.end() ? nullptr : &*found;
+  }
+
+  void dropOldest() {
+    unserved_ += samples_.front().served ? 0 : 1;
+    samples_.pop_front();
+  }
+
+  std::deque<Sample> samples_;
+  std::optional<Stamp> last_;
+  std::uint64_t unserved_ = 0;
+  double late_by_ = 0.0;
+};
+
+}  // namespace datmo
