@@ -142,8 +142,8 @@ std::string reasonOf(const ObjectRisk& risk) {
     return what + ": contact possible (" + percent + ")";
   }
   std::string contact = what + " at the " + nameOf(risk.side) + " with " +
-                              decimal(risk.strike_speed) + " m/s in " + decimal(risk.median_ttc) +
-                              " s (" + percent + ")";
+                        decimal(risk.strike_speed) + " m/s in " + decimal(risk.median_ttc) +
+                        " s (" + percent + ")";
   if (risk.side == StruckSide::kRear) {
     return contact;
   }
