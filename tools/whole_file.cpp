@@ -13,6 +13,11 @@ void checkWritable(const std::string& file) {
   if (std::filesystem::is_directory(file)) {
     throw std::runtime_error(file + ": is a folder, expected the name of a file");
   }
+  std::error_code ignored;  // what cannot be asked is not there
+  const std::filesystem::file_status status = std::filesystem::status(file, ignored);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw std::runtime_error(file + ": is a pipe or a device, expected the name of a file");
+  }
   const std::filesystem::path parent = std::filesystem::path(file).parent_path();
   const std::string folder = parent.empty() ? "." : parent.string();
   if (!std::filesystem::is_directory(folder)) {

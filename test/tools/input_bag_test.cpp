@@ -160,6 +160,22 @@ TEST_F(InputBag, OutputsThatCannotBeWrittenAreSaidAtTheStart) {
   fs::current_path(here);
 }
 
+TEST_F(InputBag, APipeIsNotReplacedByAnOutput) {
+  ASSERT_EQ(mkfifo(file_.c_str(), 0600), 0);
+  EXPECT_EQ(messageOf([&] { OutputBag bag(file_.string()); }),
+            file_.string() + ": is a pipe or a device, expected the name of a file");
+  EXPECT_TRUE(fs::is_fifo(file_));
+}
+
+TEST_F(InputBag, ABagThatIsCutAnywhereAtItsEndIsSavedByReindex) {
+  for (const std::uintmax_t cut : {1U, 10U, 100U, 300U, 1000U, 3000U}) {
+    writeBag();
+    fs::resize_file(file_, fs::file_size(file_) - cut);
+    SCOPED_TRACE(cut);
+    expectRefused("'rosbag reindex " + file_.string() + "'");
+  }
+}
+
 TEST_F(InputBag, OutputInAFolderWithoutPermission) {
   if (geteuid() == 0) {
     GTEST_SKIP() << "root may write in every folder";
