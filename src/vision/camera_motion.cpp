@@ -210,9 +210,9 @@ std::vector<PointVelocity> pointVelocities(const StereoRig& rig,
   for (const FeatureQuad& quad : quads) {
     if (auto point = pointVelocity(rig, quad.earlier, before, quad.later, later)) {
       const Eigen::Vector3d in_camera = camera.inverse() * point->position;
-      point->common_covariance = camera.linear() *
-                                 commonVelocityCovariance(motion, in_camera, seconds) *
-                                 camera.linear().transpose();
+      point->common_covariance += camera.linear() *
+                                  commonVelocityCovariance(motion, in_camera, seconds) *
+                                  camera.linear().transpose();
       points.push_back(*point);
     }
   }

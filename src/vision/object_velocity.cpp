@@ -6,9 +6,15 @@
 #include <limits>
 #include <optional>
 
+#include "datmo_fusion/common/square.h"
+
 namespace datmo {
 
 namespace {
+
+/// Standard deviation of the middle of a body, along an axis of its box of which an end was not
+/// seen, m: half of what a car that reaches 0 m to 4.5 m farther is longer.
+constexpr double kHiddenMiddle = 1.3;
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
@@ -29,6 +35,23 @@ std::size_t ownerOf(const Point2& position, double margin, const std::vector<Obj
     }
   }
   return owner;
+}
+
+bool isHidden(const Object& object, BoxSide side) {
+  return !std::isfinite(object.side_variance[static_cast<std::size_t>(side)]);
+}
+
+BodyCenter centerOf(const Object& object) {
+  const Point2 ahead = object.box.center.rotate(Point2(1.0, 0.0));
+  const Point2 aside = object.box.center.rotate(Point2(0.0, 1.0));
+  BodyCenter center{object.box.center.position(), object.position_covariance};
+  if (isHidden(object, BoxSide::kFront) || isHidden(object, BoxSide::kRear)) {
+    center.covariance += square(kHiddenMiddle) * ahead * ahead.transpose();
+  }
+  if (isHidden(object, BoxSide::kLeft) || isHidden(object, BoxSide::kRight)) {
+    center.covariance += square(kHiddenMiddle) * aside * aside.transpose();
+  }
+  return center;
 }
 
 }  // namespace
@@ -57,7 +80,8 @@ void measureVelocities(const std::vector<PointVelocity>& points,
     }
   }
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    const std::optional<SharedVelocity> shared = sharedVelocity(on_object[i], options.shared);
+    const std::optional<SharedVelocity> shared =
+        sharedVelocity(on_object[i], centerOf(objects[i]), options.shared);
     objects[i].velocity =
         shared ? std::make_optional(MeasuredVelocity{shared->velocity, shared->covariance})
                : std::nullopt;

@@ -83,7 +83,8 @@ TEST(FeatureFlow, AWalkerShowsItsVelocity) {
     const auto points = pointsNear(flow.measure(world, time), walker, true);
     on_walker.insert(on_walker.end(), points.begin(), points.end());
   }
-  const auto shared = sharedVelocity(on_walker, SharedVelocityOptions());
+  const auto shared =
+      sharedVelocity(on_walker, {{10.0, 0.0}, Eigen::Matrix2d::Zero()}, SharedVelocityOptions());
   ASSERT_TRUE(shared);
   EXPECT_NEAR(shared->velocity.y(), 1.4, 0.3);
   EXPECT_NEAR(shared->velocity.x(), 0.0, 0.8);

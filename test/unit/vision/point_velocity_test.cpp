@@ -62,6 +62,17 @@ std::vector<PointVelocity> pedestrian(double distance, const Eigen::Vector3d& ve
   return points;
 }
 
+/// Whose center is known.
+BodyCenter centerAt(double distance) { return {{distance, 0.0}, Eigen::Matrix2d::Zero()}; }
+
+/// With errors of their own alone.
+std::vector<PointVelocity> independent(std::vector<PointVelocity> points) {
+  for (PointVelocity& point : points) {
+    point.common_covariance.setZero();
+  }
+  return points;
+}
+
 TEST(PointVelocity, IsAsComputedByHand) {
   Exposure earlier;  // the optical frame itself
   Exposure later;
@@ -118,23 +129,25 @@ TEST(PointVelocity, BadInputGivesNothing) {
 
 TEST(SharedVelocity, APedestrianAt20MetersTellsItsWalkFromOnePair) {
   Random random(2);
-  const auto shared =
-      sharedVelocity(pedestrian(20.0, {0.0, 1.4, 0.0}, 20, random), SharedVelocityOptions());
+  const auto shared = sharedVelocity(pedestrian(20.0, {0.0, 1.4, 0.0}, 20, random), centerAt(20.0),
+                                     SharedVelocityOptions());
   ASSERT_TRUE(shared);
   EXPECT_NEAR(shared->velocity.y(), 1.4, 0.3);
   EXPECT_GT(1.4 * 1.4 / shared->covariance(1, 1), 9.0) << "three standard deviations";
 }
 
 TEST(SharedVelocity, CovarianceIsHonestWithOutliers) {
+  SharedVelocityOptions rigid;
+  rigid.turn_rate = 0.0;
   constexpr int kObjects = 400;
   const Eigen::Vector3d velocity(1.0, 1.0, 0.0);
   Random random(3);
   double squared_errors = 0.0;
   for (int i = 0; i < kObjects; ++i) {
-    auto points = pedestrian(8.0, velocity, 16, random);
+    auto points = independent(pedestrian(8.0, velocity, 16, random));
     const auto background = pedestrian(9.0, {-10.0, 15.0, 0.0}, 4, random);
     points.insert(points.end(), background.begin(), background.end());
-    const auto shared = sharedVelocity(points, SharedVelocityOptions());
+    const auto shared = sharedVelocity(points, centerAt(8.0), rigid);
     ASSERT_TRUE(shared);
     EXPECT_NEAR(shared->inliers, 16.0, 2.0);
     const Eigen::Vector2d error = shared->velocity - velocity.head<2>();
@@ -147,31 +160,80 @@ TEST(SharedVelocity, CovarianceIsHonestWithOutliers) {
 
 TEST(SharedVelocity, WhatAllShareDoesNotAverageOut) {
   Random random(4);
-  auto points = pedestrian(8.0, Eigen::Vector3d::Zero(), 20, random);
-  const auto independent = sharedVelocity(points, SharedVelocityOptions());
+  auto points = independent(pedestrian(8.0, Eigen::Vector3d::Zero(), 20, random));
+  const auto own = sharedVelocity(points, centerAt(8.0), SharedVelocityOptions());
   for (PointVelocity& point : points) {
     point.common_covariance = 0.25 * Eigen::Matrix3d::Identity();
   }
-  const auto common = sharedVelocity(points, SharedVelocityOptions());
-  ASSERT_TRUE(independent && common);
-  const Eigen::Matrix2d expected = independent->covariance + 0.25 * Eigen::Matrix2d::Identity();
+  const auto common = sharedVelocity(points, centerAt(8.0), SharedVelocityOptions());
+  ASSERT_TRUE(own && common);
+  const Eigen::Matrix2d expected = own->covariance + 0.25 * Eigen::Matrix2d::Identity();
   EXPECT_TRUE(common->covariance.isApprox(expected));
 }
 
+/// The rear of a van, seen from behind: its points move aside while it turns about its middle.
+std::vector<PointVelocity> turningRear(double speed, double turn_rate, int count, Random& random) {
+  constexpr double kRear = 12.0;
+  constexpr double kMiddle = 14.5;
+  std::vector<PointVelocity> points;
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector3d point(kRear, random.uniform(-0.9, 0.9), random.uniform(0.4, 1.8));
+    points.push_back(measured(
+        point, {speed - turn_rate * point.y(), turn_rate * (kRear - kMiddle), 0.0}, random));
+  }
+  return independent(points);
+}
+
+TEST(SharedVelocity, OfABodyThatTurnsIsThatOfItsCenterAndHonest) {
+  constexpr int kBodies = 400;
+  constexpr double kHiddenMiddle = 1.3;
+  Random random(6);
+  BodyCenter center{{14.5, 0.0}, Eigen::Matrix2d::Zero()};
+  center.covariance(0, 0) = kHiddenMiddle * kHiddenMiddle;
+  SharedVelocityOptions options;
+  double squared_errors = 0.0;
+  for (int i = 0; i < kBodies; ++i) {
+    // Its middle is somewhere else than the box's.
+    const double hidden = random.normal(kHiddenMiddle);
+    const double turn_rate = random.normal(options.turn_rate);
+    const auto shared = sharedVelocity(turningRear(5.0, turn_rate, 12, random), center, options);
+    ASSERT_TRUE(shared);
+    const Eigen::Vector2d error = shared->velocity - Eigen::Vector2d(5.0, turn_rate * hidden);
+    squared_errors += error.dot(shared->covariance.inverse() * error);
+  }
+  const double nees = squared_errors / kBodies;
+  EXPECT_GT(nees, 1.5);
+  EXPECT_LT(nees, 3.0);
+}
+
+TEST(SharedVelocity, WhatStandsDoesNotTurnAndWhatIsSlowTurnsLittle) {
+  PointVelocity point;
+  point.position = {12.0, 0.0, 1.0};
+  point.covariance = 1e-4 * Eigen::Matrix3d::Identity();
+  const auto acrossVariance = [&](double speed) {
+    point.velocity.x() = speed;
+    const std::vector<PointVelocity> points(4, point);
+    return sharedVelocity(points, centerAt(14.0), SharedVelocityOptions())->covariance(1, 1);
+  };
+  EXPECT_NEAR(acrossVariance(0.0), 0.25e-4, 1e-6);
+  EXPECT_NEAR(acrossVariance(0.5), 0.25e-4 + 0.05 * 0.05 * 4.0, 1e-4) << "0.1 / m x 0.5 m/s";
+  EXPECT_NEAR(acrossVariance(20.0), 0.25e-4 + 0.2 * 0.2 * 4.0, 1e-4) << "0.2 rad/s";
+}
+
 TEST(SharedVelocity, TooFewThatAgreeGiveNothing) {
-  EXPECT_FALSE(sharedVelocity({}, SharedVelocityOptions()));
+  EXPECT_FALSE(sharedVelocity({}, centerAt(8.0), SharedVelocityOptions()));
   Random random(5);
-  EXPECT_FALSE(
-      sharedVelocity(pedestrian(8.0, Eigen::Vector3d::Zero(), 1, random), SharedVelocityOptions()));
+  EXPECT_FALSE(sharedVelocity(pedestrian(8.0, Eigen::Vector3d::Zero(), 1, random), centerAt(8.0),
+                              SharedVelocityOptions()));
 }
 
 TEST(SharedVelocity, OptionsOutOfRangeAreRefused) {
   SharedVelocityOptions options;
   options.outlier_share = 1.0;
-  EXPECT_THROW(sharedVelocity({}, options), std::invalid_argument);
+  EXPECT_THROW(sharedVelocity({}, centerAt(8.0), options), std::invalid_argument);
   options = {};
   options.max_speed = 0.0;
-  EXPECT_THROW(sharedVelocity({}, options), std::invalid_argument);
+  EXPECT_THROW(sharedVelocity({}, centerAt(8.0), options), std::invalid_argument);
 }
 
 }  // namespace
