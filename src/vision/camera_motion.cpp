@@ -72,6 +72,12 @@ Projection project(const StereoRig& rig, const Eigen::Vector3d& point) {
   return result;
 }
 
+Eigen::Isometry3d inSpace(const Pose2& pose) {
+  Eigen::Isometry3d result(Eigen::AngleAxisd(pose.heading(), Eigen::Vector3d::UnitZ()));
+  result.translation().head<2>() = pose.position();
+  return result;
+}
+
 /// A feature, ready to be compared: where it was (m, earlier frame), how that changes with the
 /// disparity (m/px), and where it is seen.
 struct FeatureSample {
@@ -167,6 +173,17 @@ void CameraMotionOptions::visit(OptionVisitor& visitor) {
                  max_residual, {1.0, 1000.0});
   visitor.number({"min_inliers", "1", "features that stand, below which the motion is not known"},
                  min_inliers, {3.0, 1e4});
+}
+
+CameraMotion priorMotion(const CameraMotionPrior& prior, const Eigen::Isometry3d& mounted_earlier,
+                         const Eigen::Isometry3d& mounted_later) {
+  CameraMotion motion;
+  motion.earlier_in_later =
+      mounted_later.inverse() * inSpace(prior.moved.inverse()) * mounted_earlier;
+  motion.covariance.setZero();
+  motion.covariance.diagonal().head<3>().setConstant(square(prior.turn_sigma * prior.seconds));
+  motion.covariance.diagonal().tail<3>().setConstant(square(prior.speed_sigma * prior.seconds));
+  return motion;
 }
 
 std::optional<CameraMotion> cameraMotion(const StereoRig& rig,

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "datmo_fusion/common/angle.h"
-#include "datmo_fusion/common/square.h"
 
 namespace datmo::simulator {
 
@@ -163,14 +162,9 @@ StereoFeature FeatureFlow::noisy(StereoFeature feature) {
 
 CameraMotion FeatureFlow::prior(const View& before, const View& now) const {
   const Eigen::Isometry3d mount = mountOf(options_, 0.0);
-  const double seconds = now.time - before.time;
-  CameraMotion motion;
-  motion.earlier_in_later =
-      mount.inverse() * inSpace(now.state.base.inverse() * before.state.base) * mount;
-  motion.covariance.setZero();
-  motion.covariance.diagonal().head<3>().setConstant(square(kTurnSigma * seconds));
-  motion.covariance.diagonal().tail<3>().setConstant(square(kSpeedSigma * seconds));
-  return motion;
+  return priorMotion({before.state.base.inverse() * now.state.base, now.time - before.time,
+                      kTurnSigma, kSpeedSigma},
+                     mount, mount);
 }
 
 }  // namespace datmo::simulator

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "datmo_fusion/common/options.h"
+#include "datmo_fusion/common/pose2.h"
 #include "datmo_fusion/vision/point_velocity.h"
 #include "datmo_fusion/vision/stereo_rig.h"
 
@@ -29,6 +30,19 @@ struct CameraMotion {
   MotionCovariance covariance = MotionCovariance::Identity();
   double inliers = 0.0;  ///< features that stand, sum of their probabilities
 };
+
+/// What is known without the images of how a camera on a vehicle moved.
+struct CameraMotionPrior {
+  Pose2 moved;  ///< pose of the vehicle at the later exposure in its frame at the earlier one
+  double seconds = 0.0;      ///< between the exposures, > 0
+  double turn_sigma = 0.0;   ///< rad/s, > 0, about each axis
+  double speed_sigma = 0.0;  ///< m/s, > 0, along each axis
+};
+
+/// That as a motion of the camera; `mounted_earlier`, `mounted_later`: the camera in the vehicle's
+/// frame, z up.
+CameraMotion priorMotion(const CameraMotionPrior& prior, const Eigen::Isometry3d& mounted_earlier,
+                         const Eigen::Isometry3d& mounted_later);
 
 struct CameraMotionOptions {
   double moving_share = 0.3;   ///< 1

@@ -7,7 +7,6 @@
 
 #include <sensor_msgs/image_encodings.h>
 
-#include "datmo_fusion/common/square.h"
 #include "datmo_fusion/ros/convert/stereo_image_conversion.h"
 #include "datmo_fusion/ros/convert/velocity_conversion.h"
 #include "datmo_fusion/ros/frames.h"
@@ -22,12 +21,6 @@ constexpr double kUnknownSpeed = 20.0;
 
 /// rad/s, the same of a turn.
 constexpr double kUnknownTurn = 0.5;
-
-Eigen::Isometry3d inSpace(const Pose2& pose) {
-  Eigen::Isometry3d result(Eigen::AngleAxisd(pose.heading(), Eigen::Vector3d::UnitZ()));
-  result.translation().head<2>() = pose.position();
-  return result;
-}
 
 StereoRig rigOf(const image_geometry::StereoCameraModel& model,
                 const PointVelocityStageOptions& options) {
@@ -97,15 +90,20 @@ void PointVelocityStage::takePose(const geometry_msgs::PoseWithCovarianceStamped
 sensor_msgs::PointCloud2Ptr PointVelocityStage::takeImage(StereoSide side,
                                                           const sensor_msgs::ImageConstPtr& image) {
   return runner_.serve([&] {
-    runner_.check(side == StereoSide::kLeft ? "left" : "right", image->header.stamp);
     checkImage(*image);
+    runner_.check(side == StereoSide::kLeft ? "left/image" : "right/image", image->header.stamp);
     return serve(pairs_.takeImage(side, image));
   });
 }
 
 sensor_msgs::PointCloud2Ptr PointVelocityStage::takeInfo(
     StereoSide side, const sensor_msgs::CameraInfoConstPtr& info) {
-  return runner_.serve([&] { return serve(pairs_.takeInfo(side, info)); });
+  return runner_.serve([&] {
+    // A clock that jumped back is known by whichever comes first, and takes nothing newer with it.
+    runner_.check(side == StereoSide::kLeft ? "left/camera_info" : "right/camera_info",
+                  info->header.stamp);
+    return serve(pairs_.takeInfo(side, info));
+  });
 }
 
 sensor_msgs::PointCloud2Ptr PointVelocityStage::serve(const std::optional<StereoPair>& pair) {
@@ -133,12 +131,15 @@ std::vector<PointVelocity> PointVelocityStage::velocitiesOf(const StereoPair& pa
     return rectifiedImage(frame.image, sensor_msgs::image_encodings::MONO8, camera,
                           options_.rectified);
   };
-  const std::vector<FeatureQuad> quads =
-      matcher_.match(gray(pair.left, model.left()), gray(pair.right, model.right()));
   const std::string& frame =
       options_.frames.camera.empty() ? pair.left.image->header.frame_id : options_.frames.camera;
   const LastPair now{pair.left.stamp, sensorMount(transforms_.core(), options_.frames.base, frame)};
-  const std::optional<LastPair> last = std::exchange(last_, now);
+  // From here on the matcher's last images may be these or those before: unless all goes well the
+  // time of neither is kept, for a wrong one would scale all velocities.
+  const std::optional<LastPair> last = std::exchange(last_, std::nullopt);
+  const std::vector<FeatureQuad> quads =
+      matcher_.match(gray(pair.left, model.left()), gray(pair.right, model.right()));
+  last_ = now;
   if (!last || secondsBetween(last->stamp, now.stamp) > options_.max_interval) {
     return {};
   }
@@ -154,19 +155,11 @@ std::vector<PointVelocity> PointVelocityStage::velocitiesOf(const StereoPair& pa
 }
 
 CameraMotion PointVelocityStage::priorSince(const LastPair& last, const LastPair& now) const {
-  const double seconds = secondsBetween(last.stamp, now.stamp);
   const std::optional<Pose2> moved = motion_.between(last.stamp, now.stamp);
-  const double turn = seconds * (moved ? options_.turn_sigma : kUnknownTurn);
-  const double shift = seconds * (moved ? options_.speed_sigma : kUnknownSpeed);
-  CameraMotion prior;
-  if (moved) {
-    prior.earlier_in_later =
-        now.camera_in_base.inverse() * inSpace(moved->inverse()) * last.camera_in_base;
-  }
-  prior.covariance.setZero();
-  prior.covariance.diagonal().head<3>().setConstant(square(turn));
-  prior.covariance.diagonal().tail<3>().setConstant(square(shift));
-  return prior;
+  return priorMotion(
+      {moved.value_or(Pose2()), secondsBetween(last.stamp, now.stamp),
+       moved ? options_.turn_sigma : kUnknownTurn, moved ? options_.speed_sigma : kUnknownSpeed},
+      last.camera_in_base, now.camera_in_base);
 }
 
 void PointVelocityStage::connect(StagePorts& ports) {

@@ -2,7 +2,10 @@
 #include "datmo_fusion/ros/stage/stereo_objects_stage.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include <boost/make_shared.hpp>
@@ -16,21 +19,26 @@ namespace datmo {
 void StereoObjectsStageOptions::visit(OptionVisitor& visitor) {
   StereoInputOptions::visit(visitor);
   detector.visit(visitor);
-  visitor.group("velocity", [&] { velocity.visit(visitor); });
+  visitor.group("velocity", [&] {
+    velocity.visit(visitor);
+    wait.visit(visitor);
+  });
 }
 
 StereoObjectsStage::StereoObjectsStage(const StereoObjectsStageOptions& options,
                                        const TransformBuffer& transforms, StageMonitor& monitor)
     : options_(options),
       monitor_(monitor),
-      runner_(monitor, options.input, "forgets the road of the last clouds",
-              [this] {
-                detector_.reset();
-                velocities_.reset();
-              }),
+      runner_(monitor, options.input, "forgets the road of the last clouds", [this] { reset(); }),
       input_(options, transforms),
-      detector_(options.detector) {
+      detector_(options.detector),
+      wait_(options.wait, monitor) {
   checkOptions(options);
+}
+
+void StereoObjectsStage::reset() {
+  detector_.reset();
+  wait_.clear();
 }
 
 void StereoObjectsStage::takeCameraInfo(const sensor_msgs::CameraInfo& message) {
@@ -45,22 +53,49 @@ void StereoObjectsStage::takeVelocities(const sensor_msgs::PointCloud2& message)
     }
     std::vector<PointVelocity> points = pointVelocities(message);
     runner_.check("point_velocities", message.header.stamp);
-    velocities_ = {toStamp(message.header.stamp), std::move(points)};
+    const std::size_t bad = std::size_t{message.width} * message.height - points.size();
+    if (bad > 0) {
+      monitor_.warned(InputError("bad_velocity",
+                                 std::to_string(bad) +
+                                     " points with velocity with numbers that are not finite, or a "
+                                     "covariance that is not positive definite: left out"));
+    }
+    monitor_.figure("bad points with velocity", static_cast<double>(bad_points_ += bad));
+    wait_.addPoints(toStamp(message.header.stamp), std::move(points));
   });
 }
 
 ObjectArrayPtr StereoObjectsStage::takeCloud(const sensor_msgs::PointCloud2& message) {
   return runner_.serve("points2", message, [&] {
+    const Stopwatch watch;
     CloudPoints points(message);
     const StereoCloud cloud = input_.cloudOf(message.header, points);
     runner_.check("points2", message.header.stamp);
     StereoObjects objects = objectsOf(cloud);
-    measure(objects);
     show(objects);
-    auto array = boost::make_shared<ObjectArray>(toMessage(objects.list, options_.frames.base));
-    runner_.processed(cloud.stamp);
-    return array;
+    wait_.addObjects(std::move(objects.list), watch.seconds());
+    std::optional<VelocityWait::Served> served = wait_.next();
+    return served ? finish(std::move(*served)) : nullptr;
   });
+}
+
+ObjectArrayPtr StereoObjectsStage::next(Stamp now) {
+  return runner_.serve([&] {
+    std::optional<VelocityWait::Served> served = wait_.next(now);
+    return served ? finish(std::move(*served)) : nullptr;
+  });
+}
+
+ObjectArrayPtr StereoObjectsStage::finish(VelocityWait::Served served) {
+  const Stopwatch watch;
+  ObjectList& list = served.list;
+  if (served.points) {
+    measure(*served.points, list.objects);
+  }
+  auto array = boost::make_shared<ObjectArray>(toMessage(list, options_.frames.base));
+  // The time that it waited is not the stage's.
+  monitor_.processed({list.stamp, served.seconds + watch.seconds()});
+  return array;
 }
 
 StereoObjects StereoObjectsStage::objectsOf(const StereoCloud& cloud) {
@@ -71,13 +106,10 @@ StereoObjects StereoObjectsStage::objectsOf(const StereoCloud& cloud) {
   }
 }
 
-void StereoObjectsStage::measure(StereoObjects& objects) {
-  if (!velocities_ || velocities_->stamp != objects.list.stamp) {
-    return;
-  }
-  std::vector<Object>& listed = objects.list.objects;
-  measureVelocities(velocities_->points, options_.velocity, listed);
-  const auto measured = std::count_if(listed.begin(), listed.end(), [](const Object& object) {
+void StereoObjectsStage::measure(const std::vector<PointVelocity>& points,
+                                 std::vector<Object>& objects) {
+  measureVelocities(points, options_.velocity, objects);
+  const auto measured = std::count_if(objects.begin(), objects.end(), [](const Object& object) {
     return object.velocity.has_value();
   });
   monitor_.figure("objects with velocity", static_cast<double>(measured));
@@ -90,10 +122,16 @@ void StereoObjectsStage::show(const StereoObjects& objects) {
 }
 
 void StereoObjectsStage::connect(StagePorts& ports) {
-  const auto objects = ports.out<ObjectArray>("objects/stereo");
+  published_ = ports.out<ObjectArray>("objects/stereo");
   ports.optionalIn<sensor_msgs::PointCloud2>(
       "point_velocities", [this](const auto& points, Stamp /*now*/) { takeVelocities(*points); });
-  connectStereo(ports, *this, objects);
+  connectStereo(ports, *this, published_);
+}
+
+bool StereoObjectsStage::publishNext(Stamp now) {
+  const ObjectArrayPtr objects = next(now);
+  published_.publish(objects);
+  return objects != nullptr;
 }
 
 }  // namespace datmo

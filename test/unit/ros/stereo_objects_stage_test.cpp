@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/stage/stereo_objects_stage.h"
 
+#include <limits>
 #include <random>
+#include <vector>
 
 #include "cloud_samples.h"
 #include "monitor_counts.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/convert/velocity_conversion.h"
 #include "datmo_fusion/tracking/object_check.h"
 
 namespace datmo::stereo_objects_stage_test {
@@ -29,6 +32,27 @@ class StereoObjectsStageTest : public testing::Test {
     sensor_msgs::PointCloud2 message = samples::cloud(samples::wallOnARoad(-0.09, 0.09, 1.5));
     message.header.stamp = ros::Time(seconds);
     return message;
+  }
+
+  /// Of the car, which goes ahead.
+  static std::vector<PointVelocity> velocities() {
+    PointVelocity point;
+    point.position = {2.0 + samples::kWallAhead, 0.0, 1.0};
+    point.velocity = {5.0, 0.0, 0.0};
+    point.covariance = 0.04 * Eigen::Matrix3d::Identity();
+    point.common_covariance = 0.01 * Eigen::Matrix3d::Identity();
+    return std::vector<PointVelocity>(10, point);
+  }
+
+  static sensor_msgs::PointCloud2 velocitiesAt(double seconds) {
+    return *toMessage(velocities(), Stamp::fromSeconds(seconds), "base_link");
+  }
+
+  static void expectCarWithVelocity(const ObjectArrayPtr& objects, double seconds) {
+    expectCar(objects);
+    EXPECT_EQ(objects->header.stamp, ros::Time(seconds));
+    EXPECT_NEAR(objects->objects.front().velocity.x, 5.0, 1e-3);
+    EXPECT_GT(objects->objects.front().velocity_covariance[0], 0.01);
   }
 
   static void expectCar(const ObjectArrayPtr& objects) {
@@ -144,6 +168,59 @@ TEST_F(StereoObjectsStageTest, AJumpBackStartsAnew) {
   expectCar(stage_.takeCloud(carAt(100.0)));
   EXPECT_EQ(samples::warnings(monitor_, "clock_restart"), 1U);
   EXPECT_EQ(monitor_.droppedCount(), 0U);
+}
+
+TEST_F(StereoObjectsStageTest, PointsWithVelocityGiveObjectsTheirsInEitherOrder) {
+  const Stamp now = Stamp::fromSeconds(1000.0);
+  stage_.takeVelocities(velocitiesAt(kStart));
+  expectCarWithVelocity(stage_.takeCloud(carAt(kStart)), kStart);
+  EXPECT_FALSE(stage_.takeCloud(carAt(kStart + 0.1))) << "waits";
+  EXPECT_FALSE(stage_.next(now));
+  stage_.takeVelocities(velocitiesAt(kStart + 0.1));
+  expectCarWithVelocity(stage_.next(now), kStart + 0.1);
+  EXPECT_FALSE(stage_.next(now));
+  EXPECT_EQ(monitor_.processedCount(), 2U);
+  EXPECT_EQ(monitor_.droppedCount() + monitor_.warningCount(), 0U);
+}
+
+TEST_F(StereoObjectsStageTest, ACloudWhoseVelocitiesDoNotComeGoesOnWithout) {
+  stage_.takeVelocities(velocitiesAt(kStart));
+  expectCar(stage_.takeCloud(carAt(kStart)));
+  EXPECT_FALSE(stage_.takeCloud(carAt(kStart + 0.1)));
+  EXPECT_FALSE(stage_.next(Stamp::fromSeconds(1000.0)));
+  const auto objects = stage_.next(Stamp::fromSeconds(1000.0 + stage_.maxWait()));
+  expectCar(objects);
+  EXPECT_EQ(objects->objects.front().velocity_covariance[0], 0.0);
+  EXPECT_EQ(samples::warnings(monitor_, "no_velocities"), 1U);
+  stage_.takeVelocities(velocitiesAt(kStart + 0.1));
+  EXPECT_EQ(drops("late_velocities"), 1U);
+}
+
+TEST_F(StereoObjectsStageTest, PointsWithBadVelocityAreLeftOutAndCounted) {
+  std::vector<PointVelocity> points = velocities();
+  points[0].velocity.x() = std::numeric_limits<double>::quiet_NaN();
+  points[1].covariance(0, 1) = points[1].covariance(1, 0) = 1.0;
+  points[2].common_covariance(0, 0) = -1.0;
+  stage_.takeVelocities(*toMessage(points, Stamp::fromSeconds(kStart), "base_link"));
+  EXPECT_EQ(samples::warnings(monitor_, "bad_velocity"), 1U);
+  EXPECT_EQ(monitor_.figures().at("bad points with velocity"), 3.0);
+  expectCarWithVelocity(stage_.takeCloud(carAt(kStart)), kStart);
+}
+
+TEST_F(StereoObjectsStageTest, BadListsOfPointsWithVelocityAreDropped) {
+  sensor_msgs::PointCloud2 message = velocitiesAt(kStart);
+  message.header.frame_id = "camera";
+  stage_.takeVelocities(message);
+  EXPECT_EQ(drops("wrong_frame"), 1U);
+  message = velocitiesAt(kStart);
+  message.fields.pop_back();
+  stage_.takeVelocities(message);
+  EXPECT_EQ(drops("missing_field"), 1U);
+  message = velocitiesAt(kStart);
+  message.data.pop_back();
+  stage_.takeVelocities(message);
+  EXPECT_EQ(drops("wrong_size"), 1U);
+  EXPECT_EQ(stage_.takeCloud(carAt(kStart))->objects.front().velocity_covariance[0], 0.0);
 }
 
 TEST_F(StereoObjectsStageTest, BadOptionsAreRefused) {

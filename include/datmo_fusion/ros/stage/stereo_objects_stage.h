@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
+#include <cstdint>
 #include <vector>
 
 #include <sensor_msgs/CameraInfo.h>
@@ -12,6 +12,7 @@
 #include "datmo_fusion/ros/stage/stage.h"
 #include "datmo_fusion/ros/stage/stage_runner.h"
 #include "datmo_fusion/ros/stage/stereo_input.h"
+#include "datmo_fusion/ros/stage/velocity_wait.h"
 #include "datmo_fusion/ros/transform_buffer.h"
 #include "datmo_fusion/vision/object_velocity.h"
 
@@ -20,6 +21,7 @@ namespace datmo {
 struct StereoObjectsStageOptions : StereoInputOptions {
   StereoObjectDetectorOptions detector;
   ObjectVelocityOptions velocity;
+  VelocityWaitOptions wait;
 
   void visit(OptionVisitor& visitor);
 };
@@ -28,8 +30,9 @@ struct StereoObjectsStageOptions : StereoInputOptions {
 /// input is dropped through the monitor, never thrown. When the clock jumps back the road of the
 /// last clouds is forgotten.
 ///
-/// Points with velocity (velocity_conversion.h) of the cloud's stamp that come before it give the
-/// objects their velocities; without, these are not known.
+/// Points with velocity (velocity_conversion.h) of the cloud's stamp give the objects their
+/// velocities; without, these are not known. Where somebody publishes them, the objects wait for
+/// them (VelocityWait).
 class StereoObjectsStage : public Stage {
  public:
   using Options = StereoObjectsStageOptions;
@@ -44,20 +47,24 @@ class StereoObjectsStage : public Stage {
   /// Points with velocity, in the vehicle's frame.
   void takeVelocities(const sensor_msgs::PointCloud2& message);
 
-  /// Objects in the vehicle's frame at the cloud's stamp; null if the cloud was dropped.
+  /// Objects in the vehicle's frame at the cloud's stamp; null if the cloud was dropped, or its
+  /// objects wait. If those of an earlier cloud do, and need not any more, they come first.
   ObjectArrayPtr takeCloud(const sensor_msgs::PointCloud2& message);
 
+  /// The next objects that have waited; null if there are none. To be called until null, after each
+  /// input and from time to time. `now`: ROS time.
+  ObjectArrayPtr next(Stamp now);
+
   void connect(StagePorts& ports) override;
+  bool publishNext(Stamp now) override;
+  double maxWait() const override { return options_.wait.max_wait; }
 
  private:
-  struct Velocities {
-    Stamp stamp;
-    std::vector<PointVelocity> points;
-  };
-
+  void reset();
   /// Throws InputError (`bad_camera`) for one that is not mounted as one that sees the road.
   StereoObjects objectsOf(const StereoCloud& cloud);
-  void measure(StereoObjects& objects);
+  ObjectArrayPtr finish(VelocityWait::Served served);
+  void measure(const std::vector<PointVelocity>& points, std::vector<Object>& objects);
   void show(const StereoObjects& objects);
 
   StereoObjectsStageOptions options_;
@@ -65,7 +72,9 @@ class StereoObjectsStage : public Stage {
   StageRunner runner_;
   StereoInput input_;
   StereoObjectDetector detector_;
-  std::optional<Velocities> velocities_;  ///< the newest
+  VelocityWait wait_;
+  std::uint64_t bad_points_ = 0;  ///< with velocity, since the start
+  StagePublisher<ObjectArray> published_;
 };
 
 }  // namespace datmo
