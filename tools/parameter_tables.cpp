@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "parameter_tables.h"
 
+#include <set>
 #include <vector>
 
 #include "datmo_fusion/common/option_table.h"
 #include "datmo_fusion/ros/display/camera_view_options.h"
 #include "datmo_fusion/ros/display/grid_views_options.h"
 #include "datmo_fusion/ros/display/markers.h"
+#include "datmo_fusion/ros/scanner_options.h"
 #include "datmo_fusion/ros/shared_options.h"
 #include "datmo_fusion/ros/stage/cloud_objects_stage.h"
 #include "datmo_fusion/ros/stage/cloud_to_scan_stage.h"
@@ -24,6 +26,8 @@
 #include "datmo_fusion/ros/stage/stereo_objects_stage.h"
 #include "datmo_fusion/ros/stage/track_fusion_stage.h"
 #include "datmo_fusion/ros/stage/tracker_stage.h"
+#include "datmo_fusion/ros/stereo_camera_options.h"
+#include "datmo_fusion/ros/vehicle_options.h"
 
 namespace datmo {
 
@@ -36,9 +40,14 @@ struct Section {
   std::string expert_table;
 };
 
+/// What the sections of all nodelets say is listed there alone.
 template <typename Options>
 Section section(const std::string& nodelets) {
-  return {nodelets, publicOptionTable<Options>(), expertOptionTable<Options>()};
+  std::set<std::string> shared;
+  for (const SharedKey& key : sharedKeysOf<Options>()) {
+    shared.insert(key.own);
+  }
+  return {nodelets, publicOptionTable<Options>(shared), expertOptionTable<Options>(shared)};
 }
 
 constexpr const char* kHead =
@@ -62,6 +71,9 @@ std::vector<Section> sections() {
   return {section<FrameOptions>("`frames`, of all nodelets"),
           section<MountOptions>("`mounts/<frame>`, of all nodelets, for each sensor without tf"),
           section<MotionOptions>("`motion`, of all nodelets"),
+          section<ScannerOptions>("`scanner`, of all nodelets"),
+          section<StereoSceneOptions>("`stereo_camera`, of all nodelets"),
+          section<VehicleOptions>("`vehicle`, of all nodelets"),
           section<CloudToScanStageOptions>("`cloud_to_scan`"),
           section<LidarGridStageOptions>("`lidar_grid`"),
           section<StereoGridStageOptions>("`stereo_grid`"),

@@ -11,7 +11,8 @@ namespace {
 
 class TableWriter : public OptionVisitor {
  public:
-  explicit TableWriter(std::optional<bool> is_public) : is_public_(is_public) {
+  TableWriter(std::optional<bool> is_public, const std::set<std::string>& left_out)
+      : is_public_(is_public), left_out_(left_out) {
     table_ << "| parameter | unit | default | range | description |\n"
            << "|---|---|---|---|---|\n";
   }
@@ -64,7 +65,8 @@ class TableWriter : public OptionVisitor {
   }
 
   void row(const OptionInfo& info, const std::string& value, const std::string& range) {
-    if (is_public_ && *is_public_ != (tier(info) >= Tier::kPublic)) {
+    const bool other_tier = is_public_ && *is_public_ != (tier(info) >= Tier::kPublic);
+    if (other_tier || left_out_.count(key(info)) > 0) {
       return;
     }
     has_rows_ = true;
@@ -74,14 +76,16 @@ class TableWriter : public OptionVisitor {
   }
 
   std::optional<bool> is_public_;
+  const std::set<std::string>& left_out_;
   bool has_rows_ = false;
   std::ostringstream table_;
 };
 
 }  // namespace
 
-std::string detail::tableOf(const OptionWalk& visit, std::optional<bool> is_public) {
-  TableWriter writer(is_public);
+std::string detail::tableOf(const OptionWalk& visit, std::optional<bool> is_public,
+                            const std::set<std::string>& left_out) {
+  TableWriter writer(is_public, left_out);
   visit(writer);
   return writer.table();
 }

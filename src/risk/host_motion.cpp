@@ -38,12 +38,16 @@ double speedAfter(double speed, double acceleration, double seconds) {
 }  // namespace
 
 void HostVehicleOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"length", "m", "of the vehicle, bumper to bumper"}, length, {0.1, 30.0});
-  visitor.number({"width", "m", "of the vehicle without mirrors"}, width, {0.1, 5.0});
-  visitor.number({"rear_overhang", "m", "from the rear bumper to the rear axle (base_link)"},
-                 rear_overhang, {0.0, 10.0});
-  visitor.number({"wheelbase", "m", "from axle to axle; of the bicycle model (thesis 5.3.5)"},
-                 wheelbase, {0.1, 15.0});
+  visitor.number({"length", "m", "of the vehicle, bumper to bumper", Tier::kPublic}, length,
+                 {0.1, 30.0});
+  visitor.number({"width", "m", "of the vehicle without mirrors", Tier::kPublic}, width,
+                 {0.1, 5.0});
+  visitor.number(
+      {"rear_overhang", "m", "from the rear bumper to the rear axle (base_link)", Tier::kPublic},
+      rear_overhang, {0.0, 10.0});
+  visitor.number(
+      {"wheelbase", "m", "from axle to axle; of the bicycle model (thesis 5.3.5)", Tier::kPublic},
+      wheelbase, {0.1, 15.0});
   visitor.number({"max_steering", "rad", "angle of the front wheels at full lock"}, max_steering,
                  {0.05, 1.5});
   visitor.number({"max_steering_rate", "rad/s",

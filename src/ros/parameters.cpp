@@ -74,12 +74,11 @@ OptionValues readParameters(const ros::NodeHandle& node) {
 
 SharedOptions loadSharedOptions(const ros::NodeHandle& private_node) {
   const ros::NodeHandle around(ros::names::parentNamespace(private_node.getNamespace()));
-  const auto section = [&around](const char* name) {
+  const auto section = [&around](const std::string& name) {
     return readParameters(ros::NodeHandle(around, name));
   };
   try {
-    return readSharedOptions(section(kFramesSection), section(kMountsSection),
-                             section(kMotionSection));
+    return readSharedOptions(section);
   } catch (const OptionError& error) {
     ROS_FATAL("%s does not start: %s", private_node.getNamespace().c_str(), error.what());
     throw;

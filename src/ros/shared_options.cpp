@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/shared_options.h"
 
+#include <set>
+
 #include "datmo_fusion/ros/frame_ids.h"
+#include "datmo_fusion/ros/scanner_options.h"
+#include "datmo_fusion/ros/stereo_camera_options.h"
+#include "datmo_fusion/ros/vehicle_options.h"
 
 namespace datmo {
 
@@ -39,24 +44,95 @@ FrameOptions readFrames(const OptionValues& values) {
   return frames;
 }
 
-}  // namespace
+/// Of these 0 says that nobody knows, and each stage has its own default.
+const std::set<std::string> kUnknownIfZero = {"scanner/range_sigma", "stereo_camera/min_depth"};
 
-SharedOptions readSharedOptions(const OptionValues& frames, const OptionValues& mounts,
-                                const OptionValues& motion) {
-  return {inSection(kFramesSection, [&] { return readFrames(frames); }),
-          inSection(kMountsSection, [&] { return readMounts(mounts); }),
-          inSection(kMotionSection, [&] { return readOptions<MotionOptions>(motion); })};
+/// What stereo_image_proc and point_velocity agree on.
+const std::vector<std::string> kPairing = {"approximate_sync", "pair_tolerance"};
+
+bool isZero(const OptionValue& value) {
+  return value == OptionValue(0) || value == OptionValue(0.0);
 }
 
-void detail::refuseMovedKeys(const OptionValues& stage_values) {
-  for (const auto& [key, value] : stage_values) {
-    const auto moved = kMovedKeys.find(key);
-    if (moved != kMovedKeys.end()) {
-      throw OptionError(key + " = " + toText(value) +
-                        ": expected once for all stages, at the top of the file, as " +
-                        moved->second);
+/// Adds what a section says, checked.
+template <typename Options>
+void addSection(const std::string& name, const SectionReader& section, OptionValues& sensors) {
+  const OptionValues values = section(name);
+  inSection(name, [&] { return readOptions<Options>(values); });
+  for (const auto& [key, value] : values) {
+    const std::string full_key = name + "/" + key;
+    if (kUnknownIfZero.count(full_key) == 0 || !isZero(value)) {
+      sensors[full_key] = value;
     }
   }
+}
+
+OptionValues readSensors(const SectionReader& section) {
+  OptionValues sensors;
+  addSection<ScannerOptions>(kScannerSection, section, sensors);
+  addSection<StereoSceneOptions>(kStereoCameraSection, section, sensors);
+  addSection<VehicleOptions>(kVehicleSection, section, sensors);
+  const OptionValues images = section(kStereoImagesSection);
+  for (const std::string& key : kPairing) {
+    if (const auto found = images.find(key); found != images.end()) {
+      sensors[kStereoImagesSection + ("/" + key)] = found->second;
+    }
+  }
+  return sensors;
+}
+
+/// `scanner/free_range` -> `scanner: {free_range: ...}`
+std::string inYaml(const std::string& key) {
+  std::string yaml;
+  std::string braces;
+  for (const char letter : key) {
+    if (letter == '/') {
+      yaml += ": {";
+      braces += "}";
+    } else {
+      yaml += letter;
+    }
+  }
+  return yaml + ": ..." + braces;
+}
+
+void refuse(const std::string& key, const OptionValue& value, const std::string& instead) {
+  throw OptionError(key + " = " + toText(value) +
+                    ": expected once for all stages, at the top of the file, as " + instead);
+}
+
+}  // namespace
+
+std::vector<std::string> sharedSections() {
+  return {kFramesSection,  kMountsSection,       kMotionSection,
+          kScannerSection, kStereoCameraSection, kVehicleSection};
+}
+
+SharedOptions readSharedOptions(const SectionReader& section) {
+  return {inSection(kFramesSection, [&] { return readFrames(section(kFramesSection)); }),
+          inSection(kMountsSection, [&] { return readMounts(section(kMountsSection)); }),
+          inSection(kMotionSection,
+                    [&] { return readOptions<MotionOptions>(section(kMotionSection)); }),
+          readSensors(section)};
+}
+
+OptionValues detail::withShared(const OptionValues& stage_values, const SharedKeys& keys,
+                                const OptionValues& shared) {
+  for (const auto& [key, value] : stage_values) {
+    if (const auto moved = kMovedKeys.find(key); moved != kMovedKeys.end()) {
+      refuse(key, value, moved->second);
+    }
+  }
+  OptionValues values = stage_values;
+  for (const SharedKey& key : keys) {
+    if (const auto own = stage_values.find(key.own); own != stage_values.end()) {
+      refuse(key.own, own->second, inYaml(key.shared));
+    }
+    if (const auto said = shared.find(key.shared); said != shared.end()) {
+      values[key.own] = said->second;
+    }
+  }
+  return values;
 }
 
 }  // namespace datmo

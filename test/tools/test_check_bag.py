@@ -32,7 +32,7 @@ class CleanRecording(Tool):
 
     def test_noise_is_measured_while_it_stands(self):
         _, _, content = self.run_tool(simulated.recording())
-        self.assertAlmostEqual(content["moving_objects"]["range_sigma"], simulated.RANGE_NOISE,
+        self.assertAlmostEqual(content["scanner"]["range_sigma"], simulated.RANGE_NOISE,
                                delta=0.005)  # fmt: skip
 
 

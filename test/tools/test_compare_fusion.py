@@ -52,12 +52,11 @@ PARAMETERS = """\
 
 | `effective_range` | m | 50 | 1 to 200 | another one's |
 
-## `stereo_objects`
+## `stereo_camera`, of all nodelets
 
 | parameter | unit | default | range | description |
 |---|---|---|---|---|
-| `camera_frame` |  | '' | any text | optical frame |
-| `camera/field_of_view` | rad | 1 | 0.1 to 3 | from left to right |
+| `field_of_view` | rad | 1 | 0.1 to 3 | from left to right |
 | `effective_range` | m | 36 | 1 to 200 | nothing is said beyond it |
 
 ## `tracker`, `stereo_tracker`
@@ -122,7 +121,7 @@ class Runs(unittest.TestCase):
                                   f"echo '{json.dumps(report(9, 1, 2))}' > \"$2\"; fi")  # fmt: skip
         for name in ("data_set_1.yaml", "data_set_2.yaml", "data_set_3.yaml"):
             (self.folder / name).touch()
-        self.config("stereo_objects: {camera: {field_of_view: 1.2}}")
+        self.config("stereo_camera: {field_of_view: 1.2}")
 
     def run_bag(self, first="true"):
         """run_bag that does `first`, a command of the shell."""
@@ -230,10 +229,10 @@ class Runs(unittest.TestCase):
         self.assertIn("data_set_3.yaml: no such file", err)
 
     def test_bad_field_of_view_is_named(self):
-        self.config("stereo_objects: {camera: {field_of_view: wide}}")
+        self.config("stereo_camera: {field_of_view: wide}")
         code, _, err = self.compare()
         self.assertEqual(code, 1)
-        self.assertIn("stereo_objects/camera/field_of_view is 'wide', expected a number", err)
+        self.assertIn("stereo_camera/field_of_view is 'wide', expected a number", err)
 
 
 class CameraViews(unittest.TestCase):
@@ -254,11 +253,11 @@ class CameraViews(unittest.TestCase):
             return camera_view(file, Path(folder))
 
     def test_of_the_sensor_set(self):
-        config = "stereo_objects: {effective_range: 20, camera: {field_of_view: 1.2}}"
+        config = "stereo_camera: {effective_range: 20, field_of_view: 1.2}"
         self.assertEqual(self.view(config), CameraView(20.0, 0.6))
 
     def test_else_of_the_stages_defaults(self):
-        for config in ("", "tracker: {effective_range: 9}", "stereo_objects: {camera: {}}"):
+        for config in ("", "tracker: {effective_range: 9}", "stereo_camera: {}"):
             self.assertEqual(self.view(config), CameraView(36.0, 0.5), config)
 
     def test_defaults_that_are_not_given_are_named(self):

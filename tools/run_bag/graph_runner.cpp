@@ -80,9 +80,9 @@ void GraphRunner::takeStaticTransforms(const tf2_msgs::TFMessage& message) {
 }
 
 bool GraphRunner::isFromSlam(const geometry_msgs::TransformStamped& transform) const {
-  const auto& [frames, mounts, motion] = shared_;
+  const FrameOptions& frames = shared_.frames;
   return transform.child_frame_id == frames.odom ||
-         (!motion.fromOdometry() && transform.child_frame_id == frames.base);
+         (!shared_.motion.fromOdometry() && transform.child_frame_id == frames.base);
 }
 
 Publications GraphRunner::takeTransforms(const tf2_msgs::TFMessage& message, Stamp now) {

@@ -37,7 +37,7 @@ std::string typeOf(const std::string& section) {
 }
 
 std::vector<std::string> sectionNames() {
-  std::vector<std::string> names{kFramesSection, kMountsSection, kMotionSection};
+  std::vector<std::string> names = sharedSections();
   for (const GraphStage& stage : wholeGraph()) {
     if (stage.name != kMotionSection) {
       names.push_back(stage.name);
@@ -70,8 +70,7 @@ SensorSet::SensorSet(const std::string& file, const std::vector<std::string>& pr
     file_ += " with " + preset;
   }
   try {
-    shared_ =
-        readSharedOptions(values(kFramesSection), values(kMountsSection), values(kMotionSection));
+    shared_ = readSharedOptions([this](const std::string& section) { return values(section); });
   } catch (const OptionError& error) {
     throw OptionError(file_ + ": " + error.what());
   }

@@ -17,7 +17,7 @@ class SensorSet {
   /// key.
   explicit SensorSet(const std::string& file, const std::vector<std::string>& presets = {});
 
-  /// Sections `frames`, `mounts` and `motion`.
+  /// What the sections say that are for all stages.
   const SharedOptions& shared() const { return shared_; }
 
   /// What the file says in a section; nothing if it has none of this name.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 
 #include "datmo_fusion/common/options.h"
@@ -9,13 +10,15 @@
 namespace datmo {
 
 namespace detail {
-/// The options of one tier, or all; empty if there are none.
-std::string tableOf(const OptionWalk& visit, std::optional<bool> is_public);
+/// The options of one tier, or all, but for those with these keys; empty if there are none.
+std::string tableOf(const OptionWalk& visit, std::optional<bool> is_public,
+                    const std::set<std::string>& left_out);
 
 template <typename Options>
-std::string tableOf(std::optional<bool> is_public) {
+std::string tableOf(std::optional<bool> is_public, const std::set<std::string>& left_out) {
   Options defaults;
-  return tableOf([&defaults](OptionVisitor& visitor) { defaults.visit(visitor); }, is_public);
+  return tableOf([&defaults](OptionVisitor& visitor) { defaults.visit(visitor); }, is_public,
+                 left_out);
 }
 }  // namespace detail
 
@@ -23,19 +26,19 @@ std::string tableOf(std::optional<bool> is_public) {
 /// it may be changed live. Empty if there are none.
 template <typename Options>
 std::string optionTable() {
-  return detail::tableOf<Options>(std::nullopt);
+  return detail::tableOf<Options>(std::nullopt, {});
 }
 
-/// Those that a user with another sensor, vehicle or city turns.
+/// Those that a user with another sensor, vehicle or city turns, but for some keys.
 template <typename Options>
-std::string publicOptionTable() {
-  return detail::tableOf<Options>(true);
+std::string publicOptionTable(const std::set<std::string>& left_out = {}) {
+  return detail::tableOf<Options>(true, left_out);
 }
 
-/// All others.
+/// All others, but for some keys.
 template <typename Options>
-std::string expertOptionTable() {
-  return detail::tableOf<Options>(false);
+std::string expertOptionTable(const std::set<std::string>& left_out = {}) {
+  return detail::tableOf<Options>(false, left_out);
 }
 
 }  // namespace datmo

@@ -7,7 +7,7 @@
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
-#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/sensor_model/own_vehicle.h"
 
 namespace datmo {
 
@@ -20,15 +20,6 @@ struct LidarCloud {
   Eigen::Isometry3d lidar_in_base = Eigen::Isometry3d::Identity();
 
   EIGEN_MAKE_ALIGNED_OPERATOR_NEW
-};
-
-/// The box around the vehicle in which points are its own (hood, mirrors, roof rack), in base_link.
-struct OwnVehicleOptions {
-  double rear = -1.0;       ///< m
-  double front = 1.0;       ///< m
-  double half_width = 0.5;  ///< m
-
-  void visit(OptionVisitor& visitor);
 };
 
 /// The points of `cloud` in base_link, in their order.

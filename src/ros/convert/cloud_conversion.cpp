@@ -167,7 +167,7 @@ void CloudPoints::keepDepths(double min_depth, double max_depth) {
     refuse("no_valid_point", "cloud of ", view_.count, " points, none of them from ", min_depth,
            " to ", limit,
            " m ahead of the camera: expected points in its optical frame (REP 103: z "
-           "ahead) and within camera/min_depth and max_depth");
+           "ahead) and within stereo_camera/min_depth and max_depth");
   }
   kept.resize(size);
   replace(std::move(kept));

@@ -70,6 +70,10 @@ void MarkersOptions::visit(OptionVisitor& visitor) {
   visitor.group("vehicle", [&] { vehicle.visit(visitor); });
 }
 
+SharedKeys MarkersOptions::sharedKeys() {
+  return SharedKeys().group<VehicleBodyOptions>("vehicle/", "vehicle/");
+}
+
 MarkerArray markersOf(const LabeledScanMessage& scan, const MarkersOptions& options) {
   std_msgs::Header header = scan.header;
   header.frame_id = scan.map_frame;

@@ -42,7 +42,7 @@ const std_msgs::ColorRGBA kTailLamp = color(0.8F, 0.0F, 0.0F);
 class Body {
  public:
   Body(std_msgs::Header header, const VehicleBodyOptions& options)
-      : header_(std::move(header)), options_(options), length_(options.front - options.rear) {
+      : header_(std::move(header)), options_(options) {
     header_.stamp = ros::Time();  // with frame_locked: it is where its frame is now
   }
 
@@ -53,11 +53,12 @@ class Body {
 
   void addBox(const Extent& extent, const std_msgs::ColorRGBA& color) {
     Marker box = part(Marker::CUBE, color);
-    box.pose.position = pointAt(options_.rear + 0.5 * (extent.rear + extent.front) * length_,
-                                extent.side * options_.half_width,
+    const double rear = -options_.rear_overhang;
+    box.pose.position = pointAt(rear + 0.5 * (extent.rear + extent.front) * options_.length,
+                                extent.side * 0.5 * options_.width,
                                 0.5 * (extent.bottom + extent.top) * options_.height);
-    box.scale.x = (extent.front - extent.rear) * length_;
-    box.scale.y = 2.0 * extent.width * options_.half_width;
+    box.scale.x = (extent.front - extent.rear) * options_.length;
+    box.scale.y = extent.width * options_.width;
     box.scale.z = (extent.top - extent.bottom) * options_.height;
     markers_.markers.push_back(box);
   }
@@ -65,13 +66,14 @@ class Body {
   void addWheel(double axle, double side) {
     Marker wheel = part(Marker::CYLINDER, kTire);
     const double diameter = kWheelDiameter * options_.height;
-    wheel.pose.position = pointAt(options_.rear + axle * length_,
-                                  side * (1.0 - kWheelWidth) * options_.half_width, 0.5 * diameter);
+    wheel.pose.position =
+        pointAt(-options_.rear_overhang + axle * options_.length,
+                side * (1.0 - kWheelWidth) * 0.5 * options_.width, 0.5 * diameter);
     wheel.pose.orientation.x = std::sin(kPi / 4.0);  // lies on its side
     wheel.pose.orientation.w = std::cos(kPi / 4.0);
     wheel.scale.x = diameter;
     wheel.scale.y = diameter;
-    wheel.scale.z = 2.0 * kWheelWidth * options_.half_width;
+    wheel.scale.z = kWheelWidth * options_.width;
     markers_.markers.push_back(wheel);
   }
 
@@ -88,19 +90,17 @@ class Body {
 
   std_msgs::Header header_;
   VehicleBodyOptions options_;
-  double length_;  ///< m
   MarkerArray markers_;
 };
 
 }  // namespace
 
 void VehicleBodyOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"rear", "m", "rear end of the vehicle as it is drawn, x of the base frame"}, rear,
-                 {-20.0, 0.0});
-  visitor.number({"front", "m", "its front end"}, front, {0.05, 20.0});
-  visitor.number({"half_width", "m", "from its middle to either side"}, half_width, {0.05, 5.0});
-  visitor.number({"height", "m", "of its roof over the ground", Tier::kPublic}, height,
-                 {0.05, 10.0});
+  visitor.number({"length", "m", "of the vehicle as it is drawn"}, length, {0.1, 30.0});
+  visitor.number({"width", "m", "the same"}, width, {0.1, 5.0});
+  visitor.number({"rear_overhang", "m", "from its rear end to the base frame"}, rear_overhang,
+                 {0.0, 10.0});
+  visitor.number({"height", "m", "of its roof over the ground"}, height, {0.05, 10.0});
 }
 
 MarkerArray vehicleMarkers(const std_msgs::Header& scan, const VehicleBodyOptions& options) {

@@ -21,6 +21,10 @@ void CloudObjectsStageOptions::visit(OptionVisitor& visitor) {
   detector.visit(visitor);
 }
 
+SharedKeys CloudObjectsStageOptions::sharedKeys() {
+  return SharedKeys().group<OwnVehicleOptions>("vehicle/", "vehicle/own_points/");
+}
+
 CloudObjectsStage::CloudObjectsStage(const CloudObjectsStageOptions& options,
                                      const TransformBuffer& transforms, StageMonitor& monitor)
     : options_(options),

@@ -24,6 +24,10 @@ void CloudToScanStageOptions::visit(OptionVisitor& visitor) {
   scan.visit(visitor);
 }
 
+SharedKeys CloudToScanStageOptions::sharedKeys() {
+  return SharedKeys().group<OwnVehicleOptions>("vehicle/", "vehicle/own_points/");
+}
+
 CloudToScanStage::CloudToScanStage(const CloudToScanStageOptions& options,
                                    const TransformBuffer& transforms, StageMonitor& monitor)
     : options_(options),

@@ -36,6 +36,13 @@ void GridSlamStageOptions::visit(OptionVisitor& visitor) {
   slam.visit(visitor);
 }
 
+SharedKeys GridSlamStageOptions::sharedKeys() {
+  return SharedKeys()
+      .group<ScanConversionOptions>("scan/", "scanner/")
+      .key("max_tilt", "scanner/max_tilt")
+      .key("matcher/point_sigma", "scanner/range_sigma");
+}
+
 GridSlamStage::GridSlamStage(const GridSlamStageOptions& options, const TransformBuffer& transforms,
                              StageMonitor& monitor)
     : options_(options),

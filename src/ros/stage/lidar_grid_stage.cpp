@@ -17,6 +17,13 @@ void LidarGridStageOptions::visit(OptionVisitor& visitor) {
   grid.visit(visitor);
 }
 
+SharedKeys LidarGridStageOptions::sharedKeys() {
+  return SharedKeys()
+      .group<ScanConversionOptions>("scan/", "scanner/")
+      .key("max_tilt", "scanner/max_tilt")
+      .key("beam_width", "scanner/beam_width");
+}
+
 LidarGridStage::LidarGridStage(const LidarGridStageOptions& options,
                                const TransformBuffer& transforms, StageMonitor& monitor)
     : options_(options),

@@ -23,6 +23,10 @@ void MovingObjectsStageOptions::visit(OptionVisitor& visitor) {
   visitor.group("border_filter", [&] { border_filter.visit(visitor); });
 }
 
+SharedKeys MovingObjectsStageOptions::sharedKeys() {
+  return SharedKeys().key("range_sigma", "scanner/range_sigma");
+}
+
 MovingObjectsStage::MovingObjectsStage(const MovingObjectsStageOptions& options,
                                        StageMonitor& monitor)
     : options_(options),

@@ -60,6 +60,12 @@ void PointVelocityStageOptions::visit(OptionVisitor& visitor) {
       max_interval, {0.02, 5.0});
 }
 
+SharedKeys PointVelocityStageOptions::sharedKeys() {
+  return SharedKeys()
+      .key("approximate_sync", "stereo_image_proc/approximate_sync")
+      .key("pair_tolerance", "stereo_image_proc/pair_tolerance");
+}
+
 PointVelocityStage::PointVelocityStage(const PointVelocityStageOptions& options,
                                        const TransformBuffer& transforms, StageMonitor& monitor)
     : options_(options),

@@ -40,6 +40,10 @@ void RiskStageOptions::visit(OptionVisitor& visitor) {
   risk.visit(visitor);
 }
 
+SharedKeys RiskStageOptions::sharedKeys() {
+  return SharedKeys().group<HostVehicleOptions>("vehicle/", "vehicle/");
+}
+
 RiskStage::RiskStage(const RiskStageOptions& options, StageMonitor& monitor)
     : options_(options),
       monitor_(monitor),

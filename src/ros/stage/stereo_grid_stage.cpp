@@ -22,6 +22,10 @@ void StereoGridStageOptions::visit(OptionVisitor& visitor) {
   grid.visit(visitor);
 }
 
+SharedKeys StereoGridStageOptions::sharedKeys() {
+  return StereoInputOptions::sharedKeys().key("min_depth", "stereo_camera/min_depth");
+}
+
 StereoGridStage::StereoGridStage(const StereoGridStageOptions& options,
                                  const TransformBuffer& transforms, StageMonitor& monitor)
     : options_(options),

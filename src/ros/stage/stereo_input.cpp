@@ -7,28 +7,16 @@
 
 namespace datmo {
 
-void StereoCameraOptions::visit(OptionVisitor& visitor) {
-  visitor.number(
-      {"focal_length", "px", "until a camera info has come; 0: not known", Tier::kPublic},
-      focal_length, {0.0, kMaxFocalLength});
-  visitor.number({"baseline", "m",
-                  "stereo: until a camera info has come, 0: not known; active_stereo: between its "
-                  "two cameras; structured_light: from the camera to the projector at its right",
-                  Tier::kPublic},
-                 baseline, {0.0, kMaxBaseline});
-  visitor.number(
-      {"field_of_view", "rad", "from left to right, until a camera info has come", Tier::kPublic},
-      field_of_view, {degrees(5.0), degrees(150.0)});
-  visitor.number({"min_depth", "m", "nearer points are left out: the camera's data sheet"},
-                 min_depth, {0.0, 100.0});
-  visitor.number({"max_depth", "m", "farther points are left out: the same; 0: none are"},
-                 max_depth, {0.0, 1000.0});
-  DepthNoiseOptions::visit(visitor);
-}
-
 void StereoInputOptions::visit(OptionVisitor& visitor) {
   visitor.group("camera", [&] { camera.visit(visitor); });
   visitor.group("input", [&] { input.visit(visitor); });
+}
+
+SharedKeys StereoInputOptions::sharedKeys() {
+  return SharedKeys()
+      .group<StereoCameraOptions>("camera/", "stereo_camera/")
+      .group<RoadPlaneOptions>("road/", "stereo_camera/road/")
+      .key("effective_range", "stereo_camera/effective_range");
 }
 
 StereoInput::StereoInput(const StereoInputOptions& options, const TransformBuffer& transforms)
@@ -38,11 +26,11 @@ StereoInput::StereoInput(const StereoInputOptions& options, const TransformBuffe
   checkOptions(options);
   const StereoCameraOptions& camera = options.camera;
   if (principle_ == DepthPrinciple::kActiveStereo && camera.baseline < kMinBaseline) {
-    throw OptionError("camera/baseline = " + std::to_string(camera.baseline) +
+    throw OptionError("stereo_camera/baseline = " + std::to_string(camera.baseline) +
                       ": expected that of the data sheet, in m, for depth_noise: active_stereo");
   }
   if (camera.max_depth > 0.0 && camera.min_depth >= camera.max_depth) {
-    throw OptionError("camera/min_depth = " + std::to_string(camera.min_depth) +
+    throw OptionError("stereo_camera/min_depth = " + std::to_string(camera.min_depth) +
                       ": expected less than max_depth = " + std::to_string(camera.max_depth));
   }
 }
@@ -83,9 +71,9 @@ StereoCamera StereoInput::configuredCamera() const {
   if (known.focal_length <= 0.0 || (pair && known.baseline <= 0.0)) {
     throw InputError("missing_camera_info",
                      pair ? "no info of the right camera yet: expected it, or focal_length and "
-                            "baseline of the parameter group camera"
+                            "baseline of the section stereo_camera"
                           : "no info of the depth camera yet: expected it, or focal_length of the "
-                            "parameter group camera");
+                            "section stereo_camera");
   }
   StereoCamera camera;
   camera.focal_length = known.focal_length;

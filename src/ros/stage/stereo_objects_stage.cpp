@@ -25,6 +25,10 @@ void StereoObjectsStageOptions::visit(OptionVisitor& visitor) {
   });
 }
 
+SharedKeys StereoObjectsStageOptions::sharedKeys() {
+  return StereoInputOptions::sharedKeys().key("surfaces/min_depth", "stereo_camera/min_depth");
+}
+
 StereoObjectsStage::StereoObjectsStage(const StereoObjectsStageOptions& options,
                                        const TransformBuffer& transforms, StageMonitor& monitor)
     : options_(options),

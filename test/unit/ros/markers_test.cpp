@@ -38,7 +38,7 @@ TEST(Markers, VehicleIsAsLargeAsItIsSaidToBeAndGoesWithItsFrame) {
   std_msgs::Header scan;
   scan.frame_id = "base_link";
   scan.stamp = ros::Time(5.0);
-  const MarkerArray markers = vehicleMarkers(scan, {-1.0, 3.0, 0.9, 1.5});
+  const MarkerArray markers = vehicleMarkers(scan, {4.0, 1.8, 1.0, 1.5});
   const Marker* body = find(markers, "vehicle", 0);
   ASSERT_NE(body, nullptr);
   EXPECT_TRUE(body->frame_locked);

@@ -1,11 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/shared_options.h"
 
+#include <sstream>
+
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/common/option_table.h"
+#include "datmo_fusion/ros/display/markers.h"
+#include "datmo_fusion/ros/scanner_options.h"
 #include "datmo_fusion/ros/stage/grid_slam_stage.h"
+#include "datmo_fusion/ros/stage/lidar_grid_stage.h"
+#include "datmo_fusion/ros/stage/moving_objects_stage.h"
+#include "datmo_fusion/ros/stage/risk_stage.h"
+#include "datmo_fusion/ros/stage/stereo_grid_stage.h"
+#include "datmo_fusion/ros/stage/stereo_objects_stage.h"
 #include "datmo_fusion/ros/stage/tracker_stage.h"
+#include "datmo_fusion/ros/vehicle_options.h"
 
 namespace datmo::shared_options_test {
 namespace {
@@ -27,9 +38,17 @@ void expectMentions(const std::string& message, const std::vector<std::string>& 
   }
 }
 
+/// Reads sections from what stands here.
+SharedOptions sharedOf(const std::map<std::string, OptionValues>& sections) {
+  return readSharedOptions([&sections](const std::string& name) {
+    const auto found = sections.find(name);
+    return found == sections.end() ? OptionValues() : found->second;
+  });
+}
+
 TEST(SharedOptions, FramesAreNamedOnceAndHonoredByEachStage) {
   const SharedOptions shared =
-      readSharedOptions({{"odom", std::string("/wheels")}, {"base", std::string("robot")}}, {}, {});
+      sharedOf({{"frames", {{"odom", std::string("/wheels")}, {"base", std::string("robot")}}}});
   const auto slam = readStageOptions<GridSlamStageOptions>({}, shared);
   EXPECT_EQ(slam.frames.odom, "wheels") << "without the slash";
   EXPECT_EQ(slam.frames.base, "robot");
@@ -39,19 +58,19 @@ TEST(SharedOptions, FramesAreNamedOnceAndHonoredByEachStage) {
 
 TEST(SharedOptions, UnknownKeysAndBadFramesAreNamedWithTheirSection) {
   expectMentions(errorOf([] {
-                   readSharedOptions({{"bse", std::string("robot")}}, {}, {});
+                   sharedOf({{"frames", {{"bse", std::string("robot")}}}});
                  }),
                  {"frames", "bse", "base"});
   expectMentions(errorOf([] {
-                   readSharedOptions({{"base", std::string("odom")}}, {}, {});
+                   sharedOf({{"frames", {{"base", std::string("odom")}}}});
                  }),
                  {"frames", "odom", "three different names"});
   expectMentions(errorOf([] {
-                   readSharedOptions({{"map", std::string("")}}, {}, {});
+                   sharedOf({{"frames", {{"map", std::string("")}}}});
                  }),
                  {"frames", "three different names"});
   expectMentions(errorOf([] {
-                   readSharedOptions({}, {}, {{"source", std::string("gps")}});
+                   sharedOf({{"motion", {{"source", std::string("gps")}}}});
                  }),
                  {"motion", "source", "gps", "imu_and_twist"});
 }
@@ -65,6 +84,130 @@ TEST(SharedOptions, MovedKeysAreRefusedWithTheNewOne) {
   expectMentions(errorOfKey("fixed_frame", std::string("odom")), {"frames: {map: ...}"});
   expectMentions(errorOfKey("odometry", false), {"motion: {source: "});
   expectMentions(errorOfKey("odometry_hold", 2.0), {"motion: {hold: ...}"});
+}
+
+TEST(SharedOptions, ScannerIsSaidOnce) {
+  const SharedOptions shared = sharedOf(
+      {{"scanner",
+        {{"free_range", 12.0}, {"range_sigma", 0.03}, {"beam_width", 0.01}, {"max_tilt", 0.2}}}});
+  const auto slam = readStageOptions<GridSlamStageOptions>({}, shared);
+  const auto grid = readStageOptions<LidarGridStageOptions>({}, shared);
+  EXPECT_EQ(slam.scan.free_range, 12.0);
+  EXPECT_EQ(grid.scan.free_range, 12.0);
+  EXPECT_EQ(slam.max_tilt, 0.2);
+  EXPECT_EQ(grid.max_tilt, 0.2);
+  EXPECT_EQ(grid.grid.beam_width, 0.01);
+  EXPECT_EQ(slam.slam.matcher.point_sigma, 0.03);
+  EXPECT_EQ(readStageOptions<MovingObjectsStageOptions>({}, shared).detector.range_sigma, 0.03);
+}
+
+TEST(SharedOptions, StereoCameraIsSaidOnce) {
+  const SharedOptions shared = sharedOf({{"stereo_camera",
+                                          {{"baseline", 0.4},
+                                           {"min_depth", 0.7},
+                                           {"effective_range", 20.0},
+                                           {"time_of_flight/linear", 0.01},
+                                           {"road/estimate", false}}},
+                                         {"stereo_image_proc", {{"approximate_sync", true}}}});
+  const auto grid = readStageOptions<StereoGridStageOptions>({}, shared);
+  const auto objects = readStageOptions<StereoObjectsStageOptions>({}, shared);
+  for (const StereoInputOptions& input : {StereoInputOptions(grid), StereoInputOptions(objects)}) {
+    EXPECT_EQ(input.camera.baseline, 0.4);
+    EXPECT_EQ(input.camera.min_depth, 0.7);
+    EXPECT_EQ(input.camera.time_of_flight.linear, 0.01);
+  }
+  EXPECT_EQ(grid.grid.min_depth, 0.7);
+  EXPECT_EQ(objects.detector.surfaces.min_depth, 0.7);
+  EXPECT_EQ(grid.grid.effective_range, 20.0);
+  EXPECT_EQ(objects.detector.effective_range, 20.0);
+  EXPECT_FALSE(grid.grid.road.estimate);
+  EXPECT_FALSE(objects.detector.road.estimate);
+}
+
+TEST(SharedOptions, VehicleIsSaidOnce) {
+  const SharedOptions shared =
+      sharedOf({{"vehicle", {{"length", 3.0}, {"own_points/front", 2.5}, {"height", 2.0}}}});
+  EXPECT_EQ(readStageOptions<RiskStageOptions>({}, shared).risk.vehicle.length, 3.0);
+  EXPECT_EQ(readStageOptions<MarkersOptions>({}, shared).vehicle.length, 3.0);
+  EXPECT_EQ(readStageOptions<MarkersOptions>({}, shared).vehicle.height, 2.0);
+}
+
+TEST(SharedOptions, WhatIsNotKnownIsLeftToTheStages) {
+  const auto stages = [](const std::map<std::string, OptionValues>& sections) {
+    const SharedOptions shared = sharedOf(sections);
+    const auto slam = readStageOptions<GridSlamStageOptions>({}, shared);
+    const auto grid = readStageOptions<StereoGridStageOptions>({}, shared);
+    return std::vector<double>{slam.slam.matcher.point_sigma, grid.grid.min_depth};
+  };
+  const auto known = stages({});
+  EXPECT_EQ(stages({{"scanner", {{"range_sigma", 0}}}, {"stereo_camera", {{"min_depth", 0.0}}}}),
+            known);
+  EXPECT_EQ(known, (std::vector<double>{0.2, 0.5})) << "as the sections' descriptions say";
+}
+
+/// What a struct of options says of each key as a line of a table.
+template <typename Options>
+std::map<std::string, std::string> defaultsOf() {
+  std::map<std::string, std::string> defaults;
+  std::istringstream table(optionTable<Options>());
+  for (std::string line; std::getline(table, line);) {
+    std::vector<std::string> cells;
+    std::istringstream cell_text(line);
+    for (std::string cell; std::getline(cell_text, cell, '|');) {
+      cells.push_back(cell);
+    }
+    if (cells.size() > 3 && cells[1].size() > 4) {
+      defaults[cells[1].substr(2, cells[1].size() - 4)] = cells[3];
+    }
+  }
+  return defaults;
+}
+
+template <typename Options>
+void expectSharedDefaults(
+    const std::map<std::string, std::map<std::string, std::string>>& sections) {
+  const auto own = defaultsOf<Options>();
+  for (const SharedKey& key : sharedKeysOf<Options>()) {
+    const std::size_t slash = key.shared.find('/');
+    const std::string name = key.shared.substr(slash + 1);
+    ASSERT_EQ(own.count(key.own), 1U) << key.own;
+    const auto section = sections.find(key.shared.substr(0, slash));
+    if (section == sections.end() || name == "range_sigma" || name == "min_depth") {
+      continue;  // of another package; not known unless somebody says it
+    }
+    ASSERT_EQ(section->second.count(name), 1U) << key.shared;
+    EXPECT_EQ(own.at(key.own), section->second.at(name)) << key.own << ", " << key.shared;
+  }
+}
+
+TEST(SharedOptions, DefaultsAreThoseOfTheStages) {
+  const std::map<std::string, std::map<std::string, std::string>> sections{
+      {"scanner", defaultsOf<ScannerOptions>()},
+      {"stereo_camera", defaultsOf<StereoSceneOptions>()},
+      {"vehicle", defaultsOf<VehicleOptions>()}};
+  expectSharedDefaults<LidarGridStageOptions>(sections);
+  expectSharedDefaults<GridSlamStageOptions>(sections);
+  expectSharedDefaults<MovingObjectsStageOptions>(sections);
+  expectSharedDefaults<StereoGridStageOptions>(sections);
+  expectSharedDefaults<StereoObjectsStageOptions>(sections);
+  expectSharedDefaults<RiskStageOptions>(sections);
+  expectSharedDefaults<MarkersOptions>(sections);
+}
+
+TEST(SharedOptions, KeysOfSensorsInAStagesSectionAreRefusedWithTheNewOne) {
+  expectMentions(
+      errorOf([] {
+        readStageOptions<GridSlamStageOptions>({{"matcher/point_sigma", 0.05}}, {});
+      }),
+      {"matcher/point_sigma = 0.05", "once for all stages", "scanner: {range_sigma: ...}"});
+  expectMentions(errorOf([] {
+                   readStageOptions<StereoGridStageOptions>({{"road/estimate", false}}, {});
+                 }),
+                 {"road/estimate = false", "stereo_camera: {road: {estimate: ...}}"});
+  expectMentions(errorOf([] {
+                   sharedOf({{"scanner", {{"free_rang", 3.0}}}});
+                 }),
+                 {"scanner", "free_rang", "free_range"});
 }
 
 TEST(Mounts, AreReadByFrame) {

@@ -128,7 +128,7 @@ def _check_baseline(recording, roles, findings):
             "no_right_info", (roles.right_image or roles.camera_clouds[0]),
             "there is no camera_info of the right camera",
             "From it come focal length and baseline: record /stereo/right/camera_info too, or give "
-            "stereo_grid/camera and stereo_objects/camera in the yaml.",
+            "stereo_camera/focal_length and baseline in the yaml.",
         )  # fmt: skip
         return
     if info.P[0] <= 0.0:

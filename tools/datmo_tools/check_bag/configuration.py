@@ -73,7 +73,7 @@ def _size_remarks(measured):
         f"range noise {noise};",
         f"beams come back from surfaces up to {measured.free_range:.0f} m (free_range).",
     ]
-    result = {"lidar_grid": remarks}
+    result = {"scanner": remarks}
     if is_small(measured):
         result["tracker"] = [
             "A slow vehicle with a short reach is taken to be a robot among people, whose legs",

@@ -8,6 +8,7 @@ from typing import NamedTuple, Optional
 # What the stages have by default: a car in a street.
 DEFAULT_LENGTH, DEFAULT_WIDTH, DEFAULT_CELL = 90.0, 108.0, 0.3  # m
 DEFAULT_FREE_RANGE = 40.0  # m
+MIN_NOISE = 0.02  # m: surfaces are rough, and scans take time
 DEFAULT_RANGE_NOISE = 0.1  # m
 
 SMALL_REACH = 20.0  # m: a scanner that reaches less is of a robot, indoors or of a model's size
@@ -136,17 +137,15 @@ def _set_free_range(sections, measured):
     # Whole meters below, for the last one may be seen at a good angle only.
     value = float(math.floor(min(measured.free_range, measured.reach)))
     if abs(value - DEFAULT_FREE_RANGE) >= 1.0:
-        _at(sections, "lidar_grid", "scan")["free_range"] = value
-        _at(sections, "grid_slam", "scan")["free_range"] = value
+        _at(sections, "scanner")["free_range"] = value
 
 
 def _set_noise(sections, measured):
     if measured.noise is None:
         return
-    noise = max(round(measured.noise, 3), 0.01)
-    _at(sections, "grid_slam", "matcher")["point_sigma"] = max(noise, 0.02)
-    _at(sections, "grid_slam", "map")["surface_sigma"] = max(noise, 0.02)
-    _at(sections, "moving_objects")["range_sigma"] = noise
+    noise = max(round(measured.noise, 3), MIN_NOISE)
+    _at(sections, "scanner")["range_sigma"] = noise
+    _at(sections, "grid_slam", "map")["surface_sigma"] = noise
 
 
 def _set_small(sections, measured):

@@ -139,10 +139,10 @@ class _Conversion:
 
     def _make_scans(self):
         options, drive = self._options, self._drive
-        section = kitti_scans.configuration(
+        sections = kitti_scans.configuration(
             options.scanner, options.fit_road, self._calibration, drive.turn_duration
         )
-        return DriveScans(drive, self._frames, section, self._mounts(drive.scan_stamps[0]))
+        return DriveScans(drive, self._frames, sections, self._mounts(drive.scan_stamps[0]))
 
     def _read_truth(self, folder):
         """Dictionary frame -> list of MapObject; None where the drive has no labels.

@@ -101,14 +101,14 @@ def on_own_car(x, y):
 
 
 def configuration(options, fit_road, calibration, turn_duration):
-    """The section cloud_to_scan (dictionary); turn_duration: of the Velodyne (ns).
+    """The sensor set of clouds_to_scans (dictionary); turn_duration: of the Velodyne (ns).
 
     The Velodyne turns to the right and looks ahead at the stamp, in the middle of its turn: clouds
     of drive 0005, aligned a second apart, fit best if their beams are taken as 1.1 times a turn's
     share of time earlier toward the left.
     """
     ahead, left = (float(arc_length) for arc_length in calibration.base_from_velodyne[:2, 3])
-    return {
+    scan = {
         "scan_frame": SCANNER,
         "min_height": options.band_low,
         "max_height": options.band_high,
@@ -117,11 +117,6 @@ def configuration(options, fit_road, calibration, turn_duration):
         "beam_spacing": math.radians(options.resolution),
         "beam_width": math.radians(options.beam_width),
         "field_of_view": math.radians(options.field_of_view),
-        "vehicle": {
-            "rear": CAR_REAR + ahead,
-            "front": CAR_FRONT + ahead,
-            "half_width": CAR_HALF_WIDTH + abs(left),
-        },
         "ground": {"estimate": fit_road},
         "sweep": {
             "duration": turn_duration * 1e-9,
@@ -130,19 +125,25 @@ def configuration(options, fit_road, calibration, turn_duration):
             "stamp_share": 0.5,
         },
     }
+    car = {
+        "rear": CAR_REAR + ahead,
+        "front": CAR_FRONT + ahead,
+        "half_width": CAR_HALF_WIDTH + abs(left),
+    }
+    return {"cloud_to_scan": scan, "vehicle": {"own_points": car}}
 
 
 class DriveScans:
     """The scans of a drive's frames, made a chunk of frames at a time, in the order of frames."""
 
-    def __init__(self, drive, frames, section, mounts):
-        """section: see configuration(). mounts: TFMessage with that of the Velodyne.
+    def __init__(self, drive, frames, sections, mounts):
+        """sections: see configuration(). mounts: TFMessage with that of the Velodyne.
 
         Raises InputError if the program is not there.
         """
         self._drive = drive
         self._frames = [frame for frame in frames if drive.has_cloud(frame)]
-        self._section = section
+        self._sections = sections
         self._mounts = mounts
         self._program = Path(programs.find("clouds_to_scans", sys.argv[0]))
         self._scans = {}
@@ -159,7 +160,7 @@ class DriveScans:
         with tempfile.TemporaryDirectory(prefix="kitti_to_bag_") as folder:
             clouds, scans = Path(folder) / "clouds.bag", Path(folder) / "scans.bag"
             config = Path(folder) / "scanner.yaml"
-            config.write_text(yaml.safe_dump({"cloud_to_scan": self._section}))
+            config.write_text(yaml.safe_dump(self._sections))
             with whole_bag(clouds, "kitti_to_bag") as bag:
                 bag.write_latched("/tf_static", self._drive.scan_stamps[frames[0]], self._mounts)
                 for frame in frames:

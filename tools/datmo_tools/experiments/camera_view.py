@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the stereo camera of a sensor set sees, as stereo_objects has it."""
+"""What the stereo camera of a sensor set sees, by its section stereo_camera."""
 
 import re
 from pathlib import Path
@@ -12,8 +12,8 @@ from datmo_tools.programs import StepFailed, output_of
 
 LIST_PARAMETERS = "list_parameters"
 
-_STAGE = "stereo_objects"
-_FIELD_OF_VIEW = "camera/field_of_view"  # rad, from left to right
+_SECTION = "stereo_camera"
+_FIELD_OF_VIEW = "field_of_view"  # rad, from left to right
 _RANGE = "effective_range"  # m
 
 
@@ -27,8 +27,8 @@ class CameraView(NamedTuple):
 def camera_view(config, programs):
     """CameraView of a sensor set.
 
-    config: its yaml file (Path), or else the stage's defaults, which the program list_parameters in
-    in the folder `programs` (Path). Raises InputError.
+    config: its yaml file (Path); what it does not say has the default, which the program
+    list_parameters in the folder `programs` (Path) prints. Raises InputError.
     """
     try:
         sections = yaml.safe_load(config.read_text(encoding="utf-8")) or {}
@@ -38,29 +38,28 @@ def camera_view(config, programs):
     values = [_value(sections, name, defaults) for name in (_RANGE, _FIELD_OF_VIEW)]
     for name, value in zip((_RANGE, _FIELD_OF_VIEW), values):
         if isinstance(value, bool) or not isinstance(value, (int, float)):
-            raise InputError(f"{config}: {_STAGE}/{name} is {value!r}, expected a number")
+            raise InputError(f"{config}: {_SECTION}/{name} is {value!r}, expected a number")
     return CameraView(float(values[0]), 0.5 * float(values[1]))
 
 
 def _value(sections, name, defaults):
-    """Of a parameter, by its path; that of the defaults where the sensor set has none."""
-    node = sections.get(_STAGE) if isinstance(sections, dict) else None
-    for key in name.split("/"):
-        node = node.get(key) if isinstance(node, dict) else None
-    return defaults[name] if node is None else node
+    """Of a parameter; that of the defaults where the sensor set has none."""
+    section = sections.get(_SECTION) if isinstance(sections, dict) else None
+    value = section.get(name) if isinstance(section, dict) else None
+    return defaults[name] if value is None else value
 
 
 def _defaults(program):
-    """Dictionary name -> default of the numbers among the stage's parameters."""
+    """Dictionary name -> default of the numbers among the section's parameters."""
     try:
         text = output_of(program)
     except (StepFailed, OSError) as error:
         raise InputError(f"{program}: {error}") from error
-    section = re.search(rf"^## [^\n]*`{_STAGE}`.*?(?=^## |\Z)", text, re.DOTALL | re.MULTILINE)
+    section = re.search(rf"^## [^\n]*`{_SECTION}`.*?(?=^## |\Z)", text, re.DOTALL | re.MULTILINE)
     rows = re.findall(r"^\| `([^`]+)` \|[^|]*\| ([-+.\de]+) \|", section[0] if section else "",
                       re.MULTILINE)  # fmt: skip
     defaults = {name: float(value) for name, value in rows}
     for name in (_RANGE, _FIELD_OF_VIEW):
         if name not in defaults:
-            raise InputError(f"{program}: no number for {name} of {_STAGE} in what it prints")
+            raise InputError(f"{program}: no number for {name} of {_SECTION} in what it prints")
     return defaults

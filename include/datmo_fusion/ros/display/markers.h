@@ -10,15 +10,16 @@
 
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/ros/convert/messages.h"
+#include "datmo_fusion/ros/shared_keys.h"
 
 namespace datmo {
 
 /// The vehicle's own body, in the frame of the scans (base_link).
 struct VehicleBodyOptions {
-  double rear = -1.0;       ///< m
-  double front = 3.2;       ///< m
-  double half_width = 0.9;  ///< m
-  double height = 1.5;      ///< m
+  double length = 4.6;         ///< m
+  double width = 1.85;         ///< m
+  double rear_overhang = 0.9;  ///< m
+  double height = 1.5;         ///< m
 
   void visit(OptionVisitor& visitor);
 };
@@ -34,6 +35,7 @@ struct MarkersOptions {
   VehicleBodyOptions vehicle;
 
   void visit(OptionVisitor& visitor);
+  static SharedKeys sharedKeys();
 };
 
 /// Messages -> what rviz draws. One namespace for each kind of marker, ids that stay with what they

@@ -11,6 +11,7 @@
 #include "datmo_fusion/ros/convert/lidar_cloud_conversion.h"
 #include "datmo_fusion/ros/convert/messages.h"
 #include "datmo_fusion/ros/frame_options.h"
+#include "datmo_fusion/ros/shared_keys.h"
 #include "datmo_fusion/ros/stage/motion_input.h"
 #include "datmo_fusion/ros/stage/stage.h"
 #include "datmo_fusion/ros/stage/stage_runner.h"
@@ -26,6 +27,7 @@ struct CloudObjectsStageOptions {
   CloudObjectDetectorOptions detector;
 
   void visit(OptionVisitor& visitor);
+  static SharedKeys sharedKeys();
 };
 
 /// CloudObjectDetector between messages: one more source of objects. Bad input is dropped or warned

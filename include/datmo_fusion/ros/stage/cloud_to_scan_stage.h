@@ -10,6 +10,7 @@
 
 #include "datmo_fusion/ros/convert/lidar_cloud_conversion.h"
 #include "datmo_fusion/ros/frame_options.h"
+#include "datmo_fusion/ros/shared_keys.h"
 #include "datmo_fusion/ros/stage/stage.h"
 #include "datmo_fusion/ros/stage/stage_runner.h"
 #include "datmo_fusion/ros/transform_buffer.h"
@@ -25,6 +26,7 @@ struct CloudToScanStageOptions {
   CloudToScanOptions scan;
 
   void visit(OptionVisitor& visitor);
+  static SharedKeys sharedKeys();
 };
 
 /// What one cloud gives.

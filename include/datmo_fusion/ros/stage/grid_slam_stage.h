@@ -16,6 +16,7 @@
 #include "datmo_fusion/ros/display/scan_extent.h"
 #include "datmo_fusion/ros/frame_options.h"
 #include "datmo_fusion/ros/motion_options.h"
+#include "datmo_fusion/ros/shared_keys.h"
 #include "datmo_fusion/ros/stage/stage.h"
 #include "datmo_fusion/ros/stage/stage_runner.h"
 #include "datmo_fusion/ros/stage/waiting_scans.h"
@@ -36,6 +37,7 @@ struct GridSlamStageOptions {
   GridSlamOptions slam;
 
   void visit(OptionVisitor& visitor);
+  static SharedKeys sharedKeys();
 };
 
 /// What one scan or fused grid led to, ready to be published.

@@ -9,6 +9,7 @@
 
 #include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/ros/convert/scan_conversion.h"
+#include "datmo_fusion/ros/shared_keys.h"
 #include "datmo_fusion/ros/stage/motion_input.h"
 #include "datmo_fusion/ros/stage/stage.h"
 #include "datmo_fusion/ros/stage/stage_runner.h"
@@ -26,6 +27,7 @@ struct LidarGridStageOptions {
   LidarGridOptions grid;
 
   void visit(OptionVisitor& visitor);
+  static SharedKeys sharedKeys();
 };
 
 /// LidarGridModel between messages: the same one serves the nodelet and the bag runner. Bad input

@@ -8,6 +8,7 @@
 #include "datmo_fusion/detection/moving_object_detector.h"
 #include "datmo_fusion/road/border_filter.h"
 #include "datmo_fusion/ros/convert/messages.h"
+#include "datmo_fusion/ros/shared_keys.h"
 #include "datmo_fusion/ros/stage/stage.h"
 #include "datmo_fusion/ros/stage/stage_runner.h"
 
@@ -21,6 +22,7 @@ struct MovingObjectsStageOptions {
   BorderFilterOptions border_filter;
 
   void visit(OptionVisitor& visitor);
+  static SharedKeys sharedKeys();
 };
 
 /// What one split scan led to.

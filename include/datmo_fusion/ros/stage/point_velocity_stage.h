@@ -13,6 +13,7 @@
 
 #include "datmo_fusion/ros/frame_options.h"
 #include "datmo_fusion/ros/motion_options.h"
+#include "datmo_fusion/ros/shared_keys.h"
 #include "datmo_fusion/ros/stage/motion_input.h"
 #include "datmo_fusion/ros/stage/stage.h"
 #include "datmo_fusion/ros/stage/stage_runner.h"
@@ -41,6 +42,7 @@ struct PointVelocityStageOptions {
   double max_interval = 0.5;      ///< s
 
   void visit(OptionVisitor& visitor);
+  static SharedKeys sharedKeys();
 };
 
 /// Pairs of images of a stereo camera -> points with velocity over the ground: features that are

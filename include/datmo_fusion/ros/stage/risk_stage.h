@@ -12,6 +12,7 @@
 #include "datmo_fusion/ros/convert/risk_conversion.h"
 #include "datmo_fusion/ros/frame_options.h"
 #include "datmo_fusion/ros/motion_options.h"
+#include "datmo_fusion/ros/shared_keys.h"
 #include "datmo_fusion/ros/stage/host_input.h"
 #include "datmo_fusion/ros/stage/stage.h"
 #include "datmo_fusion/ros/stage/stage_runner.h"
@@ -28,6 +29,7 @@ struct RiskStageOptions {
   RiskOptions risk;
 
   void visit(OptionVisitor& visitor);
+  static SharedKeys sharedKeys();
 };
 
 /// RiskAssessor between messages: the same one serves the nodelet and the bag runner. Each list of

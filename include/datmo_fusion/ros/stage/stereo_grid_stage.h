@@ -7,6 +7,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/PointCloud2.h>
 
+#include "datmo_fusion/ros/shared_keys.h"
 #include "datmo_fusion/ros/stage/stage.h"
 #include "datmo_fusion/ros/stage/stage_runner.h"
 #include "datmo_fusion/ros/stage/stereo_input.h"
@@ -20,6 +21,7 @@ struct StereoGridStageOptions : StereoInputOptions {
   StereoGridOptions grid;
 
   void visit(OptionVisitor& visitor);
+  static SharedKeys sharedKeys();
 };
 
 /// StereoGridModel between messages: the same one serves the nodelet and the bag runner. Bad input

@@ -10,24 +10,15 @@
 #include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/ros/convert/cloud_conversion.h"
 #include "datmo_fusion/ros/frame_options.h"
+#include "datmo_fusion/ros/shared_keys.h"
 #include "datmo_fusion/ros/stage/stage_monitor.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
+#include "datmo_fusion/ros/stereo_camera_options.h"
 #include "datmo_fusion/ros/transform_buffer.h"
 #include "datmo_fusion/sensor_model/road_plane.h"
 #include "datmo_fusion/sensor_model/stereo_cloud.h"
 
 namespace datmo {
-
-/// What serves until a camera info has come, and what no message contains.
-struct StereoCameraOptions : DepthNoiseOptions {
-  double focal_length = 0.0;             ///< px; 0: not known
-  double baseline = 0.0;                 ///< m; 0: not known, or none
-  double field_of_view = degrees(60.0);  ///< rad
-  double min_depth = 0.0;                ///< m
-  double max_depth = 0.0;                ///< m; 0: no bound
-
-  void visit(OptionVisitor& visitor);
-};
 
 /// What the stages of a stereo or depth camera's clouds have in common.
 struct StereoInputOptions {
@@ -36,6 +27,8 @@ struct StereoInputOptions {
   StreamOptions input;
 
   void visit(OptionVisitor& visitor);
+  /// Of them, `camera`, and of a stage's own `road` and `effective_range`.
+  static SharedKeys sharedKeys();
 };
 
 /// Clouds of a stereo or depth camera as messages -> as the core takes them: with the camera as its

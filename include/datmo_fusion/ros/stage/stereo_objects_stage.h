@@ -9,6 +9,7 @@
 
 #include "datmo_fusion/detection/stereo_object_detector.h"
 #include "datmo_fusion/ros/convert/messages.h"
+#include "datmo_fusion/ros/shared_keys.h"
 #include "datmo_fusion/ros/stage/stage.h"
 #include "datmo_fusion/ros/stage/stage_runner.h"
 #include "datmo_fusion/ros/stage/stereo_input.h"
@@ -24,6 +25,7 @@ struct StereoObjectsStageOptions : StereoInputOptions {
   VelocityWaitOptions wait;
 
   void visit(OptionVisitor& visitor);
+  static SharedKeys sharedKeys();
 };
 
 /// StereoObjectDetector between messages: the same one serves the nodelet and the bag runner. Bad

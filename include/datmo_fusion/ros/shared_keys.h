@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "datmo_fusion/common/option_keys.h"
+
+namespace datmo {
+
+/// An option of a stage that a sensor set says once for all stages.
+struct SharedKey {
+  std::string own;     ///< key in the stage's options: `matcher/point_sigma`
+  std::string shared;  ///< section and key in the sensor set: `scanner/range_sigma`
+};
+
+/// Those of one stage, put together key by key: its options have `static SharedKeys sharedKeys()`.
+class SharedKeys {
+ public:
+  SharedKeys key(const std::string& own, const std::string& shared) {
+    keys_.push_back({own, shared});
+    return *this;
+  }
+
+  /// All of a struct of options that stands in both places; groups with a slash at their end.
+  template <typename Options>
+  SharedKeys group(const std::string& own, const std::string& shared) {
+    for (const std::string& name : optionKeys<Options>()) {
+      keys_.push_back({own + name, shared + name});
+    }
+    return *this;
+  }
+
+  auto begin() const { return keys_.begin(); }
+  auto end() const { return keys_.end(); }
+
+ private:
+  std::vector<SharedKey> keys_;
+};
+
+}  // namespace datmo

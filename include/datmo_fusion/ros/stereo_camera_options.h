@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/sensor_model/depth_noise.h"
+#include "datmo_fusion/sensor_model/road_plane.h"
+
+namespace datmo {
+
+/// What serves until a camera info has come, and what no message contains.
+struct StereoCameraOptions : DepthNoiseOptions {
+  double focal_length = 0.0;             ///< px; 0: not known
+  double baseline = 0.0;                 ///< m; 0: not known, or none
+  double field_of_view = degrees(60.0);  ///< rad
+  double min_depth = 0.0;                ///< m; 0: no bound
+  double max_depth = 0.0;                ///< m; 0: no bound
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// The stereo or depth camera and the road that it sees, for all stages: section `stereo_camera` of
+/// a sensor set.
+struct StereoSceneOptions : StereoCameraOptions {
+  double effective_range = 36.0;  ///< m
+  RoadPlaneOptions road;
+
+  void visit(OptionVisitor& visitor);
+};
+
+}  // namespace datmo

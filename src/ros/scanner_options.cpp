@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/scanner_options.h"
+
+namespace datmo {
+
+void ScannerOptions::visit(OptionVisitor& visitor) {
+  scan.visit(visitor);
+  visitor.number({"range_sigma", "m",
+                  "standard deviation of its range, as the match of scans and the boxes of objects "
+                  "take it; 0: not known: 0.1 for boxes, 0.2 for the match",
+                  Tier::kPublic},
+                 range_sigma, {0.0, 2.0});
+  visitor.number({"beam_width", "rad",
+                  "opening angle of a beam, for lidar_grid; 0: it reaches half way to its "
+                  "neighbors (thesis 3.2.1: each cell asks the nearest beam)",
+                  Tier::kPublic},
+                 beam_width, {0.0, 0.2});
+  visitor.number({"max_tilt", "rad", "a scan plane tilted by more than this is warned of"},
+                 max_tilt, {0.0, kPi / 2.0});
+}
+
+}  // namespace datmo

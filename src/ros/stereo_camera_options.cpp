@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/stereo_camera_options.h"
+
+#include "datmo_fusion/ros/convert/cloud_conversion.h"
+
+namespace datmo {
+
+void StereoCameraOptions::visit(OptionVisitor& visitor) {
+  visitor.number(
+      {"focal_length", "px", "until a camera info has come; 0: not known", Tier::kPublic},
+      focal_length, {0.0, kMaxFocalLength});
+  visitor.number({"baseline", "m",
+                  "stereo: until a camera info has come, 0: not known; active_stereo: between its "
+                  "two cameras; structured_light: from the camera to the projector at its right",
+                  Tier::kPublic},
+                 baseline, {0.0, kMaxBaseline});
+  visitor.number(
+      {"field_of_view", "rad", "from left to right, until a camera info has come", Tier::kPublic},
+      field_of_view, {degrees(5.0), degrees(150.0)});
+  visitor.number({"min_depth", "m",
+                  "nearer points are left out: the camera's data sheet; 0: not known, and nearer "
+                  "than 0.5 m are mismatches",
+                  Tier::kPublic},
+                 min_depth, {0.0, 10.0});
+  visitor.number({"max_depth", "m", "farther points are left out: the same; 0: none are"},
+                 max_depth, {0.0, 1000.0});
+  DepthNoiseOptions::visit(visitor);
+}
+
+void StereoSceneOptions::visit(OptionVisitor& visitor) {
+  StereoCameraOptions::visit(visitor);
+  visitor.number({"effective_range", "m",
+                  "nothing is said beyond it (thesis 3.2.2 and 3.3.3: 36 m)", Tier::kPublic},
+                 effective_range, {1.0, 200.0});
+  visitor.group("road", [&] { road.visit(visitor); });
+}
+
+}  // namespace datmo

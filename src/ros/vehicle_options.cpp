@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/vehicle_options.h"
+
+namespace datmo {
+
+void VehicleOptions::visit(OptionVisitor& visitor) {
+  body.visit(visitor);
+  visitor.number({"height", "m", "of its roof over the ground, as it is drawn", Tier::kPublic},
+                 height, {0.05, 10.0});
+  visitor.group("own_points", [&] { own_points.visit(visitor); });
+}
+
+}  // namespace datmo

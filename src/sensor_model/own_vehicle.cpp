@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/sensor_model/own_vehicle.h"
+
+namespace datmo {
+
+void OwnVehicleOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"rear", "m",
+                  "rear end of the box around the own vehicle, x of the base frame; points in the "
+                  "box are its own and are left out",
+                  Tier::kPublic},
+                 rear, {-20.0, 0.0});
+  visitor.number({"front", "m", "its front end", Tier::kPublic}, front, {0.0, 20.0});
+  visitor.number(
+      {"half_width", "m", "from its middle to either side, mirrors included", Tier::kPublic},
+      half_width, {0.0, 5.0});
+}
+
+}  // namespace datmo
