@@ -72,7 +72,7 @@ PointsView pointsIn(const std::vector<std::uint8_t>& memory) {
   return points;
 }
 
-void stereoGrid(benchmark::State& state, const std::string& method) {
+void stereoGrid(benchmark::State& state, StereoGridMethod method) {
   StereoCloud cloud = streetView();
   const std::vector<std::uint8_t> memory = streetPoints(cloud);
   cloud.points = pointsIn(memory);
@@ -84,8 +84,8 @@ void stereoGrid(benchmark::State& state, const std::string& method) {
   }
   state.counters["points"] = static_cast<double>(cloud.points.count);
 }
-BENCHMARK_CAPTURE(stereoGrid, columns, "columns")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(stereoGrid, cones, "cones")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(stereoGrid, columns, StereoGridMethod::kColumns)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(stereoGrid, cones, StereoGridMethod::kCones)->Unit(benchmark::kMillisecond);
 
 void stereoObjects(benchmark::State& state) {
   StereoCloud cloud = streetView();

@@ -93,7 +93,7 @@ SourceTracks tracksOf(const Source& source, double seconds, Random& random) {
 }
 
 /// Of so many tracks of each source, those of `pairs` cars are of both.
-void trackFusion(benchmark::State& state, const std::string& method) {
+void trackFusion(benchmark::State& state, TrackCombinationMethod method) {
   const auto count = static_cast<std::size_t>(state.range(0));
   const auto pairs = static_cast<std::size_t>(state.range(1));
   Random random(1);
@@ -117,14 +117,15 @@ void trackFusion(benchmark::State& state, const std::string& method) {
   }
   state.counters["fused"] = static_cast<double>(fused);
 }
-BENCHMARK_CAPTURE(trackFusion, covariance_intersection, "covariance_intersection")
+BENCHMARK_CAPTURE(trackFusion, covariance_intersection,
+                  TrackCombinationMethod::kCovarianceIntersection)
     ->ArgNames({"tracks", "pairs"})
     ->Args({10, 10})
     ->Args({50, 50})
     ->Args({50, 25})
     ->Args({200, 200})
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(trackFusion, bar_shalom_campo, "bar_shalom_campo")
+BENCHMARK_CAPTURE(trackFusion, bar_shalom_campo, TrackCombinationMethod::kBarShalomCampo)
     ->ArgNames({"tracks", "pairs"})
     ->Args({50, 50})
     ->Unit(benchmark::kMicrosecond);

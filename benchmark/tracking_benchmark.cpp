@@ -53,7 +53,7 @@ ObjectList crowd(int targets, int false_alarms, int step, Random& random) {
   return list;
 }
 
-void trackerStep(benchmark::State& state, const std::string& association) {
+void trackerStep(benchmark::State& state, TrackerAssociation association) {
   const auto targets = static_cast<int>(state.range(0));
   TrackerOptions options;
   options.association = association;
@@ -83,8 +83,10 @@ void numbersOfTargets(benchmark::internal::Benchmark* benchmark) {
     benchmark->Arg(targets);
   }
 }
-BENCHMARK_CAPTURE(trackerStep, gnn, std::string("gnn"))->Apply(numbersOfTargets);
-BENCHMARK_CAPTURE(trackerStep, mht, std::string("mht"))->Apply(numbersOfTargets);
+BENCHMARK_CAPTURE(trackerStep, gnn, TrackerAssociation::kGlobalNearestNeighbor)
+    ->Apply(numbersOfTargets);
+BENCHMARK_CAPTURE(trackerStep, mht, TrackerAssociation::kMultipleHypotheses)
+    ->Apply(numbersOfTargets);
 
 }  // namespace
 }  // namespace datmo

@@ -36,14 +36,7 @@ class Checker : public OptionVisitor {
 
   void text(const OptionInfo& info, std::string& value,
             const std::vector<std::string>& allowed) override {
-    if (allowed.empty() || std::find(allowed.begin(), allowed.end(), value) != allowed.end()) {
-      return;
-    }
-    std::string message = key(info) + " = '" + value + "': expected one of";
-    for (const std::string& choice : allowed) {
-      message += " '" + choice + "'";
-    }
-    throw OptionError(message + " (" + info.description + ")");
+    refuseUnlessAllowed(info, value, allowed);
   }
 };
 
@@ -72,6 +65,18 @@ Tier OptionVisitor::tier(const OptionInfo& info) const {
     tier = std::min(tier, group.max);
   }
   return tier;
+}
+
+void OptionVisitor::refuseUnlessAllowed(const OptionInfo& info, const std::string& value,
+                                        const std::vector<std::string>& allowed) const {
+  if (allowed.empty() || std::find(allowed.begin(), allowed.end(), value) != allowed.end()) {
+    return;
+  }
+  std::string message = key(info) + " = '" + value + "': expected one of";
+  for (const std::string& choice : allowed) {
+    message += " '" + choice + "'";
+  }
+  throw OptionError(message + " (" + info.description + ")");
 }
 
 void detail::checkAll(const OptionWalk& visit) {

@@ -189,23 +189,24 @@ double voxelsOf(const CloudObjectDetectorOptions& options) {
 
 }  // namespace
 
-CloudObjectDetector::CloudObjectDetector(const CloudObjectDetectorOptions& options)
-    : options_(options), classifier_(options.classifier) {
-  checkOptions(options);
-  if (options.min_height >= options.max_height) {
-    throw OptionError("min_height = " + std::to_string(options.min_height) +
-                      ": expected less than max_height = " + std::to_string(options.max_height));
+void CloudObjectDetectorOptions::check() const {
+  if (min_height >= max_height) {
+    throw OptionError("min_height = " + std::to_string(min_height) +
+                      ": expected less than max_height = " + std::to_string(max_height));
   }
-  if (voxelsOf(options) > kMaxVoxels) {
-    throw OptionError("voxel_size = " + std::to_string(options.voxel_size) +
+  if (voxelsOf(*this) > kMaxVoxels) {
+    throw OptionError("voxel_size = " + std::to_string(voxel_size) +
                       ": expected more, so that the clouds out to max_range = " +
-                      std::to_string(options.max_range) + " have at most 100 million voxels");
+                      std::to_string(max_range) + " have at most 100 million voxels");
   }
-  if (options.cluster_distance <= options.voxel_size) {
-    throw OptionError("cluster_distance = " + std::to_string(options.cluster_distance) +
-                      ": expected more than voxel_size = " + std::to_string(options.voxel_size));
+  if (cluster_distance <= voxel_size) {
+    throw OptionError("cluster_distance = " + std::to_string(cluster_distance) +
+                      ": expected more than voxel_size = " + std::to_string(voxel_size));
   }
 }
+
+CloudObjectDetector::CloudObjectDetector(const Checked<CloudObjectDetectorOptions>& options)
+    : options_(*options), classifier_(options->classifier) {}
 
 CloudObjects CloudObjectDetector::detect(const LidarCloud& cloud, Stamp stamp,
                                          const std::optional<Twist2>& twist) const {

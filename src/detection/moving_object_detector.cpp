@@ -70,10 +70,8 @@ void MovingObjectDetectorOptions::visit(OptionVisitor& visitor) {
                  position_sigma, {0.001, 5.0});
 }
 
-MovingObjectDetector::MovingObjectDetector(const MovingObjectDetectorOptions& options)
-    : options_(options) {
-  checkOptions(options);
-}
+MovingObjectDetector::MovingObjectDetector(const Checked<MovingObjectDetectorOptions>& options)
+    : options_(*options) {}
 
 ObjectList MovingObjectDetector::detect(const LabeledScan& scan) const {
   ObjectList list{scan.stamp, {}, {}};

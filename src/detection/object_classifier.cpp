@@ -117,9 +117,8 @@ void ObjectClassifierOptions::visit(OptionVisitor& visitor) {
                  other_share, {0.001, 1000.0});
 }
 
-ObjectClassifier::ObjectClassifier(const ObjectClassifierOptions& options) : options_(options) {
-  checkOptions(options);
-}
+ObjectClassifier::ObjectClassifier(const Checked<ObjectClassifierOptions>& options)
+    : options_(*options) {}
 
 ClassProbabilities ObjectClassifier::probabilities(const SeenSize& seen) const {
   ClassProbabilities result{};

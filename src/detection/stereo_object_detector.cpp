@@ -84,10 +84,8 @@ class StereoObjectDetector::State {
   StereoSurfaces surfaces_;  ///< memory that is used again
 };
 
-StereoObjectDetector::StereoObjectDetector(const StereoObjectDetectorOptions& options) {
-  checkOptions(options);
-  state_ = std::make_unique<State>(options);
-}
+StereoObjectDetector::StereoObjectDetector(const Checked<StereoObjectDetectorOptions>& options)
+    : state_(std::make_unique<State>(*options)) {}
 
 StereoObjectDetector::~StereoObjectDetector() = default;
 

@@ -66,7 +66,7 @@ void StereoObjectDetectorOptions::visit(OptionVisitor& visitor) {
   visitor.number({"max_size", "m", "longer segments are no objects: walls, hedges", Tier::kPublic},
                  max_size, {0.5, 100.0});
   visitor.number({"max_doubt", "1",
-                  "so much at most does its size speak against an object: logarithm of odds"},
+                  "at most so much evidence against an object is its size: logarithm of odds"},
                  max_doubt, {0.0, 20.0});
 }
 

@@ -12,11 +12,6 @@ namespace {
 /// Nine times as many, and the table of all values up to there, are small numbers still.
 constexpr int kSaturation = 100000;
 
-const HitGridOptions& checked(const HitGridOptions& options) {
-  checkOptions(options);
-  return options;
-}
-
 }  // namespace
 
 void HitGridOptions::visit(OptionVisitor& visitor) {
@@ -35,10 +30,10 @@ void HitGridOptions::visit(OptionVisitor& visitor) {
                  min_age, {0.0, 60.0});
 }
 
-HitGrid::HitGrid(const HitGridOptions& options)
-    : options_(checked(options)),
-      max_hits_(options.max_hits > 0 ? options.max_hits : kSaturation),
-      cells_(options.window.window(), Cell{}),
+HitGrid::HitGrid(const Checked<HitGridOptions>& options)
+    : options_(*options),
+      max_hits_(options->max_hits > 0 ? options->max_hits : kSaturation),
+      cells_(options->window.window(), Cell{}),
       cells_with_(1, 0) {}
 
 void HitGrid::update(const LabeledScan& scan) {

@@ -24,23 +24,18 @@ float logOdds(double probability) {
   return static_cast<float>(std::log(probability / (1.0 - probability)));
 }
 
-const OccupancyMapOptions& checked(const OccupancyMapOptions& options) {
-  checkOptions(options);
-  return options;
-}
-
 /// A cell that is occupied holds its hits to this many at the most, so that the surface follows
 /// what is seen now.
 constexpr float kMaxHits = 50.0F;
 
 }  // namespace
 
-OccupancyMap::OccupancyMap(const OccupancyMapOptions& options)
-    : options_(checked(options)),
-      hit_log_odds_(logOdds(options.hit_probability)),
-      free_log_odds_(logOdds(options.free_probability)),
-      log_odds_limit_(-logOdds(options.min_probability)),
-      cells_(options.window.window(), Cell{}) {}
+OccupancyMap::OccupancyMap(const Checked<OccupancyMapOptions>& options)
+    : options_(*options),
+      hit_log_odds_(logOdds(options->hit_probability)),
+      free_log_odds_(logOdds(options->free_probability)),
+      log_odds_limit_(-logOdds(options->min_probability)),
+      cells_(options->window.window(), Cell{}) {}
 
 bool OccupancyMap::isStatic(const Cell& cell) const {
   return hasSurface(cell) && maturity(cell) >= 1.0 &&

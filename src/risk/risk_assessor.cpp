@@ -92,7 +92,7 @@ std::vector<Point2> withoutTracks(const std::vector<Point2>& points,
 /// A method without probabilities warns at its reaction time.
 WarningOptions warningOf(const RiskOptions& options) {
   WarningOptions warning = options.warning;
-  if (options.method != RiskOptions::kFutures) {
+  if (options.method != RiskMethod::kFutures) {
     warning.warning_time = options.rules.driver_time;
     warning.imminent_time = 0.0;
   }
@@ -102,11 +102,15 @@ WarningOptions warningOf(const RiskOptions& options) {
 }  // namespace
 
 void RiskOptions::visit(OptionVisitor& visitor) {
-  visitor.text(
+  visitor.choice(
       {"method", "",
        "futures: seeded joint futures; to compare with: the circles of thesis 5.3.5, boxes "
        "at constant velocity, responsibility-sensitive safety"},
-      method, {kFutures, kThesis, kBoxes, kRss});
+      method,
+      {{"futures", RiskMethod::kFutures},
+       {"thesis", RiskMethod::kThesis},
+       {"ttc_boxes", RiskMethod::kBoxes},
+       {"rss", RiskMethod::kRss}});
   visitor.integer({"max_objects", "1",
                    "tracks that are assessed at most, the surest to exist; bounds the time of a "
                    "step"},
@@ -128,12 +132,10 @@ void RiskOptions::visit(OptionVisitor& visitor) {
   visitor.group("warning", [&] { warning.visit(visitor); });
 }
 
-RiskAssessor::RiskAssessor(const RiskOptions& options)
-    : options_(options),
-      draws_(static_cast<std::uint64_t>(options.horizon.seed)),
-      level_(warningOf(options)) {
-  checkOptions(options);
-}
+RiskAssessor::RiskAssessor(const Checked<RiskOptions>& options)
+    : options_(*options),
+      draws_(static_cast<std::uint64_t>(options->horizon.seed)),
+      level_(warningOf(*options)) {}
 
 void RiskAssessor::reset() { level_.reset(); }
 
@@ -146,7 +148,7 @@ RiskReport RiskAssessor::assess(const RiskInput& input) {
                           : std::nullopt;
   const HostFutures host(input.host, course, options_.vehicle, options_.host, options_.horizon,
                          draws_);
-  const bool by_futures = options_.method == RiskOptions::kFutures;
+  const bool by_futures = options_.method == RiskMethod::kFutures;
   report.objects.push_back(ofStanding(input, tracks, host));
   for (const Track& track : tracks) {
     if (!reachable(track, input.host)) {
@@ -232,10 +234,10 @@ ObjectRisk RiskAssessor::byFutures(const Track& track, const HostFutures& host) 
 
 ObjectRisk RiskAssessor::byRule(const Track& track, const HostFutures& host) const {
   const BodySize size = options_.vehicle.size();
-  if (options_.method == RiskOptions::kThesis) {
+  if (options_.method == RiskMethod::kThesis) {
     return thesisRisk(track, host.nominal(), options_.rules);
   }
-  if (options_.method == RiskOptions::kBoxes) {
+  if (options_.method == RiskMethod::kBoxes) {
     return boxRisk(track, host.nominal(), size, options_.rules);
   }
   return rssRisk(track, host.nominal(), size, options_.rules);
@@ -245,8 +247,8 @@ ObjectRisk RiskAssessor::byRule(const Track& track, const HostFutures& host) con
 ObjectRisk RiskAssessor::ofStanding(const RiskInput& input, const std::vector<Track>& tracks,
                                     const HostFutures& host) const {
   ObjectRisk risk;
-  const bool by_futures = options_.method == RiskOptions::kFutures;
-  if (!by_futures && options_.method != RiskOptions::kBoxes) {
+  const bool by_futures = options_.method == RiskMethod::kFutures;
+  if (!by_futures && options_.method != RiskMethod::kBoxes) {
     return risk;
   }
   const StandingPoints points(withoutTracks(input.standing, tracks, options_.point_margin),

@@ -89,9 +89,7 @@ RiskLevel levelOf(const ObjectRisk& risk, bool host_moves, const WarningOptions&
              : RiskLevel::kNone;
 }
 
-WarningLevel::WarningLevel(const WarningOptions& options) : options_(options) {
-  checkOptions(options);
-}
+WarningLevel::WarningLevel(const Checked<WarningOptions>& options) : options_(*options) {}
 
 void WarningLevel::reset() {
   level_ = RiskLevel::kNone;

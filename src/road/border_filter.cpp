@@ -57,10 +57,12 @@ DropReason reasonOf(double beyond, double margin) {
 }  // namespace
 
 void BorderFilterOptions::visit(OptionVisitor& visitor) {
-  visitor.text({"method", "",
-                "evidence: what lies on a border or beyond is less likely to move; thesis: it is a "
-                "false alarm and dropped, however it moves (thesis 3.5.1)"},
-               method, {kEvidence, kThesis});
+  visitor.choice(
+      {"method", "",
+       "evidence: what lies on a border or beyond is less likely to move; thesis: it is a "
+       "false alarm and dropped, however it moves (thesis 3.5.1)"},
+      method,
+      {{"evidence", BorderFilterMethod::kEvidence}, {"thesis", BorderFilterMethod::kThesis}});
   visitor.number({"margin", "m", "what is nearer to a border than this lies on it (thesis 3.5.1)"},
                  margin, {0.0, 5.0});
   visitor.number({"sigmas", "1", "standard deviations of the border that are added to the margin"},
@@ -76,10 +78,8 @@ void BorderFilterOptions::visit(OptionVisitor& visitor) {
   visitor.group("extension", [&] { extension.visit(visitor); });
 }
 
-BorderFilter::BorderFilter(const BorderFilterOptions& options)
-    : options_(options), extension_(options.extension) {
-  checkOptions(options);
-}
+BorderFilter::BorderFilter(const Checked<BorderFilterOptions>& options)
+    : options_(*options), extension_(options->extension) {}
 
 std::vector<DroppedObject> BorderFilter::filter(const Pose2& base_in_map, const RoadModel& road,
                                                 ObjectList& objects) {
@@ -88,7 +88,7 @@ std::vector<DroppedObject> BorderFilter::filter(const Pose2& base_in_map, const 
   std::vector<Object> kept;
   for (Object& object : objects.objects) {
     auto lies_outside = outside(object, base_in_map, road);
-    if (lies_outside && options_.method == BorderFilterOptions::kThesis) {
+    if (lies_outside && options_.method == BorderFilterMethod::kThesis) {
       lies_outside->object = std::move(object);
       dropped.push_back(std::move(*lies_outside));
       continue;
@@ -105,7 +105,7 @@ std::vector<DroppedObject> BorderFilter::filter(const Pose2& base_in_map, const 
 
 std::optional<DroppedObject> BorderFilter::outside(const Object& object, const Pose2& base_in_map,
                                                    const RoadModel& road) const {
-  const bool as_thesis = options_.method == BorderFilterOptions::kThesis;
+  const bool as_thesis = options_.method == BorderFilterMethod::kThesis;
   if (object.points.empty() || object.dynamic_state == DynamicState::kStatic ||
       (as_thesis && object.dynamic_state != DynamicState::kMoving)) {
     return std::nullopt;
@@ -121,7 +121,7 @@ std::optional<DroppedObject> BorderFilter::outsideKnown(const Object& object,
                                                         const RoadModel& road) const {
   std::optional<DroppedObject> nearest;
   for (const RoadBorder& border : road.borders) {
-    const auto offset = options_.method == BorderFilterOptions::kThesis
+    const auto offset = options_.method == BorderFilterMethod::kThesis
                             ? outermostCorner(object, base_in_map, border)
                             : innermostPoint(positions, border);
     // In this form a standard deviation that is not a number is too high.

@@ -13,11 +13,6 @@ namespace datmo {
 
 namespace {
 
-const BorderSearchOptions& checked(const BorderSearchOptions& options) {
-  checkOptions(options);
-  return options;
-}
-
 /// A cell that passes the cut, seen from where the search begins: m along the heading there and
 /// outward.
 struct HitCell {
@@ -132,7 +127,7 @@ void SideSearch::score(double heading, std::vector<Candidate>& best,
   }
   for (int i = 0; i < windows_; ++i) {
     const Window& window = windows[static_cast<std::size_t>(i)];
-    const double score = options_.score == "hits"
+    const double score = options_.score == BorderScore::kHits
                              ? window.hits
                              : static_cast<double>(countOf(window.sections)) / options_.sections;
     Candidate& candidate = best[static_cast<std::size_t>(i)];
@@ -156,8 +151,8 @@ std::vector<Candidate> SideSearch::bestOfEachDistance() const {
 }
 
 std::optional<FoundBorder> SideSearch::find() const {
-  const double min = options_.score == "hits" ? options_.min_hits : options_.min_share;
-  const bool take_first = options_.take == "first";
+  const double min = options_.score == BorderScore::kHits ? options_.min_hits : options_.min_share;
+  const bool take_first = options_.take == BorderChoice::kFirst;
   const std::vector<Candidate> best = bestOfEachDistance();
   const Candidate* found = nullptr;
   for (std::size_t i = 0; i < best.size(); ++i) {
@@ -229,7 +224,7 @@ std::vector<BorderPoint> pointsOf(const FoundBorder& found, double spacing) {
   return points;
 }
 
-BorderSearch::BorderSearch(const BorderSearchOptions& options) : options_(checked(options)) {}
+BorderSearch::BorderSearch(const Checked<BorderSearchOptions>& options) : options_(*options) {}
 
 std::optional<FoundBorder> BorderSearch::search(const HitGrid& hits, const Pose2& from,
                                                 RoadSide side) const {

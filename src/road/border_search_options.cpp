@@ -25,18 +25,19 @@ void BorderSearchOptions::visit(OptionVisitor& visitor) {
                  heading_step, {0.005, 0.5});
   visitor.integer({"sections", "1", "of the length of a window, for the share of it that is hit"},
                   sections, {1, 64});
-  visitor.text({"score", "",
-                "share: of the sections of a window that hold a cell that passes the cut, which is "
-                "the same for any speed and scanner; or hits: the sum over all cells (thesis "
-                "3.5.3)"},
-               score, {"share", "hits"});
+  visitor.choice(
+      {"score", "",
+       "share: of the sections of a window that hold a cell that passes the cut, which is "
+       "the same for any speed and scanner; or hits: the sum over all cells (thesis "
+       "3.5.3)"},
+      score, {{"share", BorderScore::kShare}, {"hits", BorderScore::kHits}});
   visitor.number({"min_share", "1", "of a border, where the score is share"}, min_share,
                  {0.0, 1.0});
   visitor.number({"min_hits", "1", "of a border, where the score is hits"}, min_hits, {0.0, 1.0e9});
-  visitor.text({"take", "",
-                "first: of the windows that are a border's by their score the nearest one whose "
-                "next one has no higher score; or highest: of all (thesis 3.5 has both)"},
-               take, {"first", "highest"});
+  visitor.choice({"take", "",
+                  "first: of the windows that are a border's by their score the nearest one whose "
+                  "next one has no higher score; or highest: of all (thesis 3.5 has both)"},
+                 take, {{"first", BorderChoice::kFirst}, {"highest", BorderChoice::kHighest}});
   visitor.number({"hit_sigma", "m", "of the hits about the border, by range noise"}, hit_sigma,
                  {0.01, 2.0});
   visitor.number({"shape_sigma", "m", "of the border about a straight line"}, shape_sigma,

@@ -32,19 +32,6 @@ constexpr double kMinBorder = 5.0;
 /// Border that a side of a road had of late: what is open after less is a car park, m.
 constexpr double kMinRoad = 15.0;
 
-const IntersectionDetectorOptions& checked(const IntersectionDetectorOptions& options) {
-  checkOptions(options);
-  if (options.leave_below > options.enter_above) {
-    throw OptionError("leave_below is " + toText(options.leave_below) +
-                      ": expected at most enter_above, " + toText(options.enter_above));
-  }
-  if (options.min_opening > options.max_opening) {
-    throw OptionError("min_opening is " + toText(options.min_opening) +
-                      ": expected at most max_opening, " + toText(options.max_opening));
-  }
-  return options;
-}
-
 double logOdds(double probability) { return std::log(probability / (1.0 - probability)); }
 
 int stationsOf(const SidePresence& side) { return static_cast<int>(side.probability.size()); }
@@ -84,8 +71,19 @@ void IntersectionDetectorOptions::visit(OptionVisitor& visitor) {
                  leave_below, {0.01, 0.99});
 }
 
-IntersectionDetector::IntersectionDetector(const IntersectionDetectorOptions& options)
-    : options_(checked(options)) {}
+void IntersectionDetectorOptions::check() const {
+  if (leave_below > enter_above) {
+    throw OptionError("leave_below is " + toText(leave_below) + ": expected at most enter_above, " +
+                      toText(enter_above));
+  }
+  if (min_opening > max_opening) {
+    throw OptionError("min_opening is " + toText(min_opening) + ": expected at most max_opening, " +
+                      toText(max_opening));
+  }
+}
+
+IntersectionDetector::IntersectionDetector(const Checked<IntersectionDetectorOptions>& options)
+    : options_(*options) {}
 
 /// Whether a border reaches to (`toward` -1) or begins at (1) a station: it has one, and half of
 /// those before or behind it.

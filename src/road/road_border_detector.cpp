@@ -9,17 +9,6 @@ namespace datmo {
 
 namespace {
 
-const RoadBorderDetectorOptions& checked(const RoadBorderDetectorOptions& options) {
-  checkOptions(options);
-  const StationEvidenceOptions& evidence = options.tracks.border.evidence;
-  if (evidence.hit_probability <= evidence.clutter) {
-    throw OptionError(
-        "tracks/border/evidence/hit_probability = " + std::to_string(evidence.hit_probability) +
-        ": expected more than clutter (" + std::to_string(evidence.clutter) + ")");
-  }
-  return options;
-}
-
 /// The middle line of a window as a border, known to the width of the window.
 RoadBorder borderOf(const FoundBorder& found, double spacing) {
   RoadBorder border;
@@ -37,10 +26,11 @@ RoadBorderDetectorOptions::RoadBorderDetectorOptions() {
 }
 
 void RoadBorderDetectorOptions::visit(OptionVisitor& visitor) {
-  visitor.text({"method", "",
-                "tracked: borders followed as clothoids over time (Kirchner and Heinrich 1998); "
-                "thesis: the best window of each scan by itself (thesis 3.5)"},
-               method, {"tracked", "thesis"});
+  visitor.choice({"method", "",
+                  "tracked: borders followed as clothoids over time (Kirchner and Heinrich 1998); "
+                  "thesis: the best window of each scan by itself (thesis 3.5)"},
+                 method,
+                 {{"tracked", RoadBorderMethod::kTracked}, {"thesis", RoadBorderMethod::kThesis}});
   visitor.group("hit_grid", [&] { hit_grid.visit(visitor); });
   visitor.group("search", [&] { search.visit(visitor); });
   visitor.group("tracks", [&] { tracks.visit(visitor); });
@@ -57,18 +47,26 @@ void RoadBorderDetectorOptions::visit(OptionVisitor& visitor) {
                  max_step, {0.1, 1000.0});
 }
 
-RoadBorderDetector::RoadBorderDetector(const RoadBorderDetectorOptions& options)
-    : options_(checked(options)),
-      hits_(options.hit_grid),
-      search_(options.search),
-      tracks_(options.tracks),
-      presence_(options.presence),
-      intersection_(options.intersection),
-      side_streets_(options.side_streets) {}
+void RoadBorderDetectorOptions::check() const {
+  const StationEvidenceOptions& evidence = tracks.border.evidence;
+  if (evidence.hit_probability <= evidence.clutter) {
+    throw OptionError(
+        "tracks/border/evidence/hit_probability = " + std::to_string(evidence.hit_probability) +
+        ": expected more than clutter (" + std::to_string(evidence.clutter) + ")");
+  }
+}
 
-void RoadBorderDetector::setPublished(const BorderPublishingOptions& options) {
-  checkOptions(options);
-  options_.published = options;
+RoadBorderDetector::RoadBorderDetector(const Checked<RoadBorderDetectorOptions>& options)
+    : options_(*options),
+      hits_(options->hit_grid),
+      search_(options->search),
+      tracks_(options->tracks),
+      presence_(options->presence),
+      intersection_(options->intersection),
+      side_streets_(options->side_streets) {}
+
+void RoadBorderDetector::setPublished(const Checked<BorderPublishingOptions>& options) {
+  options_.published = *options;
 }
 
 std::optional<double> RoadBorderDetector::secondsSinceLast(const LabeledScan& scan) const {
@@ -89,7 +87,7 @@ const RoadModel& RoadBorderDetector::update(const LabeledScan& scan) {
   road_.stamp = scan.stamp;
   vehicle_ = scan.base_in_map.pose;
   hits_.update(scan);
-  if (options_.method == "thesis") {
+  if (options_.method == RoadBorderMethod::kThesis) {
     search(*vehicle_ * scan.scanner_in_base);
   } else {
     follow(scan, seconds.value_or(0.0));

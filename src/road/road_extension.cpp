@@ -32,9 +32,7 @@ void RoadExtensionOptions::visit(OptionVisitor& visitor) {
                  length, {0.0, 200.0});
 }
 
-RoadExtension::RoadExtension(const RoadExtensionOptions& options) : options_(options) {
-  checkOptions(options);
-}
+RoadExtension::RoadExtension(const Checked<RoadExtensionOptions>& options) : options_(*options) {}
 
 void RoadExtension::addEnds(const RoadBorder& border, Side& side) {
   const std::vector<BorderPoint>& points = border.points;

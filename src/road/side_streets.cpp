@@ -41,10 +41,8 @@ void SideStreetOptions::visit(OptionVisitor& visitor) {
   visitor.group("search", [&] { search.visit(visitor); });
 }
 
-SideStreets::SideStreets(const SideStreetOptions& options)
-    : options_(options), search_(options.search) {
-  checkOptions(options);
-}
+SideStreets::SideStreets(const Checked<SideStreetOptions>& options)
+    : options_(*options), search_(options->search) {}
 
 void SideStreets::update(const HitGrid& hits, const std::vector<RoadOpening>& openings,
                          Stamp stamp) {

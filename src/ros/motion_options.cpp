@@ -4,13 +4,20 @@
 namespace datmo {
 
 void MotionOptions::visit(OptionVisitor& visitor) {
-  visitor.text({"source", "",
-                "source of the vehicle's motion: its odometry (nav_msgs/Odometry); a twist "
-                "(TwistStamped, TwistWithCovarianceStamped); the yaw rate of an Imu alone, while "
-                "the speed comes from the scans; that yaw rate and the speed of a twist or of the "
-                "wheels (JointState); or none: all from the scans",
-                Tier::kPublic},
-               source, {"odometry", "twist", "imu", "imu_and_twist", "imu_and_wheels", "none"});
+  visitor.choice(
+      {"source", "",
+       "source of the vehicle's motion: its odometry (nav_msgs/Odometry); a twist "
+       "(TwistStamped, TwistWithCovarianceStamped); the yaw rate of an Imu alone, while "
+       "the speed comes from the scans; that yaw rate and the speed of a twist or of the "
+       "wheels (JointState); or none: all from the scans",
+       Tier::kPublic},
+      source,
+      {{"odometry", MotionSource::kOdometry},
+       {"twist", MotionSource::kTwist},
+       {"imu", MotionSource::kImu},
+       {"imu_and_twist", MotionSource::kImuAndTwist},
+       {"imu_and_wheels", MotionSource::kImuAndWheels},
+       {"none", MotionSource::kNone}});
   visitor.toggle({"odometry_pose", "",
                   "take the motion from the odometry's poses, for a robot's wheel encoders; "
                   "false: its speed and yaw rate do",

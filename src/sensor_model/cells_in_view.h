@@ -9,7 +9,7 @@
 
 namespace datmo {
 
-/// Part of the ground that a stereo camera's grid speaks of.
+/// Part of the ground that a stereo camera's grid covers.
 struct FieldOfView {
   double left_tangent = 0.0;  ///< right / forward
   double right_tangent = 0.0;

@@ -178,21 +178,22 @@ void CloudToScanOptions::visit(OptionVisitor& visitor) {
   visitor.group("sweep", [&] { sweep.visit(visitor); });
 }
 
-CloudToScan::CloudToScan(const CloudToScanOptions& options) : options_(options) {
-  checkOptions(options);
-  if (options.min_height >= options.max_height) {
-    throw OptionError("min_height = " + std::to_string(options.min_height) +
-                      ": expected less than max_height = " + std::to_string(options.max_height));
+void CloudToScanOptions::check() const {
+  if (min_height >= max_height) {
+    throw OptionError("min_height = " + std::to_string(min_height) +
+                      ": expected less than max_height = " + std::to_string(max_height));
   }
-  if (options.min_range >= options.max_range) {
-    throw OptionError("min_range = " + std::to_string(options.min_range) +
-                      ": expected less than max_range = " + std::to_string(options.max_range));
+  if (min_range >= max_range) {
+    throw OptionError("min_range = " + std::to_string(min_range) +
+                      ": expected less than max_range = " + std::to_string(max_range));
   }
-  if (options.beam_width > options.beam_spacing) {
-    throw OptionError("beam_width = " + std::to_string(options.beam_width) +
-                      ": expected at most beam_spacing = " + std::to_string(options.beam_spacing));
+  if (beam_width > beam_spacing) {
+    throw OptionError("beam_width = " + std::to_string(beam_width) +
+                      ": expected at most beam_spacing = " + std::to_string(beam_spacing));
   }
 }
+
+CloudToScan::CloudToScan(const Checked<CloudToScanOptions>& options) : options_(*options) {}
 
 PlanarScan CloudToScan::scan(const LidarCloud& cloud) const {
   const LidarPoints::Ptr points = toBase(cloud);

@@ -1,32 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/sensor_model/depth_noise.h"
 
-#include <array>
 #include <stdexcept>
-#include <utility>
-#include <vector>
 
 namespace datmo {
-
-namespace {
-
-constexpr std::array<std::pair<const char*, DepthPrinciple>, 4> kPrinciples = {{
-    {"stereo", DepthPrinciple::kStereo},
-    {"active_stereo", DepthPrinciple::kActiveStereo},
-    {"structured_light", DepthPrinciple::kStructuredLight},
-    {"time_of_flight", DepthPrinciple::kTimeOfFlight},
-}};
-
-std::vector<std::string> principleNames() {
-  std::vector<std::string> names;
-  names.reserve(kPrinciples.size());
-  for (const auto& [name, principle] : kPrinciples) {
-    names.emplace_back(name);
-  }
-  return names;
-}
-
-}  // namespace
 
 void StructuredLightNoiseOptions::visit(OptionVisitor& visitor) {
   visitor.number({"constant", "m",
@@ -46,12 +23,17 @@ void TimeOfFlightNoiseOptions::visit(OptionVisitor& visitor) {
 }
 
 void DepthNoiseOptions::visit(OptionVisitor& visitor) {
-  visitor.text({"depth_noise", "",
-                "what the camera measures depth by, which the noise of depths follows from: stereo "
-                "(camera info of a right camera), active_stereo (a depth camera with a pair of "
-                "its own), structured_light, time_of_flight",
-                Tier::kPublic},
-               principle, principleNames());
+  visitor.choice(
+      {"depth_noise", "",
+       "what the camera measures depth by, which the noise of depths follows from: stereo "
+       "(camera info of a right camera), active_stereo (a depth camera with a pair of "
+       "its own), structured_light, time_of_flight",
+       Tier::kPublic},
+      principle,
+      {{"stereo", DepthPrinciple::kStereo},
+       {"active_stereo", DepthPrinciple::kActiveStereo},
+       {"structured_light", DepthPrinciple::kStructuredLight},
+       {"time_of_flight", DepthPrinciple::kTimeOfFlight}});
   visitor.number({"disparity_sigma", "px",
                   "standard deviation of a disparity, of both forms of stereo; at 0.25 px two "
                   "standard deviations of the demonstrator's depth are 5 m at 36 m (thesis 3.3.3)",
@@ -61,19 +43,8 @@ void DepthNoiseOptions::visit(OptionVisitor& visitor) {
   visitor.group("time_of_flight", [&] { time_of_flight.visit(visitor); });
 }
 
-DepthPrinciple depthPrinciple(const std::string& name) {
-  std::string expected;
-  for (const auto& [known, principle] : kPrinciples) {
-    if (name == known) {
-      return principle;
-    }
-    expected += (expected.empty() ? "" : ", ") + std::string(known);
-  }
-  throw OptionError("depth_noise = '" + name + "': expected one of " + expected);
-}
-
 DepthNoise depthNoise(const DepthNoiseOptions& options, double focal_length, double baseline) {
-  switch (depthPrinciple(options.principle)) {
+  switch (options.principle) {
     case DepthPrinciple::kStereo:
     case DepthPrinciple::kActiveStereo:
       return DepthNoise::ofDisparity(focal_length, baseline, options.disparity_sigma);

@@ -10,11 +10,6 @@ namespace datmo {
 
 namespace {
 
-const LidarGridOptions& checked(const LidarGridOptions& options) {
-  checkOptions(options);
-  return options;
-}
-
 /// From a point to the farthest point of the window, m.
 double reachFrom(const Point2& point, const GridWindow& window) {
   const Point2 low = window.origin();
@@ -96,8 +91,8 @@ void LidarGridOptions::visit(OptionVisitor& visitor) {
                  min_incidence, {0.01, kQuarterTurn});
 }
 
-LidarGridModel::LidarGridModel(const LidarGridOptions& options)
-    : options_(checked(options)), window_(options.window.window()) {}
+LidarGridModel::LidarGridModel(const Checked<LidarGridOptions>& options)
+    : options_(*options), window_(options->window.window()) {}
 
 SensorGrid LidarGridModel::grid(const Scan& scan) const {
   SensorGrid grid(scan.stamp, window_);

@@ -172,9 +172,8 @@ void RoadPlaneOptions::visit(OptionVisitor& visitor) {
                  max_height, {0.0, 2.0});
 }
 
-RoadPlaneEstimator::RoadPlaneEstimator(const RoadPlaneOptions& options) : options_(options) {
-  checkOptions(options);
-}
+RoadPlaneEstimator::RoadPlaneEstimator(const Checked<RoadPlaneOptions>& options)
+    : options_(*options) {}
 
 std::optional<RoadPlane> RoadPlaneEstimator::update(const StereoCloud& cloud) {
   if (!options_.estimate) {

@@ -14,9 +14,6 @@ namespace datmo {
 
 namespace {
 
-constexpr char kColumns[] = "columns";
-constexpr char kCones[] = "cones";
-
 /// Points up to so many standard deviations beyond the effective range still belong to it.
 constexpr double kBeyondRange = 2.0;
 
@@ -68,11 +65,11 @@ void StereoColumnsOptions::visit(OptionVisitor& visitor) {
 
 void StereoGridOptions::visit(OptionVisitor& visitor) {
   visitor.group("window", [&] { window.visit(visitor); });
-  visitor.text(
+  visitor.choice(
       {"method", "",
        "columns: surface and lines of sight in columns of the image, on an estimated road; "
        "cones: counts of points and cones of objects on a flat road (thesis 3.2.2)"},
-      method, {kColumns, kCones});
+      method, {{"columns", StereoGridMethod::kColumns}, {"cones", StereoGridMethod::kCones}});
   visitor.number({"occupied_probability", "1", "of an occupied cell (thesis figure 3.4)"},
                  occupied_probability, {0.51, 1.0});
   visitor.number({"free_probability", "1", "of a free cell being occupied (thesis figure 3.4)"},
@@ -93,13 +90,11 @@ void StereoGridOptions::visit(OptionVisitor& visitor) {
   visitor.group("road", [&] { road.visit(visitor); });
 }
 
-StereoGridModel::StereoGridModel(const StereoGridOptions& options)
-    : options_(options),
-      window_(options.window.window()),
-      road_(options.road),
-      evidence_(std::make_unique<StereoEvidence>()) {
-  checkOptions(options);
-}
+StereoGridModel::StereoGridModel(const Checked<StereoGridOptions>& options)
+    : options_(*options),
+      window_(options->window.window()),
+      road_(options->road),
+      evidence_(std::make_unique<StereoEvidence>()) {}
 
 StereoGridModel::~StereoGridModel() = default;
 
@@ -107,7 +102,7 @@ StereoGridResult StereoGridModel::grid(const StereoCloud& cloud) {
   StereoGridResult result;
   result.grid = SensorGrid(cloud.stamp, window_);
   const FieldOfView field = fieldOf(options_, cloud.camera);
-  if (options_.method == kCones) {
+  if (options_.method == StereoGridMethod::kCones) {
     const StereoView view(cloud, result.road);
     const StereoCounts counts = fillByCones(options_, cloud, view, field, result.grid);
     result.points = counts.points;

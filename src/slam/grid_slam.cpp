@@ -133,23 +133,22 @@ void GridSlamOptions::visit(OptionVisitor& visitor) {
   visitor.number({"max_step", "m", "neighboring end points further apart are on different surfaces",
                   Tier::kPublic},
                  max_step, {0.05, 20.0});
-  visitor.text({"grid_ends", "",
-                "where the obstacles of a fused grid lie: 'scan', where a beam ends in an occupied "
-                "cell, 'cells', at the cells' centers (thesis 3.2.5)"},
-               grid_ends, {"scan", "cells"});
+  visitor.choice(
+      {"grid_ends", "",
+       "where the obstacles of a fused grid lie: 'scan', where a beam ends in an occupied "
+       "cell, 'cells', at the cells' centers (thesis 3.2.5)"},
+      grid_ends, {{"scan", GridEnds::kScan}, {"cells", GridEnds::kCells}});
   visitor.integer({"seed", "1", "of the random numbers with which poses are drawn"}, seed,
                   {0, 2147483647});
 }
 
-GridSlam::GridSlam(const GridSlamOptions& options)
-    : options_(options),
-      matcher_(options.matcher),
-      map_(options.map),
-      odometry_(options.odometry_hold, kOdometryMemory),
-      random_(static_cast<std::uint64_t>(options.seed)),
-      filter_(options.pose, options.motion) {
-  checkOptions(options);
-}
+GridSlam::GridSlam(const Checked<GridSlamOptions>& options)
+    : options_(*options),
+      matcher_(options->matcher),
+      map_(options->map),
+      odometry_(options->odometry_hold, kOdometryMemory),
+      random_(static_cast<std::uint64_t>(options->seed)),
+      filter_(options->pose, options->motion) {}
 
 void GridSlam::addOdometry(const OdometrySample& sample) {
   odometry_.add(sample);
@@ -190,8 +189,7 @@ Scan GridSlam::compensated(const Scan& scan) const {
 GridMaskedScan GridSlam::viewOf(const Measurement& measurement,
                                 const Scan& compensated_scan) const {
   if (measurement.grid != nullptr) {
-    const GridEnds ends = options_.grid_ends == "scan" ? GridEnds::kScan : GridEnds::kCells;
-    return maskScanWithGrid(*measurement.grid, compensated_scan, ends);
+    return maskScanWithGrid(*measurement.grid, compensated_scan, options_.grid_ends);
   }
   return {compensated_scan, std::vector<bool>(compensated_scan.rays.size(), true), true, {}, {}};
 }

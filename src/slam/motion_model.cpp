@@ -31,9 +31,8 @@ void MotionModelOptions::visit(OptionVisitor& visitor) {
                  initial_yaw_rate_sigma, {0.0001, 10.0});
 }
 
-VelocityMotionModel::VelocityMotionModel(const MotionModelOptions& options) : options_(options) {
-  checkOptions(options);
-}
+VelocityMotionModel::VelocityMotionModel(const Checked<MotionModelOptions>& options)
+    : options_(*options) {}
 
 Eigen::Matrix3d VelocityMotionModel::covariance(const Twist2& twist, double seconds) const {
   // A turn that goes wrong at a constant rate also bends the path: half of it, sideways.

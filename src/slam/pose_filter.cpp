@@ -28,9 +28,8 @@ void PoseFilterOptions::visit(OptionVisitor& visitor) {
                  calibrate_odometry);
 }
 
-PoseFilter::PoseFilter(const PoseFilterOptions& options, const MotionModelOptions& motion)
-    : options_(options), motion_model_(motion) {
-  checkOptions(options);
+PoseFilter::PoseFilter(const Checked<PoseFilterOptions>& options, const MotionModelOptions& motion)
+    : options_(*options), motion_model_(motion) {
   covariance_.block<2, 2>(kSpeed, kSpeed) = motion_model_.initialVelocityCovariance();
   if (options_.calibrate_odometry) {
     covariance_(kSpeedScale, kSpeedScale) = kSpeedScaleSigma * kSpeedScaleSigma;

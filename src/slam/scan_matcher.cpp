@@ -125,9 +125,7 @@ void ScanMatcherOptions::visit(OptionVisitor& visitor) {
                   {1, 10000});
 }
 
-ScanMatcher::ScanMatcher(const ScanMatcherOptions& options) : options_(options) {
-  checkOptions(options);
-}
+ScanMatcher::ScanMatcher(const Checked<ScanMatcherOptions>& options) : options_(*options) {}
 
 double ScanMatcher::score(const Task& task, const Pose2& pose) const {
   const OccupancyMap& map = task.map;

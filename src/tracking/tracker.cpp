@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -11,7 +10,6 @@
 
 #include "datmo_fusion/tracking/multiple_hypotheses.h"
 #include "datmo_fusion/tracking/nearest_neighbor.h"
-#include "datmo_fusion/tracking/track_paths.h"
 
 namespace datmo {
 
@@ -29,7 +27,7 @@ double positionStd(const Target& target) {
 }
 
 std::unique_ptr<TargetSet> makeTargets(const TrackerOptions& options) {
-  if (options.association == TrackerOptions::kGlobalNearestNeighbor) {
+  if (options.association == TrackerAssociation::kGlobalNearestNeighbor) {
     return std::make_unique<NearestNeighborTargets>(options.target, options.gating);
   }
   return std::make_unique<MultipleHypotheses>(options.target, options.gating, options.hypotheses,
@@ -38,251 +36,204 @@ std::unique_ptr<TargetSet> makeTargets(const TrackerOptions& options) {
 
 }  // namespace
 
-class Tracker::State {
- public:
-  State(const TrackerOptions& options, StepClock clock)
-      : options_(options),
-        clock_(std::move(clock)),
-        unknown_view_(options.visibility),
-        clutter_(options.clutter),
-        transition_priors_(options.target.filter.transitions),
-        scans_(options.scans),
-        targets_(makeTargets(options)) {}
+Tracker::Tracker(const Checked<TrackerOptions>& options, StepClock clock)
+    : options_(*options),
+      clock_(std::move(clock)),
+      unknown_view_(options->visibility),
+      clutter_(options->clutter),
+      transition_priors_(options->target.filter.transitions),
+      scans_(options->scans),
+      targets_(makeTargets(*options)) {}
 
-  TrackList process(const ObjectList& list, const Pose2& base_in_fixed,
-                    const Visibility& visibility) {
-    const StepBudget budget(clock_, options_.time_budget);
-    const double seconds = stamp_ ? std::max(0.0, secondsBetween(*stamp_, list.stamp)) : 0.0;
-    stamp_ = stamp_ ? std::max(*stamp_, list.stamp) : list.stamp;
-    targets_->predict(seconds);
-    removeLost();
-    AssociationScan scan =
-        ingest(list.objects, base_in_fixed, visibility, clutter_, options_.intake, counts_.intake);
-    scan.transition_priors = &transition_priors_;
-    makeRoom(scan.objects, seconds);
-    targets_->associate(scan, budget);
-    removeDuplicates();
-    removeLost();
-    confirm();
-    learnClutter(scan, seconds);
-    counts_.association = targets_->counts();
-    TrackList tracks = published(list.stamp, scan);
-    for (const ViewFan& fan : visibility.fans()) {
-      tracks.views.push_back(transformed(base_in_fixed, fan));
-    }
-    return tracks;
-  }
+void Tracker::setOptions(const Checked<TrackerOptions>& options) { options_ = *options; }
 
-  void addScan(const LabeledScan& scan) { scans_.add(scan); }
-
-  void setOptions(const TrackerOptions& options) { options_ = options; }
-
-  const Visibility& unknownView() const { return unknown_view_; }
-  const TrackerCounts& counts() const { return counts_; }
-
-  void reset() {
-    targets_->clear();
-    clutter_.clear();
-    transition_priors_ = TransitionPriors(options_.target.filter.transitions);
-    scans_.clear();
-    paths_.clear();
-    stamp_.reset();
-    counts_ = TrackerCounts();
-  }
-
- private:
-  void removeDuplicates() {
-    std::vector<const Target*> targets;
-    for (const BestTarget& best : targets_->best()) {
-      targets.push_back(best.target);
-    }
-    const std::set<std::uint64_t> duplicates = findDuplicates(targets, options_.duplicates);
-    counts_.merged_tracks += duplicates.size();
-    remove(duplicates);
-  }
-
-  void remove(const std::set<std::uint64_t>& numbers) {
-    if (!numbers.empty()) {
-      targets_->removeIf([&](const Target& target) { return numbers.count(target.number()) > 0; });
-    }
-  }
-
-  /// So that new objects are never refused for the sake of old false alarms.
-  void makeRoom(std::size_t objects, double seconds) {
-    const std::vector<BestTarget> all = targets_->best();
-    const auto max = static_cast<std::size_t>(options_.gating.max_targets);
-    if (all.size() + objects <= max) {
-      return;
-    }
-    std::vector<const Target*> unlikely;
-    for (const BestTarget& best : all) {
-      const bool missed = best.target->sinceUpdate() > seconds;  // in the last scan already
-      if (!best.target->confirmed() && missed) {
-        unlikely.push_back(best.target);
-      }
-    }
-    std::sort(unlikely.begin(), unlikely.end(), [this](const Target* a, const Target* b) {
-      return std::make_tuple(existence(*a), a->hits(), a->number()) <
-             std::make_tuple(existence(*b), b->hits(), b->number());
-    });
-    unlikely.resize(std::min(unlikely.size(), all.size() + objects - max));
-    std::set<std::uint64_t> numbers;
-    for (const Target* target : unlikely) {
-      numbers.insert(target->number());
-    }
-    counts_.evicted_targets += numbers.size();
-    remove(numbers);
-  }
-
-  void removeLost() {
-    for (const BestTarget& best : targets_->best()) {
-      const auto& transitions = best.target->filter().transitions();
-      if (best.target->confirmed() && transitions && isLost(*best.target)) {
-        transition_priors_.learn(best.target->objectClass(), *transitions);
-      }
-    }
-    targets_->removeIf([this](const Target& target) { return isLost(target); });
-  }
-
-  /// How long a track that was followed for this time may go unseen.
-  double silenceAfter(double followed, double max) const {
-    return std::min(max, std::max(kMinCoasting, followed));
-  }
-
-  bool isLost(const Target& target) const {
-    const double allowed = target.confirmed()
-                               ? silenceAfter(target.followed(), options_.confirmed_silence)
-                               : options_.tentative_silence;
-    return (target.confirmed() && existence(target) < options_.min_existence) ||
-           (options_.require_motion && target.motionRefuted(options_.target)) ||
-           target.sinceUpdate() > allowed ||
-           !(positionStd(target) <= options_.max_position_std);  // nor what is not a number
-  }
-
-  double existence(const Target& target) const {
-    return target.existenceProbability(options_.target);
-  }
-
-  bool isPublished(const BestTarget& best) const {
-    const Target& target = *best.target;
-    return target.confirmed() &&
-           best.probability * existence(target) >= options_.published_existence &&
-           target.sinceUpdate() <=
-               silenceAfter(kPublishedShare * target.followed(), options_.published_silence);
-  }
-
-  void confirm() {
-    for (const BestTarget& best : targets_->best()) {
-      if (!best.target->confirmed() && deservesTrack(*best.target)) {
-        const std::uint32_t id = next_id_++;
-        const JumpCounts prior = transition_priors_.of(best.target->objectClass());
-        const bool moves = seemsToMove(*best.target);
-        targets_->change(best.target->number(), [&](Target& target) {
-          target.confirm(id, moves);
-          target.setTransitionPrior(prior);
-        });
-        ++counts_.confirmed_tracks;
-      }
-    }
-  }
-
-  /// By what it did, or by what two sensors see of it.
-  bool seemsToMove(const Target& target) const {
-    return target.movesByBeams(scans_, *stamp_, options_.target) ||
-           target.isSeenMovingByTwo(options_.target);
-  }
-
-  bool deservesTrack(const Target& target) const {
-    const bool fused = target.sensors().size() > 1;
-    const int hits = fused ? options_.fused_confirmation_hits : options_.confirmation_hits;
-    return target.measurementIndex() != kUnseen &&
-           target.hits() >= static_cast<std::uint32_t>(hits) &&
-           target.objectClass() != ObjectClass::kPole &&
-           existence(target) >= options_.confirmation_existence &&
-           (!options_.require_motion || seemsToMove(target));
-  }
-
-  /// What belongs to a confirmed target is no clutter.
-  void learnClutter(const AssociationScan& scan, double seconds) {
-    std::vector<bool> explained(scan.objects, false);
-    for (const BestTarget& best : targets_->best()) {
-      const std::size_t measurement_index = best.target->measurementIndex();
-      if (best.target->confirmed() && measurement_index != kUnseen) {
-        for (const std::size_t source : scan.observations[measurement_index].sources) {
-          explained[source] = true;
-        }
-      }
-    }
-    std::vector<Point2> unexplained;
-    for (std::size_t i = 0; i < scan.objects; ++i) {
-      if (!explained[i]) {
-        unexplained.push_back(scan.fixed_in_base *
-                              scan.observations[i].object.box.center.position());
-      }
-    }
-    clutter_.learn(unexplained, seconds);
-  }
-
-  TrackList published(Stamp stamp, const AssociationScan& scan) {
-    TrackList list{stamp, {}, {}};
-    for (const BestTarget& best : targets_->best()) {
-      if (isPublished(best)) {
-        list.tracks.push_back(trackOf(best, scan));
-      }
-    }
-    std::sort(list.tracks.begin(), list.tracks.end(),
-              [](const Track& a, const Track& b) { return a.id < b.id; });
-    paths_.extend(list, options_.history_time);
-    return list;
-  }
-
-  Track trackOf(const BestTarget& best, const AssociationScan& scan) const {
-    Track track = best.target->track(options_.target);
-    track.existence_probability = best.probability * existence(*best.target);
-    if (best.target->measurementIndex() != kUnseen) {
-      track.objects = scan.listedSources(best.target->measurementIndex());
-    }
-    return track;
-  }
-
-  TrackerOptions options_;
-  StepClock clock_;
-  Visibility unknown_view_;
-  ClutterMap clutter_;
-  TransitionPriors transition_priors_;
-  ScanHistory scans_;
-  std::unique_ptr<TargetSet> targets_;
-  TrackPaths paths_;
-  std::optional<Stamp> stamp_;
-  std::uint32_t next_id_ = 1;
-  TrackerCounts counts_;
-};
-
-Tracker::Tracker(const TrackerOptions& options, StepClock clock) {
-  checkOptions(options);
-  state_ = std::make_unique<State>(options, std::move(clock));
-}
-
-Tracker::~Tracker() = default;
-
-void Tracker::setOptions(const TrackerOptions& options) {
-  checkOptions(options);
-  state_->setOptions(options);
-}
-
-void Tracker::addScan(const LabeledScan& scan) { state_->addScan(scan); }
+void Tracker::addScan(const LabeledScan& scan) { scans_.add(scan); }
 
 TrackList Tracker::process(const ObjectList& objects, const Pose2& base_in_fixed,
                            const Visibility& visibility) {
-  return state_->process(objects, base_in_fixed, visibility);
+  const StepBudget budget(clock_, options_.time_budget);
+  const double seconds = stamp_ ? std::max(0.0, secondsBetween(*stamp_, objects.stamp)) : 0.0;
+  stamp_ = stamp_ ? std::max(*stamp_, objects.stamp) : objects.stamp;
+  targets_->predict(seconds);
+  removeLost();
+  AssociationScan scan =
+      ingest(objects.objects, base_in_fixed, visibility, clutter_, options_.intake, counts_.intake);
+  scan.transition_priors = &transition_priors_;
+  makeRoom(scan.objects, seconds);
+  targets_->associate(scan, budget);
+  removeDuplicates();
+  removeLost();
+  confirm();
+  learnClutter(scan, seconds);
+  counts_.association = targets_->counts();
+  TrackList tracks = published(objects.stamp, scan);
+  for (const ViewFan& fan : visibility.fans()) {
+    tracks.views.push_back(transformed(base_in_fixed, fan));
+  }
+  return tracks;
 }
 
 TrackList Tracker::process(const ObjectList& objects, const Pose2& base_in_fixed) {
-  return state_->process(objects, base_in_fixed, state_->unknownView());
+  return process(objects, base_in_fixed, unknown_view_);
 }
 
-const TrackerCounts& Tracker::counts() const { return state_->counts(); }
+void Tracker::reset() {
+  targets_->clear();
+  clutter_.clear();
+  transition_priors_ = TransitionPriors(options_.target.filter.transitions);
+  scans_.clear();
+  paths_.clear();
+  stamp_.reset();
+  counts_ = TrackerCounts();
+}
 
-void Tracker::reset() { state_->reset(); }
+void Tracker::removeDuplicates() {
+  std::vector<const Target*> targets;
+  for (const BestTarget& best : targets_->best()) {
+    targets.push_back(best.target);
+  }
+  const std::set<std::uint64_t> duplicates = findDuplicates(targets, options_.duplicates);
+  counts_.merged_tracks += duplicates.size();
+  remove(duplicates);
+}
+
+void Tracker::remove(const std::set<std::uint64_t>& numbers) {
+  if (!numbers.empty()) {
+    targets_->removeIf([&](const Target& target) { return numbers.count(target.number()) > 0; });
+  }
+}
+
+void Tracker::makeRoom(std::size_t objects, double seconds) {
+  const std::vector<BestTarget> all = targets_->best();
+  const auto max = static_cast<std::size_t>(options_.gating.max_targets);
+  if (all.size() + objects <= max) {
+    return;
+  }
+  std::vector<const Target*> unlikely;
+  for (const BestTarget& best : all) {
+    const bool missed = best.target->sinceUpdate() > seconds;  // in the last scan already
+    if (!best.target->confirmed() && missed) {
+      unlikely.push_back(best.target);
+    }
+  }
+  std::sort(unlikely.begin(), unlikely.end(), [this](const Target* a, const Target* b) {
+    return std::make_tuple(existence(*a), a->hits(), a->number()) <
+           std::make_tuple(existence(*b), b->hits(), b->number());
+  });
+  unlikely.resize(std::min(unlikely.size(), all.size() + objects - max));
+  std::set<std::uint64_t> numbers;
+  for (const Target* target : unlikely) {
+    numbers.insert(target->number());
+  }
+  counts_.evicted_targets += numbers.size();
+  remove(numbers);
+}
+
+void Tracker::removeLost() {
+  for (const BestTarget& best : targets_->best()) {
+    const auto& transitions = best.target->filter().transitions();
+    if (best.target->confirmed() && transitions && isLost(*best.target)) {
+      transition_priors_.learn(best.target->objectClass(), *transitions);
+    }
+  }
+  targets_->removeIf([this](const Target& target) { return isLost(target); });
+}
+
+double Tracker::silenceAfter(double followed, double max) const {
+  return std::min(max, std::max(kMinCoasting, followed));
+}
+
+bool Tracker::isLost(const Target& target) const {
+  const double allowed = target.confirmed()
+                             ? silenceAfter(target.followed(), options_.confirmed_silence)
+                             : options_.tentative_silence;
+  return (target.confirmed() && existence(target) < options_.min_existence) ||
+         (options_.require_motion && target.motionRefuted(options_.target)) ||
+         target.sinceUpdate() > allowed ||
+         !(positionStd(target) <= options_.max_position_std);  // nor what is not a number
+}
+
+double Tracker::existence(const Target& target) const {
+  return target.existenceProbability(options_.target);
+}
+
+bool Tracker::isPublished(const BestTarget& best) const {
+  const Target& target = *best.target;
+  return target.confirmed() &&
+         best.probability * existence(target) >= options_.published_existence &&
+         target.sinceUpdate() <=
+             silenceAfter(kPublishedShare * target.followed(), options_.published_silence);
+}
+
+void Tracker::confirm() {
+  for (const BestTarget& best : targets_->best()) {
+    if (!best.target->confirmed() && deservesTrack(*best.target)) {
+      const std::uint32_t id = next_id_++;
+      const JumpCounts prior = transition_priors_.of(best.target->objectClass());
+      const bool moves = seemsToMove(*best.target);
+      targets_->change(best.target->number(), [&](Target& target) {
+        target.confirm(id, moves);
+        target.setTransitionPrior(prior);
+      });
+      ++counts_.confirmed_tracks;
+    }
+  }
+}
+
+bool Tracker::seemsToMove(const Target& target) const {
+  return target.movesByBeams(scans_, *stamp_, options_.target) ||
+         target.isSeenMovingByTwo(options_.target);
+}
+
+bool Tracker::deservesTrack(const Target& target) const {
+  const bool fused = target.sensors().size() > 1;
+  const int hits = fused ? options_.fused_confirmation_hits : options_.confirmation_hits;
+  return target.measurementIndex() != kUnseen &&
+         target.hits() >= static_cast<std::uint32_t>(hits) &&
+         target.objectClass() != ObjectClass::kPole &&
+         existence(target) >= options_.confirmation_existence &&
+         (!options_.require_motion || seemsToMove(target));
+}
+
+void Tracker::learnClutter(const AssociationScan& scan, double seconds) {
+  std::vector<bool> explained(scan.objects, false);
+  for (const BestTarget& best : targets_->best()) {
+    const std::size_t measurement_index = best.target->measurementIndex();
+    if (best.target->confirmed() && measurement_index != kUnseen) {
+      for (const std::size_t source : scan.observations[measurement_index].sources) {
+        explained[source] = true;
+      }
+    }
+  }
+  std::vector<Point2> unexplained;
+  for (std::size_t i = 0; i < scan.objects; ++i) {
+    if (!explained[i]) {
+      unexplained.push_back(scan.fixed_in_base * scan.observations[i].object.box.center.position());
+    }
+  }
+  clutter_.learn(unexplained, seconds);
+}
+
+TrackList Tracker::published(Stamp stamp, const AssociationScan& scan) {
+  TrackList list{stamp, {}, {}};
+  for (const BestTarget& best : targets_->best()) {
+    if (isPublished(best)) {
+      list.tracks.push_back(trackOf(best, scan));
+    }
+  }
+  std::sort(list.tracks.begin(), list.tracks.end(),
+            [](const Track& a, const Track& b) { return a.id < b.id; });
+  paths_.extend(list, options_.history_time);
+  return list;
+}
+
+Track Tracker::trackOf(const BestTarget& best, const AssociationScan& scan) const {
+  Track track = best.target->track(options_.target);
+  track.existence_probability = best.probability * existence(*best.target);
+  if (best.target->measurementIndex() != kUnseen) {
+    track.objects = scan.listedSources(best.target->measurementIndex());
+  }
+  return track;
+}
 
 }  // namespace datmo

@@ -4,10 +4,12 @@
 namespace datmo {
 
 void TrackerOptions::visit(OptionVisitor& visitor) {
-  visitor.text({"association", "",
-                "which object is of which target: multiple hypotheses over several scans (Reid "
-                "1979; thesis 3.3.4), or the global nearest neighbor of each scan by itself"},
-               association, {kMultipleHypotheses, kGlobalNearestNeighbor});
+  visitor.choice({"association", "",
+                  "which object is of which target: multiple hypotheses over several scans (Reid "
+                  "1979; thesis 3.3.4), or the global nearest neighbor of each scan by itself"},
+                 association,
+                 {{"mht", TrackerAssociation::kMultipleHypotheses},
+                  {"gnn", TrackerAssociation::kGlobalNearestNeighbor}});
   visitor.group("hypotheses", [&] { hypotheses.visit(visitor); });
   visitor.group("split_merge", [&] { split_merge.visit(visitor); });
   visitor.group("intake", [&] { intake.visit(visitor); });

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/visibility/beam_fan.h"
 
 namespace datmo {
 
@@ -32,9 +33,7 @@ void ScanHistoryOptions::visit(OptionVisitor& visitor) {
                  min_incidence, {0.001, 1.0});
 }
 
-ScanHistory::ScanHistory(const ScanHistoryOptions& options) : options_(options) {
-  checkOptions(options);
-}
+ScanHistory::ScanHistory(const Checked<ScanHistoryOptions>& options) : options_(*options) {}
 
 void ScanHistory::add(const LabeledScan& scan) {
   Scan seen;
@@ -72,19 +71,16 @@ const ScanHistory::Beam* ScanHistory::beamToward(const Scan& scan, const Point2&
   if (scan.beams.empty() || field.beam_spacing == 0.0 || seen.norm() <= field.min_range) {
     return nullptr;
   }
-  const double turned = normalizeAngle(std::atan2(seen.y(), seen.x()) - field.first_bearing);
-  double index = turned / field.beam_spacing;
-  if (index < -0.5) {
-    index += 2.0 * kPi / std::abs(field.beam_spacing);  // the other way round
-  }
-  const double nearest = std::round(index);
-  const bool in_field = nearest >= 0.0 && nearest < static_cast<double>(scan.beams.size());
+  const BeamFan fan(field.first_bearing, field.beam_spacing);
+  const double position = fan.positionAt(std::atan2(seen.y(), seen.x()));
+  const auto nearest = fan.nearest(position, scan.beams.size());
   // In this form NaN, of a point at infinity, is excluded.
-  if (!in_field || !(std::abs(nearest - index) <= 0.5 * options_.lit_share)) {
+  if (!nearest ||
+      !(std::abs(static_cast<double>(*nearest) - position) <= 0.5 * options_.lit_share)) {
     return nullptr;
   }
-  bearing = field.first_bearing + nearest * field.beam_spacing;
-  return &scan.beams[static_cast<std::size_t>(nearest)];
+  bearing = fan.bearingAt(static_cast<double>(*nearest));
+  return &scan.beams[*nearest];
 }
 
 BeamCrossing ScanHistory::look(std::size_t back, const ReflectionPoint& location) const {

@@ -78,9 +78,11 @@ void ScanSupportOptions::visit(OptionVisitor& visitor) {
                  max_static_reach, {0.0, 20.0});
 }
 
-ScanSupport::ScanSupport(const LabeledScan& scan, const ScanSupportOptions& options)
-    : options_(options), scanner_in_base_(scan.scanner_in_base), field_(scan.field) {
-  checkOptions(options);
+ScanSupport::ScanSupport(const LabeledScan& scan, const Checked<ScanSupportOptions>& options)
+    : options_(*options),
+      scanner_in_base_(scan.scanner_in_base),
+      field_(scan.field),
+      fan_(field_.first_bearing, field_.beam_spacing) {
   if (2.0 * kPi > kMaxBeams * std::abs(field_.beam_spacing)) {
     return;  // finer than any scanner: what looks at an object could not be counted in time
   }
@@ -98,20 +100,9 @@ ScanSupport::ScanSupport(const LabeledScan& scan, const ScanSupportOptions& opti
   }
 }
 
-double ScanSupport::beamAt(double bearing) const {
-  const double per_turn = 2.0 * kPi / std::abs(field_.beam_spacing);
-  const double index = (bearing - field_.first_bearing) / field_.beam_spacing;
-  // From half a beam before the first one on.
-  return index - per_turn * std::floor((index + 0.5) / per_turn);
-}
-
-const ScanSupport::Beam* ScanSupport::beam(double index) const {
-  const double per_turn = 2.0 * kPi / std::abs(field_.beam_spacing);
-  // A turn need not be a whole number of beams: after it, the nearest one looks there.
-  const double nearest = std::round(index < per_turn - 0.5 ? index : index - per_turn);
-  return nearest >= 0.0 && nearest < static_cast<double>(beams_.size())
-             ? &beams_[static_cast<std::size_t>(nearest)]
-             : nullptr;
+const ScanSupport::Beam* ScanSupport::beam(double position) const {
+  const auto index = fan_.nearest(position, beams_.size());
+  return index ? &beams_[*index] : nullptr;
 }
 
 PositionEvidence ScanSupport::evidence(const Object& object, double motion_std) const {
@@ -131,13 +122,13 @@ PositionEvidence ScanSupport::evidence(const Object& object, double motion_std) 
       std::max(narrow, std::atan2(options_.max_static_reach, silhouette.distance()));
   const double edge =
       field_.beam_spacing > 0.0 ? silhouette.right() - aside : silhouette.left() + aside;
-  const double first = std::ceil(beamAt(to_scanner + silhouette.bearing() + edge));
+  const double first = std::ceil(fan_.positionAt(to_scanner + silhouette.bearing() + edge));
   const auto looks = static_cast<std::size_t>(1.0 + (width + 2.0 * aside) / spacing);
   double asked = 0.0;
   for (std::size_t i = 0; i < looks; ++i) {
-    const double index = first + static_cast<double>(i);
-    const Beam* seen = beam(index);
-    const double bearing = field_.first_bearing + index * field_.beam_spacing - to_scanner;
+    const double position = first + static_cast<double>(i);
+    const Beam* seen = beam(position);
+    const double bearing = fan_.bearingAt(position) - to_scanner;
     const double offset = angleBetween(silhouette.bearing(), bearing);
     const bool meets =
         offset >= silhouette.right() - narrow && offset <= silhouette.left() + narrow;

@@ -73,9 +73,7 @@ void VisibilityOptions::visit(OptionVisitor& visitor) {
                  blocking_distance, {0.0, 10.0});
 }
 
-Visibility::Visibility(const VisibilityOptions& options) : options_(options) {
-  checkOptions(options);
-}
+Visibility::Visibility(const Checked<VisibilityOptions>& options) : options_(*options) {}
 
 Visibility::Visibility(const LabeledScan& scan, const VisibilityOptions& options)
     : Visibility(options) {
@@ -116,7 +114,7 @@ Visibility::Visibility(const FieldOfView& view, const std::vector<Box2>& seen,
     }
     const auto parts = static_cast<std::size_t>(outline.width() / kFanSpacing) + 1;
     outline.forEachLook(parts, [this](double bearing, const LineCrossing& crossing) {
-      if (const auto beam = beamAt(bearing)) {
+      if (const auto beam = beams_.indexAt(bearing, fan_.reach.size())) {
         // What was seen does not hide itself.
         fan_.reach[*beam] = std::min(fan_.reach[*beam], crossing.exit);
       }
@@ -137,8 +135,7 @@ Visibility::Visibility(const std::vector<ViewFan>& fans, const VisibilityOptions
 
 void Visibility::setFan(ViewFan fan) {
   fan_ = std::move(fan);
-  beams_per_radian_ = 1.0 / fan_.beam_spacing;
-  beams_per_turn_ = 2.0 * kPi / std::abs(fan_.beam_spacing);
+  beams_ = BeamFan(fan_.first_bearing, fan_.beam_spacing);
 }
 
 std::vector<ViewFan> Visibility::fans() const {
@@ -151,17 +148,6 @@ std::vector<ViewFan> Visibility::fans() const {
     all.insert(all.end(), others.begin(), others.end());
   }
   return all;
-}
-
-std::optional<std::size_t> Visibility::beamAt(double bearing) const {
-  // Beams from half a beam before the first one on, in the direction of the scan.
-  double beam = (bearing - fan_.first_bearing) * beams_per_radian_ + 0.5;
-  if (beam < 0.0 || beam >= beams_per_turn_) {
-    beam -= beams_per_turn_ * std::floor(beam / beams_per_turn_);
-  }
-  // Before the cast, which is undefined for what is no index.
-  const bool inside = beam >= 0.0 && beam < static_cast<double>(fan_.reach.size());
-  return inside ? std::optional<std::size_t>(static_cast<std::size_t>(beam)) : std::nullopt;
 }
 
 Visibility::Looks Visibility::looksAt(const Outline& outline) {
@@ -178,7 +164,7 @@ double Visibility::clearShare(const Looks& looks, const Shift& shift) const {
   for (const Look& look : looks) {
     const double range = look.range + shift.range;
     const bool in_range = range >= fan_.min_range && range <= fan_.range;
-    const auto beam = beamAt(look.bearing + shift.bearing);
+    const auto beam = beams_.indexAt(look.bearing + shift.bearing, fan_.reach.size());
     if (in_range && beam && range <= fan_.reach[*beam] + options_.blocking_distance) {
       ++clear;
     }
@@ -218,7 +204,7 @@ double Visibility::ownDetectionProbability(const Box2& box, double sigma) const 
   if (outline.holdsSensor()) {
     return options_.unknown_probability;
   }
-  const double beams = outline.width() * std::abs(beams_per_radian_);
+  const double beams = beams_.beamsIn(outline.width());
   const double strength = strengthAt(outline.distance());
   const Looks looks = looksAt(outline);
   const auto seenAt = [&](const Shift& shift) {

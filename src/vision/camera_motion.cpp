@@ -189,12 +189,11 @@ CameraMotion priorMotion(const CameraMotionPrior& prior, const Eigen::Isometry3d
 std::optional<CameraMotion> cameraMotion(const StereoRig& rig,
                                          const std::vector<FeatureQuad>& quads,
                                          const CameraMotion& prior,
-                                         const CameraMotionOptions& options) {
+                                         const Checked<CameraMotionOptions>& options) {
   checkRig(rig);
-  checkOptions(options);
   const std::vector<FeatureSample> samples = featureSamplesOf(rig, quads);
   const MotionCovariance known = prior.covariance.inverse();
-  const MotionEstimator estimator(rig, options);
+  const MotionEstimator estimator(rig, *options);
   CameraMotion motion = prior;
   for (const double scale : kScales) {
     const Equations equations = estimator.equations(samples, motion.earlier_in_later, scale);
@@ -205,7 +204,7 @@ std::optional<CameraMotion> cameraMotion(const StereoRig& rig,
     motion.covariance = excessResidual(equations) * information.inverse();
     motion.inliers = equations.inliers;
   }
-  const bool found = motion.inliers >= options.min_inliers && motion.covariance.allFinite() &&
+  const bool found = motion.inliers >= options->min_inliers && motion.covariance.allFinite() &&
                      motion.earlier_in_later.matrix().allFinite();
   return found ? std::make_optional(motion) : std::nullopt;
 }

@@ -15,23 +15,6 @@ namespace {
 constexpr std::array<ObjectClass, 3> kReported = {ObjectClass::kPedestrian, ObjectClass::kCyclist,
                                                   ObjectClass::kVehicle};
 
-void checkShapes(const ClassReliabilityOptions& options) {
-  const auto& scores = options.scores;
-  if (scores.empty() || scores.size() != options.right.size()) {
-    throw OptionError("scores of " + std::to_string(scores.size()) + " and right of " +
-                      std::to_string(options.right.size()) +
-                      " numbers: expected one share for each score, and one score at least");
-  }
-  if (std::adjacent_find(scores.begin(), scores.end(), std::greater_equal<>()) != scores.end()) {
-    throw OptionError("scores: expected each to be more than the one before it");
-  }
-  if (options.mistaken.size() != kReported.size() * kObjectClasses) {
-    throw OptionError("mistaken of " + std::to_string(options.mistaken.size()) +
-                      " numbers: expected 3 rows (pedestrian, cyclist, vehicle as reported) of " +
-                      std::to_string(kObjectClasses));
-  }
-}
-
 }  // namespace
 
 void ClassReliabilityOptions::visit(OptionVisitor& visitor) {
@@ -47,10 +30,24 @@ void ClassReliabilityOptions::visit(OptionVisitor& visitor) {
                   mistaken, {0.0, 1e9});
 }
 
-ClassReliability::ClassReliability(const ClassReliabilityOptions& options) : options_(options) {
-  checkOptions(options);
-  checkShapes(options);
+void ClassReliabilityOptions::check() const {
+  if (scores.empty() || scores.size() != right.size()) {
+    throw OptionError("scores of " + std::to_string(scores.size()) + " and right of " +
+                      std::to_string(right.size()) +
+                      " numbers: expected one share for each score, and one score at least");
+  }
+  if (std::adjacent_find(scores.begin(), scores.end(), std::greater_equal<>()) != scores.end()) {
+    throw OptionError("scores: expected each to be more than the one before it");
+  }
+  if (mistaken.size() != kReported.size() * kObjectClasses) {
+    throw OptionError("mistaken of " + std::to_string(mistaken.size()) +
+                      " numbers: expected 3 rows (pedestrian, cyclist, vehicle as reported) of " +
+                      std::to_string(kObjectClasses));
+  }
 }
+
+ClassReliability::ClassReliability(const Checked<ClassReliabilityOptions>& options)
+    : options_(*options) {}
 
 double ClassReliability::right(double score) const {
   const auto& scores = options_.scores;

@@ -97,13 +97,6 @@ NetworkOutput outputOf(const cv::Mat& blob) {
 class DnnDetector::State {
  public:
   explicit State(const DnnDetectorOptions& options) : options_(options) {
-    checkOptions(options);
-    if (options.width % kInputStep != 0 || options.height % kInputStep != 0 ||
-        options.close_look % kInputStep != 0) {
-      throw OptionError("dnn: width = " + std::to_string(options.width) +
-                        ", height = " + std::to_string(options.height) + ", close_look = " +
-                        std::to_string(options.close_look) + ": expected multiples of 32 px");
-    }
     load();
     labels_ = options.labels.empty() ? cocoLabels() : labelsFrom(options.labels);
     tryOut();
@@ -267,8 +260,16 @@ void DnnDetectorOptions::visit(OptionVisitor& visitor) {
                   max_close_looks, {0.0, 100.0});
 }
 
-DnnDetector::DnnDetector(const DnnDetectorOptions& options)
-    : state_(std::make_unique<State>(options)) {}
+void DnnDetectorOptions::check() const {
+  if (width % kInputStep != 0 || height % kInputStep != 0 || close_look % kInputStep != 0) {
+    throw OptionError(
+        "dnn: width = " + std::to_string(width) + ", height = " + std::to_string(height) +
+        ", close_look = " + std::to_string(close_look) + ": expected multiples of 32 px");
+  }
+}
+
+DnnDetector::DnnDetector(const Checked<DnnDetectorOptions>& options)
+    : state_(std::make_unique<State>(*options)) {}
 
 DnnDetector::~DnnDetector() = default;
 

@@ -57,7 +57,6 @@ Eigen::AlignedBox2d searchedPart(const ImageRegion& region) {
 class HogDetector::State {
  public:
   explicit State(const HogDetectorOptions& options) : options_(options) {
-    checkOptions(options);
     hog_.setSVMDetector(cv::HOGDescriptor::getDefaultPeopleDetector());
   }
 
@@ -121,8 +120,8 @@ void HogDetectorOptions::visit(OptionVisitor& visitor) {
                   max_regions, {1, 1000});
 }
 
-HogDetector::HogDetector(const HogDetectorOptions& options)
-    : state_(std::make_unique<State>(options)) {}
+HogDetector::HogDetector(const Checked<HogDetectorOptions>& options)
+    : state_(std::make_unique<State>(*options)) {}
 
 HogDetector::~HogDetector() = default;
 

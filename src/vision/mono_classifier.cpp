@@ -28,8 +28,7 @@ const std::array<ObjectClass, 3> kThesisClasses = {ObjectClass::kVehicle, Object
                                                    ObjectClass::kPedestrian};
 
 std::unique_ptr<ImageDetector> makeDetector(const MonoClassifierOptions& options) {
-  checkOptions(options);
-  if (options.detector == MonoClassifierOptions::kDnn) {
+  if (options.detector == ImageDetectorKind::kDnn) {
     return std::make_unique<DnnDetector>(options.dnn);
   }
   return std::make_unique<HogDetector>(options.hog);
@@ -55,9 +54,9 @@ Point2 centroidOf(const Object& object) {
 std::optional<ImageRegion> rectangleOf(const MountedCamera& camera, const Point2& position,
                                        ObjectClass object_class) {
   const ClassSize size = sizeOf(object_class);
-  const Point2 sight = position - camera.in_base.translation().head<2>();
+  const Point2 to_object = position - camera.in_base.translation().head<2>();
   Object upright;
-  upright.box = {Pose2(position, std::atan2(sight.y(), sight.x())), 0.0,
+  upright.box = {Pose2(position, std::atan2(to_object.y(), to_object.x())), 0.0,
                  0.5 * (size.length + size.width)};
   upright.height = size.height;
   upright.position_covariance.setZero();
@@ -78,14 +77,16 @@ MonoClassifierOptions::MonoClassifierOptions() {
 }
 
 void MonoClassifierOptions::visit(OptionVisitor& visitor) {
-  visitor.text({"method", "",
-                "what the detector sees is associated with the objects, or each object's rectangle "
-                "of each class is looked at (thesis 4.2.3)"},
-               method, {kAssociation, kThesis});
-  visitor.text({"detector", "",
-                "hog: OpenCV's people detector, which needs no file; dnn: a neural network, which "
-                "needs dnn/model"},
-               detector, {kHog, kDnn});
+  visitor.choice(
+      {"method", "",
+       "what the detector sees is associated with the objects, or each object's rectangle "
+       "of each class is looked at (thesis 4.2.3)"},
+      method, {{"association", MonoMethod::kAssociation}, {"thesis", MonoMethod::kThesis}});
+  visitor.choice(
+      {"detector", "",
+       "hog: OpenCV's people detector, which needs no file; dnn: a neural network, which "
+       "needs dnn/model"},
+      detector, {{"hog", ImageDetectorKind::kHog}, {"dnn", ImageDetectorKind::kDnn}});
   visitor.toggle(
       {"calibrated", "", "off: the detector's class and score as they are, for calibrate_classes"},
       calibrated);
@@ -115,17 +116,15 @@ void MonoClassifierOptions::visit(OptionVisitor& visitor) {
                  thesis_overlap, {0.0, 1.0});
 }
 
-MonoClassifier::MonoClassifier(const MonoClassifierOptions& options)
-    : MonoClassifier(options, makeDetector(options)) {}
+MonoClassifier::MonoClassifier(const Checked<MonoClassifierOptions>& options)
+    : MonoClassifier(options, makeDetector(*options)) {}
 
-MonoClassifier::MonoClassifier(const MonoClassifierOptions& options,
+MonoClassifier::MonoClassifier(const Checked<MonoClassifierOptions>& options,
                                std::unique_ptr<ImageDetector> detector)
-    : options_(options),
-      reliability_(options.detector == MonoClassifierOptions::kDnn ? options.dnn_reliability
-                                                                   : options.hog_reliability),
-      detector_(std::move(detector)) {
-  checkOptions(options);
-}
+    : options_(*options),
+      reliability_(options->detector == ImageDetectorKind::kDnn ? options->dnn_reliability
+                                                                : options->hog_reliability),
+      detector_(std::move(detector)) {}
 
 MonoClassifier::~MonoClassifier() = default;
 
@@ -138,7 +137,7 @@ MonoClassification MonoClassifier::classify(const cv::Mat& image, const MountedC
                                 std::to_string(std::lround(camera.height)) + " px");
   }
   const std::vector<InView> seen = inView(camera, objects);
-  MonoClassification result = options_.method == MonoClassifierOptions::kThesis
+  MonoClassification result = options_.method == MonoMethod::kThesis
                                   ? asInThesis(image, camera, seen)
                                   : byAssociation(image, camera, seen);
   result.list.stamp = objects.stamp;

@@ -66,22 +66,22 @@ void ObjectVelocityOptions::visit(OptionVisitor& visitor) {
 }
 
 void measureVelocities(const std::vector<PointVelocity>& points,
-                       const ObjectVelocityOptions& options, std::vector<Object>& objects) {
-  checkOptions(options);
+                       const Checked<ObjectVelocityOptions>& options,
+                       std::vector<Object>& objects) {
   std::vector<std::vector<PointVelocity>> on_object(objects.size());
   for (const PointVelocity& point : points) {
     const double height = point.position.z();
-    if (height < options.min_height || height > options.max_height) {
+    if (height < options->min_height || height > options->max_height) {
       continue;
     }
-    const std::size_t owner = ownerOf(point.position.head<2>(), options.margin, objects);
+    const std::size_t owner = ownerOf(point.position.head<2>(), options->margin, objects);
     if (owner != kNone) {
       on_object[owner].push_back(point);
     }
   }
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const std::optional<SharedVelocity> shared =
-        sharedVelocity(on_object[i], centerOf(objects[i]), options.shared);
+        sharedVelocity(on_object[i], centerOf(objects[i]), options->shared);
     objects[i].velocity =
         shared ? std::make_optional(MeasuredVelocity{shared->velocity, shared->covariance})
                : std::nullopt;

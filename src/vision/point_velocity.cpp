@@ -229,26 +229,25 @@ std::optional<PointVelocity> pointVelocity(const StereoRig& rig, const StereoFea
 
 std::optional<SharedVelocity> sharedVelocity(const std::vector<PointVelocity>& points,
                                              const BodyCenter& center,
-                                             const SharedVelocityOptions& options) {
-  checkOptions(options);
+                                             const Checked<SharedVelocityOptions>& options) {
   if (points.empty()) {
     return std::nullopt;
   }
   const std::vector<Sample> samples = samplesOf(points);
-  const VelocityMixture mixture(options);
+  const VelocityMixture mixture(*options);
   Eigen::Vector2d around = mostLikelySample(samples, mixture);
   SharedVelocity mean = weightedMean(samples, mixture, around);
   for (int i = 0; i < kMaxIterations && (mean.velocity - around).norm() > kConverged; ++i) {
     around = mean.velocity;
     mean = weightedMean(samples, mixture, around);
   }
-  if (!(mean.inliers >= options.min_inliers) || !mean.velocity.allFinite()) {
+  if (!(mean.inliers >= options->min_inliers) || !mean.velocity.allFinite()) {
     return std::nullopt;
   }
   mean.covariance *= excessScatter(samples, mixture, mean);
   mean.covariance += commonCovariance(samples, mixture, mean);
   mean.covariance +=
-      turnCovariance(turnRate(mean, options), leverOf(samples, mixture, mean, center));
+      turnCovariance(turnRate(mean, *options), leverOf(samples, mixture, mean, center));
   return mean;
 }
 

@@ -109,9 +109,7 @@ void QuadMatcherOptions::visit(OptionVisitor& visitor) {
                  max_row_offset, {0.1, 10.0});
 }
 
-QuadMatcher::QuadMatcher(const QuadMatcherOptions& options) : options_(options) {
-  checkOptions(options);
-}
+QuadMatcher::QuadMatcher(const Checked<QuadMatcherOptions>& options) : options_(*options) {}
 
 QuadMatcher::~QuadMatcher() = default;
 

@@ -62,7 +62,7 @@ def one_side(folder, seed):
 
 
 def intersection_borders(folder, seed):
-    """The vehicle turns off: such an intersection may be missed, but none is told elsewhere."""
+    """The vehicle turns off: such an intersection may be missed, but none is reported elsewhere."""
     run = _with_borders(folder, "intersection", seed)
     return _false(run, borders.score(run))
 

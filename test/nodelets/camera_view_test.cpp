@@ -2,19 +2,15 @@
 // Image, camera info, tf and tracks through the nodelet to an image with a box; and no image is
 // taken while nobody looks.
 #include "chain.h"
+#include "ros/camera_samples.h"
 #include <gtest/gtest.h>
-
-#include <sensor_msgs/CameraInfo.h>
-#include <sensor_msgs/Image.h>
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
 namespace datmo {
 namespace {
 
-constexpr std::uint32_t kWidth = 320;
-constexpr std::uint32_t kHeight = 240;
-constexpr double kFocalLength = 200.0;  // px
+constexpr samples::CameraSample kCamera{320, 240, 200.0};
 constexpr std::uint8_t kGray = 60;
 
 class Camera : public Listener {
@@ -31,54 +27,15 @@ class Camera : public Listener {
   /// The camera 1.5 m above the ground, and a vehicle 10 m ahead of it.
   void send(double seconds) {
     const ros::Time stamp(seconds);
-    tf_.publish(mount(stamp));
-    infos_.publish(info(stamp));
-    images_.publish(image(stamp));
+    tf_.publish(samples::transforms({samples::cameraMount("map", 1.5, seconds)}));
+    infos_.publish(kCamera.info(seconds));
+    images_.publish(kCamera.image(seconds, kGray));
     tracks_.publish(track(stamp));
   }
 
   sensor_msgs::ImageConstPtr picture;  ///< the last one
 
  private:
-  static tf2_msgs::TFMessage mount(const ros::Time& stamp) {
-    geometry_msgs::TransformStamped transform;
-    transform.header.frame_id = "map";
-    transform.header.stamp = stamp;
-    transform.child_frame_id = "camera";
-    transform.transform.translation.z = 1.5;
-    transform.transform.rotation.x = -0.5;
-    transform.transform.rotation.y = 0.5;
-    transform.transform.rotation.z = -0.5;
-    transform.transform.rotation.w = 0.5;
-    tf2_msgs::TFMessage message;
-    message.transforms = {transform};
-    return message;
-  }
-
-  static sensor_msgs::CameraInfo info(const ros::Time& stamp) {
-    sensor_msgs::CameraInfo message;
-    message.header.frame_id = "camera";
-    message.header.stamp = stamp;
-    message.width = kWidth;
-    message.height = kHeight;
-    message.K = {kFocalLength, 0.0, 160.0, 0.0, kFocalLength, 120.0, 0.0, 0.0, 1.0};
-    message.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-    message.P = {kFocalLength, 0.0, 160.0, 0.0, 0.0, kFocalLength, 120.0, 0.0, 0.0, 0.0, 1.0, 0.0};
-    return message;
-  }
-
-  static sensor_msgs::Image image(const ros::Time& stamp) {
-    sensor_msgs::Image message;
-    message.header.frame_id = "camera";
-    message.header.stamp = stamp;
-    message.encoding = "mono8";
-    message.width = kWidth;
-    message.height = kHeight;
-    message.step = kWidth;
-    message.data.assign(std::size_t{kWidth} * kHeight, kGray);
-    return message;
-  }
-
   static TrackArray track(const ros::Time& stamp) {
     TrackMessage track;
     track.pose = toMessage(Pose2(12.0, 0.0, 0.0));

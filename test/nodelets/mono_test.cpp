@@ -2,10 +2,8 @@
 // Images, camera info, mount and objects through the nodelet with OpenCV's people detector, in a
 // thread of its own, to lists at the exposures' stamps; an image that was not exposed is counted.
 #include "chain.h"
+#include "ros/camera_samples.h"
 #include <gtest/gtest.h>
-
-#include <sensor_msgs/CameraInfo.h>
-#include <sensor_msgs/Image.h>
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
@@ -13,9 +11,7 @@
 namespace datmo {
 namespace {
 
-constexpr std::uint32_t kWidth = 320;
-constexpr std::uint32_t kHeight = 240;
-constexpr double kFocalLength = 200.0;  // px
+constexpr samples::CameraSample kCamera{320, 240, 200.0};
 constexpr std::uint8_t kDark = 60;
 constexpr std::uint8_t kBright = 200;
 
@@ -35,8 +31,8 @@ class Camera : public Listener {
   /// The camera 1.5 m above the ground, an object 10 m ahead; an image of stripes, or of one gray.
   void send(double seconds, bool exposed) {
     const ros::Time stamp(seconds);
-    mounts_.publish(mount());
-    infos_.publish(info(stamp));
+    mounts_.publish(samples::transforms({samples::cameraMount("base_link", 1.5)}));
+    infos_.publish(kCamera.info(seconds));
     objects_.publish(objects(stamp));
     images_.publish(image(stamp, exposed));
   }
@@ -44,32 +40,6 @@ class Camera : public Listener {
   std::vector<ObjectArrayConstPtr> named;
 
  private:
-  static tf2_msgs::TFMessage mount() {
-    geometry_msgs::TransformStamped transform;
-    transform.header.frame_id = "base_link";
-    transform.child_frame_id = "camera";
-    transform.transform.translation.z = 1.5;
-    transform.transform.rotation.x = -0.5;
-    transform.transform.rotation.y = 0.5;
-    transform.transform.rotation.z = -0.5;
-    transform.transform.rotation.w = 0.5;
-    tf2_msgs::TFMessage message;
-    message.transforms = {transform};
-    return message;
-  }
-
-  static sensor_msgs::CameraInfo info(const ros::Time& stamp) {
-    sensor_msgs::CameraInfo message;
-    message.header.frame_id = "camera";
-    message.header.stamp = stamp;
-    message.width = kWidth;
-    message.height = kHeight;
-    message.K = {kFocalLength, 0.0, 160.0, 0.0, kFocalLength, 120.0, 0.0, 0.0, 1.0};
-    message.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-    message.P = {kFocalLength, 0.0, 160.0, 0.0, 0.0, kFocalLength, 120.0, 0.0, 0.0, 0.0, 1.0, 0.0};
-    return message;
-  }
-
   static ObjectArray objects(const ros::Time& stamp) {
     Object object;
     object.box = {Pose2(10.0, 0.0, 0.0), 0.5, 0.5};
@@ -80,14 +50,7 @@ class Camera : public Listener {
   }
 
   static sensor_msgs::Image image(const ros::Time& stamp, bool exposed) {
-    sensor_msgs::Image message;
-    message.header.frame_id = "camera";
-    message.header.stamp = stamp;
-    message.encoding = "mono8";
-    message.width = kWidth;
-    message.height = kHeight;
-    message.step = kWidth;
-    message.data.assign(std::size_t{kWidth} * kHeight, kDark);
+    sensor_msgs::Image message = kCamera.image(stamp.toSec(), kDark);
     const auto period = 2 + static_cast<std::size_t>(stamp.nsec % 7);  // not frozen
     for (std::size_t i = 0; exposed && i < message.data.size(); i += period) {
       message.data[i] = kBright;

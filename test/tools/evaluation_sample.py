@@ -38,7 +38,7 @@ def sample_object(number, found=True, label="Car"):
 def sample_delays():
     """Of delays beside the attainable ones."""
     return {
-        "objects": 1, "told": 1, "told_but_missed": 0,
+        "objects": 1, "detectable": 1, "detectable_but_missed": 0,
         "attainable_s": {"median": PERIOD, "p90": PERIOD},
         "delay_s": {"median": 2 * PERIOD, "p90": 2 * PERIOD},
         "excess_s": {"median": PERIOD, "p90": PERIOD}, "ratio": {"median": 1.5, "p90": 1.5},

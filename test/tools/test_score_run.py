@@ -87,7 +87,7 @@ class WholeRun(ScoreRunCase):
         self.assertIsNone(report["timing"]["grid_slam"]["latency"])
 
     def test_attainable_delays(self):
-        """One beam on the rear of a car that keeps 20 m ahead: 10 m/s, told by the second scan."""
+        """One beam on the rear of a car that keeps 20 m ahead: 10 m/s, distinguished by the second scan."""
         drive = self.folder / "drive.bag"
         write(drive, {"/tf_static": [mount()], "/scan": [scan_at(i) for i in range(FRAMES)]})
         report = self.score("--attainable", drive, "--set", "attainable/range_noise=0.2")
@@ -96,7 +96,7 @@ class WholeRun(ScoreRunCase):
         self.assertAlmostEqual(car["excess_delay_s"], -PERIOD)
         self.assertAlmostEqual(car["delay_ratio"], 0.5)
         self.assertAlmostEqual(car["beams_per_scan"], 1.0)
-        self.assertEqual(report["attainable"]["told"], 1)
+        self.assertEqual(report["attainable"]["detectable"], 1)
         self.assertEqual(report["attainable"]["by_class"]["vehicle"]["ratio"]["median"], 0.5)
 
     def test_attainable_delays_need_scans_and_their_mount(self):

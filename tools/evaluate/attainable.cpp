@@ -37,8 +37,8 @@ class Observer {
       bound_.addInterval(displacement, base_in_map.rotate(observed.lateral->axis),
                          observed.lateral->width);
     }
-    if (!motion_.told && bound_.logRatio() >= options_.requiredLogRatio()) {
-      motion_.told = scan.stamp;
+    if (!motion_.detectable && bound_.logRatio() >= options_.requiredLogRatio()) {
+      motion_.detectable = scan.stamp;
     }
   }
 
@@ -74,8 +74,8 @@ double medianPeriod(const std::vector<Stamp>& stamps) {
 
 ComparedDelay compared(const ObjectScore& object, const AttainableMotion& motion, double period) {
   ComparedDelay result;
-  if (motion.told) {
-    result.attainable = std::max(0.0, secondsBetween(object.first, *motion.told));
+  if (motion.detectable) {
+    result.attainable = std::max(0.0, secondsBetween(object.first, *motion.detectable));
     if (object.delay) {
       result.excess = *object.delay - *result.attainable;
       result.ratio = (*object.delay + period) / (*result.attainable + period);

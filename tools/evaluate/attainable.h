@@ -16,12 +16,12 @@ namespace datmo::evaluation {
 
 /// What an observer who knows which beams end on an object can tell of it.
 struct AttainableMotion {
-  std::optional<Stamp> told;  ///< first scan at which motion is told from rest; none: never
-  std::vector<Stamp> seen;    ///< stamps of the beams that end on it, one for each
+  std::optional<Stamp> detectable;  ///< first scan that distinguishes motion from rest; none: never
+  std::vector<Stamp> seen;          ///< stamps of the beams that end on it, one for each
 };
 
 /// By the id of each object that moves at some time. All scans since its first beam count, also
-/// those in which it need not be found yet; a scan without a beam on it tells nothing.
+/// those in which it need not be found yet; a scan without a beam on it has no information.
 /// `scans`: by rising stamp. See MotionBound for the mathematics.
 std::map<std::uint32_t, AttainableMotion> attainableMotions(const std::vector<Scan>& scans,
                                                             const TrueScene& scene,

@@ -18,7 +18,7 @@ class DelayList {
  public:
   void add(const ObjectScore& object, const ComparedDelay& delay) {
     ++objects_;
-    told_ += delay.attainable ? 1 : 0;
+    detectable_ += delay.attainable ? 1 : 0;
     missed_ += delay.attainable && !object.found() ? 1 : 0;
     append(object.delay, delay_);
     append(delay.attainable, attainable_);
@@ -28,8 +28,8 @@ class DelayList {
 
   json toJson() const {
     return {{"objects", objects_},
-            {"told", told_},
-            {"told_but_missed", missed_},
+            {"detectable", detectable_},
+            {"detectable_but_missed", missed_},
             {"delay_s", quantiles(delay_)},
             {"attainable_s", quantiles(attainable_)},
             {"excess_s", quantiles(excess_)},
@@ -51,7 +51,7 @@ class DelayList {
   }
 
   int objects_ = 0;
-  int told_ = 0;
+  int detectable_ = 0;
   int missed_ = 0;
   std::vector<double> delay_;
   std::vector<double> attainable_;

@@ -14,7 +14,7 @@ struct AttainableOptions {
 
   void visit(OptionVisitor& visitor);
 
-  /// Log-likelihood ratio from which on it is told that an object moves.
+  /// Log-likelihood ratio from which on motion is distinguished from rest.
   double requiredLogRatio() const;
 };
 

@@ -50,7 +50,7 @@ std::map<std::string, StageDurations> readDurations(TopicReader timing) {
 void readPoses(const rosbag::Bag& bag, const ScoreOptions& options, const TopicReader& tracks,
                RecordedRun& run) {
   TopicReader poses(bag, options.topics.pose);
-  const bool needed = options.alignment() != TrackAlignment::kNone;
+  const bool needed = options.align != TrackAlignment::kNone;
   if (!needed && !poses.isThere()) {
     return;
   }

@@ -130,8 +130,8 @@ BoxObservation observeBox(const Scan& scan, const Box2& box, double tolerance) {
   }
   const double width = silhouette.distance * limits.width();
   if (!result.beams.empty() && width > 0.0 && std::isfinite(width)) {
-    const Point2 sight = (box.center.position() - scanner).normalized();
-    result.lateral = {{-sight.y(), sight.x()}, width};
+    const Point2 direction = (box.center.position() - scanner).normalized();
+    result.lateral = {{-direction.y(), direction.x()}, width};
   }
   return result;
 }

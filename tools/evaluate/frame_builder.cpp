@@ -122,7 +122,7 @@ void excuseBriefObjects(Frames& frames, const ScoreOptions& options) {
 BuiltFrames buildFrames(const std::vector<RecordedTracks>& tracks, const Trajectory& estimated,
                         const std::optional<Alignment>& alignment, const TrueScene& scene,
                         const ScoreOptions& options) {
-  const MapLayer layer(estimated, alignment, options.alignment());
+  const MapLayer layer(estimated, alignment, options.align);
   BuiltFrames built;
   for (const RecordedTracks& recorded : tracks) {
     const auto view = scene.at(recorded.stamp);

@@ -11,9 +11,6 @@ namespace datmo::evaluation {
 
 namespace {
 
-constexpr const char* kToBox = "to_box";
-constexpr const char* kToCenter = "to_center";
-
 /// Matches frame after frame, and remembers who was last seen with whom.
 class Matcher {
  public:
@@ -104,10 +101,11 @@ void MatchOptions::visit(OptionVisitor& visitor) {
                   "largest distance at which a track may be of a true object (Bernardin and "
                   "Stiefelhagen 2008, threshold T); about a car's width"},
                  gate, {0.01, 100.0});
-  visitor.text({"distance", "",
-                "from a track's center to the true box (to_box, 0 inside: a scanner sees one side "
-                "of a long object) or to its center (to_center)"},
-               distance, {kToBox, kToCenter});
+  visitor.choice(
+      {"distance", "",
+       "from a track's center to the true box (to_box, 0 inside: a scanner sees one side "
+       "of a long object) or to its center (to_center)"},
+      distance, {{"to_box", MatchDistance::kToBox}, {"to_center", MatchDistance::kToCenter}});
 }
 
 std::size_t FrameMatching::falseTracks() const {
@@ -116,8 +114,9 @@ std::size_t FrameMatching::falseTracks() const {
 
 double matchDistance(const TrueState& truth, const TrackState& track, const MatchOptions& options) {
   const Point2& center = track.box.center.position();
-  return options.distance == kToCenter ? (center - truth.box.center.position()).norm()
-                                       : truth.box.distanceTo(center);
+  return options.distance == MatchDistance::kToCenter
+             ? (center - truth.box.center.position()).norm()
+             : truth.box.distanceTo(center);
 }
 
 std::vector<Candidate> candidatesOf(const Frame& frame, const MatchOptions& options) {

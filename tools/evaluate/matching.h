@@ -13,10 +13,13 @@
 
 namespace datmo::evaluation {
 
+/// From a track's center to what of the true object.
+enum class MatchDistance { kToBox, kToCenter };
+
 /// When a track may be of a true object.
 struct MatchOptions {
-  double gate = 2.0;                ///< m
-  std::string distance = "to_box";  ///< or "to_center"
+  double gate = 2.0;  ///< m
+  MatchDistance distance = MatchDistance::kToBox;
 
   void visit(OptionVisitor& visitor);
 };

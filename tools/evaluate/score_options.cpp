@@ -64,12 +64,16 @@ void TruthOptions::visit(OptionVisitor& visitor) {
 
 void ScoreOptions::visit(OptionVisitor& visitor) {
   visitor.group("topics", [&] { topics.visit(visitor); });
-  visitor.text({"align", "",
-                "how tracks are laid on the truth; pose_at_stamp: the estimated pose of the "
-                "vehicle on its true one at each stamp, so that the drift of the map is scored "
-                "with the pose and not with the tracks; first_pose: the maps on each other at the "
-                "first pose; none: the run's map is the truth's"},
-               align, {"pose_at_stamp", "first_pose", "none"});
+  visitor.choice(
+      {"align", "",
+       "how tracks are laid on the truth; pose_at_stamp: the estimated pose of the "
+       "vehicle on its true one at each stamp, so that the drift of the map is scored "
+       "with the pose and not with the tracks; first_pose: the maps on each other at the "
+       "first pose; none: the run's map is the truth's"},
+      align,
+      {{"pose_at_stamp", TrackAlignment::kPoseAtStamp},
+       {"first_pose", TrackAlignment::kFirstPose},
+       {"none", TrackAlignment::kNone}});
   visitor.group("region", [&] { region.visit(visitor); });
   visitor.group("truth", [&] { truth.visit(visitor); });
   visitor.toggle({"moving_tracks_only", "",
@@ -96,13 +100,6 @@ void ScoreOptions::visit(OptionVisitor& visitor) {
   visitor.number(
       {"intersection_merge_gap", "s", "two intersections with less time between them are one"},
       intersection_merge_gap, {0.0, 60.0});
-}
-
-TrackAlignment ScoreOptions::alignment() const {
-  if (align == "none") {
-    return TrackAlignment::kNone;
-  }
-  return align == "first_pose" ? TrackAlignment::kFirstPose : TrackAlignment::kPoseAtStamp;
 }
 
 }  // namespace datmo::evaluation

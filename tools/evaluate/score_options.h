@@ -67,7 +67,7 @@ enum class TrackAlignment {
 /// visit().
 struct ScoreOptions {
   TopicOptions topics;
-  std::string align = "pose_at_stamp";
+  TrackAlignment align = TrackAlignment::kPoseAtStamp;
   RegionOptions region;
   TruthOptions truth;
   bool moving_tracks_only = true;
@@ -80,8 +80,6 @@ struct ScoreOptions {
   double intersection_merge_gap = 1.0;  ///< s
 
   void visit(OptionVisitor& visitor);
-
-  TrackAlignment alignment() const;
 };
 
 }  // namespace datmo::evaluation

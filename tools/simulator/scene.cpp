@@ -45,9 +45,9 @@ RoadNetwork readRoads(const YAML::Node& scene) {
 }
 
 /// m to the left of the road's middle line.
-double leftOf(const Road& road, const std::string& side, double from_curb) {
+double leftOf(const Road& road, RoadSide side, double from_curb) {
   const double from_middle = 0.5 * road.width + from_curb;
-  return side == "left" ? from_middle : -from_middle;
+  return side == RoadSide::kLeft ? from_middle : -from_middle;
 }
 
 std::vector<std::string> readKinds(const YAML::Node& entry) {
@@ -85,7 +85,7 @@ void addRow(const YAML::Node& entry, World& world) {
   const std::size_t road_index = findRoad(item.road, world.roads().roads());
   const Road& road = world.roads().roads()[road_index];
   const double left = leftOf(road, item.side, item.from_curb);
-  const Pose2 turned(0.0, 0.0, item.side == "left" ? kPi : 0.0);
+  const Pose2 turned(0.0, 0.0, item.side == RoadSide::kLeft ? kPi : 0.0);
   int position = 0;
   for (double arc_length = item.from; arc_length <= item.to;
        arc_length = item.from + position * item.spacing) {

@@ -10,10 +10,11 @@ namespace {
 
 constexpr Bounds kArcLength{-1e5, 1e5};
 
-void visitStretch(OptionVisitor& visitor, std::string& road, std::string& side, double& from,
+void visitStretch(OptionVisitor& visitor, std::string& road, RoadSide& side, double& from,
                   double& to) {
   visitor.text({"road", "", "name of the road beside which it is"}, road, {});
-  visitor.text({"side", "", "of the road, looking along it"}, side, {"left", "right"});
+  visitor.choice({"side", "", "of the road, looking along it"}, side,
+                 {{"left", RoadSide::kLeft}, {"right", RoadSide::kRight}});
   visitor.number({"from", "m", "start along the road's middle line"}, from, kArcLength);
   visitor.number({"to", "m", "end along the road's middle line"}, to, kArcLength);
 }

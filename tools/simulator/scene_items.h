@@ -4,6 +4,7 @@
 #include <string>
 
 #include "datmo_fusion/common/options.h"
+#include "datmo_fusion/road/road_model.h"
 
 namespace datmo::simulator {
 
@@ -31,7 +32,7 @@ struct CrossingItem {
 /// Objects of one kind, or of several in turn, beside a road.
 struct RowItem {
   std::string road;
-  std::string side = "right";
+  RoadSide side = RoadSide::kRight;
   double from = 0.0;
   double to = 0.0;
   double spacing = 10.0;
@@ -43,7 +44,7 @@ struct RowItem {
 /// A line of buildings or fences beside a road.
 struct FrontItem {
   std::string road;
-  std::string side = "right";
+  RoadSide side = RoadSide::kRight;
   double from = 0.0;
   double to = 0.0;
   double from_curb = 4.0;

@@ -6,6 +6,7 @@
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -38,6 +39,10 @@ class OptionError : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
+/// The values of an option that is one of several, by their names in the yaml file.
+template <typename Enum>
+using Choices = std::vector<std::pair<std::string, Enum>>;
+
 /// Walks over the options of a stage. Each `Options` struct of the core declares its members to a
 /// visitor in one function, `void visit(OptionVisitor&)`; reading, checking and documenting them
 /// are visitors, so that nothing is said twice.
@@ -54,6 +59,22 @@ class OptionVisitor {
   /// Text; `allowed` empty: any text.
   virtual void text(const OptionInfo& info, std::string& value,
                     const std::vector<std::string>& allowed) = 0;
+
+  /// One of several. Throws OptionError for a name or a value that is none of them.
+  template <typename Enum>
+  void choice(const OptionInfo& info, Enum& value, const Choices<Enum>& choices) {
+    std::vector<std::string> names;
+    std::string name;
+    for (const auto& [known, meant] : choices) {
+      names.push_back(known);
+      name = meant == value ? known : name;
+    }
+    text(info, name, names);
+    refuseUnlessAllowed(info, name, names);
+    for (const auto& [known, meant] : choices) {
+      value = known == name ? meant : value;
+    }
+  }
 
   /// Options that stand under a common key: `name/…`. None of them is of a higher tier than `max`.
   void group(const std::string& name, const std::function<void()>& visit_members,
@@ -84,6 +105,10 @@ class OptionVisitor {
   /// The full key of an option: the names of the groups around it, and its own.
   std::string key(const OptionInfo& info) const;
 
+  /// Throws OptionError for a text that is none of the allowed ones; if there are none, any is.
+  void refuseUnlessAllowed(const OptionInfo& info, const std::string& value,
+                           const std::vector<std::string>& allowed) const;
+
   /// The tier of an option within the groups around it.
   Tier tier(const OptionInfo& info) const;
 
@@ -106,15 +131,42 @@ std::string toText(const OptionValue& value);
 namespace detail {
 using OptionWalk = std::function<void(OptionVisitor&)>;
 void checkAll(const OptionWalk& visit);
+/// Calls `Options::check() const`, where there is one: what options have to do with each other.
+template <typename Options>
+auto checkTogether(const Options& options, int /*preferred*/) -> decltype(options.check()) {
+  options.check();
+}
+template <typename Options>
+void checkTogether(const Options& /*options*/, long /*otherwise*/) {}
 void readAll(const OptionValues& values, const OptionWalk& visit);
 }  // namespace detail
 
-/// Throws OptionError for the first option whose value is not finite, out of bounds or not allowed.
+/// Throws OptionError for the first option whose value is not finite, out of bounds or not allowed,
+/// and as `Options::check() const`, where there is one, does for options that contradict each
+/// other.
 template <typename Options>
 void checkOptions(const Options& options) {
   Options copy = options;
   detail::checkAll([&copy](OptionVisitor& visitor) { copy.visit(visitor); });
+  detail::checkTogether(options, 0);
 }
+
+/// Options that are valid: there are none but by their check, so who is given them need not check.
+template <typename Options>
+class Checked {
+ public:
+  /// The defaults.
+  Checked() : Checked(Options()) {}
+
+  /// Throws OptionError as checkOptions does. Implicit: options are passed as they are.
+  Checked(Options options) : options_(std::move(options)) { checkOptions(options_); }
+
+  const Options& operator*() const { return options_; }
+  const Options* operator->() const { return &options_; }
+
+ private:
+  Options options_;
+};
 
 /// The defaults of the options, overridden by `values`, checked. A whole number serves where a
 /// number is wanted.

@@ -30,6 +30,7 @@ struct CloudObjectDetectorOptions {
   ObjectClassifierOptions classifier;
 
   void visit(OptionVisitor& visitor);
+  void check() const;
 };
 
 /// What was found in one cloud. All but the points of the vehicle itself, the ground and what is
@@ -53,7 +54,7 @@ struct CloudObjects {
 class CloudObjectDetector {
  public:
   /// Throws OptionError.
-  explicit CloudObjectDetector(const CloudObjectDetectorOptions& options);
+  explicit CloudObjectDetector(const Checked<CloudObjectDetectorOptions>& options);
 
   /// `twist`: of the vehicle during the sweep, by which points that have times are brought to the
   /// stamp; none: all are taken as measured at once. An empty cloud has no objects.

@@ -32,7 +32,7 @@ struct MovingObjectDetectorOptions {
 class MovingObjectDetector {
  public:
   /// Throws OptionError.
-  explicit MovingObjectDetector(const MovingObjectDetectorOptions& options);
+  explicit MovingObjectDetector(const Checked<MovingObjectDetectorOptions>& options);
 
   /// Objects in the frame of the scan's points (base_link).
   ObjectList detect(const LabeledScan& scan) const;

@@ -53,7 +53,7 @@ struct SeenSize {
 class ObjectClassifier {
  public:
   /// Throws OptionError.
-  explicit ObjectClassifier(const ObjectClassifierOptions& options);
+  explicit ObjectClassifier(const Checked<ObjectClassifierOptions>& options);
 
   /// Of kUnknown: that it is anything else.
   ClassProbabilities probabilities(const SeenSize& seen) const;

@@ -89,7 +89,7 @@ struct StereoObjects {
 class StereoObjectDetector {
  public:
   /// Throws OptionError.
-  explicit StereoObjectDetector(const StereoObjectDetectorOptions& options);
+  explicit StereoObjectDetector(const Checked<StereoObjectDetectorOptions>& options);
   ~StereoObjectDetector();
 
   /// Throws std::invalid_argument for a camera as StereoView does.

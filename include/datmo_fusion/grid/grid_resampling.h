@@ -10,7 +10,7 @@
 namespace datmo {
 
 /// Calls `visit(CellIndex, Percent)` for each cell of a window whose center lies in a grid that is
-/// seen from another frame, with the grid's value there: the nearest cell's word, row by
+/// seen from another frame, with the grid's value there: the nearest cell's value, row by
 /// row. `grid_in_window`: pose of the grid's frame in the window's.
 ///
 /// Each cell of the window is visited once at the most; a turned grid may have cells that no center

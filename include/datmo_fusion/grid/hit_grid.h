@@ -27,7 +27,7 @@ struct HitGridOptions {
 class HitGrid {
  public:
   /// Throws OptionError, also for more cells than any memory holds.
-  explicit HitGrid(const HitGridOptions& options);
+  explicit HitGrid(const Checked<HitGridOptions>& options);
 
   const GridWindow& window() const { return cells_.window(); }
 

@@ -52,7 +52,7 @@ struct GridUpdate {
 class OccupancyMap {
  public:
   /// Throws OptionError, also for more cells than any memory holds.
-  explicit OccupancyMap(const OccupancyMapOptions& options);
+  explicit OccupancyMap(const Checked<OccupancyMapOptions>& options);
 
   const GridWindow& window() const { return cells_.window(); }
 
@@ -115,7 +115,7 @@ class OccupancyMap {
   void hit(const Point2& point);
   void pass(CellIndex cell, const Point2& from, const Point2& direction);
 
-  /// How much a beam through a cell speaks against the surface in it, 0 to 1.
+  /// How far a beam through a cell is evidence against the surface in it, 0 to 1.
   float contradiction(const Cell& cell, CellIndex index, const Point2& from,
                       const Point2& direction) const;
   void passBeam(const Ray& ray, const Pose2& base_in_map);

@@ -20,13 +20,11 @@
 
 namespace datmo {
 
-struct RiskOptions {
-  static constexpr char kFutures[] = "futures";
-  static constexpr char kThesis[] = "thesis";
-  static constexpr char kBoxes[] = "ttc_boxes";
-  static constexpr char kRss[] = "rss";
+/// How risks are assessed: seeded joint futures, or one to compare with (rule_methods.h).
+enum class RiskMethod { kFutures, kThesis, kBoxes, kRss };
 
-  std::string method = kFutures;
+struct RiskOptions {
+  RiskMethod method = RiskMethod::kFutures;
   int max_objects = 64;
   double max_silence = 1.0;     ///< s
   double point_spacing = 0.25;  ///< m
@@ -64,7 +62,7 @@ struct RiskInput {
 class RiskAssessor {
  public:
   /// Throws OptionError.
-  explicit RiskAssessor(const RiskOptions& options);
+  explicit RiskAssessor(const Checked<RiskOptions>& options);
 
   /// Stamps rise. The host's state must be finite; tracks that are not valid are left out, and
   /// counted.

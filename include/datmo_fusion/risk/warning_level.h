@@ -11,7 +11,7 @@
 
 namespace datmo {
 
-/// When a driver is told.
+/// When a driver is warned.
 struct WarningOptions {
   double information_probability = 0.3;  ///< 1
   double warning_probability = 0.5;      ///< 1
@@ -39,7 +39,7 @@ RiskLevel levelOf(const ObjectRisk& risk, bool host_moves, const WarningOptions&
 class WarningLevel {
  public:
   /// Throws OptionError.
-  explicit WarningLevel(const WarningOptions& options);
+  explicit WarningLevel(const Checked<WarningOptions>& options);
 
   /// Puts level, cause and reason into the report. Stamps rise.
   void judge(RiskReport& report, bool host_moves);

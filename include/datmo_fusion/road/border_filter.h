@@ -15,11 +15,11 @@
 
 namespace datmo {
 
-struct BorderFilterOptions {
-  static constexpr char kEvidence[] = "evidence";
-  static constexpr char kThesis[] = "thesis";
+/// What becomes of objects on a border or beyond (BorderFilter).
+enum class BorderFilterMethod { kEvidence, kThesis };
 
-  std::string method = kEvidence;
+struct BorderFilterOptions {
+  BorderFilterMethod method = BorderFilterMethod::kEvidence;
   double margin = 0.5;            ///< m
   double sigmas = 1.0;            ///< 1
   double max_sigma = 1.0;         ///< m
@@ -56,7 +56,7 @@ struct DroppedObject {
 class BorderFilter {
  public:
   /// Throws OptionError.
-  explicit BorderFilter(const BorderFilterOptions& options);
+  explicit BorderFilter(const Checked<BorderFilterOptions>& options);
 
   /// Of `objects`, seen from `base_in_map` (the vehicle's pose), those that lie outside `road` (map
   /// frame) get their odds; by the thesis they are removed and returned.

@@ -14,6 +14,12 @@
 
 namespace datmo {
 
+/// What a window is scored by: the share of its sections that have a hit, or all of its hits.
+enum class BorderScore { kShare, kHits };
+
+/// Which of the windows that are a border's by their score is taken.
+enum class BorderChoice { kFirst, kHighest };
+
 struct BorderSearchOptions {
   double length = 20.0;         ///< m, of a window
   double width = 1.0;           ///< m
@@ -24,12 +30,12 @@ struct BorderSearchOptions {
   double heading_range = 0.15;  ///< rad, to either side
   double heading_step = 0.05;   ///< rad
   int sections = 20;
-  std::string score = "share";  ///< or "hits"
-  double min_share = 0.4;       ///< 0 to 1
+  BorderScore score = BorderScore::kShare;
+  double min_share = 0.4;  ///< 0 to 1
   double min_hits = 500.0;
-  std::string take = "first";  ///< or "highest"
-  double hit_sigma = 0.2;      ///< m
-  double shape_sigma = 0.1;    ///< m
+  BorderChoice take = BorderChoice::kFirst;
+  double hit_sigma = 0.2;    ///< m
+  double shape_sigma = 0.1;  ///< m
 
   void visit(OptionVisitor& visitor);
 };
@@ -53,7 +59,7 @@ std::vector<BorderPoint> pointsOf(const FoundBorder& found, double spacing);
 class BorderSearch {
  public:
   /// Throws OptionError.
-  explicit BorderSearch(const BorderSearchOptions& options);
+  explicit BorderSearch(const Checked<BorderSearchOptions>& options);
 
   /// The border on one side of `from` (map frame), from beside it on, as far as the windows reach
   /// in the direction of its heading. Of the thesis: the scanner's pose.

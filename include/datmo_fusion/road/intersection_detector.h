@@ -15,10 +15,11 @@ struct IntersectionDetectorOptions {
   double leave_below = 0.3;   ///< 1
 
   void visit(OptionVisitor& visitor);
+  void check() const;
 };
 
-/// Tells whether the vehicle is at an intersection: where, on one side or both, there is no border
-/// for the width of a street at least, where there was one before.
+/// Detects whether the vehicle is at an intersection: where, on one side or both, there is no
+/// border for the width of a street at least, where there was one before.
 ///
 /// The thesis (3.5.2) takes any scan without borders for one. Here the openings along the path of
 /// the vehicle are evidence for a hidden Markov model with two states, on the road and at an
@@ -28,7 +29,7 @@ struct IntersectionDetectorOptions {
 class IntersectionDetector {
  public:
   /// Throws OptionError.
-  explicit IntersectionDetector(const IntersectionDetectorOptions& options);
+  explicit IntersectionDetector(const Checked<IntersectionDetectorOptions>& options);
 
   /// Updates with where the borders are now; the distance driven rises, or all starts again. The
   /// stations reach some meters (`min_border`) behind the vehicle at least, and as far ahead as

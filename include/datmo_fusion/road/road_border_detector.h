@@ -18,10 +18,13 @@
 
 namespace datmo {
 
+/// Borders followed over time, or those of each scan by itself (thesis 3.5).
+enum class RoadBorderMethod { kTracked, kThesis };
+
 struct RoadBorderDetectorOptions {
   RoadBorderDetectorOptions();
 
-  std::string method = "tracked";
+  RoadBorderMethod method = RoadBorderMethod::kTracked;
   HitGridOptions hit_grid;
   BorderSearchOptions search;
   BorderTrackSetOptions tracks;
@@ -34,6 +37,7 @@ struct RoadBorderDetectorOptions {
   double max_step = 10.0;  ///< m
 
   void visit(OptionVisitor& visitor);
+  void check() const;
 };
 
 /// Finds the borders of the road in what scans of a planar scanner have hit, follows them, and
@@ -41,10 +45,10 @@ struct RoadBorderDetectorOptions {
 class RoadBorderDetector {
  public:
   /// Throws OptionError.
-  explicit RoadBorderDetector(const RoadBorderDetectorOptions& options);
+  explicit RoadBorderDetector(const Checked<RoadBorderDetectorOptions>& options);
 
   /// What is published from the next scan on; nothing is forgotten. Throws OptionError.
-  void setPublished(const BorderPublishingOptions& options);
+  void setPublished(const Checked<BorderPublishingOptions>& options);
 
   /// Takes in a scan, by rising stamps; the road about the vehicle as far as it is known then.
   /// After a gap or a jump of the pose all is forgotten first.

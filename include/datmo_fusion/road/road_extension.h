@@ -22,7 +22,7 @@ struct RoadExtensionOptions {
 /// after the last of it was seen. A guess: good enough to ask who is out there how he came there.
 class RoadExtension {
  public:
-  explicit RoadExtension(const RoadExtensionOptions& options);
+  explicit RoadExtension(const Checked<RoadExtensionOptions>& options);
 
   /// The road as it is known now, and the vehicle in its frame.
   void update(const RoadModel& road, const Pose2& base_in_map);

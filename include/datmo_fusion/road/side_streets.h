@@ -29,7 +29,7 @@ struct SideStreetOptions {
 class SideStreets {
  public:
   /// Throws OptionError.
-  explicit SideStreets(const SideStreetOptions& options);
+  explicit SideStreets(const Checked<SideStreetOptions>& options);
 
   /// Looks into the openings if it is time to; stamps rise.
   void update(const HitGrid& hits, const std::vector<RoadOpening>& openings, Stamp stamp);

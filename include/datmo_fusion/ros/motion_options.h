@@ -7,9 +7,12 @@
 
 namespace datmo {
 
+/// What the vehicle's motion is known from.
+enum class MotionSource { kOdometry, kTwist, kImu, kImuAndTwist, kImuAndWheels, kNone };
+
 /// Source of the vehicle's motion, for all stages: section `motion` of a sensor set.
 struct MotionOptions {
-  std::string source = "odometry";
+  MotionSource source = MotionSource::kOdometry;
   bool odometry_pose = false;
   double hold = 0.5;          ///< s
   double wheel_radius = 0.3;  ///< m
@@ -17,15 +20,21 @@ struct MotionOptions {
   void visit(OptionVisitor& visitor);
 
   /// nav_msgs/Odometry of the vehicle itself, with poses and its own odom -> base on tf.
-  bool fromOdometry() const { return source == "odometry"; }
+  bool fromOdometry() const { return source == MotionSource::kOdometry; }
   /// A twist is put together from other sensors (MotionStage).
-  bool fromSensors() const { return source != "odometry" && source != "none"; }
+  bool fromSensors() const {
+    return source != MotionSource::kOdometry && source != MotionSource::kNone;
+  }
   /// Without it the yaw rate alone is known.
-  bool hasSpeed() const { return source != "none" && source != "imu"; }
+  bool hasSpeed() const { return source != MotionSource::kNone && source != MotionSource::kImu; }
 
-  bool usesImu() const { return source.rfind("imu", 0) == 0; }
-  bool usesTwist() const { return source == "twist" || source == "imu_and_twist"; }
-  bool usesWheels() const { return source == "imu_and_wheels"; }
+  bool usesImu() const {
+    return source == MotionSource::kImu || source == MotionSource::kImuAndTwist || usesWheels();
+  }
+  bool usesTwist() const {
+    return source == MotionSource::kTwist || source == MotionSource::kImuAndTwist;
+  }
+  bool usesWheels() const { return source == MotionSource::kImuAndWheels; }
 
   /// Where the stages read the odometry: the vehicle's own, or what MotionStage makes.
   std::string odometryTopic() const { return fromSensors() ? "motion/odometry" : "odometry"; }

@@ -27,6 +27,7 @@ struct CloudToScanOptions {
   SweepOptions sweep;
 
   void visit(OptionVisitor& visitor);
+  void check() const;
 };
 
 /// A planar scan about the lidar, as seen from above, in the axes of base_link.
@@ -54,7 +55,7 @@ struct PlanarScan {
 class CloudToScan {
  public:
   /// Throws OptionError.
-  explicit CloudToScan(const CloudToScanOptions& options);
+  explicit CloudToScan(const Checked<CloudToScanOptions>& options);
 
   /// An empty cloud gives a scan of blind beams.
   PlanarScan scan(const LidarCloud& cloud) const;

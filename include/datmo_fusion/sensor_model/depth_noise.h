@@ -95,8 +95,8 @@ struct TimeOfFlightNoiseOptions {
 
 /// What a camera measures depth by, and how well.
 struct DepthNoiseOptions {
-  std::string principle = "stereo";  ///< key `depth_noise`
-  double disparity_sigma = 0.25;     ///< px, of both forms of stereo
+  DepthPrinciple principle = DepthPrinciple::kStereo;  ///< key `depth_noise`
+  double disparity_sigma = 0.25;                       ///< px, of both forms of stereo
   StructuredLightNoiseOptions structured_light;
   TimeOfFlightNoiseOptions time_of_flight;
 

@@ -29,7 +29,7 @@ struct LidarGridOptions {
 class LidarGridModel {
  public:
   /// Throws OptionError.
-  explicit LidarGridModel(const LidarGridOptions& options);
+  explicit LidarGridModel(const Checked<LidarGridOptions>& options);
 
   SensorGrid grid(const Scan& scan) const;
 

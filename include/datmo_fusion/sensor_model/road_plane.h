@@ -43,7 +43,7 @@ struct RoadPlaneOptions {
 class RoadPlaneEstimator {
  public:
   /// Throws OptionError.
-  explicit RoadPlaneEstimator(const RoadPlaneOptions& options);
+  explicit RoadPlaneEstimator(const Checked<RoadPlaneOptions>& options);
 
   /// The plane through the cloud's road; nothing where none is credible, or `estimate` is off.
   std::optional<RoadPlane> update(const StereoCloud& cloud);

@@ -30,9 +30,12 @@ struct StereoColumnsOptions {
   void visit(OptionVisitor& visitor);
 };
 
+/// How a cloud becomes a grid (StereoGridModel).
+enum class StereoGridMethod { kColumns, kCones };
+
 struct StereoGridOptions {
   GridWindowOptions window;
-  std::string method = "columns";
+  StereoGridMethod method = StereoGridMethod::kColumns;
   double occupied_probability = 0.8;
   double free_probability = 0.2;
   double min_layer_height = 0.2;  ///< m
@@ -74,7 +77,7 @@ class StereoEvidence;
 class StereoGridModel {
  public:
   /// Throws OptionError.
-  explicit StereoGridModel(const StereoGridOptions& options);
+  explicit StereoGridModel(const Checked<StereoGridOptions>& options);
   ~StereoGridModel();
 
   /// Throws std::invalid_argument for a camera as StereoView does.

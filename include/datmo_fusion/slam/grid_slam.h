@@ -23,7 +23,7 @@ struct GridSlamOptions {
   double odometry_hold = 0.5;  ///< s
   bool motion_compensation = true;
   double max_step = 5.0;  ///< m
-  std::string grid_ends = "scan";
+  GridEnds grid_ends = GridEnds::kScan;
   int seed = 1;
 
   void visit(OptionVisitor& visitor);
@@ -52,7 +52,7 @@ struct SlamResult {
 class GridSlam {
  public:
   /// Throws OptionError.
-  explicit GridSlam(const GridSlamOptions& options);
+  explicit GridSlam(const Checked<GridSlamOptions>& options);
 
   /// Odometry in rising stamp order; it may come before or after the scans that it serves. Only a
   /// bounded time of it is kept: while scans fail for longer, the pose goes on with it.

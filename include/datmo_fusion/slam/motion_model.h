@@ -26,7 +26,7 @@ struct MotionModelOptions {
 class VelocityMotionModel {
  public:
   /// Throws OptionError.
-  explicit VelocityMotionModel(const MotionModelOptions& options);
+  explicit VelocityMotionModel(const Checked<MotionModelOptions>& options);
 
   /// Covariance of x, y (m), heading (rad) of the motion after `seconds` of this twist, in the
   /// frame of the pose that it leads to.

@@ -11,7 +11,7 @@ namespace datmo {
 /// The pose at the scan nearest to the last pose of the odometry, for when its messages stop.
 ///
 /// An encoder goes on counting while its messages are lost. When they come again, the difference of
-/// its poses tells where the vehicle is, whatever the scans in between were taken for: if those
+/// its poses shows where the vehicle is, whatever the scans in between were taken for: if those
 /// contradict it, they were matched wrongly.
 class OdometryAnchor {
  public:

@@ -35,7 +35,7 @@ struct OdometryErrors {
 class PoseFilter {
  public:
   /// At the origin, with a velocity of which little is known. Throws OptionError.
-  PoseFilter(const PoseFilterOptions& options, const MotionModelOptions& motion);
+  PoseFilter(const Checked<PoseFilterOptions>& options, const MotionModelOptions& motion);
 
   const OdometryErrors& errors() const { return errors_; }
   PoseWithCovariance pose() const;

@@ -64,7 +64,7 @@ struct MatchResult {
 class ScanMatcher {
  public:
   /// Throws OptionError.
-  explicit ScanMatcher(const ScanMatcherOptions& options);
+  explicit ScanMatcher(const Checked<ScanMatcherOptions>& options);
 
   /// Where too few points lie on known surfaces, the prediction is returned as it is, not accepted.
   MatchResult match(const OccupancyMap& map, const std::vector<EndPoint>& points,

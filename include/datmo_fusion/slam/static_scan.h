@@ -8,7 +8,7 @@
 namespace datmo {
 
 /// m; how far a beam without return is known to be free, or the scanner's range if that is nearer
-/// or not known: farther, staticRanges tells nothing.
+/// or not known: farther, staticRanges has nothing.
 double staticRange(const ScanField& field);
 
 /// Ranges of what stands still, one for each beam of the field, m, as a navigation stack marks and

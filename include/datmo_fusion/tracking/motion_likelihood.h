@@ -43,7 +43,7 @@ struct BeamEvidence {
   double log_ratio = 0.0;  ///< that it moves over that it stands, as a surface that faces the beams
   /// That it moves over that it is the end of a beam along a wall; none: it cannot be.
   std::optional<double> log_ratio_to_grazing;
-  std::size_t observed = 0;  ///< how often a beam told; 0: nothing is known
+  std::size_t observed = 0;  ///< informative beams; 0: nothing is known
 };
 
 /// Asks all beams of a window of scans whether something was at the positions where a target was

@@ -3,13 +3,20 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <set>
 
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/scan.h"
+#include "datmo_fusion/tracking/association_scan.h"
+#include "datmo_fusion/tracking/clutter_map.h"
 #include "datmo_fusion/tracking/step_budget.h"
 #include "datmo_fusion/tracking/target_set.h"
 #include "datmo_fusion/tracking/track.h"
+#include "datmo_fusion/tracking/track_paths.h"
 #include "datmo_fusion/tracking/tracker_options.h"
+#include "datmo_fusion/tracking/transition_model.h"
+#include "datmo_fusion/visibility/scan_history.h"
 #include "datmo_fusion/visibility/visibility.h"
 
 namespace datmo {
@@ -37,13 +44,12 @@ class Tracker {
  public:
   /// Throws OptionError. With a clock, a step keeps to its time budget by following fewer
   /// hypotheses; without one, the same input gives the same output on every machine.
-  explicit Tracker(const TrackerOptions& options, StepClock clock = {});
-  ~Tracker();
+  explicit Tracker(const Checked<TrackerOptions>& options, StepClock clock = {});
 
   /// Goes on with other live options (Tier::kLive); all others must be as they were.
-  void setOptions(const TrackerOptions& options);
+  void setOptions(const Checked<TrackerOptions>& options);
 
-  /// Takes the beams of a scan, by rising stamps: they tell what moves (MotionLikelihoodOptions).
+  /// Takes the beams of a scan, by rising stamps: they show what moves (MotionLikelihoodOptions).
   /// Without them its objects alone do (MotionEvidence).
   void addScan(const LabeledScan& scan);
 
@@ -56,14 +62,46 @@ class Tracker {
   /// The same when nothing is known of what the sensors could have seen.
   TrackList process(const ObjectList& objects, const Pose2& base_in_fixed);
 
-  const TrackerCounts& counts() const;
+  const TrackerCounts& counts() const { return counts_; }
 
   /// Forgets all tracks; ids go on, so that none is reused.
   void reset();
 
  private:
-  class State;
-  std::unique_ptr<State> state_;
+  void removeDuplicates();
+  void remove(const std::set<std::uint64_t>& numbers);
+
+  /// So that new objects are never refused for the sake of old false alarms.
+  void makeRoom(std::size_t objects, double seconds);
+  void removeLost();
+
+  /// How long a track that was followed for this time may go unseen.
+  double silenceAfter(double followed, double max) const;
+  bool isLost(const Target& target) const;
+  double existence(const Target& target) const;
+  bool isPublished(const BestTarget& best) const;
+  void confirm();
+
+  /// By what it did, or by what two sensors see of it.
+  bool seemsToMove(const Target& target) const;
+  bool deservesTrack(const Target& target) const;
+
+  /// What belongs to a confirmed target is no clutter.
+  void learnClutter(const AssociationScan& scan, double seconds);
+  TrackList published(Stamp stamp, const AssociationScan& scan);
+  Track trackOf(const BestTarget& best, const AssociationScan& scan) const;
+
+  TrackerOptions options_;
+  StepClock clock_;
+  Visibility unknown_view_;
+  ClutterMap clutter_;
+  TransitionPriors transition_priors_;
+  ScanHistory scans_;
+  std::unique_ptr<TargetSet> targets_;
+  TrackPaths paths_;
+  std::optional<Stamp> stamp_;
+  std::uint32_t next_id_ = 1;
+  TrackerCounts counts_;
 };
 
 }  // namespace datmo

@@ -16,11 +16,11 @@
 
 namespace datmo {
 
-struct TrackerOptions {
-  static constexpr char kMultipleHypotheses[] = "mht";
-  static constexpr char kGlobalNearestNeighbor[] = "gnn";
+/// Which object is of which target: over several scans, or of each scan by itself.
+enum class TrackerAssociation { kMultipleHypotheses, kGlobalNearestNeighbor };
 
-  std::string association = kMultipleHypotheses;
+struct TrackerOptions {
+  TrackerAssociation association = TrackerAssociation::kMultipleHypotheses;
   HypothesisOptions hypotheses;
   SplitMergeOptions split_merge;
   ScanIntakeOptions intake;

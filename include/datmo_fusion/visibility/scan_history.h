@@ -46,7 +46,7 @@ struct BeamCrossing {
 /// The beams of the last scans in the map frame, to look up what each of them observed at a point.
 class ScanHistory {
  public:
-  explicit ScanHistory(const ScanHistoryOptions& options);
+  explicit ScanHistory(const Checked<ScanHistoryOptions>& options);
 
   /// By rising stamps.
   void add(const LabeledScan& scan);

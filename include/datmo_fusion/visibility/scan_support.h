@@ -6,6 +6,7 @@
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/scan.h"
+#include "datmo_fusion/visibility/beam_fan.h"
 
 namespace datmo {
 
@@ -38,7 +39,7 @@ struct PositionEvidence {
 class ScanSupport {
  public:
   /// Throws OptionError.
-  ScanSupport(const LabeledScan& scan, const ScanSupportOptions& options);
+  ScanSupport(const LabeledScan& scan, const Checked<ScanSupportOptions>& options);
 
   /// `motion_std`: m, how far the object may have moved by itself since it was seen, at least 0.
   PositionEvidence evidence(const Object& object, double motion_std) const;
@@ -55,15 +56,13 @@ class ScanSupport {
     double range = 0.0;  ///< m, seen up to here; blind: 0
   };
 
-  /// Index of the beam nearest to this bearing (rad, about the scanner), as a number with fraction.
-  double beamAt(double bearing) const;
-
-  /// The beam nearest to this index; none outside the field.
-  const Beam* beam(double index) const;
+  /// The beam nearest to this position (BeamFan); none outside the field.
+  const Beam* beam(double position) const;
 
   ScanSupportOptions options_;
   Pose2 scanner_in_base_;
   ScanField field_;
+  BeamFan fan_;
   std::vector<Beam> beams_;
 };
 

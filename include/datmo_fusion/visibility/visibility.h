@@ -11,6 +11,7 @@
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/scan.h"
 #include "datmo_fusion/common/view_fan.h"
+#include "datmo_fusion/visibility/beam_fan.h"
 
 namespace datmo {
 
@@ -34,7 +35,7 @@ struct VisibilityOptions {
 class Visibility {
  public:
   /// Nothing is known of the view: every object is seen with `unknown_probability`.
-  explicit Visibility(const VisibilityOptions& options);
+  explicit Visibility(const Checked<VisibilityOptions>& options);
 
   /// By the beams of this scan, whatever they hit; those without return reach as far as the scanner
   /// sees, blind ones nowhere. A scan whose field is not known gives an unknown view. The beams
@@ -82,9 +83,6 @@ class Visibility {
 
   void setFan(ViewFan fan);
 
-  /// Index of the beam nearest to this bearing; none outside the field.
-  std::optional<std::size_t> beamAt(double bearing) const;
-
   /// Evenly spread over an object's width.
   static Looks looksAt(const Outline& outline);
 
@@ -98,9 +96,8 @@ class Visibility {
   static double anyReturns(double beams, double chance);
 
   VisibilityOptions options_;
-  ViewFan fan_;                    ///< without beams: unknown
-  double beams_per_radian_ = 0.0;  ///< more than 0: from right to left
-  double beams_per_turn_ = 0.0;
+  ViewFan fan_;  ///< without beams: unknown
+  BeamFan beams_;
   std::vector<Visibility> others_;
 };
 

@@ -65,7 +65,7 @@ struct CameraMotionOptions {
 std::optional<CameraMotion> cameraMotion(const StereoRig& rig,
                                          const std::vector<FeatureQuad>& quads,
                                          const CameraMotion& prior,
-                                         const CameraMotionOptions& options);
+                                         const Checked<CameraMotionOptions>& options);
 
 /// m^2/s^2: of the velocity of a point (m, later frame) that `seconds` > 0 lie between, as far as
 /// the camera's own motion is not known: what all points have in common, nearly.

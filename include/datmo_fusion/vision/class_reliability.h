@@ -8,7 +8,7 @@
 
 namespace datmo {
 
-/// What a detector's word is worth, as measured on a labeled drive (calibrate_classes).
+/// How far a detector is to be believed, as measured on a labeled drive (calibrate_classes).
 struct ClassReliabilityOptions {
   /// Reliability curve: at these scores, rising strictly, the class was right in this share.
   std::vector<double> scores = {0.0, 1.0};
@@ -21,6 +21,7 @@ struct ClassReliabilityOptions {
                                   1.0, 0.1, 0.1, 0.0, 0.1};  // vehicle
 
   void visit(OptionVisitor& visitor);
+  void check() const;
 };
 
 /// A detector's report as probabilities, so that Bayes over time, in the tracker, is right: the
@@ -30,7 +31,7 @@ class ClassReliability {
  public:
   /// Throws OptionError; also for curves of different lengths, scores that do not rise, and a table
   /// that is not 3 x 5.
-  explicit ClassReliability(const ClassReliabilityOptions& options);
+  explicit ClassReliability(const Checked<ClassReliabilityOptions>& options);
 
   /// 0 to 1; not finite scores are worth as much as the lowest.
   double right(double score) const;

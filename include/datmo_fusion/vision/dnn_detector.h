@@ -23,6 +23,7 @@ struct DnnDetectorOptions {
   int max_close_looks = 4;
 
   void visit(OptionVisitor& visitor);
+  void check() const;
 };
 
 /// A model that cannot be used: the message names the file, what is wrong, and what was expected.
@@ -40,7 +41,7 @@ class DnnDetector : public ImageDetector {
   /// Loads the model and looks at an empty image, so that a bad one is found at once. Throws
   /// ModelError, for a file that is missing, cut or of another kind and for a network with other
   /// outputs than its labels ask for; OptionError.
-  explicit DnnDetector(const DnnDetectorOptions& options);
+  explicit DnnDetector(const Checked<DnnDetectorOptions>& options);
   ~DnnDetector() override;
 
   /// Regions are not used.

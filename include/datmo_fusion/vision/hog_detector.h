@@ -25,7 +25,7 @@ struct HogDetectorOptions {
 class HogDetector : public ImageDetector {
  public:
   /// Throws OptionError.
-  explicit HogDetector(const HogDetectorOptions& options);
+  explicit HogDetector(const Checked<HogDetectorOptions>& options);
   ~HogDetector() override;
 
   std::vector<ImageDetection> detect(const cv::Mat& image,

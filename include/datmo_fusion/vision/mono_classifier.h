@@ -17,14 +17,15 @@
 
 namespace datmo {
 
-struct MonoClassifierOptions {
-  static constexpr char kAssociation[] = "association";
-  static constexpr char kThesis[] = "thesis";
-  static constexpr char kHog[] = "hog";
-  static constexpr char kDnn[] = "dnn";
+/// How objects and what the detector reports come together (MonoClassifier).
+enum class MonoMethod { kAssociation, kThesis };
 
-  std::string method = kAssociation;
-  std::string detector = kHog;
+/// OpenCV's people detector (HogDetector), or a neural network (DnnDetector).
+enum class ImageDetectorKind { kHog, kDnn };
+
+struct MonoClassifierOptions {
+  MonoMethod method = MonoMethod::kAssociation;
+  ImageDetectorKind detector = ImageDetectorKind::kHog;
   bool calibrated = true;
   HogDetectorOptions hog;
   DnnDetectorOptions dnn;
@@ -67,11 +68,12 @@ struct MonoClassification {
 class MonoClassifier {
  public:
   /// Throws OptionError and ModelError.
-  explicit MonoClassifier(const MonoClassifierOptions& options);
+  explicit MonoClassifier(const Checked<MonoClassifierOptions>& options);
 
   /// With a detector of the caller's, whose scores are as reliable as `options` say of the chosen
   /// one. Throws OptionError.
-  MonoClassifier(const MonoClassifierOptions& options, std::unique_ptr<ImageDetector> detector);
+  MonoClassifier(const Checked<MonoClassifierOptions>& options,
+                 std::unique_ptr<ImageDetector> detector);
   ~MonoClassifier();
 
   /// `image`: as ImageDetector takes it, of the camera's size (else std::invalid_argument);

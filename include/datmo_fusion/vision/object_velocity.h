@@ -24,6 +24,6 @@ struct ObjectVelocityOptions {
 /// ground as road users are. Objects and points in the vehicle's frame, z up from the ground, of
 /// one time. Throws OptionError.
 void measureVelocities(const std::vector<PointVelocity>& points,
-                       const ObjectVelocityOptions& options, std::vector<Object>& objects);
+                       const Checked<ObjectVelocityOptions>& options, std::vector<Object>& objects);
 
 }  // namespace datmo

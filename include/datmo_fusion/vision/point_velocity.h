@@ -73,6 +73,6 @@ struct SharedVelocity {
 /// be positive definite, the center's semidefinite. Throws OptionError.
 std::optional<SharedVelocity> sharedVelocity(const std::vector<PointVelocity>& points,
                                              const BodyCenter& center,
-                                             const SharedVelocityOptions& options);
+                                             const Checked<SharedVelocityOptions>& options);
 
 }  // namespace datmo

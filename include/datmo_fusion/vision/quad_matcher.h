@@ -33,7 +33,7 @@ struct QuadMatcherOptions {
 class QuadMatcher {
  public:
   /// Throws OptionError.
-  explicit QuadMatcher(const QuadMatcherOptions& options);
+  explicit QuadMatcher(const Checked<QuadMatcherOptions>& options);
   ~QuadMatcher();
 
   /// Rectified, 8 bit gray, of the same size (else std::invalid_argument). Nothing for the first

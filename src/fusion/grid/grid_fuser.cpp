@@ -19,12 +19,18 @@ GridFuserOptions::GridFuserOptions() {
 }
 
 void GridFuserOptions::visit(OptionVisitor& visitor) {
-  visitor.text({"rule", "",
-                "how the evidence of several sensors on a cell is combined: their mean by weight "
-                "(thesis eq. 3.2.5), the word of the first that sees it (3.2.6), the most occupied "
-                "(4.1.8), Bayes for independent sensors, or evidence theory (perspective of 6.2)",
-                Tier::kLive},
-               rule, fusionRuleNames());
+  visitor.choice(
+      {"rule", "",
+       "how the evidence of several sensors on a cell is combined: their mean by weight "
+       "(thesis eq. 3.2.5), the value of the first that sees it (3.2.6), the most occupied "
+       "(4.1.8), Bayes for independent sensors, or evidence theory (perspective of 6.2)",
+       Tier::kLive},
+      rule,
+      {{"weighted_sum", FusionRule::kWeightedSum},
+       {"priority", FusionRule::kPriority},
+       {"maximum", FusionRule::kMaximum},
+       {"log_odds", FusionRule::kLogOdds},
+       {"dempster_shafer", FusionRule::kDempsterShafer}});
   visitor.number({"mover_speed", "m/s",
                   "a cell is not called free where something this fast may have come between a "
                   "source's stamp and the reference's (thesis: 0)",
@@ -43,10 +49,7 @@ std::vector<std::string> GridFuserOptions::sourcesInUse() const {
   return names;
 }
 
-GridFuser::GridFuser(const GridFuserOptions& options)
-    : options_(options), rule_(fusionRule(options.rule)) {
-  checkOptions(options);
-}
+GridFuser::GridFuser(const Checked<GridFuserOptions>& options) : options_(*options) {}
 
 FusionResult GridFuser::fuse(const MatchedGrids& matched, const MotionBetween& motion) const {
   FusionResult result;
@@ -67,7 +70,7 @@ FusionResult GridFuser::fuse(const MatchedGrids& matched, const MotionBetween& m
     }
     grids.push_back({grid, options_.sources.at(one.source)});
   }
-  result.grids = fuseGrids(rule_, grids);
+  result.grids = fuseGrids(options_.rule, grids);
   return result;
 }
 

@@ -14,16 +14,16 @@ namespace {
 
 constexpr float kPercent = 100.0F;
 
-/// Half a percent, as finely as grids speak: nobody is surer for log-odds, which would else have no
+/// Half a percent, the resolution of grids: nobody is surer for log-odds, which would else have no
 /// end.
 constexpr float kMinProbability = 0.005F;
 
 /// Less agreement than the rounding of floats leaves.
 constexpr float kNoAgreement = 1e-6F;
 
-/// What a source's word of a cell means.
+/// What a source's value of a cell means.
 struct Meaning {
-  // How much of the evidence does not speak against each (plausibility), and how much speaks for
+  // How much of the evidence is not against each (plausibility), and how much is for
   // neither: Dempster's rule multiplies each of the three over the sources (commonality, Shafer
   // 1976).
   float may_be_occupied = 1.0F;
@@ -176,30 +176,10 @@ void checkWindows(const std::vector<WeighedGrid>& grids) {
 
 }  // namespace
 
-const std::vector<std::string>& fusionRuleNames() {
-  // In the order of FusionRule.
-  static const std::vector<std::string> names = {"weighted_sum", "priority", "maximum", "log_odds",
-                                                 "dempster_shafer"};
-  return names;
-}
-
-FusionRule fusionRule(const std::string& name) {
-  const auto& names = fusionRuleNames();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) {
-    std::string expected;
-    for (const std::string& known : names) {
-      expected += (expected.empty() ? "" : ", ") + known;
-    }
-    throw OptionError("rule = \"" + name + "\": expected one of " + expected);
-  }
-  return static_cast<FusionRule>(found - names.begin());
-}
-
 void GridSourceOptions::visit(OptionVisitor& visitor) {
   visitor.toggle({"use", "", "whether this source is fused", Tier::kPublic}, use);
   visitor.integer({"priority", "1",
-                   "rule priority: of the sources that see a cell the highest has the word (thesis "
+                   "rule priority: of the sources that see a cell the highest decides (thesis "
                    "eq. 3.2.6: vision before the lidar)"},
                   priority, {-100, 100});
   visitor.number({"weight", "1", "rule weighted_sum: share in the mean (thesis eq. 3.2.5: alpha)"},

@@ -181,10 +181,12 @@ std::vector<int> assignNearest(const std::vector<Object>& known, const std::vect
 }  // namespace
 
 void ObjectAssociationOptions::visit(OptionVisitor& visitor) {
-  visitor.text({"association", "",
-                "which objects of two sensors are one: the likeliest assignment over all pairs, "
-                "or each to its nearest neighbor (thesis 3.3.3)"},
-               association, {kOptimal, kNearestNeighbor});
+  visitor.choice({"association", "",
+                  "which objects of two sensors are one: the likeliest assignment over all pairs, "
+                  "or each to its nearest neighbor (thesis 3.3.3)"},
+                 association,
+                 {{"optimal", ObjectAssociationMethod::kOptimal},
+                  {"nearest_neighbor", ObjectAssociationMethod::kNearestNeighbor}});
   visitor.number({"gate", "1",
                   "optimal: largest Mahalanobis distance squared of a pair: 13.8 is the 99.9 % "
                   "quantile of chi-square with two degrees of freedom"},
@@ -248,7 +250,7 @@ std::vector<int> associate(const std::vector<Object>& known, const std::vector<O
   if (known.empty() || added.empty()) {
     return std::vector<int>(added.size(), kUnassigned);
   }
-  return options.association == ObjectAssociationOptions::kOptimal
+  return options.association == ObjectAssociationMethod::kOptimal
              ? assignOptimally(known, added, options)
              : assignNearest(known, added, sensor, options);
 }

@@ -43,20 +43,6 @@ bool isPole(const Object& object) {
   return object.object_class == ObjectClass::kPole && object.class_probability > kKnownClass;
 }
 
-/// Throws OptionError: with a scanner that is no source, its own objects would be judged by its
-/// scan as those of others are.
-void checkScanner(const ObjectFuserOptions& options) {
-  if (options.sources.count(options.scanner) > 0) {
-    return;
-  }
-  std::string names;
-  for (const auto& [name, source] : options.sources) {
-    names += (names.empty() ? "" : ", ") + name;
-  }
-  throw OptionError("scanner = \"" + options.scanner + "\": expected one of the sources (" + names +
-                    ")");
-}
-
 }  // namespace
 
 void ObjectSourceOptions::visit(OptionVisitor& visitor) {
@@ -115,13 +101,22 @@ std::map<std::string, double> ObjectFuserOptions::lateSources() const {
   return late;
 }
 
-ObjectFuser::ObjectFuser(const ObjectFuserOptions& options) : options_(options) {
-  checkOptions(options);
-  checkScanner(options);
-  for (const auto& [name, source] : options.sources) {
+void ObjectFuserOptions::check() const {
+  for (const auto& [name, source] : sources) {
     source.covariance.check("sources/" + name + "/covariance");
   }
+  if (sources.count(scanner) > 0) {
+    return;
+  }
+  std::string names;
+  for (const auto& [name, source] : sources) {
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  // Its own objects would be judged by its scan as those of others are.
+  throw OptionError("scanner = \"" + scanner + "\": expected one of the sources (" + names + ")");
 }
+
+ObjectFuser::ObjectFuser(const Checked<ObjectFuserOptions>& options) : options_(*options) {}
 
 /// One call of `fuse`.
 class ObjectFuser::Fusion {

@@ -16,8 +16,7 @@ void SourceMatcherOptions::visit(OptionVisitor& visitor) {
                  silent_after, {0.05, 10.0});
 }
 
-void checkMatcher(const SourceMatcherOptions& options, const std::vector<std::string>& sources) {
-  checkOptions(options);
+void checkReference(const SourceMatcherOptions& options, const std::vector<std::string>& sources) {
   std::string names;
   for (const std::string& source : sources) {
     names += (names.empty() ? "" : ", ") + source;

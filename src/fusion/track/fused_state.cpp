@@ -90,13 +90,16 @@ StateEstimate barShalomCampo(const JointAxes& joint, const StateEstimate& a, con
 }  // namespace
 
 void TrackCombinationOptions::visit(OptionVisitor& visitor) {
-  visitor.text({"method", "",
-                "of fusing the states of two trackers: covariance_intersection, which is "
-                "consistent however their errors are correlated (Julier and Uhlmann 1997); "
-                "bar_shalom_campo, by the correlation that the process noise which they share "
-                "makes (Bar-Shalom and Campo 1986); or information, as if there were none, "
-                "which is over-confident"},
-               method, {kCovarianceIntersection, kBarShalomCampo, kInformation});
+  visitor.choice({"method", "",
+                  "of fusing the states of two trackers: covariance_intersection, which is "
+                  "consistent however their errors are correlated (Julier and Uhlmann 1997); "
+                  "bar_shalom_campo, by the correlation that the process noise which they share "
+                  "makes (Bar-Shalom and Campo 1986); or information, as if there were none, "
+                  "which is over-confident"},
+                 method,
+                 {{"covariance_intersection", TrackCombinationMethod::kCovarianceIntersection},
+                  {"bar_shalom_campo", TrackCombinationMethod::kBarShalomCampo},
+                  {"information", TrackCombinationMethod::kInformation}});
   visitor.number({"max_correlation", "1",
                   "of the errors of two trackers in bar_shalom_campo; at 1 the difference of "
                   "both would be known exactly"},
@@ -106,10 +109,10 @@ void TrackCombinationOptions::visit(OptionVisitor& visitor) {
 StateEstimate fusedState(const StateEstimate& a, const StateEstimate& b,
                          const CrossCovariance& cross, const TrackCombinationOptions& options) {
   const JointAxes joint(a.covariance, b.covariance);
-  if (options.method == TrackCombinationOptions::kBarShalomCampo) {
+  if (options.method == TrackCombinationMethod::kBarShalomCampo) {
     return barShalomCampo(joint, a, b, joint.limitedCross(cross, options.max_correlation));
   }
-  const bool is_intersection = options.method == TrackCombinationOptions::kCovarianceIntersection;
+  const bool is_intersection = options.method == TrackCombinationMethod::kCovarianceIntersection;
   return fusedAlong(joint, a, b,
                     is_intersection ? intersection(joint.share) : independent(joint.share));
 }

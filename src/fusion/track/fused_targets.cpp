@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fused_targets.h"
+#include "datmo_fusion/fusion/track/fused_targets.h"
 
 #include <algorithm>
 #include <map>

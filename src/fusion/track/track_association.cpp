@@ -16,10 +16,12 @@ constexpr double kAssociationHysteresis = 10.0;
 }  // namespace
 
 void TrackAssociationOptions::visit(OptionVisitor& visitor) {
-  visitor.text({"test", "",
-                "when two tracks are one: by their likelihoods, summed over a window, or by the "
-                "thesis's test of parallel trajectories (3.4.2)"},
-               test, {kAccumulated, kParallel});
+  visitor.choice({"test", "",
+                  "when two tracks are one: by their likelihoods, summed over a window, or by the "
+                  "thesis's test of parallel trajectories (3.4.2)"},
+                 test,
+                 {{"accumulated", TrackAssociationTest::kAccumulated},
+                  {"parallel", TrackAssociationTest::kParallel}});
   visitor.group("comparison", [&] { comparison.visit(visitor); });
   visitor.group("evidence", [&] { evidence.visit(visitor); });
   visitor.group("parallel", [&] { parallel.visit(visitor); });
@@ -29,9 +31,8 @@ void TrackAssociationOptions::visit(OptionVisitor& visitor) {
                  required, {0.0, 100.0});
 }
 
-TrackAssociation::TrackAssociation(const TrackAssociationOptions& options) : options_(options) {
-  checkOptions(options);
-}
+TrackAssociation::TrackAssociation(const Checked<TrackAssociationOptions>& options)
+    : options_(*options) {}
 
 std::vector<TrackGroup> TrackAssociation::associate(Stamp stamp,
                                                     const std::vector<PresentTracks>& sources) {
@@ -85,7 +86,7 @@ std::optional<double> TrackAssociation::scoreOf(Stamp stamp, const Track& a, con
     pair.evidence.look(stamp, now.log_likelihood_ratio, options_.evidence);
   }
   const double association_hysteresis = pair.together ? kAssociationHysteresis : 0.0;
-  if (options_.test == TrackAssociationOptions::kParallel) {
+  if (options_.test == TrackAssociationTest::kParallel) {
     return in_gate && areParallel(a, b, options_.parallel)
                ? std::make_optional(options_.comparison.gate - now.squared_distance +
                                     association_hysteresis)

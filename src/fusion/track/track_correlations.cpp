@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "track_correlations.h"
+#include "datmo_fusion/fusion/track/track_correlations.h"
 
 namespace datmo {
 

@@ -5,16 +5,11 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <optional>
 #include <utility>
-
-#include "fused_targets.h"
-#include "track_correlations.h"
 
 #include "datmo_fusion/fusion/object/fused_existence.h"
 #include "datmo_fusion/fusion/track/track_extents.h"
 #include "datmo_fusion/tracking/track_check.h"
-#include "datmo_fusion/tracking/track_paths.h"
 
 namespace datmo {
 
@@ -49,255 +44,216 @@ void keepLikeliest(std::vector<Track>& tracks, std::size_t max) {
             [](const Track& a, const Track& b) { return a.id < b.id; });
 }
 
+/// Where the tracks of each list are seen from.
+std::vector<std::optional<Point2>> sensorsOf(const std::vector<SourceTracks>& sources) {
+  std::vector<std::optional<Point2>> sensors(sources.size());
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    if (!sources[i].list->views.empty()) {
+      sensors[i] = sources[i].list->views.front().sensor.position();
+    }
+  }
+  return sensors;
+}
+
 }  // namespace
 
-class TrackFuser::State {
- public:
-  explicit State(const TrackFuserOptions& options)
-      : options_(options),
-        association_(options.association),
-        targets_(options.sources.size()),
-        newest_(options.sources.size()) {
-    for (const auto& [name, source] : options.sources) {
-      numbers_[name] = names_.size();
-      names_.push_back(name);
-    }
+TrackFuser::TrackFuser(const Checked<TrackFuserOptions>& options)
+    : options_(*options),
+      association_(options->association),
+      targets_(options->sources.size()),
+      newest_(options->sources.size()) {
+  for (const auto& [name, source] : options->sources) {
+    numbers_[name] = names_.size();
+    names_.push_back(name);
   }
-
-  TrackFusionResult fuse(Stamp stamp, const std::vector<SourceTracks>& sources) {
-    const double seconds = stamp_ ? std::max(0.0, secondsBetween(*stamp_, stamp)) : 0.0;
-    stamp_ = stamp;
-    TrackFusionResult result;
-    result.list.stamp = stamp;
-    const std::vector<PresentTracks> present = ingest(stamp, sources, result.counts);
-    const std::vector<TrackGroup> groups = association_.associate(stamp, present);
-    correlations_.step(seconds);
-    targets_.follow(stamp, seconds, fused(groups, present, sensorsOf(sources), result.counts),
-                    options_);
-    look(sources, seconds);
-    judgeAll(stamp, present);
-    targets_.publish(kDuplicateGateScale);
-    publish(result);
-    for (const SourceTracks& source : sources) {
-      result.list.views.insert(result.list.views.end(), source.list->views.begin(),
-                               source.list->views.end());
-    }
-    return result;
-  }
-
-  void setOptions(const TrackFuserOptions& options) { options_ = options; }
-
-  void reset() {
-    association_.reset();
-    correlations_.clear();
-    targets_.clear();
-    paths_.clear();
-    stamp_.reset();
-    newest_.assign(newest_.size(), std::nullopt);
-  }
-
- private:
-  std::vector<PresentTracks> ingest(Stamp stamp, const std::vector<SourceTracks>& sources,
-                                    TrackFusionCounts& counts) {
-    std::vector<PresentTracks> present;
-    for (const SourceTracks& source : sources) {
-      PresentTracks own;
-      own.source = numbers_.at(source.source);
-      own.fresh = newest_[own.source] != source.list->stamp;
-      newest_[own.source] = source.list->stamp;
-      std::copy_if(source.list->tracks.begin(), source.list->tracks.end(),
-                   std::back_inserter(own.tracks), [](const Track& one) { return isValid(one); });
-      counts.rejected += source.list->tracks.size() - own.tracks.size();
-      const std::size_t valid = own.tracks.size();
-      keepLikeliest(own.tracks, static_cast<std::size_t>(options_.max_tracks));
-      counts.refused += valid - own.tracks.size();
-      for (Track& track : own.tracks) {
-        track = predicted(std::move(track), secondsBetween(source.list->stamp, stamp),
-                          options_.prediction);
-        track.sources = {{source.source, track.id}};
-        if (track.sensors.empty()) {
-          track.sensors = {source.source};
-        }
-      }
-      present.push_back(std::move(own));
-    }
-    return present;
-  }
-
-  /// Where the tracks of each list are seen from.
-  static std::vector<std::optional<Point2>> sensorsOf(const std::vector<SourceTracks>& sources) {
-    std::vector<std::optional<Point2>> sensors(sources.size());
-    for (std::size_t i = 0; i < sources.size(); ++i) {
-      if (!sources[i].list->views.empty()) {
-        sensors[i] = sources[i].list->views.front().sensor.position();
-      }
-    }
-    return sensors;
-  }
-
-  std::vector<Track> fused(const std::vector<TrackGroup>& groups,
-                           const std::vector<PresentTracks>& present,
-                           const std::vector<std::optional<Point2>>& sensors,
-                           TrackFusionCounts& counts) {
-    std::vector<Track> tracks;
-    for (const TrackGroup& group : groups) {
-      std::optional<Track> whole;
-      for (std::size_t i = 0; i < group.size(); ++i) {
-        Track track = present[group[i].list].tracks[group[i].track];
-        if (!whole) {
-          whole = std::move(track);
-          continue;
-        }
-        reconcileExtents(*whole, sensors[group[0].list], track, sensors[group[i].list]);
-        const double age = std::max(whole->age, track.age);
-        whole = combined(*std::move(whole), track, crossCovariance(group, i, present),
-                         options_.combination);
-        whole->age = age;
-      }
-      counts.fused += group.size() > 1 ? 1 : 0;
-      tracks.push_back(std::move(*whole));
-    }
-    return tracks;
-  }
-
-  /// Of what the tracks before this one of a group are together, and it: of more than one, their
-  /// mean. The method that has no use for it does not pay for it.
-  CrossCovariance crossCovariance(const TrackGroup& group, std::size_t index,
-                                  const std::vector<PresentTracks>& present) {
-    CrossCovariance sum = CrossCovariance::Zero();
-    if (options_.combination.method != TrackCombinationOptions::kBarShalomCampo) {
-      return sum;
-    }
-    const auto trackAt = [&](std::size_t i) -> const Track& {
-      return present[group[i].list].tracks[group[i].track];
-    };
-    for (std::size_t i = 0; i < index; ++i) {
-      sum += correlations_.between(trackAt(i), trackAt(index), options_.prediction,
-                                   options_.combination);
-    }
-    return sum / static_cast<double>(index);
-  }
-
-  /// How much each source would have detected each target lately. Who has a track of it is not
-  /// evaluated: when it loses that, it takes a while until it is missed.
-  void look(const std::vector<SourceTracks>& sources, double seconds) {
-    const double share = kLookingTime > 0.0 ? -std::expm1(-seconds / kLookingTime) : 1.0;
-    std::vector<std::optional<Visibility>> views(names_.size());
-    for (const SourceTracks& source : sources) {
-      const std::vector<ViewFan>& fans = source.list->views;
-      if (std::any_of(fans.begin(), fans.end(),
-                      [](const ViewFan& fan) { return !fan.reach.empty(); })) {
-        views[numbers_.at(source.source)].emplace(fans, options_.visibility);
-      }
-    }
-    for (FusedTarget& target : targets_.all()) {
-      for (std::size_t source = 0; source < names_.size(); ++source) {
-        double now = 0.0;
-        if (views[source] && target.present && !target.member(names_[source])) {
-          now = views[source]->detectionProbability(target.track.box, positionStd(target.track));
-        }
-        std::optional<double>& looked = target.looked[source];
-        looked = looked ? *looked + share * (now - *looked) : now;
-      }
-    }
-  }
-
-  void judgeAll(Stamp stamp, const std::vector<PresentTracks>& present) {
-    for (FusedTarget& target : targets_.all()) {
-      if (target.present) {
-        judge(target, stamp, present);
-      }
-      target.wanted = target.present && isWanted(target);
-    }
-  }
-
-  /// The source's own track of a target; null if it has none.
-  const Track* trackOf(const FusedTarget& target, std::size_t source,
-                       const std::vector<PresentTracks>& present) const {
-    const std::optional<std::uint32_t> id = target.member(names_[source]);
-    const auto own = std::find_if(present.begin(), present.end(),
-                                  [&](const PresentTracks& list) { return list.source == source; });
-    if (!id || own == present.end()) {
-      return nullptr;
-    }
-    const auto found = std::find_if(own->tracks.begin(), own->tracks.end(),
-                                    [&](const Track& track) { return track.id == *id; });
-    return found == own->tracks.end() ? nullptr : &*found;
-  }
-
-  void judge(FusedTarget& target, Stamp stamp, const std::vector<PresentTracks>& present) const {
-    std::vector<ExistenceReport> reports;
-    bool seen_by_all = true;
-    for (std::size_t source = 0; source < names_.size(); ++source) {
-      const TrackSourceOptions& own = options_.sources.at(names_[source]);
-      const Track* const track = trackOf(target, source, present);
-      const double looked = target.looked[source].value_or(0.0);
-      reports.push_back({track != nullptr, track != nullptr ? track->existence_probability : 0.0,
-                         looked, own.detection_probability, own.false_agreement_probability});
-      seen_by_all = seen_by_all && (track != nullptr || looked < kCanSee);
-    }
-    target.track.existence_probability = fusedExistence(reports);
-    target.track.age = secondsBetween(target.born, stamp);
-    // Two sources that have it from one sensor count once.
-    const bool by_two = target.track.sources.size() > 1 && target.track.sensors.size() > 1;
-    target.confirmed = target.confirmed || (seen_by_all && by_two);
-  }
-
-  bool isWanted(const FusedTarget& target) const {
-    const bool is_beyond = options_.scheme == TrackFuserOptions::kFusedPlusFallback &&
-                           target.track.sources.size() == 1 && target.member(options_.beyond) &&
-                           !isInOthersView(target);
-    return target.track.existence_probability >= options_.published_existence &&
-           (options_.scheme == TrackFuserOptions::kUnion || target.confirmed || is_beyond);
-  }
-
-  /// So that a source without a track of it speaks against it: of one that is published already
-  /// when it has had time to confirm its own.
-  bool isInOthersView(const FusedTarget& target) const {
-    const double min = target.published ? std::max(kCanSee, options_.misses) : kCanSee;
-    return std::any_of(target.looked.begin(), target.looked.end(),
-                       [min](const auto& looked) { return looked.value_or(0.0) >= min; });
-  }
-
-  void publish(TrackFusionResult& result) {
-    for (const FusedTarget& target : targets_.all()) {
-      if (target.published) {
-        result.list.tracks.push_back(target.track);
-        result.list.tracks.back().id = target.id;
-      }
-    }
-    paths_.extend(result.list, options_.history_time);
-    result.counts.published = result.list.tracks.size();
-  }
-
-  TrackFuserOptions options_;
-  std::vector<std::string> names_;              ///< of the sources, by number
-  std::map<std::string, std::size_t> numbers_;  ///< of the sources
-  TrackAssociation association_;
-  TrackCorrelations correlations_;
-  FusedTargets targets_;
-  TrackPaths paths_;
-  std::optional<Stamp> stamp_;                ///< of the last call
-  std::vector<std::optional<Stamp>> newest_;  ///< list of each source
-};
-
-TrackFuser::TrackFuser(const TrackFuserOptions& options) {
-  checkOptions(options);
-  options.check();
-  state_ = std::make_unique<State>(options);
 }
-
-TrackFuser::~TrackFuser() = default;
 
 TrackFusionResult TrackFuser::fuse(Stamp stamp, const std::vector<SourceTracks>& sources) {
-  return state_->fuse(stamp, sources);
+  const double seconds = stamp_ ? std::max(0.0, secondsBetween(*stamp_, stamp)) : 0.0;
+  stamp_ = stamp;
+  TrackFusionResult result;
+  result.list.stamp = stamp;
+  const std::vector<PresentTracks> present = ingest(stamp, sources, result.counts);
+  const std::vector<TrackGroup> groups = association_.associate(stamp, present);
+  correlations_.step(seconds);
+  targets_.follow(stamp, seconds, fused(groups, present, sensorsOf(sources), result.counts),
+                  options_);
+  look(sources, seconds);
+  judgeAll(stamp, present);
+  targets_.publish(kDuplicateGateScale);
+  publish(result);
+  for (const SourceTracks& source : sources) {
+    result.list.views.insert(result.list.views.end(), source.list->views.begin(),
+                             source.list->views.end());
+  }
+  return result;
 }
 
-void TrackFuser::setOptions(const TrackFuserOptions& options) {
-  checkOptions(options);
-  state_->setOptions(options);
+void TrackFuser::setOptions(const Checked<TrackFuserOptions>& options) { options_ = *options; }
+
+void TrackFuser::reset() {
+  association_.reset();
+  correlations_.clear();
+  targets_.clear();
+  paths_.clear();
+  stamp_.reset();
+  newest_.assign(newest_.size(), std::nullopt);
 }
 
-void TrackFuser::reset() { state_->reset(); }
+std::vector<PresentTracks> TrackFuser::ingest(Stamp stamp, const std::vector<SourceTracks>& sources,
+                                              TrackFusionCounts& counts) {
+  std::vector<PresentTracks> present;
+  for (const SourceTracks& source : sources) {
+    PresentTracks own;
+    own.source = numbers_.at(source.source);
+    own.fresh = newest_[own.source] != source.list->stamp;
+    newest_[own.source] = source.list->stamp;
+    std::copy_if(source.list->tracks.begin(), source.list->tracks.end(),
+                 std::back_inserter(own.tracks), [](const Track& one) { return isValid(one); });
+    counts.rejected += source.list->tracks.size() - own.tracks.size();
+    const std::size_t valid = own.tracks.size();
+    keepLikeliest(own.tracks, static_cast<std::size_t>(options_.max_tracks));
+    counts.refused += valid - own.tracks.size();
+    for (Track& track : own.tracks) {
+      track = predicted(std::move(track), secondsBetween(source.list->stamp, stamp),
+                        options_.prediction);
+      track.sources = {{source.source, track.id}};
+      if (track.sensors.empty()) {
+        track.sensors = {source.source};
+      }
+    }
+    present.push_back(std::move(own));
+  }
+  return present;
+}
+
+std::vector<Track> TrackFuser::fused(const std::vector<TrackGroup>& groups,
+                                     const std::vector<PresentTracks>& present,
+                                     const std::vector<std::optional<Point2>>& sensors,
+                                     TrackFusionCounts& counts) {
+  std::vector<Track> tracks;
+  for (const TrackGroup& group : groups) {
+    std::optional<Track> whole;
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      Track track = present[group[i].list].tracks[group[i].track];
+      if (!whole) {
+        whole = std::move(track);
+        continue;
+      }
+      reconcileExtents(*whole, sensors[group[0].list], track, sensors[group[i].list]);
+      const double age = std::max(whole->age, track.age);
+      whole = combined(*std::move(whole), track, crossCovariance(group, i, present),
+                       options_.combination);
+      whole->age = age;
+    }
+    counts.fused += group.size() > 1 ? 1 : 0;
+    tracks.push_back(std::move(*whole));
+  }
+  return tracks;
+}
+
+CrossCovariance TrackFuser::crossCovariance(const TrackGroup& group, std::size_t index,
+                                            const std::vector<PresentTracks>& present) {
+  CrossCovariance sum = CrossCovariance::Zero();
+  if (options_.combination.method != TrackCombinationMethod::kBarShalomCampo) {
+    return sum;
+  }
+  const auto trackAt = [&](std::size_t i) -> const Track& {
+    return present[group[i].list].tracks[group[i].track];
+  };
+  for (std::size_t i = 0; i < index; ++i) {
+    sum += correlations_.between(trackAt(i), trackAt(index), options_.prediction,
+                                 options_.combination);
+  }
+  return sum / static_cast<double>(index);
+}
+
+void TrackFuser::look(const std::vector<SourceTracks>& sources, double seconds) {
+  const double share = kLookingTime > 0.0 ? -std::expm1(-seconds / kLookingTime) : 1.0;
+  std::vector<std::optional<Visibility>> views(names_.size());
+  for (const SourceTracks& source : sources) {
+    const std::vector<ViewFan>& fans = source.list->views;
+    if (std::any_of(fans.begin(), fans.end(),
+                    [](const ViewFan& fan) { return !fan.reach.empty(); })) {
+      views[numbers_.at(source.source)].emplace(fans, options_.visibility);
+    }
+  }
+  for (FusedTarget& target : targets_.all()) {
+    for (std::size_t source = 0; source < names_.size(); ++source) {
+      double now = 0.0;
+      if (views[source] && target.present && !target.member(names_[source])) {
+        now = views[source]->detectionProbability(target.track.box, positionStd(target.track));
+      }
+      std::optional<double>& looked = target.looked[source];
+      looked = looked ? *looked + share * (now - *looked) : now;
+    }
+  }
+}
+
+void TrackFuser::judgeAll(Stamp stamp, const std::vector<PresentTracks>& present) {
+  for (FusedTarget& target : targets_.all()) {
+    if (target.present) {
+      judge(target, stamp, present);
+    }
+    target.wanted = target.present && isWanted(target);
+  }
+}
+
+const Track* TrackFuser::trackOf(const FusedTarget& target, std::size_t source,
+                                 const std::vector<PresentTracks>& present) const {
+  const std::optional<std::uint32_t> id = target.member(names_[source]);
+  const auto own = std::find_if(present.begin(), present.end(),
+                                [&](const PresentTracks& list) { return list.source == source; });
+  if (!id || own == present.end()) {
+    return nullptr;
+  }
+  const auto found = std::find_if(own->tracks.begin(), own->tracks.end(),
+                                  [&](const Track& track) { return track.id == *id; });
+  return found == own->tracks.end() ? nullptr : &*found;
+}
+
+void TrackFuser::judge(FusedTarget& target, Stamp stamp,
+                       const std::vector<PresentTracks>& present) const {
+  std::vector<ExistenceReport> reports;
+  bool seen_by_all = true;
+  for (std::size_t source = 0; source < names_.size(); ++source) {
+    const TrackSourceOptions& own = options_.sources.at(names_[source]);
+    const Track* const track = trackOf(target, source, present);
+    const double looked = target.looked[source].value_or(0.0);
+    reports.push_back({track != nullptr, track != nullptr ? track->existence_probability : 0.0,
+                       looked, own.detection_probability, own.false_agreement_probability});
+    seen_by_all = seen_by_all && (track != nullptr || looked < kCanSee);
+  }
+  target.track.existence_probability = fusedExistence(reports);
+  target.track.age = secondsBetween(target.born, stamp);
+  // Two sources that have it from one sensor count once.
+  const bool by_two = target.track.sources.size() > 1 && target.track.sensors.size() > 1;
+  target.confirmed = target.confirmed || (seen_by_all && by_two);
+}
+
+bool TrackFuser::isWanted(const FusedTarget& target) const {
+  const bool is_beyond = options_.scheme == TrackScheme::kFusedPlusFallback &&
+                         target.track.sources.size() == 1 && target.member(options_.beyond) &&
+                         !isInOthersView(target);
+  return target.track.existence_probability >= options_.published_existence &&
+         (options_.scheme == TrackScheme::kUnion || target.confirmed || is_beyond);
+}
+
+bool TrackFuser::isInOthersView(const FusedTarget& target) const {
+  const double min = target.published ? std::max(kCanSee, options_.misses) : kCanSee;
+  return std::any_of(target.looked.begin(), target.looked.end(),
+                     [min](const auto& looked) { return looked.value_or(0.0) >= min; });
+}
+
+void TrackFuser::publish(TrackFusionResult& result) {
+  for (const FusedTarget& target : targets_.all()) {
+    if (target.published) {
+      result.list.tracks.push_back(target.track);
+      result.list.tracks.back().id = target.id;
+    }
+  }
+  paths_.extend(result.list, options_.history_time);
+  result.counts.published = result.list.tracks.size();
+}
 
 }  // namespace datmo

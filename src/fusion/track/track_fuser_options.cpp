@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/fusion/track/track_fuser.h"
+#include "datmo_fusion/fusion/track/track_fuser_options.h"
 
 namespace datmo {
 
@@ -20,12 +20,15 @@ TrackFuserOptions::TrackFuserOptions() {
 
 void TrackFuserOptions::visit(OptionVisitor& visitor) {
   visitor.each({"sources", "", "the sensors whose tracks are fused"}, sources);
-  visitor.text(
+  visitor.choice(
       {"scheme", "",
        "which tracks are published (thesis 3.4.2): those of all sources that can see the "
        "position and those of `beyond` where no other can, the first of these alone, or all",
        Tier::kLive},
-      scheme, trackSchemeNames());
+      scheme,
+      {{"fused_plus_fallback", TrackScheme::kFusedPlusFallback},
+       {"confirmed_by_all", TrackScheme::kConfirmedByAll},
+       {"union", TrackScheme::kUnion}});
   visitor.text({"beyond", "", "the source whose tracks are published also where no other can see",
                 Tier::kPublic},
                beyond, {});
@@ -70,13 +73,6 @@ std::vector<std::string> TrackFuserOptions::sourcesInUse() const {
       names.push_back(name);
     }
   }
-  return names;
-}
-
-const std::vector<std::string>& trackSchemeNames() {
-  static const std::vector<std::string> names = {TrackFuserOptions::kFusedPlusFallback,
-                                                 TrackFuserOptions::kConfirmedByAll,
-                                                 TrackFuserOptions::kUnion};
   return names;
 }
 

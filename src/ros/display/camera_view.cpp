@@ -37,17 +37,15 @@ Eigen::Isometry3d poseAt(const tf2::BufferCore& transforms, const std::string& p
 
 }  // namespace
 
-CameraView::CameraView(const CameraViewOptions& options, const TransformBuffer& transforms,
+CameraView::CameraView(const Checked<CameraViewOptions>& options, const TransformBuffer& transforms,
                        StageMonitor& monitor)
-    : options_(options),
+    : options_(*options),
       transforms_(transforms),
       monitor_(monitor),
-      runner_(monitor, options.input, "forgets all images", [this] {
+      runner_(monitor, options->input, "forgets all images", [this] {
         queue_.clear();
         tracks_.clear();
-      }) {
-  checkOptions(options);
-}
+      }) {}
 
 void CameraView::takeCameraInfo(const sensor_msgs::CameraInfo& message) {
   runner_.serve([&] { camera_.take(message); });

@@ -125,17 +125,16 @@ struct GridViews::Panel {
   }
 };
 
-GridViews::GridViews(const GridViewsOptions& options)
-    : options_(options), panels_(options.panelNames()) {
-  checkOptions(options);
+GridViews::GridViews(const Checked<GridViewsOptions>& options)
+    : options_(*options), panels_(options->panelNames()) {
   const auto pixels = [&options](double meters) {
-    return static_cast<int>(std::lround(meters * options.pixels_per_meter));
+    return static_cast<int>(std::lround(meters * options->pixels_per_meter));
   };
-  panel_width_ = pixels(2.0 * options.to_side);
-  panel_height_ = pixels(options.ahead + options.behind);
+  panel_width_ = pixels(2.0 * options->to_side);
+  panel_height_ = pixels(options->ahead + options->behind);
   const double max = kMaxPixels / static_cast<double>(panels_.size());
   if (static_cast<double>(panel_width_) * panel_height_ > max) {
-    throw OptionError("pixels_per_meter = " + std::to_string(options.pixels_per_meter) +
+    throw OptionError("pixels_per_meter = " + std::to_string(options->pixels_per_meter) +
                       " gives panels of " + std::to_string(panel_width_) + " x " +
                       std::to_string(panel_height_) + " pixels: expected fewer than " +
                       std::to_string(std::lround(max)) + " in each");

@@ -13,9 +13,7 @@ constexpr std::size_t kMaxViews = 64;
 
 }  // namespace
 
-ScanViews::ScanViews(const VisibilityOptions& options) : options_(options) {
-  checkOptions(options);
-}
+ScanViews::ScanViews(const Checked<VisibilityOptions>& options) : options_(*options) {}
 
 void ScanViews::add(const LabeledScanMessage& message, const LabeledScan& scan) {
   views_.push_back({message.header, message.map_frame, scan.base_in_map.pose, std::nullopt});

@@ -25,16 +25,14 @@ SharedKeys CloudObjectsStageOptions::sharedKeys() {
   return SharedKeys().group<OwnVehicleOptions>("vehicle/", "vehicle/own_points/");
 }
 
-CloudObjectsStage::CloudObjectsStage(const CloudObjectsStageOptions& options,
+CloudObjectsStage::CloudObjectsStage(const Checked<CloudObjectsStageOptions>& options,
                                      const TransformBuffer& transforms, StageMonitor& monitor)
-    : options_(options),
+    : options_(*options),
       transforms_(transforms),
       monitor_(monitor),
-      detector_(options.detector),
-      runner_(monitor, options.input, "begins anew", [this] { motion_.reset(); }),
-      motion_(options.motion, options.frames, runner_) {
-  checkOptions(options);
-}
+      detector_(options->detector),
+      runner_(monitor, options->input, "begins anew", [this] { motion_.reset(); }),
+      motion_(options->motion, options->frames, runner_) {}
 
 ObjectArrayPtr CloudObjectsStage::takeCloud(const sensor_msgs::PointCloud2& message) {
   return runner_.serve("cloud", message, [&] {

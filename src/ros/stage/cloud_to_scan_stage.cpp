@@ -28,18 +28,17 @@ SharedKeys CloudToScanStageOptions::sharedKeys() {
   return SharedKeys().group<OwnVehicleOptions>("vehicle/", "vehicle/own_points/");
 }
 
-CloudToScanStage::CloudToScanStage(const CloudToScanStageOptions& options,
+CloudToScanStage::CloudToScanStage(const Checked<CloudToScanStageOptions>& options,
                                    const TransformBuffer& transforms, StageMonitor& monitor)
-    : options_(options),
+    : options_(*options),
       transforms_(transforms),
       monitor_(monitor),
-      model_(options.scan),
-      runner_(monitor, options.input, "begins anew") {
-  checkOptions(options);
-  if (options.scan_frame.empty() || options.scan_frame == options.frames.base) {
-    throw OptionError("scan_frame = '" + options.scan_frame +
+      model_(options->scan),
+      runner_(monitor, options->input, "begins anew") {
+  if (options->scan_frame.empty() || options->scan_frame == options->frames.base) {
+    throw OptionError("scan_frame = '" + options->scan_frame +
                       "': expected a name other than that of the vehicle's frame, '" +
-                      options.frames.base + "'");
+                      options->frames.base + "'");
   }
 }
 

@@ -22,17 +22,17 @@ void GridFusionStageOptions::visit(OptionVisitor& visitor) {
   fuser.visit(visitor);
 }
 
-GridFusionStage::GridFusionStage(const GridFusionStageOptions& options, StageMonitor& monitor)
-    : options_(options),
+GridFusionStage::GridFusionStage(const Checked<GridFusionStageOptions>& options,
+                                 StageMonitor& monitor)
+    : options_(*options),
       monitor_(monitor),
-      runner_(monitor, options.input, std::string("forgets all ") + kGrid + "s",
+      runner_(monitor, options->input, std::string("forgets all ") + kGrid + "s",
               [this] { reset(); }),
-      inputs_({options.frames.base, options.frames, options.motion, options.input, options.matcher,
-               options.fuser.sourcesInUse(), kGrid},
+      inputs_({options->frames.base, options->frames, options->motion, options->input,
+               options->matcher, options->fuser.sourcesInUse(), kGrid},
               runner_),
-      matcher_(options.matcher, options.fuser.sourcesInUse()),
-      fuser_(options.fuser) {
-  checkOptions(options);
+      matcher_(options->matcher, options->fuser.sourcesInUse()),
+      fuser_(options->fuser) {
   checkSourceNames(sources(), kGrid, {"fused", "conflict"});
 }
 

@@ -36,6 +36,11 @@ void GridSlamStageOptions::visit(OptionVisitor& visitor) {
   slam.visit(visitor);
 }
 
+void GridSlamStageOptions::check() const {
+  checkOptions(motion);
+  checkFrames(frames);
+}
+
 SharedKeys GridSlamStageOptions::sharedKeys() {
   return SharedKeys()
       .group<ScanConversionOptions>("scan/", "scanner/")
@@ -43,20 +48,16 @@ SharedKeys GridSlamStageOptions::sharedKeys() {
       .key("matcher/point_sigma", "scanner/range_sigma");
 }
 
-GridSlamStage::GridSlamStage(const GridSlamStageOptions& options, const TransformBuffer& transforms,
-                             StageMonitor& monitor)
-    : options_(options),
+GridSlamStage::GridSlamStage(const Checked<GridSlamStageOptions>& options,
+                             const TransformBuffer& transforms, StageMonitor& monitor)
+    : options_(*options),
       transforms_(transforms),
       monitor_(monitor),
-      slam_(slamOptions(options)),
-      extent_(options.slam.map.window),
-      runner_(monitor, options.input, "starts with a new map", [this] { reset(); }),
-      odometry_poses_(options.motion.hold),
-      scans_(monitor) {
-  checkOptions(options);
-  checkOptions(options.motion);
-  checkFrames(options.frames);
-}
+      slam_(slamOptions(*options)),
+      extent_(options->slam.map.window),
+      runner_(monitor, options->input, "starts with a new map", [this] { reset(); }),
+      odometry_poses_(options->motion.hold),
+      scans_(monitor) {}
 
 void GridSlamStage::takeOdometry(const nav_msgs::Odometry& message) {
   if (!options_.motion.fromOdometry() && !options_.motion.fromSensors()) {

@@ -27,11 +27,9 @@ void HostInputOptions::visit(OptionVisitor& visitor) {
       max_age, {0.0, 5.0});
 }
 
-HostInput::HostInput(const HostInputOptions& options, const MotionOptions& motion,
+HostInput::HostInput(const Checked<HostInputOptions>& options, const MotionOptions& motion,
                      FrameOptions frames, StageRunner& runner)
-    : options_(options), motion_(motion), frames_(std::move(frames)), runner_(runner) {
-  checkOptions(options);
-}
+    : options_(*options), motion_(motion), frames_(std::move(frames)), runner_(runner) {}
 
 void HostInput::add(Twists& twists, const StampedTwist& twist) const {
   twists.push_back(twist);

@@ -24,16 +24,15 @@ SharedKeys LidarGridStageOptions::sharedKeys() {
       .key("beam_width", "scanner/beam_width");
 }
 
-LidarGridStage::LidarGridStage(const LidarGridStageOptions& options,
+LidarGridStage::LidarGridStage(const Checked<LidarGridStageOptions>& options,
                                const TransformBuffer& transforms, StageMonitor& monitor)
-    : options_(options),
+    : options_(*options),
       transforms_(transforms),
       monitor_(monitor),
-      model_(options.grid),
-      runner_(monitor, options.input, "forgets how the vehicle moved", [this] { motion_.reset(); }),
-      motion_(options.motion, options.frames, runner_) {
-  checkOptions(options);
-}
+      model_(options->grid),
+      runner_(monitor, options->input, "forgets how the vehicle moved",
+              [this] { motion_.reset(); }),
+      motion_(options->motion, options->frames, runner_) {}
 
 template <typename Message>
 nav_msgs::OccupancyGridPtr LidarGridStage::takeScan(const Message& message) {

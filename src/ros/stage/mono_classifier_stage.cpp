@@ -64,25 +64,23 @@ void MonoClassifierStageOptions::visit(OptionVisitor& visitor) {
   classifier.visit(visitor);
 }
 
-MonoClassifierStage::MonoClassifierStage(const MonoClassifierStageOptions& options,
+MonoClassifierStage::MonoClassifierStage(const Checked<MonoClassifierStageOptions>& options,
                                          const TransformBuffer& transforms, StageMonitor& monitor,
                                          const StepClock& clock)
-    : MonoClassifierStage(options, transforms, monitor, clock, makeClassifier(options.classifier)) {
-}
+    : MonoClassifierStage(options, transforms, monitor, clock,
+                          makeClassifier(options->classifier)) {}
 
-MonoClassifierStage::MonoClassifierStage(const MonoClassifierStageOptions& options,
+MonoClassifierStage::MonoClassifierStage(const Checked<MonoClassifierStageOptions>& options,
                                          const TransformBuffer& transforms, StageMonitor& monitor,
                                          const StepClock& clock,
                                          std::unique_ptr<MonoClassifier> classifier)
-    : options_(options),
+    : options_(*options),
       transforms_(transforms),
       monitor_(monitor),
-      runner_(monitor, options.input, "forgets all objects", [this] { reset(); }),
-      motion_(options.motion, options.frames, runner_),
+      runner_(monitor, options->input, "forgets all objects", [this] { reset(); }),
+      motion_(options->motion, options->frames, runner_),
       classifier_(std::move(classifier)),
-      worker_([this](const Job& job) { return work(*classifier_, job); }, clock != nullptr) {
-  checkOptions(options);
-}
+      worker_([this](const Job& job) { return work(*classifier_, job); }, clock != nullptr) {}
 
 void MonoClassifierStage::reset() {
   motion_.reset();

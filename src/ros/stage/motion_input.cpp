@@ -48,13 +48,12 @@ OdometrySample readOdometry(const nav_msgs::Odometry& message, const MotionOptio
   return sample;
 }
 
-MotionInput::MotionInput(const MotionOptions& options, FrameOptions frames, StageRunner& runner)
-    : options_(options),
+MotionInput::MotionInput(const Checked<MotionOptions>& options, FrameOptions frames,
+                         StageRunner& runner)
+    : options_(*options),
       frames_(std::move(frames)),
       runner_(runner),
-      buffer_(options.hold, kOdometryMemory) {
-  checkOptions(options);
-}
+      buffer_(options->hold, kOdometryMemory) {}
 
 void MotionInput::take(const nav_msgs::Odometry& message) {
   if (!options_.hasSpeed()) {

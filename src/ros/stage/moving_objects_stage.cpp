@@ -27,16 +27,14 @@ SharedKeys MovingObjectsStageOptions::sharedKeys() {
   return SharedKeys().key("range_sigma", "scanner/range_sigma");
 }
 
-MovingObjectsStage::MovingObjectsStage(const MovingObjectsStageOptions& options,
+MovingObjectsStage::MovingObjectsStage(const Checked<MovingObjectsStageOptions>& options,
                                        StageMonitor& monitor)
-    : options_(options),
+    : options_(*options),
       monitor_(monitor),
-      detector_(options.detector),
-      border_filter_(options.border_filter),
-      runner_(monitor, options.input, "forgets how the road goes on",
-              [this] { border_filter_.forgetRoad(); }) {
-  checkOptions(options);
-}
+      detector_(options->detector),
+      border_filter_(options->border_filter),
+      runner_(monitor, options->input, "forgets how the road goes on",
+              [this] { border_filter_.forgetRoad(); }) {}
 
 void MovingObjectsStage::takeRoadBorders(const RoadBorders& message) {
   if (!options_.road_borders) {

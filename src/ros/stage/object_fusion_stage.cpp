@@ -43,18 +43,18 @@ void ObjectFusionStageOptions::visit(OptionVisitor& visitor) {
   fuser.visit(visitor);
 }
 
-ObjectFusionStage::ObjectFusionStage(const ObjectFusionStageOptions& options, StageMonitor& monitor)
-    : options_(options),
+ObjectFusionStage::ObjectFusionStage(const Checked<ObjectFusionStageOptions>& options,
+                                     StageMonitor& monitor)
+    : options_(*options),
       monitor_(monitor),
-      runner_(monitor, options.input, std::string("forgets all ") + kObjectList + "s",
+      runner_(monitor, options->input, std::string("forgets all ") + kObjectList + "s",
               [this] { reset(); }),
-      inputs_({options.frames.base, options.frames, options.motion, options.input, options.matcher,
-               options.fuser.sourcesInUse(), kObjectList},
+      inputs_({options->frames.base, options->frames, options->motion, options->input,
+               options->matcher, options->fuser.sourcesInUse(), kObjectList},
               runner_),
-      matcher_(options.matcher, options.fuser.sourcesInUse(), Serving::kOnce,
-               options.fuser.lateSources()),
-      fuser_(options.fuser) {
-  checkOptions(options);
+      matcher_(options->matcher, options->fuser.sourcesInUse(), Serving::kOnce,
+               options->fuser.lateSources()),
+      fuser_(options->fuser) {
   checkSourceNames(sources(), kObjectList, {"fused"});
 }
 

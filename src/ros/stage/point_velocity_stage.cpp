@@ -66,17 +66,15 @@ SharedKeys PointVelocityStageOptions::sharedKeys() {
       .key("pair_tolerance", "stereo_image_proc/pair_tolerance");
 }
 
-PointVelocityStage::PointVelocityStage(const PointVelocityStageOptions& options,
+PointVelocityStage::PointVelocityStage(const Checked<PointVelocityStageOptions>& options,
                                        const TransformBuffer& transforms, StageMonitor& monitor)
-    : options_(options),
+    : options_(*options),
       transforms_(transforms),
       monitor_(monitor),
-      runner_(monitor, options.input, "forgets the last images", [this] { reset(); }),
-      motion_(options.motion, options.frames, runner_),
-      pairs_(options.approximate_sync ? options.pair_tolerance : 0.0),
-      matcher_(options.features) {
-  checkOptions(options);
-}
+      runner_(monitor, options->input, "forgets the last images", [this] { reset(); }),
+      motion_(options->motion, options->frames, runner_),
+      pairs_(options->approximate_sync ? options->pair_tolerance : 0.0),
+      matcher_(options->features) {}
 
 void PointVelocityStage::reset() {
   motion_.reset();

@@ -44,14 +44,12 @@ SharedKeys RiskStageOptions::sharedKeys() {
   return SharedKeys().group<HostVehicleOptions>("vehicle/", "vehicle/");
 }
 
-RiskStage::RiskStage(const RiskStageOptions& options, StageMonitor& monitor)
-    : options_(options),
+RiskStage::RiskStage(const Checked<RiskStageOptions>& options, StageMonitor& monitor)
+    : options_(*options),
       monitor_(monitor),
-      assessor_(options.risk),
-      runner_(monitor, options.input, "begins anew", [this] { reset(); }),
-      host_(options.host_state, options.motion, options.frames, runner_) {
-  checkOptions(options);
-}
+      assessor_(options->risk),
+      runner_(monitor, options->input, "begins anew", [this] { reset(); }),
+      host_(options->host_state, options->motion, options->frames, runner_) {}
 
 void RiskStage::reset() {
   assessor_.reset();

@@ -15,16 +15,15 @@ void RoadBorderStageOptions::visit(OptionVisitor& visitor) {
   detector.visit(visitor);
 }
 
-RoadBorderStage::RoadBorderStage(const RoadBorderStageOptions& options, StageMonitor& monitor)
-    : options_(options),
+RoadBorderStage::RoadBorderStage(const Checked<RoadBorderStageOptions>& options,
+                                 StageMonitor& monitor)
+    : options_(*options),
       monitor_(monitor),
-      detector_(options.detector),
-      runner_(monitor, options.input, "forgets the road", [this] {
+      detector_(options->detector),
+      runner_(monitor, options->input, "forgets the road", [this] {
         detector_.reset();
         map_frame_.clear();
-      }) {
-  checkOptions(options);
-}
+      }) {}
 
 RoadBordersPtr RoadBorderStage::takeLabeledScan(const LabeledScanMessage& message) {
   return runner_.serve([&] {

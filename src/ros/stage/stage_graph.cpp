@@ -8,6 +8,19 @@ namespace {
 /// s; a detector in images may take longer than the scanner for some turns.
 constexpr double kMonoLateBy = 0.4;
 
+/// What object_fusion fuses beside the sources that its section names.
+OptionValues fusedSources(const GraphSwitches& switches) {
+  OptionValues sources;
+  if (switches.mono) {
+    sources["sources/mono/use"] = true;
+    sources["sources/mono/late_by"] = kMonoLateBy;
+    if (!switches.object_fusion) {
+      sources["sources/stereo/use"] = false;
+    }
+  }
+  return sources;
+}
+
 }  // namespace
 
 std::string GraphStage::resolved(const std::string& topic) const {
@@ -35,15 +48,6 @@ std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
 
   const std::map<std::string, std::string> mono_images{{"image", "stereo/left/image_rect"},
                                                        {"camera_info", "stereo/left/camera_info"}};
-  OptionValues fused_sources;
-  if (switches.mono) {
-    fused_sources["sources/mono/use"] = true;
-    fused_sources["sources/mono/late_by"] = kMonoLateBy;
-    if (!switches.object_fusion) {
-      fused_sources["sources/stereo/use"] = false;
-    }
-  }
-
   std::vector<GraphStage> graph;
   const auto add = [&graph](bool present, const GraphStage& stage) {
     if (present) {
@@ -68,7 +72,7 @@ std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
   add(switches.cloud_objects, {"cloud_objects", "cloud_objects", {}, {}});
   add(switches.mono, {"mono_classifier", "mono_classifier", mono_images, {}});
   add(fuses_objects,
-      {"object_fusion", "object_fusion", {{"objects/lidar", "objects"}}, fused_sources});
+      {"object_fusion", "object_fusion", {{"objects/lidar", "objects"}}, fusedSources(switches)});
   add(true,
       {"tracker", "tracker", {{"objects", tracked_objects}, {"tracks", tracks_of_tracker}}, {}});
   // What the scanner saw is not what the camera could see.

@@ -65,13 +65,13 @@ void StaticPointsStageOptions::visit(OptionVisitor& visitor) {
   visitor.group("input", [&] { input.visit(visitor); });
 }
 
-StaticPointsStage::StaticPointsStage(const StaticPointsStageOptions& options, StageMonitor& monitor)
-    : options_(options), monitor_(monitor), runner_(monitor, options.input, "begins anew") {
-  checkOptions(options);
-  if (options.scan_frame.empty() || options.scan_frame == options.frames.base) {
-    throw OptionError("scan_frame = '" + options.scan_frame +
+StaticPointsStage::StaticPointsStage(const Checked<StaticPointsStageOptions>& options,
+                                     StageMonitor& monitor)
+    : options_(*options), monitor_(monitor), runner_(monitor, options->input, "begins anew") {
+  if (options->scan_frame.empty() || options->scan_frame == options->frames.base) {
+    throw OptionError("scan_frame = '" + options->scan_frame +
                       "': expected a name other than that of the vehicle's frame, '" +
-                      options.frames.base + "'");
+                      options->frames.base + "'");
   }
 }
 

@@ -26,17 +26,15 @@ SharedKeys StereoGridStageOptions::sharedKeys() {
   return StereoInputOptions::sharedKeys().key("min_depth", "stereo_camera/min_depth");
 }
 
-StereoGridStage::StereoGridStage(const StereoGridStageOptions& options,
+StereoGridStage::StereoGridStage(const Checked<StereoGridStageOptions>& options,
                                  const TransformBuffer& transforms, StageMonitor& monitor)
-    : options_(options),
+    : options_(*options),
       transforms_(transforms),
       monitor_(monitor),
-      runner_(monitor, options.input, "forgets the road of the last clouds",
+      runner_(monitor, options->input, "forgets the road of the last clouds",
               [this] { model_.reset(); }),
-      input_(options, transforms),
-      model_(options.grid) {
-  checkOptions(options);
-}
+      input_(*options, transforms),
+      model_(options->grid) {}
 
 void StereoGridStage::takeCameraInfo(const sensor_msgs::CameraInfo& message) {
   runner_.serve([&] { input_.take(message); });

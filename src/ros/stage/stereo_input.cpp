@@ -19,13 +19,12 @@ SharedKeys StereoInputOptions::sharedKeys() {
       .key("effective_range", "stereo_camera/effective_range");
 }
 
-StereoInput::StereoInput(const StereoInputOptions& options, const TransformBuffer& transforms)
-    : options_(options),
-      principle_(depthPrinciple(options.camera.principle)),
-      transforms_(transforms) {
-  checkOptions(options);
-  const StereoCameraOptions& camera = options.camera;
-  if (principle_ == DepthPrinciple::kActiveStereo && camera.baseline < kMinBaseline) {
+StereoInput::StereoInput(const Checked<StereoInputOptions>& options,
+                         const TransformBuffer& transforms)
+    : options_(*options), transforms_(transforms) {
+  const StereoCameraOptions& camera = options->camera;
+  if (options_.camera.principle == DepthPrinciple::kActiveStereo &&
+      camera.baseline < kMinBaseline) {
     throw OptionError("stereo_camera/baseline = " + std::to_string(camera.baseline) +
                       ": expected that of the data sheet, in m, for depth_noise: active_stereo");
   }
@@ -36,7 +35,8 @@ StereoInput::StereoInput(const StereoInputOptions& options, const TransformBuffe
 }
 
 void StereoInput::take(const sensor_msgs::CameraInfo& message) {
-  camera_ = principle_ == DepthPrinciple::kStereo ? stereoCamera(message) : depthCamera(message);
+  const bool is_pair = options_.camera.principle == DepthPrinciple::kStereo;
+  camera_ = is_pair ? stereoCamera(message) : depthCamera(message);
 }
 
 StereoCloud StereoInput::cloudOf(const std_msgs::Header& header, CloudPoints& points) const {
@@ -58,8 +58,9 @@ StereoCloud StereoInput::cloudOf(const std_msgs::Header& header, CloudPoints& po
 
 StereoCamera StereoInput::camera() const {
   StereoCamera camera = camera_ ? *camera_ : configuredCamera();
-  if (principle_ != DepthPrinciple::kStereo) {
-    camera.baseline = principle_ == DepthPrinciple::kTimeOfFlight ? 0.0 : options_.camera.baseline;
+  if (options_.camera.principle != DepthPrinciple::kStereo) {
+    const bool is_time = options_.camera.principle == DepthPrinciple::kTimeOfFlight;
+    camera.baseline = is_time ? 0.0 : options_.camera.baseline;
   }
   camera.noise = depthNoise(options_.camera, camera.focal_length, camera.baseline);
   return camera;
@@ -67,7 +68,7 @@ StereoCamera StereoInput::camera() const {
 
 StereoCamera StereoInput::configuredCamera() const {
   const StereoCameraOptions& known = options_.camera;
-  const bool pair = principle_ == DepthPrinciple::kStereo;
+  const bool pair = options_.camera.principle == DepthPrinciple::kStereo;
   if (known.focal_length <= 0.0 || (pair && known.baseline <= 0.0)) {
     throw InputError("missing_camera_info",
                      pair ? "no info of the right camera yet: expected it, or focal_length and "

@@ -29,16 +29,14 @@ SharedKeys StereoObjectsStageOptions::sharedKeys() {
   return StereoInputOptions::sharedKeys().key("surfaces/min_depth", "stereo_camera/min_depth");
 }
 
-StereoObjectsStage::StereoObjectsStage(const StereoObjectsStageOptions& options,
+StereoObjectsStage::StereoObjectsStage(const Checked<StereoObjectsStageOptions>& options,
                                        const TransformBuffer& transforms, StageMonitor& monitor)
-    : options_(options),
+    : options_(*options),
       monitor_(monitor),
-      runner_(monitor, options.input, "forgets the road of the last clouds", [this] { reset(); }),
-      input_(options, transforms),
-      detector_(options.detector),
-      wait_(options.wait, monitor) {
-  checkOptions(options);
-}
+      runner_(monitor, options->input, "forgets the road of the last clouds", [this] { reset(); }),
+      input_(*options, transforms),
+      detector_(options->detector),
+      wait_(options->wait, monitor) {}
 
 void StereoObjectsStage::reset() {
   detector_.reset();

@@ -47,17 +47,17 @@ void TrackFusionStageOptions::visit(OptionVisitor& visitor) {
   fuser.visit(visitor);
 }
 
-TrackFusionStage::TrackFusionStage(const TrackFusionStageOptions& options, StageMonitor& monitor)
-    : options_(options),
+TrackFusionStage::TrackFusionStage(const Checked<TrackFusionStageOptions>& options,
+                                   StageMonitor& monitor)
+    : options_(*options),
       monitor_(monitor),
-      runner_(monitor, options.input, std::string("forgets all ") + kTrackList + "s",
+      runner_(monitor, options->input, std::string("forgets all ") + kTrackList + "s",
               [this] { reset(); }),
-      inputs_({options.frames.map, options.frames, std::nullopt, options.input, options.matcher,
-               options.fuser.sourcesInUse(), kTrackList},
+      inputs_({options->frames.map, options->frames, std::nullopt, options->input, options->matcher,
+               options->fuser.sourcesInUse(), kTrackList},
               runner_),
-      matcher_(options.matcher, options.fuser.sourcesInUse(), Serving::kOften),
-      fuser_(options.fuser) {
-  checkOptions(options);
+      matcher_(options->matcher, options->fuser.sourcesInUse(), Serving::kOften),
+      fuser_(options->fuser) {
   checkSourceNames(sources(), kTrackList, {"fused"});
 }
 

@@ -32,16 +32,15 @@ void TrackerStageOptions::visit(OptionVisitor& visitor) {
   tracker.visit(visitor);
 }
 
-TrackerStage::TrackerStage(const TrackerStageOptions& options, const TransformBuffer& transforms,
-                           StageMonitor& monitor, StepClock clock)
-    : options_(options),
+TrackerStage::TrackerStage(const Checked<TrackerStageOptions>& options,
+                           const TransformBuffer& transforms, StageMonitor& monitor,
+                           StepClock clock)
+    : options_(*options),
       transforms_(transforms),
       monitor_(monitor),
-      tracker_(options.tracker, std::move(clock)),
-      runner_(monitor, options.input, "forgets all tracks", [this] { reset(); }),
-      scan_views_(options.tracker.visibility) {
-  checkOptions(options);
-}
+      tracker_(options->tracker, std::move(clock)),
+      runner_(monitor, options->input, "forgets all tracks", [this] { reset(); }),
+      scan_views_(options->tracker.visibility) {}
 
 void TrackerStage::takeLabeledScan(const LabeledScanMessage& message) {
   runner_.serve([&] {

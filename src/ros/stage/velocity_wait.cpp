@@ -25,10 +25,8 @@ void VelocityWaitOptions::visit(OptionVisitor& visitor) {
                  silent_after, {0.02, 10.0});
 }
 
-VelocityWait::VelocityWait(const VelocityWaitOptions& options, StageMonitor& monitor)
-    : options_(options), monitor_(monitor) {
-  checkOptions(options);
-}
+VelocityWait::VelocityWait(const Checked<VelocityWaitOptions>& options, StageMonitor& monitor)
+    : options_(*options), monitor_(monitor) {}
 
 void VelocityWait::addPoints(Stamp stamp, std::vector<PointVelocity> points) {
   const bool first = !newest_;

@@ -21,17 +21,20 @@ struct MapOptions {
   }
 };
 
+enum class Echo { kNearest, kLast };
+
 struct StageOptions {
   MapOptions map;
   bool odometry = true;
-  std::string echo = "nearest";
+  Echo echo = Echo::kNearest;
   std::string frame = "map";
   double gain = 1.0;
 
   void visit(OptionVisitor& visitor) {
     visitor.group("map", [&] { map.visit(visitor); });
     visitor.toggle({"odometry", "", "use it"}, odometry);
-    visitor.text({"echo", "", "which one"}, echo, {"nearest", "last"});
+    visitor.choice({"echo", "", "which one"}, echo,
+                   {{"nearest", Echo::kNearest}, {"last", Echo::kLast}});
     visitor.text({"frame", "", "fixed frame"}, frame, {});
     visitor.number({"gain", "1", "a|b"}, gain, {});
   }
@@ -57,7 +60,7 @@ TEST(ReadOptions, NothingGivenLeavesTheDefaults) {
   EXPECT_EQ(options.map.cell_size, 0.3);
   EXPECT_EQ(options.map.cells, 10);
   EXPECT_TRUE(options.odometry);
-  EXPECT_EQ(options.echo, "nearest");
+  EXPECT_EQ(options.echo, Echo::kNearest);
 }
 
 TEST(ReadOptions, GivenValuesReplaceTheDefaults) {
@@ -69,7 +72,7 @@ TEST(ReadOptions, GivenValuesReplaceTheDefaults) {
   EXPECT_EQ(options.map.cell_size, 0.1);
   EXPECT_EQ(options.map.cells, 7);
   EXPECT_FALSE(options.odometry);
-  EXPECT_EQ(options.echo, "last");
+  EXPECT_EQ(options.echo, Echo::kLast);
   EXPECT_EQ(options.frame, "world");
 }
 
@@ -209,6 +212,43 @@ TEST(LiveOptions, OthersAndBadValuesAreRefused) {
   EXPECT_THROW(withLiveValues(options, {{"nothing", 0.2}}), OptionError);
   EXPECT_THROW(withLiveValues(options, {{"gate", 11.0}}), OptionError);
   EXPECT_THROW(withLiveValues(options, {{"rule", std::string("least")}}), OptionError);
+}
+
+struct RangeOptions {
+  double min = 1.0;
+  double max = 2.0;
+  Echo echo = Echo::kNearest;
+
+  void visit(OptionVisitor& visitor) {
+    visitor.number({"min", "m", ""}, min, {0.0, 10.0});
+    visitor.number({"max", "m", ""}, max, {0.0, 10.0});
+    visitor.choice({"echo", "", ""}, echo, {{"nearest", Echo::kNearest}, {"last", Echo::kLast}});
+  }
+  void check() const {
+    if (min > max) {
+      throw OptionError("min: expected at most max");
+    }
+  }
+};
+
+TEST(CheckedOptions, AreValid) {
+  RangeOptions options;
+  options.max = 5.0;
+  const Checked<RangeOptions> checked = options;
+  EXPECT_EQ(checked->max, 5.0);
+  EXPECT_EQ((*Checked<RangeOptions>()).max, 2.0);
+}
+
+TEST(CheckedOptions, OutOfBoundsOrContradictingEachOtherAreRefused) {
+  RangeOptions options;
+  options.max = 11.0;
+  EXPECT_THROW(Checked<RangeOptions>{options}, OptionError);
+  options.max = 0.5;
+  EXPECT_THROW(Checked<RangeOptions>{options}, OptionError);
+  EXPECT_THROW(readOptions<RangeOptions>({{"min", 3.0}}), OptionError);
+  options = RangeOptions();
+  options.echo = static_cast<Echo>(7);
+  EXPECT_THROW(Checked<RangeOptions>{options}, OptionError);
 }
 
 TEST(OptionTable, HalfOpenRangesSaySo) {

@@ -48,15 +48,15 @@ TEST_F(AttainableTest, ThresholdIsTheOddsOverThePriorOnes) {
 TEST_F(AttainableTest, FirstScanThatTellsMotion) {
   // 0.5 v^2 n (n^2 - 1) dt^2 / (12 sigma^2): n = 2: 1/2 * 9 * 0.01 * 6 / 0.48 = 0.5625, 3: 2.25.
   drive(3.0, 10);
-  const auto told = motions();
-  ASSERT_EQ(told.count(1), 1U);
-  EXPECT_EQ(told.at(1).told, Stamp::fromSeconds(0.2));
-  EXPECT_EQ(told.at(1).seen.size(), 10U);
+  const auto found = motions();
+  ASSERT_EQ(found.count(1), 1U);
+  EXPECT_EQ(found.at(1).detectable, Stamp::fromSeconds(0.2));
+  EXPECT_EQ(found.at(1).seen.size(), 10U);
 }
 
 TEST_F(AttainableTest, TooFewScansTellNothing) {
   drive(0.5, 3);
-  EXPECT_FALSE(motions().at(1).told);
+  EXPECT_FALSE(motions().at(1).detectable);
 }
 
 TEST_F(AttainableTest, WithoutABeamThereIsNothing) {

@@ -126,7 +126,7 @@ TEST(ScoreRun, WithoutPosesThereIsNoPoseScore) {
   Drive drive;
   drive.run.poses.clear();
   ScoreOptions options;
-  options.align = "none";
+  options.align = TrackAlignment::kNone;
   const RunScore score = scoreRun(drive.run, drive.truth, options);
   EXPECT_FALSE(score.pose);
   EXPECT_EQ(score.tracks.clear_mot.matches, 16U);

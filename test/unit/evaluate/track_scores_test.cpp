@@ -174,9 +174,8 @@ TEST(TrackScores, OptionsOutOfBoundsAreRefused) {
   TrackScoreOptions no_gate;
   no_gate.matching.gate = 0.0;
   EXPECT_THROW(scoreTracks({}, no_gate), OptionError);
-  TrackScoreOptions no_distance;
-  no_distance.matching.distance = "to_moon";
-  EXPECT_THROW(scoreTracks({}, no_distance), OptionError);
+  EXPECT_THROW(readOptions<TrackScoreOptions>({{"matching/distance", std::string("to_moon")}}),
+               OptionError);
 }
 
 }  // namespace

@@ -13,15 +13,15 @@
 namespace datmo::fused_state_test {
 namespace {
 
-constexpr char kIntersection[] = "covariance_intersection";
-constexpr char kCampo[] = "bar_shalom_campo";
-constexpr char kInformation[] = "information";
-const std::vector<std::string> kMethods = {kIntersection, kCampo, kInformation};
+constexpr auto kIntersection = TrackCombinationMethod::kCovarianceIntersection;
+constexpr auto kCampo = TrackCombinationMethod::kBarShalomCampo;
+constexpr auto kInformation = TrackCombinationMethod::kInformation;
+const std::vector<TrackCombinationMethod> kMethods = {kIntersection, kCampo, kInformation};
 
 /// The weight that covariance intersection keeps of what tells nothing new, of 1.
 constexpr double kMinWeight = 0.02;
 
-TrackCombinationOptions by(const std::string& method) {
+TrackCombinationOptions by(TrackCombinationMethod method) {
   TrackCombinationOptions options;
   options.method = method;
   return options;
@@ -31,7 +31,7 @@ StateEstimate estimateAt(double position, double variance) {
   return {TrackState::Constant(position), TrackCovariance::Identity() * variance};
 }
 
-StateEstimate fusedBy(const std::string& method, const StateEstimate& a, const StateEstimate& b,
+StateEstimate fusedBy(TrackCombinationMethod method, const StateEstimate& a, const StateEstimate& b,
                       const CrossCovariance& cross = CrossCovariance::Zero()) {
   return fusedState(a, b, cross, by(method));
 }
@@ -45,10 +45,11 @@ bool isPositive(const TrackCovariance& covariance) {
 }
 
 TEST(FusedStateTest, IndependentEstimatesAreWeightedByTheirVariances) {
-  for (const std::string method : {kInformation, kCampo}) {
+  for (const TrackCombinationMethod method : {kInformation, kCampo}) {
     const StateEstimate fused = fusedBy(method, estimateAt(0.0, 1.0), estimateAt(4.0, 3.0));
-    EXPECT_TRUE(fused.mean.isApproxToConstant(1.0, 1e-9)) << method;
-    EXPECT_TRUE(fused.covariance.isApprox(TrackCovariance::Identity() * 0.75, 1e-9)) << method;
+    EXPECT_TRUE(fused.mean.isApproxToConstant(1.0, 1e-9)) << static_cast<int>(method);
+    EXPECT_TRUE(fused.covariance.isApprox(TrackCovariance::Identity() * 0.75, 1e-9))
+        << static_cast<int>(method);
   }
 }
 
@@ -130,11 +131,11 @@ TEST(FusedStateTest, OrderDoesNotMatter) {
     const StateEstimate b = randomEstimate(random);
     CrossCovariance cross = randomCovariance(random);
     cross *= 0.3 * a.covariance.norm() / cross.norm();
-    for (const std::string& method : kMethods) {
+    for (TrackCombinationMethod method : kMethods) {
       const StateEstimate one = fusedBy(method, a, b, cross);
       const StateEstimate other = fusedBy(method, b, a, cross.transpose());
-      EXPECT_TRUE(one.mean.isApprox(other.mean, 1e-5)) << method;
-      EXPECT_TRUE(one.covariance.isApprox(other.covariance, 1e-6)) << method;
+      EXPECT_TRUE(one.mean.isApprox(other.mean, 1e-5)) << static_cast<int>(method);
+      EXPECT_TRUE(one.covariance.isApprox(other.covariance, 1e-6)) << static_cast<int>(method);
     }
   }
 }
@@ -148,13 +149,13 @@ TEST(FusedStateTest, TurnedEstimatesAreTheFusedOneTurned) {
     const CrossCovariance cross = 0.2 * (a.covariance + b.covariance);
     const StateEstimate turned_a{turn * a.mean, turn * a.covariance * turn.transpose()};
     const StateEstimate turned_b{turn * b.mean, turn * b.covariance * turn.transpose()};
-    for (const std::string& method : kMethods) {
+    for (TrackCombinationMethod method : kMethods) {
       const StateEstimate fused = fusedBy(method, a, b, cross);
       const StateEstimate turned =
           fusedBy(method, turned_a, turned_b, turn * cross * turn.transpose());
-      EXPECT_TRUE(turned.mean.isApprox(turn * fused.mean, 1e-5)) << method;
+      EXPECT_TRUE(turned.mean.isApprox(turn * fused.mean, 1e-5)) << static_cast<int>(method);
       EXPECT_TRUE(turned.covariance.isApprox(turn * fused.covariance * turn.transpose(), 1e-5))
-          << method;
+          << static_cast<int>(method);
     }
   }
 }
@@ -167,12 +168,13 @@ TEST(FusedStateTest, TheUnitsDoNotMatter) {
   const TrackCovariance change = units.asDiagonal();
   const StateEstimate a = randomEstimate(random);
   const StateEstimate b = randomEstimate(random);
-  for (const std::string& method : kMethods) {
+  for (TrackCombinationMethod method : kMethods) {
     const StateEstimate fused = fusedBy(method, a, b);
     const StateEstimate other = fusedBy(method, {change * a.mean, change * a.covariance * change},
                                         {change * b.mean, change * b.covariance * change});
-    EXPECT_TRUE(other.mean.isApprox(change * fused.mean, 1e-6)) << method;
-    EXPECT_TRUE(other.covariance.isApprox(change * fused.covariance * change, 1e-6)) << method;
+    EXPECT_TRUE(other.mean.isApprox(change * fused.mean, 1e-6)) << static_cast<int>(method);
+    EXPECT_TRUE(other.covariance.isApprox(change * fused.covariance * change, 1e-6))
+        << static_cast<int>(method);
   }
 }
 
@@ -182,10 +184,10 @@ TEST(FusedStateTest, TheResultIsPositiveWhateverTheCrossCovarianceIs) {
     const StateEstimate a = randomEstimate(random);
     const StateEstimate b = randomEstimate(random);
     const CrossCovariance cross = randomCovariance(random) * random.uniform(-10.0, 10.0);
-    for (const std::string& method : kMethods) {
+    for (TrackCombinationMethod method : kMethods) {
       const StateEstimate fused = fusedBy(method, a, b, cross);
-      EXPECT_TRUE(isPositive(fused.covariance)) << method;
-      EXPECT_TRUE(fused.mean.allFinite()) << method;
+      EXPECT_TRUE(isPositive(fused.covariance)) << static_cast<int>(method);
+      EXPECT_TRUE(fused.mean.allFinite()) << static_cast<int>(method);
     }
   }
 }
@@ -198,16 +200,16 @@ TEST(FusedStateTest, NearlySingularEstimatesAreFused) {
   StateEstimate rounded = estimateAt(1.0, 1.0);
   rounded.covariance(0, 2) = rounded.covariance(2, 0) = 1.0 + 1e-15;
   const StateEstimate plain = estimateAt(0.0, 1.0);
-  for (const std::string& method : kMethods) {
+  for (TrackCombinationMethod method : kMethods) {
     for (const StateEstimate& one : {sure, rounded}) {
       for (const StateEstimate& other : {plain, one}) {
         const StateEstimate fused = fusedBy(method, one, other);
-        EXPECT_TRUE(isPositive(fused.covariance)) << method;
-        EXPECT_GE(fused.mean.minCoeff(), -1e-6) << method;
-        EXPECT_LE(fused.mean.maxCoeff(), 1.0 + 1e-6) << method;
+        EXPECT_TRUE(isPositive(fused.covariance)) << static_cast<int>(method);
+        EXPECT_GE(fused.mean.minCoeff(), -1e-6) << static_cast<int>(method);
+        EXPECT_LE(fused.mean.maxCoeff(), 1.0 + 1e-6) << static_cast<int>(method);
       }
     }
-    EXPECT_NEAR(fusedBy(method, sure, plain).mean[0], 1.0, 1e-6) << method;
+    EXPECT_NEAR(fusedBy(method, sure, plain).mean[0], 1.0, 1e-6) << static_cast<int>(method);
   }
 }
 

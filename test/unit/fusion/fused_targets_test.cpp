@@ -48,7 +48,7 @@ TEST(FusedTargetsTest, WhatDoesNotComeOutHidesNothing) {
 }
 
 TEST(FusedTargetsTest, AConfirmedOneThatHardlyExistsAnyMoreHidesNothing) {
-  TrackFuser fuser(withScheme(TrackFuserOptions::kUnion));
+  TrackFuser fuser(withScheme(TrackScheme::kUnion));
   EXPECT_EQ(idsOf(fuser.fuse(at(0.0),
                              {lidar(0.0, {far("lidar", 9.0)}), stereo(0.0, {far("stereo", 9.0)})})),
             Ids{1});
@@ -58,7 +58,7 @@ TEST(FusedTargetsTest, AConfirmedOneThatHardlyExistsAnyMoreHidesNothing) {
 }
 
 TEST(FusedTargetsTest, OfTwoAtOnePositionTheSameOneIsPublished) {
-  TrackFuser fuser(withScheme(TrackFuserOptions::kUnion));
+  TrackFuser fuser(withScheme(TrackScheme::kUnion));
   for (int i = 0; i < 6; ++i) {
     const double t = 0.1 * i;
     const double existence = i % 2 == 0 ? 0.9 : 0.98;

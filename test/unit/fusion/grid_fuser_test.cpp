@@ -32,7 +32,7 @@ MatchedGrid matched(const std::string& source, double seconds, CellIndex occupie
   return {source, grid.stamp(), std::make_shared<const SensorGrid>(grid)};
 }
 
-GridFuserOptions standingWorld(const std::string& rule) {
+GridFuserOptions standingWorld(FusionRule rule) {
   GridFuserOptions options;
   options.rule = rule;
   options.mover_speed = 0.0;
@@ -40,7 +40,7 @@ GridFuserOptions standingWorld(const std::string& rule) {
 }
 
 TEST(GridFuserTest, GridsAreBroughtToTheStampOfTheReference) {
-  const GridFuser fuser(standingWorld("weighted_sum"));
+  const GridFuser fuser(standingWorld(FusionRule::kWeightedSum));
   // The same obstacle, 3.5 m ahead at 5.0 s.
   for (const auto& [seconds, column] : {std::pair(4.9, 4), std::pair(5.0, 3), std::pair(5.1, 2)}) {
     const FusionResult result = fuser.fuse(
@@ -54,7 +54,7 @@ TEST(GridFuserTest, GridsAreBroughtToTheStampOfTheReference) {
 }
 
 TEST(GridFuserTest, WhereAMoverMayHaveComeTheOtherSourceIsNotCalledFree) {
-  GridFuserOptions options = standingWorld("priority");
+  GridFuserOptions options = standingWorld(FusionRule::kPriority);
   options.mover_speed = 15.0;
   const GridFuser fuser(options);
   // In 0.1 s it comes 1.5 m: from stereo's column 6 to the lidar's column 7.
@@ -67,7 +67,7 @@ TEST(GridFuserTest, WhereAMoverMayHaveComeTheOtherSourceIsNotCalledFree) {
 }
 
 TEST(GridFuserTest, AtTheSameStampNoMotionNeedsToBeKnown) {
-  const GridFuser fuser(standingWorld("maximum"));
+  const GridFuser fuser(standingWorld(FusionRule::kMaximum));
   const FusionResult result =
       fuser.fuse({{matched("lidar", 5.0, {3, 0}), matched("stereo", 5.0, {4, 0})}, {}}, notKnown);
   EXPECT_EQ(result.grids.fused.at({4, 0}), kOccupied);
@@ -75,7 +75,7 @@ TEST(GridFuserTest, AtTheSameStampNoMotionNeedsToBeKnown) {
 }
 
 TEST(GridFuserTest, ASourceWhoseMotionIsNotKnownIsLeftOutAndNamed) {
-  const GridFuser fuser(standingWorld("maximum"));
+  const GridFuser fuser(standingWorld(FusionRule::kMaximum));
   const FusionResult result =
       fuser.fuse({{matched("lidar", 5.0, {3, 0}), matched("stereo", 4.95, {4, 0})},
                   {{"radar", WhyMissing::kSilent}}},
@@ -98,9 +98,7 @@ TEST(GridFuserTest, OptionsAreReadUnderTheNameOfEachSource) {
 }
 
 TEST(GridFuserTest, RefusesARuleThatThereIsNot) {
-  GridFuserOptions options;
-  options.rule = "majority";
-  EXPECT_THROW(GridFuser{options}, OptionError);
+  EXPECT_THROW(readOptions<GridFuserOptions>({{"rule", std::string("majority")}}), OptionError);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ ObjectAssociationOptions exact() {
 
 ObjectAssociationOptions nearest() {
   ObjectAssociationOptions options;
-  options.association = ObjectAssociationOptions::kNearestNeighbor;
+  options.association = ObjectAssociationMethod::kNearestNeighbor;
   return options;
 }
 

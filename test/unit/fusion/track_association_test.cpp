@@ -76,7 +76,7 @@ TEST(TrackAssociationTest, WhatIsNotSureTakesTime) {
 
 TEST(TrackAssociationTest, TheParallelTestDoesNotWait) {
   TrackAssociationOptions options;
-  options.test = TrackAssociationOptions::kParallel;
+  options.test = TrackAssociationTest::kParallel;
   EXPECT_TRUE(areOne(options, 0.0, 0.5, 0.0));
   EXPECT_FALSE(areOne(options, 0.0, 4.5, 0.0));
 }
@@ -146,9 +146,7 @@ TEST(TrackAssociationTest, WhatIsForgottenHasToAgreeAgain) {
 }
 
 TEST(TrackAssociationTest, BadOptionsAreRefused) {
-  TrackAssociationOptions options;
-  options.test = "guess";
-  EXPECT_THROW(TrackAssociation{options}, OptionError);
+  EXPECT_THROW(readOptions<TrackAssociationOptions>({{"test", std::string("guess")}}), OptionError);
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ class TwoTrackers {
     }
   }
 
-  Consistency fusedBy(const std::string& method) const {
+  Consistency fusedBy(TrackCombinationMethod method) const {
     TrackCombinationOptions options;
     options.method = method;
     return scored([&](const Run& run) { return fusedState(run.a, run.b, cross_, options); });

@@ -24,7 +24,7 @@ Track driving(double x, double seconds, const std::string& source, std::uint32_t
 
 /// Published at each of these steps of 0.1 s, when both sources see a car at 20 m, the scanner one
 /// at 60 m and a ghost at 15 m, and the camera a ghost at 30 m.
-TrackFusionResult afterTwoSeconds(const std::string& scheme) {
+TrackFusionResult afterTwoSeconds(TrackScheme scheme) {
   TrackFuser fuser(withScheme(scheme));
   TrackFusionResult result;
   for (int i = 0; i <= 20; ++i) {
@@ -39,7 +39,7 @@ TrackFusionResult afterTwoSeconds(const std::string& scheme) {
 }
 
 TEST(TrackFuserTest, TheThesissListIsWhatBothSeeAndTheScannersBeyond) {
-  const TrackFusionResult result = afterTwoSeconds(TrackFuserOptions::kFusedPlusFallback);
+  const TrackFusionResult result = afterTwoSeconds(TrackScheme::kFusedPlusFallback);
   ASSERT_EQ(result.list.tracks.size(), 2U);
   const Track& both = result.list.tracks[0];
   EXPECT_EQ(both.sensors, (std::vector<std::string>{"lidar", "stereo"}));
@@ -56,7 +56,7 @@ TEST(TrackFuserTest, TheThesissListIsWhatBothSeeAndTheScannersBeyond) {
 }
 
 TEST(TrackFuserTest, ConfirmedByAllIsWhatBothSee) {
-  const TrackFusionResult result = afterTwoSeconds(TrackFuserOptions::kConfirmedByAll);
+  const TrackFusionResult result = afterTwoSeconds(TrackScheme::kConfirmedByAll);
   ASSERT_EQ(result.list.tracks.size(), 1U);
   EXPECT_EQ(result.list.tracks[0].sources.size(), 2U);
 }
@@ -76,7 +76,7 @@ TEST(TrackFuserTest, TwoSourcesThatHaveItFromOneSensorCountOnce) {
 }
 
 TEST(TrackFuserTest, UnionIsAllTaggedWithWhoSeesThem) {
-  const TrackFusionResult result = afterTwoSeconds(TrackFuserOptions::kUnion);
+  const TrackFusionResult result = afterTwoSeconds(TrackScheme::kUnion);
   ASSERT_EQ(result.list.tracks.size(), 4U);
   std::multiset<std::string> tags;
   for (const Track& track : result.list.tracks) {
@@ -93,12 +93,12 @@ TEST(TrackFuserTest, UnionIsAllTaggedWithWhoSeesThem) {
 }
 
 TEST(TrackFuserTest, TheSchemeMayChangeWhileItRuns) {
-  TrackFuser fuser(withScheme(TrackFuserOptions::kConfirmedByAll));
+  TrackFuser fuser(withScheme(TrackScheme::kConfirmedByAll));
   const auto step = [&](double t) {
     return fuser.fuse(at(t), {lidar(t, {driving(0.0, t, "lidar")})});
   };
   EXPECT_TRUE(step(0.0).list.tracks.empty());
-  fuser.setOptions(withScheme(TrackFuserOptions::kUnion));
+  fuser.setOptions(withScheme(TrackScheme::kUnion));
   EXPECT_EQ(step(0.1).list.tracks.size(), 1U);
   EXPECT_THROW(fuser.setOptions(withScheme("all")), OptionError);
 }
@@ -171,7 +171,7 @@ TEST(TrackFuserTest, WhatAllLoseForAMomentIsKnownAgain) {
 
 TEST(TrackFuserTest, OneObjectIsNeverTwo) {
   // What the sensors say of its velocity contradicts itself for too long for them to be one.
-  TrackFuser fuser(withScheme(TrackFuserOptions::kUnion));
+  TrackFuser fuser(withScheme(TrackScheme::kUnion));
   for (int i = 0; i <= 20; ++i) {
     const double t = 0.1 * i;
     const auto result = fuser.fuse(at(t), {lidar(t, {carTrack(10.0, 0.0, 8.0, 0.0, "lidar")}),
@@ -216,7 +216,7 @@ TEST(TrackFuserTest, ListsOfOtherTimesAreBroughtToTheTimeOfFusion) {
 }
 
 TEST(TrackFuserTest, BadTracksAreCountedAndTheOthersGoOn) {
-  TrackFuserOptions options = withScheme(TrackFuserOptions::kUnion);
+  TrackFuserOptions options = withScheme(TrackScheme::kUnion);
   options.max_tracks = 2;
   TrackFuser fuser(options);
   Track bad = driving(0.0, 0.0, "lidar", 7);
@@ -232,7 +232,7 @@ TEST(TrackFuserTest, BadTracksAreCountedAndTheOthersGoOn) {
 }
 
 TEST(TrackFuserTest, AfterAResetNoIdIsUsedAgain) {
-  TrackFuser fuser(withScheme(TrackFuserOptions::kUnion));
+  TrackFuser fuser(withScheme(TrackScheme::kUnion));
   const auto step = [&](double t) {
     return idsOf(fuser.fuse(at(t), {lidar(t, {driving(0.0, 0.0, "lidar")})})).at(0);
   };

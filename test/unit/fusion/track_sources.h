@@ -51,7 +51,7 @@ inline std::vector<std::uint32_t> idsOf(const TrackFusionResult& result) {
   return ids;
 }
 
-inline TrackFuserOptions withScheme(const std::string& scheme) {
+inline TrackFuserOptions withScheme(TrackScheme scheme) {
   TrackFuserOptions options;
   options.scheme = scheme;
   return options;

@@ -167,18 +167,16 @@ TEST(RiskAssessor, AnUnknownClassHasARisk) {
 }
 
 TEST(RiskAssessor, EveryMethodSeesACarAhead) {
-  for (const char* method : {RiskOptions::kThesis, RiskOptions::kBoxes, RiskOptions::kRss}) {
+  for (const RiskMethod method : {RiskMethod::kThesis, RiskMethod::kBoxes, RiskMethod::kRss}) {
     RiskOptions options;
     options.method = method;
     const ObjectRisk risk = riskOfFirst(inputAt(10.0, {knownTrack(1, {20, 0}, {0, 0})}), options);
-    EXPECT_EQ(risk.probability(), 1.0) << method;
+    EXPECT_EQ(risk.probability(), 1.0) << static_cast<int>(method);
   }
 }
 
 TEST(RiskAssessor, RefusesAMethodThatThereIsNot) {
-  RiskOptions options;
-  options.method = "guess";
-  EXPECT_THROW(RiskAssessor{options}, OptionError);
+  EXPECT_THROW(readOptions<RiskOptions>({{"method", std::string("guess")}}), OptionError);
 }
 
 }  // namespace

@@ -121,7 +121,7 @@ class ThesisBorderFilterTest : public BorderFilterTest {
  protected:
   static BorderFilterOptions asThesis() {
     BorderFilterOptions options;
-    options.method = BorderFilterOptions::kThesis;
+    options.method = BorderFilterMethod::kThesis;
     return options;
   }
 

@@ -21,7 +21,7 @@ HitGridOptions ageless() {
 BorderSearchOptions thesisForm() {
   BorderSearchOptions options;
   options.heading_range = 0.0;
-  options.score = "hits";
+  options.score = BorderScore::kHits;
   options.min_hits = 300.0;
   return options;
 }
@@ -100,7 +100,7 @@ TEST_F(BorderSearchTest, TheNearestBorderIsTakenAndNotTheHousesBehindIt) {
   EXPECT_NEAR(nearest->line.y(), 5.0, 0.1);
 
   BorderSearchOptions options = thesisForm();
-  options.take = "highest";
+  options.take = BorderChoice::kHighest;
   const std::optional<FoundBorder> highest =
       BorderSearch(options).search(hits_, Pose2(), RoadSide::kLeft);
   ASSERT_TRUE(highest);
@@ -154,10 +154,8 @@ TEST_F(BorderSearchTest, LooksAsFarAsItsWindowsReach) {
 }
 
 TEST(BorderSearchOptionsTest, BadOnesAreRefused) {
+  EXPECT_THROW(readOptions<BorderSearchOptions>({{"score", std::string("luck")}}), OptionError);
   BorderSearchOptions options;
-  options.score = "luck";
-  EXPECT_THROW(BorderSearch{options}, OptionError);
-  options = {};
   options.sections = 65;
   EXPECT_THROW(BorderSearch{options}, OptionError);
 }

@@ -198,7 +198,7 @@ TEST_F(RoadBorderDetectorTest, SaysTheSameOfTheSameScans) {
 
 TEST_F(RoadBorderDetectorTest, ThesisTakesTheBestWindowOfEachSide) {
   RoadBorderDetectorOptions options;
-  options.method = "thesis";
+  options.method = RoadBorderMethod::kThesis;
   detector_ = RoadBorderDetector(options);
   const RoadModel road = drive(30.0);
   ASSERT_EQ(road.borders.size(), 2U);
@@ -209,7 +209,7 @@ TEST_F(RoadBorderDetectorTest, ThesisTakesTheBestWindowOfEachSide) {
 
 TEST_F(RoadBorderDetectorTest, AWindowShorterThanTheSpacingHasBothItsEnds) {
   RoadBorderDetectorOptions options;
-  options.method = "thesis";
+  options.method = RoadBorderMethod::kThesis;
   options.search.length = 15.0;
   options.published.spacing = 20.0;
   detector_ = RoadBorderDetector(options);
@@ -222,9 +222,8 @@ TEST_F(RoadBorderDetectorTest, AWindowShorterThanTheSpacingHasBothItsEnds) {
 }
 
 TEST_F(RoadBorderDetectorTest, RefusesAMethodThatThereIsNot) {
-  RoadBorderDetectorOptions options;
-  options.method = "guess";
-  EXPECT_THROW(RoadBorderDetector{options}, OptionError);
+  EXPECT_THROW(readOptions<RoadBorderDetectorOptions>({{"method", std::string("guess")}}),
+               OptionError);
 }
 
 }  // namespace

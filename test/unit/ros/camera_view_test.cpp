@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "camera_samples.h"
 #include "monitor_counts.h"
 #include <boost/make_shared.hpp>
 #include <gtest/gtest.h>
@@ -21,28 +22,12 @@ constexpr double kFocalLength = 400.0;     // px
 constexpr double kHeightOverGround = 1.5;  // m
 constexpr std::uint8_t kGray = 60;
 constexpr double kStart = 100.0;  // s
+constexpr samples::CameraSample kCamera{kWidth, kHeight, kFocalLength};
 
-sensor_msgs::CameraInfo cameraInfo() {
-  sensor_msgs::CameraInfo info;
-  info.header.frame_id = "camera";
-  info.width = kWidth;
-  info.height = kHeight;
-  info.K = {kFocalLength, 0.0, 320.0, 0.0, kFocalLength, 240.0, 0.0, 0.0, 1.0};
-  info.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-  info.P = {kFocalLength, 0.0, 320.0, 0.0, 0.0, kFocalLength, 240.0, 0.0, 0.0, 0.0, 1.0, 0.0};
-  return info;
-}
+sensor_msgs::CameraInfo cameraInfo() { return kCamera.info(); }
 
 sensor_msgs::ImagePtr image(double seconds) {
-  auto message = boost::make_shared<sensor_msgs::Image>();
-  message->header.frame_id = "camera";
-  message->header.stamp = ros::Time(seconds);
-  message->encoding = "mono8";
-  message->width = kWidth;
-  message->height = kHeight;
-  message->step = kWidth;
-  message->data.assign(std::size_t{kWidth} * kHeight, kGray);
-  return message;
+  return boost::make_shared<sensor_msgs::Image>(kCamera.image(seconds, kGray));
 }
 
 /// A vehicle `ahead` of the map's origin that drives away at `speed`.
@@ -67,18 +52,7 @@ class CameraViewTest : public testing::Test {
  protected:
   /// The camera at the map's origin, above the ground, looks along x.
   void mountCamera(double seconds) {
-    geometry_msgs::TransformStamped transform;
-    transform.header.frame_id = "map";
-    transform.header.stamp = ros::Time(seconds);
-    transform.child_frame_id = "camera";
-    transform.transform.translation.z = kHeightOverGround;
-    transform.transform.rotation.x = -0.5;
-    transform.transform.rotation.y = 0.5;
-    transform.transform.rotation.z = -0.5;
-    transform.transform.rotation.w = 0.5;
-    tf2_msgs::TFMessage message;
-    message.transforms = {transform};
-    transforms_.add(message);
+    transforms_.add(samples::transforms({samples::cameraMount("map", kHeightOverGround, seconds)}));
   }
 
   sensor_msgs::ImagePtr show(const sensor_msgs::ImagePtr& message, double waited = 0.0) {

@@ -96,7 +96,7 @@ TEST_F(LidarGridStageTest, BeamsAreBroughtToTheStampOfTheScanByOdometry) {
 
 TEST_F(LidarGridStageTest, WithoutOdometryThePosesOfTheSlamBringBeamsToTheStamp) {
   LidarGridStageOptions options;
-  options.motion.source = "none";
+  options.motion.source = MotionSource::kNone;
   LidarGridStage stage(options, buffer_, monitor_);
   mountScanner();
   nav_msgs::Odometry odometry;

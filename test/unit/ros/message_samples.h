@@ -4,11 +4,14 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <geometry_msgs/TransformStamped.h>
+#include <nav_msgs/Odometry.h>
 #include <sensor_msgs/LaserScan.h>
 
 #include "datmo_fusion/ros/stage/input_error.h"
@@ -43,6 +46,24 @@ inline geometry_msgs::TransformStamped transform(const std::string& parent,
   result.transform.translation.x = x;
   result.transform.rotation.w = 1.0;
   return result;
+}
+
+/// Of a vehicle that drives ahead at this speed (m/s) since the start, odom -> base_link.
+inline nav_msgs::Odometry odometry(double seconds, double speed) {
+  nav_msgs::Odometry message;
+  message.header.stamp = ros::Time(seconds);
+  message.header.frame_id = "odom";
+  message.child_frame_id = "base_link";
+  message.pose.pose.position.x = speed * (seconds - kStart);
+  message.pose.pose.orientation.w = 1.0;
+  message.twist.twist.linear.x = speed;
+  return message;
+}
+
+inline tf2_msgs::TFMessage transforms(std::vector<geometry_msgs::TransformStamped> list) {
+  tf2_msgs::TFMessage message;
+  message.transforms = std::move(list);
+  return message;
 }
 
 /// Reason of the InputError that `call` throws; empty if it throws none.

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "camera_samples.h"
 #include "monitor_counts.h"
 #include "vision/image_samples.h"
 #include <boost/make_shared.hpp>
@@ -20,32 +21,16 @@ using samples::drops;
 using samples::warnings;
 
 constexpr double kStart = 100.0;  // s
-constexpr std::uint32_t kWidth = 1000;
-constexpr std::uint32_t kHeight = 400;
 
 /// As test::levelCamera.
-sensor_msgs::CameraInfo cameraInfo() {
-  sensor_msgs::CameraInfo info;
-  info.header.frame_id = "camera";
-  info.width = kWidth;
-  info.height = kHeight;
-  info.K = {500.0, 0.0, 500.0, 0.0, 500.0, 200.0, 0.0, 0.0, 1.0};
-  info.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-  info.P = {500.0, 0.0, 500.0, 0.0, 0.0, 500.0, 200.0, 0.0, 0.0, 0.0, 1.0, 0.0};
-  return info;
-}
+constexpr samples::CameraSample kCamera{1000, 400, 500.0};
+
+sensor_msgs::CameraInfo cameraInfo() { return kCamera.info(); }
 
 /// Stripes; of another gray each time.
 sensor_msgs::ImagePtr imageAt(double seconds) {
   static std::uint8_t gray = 0;
-  auto message = boost::make_shared<sensor_msgs::Image>();
-  message->header.frame_id = "camera";
-  message->header.stamp = ros::Time(seconds);
-  message->encoding = "mono8";
-  message->width = kWidth;
-  message->height = kHeight;
-  message->step = kWidth;
-  message->data.assign(std::size_t{kWidth} * kHeight, ++gray);
+  auto message = boost::make_shared<sensor_msgs::Image>(kCamera.image(seconds, ++gray));
   for (std::size_t i = 0; i < message->data.size(); i += 2) {
     message->data[i] = 255;
   }
@@ -64,7 +49,7 @@ class MonoClassifierStageTest : public testing::Test {
  protected:
   static MonoClassifierStageOptions stageOptions() {
     MonoClassifierStageOptions options;
-    options.classifier.detector = MonoClassifierOptions::kDnn;
+    options.classifier.detector = ImageDetectorKind::kDnn;
     options.classifier.dnn_reliability.scores = {0.0};
     options.classifier.dnn_reliability.right = {0.8};
     return options;
@@ -80,17 +65,8 @@ class MonoClassifierStageTest : public testing::Test {
   }
 
   void mountCamera() {
-    geometry_msgs::TransformStamped transform;
-    transform.header.frame_id = "base_link";
-    transform.child_frame_id = "camera";
-    transform.transform.translation.z = test::kCameraHeight;
-    transform.transform.rotation.x = -0.5;
-    transform.transform.rotation.y = 0.5;
-    transform.transform.rotation.z = -0.5;
-    transform.transform.rotation.w = 0.5;
-    tf2_msgs::TFMessage message;
-    message.transforms = {transform};
-    transforms_.addStatic(message);
+    transforms_.addStatic(
+        samples::transforms({samples::cameraMount("base_link", test::kCameraHeight)}));
   }
 
   ObjectArrayPtr look(const sensor_msgs::ImageConstPtr& image, double waited = 0.0) {
@@ -194,8 +170,8 @@ TEST_F(MonoClassifierStageTest, AnInfoOfZerosIsRefused) {
 
 TEST_F(MonoClassifierStageTest, AnInfoOfAnotherSizeIsRefused) {
   const auto image = imageAt(kStart);
-  image->width = kWidth / 2;
-  image->step = kWidth / 2;
+  image->width = kCamera.width / 2;
+  image->step = kCamera.width / 2;
   expectDropped(image, "wrong_size");
 }
 
@@ -259,7 +235,7 @@ TEST(MonoClassifierStageModel, OneThatIsMissingStopsItWithAMessage) {
   TransformBuffer transforms(1.0);
   StageMonitor monitor("mono_classifier");
   MonoClassifierStageOptions options;
-  options.classifier.detector = MonoClassifierOptions::kDnn;
+  options.classifier.detector = ImageDetectorKind::kDnn;
   options.classifier.dnn.model = "/nowhere/model.onnx";
   try {
     const MonoClassifierStage stage(options, transforms, monitor);

@@ -37,7 +37,7 @@ geometry_msgs::PoseWithCovarianceStamped pose(double seconds) {
 
 MotionOptions optionsWith(bool with_odometry, bool use_poses) {
   MotionOptions options;
-  options.source = with_odometry ? "odometry" : "none";
+  options.source = with_odometry ? MotionSource::kOdometry : MotionSource::kNone;
   options.odometry_pose = use_poses;
   return options;
 }

@@ -42,7 +42,7 @@ sensor_msgs::JointState wheels(double seconds, const std::vector<double>& rates)
 
 class MotionStageTest : public testing::Test {
  protected:
-  MotionStage stageOf(const std::string& source) {
+  MotionStage stageOf(MotionSource source) {
     MotionStageOptions options;
     options.motion.source = source;
     options.motion.wheel_radius = 0.25;
@@ -60,7 +60,7 @@ class MotionStageTest : public testing::Test {
 };
 
 TEST_F(MotionStageTest, ATwistBecomesOdometryThatCountsTheDistance) {
-  MotionStage stage = stageOf("twist");
+  MotionStage stage = stageOf(MotionSource::kTwist);
   ASSERT_TRUE(stage.takeTwist(twist(100.0, 2.0)));
   const auto odometry = stage.takeTwist(twist(100.5, 4.0, 0.1));
   ASSERT_TRUE(odometry);
@@ -77,7 +77,7 @@ TEST_F(MotionStageTest, ATwistBecomesOdometryThatCountsTheDistance) {
 }
 
 TEST_F(MotionStageTest, YawRateOfTheImuAndSpeedOfTheTwist) {
-  MotionStage stage = stageOf("imu_and_twist");
+  MotionStage stage = stageOf(MotionSource::kImuAndTwist);
   EXPECT_FALSE(stage.takeImu(imu(100.0, 0.2)));
   EXPECT_EQ(drops(monitor_, "no_speed"), 1U);
   EXPECT_FALSE(stage.takeTwist(twist(100.01, 5.0, 9.0))) << "the Imu sets the pace";
@@ -91,7 +91,7 @@ TEST_F(MotionStageTest, YawRateOfTheImuAndSpeedOfTheTwist) {
 }
 
 TEST_F(MotionStageTest, WheelsGiveTheSpeedByTheirRadius) {
-  MotionStage stage = stageOf("imu_and_wheels");
+  MotionStage stage = stageOf(MotionSource::kImuAndWheels);
   EXPECT_FALSE(stage.takeWheels(wheels(100.0, {10.0, 12.0})));
   EXPECT_NEAR(stage.takeImu(imu(100.01, 0.0))->twist.twist.linear.x, 0.25 * 11.0, 1e-12);
   EXPECT_FALSE(stage.takeWheels(wheels(100.1, {})));
@@ -99,7 +99,7 @@ TEST_F(MotionStageTest, WheelsGiveTheSpeedByTheirRadius) {
 }
 
 TEST_F(MotionStageTest, OfAnImuAloneTheSpeedIsNotKnown) {
-  MotionStage stage = stageOf("imu");
+  MotionStage stage = stageOf(MotionSource::kImu);
   const auto odometry = stage.takeImu(imu(100.0, 0.3));
   ASSERT_TRUE(odometry);
   EXPECT_EQ(odometry->twist.twist.angular.z, 0.3);
@@ -108,7 +108,7 @@ TEST_F(MotionStageTest, OfAnImuAloneTheSpeedIsNotKnown) {
 }
 
 TEST_F(MotionStageTest, TheImuIsTurnedByItsMount) {
-  MotionStage stage = stageOf("imu");
+  MotionStage stage = stageOf(MotionSource::kImu);
   EXPECT_NEAR(stage.takeImu(imu(100.0, 0.3, "imu_link"))->twist.twist.angular.z, -0.3, 1e-9)
       << "it hangs upside down";
   EXPECT_FALSE(stage.takeImu(imu(100.1, 0.3, "somewhere")));
@@ -118,7 +118,7 @@ TEST_F(MotionStageTest, TheImuIsTurnedByItsMount) {
 }
 
 TEST_F(MotionStageTest, BadMotionIsRefused) {
-  MotionStage stage = stageOf("imu");
+  MotionStage stage = stageOf(MotionSource::kImu);
   EXPECT_FALSE(stage.takeImu(imu(100.0, std::numeric_limits<double>::quiet_NaN())));
   EXPECT_FALSE(stage.takeImu(imu(100.1, 1000.0)));
   EXPECT_EQ(drops(monitor_, "bad_motion"), 2U);
@@ -132,7 +132,7 @@ TEST_F(MotionStageTest, BadMotionIsRefused) {
 }
 
 TEST_F(MotionStageTest, AJumpBackStartsAnew) {
-  MotionStage stage = stageOf("twist");
+  MotionStage stage = stageOf(MotionSource::kTwist);
   stage.takeTwist(twist(200.0, 10.0));
   stage.takeTwist(twist(200.5, 10.0));
   EXPECT_EQ(stage.takeTwist(twist(100.0, 10.0))->pose.pose.position.x, 0.0);

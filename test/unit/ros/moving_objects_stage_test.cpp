@@ -73,7 +73,7 @@ TEST_F(MovingObjectsStageTest, WhatLiesOnABorderIsLessLikelyToMove) {
 
 TEST_F(MovingObjectsStageTest, ByTheThesisItIsDropped) {
   MovingObjectsStageOptions options = withBorders();
-  options.border_filter.method = BorderFilterOptions::kThesis;
+  options.border_filter.method = BorderFilterMethod::kThesis;
   MovingObjectsStage stage(options, monitor_);
   RoadModel road = samples::straightRoad();
   road.stamp = Stamp::fromSeconds(samples::kStart);

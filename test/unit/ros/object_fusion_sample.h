@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "message_samples.h"
 #include "monitor_counts.h"
 #include <gtest/gtest.h>
 
@@ -25,14 +26,7 @@ inline Object car(const std::string& sensor, double ahead, double left) {
   return object;
 }
 
-inline nav_msgs::Odometry odometry(double seconds) {
-  nav_msgs::Odometry message;
-  message.header.stamp = ros::Time(seconds);
-  message.header.frame_id = "odom";
-  message.child_frame_id = "base_link";
-  message.twist.twist.linear.x = 20.0;
-  return message;
-}
+inline nav_msgs::Odometry odometry(double seconds) { return samples::odometry(seconds, 20.0); }
 
 class ObjectFusionStageTest : public testing::Test {
  protected:

@@ -79,7 +79,7 @@ TEST_F(ObjectFusionStageTest, ObjectsAreMovedByTheOdometryBetweenTheirStamps) {
 }
 
 TEST_F(ObjectFusionStageTest, WithoutOdometryTheyAreMovedByThePosesOfTheSlam) {
-  options_.motion.source = "none";
+  options_.motion.source = MotionSource::kNone;
   ObjectFusionStage stage(options_, monitor_);
   stage.takeOdometry(odometry(0.0));
   for (const double t : {99.7, 99.8, 99.9}) {

@@ -212,10 +212,12 @@ TEST_F(StereoGridStageTest, OrganizedCloudsOfDepthCamerasMakeGrids) {
   options_.camera.max_depth = 20.0;
   options_.camera.baseline = 0.05;
   options_.camera.disparity_sigma = 0.06;  // 0.24 m at the wall
-  for (const char* principle : {"active_stereo", "structured_light", "time_of_flight"}) {
+  for (const DepthPrinciple principle :
+       {DepthPrinciple::kActiveStereo, DepthPrinciple::kStructuredLight,
+        DepthPrinciple::kTimeOfFlight}) {
     options_.camera.principle = principle;
     StereoGridStage stage(options_, buffer_, monitor_);
-    SCOPED_TRACE(principle);
+    SCOPED_TRACE(static_cast<int>(principle));
     EXPECT_FALSE(stage.takeCloud(organizedCloud())) << "no camera info yet";
     stage.takeCameraInfo(depthImageInfo());
     expectWall(stage.takeCloud(organizedCloud()));
@@ -235,8 +237,8 @@ TEST_F(StereoGridStageTest, BadOptionsOfDepthCamerasAreRefused) {
     spoil(options.camera);
     EXPECT_THROW(StereoGridStage(options, buffer_, monitor_), OptionError);
   };
-  refused([](auto& camera) { camera.principle = "sonar"; });
-  refused([](auto& camera) { camera.principle = "active_stereo"; });  // without baseline
+  refused(
+      [](auto& camera) { camera.principle = DepthPrinciple::kActiveStereo; });  // without baseline
   refused([](auto& camera) { camera.min_depth = 2.0, camera.max_depth = 1.0; });
   refused([](auto& camera) { camera.structured_light.quadratic = 0.0; });
   refused([](auto& camera) { camera.time_of_flight.constant = 0.0; });

@@ -123,7 +123,7 @@ TEST_F(TrackFusionStageTest, BadViewsAreLeftOutAndSaid) {
 }
 
 TEST_F(TrackFusionStageTest, OfAThousandTracksTheSurestAreTaken) {
-  stage_.change({{"scheme", std::string(TrackFuserOptions::kUnion)}});
+  stage_.change({{"scheme", std::string("union")}});
   std::vector<Track> many;
   for (std::uint32_t i = 0; i < 1000; ++i) {
     many.push_back(carTrack("stereo", i + 1, 100.0, 10.0 * i));

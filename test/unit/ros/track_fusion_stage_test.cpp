@@ -133,7 +133,7 @@ class TrackFusionGapTest : public TrackFusionStageTest {
 };
 
 TEST_F(TrackFusionGapTest, ASourceThatStopsAndComesBackFindsItsFusedTrack) {
-  stage_.change({{"scheme", std::string(TrackFuserOptions::kUnion)}});
+  stage_.change({{"scheme", std::string("union")}});
   const auto fused = playWithout("stereo");
   EXPECT_GE(fused.size(), 99U) << "the other one goes on";
   EXPECT_EQ(idsOf(fused).size(), 1U);
@@ -151,7 +151,7 @@ TEST_F(TrackFusionGapTest, ASourceThatStopsAndComesBackFindsItsFusedTrack) {
 }
 
 TEST_F(TrackFusionGapTest, WithoutTheReferenceTheOthersGoOn) {
-  stage_.change({{"scheme", std::string(TrackFuserOptions::kUnion)}});
+  stage_.change({{"scheme", std::string("union")}});
   const auto fused = playWithout("lidar");
   EXPECT_GE(fused.size(), 99U);
   EXPECT_EQ(idsOf(fused).size(), 1U);
@@ -195,10 +195,10 @@ TEST_F(TrackFusionStageTest, AClockThatJumpsAheadIsFollowed) {
 TEST_F(TrackFusionStageTest, TheSchemeChangesFromTheNextSetOn) {
   take("lidar", list(100.0, {carTrack("lidar", 1, 100.0)}));
   take("stereo", list(100.0, {carTrack("stereo", 2, 100.0, 30.0)}));
-  stage_.change({{"scheme", std::string(TrackFuserOptions::kUnion)}});
+  stage_.change({{"scheme", std::string("union")}});
   EXPECT_EQ(nextAt(100.0)->tracks.size(), 2U);
   EXPECT_THROW(stage_.change({{"scheme", std::string("by luck")}}), OptionError);
-  stage_.change({{"scheme", std::string(TrackFuserOptions::kFusedPlusFallback)}});
+  stage_.change({{"scheme", std::string("fused_plus_fallback")}});
   take("lidar", list(100.1, {carTrack("lidar", 1, 100.1)}));
   take("stereo", list(100.1, {carTrack("stereo", 2, 100.1, 30.0)}));
   const auto fused = nextAt(100.1);

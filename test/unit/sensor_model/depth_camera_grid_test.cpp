@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
-#include "made_stereo.h"
+#include "stereo_grids.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/sensor_model/stereo_grid.h"
@@ -9,9 +9,7 @@
 namespace datmo::depth_camera_grid_test {
 namespace {
 
-Percent at(const SensorGrid& grid, double x, double y) {
-  return grid.atOrUnknown(grid.window().cellAt({x, y}));
-}
+using stereo_grids::at;
 
 /// m; the floor is seen from 2 m on.
 constexpr double kLow = 0.6;
@@ -29,7 +27,7 @@ StereoGridOptions inARoom() {
   return options;
 }
 
-MadeScene ofDepthCamera(const std::string& principle) {
+MadeScene ofDepthCamera(DepthPrinciple principle) {
   DepthNoiseOptions options;
   options.principle = principle;
   MadeScene scene;
@@ -39,13 +37,14 @@ MadeScene ofDepthCamera(const std::string& principle) {
 }
 
 TEST(DepthCameraGrid, DepthCamerasSeeAWallWhereItIs) {
-  for (const char* principle : {"structured_light", "time_of_flight"}) {
+  for (const DepthPrinciple principle :
+       {DepthPrinciple::kStructuredLight, DepthPrinciple::kTimeOfFlight}) {
     MadeScene scene = ofDepthCamera(principle);
     scene.boxes = {wallAt(5.0, 3.0)};
     MadeCloud made(scene);
     const StereoGridResult result = StereoGridModel(inARoom()).grid(made.cloud());
-    EXPECT_TRUE(result.road_seen) << principle;
-    EXPECT_NEAR(result.road.height, 0.0, 0.02) << principle;
+    EXPECT_TRUE(result.road_seen) << static_cast<int>(principle);
+    EXPECT_NEAR(result.road.height, 0.0, 0.02) << static_cast<int>(principle);
     std::size_t on_wall = 0;
     std::size_t elsewhere = 0;
     result.grid.forEach([&](CellIndex cell, Percent percent) {
@@ -56,10 +55,10 @@ TEST(DepthCameraGrid, DepthCamerasSeeAWallWhereItIs) {
                                                                               : elsewhere);
       }
     });
-    EXPECT_GE(on_wall, 28U) << principle;
-    EXPECT_EQ(elsewhere, 0U) << principle;
-    EXPECT_EQ(at(result.grid, 4.2, 0.0), 20) << principle;
-    EXPECT_EQ(at(result.grid, 5.5, 0.0), kUnknownPercent) << principle;
+    EXPECT_GE(on_wall, 28U) << static_cast<int>(principle);
+    EXPECT_EQ(elsewhere, 0U) << static_cast<int>(principle);
+    EXPECT_EQ(at(result.grid, 4.2, 0.0), 20) << static_cast<int>(principle);
+    EXPECT_EQ(at(result.grid, 5.5, 0.0), kUnknownPercent) << static_cast<int>(principle);
   }
 }
 

@@ -6,14 +6,14 @@
 namespace datmo::depth_noise_test {
 namespace {
 
-DepthNoise noiseOf(const std::string& principle) {
+DepthNoise noiseOf(DepthPrinciple principle) {
   DepthNoiseOptions options;
   options.principle = principle;
   return depthNoise(options, 400.0, 0.5);
 }
 
 TEST(DepthNoise, OfDisparitiesGrowsWithTheSquareOfTheDepth) {
-  for (const char* principle : {"stereo", "active_stereo"}) {
+  for (const DepthPrinciple principle : {DepthPrinciple::kStereo, DepthPrinciple::kActiveStereo}) {
     const DepthNoise noise = noiseOf(principle);
     EXPECT_DOUBLE_EQ(noise.sigma(10.0), 0.125) << "100 m^2 * 0.25 px / (400 px * 0.5 m)";
     EXPECT_DOUBLE_EQ(noise.sigma(20.0), 0.5);
@@ -36,30 +36,32 @@ TEST(DepthNoise, OfDisparitiesIsTheSameNumberAsTheFormula) {
 }
 
 TEST(DepthNoise, OfStructuredLightIsThatOfTheKinect) {
-  const DepthNoise noise = noiseOf("structured_light");
+  const DepthNoise noise = noiseOf(DepthPrinciple::kStructuredLight);
   EXPECT_NEAR(noise.sigma(0.4), 0.0012, 1e-9);
   EXPECT_NEAR(noise.sigma(2.4), 0.0088, 1e-9) << "0.0012 + 0.0019 * 2^2 (Nguyen et al. 2012)";
   DepthNoiseOptions options;
-  options.principle = "structured_light";
+  options.principle = DepthPrinciple::kStructuredLight;
   options.structured_light = {0.0, 0.001425, 0.0};
   EXPECT_NEAR(depthNoise(options, 0.0, 0.0).sigma(5.0), 0.035625, 1e-9)
       << "4 cm at 5 m (Khoshelham and Elberink 2012)";
 }
 
 TEST(DepthNoise, OfATimeOfFlightIsAConstantAndAShare) {
-  const DepthNoise noise = noiseOf("time_of_flight");
+  const DepthNoise noise = noiseOf(DepthPrinciple::kTimeOfFlight);
   EXPECT_NEAR(noise.sigma(0.0), 0.02, 1e-9);
   EXPECT_NEAR(noise.sigma(3.0), 0.023, 1e-9);
   EXPECT_NEAR(noise.inverseSigma(0.5), 0.0055, 1e-9) << "0.022 m at 2 m: 0.022 / 2^2";
 }
 
 TEST(DepthNoise, InverseDepthsAreAsGoodAsDepths) {
-  for (const char* principle : {"stereo", "structured_light", "time_of_flight"}) {
+  for (const DepthPrinciple principle :
+       {DepthPrinciple::kStereo, DepthPrinciple::kStructuredLight, DepthPrinciple::kTimeOfFlight}) {
     const DepthNoise noise = noiseOf(principle);
     const InverseDepthMargin margin(noise, 2.0);
     for (const double depth : {0.5, 1.0, 3.0, 8.0}) {
       const double inverse_sigma = noise.inverseSigma(1.0 / depth);
-      EXPECT_NEAR(inverse_sigma * depth * depth, noise.sigma(depth), 1e-12) << principle << depth;
+      EXPECT_NEAR(inverse_sigma * depth * depth, noise.sigma(depth), 1e-12)
+          << static_cast<int>(principle) << depth;
       EXPECT_NEAR(static_cast<double>(margin.at(static_cast<float>(1.0 / depth))),
                   2.0 * inverse_sigma, 1e-6);
     }
@@ -68,7 +70,7 @@ TEST(DepthNoise, InverseDepthsAreAsGoodAsDepths) {
 
 TEST(DepthNoise, UnknownPrinciplesAreNamed) {
   try {
-    noiseOf("kinect");
+    readOptions<DepthNoiseOptions>({{"depth_noise", std::string("kinect")}});
     FAIL();
   } catch (const OptionError& error) {
     EXPECT_NE(std::string(error.what()).find("'kinect'"), std::string::npos);

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "made_stereo.h"
+#include "stereo_grids.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/sensor_model/stereo_grid.h"
@@ -11,13 +11,14 @@
 namespace datmo::stereo_cones_test {
 namespace {
 
-constexpr Percent kOccupied = 80;
-constexpr Percent kFree = 20;
+using stereo_grids::count;
+using stereo_grids::kFree;
+using stereo_grids::kOccupied;
 
 /// Cells of 1 m; 5 points in nine cells are noise.
 StereoGridOptions cones() {
   StereoGridOptions options;
-  options.method = "cones";
+  options.method = StereoGridMethod::kCones;
   options.window.length = 80.0;
   options.window.width = 80.0;
   options.window.cell_size = 1.0;
@@ -54,7 +55,7 @@ TEST(StereoConesTest, MorePointsThanTheThresholdInNineCellsAreOccupied) {
       EXPECT_EQ(grid.at({column, row}), kOccupied) << column << ", " << row;
     }
   }
-  EXPECT_EQ(std::count(grid.cells().begin(), grid.cells().end(), kOccupied), 9);
+  EXPECT_EQ(count(grid, kOccupied), 9U);
 }
 
 TEST(StereoConesTest, AsManyPointsAsTheThresholdAreNoise) {

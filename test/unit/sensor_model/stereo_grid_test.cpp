@@ -7,49 +7,13 @@
 #include <limits>
 #include <stdexcept>
 
-#include "made_stereo.h"
+#include "stereo_grids.h"
 #include <gtest/gtest.h>
 
 namespace datmo::stereo_grid_test {
 namespace {
 
-constexpr Percent kOccupied = 80;
-constexpr Percent kFree = 20;
-
-StereoGridOptions onFlatRoad() {
-  StereoGridOptions options;
-  options.road.estimate = false;
-  return options;
-}
-
-SensorGrid gridOf(MadeCloud& made, const StereoGridOptions& options = StereoGridOptions()) {
-  return StereoGridModel(options).grid(made.cloud()).grid;
-}
-
-SensorGrid gridOf(const MadeScene& scene, const StereoGridOptions& options = StereoGridOptions()) {
-  MadeCloud made(scene);
-  return gridOf(made, options);
-}
-
-Percent at(const SensorGrid& grid, double x, double y) {
-  return grid.atOrUnknown(grid.window().cellAt({x, y}));
-}
-
-std::size_t count(const SensorGrid& grid, Percent percent) {
-  return static_cast<std::size_t>(std::count(grid.cells().begin(), grid.cells().end(), percent));
-}
-
-/// Whether a cell or one of its eight neighbors is occupied.
-bool isOccupiedNear(const SensorGrid& grid, CellIndex cell) {
-  for (int row = cell.row - 1; row <= cell.row + 1; ++row) {
-    for (int column = cell.column - 1; column <= cell.column + 1; ++column) {
-      if (isOccupied(grid.atOrUnknown({column, row}))) {
-        return true;
-      }
-    }
-  }
-  return false;
-}
+using namespace stereo_grids;
 
 /// Share of the occupied cells of one grid that another one has within a cell.
 double shareFoundIn(const SensorGrid& other, const SensorGrid& grid) {
@@ -205,58 +169,6 @@ TEST(StereoGridTest, ACameraMayLookAside) {
   EXPECT_EQ(at(grid, 10.0, 0.0), kUnknownPercent);
 }
 
-TEST(StereoGridTest, AnEmptyCloudSaysNothing) {
-  MadeCloud made;
-  const StereoGridResult result = StereoGridModel(StereoGridOptions()).grid(made.cloud());
-  EXPECT_EQ(count(result.grid, kUnknownPercent), result.grid.cells().size());
-  EXPECT_EQ(result.points, 0U);
-  EXPECT_EQ(result.in_layer, 0U);
-}
-
-TEST(StereoGridTest, PointsThatAreNoneChangeNothing) {
-  MadeScene scene;
-  scene.boxes = {wallAt(12.0, 5.0)};
-  MadeCloud clean(scene);
-  MadeCloud dirty(scene);
-  const double infinity = std::numeric_limits<double>::infinity();
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const double max = std::numeric_limits<float>::max();
-  for (const double z : {nan, infinity, -infinity, -10.0, 0.0, max, -max, 1e-30}) {
-    for (const double other : {nan, infinity, -infinity, max, -max, 0.0}) {
-      dirty.add({0.0, other, z});
-      dirty.add({other, 0.0, z});
-    }
-  }
-  for (const double bad : {nan, infinity, -infinity, max, -max}) {
-    dirty.add({bad, 0.0, 10.0});
-    dirty.add({0.0, bad, 10.0});
-  }
-  for (const char* const method : {"columns", "cones"}) {
-    StereoGridOptions options = onFlatRoad();
-    options.method = method;
-    EXPECT_EQ(gridOf(clean, options).cells(), gridOf(dirty, options).cells()) << method;
-  }
-  // Also with the road estimated from them.
-  EXPECT_TRUE(isOccupiedNear(gridOf(dirty), gridOf(dirty).window().cellAt({12.0, 0.0})));
-}
-
-TEST(StereoGridTest, FewLinesOfSightSayNothing) {
-  MadeScene scene;
-  scene.step = 40;
-  const SensorGrid grid = gridOf(scene, onFlatRoad());
-  EXPECT_EQ(count(grid, kUnknownPercent), grid.cells().size());
-}
-
-TEST(StereoGridTest, LoneMismatchesAreNoObstacles) {
-  MadeCloud made((MadeScene()));
-  Random random(5);
-  for (int i = 0; i < 900; ++i) {
-    const double depth = random.uniform(3.0, 36.0);
-    made.addAt({0.5 + depth, random.uniform(-0.5, 0.5) * depth, random.uniform(0.4, 1.3)});
-  }
-  EXPECT_EQ(count(gridOf(made), kOccupied), 0U);
-}
-
 TEST(StereoGridTest, AThinnedCloudGivesTheSameObstaclesAndTheSameFreeRoad) {
   MadeScene scene;
   scene.boxes = {wallAt(9.0, 3.0), {{14.0, 3.0, 0.0}, {18.0, 4.6, 1.5}}};
@@ -284,54 +196,6 @@ TEST(StereoGridTest, TheSameCloudsGiveTheSameGrids) {
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(one.grid(made.cloud()).grid.cells(), other.grid(made.cloud()).grid.cells());
   }
-}
-
-TEST(StereoGridTest, PointsAreCounted) {
-  MadeCloud made;
-  made.addAt({10.0, 0.0, 0.0});  // on the road
-  made.addAt({10.0, 1.0, 0.8});  // in the layer
-  made.addAt({10.0, 1.0, 1.5});  // above it
-  made.addAt({90.0, 1.0, 0.8});  // out of range
-  made.addAt({-5.0, 1.0, 0.8});  // behind the camera
-  const StereoGridResult result = StereoGridModel(onFlatRoad()).grid(made.cloud());
-  EXPECT_EQ(result.points, 4U);
-  EXPECT_EQ(result.in_layer, 1U);
-}
-
-TEST(StereoGridTest, ACameraThatMeasuresNothingIsRefused) {
-  StereoGridModel model((StereoGridOptions()));
-  MadeCloud made;
-  const StereoCamera good = made.cloud().camera;
-  const auto refused = [&](const std::function<void(StereoCamera&)>& spoil) {
-    made.cloud().camera = good;
-    spoil(made.cloud().camera);
-    EXPECT_THROW(model.grid(made.cloud()), std::invalid_argument);
-  };
-  for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
-    refused([&](StereoCamera& camera) { camera.focal_length = bad; });
-    refused([&](StereoCamera& camera) { camera.baseline = bad; });
-    refused([&](StereoCamera& camera) { camera.noise.disparity_sigma = bad; });
-    refused([&](StereoCamera& camera) { camera.noise.disparity_at_meter = bad; });
-    refused([&](StereoCamera& camera) { camera.noise = DepthNoise::ofPolynomial(bad, 0.0, 0.0); });
-  }
-  refused([](StereoCamera& camera) { camera.focal_length = 0.0; });
-  refused([](StereoCamera& camera) { camera.noise = DepthNoise(); });
-  refused([](StereoCamera& camera) { camera.noise = DepthNoise::ofDisparity(400.0, 0.0, 0.25); });
-  made.cloud().camera = good;
-  made.cloud().camera.right_tangent = good.left_tangent;
-  EXPECT_THROW(model.grid(made.cloud()), std::invalid_argument);
-  made.cloud().camera = good;
-  made.cloud().camera_in_base.translation().z() = -0.1;
-  EXPECT_THROW(model.grid(made.cloud()), std::invalid_argument);
-}
-
-TEST(StereoGridTest, OptionsAreChecked) {
-  StereoGridOptions options;
-  options.method = "cubes";
-  EXPECT_THROW(StereoGridModel{options}, OptionError);
-  options = StereoGridOptions();
-  options.effective_range = -1.0;
-  EXPECT_THROW(StereoGridModel{options}, OptionError);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ TEST(FusedSlamTest, OnScansThroughTheGridItIsAsGoodAsOnScans) {
 
 TEST(FusedSlamTest, OnCellsAloneItKeepsToTheirSize) {
   GridSlamOptions options;
-  options.grid_ends = "cells";
+  options.grid_ends = GridEnds::kCells;
   GridSlam slam{options};
   EXPECT_LT(errorAfterDrive(slam, true), options.map.window.cell_size);
 }

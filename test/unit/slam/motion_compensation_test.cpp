@@ -105,8 +105,8 @@ TEST_P(MotionCompensation, KeepsRaysWhole) {
 TEST_P(MotionCompensation, TheFieldHasTheCurrentBearings) {
   const Scan at_once = compensateMotion(scanOf(GetParam()), GetParam().twist);
   for (const Ray& ray : at_once.rays) {
-    const double told = at_once.field.first_bearing + at_once.field.beam_spacing * ray.beam;
-    EXPECT_NEAR(angleBetween(told, ray.bearing), 0.0, 1e-9);
+    const double expected = at_once.field.first_bearing + at_once.field.beam_spacing * ray.beam;
+    EXPECT_NEAR(angleBetween(expected, ray.bearing), 0.0, 1e-9);
   }
 }
 

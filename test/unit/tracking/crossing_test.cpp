@@ -80,7 +80,7 @@ TEST(Crossing, SeveralHypothesesKeepMoreIdsThanTheNearestNeighbor) {
   options.require_motion = false;
   options.duplicates.reach = 0.0;  // only the association decides
   const int several = idsKeptOver(options, 100);
-  options.association = "gnn";
+  options.association = TrackerAssociation::kGlobalNearestNeighbor;
   const int nearest = idsKeptOver(options, 100);
   RecordProperty("several", several);
   RecordProperty("nearest", nearest);

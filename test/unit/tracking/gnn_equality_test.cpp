@@ -11,14 +11,14 @@ namespace {
 
 TrackerOptions nearestNeighbor() {
   TrackerOptions options;
-  options.association = "gnn";
+  options.association = TrackerAssociation::kGlobalNearestNeighbor;
   options.require_motion = false;  // more tracks
   return options;
 }
 
 TrackerOptions singleHypothesis() {
   TrackerOptions options = nearestNeighbor();
-  options.association = "mht";
+  options.association = TrackerAssociation::kMultipleHypotheses;
   options.hypotheses.max_hypotheses = 1;
   options.hypotheses.scan_history = 0;
   options.split_merge.split_probability = 0.0;
@@ -92,7 +92,7 @@ TEST(GnnEquality, MoreHypothesesAreNotTheSame) {
   RandomSceneOptions crowd;
   crowd.range = 6.0;
   TrackerOptions several = nearestNeighbor();
-  several.association = "mht";
+  several.association = TrackerAssociation::kMultipleHypotheses;
   int different = 0;
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     TrackingScene first(nearestNeighbor());

@@ -40,11 +40,11 @@ std::optional<double> delay(bool measured, double speed, double seconds) {
 }
 
 TEST(MeasuredVelocity, AWalkerIsATrackWithinHalfASecond) {
-  const std::optional<double> told = delay(true, kWalking, 5.0);
-  ASSERT_TRUE(told);
-  EXPECT_LE(*told, 0.5);
+  const std::optional<double> measured = delay(true, kWalking, 5.0);
+  ASSERT_TRUE(measured);
+  EXPECT_LE(*measured, 0.5);
   const std::optional<double> without = delay(false, kWalking, 5.0);
-  EXPECT_TRUE(!without || *without > *told);
+  EXPECT_TRUE(!without || *without > *measured);
 }
 
 TEST(MeasuredVelocity, WhatStandsIsNoTrack) { EXPECT_FALSE(delay(true, 0.0, 10.0)); }

@@ -66,7 +66,8 @@ TEST(TrackerRobustness, AVehiclePoseThatIsNotFiniteLeavesTheTracksAlone) {
   FieldOfView view;
   view.range = 100.0;
   const Visibility visibility(view, {}, VisibilityOptions());
-  for (const char* association : {"mht", "gnn"}) {
+  for (const TrackerAssociation association :
+       {TrackerAssociation::kMultipleHypotheses, TrackerAssociation::kGlobalNearestNeighbor}) {
     TrackerOptions options;
     options.association = association;
     TrackingScene scene(options);
@@ -78,11 +79,11 @@ TEST(TrackerRobustness, AVehiclePoseThatIsNotFiniteLeavesTheTracksAlone) {
         scene.tracker().process({Stamp::fromSeconds(scene.nextTime()), {objectAt(1.0, 1.0)}, {}},
                                 Pose2(nan, nan, nan), visibility);
     scene.wait(0.1);
-    ASSERT_EQ(list.tracks.size(), 1U) << association;
+    ASSERT_EQ(list.tracks.size(), 1U) << static_cast<int>(association);
     EXPECT_TRUE(list.tracks[0].state.allFinite());
     EXPECT_GT(list.tracks[0].existence_probability, 0.9);
     scene.scan({objectAt(5.0 * (scene.nextTime() - 100.0), 0.0)}, visibility);
-    ASSERT_EQ(scene.tracks().tracks.size(), 1U) << association;
+    ASSERT_EQ(scene.tracks().tracks.size(), 1U) << static_cast<int>(association);
     EXPECT_EQ(scene.tracks().tracks[0].id, 1U);
     EXPECT_EQ(scene.tracks().tracks[0].since_update, 0.0);
   }

@@ -23,7 +23,7 @@ const ImageDetection kCar = detectionOf(ObjectClass::kVehicle, 350, 197, 400, 23
 /// Whose detector is right in four of five.
 MonoClassifierOptions dnnOptions() {
   MonoClassifierOptions options;
-  options.detector = MonoClassifierOptions::kDnn;
+  options.detector = ImageDetectorKind::kDnn;
   options.dnn_reliability.scores = {0.0};
   options.dnn_reliability.right = {0.8};
   return options;
@@ -76,7 +76,7 @@ TEST(MonoClassifier, AnUnsureOneAloneIsNone) {
 
 TEST(MonoClassifier, AsInTheThesisTheRectangleWithTheSurestDetectionWins) {
   MonoClassifierOptions options = dnnOptions();
-  options.method = MonoClassifierOptions::kThesis;
+  options.method = MonoMethod::kThesis;
   ObjectList objects;
   objects.objects = {objectAt(10.2, 0.0, 0.4, 0.4, 0.0)};
   const MonoClassification result = classified({kPerson, kCar}, objects, options);

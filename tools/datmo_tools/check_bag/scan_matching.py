@@ -22,7 +22,7 @@ class ScanMatch(NamedTuple):
     motion: np.ndarray  # x, y (m), yaw (rad)
     residual: float  # m, median distance of matched points from their lines
     share: float  # 0 to 1, of the points that are matched
-    weakest: float  # 0 to 0.5: how much of the lines speaks of the direction least known
+    weakest: float  # 0 to 0.5: how much of the lines constrains the direction least known
 
 
 class Outline:

@@ -71,7 +71,7 @@ def with_probability(preset, probability):
 
 
 def tally(drive, scored):
-    """What one score (dictionary of score_run) tells of the curve."""
+    """What one score (dictionary of score_run) says of the curve."""
     return {
         "drive": drive,
         "misses": scored["clear_mot"]["misses"],

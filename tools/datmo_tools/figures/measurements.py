@@ -11,7 +11,7 @@ from datmo_tools.figures.step import Job, read_json
 SCENES = ("straight_road", "guard_rails")
 ROBUSTNESS_SEEDS = 5
 
-# Of all benchmarks those that tell of a stage.
+# Of all benchmarks those of a stage.
 HOT_PATHS = (
     "slamStep", "gridUpdate", "detection", "trackerStep", "immPredictAndUpdate", "rankedAssignments",
     "roadBorderScan", "cloudToScan", "stereoGrid", "stereoObjects", "objectFusion", "trackFusion",

@@ -13,11 +13,11 @@
 namespace datmo {
 
 struct GridFuserOptions {
-  std::string rule = "dempster_shafer";
+  FusionRule rule = FusionRule::kDempsterShafer;
   double mover_speed = 15.0;                         ///< m/s
   std::map<std::string, GridSourceOptions> sources;  ///< by name; at first lidar and stereo
 
-  /// Vision has the word where it sees, for a planar scanner takes road paint for obstacles and
+  /// Vision decides where it sees, for a planar scanner takes road paint for obstacles and
   /// misses thin poles (thesis 3.2.3).
   GridFuserOptions();
 
@@ -38,16 +38,15 @@ struct FusionResult {
 class GridFuser {
  public:
   /// Throws OptionError.
-  explicit GridFuser(const GridFuserOptions& options);
+  explicit GridFuser(const Checked<GridFuserOptions>& options);
 
-  FusionRule rule() const { return rule_; }
+  FusionRule rule() const { return options_.rule; }
 
   /// All of the set's sources must be in the options (else std::out_of_range).
   FusionResult fuse(const MatchedGrids& matched, const MotionBetween& motion) const;
 
  private:
   GridFuserOptions options_;
-  FusionRule rule_;
 };
 
 }  // namespace datmo

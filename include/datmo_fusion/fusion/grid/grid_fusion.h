@@ -12,23 +12,16 @@ namespace datmo {
 /// Rule that combines the evidence of several sensors on a cell.
 enum class FusionRule {
   kWeightedSum,     ///< mean of those that know the cell, by weight (thesis eq. 3.2.5)
-  kPriority,        ///< the word of the first that sees the cell: vision, then lidar (eq. 3.2.6)
+  kPriority,        ///< the value of the first that sees the cell: vision, then lidar (eq. 3.2.6)
   kMaximum,         ///< the most occupied (eq. 4.1.8)
   kLogOdds,         ///< Bayes, for independent sensors: the log-odds add up
   kDempsterShafer,  ///< evidence theory, Dempster's rule (perspective of thesis 6.2)
 };
 
-/// The rules under the names that parameters use: weighted_sum, priority, maximum, log_odds,
-/// dempster_shafer.
-const std::vector<std::string>& fusionRuleNames();
-
-/// Throws OptionError for a name that there is not.
-FusionRule fusionRule(const std::string& name);
-
 /// How far one source is to be believed.
 struct GridSourceOptions {
   bool use = true;
-  int priority = 0;          ///< for kPriority: the highest has the word
+  int priority = 0;          ///< for kPriority: the highest decides
   double weight = 0.5;       ///< for kWeightedSum
   double reliability = 1.0;  ///< for kLogOdds, kDempsterShafer and the conflict
 

@@ -25,7 +25,7 @@ class WrongWindowError : public std::invalid_argument {
 /// there is a newer one.
 class GridMatcher {
  public:
-  /// `sources`: the names of all that may speak. Throws OptionError, also if the reference is not
+  /// `sources`: the names of all that may publish. Throws OptionError, also if the reference is not
   /// one of them.
   GridMatcher(const SourceMatcherOptions& options, const std::vector<std::string>& sources);
 

@@ -9,11 +9,11 @@
 
 namespace datmo {
 
-struct ObjectAssociationOptions {
-  static constexpr char kOptimal[] = "optimal";
-  static constexpr char kNearestNeighbor[] = "nearest_neighbor";
+/// Which objects of two sensors are one (associate).
+enum class ObjectAssociationMethod { kOptimal, kNearestNeighbor };
 
-  std::string association = kOptimal;
+struct ObjectAssociationOptions {
+  ObjectAssociationMethod association = ObjectAssociationMethod::kOptimal;
   double gate = 13.8;                ///< 1
   double unrelated_density = 0.002;  ///< 1/m^2
   double object_speed = 10.0;        ///< m/s

@@ -38,6 +38,7 @@ struct ObjectFuserOptions {
   ObjectFuserOptions();
 
   void visit(OptionVisitor& visitor);
+  void check() const;
 
   /// Names of the sources that are in use.
   std::vector<std::string> sourcesInUse() const;
@@ -84,7 +85,7 @@ struct ObjectFusionResult {
 class ObjectFuser {
  public:
   /// Throws OptionError.
-  explicit ObjectFuser(const ObjectFuserOptions& options);
+  explicit ObjectFuser(const Checked<ObjectFuserOptions>& options);
 
   /// The first list is the reference; all sources must be in the options, and there must be one
   /// (else std::out_of_range).

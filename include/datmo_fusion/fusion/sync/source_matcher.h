@@ -27,13 +27,12 @@ struct SourceMatcherOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Throws OptionError for options that are not valid, and for a reference that is not one of the
-/// sources.
-void checkMatcher(const SourceMatcherOptions& options, const std::vector<std::string>& sources);
+/// Throws OptionError for a reference that is not one of the sources.
+void checkReference(const SourceMatcherOptions& options, const std::vector<std::string>& sources);
 
 /// In how many sets a sample may be.
 enum class Serving {
-  kOften,  ///< it is the newest word of its source until there is a newer one
+  kOften,  ///< it is the latest of its source until there is a newer one
   kOnce,   ///< it is evidence, which must not be counted twice
 };
 
@@ -56,12 +55,13 @@ class SourceMatcher {
  public:
   using Matched = MatchedSamples<Payload>;
 
-  /// `sources`: the names of all that may speak; `late_by`: s, by how much those that no set waits
-  /// for may be late. Throws OptionError (checkMatcher).
-  SourceMatcher(const SourceMatcherOptions& options, const std::vector<std::string>& sources,
-                Serving serving, const std::map<std::string, double>& late_by = {})
-      : options_(options), serving_(serving) {
-    checkMatcher(options, sources);
+  /// `sources`: the names of all that may publish; `late_by`: s, by how much those that no set
+  /// waits for may be late. Throws OptionError.
+  SourceMatcher(const Checked<SourceMatcherOptions>& options,
+                const std::vector<std::string>& sources, Serving serving,
+                const std::map<std::string, double>& late_by = {})
+      : options_(*options), serving_(serving) {
+    checkReference(*options, sources);
     for (const std::string& source : sources) {
       const auto late = late_by.find(source);
       sources_[source].setLateBy(late == late_by.end() ? 0.0 : late->second);

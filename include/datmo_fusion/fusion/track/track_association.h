@@ -18,11 +18,11 @@
 
 namespace datmo {
 
-struct TrackAssociationOptions {
-  static constexpr char kAccumulated[] = "accumulated";
-  static constexpr char kParallel[] = "parallel";
+/// When two tracks are one object (TrackAssociation).
+enum class TrackAssociationTest { kAccumulated, kParallel };
 
-  std::string test = kAccumulated;
+struct TrackAssociationOptions {
+  TrackAssociationTest test = TrackAssociationTest::kAccumulated;
   TrackComparisonOptions comparison;
   WindowedEvidenceOptions evidence;
   ParallelTracksOptions parallel;
@@ -63,7 +63,7 @@ using TrackGroup = std::vector<TrackPosition>;
 class TrackAssociation {
  public:
   /// Throws OptionError.
-  explicit TrackAssociation(const TrackAssociationOptions& options);
+  explicit TrackAssociation(const Checked<TrackAssociationOptions>& options);
 
   /// The groups of the tracks of a time, in the order of their first tracks: those of the first
   /// source, then the others'. Stamps rise.

@@ -10,12 +10,11 @@
 
 namespace datmo {
 
-struct TrackCombinationOptions {
-  static constexpr char kCovarianceIntersection[] = "covariance_intersection";
-  static constexpr char kBarShalomCampo[] = "bar_shalom_campo";
-  static constexpr char kInformation[] = "information";
+/// How the states of two trackers are fused (fusedState).
+enum class TrackCombinationMethod { kCovarianceIntersection, kBarShalomCampo, kInformation };
 
-  std::string method = kCovarianceIntersection;
+struct TrackCombinationOptions {
+  TrackCombinationMethod method = TrackCombinationMethod::kCovarianceIntersection;
   double max_correlation = 0.95;  ///< 1
 
   void visit(OptionVisitor& visitor);

@@ -4,59 +4,22 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/stamp.h"
+#include "datmo_fusion/fusion/track/fused_targets.h"
 #include "datmo_fusion/fusion/track/track_association.h"
 #include "datmo_fusion/fusion/track/track_combination.h"
-#include "datmo_fusion/fusion/track/track_prediction.h"
+#include "datmo_fusion/fusion/track/track_correlations.h"
+#include "datmo_fusion/fusion/track/track_fuser_options.h"
 #include "datmo_fusion/tracking/track.h"
+#include "datmo_fusion/tracking/track_paths.h"
 #include "datmo_fusion/visibility/visibility.h"
 
 namespace datmo {
-
-/// One source of tracks.
-struct TrackSourceOptions {
-  bool use = true;
-  double detection_probability = 0.8;        ///< 1
-  double false_agreement_probability = 0.1;  ///< 1
-
-  void visit(OptionVisitor& visitor);
-};
-
-struct TrackFuserOptions {
-  static constexpr char kFusedPlusFallback[] = "fused_plus_fallback";
-  static constexpr char kConfirmedByAll[] = "confirmed_by_all";
-  static constexpr char kUnion[] = "union";
-
-  std::map<std::string, TrackSourceOptions> sources;  ///< by name; at first lidar and stereo
-  std::string scheme = kFusedPlusFallback;
-  std::string beyond = "lidar";  ///< name of a source
-  int max_tracks = 200;
-  double misses = 0.75;              ///< 1
-  double published_existence = 0.5;  ///< 1
-  double memory = 1.5;               ///< s
-  double history_time = 3.0;         ///< s
-  TrackPredictionOptions prediction;
-  TrackAssociationOptions association;
-  TrackCombinationOptions combination;
-  VisibilityOptions visibility;
-
-  TrackFuserOptions();
-
-  void visit(OptionVisitor& visitor);
-
-  /// Throws OptionError where `beyond` is none of the sources in use.
-  void check() const;
-
-  /// Names of the sources that are in use.
-  std::vector<std::string> sourcesInUse() const;
-};
-
-/// Which tracks come out: the schemes' names.
-const std::vector<std::string>& trackSchemeNames();
 
 /// The newest tracks of one source; all sources in one fixed frame.
 struct SourceTracks {
@@ -102,24 +65,58 @@ struct TrackFusionResult {
 class TrackFuser {
  public:
   /// Throws OptionError.
-  explicit TrackFuser(const TrackFuserOptions& options);
-  ~TrackFuser();
+  explicit TrackFuser(const Checked<TrackFuserOptions>& options);
 
-  /// The tracks at `stamp`, of the newest lists of all sources that speak. A list may have been
+  /// The tracks at `stamp`, of the newest lists of all sources that publish. A list may have been
   /// given before; it is no new evidence then. Tracks that do not name their sensors are their
   /// source's own. All sources must be in the options (else std::out_of_range).
   TrackFusionResult fuse(Stamp stamp, const std::vector<SourceTracks>& sources);
 
   /// Goes on with other live options (Tier::kLive) from the next call on; all others must be as
   /// they were. Throws OptionError.
-  void setOptions(const TrackFuserOptions& options);
+  void setOptions(const Checked<TrackFuserOptions>& options);
 
   /// Forgets all tracks; ids go on, so that none is reused.
   void reset();
 
  private:
-  class State;
-  std::unique_ptr<State> state_;
+  std::vector<PresentTracks> ingest(Stamp stamp, const std::vector<SourceTracks>& sources,
+                                    TrackFusionCounts& counts);
+  std::vector<Track> fused(const std::vector<TrackGroup>& groups,
+                           const std::vector<PresentTracks>& present,
+                           const std::vector<std::optional<Point2>>& sensors,
+                           TrackFusionCounts& counts);
+
+  /// Of what the tracks before this one of a group are together, and it: of more than one, their
+  /// mean. The method that has no use for it does not pay for it.
+  CrossCovariance crossCovariance(const TrackGroup& group, std::size_t index,
+                                  const std::vector<PresentTracks>& present);
+
+  /// How much each source would have detected each target lately. Who has a track of it is not
+  /// evaluated: when it loses that, it takes a while until it is missed.
+  void look(const std::vector<SourceTracks>& sources, double seconds);
+  void judgeAll(Stamp stamp, const std::vector<PresentTracks>& present);
+
+  /// The source's own track of a target; null if it has none.
+  const Track* trackOf(const FusedTarget& target, std::size_t source,
+                       const std::vector<PresentTracks>& present) const;
+  void judge(FusedTarget& target, Stamp stamp, const std::vector<PresentTracks>& present) const;
+  bool isWanted(const FusedTarget& target) const;
+
+  /// So that a source without a track of it is evidence against it: of one that is published
+  /// already when it has had time to confirm its own.
+  bool isInOthersView(const FusedTarget& target) const;
+  void publish(TrackFusionResult& result);
+
+  TrackFuserOptions options_;
+  std::vector<std::string> names_;              ///< of the sources, by number
+  std::map<std::string, std::size_t> numbers_;  ///< of the sources
+  TrackAssociation association_;
+  TrackCorrelations correlations_;
+  FusedTargets targets_;
+  TrackPaths paths_;
+  std::optional<Stamp> stamp_;                ///< of the last call
+  std::vector<std::optional<Stamp>> newest_;  ///< list of each source
 };
 
 }  // namespace datmo

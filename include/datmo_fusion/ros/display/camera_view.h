@@ -32,7 +32,7 @@ namespace datmo {
 class CameraView {
  public:
   /// `transforms` and `monitor` must outlive this. Throws OptionError.
-  CameraView(const CameraViewOptions& options, const TransformBuffer& transforms,
+  CameraView(const Checked<CameraViewOptions>& options, const TransformBuffer& transforms,
              StageMonitor& monitor);
 
   /// Of the rectified images: its matrix P serves; the newest one.

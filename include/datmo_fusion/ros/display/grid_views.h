@@ -35,7 +35,7 @@ class GridViews {
   static constexpr int kGap = 4;           ///< px, between two panels
 
   /// Throws OptionError: for panels see GridViewsOptions::panelNames; a picture that is too large.
-  explicit GridViews(const GridViewsOptions& options);
+  explicit GridViews(const Checked<GridViewsOptions>& options);
 
   /// From the left.
   const std::vector<std::string>& panels() const { return panels_; }

@@ -79,7 +79,7 @@ void addIntersection(const RoadBorders& road, const LabeledScanMessage& scan,
                      const MarkersOptions& options, visualization_msgs::MarkerArray& markers);
 
 /// Of what was left out: a gray outline ("dropped objects"), and why, how far it reaches beyond the
-/// border, and what speaks for its motion ("dropped labels").
+/// border, and the evidence of its motion ("dropped labels").
 visualization_msgs::MarkerArray markersOf(const DroppedObjects& dropped,
                                           const MarkersOptions& options);
 

@@ -22,7 +22,7 @@ namespace datmo {
 class ScanViews {
  public:
   /// Throws OptionError.
-  explicit ScanViews(const VisibilityOptions& options);
+  explicit ScanViews(const Checked<VisibilityOptions>& options);
 
   /// Takes a split scan, newer than those before, and what its message says.
   void add(const LabeledScanMessage& message, const LabeledScan& scan);

@@ -39,8 +39,8 @@ class CloudObjectsStage : public Stage {
   using Options = CloudObjectsStageOptions;
 
   /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
-  CloudObjectsStage(const CloudObjectsStageOptions& options, const TransformBuffer& transforms,
-                    StageMonitor& monitor);
+  CloudObjectsStage(const Checked<CloudObjectsStageOptions>& options,
+                    const TransformBuffer& transforms, StageMonitor& monitor);
 
   void takeOdometry(const nav_msgs::Odometry& message) { takeMotion(message); }
   void takePose(const geometry_msgs::PoseWithCovarianceStamped& message) { takeMotion(message); }

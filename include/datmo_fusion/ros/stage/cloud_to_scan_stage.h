@@ -44,8 +44,8 @@ class CloudToScanStage : public Stage {
   using Options = CloudToScanStageOptions;
 
   /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
-  CloudToScanStage(const CloudToScanStageOptions& options, const TransformBuffer& transforms,
-                   StageMonitor& monitor);
+  CloudToScanStage(const Checked<CloudToScanStageOptions>& options,
+                   const TransformBuffer& transforms, StageMonitor& monitor);
 
   /// Of a 3D lidar whose frame tf knows. Nothing if the cloud was dropped.
   std::optional<CloudToScanOutput> takeCloud(const sensor_msgs::PointCloud2& message);

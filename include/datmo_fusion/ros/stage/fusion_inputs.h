@@ -51,9 +51,9 @@ void checkSourceNames(const std::vector<std::string>& sources, const std::string
 /// until it is fused again, and so is one that for as long is always too late or whose motion is
 /// not known.
 ///
-/// The reference's stamps are the ones that hold: while it speaks, a message of another source that
-/// is ahead of them by more than `silent_after` is refused (`stamp_ahead`), for a clock that is
-/// ahead would make the reference look silent.
+/// The reference's stamps are the ones that hold: while it publishes, a message of another source
+/// that is ahead of them by more than `silent_after` is refused (`stamp_ahead`), for a clock that
+/// is ahead would make the reference look silent.
 ///
 /// Time is the data's: that of the newest message, and from its arrival on as much later as the
 /// caller's clock says. So the two clocks need not agree.

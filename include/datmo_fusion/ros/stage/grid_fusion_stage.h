@@ -42,7 +42,7 @@ class GridFusionStage : public Stage {
   using Options = GridFusionStageOptions;
 
   /// `monitor` must outlive the stage. Throws OptionError.
-  GridFusionStage(const GridFusionStageOptions& options, StageMonitor& monitor);
+  GridFusionStage(const Checked<GridFusionStageOptions>& options, StageMonitor& monitor);
 
   /// The sources in use, by name.
   std::vector<std::string> sources() const { return options_.fuser.sourcesInUse(); }

@@ -37,6 +37,7 @@ struct GridSlamStageOptions {
   GridSlamOptions slam;
 
   void visit(OptionVisitor& visitor);
+  void check() const;
   static SharedKeys sharedKeys();
 };
 
@@ -58,13 +59,13 @@ struct GridSlamOutput {
 /// With odometry, map -> odom is chosen so that odom -> base_link, at the scan's stamp, leads to
 /// the pose; odom -> base_link itself comes from whoever makes the odometry, and may be ahead of
 /// the scan. It is left out while odometry is silent. Without odometry, or with a motion that other
-/// sensors tell, map and odom are the same, and odom -> base_link is the pose.
+/// sensors measure, map and odom are the same, and odom -> base_link is the pose.
 class GridSlamStage : public Stage {
  public:
   using Options = GridSlamStageOptions;
 
   /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
-  GridSlamStage(const GridSlamStageOptions& options, const TransformBuffer& transforms,
+  GridSlamStage(const Checked<GridSlamStageOptions>& options, const TransformBuffer& transforms,
                 StageMonitor& monitor);
 
   /// Newest odometry, the vehicle's own or that of MotionStage, of which an Imu alone gives no

@@ -29,8 +29,8 @@ class HostInput {
  public:
   /// `runner`: of the stage, which is to call reset() when it is reset itself; it must outlive the
   /// input.
-  HostInput(const HostInputOptions& options, const MotionOptions& motion, FrameOptions frames,
-            StageRunner& runner);
+  HostInput(const Checked<HostInputOptions>& options, const MotionOptions& motion,
+            FrameOptions frames, StageRunner& runner);
 
   /// Throws InputError (`wrong_frame`, `bad_odometry`, and those of StageRunner::check).
   void take(const nav_msgs::Odometry& message);

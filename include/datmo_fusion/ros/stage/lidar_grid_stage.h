@@ -40,7 +40,7 @@ class LidarGridStage : public Stage {
   using Options = LidarGridStageOptions;
 
   /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
-  LidarGridStage(const LidarGridStageOptions& options, const TransformBuffer& transforms,
+  LidarGridStage(const Checked<LidarGridStageOptions>& options, const TransformBuffer& transforms,
                  StageMonitor& monitor);
 
   /// Newest odometry; not read where the options say that the vehicle has none.

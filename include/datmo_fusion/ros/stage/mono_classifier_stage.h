@@ -59,13 +59,14 @@ class MonoClassifierStage : public Stage {
   /// `clock`: none: without a thread, and the output depends on nothing but the input. `transforms`
   /// and `monitor` must outlive the stage. Throws OptionError; also for a model that cannot be
   /// used.
-  MonoClassifierStage(const MonoClassifierStageOptions& options, const TransformBuffer& transforms,
-                      StageMonitor& monitor, const StepClock& clock = {});
+  MonoClassifierStage(const Checked<MonoClassifierStageOptions>& options,
+                      const TransformBuffer& transforms, StageMonitor& monitor,
+                      const StepClock& clock = {});
 
   /// With a detector of the caller's. Throws OptionError.
-  MonoClassifierStage(const MonoClassifierStageOptions& options, const TransformBuffer& transforms,
-                      StageMonitor& monitor, const StepClock& clock,
-                      std::unique_ptr<MonoClassifier> classifier);
+  MonoClassifierStage(const Checked<MonoClassifierStageOptions>& options,
+                      const TransformBuffer& transforms, StageMonitor& monitor,
+                      const StepClock& clock, std::unique_ptr<MonoClassifier> classifier);
 
   /// Of the rectified images; the newest one serves.
   void takeCameraInfo(const sensor_msgs::CameraInfo& message);

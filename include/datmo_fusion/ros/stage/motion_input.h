@@ -28,7 +28,7 @@ class MotionInput {
  public:
   /// `runner`: of the stage, which is to call reset() when it is reset itself; it must outlive the
   /// input. Throws OptionError.
-  MotionInput(const MotionOptions& options, FrameOptions frames, StageRunner& runner);
+  MotionInput(const Checked<MotionOptions>& options, FrameOptions frames, StageRunner& runner);
 
   /// Not read where the speed is not measured. Throws InputError (`wrong_frame`, `bad_odometry`,
   /// `bad_pose`, and those of StageRunner::check).

@@ -39,7 +39,7 @@ class MovingObjectsStage : public Stage {
   using Options = MovingObjectsStageOptions;
 
   /// `monitor` must outlive the stage. Throws OptionError.
-  MovingObjectsStage(const MovingObjectsStageOptions& options, StageMonitor& monitor);
+  MovingObjectsStage(const Checked<MovingObjectsStageOptions>& options, StageMonitor& monitor);
 
   /// The road for the scans from now on, in the frame of their map; read if `road_borders`.
   void takeRoadBorders(const RoadBorders& message);

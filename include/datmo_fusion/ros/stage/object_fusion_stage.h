@@ -35,15 +35,15 @@ struct ObjectFusionStageOptions {
 /// the bag runner. What is accepted, and how a missing source is reported: FusionInputs. When
 /// the clock jumps back all state is forgotten.
 ///
-/// A list is fused once: a source slower than the reference is not heard twice. One that was in no
-/// set is counted. Objects and views that do not name their sensor are taken for their source's
+/// A list is fused once: a source slower than the reference does not count twice. One that was in
+/// no set is counted. Objects and views that do not name their sensor are taken for their source's
 /// own; views that are not valid are left out, and said.
 class ObjectFusionStage : public Stage {
  public:
   using Options = ObjectFusionStageOptions;
 
   /// `monitor` must outlive the stage. Throws OptionError.
-  ObjectFusionStage(const ObjectFusionStageOptions& options, StageMonitor& monitor);
+  ObjectFusionStage(const Checked<ObjectFusionStageOptions>& options, StageMonitor& monitor);
 
   /// The sources in use, by name.
   std::vector<std::string> sources() const { return options_.fuser.sourcesInUse(); }

@@ -54,8 +54,8 @@ class PointVelocityStage : public Stage {
   using Options = PointVelocityStageOptions;
 
   /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
-  PointVelocityStage(const PointVelocityStageOptions& options, const TransformBuffer& transforms,
-                     StageMonitor& monitor);
+  PointVelocityStage(const Checked<PointVelocityStageOptions>& options,
+                     const TransformBuffer& transforms, StageMonitor& monitor);
 
   void takeOdometry(const nav_msgs::Odometry& message);
   void takePose(const geometry_msgs::PoseWithCovarianceStamped& message);

@@ -43,7 +43,7 @@ class RiskStage : public Stage {
   using Options = RiskStageOptions;
 
   /// `monitor` must outlive the stage. Throws OptionError.
-  RiskStage(const RiskStageOptions& options, StageMonitor& monitor);
+  RiskStage(const Checked<RiskStageOptions>& options, StageMonitor& monitor);
 
   void takeLabeledScan(const LabeledScanMessage& message);
   void takeOdometry(const nav_msgs::Odometry& message);

@@ -26,7 +26,7 @@ class RoadBorderStage : public Stage {
   using Options = RoadBorderStageOptions;
 
   /// `monitor` must outlive the stage. Throws OptionError.
-  RoadBorderStage(const RoadBorderStageOptions& options, StageMonitor& monitor);
+  RoadBorderStage(const Checked<RoadBorderStageOptions>& options, StageMonitor& monitor);
 
   /// The road in the frame of the map that the scan was split by; null if the scan was dropped.
   RoadBordersPtr takeLabeledScan(const LabeledScanMessage& message);

@@ -42,7 +42,7 @@ class StaticPointsStage : public Stage {
   using Options = StaticPointsStageOptions;
 
   /// `monitor` must outlive the stage. Throws OptionError.
-  StaticPointsStage(const StaticPointsStageOptions& options, StageMonitor& monitor);
+  StaticPointsStage(const Checked<StaticPointsStageOptions>& options, StageMonitor& monitor);
 
   /// None if the scan was dropped.
   std::optional<StaticPointsOutput> takeLabeledScan(const LabeledScanMessage& message);

@@ -32,7 +32,7 @@ class StereoGridStage : public Stage {
   using Options = StereoGridStageOptions;
 
   /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
-  StereoGridStage(const StereoGridStageOptions& options, const TransformBuffer& transforms,
+  StereoGridStage(const Checked<StereoGridStageOptions>& options, const TransformBuffer& transforms,
                   StageMonitor& monitor);
 
   /// Of the right camera; the newest one serves.

@@ -38,7 +38,7 @@ class StereoInput {
  public:
   /// `transforms` must outlive this. Throws OptionError; for an active_stereo without baseline, and
   /// a min_depth that is not below max_depth, as well.
-  StereoInput(const StereoInputOptions& options, const TransformBuffer& transforms);
+  StereoInput(const Checked<StereoInputOptions>& options, const TransformBuffer& transforms);
 
   /// Of the right camera, or of the depth image; the newest one serves. Throws InputError
   /// (`bad_camera_info`).
@@ -56,7 +56,6 @@ class StereoInput {
   StereoCamera configuredCamera() const;
 
   StereoInputOptions options_;
-  DepthPrinciple principle_;
   const TransformBuffer& transforms_;
   std::optional<StereoCamera> camera_;  ///< as the last camera info says
 };

@@ -40,8 +40,8 @@ class StereoObjectsStage : public Stage {
   using Options = StereoObjectsStageOptions;
 
   /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
-  StereoObjectsStage(const StereoObjectsStageOptions& options, const TransformBuffer& transforms,
-                     StageMonitor& monitor);
+  StereoObjectsStage(const Checked<StereoObjectsStageOptions>& options,
+                     const TransformBuffer& transforms, StageMonitor& monitor);
 
   /// Of the right camera; the newest one serves.
   void takeCameraInfo(const sensor_msgs::CameraInfo& message);

@@ -38,7 +38,7 @@ class TrackFusionStage : public Stage {
   using Options = TrackFusionStageOptions;
 
   /// `monitor` must outlive the stage. Throws OptionError.
-  TrackFusionStage(const TrackFusionStageOptions& options, StageMonitor& monitor);
+  TrackFusionStage(const Checked<TrackFusionStageOptions>& options, StageMonitor& monitor);
 
   /// The sources in use, by name.
   std::vector<std::string> sources() const { return options_.fuser.sourcesInUse(); }

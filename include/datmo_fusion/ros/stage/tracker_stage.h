@@ -36,7 +36,7 @@ class TrackerStage : public Stage {
 
   /// `transforms` and `monitor` must outlive the stage. With a clock the tracker keeps to its time
   /// budget; without one its output depends on nothing but its input. Throws OptionError.
-  TrackerStage(const TrackerStageOptions& options, const TransformBuffer& transforms,
+  TrackerStage(const Checked<TrackerStageOptions>& options, const TransformBuffer& transforms,
                StageMonitor& monitor, StepClock clock = {});
 
   /// Where the vehicle was at this scan, and (`scan_view`) what it saw. It may come before or after

@@ -41,7 +41,7 @@ class VelocityWait {
   };
 
   /// `monitor` must outlive it. Throws OptionError.
-  VelocityWait(const VelocityWaitOptions& options, StageMonitor& monitor);
+  VelocityWait(const Checked<VelocityWaitOptions>& options, StageMonitor& monitor);
 
   /// By rising stamp.
   void addPoints(Stamp stamp, std::vector<PointVelocity> points);

@@ -1,40 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
+#include "datmo_fusion/ros/stage/grid_slam_stage.h"
+
 #include <limits>
 
 #include "message_samples.h"
-#include <boost/make_shared.hpp>
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/frames.h"
-#include "datmo_fusion/ros/stage/grid_slam_stage.h"
-#include "datmo_fusion/ros/stage/tracker_stage.h"
 
-namespace datmo::stages_test {
+namespace datmo::grid_slam_stage_test {
 namespace {
 
-tf2_msgs::TFMessage transforms(std::vector<geometry_msgs::TransformStamped> list) {
-  tf2_msgs::TFMessage message;
-  message.transforms = std::move(list);
-  return message;
-}
-
-/// Of a vehicle that drives at 8 m/s since the start.
-nav_msgs::Odometry odometry(double seconds) {
-  nav_msgs::Odometry message;
-  message.header.stamp = ros::Time(seconds);
-  message.header.frame_id = "odom";
-  message.child_frame_id = "base_link";
-  message.pose.pose = toMessage(Pose2(8.0 * (seconds - samples::kStart), 0.0, 0.0));
-  message.twist.twist.linear.x = 8.0;
-  return message;
-}
+nav_msgs::Odometry odometry(double seconds) { return samples::odometry(seconds, 8.0); }
 
 class GridSlamStageTest : public testing::Test {
  protected:
   void mountScanner() {
-    buffer_.addStatic(transforms({samples::transform("base_link", "scanner", 3.6)}));
+    buffer_.addStatic(samples::transforms({samples::transform("base_link", "scanner", 3.6)}));
   }
 
   std::optional<GridSlamOutput> scanAt(double seconds) {
@@ -88,8 +71,8 @@ TEST_F(GridSlamStageTest, MapToOdomTimesOdomToBaseIsThePose) {
   odometryAt(100.05);
   const auto output = scanAt(100.06);
   ASSERT_TRUE(output);
-  buffer_.add(transforms(output->transforms));
-  buffer_.add(transforms({samples::transform("odom", "base_link", 8.0 * 0.06, 100.06)}));
+  buffer_.add(samples::transforms(output->transforms));
+  buffer_.add(samples::transforms({samples::transform("odom", "base_link", 8.0 * 0.06, 100.06)}));
   const Pose2 through_tf = planarPose(buffer_.core(), "map", "base_link", ros::Time(100.06));
   const Pose2 pose = fromMessage(output->pose->pose.pose);
   EXPECT_NEAR((through_tf.position() - pose.position()).norm(), 0.0, 1e-6);
@@ -138,7 +121,7 @@ TEST_F(GridSlamStageTest, SilentOdometryIsWarnedOfAndTheRestGoesOn) {
 
 TEST_F(GridSlamStageTest, WithoutOdometryThePoseIsOdomToBase) {
   GridSlamStageOptions options;
-  options.motion.source = "none";
+  options.motion.source = MotionSource::kNone;
   GridSlamStage stage(options, buffer_, monitor_);
   mountScanner();
   const auto output = stage.takeScan(samples::laserScan());
@@ -152,7 +135,7 @@ TEST_F(GridSlamStageTest, WithoutOdometryThePoseIsOdomToBase) {
 
 TEST_F(GridSlamStageTest, OdometryThatTheVehicleDoesNotHaveIsNotRead) {
   GridSlamStageOptions options;
-  options.motion.source = "none";
+  options.motion.source = MotionSource::kNone;
   GridSlamStage stage(options, buffer_, monitor_);
   mountScanner();
   stage.takeOdometry(odometry(100.0));
@@ -287,137 +270,10 @@ TEST_F(GridSlamStageTest, OdometryOfOtherFramesIsDropped) {
   EXPECT_EQ(drops("wrong_frame"), 1U);
 }
 
-class TrackerStageTest : public testing::Test {
- protected:
-  void objectsAt(double seconds) {
-    const auto message = boost::make_shared<ObjectArray>();
-    message->header.stamp = ros::Time(seconds);
-    message->header.frame_id = "base_link";
-    stage_.takeObjects(message, Stamp::fromSeconds(seconds));
-  }
-
-  void poseAt(double seconds) {
-    buffer_.add(transforms({samples::transform("map", "base_link", 0.0, seconds)}));
-  }
-
-  void scanPoseAt(double seconds, const std::string& map_frame = "map") {
-    LabeledScan scan;
-    scan.stamp = Stamp::fromSeconds(seconds);
-    stage_.takeLabeledScan(toMessage(scan, "base_link", map_frame));
-  }
-
-  TrackArrayPtr nextAt(double seconds) { return stage_.next(Stamp::fromSeconds(seconds)); }
-
-  TransformBuffer buffer_{1.0};
-  StageMonitor monitor_{"tracker"};
-  TrackerStage stage_{TrackerStageOptions(), buffer_, monitor_};
-};
-
-TEST_F(TrackerStageTest, ObjectsWaitForTheirTransform) {
-  poseAt(99.9);
-  objectsAt(100.0);
-  EXPECT_FALSE(nextAt(100.1));
-  poseAt(100.02);
-  const auto tracks = nextAt(100.1);
-  ASSERT_TRUE(tracks);
-  EXPECT_EQ(tracks->header.stamp, ros::Time(100.0));
-  EXPECT_EQ(tracks->header.frame_id, "map");
-  EXPECT_FALSE(nextAt(100.1));
-  EXPECT_EQ(monitor_.droppedCount(), 0U);
-}
-
-TEST_F(TrackerStageTest, ThePoseOfTheirScanServesBeforeTfDoes) {
-  poseAt(99.9);
-  objectsAt(100.0);
-  scanPoseAt(99.94);
-  EXPECT_FALSE(nextAt(100.0)) << "only the pose at their own stamp counts";
-  scanPoseAt(100.0);
-  const auto tracks = nextAt(100.0);
-  ASSERT_TRUE(tracks);
-  EXPECT_EQ(tracks->header.stamp, ros::Time(100.0));
-}
-
-TEST_F(TrackerStageTest, ThePoseOfTheirScanServesOnlyInTheFrameOfTheTracks) {
-  poseAt(99.9);
-  objectsAt(100.0);
-  scanPoseAt(100.0, "world");
-  EXPECT_FALSE(nextAt(100.0));
-}
-
-TEST_F(TrackerStageTest, AScanOfARestartedClockForgetsAllTracksOnce) {
-  poseAt(99.9);
-  objectsAt(110.0);
-  scanPoseAt(110.0);
-  EXPECT_TRUE(nextAt(110.0));
-  scanPoseAt(100.0);
-  objectsAt(100.0);
-  EXPECT_TRUE(nextAt(100.0));
-  EXPECT_EQ(monitor_.warnings().at("clock_restart"), 1U);
-}
-
-TEST_F(TrackerStageTest, ThoseThatWaitedTooLongMakeRoomForTheNext) {
-  objectsAt(100.0);
-  objectsAt(100.1);
-  scanPoseAt(100.1);
-  poseAt(99.9);
-  EXPECT_FALSE(nextAt(100.1)) << "the first waits";
-  const auto tracks = nextAt(100.5);
-  ASSERT_TRUE(tracks);
-  EXPECT_EQ(tracks->header.stamp, ros::Time(100.1));
-  EXPECT_EQ(monitor_.drops().at("missing_transform"), 1U);
-}
-
-TEST_F(TrackerStageTest, LiveOptionsAreListedAndChanged) {
-  stage_.change({{"target/motion_likelihood/required_probability", 0.95}});
-  const std::vector<LiveOption> live = stage_.live();
-  const auto changed = std::find_if(live.begin(), live.end(), [](const LiveOption& option) {
-    return option.key == "target/motion_likelihood/required_probability";
-  });
-  ASSERT_NE(changed, live.end());
-  EXPECT_EQ(changed->value, OptionValue(0.95));
-  EXPECT_THROW(stage_.change({{"published_existence", 2.0}}), OptionError);
-  EXPECT_THROW(stage_.change({{"history_time", 1.0}}), OptionError) << "not live";
-}
-
 TEST_F(GridSlamStageTest, AStageWithoutLiveOptionsRefusesThemAll) {
   EXPECT_TRUE(stage_.live().empty());
   EXPECT_THROW(stage_.change({{"map_period", 2.0}}), OptionError);
 }
 
-TEST_F(TrackerStageTest, ABadPoseOfAScanIsDropped) {
-  LabeledScanMessage scan = toMessage(LabeledScan(), "base_link", "map");
-  scan.pose.pose.orientation.w = std::numeric_limits<double>::quiet_NaN();
-  stage_.takeLabeledScan(scan);
-  EXPECT_EQ(monitor_.drops().at("bad_pose"), 1U);
-}
-
-TEST_F(TrackerStageTest, AfterTheLongestWaitTheyAreDroppedAndTheNextServed) {
-  objectsAt(100.0);
-  objectsAt(101.0);
-  poseAt(100.9);
-  poseAt(101.1);
-  const auto tracks = nextAt(101.1);
-  ASSERT_TRUE(tracks);
-  EXPECT_EQ(tracks->header.stamp, ros::Time(101.0));
-  EXPECT_EQ(monitor_.drops().at("missing_transform"), 1U);
-}
-
-TEST_F(TrackerStageTest, TheQueueIsBounded) {
-  for (int i = 0; i < 200; ++i) {
-    objectsAt(100.0 + 0.001 * i);
-  }
-  EXPECT_EQ(monitor_.drops().at("queue_full"), 150U);
-}
-
-TEST_F(TrackerStageTest, AJumpBackForgetsWhatWaits) {
-  objectsAt(110.0);
-  objectsAt(100.0);
-  poseAt(100.0);
-  const auto tracks = nextAt(100.0);
-  ASSERT_TRUE(tracks);
-  EXPECT_EQ(tracks->header.stamp, ros::Time(100.0));
-  EXPECT_EQ(monitor_.warnings().at("clock_restart"), 1U);
-}
-
 }  // namespace
-}  // namespace datmo::stages_test
+}  // namespace datmo::grid_slam_stage_test

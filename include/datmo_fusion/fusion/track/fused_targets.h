@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "datmo_fusion/fusion/track/track_fuser.h"
+#include "datmo_fusion/fusion/track/track_fuser_options.h"
 #include "datmo_fusion/tracking/track.h"
 
 namespace datmo {
