@@ -129,7 +129,7 @@ std::vector<StampedPose> turnedAndDrifting() {
 }
 
 /// Where a track that the run has at (0, 13) at 1 s comes to lie, with this alignment.
-TrackState alignedTrack(const std::string& align) {
+TrackState alignedTrack(TrackAlignment align) {
   ScoreOptions options = optionsForBriefObjects();
   options.align = align;
   RecordedTrack track = movingTrackAt(7, 0.0, 13.0);
@@ -147,7 +147,7 @@ TrackState alignedTrack(const std::string& align) {
 }
 
 TEST(BuildFrames, PoseAtStampTakesTheDriftOut) {
-  const TrackState track = alignedTrack("pose_at_stamp");
+  const TrackState track = alignedTrack(TrackAlignment::kPoseAtStamp);
   EXPECT_NEAR(track.box.center.x(), 10.0, 1e-9);
   EXPECT_NEAR(track.box.center.y(), 0.0, 1e-9);
   EXPECT_NEAR(track.box.center.heading(), 0.0, 1e-9);
@@ -157,14 +157,14 @@ TEST(BuildFrames, PoseAtStampTakesTheDriftOut) {
 }
 
 TEST(BuildFrames, FirstPoseLeavesTheDriftIn) {
-  const TrackState track = alignedTrack("first_pose");
+  const TrackState track = alignedTrack(TrackAlignment::kFirstPose);
   EXPECT_NEAR(track.box.center.x(), 13.0, 1e-9);
   EXPECT_NEAR(track.box.center.y(), 0.0, 1e-9);
   EXPECT_NEAR(track.velocity.x(), 10.0, 1e-9);
 }
 
 TEST(BuildFrames, NoneTakesTheMapAsItIs) {
-  const TrackState track = alignedTrack("none");
+  const TrackState track = alignedTrack(TrackAlignment::kNone);
   EXPECT_NEAR(track.box.center.x(), 0.0, 1e-9);
   EXPECT_NEAR(track.box.center.y(), 13.0, 1e-9);
 }

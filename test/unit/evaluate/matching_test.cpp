@@ -41,7 +41,7 @@ TEST(Matching, DistanceToTheBoxOrItsCenter) {
   const TrackState behind = trackAt(1, 10.0, -0.5);
   const TrackState beside = trackAt(2, 10.5, 8.0);
   const MatchOptions to_box;
-  const MatchOptions to_center{2.0, "to_center"};
+  const MatchOptions to_center{2.0, MatchDistance::kToCenter};
   EXPECT_NEAR(matchDistance(truck, behind, to_box), 1.5, 1e-12);
   EXPECT_NEAR(matchDistance(truck, behind, to_center), 5.5, 1e-12);
   EXPECT_EQ(matchDistance(truck, beside, to_box), 0.0);

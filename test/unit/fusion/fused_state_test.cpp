@@ -226,7 +226,8 @@ TEST(FusedStateTest, HowMuchOfTheSecondOneIsNewsIsByTheMethod) {
 
 TEST(FusedStateTest, OptionsAreChecked) {
   EXPECT_NO_THROW(checkOptions(TrackCombinationOptions()));
-  EXPECT_THROW(checkOptions(by("average")), OptionError);
+  EXPECT_THROW(readOptions<TrackCombinationOptions>({{"method", std::string("average")}}),
+               OptionError);
   TrackCombinationOptions options;
   options.max_correlation = 1.0;
   EXPECT_THROW(checkOptions(options), OptionError);

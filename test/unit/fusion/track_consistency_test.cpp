@@ -155,15 +155,15 @@ TEST_P(TrackConsistencyTest, EachTrackerIsHonest) {
 }
 
 TEST_P(TrackConsistencyTest, InformationFusionIsOverConfident) {
-  EXPECT_GT(trackers_.fusedBy("information").nees, kMaxNees);
+  EXPECT_GT(trackers_.fusedBy(TrackCombinationMethod::kInformation).nees, kMaxNees);
 }
 
 TEST_P(TrackConsistencyTest, CovarianceIntersectionIsNot) {
-  EXPECT_LT(trackers_.fusedBy("covariance_intersection").nees, kMaxNees);
+  EXPECT_LT(trackers_.fusedBy(TrackCombinationMethod::kCovarianceIntersection).nees, kMaxNees);
 }
 
 TEST_P(TrackConsistencyTest, BarShalomCampoIsAsSureAsItSays) {
-  const Consistency fused = trackers_.fusedBy("bar_shalom_campo");
+  const Consistency fused = trackers_.fusedBy(TrackCombinationMethod::kBarShalomCampo);
   EXPECT_GT(fused.nees, kMinNees);
   EXPECT_LT(fused.nees, kMaxNees);
 }
@@ -173,10 +173,13 @@ TEST_P(TrackConsistencyTest, FusedStatesAreNoWorseThanTheBetterTracker) {
   constexpr double kChance = 1.02;
   const Consistency a = trackers_.ofA();
   const Consistency b = trackers_.ofB();
-  for (const std::string method : {"covariance_intersection", "bar_shalom_campo"}) {
+  for (const TrackCombinationMethod method :
+       {TrackCombinationMethod::kCovarianceIntersection, TrackCombinationMethod::kBarShalomCampo}) {
     const Consistency fused = trackers_.fusedBy(method);
-    EXPECT_LT(fused.position_rms, kChance * std::min(a.position_rms, b.position_rms)) << method;
-    EXPECT_LT(fused.velocity_rms, kChance * std::min(a.velocity_rms, b.velocity_rms)) << method;
+    EXPECT_LT(fused.position_rms, kChance * std::min(a.position_rms, b.position_rms))
+        << static_cast<int>(method);
+    EXPECT_LT(fused.velocity_rms, kChance * std::min(a.velocity_rms, b.velocity_rms))
+        << static_cast<int>(method);
   }
 }
 

@@ -158,7 +158,6 @@ TEST(TrackFusionStageOptionsTest, BadOptionsAreRefused) {
   };
   refused([](auto& options) { options.matcher.reference = "radar"; });
   refused([](auto& options) { options.fuser.sources["lidar"].use = false; });
-  refused([](auto& options) { options.fuser.scheme = "all"; });
   refused([](auto& options) { options.matcher.tolerance = kNan; });
   for (const char* const name : {"fused", "", "2nd", "rear-lidar", "a b"}) {
     refused([&](auto& options) { options.fuser.sources[name].use = true; });
