@@ -54,8 +54,8 @@ class StackNodelet : public nodelet::Nodelet {
     const bool may_come_yet = !said_ && health.level != HealthLevel::kGood && ++beats_ < kPatience;
     if (health.level != said_ && !may_come_yet) {
       said_ = health.level;
-      ROS_LOG(health.level == HealthLevel::kGood ? ros::console::levels::Info
-                                                 : ros::console::levels::Warn,
+      const bool is_good = health.level == HealthLevel::kGood;
+      ROS_LOG(is_good ? ros::console::levels::Info : ros::console::levels::Warn,
               ROSCONSOLE_DEFAULT_NAME, "stack: %s", health.sentence.c_str());
     }
   }
