@@ -31,7 +31,13 @@ void check(const geometry_msgs::TransformStamped& stamped) {
   checkStampRange(stamped.header.stamp);
   const auto& t = stamped.transform.translation;
   const auto& q = stamped.transform.rotation;
-  const std::string name = stamped.header.frame_id + " -> " + stamped.child_frame_id;
+  const std::string& parent = stamped.header.frame_id;
+  const std::string& child = stamped.child_frame_id;
+  const std::string name = parent + " -> " + child;
+  if (parent.empty() || child.empty() || parent == child) {
+    throw InputError("bad_transform", "transform '" + parent + "' -> '" + child +
+                                          "': expected two frames with names; ignores it");
+  }
   for (const double coordinate : {t.x, t.y, t.z}) {
     if (!(std::abs(coordinate) <= kMaxCoordinate)) {
       throw InputError("bad_transform", "transform " + name + " has a coordinate of " +

@@ -34,7 +34,8 @@ struct Cause {
 class RunBagCauses : public RunBag {
  protected:
   StackHealth healthAfter(const Cause& cause) {
-    writeConfig(cause.config + (cause.has_mount ? "mounts: {scanner: {x: 2.0}}\n" : "\n"));
+    writeConfig("grid_slam: {map_period: 0.5}\n" + cause.config +
+                (cause.has_mount ? "mounts: {scanner: {x: 2.0}}\n" : ""));
     GraphRunner graph(SensorSet(arguments_.config), GraphSwitches());
     Stamp stamp = kStart;
     for (int i = 0; i < kScans; ++i) {
@@ -66,7 +67,7 @@ std::vector<Cause> causes() {
       {"no scan", [](Sent& sent) { sent.scan.reset(); }, "no tracks: grid_slam: no scan yet"},
       {"no mount", [](Sent&) {}, "no tracks: grid_slam: transform base_link -> scanner", false, ""},
       {"no frame", scan([](auto& each) { each.header.frame_id = ""; }),
-       "no tracks: grid_slam: scan without frame_id"},
+       "no tracks: grid_slam: a message without frame_id"},
       {"another frame", scan([](auto& each) { each.header.frame_id = "laser"; }),
        "no tracks: grid_slam: transform base_link -> laser"},
       {"stamp of zero", scan([](auto& each) { each.header.stamp = ros::Time(); }),
@@ -76,11 +77,14 @@ std::vector<Cause> causes() {
       {"stamps beyond 2100",
        scan([](auto& each) { each.header.stamp = ros::Time(4200000000U, 0); }),
        "no tracks: grid_slam: stamp 4200000000 s"},
-      {"no beams", scan([](auto& each) { each.ranges.clear(); }), "no tracks: grid_slam: "},
-      {"too few beams", scan([](auto& each) { each.ranges.resize(3); }), "no tracks: grid_slam: "},
+      {"no beams", scan([](auto& each) { each.ranges.clear(); }),
+       "no tracks: grid_slam: scan without beams"},
+      {"too few beams", scan([](auto& each) { each.ranges.resize(3); }),
+       "no tracks: grid_slam: scan with 3 beams: expected 81"},
       {"no spacing", scan([](auto& each) { each.angle_increment = 0.0F; }),
-       "no tracks: grid_slam: "},
-      {"no range", scan([](auto& each) { each.range_max = kNan; }), "no tracks: grid_slam: "},
+       "no tracks: grid_slam: scan with an angle increment of 0"},
+      {"no range", scan([](auto& each) { each.range_max = kNan; }),
+       "no tracks: grid_slam: scan with an angle or range limit of nan"},
       {"odometry of a trailer", [](Sent& sent) { sent.odometry->child_frame_id = "trailer"; },
        "less than all: grid_slam: odometry of 'trailer' in 'odom': expected 'base_link' in 'odom'"},
       {"odometry without frame", [](Sent& sent) { sent.odometry->header.frame_id = ""; },

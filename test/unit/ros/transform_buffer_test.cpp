@@ -128,6 +128,16 @@ TEST_F(BadTransformTest, ARotationThatIsNone) {
   EXPECT_EQ(samples::warnings(monitor_, "bad_transform"), 3U);
 }
 
+TEST_F(BadTransformTest, FramesThatAreNone) {
+  tf2_msgs::TFMessage bad = tf("base_link", 0.1);
+  bad.transforms[0].child_frame_id = "";
+  expectRefused(bad, "bad_transform");
+  bad.transforms[0].child_frame_id = "base_link";
+  buffer_.add(bad);
+  buffer_.add(tf("", 0.1));
+  EXPECT_EQ(samples::warnings(monitor_, "bad_transform"), 4U);
+}
+
 TEST_F(MountedBufferTest, AMountBeyondAnyVehicleIsRefused) {
   buffer_.addStatic(tf("base_link", 101.0));
   EXPECT_EQ(samples::reasonOf([this] { laserX(); }), "mount_too_far");
