@@ -1,21 +1,76 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/common/stamp_gate.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace datmo {
 
-StampVerdict StampGate::judge(Stamp stamp) {
-  if (newest_ && stamp <= *newest_) {
-    if (stamp == *newest_) {
-      return StampVerdict::kRepeated;
-    }
-    if (secondsBetween(stamp, *newest_) < restart_after_) {
+namespace {
+
+/// A stream goes on when a step is not longer than so many of the one before: a slow sensor, which
+/// leaves out a message.
+constexpr double kMaxSteps = 2.5;
+
+/// ROS time confirms a jump that it has made itself up to this share of it: messages wait in
+/// queues.
+constexpr double kTimeTolerance = 0.5;
+
+}  // namespace
+
+StampVerdict StampGate::judge(Stamp stamp, const std::optional<Stamp>& now) {
+  if (!newest_) {
+    accept(stamp, 0.0, now);
+    return StampVerdict::kAccept;
+  }
+  if (stamp == *newest_) {
+    return StampVerdict::kRepeated;
+  }
+  const double step = secondsBetween(*newest_, stamp);
+  if (!isJump(step) && !(step < 0.0 && followsStray(stamp))) {
+    if (step < 0.0) {
       return StampVerdict::kOld;
     }
-    newest_ = stamp;
-    return StampVerdict::kRestart;
+    accept(stamp, step, now);
+    return StampVerdict::kAccept;
   }
+  if (!isConfirmed(stamp, now)) {
+    stray_ = stamp;
+    return StampVerdict::kStray;
+  }
+  accept(stamp, followsStray(stamp) ? secondsBetween(*stray_, stamp) : last_step_, now);
+  return step < 0.0 ? StampVerdict::kRestart : StampVerdict::kAccept;
+}
+
+bool StampGate::isJump(double step) const {
+  return step <= -restart_after_ || step >= std::max(restart_after_, kMaxSteps * last_step_);
+}
+
+bool StampGate::isConfirmed(Stamp stamp, const std::optional<Stamp>& now) const {
+  const double step = secondsBetween(*newest_, stamp);
+  if (followsStray(stamp)) {
+    return true;
+  }
+  if (!now || !came_) {
+    return true;
+  }
+  return std::abs(step - secondsBetween(*came_, *now)) < kTimeTolerance * restart_after_;
+}
+
+bool StampGate::followsStray(Stamp stamp) const {
+  if (!stray_ || !(stamp > *stray_)) {
+    return false;
+  }
+  const double jump = secondsBetween(*newest_, *stray_);
+  return secondsBetween(*stray_, stamp) <
+         std::max({restart_after_, kMaxSteps * last_step_, kMaxSteps * jump});
+}
+
+void StampGate::accept(Stamp stamp, double step, const std::optional<Stamp>& now) {
   newest_ = stamp;
-  return StampVerdict::kAccept;
+  came_ = now;
+  last_step_ = step;
+  stray_.reset();
 }
 
 }  // namespace datmo

@@ -27,9 +27,9 @@ class CameraViewNodelet : public nodelet::Nodelet {
     view_ = std::make_unique<CameraView>(options, *transforms_, *monitor_);
     ros::NodeHandle& node = getNodeHandle();
     // No input is missed while nobody looks.
-    reporter_ =
-        std::make_unique<StageReporter>(node, getPrivateNodeHandle(), *monitor_,
-                                        std::vector<std::string>{}, options.input.silence_after);
+    reporter_ = std::make_unique<StageReporter>(node, getPrivateNodeHandle(), *monitor_,
+                                                std::vector<WatchedInput>{}, StageTopics{},
+                                                options.input.silence_after);
     transform_subscription_ = std::make_unique<TransformSubscription>(node, *transforms_, *monitor_,
                                                                       [this] { publish(); });
     camera_info_ = node.subscribe("camera_info", kQueue, &CameraViewNodelet::takeCameraInfo, this);

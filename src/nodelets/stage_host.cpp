@@ -19,13 +19,16 @@ StageHost::StageHost(ros::NodeHandle node, ros::NodeHandle private_node, Stage& 
                      StageMonitor& monitor, TransformBuffer* transforms, double silence_after)
     : node_(std::move(node)), stage_(stage), monitor_(monitor) {
   stage_.connect(*this);
+  const auto resolved = [this](const std::string& topic) { return node_.resolveName(topic); };
+  const StageTopics topics = topicsOf(inputs_, outputs_, resolved);
   if (!stage_.live().empty()) {
     live_ = std::make_unique<LiveServer>(
         private_node, [this] { return stage_.live(); },
         [this](const OptionValues& values) { stage_.change(values); });
   }
-  reporter_ = std::make_unique<StageReporter>(node_, std::move(private_node), monitor_,
-                                              requiredInputs(), silence_after);
+  reporter_ =
+      std::make_unique<StageReporter>(node_, std::move(private_node), monitor_,
+                                      watchedInputs(inputs_, resolved), topics, silence_after);
   if (transforms != nullptr) {
     transforms_ = std::make_unique<TransformSubscription>(node_, *transforms, monitor_,
                                                           [this] { publishReady(); });
@@ -46,26 +49,18 @@ void StageHost::addInput(StageInput input) { inputs_.push_back(std::move(input))
 StageOutput::Publish StageHost::addOutput(StageOutput output) {
   // A result is on its way with its first message: what the stage writes after it (the map) is not
   // waited for.
-  return [this, publish = output.advertise(node_)](const AnyMessage& message) {
-    publish(message);
-    publishTiming();
-  };
-}
-
-std::vector<std::string> StageHost::requiredInputs() const {
-  std::vector<std::string> required;
-  for (const StageInput& input : inputs_) {
-    if (input.required) {
-      required.push_back(input.topic);
-    }
-  }
-  return required;
+  outputs_.push_back(output.topic);
+  return
+      [this, publish = output.advertise(node_), content = output.content,
+       check = std::make_shared<OutputCheck>(output.topic, monitor_)](const AnyMessage& message) {
+        if (check->passes(content(message))) {
+          publish(message);
+          publishTiming();
+        }
+      };
 }
 
 void StageHost::subscribe(const StageInput& input) {
-  if (input.booked_as != input.topic) {
-    reporter_->alsoOn(input.booked_as, node_.resolveName(input.topic));
-  }
   const auto take = [this, input](const AnyMessage& message, Stamp now) {
     guarded(monitor_, input.topic, [&] {
       input.take(message, now);

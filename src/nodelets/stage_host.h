@@ -30,7 +30,6 @@ class StageHost : private StagePorts {
   void addInput(StageInput input) override;
   StageOutput::Publish addOutput(StageOutput output) override;
 
-  std::vector<std::string> requiredInputs() const;
   void subscribe(const StageInput& input);
   void publishReady();
   /// What was made since the last call goes to the topic of times.
@@ -40,7 +39,8 @@ class StageHost : private StagePorts {
   Stage& stage_;
   StageMonitor& monitor_;
   std::vector<StageInput> inputs_;
-  std::uint64_t timed_ = 0;  ///< results
+  std::vector<std::string> outputs_;  ///< topics, as the stage calls them
+  std::uint64_t timed_ = 0;           ///< results
   std::unique_ptr<StageReporter> reporter_;
   std::unique_ptr<LiveServer> live_;
   std::unique_ptr<TransformSubscription> transforms_;

@@ -31,7 +31,13 @@ void check(const geometry_msgs::TransformStamped& stamped) {
   checkStampRange(stamped.header.stamp);
   const auto& t = stamped.transform.translation;
   const auto& q = stamped.transform.rotation;
-  const std::string name = stamped.header.frame_id + " -> " + stamped.child_frame_id;
+  const std::string& parent = stamped.header.frame_id;
+  const std::string& child = stamped.child_frame_id;
+  const std::string name = parent + " -> " + child;
+  if (parent.empty() || child.empty() || parent == child) {
+    throw InputError("bad_transform", "transform '" + parent + "' -> '" + child +
+                                          "': expected two frames with names; ignores it");
+  }
   for (const double coordinate : {t.x, t.y, t.z}) {
     if (!(std::abs(coordinate) <= kMaxCoordinate)) {
       throw InputError("bad_transform", "transform " + name + " has a coordinate of " +
@@ -114,13 +120,23 @@ bool TransformBuffer::isGood(const geometry_msgs::TransformStamped& transform) {
 bool TransformBuffer::isNew(const geometry_msgs::TransformStamped& transform) {
   const Stamp stamp = toStamp(transform.header.stamp);
   const auto gate = gates_.try_emplace(transform.child_frame_id, restart_after_).first;
-  const StampVerdict verdict = gate->second.judge(stamp);
+  const std::optional<Stamp> now = monitor_ != nullptr ? monitor_->now() : std::nullopt;
+  const StampVerdict verdict = gate->second.judge(stamp, now);
   if (verdict == StampVerdict::kRestart) {
     core_.clear();
     gates_.clear();  // so that the first transform of another frame does not clear this one
-    gates_.try_emplace(transform.child_frame_id, restart_after_).first->second.judge(stamp);
+    gates_.try_emplace(transform.child_frame_id, restart_after_).first->second.judge(stamp, now);
   }
-  return verdict != StampVerdict::kRepeated;
+  if (verdict == StampVerdict::kStray && monitor_ != nullptr) {
+    monitor_->warned(InputError(
+        "stray_stamp", "transform " + transform.header.frame_id + " -> " +
+                           transform.child_frame_id + " of " + std::to_string(stamp.seconds()) +
+                           " s, the newest is of " +
+                           std::to_string(gate->second.newest()->seconds()) +
+                           " s: expected the next one of its stream; ignores it, and follows the "
+                           "clock when a second one confirms that it has jumped"));
+  }
+  return verdict != StampVerdict::kRepeated && verdict != StampVerdict::kStray;
 }
 
 }  // namespace datmo

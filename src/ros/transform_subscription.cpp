@@ -21,6 +21,7 @@ TransformSubscription::TransformSubscription(ros::NodeHandle node, TransformBuff
   using Callback = boost::function<void(const tf2_msgs::TFMessageConstPtr&)>;
   const Callback add = [&buffer, &monitor, changed](const tf2_msgs::TFMessageConstPtr& message) {
     guarded(monitor, kTransforms, [&] {
+      monitor.setTime(toStamp(ros::Time::now()));
       buffer.add(*withPlainFrames(kTransforms, message, monitor));
       changed();
     });

@@ -17,7 +17,7 @@ namespace {
 class BadParametersTest : public testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_TRUE(ros::service::waitForService("/perception/list", ros::Duration(20.0)));
+    ASSERT_TRUE(ros::service::waitForService("/perception/list", ros::Duration(120.0)));
     log_ = node_.subscribe<rosgraph_msgs::Log>("/rosout", 1000,
                                                [this](const rosgraph_msgs::LogConstPtr& entry) {
                                                  if (entry->level >= rosgraph_msgs::Log::FATAL) {
@@ -28,7 +28,7 @@ class BadParametersTest : public testing::Test {
   }
 
   bool waitFor(const std::function<bool()>& condition) {
-    const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(20.0);
+    const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(120.0);
     while (!condition()) {
       if (ros::SteadyTime::now() > end) {
         return false;

@@ -25,8 +25,9 @@ class Listener {
  public:
   Listener();
 
-  /// Until the condition holds; false if it does not within `max_seconds` of the computer's clock.
-  bool waitFor(const std::function<bool()>& condition, double max_seconds = 20.0);
+  /// Until the condition holds; false if it does not within `max_seconds` of the computer's clock:
+  /// by far more than a machine needs that has other things to do.
+  bool waitFor(const std::function<bool()>& condition, double max_seconds = 120.0);
 
   /// Until the three nodelets are connected with this test, and have reported.
   bool waitForNodelets();

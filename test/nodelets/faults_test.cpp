@@ -112,6 +112,17 @@ TEST_F(FaultsTest, ScansThatComeTwiceOrLate) {
   expectRightPose();
 }
 
+TEST_F(FaultsTest, AStampFarOffIsOneMessage) {
+  const double restarts = chain_->diagnostic("grid_slam", "warned: clock_restart");
+  for (const double off : {1.1, -1.5, 1e6}) {
+    expectCounted("dropped: stray_stamp",
+                  [off](auto& scan) { scan.header.stamp += ros::Duration(off); });
+  }
+  driveOn(0.5);
+  expectRightPose();
+  EXPECT_EQ(chain_->diagnostic("grid_slam", "warned: clock_restart"), restarts);
+}
+
 TEST_F(FaultsTest, AGapOfThreeSeconds) {
   now_ += 3.0;
   ASSERT_TRUE(chain_->prepareMotion(now_));
@@ -121,6 +132,8 @@ TEST_F(FaultsTest, AGapOfThreeSeconds) {
 
 TEST_F(FaultsTest, ALoopedBag) {
   now_ = start_;
+  chain_->sendMotion(now_ -
+                     2.0 * kStep);  // odometry may overtake the clock: then the next confirms
   chain_->sendMotion(now_ - kStep);
   ASSERT_TRUE(chain_->waitFor(
       [] { return chain_->diagnostic("grid_slam", "warned: clock_restart") > 0.0; }));

@@ -41,7 +41,8 @@ class LowLevel : public StereoChain {
     return StereoChain::waitForNodelets({"lidar_grid", "stereo_grid", "grid_fusion", "tracker"}) &&
            waitFor([this] {
              return std::all_of(subscribers_.begin(), subscribers_.end(),
-                                [](const auto& grid) { return grid.getNumPublishers() >= 1; });
+                                [](const auto& grid) { return grid.getNumPublishers() >= 1; }) &&
+                    stereo_grid_.getNumSubscribers() >= 2;  // this test and grid_fusion
            });
   }
 
@@ -224,7 +225,8 @@ TEST_F(LowLevelTest, BadCloudsAreCounted) {
 }
 
 TEST_F(LowLevelTest, GridsOfAnotherWindowAreRefusedWithBothSizes) {
-  SensorGrid other(toStamp(chain_->grids["stereo"].back()->header.stamp) + 0.5 * kStep,
+  // After the last cloud, whose grid may not have come to this test yet.
+  SensorGrid other(Stamp::fromSeconds(World::kStart + now_ - 0.5 * kStep),
                    {0.5, 100, 100, {-50, -50}});
   chain_->sendStereoGrid(toMessage(other, "base_link"));
   ASSERT_TRUE(chain_->waitFor(

@@ -14,7 +14,7 @@ import roslaunch.config
 
 PACKAGE = Path(__file__).resolve().parents[2]
 
-ALWAYS = {"grid_slam", "motion", "moving_objects", "tracker", "markers"}
+ALWAYS = {"grid_slam", "motion", "moving_objects", "tracker", "markers", "stack"}
 LOW_LEVEL = {"lidar_grid", "stereo_grid", "grid_fusion", "grid_views"}
 OBJECT_LEVEL = {"stereo_objects", "object_fusion"}
 TRACK_LEVEL = {"stereo_objects", "stereo_tracker", "track_fusion", "lidar_markers",

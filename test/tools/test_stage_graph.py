@@ -15,7 +15,7 @@ import roslaunch.config
 PACKAGE = Path(__file__).resolve().parents[2]
 LEVELS = ("low_level_fusion", "stereo_objects", "object_fusion", "track_fusion", "mono")
 OTHERS = ("cloud", "road_border", "static_points", "cloud_objects", "risk")
-DISPLAYS = {"markers", "lidar_markers", "stereo_markers", "grid_views", "camera_view"}
+DISPLAYS = {"markers", "lidar_markers", "stereo_markers", "grid_views", "camera_view", "stack"}
 
 
 def graph_stages(switches):

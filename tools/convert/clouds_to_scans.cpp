@@ -85,6 +85,7 @@ class CloudConversion {
 
   void take(const rosbag::MessageInstance& message) {
     const std::string& topic = message.getTopic();
+    monitor_.setTime(toStamp(message.getTime()));
     if (topic == kTransforms) {
       transforms_.add(*plain<tf2_msgs::TFMessage>(message));
     }

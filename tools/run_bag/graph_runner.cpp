@@ -46,9 +46,14 @@ class GraphRunner::Ports : public StagePorts {
   void addInput(StageInput input) override { node_.inputs.push_back(std::move(input)); }
 
   StageOutput::Publish addOutput(StageOutput output) override {
-    return [&runner = runner_, topic = node_.row.resolved(output.topic),
-            type = output.data_type](const AnyMessage& message) {
-      runner.publish({topic, type, message});
+    node_.outputs.push_back(output.topic);
+    return [&runner = runner_, topic = node_.row.resolved(output.topic), type = output.data_type,
+            content = output.content,
+            check = std::make_shared<OutputCheck>(output.topic, *node_.monitor)](
+               const AnyMessage& message) {
+      if (check->passes(content(message))) {
+        runner.publish({topic, type, message});
+      }
     };
   }
 
@@ -67,11 +72,14 @@ GraphRunner::GraphRunner(const SensorSet& sensors, const GraphSwitches& switches
 }
 
 void GraphRunner::addStage(const GraphStage& row, const SensorSet& sensors) {
-  Node node{row, std::make_unique<StageMonitor>(row.name), nullptr, {}};
+  Node node{row, std::make_unique<StageMonitor>(row.name), nullptr, {}, {}, nullptr};
   node.stage = stageTypes().at(row.type).make(valuesOf(row, sensors), shared_,
                                               {transforms_, *node.monitor, StepClock()});
   Ports ports(*this, node);
   node.stage->connect(ports);
+  node.health = std::make_unique<StageHealth>(
+      watchedInputs(node.inputs, [&row](const std::string& topic) { return row.resolved(topic); }),
+      StreamOptions().silence_after);
   nodes_.push_back(std::move(node));
 }
 
@@ -91,11 +99,12 @@ Publications GraphRunner::takeTransforms(const tf2_msgs::TFMessage& message, Sta
   transforms.erase(std::remove_if(transforms.begin(), transforms.end(),
                                   [&](const auto& transform) { return isFromSlam(transform); }),
                    transforms.end());
+  inputs_monitor_.setTime(now);
   transforms_.add(others);
   return settle(now);
 }
 
-Publications GraphRunner::takeAny(const Publication& message, Stamp now) {
+Publications GraphRunner::take(const Publication& message, Stamp now) {
   deliver(message);
   return settle(now);
 }
@@ -127,6 +136,7 @@ void GraphRunner::serveNext(Stamp now) {
   const AnyMessage message = first->second;
   const StageInput::Take& take = node.inputs[input].take;
   waiting_.erase(first);
+  node.monitor->received(node.inputs[input].booked_as, now);
   guarded(*node.monitor, node.inputs[input].topic, [&] { take(message, now); });
   bookTime(node);
 }
@@ -151,6 +161,18 @@ void GraphRunner::deliver(const Publication& message) {
       }
     }
   }
+}
+
+std::vector<StageState> GraphRunner::states(Stamp now) {
+  const PublishedType nobody = [](const std::string& /*topic*/) { return std::string(); };
+  std::vector<StageState> states;
+  for (Node& node : nodes_) {
+    StageState state = node.health->judge(*node.monitor, now, nobody);
+    state.topics = topicsOf(node.inputs, node.outputs,
+                            [&node](const std::string& topic) { return node.row.resolved(topic); });
+    states.push_back(std::move(state));
+  }
+  return states;
 }
 
 void GraphRunner::publish(const Publication& message) {

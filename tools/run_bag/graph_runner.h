@@ -60,8 +60,9 @@ class GraphRunner {
   template <typename Message>
   Publications take(const std::string& topic, const boost::shared_ptr<const Message>& message,
                     Stamp now) {
-    return takeAny({topic, ros::message_traits::datatype<Message>(), message}, now);
+    return take({topic, ros::message_traits::datatype<Message>(), message}, now);
   }
+  Publications take(const Publication& message, Stamp now);
 
   /// What is left when the last message came at `now`: nothing waits any longer.
   Publications finish(Stamp now);
@@ -75,6 +76,11 @@ class GraphRunner {
   /// waited for too long.
   std::vector<const StageMonitor*> doors() const;
 
+  /// How each stage does (stackHealth tells why there are no tracks). Faults are those since the
+  /// last call; "nobody publishes it" is said of all that is silent. `now`: when the last message
+  /// came.
+  std::vector<StageState> states(Stamp now);
+
   /// Of what is wrong with messages before a stage has them.
   StageMonitor& inputs() { return inputs_monitor_; }
   const StageMonitor& inputs() const { return inputs_monitor_; }
@@ -87,6 +93,8 @@ class GraphRunner {
     std::unique_ptr<StageMonitor> monitor;
     std::unique_ptr<Stage> stage;
     std::vector<StageInput> inputs;
+    std::vector<std::string> outputs;  ///< topics, as the stage calls them
+    std::unique_ptr<StageHealth> health;
     std::uint64_t timed = 0;  ///< results
   };
 
@@ -95,7 +103,6 @@ class GraphRunner {
 
   void addStage(const GraphStage& row, const SensorSet& sensors);
   bool isFromSlam(const geometry_msgs::TransformStamped& transform) const;
-  Publications takeAny(const Publication& message, Stamp now);
 
   /// Hands the messages that wait to their stages until none does and no stage from `first` on has
   /// more.

@@ -12,25 +12,39 @@ enum class StampVerdict {
   kAccept,    ///< newer than everything before
   kRepeated,  ///< same stamp as the newest: drop
   kOld,       ///< older than the newest, but of the same run: drop
+  kStray,     ///< far off, and nothing confirms it yet: drop
   kRestart,   ///< the clock jumped back (a looped bag): forget all state, then accept
 };
 
 /// Holds the newest stamp of a stream and judges each further one, so that time in a stage only
-/// goes forward.
+/// goes forward, and one wrong stamp costs its own message alone.
+///
+/// A stamp that is off by a jump is either wrong, or the clock has jumped, or the sensor was
+/// silent. The second and third are confirmed by ROS time, which moved as far, or by the next
+/// message, which goes on from that stamp and not from the newest one before it.
 class StampGate {
  public:
   /// `restart_after`: a stamp older than the newest by this much (s, more than 0) is a restart of
-  /// the clock, not a late message.
+  /// the clock, not a late message; one that is as much newer is a jump, too.
   explicit StampGate(double restart_after = 1.0) : restart_after_(restart_after) {}
 
-  StampVerdict judge(Stamp stamp);
+  /// `now`: ROS time at which the message came; without it each jump is followed at once.
+  StampVerdict judge(Stamp stamp, const std::optional<Stamp>& now = std::nullopt);
 
   /// The newest accepted stamp; none before the first.
   const std::optional<Stamp>& newest() const { return newest_; }
 
  private:
+  bool isJump(double step) const;
+  bool isConfirmed(Stamp stamp, const std::optional<Stamp>& now) const;
+  bool followsStray(Stamp stamp) const;
+  void accept(Stamp stamp, double step, const std::optional<Stamp>& now);
+
   double restart_after_;
   std::optional<Stamp> newest_;
+  std::optional<Stamp> came_;   ///< ROS time of the newest one
+  double last_step_ = 0.0;      ///< s, from one message to the next, without jumps and gaps
+  std::optional<Stamp> stray_;  ///< the last one that nothing has confirmed
 };
 
 }  // namespace datmo

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "datmo_fusion/common/options.h"
+#include "datmo_fusion/slam/twist_gate.h"
 
 namespace datmo {
 
@@ -16,6 +17,7 @@ struct MotionOptions {
   bool odometry_pose = false;
   double hold = 0.5;          ///< s
   double wheel_radius = 0.3;  ///< m
+  TwistGateOptions change;
 
   void visit(OptionVisitor& visitor);
 

@@ -17,10 +17,10 @@ namespace datmo {
 /// The transforms of tf, fed by its owner, so that a stage sees them in the order of its other
 /// messages: live from the nodelet's callback queue, in batch from the bag.
 ///
-/// When the clock jumps back (a looped bag) all but the static transforms are forgotten, so that no
-/// pose is interpolated between two runs. A transform that is not finite, whose quaternion has not
-/// the length 1 or whose stamp cannot be is ignored, and the monitor is warned. Not thread safe
-/// beyond what tf2::BufferCore is.
+/// When the clock jumps back (a looped bag), which a second transform or ROS time confirms, all but
+/// the static transforms are forgotten, so that no pose is interpolated between two runs. A
+/// transform that is not finite, whose quaternion has not the length 1 or whose stamp cannot be is
+/// ignored, and the monitor is warned. Not thread safe beyond what tf2::BufferCore is.
 class TransformBuffer {
  public:
   explicit TransformBuffer(double restart_after) : restart_after_(restart_after) {}

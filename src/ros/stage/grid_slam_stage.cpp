@@ -6,7 +6,6 @@
 
 #include "datmo_fusion/ros/convert/grid_conversion.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
-#include "datmo_fusion/ros/stage/motion_input.h"
 
 namespace datmo {
 
@@ -56,6 +55,7 @@ GridSlamStage::GridSlamStage(const Checked<GridSlamStageOptions>& options,
       slam_(slamOptions(*options)),
       extent_(options->slam.map.window),
       runner_(monitor, options->input, "starts with a new map", [this] { reset(); }),
+      odometry_(options->motion, options->frames, "odometry", runner_),
       odometry_poses_(options->motion.hold),
       scans_(monitor) {}
 
@@ -64,11 +64,9 @@ void GridSlamStage::takeOdometry(const nav_msgs::Odometry& message) {
     return;
   }
   runner_.serve("odometry", message, [&] {
-    checkFrames(message, options_.frames);
-    OdometrySample sample = readOdometry(message, options_.motion, monitor_);
+    OdometrySample sample = odometry_.read(message);
     const Pose2 base_in_odom = fromMessage(message.pose.pose);
     sample.speed_measured = options_.motion.hasSpeed();
-    runner_.check("odometry", message.header.stamp);
     slam_.addOdometry(sample);
     odometry_poses_.add(sample.stamp, sample.twist, base_in_odom);
   });
@@ -123,6 +121,7 @@ void GridSlamStage::checkBaseFrame(const std::string& frame) const {
 void GridSlamStage::reset() {
   slam_.reset();
   scans_.clear();
+  odometry_.reset();
   odometry_poses_.clear();
   last_map_.reset();
   degenerate_scans_ = 0;

@@ -6,7 +6,6 @@
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/input_error.h"
-#include "datmo_fusion/ros/stage/motion_input.h"
 
 namespace datmo {
 
@@ -29,7 +28,9 @@ void HostInputOptions::visit(OptionVisitor& visitor) {
 
 HostInput::HostInput(const Checked<HostInputOptions>& options, const MotionOptions& motion,
                      FrameOptions frames, StageRunner& runner)
-    : options_(*options), motion_(motion), frames_(std::move(frames)), runner_(runner) {}
+    : options_(*options),
+      motion_(motion),
+      reader_(motion, std::move(frames), kOdometryStream, runner) {}
 
 void HostInput::add(Twists& twists, const StampedTwist& twist) const {
   twists.push_back(twist);
@@ -40,10 +41,10 @@ void HostInput::add(Twists& twists, const StampedTwist& twist) const {
 }
 
 void HostInput::take(const nav_msgs::Odometry& message) {
-  checkFrames(message, frames_);
-  const OdometrySample sample = toSample(message);
-  runner_.check(kOdometryStream, message.header.stamp);
-  add(odometry_, {sample.stamp, sample.twist});
+  const OdometrySample sample = reader_.read(message);
+  if (sample.twist_measured) {
+    add(odometry_, {sample.stamp, sample.twist});
+  }
 }
 
 void HostInput::take(const LabeledScan& scan) {
@@ -93,6 +94,7 @@ HostState HostInput::at(Stamp stamp, const HostVehicleOptions& vehicle) const {
 }
 
 void HostInput::reset() {
+  reader_.reset();
   odometry_.clear();
   from_poses_.clear();
   last_pose_.reset();

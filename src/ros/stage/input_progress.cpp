@@ -13,14 +13,14 @@ constexpr double kPatience = 5.0;
 
 }  // namespace
 
-InputProgress::InputProgress(Topics topics) : topics_(std::move(topics)) {}
-
-void InputProgress::addTopic(const std::string& input, const std::string& topic) {
-  topics_[input].push_back(topic);
+InputProgress::InputProgress(std::vector<WatchedInput> inputs) : inputs_(std::move(inputs)) {
+  std::sort(inputs_.begin(), inputs_.end(), [](const WatchedInput& one, const WatchedInput& other) {
+    return one.name < other.name;
+  });
 }
 
 std::vector<InputProgress::Line> InputProgress::news(const StageMonitor& monitor, double seconds,
-                                                     const IsPublished& is_published) {
+                                                     const PublishedType& published_type) {
   std::vector<Line> lines;
   const std::string first = firstMessages(monitor);
   if (!first.empty()) {
@@ -28,7 +28,7 @@ std::vector<InputProgress::Line> InputProgress::news(const StageMonitor& monitor
   }
   if (seconds > kPatience && !missing_said_) {
     missing_said_ = true;
-    const std::vector<Line> absent = missing(monitor, is_published);
+    const std::vector<Line> absent = missing(monitor, published_type);
     lines.insert(lines.end(), absent.begin(), absent.end());
   }
   return lines;
@@ -36,10 +36,10 @@ std::vector<InputProgress::Line> InputProgress::news(const StageMonitor& monitor
 
 std::string InputProgress::firstMessages(const StageMonitor& monitor) {
   std::string text;
-  for (const auto& [input, topics] : topics_) {
-    if (monitor.hasReceived(input) && said_.insert(input).second) {
-      const std::string description = monitor.description(input);
-      text += (text.empty() ? "first " : ", first ") + on(input) +
+  for (const WatchedInput& input : inputs_) {
+    if (monitor.hasReceived(input.name) && said_.insert(input.name).second) {
+      const std::string description = monitor.description(input.name);
+      text += (text.empty() ? "first " : ", first ") + nameAndTopics(input) +
               (description.empty() ? "" : ": " + description);
     }
   }
@@ -48,34 +48,25 @@ std::string InputProgress::firstMessages(const StageMonitor& monitor) {
 
 std::string InputProgress::waitingFor(const StageMonitor& monitor) const {
   std::string text;
-  for (const auto& [input, topics] : topics_) {
-    if (!monitor.hasReceived(input)) {
-      text += (text.empty() ? "; waiting for " : ", ") + on(input);
+  for (const WatchedInput& input : inputs_) {
+    if (!monitor.hasReceived(input.name)) {
+      text += (text.empty() ? "; waiting for " : ", ") + nameAndTopics(input);
     }
   }
   return text;
 }
 
 std::vector<InputProgress::Line> InputProgress::missing(const StageMonitor& monitor,
-                                                        const IsPublished& is_published) const {
+                                                        const PublishedType& published_type) const {
   std::vector<Line> lines;
-  for (const auto& [input, topics] : topics_) {
-    if (!monitor.hasReceived(input)) {
-      const bool published = std::any_of(topics.begin(), topics.end(), is_published);
-      lines.push_back({!published, "waits for " + on(input) +
-                                       (published ? ": it is published, but no message has come"
-                                                  : ": nobody publishes it")});
+  for (const WatchedInput& input : inputs_) {
+    if (!monitor.hasReceived(input.name)) {
+      lines.push_back(
+          {!isPublished(input, published_type),
+           "waits for " + nameAndTopics(input) + ": " + whyNothingComes(input, published_type)});
     }
   }
   return lines;
-}
-
-std::string InputProgress::on(const std::string& input) const {
-  std::string text;
-  for (const std::string& topic : topics_.at(input)) {
-    text += (text.empty() ? input + " on " : " or ") + topic;
-  }
-  return text;
 }
 
 }  // namespace datmo

@@ -14,8 +14,7 @@ namespace {
 /// No source of a stage that fuses several can have this name.
 constexpr char kMotionStream[] = "/motion";
 
-}  // namespace
-
+/// Throws InputError (`wrong_frame`) unless the odometry is of the vehicle, in its frame for that.
 void checkFrames(const nav_msgs::Odometry& message, const FrameOptions& frames) {
   const std::string& odom = message.header.frame_id;
   const std::string& base = message.child_frame_id;
@@ -31,9 +30,20 @@ void checkFrames(const nav_msgs::Odometry& message, const FrameOptions& frames) 
                                       frames.base + "' in '" + frames.odom + "'" + remedy);
 }
 
-OdometrySample readOdometry(const nav_msgs::Odometry& message, const MotionOptions& options,
-                            StageMonitor& monitor) {
-  if (!options.fromOdometry() || !options.odometry_pose) {
+}  // namespace
+
+OdometryReader::OdometryReader(const MotionOptions& options, FrameOptions frames,
+                               std::string stream, StageRunner& runner)
+    : options_(options),
+      frames_(std::move(frames)),
+      stream_(std::move(stream)),
+      runner_(runner),
+      gate_(options.change) {
+  checkOptions(options);
+}
+
+OdometrySample OdometryReader::sampleOf(const nav_msgs::Odometry& message) const {
+  if (!options_.fromOdometry() || !options_.odometry_pose) {
     return toSample(message);
   }
   OdometrySample sample;
@@ -43,26 +53,43 @@ OdometrySample readOdometry(const nav_msgs::Odometry& message, const MotionOptio
     sample.twist = toSample(message).twist;
   } catch (const InputError& error) {
     sample.twist_measured = false;
-    monitor.warned(InputError("bad_twist", std::string(error.what()) + "; its pose serves"));
+    runner_.monitor().warned(
+        InputError("bad_twist", std::string(error.what()) + "; its pose serves"));
   }
+  return sample;
+}
+
+OdometrySample OdometryReader::read(const nav_msgs::Odometry& message) {
+  checkFrames(message, frames_);
+  OdometrySample sample = sampleOf(message);
+  runner_.check(stream_, message.header.stamp);
+  if (!sample.twist_measured || gate_.passes(sample.stamp, sample.twist)) {
+    return sample;
+  }
+  const std::string text =
+      "odometry with speed " + std::to_string(sample.twist.forward_speed) + " m/s and yaw rate " +
+      std::to_string(sample.twist.yaw_rate) +
+      " rad/s: expected what the vehicle can have after the last ones (motion/max_acceleration, "
+      "max_yaw_acceleration)";
+  if (!sample.base_in_odom) {
+    throw InputError("impossible_twist", text + "; drops it, until a second one goes on from it");
+  }
+  sample.twist_measured = false;
+  runner_.monitor().warned(InputError("bad_twist", text + "; its pose serves"));
   return sample;
 }
 
 MotionInput::MotionInput(const Checked<MotionOptions>& options, FrameOptions frames,
                          StageRunner& runner)
     : options_(*options),
-      frames_(std::move(frames)),
       runner_(runner),
+      odometry_(*options, std::move(frames), kMotionStream, runner),
       buffer_(options->hold, kOdometryMemory) {}
 
 void MotionInput::take(const nav_msgs::Odometry& message) {
-  if (!options_.hasSpeed()) {
-    return;
+  if (options_.hasSpeed()) {
+    buffer_.add(odometry_.read(message));
   }
-  checkFrames(message, frames_);
-  const OdometrySample sample = readOdometry(message, options_, runner_.monitor());
-  runner_.check(kMotionStream, message.header.stamp);
-  buffer_.add(sample);
 }
 
 void MotionInput::take(const geometry_msgs::PoseWithCovarianceStamped& message) {
@@ -92,6 +119,7 @@ void MotionInput::take(const geometry_msgs::PoseWithCovarianceStamped& message) 
 }
 
 void MotionInput::reset() {
+  odometry_.reset();
   buffer_ = OdometryBuffer(options_.hold, kOdometryMemory);
   last_pose_.reset();
 }

@@ -38,6 +38,7 @@ StageMonitor::StageMonitor(const std::string& stage)
     : stage_(stage.substr(stage.find_first_not_of('/'))) {}
 
 void StageMonitor::received(const std::string& input, Stamp now) {
+  setTime(now);
   Input& entry = inputs_[input];
   ++entry.count;
   if (!entry.arrivals.empty() && now < entry.arrivals.back()) {
@@ -49,16 +50,19 @@ void StageMonitor::received(const std::string& input, Stamp now) {
 void StageMonitor::processed(const Processed& message) {
   ++processed_;
   last_processed_ = message;
+  last_result_ = now_;
   pushBounded(times_, message.seconds, kTimingWindow);
 }
 
 void StageMonitor::dropped(const InputError& error) {
   ++drops_[error.reason()];
+  last_drop_ = error.what();
   say(error);
 }
 
 void StageMonitor::warned(const InputError& error) {
   ++warnings_[error.reason()];
+  last_warning_ = error.what();
   say(error);
 }
 

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/stage/stage_reporter.h"
 
-#include <algorithm>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <sstream>
 
 #include <boost/make_shared.hpp>
 
-#include <diagnostic_msgs/DiagnosticStatus.h>
 #include <ros/console.h>
 #include <ros/master.h>
+#include <ros/this_node.h>
 
 #include "datmo_fusion/ros/convert/messages.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
@@ -22,34 +25,91 @@ using diagnostic_updater::DiagnosticStatusWrapper;
 constexpr double kDiagnosticsPeriod = 1.0;  // s, the custom of /diagnostics
 constexpr std::uint32_t kTimingQueue = 50;  // several stages for a second or so
 
-/// Topics of `inputs` by their resolved names.
-InputProgress::Topics topicsOf(const ros::NodeHandle& node,
-                               const std::vector<std::string>& inputs) {
-  InputProgress::Topics topics;
-  for (const std::string& input : inputs) {
-    topics[input] = {node.resolveName(input)};
-  }
-  return topics;
+/// Asks the master once, when the first type is needed; nobody publishes anything while it does not
+/// answer.
+PublishedType askMaster() {
+  const auto types = std::make_shared<std::optional<std::map<std::string, std::string>>>();
+  return [types](const std::string& topic) -> std::string {
+    if (!*types) {
+      types->emplace();
+      XmlRpc::XmlRpcValue request;
+      XmlRpc::XmlRpcValue response;
+      XmlRpc::XmlRpcValue topics;
+      request[0] = ros::this_node::getName();
+      request[1] = "";
+      if (ros::master::execute("getPublishedTopics", request, response, topics, false)) {
+        for (int i = 0; i < topics.size(); ++i) {
+          (*types)->emplace(std::string(topics[i][0]), std::string(topics[i][1]));
+        }
+      }
+    }
+    const auto found = (*types)->find(topic);
+    return found == (*types)->end() ? "" : found->second;
+  };
 }
 
-bool isPublished(const std::string& topic) {
-  ros::master::V_TopicInfo published;
-  ros::master::getTopics(published);
-  return std::any_of(published.begin(), published.end(),
-                     [&](const ros::master::TopicInfo& each) { return each.name == topic; });
+std::string joined(const std::vector<std::string>& topics) {
+  std::string text;
+  for (const std::string& topic : topics) {
+    text += (text.empty() ? "" : " ") + topic;
+  }
+  return text;
 }
+
+std::vector<std::string> split(const std::string& text) {
+  std::istringstream words(text);
+  return {std::istream_iterator<std::string>(words), {}};
+}
+
+/// Keys of a status that stateOf() reads.
+constexpr char kTakes[] = "takes";
+constexpr char kMakes[] = "makes";
+constexpr char kCause[] = "first cause";
 
 double milliseconds(double seconds) { return 1e3 * seconds; }
 
 }  // namespace
 
+unsigned char diagnosticLevel(HealthLevel level) {
+  switch (level) {
+    case HealthLevel::kNothing:
+      return DiagnosticStatus::ERROR;
+    case HealthLevel::kLess:
+      return DiagnosticStatus::WARN;
+    case HealthLevel::kGood:
+      break;
+  }
+  return DiagnosticStatus::OK;
+}
+
+std::optional<StageState> stateOf(const DiagnosticStatus& status) {
+  StageState state;
+  state.stage = status.name.substr(0, status.name.find(':'));
+  state.level = status.level >= DiagnosticStatus::ERROR  ? HealthLevel::kNothing
+                : status.level == DiagnosticStatus::WARN ? HealthLevel::kLess
+                                                         : HealthLevel::kGood;
+  bool is_stage = false;
+  for (const diagnostic_msgs::KeyValue& entry : status.values) {
+    if (entry.key == kTakes) {
+      state.topics.inputs = split(entry.value);
+    } else if (entry.key == kMakes) {
+      state.topics.outputs = split(entry.value);
+      is_stage = true;
+    } else if (entry.key == kCause && !entry.value.empty()) {
+      state.faults = {entry.value};
+    }
+  }
+  return is_stage ? std::make_optional(state) : std::nullopt;
+}
+
 StageReporter::StageReporter(ros::NodeHandle node, ros::NodeHandle private_node,
-                             StageMonitor& monitor, std::vector<std::string> inputs,
-                             double silence_after)
+                             StageMonitor& monitor, std::vector<WatchedInput> inputs,
+                             StageTopics topics, double silence_after)
     : monitor_(monitor),
       inputs_(std::move(inputs)),
-      silence_after_(silence_after),
-      progress_(topicsOf(node, inputs_)),
+      topics_(std::move(topics)),
+      health_(inputs_, silence_after),
+      progress_(inputs_),
       timing_(node.advertise<StageTiming>("timing", kTimingQueue)),
       updater_(node, private_node, private_node.getNamespace()) {
   updater_.setHardwareID("none");
@@ -64,17 +124,13 @@ StageReporter::StageReporter(ros::NodeHandle node, ros::NodeHandle private_node,
 void StageReporter::sayNews() {
   const char* const stage = monitor_.stage().c_str();
   const double seconds = since_start_.seconds();
-  for (const InputProgress::Line& line : progress_.news(monitor_, seconds, isPublished)) {
+  for (const InputProgress::Line& line : progress_.news(monitor_, seconds, askMaster())) {
     ROS_LOG(line.is_warning ? ros::console::levels::Warn : ros::console::levels::Info,
             ROSCONSOLE_DEFAULT_NAME, "%s: %s", stage, line.text.c_str());
   }
   for (const std::string& text : monitor_.takeAnnouncements()) {
     ROS_INFO("%s: %s", stage, text.c_str());
   }
-}
-
-void StageReporter::alsoOn(const std::string& input, const std::string& topic) {
-  progress_.addTopic(input, topic);
 }
 
 void StageReporter::publishTiming() {
@@ -88,31 +144,23 @@ void StageReporter::publishTiming() {
 }
 
 void StageReporter::diagnose(DiagnosticStatusWrapper& status) {
-  status.summary(DiagnosticStatus::OK, "runs");
-  diagnoseInputs(status);
-  diagnoseErrors(status);
-  listCounts(status);
-}
-
-void StageReporter::diagnoseErrors(DiagnosticStatusWrapper& status) {
-  const std::uint64_t errors = monitor_.droppedCount() + monitor_.warningCount();
-  if (errors > reported_errors_) {
-    status.mergeSummary(DiagnosticStatus::WARN, monitor_.lastError());
+  const StageState state = health_.judge(monitor_, toStamp(ros::Time::now()), askMaster());
+  status.summary(diagnosticLevel(state.level), state.faults.empty() ? "runs" : "");
+  for (const std::string& fault : state.faults) {
+    status.message += (status.message.empty() ? "" : "; ") + fault;
   }
-  reported_errors_ = errors;
+  listInputs(status);
+  listCounts(status);
+  status.add(kCause, state.faults.empty() ? "" : state.faults.front());
+  status.add(kTakes, joined(topics_.inputs));
+  status.add(kMakes, joined(topics_.outputs));
 }
 
-void StageReporter::diagnoseInputs(DiagnosticStatusWrapper& status) const {
-  for (const std::string& name : inputs_) {
-    const InputStatus input = monitor_.input(name, toStamp(ros::Time::now()));
-    status.add(name + " received", input.received);
-    status.addf(name + " rate [Hz]", "%.1f", input.rate);
-    if (!input.silence) {
-      status.mergeSummaryf(DiagnosticStatus::WARN, "no %s yet", name.c_str());
-    } else if (*input.silence > silence_after_) {
-      status.mergeSummaryf(DiagnosticStatus::WARN, "no %s for %.1f s", name.c_str(),
-                           *input.silence);
-    }
+void StageReporter::listInputs(DiagnosticStatusWrapper& status) const {
+  for (const WatchedInput& watched : inputs_) {
+    const InputStatus input = monitor_.input(watched.name, toStamp(ros::Time::now()));
+    status.add(watched.name + " received", input.received);
+    status.addf(watched.name + " rate [Hz]", "%.1f", input.rate);
   }
 }
 

@@ -13,16 +13,19 @@ StageRunner::StageRunner(StageMonitor& monitor, const StreamOptions& input, std:
       reset_(std::move(reset)) {}
 
 void StageRunner::check(const std::string& input, const ros::Time& stamp) {
-  if (streams_.try_emplace(input, restart_after_).first->second.check(stamp) == Arrival::kNext) {
+  const std::optional<Stamp>& now = monitor_.now();
+  if (streams_.try_emplace(input, restart_after_).first->second.check(stamp, now) ==
+      Arrival::kNext) {
     return;
   }
   streams_.clear();
-  streams_.try_emplace(input, restart_after_).first->second.check(stamp);
+  streams_.try_emplace(input, restart_after_).first->second.check(stamp, now);
   reset("clock_restart", "the clock jumped back");
 }
 
 void StageRunner::reset(const std::string& reason, const std::string& why) {
   monitor_.warned(InputError(reason, why + ": " + effect_));
+  monitor_.noteReset();
   if (reset_) {
     reset_();
   }

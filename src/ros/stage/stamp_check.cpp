@@ -25,13 +25,13 @@ void StreamOptions::visit(OptionVisitor& visitor) {
                  silence_after, {0.1, 60.0});
 }
 
-Arrival StampCheck::check(const ros::Time& time) {
+Arrival StampCheck::check(const ros::Time& time, const std::optional<Stamp>& now) {
   if (time.isZero()) {
     throw InputError("zero_stamp", "stamp 0: expected the time of the measurement");
   }
   checkStampRange(time);
   const auto newest = gate_.newest();
-  switch (gate_.judge(toStamp(time))) {
+  switch (gate_.judge(toStamp(time), now)) {
     case StampVerdict::kRepeated:
       throw InputError("repeated_stamp", "stamp " + std::to_string(time.toSec()) +
                                              " s twice: expected each message once");
@@ -39,6 +39,12 @@ Arrival StampCheck::check(const ros::Time& time) {
       throw InputError("old_stamp", "stamp " + std::to_string(time.toSec()) +
                                         " s: expected one later than the newest, " +
                                         std::to_string(newest->seconds()) + " s");
+    case StampVerdict::kStray:
+      throw InputError("stray_stamp",
+                       "stamp " + std::to_string(time.toSec()) + " s, the newest is " +
+                           std::to_string(newest->seconds()) +
+                           " s: expected the next one of its stream; drops it, and follows the "
+                           "clock when a second message confirms that it has jumped");
     case StampVerdict::kRestart:
       return Arrival::kRestart;
     case StampVerdict::kAccept:

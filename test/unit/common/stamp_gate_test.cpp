@@ -10,6 +10,10 @@ StampVerdict judge(StampGate& gate, double seconds) {
   return gate.judge(Stamp::fromSeconds(seconds));
 }
 
+StampVerdict judgeAt(StampGate& gate, double seconds, double now) {
+  return gate.judge(Stamp::fromSeconds(seconds), Stamp::fromSeconds(now));
+}
+
 TEST(StampGate, TimeGoesForward) {
   StampGate gate;
   EXPECT_FALSE(gate.newest());
@@ -28,13 +32,81 @@ TEST(StampGate, RepeatedAndOldOnesDoNotMoveTheNewest) {
   EXPECT_EQ(judge(gate, 10.06), StampVerdict::kAccept);
 }
 
-TEST(StampGate, AJumpBackIsARestartFromItsThresholdOn) {
+TEST(StampGate, AJumpBackIsARestartWhenASecondMessageConfirmsIt) {
+  StampGate gate(2.0);
+  judgeAt(gate, 10.0, 50.0);
+  EXPECT_EQ(judgeAt(gate, 8.1, 50.1), StampVerdict::kOld);
+  EXPECT_EQ(judgeAt(gate, 8.0, 50.2), StampVerdict::kStray);
+  EXPECT_EQ(*gate.newest(), Stamp::fromSeconds(10.0));
+  EXPECT_EQ(judgeAt(gate, 8.1, 50.3), StampVerdict::kRestart) << "even where it would be late";
+  EXPECT_EQ(*gate.newest(), Stamp::fromSeconds(8.1));
+  EXPECT_EQ(judgeAt(gate, 8.2, 50.4), StampVerdict::kAccept) << "the new run goes on";
+}
+
+TEST(StampGate, WithoutRosTimeEachJumpIsFollowed) {
   StampGate gate(2.0);
   judge(gate, 10.0);
   EXPECT_EQ(judge(gate, 8.1), StampVerdict::kOld);
   EXPECT_EQ(judge(gate, 8.0), StampVerdict::kRestart);
   EXPECT_EQ(*gate.newest(), Stamp::fromSeconds(8.0));
   EXPECT_EQ(judge(gate, 8.1), StampVerdict::kAccept) << "the new run goes on";
+}
+
+TEST(StampGate, AStrayStampCostsItselfAlone) {
+  for (const double off : {1.0, -1.0, 3600.0, -3600.0, 1e6, -1e6}) {
+    StampGate gate;
+    int used = 0;
+    for (int message = 0; message < 20; ++message) {
+      const double seconds = 1e7 + 0.1 * message;
+      const StampVerdict verdict =
+          judgeAt(gate, seconds + (message == 10 ? off : 0.0), seconds + 0.02);
+      EXPECT_NE(verdict, StampVerdict::kRestart) << off;
+      used += verdict == StampVerdict::kAccept ? 1 : 0;
+    }
+    EXPECT_EQ(used, 19) << off;
+  }
+}
+
+TEST(StampGate, TwoStrayStampsThatDisagreeCostThemselves) {
+  StampGate gate;
+  judgeAt(gate, 100.0, 100.0);
+  EXPECT_EQ(judgeAt(gate, 300.0, 100.1), StampVerdict::kStray);
+  EXPECT_EQ(judgeAt(gate, 20.0, 100.2), StampVerdict::kStray);
+  EXPECT_EQ(judgeAt(gate, 100.3, 100.3), StampVerdict::kAccept);
+}
+
+TEST(StampGate, RosTimeConfirmsAJumpAtOnce) {
+  StampGate gate;
+  judgeAt(gate, 100.0, 100.0);
+  EXPECT_EQ(judgeAt(gate, 120.0, 120.05), StampVerdict::kAccept) << "it was silent";
+  EXPECT_EQ(judgeAt(gate, 50.0, 50.1), StampVerdict::kRestart) << "a looped bag";
+}
+
+TEST(StampGate, AJumpAheadIsFollowedFromTheSecondMessageOn) {
+  StampGate gate;
+  judgeAt(gate, 100.0, 100.0);
+  EXPECT_EQ(judgeAt(gate, 200.0, 100.1), StampVerdict::kStray);
+  EXPECT_EQ(judgeAt(gate, 200.1, 100.2), StampVerdict::kAccept);
+  EXPECT_EQ(judgeAt(gate, 200.2, 100.3), StampVerdict::kAccept);
+}
+
+TEST(StampGate, ASlowStreamThatRosTimeDoesNotFollowIsUsed) {
+  StampGate gate;
+  int used = 0;
+  for (int message = 0; message < 20; ++message) {  // every 2 s, played five times as fast
+    used += judgeAt(gate, 100.0 + 2.0 * message, 100.0 + 0.4 * message) == StampVerdict::kAccept;
+  }
+  EXPECT_EQ(used, 19);
+}
+
+TEST(StampGate, OfTwoClocksOnOneTopicTheFirstServes) {
+  StampGate gate;
+  judgeAt(gate, 100.0, 100.0);
+  for (int message = 1; message < 10; ++message) {
+    const double now = 100.0 + 0.1 * message;
+    EXPECT_EQ(judgeAt(gate, now - 5.0, now), StampVerdict::kStray);
+    EXPECT_EQ(judgeAt(gate, now, now), StampVerdict::kAccept);
+  }
 }
 
 }  // namespace

@@ -8,11 +8,12 @@ namespace {
 
 const Stamp kNow = Stamp::fromSeconds(1.0);
 
-bool nobody(const std::string& /*topic*/) { return false; }
-bool somebody(const std::string& /*topic*/) { return true; }
+std::string nobody(const std::string& /*topic*/) { return ""; }
+std::string somebody(const std::string& /*topic*/) { return "a type"; }
 
 InputProgress scanAndOdometry() {
-  return InputProgress({{"scan", {"/front/scan"}}, {"odometry", {"/odom"}}});
+  return InputProgress(
+      {{"scan", {{"/front/scan", "a type"}}}, {"odometry", {{"/odom", "a type"}}}});
 }
 
 TEST(InputProgress, TheFirstMessageSaysWhatItIsAndWhatIsWaitedFor) {
@@ -57,7 +58,7 @@ TEST(InputProgress, WhatNeverComesIsNamedOnceAfterAWhile) {
 
 TEST(InputProgress, ASilentPublisherIsNoWarning) {
   const StageMonitor monitor("tracker");
-  InputProgress progress(InputProgress::Topics{{"objects", {"/objects"}}});
+  InputProgress progress({{"objects", {{"/objects", "a type"}}}});
   const auto lines = progress.news(monitor, 10.0, somebody);
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_FALSE(lines[0].is_warning);
@@ -67,13 +68,26 @@ TEST(InputProgress, ASilentPublisherIsNoWarning) {
 
 TEST(InputProgress, AScanMayComeOnTwoTopics) {
   StageMonitor monitor("grid_slam");
-  InputProgress progress = scanAndOdometry();
-  progress.addTopic("scan", "/echoes");
+  InputProgress progress({{"scan", {{"/front/scan", "a type"}, {"/echoes", "another"}}},
+                          {"odometry", {{"/odom", "a type"}}}});
   monitor.received("odometry", kNow);
   EXPECT_EQ(progress.news(monitor, 1.0, nobody).at(0).text,
             "first odometry on /odom; waiting for scan on /front/scan or /echoes");
-  const auto echoes_alone = [](const std::string& topic) { return topic == "/echoes"; };
+  const auto echoes_alone = [](const std::string& topic) {
+    return std::string(topic == "/echoes" ? "another" : "");
+  };
   EXPECT_FALSE(progress.news(monitor, 6.0, echoes_alone).at(0).is_warning);
+}
+
+TEST(InputProgress, AWrongTypeIsSaidWithBoth) {
+  const StageMonitor monitor("tracker");
+  InputProgress progress({{"objects", {{"/objects", "datmo_fusion/ObjectArray"}}}});
+  const auto lines = progress.news(monitor, 10.0, somebody);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_TRUE(lines[0].is_warning);
+  EXPECT_EQ(lines[0].text,
+            "waits for objects on /objects: it is published as a type, expected "
+            "datmo_fusion/ObjectArray");
 }
 
 }  // namespace

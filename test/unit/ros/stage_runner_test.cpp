@@ -61,8 +61,11 @@ TEST_F(StageRunnerTest, EachInputHasItsOwnTime) {
 }
 
 TEST_F(StageRunnerTest, AClockThatJumpsBackOnOneInputResetsAllOfThemOnce) {
+  monitor_.setTime(Stamp::fromSeconds(100.0));  // it stands still
   take("scan", 100.0);
   take("odometry", 100.0);
+  EXPECT_FALSE(take("odometry", 49.9)) << "not confirmed yet";
+  EXPECT_EQ(resets_, 0);
   const auto served = take("odometry", 50.0);
   ASSERT_TRUE(served);
   EXPECT_EQ(*served, 1) << "reset before the message is used";
@@ -70,6 +73,7 @@ TEST_F(StageRunnerTest, AClockThatJumpsBackOnOneInputResetsAllOfThemOnce) {
   EXPECT_FALSE(take("odometry", 50.0)) << "its own stamp is known";
   EXPECT_EQ(resets_, 1);
   EXPECT_EQ(monitor_.warnings().at("clock_restart"), 1U);
+  EXPECT_EQ(monitor_.drops().at("stray_stamp"), 1U);
   EXPECT_EQ(monitor_.lastError().find("stamp"), 0U);
 }
 
@@ -86,6 +90,28 @@ TEST_F(StageRunnerTest, TheFirstMessageOfAnInputIsDescribed) {
   odometry.child_frame_id = "base_link";
   runner_.serve("odometry", odometry, [] {});
   EXPECT_EQ(monitor_.description("odometry"), "in odom -> base_link");
+}
+
+TEST_F(StageRunnerTest, OneStrayStampResetsNothing) {
+  for (int message = 0; message < 10; ++message) {
+    const double seconds = 100.0 + 0.1 * message;
+    monitor_.setTime(Stamp::fromSeconds(seconds));
+    take("scan", message == 5 ? seconds + 1e6 : seconds);
+    take("odometry", message == 7 ? seconds - 10.0 : seconds);
+  }
+  EXPECT_EQ(resets_, 0);
+  EXPECT_EQ(monitor_.droppedCount(), 2U);
+  EXPECT_EQ(monitor_.drops().at("stray_stamp"), 2U);
+}
+
+TEST_F(StageRunnerTest, ARefusedOutputResetsTheStageBeforeItsNextMessage) {
+  take("scan", 100.0);
+  monitor_.requestReset();
+  EXPECT_EQ(resets_, 0);
+  EXPECT_EQ(*take("scan", 100.1), 1);
+  EXPECT_EQ(*take("scan", 100.2), 1) << "once";
+  EXPECT_EQ(monitor_.resetCount(), 1U);
+  EXPECT_EQ(monitor_.warnings().at("bad_output"), 1U);
 }
 
 TEST(StageRunner, WithoutStateARestartIsSaidAlone) {

@@ -22,6 +22,14 @@ TEST(StampCheck, NamesWhatIsWrong) {
   EXPECT_EQ(check.check(ros::Time(5.1)), Arrival::kNext);
 }
 
+TEST(StampCheck, AJumpThatNothingConfirmsIsNamed) {
+  StampCheck check(1.0);
+  check.check(ros::Time(10.0), Stamp::fromSeconds(10.0));
+  EXPECT_EQ(samples::reasonOf([&] { check.check(ros::Time(15.0), Stamp::fromSeconds(10.1)); }),
+            "stray_stamp");
+  EXPECT_EQ(check.check(ros::Time(10.2), Stamp::fromSeconds(10.2)), Arrival::kNext);
+}
+
 TEST(StampCheck, AStampBeyondReasonIsRefusedByItself) {
   StampCheck check(1.0);
   check.check(ros::Time(10.0));

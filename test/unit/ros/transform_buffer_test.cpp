@@ -70,10 +70,27 @@ TEST_F(MountedBufferTest, TheSameFromTfIsNoNotice) {
 TEST_F(MountedBufferTest, AMountOutlivesAJumpOfTheClock) {
   tf2_msgs::TFMessage wheels;
   wheels.transforms.push_back(samples::transform("odom", "base_link", 1.0, 200.0));
+  monitor_.setTime(Stamp::fromSeconds(200.0));
   buffer_.add(wheels);
   wheels.transforms[0].header.stamp = ros::Time(100.0);
+  monitor_.setTime(Stamp::fromSeconds(100.0));
   buffer_.add(wheels);
   EXPECT_EQ(laserX(), 1.5);
+  EXPECT_EQ(samples::warnings(monitor_, "stray_stamp"), 0U);
+}
+
+TEST_F(MountedBufferTest, OneTransformFarOffIsOneTransform) {
+  tf2_msgs::TFMessage wheels;
+  for (int message = 0; message < 20; ++message) {
+    const double seconds = 100.0 + 0.1 * message;
+    const double off = message == 8 ? -50.0 : message == 15 ? 1e6 : 0.0;
+    monitor_.setTime(Stamp::fromSeconds(seconds));
+    wheels.transforms = {samples::transform("odom", "base_link", message, seconds + off)};
+    buffer_.add(wheels);
+  }
+  EXPECT_EQ(samples::warnings(monitor_, "stray_stamp"), 2U);
+  EXPECT_NEAR(planarPose(buffer_.core(), "odom", "base_link", ros::Time(100.85)).x(), 8.5, 1e-6);
+  EXPECT_NEAR(planarPose(buffer_.core(), "odom", "base_link", ros::Time(101.9)).x(), 19.0, 1e-6);
 }
 
 /// What was published before it stays, and the stage is warned.
@@ -109,6 +126,16 @@ TEST_F(BadTransformTest, ARotationThatIsNone) {
   bad.transforms[0].transform.rotation.w = std::numeric_limits<double>::quiet_NaN();
   buffer_.add(bad);
   EXPECT_EQ(samples::warnings(monitor_, "bad_transform"), 3U);
+}
+
+TEST_F(BadTransformTest, FramesThatAreNone) {
+  tf2_msgs::TFMessage bad = tf("base_link", 0.1);
+  bad.transforms[0].child_frame_id = "";
+  expectRefused(bad, "bad_transform");
+  bad.transforms[0].child_frame_id = "base_link";
+  buffer_.add(bad);
+  buffer_.add(tf("", 0.1));
+  EXPECT_EQ(samples::warnings(monitor_, "bad_transform"), 4U);
 }
 
 TEST_F(MountedBufferTest, AMountBeyondAnyVehicleIsRefused) {

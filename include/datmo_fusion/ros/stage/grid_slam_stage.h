@@ -17,6 +17,7 @@
 #include "datmo_fusion/ros/frame_options.h"
 #include "datmo_fusion/ros/motion_options.h"
 #include "datmo_fusion/ros/shared_keys.h"
+#include "datmo_fusion/ros/stage/motion_input.h"
 #include "datmo_fusion/ros/stage/stage.h"
 #include "datmo_fusion/ros/stage/stage_runner.h"
 #include "datmo_fusion/ros/stage/waiting_scans.h"
@@ -107,6 +108,7 @@ class GridSlamStage : public Stage {
   GridSlam slam_;
   ScanExtent extent_;
   StageRunner runner_;
+  OdometryReader odometry_;
   OdometryPoses odometry_poses_;
   WaitingScans scans_;
   std::optional<Stamp> last_map_;

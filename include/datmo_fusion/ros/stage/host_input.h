@@ -11,6 +11,7 @@
 #include "datmo_fusion/risk/host_motion.h"
 #include "datmo_fusion/ros/frame_options.h"
 #include "datmo_fusion/ros/motion_options.h"
+#include "datmo_fusion/ros/stage/motion_input.h"
 #include "datmo_fusion/ros/stage/stage_runner.h"
 
 namespace datmo {
@@ -32,7 +33,7 @@ class HostInput {
   HostInput(const Checked<HostInputOptions>& options, const MotionOptions& motion,
             FrameOptions frames, StageRunner& runner);
 
-  /// Throws InputError (`wrong_frame`, `bad_odometry`, and those of StageRunner::check).
+  /// Throws as OdometryReader does.
   void take(const nav_msgs::Odometry& message);
 
   /// The pose of a scan whose stamp was checked.
@@ -63,8 +64,7 @@ class HostInput {
 
   HostInputOptions options_;
   MotionOptions motion_;
-  FrameOptions frames_;
-  StageRunner& runner_;
+  OdometryReader reader_;
   Twists odometry_;    ///< of the last acceleration_time
   Twists from_poses_;  ///< the same
   std::optional<StampedPose> last_pose_;

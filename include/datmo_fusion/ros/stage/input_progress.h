@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <functional>
-#include <map>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "datmo_fusion/ros/stage/stage_health.h"
 #include "datmo_fusion/ros/stage/stage_monitor.h"
 
 namespace datmo {
@@ -21,28 +20,18 @@ class InputProgress {
     std::string text;
   };
 
-  /// Whether somebody publishes a topic.
-  using IsPublished = std::function<bool(const std::string&)>;
-
-  /// Of each input, resolved: a scan may come on one of two.
-  using Topics = std::map<std::string, std::vector<std::string>>;
-
-  explicit InputProgress(Topics topics);
-
-  /// Another topic on which an input may come.
-  void addTopic(const std::string& input, const std::string& topic);
+  explicit InputProgress(std::vector<WatchedInput> inputs);
 
   /// What is new since the last call. `seconds`: since the start, on the computer's clock.
   std::vector<Line> news(const StageMonitor& monitor, double seconds,
-                         const IsPublished& is_published);
+                         const PublishedType& published_type);
 
  private:
   std::string firstMessages(const StageMonitor& monitor);
   std::string waitingFor(const StageMonitor& monitor) const;
-  std::vector<Line> missing(const StageMonitor& monitor, const IsPublished& is_published) const;
-  std::string on(const std::string& input) const;
+  std::vector<Line> missing(const StageMonitor& monitor, const PublishedType& published_type) const;
 
-  Topics topics_;
+  std::vector<WatchedInput> inputs_;  ///< by name
   std::set<std::string> said_;
   bool missing_said_ = false;
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <nav_msgs/Odometry.h>
@@ -10,17 +11,37 @@
 #include "datmo_fusion/ros/motion_options.h"
 #include "datmo_fusion/ros/stage/stage_runner.h"
 #include "datmo_fusion/slam/odometry_buffer.h"
+#include "datmo_fusion/slam/twist_gate.h"
 
 namespace datmo {
 
-/// Throws InputError (`wrong_frame`) unless the odometry is of the vehicle, in its frame for that.
-void checkFrames(const nav_msgs::Odometry& message, const FrameOptions& frames);
+/// The door of a stage for odometry: of the vehicle, in its frames, with stamps that rise and
+/// twists that a vehicle can have.
+class OdometryReader {
+ public:
+  /// `stream`: its name at the runner, of the stage, which is to call reset() when it is reset
+  /// itself; the runner must outlive the reader.
+  OdometryReader(const MotionOptions& options, FrameOptions frames, std::string stream,
+                 StageRunner& runner);
 
-/// What the options take of odometry: with odometry_pose its pose, too, and then a twist that no
-/// vehicle has (the mean over a gap of clocks, say) is left out and warned of (`bad_twist`): the
-/// pose is what counts. Throws InputError (`bad_odometry`, `bad_pose`).
-OdometrySample readOdometry(const nav_msgs::Odometry& message, const MotionOptions& options,
-                            StageMonitor& monitor);
+  /// What the options take of odometry: with odometry_pose its pose, too, and then a twist that no
+  /// vehicle has (the mean over a gap of clocks, say) is left out and warned of (`bad_twist`): the
+  /// pose is what counts. Throws InputError (`wrong_frame`, `bad_odometry`, `bad_pose`, and those
+  /// of StageRunner::check), and without odometry_pose for a change of the twist that no vehicle
+  /// can make (`impossible_twist`).
+  OdometrySample read(const nav_msgs::Odometry& message);
+
+  void reset() { gate_.reset(); }
+
+ private:
+  OdometrySample sampleOf(const nav_msgs::Odometry& message) const;
+
+  MotionOptions options_;
+  FrameOptions frames_;
+  std::string stream_;
+  StageRunner& runner_;
+  TwistGate gate_;
+};
 
 /// The motion of the vehicle between two stamps, as its odometry measures it; where its speed is
 /// not measured, as the poses of the SLAM do.
@@ -30,8 +51,7 @@ class MotionInput {
   /// input. Throws OptionError.
   MotionInput(const Checked<MotionOptions>& options, FrameOptions frames, StageRunner& runner);
 
-  /// Not read where the speed is not measured. Throws InputError (`wrong_frame`, `bad_odometry`,
-  /// `bad_pose`, and those of StageRunner::check).
+  /// Not read where the speed is not measured. Throws as OdometryReader does.
   void take(const nav_msgs::Odometry& message);
 
   /// The same for the vehicle's pose in a frame that does not move; read only where its speed
@@ -51,8 +71,8 @@ class MotionInput {
   };
 
   MotionOptions options_;
-  FrameOptions frames_;
   StageRunner& runner_;
+  OdometryReader odometry_;
   OdometryBuffer buffer_;
   std::optional<StampedPose> last_pose_;  ///< of the SLAM
 };

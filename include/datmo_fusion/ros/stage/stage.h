@@ -16,7 +16,9 @@
 #include "datmo_fusion/common/live_options.h"
 #include "datmo_fusion/common/stamp.h"
 #include "datmo_fusion/ros/frame_ids.h"
+#include "datmo_fusion/ros/stage/output_check.h"
 #include "datmo_fusion/ros/stage/queue_length.h"
+#include "datmo_fusion/ros/stage/stage_health.h"
 #include "datmo_fusion/ros/stage/stage_monitor.h"
 
 namespace datmo {
@@ -38,6 +40,16 @@ struct StageInput {
   Subscribe subscribe;  ///< with plain frames, the arrival booked
 };
 
+/// A topic as a stage calls it to its name in the graph.
+using ResolveTopic = std::function<std::string(const std::string& topic)>;
+
+/// The required inputs with all topics on which they may come.
+std::vector<WatchedInput> watchedInputs(const std::vector<StageInput>& inputs,
+                                        const ResolveTopic& resolve);
+
+StageTopics topicsOf(const std::vector<StageInput>& inputs,
+                     const std::vector<std::string>& output_topics, const ResolveTopic& resolve);
+
 /// One output of a stage, without the type of its messages.
 struct StageOutput {
   using Publish = std::function<void(const AnyMessage& message)>;
@@ -45,6 +57,7 @@ struct StageOutput {
   std::string topic;  ///< as the stage calls it, before remapping
   std::string data_type;
   std::function<Publish(ros::NodeHandle& node)> advertise;
+  std::function<OutputContent(const AnyMessage& message)> content;  ///< for OutputCheck
 };
 
 /// What a stage publishes on one topic; without a host nothing.
@@ -104,8 +117,9 @@ class StagePorts {
         publisher.publish(boost::const_pointer_cast<Message>(typed<Message>(any)));
       };
     };
+    const auto content = [](const AnyMessage& any) { return contentOf(*typed<Message>(any)); };
     return StagePublisher<Message>(
-        addOutput({topic, ros::message_traits::datatype<Message>(), advertise}));
+        addOutput({topic, ros::message_traits::datatype<Message>(), advertise, content}));
   }
 
  protected:
@@ -116,6 +130,15 @@ class StagePorts {
   template <typename Message>
   static boost::shared_ptr<const Message> typed(const AnyMessage& message) {
     return boost::static_pointer_cast<const Message>(message);
+  }
+
+  template <typename Message>
+  static OutputContent contentOf(const Message& message) {
+    OutputContent content{std::nullopt, contentFault(message)};
+    if (const ros::Time* stamp = ros::message_traits::timeStamp(message)) {
+      content.stamp = toStamp(*stamp);
+    }
+    return content;
   }
 
   template <typename Message>

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "datmo_fusion/common/stamp.h"
@@ -46,7 +47,13 @@ class StageMonitor {
 
   const std::string& stage() const { return stage_; }
 
-  /// A message has come. `now`: ROS time.
+  /// What is told from here on happens at this ROS time.
+  void setTime(Stamp now) { now_ = now; }
+
+  /// None where no host has said it.
+  const std::optional<Stamp>& now() const { return now_; }
+
+  /// A message has come. `now`: ROS time, which is set by it.
   void received(const std::string& input, Stamp now);
 
   /// A message has led to a result.
@@ -57,6 +64,16 @@ class StageMonitor {
 
   /// Something is wrong with a message or missing, but the stage goes on with it.
   void warned(const InputError& error);
+
+  /// What the stage made cannot be used: it begins anew with the next message (StageRunner).
+  void requestReset() { reset_requested_ = true; }
+
+  /// Whether it was requested since the last call.
+  bool takeResetRequest() { return std::exchange(reset_requested_, false); }
+
+  /// The stage has begun anew.
+  void noteReset() { ++resets_; }
+  std::uint64_t resetCount() const { return resets_; }
 
   /// A figure of merit of the last result, with its unit:
   /// "weakest direction [m]".
@@ -91,8 +108,13 @@ class StageMonitor {
 
   const std::map<std::string, double>& figures() const { return figures_; }
 
-  /// The newest of both kinds; empty before the first.
+  /// The newest of either kind, and of both; empty before the first.
+  const std::string& lastDrop() const { return last_drop_; }
+  const std::string& lastWarning() const { return last_warning_; }
   const std::string& lastError() const { return last_error_; }
+
+  /// ROS time of the last result; none before the first, and where nobody has said the time.
+  const std::optional<Stamp>& lastResult() const { return last_result_; }
 
  private:
   struct Input {
@@ -110,7 +132,13 @@ class StageMonitor {
   std::deque<double> times_;  ///< s, the last ones
   std::uint64_t processed_ = 0;
   Processed last_processed_;
+  std::string last_drop_;
+  std::string last_warning_;
   std::string last_error_;
+  std::optional<Stamp> last_result_;
+  std::optional<Stamp> now_;
+  bool reset_requested_ = false;
+  std::uint64_t resets_ = 0;
   RepeatFilter repeats_;
   std::map<std::string, std::string> descriptions_;  ///< by input
   std::set<std::string> events_;                     ///< announced

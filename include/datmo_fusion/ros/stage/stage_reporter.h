@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include <diagnostic_msgs/DiagnosticStatus.h>
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
 
@@ -12,6 +13,12 @@
 #include "datmo_fusion/ros/stage/stage_monitor.h"
 
 namespace datmo {
+
+/// Level of a status: ERROR where nothing comes, WARN where less comes.
+unsigned char diagnosticLevel(HealthLevel level);
+
+/// What the status of a stage says of it, for whoever looks at all of them; none of another status.
+std::optional<StageState> stateOf(const diagnostic_msgs::DiagnosticStatus& status);
 
 /// Publishes what a StageMonitor knows: diagnostics once a second, whether messages come or not,
 /// and a StageTiming on the topic `timing`, which all stages share, for each result. Says on the
@@ -22,13 +29,11 @@ namespace datmo {
 /// the sensor's own.
 class StageReporter {
  public:
-  /// `inputs`: those that are missed if they are silent for `silence_after` (s). `monitor` must
-  /// outlive the reporter; both live in the callback queue of `node`.
+  /// `inputs`: those that are missed if they are silent for `silence_after` (s). `topics`: of all
+  /// inputs and outputs, resolved. `monitor` must outlive the reporter; both live in the callback
+  /// queue of `node`.
   StageReporter(ros::NodeHandle node, ros::NodeHandle private_node, StageMonitor& monitor,
-                std::vector<std::string> inputs, double silence_after);
-
-  /// `input` may come on `topic` (resolved) instead of the one of its own name.
-  void alsoOn(const std::string& input, const std::string& topic);
+                std::vector<WatchedInput> inputs, StageTopics topics, double silence_after);
 
   /// To be called after each result.
   void publishTiming();
@@ -36,16 +41,15 @@ class StageReporter {
  private:
   void sayNews();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
-  void diagnoseErrors(diagnostic_updater::DiagnosticStatusWrapper& status);
-  void diagnoseInputs(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void listInputs(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   void listCounts(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
   StageMonitor& monitor_;
-  std::vector<std::string> inputs_;
-  double silence_after_;
+  std::vector<WatchedInput> inputs_;
+  StageTopics topics_;
+  StageHealth health_;
   InputProgress progress_;
   Stopwatch since_start_;
-  std::uint64_t reported_errors_ = 0;
   ros::Publisher timing_;
   diagnostic_updater::Updater updater_;
   ros::SteadyTimer timer_;

@@ -26,10 +26,14 @@ class StageRunner {
   StageRunner& operator=(const StageRunner&) = delete;
 
   /// Runs `handle` on one message and returns its result. When it throws InputError the message is
-  /// dropped through the monitor, and the result is a default one: null, none.
+  /// dropped through the monitor, and the result is a default one: null, none. Before that the
+  /// stage is reset if its last output was refused (OutputCheck).
   template <typename Handle>
   auto serve(const Handle& handle) -> decltype(handle()) {
     watch_ = Stopwatch();
+    if (monitor_.takeResetRequest()) {
+      reset("bad_output", "what it made could not be used");
+    }
     try {
       return handle();
     } catch (const InputError& error) {
@@ -46,9 +50,10 @@ class StageRunner {
     return serve(handle);
   }
 
-  /// How a message's stamp follows the last one of its input. When the clock has jumped back, all
-  /// inputs begin anew and the stage is reset before this returns. To be called when nothing else
-  /// is wrong with the message. Throws InputError (`zero_stamp`, `repeated_stamp`, `old_stamp`).
+  /// How a message's stamp follows the last one of its input. When the clock has jumped back, which
+  /// a second message or ROS time (StageMonitor::now) has confirmed, all inputs begin anew and the
+  /// stage is reset before this returns. To be called when nothing else is wrong with the message.
+  /// Throws InputError (`zero_stamp`, `repeated_stamp`, `old_stamp`, `stray_stamp`).
   void check(const std::string& input, const ros::Time& stamp);
 
   /// Resets the stage and warns of it. `reason`: as of an InputError; `why`: "the map is another".

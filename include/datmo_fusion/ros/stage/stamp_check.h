@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include <ros/time.h>
 
 #include "datmo_fusion/common/options.h"
@@ -27,9 +29,11 @@ class StampCheck {
  public:
   explicit StampCheck(double restart_after) : gate_(restart_after) {}
 
-  /// Throws InputError for a stamp of zero (`zero_stamp`), one that was there before
-  /// (`repeated_stamp`), and one that comes too late (`old_stamp`).
-  Arrival check(const ros::Time& time);
+  /// `now`: ROS time at which the message came. Throws InputError for a stamp of zero
+  /// (`zero_stamp`), one beyond reason (`stamp_out_of_range`), one that was there before
+  /// (`repeated_stamp`), one that comes too late (`old_stamp`), and one that is far off while
+  /// nothing confirms that the clock has jumped (`stray_stamp`).
+  Arrival check(const ros::Time& time, const std::optional<Stamp>& now = std::nullopt);
 
  private:
   StampGate gate_;

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "datmo_fusion/ros/stage/stage_health.h"
+
+namespace datmo {
+
+/// How the stack does, in one sentence.
+struct StackHealth {
+  HealthLevel level = HealthLevel::kGood;
+  std::string sentence;
+};
+
+/// Answers "why is nothing there?": when the stage that publishes `result` (a topic, resolved)
+/// makes nothing, the cause is the first fault of the stage that is farthest up the chain and makes
+/// nothing either: "no tracks: grid_slam: no transform base_link -> laser". Else the first fault of
+/// any stage, in the order given: "less than all: stereo_grid: no points2 for 3.0 s".
+///
+/// Two stages are connected where one's outputs have a topic of the other's inputs.
+StackHealth stackHealth(const std::vector<StageState>& stages, const std::string& result);
+
+}  // namespace datmo

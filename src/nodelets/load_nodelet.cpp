@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Loads a nodelet into its manager, and again into the next one when that has died:
+//   load_nodelet load TYPE MANAGER [argument of the nodelet...]
+// called by roslaunch as `nodelet load` is, which ends with its manager. Name, parameters and
+// remappings are the node's.
+#include <algorithm>
+#include <csignal>
+#include <string>
+#include <vector>
+
+#include <nodelet/NodeletList.h>
+#include <nodelet/NodeletLoad.h>
+#include <nodelet/NodeletUnload.h>
+#include <ros/ros.h>
+
+namespace {
+
+constexpr double kPeriod = 0.5;  // s, between two looks at the manager: a tenth of what is noticed
+
+volatile std::sig_atomic_t stop_requested = 0;
+
+void requestStop(int /*signal*/) { stop_requested = 1; }
+
+bool runs() { return ros::ok() && stop_requested == 0; }
+
+/// What is asked of one manager about one nodelet, the node's own name.
+class ManagedNodelet {
+ public:
+  ManagedNodelet(const std::string& manager, const std::string& type,
+                 std::vector<std::string> arguments)
+      : manager_(ros::names::resolve(manager)) {
+    load_.request.name = ros::this_node::getName();
+    load_.request.type = type;
+    load_.request.my_argv = std::move(arguments);
+    for (const auto& [from, to] : ros::names::getRemappings()) {
+      load_.request.remap_source_args.push_back(from);
+      load_.request.remap_target_args.push_back(to);
+    }
+  }
+
+  const std::string& manager() const { return manager_; }
+
+  /// Whether the manager answers.
+  bool isThere() { return ask(); }
+
+  /// Whether it answers that it has the nodelet.
+  bool isLoaded() {
+    return ask() && std::count(known_.begin(), known_.end(), load_.request.name) > 0;
+  }
+
+  /// False if the manager refuses it: its output says why.
+  bool load() { return ros::service::call(manager_ + "/load_nodelet", load_); }
+
+  void unload() {
+    nodelet::NodeletUnload unload;
+    unload.request.name = load_.request.name;
+    ros::service::call(manager_ + "/unload_nodelet", unload);
+  }
+
+ private:
+  /// Over one connection for as long as the manager lives: the master is not asked each time.
+  bool ask() {
+    if (!list_.isValid()) {
+      list_ = ros::NodeHandle().serviceClient<nodelet::NodeletList>(manager_ + "/list", true);
+    }
+    nodelet::NodeletList list;
+    if (!list_.isValid() || !list_.call(list)) {
+      list_.shutdown();
+      return false;
+    }
+    known_ = list.response.nodelets;
+    return true;
+  }
+
+  std::string manager_;
+  ros::ServiceClient list_;
+  nodelet::NodeletLoad load_;
+  std::vector<std::string> known_;
+};
+
+/// Until the manager answers; false when this program is to end.
+bool waitForManager(ManagedNodelet& nodelet) {
+  while (runs()) {
+    if (nodelet.isThere()) {
+      return true;
+    }
+    ros::WallDuration(kPeriod).sleep();
+  }
+  return false;
+}
+
+/// Returns when it cannot be loaded (1), or when this program is to end (0).
+int keepLoaded(ManagedNodelet& nodelet) {
+  bool was_loaded = false;
+  while (waitForManager(nodelet)) {
+    if (!nodelet.isLoaded()) {
+      if (was_loaded) {
+        ROS_WARN("%s: its manager %s was gone: loads it again, without what it knew",
+                 ros::this_node::getName().c_str(), nodelet.manager().c_str());
+      }
+      if (!nodelet.load() && nodelet.isThere()) {
+        ROS_FATAL("%s: %s does not load it; its output says why", ros::this_node::getName().c_str(),
+                  nodelet.manager().c_str());
+        return 1;
+      }
+      was_loaded = nodelet.isLoaded();
+    }
+    ros::WallDuration(kPeriod).sleep();
+  }
+  if (ros::ok() && nodelet.isLoaded()) {
+    nodelet.unload();
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "load_nodelet", ros::init_options::NoSigintHandler);
+  std::signal(SIGINT, requestStop);
+  std::signal(SIGTERM, requestStop);
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.size() < 3 || words[0] != "load") {
+    ROS_FATAL("usage: load_nodelet load TYPE MANAGER [argument of the nodelet...]");
+    return 2;
+  }
+  ros::NodeHandle node;
+  ros::AsyncSpinner spinner(1);  // a node that roslaunch and rosnode can ask
+  spinner.start();
+  ManagedNodelet nodelet(words[2], words[1], {words.begin() + 3, words.end()});
+  return keepLoaded(nodelet);
+}

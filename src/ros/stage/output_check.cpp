@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/stage/output_check.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+
+namespace datmo {
+
+namespace {
+
+/// Of the largest element: what sums of doubles may be off by.
+constexpr double kRounding = 1e-6;
+
+}  // namespace
+
+bool isCovariance(const double* values, std::size_t size) {
+  const auto rows = static_cast<Eigen::Index>(size);
+  const Eigen::Map<const Eigen::MatrixXd> matrix(values, rows, rows);
+  const double tolerance = kRounding * matrix.cwiseAbs().maxCoeff();
+  if (!matrix.allFinite() || !matrix.isApprox(matrix.transpose(), kRounding)) {
+    return false;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues().minCoeff() >= -tolerance;
+}
+
+OutputCheck::OutputCheck(std::string topic, StageMonitor& monitor)
+    : topic_(std::move(topic)), monitor_(monitor) {}
+
+bool OutputCheck::passes(const OutputContent& content) {
+  if (resets_ != monitor_.resetCount()) {
+    resets_ = monitor_.resetCount();
+    newest_.reset();
+  }
+  const std::string fault = faultOf(content);
+  if (!fault.empty()) {
+    monitor_.dropped(InputError(
+        "bad_output", "would publish on " + topic_ + " " + fault + ": drops it and begins anew"));
+    monitor_.requestReset();
+    return false;
+  }
+  newest_ = content.stamp ? content.stamp : newest_;
+  return true;
+}
+
+std::string OutputCheck::faultOf(const OutputContent& content) const {
+  if (!content.fault.empty()) {
+    return content.fault;
+  }
+  if (newest_ && content.stamp && *content.stamp < *newest_) {
+    return "the stamp " + std::to_string(content.stamp->seconds()) + " s after " +
+           std::to_string(newest_->seconds()) + " s";
+  }
+  return "";
+}
+
+}  // namespace datmo

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/stage/stack_health.h"
+
+#include <algorithm>
+#include <set>
+
+#include "datmo_fusion/ros/frame_ids.h"
+
+namespace datmo {
+
+namespace {
+
+using Stages = std::vector<StageState>;
+
+bool contains(const std::vector<std::string>& topics, const std::string& topic) {
+  return std::find(topics.begin(), topics.end(), topic) != topics.end();
+}
+
+const StageState* producerOf(const Stages& stages, const std::string& topic) {
+  const auto found = std::find_if(stages.begin(), stages.end(), [&](const StageState& stage) {
+    return contains(stage.topics.outputs, topic);
+  });
+  return found == stages.end() ? nullptr : &*found;
+}
+
+/// The stage farthest up the chain from this one that makes nothing.
+const StageState& sourceOfNothing(const Stages& stages, const StageState& stage,
+                                  std::set<std::string>& visited) {
+  visited.insert(stage.stage);
+  for (const std::string& topic : stage.topics.inputs) {
+    const StageState* const producer = producerOf(stages, topic);
+    if (producer != nullptr && producer->level == HealthLevel::kNothing &&
+        visited.count(producer->stage) == 0) {
+      return sourceOfNothing(stages, *producer, visited);
+    }
+  }
+  return stage;
+}
+
+std::string firstFault(const StageState& stage) {
+  return stage.stage + ": " + (stage.faults.empty() ? "no reason is known" : stage.faults.front());
+}
+
+}  // namespace
+
+StackHealth stackHealth(const Stages& stages, const std::string& result) {
+  const StageState* const last = producerOf(stages, result);
+  if (last == nullptr) {
+    return {HealthLevel::kNothing,
+            "no " + withoutSlash(result) + ": no stage that makes them has reported"};
+  }
+  if (last->level == HealthLevel::kNothing) {
+    std::set<std::string> visited;
+    return {HealthLevel::kNothing, "no " + withoutSlash(result) + ": " +
+                                       firstFault(sourceOfNothing(stages, *last, visited))};
+  }
+  const auto worse = std::find_if(stages.begin(), stages.end(), [](const StageState& stage) {
+    return stage.level != HealthLevel::kGood;
+  });
+  if (worse != stages.end()) {
+    return {HealthLevel::kLess, "less than all: " + firstFault(*worse)};
+  }
+  return {HealthLevel::kGood, withoutSlash(result) + " come"};
+}
+
+}  // namespace datmo

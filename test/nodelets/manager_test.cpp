@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The process of all nodelets is killed: it comes back with all of them, which go on with the drive
+// from a new map.
+#include <csignal>
+#include <iostream>
+#include <string>
+
+#include "chain.h"
+#include <XmlRpcClient.h>
+#include <gtest/gtest.h>
+
+#include <ros/master.h>
+#include <ros/network.h>
+
+namespace datmo {
+namespace {
+
+/// Process of a node; 0 if it does not answer.
+pid_t processOf(const std::string& node) {
+  XmlRpc::XmlRpcValue request;
+  XmlRpc::XmlRpcValue response;
+  XmlRpc::XmlRpcValue uri;
+  request[0] = ros::this_node::getName();
+  request[1] = node;
+  if (!ros::master::execute("lookupNode", request, response, uri, false)) {
+    return 0;
+  }
+  std::string host;
+  std::uint32_t port = 0;
+  ros::network::splitURI(uri, host, port);
+  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port));
+  XmlRpc::XmlRpcValue caller;
+  caller[0] = ros::this_node::getName();
+  XmlRpc::XmlRpcValue answer;
+  const bool answered = client.execute("getPid", caller, answer) && !client.isFault();
+  return answered ? static_cast<pid_t>(static_cast<int>(answer[2])) : 0;
+}
+
+TEST(ManagerTest, KilledItComesBackWithAllNodelets) {
+  const World world;
+  Chain chain;
+  ASSERT_TRUE(chain.waitForNodelets());
+  chain.mountSensors();
+  ASSERT_TRUE(chain.prepareMotion(0.0));
+  ASSERT_TRUE(chain.drive(0.0, 2.0));
+  const pid_t killed = processOf("/perception");
+  ASSERT_GT(killed, 0);
+  const std::size_t tracks = chain.tracks.size();
+
+  const ros::SteadyTime start = ros::SteadyTime::now();
+  ASSERT_EQ(kill(killed, SIGKILL), 0);
+  double now = 2.0;
+  // The clock goes on as the computer's: nobody waits for the drive.
+  EXPECT_TRUE(chain.waitFor([&] {
+    now += 0.01;
+    chain.sendMotion(now);
+    chain.sendScan(world.scan(now));
+    return chain.tracks.size() > tracks;
+  }));
+  std::cout << "tracks came again " << (ros::SteadyTime::now() - start).toSec() << " s after\n";
+  EXPECT_NE(processOf("/perception"), killed);
+}
+
+}  // namespace
+}  // namespace datmo
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "manager_test");
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Why are there no tracks? Causes that are brought about, and the sentence that names them.
+#include <functional>
+#include <limits>
+#include <optional>
+
+#include "run_bag/graph_runner.h"
+#include "run_bag_drive.h"
+#include <boost/make_shared.hpp>
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/ros/stage/stack_health.h"
+
+namespace datmo::run_bag_causes_test {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+/// What is sent at one time; what is taken out is not.
+struct Sent {
+  std::optional<nav_msgs::Odometry> odometry;
+  std::optional<tf2_msgs::TFMessage> transform;
+  std::optional<sensor_msgs::LaserScan> scan;
+};
+
+struct Cause {
+  std::string name;
+  std::function<void(Sent& sent)> spoil;
+  std::string sentence;  ///< holds this
+  bool has_mount = true;
+  std::string config = "";
+};
+
+class RunBagCauses : public RunBag {
+ protected:
+  StackHealth healthAfter(const Cause& cause) {
+    writeConfig("grid_slam: {map_period: 0.5}\n" + cause.config +
+                (cause.has_mount ? "mounts: {scanner: {x: 2.0}}\n" : ""));
+    GraphRunner graph(SensorSet(arguments_.config), GraphSwitches());
+    Stamp stamp = kStart;
+    for (int i = 0; i < kScans; ++i) {
+      stamp = kStart + i * kPeriod;
+      const nav_msgs::Odometry odometry = odometryAt(stamp);
+      Sent sent{odometry, transform(fromMessage(odometry.pose.pose), stamp, "odom", "base_link"),
+                scanAt(stamp)};
+      cause.spoil(sent);
+      if (sent.odometry) {
+        graph.take("odometry", boost::make_shared<const nav_msgs::Odometry>(*sent.odometry), stamp);
+      }
+      if (sent.transform) {
+        graph.takeTransforms(*sent.transform, stamp);
+      }
+      if (sent.scan) {
+        graph.take("scan", boost::make_shared<const sensor_msgs::LaserScan>(*sent.scan), stamp);
+      }
+    }
+    return stackHealth(graph.states(stamp), "tracks");
+  }
+};
+
+std::vector<Cause> causes() {
+  const auto scan = [](const std::function<void(sensor_msgs::LaserScan&)>& spoil) {
+    return [spoil](Sent& sent) { spoil(*sent.scan); };
+  };
+  return {
+      {"no input", [](Sent& sent) { sent = {}; }, "no tracks: grid_slam: no odometry yet"},
+      {"no scan", [](Sent& sent) { sent.scan.reset(); }, "no tracks: grid_slam: no scan yet"},
+      {"no mount", [](Sent&) {}, "no tracks: grid_slam: transform base_link -> scanner", false, ""},
+      {"no frame", scan([](auto& each) { each.header.frame_id = ""; }),
+       "no tracks: grid_slam: a message without frame_id"},
+      {"another frame", scan([](auto& each) { each.header.frame_id = "laser"; }),
+       "no tracks: grid_slam: transform base_link -> laser"},
+      {"stamp of zero", scan([](auto& each) { each.header.stamp = ros::Time(); }),
+       "no tracks: grid_slam: stamp 0"},
+      {"one stamp", scan([](auto& each) { each.header.stamp = toTime(kStart); }),
+       "no tracks: grid_slam: stamp 1000.000000 s twice"},
+      {"stamps beyond 2100",
+       scan([](auto& each) { each.header.stamp = ros::Time(4200000000U, 0); }),
+       "no tracks: grid_slam: stamp 4200000000 s"},
+      {"no beams", scan([](auto& each) { each.ranges.clear(); }),
+       "no tracks: grid_slam: scan without beams"},
+      {"too few beams", scan([](auto& each) { each.ranges.resize(3); }),
+       "no tracks: grid_slam: scan with 3 beams: expected 81"},
+      {"no spacing", scan([](auto& each) { each.angle_increment = 0.0F; }),
+       "no tracks: grid_slam: scan with an angle increment of 0"},
+      {"no range", scan([](auto& each) { each.range_max = kNan; }),
+       "no tracks: grid_slam: scan with an angle or range limit of nan"},
+      {"odometry of a trailer", [](Sent& sent) { sent.odometry->child_frame_id = "trailer"; },
+       "less than all: grid_slam: odometry of 'trailer' in 'odom': expected 'base_link' in 'odom'"},
+      {"odometry without frame", [](Sent& sent) { sent.odometry->header.frame_id = ""; },
+       "less than all: grid_slam: odometry of 'base_link' in ''"},
+      {"odometry that is not finite",
+       [](Sent& sent) { sent.odometry->twist.twist.linear.x = kNan; },
+       "less than all: grid_slam: odometry with speed nan m/s"},
+      {"odometry too fast", [](Sent& sent) { sent.odometry->twist.twist.linear.x = 300.0; },
+       "less than all: grid_slam: odometry with speed 300.000000 m/s"},
+      {"no odometry", [](Sent& sent) { sent.odometry.reset(); },
+       "less than all: grid_slam: no odometry yet"},
+      {"no twist", [](Sent& sent) { sent.odometry.reset(); }, "less than all: motion: no twist yet",
+       true, "motion: {source: twist}\n"},
+      {"no Imu", [](Sent& sent) { sent.odometry.reset(); }, "less than all: motion: no imu yet",
+       true, "motion: {source: imu}\n"},
+      {"no wheels", [](Sent& sent) { sent.odometry.reset(); }, "less than all: motion: no imu yet",
+       true, "motion: {source: imu_and_wheels}\n"},
+  };
+}
+
+TEST_F(RunBagCauses, TheFirstCauseInTheChainIsNamed) {
+  for (const Cause& cause : causes()) {
+    const StackHealth health = healthAfter(cause);
+    EXPECT_TRUE(holds(health.sentence, cause.sentence)) << cause.name << ": " << health.sentence;
+    EXPECT_EQ(health.level,
+              holds(cause.sentence, "no tracks") ? HealthLevel::kNothing : HealthLevel::kLess)
+        << cause.name;
+  }
+}
+
+}  // namespace
+}  // namespace datmo::run_bag_causes_test

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/slam/twist_gate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace datmo::twist_gate_test {
+namespace {
+
+bool passes(TwistGate& gate, double seconds, double speed, double yaw_rate) {
+  return gate.passes(Stamp::fromSeconds(seconds), {speed, yaw_rate});
+}
+
+TEST(TwistGate, OneImpossibleYawRateCostsItself) {
+  TwistGate gate{TwistGateOptions()};
+  EXPECT_TRUE(passes(gate, 10.0, 8.0, 0.0));
+  EXPECT_FALSE(passes(gate, 10.02, 8.0, 3.0)) << "8 m/s at 3 rad/s is 2.4 g sideways";
+  EXPECT_TRUE(passes(gate, 10.04, 8.0, 0.0));
+}
+
+TEST(TwistGate, OneImpossibleSpeedCostsItself) {
+  TwistGate gate{TwistGateOptions()};
+  passes(gate, 10.0, 8.0, 0.0);
+  EXPECT_FALSE(passes(gate, 10.1, 40.0, 0.0));
+  EXPECT_FALSE(passes(gate, 10.2, -20.0, 0.0)) << "another wrong one does not confirm it";
+  EXPECT_TRUE(passes(gate, 10.3, 8.0, 0.0));
+}
+
+TEST(TwistGate, FullBrakingAndASteppedTurnPass) {
+  TwistGate gate{TwistGateOptions()};
+  for (int message = 0; message < 100; ++message) {
+    const double seconds = 0.02 * message;
+    const double speed = std::max(0.0, 12.0 - 10.0 * seconds);
+    EXPECT_TRUE(passes(gate, seconds, speed, message < 50 ? 0.0 : 0.4)) << message;
+  }
+}
+
+TEST(TwistGate, AChangeThatASecondTwistConfirmsIsFollowed) {
+  TwistGate gate{TwistGateOptions()};
+  passes(gate, 10.0, 0.0, 0.0);
+  EXPECT_FALSE(passes(gate, 10.02, 20.0, 0.0));
+  EXPECT_TRUE(passes(gate, 10.04, 20.1, 0.0));
+  EXPECT_TRUE(passes(gate, 10.06, 20.2, 0.0));
+}
+
+TEST(TwistGate, TheLongerTheGapTheMoreMayHaveChanged) {
+  TwistGate gate{TwistGateOptions()};
+  passes(gate, 10.0, 0.0, 0.0);
+  EXPECT_TRUE(passes(gate, 12.0, 20.0, 0.0)) << "10 m/s^2";
+}
+
+TEST(TwistGate, AfterAResetTheFirstOnePasses) {
+  TwistGate gate{TwistGateOptions()};
+  passes(gate, 10.0, 0.0, 0.0);
+  gate.reset();
+  EXPECT_TRUE(passes(gate, 10.02, 40.0, 0.0));
+}
+
+TEST(TwistGate, BoundsMustBePositive) {
+  EXPECT_THROW(TwistGate({0.0, 9.0}), OptionError);
+  EXPECT_THROW(TwistGate({12.0, std::nan("")}), OptionError);
+}
+
+}  // namespace
+}  // namespace datmo::twist_gate_test
