@@ -100,6 +100,11 @@ void StageReporter::diagnoseErrors(DiagnosticStatusWrapper& status) {
     status.mergeSummary(DiagnosticStatus::WARN, monitor_.lastError());
   }
   reported_errors_ = errors;
+  if (monitor_.health() != Health::kGood) {
+    status.mergeSummary(
+        monitor_.health() == Health::kFailed ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
+        monitor_.healthReason());
+  }
 }
 
 void StageReporter::diagnoseInputs(DiagnosticStatusWrapper& status) const {

@@ -30,6 +30,9 @@ struct Processed {
   double seconds = 0.0;  ///< it took
 };
 
+/// How well a stage does its work, beyond single messages.
+enum class Health { kGood, kDegraded, kFailed };
+
 /// Processing times over the last messages, s; 0 before the first.
 struct TimingStatus {
   double median = 0.0;
@@ -62,6 +65,10 @@ class StageMonitor {
   /// "weakest direction [m]".
   void figure(const std::string& name, double value) { figures_[name] = value; }
 
+  /// How well the stage does its work from now on, and why, for people; a change is said on the
+  /// console.
+  void condition(Health health, const std::string& why);
+
   /// What the messages of an input look like, for people: "360 beams to 8.0 m in laser". Asked for
   /// once alone.
   void describe(const std::string& input, const std::function<std::string()>& description);
@@ -91,6 +98,11 @@ class StageMonitor {
 
   const std::map<std::string, double>& figures() const { return figures_; }
 
+  Health health() const { return health_; }
+
+  /// Why it is as it is; empty at the start.
+  const std::string& healthReason() const { return health_reason_; }
+
   /// The newest of both kinds; empty before the first.
   const std::string& lastError() const { return last_error_; }
 
@@ -107,6 +119,8 @@ class StageMonitor {
   std::map<std::string, std::uint64_t> drops_;
   std::map<std::string, std::uint64_t> warnings_;
   std::map<std::string, double> figures_;
+  Health health_ = Health::kGood;
+  std::string health_reason_;
   std::deque<double> times_;  ///< s, the last ones
   std::uint64_t processed_ = 0;
   Processed last_processed_;
