@@ -73,6 +73,28 @@ PointState OccupancyMap::judge(const Point2& point, const Point2& half_footprint
   return is_free && !may_be_ghost ? PointState::kMoving : PointState::kUnknown;
 }
 
+CellState OccupancyMap::stateOf(CellIndex index) const {
+  const Cell& cell = cells_.atOrEmpty(index);
+  if (isStatic(cell)) {
+    return CellState::kStatic;
+  }
+  return cell.occupancy < options_.moving_below ? CellState::kFree : CellState::kUnknown;
+}
+
+std::vector<Point2> OccupancyMap::staticSurfaces() const {
+  std::vector<Point2> surfaces;
+  const CellIndex corner = window().corner;
+  for (int row = corner.row; row < corner.row + window().rows; ++row) {
+    for (int column = corner.column; column < corner.column + window().columns; ++column) {
+      const Cell& cell = cells_.at({column, row});
+      if (isStatic(cell)) {
+        surfaces.push_back(window().centerOf({column, row}) + cell.hits.mean());
+      }
+    }
+  }
+  return surfaces;
+}
+
 template <typename Visit>
 void OccupancyMap::forEachSurfaceAround(const Point2& point, Visit&& visit) const {
   forEachNeighbor(window().cellAt(point), [&](CellIndex index) {

@@ -126,6 +126,7 @@ void GridSlamOptions::visit(OptionVisitor& visitor) {
   visitor.group("motion", [&] { motion.visit(visitor); });
   visitor.group("pose", [&] { pose.visit(visitor); });
   visitor.group("matcher", [&] { matcher.visit(visitor); });
+  visitor.group("recovery", [&] { recovery.visit(visitor); });
   visitor.toggle({"motion_compensation", "",
                   "bring each beam from its own time to the scan's stamp; false: take all beams of "
                   "a scan as measured at once (thesis)"},
@@ -162,7 +163,9 @@ void GridSlam::addOdometry(const OdometrySample& sample) {
 bool GridSlam::predict(Stamp stamp) {
   const double seconds = secondsBetween(*stamp_, stamp);
   const auto measured = odometry_.motion(*stamp_, stamp, filter_.errors(), estimatedSpeed());
-  if (!measured) {
+  if (!measured && isGap(seconds)) {
+    filter_.predictGap(seconds, odometry_.twistAt(stamp));
+  } else if (!measured) {
     filter_.predictUnmeasured(seconds);
   } else if (odometry_.measuresSpeed()) {
     filter_.predictMeasured(*measured, seconds);
@@ -170,6 +173,9 @@ bool GridSlam::predict(Stamp stamp) {
     filter_.predictTurn(*measured, seconds);
   }
   if (const auto corrected = anchor_.correction(stamp, filter_, odometry_)) {
+    if (recovery_) {
+      returnToMap();
+    }
     filter_ = *corrected;
     return true;
   }
@@ -220,11 +226,13 @@ SlamResult GridSlam::process(const Measurement& measurement) {
   SlamResult result;
   Scan scan = compensated(measurement.scan);
   if (stamp_) {
+    undoGapForOdometry(scan.stamp);
     result.odometry_used = scan.stamp > *stamp_ && predict(scan.stamp);
+    leaveMapAfterGap(scan.stamp);
     map_.centerOn(filter_.pose().pose.position());
     scan = locate(measurement, result);
   }
-  const PoseWithCovariance base_in_map = filter_.pose();
+  const PoseWithCovariance base_in_map = poseInFirstMap();
   const GridMaskedScan view = viewOf(measurement, scan);
   Scan own = measuredScan(view);
   std::vector<PointState> states = judge(own, map_, base_in_map.pose);
@@ -239,8 +247,15 @@ SlamResult GridSlam::process(const Measurement& measurement) {
   stamp_ = std::max(scan.stamp, stamp_.value_or(scan.stamp));
   anchor_.keep(scan.stamp, filter_, odometry_);
   result.odometry_errors = filter_.errors();
+  result.localization = recovery_ ? recovery_->state() : Localization::kLocated;
   removeConflictingBeams(scan, view, own, states);
+  if (recovery_) {
+    std::replace(states.begin(), states.end(), PointState::kMoving, PointState::kUnknown);
+  }
   result.split = split(own, states, base_in_map);
+  rememberScan(scan);
+  recover(scan.stamp);
+  result.maps_begun = maps_begun_;
   return result;
 }
 

@@ -2,6 +2,7 @@
 #include "datmo_fusion/slam/odometry_buffer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace datmo {
@@ -101,6 +102,15 @@ bool OdometryBuffer::hasPoses(Stamp from, Stamp to) const {
   }
   return std::all_of(pieceAt(from), pieces_.end(),
                      [&](const Piece& piece) { return piece.to_next || to <= piece.sample.stamp; });
+}
+
+std::optional<Twist2> OdometryBuffer::twistAt(Stamp stamp) const {
+  const auto piece = pieceAt(stamp);
+  if (piece == pieces_.end() || std::abs(secondsBetween(piece->sample.stamp, stamp)) > max_hold_ ||
+      !piece->sample.twist_measured || !piece->sample.speed_measured) {
+    return std::nullopt;
+  }
+  return piece->sample.twist;
 }
 
 std::optional<Stamp> OdometryBuffer::lastPose() const {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/slam/pose_filter.h"
 
+#include <cmath>
+#include <vector>
+
 #include <Eigen/LU>
 
 namespace datmo {
@@ -104,6 +107,59 @@ void PoseFilter::predictUnmeasured(double seconds) {
   covariance_.block<2, 2>(kSpeed, kSpeed) += motion_model_.velocityChange(seconds);
   move(arc(velocity_, seconds), seconds, kSpeed, 1.0, kYawRate, 1.0);
   addPoseNoise(motion_model_.sideSlip(seconds));
+}
+
+void PoseFilter::predictGap(double seconds, const std::optional<Twist2>& velocity_after) {
+  // Of a random walk between two known ends, or one: the mean velocity.
+  const Twist2 after = velocity_after ? errors_.correct(*velocity_after) : velocity_;
+  const Twist2 mean{0.5 * (velocity_.forward_speed + after.forward_speed),
+                    0.5 * (velocity_.yaw_rate + after.yaw_rate)};
+  move(arc(mean, seconds), seconds, kSpeed, 1.0, kYawRate, 1.0);
+  addWalkNoise(mean, seconds);
+  addPoseNoise(motion_model_.sideSlip(seconds));
+  addErrorDrift(seconds);
+  velocity_ = after;
+  if (velocity_after) {
+    observeVelocity(after);
+  }
+}
+
+void PoseFilter::addWalkNoise(const Twist2& twist, double seconds) {
+  // Integrals of a Wiener process of this variance per second (Bar-Shalom, Li & Kirubarajan, 2001,
+  // 6.2.2), of the yaw rate up to the third: the heading's error leads aside.
+  const Eigen::Matrix2d walk = motion_model_.velocityChange(1.0);
+  const double t = seconds;
+  const double v = twist.forward_speed;
+  Eigen::Matrix2d along;
+  along << t * t * t / 3.0, t * t / 2.0, t * t / 2.0, t;
+  Eigen::Matrix3d turn;
+  turn << v * v * std::pow(t, 5) / 20.0, v * std::pow(t, 4) / 8.0, v * std::pow(t, 3) / 6.0,
+      v * std::pow(t, 4) / 8.0, t * t * t / 3.0, t * t / 2.0, v * std::pow(t, 3) / 6.0, t * t / 2.0,
+      t;
+  const std::vector<int> speed_states{kX, kSpeed};
+  const std::vector<int> turn_states{kY, kHeading, kYawRate};
+  Eigen::Matrix<double, 5, 5> noise = Eigen::Matrix<double, 5, 5>::Zero();
+  noise(speed_states, speed_states) = walk(0, 0) * along;
+  noise(turn_states, turn_states) = walk(1, 1) * turn;
+  Eigen::Matrix<double, 5, 5> to_map = Eigen::Matrix<double, 5, 5>::Identity();
+  to_map.topLeftCorner<2, 2>() = pose_.rotation();
+  covariance_.topLeftCorner<5, 5>() += to_map * noise * to_map.transpose();
+}
+
+void PoseFilter::observeVelocity(const Twist2& measured) {
+  const Eigen::Matrix2d innovation =
+      covariance_.block<2, 2>(kSpeed, kSpeed) + motion_model_.velocityCovariance(measured);
+  const Eigen::Matrix<double, kStates, 2> gain =
+      covariance_.middleCols<2>(kSpeed) * innovation.inverse();
+  covariance_ -= gain * innovation * gain.transpose();
+  covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();
+}
+
+void PoseFilter::restartAt(const PoseWithCovariance& pose) {
+  pose_ = pose.pose;
+  covariance_.topRows<3>().setZero();
+  covariance_.leftCols<3>().setZero();
+  covariance_.topLeftCorner<3, 3>() = pose.covariance;
 }
 
 void PoseFilter::correct(const PoseWithCovariance& matched) {

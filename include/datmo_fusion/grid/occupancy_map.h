@@ -31,6 +31,13 @@ struct OccupancyMapOptions {
   void visit(OptionVisitor& visitor);
 };
 
+/// What a map knows of a cell.
+enum class CellState : std::uint8_t {
+  kUnknown,  ///< not seen, or not for long enough
+  kFree,     ///< seen free
+  kStatic,   ///< occupied by what stands still
+};
+
 /// What the map is updated with from an instantaneous grid, all in the vehicle's frame.
 struct GridUpdate {
   const SensorGrid* grid = nullptr;   ///< its free cells are free
@@ -69,6 +76,12 @@ class OccupancyMap {
   /// range, m; what it hit may lie anywhere between. One static cell there makes the point static;
   /// it is moving only if the whole footprint has been seen free.
   PointState judge(const Point2& point, const Point2& half_footprint = Point2::Zero()) const;
+
+  /// Also for cells outside of the window, which are unknown.
+  CellState stateOf(CellIndex cell) const;
+
+  /// Means of the hits in the static cells, m, row by row from the lower left corner.
+  std::vector<Point2> staticSurfaces() const;
 
   /// Hits in the 3 x 3 occupied cells around a point; none where there are no occupied ones.
   std::optional<HitDistribution> hitsAround(const Point2& point) const;

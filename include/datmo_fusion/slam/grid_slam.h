@@ -8,6 +8,7 @@
 #include "datmo_fusion/common/scan.h"
 #include "datmo_fusion/grid/occupancy_map.h"
 #include "datmo_fusion/slam/grid_masked_scan.h"
+#include "datmo_fusion/slam/map_recovery.h"
 #include "datmo_fusion/slam/odometry_anchor.h"
 #include "datmo_fusion/slam/odometry_buffer.h"
 #include "datmo_fusion/slam/pose_filter.h"
@@ -20,6 +21,7 @@ struct GridSlamOptions {
   MotionModelOptions motion;
   PoseFilterOptions pose;
   ScanMatcherOptions matcher;
+  MapRecoveryOptions recovery;
   double odometry_hold = 0.5;  ///< s
   bool motion_compensation = true;
   double max_step = 5.0;  ///< m
@@ -35,6 +37,8 @@ struct SlamResult {
   bool odometry_used = false;      ///< false: predicted with the last estimated velocity
   MatchQuality match;              ///< how well the scan fits the map
   OdometryErrors odometry_errors;  ///< as estimated so far
+  Localization localization = Localization::kLocated;
+  int maps_begun = 0;  ///< anew, since the vehicle was not found again in the map before
 };
 
 /// Maximum-likelihood SLAM on a rolling occupancy grid (thesis 3.1.1, 3.3.1): predict with the
@@ -46,6 +50,11 @@ struct SlamResult {
 /// occupied and free cells. Where the pose comes from, what moves and where exactly a surface lies
 /// is still decided by the scanner's own beams as far as the grid confirms them: the cells of
 /// others are coarse, and off by their depth's error, which would look like motion.
+///
+/// After a gap in which the vehicle may have gone far the map is left alone and a new one begun,
+/// until the vehicle is found in the old one or it is given up (MapRecovery). The pose's covariance
+/// is always that in the first map's frame: what a gap left open stays in it until it is found.
+/// While the vehicle is not located, nothing is said to move.
 ///
 /// Map frame: the vehicle's first pose is its origin. Not thread safe; scans in rising stamp order,
 /// which the caller ensures (StampGate).
@@ -93,6 +102,18 @@ class GridSlam {
   /// motion that its own match gives.
   Scan locate(const Measurement& measurement, SlamResult& result);
 
+  /// If the last scan is long ago, and the pose much less certain than then: begins a new map.
+  void leaveMapAfterGap(Stamp stamp);
+  bool isGap(double seconds) const;
+  /// Where odometry comes only after the first scan behind a gap: back to before the gap.
+  void undoGapForOdometry(Stamp stamp);
+  /// One step back into the map that was left; what it changes holds from the next scan on.
+  void recover(Stamp stamp);
+  void returnToMap();
+  /// Of the pose, with all that is not known of the map's own frame.
+  PoseWithCovariance poseInFirstMap() const;
+  void rememberScan(const Scan& scan);
+
   /// m/s; for odometry that measures none.
   double estimatedSpeed() const { return filter_.velocity().forward_speed; }
 
@@ -107,6 +128,19 @@ class GridSlam {
   Random random_;
   PoseFilter filter_;
   std::optional<Stamp> stamp_;  ///< of the pose: the last scan, or odometry since
+
+  /// The last scan that saw anything, and the pose then.
+  struct LastScan {
+    Stamp stamp;
+    PoseFilter filter;
+    double interval = 0.0;  ///< s, mean of those before
+  };
+  std::optional<LastScan> last_scan_;
+  std::optional<LastScan> before_gap_;  ///< while odometry may still come for it
+  std::optional<MapRecovery> recovery_;
+  /// Of the map's frame in that of the first map, about the origin.
+  Eigen::Matrix3d frame_covariance_ = Eigen::Matrix3d::Zero();
+  int maps_begun_ = 0;
 };
 
 }  // namespace datmo

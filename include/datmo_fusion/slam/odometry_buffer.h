@@ -58,6 +58,10 @@ class OdometryBuffer {
   /// Whether all of the motion between these stamps lies between samples with poses.
   bool hasPoses(Stamp from, Stamp to) const;
 
+  /// Of the sample that holds at this stamp: the last one before, or else the first one after it.
+  /// None if it is further away than the longest hold, or measured not all of it.
+  std::optional<Twist2> twistAt(Stamp stamp) const;
+
   /// Of the newest sample with a pose; none without one.
   std::optional<Stamp> lastPose() const;
 

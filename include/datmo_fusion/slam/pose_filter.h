@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include <Eigen/Core>
 
 #include "datmo_fusion/common/options.h"
@@ -52,6 +54,16 @@ class PoseFilter {
   /// After `seconds` (more than 0) without odometry.
   void predictUnmeasured(double seconds);
 
+  /// After a gap of `seconds` (more than 0) in which nothing was measured: any path whose speed and
+  /// yaw rate are random walks by the accelerations of the motion model. `velocity_after`: as
+  /// odometry measures it at the gap's end; such a path is known at both ends (a Brownian bridge),
+  /// and its position about four times as well.
+  void predictGap(double seconds, const std::optional<Twist2>& velocity_after);
+
+  /// The pose in a map that begins at it, or that it was found again in, with this covariance;
+  /// what is known of velocity and odometry stays.
+  void restartAt(const PoseWithCovariance& pose);
+
   /// Takes the pose that a match found from pose() as its prior.
   void correct(const PoseWithCovariance& matched);
 
@@ -65,6 +77,10 @@ class PoseFilter {
   void move(const Pose2& motion, double seconds, State speed, double speed_factor, State yaw_rate,
             double yaw_rate_factor);
   void addPoseNoise(const Eigen::Matrix3d& motion_noise);
+  /// What random walks of speed and yaw rate do to pose and velocity in a gap.
+  void addWalkNoise(const Twist2& twist, double seconds);
+  /// Conditions the covariance on a velocity that odometry measured.
+  void observeVelocity(const Twist2& measured);
   /// How much the errors of the odometry may have changed.
   void addErrorDrift(double seconds);
 

@@ -106,6 +106,7 @@ std::optional<GridSlamOutput> GridSlamStage::takeGrid(const nav_msgs::OccupancyG
 
 GridSlamOutput GridSlamStage::finish(const SlamResult& result) {
   showMatch(result);
+  showLocalization(result);
   GridSlamOutput output = outputOf(result);
   runner_.processed(result.split.stamp);
   return output;
@@ -125,6 +126,7 @@ void GridSlamStage::reset() {
   odometry_poses_.clear();
   last_map_.reset();
   degenerate_scans_ = 0;
+  maps_begun_ = 0;
 }
 
 void GridSlamStage::warnOf(const ScannerMount& mount, const ConvertedScan& converted) {
@@ -134,6 +136,34 @@ void GridSlamStage::warnOf(const ScannerMount& mount, const ConvertedScan& conve
   }
   if (const auto misfit = extent_.take(converted.scan)) {
     monitor_.warned(*misfit);
+  }
+}
+
+void GridSlamStage::showLocalization(const SlamResult& result) {
+  monitor_.figure("maps begun anew", result.maps_begun);
+  switch (result.localization) {
+    case Localization::kLocated:
+      if (result.maps_begun > maps_begun_) {
+        monitor_.condition(HealthLevel::kGood,
+                           "not found again after a gap: goes on in a new map, and the pose's "
+                           "covariance keeps what is not known of it");
+      } else if (monitor_.health() != HealthLevel::kGood) {
+        monitor_.condition(HealthLevel::kGood, "located in the map again");
+      }
+      maps_begun_ = result.maps_begun;
+      return;
+    case Localization::kUncertain:
+      monitor_.condition(
+          HealthLevel::kLess,
+          "uncertain where in the map after a gap: searches, and keeps the map as it "
+          "was");
+      return;
+    case Localization::kLost:
+      monitor_.condition(
+          HealthLevel::kNothing,
+          "lost after a gap: the map fits nowhere that the vehicle can be, or that is "
+          "too much of it");
+      return;
   }
 }
 

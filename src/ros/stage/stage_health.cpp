@@ -62,6 +62,10 @@ StageState StageHealth::judge(const StageMonitor& monitor, Stamp now,
   if (!state.faults.empty()) {
     state.level = makesResults(monitor, now) ? HealthLevel::kLess : HealthLevel::kNothing;
   }
+  if (monitor.health() != HealthLevel::kGood) {
+    state.faults.insert(state.faults.begin(), monitor.healthReason());
+    state.level = std::max(state.level, monitor.health());
+  }
   return state;
 }
 

@@ -60,6 +60,16 @@ void StageMonitor::dropped(const InputError& error) {
   say(error);
 }
 
+void StageMonitor::condition(HealthLevel health, const std::string& why) {
+  if (why != health_reason_ && health == HealthLevel::kGood) {
+    ROS_INFO("%s: %s", stage_.c_str(), why.c_str());
+  } else if (why != health_reason_) {
+    ROS_WARN("%s: %s", stage_.c_str(), why.c_str());
+  }
+  health_ = health;
+  health_reason_ = why;
+}
+
 void StageMonitor::warned(const InputError& error) {
   ++warnings_[error.reason()];
   last_warning_ = error.what();

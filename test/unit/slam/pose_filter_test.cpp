@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/slam/pose_filter.h"
 
+#include <cmath>
+#include <optional>
+
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
@@ -143,6 +146,48 @@ TEST(PoseFilterTest, AMeasuredTurnLeavesTheSpeedToTheMatches) {
   EXPECT_LT(by_turn.pose().covariance(2, 2), 0.1 * unmeasured.pose().covariance(2, 2));
   by_turn.correct({arc({4.0, 0.1}, 0.5), 1e-4 * Eigen::Matrix3d::Identity()});
   EXPECT_NEAR(by_turn.velocity().forward_speed, 4.0, 1.0) << "2 m in 0.5 s";
+}
+
+/// A filter that knows its pose, and has just measured this twist.
+PoseFilter measuredAt(const Twist2& twist) {
+  PoseFilter filter({}, {});
+  filter.predictMeasured(arc(twist, 0.01), 0.01);
+  filter.restartAt({Pose2(), 1e-6 * Eigen::Matrix3d::Identity()});
+  return filter;
+}
+
+TEST(PoseFilterTest, AGapIsAsWideAsRandomWalksOfTheVelocity) {
+  // Position of an integrated Wiener process of 3 m/s^1.5 after 2 s: 3 * sqrt(8 / 3) = 4.9 m; with
+  // both ends known a quarter of that variance: 2.45 m. The noise of the odometry adds 0.6 m/s.
+  PoseFilter open = measuredAt({10.0, 0.0});
+  open.predictGap(2.0, std::nullopt);
+  EXPECT_NEAR(open.pose().covariance(0, 0), 24.0 + std::pow(2.0 * 0.6, 2), 0.2);
+  PoseFilter bounded = measuredAt({10.0, 0.0});
+  bounded.predictGap(2.0, Twist2{10.0, 0.0});
+  EXPECT_GT(bounded.pose().covariance(0, 0), 6.0);
+  EXPECT_LT(bounded.pose().covariance(0, 0), 7.0);
+  EXPECT_NEAR(bounded.pose().pose.x(), 20.0, 1e-9);
+  EXPECT_GT(open.pose().covariance(2, 2), 3.0 * bounded.pose().covariance(2, 2));
+}
+
+TEST(PoseFilterTest, OverAGapTheMeanVelocityOfBothEndsHolds) {
+  PoseFilter filter = measuredAt({10.0, 0.0});
+  filter.predictGap(2.0, Twist2{4.0, 0.2});
+  EXPECT_NEAR(filter.pose().pose.heading(), 0.2, 1e-9);
+  EXPECT_NEAR(filter.pose().pose.position().norm(), 14.0, 0.1);
+  EXPECT_EQ(filter.velocity().forward_speed, 4.0);
+}
+
+TEST(PoseFilterTest, ARestartKeepsWhatIsKnownOfTheOdometry) {
+  PoseFilter filter({}, {});
+  BiasedDrive drive(0.03, degrees(0.5), 7);
+  drive.run(filter, 600);
+  const OdometryErrors errors = filter.errors();
+  const Eigen::Matrix3d covariance = Eigen::Vector3d(0.04, 0.09, 0.01).asDiagonal();
+  filter.restartAt({Pose2(5.0, 6.0, 1.0), covariance});
+  EXPECT_EQ(filter.pose().pose.x(), 5.0);
+  EXPECT_TRUE(filter.pose().covariance.isApprox(covariance));
+  EXPECT_EQ(filter.errors().speed_scale, errors.speed_scale);
 }
 
 }  // namespace

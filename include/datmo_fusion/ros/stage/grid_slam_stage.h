@@ -98,6 +98,7 @@ class GridSlamStage : public Stage {
 
   /// For diagnostics.
   void showMatch(const SlamResult& result);
+  void showLocalization(const SlamResult& result);
   GridSlamOutput finish(const SlamResult& result);
   GridSlamOutput outputOf(const SlamResult& result);
   std::vector<geometry_msgs::TransformStamped> transformsTo(const Pose2& base_in_map, Stamp stamp);
@@ -113,6 +114,7 @@ class GridSlamStage : public Stage {
   WaitingScans scans_;
   std::optional<Stamp> last_map_;
   std::uint64_t degenerate_scans_ = 0;
+  int maps_begun_ = 0;
 };
 
 }  // namespace datmo

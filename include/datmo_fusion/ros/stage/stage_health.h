@@ -36,13 +36,6 @@ bool isPublished(const WatchedInput& input, const PublishedType& published_type)
 /// or "it is published, but no message has come".
 std::string whyNothingComes(const WatchedInput& input, const PublishedType& published_type);
 
-/// How well a stage, or the stack, does.
-enum class HealthLevel {
-  kGood,
-  kLess,     ///< something is missing or wrong, but results come
-  kNothing,  ///< and none comes
-};
-
 /// Topics of a stage, resolved.
 struct StageTopics {
   std::vector<std::string> inputs;

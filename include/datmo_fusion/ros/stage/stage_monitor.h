@@ -31,6 +31,13 @@ struct Processed {
   double seconds = 0.0;  ///< it took
 };
 
+/// How well a stage, or the stack, does.
+enum class HealthLevel {
+  kGood,
+  kLess,     ///< something is missing or wrong, but results come
+  kNothing,  ///< and none comes that serves
+};
+
 /// Processing times over the last messages, s; 0 before the first.
 struct TimingStatus {
   double median = 0.0;
@@ -79,6 +86,10 @@ class StageMonitor {
   /// "weakest direction [m]".
   void figure(const std::string& name, double value) { figures_[name] = value; }
 
+  /// How well the stage does its work from now on, and why, for people; a change is said on the
+  /// console.
+  void condition(HealthLevel health, const std::string& why);
+
   /// What the messages of an input look like, for people: "360 beams to 8.0 m in laser". Asked for
   /// once alone.
   void describe(const std::string& input, const std::function<std::string()>& description);
@@ -108,6 +119,11 @@ class StageMonitor {
 
   const std::map<std::string, double>& figures() const { return figures_; }
 
+  HealthLevel health() const { return health_; }
+
+  /// Why it is as it is; empty at the start.
+  const std::string& healthReason() const { return health_reason_; }
+
   /// The newest of either kind, and of both; empty before the first.
   const std::string& lastDrop() const { return last_drop_; }
   const std::string& lastWarning() const { return last_warning_; }
@@ -129,6 +145,8 @@ class StageMonitor {
   std::map<std::string, std::uint64_t> drops_;
   std::map<std::string, std::uint64_t> warnings_;
   std::map<std::string, double> figures_;
+  HealthLevel health_ = HealthLevel::kGood;
+  std::string health_reason_;
   std::deque<double> times_;  ///< s, the last ones
   std::uint64_t processed_ = 0;
   Processed last_processed_;

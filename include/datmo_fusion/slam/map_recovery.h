@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include <Eigen/Core>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/common/stamp.h"
+#include "datmo_fusion/grid/occupancy_map.h"
+#include "datmo_fusion/slam/map_search.h"
+
+namespace datmo {
+
+/// How well the vehicle knows where it is in the map.
+enum class Localization : std::uint8_t {
+  kLocated,    ///< by scans matched to the map
+  kUncertain,  ///< after a gap: somewhere within the pose's covariance
+  kLost,       ///< the same, and the map fits nowhere there, or there is too much of it
+};
+
+struct MapRecoveryOptions {
+  double from_position_sigma = 0.5;          ///< m
+  double from_heading_sigma = degrees(5.0);  ///< rad
+  double first_search_after = 1.2;           ///< s
+  double search_period = 0.8;                ///< s
+  double give_up_after = 5.0;                ///< s
+  double lost_from_sigma = 15.0;             ///< m
+  int boxes_per_scan = 600;
+  MapSearchOptions search;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Covariance (x, y, heading) of a pose that is `arm` (m) away from one of this covariance, and
+/// rigidly connected with it.
+Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Point2& arm);
+
+/// The way back into a map after a gap in which the vehicle may have gone anywhere within a wide
+/// prior. Scans then build a newer map, which begins at the prior's mean, and the older one is left
+/// as it was; it is searched for the newer one, again and again as that grows, until there is one
+/// answer, or it is time to go on with the newer map alone.
+class MapRecovery {
+ public:
+  /// `start`: the prior in the older map's frame, where the newer one begins at this stamp. Throws
+  /// OptionError.
+  MapRecovery(const MapRecoveryOptions& options, OccupancyMap older,
+              const PoseWithCovariance& start, Stamp stamp);
+
+  /// A pose of the newer map with what is not known of that map itself.
+  PoseWithCovariance inOlder(const PoseWithCovariance& in_newer) const;
+
+  /// After each scan: goes on with the search. Returns the vehicle's pose in the older map once it
+  /// is found.
+  std::optional<PoseWithCovariance> advance(const OccupancyMap& newer,
+                                            const PoseWithCovariance& in_newer, Stamp stamp);
+
+  /// Whether the newer map is to be the map from now on.
+  bool isOver(Stamp stamp) const { return secondsBetween(begun_, stamp) > options_.give_up_after; }
+
+  Localization state() const { return state_; }
+
+  /// The older map; this object is of no use afterwards.
+  OccupancyMap takeOlder() { return std::move(older_); }
+
+ private:
+  void beginSearch(const OccupancyMap& newer, const PoseWithCovariance& in_newer, Stamp stamp);
+
+  MapRecoveryOptions options_;
+  OccupancyMap older_;
+  PoseWithCovariance start_;
+  Stamp begun_;
+  Stamp next_search_;
+  bool is_searchable_ = true;  ///< the prior is not too wide
+  Localization state_ = Localization::kUncertain;
+  std::optional<MapSearch> search_;
+  Pose2 searched_from_;  ///< where in the newer map the search is about
+};
+
+}  // namespace datmo

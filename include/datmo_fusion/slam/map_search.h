@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <queue>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/grid/distance_field.h"
+#include "datmo_fusion/grid/occupancy_map.h"
+
+namespace datmo {
+
+struct MapSearchOptions {
+  double changed_share = 0.03;      ///< of the surfaces
+  double max_log_ratio = 6.0;       ///< of two hypotheses that both live
+  double max_changed_share = 0.15;  ///< of the surfaces
+  double min_shared = 0.4;          ///< of the surfaces
+  int min_surfaces = 60;            ///< cells
+  double reach = 35.0;              ///< m
+  int max_boxes = 60000;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Where a map that was begun a short time ago lies in an older one.
+///
+/// Two maps of one place agree but for what has changed: surfaces of one lie in space that the
+/// other has seen free for a small share of them only. Any number of agreeing surfaces proves less,
+/// since parked cars repeat. So a hypothesis (a pose in the older map) has as negative
+/// log-likelihood its share of contradicted surfaces, exponentially distributed, and its distance
+/// from the prior; what either map does not know counts nothing. Hardly anything contradicts the
+/// true pose, so that it is among the hypotheses that live, within `max_log_ratio` of the best; it
+/// is found when all of them lie together, and else the result is ambiguous.
+///
+/// Branch and bound (Olson 2009, 2015; Hess et al. 2016), best first: all poses of a box are
+/// contradicted by the surfaces that lie deeper in free space than the box can move them. The work
+/// may be spread over several calls. The maps are not kept.
+class MapSearch {
+ public:
+  enum class Outcome {
+    kUnfinished,  ///< go on
+    kFound,       ///< one pose alone is not contradicted
+    kAmbiguous,   ///< several are not, or there is too little to compare
+    kNone,        ///< none within the prior is
+  };
+
+  /// The vehicle is at `in_newer` in the newer map, and by `prior` in the older one; its covariance
+  /// positive definite. Throws OptionError.
+  MapSearch(const MapSearchOptions& options, const OccupancyMap& older, const OccupancyMap& newer,
+            const PoseWithCovariance& prior, const Pose2& in_newer);
+
+  /// Looks at this many further boxes of poses at the most.
+  Outcome advance(int boxes);
+
+  /// With kFound: in the older map, with the spread of the poses that are not contradicted.
+  PoseWithCovariance found() const;
+
+ private:
+  /// Poses within `half` (m, m, rad) of a center.
+  struct Box {
+    Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< of the center from the prior
+    Eigen::Vector3d half = Eigen::Vector3d::Zero();
+    double contradicted = 0.0;  ///< share of surfaces, at the least
+    double cost = 0.0;          ///< negative log-likelihood, at the least
+  };
+  struct Costlier {
+    bool operator()(const Box& a, const Box& b) const { return a.cost > b.cost; }
+  };
+  /// A cell with a surface.
+  struct Surface {
+    Point2 position;        ///< m, of the newer map about the vehicle, of the older one in the map
+    double distance = 0.0;  ///< m, from the vehicle, or its prior position
+  };
+
+  /// Surfaces within reach of the vehicle, thinned out, and how many cells each stands for.
+  struct Surfaces {
+    std::vector<Surface> all;
+    double weight = 1.0;
+  };
+
+  static Surfaces thinnedOut(const std::vector<Point2>& positions, const Point2& vehicle,
+                             double reach);
+  Pose2 poseOf(const Box& box) const;
+  void open(Box box);
+  void split(const Box& box);
+  static bool isLeaf(const Box& box);
+  double priorCost(const Box& box) const;
+  double contradictedShare(const Box& box) const;
+  double sharedAt(const Pose2& pose) const;
+  Outcome takeLeaf(const Box& leaf);
+  Outcome conclude() const;
+
+  MapSearchOptions options_;
+  DistanceField older_free_;  ///< to what is not free
+  DistanceField newer_free_;
+  DistanceField older_surface_;  ///< to what is static
+  PoseWithCovariance prior_;
+  Pose2 in_newer_;
+  Eigen::Matrix3d whitening_;  ///< of differences from the prior
+  double tolerance_;           ///< m, by which surfaces may be off
+  Surfaces newer_;
+  Surfaces older_;
+  std::priority_queue<Box, std::vector<Box>, Costlier> open_;
+  std::vector<Box> leaves_;  ///< that live, the best first
+  int looked_at_ = 0;
+  Outcome outcome_ = Outcome::kUnfinished;
+};
+
+}  // namespace datmo

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What GridSlam does about gaps.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+
+#include "datmo_fusion/slam/grid_slam.h"
+
+namespace datmo {
+
+namespace {
+
+/// Scans further apart than this (s), and than so many times their mean interval, leave a gap.
+constexpr double kMinGap = 0.4;
+constexpr double kGapIntervals = 4.0;
+
+/// Odometry is waited for this long (s) after the first scan behind a gap.
+constexpr double kOdometryDelay = 0.3;
+
+/// Of the pose at which a map begins (m^2, rad^2): for matches it may not be 0.
+constexpr double kStartVariance = 1e-6;
+
+/// Weight of the newest interval in their mean.
+constexpr double kIntervalShare = 0.1;
+
+/// Whether the pose has become so uncertain in between that its scan must be searched for.
+bool grewWider(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to,
+               const MapRecoveryOptions& limits) {
+  const auto max_variance = [](const Eigen::Matrix3d& covariance) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(
+        Eigen::Matrix2d(covariance.topLeftCorner<2, 2>()), Eigen::EigenvaluesOnly);
+    return axes.eigenvalues()[1];
+  };
+  return max_variance(to) - max_variance(from) > std::pow(limits.from_position_sigma, 2) ||
+         to(2, 2) - from(2, 2) > std::pow(limits.from_heading_sigma, 2);
+}
+
+}  // namespace
+
+bool GridSlam::isGap(double seconds) const {
+  return last_scan_ && seconds > std::max(kMinGap, kGapIntervals * last_scan_->interval);
+}
+
+void GridSlam::rememberScan(const Scan& scan) {
+  if (scan.rays.empty()) {
+    return;
+  }
+  double interval = 0.0;
+  if (last_scan_) {
+    const double seconds = std::max(0.0, secondsBetween(last_scan_->stamp, scan.stamp));
+    interval = last_scan_->interval + kIntervalShare * (seconds - last_scan_->interval);
+  }
+  last_scan_.emplace(LastScan{scan.stamp, filter_, interval});
+}
+
+void GridSlam::leaveMapAfterGap(Stamp stamp) {
+  if (!last_scan_ || !isGap(secondsBetween(last_scan_->stamp, stamp)) ||
+      !grewWider(last_scan_->filter.pose().covariance, filter_.pose().covariance,
+                 options_.recovery)) {
+    return;
+  }
+  const PoseWithCovariance prior = filter_.pose();
+  if (recovery_) {
+    recovery_.emplace(options_.recovery, recovery_->takeOlder(), recovery_->inOlder(prior), stamp);
+  } else {
+    if (!odometry_.twistAt(stamp)) {
+      before_gap_ = last_scan_;
+    }
+    recovery_.emplace(options_.recovery, std::move(map_), prior, stamp);
+  }
+  map_ = OccupancyMap(options_.map);
+  filter_.restartAt(
+      {prior.pose, Eigen::Vector3d(kStartVariance, kStartVariance, kStartVariance).asDiagonal()});
+}
+
+void GridSlam::undoGapForOdometry(Stamp stamp) {
+  if (!before_gap_ || !odometry_.twistAt(stamp)) {
+    return;
+  }
+  if (recovery_ && secondsBetween(last_scan_->stamp, stamp) < kOdometryDelay) {
+    returnToMap();
+    filter_ = before_gap_->filter;
+    stamp_ = before_gap_->stamp;
+    last_scan_ = before_gap_;
+  }
+  before_gap_.reset();
+}
+
+void GridSlam::returnToMap() {
+  map_ = recovery_->takeOlder();
+  recovery_.reset();
+}
+
+void GridSlam::recover(Stamp stamp) {
+  if (!recovery_) {
+    return;
+  }
+  if (const auto found = recovery_->advance(map_, filter_.pose(), stamp)) {
+    returnToMap();
+    filter_.restartAt(*found);
+  } else if (recovery_->isOver(stamp)) {
+    const PoseWithCovariance origin = recovery_->inOlder({Pose2(), Eigen::Matrix3d::Zero()});
+    frame_covariance_ += origin.covariance;
+    anchor_ = {};
+    recovery_.reset();
+    ++maps_begun_;
+  }
+}
+
+PoseWithCovariance GridSlam::poseInFirstMap() const {
+  PoseWithCovariance pose = recovery_ ? recovery_->inOlder(filter_.pose()) : filter_.pose();
+  pose.covariance += carried(frame_covariance_, pose.pose.position());
+  return pose;
+}
+
+}  // namespace datmo

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/slam/map_recovery.h"
+
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+
+namespace datmo {
+
+void MapRecoveryOptions::visit(OptionVisitor& visitor) {
+  visitor.number(
+      {"from_position_sigma", "m",
+       "a gap that makes the position this uncertain (standard deviation) needs a search "
+       "of the map; after shorter ones the next scan is matched as usual"},
+      from_position_sigma, {0.01, 1000.0});
+  visitor.number({"from_heading_sigma", "rad", "the same for the heading"}, from_heading_sigma,
+                 {0.001, 10.0});
+  visitor.number(
+      {"first_search_after", "s",
+       "what the new map needs to know what stands still (map/static_after) and what is free"},
+      first_search_after, {0.0, 60.0});
+  visitor.number({"search_period", "s", "between two searches"}, search_period, {0.0, 60.0});
+  visitor.number({"give_up_after", "s", "then the new map is the map"}, give_up_after,
+                 {0.0, 3600.0});
+  visitor.number({"lost_from_sigma", "m",
+                  "standard deviation of the position from which on no search is made"},
+                 lost_from_sigma, {0.01, 1000.0});
+  visitor.integer({"boxes_per_scan", "1", "of poses that a search looks at, at the most"},
+                  boxes_per_scan, {1, 1000000});
+  visitor.group("search", [&] { search.visit(visitor); });
+}
+
+Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Point2& arm) {
+  Eigen::Matrix3d lever = Eigen::Matrix3d::Identity();
+  lever(0, 2) = -arm.y();
+  lever(1, 2) = arm.x();
+  return lever * covariance * lever.transpose();
+}
+
+MapRecovery::MapRecovery(const MapRecoveryOptions& options, OccupancyMap older,
+                         const PoseWithCovariance& start, Stamp stamp)
+    : options_(options),
+      older_(std::move(older)),
+      start_(start),
+      begun_(stamp),
+      next_search_(stamp + options.first_search_after) {
+  checkOptions(options);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(
+      Eigen::Matrix2d(start.covariance.topLeftCorner<2, 2>()), Eigen::EigenvaluesOnly);
+  is_searchable_ = std::sqrt(axes.eigenvalues()[1]) <= options_.lost_from_sigma;
+  state_ = is_searchable_ ? Localization::kUncertain : Localization::kLost;
+}
+
+PoseWithCovariance MapRecovery::inOlder(const PoseWithCovariance& in_newer) const {
+  const Point2 arm = in_newer.pose.position() - start_.pose.position();
+  return {in_newer.pose, in_newer.covariance + carried(start_.covariance, arm)};
+}
+
+void MapRecovery::beginSearch(const OccupancyMap& newer, const PoseWithCovariance& in_newer,
+                              Stamp stamp) {
+  searched_from_ = in_newer.pose;
+  search_.emplace(options_.search, older_, newer, inOlder(in_newer), in_newer.pose);
+  next_search_ = stamp + options_.search_period;
+}
+
+std::optional<PoseWithCovariance> MapRecovery::advance(const OccupancyMap& newer,
+                                                       const PoseWithCovariance& in_newer,
+                                                       Stamp stamp) {
+  if (!search_ && is_searchable_ && next_search_ <= stamp) {
+    beginSearch(newer, in_newer, stamp);
+  }
+  if (!search_) {
+    return std::nullopt;
+  }
+  const MapSearch::Outcome outcome = search_->advance(options_.boxes_per_scan);
+  if (outcome == MapSearch::Outcome::kUnfinished) {
+    return std::nullopt;
+  }
+  std::optional<PoseWithCovariance> found;
+  if (outcome == MapSearch::Outcome::kFound) {
+    // The vehicle has moved since the search began.
+    const PoseWithCovariance then = search_->found();
+    const Pose2 since = searched_from_.inverse() * in_newer.pose;
+    const Pose2 now = then.pose * since;
+    found =
+        PoseWithCovariance{now, carried(then.covariance, now.position() - then.pose.position())};
+  }
+  state_ = outcome == MapSearch::Outcome::kNone ? Localization::kLost : Localization::kUncertain;
+  search_.reset();
+  return found;
+}
+
+}  // namespace datmo

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/slam/map_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Cholesky>
+
+namespace datmo {
+
+namespace {
+
+/// Standard deviations of the prior that are searched.
+constexpr double kGate = 3.5;
+
+/// A box no larger than this (m, rad) is not split any more.
+constexpr double kLeafPosition = 0.15;
+constexpr double kLeafHeading = degrees(0.6);
+
+/// Hypotheses this near to the best one (m, rad) are one: a match finds the pose from there.
+constexpr double kTogetherPosition = 1.5;
+constexpr double kTogetherHeading = degrees(5.0);
+
+/// Of what the prior leaves out: the older map's own error (m, rad).
+constexpr double kMapSigma = 0.3;
+constexpr double kMapHeadingSigma = degrees(1.0);
+
+/// Surfaces of a map that are compared at the most.
+constexpr std::size_t kMaxSurfaces = 250;
+
+/// Of a cell of which nothing is known.
+constexpr double kUnknownOccupancy = 0.5;
+
+/// Two maps have the same surface in cells that are neighbors, at the most.
+constexpr double kToleranceCells = 1.5;
+
+/// Distances to what is not free. Unknown cells between free ones are: beams far away are further
+/// apart than cells.
+DistanceField freeSpaceOf(const OccupancyMap& map) {
+  const auto is_free = [&map](CellIndex cell) { return map.stateOf(cell) == CellState::kFree; };
+  return DistanceField(
+      map,
+      [&map, is_free](CellIndex cell) {
+        if (is_free(cell)) {
+          return false;
+        }
+        if (map.occupancy(cell) > kUnknownOccupancy) {
+          return true;
+        }
+        const auto between = [&](int columns, int rows) {
+          return is_free({cell.column + columns, cell.row + rows}) &&
+                 is_free({cell.column - columns, cell.row - rows});
+        };
+        return !between(1, 0) && !between(0, 1) && !between(1, 1) && !between(1, -1);
+      },
+      0.0);
+}
+
+DistanceField surfacesIn(const OccupancyMap& map) {
+  return DistanceField(
+      map, [&map](CellIndex cell) { return map.stateOf(cell) == CellState::kStatic; },
+      std::numeric_limits<double>::infinity());
+}
+
+}  // namespace
+
+void MapSearchOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"changed_share", "1",
+                  "mean share of surfaces of one map that another one of the same place, made a "
+                  "short time later, contradicts"},
+                 changed_share, {0.001, 1.0});
+  visitor.number(
+      {"max_log_ratio", "1", "hypotheses live up to this log-likelihood ratio to the best one"},
+      max_log_ratio, {0.0, 1000.0});
+  visitor.number({"max_changed_share", "1", "no pose that is contradicted by more is found"},
+                 max_changed_share, {0.0, 1.0});
+  visitor.number({"min_shared", "1", "share of surfaces that both maps have, at the pose found"},
+                 min_shared, {0.0, 1.0});
+  visitor.integer({"min_surfaces", "1", "static cells of the newer map with which it is searched"},
+                  min_surfaces, {1, 1000000});
+  visitor.number({"reach", "m", "surfaces up to here are compared"}, reach, {1.0, 1000.0});
+  visitor.integer({"max_boxes", "1", "boxes of poses after which a search ends as ambiguous"},
+                  max_boxes, {1, 100000000});
+}
+
+MapSearch::Surfaces MapSearch::thinnedOut(const std::vector<Point2>& positions,
+                                          const Point2& vehicle, double reach) {
+  std::vector<Surface> near;
+  for (const Point2& position : positions) {
+    const double distance = (position - vehicle).norm();
+    if (distance <= reach) {
+      near.push_back({position, distance});
+    }
+  }
+  Surfaces surfaces;
+  const std::size_t kept = std::min(near.size(), kMaxSurfaces);
+  for (std::size_t i = 0; i < kept; ++i) {
+    surfaces.all.push_back(near[i * near.size() / kept]);
+  }
+  surfaces.weight = kept == 0 ? 0.0 : static_cast<double>(near.size()) / static_cast<double>(kept);
+  return surfaces;
+}
+
+MapSearch::MapSearch(const MapSearchOptions& options, const OccupancyMap& older,
+                     const OccupancyMap& newer, const PoseWithCovariance& prior,
+                     const Pose2& in_newer)
+    : options_(options),
+      older_free_(freeSpaceOf(older)),
+      newer_free_(freeSpaceOf(newer)),
+      older_surface_(surfacesIn(older)),
+      prior_(prior),
+      in_newer_(in_newer),
+      tolerance_(kToleranceCells * older.window().cell_size),
+      newer_(thinnedOut(newer.staticSurfaces(), in_newer.position(), options.reach)),
+      older_(thinnedOut(older.staticSurfaces(), prior.pose.position(), options.reach)) {
+  checkOptions(options);
+  prior_.covariance += Eigen::Vector3d(kMapSigma * kMapSigma, kMapSigma * kMapSigma,
+                                       kMapHeadingSigma * kMapHeadingSigma)
+                           .asDiagonal();
+  whitening_ = prior_.covariance.llt().matrixL().solve(Eigen::Matrix3d::Identity());
+  for (Surface& surface : newer_.all) {
+    surface.position = in_newer.inverse() * surface.position;
+  }
+  if (newer_.weight * static_cast<double>(newer_.all.size()) < options.min_surfaces) {
+    outcome_ = Outcome::kAmbiguous;
+    return;
+  }
+  Box all;
+  all.half = kGate * prior_.covariance.diagonal().cwiseSqrt();
+  all.half[2] = std::min(all.half[2], kPi);
+  open(all);
+}
+
+Pose2 MapSearch::poseOf(const Box& box) const {
+  return {prior_.pose.x() + box.offset[0], prior_.pose.y() + box.offset[1],
+          prior_.pose.heading() + box.offset[2]};
+}
+
+double MapSearch::priorCost(const Box& box) const {
+  double reach = 0.0;
+  for (const double x : {-1.0, 1.0}) {
+    for (const double y : {-1.0, 1.0}) {
+      const Eigen::Vector3d corner(x * box.half[0], y * box.half[1], box.half[2]);
+      reach = std::max(reach, (whitening_ * corner).norm());
+    }
+  }
+  const double distance = std::max(0.0, (whitening_ * box.offset).norm() - reach);
+  return 0.5 * distance * distance;
+}
+
+double MapSearch::contradictedShare(const Box& box) const {
+  const Pose2 pose = poseOf(box);
+  const double moves = tolerance_ + box.half.head<2>().norm();
+  const double turns = box.half[2];
+  const Eigen::Matrix2d to_older = pose.rotation();
+  int contradicted_newer = 0;
+  for (const Surface& surface : newer_.all) {
+    const double depth = older_free_.at(pose.position() + to_older * surface.position);
+    contradicted_newer += depth > moves + turns * surface.distance ? 1 : 0;
+  }
+  const Pose2 to_newer = in_newer_ * pose.inverse();
+  const Eigen::Matrix2d rotation = to_newer.rotation();
+  const double shift = box.offset.head<2>().norm() + box.half.head<2>().norm();
+  int contradicted_older = 0;
+  for (const Surface& surface : older_.all) {
+    const double depth = newer_free_.at(to_newer.position() + rotation * surface.position);
+    contradicted_older += depth > moves + turns * (surface.distance + shift) ? 1 : 0;
+  }
+  return (newer_.weight * contradicted_newer + older_.weight * contradicted_older) /
+         (newer_.weight * static_cast<double>(newer_.all.size()));
+}
+
+void MapSearch::open(Box box) {
+  ++looked_at_;
+  box.contradicted = contradictedShare(box);
+  box.cost = priorCost(box) + box.contradicted / options_.changed_share;
+  if (leaves_.empty() || box.cost <= leaves_.front().cost + options_.max_log_ratio) {
+    open_.push(box);
+  }
+}
+
+void MapSearch::split(const Box& box) {
+  const Eigen::Vector3d leaves(kLeafPosition, kLeafPosition, kLeafHeading);
+  int axis = 0;
+  box.half.cwiseQuotient(leaves).maxCoeff(&axis);
+  for (const double side : {-0.5, 0.5}) {
+    Box part = box;
+    part.half[axis] *= 0.5;
+    part.offset[axis] += side * box.half[axis];
+    open(part);
+  }
+}
+
+bool MapSearch::isLeaf(const Box& box) {
+  return box.half[0] <= kLeafPosition && box.half[1] <= kLeafPosition &&
+         box.half[2] <= kLeafHeading;
+}
+
+MapSearch::Outcome MapSearch::takeLeaf(const Box& leaf) {
+  if (leaves_.empty() && leaf.contradicted > options_.max_changed_share) {
+    return Outcome::kNone;
+  }
+  leaves_.push_back(leaf);
+  const Eigen::Vector3d apart = leaf.offset - leaves_.front().offset;
+  const bool together =
+      apart.head<2>().norm() <= kTogetherPosition && std::abs(apart[2]) <= kTogetherHeading;
+  return together ? Outcome::kUnfinished : Outcome::kAmbiguous;
+}
+
+double MapSearch::sharedAt(const Pose2& pose) const {
+  const Eigen::Matrix2d rotation = pose.rotation();
+  int shared = 0;
+  for (const Surface& surface : newer_.all) {
+    const double distance = older_surface_.at(pose.position() + rotation * surface.position);
+    shared += distance <= tolerance_ ? 1 : 0;
+  }
+  return static_cast<double>(shared) / static_cast<double>(newer_.all.size());
+}
+
+MapSearch::Outcome MapSearch::conclude() const {
+  if (leaves_.empty()) {
+    return Outcome::kNone;
+  }
+  double shared = 0.0;
+  for (const Box& leaf : leaves_) {
+    shared = std::max(shared, sharedAt(poseOf(leaf)));
+  }
+  return shared >= options_.min_shared ? Outcome::kFound : Outcome::kAmbiguous;
+}
+
+MapSearch::Outcome MapSearch::advance(int boxes) {
+  const int until = looked_at_ + boxes;
+  while (outcome_ == Outcome::kUnfinished && looked_at_ < until) {
+    if (open_.empty() ||
+        (!leaves_.empty() && open_.top().cost > leaves_.front().cost + options_.max_log_ratio)) {
+      outcome_ = conclude();
+      break;
+    }
+    Box box = open_.top();
+    open_.pop();
+    if (box.half.isZero()) {
+      outcome_ = takeLeaf(box);
+    } else if (isLeaf(box)) {
+      // Its center stands for all of it: surfaces may be off by more than it reaches.
+      box.half.setZero();
+      open(box);
+    } else {
+      split(box);
+    }
+    if (outcome_ == Outcome::kUnfinished && looked_at_ >= options_.max_boxes) {
+      outcome_ = Outcome::kAmbiguous;
+    }
+  }
+  return outcome_;
+}
+
+PoseWithCovariance MapSearch::found() const {
+  // The one on most surfaces, of those that live.
+  const Box* best = &leaves_.front();
+  double best_shared = 0.0;
+  for (const Box& leaf : leaves_) {
+    const double shared = sharedAt(poseOf(leaf));
+    if (shared > best_shared) {
+      best_shared = shared;
+      best = &leaf;
+    }
+  }
+  PoseWithCovariance found{poseOf(*best), {}};
+  found.covariance = Eigen::Vector3d(kMapSigma * kMapSigma, kMapSigma * kMapSigma,
+                                     kMapHeadingSigma * kMapHeadingSigma)
+                         .asDiagonal();
+  double sum = 0.0;
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Box& leaf : leaves_) {
+    const double weight = std::exp(leaves_.front().cost - leaf.cost);
+    const Eigen::Vector3d apart = leaf.offset - best->offset;
+    spread += weight * apart * apart.transpose();
+    sum += weight;
+  }
+  found.covariance += spread / sum;
+  return found;
+}
+
+}  // namespace datmo

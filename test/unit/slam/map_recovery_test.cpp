@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/slam/map_recovery.h"
+
+#include "yard.h"
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/slam/grid_slam.h"
+
+namespace datmo::map_recovery_test {
+namespace {
+
+TEST(MapRecoveryTest, AHeadingErrorMovesWhatIsFarAway) {
+  const Eigen::Matrix3d covariance = Eigen::Vector3d(0.01, 0.04, 0.25).asDiagonal();
+  const Eigen::Matrix3d far = carried(covariance, {10.0, 0.0});
+  EXPECT_NEAR(far(0, 0), 0.01, 1e-12);
+  EXPECT_NEAR(far(1, 1), 0.04 + 100.0 * 0.25, 1e-12);
+  EXPECT_NEAR(far(1, 2), 10.0 * 0.25, 1e-12);
+  EXPECT_NEAR(far(2, 2), 0.25, 1e-12);
+  EXPECT_TRUE(carried(far, {-10.0, 0.0}).isApprox(covariance));
+}
+
+/// A drive with a gap of scans and odometry, in which the vehicle goes at `speed_in_gap`.
+struct Drive {
+  double gap = 2.0;           ///< s
+  double speed_in_gap = 2.0;  ///< m/s; before and after it 2 m/s
+  double turn_in_gap = 0.0;   ///< rad/s
+  double late = 0.0;          ///< s, odometry after the first scan
+  bool elsewhere = false;     ///< put down in another place
+  bool with_odometry = true;
+};
+
+struct Step {
+  SlamResult result;
+  Pose2 truth;
+};
+
+std::vector<Step> run(const Drive& drive, int scans_after = 50) {
+  GridSlam slam{GridSlamOptions{}};
+  const Yard yard;
+  std::vector<Step> steps;
+  Pose2 truth;
+  double seconds = 0.0;
+  const Twist2 twist{2.0, 0.0};
+  const auto step = [&](bool with_odometry) {
+    const Stamp stamp = Stamp::fromSeconds(1000.0 + seconds);
+    if (with_odometry && drive.with_odometry) {
+      slam.addOdometry({stamp, twist});
+    }
+    steps.push_back({slam.process(yard.scan(truth, seconds)), truth});
+  };
+  for (int i = 0; i < 30; ++i) {
+    step(true);
+    truth = truth * arc(twist, 0.1);
+    seconds += 0.1;
+  }
+  truth = truth * arc({drive.speed_in_gap, drive.turn_in_gap}, drive.gap);
+  truth = drive.elsewhere ? truth * Pose2(0.0, 0.0, 2.5) : truth;
+  seconds += drive.gap;
+  for (int i = 0; i < scans_after; ++i) {
+    step(0.1 * i >= drive.late);
+    truth = truth * arc(twist, 0.1);
+    seconds += 0.1;
+  }
+  return steps;
+}
+
+Eigen::Vector3d errorOf(const Step& step) {
+  const Pose2& pose = step.result.split.base_in_map.pose;
+  return {pose.x() - step.truth.x(), pose.y() - step.truth.y(),
+          angleBetween(step.truth.heading(), pose.heading())};
+}
+
+/// Whether an error beyond 0.5 m, 2 degrees is at most three standard deviations.
+bool admits(const Step& step) {
+  const Eigen::Vector3d error = errorOf(step);
+  const Eigen::Matrix3d& covariance = step.result.split.base_in_map.covariance;
+  const double distance = error.head<2>().norm();
+  const Eigen::Vector2d along = error.head<2>() / std::max(distance, 1e-9);
+  const double sigma = std::sqrt(along.dot(covariance.topLeftCorner<2, 2>() * along));
+  const bool position = distance < 0.5 || distance <= 3.0 * sigma;
+  const bool heading =
+      std::abs(error[2]) < degrees(2.0) || std::abs(error[2]) <= 3.0 * std::sqrt(covariance(2, 2));
+  return position && heading;
+}
+
+TEST(MapRecoveryTest, AfterAGapItIsUncertainAndNeverConfidentAndWrong) {
+  // The pillars of the yard repeat every 9 m: where the vehicle went on at another speed it may
+  // not be found, but then it says so.
+  for (const double speed : {0.0, 2.0, 4.0}) {
+    for (const double turn : {-0.2, 0.0, 0.2}) {
+      const std::vector<Step> steps = run({2.0, speed, turn}, 70);
+      EXPECT_EQ(steps[29].result.localization, Localization::kLocated);
+      EXPECT_EQ(steps[30].result.localization, Localization::kUncertain) << speed << ", " << turn;
+      EXPECT_EQ(steps.back().result.localization, Localization::kLocated) << speed << ", " << turn;
+      for (const Step& step : steps) {
+        EXPECT_TRUE(admits(step)) << speed << ", " << turn;
+      }
+    }
+  }
+}
+
+TEST(MapRecoveryTest, ItIsFoundWhereNothingElseFits) {
+  const std::vector<Step> steps = run({1.2, 2.5, 0.1}, 50);
+  EXPECT_EQ(steps.back().result.maps_begun, 0);
+  EXPECT_EQ(steps.back().result.localization, Localization::kLocated);
+  EXPECT_LT(errorOf(steps.back()).head<2>().norm(), 0.3);
+  EXPECT_LT(steps.back().result.split.base_in_map.covariance(0, 0), 0.1);
+}
+
+TEST(MapRecoveryTest, OdometryThatComesLateStillBoundsTheGap) {
+  const Eigen::Matrix3d in_time = run({2.0, 2.0}, 4).back().result.split.base_in_map.covariance;
+  const Eigen::Matrix3d late =
+      run({2.0, 2.0, 0.0, 0.15}, 4).back().result.split.base_in_map.covariance;
+  EXPECT_LT(late(0, 0), 1.5 * in_time(0, 0));
+}
+
+TEST(MapRecoveryTest, WithoutOdometryItIsFoundToo) {
+  Drive drive{1.5, 2.0};
+  drive.with_odometry = false;
+  const std::vector<Step> steps = run(drive);
+  EXPECT_EQ(steps[30].result.localization, Localization::kUncertain);
+  for (const Step& step : steps) {
+    EXPECT_TRUE(admits(step));
+  }
+}
+
+TEST(MapRecoveryTest, WhileItIsNotLocatedNothingMoves) {
+  for (const Step& step : run({2.0, 4.0})) {
+    if (step.result.localization == Localization::kLocated) {
+      continue;
+    }
+    for (const ScanPoint& point : step.result.split.points) {
+      EXPECT_NE(point.state, PointState::kMoving);
+    }
+  }
+}
+
+TEST(MapRecoveryTest, PutDownElsewhereItGoesOnInANewMap) {
+  const std::vector<Step> steps = run({2.0, 2.0, 0.0, 0.0, true}, 70);
+  EXPECT_EQ(steps.back().result.localization, Localization::kLocated);
+  EXPECT_EQ(steps.back().result.maps_begun, 1);
+  EXPECT_GT(steps.back().result.split.base_in_map.covariance(2, 2), 0.04)
+      << "what the gap left open";
+  EXPECT_TRUE(steps.back().result.match.accepted);
+}
+
+TEST(MapRecoveryTest, ShortGapsAreMatchedAsUsual) {
+  for (const Step& step : run({0.5, 2.5})) {
+    EXPECT_EQ(step.result.localization, Localization::kLocated);
+    EXPECT_LT(errorOf(step).head<2>().norm(), 0.3);
+  }
+}
+
+}  // namespace
+}  // namespace datmo::map_recovery_test

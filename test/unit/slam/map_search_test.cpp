@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/slam/map_search.h"
+
+#include <functional>
+
+#include "yard.h"
+#include <gtest/gtest.h>
+
+namespace datmo::map_search_test {
+namespace {
+
+using Outcome = MapSearch::Outcome;
+
+/// Scans of a world from poses.
+using World = std::function<Scan(const Pose2& base, double seconds)>;
+
+Scan yard(const Pose2& base, double seconds) { return Yard().scan(base, seconds); }
+
+/// Two endless walls 10 m apart with a pillar before one of them every 7 m.
+Scan street(const Pose2& base, double seconds) {
+  Scan scan = Yard().scan(base, seconds);
+  const Pose2 scanner = base * scan.scanner_in_base;
+  for (Ray& ray : scan.rays) {
+    const double direction = scanner.heading() + ray.bearing;
+    ray.range = 45.0;
+    ray.hit = false;
+    for (double range = 0.5; range < 45.0 && !ray.hit; range += 0.05) {
+      const Point2 at =
+          scanner.position() + range * Point2(std::cos(direction), std::sin(direction));
+      const double along = at.x() - 7.0 * std::floor(at.x() / 7.0);
+      const bool pillar = along < 2.0 && at.y() > 3.5;
+      ray.hit = std::abs(at.y()) > 5.0 || pillar;
+      ray.range = ray.hit ? range : ray.range;
+    }
+    ray.end = scan.scanner_in_base *
+              Point2(ray.range * std::cos(ray.bearing), ray.range * std::sin(ray.bearing));
+  }
+  return scan;
+}
+
+/// A map of 2 s of driving from a pose, 2 m/s straight on, where that pose is `in_map`.
+OccupancyMap mapOf(const World& world, const Pose2& from, const Pose2& in_map) {
+  OccupancyMap map{OccupancyMapOptions{}};
+  for (int i = 0; i <= 20; ++i) {
+    const Pose2 motion = arc({2.0, 0.0}, 0.1 * i);
+    map.centerOn((in_map * motion).position());
+    const Scan scan = world(from * motion, 0.1 * i);
+    map.update(scan, std::vector<PointState>(scan.rays.size(), PointState::kUnknown),
+               in_map * motion);
+  }
+  return map;
+}
+
+/// Searches for a newer map that begins `ahead` of an older one, with a prior that is `off`.
+MapSearch search(const World& world, const Pose2& ahead, const Pose2& off,
+                 const Eigen::Vector3d& sigma) {
+  const OccupancyMap older = mapOf(world, Pose2(), Pose2());
+  const Pose2 guess = ahead * off;
+  const OccupancyMap newer = mapOf(world, ahead, guess);
+  const Eigen::Matrix3d covariance = sigma.cwiseAbs2().asDiagonal();
+  return MapSearch({}, older, newer, {guess, covariance}, guess);
+}
+
+Outcome finish(MapSearch& search) {
+  Outcome outcome = Outcome::kUnfinished;
+  while (outcome == Outcome::kUnfinished) {
+    outcome = search.advance(1000);
+  }
+  return outcome;
+}
+
+void expectFound(MapSearch& search, const Pose2& truth) {
+  ASSERT_EQ(finish(search), Outcome::kFound);
+  const PoseWithCovariance found = search.found();
+  EXPECT_LT((found.pose.position() - truth.position()).norm(), 0.6);
+  EXPECT_NEAR(angleBetween(truth.heading(), found.pose.heading()), 0.0, degrees(2.0));
+  EXPECT_LT(found.covariance(0, 0), 1.0);
+  EXPECT_GE(found.covariance(0, 0), 0.09);
+}
+
+TEST(MapSearchTest, FindsAPoseMetersAndManyDegreesFromThePrior) {
+  const Pose2 ahead(8.0, 1.0, 0.1);
+  for (const Pose2& off : {Pose2(1.5, 1.0, 0.0), Pose2(-2.0, -1.0, 0.2), Pose2(0.0, 0.0, -0.4)}) {
+    MapSearch found = search(yard, ahead, off, {2.0, 1.5, 0.3});
+    expectFound(found, ahead);
+  }
+}
+
+TEST(MapSearchTest, TheWorkMayBeSpreadOverCalls) {
+  const Pose2 ahead(8.0, 1.0, 0.1);
+  MapSearch whole = search(yard, ahead, Pose2(1.5, 1.0, 0.0), {2.0, 1.5, 0.3});
+  MapSearch in_parts = search(yard, ahead, Pose2(1.5, 1.0, 0.0), {2.0, 1.5, 0.3});
+  ASSERT_EQ(finish(whole), Outcome::kFound);
+  EXPECT_EQ(in_parts.advance(10), Outcome::kUnfinished);
+  while (in_parts.advance(10) == Outcome::kUnfinished) {
+  }
+  EXPECT_EQ(in_parts.found().pose.position(), whole.found().pose.position());
+}
+
+TEST(MapSearchTest, AlongAStreetThatRepeatsNothingIsFound) {
+  MapSearch found = search(street, Pose2(8.0, 0.0, 0.0), Pose2(), {5.0, 0.3, 0.05});
+  EXPECT_EQ(finish(found), Outcome::kAmbiguous);
+}
+
+TEST(MapSearchTest, InAnotherPlaceNothingIsFound) {
+  const OccupancyMap older = mapOf(yard, Pose2(), Pose2());
+  const OccupancyMap newer = mapOf(street, Pose2(), Pose2(8.0, 0.0, 0.0));
+  const Eigen::Matrix3d covariance = Eigen::Vector3d(4.0, 4.0, 0.1).asDiagonal();
+  MapSearch found({}, older, newer, {Pose2(8.0, 0.0, 0.0), covariance}, Pose2(8.0, 0.0, 0.0));
+  EXPECT_NE(finish(found), Outcome::kFound);
+}
+
+TEST(MapSearchTest, AnEmptyMapIsAmbiguous) {
+  const OccupancyMap empty{OccupancyMapOptions{}};
+  MapSearch found({}, empty, empty, {Pose2(), Eigen::Matrix3d::Identity()}, Pose2());
+  EXPECT_EQ(found.advance(1), Outcome::kAmbiguous);
+}
+
+TEST(MapSearchTest, BeyondTheMapNothingIsFound) {
+  const OccupancyMap older = mapOf(yard, Pose2(), Pose2());
+  const Pose2 far(500.0, 0.0, 0.0);
+  const OccupancyMap newer = mapOf(yard, Pose2(), far);
+  MapSearch found({}, older, newer, {far, Eigen::Matrix3d::Identity()}, far);
+  EXPECT_EQ(finish(found), Outcome::kAmbiguous);
+}
+
+}  // namespace
+}  // namespace datmo::map_search_test
