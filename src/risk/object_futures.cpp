@@ -246,8 +246,10 @@ BodyPath ObjectFutures::path(std::size_t future) const {
   return path;
 }
 
-BodyPath ObjectFutures::nominalPath() const {
-  State state = stateOf(track_.state, track_.box.center.heading(), likeliestMode(track_));
+BodyPath ObjectFutures::nominalPath() const { return nominalPath(likeliestMode(track_)); }
+
+BodyPath ObjectFutures::nominalPath(MotionMode mode) const {
+  State state = stateOf(track_.state, track_.box.center.heading(), mode);
   BodyPath path{horizon_.step, {bodyPose(state.position, state.heading)}};
   for (std::size_t step = 0; step < horizon_.steps(); ++step) {
     advance(state, turnRate(state) * horizon_.step);

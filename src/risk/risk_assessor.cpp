@@ -146,6 +146,8 @@ RiskReport RiskAssessor::assess(const RiskInput& input) {
                           : std::nullopt;
   const HostFutures host(input.host, course, options_.vehicle, options_.host, options_.horizon,
                          draws_);
+  report.host = host.nominal();
+  report.host_size = options_.vehicle.size();
   const bool by_futures = options_.method == RiskOptions::kFutures;
   report.objects.push_back(ofStanding(input, tracks, host));
   for (const Track& track : tracks) {

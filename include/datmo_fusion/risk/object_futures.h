@@ -76,6 +76,8 @@ class ObjectFutures {
   BodyPath path(std::size_t future) const;
   /// What the likeliest mode leads to, without noise or switching.
   BodyPath nominalPath() const;
+  /// The same of any mode.
+  BodyPath nominalPath(MotionMode mode) const;
 
  private:
   State stateOf(const TrackState& state, double heading, MotionMode mode) const;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/display/marker_colors.h"
 #include "datmo_fusion/ros/display/legend.h"
 
 #include <cstddef>
@@ -7,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "marker_colors.h"
 #include <boost/make_shared.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>

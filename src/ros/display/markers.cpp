@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/display/marker_colors.h"
 #include "datmo_fusion/ros/display/markers.h"
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include <vector>
 
 #include "class_shapes.h"
-#include "marker_colors.h"
 #include "marker_parts.h"
 
 #include "datmo_fusion/common/pose2.h"

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "marker_colors.h"
 #include "track_label.h"
 #include <opencv2/imgproc.hpp>
 
+#include "datmo_fusion/ros/display/marker_colors.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
 namespace datmo {

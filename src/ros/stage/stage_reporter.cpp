@@ -84,6 +84,7 @@ void StageReporter::publishTiming() {
   message->stage = monitor_.stage();
   message->processing_time = last.seconds;
   message->latency = secondsBetween(last.stamp, toStamp(ros::Time::now()));
+  last_latency_ = message->latency;
   timing_.publish(message);
 }
 
@@ -107,6 +108,9 @@ void StageReporter::diagnoseInputs(DiagnosticStatusWrapper& status) const {
     const InputStatus input = monitor_.input(name, toStamp(ros::Time::now()));
     status.add(name + " received", input.received);
     status.addf(name + " rate [Hz]", "%.1f", input.rate);
+    if (input.silence) {
+      status.addf(name + " age [s]", "%.2f", *input.silence);
+    }
     if (!input.silence) {
       status.mergeSummaryf(DiagnosticStatus::WARN, "no %s yet", name.c_str());
     } else if (*input.silence > silence_after_) {
@@ -119,6 +123,9 @@ void StageReporter::diagnoseInputs(DiagnosticStatusWrapper& status) const {
 void StageReporter::listCounts(DiagnosticStatusWrapper& status) const {
   const TimingStatus timing = monitor_.timing();
   status.add("processed", monitor_.processedCount());
+  if (last_latency_) {
+    status.addf("latency, last [ms]", "%.1f", milliseconds(*last_latency_));
+  }
   status.addf("processing time, median [ms]", "%.2f", milliseconds(timing.median));
   status.addf("processing time, 99th percentile [ms]", "%.2f", milliseconds(timing.percentile_99));
   status.addf("processing time, most [ms]", "%.2f", milliseconds(timing.max));

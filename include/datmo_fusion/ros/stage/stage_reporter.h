@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,7 @@ class StageReporter {
   InputProgress progress_;
   Stopwatch since_start_;
   std::uint64_t reported_errors_ = 0;
+  std::optional<double> last_latency_;  ///< s; none before the first result
   ros::Publisher timing_;
   diagnostic_updater::Updater updater_;
   ros::SteadyTimer timer_;
