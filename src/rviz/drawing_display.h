@@ -18,8 +18,8 @@ namespace datmo {
 /// What the master says is published on a topic, if it is not `expected`; else empty.
 std::string otherType(const std::string& topic, const std::string& expected);
 
-/// A display that draws the newest message of a topic, by the markers that it makes of it, and draws
-/// it again when a property changes.
+/// A display that draws the newest message of a topic, by the markers that it makes of it, and
+/// draws it again when a property changes.
 ///
 /// Properties belong to the display (Qt) and report by lambdas: no class needs Qt's compiler.
 /// Messages come in the window's thread alone.
@@ -101,8 +101,7 @@ class DrawingDisplay : public rviz::MessageFilterDisplay<Message> {
 
   rviz::FloatProperty* number(const char* name, double value, Range range,
                               const char* description) {
-    auto* property =
-        new rviz::FloatProperty(name, static_cast<float>(value), description, this);
+    auto* property = new rviz::FloatProperty(name, static_cast<float>(value), description, this);
     property->setMin(range.min);
     property->setMax(range.max);
     return watched(property);

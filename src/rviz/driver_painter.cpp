@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "driver_painter.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <QPainterPath>
 #include <QString>
+#include <algorithm>
+#include <cmath>
 
 #include "datmo_fusion/ros/display/marker_colors.h"
 
@@ -153,8 +152,8 @@ void paintIcon(QPainter& painter, const Ground& ground, const DriverIcon& icon) 
 void paintHost(QPainter& painter, const Ground& ground, const DriverView& view) {
   painter.setBrush(kHostPaint);
   painter.setPen(QPen(Qt::black, 1));
-  const DriverIcon host{0, ObjectClass::kVehicle, Pose2(), view.host_length, view.host_width, 0.0,
-                        false};
+  const DriverIcon host{
+      0, ObjectClass::kVehicle, Pose2(), view.host_length, view.host_width, 0.0, false};
   paintVehicle(painter, ground, host);
 }
 

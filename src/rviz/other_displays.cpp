@@ -4,6 +4,7 @@
 #include <string>
 
 #include "drawing_display.h"
+
 #include <pluginlib/class_list_macros.hpp>
 #include <ros/master.h>
 
@@ -37,9 +38,8 @@ class ObjectsDisplay : public DrawingDisplay<ObjectArray> {
     MarkersOptions options;
     options.line_width = static_cast<double>(line_width_->getFloat());
     const bool bodies = bodies_->getBool();
-    return onlyShown(markersOf(objects, options), [bodies](const std::string& part) {
-      return bodies || part == "objects";
-    });
+    return onlyShown(markersOf(objects, options),
+                     [bodies](const std::string& part) { return bodies || part == "objects"; });
   }
 
   rviz::BoolProperty* bodies_;
@@ -74,10 +74,13 @@ class RiskDisplay : public DrawingDisplay<RiskArray> {
  public:
   RiskDisplay() {
     const RiskStyle style;
-    tube_ = toggle("Host tube", true, "The ground that the host is expected to cover, red now, "
-                                      "green at the end of the prediction.");
-    contacts_ = toggle("Contacts", true, "Where objects are at contact, in the colors of its time.");
-    labels_ = toggle("Labels", true, "Time, probability and speed of contacts; the level's reason.");
+    tube_ = toggle("Host tube", true,
+                   "The ground that the host is expected to cover, red now, "
+                   "green at the end of the prediction.");
+    contacts_ =
+        toggle("Contacts", true, "Where objects are at contact, in the colors of its time.");
+    labels_ =
+        toggle("Labels", true, "Time, probability and speed of contacts; the level's reason.");
     min_probability_ = number("Min probability [1]", style.min_probability, {0.0F, 1.0F},
                               "Contacts less likely within 4 s are not drawn.");
     text_height_ = number("Text height [m]", style.text_height, {0.1F, 10.0F}, "Of labels.");

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Panels: the driver's picture, and the table of sources.
+#include <QHeaderView>
+#include <QTimer>
+#include <QTreeWidget>
+#include <QVBoxLayout>
 #include <chrono>
 #include <optional>
 #include <string>
 
 #include "driver_painter.h"
-#include <QHeaderView>
-#include <QTimer>
-#include <QTreeWidget>
-#include <QVBoxLayout>
-#include <pluginlib/class_list_macros.hpp>
-#include <ros/node_handle.h>
 #include <rviz/panel.h>
 #include <rviz/visualization_manager.h>
+
+#include <pluginlib/class_list_macros.hpp>
+#include <ros/node_handle.h>
 
 #include "datmo_fusion/ros/display/driver_view.h"
 #include "datmo_fusion/ros/display/source_table.h"
@@ -43,8 +44,8 @@ ros::NodeHandle windowNode(rviz::VisualizationManager& manager) {
 
 }  // namespace
 
-/// The host from above, what is near it, and the level of risk with its reason. In: the topics of the
-/// keys "Risks Topic" and "Tracks Topic" of the configuration.
+/// The host from above, what is near it, and the level of risk with its reason. In: the topics of
+/// the keys "Risks Topic" and "Tracks Topic" of the configuration.
 class DriverPanel : public rviz::Panel {
  public:
   explicit DriverPanel(QWidget* parent = nullptr) : Panel(parent) {
@@ -107,8 +108,7 @@ class DriverPanel : public rviz::Panel {
 /// Each input of each stage: rate, age, latency, and what was dropped and why, from /diagnostics.
 class SourcesPanel : public rviz::Panel {
  public:
-  explicit SourcesPanel(QWidget* parent = nullptr)
-      : Panel(parent), table_(new QTreeWidget(this)) {
+  explicit SourcesPanel(QWidget* parent = nullptr) : Panel(parent), table_(new QTreeWidget(this)) {
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(table_);
@@ -122,8 +122,8 @@ class SourcesPanel : public rviz::Panel {
   }
 
   void onInitialize() override {
-    diagnostics_ = windowNode(*vis_manager_)
-                       .subscribe("/diagnostics", kPanelQueue, &SourcesPanel::take, this);
+    diagnostics_ =
+        windowNode(*vis_manager_).subscribe("/diagnostics", kPanelQueue, &SourcesPanel::take, this);
   }
 
  private:

@@ -3,8 +3,9 @@
 #include <string>
 
 #include "drawing_display.h"
-#include <pluginlib/class_list_macros.hpp>
 #include <rviz/properties/enum_property.h>
+
+#include <pluginlib/class_list_macros.hpp>
 
 #include "datmo_fusion/ros/display/track_style.h"
 
@@ -14,16 +15,18 @@ namespace datmo {
 class TracksDisplay : public DrawingDisplay<TrackArray> {
  public:
   TracksDisplay() {
-    color_by_ = watched(new rviz::EnumProperty("Color by", "class", "What colors stand for.", this));
+    color_by_ =
+        watched(new rviz::EnumProperty("Color by", "class", "What colors stand for.", this));
     color_by_->addOption("class", static_cast<int>(TrackColor::kClass));
     color_by_->addOption("id", static_cast<int>(TrackColor::kId));
     color_by_->addOption("speed", static_cast<int>(TrackColor::kSpeed));
     color_by_->addOption("sensors", static_cast<int>(TrackColor::kSensors));
     addParts();
     const TrackStyle style;
-    fade_ = toggle("Fade by existence", true, "The less sure a track exists, the more transparent.");
-    min_existence_ = number("Min existence [1]", 0.0, {0.0F, 1.0F},
-                            "Tracks less sure to exist are not drawn.");
+    fade_ =
+        toggle("Fade by existence", true, "The less sure a track exists, the more transparent.");
+    min_existence_ =
+        number("Min existence [1]", 0.0, {0.0F, 1.0F}, "Tracks less sure to exist are not drawn.");
     min_mode_ = number("Min mode probability [1]", style.min_mode, {0.0F, 1.0F},
                        "Modes of motion less likely have no predicted path.");
     prediction_time_ = number("Prediction [s]", style.prediction_time, {0.2F, 10.0F},

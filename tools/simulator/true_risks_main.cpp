@@ -36,10 +36,11 @@ Arguments parse(const std::vector<std::string>& words) {
   Arguments arguments;
   std::vector<std::string> of_scene;
   std::vector<std::string> of_risk;
-  CommandLine line("true_risks",
-                   "Assesses the risks of a scene from its true objects, and writes /risks with the\n"
-                   "ground truth for `evaluate risk`.",
-                   "files");
+  CommandLine line(
+      "true_risks",
+      "Assesses the risks of a scene from its true objects, and writes /risks with the\n"
+      "ground truth for `evaluate risk`.",
+      "files");
   line.addFile("SCENE.yaml", arguments.scene, "as simulate takes it")->required();
   line.addFile("OUT.bag", arguments.bag, "risks, true objects and contact")->required();
   line.addRepeated("--set", of_scene, "an option instead of the scene's", "KEY=VALUE");
@@ -62,7 +63,7 @@ void assess(const Arguments& arguments) {
   const Scene scene = readScene(arguments.scene, arguments.overrides);
   const auto options = readOptions<RiskOptions>(arguments.risk);
   RiskAssessor assessor(options);
-  TrueTracks tracks(scene.world);
+  IdealTracker tracker(scene.world);
   LaserScanner scanner(scene.options.scanner,
                        {static_cast<std::uint64_t>(scene.options.seed), "scanner"});
   OutputBag bag(arguments.bag);
@@ -71,13 +72,14 @@ void assess(const Arguments& arguments) {
     const double time = i / scene.options.scanner.scan_rate;
     const Stamp stamp = Stamp::fromSeconds(kEpoch + time);
     const WorldState state = scene.world.at(time);
-    const auto truths =
-        objectTruths(scene.world, state, scanner.measure(scene.world, time),
-                     {scanner.viewpoint()}, scene.options.ground_truth);
+    const auto truths = objectTruths(scene.world, state, scanner.measure(scene.world, time),
+                                     {scanner.viewpoint()}, scene.options.ground_truth);
     RiskInput input;
     input.stamp = stamp;
     input.host = trueHost(scene.world, time, options.vehicle);
-    input.tracks = {stamp, tracks.at(time, truths), {}};
+    const TruePerception perception = tracker.at(time, truths);
+    input.tracks = {stamp, perception.tracks, {}};
+    input.standing = perception.standing;
     bag.write("/ground_truth/objects", toTime(stamp), toMessage(truths, Pose2(), stamp));
     bag.write("/risks", toTime(stamp), toMessage(assessor.assess(input), "map"));
   }

@@ -2,6 +2,7 @@
 #include "simulator/true_tracks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace datmo::simulator {
@@ -19,6 +20,9 @@ constexpr double kPositionSigma = 0.1;
 constexpr double kVelocitySigma = 0.1;
 constexpr double kAccelerationSigma = 0.2;
 constexpr double kHeadingSigma = 0.02;
+
+/// m, between points on the outline of what stands.
+constexpr double kPointSpacing = 0.2;
 
 /// Probability of the mode that the true motion is of; the others share the rest.
 constexpr double kSureMode = 0.9;
@@ -69,6 +73,18 @@ Track trackOf(const ObjectState& now, const ObjectState& before, double seconds)
   return track;
 }
 
+void addOutline(const Box2& box, std::vector<Point2>& points) {
+  const std::array<Point2, 4> corners = box.corners();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Point2& from = corners[i];
+    const Point2& to = corners[(i + 1) % corners.size()];
+    const double length = (to - from).norm();
+    for (double along = 0.0; along < length; along += kPointSpacing) {
+      points.push_back(from + along / length * (to - from));
+    }
+  }
+}
+
 }  // namespace
 
 HostState trueHost(const World& world, double time, const HostVehicleOptions& vehicle) {
@@ -85,23 +101,33 @@ HostState trueHost(const World& world, double time, const HostVehicleOptions& ve
   return host;
 }
 
-std::vector<Track> TrueTracks::at(double time, const std::vector<ObjectTruth>& truths) {
+TruePerception IdealTracker::at(double time, const std::vector<ObjectTruth>& truths) {
   const double earlier = std::max(0.0, time - kShort);
   const WorldState before = world_.at(earlier);
-  std::vector<Track> tracks;
+  TruePerception perception;
   for (const ObjectTruth& truth : truths) {
     const ObjectState& now = truth.state;
     if (!truth.visible_to.empty()) {
       seen_.insert(now.id);
     }
+    if (seen_.count(now.id) == 0) {
+      continue;
+    }
+    if (now.velocity.norm() >= kMoving) {
+      moved_.insert(now.id);
+    }
+    if (moved_.count(now.id) == 0) {
+      addOutline(now.box(), perception.standing);
+      continue;
+    }
     const auto then =
         std::find_if(before.objects.begin(), before.objects.end(),
                      [&now](const ObjectState& object) { return object.id == now.id; });
-    if (seen_.count(now.id) != 0 && then != before.objects.end()) {
-      tracks.push_back(trackOf(now, *then, time - earlier));
+    if (then != before.objects.end()) {
+      perception.tracks.push_back(trackOf(now, *then, time - earlier));
     }
   }
-  return tracks;
+  return perception;
 }
 
 }  // namespace datmo::simulator

@@ -25,8 +25,8 @@ constexpr float kOpaque = 0.85F;
 constexpr int kSides = 16;
 constexpr int kRings = 6;
 
-/// Light from above, a little from the front and the left: share of a color that is seen anyway, and
-/// the direction to the light.
+/// Light from above, a little from the front and the left: share of a color that is seen anyway,
+/// and the direction to the light.
 constexpr float kAmbient = 0.62F;
 const Vector kLight = Vector(0.36F, 0.48F, 0.8F);
 
@@ -59,8 +59,7 @@ class Pencil {
                 const std::array<std_msgs::ColorRGBA, 3>& colors) {
     const Vector normal = (turn_ * (b - a).cross(c - a)).normalized();
     const float light = kAmbient + (1.0F - kAmbient) * std::max(0.0F, normal.dot(kLight));
-    std::vector<DrawnVertex>& list =
-        colors[0].a >= kOpaque ? drawing_.solid : drawing_.translucent;
+    std::vector<DrawnVertex>& list = colors[0].a >= kOpaque ? drawing_.solid : drawing_.translucent;
     const std::array<const Vector*, 3> corners{&a, &b, &c};
     for (std::size_t i = 0; i < corners.size(); ++i) {
       DrawnVertex vertex{origin_ + turn_ * *corners[i], colors[i]};
@@ -200,9 +199,8 @@ bool isFinite(const Marker& marker, const Vectors& points) {
   const auto& q = marker.pose.orientation;
   const auto& s = marker.scale;
   const double sum = p.x + p.y + p.z + q.x + q.y + q.z + q.w + s.x + s.y + s.z;
-  return std::isfinite(sum) && std::all_of(points.begin(), points.end(), [](const Vector& point) {
-           return point.allFinite();
-         });
+  return std::isfinite(sum) && std::all_of(points.begin(), points.end(),
+                                           [](const Vector& point) { return point.allFinite(); });
 }
 
 void draw(const Marker& marker, Drawing& drawing) {

@@ -60,8 +60,7 @@ DriverView driverViewOf(const RiskArray& risks, const TrackArray* tracks) {
   }
   for (const TrackMessage& track : tracks->tracks) {
     const auto& q = track.pose.orientation;
-    const Pose2 in_fixed(track.pose.position.x, track.pose.position.y,
-                         2.0 * std::atan2(q.z, q.w));
+    const Pose2 in_fixed(track.pose.position.x, track.pose.position.y, 2.0 * std::atan2(q.z, q.w));
     const Pose2 pose = fixed_in_host * in_fixed;
     if (isFinite(pose)) {
       const bool is_cause = risks.level != RiskArray::LEVEL_NONE && track.id == risks.cause;

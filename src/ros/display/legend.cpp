@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/ros/display/marker_colors.h"
 #include "datmo_fusion/ros/display/legend.h"
 
 #include <cstddef>
@@ -15,6 +14,7 @@
 #include <sensor_msgs/image_encodings.h>
 
 #include "datmo_fusion/ros/convert/messages.h"
+#include "datmo_fusion/ros/display/marker_colors.h"
 
 namespace datmo {
 

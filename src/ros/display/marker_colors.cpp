@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "datmo_fusion/ros/display/marker_colors.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "marker_parts.h"
 
-#include "datmo_fusion/ros/display/marker_colors.h"
 #include "datmo_fusion/ros/convert/messages.h"
 #include "datmo_fusion/ros/convert/risk_conversion.h"
 

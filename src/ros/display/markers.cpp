@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "datmo_fusion/ros/display/marker_colors.h"
 #include "datmo_fusion/ros/display/markers.h"
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 
 #include "datmo_fusion/common/pose2.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/display/marker_colors.h"
 
 namespace datmo {
 

@@ -9,9 +9,9 @@
 #include "class_shapes.h"
 #include "marker_parts.h"
 
-#include "datmo_fusion/ros/display/marker_colors.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/convert/road_conversion.h"
+#include "datmo_fusion/ros/display/marker_colors.h"
 #include "datmo_fusion/ros/display/markers.h"
 
 namespace datmo {

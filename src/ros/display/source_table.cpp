@@ -20,8 +20,7 @@ constexpr char kDropped[] = "dropped";
 constexpr char kReason[] = "dropped: ";
 
 bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() &&
-         text.compare(text.size() - end.size(), end.size(), end) == 0;
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
 std::string valueOf(const DiagnosticStatus& status, const std::string& key) {
@@ -44,8 +43,8 @@ std::string reasonsOf(const DiagnosticStatus& status) {
   std::string reasons;
   for (const KeyValue& entry : status.values) {
     if (entry.key.rfind(kReason, 0) == 0) {
-      reasons += (reasons.empty() ? "" : ", ") + entry.key.substr(sizeof(kReason) - 1) + " " +
-                 entry.value;
+      reasons +=
+          (reasons.empty() ? "" : ", ") + entry.key.substr(sizeof(kReason) - 1) + " " + entry.value;
     }
   }
   return reasons;

@@ -7,8 +7,8 @@
 #include "class_shapes.h"
 #include "marker_parts.h"
 
-#include "datmo_fusion/ros/display/marker_colors.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/display/marker_colors.h"
 
 namespace datmo {
 

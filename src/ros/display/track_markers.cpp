@@ -120,16 +120,15 @@ void addBody(const std_msgs::Header& header, const TrackMessage& track, const Tr
   const MarkersOptions& options = style.sizes;
   const ObjectClass object_class = classFromMessage(track.classification);
   const ClassShape shape = shapeOf(header, "track", object_class, track.pose, track.size, options);
-  const float opacity = style.fade_by_existence
-                            ? kFaint + (kSolid - kFaint) * track.existence_probability
-                            : kSolid;
+  const float opacity =
+      style.fade_by_existence ? kFaint + (kSolid - kFaint) * track.existence_probability : kSolid;
   const std_msgs::ColorRGBA paint = colorOf(track, style.color_by, opacity);
   add(shape.body, track, paint, markers);
   if (shape.head) {
     add(*shape.head, track, paint, markers);
   }
-  add(groundOutline(header, "track outlines", track, options), track,
-      inkOf(track, style.color_by), markers);
+  add(groundOutline(header, "track outlines", track, options), track, inkOf(track, style.color_by),
+      markers);
   add(groundOutline(header, "track sensors", track, options), track,
       colorOfSensors(track.sensors, 1.0F), markers);
 }
@@ -142,8 +141,8 @@ void addTrack(const std_msgs::Header& header, const TrackMessage& track, const T
     add(arrowOf(header, track, style.sizes), track, ink, markers);
   }
   add(labelOf(header, track, style.sizes), track, ink, markers);
-  add(ellipseOf(header, track, style.sizes), track,
-      colorOf(track, style.color_by, kEllipseOpacity), markers);
+  add(ellipseOf(header, track, style.sizes), track, colorOf(track, style.color_by, kEllipseOpacity),
+      markers);
   const Marker path = pathOf(header, track, style.sizes);
   if (path.points.size() > 1) {  // rviz takes a line of one point for a mistake
     add(path, track, ink, markers);

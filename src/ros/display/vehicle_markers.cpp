@@ -4,8 +4,8 @@
 
 #include "marker_parts.h"
 
-#include "datmo_fusion/ros/display/marker_colors.h"
 #include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/ros/display/marker_colors.h"
 #include "datmo_fusion/ros/display/markers.h"
 
 namespace datmo {

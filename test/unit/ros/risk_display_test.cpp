@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is drawn of risks and of tracks beside them: markers, the driver's picture, the tracks' style.
+// What is drawn of risks and of tracks beside them: markers, the driver's picture, the tracks'
+// style.
 #include <cmath>
 #include <limits>
 

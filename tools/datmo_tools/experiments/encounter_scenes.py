@@ -18,6 +18,7 @@ AFTER = 3.0  # s, the drive goes on
 CLEARANCE = 1.0  # m, of a near miss in space
 CLEAR_TIME = 1.5  # s, of a near miss in time
 ROAD = (-60.0, 320.0)  # m, from and to
+CORNER_LEAD = 3.8  # m, of its way, that the left corner of a turning bumper is in the other lane before its middle
 BEYOND = 4.5  # m, beyond the lane's middle who crosses stands still
 
 
@@ -35,6 +36,7 @@ class Encounter(NamedTuple):
 
 
 ENDINGS = ("hit", "space", "time")
+AVOIDED = "avoided"  # a hit, but for the driver of the host, who brakes when he is warned
 
 # Speeds of the host (km/h); the other's speed and size stand with the makers below.
 PROTOCOLS = {
@@ -73,8 +75,17 @@ def scene(encounter, seed=1):
         "pedestrian": _pedestrian, "child": _child, "cyclist": _cyclist, "car": _car, "turn": _turn,
     }  # fmt: skip
     result = _street(host, seed)
-    makers[kind](result, host, variant, encounter.ending)
+    avoided = encounter.ending == AVOIDED
+    makers[kind](result, host, variant, "hit" if avoided else encounter.ending)
+    if avoided:
+        _brake(result, host)
     return result
+
+
+def _brake(result, host):
+    """The host brakes by 6 m/s^2, and stands 2 m before where they would have met."""
+    begin = MEETING - 0.5 * host / 6.0 - 2.0 / host
+    result["ego"]["speed"] = [[0.0, host], [begin, host], [begin + host / 6.0, 0.0]]
 
 
 def random_scenes(count, seed):
@@ -279,7 +290,7 @@ def _turn(result, host, variant, ending):
     meeting = (length - start) / host
     x = corner + 2.0 - radius + radius * math.sin(turned) + FRONT * math.cos(turned)
     # In space: it has just passed. In time: it comes later.
-    passed = -6.4 - speed * (2.0 * HALF_WIDTH + CLEARANCE) / host
+    passed = -6.4 - speed * (CORNER_LEAD + CLEARANCE) / host
     shift = {"hit": 0.0, "space": passed, "time": speed * (CLEAR_TIME + 1.2)}[ending]
     begin = x + 2.2 + speed * meeting + shift
     result["actors"].append(

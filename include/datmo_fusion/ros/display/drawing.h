@@ -33,9 +33,9 @@ struct Drawing {
   std::vector<DrawnLabel> labels;
 };
 
-/// The shapes of markers of one frame as triangles: boxes, cylinders, spheres, arrows of two points,
-/// lines (flat ribbons above the ground), lists of triangles, and texts. Markers of other types, and
-/// those with a number that is not finite, are left out.
+/// The shapes of markers of one frame as triangles: boxes, cylinders, spheres, arrows of two
+/// points, lines (flat ribbons above the ground), lists of triangles, and texts. Markers of other
+/// types, and those with a number that is not finite, are left out.
 Drawing drawingOf(const visualization_msgs::MarkerArray& markers);
 
 }  // namespace datmo

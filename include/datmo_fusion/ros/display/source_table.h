@@ -10,8 +10,8 @@
 
 namespace datmo {
 
-/// One line of the table of sources: an input of a stage, or, with an empty `input`, a node that has
-/// none. Cells are as the diagnostics say them; empty: not said.
+/// One line of the table of sources: an input of a stage, or, with an empty `input`, a node that
+/// has none. Cells are as the diagnostics say them; empty: not said.
 struct SourceRow {
   std::string stage;
   std::string input;

@@ -34,9 +34,9 @@ struct TrackStyle {
 /// As markersOf(tracks, options) describes, in the style's colors.
 visualization_msgs::MarkerArray markersOf(const TrackArray& tracks, const TrackStyle& style);
 
-/// Where each track goes by each of its likely modes ("track predictions"), by the model of the risks
-/// (ObjectFutures) without noise: a line on the ground, the less likely the more transparent. None of
-/// a track that is not valid.
+/// Where each track goes by each of its likely modes ("track predictions"), by the model of the
+/// risks (ObjectFutures) without noise: a line on the ground, the less likely the more transparent.
+/// None of a track that is not valid.
 visualization_msgs::MarkerArray predictionsOf(const TrackArray& tracks, const TrackStyle& style);
 
 }  // namespace datmo
