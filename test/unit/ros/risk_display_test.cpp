@@ -85,8 +85,12 @@ TEST(RiskMarkers, AContactIsADiscWithItsTime) {
   const Marker* disc = find(markers, "contacts", 7);
   ASSERT_NE(disc, nullptr);
   EXPECT_DOUBLE_EQ(disc->pose.position.y, 20.0);
-  EXPECT_EQ(find(markers, "contact labels", 7)->text, "1.8 s 80 % 0 m/s");
-  EXPECT_EQ(find(markers, "risk level", 0)->text, "pedestrian 7 at the front");
+  const Marker* label = find(markers, "contact labels", 7);
+  ASSERT_NE(label, nullptr);
+  EXPECT_EQ(label->text, "1.8 s 80 % 0 m/s");
+  const Marker* reason = find(markers, "risk level", 0);
+  ASSERT_NE(reason, nullptr);
+  EXPECT_EQ(reason->text, "pedestrian 7 at the front");
 }
 
 TEST(RiskMarkers, UnlikelyContactsAndNoLevelAreNotDrawn) {
@@ -144,6 +148,12 @@ TEST(DriverView, DoesWithoutTracksAndWithoutPath) {
   EXPECT_TRUE(driverViewOf(risks, nullptr).path.empty());
 }
 
+/// Black without a body.
+std_msgs::ColorRGBA bodyColor(const MarkerArray& markers, int id) {
+  const Marker* body = find(markers, "track bodies", id);
+  return body ? body->color : std_msgs::ColorRGBA();
+}
+
 TEST(TrackStyle, ColorsStandForWhatIsChosen) {
   TrackArray tracks = oneTrack();
   tracks.tracks.push_back(tracks.tracks[0]);
@@ -152,8 +162,7 @@ TEST(TrackStyle, ColorsStandForWhatIsChosen) {
   TrackStyle style;
   const auto bodies = [&] {
     const MarkerArray markers = markersOf(tracks, style);
-    return std::make_pair(find(markers, "track bodies", 7)->color,
-                          find(markers, "track bodies", 8)->color);
+    return std::make_pair(bodyColor(markers, 7), bodyColor(markers, 8));
   };
   EXPECT_EQ(bodies().first, bodies().second) << "one class, one color";
   style.color_by = TrackColor::kId;
@@ -167,12 +176,11 @@ TEST(TrackStyle, ColorsStandForWhatIsChosen) {
 
 TEST(TrackStyle, UnsureTracksFadeAndAreLeftOut) {
   TrackStyle style;
-  const auto body = [&] { return find(markersOf(oneTrack(), style), "track bodies", 7); };
-  const float faded = markersOf(oneTrack(), style).markers.at(0).color.a;
+  const float faded = bodyColor(markersOf(oneTrack(), style), 7).a;
   style.fade_by_existence = false;
-  EXPECT_GT(markersOf(oneTrack(), style).markers.at(0).color.a, faded);
+  EXPECT_GT(bodyColor(markersOf(oneTrack(), style), 7).a, faded);
   style.min_existence = 0.95;
-  EXPECT_EQ(body(), nullptr);
+  EXPECT_TRUE(markersOf(oneTrack(), style).markers.empty());
 }
 
 TEST(Predictions, AreOneLineForEachLikelyMode) {

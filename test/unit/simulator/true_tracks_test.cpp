@@ -11,8 +11,8 @@ namespace {
 
 /// The host goes at 10 m/s along x; a car before it brakes by 2 m/s^2 from 1 s on.
 World braking() {
-  World world(RoadNetwork(), {objectKind("car"), Path({{0, 0}, {200, 0}}, 0.0),
-                                    SpeedProfile({{0.0, 10.0}}), 0.0});
+  World world(RoadNetwork(),
+              {objectKind("car"), Path({{0, 0}, {200, 0}}, 0.0), SpeedProfile({{0.0, 10.0}}), 0.0});
   world.addMover({objectKind("car"), Path({{30, 0}, {200, 0}}, 0.0),
                   SpeedProfile({{1.0, 10.0}, {6.0, 0.0}}), 0.0});
   world.addStanding(objectKind("van"), Pose2(20.0, 8.0, 0.0));
@@ -67,7 +67,7 @@ TEST(IdealTracker, KeepsWhatHasMovedAndWhatItHasSeen) {
 
 TEST(TrueHost, HasTheAccelerationOfTheLastHalfSecond) {
   World world(RoadNetwork(), {objectKind("car"), Path({{0, 0}, {200, 0}}, 0.0),
-                                    SpeedProfile({{1.0, 10.0}, {3.0, 6.0}}), 0.0});
+                              SpeedProfile({{1.0, 10.0}, {3.0, 6.0}}), 0.0});
   const HostState host = trueHost(world, 2.0, HostVehicleOptions());
   EXPECT_NEAR(host.speed, 8.0, 1e-9);
   EXPECT_NEAR(host.acceleration, -2.0, 1e-9);
