@@ -94,6 +94,7 @@ WarningOptions warningOf(const RiskOptions& options) {
   WarningOptions warning = options.warning;
   if (options.method != RiskOptions::kFutures) {
     warning.warning_time = options.rules.driver_time;
+    warning.warning_ttc = 0.0;
     warning.imminent_time = 0.0;
   }
   return warning;

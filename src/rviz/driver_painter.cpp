@@ -27,7 +27,7 @@ constexpr double kFullBar = 4.0;
 constexpr double kMinIcon = 1.2;
 
 /// Pixels.
-constexpr int kBanner = 52;
+constexpr int kBanner = 64;
 constexpr int kBar = 26;
 constexpr int kMargin = 8;
 
@@ -173,7 +173,7 @@ void paintBanner(QPainter& painter, int width, const DriverView& view) {
   font.setBold(true);
   font.setPixelSize(18);
   painter.setFont(font);
-  const int half = view.reason.empty() ? kBanner : kBanner / 2 - 2;
+  const int half = view.reason.empty() ? kBanner : kBanner / 2 - 4;
   painter.drawText(QRect(kMargin, 0, width - 2 * kMargin, half), Qt::AlignCenter,
                    nameOfLevel(view.level));
   font.setBold(false);

@@ -30,6 +30,9 @@ constexpr double kMinContactShare = 0.35;
 constexpr double kContactLabel = 2.5;
 constexpr double kLevelLabel = 4.0;
 
+/// Height of the letters of the level's reason, which is a whole sentence, over that of the others.
+constexpr double kSentence = 0.6;
+
 /// s; where a message has no path of the host to tell.
 constexpr double kDefaultHorizon = 4.0;
 
@@ -106,7 +109,7 @@ void addLevel(const RiskArray& risks, const RiskStyle& style, MarkerArray& marke
   Marker label = makeMarker(risks.header, "risk level", Marker::TEXT_VIEW_FACING);
   const geometry_msgs::Pose2D& host = risks.host_path.front();
   label.pose.position = pointAt(host.x, host.y, kLevelLabel);
-  label.scale.z = style.text_height;
+  label.scale.z = kSentence * style.text_height;
   label.text = risks.reason;
   label.color = colorOfLevel(risks.level);
   markers.markers.push_back(label);

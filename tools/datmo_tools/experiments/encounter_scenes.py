@@ -27,7 +27,7 @@ class Encounter(NamedTuple):
 
     protocol: str  # a key of PROTOCOLS
     host: float  # km/h
-    ending: str  # "hit", "space" (passes with CLEARANCE), "time" (passes CLEAR_TIME apart)
+    ending: str  # one of ENDINGS, STOPS or AVOIDED
 
     @property
     def name(self):
@@ -35,7 +35,10 @@ class Encounter(NamedTuple):
         return f"{self.protocol}_{self.host:.0f}_{self.ending}"
 
 
+# Who crosses has passed the host's side by CLEARANCE when the bumper comes ("space"), or CLEAR_TIME
+# earlier ("time"); who drives along stays CLEARANCE aside, or the host CLEAR_TIME behind.
 ENDINGS = ("hit", "space", "time")
+STOPS = "stop"  # who crosses stops CLEARANCE before the host's side: until then it is a hit
 AVOIDED = "avoided"  # a hit, but for the driver of the host, who brakes when he is warned
 
 # Speeds of the host (km/h); the other's speed and size stand with the makers below.
@@ -57,13 +60,17 @@ PROTOCOLS = {
 }
 
 
-def encounters():
+CROSSING = ("pedestrian_near", "pedestrian_far", "child_behind_cars", "cyclist_across")
+
+
+def encounters(endings=ENDINGS):
     """All of them (list of Encounter)."""
     return [
         Encounter(protocol, float(speed), ending)
         for protocol, speeds in PROTOCOLS.items()
         for speed in speeds
-        for ending in ENDINGS
+        for ending in endings
+        if ending != STOPS or protocol in CROSSING
     ]
 
 
@@ -170,11 +177,12 @@ def _crossing(result, host, speed, kind, side, ending):
     run_up = 14.0 if kind == "cyclist" else 5.0 if side < 0.0 else 8.0  # m from the lane's middle
     start_y = HOST_Y + side * run_up
     wait = MEETING - run_up / speed
-    if ending == "time":  # it has left the lane CLEAR_TIME before the bumper comes
-        wait -= CLEAR_TIME + (HALF_WIDTH + half) / speed
+    if ending in ("space", "time"):  # it has left the lane when the bumper comes
+        wait -= (HALF_WIDTH + half) / speed
+        wait -= CLEAR_TIME if ending == "time" else CLEARANCE / speed
     profile = _start_at(wait, speed)
-    # It stops before the lane, or on the footpath beyond.
-    way = run_up - HALF_WIDTH - half - CLEARANCE if ending == "space" else run_up + BEYOND
+    # It stops before the lane, or beyond it.
+    way = run_up - HALF_WIDTH - half - CLEARANCE if ending == STOPS else run_up + BEYOND
     profile = _stop_after(profile, way, speed, deceleration)
     result["actors"].append(
         {"kind": kind, "path": [[x, start_y], [x, HOST_Y - side * 60.0]],

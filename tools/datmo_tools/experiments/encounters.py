@@ -10,8 +10,8 @@ from tqdm import tqdm
 
 from datmo_tools import command_line, programs
 from datmo_tools.errors import InputError
-from datmo_tools.experiments.encounter_scenes import (AVOIDED, Encounter, encounters, random_scenes,
-                                                       scene)
+from datmo_tools.experiments.encounter_scenes import (AVOIDED, ENDINGS, STOPS, encounters,
+                                                       random_scenes, scene)
 
 DESCRIPTION = """\
 Makes scenes after the public test protocols (or, with --random, at random about them), and the
@@ -34,9 +34,7 @@ def write_scenes(folder, values):
         named = [(f"random_{number:04d}", each)
                  for number, each in enumerate(random_scenes(values.random, values.seed))]  # fmt: skip
     else:
-        braked = [Encounter(each.protocol, each.host, AVOIDED) for each in encounters()
-                  if each.ending == "hit" and values.avoided]  # fmt: skip
-        named = [(each.name, scene(each, values.seed)) for each in encounters() + braked]
+        named = [(each.name, scene(each, values.seed)) for each in encounters(values.endings)]
     files = []
     for name, each in named:
         if values.only in name:
@@ -114,7 +112,9 @@ def _parser():
     add("--random", type=command_line.count, default=0, metavar="N",
         help="so many encounters at random in place of those of the protocols")  # fmt: skip
     add("--seed", type=int, default=1, metavar="N", help="of all random numbers (default 1)")
-    add("--avoided", action="store_true", help="also hits that the braking host avoids, to be shown")
+    add("--endings", nargs="+", choices=[*ENDINGS, STOPS, AVOIDED], default=ENDINGS, metavar="E",
+        help="hit, space, time (near misses; default all three), stop (before the lane), avoided "
+        "(the host brakes)")  # fmt: skip
     add("--scenes-only", action="store_true", help="writes the scenes, and no risks")
     add("--only", default="", metavar="TEXT", help="only scenes with this in their names")
     add("--set", action="append", default=[], metavar="KEY=VALUE", help="of risk, repeatable")
