@@ -105,6 +105,9 @@ def random_scenes(count, seed):
         protocol = protocols[number % len(protocols)]
         host = random.uniform(15.0, 60.0) if protocol[:11] != "car_braking" else 50.0
         drawn = scene(Encounter(protocol, host, str(random.choice(ENDINGS))), int(number + 1))
+        # Neighbors in time say the same: more encounters in place of more frames of each.
+        drawn["options"]["scanner"] = {"scan_rate": 5.0, "beam_spacing": 1.0}
+        drawn["options"]["ground_truth"] = {"radius": 45.0}
         yield _varied(drawn, random)
 
 

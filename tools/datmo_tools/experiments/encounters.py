@@ -44,13 +44,13 @@ def write_scenes(folder, values):
 
 
 def _run(values):
-    needed = ("simulate", "run_bag") if values.config else ("true_risks",)
-    programs.check(values.programs, needed)
     scenes = write_scenes(values.folder / "scenes", values)
     if not scenes:
         raise InputError(f"--only {values.only}: no scene has that in its name")
     if values.scenes_only:
         return
+    needed = ("simulate", "run_bag") if values.config else ("true_risks",)
+    programs.check(values.programs, needed)
     steps = _of_tracks if values.config else _of_truth
     for method in values.methods:
         (values.folder / method).mkdir(exist_ok=True)
