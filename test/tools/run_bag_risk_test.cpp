@@ -38,6 +38,15 @@ TEST_F(RiskRun, SameBagGivesTheSameBytes) {
   EXPECT_EQ(first, bytes(arguments_.output));
 }
 
+TEST_F(RiskRun, TheSensorSetHasASectionOfIt) {
+  writeConfig("{risk: {method: thesis}}");
+  run();
+  EXPECT_EQ(count(arguments_.output, "/risks"), kAllScans);
+  writeConfig("{risk: {methods: thesis}}");
+  const std::string message = failure();
+  EXPECT_NE(message.find("risk: methods"), std::string::npos) << message;
+}
+
 TEST_F(RiskRun, WithoutTheSwitchThereAreNone) {
   arguments_.risk = false;
   run();
