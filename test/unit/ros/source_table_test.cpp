@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::source_table_test {
 namespace {
 
 using diagnostic_msgs::DiagnosticArray;
@@ -86,4 +86,4 @@ TEST(SourceTable, AnEmptyReportIsNoLine) {
 }
 
 }  // namespace
-}  // namespace datmo
+}  // namespace datmo::source_table_test

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulator/true_tracks.h"
 
-#include "simulator/made_worlds.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/tracking/track_check.h"
 
-namespace datmo::simulator {
+namespace datmo::simulator::true_tracks_test {
 namespace {
 
 /// The host goes at 10 m/s along x; a car before it brakes by 2 m/s^2 from 1 s on.
@@ -75,4 +74,4 @@ TEST(TrueHost, HasTheAccelerationOfTheLastHalfSecond) {
 }
 
 }  // namespace
-}  // namespace datmo::simulator
+}  // namespace datmo::simulator::true_tracks_test
