@@ -10,12 +10,13 @@
 
 #include "datmo_fusion/ros/display/legend.h"
 #include "datmo_fusion/ros/display/markers.h"
+#include "datmo_fusion/ros/display/risk_style.h"
 #include "datmo_fusion/ros/parameters.h"
 #include "datmo_fusion/ros/stage/guard.h"
 
 namespace datmo {
 
-/// Draws for rviz. In: labeled_scan, road_borders, objects, objects/dropped, tracks,
+/// Draws for rviz. In: labeled_scan, road_borders, objects, objects/dropped, tracks, risks,
 /// ground_truth/objects. Out: markers, while somebody looks; legend, once.
 class MarkersNodelet : public nodelet::Nodelet {
  private:
@@ -34,6 +35,7 @@ class MarkersNodelet : public nodelet::Nodelet {
     objects_ = node.subscribe("objects", kQueue, &MarkersNodelet::takeObjects, this);
     dropped_ = node.subscribe("objects/dropped", kQueue, &MarkersNodelet::takeDropped, this);
     tracks_ = node.subscribe("tracks", kQueue, &MarkersNodelet::takeTracks, this);
+    risks_ = node.subscribe("risks", kQueue, &MarkersNodelet::takeRisks, this);
     truth_ = node.subscribe("ground_truth/objects", kQueue, &MarkersNodelet::takeTruth, this);
   }
 
@@ -50,6 +52,12 @@ class MarkersNodelet : public nodelet::Nodelet {
   void takeDropped(const DroppedObjectsConstPtr& message) { draw("objects/dropped", *message); }
   void takeTracks(const TrackArrayConstPtr& message) { draw("tracks", *message); }
   void takeTruth(const TrueObjectArrayConstPtr& message) { draw("truth", *message); }
+
+  void takeRisks(const RiskArrayConstPtr& message) {
+    if (markers_.getNumSubscribers() > 0) {
+      publish("risks", markersOf(*message, RiskStyle()));
+    }
+  }
 
   template <typename Message>
   void draw(const std::string& source, const Message& message) {
@@ -113,6 +121,7 @@ class MarkersNodelet : public nodelet::Nodelet {
   ros::Subscriber objects_;
   ros::Subscriber dropped_;
   ros::Subscriber tracks_;
+  ros::Subscriber risks_;
   ros::Subscriber truth_;
 };
 

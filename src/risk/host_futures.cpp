@@ -11,8 +11,45 @@ namespace datmo {
 
 namespace {
 
-enum HostDraw : std::uint32_t { kDrawAcceleration, kDrawSteering };
+enum HostDraw : std::uint32_t { kDrawAcceleration, kDrawSteering, kDrawVariation };
 constexpr std::uint32_t kHost = 0;  ///< no track has this id
+
+/// m/s; slower, a lateral acceleration is no steering.
+constexpr double kSteered = 1.0;
+
+/// How a driver's acceleration and place in the lane vary, step by step.
+class DriverVariation {
+ public:
+  DriverVariation(const HostFutureOptions& options, double step)
+      : options_(options), step_(step), kept_(std::exp(-step / options.acceleration_time)) {}
+
+  /// m/s^2, of the first step.
+  void begin(double normal) { acceleration_ = options_.acceleration_spread * normal; }
+
+  void advance(double first, double second) {
+    acceleration_ = kept_ * acceleration_ +
+                    options_.acceleration_spread * std::sqrt(1.0 - kept_ * kept_) * first;
+    // e'' = w - 2 f e' - f^2 e: white noise w of density 4 f^3 s^2 makes the deviation s.
+    const double frequency = 1.0 / options_.lane_time;
+    const double noise = 2.0 * options_.lane_deviation *
+                         std::sqrt(frequency * frequency * frequency / step_) * second;
+    lateral_ = noise - 2.0 * frequency * rate_ - frequency * frequency * deviation_;
+    deviation_ += step_ * (rate_ + 0.5 * step_ * lateral_);
+    rate_ += step_ * lateral_;
+  }
+
+  double acceleration() const { return acceleration_; }  ///< m/s^2, on top of the present one
+  double lateral() const { return lateral_; }            ///< m/s^2, to the left
+
+ private:
+  const HostFutureOptions& options_;
+  double step_;
+  double kept_;
+  double acceleration_ = 0.0;
+  double deviation_ = 0.0;  ///< m, from the course
+  double rate_ = 0.0;       ///< m/s
+  double lateral_ = 0.0;
+};
 
 /// A border in the host's frame.
 std::vector<Point2> inFrame(const RoadBorder& border, const Pose2& base) {
@@ -43,10 +80,21 @@ void HostFutureOptions::visit(OptionVisitor& visitor) {
   visitor.number({"acceleration_spread", "m/s^2",
                   "standard deviation of the host's acceleration about the present one"},
                  acceleration_spread, {0.0, 5.0});
-  visitor.number({"steering_spread", "m/s^2",
-                  "standard deviation of the host's lateral acceleration about what its steering "
-                  "gives: what drivers need to stay in their lane"},
-                 steering_spread, {0.0, 5.0});
+  visitor.number({"acceleration_time", "s", "time constant with which a driver varies it"},
+                 acceleration_time, {0.1, 100.0});
+  visitor.number(
+      {"lane_deviation", "m",
+       "standard deviation of a driver's place in his lane: 0.2 to 0.3 on straight roads "
+       "(Verster, Roth, Standard operation procedures for conducting the on-the-road "
+       "driving test, 2011), more in towns"},
+      lane_deviation, {0.0, 5.0});
+  visitor.number({"lane_time", "s", "time constant with which a driver comes back to it"},
+                 lane_time, {0.3, 10.0});
+  visitor.number(
+      {"steering_spread", "m/s^2",
+       "standard deviation of the lateral acceleration by which the host's course is off: "
+       "noise of the yaw rate, and bends to come that no border tells of"},
+      steering_spread, {0.0, 5.0});
   visitor.number({"max_steering_spread", "rad",
                   "the same of the steering's angle, where a slow vehicle turns on the spot"},
                  max_steering_spread, {0.0, 0.5});
@@ -98,26 +146,47 @@ HostFutures::HostFutures(const HostState& host, const std::optional<double>& cou
   const double squared_speed = std::max(square(host.speed), std::numeric_limits<double>::min());
   const double spread = std::min(options.max_steering_spread,
                                  options.steering_spread * vehicle.wheelbase / squared_speed);
-  nominal_ = path(host.acceleration, steering);
+  nominal_ = nominalPath(steering);
   paths_.reserve(static_cast<std::size_t>(horizon.futures));
   for (int i = 0; i < horizon.futures; ++i) {
     const auto future = static_cast<std::uint32_t>(i);
-    const double acceleration =
-        options.acceleration_spread * draws.normal({kHost, future, 0, kDrawAcceleration});
     const double turn = spread * draws.normal({kHost, future, 0, kDrawSteering});
-    paths_.push_back(path(host.acceleration + acceleration, steering + turn));
+    paths_.push_back(path(steering + turn, future, draws));
   }
 }
 
-BodyPath HostFutures::path(double acceleration, double steering) const {
+void HostFutures::advance(BicycleState& state, double acceleration, double steering) const {
+  const double rate = std::clamp((steering - state.steering) / options_.steering_time,
+                                 -vehicle_.max_steering_rate, vehicle_.max_steering_rate);
+  state = afterStep(state, {acceleration, rate}, horizon_.step, vehicle_);
+}
+
+BodyPath HostFutures::nominalPath(double steering) const {
+  BicycleState state = bicycleState(host_);
+  BodyPath path{horizon_.step, {outlineOf(state, vehicle_)}};
+  for (std::size_t i = 0; i < horizon_.steps(); ++i) {
+    advance(state, host_.acceleration, steering);
+    path.poses.push_back(outlineOf(state, vehicle_));
+  }
+  return path;
+}
+
+BodyPath HostFutures::path(double steering, std::uint32_t future, const RandomDraws& draws) const {
   BicycleState state = bicycleState(host_);
   BodyPath path{horizon_.step, {}};
   path.poses.reserve(horizon_.steps() + 1);
   path.poses.push_back(outlineOf(state, vehicle_));
+  DriverVariation driver(options_, horizon_.step);
+  driver.begin(draws.normal({kHost, future, 0, kDrawAcceleration}));
   for (std::size_t i = 0; i < horizon_.steps(); ++i) {
-    const double rate = std::clamp((steering - state.steering) / options_.steering_time,
-                                   -vehicle_.max_steering_rate, vehicle_.max_steering_rate);
-    state = afterStep(state, {acceleration, rate}, horizon_.step, vehicle_);
+    const StepDraws drawn =
+        draws.step({kHost, future, static_cast<std::uint32_t>(i), kDrawVariation});
+    driver.advance(drawn.first, drawn.second);
+    // Of the bicycle model, as above; a vehicle that hardly moves does not sway.
+    const double sway = std::abs(state.speed) < kSteered
+                            ? 0.0
+                            : driver.lateral() * vehicle_.wheelbase / square(state.speed);
+    advance(state, host_.acceleration + driver.acceleration(), steering + sway);
     path.poses.push_back(outlineOf(state, vehicle_));
   }
   return path;

@@ -95,6 +95,9 @@ void ObjectFutureOptions::visit(OptionVisitor& visitor) {
   visitor.number({"pedestrian_turning", "rad/sqrt(s)",
                   "the same of pedestrians, who change direction easily (thesis 5.3.5)"},
                  pedestrian_turning, kTurning);
+  visitor.number({"turning_time", "s",
+                  "time constant with which who drives or rides comes back to his course"},
+                 turning_time, {0.1, 100.0});
   visitor.number({"start_acceleration", "m/s^2",
                   "standard deviation of the acceleration of what begins to accelerate or brake"},
                  start_acceleration, {0.0, 10.0});
@@ -129,6 +132,8 @@ ObjectFutures::ObjectFutures(const Track& track, const ObjectFutureOptions& opti
   }
   const TargetMotionOptions& motion = options.motion.motionOf(class_);
   turning_ = turningOf(class_, options) * std::sqrt(horizon.step);
+  sway_kept_ =
+      class_ == ObjectClass::kPedestrian ? 1.0 : std::exp(-horizon.step / options.turning_time);
   speed_noise_ = std::sqrt(motion.acceleration_density * horizon.step);
   class_turn_rate_ = motion.turn_rate;
   heading_sigma_ = std::min(kMaxHeadingSigma, std::sqrt(track.heading_variance));
@@ -231,7 +236,8 @@ ObjectFutures::State ObjectFutures::next(const State& state, std::size_t future,
   } else {
     after.speed = std::max(0.0, after.speed + speed_noise_ * drawn.second);
   }
-  advance(after, turnRate(after) * horizon_.step + turning_ * drawn.first);
+  after.sway = sway_kept_ * state.sway + turning_ * drawn.first;
+  advance(after, turnRate(after) * horizon_.step + after.sway - state.sway);
   return after;
 }
 
@@ -246,8 +252,10 @@ BodyPath ObjectFutures::path(std::size_t future) const {
   return path;
 }
 
-BodyPath ObjectFutures::nominalPath() const {
-  State state = stateOf(track_.state, track_.box.center.heading(), likeliestMode(track_));
+BodyPath ObjectFutures::nominalPath() const { return nominalPath(likeliestMode(track_)); }
+
+BodyPath ObjectFutures::nominalPath(MotionMode mode) const {
+  State state = stateOf(track_.state, track_.box.center.heading(), mode);
   BodyPath path{horizon_.step, {bodyPose(state.position, state.heading)}};
   for (std::size_t step = 0; step < horizon_.steps(); ++step) {
     advance(state, turnRate(state) * horizon_.step);

@@ -16,6 +16,11 @@ namespace {
 /// m/s; slower the host stands, and braking changes nothing.
 constexpr double kStanding = 0.1;
 
+/// Of an object that none of so many futures meets, no more are drawn: contact is less probable
+/// than 5 % then (with 95 % confidence), far below what any level asks for, and most objects are
+/// such.
+constexpr std::size_t kFirstFutures = 64;
+
 /// Standard deviations by which a state may be off for an object to be within reach.
 constexpr double kReachSigmas = 4.0;
 
@@ -94,6 +99,7 @@ WarningOptions warningOf(const RiskOptions& options) {
   WarningOptions warning = options.warning;
   if (options.method != RiskMethod::kFutures) {
     warning.warning_time = options.rules.driver_time;
+    warning.warning_ttc = 0.0;
     warning.imminent_time = 0.0;
   }
   return warning;
@@ -148,6 +154,8 @@ RiskReport RiskAssessor::assess(const RiskInput& input) {
                           : std::nullopt;
   const HostFutures host(input.host, course, options_.vehicle, options_.host, options_.horizon,
                          draws_);
+  report.host = host.nominal();
+  report.host_size = options_.vehicle.size();
   const bool by_futures = options_.method == RiskMethod::kFutures;
   report.objects.push_back(ofStanding(input, tracks, host));
   for (const Track& track : tracks) {
@@ -218,6 +226,9 @@ ObjectRisk RiskAssessor::byFutures(const Track& track, const HostFutures& host) 
   risk.post_encroachment = postEncroachmentTime({host.nominal(), host_size, nominal, size});
   std::vector<FutureContact> contacts;
   for (std::size_t future = 0; future < host.paths().size(); ++future) {
+    if (future == kFirstFutures && contacts.empty()) {
+      break;
+    }
     if (const auto contact = contactOf(host.paths()[future], host_size, object, size, future)) {
       contacts.push_back(*contact);
     }

@@ -58,6 +58,12 @@ void WarningOptions::visit(OptionVisitor& visitor) {
                   "time to brake from which the driver is warned: 1 s of a driver's reaction "
                   "(thesis 5.3.5; Zhang et al. 2006), and the brakes' and the perception's delay"},
                  warning_time, kTime);
+  visitor.number(
+      {"warning_ttc", "s",
+       "time to contact from which the driver is warned however late he could brake: test "
+       "protocols of forward collision warnings ask for 1.7 s, on top of raise_time and a "
+       "scan"},
+      warning_ttc, kTime);
   visitor.number({"imminent_time", "s",
                   "time to brake from which no driver reacts any more: automatic brakes would"},
                  imminent_time, kTime);
@@ -80,7 +86,7 @@ RiskLevel levelOf(const ObjectRisk& risk, bool host_moves, const WarningOptions&
     if (time <= options.imminent_time) {
       return RiskLevel::kImminent;
     }
-    if (time <= options.warning_time) {
+    if (time <= options.warning_time || risk.median_ttc / ease <= options.warning_ttc) {
       return RiskLevel::kWarning;
     }
   }

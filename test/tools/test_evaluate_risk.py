@@ -101,7 +101,7 @@ class Tool(EvaluateCase):
                 risk = Risk(id=1, contact_probability=[0.0, 0.2, 0.6, 0.9])
                 risk.median_ttc = 3.0 - 0.1 * step
                 level = WARNING if step >= 10 else NONE
-                bag.write("/risks", RiskArray(header, level, 1, "", [risk]), stamp)
+                bag.write("/risks", RiskArray(header=header, level=level, cause=1, risks=[risk]), stamp)
             if contact is not None:
                 stamp = to_ros_time(int((START + contact) * 1e9))
                 header = Header(stamp=stamp, frame_id="map")

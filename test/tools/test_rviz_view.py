@@ -5,6 +5,7 @@ markers is one that is drawn, and each that is drawn is named, so that none is o
 
 import re
 import unittest
+import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 import yaml
@@ -12,8 +13,12 @@ import yaml
 PACKAGE = Path(__file__).resolve().parents[2]
 VIEW = yaml.safe_load((PACKAGE / "config/perception.rviz").read_text(encoding="utf-8"))
 DISPLAYS = VIEW["Visualization Manager"]["Displays"]
-DEBUGGING = {"dropped labels", "intersection", "objects", "object bodies", "object heads",
-             "road border sigmas", "track covariances", "track sensors"}
+# What our own displays draw, or what is for who looks for a fault.
+OFF = {"dropped labels", "intersection", "objects", "object bodies", "object heads", "road borders",
+       "road border sigmas", "track covariances", "track sensors", "track bodies", "track labels",
+       "track paths", "host tube", "contacts", "contact labels", "risk level"}
+PLUGINS = {each.get("name") for each in
+           ElementTree.parse(PACKAGE / "rviz_plugins.xml").getroot().iter("class")}
 
 # Of the input: the stereo camera's nodelets or the bag.
 INPUTS = {"/stereo/points2"}
@@ -58,11 +63,23 @@ class RvizView(unittest.TestCase):
                 with self.subTest(display=display["Name"]):
                     self.assertEqual(set(display["Namespaces"]), drawn())
 
-    def test_debugging_is_off(self):
+    def test_nothing_is_drawn_twice_and_debugging_is_off(self):
         shown = {name for display in DISPLAYS if display["Enabled"]
                  for name, on in display.get("Namespaces", {}).items() if on}
-        self.assertEqual(shown & DEBUGGING, set())
-        self.assertLessEqual({"vehicle", "track bodies", "track labels", "ground truth"}, shown)
+        self.assertEqual(shown & OFF, set())
+        self.assertLessEqual({"vehicle", "scan", "ground truth"}, shown)
+
+    def test_displays_and_panels_of_our_own_are_those_that_there_are(self):
+        for name in ("perception.rviz", "risk.rviz"):
+            view = yaml.safe_load((PACKAGE / "config" / name).read_text(encoding="utf-8"))
+            classes = {each["Class"] for each in
+                       view["Panels"] + view["Visualization Manager"]["Displays"]}
+            ours = {each for each in classes if each.startswith("datmo_fusion/")}
+            self.assertLessEqual(ours, PLUGINS)
+            self.assertLessEqual({"datmo_fusion/Tracks", "datmo_fusion/Risk",
+                                  "datmo_fusion/DriverView", "datmo_fusion/Sources"}, ours)
+            self.assertLessEqual({topic_of(each) for each in
+                                  view["Visualization Manager"]["Displays"]} - {None}, published())
 
     def test_the_view_follows_the_vehicle_from_behind(self):
         view = VIEW["Visualization Manager"]["Views"]["Current"]
@@ -75,6 +92,8 @@ class RvizView(unittest.TestCase):
         for display in DISPLAYS:
             if display["Class"] == "rviz/Image":
                 self.assertIn(display["Name"].encode("utf-16-be"), state)
+        for panel in VIEW["Panels"]:
+            self.assertIn(panel["Name"].encode("utf-16-be"), state)
 
 
 if __name__ == "__main__":

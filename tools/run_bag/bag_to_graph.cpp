@@ -17,6 +17,7 @@
 #include <sensor_msgs/MultiEchoLaserScan.h>
 #include <sensor_msgs/PointCloud2.h>
 
+#include "datmo_fusion/ros/convert/risk_conversion.h"
 #include "datmo_fusion/ros/stage/guard.h"
 
 namespace datmo {
@@ -111,8 +112,8 @@ void BagToGraph::write(const ros::Time& time, const Publications& published) {
     if (isResult(publication)) {
       writeAsOneOf<geometry_msgs::PoseWithCovarianceStamped, nav_msgs::OccupancyGrid,
                    sensor_msgs::LaserScan, sensor_msgs::PointCloud2, tf2_msgs::TFMessage,
-                   LabeledScanMessage, RoadBorders, ObjectArray, DroppedObjects, TrackArray>(
-          time, publication);
+                   LabeledScanMessage, RoadBorders, ObjectArray, DroppedObjects, TrackArray,
+                   RiskArray>(time, publication);
     }
   }
 }

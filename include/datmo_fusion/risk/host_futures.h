@@ -14,7 +14,10 @@ namespace datmo {
 
 struct HostFutureOptions {
   double acceleration_spread = 0.5;   ///< m/s^2
-  double steering_spread = 0.3;       ///< m/s^2
+  double acceleration_time = 2.0;     ///< s
+  double lane_deviation = 0.3;        ///< m
+  double lane_time = 1.2;             ///< s
+  double steering_spread = 0.1;       ///< m/s^2
   double max_steering_spread = 0.02;  ///< rad
   double steering_time = 0.5;         ///< s
   double course_time = 1.5;           ///< s
@@ -33,7 +36,11 @@ std::optional<double> courseSteering(const HostState& host, const RoadModel& roa
                                      const HostFutureOptions& options);
 
 /// Possible futures of the host: it keeps its acceleration and its steering, or turns to the course
-/// of the road, each with a spread that the driver's next seconds need.
+/// of the road. Its acceleration varies about the present one (first-order Gauss-Markov). About its
+/// course it sways as a driver does who keeps his lane: the deviation is pulled back, so that it
+/// stays that of a lane however far the futures reach (critically damped, driven by white noise).
+/// What is not known of the course itself is a constant lateral acceleration, which leads away from
+/// it.
 class HostFutures {
  public:
   /// `course`: the steering to come to, rad; none: the present one.
@@ -46,7 +53,9 @@ class HostFutures {
   const BodyPath& nominal() const { return nominal_; }
 
  private:
-  BodyPath path(double acceleration, double steering) const;
+  BodyPath nominalPath(double steering) const;
+  BodyPath path(double steering, std::uint32_t future, const RandomDraws& draws) const;
+  void advance(BicycleState& state, double acceleration, double steering) const;
 
   HostState host_;
   const HostVehicleOptions& vehicle_;

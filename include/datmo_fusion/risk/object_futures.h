@@ -29,6 +29,7 @@ struct ObjectFutureOptions {
   double vehicle_turning = 0.03;     ///< rad/sqrt(s)
   double cyclist_turning = 0.08;     ///< rad/sqrt(s)
   double pedestrian_turning = 0.25;  ///< rad/sqrt(s)
+  double turning_time = 2.0;         ///< s
   double start_acceleration = 1.5;   ///< m/s^2
   double stop_deceleration = 3.0;    ///< m/s^2
   double max_acceleration = 8.0;     ///< m/s^2
@@ -48,9 +49,9 @@ MotionMode likeliestMode(const Track& track);
 /// Each is drawn from the track's state and covariance and from its mode probabilities; the modes
 /// switch by their sojourn times (Markov jumps, as the tracker's IMM has them). In a mode the
 /// object goes as that mode says, with the tracker's noise on its speed, and turns at random as its
-/// class does: pedestrians freely. Beyond the tracker's models an object that brakes comes to rest
-/// and does not reverse, one that comes to stand brakes until it does, and no turn is sharper than
-/// tires hold.
+/// class does: pedestrians freely, who drives or rides about his course, to which he comes back.
+/// Beyond the tracker's models an object that brakes comes to rest and does not reverse, one that
+/// comes to stand brakes until it does, and no turn is sharper than tires hold.
 class ObjectFutures {
  public:
   /// `track`: valid (isValid), at the time at which the futures begin. All must outlive this.
@@ -64,6 +65,7 @@ class ObjectFutures {
     double speed = 0.0;                ///< m/s, at least 0
     double heading = 0.0;              ///< rad, of the box
     double acceleration = 0.0;         ///< m/s^2, along the course
+    double sway = 0.0;                 ///< rad, of the course from where the mode leads
     MotionMode mode = MotionMode::kConstantVelocity;
   };
 
@@ -76,6 +78,8 @@ class ObjectFutures {
   BodyPath path(std::size_t future) const;
   /// What the likeliest mode leads to, without noise or switching.
   BodyPath nominalPath() const;
+  /// The same of any mode.
+  BodyPath nominalPath(MotionMode mode) const;
 
  private:
   State stateOf(const TrackState& state, double heading, MotionMode mode) const;
@@ -91,6 +95,7 @@ class ObjectFutures {
   TrackCovariance root_;          ///< of the covariance
   ModeMatrix cumulated_;          ///< rows: sums of the transition probabilities
   double turning_ = 0.0;          ///< rad, standard deviation of a step
+  double sway_kept_ = 1.0;        ///< share of the sway that is left after a step
   double speed_noise_ = 0.0;      ///< m/s, of a step
   double heading_sigma_ = 0.0;    ///< rad
   double class_turn_rate_ = 0.0;  ///< rad/s

@@ -10,7 +10,7 @@
 
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/stamp.h"
-#include "datmo_fusion/risk/box_contact.h"
+#include "datmo_fusion/risk/host_motion.h"
 #include "datmo_fusion/tracking/track.h"
 
 namespace datmo {
@@ -65,6 +65,8 @@ struct RiskReport {
   RiskLevel level = RiskLevel::kNone;
   std::uint32_t cause = kStandingId;  ///< the object that the level is for
   std::string reason;                 ///< one sentence; empty at level none
+  BodyPath host;                      ///< as it is expected to go, without spread
+  BodySize host_size;
   RiskCounts counts;
 };
 

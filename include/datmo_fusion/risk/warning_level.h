@@ -16,6 +16,7 @@ struct WarningOptions {
   double information_probability = 0.3;  ///< 1
   double warning_probability = 0.5;      ///< 1
   double warning_time = 1.4;             ///< s
+  double warning_ttc = 1.9;              ///< s
   double imminent_time = 0.3;            ///< s
   double raise_time = 0.1;               ///< s
   double hold_time = 0.8;                ///< s
@@ -25,9 +26,9 @@ struct WarningOptions {
 };
 
 /// The level that one object asks for. A warning needs both: contact is likelier than
-/// `warning_probability`, and the time to brake ends within `warning_time`, or every parked car in
-/// a bend would warn. Braking must help: of who is struck from behind, or stands, the driver is
-/// informed only.
+/// `warning_probability`, and the time to brake ends within `warning_time` or contact comes within
+/// `warning_ttc`, or every parked car in a bend would warn. Braking must help: of who is struck
+/// from behind, or stands, the driver is informed only.
 ///
 /// `ease`: 1, or more to keep a level: probabilities count so many times, times the inverse.
 RiskLevel levelOf(const ObjectRisk& risk, bool host_moves, const WarningOptions& options,

@@ -41,6 +41,12 @@ RiskArray toMessage(const RiskReport& report, const std::string& fixed_frame) {
   for (const ObjectRisk& risk : report.objects) {
     message.risks.push_back(riskMessage(risk));
   }
+  for (const BodyPose& pose : report.host.poses) {
+    message.host_path.push_back(toPose2D(Pose2(pose.center, pose.heading)));
+  }
+  message.host_path_step = static_cast<float>(report.host.step);
+  message.host_length = static_cast<float>(2.0 * report.host_size.half_length);
+  message.host_width = static_cast<float>(2.0 * report.host_size.half_width);
   return message;
 }
 

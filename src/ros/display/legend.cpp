@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "marker_colors.h"
 #include <boost/make_shared.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -15,6 +14,7 @@
 #include <sensor_msgs/image_encodings.h>
 
 #include "datmo_fusion/ros/convert/messages.h"
+#include "datmo_fusion/ros/display/marker_colors.h"
 
 namespace datmo {
 

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "class_shapes.h"
-#include "marker_colors.h"
 #include "marker_parts.h"
 
 #include "datmo_fusion/common/pose2.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/display/marker_colors.h"
 
 namespace datmo {
 

@@ -7,11 +7,11 @@
 #include <string>
 
 #include "class_shapes.h"
-#include "marker_colors.h"
 #include "marker_parts.h"
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/convert/road_conversion.h"
+#include "datmo_fusion/ros/display/marker_colors.h"
 #include "datmo_fusion/ros/display/markers.h"
 
 namespace datmo {

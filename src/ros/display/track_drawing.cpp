@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "marker_colors.h"
 #include "track_label.h"
 #include <opencv2/imgproc.hpp>
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/display/marker_colors.h"
 
 namespace datmo {
 

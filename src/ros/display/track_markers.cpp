@@ -4,14 +4,14 @@
 #include <string>
 
 #include "class_shapes.h"
-#include "marker_colors.h"
 #include "marker_parts.h"
+#include "track_colors.h"
 #include "track_label.h"
 #include <Eigen/Eigenvalues>
 
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
-#include "datmo_fusion/ros/display/markers.h"
+#include "datmo_fusion/ros/display/track_style.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo {
@@ -33,19 +33,6 @@ constexpr float kEllipseOpacity = 0.3F;
 
 /// m, just above the ground: not hidden by the map.
 constexpr double kEllipseHeight = 0.02;
-
-/// Share of its class's color that lines and letters have: dark ones are read on a light map.
-constexpr float kInk = 0.45F;
-
-std_msgs::ColorRGBA colorOf(const TrackMessage& track, float opacity) {
-  return colorOfClass(classFromMessage(track.classification), track.moving, opacity);
-}
-
-/// Of lines and letters.
-std_msgs::ColorRGBA inkOf(const TrackMessage& track) {
-  const auto full = colorOfClass(classFromMessage(track.classification), true, 1.0F);
-  return color(kInk * full.r, kInk * full.g, kInk * full.b);
-}
 
 double heightOf(const TrackMessage& track, const MarkersOptions& options) {
   return track.size.z > 0.0 ? track.size.z : options.default_height;
@@ -128,39 +115,56 @@ Marker groundOutline(const std_msgs::Header& header, const std::string& name,
 }
 
 /// The class as a shape, and on the ground its outline and who saw it.
-void addBody(const std_msgs::Header& header, const TrackMessage& track, float opacity,
-             const MarkersOptions& options, MarkerArray& markers) {
+void addBody(const std_msgs::Header& header, const TrackMessage& track, const TrackStyle& style,
+             MarkerArray& markers) {
+  const MarkersOptions& options = style.sizes;
   const ObjectClass object_class = classFromMessage(track.classification);
   const ClassShape shape = shapeOf(header, "track", object_class, track.pose, track.size, options);
-  const std_msgs::ColorRGBA color = colorOf(track, opacity);
-  add(shape.body, track, color, markers);
+  const float opacity =
+      style.fade_by_existence ? kFaint + (kSolid - kFaint) * track.existence_probability : kSolid;
+  const std_msgs::ColorRGBA paint = colorOf(track, style.color_by, opacity);
+  add(shape.body, track, paint, markers);
   if (shape.head) {
-    add(*shape.head, track, color, markers);
+    add(*shape.head, track, paint, markers);
   }
-  add(groundOutline(header, "track outlines", track, options), track, inkOf(track), markers);
+  add(groundOutline(header, "track outlines", track, options), track, inkOf(track, style.color_by),
+      markers);
   add(groundOutline(header, "track sensors", track, options), track,
       colorOfSensors(track.sensors, 1.0F), markers);
 }
 
+void addTrack(const std_msgs::Header& header, const TrackMessage& track, const TrackStyle& style,
+              MarkerArray& markers) {
+  const std_msgs::ColorRGBA ink = inkOf(track, style.color_by);
+  addBody(header, track, style, markers);
+  if (track.moving) {
+    add(arrowOf(header, track, style.sizes), track, ink, markers);
+  }
+  add(labelOf(header, track, style.sizes), track, ink, markers);
+  add(ellipseOf(header, track, style.sizes), track, colorOf(track, style.color_by, kEllipseOpacity),
+      markers);
+  const Marker path = pathOf(header, track, style.sizes);
+  if (path.points.size() > 1) {  // rviz takes a line of one point for a mistake
+    add(path, track, ink, markers);
+  }
+}
+
 }  // namespace
 
-MarkerArray markersOf(const TrackArray& tracks, const MarkersOptions& options) {
+MarkerArray markersOf(const TrackArray& tracks, const TrackStyle& style) {
   MarkerArray markers;
-  const std_msgs::Header& header = tracks.header;
   for (const TrackMessage& track : tracks.tracks) {
-    const float body = kFaint + (kSolid - kFaint) * track.existence_probability;
-    addBody(header, track, body, options, markers);
-    if (track.moving) {
-      add(arrowOf(header, track, options), track, inkOf(track), markers);
-    }
-    add(labelOf(header, track, options), track, inkOf(track), markers);
-    add(ellipseOf(header, track, options), track, colorOf(track, kEllipseOpacity), markers);
-    const Marker path = pathOf(header, track, options);
-    if (path.points.size() > 1) {  // rviz takes a line of one point for a mistake
-      add(path, track, inkOf(track), markers);
+    if (track.existence_probability >= style.min_existence) {
+      addTrack(tracks.header, track, style, markers);
     }
   }
   return markers;
+}
+
+MarkerArray markersOf(const TrackArray& tracks, const MarkersOptions& options) {
+  TrackStyle style;
+  style.sizes = options;
+  return markersOf(tracks, style);
 }
 
 }  // namespace datmo

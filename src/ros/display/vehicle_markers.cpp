@@ -2,10 +2,10 @@
 #include <cmath>
 #include <utility>
 
-#include "marker_colors.h"
 #include "marker_parts.h"
 
 #include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/ros/display/marker_colors.h"
 #include "datmo_fusion/ros/display/markers.h"
 
 namespace datmo {

@@ -140,6 +140,7 @@ void StageReporter::publishTiming() {
   message->stage = monitor_.stage();
   message->processing_time = last.seconds;
   message->latency = secondsBetween(last.stamp, toStamp(ros::Time::now()));
+  last_latency_ = message->latency;
   timing_.publish(message);
 }
 
@@ -161,12 +162,18 @@ void StageReporter::listInputs(DiagnosticStatusWrapper& status) const {
     const InputStatus input = monitor_.input(watched.name, toStamp(ros::Time::now()));
     status.add(watched.name + " received", input.received);
     status.addf(watched.name + " rate [Hz]", "%.1f", input.rate);
+    if (input.silence) {
+      status.addf(watched.name + " age [s]", "%.2f", *input.silence);
+    }
   }
 }
 
 void StageReporter::listCounts(DiagnosticStatusWrapper& status) const {
   const TimingStatus timing = monitor_.timing();
   status.add("processed", monitor_.processedCount());
+  if (last_latency_) {
+    status.addf("latency, last [ms]", "%.1f", milliseconds(*last_latency_));
+  }
   status.addf("processing time, median [ms]", "%.2f", milliseconds(timing.median));
   status.addf("processing time, 99th percentile [ms]", "%.2f", milliseconds(timing.percentile_99));
   status.addf("processing time, most [ms]", "%.2f", milliseconds(timing.max));

@@ -119,6 +119,18 @@ TEST(ObjectFutures, PedestriansTurnMoreFreely) {
             1.2 * endsOf(ObjectFutures(car, options, kHorizon, kDraws)).sigma);
 }
 
+TEST(ObjectFutures, WhoDrivesComesBackToHisCourse) {
+  const Track car = knownTrack(1, {0, 0}, {14, 0});
+  ObjectFutureOptions options = withoutSwitching();
+  options.motion.motion.acceleration_density = 1e-6;
+  const double back = endsOf(ObjectFutures(car, options, kHorizon, kDraws)).sigma;
+  options.turning_time = 100.0;
+  // A random walk of the course: v s sqrt(t^3 / 3).
+  const double walk = endsOf(ObjectFutures(car, options, kHorizon, kDraws)).sigma;
+  EXPECT_NEAR(walk, 14.0 * options.vehicle_turning * std::sqrt(64.0 / 3.0), 0.35);
+  EXPECT_LT(back, 0.75 * walk);
+}
+
 TEST(ObjectFutures, SwitchingModesSpreadThem) {
   const Track track = knownTrack(1, {0, 0}, {10, 0});
   const ObjectFutureOptions kept = withoutSwitching();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/risk/warning_level.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 namespace datmo::warning_level_test {
@@ -12,7 +14,7 @@ ObjectRisk riskWith(double probability, double time_to_brake) {
   risk.object_class = ObjectClass::kPedestrian;
   risk.contact_probability.fill(probability);
   risk.time_to_brake = time_to_brake;
-  risk.median_ttc = 1.6;
+  risk.median_ttc = std::max(1.6, time_to_brake + 0.7);
   risk.strike_speed = 8.3;
   risk.side = StruckSide::kFront;
   return risk;
@@ -38,6 +40,15 @@ TEST(Level, NeedsProbabilityAndTime) {
   EXPECT_EQ(levelOf(riskWith(0.9, 3.0), true, options), RiskLevel::kInformation);
   EXPECT_EQ(levelOf(riskWith(0.9, 1.0), true, options), RiskLevel::kWarning);
   EXPECT_EQ(levelOf(riskWith(0.9, 0.1), true, options), RiskLevel::kImminent);
+}
+
+TEST(Level, WarnsOfASlowApproachByTheTimeToContact) {
+  const WarningOptions options;
+  ObjectRisk slow = riskWith(0.9, 1.7);
+  slow.median_ttc = 1.85;  // 1.8 m/s over it: braking takes but 0.15 s
+  EXPECT_EQ(levelOf(slow, true, options), RiskLevel::kWarning);
+  slow.median_ttc = 2.0;
+  EXPECT_EQ(levelOf(slow, true, options), RiskLevel::kInformation);
 }
 
 TEST(Level, InformsWhereBrakingDoesNotHelp) {

@@ -173,7 +173,9 @@ TEST_F(GridSlamStageTest, AJumpBackStartsAnew) {
     odometryAt(t);
     scanAt(t);
   }
-  EXPECT_GT(scanAt(102.0)->pose->pose.pose.position.x, 5.0);
+  const auto last = scanAt(102.0);
+  ASSERT_TRUE(last);
+  EXPECT_GT(last->pose->pose.pose.position.x, 5.0);
   EXPECT_TRUE(stage_.mapIfDue(Stamp::fromSeconds(102.0)));
   odometryAt(100.0);
   const auto output = scanAt(100.0);

@@ -50,6 +50,7 @@ class StageReporter {
   StageHealth health_;
   InputProgress progress_;
   Stopwatch since_start_;
+  std::optional<double> last_latency_;  ///< s; none before the first result
   ros::Publisher timing_;
   diagnostic_updater::Updater updater_;
   ros::SteadyTimer timer_;

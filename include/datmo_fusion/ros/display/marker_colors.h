@@ -22,6 +22,16 @@ std_msgs::ColorRGBA colorOfPoint(std::uint8_t state);
 /// Orange on the left, pink on the right; `brightness` 0 to 1.
 std_msgs::ColorRGBA colorOfBorder(RoadSide side, float brightness, float opacity);
 
+/// A bright color of a hue: 0 red, 1/3 green, 2/3 blue, 1 red again.
+std_msgs::ColorRGBA colorOfHue(double hue, float opacity);
+
+/// How soon something is: red now, green in `horizon` (s, more than 0) or later.
+std_msgs::ColorRGBA colorOfTime(double seconds, double horizon, float opacity);
+
+/// Of a level of risk (RiskArray.LEVEL_*): green none, yellow information, orange warning, red
+/// imminent.
+std_msgs::ColorRGBA colorOfLevel(std::uint8_t level);
+
 /// Of the own vehicle.
 std_msgs::ColorRGBA colorOfOwnVehicle();
 

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+
+namespace datmo {
+
+/// One line of the table of sources: an input of a stage, or, with an empty `input`, a node that
+/// has none. Cells are as the diagnostics say them; empty: not said.
+struct SourceRow {
+  std::string stage;
+  std::string input;
+  std::uint8_t level = 0;  ///< DiagnosticStatus.OK, WARN, ERROR, STALE
+  std::string state;       ///< in words: "runs", "no scan for 2.0 s"
+  std::string rate;        ///< Hz
+  std::string age;         ///< s, of the last message
+  std::string latency;     ///< ms, from the measurement to the result
+  std::string time;        ///< ms, the processing's median
+  std::string dropped;     ///< number of messages
+  std::string why;         ///< reasons and numbers: "old_stamp 3, bad_pose 1"
+};
+
+/// Keeps what each node said last in /diagnostics.
+class SourceTable {
+ public:
+  /// `now`: s, of any clock that rises.
+  void take(const diagnostic_msgs::DiagnosticArray& message, double now);
+
+  /// By stage and input. Of a stage the first line alone has latency, time and drops. A node that
+  /// said nothing for longer than `silence` (s) is stale.
+  std::vector<SourceRow> rows(double now, double silence = 5.0) const;
+
+  void clear() { nodes_.clear(); }
+
+ private:
+  struct Node {
+    double heard = 0.0;
+    std::vector<SourceRow> rows;
+  };
+  std::map<std::string, Node> nodes_;
+};
+
+}  // namespace datmo

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <std_msgs/ColorRGBA.h>
+
+#include "datmo_fusion/ros/display/track_style.h"
+
+namespace datmo {
+
+/// Of a track's body and ellipse.
+std_msgs::ColorRGBA colorOf(const TrackMessage& track, TrackColor color_by, float opacity);
+
+/// Of its lines and letters: darker, to be read on a light map.
+std_msgs::ColorRGBA inkOf(const TrackMessage& track, TrackColor color_by);
+
+}  // namespace datmo

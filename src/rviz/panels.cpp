@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Panels: the driver's picture, and the table of sources.
+#include <QHeaderView>
+#include <QTimer>
+#include <QTreeWidget>
+#include <QVBoxLayout>
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "driver_painter.h"
+#include <rviz/panel.h>
+#include <rviz/visualization_manager.h>
+
+#include <pluginlib/class_list_macros.hpp>
+#include <ros/node_handle.h>
+
+#include "datmo_fusion/ros/display/driver_view.h"
+#include "datmo_fusion/ros/display/source_table.h"
+
+namespace datmo {
+
+namespace {
+
+constexpr std::uint32_t kPanelQueue = 10;
+
+/// s; older risks are not shown: a driver must not trust them.
+constexpr double kFresh = 1.0;
+
+/// ms, between looks at the clock.
+constexpr int kAgeCheck = 250;
+constexpr int kTableUpdate = 1000;
+
+double secondsNow() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Callbacks come in the window's thread.
+ros::NodeHandle windowNode(rviz::VisualizationManager& manager) {
+  ros::NodeHandle node;
+  node.setCallbackQueue(manager.getUpdateQueue());
+  return node;
+}
+
+}  // namespace
+
+/// The host from above, what is near it, and the level of risk with its reason. In: the topics of
+/// the keys "Risks Topic" and "Tracks Topic" of the configuration.
+class DriverPanel : public rviz::Panel {
+ public:
+  explicit DriverPanel(QWidget* parent = nullptr) : Panel(parent) {
+    setMinimumSize(220, 260);
+    auto* timer = new QTimer(this);
+    connect(timer, &QTimer::timeout, this, [this] { update(); });
+    timer->start(kAgeCheck);
+  }
+
+  void onInitialize() override { subscribe(); }
+
+  void load(const rviz::Config& config) override {
+    Panel::load(config);
+    config.mapGetString("Risks Topic", &risks_topic_);
+    config.mapGetString("Tracks Topic", &tracks_topic_);
+    subscribe();
+  }
+
+  void save(rviz::Config config) const override {
+    Panel::save(config);
+    config.mapSetValue("Risks Topic", risks_topic_);
+    config.mapSetValue("Tracks Topic", tracks_topic_);
+  }
+
+ protected:
+  void paintEvent(QPaintEvent* /*event*/) override {
+    QPainter painter(this);
+    const bool fresh = view_ && secondsNow() - heard_ <= kFresh;
+    paintDriverView(painter, size(), fresh ? &*view_ : nullptr);
+  }
+
+ private:
+  void subscribe() {
+    if (!vis_manager_) {
+      return;
+    }
+    ros::NodeHandle node = windowNode(*vis_manager_);
+    risks_ = node.subscribe(risks_topic_.toStdString(), kPanelQueue, &DriverPanel::takeRisks, this);
+    tracks_ =
+        node.subscribe(tracks_topic_.toStdString(), kPanelQueue, &DriverPanel::takeTracks, this);
+  }
+
+  void takeTracks(const TrackArrayConstPtr& message) { last_tracks_ = message; }
+
+  void takeRisks(const RiskArrayConstPtr& message) {
+    view_ = driverViewOf(*message, last_tracks_.get());
+    heard_ = secondsNow();
+    update();
+  }
+
+  QString risks_topic_ = "/risks";
+  QString tracks_topic_ = "/tracks";
+  TrackArrayConstPtr last_tracks_;
+  std::optional<DriverView> view_;
+  double heard_ = 0.0;  ///< s, when the risks came
+  ros::Subscriber risks_;
+  ros::Subscriber tracks_;
+};
+
+/// Each input of each stage: rate, age, latency, and what was dropped and why, from /diagnostics.
+class SourcesPanel : public rviz::Panel {
+ public:
+  explicit SourcesPanel(QWidget* parent = nullptr) : Panel(parent), table_(new QTreeWidget(this)) {
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(table_);
+    table_->setRootIsDecorated(false);
+    table_->setHeaderLabels({"stage", "input", "Hz", "age [s]", "latency [ms]", "takes [ms]",
+                             "dropped", "why", "state"});
+    table_->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
+    auto* timer = new QTimer(this);
+    connect(timer, &QTimer::timeout, this, [this] { fill(); });
+    timer->start(kTableUpdate);
+  }
+
+  void onInitialize() override {
+    diagnostics_ =
+        windowNode(*vis_manager_).subscribe("/diagnostics", kPanelQueue, &SourcesPanel::take, this);
+  }
+
+ private:
+  void take(const diagnostic_msgs::DiagnosticArrayConstPtr& message) {
+    sources_.take(*message, secondsNow());
+  }
+
+  void fill() {
+    static const QColor kColors[] = {QColor(210, 240, 215), QColor(255, 236, 170),
+                                     QColor(255, 190, 185), QColor(220, 220, 220)};
+    const std::vector<SourceRow> rows = sources_.rows(secondsNow());
+    while (table_->topLevelItemCount() > static_cast<int>(rows.size())) {
+      delete table_->takeTopLevelItem(table_->topLevelItemCount() - 1);
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto index = static_cast<int>(i);
+      if (index >= table_->topLevelItemCount()) {
+        table_->addTopLevelItem(new QTreeWidgetItem());
+      }
+      QTreeWidgetItem* item = table_->topLevelItem(index);
+      const SourceRow& row = rows[i];
+      int column = 0;
+      for (const std::string* cell : {&row.stage, &row.input, &row.rate, &row.age, &row.latency,
+                                      &row.time, &row.dropped, &row.why, &row.state}) {
+        item->setText(column, QString::fromStdString(*cell));
+        item->setBackground(column, kColors[std::min<std::size_t>(row.level, 3)]);
+        item->setForeground(column, QColor(20, 20, 20));
+        ++column;
+      }
+    }
+  }
+
+  QTreeWidget* table_;
+  SourceTable sources_;
+  ros::Subscriber diagnostics_;
+};
+
+}  // namespace datmo
+
+PLUGINLIB_EXPORT_CLASS(datmo::DriverPanel, rviz::Panel)
+PLUGINLIB_EXPORT_CLASS(datmo::SourcesPanel, rviz::Panel)

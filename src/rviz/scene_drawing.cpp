@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene_drawing.h"
+
+#include <algorithm>
+#include <atomic>
+#include <string>
+
+#include <OgreManualObject.h>
+#include <OgreMaterialManager.h>
+#include <OgreResourceGroupManager.h>
+#include <OgreSceneManager.h>
+#include <OgreSceneNode.h>
+#include <OgreTechnique.h>
+#include <rviz/ogre_helpers/movable_text.h>
+
+namespace datmo {
+
+namespace {
+
+Ogre::Vector3 toOgre(const Eigen::Vector3f& vector) { return {vector.x(), vector.y(), vector.z()}; }
+
+Ogre::ColourValue toOgre(const std_msgs::ColorRGBA& color) {
+  return Ogre::ColourValue(color.r, color.g, color.b, color.a);
+}
+
+/// Colors are those of the vertices, which are lit already.
+Ogre::MaterialPtr makeMaterial(const std::string& name, bool translucent) {
+  Ogre::MaterialPtr material = Ogre::MaterialManager::getSingleton().create(
+      name, Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME);
+  material->setReceiveShadows(false);
+  material->setCullingMode(Ogre::CULL_NONE);
+  material->getTechnique(0)->setLightingEnabled(false);
+  if (translucent) {
+    material->setSceneBlending(Ogre::SBT_TRANSPARENT_ALPHA);
+    material->setDepthWriteEnabled(false);
+  }
+  return material;
+}
+
+std::string uniqueName() {
+  static std::atomic<unsigned> count{0};
+  return "datmo_fusion/drawing" + std::to_string(count++);
+}
+
+}  // namespace
+
+SceneDrawing::SceneDrawing(Ogre::SceneManager& scene, Ogre::SceneNode& parent)
+    : scene_(scene), node_(parent.createChildSceneNode()) {
+  const std::string name = uniqueName();
+  triangles_ = scene_.createManualObject(name);
+  triangles_->setDynamic(true);
+  node_->attachObject(triangles_);
+  solid_ = makeMaterial(name + "/solid", false);
+  translucent_ = makeMaterial(name + "/translucent", true);
+}
+
+SceneDrawing::~SceneDrawing() {
+  for (Label& label : labels_) {
+    label.node->detachAllObjects();
+    label.text.reset();
+    scene_.destroySceneNode(label.node);
+  }
+  node_->detachAllObjects();
+  scene_.destroyManualObject(triangles_);
+  scene_.destroySceneNode(node_);
+  for (const Ogre::MaterialPtr& material : {solid_, translucent_}) {
+    Ogre::MaterialManager::getSingleton().remove(material->getHandle());
+  }
+}
+
+void SceneDrawing::show(const Drawing& drawing) {
+  triangles_->clear();
+  addBatch(drawing.solid, solid_);
+  addBatch(drawing.translucent, translucent_);
+  showLabels(drawing.labels);
+}
+
+void SceneDrawing::addBatch(const std::vector<DrawnVertex>& vertices,
+                            const Ogre::MaterialPtr& material) {
+  if (vertices.empty()) {
+    return;
+  }
+  triangles_->estimateVertexCount(vertices.size());
+  triangles_->begin(material->getName(), Ogre::RenderOperation::OT_TRIANGLE_LIST);
+  for (const DrawnVertex& vertex : vertices) {
+    triangles_->position(toOgre(vertex.position));
+    triangles_->colour(toOgre(vertex.color));
+  }
+  triangles_->end();
+}
+
+void SceneDrawing::showLabels(const std::vector<DrawnLabel>& labels) {
+  while (labels_.size() < labels.size()) {
+    Label label;
+    label.node = node_->createChildSceneNode();
+    // A blank would have no box, and be taken for out of view for good.
+    label.text = std::make_unique<rviz::MovableText>("-");
+    label.text->setTextAlignment(rviz::MovableText::H_CENTER, rviz::MovableText::V_CENTER);
+    label.node->attachObject(label.text.get());
+    labels_.push_back(std::move(label));
+  }
+  for (std::size_t i = 0; i < labels_.size(); ++i) {
+    const bool shown = i < labels.size() && !labels[i].text.empty();
+    labels_[i].node->setVisible(shown);
+    if (shown) {
+      labels_[i].node->setPosition(toOgre(labels[i].position));
+      labels_[i].text->setCaption(labels[i].text);
+      labels_[i].text->setCharacterHeight(labels[i].height);
+      labels_[i].text->setColor(toOgre(labels[i].color));
+    }
+  }
+}
+
+}  // namespace datmo

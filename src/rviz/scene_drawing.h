@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include <OgreMaterial.h>
+
+#include "datmo_fusion/ros/display/drawing.h"
+
+namespace Ogre {
+class ManualObject;
+class SceneManager;
+class SceneNode;
+}  // namespace Ogre
+
+namespace rviz {
+class MovableText;
+}  // namespace rviz
+
+namespace datmo {
+
+/// Puts a Drawing into rviz's scene, below a node: all triangles as one object of two batches.
+class SceneDrawing {
+ public:
+  /// Both must outlive this.
+  SceneDrawing(Ogre::SceneManager& scene, Ogre::SceneNode& parent);
+  ~SceneDrawing();
+  SceneDrawing(const SceneDrawing&) = delete;
+  SceneDrawing& operator=(const SceneDrawing&) = delete;
+
+  /// Instead of what was shown before.
+  void show(const Drawing& drawing);
+
+  void clear() { show(Drawing()); }
+
+ private:
+  struct Label {
+    Ogre::SceneNode* node = nullptr;
+    std::unique_ptr<rviz::MovableText> text;
+  };
+
+  void addBatch(const std::vector<DrawnVertex>& vertices, const Ogre::MaterialPtr& material);
+  void showLabels(const std::vector<DrawnLabel>& labels);
+
+  Ogre::SceneManager& scene_;
+  Ogre::SceneNode* node_;
+  Ogre::ManualObject* triangles_;
+  Ogre::MaterialPtr solid_;
+  Ogre::MaterialPtr translucent_;
+  std::vector<Label> labels_;  ///< those beyond the shown ones are hidden
+};
+
+}  // namespace datmo

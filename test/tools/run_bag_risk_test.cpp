@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The bag runner with risks, on the small drive between two walls.
+#include <cstddef>
+#include <string>
+
+#include "run_bag_drive.h"
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/ros/convert/risk_conversion.h"
+
+namespace datmo::run_bag_risk_test {
+namespace {
+
+constexpr auto kAllScans = static_cast<std::size_t>(kScans);
+
+class RiskRun : public RunBag {
+ protected:
+  RiskRun() { arguments_.risk = true; }
+};
+
+TEST_F(RiskRun, EveryScanLeadsToRisksWithThePathOfTheHost) {
+  const std::string table = run();
+  EXPECT_EQ(count(arguments_.output, "/risks"), kAllScans) << table;
+  rosbag::Bag bag(arguments_.output);
+  for (const auto& message : rosbag::View(bag, rosbag::TopicQuery("/risks"))) {
+    const auto risks = message.instantiate<RiskArray>();
+    EXPECT_EQ(risks->header.frame_id, "map");
+    EXPECT_EQ(risks->host_path.size(), 21U) << "4 s in steps of 0.2";
+    EXPECT_GT(risks->host_length, 0.0F);
+  }
+}
+
+TEST_F(RiskRun, SameBagGivesTheSameBytes) {
+  run();
+  const std::string first = bytes(arguments_.output);
+  run();
+  EXPECT_FALSE(first.empty());
+  EXPECT_EQ(first, bytes(arguments_.output));
+}
+
+TEST_F(RiskRun, TheSensorSetHasASectionOfIt) {
+  writeConfig("{risk: {method: thesis}}");
+  run();
+  EXPECT_EQ(count(arguments_.output, "/risks"), kAllScans);
+  writeConfig("{risk: {methods: thesis}}");
+  const std::string message = failure();
+  EXPECT_NE(message.find("risk: methods"), std::string::npos) << message;
+}
+
+TEST_F(RiskRun, WithoutTheSwitchThereAreNone) {
+  arguments_.risk = false;
+  run();
+  EXPECT_EQ(count(arguments_.output, "/risks"), 0U);
+}
+
+}  // namespace
+}  // namespace datmo::run_bag_risk_test

@@ -1,0 +1,78 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Encounters after public test protocols: each is what its name says, by the simulator's own contact."""
+
+import os
+import tempfile
+import unittest
+from pathlib import Path
+
+import rosbag
+import yaml
+
+from datmo_tools import programs
+from datmo_tools.experiments.encounter_scenes import (AVOIDED, ENDINGS, MEETING, STOPS, Encounter,
+                                                       encounters, random_scenes, scene)
+from datmo_tools.experiments.encounters import main
+
+PROGRAM = os.environ.get("DATMO_FUSION_TRUE_RISKS", "")
+# Of each kind one; few beams and a small ground truth: only the contact counts.
+KINDS = ("pedestrian_far", "child_behind_cars", "cyclist_across", "cyclist_along", "car_standing",
+         "car_braking_12_2", "turn_across_45")  # fmt: skip
+COARSE = ("--set", "scanner/beam_spacing=5", "--set", "ground_truth/radius=1", "--risk", "method=rss")
+
+
+class Scenes(unittest.TestCase):
+    def test_names_are_unique_and_each_has_a_hit_and_near_misses(self):
+        names = [each.name for each in encounters()]
+        self.assertEqual(len(names), len(set(names)))
+        self.assertGreater(len(names), 100)
+        for ending in ENDINGS:
+            self.assertEqual(sum(name.endswith(ending) for name in names), len(names) / 3)
+
+    def test_only_who_crosses_can_stop(self):
+        self.assertFalse([each for each in encounters([STOPS]) if each.protocol.startswith("car")])
+
+    def test_random_scenes_are_those_of_their_seed(self):
+        first, again = (list(random_scenes(6, 3)) for _ in range(2))
+        self.assertEqual(first, again)
+        self.assertNotEqual(first, list(random_scenes(6, 4)))
+        for each in first:
+            times = [point[0] for point in each["actors"][0]["speed"]]
+            self.assertEqual(times, sorted(set(times)))
+
+    def test_names_of_no_scene_are_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertEqual(main([folder, "--programs", folder, "--only", "nobody"]), 1)
+
+
+@unittest.skipUnless(PROGRAM, "DATMO_FUSION_TRUE_RISKS is not set")
+class Contacts(unittest.TestCase):
+    def contact_of(self, encounter):
+        """s after the start; None: there is none."""
+        with tempfile.TemporaryDirectory() as name:
+            file, bag = Path(name) / "scene.yaml", Path(name) / "risks.bag"
+            file.write_text(yaml.safe_dump(scene(encounter)), encoding="utf-8")
+            programs.call(Path(PROGRAM), file, bag, *COARSE)
+            with rosbag.Bag(str(bag)) as opened:
+                self.assertTrue(opened.get_message_count("/risks"))
+                return next((message.header.stamp.to_sec() - 1000.0 for _, message, _ in
+                             opened.read_messages("/ground_truth/contact")), None)
+
+    def test_hits_hit_and_near_misses_miss(self):
+        for protocol in KINDS:
+            host = 15.0 if protocol.startswith("turn") else 50.0
+            for ending in ENDINGS:
+                with self.subTest(protocol=protocol, ending=ending):
+                    contact = self.contact_of(Encounter(protocol, host, ending))
+                    self.assertEqual(contact is not None, ending == "hit")
+                    if contact and not protocol.startswith("car_braking"):
+                        self.assertAlmostEqual(contact, MEETING, delta=0.25)
+
+    def test_stopping_and_braking_avoid_it(self):
+        self.assertIsNone(self.contact_of(Encounter("pedestrian_near", 40.0, STOPS)))
+        self.assertIsNone(self.contact_of(Encounter("car_slower", 50.0, AVOIDED)))
+
+
+if __name__ == "__main__":
+    unittest.main()

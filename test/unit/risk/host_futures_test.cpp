@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/risk/host_futures.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace datmo::host_futures_test {
+namespace {
+
+constexpr double kSpeed = 10.0;  ///< m/s
+
+/// Root mean squares of the futures' distances from the nominal path, m.
+struct Spread {
+  double along = 0.0;
+  double aside = 0.0;
+};
+
+Spread spreadAt(std::size_t step, const HostFutureOptions& options, double speed = kSpeed) {
+  HorizonOptions horizon;
+  horizon.futures = 2000;
+  HostState host;
+  host.speed = speed;
+  const HostVehicleOptions vehicle;
+  const HostFutures futures(host, std::nullopt, vehicle, options, horizon, RandomDraws(1));
+  Spread spread;
+  for (const BodyPath& path : futures.paths()) {
+    const Point2 off = path.poses[step].center - futures.nominal().poses[step].center;
+    spread.along += off.x() * off.x();
+    spread.aside += off.y() * off.y();
+  }
+  const auto count = static_cast<double>(futures.paths().size());
+  return {std::sqrt(spread.along / count), std::sqrt(spread.aside / count)};
+}
+
+HostFutureOptions onlyLane() {
+  HostFutureOptions options;
+  options.acceleration_spread = 0.0;
+  options.steering_spread = 0.0;
+  return options;
+}
+
+TEST(HostFutures, ADriverStaysInHisLaneHoweverFarAhead) {
+  const HostFutureOptions options = onlyLane();
+  EXPECT_LT(spreadAt(5, options).aside, 0.3);
+  EXPECT_NEAR(spreadAt(20, options).aside, options.lane_deviation, 0.12);
+  EXPECT_LT(spreadAt(20, options).along, 0.1);
+}
+
+TEST(HostFutures, WhatIsNotKnownOfTheCourseGrowsWithTheSquareOfTime) {
+  HostFutureOptions options = onlyLane();
+  options.lane_deviation = 0.0;
+  options.steering_spread = 0.1;
+  // Half of it times t^2, less what the driver's hands take to get there.
+  EXPECT_NEAR(spreadAt(20, options).aside, 0.5 * 0.1 * 16.0, 0.2);
+  EXPECT_GT(spreadAt(20, options).aside, 3.0 * spreadAt(10, options).aside);
+}
+
+TEST(HostFutures, AnAccelerationThatVariesLeadsLessFarThanOneThatStays) {
+  HostFutureOptions options = onlyLane();
+  options.acceleration_spread = 0.5;
+  options.acceleration_time = 100.0;
+  const double kept = spreadAt(20, options).along;
+  EXPECT_NEAR(kept, 0.5 * 0.5 * 16.0, 0.3);
+  options.acceleration_time = 2.0;
+  // Gauss-Markov: s^2 T^4 (2/3 n^3 - n^2 + 2 - 2 (1 + n) e^-n), n = t / T.
+  EXPECT_NEAR(spreadAt(20, options).along, 3.2, 0.35);
+}
+
+TEST(HostFutures, WhoStandsDoesNotSway) {
+  const Spread spread = spreadAt(20, onlyLane(), 0.0);
+  EXPECT_EQ(spread.aside, 0.0);
+  EXPECT_EQ(spread.along, 0.0);
+}
+
+}  // namespace
+}  // namespace datmo::host_futures_test
