@@ -10,6 +10,15 @@ constexpr double kMonoLateBy = 0.4;
 
 }  // namespace
 
+FusionSwitches fusionSwitches(FusionLevel level) {
+  FusionSwitches switches;
+  switches.low_level_fusion = level == FusionLevel::kLow;
+  switches.object_fusion = level == FusionLevel::kObject;
+  switches.track_fusion = level == FusionLevel::kTrack || level == FusionLevel::kRecommended;
+  switches.road_border = level == FusionLevel::kRecommended;
+  return switches;
+}
+
 std::string GraphStage::resolved(const std::string& topic) const {
   const auto remap = remaps.find(topic);
   return remap == remaps.end() ? topic : remap->second;
