@@ -22,6 +22,7 @@
 #include "datmo_fusion/ros/stage/risk_stage.h"
 #include "datmo_fusion/ros/stage/road_border_stage.h"
 #include "datmo_fusion/ros/stage/static_points_stage.h"
+#include "datmo_fusion/ros/stage/stereo_alignment_stage.h"
 #include "datmo_fusion/ros/stage/stereo_grid_stage.h"
 #include "datmo_fusion/ros/stage/stereo_objects_stage.h"
 #include "datmo_fusion/ros/stage/track_fusion_stage.h"
@@ -76,6 +77,7 @@ std::vector<Section> sections() {
           section<VehicleOptions>("`vehicle`, of all nodelets"),
           section<CloudToScanStageOptions>("`cloud_to_scan`"),
           section<LidarGridStageOptions>("`lidar_grid`"),
+          section<StereoAlignmentStageOptions>("`stereo_alignment`"),
           section<StereoGridStageOptions>("`stereo_grid`"),
           section<GridFusionStageOptions>("`grid_fusion`"),
           section<GridSlamStageOptions>("`grid_slam`"),

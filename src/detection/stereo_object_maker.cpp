@@ -86,7 +86,8 @@ Eigen::Matrix2d StereoObjectMaker::covarianceOf(const GroupOutline& outline) con
                                columns_.tangentOf(outline.columns.back().column));
   const Point2 ray = view_.positionOf({1.0, middle}) - view_.position();
   const Point2 aside = toRight();
-  const double along = options_.noise.common * camera_.depthSigma(outline.depth);
+  const double along = std::hypot(options_.noise.common * camera_.depthSigma(outline.depth),
+                                  camera_.commonDepthSigma(outline.depth));
   const double across = options_.noise.edge_sigma * outline.depth / camera_.focal_length;
   return square(along) * ray * ray.transpose() + square(across) * aside * aside.transpose() +
          square(options_.noise.body_sigma) * Eigen::Matrix2d::Identity();
@@ -110,17 +111,38 @@ void StereoObjectMaker::setBox(Object& object, const GroupOutline& outline) cons
       object.side_variance[side] =
           square(fit.noise) * std::min(1.0, alike / static_cast<double>(fit.points_on_side[side]));
     } else if (sides.isEndOfSeen(side, heading_std)) {
-      const double rightwards = sides.normal(side).dot(toRight());
-      const GroupEnd& end = rightwards > 0.0 ? outline.right : outline.left;
-      if (end.seen && std::abs(rightwards) > kSideways) {
+      const EndOnSide end = endOn(sides.normal(side), outline);
+      if (end.seen) {
         sides.extend(side, end.beyond);
-        object.side_variance[side] = square(end.sigma) + square(heading_std * sides.across(side));
+        object.side_variance[side] = end.variance + square(heading_std * sides.across(side));
       }
     }
   }
   object.box = sides.box();
   object.heading_variance = fit.heading_variance;
   turnToLongerSide(object);
+}
+
+/// Where it ends in the image is known well, where on the line of sight as well as the depth of
+/// its last column is.
+StereoObjectMaker::EndOnSide StereoObjectMaker::endOn(const Point2& normal,
+                                                      const GroupOutline& outline) const {
+  EndOnSide result;
+  for (const bool to_right : {false, true}) {
+    const GroupEnd& end = to_right ? outline.right : outline.left;
+    const ColumnSurface& last = to_right ? outline.columns.back() : outline.columns.front();
+    const Point2 ray =
+        (view_.positionOf({1.0, columns_.tangentOf(last.column)}) - view_.position()).normalized();
+    const double aside =
+        normal.dot(to_right ? Point2(ray.y(), -ray.x()) : Point2(-ray.y(), ray.x()));
+    if (aside > kSideways) {
+      const double in_depth = normal.dot(ray) * columnNoise(static_cast<double>(last.depth));
+      result.seen = end.seen;
+      result.beyond = aside * end.beyond;
+      result.variance = square(aside * end.sigma) + square(in_depth);
+    }
+  }
+  return result;
 }
 
 SeenSize StereoObjectMaker::sizeOf(const GroupOutline& outline) const {

@@ -27,6 +27,15 @@ class StereoObjectMaker {
   Object objectOf(const GroupOutline& outline) const;
 
  private:
+  /// Where one side of a box ends, along that side's normal.
+  struct EndOnSide {
+    bool seen = false;
+    double beyond = 0.0;    ///< m, from the middle of the last column
+    double variance = 0.0;  ///< m^2
+  };
+
+  /// `normal`: of a side that the seen ones end at, out of the box.
+  EndOnSide endOn(const Point2& normal, const GroupOutline& outline) const;
   std::vector<Point2> pointsOf(const GroupOutline& outline) const;
   void setBox(Object& object, const GroupOutline& outline) const;
   SeenSize sizeOf(const GroupOutline& outline) const;

@@ -24,6 +24,11 @@ void StereoCameraOptions::visit(OptionVisitor& visitor) {
                  min_depth, {0.0, 10.0});
   visitor.number({"max_depth", "m", "farther points are left out: the same; 0: none are"},
                  max_depth, {0.0, 1000.0});
+  visitor.toggle({"align", "",
+                  "the bias of disparities that stereo_alignment measures against the scanner is "
+                  "taken out of the points; they are left out while mount or clock are surely "
+                  "wrong, or the two do not see the same"},
+                 align);
   DepthNoiseOptions::visit(visitor);
 }
 

@@ -159,6 +159,24 @@ TEST(ObjectFusionArguments, AreRead) {
   EXPECT_EQ(arguments.last_stage, LastStage::kObjectFusion);
 }
 
+TEST(FusionArguments, OneWordSwitchesOnWhatALevelNeeds) {
+  const auto read = [](const std::string& level) {
+    return parseArguments({"a.bag", "b.bag", "--config", "c.yaml", "--fusion", level});
+  };
+  EXPECT_FALSE(read("none").object_fusion);
+  EXPECT_TRUE(read("low").low_level_fusion);
+  EXPECT_FALSE(read("low").object_fusion);
+  EXPECT_TRUE(read("object").object_fusion);
+  EXPECT_TRUE(read("track").track_fusion);
+  EXPECT_TRUE(read("recommended").track_fusion);
+  EXPECT_TRUE(read("recommended").road_border);
+  EXPECT_THROW(read("all"), UsageError);
+  EXPECT_TRUE(
+      parseArguments({"a.bag", "b.bag", "--config", "c.yaml", "--fusion", "none", "--track-fusion"})
+          .track_fusion)
+      << "what is on by itself stays on";
+}
+
 TEST(ObjectFusionArguments, ThatGoNotTogetherAreRefused) {
   const std::vector<std::string> files = {"a.bag", "b.bag", "--config", "c.yaml"};
   for (const std::vector<std::string>& options :

@@ -60,6 +60,12 @@ class LaunchArguments(unittest.TestCase):
         self.assertIn("no argument image: did you mean images?",
                       launch_arguments.check_words([file, "image:=raw", "-v"]))
 
+    def test_a_level_of_fusion_that_is_none_is_refused(self):
+        file = str(PACKAGE / "launch/perception.launch")
+        self.assertIsNone(launch_arguments.check_words([file, "fusion:=recommended"]))
+        self.assertEqual(launch_arguments.check_words([file, "fusion:=all"]),
+                         "fusion:=all: expected one of none, low, object, track, recommended")
+
     def test_whether_a_stack_runs_is_asked_of_its_node(self):
         with xmlrpc.server.SimpleXMLRPCServer(("localhost", 0), logRequests=False) as server:
             uri = f"http://localhost:{server.server_address[1]}"

@@ -79,9 +79,22 @@ class LaunchSwitches(unittest.TestCase):
                     expected |= OBJECT_LEVEL
                 if switches["track_fusion"]:
                     expected |= TRACK_LEVEL
+                if expected & {"stereo_grid", "stereo_objects"}:
+                    expected |= {"stereo_alignment"}
                 if switches["stereo_images"] != "none" and "stereo_objects" in expected:
                     expected |= {"point_velocity"}
                 self.assertEqual(set(nodelets(nodes)), expected)
+
+    def test_one_switch_sets_those_of_a_level(self):
+        def level(**arguments):
+            return set(nodelets(loaded("perception.launch", **arguments)[0]))
+        self.assertEqual(level(fusion="none"), level())
+        self.assertEqual(level(fusion="low"), level(low_level_fusion=True))
+        self.assertEqual(level(fusion="object"), level(object_fusion=True))
+        self.assertEqual(level(fusion="track"), level(track_fusion=True))
+        self.assertEqual(level(fusion="recommended"), level(track_fusion=True, road_border=True))
+        self.assertEqual(level(fusion="low", track_fusion=True),
+                         level(low_level_fusion=True, track_fusion=True))
 
     def test_all_types_are_in_the_package(self):
         classes = ElementTree.parse(PACKAGE / "nodelets.xml").getroot()
@@ -143,14 +156,14 @@ class LaunchSwitches(unittest.TestCase):
     def test_both_levels_take_the_same_points(self):
         nodes, _ = loaded("perception.launch", low_level_fusion=True, object_fusion=True,
                           points2="cloud", right_camera_info="info")
-        for name in ("stereo_grid", "stereo_objects"):
+        for name in ("stereo_alignment", "stereo_grid", "stereo_objects"):
             self.assertEqual(remapped(nodes[name], "points2"), "cloud")
             self.assertEqual(remapped(nodes[name], "right/camera_info"), "info")
 
     def test_a_cloud_takes_the_place_of_the_scan(self):
         nodes, _ = loaded("perception.launch", low_level_fusion=True, cloud="/velodyne_points")
         self.assertEqual(remapped(nodes["cloud_to_scan"], "cloud"), "/velodyne_points")
-        for name in ("cloud_to_scan", "grid_slam", "lidar_grid"):
+        for name in ("cloud_to_scan", "grid_slam", "lidar_grid", "stereo_alignment"):
             self.assertEqual(remapped(nodes[name], "scan"), "cloud_scan")
         self.assertEqual(nodelets(nodes)["cloud_to_scan"], "datmo_fusion/cloud_to_scan")
 

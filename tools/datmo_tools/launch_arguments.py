@@ -19,6 +19,8 @@ from xml.etree import ElementTree
 
 MANAGER = "/perception"
 CALLER = "/check_launch"
+# Arguments that take one of a few words: roslaunch takes any.
+CHOICES = {"fusion": ("none", "low", "object", "track", "recommended")}
 TIMEOUT = 1.0  # s, for an answer of a node on this machine or near
 
 
@@ -68,6 +70,14 @@ def refusal(given, known):
     return None
 
 
+def bad_choice(words):
+    """A sentence on the first argument whose value is none of its words, or None."""
+    for name, value in (word.split(":=", 1) for word in words if is_argument(word)):
+        if name in CHOICES and value not in CHOICES[name]:
+            return f"{name}:={value}: expected one of {', '.join(CHOICES[name])}"
+    return None
+
+
 def words_without_options(words):
     """The words that are no options of roslaunch (-p 11311): its own parser knows which take a value."""
     import roslaunch
@@ -86,7 +96,7 @@ def check_words(words):
     known = set()
     for file in resolve_launch_arguments(plain):
         known |= arguments_of(file, resolve_args)
-    return refusal(given, known)
+    return refusal(given, known) or bad_choice(words)
 
 
 def runs(manager, master_uri):

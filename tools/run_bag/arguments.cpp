@@ -31,6 +31,12 @@ const Choices<LastStage> kStages = {
     {"object_fusion", LastStage::kObjectFusion}, {"tracker", LastStage::kTracker},
     {"track_fusion", LastStage::kTrackFusion},   {"risk", LastStage::kRisk}};
 
+const Choices<FusionLevel> kFusionLevels = {{"none", FusionLevel::kNone},
+                                            {"low", FusionLevel::kLow},
+                                            {"object", FusionLevel::kObject},
+                                            {"track", FusionLevel::kTrack},
+                                            {"recommended", FusionLevel::kRecommended}};
+
 /// A stage that runs only if its option is given.
 struct OptionalStage {
   const char* option;
@@ -61,6 +67,15 @@ constexpr char kFooter[] =
     "Exit code: 0 when done; 1 for a command line, yaml file or bag that is wrong or lacks a\n"
     "topic, and when interrupted; 2 when all messages on a topic were refused, no scan could be\n"
     "used or no tracks came out. After 1 and 2 no output bag is left.";
+
+/// What is on by itself stays on.
+void switchOn(FusionLevel level, Arguments& arguments) {
+  const FusionSwitches switches = fusionSwitches(level);
+  arguments.low_level_fusion |= switches.low_level_fusion;
+  arguments.object_fusion |= switches.object_fusion;
+  arguments.track_fusion |= switches.track_fusion;
+  arguments.road_border |= switches.road_border;
+}
 
 void checkOutputs(const Arguments& arguments) {
   std::vector<std::string> written;
@@ -151,6 +166,11 @@ void addStages(CommandLine& line, Arguments& arguments) {
                 "writes /objects/mono and /objects/fused");
   line.add_flag("--static-points", arguments.static_points,
                 "writes what stands still: /static_points and /static_scan");
+  line.addChoice(
+      "--fusion", arguments.fusion, kFusionLevels,
+      "none, low, object or track: the level of fusion, as the single options below and\n"
+      "above have it; recommended: what measurements recommend, with the road's borders",
+      "LEVEL");
   line.add_flag("--object-fusion", arguments.object_fusion,
                 "fuses the objects of scanner and stereo camera before tracker, and writes\n"
                 "/objects/stereo and /objects/fused");
@@ -196,6 +216,7 @@ Arguments parseArguments(std::vector<std::string> words) {
   line.add_flag("--with-truth", arguments.with_truth, "copies /ground_truth/* along");
   line.add_flag("--quiet", arguments.quiet, "no progress bar and no table");
   line.read(std::move(words));
+  switchOn(arguments.fusion, arguments);
   checkOutputs(arguments);
   checkStages(arguments);
   checkStereo(arguments);

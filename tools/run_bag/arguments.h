@@ -9,6 +9,8 @@
 #include "last_stage.h"
 #include "text_files.h"
 
+#include "datmo_fusion/ros/stage/stage_graph.h"
+
 namespace datmo {
 
 /// What `run_bag` is asked to do.
@@ -20,6 +22,7 @@ struct Arguments {
   bool with_truth = false;
   bool quiet = false;
   LastStage last_stage = LastStage::kEnd;
+  FusionLevel fusion = FusionLevel::kNone;  ///< its switches are among those below
   bool low_level_fusion = false;
   bool road_border = false;
   bool static_points = false;

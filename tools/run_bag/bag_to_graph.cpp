@@ -113,7 +113,7 @@ void BagToGraph::write(const ros::Time& time, const Publications& published) {
       writeAsOneOf<geometry_msgs::PoseWithCovarianceStamped, nav_msgs::OccupancyGrid,
                    sensor_msgs::LaserScan, sensor_msgs::PointCloud2, tf2_msgs::TFMessage,
                    LabeledScanMessage, RoadBorders, ObjectArray, DroppedObjects, TrackArray,
-                   RiskArray>(time, publication);
+                   RiskArray, StereoAlignmentMessage>(time, publication);
     }
   }
 }
@@ -121,7 +121,8 @@ void BagToGraph::write(const ros::Time& time, const Publications& published) {
 /// What lies between the stages alone is not written: grids on demand, odometry and clouds never.
 bool BagToGraph::isResult(const Publication& publication) const {
   const bool is_grid = publication.topic.rfind("grids/", 0) == 0;
-  const bool is_stereo = publication.topic.rfind("stereo/", 0) == 0;
+  const bool is_stereo =
+      publication.topic.rfind("stereo/", 0) == 0 && publication.topic != "stereo/alignment";
   return is_grid ? write_grids_ : !is_stereo;
 }
 

@@ -16,6 +16,7 @@
 #include "datmo_fusion/ros/stage/risk_stage.h"
 #include "datmo_fusion/ros/stage/road_border_stage.h"
 #include "datmo_fusion/ros/stage/static_points_stage.h"
+#include "datmo_fusion/ros/stage/stereo_alignment_stage.h"
 #include "datmo_fusion/ros/stage/stereo_grid_stage.h"
 #include "datmo_fusion/ros/stage/stereo_objects_stage.h"
 #include "datmo_fusion/ros/stage/track_fusion_stage.h"
@@ -53,6 +54,7 @@ const std::map<std::string, StageType>& stageTypes() {
       {"risk", typeOf<RiskStage>()},
       {"road_border", typeOf<RoadBorderStage>()},
       {"static_points", typeOf<StaticPointsStage>()},
+      {"stereo_alignment", typeOf<StereoAlignmentStage>()},
       {"stereo_grid", typeOf<StereoGridStage>()},
       {"stereo_image_proc", typeOf<StereoImages>()},
       {"stereo_objects", typeOf<StereoObjectsStage>()},

@@ -33,6 +33,15 @@ Eigen::Isometry3d mountOf(const StereoCameraOptions& options, double nod) {
   return mount;
 }
 
+/// Where tf says that the camera is.
+Eigen::Isometry3d toldMount(const StereoCameraOptions& options) {
+  Eigen::Isometry3d mount = mountOf(options, 0.0);
+  mount.linear() =
+      Eigen::AngleAxisd(-degrees(options.mount_heading_error), Eigen::Vector3d::UnitZ()) *
+      mount.linear();
+  return mount;
+}
+
 Eigen::Isometry3d inSpace(const Pose2& pose) {
   Eigen::Isometry3d result(Eigen::AngleAxisd(pose.heading(), Eigen::Vector3d::UnitZ()));
   result.translation().head<2>() = pose.position();
@@ -76,7 +85,7 @@ std::vector<PointVelocity> FeatureFlow::measure(const World& world, double time)
     return {};
   }
   return pointVelocities(rig, found, *motion, stampOf(before->time),
-                         {stampOf(now.time), mountOf(options_, 0.0)});
+                         {stampOf(now.time), toldMount(options_)});
 }
 
 std::vector<FeatureQuad> FeatureFlow::quads(const World& world, const View& before,
@@ -156,12 +165,12 @@ StereoFeature FeatureFlow::noisy(StereoFeature feature) {
   // The flow of a feature is the difference of two pixels.
   const double pixel_sigma = options_.feature_noise / std::sqrt(2.0);
   feature.pixel += Eigen::Vector2d(random_.normal(pixel_sigma), random_.normal(pixel_sigma));
-  feature.disparity += random_.normal(options_.feature_noise);
+  feature.disparity += options_.disparity_bias + random_.normal(options_.feature_noise);
   return feature;
 }
 
 CameraMotion FeatureFlow::prior(const View& before, const View& now) const {
-  const Eigen::Isometry3d mount = mountOf(options_, 0.0);
+  const Eigen::Isometry3d mount = toldMount(options_);
   return priorMotion({before.state.base.inverse() * now.state.base, now.time - before.time,
                       kTurnSigma, kSpeedSigma},
                      mount, mount);

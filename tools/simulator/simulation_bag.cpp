@@ -129,8 +129,9 @@ class Recording {
     }
   }
 
-  void recordStereo(double time, Stamp stamp) {
+  void recordStereo(double time, Stamp exposure) {
     const StereoPoints points = stereo_->measure(scene_.world, time);
+    const Stamp stamp = exposure + scene_.options.stereo.stamp_error;
     const Stamp ready = stamp + scene_.options.stereo.latency;
     write("/stereo/left/camera_info", ready, toLeftInfo(scene_.options.stereo, stamp));
     write("/stereo/right/camera_info", ready, toRightInfo(scene_.options.stereo, stamp));

@@ -104,12 +104,13 @@ std::vector<Eigen::Vector3f> StereoCamera::pointsOf(const DisparityImage& image)
     const double down = (row * options_.row_step - options_.middleRow()) / options_.focal_length;
     for (int column = 0; column < image.columns; ++column) {
       const double disparity = image.measured[image.slot(column, row)];
-      if (disparity < min || disparity > max) {
+      const double biased = disparity + options_.disparity_bias;
+      if (disparity < min || disparity > max || biased <= 0.0) {
         continue;
       }
       const double right =
           (column * options_.column_step - options_.middleColumn()) / options_.focal_length;
-      const double depth = options_.depthAt(disparity);
+      const double depth = options_.depthAt(biased);
       points.push_back((depth * Eigen::Vector3d(right, down, 1.0)).cast<float>());
     }
   }

@@ -20,10 +20,12 @@ namespace datmo::simulator {
 /// The demonstrator's stereo camera (thesis 1.3.3 and 3.2.2), its matching, and their faults.
 struct StereoCameraOptions {
   bool enabled = false;
-  double mount_x = 1.8;       ///< m
-  double mount_y = 0.17;      ///< m
-  double mount_height = 1.3;  ///< m
-  double baseline = 0.34;     ///< m
+  double mount_x = 1.8;              ///< m
+  double mount_y = 0.17;             ///< m
+  double mount_height = 1.3;         ///< m
+  double mount_heading_error = 0.0;  ///< deg
+  double stamp_error = 0.0;          ///< s
+  double baseline = 0.34;            ///< m
 
   double rate = 12.0;             ///< Hz
   double latency = 0.05;          ///< s
@@ -37,6 +39,7 @@ struct StereoCameraOptions {
   double effective_range = 36.0;  ///< m
 
   double disparity_noise = 0.25;  ///< px
+  double disparity_bias = 0.0;    ///< px
   double noise_common_share = 0.5;
   int noise_patch = 16;              ///< px
   double weak_texture_patch = 0.4;   ///< m

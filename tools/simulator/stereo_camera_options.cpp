@@ -15,6 +15,12 @@ void visitMount(StereoCameraOptions& o, OptionVisitor& visitor) {
                  o.mount_y, {-3.0, 3.0});
   visitor.number({"mount_height", "m", "cameras above the road; assumed"}, o.mount_height,
                  {0.05, 5.0});
+  visitor.number({"mount_heading_error", "deg",
+                  "cameras turned to the left, which tf does not know of: a wrong mount"},
+                 o.mount_heading_error, {-20.0, 20.0});
+  visitor.number({"stamp_error", "s",
+                  "stamps of clouds are later than the images by this, and so are the clouds"},
+                 o.stamp_error, {0.0, 2.0});
   visitor.number({"baseline", "m", "from the left camera to the right one; thesis 1.3.3: 340 mm"},
                  o.baseline, {0.01, 5.0});
 }
@@ -49,6 +55,9 @@ void visitMatching(StereoCameraOptions& o, OptionVisitor& visitor) {
   visitor.number(
       {"disparity_noise", "px", "standard deviation: two of them are 5 m at 36 m (thesis 3.3.3)"},
       o.disparity_noise, {0.0, 10.0});
+  visitor.number({"disparity_bias", "px",
+                  "added to all disparities, as by a calibration that has aged; 0: none"},
+                 o.disparity_bias, {-5.0, 5.0});
   visitor.number({"noise_common_share", "1",
                   "share of the noise's variance that neighbors have in common, as matching by "
                   "windows or paths makes it; assumed"},

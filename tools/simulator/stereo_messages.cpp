@@ -3,8 +3,11 @@
 
 #include <cstring>
 
+#include <Eigen/Geometry>
+
 #include <sensor_msgs/distortion_models.h>
 
+#include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo::simulator {
@@ -33,10 +36,13 @@ geometry_msgs::TransformStamped toMount(const StereoCameraOptions& options, Stam
   message.transform.translation.y = options.mount_y;
   message.transform.translation.z = options.mount_height;
   // The optical axes in base_link's: z is its x, x its -y, y its -z.
-  message.transform.rotation.x = -0.5;
-  message.transform.rotation.y = 0.5;
-  message.transform.rotation.z = -0.5;
-  message.transform.rotation.w = 0.5;
+  const Eigen::Quaterniond told =
+      Eigen::AngleAxisd(-degrees(options.mount_heading_error), Eigen::Vector3d::UnitZ()) *
+      Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5);
+  message.transform.rotation.x = told.x();
+  message.transform.rotation.y = told.y();
+  message.transform.rotation.z = told.z();
+  message.transform.rotation.w = told.w();
   return message;
 }
 

@@ -11,7 +11,8 @@
 
 namespace datmo::simulator {
 
-/// Where the left camera sits: base_link -> stereo_left_optical (x right, y down, z forward).
+/// Where the left camera is said to sit, its error included: base_link -> stereo_left_optical (x
+/// right, y down, z forward).
 geometry_msgs::TransformStamped toMount(const StereoCameraOptions& options, Stamp stamp);
 
 /// As stereo_image_proc publishes points, but for the colors and the holes: a list of x, y, z

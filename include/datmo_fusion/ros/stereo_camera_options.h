@@ -14,6 +14,7 @@ struct StereoCameraOptions : DepthNoiseOptions {
   double field_of_view = degrees(60.0);  ///< rad
   double min_depth = 0.0;                ///< m; 0: no bound
   double max_depth = 0.0;                ///< m; 0: no bound
+  bool align = true;
 
   void visit(OptionVisitor& visitor);
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -45,9 +46,16 @@ struct StereoCamera {
   /// Borders of the image as tangents x / z of the optical frame: left one, right one.
   double left_tangent = 0.0;
   double right_tangent = 0.0;
+  /// px^2; what is not known of a bias that all disparities have in common.
+  double disparity_offset_variance = 0.0;
 
   /// Standard deviation of a depth, m.
   double depthSigma(double depth) const { return noise.sigma(depth); }
+
+  /// The same of the error that all depths have in common, m.
+  double commonDepthSigma(double depth) const {
+    return depth * depth * std::sqrt(disparity_offset_variance) / noise.disparity_at_meter;
+  }
 };
 
 /// One measurement of a stereo or depth camera.

@@ -23,6 +23,15 @@ OptionValues fusedSources(const GraphSwitches& switches) {
 
 }  // namespace
 
+FusionSwitches fusionSwitches(FusionLevel level) {
+  FusionSwitches switches;
+  switches.low_level_fusion = level == FusionLevel::kLow;
+  switches.object_fusion = level == FusionLevel::kObject;
+  switches.track_fusion = level == FusionLevel::kTrack || level == FusionLevel::kRecommended;
+  switches.road_border = level == FusionLevel::kRecommended;
+  return switches;
+}
+
 std::string GraphStage::resolved(const std::string& topic) const {
   const auto remap = remaps.find(topic);
   return remap == remaps.end() ? topic : remap->second;
@@ -35,6 +44,8 @@ std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
   const std::string tracks_of_tracker = switches.track_fusion ? "tracks/lidar" : "tracks";
   const std::map<std::string, std::string> camera{
       {"points2", "stereo/points2"}, {"right/camera_info", "stereo/right/camera_info"}};
+  std::map<std::string, std::string> camera_and_scan = camera;
+  camera_and_scan["scan"] = scan;
   std::map<std::string, std::string> camera_with_velocities = camera;
   camera_with_velocities["point_velocities"] = "stereo/point_velocities";
   const std::map<std::string, std::string> images{{"left/image", "stereo/left/image_rect"},
@@ -61,6 +72,9 @@ std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
   add(has_images && switches.stereo_objects,
       {"point_velocity", "point_velocity", images, rectified});
   add(has_images, {"stereo_image_proc", "stereo_image_proc", images, rectified});
+  // Before those that take the same clouds.
+  add(low_level || switches.stereo_objects,
+      {"stereo_alignment", "stereo_alignment", camera_and_scan, {}});
   add(low_level, {"lidar_grid", "lidar_grid", {{"scan", scan}}, {}});
   add(low_level, {"stereo_grid", "stereo_grid", camera, {}});
   add(low_level, {"grid_fusion", "grid_fusion", {}, {}});

@@ -36,6 +36,10 @@ StereoGridStage::StereoGridStage(const Checked<StereoGridStageOptions>& options,
       input_(*options, transforms),
       model_(options->grid) {}
 
+void StereoGridStage::takeAlignment(const StereoAlignmentMessage& message) {
+  runner_.serve([&] { input_.take(message); });
+}
+
 void StereoGridStage::takeCameraInfo(const sensor_msgs::CameraInfo& message) {
   runner_.serve([&] { input_.take(message); });
 }
@@ -87,6 +91,7 @@ void StereoGridStage::show(const StereoGridResult& result) {
 
 void StereoGridStage::connect(StagePorts& ports) {
   const auto grid = ports.out<nav_msgs::OccupancyGrid>("grids/stereo");
+  connectAlignment(ports, *this);
   connectStereo(ports, *this, grid);
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "datmo_fusion/ros/convert/alignment_conversion.h"
 #include "datmo_fusion/ros/frames.h"
 
 namespace datmo {
@@ -12,9 +13,12 @@ void StereoInputOptions::visit(OptionVisitor& visitor) {
   visitor.group("input", [&] { input.visit(visitor); });
 }
 
+SharedKeys StereoInputOptions::cameraKeys() {
+  return SharedKeys().group<StereoCameraOptions>("camera/", "stereo_camera/");
+}
+
 SharedKeys StereoInputOptions::sharedKeys() {
-  return SharedKeys()
-      .group<StereoCameraOptions>("camera/", "stereo_camera/")
+  return cameraKeys()
       .group<RoadPlaneOptions>("road/", "stereo_camera/road/")
       .key("effective_range", "stereo_camera/effective_range");
 }
@@ -22,6 +26,7 @@ SharedKeys StereoInputOptions::sharedKeys() {
 StereoInput::StereoInput(const Checked<StereoInputOptions>& options,
                          const TransformBuffer& transforms)
     : options_(*options), transforms_(transforms) {
+  alignment_.covariance.setZero();
   const StereoCameraOptions& camera = options->camera;
   if (options_.camera.principle == DepthPrinciple::kActiveStereo &&
       camera.baseline < kMinBaseline) {
@@ -39,15 +44,30 @@ void StereoInput::take(const sensor_msgs::CameraInfo& message) {
   camera_ = is_pair ? stereoCamera(message) : depthCamera(message);
 }
 
+void StereoInput::take(const StereoAlignmentMessage& message) {
+  const StereoAlignment alignment = fromMessage(message);
+  if (measuresDisparities() && options_.camera.align) {
+    alignment_ = alignment;
+  }
+}
+
 StereoCloud StereoInput::cloudOf(const std_msgs::Header& header, CloudPoints& points) const {
   const std::string& optical_frame =
       options_.frames.camera.empty() ? header.frame_id : options_.frames.camera;
+  if (!alignment_.usable) {
+    throw InputError("camera_disagrees",
+                     "a cloud that is not of what the scanner sees: see stereo_alignment");
+  }
   StereoCloud cloud;
   cloud.stamp = toStamp(header.stamp);
   cloud.camera = camera();
   cloud.camera_in_base = sensorMount(transforms_.core(), options_.frames.base, optical_frame);
   if (optical_frame != header.frame_id) {
     points.transform(sensorMount(transforms_.core(), optical_frame, header.frame_id));
+  }
+  if (alignment_[AlignmentTerm::kDisparity] != 0.0) {
+    points.shiftInverseDepths(-alignment_[AlignmentTerm::kDisparity] /
+                              cloud.camera.noise.disparity_at_meter);
   }
   if (options_.camera.min_depth > 0.0 || options_.camera.max_depth > 0.0) {
     points.keepDepths(options_.camera.min_depth, options_.camera.max_depth);
@@ -63,6 +83,7 @@ StereoCamera StereoInput::camera() const {
     camera.baseline = is_time ? 0.0 : options_.camera.baseline;
   }
   camera.noise = depthNoise(options_.camera, camera.focal_length, camera.baseline);
+  camera.disparity_offset_variance = alignment_.variance(AlignmentTerm::kDisparity);
   return camera;
 }
 

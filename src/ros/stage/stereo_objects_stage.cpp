@@ -43,6 +43,10 @@ void StereoObjectsStage::reset() {
   wait_.clear();
 }
 
+void StereoObjectsStage::takeAlignment(const StereoAlignmentMessage& message) {
+  runner_.serve([&] { input_.take(message); });
+}
+
 void StereoObjectsStage::takeCameraInfo(const sensor_msgs::CameraInfo& message) {
   runner_.serve([&] { input_.take(message); });
 }
@@ -127,6 +131,7 @@ void StereoObjectsStage::connect(StagePorts& ports) {
   published_ = ports.out<ObjectArray>("objects/stereo");
   ports.optionalIn<sensor_msgs::PointCloud2>(
       "point_velocities", [this](const auto& points, Stamp /*now*/) { takeVelocities(*points); });
+  connectAlignment(ports, *this);
   connectStereo(ports, *this, published_);
 }
 

@@ -99,6 +99,33 @@ TEST(StereoObjectDetector, MarksAnEndAtTheImagesBorder) {
   EXPECT_LT(leftOf(objects[0]).variance, 0.2);
 }
 
+/// Whose far end lies along the line of sight, however aside of the camera's axis that is: a car
+/// that goes away, seen at the border of the image.
+TEST(StereoObjectDetector, AnEndInDepthIsNotSeenInTheImage) {
+  MadeScene scene = sceneOf({carAt(14.0, 2.4)});
+  scene.camera_yaw = degrees(34.0);
+  scene.disparity_noise = 0.2;
+  const std::vector<Object> objects = objectsIn(scene);
+  ASSERT_FALSE(objects.empty());
+  const Object& car = nearest(objects);
+  EXPECT_LT(rearOf(car).variance, 0.1);
+  EXPECT_EQ(sideToward(car, {1.0, 0.0}).variance, kHiddenSide);
+}
+
+TEST(StereoObjectDetector, WhatAllDepthsHaveInCommonIsInThePosition) {
+  MadeCloud made(sceneOf({carAt(20.0, 0.0)}));
+  const std::vector<Object> before = detect(made).list.objects;
+  made.cloud().camera.disparity_offset_variance = 1.0;
+  const std::vector<Object> after = detect(made).list.objects;
+  ASSERT_EQ(before.size(), 1U);
+  ASSERT_EQ(after.size(), 1U);
+  const double depth = 20.0 - kCameraX;
+  const double common = depth * depth / (400.0 * 0.5);
+  EXPECT_NEAR(after[0].position_covariance(0, 0) - before[0].position_covariance(0, 0),
+              common * common, 0.02 * common * common)
+      << "1 px at a focal length of 400 px and a baseline of 0.5 m";
+}
+
 TEST(StereoObjectDetector, HasNoEvidenceOnWhatTheRightCameraDoesNotSee) {
   // The left camera sees the car's left side, the right one does not: it is 0.5 m to the right.
   const std::vector<Object> objects = objectsIn(sceneOf({carAt(8.5, 2.85)}));

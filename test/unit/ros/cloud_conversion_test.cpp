@@ -220,5 +220,17 @@ TEST(CloudPoints, DepthsOutOfRangeAreLeftOut) {
   EXPECT_EQ(reasonOf([&points] { points.keepDepths(4.0, 8.0); }), "no_valid_point");
 }
 
+TEST(CloudPoints, ABiasOfDisparitiesIsTakenOutAlongLinesOfSight) {
+  const sensor_msgs::PointCloud2 message =
+      cloud({{2.0F, -1.0F, 10.0F}, {0.0F, 0.0F, 50.0F}, {1.0F, 1.0F, 200.0F}});
+  CloudPoints points(message);
+  points.shiftInverseDepths(-0.01);
+  EXPECT_NEAR(points.view()[0].z(), 1.0 / (0.1 - 0.01), 1e-4);
+  EXPECT_NEAR(points.view()[0].x() / points.view()[0].z(), 0.2, 1e-6);
+  EXPECT_NEAR(points.view()[0].y() / points.view()[0].z(), -0.1, 1e-6);
+  EXPECT_NEAR(points.view()[1].z(), 100.0, 1e-3);
+  EXPECT_FALSE(points.view()[2].allFinite()) << "beyond the horizon";
+}
+
 }  // namespace
 }  // namespace datmo::cloud_conversion_test

@@ -34,6 +34,10 @@ class CloudPoints {
   /// Brings the points to another frame; they are copied.
   void transform(const Eigen::Isometry3d& cloud_in_frame);
 
+  /// Adds this (1/m) to the inverse of each z, along its line of sight: what a bias of disparities
+  /// has done to them. What has no depth then is not finite.
+  void shiftInverseDepths(double shift);
+
   /// Leaves out the points whose z (m) is not from `min_depth` to `max_depth`, 0: no upper bound;
   /// the others are copied. Throws InputError (`no_valid_point`) if there is none.
   void keepDepths(double min_depth, double max_depth);

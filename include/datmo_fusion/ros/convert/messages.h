@@ -6,6 +6,7 @@
 #include <datmo_fusion/ObjectArray.h>
 #include <datmo_fusion/RoadBorders.h>
 #include <datmo_fusion/StageTiming.h>
+#include <datmo_fusion/StereoAlignment.h>
 #include <datmo_fusion/TrackArray.h>
 #include <datmo_fusion/TrueEchoes.h>
 #include <datmo_fusion/TrueObjectArray.h>
@@ -25,6 +26,8 @@ using ScanFieldMessage = datmo_fusion::ScanField;
 using ScanPointMessage = datmo_fusion::ScanPoint;
 using SourceTrackMessage = datmo_fusion::SourceTrack;
 using LabeledScanMessage = datmo_fusion::LabeledScan;
+using StereoAlignmentMessage = datmo_fusion::StereoAlignment;
+using StereoAlignmentMessagePtr = datmo_fusion::StereoAlignmentPtr;
 using TrackMessage = datmo_fusion::Track;
 using ViewFanMessage = datmo_fusion::ViewFan;
 using datmo_fusion::DroppedObjects;

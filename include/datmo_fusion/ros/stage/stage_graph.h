@@ -28,6 +28,25 @@ struct GraphSwitches {
   bool risk = false;  ///< of contact between the host and tracks or what stands
 };
 
+/// At which level scanner and stereo camera are fused, as one switch.
+enum class FusionLevel {
+  kNone,
+  kLow,
+  kObject,
+  kTrack,
+  kRecommended,  ///< what the figures of doc/fusion.md recommend
+};
+
+/// The switches of GraphSwitches that a level turns on, for what a user does not turn on alone.
+struct FusionSwitches {
+  bool low_level_fusion = false;
+  bool object_fusion = false;
+  bool track_fusion = false;
+  bool road_border = false;
+};
+
+FusionSwitches fusionSwitches(FusionLevel level);
+
 /// One stage of the graph.
 struct GraphStage {
   std::string name;  ///< of the node, and of its section in a sensor set's yaml file

@@ -10,6 +10,7 @@
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
 
+#include "datmo_fusion/ros/convert/messages.h"
 #include "datmo_fusion/ros/motion_options.h"
 #include "datmo_fusion/ros/stage/stage.h"
 #include "datmo_fusion/ros/stage/stereo_pairs.h"
@@ -39,6 +40,15 @@ void connectStereo(StagePorts& ports, StereoStage& stage, const StagePublisher<M
   ports.in<sensor_msgs::PointCloud2>("points2", [&stage, output](const auto& cloud, Stamp /*now*/) {
     output.publish(stage.takeCloud(*cloud));
   });
+}
+
+/// How the camera's clouds lie against the scanner's points, for a stage with takeAlignment; before
+/// its clouds.
+template <typename StereoStage>
+void connectAlignment(StagePorts& ports, StereoStage& stage) {
+  ports.optionalIn<StereoAlignmentMessage>(
+      "stereo/alignment",
+      [&stage](const auto& alignment, Stamp /*now*/) { stage.takeAlignment(*alignment); });
 }
 
 /// The images of a stereo camera, for a stage with takeImage and takeInfo, whose result goes to

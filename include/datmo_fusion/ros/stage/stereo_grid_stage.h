@@ -38,6 +38,9 @@ class StereoGridStage : public Stage {
   /// Of the right camera; the newest one serves.
   void takeCameraInfo(const sensor_msgs::CameraInfo& message);
 
+  /// The newest one serves.
+  void takeAlignment(const StereoAlignmentMessage& message);
+
   /// Null if the cloud was dropped.
   nav_msgs::OccupancyGridPtr takeCloud(const sensor_msgs::PointCloud2& message);
 

@@ -9,6 +9,7 @@
 
 #include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/ros/convert/cloud_conversion.h"
+#include "datmo_fusion/ros/convert/messages.h"
 #include "datmo_fusion/ros/frame_options.h"
 #include "datmo_fusion/ros/shared_keys.h"
 #include "datmo_fusion/ros/stage/stage_monitor.h"
@@ -16,6 +17,7 @@
 #include "datmo_fusion/ros/stereo_camera_options.h"
 #include "datmo_fusion/ros/transform_buffer.h"
 #include "datmo_fusion/sensor_model/road_plane.h"
+#include "datmo_fusion/sensor_model/stereo_alignment.h"
 #include "datmo_fusion/sensor_model/stereo_cloud.h"
 
 namespace datmo {
@@ -27,7 +29,9 @@ struct StereoInputOptions {
   StreamOptions input;
 
   void visit(OptionVisitor& visitor);
-  /// Of them, `camera`, and of a stage's own `road` and `effective_range`.
+  /// Of `camera`.
+  static SharedKeys cameraKeys();
+  /// Of it, and of a stage's own `road` and `effective_range`.
   static SharedKeys sharedKeys();
 };
 
@@ -44,9 +48,22 @@ class StereoInput {
   /// (`bad_camera_info`).
   void take(const sensor_msgs::CameraInfo& message);
 
+  /// How the clouds lie against the scanner's points, from now on: the bias of their disparities is
+  /// taken out of them, and while they are not usable they are refused. Without effect where
+  /// `camera/align` is off, and on a camera that measures no disparities. Throws InputError
+  /// (`bad_alignment`).
+  void take(const StereoAlignmentMessage& message);
+
+  /// Whether the camera matches disparities, or its depth comes from something else.
+  bool measuresDisparities() const {
+    const DepthPrinciple principle = options_.camera.principle;
+    return principle == DepthPrinciple::kStereo || principle == DepthPrinciple::kActiveStereo;
+  }
+
   /// `points` of a message with this header; they are brought to the camera's frame, and must
   /// outlive the result. Throws InputError (`missing_camera_info`, `missing_transform`,
-  /// `no_valid_point` if none is within the camera's range).
+  /// `no_valid_point` if none is within the camera's range, `camera_disagrees` if the alignment
+  /// says so).
   StereoCloud cloudOf(const std_msgs::Header& header, CloudPoints& points) const;
 
  private:
@@ -58,6 +75,7 @@ class StereoInput {
   StereoInputOptions options_;
   const TransformBuffer& transforms_;
   std::optional<StereoCamera> camera_;  ///< as the last camera info says
+  StereoAlignment alignment_;           ///< the newest; at first none: all 0
 };
 
 /// The road under a cloud, as figures.

@@ -46,6 +46,9 @@ class StereoObjectsStage : public Stage {
   /// Of the right camera; the newest one serves.
   void takeCameraInfo(const sensor_msgs::CameraInfo& message);
 
+  /// The newest one serves.
+  void takeAlignment(const StereoAlignmentMessage& message);
+
   /// Points with velocity, in the vehicle's frame.
   void takeVelocities(const sensor_msgs::PointCloud2& message);
 

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/PointCloud2.h>
+
+#include "datmo_fusion/ros/convert/messages.h"
+#include "datmo_fusion/ros/convert/scan_conversion.h"
+#include "datmo_fusion/ros/shared_keys.h"
+#include "datmo_fusion/ros/stage/motion_input.h"
+#include "datmo_fusion/ros/stage/stage.h"
+#include "datmo_fusion/ros/stage/stage_runner.h"
+#include "datmo_fusion/ros/stage/stereo_input.h"
+#include "datmo_fusion/sensor_model/stereo_alignment.h"
+#include "datmo_fusion/sensor_model/surface_pairs.h"
+
+namespace datmo {
+
+struct StereoAlignmentStageOptions : StereoInputOptions {
+  MotionOptions motion;  ///< of all stages
+  ScanConversionOptions scan;
+  StereoAlignmentOptions alignment;
+  SurfacePairOptions pairs;
+  double max_interval = 0.25;  ///< s
+
+  void visit(OptionVisitor& visitor);
+  static SharedKeys sharedKeys();
+};
+
+/// Scans and clouds of a stereo camera -> how these lie against those (StereoAlignmentFilter), for
+/// the stages that take the clouds, and for people: diagnostics warn of what is beyond the usual.
+/// The same one serves the nodelet and the bag runner. Bad input is dropped through the monitor,
+/// never thrown. Cameras that measure no disparities are not compared. When the clock jumps back
+/// the scans are forgotten, the alignment is not: it is the sensors'.
+class StereoAlignmentStage : public Stage {
+ public:
+  using Options = StereoAlignmentStageOptions;
+
+  /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
+  StereoAlignmentStage(const StereoAlignmentStageOptions& options,
+                       const TransformBuffer& transforms, StageMonitor& monitor);
+
+  void takeOdometry(const nav_msgs::Odometry& message);
+  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message);
+
+  /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan.
+  template <typename Message>
+  void takeScan(const Message& message);
+
+  /// Of the right camera; the newest one serves.
+  void takeCameraInfo(const sensor_msgs::CameraInfo& message);
+
+  /// Null if the cloud was dropped, or no scan is near enough in time.
+  StereoAlignmentMessagePtr takeCloud(const sensor_msgs::PointCloud2& message);
+
+  void connect(StagePorts& ports) override;
+
+ private:
+  void reset();
+  /// The scan whose stamp is the nearest, in the vehicle's frame at `stamp`.
+  std::optional<std::vector<Ray>> raysAt(Stamp stamp) const;
+  Scan compensated(const Scan& scan) const;
+  Twist2 twistAt(Stamp stamp) const;
+  StereoAlignmentMessagePtr compare(const StereoCloud& cloud, const std::vector<Ray>& rays);
+  /// Whether the same cloud comes again while the vehicle moves.
+  bool isFrozen(const sensor_msgs::PointCloud2& message);
+  void show();
+
+  StereoAlignmentStageOptions options_;
+  const TransformBuffer& transforms_;
+  StageMonitor& monitor_;
+  StageRunner runner_;
+  MotionInput motion_;
+  StereoInput input_;
+  SurfacePairFinder finder_;
+  StereoAlignmentFilter filter_;
+  std::deque<Scan> scans_;                 ///< the last ones
+  std::vector<std::uint8_t> last_points_;  ///< bytes of the last cloud
+  Stamp last_change_;                      ///< of the first cloud with these
+  bool was_usable_ = true;
+  std::set<AlignmentTerm> faults_;  ///< that were warned of
+};
+
+}  // namespace datmo

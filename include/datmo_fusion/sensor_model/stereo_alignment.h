@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/common/stamp.h"
+#include "datmo_fusion/common/twist2.h"
+
+namespace datmo {
+
+/// What makes a stereo camera's points lie elsewhere than the scanner's of the same surfaces.
+enum class AlignmentTerm {
+  kDisparity,  ///< px: the camera's disparities are too large by this
+  kSurface,    ///< m: its surfaces lie behind the scanner's, along their normal: no body is upright
+  kForward,    ///< m: it is mounted farther back than tf says, along its horizontal heading
+  kHeading,    ///< rad: it is turned farther to the left than tf says
+  kTime,       ///< s: it saw its cloud so much before the stamp
+};
+inline constexpr std::size_t kAlignmentTerms = 5;
+
+using AlignmentVector = Eigen::Matrix<double, kAlignmentTerms, 1>;
+using AlignmentMatrix = Eigen::Matrix<double, kAlignmentTerms, kAlignmentTerms>;
+
+/// Prior and drift of one term, in its unit, and from where on it is a fault.
+struct AlignmentTermOptions {
+  double sigma = 0.0;       ///< before anything was measured
+  double drift = 0.0;       ///< standard deviation of its change in one second
+  double max_normal = 0.0;  ///< beyond it something is wrong with calibration, mount or clock
+};
+
+struct StereoAlignmentOptions {
+  AlignmentTermOptions disparity{0.3, 0.01, 1.0};
+  AlignmentTermOptions surface{0.15, 0.002, 1.0};
+  AlignmentTermOptions forward{0.1, 0.0005, 0.3};
+  AlignmentTermOptions heading{0.05, 0.0001, 0.0175};
+  AlignmentTermOptions time{0.1, 0.0002, 0.1};
+  double body_sigma = 0.15;       ///< m
+  double disparity_sigma = 0.35;  ///< px
+  double surface_distance = 5.0;  ///< m
+  double surface_time = 20.0;     ///< s
+  double gate = 16.0;             ///< 1
+  double agreement_time = 5.0;    ///< s
+  double min_agreement = 0.25;    ///< 1
+
+  void visit(OptionVisitor& visitor);
+  std::array<const AlignmentTermOptions*, kAlignmentTerms> terms() const;
+};
+
+/// One plane upright surface that both see: the scanner's inverse depth on it is
+/// `intercept + slope * tangent` in the camera's level view (StereoView).
+struct SurfacePair {
+  double tangent = 0.0;     ///< of its middle, to the right of the camera's heading
+  double intercept = 0.0;   ///< 1/m
+  double slope = 0.0;       ///< 1/m
+  double difference = 0.0;  ///< px, the camera's disparity less the scanner's
+  double variance = 0.0;    ///< px^2, of what is independent from surface to surface
+
+  double inverseDepth() const { return intercept + slope * tangent; }
+};
+
+/// By how much the difference of a pair grows with each term. `disparity_at_meter`: px m, focal
+/// length times baseline. `twist`: of the vehicle.
+AlignmentVector alignmentRates(const SurfacePair& pair, double disparity_at_meter,
+                               const Twist2& twist);
+
+/// How a stereo camera's points lie against the scanner's.
+struct StereoAlignment {
+  Stamp stamp;
+  AlignmentVector mean = AlignmentVector::Zero();
+  AlignmentMatrix covariance = AlignmentMatrix::Identity();
+  std::size_t surfaces = 0;  ///< that agreed, so far
+  std::size_t refused = 0;   ///< that did not
+  double agreement = 1.0;    ///< share of those of the last time that agreed; 1 without any
+  /// False: the clouds are not of what the scanner sees, or not where it sees it.
+  bool usable = true;
+
+  double operator[](AlignmentTerm term) const { return mean[static_cast<int>(term)]; }
+  double variance(AlignmentTerm term) const {
+    return covariance(static_cast<int>(term), static_cast<int>(term));
+  }
+  double sigma(AlignmentTerm term) const;
+};
+
+/// Estimates the alignment from pairs of surfaces: an information filter over slow random walks.
+/// What a surface differs by it has in common with itself in the next images: until the vehicle has
+/// moved by `surface_distance`, or after `surface_time`, it counts as seen once. Differences that
+/// the state does not explain (gate) are left out, since they are of two surfaces.
+///
+/// Errors of different kinds have different patterns: one of disparity is the same on all surfaces,
+/// one of the mount's position goes with the inverse depth squared, one of heading with the slant
+/// of what is seen, and one of time with the vehicle's motion. So a wrong mount is not taken for a
+/// wrong disparity.
+class StereoAlignmentFilter {
+ public:
+  /// Throws OptionError.
+  explicit StereoAlignmentFilter(const StereoAlignmentOptions& options);
+
+  /// As far as it is known; before the first update as the options say.
+  const StereoAlignment& alignment() const { return alignment_; }
+
+  /// `pairs`: of one image, at this stamp, each later than the last. `twist`: of the vehicle.
+  void update(Stamp stamp, const std::vector<SurfacePair>& pairs, double disparity_at_meter,
+              const Twist2& twist);
+
+  /// The image has not changed while the vehicle moved: nothing is learned, and it is not usable.
+  void takeFrozen(Stamp stamp);
+
+  /// Whether a term is surely (two standard deviations) beyond what is normal.
+  bool isFault(AlignmentTerm term) const;
+
+  /// In the term's unit.
+  double maxNormal(AlignmentTerm term) const {
+    return options_.terms()[static_cast<std::size_t>(term)]->max_normal;
+  }
+
+  /// The clock was set: what is known stays, the time since the last update is not known.
+  void forgetTime() { started_ = false; }
+
+ private:
+  void drift(double seconds);
+  /// 0 to 1, of what is compared that was not compared before.
+  double newShare(double seconds, const Twist2& twist) const;
+  void judge(double seconds, std::size_t agreed, std::size_t compared);
+  /// False if it is refused.
+  bool add(const SurfacePair& pair, const AlignmentVector& rates, double weight);
+
+  StereoAlignmentOptions options_;
+  StereoAlignment alignment_;
+  bool started_ = false;
+  double agreed_ = 0.0;    ///< of the last time
+  double compared_ = 0.0;  ///< the same
+};
+
+}  // namespace datmo

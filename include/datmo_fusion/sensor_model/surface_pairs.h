@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/common/scan.h"
+#include "datmo_fusion/common/twist2.h"
+#include "datmo_fusion/sensor_model/stereo_alignment.h"
+#include "datmo_fusion/sensor_model/stereo_cloud.h"
+#include "datmo_fusion/sensor_model/stereo_view.h"
+
+namespace datmo {
+
+struct SurfacePairOptions {
+  double min_height = 0.4;      ///< m
+  double max_height = 1.0;      ///< m
+  double max_range = 30.0;      ///< m
+  double max_step = 0.5;        ///< m
+  double max_step_ratio = 2.0;  ///< 1
+  double max_length = 2.0;      ///< m
+  int min_beams = 3;            ///< 1
+  double min_incidence = 0.5;   ///< 1
+  double straightness = 0.05;   ///< m
+  double range_sigma = 0.03;    ///< m
+  double edge_pixels = 3.0;     ///< px
+  int min_points = 20;          ///< 1
+  double min_share = 0.6;       ///< 1
+  double mode_width = 1.0;      ///< px
+  double max_difference = 8.0;  ///< px
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Finds what a scanner and a stereo camera both see squarely: straight pieces of the scan, and
+/// for each the disparities that the cloud has in its columns, between two heights. Where most of
+/// them do not agree with each other there are two surfaces, and no pair.
+class SurfacePairFinder {
+ public:
+  /// Throws OptionError.
+  explicit SurfacePairFinder(const SurfacePairOptions& options);
+
+  /// `rays`: by rising beam index, in the vehicle's frame at the cloud's stamp. `expected`: how the
+  /// cloud lies against the scan, as far as that is known: where the disparities are looked for.
+  /// Throws std::invalid_argument for a camera as StereoView does.
+  std::vector<SurfacePair> find(const StereoCloud& cloud, const std::vector<Ray>& rays,
+                                const StereoAlignment& expected, const Twist2& twist);
+
+ private:
+  /// A point of the cloud, or of the scan, as the camera sees it from above.
+  struct InView {
+    double tangent = 0.0;  ///< to the right of the camera's heading
+    double inverse = 0.0;  ///< 1/m
+  };
+  /// Of the scan, that hang together.
+  using Piece = std::vector<InView>;
+
+  void takePoints(const StereoCloud& cloud, const StereoView& view);
+  /// Whether a beam's end is the next point of a piece that began at `begin`.
+  bool goesOn(const Ray& last, const Ray& ray, const Point2& begin) const;
+  std::vector<Piece> piecesOf(const std::vector<Ray>& rays, const StereoView& view) const;
+  /// Adds the pair of a piece if it has one.
+  void add(const Piece& piece, const StereoCamera& camera, const StereoAlignment& expected,
+           const Twist2& twist, std::vector<SurfacePair>& pairs);
+  /// The plane through a piece; false if it is none that is seen squarely. `variance`: px^2.
+  bool fit(const Piece& piece, double disparity_at_meter, SurfacePair& pair) const;
+  /// False if the cloud's points from one tangent to another are not of one surface.
+  bool compare(double left, double right, double disparity_at_meter, double predicted,
+               SurfacePair& pair);
+
+  SurfacePairOptions options_;
+  double left_ = 0.0;                         ///< tangent of the image's border
+  double per_tangent_ = 0.0;                  ///< columns
+  std::vector<std::vector<InView>> columns_;  ///< of the cloud; memory that is used again
+  std::vector<double> differences_;           ///< px; the same
+};
+
+}  // namespace datmo
