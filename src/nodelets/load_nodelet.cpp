@@ -5,6 +5,7 @@
 // remappings are the node's.
 #include <algorithm>
 #include <csignal>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -113,15 +114,21 @@ int keepLoaded(ManagedNodelet& nodelet) {
   return 0;
 }
 
+constexpr char kUsage[] = "usage: load_nodelet load TYPE MANAGER [argument of the nodelet...]";
+
 }  // namespace
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "load_nodelet", ros::init_options::NoSigintHandler);
   std::signal(SIGINT, requestStop);
   std::signal(SIGTERM, requestStop);
-  const std::vector<std::string> words(argv + 1, argv + argc);
+  const std::vector<std::string> words(argv + 1, argv + argc);  // without what ROS takes
+  if (words == std::vector<std::string>{"--help"}) {
+    std::puts(kUsage);
+    return 0;
+  }
   if (words.size() < 3 || words[0] != "load") {
-    ROS_FATAL("usage: load_nodelet load TYPE MANAGER [argument of the nodelet...]");
+    ROS_FATAL("%s", kUsage);
     return 2;
   }
   ros::NodeHandle node;

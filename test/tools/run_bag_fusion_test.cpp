@@ -121,7 +121,7 @@ TEST_F(FusedRun, MissingStereoIsNamed) {
 }
 
 TEST_F(FusedRun, OneSourceIsEnough) {
-  writeConfig("{grid_fusion: {sources: {stereo: {use: false}}}}");
+  writeConfig("{grid_fusion: {sources: {stereo: {use: false}}}, stereo_camera: {align: false}}");
   run();
   EXPECT_EQ(count(arguments_.output, "/grids/fused"), kScanCount);
   EXPECT_EQ(count(arguments_.output, "/pose"), kScanCount);
@@ -156,7 +156,7 @@ TEST_F(FusedRun, GridsOfOtherSourcesComeFromTheBag) {
       bag.write("/grids/radar", message.getTime(), message);
     }
   }
-  writeConfig("{grid_fusion: {sources: {radar: {weight: 0.5}}}}");
+  writeConfig("{grid_fusion: {sources: {radar: {weight: 0.5}}}, stereo_camera: {align: false}}");
   run();
   EXPECT_NE(two_sources, bytes(arguments_.output));
   EXPECT_EQ(count(arguments_.output, "/grids/fused"), kScanCount);

@@ -71,7 +71,7 @@ TEST_F(ObjectFusedRun, ImagesLeadToTheSameAsTheirClouds) {
 TEST_F(ObjectFusedRun, SameBagGivesTheSameBytes) {
   appendClouds();
   appendEachScan("/objects/radar", pedestrianAt);
-  writeConfig("{object_fusion: {sources: {radar: {use: true}}}}");
+  writeConfig("{object_fusion: {sources: {radar: {use: true}}}, stereo_camera: {align: false}}");
   arguments_.low_level_fusion = true;
   run();
   const std::string first = bytes(arguments_.output);
@@ -98,7 +98,7 @@ TEST_F(ObjectFusedRun, CloudsComeBeforeRecordedObjects) {
 TEST_F(ObjectFusedRun, ObjectsOfOtherSourcesComeFromTheBag) {
   appendClouds();
   appendEachScan("/objects/radar", pedestrianAt);
-  writeConfig("{object_fusion: {sources: {radar: {use: true}}}}");
+  writeConfig("{object_fusion: {sources: {radar: {use: true}}}, stereo_camera: {align: false}}");
   run();
   expectObjects(kCloudCount);
   EXPECT_EQ(listsWithPedestrianOf("radar"), kScanCount);
@@ -135,14 +135,14 @@ TEST_F(ObjectFusedRun, MissingStereoIsNamed) {
 }
 
 TEST_F(ObjectFusedRun, OneSourceIsEnough) {
-  writeConfig("{object_fusion: {sources: {stereo: {use: false}}}}");
+  writeConfig("{object_fusion: {sources: {stereo: {use: false}}}, stereo_camera: {align: false}}");
   run();
   expectObjects(0);
 }
 
 TEST_F(ObjectFusedRun, OneLevelMayDoWithoutTheCameraThatTheOtherUses) {
   appendClouds();
-  writeConfig("{object_fusion: {sources: {stereo: {use: false}}}}");
+  writeConfig("{object_fusion: {sources: {stereo: {use: false}}}, stereo_camera: {align: false}}");
   arguments_.low_level_fusion = true;
   arguments_.write_grids = true;
   run();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The bag runner with risks, on the small drive between two walls.
 #include <cstddef>
+#include <filesystem>
 #include <string>
 
 #include "run_bag_drive.h"
@@ -42,6 +43,7 @@ TEST_F(RiskRun, TheSensorSetHasASectionOfIt) {
   writeConfig("{risk: {method: thesis}}");
   run();
   EXPECT_EQ(count(arguments_.output, "/risks"), kAllScans);
+  std::filesystem::remove(arguments_.output);
   writeConfig("{risk: {methods: thesis}}");
   const std::string message = failure();
   EXPECT_NE(message.find("risk: methods"), std::string::npos) << message;

@@ -81,7 +81,7 @@ TEST_F(TrackFusedRun, FusedTracksBearTheStampsOfTheScans) {
 }
 
 TEST_F(TrackFusedRun, StereoCameraHasATrackerOfItsOwn) {
-  writeConfig("{track_fusion: {scheme: union}}");
+  writeConfig("{track_fusion: {scheme: union}, stereo_camera: {align: false}}");
   appendEachScan("/objects/stereo", pedestrianAt);
   const std::string table = run();
   expectTracks(kScanCount);
@@ -114,14 +114,14 @@ TEST_F(TrackFusedRun, TrackersOptionsAreTheirOwn) {
 
 TEST_F(TrackFusedRun, BadOptionsAreNamedWithTheirSection) {
   for (const std::string section : {"stereo_tracker", "track_fusion"}) {
-    writeConfig("{" + section + ": {warp: 9}}");
+    writeConfig("{" + section + ": {warp: 9}, stereo_camera: {align: false}}");
     const std::string message = failure();
     EXPECT_TRUE(holds(message, section) && holds(message, "warp")) << message;
   }
 }
 
 TEST_F(TrackFusedRun, AnotherSystemsTracksServeWhereThereIsNothingToFollow) {
-  writeConfig("{track_fusion: {scheme: union}}");
+  writeConfig("{track_fusion: {scheme: union}, stereo_camera: {align: false}}");
   appendEachScan("/tracks/stereo", radarTracksAt);
   run();
   expectTracks(0);
@@ -150,7 +150,9 @@ TEST_F(TrackFusedRun, TracksOfOtherSourcesComeFromTheBag) {
   appendEachScan("/tracks/radar", radarTracksAt);
   run();
   EXPECT_FALSE(isFusedOf("radar")) << "nobody asks for it";
-  writeConfig("{track_fusion: {sources: {radar: {use: true}}, scheme: union}}");
+  writeConfig(
+      "{track_fusion: {sources: {radar: {use: true}}, scheme: union}, stereo_camera: {align: "
+      "false}}");
   run();
   expectTracks(kCloudCount);
   EXPECT_TRUE(isFusedOf("radar"));
@@ -158,7 +160,9 @@ TEST_F(TrackFusedRun, TracksOfOtherSourcesComeFromTheBag) {
 }
 
 TEST_F(TrackFusedRun, TracksThatWaitAtTheEndAreServed) {
-  writeConfig("{track_fusion: {sources: {radar: {use: true}}, max_wait: 0.5, silent_after: 10}}");
+  writeConfig(
+      "{track_fusion: {sources: {radar: {use: true}}, max_wait: 0.5, silent_after: 10}, "
+      "stereo_camera: {align: false}}");
   appendClouds();
   run();
   expectTracks(kCloudCount);
@@ -178,7 +182,9 @@ TEST_F(TrackFusedRun, TrackerFollowsTheFusedObjectsWithBothLevels) {
 TEST_F(TrackFusedRun, EachCombinationOfLevelsGivesTheSameBytesTwice) {
   appendClouds();
   appendEachScan("/tracks/radar", radarTracksAt);
-  writeConfig("{track_fusion: {sources: {radar: {use: true}}, scheme: union}}");
+  writeConfig(
+      "{track_fusion: {sources: {radar: {use: true}}, scheme: union}, stereo_camera: {align: "
+      "false}}");
   for (const bool low : {false, true}) {
     for (const bool object : {false, true}) {
       arguments_.low_level_fusion = low;
@@ -215,19 +221,19 @@ TEST_F(TrackFusedRun, MissingStereoIsNamed) {
 }
 
 TEST_F(TrackFusedRun, OneSourceIsEnough) {
-  writeConfig("{track_fusion: {sources: {stereo: {use: false}}}}");
+  writeConfig("{track_fusion: {sources: {stereo: {use: false}}}, stereo_camera: {align: false}}");
   run();
   expectTracks(0);
 }
 
 TEST_F(TrackFusedRun, OneLevelMayDoWithoutTheCameraThatTheOtherUses) {
   appendClouds();
-  writeConfig("{track_fusion: {sources: {stereo: {use: false}}}}");
+  writeConfig("{track_fusion: {sources: {stereo: {use: false}}}, stereo_camera: {align: false}}");
   arguments_.object_fusion = true;
   run();
   expectTracks(0);
   EXPECT_EQ(count(arguments_.output, "/objects/stereo"), kCloudCount);
-  writeConfig("{object_fusion: {sources: {stereo: {use: false}}}}");
+  writeConfig("{object_fusion: {sources: {stereo: {use: false}}}, stereo_camera: {align: false}}");
   run();
   expectTracks(kCloudCount);
 }

@@ -50,7 +50,12 @@ inline ObjectArray pedestrianAt(Stamp stamp) {
 /// A drive with a stereo camera that sees a wall.
 class StereoRunBag : public RunBag {
  protected:
-  StereoRunBag() { writeConfig("{stereo_image_proc: {stereo_algorithm: 1, disparity_range: 32}}"); }
+  /// The camera is not compared with the scanner, which does not see its wall.
+  StereoRunBag() {
+    writeConfig(
+        "{stereo_image_proc: {stereo_algorithm: 1, disparity_range: 32}, "
+        "stereo_camera: {align: false}}");
+  }
 
   /// `write(bag, stamp)` for each of the stereo camera's stamps.
   template <typename Write>

@@ -189,7 +189,8 @@ class LaunchSwitches(unittest.TestCase):
                 nodes, parameters = loaded("perception.launch", mono=True, object_fusion=objects,
                                            camera_image="view", camera_info="view_info")
                 expected = ALWAYS | {"mono_classifier", "object_fusion"}
-                self.assertEqual(set(nodelets(nodes)), expected | (OBJECT_LEVEL if objects else set()))
+                self.assertEqual(set(nodelets(nodes)), expected | (
+                    OBJECT_LEVEL | {"stereo_alignment"} if objects else set()))
                 self.assertEqual(remapped(nodes["mono_classifier"], "image"), "view")
                 self.assertEqual(remapped(nodes["mono_classifier"], "camera_info"), "view_info")
                 self.assertEqual(remapped(nodes["tracker"], "objects"), "objects/fused")

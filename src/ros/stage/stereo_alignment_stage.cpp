@@ -107,7 +107,7 @@ void StereoAlignmentStage::takeCameraInfo(const sensor_msgs::CameraInfo& message
 
 StereoAlignmentMessagePtr StereoAlignmentStage::takeCloud(const sensor_msgs::PointCloud2& message) {
   return runner_.serve("points2", message, [&]() -> StereoAlignmentMessagePtr {
-    if (!input_.measuresDisparities()) {
+    if (!input_.isAligned()) {
       return nullptr;
     }
     CloudPoints points(message);

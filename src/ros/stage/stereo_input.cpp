@@ -46,7 +46,7 @@ void StereoInput::take(const sensor_msgs::CameraInfo& message) {
 
 void StereoInput::take(const StereoAlignmentMessage& message) {
   const StereoAlignment alignment = fromMessage(message);
-  if (measuresDisparities() && options_.camera.align) {
+  if (isAligned()) {
     alignment_ = alignment;
   }
 }

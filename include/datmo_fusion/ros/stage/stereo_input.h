@@ -54,10 +54,11 @@ class StereoInput {
   /// (`bad_alignment`).
   void take(const StereoAlignmentMessage& message);
 
-  /// Whether the camera matches disparities, or its depth comes from something else.
-  bool measuresDisparities() const {
+  /// Whether the camera is compared with the scanner: it is to be, and matches disparities.
+  bool isAligned() const {
     const DepthPrinciple principle = options_.camera.principle;
-    return principle == DepthPrinciple::kStereo || principle == DepthPrinciple::kActiveStereo;
+    return options_.camera.align &&
+           (principle == DepthPrinciple::kStereo || principle == DepthPrinciple::kActiveStereo);
   }
 
   /// `points` of a message with this header; they are brought to the camera's frame, and must
