@@ -157,9 +157,9 @@ TEST_F(ObjectLevelTest, AnotherSystemMayPublishTheStereoObjects) {
 TEST_F(ObjectLevelTest, ALoopedBag) {
   now_ = 0.0;
   ASSERT_NO_FATAL_FAILURE(start());
-  ASSERT_TRUE(chain_->waitFor(
-      [] { return chain_->diagnostic("object_fusion", "warned: clock_restart") > 0.0; }));
   ASSERT_NO_FATAL_FAILURE(driveOn(1.0));
+  EXPECT_TRUE(chain_->waitFor(
+      [] { return chain_->diagnostic("object_fusion", "warned: clock_restart") > 0.0; }));
 }
 
 }  // namespace
