@@ -17,7 +17,7 @@ constexpr double kMinGap = 0.4;
 constexpr double kGapIntervals = 4.0;
 
 /// Odometry is waited for this long (s) after the first scan behind a gap.
-constexpr double kOdometryDelay = 0.3;
+constexpr double kOdometryDelay = 0.6;
 
 /// Of the pose at which a map begins (m^2, rad^2): for matches it may not be 0.
 constexpr double kStartVariance = 1e-6;
@@ -40,7 +40,8 @@ bool grewWider(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to,
 }  // namespace
 
 bool GridSlam::isGap(double seconds) const {
-  return last_scan_ && seconds > std::max(kMinGap, kGapIntervals * last_scan_->interval);
+  return last_scan_ && last_scan_->interval > 0.0 &&
+         seconds > std::max(kMinGap, kGapIntervals * last_scan_->interval);
 }
 
 void GridSlam::rememberScan(const Scan& scan) {
@@ -50,7 +51,9 @@ void GridSlam::rememberScan(const Scan& scan) {
   double interval = 0.0;
   if (last_scan_) {
     const double seconds = std::max(0.0, secondsBetween(last_scan_->stamp, scan.stamp));
-    interval = last_scan_->interval + kIntervalShare * (seconds - last_scan_->interval);
+    interval = last_scan_->interval > 0.0
+                   ? last_scan_->interval + kIntervalShare * (seconds - last_scan_->interval)
+                   : seconds;
   }
   last_scan_.emplace(LastScan{scan.stamp, filter_, interval});
 }
@@ -67,6 +70,7 @@ void GridSlam::leaveMapAfterGap(Stamp stamp) {
   } else {
     if (!odometry_.twistAt(stamp)) {
       before_gap_ = last_scan_;
+      gap_end_ = stamp;
     }
     recovery_.emplace(options_.recovery, std::move(map_), prior, stamp);
   }
@@ -76,10 +80,14 @@ void GridSlam::leaveMapAfterGap(Stamp stamp) {
 }
 
 void GridSlam::undoGapForOdometry(Stamp stamp) {
-  if (!before_gap_ || !odometry_.twistAt(stamp)) {
+  if (!before_gap_) {
     return;
   }
-  if (recovery_ && secondsBetween(last_scan_->stamp, stamp) < kOdometryDelay) {
+  const bool may_come = recovery_ && secondsBetween(gap_end_, stamp) < kOdometryDelay;
+  if (may_come && !odometry_.twistAt(stamp)) {
+    return;
+  }
+  if (may_come) {
     returnToMap();
     filter_ = before_gap_->filter;
     stamp_ = before_gap_->stamp;
@@ -100,6 +108,7 @@ void GridSlam::recover(Stamp stamp) {
   if (const auto found = recovery_->advance(map_, filter_.pose(), stamp)) {
     returnToMap();
     filter_.restartAt(*found);
+    anchor_ = {};  // of the newer map's frame
   } else if (recovery_->isOver(stamp)) {
     const PoseWithCovariance origin = recovery_->inOlder({Pose2(), Eigen::Matrix3d::Zero()});
     frame_covariance_ += origin.covariance;

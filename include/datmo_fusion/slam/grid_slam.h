@@ -137,6 +137,7 @@ class GridSlam {
   };
   std::optional<LastScan> last_scan_;
   std::optional<LastScan> before_gap_;  ///< while odometry may still come for it
+  Stamp gap_end_;                       ///< of the first scan behind that gap
   std::optional<MapRecovery> recovery_;
   /// Of the map's frame in that of the first map, about the origin.
   Eigen::Matrix3d frame_covariance_ = Eigen::Matrix3d::Zero();

@@ -73,6 +73,8 @@ void StereoAlignmentStage::reset() {
   motion_.reset();
   scans_.clear();
   last_points_.clear();
+  moved_since_ = Pose2();
+  is_frozen_ = false;
   filter_.forgetTime();
 }
 
@@ -108,6 +110,7 @@ void StereoAlignmentStage::takeCameraInfo(const sensor_msgs::CameraInfo& message
 StereoAlignmentMessagePtr StereoAlignmentStage::takeCloud(const sensor_msgs::PointCloud2& message) {
   return runner_.serve("points2", message, [&]() -> StereoAlignmentMessagePtr {
     if (!input_.isAligned()) {
+      runner_.processed(toStamp(message.header.stamp));
       return nullptr;
     }
     CloudPoints points(message);
@@ -118,6 +121,7 @@ StereoAlignmentMessagePtr StereoAlignmentStage::takeCloud(const sensor_msgs::Poi
       monitor_.warned(InputError("frozen_camera",
                                  "the stereo camera's cloud is that of the last image, though the "
                                  "vehicle moves: its objects and grid are left out"));
+      runner_.processed(cloud.stamp);
       return toMessage(filter_.alignment(), options_.frames.base);
     }
     const std::optional<std::vector<Ray>> rays = raysAt(cloud.stamp);
@@ -127,13 +131,19 @@ StereoAlignmentMessagePtr StereoAlignmentStage::takeCloud(const sensor_msgs::Poi
 
 bool StereoAlignmentStage::isFrozen(const sensor_msgs::PointCloud2& message) {
   const Stamp stamp = toStamp(message.header.stamp);
+  const Stamp before = std::exchange(last_cloud_, stamp);
   if (message.data != last_points_) {
     last_points_ = message.data;
-    last_change_ = stamp;
+    moved_since_ = Pose2();
+    is_frozen_ = false;
     return false;
   }
-  const std::optional<Pose2> moved = motion_.between(last_change_, stamp);
-  return moved && moved->position().norm() > kFrozenDistance;
+  // From cloud to cloud, as odometry is not kept for as long as a camera may be frozen.
+  if (const std::optional<Pose2> step = motion_.between(before, stamp)) {
+    moved_since_ = moved_since_ * *step;
+  }
+  is_frozen_ = is_frozen_ || moved_since_.position().norm() > kFrozenDistance;
+  return is_frozen_;
 }
 
 StereoAlignmentMessagePtr StereoAlignmentStage::compare(const StereoCloud& cloud,

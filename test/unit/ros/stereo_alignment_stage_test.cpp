@@ -137,6 +137,12 @@ TEST_F(StereoAlignmentStageTest, AFrozenPictureIsNotUsable) {
   EXPECT_GT(samples::warnings(monitor_, "frozen_camera"), 0U);
 }
 
+TEST_F(StereoAlignmentStageTest, APictureStaysFrozenForLongerThanOdometryIsKept) {
+  const auto alignment = run(300, 0.0, 8.0);
+  ASSERT_TRUE(alignment);
+  EXPECT_FALSE(alignment->usable);
+}
+
 TEST_F(StereoAlignmentStageTest, ObjectsAreWhereTheScannerHasThem) {
   StereoObjectsStageOptions options;
   StageMonitor monitor("stereo_objects");

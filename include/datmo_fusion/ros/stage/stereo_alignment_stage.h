@@ -84,7 +84,9 @@ class StereoAlignmentStage : public Stage {
   StereoAlignmentFilter filter_;
   std::deque<Scan> scans_;                 ///< the last ones
   std::vector<std::uint8_t> last_points_;  ///< bytes of the last cloud
-  Stamp last_change_;                      ///< of the first cloud with these
+  Stamp last_cloud_;                       ///< of that cloud
+  Pose2 moved_since_;                      ///< since the first cloud with these bytes
+  bool is_frozen_ = false;
   bool was_usable_ = true;
   std::set<AlignmentTerm> faults_;  ///< that were warned of
 };
