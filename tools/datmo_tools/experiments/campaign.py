@@ -181,7 +181,7 @@ def _mutated_lines(mutated):
         "",
         f"{mutated['drives']} drives with seeds from {mutated['first_seed']} on, {mutated['messages']} messages as they should be and",
         f"{mutated['mutated']} with one to three fields spoiled (NaN, infinity, bounds of the type, other lengths, names and",
-        "stamps), at the doors of all stages, those between them included. Each drive ends with 3 s without mutations,",
+        "stamps), at the doors of the stages, those between them included, without images and `stereo_alignment`. Each drive ends with 3 s without mutations,",
         "in which tracks have to come again.",
         "",
         f"- found: {len(mutated['faults'])}" + "".join(f"\n  - {fault}" for fault in mutated["faults"]),
