@@ -17,7 +17,7 @@ constexpr std::uint32_t kHost = 0;  ///< no track has this id
 /// m/s; slower, a lateral acceleration is no steering.
 constexpr double kSteered = 1.0;
 
-/// How a driver's acceleration and place in the lane vary, step by step.
+/// How a driver's acceleration and position in the lane vary, step by step.
 class DriverVariation {
  public:
   DriverVariation(const HostFutureOptions& options, double step)

@@ -38,7 +38,7 @@ struct MapRecoveryOptions {
 /// rigidly connected with it.
 Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Point2& arm);
 
-/// The way back into a map after a gap in which the vehicle may have gone anywhere within a wide
+/// Relocalization in a map after a gap in which the vehicle may have gone anywhere within a wide
 /// prior. Scans then build a newer map, which begins at the prior's mean, and the older one is left
 /// as it was; it is searched for the newer one, again and again as that grows, until there is one
 /// answer, or it is time to go on with the newer map alone.

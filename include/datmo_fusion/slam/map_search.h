@@ -26,7 +26,7 @@ struct MapSearchOptions {
 
 /// Where a map that was begun a short time ago lies in an older one.
 ///
-/// Two maps of one place agree but for what has changed: surfaces of one lie in space that the
+/// Two maps of one area agree but for what has changed: surfaces of one lie in space that the
 /// other has seen free for a small share of them only. Any number of agreeing surfaces proves less,
 /// since parked cars repeat. So a hypothesis (a pose in the older map) has as negative
 /// log-likelihood its share of contradicted surfaces, exponentially distributed, and its distance

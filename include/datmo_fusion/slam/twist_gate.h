@@ -18,7 +18,7 @@ struct TwistGateOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Tells measured twists that a vehicle can have had from those of a broken message, by the twist
+/// Separates twists that a vehicle can have had from those of a broken message, by the twist
 /// before and the time since then: what changed by more than its tires can do, and by more than
 /// VelocityMotionModel's noise of a measurement explains, is not followed. If the next twist goes
 /// on from there, the vehicle did change, and is followed again: a wrong one costs itself.

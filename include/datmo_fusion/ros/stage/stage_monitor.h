@@ -54,7 +54,7 @@ class StageMonitor {
 
   const std::string& stage() const { return stage_; }
 
-  /// What is told from here on happens at this ROS time.
+  /// What is said from here on happens at this ROS time.
   void setTime(Stamp now) { now_ = now; }
 
   /// None where no host has said it.
