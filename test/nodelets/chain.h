@@ -29,6 +29,10 @@ class Listener {
   /// by far more than a machine needs that has other things to do.
   bool waitFor(const std::function<bool()>& condition, double max_seconds = 120.0);
 
+  /// ROS time of all. Where it jumps, waits until the nodelets have it (by their diagnostics): a
+  /// message that overtakes the clock is a stray one, and is dropped.
+  void setClock(const ros::Time& now);
+
   /// Until the three nodelets are connected with this test, and have reported.
   bool waitForNodelets();
 
@@ -52,6 +56,9 @@ class Listener {
   ros::NodeHandle node_;
   std::vector<ros::Subscriber> subscribers_;
   std::map<std::string, diagnostic_msgs::DiagnosticStatus> diagnostics_;  ///< by nodelet
+  ros::Time reported_;                                                    ///< of the newest of them
+  ros::Publisher clock_;
+  ros::Time now_;
 };
 
 /// What a nodelet keeps after `value` was asked for of one of its live options that are text.
@@ -75,7 +82,7 @@ class Chain : public Listener {
   /// odometry, and the first one has no older to go by.
   bool prepareMotion(double seconds);
 
-  void setClock(double seconds);
+  void setClock(double seconds) { Listener::setClock(ros::Time(World::kStart + seconds)); }
 
   /// Clock, tf and odometry at a time of the drive.
   void sendMotion(double seconds);
@@ -94,7 +101,6 @@ class Chain : public Listener {
  private:
   ros::NodeHandle node_;
   World world_;
-  ros::Publisher clock_;
   ros::Publisher scan_;
   ros::Publisher odometry_;
   ros::Publisher tf_;

@@ -8,8 +8,6 @@
 #include "chain.h"
 #include "ros/labeled_scan_samples.h"
 
-#include <rosgraph_msgs/Clock.h>
-
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
 
@@ -30,11 +28,7 @@ class LabeledScanDoor : public Listener {
         [this] { return labeled_scan_.getNumSubscribers() >= 1 && !diagnosticMessage().empty(); });
   }
 
-  void setClock(double seconds) {
-    rosgraph_msgs::Clock clock;
-    clock.clock = ros::Time(samples::kStart + seconds);
-    clock_.publish(clock);
-  }
+  void setClock(double seconds) { Listener::setClock(ros::Time(samples::kStart + seconds)); }
 
   void send(const LabeledScanMessage& message) { labeled_scan_.publish(message); }
   void send(const LabeledScan& scan) { send(toMessage(scan, "base_link", "map")); }
@@ -59,7 +53,6 @@ class LabeledScanDoor : public Listener {
 
  private:
   std::string nodelet_;
-  ros::Publisher clock_ = node_.advertise<rosgraph_msgs::Clock>("/clock", kQueue, true);
   ros::Publisher labeled_scan_ = node_.advertise<LabeledScanMessage>("labeled_scan", kQueue);
 };
 

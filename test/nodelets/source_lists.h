@@ -7,8 +7,6 @@
 
 #include "chain.h"
 
-#include <rosgraph_msgs/Clock.h>
-
 #include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo {
@@ -38,11 +36,7 @@ class SourceLists : public Listener {
   }
 
   /// To a time of the drive (s).
-  void setClock(double seconds) {
-    rosgraph_msgs::Clock clock;
-    clock.clock = ros::Time(kStart + seconds);
-    clock_.publish(clock);
-  }
+  void setClock(double seconds) { Listener::setClock(ros::Time(kStart + seconds)); }
 
   void sendLidar(const Message& list) { lidar_.publish(list); }
   void sendStereo(const Message& list) { stereo_.publish(list); }
@@ -69,7 +63,6 @@ class SourceLists : public Listener {
   ros::NodeHandle node_;
   std::string nodelet_;
   ros::Subscriber fused_;
-  ros::Publisher clock_ = node_.advertise<rosgraph_msgs::Clock>("/clock", kQueue, true);
   ros::Publisher lidar_;
   ros::Publisher stereo_;
 };
