@@ -5,14 +5,10 @@ once, with a type that the package (or a named one) has, and takes what is publi
 
 import functools
 import itertools
-import os
 import unittest
-from pathlib import Path
 from xml.etree import ElementTree
 
-import roslaunch.config
-
-PACKAGE = Path(__file__).resolve().parents[2]
+from launch_files import PACKAGE, load
 
 ALWAYS = {"grid_slam", "motion", "moving_objects", "tracker", "markers", "stack"}
 LOW_LEVEL = {"lidar_grid", "stereo_grid", "grid_fusion", "grid_views"}
@@ -36,8 +32,7 @@ def loaded(file, **arguments):
     """The nodes of a launch file, by name, and its parameters, by key."""
     words = [f"{key}:={str(value).lower() if isinstance(value, bool) else value}"
              for key, value in arguments.items()]
-    config = roslaunch.config.load_config_default([(str(PACKAGE / "launch" / file), words)], None,
-                                                  verbose=False)
+    config = load(file, words)
     return ({node.name: node for node in config.nodes},
             {key: parameter.value for key, parameter in config.params.items()})
 
@@ -53,11 +48,6 @@ def remapped(node, topic):
 
 
 class LaunchSwitches(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        others = os.environ.get("ROS_PACKAGE_PATH", "")
-        os.environ["ROS_PACKAGE_PATH"] = f"{PACKAGE}:{others}"
-
     @staticmethod
     def each(file, **more):
         """(switches, nodes, parameters) of each combination"""

@@ -32,15 +32,13 @@ void checkFrames(const nav_msgs::Odometry& message, const FrameOptions& frames) 
 
 }  // namespace
 
-OdometryReader::OdometryReader(const MotionOptions& options, FrameOptions frames,
+OdometryReader::OdometryReader(const Checked<MotionOptions>& options, FrameOptions frames,
                                std::string stream, StageRunner& runner)
-    : options_(options),
+    : options_(*options),
       frames_(std::move(frames)),
       stream_(std::move(stream)),
       runner_(runner),
-      gate_(options.change) {
-  checkOptions(options);
-}
+      gate_(options->change) {}
 
 OdometrySample OdometryReader::sampleOf(const nav_msgs::Odometry& message) const {
   if (!options_.fromOdometry() || !options_.odometry_pose) {
@@ -83,7 +81,7 @@ MotionInput::MotionInput(const Checked<MotionOptions>& options, FrameOptions fra
                          StageRunner& runner)
     : options_(*options),
       runner_(runner),
-      odometry_(*options, std::move(frames), kMotionStream, runner),
+      odometry_(options, std::move(frames), kMotionStream, runner),
       buffer_(options->hold, kOdometryMemory) {}
 
 void MotionInput::take(const nav_msgs::Odometry& message) {

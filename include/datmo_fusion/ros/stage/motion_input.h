@@ -20,8 +20,8 @@ namespace datmo {
 class OdometryReader {
  public:
   /// `stream`: its name at the runner, of the stage, which is to call reset() when it is reset
-  /// itself; the runner must outlive the reader.
-  OdometryReader(const MotionOptions& options, FrameOptions frames, std::string stream,
+  /// itself; the runner must outlive the reader. Throws OptionError.
+  OdometryReader(const Checked<MotionOptions>& options, FrameOptions frames, std::string stream,
                  StageRunner& runner);
 
   /// What the options take of odometry: with odometry_pose its pose, too, and then a twist that no
