@@ -1,95 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/display/camera_view.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-#include <set>
-#include <vector>
 
-#include "camera_samples.h"
+#include "camera_view_sample.h"
 #include "monitor_counts.h"
 #include <boost/make_shared.hpp>
 #include <gtest/gtest.h>
-
-#include "datmo_fusion/ros/convert/message_conversion.h"
 
 namespace datmo::camera_view_test {
 namespace {
 
 using samples::drops;
 using samples::warnings;
-
-constexpr std::uint32_t kWidth = 640;
-constexpr std::uint32_t kHeight = 480;
-constexpr double kFocalLength = 400.0;     // px
-constexpr double kHeightOverGround = 1.5;  // m
-constexpr std::uint8_t kGray = 60;
-constexpr double kStart = 100.0;  // s
-constexpr samples::CameraSample kCamera{kWidth, kHeight, kFocalLength};
-
-sensor_msgs::CameraInfo cameraInfo() { return kCamera.info(); }
-
-sensor_msgs::ImagePtr image(double seconds) {
-  return boost::make_shared<sensor_msgs::Image>(kCamera.image(seconds, kGray));
-}
-
-/// A vehicle `ahead` of the map's origin that drives away at `speed`.
-TrackArrayPtr tracks(double seconds, double ahead, double speed) {
-  auto message = boost::make_shared<TrackArray>();
-  message->header.frame_id = "map";
-  message->header.stamp = ros::Time(seconds);
-  TrackMessage track;
-  track.id = 7;
-  track.pose = toMessage(Pose2(ahead, 0.0, 0.0));
-  track.size.x = 4.0;
-  track.size.y = 2.0;
-  track.size.z = 1.5;
-  track.velocity.x = speed;
-  track.moving = speed != 0.0;
-  track.classification = ObjectMessage::CLASS_VEHICLE;
-  message->tracks.push_back(track);
-  return message;
-}
-
-class CameraViewTest : public testing::Test {
- protected:
-  /// The camera at the map's origin, above the ground, looks along x.
-  void mountCamera(double seconds) {
-    transforms_.add(samples::transforms({samples::cameraMount("map", kHeightOverGround, seconds)}));
-  }
-
-  sensor_msgs::ImagePtr show(const sensor_msgs::ImagePtr& message, double waited = 0.0) {
-    const double seconds = message->header.stamp.toSec();
-    view_.takeImage(message, Stamp::fromSeconds(seconds));
-    return view_.next(Stamp::fromSeconds(seconds + waited));
-  }
-
-  /// Whether a pixel is not of the image any more.
-  static bool isDrawn(const sensor_msgs::Image& picture, int column, int row) {
-    const std::size_t at =
-        static_cast<std::size_t>(row) * picture.step + 3 * static_cast<std::size_t>(column);
-    return picture.data[at] != kGray || picture.data[at + 1] != kGray ||
-           picture.data[at + 2] != kGray;
-  }
-
-  static bool anyDrawn(const sensor_msgs::Image& picture) {
-    for (int row = 0; row < static_cast<int>(picture.height); ++row) {
-      for (int column = 0; column < static_cast<int>(picture.width); ++column) {
-        if (isDrawn(picture, column, row)) {
-          return true;
-        }
-      }
-    }
-    return false;
-  }
-
-  TransformBuffer transforms_{1.0};
-  StageMonitor monitor_{"camera_view"};
-  CameraView view_{CameraViewOptions(), transforms_, monitor_};
-};
 
 TEST_F(CameraViewTest, ATrackIsABoxWhereTheCameraSeesIt) {
   view_.takeCameraInfo(cameraInfo());
@@ -140,53 +63,6 @@ TEST_F(CameraViewTest, LabelsDoNotCoverEachOther) {
   const int one = labelRows(kStart, tracks(kStart, 12.0, 0.0));
   EXPECT_GT(one, 10);
   EXPECT_EQ(labelRows(kStart + 0.1, two), 2 * one);
-}
-
-TEST_F(CameraViewTest, AnUnsureTrackIsFainter) {
-  view_.takeCameraInfo(cameraInfo());
-  const auto strength = [this](double seconds, float existence) {
-    mountCamera(seconds);
-    const auto list = tracks(seconds, 12.0, 0.0);
-    list->tracks[0].existence_probability = existence;
-    view_.takeTracks(list);
-    const auto picture = show(image(seconds));
-    int sum = 0;  // over the middle of the box's rear
-    for (std::size_t i = 0; picture && i < 3 * std::size_t{kWidth}; ++i) {
-      sum += std::abs(picture->data[270 * picture->step + i] - kGray);
-    }
-    return sum;
-  };
-  const int sure = strength(kStart, 1.0F);
-  const int unsure = strength(kStart + 0.1, 0.0F);
-  EXPECT_GT(unsure, 0);
-  EXPECT_LT(2 * unsure, sure);
-}
-
-TEST_F(CameraViewTest, EachClassHasAnIcon) {
-  view_.takeCameraInfo(cameraInfo());
-  std::set<std::vector<std::uint8_t>> icons;
-  double seconds = kStart;
-  for (const auto one : {ObjectMessage::CLASS_PEDESTRIAN, ObjectMessage::CLASS_CYCLIST,
-                         ObjectMessage::CLASS_VEHICLE, ObjectMessage::CLASS_POLE}) {
-    seconds += 0.1;
-    mountCamera(seconds);
-    const auto list = tracks(seconds, 12.0, 0.0);
-    list->tracks[0].classification = one;
-    list->tracks[0].existence_probability = 1.0F;
-    view_.takeTracks(list);
-    const auto picture = show(image(seconds));
-    ASSERT_TRUE(picture);
-    std::vector<std::uint8_t> white;  // of the label's left end: letters and icons
-    for (int row = 210; row < 240; ++row) {
-      for (int column = 280; column < 300; ++column) {
-        const std::size_t at =
-            static_cast<std::size_t>(row) * picture->step + 3 * static_cast<std::size_t>(column);
-        white.push_back(*std::min_element(&picture->data[at], &picture->data[at] + 3) / 128);
-      }
-    }
-    icons.insert(white);
-  }
-  EXPECT_EQ(icons.size(), 4U);
 }
 
 TEST_F(CameraViewTest, ATrackBehindTheCameraIsNotDrawn) {
