@@ -178,7 +178,7 @@ class LaunchSwitches(unittest.TestCase):
             with self.subTest(object_fusion=objects):
                 nodes, parameters = loaded("perception.launch", mono=True, object_fusion=objects,
                                            camera_image="view", camera_info="view_info")
-                expected = ALWAYS | {"mono_classifier", "object_fusion"}
+                expected = ALWAYS | {"mono_classifier", "object_fusion", "camera_view"}
                 self.assertEqual(set(nodelets(nodes)), expected | (
                     OBJECT_LEVEL | {"stereo_alignment"} if objects else set()))
                 self.assertEqual(remapped(nodes["mono_classifier"], "image"), "view")
@@ -186,6 +186,18 @@ class LaunchSwitches(unittest.TestCase):
                 self.assertEqual(remapped(nodes["tracker"], "objects"), "objects/fused")
                 self.assertIs(parameters["/object_fusion/sources/mono/use"], True)
                 self.assertIs(parameters.get("/object_fusion/sources/stereo/use", True), objects)
+
+    def test_mono_with_grids_is_one_more_grid(self):
+        nodes, parameters = loaded("perception.launch", mono=True, low_level_fusion=True,
+                                   camera_image="view", camera_info="view_info",
+                                   cloud="/velodyne_points")
+        self.assertEqual(nodelets(nodes)["mono_grid"], "datmo_fusion/mono_grid")
+        for topic, name in (("image", "view"), ("camera_info", "view_info"), ("scan", "cloud_scan")):
+            self.assertEqual(remapped(nodes["mono_grid"], topic), name)
+        self.assertIs(parameters["/grid_fusion/sources/mono/use"], True)
+        without, parameters = loaded("perception.launch", low_level_fusion=True)
+        self.assertNotIn("mono_grid", without)
+        self.assertNotIn("/grid_fusion/sources/mono/use", parameters)
 
     def test_there_is_a_thread_for_each_nodelet(self):
         for switches, nodes, parameters in self.each("perception.launch"):

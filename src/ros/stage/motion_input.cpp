@@ -6,6 +6,7 @@
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/input_error.h"
+#include "datmo_fusion/slam/motion_compensation.h"
 
 namespace datmo {
 
@@ -114,6 +115,15 @@ void MotionInput::take(const geometry_msgs::PoseWithCovarianceStamped& message) 
   }
   // What the vehicle did up to this pose is what it is expected to do after it.
   buffer_.add({last_pose_->stamp, twist, pose});
+}
+
+Scan MotionInput::compensated(const Scan& scan) const {
+  const double duration = sweepDuration(scan);
+  if (duration == 0.0) {
+    return scan;
+  }
+  const auto motion = between(scan.stamp, scan.stamp + duration);
+  return motion ? compensateMotion(scan, twistOf(*motion, duration)) : scan;
 }
 
 void MotionInput::reset() {
