@@ -11,11 +11,14 @@ void ExistenceOptions::visit(OptionVisitor& visitor) {
                   "that a new object of no target is something that will be followed, and not a "
                   "false alarm"},
                  birth_probability, {1e-4, 0.9999});
-  visitor.number({"clutter_density", "1/m^2",
-                  "objects in one scan of nothing that moves, next to what stands: the clutter map "
-                  "is coarser than a row of parked cars"},
-                 clutter_density, {0.0, 100.0});
-  visitor.number({"scan_limit", "1", "most that one scan may add to the score, or take from it"},
+  visitor.number(
+      {"clutter_density", "1/m^2",
+       "density of false objects that the clutter map does not resolve, added to its own: "
+       "its cells are coarser than a row of parked cars"},
+      clutter_density, {0.0, 100.0});
+  visitor.number({"scan_limit", "1",
+                  "most that one object may add to the score, or take from it: what misleads a "
+                  "sensor does so from scan to scan; misses count in full"},
                  scan_limit, {0.1, 100.0});
   visitor.number({"max_score", "1",
                   "to which the score is limited, so that a track that lost its object ends"},
@@ -29,8 +32,8 @@ void ExistenceOptions::visit(OptionVisitor& visitor) {
 void ExistenceScore::detect(double log_likelihood, double detection_probability, double log_density,
                             double log_odds, const ExistenceOptions& options) {
   const double density = std::exp(log_density) + options.clutter_density;
-  const double ratio = log_likelihood + std::log(detection_probability / density);
-  add(std::clamp(ratio, -options.scan_limit, options.scan_limit) + log_odds, options);
+  const double ratio = log_likelihood + std::log(detection_probability / density) + log_odds;
+  add(std::clamp(ratio, -options.scan_limit, options.scan_limit), options);
 }
 
 void ExistenceScore::miss(double detection_probability, const ExistenceOptions& options) {

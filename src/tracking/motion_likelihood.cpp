@@ -3,19 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <optional>
 
 #include <Eigen/LU>
 
 #include "datmo_fusion/common/square.h"
+#include "datmo_fusion/tracking/beam_positions.h"
 
 namespace datmo {
 
 namespace {
-
-/// s; positions of the same scan are seen by the very beams that are asked.
-constexpr double kSameScan = 0.03;
 
 /// That a normal variable of this standard deviation lies within +-`half` of `offset`'s origin:
 /// by the nearer end alone, as the farther one matters little.
@@ -112,57 +108,10 @@ Point2 scannerVelocity(const ScanHistory& history) {
 
 double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// The scan that was taken at `time` on the clock of a target; none if it is forgotten.
-std::optional<std::size_t> scanAt(const ScanHistory& history, double time, Stamp now,
-                                  double clock) {
-  for (std::size_t back = 0; back < history.size(); ++back) {
-    if (std::abs(clock + secondsBetween(now, history.stamp(back)) - time) < kSameScan) {
-      return back;
-    }
-  }
-  return std::nullopt;
-}
-
-/// The points at which beams of their own scan ended: beams can be asked of these alone. A camera's
-/// points are less exact than the tolerance of a beam.
-std::vector<SeenPoints> seenByBeams(const ScanHistory& history, const SeenPointHistory& seen,
-                                    Stamp now, double clock) {
-  std::vector<SeenPoints> result;
-  for (const auto& points : seen.scans()) {
-    const auto own = scanAt(history, points->scan_time, now, clock);
-    if (!own) {
-      continue;
-    }
-    SeenPoints kept{points->time, points->scan_time, {}};
-    std::copy_if(points->points.begin(), points->points.end(), std::back_inserter(kept.points),
-                 [&](const auto& point) { return history.endsAt(*own, point.position); });
-    if (!kept.points.empty()) {
-      result.push_back(std::move(kept));
-    }
-  }
-  return result;
-}
-
-/// Whether it was seen by a single beam, and always by the same one.
-bool keepsItsBeam(const ScanHistory& history, const std::vector<SeenPoints>& seen, Stamp now,
-                  double clock) {
-  std::optional<std::size_t> beam;
-  for (const SeenPoints& points : seen) {
-    const auto own = scanAt(history, points.scan_time, now, clock);
-    const auto index = history.beamIndex(*own, points.points.front().position);
-    if (!points.isEcho() || (beam && index && *beam != *index)) {
-      return false;
-    }
-    beam = index ? index : beam;
-  }
-  return true;
-}
-
 /// Whether its motion is that of the end of one beam along a surface that stands, as the scanner
 /// moves past it: the bearing stays, and the surface does not lie on the scanner's own path.
-bool maySlide(const ScanHistory& history, const std::vector<SeenPoints>& seen,
-              const MovingBody& body, Stamp now, double clock) {
-  if (history.size() < 2 || body.velocity.isZero() || !keepsItsBeam(history, seen, now, clock)) {
+bool maySlide(const ScanHistory& history, const BeamPositions& seen, const MovingBody& body) {
+  if (history.size() < 2 || body.velocity.isZero() || !seen.keepsItsBeam()) {
     return false;
   }
   const Point2 line_of_sight = body.box.center.position() - history.scanner(0);
@@ -185,7 +134,7 @@ class ScanBeams {
   CrossingBeams of(std::size_t back, double time, const SeenPoints& seen,
                    const Point2& echo_direction) const {
     CrossingBeams beams;
-    const double detection = seen.isEcho() ? options_.echo_detection : options_.detection;
+    const double detection = seen.is_echo ? options_.echo_detection : options_.detection;
     for (const ReflectionPoint& point : seen.points) {
       const Point2& direction = point.direction.isZero() ? echo_direction : point.direction;
       const BeamCrossing crossing = history_.look(back, {point.position, direction});
@@ -233,29 +182,30 @@ void MotionLikelihoodOptions::visit(OptionVisitor& visitor) {
                   "different things were joined"},
                  apparent_motion, kError);
   visitor.number({"apparent_box_motion", "1",
-                  "the same of objects that come without beams: the whole boxes of a camera or of "
-                  "another detector, of which no part comes into view"},
+                  "the same of objects at which no beam ended: boxes of a camera or of another "
+                  "detector, which slide less than the few echoes of a scanner"},
                  apparent_box_motion, kError);
   visitor.number({"wrong_velocity", "1",
                   "the same of what a sensor measures the velocity of: what it measured is of "
                   "something else"},
                  wrong_velocity, kError);
-  visitor.number({"moving_prior", "1",
-                  "that a target that the map does not know as static moves, before its beams are "
-                  "asked"},
-                 moving_prior, kProbability);
+  visitor.number(
+      {"moving_prior", "1",
+       "that what starts a target moves, before its beams are asked: what the map knows as "
+       "static starts none"},
+      moving_prior, kProbability);
   visitor.number({"required_probability", "1",
                   "that a target moves, from which on it does: its sweep draws the operating curve "
                   "of missed frames against false tracks",
                   Tier::kLive},
-                 required_probability, {0.5, 0.999999});
+                 required_probability, {0.5, 0.9999});
 }
 
 BeamEvidence beamEvidence(const ScanHistory& history, const SeenPointHistory& seen,
                           const MovingBody& body, Stamp now, double clock,
                           const MotionLikelihoodOptions& options) {
   const ScanBeams scan_beams(history, body, clock, options);
-  const std::vector<SeenPoints> by_beams = seenByBeams(history, seen, now, clock);
+  const BeamPositions positions(history, seen, now, clock);
   const auto sumWith = [&](const Point2& echo_direction) {
     CrossingBeams sum;
     for (std::size_t back = 0; back < history.size(); ++back) {
@@ -265,9 +215,9 @@ BeamEvidence beamEvidence(const ScanHistory& history, const SeenPointHistory& se
       }
       CrossingBeams of_scan;
       int asked = 0;
-      for (const SeenPoints& points : by_beams) {
-        if (std::abs(time - points.scan_time) >= kSameScan) {
-          of_scan.add(scan_beams.of(back, time, points, echo_direction), 1.0);
+      for (const BeamPositions::OfScan& seen_in_scan : positions.scans()) {
+        if (seen_in_scan.back != back) {  // its own beams say nothing new
+          of_scan.add(scan_beams.of(back, time, seen_in_scan.points, echo_direction), 1.0);
           ++asked;
         }
       }
@@ -276,8 +226,8 @@ BeamEvidence beamEvidence(const ScanHistory& history, const SeenPointHistory& se
     return sum.evidence(options.detection_strength);
   };
   BeamEvidence evidence = sumWith(Point2::Zero());
-  evidence.seen_by_beams = !by_beams.empty();
-  if (maySlide(history, by_beams, body, now, clock)) {
+  evidence.by_others = positions.areOfOthers();
+  if (maySlide(history, positions, body)) {
     evidence.log_ratio_to_grazing = sumWith(body.velocity.normalized()).log_ratio;
   }
   return evidence;

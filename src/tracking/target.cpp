@@ -26,7 +26,7 @@ ImmFilter birth(const Object& object, const PositionMeasurement& measured,
           transitions};
 }
 
-/// A probability that is as likely as not.
+/// That something is as likely as not.
 constexpr double kEven = 0.5;
 
 /// m/s, but for one standard deviation.
@@ -60,6 +60,7 @@ Target::Target(const Object& object, std::size_t index, std::uint64_t number,
                const TargetOptions& options, const std::optional<TransitionModel>& transitions)
     : box_(object, options.box),
       filter_(birth(object, box_.measurementOf(object), options, transitions)),
+      existence_(object.log_odds, options.existence),
       number_(number),
       measurement_index_(index),
       height_(object.height),
@@ -128,7 +129,7 @@ double Target::motionProbability(const ScanHistory& history, Stamp now,
     beams.log_ratio_to_grazing.reset();  // the end of a beam has no velocity that can be measured
   }
   const double false_motion =
-      beams.seen_by_beams ? falseMotion(options) : options.motion_likelihood.apparent_box_motion;
+      beams.by_others ? options.motion_likelihood.apparent_box_motion : falseMotion(options);
   const double log_ratio =
       motion_log_odds_ + motionLogRatio(beams, velocityEvidence(false_motion, options),
                                         options.motion_likelihood.grazing_share);
@@ -183,7 +184,8 @@ void Target::takeVelocity(const MeasuredVelocity& measured, const TargetOptions&
   filter_.update(measured, options.filter.min_probability);
 }
 
-/// In between it stays as it was.
+/// Between standing and a velocity that is likelier of what moves it stays as it was. Which of both
+/// is likelier does not depend on how often standing things seem to move.
 void Target::judgeMotion(const TargetOptions& options) {
   const double standing = filter_.modeProbabilities()[static_cast<int>(MotionMode::kStanding)];
   if (standing > kEven || filter_.estimate().mean.segment<2>(2).norm() < options.stop_speed) {

@@ -20,7 +20,8 @@ void TrackerOptions::visit(OptionVisitor& visitor) {
   visitor.group("target", [&] { target.visit(visitor); });
   visitor.group("duplicates", [&] { duplicates.visit(visitor); });
   visitor.toggle({"require_motion", "",
-                  "only what evidently moves becomes a track; off: everything that exists, as for "
+                  "only what moves with target/motion_likelihood/required_probability becomes a "
+                  "track; off: everything that exists, as for "
                   "detectors that distinguish road users from other objects"},
                  require_motion);
   constexpr Bounds kHits{1, 100};

@@ -21,6 +21,9 @@ struct ExistenceOptions {
 /// object ends (CUSUM: Page, Continuous inspection schemes, 1954).
 class ExistenceScore {
  public:
+  /// Of a new target. `log_odds`: that its first object is one at all, by its detector.
+  ExistenceScore(double log_odds, const ExistenceOptions& options) { add(log_odds, options); }
+
   /// The present scan shows an object of this target. `log_likelihood`: of its position by the
   /// target's filter, logarithm of a density of 1/m^2; `detection_probability`: that it would be
   /// seen there, more than 0; `log_density`: of the density of objects that are of no target,

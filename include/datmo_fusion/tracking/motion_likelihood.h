@@ -43,8 +43,8 @@ struct BeamEvidence {
   double log_ratio = 0.0;  ///< that it moves over that it stands, as a surface that faces the beams
   /// That it moves over that it is the end of a beam along a wall; none: it cannot be.
   std::optional<double> log_ratio_to_grazing;
-  std::size_t observed = 0;    ///< informative beams; 0: nothing is known
-  bool seen_by_beams = false;  ///< by one that ended on it, once at least
+  std::size_t observed = 0;  ///< informative beams; 0: nothing is known
+  bool by_others = false;    ///< no beam ended on it: other sensors see it
 };
 
 /// Asks all beams of a window of scans whether something was at the positions where a target was

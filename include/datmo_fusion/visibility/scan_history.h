@@ -68,7 +68,7 @@ class ScanHistory {
   /// Index of the beam of that scan toward a point (m, map frame); none: not in view.
   std::optional<std::size_t> beamIndex(std::size_t back, const Point2& position) const;
 
-  /// Whether a beam of that scan ended there (m, map frame).
+  /// Whether a beam of that scan ended within tolerance() of a point (m, map frame).
   bool endsAt(std::size_t back, const Point2& position) const;
 
   /// What that scan observed at a point, by the beam toward it.
@@ -86,7 +86,7 @@ class ScanHistory {
     Pose2 map_in_scanner;
     ScanField field;
     std::vector<Beam> beams;
-    std::vector<Point2> ends;  ///< m, map frame, where they were at the scan's stamp
+    std::vector<Point2> ends;  ///< m, map frame, by the vehicle's pose at the stamp
   };
 
   const Beam* beamToward(const Scan& scan, const Point2& seen, double& bearing) const;

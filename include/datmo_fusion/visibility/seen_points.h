@@ -14,10 +14,8 @@ namespace datmo {
 struct SeenPoints {
   double time = 0.0;       ///< s, on the target's clock, when they were seen
   double scan_time = 0.0;  ///< s, the same of their scan's stamp
+  bool is_echo = false;    ///< a single one: nothing is known of how far the surface reaches
   std::vector<ReflectionPoint> points;
-
-  /// Nothing is known of how far the surface reaches beside a single echo.
-  bool isEcho() const { return points.size() == 1; }
 };
 
 /// Where a target was seen of late: the points of a few scans, spread over the last time as evenly

@@ -21,11 +21,18 @@ class ExistenceScoreTest : public testing::Test {
   }
 
   ExistenceOptions options_;
-  ExistenceScore score_;
+  ExistenceScore score_{0.0, options_};
 };
 
 TEST_F(ExistenceScoreTest, ANewTargetHasItsPriorProbability) {
   EXPECT_NEAR(score_.probability(options_), options_.birth_probability, 1e-12);
+}
+
+TEST_F(ExistenceScoreTest, WhatItsDetectorSaysOfTheFirstObjectCounts) {
+  options_.min_score = -20.0;
+  const ExistenceScore doubted(-4.0, options_);
+  const double prior = std::log(options_.birth_probability / (1.0 - options_.birth_probability));
+  EXPECT_NEAR(doubted.logOdds(options_), prior - 4.0, 1e-12);
 }
 
 TEST_F(ExistenceScoreTest, AddsUpLogLikelihoodRatios) {
@@ -48,9 +55,11 @@ TEST_F(ExistenceScoreTest, OddsAreThoseOfThePriorAndOfTheScore) {
   EXPECT_NEAR(score_.logOdds(options_), std::log(90.0), 1e-9);
 }
 
-TEST_F(ExistenceScoreTest, OneScanCountsForALimitedAmount) {
+TEST_F(ExistenceScoreTest, OneObjectCountsForALimitedAmount) {
   detect();
   EXPECT_DOUBLE_EQ(score_.score(), options_.scan_limit);
+  detect(1, -20.0);
+  EXPECT_DOUBLE_EQ(score_.score(), 0.0);
 }
 
 TEST_F(ExistenceScoreTest, AMissWhereNothingCouldBeSeenCostsLittle) {

@@ -14,18 +14,20 @@ constexpr double kWalking = 1.4;  // m/s
 /// Scans after which its velocity is evidence enough of who walks, without beams.
 constexpr int kConfirmedBy = 20;
 
-/// As the fusion of lidar and stereo tells it where both agree that it is there and the lidar sees
-/// it move.
-Object fusedAt(double x, double y, double log_odds = 2.0) {
+/// The same where its class is mistaken in between: each time a pole is none that moves.
+constexpr int kMistakenConfirmedBy = 40;
+
+/// As the fusion of lidar and stereo tells it where both agree that it is there.
+Object fusedAt(double x, double y) {
   Object object = objectAt(x, y, DynamicState::kMoving);
   object.sensors = {"lidar", "stereo"};
-  object.log_odds = log_odds;
+  object.log_odds = 2.0;
   return object;
 }
 
 /// As stereo alone tells it.
-Object stereoAt(double x, double y, DynamicState state = DynamicState::kUnknown) {
-  Object object = objectAt(x, y, state);
+Object stereoAt(double x, double y) {
+  Object object = objectAt(x, y);
   object.sensors = {"stereo"};
   object.position_covariance = Eigen::Matrix2d::Identity() * 0.09;
   return object;
@@ -37,8 +39,8 @@ Object classified(Object object, ObjectClass object_class, double probability) {
   return object;
 }
 
-Object walkerAt(double x, double y, double log_odds = 2.0) {
-  return classified(fusedAt(x, y, log_odds), ObjectClass::kPedestrian, 0.8);
+Object walkerAt(double x, double y) {
+  return classified(fusedAt(x, y), ObjectClass::kPedestrian, 0.8);
 }
 
 TEST(FusedObjects, APoleIsNeverTracked) {
@@ -78,18 +80,15 @@ void walkMistaken(ObjectClass other, double probability, double share) {
   TrackingScene scene;
   std::mt19937_64 engine(17);
   std::bernoulli_distribution mistaken(share);
-  bool tracked = false;
   for (int i = 0; i < 100; ++i) {
     const double x = 10.0 + 0.1 * kWalking * i;
     const ObjectClass said = mistaken(engine) ? other : ObjectClass::kPedestrian;
     const Object object = fusedAt(x + scene.noise(0.1), scene.noise(0.1));
     scene.scan({classified(object, said, probability)});
-    tracked = tracked || !scene.tracks().tracks.empty();
-    if (tracked) {
+    if (i >= kMistakenConfirmedBy) {
       ASSERT_EQ(scene.tracks().tracks.size(), 1U) << nameOf(other) << " " << i;
     }
   }
-  ASSERT_TRUE(tracked) << nameOf(other);
   EXPECT_EQ(scene.tracks().tracks[0].id, 1U);
   EXPECT_EQ(scene.tracker().counts().confirmed_tracks, 1U);
 }

@@ -71,11 +71,11 @@ TEST_F(BeamEvidenceTest, PositionsWhereNoBeamOfTheirScanEndedAreNotAsked) {
   see(0.1, {{20.0, 1.0}});  // as a camera has it
   const BeamEvidence of_camera = evidence(0.1, elsewhere());
   EXPECT_EQ(of_camera.observed, 0U);
-  EXPECT_FALSE(of_camera.seen_by_beams);
+  EXPECT_TRUE(of_camera.by_others);
   see(0.1, {{20.0, 0.0}, {20.0, 1.0}});
   const BeamEvidence of_both = evidence(0.1, elsewhere());
   EXPECT_EQ(of_both.observed, 1U);
-  EXPECT_TRUE(of_both.seen_by_beams);
+  EXPECT_FALSE(of_both.by_others);
 }
 
 TEST_F(BeamEvidenceTest, ABeamThatPassedBeforeSpeaksForMotion) {
@@ -188,6 +188,16 @@ class GrazingTest : public BeamEvidenceTest {
 
 TEST_F(GrazingTest, AnEchoThatKeepsItsBeamMayBeTheEndOfOneAlongAWall) {
   EXPECT_TRUE(follow({{20.0, 5.0}, {20.0, 5.0}, {20.0, 5.0}}).log_ratio_to_grazing);
+}
+
+TEST_F(GrazingTest, WhatNoBeamEndedAtIsNone) {
+  see(0.0, {{20.0, 5.0}});
+  for (const double seconds : {0.0, 0.1}) {
+    history_.add(scanOf({}, seconds, Pose2(seconds, 0.0, 0.0)));
+  }
+  const MovingBody keeps_its_bearing{
+      {Pose2(20.1, 5.0, 0.0), 0.5, 0.5}, {0.0, 0.0}, {1.0, 0.0}, 0.04};
+  EXPECT_FALSE(evidence(0.1, keeps_its_bearing).log_ratio_to_grazing);
 }
 
 TEST_F(GrazingTest, AnEchoThatGoesFromBeamToBeamIsNone) {

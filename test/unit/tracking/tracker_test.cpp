@@ -22,11 +22,10 @@ std::set<std::uint32_t> idsOf(const TrackList& list) {
 }
 
 /// Scans until the first track is published; -1: never.
-int scansUntilConfirmed(TrackingScene& scene, double speed, int max, DynamicState state) {
+int scansUntilConfirmed(TrackingScene& scene, double speed, int max) {
   for (int scan = 1; scan <= max; ++scan) {
     const double x = 15.0 + speed * scene.nextTime();
-    if (!scene.scan({objectAt(x + scene.noise(0.1), 2.0 + scene.noise(0.1), state)})
-             .tracks.empty()) {
+    if (!scene.scan({objectAt(x + scene.noise(0.1), 2.0 + scene.noise(0.1))}).tracks.empty()) {
       return scan;
     }
   }
@@ -35,7 +34,7 @@ int scansUntilConfirmed(TrackingScene& scene, double speed, int max, DynamicStat
 
 TEST(Tracker, ConfirmsACyclistInUnknownSpaceWithinSixScansAt10Hz) {
   TrackingScene scene;
-  const int scans = scansUntilConfirmed(scene, 4.4, 20, DynamicState::kUnknown);
+  const int scans = scansUntilConfirmed(scene, 4.4, 20);
   EXPECT_GE(scans, 3);
   EXPECT_LE(scans, 6);
   EXPECT_EQ(scene.tracks().tracks.front().id, 1U);
@@ -49,19 +48,12 @@ TEST(Tracker, ConfirmsWithinTheSameTimeAtTheScannersRate) {
     for (int i = 0; i < noise; ++i) {
       scene.noise(1.0);  // another stretch of the same noise
     }
-    scans.push_back(scansUntilConfirmed(scene, 4.4, 30, DynamicState::kUnknown));
+    scans.push_back(scansUntilConfirmed(scene, 4.4, 30));
     EXPECT_GE(scans.back(), 3);
   }
   std::sort(scans.begin(), scans.end());
   EXPECT_LE(scans[10], 10) << "half of them, in 0.6 s";
   EXPECT_LE(scans[20], 15) << "all of them";
-}
-
-TEST(Tracker, FreeSpaceBehindAnObjectConfirmsItNoLater) {
-  TrackingScene unknown;
-  TrackingScene moving;
-  EXPECT_LE(scansUntilConfirmed(moving, 2.0, 40, DynamicState::kMoving),
-            scansUntilConfirmed(unknown, 2.0, 40, DynamicState::kUnknown));
 }
 
 TEST(Tracker, EstimatesStateInTheFixedFrameFromAMovingVehicle) {

@@ -22,7 +22,7 @@ namespace {
 constexpr double kWrongShare = 0.2;
 constexpr int kScans = 200;  // 20 s
 constexpr int kSeeds = 10;
-constexpr int kMaxFirstScan = 15;
+constexpr int kMaxFirstScan = 20;  // of who walks: by velocity alone, without beams
 
 const std::array<ObjectClass, 3> kClasses = {ObjectClass::kPedestrian, ObjectClass::kCyclist,
                                              ObjectClass::kVehicle};

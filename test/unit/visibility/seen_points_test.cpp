@@ -27,7 +27,7 @@ TEST(SeenPointHistory, ASingleEchoHasNoDirection) {
   history.add(objectOf({{20.0, 1.0}}), 0.0, 2.0);
   ASSERT_EQ(history.scans().size(), 1U);
   const SeenPoints& seen = *history.scans().front();
-  EXPECT_TRUE(seen.isEcho());
+  EXPECT_TRUE(seen.is_echo);
   EXPECT_TRUE(seen.points.front().position.isApprox(Point2(20.0, 1.0)));
   EXPECT_TRUE(seen.points.front().direction.isZero());
 }
