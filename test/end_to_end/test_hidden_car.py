@@ -16,8 +16,8 @@ from scene_runs import CONFIG, SCENES, SIMULATE
 
 SCENE = SCENES / "hidden_car.yaml"
 SEEDS = (1, 2, 3, 4, 5, 6)
-# Of the seeds, with which the car keeps its id all the time: it did with 1, 4 and 6 of them, and with
-# 3 of 8. With the others, while the cyclist moves in front of it, the last beam slides along its flank,
+# Of the seeds, with which the car keeps its id all the time: it does with 1 and 2, and with 3 of 16.
+# With the others, while the cyclist moves in front of it, the last beam slides along its flank,
 # which looks as if it stood, before the camera sees enough of it.
 MIN_KEPT = 2
 
