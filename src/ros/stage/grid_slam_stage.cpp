@@ -44,7 +44,8 @@ SharedKeys GridSlamStageOptions::sharedKeys() {
   return SharedKeys()
       .group<ScanConversionOptions>("scan/", "scanner/")
       .key("max_tilt", "scanner/max_tilt")
-      .key("matcher/point_sigma", "scanner/range_sigma");
+      .key("matcher/point_sigma", "scanner/range_sigma")
+      .group<OdometryNoiseOptions>("motion/", "motion/");
 }
 
 GridSlamStage::GridSlamStage(const Checked<GridSlamStageOptions>& options,
