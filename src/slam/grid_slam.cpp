@@ -127,6 +127,7 @@ void GridSlamOptions::visit(OptionVisitor& visitor) {
   visitor.group("pose", [&] { pose.visit(visitor); });
   visitor.group("matcher", [&] { matcher.visit(visitor); });
   visitor.group("recovery", [&] { recovery.visit(visitor); });
+  visitor.group("trust", [&] { trust.visit(visitor); });
   visitor.toggle({"motion_compensation", "",
                   "bring each beam from its own time to the scan's stamp; false: take all beams of "
                   "a scan as measured at once (thesis)"},
@@ -148,7 +149,9 @@ GridSlam::GridSlam(const Checked<GridSlamOptions>& options)
       matcher_(options->matcher),
       map_(options->map),
       odometry_(options->odometry_hold, kOdometryMemory),
+      trust_(options->trust),
       random_(static_cast<std::uint64_t>(options->seed)),
+      trust_random_(static_cast<std::uint64_t>(options->seed)),
       filter_(options->pose, options->motion) {}
 
 void GridSlam::addOdometry(const OdometrySample& sample) {
@@ -160,7 +163,7 @@ void GridSlam::addOdometry(const OdometrySample& sample) {
   }
 }
 
-bool GridSlam::predict(Stamp stamp) {
+GridSlam::PredictedBy GridSlam::predict(Stamp stamp) {
   const double seconds = secondsBetween(*stamp_, stamp);
   const auto measured = odometry_.motion(*stamp_, stamp, filter_.errors(), estimatedSpeed());
   if (!measured && isGap(seconds)) {
@@ -177,19 +180,24 @@ bool GridSlam::predict(Stamp stamp) {
       returnToMap();
     }
     filter_ = *corrected;
-    return true;
+    return PredictedBy::kAnchor;
   }
-  return measured && odometry_.measuresSpeed();
+  return measured && odometry_.measuresSpeed() ? PredictedBy::kOdometry : PredictedBy::kVelocity;
 }
 
 Scan GridSlam::compensated(const Scan& scan) const {
   const double duration = sweepDuration(scan);
-  if (!options_.motion_compensation || duration == 0.0) {
+  if (duration == 0.0) {
     return scan;
   }
   const auto measured =
       odometry_.motion(scan.stamp, scan.stamp + duration, filter_.errors(), estimatedSpeed());
-  return compensateMotion(scan, measured ? twistOf(*measured, duration) : filter_.velocity());
+  return compensated(scan, measured ? twistOf(*measured, duration) : filter_.velocity());
+}
+
+Scan GridSlam::compensated(const Scan& scan, const Twist2& twist) const {
+  const bool is_sweep = options_.motion_compensation && sweepDuration(scan) > 0.0;
+  return is_sweep ? compensateMotion(scan, twist) : scan;
 }
 
 GridMaskedScan GridSlam::viewOf(const Measurement& measurement,
@@ -205,15 +213,20 @@ Scan GridSlam::locate(const Measurement& measurement, SlamResult& result) {
   const bool guessed = !result.odometry_used && sweepDuration(measurement.scan) > 0.0;
   Scan scan = compensated(measurement.scan);
   for (int pass = 0; pass < (guessed ? kPassesWithoutOdometry : 1); ++pass) {
-    const Scan seen = measuredScan(viewOf(measurement, scan));
-    const MatchResult match = matcher_.match(map_, endPoints(seen, options_.max_step),
-                                             {predicted.pose(), result.odometry_used}, random_);
     filter_ = predicted;
-    filter_.correct(match.pose);
-    result.match = match.quality;
+    result.match = correct(filter_, measurement, scan, result.odometry_used, random_);
     scan = guessed ? compensated(measurement.scan) : scan;
   }
   return scan;
+}
+
+MatchQuality GridSlam::correct(PoseFilter& filter, const Measurement& measurement, const Scan& scan,
+                               bool by_odometry, Random& random) const {
+  const Scan seen = measuredScan(viewOf(measurement, scan));
+  const MatchResult match = matcher_.match(map_, endPoints(seen, options_.max_step),
+                                           {filter.pose(), by_odometry}, random);
+  filter.correct(match.pose);
+  return match.quality;
 }
 
 SlamResult GridSlam::process(const Scan& scan) { return process(Measurement{scan}); }
@@ -227,10 +240,18 @@ SlamResult GridSlam::process(const Measurement& measurement) {
   Scan scan = compensated(measurement.scan);
   if (stamp_) {
     undoGapForOdometry(scan.stamp);
-    result.odometry_used = scan.stamp > *stamp_ && predict(scan.stamp);
+    const PoseFilter before = filter_;
+    const double seconds = secondsBetween(*stamp_, scan.stamp);
+    const PredictedBy by = seconds > 0.0 ? predict(scan.stamp) : PredictedBy::kVelocity;
+    result.odometry_used = by != PredictedBy::kVelocity;
     leaveMapAfterGap(scan.stamp);
     map_.centerOn(filter_.pose().pose.position());
     scan = locate(measurement, result);
+    if (by == PredictedBy::kOdometry && !recovery_ && !isGap(seconds)) {
+      scan = checkOdometry(measurement, before, seconds, scan, result);
+    } else {
+      trust_.interrupt();
+    }
   }
   const PoseWithCovariance base_in_map = poseInFirstMap();
   const GridMaskedScan view = viewOf(measurement, scan);
