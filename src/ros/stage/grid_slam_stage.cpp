@@ -80,6 +80,8 @@ std::optional<GridSlamOutput> GridSlamStage::takeScan(const Message& message) {
         scannerMount(transforms_.core(), options_.frames.base, message.header.frame_id);
     const ConvertedScan converted = toScan(message, mount, options_.scan);
     runner_.check("scan", message.header.stamp);
+    const auto motion = [this](Stamp from, Stamp to) { return motionBetween(from, to); };
+    checkNotFrozen(frozen_.take(converted.scan.stamp, measuredBytes(message), motion), monitor_);
     warnOf(mount, converted);
     if (options_.fused_grid) {
       scans_.add(converted.scan);
@@ -125,9 +127,16 @@ void GridSlamStage::reset() {
   scans_.clear();
   odometry_.reset();
   odometry_poses_.clear();
+  frozen_.reset();
   last_map_.reset();
   degenerate_scans_ = 0;
   maps_begun_ = 0;
+}
+
+std::optional<Pose2> GridSlamStage::motionBetween(Stamp from, Stamp to) const {
+  const std::optional<Pose2> before = odometry_poses_.at(from);
+  const std::optional<Pose2> after = odometry_poses_.at(to);
+  return before && after ? std::make_optional(before->inverse() * *after) : std::nullopt;
 }
 
 void GridSlamStage::warnOf(const ScannerMount& mount, const ConvertedScan& converted) {
@@ -176,6 +185,12 @@ void GridSlamStage::showMatch(const SlamResult& result) {
   monitor_.figure("weakest direction of the match [m]", match.weakest_sigma);
   monitor_.figure("scans with a direction left to the odometry",
                   static_cast<double>(degenerate_scans_));
+  monitor_.figure("odometry against scans, squared sigmas", result.odometry_contradiction);
+  if (!result.odometry_trusted) {
+    monitor_.warned(InputError("contradicting_odometry",
+                               "the scans contradict the odometry (frozen, late, or of other "
+                               "wheels?): goes on by the scans alone until both agree"));
+  }
   monitor_.figure("odometry's scale error", result.odometry_errors.speed_scale);
   monitor_.figure("odometry's yaw rate bias [rad/s]", result.odometry_errors.yaw_rate_bias);
 }
