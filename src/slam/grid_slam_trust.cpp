@@ -1,8 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What GridSlam does about odometry that is wrong.
+#include <cmath>
+
 #include "datmo_fusion/slam/grid_slam.h"
 
 namespace datmo {
+
+namespace {
+
+/// Standard deviations by which one pose has to be better: one in 100.
+constexpr double kSurely = 2.33;
+
+/// Whether the scan's end points lie on what stands still in the map more often from one pose than
+/// from the other (McNemar's test). What moves along with the vehicle has no say: a platoon would
+/// keep it where it is.
+bool fitsBetter(const OccupancyMap& map, const Scan& scan, const Pose2& than, const Pose2& pose) {
+  int only_here = 0;
+  int only_there = 0;
+  for (const Ray& ray : scan.rays) {
+    if (ray.hit) {
+      const bool here = map.judge(pose * ray.end) == PointState::kStatic;
+      const bool there = map.judge(than * ray.end) == PointState::kStatic;
+      only_here += here && !there ? 1 : 0;
+      only_there += there && !here ? 1 : 0;
+    }
+  }
+  return only_here - only_there > kSurely * std::sqrt(only_here + only_there);
+}
+
+}  // namespace
 
 Scan GridSlam::checkOdometry(const Measurement& measurement, const PoseFilter& before,
                              double seconds, const Scan& scan, SlamResult& result) {
@@ -16,7 +42,8 @@ Scan GridSlam::checkOdometry(const Measurement& measurement, const PoseFilter& b
   trust_.predict(*motion, seconds);
   const Scan by_scans = compensated(measurement.scan, trust_.byScans().velocity());
   const MatchQuality match = correct(trust_.byScans(), measurement, by_scans, false, trust_random_);
-  trust_.judge(stamp);
+  trust_.judge(stamp,
+               fitsBetter(map_, by_scans, filter_.pose().pose, trust_.byScans().pose().pose));
   result.odometry_contradiction = trust_.contradiction();
   result.odometry_trusted = trust_.isTrusted();
   Scan used = scan;

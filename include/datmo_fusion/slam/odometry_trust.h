@@ -39,8 +39,9 @@ class OdometryTrust {
   /// The vehicle by the scans alone; the caller corrects it by the scan. After observeFrom().
   PoseFilter& byScans() { return window_->by_scans; }
 
-  /// After that.
-  void judge(Stamp stamp);
+  /// After that. `scans_fit_better`: than where odometry has the vehicle, surely; else it is the
+  /// scans that were followed wrongly.
+  void judge(Stamp stamp, bool scans_fit_better);
 
   /// After judge(): the window ends if it is over.
   void endWindow(Stamp stamp);
