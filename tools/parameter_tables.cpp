@@ -16,6 +16,7 @@
 #include "datmo_fusion/ros/stage/grid_slam_stage.h"
 #include "datmo_fusion/ros/stage/lidar_grid_stage.h"
 #include "datmo_fusion/ros/stage/mono_classifier_stage.h"
+#include "datmo_fusion/ros/stage/mono_grid_stage.h"
 #include "datmo_fusion/ros/stage/moving_objects_stage.h"
 #include "datmo_fusion/ros/stage/object_fusion_stage.h"
 #include "datmo_fusion/ros/stage/point_velocity_stage.h"
@@ -79,6 +80,7 @@ std::vector<Section> sections() {
           section<LidarGridStageOptions>("`lidar_grid`"),
           section<StereoAlignmentStageOptions>("`stereo_alignment`"),
           section<StereoGridStageOptions>("`stereo_grid`"),
+          section<MonoGridStageOptions>("`mono_grid`"),
           section<GridFusionStageOptions>("`grid_fusion`"),
           section<GridSlamStageOptions>("`grid_slam`"),
           section<RoadBorderStageOptions>("`road_border`"),

@@ -15,7 +15,6 @@ const std::map<std::string, std::string> kRenamed = {
     {"coincidence", "false_agreement_probability"},
     {"else_share", "other_share"},
     {"farthest", "max_distance"},
-    {"fused_vehicle_sights", "fused_vehicle_detections"},
     {"highest", "max_height"},
     {"kerb_hit_probability", "curb_hit_probability"},
     {"largest_size", "max_size"},

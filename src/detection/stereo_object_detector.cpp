@@ -19,9 +19,6 @@ namespace {
 /// What is neither road user nor pole with more than this probability is left out.
 constexpr double kMaxOther = 0.9;
 
-/// Points up to so many standard deviations beyond the effective range still belong to it.
-constexpr double kBeyondRange = 2.0;
-
 /// Bearings to the left about the camera's x axis on the ground, of what lies to the right.
 FieldOfView fieldOf(const StereoCamera& camera, const StereoView& view,
                     const StereoObjectDetectorOptions& options) {
@@ -33,13 +30,6 @@ FieldOfView fieldOf(const StereoCamera& camera, const StereoView& view,
   field.sure_range = std::min(options.sure_range, options.effective_range);
   field.range = options.effective_range;
   return field;
-}
-
-/// m
-double farthestOf(const StereoCamera& camera, const StereoObjectDetectorOptions& options) {
-  return std::min(
-      2.0 * options.effective_range,
-      options.effective_range + kBeyondRange * camera.depthSigma(options.effective_range));
 }
 
 }  // namespace
@@ -55,7 +45,7 @@ class StereoObjectDetector::State {
     result.road_seen = road_.update(cloud).has_value();
     result.road = road_.last();
     const StereoView view(cloud, result.road);
-    surfaces_.find(cloud, view, options_.surfaces, farthestOf(cloud.camera, options_));
+    surfaces_.find(cloud, view, options_.surfaces, options_.maxDepth(cloud.camera));
     result.points = surfaces_.points();
     const OutlineFinder finder(options_, cloud.camera, surfaces_);
     const StereoObjectMaker maker(options_, classifier_, cloud.camera, view, surfaces_);

@@ -53,10 +53,7 @@ void StereoObjectDetectorOptions::visit(OptionVisitor& visitor) {
   visitor.group("groups", [&] { groups.visit(visitor); });
   visitor.group("noise", [&] { noise.visit(visitor); });
   visitor.group("classes", [&] { classes.visit(visitor); });
-  visitor.group("road", [&] { road.visit(visitor); });
-  visitor.number(
-      {"effective_range", "m", "nothing is said beyond it (thesis 3.3.3: 36 m)", Tier::kPublic},
-      effective_range, {1.0, 200.0});
+  RoadSceneOptions::visit(visitor);
   visitor.number(
       {"sure_range", "m", "up to here all is found that can be seen; from there on less and less",
        Tier::kPublic},

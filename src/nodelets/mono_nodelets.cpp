@@ -6,11 +6,14 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "datmo_fusion/ros/stage/mono_classifier_stage.h"
+#include "datmo_fusion/ros/stage/mono_grid_stage.h"
 
 namespace datmo {
 
 using MonoClassifierNodelet = StageNodelet<MonoClassifierStage>;
+using MonoGridNodelet = StageNodelet<MonoGridStage>;
 
 }  // namespace datmo
 
 PLUGINLIB_EXPORT_CLASS(datmo::MonoClassifierNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(datmo::MonoGridNodelet, nodelet::Nodelet)

@@ -38,10 +38,7 @@ void StereoCameraOptions::visit(OptionVisitor& visitor) {
 
 void StereoSceneOptions::visit(OptionVisitor& visitor) {
   StereoCameraOptions::visit(visitor);
-  visitor.number({"effective_range", "m",
-                  "nothing is said beyond it (thesis 3.2.2 and 3.3.3: 36 m)", Tier::kPublic},
-                 effective_range, {1.0, 200.0});
-  visitor.group("road", [&] { road.visit(visitor); });
+  RoadSceneOptions::visit(visitor);
 }
 
 }  // namespace datmo

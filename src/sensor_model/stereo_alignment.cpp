@@ -92,9 +92,8 @@ AlignmentVector alignmentRates(const SurfacePair& pair, double disparity_at_mete
 
 double StereoAlignment::sigma(AlignmentTerm term) const { return std::sqrt(variance(term)); }
 
-StereoAlignmentFilter::StereoAlignmentFilter(const StereoAlignmentOptions& options)
-    : options_(options) {
-  checkOptions(options);
+StereoAlignmentFilter::StereoAlignmentFilter(const Checked<StereoAlignmentOptions>& options)
+    : options_(*options) {
   alignment_.covariance.setZero();
   const auto terms = options_.terms();
   for (std::size_t i = 0; i < kAlignmentTerms; ++i) {

@@ -14,9 +14,6 @@ namespace datmo {
 
 namespace {
 
-/// Points up to so many standard deviations beyond the effective range still belong to it.
-constexpr double kBeyondRange = 2.0;
-
 FieldOfView fieldOf(const StereoGridOptions& options, const StereoCamera& camera) {
   return {camera.left_tangent, camera.right_tangent, options.min_depth, options.effective_range};
 }
@@ -25,9 +22,7 @@ EvidenceLimits limitsOf(const StereoGridOptions& options, const StereoCloud& clo
   EvidenceLimits limits;
   limits.cell_size = options.window.cell_size;
   limits.min_depth = options.min_depth;
-  limits.max_depth = std::min(
-      2.0 * options.effective_range,
-      options.effective_range + kBeyondRange * cloud.camera.depthSigma(options.effective_range));
+  limits.max_depth = options.maxDepth(cloud.camera);
   limits.layer_bottom = std::max(options.min_layer_height, cloud.scanner_height);
   limits.layer_top = limits.layer_bottom + options.layer_thickness;
   limits.road_sigmas = options.columns.road_sigmas;
@@ -82,12 +77,9 @@ void StereoGridOptions::visit(OptionVisitor& visitor) {
                  layer_thickness, {0.1, 5.0});
   visitor.number({"min_depth", "m", "nearer points are mismatches (columns only)", Tier::kPublic},
                  min_depth, {0.05, 10.0});
-  visitor.number(
-      {"effective_range", "m", "nothing is said beyond it (thesis 3.2.2: 36 m)", Tier::kPublic},
-      effective_range, {1.0, 200.0});
   visitor.group("columns", [&] { columns.visit(visitor); });
   visitor.group("cones", [&] { cones.visit(visitor); });
-  visitor.group("road", [&] { road.visit(visitor); });
+  RoadSceneOptions::visit(visitor);
 }
 
 StereoGridModel::StereoGridModel(const Checked<StereoGridOptions>& options)

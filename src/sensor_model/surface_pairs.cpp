@@ -53,10 +53,8 @@ void SurfacePairOptions::visit(OptionVisitor& visitor) {
                  max_difference, {0.5, 100.0});
 }
 
-SurfacePairFinder::SurfacePairFinder(const SurfacePairOptions& options)
-    : options_(options), columns_(kColumns) {
-  checkOptions(options);
-}
+SurfacePairFinder::SurfacePairFinder(const Checked<SurfacePairOptions>& options)
+    : options_(*options), columns_(kColumns) {}
 
 std::vector<SurfacePair> SurfacePairFinder::find(const StereoCloud& cloud,
                                                  const std::vector<Ray>& rays,

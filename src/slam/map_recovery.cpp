@@ -38,14 +38,13 @@ Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Point2& arm) {
   return lever * covariance * lever.transpose();
 }
 
-MapRecovery::MapRecovery(const MapRecoveryOptions& options, OccupancyMap older,
+MapRecovery::MapRecovery(const Checked<MapRecoveryOptions>& options, OccupancyMap older,
                          const PoseWithCovariance& start, Stamp stamp)
-    : options_(options),
+    : options_(*options),
       older_(std::move(older)),
       start_(start),
       begun_(stamp),
-      next_search_(stamp + options.first_search_after) {
-  checkOptions(options);
+      next_search_(stamp + options->first_search_after) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(
       Eigen::Matrix2d(start.covariance.topLeftCorner<2, 2>()), Eigen::EigenvaluesOnly);
   is_searchable_ = std::sqrt(axes.eigenvalues()[1]) <= options_.lost_from_sigma;

@@ -102,19 +102,18 @@ MapSearch::Surfaces MapSearch::thinnedOut(const std::vector<Point2>& positions,
   return surfaces;
 }
 
-MapSearch::MapSearch(const MapSearchOptions& options, const OccupancyMap& older,
+MapSearch::MapSearch(const Checked<MapSearchOptions>& options, const OccupancyMap& older,
                      const OccupancyMap& newer, const PoseWithCovariance& prior,
                      const Pose2& in_newer)
-    : options_(options),
+    : options_(*options),
       older_free_(freeSpaceOf(older)),
       newer_free_(freeSpaceOf(newer)),
       older_surface_(surfacesIn(older)),
       prior_(prior),
       in_newer_(in_newer),
       tolerance_(kToleranceCells * older.window().cell_size),
-      newer_(thinnedOut(newer.staticSurfaces(), in_newer.position(), options.reach)),
-      older_(thinnedOut(older.staticSurfaces(), prior.pose.position(), options.reach)) {
-  checkOptions(options);
+      newer_(thinnedOut(newer.staticSurfaces(), in_newer.position(), options->reach)),
+      older_(thinnedOut(older.staticSurfaces(), prior.pose.position(), options->reach)) {
   prior_.covariance += Eigen::Vector3d(kMapSigma * kMapSigma, kMapSigma * kMapSigma,
                                        kMapHeadingSigma * kMapHeadingSigma)
                            .asDiagonal();
@@ -122,7 +121,7 @@ MapSearch::MapSearch(const MapSearchOptions& options, const OccupancyMap& older,
   for (Surface& surface : newer_.all) {
     surface.position = in_newer.inverse() * surface.position;
   }
-  if (newer_.weight * static_cast<double>(newer_.all.size()) < options.min_surfaces) {
+  if (newer_.weight * static_cast<double>(newer_.all.size()) < options->min_surfaces) {
     outcome_ = Outcome::kAmbiguous;
     return;
   }

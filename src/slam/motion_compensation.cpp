@@ -31,4 +31,14 @@ Scan compensateMotion(Scan scan, const Twist2& twist) {
   return scan;
 }
 
+Scan scanAt(Scan scan, Stamp stamp, const Pose2& base) {
+  scan.stamp = stamp;
+  scan.scanner_in_base = base * scan.scanner_in_base;
+  for (Ray& ray : scan.rays) {
+    ray.origin = base * ray.origin;
+    ray.end = base * ray.end;
+  }
+  return scan;
+}
+
 }  // namespace datmo

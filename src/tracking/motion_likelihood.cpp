@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
 
 #include <Eigen/LU>
 
@@ -88,8 +90,9 @@ struct CrossingBeams {
   }
 
   BeamEvidence evidence(double detection_strength) const {
-    return observed == 0 ? BeamEvidence{}
-                         : BeamEvidence{log_moving - logStanding(detection_strength), {}, observed};
+    return observed == 0
+               ? BeamEvidence{}
+               : BeamEvidence{log_moving - logStanding(detection_strength), {}, observed, false};
   }
 };
 
@@ -109,10 +112,57 @@ Point2 scannerVelocity(const ScanHistory& history) {
 
 double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
+/// The scan that was taken at `time` on the clock of a target; none if it is forgotten.
+std::optional<std::size_t> scanAt(const ScanHistory& history, double time, Stamp now,
+                                  double clock) {
+  for (std::size_t back = 0; back < history.size(); ++back) {
+    if (std::abs(clock + secondsBetween(now, history.stamp(back)) - time) < kSameScan) {
+      return back;
+    }
+  }
+  return std::nullopt;
+}
+
+/// The points at which beams of their own scan ended: beams can be asked of these alone. A camera's
+/// points are less exact than the tolerance of a beam.
+std::vector<SeenPoints> seenByBeams(const ScanHistory& history, const SeenPointHistory& seen,
+                                    Stamp now, double clock) {
+  std::vector<SeenPoints> result;
+  for (const auto& points : seen.scans()) {
+    const auto own = scanAt(history, points->scan_time, now, clock);
+    if (!own) {
+      continue;
+    }
+    SeenPoints kept{points->time, points->scan_time, {}};
+    std::copy_if(points->points.begin(), points->points.end(), std::back_inserter(kept.points),
+                 [&](const auto& point) { return history.endsAt(*own, point.position); });
+    if (!kept.points.empty()) {
+      result.push_back(std::move(kept));
+    }
+  }
+  return result;
+}
+
+/// Whether it was seen by a single beam, and always by the same one.
+bool keepsItsBeam(const ScanHistory& history, const std::vector<SeenPoints>& seen, Stamp now,
+                  double clock) {
+  std::optional<std::size_t> beam;
+  for (const SeenPoints& points : seen) {
+    const auto own = scanAt(history, points.scan_time, now, clock);
+    const auto index = history.beamIndex(*own, points.points.front().position);
+    if (!points.isEcho() || (beam && index && *beam != *index)) {
+      return false;
+    }
+    beam = index ? index : beam;
+  }
+  return true;
+}
+
 /// Whether its motion is that of the end of one beam along a surface that stands, as the scanner
 /// moves past it: the bearing stays, and the surface does not lie on the scanner's own path.
-bool maySlide(const ScanHistory& history, const MovingBody& body) {
-  if (history.size() < 2 || body.velocity.isZero()) {
+bool maySlide(const ScanHistory& history, const std::vector<SeenPoints>& seen,
+              const MovingBody& body, Stamp now, double clock) {
+  if (history.size() < 2 || body.velocity.isZero() || !keepsItsBeam(history, seen, now, clock)) {
     return false;
   }
   const Point2 line_of_sight = body.box.center.position() - history.scanner(0);
@@ -158,6 +208,7 @@ class ScanBeams {
 
 void MotionLikelihoodOptions::visit(OptionVisitor& visitor) {
   constexpr Bounds kProbability{0.01, 0.99};
+  constexpr Bounds kError{1e-6, 0.5};
   visitor.number({"window", "s",
                   "how far back beams are asked what they saw where a target was seen; slow ones "
                   "need longer to leave their position"},
@@ -180,19 +231,19 @@ void MotionLikelihoodOptions::visit(OptionVisitor& visitor) {
   visitor.number({"apparent_motion", "1",
                   "that what stands seems to move: what is seen of it slides, or echoes of "
                   "different things were joined"},
-                 apparent_motion, kProbability);
+                 apparent_motion, kError);
+  visitor.number({"apparent_box_motion", "1",
+                  "the same of objects that come without beams: the whole boxes of a camera or of "
+                  "another detector, of which no part comes into view"},
+                 apparent_box_motion, kError);
   visitor.number({"wrong_velocity", "1",
                   "the same of what a sensor measures the velocity of: what it measured is of "
                   "something else"},
-                 wrong_velocity, kProbability);
+                 wrong_velocity, kError);
   visitor.number({"moving_prior", "1",
                   "that a target that the map does not know as static moves, before its beams are "
                   "asked"},
                  moving_prior, kProbability);
-  visitor.number({"clutter_odds", "1",
-                  "chains of false alarms, of all that can be made of them, for each object that "
-                  "moves"},
-                 clutter_odds, {1.0, 1e12});
   visitor.number({"required_probability", "1",
                   "that a target moves, from which on it does: its sweep draws the operating curve "
                   "of missed frames against false tracks",
@@ -204,6 +255,7 @@ BeamEvidence beamEvidence(const ScanHistory& history, const SeenPointHistory& se
                           const MovingBody& body, Stamp now, double clock,
                           const MotionLikelihoodOptions& options) {
   const ScanBeams scan_beams(history, body, clock, options);
+  const std::vector<SeenPoints> by_beams = seenByBeams(history, seen, now, clock);
   const auto sumWith = [&](const Point2& echo_direction) {
     CrossingBeams sum;
     for (std::size_t back = 0; back < history.size(); ++back) {
@@ -213,9 +265,9 @@ BeamEvidence beamEvidence(const ScanHistory& history, const SeenPointHistory& se
       }
       CrossingBeams of_scan;
       int asked = 0;
-      for (const auto& points : seen.scans()) {
-        if (std::abs(time - points->time) >= kSameScan) {
-          of_scan.add(scan_beams.of(back, time, *points, echo_direction), 1.0);
+      for (const SeenPoints& points : by_beams) {
+        if (std::abs(time - points.scan_time) >= kSameScan) {
+          of_scan.add(scan_beams.of(back, time, points, echo_direction), 1.0);
           ++asked;
         }
       }
@@ -224,7 +276,8 @@ BeamEvidence beamEvidence(const ScanHistory& history, const SeenPointHistory& se
     return sum.evidence(options.detection_strength);
   };
   BeamEvidence evidence = sumWith(Point2::Zero());
-  if (maySlide(history, body)) {
+  evidence.seen_by_beams = !by_beams.empty();
+  if (maySlide(history, by_beams, body, now, clock)) {
     evidence.log_ratio_to_grazing = sumWith(body.velocity.normalized()).log_ratio;
   }
   return evidence;
@@ -253,11 +306,10 @@ double motionLogRatio(const BeamEvidence& beams, double velocity_log_ratio, doub
              : facing;
 }
 
-double motionProbability(double log_ratio, double association_score,
+double motionProbability(double log_ratio, double existence_log_odds,
                          const MotionLikelihoodOptions& options) {
   const double stands = (1.0 - options.moving_prior) / options.moving_prior;
-  return 1.0 / (1.0 + stands * std::exp(-log_ratio) +
-                options.clutter_odds * std::exp(-association_score));
+  return 1.0 / (1.0 + stands * std::exp(-log_ratio) + std::exp(-existence_log_odds));
 }
 
 }  // namespace datmo

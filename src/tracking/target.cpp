@@ -26,19 +26,8 @@ ImmFilter birth(const Object& object, const PositionMeasurement& measured,
           transitions};
 }
 
-/// How many times in a row two sensors saw it move; one sensor alone adds nothing.
-int detectionsAfter(int before, const Object& object, double min_free_share) {
-  if (object.sensors.size() < 2) {
-    return before;
-  }
-  const bool moves = object.dynamic_state == DynamicState::kMoving &&
-                     object.object_class != ObjectClass::kPole &&
-                     object.moving_fraction >= min_free_share;
-  return moves ? before + 1 : 0;
-}
-
-/// Most that one scan adds to the association score or takes from it: no outlier decides.
-constexpr double kScanLimit = 8.0;
+/// A probability that is as likely as not.
+constexpr double kEven = 0.5;
 
 /// m/s, but for one standard deviation.
 double sureSpeed(const StateEstimate& estimate) {
@@ -57,51 +46,27 @@ double sureSpeed(const StateEstimate& estimate) {
 void TargetOptions::visit(OptionVisitor& visitor) {
   visitor.group("filter", [&] { filter.visit(visitor); });
   visitor.group("box", [&] { box.visit(visitor); });
-  visitor.group("evidence", [&] { evidence.visit(visitor); });
+  visitor.group("existence", [&] { existence.visit(visitor); });
   visitor.group("motion_likelihood", [&] { motion_likelihood.visit(visitor); });
   visitor.group("class_by_speed", [&] { class_by_speed.visit(visitor); });
-  visitor.number({"birth_probability", "1",
-                  "that a new object of no target is something that will be followed, and not a "
-                  "false alarm"},
-                 birth_probability, {1e-4, 0.9999});
   visitor.number({"birth_speed_std", "m/s",
                   "standard deviation of each component of the velocity of a new object"},
                  birth_speed_std, {0.1, 100.0});
-  visitor.number({"stop_speed", "m/s",
-                  "a moving object stands when it is slower; below evidence/min_speed, so that "
-                  "noise does not switch it"},
-                 stop_speed, {0.01, 100.0});
-  visitor.number({"fused_free_share", "1",
-                  "of the points of an object that two sensors see, as many must lie where the map "
-                  "is free for it to be known as moving at once: less may be an echo beside "
-                  "something that stands"},
-                 fused_free_share, {0.0, 1.0});
-  visitor.integer({"fused_vehicle_detections", "1",
-                   "times in a row that this is so before it is known of a vehicle, and of what "
-                   "has no class yet; others at the first detection (thesis 3.3.4: all)"},
-                  fused_vehicle_detections, {1, 100});
-  visitor.number({"fused_history", "s",
-                  "who was followed for longer must have a significant velocity besides"},
-                 fused_history, {0.0, 60.0});
-  visitor.number({"fused_proof_time", "s",
-                  "who was known as moving at once and is not seen to move in this time, nor may "
-                  "be, is no track: a person of 1.4 m/s goes twice evidence/min_overrun"},
-                 fused_proof_time, {0.0, 60.0});
+  visitor.number({"stop_speed", "m/s", "a moving object stands when it is slower"}, stop_speed,
+                 {0.01, 100.0});
 }
 
 Target::Target(const Object& object, std::size_t index, std::uint64_t number,
                const TargetOptions& options, const std::optional<TransitionModel>& transitions)
     : box_(object, options.box),
       filter_(birth(object, box_.measurementOf(object), options, transitions)),
-      evidence_(object, options.evidence),
       number_(number),
       measurement_index_(index),
       height_(object.height),
       motion_log_odds_(object.motion_log_odds),
-      detections_of_two_(detectionsAfter(0, object, options.fused_free_share)),
       sensors_(std::make_shared<const std::vector<std::string>>(object.sensors)) {
   class_.update(object.object_class, object.class_probability);
-  seen_points_.add(object, object.delay, options.motion_likelihood.window);
+  seen_points_.add(object, 0.0, options.motion_likelihood.window);
   if (object.velocity) {
     takeVelocity(*object.velocity, options);
   }
@@ -110,7 +75,6 @@ Target::Target(const Object& object, std::size_t index, std::uint64_t number,
 void Target::predict(double seconds, const ImmSteps& steps, const TargetOptions& options) {
   filter_.predict(steps[static_cast<std::size_t>(objectClass())]);
   box_.predict(seconds, options.box);
-  evidence_.predict(seconds, options.evidence);
   age_ += seconds;
   since_update_ += seconds;
   measurement_index_ = kUnseen;
@@ -121,17 +85,14 @@ void Target::update(const Observation& observation, std::size_t index, double de
   const Object& object = observation.object;
   const PositionMeasurement measured = measurementOf(object);
   const double likelihood = filter_.logLikelihood(measured);
-  evidence_.update(object, measured, likelihood, detection_probability, options.evidence);
-  association_score_ +=
-      std::clamp(likelihood + std::log(detection_probability) - observation.log_density,
-                 -kScanLimit, kScanLimit);
+  existence_.detect(likelihood, detection_probability, observation.log_density, object.log_odds,
+                    options.existence);
   filter_.update(measured, options.filter.min_probability);
   if (object.velocity) {
     takeVelocity(*object.velocity, options);
   }
   const Point2 shift = box_.update(object, since_update_, options.box);
   filter_.shift(shift);
-  evidence_.shift(shift);
   judgeMotion(options);
   if (moving_) {
     const StateEstimate& estimate = filter_.estimate();
@@ -143,50 +104,53 @@ void Target::update(const Observation& observation, std::size_t index, double de
   since_update_ = 0.0;
   height_ = object.height > 0.0 ? object.height : height_;
   motion_log_odds_ = object.motion_log_odds;
-  detections_of_two_ = detectionsAfter(detections_of_two_, object, options.fused_free_share);
   if (object.sensors != *sensors_) {
     sensors_ = std::make_shared<const std::vector<std::string>>(object.sensors);
   }
   class_.update(object.object_class, object.class_probability);
-  has_moved_ = has_moved_ || evidentlyMoves(options);
   if (!confirmed()) {
-    seen_points_.add(object, age_ + object.delay, options.motion_likelihood.window);
+    seen_points_.add(object, age_, options.motion_likelihood.window);
   }
 }
 
 void Target::miss(double detection_probability, const TargetOptions& options) {
-  evidence_.miss(detection_probability, options.evidence);
-  association_score_ += std::log(1.0 - detection_probability);
+  existence_.miss(detection_probability, options.existence);
 }
 
-bool Target::movesByBeams(const ScanHistory& history, Stamp now,
-                          const TargetOptions& options) const {
+double Target::motionProbability(const ScanHistory& history, Stamp now,
+                                 const TargetOptions& options) const {
   const StateEstimate& estimate = filter_.estimate();
   const MovingBody body{box(), box_.sizeVariance(), estimate.mean.segment<2>(2),
                         0.5 * estimate.covariance.block<2, 2>(2, 2).trace()};
   BeamEvidence beams =
       beamEvidence(history, seen_points_, body, now, age_, options.motion_likelihood);
-  if (beams.observed == 0 && !velocity_measured_) {
-    return evidentlyMoves(options);
-  }
   if (velocity_measured_) {
     beams.log_ratio_to_grazing.reset();  // the end of a beam has no velocity that can be measured
   }
-  const Eigen::Vector2d velocity = estimate.mean.segment<2>(2);
+  const double false_motion =
+      beams.seen_by_beams ? falseMotion(options) : options.motion_likelihood.apparent_box_motion;
+  const double log_ratio =
+      motion_log_odds_ + motionLogRatio(beams, velocityEvidence(false_motion, options),
+                                        options.motion_likelihood.grazing_share);
+  return datmo::motionProbability(log_ratio, existence_.logOdds(options.existence),
+                                  options.motion_likelihood);
+}
+
+/// That it seems to move if it stands.
+double Target::falseMotion(const TargetOptions& options) const {
+  return velocity_measured_ ? options.motion_likelihood.wrong_velocity
+                            : options.motion_likelihood.apparent_motion;
+}
+
+/// Logarithm of how much likelier its velocity is if it moves than if it stands.
+double Target::velocityEvidence(double false_motion, const TargetOptions& options) const {
+  const StateEstimate& estimate = filter_.estimate();
   // Few are faster than a class's usual speed: two standard deviations.
   const std::vector<double> speed_stds{0.5 * options.class_by_speed.pedestrian_speed,
                                        0.5 * options.class_by_speed.cyclist_speed,
                                        options.birth_speed_std};
-  const double of_velocity =
-      velocityLogRatio(velocity, estimate.covariance.block<2, 2>(2, 2), speed_stds,
-                       velocity_measured_ ? options.motion_likelihood.wrong_velocity
-                                          : options.motion_likelihood.apparent_motion);
-  const double log_ratio =
-      motion_log_odds_ +
-      motionLogRatio(beams, of_velocity, options.motion_likelihood.grazing_share);
-  return velocity.norm() >= options.evidence.min_speed &&
-         motionProbability(log_ratio, association_score_, options.motion_likelihood) >=
-             options.motion_likelihood.required_probability;
+  return velocityLogRatio(estimate.mean.segment<2>(2), estimate.covariance.block<2, 2>(2, 2),
+                          speed_stds, false_motion);
 }
 
 double Target::sameClassProbability(const Object& object) const {
@@ -197,24 +161,6 @@ double Target::sameClassProbability(const Object& object) const {
   // The other classes share the rest equally, as in ClassBelief.
   const double own = class_.probability(object.object_class);
   return own * said + (1.0 - own) * (1.0 - said) / static_cast<double>(kObjectClasses - 1);
-}
-
-bool Target::isSeenMovingByTwo(const TargetOptions& options) const {
-  const bool person =
-      objectClass() == ObjectClass::kPedestrian || objectClass() == ObjectClass::kCyclist;
-  if (sensors_->size() < 2 ||
-      detections_of_two_ < (person ? 1 : options.fused_vehicle_detections)) {
-    return false;
-  }
-  return followed() <= options.fused_history
-             ? mayMove(options)
-             : velocityIsSignificant(filter_.estimate(), options.evidence.speed_significance,
-                                     options.evidence.min_speed);
-}
-
-double Target::existenceProbability(const TargetOptions& options) const {
-  const double birth = options.birth_probability;
-  return 1.0 / (1.0 + (1.0 - birth) / birth * std::exp(-evidence_.score()));
 }
 
 void Target::confirm(std::uint32_t id, bool moves) {
@@ -234,18 +180,15 @@ void Target::takeVelocity(const MeasuredVelocity& measured, const TargetOptions&
     return;
   }
   velocity_measured_ = true;
-  const double standing = Innovation{measured.velocity, measured.covariance}.logLikelihood();
-  evidence_.addVelocity(own - standing, options.evidence);
   filter_.update(measured, options.filter.min_probability);
 }
 
-/// Between the two speeds it stays as it was.
+/// In between it stays as it was.
 void Target::judgeMotion(const TargetOptions& options) {
-  const StateEstimate& estimate = filter_.estimate();
-  if (evidence_.seemsToStand() || estimate.mean.segment<2>(2).norm() < options.stop_speed) {
+  const double standing = filter_.modeProbabilities()[static_cast<int>(MotionMode::kStanding)];
+  if (standing > kEven || filter_.estimate().mean.segment<2>(2).norm() < options.stop_speed) {
     moving_ = false;
-  } else if (velocityIsSignificant(estimate, options.evidence.speed_significance,
-                                   options.evidence.min_speed)) {
+  } else if (velocityEvidence(falseMotion(options), options) > 0.0) {
     moving_ = true;
   }
 }

@@ -148,7 +148,6 @@ bool Tracker::isLost(const Target& target) const {
                              ? silenceAfter(target.followed(), options_.confirmed_silence)
                              : options_.tentative_silence;
   return (target.confirmed() && existence(target) < options_.min_existence) ||
-         (options_.require_motion && target.motionRefuted(options_.target)) ||
          target.sinceUpdate() > allowed ||
          !(positionStd(target) <= options_.max_position_std);  // nor what is not a number
 }
@@ -181,15 +180,13 @@ void Tracker::confirm() {
 }
 
 bool Tracker::seemsToMove(const Target& target) const {
-  return target.movesByBeams(scans_, *stamp_, options_.target) ||
-         target.isSeenMovingByTwo(options_.target);
+  return target.motionProbability(scans_, *stamp_, options_.target) >=
+         options_.target.motion_likelihood.required_probability;
 }
 
 bool Tracker::deservesTrack(const Target& target) const {
-  const bool fused = target.sensors().size() > 1;
-  const int hits = fused ? options_.fused_confirmation_hits : options_.confirmation_hits;
   return target.measurementIndex() != kUnseen &&
-         target.hits() >= static_cast<std::uint32_t>(hits) &&
+         target.hits() >= static_cast<std::uint32_t>(options_.confirmation_hits) &&
          target.objectClass() != ObjectClass::kPole &&
          existence(target) >= options_.confirmation_existence &&
          (!options_.require_motion || seemsToMove(target));

@@ -27,10 +27,6 @@ void TrackerOptions::visit(OptionVisitor& visitor) {
   visitor.integer(
       {"confirmation_hits", "1", "objects before a track is published (thesis 3.3.4: three steps)"},
       confirmation_hits, kHits);
-  visitor.integer({"fused_confirmation_hits", "1",
-                   "the same of objects that two sensors see, of which one sees them move (thesis "
-                   "3.3.4: one step)"},
-                  fused_confirmation_hits, kHits);
   constexpr Bounds kProbability{0.0, 1.0};
   visitor.number(
       {"confirmation_existence", "1", "existence probability from which a target is confirmed"},

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/common/square.h"
 #include "datmo_fusion/visibility/beam_fan.h"
 
 namespace datmo {
@@ -48,7 +49,9 @@ void ScanHistory::add(const LabeledScan& scan) {
       seen.beams[beam] = {};
     }
   }
+  seen.ends.reserve(scan.points.size());
   for (const ScanPoint& point : scan.points) {
+    seen.ends.push_back(scan.base_in_map.pose * point.position);
     if (point.beam < seen.beams.size()) {
       seen.beams[point.beam] = {static_cast<float>(point.range), true};
     }
@@ -81,6 +84,21 @@ const ScanHistory::Beam* ScanHistory::beamToward(const Scan& scan, const Point2&
   }
   bearing = fan.bearingAt(static_cast<double>(*nearest));
   return &scan.beams[*nearest];
+}
+
+std::optional<std::size_t> ScanHistory::beamIndex(std::size_t back, const Point2& position) const {
+  const Scan& scan = scans_[back];
+  double bearing = 0.0;
+  const Beam* beam = beamToward(scan, scan.map_in_scanner * position, bearing);
+  return beam ? std::make_optional(static_cast<std::size_t>(beam - scan.beams.data()))
+              : std::nullopt;
+}
+
+bool ScanHistory::endsAt(std::size_t back, const Point2& position) const {
+  const std::vector<Point2>& ends = scans_[back].ends;
+  return std::any_of(ends.begin(), ends.end(), [&](const Point2& end) {
+    return (end - position).squaredNorm() <= square(options_.tolerance);
+  });
 }
 
 BeamCrossing ScanHistory::look(std::size_t back, const ReflectionPoint& location) const {

@@ -25,12 +25,13 @@ Point2 directionAt(const std::vector<Point2>& points, std::size_t index) {
 
 }  // namespace
 
-void SeenPointHistory::add(const Object& object, double time, double memory) {
+void SeenPointHistory::add(const Object& object, double scan_time, double memory) {
   const std::size_t size = object.points.size();
   if (size == 0) {
     return;
   }
-  SeenPoints seen{time, {}};
+  const double time = scan_time + object.delay;
+  SeenPoints seen{time, scan_time, {}};
   const std::size_t taken = std::min(size, kMaxPoints);
   for (std::size_t i = 0; i < taken; ++i) {
     const std::size_t index = taken == 1 ? 0 : i * (size - 1) / (taken - 1);

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <stdexcept>
 #include <utility>
 
+#include "image_check.h"
 #include <opencv2/core.hpp>
 
 #include "datmo_fusion/tracking/object_check.h"
@@ -130,12 +130,7 @@ MonoClassifier::~MonoClassifier() = default;
 
 MonoClassification MonoClassifier::classify(const cv::Mat& image, const MountedCamera& camera,
                                             const ObjectList& objects) {
-  if (image.cols != std::lround(camera.width) || image.rows != std::lround(camera.height)) {
-    throw std::invalid_argument("image of " + std::to_string(image.cols) + " x " +
-                                std::to_string(image.rows) + " px: expected that of the camera, " +
-                                std::to_string(std::lround(camera.width)) + " x " +
-                                std::to_string(std::lround(camera.height)) + " px");
-  }
+  checkSize(image, camera);
   const std::vector<InView> seen = inView(camera, objects);
   MonoClassification result = options_.method == MonoMethod::kThesis
                                   ? asInThesis(image, camera, seen)

@@ -12,8 +12,9 @@ import yaml
 
 from datmo_tools import programs
 from datmo_tools.experiments.encounter_scenes import (AVOIDED, ENDINGS, MEETING, STOPS, Encounter,
-                                                       encounters, random_scenes, scene)
+                                                       encounters, scene)
 from datmo_tools.experiments.encounters import main
+from datmo_tools.experiments.random_encounters import random_scenes
 
 PROGRAM = os.environ.get("DATMO_FUSION_TRUE_RISKS", "")
 # Of each kind one; few beams and a small ground truth: only the contact counts.

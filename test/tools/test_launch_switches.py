@@ -5,14 +5,10 @@ once, with a type that the package (or a named one) has, and takes what is publi
 
 import functools
 import itertools
-import os
 import unittest
-from pathlib import Path
 from xml.etree import ElementTree
 
-import roslaunch.config
-
-PACKAGE = Path(__file__).resolve().parents[2]
+from launch_files import PACKAGE, load
 
 ALWAYS = {"grid_slam", "motion", "moving_objects", "tracker", "markers", "stack"}
 LOW_LEVEL = {"lidar_grid", "stereo_grid", "grid_fusion", "grid_views"}
@@ -36,8 +32,7 @@ def loaded(file, **arguments):
     """The nodes of a launch file, by name, and its parameters, by key."""
     words = [f"{key}:={str(value).lower() if isinstance(value, bool) else value}"
              for key, value in arguments.items()]
-    config = roslaunch.config.load_config_default([(str(PACKAGE / "launch" / file), words)], None,
-                                                  verbose=False)
+    config = load(file, words)
     return ({node.name: node for node in config.nodes},
             {key: parameter.value for key, parameter in config.params.items()})
 
@@ -53,11 +48,6 @@ def remapped(node, topic):
 
 
 class LaunchSwitches(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        others = os.environ.get("ROS_PACKAGE_PATH", "")
-        os.environ["ROS_PACKAGE_PATH"] = f"{PACKAGE}:{others}"
-
     @staticmethod
     def each(file, **more):
         """(switches, nodes, parameters) of each combination"""
@@ -188,7 +178,7 @@ class LaunchSwitches(unittest.TestCase):
             with self.subTest(object_fusion=objects):
                 nodes, parameters = loaded("perception.launch", mono=True, object_fusion=objects,
                                            camera_image="view", camera_info="view_info")
-                expected = ALWAYS | {"mono_classifier", "object_fusion"}
+                expected = ALWAYS | {"mono_classifier", "object_fusion", "camera_view"}
                 self.assertEqual(set(nodelets(nodes)), expected | (
                     OBJECT_LEVEL | {"stereo_alignment"} if objects else set()))
                 self.assertEqual(remapped(nodes["mono_classifier"], "image"), "view")
@@ -196,6 +186,18 @@ class LaunchSwitches(unittest.TestCase):
                 self.assertEqual(remapped(nodes["tracker"], "objects"), "objects/fused")
                 self.assertIs(parameters["/object_fusion/sources/mono/use"], True)
                 self.assertIs(parameters.get("/object_fusion/sources/stereo/use", True), objects)
+
+    def test_mono_with_grids_is_one_more_grid(self):
+        nodes, parameters = loaded("perception.launch", mono=True, low_level_fusion=True,
+                                   camera_image="view", camera_info="view_info",
+                                   cloud="/velodyne_points")
+        self.assertEqual(nodelets(nodes)["mono_grid"], "datmo_fusion/mono_grid")
+        for topic, name in (("image", "view"), ("camera_info", "view_info"), ("scan", "cloud_scan")):
+            self.assertEqual(remapped(nodes["mono_grid"], topic), name)
+        self.assertIs(parameters["/grid_fusion/sources/mono/use"], True)
+        without, parameters = loaded("perception.launch", low_level_fusion=True)
+        self.assertNotIn("mono_grid", without)
+        self.assertNotIn("/grid_fusion/sources/mono/use", parameters)
 
     def test_there_is_a_thread_for_each_nodelet(self):
         for switches, nodes, parameters in self.each("perception.launch"):

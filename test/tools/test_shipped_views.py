@@ -5,18 +5,13 @@ name topics and nodes that there are, and record.launch takes what the chain tak
 
 import itertools
 import json
-import os
 import re
 import unittest
-from pathlib import Path
-from unittest import mock
 
-import roslaunch.config
 import yaml
+from launch_files import PACKAGE, load
 
 from datmo_tools.launch_arguments import arguments_of
-
-PACKAGE = Path(__file__).resolve().parents[2]
 
 
 def panels_of(node):
@@ -34,11 +29,7 @@ def node_names():
 
 def recorder(*words):
     """The words of rosbag record."""
-    path = f"{PACKAGE}:{os.environ.get('ROS_PACKAGE_PATH', '')}"
-    with mock.patch.dict(os.environ, ROS_PACKAGE_PATH=path):
-        config = roslaunch.config.load_config_default(
-            [(str(PACKAGE / "launch/record.launch"), ["bag:=drive", *words])], None, verbose=False)
-    node, = config.nodes
+    node, = load("record.launch", ["bag:=drive", *words]).nodes
     return node.args.split()
 
 

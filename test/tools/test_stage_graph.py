@@ -8,11 +8,9 @@ import json
 import os
 import subprocess
 import unittest
-from pathlib import Path
 
-import roslaunch.config
+from launch_files import load
 
-PACKAGE = Path(__file__).resolve().parents[2]
 LEVELS = ("low_level_fusion", "stereo_objects", "object_fusion", "track_fusion", "mono")
 OTHERS = ("cloud", "road_border", "static_points", "cloud_objects", "risk")
 DISPLAYS = {"markers", "lidar_markers", "stereo_markers", "grid_views", "camera_view", "stack"}
@@ -29,8 +27,7 @@ def launched_stages(switches):
     """The same of perception.launch; topics that are remapped to themselves are left out."""
     words = [f"{switch}:={str(switch in switches).lower()}" for switch in LEVELS + OTHERS if switch != "cloud"]
     words += ["cloud:=cloud"] if "cloud" in switches else []
-    config = roslaunch.config.load_config_default(
-        [(str(PACKAGE / "launch" / "perception.launch"), words)], None, verbose=False)
+    config = load("perception.launch", words)
     stages = {}
     for node in config.nodes:
         command, _, kind = node.args.partition(" ")
@@ -45,11 +42,6 @@ def launched_stages(switches):
 
 class StageGraph(unittest.TestCase):
     maxDiff = None
-
-    @classmethod
-    def setUpClass(cls):
-        others = os.environ.get("ROS_PACKAGE_PATH", "")
-        os.environ["ROS_PACKAGE_PATH"] = f"{PACKAGE}:{others}"
 
     @staticmethod
     def combinations():

@@ -163,7 +163,8 @@ void addStages(CommandLine& line, Arguments& arguments) {
                 "finds objects in a 3D lidar's clouds, and writes /objects/cloud");
   line.add_flag("--mono", arguments.mono,
                 "names the scanner's objects by the images of the left camera before tracker, and\n"
-                "writes /objects/mono and /objects/fused");
+                "writes /objects/mono and /objects/fused; with --low-level-fusion they tell the\n"
+                "road by its colors, too, and --write-grids writes /grids/mono");
   line.add_flag("--static-points", arguments.static_points,
                 "writes what stands still: /static_points and /static_scan");
   line.addChoice(

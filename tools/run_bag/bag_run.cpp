@@ -89,6 +89,7 @@ SensorSet readSensorsFor(const Arguments& arguments) {
     sensors.set("grid_fusion", "rule", arguments.grid_rule);
   }
   if (arguments.mono) {
+    sensors.set("grid_fusion", "sources/mono/use", true);
     sensors.set("object_fusion", "sources/mono/use", true);
     if (!arguments.object_fusion) {
       sensors.set("object_fusion", "sources/stereo/use", false);

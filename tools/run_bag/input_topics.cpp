@@ -34,7 +34,7 @@ void findLowLevelTopics(const rosbag::Bag& bag, const Arguments& arguments,
   for (const std::string& source : fusion.fuser.sourcesInUse()) {
     if (source == "stereo") {
       topics.stereo = neededStereoTopics(bag, arguments, "grid_fusion");
-    } else if (source != "lidar") {
+    } else if (source != "lidar" && !(source == "mono" && arguments.mono)) {
       topics.grids["/grids/" + source] = source;
     }
   }

@@ -9,6 +9,7 @@
 #include "datmo_fusion/ros/stage/grid_slam_stage.h"
 #include "datmo_fusion/ros/stage/lidar_grid_stage.h"
 #include "datmo_fusion/ros/stage/mono_classifier_stage.h"
+#include "datmo_fusion/ros/stage/mono_grid_stage.h"
 #include "datmo_fusion/ros/stage/motion_stage.h"
 #include "datmo_fusion/ros/stage/moving_objects_stage.h"
 #include "datmo_fusion/ros/stage/object_fusion_stage.h"
@@ -47,6 +48,7 @@ const std::map<std::string, StageType>& stageTypes() {
       {"grid_slam", typeOf<GridSlamStage>()},
       {"lidar_grid", typeOf<LidarGridStage>()},
       {"mono_classifier", typeOf<MonoClassifierStage>()},
+      {"mono_grid", typeOf<MonoGridStage>()},
       {"motion", typeOf<MotionStage>()},
       {"moving_objects", typeOf<MovingObjectsStage>()},
       {"object_fusion", typeOf<ObjectFusionStage>()},

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "simulator/class_camera.h"
 #include "simulator/collision.h"
 #include "simulator/ground_truth.h"
 #include "simulator/laser_scanner.h"
@@ -24,6 +25,7 @@ struct SimulationOptions {
   bool contact = false;
   LaserScannerOptions scanner;
   StereoCameraOptions stereo;
+  ClassCameraOptions mono;
   OdometerOptions odometer;
   GroundTruthOptions ground_truth;
   TrafficOptions traffic;

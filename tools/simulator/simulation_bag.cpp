@@ -49,6 +49,9 @@ class Recording {
         features_.emplace(scene.options.stereo, seed);
       }
     }
+    if (scene.options.mono.enabled) {
+      mono_.emplace(scene.options.mono, stream("mono"));
+    }
   }
 
   void recordMounts() {
@@ -79,6 +82,10 @@ class Recording {
     if (stereo_) {
       sources.push_back({scene_.options.stereo.rate,
                          [this](double time, Stamp stamp) { recordStereo(time, stamp); }});
+    }
+    if (mono_) {
+      sources.push_back({scene_.options.mono.rate,
+                         [this](double time, Stamp stamp) { recordMono(time, stamp); }});
     }
     return sources;
   }
@@ -118,6 +125,9 @@ class Recording {
     if (stereo_) {
       views.push_back(stereo_->viewpoint());
     }
+    if (mono_) {
+      views.push_back(mono_->viewpoint());
+    }
     const auto objects =
         objectTruths(scene_.world, state, scan, views, scene_.options.ground_truth);
     write("/ground_truth/pose", stamp, toTruePose(state, map_in_world_, stamp));
@@ -142,6 +152,13 @@ class Recording {
     write("/stereo/points2", ready, toCloud(points, stamp));
   }
 
+  void recordMono(double time, Stamp stamp) {
+    ObjectList list = mono_->measure(scene_.world, time);
+    list.stamp = stamp;
+    bag_.write("/objects/mono", toTime(stamp + scene_.options.mono.latency),
+               datmo::toMessage(list, "base_link"));
+  }
+
   const Scene& scene_;
   OutputBag& bag_;
   Pose2 map_in_world_;
@@ -149,6 +166,7 @@ class Recording {
   Odometer odometer_;
   std::optional<StereoCamera> stereo_;
   std::optional<FeatureFlow> features_;
+  std::optional<ClassCamera> mono_;
 };
 
 rosbag::CompressionType compressionType(const std::string& name) {

@@ -8,6 +8,7 @@
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/detection/object_classifier.h"
 #include "datmo_fusion/sensor_model/road_plane.h"
+#include "datmo_fusion/sensor_model/road_scene.h"
 #include "datmo_fusion/sensor_model/stereo_cloud.h"
 
 namespace datmo {
@@ -45,17 +46,15 @@ struct StereoNoiseOptions {
   void visit(OptionVisitor& visitor);
 };
 
-struct StereoObjectDetectorOptions {
+struct StereoObjectDetectorOptions : RoadSceneOptions {
   StereoSurfaceOptions surfaces;
   SurfaceGroupOptions groups;
   StereoNoiseOptions noise;
   ObjectClassifierOptions classes;
-  RoadPlaneOptions road;
-  double effective_range = 36.0;  ///< m
-  double sure_range = 25.0;       ///< m
-  double min_surface = 0.15;      ///< m^2
-  double max_size = 12.0;         ///< m
-  double max_doubt = 3.0;         ///< logarithm of odds
+  double sure_range = 25.0;   ///< m
+  double min_surface = 0.15;  ///< m^2
+  double max_size = 12.0;     ///< m
+  double max_doubt = 3.0;     ///< logarithm of odds
 
   void visit(OptionVisitor& visitor);
 };

@@ -3,7 +3,7 @@
 
 #include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/sensor_model/depth_noise.h"
-#include "datmo_fusion/sensor_model/road_plane.h"
+#include "datmo_fusion/sensor_model/road_scene.h"
 
 namespace datmo {
 
@@ -22,10 +22,7 @@ struct StereoCameraOptions : DepthNoiseOptions {
 
 /// The stereo or depth camera and the road that it sees, for all stages: section `stereo_camera` of
 /// a sensor set.
-struct StereoSceneOptions : StereoCameraOptions {
-  double effective_range = 36.0;  ///< m
-  RoadPlaneOptions road;
-
+struct StereoSceneOptions : StereoCameraOptions, RoadSceneOptions {
   void visit(OptionVisitor& visitor);
 };
 

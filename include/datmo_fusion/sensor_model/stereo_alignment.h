@@ -98,7 +98,7 @@ struct StereoAlignment {
 class StereoAlignmentFilter {
  public:
   /// Throws OptionError.
-  explicit StereoAlignmentFilter(const StereoAlignmentOptions& options);
+  explicit StereoAlignmentFilter(const Checked<StereoAlignmentOptions>& options);
 
   /// As far as it is known; before the first update as the options say.
   const StereoAlignment& alignment() const { return alignment_; }

@@ -9,6 +9,7 @@
 #include "datmo_fusion/grid/grid_window_options.h"
 #include "datmo_fusion/grid/sensor_grid.h"
 #include "datmo_fusion/sensor_model/road_plane.h"
+#include "datmo_fusion/sensor_model/road_scene.h"
 #include "datmo_fusion/sensor_model/stereo_cloud.h"
 
 namespace datmo {
@@ -33,7 +34,7 @@ struct StereoColumnsOptions {
 /// How a cloud becomes a grid (StereoGridModel).
 enum class StereoGridMethod { kColumns, kCones };
 
-struct StereoGridOptions {
+struct StereoGridOptions : RoadSceneOptions {
   GridWindowOptions window;
   StereoGridMethod method = StereoGridMethod::kColumns;
   double occupied_probability = 0.8;
@@ -41,10 +42,8 @@ struct StereoGridOptions {
   double min_layer_height = 0.2;  ///< m
   double layer_thickness = 1.0;   ///< m
   double min_depth = 0.5;         ///< m
-  double effective_range = 36.0;  ///< m
   StereoColumnsOptions columns;
   StereoConesOptions cones;
-  RoadPlaneOptions road;
 
   void visit(OptionVisitor& visitor);
 };

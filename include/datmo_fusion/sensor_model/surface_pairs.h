@@ -39,7 +39,7 @@ struct SurfacePairOptions {
 class SurfacePairFinder {
  public:
   /// Throws OptionError.
-  explicit SurfacePairFinder(const SurfacePairOptions& options);
+  explicit SurfacePairFinder(const Checked<SurfacePairOptions>& options);
 
   /// `rays`: by rising beam index, in the vehicle's frame at the cloud's stamp. `expected`: how the
   /// cloud lies against the scan, as far as that is known: where the disparities are looked for.

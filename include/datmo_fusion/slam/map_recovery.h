@@ -46,7 +46,7 @@ class MapRecovery {
  public:
   /// `start`: the prior in the older map's frame, where the newer one begins at this stamp. Throws
   /// OptionError.
-  MapRecovery(const MapRecoveryOptions& options, OccupancyMap older,
+  MapRecovery(const Checked<MapRecoveryOptions>& options, OccupancyMap older,
               const PoseWithCovariance& start, Stamp stamp);
 
   /// A pose of the newer map with what is not known of that map itself.

@@ -48,8 +48,8 @@ class MapSearch {
 
   /// The vehicle is at `in_newer` in the newer map, and by `prior` in the older one; its covariance
   /// positive definite. Throws OptionError.
-  MapSearch(const MapSearchOptions& options, const OccupancyMap& older, const OccupancyMap& newer,
-            const PoseWithCovariance& prior, const Pose2& in_newer);
+  MapSearch(const Checked<MapSearchOptions>& options, const OccupancyMap& older,
+            const OccupancyMap& newer, const PoseWithCovariance& prior, const Pose2& in_newer);
 
   /// Looks at this many further boxes of poses at the most.
   Outcome advance(int boxes);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "datmo_fusion/common/pose2.h"
 #include "datmo_fusion/common/scan.h"
+#include "datmo_fusion/common/stamp.h"
 #include "datmo_fusion/common/twist2.h"
 
 namespace datmo {
@@ -17,5 +19,10 @@ double sweepDuration(const Scan& scan);
 ///
 /// What moves by itself is seen at its ray's own time and stays where it was then.
 Scan compensateMotion(Scan scan, const Twist2& twist);
+
+/// A scan that is compensated, as the vehicle would have measured it at another time. `base`: of
+/// the vehicle at the scan's stamp, in its frame at `stamp`. What moves by itself stays where it
+/// was.
+Scan scanAt(Scan scan, Stamp stamp, const Pose2& base);
 
 }  // namespace datmo

@@ -17,14 +17,14 @@ namespace datmo {
 struct MotionLikelihoodOptions {
   double window = 2.0;                 ///< s
   double detection = 0.8;              ///< 1
-  double detection_strength = 10.0;    ///< 1
+  double detection_strength = 4.0;     ///< 1
   double echo_detection = 0.6;         ///< 1
-  double background = 0.1;             ///< 1
+  double background = 0.05;            ///< 1
   double grazing_share = 0.1;          ///< 1
   double apparent_motion = 0.1;        ///< 1
+  double apparent_box_motion = 0.005;  ///< 1
   double wrong_velocity = 0.02;        ///< 1
   double moving_prior = 0.5;           ///< 1
-  double clutter_odds = 1.0e4;         ///< 1
   double required_probability = 0.95;  ///< 1
 
   void visit(OptionVisitor& visitor);
@@ -43,7 +43,8 @@ struct BeamEvidence {
   double log_ratio = 0.0;  ///< that it moves over that it stands, as a surface that faces the beams
   /// That it moves over that it is the end of a beam along a wall; none: it cannot be.
   std::optional<double> log_ratio_to_grazing;
-  std::size_t observed = 0;  ///< informative beams; 0: nothing is known
+  std::size_t observed = 0;    ///< informative beams; 0: nothing is known
+  bool seen_by_beams = false;  ///< by one that ended on it, once at least
 };
 
 /// Asks all beams of a window of scans whether something was at the positions where a target was
@@ -88,12 +89,11 @@ double velocityLogRatio(const Eigen::Vector2d& velocity, const Eigen::Matrix2d& 
 /// beam along a wall, where that may be: these have an apparent velocity, so it says nothing.
 double motionLogRatio(const BeamEvidence& beams, double velocity_log_ratio, double grazing_share);
 
-/// That a target moves and is one object: neither something that stands nor a chain of false
-/// alarms. `log_ratio`: logarithm of how much likelier what is known of it is if it moves than if
-/// it stands: what the beams say, its velocity, and where it lies. `association_score`: logarithm
-/// of how much likelier its objects are for one moving object than for clutter of the density where
-/// they are.
-double motionProbability(double log_ratio, double association_score,
+/// That a target moves and exists: neither something that stands nor a chain of false alarms.
+/// `log_ratio`: logarithm of how much likelier what is known of it is if it moves than if it
+/// stands: what the beams say, its velocity, and where it lies. `existence_log_odds`: of one moving
+/// object against clutter (ExistenceScore).
+double motionProbability(double log_ratio, double existence_log_odds,
                          const MotionLikelihoodOptions& options);
 
 }  // namespace datmo

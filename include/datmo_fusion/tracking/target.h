@@ -13,8 +13,8 @@
 #include "datmo_fusion/common/object.h"
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/tracking/class_by_speed.h"
+#include "datmo_fusion/tracking/existence_score.h"
 #include "datmo_fusion/tracking/imm_filter.h"
-#include "datmo_fusion/tracking/motion_evidence.h"
 #include "datmo_fusion/tracking/motion_likelihood.h"
 #include "datmo_fusion/tracking/track.h"
 #include "datmo_fusion/tracking/tracked_box.h"
@@ -27,16 +27,11 @@ struct Observation;
 struct TargetOptions {
   ImmOptions filter;
   TrackedBoxOptions box;
-  MotionEvidenceOptions evidence;
+  ExistenceOptions existence;
   MotionLikelihoodOptions motion_likelihood;
   ClassBySpeedOptions class_by_speed;
-  double birth_probability = 0.2;  ///< 1
-  double birth_speed_std = 8.0;    ///< m/s
-  double stop_speed = 0.4;         ///< m/s
-  double fused_free_share = 0.8;   ///< 1
-  int fused_vehicle_detections = 2;
-  double fused_history = 0.5;     ///< s
-  double fused_proof_time = 2.0;  ///< s
+  double birth_speed_std = 8.0;  ///< m/s
+  double stop_speed = 0.4;       ///< m/s
 
   void visit(OptionVisitor& visitor);
 };
@@ -47,7 +42,7 @@ inline constexpr double kChanceOfClass = 1.0 / static_cast<double>(kObjectClasse
 /// No observation of a scan.
 inline constexpr std::size_t kUnseen = std::numeric_limits<std::size_t>::max();
 
-/// Something that is followed, whether it moves or not: filter, box, evidence of motion and history
+/// Something that is followed, whether it moves or not: filter, box, existence and observed points
 /// of one track. Confirmed targets have an id. Cheap to copy: each leaf of a track tree is one.
 class Target {
  public:
@@ -80,33 +75,18 @@ class Target {
   /// is not known it is chance: one in kObjectClasses.
   double sameClassProbability(const Object& object) const;
 
-  /// By its objects alone.
-  bool evidentlyMoves(const TargetOptions& options) const {
-    return evidence_.suffices(filter_.estimate(), options.evidence);
-  }
-
-  /// By its velocity and by what all beams of the last scans saw at its positions; `now`: the time
-  /// of its state. Where they saw nothing of them and no sensor measured its velocity, by its
-  /// objects alone.
-  bool movesByBeams(const ScanHistory& history, Stamp now, const TargetOptions& options) const;
-
-  /// Two sensors see it now, one of which sees it move (thesis 3.3.3), and nothing that it did
-  /// before says that it stands.
-  ///
-  /// The thesis takes that for a fact at the first detection. But vehicles stand at every curb, and
-  /// what is beside one, or an echo of the curb below it, looks as if it moved: that one moves has
-  /// to be seen more than once. Who was followed for longer has shown by then whether it moves.
-  bool isSeenMovingByTwo(const TargetOptions& options) const;
-
-  /// It was taken for a moving object before its own motion was evident, and has had the time to
-  /// show that it does not move.
-  bool motionRefuted(const TargetOptions& options) const {
-    return confirmed() && !has_moved_ && followed() > options.fused_proof_time && !mayMove(options);
-  }
+  /// That it moves and exists, by where it lies, by its velocity, and by what all beams of the last
+  /// scans observed at its positions; `now`: the time of its state. Without beams, as of a camera,
+  /// by the others alone. Not to be asked of confirmed targets: their observed points are
+  /// forgotten.
+  double motionProbability(const ScanHistory& history, Stamp now,
+                           const TargetOptions& options) const;
 
   /// That it is something at all and not a chain of false alarms, from the track score (Blackman
   /// 2004).
-  double existenceProbability(const TargetOptions& options) const;
+  double existenceProbability(const TargetOptions& options) const {
+    return existence_.probability(options.existence);
+  }
 
   /// It becomes a track; `moves`: as far as is known now.
   void confirm(std::uint32_t id, bool moves);
@@ -138,30 +118,23 @@ class Target {
  private:
   void takeVelocity(const MeasuredVelocity& measured, const TargetOptions& options);
   void judgeMotion(const TargetOptions& options);
-  bool mayMove(const TargetOptions& options) const {
-    return mayBeAsFastAs(filter_.estimate(), options.evidence.speed_significance,
-                         options.evidence.min_speed);
-  }
+  double falseMotion(const TargetOptions& options) const;
+  double velocityEvidence(double false_motion, const TargetOptions& options) const;
 
   TrackedBox box_;
   ImmFilter filter_;
-  MotionEvidence evidence_;
-  /// Logarithm of how much likelier its objects are for one moving object than for clutter. Other
-  /// than the score of existence it is not limited: it looks back at all that is known.
-  double association_score_ = 0.0;
+  ExistenceScore existence_;
   SeenPointHistory seen_points_;  ///< until it is confirmed
   std::uint64_t number_;
   std::uint32_t id_ = 0;
   std::size_t measurement_index_;
   std::uint32_t hits_ = 1;
   bool moving_ = false;
-  bool has_moved_ = false;          ///< as it was seen to, once at least
   bool velocity_measured_ = false;  ///< by some sensor, once at least
   double age_ = 0.0;
   double since_update_ = 0.0;
   double height_;
   double motion_log_odds_;
-  int detections_of_two_;  ///< in a row: two sensors saw it, one of them saw it move
   ClassBelief class_;
   std::shared_ptr<const std::vector<std::string>> sensors_;  ///< shared: a target is copied often
 };

@@ -34,7 +34,7 @@ struct TrackerCounts {
 ///
 /// Every object that is not known as static starts a target, which is followed inside, in several
 /// hypotheses; what is published are confirmed targets of the most likely one. They have been seen
-/// several times, evidently move or have moved (MotionEvidence), and are likely enough to exist. A
+/// several times, surely move or have moved (motionProbability), and are likely enough to exist. A
 /// track lives without objects for as long as it was followed with them, up to a limit, and as long
 /// as it is not missed where it should be seen.
 ///
@@ -49,8 +49,8 @@ class Tracker {
   /// Goes on with other live options (Tier::kLive); all others must be as they were.
   void setOptions(const Checked<TrackerOptions>& options);
 
-  /// Takes the beams of a scan, by rising stamps: they show what moves (MotionLikelihoodOptions).
-  /// Without them its objects alone do (MotionEvidence).
+  /// Takes the beams of a scan, by rising stamps: evidence of what moves (MotionLikelihoodOptions).
+  /// Without them the velocities of its objects alone are.
   void addScan(const LabeledScan& scan);
 
   /// Takes the objects of one time, in the vehicle's frame, the vehicle's pose in the fixed frame
@@ -82,7 +82,7 @@ class Tracker {
   bool isPublished(const BestTarget& best) const;
   void confirm();
 
-  /// By what it did, or by what two sensors see of it.
+  /// With the required probability, as far as is known.
   bool seemsToMove(const Target& target) const;
   bool deservesTrack(const Target& target) const;
 

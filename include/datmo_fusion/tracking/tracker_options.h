@@ -32,7 +32,6 @@ struct TrackerOptions {
   DuplicateOptions duplicates;
   bool require_motion = true;
   int confirmation_hits = 3;
-  int fused_confirmation_hits = 1;
   double confirmation_existence = 0.5;  ///< 1
   double min_existence = 0.25;          ///< 1
   double published_existence = 0.5;     ///< 1

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "datmo_fusion/common/options.h"
@@ -64,6 +65,12 @@ class ScanHistory {
   /// m, along a beam: an end nearer to a surface than this is on it.
   double tolerance() const { return options_.tolerance; }
 
+  /// Index of the beam of that scan toward a point (m, map frame); none: not in view.
+  std::optional<std::size_t> beamIndex(std::size_t back, const Point2& position) const;
+
+  /// Whether a beam of that scan ended there (m, map frame).
+  bool endsAt(std::size_t back, const Point2& position) const;
+
   /// What that scan observed at a point, by the beam toward it.
   BeamCrossing look(std::size_t back, const ReflectionPoint& location) const;
 
@@ -79,6 +86,7 @@ class ScanHistory {
     Pose2 map_in_scanner;
     ScanField field;
     std::vector<Beam> beams;
+    std::vector<Point2> ends;  ///< m, map frame, where they were at the scan's stamp
   };
 
   const Beam* beamToward(const Scan& scan, const Point2& seen, double& bearing) const;

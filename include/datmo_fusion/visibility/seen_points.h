@@ -12,7 +12,8 @@ namespace datmo {
 
 /// Points where beams ended on a target in one scan, in the fixed frame.
 struct SeenPoints {
-  double time = 0.0;  ///< s, on the target's clock
+  double time = 0.0;       ///< s, on the target's clock, when they were seen
+  double scan_time = 0.0;  ///< s, the same of their scan's stamp
   std::vector<ReflectionPoint> points;
 
   /// Nothing is known of how far the surface reaches beside a single echo.
@@ -23,9 +24,9 @@ struct SeenPoints {
 /// as they came. Cheap to copy: what was seen is shared.
 class SeenPointHistory {
  public:
-  /// Adds the points of an object (fixed frame) that was seen at `time` (s, rising), of long ones
+  /// Adds the points of an object (fixed frame) of a scan at `scan_time` (s, rising), of long ones
   /// some, and forgets those older than `memory` (s). An object without points adds nothing.
-  void add(const Object& object, double time, double memory);
+  void add(const Object& object, double scan_time, double memory);
   void clear() { seen_.clear(); }
 
   /// Oldest first.

@@ -16,6 +16,10 @@ GridFuserOptions::GridFuserOptions() {
   GridSourceOptions& stereo = sources["stereo"];
   stereo.priority = 1;
   stereo.reliability = 0.9;
+  GridSourceOptions& mono = sources["mono"];
+  mono.use = false;
+  mono.priority = 1;
+  mono.reliability = 0.7;
 }
 
 void GridFuserOptions::visit(OptionVisitor& visitor) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "class_icons.h"
 #include "track_label.h"
 #include <opencv2/imgproc.hpp>
 
@@ -18,6 +19,7 @@ constexpr double kNear = 0.3;  // m: nearer than any mounted camera sees another
 constexpr double kFullChannel = 255.0;
 constexpr double kLetterHeight = 22.0;  // px, of OpenCV's letters at scale 1
 constexpr int kMargin = 3;              // px, round a label's letters
+constexpr double kMinOpacity = 0.3;     // what probably does not exist is shown all the same
 const cv::Scalar kText(255, 255, 255);
 
 cv::Scalar toBgr(const std_msgs::ColorRGBA& color) {
@@ -41,6 +43,7 @@ struct Label {
   std::string text;
   double scale = 1.0;  ///< of the letters
   int baseline = 0;    ///< px, below the letters' feet
+  int icon = 0;        ///< px, side of the class icon before them; 0: none
   cv::Rect frame;
 };
 
@@ -52,7 +55,8 @@ Label labelAbove(const TrackBox& box, const Eigen::AlignedBox2d& bounds,
   label.scale = options.text_height / kLetterHeight;
   const cv::Size letters =
       cv::getTextSize(label.text, cv::FONT_HERSHEY_SIMPLEX, label.scale, 1, &label.baseline);
-  label.frame.width = letters.width + 2 * kMargin;
+  label.icon = box.object_class == ObjectClass::kUnknown ? 0 : letters.height + label.baseline;
+  label.frame.width = letters.width + 2 * kMargin + (label.icon > 0 ? label.icon + kMargin : 0);
   label.frame.height = letters.height + label.baseline + 2 * kMargin;
   label.frame.x =
       std::clamp(cvRound(bounds.min().x()), 0, std::max(0, image.width - label.frame.width));
@@ -73,12 +77,32 @@ void moveClear(const std::vector<Label>& others, Label& label) {
   }
 }
 
-void drawLabel(const Label& label, const cv::Scalar& color, cv::Mat& canvas) {
-  cv::rectangle(canvas, label.frame, color, cv::FILLED);
-  const cv::Point feet(label.frame.x + kMargin,
+void drawLabel(const Label& label, const TrackBox& box, cv::Mat& canvas) {
+  cv::rectangle(canvas, label.frame, box.color, cv::FILLED);
+  const cv::Point corner = label.frame.tl() + cv::Point(kMargin, kMargin);
+  if (label.icon > 0) {
+    drawClassIcon(box.object_class, {corner, cv::Size(label.icon, label.icon)}, kText, canvas);
+  }
+  const cv::Point feet(corner.x + (label.icon > 0 ? label.icon + kMargin : 0),
                        label.frame.y + label.frame.height - kMargin - label.baseline);
   cv::putText(canvas, label.text, feet, cv::FONT_HERSHEY_SIMPLEX, label.scale, kText, 1,
               cv::LINE_AA);
+}
+
+/// Draws a box and its label as far as it is opaque. `bounds`: of the box in the image.
+void drawFaded(const TrackBox& box, const std::vector<ImageSegment>& edges,
+               const Eigen::AlignedBox2d& bounds, const Label& label,
+               const CameraViewOptions& options, cv::Mat& canvas) {
+  const cv::Point first(cvFloor(bounds.min().x()), cvFloor(bounds.min().y()));
+  const cv::Point last(cvCeil(bounds.max().x()), cvCeil(bounds.max().y()));
+  const int border = options.line_width + 1;
+  cv::Rect area = cv::Rect(first - cv::Point(border, border), last + cv::Point(border, border));
+  area = (area | label.frame) & cv::Rect(cv::Point(), canvas.size());
+  const cv::Mat before = canvas(area).clone();
+  drawEdges(edges, box.color, options.line_width, canvas);
+  drawLabel(label, box, canvas);
+  cv::Mat shown = canvas(area);
+  cv::addWeighted(shown, box.opacity, before, 1.0 - box.opacity, 0.0, shown);
 }
 
 }  // namespace
@@ -94,8 +118,10 @@ TrackBox trackBox(const TrackMessage& track, double later, const Eigen::Isometry
   result.box.size = {std::max(track.size.x, options.min_size),
                      std::max(track.size.y, options.min_size),
                      track.size.z > 0.0 ? track.size.z : options.default_height};
-  const ObjectClass object_class = classFromMessage(track.classification);
-  result.color = toBgr(colorOfClass(object_class, true, 1.0F));
+  result.object_class = classFromMessage(track.classification);
+  result.color = toBgr(colorOfClass(result.object_class, true, 1.0F));
+  const auto existence = static_cast<double>(track.existence_probability);
+  result.opacity = existence > kMinOpacity ? std::min(existence, 1.0) : kMinOpacity;
   result.text = labelText(track);
   return result;
 }
@@ -110,10 +136,9 @@ void drawTrackBoxes(const PinholeCamera& camera, std::vector<TrackBox> boxes,
     const auto edges = projectBox(camera, box.box, kNear);
     const auto bounds = boundsInImage(edges, canvas.cols, canvas.rows);
     if (!bounds.isEmpty()) {
-      drawEdges(edges, box.color, options.line_width, canvas);
       Label label = labelAbove(box, bounds, options, canvas.size());
       moveClear(labels, label);
-      drawLabel(label, box.color, canvas);
+      drawFaded(box, edges, bounds, label, options, canvas);
       labels.push_back(label);
     }
   }

@@ -8,6 +8,7 @@
 
 #include <image_geometry/pinhole_camera_model.h>
 
+#include "datmo_fusion/ros/frames.h"
 #include "datmo_fusion/ros/stage/input_error.h"
 
 namespace datmo {
@@ -54,6 +55,18 @@ void CameraInput::check(const sensor_msgs::Image& image) const {
                                         "', but its camera info is in '" + info_.header.frame_id +
                                         "': expected those of one camera");
   }
+}
+
+MountedCamera CameraInput::mounted(const sensor_msgs::Image& image, const FrameOptions& frames,
+                                   const TransformBuffer& transforms) const {
+  MountedCamera camera;
+  camera.pinhole = pinhole();
+  camera.width = width();
+  camera.height = height();
+  camera.in_base = sensorMount(transforms.core(), frames.base,
+                               frames.camera.empty() ? image.header.frame_id : frames.camera);
+  camera.in_base.translate(Eigen::Vector3d(shift_, 0.0, 0.0));
+  return camera;
 }
 
 }  // namespace datmo

@@ -5,7 +5,6 @@
 
 #include "datmo_fusion/ros/convert/grid_conversion.h"
 #include "datmo_fusion/ros/stage/stage_inputs.h"
-#include "datmo_fusion/slam/motion_compensation.h"
 
 namespace datmo {
 
@@ -48,7 +47,7 @@ nav_msgs::OccupancyGridPtr LidarGridStage::takeScan(const Message& message) {
     checkNotFrozen(frozen_.take(converted.scan.stamp, measuredBytes(message), motion), monitor_);
     warnOf(mount, converted);
     auto grid = boost::make_shared<nav_msgs::OccupancyGrid>(
-        toMessage(model_.grid(compensated(converted.scan)), options_.frames.base));
+        toMessage(model_.grid(motion_.compensated(converted.scan)), options_.frames.base));
     runner_.processed(converted.scan.stamp);
     return grid;
   });
@@ -63,15 +62,6 @@ void LidarGridStage::warnOf(const ScannerMount& mount, const ConvertedScan& conv
     monitor_.warned(fault);
   }
   monitor_.figure("beams with a hit", static_cast<double>(converted.beams.hits));
-}
-
-Scan LidarGridStage::compensated(const Scan& scan) const {
-  const double duration = sweepDuration(scan);
-  if (duration == 0.0) {
-    return scan;
-  }
-  const auto motion = motion_.between(scan.stamp, scan.stamp + duration);
-  return motion ? compensateMotion(scan, twistOf(*motion, duration)) : scan;
 }
 
 void LidarGridStage::connect(StagePorts& ports) {

@@ -8,13 +8,11 @@
 #include <utility>
 
 #include <boost/make_shared.hpp>
-#include <opencv2/core.hpp>
 
 #include "datmo_fusion/common/square.h"
 #include "datmo_fusion/fusion/sync/relative_motion.h"
 #include "datmo_fusion/ros/convert/image_conversion.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
-#include "datmo_fusion/ros/frames.h"
 #include "datmo_fusion/ros/stage/stage_inputs.h"
 #include "datmo_fusion/tracking/object_check.h"
 
@@ -34,13 +32,6 @@ std::unique_ptr<MonoClassifier> makeClassifier(const MonoClassifierOptions& opti
   }
 }
 
-double contrastOf(const cv::Mat& image) {
-  cv::Scalar mean;
-  cv::Scalar deviation;
-  cv::meanStdDev(image, mean, deviation);
-  return deviation[0];
-}
-
 }  // namespace
 
 void MonoClassifierStageOptions::visit(OptionVisitor& visitor) {
@@ -56,10 +47,7 @@ void MonoClassifierStageOptions::visit(OptionVisitor& visitor) {
   visitor.number({"object_speed", "m/s",
                   "standard deviation of the objects' speed between their time and the exposure"},
                  object_speed, {0.0, 100.0});
-  visitor.number({"min_contrast", "1",
-                  "an image whose gray levels have a smaller standard deviation is blank: black, "
-                  "white, covered"},
-                 min_contrast, {0.0, 100.0});
+  exposure.visit(visitor);
   visitor.group("input", [&] { input.visit(visitor); });
   classifier.visit(visitor);
 }
@@ -79,6 +67,7 @@ MonoClassifierStage::MonoClassifierStage(const Checked<MonoClassifierStageOption
       monitor_(monitor),
       runner_(monitor, options->input, "forgets all objects", [this] { reset(); }),
       motion_(options->motion, options->frames, runner_),
+      exposure_(options->exposure),
       classifier_(std::move(classifier)),
       worker_([this](const Job& job) { return work(*classifier_, job); }, clock != nullptr) {}
 
@@ -86,7 +75,7 @@ void MonoClassifierStage::reset() {
   motion_.reset();
   objects_.clear();
   waiting_.reset();
-  last_image_.reset();
+  exposure_.reset();
   results_.clear();
   ++run_;  // what the detector still looks at is of no use
 }
@@ -113,9 +102,10 @@ void MonoClassifierStage::takeObjects(const ObjectArray& message) {
 void MonoClassifierStage::takeImage(const sensor_msgs::ImageConstPtr& message, Stamp now) {
   runner_.serve([&] {
     camera_.check(*message);
-    checkPixels(message);
+    exposure_.check(message);
+    checkAge(*message);
     runner_.check("image", message->header.stamp);
-    last_image_ = message;
+    exposure_.accept(message);
     if (waiting_) {
       monitor_.dropped(InputError("overtaken_image",
                                   "a newer image came before objects of its time: expected objects "
@@ -126,24 +116,8 @@ void MonoClassifierStage::takeImage(const sensor_msgs::ImageConstPtr& message, S
 }
 
 /// Throws InputError.
-void MonoClassifierStage::checkPixels(const sensor_msgs::ImageConstPtr& image) {
-  const double contrast = contrastOf(grayOrColor(image)->image);
-  if (contrast < options_.min_contrast) {
-    throw InputError("blank_image", "image whose gray levels differ by " +
-                                        std::to_string(contrast) +
-                                        " (standard deviation): expected " +
-                                        std::to_string(options_.min_contrast) +
-                                        " or more; is the camera covered or not exposed?");
-  }
-  if (last_image_ && last_image_->data == image->data &&
-      last_image_->header.stamp < image->header.stamp) {
-    throw InputError("frozen_image",
-                     "image of the same pixels as the last one, which was taken " +
-                         std::to_string(secondsBetween(toStamp(last_image_->header.stamp),
-                                                       toStamp(image->header.stamp))) +
-                         " s before: expected a new exposure");
-  }
-  const Stamp exposure = toStamp(image->header.stamp);
+void MonoClassifierStage::checkAge(const sensor_msgs::Image& image) const {
+  const Stamp exposure = toStamp(image.header.stamp);
   const double age = objects_.empty() ? 0.0 : secondsBetween(exposure, objects_.back().stamp);
   // Of a clock that jumped back it is no older, and begins anew.
   if (age > options_.max_age && age < options_.input.restart_after) {
@@ -195,18 +169,6 @@ ObjectList MonoClassifierStage::objectsAt(Stamp exposure) const {
   return result;
 }
 
-MountedCamera MonoClassifierStage::cameraOf(const sensor_msgs::Image& image) const {
-  const std::string& optical_frame =
-      options_.frames.camera.empty() ? image.header.frame_id : options_.frames.camera;
-  MountedCamera camera;
-  camera.pinhole = camera_.pinhole();
-  camera.width = camera_.width();
-  camera.height = camera_.height();
-  camera.in_base = sensorMount(transforms_.core(), options_.frames.base, optical_frame);
-  camera.in_base.translate(Eigen::Vector3d(camera_.shift(), 0.0, 0.0));
-  return camera;
-}
-
 void MonoClassifierStage::startIfReady(Stamp now) {
   if (!waiting_) {
     return;
@@ -219,7 +181,8 @@ void MonoClassifierStage::startIfReady(Stamp now) {
     return;
   }
   const sensor_msgs::ImageConstPtr image = std::exchange(waiting_, std::nullopt)->image;
-  if (worker_.start({image, cameraOf(*image), objectsAt(exposure), run_})) {
+  if (worker_.start({image, camera_.mounted(*image, options_.frames, transforms_),
+                     objectsAt(exposure), run_})) {
     monitor_.dropped(InputError("overtaken_image",
                                 "a newer image came before the detector had time for one: expected "
                                 "a faster machine, a smaller network or fewer images a second"));

@@ -6,6 +6,7 @@
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/input_error.h"
+#include "datmo_fusion/slam/motion_compensation.h"
 
 namespace datmo {
 
@@ -32,15 +33,13 @@ void checkFrames(const nav_msgs::Odometry& message, const FrameOptions& frames) 
 
 }  // namespace
 
-OdometryReader::OdometryReader(const MotionOptions& options, FrameOptions frames,
+OdometryReader::OdometryReader(const Checked<MotionOptions>& options, FrameOptions frames,
                                std::string stream, StageRunner& runner)
-    : options_(options),
+    : options_(*options),
       frames_(std::move(frames)),
       stream_(std::move(stream)),
       runner_(runner),
-      gate_(options.change, options.noise) {
-  checkOptions(options);
-}
+      gate_(options->change, options->noise) {}
 
 OdometrySample OdometryReader::sampleOf(const nav_msgs::Odometry& message) const {
   if (!options_.fromOdometry() || !options_.odometry_pose) {
@@ -83,7 +82,7 @@ MotionInput::MotionInput(const Checked<MotionOptions>& options, FrameOptions fra
                          StageRunner& runner)
     : options_(*options),
       runner_(runner),
-      odometry_(*options, std::move(frames), kMotionStream, runner),
+      odometry_(options, std::move(frames), kMotionStream, runner),
       buffer_(options->hold, kOdometryMemory),
       poses_(options->change, options->noise) {}
 
@@ -113,6 +112,15 @@ void MotionInput::take(const geometry_msgs::PoseWithCovarianceStamped& message) 
   }
   // What the vehicle did up to this pose is what it is expected to do after it.
   buffer_.add({stamp, step->twist, step->traveled});
+}
+
+Scan MotionInput::compensated(const Scan& scan) const {
+  const double duration = sweepDuration(scan);
+  if (duration == 0.0) {
+    return scan;
+  }
+  const auto motion = between(scan.stamp, scan.stamp + duration);
+  return motion ? compensateMotion(scan, twistOf(*motion, duration)) : scan;
 }
 
 void MotionInput::reset() {

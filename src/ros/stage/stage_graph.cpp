@@ -8,6 +8,11 @@ namespace {
 /// s; a detector in images may take longer than the scanner for some turns.
 constexpr double kMonoLateBy = 0.4;
 
+/// What grid_fusion fuses beside the sources that its section names.
+OptionValues fusedGrids(const GraphSwitches& switches) {
+  return switches.mono ? OptionValues{{"sources/mono/use", true}} : OptionValues();
+}
+
 /// What object_fusion fuses beside the sources that its section names.
 OptionValues fusedSources(const GraphSwitches& switches) {
   OptionValues sources;
@@ -59,6 +64,8 @@ std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
 
   const std::map<std::string, std::string> mono_images{{"image", "stereo/left/image_rect"},
                                                        {"camera_info", "stereo/left/camera_info"}};
+  std::map<std::string, std::string> mono_images_and_scan = mono_images;
+  mono_images_and_scan["scan"] = scan;
   std::vector<GraphStage> graph;
   const auto add = [&graph](bool present, const GraphStage& stage) {
     if (present) {
@@ -77,7 +84,8 @@ std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
       {"stereo_alignment", "stereo_alignment", camera_and_scan, {}});
   add(low_level, {"lidar_grid", "lidar_grid", {{"scan", scan}}, {}});
   add(low_level, {"stereo_grid", "stereo_grid", camera, {}});
-  add(low_level, {"grid_fusion", "grid_fusion", {}, {}});
+  add(low_level && switches.mono, {"mono_grid", "mono_grid", mono_images_and_scan, {}});
+  add(low_level, {"grid_fusion", "grid_fusion", {}, fusedGrids(switches)});
   add(true, {"grid_slam", "grid_slam", {{"scan", scan}}, {{"fused_grid", low_level}}});
   add(switches.static_points, {"static_points", "static_points", {}, {}});
   add(switches.road_border, {"road_border", "road_border", {}, {}});

@@ -53,18 +53,16 @@ SharedKeys StereoAlignmentStageOptions::sharedKeys() {
   return StereoInputOptions::cameraKeys().group<ScanConversionOptions>("scan/", "scanner/");
 }
 
-StereoAlignmentStage::StereoAlignmentStage(const StereoAlignmentStageOptions& options,
+StereoAlignmentStage::StereoAlignmentStage(const Checked<StereoAlignmentStageOptions>& options,
                                            const TransformBuffer& transforms, StageMonitor& monitor)
-    : options_(options),
+    : options_(*options),
       transforms_(transforms),
       monitor_(monitor),
-      runner_(monitor, options.input, "forgets the last scans", [this] { reset(); }),
-      motion_(options.motion, options.frames, runner_),
-      input_(options, transforms),
-      finder_(options.pairs),
-      filter_(options.alignment) {
-  checkOptions(options);
-}
+      runner_(monitor, options->input, "forgets the last scans", [this] { reset(); }),
+      motion_(options->motion, options->frames, runner_),
+      input_(*options, transforms),
+      finder_(options->pairs),
+      filter_(options->alignment) {}
 
 void StereoAlignmentStage::reset() {
   motion_.reset();

@@ -3,87 +3,16 @@
 
 #include <cmath>
 
-#include "camera_samples.h"
+#include "camera_view_sample.h"
 #include "monitor_counts.h"
 #include <boost/make_shared.hpp>
 #include <gtest/gtest.h>
-
-#include "datmo_fusion/ros/convert/message_conversion.h"
 
 namespace datmo::camera_view_test {
 namespace {
 
 using samples::drops;
 using samples::warnings;
-
-constexpr std::uint32_t kWidth = 640;
-constexpr std::uint32_t kHeight = 480;
-constexpr double kFocalLength = 400.0;     // px
-constexpr double kHeightOverGround = 1.5;  // m
-constexpr std::uint8_t kGray = 60;
-constexpr double kStart = 100.0;  // s
-constexpr samples::CameraSample kCamera{kWidth, kHeight, kFocalLength};
-
-sensor_msgs::CameraInfo cameraInfo() { return kCamera.info(); }
-
-sensor_msgs::ImagePtr image(double seconds) {
-  return boost::make_shared<sensor_msgs::Image>(kCamera.image(seconds, kGray));
-}
-
-/// A vehicle `ahead` of the map's origin that drives away at `speed`.
-TrackArrayPtr tracks(double seconds, double ahead, double speed) {
-  auto message = boost::make_shared<TrackArray>();
-  message->header.frame_id = "map";
-  message->header.stamp = ros::Time(seconds);
-  TrackMessage track;
-  track.id = 7;
-  track.pose = toMessage(Pose2(ahead, 0.0, 0.0));
-  track.size.x = 4.0;
-  track.size.y = 2.0;
-  track.size.z = 1.5;
-  track.velocity.x = speed;
-  track.moving = speed != 0.0;
-  track.classification = ObjectMessage::CLASS_VEHICLE;
-  message->tracks.push_back(track);
-  return message;
-}
-
-class CameraViewTest : public testing::Test {
- protected:
-  /// The camera at the map's origin, above the ground, looks along x.
-  void mountCamera(double seconds) {
-    transforms_.add(samples::transforms({samples::cameraMount("map", kHeightOverGround, seconds)}));
-  }
-
-  sensor_msgs::ImagePtr show(const sensor_msgs::ImagePtr& message, double waited = 0.0) {
-    const double seconds = message->header.stamp.toSec();
-    view_.takeImage(message, Stamp::fromSeconds(seconds));
-    return view_.next(Stamp::fromSeconds(seconds + waited));
-  }
-
-  /// Whether a pixel is not of the image any more.
-  static bool isDrawn(const sensor_msgs::Image& picture, int column, int row) {
-    const std::size_t at =
-        static_cast<std::size_t>(row) * picture.step + 3 * static_cast<std::size_t>(column);
-    return picture.data[at] != kGray || picture.data[at + 1] != kGray ||
-           picture.data[at + 2] != kGray;
-  }
-
-  static bool anyDrawn(const sensor_msgs::Image& picture) {
-    for (int row = 0; row < static_cast<int>(picture.height); ++row) {
-      for (int column = 0; column < static_cast<int>(picture.width); ++column) {
-        if (isDrawn(picture, column, row)) {
-          return true;
-        }
-      }
-    }
-    return false;
-  }
-
-  TransformBuffer transforms_{1.0};
-  StageMonitor monitor_{"camera_view"};
-  CameraView view_{CameraViewOptions(), transforms_, monitor_};
-};
 
 TEST_F(CameraViewTest, ATrackIsABoxWhereTheCameraSeesIt) {
   view_.takeCameraInfo(cameraInfo());

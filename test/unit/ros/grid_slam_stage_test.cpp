@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "message_samples.h"
+#include "monitor_counts.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
@@ -41,14 +42,10 @@ class GridSlamStageTest : public testing::Test {
   /// The vehicle drives ahead with 8 m/s; it is at x = 0 at the start.
   void odometryAt(double seconds) { stage_.takeOdometry(odometry(seconds)); }
 
-  std::uint64_t drops(const std::string& reason) const {
-    const auto found = monitor_.drops().find(reason);
-    return found == monitor_.drops().end() ? 0 : found->second;
-  }
+  std::uint64_t drops(const std::string& reason) const { return samples::drops(monitor_, reason); }
 
   std::uint64_t warnings(const std::string& reason) const {
-    const auto found = monitor_.warnings().find(reason);
-    return found == monitor_.warnings().end() ? 0 : found->second;
+    return samples::warnings(monitor_, reason);
   }
 
   TransformBuffer buffer_{1.0};
@@ -153,25 +150,6 @@ TEST_F(GridSlamStageTest, OdometryThatTheVehicleDoesNotHaveIsNotRead) {
   const auto output = stage.takeScan(scan);
   ASSERT_TRUE(output);
   EXPECT_EQ(output->pose->pose.pose.position.x, 0.0) << "the odometry would say 0.8 m";
-}
-
-TEST_F(GridSlamStageTest, AMissingMountIsCountedUntilItComes) {
-  EXPECT_FALSE(scanAt(100.0));
-  EXPECT_EQ(drops("missing_transform"), 1U);
-  mountScanner();
-  EXPECT_TRUE(scanAt(100.0)) << "the dropped scan has not moved the time";
-}
-
-TEST_F(GridSlamStageTest, RepeatedOldAndTimelessScansAreDropped) {
-  mountScanner();
-  EXPECT_TRUE(scanAt(100.0));
-  EXPECT_FALSE(scanAt(100.0));
-  EXPECT_FALSE(scanAt(99.5));
-  EXPECT_FALSE(scanAt(0.0));
-  EXPECT_EQ(drops("repeated_stamp"), 1U);
-  EXPECT_EQ(drops("old_stamp"), 1U);
-  EXPECT_EQ(drops("zero_stamp"), 1U);
-  EXPECT_TRUE(scanAt(100.1));
 }
 
 TEST_F(GridSlamStageTest, AJumpBackStartsAnew) {

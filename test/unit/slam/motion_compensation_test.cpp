@@ -149,5 +149,21 @@ TEST(MotionCompensationOf, TheSweepLastsToItsLatestRay) {
   EXPECT_DOUBLE_EQ(sweepDuration(scan), 0.079);
 }
 
+TEST(ScanAt, AnotherTimeIsAsTheVehicleWouldHaveMeasuredItThen) {
+  const Scan scan = scanOf({"", 0.0, 0.0, {}});
+  const Pose2 base(-1.0, 0.5, 0.1);  // the vehicle has driven on
+  const Stamp later = scan.stamp + 0.1;
+  const Scan moved = scanAt(scan, later, base);
+  EXPECT_EQ(moved.stamp, later);
+  ASSERT_EQ(moved.rays.size(), scan.rays.size());
+  for (std::size_t i = 0; i < scan.rays.size(); ++i) {
+    EXPECT_TRUE(moved.rays[i].end.isApprox(base * scan.rays[i].end, 1e-12));
+    EXPECT_TRUE(moved.rays[i].origin.isApprox(base * scan.rays[i].origin, 1e-12));
+    EXPECT_EQ(moved.rays[i].bearing, scan.rays[i].bearing) << "about the scanner";
+  }
+  const Pose2 scanner = base * scan.scanner_in_base;
+  EXPECT_TRUE(moved.scanner_in_base.position().isApprox(scanner.position(), 1e-12));
+}
+
 }  // namespace
 }  // namespace datmo::motion_compensation_test

@@ -22,6 +22,14 @@ Object objectOf(const std::vector<Point2>& points) {
 
 class BeamEvidenceTest : public testing::Test {
  protected:
+  /// What is computed by hand below goes by these, not by the defaults.
+  BeamEvidenceTest() {
+    options_.detection = 0.8;
+    options_.detection_strength = 10.0;
+    options_.echo_detection = 0.6;
+    options_.background = 0.1;
+  }
+
   /// A scan `seconds` after the start, with ends of beams at these positions.
   void scan(double seconds, const std::vector<Point2>& ends) {
     history_.add(scanOf(ends, seconds));
@@ -55,6 +63,19 @@ TEST_F(BeamEvidenceTest, TheScanInWhichItWasSeenSaysNothing) {
   scan(0.0, {{20.0, 0.0}});
   see(0.0, {{20.0, 0.0}});
   EXPECT_EQ(evidence(0.0, elsewhere()).observed, 0U);
+}
+
+TEST_F(BeamEvidenceTest, PositionsWhereNoBeamOfTheirScanEndedAreNotAsked) {
+  scan(0.0, {});
+  scan(0.1, {{20.0, 0.0}});
+  see(0.1, {{20.0, 1.0}});  // as a camera has it
+  const BeamEvidence of_camera = evidence(0.1, elsewhere());
+  EXPECT_EQ(of_camera.observed, 0U);
+  EXPECT_FALSE(of_camera.seen_by_beams);
+  see(0.1, {{20.0, 0.0}, {20.0, 1.0}});
+  const BeamEvidence of_both = evidence(0.1, elsewhere());
+  EXPECT_EQ(of_both.observed, 1U);
+  EXPECT_TRUE(of_both.seen_by_beams);
 }
 
 TEST_F(BeamEvidenceTest, ABeamThatPassedBeforeSpeaksForMotion) {
@@ -108,6 +129,7 @@ TEST_F(BeamEvidenceTest, WhatIsNeverHitBeforehandIsSoonNoEdge) {
   for (int i = 0; i < 5; ++i) {
     scan(0.1 * i, {});
   }
+  scan(0.5, side);
   see(0.5, side);
   EXPECT_GT(evidence(0.5, elsewhere()).log_ratio, std::log(1e3));
 }
@@ -127,11 +149,12 @@ TEST_F(BeamEvidenceTest, WhatIsHiddenSaysNothing) {
   EXPECT_EQ(evidence(0.1, elsewhere()).observed, 0U);
 }
 
-TEST_F(BeamEvidenceTest, PositionsSeenInSeveralScansCountInTheirMean) {
+TEST_F(BeamEvidenceTest, PositionsThatOneScanCrossesCountInTheirMean) {
   scan(0.0, {});
+  scan(0.1, {{20.0, 0.0}, {20.0, 5.0}});
   see(0.1, {{20.0, 0.0}});
-  see(0.2, {{21.0, 0.0}});
-  const BeamEvidence entered = evidence(0.2, elsewhere());
+  see(0.1, {{20.0, 5.0}});
+  const BeamEvidence entered = evidence(0.1, elsewhere());
   EXPECT_EQ(entered.observed, 2U);
   EXPECT_NEAR(entered.log_ratio, std::log(0.9 / 0.4), 1e-9);
 }
@@ -141,6 +164,34 @@ TEST_F(BeamEvidenceTest, BeamsBeforeTheWindowAreNotAsked) {
   scan(2.5, {{20.0, 0.0}});
   see(2.5, {{20.0, 0.0}});
   EXPECT_EQ(evidence(2.5, elsewhere()).observed, 0U);
+}
+
+/// The end of a beam that moves along a wall with the scanner, 1 m/s, as the scanner passes it.
+class GrazingTest : public BeamEvidenceTest {
+ protected:
+  /// Scans of an echo at these positions relative to the scanner, 0.1 s apart.
+  BeamEvidence follow(const std::vector<Point2>& positions) {
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      const double seconds = 0.1 * static_cast<double>(i);
+      const double x = seconds;  // of the scanner
+      const Point2 position = positions[i] + Point2(x, 0.0);
+      history_.add(scanOf({position}, seconds, Pose2(x, 0.0, 0.0)));
+      see(seconds, {position});
+    }
+    const double end = 0.1 * static_cast<double>(positions.size() - 1);
+    return evidence(end, {{Pose2(positions.back() + Point2(end, 0.0), 0.0), 0.5, 0.5},
+                          {0.0, 0.0},
+                          {1.0, 0.0},
+                          0.04});
+  }
+};
+
+TEST_F(GrazingTest, AnEchoThatKeepsItsBeamMayBeTheEndOfOneAlongAWall) {
+  EXPECT_TRUE(follow({{20.0, 5.0}, {20.0, 5.0}, {20.0, 5.0}}).log_ratio_to_grazing);
+}
+
+TEST_F(GrazingTest, AnEchoThatGoesFromBeamToBeamIsNone) {
+  EXPECT_FALSE(follow({{20.0, 5.0}, {20.0, 5.7}, {20.0, 5.7}}).log_ratio_to_grazing);
 }
 
 const std::vector<double> kSpeeds = {2.0};  // m/s
@@ -194,14 +245,13 @@ TEST(MotionLogRatio, WhatFacesTheBeamsCountsByItsShare) {
 }
 
 TEST(MotionProbability, IsThatOfNeitherOfTheTwoOthers) {
-  MotionLikelihoodOptions options;
-  options.clutter_odds = 100.0;
-  const auto probability = [&](double against_standing, double against_clutter) {
-    return motionProbability(against_standing, against_clutter, options);
+  const MotionLikelihoodOptions options;  // half of the candidates move
+  const auto probability = [&](double against_standing, double existence) {
+    return motionProbability(against_standing, existence, options);
   };
   EXPECT_NEAR(probability(std::log(19.0), 1e3), 0.95, 1e-9);
-  EXPECT_NEAR(probability(1e3, std::log(1900.0)), 0.95, 1e-9);
-  EXPECT_NEAR(probability(0.0, std::log(100.0)), 1.0 / 3.0, 1e-9);
+  EXPECT_NEAR(probability(1e3, std::log(19.0)), 0.95, 1e-9);
+  EXPECT_NEAR(probability(0.0, 0.0), 1.0 / 3.0, 1e-9);
   EXPECT_NEAR(probability(-1e3, 1e3), 0.0, 1e-9);
 }
 

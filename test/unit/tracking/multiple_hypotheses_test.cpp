@@ -76,7 +76,8 @@ TEST_F(MultipleHypothesesTest, AMissSpeaksAgainstWhatHasMoreTargets) {
   };
   const auto missedIfSeenAt = [&](double x) {
     Target target = predictedAt(0.0, 0.0);
-    target.update({objectAt(x, 0.0), {0}}, 0, detection, options);
+    target.update({objectAt(x, 0.0), {0}, std::log(ScanIntakeOptions().new_density)}, 0, detection,
+                  options);
     return missed(target);
   };
   Target not_seen = predictedAt(0.0, 0.0);

@@ -95,22 +95,6 @@ TEST(TrackLife, ATargetThatMayNotExistIsNotConfirmed) {
   EXPECT_GE(scene.tracks().tracks[0].existence_probability, 0.9);
 }
 
-TEST(TrackLife, TwoSensorsOfWhichOneSeesItMoveConfirmAtOnce) {
-  TrackerOptions options;
-  options.target.birth_probability = 0.6;
-  TrackingScene scene(options);
-  Object fused = objectAt(10.0, 0.0, DynamicState::kMoving);
-  fused.object_class = ObjectClass::kCyclist;
-  fused.class_probability = 0.8;
-  scene.scan({fused});
-  EXPECT_TRUE(scene.tracks().tracks.empty()) << "one sensor";
-  fused.box.center = Pose2(30.0, 5.0, 0.0);
-  fused.sensors = {"lidar", "camera"};
-  scene.scan({fused});
-  ASSERT_EQ(scene.tracks().tracks.size(), 1U);
-  EXPECT_EQ(scene.tracks().tracks[0].sensors, fused.sensors);
-}
-
 TEST(TrackLife, HistoryIsWhereItWasPublishedOldestFirst) {
   TrackerOptions options;
   options.history_time = 1.0;

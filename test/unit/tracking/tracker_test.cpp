@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "scan_history_samples.h"
 #include "tracking_scene.h"
 #include <gtest/gtest.h>
 
@@ -92,6 +93,20 @@ TEST(Tracker, NeverPublishesWhatStandsAndOnlySeemsToMove) {
   }
 }
 
+/// A scan of which only that part of a parked car's side is visible that lies between these x (m);
+/// something nearer hides the rest.
+LabeledScan scanOfSide(double rear, double front, double y, double seconds) {
+  std::vector<Point2> ends;
+  for (int beam = -40; beam <= 40; ++beam) {
+    const double bearing = beam * kPi / 90.0;
+    const double x = beam > 0 ? y / std::tan(bearing) : 0.0;
+    const bool visible = x >= rear && x <= front;
+    ends.push_back(visible ? Point2(x, y)
+                           : Point2(5.0 * std::cos(bearing), 5.0 * std::sin(bearing)));
+  }
+  return samples::scanOf(ends, seconds);
+}
+
 /// A parked car comes into view: first its rear, then more of its side, then only its front.
 TEST(Tracker, NeverPublishesAParkedCarWhoseVisiblePartSlides) {
   for (const double speed : {2.0, 5.0, 10.0}) {
@@ -102,6 +117,8 @@ TEST(Tracker, NeverPublishesAParkedCarWhoseVisiblePartSlides) {
       Object object = objectAt(10.0 + 0.5 * (front + rear), 3.0 + scene.noise(0.05));
       object.box.length = front - rear;
       object.box.width = 0.2;
+      object.points = {{10.0 + rear, 3.0}, {10.0 + front, 3.0}};
+      scene.tracker().addScan(scanOfSide(10.0 + rear, 10.0 + front, 3.0, scene.nextTime() - 100.0));
       scene.scan({object});
       EXPECT_TRUE(scene.tracks().tracks.empty()) << speed << " m/s, after " << passed << " m";
     }

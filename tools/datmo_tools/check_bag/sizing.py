@@ -41,11 +41,6 @@ PEOPLE_TRACKER = {
     "target": {
         "birth_speed_std": 1.5,  # m/s: people walk
         "stop_speed": 0.2,  # m/s
-        "evidence": {
-            "standing_drift": 0.05,  # m^2/s
-            "min_overrun": 0.4,  # m
-            "min_speed": 0.4,  # m/s
-        },
         "box": {
             "size": {
                 "vehicle": {"share": 1e-4},

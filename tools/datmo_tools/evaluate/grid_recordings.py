@@ -39,13 +39,9 @@ class Drive(NamedTuple):
     moments: dict  # stamp (ns) -> Moment
 
 
-def read_drive(path, reach, disparity_sigma):
-    """Drive in the bag at `path` (Path).
-
-    reach: effective range of the camera, m; disparity_sigma: standard deviation, px. A scan whose
-    truth is not there has no Moment. Raises InputError if there is none at all, or no camera.
-    """
-    kept = {topic: [] for topic in (MOUNTS, TRUE_POSE, TRUE_ECHOES, *SCANS)}
+def read_topics(path, topics):
+    """Dictionary topic -> its messages, and topic of CAMERA_INFOS -> its last one, of a bag."""
+    kept = {topic: [] for topic in topics}
     infos = {}
     with opened(path) as bag:
         for topic, message, _ in bag.read_messages([*kept, *CAMERA_INFOS]):
@@ -53,6 +49,16 @@ def read_drive(path, reach, disparity_sigma):
                 kept[topic].append(message)
             else:
                 infos[topic] = message
+    return kept, infos
+
+
+def read_drive(path, reach, disparity_sigma):
+    """Drive in the bag at `path` (Path).
+
+    reach: effective range of the camera, m; disparity_sigma: standard deviation, px. A scan whose
+    truth is not there has no Moment. Raises InputError if there is none at all, or no camera.
+    """
+    kept, infos = read_topics(path, (MOUNTS, TRUE_POSE, TRUE_ECHOES, *SCANS))
     mounts = mounts_of(kept[MOUNTS])
     view = view_of(path, infos, mounts, reach, disparity_sigma)
     moments = _moments(path, kept, mounts)

@@ -8,6 +8,7 @@ from datmo_tools import command_line
 from datmo_tools.evaluate import (
     borders,
     classes,
+    free_cells,
     grids,
     labels,
     objects,
@@ -37,6 +38,7 @@ SUBCOMMANDS = {
     "borders": (borders, "the borders of the road"),
     "grids": (grids, "fused grids, on simulated drives"),
     "stereo_grids": (stereo_grids, "stereo grids, by the Velodyne of a KITTI drive"),
+    "free_cells": (free_cells, "free cells of grids, by the Velodyne of a KITTI drive"),
     "risk": (risk, "risks of contact, on simulated drives"),
     "slam": (slam, "poses, by the relations of the SLAM benchmark"),
 }

@@ -15,6 +15,7 @@ from datmo_tools.evaluate.grid_recordings import (
     grid_of,
     mount_of,
     mounts_of,
+    read_topics,
     view_of,
 )
 from datmo_tools.evaluate.report import Section
@@ -118,14 +119,7 @@ def sections(result):
 
 def _read_drive(path, disparity_sigma, first_column):
     """Dictionary stamp (ns) -> obstacles of its cloud (n x 2, base_link, m), and the CommonView."""
-    kept = {MOUNTS: [], CLOUDS: []}
-    infos = {}
-    with opened(path) as bag:
-        for topic, message, _ in bag.read_messages([*kept, *CAMERA_INFOS]):
-            if topic in kept:
-                kept[topic].append(message)
-            else:
-                infos[topic] = message
+    kept, infos = read_topics(path, (MOUNTS, CLOUDS))
     if not kept[CLOUDS]:
         raise InputError(f"{path}: nothing on {CLOUDS}, expected a bag of kitti_to_bag --points")
     mounts = mounts_of(kept[MOUNTS])

@@ -6,8 +6,6 @@ hit and as near misses."""
 import math
 from typing import NamedTuple
 
-import numpy as np
-
 KMH = 1.0 / 3.6  # m/s
 
 HOST_Y = -2.0  # m, the host's lane; the road's middle is y = 0
@@ -93,58 +91,6 @@ def _brake(result, host):
     """The host brakes by 6 m/s^2, and stands 2 m before where they would have met."""
     begin = MEETING - 0.5 * host / 6.0 - 2.0 / host
     result["ego"]["speed"] = [[0.0, host], [begin, host], [begin + host / 6.0, 0.0]]
-
-
-def random_scenes(count, seed):
-    """`count` scenes (dicts) with speeds, times and places drawn at random about those of the
-    protocols, and with road users and hosts that change their minds: who is to meet whom is left to
-    chance."""
-    random = np.random.default_rng(seed)
-    protocols = [name for name in PROTOCOLS if not name.startswith("turn")]
-    for number in range(count):
-        protocol = protocols[number % len(protocols)]
-        host = random.uniform(15.0, 60.0) if protocol[:11] != "car_braking" else 50.0
-        drawn = scene(Encounter(protocol, host, str(random.choice(ENDINGS))), int(number + 1))
-        # Neighbors in time say the same: more encounters in place of more frames of each.
-        drawn["options"]["scanner"] = {"scan_rate": 5.0, "beam_spacing": 1.0}
-        drawn["options"]["ground_truth"] = {"radius": 45.0}
-        yield _varied(drawn, random)
-
-
-def _varied(drawn, random):
-    """Times off by a few seconds, the other stops or changes its speed, the host brakes or hurries."""
-    actor = drawn["actors"][0]
-    shift = random.uniform(-2.0, 2.0)
-    actor["speed"] = [[max(0.0, t + shift) if t > 0.0 else 0.0, v] for t, v in actor["speed"]]
-    actor["speed"] = _rising(actor["speed"])
-    if random.uniform() < 0.3:
-        actor["speed"] = _changed(actor["speed"], random, float(random.choice([0.0, 0.5, 1.5])))
-    ego = drawn["ego"]
-    if random.uniform() < 0.3:
-        ego["speed"] = _changed(ego["speed"], random, float(random.choice([0.0, 0.5, 1.2])))
-    return drawn
-
-
-def _changed(profile, random, factor):
-    """From some time on the speed goes to a multiple of what it was, within one to three seconds."""
-    begin = random.uniform(2.5, MEETING + 1.0)
-    speed = _speed_at(profile, begin)
-    kept = [point for point in profile if point[0] < begin]
-    return kept + [[begin, speed], [begin + random.uniform(1.0, 3.0), factor * speed]]
-
-
-def _speed_at(profile, time):
-    return float(np.interp(time, [t for t, _ in profile], [v for _, v in profile]))
-
-
-def _rising(profile):
-    """Without points that the shift has put before their predecessor."""
-    result = []
-    for time, speed in profile:
-        if result and time <= result[-1][0]:
-            time = result[-1][0] + 0.01
-        result.append([time, speed])
-    return result
 
 
 def _street(host, seed):

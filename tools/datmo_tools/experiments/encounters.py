@@ -10,8 +10,8 @@ from tqdm import tqdm
 
 from datmo_tools import command_line, programs
 from datmo_tools.errors import InputError
-from datmo_tools.experiments.encounter_scenes import (AVOIDED, ENDINGS, STOPS, encounters,
-                                                       random_scenes, scene)
+from datmo_tools.experiments.encounter_scenes import AVOIDED, ENDINGS, STOPS, encounters, scene
+from datmo_tools.experiments.random_encounters import random_scenes
 
 DESCRIPTION = """\
 Makes scenes after the public test protocols (or, with --random, at random about them), and the

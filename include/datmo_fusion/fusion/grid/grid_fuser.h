@@ -15,10 +15,11 @@ namespace datmo {
 struct GridFuserOptions {
   FusionRule rule = FusionRule::kDempsterShafer;
   double mover_speed = 15.0;                         ///< m/s
-  std::map<std::string, GridSourceOptions> sources;  ///< by name; at first lidar and stereo
+  std::map<std::string, GridSourceOptions> sources;  ///< by name; at first lidar, stereo, mono
 
   /// Vision decides where it sees, for a planar scanner takes road paint for obstacles and
-  /// misses thin poles (thesis 3.2.3).
+  /// misses thin poles (thesis 3.2.3). A single camera is in use on demand alone, and is believed
+  /// less: colors are not depths.
   GridFuserOptions();
 
   void visit(OptionVisitor& visitor);

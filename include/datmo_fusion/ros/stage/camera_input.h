@@ -6,7 +6,9 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 
-#include "datmo_fusion/vision/box_projection.h"
+#include "datmo_fusion/ros/frame_options.h"
+#include "datmo_fusion/ros/transform_buffer.h"
+#include "datmo_fusion/vision/image_region.h"
 
 namespace datmo {
 
@@ -19,6 +21,11 @@ class CameraInput {
 
   /// Throws InputError (`missing_camera_info`, `wrong_size`, `wrong_frame`).
   void check(const sensor_msgs::Image& image) const;
+
+  /// The camera of an image on the vehicle, as tf knows it. Throws InputError
+  /// (`missing_transform`), and std::bad_optional_access before the first info.
+  MountedCamera mounted(const sensor_msgs::Image& image, const FrameOptions& frames,
+                        const TransformBuffer& transforms) const;
 
   /// What an info has said. Throws std::bad_optional_access before the first.
   const PinholeCamera& pinhole() const { return camera_.value(); }

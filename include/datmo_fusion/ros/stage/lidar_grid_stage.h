@@ -62,7 +62,6 @@ class LidarGridStage : public Stage {
     runner_.serve([&] { motion_.take(message); });
   }
   void warnOf(const ScannerMount& mount, const ConvertedScan& converted);
-  Scan compensated(const Scan& scan) const;
 
   LidarGridStageOptions options_;
   const TransformBuffer& transforms_;

@@ -16,6 +16,7 @@
 #include "datmo_fusion/ros/convert/messages.h"
 #include "datmo_fusion/ros/frame_options.h"
 #include "datmo_fusion/ros/stage/camera_input.h"
+#include "datmo_fusion/ros/stage/exposure_check.h"
 #include "datmo_fusion/ros/stage/motion_input.h"
 #include "datmo_fusion/ros/stage/newest_worker.h"
 #include "datmo_fusion/ros/stage/stage.h"
@@ -33,7 +34,7 @@ struct MonoClassifierStageOptions {
   double max_wait = 0.15;     ///< s
   double max_age = 0.5;       ///< s
   double object_speed = 3.0;  ///< m/s
-  double min_contrast = 2.0;  ///< gray levels
+  ExposureCheckOptions exposure;
   StreamOptions input;
   MonoClassifierOptions classifier;
 
@@ -112,9 +113,8 @@ class MonoClassifierStage : public Stage {
     runner_.serve([&] { motion_.take(message); });
   }
 
-  void checkPixels(const sensor_msgs::ImageConstPtr& image);
+  void checkAge(const sensor_msgs::Image& image) const;
   void startIfReady(Stamp now);
-  MountedCamera cameraOf(const sensor_msgs::Image& image) const;
   /// Null where there are none within `tolerance`.
   const ObjectList* nearestObjects(Stamp exposure) const;
   ObjectList objectsAt(Stamp exposure) const;
@@ -128,10 +128,10 @@ class MonoClassifierStage : public Stage {
   StageRunner runner_;
   MotionInput motion_;
   CameraInput camera_;
-  std::deque<ObjectList> objects_;         ///< rising stamps, the newest ones
-  std::optional<Waiting> waiting_;         ///< for objects of its time
-  sensor_msgs::ImageConstPtr last_image_;  ///< to know one that is frozen
-  std::uint64_t run_ = 0;                  ///< counts how often the clock began anew
+  ExposureCheck exposure_;
+  std::deque<ObjectList> objects_;  ///< rising stamps, the newest ones
+  std::optional<Waiting> waiting_;  ///< for objects of its time
+  std::uint64_t run_ = 0;           ///< counts how often the clock began anew
   std::deque<Result> results_;
   std::unique_ptr<MonoClassifier> classifier_;
   NewestWorker<Job, Result> worker_;  ///< last: its thread uses the classifier

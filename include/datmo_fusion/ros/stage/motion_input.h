@@ -7,6 +7,7 @@
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <nav_msgs/Odometry.h>
 
+#include "datmo_fusion/common/scan.h"
 #include "datmo_fusion/ros/frame_options.h"
 #include "datmo_fusion/ros/motion_options.h"
 #include "datmo_fusion/ros/stage/stage_runner.h"
@@ -21,8 +22,8 @@ namespace datmo {
 class OdometryReader {
  public:
   /// `stream`: its name at the runner, of the stage, which is to call reset() when it is reset
-  /// itself; the runner must outlive the reader.
-  OdometryReader(const MotionOptions& options, FrameOptions frames, std::string stream,
+  /// itself; the runner must outlive the reader. Throws OptionError.
+  OdometryReader(const Checked<MotionOptions>& options, FrameOptions frames, std::string stream,
                  StageRunner& runner);
 
   /// What the options take of odometry: with odometry_pose its pose, too, and then a twist that no
@@ -61,6 +62,10 @@ class MotionInput {
 
   /// From one stamp to a later one; none if it is not known (OdometryBuffer::motion).
   std::optional<Pose2> between(Stamp from, Stamp to) const { return buffer_.motion(from, to); }
+
+  /// A scan as measured at once, at its stamp (compensateMotion); as it is where the motion is not
+  /// known.
+  Scan compensated(const Scan& scan) const;
 
   /// Forgets everything.
   void reset();

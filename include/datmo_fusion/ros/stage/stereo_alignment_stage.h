@@ -45,7 +45,7 @@ class StereoAlignmentStage : public Stage {
   using Options = StereoAlignmentStageOptions;
 
   /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
-  StereoAlignmentStage(const StereoAlignmentStageOptions& options,
+  StereoAlignmentStage(const Checked<StereoAlignmentStageOptions>& options,
                        const TransformBuffer& transforms, StageMonitor& monitor);
 
   void takeOdometry(const nav_msgs::Odometry& message);

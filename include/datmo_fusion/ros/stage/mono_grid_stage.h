@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+
+#include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/ros/convert/scan_conversion.h"
+#include "datmo_fusion/ros/frame_options.h"
+#include "datmo_fusion/ros/shared_keys.h"
+#include "datmo_fusion/ros/stage/camera_input.h"
+#include "datmo_fusion/ros/stage/exposure_check.h"
+#include "datmo_fusion/ros/stage/motion_input.h"
+#include "datmo_fusion/ros/stage/stage.h"
+#include "datmo_fusion/ros/stage/stage_runner.h"
+#include "datmo_fusion/ros/transform_buffer.h"
+#include "datmo_fusion/vision/mono_grid.h"
+
+namespace datmo {
+
+struct MonoGridStageOptions {
+  FrameOptions frames;             ///< of all stages
+  double max_tilt = degrees(5.0);  ///< rad
+  MotionOptions motion;            ///< of all stages
+  double tolerance = 0.06;         ///< s
+  double max_wait = 0.1;           ///< s
+  ExposureCheckOptions exposure;
+  StreamOptions input;
+  ScanConversionOptions scan;
+  MonoGridOptions grid;
+
+  void visit(OptionVisitor& visitor);
+  static SharedKeys sharedKeys();
+};
+
+/// MonoGridModel between messages: one more source of grids. The same one serves the nodelet and
+/// the bag runner.
+///
+/// An image waits for the scan of its time (`tolerance`), which is compensated for the vehicle's
+/// motion and brought to the exposure by it; the grid has the exposure's stamp.
+///
+/// Bad input is dropped or warned of through the monitor, never thrown: what CameraInput,
+/// ExposureCheck and toScan refuse, `no_scan` (none of the image's time came within `max_wait`; an
+/// image that is older than the scans has none either), `no_motion`, `overtaken_image`,
+/// `missing_transform`. When the clock jumps back the road's colors are forgotten.
+class MonoGridStage : public Stage {
+ public:
+  using Options = MonoGridStageOptions;
+
+  /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
+  MonoGridStage(const Checked<MonoGridStageOptions>& options, const TransformBuffer& transforms,
+                StageMonitor& monitor);
+
+  /// Of the rectified images; the newest one serves.
+  void takeCameraInfo(const sensor_msgs::CameraInfo& message);
+  void takeOdometry(const nav_msgs::Odometry& message) { takeMotion(message); }
+  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message) { takeMotion(message); }
+
+  /// `Message`: sensor_msgs::LaserScan or MultiEchoLaserScan.
+  template <typename Message>
+  void takeScan(const Message& message);
+
+  /// `now`: ROS time.
+  void takeImage(const sensor_msgs::ImageConstPtr& message, Stamp now);
+
+  /// The grid of the image that waits, at its exposure's stamp; null if there is none. To be called
+  /// after each input and from time to time. `now`: ROS time.
+  nav_msgs::OccupancyGridPtr next(Stamp now);
+
+  void connect(StagePorts& ports) override;
+  bool publishNext(Stamp now) override;
+  double maxWait() const override { return options_.max_wait; }
+
+ private:
+  struct Waiting {
+    sensor_msgs::ImageConstPtr image;
+    Stamp since;
+  };
+  struct MountedScan {
+    Scan scan;
+    double height = 0.0;  ///< m, of the scanner
+  };
+
+  template <typename Message>
+  void takeMotion(const Message& message) {
+    runner_.serve([&] { motion_.take(message); });
+  }
+  void warnOf(const ScannerMount& mount, const ConvertedScan& converted);
+  /// Null where there is none within `tolerance`.
+  const MountedScan* nearestScan(Stamp exposure) const;
+  MountedScan scanOf(Stamp exposure) const;
+  nav_msgs::OccupancyGridPtr gridOf(const sensor_msgs::ImageConstPtr& image);
+  void reset();
+
+  MonoGridStageOptions options_;
+  const TransformBuffer& transforms_;
+  StageMonitor& monitor_;
+  StageRunner runner_;
+  MotionInput motion_;
+  CameraInput camera_;
+  ExposureCheck exposure_;
+  MonoGridModel model_;
+  std::deque<MountedScan> scans_;   ///< rising stamps, the newest ones
+  std::optional<Waiting> waiting_;  ///< for the scan of its time
+  StagePublisher<nav_msgs::OccupancyGrid> published_;
+};
+
+}  // namespace datmo

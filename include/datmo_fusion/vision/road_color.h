@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "datmo_fusion/common/options.h"
+
+namespace datmo {
+
+/// A pixel's gray level, or its blue, green and red; 0 to 255 each.
+using PixelColor = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;
+using PixelColors = std::vector<PixelColor>;
+
+struct RoadColorOptions {
+  int components = 4;
+  double learning_share = 0.2;  ///< 1
+  double min_new_share = 0.1;   ///< 1
+  double min_sigma = 3.0;       ///< gray levels
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// What the road looks like: a mixture of Gaussians over colors, learned from image to image.
+///
+/// The thesis has one Gaussian, learned once from pixels that were segmented by hand (4.1.4, eq.
+/// 4.1.4 to 4.1.6): `components: 1`. A road in sun and shade has several colors, and they change:
+/// here each image's samples shift the components by their share (on-line EM; Cappe & Moulines,
+/// On-line expectation-maximization algorithm for latent data models, 2009), and a color that none
+/// of them has takes the place of the rarest one (Stauffer & Grimson, Adaptive background mixture
+/// models for real-time tracking, 1999).
+class RoadColor {
+ public:
+  /// Throws OptionError.
+  explicit RoadColor(const Checked<RoadColorOptions>& options) : options_(*options) {}
+
+  /// One image's pixels of the road, all of one number of channels; another number than before
+  /// begins anew, too few change nothing. Same input, same output.
+  void learn(const PixelColors& samples);
+
+  /// Whether it has learned anything of images with so many channels.
+  bool isKnown(Eigen::Index channels) const {
+    return !gaussians_.empty() && gaussians_.front().mean.size() == channels;
+  }
+
+  /// Probability that a pixel of this color is of the road, of which half of all pixels are, and
+  /// the others of any color alike. `color`: of as many channels as were learned.
+  double probability(const PixelColor& color) const;
+
+  /// Standard deviations (Mahalanobis) to the nearest component; in place of the density's
+  /// threshold of the thesis (eq. 4.1.6), of which it is a function for one Gaussian.
+  double distance(const PixelColor& color) const;
+
+  /// Forgets everything.
+  void reset() { gaussians_.clear(); }
+
+ private:
+  using ColorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
+
+  /// Weighted sums over samples.
+  struct Moments {
+    double weight = 0.0;
+    PixelColor sum;
+    ColorMatrix squares;
+
+    explicit Moments(Eigen::Index channels)
+        : sum(PixelColor::Zero(channels)), squares(ColorMatrix::Zero(channels, channels)) {}
+    void add(double share, const PixelColor& color);
+    void scale(double factor);
+  };
+
+  struct Gaussian {
+    Moments moments;
+    PixelColor mean;
+    ColorMatrix information;
+    double peak = 0.0;  ///< density at the mean, times the weight
+
+    Gaussian(Moments from, double min_sigma);
+    double squaredDistance(const PixelColor& color) const;
+    double density(const PixelColor& color) const;
+  };
+
+  void begin(PixelColors samples);
+  /// Moves the components towards the samples by `share`. `finds_new`: what is of none of them is
+  /// left out, and may become one.
+  void shift(const PixelColors& samples, double share, bool finds_new);
+  /// Those that have any weight, which is made 1 in all.
+  void keep(std::vector<Moments> moments);
+  double density(const PixelColor& color) const;
+
+  RoadColorOptions options_;
+  std::vector<Gaussian> gaussians_;
+};
+
+}  // namespace datmo

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/stage/mono_grid_stage.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "camera_samples.h"
+#include "monitor_counts.h"
+#include <boost/make_shared.hpp>
+#include <gtest/gtest.h>
+
+namespace datmo::mono_grid_stage_test {
+namespace {
+
+using samples::drops;
+using samples::warnings;
+
+constexpr double kStart = 100.0;  // s
+constexpr double kHeight = 1.5;   // m
+constexpr samples::CameraSample kCamera{1000, 400, 500.0};
+constexpr std::size_t kBeams = 81;
+
+/// A road below the horizon; its first pixel is another one in each image.
+sensor_msgs::ImagePtr imageAt(double seconds) {
+  static std::uint8_t number = 0;
+  auto image = boost::make_shared<sensor_msgs::Image>(kCamera.image(seconds, 110));
+  std::fill(image->data.begin(), image->data.begin() + 200 * 1000, std::uint8_t{220});
+  image->data.front() = ++number;
+  return image;
+}
+
+/// Nothing in 160 degrees ahead.
+sensor_msgs::LaserScan scanAt(double seconds) {
+  sensor_msgs::LaserScan scan =
+      samples::laserScan(std::vector<float>(kBeams, std::numeric_limits<float>::infinity()));
+  scan.header.stamp = ros::Time(seconds);
+  scan.angle_min = -static_cast<float>(degrees(80.0));
+  scan.angle_max = static_cast<float>(degrees(80.0));
+  scan.angle_increment = static_cast<float>(degrees(2.0));
+  scan.time_increment = 0.0F;
+  scan.range_max = 50.0F;
+  return scan;
+}
+
+class MonoGridStageTest : public testing::Test {
+ protected:
+  void mount() {
+    auto scanner = samples::transform("base_link", "scanner", 0.0, 0.0);
+    scanner.transform.translation.z = 0.4;
+    transforms_.addStatic(
+        samples::transforms({samples::cameraMount("base_link", kHeight), scanner}));
+    stage_.takeCameraInfo(kCamera.info());
+  }
+
+  nav_msgs::OccupancyGridPtr look(const sensor_msgs::ImageConstPtr& image, double waited = 0.0) {
+    const Stamp stamp = toStamp(image->header.stamp);
+    stage_.takeImage(image, stamp);
+    return stage_.next(stamp + waited);
+  }
+
+  TransformBuffer transforms_{1.0};
+  StageMonitor monitor_{"mono_grid"};
+  MonoGridStage stage_{MonoGridStageOptions(), transforms_, monitor_};
+};
+
+TEST_F(MonoGridStageTest, AnImageAndItsScanMakeAGridAtTheExposure) {
+  mount();
+  stage_.takeScan(scanAt(kStart));
+  const auto grid = look(imageAt(kStart));
+  ASSERT_NE(grid, nullptr);
+  EXPECT_EQ(grid->header.stamp, ros::Time(kStart));
+  EXPECT_EQ(grid->header.frame_id, "base_link");
+  EXPECT_GT(std::count(grid->data.begin(), grid->data.end(), 20), 500);
+  EXPECT_EQ(monitor_.processedCount(), 1U);
+}
+
+TEST_F(MonoGridStageTest, AnImageWaitsForItsScan) {
+  mount();
+  EXPECT_EQ(look(imageAt(kStart)), nullptr);
+  stage_.takeScan(scanAt(kStart));
+  EXPECT_NE(stage_.next(Stamp::fromSeconds(kStart + 0.02)), nullptr);
+  EXPECT_EQ(stage_.next(Stamp::fromSeconds(kStart + 0.03)), nullptr) << "one image, one grid";
+}
+
+TEST_F(MonoGridStageTest, WithoutItsScanAnImageIsDropped) {
+  mount();
+  EXPECT_EQ(look(imageAt(kStart), 1.0), nullptr);
+  EXPECT_EQ(drops(monitor_, "no_scan"), 1U);
+  stage_.takeScan(scanAt(kStart + 1.0));
+  EXPECT_EQ(look(imageAt(kStart + 0.5)), nullptr) << "older than the scans";
+  EXPECT_EQ(drops(monitor_, "no_scan"), 2U);
+}
+
+TEST_F(MonoGridStageTest, WithoutMotionAScanOfAnotherTimeIsOfNoUse) {
+  mount();
+  stage_.takeScan(scanAt(kStart - 0.05));
+  EXPECT_EQ(look(imageAt(kStart), 1.0), nullptr);
+  EXPECT_EQ(drops(monitor_, "no_motion"), 1U);
+}
+
+TEST_F(MonoGridStageTest, OfImagesThatWaitTheNewestStays) {
+  mount();
+  EXPECT_EQ(look(imageAt(kStart)), nullptr);
+  EXPECT_EQ(look(imageAt(kStart + 0.05)), nullptr);
+  EXPECT_EQ(drops(monitor_, "overtaken_image"), 1U);
+}
+
+TEST_F(MonoGridStageTest, BadImagesAreDroppedAndTheNextOneServes) {
+  mount();
+  const auto black = imageAt(kStart);
+  black->data.assign(black->data.size(), 0);
+  const auto half = imageAt(kStart);
+  half->data.resize(half->data.size() / 2);
+  const auto other = imageAt(kStart);
+  other->encoding = "no encoding";
+  const auto narrow = imageAt(kStart);
+  narrow->width /= 2;
+  for (const auto& image : {black, half, other, narrow}) {
+    EXPECT_EQ(look(image, 1.0), nullptr);
+  }
+  EXPECT_EQ(drops(monitor_, "blank_image"), 1U);
+  EXPECT_EQ(drops(monitor_, "bad_encoding"), 2U);
+  EXPECT_EQ(drops(monitor_, "wrong_size"), 1U);
+  stage_.takeScan(scanAt(kStart + 0.1));
+  EXPECT_NE(look(imageAt(kStart + 0.1)), nullptr);
+}
+
+TEST_F(MonoGridStageTest, WithoutInfoOrMountImagesAreDropped) {
+  EXPECT_EQ(look(imageAt(kStart), 1.0), nullptr);
+  EXPECT_EQ(drops(monitor_, "missing_camera_info"), 1U);
+  stage_.takeScan(scanAt(kStart));
+  EXPECT_EQ(drops(monitor_, "missing_transform"), 1U) << "of the scanner";
+}
+
+TEST_F(MonoGridStageTest, AClockThatJumpsBackBeginsAnew) {
+  mount();
+  stage_.takeScan(scanAt(kStart));
+  EXPECT_NE(look(imageAt(kStart)), nullptr);
+  stage_.takeScan(scanAt(kStart - 50.0));
+  stage_.takeScan(scanAt(kStart - 49.9));
+  EXPECT_NE(look(imageAt(kStart - 49.9)), nullptr);
+  EXPECT_EQ(warnings(monitor_, "clock_restart"), 1U);
+}
+
+}  // namespace
+}  // namespace datmo::mono_grid_stage_test

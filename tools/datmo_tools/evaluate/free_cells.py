@@ -1,0 +1,204 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""evaluate free_cells."""
+
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from datmo_tools import transforms
+from datmo_tools.bag_input import opened
+from datmo_tools.convert import kitti_messages, kitti_scans
+from datmo_tools.errors import InputError
+from datmo_tools.evaluate import road_plane
+from datmo_tools.evaluate.grid_recordings import (
+    CAMERA_INFOS,
+    MOUNTS,
+    grid_of,
+    mount_of,
+    mounts_of,
+)
+from datmo_tools.evaluate.grid_scores import UNDECIDED
+from datmo_tools.evaluate.report import Section
+from datmo_tools.evaluate.stereo_grid_scores import BAND_EDGES, moved, obstacle_points
+from datmo_tools.evaluate.stereo_grids import CLOUDS, MAX_GAP
+from datmo_tools.evaluate.truth import TRUE_POSE
+from datmo_tools.pose_path import read_path
+from datmo_tools.stamps import NANOSECONDS
+from datmo_tools.text_table import rounded
+
+DESCRIPTION = """\
+Scores the free cells of a run's grids, of any source, with the Velodyne of the drive that it was
+made from (kitti_to_bag --points --images), in the left camera's image, by range from the camera:
+
+  precision  of the free cells of which the Velodyne knows, how many have no obstacle
+  recall     of the cells in which the Velodyne sees the road and no obstacle, how many are free
+
+An obstacle is what stands 0.3 m to 2 m above the road, whose plane is fitted in each cloud; the
+road is what is within 0.15 m of it. The cloud nearest in time is brought to the grid's stamp by the
+true poses. What moved by itself in between (up to 0.05 s) is a little off."""
+
+ROAD_TOLERANCE = 0.15  # m from the plane
+
+SUMS = ((0.0, 20.0), (0.0, BAND_EDGES[-1]))
+
+
+class Image(NamedTuple):
+    """What an image shows of the road."""
+
+    camera_in_base: np.ndarray  # 4 x 4, of the optical frame
+    projection: np.ndarray  # 3 x 3
+    size: tuple  # px: columns, rows
+
+    def ranges(self, points):
+        """Distances (n, m) of points of the road (n x 2, base_link) over ground; infinite: not in
+        the image."""
+        on_road = np.column_stack([points, np.zeros(len(points))])
+        seen = transforms.apply(transforms.inverse(self.camera_in_base), on_road)
+        ahead = seen[:, 2] > 0.0
+        pixels = seen @ self.projection.T
+        pixels = pixels[:, :2] / np.where(ahead, pixels[:, 2], 1.0)[:, np.newaxis]
+        inside = ahead & np.all((pixels >= 0.0) & (pixels < self.size), axis=1)
+        ranges = np.linalg.norm(points - self.camera_in_base[:2, 3], axis=1)
+        return np.where(inside, ranges, np.inf)
+
+
+class Counts(NamedTuple):
+    """Cells by range band, n each."""
+
+    known_free: np.ndarray  # free cells of the grid of which the Velodyne knows
+    right: np.ndarray  # of these, those without an obstacle
+    road: np.ndarray  # cells of the road, as the Velodyne sees it
+    found: np.ndarray  # of these, those that are free in the grid
+
+    def __add__(self, other):
+        return Counts(*(mine + its for mine, its in zip(self, other)))
+
+
+NOTHING = Counts(*(np.zeros(len(BAND_EDGES) - 1, dtype=int) for _ in Counts._fields))
+
+
+def count(grid, obstacles, road, image):
+    """Counts of one grid (Grid); obstacles, road: n x 2, base_link at its stamp, m; image: Image."""
+    has_obstacle, has_road = (np.zeros(grid.cells.shape, dtype=bool) for _ in range(2))
+    for points, cells in ((obstacles, has_obstacle), (road, has_road)):
+        column, row = grid.cells_of(points).T
+        cells[row, column] = True
+    is_free = (grid.cells >= 0) & (grid.cells < UNDECIDED)
+    is_road = has_road & ~has_obstacle
+    chosen = (is_free & (has_obstacle | has_road), is_free & is_road, is_road, is_road & is_free)
+    return Counts(*(_by_band(grid, cells, image) for cells in chosen))
+
+
+def _by_band(grid, chosen, image):
+    rows, columns = np.nonzero(chosen)
+    ranges = image.ranges(grid.centers(np.column_stack([columns, rows])))
+    return np.histogram(ranges, BAND_EDGES)[0]
+
+
+def score(run, drive, topic):
+    """Score of the grids on `topic` in the bag `run` (Path) against the drive's bag (Path), as a
+    dictionary that JSON can hold. Raises InputError."""
+    clouds, image = _read_drive(drive)
+    path = read_path(drive, TRUE_POSE)
+    stamps = np.array(sorted(clouds))
+    counts, used, left_out = NOTHING, 0, 0
+    with opened(run) as bag:
+        for name, raw, _ in bag.read_messages([topic], raw=True):
+            stamp, grid = grid_of(run, name, raw)
+            nearest = int(stamps[np.argmin(np.abs(stamps - stamp))])
+            if abs(nearest - stamp) > MAX_GAP * NANOSECONDS:
+                left_out += 1
+                continue
+            then, now = path.at(nearest), path.at(stamp)
+            counts += count(grid, *(moved(points, then, now) for points in clouds[nearest]), image)
+            used += 1
+    if used == 0:
+        raise InputError(
+            f"{run}: of {left_out} grids on {topic} none is within {MAX_GAP:g} s of a cloud in "
+            f"{drive}, expected one or more"
+        )
+    ends = [*zip(BAND_EDGES, BAND_EDGES[1:]), *SUMS]
+    return {
+        "run": str(run),
+        "topic": topic,
+        "grids": used,
+        "grids_without_cloud": left_out,
+        "bands": [_band(counts, near, far) for near, far in ends],
+    }
+
+
+def _band(counts, near, far):
+    chosen = [near <= begin < far for begin in BAND_EDGES[:-1]]
+    free, right, road, found = (int(column[chosen].sum()) for column in counts)
+    return {
+        "from": near,
+        "to": far,
+        "free": free,
+        "precision": right / free if free else None,
+        "road": road,
+        "recall": found / road if road else None,
+    }
+
+
+def _read_drive(path):
+    """Dictionary stamp (ns) -> obstacles and road of its cloud (n x 2 each, base_link, m); Image."""
+    kept = {MOUNTS: [], CLOUDS: [], CAMERA_INFOS[0]: []}
+    with opened(path) as bag:
+        for topic, message, _ in bag.read_messages([*kept]):
+            kept[topic].append(message)
+    for topic in (CLOUDS, CAMERA_INFOS[0]):
+        if not kept[topic]:
+            raise InputError(
+                f"{path}: nothing on {topic}, expected a bag of kitti_to_bag --points --images"
+            )
+    mounts = mounts_of(kept[MOUNTS])
+    info = kept[CAMERA_INFOS[0]][0]
+    projection = np.array(info.P).reshape(3, 4)[:, :3]
+    image = Image(mount_of(path, mounts, info.header.frame_id), projection,
+                  (info.width, info.height))  # fmt: skip
+    velodyne = mount_of(path, mounts, kept[CLOUDS][0].header.frame_id)
+    clouds = {
+        message.header.stamp.to_nsec(): _parted(kitti_messages.points(message), velodyne)
+        for message in kept[CLOUDS]
+    }
+    return clouds, image
+
+
+def _parted(cloud, base_from_velodyne):
+    heights = road_plane.fit_road_plane(cloud).heights(cloud)
+    chosen = np.abs(heights) <= ROAD_TOLERANCE
+    chosen &= ~kitti_scans.on_own_car(cloud[:, 0], cloud[:, 1])
+    road = transforms.apply(base_from_velodyne, cloud[chosen, :3].astype(float))[:, :2]
+    return obstacle_points(cloud, base_from_velodyne), road
+
+
+def sections(result):
+    """List of Section of a score."""
+    rows = [[result["topic"], "precision", "of free", "recall", "of the road"]]
+    rows += [
+        [
+            f"{band['from']:g} to {band['to']:g} m",
+            rounded(band["precision"], 4),
+            str(band["free"]),
+            rounded(band["recall"], 3),
+            str(band["road"]),
+        ]
+        for band in result["bands"]
+    ]
+    scored = f"{result['grids']} grids, {result['grids_without_cloud']} more without a cloud"
+    return [Section(rows=rows, lines=[scored])]
+
+
+def evaluate(values):
+    """The score, and its sections. Raises InputError."""
+    result = score(values.run, values.drive, values.topic)
+    return result, sections(result)
+
+
+def add_arguments(parser):
+    """Of this subcommand, for argparse."""
+    add = parser.add_argument
+    add("run", type=Path, metavar="RUN.bag", help="bag of run_bag --low-level-fusion --write-grids")
+    add("drive", type=Path, metavar="DRIVE.bag", help="bag of kitti_to_bag --points --images")
+    add("--topic", default="/grids/mono", help="of the grids (default %(default)s)")
