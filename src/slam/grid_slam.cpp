@@ -144,9 +144,23 @@ void GridSlamOptions::visit(OptionVisitor& visitor) {
                   {0, 2147483647});
 }
 
+namespace {
+
+/// Poses that are drawn to check odometry: with fewer, one that leads away is no longer found.
+constexpr int kTrustSamples = 20;
+
+ScanMatcherOptions trustMatcherOptions(const GridSlamOptions& options) {
+  ScanMatcherOptions matcher = options.matcher;
+  matcher.samples = std::min(matcher.samples, kTrustSamples);
+  return matcher;
+}
+
+}  // namespace
+
 GridSlam::GridSlam(const Checked<GridSlamOptions>& options)
     : options_(*options),
       matcher_(options->matcher),
+      trust_matcher_(trustMatcherOptions(*options)),
       map_(options->map),
       odometry_(options->odometry_hold, kOdometryMemory),
       trust_(options->trust),
@@ -214,19 +228,18 @@ Scan GridSlam::locate(const Measurement& measurement, SlamResult& result) {
   Scan scan = compensated(measurement.scan);
   for (int pass = 0; pass < (guessed ? kPassesWithoutOdometry : 1); ++pass) {
     filter_ = predicted;
-    result.match = correct(filter_, measurement, scan, result.odometry_used, random_);
+    const MatchResult match = matcher_.match(map_, endPointsOf(measurement, scan),
+                                             {filter_.pose(), result.odometry_used}, random_);
+    filter_.correct(match.pose);
+    result.match = match.quality;
     scan = guessed ? compensated(measurement.scan) : scan;
   }
   return scan;
 }
 
-MatchQuality GridSlam::correct(PoseFilter& filter, const Measurement& measurement, const Scan& scan,
-                               bool by_odometry, Random& random) const {
-  const Scan seen = measuredScan(viewOf(measurement, scan));
-  const MatchResult match = matcher_.match(map_, endPoints(seen, options_.max_step),
-                                           {filter.pose(), by_odometry}, random);
-  filter.correct(match.pose);
-  return match.quality;
+std::vector<EndPoint> GridSlam::endPointsOf(const Measurement& measurement,
+                                            const Scan& scan) const {
+  return endPoints(measuredScan(viewOf(measurement, scan)), options_.max_step);
 }
 
 SlamResult GridSlam::process(const Scan& scan) { return process(Measurement{scan}); }

@@ -27,9 +27,9 @@ void OdometryTrust::predict(const Pose2& motion, double seconds) {
   window_->by_odometry.predictMeasured(motion, seconds);
 }
 
-void OdometryTrust::judge(Stamp stamp, bool scans_fit_better) {
+void OdometryTrust::judge(Stamp stamp, const std::function<bool()>& scans_fit_better) {
   contradiction_ = squaredDistance(window_->by_odometry.pose(), window_->by_scans.pose());
-  if (contradiction_ > kContradiction && scans_fit_better) {
+  if (contradiction_ > kContradiction && scans_fit_better()) {
     contradicted_ = stamp;
   }
   is_trusted_ = !contradicted_ || secondsBetween(*contradicted_, stamp) > options_.window;

@@ -109,9 +109,8 @@ class GridSlam {
   /// beams that go all round, such errors never fade. So the scan is compensated again for the
   /// motion that its own match gives.
   Scan locate(const Measurement& measurement, SlamResult& result);
-  /// Matches the scan from the filter's prediction, and corrects it. Returns how well it fits.
-  MatchQuality correct(PoseFilter& filter, const Measurement& measurement, const Scan& scan,
-                       bool by_odometry, Random& random) const;
+  /// The scan's end points that are matched.
+  std::vector<EndPoint> endPointsOf(const Measurement& measurement, const Scan& scan) const;
   /// After locate() by odometry, from the state `before`, `seconds` ago: goes on by the scans alone
   /// if they contradict it. Returns the scan as compensated for the motion.
   Scan checkOdometry(const Measurement& measurement, const PoseFilter& before, double seconds,
@@ -143,6 +142,7 @@ class GridSlam {
 
   GridSlamOptions options_;
   ScanMatcher matcher_;
+  ScanMatcher trust_matcher_;  ///< of the scans alone, while odometry is trusted
   OccupancyMap map_;
   OdometryBuffer odometry_;
   OdometryAnchor anchor_;

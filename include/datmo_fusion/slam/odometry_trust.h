@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "datmo_fusion/common/options.h"
@@ -40,8 +41,8 @@ class OdometryTrust {
   PoseFilter& byScans() { return window_->by_scans; }
 
   /// After that. `scans_fit_better`: than where odometry has the vehicle, surely; else it is the
-  /// scans that were followed wrongly.
-  void judge(Stamp stamp, bool scans_fit_better);
+  /// scans that were followed wrongly. Asked only where both contradict each other.
+  void judge(Stamp stamp, const std::function<bool()>& scans_fit_better);
 
   /// After judge(): the window ends if it is over.
   void endWindow(Stamp stamp);

@@ -104,8 +104,9 @@ void MotionInput::take(const geometry_msgs::PoseWithCovarianceStamped& message) 
     return;
   }
   if (step->jumped) {
-    throw InputError("pose_jump", "pose that moved at " + std::to_string(step->twist.forward_speed) +
-                                      " m/s and " + std::to_string(step->twist.yaw_rate) +
+    throw InputError("pose_jump", "pose that moved at " +
+                                      std::to_string(step->twist.forward_speed) + " m/s and " +
+                                      std::to_string(step->twist.yaw_rate) +
                                       " rad/s: expected what the vehicle can do (motion/"
                                       "max_acceleration, max_yaw_acceleration); the map's pose was "
                                       "corrected, and that is no motion");
