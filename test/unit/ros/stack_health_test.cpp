@@ -12,10 +12,10 @@ StageState stage(const std::string& name, HealthLevel level, const StageTopics& 
 }
 
 TEST(StackHealth, TheStageFarthestUpTheChainIsNamed) {
-  const StackHealth health =
-      stackHealth({stage("slam", HealthLevel::kNothing, {{"/scan"}, {"/pose"}}, "no scan yet"),
-                   stage("tracker", HealthLevel::kNothing, {{"/pose"}, {"/tracks"}}, "no pose yet")},
-                  "/tracks");
+  const StackHealth health = stackHealth(
+      {stage("slam", HealthLevel::kNothing, {{"/scan"}, {"/pose"}}, "no scan yet"),
+       stage("tracker", HealthLevel::kNothing, {{"/pose"}, {"/tracks"}}, "no pose yet")},
+      "/tracks");
   EXPECT_EQ(health.sentence, "no tracks: slam: no scan yet");
 }
 

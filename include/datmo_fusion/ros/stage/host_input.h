@@ -25,7 +25,8 @@ struct HostInputOptions {
 };
 
 /// The host at a stamp: its pose from the split scans, its speed and yaw rate from the odometry,
-/// or, without that, from the poses, whose jumps are none of it; its acceleration from what the speed did lately.
+/// or, without that, from the poses, whose jumps are none of it; its acceleration from what the
+/// speed did lately.
 class HostInput {
  public:
   /// `runner`: of the stage, which is to call reset() when it is reset itself; it must outlive the
