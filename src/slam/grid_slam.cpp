@@ -127,7 +127,6 @@ void GridSlamOptions::visit(OptionVisitor& visitor) {
   visitor.group("pose", [&] { pose.visit(visitor); });
   visitor.group("matcher", [&] { matcher.visit(visitor); });
   visitor.group("recovery", [&] { recovery.visit(visitor); });
-  visitor.group("trust", [&] { trust.visit(visitor); });
   visitor.toggle({"motion_compensation", "",
                   "bring each beam from its own time to the scan's stamp; false: take all beams of "
                   "a scan as measured at once (thesis)"},
@@ -144,28 +143,12 @@ void GridSlamOptions::visit(OptionVisitor& visitor) {
                   {0, 2147483647});
 }
 
-namespace {
-
-/// Poses that are drawn to check odometry: with fewer, one that leads away is no longer found.
-constexpr int kTrustSamples = 20;
-
-ScanMatcherOptions trustMatcherOptions(const GridSlamOptions& options) {
-  ScanMatcherOptions matcher = options.matcher;
-  matcher.samples = std::min(matcher.samples, kTrustSamples);
-  return matcher;
-}
-
-}  // namespace
-
 GridSlam::GridSlam(const Checked<GridSlamOptions>& options)
     : options_(*options),
       matcher_(options->matcher),
-      trust_matcher_(trustMatcherOptions(*options)),
       map_(options->map),
       odometry_(options->odometry_hold, kOdometryMemory),
-      trust_(options->trust),
       random_(static_cast<std::uint64_t>(options->seed)),
-      trust_random_(static_cast<std::uint64_t>(options->seed)),
       filter_(options->pose, options->motion) {}
 
 void GridSlam::addOdometry(const OdometrySample& sample) {
@@ -177,7 +160,7 @@ void GridSlam::addOdometry(const OdometrySample& sample) {
   }
 }
 
-GridSlam::PredictedBy GridSlam::predict(Stamp stamp) {
+bool GridSlam::predict(Stamp stamp) {
   const double seconds = secondsBetween(*stamp_, stamp);
   const auto measured = odometry_.motion(*stamp_, stamp, filter_.errors(), estimatedSpeed());
   if (!measured && isGap(seconds)) {
@@ -194,24 +177,19 @@ GridSlam::PredictedBy GridSlam::predict(Stamp stamp) {
       returnToMap();
     }
     filter_ = *corrected;
-    return PredictedBy::kAnchor;
+    return true;
   }
-  return measured && odometry_.measuresSpeed() ? PredictedBy::kOdometry : PredictedBy::kVelocity;
+  return measured && odometry_.measuresSpeed();
 }
 
 Scan GridSlam::compensated(const Scan& scan) const {
   const double duration = sweepDuration(scan);
-  if (duration == 0.0) {
+  if (!options_.motion_compensation || duration == 0.0) {
     return scan;
   }
   const auto measured =
       odometry_.motion(scan.stamp, scan.stamp + duration, filter_.errors(), estimatedSpeed());
-  return compensated(scan, measured ? twistOf(*measured, duration) : filter_.velocity());
-}
-
-Scan GridSlam::compensated(const Scan& scan, const Twist2& twist) const {
-  const bool is_sweep = options_.motion_compensation && sweepDuration(scan) > 0.0;
-  return is_sweep ? compensateMotion(scan, twist) : scan;
+  return compensateMotion(scan, measured ? twistOf(*measured, duration) : filter_.velocity());
 }
 
 GridMaskedScan GridSlam::viewOf(const Measurement& measurement,
@@ -227,19 +205,15 @@ Scan GridSlam::locate(const Measurement& measurement, SlamResult& result) {
   const bool guessed = !result.odometry_used && sweepDuration(measurement.scan) > 0.0;
   Scan scan = compensated(measurement.scan);
   for (int pass = 0; pass < (guessed ? kPassesWithoutOdometry : 1); ++pass) {
+    const Scan seen = measuredScan(viewOf(measurement, scan));
+    const MatchResult match = matcher_.match(map_, endPoints(seen, options_.max_step),
+                                             {predicted.pose(), result.odometry_used}, random_);
     filter_ = predicted;
-    const MatchResult match = matcher_.match(map_, endPointsOf(measurement, scan),
-                                             {filter_.pose(), result.odometry_used}, random_);
     filter_.correct(match.pose);
     result.match = match.quality;
     scan = guessed ? compensated(measurement.scan) : scan;
   }
   return scan;
-}
-
-std::vector<EndPoint> GridSlam::endPointsOf(const Measurement& measurement,
-                                            const Scan& scan) const {
-  return endPoints(measuredScan(viewOf(measurement, scan)), options_.max_step);
 }
 
 SlamResult GridSlam::process(const Scan& scan) { return process(Measurement{scan}); }
@@ -253,18 +227,10 @@ SlamResult GridSlam::process(const Measurement& measurement) {
   Scan scan = compensated(measurement.scan);
   if (stamp_) {
     undoGapForOdometry(scan.stamp);
-    const PoseFilter before = filter_;
-    const double seconds = secondsBetween(*stamp_, scan.stamp);
-    const PredictedBy by = seconds > 0.0 ? predict(scan.stamp) : PredictedBy::kVelocity;
-    result.odometry_used = by != PredictedBy::kVelocity;
+    result.odometry_used = scan.stamp > *stamp_ && predict(scan.stamp);
     leaveMapAfterGap(scan.stamp);
     map_.centerOn(filter_.pose().pose.position());
     scan = locate(measurement, result);
-    if (by == PredictedBy::kOdometry && !recovery_ && !isGap(seconds)) {
-      scan = checkOdometry(measurement, before, seconds, scan, result);
-    } else {
-      trust_.interrupt();
-    }
   }
   const PoseWithCovariance base_in_map = poseInFirstMap();
   const GridMaskedScan view = viewOf(measurement, scan);

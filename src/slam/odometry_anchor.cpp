@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "datmo_fusion/slam/pose_distance.h"
+#include <Eigen/Cholesky>
 
 namespace datmo {
 
@@ -13,6 +13,16 @@ namespace {
 /// s between two poses of the odometry that are a gap: beyond the period of any odometry that
 /// serves a scanner, so that the matches of a scan or two in between are left as they are.
 constexpr double kGap = 0.25;
+
+/// Of the squared distance of two poses; chi-squared distribution, 3 degrees of freedom, 0.999.
+constexpr double kContradiction = 16.27;
+
+double squaredDistance(const PoseWithCovariance& a, const PoseWithCovariance& b) {
+  const Eigen::Vector3d difference(b.pose.x() - a.pose.x(), b.pose.y() - a.pose.y(),
+                                   angleBetween(a.pose.heading(), b.pose.heading()));
+  const Eigen::Matrix3d covariance = a.covariance + b.covariance;
+  return difference.dot(covariance.ldlt().solve(difference));
+}
 
 }  // namespace
 

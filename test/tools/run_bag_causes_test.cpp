@@ -155,12 +155,6 @@ std::vector<Cause> furtherCauses() {
          each.twist.twist.linear.x = odd ? 40.0 : kSpeed;
        }),
        "less than all: grid_slam: odometry with speed 40.000000 m/s"},
-      {"odometry that stands", odometry([](auto& each) {
-         each.pose.pose = geometry_msgs::Pose();
-         each.pose.pose.orientation.w = 1.0;
-         each.twist.twist.linear.x = 0.0;
-       }),
-       "less than all: grid_slam: the scans contradict the odometry"},
       {"no stereo points", nothing, "less than all: stereo_alignment: no points2 yet", true, "",
        with(&GraphSwitches::low_level_fusion)},
       {"no clouds of a 3D lidar", nothing, "no tracks: cloud_to_scan: no cloud yet", true, "",

@@ -11,7 +11,6 @@
 #include "datmo_fusion/slam/map_recovery.h"
 #include "datmo_fusion/slam/odometry_anchor.h"
 #include "datmo_fusion/slam/odometry_buffer.h"
-#include "datmo_fusion/slam/odometry_trust.h"
 #include "datmo_fusion/slam/pose_filter.h"
 #include "datmo_fusion/slam/scan_matcher.h"
 
@@ -23,7 +22,6 @@ struct GridSlamOptions {
   PoseFilterOptions pose;
   ScanMatcherOptions matcher;
   MapRecoveryOptions recovery;
-  OdometryTrustOptions trust;
   double odometry_hold = 0.5;  ///< s
   bool motion_compensation = true;
   double max_step = 5.0;  ///< m
@@ -35,11 +33,8 @@ struct GridSlamOptions {
 
 /// What one scan led to.
 struct SlamResult {
-  LabeledScan split;             ///< the scan's end points, judged against the map, and the pose
-  bool odometry_used = false;    ///< false: predicted with the last estimated velocity
-  bool odometry_trusted = true;  ///< false: the scans contradict it
-  /// Squared distance, in standard deviations, of the pose by it alone and by the scans alone.
-  double odometry_contradiction = 0.0;
+  LabeledScan split;               ///< the scan's end points, judged against the map, and the pose
+  bool odometry_used = false;      ///< false: predicted with the last estimated velocity
   MatchQuality match;              ///< how well the scan fits the map
   OdometryErrors odometry_errors;  ///< as estimated so far
   Localization localization = Localization::kLocated;
@@ -55,8 +50,6 @@ struct SlamResult {
 /// occupied and free cells. Where the pose comes from, what moves and where exactly a surface lies
 /// is still decided by the scanner's own beams as far as the grid confirms them: the cells of
 /// others are coarse, and off by their depth's error, which would look like motion.
-///
-/// Odometry that the scans contradict is not followed (OdometryTrust).
 ///
 /// After a gap in which the vehicle may have gone far the map is left alone and a new one begun,
 /// until the vehicle is found in the old one or it is given up (MapRecovery). The pose's covariance
@@ -90,7 +83,6 @@ class GridSlam {
  private:
   /// The scan as seen at its stamp, by the newest odometry or else the estimated velocity.
   Scan compensated(const Scan& scan) const;
-  Scan compensated(const Scan& scan, const Twist2& twist) const;
   /// A scan, and the fused grid of its time where there is one.
   struct Measurement {
     const Scan& scan;
@@ -109,12 +101,6 @@ class GridSlam {
   /// beams that go all round, such errors never fade. So the scan is compensated again for the
   /// motion that its own match gives.
   Scan locate(const Measurement& measurement, SlamResult& result);
-  /// The scan's end points that are matched.
-  std::vector<EndPoint> endPointsOf(const Measurement& measurement, const Scan& scan) const;
-  /// After locate() by odometry, from the state `before`, `seconds` ago: goes on by the scans alone
-  /// if they contradict it. Returns the scan as compensated for the motion.
-  Scan checkOdometry(const Measurement& measurement, const PoseFilter& before, double seconds,
-                     const Scan& scan, SlamResult& result);
 
   /// If the last scan is long ago, and the pose much less certain than then: begins a new map.
   void leaveMapAfterGap(Stamp stamp);
@@ -131,24 +117,15 @@ class GridSlam {
   /// m/s; for odometry that measures none.
   double estimatedSpeed() const { return filter_.velocity().forward_speed; }
 
-  /// What a pose was predicted by.
-  enum class PredictedBy {
-    kVelocity,  ///< in part, at least
-    kOdometry,
-    kAnchor,  ///< odometry that was silent, from before that on
-  };
-  /// From the last stamp to a later one.
-  PredictedBy predict(Stamp stamp);
+  /// From the last stamp to a later one. Returns whether odometry covered all of the motion.
+  bool predict(Stamp stamp);
 
   GridSlamOptions options_;
   ScanMatcher matcher_;
-  ScanMatcher trust_matcher_;  ///< of the scans alone, while odometry is trusted
   OccupancyMap map_;
   OdometryBuffer odometry_;
   OdometryAnchor anchor_;
-  OdometryTrust trust_;
   Random random_;
-  Random trust_random_;  ///< of its own: what it draws changes no match by odometry
   PoseFilter filter_;
   std::optional<Stamp> stamp_;  ///< of the pose: the last scan, or odometry since
 

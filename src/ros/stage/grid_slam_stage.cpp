@@ -185,12 +185,6 @@ void GridSlamStage::showMatch(const SlamResult& result) {
   monitor_.figure("weakest direction of the match [m]", match.weakest_sigma);
   monitor_.figure("scans with a direction left to the odometry",
                   static_cast<double>(degenerate_scans_));
-  monitor_.figure("odometry against scans, squared sigmas", result.odometry_contradiction);
-  if (!result.odometry_trusted) {
-    monitor_.warned(InputError("contradicting_odometry",
-                               "the scans contradict the odometry (frozen, late, or of other "
-                               "wheels?): goes on by the scans alone until both agree"));
-  }
   monitor_.figure("odometry's scale error", result.odometry_errors.speed_scale);
   monitor_.figure("odometry's yaw rate bias [rad/s]", result.odometry_errors.yaw_rate_bias);
 }
