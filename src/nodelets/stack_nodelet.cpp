@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <diagnostic_updater/diagnostic_updater.h>
@@ -39,17 +37,13 @@ class StackNodelet : public nodelet::Nodelet {
   void takeDiagnostics(const diagnostic_msgs::DiagnosticArrayConstPtr& list) {
     for (const DiagnosticStatus& status : list->status) {
       if (const auto state = stateOf(status)) {
-        states_[state->stage] = *state;
+        stages_.take(*state, since_start_.seconds());
       }
     }
   }
 
   void report(diagnostic_updater::DiagnosticStatusWrapper& status) {
-    std::vector<StageState> states;
-    for (const auto& [name, state] : states_) {
-      states.push_back(state);
-    }
-    const StackHealth health = stackHealth(states, result_);
+    const StackHealth health = stackHealth(stages_.at(since_start_.seconds()), result_);
     status.summary(diagnosticLevel(health.level), health.sentence);
     const bool may_come_yet = !said_ && health.level != HealthLevel::kGood && ++beats_ < kPatience;
     if (health.level != said_ && !may_come_yet) {
@@ -65,7 +59,8 @@ class StackNodelet : public nodelet::Nodelet {
   static constexpr std::uint32_t kQueue = 50;  ///< several stages for a second or so
 
   std::string result_;
-  std::map<std::string, StageState> states_;
+  ReportingStages stages_;
+  Stopwatch since_start_;
   std::optional<HealthLevel> said_;
   int beats_ = 0;
   std::unique_ptr<diagnostic_updater::Updater> updater_;

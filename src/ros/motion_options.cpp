@@ -32,6 +32,7 @@ void MotionOptions::visit(OptionVisitor& visitor) {
                   "imu_and_wheels: the speed is this times the mean velocity of the JointState",
                   Tier::kPublic},
                  wheel_radius, {0.001, 5.0});
+  noise.visit(visitor);
   change.visit(visitor);
 }
 

@@ -72,6 +72,7 @@ OptionValues readSensors(const SectionReader& section) {
   addSection<ScannerOptions>(kScannerSection, section, sensors);
   addSection<StereoSceneOptions>(kStereoCameraSection, section, sensors);
   addSection<VehicleOptions>(kVehicleSection, section, sensors);
+  addSection<MotionOptions>(kMotionSection, section, sensors);
   const OptionValues images = section(kStereoImagesSection);
   for (const std::string& key : kPairing) {
     if (const auto found = images.find(key); found != images.end()) {

@@ -29,6 +29,11 @@ void StereoCameraOptions::visit(OptionVisitor& visitor) {
                   "taken out of the points; they are left out while mount or clock are surely "
                   "wrong, or the two do not see the same"},
                  align);
+  visitor.number(
+      {"alignment_hold", "s",
+       "how long after its stamp it is believed that the two do not see the same: with a "
+       "silent scanner nobody says so any more; the time over which agreement is judged"},
+      alignment_hold, {0.1, 3600.0});
   DepthNoiseOptions::visit(visitor);
 }
 

@@ -245,7 +245,9 @@ SlamResult GridSlam::process(const Measurement& measurement) {
     map_.update(scan, states, base_in_map.pose);
   }
   stamp_ = std::max(scan.stamp, stamp_.value_or(scan.stamp));
-  anchor_.keep(scan.stamp, filter_, odometry_);
+  if (!recovery_) {  // else the pose is in the newer map's frame, and the anchor leads to the older
+    anchor_.keep(scan.stamp, filter_, odometry_);
+  }
   result.odometry_errors = filter_.errors();
   result.localization = recovery_ ? recovery_->state() : Localization::kLocated;
   removeConflictingBeams(scan, view, own, states);

@@ -5,16 +5,26 @@
 
 namespace datmo {
 
-void MotionModelOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"speed_noise", "m/s", "standard deviation of the speed", Tier::kPublic},
+void OdometryNoiseOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"speed_noise", "m/s", "standard deviation of odometry's speed", Tier::kPublic},
                  speed_noise, {0.001, 10.0});
   visitor.number({"speed_noise_ratio", "1", "and of it for each m/s of speed: wheel radius, slip"},
                  speed_noise_ratio, {0.0, 1.0});
-  visitor.number({"yaw_rate_noise", "rad/s", "standard deviation of the yaw rate, bias included",
+  visitor.number({"yaw_rate_noise", "rad/s", "standard deviation of its yaw rate, bias included",
                   Tier::kPublic},
                  yaw_rate_noise, {0.0001, 3.0});
   visitor.number({"yaw_rate_noise_ratio", "1", "and of it for each rad/s of yaw rate"},
                  yaw_rate_noise_ratio, {0.0, 1.0});
+}
+
+Eigen::Matrix2d OdometryNoiseOptions::covariance(const Twist2& twist) const {
+  const double speed = speed_noise + speed_noise_ratio * std::abs(twist.forward_speed);
+  const double yaw_rate = yaw_rate_noise + yaw_rate_noise_ratio * std::abs(twist.yaw_rate);
+  return Eigen::Vector2d(speed * speed, yaw_rate * yaw_rate).asDiagonal();
+}
+
+void MotionModelOptions::visit(OptionVisitor& visitor) {
+  OdometryNoiseOptions::visit(visitor);
   visitor.number({"side_slip_noise", "m/s", "standard deviation of the speed sideways"},
                  side_slip_noise, {0.0001, 5.0});
   visitor.number({"acceleration_noise", "m/s^1.5", "without odometry: random walk of the speed",
@@ -47,14 +57,6 @@ Eigen::Matrix3d VelocityMotionModel::covariance(const Twist2& twist, double seco
 Eigen::Matrix3d VelocityMotionModel::sideSlip(double seconds) const {
   const double sigma = options_.side_slip_noise * seconds;
   return Eigen::Vector3d(0.0, sigma * sigma, 0.0).asDiagonal();
-}
-
-Eigen::Matrix2d VelocityMotionModel::velocityCovariance(const Twist2& twist) const {
-  const double speed =
-      options_.speed_noise + options_.speed_noise_ratio * std::abs(twist.forward_speed);
-  const double yaw_rate =
-      options_.yaw_rate_noise + options_.yaw_rate_noise_ratio * std::abs(twist.yaw_rate);
-  return Eigen::Vector2d(speed * speed, yaw_rate * yaw_rate).asDiagonal();
 }
 
 Eigen::Matrix2d VelocityMotionModel::velocityChange(double seconds) const {

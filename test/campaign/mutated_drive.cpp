@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "message_mutation.h"
+#include "stereo_pair_sample.h"
 #include <boost/make_shared.hpp>
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
@@ -26,9 +27,11 @@ constexpr int kMutatedSteps = 40;      // 2.5 s
 constexpr int kCleanSteps = 48;        // longer than a map that begins anew needs for its tracks
 constexpr double kTooLong = 20.0;      // s for one message: a hang
 constexpr unsigned kMaxMutations = 3;  // a step
+constexpr int kImageSteps = 4;         // from image to image
+constexpr const char* kImages = "images";
 
 /// Graphs, so that each input of each stage is one of them: by name.
-const std::array<std::pair<const char*, GraphSwitches>, 4>& graphs() {
+const std::array<std::pair<const char*, GraphSwitches>, 5>& graphs() {
   static const auto made = [] {
     GraphSwitches levels;
     levels.low_level_fusion = levels.road_border = levels.static_points = true;
@@ -38,10 +41,14 @@ const std::array<std::pair<const char*, GraphSwitches>, 4>& graphs() {
     cloud.scan_from_cloud = cloud.cloud_objects = true;
     GraphSwitches alone;
     alone.road_border = alone.risk = true;
-    return std::array<std::pair<const char*, GraphSwitches>, 4>{{{"all levels", levels},
+    GraphSwitches images;
+    images.stereo = StereoPoints::kRectifiedImages;
+    images.stereo_objects = images.mono = true;
+    return std::array<std::pair<const char*, GraphSwitches>, 5>{{{"all levels", levels},
                                                                  {"a 3D lidar", cloud},
                                                                  {"a twist", alone},
-                                                                 {"an Imu and wheels", alone}}};
+                                                                 {"an Imu and wheels", alone},
+                                                                 {kImages, images}}};
   }();
   return made;
 }
@@ -88,6 +95,8 @@ const std::map<std::string, MutatedDrive::Mutate>& MutatedDrive::mutations() {
       mutationOf<sensor_msgs::LaserScan>(),
       mutationOf<sensor_msgs::PointCloud2>(),
       mutationOf<sensor_msgs::CameraInfo>(),
+      mutationOf<sensor_msgs::Image>(),
+      mutationOf<StereoAlignmentMessage>(),
       mutationOf<sensor_msgs::Imu>(),
       mutationOf<sensor_msgs::JointState>(),
       mutationOf<geometry_msgs::TwistStamped>(),
@@ -145,11 +154,33 @@ void MutatedDrive::step(double seconds) {
   imu.header = twist.header;
   imu.angular_velocity = odometry.twist.twist.angular;
   send("imu", imu, seconds);
+  if (graph_ == kImages) {
+    sendImages(seconds);
+    send("scan", world_.scan(seconds), seconds);
+    return;
+  }
   send("stereo/right/camera_info", World::rightCameraInfo(), seconds);
   const sensor_msgs::PointCloud2 cloud = world_.cloud(seconds);
   send("stereo/points2", cloud, seconds);
   send("cloud", cloud, seconds);
   send("scan", world_.scan(seconds), seconds);
+}
+
+void MutatedDrive::sendImages(double seconds) {
+  const int index = static_cast<int>(seconds / kStep) / kImageSteps;
+  if (static_cast<int>(seconds / kStep) % kImageSteps != 0) {
+    return;
+  }
+  StereoPairSample pair;
+  pair.disparity += index % 4;  // else the camera is frozen, as with the same first pixel
+  const Stamp stamp = Stamp::fromSeconds(World::kStart + seconds);
+  for (const auto& [side, is_right] :
+       {std::pair<std::string, bool>("left", false), {"right", true}}) {
+    send("stereo/" + side + "/camera_info", *pair.info(stamp, is_right), seconds);
+    sensor_msgs::Image image = *pair.image(stamp, is_right, "mono8");
+    image.data.front() = static_cast<std::uint8_t>(index);
+    send("stereo/" + side + "/image_rect", image, seconds);
+  }
 }
 
 void MutatedDrive::sendTransforms(const std::vector<geometry_msgs::TransformStamped>& transforms,
@@ -220,7 +251,7 @@ void MutatedDrive::take(const Publications& published) {
     const std::string fault =
         faultOf<nav_msgs::Odometry, tf2_msgs::TFMessage, geometry_msgs::PoseWithCovarianceStamped,
                 LabeledScanMessage, RoadBorders, ObjectArray, DroppedObjects, TrackArray,
-                RiskArray>(publication);
+                StereoAlignmentMessage, RiskArray>(publication);
     if (!fault.empty()) {
       note("published on " + publication.topic + " " + fault);
     }

@@ -45,6 +45,8 @@ class MutatedDrive {
   static const std::map<std::string, Mutate>& mutations();
 
   void step(double seconds);
+  /// Of a stereo camera that is slower than the scanner.
+  void sendImages(double seconds);
   void mutateOne(double seconds);
   template <typename Message>
   void send(const std::string& topic, const Message& message, double seconds);

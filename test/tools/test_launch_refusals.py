@@ -6,7 +6,9 @@ that says what and what was probably meant."""
 import os
 import subprocess
 import tempfile
+import threading
 import unittest
+import xmlrpc.server
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parents[2]
@@ -18,11 +20,11 @@ class LaunchRefusals(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
 
-    def refusal(self, file, *words):
+    def refusal(self, file, *words, master="http://localhost:1"):
         """What roslaunch says; it ends by itself, without a master."""
         environment = dict(os.environ, ROS_LOG_DIR=str(self.folder), ROS_HOME=str(self.folder),
                            ROS_PACKAGE_PATH=f"{PACKAGE}:{os.environ.get('ROS_PACKAGE_PATH', '')}",
-                           ROS_MASTER_URI="http://localhost:1", DISPLAY="")
+                           ROS_MASTER_URI=master, DISPLAY="")
         run = subprocess.run(["roslaunch", str(PACKAGE / "launch" / file), *words], text=True,
                              env=environment, capture_output=True, timeout=60, check=False)
         self.assertNotEqual(run.returncode, 0)
@@ -49,6 +51,16 @@ class LaunchRefusals(unittest.TestCase):
     def test_a_misspelled_argument(self):
         said = self.refusal("replay.launch", "bag:=a.bag", "odometri:=/odom")
         self.assertIn("no argument odometri: did you mean odometry?", said)
+
+    def test_a_second_stack_on_the_same_master(self):
+        with xmlrpc.server.SimpleXMLRPCServer(("localhost", 0), logRequests=False) as server:
+            master = f"http://localhost:{server.server_address[1]}"
+            server.register_function(lambda caller, name: (1, "", master), "lookupNode")
+            server.register_function(lambda caller: (1, "", os.getpid()), "getPid")
+            threading.Thread(target=server.serve_forever, daemon=True).start()
+            said = self.refusal("perception.launch", master=master)
+            server.shutdown()
+        self.assertIn(f"/perception runs on {master} already", said)
 
 
 if __name__ == "__main__":

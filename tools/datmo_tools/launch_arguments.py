@@ -17,7 +17,7 @@ import xmlrpc.client
 from pathlib import Path
 from xml.etree import ElementTree
 
-MANAGER = "/perception"
+MANAGER = "perception"
 CALLER = "/check_launch"
 # Arguments that take one of a few words: roslaunch takes any.
 CHOICES = {"fusion": ("none", "low", "object", "track", "recommended")}
@@ -112,15 +112,21 @@ def runs(manager, master_uri):
         socket.setdefaulttimeout(default_timeout)
 
 
-def warn_of_second_stack(words):
-    """Says so if the nodes that are about to start end others of the same names."""
-    if any(word.startswith("-") and word != "-v" for word in words) or "ROS_NAMESPACE" in os.environ:
-        return  # --nodes and the like start nothing, -p is another master
-    master = os.environ.get("ROS_MASTER_URI", "http://localhost:11311")
-    if runs(MANAGER, master):
-        print(f"WARNING: {MANAGER} runs on {master} already: ROS ends its nodes as those of the same "
-              "names start. For two side by side give one another ROS_MASTER_URI or ROS_NAMESPACE",
-              file=sys.stderr)
+def second_stack(words, environment):
+    """A sentence if a stack of the same name runs on the master already, or None: both restart their
+    manager whenever the other's has ended it.
+
+    environment: that of roslaunch (dict).
+    """
+    if any(word.startswith("-") and word != "-v" for word in words):
+        return None  # --nodes and the like start nothing, -p is another master
+    master = environment.get("ROS_MASTER_URI", "http://localhost:11311")
+    manager = f"/{environment.get('ROS_NAMESPACE', '')}/{MANAGER}"
+    manager = "/" + "/".join(part for part in manager.split("/") if part)
+    if not runs(manager, master):
+        return None
+    return (f"{manager} runs on {master} already: the two would end each other's nodes again and again. "
+            "End the other one first, or give this one another ROS_MASTER_URI or ROS_NAMESPACE")
 
 
 def main():
@@ -129,11 +135,9 @@ def main():
         print(__doc__)
         return 0
     words = launch_words(parent_words(os.getppid()))
-    error = check_words(words)
+    error = check_words(words) or (words and second_stack(words, os.environ))
     if error:
         print(f"ERROR: {error}", file=sys.stderr)
         return 1
-    if words:
-        warn_of_second_stack(words)
     print(" ".join(words))
     return 0

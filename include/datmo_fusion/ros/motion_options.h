@@ -17,6 +17,7 @@ struct MotionOptions {
   bool odometry_pose = false;
   double hold = 0.5;          ///< s
   double wheel_radius = 0.3;  ///< m
+  OdometryNoiseOptions noise;
   TwistGateOptions change;
 
   void visit(OptionVisitor& visitor);

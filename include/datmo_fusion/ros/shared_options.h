@@ -20,7 +20,7 @@ struct SharedOptions {
   FrameOptions frames;
   Mounts mounts;
   MotionOptions motion;
-  /// What the sections `scanner`, `stereo_camera` and `vehicle` say, by section and key
+  /// What the sections `scanner`, `stereo_camera`, `vehicle` and `motion` say, by section and key
   /// (`scanner/free_range`), and of `stereo_image_proc` how it pairs images. Only what is set: each
   /// stage has the default of its own option for the rest, which is that of the section.
   OptionValues sensors;

@@ -15,6 +15,7 @@ struct StereoCameraOptions : DepthNoiseOptions {
   double min_depth = 0.0;                ///< m; 0: no bound
   double max_depth = 0.0;                ///< m; 0: no bound
   bool align = true;
+  double alignment_hold = 5.0;  ///< s
 
   void visit(OptionVisitor& visitor);
 };

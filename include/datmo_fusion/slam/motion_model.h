@@ -6,11 +6,20 @@
 
 namespace datmo {
 
-struct MotionModelOptions {
+/// How far odometry's speed and yaw rate are off.
+struct OdometryNoiseOptions {
   double speed_noise = 0.1;         ///< m/s
   double speed_noise_ratio = 0.05;  ///< of the speed
   double yaw_rate_noise = 0.02;     ///< rad/s
   double yaw_rate_noise_ratio = 0.1;
+
+  void visit(OptionVisitor& visitor);
+
+  /// Covariance of speed (m/s) and yaw rate (rad/s) that were measured as this.
+  Eigen::Matrix2d covariance(const Twist2& twist) const;
+};
+
+struct MotionModelOptions : OdometryNoiseOptions {
   double side_slip_noise = 0.05;        ///< m/s, sideways
   double acceleration_noise = 3.0;      ///< m/s per square root of s
   double yaw_acceleration_noise = 0.5;  ///< rad/s per square root of s
@@ -36,7 +45,9 @@ class VelocityMotionModel {
   Eigen::Matrix3d sideSlip(double seconds) const;
 
   /// Covariance of speed (m/s) and yaw rate (rad/s) that odometry measured as this.
-  Eigen::Matrix2d velocityCovariance(const Twist2& twist) const;
+  Eigen::Matrix2d velocityCovariance(const Twist2& twist) const {
+    return options_.OdometryNoiseOptions::covariance(twist);
+  }
 
   /// How much they may have changed in this time, where there is no odometry.
   Eigen::Matrix2d velocityChange(double seconds) const;

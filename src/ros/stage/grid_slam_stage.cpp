@@ -44,7 +44,8 @@ SharedKeys GridSlamStageOptions::sharedKeys() {
   return SharedKeys()
       .group<ScanConversionOptions>("scan/", "scanner/")
       .key("max_tilt", "scanner/max_tilt")
-      .key("matcher/point_sigma", "scanner/range_sigma");
+      .key("matcher/point_sigma", "scanner/range_sigma")
+      .group<OdometryNoiseOptions>("motion/", "motion/");
 }
 
 GridSlamStage::GridSlamStage(const Checked<GridSlamStageOptions>& options,
@@ -79,6 +80,8 @@ std::optional<GridSlamOutput> GridSlamStage::takeScan(const Message& message) {
         scannerMount(transforms_.core(), options_.frames.base, message.header.frame_id);
     const ConvertedScan converted = toScan(message, mount, options_.scan);
     runner_.check("scan", message.header.stamp);
+    const auto motion = [this](Stamp from, Stamp to) { return motionBetween(from, to); };
+    checkNotFrozen(frozen_.take(converted.scan.stamp, measuredBytes(message), motion), monitor_);
     warnOf(mount, converted);
     if (options_.fused_grid) {
       scans_.add(converted.scan);
@@ -124,9 +127,16 @@ void GridSlamStage::reset() {
   scans_.clear();
   odometry_.reset();
   odometry_poses_.clear();
+  frozen_.reset();
   last_map_.reset();
   degenerate_scans_ = 0;
   maps_begun_ = 0;
+}
+
+std::optional<Pose2> GridSlamStage::motionBetween(Stamp from, Stamp to) const {
+  const std::optional<Pose2> before = odometry_poses_.at(from);
+  const std::optional<Pose2> after = odometry_poses_.at(to);
+  return before && after ? std::make_optional(before->inverse() * *after) : std::nullopt;
 }
 
 void GridSlamStage::warnOf(const ScannerMount& mount, const ConvertedScan& converted) {

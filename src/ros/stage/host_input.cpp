@@ -30,7 +30,8 @@ HostInput::HostInput(const Checked<HostInputOptions>& options, const MotionOptio
                      FrameOptions frames, StageRunner& runner)
     : options_(*options),
       motion_(motion),
-      reader_(motion, std::move(frames), kOdometryStream, runner) {}
+      reader_(motion, std::move(frames), kOdometryStream, runner),
+      poses_(motion.change, motion.noise) {}
 
 void HostInput::add(Twists& twists, const StampedTwist& twist) const {
   twists.push_back(twist);
@@ -48,17 +49,14 @@ void HostInput::take(const nav_msgs::Odometry& message) {
 }
 
 void HostInput::take(const LabeledScan& scan) {
-  const Pose2& pose = scan.base_in_map.pose;
-  if (last_pose_) {
-    const double seconds = secondsBetween(last_pose_->stamp, scan.stamp);
-    if (seconds > 0.0) {
-      const Twist2 twist = twistOf(last_pose_->pose.inverse() * pose, seconds);
-      if (isPlausible(twist)) {
-        add(from_poses_, {scan.stamp, twist});
-      }
-    }
+  if (last_pose_ && scan.stamp <= last_pose_->stamp) {
+    return;
   }
-  last_pose_ = {scan.stamp, pose};
+  const std::optional<PoseStep> step = poses_.add(scan.stamp, scan.base_in_map);
+  if (step && !step->jumped) {
+    add(from_poses_, {scan.stamp, step->twist});
+  }
+  last_pose_ = {scan.stamp, scan.base_in_map.pose};
 }
 
 bool HostInput::serves(const Twists& twists, Stamp stamp) const {
@@ -97,6 +95,7 @@ void HostInput::reset() {
   reader_.reset();
   odometry_.clear();
   from_poses_.clear();
+  poses_.reset();
   last_pose_.reset();
 }
 

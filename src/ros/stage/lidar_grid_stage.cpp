@@ -30,7 +30,10 @@ LidarGridStage::LidarGridStage(const Checked<LidarGridStageOptions>& options,
       monitor_(monitor),
       model_(options->grid),
       runner_(monitor, options->input, "forgets how the vehicle moved",
-              [this] { motion_.reset(); }),
+              [this] {
+                motion_.reset();
+                frozen_.reset();
+              }),
       motion_(options->motion, options->frames, runner_) {}
 
 template <typename Message>
@@ -40,6 +43,8 @@ nav_msgs::OccupancyGridPtr LidarGridStage::takeScan(const Message& message) {
         scannerMount(transforms_.core(), options_.frames.base, message.header.frame_id);
     const ConvertedScan converted = toScan(message, mount, options_.scan);
     runner_.check("scan", message.header.stamp);
+    const auto motion = [this](Stamp from, Stamp to) { return motion_.between(from, to); };
+    checkNotFrozen(frozen_.take(converted.scan.stamp, measuredBytes(message), motion), monitor_);
     warnOf(mount, converted);
     auto grid = boost::make_shared<nav_msgs::OccupancyGrid>(
         toMessage(model_.grid(motion_.compensated(converted.scan)), options_.frames.base));

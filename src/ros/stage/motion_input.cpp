@@ -39,7 +39,7 @@ OdometryReader::OdometryReader(const Checked<MotionOptions>& options, FrameOptio
       frames_(std::move(frames)),
       stream_(std::move(stream)),
       runner_(runner),
-      gate_(options->change) {}
+      gate_(options->change, options->noise) {}
 
 OdometrySample OdometryReader::sampleOf(const nav_msgs::Odometry& message) const {
   if (!options_.fromOdometry() || !options_.odometry_pose) {
@@ -83,7 +83,8 @@ MotionInput::MotionInput(const Checked<MotionOptions>& options, FrameOptions fra
     : options_(*options),
       runner_(runner),
       odometry_(options, std::move(frames), kMotionStream, runner),
-      buffer_(options->hold, kOdometryMemory) {}
+      buffer_(options->hold, kOdometryMemory),
+      poses_(options->change, options->noise) {}
 
 void MotionInput::take(const nav_msgs::Odometry& message) {
   if (options_.hasSpeed()) {
@@ -95,26 +96,23 @@ void MotionInput::take(const geometry_msgs::PoseWithCovarianceStamped& message) 
   if (options_.hasSpeed()) {
     return;
   }
-  const Pose2 pose = fromMessage(message.pose.pose);
+  const PoseWithCovariance pose = fromMessage(message.pose);
   runner_.check(kMotionStream, message.header.stamp);
-  const std::optional<StampedPose> before = last_pose_;
-  last_pose_ = {toStamp(message.header.stamp), pose};
-  if (!before) {
+  const Stamp stamp = toStamp(message.header.stamp);
+  const std::optional<PoseStep> step = poses_.add(stamp, pose);
+  if (!step) {
     return;
   }
-  const double seconds = secondsBetween(before->stamp, last_pose_->stamp);
-  const Pose2 motion = before->pose.inverse() * pose;
-  const Twist2 twist = twistOf(motion, seconds);
-  // The twist knows nothing of a jump sideways.
-  const double speed = motion.position().norm() / seconds;
-  if (!isPlausible({speed, twist.yaw_rate})) {
-    throw InputError("pose_jump", "pose that moved at " + std::to_string(speed) + " m/s and " +
-                                      std::to_string(twist.yaw_rate) + " rad/s: expected at most " +
-                                      std::to_string(kMaxSpeed) + " m/s and " +
-                                      std::to_string(kMaxYawRate) + " rad/s");
+  if (step->jumped) {
+    throw InputError("pose_jump", "pose that moved at " +
+                                      std::to_string(step->twist.forward_speed) + " m/s and " +
+                                      std::to_string(step->twist.yaw_rate) +
+                                      " rad/s: expected what the vehicle can do (motion/"
+                                      "max_acceleration, max_yaw_acceleration); the map's pose was "
+                                      "corrected, and that is no motion");
   }
   // What the vehicle did up to this pose is what it is expected to do after it.
-  buffer_.add({last_pose_->stamp, twist, pose});
+  buffer_.add({stamp, step->twist, step->traveled});
 }
 
 Scan MotionInput::compensated(const Scan& scan) const {
@@ -129,7 +127,7 @@ Scan MotionInput::compensated(const Scan& scan) const {
 void MotionInput::reset() {
   odometry_.reset();
   buffer_ = OdometryBuffer(options_.hold, kOdometryMemory);
-  last_pose_.reset();
+  poses_.reset();
 }
 
 }  // namespace datmo

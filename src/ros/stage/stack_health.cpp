@@ -12,6 +12,9 @@ namespace {
 
 using Stages = std::vector<StageState>;
 
+/// s; a stage reports each second, on a machine that has much to do every few.
+constexpr double kEndedAfter = 10.0;
+
 bool contains(const std::vector<std::string>& topics, const std::string& topic) {
   return std::find(topics.begin(), topics.end(), topic) != topics.end();
 }
@@ -61,6 +64,23 @@ StackHealth stackHealth(const Stages& stages, const std::string& result) {
     return {HealthLevel::kLess, "less than all: " + firstFault(*worse)};
   }
   return {HealthLevel::kGood, withoutSlash(result) + " come"};
+}
+
+void ReportingStages::take(const StageState& state, double seconds) {
+  reports_[state.stage] = {state, seconds};
+}
+
+std::vector<StageState> ReportingStages::at(double seconds) {
+  std::vector<StageState> states;
+  for (auto report = reports_.begin(); report != reports_.end();) {
+    if (seconds - report->second.seconds > kEndedAfter) {
+      report = reports_.erase(report);
+    } else {
+      states.push_back(report->second.state);
+      ++report;
+    }
+  }
+  return states;
 }
 
 }  // namespace datmo

@@ -19,9 +19,6 @@ namespace {
 /// Half a second of a fast scanner: longer than a cloud takes to be made.
 constexpr std::size_t kMaxScans = 25;
 
-/// m; a cloud that stays the same over this is no cloud of what is there now.
-constexpr double kFrozenDistance = 0.3;
-
 /// s, over which the vehicle's twist is taken.
 constexpr double kTwistTime = 0.1;
 
@@ -70,9 +67,7 @@ StereoAlignmentStage::StereoAlignmentStage(const Checked<StereoAlignmentStageOpt
 void StereoAlignmentStage::reset() {
   motion_.reset();
   scans_.clear();
-  last_points_.clear();
-  moved_since_ = Pose2();
-  is_frozen_ = false;
+  frozen_.reset();
   filter_.forgetTime();
 }
 
@@ -114,7 +109,8 @@ StereoAlignmentMessagePtr StereoAlignmentStage::takeCloud(const sensor_msgs::Poi
     CloudPoints points(message);
     const StereoCloud cloud = input_.cloudOf(message.header, points);
     runner_.check("points2", message.header.stamp);
-    if (isFrozen(message)) {
+    const auto motion = [this](Stamp from, Stamp to) { return motion_.between(from, to); };
+    if (frozen_.take(cloud.stamp, message.data, motion)) {
       filter_.takeFrozen(cloud.stamp);
       monitor_.warned(InputError("frozen_camera",
                                  "the stereo camera's cloud is that of the last image, though the "
@@ -125,23 +121,6 @@ StereoAlignmentMessagePtr StereoAlignmentStage::takeCloud(const sensor_msgs::Poi
     const std::optional<std::vector<Ray>> rays = raysAt(cloud.stamp);
     return rays ? compare(cloud, *rays) : nullptr;
   });
-}
-
-bool StereoAlignmentStage::isFrozen(const sensor_msgs::PointCloud2& message) {
-  const Stamp stamp = toStamp(message.header.stamp);
-  const Stamp before = std::exchange(last_cloud_, stamp);
-  if (message.data != last_points_) {
-    last_points_ = message.data;
-    moved_since_ = Pose2();
-    is_frozen_ = false;
-    return false;
-  }
-  // From cloud to cloud, as odometry is not kept for as long as a camera may be frozen.
-  if (const std::optional<Pose2> step = motion_.between(before, stamp)) {
-    moved_since_ = moved_since_ * *step;
-  }
-  is_frozen_ = is_frozen_ || moved_since_.position().norm() > kFrozenDistance;
-  return is_frozen_;
 }
 
 StereoAlignmentMessagePtr StereoAlignmentStage::compare(const StereoCloud& cloud,

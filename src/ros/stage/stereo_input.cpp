@@ -51,10 +51,16 @@ void StereoInput::take(const StereoAlignmentMessage& message) {
   }
 }
 
+bool StereoInput::isRefused(Stamp stamp) const {
+  // A clock that was set makes it old in the other direction.
+  return !alignment_.usable &&
+         std::abs(secondsBetween(alignment_.stamp, stamp)) <= options_.camera.alignment_hold;
+}
+
 StereoCloud StereoInput::cloudOf(const std_msgs::Header& header, CloudPoints& points) const {
   const std::string& optical_frame =
       options_.frames.camera.empty() ? header.frame_id : options_.frames.camera;
-  if (!alignment_.usable) {
+  if (isRefused(toStamp(header.stamp))) {
     throw InputError("camera_disagrees",
                      "a cloud that is not of what the scanner sees: see stereo_alignment");
   }

@@ -21,6 +21,13 @@ class GridSlamStageTest : public testing::Test {
     buffer_.addStatic(samples::transforms({samples::transform("base_link", "scanner", 3.6)}));
   }
 
+  /// Enough beams to know it again.
+  static sensor_msgs::LaserScan scanOfAWall() {
+    auto scan = samples::laserScan(std::vector<float>(21, 12.0F));
+    scan.angle_increment = static_cast<float>(M_PI / 20.0);
+    return scan;
+  }
+
   std::optional<GridSlamOutput> scanAt(double seconds) {
     auto scan = samples::laserScan();
     scan.header.stamp = ros::Time(seconds);
@@ -240,6 +247,35 @@ TEST_F(GridSlamStageTest, BadBeamTimesAreWarnedOf) {
   scan.time_increment = -1.0F;
   EXPECT_TRUE(stage_.takeScan(scan));
   EXPECT_EQ(warnings("bad_beam_times"), 1U);
+}
+
+TEST_F(GridSlamStageTest, AScanThatIsRepeatedWhileTheVehicleMovesIsDropped) {
+  mountScanner();
+  auto scan = scanOfAWall();
+  const auto goOn = [&](double seconds) {
+    odometryAt(seconds);
+    scan.header.stamp = ros::Time(seconds);
+    return stage_.takeScan(scan).has_value();
+  };
+  EXPECT_TRUE(goOn(100.0));
+  for (const double seconds : {100.1, 100.2, 100.3}) {
+    EXPECT_FALSE(goOn(seconds)) << "0.8 m on";
+  }
+  EXPECT_EQ(drops("frozen_scan"), 3U);
+  EXPECT_EQ(monitor_.health(), HealthLevel::kNothing);
+  scan.ranges.back() += 0.01F;
+  EXPECT_TRUE(goOn(100.4));
+  EXPECT_EQ(monitor_.health(), HealthLevel::kGood);
+}
+
+TEST_F(GridSlamStageTest, WhileTheVehicleStandsScansMayBeTheSame) {
+  mountScanner();
+  auto scan = scanOfAWall();
+  for (const double seconds : {100.0, 100.1, 100.2}) {
+    stage_.takeOdometry(samples::odometry(seconds, 0.0));
+    scan.header.stamp = ros::Time(seconds);
+    EXPECT_TRUE(stage_.takeScan(scan));
+  }
 }
 
 TEST_F(GridSlamStageTest, OdometryOfOtherFramesIsDropped) {

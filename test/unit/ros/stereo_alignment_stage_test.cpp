@@ -175,6 +175,7 @@ TEST_F(StereoAlignmentStageTest, CloudsThatAreNotUsableMakeNoObjects) {
   objects.takeAlignment(alignment);
   EXPECT_FALSE(objects.takeCloud(cloudAt(kStart, 0.0)));
   EXPECT_EQ(samples::drops(monitor, "camera_disagrees"), 1U);
+  EXPECT_TRUE(objects.takeCloud(cloudAt(kStart + 5.1, 0.0))) << "the scanner is silent by now";
 }
 
 TEST(StereoAlignmentMessage, WithNumbersThatAreNoneIsRefused) {

@@ -122,6 +122,43 @@ TEST(MapRecoveryTest, WithoutOdometryItIsFoundToo) {
   for (const Step& step : steps) {
     EXPECT_TRUE(admits(step));
   }
+  EXPECT_EQ(steps.back().result.localization, Localization::kLocated);
+  EXPECT_EQ(steps.back().result.maps_begun, 0) << "found, and not given up";
+  EXPECT_LT(errorOf(steps.back()).head<2>().norm(), 0.3);
+}
+
+TEST(MapRecoveryTest, OdometryAgainstPosesOfTheNewerMapIsNoWayIntoTheOlder) {
+  GridSlam slam{GridSlamOptions{}};
+  const Yard yard;
+  const Twist2 twist{2.0, 0.0};
+  Pose2 truth;
+  double seconds = 0.0;
+  const auto step = [&](const std::optional<Pose2>& base_in_odom) {
+    const Stamp stamp = Stamp::fromSeconds(1000.0 + seconds);
+    if (base_in_odom) {
+      slam.addOdometry({stamp, twist, base_in_odom});
+    }
+    const Step result{slam.process(yard.scan(truth, seconds)), truth};
+    truth = truth * arc(twist, 0.1);
+    seconds += 0.1;
+    return result;
+  };
+  for (int i = 0; i < 30; ++i) {
+    step(truth);
+  }
+  truth = truth * arc({4.0, 0.0}, 2.0);
+  seconds += 2.0;
+  const Pose2 reset(1000.0, 0.0, 0.0);  // the encoders have begun anew
+  EXPECT_EQ(step(reset * truth).result.localization, Localization::kUncertain);
+  for (int i = 0; i < 2; ++i) {
+    step(reset * truth);
+  }
+  for (int i = 0; i < 3; ++i) {
+    step(std::nullopt);
+  }
+  const Step last = step(reset * truth * Pose2(3.0, 0.0, 0.0));
+  EXPECT_EQ(last.result.localization, Localization::kUncertain);
+  EXPECT_TRUE(admits(last));
 }
 
 TEST(MapRecoveryTest, WhileItIsNotLocatedNothingMoves) {

@@ -32,7 +32,8 @@ def sections(recording, roles, results, measured):
     if motion:
         items["motion"] = motion
     if measured is not None:
-        items.update(settings(measured))
+        for name, section in settings(measured).items():
+            items.setdefault(name, {}).update(section)
         remarks.update(_size_remarks(measured))
     if pair_offset(recording, roles) > 0.0:
         items["stereo_image_proc"] = {"approximate_sync": True}

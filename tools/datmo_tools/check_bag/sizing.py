@@ -17,9 +17,11 @@ FIT_RATIO = 0.45, 3.0  # of the default window's half length, within which a rea
 
 MIN_INITIAL_SPEED = 0.5  # m/s
 STATIC_AFTER = 2.0  # s: people stop for a moment, and are no wall for that
-ROBOT_MOTION = {
+ROBOT_ODOMETRY = {
     "yaw_rate_noise": 0.05,  # rad/s
     "yaw_rate_noise_ratio": 0.3,  # wheels slip when they turn on the spot
+}
+ROBOT_MOTION = {
     "acceleration_noise": 1.0,  # m/s^1.5
     "initial_yaw_rate_sigma": 0.5,  # rad/s
 }
@@ -148,6 +150,7 @@ def _set_small(sections, measured):
     slam = _at(sections, "grid_slam")
     slam["max_step"] = 0.5
     _at(slam, "map")["static_after"] = STATIC_AFTER
+    _at(sections, "motion").update(ROBOT_ODOMETRY)
     slam["motion"] = {**ROBOT_MOTION, "initial_speed_sigma": round(speed, 1)}
     _at(sections, "moving_objects").update(copy.deepcopy(PEOPLE_OBJECTS))
     tracker = _at(sections, "tracker")

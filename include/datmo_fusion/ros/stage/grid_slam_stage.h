@@ -17,6 +17,7 @@
 #include "datmo_fusion/ros/frame_options.h"
 #include "datmo_fusion/ros/motion_options.h"
 #include "datmo_fusion/ros/shared_keys.h"
+#include "datmo_fusion/ros/stage/frozen_sensor.h"
 #include "datmo_fusion/ros/stage/motion_input.h"
 #include "datmo_fusion/ros/stage/stage.h"
 #include "datmo_fusion/ros/stage/stage_runner.h"
@@ -101,6 +102,8 @@ class GridSlamStage : public Stage {
   void showLocalization(const SlamResult& result);
   GridSlamOutput finish(const SlamResult& result);
   GridSlamOutput outputOf(const SlamResult& result);
+  /// By the odometry's poses.
+  std::optional<Pose2> motionBetween(Stamp from, Stamp to) const;
   std::vector<geometry_msgs::TransformStamped> transformsTo(const Pose2& base_in_map, Stamp stamp);
 
   GridSlamStageOptions options_;
@@ -111,6 +114,7 @@ class GridSlamStage : public Stage {
   StageRunner runner_;
   OdometryReader odometry_;
   OdometryPoses odometry_poses_;
+  FrozenSensor frozen_;
   WaitingScans scans_;
   std::optional<Stamp> last_map_;
   std::uint64_t degenerate_scans_ = 0;

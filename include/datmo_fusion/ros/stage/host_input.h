@@ -25,7 +25,8 @@ struct HostInputOptions {
 };
 
 /// The host at a stamp: its pose from the split scans, its speed and yaw rate from the odometry,
-/// or, without that, from the poses; its acceleration from what the speed did lately.
+/// or, without that, from the poses, whose jumps are none of it; its acceleration from what the
+/// speed did lately.
 class HostInput {
  public:
   /// `runner`: of the stage, which is to call reset() when it is reset itself; it must outlive the
@@ -67,6 +68,7 @@ class HostInput {
   OdometryReader reader_;
   Twists odometry_;    ///< of the last acceleration_time
   Twists from_poses_;  ///< the same
+  PoseMotion poses_;
   std::optional<StampedPose> last_pose_;
 };
 

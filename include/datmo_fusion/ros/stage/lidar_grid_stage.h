@@ -10,6 +10,7 @@
 #include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/ros/convert/scan_conversion.h"
 #include "datmo_fusion/ros/shared_keys.h"
+#include "datmo_fusion/ros/stage/frozen_sensor.h"
 #include "datmo_fusion/ros/stage/motion_input.h"
 #include "datmo_fusion/ros/stage/stage.h"
 #include "datmo_fusion/ros/stage/stage_runner.h"
@@ -68,6 +69,7 @@ class LidarGridStage : public Stage {
   LidarGridModel model_;
   StageRunner runner_;
   MotionInput motion_;
+  FrozenSensor frozen_;
 };
 
 }  // namespace datmo

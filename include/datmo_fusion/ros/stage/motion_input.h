@@ -12,6 +12,7 @@
 #include "datmo_fusion/ros/motion_options.h"
 #include "datmo_fusion/ros/stage/stage_runner.h"
 #include "datmo_fusion/slam/odometry_buffer.h"
+#include "datmo_fusion/slam/pose_motion.h"
 #include "datmo_fusion/slam/twist_gate.h"
 
 namespace datmo {
@@ -70,16 +71,11 @@ class MotionInput {
   void reset();
 
  private:
-  struct StampedPose {
-    Stamp stamp;
-    Pose2 pose;
-  };
-
   MotionOptions options_;
   StageRunner& runner_;
   OdometryReader odometry_;
   OdometryBuffer buffer_;
-  std::optional<StampedPose> last_pose_;  ///< of the SLAM
+  PoseMotion poses_;  ///< of the SLAM
 };
 
 }  // namespace datmo

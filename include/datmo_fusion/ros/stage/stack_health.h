@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -21,5 +22,24 @@ struct StackHealth {
 ///
 /// Two stages are connected where one's outputs have a topic of the other's inputs.
 StackHealth stackHealth(const std::vector<StageState>& stages, const std::string& result);
+
+/// The stages that report: the newest state of each, until it has not reported for so long that it
+/// has ended.
+class ReportingStages {
+ public:
+  /// `seconds`: on a clock that no message sets.
+  void take(const StageState& state, double seconds);
+
+  /// By name. Forgets those that ended.
+  std::vector<StageState> at(double seconds);
+
+ private:
+  struct Report {
+    StageState state;
+    double seconds = 0.0;
+  };
+
+  std::map<std::string, Report> reports_;
+};
 
 }  // namespace datmo

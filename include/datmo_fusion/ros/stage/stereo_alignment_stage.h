@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
 #include <deque>
 #include <optional>
 #include <set>
@@ -15,6 +14,7 @@
 #include "datmo_fusion/ros/convert/messages.h"
 #include "datmo_fusion/ros/convert/scan_conversion.h"
 #include "datmo_fusion/ros/shared_keys.h"
+#include "datmo_fusion/ros/stage/frozen_sensor.h"
 #include "datmo_fusion/ros/stage/motion_input.h"
 #include "datmo_fusion/ros/stage/stage.h"
 #include "datmo_fusion/ros/stage/stage_runner.h"
@@ -70,8 +70,6 @@ class StereoAlignmentStage : public Stage {
   Scan compensated(const Scan& scan) const;
   Twist2 twistAt(Stamp stamp) const;
   StereoAlignmentMessagePtr compare(const StereoCloud& cloud, const std::vector<Ray>& rays);
-  /// Whether the same cloud comes again while the vehicle moves.
-  bool isFrozen(const sensor_msgs::PointCloud2& message);
   void show();
 
   StereoAlignmentStageOptions options_;
@@ -82,11 +80,8 @@ class StereoAlignmentStage : public Stage {
   StereoInput input_;
   SurfacePairFinder finder_;
   StereoAlignmentFilter filter_;
-  std::deque<Scan> scans_;                 ///< the last ones
-  std::vector<std::uint8_t> last_points_;  ///< bytes of the last cloud
-  Stamp last_cloud_;                       ///< of that cloud
-  Pose2 moved_since_;                      ///< since the first cloud with these bytes
-  bool is_frozen_ = false;
+  std::deque<Scan> scans_;  ///< the last ones
+  FrozenSensor frozen_;
   bool was_usable_ = true;
   std::set<AlignmentTerm> faults_;  ///< that were warned of
 };

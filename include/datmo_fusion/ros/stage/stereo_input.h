@@ -49,9 +49,9 @@ class StereoInput {
   void take(const sensor_msgs::CameraInfo& message);
 
   /// How the clouds lie against the scanner's points, from now on: the bias of their disparities is
-  /// taken out of them, and while they are not usable they are refused. Without effect where
-  /// `camera/align` is off, and on a camera that measures no disparities. Throws InputError
-  /// (`bad_alignment`).
+  /// taken out of them, as it is the camera's, and while they are not usable they are refused, for
+  /// `camera/alignment_hold` after its stamp. Without effect where `camera/align` is off, and on a
+  /// camera that measures no disparities. Throws InputError (`bad_alignment`).
   void take(const StereoAlignmentMessage& message);
 
   /// Whether the camera is compared with the scanner: it is to be, and matches disparities.
@@ -68,6 +68,8 @@ class StereoInput {
   StereoCloud cloudOf(const std_msgs::Header& header, CloudPoints& points) const;
 
  private:
+  /// Whether the alignment says, at this stamp, that the clouds are of no use.
+  bool isRefused(Stamp stamp) const;
   /// Throws InputError (`missing_camera_info`).
   StereoCamera camera() const;
   /// What the options know of it. Throws as camera() does.

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/stage/frozen_sensor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "datmo_fusion/common/angle.h"
+
+namespace datmo {
+
+namespace {
+
+/// m, rad; what stays the same over this is no measurement of what is there now.
+constexpr double kFrozenDistance = 0.3;
+constexpr double kFrozenTurn = degrees(3.0);
+
+/// Of so few beams that come back, rounded as a scanner does, all may be the same by chance.
+constexpr std::ptrdiff_t kMinReturns = 10;
+
+std::vector<std::uint8_t> bytesOf(const std::vector<float>& ranges) {
+  const auto returns = std::count_if(ranges.begin(), ranges.end(), [](float range) {
+    return std::isfinite(range) && range > 0.0F;
+  });
+  if (returns < kMinReturns) {
+    return {};
+  }
+  std::vector<std::uint8_t> bytes(ranges.size() * sizeof(float));
+  std::memcpy(bytes.data(), ranges.data(), bytes.size());
+  return bytes;
+}
+
+}  // namespace
+
+bool FrozenSensor::take(Stamp stamp, std::vector<std::uint8_t> measured,
+                        const MotionBetween& motion) {
+  const Stamp before = std::exchange(last_stamp_, stamp);
+  if (measured.empty() || measured != last_) {
+    last_ = std::move(measured);
+    moved_ = Pose2();
+    is_frozen_ = false;
+    return false;
+  }
+  // From one to the next, as odometry is not kept for as long as a sensor may be frozen.
+  if (const std::optional<Pose2> step = motion(before, stamp)) {
+    moved_ = moved_ * *step;
+  }
+  is_frozen_ = is_frozen_ || moved_.position().norm() > kFrozenDistance ||
+               std::abs(moved_.heading()) > kFrozenTurn;
+  return is_frozen_;
+}
+
+void checkNotFrozen(bool is_frozen, StageMonitor& monitor) {
+  static constexpr char kFrozen[] =
+      "the scanner repeats its last scan bit for bit though the vehicle moves: its driver or the "
+      "device hangs; its scans are dropped until they change";
+  if (is_frozen) {
+    monitor.condition(HealthLevel::kNothing, kFrozen);
+    throw InputError("frozen_scan", kFrozen);
+  }
+  if (monitor.healthReason() == kFrozen) {
+    monitor.condition(HealthLevel::kGood, "the scans change again");
+  }
+}
+
+std::vector<std::uint8_t> measuredBytes(const sensor_msgs::LaserScan& scan) {
+  return bytesOf(scan.ranges);
+}
+
+std::vector<std::uint8_t> measuredBytes(const sensor_msgs::MultiEchoLaserScan& scan) {
+  std::vector<float> ranges;
+  for (const sensor_msgs::LaserEcho& beam : scan.ranges) {
+    ranges.insert(ranges.end(), beam.echoes.begin(), beam.echoes.end());
+  }
+  return bytesOf(ranges);
+}
+
+}  // namespace datmo

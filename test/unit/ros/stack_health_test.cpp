@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/stage/stack_health.h"
+
+#include <gtest/gtest.h>
+
+namespace datmo::stack_health_test {
+namespace {
+
+StageState stage(const std::string& name, HealthLevel level, const StageTopics& topics,
+                 const std::string& fault) {
+  return {name, level, {fault}, topics};
+}
+
+TEST(StackHealth, TheStageFarthestUpTheChainIsNamed) {
+  const StackHealth health = stackHealth(
+      {stage("slam", HealthLevel::kNothing, {{"/scan"}, {"/pose"}}, "no scan yet"),
+       stage("tracker", HealthLevel::kNothing, {{"/pose"}, {"/tracks"}}, "no pose yet")},
+      "/tracks");
+  EXPECT_EQ(health.sentence, "no tracks: slam: no scan yet");
+}
+
+TEST(ReportingStages, OneThatDoesNotReportAnyMoreIsForgotten) {
+  ReportingStages stages;
+  stages.take(stage("slam", HealthLevel::kNothing, {{"/scan"}, {"/pose"}}, "no scan yet"), 10.0);
+  stages.take(stage("tracker", HealthLevel::kGood, {{"/pose"}, {"/tracks"}}, ""), 10.0);
+  EXPECT_EQ(stages.at(14.0).size(), 2U);
+  stages.take(stage("tracker", HealthLevel::kGood, {{"/pose"}, {"/tracks"}}, ""), 14.0);
+  ASSERT_EQ(stages.at(21.0).size(), 1U);
+  EXPECT_EQ(stackHealth(stages.at(21.0), "/tracks").level, HealthLevel::kGood);
+}
+
+}  // namespace
+}  // namespace datmo::stack_health_test
