@@ -16,10 +16,6 @@ constexpr double kMaxSteps = 2.5;
 /// queues.
 constexpr double kTimeTolerance = 0.5;
 
-/// A stamp this many times `restart_after` from the ROS time at which its message came is still of
-/// that clock: measuring, sending and waiting take time.
-constexpr double kMaxDelays = 2.0;
-
 }  // namespace
 
 StampVerdict StampGate::judge(Stamp stamp, const std::optional<Stamp>& now) {
@@ -51,20 +47,14 @@ bool StampGate::isJump(double step) const {
 }
 
 bool StampGate::isConfirmed(Stamp stamp, const std::optional<Stamp>& now) const {
+  const double step = secondsBetween(*newest_, stamp);
+  if (followsStray(stamp)) {
+    return true;
+  }
   if (!now || !came_) {
     return true;
   }
-  const double step = secondsBetween(*newest_, stamp);
-  if (std::abs(step - secondsBetween(*came_, *now)) < kTimeTolerance * restart_after_) {
-    return true;
-  }
-  const bool is_clock_wrong =
-      isOnRosTime(*newest_, *came_) && (step < 0.0 || !isOnRosTime(stamp, *now));
-  return followsStray(stamp) && !is_clock_wrong;
-}
-
-bool StampGate::isOnRosTime(Stamp stamp, Stamp now) const {
-  return std::abs(secondsBetween(stamp, now)) < kMaxDelays * restart_after_;
+  return std::abs(step - secondsBetween(*came_, *now)) < kTimeTolerance * restart_after_;
 }
 
 bool StampGate::followsStray(Stamp stamp) const {

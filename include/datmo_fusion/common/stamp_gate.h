@@ -22,10 +22,6 @@ enum class StampVerdict {
 /// A stamp that is off by a jump is either wrong, or the clock has jumped, or the sensor was
 /// silent. The second and third are confirmed by ROS time, which moved as far, or by the next
 /// message, which goes on from that stamp and not from the newest one before it.
-///
-/// A stream whose stamps were those of ROS time until then has a clock that is right: when it jumps
-/// and ROS time does not, the sensor's clock has become wrong, however many messages say so. They
-/// are left out until it is right again, or its stamps are later than the newest.
 class StampGate {
  public:
   /// `restart_after`: a stamp older than the newest by this much (s, more than 0) is a restart of
@@ -42,7 +38,6 @@ class StampGate {
   bool isJump(double step) const;
   bool isConfirmed(Stamp stamp, const std::optional<Stamp>& now) const;
   bool followsStray(Stamp stamp) const;
-  bool isOnRosTime(Stamp stamp, Stamp now) const;
   void accept(Stamp stamp, double step, const std::optional<Stamp>& now);
 
   double restart_after_;

@@ -44,7 +44,7 @@ Arrival StampCheck::check(const ros::Time& time, const std::optional<Stamp>& now
                        "stamp " + std::to_string(time.toSec()) + " s, the newest is " +
                            std::to_string(newest->seconds()) +
                            " s: expected the next one of its stream; drops it, and follows the "
-                           "clock when a second message, or ROS time, confirms that it has jumped");
+                           "clock when a second message confirms that it has jumped");
     case StampVerdict::kRestart:
       return Arrival::kRestart;
     case StampVerdict::kAccept:

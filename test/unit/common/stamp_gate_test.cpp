@@ -84,42 +84,17 @@ TEST(StampGate, RosTimeConfirmsAJumpAtOnce) {
 
 TEST(StampGate, AJumpAheadIsFollowedFromTheSecondMessageOn) {
   StampGate gate;
-  judgeAt(gate, 100.0, 5000.0);
-  EXPECT_EQ(judgeAt(gate, 200.0, 5000.1), StampVerdict::kStray);
-  EXPECT_EQ(judgeAt(gate, 200.1, 5000.2), StampVerdict::kAccept);
-  EXPECT_EQ(judgeAt(gate, 200.2, 5000.3), StampVerdict::kAccept);
-}
-
-TEST(StampGate, AClockThatWasRosTimesAndIsNotAnyMoreIsWrong) {
-  for (const double off : {5.0, -5.0, -1.5}) {
-    StampGate gate;
-    for (int message = 0; message < 10; ++message) {
-      const double now = 100.0 + 0.1 * message;
-      EXPECT_EQ(judgeAt(gate, now - 0.05, now), StampVerdict::kAccept);
-    }
-    for (int message = 10; message < 20; ++message) {
-      const double now = 100.0 + 0.1 * message;
-      EXPECT_EQ(judgeAt(gate, now + off, now), StampVerdict::kStray) << off;
-    }
-    for (int message = 20; message < 30; ++message) {
-      const double now = 100.0 + 0.1 * message;
-      EXPECT_EQ(judgeAt(gate, now - 0.05, now), StampVerdict::kAccept) << off;
-    }
-  }
-}
-
-TEST(StampGate, AClockThatWasWrongMayBeSetRight) {
-  StampGate gate;
-  judgeAt(gate, 105.0, 100.0);
-  EXPECT_EQ(judgeAt(gate, 100.1, 100.1), StampVerdict::kStray);
-  EXPECT_EQ(judgeAt(gate, 100.2, 100.2), StampVerdict::kRestart);
+  judgeAt(gate, 100.0, 100.0);
+  EXPECT_EQ(judgeAt(gate, 200.0, 100.1), StampVerdict::kStray);
+  EXPECT_EQ(judgeAt(gate, 200.1, 100.2), StampVerdict::kAccept);
+  EXPECT_EQ(judgeAt(gate, 200.2, 100.3), StampVerdict::kAccept);
 }
 
 TEST(StampGate, ASlowStreamThatRosTimeDoesNotFollowIsUsed) {
   StampGate gate;
   int used = 0;
   for (int message = 0; message < 20; ++message) {  // every 2 s, played five times as fast
-    used += judgeAt(gate, 100.0 + 2.0 * message, 5000.0 + 0.4 * message) == StampVerdict::kAccept;
+    used += judgeAt(gate, 100.0 + 2.0 * message, 100.0 + 0.4 * message) == StampVerdict::kAccept;
   }
   EXPECT_EQ(used, 19);
 }
