@@ -103,7 +103,11 @@ MonoGridResult MonoGridModel::grid(const cv::Mat& image, const MountedCamera& ca
   if (!view.seesRoad()) {
     return result;
   }
-  result.learned = learn(image, camera, scanned);
+  // What this image shows is judged by earlier ones: what the scanner looks over is no road for it.
+  const bool known = color_.isKnown(image.channels());
+  if (!known) {
+    result.learned = learn(image, camera, scanned);
+  }
   if (!color_.isKnown(image.channels())) {
     return result;
   }
@@ -112,6 +116,9 @@ MonoGridResult MonoGridModel::grid(const cv::Mat& image, const MountedCamera& ca
   } else {
     const RoadPixels pixels(image, color_);
     SightLines(options_, view, scanned, pixels).fill(result.grid);
+  }
+  if (known) {
+    result.learned = learn(image, camera, scanned);
   }
   const auto& cells = result.grid.cells();
   result.free = static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), isFree));

@@ -9,7 +9,7 @@ struct ExistenceOptions {
   double birth_probability = 0.5;  ///< 1
   double clutter_density = 0.005;  ///< 1/m^2
   double scan_limit = 1.0;         ///< 1
-  double max_score = 12.0;         ///< 1
+  double max_score = 11.0;         ///< 1
   double min_score = -2.0;         ///< 1
 
   void visit(OptionVisitor& visitor);
