@@ -38,9 +38,11 @@ cv::Mat roadOfGray(const cv::Mat& image, const RoadColor& color) {
 }
 
 std::size_t binOf(const cv::Vec3b& pixel) {
-  return static_cast<std::size_t>((pixel[0] / kColorStep * kColorBins + pixel[1] / kColorStep) *
-                                      kColorBins +
-                                  pixel[2] / kColorStep);
+  const auto bin = [&](int channel) {
+    return static_cast<std::size_t>(pixel[channel] / kColorStep);
+  };
+  constexpr std::size_t kBins = kColorBins;
+  return (bin(0) * kBins + bin(1)) * kBins + bin(2);
 }
 
 cv::Mat roadOfColor(const cv::Mat& image, const RoadColor& color) {

@@ -19,9 +19,11 @@ constexpr double kFrozenTurn = degrees(3.0);
 /// Of so few beams that come back, rounded as a scanner does, all may be the same by chance.
 constexpr std::ptrdiff_t kMinReturns = 10;
 
-std::vector<std::uint8_t> bytesOf(const std::vector<float>& ranges) {
-  const auto returns = std::count_if(ranges.begin(), ranges.end(), [](float range) {
-    return std::isfinite(range) && range > 0.0F;
+/// Some scanners report as a range beyond their reach that nothing came back.
+std::vector<std::uint8_t> bytesOf(const std::vector<float>& ranges, float min_range,
+                                  float max_range) {
+  const auto returns = std::count_if(ranges.begin(), ranges.end(), [&](float range) {
+    return range > 0.0F && range >= min_range && range <= max_range;
   });
   if (returns < kMinReturns) {
     return {};
@@ -65,7 +67,7 @@ void checkNotFrozen(bool is_frozen, StageMonitor& monitor) {
 }
 
 std::vector<std::uint8_t> measuredBytes(const sensor_msgs::LaserScan& scan) {
-  return bytesOf(scan.ranges);
+  return bytesOf(scan.ranges, scan.range_min, scan.range_max);
 }
 
 std::vector<std::uint8_t> measuredBytes(const sensor_msgs::MultiEchoLaserScan& scan) {
@@ -73,7 +75,7 @@ std::vector<std::uint8_t> measuredBytes(const sensor_msgs::MultiEchoLaserScan& s
   for (const sensor_msgs::LaserEcho& beam : scan.ranges) {
     ranges.insert(ranges.end(), beam.echoes.begin(), beam.echoes.end());
   }
-  return bytesOf(ranges);
+  return bytesOf(ranges, scan.range_min, scan.range_max);
 }
 
 }  // namespace datmo
