@@ -68,12 +68,10 @@ Object unionOf(const std::vector<const Object*>& parts, double heading) {
   forgetKind(whole);
   std::vector<Point2> corners;
   whole.points.clear();
-  double moving_points = 0.0;
   for (const Object* part : parts) {
     const auto box = part->box.corners();
     corners.insert(corners.end(), box.begin(), box.end());
     whole.points.insert(whole.points.end(), part->points.begin(), part->points.end());
-    moving_points += part->moving_fraction * static_cast<double>(part->points.size());
     if (part->position_covariance.trace() > whole.position_covariance.trace()) {
       whole.position_covariance = part->position_covariance;
     }
@@ -86,8 +84,6 @@ Object unionOf(const std::vector<const Object*>& parts, double heading) {
     whole.log_odds = std::max(whole.log_odds, part->log_odds);
     whole.motion_log_odds = std::max(whole.motion_log_odds, part->motion_log_odds);
   }
-  whole.moving_fraction =
-      whole.points.empty() ? 0.0 : moving_points / static_cast<double>(whole.points.size());
   whole.box = boxHolding(corners, heading);
   const std::array<Point2, kBoxSides> normals = normalsOf(whole.box);
   for (std::size_t side = 0; side < kBoxSides; ++side) {

@@ -180,8 +180,10 @@ void Tracker::confirm() {
 }
 
 bool Tracker::seemsToMove(const Target& target) const {
-  return target.motionProbability(scans_, *stamp_, options_.target) >=
-         options_.target.motion_likelihood.required_probability;
+  const double required = options_.target.motion_likelihood.required_probability;
+  // What moves exists: of what hardly does no beam has to be asked.
+  return existence(target) >= required &&
+         target.motionProbability(scans_, *stamp_, options_.target) >= required;
 }
 
 bool Tracker::deservesTrack(const Target& target) const {

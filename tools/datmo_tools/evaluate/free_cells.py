@@ -14,17 +14,15 @@ from datmo_tools.evaluate import road_plane
 from datmo_tools.evaluate.grid_recordings import (
     CAMERA_INFOS,
     MOUNTS,
-    grid_of,
     mount_of,
     mounts_of,
 )
 from datmo_tools.evaluate.grid_scores import UNDECIDED
 from datmo_tools.evaluate.report import Section
 from datmo_tools.evaluate.stereo_grid_scores import BAND_EDGES, moved, obstacle_points
-from datmo_tools.evaluate.stereo_grids import CLOUDS, MAX_GAP
+from datmo_tools.evaluate.stereo_grids import CLOUDS, with_clouds
 from datmo_tools.evaluate.truth import TRUE_POSE
 from datmo_tools.pose_path import read_path
-from datmo_tools.stamps import NANOSECONDS
 from datmo_tools.text_table import rounded
 
 DESCRIPTION = """\
@@ -101,23 +99,14 @@ def score(run, drive, topic):
     dictionary that JSON can hold. Raises InputError."""
     clouds, image = _read_drive(drive)
     path = read_path(drive, TRUE_POSE)
-    stamps = np.array(sorted(clouds))
     counts, used, left_out = NOTHING, 0, 0
-    with opened(run) as bag:
-        for name, raw, _ in bag.read_messages([topic], raw=True):
-            stamp, grid = grid_of(run, name, raw)
-            nearest = int(stamps[np.argmin(np.abs(stamps - stamp))])
-            if abs(nearest - stamp) > MAX_GAP * NANOSECONDS:
-                left_out += 1
-                continue
-            then, now = path.at(nearest), path.at(stamp)
-            counts += count(grid, *(moved(points, then, now) for points in clouds[nearest]), image)
-            used += 1
-    if used == 0:
-        raise InputError(
-            f"{run}: of {left_out} grids on {topic} none is within {MAX_GAP:g} s of a cloud in "
-            f"{drive}, expected one or more"
-        )
+    for stamp, grid, nearest in with_clouds(run, drive, topic, clouds):
+        if nearest is None:
+            left_out += 1
+            continue
+        then, now = path.at(nearest), path.at(stamp)
+        counts += count(grid, *(moved(points, then, now) for points in clouds[nearest]), image)
+        used += 1
     ends = [*zip(BAND_EDGES, BAND_EDGES[1:]), *SUMS]
     return {
         "run": str(run),

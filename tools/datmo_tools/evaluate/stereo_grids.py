@@ -63,6 +63,25 @@ MAX_GAP = 0.1  # s, from a grid to the nearest cloud: a turn of the Velodyne
 SUMS = ((0.0, 15.0), (0.0, REACH))
 
 
+def with_clouds(run, drive, topic, clouds):
+    """Yields stamp (ns), Grid, and stamp of the cloud nearest in time, of each grid on `topic` in the bag
+    `run`; None: no cloud is near. clouds: by stamp, of the bag `drive`. Raises InputError if none has one."""
+    stamps = np.array(sorted(clouds))
+    found, left_out = False, 0
+    with opened(run) as bag:
+        for name, raw, _ in bag.read_messages([topic], raw=True):
+            stamp, grid = grid_of(run, name, raw)
+            nearest = int(stamps[np.argmin(np.abs(stamps - stamp))])
+            is_near = abs(nearest - stamp) <= MAX_GAP * NANOSECONDS
+            found, left_out = found or is_near, left_out + (not is_near)
+            yield stamp, grid, nearest if is_near else None
+    if not found:
+        raise InputError(
+            f"{run}: of {left_out} grids on {topic} none is within {MAX_GAP:g} s of a cloud in "
+            f"{drive}, expected one or more"
+        )
+
+
 def score(run, drive, topic="/grids/stereo", disparity_sigma=DISPARITY_SIGMA, first_column=0.0):
     """Score of the grids on `topic` in the bag `run` (Path) against the drive's bag (Path), as a
     dictionary that JSON can hold.
@@ -72,23 +91,14 @@ def score(run, drive, topic="/grids/stereo", disparity_sigma=DISPARITY_SIGMA, fi
     """
     clouds, view = _read_drive(drive, disparity_sigma, first_column)
     path = read_path(drive, TRUE_POSE)
-    stamps = np.array(sorted(clouds))
     counts, used, left_out = NOTHING, 0, 0
-    with opened(run) as bag:
-        for name, raw, _ in bag.read_messages([topic], raw=True):
-            stamp, grid = grid_of(run, name, raw)
-            nearest = int(stamps[np.argmin(np.abs(stamps - stamp))])
-            if abs(nearest - stamp) > MAX_GAP * NANOSECONDS:
-                left_out += 1
-                continue
-            points = moved(clouds[nearest], path.at(nearest), path.at(stamp))
-            counts += count(grid, points, view)
-            used += 1
-    if used == 0:
-        raise InputError(
-            f"{run}: of {left_out} grids on {topic} none is within {MAX_GAP:g} s of a cloud in "
-            f"{drive}, expected one or more"
-        )
+    for stamp, grid, nearest in with_clouds(run, drive, topic, clouds):
+        if nearest is None:
+            left_out += 1
+            continue
+        points = moved(clouds[nearest], path.at(nearest), path.at(stamp))
+        counts += count(grid, points, view)
+        used += 1
     return {
         "run": str(run),
         "drive": str(drive),
