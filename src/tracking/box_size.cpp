@@ -16,8 +16,9 @@ constexpr double kMinLogWeight = -12.0;
 /// Mahalanobis distance squared of an extent that is hardly of this object: three sigma.
 constexpr double kFarOff = 9.0;
 
-/// Standard deviations by which a lower bound stays below what was seen.
-constexpr double kSureBound = 2.0;
+/// Standard deviations by which a lower bound stays below what was seen: noise exceeds it once in
+/// fifteen times.
+constexpr double kSureBound = 1.5;
 
 /// Odds that a classifier which is sure of itself gives: it may err all the same.
 constexpr double kSurestClass = 0.999;

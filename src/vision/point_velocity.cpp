@@ -184,7 +184,7 @@ void SharedVelocityOptions::visit(OptionVisitor& visitor) {
                  {0.1, 200.0});
   visitor.number({"min_inliers", "1",
                   "sum of the features' probabilities to be the object's, below which its velocity "
-                  "is not known"},
+                  "is not known: two that agree are hardly less than 2"},
                  min_inliers, {0.1, 1000.0});
   visitor.number(
       {"turn_rate", "rad/s",

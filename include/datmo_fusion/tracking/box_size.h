@@ -51,9 +51,9 @@ struct VisibleExtent {
 /// that of something 4 m long, and a leg for part of something small, before anything has indicated
 /// their class (thesis 4.2.4 needs the class for that).
 ///
-/// Where an end is hidden, the visible extent is a lower bound, less two standard deviations of how
-/// far that was seen (noise would only make it grow): the size grows to it where it is longer than
-/// the estimate, and never shrinks by it. No heap: cheap to copy.
+/// Where an end is hidden, the visible extent less what may be noise is a lower bound: the size
+/// grows to it where it is longer than the estimate, and never shrinks by it. No heap: cheap to
+/// copy.
 class BoxSize {
  public:
   explicit BoxSize(const BoxSizeOptions& options);

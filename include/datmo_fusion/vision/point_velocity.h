@@ -43,7 +43,7 @@ std::optional<PointVelocity> pointVelocity(const StereoRig& rig, const StereoFea
 struct SharedVelocityOptions {
   double outlier_share = 0.2;  ///< 1
   double max_speed = 40.0;     ///< m/s
-  double min_inliers = 2.0;    ///< 1
+  double min_inliers = 1.5;    ///< 1
   double turn_rate = 0.2;      ///< rad/s
   double curvature = 0.1;      ///< 1/m
 
