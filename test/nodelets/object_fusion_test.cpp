@@ -14,7 +14,7 @@
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
-namespace datmo {
+namespace datmo::object_fusion_test {
 namespace {
 
 using ObjectLists = SourceLists<ObjectArray>;
@@ -211,10 +211,4 @@ TEST_F(ObjectFusionTest, ALoopedBag) {
 }
 
 }  // namespace
-}  // namespace datmo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "object_fusion_test");
-  return RUN_ALL_TESTS();
-}
+}  // namespace datmo::object_fusion_test

@@ -10,7 +10,7 @@
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
-namespace datmo {
+namespace datmo::object_level_test {
 namespace {
 
 constexpr std::uint32_t kQueue = 1000;
@@ -163,10 +163,4 @@ TEST_F(ObjectLevelTest, ALoopedBag) {
 }
 
 }  // namespace
-}  // namespace datmo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "object_level_test");
-  return RUN_ALL_TESTS();
-}
+}  // namespace datmo::object_level_test

@@ -15,7 +15,7 @@
 #include "datmo_fusion/ros/parameters.h"
 #include "datmo_fusion/ros/stage/track_fusion_stage.h"
 
-namespace datmo {
+namespace datmo::track_fusion_test {
 namespace {
 
 using Lists = SourceLists<TrackArray>;
@@ -207,10 +207,4 @@ TEST_F(TrackFusionTest, ALoopedBag) {
 }
 
 }  // namespace
-}  // namespace datmo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "track_fusion_test");
-  return RUN_ALL_TESTS();
-}
+}  // namespace datmo::track_fusion_test
