@@ -110,7 +110,7 @@ void MonoClassifierStage::takeImage(const sensor_msgs::ImageConstPtr& message, S
 void MonoClassifierStage::checkAge(const sensor_msgs::Image& image) const {
   const Stamp exposure = toStamp(image.header.stamp);
   const double age = secondsBetween(exposure, wait_.newestStamp().value_or(exposure));
-  // Of a clock that jumped back it is no older, and begins anew.
+  // Of a clock that jumped back it is no older, and starts over.
   if (age > options_.max_age && age < options_.input.restart_after) {
     throw InputError("old_image", "image " + std::to_string(age) +
                                       " s older than the newest objects: expected at most " +

@@ -122,7 +122,7 @@ TEST_F(ObjectFusionScanSupportTest, TheScanOfTheSameStampShowsWhatIsStatic) {
   stage_.takeLabeledScan(wallAt(18.0, 100.1));
   EXPECT_EQ(stateAt(100.1), ObjectMessage::STATE_STATIC);
   EXPECT_EQ(stateAt(100.2), ObjectMessage::STATE_UNKNOWN) << "the scan is of another time";
-  EXPECT_EQ(figure("fused without a split scan"), 2.0);
+  EXPECT_EQ(figure("fused without a labeled scan"), 2.0);
 }
 
 TEST_F(ObjectFusionScanSupportTest, AScanMayComeBeforeOthers) {

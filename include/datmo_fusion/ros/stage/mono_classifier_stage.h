@@ -124,7 +124,7 @@ class MonoClassifierStage : public Stage {
   CameraInput camera_;
   ExposureCheck exposure_;
   ImageWait<ObjectList> wait_;
-  std::uint64_t run_ = 0;  ///< counts how often the clock began anew
+  std::uint64_t run_ = 0;  ///< counts how often the clock started over
   std::deque<Result> results_;
   std::unique_ptr<MonoClassifier> classifier_;
   NewestWorker<Job, Result> worker_;  ///< last: its thread uses the classifier
