@@ -11,8 +11,19 @@ set(DATMO_FUSION_NODELET_HEADERS ${DATMO_FUSION_ROS_HEADERS} <ros/ros.h> <nodele
 set(DATMO_FUSION_BAG_HEADERS ${DATMO_FUSION_ROS_HEADERS} <ros/ros.h> <rosbag/bag.h> <rosbag/view.h>)
 set(DATMO_FUSION_TEST_HEADERS ${DATMO_FUSION_CORE_HEADERS} <gtest/gtest.h>)
 
-# datmo_fusion_precompile_headers(TARGET HEADER...)
+# datmo_fusion_precompile_headers(TARGET HEADER...): but where files are compiled together, a target of
+# two batches or less gains less than its header takes.
 function(datmo_fusion_precompile_headers target)
+  get_target_property(sources ${target} SOURCES)
+  list(LENGTH sources files)
+  math(EXPR few "2 * ${DATMO_FUSION_FILES_TOGETHER}")
+  if(NOT DATMO_FUSION_UNITY OR files GREATER few)
+    datmo_fusion_share_headers(${target} ${ARGN})
+  endif()
+endfunction()
+
+# datmo_fusion_share_headers(TARGET HEADER...): however few files, as other targets reuse them.
+function(datmo_fusion_share_headers target)
   if(DATMO_FUSION_PRECOMPILE AND NOT CMAKE_VERSION VERSION_LESS 3.16)
     target_precompile_headers(${target} PRIVATE ${ARGN})
   endif()

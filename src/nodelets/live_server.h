@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include <dynamic_reconfigure/Config.h>
-#include <dynamic_reconfigure/ConfigDescription.h>
 #include <dynamic_reconfigure/Reconfigure.h>
 
 #include <ros/node_handle.h>
@@ -42,9 +40,5 @@ class LiveServer {
   ros::Publisher updates_;
   ros::ServiceServer service_;
 };
-
-/// The description of options, and their values, as the protocol has them.
-dynamic_reconfigure::ConfigDescription descriptionOf(const std::vector<LiveOption>& options);
-dynamic_reconfigure::Config configOf(const std::vector<LiveOption>& options);
 
 }  // namespace datmo

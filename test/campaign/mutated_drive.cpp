@@ -24,7 +24,7 @@ namespace {
 
 constexpr double kStep = 1.0 / 16.0;   // s
 constexpr int kMutatedSteps = 40;      // 2.5 s
-constexpr int kCleanSteps = 48;        // longer than a map that begins anew needs for its tracks
+constexpr int kCleanSteps = 48;        // longer than a map that starts over needs for its tracks
 constexpr double kTooLong = 20.0;      // s for one message: a hang
 constexpr unsigned kMaxMutations = 3;  // a step
 constexpr int kImageSteps = 4;         // from image to image

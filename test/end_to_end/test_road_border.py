@@ -48,7 +48,7 @@ class RoadBorder(unittest.TestCase):
                 self.assertEqual(sum(states), 0)
 
     def test_looped_bag(self):
-        """Borders begin anew with the bag: the second time they are found as well."""
+        """Borders start over with the bag: the second time they are found as well."""
         recorded = simulated(self.folder, "one_side")
         once = computed(recorded, "--road-border")
         again = computed(self.looped(recorded), "--road-border")

@@ -12,6 +12,7 @@
 #include <ros/ros.h>
 #include <rosgraph_msgs/Log.h>
 
+namespace datmo::bad_parameters_test {
 namespace {
 
 class BadParametersTest : public testing::Test {
@@ -90,9 +91,4 @@ TEST_F(BadParametersTest, OnceItIsRightTheNodeletStarts) {
 }
 
 }  // namespace
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "bad_parameters_test");
-  return RUN_ALL_TESTS();
-}
+}  // namespace datmo::bad_parameters_test

@@ -12,7 +12,7 @@
 
 #include "datmo_fusion/ros/convert/road_conversion.h"
 
-namespace datmo {
+namespace datmo::border_filter_test {
 namespace {
 
 class BorderFilterDoor : public LabeledScanDoor {
@@ -135,10 +135,4 @@ TEST_F(BorderFilterTest, ALoopedBag) {
 }
 
 }  // namespace
-}  // namespace datmo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "border_filter_test");
-  return RUN_ALL_TESTS();
-}
+}  // namespace datmo::border_filter_test

@@ -7,7 +7,7 @@
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
-namespace datmo {
+namespace datmo::camera_view_test {
 namespace {
 
 constexpr samples::CameraSample kCamera{320, 240, 200.0};
@@ -76,10 +76,4 @@ TEST(CameraViewNodeletTest, DrawsTracksOnImagesWhileSomebodyLooks) {
 }
 
 }  // namespace
-}  // namespace datmo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "camera_view_test");
-  return RUN_ALL_TESTS();
-}
+}  // namespace datmo::camera_view_test

@@ -10,7 +10,7 @@
 #include "datmo_fusion/ros/frames.h"
 #include "datmo_fusion/ros/stage/input_error.h"
 
-namespace datmo {
+namespace datmo::chain_test {
 namespace {
 
 constexpr double kDrive = 3.5;  // s
@@ -104,10 +104,4 @@ TEST_F(ChainTest, TheOtherCarIsTracked) {
 }
 
 }  // namespace
-}  // namespace datmo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "chain_test");
-  return RUN_ALL_TESTS();
-}
+}  // namespace datmo::chain_test

@@ -10,7 +10,7 @@
 
 #include <rosgraph_msgs/Clock.h>
 
-namespace datmo {
+namespace datmo::cloud_to_scan_test {
 namespace {
 
 class CloudDoor : public Listener {
@@ -81,10 +81,4 @@ TEST(CloudToScanNodelet, ACloudComesOutAsAScanBelowTheLidar) {
 }
 
 }  // namespace
-}  // namespace datmo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "cloud_to_scan_test");
-  return RUN_ALL_TESTS();
-}
+}  // namespace datmo::cloud_to_scan_test

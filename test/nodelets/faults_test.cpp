@@ -9,7 +9,7 @@
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
-namespace datmo {
+namespace datmo::faults_test {
 namespace {
 
 constexpr double kStep = 1.0 / 16.0;  // s, between scans
@@ -142,10 +142,4 @@ TEST_F(FaultsTest, ALoopedBag) {
 }
 
 }  // namespace
-}  // namespace datmo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "faults_test");
-  return RUN_ALL_TESTS();
-}
+}  // namespace datmo::faults_test

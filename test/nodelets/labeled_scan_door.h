@@ -13,8 +13,8 @@
 
 namespace datmo {
 
-/// A nodelet that takes split scans, and a scripted grid_slam before it. Times count from the start
-/// of the drive, samples::kStart.
+/// A nodelet that takes labeled scans, and a scripted grid_slam before it. Times count from the
+/// start of the drive, samples::kStart.
 class LabeledScanDoor : public Listener {
  public:
   static constexpr double kStep = 1.0 / 16.0;  // s

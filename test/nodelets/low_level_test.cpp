@@ -14,7 +14,7 @@
 #include "datmo_fusion/ros/parameters.h"
 #include "datmo_fusion/ros/stage/grid_fusion_stage.h"
 
-namespace datmo {
+namespace datmo::low_level_test {
 namespace {
 
 constexpr std::uint32_t kQueue = 1000;
@@ -244,10 +244,4 @@ TEST_F(LowLevelTest, ALoopedBag) {
 }
 
 }  // namespace
-}  // namespace datmo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "low_level_test");
-  return RUN_ALL_TESTS();
-}
+}  // namespace datmo::low_level_test

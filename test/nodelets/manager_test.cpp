@@ -12,7 +12,7 @@
 #include <ros/master.h>
 #include <ros/network.h>
 
-namespace datmo {
+namespace datmo::manager_test {
 namespace {
 
 /// Process of a node; 0 if it does not answer.
@@ -65,10 +65,4 @@ TEST(ManagerTest, KilledItComesBackWithAllNodelets) {
 }
 
 }  // namespace
-}  // namespace datmo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "manager_test");
-  return RUN_ALL_TESTS();
-}
+}  // namespace datmo::manager_test

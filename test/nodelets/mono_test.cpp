@@ -8,7 +8,7 @@
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
 
-namespace datmo {
+namespace datmo::mono_test {
 namespace {
 
 constexpr samples::CameraSample kCamera{320, 240, 200.0};
@@ -89,10 +89,4 @@ TEST(MonoClassifierNodeletTest, ListsHaveTheStampsOfExposures) {
 }
 
 }  // namespace
-}  // namespace datmo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "mono_test");
-  return RUN_ALL_TESTS();
-}
+}  // namespace datmo::mono_test

@@ -12,7 +12,7 @@
 
 #include "datmo_fusion/ros/stage/stamp_check.h"
 
-namespace datmo {
+namespace datmo::motion_test {
 namespace {
 
 constexpr double kSpeed = 2.0;    // m/s
@@ -90,10 +90,4 @@ TEST(Motion, AnImuAndATwistLeadToOdometryAndPoses) {
 }
 
 }  // namespace
-}  // namespace datmo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "motion_test");
-  return RUN_ALL_TESTS();
-}
+}  // namespace datmo::motion_test

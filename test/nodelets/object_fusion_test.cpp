@@ -14,16 +14,11 @@
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
-namespace datmo {
+namespace datmo::object_fusion_test {
 namespace {
 
-using ObjectLists = SourceLists<ObjectArray>;
-
-constexpr double kStart = ObjectLists::kStart;
-constexpr double kStep = ObjectLists::kStep;
-constexpr double kStereoLater = 0.02;  // s
-constexpr double kSpeed = 10.0;        // m/s, of the vehicle
-constexpr double kCarAhead = 20.0;     // m, of a car that is as fast as the vehicle
+constexpr double kSpeed = 10.0;       // m/s, of the vehicle
+constexpr double kCarAhead = 20.0;    // m, of a car that is as fast as the vehicle
 constexpr double kPoleAhead = 200.0;  // m, of a pole when the drive starts, which stereo alone sees
 constexpr double kPoleLeft = 15.0;    // m
 
@@ -37,29 +32,32 @@ Object seen(const std::string& sensor, const Box2& box) {
   return object;
 }
 
-/// What a sensor sees at a time of the drive (s).
-ObjectArray listOf(const std::string& sensor, double seconds) {
-  ObjectList list{Stamp::fromSeconds(kStart + seconds), {}, {}};
-  list.objects.push_back(seen(sensor, {{kCarAhead, 0.0, 0.0}, 4.0, 1.8}));
-  if (sensor == "stereo") {
-    const double ahead = kPoleAhead - kSpeed * seconds;
-    list.objects.push_back(seen(sensor, {{ahead, kPoleLeft, 0.0}, 0.2, 0.2}));
-  }
-  return toMessage(list, "base_link");
-}
-
 /// The sensors' lists and the odometry for the nodelet, and what it makes of them.
-class Lists : public ObjectLists {
+class Lists : public SourceLists<ObjectArray> {
  public:
-  Lists() : ObjectLists("objects", "object_fusion") {}
+  Lists() : SourceLists("objects", "object_fusion") {}
+
+  static ObjectArray listOf(const std::string& sensor, double seconds) {
+    ObjectList list{Stamp::fromSeconds(kStart + seconds), {}, {}};
+    list.objects.push_back(seen(sensor, {{kCarAhead, 0.0, 0.0}, 4.0, 1.8}));
+    if (sensor == "stereo") {
+      const double ahead = kPoleAhead - kSpeed * seconds;
+      list.objects.push_back(seen(sensor, {{ahead, kPoleLeft, 0.0}, 0.2, 0.2}));
+    }
+    return toMessage(list, "base_link");
+  }
 
   bool waitForNodelet() {
-    return ObjectLists::waitForNodelet() &&
-           waitFor([this] { return odometry_.getNumSubscribers() >= 1; });
+    if (!SourceLists::waitForNodelet() ||
+        !waitFor([this] { return odometry_.getNumSubscribers() >= 1; })) {
+      return false;
+    }
+    startStep(-kStep);
+    return waitFor([this] { return diagnostic("odometry received") >= 1.0; });
   }
 
-  /// Clock and odometry at a time of the drive.
-  void sendMotion(double seconds) {
+  /// Clock and odometry.
+  void startStep(double seconds) {
     setClock(seconds);
     nav_msgs::Odometry odometry;
     odometry.header.stamp = ros::Time(kStart + seconds);
@@ -75,38 +73,9 @@ class Lists : public ObjectLists {
   ros::Publisher odometry_ = node_.advertise<nav_msgs::Odometry>("odometry", 1, true);
 };
 
-using Sensors = std::vector<std::string>;
-
-class ObjectFusionTest : public testing::Test {
+class ObjectFusionTest : public SourceListsTest<Lists> {
  protected:
-  static void SetUpTestSuite() {
-    lists_ = new Lists();
-    ASSERT_TRUE(lists_->waitForNodelet());
-    lists_->sendMotion(-kStep);
-    ASSERT_TRUE(lists_->waitFor([] { return diagnostic("odometry received") >= 1.0; }));
-  }
-
-  static void TearDownTestSuite() { delete lists_; }
-
-  /// One step of the drive with both sensors; waits for its fused list.
-  static void step() {
-    lists_->sendMotion(now_);
-    lists_->sendLidar(listOf("lidar", now_));
-    lists_->sendStereo(listOf("stereo", now_ + kStereoLater));
-    ASSERT_TRUE(lists_->waitFor([] { return lists_->isAt(now_); }))
-        << now_ << " s: " << lists_->diagnosticMessage();
-    now_ += kStep;
-  }
-
-  static void driveOn(int steps) {
-    for (int i = 0; i < steps; ++i) {
-      ASSERT_NO_FATAL_FAILURE(step());
-    }
-  }
-
-  static const ObjectArray& last() { return *lists_->fused.back(); }
-
-  /// The sensors that saw the object nearest to a place in the last list (m); none if there is none
+  /// The sensors that saw the object nearest to a point (m) in the last list; none if there is none
   /// within a meter.
   static Sensors sensorsAt(double ahead, double left) {
     for (const ObjectMessage& object : last().objects) {
@@ -122,13 +91,7 @@ class ObjectFusionTest : public testing::Test {
   static bool waitForCount(const std::string& key, double count) {
     return lists_->waitForCount(key, count);
   }
-
-  static Lists* lists_;
-  static double now_;  // s, of the drive
 };
-
-Lists* ObjectFusionTest::lists_ = nullptr;
-double ObjectFusionTest::now_ = 0.0;
 
 TEST_F(ObjectFusionTest, WhatBothSeeIsOneObject) {
   ASSERT_NO_FATAL_FAILURE(driveOn(16));
@@ -155,8 +118,7 @@ TEST_F(ObjectFusionTest, WhatStereoAloneSeesIsMovedToTheScannersTime) {
 TEST_F(ObjectFusionTest, WithoutStereoTheScannerGoesOn) {
   const std::size_t before = lists_->fused.size();
   for (int i = 0; i < 20; ++i) {
-    lists_->sendMotion(now_);
-    lists_->sendLidar(listOf("lidar", now_));
+    sendLidarStep();
     now_ += kStep;
   }
   EXPECT_TRUE(lists_->waitFor([] { return lists_->isAt(now_ - kStep); }))
@@ -176,7 +138,7 @@ TEST_F(ObjectFusionTest, WhenStereoIsBackItIsFusedAgain) {
 }
 
 TEST_F(ObjectFusionTest, AListInAnotherFrameIsRefused) {
-  ObjectArray bad = listOf("stereo", now_);
+  ObjectArray bad = Lists::listOf("stereo", now_);
   bad.header.frame_id = "camera";
   lists_->sendStereo(bad);
   EXPECT_TRUE(waitForCount("dropped: wrong_frame", 1.0));
@@ -185,14 +147,10 @@ TEST_F(ObjectFusionTest, AListInAnotherFrameIsRefused) {
 }
 
 TEST_F(ObjectFusionTest, BadObjectsAreLeftOutAndCounted) {
-  ObjectArray bad = listOf("stereo", now_ + kStereoLater);
+  ObjectArray bad = Lists::listOf("stereo", now_ + kStereoLater);
   bad.objects[0].position_covariance.fill(0.0);
   bad.objects[1].pose.position.x = std::numeric_limits<double>::quiet_NaN();
-  lists_->sendMotion(now_);
-  lists_->sendLidar(listOf("lidar", now_));
-  lists_->sendStereo(bad);
-  ASSERT_TRUE(lists_->waitFor([] { return lists_->isAt(now_); }));
-  now_ += kStep;
+  ASSERT_NO_FATAL_FAILURE(step(bad));
   EXPECT_EQ(last().objects.size(), 1U);
   EXPECT_EQ(sensorsAt(kCarAhead, 0.0), Sensors{"lidar"});
   EXPECT_TRUE(waitForCount("bad objects", 2.0));
@@ -203,7 +161,7 @@ TEST_F(ObjectFusionTest, BadObjectsAreLeftOutAndCounted) {
 
 TEST_F(ObjectFusionTest, ALoopedBag) {
   now_ = 0.0;
-  lists_->sendMotion(now_);
+  lists_->startStep(now_);
   ASSERT_TRUE(waitForCount("warned: clock_restart", 1.0));
   ASSERT_NO_FATAL_FAILURE(driveOn(8));
   EXPECT_EQ(sensorsAt(kCarAhead, 0.0), (Sensors{"lidar", "stereo"}));
@@ -211,10 +169,4 @@ TEST_F(ObjectFusionTest, ALoopedBag) {
 }
 
 }  // namespace
-}  // namespace datmo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "object_fusion_test");
-  return RUN_ALL_TESTS();
-}
+}  // namespace datmo::object_fusion_test

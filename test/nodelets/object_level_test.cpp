@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <limits>
 
+#include "ros/pedestrian_sample.h"
 #include "stereo_drive.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 
-namespace datmo {
+namespace datmo::object_level_test {
 namespace {
 
 constexpr std::uint32_t kQueue = 1000;
@@ -123,20 +124,10 @@ TEST_F(ObjectLevelTest, BadCloudsAreCounted) {
 }
 
 TEST_F(ObjectLevelTest, AnotherSystemMayPublishTheStereoObjects) {
-  ObjectArray list;
-  list.header.frame_id = "base_link";
-  list.header.stamp = ros::Time(World::kStart + now_);
-  ObjectMessage pedestrian;
-  pedestrian.pose.position.x = 8.0;
-  pedestrian.pose.orientation.w = 1.0;
-  pedestrian.size.x = 0.5;
-  pedestrian.size.y = 0.5;
-  pedestrian.position_covariance = {0.1, 0.0, 0.0, 0.1};
-  pedestrian.classification = ObjectMessage::CLASS_PEDESTRIAN;
-  pedestrian.class_probability = 0.9F;
-  ObjectMessage nowhere = pedestrian;
+  ObjectArray list = pedestrianAt(Stamp::fromSeconds(World::kStart + now_));
+  ObjectMessage nowhere = list.objects[0];
   nowhere.pose.position.x = std::numeric_limits<double>::quiet_NaN();
-  list.objects = {pedestrian, nowhere};
+  list.objects.push_back(nowhere);
   chain_->sendStereoObjects(list);
   ASSERT_NO_FATAL_FAILURE(stepWithoutStereo());
   ASSERT_NO_FATAL_FAILURE(driveOn(0.5));
@@ -163,10 +154,4 @@ TEST_F(ObjectLevelTest, ALoopedBag) {
 }
 
 }  // namespace
-}  // namespace datmo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "object_level_test");
-  return RUN_ALL_TESTS();
-}
+}  // namespace datmo::object_level_test

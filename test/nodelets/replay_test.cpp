@@ -10,7 +10,7 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
-namespace datmo {
+namespace datmo::replay_test {
 namespace {
 
 /// Scans at the start that may overtake the scanner's mount or the first odometry.
@@ -52,10 +52,4 @@ TEST(ReplayTest, EveryScanOfTheBagLeadsToTracks) {
 }
 
 }  // namespace
-}  // namespace datmo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "replay_test");
-  return RUN_ALL_TESTS();
-}
+}  // namespace datmo::replay_test

@@ -12,7 +12,7 @@
 
 #include "datmo_fusion/ros/convert/risk_conversion.h"
 
-namespace datmo {
+namespace datmo::risk_test {
 namespace {
 
 constexpr double kHostSpeed = 5.0;  // m/s, of samples::scanBetweenWalls
@@ -138,10 +138,4 @@ TEST_F(RiskTest, ALoopedBagBeginsAnew) {
 }
 
 }  // namespace
-}  // namespace datmo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "risk_test");
-  return RUN_ALL_TESTS();
-}
+}  // namespace datmo::risk_test

@@ -11,7 +11,7 @@
 #include "labeled_scan_door.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::road_border_test {
 namespace {
 
 class RoadBorderDoor : public LabeledScanDoor {
@@ -170,10 +170,4 @@ TEST_F(RoadBorderTest, ALoopedBagBeginsAnew) {
 }
 
 }  // namespace
-}  // namespace datmo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "road_border_test");
-  return RUN_ALL_TESTS();
-}
+}  // namespace datmo::road_border_test

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "chain.h"
+#include <gtest/gtest.h>
 
 #include "datmo_fusion/ros/stage/stamp_check.h"
 
@@ -16,6 +17,8 @@ namespace datmo {
 template <typename Message>
 class SourceLists : public Listener {
  public:
+  using List = Message;
+
   static constexpr double kStart = 1000.0;     // s, stamp of the start of the drive
   static constexpr double kStep = 1.0 / 16.0;  // s
 
@@ -66,5 +69,58 @@ class SourceLists : public Listener {
   ros::Publisher lidar_;
   ros::Publisher stereo_;
 };
+
+/// Tests that go through one drive in their order. `Lists`: a SourceLists with listOf(sensor,
+/// seconds), what a sensor says at a time of the drive, and startStep(seconds), what a step begins
+/// with.
+template <typename Lists>
+class SourceListsTest : public testing::Test {
+ protected:
+  using Message = typename Lists::List;
+  using Sensors = std::vector<std::string>;
+
+  static constexpr double kStart = Lists::kStart;
+  static constexpr double kStep = Lists::kStep;
+  static constexpr double kStereoLater = 0.02;  // s
+
+  static void SetUpTestSuite() {
+    lists_ = new Lists();
+    ASSERT_TRUE(lists_->waitForNodelet());
+  }
+
+  static void TearDownTestSuite() { delete lists_; }
+
+  /// One step of the drive with both sensors; waits for its fused list.
+  static void step() { step(Lists::listOf("stereo", now_ + kStereoLater)); }
+  static void step(const Message& stereo) {
+    sendLidarStep();
+    lists_->sendStereo(stereo);
+    ASSERT_TRUE(lists_->waitFor([] { return lists_->isAt(now_); }))
+        << now_ << " s: " << lists_->diagnosticMessage();
+    now_ += kStep;
+  }
+
+  /// The step without stereo.
+  static void sendLidarStep() {
+    lists_->startStep(now_);
+    lists_->sendLidar(Lists::listOf("lidar", now_));
+  }
+
+  static void driveOn(int steps) {
+    for (int i = 0; i < steps; ++i) {
+      ASSERT_NO_FATAL_FAILURE(step());
+    }
+  }
+
+  static const Message& last() { return *lists_->fused.back(); }
+
+  static Lists* lists_;
+  static double now_;  // s, of the drive
+};
+
+template <typename Lists>
+Lists* SourceListsTest<Lists>::lists_ = nullptr;
+template <typename Lists>
+double SourceListsTest<Lists>::now_ = 0.0;
 
 }  // namespace datmo

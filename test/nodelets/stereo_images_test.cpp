@@ -10,7 +10,7 @@
 
 #include "datmo_fusion/ros/convert/grid_conversion.h"
 
-namespace datmo {
+namespace datmo::stereo_images_test {
 namespace {
 
 constexpr std::uint32_t kColumns = 320;
@@ -129,10 +129,4 @@ TEST(StereoImagesTest, RawImagesLeadToAGridAndObjects) {
 }
 
 }  // namespace
-}  // namespace datmo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "stereo_images_test");
-  return RUN_ALL_TESTS();
-}
+}  // namespace datmo::stereo_images_test

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "ros/track_fusion_sample.h"
 #include "source_lists.h"
 #include <gtest/gtest.h>
 
@@ -15,83 +16,39 @@
 #include "datmo_fusion/ros/parameters.h"
 #include "datmo_fusion/ros/stage/track_fusion_stage.h"
 
-namespace datmo {
+namespace datmo::track_fusion_test {
 namespace {
 
-using Lists = SourceLists<TrackArray>;
+constexpr double kAlone = 40.0;  // m to the left, of what stereo alone follows
 
-constexpr double kStep = Lists::kStep;
-constexpr double kStereoLater = 0.02;  // s
-constexpr double kSpeed = 5.0;         // m/s, of all that moves, along x
-constexpr double kAlone = 40.0;        // m to the left, of what stereo alone follows
+class Lists : public SourceLists<TrackArray> {
+ public:
+  Lists() : SourceLists("tracks", "track_fusion") {}
 
-Track trackOf(const std::string& sensor, std::uint32_t id, double seconds, double left) {
-  Track track;
-  track.id = id;
-  track.state << kSpeed * seconds, left, kSpeed, 0.0, 0.0, 0.0;
-  track.covariance.diagonal() << 0.04, 0.04, 0.25, 0.25, 0.25, 0.25;
-  track.mode_probabilities = {0.96, 0.01, 0.01, 0.01, 0.01};
-  track.box = {{track.state(0), left, 0.0}, 4.0, 1.8};
-  track.heading_variance = 0.01;
-  track.moving = true;
-  track.class_probabilities = {0.025, 0.025, 0.025, 0.9, 0.025};
-  track.existence_probability = 0.99;
-  track.age = 2.0;
-  track.hits = 20;
-  track.sensors = {sensor};
-  return track;
-}
-
-/// What a sensor's tracker follows at a time of the drive (s).
-TrackArray listOf(const std::string& sensor, double seconds) {
-  const bool is_stereo = sensor == "stereo";
-  TrackList list{Stamp::fromSeconds(Lists::kStart + seconds), {}, {}};
-  list.tracks.push_back(trackOf(sensor, is_stereo ? 7 : 3, seconds, 0.0));
-  if (is_stereo) {
-    list.tracks.push_back(trackOf(sensor, 8, seconds, kAlone));
-  }
-  return toMessage(list, "map");
-}
-
-using Sensors = std::vector<std::string>;
-
-class TrackFusionTest : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    lists_ = new Lists("tracks", "track_fusion");
-    ASSERT_TRUE(lists_->waitForNodelet());
-  }
-
-  static void TearDownTestSuite() { delete lists_; }
-
-  /// One step of the drive with both sensors; waits for its fused tracks.
-  static void step() { step(listOf("stereo", now_ + kStereoLater)); }
-  static void step(const TrackArray& stereo) {
-    lists_->setClock(now_);
-    lists_->sendLidar(listOf("lidar", now_));
-    lists_->sendStereo(stereo);
-    ASSERT_TRUE(lists_->waitFor([] { return lists_->isAt(now_); }))
-        << now_ << " s: " << lists_->diagnosticMessage();
-    now_ += kStep;
-  }
-
-  static void driveOn(int steps) {
-    for (int i = 0; i < steps; ++i) {
-      ASSERT_NO_FATAL_FAILURE(step());
+  static TrackArray listOf(const std::string& sensor, double seconds) {
+    const bool is_stereo = sensor == "stereo";
+    const double now = kStart + seconds;
+    TrackList list{Stamp::fromSeconds(now), {}, {}};
+    list.tracks.push_back(carTrack(sensor, is_stereo ? 7 : 3, now));
+    if (is_stereo) {
+      list.tracks.push_back(carTrack(sensor, 8, now, kAlone));
     }
+    return toMessage(list, "map");
   }
 
+  void startStep(double seconds) { setClock(seconds); }
+};
+
+class TrackFusionTest : public SourceListsTest<Lists> {
+ protected:
   /// Waits for the fused tracks of some steps before, since fusion waits for a camera that is not
   /// known to be silent.
   static void stepWithoutStereo() {
-    lists_->setClock(now_);
-    lists_->sendLidar(listOf("lidar", now_));
-    const ros::Time some_before(Lists::kStart + now_ - 3.0 * kStep);
+    sendLidarStep();
+    const ros::Time some_before(kStart + now_ - 3.0 * kStep);
     ASSERT_TRUE(lists_->waitFor([&] { return last().header.stamp >= some_before; })) << now_;
     now_ += kStep;
   }
-
-  static const TrackArray& last() { return *lists_->fused.back(); }
 
   /// The track at this side of the road in the last list; null if there is none.
   static const TrackMessage* trackAt(double left) {
@@ -117,13 +74,7 @@ class TrackFusionTest : public testing::Test {
   static std::string askForScheme(const std::string& scheme) {
     return askForChoice("track_fusion", "scheme", scheme);
   }
-
-  static Lists* lists_;
-  static double now_;  // s, of the drive
 };
-
-Lists* TrackFusionTest::lists_ = nullptr;
-double TrackFusionTest::now_ = 0.0;
 
 TEST_F(TrackFusionTest, WhatBothFollowIsOneTrack) {
   ASSERT_NO_FATAL_FAILURE(driveOn(24));
@@ -134,7 +85,7 @@ TEST_F(TrackFusionTest, WhatBothFollowIsOneTrack) {
   EXPECT_EQ(car->sensors, (Sensors{"lidar", "stereo"}));
   ASSERT_EQ(car->sources.size(), 2U);
   EXPECT_EQ(car->sources[0].id + car->sources[1].id, 3U + 7U);
-  EXPECT_NEAR(car->pose.position.x, kSpeed * (now_ - kStep), 0.01) << "at the scanner's time";
+  EXPECT_NEAR(car->pose.position.x, carAt(kStart + now_ - kStep), 0.01) << "at the scanner's time";
   EXPECT_TRUE(lists_->waitForCount("tracks of two or more sources", 1.0));
   EXPECT_EQ(lists_->diagnostic("dropped"), 0.0);
 }
@@ -180,11 +131,11 @@ TEST_F(TrackFusionTest, WithoutStereoTheScannersTrackGoesOnUnderItsId) {
 }
 
 TEST_F(TrackFusionTest, BadInputIsCountedAndTheRestGoesOn) {
-  TrackArray bad = listOf("stereo", now_);
+  TrackArray bad = Lists::listOf("stereo", now_);
   bad.header.frame_id = "base_link";
   lists_->sendStereo(bad);
   EXPECT_TRUE(lists_->waitForCount("dropped: wrong_frame", 1.0));
-  bad = listOf("stereo", now_ + kStereoLater);
+  bad = Lists::listOf("stereo", now_ + kStereoLater);
   bad.tracks[0].velocity.x = std::numeric_limits<double>::quiet_NaN();
   bad.views.resize(1);
   bad.views[0].beam_spacing = 0.0F;
@@ -207,10 +158,4 @@ TEST_F(TrackFusionTest, ALoopedBag) {
 }
 
 }  // namespace
-}  // namespace datmo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "track_fusion_test");
-  return RUN_ALL_TESTS();
-}
+}  // namespace datmo::track_fusion_test

@@ -10,7 +10,7 @@
 #include "stereo_drive.h"
 #include <gtest/gtest.h>
 
-namespace datmo {
+namespace datmo::track_level_test {
 namespace {
 
 constexpr std::uint32_t kQueue = 1000;
@@ -121,10 +121,4 @@ TEST_F(TrackLevelTest, ALoopedBag) {
 }
 
 }  // namespace
-}  // namespace datmo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "track_level_test");
-  return RUN_ALL_TESTS();
-}
+}  // namespace datmo::track_level_test

@@ -63,7 +63,7 @@ TEST(ParameterPage, ListsTheParametersAsTheyAre) {
   }
   std::stringstream page;
   page << file.rdbuf();
-  EXPECT_EQ(page.str(), parameterTables()) << "make it anew: list_parameters > doc/parameters.md";
+  EXPECT_EQ(page.str(), parameterTables()) << "make it again: list_parameters > doc/parameters.md";
 }
 
 std::size_t countOf(const std::string& text, const std::string& part) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "ros/pedestrian_sample.h"
 #include "run_bag/stereo_images.h"
 #include "run_bag_drive.h"
 #include "stereo_pair_sample.h"
@@ -28,23 +29,6 @@ inline geometry_msgs::TransformStamped cameraMount(const std::string& frame) {
   mount.transform.rotation.z = -0.5;
   mount.transform.rotation.w = 0.5;
   return mount;
-}
-
-/// What another system says: a pedestrian 8 m ahead of the vehicle, wherever that is.
-inline ObjectArray pedestrianAt(Stamp stamp) {
-  ObjectMessage pedestrian;
-  pedestrian.pose.position.x = 8.0;
-  pedestrian.pose.orientation.w = 1.0;
-  pedestrian.size.x = 0.5;
-  pedestrian.size.y = 0.5;
-  pedestrian.position_covariance = {0.1, 0.0, 0.0, 0.1};
-  pedestrian.classification = ObjectMessage::CLASS_PEDESTRIAN;
-  pedestrian.class_probability = 0.9F;
-  ObjectArray list;
-  list.header.stamp = toTime(stamp);
-  list.header.frame_id = "base_link";
-  list.objects = {pedestrian};
-  return list;
 }
 
 /// A drive with a stereo camera that sees a wall.

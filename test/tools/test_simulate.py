@@ -42,7 +42,7 @@ class Simulate(unittest.TestCase):
 
     def test_committed_bag_is_what_the_scene_makes(self):
         self.assertTrue(self.simulate() == (FIXTURES / "intersection.bag").read_bytes(),
-                        "make it anew as rosbag_fixtures/README.md says")
+                        "make it again as rosbag_fixtures/README.md says")
 
     def test_same_seed_same_bytes_and_other_seed_others(self):
         short = ["--set", "duration=2", "--seed"]

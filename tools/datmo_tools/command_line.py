@@ -30,6 +30,15 @@ def run(name, work, product="bag"):
     return 0
 
 
+def new_parser(program, description):
+    """An argparse.ArgumentParser whose help has the description's own lines."""
+    return argparse.ArgumentParser(
+        prog=program,
+        description=description,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+
+
 def add_number(group, name, default, metavar, description):
     """An option of one number, or of as many as the default (a list) has."""
     group.add_argument(

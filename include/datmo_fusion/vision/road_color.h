@@ -36,7 +36,7 @@ class RoadColor {
   explicit RoadColor(const Checked<RoadColorOptions>& options) : options_(*options) {}
 
   /// One image's pixels of the road, all of one number of channels; another number than before
-  /// begins anew, too few change nothing. Same input, same output.
+  /// starts over, too few change nothing. Same input, same output.
   void learn(const PixelColors& samples);
 
   /// Whether it has learned anything of images with so many channels.

@@ -70,9 +70,10 @@ ObjectFuserOptions::ObjectFuserOptions() {
 
 void ObjectFuserOptions::visit(OptionVisitor& visitor) {
   visitor.each({"sources", "", "the sensors whose objects are fused"}, sources);
-  visitor.text({"scanner", "",
-                "the source whose list the split scan belongs to; it lists nothing that is static"},
-               scanner, {});
+  visitor.text(
+      {"scanner", "",
+       "the source whose list the labeled scan belongs to; it lists nothing that is static"},
+      scanner, {});
   visitor.integer({"max_objects", "1",
                    "objects taken from one list, the nearest ones; bounds the time of a step"},
                   max_objects, {1, 10000});

@@ -45,9 +45,10 @@ ScanPoint fromMessage(const ScanPointMessage& message) {
   const bool finite =
       point.position.allFinite() && std::isfinite(point.range) && std::isfinite(point.bearing);
   if (!finite || message.state > ScanPointMessage::UNKNOWN) {
-    throw InputError("bad_point", "split scan with beam " + std::to_string(message.beam) + " at " +
-                                      std::to_string(message.x) + ", " + std::to_string(message.y) +
-                                      " in state " + std::to_string(message.state) +
+    throw InputError("bad_point", "labeled scan with beam " + std::to_string(message.beam) +
+                                      " at " + std::to_string(message.x) + ", " +
+                                      std::to_string(message.y) + " in state " +
+                                      std::to_string(message.state) +
                                       ": expected finite numbers and a state from 0 to 2");
   }
   return point;
@@ -72,10 +73,10 @@ ScanField fromMessage(const ScanFieldMessage& message) {
   const bool finite = std::isfinite(field.first_bearing + field.beam_spacing + field.min_range +
                                     field.free_range + field.range + field.beam_time);
   if (!finite || (field.beams > 0 && field.beam_spacing == 0.0) || field.beams > kMaxBeams) {
-    throw InputError("bad_field", "split scan of " + std::to_string(field.beams) + " beams from " +
-                                      std::to_string(field.first_bearing) + " rad every " +
-                                      std::to_string(field.beam_spacing) + " rad up to " +
-                                      std::to_string(field.range) +
+    throw InputError("bad_field", "labeled scan of " + std::to_string(field.beams) +
+                                      " beams from " + std::to_string(field.first_bearing) +
+                                      " rad every " + std::to_string(field.beam_spacing) +
+                                      " rad up to " + std::to_string(field.range) +
                                       " m: expected finite numbers, a spacing and at most " +
                                       std::to_string(kMaxBeams) + " beams");
   }

@@ -31,7 +31,7 @@ CloudObjectsStage::CloudObjectsStage(const Checked<CloudObjectsStageOptions>& op
       transforms_(transforms),
       monitor_(monitor),
       detector_(options->detector),
-      runner_(monitor, options->input, "begins anew", [this] { motion_.reset(); }),
+      runner_(monitor, options->input, "starts over", [this] { motion_.reset(); }),
       motion_(options->motion, options->frames, runner_) {}
 
 ObjectArrayPtr CloudObjectsStage::takeCloud(const sensor_msgs::PointCloud2& message) {
@@ -73,7 +73,7 @@ void CloudObjectsStage::show(const CloudObjects& objects, const ConvertedCloud& 
   monitor_.figure("objects", static_cast<double>(objects.list.objects.size()));
   monitor_.figure("clusters too large", static_cast<double>(objects.too_large));
   monitor_.figure("points above the ground", static_cast<double>(objects.points));
-  monitor_.figure("points without a place", static_cast<double>(converted.holes));
+  monitor_.figure("points that are not finite", static_cast<double>(converted.holes));
   monitor_.figure("points of the vehicle itself", static_cast<double>(objects.own_points));
   monitor_.figure("ground seen, 0 or 1", objects.ground.seen ? 1.0 : 0.0);
   if (options_.detector.ground.estimate && !objects.ground.seen) {

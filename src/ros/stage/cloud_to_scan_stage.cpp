@@ -34,7 +34,7 @@ CloudToScanStage::CloudToScanStage(const Checked<CloudToScanStageOptions>& optio
       transforms_(transforms),
       monitor_(monitor),
       model_(options->scan),
-      runner_(monitor, options->input, "begins anew") {
+      runner_(monitor, options->input, "starts over") {
   if (options->scan_frame.empty() || options->scan_frame == options->frames.base) {
     throw OptionError("scan_frame = '" + options->scan_frame +
                       "': expected a name other than that of the vehicle's frame, '" +

@@ -150,7 +150,7 @@ void GridSlamStage::warnOf(const ScannerMount& mount, const ConvertedScan& conve
 }
 
 void GridSlamStage::showLocalization(const SlamResult& result) {
-  monitor_.figure("maps begun anew", result.maps_begun);
+  monitor_.figure("maps started over", result.maps_begun);
   switch (result.localization) {
     case Localization::kLocated:
       if (result.maps_begun > maps_begun_) {

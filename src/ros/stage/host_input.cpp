@@ -70,7 +70,7 @@ bool HostInput::hasOdometry(Stamp stamp) const {
 
 HostState HostInput::at(Stamp stamp, const HostVehicleOptions& vehicle) const {
   if (!last_pose_ || std::abs(secondsBetween(last_pose_->stamp, stamp)) > options_.max_age) {
-    throw InputError("no_pose", "no split scan within " + std::to_string(options_.max_age) +
+    throw InputError("no_pose", "no labeled scan within " + std::to_string(options_.max_age) +
                                     " s of the tracks: expected labeled_scan of grid_slam");
   }
   const Twists& twists = hasOdometry(stamp) ? odometry_ : from_poses_;

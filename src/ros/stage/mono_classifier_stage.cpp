@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/stage/mono_classifier_stage.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <stdexcept>
 #include <utility>
 
@@ -19,9 +16,6 @@
 namespace datmo {
 
 namespace {
-
-/// A second of a fast scanner: longer than an image may wait.
-constexpr std::size_t kMaxLists = 64;
 
 /// As an OptionError: the host stops with its message.
 std::unique_ptr<MonoClassifier> makeClassifier(const MonoClassifierOptions& options) {
@@ -68,13 +62,13 @@ MonoClassifierStage::MonoClassifierStage(const Checked<MonoClassifierStageOption
       runner_(monitor, options->input, "forgets all objects", [this] { reset(); }),
       motion_(options->motion, options->frames, runner_),
       exposure_(options->exposure),
+      wait_(options->tolerance, options->max_wait),
       classifier_(std::move(classifier)),
       worker_([this](const Job& job) { return work(*classifier_, job); }, clock != nullptr) {}
 
 void MonoClassifierStage::reset() {
   motion_.reset();
-  objects_.clear();
-  waiting_.reset();
+  wait_.clear();
   exposure_.reset();
   results_.clear();
   ++run_;  // what the detector still looks at is of no use
@@ -92,10 +86,8 @@ void MonoClassifierStage::takeObjects(const ObjectArray& message) {
     }
     ObjectList list = fromMessage(message);
     runner_.check("objects", message.header.stamp);
-    objects_.push_back(std::move(list));
-    if (objects_.size() > kMaxLists) {
-      objects_.pop_front();
-    }
+    const Stamp stamp = list.stamp;
+    wait_.addMeasurement(stamp, std::move(list));
   });
 }
 
@@ -106,20 +98,19 @@ void MonoClassifierStage::takeImage(const sensor_msgs::ImageConstPtr& message, S
     checkAge(*message);
     runner_.check("image", message->header.stamp);
     exposure_.accept(message);
-    if (waiting_) {
+    if (!wait_.addImage(message, now)) {
       monitor_.dropped(InputError("overtaken_image",
                                   "a newer image came before objects of its time: expected objects "
                                   "at the rate of the images; goes on with the newer one"));
     }
-    waiting_ = {message, now};
   });
 }
 
 /// Throws InputError.
 void MonoClassifierStage::checkAge(const sensor_msgs::Image& image) const {
   const Stamp exposure = toStamp(image.header.stamp);
-  const double age = objects_.empty() ? 0.0 : secondsBetween(exposure, objects_.back().stamp);
-  // Of a clock that jumped back it is no older, and begins anew.
+  const double age = secondsBetween(exposure, wait_.newestStamp().value_or(exposure));
+  // Of a clock that jumped back it is no older, and starts over.
   if (age > options_.max_age && age < options_.input.restart_after) {
     throw InputError("old_image", "image " + std::to_string(age) +
                                       " s older than the newest objects: expected at most " +
@@ -127,23 +118,10 @@ void MonoClassifierStage::checkAge(const sensor_msgs::Image& image) const {
   }
 }
 
-const ObjectList* MonoClassifierStage::nearestObjects(Stamp exposure) const {
-  const ObjectList* nearest = nullptr;
-  double smallest = options_.tolerance;
-  for (const ObjectList& list : objects_) {
-    const double apart = std::abs(secondsBetween(list.stamp, exposure));
-    if (apart <= smallest) {
-      nearest = &list;
-      smallest = apart;
-    }
-  }
-  return nearest;
-}
-
 ObjectList MonoClassifierStage::objectsAt(Stamp exposure) const {
   ObjectList result;
   result.stamp = exposure;
-  const ObjectList* list = nearestObjects(exposure);
+  const ObjectList* list = wait_.nearest(exposure);
   if (list == nullptr) {
     return result;
   }
@@ -170,19 +148,12 @@ ObjectList MonoClassifierStage::objectsAt(Stamp exposure) const {
 }
 
 void MonoClassifierStage::startIfReady(Stamp now) {
-  if (!waiting_) {
+  const sensor_msgs::ImageConstPtr image = wait_.next(now);
+  if (!image) {
     return;
   }
-  const Stamp exposure = toStamp(waiting_->image->header.stamp);
-  const double waited = secondsBetween(waiting_->since, now);
-  const bool waits_on = waited >= 0.0 && waited < options_.max_wait;
-  const bool has_newer = !objects_.empty() && objects_.back().stamp >= exposure;
-  if (waits_on && !has_newer && nearestObjects(exposure) == nullptr) {
-    return;
-  }
-  const sensor_msgs::ImageConstPtr image = std::exchange(waiting_, std::nullopt)->image;
   if (worker_.start({image, camera_.mounted(*image, options_.frames, transforms_),
-                     objectsAt(exposure), run_})) {
+                     objectsAt(toStamp(image->header.stamp)), run_})) {
     monitor_.dropped(InputError("overtaken_image",
                                 "a newer image came before the detector had time for one: expected "
                                 "a faster machine, a smaller network or fewer images a second"));

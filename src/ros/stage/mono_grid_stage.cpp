@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/stage/mono_grid_stage.h"
 
-#include <cmath>
-#include <cstddef>
 #include <string>
 #include <utility>
 
@@ -16,13 +14,6 @@
 #include "datmo_fusion/slam/motion_compensation.h"
 
 namespace datmo {
-
-namespace {
-
-/// A second of a fast scanner: longer than an image may wait.
-constexpr std::size_t kMaxScans = 64;
-
-}  // namespace
 
 void MonoGridStageOptions::visit(OptionVisitor& visitor) {
   visitor.number({"max_tilt", "rad", "a scan plane tilted by more than this is warned of"},
@@ -52,14 +43,14 @@ MonoGridStage::MonoGridStage(const Checked<MonoGridStageOptions>& options,
       runner_(monitor, options->input, "forgets the road's colors", [this] { reset(); }),
       motion_(options->motion, options->frames, runner_),
       exposure_(options->exposure),
-      model_(options->grid) {}
+      model_(options->grid),
+      wait_(options->tolerance, options->max_wait) {}
 
 void MonoGridStage::reset() {
   motion_.reset();
   exposure_.reset();
   model_.reset();
-  scans_.clear();
-  waiting_.reset();
+  wait_.clear();
 }
 
 void MonoGridStage::takeCameraInfo(const sensor_msgs::CameraInfo& message) {
@@ -76,10 +67,9 @@ void MonoGridStage::takeScan(const Message& message) {
         sensorMount(transforms_.core(), options_.frames.base, frame).translation().z();
     runner_.check("scan", message.header.stamp);
     warnOf(mount, converted);
-    scans_.push_back({motion_.compensated(converted.scan), height});
-    if (scans_.size() > kMaxScans) {
-      scans_.pop_front();
-    }
+    Scan scan = motion_.compensated(converted.scan);
+    const Stamp stamp = scan.stamp;
+    wait_.addMeasurement(stamp, {std::move(scan), height});
   });
 }
 
@@ -99,31 +89,17 @@ void MonoGridStage::takeImage(const sensor_msgs::ImageConstPtr& message, Stamp n
     exposure_.check(message);
     runner_.check("image", message->header.stamp);
     exposure_.accept(message);
-    if (waiting_) {
+    if (!wait_.addImage(message, now)) {
       monitor_.dropped(InputError("overtaken_image",
                                   "a newer image came before the scan of one: expected scans at "
                                   "the rate of the images; goes on with the newer one"));
     }
-    waiting_ = {message, now};
   });
-}
-
-const MonoGridStage::MountedScan* MonoGridStage::nearestScan(Stamp exposure) const {
-  const MountedScan* nearest = nullptr;
-  double smallest = options_.tolerance;
-  for (const MountedScan& one : scans_) {
-    const double apart = std::abs(secondsBetween(one.scan.stamp, exposure));
-    if (apart <= smallest) {
-      nearest = &one;
-      smallest = apart;
-    }
-  }
-  return nearest;
 }
 
 /// Throws InputError.
 MonoGridStage::MountedScan MonoGridStage::scanOf(Stamp exposure) const {
-  const MountedScan* nearest = nearestScan(exposure);
+  const MountedScan* nearest = wait_.nearest(exposure);
   if (nearest == nullptr) {
     throw InputError("no_scan", "image without a scan within " +
                                     std::to_string(options_.tolerance) +
@@ -142,17 +118,8 @@ MonoGridStage::MountedScan MonoGridStage::scanOf(Stamp exposure) const {
 
 nav_msgs::OccupancyGridPtr MonoGridStage::next(Stamp now) {
   return runner_.serve([&]() -> nav_msgs::OccupancyGridPtr {
-    if (!waiting_) {
-      return nullptr;
-    }
-    const Stamp exposure = toStamp(waiting_->image->header.stamp);
-    const double waited = secondsBetween(waiting_->since, now);
-    const bool waits_on = waited >= 0.0 && waited < options_.max_wait;
-    const bool has_newer = !scans_.empty() && scans_.back().scan.stamp >= exposure;
-    if (waits_on && !has_newer && nearestScan(exposure) == nullptr) {
-      return nullptr;
-    }
-    return gridOf(std::exchange(waiting_, std::nullopt)->image);
+    const sensor_msgs::ImageConstPtr image = wait_.next(now);
+    return image ? gridOf(image) : nullptr;
   });
 }
 

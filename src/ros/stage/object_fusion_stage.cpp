@@ -89,7 +89,7 @@ void ObjectFusionStage::takeObjects(const std::string& source, const ObjectArray
 void ObjectFusionStage::takeLabeledScan(const LabeledScanMessage& message) {
   runner_.serve([&] {
     if (message.header.frame_id != options_.frames.base) {
-      throw InputError("wrong_frame", "split scan in '" + message.header.frame_id +
+      throw InputError("wrong_frame", "labeled scan in '" + message.header.frame_id +
                                           "': expected '" + options_.frames.base + "'");
     }
     LabeledScan scan = fromMessage(message);
@@ -171,7 +171,7 @@ void ObjectFusionStage::report(const std::vector<SourceObjects>& lists,
   monitor_.figure("objects of two or more sources", static_cast<double>(counts.fused));
   monitor_.figure("bad objects", static_cast<double>(bad_objects_));
   monitor_.figure("objects too many", static_cast<double>(objects_too_many_));
-  monitor_.figure("fused without a split scan", static_cast<double>(times_without_scan_));
+  monitor_.figure("fused without a labeled scan", static_cast<double>(times_without_scan_));
   inputs_.reportUnserved(matcher_);
 }
 

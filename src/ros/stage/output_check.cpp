@@ -37,7 +37,7 @@ bool OutputCheck::passes(const OutputContent& content) {
   const std::string fault = faultOf(content);
   if (!fault.empty()) {
     monitor_.dropped(InputError(
-        "bad_output", "would publish on " + topic_ + " " + fault + ": drops it and begins anew"));
+        "bad_output", "would publish on " + topic_ + " " + fault + ": drops it and starts over"));
     monitor_.requestReset();
     return false;
   }

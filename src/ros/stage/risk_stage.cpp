@@ -48,7 +48,7 @@ RiskStage::RiskStage(const Checked<RiskStageOptions>& options, StageMonitor& mon
     : options_(*options),
       monitor_(monitor),
       assessor_(options->risk),
-      runner_(monitor, options->input, "begins anew", [this] { reset(); }),
+      runner_(monitor, options->input, "starts over", [this] { reset(); }),
       host_(options->host_state, options->motion, options->frames, runner_) {}
 
 void RiskStage::reset() {

@@ -29,7 +29,7 @@ RoadBordersPtr RoadBorderStage::takeLabeledScan(const LabeledScanMessage& messag
   return runner_.serve([&] {
     const LabeledScan scan = fromMessage(message);
     if (message.map_frame.empty()) {
-      throw InputError("wrong_frame", "split scan without map_frame: expected the map's name");
+      throw InputError("wrong_frame", "labeled scan without map_frame: expected the map's name");
     }
     runner_.check("labeled_scan", message.header.stamp);
     if (!map_frame_.empty() && message.map_frame != map_frame_) {

@@ -8,6 +8,28 @@ namespace {
 /// s; a detector in images may take longer than the scanner for some turns.
 constexpr double kMonoLateBy = 0.4;
 
+using Remaps = std::map<std::string, std::string>;
+
+/// The stereo camera's clouds.
+Remaps cameraRemaps() {
+  return {{"points2", "stereo/points2"}, {"right/camera_info", "stereo/right/camera_info"}};
+}
+
+/// The stereo camera's images, and what is made of them.
+Remaps imageRemaps() {
+  return {{"left/image", "stereo/left/image_rect"},
+          {"left/camera_info", "stereo/left/camera_info"},
+          {"right/image", "stereo/right/image_rect"},
+          {"right/camera_info", "stereo/right/camera_info"},
+          {"point_velocities", "stereo/point_velocities"},
+          {"points2", "stereo/points2"}};
+}
+
+Remaps with(Remaps remaps, const std::string& topic, const std::string& graph_topic) {
+  remaps[topic] = graph_topic;
+  return remaps;
+}
+
 /// What grid_fusion fuses beside the sources that its section names.
 OptionValues fusedGrids(const GraphSwitches& switches) {
   return switches.mono ? OptionValues{{"sources/mono/use", true}} : OptionValues();
@@ -47,25 +69,12 @@ std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
   const bool fuses_objects = switches.object_fusion || switches.mono;
   const std::string tracked_objects = fuses_objects ? "objects/fused" : "objects";
   const std::string tracks_of_tracker = switches.track_fusion ? "tracks/lidar" : "tracks";
-  const std::map<std::string, std::string> camera{
-      {"points2", "stereo/points2"}, {"right/camera_info", "stereo/right/camera_info"}};
-  std::map<std::string, std::string> camera_and_scan = camera;
-  camera_and_scan["scan"] = scan;
-  std::map<std::string, std::string> camera_with_velocities = camera;
-  camera_with_velocities["point_velocities"] = "stereo/point_velocities";
-  const std::map<std::string, std::string> images{{"left/image", "stereo/left/image_rect"},
-                                                  {"left/camera_info", "stereo/left/camera_info"},
-                                                  {"right/image", "stereo/right/image_rect"},
-                                                  {"right/camera_info", "stereo/right/camera_info"},
-                                                  {"point_velocities", "stereo/point_velocities"},
-                                                  {"points2", "stereo/points2"}};
+  const Remaps camera = cameraRemaps();
+  const Remaps images = imageRemaps();
   const bool has_images = switches.stereo != StereoPoints::kClouds;
   const OptionValues rectified{{"rectified", switches.stereo == StereoPoints::kRectifiedImages}};
-
-  const std::map<std::string, std::string> mono_images{{"image", "stereo/left/image_rect"},
-                                                       {"camera_info", "stereo/left/camera_info"}};
-  std::map<std::string, std::string> mono_images_and_scan = mono_images;
-  mono_images_and_scan["scan"] = scan;
+  const Remaps mono_images{{"image", "stereo/left/image_rect"},
+                           {"camera_info", "stereo/left/camera_info"}};
   std::vector<GraphStage> graph;
   const auto add = [&graph](bool present, const GraphStage& stage) {
     if (present) {
@@ -81,16 +90,19 @@ std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
   add(has_images, {"stereo_image_proc", "stereo_image_proc", images, rectified});
   // Before those that take the same clouds.
   add(low_level || switches.stereo_objects,
-      {"stereo_alignment", "stereo_alignment", camera_and_scan, {}});
+      {"stereo_alignment", "stereo_alignment", with(camera, "scan", scan), {}});
   add(low_level, {"lidar_grid", "lidar_grid", {{"scan", scan}}, {}});
   add(low_level, {"stereo_grid", "stereo_grid", camera, {}});
-  add(low_level && switches.mono, {"mono_grid", "mono_grid", mono_images_and_scan, {}});
+  add(low_level && switches.mono, {"mono_grid", "mono_grid", with(mono_images, "scan", scan), {}});
   add(low_level, {"grid_fusion", "grid_fusion", {}, fusedGrids(switches)});
   add(true, {"grid_slam", "grid_slam", {{"scan", scan}}, {{"fused_grid", low_level}}});
   add(switches.static_points, {"static_points", "static_points", {}, {}});
   add(switches.road_border, {"road_border", "road_border", {}, {}});
   add(true, {"moving_objects", "moving_objects", {}, {{"road_borders", switches.road_border}}});
-  add(switches.stereo_objects, {"stereo_objects", "stereo_objects", camera_with_velocities, {}});
+  add(switches.stereo_objects, {"stereo_objects",
+                                "stereo_objects",
+                                with(camera, "point_velocities", "stereo/point_velocities"),
+                                {}});
   add(switches.cloud_objects, {"cloud_objects", "cloud_objects", {}, {}});
   add(switches.mono, {"mono_classifier", "mono_classifier", mono_images, {}});
   add(fuses_objects,

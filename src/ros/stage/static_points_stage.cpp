@@ -67,7 +67,7 @@ void StaticPointsStageOptions::visit(OptionVisitor& visitor) {
 
 StaticPointsStage::StaticPointsStage(const Checked<StaticPointsStageOptions>& options,
                                      StageMonitor& monitor)
-    : options_(*options), monitor_(monitor), runner_(monitor, options->input, "begins anew") {
+    : options_(*options), monitor_(monitor), runner_(monitor, options->input, "starts over") {
   if (options->scan_frame.empty() || options->scan_frame == options->frames.base) {
     throw OptionError("scan_frame = '" + options->scan_frame +
                       "': expected a name other than that of the vehicle's frame, '" +

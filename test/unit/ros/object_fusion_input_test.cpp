@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -14,34 +13,6 @@ namespace datmo::object_fusion_input_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-TEST_F(ObjectFusionStageTest, AStampFarAheadOfTheReferenceIsDropped) {
-  take("lidar", 100.0);
-  stage_.takeObjects("stereo", list(100.7, {}), Stamp::fromSeconds(100.0));
-  EXPECT_EQ(drops("stamp_ahead"), 1U);
-  const auto fused = nextAt(100.11);
-  ASSERT_TRUE(fused);
-  EXPECT_EQ(fused->header.stamp, ros::Time(100.0));
-}
-
-TEST_F(ObjectFusionStageTest, BadListsAreDroppedAndCounted) {
-  ObjectArray objects = list(100.0, {});
-  objects.header.frame_id = "map";
-  take("lidar", objects);
-  EXPECT_EQ(drops("wrong_frame"), 1U);
-  EXPECT_NE(monitor_.lastError().find("object list of lidar in 'map'"), std::string::npos);
-  take("radar", 100.0);
-  EXPECT_EQ(drops("unknown_source"), 1U);
-  take("lidar", 0.0);
-  EXPECT_EQ(drops("zero_stamp"), 1U);
-  take("lidar", 100.0);
-  take("lidar", 100.0);
-  EXPECT_EQ(drops("repeated_stamp"), 1U);
-  take("lidar", 99.9);
-  EXPECT_EQ(drops("old_stamp"), 1U);
-  take("stereo", 100.0);
-  EXPECT_EQ(sensorsOf(*nextAt(100.0)), (std::vector<Sensors>{{"lidar", "stereo"}}));
-}
 
 TEST_F(ObjectFusionStageTest, BadObjectsAreLeftOutAndTheirSourceIsNamed) {
   std::vector<Object> bad(5, car("stereo", 20.0, 0.0));
@@ -151,7 +122,7 @@ TEST_F(ObjectFusionScanSupportTest, TheScanOfTheSameStampShowsWhatIsStatic) {
   stage_.takeLabeledScan(wallAt(18.0, 100.1));
   EXPECT_EQ(stateAt(100.1), ObjectMessage::STATE_STATIC);
   EXPECT_EQ(stateAt(100.2), ObjectMessage::STATE_UNKNOWN) << "the scan is of another time";
-  EXPECT_EQ(figure("fused without a split scan"), 2.0);
+  EXPECT_EQ(figure("fused without a labeled scan"), 2.0);
 }
 
 TEST_F(ObjectFusionScanSupportTest, AScanMayComeBeforeOthers) {
@@ -185,21 +156,6 @@ TEST_F(ObjectFusionScanSupportTest, AScanOfANewRunIsNotLostBehindThoseOfTheOldOn
   stage_.takeLabeledScan(wallAt(18.0, 200.0));
   stage_.takeLabeledScan(wallAt(18.0, 100.0));
   EXPECT_EQ(stateAt(100.0), ObjectMessage::STATE_STATIC);
-}
-
-TEST(ObjectFusionStageOptionsTest, BadOptionsAreRefused) {
-  StageMonitor monitor("object_fusion");
-  const auto refused = [&monitor](const std::function<void(ObjectFusionStageOptions&)>& spoil) {
-    ObjectFusionStageOptions options;
-    spoil(options);
-    EXPECT_THROW(ObjectFusionStage(options, monitor), OptionError);
-  };
-  refused([](auto& options) { options.matcher.reference = "radar"; });
-  refused([](auto& options) { options.fuser.sources["lidar"].use = false; });
-  refused([](auto& options) { options.matcher.max_wait = kNan; });
-  for (const char* const name : {"fused", "", "2nd", "rear-lidar", "a b"}) {
-    refused([&](auto& options) { options.fuser.sources[name].use = true; });
-  }
 }
 
 }  // namespace

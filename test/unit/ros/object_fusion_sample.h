@@ -2,13 +2,11 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "fusion_stage_sample.h"
 #include "message_samples.h"
-#include "monitor_counts.h"
-#include <gtest/gtest.h>
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/object_fusion_stage.h"
@@ -26,10 +24,15 @@ inline Object car(const std::string& sensor, double ahead, double left) {
   return object;
 }
 
-inline nav_msgs::Odometry odometry(double seconds) { return samples::odometry(seconds, 20.0); }
-
-class ObjectFusionStageTest : public testing::Test {
+class ObjectFusionStageTest : public FusionStageTest<ObjectFusionStage> {
  protected:
+  static constexpr char kLists[] = "object list";
+  static constexpr char kFrame[] = "base_link";
+
+  ObjectFusionStageTest() : FusionStageTest("object_fusion") {}
+
+  static nav_msgs::Odometry odometry(double seconds) { return samples::odometry(seconds, 20.0); }
+
   static ObjectArray list(double seconds, const std::vector<Object>& objects) {
     return toMessage(ObjectList{Stamp::fromSeconds(seconds), objects, {}}, "base_link");
   }
@@ -40,10 +43,11 @@ class ObjectFusionStageTest : public testing::Test {
   }
 
   void take(const std::string& source, const ObjectArray& objects) {
-    stage_.takeObjects(source, objects, toStamp(objects.header.stamp));
+    take(source, objects, toStamp(objects.header.stamp));
   }
-
-  ObjectArrayPtr nextAt(double seconds) { return stage_.next(Stamp::fromSeconds(seconds)); }
+  void take(const std::string& source, const ObjectArray& objects, Stamp now) {
+    stage_.takeObjects(source, objects, now);
+  }
 
   /// Both sources see the same car at this time.
   ObjectArrayPtr bothAt(double seconds) {
@@ -51,16 +55,6 @@ class ObjectFusionStageTest : public testing::Test {
     take("stereo", seconds);
     return nextAt(seconds);
   }
-
-  std::uint64_t drops(const std::string& reason) const { return samples::drops(monitor_, reason); }
-  std::uint64_t warnings(const std::string& reason) const {
-    return samples::warnings(monitor_, reason);
-  }
-  double figure(const std::string& name) const { return monitor_.figures().at(name); }
-
-  StageMonitor monitor_{"object_fusion"};
-  ObjectFusionStageOptions options_;
-  ObjectFusionStage stage_{options_, monitor_};
 };
 
 using Sensors = std::vector<std::string>;

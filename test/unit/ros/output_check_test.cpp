@@ -77,7 +77,7 @@ TEST(OutputCheck, WhatNobodyCanUseIsCountedAndTheStageBeginsAnew) {
   EXPECT_TRUE(monitor.takeResetRequest());
   EXPECT_EQ(samples::drops(monitor, "bad_output"), 1U);
   EXPECT_EQ(monitor.lastError(),
-            "would publish on tracks a number that is nan: drops it and begins anew");
+            "would publish on tracks a number that is nan: drops it and starts over");
 }
 
 TEST(OutputCheck, TimeGoesBackOnlyAfterAReset) {

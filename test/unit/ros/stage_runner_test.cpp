@@ -116,10 +116,10 @@ TEST_F(StageRunnerTest, ARefusedOutputResetsTheStageBeforeItsNextMessage) {
 
 TEST(StageRunner, WithoutStateARestartIsSaidAlone) {
   StageMonitor monitor("stage");
-  StageRunner runner(monitor, StreamOptions(), "begins anew");
+  StageRunner runner(monitor, StreamOptions(), "starts over");
   runner.check("scan", ros::Time(100.0));
   runner.check("scan", ros::Time(50.0));
-  EXPECT_EQ(monitor.lastError(), "the clock jumped back: begins anew");
+  EXPECT_EQ(monitor.lastError(), "the clock jumped back: starts over");
 }
 
 }  // namespace

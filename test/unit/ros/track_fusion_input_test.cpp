@@ -15,35 +15,6 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-TEST_F(TrackFusionStageTest, AStampFarAheadOfTheReferenceIsDropped) {
-  take("lidar", 100.0);
-  stage_.takeTracks("stereo", list(101.2, {}), Stamp::fromSeconds(100.0));
-  EXPECT_EQ(drops("stamp_ahead"), 1U);
-  const auto fused = nextAt(100.11);
-  ASSERT_TRUE(fused);
-  EXPECT_EQ(fused->header.stamp, ros::Time(100.0));
-}
-
-TEST_F(TrackFusionStageTest, BadListsAreDroppedAndCounted) {
-  TrackArray tracks = list(100.0, {});
-  tracks.header.frame_id = "base_link";
-  take("lidar", tracks);
-  EXPECT_EQ(drops("wrong_frame"), 1U);
-  EXPECT_NE(monitor_.lastError().find("track list of lidar in 'base_link'"), std::string::npos);
-  take("radar", 100.0);
-  EXPECT_EQ(drops("unknown_source"), 1U);
-  take("lidar", list(0.0, {}));
-  EXPECT_EQ(drops("zero_stamp"), 1U);
-  take("lidar", 100.0);
-  take("lidar", 100.0);
-  EXPECT_EQ(drops("repeated_stamp"), 1U);
-  take("lidar", 99.9);
-  EXPECT_EQ(drops("old_stamp"), 1U);
-  take("stereo", 100.0);
-  EXPECT_TRUE(nextAt(100.0));
-  EXPECT_EQ(monitor_.droppedCount(), 5U);
-}
-
 TEST_F(TrackFusionStageTest, BadTracksAreLeftOutAndTheirSourceIsNamed) {
   const std::vector<std::function<void(TrackMessage&)>> spoils = {
       [](TrackMessage& track) { track.pose.position.x = kNan; },
@@ -147,21 +118,6 @@ TEST(TrackFusionStageOptionsTest, DelaysToHalfASecondAreServedByDefault) {
   const TrackFusionStageOptions options;
   EXPECT_GE(options.matcher.tolerance, 0.5 + options.matcher.max_wait);
   EXPECT_GT(options.matcher.silent_after, options.matcher.tolerance);
-}
-
-TEST(TrackFusionStageOptionsTest, BadOptionsAreRefused) {
-  StageMonitor monitor("track_fusion");
-  const auto refused = [&monitor](const std::function<void(TrackFusionStageOptions&)>& spoil) {
-    TrackFusionStageOptions options;
-    spoil(options);
-    EXPECT_THROW(TrackFusionStage(options, monitor), OptionError);
-  };
-  refused([](auto& options) { options.matcher.reference = "radar"; });
-  refused([](auto& options) { options.fuser.sources["lidar"].use = false; });
-  refused([](auto& options) { options.matcher.tolerance = kNan; });
-  for (const char* const name : {"fused", "", "2nd", "rear-lidar", "a b"}) {
-    refused([&](auto& options) { options.fuser.sources[name].use = true; });
-  }
 }
 
 }  // namespace

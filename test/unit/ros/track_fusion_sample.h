@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "monitor_counts.h"
-#include <gtest/gtest.h>
+#include "fusion_stage_sample.h"
 
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/stage/track_fusion_stage.h"
@@ -63,10 +62,14 @@ inline Arrivals listsOf(const std::string& source, double from, double to, doubl
   return lists;
 }
 
-class TrackFusionStageTest : public testing::Test {
+class TrackFusionStageTest : public FusionStageTest<TrackFusionStage> {
  protected:
+  static constexpr char kLists[] = "track list";
+  static constexpr char kFrame[] = "map";
   static constexpr std::uint32_t kLidarsId = 11;
   static constexpr std::uint32_t kStereosId = 22;
+
+  TrackFusionStageTest() : FusionStageTest("track_fusion") {}
 
   static std::uint32_t idOf(const std::string& source) {
     return source == "lidar" ? kLidarsId : kStereosId;
@@ -83,10 +86,11 @@ class TrackFusionStageTest : public testing::Test {
 
   void take(const std::string& source, double seconds) { take(source, carOf(source, seconds)); }
   void take(const std::string& source, const TrackArray& tracks) {
-    stage_.takeTracks(source, tracks, toStamp(tracks.header.stamp));
+    take(source, tracks, toStamp(tracks.header.stamp));
   }
-
-  TrackArrayPtr nextAt(double seconds) { return stage_.next(Stamp::fromSeconds(seconds)); }
+  void take(const std::string& source, const TrackArray& tracks, Stamp now) {
+    stage_.takeTracks(source, tracks, now);
+  }
 
   TrackArrayPtr bothAt(double seconds) {
     take("lidar", seconds);
@@ -105,16 +109,6 @@ class TrackFusionStageTest : public testing::Test {
     }
     return fused;
   }
-
-  std::uint64_t drops(const std::string& reason) const { return samples::drops(monitor_, reason); }
-  std::uint64_t warnings(const std::string& reason) const {
-    return samples::warnings(monitor_, reason);
-  }
-  double figure(const std::string& name) const { return monitor_.figures().at(name); }
-
-  StageMonitor monitor_{"track_fusion"};
-  TrackFusionStageOptions options_;
-  TrackFusionStage stage_{options_, monitor_};
 
  private:
   void collect(double at, std::vector<TrackArrayPtr>& fused) {

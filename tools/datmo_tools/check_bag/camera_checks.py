@@ -38,7 +38,7 @@ def _check_info(recording, roles, image, findings):
         findings.error(
             "camera_info_size", name,
             f"is of {info.width} x {info.height} px, the image of {shape.width} x {shape.height}",
-            "The calibration is of another resolution: scale it, or calibrate anew.",
+            "The calibration is of another resolution: scale it, or calibrate again.",
         )  # fmt: skip
 
 

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Command line of check_bag."""
 
-import argparse
 import sys
 from pathlib import Path
 
@@ -37,11 +36,7 @@ def main(arguments=None):
 
 
 def _parser():
-    parser = argparse.ArgumentParser(
-        prog="check_bag",
-        description=DESCRIPTION,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_line.new_parser("check_bag", DESCRIPTION)
     add = parser.add_argument
     add("bag", type=Path, help="recording: a bag")
     add("--out", type=Path, metavar="FILE.yaml",

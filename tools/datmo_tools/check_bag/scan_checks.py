@@ -98,7 +98,7 @@ def _check_geometry(name, scans, findings):
     if len(shapes) > 1:
         findings.warn(
             "scan_changes", name, f"beams or angles change: {len(shapes)} different scans",
-            "Two scanners on one topic, or a driver that was set anew: one topic each.",
+            "Two scanners on one topic, or a driver whose settings changed: one topic each.",
         )  # fmt: skip
     return True
 

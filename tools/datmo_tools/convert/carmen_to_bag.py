@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Command line of carmen_to_bag."""
 
-import argparse
 import math
 from pathlib import Path
 
@@ -37,11 +36,7 @@ def main(arguments=None):
 
 def _parser():
     defaults = carmen_bag.Options()
-    parser = argparse.ArgumentParser(
-        prog="carmen_to_bag",
-        description=DESCRIPTION,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_line.new_parser("carmen_to_bag", DESCRIPTION)
     add = parser.add_argument
     add("log", type=Path, help="CARMEN log")
     add("bag", type=Path, help="bag to write")

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Command line of kitti_to_bag."""
 
-import argparse
 import math
 from pathlib import Path
 
@@ -37,11 +36,7 @@ def main(arguments=None):
 
 
 def _parser():
-    parser = argparse.ArgumentParser(
-        prog="kitti_to_bag",
-        description=DESCRIPTION,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_line.new_parser("kitti_to_bag", DESCRIPTION)
     parser.add_argument("drive", type=Path, help="folder ..._drive_NUMBER_sync or _extract")
     parser.add_argument("bag", type=Path, help="bag to write")
     _add_contents(parser.add_argument_group("contents"))

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Command line of merge_bags."""
 
-import argparse
 import contextlib
 import heapq
 from pathlib import Path
@@ -44,11 +43,7 @@ def merge(parts, path):
 
 
 def _parser():
-    parser = argparse.ArgumentParser(
-        prog="merge_bags",
-        description=DESCRIPTION,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_line.new_parser("merge_bags", DESCRIPTION)
     parser.add_argument("parts", nargs="+", type=Path, metavar="PART.bag", help="bags to read")
     parser.add_argument("bag", type=Path, metavar="ALL.bag", help="bag to write")
     return parser

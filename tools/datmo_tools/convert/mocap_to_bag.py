@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Command line of mocap_to_bag."""
 
-import argparse
 import math
 from pathlib import Path
 
@@ -36,11 +35,7 @@ def main(arguments=None):
 
 def _parser():
     defaults = mocap_bag.Options()
-    parser = argparse.ArgumentParser(
-        prog="mocap_to_bag",
-        description=DESCRIPTION,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_line.new_parser("mocap_to_bag", DESCRIPTION)
     add = parser.add_argument
     add("recording", type=Path, help="recorded bag")
     add("bag", type=Path, help="bag to write")

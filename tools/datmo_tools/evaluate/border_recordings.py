@@ -25,12 +25,12 @@ from datmo_tools.evaluate.truth import (
 from datmo_tools.pose_path import planar, read_path
 from datmo_tools.stamps import NANOSECONDS
 
-SPLIT_SCAN, POSE = "/labeled_scan", "/pose"
+LABELED_SCAN, POSE = "/labeled_scan", "/pose"
 OBJECTS, DROPPED = "/objects", "/objects/dropped"
 
 KINDS = {
     BORDERS: "datmo_fusion/RoadBorders",
-    SPLIT_SCAN: "datmo_fusion/LabeledScan",
+    LABELED_SCAN: "datmo_fusion/LabeledScan",
     OBJECTS: "datmo_fusion/ObjectArray",
     DROPPED: "datmo_fusion/DroppedObjects",
     TRUE_BORDERS: "datmo_fusion/TrueRoadBorders",
@@ -111,14 +111,14 @@ class Run:
             for stamp in stamps
             for row in range(*self._rows(stamp - round(history * NANOSECONDS), stamp))
         }
-        return nearest_messages(self._path, [SPLIT_SCAN], sorted(shown))
+        return nearest_messages(self._path, [LABELED_SCAN], sorted(shown))
 
     def _rows(self, begin, end):
         """Of `self.stamps`, the first one from `begin` on and the one after `end` (ns)."""
         return bisect.bisect_left(self.stamps, begin), bisect.bisect_right(self.stamps, end)
 
     def _moment(self, stamp, found, history, truth):
-        road, scans, base = found[BORDERS][stamp], found[SPLIT_SCAN], self.poses.at(stamp)
+        road, scans, base = found[BORDERS][stamp], found[LABELED_SCAN], self.poses.at(stamp)
         points = scans[stamp].points if stamp in scans else []
         objects, dropped = (found[topic].get(stamp) for topic in (OBJECTS, DROPPED))
         kept = objects.objects if objects else []

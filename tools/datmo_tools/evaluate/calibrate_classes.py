@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Command line of calibrate_classes."""
 
-import argparse
 from pathlib import Path
 
 import numpy as np
@@ -123,11 +122,7 @@ def _run(values):
 
 
 def _parser():
-    parser = argparse.ArgumentParser(
-        prog="calibrate_classes",
-        description=DESCRIPTION,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_line.new_parser("calibrate_classes", DESCRIPTION)
     add = parser.add_argument
     add("runs", nargs="+", type=Path, metavar="RUN.bag", help="bags of run_bag --mono")
     add("--truth", action="append", type=Path, metavar="DRIVE.bag",

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Command line of calibrate_object_covariance."""
 
-import argparse
 from pathlib import Path
 
 from datmo_tools import command_line
@@ -125,11 +124,7 @@ def _run(values):
 
 
 def _parser():
-    parser = argparse.ArgumentParser(
-        prog="calibrate_object_covariance",
-        description=DESCRIPTION,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_line.new_parser("calibrate_object_covariance", DESCRIPTION)
     add = parser.add_argument
     add("runs", nargs="+", type=Path, metavar="RUN.bag", help="bags of run_bag --object-fusion")
     add("--out", type=command_line.output_file, default=Path("object_covariance.yaml"),

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Command line of compare_borders."""
 
-import argparse
 from pathlib import Path
 
 from datmo_tools import command_line
@@ -42,11 +41,7 @@ def _run(values, program):
 
 
 def _parser():
-    parser = argparse.ArgumentParser(
-        prog="compare_borders",
-        description=DESCRIPTION,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_line.new_parser("compare_borders", DESCRIPTION)
     add = parser.add_argument
     add("without", type=Path, metavar="WITHOUT.bag", help="bag of run_bag")
     add("with_borders", type=Path, metavar="WITH.bag", help="bag of run_bag --road-border")

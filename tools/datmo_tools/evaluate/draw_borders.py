@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Command line of draw_borders."""
 
-import argparse
 from pathlib import Path
 
 import numpy as np
@@ -72,11 +71,7 @@ def _times(text):
 
 
 def _parser():
-    parser = argparse.ArgumentParser(
-        prog="draw_borders",
-        description=DESCRIPTION,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_line.new_parser("draw_borders", DESCRIPTION)
     add = parser.add_argument
     add("run", type=Path, metavar="RUN.bag", help="bag of run_bag --road-border")
     add("--out", type=command_line.output_file, default=Path("road_borders.png"), metavar="FILE",

@@ -64,8 +64,7 @@ def _evaluate(values):
 
 
 def _parser():
-    parser = argparse.ArgumentParser(prog="evaluate", description=DESCRIPTION,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)  # fmt: skip
+    parser = command_line.new_parser("evaluate", DESCRIPTION)
     subparsers = parser.add_subparsers(dest="subcommand", required=True, metavar="SUBCOMMAND")
     for name, (module, short) in SUBCOMMANDS.items():
         subparser = subparsers.add_parser(

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the stack does when its inputs fail: the command line, the runs and the report."""
 
-import argparse
 import json
 import tempfile
 from pathlib import Path
@@ -193,9 +192,7 @@ def _mutated_lines(mutated):
 
 
 def _parser():
-    parser = argparse.ArgumentParser(
-        prog="campaign", description=DESCRIPTION,
-        formatter_class=argparse.RawDescriptionHelpFormatter)  # fmt: skip
+    parser = command_line.new_parser("campaign", DESCRIPTION)
     add = parser.add_argument
     add("drive", type=Path, metavar="DRIVE.bag", help="with /ground_truth/pose and objects")
     add("--config", required=True, type=Path, metavar="CONFIG.yaml", help="the sensor set")

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The levels of fusion on the same drives: the command line and the runs."""
 
-import argparse
 import json
 import os
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -159,11 +158,7 @@ def _as_json(results):
 
 
 def _parser():
-    parser = argparse.ArgumentParser(
-        prog="compare_fusion",
-        description=DESCRIPTION,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_line.new_parser("compare_fusion", DESCRIPTION)
     add = parser.add_argument
     add("--scenes", required=True, type=Path, metavar="DIR", help="folder of the scenes")
     add("--config", required=True, type=Path, metavar="CONFIG.yaml",

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The thesis's experiments on simulated data sets: the command line and the runs."""
 
-import argparse
 import json
 import os
 from concurrent.futures import ThreadPoolExecutor
@@ -131,11 +130,7 @@ def _read(file):
 
 
 def _parser():
-    parser = argparse.ArgumentParser(
-        prog="data_sets",
-        description=DESCRIPTION,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_line.new_parser("data_sets", DESCRIPTION)
     add = parser.add_argument
     add("--scenes", required=True, type=Path, metavar="DIR", help="folder of the scenes")
     add("--config", required=True, type=Path, metavar="CONFIG.yaml", help="the sensor set")

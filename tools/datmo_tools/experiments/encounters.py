@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Risks over encounters after public test protocols: the command line and the runs."""
 
-import argparse
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -99,10 +98,7 @@ def _words(option, assignments):
 
 
 def _parser():
-    parser = argparse.ArgumentParser(
-        prog="encounters", description=DESCRIPTION,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )  # fmt: skip
+    parser = command_line.new_parser("encounters", DESCRIPTION)
     add = parser.add_argument
     add("folder", type=Path, metavar="FOLDER", help="for scenes and bags")
     add("--programs", required=True, type=Path, metavar="DIR", help="of simulate and run_bag")

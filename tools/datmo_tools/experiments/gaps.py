@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What gaps of scans and odometry do to the pose: the command line and the runs."""
 
-import argparse
 import json
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
@@ -145,9 +144,7 @@ def _recorded(drive, values, folder):
 
 
 def _parser():
-    parser = argparse.ArgumentParser(
-        prog="gaps", description=DESCRIPTION, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = command_line.new_parser("gaps", DESCRIPTION)
     add = parser.add_argument
     add("drives", nargs="+", type=Path, metavar="DRIVE", help="SCENE.yaml, or DRIVE.bag with truth")
     add("--config", required=True, type=Path, metavar="CONFIG.yaml", help="the sensor set")

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How well the pose holds among moving objects, over many seeds: the command line and the runs."""
 
-import argparse
 import json
 import os
 import tempfile
@@ -96,11 +95,7 @@ def _run_case(case, values):
 
 
 def _parser():
-    parser = argparse.ArgumentParser(
-        prog="robustness",
-        description=DESCRIPTION,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_line.new_parser("robustness", DESCRIPTION)
     add = parser.add_argument
     add("scenes", nargs="+", type=Path, metavar="SCENE.yaml", help="scenes with lanes")
     add("--config", required=True, type=Path, metavar="CONFIG.yaml", help="the sensor set")

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """CARMEN logs through the stack's SLAM, scored with their relations: command line and runs."""
 
-import argparse
 import json
 import tempfile
 from pathlib import Path
@@ -146,11 +145,7 @@ def _pairs(files):
 
 
 def _parser():
-    parser = argparse.ArgumentParser(
-        prog="slam_benchmark",
-        description=DESCRIPTION,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_line.new_parser("slam_benchmark", DESCRIPTION)
     add = parser.add_argument
     files = "pairs of log and relations file, or one folder with NAME.clf and NAME.relations"
     add("files", type=Path, nargs="+", metavar="FILE", help=files)

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How fast the stack is: the command line, and what is measured in which order."""
 
-import argparse
 import json
 import subprocess
 import tempfile
@@ -96,11 +95,7 @@ def _program(values, name):
 
 
 def _parser():
-    parser = argparse.ArgumentParser(
-        prog="speed_benchmark",
-        description=DESCRIPTION,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_line.new_parser("speed_benchmark", DESCRIPTION)
     add = parser.add_argument
     add("parts", nargs="*", metavar="micro|live", help="what to measure (default: both)")
     add("--compare", nargs=2, type=Path, metavar=("OLD.json", "NEW.json"),

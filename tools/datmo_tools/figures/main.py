@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Command line of scripts/figures."""
 
-import argparse
 import os
 from pathlib import Path
 
@@ -102,11 +101,7 @@ def _chosen(values):
 
 
 def _parser():
-    parser = argparse.ArgumentParser(
-        prog="figures",
-        description=DESCRIPTION,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_line.new_parser("figures", DESCRIPTION)
     add = parser.add_argument
     folder = {"type": Path, "metavar": "DIR"}
     add("--source", **folder, default=Path.cwd(), help="root of the sources (default: here)")

@@ -24,7 +24,7 @@ class ScanViews {
   /// Throws OptionError.
   explicit ScanViews(const Checked<VisibilityOptions>& options);
 
-  /// Takes a split scan, newer than those before, and what its message says.
+  /// Takes a labeled scan, newer than those before, and what its message says.
   void add(const LabeledScanMessage& message, const LabeledScan& scan);
 
   /// Forgets all scans: the clock has jumped back.

@@ -24,7 +24,7 @@ struct HostInputOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// The host at a stamp: its pose from the split scans, its speed and yaw rate from the odometry,
+/// The host at a stamp: its pose from the labeled scans, its speed and yaw rate from the odometry,
 /// or, without that, from the poses, whose jumps are none of it; its acceleration from what the
 /// speed did lately.
 class HostInput {

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
@@ -17,6 +16,7 @@
 #include "datmo_fusion/ros/frame_options.h"
 #include "datmo_fusion/ros/stage/camera_input.h"
 #include "datmo_fusion/ros/stage/exposure_check.h"
+#include "datmo_fusion/ros/stage/image_wait.h"
 #include "datmo_fusion/ros/stage/motion_input.h"
 #include "datmo_fusion/ros/stage/newest_worker.h"
 #include "datmo_fusion/ros/stage/stage.h"
@@ -90,10 +90,6 @@ class MonoClassifierStage : public Stage {
   double maxWait() const override { return options_.max_wait; }
 
  private:
-  struct Waiting {
-    sensor_msgs::ImageConstPtr image;
-    Stamp since;
-  };
   /// All that the detector's thread needs.
   struct Job {
     sensor_msgs::ImageConstPtr image;
@@ -115,8 +111,6 @@ class MonoClassifierStage : public Stage {
 
   void checkAge(const sensor_msgs::Image& image) const;
   void startIfReady(Stamp now);
-  /// Null where there are none within `tolerance`.
-  const ObjectList* nearestObjects(Stamp exposure) const;
   ObjectList objectsAt(Stamp exposure) const;
   static Result work(MonoClassifier& classifier, const Job& job);
   ObjectArrayPtr show(const Result& result);
@@ -129,9 +123,8 @@ class MonoClassifierStage : public Stage {
   MotionInput motion_;
   CameraInput camera_;
   ExposureCheck exposure_;
-  std::deque<ObjectList> objects_;  ///< rising stamps, the newest ones
-  std::optional<Waiting> waiting_;  ///< for objects of its time
-  std::uint64_t run_ = 0;           ///< counts how often the clock began anew
+  ImageWait<ObjectList> wait_;
+  std::uint64_t run_ = 0;  ///< counts how often the clock started over
   std::deque<Result> results_;
   std::unique_ptr<MonoClassifier> classifier_;
   NewestWorker<Job, Result> worker_;  ///< last: its thread uses the classifier

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <deque>
-#include <optional>
-
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Odometry.h>
@@ -16,6 +13,7 @@
 #include "datmo_fusion/ros/shared_keys.h"
 #include "datmo_fusion/ros/stage/camera_input.h"
 #include "datmo_fusion/ros/stage/exposure_check.h"
+#include "datmo_fusion/ros/stage/image_wait.h"
 #include "datmo_fusion/ros/stage/motion_input.h"
 #include "datmo_fusion/ros/stage/stage.h"
 #include "datmo_fusion/ros/stage/stage_runner.h"
@@ -78,10 +76,6 @@ class MonoGridStage : public Stage {
   double maxWait() const override { return options_.max_wait; }
 
  private:
-  struct Waiting {
-    sensor_msgs::ImageConstPtr image;
-    Stamp since;
-  };
   struct MountedScan {
     Scan scan;
     double height = 0.0;  ///< m, of the scanner
@@ -92,8 +86,6 @@ class MonoGridStage : public Stage {
     runner_.serve([&] { motion_.take(message); });
   }
   void warnOf(const ScannerMount& mount, const ConvertedScan& converted);
-  /// Null where there is none within `tolerance`.
-  const MountedScan* nearestScan(Stamp exposure) const;
   MountedScan scanOf(Stamp exposure) const;
   nav_msgs::OccupancyGridPtr gridOf(const sensor_msgs::ImageConstPtr& image);
   void reset();
@@ -106,8 +98,7 @@ class MonoGridStage : public Stage {
   CameraInput camera_;
   ExposureCheck exposure_;
   MonoGridModel model_;
-  std::deque<MountedScan> scans_;   ///< rising stamps, the newest ones
-  std::optional<Waiting> waiting_;  ///< for the scan of its time
+  ImageWait<MountedScan> wait_;
   StagePublisher<nav_msgs::OccupancyGrid> published_;
 };
 

@@ -25,7 +25,7 @@ struct MovingObjectsStageOptions {
   static SharedKeys sharedKeys();
 };
 
-/// What one split scan led to.
+/// What one labeled scan led to.
 struct MovingObjectsOutput {
   ObjectArrayPtr objects;     ///< in the frame of the scan
   DroppedObjectsPtr dropped;  ///< left out of them; null without road borders

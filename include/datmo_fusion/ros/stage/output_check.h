@@ -139,13 +139,13 @@ struct OutputContent {
 };
 
 /// The door of one output: what nobody can use is not published but counted (`bad_output`), and the
-/// stage that made it is to begin anew.
+/// stage that made it is to start over.
 class OutputCheck {
  public:
   /// `monitor` must outlive it.
   OutputCheck(std::string topic, StageMonitor& monitor);
 
-  /// Whether it may be published. Its stamp may go back only when the stage has begun anew.
+  /// Whether it may be published. Its stamp may go back only when the stage has started over.
   bool passes(const OutputContent& content);
 
  private:

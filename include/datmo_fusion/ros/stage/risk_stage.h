@@ -33,7 +33,7 @@ struct RiskStageOptions {
 };
 
 /// RiskAssessor between messages: the same one serves the nodelet and the bag runner. Each list of
-/// tracks makes one list of risks at its stamp, with the newest split scan, odometry and borders.
+/// tracks makes one list of risks at its stamp, with the newest labeled scan, odometry and borders.
 ///
 /// Without odometry the host's motion is that of its poses, which is said. Tracks that are not
 /// valid, not seen for too long or too many are left out, and said. When the clock jumps back all
@@ -64,8 +64,8 @@ class RiskStage : public Stage {
   RiskAssessor assessor_;
   StageRunner runner_;
   HostInput host_;
-  std::string map_frame_;         ///< of the newest split scan
-  std::vector<Point2> standing_;  ///< m, map frame, of the newest split scan
+  std::string map_frame_;         ///< of the newest labeled scan
+  std::vector<Point2> standing_;  ///< m, map frame, of the newest labeled scan
   std::optional<RoadModel> road_;
   std::string road_frame_;
 };

@@ -72,13 +72,13 @@ class StageMonitor {
   /// Something is wrong with a message or missing, but the stage goes on with it.
   void warned(const InputError& error);
 
-  /// What the stage made cannot be used: it begins anew with the next message (StageRunner).
+  /// What the stage made cannot be used: it starts over with the next message (StageRunner).
   void requestReset() { reset_requested_ = true; }
 
   /// Whether it was requested since the last call.
   bool takeResetRequest() { return std::exchange(reset_requested_, false); }
 
-  /// The stage has begun anew.
+  /// The stage has started over.
   void noteReset() { ++resets_; }
   std::uint64_t resetCount() const { return resets_; }
 

@@ -51,7 +51,7 @@ class StageRunner {
   }
 
   /// How a message's stamp follows the last one of its input. When the clock has jumped back, which
-  /// a second message or ROS time (StageMonitor::now) has confirmed, all inputs begin anew and the
+  /// a second message or ROS time (StageMonitor::now) has confirmed, all inputs start over and the
   /// stage is reset before this returns. To be called when nothing else is wrong with the message.
   /// Throws InputError (`zero_stamp`, `repeated_stamp`, `old_stamp`, `stray_stamp`).
   void check(const std::string& input, const ros::Time& stamp);

@@ -27,16 +27,16 @@ struct StaticPointsStageOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// What one split scan led to.
+/// What one labeled scan led to.
 struct StaticPointsOutput {
-  sensor_msgs::PointCloud2ConstPtr points;  ///< x, y, z, m, frame of the split scan, on the ground
+  sensor_msgs::PointCloud2ConstPtr points;  ///< x, y, z, m, frame of the labeled scan, z = 0
   sensor_msgs::LaserScanConstPtr scan;      ///< null where the beams are not known
   tf2_msgs::TFMessageConstPtr mount;        ///< base -> scan_frame; null if it has not changed
 };
 
-/// What stands still around the vehicle, for a navigation stack: the split scan without what moves,
-/// as a cloud and as a planar scan (staticRanges). Bad input is dropped through the monitor, never
-/// thrown.
+/// What stands still around the vehicle, for a navigation stack: the labeled scan without what
+/// moves, as a cloud and as a planar scan (staticRanges). Bad input is dropped through the monitor,
+/// never thrown.
 class StaticPointsStage : public Stage {
  public:
   using Options = StaticPointsStageOptions;
