@@ -26,14 +26,19 @@ constexpr double kTogetherHeading = degrees(5.0);
 constexpr double kMapSigma = 0.3;
 constexpr double kMapHeadingSigma = degrees(1.0);
 
-/// Surfaces of a map that are compared at the most.
+/// Surfaces of a map that are compared at the most, and of all of a map, where it is searched.
 constexpr std::size_t kMaxSurfaces = 250;
+constexpr std::size_t kMaxSurfacesOfAll = 4000;
+
+constexpr double kAllOfIt = std::numeric_limits<double>::infinity();
 
 /// Of a cell of which nothing is known.
 constexpr double kUnknownOccupancy = 0.5;
 
-/// Two maps have the same surface in cells that are neighbors, at the most.
+/// Two maps have the same surface in cells that are neighbors, at the most; but in no finer ones
+/// than a box that is not split any more.
 constexpr double kToleranceCells = 1.5;
+constexpr double kMinTolerance = 0.2;  // m
 
 /// Distances to what is not free. Unknown cells between free ones are: beams far away are further
 /// apart than cells.
@@ -65,36 +70,17 @@ DistanceField surfacesIn(const OccupancyMap& map) {
 
 }  // namespace
 
-void MapSearchOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"changed_share", "1",
-                  "mean share of surfaces of one map that another one of the same place, made a "
-                  "short time later, contradicts"},
-                 changed_share, {0.001, 1.0});
-  visitor.number(
-      {"max_log_ratio", "1", "hypotheses live up to this log-likelihood ratio to the best one"},
-      max_log_ratio, {0.0, 1000.0});
-  visitor.number({"max_changed_share", "1", "no pose that is contradicted by more is found"},
-                 max_changed_share, {0.0, 1.0});
-  visitor.number({"min_shared", "1", "share of surfaces that both maps have, at the pose found"},
-                 min_shared, {0.0, 1.0});
-  visitor.integer({"min_surfaces", "1", "static cells of the newer map with which it is searched"},
-                  min_surfaces, {1, 1000000});
-  visitor.number({"reach", "m", "surfaces up to here are compared"}, reach, {1.0, 1000.0});
-  visitor.integer({"max_boxes", "1", "boxes of poses after which a search ends as ambiguous"},
-                  max_boxes, {1, 100000000});
-}
-
 MapSearch::Surfaces MapSearch::thinnedOut(const std::vector<Point2>& positions,
-                                          const Point2& vehicle, double reach) {
+                                          const Circle& within, std::size_t max) {
   std::vector<Surface> near;
   for (const Point2& position : positions) {
-    const double distance = (position - vehicle).norm();
-    if (distance <= reach) {
+    const double distance = (position - within.center).norm();
+    if (distance <= within.radius) {
       near.push_back({position, distance});
     }
   }
   Surfaces surfaces;
-  const std::size_t kept = std::min(near.size(), kMaxSurfaces);
+  const std::size_t kept = std::min(near.size(), max);
   for (std::size_t i = 0; i < kept; ++i) {
     surfaces.all.push_back(near[i * near.size() / kept]);
   }
@@ -103,21 +89,17 @@ MapSearch::Surfaces MapSearch::thinnedOut(const std::vector<Point2>& positions,
 }
 
 MapSearch::MapSearch(const Checked<MapSearchOptions>& options, const OccupancyMap& older,
-                     const OccupancyMap& newer, const PoseWithCovariance& prior,
-                     const Pose2& in_newer)
+                     const OccupancyMap& newer, const SearchRegion& region, const Pose2& in_newer)
     : options_(*options),
       older_free_(freeSpaceOf(older)),
       newer_free_(freeSpaceOf(newer)),
       older_surface_(surfacesIn(older)),
-      prior_(prior),
+      prior_(priorOf(region, older.window())),
+      anywhere_(region.anywhere),
       in_newer_(in_newer),
-      tolerance_(kToleranceCells * older.window().cell_size),
-      newer_(thinnedOut(newer.staticSurfaces(), in_newer.position(), options->reach)),
-      older_(thinnedOut(older.staticSurfaces(), prior.pose.position(), options->reach)) {
-  prior_.covariance += Eigen::Vector3d(kMapSigma * kMapSigma, kMapSigma * kMapSigma,
-                                       kMapHeadingSigma * kMapHeadingSigma)
-                           .asDiagonal();
-  whitening_ = prior_.covariance.llt().matrixL().solve(Eigen::Matrix3d::Identity());
+      tolerance_(std::max(kMinTolerance, kToleranceCells * older.window().cell_size)),
+      newer_(thinnedOut(newer.staticSurfaces(), {in_newer.position(), options->reach}, kMaxSurfaces)),
+      older_(anywhere_ ? thinnedOut(older.staticSurfaces(), {prior_.pose.position(), kAllOfIt}, kMaxSurfacesOfAll) : thinnedOut(older.staticSurfaces(), {prior_.pose.position(), options->reach}, kMaxSurfaces)) {
   for (Surface& surface : newer_.all) {
     surface.position = in_newer.inverse() * surface.position;
   }
@@ -125,10 +107,24 @@ MapSearch::MapSearch(const Checked<MapSearchOptions>& options, const OccupancyMa
     outcome_ = Outcome::kAmbiguous;
     return;
   }
+  open(anywhere_ ? wholeWindow(older.window()) : withinPrior());
+}
+
+MapSearch::Box MapSearch::withinPrior() {
+  prior_.covariance += Eigen::Vector3d(kMapSigma * kMapSigma, kMapSigma * kMapSigma,
+                                       kMapHeadingSigma * kMapHeadingSigma)
+                           .asDiagonal();
+  whitening_ = prior_.covariance.llt().matrixL().solve(Eigen::Matrix3d::Identity());
   Box all;
   all.half = kGate * prior_.covariance.diagonal().cwiseSqrt();
   all.half[2] = std::min(all.half[2], kPi);
-  open(all);
+  return all;
+}
+
+MapSearch::Box MapSearch::wholeWindow(const GridWindow& window) {
+  Box all;
+  all.half = {0.5 * window.cell_size * window.columns, 0.5 * window.cell_size * window.rows, kPi};
+  return all;
 }
 
 Pose2 MapSearch::poseOf(const Box& box) const {
@@ -137,6 +133,9 @@ Pose2 MapSearch::poseOf(const Box& box) const {
 }
 
 double MapSearch::priorCost(const Box& box) const {
+  if (anywhere_) {
+    return 0.0;
+  }
   double reach = 0.0;
   for (const double x : {-1.0, 1.0}) {
     for (const double y : {-1.0, 1.0}) {
@@ -153,27 +152,52 @@ double MapSearch::contradictedShare(const Box& box) const {
   const double moves = tolerance_ + box.half.head<2>().norm();
   const double turns = box.half[2];
   const Eigen::Matrix2d to_older = pose.rotation();
-  int contradicted_newer = 0;
+  int contradicted = 0;
   for (const Surface& surface : newer_.all) {
     const double depth = older_free_.at(pose.position() + to_older * surface.position);
-    contradicted_newer += depth > moves + turns * surface.distance ? 1 : 0;
+    contradicted += depth > moves + turns * surface.distance ? 1 : 0;
   }
-  const Pose2 to_newer = in_newer_ * pose.inverse();
+  // Of all the surfaces of a map only one pose tells which are near.
+  const int seen_through = anywhere_ && !box.half.isZero() ? 0 : seenThrough(box);
+  return (newer_.weight * contradicted + older_.weight * seen_through) /
+         (newer_.weight * static_cast<double>(newer_.all.size()));
+}
+
+int MapSearch::seenThrough(const Box& box) const {
+  const double moves = tolerance_ + box.half.head<2>().norm();
+  const Pose2 to_newer = in_newer_ * poseOf(box).inverse();
   const Eigen::Matrix2d rotation = to_newer.rotation();
   const double shift = box.offset.head<2>().norm() + box.half.head<2>().norm();
-  int contradicted_older = 0;
+  int seen_through = 0;
   for (const Surface& surface : older_.all) {
     const double depth = newer_free_.at(to_newer.position() + rotation * surface.position);
-    contradicted_older += depth > moves + turns * (surface.distance + shift) ? 1 : 0;
+    seen_through += depth > moves + box.half[2] * (surface.distance + shift) ? 1 : 0;
   }
-  return (newer_.weight * contradicted_newer + older_.weight * contradicted_older) /
-         (newer_.weight * static_cast<double>(newer_.all.size()));
+  return seen_through;
+}
+
+double MapSearch::missingShare(const Box& box) const {
+  const Pose2 pose = poseOf(box);
+  const Eigen::Matrix2d to_older = pose.rotation();
+  const double moves = tolerance_ + box.half.head<2>().norm();
+  int missing = 0;
+  for (const Surface& surface : newer_.all) {
+    const double distance = older_surface_.at(pose.position() + to_older * surface.position);
+    missing += distance > moves + box.half[2] * surface.distance ? 1 : 0;
+  }
+  return static_cast<double>(missing) / static_cast<double>(newer_.all.size());
+}
+
+double MapSearch::costOf(const Box& box) const {
+  const double missing =
+      options_.missing_share > 0.0 ? missingShare(box) / options_.missing_share : 0.0;
+  return priorCost(box) + box.contradicted / options_.changed_share + missing;
 }
 
 void MapSearch::open(Box box) {
   ++looked_at_;
   box.contradicted = contradictedShare(box);
-  box.cost = priorCost(box) + box.contradicted / options_.changed_share;
+  box.cost = costOf(box);
   if (leaves_.empty() || box.cost <= leaves_.front().cost + options_.max_log_ratio) {
     open_.push(box);
   }
@@ -196,12 +220,18 @@ bool MapSearch::isLeaf(const Box& box) {
          box.half[2] <= kLeafHeading;
 }
 
+Eigen::Vector3d MapSearch::between(const Box& from, const Box& to) {
+  Eigen::Vector3d apart = to.offset - from.offset;
+  apart[2] = angleBetween(from.offset[2], to.offset[2]);
+  return apart;
+}
+
 MapSearch::Outcome MapSearch::takeLeaf(const Box& leaf) {
   if (leaves_.empty() && leaf.contradicted > options_.max_changed_share) {
     return Outcome::kNone;
   }
   leaves_.push_back(leaf);
-  const Eigen::Vector3d apart = leaf.offset - leaves_.front().offset;
+  const Eigen::Vector3d apart = between(leaves_.front(), leaf);
   const bool together =
       apart.head<2>().norm() <= kTogetherPosition && std::abs(apart[2]) <= kTogetherHeading;
   return together ? Outcome::kUnfinished : Outcome::kAmbiguous;
@@ -273,7 +303,7 @@ PoseWithCovariance MapSearch::found() const {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Box& leaf : leaves_) {
     const double weight = std::exp(leaves_.front().cost - leaf.cost);
-    const Eigen::Vector3d apart = leaf.offset - best->offset;
+    const Eigen::Vector3d apart = between(*best, leaf);
     spread += weight * apart * apart.transpose();
     sum += weight;
   }
