@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "whole_file.h"
+#include "datmo_fusion/ros/whole_file.h"
 
 #include <rosbag/exceptions.h>
 #include <rosbag/message_instance.h>

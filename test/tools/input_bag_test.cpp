@@ -10,7 +10,7 @@
 #include "bag_fault.h"
 #include "output_bag.h"
 #include "raw_message.h"
-#include "whole_file.h"
+#include "datmo_fusion/ros/whole_file.h"
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
