@@ -74,8 +74,7 @@ MapEvidence OccupancyMap::evidence() const {
 GridWindow OccupancyMap::extent() const {
   std::optional<GridWindow> extent;
   forEachKnown([&](CellIndex index, const Cell& /*cell*/) {
-    extent =
-        extended(extent.value_or(GridWindow{window().cell_size, 1, 1, index}), index);
+    extent = extended(extent.value_or(GridWindow{window().cell_size, 1, 1, index}), index);
   });
   return extent.value_or(GridWindow{window().cell_size, 1, 1, {}});
 }

@@ -29,9 +29,8 @@ StageHost::StageHost(ros::NodeHandle node, ros::NodeHandle private_node, Stage& 
         private_node_, [this] { return stage_.live(); },
         [this](const OptionValues& values) { stage_.change(values); });
   }
-  reporter_ =
-      std::make_unique<StageReporter>(node_, private_node_, monitor_,
-                                      watchedInputs(inputs_, resolved), topics, silence_after);
+  reporter_ = std::make_unique<StageReporter>(
+      node_, private_node_, monitor_, watchedInputs(inputs_, resolved), topics, silence_after);
   if (transforms != nullptr) {
     transforms_ = std::make_unique<TransformSubscription>(node_, *transforms, monitor_,
                                                           [this] { publishReady(); });

@@ -155,7 +155,8 @@ MapHeader readMapHeader(std::istream& in, const std::string& file) {
   std::string crc;
   in >> cell_size >> header.cell_size >> cells >> header.cells >> crc >> header.checksum;
   if (!in || in.get() != '\n' || cell_size != "cell_size" || cells != "cells" || crc != "crc32") {
-    throw MapFileError(file + ": is cut or changed: expected cell_size, cells and crc32 at its start");
+    throw MapFileError(file +
+                       ": is cut or changed: expected cell_size, cells and crc32 at its start");
   }
   return header;
 }
@@ -199,8 +200,9 @@ bool isMapServers(const std::filesystem::path& file) {
 SavedMap writeMap(const std::string& file, const OccupancyMap& map) {
   const std::filesystem::path path(file);
   if (isMapServers(path) || path.extension() == ".pgm") {
-    throw MapFileError(file + ": expected a name for the map itself; the files of map_server are "
-                              "written beside it, as .yaml and .pgm");
+    throw MapFileError(file +
+                       ": expected a name for the map itself; the files of map_server are "
+                       "written beside it, as .yaml and .pgm");
   }
   const MapEvidence evidence = map.evidence();
   const std::string image = std::filesystem::path(path).replace_extension(".pgm").string();
@@ -220,14 +222,16 @@ SavedMap writeMap(const std::string& file, const OccupancyMap& map) {
 
 OccupancyMap readMap(const std::string& file, const Checked<OccupancyMapOptions>& options) {
   if (!std::filesystem::is_regular_file(file)) {
-    throw MapFileError(file + ": no such file, expected a map that was saved, or a yaml file of "
-                              "map_server, by its absolute path");
+    throw MapFileError(file +
+                       ": no such file, expected a map that was saved, or a yaml file of "
+                       "map_server, by its absolute path");
   }
   const MapEvidence evidence =
       isMapServers(file) ? readMapServerFiles(file, *options) : readOwn(file);
   if (std::abs(evidence.cell_size - options->window.cell_size) > kSameCellSize) {
-    throw MapFileError(file + ": cells of " + toText(OptionValue(evidence.cell_size)) + " m, expected " +
-                       toText(OptionValue(options->window.cell_size)) + " m (grid_slam's map/cell_size)");
+    throw MapFileError(file + ": cells of " + toText(OptionValue(evidence.cell_size)) +
+                       " m, expected " + toText(OptionValue(options->window.cell_size)) +
+                       " m (grid_slam's map/cell_size)");
   }
   if (evidence.cells.empty()) {
     throw MapFileError(file + ": nothing is known in it, expected occupied and free cells");

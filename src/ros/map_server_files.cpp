@@ -113,13 +113,13 @@ PixelImage readImage(const std::string& file) {
 /// Adds a pixel to the evidence of the cell in which it lies.
 void add(double occupancy, const Point2& center, const MapDescription& description,
          const OccupancyMapOptions& options, CellEvidence& known) {
-  const auto sure = static_cast<float>(std::log((1.0 - options.min_probability) /
-                                                options.min_probability));
+  const auto sure =
+      static_cast<float>(std::log((1.0 - options.min_probability) / options.min_probability));
   if (occupancy > description.occupied_above) {
     const GridWindow lattice{options.window.cell_size, 1, 1, {}};
     const Eigen::Vector2f offset = (center - lattice.centerOf(known.cell)).cast<float>();
-    const auto spread = static_cast<float>(kVarianceOfPixel * description.resolution *
-                                           description.resolution);
+    const auto spread =
+        static_cast<float>(kVarianceOfPixel * description.resolution * description.resolution);
     known.log_odds = sure;
     known.age = static_cast<float>(options.static_after);
     known.hits.count += kHitsOfPixel;
@@ -149,40 +149,42 @@ MapServerFiles toMapServerFiles(OccupancyMap map, const std::string& image_name)
     }
   }
   std::ostringstream yaml;
-  yaml.precision(std::numeric_limits<double>::max_digits10);
+  yaml.precision(std::numeric_limits<double>::digits10);
   yaml << "image: \"" << image_name << "\"\nresolution: " << window.cell_size << "\norigin: ["
-       << window.origin().x() << ", " << window.origin().y() << ", 0.0]\nnegate: 0\noccupied_thresh: "
-       << kOccupiedThreshold << "\nfree_thresh: " << kFreeThreshold << '\n';
+       << window.origin().x() << ", " << window.origin().y()
+       << ", 0.0]\nnegate: 0\noccupied_thresh: " << kOccupiedThreshold
+       << "\nfree_thresh: " << kFreeThreshold << '\n';
   return {yaml.str(), image.str()};
 }
 
 MapEvidence readMapServerFiles(const std::string& file, const OccupancyMapOptions& options) {
   const MapDescription description = readDescription(file);
   const double cell_size = options.window.cell_size;
-  if (!(description.resolution > 0.0) || description.resolution > cell_size * (1.0 + kResolutionTolerance)) {
+  if (!(description.resolution > 0.0) ||
+      description.resolution > cell_size * (1.0 + kResolutionTolerance)) {
     std::ostringstream message;
     message << file << ": a resolution of " << description.resolution
             << " m, expected more than 0 and at most " << cell_size
             << " m (grid_slam's map/cell_size)";
     throw MapFileError(message.str());
   }
-  const std::filesystem::path image_file = std::filesystem::path(file).parent_path() / description.image;
+  const std::filesystem::path image_file =
+      std::filesystem::path(file).parent_path() / description.image;
   const PixelImage image = readImage(image_file.string());
   const GridWindow lattice{cell_size, 1, 1, {}};
   std::map<std::pair<int, int>, CellEvidence> cells;
   for (int row = 0; row < image.rows; ++row) {
     for (int column = 0; column < image.columns; ++column) {
-      const auto value = static_cast<unsigned char>(
-          image.pixels[rowMajorIndex(column, row, image.columns)]);
+      const auto value =
+          static_cast<unsigned char>(image.pixels[rowMajorIndex(column, row, image.columns)]);
       const double share = static_cast<double>(value) / kMaxPixelValue;
       const double occupancy = description.negate ? share : 1.0 - share;
       if (occupancy >= description.free_below && occupancy <= description.occupied_above) {
         continue;
       }
       const Point2 center =
-          description.origin *
-          Point2((column + 0.5) * description.resolution,
-                 (image.rows - row - 0.5) * description.resolution);
+          description.origin * Point2((column + 0.5) * description.resolution,
+                                      (image.rows - row - 0.5) * description.resolution);
       const CellIndex cell = lattice.cellAt(center);
       CellEvidence& known = cells[{cell.row, cell.column}];
       known.cell = cell;

@@ -9,9 +9,9 @@ void PriorMapOptions::visit(OptionVisitor& visitor) {
                 "of map_server; empty: a new map is made",
                 Tier::kPublic},
                file, {});
-  visitor.toggle({"anywhere", "", "search all of the map; false: about x, y, heading",
-                  Tier::kPublic},
-                 anywhere);
+  visitor.toggle(
+      {"anywhere", "", "search all of the map; false: about x, y, heading", Tier::kPublic},
+      anywhere);
   visitor.number({"x", "m", "where the vehicle about starts, in the map's frame", Tier::kPublic}, x,
                  {-1e6, 1e6});
   visitor.number({"y", "m", "the same", Tier::kPublic}, y, {-1e6, 1e6});

@@ -42,6 +42,8 @@ void MapRecoveryOptions::visit(OptionVisitor& visitor) {
   visitor.number({"confirmed_after", "m",
                   "a place in a prior map is taken when it is found again after this distance"},
                  confirmed_after, {0.0, 1000.0});
+  visitor.number({"confirmed_after_turn", "rad", "or after this turn"}, confirmed_after_turn,
+                 {0.0, kPi});
   visitor.group("prior_search", [&] { prior_search.visit(visitor); });
 }
 
@@ -103,7 +105,8 @@ bool MapRecovery::confirms(const PoseWithCovariance& found) {
         (expected.position() - found.pose.position()).norm() <= kSamePosition &&
         std::abs(angleBetween(expected.heading(), found.pose.heading())) <= kSameHeading;
     if (same) {
-      return since.position().norm() >= options_.confirmed_after;
+      return since.position().norm() >= options_.confirmed_after ||
+             std::abs(since.heading()) >= options_.confirmed_after_turn;
     }
   }
   candidate_ = Candidate{found.pose, searched_from_};

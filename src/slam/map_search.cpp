@@ -18,9 +18,15 @@ constexpr double kGate = 3.5;
 constexpr double kLeafPosition = 0.15;
 constexpr double kLeafHeading = degrees(0.6);
 
-/// Hypotheses this near to the best one (m, rad) are one: a match finds the pose from there.
+/// Where hypotheses are told from each other by what is missing, a box's center must stand for all
+/// of it, and boxes are split until they are so much smaller.
+constexpr double kFineLeaf = 0.5;
+
+/// Hypotheses this near to the best one (m, rad) are one: a match finds the pose from there, or one
+/// from the start of a map, of which little is known yet.
 constexpr double kTogetherPosition = 1.5;
 constexpr double kTogetherHeading = degrees(5.0);
+constexpr double kTogetherHeadingAtStart = degrees(12.0);
 
 /// Of what the prior leaves out: the older map's own error (m, rad).
 constexpr double kMapSigma = 0.3;
@@ -97,9 +103,15 @@ MapSearch::MapSearch(const Checked<MapSearchOptions>& options, const OccupancyMa
       prior_(priorOf(region, older.window())),
       anywhere_(region.anywhere),
       in_newer_(in_newer),
+      leaf_((options->missing_share > 0.0 ? kFineLeaf : 1.0) *
+            Eigen::Vector3d(kLeafPosition, kLeafPosition, kLeafHeading)),
       tolerance_(std::max(kMinTolerance, kToleranceCells * older.window().cell_size)),
-      newer_(thinnedOut(newer.staticSurfaces(), {in_newer.position(), options->reach}, kMaxSurfaces)),
-      older_(anywhere_ ? thinnedOut(older.staticSurfaces(), {prior_.pose.position(), kAllOfIt}, kMaxSurfacesOfAll) : thinnedOut(older.staticSurfaces(), {prior_.pose.position(), options->reach}, kMaxSurfaces)) {
+      newer_(
+          thinnedOut(newer.staticSurfaces(), {in_newer.position(), options->reach}, kMaxSurfaces)),
+      older_(anywhere_ ? thinnedOut(older.staticSurfaces(), {prior_.pose.position(), kAllOfIt},
+                                    kMaxSurfacesOfAll)
+                       : thinnedOut(older.staticSurfaces(),
+                                    {prior_.pose.position(), options->reach}, kMaxSurfaces)) {
   for (Surface& surface : newer_.all) {
     surface.position = in_newer.inverse() * surface.position;
   }
@@ -132,68 +144,6 @@ Pose2 MapSearch::poseOf(const Box& box) const {
           prior_.pose.heading() + box.offset[2]};
 }
 
-double MapSearch::priorCost(const Box& box) const {
-  if (anywhere_) {
-    return 0.0;
-  }
-  double reach = 0.0;
-  for (const double x : {-1.0, 1.0}) {
-    for (const double y : {-1.0, 1.0}) {
-      const Eigen::Vector3d corner(x * box.half[0], y * box.half[1], box.half[2]);
-      reach = std::max(reach, (whitening_ * corner).norm());
-    }
-  }
-  const double distance = std::max(0.0, (whitening_ * box.offset).norm() - reach);
-  return 0.5 * distance * distance;
-}
-
-double MapSearch::contradictedShare(const Box& box) const {
-  const Pose2 pose = poseOf(box);
-  const double moves = tolerance_ + box.half.head<2>().norm();
-  const double turns = box.half[2];
-  const Eigen::Matrix2d to_older = pose.rotation();
-  int contradicted = 0;
-  for (const Surface& surface : newer_.all) {
-    const double depth = older_free_.at(pose.position() + to_older * surface.position);
-    contradicted += depth > moves + turns * surface.distance ? 1 : 0;
-  }
-  // Of all the surfaces of a map only one pose tells which are near.
-  const int seen_through = anywhere_ && !box.half.isZero() ? 0 : seenThrough(box);
-  return (newer_.weight * contradicted + older_.weight * seen_through) /
-         (newer_.weight * static_cast<double>(newer_.all.size()));
-}
-
-int MapSearch::seenThrough(const Box& box) const {
-  const double moves = tolerance_ + box.half.head<2>().norm();
-  const Pose2 to_newer = in_newer_ * poseOf(box).inverse();
-  const Eigen::Matrix2d rotation = to_newer.rotation();
-  const double shift = box.offset.head<2>().norm() + box.half.head<2>().norm();
-  int seen_through = 0;
-  for (const Surface& surface : older_.all) {
-    const double depth = newer_free_.at(to_newer.position() + rotation * surface.position);
-    seen_through += depth > moves + box.half[2] * (surface.distance + shift) ? 1 : 0;
-  }
-  return seen_through;
-}
-
-double MapSearch::missingShare(const Box& box) const {
-  const Pose2 pose = poseOf(box);
-  const Eigen::Matrix2d to_older = pose.rotation();
-  const double moves = tolerance_ + box.half.head<2>().norm();
-  int missing = 0;
-  for (const Surface& surface : newer_.all) {
-    const double distance = older_surface_.at(pose.position() + to_older * surface.position);
-    missing += distance > moves + box.half[2] * surface.distance ? 1 : 0;
-  }
-  return static_cast<double>(missing) / static_cast<double>(newer_.all.size());
-}
-
-double MapSearch::costOf(const Box& box) const {
-  const double missing =
-      options_.missing_share > 0.0 ? missingShare(box) / options_.missing_share : 0.0;
-  return priorCost(box) + box.contradicted / options_.changed_share + missing;
-}
-
 void MapSearch::open(Box box) {
   ++looked_at_;
   box.contradicted = contradictedShare(box);
@@ -204,9 +154,8 @@ void MapSearch::open(Box box) {
 }
 
 void MapSearch::split(const Box& box) {
-  const Eigen::Vector3d leaves(kLeafPosition, kLeafPosition, kLeafHeading);
   int axis = 0;
-  box.half.cwiseQuotient(leaves).maxCoeff(&axis);
+  box.half.cwiseQuotient(leaf_).maxCoeff(&axis);
   for (const double side : {-0.5, 0.5}) {
     Box part = box;
     part.half[axis] *= 0.5;
@@ -215,10 +164,7 @@ void MapSearch::split(const Box& box) {
   }
 }
 
-bool MapSearch::isLeaf(const Box& box) {
-  return box.half[0] <= kLeafPosition && box.half[1] <= kLeafPosition &&
-         box.half[2] <= kLeafHeading;
-}
+bool MapSearch::isLeaf(const Box& box) const { return (box.half.array() <= leaf_.array()).all(); }
 
 Eigen::Vector3d MapSearch::between(const Box& from, const Box& to) {
   Eigen::Vector3d apart = to.offset - from.offset;
@@ -232,19 +178,10 @@ MapSearch::Outcome MapSearch::takeLeaf(const Box& leaf) {
   }
   leaves_.push_back(leaf);
   const Eigen::Vector3d apart = between(leaves_.front(), leaf);
+  const double max_turn = options_.missing_share > 0.0 ? kTogetherHeadingAtStart : kTogetherHeading;
   const bool together =
-      apart.head<2>().norm() <= kTogetherPosition && std::abs(apart[2]) <= kTogetherHeading;
+      apart.head<2>().norm() <= kTogetherPosition && std::abs(apart[2]) <= max_turn;
   return together ? Outcome::kUnfinished : Outcome::kAmbiguous;
-}
-
-double MapSearch::sharedAt(const Pose2& pose) const {
-  const Eigen::Matrix2d rotation = pose.rotation();
-  int shared = 0;
-  for (const Surface& surface : newer_.all) {
-    const double distance = older_surface_.at(pose.position() + rotation * surface.position);
-    shared += distance <= tolerance_ ? 1 : 0;
-  }
-  return static_cast<double>(shared) / static_cast<double>(newer_.all.size());
 }
 
 MapSearch::Outcome MapSearch::conclude() const {

@@ -12,8 +12,8 @@ constexpr double kVarianceOfUniform = 1.0 / 12.0;
 
 /// Mean and covariance of the poses within a map's window.
 PoseWithCovariance anywhereIn(const GridWindow& window) {
-  const Point2 extent =
-      window.cell_size * Point2(static_cast<double>(window.columns), static_cast<double>(window.rows));
+  const Point2 extent = window.cell_size * Point2(static_cast<double>(window.columns),
+                                                  static_cast<double>(window.rows));
   const Point2 center = window.origin() + 0.5 * extent;
   PoseWithCovariance all{Pose2(center.x(), center.y(), 0.0), {}};
   all.covariance = kVarianceOfUniform * Eigen::Vector3d(extent.x() * extent.x(),

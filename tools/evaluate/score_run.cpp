@@ -11,6 +11,7 @@
 #include "evaluate/run_score.h"
 #include "evaluate/scan_loading.h"
 #include "evaluate/score_json.h"
+
 #include "datmo_fusion/ros/whole_file.h"
 
 namespace datmo::evaluation {

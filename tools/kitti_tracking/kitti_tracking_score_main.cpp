@@ -10,6 +10,7 @@
 #include "kitti_tracking/sequence_folders.h"
 #include "kitti_tracking/tracking_evaluation.h"
 #include "kitti_tracking/tracking_report.h"
+
 #include "datmo_fusion/ros/whole_file.h"
 
 namespace {

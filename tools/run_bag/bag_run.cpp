@@ -18,13 +18,13 @@
 #include "interruption.h"
 #include "output_bag.h"
 #include "progress_bar.h"
-#include "datmo_fusion/ros/whole_file.h"
 
 #include <rosbag/view.h>
 
 #include "datmo_fusion/ros/stage/grid_slam_stage.h"
 #include "datmo_fusion/ros/stage/object_fusion_stage.h"
 #include "datmo_fusion/ros/stage/track_fusion_stage.h"
+#include "datmo_fusion/ros/whole_file.h"
 
 namespace datmo {
 

@@ -63,9 +63,7 @@ class TileStore {
   /// Column and row of a tile.
   using Key = std::pair<int, int>;
 
-  static int tileOf(int index) {
-    return index >= 0 ? index / kSide : -1 - (-1 - index) / kSide;
-  }
+  static int tileOf(int index) { return index >= 0 ? index / kSide : -1 - (-1 - index) / kSide; }
   static Key keyOf(CellIndex cell) { return {tileOf(cell.column), tileOf(cell.row)}; }
   static std::size_t slotOf(CellIndex cell) {
     const Key key = keyOf(cell);

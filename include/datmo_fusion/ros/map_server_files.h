@@ -13,8 +13,8 @@ struct MapServerFiles {
   std::string image;  ///< PGM
 };
 
-/// `image_name`: as the yaml file names the image. All that the map knows: occupied (0), free (254),
-/// unknown (205).
+/// `image_name`: as the yaml file names the image. All that the map knows: occupied (0), free
+/// (254), unknown (205).
 MapServerFiles toMapServerFiles(OccupancyMap map, const std::string& image_name);
 
 /// Evidence that is as sure as the options let it be, where a map of map_server says occupied or

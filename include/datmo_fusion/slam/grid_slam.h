@@ -64,18 +64,19 @@ struct PriorMap {
 /// is always that in the first map's frame: what a gap left open stays in it until it is found.
 /// While the vehicle is not located, nothing is said to move.
 ///
-/// With a prior map the vehicle is searched for in it first, in the same way; it then goes on in that
-/// map. If it gets lost later, all of the prior map is searched, and no new map takes its place.
+/// With a prior map the vehicle is searched for in it first, in the same way; it then goes on in
+/// that map. If it gets lost later, all of the prior map is searched, and no new map takes its
+/// place.
 ///
-/// Map frame: the prior map's; without one the vehicle's first pose is its origin. Not thread safe; scans in rising stamp order,
-/// which the caller ensures (StampGate).
+/// Map frame: the prior map's; without one the vehicle's first pose is its origin. Not thread safe;
+/// scans in rising stamp order, which the caller ensures (StampGate).
 class GridSlam {
  public:
   /// Throws OptionError.
   explicit GridSlam(const Checked<GridSlamOptions>& options);
 
-  /// To be called before the first scan; reset() goes back to here. Throws std::invalid_argument for
-  /// a map that reaches over more cells than can be searched.
+  /// To be called before the first scan; reset() goes back to here. Throws std::invalid_argument
+  /// for a map that reaches over more cells than can be searched.
   void startIn(PriorMap prior_map);
 
   /// Odometry in rising stamp order; it may come before or after the scans that it serves. Only a
@@ -120,7 +121,8 @@ class GridSlam {
   /// motion that its own match gives.
   Scan locate(const Measurement& measurement, SlamResult& result);
 
-  /// Leaves the map alone and begins a new one, by which the vehicle is searched for in a prior map.
+  /// Leaves the map alone and begins a new one, by which the vehicle is searched for in a prior
+  /// map.
   void searchPriorMap(OccupancyMap whole, const SearchRegion& region, Stamp stamp);
 
   /// If the last scan is long ago, and the pose much less certain than then: begins a new map.

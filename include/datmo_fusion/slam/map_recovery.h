@@ -30,8 +30,9 @@ struct MapRecoveryOptions {
   double lost_from_sigma = 15.0;             ///< m
   int boxes_per_scan = 600;
   MapSearchOptions search;
-  int prior_boxes_per_scan = 10000;
-  double confirmed_after = 1.0;  ///< m
+  int prior_boxes_per_scan = 40000;
+  double confirmed_after = 0.5;       ///< m
+  double confirmed_after_turn = 0.5;  ///< rad
   MapSearchOptions prior_search = MapSearchOptions::inCompleteMap();
 
   void visit(OptionVisitor& visitor);
@@ -46,10 +47,10 @@ Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Point2& arm);
 /// as it was; it is searched for the newer one, again and again as that grows, until there is one
 /// answer, or it is time to go on with the newer map alone.
 ///
-/// The same localizes the vehicle in a prior map at the start, within a guess or anywhere. There the
-/// newer map is never taken for it, and what was found is confirmed: rooms that look alike from one
-/// place differ some way on. Only when a second search, by what was seen up to `confirmed_after`
-/// later, finds the same place is it the place.
+/// The same localizes the vehicle in a prior map at the start, within a guess or anywhere. There
+/// the newer map is never taken for it, and what was found is confirmed: rooms that look alike from
+/// one place differ some way on. Only when a second search, by what was seen up to
+/// `confirmed_after` or `confirmed_after_turn` later, finds the same place is it the place.
 class MapRecovery {
  public:
   /// `start`: the prior in the older map's frame, where the newer one begins at this stamp. Throws
@@ -104,7 +105,7 @@ class MapRecovery {
   bool is_searchable_ = true;  ///< the prior is not too wide
   Localization state_ = Localization::kUncertain;
   std::optional<MapSearch> search_;
-  Pose2 searched_from_;  ///< where in the newer map the search is about
+  Pose2 searched_from_;                 ///< where in the newer map the search is about
   std::optional<SearchRegion> region_;  ///< of a prior map
 
   /// What a search has found that none has confirmed yet.

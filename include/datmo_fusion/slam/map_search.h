@@ -38,9 +38,9 @@ struct MapSearchOptions {
 /// log-likelihood its share of contradicted surfaces, exponentially distributed, and its distance
 /// from the prior; what either map does not know counts nothing. In a map of all of an area, too,
 /// what of the newer one's surfaces is missing does, with a share of its own (the score of Hess et
-/// al. 2016): else nothing would speak against the space outside of it. Hardly anything contradicts the
-/// true pose, so that it is among the hypotheses that live, within `max_log_ratio` of the best; it
-/// is found when all of them lie together, and else the result is ambiguous.
+/// al. 2016): else nothing would speak against the space outside of it. Hardly anything contradicts
+/// the true pose, so that it is among the hypotheses that live, within `max_log_ratio` of the best;
+/// it is found when all of them lie together, and else the result is ambiguous.
 ///
 /// Branch and bound (Olson 2009, 2015; Hess et al. 2016), best first: all poses of a box are
 /// contradicted by the surfaces that lie deeper in free space than the box can move them. The work
@@ -101,7 +101,7 @@ class MapSearch {
   Pose2 poseOf(const Box& box) const;
   void open(Box box);
   void split(const Box& box);
-  static bool isLeaf(const Box& box);
+  bool isLeaf(const Box& box) const;
   static Eigen::Vector3d between(const Box& from, const Box& to);
   double priorCost(const Box& box) const;
   double contradictedShare(const Box& box) const;
@@ -121,7 +121,8 @@ class MapSearch {
   bool anywhere_;
   Pose2 in_newer_;
   Eigen::Matrix3d whitening_ = Eigen::Matrix3d::Zero();  ///< of differences from the prior
-  double tolerance_;           ///< m, by which surfaces may be off
+  Eigen::Vector3d leaf_;  ///< half of a box that is not split any more
+  double tolerance_;      ///< m, by which surfaces may be off
   Surfaces newer_;
   Surfaces older_;
   std::priority_queue<Box, std::vector<Box>, Costlier> open_;

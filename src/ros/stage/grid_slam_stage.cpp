@@ -256,7 +256,8 @@ void GridSlamStage::connect(StagePorts& ports) {
   const auto pose = ports.out<geometry_msgs::PoseWithCovarianceStamped>("pose");
   const auto labeled_scan = ports.out<LabeledScanMessage>("labeled_scan");
   const auto map = ports.out<nav_msgs::OccupancyGrid>("map", true);
-  ports.service<datmo_fusion::SaveMap>("save_map", [this](const auto& request) { return answer(request); });
+  ports.service<datmo_fusion::SaveMap>("save_map",
+                                       [this](const auto& request) { return answer(request); });
   const auto publish = [=](const std::optional<GridSlamOutput>& output) {
     if (!output) {
       return;

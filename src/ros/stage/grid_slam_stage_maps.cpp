@@ -30,7 +30,8 @@ std::string GridSlamStage::saveMap(const std::string& file) const {
   return text;
 }
 
-datmo_fusion::SaveMap::Response GridSlamStage::answer(const datmo_fusion::SaveMap::Request& request) const {
+datmo_fusion::SaveMap::Response GridSlamStage::answer(
+    const datmo_fusion::SaveMap::Request& request) const {
   datmo_fusion::SaveMap::Response response;
   response.success = false;
   if (!std::filesystem::path(request.file).is_absolute()) {

@@ -134,7 +134,8 @@ TEST_F(MapFilesTest, FinerPixelsSayWhereInACellTheSurfaceIs) {
 TEST_F(MapFilesTest, ACutOrChangedFileIsRefused) {
   writeMap(file("a.map"), mapWithWall());
   const std::string whole = content("a.map");
-  for (const std::size_t size : {std::size_t{0}, std::size_t{10}, std::size_t{40}, whole.size() / 2, whole.size() - 1}) {
+  for (const std::size_t size :
+       {std::size_t{0}, std::size_t{10}, std::size_t{40}, whole.size() / 2, whole.size() - 1}) {
     write("cut.map", whole.substr(0, size));
     expectIn("cut.map: ", refusal("cut.map"));
     expectIn("expected", refusal("cut.map"));

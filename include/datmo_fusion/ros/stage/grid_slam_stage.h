@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include <datmo_fusion/SaveMap.h>
+
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Odometry.h>
-
-#include <datmo_fusion/SaveMap.h>
 
 #include "datmo_fusion/ros/convert/messages.h"
 #include "datmo_fusion/ros/convert/scan_conversion.h"
@@ -95,8 +95,8 @@ class GridSlamStage : public Stage {
   /// which may take as long to write as all stages need for the scan.
   nav_msgs::OccupancyGridPtr mapIfDue(Stamp stamp);
 
-  /// Writes the map (writeMap); while the vehicle is not located, the one in which it was. Returns a
-  /// sentence on what was written. Throws MapFileError.
+  /// Writes the map (writeMap); while the vehicle is not located, the one in which it was. Returns
+  /// a sentence on what was written. Throws MapFileError.
   std::string saveMap(const std::string& file) const;
 
   void connect(StagePorts& ports) override;
