@@ -167,26 +167,26 @@ void GridSlamStage::showLocalization(const SlamResult& result) {
       return;
     case Localization::kUncertain:
     case Localization::kLost:
-      if (result.searches_prior_map) {
-        monitor_.condition(HealthLevel::kNothing,
-                           "lost: searches the prior map, and writes nothing to it until one place "
-                           "alone fits what was seen on the way");
-        return;
-      }
-      break;
+      showSearch(result);
+      return;
   }
-  showGap(result.localization);
 }
 
-void GridSlamStage::showGap(Localization localization) {
-  if (localization == Localization::kUncertain) {
-    monitor_.condition(HealthLevel::kLess,
-                       "uncertain where in the map after a gap: searches, and keeps the map as it "
-                       "was");
-  } else {
-    monitor_.condition(HealthLevel::kNothing,
+void GridSlamStage::showSearch(const SlamResult& result) {
+  const bool is_lost = result.localization == Localization::kLost;
+  const HealthLevel health = is_lost ? HealthLevel::kNothing : HealthLevel::kLess;
+  if (result.searches_prior_map) {
+    monitor_.condition(health, std::string(is_lost ? "lost" : "uncertain") +
+                                   ": searches the prior map, and writes nothing to it until one "
+                                   "place alone fits what was seen on the way");
+  } else if (is_lost) {
+    monitor_.condition(health,
                        "lost after a gap: the map fits nowhere that the vehicle can be, or that is "
                        "too much of it");
+  } else {
+    monitor_.condition(health,
+                       "uncertain where in the map after a gap: searches, and keeps the map as it "
+                       "was");
   }
 }
 

@@ -111,7 +111,7 @@ class GridSlamStage : public Stage {
   /// For diagnostics.
   void showMatch(const SlamResult& result);
   void showLocalization(const SlamResult& result);
-  void showGap(Localization localization);
+  void showSearch(const SlamResult& result);
   datmo_fusion::SaveMap::Response answer(const datmo_fusion::SaveMap::Request& request) const;
   GridSlamOutput finish(const SlamResult& result);
   GridSlamOutput outputOf(const SlamResult& result);
