@@ -16,6 +16,9 @@ constexpr double kMinLogWeight = -12.0;
 /// Mahalanobis distance squared of an extent that is hardly of this object: three sigma.
 constexpr double kFarOff = 9.0;
 
+/// Standard deviations by which a lower bound stays below what was seen.
+constexpr double kSureBound = 2.0;
+
 /// Odds that a classifier which is sure of itself gives: it may err all the same.
 constexpr double kSurestClass = 0.999;
 constexpr double kMinClass = 1e-6;
@@ -43,7 +46,8 @@ bool isOfClass(std::size_t kind, ObjectClass object_class) {
 /// is the same for all estimates. One that is far off may be of two objects, or of a side that was
 /// taken for another: it raises doubts only, which let in the third of its kind.
 double ingest(const VisibleExtent& seen, double noise, double& mean, double& variance) {
-  const double residual = seen.length - mean;
+  const double length = seen.whole ? seen.length : seen.length - kSureBound * seen.hidden_std;
+  const double residual = length - mean;
   if (!seen.whole && residual <= 0.0) {
     return 0.0;
   }

@@ -39,9 +39,11 @@ struct SeenAxis {
   bool isSeenAhead() const { return std::isfinite(ahead); }
   bool isSeenBehind() const { return std::isfinite(behind); }
 
-  VisibleExtent visible() const {
+  /// `position_variance`, m^2: of the object along the axis. How far something was seen to reach to
+  /// a hidden end is as uncertain as that.
+  VisibleExtent visible(double position_variance) const {
     return {extent, (isSeenAhead() ? ahead : 0.0) + (isSeenBehind() ? behind : 0.0),
-            isSeenAhead() && isSeenBehind()};
+            isSeenAhead() && isSeenBehind(), std::sqrt(position_variance)};
   }
 };
 
@@ -102,6 +104,11 @@ Eigen::Vector2d sharesOf(const SeenBox& seen, const BoxSize& size, const Eigen::
 
 Eigen::Vector2d turned(double heading, const Eigen::Vector2d& vector) {
   return Pose2(Point2::Zero(), heading).rotate(vector);
+}
+
+Eigen::Matrix2d inAxes(double heading, const Eigen::Matrix2d& covariance) {
+  const Eigen::Matrix2d axes = Pose2(Point2::Zero(), heading).rotation();
+  return axes.transpose() * covariance * axes;
 }
 
 Eigen::Matrix2d alongAxes(double heading, const Eigen::Vector2d& variance) {
@@ -167,7 +174,10 @@ Point2 TrackedBox::update(const Object& object, double seconds, const TrackedBox
   size_.classify(object.object_class, object.class_probability);
   // Of a box that is turned by an angle, what seems its width is in part its length.
   const double slant_variance = std::min(object.heading_variance, kUnknownSideVariance);
-  std::array<VisibleExtent, 2> visible = {seen.axes[0].visible(), seen.axes[1].visible()};
+  const Eigen::Vector2d position_variance =
+      inAxes(seen.heading, object.position_covariance).diagonal().cwiseMax(0.0);
+  std::array<VisibleExtent, 2> visible = {seen.axes[0].visible(position_variance.x()),
+                                          seen.axes[1].visible(position_variance.y())};
   visible[0].variance += slant_variance * size_.mean().y() * size_.mean().y();
   visible[1].variance += slant_variance * size_.mean().x() * size_.mean().x();
   size_.update(visible, seconds, options.size);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "datmo_fusion/common/square.h"
 
@@ -18,19 +19,18 @@ constexpr double kHiddenMiddle = 1.3;
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-/// Index of the object that a position on the ground belongs to.
+/// Index of the object that a position on the ground belongs to: of those that it may be on, the
+/// one whose box it is nearest to; within several boxes, the one whose center is nearest.
 std::size_t ownerOf(const Point2& position, double margin, const std::vector<Object>& objects) {
   std::size_t owner = kNone;
-  double nearest = std::numeric_limits<double>::infinity();
+  auto nearest = std::make_pair(std::numeric_limits<double>::infinity(), 0.0);
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Object& object = objects[i];
-    const Box2& box = object.box;
-    const Point2 in_box = box.center.inverse() * position;
     const double reach = margin + std::sqrt(object.position_covariance.diagonal().maxCoeff());
-    const bool inside = std::abs(in_box.x()) <= 0.5 * box.length + reach &&
-                        std::abs(in_box.y()) <= 0.5 * box.width + reach;
-    if (inside && in_box.norm() < nearest) {
-      nearest = in_box.norm();
+    const auto distance = std::make_pair(object.box.distanceTo(position),
+                                         (position - object.box.center.position()).norm());
+    if (distance.first <= reach && distance < nearest) {
+      nearest = distance;
       owner = i;
     }
   }

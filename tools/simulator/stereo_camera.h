@@ -52,7 +52,7 @@ struct StereoCameraOptions {
   double pitch_shake = 0.3;          ///< deg
   bool features = true;
   int feature_spacing = 5;            ///< px
-  double feature_share = 0.06;        ///< 0 to 1
+  double feature_share = 0.1;         ///< 0 to 1
   double feature_noise = 0.12;        ///< px
   double wrong_feature_share = 0.05;  ///< 0 to 1
 

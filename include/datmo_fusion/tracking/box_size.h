@@ -38,9 +38,10 @@ struct BoxSizeOptions {
 
 /// How far an object was seen to reach along one axis.
 struct VisibleExtent {
-  double length = 0.0;    ///< m, at least 0
-  double variance = 0.0;  ///< m^2, at least 0; of the ends that were seen
-  bool whole = false;     ///< both ends were seen; otherwise it may be longer
+  double length = 0.0;      ///< m, at least 0
+  double variance = 0.0;    ///< m^2, at least 0; of the ends that were seen
+  bool whole = false;       ///< both ends were seen; otherwise it may be longer
+  double hidden_std = 0.0;  ///< m, at least 0; of how far it was seen to reach to a hidden end
 };
 
 /// What is known of the size of one tracked object along the two axes of its box: one estimate
@@ -50,8 +51,9 @@ struct VisibleExtent {
 /// that of something 4 m long, and a leg for part of something small, before anything has indicated
 /// their class (thesis 4.2.4 needs the class for that).
 ///
-/// Where an end is hidden, the visible extent is a lower bound: the size grows to it where it is
-/// longer than the estimate, and never shrinks by it. No heap: cheap to copy.
+/// Where an end is hidden, the visible extent is a lower bound, less two standard deviations of how
+/// far that was seen (noise would only make it grow): the size grows to it where it is longer than
+/// the estimate, and never shrinks by it. No heap: cheap to copy.
 class BoxSize {
  public:
   explicit BoxSize(const BoxSizeOptions& options);

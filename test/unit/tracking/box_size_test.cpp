@@ -8,8 +8,8 @@
 namespace datmo::box_size_test {
 namespace {
 
-VisibleExtent whole(double length) { return {length, 0.01, true}; }
-VisibleExtent atLeast(double length) { return {length, 0.01, false}; }
+VisibleExtent whole(double length) { return {length, 0.01, true, 0.0}; }
+VisibleExtent atLeast(double length) { return {length, 0.01, false, 0.0}; }
 
 /// The rear of something that moves along the first axis: its width seen, its depth not.
 BoxSize afterRear(double width, const BoxSizeOptions& options, int scans = 5) {
@@ -55,6 +55,20 @@ TEST(BoxSize, ItGrowsToAVisiblePartThatIsLongerAndNeverShrinksByABound) {
     size.update({atLeast(0.5), whole(1.8)}, 0.1, options);
   }
   EXPECT_NEAR(size.mean().x(), last, 0.01);
+}
+
+TEST(BoxSize, ALowerBoundThatIsNoiseDoesNotMakeItGrow) {
+  const BoxSizeOptions options;
+  BoxSize size = afterRear(1.8, options);
+  const double length = size.mean().x();
+  // A stereo camera at 30 m: half of the extents are longer than the car, by noise alone.
+  for (int i = 0; i < 50; ++i) {
+    const double noise = i % 2 == 0 ? 1.0 : -1.0;
+    size.update({VisibleExtent{length + noise, 0.01, false, 1.0}, whole(1.8)}, 0.1, options);
+  }
+  EXPECT_NEAR(size.mean().x(), length, 0.1);
+  size.update({VisibleExtent{length + 2.5, 0.01, false, 1.0}, whole(1.8)}, 0.1, options);
+  EXPECT_GT(size.mean().x(), length + 0.05) << "2.5 standard deviations are no noise";
 }
 
 TEST(BoxSize, ARearImpliesTheKindAndTheKindTheLength) {

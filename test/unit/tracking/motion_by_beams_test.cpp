@@ -19,6 +19,7 @@ namespace {
 constexpr double kPeriod = 0.06;  // s
 constexpr double kRangeSigma = 0.2;
 constexpr int kSeeds = 11;
+constexpr int kStandingSeeds = 33;  ///< a false track lasts for many scans
 
 /// A scanner of 81 beams, 2 degrees apart, on a vehicle that drives along x.
 class BeamScene {
@@ -108,7 +109,7 @@ TEST(MotionByBeams, WhatStandsIsNoTrackForWhoStands) { EXPECT_EQ(medianDelay(4.4
 /// How many of the scans of 10 s past what stands publish a moving track, over all seeds.
 int falseScans(const std::vector<Box2>& boxes) {
   int scans = 0;
-  for (int seed = 1; seed <= kSeeds; ++seed) {
+  for (int seed = 1; seed <= kStandingSeeds; ++seed) {
     BeamScene scene(8.0, static_cast<std::uint64_t>(seed));
     while (scene.time() < 10.0) {
       const TrackList list = scene.scan(boxes);
@@ -126,7 +127,7 @@ TEST(MotionByBeams, ARowOfParkedCarsIsSeldomTakenForTraffic) {
   for (int i = 0; i < 16; ++i) {
     row.push_back({Pose2(10.0 + 7.0 * i, 5.0, 0.0), 4.4, 1.8});
   }
-  EXPECT_LE(falseScans(row), 0.02 * kSeeds * 10.0 / kPeriod);
+  EXPECT_LE(falseScans(row), 0.02 * kStandingSeeds * 10.0 / kPeriod);
 }
 
 TEST(MotionByBeams, HousesWithYardsAreSeldomTakenForTraffic) {
@@ -134,7 +135,7 @@ TEST(MotionByBeams, HousesWithYardsAreSeldomTakenForTraffic) {
   for (int i = 0; i < 5; ++i) {
     houses.push_back({Pose2(10.0 + 24.0 * i, -14.0, 0.0), 18.0, 10.0});
   }
-  EXPECT_LE(falseScans(houses), 0.02 * kSeeds * 10.0 / kPeriod);
+  EXPECT_LE(falseScans(houses), 0.02 * kStandingSeeds * 10.0 / kPeriod);
 }
 
 }  // namespace

@@ -158,6 +158,19 @@ TEST(TrackedBox, AHiddenEndNeverShrinksTheBox) {
   EXPECT_NEAR(box.at(Point2::Zero()).length, 4.4, 0.1);
 }
 
+TEST(TrackedBox, AHiddenEndIsAsUncertainAsTheRange) {
+  const TrackedBoxOptions options;
+  Object rear = rearAt(10.0);
+  const double length = convergedOn(rear, options).at(Point2::Zero()).length;
+  // The points behind the rear's middle reach 2 m farther than the car is long.
+  Object smeared = rear;
+  smeared.box.width = length + 2.0;
+  smeared.position_covariance(0, 0) = 4.0;
+  EXPECT_LT(convergedOn(smeared, options).at(Point2::Zero()).length, length + 0.5);
+  smeared.position_covariance(0, 0) = 0.01;
+  EXPECT_GT(convergedOn(smeared, options).at(Point2::Zero()).length, length + 1.5);
+}
+
 TEST(TrackedBox, HeadingDoesNotFlipWithTheObjects) {
   const TrackedBoxOptions options;
   TrackedBox box(wholeBox(0.1, 4.0, 2.0), options);

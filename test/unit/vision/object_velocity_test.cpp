@@ -37,6 +37,25 @@ TEST(ObjectVelocity, EachObjectHasThatOfThePointsInItsBox) {
   EXPECT_FALSE(objects[2].velocity) << "no point is on it";
 }
 
+TEST(ObjectVelocity, PointsOnAParkedCarAreNotTheCyclistsBesideIt) {
+  std::vector<Object> objects{objectAt(15.0, -1.9), objectAt(17.0, -2.6)};
+  objects[1].box = {Pose2(17.0, -2.6, 0.0), 4.2, 0.0};  // its side, as it is seen
+  for (Object& object : objects) {
+    object.position_covariance = 0.5 * Eigen::Matrix2d::Identity();
+  }
+  const Eigen::Vector3d rides(4.5, 0.0, 0.0);
+  const Eigen::Vector3d stands = Eigen::Vector3d::Zero();
+  // All of them nearer to the cyclist's center than to the car's.
+  const std::vector<PointVelocity> points{
+      pointAt(15.1, -1.9, 1.0, rides),  pointAt(15.0, -2.0, 1.3, rides),
+      pointAt(15.2, -2.6, 0.6, stands), pointAt(15.4, -2.5, 0.8, stands),
+      pointAt(15.6, -2.6, 0.7, stands), pointAt(15.3, -2.7, 1.0, stands)};
+  measureVelocities(points, ObjectVelocityOptions(), objects);
+  ASSERT_TRUE(objects[0].velocity && objects[1].velocity);
+  EXPECT_NEAR(objects[0].velocity->velocity.x(), 4.5, 1e-3);
+  EXPECT_NEAR(objects[1].velocity->velocity.x(), 0.0, 1e-3);
+}
+
 TEST(ObjectVelocity, PointsOnTheRoadAndOverheadAreOfNobody) {
   std::vector<Object> objects{objectAt(10.0, 0.0)};
   const Eigen::Vector3d moves(5.0, 0.0, 0.0);
