@@ -222,16 +222,20 @@ MapSearch::Outcome MapSearch::advance(int boxes) {
 }
 
 PoseWithCovariance MapSearch::found() const {
-  // The one on most surfaces, of those that live.
-  const Box* best = &leaves_.front();
-  double best_shared = 0.0;
-  for (const Box& leaf : leaves_) {
-    const double shared = sharedAt(poseOf(leaf));
-    if (shared > best_shared) {
-      best_shared = shared;
-      best = &leaf;
+  // The one whose surfaces are nearest to those of the older map, of those that live: what counts
+  // as the same surface is wider than what a match finds.
+  const auto distance_of = [this](const Box& leaf) {
+    const Pose2 pose = poseOf(leaf);
+    const Eigen::Matrix2d rotation = pose.rotation();
+    double sum = 0.0;
+    for (const Surface& surface : newer_.all) {
+      sum += std::min(tolerance_, older_surface_.at(pose.position() + rotation * surface.position));
     }
-  }
+    return sum;
+  };
+  const auto best =
+      std::min_element(leaves_.begin(), leaves_.end(),
+                       [&](const Box& a, const Box& b) { return distance_of(a) < distance_of(b); });
   PoseWithCovariance found{poseOf(*best), {}};
   found.covariance = Eigen::Vector3d(kMapSigma * kMapSigma, kMapSigma * kMapSigma,
                                      kMapHeadingSigma * kMapHeadingSigma)
