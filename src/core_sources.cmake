@@ -66,6 +66,7 @@ set(DATMO_FUSION_CORE_SOURCES
   grid/hit_distribution.cpp
   grid/hit_grid.cpp
   grid/occupancy_map.cpp
+  grid/occupancy_map_evidence.cpp
   grid/occupancy_map_options.cpp
   risk/box_contact.cpp
   risk/contact_futures.cpp
@@ -116,6 +117,8 @@ set(DATMO_FUSION_CORE_SOURCES
   slam/grid_slam_recovery.cpp
   slam/map_recovery.cpp
   slam/map_search.cpp
+  slam/map_search_cost.cpp
+  slam/map_search_options.cpp
   slam/motion_compensation.cpp
   slam/motion_model.cpp
   slam/odometry_anchor.cpp
@@ -124,6 +127,7 @@ set(DATMO_FUSION_CORE_SOURCES
   slam/pose_filter.cpp
   slam/pose_motion.cpp
   slam/scan_matcher.cpp
+  slam/search_region.cpp
   slam/static_scan.cpp
   slam/twist_gate.cpp
   tracking/association.cpp

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "whole_file.h"
-
 #include <rosbag/exceptions.h>
 #include <rosbag/message_instance.h>
+
+#include "datmo_fusion/ros/whole_file.h"
 
 namespace datmo {
 

@@ -35,7 +35,8 @@ OccupancyMap::OccupancyMap(const Checked<OccupancyMapOptions>& options)
       hit_log_odds_(logOdds(options->hit_probability)),
       free_log_odds_(logOdds(options->free_probability)),
       log_odds_limit_(-logOdds(options->min_probability)),
-      cells_(options->window.window(), Cell{}) {}
+      cells_(options->window.window(), Cell{}),
+      outside_(options->max_tiles, Cell{}) {}
 
 bool OccupancyMap::isStatic(const Cell& cell) const {
   return hasSurface(cell) && maturity(cell) >= 1.0 &&
@@ -277,7 +278,7 @@ std::vector<std::int8_t> OccupancyMap::occupancyImage() const {
   for (int row = corner.row; row < corner.row + window().rows; ++row) {
     for (int column = corner.column; column < corner.column + window().columns; ++column) {
       const Cell& cell = cells_.at({column, row});
-      image.push_back(cell.updated == 0
+      image.push_back(!isKnown(cell)
                           ? kNothingKnown
                           : static_cast<std::int8_t>(std::lround(100.0F * cell.occupancy)));
     }

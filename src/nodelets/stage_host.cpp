@@ -17,18 +17,20 @@ constexpr double kPollPeriod = 0.02;
 
 StageHost::StageHost(ros::NodeHandle node, ros::NodeHandle private_node, Stage& stage,
                      StageMonitor& monitor, TransformBuffer* transforms, double silence_after)
-    : node_(std::move(node)), stage_(stage), monitor_(monitor) {
+    : node_(std::move(node)),
+      private_node_(std::move(private_node)),
+      stage_(stage),
+      monitor_(monitor) {
   stage_.connect(*this);
   const auto resolved = [this](const std::string& topic) { return node_.resolveName(topic); };
   const StageTopics topics = topicsOf(inputs_, outputs_, resolved);
   if (!stage_.live().empty()) {
     live_ = std::make_unique<LiveServer>(
-        private_node, [this] { return stage_.live(); },
+        private_node_, [this] { return stage_.live(); },
         [this](const OptionValues& values) { stage_.change(values); });
   }
-  reporter_ =
-      std::make_unique<StageReporter>(node_, std::move(private_node), monitor_,
-                                      watchedInputs(inputs_, resolved), topics, silence_after);
+  reporter_ = std::make_unique<StageReporter>(
+      node_, private_node_, monitor_, watchedInputs(inputs_, resolved), topics, silence_after);
   if (transforms != nullptr) {
     transforms_ = std::make_unique<TransformSubscription>(node_, *transforms, monitor_,
                                                           [this] { publishReady(); });
@@ -58,6 +60,10 @@ StageOutput::Publish StageHost::addOutput(StageOutput output) {
           publishTiming();
         }
       };
+}
+
+void StageHost::addService(StageService service) {
+  services_.push_back(service.advertise(private_node_));
 }
 
 void StageHost::subscribe(const StageInput& input) {

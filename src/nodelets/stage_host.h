@@ -29,6 +29,7 @@ class StageHost : private StagePorts {
  private:
   void addInput(StageInput input) override;
   StageOutput::Publish addOutput(StageOutput output) override;
+  void addService(StageService service) override;
 
   void subscribe(const StageInput& input);
   void publishReady();
@@ -36,6 +37,7 @@ class StageHost : private StagePorts {
   void publishTiming();
 
   ros::NodeHandle node_;
+  ros::NodeHandle private_node_;
   Stage& stage_;
   StageMonitor& monitor_;
   std::vector<StageInput> inputs_;
@@ -45,6 +47,7 @@ class StageHost : private StagePorts {
   std::unique_ptr<LiveServer> live_;
   std::unique_ptr<TransformSubscription> transforms_;
   std::vector<ros::Subscriber> subscribers_;
+  std::vector<ros::ServiceServer> services_;
   ros::Timer timer_;
 };
 

@@ -2,6 +2,7 @@
 #include "datmo_fusion/slam/grid_slam.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "datmo_fusion/slam/motion_compensation.h"
@@ -231,6 +232,8 @@ SlamResult GridSlam::process(const Measurement& measurement) {
     leaveMapAfterGap(scan.stamp);
     map_.centerOn(filter_.pose().pose.position());
     scan = locate(measurement, result);
+  } else if (prior_map_) {
+    searchPriorMap(prior_map_->map, prior_map_->start, scan.stamp);
   }
   const PoseWithCovariance base_in_map = poseInFirstMap();
   const GridMaskedScan view = viewOf(measurement, scan);
@@ -250,6 +253,7 @@ SlamResult GridSlam::process(const Measurement& measurement) {
   }
   result.odometry_errors = filter_.errors();
   result.localization = recovery_ ? recovery_->state() : Localization::kLocated;
+  result.searches_prior_map = recovery_ && recovery_->isInPriorMap();
   removeConflictingBeams(scan, view, own, states);
   if (recovery_) {
     std::replace(states.begin(), states.end(), PointState::kMoving, PointState::kUnknown);
@@ -261,6 +265,10 @@ SlamResult GridSlam::process(const Measurement& measurement) {
   return result;
 }
 
-void GridSlam::reset() { *this = GridSlam(options_); }
+void GridSlam::reset() {
+  GridSlam anew(options_);
+  anew.prior_map_ = prior_map_;
+  *this = std::move(anew);
+}
 
 }  // namespace datmo

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What GridSlam does about gaps.
+// What GridSlam does about gaps, and about prior maps.
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
@@ -21,6 +23,13 @@ constexpr double kOdometryDelay = 0.6;
 
 /// Of the pose at which a map begins (m^2, rad^2): for matches it may not be 0.
 constexpr double kStartVariance = 1e-6;
+
+/// Of the window in which a prior map is searched: about 250 MB.
+constexpr std::size_t kMaxSearchedCells = 4'000'000;
+
+Eigen::Matrix3d startCovariance() {
+  return Eigen::Vector3d(kStartVariance, kStartVariance, kStartVariance).asDiagonal();
+}
 
 /// Weight of the newest interval in their mean.
 constexpr double kIntervalShare = 0.1;
@@ -65,6 +74,11 @@ void GridSlam::leaveMapAfterGap(Stamp stamp) {
     return;
   }
   const PoseWithCovariance prior = filter_.pose();
+  if (recovery_ && recovery_->isInPriorMap()) {
+    const SearchRegion region = recovery_->regionOf(prior);
+    searchPriorMap(recovery_->takeOlder(), region, stamp);
+    return;
+  }
   if (recovery_) {
     recovery_.emplace(options_.recovery, recovery_->takeOlder(), recovery_->inOlder(prior), stamp);
   } else {
@@ -75,8 +89,26 @@ void GridSlam::leaveMapAfterGap(Stamp stamp) {
     recovery_.emplace(options_.recovery, std::move(map_), prior, stamp);
   }
   map_ = OccupancyMap(options_.map);
-  filter_.restartAt(
-      {prior.pose, Eigen::Vector3d(kStartVariance, kStartVariance, kStartVariance).asDiagonal()});
+  filter_.restartAt({prior.pose, startCovariance()});
+}
+
+void GridSlam::startIn(PriorMap prior_map) {
+  const GridWindow all = prior_map.map.extent();
+  if (rowMajorSize(all.columns, all.rows) > kMaxSearchedCells) {
+    throw std::invalid_argument("a map of " + std::to_string(all.columns) + " x " +
+                                std::to_string(all.rows) + " cells: expected " +
+                                std::to_string(kMaxSearchedCells) + " cells at most");
+  }
+  prior_map.map.setWindow(all);
+  prior_map_ = std::make_shared<const PriorMap>(std::move(prior_map));
+}
+
+void GridSlam::searchPriorMap(OccupancyMap whole, const SearchRegion& region, Stamp stamp) {
+  recovery_.emplace(options_.recovery, std::move(whole), region, stamp);
+  map_ = OccupancyMap(options_.map);
+  filter_.restartAt({recovery_->start().pose, startCovariance()});
+  map_.centerOn(filter_.pose().pose.position());
+  anchor_ = {};
 }
 
 void GridSlam::undoGapForOdometry(Stamp stamp) {
@@ -98,6 +130,9 @@ void GridSlam::undoGapForOdometry(Stamp stamp) {
 
 void GridSlam::returnToMap() {
   map_ = recovery_->takeOlder();
+  if (recovery_->isInPriorMap()) {
+    map_.setWindow(options_.map.window.window());
+  }
   recovery_.reset();
 }
 
@@ -108,7 +143,12 @@ void GridSlam::recover(Stamp stamp) {
   if (const auto found = recovery_->advance(map_, filter_.pose(), stamp)) {
     returnToMap();
     filter_.restartAt(*found);
+    map_.centerOn(found->pose.position());
     anchor_ = {};  // of the newer map's frame
+  } else if (recovery_->isOver(stamp) && prior_map_) {
+    OccupancyMap whole = recovery_->takeOlder();
+    whole.setWindow(whole.extent());
+    recovery_.emplace(options_.recovery, std::move(whole), SearchRegion{{}, true}, stamp);
   } else if (recovery_->isOver(stamp)) {
     const PoseWithCovariance origin = recovery_->inOlder({Pose2(), Eigen::Matrix3d::Zero()});
     frame_covariance_ += origin.covariance;

@@ -8,6 +8,14 @@
 
 namespace datmo {
 
+namespace {
+
+/// Two searches that find the vehicle this near to each other (m, rad) have found the same place.
+constexpr double kSamePosition = 0.8;
+constexpr double kSameHeading = degrees(4.0);
+
+}  // namespace
+
 void MapRecoveryOptions::visit(OptionVisitor& visitor) {
   visitor.number(
       {"from_position_sigma", "m",
@@ -29,6 +37,14 @@ void MapRecoveryOptions::visit(OptionVisitor& visitor) {
   visitor.integer({"boxes_per_scan", "1", "of poses that a search looks at, at the most"},
                   boxes_per_scan, {1, 1000000});
   visitor.group("search", [&] { search.visit(visitor); });
+  visitor.integer({"prior_boxes_per_scan", "1", "the same of a search in a prior map"},
+                  prior_boxes_per_scan, {1, 10000000});
+  visitor.number({"confirmed_after", "m",
+                  "a place in a prior map is taken when it is found again after this distance"},
+                 confirmed_after, {0.0, 1000.0});
+  visitor.number({"confirmed_after_turn", "rad", "or after this turn"}, confirmed_after_turn,
+                 {0.0, kPi});
+  visitor.group("prior_search", [&] { prior_search.visit(visitor); });
 }
 
 Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Point2& arm) {
@@ -51,6 +67,16 @@ MapRecovery::MapRecovery(const Checked<MapRecoveryOptions>& options, OccupancyMa
   state_ = is_searchable_ ? Localization::kUncertain : Localization::kLost;
 }
 
+MapRecovery::MapRecovery(const Checked<MapRecoveryOptions>& options, OccupancyMap prior_map,
+                         const SearchRegion& region, Stamp stamp)
+    : options_(*options),
+      older_(std::move(prior_map)),
+      start_(priorOf(region, older_.window())),
+      begun_(stamp),
+      next_search_(stamp + options->first_search_after),
+      state_(region.anywhere ? Localization::kLost : Localization::kUncertain),
+      region_(region) {}
+
 PoseWithCovariance MapRecovery::inOlder(const PoseWithCovariance& in_newer) const {
   const Point2 arm = in_newer.pose.position() - start_.pose.position();
   return {in_newer.pose, in_newer.covariance + carried(start_.covariance, arm)};
@@ -59,8 +85,32 @@ PoseWithCovariance MapRecovery::inOlder(const PoseWithCovariance& in_newer) cons
 void MapRecovery::beginSearch(const OccupancyMap& newer, const PoseWithCovariance& in_newer,
                               Stamp stamp) {
   searched_from_ = in_newer.pose;
-  search_.emplace(options_.search, older_, newer, inOlder(in_newer), in_newer.pose);
+  search_.emplace(isInPriorMap() ? options_.prior_search : options_.search, older_, newer,
+                  regionOf(in_newer), in_newer.pose);
   next_search_ = stamp + options_.search_period;
+}
+
+SearchRegion MapRecovery::regionOf(const PoseWithCovariance& in_newer) const {
+  return {inOlder(in_newer), isInPriorMap() && region_->anywhere};
+}
+
+bool MapRecovery::confirms(const PoseWithCovariance& found) {
+  if (!isInPriorMap()) {
+    return true;
+  }
+  if (candidate_) {
+    const Pose2 since = candidate_->in_newer.inverse() * searched_from_;
+    const Pose2 expected = candidate_->in_older * since;
+    const bool same =
+        (expected.position() - found.pose.position()).norm() <= kSamePosition &&
+        std::abs(angleBetween(expected.heading(), found.pose.heading())) <= kSameHeading;
+    if (same) {
+      return since.position().norm() >= options_.confirmed_after ||
+             std::abs(since.heading()) >= options_.confirmed_after_turn;
+    }
+  }
+  candidate_ = Candidate{found.pose, searched_from_};
+  return false;
 }
 
 std::optional<PoseWithCovariance> MapRecovery::advance(const OccupancyMap& newer,
@@ -72,20 +122,24 @@ std::optional<PoseWithCovariance> MapRecovery::advance(const OccupancyMap& newer
   if (!search_) {
     return std::nullopt;
   }
-  const MapSearch::Outcome outcome = search_->advance(options_.boxes_per_scan);
+  const MapSearch::Outcome outcome =
+      search_->advance(isInPriorMap() ? options_.prior_boxes_per_scan : options_.boxes_per_scan);
   if (outcome == MapSearch::Outcome::kUnfinished) {
     return std::nullopt;
   }
   std::optional<PoseWithCovariance> found;
-  if (outcome == MapSearch::Outcome::kFound) {
+  if (outcome != MapSearch::Outcome::kFound) {
+    candidate_.reset();
+  } else if (const PoseWithCovariance then = search_->found(); confirms(then)) {
     // The vehicle has moved since the search began.
-    const PoseWithCovariance then = search_->found();
     const Pose2 since = searched_from_.inverse() * in_newer.pose;
     const Pose2 now = then.pose * since;
     found =
         PoseWithCovariance{now, carried(then.covariance, now.position() - then.pose.position())};
   }
-  state_ = outcome == MapSearch::Outcome::kNone ? Localization::kLost : Localization::kUncertain;
+  const bool is_lost =
+      outcome == MapSearch::Outcome::kNone || (isInPriorMap() && region_->anywhere);
+  state_ = is_lost ? Localization::kLost : Localization::kUncertain;
   search_.reset();
   return found;
 }

@@ -18,22 +18,33 @@ constexpr double kGate = 3.5;
 constexpr double kLeafPosition = 0.15;
 constexpr double kLeafHeading = degrees(0.6);
 
-/// Hypotheses this near to the best one (m, rad) are one: a match finds the pose from there.
+/// Where hypotheses are told from each other by what is missing, a box's center must stand for all
+/// of it, and boxes are split until they are so much smaller.
+constexpr double kFineLeaf = 0.5;
+
+/// Hypotheses this near to the best one (m, rad) are one: a match finds the pose from there, or one
+/// from the start of a map, of which little is known yet.
 constexpr double kTogetherPosition = 1.5;
 constexpr double kTogetherHeading = degrees(5.0);
+constexpr double kTogetherHeadingAtStart = degrees(12.0);
 
 /// Of what the prior leaves out: the older map's own error (m, rad).
 constexpr double kMapSigma = 0.3;
 constexpr double kMapHeadingSigma = degrees(1.0);
 
-/// Surfaces of a map that are compared at the most.
+/// Surfaces of a map that are compared at the most, and of all of a map, where it is searched.
 constexpr std::size_t kMaxSurfaces = 250;
+constexpr std::size_t kMaxSurfacesOfAll = 4000;
+
+constexpr double kAllOfIt = std::numeric_limits<double>::infinity();
 
 /// Of a cell of which nothing is known.
 constexpr double kUnknownOccupancy = 0.5;
 
-/// Two maps have the same surface in cells that are neighbors, at the most.
+/// Two maps have the same surface in cells that are neighbors, at the most; but in no finer ones
+/// than a box that is not split any more.
 constexpr double kToleranceCells = 1.5;
+constexpr double kMinTolerance = 0.2;  // m
 
 /// Distances to what is not free. Unknown cells between free ones are: beams far away are further
 /// apart than cells.
@@ -65,36 +76,17 @@ DistanceField surfacesIn(const OccupancyMap& map) {
 
 }  // namespace
 
-void MapSearchOptions::visit(OptionVisitor& visitor) {
-  visitor.number({"changed_share", "1",
-                  "mean share of surfaces of one map that another one of the same place, made a "
-                  "short time later, contradicts"},
-                 changed_share, {0.001, 1.0});
-  visitor.number(
-      {"max_log_ratio", "1", "hypotheses live up to this log-likelihood ratio to the best one"},
-      max_log_ratio, {0.0, 1000.0});
-  visitor.number({"max_changed_share", "1", "no pose that is contradicted by more is found"},
-                 max_changed_share, {0.0, 1.0});
-  visitor.number({"min_shared", "1", "share of surfaces that both maps have, at the pose found"},
-                 min_shared, {0.0, 1.0});
-  visitor.integer({"min_surfaces", "1", "static cells of the newer map with which it is searched"},
-                  min_surfaces, {1, 1000000});
-  visitor.number({"reach", "m", "surfaces up to here are compared"}, reach, {1.0, 1000.0});
-  visitor.integer({"max_boxes", "1", "boxes of poses after which a search ends as ambiguous"},
-                  max_boxes, {1, 100000000});
-}
-
 MapSearch::Surfaces MapSearch::thinnedOut(const std::vector<Point2>& positions,
-                                          const Point2& vehicle, double reach) {
+                                          const Circle& within, std::size_t max) {
   std::vector<Surface> near;
   for (const Point2& position : positions) {
-    const double distance = (position - vehicle).norm();
-    if (distance <= reach) {
+    const double distance = (position - within.center).norm();
+    if (distance <= within.radius) {
       near.push_back({position, distance});
     }
   }
   Surfaces surfaces;
-  const std::size_t kept = std::min(near.size(), kMaxSurfaces);
+  const std::size_t kept = std::min(near.size(), max);
   for (std::size_t i = 0; i < kept; ++i) {
     surfaces.all.push_back(near[i * near.size() / kept]);
   }
@@ -103,21 +95,23 @@ MapSearch::Surfaces MapSearch::thinnedOut(const std::vector<Point2>& positions,
 }
 
 MapSearch::MapSearch(const Checked<MapSearchOptions>& options, const OccupancyMap& older,
-                     const OccupancyMap& newer, const PoseWithCovariance& prior,
-                     const Pose2& in_newer)
+                     const OccupancyMap& newer, const SearchRegion& region, const Pose2& in_newer)
     : options_(*options),
       older_free_(freeSpaceOf(older)),
       newer_free_(freeSpaceOf(newer)),
       older_surface_(surfacesIn(older)),
-      prior_(prior),
+      prior_(priorOf(region, older.window())),
+      anywhere_(region.anywhere),
       in_newer_(in_newer),
-      tolerance_(kToleranceCells * older.window().cell_size),
-      newer_(thinnedOut(newer.staticSurfaces(), in_newer.position(), options->reach)),
-      older_(thinnedOut(older.staticSurfaces(), prior.pose.position(), options->reach)) {
-  prior_.covariance += Eigen::Vector3d(kMapSigma * kMapSigma, kMapSigma * kMapSigma,
-                                       kMapHeadingSigma * kMapHeadingSigma)
-                           .asDiagonal();
-  whitening_ = prior_.covariance.llt().matrixL().solve(Eigen::Matrix3d::Identity());
+      leaf_((options->missing_share > 0.0 ? kFineLeaf : 1.0) *
+            Eigen::Vector3d(kLeafPosition, kLeafPosition, kLeafHeading)),
+      tolerance_(std::max(kMinTolerance, kToleranceCells * older.window().cell_size)),
+      newer_(
+          thinnedOut(newer.staticSurfaces(), {in_newer.position(), options->reach}, kMaxSurfaces)),
+      older_(anywhere_ ? thinnedOut(older.staticSurfaces(), {prior_.pose.position(), kAllOfIt},
+                                    kMaxSurfacesOfAll)
+                       : thinnedOut(older.staticSurfaces(),
+                                    {prior_.pose.position(), options->reach}, kMaxSurfaces)) {
   for (Surface& surface : newer_.all) {
     surface.position = in_newer.inverse() * surface.position;
   }
@@ -125,10 +119,24 @@ MapSearch::MapSearch(const Checked<MapSearchOptions>& options, const OccupancyMa
     outcome_ = Outcome::kAmbiguous;
     return;
   }
+  open(anywhere_ ? wholeWindow(older.window()) : withinPrior());
+}
+
+MapSearch::Box MapSearch::withinPrior() {
+  prior_.covariance += Eigen::Vector3d(kMapSigma * kMapSigma, kMapSigma * kMapSigma,
+                                       kMapHeadingSigma * kMapHeadingSigma)
+                           .asDiagonal();
+  whitening_ = prior_.covariance.llt().matrixL().solve(Eigen::Matrix3d::Identity());
   Box all;
   all.half = kGate * prior_.covariance.diagonal().cwiseSqrt();
   all.half[2] = std::min(all.half[2], kPi);
-  open(all);
+  return all;
+}
+
+MapSearch::Box MapSearch::wholeWindow(const GridWindow& window) {
+  Box all;
+  all.half = {0.5 * window.cell_size * window.columns, 0.5 * window.cell_size * window.rows, kPi};
+  return all;
 }
 
 Pose2 MapSearch::poseOf(const Box& box) const {
@@ -136,53 +144,18 @@ Pose2 MapSearch::poseOf(const Box& box) const {
           prior_.pose.heading() + box.offset[2]};
 }
 
-double MapSearch::priorCost(const Box& box) const {
-  double reach = 0.0;
-  for (const double x : {-1.0, 1.0}) {
-    for (const double y : {-1.0, 1.0}) {
-      const Eigen::Vector3d corner(x * box.half[0], y * box.half[1], box.half[2]);
-      reach = std::max(reach, (whitening_ * corner).norm());
-    }
-  }
-  const double distance = std::max(0.0, (whitening_ * box.offset).norm() - reach);
-  return 0.5 * distance * distance;
-}
-
-double MapSearch::contradictedShare(const Box& box) const {
-  const Pose2 pose = poseOf(box);
-  const double moves = tolerance_ + box.half.head<2>().norm();
-  const double turns = box.half[2];
-  const Eigen::Matrix2d to_older = pose.rotation();
-  int contradicted_newer = 0;
-  for (const Surface& surface : newer_.all) {
-    const double depth = older_free_.at(pose.position() + to_older * surface.position);
-    contradicted_newer += depth > moves + turns * surface.distance ? 1 : 0;
-  }
-  const Pose2 to_newer = in_newer_ * pose.inverse();
-  const Eigen::Matrix2d rotation = to_newer.rotation();
-  const double shift = box.offset.head<2>().norm() + box.half.head<2>().norm();
-  int contradicted_older = 0;
-  for (const Surface& surface : older_.all) {
-    const double depth = newer_free_.at(to_newer.position() + rotation * surface.position);
-    contradicted_older += depth > moves + turns * (surface.distance + shift) ? 1 : 0;
-  }
-  return (newer_.weight * contradicted_newer + older_.weight * contradicted_older) /
-         (newer_.weight * static_cast<double>(newer_.all.size()));
-}
-
 void MapSearch::open(Box box) {
   ++looked_at_;
   box.contradicted = contradictedShare(box);
-  box.cost = priorCost(box) + box.contradicted / options_.changed_share;
+  box.cost = costOf(box);
   if (leaves_.empty() || box.cost <= leaves_.front().cost + options_.max_log_ratio) {
     open_.push(box);
   }
 }
 
 void MapSearch::split(const Box& box) {
-  const Eigen::Vector3d leaves(kLeafPosition, kLeafPosition, kLeafHeading);
   int axis = 0;
-  box.half.cwiseQuotient(leaves).maxCoeff(&axis);
+  box.half.cwiseQuotient(leaf_).maxCoeff(&axis);
   for (const double side : {-0.5, 0.5}) {
     Box part = box;
     part.half[axis] *= 0.5;
@@ -191,9 +164,12 @@ void MapSearch::split(const Box& box) {
   }
 }
 
-bool MapSearch::isLeaf(const Box& box) {
-  return box.half[0] <= kLeafPosition && box.half[1] <= kLeafPosition &&
-         box.half[2] <= kLeafHeading;
+bool MapSearch::isLeaf(const Box& box) const { return (box.half.array() <= leaf_.array()).all(); }
+
+Eigen::Vector3d MapSearch::between(const Box& from, const Box& to) {
+  Eigen::Vector3d apart = to.offset - from.offset;
+  apart[2] = angleBetween(from.offset[2], to.offset[2]);
+  return apart;
 }
 
 MapSearch::Outcome MapSearch::takeLeaf(const Box& leaf) {
@@ -201,20 +177,11 @@ MapSearch::Outcome MapSearch::takeLeaf(const Box& leaf) {
     return Outcome::kNone;
   }
   leaves_.push_back(leaf);
-  const Eigen::Vector3d apart = leaf.offset - leaves_.front().offset;
+  const Eigen::Vector3d apart = between(leaves_.front(), leaf);
+  const double max_turn = options_.missing_share > 0.0 ? kTogetherHeadingAtStart : kTogetherHeading;
   const bool together =
-      apart.head<2>().norm() <= kTogetherPosition && std::abs(apart[2]) <= kTogetherHeading;
+      apart.head<2>().norm() <= kTogetherPosition && std::abs(apart[2]) <= max_turn;
   return together ? Outcome::kUnfinished : Outcome::kAmbiguous;
-}
-
-double MapSearch::sharedAt(const Pose2& pose) const {
-  const Eigen::Matrix2d rotation = pose.rotation();
-  int shared = 0;
-  for (const Surface& surface : newer_.all) {
-    const double distance = older_surface_.at(pose.position() + rotation * surface.position);
-    shared += distance <= tolerance_ ? 1 : 0;
-  }
-  return static_cast<double>(shared) / static_cast<double>(newer_.all.size());
 }
 
 MapSearch::Outcome MapSearch::conclude() const {
@@ -255,16 +222,20 @@ MapSearch::Outcome MapSearch::advance(int boxes) {
 }
 
 PoseWithCovariance MapSearch::found() const {
-  // The one on most surfaces, of those that live.
-  const Box* best = &leaves_.front();
-  double best_shared = 0.0;
-  for (const Box& leaf : leaves_) {
-    const double shared = sharedAt(poseOf(leaf));
-    if (shared > best_shared) {
-      best_shared = shared;
-      best = &leaf;
+  // The one whose surfaces are nearest to those of the older map, of those that live: what counts
+  // as the same surface is wider than what a match finds.
+  const auto distance_of = [this](const Box& leaf) {
+    const Pose2 pose = poseOf(leaf);
+    const Eigen::Matrix2d rotation = pose.rotation();
+    double sum = 0.0;
+    for (const Surface& surface : newer_.all) {
+      sum += std::min(tolerance_, older_surface_.at(pose.position() + rotation * surface.position));
     }
-  }
+    return sum;
+  };
+  const auto best =
+      std::min_element(leaves_.begin(), leaves_.end(),
+                       [&](const Box& a, const Box& b) { return distance_of(a) < distance_of(b); });
   PoseWithCovariance found{poseOf(*best), {}};
   found.covariance = Eigen::Vector3d(kMapSigma * kMapSigma, kMapSigma * kMapSigma,
                                      kMapHeadingSigma * kMapHeadingSigma)
@@ -273,7 +244,7 @@ PoseWithCovariance MapSearch::found() const {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Box& leaf : leaves_) {
     const double weight = std::exp(leaves_.front().cost - leaf.cost);
-    const Eigen::Vector3d apart = leaf.offset - best->offset;
+    const Eigen::Vector3d apart = between(*best, leaf);
     spread += weight * apart * apart.transpose();
     sum += weight;
   }

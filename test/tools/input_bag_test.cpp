@@ -10,7 +10,6 @@
 #include "bag_fault.h"
 #include "output_bag.h"
 #include "raw_message.h"
-#include "whole_file.h"
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -18,6 +17,8 @@
 #include <nav_msgs/OccupancyGrid.h>
 #include <rosbag/view.h>
 #include <std_msgs/String.h>
+
+#include "datmo_fusion/ros/whole_file.h"
 
 namespace datmo::input_bag_test {
 namespace {

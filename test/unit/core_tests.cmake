@@ -103,6 +103,7 @@ datmo_fusion_add_core_test(grid
   grid/distance_field_test.cpp
   grid/grid_resampling_test.cpp
   grid/hit_grid_test.cpp
+  grid/map_evidence_test.cpp
   grid/map_surface_test.cpp
   grid/map_update_test.cpp
   grid/neighborhood_test.cpp
@@ -139,6 +140,7 @@ datmo_fusion_add_core_test(slam
   slam/odometry_poses_test.cpp
   slam/pose_filter_test.cpp
   slam/pose_motion_test.cpp
+  slam/prior_map_test.cpp
   slam/scan_matcher_test.cpp
   slam/static_scan_test.cpp
   slam/twist_gate_test.cpp

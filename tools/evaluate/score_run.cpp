@@ -11,7 +11,8 @@
 #include "evaluate/run_score.h"
 #include "evaluate/scan_loading.h"
 #include "evaluate/score_json.h"
-#include "whole_file.h"
+
+#include "datmo_fusion/ros/whole_file.h"
 
 namespace datmo::evaluation {
 

@@ -10,7 +10,8 @@
 #include "kitti_tracking/run_arguments.h"
 #include "kitti_tracking/sequence_folders.h"
 #include "kitti_tracking/sequence_run.h"
-#include "whole_file.h"
+
+#include "datmo_fusion/ros/whole_file.h"
 
 namespace {
 

@@ -10,7 +10,8 @@
 #include "kitti_tracking/sequence_folders.h"
 #include "kitti_tracking/tracking_evaluation.h"
 #include "kitti_tracking/tracking_report.h"
-#include "whole_file.h"
+
+#include "datmo_fusion/ros/whole_file.h"
 
 namespace {
 

@@ -79,13 +79,16 @@ void switchOn(FusionLevel level, Arguments& arguments) {
 
 void checkOutputs(const Arguments& arguments) {
   std::vector<std::string> written;
-  for (const std::string& file : {arguments.output, arguments.times, arguments.text.tum,
-                                  arguments.text.kitti, arguments.text.mot}) {
+  for (const std::string& file : {arguments.output, arguments.times, arguments.save_map,
+                                  arguments.text.tum, arguments.text.kitti, arguments.text.mot}) {
     if (file.empty()) {
       continue;
     }
     std::vector<std::string> inputs = arguments.presets;
     inputs.insert(inputs.end(), {arguments.input, arguments.config});
+    if (!arguments.map.empty()) {
+      inputs.push_back(arguments.map);
+    }
     for (const std::string& input : inputs) {
       if (isSameFile(file, input)) {
         throw UsageError("'" + input + "': the output must not be an input");
@@ -114,6 +117,14 @@ void checkStages(const Arguments& arguments) {
   }
 }
 
+void checkMaps(const Arguments& arguments) {
+  if (arguments.last_stage < LastStage::kGridSlam &&
+      !(arguments.map.empty() && arguments.save_map.empty())) {
+    throw UsageError((arguments.map.empty() ? "--save-map" : "--map") +
+                     std::string(": expected no --until before grid_slam"));
+  }
+}
+
 void checkStereo(const Arguments& arguments) {
   if (arguments.stereo_from_images && !arguments.low_level_fusion && !arguments.object_fusion &&
       !arguments.track_fusion) {
@@ -138,6 +149,19 @@ void addFiles(CommandLine& line, Arguments& arguments) {
                "the tracks as labels of KITTI's tracking benchmark", "TRACKS.txt");
   line.addFile("--mot", arguments.text.mot,
                "the tracks as MOT Challenge has them, on the ground plane", "TRACKS.txt");
+}
+
+void addMaps(CommandLine& line, Arguments& arguments) {
+  CLI::Option* map = line.addFile(
+      "--map", arguments.map,
+      "a map to start in: one of --save-map or save_map, or a yaml file of map_server", "MAP");
+  line.add_option("--start", arguments.start,
+                  "where in --map the vehicle about starts, m and degrees; without: anywhere")
+      ->option_text("X Y HEADING")
+      ->expected(3)
+      ->needs(map);
+  line.addFile("--save-map", arguments.save_map,
+               "the map at the end, and beside it .yaml and .pgm as map_server has them", "MAP");
 }
 
 void addStages(CommandLine& line, Arguments& arguments) {
@@ -210,6 +234,7 @@ Arguments parseArguments(std::vector<std::string> words) {
   CommandLine line("run_bag", kDescription, "bags");
   line.footer(kFooter);
   addFiles(line, arguments);
+  addMaps(line, arguments);
   addStages(line, arguments);
   line.add_flag("--stereo-from-images", arguments.stereo_from_images,
                 "computes the stereo camera's points from its images, as stereo_image_proc does;\n"
@@ -220,6 +245,7 @@ Arguments parseArguments(std::vector<std::string> words) {
   switchOn(arguments.fusion, arguments);
   checkOutputs(arguments);
   checkStages(arguments);
+  checkMaps(arguments);
   checkStereo(arguments);
   return arguments;
 }

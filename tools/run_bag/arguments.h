@@ -33,8 +33,11 @@ struct Arguments {
   bool risk = false;
   bool stereo_from_images = false;  ///< also where the bag has clouds
   bool write_grids = false;
-  std::string grid_rule;  ///< of fusion, in place of the yaml file's; empty: that one
-  std::string times;      ///< JSON file for the stages' times; empty: none
+  std::string grid_rule;      ///< of fusion, in place of the yaml file's; empty: that one
+  std::string map;            ///< file to start in; empty: none
+  std::vector<double> start;  ///< x, y (m), heading (degrees) in it, about; empty: anywhere
+  std::string save_map;       ///< file for the map at the end; empty: none
+  std::string times;          ///< JSON file for the stages' times; empty: none
   TextFiles text;
   std::map<std::string, std::string> remappings;  ///< our topic (`scan`) -> the input's
 

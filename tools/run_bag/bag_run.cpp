@@ -18,12 +18,13 @@
 #include "interruption.h"
 #include "output_bag.h"
 #include "progress_bar.h"
-#include "whole_file.h"
 
 #include <rosbag/view.h>
 
+#include "datmo_fusion/ros/stage/grid_slam_stage.h"
 #include "datmo_fusion/ros/stage/object_fusion_stage.h"
 #include "datmo_fusion/ros/stage/track_fusion_stage.h"
+#include "datmo_fusion/ros/whole_file.h"
 
 namespace datmo {
 
@@ -95,6 +96,15 @@ SensorSet readSensorsFor(const Arguments& arguments) {
       sensors.set("object_fusion", "sources/stereo/use", false);
     }
   }
+  if (!arguments.map.empty()) {
+    sensors.set("grid_slam", "prior_map/file", arguments.map);
+  }
+  if (!arguments.start.empty()) {
+    sensors.set("grid_slam", "prior_map/anywhere", false);
+    sensors.set("grid_slam", "prior_map/x", arguments.start[0]);
+    sensors.set("grid_slam", "prior_map/y", arguments.start[1]);
+    sensors.set("grid_slam", "prior_map/heading", degrees(arguments.start[2]));
+  }
   return sensors;
 }
 
@@ -134,6 +144,9 @@ void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progres
   }
   rosbag::Bag bag;
   openInput(arguments.input, bag);
+  if (!arguments.save_map.empty()) {
+    checkWritable(arguments.save_map);
+  }
   const InputTopics topics = findTopics(bag, arguments, sensors);
   OutputBag output(arguments.output);
   GraphRunner graph(sensors, switchesOf(arguments, sensors, topics),
@@ -154,6 +167,9 @@ void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progres
   checkResults(arguments, drive, graph);
   if (!arguments.times.empty()) {
     writeWholeFile(arguments.times, toJson(graph.times()));
+  }
+  if (!arguments.save_map.empty()) {
+    graph.stage<GridSlamStage>("grid_slam").saveMap(arguments.save_map);
   }
   run.text().write();
   output.finish();

@@ -197,6 +197,12 @@ bool GraphRunner::has(const std::string& stage) const {
                      [&stage](const Node& node) { return node.row.name == stage; });
 }
 
+const Stage& GraphRunner::stageNamed(const std::string& name) const {
+  return *std::find_if(nodes_.begin(), nodes_.end(), [&name](const Node& node) {
+            return node.row.name == name;
+          })->stage;
+}
+
 std::vector<const StageMonitor*> GraphRunner::monitors() const {
   std::vector<const StageMonitor*> monitors{&inputs_monitor_};
   for (const Node& node : nodes_) {

@@ -69,6 +69,12 @@ class GraphRunner {
 
   bool has(const std::string& stage) const;
 
+  /// The stage of this name, which there must be, and which must be of this type.
+  template <typename HostedStage>
+  const HostedStage& stage(const std::string& name) const {
+    return dynamic_cast<const HostedStage&>(stageNamed(name));
+  }
+
   const StageTimes& times() const { return times_; }
   std::vector<const StageMonitor*> monitors() const;
 
@@ -101,6 +107,7 @@ class GraphRunner {
   /// Which of the waiting messages comes first: by stage, input and age.
   using Turn = std::tuple<std::size_t, std::size_t, std::uint64_t>;
 
+  const Stage& stageNamed(const std::string& name) const;
   void addStage(const GraphStage& row, const SensorSet& sensors);
   bool isFromSlam(const geometry_msgs::TransformStamped& transform) const;
 

@@ -5,10 +5,9 @@
 #include <sstream>
 #include <utility>
 
-#include "whole_file.h"
-
 #include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/whole_file.h"
 
 namespace datmo {
 

@@ -28,6 +28,16 @@ class DistanceField {
                : outside_;
   }
 
+  /// m, no more than from `point` to a target that lies in the map's window: outside of that, as
+  /// far as it is to the window.
+  double atLeast(const Point2& point) const {
+    if (window_.contains(window_.cellAt(point))) {
+      return at(point);
+    }
+    const Point2 end = window_.origin() + window_.cell_size * Point2(window_.columns, window_.rows);
+    return (point - point.cwiseMax(window_.origin()).cwiseMin(end)).norm();
+  }
+
  private:
   GridWindow window_;
   double outside_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -9,10 +10,12 @@
 
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/scan.h"
+#include "datmo_fusion/grid/cell_evidence.h"
 #include "datmo_fusion/grid/grid_window_options.h"
 #include "datmo_fusion/grid/hit_distribution.h"
 #include "datmo_fusion/grid/rolling_grid.h"
 #include "datmo_fusion/grid/sensor_grid.h"
+#include "datmo_fusion/grid/tile_store.h"
 
 namespace datmo {
 
@@ -27,6 +30,7 @@ struct OccupancyMapOptions {
   double static_after = 0.8;      ///< s, between first and last hit of a static cell
   int static_neighborhood = 1;    ///< cells around an end point that vouch for it
   int ghost_after = 2;            ///< ends that others have refuted
+  int max_tiles = 2000;           ///< of 32 x 32 cells that are kept outside of the window
 
   void visit(OptionVisitor& visitor);
 };
@@ -56,6 +60,9 @@ struct GridUpdate {
 /// and a hit wins over a beam that passes (as in Cartographer, Hess et al. 2016). Where other
 /// sensors have refuted the scanner (curbs, paint on the road) it is remembered for when they look
 /// elsewhere.
+///
+/// What leaves the window is kept (TileStore) for evidence(). It comes back into the window only in
+/// a map that was restored: in one that is being made, the pose may have drifted since.
 class OccupancyMap {
  public:
   /// Throws OptionError, also for more cells than any memory holds.
@@ -64,7 +71,24 @@ class OccupancyMap {
   const GridWindow& window() const { return cells_.window(); }
 
   /// Moves the window with the vehicle (m, map frame).
-  void centerOn(const Point2& position) { cells_.centerOn(position); }
+  void centerOn(const Point2& position);
+
+  /// All that is known, within the window and outside of it.
+  MapEvidence evidence() const;
+
+  /// The smallest window that holds all that is known; of one cell if nothing is.
+  GridWindow extent() const;
+
+  /// A map of this evidence, whose cells have the size that the options say, with the window that
+  /// they say about the origin. Throws OptionError.
+  static OccupancyMap restored(const Checked<OccupancyMapOptions>& options,
+                               const MapEvidence& evidence);
+
+  /// The same knowledge through another window, of at least one cell and of the same cell size.
+  void setWindow(const GridWindow& window);
+
+  /// Tiles of 32 x 32 cells that evidence() lacks, since there was no room for them.
+  std::size_t forgottenTiles() const { return outside_.forgotten(); }
 
   /// Occupancy probability of a cell, 0 to 1; 0.5 where nothing is known.
   double occupancy(CellIndex cell) const {
@@ -116,10 +140,15 @@ class OccupancyMap {
     CellHits hits;
   };
 
+  static bool isKnown(const Cell& cell) { return cell.updated != 0; }
   static bool isOccupied(const Cell& cell) { return cell.log_odds > 0.0F; }
 
   /// Whether the hits in a cell stand for a surface.
   static bool hasSurface(const Cell& cell) { return isOccupied(cell) && cell.hits.count > 0.0F; }
+
+  /// `visit(CellIndex, const Cell&)` for each known cell, within the window and outside of it.
+  template <typename Visit>
+  void forEachKnown(Visit&& visit) const;
 
   void beginUpdate(Stamp stamp);
   void change(Cell& cell, float log_odds_step) const;
@@ -151,6 +180,8 @@ class OccupancyMap {
   float free_log_odds_;
   float log_odds_limit_;
   RollingGrid<Cell> cells_;
+  TileStore<Cell> outside_;
+  bool is_restored_ = false;
   std::uint32_t update_ = 0;
   std::optional<Stamp> first_stamp_;
   float now_ = 0.0F;  ///< s since the first update

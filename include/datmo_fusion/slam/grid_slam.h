@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "datmo_fusion/common/options.h"
@@ -39,6 +40,13 @@ struct SlamResult {
   OdometryErrors odometry_errors;  ///< as estimated so far
   Localization localization = Localization::kLocated;
   int maps_begun = 0;  ///< anew, since the vehicle was not found again in the map before
+  bool searches_prior_map = false;  ///< not located, and looked for in all or a part of that
+};
+
+/// A map that was made before, and where in it the vehicle may be when the first scan comes.
+struct PriorMap {
+  OccupancyMap map;
+  SearchRegion start;
 };
 
 /// Maximum-likelihood SLAM on a rolling occupancy grid (thesis 3.1.1, 3.3.1): predict with the
@@ -56,12 +64,20 @@ struct SlamResult {
 /// is always that in the first map's frame: what a gap left open stays in it until it is found.
 /// While the vehicle is not located, nothing is said to move.
 ///
-/// Map frame: the vehicle's first pose is its origin. Not thread safe; scans in rising stamp order,
-/// which the caller ensures (StampGate).
+/// With a prior map the vehicle is searched for in it first, in the same way; it then goes on in
+/// that map. If it gets lost later, all of the prior map is searched, and no new map takes its
+/// place.
+///
+/// Map frame: the prior map's; without one the vehicle's first pose is its origin. Not thread safe;
+/// scans in rising stamp order, which the caller ensures (StampGate).
 class GridSlam {
  public:
   /// Throws OptionError.
   explicit GridSlam(const Checked<GridSlamOptions>& options);
+
+  /// To be called before the first scan; reset() goes back to here. Throws std::invalid_argument
+  /// for a map that reaches over more cells than can be searched.
+  void startIn(PriorMap prior_map);
 
   /// Odometry in rising stamp order; it may come before or after the scans that it serves. Only a
   /// bounded time of it is kept: while scans fail for longer, the pose goes on with it.
@@ -76,6 +92,9 @@ class GridSlam {
   SlamResult process(const SensorGrid& grid, const Scan& scan);
 
   const OccupancyMap& map() const { return map_; }
+
+  /// The map to keep: while the vehicle is not located, the one in which it was.
+  const OccupancyMap& lastingMap() const { return recovery_ ? recovery_->older() : map_; }
 
   /// Forgets everything, as after construction.
   void reset();
@@ -101,6 +120,10 @@ class GridSlam {
   /// beams that go all round, such errors never fade. So the scan is compensated again for the
   /// motion that its own match gives.
   Scan locate(const Measurement& measurement, SlamResult& result);
+
+  /// Leaves the map alone and begins a new one, by which the vehicle is searched for in a prior
+  /// map.
+  void searchPriorMap(OccupancyMap whole, const SearchRegion& region, Stamp stamp);
 
   /// If the last scan is long ago, and the pose much less certain than then: begins a new map.
   void leaveMapAfterGap(Stamp stamp);
@@ -139,6 +162,7 @@ class GridSlam {
   std::optional<LastScan> before_gap_;  ///< while odometry may still come for it
   Stamp gap_end_;                       ///< of the first scan behind that gap
   std::optional<MapRecovery> recovery_;
+  std::shared_ptr<const PriorMap> prior_map_;  ///< its window holds all that is known
   /// Of the map's frame in that of the first map, about the origin.
   Eigen::Matrix3d frame_covariance_ = Eigen::Matrix3d::Zero();
   int maps_begun_ = 0;

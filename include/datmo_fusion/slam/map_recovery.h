@@ -30,6 +30,10 @@ struct MapRecoveryOptions {
   double lost_from_sigma = 15.0;             ///< m
   int boxes_per_scan = 600;
   MapSearchOptions search;
+  int prior_boxes_per_scan = 40000;
+  double confirmed_after = 0.5;       ///< m
+  double confirmed_after_turn = 0.5;  ///< rad
+  MapSearchOptions prior_search = MapSearchOptions::inCompleteMap();
 
   void visit(OptionVisitor& visitor);
 };
@@ -42,6 +46,11 @@ Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Point2& arm);
 /// prior. Scans then build a newer map, which begins at the prior's mean, and the older one is left
 /// as it was; it is searched for the newer one, again and again as that grows, until there is one
 /// answer, or it is time to go on with the newer map alone.
+///
+/// The same localizes the vehicle in a prior map at the start, within a guess or anywhere. There
+/// the newer map is never taken for it, and what was found is confirmed: rooms that look alike from
+/// one place differ some way on. Only when a second search, by what was seen up to
+/// `confirmed_after` or `confirmed_after_turn` later, finds the same place is it the place.
 class MapRecovery {
  public:
   /// `start`: the prior in the older map's frame, where the newer one begins at this stamp. Throws
@@ -49,8 +58,24 @@ class MapRecovery {
   MapRecovery(const Checked<MapRecoveryOptions>& options, OccupancyMap older,
               const PoseWithCovariance& start, Stamp stamp);
 
+  /// In a prior map: the vehicle may be in this region of it, and the newer map begins at the
+  /// region's mean.
+  MapRecovery(const Checked<MapRecoveryOptions>& options, OccupancyMap prior_map,
+              const SearchRegion& region, Stamp stamp);
+
+  /// The mean of where the newer map begins, in the older one.
+  const PoseWithCovariance& start() const { return start_; }
+
+  /// Whether the older map is a prior one.
+  bool isInPriorMap() const { return region_.has_value(); }
+
+  const OccupancyMap& older() const { return older_; }
+
   /// A pose of the newer map with what is not known of that map itself.
   PoseWithCovariance inOlder(const PoseWithCovariance& in_newer) const;
+
+  /// Where that may be in the older map.
+  SearchRegion regionOf(const PoseWithCovariance& in_newer) const;
 
   /// After each scan: goes on with the search. Returns the vehicle's pose in the older map once it
   /// is found.
@@ -58,7 +83,9 @@ class MapRecovery {
                                             const PoseWithCovariance& in_newer, Stamp stamp);
 
   /// Whether the newer map is to be the map from now on.
-  bool isOver(Stamp stamp) const { return secondsBetween(begun_, stamp) > options_.give_up_after; }
+  bool isOver(Stamp stamp) const {
+    return !isInPriorMap() && secondsBetween(begun_, stamp) > options_.give_up_after;
+  }
 
   Localization state() const { return state_; }
 
@@ -67,6 +94,8 @@ class MapRecovery {
 
  private:
   void beginSearch(const OccupancyMap& newer, const PoseWithCovariance& in_newer, Stamp stamp);
+  /// Whether an earlier search has found the same place from another one.
+  bool confirms(const PoseWithCovariance& found);
 
   MapRecoveryOptions options_;
   OccupancyMap older_;
@@ -76,7 +105,15 @@ class MapRecovery {
   bool is_searchable_ = true;  ///< the prior is not too wide
   Localization state_ = Localization::kUncertain;
   std::optional<MapSearch> search_;
-  Pose2 searched_from_;  ///< where in the newer map the search is about
+  Pose2 searched_from_;                 ///< where in the newer map the search is about
+  std::optional<SearchRegion> region_;  ///< of a prior map
+
+  /// What a search has found that none has confirmed yet.
+  struct Candidate {
+    Pose2 in_older;
+    Pose2 in_newer;
+  };
+  std::optional<Candidate> candidate_;
 };
 
 }  // namespace datmo

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <queue>
 #include <vector>
 
@@ -9,17 +10,22 @@
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/grid/distance_field.h"
 #include "datmo_fusion/grid/occupancy_map.h"
+#include "datmo_fusion/slam/search_region.h"
 
 namespace datmo {
 
 struct MapSearchOptions {
   double changed_share = 0.03;      ///< of the surfaces
+  double missing_share = 0.0;       ///< of the surfaces; 0: what is missing counts nothing
   double max_log_ratio = 6.0;       ///< of two hypotheses that both live
   double max_changed_share = 0.15;  ///< of the surfaces
   double min_shared = 0.4;          ///< of the surfaces
   int min_surfaces = 60;            ///< cells
   double reach = 35.0;              ///< m
   int max_boxes = 60000;
+
+  /// For a search in a map of all of an area (a prior map), which lacks only what has changed.
+  static MapSearchOptions inCompleteMap();
 
   void visit(OptionVisitor& visitor);
 };
@@ -30,9 +36,11 @@ struct MapSearchOptions {
 /// other has seen free for a small share of them only. Any number of agreeing surfaces proves less,
 /// since parked cars repeat. So a hypothesis (a pose in the older map) has as negative
 /// log-likelihood its share of contradicted surfaces, exponentially distributed, and its distance
-/// from the prior; what either map does not know counts nothing. Hardly anything contradicts the
-/// true pose, so that it is among the hypotheses that live, within `max_log_ratio` of the best; it
-/// is found when all of them lie together, and else the result is ambiguous.
+/// from the prior; what either map does not know counts nothing. In a map of all of an area, too,
+/// what of the newer one's surfaces is missing does, with a share of its own (the score of Hess et
+/// al. 2016): else nothing would speak against the space outside of it. Hardly anything contradicts
+/// the true pose, so that it is among the hypotheses that live, within `max_log_ratio` of the best;
+/// it is found when all of them lie together, and else the result is ambiguous.
 ///
 /// Branch and bound (Olson 2009, 2015; Hess et al. 2016), best first: all poses of a box are
 /// contradicted by the surfaces that lie deeper in free space than the box can move them. The work
@@ -46,10 +54,10 @@ class MapSearch {
     kNone,        ///< none within the prior is
   };
 
-  /// The vehicle is at `in_newer` in the newer map, and by `prior` in the older one; its covariance
-  /// positive definite. Throws OptionError.
+  /// The vehicle is at `in_newer` in the newer map, and within `region` in the older one. Throws
+  /// OptionError.
   MapSearch(const Checked<MapSearchOptions>& options, const OccupancyMap& older,
-            const OccupancyMap& newer, const PoseWithCovariance& prior, const Pose2& in_newer);
+            const OccupancyMap& newer, const SearchRegion& region, const Pose2& in_newer);
 
   /// Looks at this many further boxes of poses at the most.
   Outcome advance(int boxes);
@@ -80,14 +88,27 @@ class MapSearch {
     double weight = 1.0;
   };
 
-  static Surfaces thinnedOut(const std::vector<Point2>& positions, const Point2& vehicle,
-                             double reach);
+  struct Circle {
+    Point2 center;
+    double radius;  ///< m
+  };
+
+  /// At most so many of the positions within a circle.
+  static Surfaces thinnedOut(const std::vector<Point2>& positions, const Circle& within,
+                             std::size_t max);
+  Box withinPrior();
+  static Box wholeWindow(const GridWindow& window);
   Pose2 poseOf(const Box& box) const;
   void open(Box box);
   void split(const Box& box);
-  static bool isLeaf(const Box& box);
+  bool isLeaf(const Box& box) const;
+  static Eigen::Vector3d between(const Box& from, const Box& to);
   double priorCost(const Box& box) const;
   double contradictedShare(const Box& box) const;
+  /// Surfaces of the older map that all poses of the box see through, at the least.
+  int seenThrough(const Box& box) const;
+  double missingShare(const Box& box) const;
+  double costOf(const Box& box) const;
   double sharedAt(const Pose2& pose) const;
   Outcome takeLeaf(const Box& leaf);
   Outcome conclude() const;
@@ -97,9 +118,11 @@ class MapSearch {
   DistanceField newer_free_;
   DistanceField older_surface_;  ///< to what is static
   PoseWithCovariance prior_;
+  bool anywhere_;
   Pose2 in_newer_;
-  Eigen::Matrix3d whitening_;  ///< of differences from the prior
-  double tolerance_;           ///< m, by which surfaces may be off
+  Eigen::Matrix3d whitening_ = Eigen::Matrix3d::Zero();  ///< of differences from the prior
+  Eigen::Vector3d leaf_;  ///< half of a box that is not split any more
+  double tolerance_;      ///< m, by which surfaces may be off
   Surfaces newer_;
   Surfaces older_;
   std::priority_queue<Box, std::vector<Box>, Costlier> open_;

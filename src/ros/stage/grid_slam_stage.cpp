@@ -32,6 +32,7 @@ void GridSlamStageOptions::visit(OptionVisitor& visitor) {
                  max_tilt, {0.0, kPi / 2.0});
   visitor.group("input", [&] { input.visit(visitor); });
   visitor.group("scan", [&] { scan.visit(visitor); });
+  visitor.group("prior_map", [&] { prior_map.visit(visitor); });
   slam.visit(visitor);
 }
 
@@ -58,7 +59,9 @@ GridSlamStage::GridSlamStage(const Checked<GridSlamStageOptions>& options,
       runner_(monitor, options->input, "starts with a new map", [this] { reset(); }),
       odometry_(options->motion, options->frames, "odometry", runner_),
       odometry_poses_(options->motion.hold),
-      scans_(monitor) {}
+      scans_(monitor) {
+  readPriorMap();
+}
 
 void GridSlamStage::takeOdometry(const nav_msgs::Odometry& message) {
   if (!options_.motion.fromOdometry() && !options_.motion.fromSensors()) {
@@ -158,22 +161,32 @@ void GridSlamStage::showLocalization(const SlamResult& result) {
                            "not found again after a gap: goes on in a new map, and the pose's "
                            "covariance keeps what is not known of it");
       } else if (monitor_.health() != HealthLevel::kGood) {
-        monitor_.condition(HealthLevel::kGood, "located in the map again");
+        monitor_.condition(HealthLevel::kGood, "located in the map");
       }
       maps_begun_ = result.maps_begun;
       return;
     case Localization::kUncertain:
-      monitor_.condition(
-          HealthLevel::kLess,
-          "uncertain where in the map after a gap: searches, and keeps the map as it "
-          "was");
-      return;
     case Localization::kLost:
-      monitor_.condition(
-          HealthLevel::kNothing,
-          "lost after a gap: the map fits nowhere that the vehicle can be, or that is "
-          "too much of it");
+      showSearch(result);
       return;
+  }
+}
+
+void GridSlamStage::showSearch(const SlamResult& result) {
+  const bool is_lost = result.localization == Localization::kLost;
+  const HealthLevel health = is_lost ? HealthLevel::kNothing : HealthLevel::kLess;
+  if (result.searches_prior_map) {
+    monitor_.condition(health, std::string(is_lost ? "lost" : "uncertain") +
+                                   ": searches the prior map, and writes nothing to it until one "
+                                   "place alone fits what was seen on the way");
+  } else if (is_lost) {
+    monitor_.condition(health,
+                       "lost after a gap: the map fits nowhere that the vehicle can be, or that is "
+                       "too much of it");
+  } else {
+    monitor_.condition(health,
+                       "uncertain where in the map after a gap: searches, and keeps the map as it "
+                       "was");
   }
 }
 
@@ -243,6 +256,8 @@ void GridSlamStage::connect(StagePorts& ports) {
   const auto pose = ports.out<geometry_msgs::PoseWithCovarianceStamped>("pose");
   const auto labeled_scan = ports.out<LabeledScanMessage>("labeled_scan");
   const auto map = ports.out<nav_msgs::OccupancyGrid>("map", true);
+  ports.service<datmo_fusion::SaveMap>("save_map",
+                                       [this](const auto& request) { return answer(request); });
   const auto publish = [=](const std::optional<GridSlamOutput>& output) {
     if (!output) {
       return;

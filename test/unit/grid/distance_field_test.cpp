@@ -45,6 +45,13 @@ TEST(DistanceFieldTest, LeadsToTheNearestCell) {
   EXPECT_EQ(field.at({40.0, 0.0}), 7.0);
 }
 
+TEST(DistanceFieldTest, OutsideOfTheWindowItIsAtLeastAsFarAsTheWindow) {
+  const DistanceField field = toStaticCells(mapWithABeam());
+  EXPECT_EQ(field.atLeast({1.5, 0.5}), field.at({1.5, 0.5}));
+  EXPECT_NEAR(field.atLeast({6.0, 0.5}), 1.0, 1e-9);
+  EXPECT_NEAR(field.atLeast({-8.0, -9.0}), 5.0, 1e-9);
+}
+
 TEST(DistanceFieldTest, WithoutSuchCellsNothingIsNear) {
   const OccupancyMap map{OccupancyMapOptions{}};
   const DistanceField field = toStaticCells(map);

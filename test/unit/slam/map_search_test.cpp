@@ -58,7 +58,7 @@ MapSearch search(const World& world, const Pose2& ahead, const Pose2& off,
   const Pose2 guess = ahead * off;
   const OccupancyMap newer = mapOf(world, ahead, guess);
   const Eigen::Matrix3d covariance = sigma.cwiseAbs2().asDiagonal();
-  return MapSearch({}, older, newer, {guess, covariance}, guess);
+  return MapSearch({}, older, newer, {{guess, covariance}}, guess);
 }
 
 Outcome finish(MapSearch& search) {
@@ -106,13 +106,13 @@ TEST(MapSearchTest, InAnotherPlaceNothingIsFound) {
   const OccupancyMap older = mapOf(yard, Pose2(), Pose2());
   const OccupancyMap newer = mapOf(street, Pose2(), Pose2(8.0, 0.0, 0.0));
   const Eigen::Matrix3d covariance = Eigen::Vector3d(4.0, 4.0, 0.1).asDiagonal();
-  MapSearch found({}, older, newer, {Pose2(8.0, 0.0, 0.0), covariance}, Pose2(8.0, 0.0, 0.0));
+  MapSearch found({}, older, newer, {{Pose2(8.0, 0.0, 0.0), covariance}}, Pose2(8.0, 0.0, 0.0));
   EXPECT_NE(finish(found), Outcome::kFound);
 }
 
 TEST(MapSearchTest, AnEmptyMapIsAmbiguous) {
   const OccupancyMap empty{OccupancyMapOptions{}};
-  MapSearch found({}, empty, empty, {Pose2(), Eigen::Matrix3d::Identity()}, Pose2());
+  MapSearch found({}, empty, empty, {{Pose2(), Eigen::Matrix3d::Identity()}}, Pose2());
   EXPECT_EQ(found.advance(1), Outcome::kAmbiguous);
 }
 
@@ -120,7 +120,7 @@ TEST(MapSearchTest, BeyondTheMapNothingIsFound) {
   const OccupancyMap older = mapOf(yard, Pose2(), Pose2());
   const Pose2 far(500.0, 0.0, 0.0);
   const OccupancyMap newer = mapOf(yard, Pose2(), far);
-  MapSearch found({}, older, newer, {far, Eigen::Matrix3d::Identity()}, far);
+  MapSearch found({}, older, newer, {{far, Eigen::Matrix3d::Identity()}}, far);
   EXPECT_EQ(finish(found), Outcome::kAmbiguous);
 }
 

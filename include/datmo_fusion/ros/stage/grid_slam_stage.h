@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <datmo_fusion/SaveMap.h>
+
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <nav_msgs/OccupancyGrid.h>
@@ -15,7 +17,9 @@
 #include "datmo_fusion/ros/convert/scan_conversion.h"
 #include "datmo_fusion/ros/display/scan_extent.h"
 #include "datmo_fusion/ros/frame_options.h"
+#include "datmo_fusion/ros/map_files.h"
 #include "datmo_fusion/ros/motion_options.h"
+#include "datmo_fusion/ros/prior_map_options.h"
 #include "datmo_fusion/ros/shared_keys.h"
 #include "datmo_fusion/ros/stage/frozen_sensor.h"
 #include "datmo_fusion/ros/stage/motion_input.h"
@@ -36,6 +40,7 @@ struct GridSlamStageOptions {
   double max_tilt = degrees(5.0);  ///< rad
   StreamOptions input;
   ScanConversionOptions scan;
+  PriorMapOptions prior_map;
   GridSlamOptions slam;
 
   void visit(OptionVisitor& visitor);
@@ -66,7 +71,8 @@ class GridSlamStage : public Stage {
  public:
   using Options = GridSlamStageOptions;
 
-  /// `transforms` and `monitor` must outlive the stage. Throws OptionError.
+  /// `transforms` and `monitor` must outlive the stage. Throws OptionError, also for a prior map
+  /// that cannot be read.
   GridSlamStage(const Checked<GridSlamStageOptions>& options, const TransformBuffer& transforms,
                 StageMonitor& monitor);
 
@@ -89,9 +95,14 @@ class GridSlamStage : public Stage {
   /// which may take as long to write as all stages need for the scan.
   nav_msgs::OccupancyGridPtr mapIfDue(Stamp stamp);
 
+  /// Writes the map (writeMap); while the vehicle is not located, the one in which it was. Returns
+  /// a sentence on what was written. Throws MapFileError.
+  std::string saveMap(const std::string& file) const;
+
   void connect(StagePorts& ports) override;
 
  private:
+  void readPriorMap();
   void checkBaseFrame(const std::string& frame) const;
 
   void reset();
@@ -100,6 +111,8 @@ class GridSlamStage : public Stage {
   /// For diagnostics.
   void showMatch(const SlamResult& result);
   void showLocalization(const SlamResult& result);
+  void showSearch(const SlamResult& result);
+  datmo_fusion::SaveMap::Response answer(const datmo_fusion::SaveMap::Request& request) const;
   GridSlamOutput finish(const SlamResult& result);
   GridSlamOutput outputOf(const SlamResult& result);
   /// By the odometry's poses.

@@ -78,6 +78,12 @@ class StagePublisher {
   StageOutput::Publish publish_;
 };
 
+/// What a stage does when somebody asks for it, without the types of question and answer.
+struct StageService {
+  std::string name;  ///< in the nodelet's private namespace
+  std::function<ros::ServiceServer(ros::NodeHandle& private_node)> advertise;
+};
+
 /// Where a stage declares what it takes and what it makes. Its host connects them: to topics
 /// (StageHost), or to other stages (GraphRunner).
 ///
@@ -122,9 +128,25 @@ class StagePorts {
         addOutput({topic, ros::message_traits::datatype<Message>(), advertise, content}));
   }
 
+  /// A service, where there is a master; `answer` must not throw.
+  template <typename Service>
+  void service(const std::string& name,
+               std::function<typename Service::Response(const typename Service::Request&)> answer) {
+    const auto advertise = [name, answer = std::move(answer)](ros::NodeHandle& private_node) {
+      const boost::function<bool(typename Service::Request&, typename Service::Response&)> call =
+          [answer](auto& request, auto& response) {
+            response = answer(request);
+            return true;
+          };
+      return private_node.advertiseService(name, call);
+    };
+    addService({name, advertise});
+  }
+
  protected:
   virtual void addInput(StageInput input) = 0;
   virtual StageOutput::Publish addOutput(StageOutput output) = 0;
+  virtual void addService(StageService /*service*/) {}
 
  private:
   template <typename Message>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "whole_file.h"
+#include "datmo_fusion/ros/whole_file.h"
 
 #include <filesystem>
 #include <fstream>

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What an OccupancyMap knows beyond its window, and beyond its life.
+#include <algorithm>
+#include <optional>
+
+#include "datmo_fusion/grid/occupancy_map.h"
+
+namespace datmo {
+
+namespace {
+
+/// Calls `visit(CellIndex)` for each cell of a window, row by row.
+template <typename Visit>
+void forEachCell(const GridWindow& window, Visit&& visit) {
+  for (int row = window.corner.row; row < window.corner.row + window.rows; ++row) {
+    for (int column = window.corner.column; column < window.corner.column + window.columns;
+         ++column) {
+      visit(CellIndex{column, row});
+    }
+  }
+}
+
+/// The window with the cell in it.
+GridWindow extended(GridWindow window, CellIndex cell) {
+  const CellIndex end{std::max(window.corner.column + window.columns, cell.column + 1),
+                      std::max(window.corner.row + window.rows, cell.row + 1)};
+  window.corner = {std::min(window.corner.column, cell.column),
+                   std::min(window.corner.row, cell.row)};
+  window.columns = end.column - window.corner.column;
+  window.rows = end.row - window.corner.row;
+  return window;
+}
+
+}  // namespace
+
+template <typename Visit>
+void OccupancyMap::forEachKnown(Visit&& visit) const {
+  outside_.forEach([&](CellIndex index, const Cell& cell) {
+    // A restored map has tiles of what is in the window, too, as it was before.
+    if (isKnown(cell) && !window().contains(index)) {
+      visit(index, cell);
+    }
+  });
+  forEachCell(window(), [&](CellIndex index) {
+    if (isKnown(cells_.at(index))) {
+      visit(index, cells_.at(index));
+    }
+  });
+}
+
+void OccupancyMap::centerOn(const Point2& position) {
+  const GridWindow before = window();
+  cells_.centerOn(position, [this](CellIndex index) {
+    const Cell& cell = cells_.at(index);
+    if (isKnown(cell)) {
+      outside_.put(index, cell);
+    }
+  });
+  if (is_restored_) {
+    forEachCellOutside(window(), before,
+                       [this](CellIndex index) { cells_.at(index) = outside_.at(index); });
+  }
+}
+
+MapEvidence OccupancyMap::evidence() const {
+  MapEvidence evidence{window().cell_size, {}};
+  forEachKnown([&evidence](CellIndex index, const Cell& cell) {
+    evidence.cells.push_back({index, cell.log_odds, cell.last_hit - cell.first_hit, cell.refuted,
+                              cell.believed, cell.hits});
+  });
+  return evidence;
+}
+
+GridWindow OccupancyMap::extent() const {
+  std::optional<GridWindow> extent;
+  forEachKnown([&](CellIndex index, const Cell& /*cell*/) {
+    extent = extended(extent.value_or(GridWindow{window().cell_size, 1, 1, index}), index);
+  });
+  return extent.value_or(GridWindow{window().cell_size, 1, 1, {}});
+}
+
+OccupancyMap OccupancyMap::restored(const Checked<OccupancyMapOptions>& options,
+                                    const MapEvidence& evidence) {
+  OccupancyMap map(options);
+  map.is_restored_ = true;
+  map.update_ = 1;
+  for (const CellEvidence& known : evidence.cells) {
+    Cell cell;
+    cell.updated = map.update_;
+    map.change(cell, known.log_odds);
+    cell.first_hit = -known.age;
+    cell.refuted = known.refuted;
+    cell.believed = known.believed;
+    cell.hits = known.hits;
+    if (map.window().contains(known.cell)) {
+      map.cells_.at(known.cell) = cell;
+    } else {
+      map.outside_.put(known.cell, cell);
+    }
+  }
+  return map;
+}
+
+void OccupancyMap::setWindow(const GridWindow& window) {
+  forEachCell(cells_.window(), [this](CellIndex index) {
+    if (isKnown(cells_.at(index))) {
+      outside_.put(index, cells_.at(index));
+    }
+  });
+  cells_ = RollingGrid<Cell>(window, Cell{});
+  forEachCell(window, [this](CellIndex index) { cells_.at(index) = outside_.at(index); });
+}
+
+}  // namespace datmo

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/map_server_files.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <vector>
+
+#include <yaml-cpp/yaml.h>
+
+#include "datmo_fusion/common/pose2.h"
+#include "datmo_fusion/grid/row_major.h"
+#include "datmo_fusion/ros/map_files.h"
+
+namespace datmo {
+
+namespace {
+
+// As map_saver has them.
+constexpr char kOccupiedPixel = 0;
+constexpr char kFreePixel = static_cast<char>(254);
+constexpr char kUnknownPixel = static_cast<char>(205);
+constexpr double kOccupiedThreshold = 0.65;
+constexpr double kFreeThreshold = 0.196;
+
+/// Pixels at most this much larger than cells are as large.
+constexpr double kResolutionTolerance = 1e-6;
+
+constexpr int kMaxPixelValue = 255;
+
+/// Pixels of an image, at the most: of more it is no map that anything here can hold.
+constexpr std::size_t kMaxPixels = 100'000'000;
+
+/// A pixel of a map stands for as many hits: a surface that is as sure as one that was seen often.
+constexpr float kHitsOfPixel = 10.0F;
+
+/// m^2, of hits that lie anywhere in a pixel of 1 m.
+constexpr double kVarianceOfPixel = 1.0 / 12.0;
+
+/// What the yaml file says.
+struct MapDescription {
+  std::string image;
+  double resolution = 0.0;  ///< m
+  Pose2 origin;             ///< of the lower left corner
+  bool negate = false;
+  double occupied_above = kOccupiedThreshold;
+  double free_below = kFreeThreshold;
+};
+
+struct PixelImage {
+  int columns = 0;
+  int rows = 0;
+  std::string pixels;  ///< row by row from the top
+};
+
+MapDescription readDescription(const std::string& file) {
+  MapDescription description;
+  try {
+    const YAML::Node yaml = YAML::LoadFile(file);
+    description.image = yaml["image"].as<std::string>();
+    description.resolution = yaml["resolution"].as<double>();
+    const auto origin = yaml["origin"].as<std::vector<double>>();
+    description.origin = {origin.at(0), origin.at(1), origin.at(2)};
+    description.negate = yaml["negate"].as<int>(0) != 0;
+    description.occupied_above = yaml["occupied_thresh"].as<double>(kOccupiedThreshold);
+    description.free_below = yaml["free_thresh"].as<double>(kFreeThreshold);
+  } catch (const std::exception& error) {
+    throw MapFileError(file + ": no yaml file of map_server (" + error.what() +
+                       "): expected image, resolution and origin");
+  }
+  return description;
+}
+
+/// The next number of a PGM file's header, behind comments.
+int readNumber(std::istream& in) {
+  while ((in >> std::ws).peek() == '#') {
+    in.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+  }
+  int number = 0;
+  in >> number;
+  return number;
+}
+
+PixelImage readImage(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string kind;
+  in >> kind;
+  PixelImage image;
+  image.columns = readNumber(in);
+  image.rows = readNumber(in);
+  const int max_value = readNumber(in);
+  in.get();
+  if (!in || kind != "P5" || max_value != kMaxPixelValue || image.columns < 1 || image.rows < 1) {
+    throw MapFileError(file + ": cannot be read: expected a binary PGM image (P5) of 8 bits");
+  }
+  const std::size_t size = rowMajorSize(image.columns, image.rows);
+  if (size > kMaxPixels) {
+    throw MapFileError(file + ": " + std::to_string(size) + " pixels, expected at most " +
+                       std::to_string(kMaxPixels));
+  }
+  image.pixels.resize(size);
+  in.read(image.pixels.data(), static_cast<std::streamsize>(size));
+  if (static_cast<std::size_t>(in.gcount()) != size) {
+    throw MapFileError(file + ": is cut: " + std::to_string(in.gcount()) + " pixels, expected " +
+                       std::to_string(size));
+  }
+  return image;
+}
+
+/// Adds a pixel to the evidence of the cell in which it lies.
+void add(double occupancy, const Point2& center, const MapDescription& description,
+         const OccupancyMapOptions& options, CellEvidence& known) {
+  const auto sure =
+      static_cast<float>(std::log((1.0 - options.min_probability) / options.min_probability));
+  if (occupancy > description.occupied_above) {
+    const GridWindow lattice{options.window.cell_size, 1, 1, {}};
+    const Eigen::Vector2f offset = (center - lattice.centerOf(known.cell)).cast<float>();
+    const auto spread =
+        static_cast<float>(kVarianceOfPixel * description.resolution * description.resolution);
+    known.log_odds = sure;
+    known.age = static_cast<float>(options.static_after);
+    known.hits.count += kHitsOfPixel;
+    known.hits.sum += kHitsOfPixel * offset;
+    known.hits.squares +=
+        kHitsOfPixel * Eigen::Vector3f(offset.x() * offset.x() + spread, offset.x() * offset.y(),
+                                       offset.y() * offset.y() + spread);
+  } else if (known.hits.count == 0.0F) {
+    known.log_odds = -sure;
+  }
+}
+
+}  // namespace
+
+MapServerFiles toMapServerFiles(OccupancyMap map, const std::string& image_name) {
+  map.setWindow(map.extent());
+  const GridWindow& window = map.window();
+  std::ostringstream image;
+  image << "P5\n" << window.columns << ' ' << window.rows << '\n' << kMaxPixelValue << '\n';
+  for (int row = window.corner.row + window.rows - 1; row >= window.corner.row; --row) {
+    for (int column = window.corner.column; column < window.corner.column + window.columns;
+         ++column) {
+      const CellIndex cell{column, row};
+      const bool is_occupied = map.occupancy(cell) > kOccupiedThreshold;
+      const bool is_free = map.stateOf(cell) == CellState::kFree;
+      image.put(is_occupied ? kOccupiedPixel : is_free ? kFreePixel : kUnknownPixel);
+    }
+  }
+  std::ostringstream yaml;
+  yaml.precision(std::numeric_limits<double>::digits10);
+  yaml << "image: \"" << image_name << "\"\nresolution: " << window.cell_size << "\norigin: ["
+       << window.origin().x() << ", " << window.origin().y()
+       << ", 0.0]\nnegate: 0\noccupied_thresh: " << kOccupiedThreshold
+       << "\nfree_thresh: " << kFreeThreshold << '\n';
+  return {yaml.str(), image.str()};
+}
+
+MapEvidence readMapServerFiles(const std::string& file, const OccupancyMapOptions& options) {
+  const MapDescription description = readDescription(file);
+  const double cell_size = options.window.cell_size;
+  if (!(description.resolution > 0.0) ||
+      description.resolution > cell_size * (1.0 + kResolutionTolerance)) {
+    std::ostringstream message;
+    message << file << ": a resolution of " << description.resolution
+            << " m, expected more than 0 and at most " << cell_size
+            << " m (grid_slam's map/cell_size)";
+    throw MapFileError(message.str());
+  }
+  const std::filesystem::path image_file =
+      std::filesystem::path(file).parent_path() / description.image;
+  const PixelImage image = readImage(image_file.string());
+  const GridWindow lattice{cell_size, 1, 1, {}};
+  std::map<std::pair<int, int>, CellEvidence> cells;
+  for (int row = 0; row < image.rows; ++row) {
+    for (int column = 0; column < image.columns; ++column) {
+      const auto value =
+          static_cast<unsigned char>(image.pixels[rowMajorIndex(column, row, image.columns)]);
+      const double share = static_cast<double>(value) / kMaxPixelValue;
+      const double occupancy = description.negate ? share : 1.0 - share;
+      if (occupancy >= description.free_below && occupancy <= description.occupied_above) {
+        continue;
+      }
+      const Point2 center =
+          description.origin * Point2((column + 0.5) * description.resolution,
+                                      (image.rows - row - 0.5) * description.resolution);
+      const CellIndex cell = lattice.cellAt(center);
+      CellEvidence& known = cells[{cell.row, cell.column}];
+      known.cell = cell;
+      add(occupancy, center, description, options, known);
+    }
+  }
+  MapEvidence evidence{cell_size, {}};
+  for (const auto& [index, known] : cells) {
+    evidence.cells.push_back(known);
+  }
+  return evidence;
+}
+
+}  // namespace datmo

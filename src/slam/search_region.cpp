@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/slam/search_region.h"
+
+#include "datmo_fusion/common/angle.h"
+
+namespace datmo {
+
+namespace {
+
+/// Of an interval of length 1 in which any value is as likely.
+constexpr double kVarianceOfUniform = 1.0 / 12.0;
+
+/// Mean and covariance of the poses within a map's window.
+PoseWithCovariance anywhereIn(const GridWindow& window) {
+  const Point2 extent = window.cell_size * Point2(static_cast<double>(window.columns),
+                                                  static_cast<double>(window.rows));
+  const Point2 center = window.origin() + 0.5 * extent;
+  PoseWithCovariance all{Pose2(center.x(), center.y(), 0.0), {}};
+  all.covariance = kVarianceOfUniform * Eigen::Vector3d(extent.x() * extent.x(),
+                                                        extent.y() * extent.y(), 4.0 * kPi * kPi)
+                                            .asDiagonal();
+  return all;
+}
+
+}  // namespace
+
+PoseWithCovariance priorOf(const SearchRegion& region, const GridWindow& window) {
+  return region.anywhere ? anywhereIn(window) : region.prior;
+}
+
+}  // namespace datmo

@@ -1,0 +1,87 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Starts in a prior map: what is cut out of a drive, and the score of poses by hand."""
+
+import math
+import tempfile
+import unittest
+from pathlib import Path
+
+import rosbag
+import rospy
+from geometry_msgs.msg import PoseWithCovarianceStamped
+from std_msgs.msg import String
+
+from datmo_tools.experiments.prior_map import cut, score, table
+from datmo_tools.pose_path import PosePath
+
+START = 1000  # s
+BEGIN = START * 10**9  # ns
+
+
+def pose_at(seconds, offset, turn, sigma):
+    """At 1 m/s along x, `offset` (m) to the left and `turn` (degrees) off."""
+    message = PoseWithCovarianceStamped()
+    message.header.stamp = rospy.Time.from_sec(START + seconds)
+    pose = message.pose.pose
+    pose.position.x, pose.position.y = seconds, offset
+    pose.orientation.z, pose.orientation.w = (f(math.radians(turn) / 2) for f in (math.sin, math.cos))
+    message.pose.covariance = [sigma**2 if i % 7 == 0 else 0.0 for i in range(36)]
+    return message
+
+
+class PriorMap(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.reference = PosePath([BEGIN, BEGIN + 20 * 10**9], [[0, 0, 0], [20, 0, 0]])
+
+    def scored(self, offset, turn=0.0, found_at=6):
+        """Poses once a second that claim a place from `found_at` (s) on."""
+        computed = self.folder / "computed.bag"
+        with rosbag.Bag(str(computed), "w") as bag:
+            for second in range(15):
+                is_found = second >= found_at
+                pose = pose_at(second, offset if is_found else 9.0, turn, 0.1 if is_found else 8.0)
+                bag.write("/pose", pose, pose.header.stamp)
+        return score(computed, self.reference, BEGIN)
+
+    def test_found(self):
+        result = self.scored(0.1, 1.0)
+        self.assertAlmostEqual(result["found_after_s"], 6.0)
+        self.assertAlmostEqual(result["position_m"], 0.1)
+        self.assertAlmostEqual(result["heading_deg"], 1.0)
+        self.assertFalse(result["wrong"])
+
+    def test_a_place_is_wrong_by_position_or_heading(self):
+        self.assertTrue(self.scored(0.6)["wrong"])
+        self.assertTrue(self.scored(0.1, 6.0)["wrong"])
+
+    def test_lost_is_not_wrong(self):
+        result = self.scored(30.0, 0.0, found_at=99)
+        self.assertIsNone(result["found_after_s"])
+        self.assertFalse(result["wrong"])
+
+    def test_table_counts(self):
+        results = [self.scored(0.1), self.scored(0.1, found_at=12), self.scored(5.0),
+                   self.scored(0.0, found_at=99)]  # fmt: skip
+        row = table(results, within=10.0).splitlines()[-1].split()
+        self.assertEqual(row[:4], ["4", "1", "2", "1"])
+
+    def test_cut_keeps_mounts_and_inputs_of_its_time(self):
+        drive, written = self.folder / "drive.bag", self.folder / "cut.bag"
+        with rosbag.Bag(str(drive), "w") as bag:
+            bag.write("/tf_static", String("mounts"), rospy.Time.from_sec(START))
+            for second in range(30):
+                for topic in ("/scan", "/odometry", "/tf", "/other"):
+                    bag.write(topic, String(topic), rospy.Time.from_sec(START + second))
+        cut(drive, BEGIN + 10 * 10**9, BEGIN + 14 * 10**9, written)
+        with rosbag.Bag(str(written)) as bag:
+            topics = bag.get_type_and_topic_info().topics
+            counts = {topic: info.message_count for topic, info in topics.items()}
+        self.assertEqual(counts, {"/tf_static": 1, "/scan": 5, "/odometry": 5, "/tf": 5})
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "small_map.h"
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/grid/tile_store.h"
+
+namespace datmo::map_evidence_test {
+namespace {
+
+using samples::scanTo;
+using samples::smallMap;
+using samples::updateWith;
+
+TEST(TileStoreTest, CellsComeBackOnBothSidesOfTheOrigin) {
+  TileStore<int> store(100, -1);
+  int content = 0;
+  for (const int column : {-65, -64, -33, -32, -1, 0, 31, 32}) {
+    for (const int row : {-40, -1, 0, 40}) {
+      store.put({column, row}, ++content);
+    }
+  }
+  content = 0;
+  for (const int column : {-65, -64, -33, -32, -1, 0, 31, 32}) {
+    for (const int row : {-40, -1, 0, 40}) {
+      EXPECT_EQ(store.at({column, row}), ++content) << column << ", " << row;
+    }
+  }
+  EXPECT_EQ(store.at({5, 5}), -1);
+  EXPECT_EQ(store.at({1000, 1000}), -1);
+  int visited = 0;
+  store.forEach([&](CellIndex cell, int value) {
+    visited += value >= 0 ? 1 : 0;
+    EXPECT_EQ(store.at(cell), value);
+  });
+  EXPECT_EQ(visited, content);
+}
+
+TEST(TileStoreTest, OfTooManyTilesTheFirstIsForgotten) {
+  TileStore<int> store(2, 0);
+  store.put({0, 0}, 1);
+  store.put({100, 0}, 2);
+  EXPECT_EQ(store.forgotten(), 0U);
+  store.put({200, 0}, 3);
+  EXPECT_EQ(store.forgotten(), 1U);
+  EXPECT_EQ(store.at({0, 0}), 0);
+  EXPECT_EQ(store.at({100, 0}), 2);
+  EXPECT_EQ(store.at({200, 0}), 3);
+}
+
+/// A static surface 4 m ahead of the origin, and free cells before it.
+OccupancyMap mapWithSurface() {
+  OccupancyMap map{smallMap()};
+  for (const double seconds : {0.0, 0.5, 1.0, 1.5}) {
+    updateWith(map, scanTo({{4.3, 0.4}}, seconds));
+  }
+  return map;
+}
+
+void expectSurface(const OccupancyMap& map) {
+  EXPECT_EQ(map.stateOf({4, 0}), CellState::kStatic);
+  EXPECT_EQ(map.stateOf({2, 0}), CellState::kFree);
+  const auto hits = map.nearestHits({4.5, 0.5});
+  ASSERT_TRUE(hits);
+  EXPECT_NEAR(hits->mean.x(), 4.3, 1e-5);
+  EXPECT_NEAR(hits->mean.y(), 0.4, 1e-5);
+  EXPECT_NEAR(hits->hits, 4.0, 1e-5);
+  EXPECT_EQ(hits->maturity, 1.0);
+}
+
+TEST(MapEvidenceTest, ARestoredMapKnowsTheSame) {
+  const OccupancyMap map = mapWithSurface();
+  const OccupancyMap restored = OccupancyMap::restored(smallMap(), map.evidence());
+  expectSurface(restored);
+  EXPECT_EQ(restored.occupancyImage(), map.occupancyImage());
+}
+
+TEST(MapEvidenceTest, WhatLeftTheWindowIsInTheEvidence) {
+  OccupancyMap map = mapWithSurface();
+  map.centerOn({100.0, 0.0});
+  EXPECT_EQ(map.stateOf({4, 0}), CellState::kUnknown);
+  expectSurface(OccupancyMap::restored(smallMap(), map.evidence()));
+  EXPECT_EQ(map.extent().corner.column, 0);
+  EXPECT_EQ(map.extent().columns, 5);
+}
+
+TEST(MapEvidenceTest, ItComesBackOnlyIntoARestoredMap) {
+  OccupancyMap map = mapWithSurface();
+  OccupancyMap restored = OccupancyMap::restored(smallMap(), map.evidence());
+  for (OccupancyMap* moved : {&map, &restored}) {
+    moved->centerOn({100.0, 50.0});
+    moved->centerOn({2.0, 1.0});
+  }
+  EXPECT_EQ(map.stateOf({4, 0}), CellState::kUnknown);
+  expectSurface(restored);
+}
+
+TEST(MapEvidenceTest, AnotherWindowShowsTheSame) {
+  OccupancyMap map = mapWithSurface();
+  map.setWindow({1.0, 3, 3, {50, 50}});
+  EXPECT_EQ(map.stateOf({4, 0}), CellState::kUnknown);
+  map.setWindow(map.extent());
+  expectSurface(map);
+}
+
+TEST(MapEvidenceTest, ARestoredMapIsUpdated) {
+  OccupancyMap map = OccupancyMap::restored(smallMap(), mapWithSurface().evidence());
+  for (int i = 0; i < 60; ++i) {
+    updateWith(map, scanTo({{8.5, 0.8}}, 0.1 * i));
+  }
+  EXPECT_EQ(map.stateOf({4, 0}), CellState::kFree) << "what stood there has gone";
+  EXPECT_EQ(map.stateOf({8, 0}), CellState::kStatic);
+}
+
+TEST(MapEvidenceTest, AnEmptyMapHasNone) {
+  const OccupancyMap map{smallMap()};
+  EXPECT_TRUE(map.evidence().cells.empty());
+  EXPECT_EQ(map.extent().columns, 1);
+}
+
+}  // namespace
+}  // namespace datmo::map_evidence_test

@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A map of the first part of a drive, and localization in it: the command line and the runs."""
+
+import argparse
+import json
+import math
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+from tqdm import tqdm
+
+from datmo_tools import command_line, programs, transforms
+from datmo_tools.bag_file import whole_bag
+from datmo_tools.bag_input import opened
+from datmo_tools.errors import InputError
+from datmo_tools.pose_path import POSE_OF, planar, read_messages, read_path
+from datmo_tools.stamps import NANOSECONDS, to_ros_time
+from datmo_tools.text_table import aligned
+from datmo_tools.whole_files import write_whole
+
+DESCRIPTION = """\
+Makes a map of the first part of a recorded drive, saves it, and starts the vehicle in it anywhere,
+at regular times of the rest of the drive, without a word on where it is. Prints how often it was
+found in time, how often it took a wrong place for the right one, and how far off the pose then was.
+Reference: the poses of one run over the whole drive, whose map is the same. The exit code is 1 where
+a wrong place was taken."""
+
+FORMAT = 1  # of the JSON file
+PROGRAMS = ("run_bag",)
+INPUTS = ("/scan", "/echoes", "/odometry", "/tf")
+# A pose claims a place when its standard deviation is below this, m: unlocated ones have meters.
+LOCATED_SIGMA = 1.0
+# A place is wrong from here on.
+WRONG_POSITION = 0.5  # m
+WRONG_HEADING = 5.0  # degrees
+
+
+def main(arguments=None):
+    """Runs the command line; returns its exit code."""
+    values = _parser().parse_args(arguments)
+    results = []
+    code = command_line.run("prior_map", lambda: results.append(_run(values)), "report")
+    return code or int(any(one["wrong"] for one in results[0]))
+
+
+def cut(recorded, begin, end, written):
+    """Writes what the drive (Path) has between two stamps (ns) to a bag (Path)."""
+    with opened(recorded) as bag, whole_bag(written, "prior_map") as out:
+        for topic, message, _ in bag.read_messages(["/tf_static"]):
+            out.write_latched(topic, begin, message)
+        span = [to_ros_time(begin), to_ros_time(end)]
+        for topic, message, stamp in bag.read_messages(INPUTS, *span):
+            out.write(topic, stamp.to_nsec(), message)
+
+
+def score(computed, reference, begin):
+    """Result (dict) of a start at `begin` (ns) by the poses in the bag `computed` (Path).
+
+    reference: PosePath in the same map. found_after: s, None where no pose claimed a place. wrong:
+    whether any pose that did was off; errors are those of the last pose.
+    """
+    found_after, wrong, last = None, False, None
+    for message, kind in read_messages(computed, "/pose"):
+        sigma = math.sqrt(max(message.pose.covariance[0], message.pose.covariance[7]))
+        if sigma > LOCATED_SIGMA:
+            continue
+        stamp = message.header.stamp.to_nsec()
+        error = transforms.relative(reference.at(stamp), planar(POSE_OF[kind](message)))
+        last = float(np.hypot(error[0], error[1])), abs(math.degrees(error[2]))
+        if found_after is None:
+            found_after = (stamp - begin) / NANOSECONDS
+        wrong = wrong or last[0] > WRONG_POSITION or last[1] > WRONG_HEADING
+    return {
+        "found_after_s": found_after,
+        "wrong": wrong,
+        "position_m": last and last[0],
+        "heading_deg": last and last[1],
+    }
+
+
+def table(results, within):
+    """The results (list of dict) as text. within: s, in which a vehicle is to be found."""
+    found = [one for one in results if one["found_after_s"] is not None]
+    right = [one for one in found if not one["wrong"]]
+    in_time = [one for one in right if one["found_after_s"] <= within]
+    rows = [["starts", f"found within {within:g} s", "found", "wrong place", "found after, s: median",
+             "off at the end, m: median", "max", "deg: median", "max"]]  # fmt: skip
+    figures = [_median([one["found_after_s"] for one in right])]
+    for key in ("position_m", "heading_deg"):
+        errors = [one[key] for one in right]
+        figures += [_median(errors), max(errors, default=math.nan)]
+    rows.append([*(str(len(ones)) for ones in (results, in_time, right)),
+                 str(len(found) - len(right)), *(f"{figure:.3f}" for figure in figures)])  # fmt: skip
+    return aligned(rows)
+
+
+def _median(values):
+    return float(np.median(values)) if values else math.nan
+
+
+def _run_bag(values, *words):
+    programs.call(values.programs / "run_bag", *words, "--config", values.config, "--until",
+                  "grid_slam", "--quiet")  # fmt: skip
+
+
+def _start(values, saved, reference, begin):
+    """Result (dict) of one start at `begin` (ns). Raises StepFailed."""
+    with tempfile.TemporaryDirectory(prefix="prior_map_") as name:
+        drive, computed = Path(name) / "drive.bag", Path(name) / "result.bag"
+        cut(values.drive, begin, begin + round(values.seconds * NANOSECONDS), drive)
+        _run_bag(values, drive, computed, "--map", saved)
+        return {"begin_s": begin / NANOSECONDS, **score(computed, reference, begin)}
+
+
+def _run(values):
+    """List of results (dict), one a start."""
+    for file in (values.drive, values.config):
+        if not file.is_file():
+            raise InputError(f"{file}: no such file, expected a bag and a yaml file")
+    programs.check(values.programs, PROGRAMS)
+    with tempfile.TemporaryDirectory(prefix="prior_map_") as name:
+        folder = Path(name)
+        try:
+            results = _starts(values, folder)
+        except programs.StepFailed as error:
+            raise InputError(str(error)) from error
+    print(table(results, values.within))
+    if values.out is not None:
+        report = {"format": FORMAT, "drive": values.drive.name, "starts": results}
+        write_whole(values.out.parent, {values.out.name: json.dumps(report, indent=2) + "\n"})
+    return results
+
+
+def _starts(values, folder):
+    whole, first, saved = (folder / file for file in ("whole.bag", "first.bag", "first.map"))
+    _run_bag(values, values.drive, whole)
+    reference = read_path(whole, "/pose")
+    begin, end = int(reference.stamps[0]), int(reference.stamps[-1])
+    middle = begin + round(values.share * (end - begin))
+    cut(values.drive, begin, middle, first)
+    _run_bag(values, first, folder / "mapped.bag", "--save-map", saved)
+    last = end - round(values.seconds * NANOSECONDS)
+    stamps = [int(stamp) for stamp in np.linspace(middle, last, values.starts)]
+    with ThreadPoolExecutor(values.jobs) as pool:
+        runs = pool.map(lambda stamp: _start(values, saved, reference, stamp), stamps)
+        return list(tqdm(runs, total=len(stamps), desc="starts", disable=None))
+
+
+def _parser():
+    parser = argparse.ArgumentParser(
+        prog="prior_map",
+        description=DESCRIPTION,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add = parser.add_argument
+    add("drive", type=Path, metavar="DRIVE.bag", help="a recording, as run_bag takes it")
+    add("--config", required=True, type=Path, metavar="CONFIG.yaml", help="the sensor set")
+    add("--programs", required=True, type=Path, metavar="DIR", help="of run_bag")
+    add("--starts", type=command_line.count, default=100, metavar="N",
+        help="how many (default 100)")  # fmt: skip
+    add("--jobs", type=command_line.count, default=1, metavar="N",
+        help="runs at a time (default 1)")  # fmt: skip
+    add("--out", type=command_line.output_file, metavar="FILE.json", help="all starts")
+    command_line.add_number(parser, "--share", 0.5, "X", "of the drive that is mapped")
+    command_line.add_number(parser, "--seconds", 15.0, "S", "length of a run")
+    command_line.add_number(parser, "--within", 10.0, "S", "in which it is to be found")
+    return parser
