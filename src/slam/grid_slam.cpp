@@ -132,9 +132,9 @@ void GridSlamOptions::visit(OptionVisitor& visitor) {
                   "bring each beam from its own time to the scan's stamp; false: take all beams of "
                   "a scan as measured at once (thesis)"},
                  motion_compensation);
-  visitor.number({"max_step", "m", "neighboring end points further apart are on different surfaces",
-                  Tier::kPublic},
-                 max_step, {0.05, 20.0});
+  visitor.number(
+      {"max_step", "m", "neighboring end points further apart are on different surfaces"}, max_step,
+      {0.05, 20.0});
   visitor.choice(
       {"grid_ends", "",
        "where the obstacles of a fused grid lie: 'scan', where a beam ends in an occupied "
