@@ -2,6 +2,8 @@
 // What an OccupancyMap knows beyond its window, and beyond its life.
 #include <algorithm>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "datmo_fusion/grid/occupancy_map.h"
 
@@ -20,6 +22,21 @@ void forEachCell(const GridWindow& window, Visit&& visit) {
   }
 }
 
+/// Tiles that a window may touch.
+std::size_t tilesOf(const GridWindow& window) {
+  constexpr int kTile = TileStore<int>::kSide;
+  return rowMajorSize(window.columns / kTile + 2, window.rows / kTile + 2);
+}
+
+/// Tiles that hold what is known.
+std::size_t tilesOf(const MapEvidence& evidence) {
+  std::set<std::pair<int, int>> tiles;
+  for (const CellEvidence& known : evidence.cells) {
+    tiles.insert(TileStore<int>::keyOf(known.cell));
+  }
+  return tiles.size();
+}
+
 /// The window with the cell in it.
 GridWindow extended(GridWindow window, CellIndex cell) {
   const CellIndex end{std::max(window.corner.column + window.columns, cell.column + 1),
@@ -36,8 +53,10 @@ GridWindow extended(GridWindow window, CellIndex cell) {
 template <typename Visit>
 void OccupancyMap::forEachKnown(Visit&& visit) const {
   outside_.forEach([&](CellIndex index, const Cell& cell) {
-    // A restored map has tiles of what is in the window, too, as it was before.
-    if (isKnown(cell) && !window().contains(index)) {
+    // What came back into the window of a map that is made is in the tiles alone, until it is seen
+    // again; a restored map has it in the window, too.
+    const bool in_window = window().contains(index) && (is_restored_ || isKnown(cells_.at(index)));
+    if (isKnown(cell) && !in_window) {
       visit(index, cell);
     }
   });
@@ -83,6 +102,7 @@ OccupancyMap OccupancyMap::restored(const Checked<OccupancyMapOptions>& options,
                                     const MapEvidence& evidence) {
   OccupancyMap map(options);
   map.is_restored_ = true;
+  map.outside_.makeRoomFor(tilesOf(map.window()) + tilesOf(evidence));
   map.update_ = 1;
   for (const CellEvidence& known : evidence.cells) {
     Cell cell;
@@ -102,6 +122,7 @@ OccupancyMap OccupancyMap::restored(const Checked<OccupancyMapOptions>& options,
 }
 
 void OccupancyMap::setWindow(const GridWindow& window) {
+  outside_.makeRoomFor(outside_.size() + tilesOf(cells_.window()));
   forEachCell(cells_.window(), [this](CellIndex index) {
     if (isKnown(cells_.at(index))) {
       outside_.put(index, cells_.at(index));

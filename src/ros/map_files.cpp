@@ -28,6 +28,9 @@ constexpr std::size_t kBytesPerWord = 4;
 constexpr std::size_t kBitsPerByte = 8;
 constexpr std::uint32_t kByteMask = 0xFF;
 
+/// Of scans that a cell counts: years of them.
+constexpr int kMaxCount = 1'000'000'000;
+
 void append(std::string& bytes, std::uint32_t word) {
   for (std::size_t i = 0; i < kBytesPerWord; ++i) {
     bytes.push_back(static_cast<char>((word >> (kBitsPerByte * i)) & kByteMask));
@@ -118,11 +121,14 @@ CellEvidence readCell(WordReader& words) {
 }
 
 bool isSound(const CellEvidence& known) {
-  return std::abs(known.cell.column) <= GridWindow::kMaxCell &&
-         std::abs(known.cell.row) <= GridWindow::kMaxCell && std::isfinite(known.log_odds) &&
-         known.age >= 0.0F && std::isfinite(known.age) && known.hits.count >= 0.0F &&
-         std::isfinite(known.hits.count) && known.hits.sum.allFinite() &&
-         known.hits.squares.allFinite();
+  const auto is_index = [](int index) {
+    return index >= -GridWindow::kMaxCell && index <= GridWindow::kMaxCell;
+  };
+  const auto is_count = [](int count) { return count >= 0 && count <= kMaxCount; };
+  return is_index(known.cell.column) && is_index(known.cell.row) && is_count(known.refuted) &&
+         is_count(known.believed) && std::isfinite(known.log_odds) && known.age >= 0.0F &&
+         std::isfinite(known.age) && known.hits.count >= 0.0F && std::isfinite(known.hits.count) &&
+         known.hits.sum.allFinite() && known.hits.squares.allFinite();
 }
 
 std::string textOf(const MapEvidence& evidence) {
@@ -163,6 +169,9 @@ MapHeader readMapHeader(std::istream& in, const std::string& file) {
 
 MapEvidence readOwn(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
+  if (!in) {
+    throw MapFileError(file + ": cannot be opened, expected the right to read it");
+  }
   const MapHeader header = readMapHeader(in, file);
   std::ostringstream rest;
   rest << in.rdbuf();
@@ -195,7 +204,24 @@ bool isMapServers(const std::filesystem::path& file) {
   return file.extension() == ".yaml" || file.extension() == ".yml";
 }
 
+/// Whether nothing is lost where a yaml file of map_server is written.
+bool isAbsentOrMapServers(const std::string& yaml) {
+  std::error_code unusable;
+  if (!std::filesystem::exists(yaml, unusable)) {
+    return true;
+  }
+  std::string first;
+  std::ifstream(yaml) >> first;
+  return first == "image:";
+}
+
 }  // namespace
+
+MapServerNames mapServerNames(const std::string& file) {
+  const std::filesystem::path path(file);
+  return {std::filesystem::path(path).replace_extension(".yaml").string(),
+          std::filesystem::path(path).replace_extension(".pgm").string()};
+}
 
 SavedMap writeMap(const std::string& file, const OccupancyMap& map) {
   const std::filesystem::path path(file);
@@ -205,8 +231,12 @@ SavedMap writeMap(const std::string& file, const OccupancyMap& map) {
                        "written beside it, as .yaml and .pgm");
   }
   const MapEvidence evidence = map.evidence();
-  const std::string image = std::filesystem::path(path).replace_extension(".pgm").string();
-  const std::string yaml = std::filesystem::path(path).replace_extension(".yaml").string();
+  const auto [yaml, image] = mapServerNames(file);
+  if (!isAbsentOrMapServers(yaml)) {
+    throw MapFileError(file + ": " + yaml +
+                       " would be written beside it, and is there, but of no map: expected "
+                       "another name");
+  }
   try {
     checkWritable(file);
     const MapServerFiles files =
@@ -221,7 +251,8 @@ SavedMap writeMap(const std::string& file, const OccupancyMap& map) {
 }
 
 OccupancyMap readMap(const std::string& file, const Checked<OccupancyMapOptions>& options) {
-  if (!std::filesystem::is_regular_file(file)) {
+  std::error_code unusable;
+  if (!std::filesystem::is_regular_file(file, unusable)) {
     throw MapFileError(file +
                        ": no such file, expected a map that was saved, or a yaml file of "
                        "map_server, by its absolute path");
@@ -236,13 +267,7 @@ OccupancyMap readMap(const std::string& file, const Checked<OccupancyMapOptions>
   if (evidence.cells.empty()) {
     throw MapFileError(file + ": nothing is known in it, expected occupied and free cells");
   }
-  OccupancyMap map = OccupancyMap::restored(options, evidence);
-  if (map.forgottenTiles() > 0) {
-    throw MapFileError(file + ": " + std::to_string(map.forgottenTiles()) +
-                       " tiles too many, expected at most map/max_tiles of them (" +
-                       std::to_string(options->max_tiles) + ")");
-  }
-  return map;
+  return OccupancyMap::restored(options, evidence);
 }
 
 }  // namespace datmo

@@ -32,10 +32,15 @@ constexpr double kResolutionTolerance = 1e-6;
 constexpr int kMaxPixelValue = 255;
 
 /// Pixels of an image, at the most: of more it is no map that anything here can hold.
-constexpr std::size_t kMaxPixels = 100'000'000;
+constexpr std::size_t kMaxPixels = 16'000'000;
+
+/// m; no map lies farther from its frame's origin: cells are counted by integers.
+constexpr double kMaxOrigin = 1e6;
 
 /// A pixel of a map stands for as many hits: a surface that is as sure as one that was seen often.
 constexpr float kHitsOfPixel = 10.0F;
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// m^2, of hits that lie anywhere in a pixel of 1 m.
 constexpr double kVarianceOfPixel = 1.0 / 12.0;
@@ -45,9 +50,10 @@ struct MapDescription {
   std::string image;
   double resolution = 0.0;  ///< m
   Pose2 origin;             ///< of the lower left corner
-  bool negate = false;
+  int negate = 0;           ///< 1: white is occupied
   double occupied_above = kOccupiedThreshold;
   double free_below = kFreeThreshold;
+  std::string mode = "trinary";
 };
 
 struct PixelImage {
@@ -55,6 +61,29 @@ struct PixelImage {
   int rows = 0;
   std::string pixels;  ///< row by row from the top
 };
+
+template <typename Value>
+void takeIfThere(const YAML::Node& node, Value& value) {
+  if (node) {
+    value = node.as<Value>();
+  }
+}
+
+void check(const MapDescription& description, const std::string& file) {
+  const Pose2& origin = description.origin;
+  // In this form NaN is refused, too.
+  if (!(std::abs(origin.x()) <= kMaxOrigin && std::abs(origin.y()) <= kMaxOrigin &&
+        std::isfinite(origin.heading()))) {
+    throw MapFileError(file + ": an origin that is no place, expected up to 1e6 m and an angle");
+  }
+  if (!(description.free_below >= 0.0 && description.free_below <= description.occupied_above &&
+        description.occupied_above <= 1.0)) {
+    throw MapFileError(file + ": expected 0 <= free_thresh <= occupied_thresh <= 1");
+  }
+  if (description.mode != "trinary") {
+    throw MapFileError(file + ": mode " + description.mode + ", expected trinary");
+  }
+}
 
 MapDescription readDescription(const std::string& file) {
   MapDescription description;
@@ -64,13 +93,15 @@ MapDescription readDescription(const std::string& file) {
     description.resolution = yaml["resolution"].as<double>();
     const auto origin = yaml["origin"].as<std::vector<double>>();
     description.origin = {origin.at(0), origin.at(1), origin.at(2)};
-    description.negate = yaml["negate"].as<int>(0) != 0;
-    description.occupied_above = yaml["occupied_thresh"].as<double>(kOccupiedThreshold);
-    description.free_below = yaml["free_thresh"].as<double>(kFreeThreshold);
+    takeIfThere(yaml["negate"], description.negate);
+    takeIfThere(yaml["occupied_thresh"], description.occupied_above);
+    takeIfThere(yaml["free_thresh"], description.free_below);
+    takeIfThere(yaml["mode"], description.mode);
   } catch (const std::exception& error) {
     throw MapFileError(file + ": no yaml file of map_server (" + error.what() +
                        "): expected image, resolution and origin");
   }
+  check(description, file);
   return description;
 }
 
@@ -85,6 +116,10 @@ int readNumber(std::istream& in) {
 }
 
 PixelImage readImage(const std::string& file) {
+  std::error_code unusable;
+  if (!std::filesystem::is_regular_file(file, unusable)) {
+    throw MapFileError(file + ": no such file, expected the image that the yaml file names");
+  }
   std::ifstream in(file, std::ios::binary);
   std::string kind;
   in >> kind;
@@ -121,7 +156,8 @@ void add(double occupancy, const Point2& center, const MapDescription& descripti
     const auto spread =
         static_cast<float>(kVarianceOfPixel * description.resolution * description.resolution);
     known.log_odds = sure;
-    known.age = static_cast<float>(options.static_after);
+    // Rounded up: a younger cell is not static.
+    known.age = std::nextafter(static_cast<float>(options.static_after), kInfinity);
     known.hits.count += kHitsOfPixel;
     known.hits.sum += kHitsOfPixel * offset;
     known.hits.squares +=
@@ -135,7 +171,13 @@ void add(double occupancy, const Point2& center, const MapDescription& descripti
 }  // namespace
 
 MapServerFiles toMapServerFiles(OccupancyMap map, const std::string& image_name) {
-  map.setWindow(map.extent());
+  const GridWindow extent = map.extent();
+  if (rowMajorSize(extent.columns, extent.rows) > kMaxPixels) {
+    throw MapFileError("an image of " + std::to_string(extent.columns) + " x " +
+                       std::to_string(extent.rows) + " pixels, expected at most " +
+                       std::to_string(kMaxPixels));
+  }
+  map.setWindow(extent);
   const GridWindow& window = map.window();
   std::ostringstream image;
   image << "P5\n" << window.columns << ' ' << window.rows << '\n' << kMaxPixelValue << '\n';
@@ -178,7 +220,7 @@ MapEvidence readMapServerFiles(const std::string& file, const OccupancyMapOption
       const auto value =
           static_cast<unsigned char>(image.pixels[rowMajorIndex(column, row, image.columns)]);
       const double share = static_cast<double>(value) / kMaxPixelValue;
-      const double occupancy = description.negate ? share : 1.0 - share;
+      const double occupancy = description.negate != 0 ? share : 1.0 - share;
       if (occupancy >= description.free_below && occupancy <= description.occupied_above) {
         continue;
       }

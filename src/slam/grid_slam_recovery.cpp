@@ -24,8 +24,12 @@ constexpr double kOdometryDelay = 0.6;
 /// Of the pose at which a map begins (m^2, rad^2): for matches it may not be 0.
 constexpr double kStartVariance = 1e-6;
 
-/// Of the window in which a prior map is searched: about 250 MB.
+/// Of the window in which a prior map is searched: about 250 MB for each copy of it.
 constexpr std::size_t kMaxSearchedCells = 4'000'000;
+
+bool isSearchable(const GridWindow& window) {
+  return rowMajorSize(window.columns, window.rows) <= kMaxSearchedCells;
+}
 
 Eigen::Matrix3d startCovariance() {
   return Eigen::Vector3d(kStartVariance, kStartVariance, kStartVariance).asDiagonal();
@@ -94,7 +98,7 @@ void GridSlam::leaveMapAfterGap(Stamp stamp) {
 
 void GridSlam::startIn(PriorMap prior_map) {
   const GridWindow all = prior_map.map.extent();
-  if (rowMajorSize(all.columns, all.rows) > kMaxSearchedCells) {
+  if (!isSearchable(all)) {
     throw std::invalid_argument("a map of " + std::to_string(all.columns) + " x " +
                                 std::to_string(all.rows) + " cells: expected " +
                                 std::to_string(kMaxSearchedCells) + " cells at most");
@@ -145,7 +149,7 @@ void GridSlam::recover(Stamp stamp) {
     filter_.restartAt(*found);
     map_.centerOn(found->pose.position());
     anchor_ = {};  // of the newer map's frame
-  } else if (recovery_->isOver(stamp) && prior_map_) {
+  } else if (recovery_->isOver(stamp) && prior_map_ && isSearchable(recovery_->older().extent())) {
     OccupancyMap whole = recovery_->takeOlder();
     whole.setWindow(whole.extent());
     recovery_.emplace(options_.recovery, std::move(whole), SearchRegion{{}, true}, stamp);

@@ -41,8 +41,8 @@ constexpr double kAllOfIt = std::numeric_limits<double>::infinity();
 /// Of a cell of which nothing is known.
 constexpr double kUnknownOccupancy = 0.5;
 
-/// Two maps have the same surface in cells that are neighbors, at the most; but in no finer ones
-/// than a box that is not split any more.
+/// Two maps have the same surface in cells that are neighbors, at the most; in a complete map in no
+/// finer ones than a box that is not split any more.
 constexpr double kToleranceCells = 1.5;
 constexpr double kMinTolerance = 0.2;  // m
 
@@ -105,7 +105,8 @@ MapSearch::MapSearch(const Checked<MapSearchOptions>& options, const OccupancyMa
       in_newer_(in_newer),
       leaf_((options->missing_share > 0.0 ? kFineLeaf : 1.0) *
             Eigen::Vector3d(kLeafPosition, kLeafPosition, kLeafHeading)),
-      tolerance_(std::max(kMinTolerance, kToleranceCells * older.window().cell_size)),
+      tolerance_(std::max(options->missing_share > 0.0 ? kMinTolerance : 0.0,
+                          kToleranceCells * older.window().cell_size)),
       newer_(
           thinnedOut(newer.staticSurfaces(), {in_newer.position(), options->reach}, kMaxSurfaces)),
       older_(anywhere_ ? thinnedOut(older.staticSurfaces(), {prior_.pose.position(), kAllOfIt},

@@ -66,6 +66,15 @@ TEST_F(RunBagMap, ABadMapEndsItWithOneSentence) {
   EXPECT_TRUE(holds(failure(), "cells of 0.3 m, expected 0.2 m"));
 }
 
+TEST_F(RunBagMap, WhatIsWrittenBesideTheMapMustNotBeAnInput) {
+  writeConfig("scanner: {range_sigma: 0.1}\n");
+  const std::string map =
+      std::filesystem::path(arguments_.config).replace_extension(".map").string();
+  EXPECT_THROW(
+      parseArguments({"in.bag", "out.bag", "--config", arguments_.config, "--save-map", map}),
+      UsageError);
+}
+
 TEST_F(RunBagMap, WithoutGridSlamThereIsNoMap) {
   for (const char* option : {"--map", "--save-map"}) {
     EXPECT_THROW(parseArguments({"in.bag", "out.bag", "--config", "c.yaml", "--low-level-fusion",

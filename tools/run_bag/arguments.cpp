@@ -3,6 +3,8 @@
 
 #include "output_bag.h"
 
+#include "datmo_fusion/ros/map_files.h"
+
 namespace datmo {
 
 namespace {
@@ -79,8 +81,13 @@ void switchOn(FusionLevel level, Arguments& arguments) {
 
 void checkOutputs(const Arguments& arguments) {
   std::vector<std::string> written;
-  for (const std::string& file : {arguments.output, arguments.times, arguments.save_map,
-                                  arguments.text.tum, arguments.text.kitti, arguments.text.mot}) {
+  std::vector<std::string> outputs{arguments.output,   arguments.times,      arguments.save_map,
+                                   arguments.text.tum, arguments.text.kitti, arguments.text.mot};
+  if (!arguments.save_map.empty()) {
+    const MapServerNames beside = mapServerNames(arguments.save_map);
+    outputs.insert(outputs.end(), {beside.yaml, beside.image});
+  }
+  for (const std::string& file : outputs) {
     if (file.empty()) {
       continue;
     }

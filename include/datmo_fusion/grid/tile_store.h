@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <deque>
 #include <map>
@@ -54,17 +55,24 @@ class TileStore {
     }
   }
 
+  std::size_t size() const { return tiles_.size(); }
+
+  /// From now on so many tiles are kept, if that is more.
+  void makeRoomFor(std::size_t tiles) { max_tiles_ = std::max(max_tiles_, tiles); }
+
   /// How many tiles there was no room for.
   std::size_t forgotten() const { return forgotten_; }
 
- private:
   static constexpr int kSide = 32;  ///< cells
 
   /// Column and row of a tile.
   using Key = std::pair<int, int>;
 
-  static int tileOf(int index) { return index >= 0 ? index / kSide : -1 - (-1 - index) / kSide; }
+  /// Of the tile of a cell.
   static Key keyOf(CellIndex cell) { return {tileOf(cell.column), tileOf(cell.row)}; }
+
+ private:
+  static int tileOf(int index) { return index >= 0 ? index / kSide : -1 - (-1 - index) / kSide; }
   static std::size_t slotOf(CellIndex cell) {
     const Key key = keyOf(cell);
     return rowMajorIndex(cell.column - key.first * kSide, cell.row - key.second * kSide, kSide);

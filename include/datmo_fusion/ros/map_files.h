@@ -21,15 +21,22 @@ struct SavedMap {
   std::size_t forgotten_tiles = 0;  ///< that the map had no room for: OccupancyMapOptions
 };
 
-/// Writes a map: `file` with all evidence, and beside it, under the same name, a yaml file and an
-/// image as map_server has them. Each appears when it is complete, and what stood there before
-/// stays until then. Throws MapFileError: a name that ends in .yaml or .pgm, a folder, no rights, a
-/// full disk.
+/// What is written beside a map.
+struct MapServerNames {
+  std::string yaml;
+  std::string image;
+};
+MapServerNames mapServerNames(const std::string& file);
+
+/// Writes a map: `file` with all evidence, and beside it a yaml file and an image as map_server has
+/// them (mapServerNames). Each appears when it is complete, and what stood there before stays until
+/// then. Throws MapFileError: a name that ends in .yaml or .pgm, a yaml file beside it that is of
+/// no map, a folder, no rights, a full disk, an area too large for an image.
 SavedMap writeMap(const std::string& file, const OccupancyMap& map);
 
 /// The map of a file that writeMap has written, or of a yaml file of map_server (its name ends in
-/// .yaml or .yml), of cells of the size that the options say. Throws MapFileError: no such file, a
-/// file that is cut or changed, cells of another size, more than the map has room for.
+/// .yaml or .yml), of cells of the size that the options say; all of it, whatever `max_tiles` is.
+/// Throws MapFileError: no such file, a file that is cut or changed, cells of another size.
 OccupancyMap readMap(const std::string& file, const Checked<OccupancyMapOptions>& options);
 
 }  // namespace datmo

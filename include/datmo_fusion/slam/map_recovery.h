@@ -82,9 +82,11 @@ class MapRecovery {
   std::optional<PoseWithCovariance> advance(const OccupancyMap& newer,
                                             const PoseWithCovariance& in_newer, Stamp stamp);
 
-  /// Whether the newer map is to be the map from now on.
+  /// Whether it was searched for in vain long enough: the newer map is to be the map from now on,
+  /// or all of a prior map is to be searched. A search of all of it goes on.
   bool isOver(Stamp stamp) const {
-    return !isInPriorMap() && secondsBetween(begun_, stamp) > options_.give_up_after;
+    return !(region_ && region_->anywhere) &&
+           secondsBetween(begun_, stamp) > options_.give_up_after;
   }
 
   Localization state() const { return state_; }

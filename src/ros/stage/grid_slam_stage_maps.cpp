@@ -30,6 +30,12 @@ std::string GridSlamStage::saveMap(const std::string& file) const {
   return text;
 }
 
+/// Whether saving there would replace a file of the prior map.
+bool GridSlamStage::isOfPriorMap(const std::string& file) const {
+  const std::string& prior = options_.prior_map.file;
+  return !prior.empty() && mapServerNames(file).yaml == mapServerNames(prior).yaml;
+}
+
 datmo_fusion::SaveMap::Response GridSlamStage::answer(
     const datmo_fusion::SaveMap::Request& request) const {
   datmo_fusion::SaveMap::Response response;
@@ -39,9 +45,12 @@ datmo_fusion::SaveMap::Response GridSlamStage::answer(
     return response;
   }
   try {
+    if (isOfPriorMap(request.file)) {
+      throw MapFileError(request.file + ": the map in use, expected another name");
+    }
     response.message = saveMap(request.file);
     response.success = true;
-  } catch (const MapFileError& error) {
+  } catch (const std::exception& error) {  // no memory, too
     response.message = error.what();
     monitor_.warned(InputError("map_not_saved", error.what()));
   }

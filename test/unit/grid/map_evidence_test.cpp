@@ -94,6 +94,16 @@ TEST(MapEvidenceTest, ItComesBackOnlyIntoARestoredMap) {
   expectSurface(restored);
 }
 
+TEST(MapEvidenceTest, WhatTheWindowCameBackToIsInTheEvidence) {
+  OccupancyMap map = mapWithSurface();
+  const std::size_t known = map.evidence().cells.size();
+  map.centerOn({100.0, 50.0});
+  EXPECT_EQ(map.evidence().cells.size(), known);
+  map.centerOn({2.0, 1.0});
+  EXPECT_EQ(map.evidence().cells.size(), known) << "a loop that ends where it began";
+  expectSurface(OccupancyMap::restored(smallMap(), map.evidence()));
+}
+
 TEST(MapEvidenceTest, AnotherWindowShowsTheSame) {
   OccupancyMap map = mapWithSurface();
   map.setWindow({1.0, 3, 3, {50, 50}});

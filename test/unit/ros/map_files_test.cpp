@@ -163,7 +163,7 @@ TEST_F(MapFilesTest, WhatIsNoMapIsRefused) {
   write("text.yaml", "hello: [\n");
   expectIn("no yaml file of map_server", refusal("text.yaml"));
   write("no_image.yaml", "image: none.pgm\nresolution: 0.5\norigin: [0, 0, 0]\n");
-  expectIn("none.pgm: cannot be read", refusal("no_image.yaml"));
+  expectIn("none.pgm: no such file", refusal("no_image.yaml"));
   writeMap(file("a.map"), mapWithWall());
   write("a.pgm", content("a.pgm").substr(0, 60));
   expectIn("a.pgm: is cut", refusal("a.yaml"));
@@ -172,7 +172,7 @@ TEST_F(MapFilesTest, WhatIsNoMapIsRefused) {
   expectIn("nothing is known in it", refusal("empty.yaml"));
 }
 
-TEST_F(MapFilesTest, MoreTilesThanThereIsRoomForAreRefused) {
+TEST_F(MapFilesTest, AllOfAFileIsKeptWhateverRoomThereIsForANewMap) {
   OccupancyMap map = mapWithWall();
   MapEvidence evidence = map.evidence();
   for (int i = 0; i < 5; ++i) {
@@ -181,7 +181,50 @@ TEST_F(MapFilesTest, MoreTilesThanThereIsRoomForAreRefused) {
   writeMap(file("a.map"), OccupancyMap::restored(smallMap(), evidence));
   OccupancyMapOptions small = smallMap();
   small.max_tiles = 4;
-  expectIn("1 tiles too many, expected at most map/max_tiles of them (4)", refusal("a.map", small));
+  OccupancyMap read = readMap(file("a.map"), small);
+  read.setWindow(read.extent());
+  EXPECT_EQ(read.evidence().cells.size(), evidence.cells.size());
+  EXPECT_EQ(read.forgottenTiles(), 0U);
+}
+
+TEST_F(MapFilesTest, AYamlFileThatIsOfNoMapIsNotOverwritten) {
+  write("street.yaml", "scanner:\n  range_sigma: 0.1\n");
+  try {
+    writeMap(file("street.map"), mapWithWall());
+    ADD_FAILURE() << "it was written";
+  } catch (const MapFileError& error) {
+    expectIn("street.yaml would be written beside it", error.what());
+  }
+  EXPECT_EQ(content("street.yaml"), "scanner:\n  range_sigma: 0.1\n");
+  EXPECT_FALSE(std::filesystem::exists(file("street.map")));
+  writeMap(file("hall.map"), mapWithWall());
+  EXPECT_NO_THROW(writeMap(file("hall.map"), mapWithWall())) << "of the map itself it is";
+}
+
+TEST_F(MapFilesTest, AMapOfMapServerHasStaticSurfacesWhateverAgeTheyNeed) {
+  writeMap(file("a.map"), mapWithWall());
+  for (const double age : {0.5, 0.7, 0.8, 0.9, 1.0, 1.3, 1.9}) {
+    OccupancyMapOptions options = smallMap();
+    options.static_after = age;
+    EXPECT_EQ(readMap(file("a.yaml"), options).staticSurfaces().size(), 12U) << age;
+  }
+}
+
+TEST_F(MapFilesTest, AnImpossibleDescriptionIsRefused) {
+  writeMap(file("a.map"), mapWithWall());
+  const auto refusalWith = [&](const std::string& lines) {
+    write("b.yaml", "image: a.pgm\nresolution: 0.5\n" + lines);
+    return refusal("b.yaml");
+  };
+  expectIn("no place", refusalWith("origin: [.nan, 0, 0]\n"));
+  expectIn("no place", refusalWith("origin: [0, 1e12, 0]\n"));
+  expectIn("no yaml file of map_server", refusalWith("origin: [0, 0, 0]\nnegate: true\n"));
+  expectIn("no yaml file of map_server", refusalWith("origin: [0, 0, 0]\nfree_thresh: low\n"));
+  expectIn("free_thresh <= occupied", refusalWith("origin: [0, 0, 0]\nfree_thresh: 0.9\n"));
+  expectIn("mode raw, expected trinary", refusalWith("origin: [0, 0, 0]\nmode: raw\n"));
+  write("b.yaml", "image: /dev/zero\nresolution: 0.5\norigin: [0, 0, 0]\n");
+  expectIn("no such file", refusal("b.yaml"));
+  expectIn("no such file", refusal(std::string(5000, 'x') + ".map"));
 }
 
 TEST_F(MapFilesTest, NamesThatCannotBeWrittenAreRefused) {

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <map>
+#include <utility>
+
 #include "yard.h"
 #include <gtest/gtest.h>
 
@@ -105,14 +108,37 @@ TEST(PriorMapTest, FromAGuessItIsFoundThere) {
   EXPECT_LT(positionError(result, vehicle.truth()), 0.3);
 }
 
+TEST(PriorMapTest, AWrongGuessIsGivenUp) {
+  GridSlam slam{GridSlamOptions{}};
+  SearchRegion guess;
+  guess.prior.pose = {11.0, 1.0, 0.1};
+  guess.prior.covariance = Eigen::Vector3d(1.0, 1.0, 0.03).asDiagonal();
+  slam.startIn({mapOfYard(), guess});
+  Vehicle vehicle{Pose2(2.0, 1.0, 0.1)};
+  SlamResult result = vehicle.step(slam, {1.5, 0.1});
+  for (int i = 0; i < 150; ++i) {
+    result = vehicle.step(slam, {1.5, 0.1});
+    EXPECT_FALSE(isConfidentlyWrong(result, vehicle.truth()));
+  }
+  EXPECT_EQ(result.localization, Localization::kLocated);
+  EXPECT_LT(positionError(result, vehicle.truth()), 0.3);
+}
+
 TEST(PriorMapTest, WhileItIsLostThePriorMapStaysAsItIs) {
   GridSlam slam{GridSlamOptions{}};
   slam.startIn({mapOfYard(), {{}, true}});
-  const std::size_t known = mapOfYard().evidence().cells.size();
+  const MapEvidence before = mapOfYard().evidence();
   Vehicle vehicle{Pose2(2.0, 1.0, 0.1)};
   for (int i = 0; i < 10; ++i) {
     vehicle.step(slam, {0.0, 0.0});
-    EXPECT_EQ(slam.lastingMap().evidence().cells.size(), known);
+  }
+  std::map<std::pair<int, int>, float> log_odds;
+  for (const CellEvidence& known : slam.lastingMap().evidence().cells) {
+    log_odds[{known.cell.column, known.cell.row}] = known.log_odds;
+  }
+  ASSERT_EQ(log_odds.size(), before.cells.size());
+  for (const CellEvidence& known : before.cells) {
+    EXPECT_EQ((log_odds[{known.cell.column, known.cell.row}]), known.log_odds);
   }
 }
 

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A map of the first part of a drive, and localization in it: the command line and the runs."""
 
-import argparse
 import json
 import math
 import tempfile
@@ -149,11 +148,7 @@ def _starts(values, folder):
 
 
 def _parser():
-    parser = argparse.ArgumentParser(
-        prog="prior_map",
-        description=DESCRIPTION,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_line.new_parser("prior_map", DESCRIPTION)
     add = parser.add_argument
     add("drive", type=Path, metavar="DRIVE.bag", help="a recording, as run_bag takes it")
     add("--config", required=True, type=Path, metavar="CONFIG.yaml", help="the sensor set")

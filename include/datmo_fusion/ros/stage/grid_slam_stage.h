@@ -99,9 +99,14 @@ class GridSlamStage : public Stage {
   /// a sentence on what was written. Throws MapFileError.
   std::string saveMap(const std::string& file) const;
 
+  /// The service save_map: as saveMap, of an absolute path that is not of the prior map in use.
+  /// What is wrong is in the response, and a warning of the monitor.
+  datmo_fusion::SaveMap::Response answer(const datmo_fusion::SaveMap::Request& request) const;
+
   void connect(StagePorts& ports) override;
 
  private:
+  bool isOfPriorMap(const std::string& file) const;
   void readPriorMap();
   void checkBaseFrame(const std::string& frame) const;
 
@@ -112,7 +117,6 @@ class GridSlamStage : public Stage {
   void showMatch(const SlamResult& result);
   void showLocalization(const SlamResult& result);
   void showSearch(const SlamResult& result);
-  datmo_fusion::SaveMap::Response answer(const datmo_fusion::SaveMap::Request& request) const;
   GridSlamOutput finish(const SlamResult& result);
   GridSlamOutput outputOf(const SlamResult& result);
   /// By the odometry's poses.
