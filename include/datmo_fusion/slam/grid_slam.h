@@ -39,7 +39,7 @@ struct SlamResult {
   MatchQuality match;              ///< how well the scan fits the map
   OdometryErrors odometry_errors;  ///< as estimated so far
   Localization localization = Localization::kLocated;
-  int maps_begun = 0;  ///< since the vehicle was not found again in the map before
+  int maps_begun = 0;               ///< since the vehicle was not found again in the map before
   bool searches_prior_map = false;  ///< not located, and looked for in all or a part of that
 };
 
