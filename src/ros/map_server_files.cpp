@@ -74,7 +74,7 @@ void check(const MapDescription& description, const std::string& file) {
   // In this form NaN is refused, too.
   if (!(std::abs(origin.x()) <= kMaxOrigin && std::abs(origin.y()) <= kMaxOrigin &&
         std::isfinite(origin.heading()))) {
-    throw MapFileError(file + ": an origin that is no place, expected up to 1e6 m and an angle");
+    throw MapFileError(file + ": origin out of range, expected at most 1e6 m and a finite angle");
   }
   if (!(description.free_below >= 0.0 && description.free_below <= description.occupied_above &&
         description.occupied_above <= 1.0)) {

@@ -216,8 +216,8 @@ TEST_F(MapFilesTest, AnImpossibleDescriptionIsRefused) {
     write("b.yaml", "image: a.pgm\nresolution: 0.5\n" + lines);
     return refusal("b.yaml");
   };
-  expectIn("no place", refusalWith("origin: [.nan, 0, 0]\n"));
-  expectIn("no place", refusalWith("origin: [0, 1e12, 0]\n"));
+  expectIn("origin out of range", refusalWith("origin: [.nan, 0, 0]\n"));
+  expectIn("origin out of range", refusalWith("origin: [0, 1e12, 0]\n"));
   expectIn("no yaml file of map_server", refusalWith("origin: [0, 0, 0]\nnegate: true\n"));
   expectIn("no yaml file of map_server", refusalWith("origin: [0, 0, 0]\nfree_thresh: low\n"));
   expectIn("free_thresh <= occupied", refusalWith("origin: [0, 0, 0]\nfree_thresh: 0.9\n"));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -151,8 +152,9 @@ TEST(PriorMapTest, AtRestNothingIsConfirmed) {
   }
 }
 
-/// A yard turned by half a turn about its own center is the same yard.
-Scan scanInSymmetricYard(const Pose2& base, double seconds) {
+/// A scan where each beam ends at the first point (m, fixed frame) of which this is true.
+Scan scanUpTo(const std::function<bool(const Point2&)>& isOccupied, const Pose2& base,
+              double seconds) {
   Scan scan = scanAt(base, seconds);
   const Pose2 scanner = base * scan.scanner_in_base;
   for (Ray& ray : scan.rays) {
@@ -160,9 +162,7 @@ Scan scanInSymmetricYard(const Pose2& base, double seconds) {
     const Point2 along(std::cos(direction), std::sin(direction));
     ray.range = 60.0;
     for (double range = 0.1; range < 60.0; range += 0.02) {
-      const Point2 at = scanner.position() + range * along;
-      const bool pillar = std::hypot(std::abs(at.x()) - 11.0, std::abs(at.y()) - 5.0) < 0.8;
-      if (pillar || std::abs(at.x()) > 25.0 || std::abs(at.y()) > 12.0) {
+      if (isOccupied(scanner.position() + range * along)) {
         ray.range = range;
         break;
       }
@@ -171,6 +171,16 @@ Scan scanInSymmetricYard(const Pose2& base, double seconds) {
               Point2(ray.range * std::cos(ray.bearing), ray.range * std::sin(ray.bearing));
   }
   return scan;
+}
+
+/// A yard turned by half a turn about its own center is the same yard.
+Scan scanInSymmetricYard(const Pose2& base, double seconds) {
+  return scanUpTo(
+      [](const Point2& at) {
+        const bool pillar = std::hypot(std::abs(at.x()) - 11.0, std::abs(at.y()) - 5.0) < 0.8;
+        return pillar || std::abs(at.x()) > 25.0 || std::abs(at.y()) > 12.0;
+      },
+      base, seconds);
 }
 
 TEST(PriorMapTest, WhereTwoPlacesFitNoneIsTaken) {
@@ -196,27 +206,17 @@ TEST(PriorMapTest, WhereTwoPlacesFitNoneIsTaken) {
 
 /// Another place: two walls that meet at an angle no wall of the yard has.
 Scan scanElsewhere(const Pose2& base, double seconds) {
-  Scan scan = scanAt(base, seconds);
-  const Pose2 scanner = base * scan.scanner_in_base;
-  for (Ray& ray : scan.rays) {
-    const double direction = scanner.heading() + ray.bearing;
-    const Point2 along(std::cos(direction), std::sin(direction));
-    ray.range = 60.0;
-    for (double range = 0.1; range < 60.0; range += 0.02) {
-      const Point2 at = scanner.position() + range * along;
-      if (at.y() > 3.0 + 0.25 * at.x() || at.y() < -3.0 - 0.3 * at.x() || at.x() > 40.0) {
-        ray.range = range;
-        break;
-      }
-    }
-    ray.end = scan.scanner_in_base *
-              Point2(ray.range * std::cos(ray.bearing), ray.range * std::sin(ray.bearing));
-  }
-  return scan;
+  return scanUpTo(
+      [](const Point2& at) {
+        return at.y() > 3.0 + 0.25 * at.x() || at.y() < -3.0 - 0.3 * at.x() || at.x() > 40.0;
+      },
+      base, seconds);
 }
 
 TEST(PriorMapTest, InTheMapOfAnotherPlaceItStaysLost) {
-  GridSlam slam{GridSlamOptions{}};
+  GridSlamOptions options;
+  options.recovery.prior_search.max_boxes = 150000;  // several searches come to an end
+  GridSlam slam{options};
   slam.startIn({mapOfYard(), {{}, true}});
   Pose2 truth;
   for (int i = 0; i < 40; ++i) {
