@@ -49,6 +49,13 @@ rviz_is_drawn() {
   (($(import -window root png:- | identify -format '%k' -) > 50))
 }
 
+# no_result NAME WHAT: ends the script, with the first errors of what a program said.
+no_result() {
+  local log=$log_dir/$1.log
+  grep -m 3 -i error "$log" >&2 || true
+  fail "$2; all that was said: $log"
+}
+
 start_master() {
   start roscore roscore -p "${ROS_MASTER_URI##*:}"
   wait_for 30 "the ROS master did not start" rosparam set /use_sim_time true

@@ -5,6 +5,7 @@ once, with a type that the package (or a named one) has, and takes what is publi
 
 import functools
 import itertools
+import re
 import unittest
 from xml.etree import ElementTree
 
@@ -94,6 +95,18 @@ class LaunchSwitches(unittest.TestCase):
                 kinds = nodelets(nodes).values()
                 ours = {kind for kind in kinds if kind.startswith("datmo_fusion/")}
                 self.assertLessEqual(ours, known)
+
+    def test_the_demos_build_what_is_started(self):
+        started = {node.get("type") for file in (PACKAGE / "launch").glob("*.launch")
+                   for node in ElementTree.parse(file).getroot().iter("node")
+                   if node.get("pkg") == "datmo_fusion"}
+        compiled = {name for name in started if not (PACKAGE / "tools/launch" / name).is_file()}
+        rules = (PACKAGE / "tools/CMakeLists.txt").read_text()
+        built = set(re.search(r"add_dependencies\(live ([^)]+)\)", rules)[1].split())
+        self.assertIn("load_nodelet", compiled)
+        self.assertLessEqual(compiled, built)
+        for demo in ("demo", "risk_demo"):
+            self.assertRegex((PACKAGE / "scripts" / demo).read_text(), r'scripts/build" .*\blive\b')
 
     def test_moving_objects_takes_borders_where_they_are_looked_for(self):
         for switches, _, parameters in self.each("perception.launch"):
