@@ -18,7 +18,8 @@ constexpr double kMaxDelay = 10.0;
 
 bool isVelocity(const MeasuredVelocity& measured) {
   // NaN compares false with everything.
-  return measured.velocity.norm() <= kMaxObjectSpeed && isCovariance(measured.covariance);
+  return measured.velocity.norm() <= kMaxObjectSpeed && isCovariance(measured.covariance) &&
+         isShare(measured.wrong_probability);
 }
 
 /// Of two perpendicular axes that are turned by `rotation`.
@@ -53,8 +54,8 @@ Object transformed(const Pose2& frame_in_parent, const Object& object) {
   const Eigen::Matrix2d rotation = frame_in_parent.rotation();
   result.position_covariance = turned(rotation, object.position_covariance);
   if (object.velocity) {
-    result.velocity = {rotation * object.velocity->velocity,
-                       turned(rotation, object.velocity->covariance)};
+    result.velocity->velocity = rotation * object.velocity->velocity;
+    result.velocity->covariance = turned(rotation, object.velocity->covariance);
   }
   for (Point2& point : result.points) {
     point = frame_in_parent * point;

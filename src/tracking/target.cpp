@@ -125,8 +125,9 @@ double Target::motionProbability(const ScanHistory& history, Stamp now,
                         0.5 * estimate.covariance.block<2, 2>(2, 2).trace()};
   BeamEvidence beams =
       beamEvidence(history, seen_points_, body, now, age_, options.motion_likelihood);
-  if (velocity_measured_) {
-    beams.log_ratio_to_grazing.reset();  // the end of a beam has no velocity that can be measured
+  if (beams.log_ratio_to_grazing) {
+    // The end of a beam has no velocity that can be measured: that which was is of something else.
+    *beams.log_ratio_to_grazing -= std::log(wrong_velocity_);
   }
   const double false_motion =
       beams.by_others ? options.motion_likelihood.apparent_box_motion : falseMotion(options);
@@ -139,8 +140,7 @@ double Target::motionProbability(const ScanHistory& history, Stamp now,
 
 /// That it seems to move if it stands.
 double Target::falseMotion(const TargetOptions& options) const {
-  return velocity_measured_ ? options.motion_likelihood.wrong_velocity
-                            : options.motion_likelihood.apparent_motion;
+  return wrong_velocity_ < 1.0 ? wrong_velocity_ : options.motion_likelihood.apparent_motion;
 }
 
 /// Logarithm of how much likelier its velocity is if it moves than if it stands.
@@ -173,14 +173,15 @@ void Target::confirm(std::uint32_t id, bool moves) {
 /// What was measured is its own velocity, or of something else: then any is as likely as that of a
 /// new object, and it is left out where that explains it better.
 void Target::takeVelocity(const MeasuredVelocity& measured, const TargetOptions& options) {
-  const double wrong = options.motion_likelihood.wrong_velocity;
+  const double wrong =
+      std::max(options.motion_likelihood.wrong_velocity, measured.wrong_probability);
   const Eigen::Matrix2d of_new = square(options.birth_speed_std) * Eigen::Matrix2d::Identity();
   const double own = filter_.logLikelihood(measured);
   const double other = Innovation{measured.velocity, of_new + measured.covariance}.logLikelihood();
   if (own + std::log(1.0 - wrong) < other + std::log(wrong)) {
     return;
   }
-  velocity_measured_ = true;
+  wrong_velocity_ = std::max(options.motion_likelihood.wrong_velocity, wrong_velocity_ * wrong);
   filter_.update(measured, options.filter.min_probability);
 }
 

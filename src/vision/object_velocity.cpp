@@ -83,7 +83,8 @@ void measureVelocities(const std::vector<PointVelocity>& points,
     const std::optional<SharedVelocity> shared =
         sharedVelocity(on_object[i], centerOf(objects[i]), options->shared);
     objects[i].velocity =
-        shared ? std::make_optional(MeasuredVelocity{shared->velocity, shared->covariance})
+        shared ? std::make_optional(MeasuredVelocity{shared->velocity, shared->covariance,
+                                                     shared->wrong_probability})
                : std::nullopt;
   }
 }

@@ -182,10 +182,6 @@ void SharedVelocityOptions::visit(OptionVisitor& visitor) {
                  outlier_share, {0.001, 0.999});
   visitor.number({"max_speed", "m/s", "velocities of outliers are uniform up to it"}, max_speed,
                  {0.1, 200.0});
-  visitor.number({"min_inliers", "1",
-                  "sum of the features' probabilities to be the object's, below which its velocity "
-                  "is not known: two that agree are hardly less than 2"},
-                 min_inliers, {0.1, 1000.0});
   visitor.number(
       {"turn_rate", "rad/s",
        "standard deviation of the rates at which objects turn: the side that is seen moves "
@@ -241,9 +237,10 @@ std::optional<SharedVelocity> sharedVelocity(const std::vector<PointVelocity>& p
     around = mean.velocity;
     mean = weightedMean(samples, mixture, around);
   }
-  if (!(mean.inliers >= options->min_inliers) || !mean.velocity.allFinite()) {
+  if (!mean.velocity.allFinite()) {
     return std::nullopt;
   }
+  mean.wrong_probability = std::pow(options->outlier_share, mean.inliers);
   mean.covariance *= excessScatter(samples, mixture, mean);
   mean.covariance += commonCovariance(samples, mixture, mean);
   mean.covariance +=

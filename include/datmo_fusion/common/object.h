@@ -42,6 +42,8 @@ inline constexpr double kHiddenSide = std::numeric_limits<double>::infinity();
 struct MeasuredVelocity {
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();        ///< m/s, axes of the list's frame
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< m^2/s^2, positive definite
+  /// 0 to 1, probability that it is of something else, as far as its sensor knows.
+  double wrong_probability = 0.0;
 };
 
 /// One object that a sensor sees in one measurement, without memory of earlier ones.

@@ -18,8 +18,8 @@ struct ObjectVelocityOptions {
   void visit(OptionVisitor& visitor);
 };
 
-/// Gives each object the velocity that the points in its box share (sharedVelocity); none where too
-/// few agree. A point belongs to the object nearest to whose center it is of those whose box,
+/// Gives each object the velocity that the points in its box share (sharedVelocity); none where no
+/// point is. A point belongs to the object nearest to whose center it is of those whose box,
 /// enlarged by `margin` and the standard deviation of its position, holds it, and as high above the
 /// ground as road users are. Objects and points in the vehicle's frame, z up from the ground, of
 /// one time. Throws OptionError.

@@ -43,7 +43,6 @@ std::optional<PointVelocity> pointVelocity(const StereoRig& rig, const StereoFea
 struct SharedVelocityOptions {
   double outlier_share = 0.2;  ///< 1
   double max_speed = 40.0;     ///< m/s
-  double min_inliers = 1.5;    ///< 1
   double turn_rate = 0.2;      ///< rad/s
   double curvature = 0.1;      ///< 1/m
 
@@ -61,6 +60,7 @@ struct SharedVelocity {
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();    ///< m/s
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< m^2/s^2
   double inliers = 0.0;                                  ///< sum of probabilities
+  double wrong_probability = 1.0;  ///< 0 to 1, that all inliers are of something else
 };
 
 /// The most likely x and y velocity of the points: normal with each point's covariance, or an
@@ -69,8 +69,9 @@ struct SharedVelocity {
 /// than their noise says; what they have in common stays, however many they are; and as that of the
 /// center it is the less certain the farther the points are from it: the rear of a van that turns
 /// moves aside. (The turn rate is not estimated: at the end of a line of sight the noise of range
-/// makes levers where there are none.) Nothing if fewer than `min_inliers` agree. Covariances must
-/// be positive definite, the center's semidefinite. Throws OptionError.
+/// makes levers where there are none.) It is the object's own unless all inliers are outliers that
+/// agree by chance: the fewer they are the likelier. Nothing of no points. Covariances must be
+/// positive definite, the center's semidefinite. Throws OptionError.
 std::optional<SharedVelocity> sharedVelocity(const std::vector<PointVelocity>& points,
                                              const BodyCenter& center,
                                              const Checked<SharedVelocityOptions>& options);

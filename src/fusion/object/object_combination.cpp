@@ -215,7 +215,8 @@ std::optional<MeasuredVelocity> combinedVelocity(const std::optional<MeasuredVel
   const Eigen::Matrix2d weight_of_b = a->covariance * (a->covariance + b->covariance).inverse();
   const Eigen::Matrix2d covariance = weight_of_b * b->covariance;
   return MeasuredVelocity{a->velocity + weight_of_b * (b->velocity - a->velocity),
-                          0.5 * (covariance + covariance.transpose())};
+                          0.5 * (covariance + covariance.transpose()),
+                          std::max(a->wrong_probability, b->wrong_probability)};
 }
 
 /// What the road says of one position is said once, however many sensors see something there.

@@ -29,7 +29,8 @@ std::optional<MeasuredVelocity> velocityOf(const ObjectMessage& message) {
   if ((covariance.array() == 0.0).all()) {
     return std::nullopt;
   }
-  return MeasuredVelocity{{message.velocity.x, message.velocity.y}, covariance};
+  return MeasuredVelocity{
+      {message.velocity.x, message.velocity.y}, covariance, message.velocity_wrong_probability};
 }
 
 Object fromMessage(const ObjectMessage& message) {
@@ -98,6 +99,7 @@ ObjectMessage toMessage(const Object& object) {
     message.velocity.x = object.velocity->velocity.x();
     message.velocity.y = object.velocity->velocity.y();
     Eigen::Map<RowMajor2>(message.velocity_covariance.data()) = object.velocity->covariance;
+    message.velocity_wrong_probability = static_cast<float>(object.velocity->wrong_probability);
   }
   message.moving_fraction = static_cast<float>(object.moving_fraction);
   message.log_odds = static_cast<float>(object.log_odds);

@@ -220,11 +220,16 @@ TEST(SharedVelocity, WhatStandsDoesNotTurnAndWhatIsSlowTurnsLittle) {
   EXPECT_NEAR(acrossVariance(20.0), 0.25e-4 + 0.2 * 0.2 * 4.0, 1e-4) << "0.2 rad/s";
 }
 
-TEST(SharedVelocity, TooFewThatAgreeGiveNothing) {
-  EXPECT_FALSE(sharedVelocity({}, centerAt(8.0), SharedVelocityOptions()));
-  Random random(5);
-  EXPECT_FALSE(sharedVelocity(pedestrian(8.0, Eigen::Vector3d::Zero(), 1, random), centerAt(8.0),
-                              SharedVelocityOptions()));
+TEST(SharedVelocity, IsTheLessLikelyWrongTheMoreAgree) {
+  EXPECT_FALSE(sharedVelocity({}, centerAt(8.0), SharedVelocityOptions())) << "of nothing";
+  const auto wrongOf = [](int points) {
+    Random random(5);
+    return sharedVelocity(pedestrian(8.0, Eigen::Vector3d::Zero(), points, random), centerAt(8.0),
+                          SharedVelocityOptions())
+        ->wrong_probability;
+  };
+  EXPECT_NEAR(wrongOf(1), 0.2, 0.01) << "the share of outliers";
+  EXPECT_NEAR(wrongOf(2), 0.04, 0.004);
 }
 
 TEST(SharedVelocity, OptionsOutOfRangeAreRefused) {
