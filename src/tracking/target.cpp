@@ -181,7 +181,8 @@ void Target::takeVelocity(const MeasuredVelocity& measured, const TargetOptions&
   if (own + std::log(1.0 - wrong) < other + std::log(wrong)) {
     return;
   }
-  wrong_velocity_ = std::max(options.motion_likelihood.wrong_velocity, wrong_velocity_ * wrong);
+  // No product: what misleads a detector in one image does so in the next.
+  wrong_velocity_ = std::min(wrong_velocity_, wrong);
   filter_.update(measured, options.filter.min_probability);
 }
 

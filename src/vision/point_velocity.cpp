@@ -237,7 +237,7 @@ std::optional<SharedVelocity> sharedVelocity(const std::vector<PointVelocity>& p
     around = mean.velocity;
     mean = weightedMean(samples, mixture, around);
   }
-  if (!mean.velocity.allFinite()) {
+  if (!(mean.velocity.norm() <= options->max_speed)) {
     return std::nullopt;
   }
   mean.wrong_probability = std::pow(options->outlier_share, mean.inliers);

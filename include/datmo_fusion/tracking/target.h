@@ -130,7 +130,7 @@ class Target {
   std::size_t measurement_index_;
   std::uint32_t hits_ = 1;
   bool moving_ = false;
-  double wrong_velocity_ = 1.0;  ///< 1, probability that no velocity which it took is its own
+  double wrong_velocity_ = 1.0;  ///< 1, probability that the surest velocity it took is not its own
   double age_ = 0.0;
   double since_update_ = 0.0;
   double height_;

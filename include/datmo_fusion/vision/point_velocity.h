@@ -70,7 +70,8 @@ struct SharedVelocity {
 /// center it is the less certain the farther the points are from it: the rear of a van that turns
 /// moves aside. (The turn rate is not estimated: at the end of a line of sight the noise of range
 /// makes levers where there are none.) It is the object's own unless all inliers are outliers that
-/// agree by chance: the fewer they are the likelier. Nothing of no points. Covariances must be
+/// agree by chance: the fewer they are the likelier. Nothing of no points, or beyond `max_speed`.
+/// Covariances must be
 /// positive definite, the center's semidefinite. Throws OptionError.
 std::optional<SharedVelocity> sharedVelocity(const std::vector<PointVelocity>& points,
                                              const BodyCenter& center,
