@@ -143,6 +143,7 @@ set(DATMO_FUSION_CORE_SOURCES
   tracking/hypothesis_expansion.cpp
   tracking/imm_filter.cpp
   tracking/kalman_filter.cpp
+  tracking/motion_by_class.cpp
   tracking/motion_likelihood.cpp
   tracking/multiple_hypotheses.cpp
   tracking/nearest_neighbor.cpp

@@ -49,6 +49,7 @@ void TargetOptions::visit(OptionVisitor& visitor) {
   visitor.group("existence", [&] { existence.visit(visitor); });
   visitor.group("motion_likelihood", [&] { motion_likelihood.visit(visitor); });
   visitor.group("class_by_speed", [&] { class_by_speed.visit(visitor); });
+  visitor.group("motion_by_class", [&] { motion_by_class.visit(visitor); });
   visitor.number({"birth_speed_std", "m/s",
                   "standard deviation of each component of the velocity of a new object"},
                  birth_speed_std, {0.1, 100.0});
@@ -131,9 +132,10 @@ double Target::motionProbability(const ScanHistory& history, Stamp now,
   }
   const double false_motion =
       beams.by_others ? options.motion_likelihood.apparent_box_motion : falseMotion(options);
-  const double log_ratio =
-      motion_log_odds_ + motionLogRatio(beams, velocityEvidence(false_motion, options),
-                                        options.motion_likelihood.grazing_share);
+  const double log_ratio = motion_log_odds_ +
+                           classLogRatio(class_.probabilities(), options.motion_by_class) +
+                           motionLogRatio(beams, velocityEvidence(false_motion, options),
+                                          options.motion_likelihood.grazing_share);
   return datmo::motionProbability(log_ratio, existence_.logOdds(options.existence),
                                   options.motion_likelihood);
 }

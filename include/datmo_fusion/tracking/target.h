@@ -15,6 +15,7 @@
 #include "datmo_fusion/tracking/class_by_speed.h"
 #include "datmo_fusion/tracking/existence_score.h"
 #include "datmo_fusion/tracking/imm_filter.h"
+#include "datmo_fusion/tracking/motion_by_class.h"
 #include "datmo_fusion/tracking/motion_likelihood.h"
 #include "datmo_fusion/tracking/track.h"
 #include "datmo_fusion/tracking/tracked_box.h"
@@ -30,6 +31,7 @@ struct TargetOptions {
   ExistenceOptions existence;
   MotionLikelihoodOptions motion_likelihood;
   ClassBySpeedOptions class_by_speed;
+  MotionByClassOptions motion_by_class;
   double birth_speed_std = 8.0;  ///< m/s
   double stop_speed = 0.4;       ///< m/s
 
