@@ -27,6 +27,12 @@ constexpr double kLookingTime = 1.0;
 /// the center of the other.
 constexpr double kDuplicateGateScale = 1.0;
 
+/// A source has whatever another one has, of the same sensor.
+constexpr double kSurelyAgrees = 1.0;
+
+/// What is likelier not there is of no list.
+constexpr double kEven = 0.5;
+
 double positionStd(const Track& track) {
   return std::sqrt(0.5 * track.covariance.topLeftCorner<2, 2>().trace());
 }
@@ -214,29 +220,44 @@ const Track* TrackFuser::trackOf(const FusedTarget& target, std::size_t source,
 
 void TrackFuser::judge(FusedTarget& target, Stamp stamp,
                        const std::vector<PresentTracks>& present) const {
+  // Two sources that have it from one sensor count once.
+  const bool by_two = target.track.sources.size() > 1 && target.track.sensors.size() > 1;
   std::vector<ExistenceReport> reports;
   bool seen_by_all = true;
   for (std::size_t source = 0; source < names_.size(); ++source) {
     const TrackSourceOptions& own = options_.sources.at(names_[source]);
     const Track* const track = trackOf(target, source, present);
     const double looked = target.looked[source].value_or(0.0);
-    reports.push_back({track != nullptr, track != nullptr ? track->existence_probability : 0.0,
-                       looked, own.detection_probability, own.false_agreement_probability});
+    reports.push_back(
+        {track != nullptr,
+         track != nullptr ? std::min(track->existence_probability, own.true_share) : 0.0, looked,
+         own.detection.probability(target.track.class_probabilities),
+         by_two ? own.false_agreement_probability : kSurelyAgrees});
     seen_by_all = seen_by_all && (track != nullptr || looked < kCanSee);
   }
   target.track.existence_probability = fusedExistence(reports);
   target.track.age = secondsBetween(target.born, stamp);
-  // Two sources that have it from one sensor count once.
-  const bool by_two = target.track.sources.size() > 1 && target.track.sensors.size() > 1;
   target.confirmed = target.confirmed || (seen_by_all && by_two);
 }
 
 bool TrackFuser::isWanted(const FusedTarget& target) const {
-  const bool is_beyond = options_.scheme == TrackScheme::kFusedPlusFallback &&
-                         target.track.sources.size() == 1 && target.member(options_.beyond) &&
-                         !isInOthersView(target);
-  return target.track.existence_probability >= options_.published_existence &&
-         (options_.scheme == TrackScheme::kUnion || target.confirmed || is_beyond);
+  const double existence = target.track.existence_probability;
+  if (existence < kEven) {
+    return false;
+  }
+  switch (options_.scheme) {
+    case TrackScheme::kByExistence:
+      // Who has come out stays: a source into whose view it comes needs time to find it.
+      return target.confirmed || target.published || existence >= options_.published_existence;
+    case TrackScheme::kFusedPlusFallback:
+      return target.confirmed || (target.track.sources.size() == 1 &&
+                                  target.member(options_.beyond) && !isInOthersView(target));
+    case TrackScheme::kConfirmedByAll:
+      return target.confirmed;
+    case TrackScheme::kUnion:
+      break;
+  }
+  return true;
 }
 
 bool TrackFuser::isInOthersView(const FusedTarget& target) const {

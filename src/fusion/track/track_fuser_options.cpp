@@ -3,11 +3,35 @@
 
 namespace datmo {
 
+void TrackDetectionOptions::visit(OptionVisitor& visitor) {
+  constexpr Bounds kProbability{0.01, 0.99};
+  const auto share = [&](const char* name, const char* called, double& value) {
+    visitor.number({name, "1",
+                    std::string("that it has a track of ") + called +
+                        " that moves where it could see it for a second: few beams or pixels take "
+                        "longer to tell"},
+                   value, kProbability);
+  };
+  share("pedestrian", "a pedestrian", pedestrian);
+  share("cyclist", "a cyclist", cyclist);
+  share("vehicle", "a vehicle", vehicle);
+}
+
+double TrackDetectionOptions::probability(const ClassProbabilities& classes) const {
+  const auto of = [&](ObjectClass one) { return classes[static_cast<std::size_t>(one)]; };
+  const double named =
+      of(ObjectClass::kPedestrian) + of(ObjectClass::kCyclist) + of(ObjectClass::kVehicle);
+  return of(ObjectClass::kPedestrian) * pedestrian + of(ObjectClass::kCyclist) * cyclist +
+         of(ObjectClass::kVehicle) * vehicle +
+         (1.0 - named) * (pedestrian + cyclist + vehicle) / 3.0;
+}
+
 void TrackSourceOptions::visit(OptionVisitor& visitor) {
   visitor.toggle({"use", "", "off: its tracks are not read", Tier::kPublic}, use);
-  visitor.number({"detection_probability", "1",
-                  "that it has a track of a moving object that it could see for looking_time"},
-                 detection_probability, {0.01, 0.99});
+  visitor.group("detection", [&] { detection.visit(visitor); });
+  visitor.number({"true_share", "1",
+                  "of its tracks, that are of what moves: it is not believed more than that alone"},
+                 true_share, {0.01, 0.999});
   visitor.number({"false_agreement_probability", "1",
                   "that it has one, by chance, that agrees with a false track of another source"},
                  false_agreement_probability, {0.001, 1.0});
@@ -22,11 +46,13 @@ void TrackFuserOptions::visit(OptionVisitor& visitor) {
   visitor.each({"sources", "", "the sensors whose tracks are fused"}, sources);
   visitor.choice(
       {"scheme", "",
-       "which tracks are published (thesis 3.4.2): those of all sources that can see the "
-       "position and those of `beyond` where no other can, the first of these alone, or all",
+       "which tracks are published: those that exist, by what all sources report; or one of the "
+       "thesis's (3.4.2): those of all sources that can see the position and those of `beyond` "
+       "where no other can, the first of these alone, or all",
        Tier::kLive},
       scheme,
-      {{"fused_plus_fallback", TrackScheme::kFusedPlusFallback},
+      {{"by_existence", TrackScheme::kByExistence},
+       {"fused_plus_fallback", TrackScheme::kFusedPlusFallback},
        {"confirmed_by_all", TrackScheme::kConfirmedByAll},
        {"union", TrackScheme::kUnion}});
   visitor.text({"beyond", "", "the source whose tracks are published also where no other can see",

@@ -40,7 +40,7 @@ TEST(FusedTargetsTest, WhoeverLosesAnObjectThatHasJustBeenFusedItsIdStays) {
 
 TEST(FusedTargetsTest, WhatDoesNotComeOutHidesNothing) {
   // Of the camera alone, and so not of the thesis's list, however sure.
-  TrackFuser fuser{TrackFuserOptions()};
+  TrackFuser fuser(withScheme(TrackScheme::kFusedPlusFallback));
   const auto result = fuser.fuse(
       at(0.0), {lidar(0.0, {far("lidar", 9.0)}), stereo(0.0, {far("stereo", -9.0, 0.99)})});
   ASSERT_EQ(result.list.tracks.size(), 1U);
@@ -61,9 +61,9 @@ TEST(FusedTargetsTest, OfTwoAtOnePositionTheSameOneIsPublished) {
   TrackFuser fuser(withScheme(TrackScheme::kUnion));
   for (int i = 0; i < 6; ++i) {
     const double t = 0.1 * i;
-    const double existence = i % 2 == 0 ? 0.9 : 0.98;
+    const double existence = i % 2 == 0 ? 0.7 : 0.88;
     const auto result = fuser.fuse(at(t), {heard("lidar", t, {far("lidar", 9.0, existence)}, {}),
-                                           heard("stereo", t, {far("stereo", -9.0, 0.95)}, {})});
+                                           heard("stereo", t, {far("stereo", -9.0, 0.8)}, {})});
     ASSERT_EQ(result.list.tracks.size(), 1U);
     EXPECT_EQ(result.list.tracks[0].sources[0].source, "stereo") << t;
   }
@@ -81,8 +81,8 @@ TEST(FusedTargetsTest, ASourceWithoutBeamsIsNotMissed) {
 
 /// How long a car that comes toward the vehicle has not been published since it was first, when
 /// the camera has a track of it `needed` s after it came into its view.
-double secondsHidden(double needed) {
-  TrackFuser fuser{TrackFuserOptions()};
+double secondsHidden(double needed, TrackScheme scheme) {
+  TrackFuser fuser(withScheme(scheme));
   int hidden = 0;
   for (int i = 0; i <= 50; ++i) {
     const double t = 0.1 * i;
@@ -98,9 +98,12 @@ double secondsHidden(double needed) {
 }
 
 TEST(FusedTargetsTest, WhatComesIntoAnothersViewIsNotHiddenUntilThatConfirmsIt) {
-  EXPECT_EQ(secondsHidden(0.2), 0.0);
-  EXPECT_EQ(secondsHidden(1.0), 0.0);
-  EXPECT_GT(secondsHidden(3.0), 1.0) << "the camera does not see it";
+  for (const TrackScheme scheme : {TrackScheme::kByExistence, TrackScheme::kFusedPlusFallback}) {
+    EXPECT_EQ(secondsHidden(0.2, scheme), 0.0);
+    EXPECT_EQ(secondsHidden(1.0, scheme), 0.0);
+  }
+  EXPECT_GT(secondsHidden(3.0, TrackScheme::kFusedPlusFallback), 1.0)
+      << "the camera does not see it";
 }
 
 TEST(FusedTargetsTest, ItIsAsOldAsTheOldestOfItsTracks) {
@@ -114,6 +117,10 @@ TEST(FusedTargetsTest, ItIsAsOldAsTheOldestOfItsTracks) {
 
 TEST(FusedTargetsTest, WhoIsSurestOfItIsNoEvidenceBesidesItself) {
   TrackFuserOptions options;
+  for (auto& [name, source] : options.sources) {
+    source.detection = {0.8, 0.8, 0.8};
+  }
+  options.published_existence = 0.5;
   options.sources["lidar"].false_agreement_probability = 0.1;
   options.sources["stereo"].false_agreement_probability = 0.8;
   const auto existence = [&](double by_lidar, double by_stereo) {
@@ -122,8 +129,7 @@ TEST(FusedTargetsTest, WhoIsSurestOfItIsNoEvidenceBesidesItself) {
                                              stereo(0.0, {far("stereo", 9.0, by_stereo)})});
     return result.list.tracks.at(0).existence_probability;
   };
-  // Odds of 4; of detection_probability / false_agreement_probability the other one's counts: 8,
-  // and 1.
+  // Odds of 4; of detection / false_agreement_probability the other one's counts: 8, and 1.
   EXPECT_NEAR(existence(0.6, 0.8), 32.0 / 33.0, 1e-9);
   EXPECT_NEAR(existence(0.8, 0.6), 0.8, 1e-9);
 }

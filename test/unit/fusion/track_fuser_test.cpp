@@ -64,7 +64,7 @@ TEST(TrackFuserTest, ConfirmedByAllIsWhatBothSee) {
 TEST(TrackFuserTest, TwoSourcesThatHaveItFromOneSensorCountOnce) {
   // With fusion of objects besides, the first tracker hears the camera, too.
   const auto published = [](const std::vector<std::string>& sensors) {
-    TrackFuser fuser{TrackFuserOptions()};
+    TrackFuser fuser(withScheme(TrackScheme::kConfirmedByAll));
     Track heard_of = driving(0.0, 0.0, "lidar");
     heard_of.sensors = sensors;
     return fuser.fuse(at(0.0), {lidar(0.0, {heard_of}), stereo(0.0, {driving(0.2, 0.0, "stereo")})})
@@ -73,6 +73,33 @@ TEST(TrackFuserTest, TwoSourcesThatHaveItFromOneSensorCountOnce) {
   EXPECT_EQ(published({"stereo"}), 0U);
   EXPECT_EQ(published({"lidar", "stereo"}), 1U);
   EXPECT_EQ(published({}), 1U);
+}
+
+/// The camera's track of what is surely of a class, where the scanner could see it for long.
+double existenceOf(ObjectClass object_class, double existence = 0.99) {
+  TrackFuser fuser{TrackFuserOptions()};
+  Track track = driving(0.0, 0.0, "stereo");
+  track.class_probabilities = {};
+  track.class_probabilities[static_cast<std::size_t>(object_class)] = 1.0;
+  track.existence_probability = existence;
+  const TrackFusionResult result = fuser.fuse(at(0.0), {lidar(0.0, {}), stereo(0.0, {track})});
+  return result.list.tracks.empty() ? 0.0 : result.list.tracks[0].existence_probability;
+}
+
+TEST(TrackFuserTest, WhatOneSourceHasComesOutWhereTheOtherWouldHardlyHaveIt) {
+  // Odds of 9, since one in ten of a source's tracks is false, times 1 - 0.3 of what is looked at.
+  const double pedestrian = existenceOf(ObjectClass::kPedestrian);
+  EXPECT_GT(pedestrian, 6.3 / 7.3 - 1e-3);
+  EXPECT_LT(pedestrian, 0.9);
+  EXPECT_EQ(existenceOf(ObjectClass::kVehicle), 0.0) << "the scanner would have it";
+  EXPECT_EQ(existenceOf(ObjectClass::kPedestrian, 0.8), 0.0) << "its tracker is not sure";
+}
+
+TEST(TrackDetection, IsTheMeanOverTheClassesItMayBeOf) {
+  const TrackDetectionOptions detection{0.2, 0.5, 0.8};
+  EXPECT_NEAR(detection.probability({0.0, 0.5, 0.0, 0.5, 0.0}), 0.5, 1e-12);
+  EXPECT_NEAR(detection.probability({1.0, 0.0, 0.0, 0.0, 0.0}), 0.5, 1e-12) << "of no class";
+  EXPECT_NEAR(detection.probability({0.0, 0.0, 0.0, 0.0, 1.0}), 0.5, 1e-12) << "of one without";
 }
 
 TEST(TrackFuserTest, UnionIsAllTaggedWithWhoSeesThem) {
@@ -184,7 +211,7 @@ TEST(TrackFuserTest, OneObjectIsNeverTwo) {
 }
 
 TEST(TrackFuserTest, ASilentSourceIsNotMissed) {
-  TrackFuser fuser{TrackFuserOptions()};
+  TrackFuser fuser(withScheme(TrackScheme::kFusedPlusFallback));
   for (int i = 0; i <= 40; ++i) {
     const double t = 0.1 * i;
     std::vector<SourceTracks> lists = {lidar(t, {driving(0.0, t, "lidar")})};

@@ -48,12 +48,14 @@ struct TrackFusionResult {
 /// an id of its own, which stays while one source loses the object and finds it again. That it
 /// exists: fusedExistence, by what each source could see, as published with its tracks.
 ///
-/// What is published, of the tracks that are likely enough to exist (thesis 3.4.2):
+/// What is published, of the tracks that are likelier to exist than not:
 ///
+///   - by_existence: those whose existence is probable enough by what all sources report, and those
+///     that two sensors confirmed once. A source that has no track of what it would surely have
+///     one of says as much as one that has.
+///     The thesis's (3.4.2):
 ///   - fused_plus_fallback: those that all sources have, or had, that can see the position, and two
-///     sensors at least; and those of one source, `beyond`, where no other can see. The thesis's
-///     list.
-///     One that comes from there into another's view stays for as long as that needs to confirm it.
+///     sensors at least; and those of one source, `beyond`, where no other can see. One that comes from there into another's view stays for as long as that needs to confirm it.
 ///   - confirmed_by_all: the first of these alone. For very noisy sensors.
 ///   - union: all. `sensors` lists who sees them.
 ///

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "datmo_fusion/common/class_belief.h"
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/fusion/track/track_association.h"
 #include "datmo_fusion/fusion/track/track_combination.h"
@@ -14,24 +15,38 @@
 namespace datmo {
 
 /// One source of tracks.
+/// That a source has a track of what it could see for looking_time and moves, by its class.
+struct TrackDetectionOptions {
+  double pedestrian = 0.3;  ///< 1
+  double cyclist = 0.6;     ///< 1
+  double vehicle = 0.9;     ///< 1
+
+  void visit(OptionVisitor& visitor);
+
+  /// Of what is of each class with its probability; what has no class here, or none, is as likely
+  /// each of these.
+  double probability(const ClassProbabilities& classes) const;
+};
+
 struct TrackSourceOptions {
   bool use = true;
-  double detection_probability = 0.8;        ///< 1
+  TrackDetectionOptions detection;
+  double true_share = 0.9;                   ///< 1
   double false_agreement_probability = 0.1;  ///< 1
 
   void visit(OptionVisitor& visitor);
 };
 
 /// Which tracks are published (thesis 3.4.2).
-enum class TrackScheme { kFusedPlusFallback, kConfirmedByAll, kUnion };
+enum class TrackScheme { kByExistence, kFusedPlusFallback, kConfirmedByAll, kUnion };
 
 struct TrackFuserOptions {
   std::map<std::string, TrackSourceOptions> sources;  ///< by name; at first lidar and stereo
-  TrackScheme scheme = TrackScheme::kFusedPlusFallback;
+  TrackScheme scheme = TrackScheme::kByExistence;
   std::string beyond = "lidar";  ///< name of a source
   int max_tracks = 200;
   double misses = 0.75;              ///< 1
-  double published_existence = 0.5;  ///< 1
+  double published_existence = 0.85; ///< 1
   double memory = 1.5;               ///< s
   double history_time = 3.0;         ///< s
   TrackPredictionOptions prediction;
