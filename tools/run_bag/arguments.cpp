@@ -81,8 +81,9 @@ void switchOn(FusionLevel level, Arguments& arguments) {
 
 void checkOutputs(const Arguments& arguments) {
   std::vector<std::string> written;
-  std::vector<std::string> outputs{arguments.output,   arguments.times,      arguments.save_map,
-                                   arguments.text.tum, arguments.text.kitti, arguments.text.mot};
+  std::vector<std::string> outputs{arguments.output,   arguments.times,    arguments.report,
+                                   arguments.save_map, arguments.text.tum, arguments.text.kitti,
+                                   arguments.text.mot};
   if (!arguments.save_map.empty()) {
     const MapServerNames beside = mapServerNames(arguments.save_map);
     outputs.insert(outputs.end(), {beside.yaml, beside.image});
@@ -150,6 +151,9 @@ void addFiles(CommandLine& line, Arguments& arguments) {
   line.addRepeated("--preset", arguments.presets,
                    "is laid over the sensor set, e.g. config/thesis.yaml", "PRESET.yaml");
   line.addFile("--times", arguments.times, "how long each stage took for a message", "FILE.json");
+  line.addFile("--report", arguments.report,
+               "what was processed, dropped and silent, and when the pose was uncertain",
+               "FILE.json");
   line.addFile("--tum", arguments.text.tum,
                "the vehicle's poses as the TUM benchmark has them, base_link in map", "POSES.txt");
   line.addFile("--kitti", arguments.text.kitti,

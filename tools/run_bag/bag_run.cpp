@@ -142,6 +142,9 @@ void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progres
   if (!arguments.times.empty()) {
     checkWritable(arguments.times);
   }
+  if (!arguments.report.empty()) {
+    checkWritable(arguments.report);
+  }
   rosbag::Bag bag;
   openInput(arguments.input, bag);
   if (!arguments.save_map.empty()) {
@@ -168,13 +171,17 @@ void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progres
   if (!arguments.times.empty()) {
     writeWholeFile(arguments.times, toJson(graph.times()));
   }
+  const RunTime time{lengthOf(view), took};
+  if (!arguments.report.empty()) {
+    writeWholeFile(arguments.report, run.report().json(drive, time, toStamp(view.getEndTime())));
+  }
   if (!arguments.save_map.empty()) {
     graph.stage<GridSlamStage>("grid_slam").saveMap(arguments.save_map);
   }
   run.text().write();
   output.finish();
   if (!arguments.quiet) {
-    printTable(out, drive, graph, run.refusals(), {lengthOf(view), took});
+    printTable(out, drive, graph, run.refusals(), time);
   }
 }
 

@@ -61,6 +61,7 @@ void BagToGraph::take(const rosbag::MessageInstance& message) {
   const auto reader = readers_.find(message.getTopic());
   if (reader == readers_.end()) {
     output_.copy(message);
+    report_.noteTruth();
     return;
   }
   Publications published;
@@ -68,6 +69,7 @@ void BagToGraph::take(const rosbag::MessageInstance& message) {
           [&] { published = reader->second(message, toStamp(message.getTime())); });
   write(message.getTime(), published);
   refusals_.book(message.getTopic());
+  report_.book(message.getTopic(), toStamp(message.getTime()), graph_);
 }
 
 void BagToGraph::readMotion(const InputTopics& topics) {
@@ -109,6 +111,7 @@ void BagToGraph::write(const ros::Time& time, const Publications& published) {
   for (const Publication& publication : published) {
     drive_.add(publication);
     text_.add(publication);
+    report_.add(publication);
     if (isResult(publication)) {
       writeAsOneOf<geometry_msgs::PoseWithCovarianceStamped, nav_msgs::OccupancyGrid,
                    sensor_msgs::LaserScan, sensor_msgs::PointCloud2, tf2_msgs::TFMessage,
