@@ -30,6 +30,7 @@ struct Arguments {
   bool mono = false;
   bool object_fusion = false;
   bool track_fusion = false;
+  bool v2x = false;
   bool risk = false;
   bool stereo_from_images = false;  ///< also where the bag has clouds
   bool write_grids = false;

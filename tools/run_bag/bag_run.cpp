@@ -96,6 +96,9 @@ SensorSet readSensorsFor(const Arguments& arguments) {
       sensors.set("object_fusion", "sources/stereo/use", false);
     }
   }
+  if (arguments.v2x) {
+    sensors.set("track_fusion", "sources/v2x/use", true);
+  }
   if (!arguments.map.empty()) {
     sensors.set("grid_slam", "prior_map/file", arguments.map);
   }
@@ -124,6 +127,7 @@ GraphSwitches switchesOf(const Arguments& arguments, const SensorSet& sensors,
   switches.mono = arguments.mono;
   switches.object_fusion = arguments.object_fusion;
   switches.track_fusion = arguments.track_fusion;
+  switches.v2x = arguments.v2x;
   switches.risk = arguments.risk;
   switches.stereo_tracker =
       arguments.track_fusion &&

@@ -15,8 +15,10 @@
 #include <sensor_msgs/JointState.h>
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/MultiEchoLaserScan.h>
+#include <sensor_msgs/NavSatFix.h>
 #include <sensor_msgs/PointCloud2.h>
 
+#include "datmo_fusion/ros/convert/earth_conversion.h"
 #include "datmo_fusion/ros/convert/risk_conversion.h"
 #include "datmo_fusion/ros/stage/guard.h"
 
@@ -34,6 +36,8 @@ BagToGraph::BagToGraph(const InputTopics& topics, GraphRunner& graph, DriveSumma
   readScans(topics);
   readStereo(topics.stereo);
   readMono(topics.mono);
+  on<sensor_msgs::NavSatFix>(topics.v2x.gnss, "gnss");
+  on<StationTracksMessage>(topics.v2x.stations, "stations");
   readSources(topics);
 }
 
@@ -116,7 +120,8 @@ void BagToGraph::write(const ros::Time& time, const Publications& published) {
       writeAsOneOf<geometry_msgs::PoseWithCovarianceStamped, nav_msgs::OccupancyGrid,
                    sensor_msgs::LaserScan, sensor_msgs::PointCloud2, tf2_msgs::TFMessage,
                    LabeledScanMessage, RoadBorders, ObjectArray, DroppedObjects, TrackArray,
-                   RiskArray, StereoAlignmentMessage>(time, publication);
+                   RiskArray, StereoAlignmentMessage, EarthFrameMessage, StationTracksMessage>(
+          time, publication);
     }
   }
 }

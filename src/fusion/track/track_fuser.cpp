@@ -233,10 +233,15 @@ void TrackFuser::judge(FusedTarget& target, Stamp stamp,
 
 bool TrackFuser::isWanted(const FusedTarget& target) const {
   const bool is_beyond = options_.scheme == TrackScheme::kFusedPlusFallback &&
-                         target.track.sources.size() == 1 && target.member(options_.beyond) &&
+                         target.track.sources.size() == 1 && isBelievedAlone(target) &&
                          !isInOthersView(target);
   return target.track.existence_probability >= options_.published_existence &&
          (options_.scheme == TrackScheme::kUnion || target.confirmed || is_beyond);
+}
+
+bool TrackFuser::isBelievedAlone(const FusedTarget& target) const {
+  const std::string& source = target.track.sources.front().source;
+  return source == options_.beyond || options_.sources.at(source).alone;
 }
 
 bool TrackFuser::isInOthersView(const FusedTarget& target) const {

@@ -5,6 +5,10 @@ namespace datmo {
 
 void TrackSourceOptions::visit(OptionVisitor& visitor) {
   visitor.toggle({"use", "", "off: its tracks are not read", Tier::kPublic}, use);
+  visitor.toggle({"alone", "",
+                  "what it tracks alone is published where no other source can see, as that of "
+                  "`beyond` is"},
+                 alone);
   visitor.number({"detection_probability", "1",
                   "that it has a track of a moving object that it could see for looking_time"},
                  detection_probability, {0.01, 0.99});

@@ -105,6 +105,8 @@ class TrackFuser {
 
   /// So that a source without a track of it is evidence against it: of one that is published
   /// already when it has had time to confirm its own.
+  /// By whom alone it is tracked is believed where no other can see.
+  bool isBelievedAlone(const FusedTarget& target) const;
   bool isInOthersView(const FusedTarget& target) const;
   void publish(TrackFusionResult& result);
 

@@ -16,6 +16,7 @@ namespace datmo {
 /// One source of tracks.
 struct TrackSourceOptions {
   bool use = true;
+  bool alone = false;
   double detection_probability = 0.8;        ///< 1
   double false_agreement_probability = 0.1;  ///< 1
 
