@@ -154,12 +154,50 @@ void StationTracks::forgetOld(Stamp now) {
   }
 }
 
-TrackList StationTracks::toMap(const StationTrackList& list, const PoseWithCovariance& map_in_plane,
-                               const std::optional<OwnVehicle>& own) {
-  forgetOld(list.stamp);
+Track StationTracks::inMap(const StationTrackList& list, const StationTrack& theirs,
+                           const PoseWithCovariance& map_in_plane) const {
   const Pose2 plane_in_map = map_in_plane.pose.inverse();
   const Eigen::Matrix2d to_map = plane_in_map.rotation();
   const double clock = list.clock_sigma > 0.0 ? list.clock_sigma : options_.clock_sigma;
+  const Point2 position = plane_in_map * theirs.position;
+  const Point2 velocity = to_map * theirs.velocity;
+  Eigen::Matrix<double, 4, 3> by_frame;    // of the map's x, y and heading in the plane
+  by_frame << -to_map, -turned(position),  //
+      Eigen::Matrix2d::Zero(), -turned(velocity);
+  Eigen::Vector4d by_clock;
+  by_clock << velocity, Point2::Zero();
+  Eigen::Matrix4d covariance =
+      rotationOfBoth(to_map) * theirs.covariance * rotationOfBoth(to_map).transpose() +
+      by_frame * map_in_plane.covariance * by_frame.transpose() +
+      clock * clock * by_clock * by_clock.transpose();
+  const double least_position = options_.min_position_sigma * options_.min_position_sigma;
+  const double least_velocity = options_.min_velocity_sigma * options_.min_velocity_sigma;
+  for (int axis = 0; axis < 2; ++axis) {
+    covariance(axis, axis) += std::max(0.0, least_position - covariance(axis, axis));
+    covariance(2 + axis, 2 + axis) +=
+        std::max(0.0, least_velocity - covariance(2 + axis, 2 + axis));
+  }
+  Track track;
+  track.id = claims_.at({list.station, theirs.id}).id;
+  track.state << position, velocity, Point2::Zero();
+  track.covariance.setZero();
+  track.covariance.topLeftCorner<4, 4>() = 0.5 * (covariance + covariance.transpose());
+  track.covariance.bottomRightCorner<2, 2>() =
+      options_.acceleration_sigma * options_.acceleration_sigma * Eigen::Matrix2d::Identity();
+  track.box = {Pose2(position, theirs.heading + plane_in_map.heading()), theirs.length,
+               theirs.width};
+  track.height = theirs.height;
+  track.heading_variance = theirs.heading_variance + map_in_plane.covariance(2, 2);
+  track.moving = theirs.moving;
+  track.class_probabilities = theirs.class_probabilities;
+  track.existence_probability = theirs.existence_probability;
+  track.sensors = {"station " + std::to_string(list.station)};
+  return track;
+}
+
+TrackList StationTracks::toMap(const StationTrackList& list, const PoseWithCovariance& map_in_plane,
+                               const std::optional<OwnVehicle>& own) {
+  forgetOld(list.stamp);
   TrackList result;
   result.stamp = list.stamp;
   for (std::size_t i = 0; i < list.tracks.size(); ++i) {
@@ -171,39 +209,7 @@ TrackList StationTracks::toMap(const StationTrackList& list, const PoseWithCovar
     if (!isCredible(list, theirs)) {
       continue;
     }
-    const Point2 position = plane_in_map * theirs.position;
-    const Point2 velocity = to_map * theirs.velocity;
-    Eigen::Matrix<double, 4, 3> by_frame;    // of the map's x, y and heading in the plane
-    by_frame << -to_map, -turned(position),  //
-        Eigen::Matrix2d::Zero(), -turned(velocity);
-    Eigen::Vector4d by_clock;
-    by_clock << velocity, Point2::Zero();
-    Eigen::Matrix4d covariance =
-        rotationOfBoth(to_map) * theirs.covariance * rotationOfBoth(to_map).transpose() +
-        by_frame * map_in_plane.covariance * by_frame.transpose() +
-        clock * clock * by_clock * by_clock.transpose();
-    const double least_position = options_.min_position_sigma * options_.min_position_sigma;
-    const double least_velocity = options_.min_velocity_sigma * options_.min_velocity_sigma;
-    for (int axis = 0; axis < 2; ++axis) {
-      covariance(axis, axis) += std::max(0.0, least_position - covariance(axis, axis));
-      covariance(2 + axis, 2 + axis) +=
-          std::max(0.0, least_velocity - covariance(2 + axis, 2 + axis));
-    }
-    Track track;
-    track.id = claims_.at({list.station, theirs.id}).id;
-    track.state << position, velocity, Point2::Zero();
-    track.covariance.setZero();
-    track.covariance.topLeftCorner<4, 4>() = 0.5 * (covariance + covariance.transpose());
-    track.covariance.bottomRightCorner<2, 2>() =
-        options_.acceleration_sigma * options_.acceleration_sigma * Eigen::Matrix2d::Identity();
-    track.box = {Pose2(position, theirs.heading + plane_in_map.heading()), theirs.length,
-                 theirs.width};
-    track.height = theirs.height;
-    track.heading_variance = theirs.heading_variance + map_in_plane.covariance(2, 2);
-    track.moving = theirs.moving;
-    track.class_probabilities = theirs.class_probabilities;
-    track.existence_probability = theirs.existence_probability;
-    track.sensors = {"station " + std::to_string(list.station)};
+    const Track track = inMap(list, theirs, map_in_plane);
     if (!isValid(track)) {
       ++counts_.invalid;
     } else if (own && isOwn(track, *own, options_.gate)) {

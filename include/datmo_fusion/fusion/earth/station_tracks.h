@@ -120,6 +120,9 @@ class StationTracks {
 
   bool isCredible(const StationTrackList& list, const StationTrack& track);
   bool follows(const Claim& last, Stamp stamp, const StationTrack& track) const;
+  /// A credible track with all that is not known of it.
+  Track inMap(const StationTrackList& list, const StationTrack& theirs,
+              const PoseWithCovariance& map_in_plane) const;
   void forgetOld(Stamp now);
 
   StationTrackOptions options_;
