@@ -34,6 +34,9 @@ set(DATMO_FUSION_CORE_SOURCES
   detection/stereo_object_maker.cpp
   detection/stereo_surfaces.cpp
   detection/surface_groups.cpp
+  fusion/earth/earth_frame_filter.cpp
+  fusion/earth/local_plane.cpp
+  fusion/earth/station_tracks.cpp
   fusion/grid/grid_fuser.cpp
   fusion/grid/grid_fusion.cpp
   fusion/grid/grid_matcher.cpp

@@ -12,6 +12,7 @@
 #include "datmo_fusion/ros/shared_options.h"
 #include "datmo_fusion/ros/stage/cloud_objects_stage.h"
 #include "datmo_fusion/ros/stage/cloud_to_scan_stage.h"
+#include "datmo_fusion/ros/stage/earth_frame_stage.h"
 #include "datmo_fusion/ros/stage/grid_fusion_stage.h"
 #include "datmo_fusion/ros/stage/grid_slam_stage.h"
 #include "datmo_fusion/ros/stage/lidar_grid_stage.h"
@@ -28,6 +29,7 @@
 #include "datmo_fusion/ros/stage/stereo_objects_stage.h"
 #include "datmo_fusion/ros/stage/track_fusion_stage.h"
 #include "datmo_fusion/ros/stage/tracker_stage.h"
+#include "datmo_fusion/ros/stage/v2x_stage.h"
 #include "datmo_fusion/ros/stereo_camera_options.h"
 #include "datmo_fusion/ros/vehicle_options.h"
 
@@ -93,6 +95,8 @@ std::vector<Section> sections() {
           section<ObjectFusionStageOptions>("`object_fusion`"),
           section<TrackerStageOptions>("`tracker`, `stereo_tracker`"),
           section<TrackFusionStageOptions>("`track_fusion`"),
+          section<EarthFrameStageOptions>("`earth_frame`"),
+          section<V2xStageOptions>("`v2x`"),
           section<RiskStageOptions>("`risk`"),
           section<MarkersOptions>("`markers`, `lidar_markers`, `stereo_markers`"),
           section<GridViewsOptions>("`grid_views`"),

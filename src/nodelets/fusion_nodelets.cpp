@@ -4,13 +4,17 @@
 
 #include <pluginlib/class_list_macros.hpp>
 
+#include "datmo_fusion/ros/stage/earth_frame_stage.h"
 #include "datmo_fusion/ros/stage/grid_fusion_stage.h"
 #include "datmo_fusion/ros/stage/object_fusion_stage.h"
 #include "datmo_fusion/ros/stage/risk_stage.h"
 #include "datmo_fusion/ros/stage/track_fusion_stage.h"
+#include "datmo_fusion/ros/stage/v2x_stage.h"
 
 namespace datmo {
 
+using EarthFrameNodelet = StageNodelet<EarthFrameStage>;
+using V2xNodelet = StageNodelet<V2xStage>;
 using ObjectFusionNodelet = StageNodelet<ObjectFusionStage>;
 using GridFusionNodelet = StageNodelet<GridFusionStage>;
 using RiskNodelet = StageNodelet<RiskStage>;
@@ -18,6 +22,8 @@ using TrackFusionNodelet = StageNodelet<TrackFusionStage>;
 
 }  // namespace datmo
 
+PLUGINLIB_EXPORT_CLASS(datmo::EarthFrameNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(datmo::V2xNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(datmo::GridFusionNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(datmo::ObjectFusionNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(datmo::RiskNodelet, nodelet::Nodelet)

@@ -42,6 +42,7 @@ int main(int count, char** words) {
   switches.object_fusion = is_on("object_fusion");
   switches.stereo_tracker = is_on("track_fusion");
   switches.track_fusion = is_on("track_fusion");
+  switches.v2x = is_on("v2x");
   switches.risk = is_on("risk");
   nlohmann::json stages = nlohmann::json::object();
   for (const datmo::GraphStage& stage : stageGraph(switches)) {

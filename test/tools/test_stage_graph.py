@@ -12,7 +12,7 @@ import unittest
 from launch_files import load
 
 LEVELS = ("low_level_fusion", "stereo_objects", "object_fusion", "track_fusion", "mono")
-OTHERS = ("cloud", "road_border", "static_points", "cloud_objects", "risk")
+OTHERS = ("cloud", "road_border", "static_points", "cloud_objects", "v2x", "risk")
 DISPLAYS = {"markers", "lidar_markers", "stereo_markers", "grid_views", "camera_view", "stack"}
 
 

@@ -160,6 +160,7 @@ target_include_directories(unit_detection PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 
 datmo_fusion_add_core_test(fusion
   fusion/cross_covariance_test.cpp
+  fusion/earth_frame_test.cpp
   fusion/fused_existence_test.cpp
   fusion/fused_state_test.cpp
   fusion/fused_targets_test.cpp
@@ -173,6 +174,7 @@ datmo_fusion_add_core_test(fusion
   fusion/object_fuser_test.cpp
   fusion/position_covariance_test.cpp
   fusion/source_matcher_test.cpp
+  fusion/station_tracks_test.cpp
   fusion/track_association_test.cpp
   fusion/track_combination_test.cpp
   fusion/track_comparison_test.cpp

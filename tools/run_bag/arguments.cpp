@@ -25,6 +25,8 @@ const std::vector<std::string> kInputTopics = {
     "right_image",
     "left_camera_info",
     "right_camera_info",
+    "gnss",
+    "stations",
 };
 
 const Choices<LastStage> kStages = {
@@ -65,7 +67,8 @@ constexpr char kFooter[] =
     "A topic of the bag under another name is given as TOPIC:=TOPIC_OF_THE_BAG, where TOPIC is\n"
     "scan, cloud (a 3D lidar's, in place of scans), object_cloud (one for --cloud-objects beside\n"
     "scans), echoes, odometry, imu, twist, twist_with_covariance, joint_states, points2,\n"
-    "point_velocities, left_image, right_image, left_camera_info or right_camera_info.\n"
+    "point_velocities, left_image, right_image, left_camera_info, right_camera_info,\n"
+    "gnss or stations.\n"
     "Exit code: 0 when done; 1 for a command line, yaml file or bag that is wrong or lacks a\n"
     "topic, and when interrupted; 2 when all messages on a topic were refused, no scan could be\n"
     "used or no tracks came out. After 1 and 2 no output bag is left.";
@@ -81,8 +84,9 @@ void switchOn(FusionLevel level, Arguments& arguments) {
 
 void checkOutputs(const Arguments& arguments) {
   std::vector<std::string> written;
-  std::vector<std::string> outputs{arguments.output,   arguments.times,      arguments.save_map,
-                                   arguments.text.tum, arguments.text.kitti, arguments.text.mot};
+  std::vector<std::string> outputs{arguments.output,   arguments.times,    arguments.report,
+                                   arguments.save_map, arguments.text.tum, arguments.text.kitti,
+                                   arguments.text.mot};
   if (!arguments.save_map.empty()) {
     const MapServerNames beside = mapServerNames(arguments.save_map);
     outputs.insert(outputs.end(), {beside.yaml, beside.image});
@@ -150,6 +154,9 @@ void addFiles(CommandLine& line, Arguments& arguments) {
   line.addRepeated("--preset", arguments.presets,
                    "is laid over the sensor set, e.g. config/thesis.yaml", "PRESET.yaml");
   line.addFile("--times", arguments.times, "how long each stage took for a message", "FILE.json");
+  line.addFile("--report", arguments.report,
+               "what was processed, dropped and silent, and when the pose was uncertain",
+               "FILE.json");
   line.addFile("--tum", arguments.text.tum,
                "the vehicle's poses as the TUM benchmark has them, base_link in map", "POSES.txt");
   line.addFile("--kitti", arguments.text.kitti,
@@ -209,6 +216,10 @@ void addStages(CommandLine& line, Arguments& arguments) {
   line.add_flag("--track-fusion", arguments.track_fusion,
                 "follows the stereo camera's objects too and fuses the tracks, and writes\n"
                 "/tracks/lidar, /tracks/stereo and /objects/stereo");
+  line.add_flag(
+      "--v2x", arguments.v2x,
+      "takes the tracks of other stations as source v2x of track_fusion, by the map's place\n"
+      "on the earth (gnss), and writes /earth_frame, /tracks/v2x and /stations/own");
   line.add_flag("--risk", arguments.risk,
                 "assesses the risk of contact with tracks and with what stands, and writes /risks");
 }

@@ -30,6 +30,7 @@ struct Arguments {
   bool mono = false;
   bool object_fusion = false;
   bool track_fusion = false;
+  bool v2x = false;
   bool risk = false;
   bool stereo_from_images = false;  ///< also where the bag has clouds
   bool write_grids = false;
@@ -37,6 +38,7 @@ struct Arguments {
   std::string map;            ///< file to start in; empty: none
   std::vector<double> start;  ///< x, y (m), heading (degrees) in it, about; empty: anywhere
   std::string save_map;       ///< file for the map at the end; empty: none
+  std::string report;         ///< JSON file for what became of the bag; empty: none
   std::string times;          ///< JSON file for the stages' times; empty: none
   TextFiles text;
   std::map<std::string, std::string> remappings;  ///< our topic (`scan`) -> the input's

@@ -96,6 +96,9 @@ SensorSet readSensorsFor(const Arguments& arguments) {
       sensors.set("object_fusion", "sources/stereo/use", false);
     }
   }
+  if (arguments.v2x) {
+    sensors.set("track_fusion", "sources/v2x/use", true);
+  }
   if (!arguments.map.empty()) {
     sensors.set("grid_slam", "prior_map/file", arguments.map);
   }
@@ -124,6 +127,7 @@ GraphSwitches switchesOf(const Arguments& arguments, const SensorSet& sensors,
   switches.mono = arguments.mono;
   switches.object_fusion = arguments.object_fusion;
   switches.track_fusion = arguments.track_fusion;
+  switches.v2x = arguments.v2x;
   switches.risk = arguments.risk;
   switches.stereo_tracker =
       arguments.track_fusion &&
@@ -141,6 +145,9 @@ void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progres
   const SensorSet sensors = readSensorsFor(arguments);
   if (!arguments.times.empty()) {
     checkWritable(arguments.times);
+  }
+  if (!arguments.report.empty()) {
+    checkWritable(arguments.report);
   }
   rosbag::Bag bag;
   openInput(arguments.input, bag);
@@ -168,13 +175,17 @@ void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progres
   if (!arguments.times.empty()) {
     writeWholeFile(arguments.times, toJson(graph.times()));
   }
+  const RunTime time{lengthOf(view), took};
+  if (!arguments.report.empty()) {
+    writeWholeFile(arguments.report, run.report().json(drive, time, toStamp(view.getEndTime())));
+  }
   if (!arguments.save_map.empty()) {
     graph.stage<GridSlamStage>("grid_slam").saveMap(arguments.save_map);
   }
   run.text().write();
   output.finish();
   if (!arguments.quiet) {
-    printTable(out, drive, graph, run.refusals(), {lengthOf(view), took});
+    printTable(out, drive, graph, run.refusals(), time);
   }
 }
 

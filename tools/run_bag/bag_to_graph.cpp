@@ -15,8 +15,10 @@
 #include <sensor_msgs/JointState.h>
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/MultiEchoLaserScan.h>
+#include <sensor_msgs/NavSatFix.h>
 #include <sensor_msgs/PointCloud2.h>
 
+#include "datmo_fusion/ros/convert/earth_conversion.h"
 #include "datmo_fusion/ros/convert/risk_conversion.h"
 #include "datmo_fusion/ros/stage/guard.h"
 
@@ -34,6 +36,8 @@ BagToGraph::BagToGraph(const InputTopics& topics, GraphRunner& graph, DriveSumma
   readScans(topics);
   readStereo(topics.stereo);
   readMono(topics.mono);
+  on<sensor_msgs::NavSatFix>(topics.v2x.gnss, "gnss");
+  on<StationTracksMessage>(topics.v2x.stations, "stations");
   readSources(topics);
 }
 
@@ -61,6 +65,7 @@ void BagToGraph::take(const rosbag::MessageInstance& message) {
   const auto reader = readers_.find(message.getTopic());
   if (reader == readers_.end()) {
     output_.copy(message);
+    report_.noteTruth();
     return;
   }
   Publications published;
@@ -68,6 +73,7 @@ void BagToGraph::take(const rosbag::MessageInstance& message) {
           [&] { published = reader->second(message, toStamp(message.getTime())); });
   write(message.getTime(), published);
   refusals_.book(message.getTopic());
+  report_.book(message.getTopic(), toStamp(message.getTime()), graph_);
 }
 
 void BagToGraph::readMotion(const InputTopics& topics) {
@@ -109,11 +115,13 @@ void BagToGraph::write(const ros::Time& time, const Publications& published) {
   for (const Publication& publication : published) {
     drive_.add(publication);
     text_.add(publication);
+    report_.add(publication);
     if (isResult(publication)) {
       writeAsOneOf<geometry_msgs::PoseWithCovarianceStamped, nav_msgs::OccupancyGrid,
                    sensor_msgs::LaserScan, sensor_msgs::PointCloud2, tf2_msgs::TFMessage,
                    LabeledScanMessage, RoadBorders, ObjectArray, DroppedObjects, TrackArray,
-                   RiskArray, StereoAlignmentMessage>(time, publication);
+                   RiskArray, StereoAlignmentMessage, EarthFrameMessage, StationTracksMessage>(
+          time, publication);
     }
   }
 }

@@ -12,6 +12,7 @@
 #include "input_refusals.h"
 #include "input_topics.h"
 #include "output_bag.h"
+#include "run_report.h"
 #include "text_outputs.h"
 
 #include <rosbag/bag.h>
@@ -39,6 +40,7 @@ class BagToGraph {
 
   const InputRefusals& refusals() const { return refusals_; }
   const TextOutputs& text() const { return text_; }
+  const RunReport& report() const { return report_; }
 
  private:
   using Reader = std::function<Publications(const rosbag::MessageInstance&, Stamp now)>;
@@ -80,6 +82,7 @@ class BagToGraph {
   bool write_grids_;
   InputRefusals refusals_;
   TextOutputs text_;
+  RunReport report_;
   std::map<std::string, Reader> readers_;  ///< by topic
 };
 

@@ -66,7 +66,7 @@ void findTrackTopics(const rosbag::Bag& bag, const Arguments& arguments,
       topics.objects[objects] = source;
     } else if (source == "stereo" && (with_points || !holdsTopic(bag, topic))) {
       topics.stereo = neededStereoTopics(bag, arguments, "track_fusion");
-    } else if (source != "lidar") {
+    } else if (source != "lidar" && !(source == "v2x" && arguments.v2x)) {
       topics.tracks[topic] = source;
     }
   }
@@ -138,6 +138,15 @@ std::string objectCloudTopic(const rosbag::Bag& bag, const Arguments& arguments)
   return topic;
 }
 
+/// Stations may be silent, the receiver not: without it nothing passes.
+V2xTopics v2xTopics(const rosbag::Bag& bag, const Arguments& arguments) {
+  const V2xTopics topics{arguments.inputTopic("gnss"), arguments.inputTopic("stations")};
+  if (!holdsTopic(bag, topics.gnss)) {
+    failForTopic(bag, "no NavSatFix on " + topics.gnss + " for --v2x (gnss:=TOPIC names another)");
+  }
+  return topics;
+}
+
 }  // namespace
 
 std::vector<std::string> MotionTopics::all() const {
@@ -157,7 +166,8 @@ std::vector<std::string> InputTopics::all() const {
   topics.insert(topics.end(), motion_topics.begin(), motion_topics.end());
   for (const std::string& topic :
        {scan, echoes, cloud, object_cloud, stereo.points, stereo.velocities, stereo.left_image,
-        stereo.right_image, stereo.left_info, stereo.right_info, mono.image, mono.info}) {
+        stereo.right_image, stereo.left_info, stereo.right_info, mono.image, mono.info, v2x.gnss,
+        v2x.stations}) {
     if (!topic.empty()) {
       topics.push_back(topic);
     }
@@ -188,6 +198,9 @@ InputTopics findTopics(const rosbag::Bag& bag, const Arguments& arguments,
   if (arguments.low_level_fusion) {
     findLowLevelTopics(bag, arguments, sensors.options<GridFusionStageOptions>("grid_fusion"),
                        topics);
+  }
+  if (arguments.v2x) {
+    topics.v2x = v2xTopics(bag, arguments);
   }
   if (arguments.mono) {
     topics.mono = monoTopics(bag, arguments);

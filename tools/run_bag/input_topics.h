@@ -34,6 +34,12 @@ struct MonoTopics {
   std::string info;
 };
 
+/// Those of the receiver and of other stations; empty: not read.
+struct V2xTopics {
+  std::string gnss;
+  std::string stations;
+};
+
 /// Topics of the motion inputs in the bag; empty: not read.
 struct MotionTopics {
   std::string odometry;
@@ -54,6 +60,7 @@ struct InputTopics {
   MotionTopics motion;
   StereoTopics stereo;
   MonoTopics mono;
+  V2xTopics v2x;
   std::map<std::string, std::string> grids;    ///< of sources that no stage makes: topic -> source
   std::map<std::string, std::string> objects;  ///< the same for objects
   std::map<std::string, std::string> tracks;   ///< and for tracks

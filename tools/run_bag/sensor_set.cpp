@@ -22,7 +22,7 @@ const std::vector<std::string> kDisplays = {"markers", "lidar_markers", "stereo_
 /// All stages that there may be.
 std::vector<GraphStage> wholeGraph() {
   return stageGraph({true, StereoPoints::kRectifiedImages, true, true, true, true, true, true, true,
-                     true, true, true});
+                     true, true, true, true});
 }
 
 /// The type of the stage that a section is of; empty for one of no stage.

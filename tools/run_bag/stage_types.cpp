@@ -5,6 +5,7 @@
 
 #include "datmo_fusion/ros/stage/cloud_objects_stage.h"
 #include "datmo_fusion/ros/stage/cloud_to_scan_stage.h"
+#include "datmo_fusion/ros/stage/earth_frame_stage.h"
 #include "datmo_fusion/ros/stage/grid_fusion_stage.h"
 #include "datmo_fusion/ros/stage/grid_slam_stage.h"
 #include "datmo_fusion/ros/stage/lidar_grid_stage.h"
@@ -22,6 +23,7 @@
 #include "datmo_fusion/ros/stage/stereo_objects_stage.h"
 #include "datmo_fusion/ros/stage/track_fusion_stage.h"
 #include "datmo_fusion/ros/stage/tracker_stage.h"
+#include "datmo_fusion/ros/stage/v2x_stage.h"
 
 namespace datmo {
 
@@ -44,6 +46,7 @@ const std::map<std::string, StageType>& stageTypes() {
   static const std::map<std::string, StageType> types{
       {"cloud_objects", typeOf<CloudObjectsStage>()},
       {"cloud_to_scan", typeOf<CloudToScanStage>()},
+      {"earth_frame", typeOf<EarthFrameStage>()},
       {"grid_fusion", typeOf<GridFusionStage>()},
       {"grid_slam", typeOf<GridSlamStage>()},
       {"lidar_grid", typeOf<LidarGridStage>()},
@@ -62,6 +65,7 @@ const std::map<std::string, StageType>& stageTypes() {
       {"stereo_objects", typeOf<StereoObjectsStage>()},
       {"track_fusion", typeOf<TrackFusionStage>()},
       {"tracker", typeOf<TrackerStage>()},
+      {"v2x", typeOf<V2xStage>()},
   };
   return types;
 }

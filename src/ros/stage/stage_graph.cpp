@@ -48,6 +48,11 @@ OptionValues fusedSources(const GraphSwitches& switches) {
   return sources;
 }
 
+/// What track_fusion fuses beside the sources that its section names.
+OptionValues fusedTracks(const GraphSwitches& switches) {
+  return switches.v2x ? OptionValues{{"sources/v2x/use", true}} : OptionValues();
+}
+
 }  // namespace
 
 FusionSwitches fusionSwitches(FusionLevel level) {
@@ -114,7 +119,10 @@ std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
                                 "tracker",
                                 {{"objects", "objects/stereo"}, {"tracks", "tracks/stereo"}},
                                 {{"scan_view", false}}});
-  add(switches.track_fusion, {"track_fusion", "track_fusion", {{"tracks/fused", "tracks"}}, {}});
+  add(switches.v2x, {"earth_frame", "earth_frame", {}, {}});
+  add(switches.v2x, {"v2x", "v2x", {{"tracks/own", tracks_of_tracker}}, {}});
+  add(switches.track_fusion,
+      {"track_fusion", "track_fusion", {{"tracks/fused", "tracks"}}, fusedTracks(switches)});
   add(switches.risk, {"risk", "risk", {}, {{"road_borders", switches.road_border}}});
   return graph;
 }

@@ -14,7 +14,6 @@
 
 namespace datmo {
 
-/// One source of tracks.
 /// That a source has a track of what it could see for looking_time and moves, by its class.
 struct TrackDetectionOptions {
   double pedestrian = 0.3;  ///< 1
@@ -28,6 +27,7 @@ struct TrackDetectionOptions {
   double probability(const ClassProbabilities& classes) const;
 };
 
+/// One source of tracks.
 struct TrackSourceOptions {
   bool use = true;
   TrackDetectionOptions detection;

@@ -25,6 +25,7 @@ struct GraphSwitches {
   bool object_fusion = false;
   bool stereo_tracker = false;  ///< the stereo camera's objects are tracked by themselves
   bool track_fusion = false;
+  bool v2x = false;   ///< tracks of other stations come in, and ours go out
   bool risk = false;  ///< of contact between the host and tracks or what stands
 };
 

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/common/pose2.h"
+#include "datmo_fusion/common/stamp.h"
+
+namespace datmo {
+
+struct EarthFrameOptions {
+  double correlated_share = 0.8;   ///< 1
+  double correlation_time = 60.0;  ///< s
+  double map_drift = 0.05;         ///< m / sqrt(m)
+  double map_turn = 0.002;         ///< rad / sqrt(m)
+  double gate = 13.8;              ///< 1
+  int restart_after = 10;
+  double start_heading_sigma = 0.1;  ///< rad
+  double start_spread = 2.0;         ///< m
+  double max_gap = 10.0;             ///< s
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// One position of the receiver: where it is on the earth, and where in the map.
+struct EarthFix {
+  Stamp stamp;
+  Point2 in_plane = Point2::Zero();                          ///< m, east and north
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< m^2, positive definite
+  PoseWithCovariance base_in_map;                            ///< at the same time
+  Point2 antenna_in_base = Point2::Zero();                   ///< m
+};
+
+struct EarthFrameCounts {
+  std::uint64_t used = 0;
+  std::uint64_t gated = 0;     ///< too far from where the vehicle is taken to be
+  std::uint64_t restarts = 0;  ///< of which so many came one after the other
+};
+
+/// Where the map lies on the earth: position and heading of the map's frame in a local plane of
+/// east and north, by positions of a satellite receiver and the poses in the map at the same times.
+///
+/// At first by weighted least squares over all fixes (Arun, Huang, Blostein 1987, in the plane),
+/// until the distance driven tells the heading; then by an extended Kalman filter. Its state also
+/// has the receiver's error that fixes share for a while (atmosphere, multipath), as a Gauss-Markov
+/// process: without it the covariance would fall with each fix, as if they were independent. The
+/// map drifts with the distance driven, turning about the vehicle.
+class EarthFrameFilter {
+ public:
+  /// Throws OptionError.
+  explicit EarthFrameFilter(const Checked<EarthFrameOptions>& options) : options_(*options) {}
+
+  /// Takes the next fix, by rising stamps.
+  void add(const EarthFix& fix);
+
+  /// Of the map's frame in the plane; none until the heading is known.
+  std::optional<PoseWithCovariance> mapInPlane() const;
+
+  const EarthFrameCounts& counts() const { return counts_; }
+
+  /// Forgets all but the counts.
+  void reset();
+
+ private:
+  static constexpr int kState = 5;  ///< x, y, heading of the map, shared error east, north
+  using State = Eigen::Matrix<double, kState, 1>;
+  using Covariance = Eigen::Matrix<double, kState, kState>;
+
+  void start();
+  void predict(const EarthFix& fix);
+  bool update(const EarthFix& fix);
+
+  EarthFrameOptions options_;
+  EarthFrameCounts counts_;
+  std::vector<EarthFix> first_fixes_;
+  bool has_started_ = false;
+  State state_ = State::Zero();
+  Covariance covariance_ = Covariance::Zero();
+  EarthFix last_;
+  int gated_in_a_row_ = 0;
+};
+
+}  // namespace datmo

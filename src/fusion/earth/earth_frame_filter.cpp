@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/fusion/earth/earth_frame_filter.h"
+
+#include <cmath>
+
+#include "rotation_derivative.h"
+#include <Eigen/LU>
+
+namespace datmo {
+
+namespace {
+
+/// Fixes that are kept for the start; of more, every second one is left out.
+constexpr std::size_t kMaxFirstFixes = 400;
+
+Point2 antennaInMap(const EarthFix& fix) { return fix.base_in_map.pose * fix.antenna_in_base; }
+
+/// Of the antenna in the map, m^2: what the pose does not know.
+Eigen::Matrix2d antennaCovariance(const EarthFix& fix) {
+  Eigen::Matrix<double, 2, 3> jacobian;
+  jacobian << Eigen::Matrix2d::Identity(), turned(fix.base_in_map.pose.rotate(fix.antenna_in_base));
+  return jacobian * fix.base_in_map.covariance * jacobian.transpose();
+}
+
+}  // namespace
+
+void EarthFrameOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"correlated_share", "1",
+                  "share of a fix's variance that the fixes of correlation_time have in common "
+                  "(atmosphere, multipath)"},
+                 correlated_share, {0.0, 1.0});
+  visitor.number({"correlation_time", "s", "time constant of that error"}, correlation_time,
+                 {0.1, 3600.0});
+  visitor.number({"map_drift", "m / sqrt(m)", "how far the map drifts with the distance driven"},
+                 map_drift, {0.0, 10.0});
+  visitor.number({"map_turn", "rad / sqrt(m)", "how it turns"}, map_turn, {0.0, 1.0});
+  visitor.number({"gate", "1",
+                  "squared Mahalanobis distance of a fix from which on it is left out; chi-square "
+                  "with two degrees of freedom, 99.9 %"},
+                 gate, {1.0, 1000.0});
+  visitor.integer({"restart_after", "", "so many fixes left out in a row: starts over"},
+                  restart_after, {1.0, 1000.0});
+  visitor.number({"start_heading_sigma", "rad",
+                  "standard deviation of the map's heading from which on it is taken to be known"},
+                 start_heading_sigma, {0.001, 0.5});
+  visitor.number({"start_spread", "m",
+                  "root mean square distance of the first fixes from their mean, below which poses "
+                  "that tremble could pass for a drive"},
+                 start_spread, {0.01, 1000.0});
+  visitor.number(
+      {"max_gap", "s", "a longer time without a fix: starts over if the next is far off"}, max_gap,
+      {0.1, 3600.0});
+}
+
+void EarthFrameFilter::reset() {
+  first_fixes_.clear();
+  has_started_ = false;
+  gated_in_a_row_ = 0;
+}
+
+std::optional<PoseWithCovariance> EarthFrameFilter::mapInPlane() const {
+  if (!has_started_) {
+    return std::nullopt;
+  }
+  return PoseWithCovariance{Pose2(state_(0), state_(1), state_(2)),
+                            covariance_.topLeftCorner<3, 3>()};
+}
+
+void EarthFrameFilter::add(const EarthFix& fix) {
+  if (!has_started_) {
+    first_fixes_.push_back(fix);
+    ++counts_.used;
+    start();
+    if (!has_started_ && first_fixes_.size() > kMaxFirstFixes) {
+      std::vector<EarthFix> thinned;
+      for (std::size_t i = 0; i < first_fixes_.size(); i += 2) {
+        thinned.push_back(first_fixes_[i]);
+      }
+      first_fixes_ = std::move(thinned);
+    }
+    return;
+  }
+  const bool was_silent = secondsBetween(last_.stamp, fix.stamp) > options_.max_gap;
+  predict(fix);
+  if (update(fix)) {
+    ++counts_.used;
+    gated_in_a_row_ = 0;
+    return;
+  }
+  ++counts_.gated;
+  if (was_silent || ++gated_in_a_row_ >= options_.restart_after) {
+    ++counts_.restarts;
+    reset();
+  }
+}
+
+/// Least squares over all first fixes; the error that they share moves them all together.
+void EarthFrameFilter::start() {
+  double weights = 0.0;
+  Point2 mean_in_plane = Point2::Zero();
+  Point2 mean_in_map = Point2::Zero();
+  for (const EarthFix& fix : first_fixes_) {
+    const double weight = 1.0 / (0.5 * fix.covariance.trace());
+    weights += weight;
+    mean_in_plane += weight * fix.in_plane;
+    mean_in_map += weight * antennaInMap(fix);
+  }
+  mean_in_plane /= weights;
+  mean_in_map /= weights;
+  double along = 0.0;
+  double across = 0.0;
+  double spread = 0.0;  // m^2 weighted
+  for (const EarthFix& fix : first_fixes_) {
+    const double weight = 1.0 / (0.5 * fix.covariance.trace());
+    const Point2 a = antennaInMap(fix) - mean_in_map;
+    const Point2 b = fix.in_plane - mean_in_plane;
+    along += weight * a.dot(b);
+    across += weight * (a.x() * b.y() - a.y() * b.x());
+    spread += weight * a.squaredNorm();
+  }
+  // Within the correlation time the shared error turns nothing; what of it changes meanwhile is as
+  // the rest of a fix, and counts but once for all fixes.
+  const double seconds = secondsBetween(first_fixes_.front().stamp, first_fixes_.back().stamp);
+  const double changed =
+      options_.correlated_share * (1.0 - std::exp(-seconds / options_.correlation_time));
+  const auto count = static_cast<double>(first_fixes_.size());
+  const double inflation = (1.0 - options_.correlated_share) + changed * count;
+  if (spread < options_.start_spread * options_.start_spread * weights ||
+      std::sqrt(inflation / spread) > options_.start_heading_sigma) {
+    return;
+  }
+  const double heading = std::atan2(across, along);
+  const double heading_variance = inflation / spread;
+  const Pose2 turned_map(0.0, 0.0, heading);
+  const double mean_variance = count / weights;  // m^2, of one fix along one axis
+  const double shared = options_.correlated_share * mean_variance;
+  const Point2 arm = turned(turned_map.rotate(mean_in_map));
+  state_.setZero();
+  state_.head<2>() = mean_in_plane - turned_map.rotate(mean_in_map);
+  state_(2) = heading;
+  covariance_.setZero();
+  covariance_.topLeftCorner<2, 2>() =
+      Eigen::Matrix2d::Identity() *
+      ((1.0 - options_.correlated_share) * mean_variance / count + shared);
+  // The mean of the antenna in the map is where the heading has no lever.
+  covariance_.topLeftCorner<2, 2>() += arm * arm.transpose() * heading_variance;
+  covariance_.block<2, 1>(0, 2) = -arm * heading_variance;
+  covariance_.block<1, 2>(2, 0) = -arm.transpose() * heading_variance;
+  covariance_(2, 2) = heading_variance;
+  // What the fixes shared is in the position with the other sign.
+  covariance_.bottomRightCorner<2, 2>() = shared * Eigen::Matrix2d::Identity();
+  covariance_.block<2, 2>(0, 3) = -shared * Eigen::Matrix2d::Identity();
+  covariance_.block<2, 2>(3, 0) = -shared * Eigen::Matrix2d::Identity();
+  last_ = first_fixes_.back();
+  first_fixes_.clear();
+  has_started_ = true;
+}
+
+void EarthFrameFilter::predict(const EarthFix& fix) {
+  const double seconds = secondsBetween(last_.stamp, fix.stamp);
+  const double distance =
+      (fix.base_in_map.pose.position() - last_.base_in_map.pose.position()).norm();
+  const double kept = std::exp(-seconds / options_.correlation_time);
+  const double shared = options_.correlated_share * 0.5 * fix.covariance.trace();
+  Covariance transition = Covariance::Identity();
+  transition.bottomRightCorner<2, 2>() *= kept;
+  state_.tail<2>() *= kept;
+  covariance_ = transition * covariance_ * transition.transpose();
+  covariance_.bottomRightCorner<2, 2>() +=
+      shared * (1.0 - kept * kept) * Eigen::Matrix2d::Identity();
+  const Pose2 map(state_(0), state_(1), state_(2));
+  Eigen::Vector3d turn;  // about the vehicle
+  turn << -turned(map.rotate(fix.base_in_map.pose.position())), 1.0;
+  covariance_.topLeftCorner<3, 3>() +=
+      distance * options_.map_turn * options_.map_turn * turn * turn.transpose();
+  covariance_.topLeftCorner<2, 2>() +=
+      distance * options_.map_drift * options_.map_drift * Eigen::Matrix2d::Identity();
+  last_ = fix;
+}
+
+bool EarthFrameFilter::update(const EarthFix& fix) {
+  const Pose2 map(state_(0), state_(1), state_(2));
+  const Point2 antenna = antennaInMap(fix);
+  Eigen::Matrix<double, 2, kState> jacobian;
+  jacobian << Eigen::Matrix2d::Identity(), turned(map.rotate(antenna)), Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d noise =
+      (1.0 - options_.correlated_share) * fix.covariance +
+      map.rotation() * antennaCovariance(fix) * map.rotation().transpose();
+  const Point2 residual = fix.in_plane - map * antenna - state_.tail<2>();
+  const Eigen::Matrix2d inverse = (jacobian * covariance_ * jacobian.transpose() + noise).inverse();
+  if (residual.dot(inverse * residual) > options_.gate) {
+    return false;
+  }
+  const Eigen::Matrix<double, kState, 2> gain = covariance_ * jacobian.transpose() * inverse;
+  state_ += gain * residual;
+  state_(2) = normalizeAngle(state_(2));
+  const Covariance left = Covariance::Identity() - gain * jacobian;  // Joseph's form
+  covariance_ = left * covariance_ * left.transpose() + gain * noise * gain.transpose();
+  return true;
+}
+
+}  // namespace datmo

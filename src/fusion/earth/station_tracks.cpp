@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/fusion/earth/station_tracks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string>
+
+#include "rotation_derivative.h"
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include "datmo_fusion/tracking/track_check.h"
+
+namespace datmo {
+
+namespace {
+
+bool isCovariance(const Eigen::Matrix4d& covariance) {
+  return covariance.allFinite() && covariance.isApprox(covariance.transpose()) &&
+         Eigen::LLT<Eigen::Matrix4d>(covariance).info() == Eigen::Success;
+}
+
+/// Position and velocity of a vector of the plane in the map, or of one of the map in the plane, by
+/// the rotation there.
+Eigen::Matrix4d rotationOfBoth(const Eigen::Matrix2d& rotation) {
+  Eigen::Matrix4d both = Eigen::Matrix4d::Zero();
+  both.topLeftCorner<2, 2>() = rotation;
+  both.bottomRightCorner<2, 2>() = rotation;
+  return both;
+}
+
+double squaredDistance(const Point2& difference, const Eigen::Matrix2d& covariance) {
+  return difference.dot(covariance.inverse() * difference);
+}
+
+/// What is surely no vehicle is none of ours.
+bool mayBeVehicle(const ClassProbabilities& classes) {
+  const auto likeliest = std::max_element(classes.begin(), classes.end()) - classes.begin();
+  const auto object_class = static_cast<ObjectClass>(likeliest);
+  return object_class == ObjectClass::kVehicle || object_class == ObjectClass::kUnknown;
+}
+
+/// Whether a track is the own vehicle: its center within the vehicle's outline and both
+/// uncertainties, and as fast.
+bool isOwn(const Track& track, const OwnVehicle& own, double gate) {
+  if (!mayBeVehicle(track.class_probabilities)) {
+    return false;
+  }
+  const Pose2& pose = own.box.center;
+  Eigen::Vector2d half(0.5 * own.box.length, 0.5 * own.box.width);
+  const Eigen::Matrix2d outline =  // of a point anywhere in the vehicle
+      pose.rotation() * (half.array().square() / 3.0).matrix().asDiagonal() *
+      pose.rotation().transpose();
+  const Eigen::Matrix2d position =
+      track.covariance.topLeftCorner<2, 2>() + own.covariance + outline;
+  const Eigen::Matrix2d velocity =
+      track.covariance.block<2, 2>(2, 2) + Eigen::Matrix2d::Identity();  // (1 m/s)^2 of ours
+  return squaredDistance(track.box.center.position() - pose.position(), position) <= gate &&
+         squaredDistance(track.state.segment<2>(2) - own.velocity, velocity) <= gate;
+}
+
+}  // namespace
+
+void StationTrackOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"max_age", "s", "a list that is older when it comes is left out"}, max_age,
+                 {0.05, 60.0});
+  visitor.number({"max_ahead", "s", "a stamp so far in the future is left out: its clock is wrong"},
+                 max_ahead, {0.0, 60.0});
+  visitor.number({"max_speed", "m/s", "a track that is faster is left out"}, max_speed,
+                 {1.0, 200.0});
+  visitor.number({"min_position_sigma", "m", "no track's position is taken to be surer"},
+                 min_position_sigma, {0.001, 10.0});
+  visitor.number({"min_velocity_sigma", "m/s", "the same of its velocity"}, min_velocity_sigma,
+                 {0.001, 10.0});
+  visitor.number({"clock_sigma", "s", "of a station that does not say how sure its clock is"},
+                 clock_sigma, {0.0, 10.0});
+  visitor.number({"acceleration_sigma", "m/s^2", "of objects, along each axis"}, acceleration_sigma,
+                 {0.1, 50.0});
+  visitor.number({"gate", "1",
+                  "squared Mahalanobis distance from where its last message led to from which on a "
+                  "track has jumped, and within which a track is our own vehicle; chi-square with "
+                  "two degrees of freedom, 99.9 %"},
+                 gate, {1.0, 1000.0});
+  visitor.integer({"probation", "",
+                   "a track that has jumped is left out until so many messages in a row fit "
+                   "together"},
+                  probation, {1.0, 100.0});
+  visitor.number({"forget_after", "s", "a track that is not reported for so long is another one"},
+                 forget_after, {0.1, 600.0});
+  visitor.integer({"max_tracks", "", "of one list; the others are left out"}, max_tracks,
+                  {1.0, 10000.0});
+  visitor.number({"serves_for", "s", "how long a station's list is predicted, while others' come"},
+                 serves_for, {0.0, 5.0});
+  visitor.group("prediction", [&] { prediction.visit(visitor); });
+  visitor.group("comparison", [&] { comparison.visit(visitor); });
+}
+
+void StationTracks::reset() {
+  lists_.clear();
+  claims_.clear();
+}
+
+bool StationTracks::isNew(const StationTrackList& list) const {
+  const auto known = lists_.find(list.station);
+  return known == lists_.end() || known->second.stamp < list.stamp;
+}
+
+bool StationTracks::isCredible(const StationTrackList& list, const StationTrack& track) {
+  const bool is_valid =
+      track.position.allFinite() && track.velocity.allFinite() && isCovariance(track.covariance);
+  counts_.invalid += is_valid ? 0 : 1;
+  if (!is_valid) {
+    return false;
+  }
+  const auto [entry, is_first] = claims_.try_emplace({list.station, track.id});
+  Claim& claim = entry->second;
+  if (is_first) {
+    claim.id = next_id_++;
+  } else if (!follows(claim, list.stamp, track)) {
+    claim.to_prove = options_.probation;
+  } else {
+    claim.to_prove = std::max(0, claim.to_prove - 1);
+  }
+  claim.stamp = list.stamp;
+  claim.track = track;
+  counts_.jumped += claim.to_prove > 0 ? 1 : 0;
+  const bool is_fast = track.velocity.norm() > options_.max_speed;
+  counts_.fast += is_fast ? 1 : 0;
+  return claim.to_prove == 0 && !is_fast;
+}
+
+bool StationTracks::follows(const Claim& last, Stamp stamp, const StationTrack& track) const {
+  const double seconds = secondsBetween(last.stamp, stamp);
+  const double sway = 0.5 * options_.acceleration_sigma * seconds * seconds;
+  const double late = options_.clock_sigma * last.track.velocity.norm();
+  const Eigen::Matrix2d covariance =
+      last.track.covariance.topLeftCorner<2, 2>() + track.covariance.topLeftCorner<2, 2>() +
+      seconds * seconds * last.track.covariance.bottomRightCorner<2, 2>() +
+      (sway * sway + late * late + options_.min_position_sigma * options_.min_position_sigma) *
+          Eigen::Matrix2d::Identity();
+  const Point2 expected = last.track.position + seconds * last.track.velocity;
+  return squaredDistance(track.position - expected, covariance) <= options_.gate;
+}
+
+void StationTracks::forgetOld(Stamp now) {
+  for (auto claim = claims_.begin(); claim != claims_.end();) {
+    const bool is_old = secondsBetween(claim->second.stamp, now) > options_.forget_after;
+    claim = is_old ? claims_.erase(claim) : std::next(claim);
+  }
+  for (auto station = lists_.begin(); station != lists_.end();) {
+    const bool is_old = secondsBetween(station->second.stamp, now) > options_.forget_after;
+    station = is_old ? lists_.erase(station) : std::next(station);
+  }
+}
+
+Track StationTracks::inMap(const StationTrackList& list, const StationTrack& theirs,
+                           const PoseWithCovariance& map_in_plane) const {
+  const Pose2 plane_in_map = map_in_plane.pose.inverse();
+  const Eigen::Matrix2d to_map = plane_in_map.rotation();
+  const double clock = list.clock_sigma > 0.0 ? list.clock_sigma : options_.clock_sigma;
+  const Point2 position = plane_in_map * theirs.position;
+  const Point2 velocity = to_map * theirs.velocity;
+  Eigen::Matrix<double, 4, 3> by_frame;    // of the map's x, y and heading in the plane
+  by_frame << -to_map, -turned(position),  //
+      Eigen::Matrix2d::Zero(), -turned(velocity);
+  Eigen::Vector4d by_clock;
+  by_clock << velocity, Point2::Zero();
+  Eigen::Matrix4d covariance =
+      rotationOfBoth(to_map) * theirs.covariance * rotationOfBoth(to_map).transpose() +
+      by_frame * map_in_plane.covariance * by_frame.transpose() +
+      clock * clock * by_clock * by_clock.transpose();
+  const double least_position = options_.min_position_sigma * options_.min_position_sigma;
+  const double least_velocity = options_.min_velocity_sigma * options_.min_velocity_sigma;
+  for (int axis = 0; axis < 2; ++axis) {
+    covariance(axis, axis) += std::max(0.0, least_position - covariance(axis, axis));
+    covariance(2 + axis, 2 + axis) +=
+        std::max(0.0, least_velocity - covariance(2 + axis, 2 + axis));
+  }
+  Track track;
+  track.id = claims_.at({list.station, theirs.id}).id;
+  track.state << position, velocity, Point2::Zero();
+  track.covariance.setZero();
+  track.covariance.topLeftCorner<4, 4>() = 0.5 * (covariance + covariance.transpose());
+  track.covariance.bottomRightCorner<2, 2>() =
+      options_.acceleration_sigma * options_.acceleration_sigma * Eigen::Matrix2d::Identity();
+  track.box = {Pose2(position, theirs.heading + plane_in_map.heading()), theirs.length,
+               theirs.width};
+  track.height = theirs.height;
+  track.heading_variance = theirs.heading_variance + map_in_plane.covariance(2, 2);
+  track.moving = theirs.moving;
+  track.class_probabilities = theirs.class_probabilities;
+  track.existence_probability = theirs.existence_probability;
+  track.sensors = {"station " + std::to_string(list.station)};
+  return track;
+}
+
+TrackList StationTracks::toMap(const StationTrackList& list, const PoseWithCovariance& map_in_plane,
+                               const std::optional<OwnVehicle>& own) {
+  forgetOld(list.stamp);
+  TrackList result;
+  result.stamp = list.stamp;
+  for (std::size_t i = 0; i < list.tracks.size(); ++i) {
+    if (i >= static_cast<std::size_t>(options_.max_tracks)) {
+      counts_.many += list.tracks.size() - i;
+      break;
+    }
+    const StationTrack& theirs = list.tracks[i];
+    if (!isCredible(list, theirs)) {
+      continue;
+    }
+    const Track track = inMap(list, theirs, map_in_plane);
+    if (!isValid(track)) {
+      ++counts_.invalid;
+    } else if (own && isOwn(track, *own, options_.gate)) {
+      ++counts_.own;
+    } else {
+      result.tracks.push_back(track);
+    }
+  }
+  std::sort(result.tracks.begin(), result.tracks.end(),
+            [](const Track& a, const Track& b) { return a.id < b.id; });
+  result.tracks.erase(std::unique(result.tracks.begin(), result.tracks.end(),
+                                  [](const Track& a, const Track& b) { return a.id == b.id; }),
+                      result.tracks.end());
+  lists_[list.station] = result;
+  return result;
+}
+
+TrackList StationTracks::merged(Stamp stamp) {
+  struct Candidate {
+    std::uint32_t station = 0;
+    Track track;
+  };
+  std::vector<Candidate> candidates;
+  for (const auto& [station, list] : lists_) {
+    const double seconds = secondsBetween(list.stamp, stamp);
+    if (std::abs(seconds) <= options_.serves_for) {
+      for (const Track& track : list.tracks) {
+        candidates.push_back({station, predicted(track, seconds, options_.prediction)});
+      }
+    }
+  }
+  const auto uncertainty = [](const Candidate& one) {
+    return one.track.covariance.topLeftCorner<2, 2>().trace();
+  };
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [&](const auto& a, const auto& b) { return uncertainty(a) < uncertainty(b); });
+  std::vector<Candidate> kept;
+  for (const Candidate& one : candidates) {
+    const bool is_known = std::any_of(kept.begin(), kept.end(), [&](const Candidate& other) {
+      return other.station != one.station &&
+             compare(other.track, one.track, options_.comparison).log_likelihood_ratio > 0.0;
+    });
+    counts_.twice += is_known ? 1 : 0;
+    if (!is_known) {
+      kept.push_back(one);
+    }
+  }
+  TrackList result;
+  result.stamp = stamp;
+  std::transform(kept.begin(), kept.end(), std::back_inserter(result.tracks),
+                 [](const Candidate& one) { return one.track; });
+  std::sort(result.tracks.begin(), result.tracks.end(),
+            [](const Track& a, const Track& b) { return a.id < b.id; });
+  return result;
+}
+
+StationTrack toStation(const Track& track, const PoseWithCovariance& map_in_plane) {
+  const Eigen::Matrix2d to_plane = map_in_plane.pose.rotation();
+  StationTrack ours;
+  ours.id = track.id;
+  ours.position = map_in_plane.pose * track.box.center.position();
+  ours.velocity = to_plane * track.state.segment<2>(2);
+  Eigen::Matrix<double, 4, 3> by_frame;
+  by_frame << Eigen::Matrix2d::Identity(), turned(to_plane * track.box.center.position()),  //
+      Eigen::Matrix2d::Zero(), turned(ours.velocity);
+  const Eigen::Matrix4d covariance = rotationOfBoth(to_plane) *
+                                         track.covariance.topLeftCorner<4, 4>() *
+                                         rotationOfBoth(to_plane).transpose() +
+                                     by_frame * map_in_plane.covariance * by_frame.transpose();
+  ours.covariance = 0.5 * (covariance + covariance.transpose());
+  ours.heading = normalizeAngle(track.box.center.heading() + map_in_plane.pose.heading());
+  ours.heading_variance = track.heading_variance + map_in_plane.covariance(2, 2);
+  ours.length = track.box.length;
+  ours.width = track.box.width;
+  ours.height = track.height;
+  ours.moving = track.moving;
+  ours.class_probabilities = track.class_probabilities;
+  ours.existence_probability = track.existence_probability;
+  return ours;
+}
+
+}  // namespace datmo

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What run_bag --report says of a drive whose scanner was silent for a while, and repeated a scan.
+#include "run_bag_drive.h"
+#include <nlohmann/json.hpp>
+
+namespace datmo {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kLastBefore = 9;   ///< scan before the silence
+constexpr int kFirstAfter = 28;  ///< and after it
+constexpr int kRepeated = 5;     ///< comes twice
+
+class RunBagReport : public RunBag {
+ protected:
+  json report() {
+    arguments_.report = path("report.json");
+    run();
+    return json::parse(bytes(arguments_.report));
+  }
+
+  void writeSilentDrive() const {
+    rosbag::Bag bag(arguments_.input, rosbag::bagmode::Write);
+    bag.write("/tf_static", toTime(kStart),
+              transform(Pose2(2.0, 0.0, 0.0), kStart, "base_link", "scanner"));
+    for (int i = 0; i < kScans; ++i) {
+      const Stamp stamp = kStart + i * kPeriod;
+      const nav_msgs::Odometry odometry = odometryAt(stamp);
+      bag.write("/odometry", toTime(stamp), odometry);
+      bag.write("/tf", toTime(stamp),
+                transform(fromMessage(odometry.pose.pose), stamp, "odom", "base_link"));
+      if (i <= kLastBefore || i >= kFirstAfter) {
+        bag.write("/scan", toTime(stamp), scanAt(stamp));
+      }
+      if (i == kRepeated) {
+        bag.write("/scan", toTime(stamp + 0.01), scanAt(stamp));
+      }
+    }
+  }
+};
+
+TEST_F(RunBagReport, GoodDriveHasNothingToSay) {
+  const json said = report();
+  EXPECT_EQ(said.at("scans"), kScans);
+  EXPECT_NEAR(said.at("duration_s"), (kScans - 1) * kPeriod, 1e-6);
+  EXPECT_GT(said.at("processor_s"), 0.0);
+  EXPECT_TRUE(said.at("silences").empty()) << said;
+  EXPECT_TRUE(said.at("dropped").empty()) << said;
+  EXPECT_TRUE(said.at("conditions").empty()) << said;
+  EXPECT_NEAR(said.at("pose").at("longest_gap_s"), kPeriod, 1e-6);
+  EXPECT_FALSE(said.at("has_truth"));
+}
+
+TEST_F(RunBagReport, SilenceAndDropsHaveTheirTimes) {
+  writeSilentDrive();
+  const json said = report();
+  ASSERT_EQ(said.at("silences").size(), 1U) << said;
+  const json& silence = said.at("silences")[0];
+  EXPECT_EQ(silence.at("topic"), "/scan");
+  EXPECT_NEAR(silence.at("from_s"), kLastBefore * kPeriod, 1e-6);
+  EXPECT_NEAR(silence.at("for_s"), (kFirstAfter - kLastBefore) * kPeriod, 1e-6);
+  ASSERT_EQ(said.at("dropped").size(), 1U) << said;
+  EXPECT_EQ(said.at("dropped")[0].at("count"), 1);
+  EXPECT_NEAR(said.at("dropped")[0].at("most_from_s"), kRepeated * kPeriod + 0.01, 1e-6);
+  EXPECT_NEAR(said.at("pose").at("longest_gap_s"), (kFirstAfter - kLastBefore) * kPeriod, 1e-6);
+}
+
+TEST_F(RunBagReport, TruthThatIsCopiedIsNamed) {
+  arguments_.with_truth = true;
+  EXPECT_TRUE(report().at("has_truth"));
+}
+
+}  // namespace
+}  // namespace datmo

@@ -1,0 +1,194 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""A batch of recordings: its plan, and its runs by Snakemake with programs that only pretend."""
+
+import contextlib
+import io
+import json
+import shutil
+import tempfile
+import unittest
+from pathlib import Path
+
+from datmo_tools.batch.main import find_snakemake, main
+from datmo_tools.batch.plan import find_recordings
+from datmo_tools.errors import InputError
+
+RUN = {
+    "format": 1, "start_s": 100.0, "duration_s": 3.0, "wall_s": 1.0, "processor_s": 1.0, "scans": 30,
+    "has_truth": True, "distance_m": 12.0, "tracks": 2, "silences": [], "conditions": [],
+    "pose": {"longest_gap_s": 0.1, "longest_gap_from_s": 0.0, "first_s": 0.0,
+             "widest_sigma_m": 0.1, "widest_sigma_at_s": 1.0},
+    "dropped": [{"stage": "tracker", "reason": "old", "count": 2, "most_from_s": 1.0, "most": 2}],
+}  # fmt: skip
+SCORE = {
+    "start_s": 100.5, "identity": {}, "hota": {}, "errors": {}, "pose": None,
+    "clear_mot": {"mota": 0.8, "misses": 1, "false_positives": 1, "id_switches": 0, "required": 10},
+    "series": {"time_s": [0.0, 0.5, 1.0, 1.5], "missed": [0, 1, 0, 0], "false": [0, 0, 0, 1]},
+}  # fmt: skip
+
+# Notes each start, and does to itself or to what started it what the recording says.
+RUN_BAG = """\
+#!/bin/sh
+here=$(dirname "$0")
+echo "$(basename "$1")" >> "$here/starts"
+case $(cat "$1") in
+  broken) echo "$1: is no bag" >&2; exit 1 ;;
+  kills_itself) kill -9 $$ ;;
+  kills_once) if [ ! -e "$here/killed" ]; then touch "$here/killed"; kill -9 $$; fi ;;
+  kills_snakemake)
+    if [ ! -e "$here/killed" ]; then
+      touch "$here/killed"
+      parent=$PPID
+      until tr '\\0' ' ' < /proc/$parent/cmdline | grep -q -- --snakefile; do
+        parent=$(sed -n 's/^PPid:.//p' /proc/$parent/status)
+      done
+      kill -9 $parent
+      exit 1
+    fi ;;
+  full) echo "in to out: Problem writing data to disk" >&2; exit 1 ;;
+esac
+cp "$1" "$2"
+cp "$here/run.json" "$6"
+"""
+SCORE_RUN = """\
+#!/bin/sh
+cp "$(dirname "$0")/score.json" "$3"
+"""
+
+
+def why_not():
+    """Empty where Snakemake serves."""
+    try:
+        find_snakemake()
+    except InputError as error:
+        return f"skipped: {error}"
+    return ""
+
+
+@unittest.skipIf(why_not(), why_not())
+class Batch(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.drives = self.folder / "some drives"
+        self.drives.mkdir()
+        self.programs = self.folder / "lib" / "datmo_fusion"
+        self.programs.mkdir(parents=True)
+        for name, text in (("run_bag", RUN_BAG), ("score_run", SCORE_RUN),
+                           ("check_configuration", "#!/bin/sh\n")):  # fmt: skip
+            (self.programs / name).write_text(text)
+            (self.programs / name).chmod(0o755)
+        (self.programs / "run.json").write_text(json.dumps(RUN))
+        (self.programs / "score.json").write_text(json.dumps(SCORE))
+        (self.folder / "sensors.yaml").touch()
+
+    def record(self, **drives):
+        """Recordings of these names; what each of them does to the program."""
+        for name, content in drives.items():
+            (self.drives / f"{name}.bag").write_text(content)
+
+    def batch(self, *words):
+        """Exit code, what it printed, and its report; the starts of run_bag are new ones."""
+        (self.programs / "starts").write_text("")
+        out, err = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            code = main([str(self.drives), "--config", str(self.folder / "sensors.yaml"),
+                         "--programs", str(self.programs), "--jobs", "1", *words])  # fmt: skip
+        report = self.drives / "batch" / "batch.json"
+        log = self.drives / "batch" / "snakemake.log"
+        said = out.getvalue() + err.getvalue() + (log.read_text() if log.exists() else "")
+        return code, said, json.loads(report.read_text()) if report.exists() else None
+
+    def starts(self):
+        return sorted((self.programs / "starts").read_text().split())
+
+    def test_broken_recording_is_one_line_and_nothing_is_done_twice(self):
+        self.record(a="good", b="good", c="good", d="broken")
+        code, said, report = self.batch()
+        self.assertEqual(code, 1)
+        self.assertEqual([one["name"] for one in report["recordings"]], ["a.bag", "b.bag", "c.bag"])
+        self.assertEqual([one["name"] for one in report["failed"]], ["d.bag"])
+        self.assertIn("is no bag", report["failed"][0]["error"])
+        self.assertEqual(said.count("d.bag: is no bag") >= 1, True, said)
+        self.assertAlmostEqual(report["totals"]["mota"], 1.0 - 6.0 / 30.0)
+        self.assertEqual(report["totals"]["dropped"], {"tracker: old": 6})
+        self.assertEqual(self.starts(), ["a.bag", "b.bag", "c.bag", "d.bag"])
+        page = (self.drives / "batch" / "batch.html").read_text()
+        self.assertLess(page.index("Worst moments"), page.index("Recordings</h2>"))
+        again = self.batch()[2]
+        self.assertEqual(self.starts(), [])
+        self.assertEqual(again, report)
+        self.record(b="good now")  # another size: it has changed
+        self.batch()
+        self.assertEqual(self.starts(), ["b.bag"])
+
+    def test_killed_job_is_run_again_and_counts_once(self):
+        self.record(a="good", b="kills_once")
+        code, said, report = self.batch()
+        self.assertEqual(code, 0, said)
+        self.assertEqual(self.starts(), ["a.bag", "b.bag", "b.bag"])
+        self.assertEqual(report["totals"]["recordings"], 2)
+
+    def test_job_that_is_always_killed_is_not_finished_and_the_others_are(self):
+        self.record(a="kills_itself", b="good")
+        code, _, report = self.batch()
+        self.assertEqual(code, 1)
+        self.assertEqual([one["name"] for one in report["recordings"]], ["b.bag"])
+        self.assertFalse(report["failed"][0]["finished"])
+        self.assertEqual(list((self.drives / "batch" / "recordings").glob("a-*")), [])
+
+    def test_killed_batch_goes_on_where_it_was(self):
+        self.record(a="good", b="kills_snakemake", c="good")
+        first = self.batch()[2]
+        done = [one["name"] for one in first["recordings"]]
+        self.assertNotIn("b.bag", done)
+        code, said, report = self.batch()
+        self.assertEqual(code, 0, said)
+        self.assertEqual(self.starts(), sorted({"a.bag", "b.bag", "c.bag"} - set(done)))
+        self.assertEqual(report["totals"]["recordings"], 3)
+        self.assertFalse((self.drives / "batch" / "work").exists())
+
+    def test_full_disk_is_said_and_is_not_the_recordings_fault(self):
+        self.record(a="full")
+        code, said, report = self.batch()
+        self.assertEqual(code, 1)
+        self.assertIn("is full", said)
+        self.assertIn("is full", report["failed"][0]["error"])
+        self.assertFalse(report["failed"][0]["finished"])
+
+    def test_moments_of_a_score(self):
+        self.record(a="good")
+        worst = self.batch()[2]["worst_moments"]
+        self.assertEqual(worst[0]["name"], "a.bag")
+        self.assertAlmostEqual(worst[0]["at_s"], 0.5)  # the score begins so much later
+        self.assertEqual(worst[0]["why"], "0.5 object-seconds missed and 0.5 object-seconds false")
+        self.assertAlmostEqual(worst[0]["weight_s"], 1.0)
+
+    def test_recordings_and_what_lies_beside_them(self):
+        self.record(a="good", b="good")
+        for name in ("a.truth.bag", "b.yaml"):
+            (self.drives / name).touch()
+        below = self.drives / "below"
+        below.mkdir()
+        (below / "a.bag").touch()
+        out = self.drives / "batch"
+        (out / "recordings").mkdir(parents=True)
+        (out / "recordings" / "a.bag").touch()
+        found = find_recordings(self.drives, out, self.folder / "sensors.yaml")
+        self.assertEqual([one.name for one in found], ["a.bag", "b.bag", "below/a.bag"])
+        self.assertEqual(len({one.id for one in found}), 3)
+        self.assertEqual([one.truth is not None for one in found], [True, False, False])
+        self.assertEqual([one.config.name for one in found], ["sensors.yaml", "b.yaml", "sensors.yaml"])
+        with self.assertRaisesRegex(InputError, "no sensor set, expected a.yaml beside it"):
+            find_recordings(self.drives, out, None)
+
+    def test_nothing_to_do_is_said(self):
+        self.assertIn("no recordings", self.batch()[1])
+        shutil.rmtree(self.drives)
+        self.assertIn("no such folder", self.batch()[1])
+
+
+if __name__ == "__main__":
+    unittest.main()

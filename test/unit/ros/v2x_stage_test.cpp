@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A receiver, poses, and another station: what passes, and what is left out and counted.
+#include "datmo_fusion/ros/stage/v2x_stage.h"
+
+#include <cmath>
+
+#include "monitor_counts.h"
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/stage/earth_frame_stage.h"
+
+namespace datmo::v2x_stage_test {
+namespace {
+
+constexpr double kSpeed = 10.0;  // m/s
+constexpr double kPeriod = 0.1;  // s
+constexpr int kSteps = 100;      // of the drive
+constexpr std::uint32_t kPole = 3;
+const Pose2 kMap(0.0, 0.0, 0.6);  // in the plane whose datum is where the drive starts
+
+Stamp stampAt(int step) { return Stamp::fromSeconds(100.0 + kPeriod * step); }
+
+class V2xStageTest : public testing::Test {
+ protected:
+  V2xStageTest() {
+    tf2_msgs::TFMessage mount;
+    mount.transforms = {toTransform(Pose2(1.0, 0.0, 0.0), stampAt(0), "base_link", "antenna")};
+    transforms_.addStatic(mount);
+  }
+
+  /// The vehicle at a step, and the receiver's position at it.
+  void drive(int from, int to) {
+    for (int step = from; step < to; ++step) {
+      const Pose2 base(kSpeed * kPeriod * step, 0.0, 0.0);
+      sensor_msgs::NavSatFix fix;
+      fix.header.stamp = toTime(stampAt(step));
+      fix.header.frame_id = "antenna";
+      const GeodeticPosition position = plane_.toGeodetic(kMap * (base * Point2(1.0, 0.0)));
+      fix.latitude = toDegrees(position.latitude);
+      fix.longitude = toDegrees(position.longitude);
+      fix.altitude = position.altitude;
+      fix.position_covariance = {0.01, 0.0, 0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.01};
+      fix.position_covariance_type = sensor_msgs::NavSatFix::COVARIANCE_TYPE_DIAGONAL_KNOWN;
+      earth_.takeFix(fix);
+      geometry_msgs::PoseWithCovarianceStamped pose;
+      pose.header.stamp = fix.header.stamp;
+      pose.header.frame_id = "map";
+      pose.pose = toMessage(PoseWithCovariance{base, 1e-4 * Eigen::Matrix3d::Identity()});
+      stage_.takePose(pose);
+      if (const EarthFrameMessagePtr frame = earth_.takePose(pose)) {
+        stage_.takeFrame(*frame);
+      }
+    }
+  }
+
+  /// A pedestrian at a place in the map.
+  StationTracksMessage listAt(int step, const Point2& in_map) const {
+    StationTrackList list;
+    list.stamp = stampAt(step);
+    list.station = kPole;
+    StationTrack track;
+    track.id = 5;
+    track.position = kMap * in_map;
+    track.covariance = 0.04 * Eigen::Matrix4d::Identity();
+    track.length = track.width = 0.5;
+    track.class_probabilities[static_cast<std::size_t>(ObjectClass::kPedestrian)] = 1.0;
+    list.tracks.push_back(track);
+    return toMessage(list, plane_);
+  }
+
+  LocalPlane plane_{{degrees(45.19), degrees(5.72), 212.0}};
+  StageMonitor earth_monitor_{"earth_frame"};
+  StageMonitor monitor_{"v2x"};
+  TransformBuffer transforms_{1.0};
+  EarthFrameStage earth_{EarthFrameStageOptions(), transforms_, earth_monitor_};
+  V2xStage stage_{V2xStageOptions(), monitor_};
+};
+
+TEST_F(V2xStageTest, WithoutReceiverNothingPassesAndThatIsSaid) {
+  EXPECT_EQ(stage_.takeStation(listAt(0, {20.0, 5.0}), stampAt(0)), nullptr);
+  EXPECT_EQ(samples::drops(monitor_, "no_earth_frame"), 1U);
+  EXPECT_EQ(monitor_.health(), HealthLevel::kLess);
+}
+
+TEST_F(V2xStageTest, TrackOfAnotherStationIsWhereItIsInTheMap) {
+  drive(0, kSteps);
+  const Point2 there(kSpeed * kPeriod * kSteps + 20.0, 5.0);
+  const TrackArrayPtr tracks = stage_.takeStation(listAt(kSteps, there), stampAt(kSteps));
+  ASSERT_TRUE(tracks);
+  ASSERT_EQ(tracks->tracks.size(), 1U);
+  EXPECT_EQ(tracks->header.frame_id, "map");
+  EXPECT_NEAR(tracks->tracks[0].pose.position.x, there.x(), 0.1);
+  EXPECT_NEAR(tracks->tracks[0].pose.position.y, there.y(), 0.1);
+}
+
+TEST_F(V2xStageTest, ListsThatDoNotServeAreDroppedByReason) {
+  drive(0, kSteps);
+  const StationTracksMessage list = listAt(kSteps, {120.0, 5.0});
+  ASSERT_TRUE(stage_.takeStation(list, stampAt(kSteps)));
+  EXPECT_EQ(stage_.takeStation(list, stampAt(kSteps)), nullptr);
+  EXPECT_EQ(samples::drops(monitor_, "repeated_list"), 1U);
+  EXPECT_EQ(stage_.takeStation(list, stampAt(kSteps + 50)), nullptr);
+  EXPECT_EQ(samples::drops(monitor_, "old_list"), 1U);
+  EXPECT_EQ(stage_.takeStation(listAt(kSteps + 10, {120.0, 5.0}), stampAt(kSteps)), nullptr);
+  EXPECT_EQ(samples::drops(monitor_, "future_list"), 1U);
+  StationTracksMessage ours = listAt(kSteps + 1, {120.0, 5.0});
+  ours.station = 1;
+  EXPECT_EQ(stage_.takeStation(ours, stampAt(kSteps + 1)), nullptr);
+  EXPECT_EQ(samples::drops(monitor_, "own_number"), 1U);
+}
+
+TEST_F(V2xStageTest, StationsThatSpeakInTurnMakeOneListWithStampsThatRise) {
+  drive(0, kSteps);
+  ASSERT_TRUE(stage_.takeStation(listAt(kSteps, {120.0, 5.0}), stampAt(kSteps)));
+  StationTracksMessage late = listAt(kSteps - 1, {140.0, -5.0});
+  late.station = kPole + 1;
+  EXPECT_EQ(stage_.takeStation(late, stampAt(kSteps)), nullptr) << "older than what is out";
+  EXPECT_TRUE(monitor_.drops().empty());
+  const TrackArrayPtr both =
+      stage_.takeStation(listAt(kSteps + 1, {120.0, 5.0}), stampAt(kSteps + 1));
+  ASSERT_TRUE(both);
+  EXPECT_EQ(both->tracks.size(), 2U);
+}
+
+TEST_F(V2xStageTest, OursGoOutWithTheVehicleItself) {
+  drive(0, kSteps);
+  TrackArray tracks;
+  tracks.header.frame_id = "map";
+  tracks.header.stamp = toTime(stampAt(kSteps - 1));
+  const StationTracksMessagePtr ours = stage_.takeTracks(tracks);
+  ASSERT_TRUE(ours);
+  ASSERT_EQ(ours->tracks.size(), 1U);
+  EXPECT_EQ(ours->tracks[0].id, 0U);
+  EXPECT_NEAR(std::hypot(ours->tracks[0].velocity_east, ours->tracks[0].velocity_north), kSpeed,
+              0.1);
+  // A station that hears it has it where the vehicle is: middleAhead of base_link.
+  const StationTrackList heard = fromMessage(*ours, plane_);
+  const Point2 middle(kSpeed * kPeriod * (kSteps - 1) + HostVehicleOptions().middleAhead(), 0.0);
+  EXPECT_LT((heard.tracks[0].position - kMap * middle).norm(), 0.1);
+}
+
+TEST_F(V2xStageTest, ReceiverWithoutFixOrOffTheEarthIsDropped) {
+  sensor_msgs::NavSatFix fix;
+  fix.header.stamp = toTime(stampAt(0));
+  fix.header.frame_id = "antenna";
+  fix.status.status = sensor_msgs::NavSatStatus::STATUS_NO_FIX;
+  earth_.takeFix(fix);
+  EXPECT_EQ(samples::drops(earth_monitor_, "no_fix"), 1U);
+  fix.status.status = sensor_msgs::NavSatStatus::STATUS_FIX;
+  fix.latitude = std::nan("");
+  earth_.takeFix(fix);
+  EXPECT_EQ(samples::drops(earth_monitor_, "bad_position"), 1U);
+  fix.latitude = 45.0;
+  fix.header.frame_id = "elsewhere";
+  earth_.takeFix(fix);
+  EXPECT_EQ(samples::drops(earth_monitor_, "missing_transform"), 1U);
+}
+
+}  // namespace
+}  // namespace datmo::v2x_stage_test

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""All recordings of a folder through the stack: the command line, and the start of Snakemake."""
+
+import contextlib
+import fcntl
+import functools
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+from datmo_tools import command_line, programs
+from datmo_tools.batch import summary
+from datmo_tools.batch.plan import find_recordings, write_plan
+from datmo_tools.batch.recording import cause_file
+from datmo_tools.errors import InputError
+from datmo_tools.evaluate import report
+
+DESCRIPTION = """\
+Takes every recording (*.bag) of a folder through run_bag and, where its truth is in it or beside it
+(NAME.truth.bag), score_run; writes batch.html and batch.json, the worst moments of all first. Started
+again it goes on where it was, and does again only what has changed: recordings, sensor set, options,
+programs. A recording that cannot be used is one line of the report, and the others go on; the exit
+code is then 1. Words behind -- are options of run_bag for all recordings."""
+
+HERE = Path(__file__).parent
+PROFILES = HERE / "profiles"
+MIN_VERSION = 7  # of Snakemake
+NEEDED = ("run_bag", "score_run", "check_configuration")
+MIN_FREE = 64 * 2**20  # bytes: with less the disk counts as full
+
+
+def main(arguments=None):
+    """Runs the command line; returns its exit code."""
+    values = _parser().parse_args(arguments)
+    complete = []
+    code = command_line.run("batch", lambda: complete.append(_batch(values)), "report")
+    return code or int(not complete[0])
+
+
+def _batch(values):
+    """Whether all recordings have been processed."""
+    programs.check(values.programs, NEEDED)
+    out = values.out if values.out is not None else values.folder / "batch"
+    recordings = find_recordings(values.folder, out, values.config)
+    for config in sorted({one.config for one in recordings}):
+        try:
+            programs.output_of(values.programs / "check_configuration", config)
+        except programs.StepFailed as error:
+            raise InputError(str(error)) from error
+    with _locked(out):
+        write_plan(out, recordings, values.programs, values.options, not values.no_bags)
+        for one in recordings:
+            cause_file(out, one.id).unlink(missing_ok=True)
+        code = _snakemake(out, values)
+        batch = summary.collect(out, recordings)
+        _check_disk(out, batch)
+        sections = summary.sections(batch)
+        report.write(out, "batch", f"Batch of {len(recordings)} recordings", batch, sections)
+        if code == 0:
+            shutil.rmtree(out / "work", ignore_errors=True)  # of attempts whose jobs were killed
+    print(report.as_text(sections))
+    print(f"\nreport: {out / 'batch.html'}, {out / 'batch.json'}; Snakemake's log: {_log(out)}")
+    return not batch["failed"]
+
+
+@contextlib.contextmanager
+def _locked(out):
+    """Context in which no other batch works in the folder; a killed one leaves no lock."""
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        with (out / "lock").open("w") as file:
+            try:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError as error:
+                raise InputError(f"{out}: another batch works in it; wait for its end") from error
+            yield
+    except OSError as error:
+        raise InputError(f"{out}: cannot be written: {error}") from error
+
+
+@functools.lru_cache(maxsize=1)
+def find_snakemake():
+    """Path (string) of Snakemake. Raises InputError where there is none, or one that is too old."""
+    program = shutil.which("snakemake")
+    if program is None:
+        raise InputError("no snakemake on PATH, expected Debian's package snakemake"
+                         " ('scripts/setup batch' installs it)")  # fmt: skip
+    version = programs.output_of(Path(program), "--version").strip()
+    if int(version.partition(".")[0]) < MIN_VERSION:
+        raise InputError(f"{program} is of version {version}, expected {MIN_VERSION} or newer")
+    return program
+
+
+def _snakemake(out, values):
+    """Its exit code; it has ended when this returns, whatever happens."""
+    program = find_snakemake()
+    profile = PROFILES / values.profile
+    words = [program, "--snakefile", HERE / "Snakefile", "--directory", out, "--nolock", "--quiet",
+             "--profile", profile if profile.is_dir() else values.profile]  # fmt: skip
+    if values.jobs is not None:
+        words += ["--jobs" if values.profile != "local" else "--cores", values.jobs]
+    words += ["--config", f"out={out.resolve()}"]
+    with _log(out).open("wb") as log, subprocess.Popen(
+        [str(word) for word in words], stdout=log, stderr=subprocess.STDOUT, env=_environment()
+    ) as process:
+        try:
+            return process.wait()
+        except BaseException:
+            process.terminate()  # it ends its jobs
+            raise
+
+
+def _environment():
+    """Of the jobs, which find this package where this process has it from."""
+    path = [str(HERE.parent.parent), *filter(None, [os.environ.get("PYTHONPATH")])]
+    return {**os.environ, "PYTHONPATH": os.pathsep.join(path)}
+
+
+def _log(out):
+    return out / "snakemake.log"
+
+
+def _check_disk(out, batch):
+    """Raises InputError where what is left undone has no room."""
+    undone = sum(not one["finished"] for one in batch["failed"])
+    disk = os.statvfs(out)
+    if undone and disk.f_bavail * disk.f_frsize < MIN_FREE:
+        raise InputError(f"{out}: its disk is full, {undone} recordings are not done; make room and"
+                         " start the same again, it goes on where it was")  # fmt: skip
+
+
+def _parser():
+    parser = command_line.new_parser("batch", DESCRIPTION)
+    add = parser.add_argument
+    add("folder", type=Path, metavar="FOLDER", help="with recordings, also in folders below it")
+    add("--programs", required=True, type=Path, metavar="DIR",
+        help="folder of run_bag and score_run")  # fmt: skip
+    add("--config", type=Path, metavar="CONFIG.yaml",
+        help="the sensor set of recordings that have none beside them (NAME.yaml)")  # fmt: skip
+    add("--out", type=command_line.output_folder, metavar="DIR",
+        help="report, scores and bags (default FOLDER/batch)")  # fmt: skip
+    add("--profile", default="local", metavar="PROFILE",
+        help="local, slurm, or a folder with a profile of Snakemake (default %(default)s)")  # fmt: skip
+    add("--jobs", type=command_line.count, metavar="N",
+        help="recordings at a time (default: the profile's)")  # fmt: skip
+    add("--no-bags", action="store_true", help="keeps scores alone, not the bags of results")
+    add("options", nargs="*", metavar="-- OPTION", help="of run_bag")
+    return parser

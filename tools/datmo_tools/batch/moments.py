@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""When in a recording things went badly, and how badly.
+
+All is weighed in seconds of trouble: how long the pose was lost or a sensor silent, and how many
+object-seconds were missed or false.
+"""
+
+WINDOW = 2.0  # s, in which misses, false tracks and drops are counted together
+MAX_WINDOWS = 3  # a recording, that do not overlap
+MAX_MOMENTS = 10  # a recording
+MIN_WEIGHT = 0.2  # s: less is no moment
+UNCERTAIN_WEIGHT = 0.5  # of a second in which results come, but less than all
+
+# Health of a stage as run_bag --report has it.
+NOTHING = "nothing"
+
+
+def worst_moments(run, score):
+    """List of {at_s, for_s, weight_s, why}, the worst first.
+
+    run: what run_bag --report wrote; score: what score_run wrote, or None.
+    """
+    moments = [*_conditions(run), *_silences(run), *_gap_of_pose(run), *_drops(run)]
+    if score is not None:
+        moments += _windows(score["series"], score["start_s"] - run["start_s"])
+    moments = [one for one in moments if one["weight_s"] >= MIN_WEIGHT]
+    moments.sort(key=lambda one: (-one["weight_s"], one["at_s"], one["why"]))
+    return moments[:MAX_MOMENTS]
+
+
+def _moment(start, length, weight, why):
+    return {"at_s": round(start, 3), "for_s": round(length, 3), "weight_s": round(weight, 3),
+            "why": why}  # fmt: skip
+
+
+def _conditions(run):
+    for one in run["conditions"]:
+        share = 1.0 if one["level"] == NOTHING else UNCERTAIN_WEIGHT
+        yield _moment(one["from_s"], one["for_s"], share * one["for_s"],
+                      f"{one['stage']}: {one['why']}")  # fmt: skip
+
+
+def _silences(run):
+    for one in run["silences"]:
+        yield _moment(one["from_s"], one["for_s"], one["for_s"], f"nothing on {one['topic']}")
+
+
+def _gap_of_pose(run):
+    """The longest one, and the wait for the first pose."""
+    pose = run["pose"]
+    if pose is None:
+        yield _moment(0.0, run["duration_s"], run["duration_s"], "no pose at all")
+        return
+    period = run["duration_s"] / max(run["scans"], 1)
+    for start, length, why in ((pose["longest_gap_from_s"], pose["longest_gap_s"], "no pose"),
+                               (0.0, pose["first_s"], "no pose yet")):
+        missing = length - period
+        if missing > WINDOW / 2.0:
+            yield _moment(start, length, missing, why)
+
+
+def _drops(run):
+    """Where most messages of a stage were dropped; each counts as one period of the scans."""
+    period = run["duration_s"] / max(run["scans"], 1)
+    for one in run["dropped"]:
+        yield _moment(one["most_from_s"], WINDOW, min(WINDOW, one["most"] * period),
+                      f"{one['stage']} dropped {one['most']} messages: {one['reason']}")  # fmt: skip
+
+
+def _windows(series, offset):
+    """Windows with most misses and false tracks. offset: of the score's times to the recording's."""
+    times, missed, false = series["time_s"], series["missed"], series["false"]
+    if len(times) < 2:
+        return
+    period = (times[-1] - times[0]) / (len(times) - 1)
+    used = [False] * len(times)
+    for _ in range(MAX_WINDOWS):
+        window = _fullest(times, [m + f for m, f in zip(missed, false)], used)
+        if window is None:
+            return
+        misses, ghosts = (sum(counts[i] for i in window) for counts in (missed, false))
+        why = " and ".join(
+            f"{count * period:.1f} object-seconds {word}"
+            for count, word in ((misses, "missed"), (ghosts, "false")) if count)
+        yield _moment(times[window[0]] + offset, times[window[-1]] - times[window[0]] + period,
+                      (misses + ghosts) * period, why)  # fmt: skip
+        for i in window:
+            used[i] = True
+
+
+def _fullest(times, counts, used):
+    """Range of the frames of the window with most, none of them used; None: nothing is left."""
+    best, best_count, first, count = None, 0, 0, 0
+    for last, stamp in enumerate(times):
+        if used[last]:
+            first, count = last + 1, 0
+            continue
+        count += counts[last]
+        while stamp - times[first] > WINDOW:
+            count -= counts[first]
+            first += 1
+        if count > best_count:
+            best, best_count = range(first, last + 1), count
+    return best

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""One recording of a batch: run_bag, score_run, and what came of it as one file."""
+
+import argparse
+import contextlib
+import errno
+import json
+import os
+import resource
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from datmo_tools import command_line, programs
+from datmo_tools.batch.moments import worst_moments
+from datmo_tools.errors import InputError
+from datmo_tools.programs import StepFailed
+from datmo_tools.whole_files import write_whole
+
+FORMAT = 1  # of the outcome
+# What a program says that could not write; the second is rosbag's.
+DISK_FAULTS = (os.strerror(errno.ENOSPC), "Problem writing data to disk")
+SCORES = ("clear_mot", "identity", "hota", "errors", "pose")  # of score_run, that an outcome has
+
+
+class Unfinished(InputError):
+    """The recording is not to blame: the job has to run again."""
+
+
+def main(arguments=None):
+    """Runs the command line; returns its exit code, 0 also for a recording that cannot be used."""
+    parser = argparse.ArgumentParser(prog="batch.recording", description=__doc__)
+    parser.add_argument("settings", type=Path)
+    parser.add_argument("outcome", type=Path)
+    values = parser.parse_args(arguments)
+    settings = json.loads(values.settings.read_text())
+    return command_line.run("batch", lambda: process(settings, values.outcome), "outcome")
+
+
+def process(settings, outcome):
+    """Writes the outcome (Path), a JSON file, and beside it the bag and the score.
+
+    All is made in a folder of this attempt, so that one whose job was killed, or one that still runs
+    on another machine, is in nobody's way.
+    """
+    started = time.monotonic()
+    work = outcome.parent.parent / "work"
+    try:
+        work.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(prefix=settings["id"] + ".", dir=work) as folder:
+            result = {"format": FORMAT, "id": settings["id"], "name": settings["name"],
+                      **_run_and_score(settings, Path(folder))}  # fmt: skip
+            result["took"] = {"wall_s": time.monotonic() - started, "processor_s": _processor_time()}
+            _keep(settings, Path(folder), outcome)
+        write_whole(outcome.parent, {outcome.name: json.dumps(result, indent=1) + "\n"})
+    except (OSError, InputError) as error:
+        with contextlib.suppress(OSError):
+            cause_file(outcome.parent.parent, settings["id"]).write_text(str(error))
+        raise Unfinished(f"{settings['name']}: {error}") from error
+    print(f"batch: {line(result)}", file=sys.stderr)
+
+
+def cause_file(out, recording):
+    """Path of the file in which the last attempt at a recording (its id) says why it gave up."""
+    return out / "work" / f"{recording}.unfinished"
+
+
+def line(result):
+    """What came of a recording, for the console."""
+    if result["error"]:
+        return f"{result['name']}: {result['error']}"
+    mota = ((result["score"] or {}).get("clear_mot") or {}).get("mota")
+    return f"{result['name']}: {result['run']['duration_s']:.1f} s" + (
+        "" if mota is None else f", MOTA {100.0 * mota:.1f} %")  # fmt: skip
+
+
+def _run_and_score(settings, folder):
+    result = {"error": None, "run": None, "score": None, "score_error": None, "moments": []}
+    tools = Path(settings["programs"])
+    bag, report, score = folder / "result.bag", folder / "report.json", folder / "score.json"
+    try:
+        _call(tools / "run_bag", settings["bag"], bag, "--config", settings["config"], "--report",
+              report, "--with-truth", "--quiet", *settings["options"])  # fmt: skip
+    except StepFailed as error:
+        return {**result, "error": str(error)}
+    result["run"] = json.loads(report.read_text())
+    whole = None
+    if settings["truth"] or result["run"]["has_truth"]:
+        truth = [settings["truth"]] if settings["truth"] else []
+        try:
+            _call(tools / "score_run", bag, *truth, "--out", score)
+            whole = json.loads(score.read_text())
+            result["score"] = {key: whole[key] for key in SCORES}
+        except StepFailed as error:
+            result["score_error"] = str(error)
+    result["moments"] = worst_moments(result["run"], whole)
+    return result
+
+
+def _call(program, *words):
+    """As programs.call, but what the recording is not to blame for is Unfinished."""
+    try:
+        programs.call(program, *words)
+    except OSError as error:
+        raise Unfinished(f"{program} cannot be started: {error}") from error
+    except StepFailed as error:
+        if error.code < 0:
+            raise Unfinished(str(error)) from error
+        if any(fault in str(error) for fault in DISK_FAULTS):
+            raise Unfinished(f"{error}: the disk is full, or broken") from error
+        raise
+
+
+def _keep(settings, folder, outcome):
+    """Gives what was made its final name; the outcome comes after it."""
+    outcome.parent.mkdir(parents=True, exist_ok=True)
+    kept = [("score.json", ".score.json")]
+    if settings["keep_bags"]:
+        kept.append(("result.bag", ".bag"))
+    for name, suffix in kept:
+        final = outcome.with_name(settings["id"] + suffix)
+        if (folder / name).exists():
+            os.replace(folder / name, final)
+        else:
+            final.unlink(missing_ok=True)  # of an earlier attempt at what has changed since
+    if not settings["keep_bags"]:
+        outcome.with_name(settings["id"] + ".bag").unlink(missing_ok=True)
+
+
+def _processor_time():
+    """s, of this process and of the programs that it called."""
+    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return sum(one.ru_utime + one.ru_stime for one in used)

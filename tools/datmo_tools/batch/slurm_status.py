@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What became of a Slurm job, in the words that Snakemake asks for: running, success or failed."""
+
+import subprocess
+import sys
+
+GOING_ON = ("PENDING", "CONFIGURING", "RUNNING", "COMPLETING", "SUSPENDED", "REQUEUED", "RESIZING")
+UNKNOWN = "running"  # of a job whose state cannot be had now: asked again
+
+
+def main():
+    """Prints the state of the job that the command line names."""
+    print(state_of(sys.argv[-1]))
+    return 0
+
+
+def state_of(job):
+    """By the accounting; where a cluster keeps none, by the controller, which forgets after a while."""
+    for command, read in ((["sacct", "-nXP", "-o", "State", "-j", job], _accounted),
+                          (["scontrol", "-o", "show", "job", job], _controlled)):
+        try:
+            done = subprocess.run(command, capture_output=True, encoding="utf-8", check=False)
+        except FileNotFoundError:
+            continue
+        if done.returncode == 0:
+            state = read(done.stdout)
+            if state:
+                return _word(state)
+        elif "Invalid job id" in done.stderr:
+            return "failed"  # the controller has forgotten it: it ended, and Snakemake looks for its output
+    return UNKNOWN
+
+
+def _accounted(text):
+    lines = text.split()
+    return lines[0] if lines else ""
+
+
+def _controlled(text):
+    for item in text.split():
+        if item.startswith("JobState="):
+            return item.partition("=")[2]
+    return ""
+
+
+def _word(state):
+    if state == "COMPLETED":
+        return "success"
+    return "running" if state in GOING_ON else "failed"
