@@ -31,6 +31,7 @@ struct Arguments {
   bool object_fusion = false;
   bool track_fusion = false;
   bool risk = false;
+  bool merge_scans = false;
   bool stereo_from_images = false;  ///< also where the bag has clouds
   bool write_grids = false;
   std::string grid_rule;      ///< of fusion, in place of the yaml file's; empty: that one

@@ -25,7 +25,8 @@ struct GraphSwitches {
   bool object_fusion = false;
   bool stereo_tracker = false;  ///< the stereo camera's objects are tracked by themselves
   bool track_fusion = false;
-  bool risk = false;  ///< of contact between the host and tracks or what stands
+  bool risk = false;         ///< of contact between the host and tracks or what stands
+  bool merge_scans = false;  ///< the scans are made of those of several scanners
 };
 
 /// At which level scanner and stereo camera are fused, as one switch.
