@@ -136,10 +136,10 @@ class DeviceNodelet : public nodelet::Nodelet {
   void takeConnection(const ScipModel& model) {
     monitor_->setTime(toStamp(ros::Time::now()));
     monitor_->figure("connections", static_cast<double>(++connections_));
-    monitor_->announce("connected", "connected with " + model.name + ", " +
-                                        std::to_string(model.beams()) + " beams, at " +
-                                        options_.hokuyo.address);
-    monitor_->condition(HealthLevel::kGood, "");
+    first_offset_.reset();
+    monitor_->condition(HealthLevel::kGood, "connected with " + model.name + ", " +
+                                                std::to_string(model.beams()) + " beams, at " +
+                                                options_.hokuyo.address);
   }
 
   void takeScan(const ScipModel& model, const DeviceScan& scan) {
@@ -160,7 +160,10 @@ class DeviceNodelet : public nodelet::Nodelet {
     monitor_->figure("scans missed", static_cast<double>(missed_));
     monitor_->figure("scans overtaken", static_cast<double>(overtaken_));
     monitor_->figure("rate [Hz]", monitor_->input("scan", toStamp(ros::Time::now())).rate);
-    monitor_->figure("clock offset [s]", scan.clock_offset);
+    // The device's clock begins anywhere: what it gains or loses is what tells something.
+    first_offset_ = first_offset_.value_or(scan.clock_offset);
+    monitor_->figure("clock offset since connected [ms]",
+                     kMilliseconds * (scan.clock_offset - *first_offset_));
     monitor_->figure("clock drift [ppm]", scan.clock_drift * kPartsPerMillion);
     monitor_->figure("clock steps", static_cast<double>(clock_steps_));
     scans_.publish(toMessage(model, scan, options_.frame));
@@ -169,6 +172,7 @@ class DeviceNodelet : public nodelet::Nodelet {
   }
 
   static constexpr double kPartsPerMillion = 1e6;
+  static constexpr double kMilliseconds = 1e3;
 
   DeviceOptions options_;
   std::unique_ptr<StageMonitor> monitor_;
@@ -180,6 +184,7 @@ class DeviceNodelet : public nodelet::Nodelet {
   std::uint64_t connections_ = 0;
   std::uint64_t missed_ = 0;
   std::uint64_t clock_steps_ = 0;
+  std::optional<double> first_offset_;  ///< s, of this connection
   std::unique_ptr<HokuyoScanner> scanner_;
 };
 

@@ -50,7 +50,8 @@ class StageGraph(unittest.TestCase):
             levels = [level for level, value in zip(LEVELS, values) if value]
             yield levels
             yield [*levels, *OTHERS]
-            yield [*levels, "merge_scans"]
+        yield ["merge_scans"]
+        yield ["merge_scans", *LEVELS]
 
     def test_the_launch_file_starts_the_graph(self):
         for switches in self.combinations():

@@ -43,7 +43,10 @@ class Camera:
     def __init__(self, path, calibration, side, topic):
         self.images = Images(path)
         self.calibration = read_calibration(calibration)
-        check_size(next(image for image in self.images if image is not None), self.calibration, path)
+        first = next((image for image in self.images if image is not None), None)
+        if first is None:
+            raise InputError(f"{path}: no image that can be read: expected 8 bit, gray or color")
+        check_size(first, self.calibration, path)
         self._image = rospy.Publisher(f"stereo/{side}/{topic}", Image, queue_size=QUEUE)
         self._info = rospy.Publisher(f"stereo/{side}/camera_info", CameraInfo, queue_size=QUEUE)
 
