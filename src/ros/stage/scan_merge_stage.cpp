@@ -49,7 +49,8 @@ void ScanMergeStageOptions::visit(OptionVisitor& visitor) {
                 "node may"},
                scan_frame, {});
   visitor.group("input", [&] { input.visit(visitor); });
-  matcher.visit(visitor);
+  visitor.group(
+      "matching", [&] { matcher.visit(visitor); }, Tier::kExpert);
   visitor.group("scan", [&] { scan.visit(visitor); });
   merger.visit(visitor);
   visitor.each({"sources", "", "the scanners, whose scans are on scans/NAME"}, sources);
