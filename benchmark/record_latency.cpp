@@ -117,7 +117,7 @@ class LatencyRecorder {
 
 int main(int argc, char** argv) {
   if (argc == 2 && std::string(argv[1]) == "--help") {
-    std::cout << "usage: record_latency _output:=FILE.json, beside live.launch's chain\n";
+    std::cout << "usage: record_latency _output:=FILE.json, beside live_load.launch's chain\n";
     return EXIT_SUCCESS;
   }
   ros::init(argc, argv, "record_latency");

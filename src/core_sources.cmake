@@ -19,6 +19,10 @@ set(DATMO_FUSION_CORE_SOURCES
   assignment/augmenting_path.cpp
   assignment/priced_assignment.cpp
   assignment/ranked_assignments.cpp
+  device/clock_estimator.cpp
+  device/connection.cpp
+  device/hokuyo_scanner.cpp
+  device/scip.cpp
   detection/box_fit.cpp
   detection/dent_splitter.cpp
   detection/group_outline.cpp
@@ -106,6 +110,7 @@ set(DATMO_FUSION_CORE_SOURCES
   sensor_model/lidar_grid.cpp
   sensor_model/own_vehicle.cpp
   sensor_model/road_plane.cpp
+  sensor_model/scan_merger.cpp
   sensor_model/road_scene.cpp
   sensor_model/stereo_alignment.cpp
   sensor_model/stereo_columns.cpp

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "datmo_fusion/common/option_table.h"
+#include "datmo_fusion/ros/device_options.h"
 #include "datmo_fusion/ros/display/camera_view_options.h"
 #include "datmo_fusion/ros/display/grid_views_options.h"
 #include "datmo_fusion/ros/display/markers.h"
@@ -23,6 +24,7 @@
 #include "datmo_fusion/ros/stage/point_velocity_stage.h"
 #include "datmo_fusion/ros/stage/risk_stage.h"
 #include "datmo_fusion/ros/stage/road_border_stage.h"
+#include "datmo_fusion/ros/stage/scan_merge_stage.h"
 #include "datmo_fusion/ros/stage/static_points_stage.h"
 #include "datmo_fusion/ros/stage/stereo_alignment_stage.h"
 #include "datmo_fusion/ros/stage/stereo_grid_stage.h"
@@ -79,6 +81,7 @@ std::vector<Section> sections() {
           section<StereoSceneOptions>("`stereo_camera`, of all nodelets"),
           section<VehicleOptions>("`vehicle`, of all nodelets"),
           section<CloudToScanStageOptions>("`cloud_to_scan`"),
+          section<ScanMergeStageOptions>("`scan_merge`"),
           section<LidarGridStageOptions>("`lidar_grid`"),
           section<StereoAlignmentStageOptions>("`stereo_alignment`"),
           section<StereoGridStageOptions>("`stereo_grid`"),
@@ -100,7 +103,8 @@ std::vector<Section> sections() {
           section<RiskStageOptions>("`risk`"),
           section<MarkersOptions>("`markers`, `lidar_markers`, `stereo_markers`"),
           section<GridViewsOptions>("`grid_views`"),
-          section<CameraViewOptions>("`camera_view`")};
+          section<CameraViewOptions>("`camera_view`"),
+          section<DeviceOptions>("`device`")};
 }
 
 /// The sections that have such options.

@@ -9,6 +9,7 @@
 #include "datmo_fusion/ros/stage/motion_stage.h"
 #include "datmo_fusion/ros/stage/moving_objects_stage.h"
 #include "datmo_fusion/ros/stage/road_border_stage.h"
+#include "datmo_fusion/ros/stage/scan_merge_stage.h"
 #include "datmo_fusion/ros/stage/static_points_stage.h"
 #include "datmo_fusion/ros/stage/tracker_stage.h"
 
@@ -19,6 +20,7 @@ using LidarGridNodelet = StageNodelet<LidarGridStage>;
 using MotionNodelet = StageNodelet<MotionStage>;
 using MovingObjectsNodelet = StageNodelet<MovingObjectsStage>;
 using RoadBorderNodelet = StageNodelet<RoadBorderStage>;
+using ScanMergeNodelet = StageNodelet<ScanMergeStage>;
 using StaticPointsNodelet = StageNodelet<StaticPointsStage>;
 using TrackerNodelet = StageNodelet<TrackerStage>;
 
@@ -29,5 +31,6 @@ PLUGINLIB_EXPORT_CLASS(datmo::LidarGridNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(datmo::MotionNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(datmo::MovingObjectsNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(datmo::RoadBorderNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(datmo::ScanMergeNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(datmo::StaticPointsNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(datmo::TrackerNodelet, nodelet::Nodelet)

@@ -18,10 +18,14 @@ void FrameOptions::visit(OptionVisitor& visitor) {
                 "ahead); empty: its clouds are in it",
                 Tier::kPublic},
                camera, {});
+  visitor.text({"prefix", "",
+                "stands before the names of all frames here, in `mounts` and in the stages: "
+                "`car1/` where several vehicles share one tf"},
+               prefix, {});
 }
 
 void checkFrames(const FrameOptions& frames) {
-  const auto& [map, odom, base, scanner, camera] = frames;
+  const auto& [map, odom, base, scanner, camera, prefix] = frames;
   if (map.empty() || odom.empty() || base.empty() || map == odom || odom == base || base == map) {
     throw OptionError("map = '" + map + "', odom = '" + odom + "', base = '" + base +
                       "': expected three different names");

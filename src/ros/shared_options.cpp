@@ -41,7 +41,20 @@ FrameOptions readFrames(const OptionValues& values) {
     *frame = withoutSlash(*frame);
   }
   checkFrames(frames);
+  frames.prefix = withoutSlash(frames.prefix);
+  for (std::string* frame :
+       {&frames.map, &frames.odom, &frames.base, &frames.scanner, &frames.camera}) {
+    *frame = frame->empty() ? "" : frames.prefix + *frame;
+  }
   return frames;
+}
+
+Mounts withPrefix(const Mounts& mounts, const std::string& prefix) {
+  Mounts prefixed;
+  for (const auto& [frame, mount] : mounts) {
+    prefixed[prefix + frame] = mount;
+  }
+  return prefixed;
 }
 
 /// Of these 0 says that nobody knows, and each stage has its own default.
@@ -110,8 +123,11 @@ std::vector<std::string> sharedSections() {
 }
 
 SharedOptions readSharedOptions(const SectionReader& section) {
-  return {inSection(kFramesSection, [&] { return readFrames(section(kFramesSection)); }),
-          inSection(kMountsSection, [&] { return readMounts(section(kMountsSection)); }),
+  const FrameOptions frames =
+      inSection(kFramesSection, [&] { return readFrames(section(kFramesSection)); });
+  const Mounts mounts =
+      inSection(kMountsSection, [&] { return readMounts(section(kMountsSection)); });
+  return {frames, withPrefix(mounts, frames.prefix),
           inSection(kMotionSection,
                     [&] { return readOptions<MotionOptions>(section(kMotionSection)); }),
           readSensors(section)};

@@ -31,9 +31,11 @@ struct Beams {
 
   /// Beams from the first one to where `bearing` is, -0.5 or more.
   double stepsTo(float bearing) const {
-    const double offset = (bearing - first_bearing) / spacing;
+    // Both bearings are within half a turn of 0, so that one turn more or less is enough: this is
+    // done for each point of the cloud.
+    const double steps = (bearing - first_bearing) / spacing;
     const double turn = kTurn / std::abs(spacing);
-    return offset - turn * std::floor((offset + 0.5) / turn);
+    return steps < -0.5 ? steps + turn : steps >= turn - 0.5 ? steps - turn : steps;
   }
 };
 
@@ -105,7 +107,7 @@ class Band {
     const float x = point.x - lidar_.x();
     const float y = point.y - lidar_.y();
     const double steps = beams_.stepsTo(std::atan2(y, x));
-    const auto beam = static_cast<std::size_t>(std::lround(steps));
+    const auto beam = static_cast<std::size_t>(steps + 0.5);  // rounded, as no step is below -0.5
     if (beam >= seen_.size()) {
       return;
     }

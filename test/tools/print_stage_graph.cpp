@@ -33,6 +33,7 @@ int main(int count, char** words) {
   const auto is_on = [&on](const char* name) { return on.count(name) > 0; };
   datmo::GraphSwitches switches;
   switches.scan_from_cloud = is_on("cloud");
+  switches.merge_scans = is_on("merge_scans");
   switches.low_level_fusion = is_on("low_level_fusion");
   switches.road_border = is_on("road_border");
   switches.cloud_objects = is_on("cloud_objects");

@@ -25,7 +25,8 @@ def graph_stages(switches):
 
 def launched_stages(switches):
     """The same of perception.launch; topics that are remapped to themselves are left out."""
-    words = [f"{switch}:={str(switch in switches).lower()}" for switch in LEVELS + OTHERS if switch != "cloud"]
+    words = [f"{switch}:={str(switch in switches).lower()}"
+             for switch in (*LEVELS, *OTHERS, "merge_scans") if switch != "cloud"]
     words += ["cloud:=cloud"] if "cloud" in switches else []
     config = load("perception.launch", words)
     stages = {}
@@ -49,6 +50,8 @@ class StageGraph(unittest.TestCase):
             levels = [level for level, value in zip(LEVELS, values) if value]
             yield levels
             yield [*levels, *OTHERS]
+        yield ["merge_scans"]
+        yield ["merge_scans", *LEVELS]
 
     def test_the_launch_file_starts_the_graph(self):
         for switches in self.combinations():

@@ -119,6 +119,7 @@ datmo_fusion_add_core_test(sensor_model
   sensor_model/depth_noise_test.cpp
   sensor_model/lidar_grid_test.cpp
   sensor_model/road_plane_test.cpp
+  sensor_model/scan_merger_test.cpp
   sensor_model/stereo_alignment_test.cpp
   sensor_model/stereo_cones_test.cpp
   sensor_model/stereo_grid_input_test.cpp
@@ -184,3 +185,11 @@ datmo_fusion_add_core_test(fusion
   fusion/track_prediction_test.cpp
   fusion/windowed_evidence_test.cpp
 )
+
+datmo_fusion_add_core_test(device
+  device/clock_estimator_test.cpp
+  device/fake_scanner.cpp
+  device/hokuyo_scanner_test.cpp
+  device/scip_test.cpp
+)
+target_include_directories(unit_device PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})

@@ -2,7 +2,7 @@
 """What roslaunch does not check in a command line: arguments that no launch file takes, and a stack that
 runs on the same master already.
 
-usage: check_launch
+usage: check_launch [--devices lidar:=KIND camera:=KIND odometry:=KIND]
 
 A launch file runs this by <param command>, as a child of roslaunch, before any node starts. What is
 included by pass_all_args takes arguments, too; includes of a launch file of somebody else's without it
@@ -21,6 +21,15 @@ MANAGER = "perception"
 CALLER = "/check_launch"
 # Arguments that take one of a few words: roslaunch takes any.
 CHOICES = {"fusion": ("none", "low", "object", "track", "recommended")}
+# Devices of live.launch: the kinds that there are, and what to do for others that people have.
+DEVICES = {"lidar": ("external", "hokuyo"), "camera": ("none", "external", "images"), "odometry": ("external", "none")}
+INSTEAD = {
+    "sick_lms": "start sick_scan or sicktoolbox_wrapper and take lidar:=external",
+    "velodyne": "start velodyne_driver and velodyne_pointcloud and take lidar:=external cloud:=/velodyne_points",
+    "usb_stereo": "start usb_cam for each of both cameras and take camera:=external stereo_images:=raw",
+    "can": "let a driver publish odometry and take odometry:=external",
+    "gps_imu": "name the topics (motion/source in the sensor set) and take odometry:=external",
+}
 TIMEOUT = 1.0  # s, for an answer of a node on this machine or near
 
 
@@ -75,6 +84,16 @@ def bad_choice(words):
     for name, value in (word.split(":=", 1) for word in words if is_argument(word)):
         if name in CHOICES and value not in CHOICES[name]:
             return f"{name}:={value}: expected one of {', '.join(CHOICES[name])}"
+    return None
+
+
+def missing_device(words):
+    """A sentence on the first device (lidar:=KIND) of a kind that there is not, or None."""
+    for name, kind in (word.split(":=", 1) for word in words):
+        kinds = DEVICES[name]
+        if kind not in kinds:
+            remedy = f"; {INSTEAD[kind]} (doc/live.md)" if kind in INSTEAD else ""
+            return f"{name}:={kind}: no driver of ours, expected one of {', '.join(kinds)}{remedy}"
     return None
 
 
@@ -134,8 +153,12 @@ def main():
     if sys.argv[1:] in (["-h"], ["--help"]):
         print(__doc__)
         return 0
-    words = launch_words(parent_words(os.getppid()))
-    error = check_words(words) or (words and second_stack(words, os.environ))
+    if sys.argv[1:2] == ["--devices"]:
+        words = sys.argv[2:]
+        error = missing_device(words)
+    else:
+        words = launch_words(parent_words(os.getppid()))
+        error = check_words(words) or (words and second_stack(words, os.environ))
     if error:
         print(f"ERROR: {error}", file=sys.stderr)
         return 1

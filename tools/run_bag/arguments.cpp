@@ -27,6 +27,8 @@ const std::vector<std::string> kInputTopics = {
     "right_camera_info",
     "gnss",
     "stations",
+    "front_scan",
+    "rear_scan",
 };
 
 const Choices<LastStage> kStages = {
@@ -67,8 +69,8 @@ constexpr char kFooter[] =
     "A topic of the bag under another name is given as TOPIC:=TOPIC_OF_THE_BAG, where TOPIC is\n"
     "scan, cloud (a 3D lidar's, in place of scans), object_cloud (one for --cloud-objects beside\n"
     "scans), echoes, odometry, imu, twist, twist_with_covariance, joint_states, points2,\n"
-    "point_velocities, left_image, right_image, left_camera_info, right_camera_info,\n"
-    "gnss or stations.\n"
+    "point_velocities, left_image, right_image, left_camera_info, right_camera_info, gnss,\n"
+    "stations, front_scan or rear_scan.\n"
     "Exit code: 0 when done; 1 for a command line, yaml file or bag that is wrong or lacks a\n"
     "topic, and when interrupted; 2 when all messages on a topic were refused, no scan could be\n"
     "used or no tracks came out. After 1 and 2 no output bag is left.";
@@ -197,6 +199,10 @@ void addStages(CommandLine& line, Arguments& arguments) {
       "--road-border", arguments.road_border,
       "finds the borders of the road, on and beyond which objects are less likely to move,\n"
       "and writes /road_borders and /objects/dropped");
+  line.add_flag(
+      "--merge-scans", arguments.merge_scans,
+      "makes the scan of those of several scanners (scan_merge/sources), of which `front`\n"
+      "is on front_scan and `rear` on rear_scan, and writes /merged_scan");
   line.add_flag("--cloud-objects", arguments.cloud_objects,
                 "finds objects in a 3D lidar's clouds, and writes /objects/cloud");
   line.add_flag("--mono", arguments.mono,

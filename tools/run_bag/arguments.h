@@ -32,6 +32,7 @@ struct Arguments {
   bool track_fusion = false;
   bool v2x = false;
   bool risk = false;
+  bool merge_scans = false;
   bool stereo_from_images = false;  ///< also where the bag has clouds
   bool write_grids = false;
   std::string grid_rule;      ///< of fusion, in place of the yaml file's; empty: that one

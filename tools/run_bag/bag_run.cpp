@@ -48,7 +48,8 @@ OrderedMessages inOrder(rosbag::View& view, const InputTopics& topics) {
   for (const rosbag::MessageInstance& message : view) {
     const std::string& topic = message.getTopic();
     const bool measured = topic == topics.scan || topic == topics.echoes || topic == topics.cloud ||
-                          topic == topics.object_cloud || topic == topics.stereo.points;
+                          topic == topics.object_cloud || topic == topics.stereo.points ||
+                          topics.scans.count(topic) > 0;
     messages.emplace(std::make_pair(message.getTime(), measured), message);
   }
   return messages;
@@ -129,6 +130,7 @@ GraphSwitches switchesOf(const Arguments& arguments, const SensorSet& sensors,
   switches.track_fusion = arguments.track_fusion;
   switches.v2x = arguments.v2x;
   switches.risk = arguments.risk;
+  switches.merge_scans = arguments.merge_scans;
   switches.stereo_tracker =
       arguments.track_fusion &&
       usesStereo(sensors.options<TrackFusionStageOptions>("track_fusion").fuser.sourcesInUse());

@@ -92,6 +92,9 @@ void BagToGraph::readMotion(const InputTopics& topics) {
 void BagToGraph::readScans(const InputTopics& topics) {
   on<sensor_msgs::LaserScan>(topics.scan, "scan");
   on<sensor_msgs::MultiEchoLaserScan>(topics.echoes, "echoes");
+  for (const auto& [topic, source] : topics.scans) {
+    on<sensor_msgs::LaserScan>(topic, "scans/" + source);
+  }
   on<sensor_msgs::PointCloud2>(topics.cloud, "cloud");
   on<sensor_msgs::PointCloud2>(topics.object_cloud, "cloud");
 }

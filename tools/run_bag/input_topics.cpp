@@ -10,6 +10,7 @@
 
 #include "datmo_fusion/ros/stage/grid_fusion_stage.h"
 #include "datmo_fusion/ros/stage/object_fusion_stage.h"
+#include "datmo_fusion/ros/stage/scan_merge_stage.h"
 #include "datmo_fusion/ros/stage/track_fusion_stage.h"
 
 namespace datmo {
@@ -128,6 +129,20 @@ void findScanTopics(const rosbag::Bag& bag, const Arguments& arguments, InputTop
   }
 }
 
+/// One scan of each scanner in place of the one scan.
+void findMergedScans(const rosbag::Bag& bag, const Arguments& arguments,
+                     const ScanMergeStageOptions& merge, InputTopics& topics) {
+  for (const std::string& source : merge.sourcesInUse()) {
+    const std::string topic = arguments.inputTopic(source + "_scan", "scans/" + source);
+    if (!holdsTopic(bag, topic)) {
+      failForTopic(bag, "no LaserScan on " + topic + " for --merge-scans (" + source +
+                            "_scan:=TOPIC names another; scan_merge/sources/" + source +
+                            "/use: false goes without)");
+    }
+    topics.scans[topic] = source;
+  }
+}
+
 /// The clouds in which objects are found; without a name those that scans are made of.
 std::string objectCloudTopic(const rosbag::Bag& bag, const Arguments& arguments) {
   const std::string topic = arguments.inputTopic("object_cloud", arguments.inputTopic("cloud"));
@@ -172,7 +187,7 @@ std::vector<std::string> InputTopics::all() const {
       topics.push_back(topic);
     }
   }
-  for (const auto* others : {&grids, &objects, &tracks}) {
+  for (const auto* others : {&scans, &grids, &objects, &tracks}) {
     for (const auto& [topic, source] : *others) {
       topics.push_back(topic);
     }
@@ -183,9 +198,13 @@ std::vector<std::string> InputTopics::all() const {
 InputTopics findTopics(const rosbag::Bag& bag, const Arguments& arguments,
                        const SensorSet& sensors) {
   InputTopics topics;
-  topics.scan = arguments.inputTopic("scan");
-  topics.echoes = arguments.inputTopic("echoes");
-  findScanTopics(bag, arguments, topics);
+  if (arguments.merge_scans) {
+    findMergedScans(bag, arguments, sensors.options<ScanMergeStageOptions>("scan_merge"), topics);
+  } else {
+    topics.scan = arguments.inputTopic("scan");
+    topics.echoes = arguments.inputTopic("echoes");
+    findScanTopics(bag, arguments, topics);
+  }
   if (arguments.cloud_objects) {
     topics.object_cloud = objectCloudTopic(bag, arguments);
     if (!topics.cloud.empty() && topics.object_cloud != topics.cloud) {

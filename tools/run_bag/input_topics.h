@@ -57,6 +57,7 @@ struct InputTopics {
   std::string cloud;         ///< of a 3D lidar, that scans are made of; empty: there are scans
   std::string object_cloud;  ///< of a 3D lidar, that objects are found in; empty: they are not
   std::string echoes;
+  std::map<std::string, std::string> scans;  ///< of several scanners, by topic; else there is one
   MotionTopics motion;
   StereoTopics stereo;
   MonoTopics mono;

@@ -15,14 +15,23 @@ namespace datmo {
 
 namespace {
 
-/// Nodes that are no stages: they draw live alone.
-const std::vector<std::string> kDisplays = {"markers", "lidar_markers", "stereo_markers",
-                                            "grid_views", "camera_view"};
+/// Nodes that are no stages: they run live alone.
+const std::vector<std::string> kLiveNodes = {"markers",    "lidar_markers", "stereo_markers",
+                                             "grid_views", "camera_view",   "device"};
 
 /// All stages that there may be.
 std::vector<GraphStage> wholeGraph() {
-  return stageGraph({true, StereoPoints::kRectifiedImages, true, true, true, true, true, true, true,
-                     true, true, true, true});
+  GraphSwitches all;
+  all.stereo = StereoPoints::kRectifiedImages;
+  for (bool GraphSwitches::*const one :
+       {&GraphSwitches::scan_from_cloud, &GraphSwitches::low_level_fusion,
+        &GraphSwitches::road_border, &GraphSwitches::static_points, &GraphSwitches::stereo_objects,
+        &GraphSwitches::cloud_objects, &GraphSwitches::mono, &GraphSwitches::object_fusion,
+        &GraphSwitches::stereo_tracker, &GraphSwitches::track_fusion, &GraphSwitches::v2x,
+        &GraphSwitches::risk, &GraphSwitches::merge_scans}) {
+    all.*one = true;
+  }
+  return stageGraph(all);
 }
 
 /// The type of the stage that a section is of; empty for one of no stage.
@@ -43,7 +52,7 @@ std::vector<std::string> sectionNames() {
       names.push_back(stage.name);
     }
   }
-  names.insert(names.end(), kDisplays.begin(), kDisplays.end());
+  names.insert(names.end(), kLiveNodes.begin(), kLiveNodes.end());
   return names;
 }
 
@@ -89,7 +98,7 @@ void SensorSet::read(const std::string& file) {
   }
   for (const auto& entry : root) {
     const std::string name = keyOf(entry.first);
-    if (std::find(kDisplays.begin(), kDisplays.end(), name) == kDisplays.end()) {
+    if (std::find(kLiveNodes.begin(), kLiveNodes.end(), name) == kLiveNodes.end()) {
       for (auto& [key, value] : optionValues(entry.second)) {
         sections_[name][key] = value;
       }

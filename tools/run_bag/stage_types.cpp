@@ -17,6 +17,7 @@
 #include "datmo_fusion/ros/stage/point_velocity_stage.h"
 #include "datmo_fusion/ros/stage/risk_stage.h"
 #include "datmo_fusion/ros/stage/road_border_stage.h"
+#include "datmo_fusion/ros/stage/scan_merge_stage.h"
 #include "datmo_fusion/ros/stage/static_points_stage.h"
 #include "datmo_fusion/ros/stage/stereo_alignment_stage.h"
 #include "datmo_fusion/ros/stage/stereo_grid_stage.h"
@@ -58,6 +59,7 @@ const std::map<std::string, StageType>& stageTypes() {
       {"point_velocity", typeOf<PointVelocityStage>()},
       {"risk", typeOf<RiskStage>()},
       {"road_border", typeOf<RoadBorderStage>()},
+      {"scan_merge", typeOf<ScanMergeStage>()},
       {"static_points", typeOf<StaticPointsStage>()},
       {"stereo_alignment", typeOf<StereoAlignmentStage>()},
       {"stereo_grid", typeOf<StereoGridStage>()},

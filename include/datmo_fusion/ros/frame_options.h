@@ -14,6 +14,8 @@ struct FrameOptions {
   std::string base = "base_link";
   std::string scanner = "scanner";
   std::string camera;
+  /// Before all of these, the mounts' and those that the stages name: several vehicles, one tf.
+  std::string prefix;
 
   void visit(OptionVisitor& visitor);
 };

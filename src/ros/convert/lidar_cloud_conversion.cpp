@@ -103,18 +103,23 @@ ConvertedCloud toLidarCloud(const PointCloud2& message, double max_sweep) {
   ConvertedCloud converted;
   converted.time_field = times.field();
   LidarCloud& cloud = converted.cloud;
-  cloud.points->reserve(view.count);
-  cloud.times.reserve(converted.time_field.empty() ? 0 : view.count);
+  const bool has_times = !converted.time_field.empty();
+  cloud.points->resize(view.count);
+  cloud.times.resize(has_times ? view.count : 0);
+  std::size_t finite = 0;
   for (std::size_t i = 0; i < view.count; ++i) {
     const Eigen::Vector3f point = view[i];
     if (!point.allFinite()) {
       continue;
     }
-    cloud.points->push_back({point.x(), point.y(), point.z()});
-    if (!converted.time_field.empty()) {
-      cloud.times.push_back(static_cast<float>(times.at(view.data + i * view.step)));
+    (*cloud.points)[finite].getVector3fMap() = point;
+    if (has_times) {
+      cloud.times[finite] = static_cast<float>(times.at(view.data + i * view.step));
     }
+    ++finite;
   }
+  cloud.points->resize(finite);
+  cloud.times.resize(has_times ? finite : 0);
   converted.holes = view.count - cloud.points->size();
   converted.unusable_times = faultOf(cloud.times, converted.time_field, max_sweep);
   if (converted.unusable_times) {

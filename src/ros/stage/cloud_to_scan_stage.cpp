@@ -40,6 +40,7 @@ CloudToScanStage::CloudToScanStage(const Checked<CloudToScanStageOptions>& optio
                       "': expected a name other than that of the vehicle's frame, '" +
                       options->frames.base + "'");
   }
+  options_.scan_frame = options->frames.prefix + options->scan_frame;
 }
 
 std::optional<CloudToScanOutput> CloudToScanStage::takeCloud(

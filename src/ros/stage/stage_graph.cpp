@@ -70,7 +70,9 @@ std::string GraphStage::resolved(const std::string& topic) const {
 }
 
 std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
-  const std::string scan = switches.scan_from_cloud ? "cloud_scan" : "scan";
+  const std::string scan = switches.scan_from_cloud ? "cloud_scan"
+                           : switches.merge_scans   ? "merged_scan"
+                                                    : "scan";
   const bool fuses_objects = switches.object_fusion || switches.mono;
   const std::string tracked_objects = fuses_objects ? "objects/fused" : "objects";
   const std::string tracks_of_tracker = switches.track_fusion ? "tracks/lidar" : "tracks";
@@ -89,6 +91,7 @@ std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
   const bool low_level = switches.low_level_fusion;
   add(switches.scan_from_cloud, {"cloud_to_scan", "cloud_to_scan", {{"scan", scan}}, {}});
   add(true, {"motion", "motion", {}, {}});
+  add(switches.merge_scans, {"scan_merge", "scan_merge", {{"scan", scan}}, {}});
   // Before the points of the same images: what they are of gets its velocity.
   add(has_images && switches.stereo_objects,
       {"point_velocity", "point_velocity", images, rectified});

@@ -73,6 +73,7 @@ StaticPointsStage::StaticPointsStage(const Checked<StaticPointsStageOptions>& op
                       "': expected a name other than that of the vehicle's frame, '" +
                       options->frames.base + "'");
   }
+  options_.scan_frame = options->frames.prefix + options->scan_frame;
 }
 
 std::optional<StaticPointsOutput> StaticPointsStage::takeLabeledScan(

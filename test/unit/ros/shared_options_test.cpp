@@ -56,6 +56,17 @@ TEST(SharedOptions, FramesAreNamedOnceAndHonoredByEachStage) {
   EXPECT_EQ(readStageOptions<TrackerStageOptions>({}, shared).frames.base, "robot");
 }
 
+TEST(SharedOptions, APrefixStandsBeforeAllFrames) {
+  const SharedOptions shared =
+      sharedOf({{"frames", {{"prefix", std::string("/car1/")}}}, {"mounts", {{"laser/x", 2.0}}}});
+  EXPECT_EQ(shared.frames.map, "car1/map");
+  EXPECT_EQ(shared.frames.odom, "car1/odom");
+  EXPECT_EQ(shared.frames.base, "car1/base_link");
+  EXPECT_EQ(shared.frames.scanner, "car1/scanner");
+  EXPECT_EQ(shared.frames.camera, "") << "the default: the cloud's";
+  EXPECT_EQ(shared.mounts.at("car1/laser").x, 2.0);
+}
+
 TEST(SharedOptions, UnknownKeysAndBadFramesAreNamedWithTheirSection) {
   expectMentions(errorOf([] {
                    sharedOf({{"frames", {{"bse", std::string("robot")}}}});

@@ -57,7 +57,7 @@ def _measure(values):
 
 def _measure_live(values, folder):
     """Figures of each drive, the median over the runs."""
-    launch_file = values.source / "benchmark" / "live.launch"
+    launch_file = values.source / "benchmark" / "live_load.launch"
     drives = _drives(values, folder)
     runs = {name: [] for name in drives}
     count = 1 if values.quick else values.runs

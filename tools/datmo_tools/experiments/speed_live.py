@@ -33,7 +33,7 @@ class LiveDrive(NamedTuple):
 def measure(drive, launch_file, folder):
     """Figures of one run (dict); benchmark/record_latency.cpp says what latency is.
 
-    launch_file: live.launch; folder: where its log and the recorded times are left. The ROS master
+    launch_file: live_load.launch; folder: where its log and the recorded times are left. The ROS master
     is the one of ROS_MASTER_URI, started for the run.
     """
     recorded, log = folder / "latency.json", folder / "live.log"

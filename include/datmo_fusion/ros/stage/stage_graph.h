@@ -25,8 +25,9 @@ struct GraphSwitches {
   bool object_fusion = false;
   bool stereo_tracker = false;  ///< the stereo camera's objects are tracked by themselves
   bool track_fusion = false;
-  bool v2x = false;   ///< tracks of other stations come in, and ours go out
-  bool risk = false;  ///< of contact between the host and tracks or what stands
+  bool v2x = false;          ///< tracks of other stations come in, and ours go out
+  bool risk = false;         ///< of contact between the host and tracks or what stands
+  bool merge_scans = false;  ///< the scans are made of those of several scanners
 };
 
 /// At which level scanner and stereo camera are fused, as one switch.

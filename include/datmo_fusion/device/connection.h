@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <string>
+#include <string_view>
+
+namespace datmo {
+
+/// Where a device listens on the network, and how long it may be silent.
+struct DeviceAddress {
+  std::string host;
+  int port = 0;
+  double timeout = 1.0;  ///< s
+};
+
+/// A TCP connection to a device, for the thread that serves it; it never waits longer than the
+/// timeout. POSIX alone.
+class Connection {
+ public:
+  /// `stop`: true ends all waiting; must outlive the connection. Throws DeviceError
+  /// (`no_connection`).
+  Connection(const DeviceAddress& address, const std::atomic<bool>& stop);
+  ~Connection();
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+
+  /// Throws DeviceError (`lost_connection`).
+  void send(std::string_view bytes) const;
+
+  /// What has come, at least one byte; nothing when it is to stop. Throws DeviceError
+  /// (`silent_device`, `lost_connection`).
+  std::string receive() const;
+
+ private:
+  /// Waits until the socket has one of the events of poll(); false after the timeout.
+  bool waitFor(short events) const;
+
+  DeviceAddress address_;
+  const std::atomic<bool>& stop_;
+  int socket_ = -1;
+};
+
+}  // namespace datmo

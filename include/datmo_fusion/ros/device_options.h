@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "datmo_fusion/device/hokuyo_scanner.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
+
+namespace datmo {
+
+/// Of the nodelet `device`.
+struct DeviceOptions {
+  std::string frame = "laser";
+  StreamOptions input;
+  HokuyoOptions hokuyo;
+
+  void visit(OptionVisitor& visitor);
+};
+
+}  // namespace datmo

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/device/connection.h"
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <memory>
+
+#include <fcntl.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "datmo_fusion/device/device_error.h"
+
+namespace datmo {
+
+namespace {
+
+constexpr int kSlice = 50;  ///< ms; so late it may be found out that it is to stop
+
+std::string nameOf(const DeviceAddress& address) {
+  return address.host + ":" + std::to_string(address.port);
+}
+
+DeviceError noConnection(const DeviceAddress& address, const std::string& cause) {
+  return {"no_connection", "no connection to " + nameOf(address) + " (" + cause +
+                               "): expected a scanner there; is it on, and is the address right?"};
+}
+
+using Addresses = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
+
+Addresses lookUp(const DeviceAddress& address) {
+  addrinfo wanted{};
+  wanted.ai_family = AF_UNSPEC;
+  wanted.ai_socktype = SOCK_STREAM;
+  addrinfo* found = nullptr;
+  const std::string port = std::to_string(address.port);
+  const int error = getaddrinfo(address.host.c_str(), port.c_str(), &wanted, &found);
+  if (error != 0) {
+    throw noConnection(address, gai_strerror(error));
+  }
+  return {found, &freeaddrinfo};
+}
+
+}  // namespace
+
+Connection::Connection(const DeviceAddress& address, const std::atomic<bool>& stop)
+    : address_(address), stop_(stop) {
+  const Addresses found = lookUp(address);
+  socket_ = socket(found->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  int error = socket_ < 0 ? errno : 0;
+  if (error == 0 && connect(socket_, found->ai_addr, found->ai_addrlen) != 0) {
+    error = errno;
+    if (error == EINPROGRESS) {
+      socklen_t size = sizeof error;
+      error = ETIMEDOUT;
+      if (waitFor(POLLOUT)) {
+        getsockopt(socket_, SOL_SOCKET, SO_ERROR, &error, &size);
+      }
+    }
+  }
+  if (error != 0) {
+    if (socket_ >= 0) {
+      close(socket_);
+    }
+    throw noConnection(address, std::strerror(error));
+  }
+  const int on = 1;
+  setsockopt(socket_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+}
+
+Connection::~Connection() { close(socket_); }
+
+bool Connection::waitFor(short events) const {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::duration<double>(address_.timeout);
+  while (!stop_ && Clock::now() < end) {
+    pollfd watched{socket_, events, 0};
+    if (poll(&watched, 1, kSlice) > 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void Connection::send(std::string_view bytes) const {
+  // A command is far shorter than what a socket takes at once.
+  const ssize_t sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+  if (sent != static_cast<ssize_t>(bytes.size())) {
+    throw DeviceError("lost_connection", nameOf(address_) + " takes no command (" +
+                                             std::strerror(errno) + "): connects again");
+  }
+}
+
+std::string Connection::receive() const {
+  if (!waitFor(POLLIN)) {
+    if (stop_) {
+      return "";
+    }
+    throw DeviceError("silent_device", nameOf(address_) + " has been silent for " +
+                                           std::to_string(address_.timeout) +
+                                           " s: expected an answer or scans; connects again");
+  }
+  constexpr std::size_t kAtOnce = 16384;
+  std::array<char, kAtOnce> bytes;
+  const ssize_t count = recv(socket_, bytes.data(), bytes.size(), 0);
+  if (count <= 0) {
+    throw DeviceError("lost_connection",
+                      nameOf(address_) + " has closed the connection" +
+                          (count < 0 ? " (" + std::string(std::strerror(errno)) + ")" : "") +
+                          ": connects again");
+  }
+  return {bytes.data(), static_cast<std::size_t>(count)};
+}
+
+}  // namespace datmo

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/device_options.h"
+
+namespace datmo {
+
+void DeviceOptions::visit(OptionVisitor& visitor) {
+  visitor.text({"frame", "", "frame of the scans: the scanner's"}, frame, {});
+  visitor.group("input", [&] { input.visit(visitor); });
+  hokuyo.visit(visitor);
+}
+
+}  // namespace datmo

@@ -1,0 +1,74 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""live.launch: the chain of perception.launch with the devices that are asked for; kinds of devices that
+there are not are refused."""
+
+import shlex
+import unittest
+
+import roslaunch
+from launch_files import load
+
+from datmo_tools.launch_arguments import missing_device
+
+
+def loaded(*words):
+    """The nodes by name, and the parameters."""
+    config = load("live.launch", list(words))
+    return ({node.name: node for node in config.nodes},
+            {key: parameter.value for key, parameter in config.params.items()})
+
+
+class LiveLaunch(unittest.TestCase):
+    def test_with_external_devices_it_is_the_chain(self):
+        nodes, parameters = loaded("scan:=/front/scan", "odometry_topic:=/wheels", "risk:=true")
+        chain = {node.name for node in load("perception.launch", ["risk:=true"]).nodes}
+        self.assertEqual(set(nodes), chain)
+        remaps = dict(nodes["grid_slam"].remap_args)
+        self.assertEqual(remaps["scan"], "/front/scan")
+        self.assertEqual(remaps["odometry"], "/wheels")
+        self.assertNotEqual(parameters.get("/motion/source"), "none")
+
+    def test_a_scanner_of_hokuyos_is_served_in_the_same_process(self):
+        nodes, parameters = loaded("lidar:=hokuyo", "lidar_address:=10.0.0.7", "lidar_frame:=roof",
+                                   "scan:=/front/scan")
+        self.assertEqual(nodes["device"].args, "load datmo_fusion/device perception")
+        self.assertEqual(dict(nodes["device"].remap_args)["scan"], "/front/scan")
+        self.assertEqual(parameters["/device/address"], "10.0.0.7")
+        self.assertEqual(parameters["/device/port"], 10940)
+        self.assertEqual(parameters["/device/frame"], "roof")
+
+    def test_images_of_files_are_played(self):
+        nodes, _ = loaded("camera:=images", "left_images:=/a b/left", "left_info:=/l.yaml")
+        self.assertEqual(shlex.split(nodes["play_images"].args),
+                         ["--rate", "12.0", "/a b/left", "/l.yaml"])
+        nodes, _ = loaded("camera:=images", "left_images:=/l", "left_info:=/l.yaml",
+                          "right_images:=/r", "right_info:=/r.yaml", "image_options:=--raw")
+        self.assertEqual(shlex.split(nodes["play_images"].args),
+                         ["--rate", "12.0", "--raw", "/l", "/l.yaml", "/r", "/r.yaml"])
+
+    def test_without_odometry_the_motion_comes_from_the_scans(self):
+        _, parameters = loaded("odometry:=none")
+        self.assertEqual(parameters["/motion/source"], "none")
+
+    def test_devices_that_there_are_not_end_it(self):
+        for word in ("lidar:=velodyne", "camera:=webcam", "odometry:=can"):
+            with self.subTest(word):
+                with self.assertRaises(roslaunch.RLException):
+                    loaded(word)
+
+
+class MissingDevice(unittest.TestCase):
+    def test_what_there_is_is_fine(self):
+        self.assertIsNone(missing_device(["lidar:=hokuyo", "camera:=external", "odometry:=none"]))
+
+    def test_the_sentence_says_what_there_is_and_what_to_do(self):
+        said = missing_device(["lidar:=velodyne"])
+        self.assertIn("lidar:=velodyne: no driver of ours, expected one of external, hokuyo", said)
+        self.assertIn("velodyne_driver", said)
+        self.assertIn("odometry:=magic: no driver of ours, expected one of external, none",
+                      missing_device(["lidar:=external", "odometry:=magic"]))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Images of a camera from a folder or a video file, and its calibration from a yaml file as
+camera_calibration writes it."""
+
+from pathlib import Path
+
+import cv2
+import numpy as np
+import yaml
+
+from datmo_tools.errors import InputError
+
+IMAGE_FILES = {".bmp", ".jpeg", ".jpg", ".pgm", ".png", ".ppm", ".tif", ".tiff"}
+MATRICES = {"camera_matrix": 9, "rectification_matrix": 9, "projection_matrix": 12}
+
+
+class Images:
+    """Goes through the images once; each is a numpy array, gray (rows, columns) or BGR (rows, columns, 3).
+
+    skipped: how many files of the folder could not be read.
+    """
+
+    def __init__(self, path):
+        self.path = Path(path)
+        self.skipped = 0
+        if self.path.is_dir():
+            self._files = sorted(file for file in self.path.iterdir() if file.suffix.lower() in IMAGE_FILES)
+            if not self._files:
+                raise InputError(f"{path}: no image in it: expected files of {', '.join(sorted(IMAGE_FILES))}")
+        elif not self.path.is_file():
+            raise InputError(f"{path}: expected a folder of images, or a video file")
+        elif not cv2.VideoCapture(str(path)).isOpened():
+            raise InputError(f"{path}: no video that OpenCV reads: expected one, or a folder of images")
+
+    def __iter__(self):
+        return self._from_folder() if self.path.is_dir() else self._from_video()
+
+    def _from_folder(self):
+        for file in self._files:
+            image = cv2.imread(str(file), cv2.IMREAD_UNCHANGED)
+            if image is None or image.dtype != np.uint8 or image.ndim == 3 and image.shape[2] not in (3, 4):
+                self.skipped += 1
+                yield None
+            else:
+                yield image[:, :, :3] if image.ndim == 3 else image
+
+    def _from_video(self):
+        video = cv2.VideoCapture(str(self.path))
+        while True:
+            is_there, image = video.read()
+            if not is_there:
+                return
+            yield image
+
+
+def _numbers(tree, key, count, file):
+    """The numbers of {rows: ..., cols: ..., data: [...]}; count None: any number of them."""
+    data = tree.get(key, {}).get("data") if isinstance(tree.get(key), dict) else None
+    good = isinstance(data, list) and all(isinstance(value, (int, float)) for value in data)
+    if not good or count not in (None, len(data)):
+        raise InputError(f"{file}: {key}: expected data with {count or 'some'} numbers, as camera_calibration "
+                         "writes it")
+    return [float(value) for value in data]
+
+
+def read_calibration(file):
+    """The fields of a sensor_msgs/CameraInfo (dict) of a yaml file. Raises InputError."""
+    try:
+        tree = yaml.safe_load(Path(file).read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        raise InputError(f"{file}: no calibration: {error}") from error
+    if not isinstance(tree, dict):
+        raise InputError(f"{file}: expected a calibration: image_width, camera_matrix and others")
+    size = [tree.get("image_width"), tree.get("image_height")]
+    if not all(isinstance(value, int) and value > 0 for value in size):
+        raise InputError(f"{file}: image_width, image_height = {size}: expected whole numbers above 0")
+    matrices = {key: _numbers(tree, key, count, file) for key, count in MATRICES.items()}
+    return {"width": size[0], "height": size[1],
+            "distortion_model": str(tree.get("distortion_model", "plumb_bob")),
+            "D": _numbers(tree, "distortion_coefficients", None, file),
+            "K": matrices["camera_matrix"], "R": matrices["rectification_matrix"],
+            "P": matrices["projection_matrix"]}
+
+
+def check_size(image, calibration, file):
+    """Raises InputError unless the image is of the calibration's size."""
+    size, expected = image.shape[1::-1], (calibration["width"], calibration["height"])
+    if size != expected:
+        raise InputError(f"{file}: images of {size[0]} x {size[1]}: expected {expected[0]} x {expected[1]}, "
+                         "as their calibration says")

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Publishes the images of one camera, or of a stereo pair, from folders or video files, as a driver would.
+
+usage: play_images [--rate HZ] [--loop] [--frame NAME] [--raw] LEFT LEFT.yaml [RIGHT RIGHT.yaml]
+
+Out: stereo/left/image_rect (with --raw image_raw), stereo/left/camera_info, and the same of right. Both
+cameras' images, by their order, have one stamp: the time at which they are published.
+"""
+
+import sys
+from pathlib import Path
+
+import rospy
+from sensor_msgs.msg import CameraInfo, Image
+
+from datmo_tools.command_line import check_positive, new_parser, number, run
+from datmo_tools.errors import InputError
+from datmo_tools.image_files import Images, check_size, read_calibration
+
+QUEUE = 5  # images, some tenths of a second
+
+
+def image_message(image, stamp, frame):
+    """A sensor_msgs/Image of a numpy array."""
+    message = Image(height=image.shape[0], width=image.shape[1], is_bigendian=0)
+    message.header.stamp, message.header.frame_id = stamp, frame
+    message.encoding = "mono8" if image.ndim == 2 else "bgr8"
+    message.step = image.shape[1] * (1 if image.ndim == 2 else 3)
+    message.data = image.tobytes()
+    return message
+
+
+def info_message(calibration, stamp, frame):
+    """A sensor_msgs/CameraInfo of a calibration (read_calibration)."""
+    message = CameraInfo(**calibration)
+    message.header.stamp, message.header.frame_id = stamp, frame
+    return message
+
+
+class Camera:
+    """One camera's files and its two topics."""
+
+    def __init__(self, path, calibration, side, topic):
+        self.images = Images(path)
+        self.calibration = read_calibration(calibration)
+        first = next((image for image in self.images if image is not None), None)
+        if first is None:
+            raise InputError(f"{path}: no image that can be read: expected 8 bit, gray or color")
+        check_size(first, self.calibration, path)
+        self._image = rospy.Publisher(f"stereo/{side}/{topic}", Image, queue_size=QUEUE)
+        self._info = rospy.Publisher(f"stereo/{side}/camera_info", CameraInfo, queue_size=QUEUE)
+
+    def publish(self, image, stamp, frame):
+        check_size(image, self.calibration, self.images.path)
+        self._image.publish(image_message(image, stamp, frame))
+        self._info.publish(info_message(self.calibration, stamp, frame))
+
+
+def arguments_of(words):
+    parser = new_parser("play_images", __doc__)
+    parser.add_argument("--rate", type=number, default=12.0, metavar="HZ", help="images a second (default 12)")
+    parser.add_argument("--loop", action="store_true", help="again and again")
+    parser.add_argument("--frame", default="camera", help="frame of the left camera, optical (default camera)")
+    parser.add_argument("--raw", action="store_true", help="the images are not rectified")
+    parser.add_argument("files", nargs="+", type=Path, metavar="FILE")
+    values = parser.parse_args(words)
+    check_positive(values, "rate")
+    if len(values.files) not in (2, 4):
+        raise InputError(f"{len(values.files)} files: expected images and calibration of one camera or of two")
+    return values
+
+
+def _play_once(cameras, values, rate):
+    for images in zip(*(camera.images for camera in cameras)):
+        if rospy.is_shutdown():
+            return
+        if all(image is not None for image in images):
+            stamp = rospy.Time.now()
+            for camera, image in zip(cameras, images):
+                camera.publish(image, stamp, values.frame)
+        rate.sleep()
+
+
+def play(words):
+    values = arguments_of(words)
+    topic = "image_raw" if values.raw else "image_rect"
+    rospy.init_node("play_images")
+    cameras = [Camera(images, calibration, side, topic)
+               for images, calibration, side in zip(values.files[::2], values.files[1::2], ("left", "right"))]
+    rate = rospy.Rate(values.rate)
+    _play_once(cameras, values, rate)
+    while values.loop and not rospy.is_shutdown():
+        _play_once(cameras, values, rate)
+    for camera in cameras:
+        if camera.images.skipped:
+            rospy.logwarn("%s: %d files that are no 8 bit images: left out", camera.images.path, camera.images.skipped)
+
+
+def main():
+    """The exit code."""
+    words = rospy.myargv()[1:]
+    return run("play_images", lambda: play(words), "image")
