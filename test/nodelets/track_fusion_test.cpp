@@ -91,10 +91,10 @@ TEST_F(TrackFusionTest, WhatBothFollowIsOneTrack) {
 }
 
 TEST_F(TrackFusionTest, TheSchemeChangesWhileItRuns) {
-  EXPECT_FALSE(trackAt(kAlone)) << "the scanner's alone beyond the others, not stereo's";
-  EXPECT_EQ(askForScheme("union"), "union");
+  EXPECT_EQ(sensorsAt(kAlone), Sensors{"stereo"}) << "where the scanner does not look";
+  EXPECT_EQ(askForScheme("fused_plus_fallback"), "fused_plus_fallback");
   ASSERT_NO_FATAL_FAILURE(step());
-  EXPECT_EQ(sensorsAt(kAlone), Sensors{"stereo"});
+  EXPECT_FALSE(trackAt(kAlone)) << "the scanner's alone beyond the others, not stereo's";
   EXPECT_EQ(askForScheme("confirmed_by_all"), "confirmed_by_all");
   ASSERT_NO_FATAL_FAILURE(step());
   EXPECT_FALSE(trackAt(kAlone));
