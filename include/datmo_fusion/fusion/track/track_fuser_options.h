@@ -45,10 +45,10 @@ struct TrackFuserOptions {
   TrackScheme scheme = TrackScheme::kByExistence;
   std::string beyond = "lidar";  ///< name of a source
   int max_tracks = 200;
-  double misses = 0.75;              ///< 1
-  double published_existence = 0.85; ///< 1
-  double memory = 1.5;               ///< s
-  double history_time = 3.0;         ///< s
+  double misses = 0.75;               ///< 1
+  double published_existence = 0.85;  ///< 1
+  double memory = 1.5;                ///< s
+  double history_time = 3.0;          ///< s
   TrackPredictionOptions prediction;
   TrackAssociationOptions association;
   TrackCombinationOptions combination;
