@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/device/scip.h"
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cstdio>
@@ -61,8 +62,9 @@ std::map<std::string, std::string> fieldsOf(const ScipAnswer& answer) {
   std::map<std::string, std::string> fields;
   for (const std::string& line : answer.lines) {
     const std::size_t colon = line.find(':');
-    const std::size_t end = line.rfind(';');
-    if (colon != std::string::npos && end != std::string::npos && colon < end) {
+    // The last character is the checksum, which may be a semicolon, too.
+    const std::size_t end = line.size() - std::min<std::size_t>(line.size(), 2);
+    if (colon < end && line[end] == ';') {
       fields[line.substr(0, colon)] = line.substr(colon + 1, end - colon - 1);
     }
   }

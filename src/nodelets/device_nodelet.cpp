@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <atomic>
 #include <deque>
 #include <memory>
@@ -102,8 +103,10 @@ class DeviceNodelet : public nodelet::Nodelet {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       news_.push_back(std::move(news));
-      if (news_.size() > kQueue) {
-        news_.pop_front();
+      // What is told of the connection is rare, and kept.
+      const auto is_scan = [](const News& one) { return one.scan.has_value(); };
+      if (static_cast<std::size_t>(std::count_if(news_.begin(), news_.end(), is_scan)) > kQueue) {
+        news_.erase(std::find_if(news_.begin(), news_.end(), is_scan));
         ++overtaken_;
       }
     }

@@ -107,7 +107,9 @@ class Band {
     const float x = point.x - lidar_.x();
     const float y = point.y - lidar_.y();
     const double steps = beams_.stepsTo(std::atan2(y, x));
-    const auto beam = static_cast<std::size_t>(steps + 0.5);  // rounded, as no step is below -0.5
+    // Rounded, as no step is below -0.5; std::lround is a call for each of 130,000 points.
+    const auto beam =
+        static_cast<std::size_t>(steps + 0.5);  // NOLINT(bugprone-incorrect-roundings)
     if (beam >= seen_.size()) {
       return;
     }

@@ -32,6 +32,7 @@ RUN_BAG = """\
 #!/bin/sh
 here=$(dirname "$0")
 echo "$(basename "$1")" >> "$here/starts"
+echo "$@" > "$here/words"
 case $(cat "$1") in
   broken) echo "$1: is no bag" >&2; exit 1 ;;
   kills_itself) kill -9 $$ ;;
@@ -157,6 +158,30 @@ class Batch(unittest.TestCase):
         self.assertIn("is full", said)
         self.assertIn("is full", report["failed"][0]["error"])
         self.assertFalse(report["failed"][0]["finished"])
+
+    def test_options_of_run_bag_reach_it(self):
+        self.record(one="")
+        code, said, _ = self.batch("--", "--fusion", "track")
+        self.assertEqual(code, 0, said)
+        self.assertTrue((self.programs / "words").read_text().endswith(" --fusion track\n"))
+
+    def test_another_library_makes_results_anew(self):
+        self.record(one="")
+        library = self.programs.parent / "libdatmo_fusion_core.so"
+        library.write_text("1")
+        self.batch()
+        self.batch()
+        self.assertEqual(self.starts(), [])
+        library.write_text("2")
+        self.batch()
+        self.assertEqual(self.starts(), ["one.bag"])
+
+    def test_results_of_former_settings_are_not_those_of_a_batch_that_did_not_start(self):
+        self.record(one="")
+        self.batch()
+        code, _, report = self.batch("--profile", "no such profile", "--", "--mono")
+        self.assertNotEqual(code, 0)
+        self.assertEqual([one["finished"] for one in report["failed"]], [False])
 
     def test_moments_of_a_score(self):
         self.record(a="good")

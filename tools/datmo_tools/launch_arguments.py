@@ -26,7 +26,7 @@ DEVICES = {"lidar": ("external", "hokuyo"), "camera": ("none", "external", "imag
 INSTEAD = {
     "sick_lms": "start sick_scan or sicktoolbox_wrapper and take lidar:=external",
     "velodyne": "start velodyne_driver and velodyne_pointcloud and take lidar:=external cloud:=/velodyne_points",
-    "usb_stereo": "start usb_cam for each of both cameras and take camera:=external stereo_images:=raw",
+    "usb_stereo": "start the driver of a stereo camera whose images have one trigger, or of one camera (usb_cam), and take camera:=external",
     "can": "let a driver publish odometry and take odometry:=external",
     "gps_imu": "name the topics (motion/source in the sensor set) and take odometry:=external",
 }

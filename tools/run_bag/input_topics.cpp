@@ -135,9 +135,10 @@ void findMergedScans(const rosbag::Bag& bag, const Arguments& arguments,
   for (const std::string& source : merge.sourcesInUse()) {
     const std::string topic = arguments.inputTopic(source + "_scan", "scans/" + source);
     if (!holdsTopic(bag, topic)) {
-      failForTopic(bag, "no LaserScan on " + topic + " for --merge-scans (" + source +
-                            "_scan:=TOPIC names another; scan_merge/sources/" + source +
-                            "/use: false goes without)");
+      failForTopic(bag, "no LaserScan on " + topic +
+                            " for --merge-scans (front_scan:=TOPIC and "
+                            "rear_scan:=TOPIC name others; scan_merge/sources/" +
+                            source + "/use: false goes without)");
     }
     topics.scans[topic] = source;
   }

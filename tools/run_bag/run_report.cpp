@@ -210,7 +210,7 @@ std::string RunReport::json(const DriveSummary& drive, const RunTime& time, Stam
                                  {"dropped", dropped()},
                                  {"silences", silences(end)},
                                  {"conditions", conditions(end)}};
-  return report.dump(1) + "\n";
+  return report.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace datmo

@@ -66,9 +66,12 @@ void TrackFuserOptions::visit(OptionVisitor& visitor) {
                   "source without a track of it would have detected it at least so probably, "
                   "lately: no tracker confirms at once"},
                  misses, {0.0, 1.0});
-  visitor.number({"published_existence", "1", "existence probability from which one is published",
-                  Tier::kLive},
-                 published_existence, {0.0, 1.0});
+  visitor.number(
+      {"published_existence", "1",
+       "existence probability from which one is published by_existence; the other schemes take "
+       "what is likelier to exist than not",
+       Tier::kLive},
+      published_existence, {0.5, 1.0});
   visitor.number({"memory", "s",
                   "an object that all sources have lost is known again, by its id, for this time"},
                  memory, {0.0, 60.0});

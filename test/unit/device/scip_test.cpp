@@ -75,6 +75,14 @@ TEST(Scip, AModelHasTheGeometryOfItsSteps) {
   EXPECT_EQ(scipScanRequest(scanner), "MD0006001001000");
 }
 
+TEST(Scip, AChecksumMayBeASemicolon) {
+  ScipAnswer answer{"PP", "00", FakeScanner::kModel};
+  for (std::string& line : answer.lines) {
+    line += ";;";
+  }
+  EXPECT_EQ(scipModel(answer).beamSpacing(), model().beamSpacing());
+}
+
 TEST(Scip, ADeviceThatIsNoScannerIsRefused) {
   EXPECT_THROW(scipModel({"PP", "00", {"MODL:radio;x"}}), DeviceError);
   std::vector<std::string> lines = FakeScanner::kModel;

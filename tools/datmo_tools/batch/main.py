@@ -7,6 +7,7 @@ import functools
 import os
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 from datmo_tools import command_line, programs
@@ -32,7 +33,11 @@ MIN_FREE = 64 * 2**20  # bytes: with less the disk counts as full
 
 def main(arguments=None):
     """Runs the command line; returns its exit code."""
-    values = _parser().parse_args(arguments)
+    words = sys.argv[1:] if arguments is None else arguments
+    # argparse takes what follows "--" for the last positional one only where FOLDER is next to it.
+    end = words.index("--") if "--" in words else len(words)
+    values = _parser().parse_args(words[:end])
+    values.options = words[end + 1:]
     complete = []
     code = command_line.run("batch", lambda: complete.append(_batch(values)), "report")
     return code or int(not complete[0])
@@ -145,5 +150,6 @@ def _parser():
     add("--jobs", type=command_line.count, metavar="N",
         help="recordings at a time (default: the profile's)")  # fmt: skip
     add("--no-bags", action="store_true", help="keeps scores alone, not the bags of results")
-    add("options", nargs="*", metavar="-- OPTION", help="of run_bag")
+    parser.usage = parser.format_usage().removeprefix("usage: ").rstrip() + " [-- OPTION ...]"
+    parser.epilog = "What follows -- are options of run_bag."
     return parser

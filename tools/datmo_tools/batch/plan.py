@@ -35,7 +35,8 @@ def find_recordings(folder, out, config):
     if not folder.is_dir():
         raise InputError(f"{folder}: no such folder, expected one with recordings (*.bag)")
     bags = sorted(bag for bag in folder.rglob("*.bag")
-                  if not bag.name.endswith(TRUTH) and out.resolve() not in bag.resolve().parents)
+                  if not bag.name.endswith(TRUTH) and out.resolve() not in bag.resolve().parents
+                  and not any((parent / "plan.json").is_file() for parent in bag.parents))
     if not bags:
         raise InputError(f"{folder}: no recordings, expected *.bag in it or below it")
     return [_recording(bag, folder, config) for bag in bags]
@@ -73,7 +74,7 @@ def write_plan(out, recordings, programs, options, keep_bags):
 
 def digest_of(programs):
     """Of what makes the results: the programs and the libraries that were built with them."""
-    libraries = sorted(programs.parent.parent.glob("libdatmo_fusion*.so"))
+    libraries = sorted(programs.parent.glob("libdatmo_fusion*.so"))
     digest = hashlib.sha1()
     for file in (programs / "run_bag", programs / "score_run", *libraries):
         digest.update(file.read_bytes())

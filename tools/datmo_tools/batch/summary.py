@@ -16,7 +16,7 @@ AGAIN = "the same command goes on with it"
 
 def collect(out, recordings):
     """The result (dict) of what lies in `out` (Path). recordings: list of Recording."""
-    outcomes = [(one, _outcome(out / "recordings" / f"{one.id}.json")) for one in recordings]
+    outcomes = [(one, _outcome(out, one)) for one in recordings]
     done = [outcome for _, outcome in outcomes if outcome and not outcome["error"]]
     failed = [
         {"id": one.id, "name": one.name, "finished": outcome is not None,
@@ -37,9 +37,13 @@ def collect(out, recordings):
     }
 
 
-def _outcome(path):
-    """None: there is none, as the job did not come to its end."""
+def _outcome(out, recording):
+    """None: there is none of these settings, as the job did not come to its end."""
+    path = out / "recordings" / f"{recording.id}.json"
+    settings = out / "settings" / f"{recording.id}.json"
     try:
+        if path.stat().st_mtime_ns < settings.stat().st_mtime_ns:
+            return None  # of former ones
         return json.loads(path.read_text())
     except FileNotFoundError:
         return None
