@@ -55,7 +55,8 @@ struct TrackFusionResult {
 ///     one of says as much as one that has.
 ///     The thesis's (3.4.2):
 ///   - fused_plus_fallback: those that all sources have, or had, that can see the position, and two
-///     sensors at least; and those of one source, `beyond`, where no other can see. One that comes from there into another's view stays for as long as that needs to confirm it.
+///     sensors at least; and those of one source, `beyond`, where no other can see. One that comes
+///     from there into another's view stays for as long as that needs to confirm it.
 ///   - confirmed_by_all: the first of these alone. For very noisy sensors.
 ///   - union: all. `sensors` lists who sees them.
 ///
