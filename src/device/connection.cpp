@@ -52,9 +52,21 @@ Addresses lookUp(const DeviceAddress& address) {
 Connection::Connection(const DeviceAddress& address, const std::atomic<bool>& stop)
     : address_(address), stop_(stop) {
   const Addresses found = lookUp(address);
-  socket_ = socket(found->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  int error = 0;
+  for (const addrinfo* one = found.get(); one != nullptr && socket_ < 0; one = one->ai_next) {
+    error = connectTo(*one);
+  }
+  if (socket_ < 0) {
+    throw noConnection(address, std::strerror(error));
+  }
+  const int on = 1;
+  setsockopt(socket_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+}
+
+int Connection::connectTo(const addrinfo& found) {
+  socket_ = socket(found.ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   int error = socket_ < 0 ? errno : 0;
-  if (error == 0 && connect(socket_, found->ai_addr, found->ai_addrlen) != 0) {
+  if (error == 0 && connect(socket_, found.ai_addr, found.ai_addrlen) != 0) {
     error = errno;
     if (error == EINPROGRESS) {
       socklen_t size = sizeof error;
@@ -64,14 +76,11 @@ Connection::Connection(const DeviceAddress& address, const std::atomic<bool>& st
       }
     }
   }
-  if (error != 0) {
-    if (socket_ >= 0) {
-      close(socket_);
-    }
-    throw noConnection(address, std::strerror(error));
+  if (error != 0 && socket_ >= 0) {
+    close(socket_);
+    socket_ = -1;
   }
-  const int on = 1;
-  setsockopt(socket_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+  return error;
 }
 
 Connection::~Connection() { close(socket_); }

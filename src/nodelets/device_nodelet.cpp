@@ -103,7 +103,7 @@ class DeviceNodelet : public nodelet::Nodelet {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       news_.push_back(std::move(news));
-      // What is told of the connection is rare, and kept.
+      // Reports on the connection are rare, and kept.
       const auto is_scan = [](const News& one) { return one.scan.has_value(); };
       if (static_cast<std::size_t>(std::count_if(news_.begin(), news_.end(), is_scan)) > kQueue) {
         news_.erase(std::find_if(news_.begin(), news_.end(), is_scan));

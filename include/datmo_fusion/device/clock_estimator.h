@@ -27,7 +27,7 @@ struct ClockOptions {
 /// from network delay measurements, 1999). That line is the edge of the points' convex hull below
 /// their mean time.
 ///
-/// The least delay of all cannot be told from the offset: times are later by it.
+/// The smallest delay of all cannot be distinguished from the offset: times are later by it.
 class ClockEstimator {
  public:
   /// Throws OptionError.

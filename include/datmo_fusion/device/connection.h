@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+struct addrinfo;
+
 namespace datmo {
 
 /// Where a device listens on the network, and how long it may be silent.
@@ -14,8 +16,9 @@ struct DeviceAddress {
   double timeout = 1.0;  ///< s
 };
 
-/// A TCP connection to a device, for the thread that serves it; it never waits longer than the
-/// timeout. POSIX alone.
+/// A TCP connection to a device, for the thread that serves it. But for the look-up of a name,
+/// which the system bounds, it never waits longer than the timeout at each of the name's addresses.
+/// POSIX alone.
 class Connection {
  public:
   /// `stop`: true ends all waiting; must outlive the connection. Throws DeviceError
@@ -33,6 +36,9 @@ class Connection {
   std::string receive() const;
 
  private:
+  /// One address of the name; sets the socket, or returns why not (errno).
+  int connectTo(const addrinfo& found);
+
   /// Waits until the socket has one of the events of poll(); false after the timeout.
   bool waitFor(short events) const;
 

@@ -19,10 +19,10 @@ struct ObjectVelocityOptions {
 };
 
 /// Gives each object the velocity that the points in its box share (sharedVelocity); none where no
-/// point is. A point belongs to the object nearest to whose center it is of those whose box,
-/// enlarged by `margin` and the standard deviation of its position, holds it, and as high above the
-/// ground as road users are. Objects and points in the vehicle's frame, z up from the ground, of
-/// one time. Throws OptionError.
+/// point is. A point belongs to the object whose box is nearest, if it is within `margin` and the
+/// standard deviation of the object's position of it, and as high above the ground as road users
+/// are; within several boxes, to that of the nearest center. Objects and points in the vehicle's
+/// frame, z up from the ground, of one time. Throws OptionError.
 void measureVelocities(const std::vector<PointVelocity>& points,
                        const Checked<ObjectVelocityOptions>& options, std::vector<Object>& objects);
 

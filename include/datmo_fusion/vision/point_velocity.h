@@ -71,8 +71,7 @@ struct SharedVelocity {
 /// moves aside. (The turn rate is not estimated: at the end of a line of sight the noise of range
 /// makes levers where there are none.) It is the object's own unless all inliers are outliers that
 /// agree by chance: the fewer they are the likelier. Nothing of no points, or beyond `max_speed`.
-/// Covariances must be
-/// positive definite, the center's semidefinite. Throws OptionError.
+/// Covariances must be positive definite, the center's semidefinite. Throws OptionError.
 std::optional<SharedVelocity> sharedVelocity(const std::vector<PointVelocity>& points,
                                              const BodyCenter& center,
                                              const Checked<SharedVelocityOptions>& options);

@@ -10,6 +10,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "datmo_fusion/common/square.h"
 #include "datmo_fusion/tracking/track_check.h"
 
 namespace datmo {
@@ -136,8 +137,8 @@ bool StationTracks::follows(const Claim& last, Stamp stamp, const StationTrack& 
   const double late = options_.clock_sigma * last.track.velocity.norm();
   const Eigen::Matrix2d covariance =
       last.track.covariance.topLeftCorner<2, 2>() + track.covariance.topLeftCorner<2, 2>() +
-      seconds * seconds * last.track.covariance.bottomRightCorner<2, 2>() +
-      (sway * sway + late * late + options_.min_position_sigma * options_.min_position_sigma) *
+      square(seconds) * last.track.covariance.bottomRightCorner<2, 2>() +
+      (square(sway) + square(late) + square(options_.min_position_sigma)) *
           Eigen::Matrix2d::Identity();
   const Point2 expected = last.track.position + seconds * last.track.velocity;
   return squaredDistance(track.position - expected, covariance) <= options_.gate;
@@ -169,13 +170,13 @@ Track StationTracks::inMap(const StationTrackList& list, const StationTrack& the
   Eigen::Matrix4d covariance =
       rotationOfBoth(to_map) * theirs.covariance * rotationOfBoth(to_map).transpose() +
       by_frame * map_in_plane.covariance * by_frame.transpose() +
-      clock * clock * by_clock * by_clock.transpose();
-  const double least_position = options_.min_position_sigma * options_.min_position_sigma;
-  const double least_velocity = options_.min_velocity_sigma * options_.min_velocity_sigma;
+      square(clock) * by_clock * by_clock.transpose();
+  const double min_position_variance = square(options_.min_position_sigma);
+  const double min_velocity_variance = square(options_.min_velocity_sigma);
   for (int axis = 0; axis < 2; ++axis) {
-    covariance(axis, axis) += std::max(0.0, least_position - covariance(axis, axis));
+    covariance(axis, axis) += std::max(0.0, min_position_variance - covariance(axis, axis));
     covariance(2 + axis, 2 + axis) +=
-        std::max(0.0, least_velocity - covariance(2 + axis, 2 + axis));
+        std::max(0.0, min_velocity_variance - covariance(2 + axis, 2 + axis));
   }
   Track track;
   track.id = claims_.at({list.station, theirs.id}).id;
@@ -183,7 +184,7 @@ Track StationTracks::inMap(const StationTrackList& list, const StationTrack& the
   track.covariance.setZero();
   track.covariance.topLeftCorner<4, 4>() = 0.5 * (covariance + covariance.transpose());
   track.covariance.bottomRightCorner<2, 2>() =
-      options_.acceleration_sigma * options_.acceleration_sigma * Eigen::Matrix2d::Identity();
+      square(options_.acceleration_sigma) * Eigen::Matrix2d::Identity();
   track.box = {Pose2(position, theirs.heading + plane_in_map.heading()), theirs.length,
                theirs.width};
   track.height = theirs.height;

@@ -95,7 +95,7 @@ EarthFrame fromMessage(const EarthFrameMessage& message) {
       !std::isfinite(pose.heading()) ||
       Eigen::LLT<Eigen::Matrix3d>(covariance).info() != Eigen::Success) {
     throw InputError("bad_earth_frame",
-                     "the map's place on the earth is not finite, or its covariance is none");
+                     "the map's pose on the earth is not finite, or its covariance is none");
   }
   return {toStamp(message.header.stamp), LocalPlane(datum), {pose, covariance}};
 }

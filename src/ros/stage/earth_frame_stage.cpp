@@ -115,12 +115,12 @@ void EarthFrameStage::report() {
   }
   const auto map = filter_.mapInPlane();
   if (map) {
-    monitor_.announce("earth", "the map's place on the earth is known");
+    monitor_.announce("earth", "the map's pose on the earth is known");
     monitor_.figure("heading of the map, standard deviation [rad]",
                     std::sqrt(map->covariance(2, 2)));
   }
   monitor_.condition(map ? HealthLevel::kGood : HealthLevel::kLess,
-                     map ? "the map's place on the earth is known"
+                     map ? "the map's pose on the earth is known"
                          : "where the map lies on the earth is not known before the vehicle has "
                            "driven for a while");
 }

@@ -81,7 +81,7 @@ const EarthFrame& V2xStage::frameAt(Stamp stamp) {
     throw InputError("no_earth_frame",
                      why + ": expected earth_frame, which takes gnss and a drive");
   }
-  monitor_.condition(HealthLevel::kGood, "the map's place on the earth is known");
+  monitor_.condition(HealthLevel::kGood, "the map's pose on the earth is known");
   return *frame_;
 }
 

@@ -14,7 +14,8 @@
 
 namespace datmo {
 
-/// That a source has a track of what it could see for looking_time and moves, by its class.
+/// That a source has a track of what moves and it could see for a second, by class: it tells most
+/// road users of few beams or pixels later.
 struct TrackDetectionOptions {
   double pedestrian = 0.3;  ///< 1
   double cyclist = 0.6;     ///< 1

@@ -28,7 +28,7 @@ struct EarthFrameStageOptions {
 };
 
 /// EarthFrameFilter between messages: the positions of a satellite receiver and the poses in the
-/// map make the map's place on the earth. The first position is the datum of the plane. A position
+/// map make the map's pose on the earth. The first position is the datum of the plane. A position
 /// waits for the pose after it, so that its own pose is interpolated; a bad one is dropped through
 /// the monitor.
 class EarthFrameStage : public Stage {

@@ -34,7 +34,7 @@ struct V2xStageOptions {
 
 /// StationTracks between messages: what other stations track, as one more source of track_fusion,
 /// and what our own sensors track, for others. Lists that are old, repeated or of a clock that is
-/// wrong are dropped, and nothing passes in or out where the map's place on the earth is not known.
+/// wrong are dropped, and nothing passes in or out where the map's pose on the earth is not known.
 ///
 /// Stations send each at its own times: each list that is the newest makes one of all of them.
 ///
