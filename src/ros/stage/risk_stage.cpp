@@ -133,11 +133,12 @@ void RiskStage::report(const RiskReport& report) {
   warn(report.counts.rejected, "bad_track",
        "bad tracks: expected finite numbers in range, a covariance that is positive definite, and "
        "an id from 1 on; they have no risk");
-  warn(report.counts.old, "old_track", "tracks not seen for max_silence: they have no risk");
   warn(report.counts.over_budget, "many_tracks",
        "tracks too many: expected max_objects at most; the surest have a risk");
   monitor_.figure("level, 0 (none) to 3 (imminent)", static_cast<double>(report.level));
   monitor_.figure("objects assessed", static_cast<double>(report.objects.size()));
+  // A road user behind a parked car is followed for a while unseen: nothing is wrong with that.
+  monitor_.figure("objects not seen for max_silence", static_cast<double>(report.counts.old));
   monitor_.figure("objects out of reach", static_cast<double>(report.counts.unreachable));
   if (report.level >= RiskLevel::kWarning) {
     monitor_.announce("warning", "first warning: " + report.reason);

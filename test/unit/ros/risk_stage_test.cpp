@@ -119,13 +119,13 @@ TEST_F(RiskStageTest, TracksThatAreNoneAreSaid) {
   EXPECT_EQ(samples::warnings(monitor_, "bad_track"), 1U);
 }
 
-TEST_F(RiskStageTest, OldTracksAreSaid) {
+TEST_F(RiskStageTest, TracksNotSeenForLongAreCounted) {
   odometryAt(0.0);
   scanAt(0.0);
   TrackArray tracks = carAhead(0.0, 17.0);
   tracks.tracks[0].since_update = ros::Duration(1.5);
   ASSERT_NE(stage_.takeTracks(tracks), nullptr);
-  EXPECT_EQ(samples::warnings(monitor_, "old_track"), 1U);
+  EXPECT_EQ(monitor_.figures().at("objects not seen for max_silence"), 1.0);
 }
 
 TEST_F(RiskStageTest, ManyTracksAreLimitedAndSaid) {
