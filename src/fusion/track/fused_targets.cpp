@@ -160,6 +160,7 @@ void FusedTargets::follow(Stamp stamp, double seconds, std::vector<Track> groups
       target.id = next_id_++;
       target.born = stamp;
       target.looked.resize(sources_);
+      target.ranges.resize(sources_);
       targets_.push_back(std::move(target));
     }
     FusedTarget& target = targets_[*owners[group]];

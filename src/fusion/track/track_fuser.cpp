@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "datmo_fusion/fusion/object/fused_existence.h"
@@ -35,6 +36,15 @@ constexpr double kEven = 0.5;
 
 double positionStd(const Track& track) {
   return std::sqrt(0.5 * track.covariance.topLeftCorner<2, 2>().trace());
+}
+
+/// From the nearest of the sensors, m.
+double rangeFrom(const std::vector<ViewFan>& fans, const Track& track) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const ViewFan& fan : fans) {
+    nearest = std::min(nearest, (track.box.center.position() - fan.sensor.position()).norm());
+  }
+  return nearest;
 }
 
 /// The likeliest ones, by rising id.
@@ -177,11 +187,13 @@ CrossCovariance TrackFuser::crossCovariance(const TrackGroup& group, std::size_t
 void TrackFuser::look(const std::vector<SourceTracks>& sources, double seconds) {
   const double share = kLookingTime > 0.0 ? -std::expm1(-seconds / kLookingTime) : 1.0;
   std::vector<std::optional<Visibility>> views(names_.size());
+  std::vector<const std::vector<ViewFan>*> fans_of(names_.size());
   for (const SourceTracks& source : sources) {
     const std::vector<ViewFan>& fans = source.list->views;
     if (std::any_of(fans.begin(), fans.end(),
                     [](const ViewFan& fan) { return !fan.reach.empty(); })) {
       views[numbers_.at(source.source)].emplace(fans, options_.visibility);
+      fans_of[numbers_.at(source.source)] = &fans;
     }
   }
   for (FusedTarget& target : targets_.all()) {
@@ -192,6 +204,9 @@ void TrackFuser::look(const std::vector<SourceTracks>& sources, double seconds) 
       }
       std::optional<double>& looked = target.looked[source];
       looked = looked ? *looked + share * (now - *looked) : now;
+      if (fans_of[source] != nullptr) {
+        target.ranges[source] = rangeFrom(*fans_of[source], target.track);
+      }
     }
   }
 }
@@ -231,7 +246,7 @@ void TrackFuser::judge(FusedTarget& target, Stamp stamp,
     reports.push_back(
         {track != nullptr,
          track != nullptr ? std::min(track->existence_probability, own.true_share) : 0.0, looked,
-         own.detection.probability(target.track.class_probabilities),
+         own.detection.probability(target.track.class_probabilities, target.ranges[source]),
          by_two ? own.false_agreement_probability : kSurelyAgrees});
     seen_by_all = seen_by_all && (track != nullptr || looked < kCanSee);
   }

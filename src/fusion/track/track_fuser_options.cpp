@@ -1,29 +1,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/fusion/track/track_fuser_options.h"
 
+#include <cmath>
+
 namespace datmo {
 
-void TrackDetectionOptions::visit(OptionVisitor& visitor) {
-  constexpr Bounds kProbability{0.01, 0.99};
-  const auto share = [&](const char* name, const char* called, double& value) {
-    visitor.number({name, "1",
-                    std::string("that it has a track of ") + called +
-                        " that moves where it could see it for a second: few beams or pixels take "
-                        "longer to tell"},
-                   value, kProbability);
-  };
-  share("pedestrian", "a pedestrian", pedestrian);
-  share("cyclist", "a cyclist", cyclist);
-  share("vehicle", "a vehicle", vehicle);
+namespace {
+
+/// m, over which a detection falls from most to little: about as far as a sensor's beams or pixels
+/// on a road user become half as many at the ranges where that begins to matter.
+constexpr double kFalloff = 4.0;
+
+}  // namespace
+
+void ClassDetectionOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"near", "1", "that it has a track of one close by that moves"}, near,
+                 {0.01, 0.99});
+  visitor.number({"half_range", "m", "at which that has fallen to half"}, half_range, {1.0, 300.0});
 }
 
-double TrackDetectionOptions::probability(const ClassProbabilities& classes) const {
+double ClassDetectionOptions::probability(double range) const {
+  return near / (1.0 + std::exp((range - half_range) / kFalloff));
+}
+
+void TrackDetectionOptions::visit(OptionVisitor& visitor) {
+  visitor.group("pedestrian", [&] { pedestrian.visit(visitor); });
+  visitor.group("cyclist", [&] { cyclist.visit(visitor); });
+  visitor.group("vehicle", [&] { vehicle.visit(visitor); });
+}
+
+double TrackDetectionOptions::probability(const ClassProbabilities& classes, double range) const {
   const auto of = [&](ObjectClass one) { return classes[static_cast<std::size_t>(one)]; };
-  const double named =
-      of(ObjectClass::kPedestrian) + of(ObjectClass::kCyclist) + of(ObjectClass::kVehicle);
-  return of(ObjectClass::kPedestrian) * pedestrian + of(ObjectClass::kCyclist) * cyclist +
-         of(ObjectClass::kVehicle) * vehicle +
-         (1.0 - named) * (pedestrian + cyclist + vehicle) / 3.0;
+  const double of_none =
+      1.0 - of(ObjectClass::kPedestrian) - of(ObjectClass::kCyclist) - of(ObjectClass::kVehicle);
+  const double each = of_none / 3.0;
+  return (of(ObjectClass::kPedestrian) + each) * pedestrian.probability(range) +
+         (of(ObjectClass::kCyclist) + each) * cyclist.probability(range) +
+         (of(ObjectClass::kVehicle) + each) * vehicle.probability(range);
 }
 
 void TrackSourceOptions::visit(OptionVisitor& visitor) {

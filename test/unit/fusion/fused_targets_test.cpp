@@ -118,7 +118,8 @@ TEST(FusedTargetsTest, ItIsAsOldAsTheOldestOfItsTracks) {
 TEST(FusedTargetsTest, WhoIsSurestOfItIsNoEvidenceBesidesItself) {
   TrackFuserOptions options;
   for (auto& [name, source] : options.sources) {
-    source.detection = {0.8, 0.8, 0.8};
+    constexpr double kFar = 300.0;  // m
+    source.detection = {{0.8, kFar}, {0.8, kFar}, {0.8, kFar}};
   }
   options.published_existence = 0.5;
   options.sources["lidar"].false_agreement_probability = 0.1;

@@ -2,6 +2,7 @@
 #include "datmo_fusion/fusion/track/track_fuser.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <stdexcept>
@@ -87,7 +88,8 @@ double existenceOf(ObjectClass object_class, double existence = 0.99) {
 }
 
 TEST(TrackFuserTest, WhatOneSourceHasComesOutWhereTheOtherWouldHardlyHaveIt) {
-  // Odds of 9, since one in ten of a source's tracks is false, times 1 - 0.3 of what is looked at.
+  // Odds of 9, since one in ten of a source's tracks is false, times 1 - 0.3, by the default at
+  // this range, of what is looked at.
   const double pedestrian = existenceOf(ObjectClass::kPedestrian);
   EXPECT_GT(pedestrian, 6.3 / 7.3 - 1e-3);
   EXPECT_LT(pedestrian, 0.9);
@@ -96,10 +98,20 @@ TEST(TrackFuserTest, WhatOneSourceHasComesOutWhereTheOtherWouldHardlyHaveIt) {
 }
 
 TEST(TrackDetection, IsTheMeanOverTheClassesItMayBeOf) {
-  const TrackDetectionOptions detection{0.2, 0.5, 0.8};
-  EXPECT_NEAR(detection.probability({0.0, 0.5, 0.0, 0.5, 0.0}), 0.5, 1e-12);
-  EXPECT_NEAR(detection.probability({1.0, 0.0, 0.0, 0.0, 0.0}), 0.5, 1e-12) << "of no class";
-  EXPECT_NEAR(detection.probability({0.0, 0.0, 0.0, 0.0, 1.0}), 0.5, 1e-12) << "of one without";
+  constexpr double kFar = 1000.0;  // m
+  const TrackDetectionOptions detection{{0.2, kFar}, {0.5, kFar}, {0.8, kFar}};
+  EXPECT_NEAR(detection.probability({0.0, 0.5, 0.0, 0.5, 0.0}, 10.0), 0.5, 1e-12);
+  EXPECT_NEAR(detection.probability({1.0, 0.0, 0.0, 0.0, 0.0}, 10.0), 0.5, 1e-12) << "of no class";
+  EXPECT_NEAR(detection.probability({0.0, 0.0, 0.0, 0.0, 1.0}, 10.0), 0.5, 1e-12)
+      << "of one without";
+}
+
+TEST(TrackDetection, FallsWithRange) {
+  const ClassDetectionOptions detection{0.8, 20.0};
+  EXPECT_NEAR(detection.probability(0.0), 0.8, 0.01);
+  EXPECT_NEAR(detection.probability(20.0), 0.4, 1e-12);
+  EXPECT_NEAR(detection.probability(24.0), 0.8 / (1.0 + std::exp(1.0)), 1e-12);
+  EXPECT_LT(detection.probability(50.0), 0.001);
 }
 
 TEST(TrackFuserTest, UnionIsAllTaggedWithWhoSeesThem) {
@@ -114,7 +126,7 @@ TEST(TrackFuserTest, UnionIsAllTaggedWithWhoSeesThem) {
     tags.insert(tag);
     // What the other one would have seen is less likely, what both see likelier.
     const bool contested = tag == "stereo" || track.state.y() > 10.0;
-    EXPECT_EQ(track.existence_probability < 0.8, contested) << tag;
+    EXPECT_EQ(track.existence_probability < 0.89, contested) << tag;
   }
   EXPECT_EQ(tags, (std::multiset<std::string>{"lidar", "lidar", "lidarstereo", "stereo"}));
 }

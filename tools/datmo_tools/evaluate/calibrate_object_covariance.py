@@ -11,6 +11,7 @@ from datmo_tools.evaluate.covariance_table import covariance_table
 from datmo_tools.evaluate.grid_recordings import CAMERA_INFOS, MOUNTS, mounts_of, view_of
 from datmo_tools.evaluate.object_lists import read_lists, read_moving_boxes
 from datmo_tools.evaluate.object_pairs import Counts, paired_objects
+from datmo_tools.evaluate.plot_files import plotter
 from datmo_tools.pose_path import read_path
 from datmo_tools.whole_files import write_whole
 
@@ -88,28 +89,9 @@ def _check(values):
         )
 
 
-def _plotter(path):
-    """Function that plots, by the name's ending; None: no plot is wanted.
-
-    It needs matplotlib, and is loaded before the work is done in vain.
-    """
-    if path is None:
-        return None
-    try:
-        # pylint: disable=import-outside-toplevel
-        from datmo_tools.evaluate.covariance_plot import covariance_plot
-        from datmo_tools.evaluate.plot_style import KINDS
-    except ImportError as error:
-        raise InputError(f"{error}: expected the package python3-matplotlib") from error
-    kind = path.suffix[1:].lower()
-    if kind not in KINDS:
-        raise InputError(f"--plot {path}: expected a name that ends in .{', .'.join(KINDS)}")
-    return lambda table, sigma: covariance_plot(table, kind, sigma)
-
-
 def _run(values):
     _check(values)
-    plot = _plotter(values.plot)
+    plot = plotter(values.plot, "covariance_plot", "covariance_plot")
     depth_sigma = _depth_sigma(values.drive, values.disparity_sigma)
     pairs, counts = read_pairs(values.runs, values.lidar, values.stereo, values.tracks, values.pose)
     table = covariance_table(

@@ -9,11 +9,11 @@ NEAR_BINS = 2
 HEADROOM = 1.3  # over the highest point, for the legend
 
 
-def covariance_plot(table, kind, depth_sigma=None):
+def covariance_plot(table, depth_sigma, kind):
     """Bytes of the picture.
 
-    kind: of plot_style.KINDS; depth_sigma: function of depth (m) -> standard deviation (m)
-    that theory expects straight ahead, or None.
+    depth_sigma: function of depth (m) -> standard deviation (m) that theory expects straight
+    ahead, or None; kind: of plot_style.KINDS.
     """
 
     def draw(axes):

@@ -40,6 +40,8 @@ class TrackFrame(NamedTuple):
 
     stamp: int  # ns
     tracks: list  # of SeenTrack
+    views: list  # of ViewFan, in the map of the run; none: not known
+    base: np.ndarray  # estimated x, y (m), yaw (rad) of base_link in the map of the run
     positions: np.ndarray  # n x 2, m, base_link
     moment: Moment
     distances: np.ndarray  # n x m, m, from the tracks to the boxes of the true objects
@@ -107,7 +109,9 @@ class Scene:
         poses = np.array([track.pose for track in item.tracks]).reshape(-1, 3)
         positions = transforms.relative(base, poses)[:, :2]
         distances = distances_to_boxes(positions, moment.poses, moment.sizes)
-        return TrackFrame(item.stamp, item.tracks, positions, moment, distances, matched)
+        return TrackFrame(
+            item.stamp, item.tracks, item.views, base, positions, moment, distances, matched
+        )
 
 
 def distances_to_boxes(positions, poses, sizes):

@@ -14,18 +14,31 @@
 
 namespace datmo {
 
-/// That a source has a track of what moves and it could see for a second, by class: it tells most
-/// road users of few beams or pixels later.
-struct TrackDetectionOptions {
-  double pedestrian = 0.3;  ///< 1
-  double cyclist = 0.6;     ///< 1
-  double vehicle = 0.9;     ///< 1
+/// That a source has a track of a road user of one class that moves and that it could see lately:
+/// near / (1 + exp((range - half_range) / 4 m)). The smaller one is and the farther, the fewer
+/// beams or pixels it has, and the later its motion shows.
+struct ClassDetectionOptions {
+  double near = 0.6;         ///< 1, at range 0
+  double half_range = 30.0;  ///< m, at which it has fallen to half of that
 
   void visit(OptionVisitor& visitor);
 
-  /// Of what is of each class with its probability; what has no class here, or none, is as likely
-  /// each of these.
-  double probability(const ClassProbabilities& classes) const;
+  /// At a range, m.
+  double probability(double range) const;
+};
+
+/// The same of all classes. The defaults are for a source that was not calibrated: what it does not
+/// have counts little. calibrate_track_sources measures them.
+struct TrackDetectionOptions {
+  ClassDetectionOptions pedestrian{0.3, 25.0};
+  ClassDetectionOptions cyclist{0.6, 30.0};
+  ClassDetectionOptions vehicle{0.9, 40.0};
+
+  void visit(OptionVisitor& visitor);
+
+  /// Of what is of each class with its probability, at a range (m) from the sensor; what has no
+  /// class here, or none, is as likely each of these.
+  double probability(const ClassProbabilities& classes, double range) const;
 };
 
 /// One source of tracks.

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Command line of calibrate_track_sources."""
+
+from pathlib import Path
+
+import yaml
+
+from datmo_tools import command_line
+from datmo_tools.errors import InputError
+from datmo_tools.evaluate.arguments import add_region, region_of
+from datmo_tools.evaluate.plot_files import plotter
+from datmo_tools.evaluate.source_tally import CLASSES, SourceTally
+from datmo_tools.evaluate.track_frames import Scene
+from datmo_tools.evaluate.track_lists import read_track_lists
+from datmo_tools.evaluate.truth import ANY, NONE
+from datmo_tools.text_table import aligned
+from datmo_tools.whole_files import write_whole
+
+DESCRIPTION = """\
+Measures how much the tracks of each source are worth, on drives with truth, and writes it as yaml that
+track_fusion loads:
+
+  detection    of the frames in which a source could lately see a road user that moves, by its
+               published view: the share in which it has a track of it, by class and range, as the
+               likeliest near / (1 + exp((range - half_range) / 4 m))
+  true_share   of the frames of its tracks, those on what moves at some time
+  false_agreement_probability
+               of the frames of another source's false tracks that it could see: the share in which
+               it has a track there, too
+
+Each with one frame of either kind more than was counted. What was counted in less than --min-frames
+frames is left out: the default stays. Calibrate on other drives than those you measure on."""
+
+SOURCES = ("lidar", "stereo")
+RANGE = 50.0  # m
+GATE = 2.0  # m, as score_run's matching/gate
+BIN_WIDTH = 5.0  # m
+MIN_FRAMES = 50  # a share is known to 0.07
+
+
+def main(arguments=None):
+    """Runs the command line; returns its exit code."""
+    values = _parser().parse_args(arguments)
+    return command_line.run("calibrate_track_sources", lambda: _run(values), product="table")
+
+
+def as_yaml(tallies, min_frames):
+    """Section of track_fusion; tallies: dictionary name of the source -> SourceTally."""
+
+    def known(shares):
+        return {
+            name: round(share.value, 3) for name, share in shares.items() if share.whole >= min_frames
+        }
+
+    sections = {}
+    for name, tally in tallies.items():
+        laws = {each: tally.law(each) for each in CLASSES.values()
+                if tally.detection(each).whole >= min_frames}  # fmt: skip
+        detection = {each: {"near": round(law.near, 3), "half_range": round(law.half_range, 1)}
+                     for each, law in laws.items()}  # fmt: skip
+        section = {"detection": detection} if detection else {}
+        section.update(known({"true_share": tally.true_share,
+                              "false_agreement_probability": tally.false_agreement}))  # fmt: skip
+        sections[name] = section
+    return yaml.safe_dump({"track_fusion": {"sources": sections}}, sort_keys=False)
+
+
+def summary(tallies):
+    """Text of what was counted."""
+    rows = [["source", "", "share", "frames"]]
+    for name, tally in tallies.items():
+        shares = {f"has a {each} that it could see": tally.detection(each) for each in CLASSES.values()}
+        shares["track on what moves"] = tally.true_share
+        shares["track on a false one of another"] = tally.false_agreement
+        rows += [[name, what, f"{share.value:.3f}" if share.whole else "-", f"{share.whole:.0f}"]
+                 for what, share in shares.items()]  # fmt: skip
+    return aligned(rows)
+
+
+def tally_runs(runs, drives, sources, region, visible_to=ANY, bin_width=BIN_WIDTH):
+    """Dictionary source -> SourceTally of runs (Paths) with truth in drives. Raises InputError."""
+    tallies = {name: SourceTally(bin_width) for name in sources}
+    topics = {name: f"/tracks/{name}" for name in sources}
+    for run, drive in zip(runs, drives):
+        lists = read_track_lists(run, topics.values())
+        scene = Scene(run, drive, region, visible_to, GATE)
+        frames = {name: scene.frames(topic, lists[topic]) for name, topic in topics.items()}
+        for name, tally in tallies.items():
+            if not any(frame.views for frame in frames[name]):
+                raise InputError(f"{run}: {topics[name]} tells nothing of what its sensor could see, "
+                                 "expected views")  # fmt: skip
+            tally.add(frames[name])
+            for other in sources:
+                if other != name:
+                    tally.add_agreement(frames[name], frames[other], GATE)
+    return tallies
+
+
+def _run(values):
+    drives = values.truth or values.runs
+    if len(drives) != len(values.runs):
+        raise InputError(f"{len(drives)} --truth for {len(values.runs)} runs: expected one for each")
+    plot = plotter(values.plot, "source_plot", "source_plot")
+    tallies = tally_runs(values.runs, drives, values.sources, region_of(values), values.visible_to)
+    print(summary(tallies))
+    text = as_yaml(tallies, values.min_frames)
+    print(text, end="")
+    write_whole(values.out.parent, {values.out.name: text})
+    if plot is not None:
+        write_whole(values.plot.parent, {values.plot.name: plot(tallies)})
+
+
+def _parser():
+    parser = command_line.new_parser("calibrate_track_sources", DESCRIPTION)
+    add = parser.add_argument
+    add("runs", nargs="+", type=Path, metavar="RUN.bag", help="bags of run_bag --track-fusion")
+    add("--truth", action="append", type=Path, metavar="DRIVE.bag",
+        help="with the truth, one for each run in their order (default: the runs themselves)")  # fmt: skip
+    add("--sources", nargs="+", default=list(SOURCES), metavar="NAME",
+        help="whose tracks are on /tracks/NAME (default: lidar stereo)")  # fmt: skip
+    add("--visible-to", default=ANY, metavar="SENSOR",
+        help="that must see a true object for it to be asked for, "
+        f"{ANY}, or {NONE}: not asked (default %(default)s)")  # fmt: skip
+    add("--min-frames", type=command_line.count, default=MIN_FRAMES, metavar="N",
+        help="for a share to be written (default %(default)s)")  # fmt: skip
+    add("--out", type=command_line.output_file, default=Path("track_sources.yaml"),
+        metavar="FILE.yaml", help="the table (default %(default)s)")  # fmt: skip
+    add("--plot", type=command_line.output_file, metavar="FILE",
+        help="picture by range: .svg, .pdf or .png")  # fmt: skip
+    add_region(parser, RANGE)
+    return parser

@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What each source of tracks has, misses and invents, counted on drives with truth."""
+
+import math
+from collections import Counter
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import minimize
+
+from datmo_fusion.msg import Object
+from datmo_tools import transforms
+from datmo_tools.evaluate.track_frames import Newest
+from datmo_tools.evaluate.track_views import is_visible
+from datmo_tools.stamps import NANOSECONDS
+
+CLASSES = {Object.CLASS_PEDESTRIAN: "pedestrian", Object.CLASS_CYCLIST: "cyclist",
+           Object.CLASS_VEHICLE: "vehicle"}  # fmt: skip
+
+FALLOFF = 4.0  # m, of the law of track_fusion
+NEAR = 0.01, 0.99  # bounds of its options
+HALF_RANGE = 1.0, 300.0  # m
+
+# Over which it is remembered how much of an object a source could see, s: as track_fusion does.
+LOOKING_TIME = 1.0
+
+
+class Share(NamedTuple):
+    """How many frames of how many; those in which little could be seen count as little."""
+
+    part: float
+    whole: float
+
+    @property
+    def value(self):
+        """With one of each more than were counted: never 0 or 1, 0.5 without any."""
+        return (self.part + 1) / (self.whole + 2)
+
+
+class DetectionLaw(NamedTuple):
+    """near / (1 + exp((range - half_range) / FALLOFF)), as track_fusion has it."""
+
+    near: float
+    half_range: float  # m
+
+    def at(self, ranges):
+        """Probability at ranges (m)."""
+        return self.near / (1.0 + np.exp((np.asarray(ranges) - self.half_range) / FALLOFF))
+
+
+class SourceTally:
+    """Of one source, over all drives that were added. Ranges: m from its sensor, in bins."""
+
+    def __init__(self, bin_width):
+        """bin_width: m."""
+        self._bin_width = bin_width
+        self.seconds = 0.0
+        # Frames by (class, bin), each as much as could be seen of the object lately.
+        self.found, self.visible = Counter(), Counter()
+        self.true, self.false = Counter(), Counter()  # frames of tracks, by bin
+        self._agreeing, self._invented = 0, 0  # frames of other sources' false tracks
+
+    def add(self, frames):
+        """Counts what it has of what it could see, and its own tracks, in TrackFrames of its lists."""
+        if frames:
+            self.seconds += (frames[-1].stamp - frames[0].stamp) / NANOSECONDS
+        looked, before = {}, None  # id of an object -> how much of it could be seen lately
+        for frame in frames:
+            movers = _movers(frame)
+            step = 0.0 if before is None else (frame.stamp - before) / NANOSECONDS
+            before = frame.stamp
+            share = 1.0 - math.exp(-step / LOOKING_TIME)
+            has = set(frame.matches.objects.values())
+            for number, (key, is_seen) in movers.items():
+                last = looked.get(number, 0.0)
+                looked[number] = last + share * (is_seen - last)
+                self.visible[self._binned(key)] += looked[number]
+                self.found[self._binned(key)] += looked[number] * (number in has)
+            for row in range(len(frame.tracks)):
+                if frame.counts(row):
+                    kind = self.false if frame.is_false(row) else self.true
+                    kind[self._bin(np.hypot(*frame.positions[row]))] += 1
+
+    def add_agreement(self, frames, others, gate):
+        """Counts in how many frames of the false tracks of another source, where this one could
+        see them, it has a track within `gate` (m) of them.
+
+        frames: TrackFrames of this source; others: of the other one.
+        """
+        own = Newest(frames)
+        for other in others:
+            frame = own.at(other.stamp)
+            for row, track in enumerate(other.tracks):
+                if frame and other.is_false(row) and is_visible(frame.views, track.pose[:2]):
+                    distances = [np.hypot(*(track.pose[:2] - mine.pose[:2])) for mine in frame.tracks]
+                    self._invented += 1
+                    self._agreeing += bool(distances) and min(distances) <= gate
+
+    def detection(self, name, index=None):
+        """Share of the frames in which it could see a road user of the class that moves, in which
+        it has a track of it; index: of the bin of range, or None: all."""
+        keys = [key for key in self.visible if key[0] == name and index in (None, key[1])]
+        return Share(sum(self.found[key] for key in keys), sum(self.visible[key] for key in keys))
+
+    def law(self, name):
+        """DetectionLaw of a class, the likeliest by the frames of all bins."""
+        keys = [key for key in self.visible if key[0] == name]
+        centers = np.array([self.center(key[1]) for key in keys])
+        found = np.array([self.found[key] for key in keys])
+        missed = np.array([self.visible[key] for key in keys]) - found
+
+        def surprise(values):
+            probability = np.clip(DetectionLaw(*values).at(centers), 1e-9, 1.0 - 1e-9)
+            return -float(found @ np.log(probability) + missed @ np.log1p(-probability))
+
+        starts = [(0.9, half) for half in (10.0, 20.0, 40.0)]  # it may have more than one minimum
+        fits = [minimize(surprise, start, bounds=(NEAR, HALF_RANGE)) for start in starts]
+        return DetectionLaw(*map(float, min(fits, key=lambda fit: fit.fun).x))
+
+    @property
+    def true_share(self):
+        """Of the frames of its tracks, those on what moves at some time."""
+        true = sum(self.true.values())
+        return Share(true, true + sum(self.false.values()))
+
+    @property
+    def false_agreement(self):
+        """Of the frames of others' false tracks that it could see, those in which it agrees."""
+        return Share(self._agreeing, self._invented)
+
+    def false_per_minute(self, index):
+        """Frames of false tracks at the ranges of a bin, for each minute."""
+        return self.false[index] * 60.0 / self.seconds if self.seconds > 0.0 else 0.0
+
+    @property
+    def bins(self):
+        """Number of bins in which anything was counted."""
+        indices = [key[1] for key in self.visible] + [*self.true, *self.false]
+        return max(indices, default=-1) + 1
+
+    def center(self, index):
+        """Of a bin, m."""
+        return (index + 0.5) * self._bin_width
+
+    def _bin(self, distance):
+        return int(distance // self._bin_width)
+
+    def _binned(self, key):
+        name, range_of = key
+        return name, self._bin(range_of)
+
+
+def _movers(frame):
+    """Dictionary id -> ((class, range from the sensor), whether the source could see it) of the road users that
+    move now."""
+    moment = frame.moment
+    in_map = transforms.compose(frame.base, moment.poses)
+    movers = {}
+    for i, item in enumerate(moment.items):
+        name = CLASSES.get(item.classification)
+        if name and item.moving:
+            ranges = [np.hypot(view.sensor.x - in_map[i][0], view.sensor.y - in_map[i][1])
+                      for view in frame.views]  # fmt: skip
+            key = name, float(min(ranges, default=np.hypot(*moment.poses[i][:2])))
+            movers[int(moment.ids[i])] = key, _sees(frame.views, in_map[i], moment.sizes[i])
+    return movers
+
+
+# Around a box: its corners and the middles of its sides, in half lengths and widths.
+OUTLINE = np.array([(x, y, 0.0) for x in (-1, 0, 1) for y in (-1, 0, 1) if x or y])
+
+
+def _sees(views, pose, size):
+    """Whether half or more of the side of a box (pose in the frame of the views, size in m) that
+    faces a sensor is in its view, with nothing before it."""
+    outline = transforms.compose(pose, 0.5 * OUTLINE * [*size, 0.0])[:, :2]
+    for view in views:
+        sensor = view.sensor.x, view.sensor.y
+        distances = np.hypot(*(outline - sensor).T)
+        facing = outline[distances <= np.hypot(*(pose[:2] - sensor))]
+        if 2 * sum(is_visible([view], point) for point in facing) >= len(facing):
+            return True
+    return False
