@@ -2,7 +2,6 @@
 // What an OccupancyMap knows beyond its window, and beyond its life.
 #include <algorithm>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "datmo_fusion/grid/occupancy_map.h"
@@ -20,21 +19,6 @@ void forEachCell(const GridWindow& window, Visit&& visit) {
       visit(CellIndex{column, row});
     }
   }
-}
-
-/// Tiles that a window may touch.
-std::size_t tilesOf(const GridWindow& window) {
-  constexpr int kTile = TileStore<int>::kSide;
-  return rowMajorSize(window.columns / kTile + 2, window.rows / kTile + 2);
-}
-
-/// Tiles that hold what is known.
-std::size_t tilesOf(const MapEvidence& evidence) {
-  std::set<std::pair<int, int>> tiles;
-  for (const CellEvidence& known : evidence.cells) {
-    tiles.insert(TileStore<int>::keyOf(known.cell));
-  }
-  return tiles.size();
 }
 
 /// The window with the cell in it.
@@ -102,7 +86,6 @@ OccupancyMap OccupancyMap::restored(const Checked<OccupancyMapOptions>& options,
                                     const MapEvidence& evidence) {
   OccupancyMap map(options);
   map.is_restored_ = true;
-  map.outside_.makeRoomFor(tilesOf(map.window()) + tilesOf(evidence));
   map.update_ = 1;
   for (const CellEvidence& known : evidence.cells) {
     Cell cell;
@@ -112,24 +95,29 @@ OccupancyMap OccupancyMap::restored(const Checked<OccupancyMapOptions>& options,
     cell.refuted = known.refuted;
     cell.believed = known.believed;
     cell.hits = known.hits;
+    map.outside_.putForGood(known.cell, cell);
     if (map.window().contains(known.cell)) {
       map.cells_.at(known.cell) = cell;
-    } else {
-      map.outside_.put(known.cell, cell);
     }
   }
   return map;
 }
 
 void OccupancyMap::setWindow(const GridWindow& window) {
-  outside_.makeRoomFor(outside_.size() + tilesOf(cells_.window()));
-  forEachCell(cells_.window(), [this](CellIndex index) {
-    if (isKnown(cells_.at(index))) {
+  RollingGrid<Cell> cells(window, Cell{});
+  forEachCell(window, [&](CellIndex index) { cells.at(index) = outside_.at(index); });
+  // Only then, since what leaves the window may make tiles forgotten.
+  forEachCell(cells_.window(), [&](CellIndex index) {
+    if (!isKnown(cells_.at(index))) {
+      return;
+    }
+    if (window.contains(index)) {
+      cells.at(index) = cells_.at(index);
+    } else {
       outside_.put(index, cells_.at(index));
     }
   });
-  cells_ = RollingGrid<Cell>(window, Cell{});
-  forEachCell(window, [this](CellIndex index) { cells_.at(index) = outside_.at(index); });
+  cells_ = std::move(cells);
 }
 
 }  // namespace datmo

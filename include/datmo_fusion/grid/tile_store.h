@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <deque>
 #include <map>
@@ -14,7 +13,8 @@
 namespace datmo {
 
 /// Cells of the lattice outside of a rolling window, in square tiles, so that memory grows with the
-/// area that was visited. Of more than so many tiles the first ones are forgotten.
+/// area that was visited. Of more than so many tiles the first ones are forgotten, but for those
+/// that are kept for good.
 template <typename Cell>
 class TileStore {
  public:
@@ -34,6 +34,15 @@ class TileStore {
       order_.pop_front();
       ++forgotten_;
     }
+  }
+
+  /// As put(), in a tile that is never forgotten, and does not count.
+  void putForGood(CellIndex cell, const Cell& content) {
+    const auto [tile, is_new] = tiles_.try_emplace(keyOf(cell));
+    if (is_new) {
+      tile->second.assign(rowMajorSize(kSide, kSide), empty_);
+    }
+    tile->second[slotOf(cell)] = content;
   }
 
   /// Empty where nothing was put.
@@ -56,9 +65,6 @@ class TileStore {
   }
 
   std::size_t size() const { return tiles_.size(); }
-
-  /// From now on so many tiles are kept, if that is more.
-  void makeRoomFor(std::size_t tiles) { max_tiles_ = std::max(max_tiles_, tiles); }
 
   /// How many tiles there was no room for.
   std::size_t forgotten() const { return forgotten_; }

@@ -47,6 +47,20 @@ TEST(TileStoreTest, OfTooManyTilesTheFirstIsForgotten) {
   EXPECT_EQ(store.at({200, 0}), 3);
 }
 
+TEST(TileStoreTest, WhatIsKeptForGoodIsNotForgotten) {
+  TileStore<int> store(2, 0);
+  store.putForGood({0, 0}, 1);
+  for (int i = 1; i <= 5; ++i) {
+    store.put({100 * i, 0}, i);
+  }
+  store.put({1, 0}, 6);
+  EXPECT_EQ(store.size(), 3U);
+  EXPECT_EQ(store.forgotten(), 3U);
+  EXPECT_EQ(store.at({0, 0}), 1);
+  EXPECT_EQ(store.at({1, 0}), 6);
+  EXPECT_EQ(store.at({500, 0}), 5);
+}
+
 /// A static surface 4 m ahead of the origin, and free cells before it.
 OccupancyMap mapWithSurface() {
   OccupancyMap map{smallMap()};
@@ -109,6 +123,45 @@ TEST(MapEvidenceTest, AnotherWindowShowsTheSame) {
   map.setWindow({1.0, 3, 3, {50, 50}});
   EXPECT_EQ(map.stateOf({4, 0}), CellState::kUnknown);
   map.setWindow(map.extent());
+  expectSurface(map);
+}
+
+TEST(MapEvidenceTest, OtherWindowsAgainAndAgainDoNotMakeItGrow) {
+  OccupancyMapOptions options = smallMap();
+  options.max_tiles = 4;
+  OccupancyMap map = OccupancyMap::restored(options, mapWithSurface().evidence());
+  const std::size_t restored = map.evidence().cells.size();
+  std::size_t max_known = 0;
+  // A vehicle that gets lost in ever new parts: each time all of the map is searched, and then it
+  // goes on in a part.
+  const GridWindow part = map.window();
+  for (int i = 1; i <= 40; ++i) {
+    map.setWindow(map.extent());
+    map.setWindow(part);
+    const Pose2 pose(100.0 * i, 0.0, 0.0);
+    map.centerOn(pose.position());
+    updateWith(map, scanTo({{4.3, 0.4}}, 0.1 * i), PointState::kUnknown, pose);
+    max_known = std::max(max_known, map.evidence().cells.size());
+  }
+  // A scan makes five cells known, which lie in two tiles at the most.
+  EXPECT_LE(max_known, restored + 5U * (4U + 1U));
+  EXPECT_GT(map.forgottenTiles(), 30U);
+  map.centerOn({0.0, 0.0});
+  expectSurface(map);
+}
+
+TEST(MapEvidenceTest, TheNewWindowHoldsWhatThereIsNoRoomForElsewhere) {
+  OccupancyMapOptions options = smallMap();
+  options.max_tiles = 1;
+  OccupancyMap map = OccupancyMap::restored(options, mapWithSurface().evidence());
+  for (int i = 1; i <= 3; ++i) {
+    const Pose2 pose(40.0 * i, 0.0, 0.0);
+    map.centerOn(pose.position());
+    updateWith(map, scanTo({{4.3, 0.4}}, 0.1 * i), PointState::kUnknown, pose);
+  }
+  const std::size_t known = map.evidence().cells.size();
+  map.setWindow(map.extent());
+  EXPECT_EQ(map.evidence().cells.size(), known);
   expectSurface(map);
 }
 
