@@ -12,6 +12,7 @@ import rospy
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from std_msgs.msg import String
 
+from datmo_tools.experiments.map_coverage import MapSurfaces
 from datmo_tools.experiments.prior_map import cut, score, table
 from datmo_tools.pose_path import PosePath
 
@@ -66,8 +67,21 @@ class PriorMap(unittest.TestCase):
     def test_table_counts(self):
         results = [self.scored(0.1), self.scored(0.1, found_at=12), self.scored(5.0),
                    self.scored(0.0, found_at=99)]  # fmt: skip
-        row = table(results, within=10.0).splitlines()[-1].split()
-        self.assertEqual(row[:4], ["4", "1", "2", "1"])
+        for one, share in zip(results, (0.9, 0.9, 0.9, 0.3)):
+            one["known_share"] = share
+        rows = [line.split() for line in table(results, within=10.0).splitlines()]
+        self.assertEqual(rows[1][:5], ["all", "4", "1", "2", "1"])
+        self.assertEqual(rows[2][8:12], ["3", "1", "2", "1"])
+
+    def test_what_of_a_view_a_map_knows(self):
+        (self.folder / "hall.pgm").write_bytes(b"P5\n10 5\n255\n" + bytes(10) + bytes([254] * 40))
+        described = self.folder / "hall.yaml"
+        described.write_text("image: hall.pgm\nresolution: 1.0\norigin: [-2.0, 3.0, 0.0]\n"
+                             "occupied_thresh: 0.65\n")  # fmt: skip
+        surfaces = MapSurfaces(described)
+        # The image's first row, which is at the top: y from 7 to 8 m.
+        known = surfaces.known([(0.5, 7.5), (0.5, 6.5), (-1.5, 7.1), (7.5, 7.5), (8.5, 7.5)])
+        self.assertEqual(list(known), [True, False, True, True, False])
 
     def test_cut_keeps_mounts_and_inputs_of_its_time(self):
         drive, written = self.folder / "drive.bag", self.folder / "cut.bag"

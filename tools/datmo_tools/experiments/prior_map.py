@@ -14,6 +14,7 @@ from datmo_tools import command_line, programs, transforms
 from datmo_tools.bag_file import whole_bag
 from datmo_tools.bag_input import opened
 from datmo_tools.errors import InputError
+from datmo_tools.experiments.map_coverage import MapSurfaces, known_shares
 from datmo_tools.pose_path import POSE_OF, planar, read_messages, read_path
 from datmo_tools.stamps import NANOSECONDS, to_ros_time
 from datmo_tools.text_table import aligned
@@ -22,7 +23,8 @@ from datmo_tools.whole_files import write_whole
 DESCRIPTION = """\
 Makes a map of the first part of a recorded drive, saves it, and starts the vehicle in it anywhere,
 at regular times of the rest of the drive, without a word on where it is. Prints how often it was
-found in time, how often it took a wrong place for the right one, and how far off the pose then was.
+found in time, how often it took a wrong place for the right one, and how far off the pose then was;
+and the same of those starts alone at which the map knows most of what the vehicle sees in that time.
 Reference: the poses of one run over the whole drive, whose map is the same. The exit code is 1 where
 a wrong place was taken."""
 
@@ -34,6 +36,8 @@ LOCATED_SIGMA = 1.0
 # A place is wrong from here on.
 WRONG_POSITION = 0.5  # m
 WRONG_HEADING = 5.0  # degrees
+# A start is in the map when that knows this share of the end points, in the mean of the scans.
+IN_MAP = 0.8
 
 
 def main(arguments=None):
@@ -81,18 +85,25 @@ def score(computed, reference, begin):
 
 def table(results, within):
     """The results (list of dict) as text. within: s, in which a vehicle is to be found."""
+    in_map = [one for one in results if one["known_share"] >= IN_MAP]
+    rows = [["starts", "", f"found within {within:g} s", "found", "wrong place",
+             "found after, s: median", "off at the end, m: median", "max", "deg: median",
+             "max"]]  # fmt: skip
+    rows.append(_row("all", results, within))
+    rows.append(_row(f"{100 * IN_MAP:g} % of the view in the map", in_map, within))
+    return aligned(rows)
+
+
+def _row(name, results, within):
     found = [one for one in results if one["found_after_s"] is not None]
     right = [one for one in found if not one["wrong"]]
     in_time = [one for one in right if one["found_after_s"] <= within]
-    rows = [["starts", f"found within {within:g} s", "found", "wrong place", "found after, s: median",
-             "off at the end, m: median", "max", "deg: median", "max"]]  # fmt: skip
     figures = [_median([one["found_after_s"] for one in right])]
     for key in ("position_m", "heading_deg"):
         errors = [one[key] for one in right]
         figures += [_median(errors), max(errors, default=math.nan)]
-    rows.append([*(str(len(ones)) for ones in (results, in_time, right)),
-                 str(len(found) - len(right)), *(f"{figure:.3f}" for figure in figures)])  # fmt: skip
-    return aligned(rows)
+    return [name, *(str(len(ones)) for ones in (results, in_time, right)),
+            str(len(found) - len(right)), *(f"{figure:.3f}" for figure in figures)]  # fmt: skip
 
 
 def _median(values):
@@ -142,9 +153,14 @@ def _starts(values, folder):
     _run_bag(values, first, folder / "mapped.bag", "--save-map", saved)
     last = end - round(values.seconds * NANOSECONDS)
     stamps = [int(stamp) for stamp in np.linspace(middle, last, values.starts)]
+    scans, known = known_shares(whole, middle, MapSurfaces(saved.with_suffix(".yaml")))
     with ThreadPoolExecutor(values.jobs) as pool:
         runs = pool.map(lambda stamp: _start(values, saved, reference, stamp), stamps)
-        return list(tqdm(runs, total=len(stamps), desc="starts", disable=None))
+        results = list(tqdm(runs, total=len(stamps), desc="starts", disable=None))
+    for one, stamp in zip(results, stamps):
+        seen = known[(scans >= stamp) & (scans <= stamp + round(values.within * NANOSECONDS))]
+        one["known_share"] = float(seen.mean()) if len(seen) else 0.0
+    return results
 
 
 def _parser():
