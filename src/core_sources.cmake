@@ -127,6 +127,7 @@ set(DATMO_FUSION_CORE_SOURCES
   slam/map_search.cpp
   slam/map_search_cost.cpp
   slam/map_search_options.cpp
+  slam/map_search_result.cpp
   slam/motion_compensation.cpp
   slam/motion_model.cpp
   slam/odometry_anchor.cpp
@@ -136,6 +137,7 @@ set(DATMO_FUSION_CORE_SOURCES
   slam/pose_motion.cpp
   slam/scan_matcher.cpp
   slam/search_region.cpp
+  slam/searched_map.cpp
   slam/static_scan.cpp
   slam/twist_gate.cpp
   tracking/association.cpp

@@ -7,9 +7,9 @@
 
 namespace datmo {
 
-DistanceField::DistanceField(const OccupancyMap& map,
+DistanceField::DistanceField(const GridWindow& window,
                              const std::function<bool(CellIndex)>& is_target, double outside)
-    : window_(map.window()), outside_(outside) {
+    : window_(window), outside_(outside) {
   cv::Mat others(window_.rows, window_.columns, CV_8UC1);
   for (int row = 0; row < window_.rows; ++row) {
     for (int column = 0; column < window_.columns; ++column) {

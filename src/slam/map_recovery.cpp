@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/slam/map_recovery.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -13,6 +14,9 @@ namespace {
 /// Two searches that find the vehicle this near to each other (m, rad) have found the same place.
 constexpr double kSamePosition = 0.8;
 constexpr double kSameHeading = degrees(4.0);
+
+/// For so long (s) a search is owed boxes: no scan waits for more, and after a gap none are due.
+constexpr double kMaxInterval = 0.5;
 
 }  // namespace
 
@@ -37,8 +41,11 @@ void MapRecoveryOptions::visit(OptionVisitor& visitor) {
   visitor.integer({"boxes_per_scan", "1", "of poses that a search looks at, at the most"},
                   boxes_per_scan, {1, 1000000});
   visitor.group("search", [&] { search.visit(visitor); });
-  visitor.integer({"prior_boxes_per_scan", "1", "the same of a search in a prior map"},
-                  prior_boxes_per_scan, {1, 10000000});
+  visitor.integer(
+      {"prior_boxes_per_second", "1/s",
+       "the same of a search in a prior map, by the time between scans; one takes about "
+       "1.5 us"},
+      prior_boxes_per_second, {1, 100000000});
   visitor.number({"confirmed_after", "m",
                   "a place in a prior map is taken when it is found again after this distance"},
                  confirmed_after, {0.0, 1000.0});
@@ -60,7 +67,8 @@ MapRecovery::MapRecovery(const Checked<MapRecoveryOptions>& options, OccupancyMa
       older_(std::move(older)),
       start_(start),
       begun_(stamp),
-      next_search_(stamp + options->first_search_after) {
+      next_search_(stamp + options->first_search_after),
+      advanced_(stamp) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(
       Eigen::Matrix2d(start.covariance.topLeftCorner<2, 2>()), Eigen::EigenvaluesOnly);
   is_searchable_ = std::sqrt(axes.eigenvalues()[1]) <= options_.lost_from_sigma;
@@ -74,6 +82,7 @@ MapRecovery::MapRecovery(const Checked<MapRecoveryOptions>& options, OccupancyMa
       start_(priorOf(region, older_.window())),
       begun_(stamp),
       next_search_(stamp + options->first_search_after),
+      advanced_(stamp),
       state_(region.anywhere ? Localization::kLost : Localization::kUncertain),
       region_(region) {}
 
@@ -85,7 +94,10 @@ PoseWithCovariance MapRecovery::inOlder(const PoseWithCovariance& in_newer) cons
 void MapRecovery::beginSearch(const OccupancyMap& newer, const PoseWithCovariance& in_newer,
                               Stamp stamp) {
   searched_from_ = in_newer.pose;
-  search_.emplace(isInPriorMap() ? options_.prior_search : options_.search, older_, newer,
+  if (!searched_) {
+    searched_ = std::make_shared<const SearchedMap>(older_);
+  }
+  search_.emplace(isInPriorMap() ? options_.prior_search : options_.search, searched_, newer,
                   regionOf(in_newer), in_newer.pose);
   next_search_ = stamp + options_.search_period;
 }
@@ -94,43 +106,56 @@ SearchRegion MapRecovery::regionOf(const PoseWithCovariance& in_newer) const {
   return {inOlder(in_newer), isInPriorMap() && region_->anywhere};
 }
 
-bool MapRecovery::confirms(const PoseWithCovariance& found) {
+bool MapRecovery::agreesWithCandidate(const Pose2& in_older) const {
+  const Pose2 since = candidate_->in_newer.inverse() * searched_from_;
+  const Pose2 expected = candidate_->in_older * since;
+  return (expected.position() - in_older.position()).norm() <= kSamePosition &&
+         std::abs(angleBetween(expected.heading(), in_older.heading())) <= kSameHeading;
+}
+
+bool MapRecovery::confirms(const Pose2& found) {
   if (!isInPriorMap()) {
     return true;
   }
-  if (candidate_) {
+  if (candidate_ && agreesWithCandidate(found)) {
     const Pose2 since = candidate_->in_newer.inverse() * searched_from_;
-    const Pose2 expected = candidate_->in_older * since;
-    const bool same =
-        (expected.position() - found.pose.position()).norm() <= kSamePosition &&
-        std::abs(angleBetween(expected.heading(), found.pose.heading())) <= kSameHeading;
-    if (same) {
-      return since.position().norm() >= options_.confirmed_after ||
-             std::abs(since.heading()) >= options_.confirmed_after_turn;
-    }
+    return since.position().norm() >= options_.confirmed_after ||
+           std::abs(since.heading()) >= options_.confirmed_after_turn;
   }
-  candidate_ = Candidate{found.pose, searched_from_};
+  candidate_ = Candidate{found, searched_from_};
   return false;
+}
+
+int MapRecovery::boxesUntil(Stamp stamp) {
+  const double seconds = std::clamp(secondsBetween(advanced_, stamp), 0.0, kMaxInterval);
+  advanced_ = stamp;
+  return isInPriorMap() ? 1 + static_cast<int>(seconds * options_.prior_boxes_per_second)
+                        : options_.boxes_per_scan;
 }
 
 std::optional<PoseWithCovariance> MapRecovery::advance(const OccupancyMap& newer,
                                                        const PoseWithCovariance& in_newer,
                                                        Stamp stamp) {
+  const int boxes = boxesUntil(stamp);
   if (!search_ && is_searchable_ && next_search_ <= stamp) {
     beginSearch(newer, in_newer, stamp);
   }
   if (!search_) {
     return std::nullopt;
   }
-  const MapSearch::Outcome outcome =
-      search_->advance(isInPriorMap() ? options_.prior_boxes_per_scan : options_.boxes_per_scan);
+  const MapSearch::Outcome outcome = search_->advance(boxes);
   if (outcome == MapSearch::Outcome::kUnfinished) {
     return std::nullopt;
   }
   std::optional<PoseWithCovariance> found;
   if (outcome != MapSearch::Outcome::kFound) {
-    candidate_.reset();
-  } else if (const PoseWithCovariance then = search_->found(); confirms(then)) {
+    // Others that fit nearly as well do not refute what was found before; one that fits better
+    // does.
+    const std::optional<Pose2> likeliest = search_->likeliest();
+    if (candidate_ && !(likeliest && agreesWithCandidate(*likeliest))) {
+      candidate_.reset();
+    }
+  } else if (const PoseWithCovariance then = search_->found(); confirms(then.pose)) {
     // The vehicle has moved since the search began.
     const Pose2 since = searched_from_.inverse() * in_newer.pose;
     const Pose2 now = then.pose * since;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <Eigen/Cholesky>
 
@@ -38,41 +39,10 @@ constexpr std::size_t kMaxSurfacesOfAll = 4000;
 
 constexpr double kAllOfIt = std::numeric_limits<double>::infinity();
 
-/// Of a cell of which nothing is known.
-constexpr double kUnknownOccupancy = 0.5;
-
 /// Two maps have the same surface in cells that are neighbors, at the most; in a complete map in no
 /// finer ones than a box that is not split any more.
 constexpr double kToleranceCells = 1.5;
 constexpr double kMinTolerance = 0.2;  // m
-
-/// Distances to what is not free. Unknown cells between free ones are: beams far away are further
-/// apart than cells.
-DistanceField freeSpaceOf(const OccupancyMap& map) {
-  const auto is_free = [&map](CellIndex cell) { return map.stateOf(cell) == CellState::kFree; };
-  return DistanceField(
-      map,
-      [&map, is_free](CellIndex cell) {
-        if (is_free(cell)) {
-          return false;
-        }
-        if (map.occupancy(cell) > kUnknownOccupancy) {
-          return true;
-        }
-        const auto between = [&](int columns, int rows) {
-          return is_free({cell.column + columns, cell.row + rows}) &&
-                 is_free({cell.column - columns, cell.row - rows});
-        };
-        return !between(1, 0) && !between(0, 1) && !between(1, 1) && !between(1, -1);
-      },
-      0.0);
-}
-
-DistanceField surfacesIn(const OccupancyMap& map) {
-  return DistanceField(
-      map, [&map](CellIndex cell) { return map.stateOf(cell) == CellState::kStatic; },
-      std::numeric_limits<double>::infinity());
-}
 
 }  // namespace
 
@@ -94,33 +64,37 @@ MapSearch::Surfaces MapSearch::thinnedOut(const std::vector<Point2>& positions,
   return surfaces;
 }
 
-MapSearch::MapSearch(const Checked<MapSearchOptions>& options, const OccupancyMap& older,
-                     const OccupancyMap& newer, const SearchRegion& region, const Pose2& in_newer)
+MapSearch::MapSearch(const Checked<MapSearchOptions>& options,
+                     std::shared_ptr<const SearchedMap> older, const OccupancyMap& newer,
+                     const SearchRegion& region, const Pose2& in_newer)
     : options_(*options),
-      older_free_(freeSpaceOf(older)),
+      older_map_(std::move(older)),
       newer_free_(freeSpaceOf(newer)),
-      older_surface_(surfacesIn(older)),
-      prior_(priorOf(region, older.window())),
+      prior_(priorOf(region, older_map_->window())),
       anywhere_(region.anywhere),
       in_newer_(in_newer),
       leaf_((options->missing_share > 0.0 ? kFineLeaf : 1.0) *
             Eigen::Vector3d(kLeafPosition, kLeafPosition, kLeafHeading)),
       tolerance_(std::max(options->missing_share > 0.0 ? kMinTolerance : 0.0,
-                          kToleranceCells * older.window().cell_size)),
-      newer_(
-          thinnedOut(newer.staticSurfaces(), {in_newer.position(), options->reach}, kMaxSurfaces)),
-      older_(anywhere_ ? thinnedOut(older.staticSurfaces(), {prior_.pose.position(), kAllOfIt},
+                          kToleranceCells * older_map_->window().cell_size)),
+      older_(anywhere_ ? thinnedOut(older_map_->surfaces(), {prior_.pose.position(), kAllOfIt},
                                     kMaxSurfacesOfAll)
-                       : thinnedOut(older.staticSurfaces(),
+                       : thinnedOut(older_map_->surfaces(),
                                     {prior_.pose.position(), options->reach}, kMaxSurfaces)) {
-  for (Surface& surface : newer_.all) {
-    surface.position = in_newer.inverse() * surface.position;
+  const Surfaces seen =
+      thinnedOut(newer.staticSurfaces(), {in_newer.position(), options->reach}, kMaxSurfaces);
+  newer_weight_ = seen.weight;
+  const Pose2 from_newer = in_newer.inverse();
+  for (const Surface& surface : seen.all) {
+    const double cell_size = older_map_->window().cell_size;
+    newer_.push_back({((from_newer * surface.position) / cell_size).cast<float>(),
+                      static_cast<float>(surface.distance / cell_size)});
   }
-  if (newer_.weight * static_cast<double>(newer_.all.size()) < options->min_surfaces) {
+  if (newer_weight_ * static_cast<double>(newer_.size()) < options->min_surfaces) {
     outcome_ = Outcome::kAmbiguous;
     return;
   }
-  open(anywhere_ ? wholeWindow(older.window()) : withinPrior());
+  open(anywhere_ ? wholeWindow(older_map_->window()) : withinPrior());
 }
 
 MapSearch::Box MapSearch::withinPrior() {
@@ -147,8 +121,7 @@ Pose2 MapSearch::poseOf(const Box& box) const {
 
 void MapSearch::open(Box box) {
   ++looked_at_;
-  box.contradicted = contradictedShare(box);
-  box.cost = costOf(box);
+  evaluate(box);
   if (leaves_.empty() || box.cost <= leaves_.front().cost + options_.max_log_ratio) {
     open_.push(box);
   }
@@ -173,16 +146,18 @@ Eigen::Vector3d MapSearch::between(const Box& from, const Box& to) {
   return apart;
 }
 
+bool MapSearch::isTogether(const Box& leaf) const {
+  const Eigen::Vector3d apart = between(leaves_.front(), leaf);
+  const double max_turn = options_.missing_share > 0.0 ? kTogetherHeadingAtStart : kTogetherHeading;
+  return apart.head<2>().norm() <= kTogetherPosition && std::abs(apart[2]) <= max_turn;
+}
+
 MapSearch::Outcome MapSearch::takeLeaf(const Box& leaf) {
   if (leaves_.empty() && leaf.contradicted > options_.max_changed_share) {
     return Outcome::kNone;
   }
   leaves_.push_back(leaf);
-  const Eigen::Vector3d apart = between(leaves_.front(), leaf);
-  const double max_turn = options_.missing_share > 0.0 ? kTogetherHeadingAtStart : kTogetherHeading;
-  const bool together =
-      apart.head<2>().norm() <= kTogetherPosition && std::abs(apart[2]) <= max_turn;
-  return together ? Outcome::kUnfinished : Outcome::kAmbiguous;
+  return isTogether(leaf) ? Outcome::kUnfinished : Outcome::kAmbiguous;
 }
 
 MapSearch::Outcome MapSearch::conclude() const {
@@ -220,37 +195,6 @@ MapSearch::Outcome MapSearch::advance(int boxes) {
     }
   }
   return outcome_;
-}
-
-PoseWithCovariance MapSearch::found() const {
-  // The one whose surfaces are nearest to those of the older map, of those that live: what counts
-  // as the same surface is wider than what a match finds.
-  const auto distance_of = [this](const Box& leaf) {
-    const Pose2 pose = poseOf(leaf);
-    const Eigen::Matrix2d rotation = pose.rotation();
-    double sum = 0.0;
-    for (const Surface& surface : newer_.all) {
-      sum += std::min(tolerance_, older_surface_.at(pose.position() + rotation * surface.position));
-    }
-    return sum;
-  };
-  const auto best =
-      std::min_element(leaves_.begin(), leaves_.end(),
-                       [&](const Box& a, const Box& b) { return distance_of(a) < distance_of(b); });
-  PoseWithCovariance found{poseOf(*best), {}};
-  found.covariance = Eigen::Vector3d(kMapSigma * kMapSigma, kMapSigma * kMapSigma,
-                                     kMapHeadingSigma * kMapHeadingSigma)
-                         .asDiagonal();
-  double sum = 0.0;
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const Box& leaf : leaves_) {
-    const double weight = std::exp(leaves_.front().cost - leaf.cost);
-    const Eigen::Vector3d apart = between(*best, leaf);
-    spread += weight * apart * apart.transpose();
-    sum += weight;
-  }
-  found.covariance += spread / sum;
-  return found;
 }
 
 }  // namespace datmo

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What speaks against a hypothesis of MapSearch.
 #include <algorithm>
+#include <vector>
 
 #include "datmo_fusion/slam/map_search.h"
 
@@ -21,20 +22,30 @@ double MapSearch::priorCost(const Box& box) const {
   return 0.5 * distance * distance;
 }
 
-double MapSearch::contradictedShare(const Box& box) const {
-  const Pose2 pose = poseOf(box);
-  const double moves = tolerance_ + box.half.head<2>().norm();
-  const double turns = box.half[2];
-  const Eigen::Matrix2d to_older = pose.rotation();
-  int contradicted = 0;
-  for (const Surface& surface : newer_.all) {
-    const double depth = older_free_.at(pose.position() + to_older * surface.position);
-    contradicted += depth > moves + turns * surface.distance ? 1 : 0;
+Eigen::Isometry2f MapSearch::patternAt(const Pose2& pose) const {
+  const GridWindow& window = older_map_->window();
+  const Point2 position = (pose.position() - window.origin()) / window.cell_size;
+  Eigen::Isometry2f transform = Eigen::Isometry2f::Identity();
+  transform.linear() = pose.rotation().cast<float>();
+  transform.translation() = position.cast<float>();
+  return transform;
+}
+
+MapSearch::Contradictions MapSearch::contradictionsOf(const Box& box) const {
+  const Eigen::Isometry2f in_older = patternAt(poseOf(box));
+  const double cell_size = older_map_->window().cell_size;
+  const auto moves = static_cast<float>((tolerance_ + box.half.head<2>().norm()) / cell_size);
+  const auto turns = static_cast<float>(box.half[2]);
+  int in_free_space = 0;
+  int missing = 0;
+  for (const Pattern& surface : newer_) {
+    const SearchedMap::Distances distances = older_map_->at(in_older * surface.position);
+    const float moved = moves + turns * surface.distance;
+    in_free_space += distances.depth > moved ? 1 : 0;
+    missing += distances.to_surface > moved ? 1 : 0;
   }
-  // Of all the surfaces of a map only one pose tells which are near.
-  const int seen_through = anywhere_ && !box.half.isZero() ? 0 : seenThrough(box);
-  return (newer_.weight * contradicted + older_.weight * seen_through) /
-         (newer_.weight * static_cast<double>(newer_.all.size()));
+  const auto all = static_cast<double>(newer_.size());
+  return {in_free_space / all, missing / all};
 }
 
 int MapSearch::seenThrough(const Box& box) const {
@@ -50,32 +61,38 @@ int MapSearch::seenThrough(const Box& box) const {
   return seen_through;
 }
 
-double MapSearch::missingShare(const Box& box) const {
-  const Pose2 pose = poseOf(box);
-  const Eigen::Matrix2d to_older = pose.rotation();
-  const double moves = tolerance_ + box.half.head<2>().norm();
-  int missing = 0;
-  for (const Surface& surface : newer_.all) {
-    const double distance = older_surface_.atLeast(pose.position() + to_older * surface.position);
-    missing += distance > moves + box.half[2] * surface.distance ? 1 : 0;
-  }
-  return static_cast<double>(missing) / static_cast<double>(newer_.all.size());
+void MapSearch::evaluate(Box& box) const {
+  const Contradictions of_newer = contradictionsOf(box);
+  // Of all the surfaces of a map only one pose tells which are near.
+  const int seen_through = anywhere_ && !box.half.isZero() ? 0 : seenThrough(box);
+  box.contradicted =
+      of_newer.in_free_space +
+      older_.weight * seen_through / (newer_weight_ * static_cast<double>(newer_.size()));
+  const double missing =
+      options_.missing_share > 0.0 ? of_newer.missing / options_.missing_share : 0.0;
+  box.cost = priorCost(box) + box.contradicted / options_.changed_share + missing;
 }
 
-double MapSearch::costOf(const Box& box) const {
-  const double missing =
-      options_.missing_share > 0.0 ? missingShare(box) / options_.missing_share : 0.0;
-  return priorCost(box) + box.contradicted / options_.changed_share + missing;
+std::vector<float> MapSearch::distancesAt(const Pose2& pose) const {
+  const Eigen::Isometry2f in_older = patternAt(pose);
+  const auto tolerance = static_cast<float>(tolerance_ / older_map_->window().cell_size);
+  std::vector<float> distances;
+  distances.reserve(newer_.size());
+  for (const Pattern& surface : newer_) {
+    const Eigen::Vector2f point = in_older * surface.position;
+    distances.push_back(older_map_->contains(point)
+                            ? std::min(tolerance, older_map_->at(point).to_surface)
+                            : tolerance);
+  }
+  return distances;
 }
 
 double MapSearch::sharedAt(const Pose2& pose) const {
-  const Eigen::Matrix2d rotation = pose.rotation();
-  int shared = 0;
-  for (const Surface& surface : newer_.all) {
-    const double distance = older_surface_.at(pose.position() + rotation * surface.position);
-    shared += distance <= tolerance_ ? 1 : 0;
-  }
-  return static_cast<double>(shared) / static_cast<double>(newer_.all.size());
+  const std::vector<float> distances = distancesAt(pose);
+  const auto tolerance = static_cast<float>(tolerance_ / older_map_->window().cell_size);
+  const auto shared = std::count_if(distances.begin(), distances.end(),
+                                    [tolerance](float distance) { return distance < tolerance; });
+  return static_cast<double>(shared) / static_cast<double>(newer_.size());
 }
 
 }  // namespace datmo

@@ -144,6 +144,7 @@ datmo_fusion_add_core_test(slam
   slam/pose_motion_test.cpp
   slam/prior_map_test.cpp
   slam/scan_matcher_test.cpp
+  slam/searched_map_test.cpp
   slam/static_scan_test.cpp
   slam/twist_gate_test.cpp
 )

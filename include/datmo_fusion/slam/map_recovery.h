@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -30,7 +31,7 @@ struct MapRecoveryOptions {
   double lost_from_sigma = 15.0;             ///< m
   int boxes_per_scan = 600;
   MapSearchOptions search;
-  int prior_boxes_per_scan = 40000;
+  int prior_boxes_per_second = 400000;
   double confirmed_after = 0.5;       ///< m
   double confirmed_after_turn = 0.5;  ///< rad
   MapSearchOptions prior_search = MapSearchOptions::inCompleteMap();
@@ -50,7 +51,8 @@ Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Point2& arm);
 /// The same localizes the vehicle in a prior map at the start, within a guess or anywhere. There
 /// the newer map is never taken for it, and what was found is confirmed: rooms that look alike from
 /// one place differ some way on. Only when a second search, by what was seen up to
-/// `confirmed_after` or `confirmed_after_turn` later, finds the same place is it the place.
+/// `confirmed_after` or `confirmed_after_turn` later, finds the same place is it the place, and if
+/// no search in between thought another one likelier.
 class MapRecovery {
  public:
   /// `start`: the prior in the older map's frame, where the newer one begins at this stamp. Throws
@@ -96,14 +98,20 @@ class MapRecovery {
 
  private:
   void beginSearch(const OccupancyMap& newer, const PoseWithCovariance& in_newer, Stamp stamp);
+  /// How many boxes the search may look at since the last scan.
+  int boxesUntil(Stamp stamp);
   /// Whether an earlier search has found the same place from another one.
-  bool confirms(const PoseWithCovariance& found);
+  bool confirms(const Pose2& found);
+  /// Whether this pose is where the vehicle is now if an earlier search was right.
+  bool agreesWithCandidate(const Pose2& in_older) const;
 
   MapRecoveryOptions options_;
   OccupancyMap older_;
+  std::shared_ptr<const SearchedMap> searched_;  ///< that map, from the first search on
   PoseWithCovariance start_;
   Stamp begun_;
   Stamp next_search_;
+  Stamp advanced_;             ///< up to the last scan
   bool is_searchable_ = true;  ///< the prior is not too wide
   Localization state_ = Localization::kUncertain;
   std::optional<MapSearch> search_;

@@ -2,15 +2,19 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <optional>
 #include <queue>
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/grid/distance_field.h"
 #include "datmo_fusion/grid/occupancy_map.h"
 #include "datmo_fusion/slam/search_region.h"
+#include "datmo_fusion/slam/searched_map.h"
 
 namespace datmo {
 
@@ -44,7 +48,7 @@ struct MapSearchOptions {
 ///
 /// Branch and bound (Olson 2009, 2015; Hess et al. 2016), best first: all poses of a box are
 /// contradicted by the surfaces that lie deeper in free space than the box can move them. The work
-/// may be spread over several calls. The maps are not kept.
+/// may be spread over several calls. The newer map is not kept.
 class MapSearch {
  public:
   enum class Outcome {
@@ -56,11 +60,14 @@ class MapSearch {
 
   /// The vehicle is at `in_newer` in the newer map, and within `region` in the older one. Throws
   /// OptionError.
-  MapSearch(const Checked<MapSearchOptions>& options, const OccupancyMap& older,
+  MapSearch(const Checked<MapSearchOptions>& options, std::shared_ptr<const SearchedMap> older,
             const OccupancyMap& newer, const SearchRegion& region, const Pose2& in_newer);
 
   /// Looks at this many further boxes of poses at the most.
   Outcome advance(int boxes);
+
+  /// The likeliest pose in the older map, whether it is found or others live; none without one.
+  std::optional<Pose2> likeliest() const;
 
   /// With kFound: in the older map, with the spread of the poses that are not contradicted.
   PoseWithCovariance found() const;
@@ -88,6 +95,12 @@ class MapSearch {
     double weight = 1.0;
   };
 
+  /// A surface of the newer map about the vehicle, in cells of the older one.
+  struct Pattern {
+    Eigen::Vector2f position;
+    float distance;  ///< from the vehicle
+  };
+
   struct Circle {
     Point2 center;
     double radius;  ///< m
@@ -104,26 +117,43 @@ class MapSearch {
   bool isLeaf(const Box& box) const;
   static Eigen::Vector3d between(const Box& from, const Box& to);
   double priorCost(const Box& box) const;
-  double contradictedShare(const Box& box) const;
+  /// The parts of a box's cost; those of the newer map's surfaces as shares of them.
+  struct Contradictions {
+    double in_free_space = 0.0;
+    double missing = 0.0;
+  };
+  Contradictions contradictionsOf(const Box& box) const;
   /// Surfaces of the older map that all poses of the box see through, at the least.
   int seenThrough(const Box& box) const;
-  double missingShare(const Box& box) const;
-  double costOf(const Box& box) const;
+  void evaluate(Box& box) const;
+  /// Distances (in cells, at the most the tolerance) of the newer map's surfaces to those of the
+  /// older one, at this pose.
+  std::vector<float> distancesAt(const Pose2& pose) const;
   double sharedAt(const Pose2& pose) const;
+  Eigen::Isometry2f patternAt(const Pose2& pose) const;
+  /// Whether a leaf is the same hypothesis as the best one.
+  bool isTogether(const Box& leaf) const;
+  /// Of that hypothesis the leaf whose surfaces are nearest to those of the older map: what counts
+  /// as the same surface is wider than what a match finds.
+  const Box& nearestLeaf() const;
+  /// Sum of distancesAt().
+  double distanceAt(const Pose2& pose) const;
+  /// The pose near this one at which those surfaces are nearest.
+  Pose2 refined(Pose2 pose) const;
   Outcome takeLeaf(const Box& leaf);
   Outcome conclude() const;
 
   MapSearchOptions options_;
-  DistanceField older_free_;  ///< to what is not free
-  DistanceField newer_free_;
-  DistanceField older_surface_;  ///< to what is static
+  std::shared_ptr<const SearchedMap> older_map_;
+  DistanceField newer_free_;  ///< to what is not free
   PoseWithCovariance prior_;
   bool anywhere_;
   Pose2 in_newer_;
   Eigen::Matrix3d whitening_ = Eigen::Matrix3d::Zero();  ///< of differences from the prior
   Eigen::Vector3d leaf_;  ///< half of a box that is not split any more
   double tolerance_;      ///< m, by which surfaces may be off
-  Surfaces newer_;
+  std::vector<Pattern> newer_;
+  double newer_weight_ = 0.0;
   Surfaces older_;
   std::priority_queue<Box, std::vector<Box>, Costlier> open_;
   std::vector<Box> leaves_;  ///< that live, the best first

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "datmo_fusion/grid/occupancy_map.h"
+
 namespace datmo::distance_field_test {
 namespace {
 
@@ -30,7 +32,8 @@ OccupancyMap mapWithABeam() {
 
 DistanceField toStaticCells(const OccupancyMap& map) {
   return DistanceField(
-      map, [&map](CellIndex cell) { return map.stateOf(cell) == CellState::kStatic; }, 7.0);
+      map.window(), [&map](CellIndex cell) { return map.stateOf(cell) == CellState::kStatic; },
+      7.0);
 }
 
 TEST(DistanceFieldTest, LeadsToTheNearestCell) {
@@ -43,13 +46,6 @@ TEST(DistanceFieldTest, LeadsToTheNearestCell) {
   EXPECT_NEAR(field.at({1.5, 0.5}), 3.0, 1e-5);
   EXPECT_NEAR(field.at({2.5, 3.5}), std::sqrt(13.0), 1e-5);
   EXPECT_EQ(field.at({40.0, 0.0}), 7.0);
-}
-
-TEST(DistanceFieldTest, OutsideOfTheWindowItIsAtLeastAsFarAsTheWindow) {
-  const DistanceField field = toStaticCells(mapWithABeam());
-  EXPECT_EQ(field.atLeast({1.5, 0.5}), field.at({1.5, 0.5}));
-  EXPECT_NEAR(field.atLeast({6.0, 0.5}), 1.0, 1e-9);
-  EXPECT_NEAR(field.atLeast({-8.0, -9.0}), 5.0, 1e-9);
 }
 
 TEST(DistanceFieldTest, WithoutSuchCellsNothingIsNear) {

@@ -2,6 +2,7 @@
 #include "datmo_fusion/slam/map_search.h"
 
 #include <functional>
+#include <memory>
 
 #include "yard.h"
 #include <gtest/gtest.h>
@@ -51,6 +52,10 @@ OccupancyMap mapOf(const World& world, const Pose2& from, const Pose2& in_map) {
   return map;
 }
 
+std::shared_ptr<const SearchedMap> searched(const OccupancyMap& map) {
+  return std::make_shared<const SearchedMap>(map);
+}
+
 /// Searches for a newer map that begins `ahead` of an older one, with a prior that is `off`.
 MapSearch search(const World& world, const Pose2& ahead, const Pose2& off,
                  const Eigen::Vector3d& sigma) {
@@ -58,7 +63,7 @@ MapSearch search(const World& world, const Pose2& ahead, const Pose2& off,
   const Pose2 guess = ahead * off;
   const OccupancyMap newer = mapOf(world, ahead, guess);
   const Eigen::Matrix3d covariance = sigma.cwiseAbs2().asDiagonal();
-  return MapSearch({}, older, newer, {{guess, covariance}}, guess);
+  return MapSearch({}, searched(older), newer, {{guess, covariance}}, guess);
 }
 
 Outcome finish(MapSearch& search) {
@@ -100,19 +105,35 @@ TEST(MapSearchTest, TheWorkMayBeSpreadOverCalls) {
 TEST(MapSearchTest, AlongAStreetThatRepeatsNothingIsFound) {
   MapSearch found = search(street, Pose2(8.0, 0.0, 0.0), Pose2(), {5.0, 0.3, 0.05});
   EXPECT_EQ(finish(found), Outcome::kAmbiguous);
+  ASSERT_TRUE(found.likeliest());
+  EXPECT_NEAR(found.likeliest()->y(), 0.0, 0.3);
+}
+
+TEST(MapSearchTest, InACompleteMapThePoseIsRefined) {
+  const OccupancyMap older = mapOf(yard, Pose2(), Pose2());
+  const Pose2 ahead(6.0, 1.0, 0.2);
+  const OccupancyMap newer = mapOf(yard, ahead, Pose2());
+  const Eigen::Matrix3d covariance = Eigen::Vector3d(1.0, 1.0, 0.05).asDiagonal();
+  MapSearch found(MapSearchOptions::inCompleteMap(), searched(older), newer, {{ahead, covariance}},
+                  Pose2());
+  ASSERT_EQ(finish(found), Outcome::kFound);
+  EXPECT_LT((found.found().pose.position() - ahead.position()).norm(), 0.2);
+  EXPECT_NEAR(angleBetween(ahead.heading(), found.found().pose.heading()), 0.0, degrees(1.0));
+  EXPECT_LT(found.found().covariance(0, 0), 0.25);
 }
 
 TEST(MapSearchTest, InAnotherPlaceNothingIsFound) {
   const OccupancyMap older = mapOf(yard, Pose2(), Pose2());
   const OccupancyMap newer = mapOf(street, Pose2(), Pose2(8.0, 0.0, 0.0));
   const Eigen::Matrix3d covariance = Eigen::Vector3d(4.0, 4.0, 0.1).asDiagonal();
-  MapSearch found({}, older, newer, {{Pose2(8.0, 0.0, 0.0), covariance}}, Pose2(8.0, 0.0, 0.0));
+  MapSearch found({}, searched(older), newer, {{Pose2(8.0, 0.0, 0.0), covariance}},
+                  Pose2(8.0, 0.0, 0.0));
   EXPECT_NE(finish(found), Outcome::kFound);
 }
 
 TEST(MapSearchTest, AnEmptyMapIsAmbiguous) {
   const OccupancyMap empty{OccupancyMapOptions{}};
-  MapSearch found({}, empty, empty, {{Pose2(), Eigen::Matrix3d::Identity()}}, Pose2());
+  MapSearch found({}, searched(empty), empty, {{Pose2(), Eigen::Matrix3d::Identity()}}, Pose2());
   EXPECT_EQ(found.advance(1), Outcome::kAmbiguous);
 }
 
@@ -120,7 +141,7 @@ TEST(MapSearchTest, BeyondTheMapNothingIsFound) {
   const OccupancyMap older = mapOf(yard, Pose2(), Pose2());
   const Pose2 far(500.0, 0.0, 0.0);
   const OccupancyMap newer = mapOf(yard, Pose2(), far);
-  MapSearch found({}, older, newer, {{far, Eigen::Matrix3d::Identity()}}, far);
+  MapSearch found({}, searched(older), newer, {{far, Eigen::Matrix3d::Identity()}}, far);
   EXPECT_EQ(finish(found), Outcome::kAmbiguous);
 }
 
