@@ -18,7 +18,8 @@ constexpr double kTimeTolerance = 0.5;
 
 }  // namespace
 
-StampVerdict StampGate::judge(Stamp stamp, const std::optional<Stamp>& now) {
+StampVerdict StampGate::judge(Stamp stamp, const std::optional<Stamp>& now,
+                              const std::optional<Stamp>& others) {
   if (!newest_) {
     accept(stamp, 0.0, now);
     return StampVerdict::kAccept;
@@ -34,7 +35,7 @@ StampVerdict StampGate::judge(Stamp stamp, const std::optional<Stamp>& now) {
     accept(stamp, step, now);
     return StampVerdict::kAccept;
   }
-  if (!isConfirmed(stamp, now)) {
+  if (!isConfirmed(stamp, now, others)) {
     stray_ = stamp;
     return StampVerdict::kStray;
   }
@@ -46,15 +47,18 @@ bool StampGate::isJump(double step) const {
   return step <= -restart_after_ || step >= std::max(restart_after_, kMaxSteps * last_step_);
 }
 
-bool StampGate::isConfirmed(Stamp stamp, const std::optional<Stamp>& now) const {
-  const double step = secondsBetween(*newest_, stamp);
-  if (followsStray(stamp)) {
-    return true;
-  }
+bool StampGate::isConfirmed(Stamp stamp, const std::optional<Stamp>& now,
+                            const std::optional<Stamp>& others) const {
   if (!now || !came_) {
     return true;
   }
-  return std::abs(step - secondsBetween(*came_, *now)) < kTimeTolerance * restart_after_;
+  const double step = secondsBetween(*newest_, stamp);
+  if (std::abs(step - secondsBetween(*came_, *now)) < kTimeTolerance * restart_after_) {
+    return true;
+  }
+  const bool contradicted = others && std::abs(secondsBetween(*others, stamp)) >
+                                          std::abs(secondsBetween(*others, *newest_));
+  return followsStray(stamp) && !contradicted;
 }
 
 bool StampGate::followsStray(Stamp stamp) const {

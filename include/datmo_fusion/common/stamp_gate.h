@@ -21,7 +21,9 @@ enum class StampVerdict {
 ///
 /// A stamp that is off by a jump is either wrong, or the clock has jumped, or the sensor was
 /// silent. The second and third are confirmed by ROS time, which moved as far, or by the next
-/// message, which goes on from that stamp and not from the newest one before it.
+/// message, which goes on from that stamp and not from the newest one before it: unless other
+/// streams contradict it, which the new stamps are further from than the old ones. Then it is the
+/// sensor's own clock that is wrong.
 class StampGate {
  public:
   /// `restart_after`: a stamp older than the newest by this much (s, more than 0) is a restart of
@@ -29,14 +31,18 @@ class StampGate {
   explicit StampGate(double restart_after = 1.0) : restart_after_(restart_after) {}
 
   /// `now`: ROS time at which the message came; without it each jump is followed at once.
-  StampVerdict judge(Stamp stamp, const std::optional<Stamp>& now = std::nullopt);
+  /// `others`: the last stamp of the other streams that came lately, whatever became of it; none:
+  /// there are no others.
+  StampVerdict judge(Stamp stamp, const std::optional<Stamp>& now = std::nullopt,
+                     const std::optional<Stamp>& others = std::nullopt);
 
   /// The newest accepted stamp; none before the first.
   const std::optional<Stamp>& newest() const { return newest_; }
 
  private:
   bool isJump(double step) const;
-  bool isConfirmed(Stamp stamp, const std::optional<Stamp>& now) const;
+  bool isConfirmed(Stamp stamp, const std::optional<Stamp>& now,
+                   const std::optional<Stamp>& others) const;
   bool followsStray(Stamp stamp) const;
   void accept(Stamp stamp, double step, const std::optional<Stamp>& now);
 

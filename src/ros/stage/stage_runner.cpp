@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/stage/stage_runner.h"
 
+#include <cmath>
 #include <utility>
 
 namespace datmo {
@@ -13,14 +14,34 @@ StageRunner::StageRunner(StageMonitor& monitor, const StreamOptions& input, std:
       reset_(std::move(reset)) {}
 
 void StageRunner::check(const std::string& input, const ros::Time& stamp) {
-  const std::optional<Stamp>& now = monitor_.now();
-  if (streams_.try_emplace(input, restart_after_).first->second.check(stamp, now) ==
-      Arrival::kNext) {
+  if (arrivalOf(input, stamp) == Arrival::kNext) {
     return;
   }
   streams_.clear();
-  streams_.try_emplace(input, restart_after_).first->second.check(stamp, now);
+  arrivalOf(input, stamp);
   reset("clock_restart", "the clock jumped back");
+}
+
+Arrival StageRunner::arrivalOf(const std::string& input, const ros::Time& stamp) {
+  const std::optional<Stamp>& now = monitor_.now();
+  Stream& stream =
+      streams_.try_emplace(input, Stream{StampCheck(restart_after_), {}, {}}).first->second;
+  stream.last = toStamp(stamp);
+  stream.came = now;
+  return stream.stamps.check(stamp, now, lastOfOthers(input));
+}
+
+std::optional<Stamp> StageRunner::lastOfOthers(const std::string& input) const {
+  const Stream* newest = nullptr;
+  for (const auto& [name, stream] : streams_) {
+    const bool is_present =
+        name != input && stream.came &&
+        std::abs(secondsBetween(*stream.came, *monitor_.now())) < restart_after_;
+    if (is_present && (newest == nullptr || *newest->came < *stream.came)) {
+      newest = &stream;
+    }
+  }
+  return newest == nullptr ? std::nullopt : std::optional<Stamp>(newest->last);
 }
 
 void StageRunner::reset(const std::string& reason, const std::string& why) {

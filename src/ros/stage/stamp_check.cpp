@@ -25,13 +25,14 @@ void StreamOptions::visit(OptionVisitor& visitor) {
                  silence_after, {0.1, 60.0});
 }
 
-Arrival StampCheck::check(const ros::Time& time, const std::optional<Stamp>& now) {
+Arrival StampCheck::check(const ros::Time& time, const std::optional<Stamp>& now,
+                          const std::optional<Stamp>& others) {
   if (time.isZero()) {
     throw InputError("zero_stamp", "stamp 0: expected the time of the measurement");
   }
   checkStampRange(time);
   const auto newest = gate_.newest();
-  switch (gate_.judge(toStamp(time), now)) {
+  switch (gate_.judge(toStamp(time), now, others)) {
     case StampVerdict::kRepeated:
       throw InputError("repeated_stamp", "stamp " + std::to_string(time.toSec()) +
                                              " s twice: expected each message once");
@@ -44,7 +45,8 @@ Arrival StampCheck::check(const ros::Time& time, const std::optional<Stamp>& now
                        "stamp " + std::to_string(time.toSec()) + " s, the newest is " +
                            std::to_string(newest->seconds()) +
                            " s: expected the next one of its stream; drops it, and follows the "
-                           "clock when a second message confirms that it has jumped");
+                           "clock when a second message confirms that it has jumped, and no other "
+                           "input contradicts it");
     case StampVerdict::kRestart:
       return Arrival::kRestart;
     case StampVerdict::kAccept:

@@ -90,6 +90,32 @@ TEST(StampGate, AJumpAheadIsFollowedFromTheSecondMessageOn) {
   EXPECT_EQ(judgeAt(gate, 200.2, 100.3), StampVerdict::kAccept);
 }
 
+TEST(StampGate, OneClockThatJumpsAmongOthersIsNotFollowed) {
+  StampGate gate;
+  const auto judgeBeside = [&](double seconds, double now, double others) {
+    return gate.judge(Stamp::fromSeconds(seconds), Stamp::fromSeconds(now),
+                      Stamp::fromSeconds(others));
+  };
+  judgeBeside(100.0, 50.0, 99.9);
+  for (int message = 1; message < 30; ++message) {
+    const double later = 0.1 * message;
+    EXPECT_EQ(judgeBeside(105.0 + later, 50.0 + later, 99.9 + later), StampVerdict::kStray);
+  }
+  EXPECT_EQ(judgeBeside(103.0, 53.0, 102.9), StampVerdict::kAccept) << "it is right again";
+  EXPECT_EQ(judgeBeside(20.0, 53.1, 103.0), StampVerdict::kStray);
+  EXPECT_EQ(judgeBeside(20.1, 53.2, 20.05), StampVerdict::kRestart) << "the others jumped, too";
+}
+
+TEST(StampGate, AClockThatIsSetToThatOfTheOthersIsFollowed) {
+  StampGate gate;
+  const auto others = Stamp::fromSeconds(5000.0);
+  gate.judge(Stamp::fromSeconds(10.0), Stamp::fromSeconds(5000.0), others);
+  EXPECT_EQ(gate.judge(Stamp::fromSeconds(5000.1), Stamp::fromSeconds(5000.1), others),
+            StampVerdict::kStray);
+  EXPECT_EQ(gate.judge(Stamp::fromSeconds(5000.2), Stamp::fromSeconds(5000.2), others),
+            StampVerdict::kAccept);
+}
+
 TEST(StampGate, ASlowStreamThatRosTimeDoesNotFollowIsUsed) {
   StampGate gate;
   int used = 0;

@@ -51,7 +51,8 @@ class StageRunner {
   }
 
   /// How a message's stamp follows the last one of its input. When the clock has jumped back, which
-  /// a second message or ROS time (StageMonitor::now) has confirmed, all inputs start over and the
+  /// ROS time (StageMonitor::now) has confirmed or a second message, while no other input
+  /// contradicts it, all inputs start over and the
   /// stage is reset before this returns. To be called when nothing else is wrong with the message.
   /// Throws InputError (`zero_stamp`, `repeated_stamp`, `old_stamp`, `stray_stamp`).
   void check(const std::string& input, const ros::Time& stamp);
@@ -65,12 +66,23 @@ class StageRunner {
   StageMonitor& monitor() { return monitor_; }
 
  private:
+  struct Stream {
+    StampCheck stamps;
+    Stamp last;                 ///< whatever became of it
+    std::optional<Stamp> came;  ///< ROS time then
+  };
+
+  Arrival arrivalOf(const std::string& input, const ros::Time& stamp);
+
+  /// The last stamp that came on another input lately; none if there is none.
+  std::optional<Stamp> lastOfOthers(const std::string& input) const;
+
   StageMonitor& monitor_;
   double restart_after_;
   std::string effect_;
   std::function<void()> reset_;
-  std::map<std::string, StampCheck> streams_;  ///< by input
-  Stopwatch watch_;                            ///< since the message was taken
+  std::map<std::string, Stream> streams_;  ///< by input
+  Stopwatch watch_;                        ///< since the message was taken
 };
 
 }  // namespace datmo
