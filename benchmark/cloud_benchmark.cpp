@@ -1,50 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A cloud of a 3D lidar with 64 rows in a street, to a planar scan.
 
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-
+#include "cloud_street.h"
 #include <benchmark/benchmark.h>
+
+#include <cstring>
 
 #include <sensor_msgs/PointCloud2.h>
 
-#include "datmo_fusion/common/angle.h"
-#include "datmo_fusion/common/random.h"
 #include "datmo_fusion/ros/convert/lidar_cloud_conversion.h"
 #include "datmo_fusion/sensor_model/cloud_to_scan.h"
 
 namespace datmo {
 namespace {
 
-constexpr int kRows = 64;
-constexpr int kColumns = 2032;         // 130,048 points
-constexpr double kLidarHeight = 1.73;  // m
-
-/// House fronts 8 m to both sides, a car 12 m ahead, the road between them.
-LidarCloud street() {
-  Random random(1);
-  LidarCloud cloud;
-  cloud.lidar_in_base.translation().z() = kLidarHeight;
-  for (int row = 0; row < kRows; ++row) {
-    const double slope = std::tan(degrees(2.0 - 26.8 * row / (kRows - 1)));
-    for (int column = 0; column < kColumns; ++column) {
-      const double bearing = 2.0 * kPi * column / kColumns;
-      double range = std::min(80.0, 8.0 / std::max(1e-6, std::abs(std::sin(bearing))));
-      range = std::abs(bearing) < 0.08 ? 12.0 : range;
-      range = slope < 0.0 ? std::min(range, -kLidarHeight / slope) : range;
-      range += random.normal(0.02);
-      cloud.points->push_back({static_cast<float>(range * std::cos(bearing)),
-                               static_cast<float>(range * std::sin(bearing)),
-                               static_cast<float>(range * slope)});
-      cloud.times.push_back(static_cast<float>(0.1 * column / kColumns));
-    }
-  }
-  return cloud;
-}
-
 void cloudToScan(benchmark::State& state) {
-  const LidarCloud cloud = street();
+  const LidarCloud cloud = cloudOfStreet();
   const CloudToScan model{CloudToScanOptions()};
   for (auto _ : state) {
     benchmark::DoNotOptimize(model.scan(cloud));
@@ -80,7 +51,7 @@ sensor_msgs::PointCloud2 messageOf(const LidarCloud& cloud) {
 
 /// From the message on.
 void cloudMessageToScan(benchmark::State& state) {
-  const LidarCloud cloud = street();
+  const LidarCloud cloud = cloudOfStreet();
   const sensor_msgs::PointCloud2 message = messageOf(cloud);
   const CloudToScan model{CloudToScanOptions()};
   constexpr double kMaxSweep = 0.25;  // s

@@ -1,81 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A stereo cloud in a street as stereo_image_proc publishes it, to a grid, and to objects.
 
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <limits>
-#include <string>
-#include <vector>
-
+#include "stereo_street.h"
 #include <benchmark/benchmark.h>
 
-#include "datmo_fusion/common/random.h"
 #include "datmo_fusion/detection/stereo_object_detector.h"
 #include "datmo_fusion/sensor_model/stereo_grid.h"
 
 namespace datmo {
 namespace {
 
-constexpr int kWidth = 640;             // px
-constexpr int kHeight = 480;            // px: 307,200 points
-constexpr std::size_t kPointStep = 32;  // bytes: x, y, z, rgb and padding
-
-StereoCloud streetView() {
-  StereoCloud cloud;
-  cloud.camera = {480.0, 0.34, DepthNoise::ofDisparity(480.0, 0.34, 0.25), -0.5 * kWidth / 480.0,
-                  0.5 * kWidth / 480.0};
-  cloud.camera_in_base.linear() << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
-  cloud.camera_in_base.translation() = Eigen::Vector3d(1.8, 0.0, 1.3);
-  cloud.scanner_height = 0.33;
-  return cloud;
-}
-
-/// Depth (m) in a street: road, house fronts to both sides and across its end, a car.
-double depthAlong(double right, double down, double camera_height) {
-  double depth = std::min(40.0, 8.0 / std::max(std::abs(right), 1e-6));
-  if (down > 0.0) {
-    depth = std::min(depth, camera_height / down);
-  }
-  const double car = 12.0;
-  const bool on_car = std::abs(right * car) < 0.9 && std::abs(down * car - 0.5) < 0.7;
-  return on_car ? std::min(depth, car) : depth;
-}
-
-/// The points of `cloud`'s image, 1 in 5 without a depth, with noise.
-std::vector<std::uint8_t> streetPoints(const StereoCloud& cloud) {
-  Random random(1);
-  std::vector<std::uint8_t> memory(kPointStep * kWidth * kHeight, 0);
-  const StereoCamera& camera = cloud.camera;
-  std::uint8_t* point = memory.data();
-  for (int row = 0; row < kHeight; ++row) {
-    for (int column = 0; column < kWidth; ++column, point += kPointStep) {
-      const double right = (column - 0.5 * kWidth) / camera.focal_length;
-      const double down = (row - 0.5 * kHeight) / camera.focal_length;
-      const double depth = depthAlong(right, down, cloud.camera_in_base.translation().z());
-      const double off = depth + random.normal(camera.depthSigma(depth));
-      const double seen = random.chance(0.2) ? std::numeric_limits<double>::quiet_NaN() : off;
-      const float position[] = {static_cast<float>(right * seen), static_cast<float>(down * seen),
-                                static_cast<float>(seen)};
-      std::memcpy(point, position, sizeof(position));
-    }
-  }
-  return memory;
-}
-
-/// The points that lie in `memory`.
-PointsView pointsIn(const std::vector<std::uint8_t>& memory) {
-  PointsView points;
-  points.data = memory.data();
-  points.step = kPointStep;
-  points.count = memory.size() / kPointStep;
-  return points;
-}
-
 void stereoGrid(benchmark::State& state, StereoGridMethod method) {
-  StereoCloud cloud = streetView();
-  const std::vector<std::uint8_t> memory = streetPoints(cloud);
-  cloud.points = pointsIn(memory);
+  const StereoStreet street;
+  const StereoCloud& cloud = street.cloud();
   StereoGridOptions options;
   options.method = method;
   StereoGridModel model(options);
@@ -88,9 +25,8 @@ BENCHMARK_CAPTURE(stereoGrid, columns, StereoGridMethod::kColumns)->Unit(benchma
 BENCHMARK_CAPTURE(stereoGrid, cones, StereoGridMethod::kCones)->Unit(benchmark::kMillisecond);
 
 void stereoObjects(benchmark::State& state) {
-  StereoCloud cloud = streetView();
-  const std::vector<std::uint8_t> memory = streetPoints(cloud);
-  cloud.points = pointsIn(memory);
+  const StereoStreet street;
+  const StereoCloud& cloud = street.cloud();
   StereoObjectDetector detector{StereoObjectDetectorOptions()};
   std::size_t objects = 0;
   for (auto _ : state) {

@@ -141,6 +141,27 @@ class Report(unittest.TestCase):
         self.assertIn("only in the old one: micro/gone/cpu_us", lines)
         self.assertIn("only in the new one: micro/more/cpu_us", lines)
 
+    def test_ratios_to_the_limit(self):
+        report = report_of({"step": {"cpu_us": 8.0}, "limit/step": {"cpu_us": 2.0},
+                            "alone": {"cpu_us": 1.0}, "limit/none": {"cpu_us": 1.0}})  # fmt: skip
+        self.assertEqual(speed_report.ratios(report), {"step": (8.0, 2.0, 4.0)})
+        lines = speed_report.table(report).splitlines()
+        self.assertEqual(lines[1].split(), ["step", "8", "2", "4"])
+        self.assertIn("micro/alone/cpu_us", lines[-2])
+
+    def test_ratios_are_judged_and_not_times(self):
+        old = report_of({"step": {"cpu_us": 8.0}, "limit/step": {"cpu_us": 2.0},
+                         "other": {"cpu_us": 1.0}, "limit/other": {"cpu_us": 1.0}})  # fmt: skip
+        half_as_fast = report_of({"step": {"cpu_us": 16.0}, "limit/step": {"cpu_us": 4.0},
+                                  "other": {"cpu_us": 4.0}, "limit/other": {"cpu_us": 2.0}})  # fmt: skip
+        self.assertEqual(speed_report.slower(old, half_as_fast), ["other"])
+        self.assertEqual(speed_report.slower(half_as_fast, old), [])
+        lines = speed_report.judgement(old, half_as_fast).splitlines()
+        self.assertEqual(lines[1].split(), ["step", "4", "4", "1.00"])
+        self.assertEqual(lines[2].split(), ["other", "1", "2", "2.00", "slower"])
+        self.assertIn("faster", speed_report.judgement(half_as_fast, old))
+        self.assertIn("no hot path", speed_report.judgement(old, report_of({"a": {"cpu_us": 1.0}})))
+
     def test_nothing_in_common(self):
         with self.assertRaises(InputError):
             speed_report.comparison(report_of({"a": 1.0}), report_of({"b": 1.0}))
@@ -164,6 +185,22 @@ class CommandLine(unittest.TestCase):
         code, out, _ = self.run_tool("--compare", file, file)
         self.assertEqual(code, 0)
         self.assertIn("1.00", out)
+
+    def test_a_regression_is_in_the_exit_code(self):
+        files = []
+        for time in (4.0, 8.0):
+            files.append(self.folder / f"{time}.json")
+            micro = {"step": {"cpu_us": time}, "limit/step": {"cpu_us": 1.0}}
+            files[-1].write_text(json.dumps(report_of(micro)))
+        code, out, _ = self.run_tool("--compare", *files)
+        self.assertEqual(code, speed_benchmark.SLOWER)
+        self.assertIn("slower", out)
+        self.assertEqual(self.run_tool("--compare", *reversed(files))[0], 0)
+
+    def test_two_files_are_compared_at_the_most(self):
+        with self.assertRaises(SystemExit) as ended:
+            self.run_tool("--compare", "a", "b", "c")
+        self.assertEqual(ended.exception.code, 2)
 
     def test_files_that_are_no_benchmark_are_named(self):
         for text in ("", "[]", '{"format": 0}'):

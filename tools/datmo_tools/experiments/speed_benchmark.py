@@ -16,11 +16,16 @@ from datmo_tools.experiments.speed_live import LiveDrive
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
-Measures how fast the stack is. micro: the hot paths, each alone, in processor time. live: the
+Measures how fast the stack is. micro: the hot paths, each alone, in processor time, and how many
+times the work that they cannot do without (their limit, measured in the same run) that is. live: the
 nodelets on a drive that is played at its own pace, at the demonstrator's settings and at heavy
 ones: latency from a scan's departure at another process to the arrival of its tracks there, both
 transports included; processor time and memory of the nodelets' process. Each live figure is the
-median over the runs. All figures go to a JSON file; --compare prints two such files side by side."""
+median over the runs. All figures go to a JSON file. --compare prints two such files side by side, or
+one beside what is measured now, and judges the ratios to the limits, which hold on any machine: the
+exit code is 3 if one of them has grown by more than its spread."""
+
+SLOWER = 3  # exit code
 
 QUICK = "--duration=3"  # s of a drive
 HEAVY_SCANNER = ("scanner/beam_spacing=0.25", "scanner/horizontal_opening=0.25")
@@ -28,14 +33,25 @@ HEAVY_SCANNER = ("scanner/beam_spacing=0.25", "scanner/horizontal_opening=0.25")
 
 def main(arguments=None):
     """Runs the command line; returns its exit code."""
-    values = _parser().parse_args(arguments)
-    work = _compare if values.compare else _measure
-    return command_line.run("speed_benchmark", lambda: work(values), "report")
+    parser = _parser()
+    values = parser.parse_args(arguments)
+    if len(values.compare) > 2:
+        parser.error("--compare: expected OLD.json, or OLD.json NEW.json")
+    verdicts = []
+    code = command_line.run("speed_benchmark", lambda: verdicts.extend(_work(values)), "report")
+    return code or (SLOWER if verdicts else 0)
 
 
-def _compare(values):
-    old, new = map(speed_report.read, values.compare)
-    print(speed_report.comparison(old, new))
+def _work(values):
+    """Measures, compares, or both; returns the names of the hot paths that have become slower."""
+    reports = [speed_report.read(file) for file in values.compare]
+    if len(reports) < 2:
+        reports.append(_measure(values))
+    if len(reports) < 2:
+        return []
+    print(speed_report.comparison(*reports))
+    print("\n" + speed_report.judgement(*reports))
+    return speed_report.slower(*reports)
 
 
 def _measure(values):
@@ -53,6 +69,7 @@ def _measure(values):
     write_whole(values.out.parent, {values.out.name: json.dumps(report, indent=1) + "\n"})
     print(speed_report.table(report))
     print(f"\nall of it: {values.out}")
+    return report
 
 
 def _measure_live(values, folder):
@@ -98,8 +115,8 @@ def _parser():
     parser = command_line.new_parser("speed_benchmark", DESCRIPTION)
     add = parser.add_argument
     add("parts", nargs="*", metavar="micro|live", help="what to measure (default: both)")
-    add("--compare", nargs=2, type=Path, metavar=("OLD.json", "NEW.json"),
-        help="print two results side by side instead")  # fmt: skip
+    add("--compare", nargs="+", type=Path, default=[], metavar="FILE.json",
+        help="OLD NEW: print two results side by side instead; OLD: and what is measured now")  # fmt: skip
     add("--runs", type=command_line.count, default=3, metavar="N",
         help="live runs (default %(default)s)")  # fmt: skip
     add("--quick", action="store_true", help="one short run of everything: does it work?")

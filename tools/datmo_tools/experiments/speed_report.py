@@ -10,6 +10,8 @@ from datmo_tools.text_table import aligned, rounded
 FORMAT = 1  # of the JSON file
 MEASURED = ("micro", "live")  # sections of figures; the others say where they come from
 NUMBER = "{:.4g}"
+LIMIT = "limit/"  # before the name of a hot path: the work that it cannot do without, and no more
+SPREAD = 1.25  # of a ratio to the limit from one measurement to the next, on a machine that others use
 
 
 def read(file):
@@ -46,9 +48,45 @@ def _flatten(value, path, flat):
         flat["/".join(path)] = value
 
 
+def ratios(report):
+    """Name -> (us, us of its limit, their ratio), of the hot paths whose limit was measured as well."""
+    micro = report.get("micro", {})
+    found = {}
+    for name, run in micro.items():
+        limit = micro.get(LIMIT + name)
+        if limit and limit["cpu_us"] > 0.0:
+            found[name] = (run["cpu_us"], limit["cpu_us"], run["cpu_us"] / limit["cpu_us"])
+    return found
+
+
 def table(report):
-    """A line for each figure."""
-    return aligned([(name, NUMBER.format(value)) for name, value in figures(report).items()])
+    """A line for each figure; first those that have a limit, with it."""
+    rows = [("", "ours, us", "limit, us", "ratio")]
+    rows += [(name, *map(NUMBER.format, values)) for name, values in ratios(report).items()]
+    limits = [aligned(rows), ""] if len(rows) > 1 else []
+    all_figures = [(name, NUMBER.format(value)) for name, value in figures(report).items()]
+    return "\n".join([*limits, aligned(all_figures)])
+
+
+def slower(old, new):
+    """Names of the hot paths whose ratio to their limit has risen by more than its spread."""
+    before, after = ratios(old), ratios(new)
+    return [
+        name for name in before if name in after and after[name][-1] > SPREAD * before[name][-1]
+    ]
+
+
+def judgement(old, new):
+    """A line for each hot path that has a limit in both, and what became of its ratio."""
+    before, after = ratios(old), ratios(new)
+    rows = [["times the limit", "old", "new", "new/old", ""]]
+    for name in before:
+        if name in after:
+            change = after[name][-1] / before[name][-1]
+            verdict = "slower" if change > SPREAD else "faster" if change < 1.0 / SPREAD else ""
+            values = (before[name][-1], after[name][-1])
+            rows.append([name, *map(NUMBER.format, values), rounded(change, 2), verdict])
+    return aligned(rows) if len(rows) > 1 else "no hot path has a limit in both"
 
 
 def comparison(old, new):

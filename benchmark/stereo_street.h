@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "datmo_fusion/sensor_model/stereo_view.h"
+
+namespace datmo {
+
+/// What a stereo camera sees in a street, as stereo_image_proc publishes it: 640 x 480 points.
+class StereoStreet {
+ public:
+  StereoStreet();
+  StereoStreet(const StereoStreet&) = delete;  // its points lie in its memory
+  StereoStreet& operator=(const StereoStreet&) = delete;
+
+  const StereoCloud& cloud() const { return cloud_; }
+
+ private:
+  StereoCloud cloud_;
+  std::vector<std::uint8_t> memory_;
+};
+
+}  // namespace datmo
