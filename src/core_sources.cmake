@@ -135,6 +135,7 @@ set(DATMO_FUSION_CORE_SOURCES
   slam/odometry_poses.cpp
   slam/pose_filter.cpp
   slam/pose_motion.cpp
+  slam/pose_scorer.cpp
   slam/scan_matcher.cpp
   slam/search_region.cpp
   slam/searched_map.cpp

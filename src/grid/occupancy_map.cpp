@@ -184,7 +184,12 @@ void OccupancyMap::update(const GridUpdate& grid_update, const Pose2& base_in_ma
 }
 
 void OccupancyMap::change(Cell& cell, float log_odds_step) const {
-  cell.log_odds = std::clamp(cell.log_odds + log_odds_step, -log_odds_limit_, log_odds_limit_);
+  const float log_odds =
+      std::clamp(cell.log_odds + log_odds_step, -log_odds_limit_, log_odds_limit_);
+  if (log_odds == cell.log_odds) {
+    return;  // as most free cells are, at the limit
+  }
+  cell.log_odds = log_odds;
   cell.occupancy = 1.0F / (1.0F + std::exp(-cell.log_odds));
 }
 

@@ -10,6 +10,7 @@
 #include <Eigen/LU>
 
 #include "datmo_fusion/common/uniform.h"
+#include "datmo_fusion/slam/pose_scorer.h"
 
 namespace datmo {
 
@@ -54,6 +55,7 @@ struct ScanMatcher::Task {
   const OccupancyMap& map;
   const std::vector<EndPoint>& points;
   const PoseWithCovariance& prediction;
+  PoseScorer scorer;
   double full_maturity = 1.0;  ///< of surfaces, that counts fully
 };
 
@@ -127,31 +129,16 @@ void ScanMatcherOptions::visit(OptionVisitor& visitor) {
 
 ScanMatcher::ScanMatcher(const Checked<ScanMatcherOptions>& options) : options_(*options) {}
 
-double ScanMatcher::score(const Task& task, const Pose2& pose) const {
-  const OccupancyMap& map = task.map;
-  const Eigen::Matrix2d rotation = pose.rotation();
-  double sum = 0.0;
-  for (const EndPoint& point : task.points) {
-    sum += map.occupancy(map.window().cellAt(pose.position() + rotation * point.position));
-  }
-  return task.points.empty() ? 0.0 : sum / static_cast<double>(task.points.size());
-}
-
 Pose2 ScanMatcher::bestSample(const Task& task, Random& random) const {
   const PoseWithCovariance& prediction = task.prediction;
   const Eigen::Matrix3d spread = prediction.covariance.llt().matrixL();
-  Pose2 best = prediction.pose;
-  double best_score = score(task, best);
+  std::vector<Pose2> samples{prediction.pose};
+  samples.reserve(static_cast<std::size_t>(options_.samples));
   for (int i = 1; i < options_.samples; ++i) {
     const Eigen::Vector3d standard(random.normal(1.0), random.normal(1.0), random.normal(1.0));
-    const Pose2 sample = shifted(prediction.pose, spread * standard);
-    const double sample_score = score(task, sample);
-    if (sample_score > best_score) {
-      best = sample;
-      best_score = sample_score;
-    }
+    samples.push_back(shifted(prediction.pose, spread * standard));
   }
-  return best;
+  return task.scorer.bestOf(samples);
 }
 
 ScanMatcher::Normal ScanMatcher::sumOf(const Task& task, const Pose2& pose,
@@ -216,7 +203,7 @@ Pose2 ScanMatcher::refine(const Task& task, Resolution resolution, Pose2 pose) c
 MatchResult ScanMatcher::match(const OccupancyMap& map, const std::vector<EndPoint>& points,
                                const Prediction& prediction, Random& random) const {
   MatchResult result{prediction.pose, {}};
-  Task task{map, points, prediction.pose};
+  Task task{map, points, prediction.pose, {map, points}};
   Pose2 pose = bestSample(task, random);
   const Normal coarse = sumOf(task, pose, Resolution::kNeighborhood);
   result.quality.matched_points = coarse.points;
@@ -235,7 +222,7 @@ MatchResult ScanMatcher::match(const OccupancyMap& map, const std::vector<EndPoi
   }
   result.pose.pose = pose;
   result.pose.covariance = (normal.information + prediction.pose.covariance.inverse()).inverse();
-  result.quality = {normal.points, score(task, pose), true, normal.weakest_sigma,
+  result.quality = {normal.points, task.scorer.score(pose), true, normal.weakest_sigma,
                     normal.degenerate};
   return result;
 }

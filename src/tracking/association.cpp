@@ -30,15 +30,14 @@ std::vector<std::size_t> nearObjects(const Target& target, const AssociationScan
   const double sigma = std::sqrt(target.positionCovariance().trace());
   const double reach =
       std::sqrt(options.gate) * (sigma + scan.noise) + 0.5 * scan.extent + 0.5 * diagonal(box);
-  const auto x = [](const Observation& o) { return o.object.box.center.x(); };
-  const auto end = scan.observations.begin() + static_cast<std::ptrdiff_t>(scan.objects);
-  auto first = std::lower_bound(scan.observations.begin(), end, position.x() - reach,
-                                [&](const Observation& o, double min) { return x(o) < min; });
+  const auto end = scan.centers.end();
+  auto center = std::lower_bound(scan.centers.begin(), end, position.x() - reach,
+                                 [](const Point2& point, double min) { return point.x() < min; });
   std::vector<std::pair<double, std::size_t>> near;
-  for (; first != end && x(*first) <= position.x() + reach; ++first) {
-    const double distance2 = (first->object.box.center.position() - position).squaredNorm();
+  for (; center != end && center->x() <= position.x() + reach; ++center) {
+    const double distance2 = (*center - position).squaredNorm();
     if (distance2 <= reach * reach) {
-      near.emplace_back(distance2, static_cast<std::size_t>(first - scan.observations.begin()));
+      near.emplace_back(distance2, static_cast<std::size_t>(center - scan.centers.begin()));
     }
   }
   std::sort(near.begin(), near.end());

@@ -96,6 +96,7 @@ AssociationScan ingest(const std::vector<Object>& objects, const Pose2& base_in_
     const Point2& in_base = objects[entry.listed].box.center.position();
     const double density = options.new_density + clutter.density(in_base);
     const bool starts = entry.object.dynamic_state != DynamicState::kStatic;
+    scan.centers.push_back(box.center.position());
     scan.observations.push_back(
         {std::move(entry.object), {scan.listed.size()}, std::log(density), starts, false});
     scan.listed.push_back(entry.listed);

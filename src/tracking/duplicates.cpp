@@ -9,21 +9,32 @@ namespace datmo {
 
 namespace {
 
+/// m, more than what distances are rounded by: a quick answer is the same as the long one.
+constexpr double kRounding = 1e-6;
+
 /// A target with its box, which takes longer to ask for than most pairs need.
 struct Placed {
-  const Target& target;
+  const Target* target;
   Box2 box;
+  double reach;  ///< m, from its center; reaches() reaches no farther
 };
 
+bool hasLowerX(const Placed& a, const Placed& b) { return a.box.center.x() < b.box.center.x(); }
+
 bool isPartOf(const Placed& part, const Placed& whole, const DuplicateOptions& options) {
-  const bool older = whole.target.confirmed() &&
-                     (!part.target.confirmed() || whole.target.id() < part.target.id());
+  const Point2 offset = part.box.center.position() - whole.box.center.position();
+  const double reach = std::max(part.reach, whole.reach);
+  if (offset.squaredNorm() > reach * reach) {
+    return false;
+  }
+  const bool older = whole.target->confirmed() &&
+                     (!part.target->confirmed() || whole.target->id() < part.target->id());
   if (!older || !(reaches(whole.box, part.box, options.reach) ||
                   reaches(part.box, whole.box, options.reach))) {
     return false;
   }
-  const StateEstimate& a = part.target.filter().estimate();
-  const StateEstimate& b = whole.target.filter().estimate();
+  const StateEstimate& a = part.target->filter().estimate();
+  const StateEstimate& b = whole.target->filter().estimate();
   const Eigen::Vector2d difference = a.mean.segment<2>(2) - b.mean.segment<2>(2);
   const Eigen::Matrix2d covariance =
       a.covariance.block<2, 2>(2, 2) + b.covariance.block<2, 2>(2, 2);
@@ -56,17 +67,29 @@ std::set<std::uint64_t> findDuplicates(const std::vector<const Target*>& targets
                                        const DuplicateOptions& options) {
   std::vector<Placed> all;
   std::vector<Placed> confirmed;
+  double max_reach = 0.0;
   for (const Target* target : targets) {
-    all.push_back({*target, target->box()});
+    const Box2 box = target->box();
+    all.push_back({target, box, kRounding + options.reach * (box.length + box.width)});
     if (target->confirmed()) {
       confirmed.push_back(all.back());
+      max_reach = std::max(max_reach, all.back().reach);
     }
   }
+  std::sort(confirmed.begin(), confirmed.end(), hasLowerX);
   std::set<std::uint64_t> result;
   for (const Placed& part : all) {
-    if (std::any_of(confirmed.begin(), confirmed.end(),
-                    [&](const Placed& whole) { return isPartOf(part, whole, options); })) {
-      result.insert(part.target.number());
+    const double reach = std::max(max_reach, part.reach);
+    const double x = part.box.center.x();
+    const auto begin = std::lower_bound(
+        confirmed.begin(), confirmed.end(), x - reach,
+        [](const Placed& placed, double min) { return placed.box.center.x() < min; });
+    for (auto whole = begin; whole != confirmed.end() && whole->box.center.x() <= x + reach;
+         ++whole) {
+      if (isPartOf(part, *whole, options)) {
+        result.insert(part.target->number());
+        break;
+      }
     }
   }
   return result;

@@ -26,6 +26,17 @@ std::vector<std::size_t> candidateObjects(const HypothesisCluster& cluster) {
   return result;
 }
 
+/// One target of which nothing is left to decide and that no object is near: so are most of those that
+/// false alarms have started.
+bool isUnseenSingle(const HypothesisCluster& cluster) {
+  if (cluster.trees.size() != 1 || cluster.hypotheses.size() != 1 ||
+      cluster.trees.front().leaves.size() != 1) {
+    return false;
+  }
+  const Leaf& leaf = cluster.trees.front().leaves.front();
+  return leaf.scores.candidates.empty() && leaf.related.empty();
+}
+
 }  // namespace
 
 MultipleHypotheses::MultipleHypotheses(const TargetOptions& target,
@@ -114,6 +125,11 @@ void MultipleHypotheses::expandCluster(HypothesisCluster cluster, AssociationSca
                                        std::vector<HypothesisCluster>& next) {
   const bool late = budget.isSpent();
   counts_.best_only_steps += late ? 1 : 0;
+  if (isUnseenSingle(cluster)) {
+    missSingle(cluster);
+    next.push_back(std::move(cluster));
+    return;
+  }
   const bool best_only = late || cluster.trees.size() > static_cast<std::size_t>(
                                                             hypothesis_options_.max_joint_targets);
   std::vector<Interpretation> interpretations{candidateObjects(cluster)};
@@ -133,6 +149,16 @@ void MultipleHypotheses::expandCluster(HypothesisCluster cluster, AssociationSca
   for (HypothesisCluster& part : split(std::move(whole), oldest)) {
     next.push_back(std::move(part));
   }
+}
+
+/// As expand() and split() would make it.
+void MultipleHypotheses::missSingle(HypothesisCluster& cluster) {
+  Leaf& leaf = cluster.trees.front().leaves.front();
+  std::copy_backward(leaf.nodes.begin(), leaf.nodes.end() - 1, leaf.nodes.end());
+  leaf.nodes.front() = next_node_++;
+  leaf.target.miss(leaf.scores.detection_probability, target_options_);
+  cluster.hypotheses.front().log_weight = 0.0;
+  cluster.links.clear();
 }
 
 void MultipleHypotheses::startTargets(const AssociationScan& scan, const std::vector<bool>& claimed,

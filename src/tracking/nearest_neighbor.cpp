@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "datmo_fusion/assignment/assignment.h"
+#include "datmo_fusion/common/disjoint_sets.h"
 
 namespace datmo {
 
@@ -20,21 +21,12 @@ void NearestNeighborTargets::predict(double seconds) {
 
 void NearestNeighborTargets::associate(AssociationScan& scan, const StepBudget& /*budget*/) {
   std::vector<TargetScores> scores;
-  CostMatrix costs(targets_.size(), scan.objects);
-  costs.setConstant(kForbidden);
+  scores.reserve(targets_.size());
   for (const Target& target : targets_) {
     scores.push_back(
         scoresOf(target, scan, target.existenceProbability(target_options_), options_));
-    for (const Candidate& candidate : scores.back().candidates) {
-      costs(static_cast<Eigen::Index>(scores.size() - 1),
-            static_cast<Eigen::Index>(candidate.observation)) = -candidate.score;
-    }
   }
-  // Costs are relative to a miss and a birth, which so cost nothing.
-  const Eigen::VectorXd no_cost = Eigen::VectorXd::Zero(costs.rows());
-  const Assignment assignment = solveAssignment(costs, no_cost, options_.max_work);
-  counts_.cut_hypotheses += assignment.cut ? 1 : 0;
-  const std::vector<int>& object_of_target = assignment.column_of_row;
+  const std::vector<int> object_of_target = assign(scores, scan.objects);
 
   std::vector<bool> explained(scan.objects, false);
   for (std::size_t i = 0; i < targets_.size(); ++i) {
@@ -49,6 +41,49 @@ void NearestNeighborTargets::associate(AssociationScan& scan, const StepBudget& 
   }
   startTargets(scan, explained);
   next_number_ += scan.objects;
+}
+
+std::vector<int> NearestNeighborTargets::assign(const std::vector<TargetScores>& scores,
+                                                std::size_t objects) {
+  DisjointSets groups(scores.size() + objects);  // first the targets, then the objects
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    for (const Candidate& candidate : scores[i].candidates) {
+      groups.join(i, scores.size() + candidate.observation);
+    }
+  }
+  std::vector<int> object_of_target(scores.size(), kUnassigned);
+  std::int64_t work = options_.max_work;
+  bool cut = false;
+  for (const std::vector<std::size_t>& group : groups.sets()) {
+    if (group.size() == 1) {
+      continue;
+    }
+    const auto rows = std::lower_bound(group.begin(), group.end(), scores.size()) - group.begin();
+    const auto columns = static_cast<std::ptrdiff_t>(group.size()) - rows;
+    CostMatrix costs(rows, columns);
+    costs.setConstant(kForbidden);
+    for (std::ptrdiff_t row = 0; row < rows; ++row) {
+      for (const Candidate& candidate : scores[group[static_cast<std::size_t>(row)]].candidates) {
+        const auto column = std::lower_bound(group.begin() + rows, group.end(),
+                                             scores.size() + candidate.observation);
+        costs(row, column - group.begin() - rows) = -candidate.score;
+      }
+    }
+    // Costs are relative to a miss and a birth, which so cost nothing.
+    const Eigen::VectorXd no_cost = Eigen::VectorXd::Zero(rows);
+    const Assignment assignment = solveAssignment(costs, no_cost, std::max<std::int64_t>(0, work));
+    cut = cut || assignment.cut;
+    work -= assignment.work;
+    for (std::ptrdiff_t row = 0; row < rows; ++row) {
+      const int column = assignment.column_of_row[static_cast<std::size_t>(row)];
+      if (column != kUnassigned) {
+        const std::size_t object = group[static_cast<std::size_t>(rows + column)] - scores.size();
+        object_of_target[group[static_cast<std::size_t>(row)]] = static_cast<int>(object);
+      }
+    }
+  }
+  counts_.cut_hypotheses += cut ? 1 : 0;
+  return object_of_target;
 }
 
 void NearestNeighborTargets::startTargets(const AssociationScan& scan,

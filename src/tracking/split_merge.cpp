@@ -193,15 +193,20 @@ std::vector<std::size_t> relatedObjects(const Target& target, const AssociationS
   const bool merges = options.merge_probability > 0.0;
   const Box2 box = target.box();
   const double x = box.center.x();
+  const double y = box.center.y();
   const double reach = 0.5 * (scan.extent + box.length + box.width) + 2.0 * options.margin;
-  const auto end = scan.observations.begin() + static_cast<std::ptrdiff_t>(scan.objects);
-  auto next = std::lower_bound(
-      scan.observations.begin(), end, x - reach,
-      [](const Observation& o, double min) { return o.object.box.center.x() < min; });
-  for (; next != end && next->object.box.center.x() <= x + reach; ++next) {
-    if ((splits && mayBePartOf(next->object, box, options)) ||
-        (merges && mayCover(next->object, box, options))) {
-      result.push_back(static_cast<std::size_t>(next - scan.observations.begin()));
+  const auto end = scan.centers.end();
+  auto center = std::lower_bound(scan.centers.begin(), end, x - reach,
+                                 [](const Point2& point, double min) { return point.x() < min; });
+  for (; center != end && center->x() <= x + reach; ++center) {
+    if (std::abs(center->y() - y) > reach) {
+      continue;
+    }
+    const auto index = static_cast<std::size_t>(center - scan.centers.begin());
+    const Object& object = scan.observations[index].object;
+    if ((splits && mayBePartOf(object, box, options)) ||
+        (merges && mayCover(object, box, options))) {
+      result.push_back(index);
     }
   }
   return result;

@@ -19,6 +19,7 @@ struct Assignment {
   std::vector<int> column_of_row;  ///< kUnassigned: the row has none
   double cost = 0.0;               ///< of all rows
   bool cut = false;                ///< more work than allowed: valid, but not the best
+  std::int64_t work = 0;           ///< pairs that were looked at
 };
 
 /// As a limit of work: none.

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
 #include <numeric>
-#include <utility>
 #include <vector>
 
 namespace datmo {
@@ -38,13 +36,15 @@ class DisjointSets {
 
   /// The members of each group, rising; groups by their least member.
   std::vector<std::vector<std::size_t>> sets() {
-    std::map<std::size_t, std::vector<std::size_t>> by_least;
-    for (std::size_t member = 0; member < parent_.size(); ++member) {
-      by_least[find(member)].push_back(member);
-    }
     std::vector<std::vector<std::size_t>> result;
-    for (auto& entry : by_least) {
-      result.push_back(std::move(entry.second));
+    std::vector<std::size_t> group_of(parent_.size());  // where the least member is known
+    for (std::size_t member = 0; member < parent_.size(); ++member) {
+      const std::size_t least = find(member);
+      if (least == member) {
+        group_of[member] = result.size();
+        result.emplace_back();
+      }
+      result[group_of[least]].push_back(member);
     }
     return result;
   }

@@ -34,7 +34,12 @@ class RollingGrid {
 
   /// What lies outside of the window is as empty as what was never touched.
   const Cell& atOrEmpty(CellIndex cell) const {
-    return window_.contains(cell) ? cells_[slot(cell)] : empty_;
+    // As unsigned numbers, those before the corner are beyond the end.
+    const bool inside =
+        static_cast<unsigned>(cell.column - window_.corner.column) <
+            static_cast<unsigned>(window_.columns) &&
+        static_cast<unsigned>(cell.row - window_.corner.row) < static_cast<unsigned>(window_.rows);
+    return inside ? cells_[slot(cell)] : empty_;
   }
 
   /// The window as centerOn would move it.

@@ -84,7 +84,6 @@ class ScanMatcher {
   /// The match around this pose, without the direction that it hardly observes.
   Normal linearize(const Task& task, const Pose2& pose, Resolution resolution) const;
   Normal sumOf(const Task& task, const Pose2& pose, Resolution resolution) const;
-  double score(const Task& task, const Pose2& pose) const;
   Pose2 bestSample(const Task& task, Random& random) const;
   Pose2 refine(const Task& task, Resolution resolution, Pose2 pose) const;
 

@@ -27,6 +27,7 @@ struct Observation {
 struct AssociationScan {
   /// First the objects by themselves, by rising x of their centers; then what else they may be.
   std::vector<Observation> observations;
+  std::vector<Point2> centers;      ///< of the objects by themselves: to look through many of them
   std::size_t objects = 0;          ///< how many are objects by themselves
   std::vector<std::size_t> listed;  ///< where each object stood in the sensor's list
   double noise = 0.0;               ///< m, most of an object's position and sides

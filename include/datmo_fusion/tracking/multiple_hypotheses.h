@@ -38,6 +38,7 @@ class MultipleHypotheses : public TargetSet {
   void mergeCompeting(std::size_t objects);
   void expandCluster(HypothesisCluster cluster, AssociationScan& scan, const StepBudget& budget,
                      std::vector<HypothesisCluster>& next);
+  void missSingle(HypothesisCluster& cluster);
   void startTargets(const AssociationScan& scan, const std::vector<bool>& claimed,
                     std::vector<HypothesisCluster>& next);
   std::size_t targets() const;

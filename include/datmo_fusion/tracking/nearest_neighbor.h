@@ -27,6 +27,10 @@ class NearestNeighborTargets : public TargetSet {
   }
 
  private:
+  /// The object of each target, or kUnassigned. Targets that share no object, be it over others, are
+  /// assigned by themselves: the cost of an assignment grows with more than its square.
+  std::vector<int> assign(const std::vector<TargetScores>& scores, std::size_t objects);
+
   /// Of the objects that belong to no target.
   void startTargets(const AssociationScan& scan, const std::vector<bool>& explained);
 
