@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A cloud of a 3D lidar with 64 rows in a street, to a planar scan.
 
+#include <cstring>
+
 #include "cloud_street.h"
 #include <benchmark/benchmark.h>
-
-#include <cstring>
 
 #include <sensor_msgs/PointCloud2.h>
 

@@ -7,10 +7,9 @@
 #include <limits>
 #include <vector>
 
-#include <benchmark/benchmark.h>
-
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <benchmark/benchmark.h>
 
 #include "datmo_fusion/common/random.h"
 #include "datmo_fusion/tracking/track.h"

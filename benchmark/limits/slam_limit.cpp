@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a step of grid SLAM cannot do without: one look-up of each beam's end from each pose, and one
-// addition to each cell that a beam passes.
-
-#include "settings.h"
-#include "street.h"
-#include <benchmark/benchmark.h>
+// What a step of grid SLAM cannot do without: one look-up of each beam's end from each pose, and
+// one addition to each cell that a beam passes.
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
+
+#include "settings.h"
+#include "street.h"
+#include <benchmark/benchmark.h>
 
 #include "datmo_fusion/grid/row_major.h"
 

@@ -5,10 +5,9 @@
 #include <array>
 #include <vector>
 
-#include <benchmark/benchmark.h>
-
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <benchmark/benchmark.h>
 
 #include "datmo_fusion/tracking/track.h"
 

@@ -28,7 +28,8 @@ Assignment solveAssignment(const CostMatrix& cost, const Eigen::VectorXd& unassi
   const bool all = assignAll(costs, max_work, path, best);
   return {{best.column_of_row.begin(), best.column_of_row.end()},
           totalCost(best.column_of_row, costs),
-          !all, path.work()};
+          !all,
+          path.work()};
 }
 
 }  // namespace datmo

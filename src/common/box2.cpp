@@ -6,6 +6,13 @@
 
 namespace datmo {
 
+namespace {
+
+/// m, for what distances are rounded by.
+constexpr double kRounding = 1e-6;
+
+}  // namespace
+
 std::array<Point2, 4> Box2::corners() const {
   const double x = 0.5 * length;
   const double y = 0.5 * width;
@@ -13,7 +20,14 @@ std::array<Point2, 4> Box2::corners() const {
           center * Point2(x, -y)};
 }
 
-bool Box2::contains(const Point2& point) const { return distanceTo(point) == 0.0; }
+bool Box2::contains(const Point2& point) const {
+  // A quick answer for most points; half of both sides is farther than the corners.
+  const double reach = 0.5 * (length + width) + kRounding;
+  if ((point - center.position()).squaredNorm() > reach * reach) {
+    return false;
+  }
+  return distanceTo(point) == 0.0;
+}
 
 double Box2::distanceTo(const Point2& point) const {
   const Point2 local = Pose2(Point2::Zero(), -center.heading()).rotate(point - center.position());

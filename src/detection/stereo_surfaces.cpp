@@ -68,18 +68,24 @@ void StereoSurfaces::takePoints(const StereoCloud& cloud, const StereoView& view
   const float camera_height = view.cameraHeight();
   // A depth that is off by its noise lifts a point of the road by this much of height / depth.
   const InverseDepthMargin road_margin(cloud.camera.noise, kRoadSigmas);
-  for (std::size_t i = 0; i < cloud.points.count; ++i) {
-    const ViewedPoint point = view(cloud.points[i]);
+  const auto add = [&](const ViewedPoint& point, float inverse) {
     if (!(point.forward > nearest && point.forward < kMaxDepth)) {
-      continue;
+      return;
     }
     ++points_;
-    const float inverse = 1.0F / point.forward;
     const float right = point.right * inverse;
     density_.add(right, (point.height - camera_height) * inverse);
     if (point.height >= min && point.height < highest && point.forward < max_depth &&
         point.height * inverse > road_margin.at(inverse) * camera_height) {
       upright_.push_back({right, point.forward, point.height});
+    }
+  };
+  ViewedPoints viewed;
+  for (std::size_t begin = 0; begin < cloud.points.count; begin += ViewedPoints::kMax) {
+    const std::size_t count = std::min(ViewedPoints::kMax, cloud.points.count - begin);
+    view.view(cloud.points, begin, count, viewed);
+    for (std::size_t i = 0; i < count; ++i) {
+      add(viewed[i], viewed.inverse[i]);
     }
   }
 }

@@ -106,20 +106,25 @@ void StereoEvidence::addPoints(const StereoCloud& cloud, const StereoView& view,
   for (std::size_t begin = 0; begin < points.count; begin += kRun) {
     const std::size_t end = std::min(begin + kRun, points.count);
     std::size_t next_line = begin + begin / kRun % line_step_;
-    for (std::size_t i = begin; i < end; ++i) {
-      ColumnPoint point;
-      if (locate(view(points[i]), scales, point)) {
-        addObstacle(point, scales);
-        if (i >= next_line) {
-          addLine(point, scales);
-          next_line = i + line_step_;
+    for (std::size_t first = begin; first < end; first += ViewedPoints::kMax) {
+      const std::size_t count = std::min(ViewedPoints::kMax, end - first);
+      ViewedPoints viewed;
+      view.view(points, first, count, viewed);
+      for (std::size_t i = 0; i < count; ++i) {
+        ColumnPoint point;
+        if (locate(viewed[i], viewed.inverse[i], scales, point)) {
+          addObstacle(point, scales);
+          if (first + i >= next_line) {
+            addLine(point, scales);
+            next_line = first + i + line_step_;
+          }
         }
       }
     }
   }
 }
 
-inline bool StereoEvidence::locate(const ViewedPoint& point, const Scales& scales,
+inline bool StereoEvidence::locate(const ViewedPoint& point, float inverse, const Scales& scales,
                                    ColumnPoint& placed) {
   if (!(point.forward > scales.nearest && point.forward < kMaxDepth)) {
     return false;
@@ -128,7 +133,6 @@ inline bool StereoEvidence::locate(const ViewedPoint& point, const Scales& scale
   if (point.height > scales.highest) {
     return false;
   }
-  const float inverse = 1.0F / point.forward;
   const float column = (point.right * inverse - scales.left) * scales.columns_per_tangent;
   if (!(column >= 0.0F && column < scales.columns)) {
     return false;

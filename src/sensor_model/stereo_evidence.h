@@ -78,8 +78,8 @@ class StereoEvidence {
     bool on_road;
   };
 
-  /// Whether a point is one, in a column, and carries information.
-  bool locate(const ViewedPoint& point, const Scales& scales, ColumnPoint& placed);
+  /// Whether a point is one, in a column, and carries information. `inverse`: of its depth, 1/m.
+  bool locate(const ViewedPoint& point, float inverse, const Scales& scales, ColumnPoint& placed);
   void addObstacle(const ColumnPoint& point, const Scales& scales);
   void addLine(const ColumnPoint& point, const Scales& scales);
   void prepare(const StereoCamera& camera, const EvidenceLimits& limits);

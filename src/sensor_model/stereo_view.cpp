@@ -55,4 +55,26 @@ StereoView::StereoView(const StereoCloud& cloud, const RoadPlane& road)
   camera_height_ = static_cast<float>(height);
 }
 
+void StereoView::view(const PointsView& points, std::size_t begin, std::size_t count,
+                      ViewedPoints& viewed) const {
+  std::array<float, ViewedPoints::kMax> x;
+  std::array<float, ViewedPoints::kMax> y;
+  std::array<float, ViewedPoints::kMax> z;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3f point = points[begin + i];
+    x[i] = point.x();
+    y[i] = point.y();
+    z[i] = point.z();
+  }
+  const Eigen::Matrix3f& m = from_optical_;
+  const float height = camera_height_;
+  // In the order in which Eigen adds.
+  for (std::size_t i = 0; i < count; ++i) {
+    viewed.forward[i] = m(0, 0) * x[i] + (m(0, 1) * y[i] + m(0, 2) * z[i]);
+    viewed.right[i] = m(1, 0) * x[i] + (m(1, 1) * y[i] + m(1, 2) * z[i]);
+    viewed.height[i] = m(2, 0) * x[i] + (m(2, 1) * y[i] + m(2, 2) * z[i]) + height;
+    viewed.inverse[i] = 1.0F / viewed.forward[i];
+  }
+}
+
 }  // namespace datmo

@@ -101,8 +101,8 @@ PoseScorer::Reach PoseScorer::reachOf(const std::vector<Pose2>& poses) {
   for (const Pose2& pose : poses) {
     reach.x = std::max(reach.x, std::abs(pose.x() - poses.front().x()));
     reach.y = std::max(reach.y, std::abs(pose.y() - poses.front().y()));
-    reach.turn = std::max(
-        reach.turn, std::abs(angleBetween(poses.front().heading(), pose.heading())));
+    reach.turn =
+        std::max(reach.turn, std::abs(angleBetween(poses.front().heading(), pose.heading())));
   }
   return reach;
 }
@@ -133,8 +133,8 @@ std::vector<double> PoseScorer::boundsFrom(const Pose2& first, const Reach& reac
         (2.0 * x_reach / cell_size + 1.0) * (2.0 * y_reach / cell_size + 1.0) <= max_cells;
     const double max = is_small ? maxAround(first * point, x_reach, y_reach) : 1.0;
     const std::size_t block = i / kBlock;
-    bounds[block] = (i % kBlock == kBlock - 1 || i == count_ - 1 ? bounds[block + 1]
-                                                                  : bounds[block]) + max;
+    bounds[block] =
+        (i % kBlock == kBlock - 1 || i == count_ - 1 ? bounds[block + 1] : bounds[block]) + max;
   }
   return bounds;
 }

@@ -10,7 +10,7 @@ namespace datmo {
 namespace {
 
 /// m, more than what distances are rounded by: a quick answer is the same as the long one.
-constexpr double kRounding = 1e-6;
+constexpr double kSlack = 1e-6;
 
 /// A target with its box, which takes longer to ask for than most pairs need.
 struct Placed {
@@ -70,7 +70,7 @@ std::set<std::uint64_t> findDuplicates(const std::vector<const Target*>& targets
   double max_reach = 0.0;
   for (const Target* target : targets) {
     const Box2 box = target->box();
-    all.push_back({target, box, kRounding + options.reach * (box.length + box.width)});
+    all.push_back({target, box, kSlack + 0.5 * options.reach * (box.length + box.width)});
     if (target->confirmed()) {
       confirmed.push_back(all.back());
       max_reach = std::max(max_reach, all.back().reach);

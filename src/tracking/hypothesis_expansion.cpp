@@ -20,6 +20,9 @@ namespace {
 /// hardly any of the many that are left finds room.
 constexpr std::size_t kMaxScans = 10;
 
+/// Room that the leaves of a tree get at once: seen, and not.
+constexpr std::size_t kUsualLeaves = 2;
+
 /// The cluster of the next scan, as its hypotheses come in.
 class Builder {
  public:
@@ -119,6 +122,9 @@ class Builder {
 
   int append(std::size_t tree, int parent, std::size_t observation, Leaf leaf) {
     const int index = static_cast<int>(trees_[tree].leaves.size());
+    if (index == 0) {
+      trees_[tree].leaves.reserve(kUsualLeaves);
+    }
     trees_[tree].leaves.push_back(std::move(leaf));
     made_[tree].push_back({parent, observation, index});
     return index;

@@ -26,8 +26,8 @@ std::vector<std::size_t> candidateObjects(const HypothesisCluster& cluster) {
   return result;
 }
 
-/// One target of which nothing is left to decide and that no object is near: so are most of those that
-/// false alarms have started.
+/// One target of which nothing is left to decide and that no object is near: so are most of those
+/// that false alarms have started.
 bool isUnseenSingle(const HypothesisCluster& cluster) {
   if (cluster.trees.size() != 1 || cluster.hypotheses.size() != 1 ||
       cluster.trees.front().leaves.size() != 1) {

@@ -124,6 +124,7 @@ datmo_fusion_add_core_test(sensor_model
   sensor_model/stereo_cones_test.cpp
   sensor_model/stereo_grid_input_test.cpp
   sensor_model/stereo_grid_test.cpp
+  sensor_model/stereo_view_test.cpp
   sensor_model/surface_pairs_test.cpp
 )
 target_include_directories(unit_sensor_model PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
@@ -142,6 +143,7 @@ datmo_fusion_add_core_test(slam
   slam/odometry_poses_test.cpp
   slam/pose_filter_test.cpp
   slam/pose_motion_test.cpp
+  slam/pose_scorer_test.cpp
   slam/prior_map_test.cpp
   slam/scan_matcher_test.cpp
   slam/searched_map_test.cpp

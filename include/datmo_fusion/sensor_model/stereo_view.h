@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include <Eigen/Core>
 
 #include "datmo_fusion/common/pose2.h"
@@ -25,6 +28,20 @@ struct ViewedPoint {
   float height = 0.0F;
 };
 
+/// Some ViewedPoint, each number of all of them together, for loops that compilers turn into
+/// vectors.
+struct ViewedPoints {
+  static constexpr std::size_t kMax = 64;
+  std::array<float, kMax> forward;
+  std::array<float, kMax> right;
+  std::array<float, kMax> height;
+  std::array<float, kMax> inverse;  ///< 1/m, of `forward`
+
+  ViewedPoint operator[](std::size_t index) const {
+    return {forward[index], right[index], height[index]};
+  }
+};
+
 /// The camera brought level: however it is pitched, points are given by how far ahead and aside
 /// they are, and points by their height above the road. In this view a column of a level image is a
 /// sector of constant right / forward, and a line of sight stays in its column.
@@ -39,6 +56,10 @@ class StereoView {
     const Eigen::Vector3f turned = from_optical_ * optical;
     return {turned[0], turned[1], turned[2] + camera_height_};
   }
+
+  /// Of `count` points from `begin` on, kMax at the most: to the bit as one by one.
+  void view(const PointsView& points, std::size_t begin, std::size_t count,
+            ViewedPoints& viewed) const;
 
   /// `position`: base frame, m.
   PointInView viewedPoint(const Point2& position) const {

@@ -59,7 +59,7 @@ class PoseScorer {
   std::size_t count_;
   double max_distance_;     ///< m, from the map's origin, of points that a cell's index can hold
   double max_range_ = 0.0;  ///< m
-  std::vector<double> x_;  ///< m; up to full blocks
+  std::vector<double> x_;   ///< m; up to full blocks
   std::vector<double> y_;
 };
 

@@ -27,8 +27,8 @@ class NearestNeighborTargets : public TargetSet {
   }
 
  private:
-  /// The object of each target, or kUnassigned. Targets that share no object, be it over others, are
-  /// assigned by themselves: the cost of an assignment grows with more than its square.
+  /// The object of each target, or kUnassigned. Targets that share no object, be it over others,
+  /// are assigned by themselves: the cost of an assignment grows with more than its square.
   std::vector<int> assign(const std::vector<TargetScores>& scores, std::size_t objects);
 
   /// Of the objects that belong to no target.

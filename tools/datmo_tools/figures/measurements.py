@@ -4,7 +4,7 @@
 from functools import partial
 
 from datmo_tools.evaluate.thesis_tables import PUBLISHED
-from datmo_tools.experiments import simulated_run
+from datmo_tools.experiments import simulated_run, speed_report
 from datmo_tools.experiments.data_sets import SCORE_OPTIONS
 from datmo_tools.figures.step import Job, read_json
 
@@ -65,6 +65,8 @@ def _speed(bench, folder):
     return {
         "cpu_us": {name: run["cpu_us"] for name, run in measured["micro"].items()
                    if name.split("/")[0] in HOT_PATHS},
+        "limits": {name: dict(zip(("cpu_us", "limit_us", "ratio"), values))
+                   for name, values in speed_report.ratios(measured).items()},
         "live": {
             name: {key: run[key] for key in ("scans", "unanswered", "latency_ms")}
             for name, run in measured["live"].items()
