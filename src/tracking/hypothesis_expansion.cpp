@@ -108,7 +108,7 @@ class Builder {
       return found;
     }
     const Leaf& old = old_.trees[tree].leaves[static_cast<std::size_t>(parent)];
-    Leaf leaf = old.child(next_node_++);
+    Leaf& leaf = append(tree, parent, observation, old.child(next_node_++));
     const double seen = old.scores.detection_probability;
     if (observation == kUnseen) {
       leaf.target.miss(seen, context_.target);
@@ -117,17 +117,17 @@ class Builder {
                          context_.target);
       noteUse(observation, leaf.target.number());
     }
-    return append(tree, parent, observation, std::move(leaf));
+    return made_[tree].back().leaf;
   }
 
-  int append(std::size_t tree, int parent, std::size_t observation, Leaf leaf) {
+  Leaf& append(std::size_t tree, int parent, std::size_t observation, Leaf&& leaf) {
     const int index = static_cast<int>(trees_[tree].leaves.size());
     if (index == 0) {
       trees_[tree].leaves.reserve(kUsualLeaves);
     }
     trees_[tree].leaves.push_back(std::move(leaf));
     made_[tree].push_back({parent, observation, index});
-    return index;
+    return trees_[tree].leaves.back();
   }
 
   void startTarget(std::size_t observation, GlobalHypothesis& child) {

@@ -44,12 +44,13 @@ MultipleHypotheses::MultipleHypotheses(const TargetOptions& target,
                                        const HypothesisOptions& hypotheses,
                                        const SplitMergeOptions& split_merge)
     : target_options_(target),
+      steps_(target.filter),
       options_(association),
       hypothesis_options_(hypotheses),
       split_merge_(split_merge) {}
 
 void MultipleHypotheses::predict(double seconds) {
-  const ImmSteps steps = immSteps(target_options_.filter, seconds);
+  const ImmSteps& steps = steps_.of(seconds);
   for (HypothesisCluster& cluster : clusters_) {
     for (TrackTree& tree : cluster.trees) {
       for (Leaf& leaf : tree.leaves) {
@@ -60,6 +61,7 @@ void MultipleHypotheses::predict(double seconds) {
 }
 
 void MultipleHypotheses::associate(AssociationScan& scan, const StepBudget& budget) {
+  best_.reset();
   const std::uint64_t hurried = counts_.best_only_steps;
   score(scan);
   mergeCompeting(scan.objects);
@@ -186,6 +188,13 @@ void MultipleHypotheses::startTargets(const AssociationScan& scan, const std::ve
 }
 
 std::vector<BestTarget> MultipleHypotheses::best() const {
+  if (!best_) {
+    best_ = findBest();
+  }
+  return *best_;
+}
+
+std::vector<BestTarget> MultipleHypotheses::findBest() const {
   std::vector<BestTarget> result;
   for (const HypothesisCluster& cluster : clusters_) {
     const std::vector<double> probabilities = cluster.probabilities();
@@ -222,9 +231,19 @@ void MultipleHypotheses::change(std::uint64_t number, const std::function<void(T
 }
 
 void MultipleHypotheses::removeIf(const std::function<bool(const Target&)>& isLost) {
+  bool any = false;
+  const auto note = [&](const Target& target) {
+    const bool lost = isLost(target);
+    any = any || lost;
+    return lost;
+  };
   for (HypothesisCluster& cluster : clusters_) {
-    removeLeaves(cluster, isLost);
+    removeLeaves(cluster, note);
   }
+  if (!any) {
+    return;
+  }
+  best_.reset();
   clusters_.erase(
       std::remove_if(clusters_.begin(), clusters_.end(),
                      [](const HypothesisCluster& cluster) { return cluster.trees.empty(); }),

@@ -10,10 +10,10 @@ namespace datmo {
 
 NearestNeighborTargets::NearestNeighborTargets(const TargetOptions& target,
                                                const AssociationOptions& association)
-    : target_options_(target), options_(association) {}
+    : target_options_(target), steps_(target.filter), options_(association) {}
 
 void NearestNeighborTargets::predict(double seconds) {
-  const ImmSteps steps = immSteps(target_options_.filter, seconds);
+  const ImmSteps& steps = steps_.of(seconds);
   for (Target& target : targets_) {
     target.predict(seconds, steps, target_options_);
   }

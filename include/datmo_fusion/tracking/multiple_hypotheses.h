@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "datmo_fusion/tracking/hypothesis_cluster.h"
 #include "datmo_fusion/tracking/hypothesis_expansion.h"
+#include "datmo_fusion/tracking/imm_step_cache.h"
 #include "datmo_fusion/tracking/split_merge.h"
 #include "datmo_fusion/tracking/target_set.h"
 
@@ -29,6 +31,7 @@ class MultipleHypotheses : public TargetSet {
   void removeIf(const std::function<bool(const Target&)>& isLost) override;
   const AssociationCounts& counts() const override { return counts_; }
   void clear() override {
+    best_.reset();
     clusters_.clear();
     counts_ = {};
   }
@@ -42,12 +45,15 @@ class MultipleHypotheses : public TargetSet {
   void startTargets(const AssociationScan& scan, const std::vector<bool>& claimed,
                     std::vector<HypothesisCluster>& next);
   std::size_t targets() const;
+  std::vector<BestTarget> findBest() const;
 
   TargetOptions target_options_;
+  ImmStepCache steps_;
   AssociationOptions options_;
   HypothesisOptions hypothesis_options_;
   SplitMergeOptions split_merge_;
   std::vector<HypothesisCluster> clusters_;
+  mutable std::optional<std::vector<BestTarget>> best_;  ///< none: something has changed
   std::uint64_t scan_number_ = 0;
   std::uint64_t next_number_ = 1;
   std::uint64_t next_node_ = 1;

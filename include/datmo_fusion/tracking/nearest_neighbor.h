@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "datmo_fusion/tracking/imm_step_cache.h"
 #include "datmo_fusion/tracking/target_set.h"
 
 namespace datmo {
@@ -35,6 +36,7 @@ class NearestNeighborTargets : public TargetSet {
   void startTargets(const AssociationScan& scan, const std::vector<bool>& explained);
 
   TargetOptions target_options_;
+  ImmStepCache steps_;
   AssociationOptions options_;
   std::vector<Target> targets_;  ///< by rising number
   std::uint64_t next_number_ = 1;

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "datmo_fusion/tracking/imm_filter.h"
+
+namespace datmo {
+
+/// The steps of the last time, for sensors that keep their period.
+class ImmStepCache {
+ public:
+  explicit ImmStepCache(const ImmOptions& options) : options_(options) {}
+
+  /// See immSteps(). Valid until the next call.
+  const ImmSteps& of(double seconds) {
+    if (!steps_ || steps_->front().seconds != seconds) {
+      steps_ = immSteps(options_, seconds);
+    }
+    return *steps_;
+  }
+
+ private:
+  ImmOptions options_;
+  std::optional<ImmSteps> steps_;
+};
+
+}  // namespace datmo
