@@ -39,7 +39,7 @@ def summarize(report):
             runs.setdefault(run["run_name"] + "/fit", {}).update(_fit(run))
         elif run["run_type"] == wanted and aggregate == "median":
             runs[run["run_name"]] = _figures(run)
-    return runs
+    return dict(sorted(runs.items()))  # they ran in turns
 
 
 def _fit(run):
