@@ -152,7 +152,9 @@ std::optional<PoseWithCovariance> MapRecovery::advance(const OccupancyMap& newer
     // Others that fit nearly as well do not refute what was found before; one that fits better
     // does.
     const std::optional<Pose2> likeliest = search_->likeliest();
-    if (candidate_ && !(likeliest && agreesWithCandidate(*likeliest))) {
+    const bool refuted = outcome == MapSearch::Outcome::kNone ||
+                         (candidate_ && likeliest && !agreesWithCandidate(*likeliest));
+    if (refuted) {
       candidate_.reset();
     }
   } else if (const PoseWithCovariance then = search_->found(); confirms(then.pose)) {

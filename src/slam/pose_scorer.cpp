@@ -72,7 +72,7 @@ double PoseScorer::sumOfBlock(std::size_t begin, const Pose2& pose,
                               const Eigen::Matrix2d& rotation) const {
   const std::size_t count = std::min(kBlock, count_ - begin);
   double sum = 0.0;
-  // In this order numbers that are none are far away.
+  // In this order NaN counts as far away.
   if (std::abs(pose.x()) + std::abs(pose.y()) + max_range_ < max_distance_) {
     const Cells cells = cellsOfBlock(begin, pose, rotation);
     for (std::size_t i = 0; i < count; ++i) {

@@ -2,6 +2,7 @@
 #include "datmo_fusion/tracking/duplicates.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <Eigen/LU>
 
@@ -70,6 +71,9 @@ std::set<std::uint64_t> findDuplicates(const std::vector<const Target*>& targets
   double max_reach = 0.0;
   for (const Target* target : targets) {
     const Box2 box = target->box();
+    if (!(std::isfinite(box.center.x()) && std::isfinite(box.center.y()))) {
+      continue;  // it is lost, and has no place in an order
+    }
     all.push_back({target, box, kSlack + 0.5 * options.reach * (box.length + box.width)});
     if (target->confirmed()) {
       confirmed.push_back(all.back());

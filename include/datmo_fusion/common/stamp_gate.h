@@ -31,7 +31,7 @@ class StampGate {
   explicit StampGate(double restart_after = 1.0) : restart_after_(restart_after) {}
 
   /// `now`: ROS time at which the message came; without it each jump is followed at once.
-  /// `others`: the last stamp of the other streams that came lately, whatever became of it; none:
+  /// `others`: the last stamp of the other streams that came lately, also a stray one; none:
   /// there are no others.
   StampVerdict judge(Stamp stamp, const std::optional<Stamp>& now = std::nullopt,
                      const std::optional<Stamp>& others = std::nullopt);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 #include "datmo_fusion/fusion/object/fused_existence.h"
@@ -38,11 +37,14 @@ double positionStd(const Track& track) {
   return std::sqrt(0.5 * track.covariance.topLeftCorner<2, 2>().trace());
 }
 
-/// From the nearest of the sensors, m.
-double rangeFrom(const std::vector<ViewFan>& fans, const Track& track) {
-  double nearest = std::numeric_limits<double>::infinity();
+/// From the nearest of the sensors that looked, m; none if none did.
+std::optional<double> rangeFrom(const std::vector<ViewFan>& fans, const Track& track) {
+  std::optional<double> nearest;
   for (const ViewFan& fan : fans) {
-    nearest = std::min(nearest, (track.box.center.position() - fan.sensor.position()).norm());
+    const double range = (track.box.center.position() - fan.sensor.position()).norm();
+    if (!fan.reach.empty() && (!nearest || range < *nearest)) {
+      nearest = range;
+    }
   }
   return nearest;
 }
@@ -204,9 +206,8 @@ void TrackFuser::look(const std::vector<SourceTracks>& sources, double seconds) 
       }
       std::optional<double>& looked = target.looked[source];
       looked = looked ? *looked + share * (now - *looked) : now;
-      if (fans_of[source] != nullptr) {
-        target.ranges[source] = rangeFrom(*fans_of[source], target.track);
-      }
+      target.ranges[source] =
+          fans_of[source] != nullptr ? rangeFrom(*fans_of[source], target.track) : std::nullopt;
     }
   }
 }
@@ -243,10 +244,12 @@ void TrackFuser::judge(FusedTarget& target, Stamp stamp,
     const TrackSourceOptions& own = options_.sources.at(names_[source]);
     const Track* const track = trackOf(target, source, present);
     const double looked = target.looked[source].value_or(0.0);
+    // Who has a track far away has one as much against chance as close by: both get rarer.
+    const double range = track != nullptr ? 0.0 : target.ranges[source].value_or(0.0);
     reports.push_back(
         {track != nullptr,
          track != nullptr ? std::min(track->existence_probability, own.true_share) : 0.0, looked,
-         own.detection.probability(target.track.class_probabilities, target.ranges[source]),
+         own.detection.probability(target.track.class_probabilities, range),
          by_two ? own.false_agreement_probability : kSurelyAgrees});
     seen_by_all = seen_by_all && (track != nullptr || looked < kCanSee);
   }

@@ -26,6 +26,7 @@ Arrival StageRunner::arrivalOf(const std::string& input, const ros::Time& stamp)
   const std::optional<Stamp>& now = monitor_.now();
   Stream& stream =
       streams_.try_emplace(input, Stream{StampCheck(restart_after_), {}, {}}).first->second;
+  StampCheck::checkValue(stamp);
   stream.last = toStamp(stamp);
   stream.came = now;
   return stream.stamps.check(stamp, now, lastOfOthers(input));

@@ -25,12 +25,16 @@ void StreamOptions::visit(OptionVisitor& visitor) {
                  silence_after, {0.1, 60.0});
 }
 
-Arrival StampCheck::check(const ros::Time& time, const std::optional<Stamp>& now,
-                          const std::optional<Stamp>& others) {
+void StampCheck::checkValue(const ros::Time& time) {
   if (time.isZero()) {
     throw InputError("zero_stamp", "stamp 0: expected the time of the measurement");
   }
   checkStampRange(time);
+}
+
+Arrival StampCheck::check(const ros::Time& time, const std::optional<Stamp>& now,
+                          const std::optional<Stamp>& others) {
+  checkValue(time);
   const auto newest = gate_.newest();
   switch (gate_.judge(toStamp(time), now, others)) {
     case StampVerdict::kRepeated:

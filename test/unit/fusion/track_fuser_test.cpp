@@ -97,6 +97,23 @@ TEST(TrackFuserTest, WhatOneSourceHasComesOutWhereTheOtherWouldHardlyHaveIt) {
   EXPECT_EQ(existenceOf(ObjectClass::kPedestrian, 0.8), 0.0) << "its tracker is not sure";
 }
 
+TEST(TrackFuserTest, WhatASourceLacksFarAwayCountsLess) {
+  TrackFuserOptions options;
+  options.scheme = TrackScheme::kUnion;
+  options.published_existence = 0.5;
+  options.sources["lidar"].detection = {{0.5, 20.0}, {0.5, 20.0}, {0.5, 20.0}};
+  const auto existenceAt = [&](double range) {
+    TrackFuser fuser{options};
+    const TrackFusionResult result =
+        fuser.fuse(at(0.0), {lidar(0.0, {}), stereo(0.0, {driving(range, 0.0, "stereo")})});
+    return result.list.tracks.at(0).existence_probability;
+  };
+  // Odds of 9, times 1 - 0.5 / 2 of what is looked at where that is half, and nearly 1 far away.
+  EXPECT_NEAR(existenceAt(20.0), 9.0 * 0.75 / (9.0 * 0.75 + 1.0), 0.02);
+  EXPECT_GT(existenceAt(38.0), 0.895);
+  EXPECT_LT(existenceAt(5.0), 9.0 * 0.6 / (9.0 * 0.6 + 1.0));
+}
+
 TEST(TrackDetection, IsTheMeanOverTheClassesItMayBeOf) {
   constexpr double kFar = 1000.0;  // m
   const TrackDetectionOptions detection{{0.2, kFar}, {0.5, kFar}, {0.8, kFar}};

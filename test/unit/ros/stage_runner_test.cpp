@@ -90,6 +90,15 @@ TEST_F(StageRunnerTest, AClockThatJumpsOnOneInputAloneIsNotFollowed) {
   EXPECT_EQ(monitor_.drops().at("stray_stamp"), 20U);
 }
 
+TEST_F(StageRunnerTest, WhoSendsNoStampsContradictsNobody) {
+  monitor_.setTime(Stamp::fromSeconds(100.0));
+  take("scan", 100.0);
+  EXPECT_FALSE(take("odometry", 0.0));
+  EXPECT_FALSE(take("scan", 160.0)) << "not confirmed yet";
+  EXPECT_FALSE(take("odometry", 0.0));
+  EXPECT_TRUE(take("scan", 160.1));
+}
+
 TEST_F(StageRunnerTest, AResetSaysWhyAndWhatItDoes) {
   runner_.reset("other_map", "the map is 'b', it was 'a' before");
   EXPECT_EQ(resets_, 1);

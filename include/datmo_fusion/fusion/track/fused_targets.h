@@ -29,7 +29,7 @@ struct FusedTarget {
   bool published = false;         ///< came out
   /// By number of the source: that it would have detected it lately; none: not evaluated yet.
   std::vector<std::optional<double>> looked;
-  std::vector<double> ranges;  ///< m, the same: from its sensor; 0: not known
+  std::vector<std::optional<double>> ranges;  ///< m, the same: from its sensor; none: not known
 
   /// Id of this source's track of it; none if it has none.
   std::optional<std::uint32_t> member(const std::string& source) const;

@@ -27,8 +27,8 @@ struct ClassDetectionOptions {
   double probability(double range) const;
 };
 
-/// The same of all classes. The defaults are for a source that was not calibrated: what it does not
-/// have counts little. calibrate_track_sources measures them.
+/// The same of all classes. The defaults are for a source that was not calibrated: that it has no
+/// track of a person counts little. calibrate_track_sources measures them.
 struct TrackDetectionOptions {
   ClassDetectionOptions pedestrian{0.3, 25.0};
   ClassDetectionOptions cyclist{0.6, 30.0};

@@ -68,7 +68,7 @@ class StageRunner {
  private:
   struct Stream {
     StampCheck stamps;
-    Stamp last;                 ///< whatever became of it
+    Stamp last;                 ///< that passed the other checks, stray ones too
     std::optional<Stamp> came;  ///< ROS time then
   };
 

@@ -29,6 +29,9 @@ class StampCheck {
  public:
   explicit StampCheck(double restart_after) : gate_(restart_after) {}
 
+  /// Throws InputError for a stamp that is none (`zero_stamp`, `stamp_out_of_range`).
+  static void checkValue(const ros::Time& time);
+
   /// `now`: ROS time at which the message came; `others`: as StampGate has them. Throws InputError
   /// for a stamp of zero
   /// (`zero_stamp`), one beyond reason (`stamp_out_of_range`), one that was there before
