@@ -96,6 +96,18 @@ class LaunchSwitches(unittest.TestCase):
                 ours = {kind for kind in kinds if kind.startswith("datmo_fusion/")}
                 self.assertLessEqual(ours, known)
 
+    def test_no_test_has_the_name_of_a_node_that_it_starts(self):
+        """A test is a node of that name, too: of two with one name the master ends the first."""
+        for file in sorted((PACKAGE / "test/nodelets").glob("*.test")):
+            root = ElementTree.parse(file)
+            nodes = {node.get("name") for node in root.iter("node")}
+            for include in root.iter("include"):
+                started = PACKAGE / include.get("file").split("/", 1)[1]
+                nodes |= {node.get("name") for node in ElementTree.parse(started).iter("node")}
+            names = {test.get("test-name") for test in root.iter("test")}
+            self.assertTrue(names, file)
+            self.assertFalse(names & nodes, file)
+
     def test_the_demos_build_what_is_started(self):
         started = {node.get("type") for file in (PACKAGE / "launch").glob("*.launch")
                    for node in ElementTree.parse(file).getroot().iter("node")
