@@ -20,7 +20,8 @@ def source_plot(tallies, kind):
         for color, (name, tally) in enumerate(tallies.items()):
             _draw_detection(axes[0], name, tally, series_color(color))
             _draw_false(axes[1], name, tally, series_color(color))
-        axes[0].set_title("Share of the frames in which it has a track of what it could see; lines: the law", loc="left")
+        title = "Share of the frames in which it has a track of what it could see; lines: the law"
+        axes[0].set_title(title, loc="left")
         axes[0].set_ylim(0.0, 1.3)
         axes[1].set_title("Frames of false tracks a minute", loc="left")
         axes[1].set_xlabel("range (m)")

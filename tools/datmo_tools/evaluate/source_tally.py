@@ -49,7 +49,8 @@ class DetectionLaw(NamedTuple):
 
 
 class SourceTally:
-    """Of one source, over all drives that were added. Ranges: m from its sensor, in bins."""
+    """Of one source, over all drives that were added. Ranges, in bins: of road users m from its
+    sensor, of its tracks m from the vehicle."""
 
     def __init__(self, bin_width):
         """bin_width: m."""
@@ -151,8 +152,8 @@ class SourceTally:
 
 
 def _movers(frame):
-    """Dictionary id -> ((class, range from the sensor), whether the source could see it) of the road users that
-    move now."""
+    """Dictionary id -> ((class, range from the sensor), whether the source could see it) of the road
+    users that move now."""
     moment = frame.moment
     in_map = transforms.compose(frame.base, moment.poses)
     movers = {}

@@ -52,8 +52,8 @@ class StageRunner {
 
   /// How a message's stamp follows the last one of its input. When the clock has jumped back, which
   /// ROS time (StageMonitor::now) has confirmed or a second message, while no other input
-  /// contradicts it, all inputs start over and the
-  /// stage is reset before this returns. To be called when nothing else is wrong with the message.
+  /// contradicts it, all inputs start over and the stage is reset before this returns. To be called
+  /// when nothing else is wrong with the message.
   /// Throws InputError (`zero_stamp`, `repeated_stamp`, `old_stamp`, `stray_stamp`).
   void check(const std::string& input, const ros::Time& stamp);
 

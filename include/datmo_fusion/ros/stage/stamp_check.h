@@ -33,8 +33,8 @@ class StampCheck {
   static void checkValue(const ros::Time& time);
 
   /// `now`: ROS time at which the message came; `others`: as StampGate has them. Throws InputError
-  /// for a stamp of zero
-  /// (`zero_stamp`), one beyond reason (`stamp_out_of_range`), one that was there before
+  /// for a stamp of zero (`zero_stamp`), one beyond reason (`stamp_out_of_range`), one that was
+  /// there before
   /// (`repeated_stamp`), one that comes too late (`old_stamp`), and one that is far off while
   /// nothing confirms that the clock has jumped (`stray_stamp`).
   Arrival check(const ros::Time& time, const std::optional<Stamp>& now = std::nullopt,
