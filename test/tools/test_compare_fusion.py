@@ -32,7 +32,8 @@ def report(moving, missed, false=15):
     return {
         "thesis": {"moving_objects": moving, "missed_objects": missed, "tracks": 42,
                    "false_tracks": false},
-        "clear_mot": {"mota": 0.5}, "identity": {"idf1": 0.625},
+        "clear_mot": {"mota": 0.5, "required": 100, "misses": 30, "false_positives": 19,
+                      "id_switches": 1}, "identity": {"idf1": 0.625},
         "errors": {"position_rmse_m": 0.456},
         "near_errors": {"position_rmse_m": 0.123}, "classes": {"right_share": 0.8},
         "delay": {"mean_s": 0.75},
@@ -70,25 +71,30 @@ class Table(unittest.TestCase):
         self.run = figures(report(30, 4), report(33, 6), report(30, 4, false=3), TIMES)
 
     def test_all_figures(self):
-        text = comparison_table([("set", PUBLISHED[0], "none", self.run)])
+        text = comparison_table([("set", PUBLISHED[0], "none", [self.run])])
         self.assertEqual(rows(text)[0], [
             "set", "none", "10", "4", "of", "30", "6", "of", "33", "42", "15", "3", "50.0", "62.5",
             "0.46", "0.12", "80.0", "0.75", "7.0"])  # fmt: skip
 
     def test_thesis_counted_without_and_with_fusion_of_objects(self):
         text = comparison_table([
-            ("set", PUBLISHED[2], level, self.run) for level in ("none", "low", "object")
+            ("set", PUBLISHED[2], level, [self.run]) for level in ("none", "low", "object")
         ])  # fmt: skip
         self.assertEqual([row[2] for row in rows(text)], ["7", "-", "4"])
 
     def test_what_there_is_not(self):
         run = figures(dict(report(5, 3), delay={"mean_s": None}), None, report(5, 3), TIMES)
-        text = comparison_table([("drive", None, "none", run), ("drive", None, "object", None)])
+        text = comparison_table([("drive", None, "none", [run]), ("drive", None, "object", [])])
         first, second = rows(text)
         self.assertEqual(first[2:7], ["-", "3", "of", "5", "-"])
         self.assertEqual(first[-2:], ["-", "7.0"])
         self.assertEqual(second, ["drive", "object"] + 13 * ["-"])
 
+    def test_seeds_are_median_and_range(self):
+        runs = [figures(report(30, missed), report(33, 6), report(30, 4), TIMES)
+                for missed in (4, 9, 5)]  # fmt: skip
+        text = comparison_table([("set", None, "none", runs)])
+        self.assertEqual(" ".join(rows(text)[0][3:9]), "5 (4 to 9) of 30")
 
     def test_objects_by_level(self):
         text = objects_table([("none", self.run), ("low", None), ("object", self.run)])
@@ -151,36 +157,43 @@ class Runs(unittest.TestCase):
         return self.out.joinpath(*position).read_text().split()
 
     def test_each_set_at_each_level(self):
-        code, out, _ = self.compare()
+        code, out, _ = self.compare("--seeds", "1", "2")
         self.assertEqual(code, 0)
         self.assertEqual([row[:6] for row in rows(out)[:24]], [
             [f"data_set_{i}", level, thesis, "4", "of", "30"]
             for i, missed, fused in ((1, "10", "7"), (2, "12", "8"), (3, "7", "4"))
             for level, thesis in (
                 ("none", missed), ("low", "-"), ("object", fused), ("track", "-"),
-                ("low+object", "-"), ("low+track", "-"), ("object+track", "-"),
-                ("low+object+track", "-"))
+                ("none+borders", "-"), ("low+borders", "-"), ("object+borders", "-"),
+                ("recommended", "-"))
         ])  # fmt: skip
-        self.assertIn("stereo/enabled=true", self.words_of("data_set_1", "drive.bag"))
-        for level in ("none", "low", "object", "track", "low+object+track"):
-            words = self.words_of("data_set_1", level, "result.bag")
+        for seed in ("1", "2"):
+            words = self.words_of(f"data_set_1_{seed}", "drive.bag")
+            self.assertLessEqual({"stereo/enabled=true", f"seed={seed}"}, set(words))
+        for level in ("none", "low", "object", "track", "low+borders"):
+            words = self.words_of("data_set_1_1", level, "result.bag")
             for name, word in (("low", "--low-level-fusion"), ("object", "--object-fusion"),
-                               ("track", "--track-fusion")):  # fmt: skip
+                               ("track", "--track-fusion"),
+                               ("borders", "--road-border")):  # fmt: skip
                 self.assertEqual(word in words, name in level, level)
+        words = self.words_of("data_set_1_1", "recommended", "result.bag")
+        self.assertEqual(words[words.index("--fusion") + 1], "recommended")
         runs = json.loads((self.out / "comparison.json").read_text())["runs"]
-        self.assertEqual(len(runs), 24)
+        self.assertEqual(len(runs), 48)
+        self.assertEqual([runs[8][key] for key in ("drive", "run", "level")],
+                         ["data_set_1", "data_set_1_2", "none"])  # fmt: skip
         self.assertEqual(runs[0]["figures"]["missed_objects_any_sensor"], 6)
         self.assertEqual(runs[0]["figures"]["false_tracks"], 15)
         self.assertEqual(runs[0]["figures"]["false_tracks_in_view"], 2)
         picture = (self.out / "comparison.svg").read_text()
-        for text in ("data_set_3", "low+object+track", "false tracks in the camera"):
+        for text in ("data_set_3", "object+borders", "false tracks in the camera"):
             self.assertIn(text, picture)
 
     def test_chosen_sets_and_levels(self):
-        out = self.compare("--sets", "2", "--levels", "low+object")[1]
+        out = self.compare("--sets", "2", "--seeds", "7", "--levels", "low+object")[1]
         self.assertEqual(rows(out)[0][:3], ["data_set_2", "low+object", "-"])
-        self.assertFalse((self.out / "data_set_1").exists())
-        words = self.words_of("data_set_2", "low+object", "result.bag")
+        self.assertEqual([path.name for path in self.out.glob("data_set_*")], ["data_set_2_7"])
+        words = self.words_of("data_set_2_7", "low+object", "result.bag")
         self.assertLessEqual({"--low-level-fusion", "--object-fusion"}, set(words))
 
     def test_labeled_drive(self):
@@ -196,31 +209,32 @@ class Runs(unittest.TestCase):
 
     def test_failed_run_is_reported_and_the_others_go_on(self):
         self.run_bag('case "$*" in *--object*) echo "no list" >&2; exit 1;; esac')
-        code, out, _ = self.compare("--sets", "1", "--levels", "none", "low", "object")
+        code, out, _ = self.compare(
+            "--sets", "1", "--seeds", "3", "--levels", "none", "low", "object")  # fmt: skip
         self.assertEqual(code, 1)
-        self.assertIn("data_set_1, object: no list", out)
+        self.assertIn("data_set_1_3, object: no list", out)
         self.assertEqual([row[3] for row in rows(out)[:3]], ["4", "4", "-"])
         runs = json.loads((self.out / "comparison.json").read_text())["runs"]
         self.assertIsNone(runs[2]["figures"])
 
     def test_program_that_is_ended_is_reported(self):
         self.run_bag("kill -SEGV $$")
-        out = self.compare("--sets", "1", "--levels", "none")[1]
-        self.assertIn("data_set_1, none: run_bag: ended by signal 11 (Segmentation fault)", out)
+        out = self.compare("--sets", "1", "--seeds", "3", "--levels", "none")[1]
+        self.assertIn("data_set_1_3, none: run_bag: ended by signal 11 (Segmentation fault)", out)
 
     def test_failed_recording_is_reported_once(self):
         self.program("simulate", 'echo "no road" >&2; exit 1')
-        code, out, _ = self.compare("--sets", "1")
+        code, out, _ = self.compare("--sets", "1", "--seeds", "3")
         self.assertEqual(code, 1)
-        self.assertEqual(out.count("data_set_1: no road"), 1)
+        self.assertEqual(out.count("data_set_1_3: no road"), 1)
 
     def test_recordings_may_be_used_again(self):
-        self.compare("--sets", "1", "--levels", "none")
-        (self.out / "data_set_1" / "drive.bag").write_text("mine")
-        self.compare("--sets", "1", "--levels", "none", "--reuse-drives")
-        self.assertEqual(self.words_of("data_set_1", "drive.bag"), ["mine"])
-        self.compare("--sets", "1", "--levels", "none")
-        self.assertNotEqual(self.words_of("data_set_1", "drive.bag"), ["mine"])
+        self.compare("--sets", "1", "--seeds", "3", "--levels", "none")
+        (self.out / "data_set_1_3" / "drive.bag").write_text("mine")
+        self.compare("--sets", "1", "--seeds", "3", "--levels", "none", "--reuse-drives")
+        self.assertEqual(self.words_of("data_set_1_3", "drive.bag"), ["mine"])
+        self.compare("--sets", "1", "--seeds", "3", "--levels", "none")
+        self.assertNotEqual(self.words_of("data_set_1_3", "drive.bag"), ["mine"])
 
     def test_missing_file_is_named(self):
         (self.folder / "data_set_3.yaml").unlink()

@@ -12,11 +12,11 @@ import unittest
 from pathlib import Path
 
 from datmo_tools.errors import InputError
-from datmo_tools.figures import data_sets, render, results_file, steps
+from datmo_tools.figures import cameras, data_sets, render, results_file, steps
 from datmo_tools.figures.main import check, main, write_pages
 from datmo_tools.figures.pass_of_steps import run_steps
-from datmo_tools.figures.spread import rounded, spread, spread_of
 from datmo_tools.figures.step import Bench, Job, Step, by_name
+from datmo_tools.spread import rounded, spread, spread_of
 
 ROOT = Path(__file__).resolve().parents[2]
 README = f"# A\n\n{render.BEGIN}\nold\n{render.END}\nrest\n"
@@ -81,6 +81,35 @@ class Pooled(unittest.TestCase):
         self.assertEqual((vehicles["objects"], vehicles["found"]), (3, 2))
         self.assertAlmostEqual(vehicles["delay_s"], 0.4)
         self.assertIsNone(delays["delays"]["cyclist"]["delay_s"])
+
+
+class FusionFigures(unittest.TestCase):
+    """Two drives with two seeds, and one that was driven once."""
+
+    def run_of(self, drive, seed, misses, mota):
+        counts = {"moving_objects": 10, "missed_objects": 1, "tracks": 12, "false_tracks": 2,
+                  "required": 100, "misses": misses, "false_positives": 5, "id_switches": 1}  # fmt: skip
+        run = drive if seed is None else f"data_set_{drive}_{seed}"
+        return {"drive": drive, "run": run, "camera": seed, "tracks": None,
+                "levels": {"none": {**counts, "mota": mota}}}  # fmt: skip
+
+    def setUp(self):
+        self.found = cameras.fusion_figures([
+            self.run_of("1", 1, 34, 0.6), self.run_of("1", 2, 14, 0.8),
+            self.run_of("2", 1, 54, 0.4), self.run_of("2", 2, 24, 0.7),
+            self.run_of(cameras.KITTI, None, 4, 0.9)])  # fmt: skip
+
+    def test_each_drive_has_the_spread_of_its_seeds(self):
+        drives = self.found["drives"]
+        self.assertEqual(drives["1"]["levels"]["none"]["mota"], [0.7, 0.6, 0.8])
+        self.assertEqual(drives["1"]["camera"], 1)
+        self.assertEqual(drives[cameras.KITTI]["levels"]["none"]["misses"], [4, 4, 4])
+
+    def test_simulated_drives_of_a_seed_are_taken_together(self):
+        together = self.found["all"]["none"]
+        self.assertEqual(together["misses"], [63, 38, 88])
+        self.assertEqual(together["mota"], [0.625, 0.5, 0.75])
+        self.assertEqual(together["false_tracks"], [4, 4, 4])
 
 
 class Pass(InFolder):

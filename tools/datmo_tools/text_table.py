@@ -19,6 +19,15 @@ def rounded(value, digits):
     return NO_VALUE if value is None else f"{value:.{digits}f}"
 
 
+def spread(values, digits=0, scale=1.0):
+    """[median, min, max] as `median (min to max)`, or the median alone where they look the same;
+    NO_VALUE for None."""
+    if values is None:
+        return NO_VALUE
+    median, lowest, highest = (f"{value * scale:.{digits}f}" for value in values)
+    return median if lowest == highest else f"{median} ({lowest} to {highest})"
+
+
 def percent(share, digits=1):
     """A share as percent, or NO_VALUE for None."""
     return NO_VALUE if share is None else f"{100.0 * share:.{digits}f}"

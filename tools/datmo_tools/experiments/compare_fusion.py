@@ -15,25 +15,26 @@ from datmo_tools.evaluate.thesis_tables import PUBLISHED
 from datmo_tools.experiments import simulated_run
 from datmo_tools.experiments.camera_view import LIST_PARAMETERS, camera_view
 from datmo_tools.experiments.fusion_comparison import comparison_table, figures, objects_table
-from datmo_tools.experiments.fusion_drives import LEVELS, Kitti, data_sets, within
+from datmo_tools.experiments.fusion_drives import (
+    COMBINATIONS, LEVELS, Kitti, data_sets, within)  # fmt: skip
 from datmo_tools.experiments.fusion_plot import comparison_plot
 from datmo_tools.programs import StepFailed
 from datmo_tools.whole_files import write_whole
 
 DESCRIPTION = """\
-Drives the scenes data_set_1 to data_set_3, simulated with a stereo camera (10 MB for each second),
-and a labeled KITTI drive, where there is one, through the stack at several levels of fusion, and
-prints what became of their moving objects beside the thesis's table 3.2. Each drive is recorded
-once, for all levels. Bags and scores of each stay in a folder of its own, for evaluate, all figures
-in comparison.json, and a picture of them in comparison.svg. A run that gives no score is reported,
-and the others go on; the exit code is then 1."""
+Drives the scenes data_set_1 to data_set_3, simulated with a stereo camera (10 MB for each second)
+and several seeds, and a labeled KITTI drive, where there is one, through the stack at several levels
+of fusion, and prints what became of their moving objects beside the thesis's table 3.2. Each drive
+is recorded once, for all levels. Bags and scores of each stay in a folder of its own, for evaluate,
+all figures in comparison.json, and a picture of them in comparison.svg. A run that gives no score is
+reported, and the others go on; the exit code is then 1."""
 
 
 class Result(NamedTuple):
     """What came of one drive at one level."""
 
     drive: object  # of fusion_drives
-    level: str  # of LEVELS
+    level: str  # of LEVELS or COMBINATIONS
     figures: Optional[dict] = None
     failure: Optional[str] = None
 
@@ -51,10 +52,7 @@ def _compare(values):
     drives, notes = _drives(values)
     views = {drive.config: camera_view(drive.config, values.programs) for drive in drives}
     results = _run_all(drives, views, values)
-    print(comparison_table([
-        (result.drive.name, result.drive.published, result.level, result.figures)
-        for result in results
-    ]))  # fmt: skip
+    print(comparison_table(_table_rows(results)))
     for drive in drives:
         # The thesis counts them; of a labeled drive each can be looked at.
         if drive.published is None:
@@ -72,10 +70,20 @@ def _compare(values):
     return not failures
 
 
+def _table_rows(results):
+    """One for each drive and level, with the figures of all seeds."""
+    rows = {}
+    for result in results:
+        row = rows.setdefault((result.drive.name, result.level), (result.drive.published, []))
+        if result.figures is not None:
+            row[1].append(result.figures)
+    return [(name, published, level, runs) for (name, level), (published, runs) in rows.items()]
+
+
 def _drives(values):
     """The drives, and notes of what is not there."""
     programs.check(values.programs, [*simulated_run.STEPS, LIST_PARAMETERS])
-    drives, notes = data_sets(values.scenes, values.config, values.sets), []
+    drives, notes = data_sets(values.scenes, values.config, values.sets, values.seeds), []
     for file in [drive.scene for drive in drives] + [values.config, values.kitti_config]:
         if not file.is_file():
             raise InputError(f"{file}: no such file, expected a yaml file")
@@ -111,7 +119,7 @@ def _run_all(drives, views, values):
 
 def _record(drive, values):
     """The drive's bag (Path)."""
-    recorded = values.out / drive.name / "drive.bag"
+    recorded = values.out / drive.folder_name / "drive.bag"
     if not (values.reuse_drives and recorded.is_file()):
         recorded.parent.mkdir(parents=True, exist_ok=True)
         drive.record(values.programs, recorded)
@@ -123,22 +131,21 @@ def _run(drive, level, recording, view, values):
     try:
         recorded = recording.result()
     except (StepFailed, OSError) as error:
-        return Result(drive, level, failure=f"{drive.name}: {error}")
+        return Result(drive, level, failure=f"{drive.folder_name}: {error}")
     folder = recorded.parent / level
     try:
         folder.mkdir(exist_ok=True)
         found = _figures(drive, level, recorded, folder, view, values)
         return Result(drive, level, found)
     except (StepFailed, OSError) as error:
-        return Result(drive, level, failure=f"{drive.name}, {level}: {error}")
+        return Result(drive, level, failure=f"{drive.folder_name}, {level}: {error}")
 
 
 def _figures(drive, level, recorded, folder, view, values):
     built, times = values.programs, folder / "times.json"
-    borders = ("--road-border",) if values.road_border else ()
     report = simulated_run.run_recorded(
         recorded, built, drive.config, folder, drive.score_options,
-        (*LEVELS[level], *borders, "--times", times))  # fmt: skip
+        (*{**LEVELS, **COMBINATIONS}[level], "--times", times))  # fmt: skip
     wide_report = drive.wide_score_options and simulated_run.score(
         folder / "result.bag", built, drive.wide_score_options, folder / "score_any_sensor.json")
     view_report = simulated_run.score(
@@ -150,8 +157,8 @@ def _figures(drive, level, recorded, folder, view, values):
 
 def _as_json(results):
     runs = [
-        {"drive": result.drive.name, "level": result.level, "failure": result.failure,
-         "figures": result.figures}
+        {"drive": result.drive.name, "run": result.drive.folder_name, "level": result.level,
+         "failure": result.failure, "figures": result.figures}
         for result in results
     ]  # fmt: skip
     return json.dumps({"runs": runs}, indent=2) + "\n"
@@ -168,9 +175,10 @@ def _parser():
     add("--kitti-config", required=True, type=Path, metavar="CONFIG.yaml", help="its sensor set")
     add("--programs", required=True, type=Path, metavar="DIR",
         help="folder of simulate, run_bag, score_run and kitti_to_bag")  # fmt: skip
-    add("--levels", nargs="+", choices=list(LEVELS), default=list(LEVELS),
-        help="of fusion (default: all)")  # fmt: skip
-    add("--road-border", action="store_true", help="all levels with borders of the road")
+    add("--levels", nargs="+", choices=[*LEVELS, *COMBINATIONS], default=list(LEVELS),
+        help="of fusion (default: each without and with borders of the road)")  # fmt: skip
+    add("--seeds", nargs="+", type=int, default=[1, 2, 3, 4, 5], metavar="SEED",
+        help="of the simulated drives (default: 1 to 5)")  # fmt: skip
     numbers = list(range(1, len(PUBLISHED) + 1))
     add("--sets", nargs="*", type=int, choices=numbers, default=numbers,
         help="data sets (default: all)")  # fmt: skip

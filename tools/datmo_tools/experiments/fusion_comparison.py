@@ -1,12 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The figures of runs at several levels of fusion, and their table."""
 
+import statistics
+
 from datmo_tools.experiments.fusion_table import time_per_scan
-from datmo_tools.text_table import NO_VALUE, aligned, percent, rounded
+from datmo_tools.spread import spread
+from datmo_tools.text_table import NO_VALUE, aligned, percent
+from datmo_tools.text_table import spread as spread_text
 
 NOTE = """\
 Levels of fusion: none, the scanner alone; low, grids of scanner and stereo camera (thesis 3.2);
-object, objects of both (thesis 3.3); track, tracks of both (thesis 3.4). Missed: moving objects that
+object, objects of both (thesis 3.3); track, tracks of both (thesis 3.4); borders: with those of the
+road; recommended: track, with borders. A figure is the median of the seeds, with the smallest and
+largest in brackets. Missed: moving objects that
 no track ever matched, of those that the scanner saw moving, however briefly, and, by any, of those
 that either sensor did; of a labeled drive, of all that move in the camera's view. Beside it what the
 thesis missed without and with fusion of objects (table 3.2): its data sets were driven, ours are
@@ -18,6 +24,9 @@ scan, without the matching of images."""
 
 # Levels at which the thesis has a count: its field in Published.
 THESIS_MISSED = {"none": "missed", "object": "missed_with_fusion"}
+
+# What MOTA is made of, so that drives can be taken together.
+MOTA_COUNTS = ("required", "misses", "false_positives", "id_switches")
 
 # What is kept of each moving object.
 OBJECT_KEYS = ("id", "label", "class", "first_s", "last_s", "required_frames", "tracked_frames",
@@ -40,7 +49,7 @@ def figures(report, wide_report, view_report, stages):
         "tracks": counts["tracks"],
         "false_tracks": counts["false_tracks"],
         "false_tracks_in_view": view_report["thesis"]["false_tracks"],
-        "mota": report["clear_mot"]["mota"],
+        **{key: report["clear_mot"][key] for key in ("mota", *MOTA_COUNTS)},
         "idf1": report["identity"]["idf1"],
         "position_rmse_m": report["errors"]["position_rmse_m"],
         "near_position_rmse_m": report["near_errors"]["position_rmse_m"],
@@ -54,12 +63,13 @@ def figures(report, wide_report, view_report, stages):
 def comparison_table(rows):
     """Text of the table.
 
-    rows: (name of the drive, Published or None, level, figures() or None where the run failed).
+    rows: (name of the drive, Published or None, level, list of figures(), of each seed that gave
+    some).
     """
     headings = ["drive", "level", "thesis missed", *(heading for heading, _ in _COLUMNS)]
     lines = [headings]
-    for name, published, level, run in rows:
-        cells = [NO_VALUE if run is None else cell(run) for _, cell in _COLUMNS]
+    for name, published, level, runs in rows:
+        cells = [cell(runs) if runs else NO_VALUE for _, cell in _COLUMNS]
         lines.append([name, level, _thesis_missed(published, level), *cells])
     return f"{NOTE}\n\n{aligned(lines)}"
 
@@ -90,34 +100,37 @@ def _tracked(objects, number):
     return share if ids <= 1 else f"{share} ({ids} ids)"
 
 
+def _spread(key, digits=0, scale=1.0):
+    return lambda runs: spread_text(spread(run[key] for run in runs), digits, scale)
+
+
 def _of(count, total):
-    def cell(run):
-        return NO_VALUE if run[count] is None else f"{run[count]} of {run[total]}"
+    def cell(runs):
+        counts = _spread(count)(runs)
+        if counts == NO_VALUE:
+            return NO_VALUE
+        return f"{counts} of {statistics.median_high(run[total] for run in runs)}"
 
     return cell
 
 
 def _percent(key):
-    return lambda run: percent(run[key])
-
-
-def _rounded(key, digits):
-    return lambda run: rounded(run[key], digits)
+    return _spread(key, 1, 100.0)
 
 
 _COLUMNS = (
     ("missed", _of("missed_objects", "moving_objects")),
     ("by any", _of("missed_objects_any_sensor", "moving_objects_any_sensor")),
-    ("tracks", lambda run: str(run["tracks"])),
-    ("of them false", lambda run: str(run["false_tracks"])),
-    ("false, in view", lambda run: str(run["false_tracks_in_view"])),
+    ("tracks", _spread("tracks")),
+    ("of them false", _spread("false_tracks")),
+    ("false, in view", _spread("false_tracks_in_view")),
     ("MOTA, %", _percent("mota")),
     ("IDF1, %", _percent("idf1")),
-    ("RMSE, m", _rounded("position_rmse_m", 2)),
-    ("near", _rounded("near_position_rmse_m", 2)),
+    ("RMSE, m", _spread("position_rmse_m", 2)),
+    ("near", _spread("near_position_rmse_m", 2)),
     ("class right, %", _percent("class_right_share")),
-    ("delay, s", _rounded("mean_delay_s", 2)),
-    ("time, ms", _rounded("time_per_scan_ms", 1)),
+    ("delay, s", _spread("mean_delay_s", 2)),
+    ("time, ms", _spread("time_per_scan_ms", 1)),
 )
 
 

@@ -8,16 +8,27 @@ from datmo_tools.evaluate.thesis_tables import PUBLISHED, Published
 from datmo_tools.experiments import simulated_run
 from datmo_tools.programs import call
 
-# By name, the words for run_bag.
+LOW, OBJECT, TRACK = (f"--{level}-fusion" for level in ("low-level", "object", "track"))
+BORDERS = "--road-border"
+
+# By name, the words for run_bag; `recommended` is that of launch files and run_bag.
 LEVELS = {
     "none": (),
-    "low": ("--low-level-fusion",),
-    "object": ("--object-fusion",),
-    "track": ("--track-fusion",),
-    "low+object": ("--low-level-fusion", "--object-fusion"),
-    "low+track": ("--low-level-fusion", "--track-fusion"),
-    "object+track": ("--object-fusion", "--track-fusion"),
-    "low+object+track": ("--low-level-fusion", "--object-fusion", "--track-fusion"),
+    "low": (LOW,),
+    "object": (OBJECT,),
+    "track": (TRACK,),
+    "none+borders": (BORDERS,),
+    "low+borders": (LOW, BORDERS),
+    "object+borders": (OBJECT, BORDERS),
+    "recommended": ("--fusion", "recommended"),
+}
+
+# Several at once, on request.
+COMBINATIONS = {
+    "low+object": (LOW, OBJECT),
+    "low+track": (LOW, TRACK),
+    "object+track": (OBJECT, TRACK),
+    "low+object+track": (LOW, OBJECT, TRACK),
 }
 
 # All objects count that were seen moving, as in the thesis, also those gone in a moment: by the
@@ -34,22 +45,29 @@ ODOMETRY_ERRORS = ("--odometry-scale-error", "0.03", "--odometry-yaw-bias", "0.5
 
 
 class Simulated(NamedTuple):
-    """One of the data sets of thesis table 3.1."""
+    """One of the data sets of thesis table 3.1, driven with one seed."""
 
     scene: Path
     config: Path
     published: Optional[Published]
+    seed: int
     score_options: tuple = BY_SCANNER
     wide_score_options: Optional[tuple] = BY_ANY
 
     @property
     def name(self):
-        """Of its folder, and in the table."""
+        """In the table, the same for all seeds."""
         return self.scene.stem
+
+    @property
+    def folder_name(self):
+        """Of what this seed leaves."""
+        return f"{self.scene.stem}_{self.seed}"
 
     def record(self, programs, bag):
         """Simulates it with the stereo camera into a bag (Path)."""
-        drive = simulated_run.SimulatedDrive(self.scene, ("stereo/enabled=true",))
+        options = (f"seed={self.seed}", "stereo/enabled=true")
+        drive = simulated_run.SimulatedDrive(self.scene, options)
         simulated_run.record(drive, programs, bag)
 
 
@@ -67,16 +85,23 @@ class Kitti(NamedTuple):
         """As Simulated's."""
         return self.folder.name
 
+    @property
+    def folder_name(self):
+        """As Simulated's; there is one recording."""
+        return self.name
+
     def record(self, programs, bag):
         """Converts it with its stereo images to a bag (Path)."""
         call(programs / "kitti_to_bag", self.folder, bag, "--images", *ODOMETRY_ERRORS)
 
 
-def data_sets(scenes, config, numbers):
-    """Simulated drives: those of these numbers (from 1) in the folder of scenes (Path)."""
+def data_sets(scenes, config, numbers, seeds):
+    """Simulated drives: those of these numbers (from 1) in the folder of scenes (Path), with each
+    seed."""
     return [
-        Simulated(scenes / f"data_set_{number}.yaml", config, PUBLISHED[number - 1])
+        Simulated(scenes / f"data_set_{number}.yaml", config, PUBLISHED[number - 1], seed)
         for number in numbers
+        for seed in seeds
     ]
 
 

@@ -9,10 +9,12 @@ import yaml
 from datmo_tools.evaluate.thesis_tables import PUBLISHED
 from datmo_tools.experiments import simulated_run
 from datmo_tools.experiments.data_sets import STEREO_OPTIONS
+from datmo_tools.experiments.fusion_comparison import MOTA_COUNTS
 from datmo_tools.experiments.fusion_drives import ODOMETRY_ERRORS
 from datmo_tools.experiments.fusion_table import IN_VIEW
 from datmo_tools.figures.recordings import DRIVE_0005
 from datmo_tools.figures.step import Job, read_json
+from datmo_tools.spread import spread_of
 
 KITTI = "drive 0005"
 CAMERA_DRIVES = ("3", KITTI)  # whose single objects are scored: it takes a minute a drive
@@ -26,15 +28,41 @@ GRID_ROWS = ("paint_gone", "bodies_lost", "poles_in_lidar", "poles_in_fused")
 
 
 def fusion_jobs(bench):
-    """A job for each drive, at all levels."""
-    drives = [(str(number), ("--sets", number), f"data_set_{number}")
-              for number in range(len(PUBLISHED), 0, -1)]  # fmt: skip
+    """A job for each drive and seed, at all levels."""
+    drives = [(str(number), ("--sets", number, "--seeds", seed), f"data_set_{number}_{seed}")
+              for number in range(len(PUBLISHED), 0, -1) for seed in bench.seeds]  # fmt: skip
     if (bench.data / DRIVE_0005).is_dir():
         drives.insert(0, (KITTI, ("--sets",), DRIVE_0005.rpartition("/")[2]))
-    return [
-        Job(name.replace(" ", "_"), partial(_fusion, bench, name, words, drive))
-        for name, words, drive in drives
-    ]
+    return [Job(drive, partial(_fusion, bench, name, words, drive)) for name, words, drive in drives]
+
+
+def fusion_figures(results):
+    """Of each drive, and of all simulated ones with a seed taken together, the spread over the
+    seeds; single objects of the camera and fused tracks of one seed."""
+    by_drive, by_seed = {}, {}
+    for result in results:
+        by_drive.setdefault(result["drive"], []).append(result)
+        if result["drive"] != KITTI:
+            by_seed.setdefault(result["run"].rpartition("_")[2], []).append(result["levels"])
+    return {
+        "drives": {
+            name: {"levels": spread_of([one["levels"] for one in runs]),
+                   **{key: runs[0][key] for key in ("camera", "tracks")}}
+            for name, runs in sorted(by_drive.items())
+        },
+        "all": spread_of([_together(drives) for drives in by_seed.values()]),
+    }  # fmt: skip
+
+
+def _together(drives):
+    """Figures by level of several drives (dictionaries by level), as if they were one."""
+    counts = ("moving_objects", "missed_objects", "tracks", "false_tracks", *MOTA_COUNTS)
+    together = {}
+    for level in drives[0]:
+        total = {key: sum(drive[level][key] for drive in drives) for key in counts}
+        errors = total["misses"] + total["false_positives"] + total["id_switches"]
+        together[level] = {**total, "mota": 1.0 - errors / total["required"]}
+    return together
 
 
 def _fusion(bench, name, words, drive, folder):
@@ -47,7 +75,9 @@ def _fusion(bench, name, words, drive, folder):
     view = LABELED_VIEW if name == KITTI else ()
     tracks = bench.evaluated(folder, "track_fusion", folder / drive / "track" / "result.bag",
                              *view, *(FAR if view else ()))  # fmt: skip
-    return name, {
+    return {
+        "drive": name,
+        "run": drive,
         "levels": {run["level"]: _level_figures(run["figures"]) for run in runs},
         "camera": _camera(bench, folder, drive, view) if name in CAMERA_DRIVES else None,
         "tracks": _track_figures(tracks),

@@ -10,7 +10,7 @@ from datmo_tools.evaluate.thesis_tables import PUBLISHED
 from datmo_tools.experiments import simulated_run
 from datmo_tools.experiments.border_runs import NEAR_BAND
 from datmo_tools.experiments.data_sets import SCORE_OPTIONS
-from datmo_tools.figures.spread import spread_of
+from datmo_tools.spread import spread_of
 from datmo_tools.figures.step import Job
 
 NUMBERS = range(len(PUBLISHED), 0, -1)  # the longest first

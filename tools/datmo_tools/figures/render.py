@@ -7,7 +7,7 @@ from pathlib import Path
 import jinja2
 
 from datmo_tools.errors import InputError
-from datmo_tools.text_table import NO_VALUE
+from datmo_tools.text_table import NO_VALUE, spread
 
 BEGIN, END = "<!-- figures: begin -->", "<!-- figures: end -->"  # in README.md
 README, PAGE = "README.md", "doc/results.md"  # below the root of the sources
@@ -58,14 +58,6 @@ def percent(share, digits=0):
 def degrees(angle, digits=1):
     """An angle in rad as a number of degrees."""
     return number(None if angle is None else math.degrees(angle), digits)
-
-
-def spread(values, digits=0, scale=1.0):
-    """[median, min, max] as `median (min to max)`; the median alone where they look the same."""
-    if values is None:
-        return NO_VALUE
-    median, lowest, highest = (number(value * scale, digits) for value in values)
-    return median if lowest == highest else f"{median} ({lowest} to {highest})"
 
 
 def percent_spread(values, digits=0):

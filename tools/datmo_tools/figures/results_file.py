@@ -10,7 +10,7 @@ import subprocess
 from pathlib import Path
 
 from datmo_tools.errors import InputError
-from datmo_tools.figures.spread import rounded
+from datmo_tools.spread import rounded
 from datmo_tools.figures.step import read_json
 from datmo_tools.whole_files import write_whole
 

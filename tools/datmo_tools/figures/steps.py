@@ -18,7 +18,7 @@ STEPS = (
     Step("data_sets", "simulated data sets without and with borders of the road",
          "scripts/data_sets --road-border", data_sets.jobs, data_sets.figures, seeded=True),
     Step("fusion", "levels of fusion, single objects of the camera, fused tracks",
-         "scripts/compare_fusion", cameras.fusion_jobs, by_name),
+         "scripts/compare_fusion", cameras.fusion_jobs, cameras.fusion_figures, seeded=True),
     Step("grids", "grids of scanner and camera", "scripts/data_sets --low-level-fusion",
          cameras.grid_jobs, by_name),
     Step("stereo_grids", "stereo grids against the Velodyne", "evaluate stereo_grids",
