@@ -39,6 +39,7 @@ OdometryReader::OdometryReader(const Checked<MotionOptions>& options, FrameOptio
       frames_(std::move(frames)),
       stream_(std::move(stream)),
       runner_(runner),
+      frozen_(options->hold),
       gate_(options->change, options->noise) {}
 
 OdometrySample OdometryReader::sampleOf(const nav_msgs::Odometry& message) const {
@@ -62,6 +63,11 @@ OdometrySample OdometryReader::read(const nav_msgs::Odometry& message) {
   checkFrames(message, frames_);
   OdometrySample sample = sampleOf(message);
   runner_.check(stream_, message.header.stamp);
+  if (frozen_.take(message)) {
+    throw InputError("frozen_odometry",
+                     "odometry that repeats its last pose and twist bit for bit though it says that "
+                     "the vehicle moves: its driver or the device hangs; drops it until it changes");
+  }
   if (!sample.twist_measured || gate_.passes(sample.stamp, sample.twist)) {
     return sample;
   }

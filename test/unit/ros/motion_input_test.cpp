@@ -74,6 +74,36 @@ TEST(MotionInput, OdometryGivesTheMotionBySpeedOrByPose) {
   EXPECT_FALSE(by_speed.between(at(100.2), at(101.0))) << "longer than hold";
 }
 
+TEST(MotionInput, OdometryThatRepeatsItselfServesAsLongAsItsLastMeasurement) {
+  for (const bool use_poses : {false, true}) {
+    MovingStage stage(true, use_poses);
+    stage.input.take(odometry(100.0));
+    nav_msgs::Odometry frozen = odometry(100.1);
+    for (const double t : {100.1, 100.3, 100.6}) {
+      frozen.header.stamp = ros::Time(t);
+      stage.input.take(frozen);
+    }
+    frozen.header.stamp = ros::Time(100.7);
+    EXPECT_EQ(reasonOf([&] { stage.input.take(frozen); }), "frozen_odometry");
+    stage.input.take(odometry(100.8));
+    EXPECT_TRUE(stage.input.between(at(100.8), at(100.9)));
+  }
+}
+
+TEST(MotionInput, OdometryThatStandsOrHasNoPoseMayRepeatItself) {
+  MovingStage standing(true);
+  MovingStage without_pose(true);
+  for (const double t : {100.0, 101.0, 102.0, 103.0}) {
+    nav_msgs::Odometry message = odometry(t);
+    message.pose.pose = toMessage(Pose2(1.0, 2.0, 0.3));
+    without_pose.input.take(message);
+    message.twist.twist.linear.x = t > 100.0 ? 0.0 : 10.0;
+    message.pose.pose = toMessage(Pose2(t > 100.0 ? 1.0 : 0.0, 2.0, 0.3));
+    standing.input.take(message);
+  }
+  EXPECT_EQ(standing.warningCount() + without_pose.warningCount(), 0U);
+}
+
 TEST(MotionInput, WithoutOdometryThePosesOfTheSlamDo) {
   MovingStage stage(false);
   MotionInput& input = stage.input;

@@ -10,6 +10,7 @@
 #include "datmo_fusion/common/scan.h"
 #include "datmo_fusion/ros/frame_options.h"
 #include "datmo_fusion/ros/motion_options.h"
+#include "datmo_fusion/ros/stage/frozen_odometry.h"
 #include "datmo_fusion/ros/stage/stage_runner.h"
 #include "datmo_fusion/slam/odometry_buffer.h"
 #include "datmo_fusion/slam/pose_motion.h"
@@ -29,11 +30,15 @@ class OdometryReader {
   /// What the options take of odometry: with odometry_pose its pose, too, and then a twist that no
   /// vehicle has (the mean over a gap of clocks, say) is left out and warned of (`bad_twist`): the
   /// pose is what counts. Throws InputError (`wrong_frame`, `bad_odometry`, `bad_pose`, and those
-  /// of StageRunner::check), and without odometry_pose for a change of the twist that no vehicle
+  /// of StageRunner::check), for a measurement that is repeated for longer than it serves
+  /// (`frozen_odometry`), and without odometry_pose for a change of the twist that no vehicle
   /// can make (`impossible_twist`).
   OdometrySample read(const nav_msgs::Odometry& message);
 
-  void reset() { gate_.reset(); }
+  void reset() {
+    frozen_.reset();
+    gate_.reset();
+  }
 
  private:
   OdometrySample sampleOf(const nav_msgs::Odometry& message) const;
@@ -42,6 +47,7 @@ class OdometryReader {
   FrameOptions frames_;
   std::string stream_;
   StageRunner& runner_;
+  FrozenOdometry frozen_;
   TwistGate gate_;
 };
 
