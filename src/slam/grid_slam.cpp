@@ -18,6 +18,9 @@ constexpr int kPassesWithoutOdometry = 4;
 /// for a scan that is still on its way.
 constexpr double kScanDelay = 0.4 * kOdometryMemory;
 
+/// Of a motion that counts as measured, the largest share that may be extrapolated.
+constexpr double kMaxExtrapolated = 0.5;
+
 /// State of each ray, in order; kUnknown for beams without a hit.
 std::vector<PointState> judge(const Scan& scan, const OccupancyMap& map, const Pose2& base_in_map) {
   std::vector<PointState> states;
@@ -164,14 +167,17 @@ void GridSlam::addOdometry(const OdometrySample& sample) {
 bool GridSlam::predict(Stamp stamp) {
   const double seconds = secondsBetween(*stamp_, stamp);
   const auto measured = odometry_.motion(*stamp_, stamp, filter_.errors(), estimatedSpeed());
+  const double extrapolated = std::min(odometry_.overdue(stamp), seconds);
   if (!measured && isGap(seconds)) {
     filter_.predictGap(seconds, odometry_.twistAt(stamp));
   } else if (!measured) {
     filter_.predictUnmeasured(seconds);
-  } else if (odometry_.measuresSpeed()) {
-    filter_.predictMeasured(*measured, seconds);
-  } else {
+  } else if (!odometry_.measuresSpeed()) {
     filter_.predictTurn(*measured, seconds);
+  } else if (extrapolated > 0.0) {
+    extrapolate(stamp, extrapolated);
+  } else {
+    filter_.predictMeasured(*measured, seconds);
   }
   if (const auto corrected = anchor_.correction(stamp, filter_, odometry_)) {
     if (recovery_) {
@@ -180,7 +186,21 @@ bool GridSlam::predict(Stamp stamp) {
     filter_ = *corrected;
     return true;
   }
-  return measured && odometry_.measuresSpeed();
+  return measured && odometry_.measuresSpeed() && extrapolated <= kMaxExtrapolated * seconds;
+}
+
+void GridSlam::extrapolate(Stamp stamp, double seconds) {
+  const Stamp due = stamp + -seconds;
+  const OdometrySample& newest = *odometry_.newest();
+  if (due > *stamp_) {
+    const auto measured = odometry_.motion(*stamp_, due, filter_.errors(), estimatedSpeed());
+    filter_.predictMeasured(measured.value_or(Pose2()), secondsBetween(*stamp_, due));
+  } else if (newest.stamp > late_odometry_ && newest.twist_measured) {
+    filter_.observeVelocity(filter_.errors().correct(newest.twist),
+                            std::max(0.0, secondsBetween(newest.stamp, *stamp_)));
+  }
+  late_odometry_ = newest.stamp;
+  filter_.predictUnmeasured(seconds);
 }
 
 Scan GridSlam::compensated(const Scan& scan) const {

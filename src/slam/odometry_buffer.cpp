@@ -96,6 +96,14 @@ std::optional<Pose2> OdometryBuffer::motion(Stamp from, Stamp to, const Odometry
   return motion;
 }
 
+double OdometryBuffer::overdue(Stamp stamp) const {
+  if (pieces_.size() < 2) {
+    return 0.0;
+  }
+  const double period = pieces_[pieces_.size() - 2].seconds;
+  return std::max(0.0, secondsBetween(pieces_.back().sample.stamp, stamp) - period);
+}
+
 bool OdometryBuffer::hasPoses(Stamp from, Stamp to) const {
   if (pieces_.empty() || from < pieces_.front().sample.stamp || pieces_.back().sample.stamp < to) {
     return false;

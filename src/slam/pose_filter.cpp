@@ -120,7 +120,7 @@ void PoseFilter::predictGap(double seconds, const std::optional<Twist2>& velocit
   addErrorDrift(seconds);
   velocity_ = after;
   if (velocity_after) {
-    observeVelocity(after);
+    observeVelocity(after, 0.0);
   }
 }
 
@@ -146,13 +146,24 @@ void PoseFilter::addWalkNoise(const Twist2& twist, double seconds) {
   covariance_.topLeftCorner<5, 5>() += to_map * noise * to_map.transpose();
 }
 
-void PoseFilter::observeVelocity(const Twist2& measured) {
-  const Eigen::Matrix2d innovation =
-      covariance_.block<2, 2>(kSpeed, kSpeed) + motion_model_.velocityCovariance(measured);
+void PoseFilter::observeVelocity(const Twist2& measured, double age) {
+  const Eigen::Matrix2d innovation = covariance_.block<2, 2>(kSpeed, kSpeed) +
+                                     motion_model_.velocityCovariance(measured) +
+                                     motion_model_.velocityChange(age);
   const Eigen::Matrix<double, kStates, 2> gain =
       covariance_.middleCols<2>(kSpeed) * innovation.inverse();
+  apply(gain * Eigen::Vector2d(measured.forward_speed - velocity_.forward_speed,
+                               measured.yaw_rate - velocity_.yaw_rate));
   covariance_ -= gain * innovation * gain.transpose();
   covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();
+}
+
+void PoseFilter::apply(const Eigen::Matrix<double, kStates, 1>& step) {
+  pose_ = Pose2(pose_.x() + step[kX], pose_.y() + step[kY], pose_.heading() + step[kHeading]);
+  velocity_.forward_speed += step[kSpeed];
+  velocity_.yaw_rate += step[kYawRate];
+  errors_.speed_scale += step[kSpeedScale];
+  errors_.yaw_rate_bias += step[kYawRateBias];
 }
 
 void PoseFilter::restartAt(const PoseWithCovariance& pose) {
@@ -168,11 +179,7 @@ void PoseFilter::correct(const PoseWithCovariance& matched) {
   const Eigen::Matrix<double, kStates, 3> gain = covariance_.leftCols<3>() * prior.inverse();
   const Eigen::Vector3d learned(matched.pose.x() - pose_.x(), matched.pose.y() - pose_.y(),
                                 angleBetween(pose_.heading(), matched.pose.heading()));
-  const Eigen::Matrix<double, kStates, 1> step = gain * learned;
-  velocity_.forward_speed += step[kSpeed];
-  velocity_.yaw_rate += step[kYawRate];
-  errors_.speed_scale += step[kSpeedScale];
-  errors_.yaw_rate_bias += step[kYawRateBias];
+  apply(gain * learned);
   covariance_ -= gain * (prior - matched.covariance) * gain.transpose();
   covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();
   pose_ = matched.pose;

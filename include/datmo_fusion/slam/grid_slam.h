@@ -140,8 +140,12 @@ class GridSlam {
   /// m/s; for odometry that measures none.
   double estimatedSpeed() const { return filter_.velocity().forward_speed; }
 
-  /// From the last stamp to a later one. Returns whether odometry covered all of the motion.
+  /// From the last stamp to a later one. Returns whether odometry measured most of the motion.
   bool predict(Stamp stamp);
+  /// The same where odometry is overdue since `seconds` before `stamp`, or the last one: measured
+  /// as far as it goes, and on from there by the velocity, of which late odometry tells what it
+  /// was.
+  void extrapolate(Stamp stamp, double seconds);
 
   GridSlamOptions options_;
   ScanMatcher matcher_;
@@ -150,6 +154,7 @@ class GridSlam {
   OdometryAnchor anchor_;
   Random random_;
   PoseFilter filter_;
+  Stamp late_odometry_;         ///< of the newest sample, when it was last overdue
   std::optional<Stamp> stamp_;  ///< of the pose: the last scan, or odometry since
 
   /// The last scan that saw anything, and the pose then.

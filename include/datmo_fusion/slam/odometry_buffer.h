@@ -62,6 +62,16 @@ class OdometryBuffer {
   /// None if it is further away than the longest hold, or measured not all of it.
   std::optional<Twist2> twistAt(Stamp stamp) const;
 
+  /// The newest sample; null if there is none. Valid until the next add().
+  const OdometrySample* newest() const {
+    return pieces_.empty() ? nullptr : &pieces_.back().sample;
+  }
+
+  /// For how long (s) at this stamp the next sample has been due, if they go on coming as the last
+  /// two did: what the newest one said is extrapolated since then. 0 before that, and before there
+  /// are two.
+  double overdue(Stamp stamp) const;
+
   /// Of the newest sample with a pose; none without one.
   std::optional<Stamp> lastPose() const;
 

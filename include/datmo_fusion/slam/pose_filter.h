@@ -54,6 +54,10 @@ class PoseFilter {
   /// After `seconds` (more than 0) without odometry.
   void predictUnmeasured(double seconds);
 
+  /// Takes a velocity that odometry measured `age` (s, 0 or more) ago, corrected by errors(): what
+  /// it was then, and a random walk since.
+  void observeVelocity(const Twist2& measured, double age);
+
   /// After a gap of `seconds` (more than 0) in which nothing was measured: any path whose speed and
   /// yaw rate are random walks by the accelerations of the motion model. `velocity_after`: as
   /// odometry measures it at the gap's end; such a path is known at both ends (a Brownian bridge),
@@ -79,8 +83,8 @@ class PoseFilter {
   void addPoseNoise(const Eigen::Matrix3d& motion_noise);
   /// What random walks of speed and yaw rate do to pose and velocity in a gap.
   void addWalkNoise(const Twist2& twist, double seconds);
-  /// Conditions the covariance on a velocity that odometry measured.
-  void observeVelocity(const Twist2& measured);
+  /// Adds a correction to all states.
+  void apply(const Eigen::Matrix<double, kStates, 1>& step);
   /// How much the errors of the odometry may have changed.
   void addErrorDrift(double seconds);
 

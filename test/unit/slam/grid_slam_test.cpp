@@ -53,6 +53,31 @@ TEST(GridSlamTest, CorrectsBiasedOdometry) {
               degrees(0.5));
 }
 
+TEST(GridSlamTest, OdometryThatComesLateIsNotTakenForNow) {
+  // A turn that begins at once, of which odometry says a scan and a half later.
+  constexpr double kPeriod = 0.06;
+  constexpr double kLate = 0.1;
+  const auto twistAt = [](double seconds) { return Twist2{4.0, seconds < 1.0 ? 0.0 : 0.6}; };
+  GridSlam slam{GridSlamOptions{}};
+  const Yard yard;
+  Drive end;
+  double sent = 0.0;
+  for (int i = 0; i < 30; ++i) {
+    const double seconds = kPeriod * i;
+    for (; sent <= seconds - kLate; sent += 0.02) {
+      slam.addOdometry({Stamp::fromSeconds(1000.0 + sent), twistAt(sent)});
+    }
+    end.truth =
+        arc({4.0, 0.0}, std::min(seconds, 1.0)) * arc({4.0, 0.6}, std::max(0.0, seconds - 1.0));
+    end.result = slam.process(yard.scan(end.truth, seconds));
+    EXPECT_NEAR(angleBetween(end.truth.heading(), end.result.split.base_in_map.pose.heading()), 0.0,
+                degrees(1.0))
+        << "at " << seconds;
+  }
+  EXPECT_FALSE(end.result.odometry_used);
+  EXPECT_LT(positionError(end), 0.2);
+}
+
 TEST(GridSlamTest, WorksWithoutOdometry) {
   GridSlam slam{GridSlamOptions{}};
   const Drive end = drive(slam, {}, false);

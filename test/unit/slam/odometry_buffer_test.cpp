@@ -80,6 +80,15 @@ TEST_F(OdometryBufferTest, PosesCountOverAGapLongerThanTheMemoryAndSidewaysToo) 
   EXPECT_FALSE(buffer_.hasPoses(at(0.9), at(41.0))) << "before the first one";
 }
 
+TEST_F(OdometryBufferTest, IsOverdueOnceTheNextSampleShouldHaveCome) {
+  EXPECT_EQ(buffer_.overdue(at(1.0)), 0.0) << "nothing is due yet";
+  buffer_.add({at(1.0), {1.0, 0.0}});
+  buffer_.add({at(1.1), {1.0, 0.0}});
+  EXPECT_EQ(buffer_.overdue(at(1.05)), 0.0);
+  EXPECT_EQ(buffer_.overdue(at(1.2)), 0.0);
+  EXPECT_NEAR(buffer_.overdue(at(1.25)), 0.05, 1e-9);
+}
+
 TEST_F(OdometryBufferTest, APoseWithoutATwistServesBackwardsAlone) {
   OdometrySample counted{at(4.0), {0.0, 26.0}, Pose2(0.0, 0.0, 1.0)};
   counted.twist_measured = false;

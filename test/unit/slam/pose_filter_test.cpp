@@ -156,6 +156,18 @@ PoseFilter measuredAt(const Twist2& twist) {
   return filter;
 }
 
+TEST(PoseFilterTest, AVelocityOfLongAgoTellsLittleOfNow) {
+  // 10 m/s once; since then the matches may have seen it brake. A walk of 3 m/s^1.5.
+  const auto speedAfter = [](double age) {
+    PoseFilter filter = measuredAt({4.0, 0.0});
+    filter.observeVelocity({10.0, 0.0}, age);
+    return filter.velocity().forward_speed;
+  };
+  // Variances: of what is known (0.1 + 0.05 * 4)^2, of what was measured (0.1 + 0.05 * 10)^2.
+  EXPECT_NEAR(speedAfter(0.0), 4.0 + 6.0 * 0.09 / (0.09 + 0.36), 1e-9);
+  EXPECT_NEAR(speedAfter(0.25), 4.0 + 6.0 * 0.09 / (0.09 + 0.36 + 2.25), 1e-9);
+}
+
 TEST(PoseFilterTest, AGapIsAsWideAsRandomWalksOfTheVelocity) {
   // Position of an integrated Wiener process of 3 m/s^1.5 after 2 s: 3 * sqrt(8 / 3) = 4.9 m; with
   // both ends known a quarter of that variance: 2.45 m. The noise of the odometry adds 0.6 m/s.
