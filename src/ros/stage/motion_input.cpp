@@ -64,9 +64,10 @@ OdometrySample OdometryReader::read(const nav_msgs::Odometry& message) {
   OdometrySample sample = sampleOf(message);
   runner_.check(stream_, message.header.stamp);
   if (frozen_.take(message)) {
-    throw InputError("frozen_odometry",
-                     "odometry that repeats its last pose and twist bit for bit though it says that "
-                     "the vehicle moves: its driver or the device hangs; drops it until it changes");
+    throw InputError(
+        "frozen_odometry",
+        "odometry that repeats its last pose and twist bit for bit though it says that "
+        "the vehicle moves: its driver or the device hangs; drops it until it changes");
   }
   if (!sample.twist_measured || gate_.passes(sample.stamp, sample.twist)) {
     return sample;
