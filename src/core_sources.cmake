@@ -19,10 +19,25 @@ set(DATMO_FUSION_CORE_SOURCES
   assignment/augmenting_path.cpp
   assignment/priced_assignment.cpp
   assignment/ranked_assignments.cpp
+  device/capture_file.cpp
   device/clock_estimator.cpp
+  device/cola.cpp
   device/connection.cpp
+  device/datagram_socket.cpp
+  device/device_clock.cpp
+  device/device_error.cpp
+  device/device_runner.cpp
+  device/device_setup.cpp
   device/hokuyo_scanner.cpp
+  device/nmea.cpp
+  device/nmea_receiver.cpp
   device/scip.cpp
+  device/serial_line.cpp
+  device/sick_scanner.cpp
+  device/velodyne_lidar.cpp
+  device/velodyne_model.cpp
+  device/velodyne_packet.cpp
+  device/waiting.cpp
   detection/box_fit.cpp
   detection/dent_splitter.cpp
   detection/group_outline.cpp

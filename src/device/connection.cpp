@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <cstring>
 #include <memory>
 
@@ -16,12 +15,11 @@
 #include <unistd.h>
 
 #include "datmo_fusion/device/device_error.h"
+#include "datmo_fusion/device/waiting.h"
 
 namespace datmo {
 
 namespace {
-
-constexpr int kSlice = 50;  ///< ms; so late it may be found out that it is to stop
 
 std::string nameOf(const DeviceAddress& address) {
   return address.host + ":" + std::to_string(address.port);
@@ -29,7 +27,7 @@ std::string nameOf(const DeviceAddress& address) {
 
 DeviceError noConnection(const DeviceAddress& address, const std::string& cause) {
   return {"no_connection", "no connection to " + nameOf(address) + " (" + cause +
-                               "): expected a scanner there; is it on, and is the address right?"};
+                               "): expected a device there; is it on, and is the address right?"};
 }
 
 using Addresses = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
@@ -71,7 +69,7 @@ int Connection::connectTo(const addrinfo& found) {
     if (error == EINPROGRESS) {
       socklen_t size = sizeof error;
       error = ETIMEDOUT;
-      if (waitFor(POLLOUT)) {
+      if (waitForEvents(socket_, POLLOUT, address_.timeout, stop_)) {
         getsockopt(socket_, SOL_SOCKET, SO_ERROR, &error, &size);
       }
     }
@@ -85,18 +83,6 @@ int Connection::connectTo(const addrinfo& found) {
 
 Connection::~Connection() { close(socket_); }
 
-bool Connection::waitFor(short events) const {
-  using Clock = std::chrono::steady_clock;
-  const auto end = Clock::now() + std::chrono::duration<double>(address_.timeout);
-  while (!stop_ && Clock::now() < end) {
-    pollfd watched{socket_, events, 0};
-    if (poll(&watched, 1, kSlice) > 0) {
-      return true;
-    }
-  }
-  return false;
-}
-
 void Connection::send(std::string_view bytes) const {
   // A command is far shorter than what a socket takes at once.
   const ssize_t sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
@@ -106,14 +92,15 @@ void Connection::send(std::string_view bytes) const {
   }
 }
 
-std::string Connection::receive() const {
-  if (!waitFor(POLLIN)) {
+std::string Connection::receive() {
+  if (!waitForEvents(socket_, POLLIN, address_.timeout, stop_)) {
     if (stop_) {
-      return "";
+      throw DeviceStopped();
     }
-    throw DeviceError("silent_device", nameOf(address_) + " has been silent for " +
-                                           std::to_string(address_.timeout) +
-                                           " s: expected an answer or scans; connects again");
+    throw DeviceError("silent_device",
+                      nameOf(address_) + " has been silent for " +
+                          std::to_string(address_.timeout) +
+                          " s: expected an answer or measurements; connects again");
   }
   constexpr std::size_t kAtOnce = 16384;
   std::array<char, kAtOnce> bytes;

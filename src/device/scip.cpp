@@ -2,7 +2,6 @@
 #include "datmo_fusion/device/scip.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cstdio>
 #include <limits>
@@ -26,17 +25,6 @@ constexpr std::size_t kClockCharacters = 4;
 /// No answer is longer: the most steps that a request can name, three characters each, with room.
 constexpr std::size_t kLongestAnswer = 65536;
 
-constexpr std::size_t kShownCharacters = 40;  ///< of an answer that is wrong
-
-/// What can be shown of bytes that may be anything.
-std::string shown(std::string_view bytes) {
-  std::string text;
-  for (const char c : bytes.substr(0, kShownCharacters)) {
-    text += std::isprint(static_cast<unsigned char>(c)) != 0 ? c : '?';
-  }
-  return "'" + text + "'";
-}
-
 std::uint32_t decoded(std::string_view characters) {
   std::uint32_t value = 0;
   for (const char c : characters) {
@@ -51,8 +39,8 @@ bool isChecked(std::string_view line) {
 
 std::string_view withoutChecksum(std::string_view line) {
   if (!isChecked(line)) {
-    throw DeviceError("bad_answer",
-                      "line " + shown(line) + " of a scan: expected one that fits its checksum");
+    throw DeviceError("bad_answer", "line " + shownBytes(line) +
+                                        " of a scan: expected one that fits its checksum");
   }
   return line.substr(0, line.size() - 1);
 }
@@ -81,9 +69,10 @@ int numberOf(const std::map<std::string, std::string>& fields, const std::string
       return value;
     }
   }
-  throw DeviceError("wrong_device", "the device says " + name + " = " +
-                                        (field == fields.end() ? "nothing" : shown(field->second)) +
-                                        ": expected the number that a scanner with SCIP 2.0 has");
+  throw DeviceError("wrong_device",
+                    "the device says " + name + " = " +
+                        (field == fields.end() ? "nothing" : shownBytes(field->second)) +
+                        ": expected the number that a scanner with SCIP 2.0 has");
 }
 
 void check(const ScipModel& model) {
@@ -126,8 +115,9 @@ std::optional<ScipAnswer> ScipReader::next() {
   const std::size_t end = waiting_.find("\n\n");
   if (end == std::string::npos) {
     if (waiting_.size() > kLongestAnswer) {
-      throw DeviceError("bad_answer", shown(waiting_) + " and so on: expected an answer's end " +
-                                          "within " + std::to_string(kLongestAnswer) + " bytes");
+      throw DeviceError("bad_answer", shownBytes(waiting_) +
+                                          " and so on: expected an answer's end " + "within " +
+                                          std::to_string(kLongestAnswer) + " bytes");
     }
     return std::nullopt;
   }
@@ -142,7 +132,7 @@ std::optional<ScipAnswer> ScipReader::next() {
   constexpr std::size_t kStatusCharacters = 3;
   if (lines.size() < 2 || lines[1].size() != kStatusCharacters || !isChecked(lines[1])) {
     throw DeviceError("bad_answer",
-                      shown(lines[0]) + ", " + shown(lines.size() < 2 ? "" : lines[1]) +
+                      shownBytes(lines[0]) + ", " + shownBytes(lines.size() < 2 ? "" : lines[1]) +
                           ": expected an answer with a status; is it a scanner with SCIP 2.0?");
   }
   answer.command = lines[0];
@@ -180,7 +170,8 @@ std::string scipScanRequest(const ScipModel& model) {
 
 ScipScan scipScan(const ScipAnswer& answer, const ScipModel& model) {
   if (answer.status != "99") {
-    throw DeviceError("device_fault", "the scanner answers with status " + shown(answer.status) +
+    throw DeviceError("device_fault", "the scanner answers with status " +
+                                          shownBytes(answer.status) +
                                           ": expected 99, a scan; its manual has the cause");
   }
   if (answer.lines.empty()) {

@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <atomic>
 #include <deque>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include <boost/make_shared.hpp>
 
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
 #include <ros/callback_queue_interface.h>
-#include <sensor_msgs/LaserScan.h>
 
+#include "datmo_fusion/ros/convert/device_conversion.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/device_diagnostics.h"
 #include "datmo_fusion/ros/device_options.h"
 #include "datmo_fusion/ros/parameters.h"
 #include "datmo_fusion/ros/stage/stage_reporter.h"
@@ -23,55 +26,45 @@ namespace datmo {
 
 namespace {
 
-constexpr std::uint32_t kQueue = 10;  ///< scans, a quarter of a second
-
-sensor_msgs::LaserScanPtr toMessage(const ScipModel& model, const DeviceScan& scan,
-                                    const std::string& frame) {
-  constexpr float kMillimeter = 1e-3F;  // m
-  auto message = boost::make_shared<sensor_msgs::LaserScan>();
-  message->header.stamp = toTime(scan.stamp);
-  message->header.frame_id = frame;
-  message->angle_min = static_cast<float>(model.firstBearing());
-  message->angle_increment = static_cast<float>(model.beamSpacing());
-  message->angle_max = static_cast<float>(
-      model.firstBearing() + model.beamSpacing() * static_cast<double>(scan.ranges.size() - 1));
-  message->time_increment = static_cast<float>(model.beamTime());
-  message->scan_time = static_cast<float>(model.scanTime());
-  message->range_min = static_cast<float>(model.min_range) * kMillimeter;
-  message->range_max = static_cast<float>(model.max_range) * kMillimeter;
-  message->ranges = scan.ranges;
-  return message;
-}
+constexpr std::uint32_t kQueue = 10;  ///< measurements, a quarter of a second or more
 
 }  // namespace
 
-/// A scanner on the network as scans on the topic `scan`. What the device's own thread says is
-/// handed to the nodelet's callback queue, where the diagnostics live, too.
+/// A device on the network as messages. What the device's own thread says is handed to the
+/// nodelet's callback queue, where the diagnostics live, too.
 class DeviceNodelet : public nodelet::Nodelet {
  public:
   /// The device's thread ends before what it calls, and what it has rung for is not served any
   /// more.
   ~DeviceNodelet() override {
-    scanner_.reset();
+    runner_.reset();
     if (monitor_) {
       getNodeHandle().getCallbackQueue()->removeByID(ownId());
     }
   }
 
  private:
-  /// What has come from the device: a scan, a fault, or that it is connected.
-  struct News {
-    std::optional<ScipModel> model;
-    std::optional<DeviceScan> scan;
-    std::optional<DeviceError> fault;
+  struct Connected {
+    std::string device;
   };
+  struct Fault {
+    DeviceError error;
+  };
+  struct Warning {
+    DeviceError error;
+  };
+  struct Measured {
+    DeviceMeasurement measurement;
+    ClockState clock;
+  };
+  using News = std::variant<Connected, Fault, Warning, Measured>;
 
   /// Serves the news in the nodelet's queue.
   class Bell : public ros::CallbackInterface {
    public:
     explicit Bell(DeviceNodelet& nodelet) : nodelet_(nodelet) {}
     CallResult call() override {
-      nodelet_.serve();
+      nodelet_.serveAll();
       return Success;
     }
 
@@ -82,20 +75,51 @@ class DeviceNodelet : public nodelet::Nodelet {
   void onInit() override {
     options_ = loadOptions<DeviceOptions>(getPrivateNodeHandle());
     monitor_ = std::make_unique<StageMonitor>(getName());
-    scans_ = getNodeHandle().advertise<sensor_msgs::LaserScan>("scan", kQueue);
+    advertise();
     reporter_ = std::make_unique<StageReporter>(
         getNodeHandle(), getPrivateNodeHandle(), *monitor_, std::vector<WatchedInput>(),
-        StageTopics{{}, {scans_.getTopic()}}, options_.input.silence_after);
-    monitor_->condition(HealthLevel::kNothing, "not connected yet");
+        StageTopics{{}, topics()}, options_.input.silence_after);
+    diagnostics_ = std::make_unique<DeviceDiagnostics>(*monitor_);
     DeviceHandlers handlers;
-    handlers.connected = [this](const ScipModel& model) { ring({model, {}, {}}); };
-    handlers.scan = [this](const ScipModel& model, DeviceScan scan) {
-      ring({model, std::move(scan), {}});
+    handlers.connected = [this](const std::string& device) { ring(Connected{device}); };
+    handlers.measured = [this](DeviceMeasurement measurement, const ClockState& clock) {
+      ring(Measured{std::move(measurement), clock});
     };
-    handlers.fault = [this](const DeviceError& error) { ring({{}, {}, error}); };
-    handlers.now = [] { return toStamp(ros::Time::now()); };
-    scanner_ = std::make_unique<HokuyoScanner>(options_.hokuyo, handlers);
+    handlers.fault = [this](const DeviceError& error) { ring(Fault{error}); };
+    handlers.warning = [this](const DeviceError& error) { ring(Warning{error}); };
+    handlers.now = now;
+    runner_ = std::make_unique<DeviceRunner>(options_.device.runner, deviceMaker(options_.device),
+                                             handlers);
   }
+
+  void advertise() {
+    ros::NodeHandle& node = getNodeHandle();
+    switch (options_.device.kind) {
+      case DeviceKind::kHokuyo:
+      case DeviceKind::kSickLms:
+        output_ = node.advertise<sensor_msgs::LaserScan>("scan", kQueue);
+        break;
+      case DeviceKind::kVelodyne:
+        output_ = node.advertise<sensor_msgs::PointCloud2>("points", kQueue);
+        break;
+      case DeviceKind::kNmea:
+        output_ = node.advertise<sensor_msgs::NavSatFix>("gnss", kQueue);
+        velocities_ = node.advertise<geometry_msgs::TwistStamped>("twist", kQueue);
+        break;
+    }
+  }
+
+  std::vector<std::string> topics() const {
+    return velocities_ ? std::vector<std::string>{output_.getTopic(), velocities_.getTopic()}
+                       : std::vector<std::string>{output_.getTopic()};
+  }
+
+  template <typename Data>
+  const ros::Publisher& outputOf(const Data& /*data*/) const {
+    return std::is_same_v<Data, GroundVelocity> ? velocities_ : output_;
+  }
+
+  static Stamp now() { return toStamp(ros::Time::now()); }
 
   std::uint64_t ownId() const { return reinterpret_cast<std::uint64_t>(this); }
 
@@ -104,91 +128,71 @@ class DeviceNodelet : public nodelet::Nodelet {
       const std::lock_guard<std::mutex> lock(mutex_);
       news_.push_back(std::move(news));
       // Reports on the connection are rare, and kept.
-      const auto is_scan = [](const News& one) { return one.scan.has_value(); };
-      if (static_cast<std::size_t>(std::count_if(news_.begin(), news_.end(), is_scan)) > kQueue) {
-        news_.erase(std::find_if(news_.begin(), news_.end(), is_scan));
-        ++overtaken_;
-      }
+      overtaken_ += keepNewest<Measured>();
+      keepNewest<Warning>();
     }
     getNodeHandle().getCallbackQueue()->addCallback(boost::make_shared<Bell>(*this), ownId());
   }
 
-  void serve() {
+  /// Returns how many were left out: none or one.
+  template <typename Kind>
+  std::uint64_t keepNewest() {
+    const auto is_such = [](const News& one) { return std::holds_alternative<Kind>(one); };
+    if (std::count_if(news_.begin(), news_.end(), is_such) <= kQueue) {
+      return 0;
+    }
+    news_.erase(std::find_if(news_.begin(), news_.end(), is_such));
+    return 1;
+  }
+
+  void serveAll() {
     std::deque<News> news;
+    std::uint64_t overtaken = 0;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       news.swap(news_);
+      overtaken = overtaken_;
     }
     for (const News& one : news) {
-      if (one.fault) {
-        takeFault(*one.fault);
-      } else if (one.scan) {
-        takeScan(*one.model, *one.scan);
-      } else if (one.model) {
-        takeConnection(*one.model);
-      }
+      std::visit([this, overtaken](const auto& kind) { serve(kind, overtaken); }, one);
     }
   }
 
-  void takeFault(const DeviceError& fault) {
-    monitor_->setTime(toStamp(ros::Time::now()));
-    monitor_->dropped(InputError(fault.reason(), fault.what()));
-    monitor_->condition(HealthLevel::kNothing, fault.what());
+  void serve(const Connected& news, std::uint64_t /*overtaken*/) {
+    diagnostics_->connected(news.device, now());
   }
 
-  void takeConnection(const ScipModel& model) {
-    monitor_->setTime(toStamp(ros::Time::now()));
-    monitor_->figure("connections", static_cast<double>(++connections_));
-    first_offset_.reset();
-    monitor_->condition(HealthLevel::kGood, "connected with " + model.name + ", " +
-                                                std::to_string(model.beams()) + " beams, at " +
-                                                options_.hokuyo.address);
+  void serve(const Fault& news, std::uint64_t /*overtaken*/) {
+    diagnostics_->fault(news.error, now());
   }
 
-  void takeScan(const ScipModel& model, const DeviceScan& scan) {
+  void serve(const Warning& news, std::uint64_t /*overtaken*/) {
+    diagnostics_->warning(news.error, now());
+  }
+
+  void serve(const Measured& news, std::uint64_t overtaken) {
     const Stopwatch watch;
-    monitor_->received("scan", toStamp(ros::Time::now()));
-    missed_ += scan.missed;
-    if (scan.missed > 0) {
-      monitor_->warned(InputError("missed_scans", std::to_string(scan.missed) +
-                                                      " scans are missing before this one: "
-                                                      "expected one each " +
-                                                      std::to_string(model.scanTime()) + " s"));
-    }
-    if (scan.clock_steps > clock_steps_) {
-      monitor_->warned(InputError(
-          "clock_step", "the device's clock or the computer's was set: stamps begin anew"));
-    }
-    clock_steps_ = scan.clock_steps;
-    monitor_->figure("scans missed", static_cast<double>(missed_));
-    monitor_->figure("scans overtaken", static_cast<double>(overtaken_));
-    monitor_->figure("rate [Hz]", monitor_->input("scan", toStamp(ros::Time::now())).rate);
-    // The device's clock begins anywhere: what it gains or loses is what tells something.
-    first_offset_ = first_offset_.value_or(scan.clock_offset);
-    monitor_->figure("clock offset since connected [ms]",
-                     kMilliseconds * (scan.clock_offset - *first_offset_));
-    monitor_->figure("clock drift [ppm]", scan.clock_drift * kPartsPerMillion);
-    monitor_->figure("clock steps", static_cast<double>(clock_steps_));
-    scans_.publish(toMessage(model, scan, options_.frame));
-    monitor_->processed({scan.stamp, watch.seconds()});
+    const Stamp stamp = news.measurement.stamp;
+    diagnostics_->measured(news.measurement, news.clock, overtaken, now());
+    std::visit(
+        [this, stamp](const auto& data) {
+          outputOf(data).publish(toMessage(data, stamp, options_.frame));
+        },
+        news.measurement.data);
+    monitor_->processed({stamp, watch.seconds()});
     reporter_->publishTiming();
   }
-
-  static constexpr double kPartsPerMillion = 1e6;
-  static constexpr double kMilliseconds = 1e3;
 
   DeviceOptions options_;
   std::unique_ptr<StageMonitor> monitor_;
   std::unique_ptr<StageReporter> reporter_;
-  ros::Publisher scans_;
+  std::unique_ptr<DeviceDiagnostics> diagnostics_;
+  ros::Publisher output_;
+  ros::Publisher velocities_;  ///< of a satellite receiver alone
   std::mutex mutex_;
   std::deque<News> news_;
-  std::atomic<std::uint64_t> overtaken_{0};  ///< that waited too long
-  std::uint64_t connections_ = 0;
-  std::uint64_t missed_ = 0;
-  std::uint64_t clock_steps_ = 0;
-  std::optional<double> first_offset_;  ///< s, of this connection
-  std::unique_ptr<HokuyoScanner> scanner_;
+  std::uint64_t overtaken_ = 0;  ///< measurements that waited too long
+  std::unique_ptr<DeviceRunner> runner_;
 };
 
 }  // namespace datmo

@@ -4,9 +4,9 @@
 namespace datmo {
 
 void DeviceOptions::visit(OptionVisitor& visitor) {
-  visitor.text({"frame", "", "frame of the scans: the scanner's"}, frame, {});
+  visitor.text({"frame", "", "frame of what the device measures: the device's"}, frame, {});
   visitor.group("input", [&] { input.visit(visitor); });
-  hokuyo.visit(visitor);
+  device.visit(visitor);
 }
 
 }  // namespace datmo

@@ -1,16 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The running device nodelet with a fake scanner: its scans, and what it says when the scanner is
-// gone and comes back.
+// The running device nodelet with a fake scanner of each make: its scans, and what it says when the
+// scanner is gone and comes back.
+#include <cmath>
 #include <vector>
 
 #include "chain.h"
-#include "device/fake_scanner.h"
+#include "device/fake_hokuyo.h"
+#include "device/fake_lidar.h"
+#include "device/fake_sick.h"
+#include "device/nmea_sentences.h"
+#include "device/velodyne_packets.h"
+#include "ros/lidar_messages.h"
 #include <gtest/gtest.h>
+
+#include <geometry_msgs/TwistStamped.h>
+#include <sensor_msgs/NavSatFix.h>
+#include <sensor_msgs/PointCloud2.h>
+
+#include "datmo_fusion/ros/convert/earth_conversion.h"
 
 namespace datmo::device_test {
 namespace {
 
-constexpr int kPort = 20940;  // device.test's
+constexpr int kPort = 20940;          // device.test's
+constexpr int kSickPort = 20211;      // device_sick.test's
+constexpr int kLidarPort = 20236;     // device_velodyne.test's
+constexpr int kReceiverPort = 20110;  // device_nmea.test's
 
 class ScanDoor : public Listener {
  public:
@@ -32,29 +47,29 @@ class ScanDoor : public Listener {
 };
 
 TEST(DeviceTest, AScannersScansComeAndItsFailureIsSaid) {
-  samples::FakeScanner scanner(kPort);
+  samples::FakeHokuyo scanner(kPort);
   ScanDoor door;
   ASSERT_TRUE(door.waitFor([&door] { return door.isConnected(); }));
   scanner.accept();
   scanner.shakeHands();
   const ros::Time before = ros::Time::now();
-  scanner.send(samples::FakeScanner::scan(100, {1000, 2000, 65533, 1, 5000}));
+  scanner.send(samples::FakeHokuyo::scan(100, {1000, 2000, 65533, 1, 5000}));
   ASSERT_TRUE(door.waitFor([&door] { return !door.scans.empty(); }));
   const sensor_msgs::LaserScan& scan = *door.scans.front();
   EXPECT_EQ(scan.header.frame_id, "front_laser");
-  EXPECT_GE(scan.header.stamp, before - ros::Duration(samples::FakeScanner::kSweep + 1e-6));
+  EXPECT_GE(scan.header.stamp, before - ros::Duration(samples::FakeHokuyo::kSweep + 1e-6));
   EXPECT_LE(scan.header.stamp, ros::Time::now());
-  ASSERT_EQ(scan.ranges.size(), samples::FakeScanner::kBeams);
+  ASSERT_EQ(scan.ranges.size(), samples::FakeHokuyo::kBeams);
   EXPECT_FLOAT_EQ(scan.ranges[1], 2.0F);
   EXPECT_TRUE(std::isinf(scan.ranges[2]));
   EXPECT_TRUE(std::isnan(scan.ranges[3]));
   EXPECT_NEAR(scan.angle_min, -0.785398, 1e-6);
-  EXPECT_NEAR(scan.angle_increment, samples::FakeScanner::kBeamSpacing, 1e-6);
+  EXPECT_NEAR(scan.angle_increment, samples::FakeHokuyo::kBeamSpacing, 1e-6);
   EXPECT_FLOAT_EQ(scan.range_min, 0.02F);
   EXPECT_FLOAT_EQ(scan.range_max, 30.0F);
   EXPECT_FLOAT_EQ(scan.scan_time, 0.025F);
 
-  scanner.send(samples::FakeScanner::scan(175, {1000, 1000, 1000, 1000, 1000}));
+  scanner.send(samples::FakeHokuyo::scan(175, {1000, 1000, 1000, 1000, 1000}));
   EXPECT_TRUE(door.waitFor([&door] {
     return door.diagnostic("device", "scans missed") == 2.0 &&
            door.diagnostic("device", "connections") == 1.0;
@@ -68,9 +83,178 @@ TEST(DeviceTest, AScannersScansComeAndItsFailureIsSaid) {
       << door.diagnosticMessage("device");
   scanner.accept();
   scanner.shakeHands();
-  scanner.send(samples::FakeScanner::scan(5, {1000, 1000, 1000, 1000, 1000}));
+  scanner.send(samples::FakeHokuyo::scan(5, {1000, 1000, 1000, 1000, 1000}));
   EXPECT_TRUE(door.waitFor([&door] { return door.scans.size() == 3; }));
   EXPECT_TRUE(door.waitFor([&door] { return door.diagnostic("device", "connections") == 2.0; }));
+}
+
+TEST(SickDeviceTest, AScannersScansComeAndItsFailureIsSaid) {
+  samples::FakeSick scanner(kSickPort);
+  ScanDoor door;
+  ASSERT_TRUE(door.waitFor([&door] { return door.isConnected(); }));
+  scanner.accept();
+  scanner.shakeHands();
+  const ros::Time before = ros::Time::now();
+  samples::SickTelegram telegram;
+  scanner.scan(telegram);
+  ASSERT_TRUE(door.waitFor([&door] { return !door.scans.empty(); }));
+  const sensor_msgs::LaserScan& scan = *door.scans.front();
+  EXPECT_EQ(scan.header.frame_id, "front_laser");
+  EXPECT_GE(scan.header.stamp, before - ros::Duration(0.020001));
+  EXPECT_LE(scan.header.stamp, ros::Time::now());
+  ASSERT_EQ(scan.ranges.size(), 4U);
+  EXPECT_FLOAT_EQ(scan.ranges[0], 1.0F);
+  EXPECT_EQ(scan.intensities.size(), 4U);
+  EXPECT_NEAR(scan.angle_min, -2.356194, 1e-6);
+  EXPECT_FLOAT_EQ(scan.range_max, 20.0F);
+
+  telegram.state = "0 2";
+  telegram.counter += 3;
+  telegram.begun += 120000;
+  telegram.sent += 120000;
+  scanner.scan(telegram);
+  EXPECT_TRUE(door.waitFor([&door] {
+    return door.diagnostic("device", "scans missed") == 2.0 &&
+           door.diagnostic("device", "warned: dirty_window") == 1.0;
+  }));
+
+  scanner.close();
+  EXPECT_TRUE(door.waitFor(
+      [&door] { return door.diagnostic("device", "dropped: lost_connection") >= 1.0; }));
+  scanner.accept();
+  scanner.shakeHands();
+  scanner.scan(samples::SickTelegram());
+  EXPECT_TRUE(door.waitFor([&door] { return door.scans.size() == 3; }));
+  EXPECT_TRUE(door.waitFor([&door] { return door.diagnostic("device", "connections") == 2.0; }));
+}
+
+/// The clouds of a lidar and the scans that cloud_to_scan makes of them.
+class LidarDoor : public ScanDoor {
+ public:
+  LidarDoor() {
+    cloud_ = node_.subscribe<sensor_msgs::PointCloud2>(
+        "points", 1, [this](const sensor_msgs::PointCloud2ConstPtr& cloud) { last = cloud; });
+    tf2_msgs::TFMessage mount;
+    mount.transforms = {samples::transform("base_link", "roof_lidar", 0.5)};
+    mount.transforms[0].transform.translation.z = samples::kLidarHeight;
+    tf_static_.publish(mount);
+  }
+
+  sensor_msgs::PointCloud2ConstPtr last;
+
+ private:
+  ros::NodeHandle node_;
+  ros::Publisher tf_static_ = node_.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
+  ros::Subscriber cloud_;
+};
+
+/// A lidar that turns in time with the computer's clock.
+class TurningLidar {
+ public:
+  explicit TurningLidar(const samples::VelodyneSample& sample) : stream_(sample) {
+    stream_.setTime(0.0);
+  }
+
+  /// What it has measured since the last call.
+  void sendDue() {
+    const double now = 1e6 * (ros::Time::now() - start_).toSec();
+    while (stream_.time() < now) {
+      lidar_.send(stream_.next());
+    }
+  }
+
+  void lose(int packets) { stream_.skip(packets); }
+
+ private:
+  samples::FakeLidar lidar_{kLidarPort};
+  samples::VelodyneStream stream_;
+  ros::Time start_ = ros::Time::now();
+};
+
+TEST(VelodyneDeviceTest, ALidarsTurnsBecomeCloudsAndScansThatAreDeskewed) {
+  LidarDoor door;
+  TurningLidar lidar{samples::VelodyneSample()};
+  ASSERT_TRUE(door.waitFor([&] {
+    lidar.sendDue();
+    return door.last != nullptr && !door.scans.empty();
+  }));
+  EXPECT_EQ(door.last->header.frame_id, "roof_lidar");
+  ASSERT_EQ(door.last->fields.size(), 6U);
+  EXPECT_EQ(door.last->fields[5].name, "time");
+  // In time, within what a busy machine takes; not before it was measured.
+  EXPECT_LT(door.last->header.stamp, ros::Time::now());
+  EXPECT_TRUE(door.waitFor([&] {
+    lidar.sendDue();
+    return door.diagnostic("device", "connections") == 1.0;
+  }));
+  const sensor_msgs::LaserScan scan = *door.scans.back();
+  EXPECT_NEAR(std::abs(scan.time_increment * static_cast<float>(scan.ranges.size())), 0.0995, 5e-3);
+  EXPECT_NEAR(scan.ranges[scan.ranges.size() / 2], 10.0, 0.3);
+
+  lidar.lose(3);
+  EXPECT_TRUE(door.waitFor([&] {
+    lidar.sendDue();
+    return door.diagnostic("device", "packets missed") >= 3.0;
+  }));
+  // It is gone, and back.
+  EXPECT_TRUE(
+      door.waitFor([&door] { return door.diagnostic("device", "dropped: silent_device") >= 1.0; }));
+  const auto before = door.scans.size();
+  EXPECT_TRUE(door.waitFor([&] {
+    lidar.sendDue();
+    return door.scans.size() > before && door.diagnostic("device", "connections") >= 2.0;
+  }));
+}
+
+/// Positions and velocities of a satellite receiver.
+class ReceiverDoor : public Listener {
+ public:
+  ReceiverDoor() {
+    fix_ = node_.subscribe<sensor_msgs::NavSatFix>(
+        "gnss", 1, [this](const sensor_msgs::NavSatFixConstPtr& message) { fix = message; });
+    twist_ = node_.subscribe<geometry_msgs::TwistStamped>(
+        "twist", 1,
+        [this](const geometry_msgs::TwistStampedConstPtr& message) { twist = message; });
+  }
+
+  bool isConnected() const { return fix_.getNumPublishers() > 0 && twist_.getNumPublishers() > 0; }
+
+  sensor_msgs::NavSatFixConstPtr fix;
+  geometry_msgs::TwistStampedConstPtr twist;
+
+ private:
+  ros::NodeHandle node_;
+  ros::Subscriber fix_;
+  ros::Subscriber twist_;
+};
+
+TEST(NmeaDeviceTest, AReceiversPositionsAndVelocitiesComeAndItsFailureIsSaid) {
+  samples::FakeServer receiver(kReceiverPort);
+  ReceiverDoor door;
+  ASSERT_TRUE(door.waitFor([&door] { return door.isConnected(); }));
+  receiver.accept();
+  receiver.send(samples::ggaLine(1.0) + samples::ggaLine(1.2) + samples::rmcLine(1.2, 10.0));
+  ASSERT_TRUE(door.waitFor([&door] { return door.fix != nullptr && door.twist != nullptr; }));
+  EXPECT_EQ(door.fix->header.frame_id, "antenna");
+  EXPECT_NEAR(door.fix->latitude, 45.0 + 10.0 / 60.0, 1e-9);
+  EXPECT_EQ(door.fix->status.status, sensor_msgs::NavSatStatus::STATUS_FIX);
+  EXPECT_NEAR(door.fix->position_covariance[4], 16.0, 1e-9);
+  // The earth_frame stage takes it.
+  EXPECT_NEAR(positionOf(*door.fix).altitude, 250.0, 1e-9);
+  EXPECT_NEAR(covarianceOf(*door.fix, 1.0)(0, 0), 16.0, 1e-9);
+  EXPECT_NEAR(door.twist->twist.linear.x, 5.14444, 1e-4);
+  EXPECT_TRUE(door.twist->header.frame_id.empty());  // the vehicle's
+  receiver.close();
+  EXPECT_TRUE(door.waitFor(
+      [&door] { return door.diagnostic("device", "dropped: lost_connection") >= 1.0; }));
+  door.fix.reset();
+  receiver.accept();
+  receiver.send(samples::ggaLine(9.0) + samples::ggaLine(9.2) +
+                samples::nmeaLine("GPGGA,100009.400,,,,,0,00,,,M,,M,,"));
+  EXPECT_TRUE(door.waitFor([&door] {
+    return door.fix != nullptr &&
+           door.fix->status.status == sensor_msgs::NavSatStatus::STATUS_NO_FIX;
+  }));
 }
 
 }  // namespace

@@ -34,9 +34,24 @@ class LiveLaunch(unittest.TestCase):
                                    "scan:=/front/scan")
         self.assertEqual(nodes["device"].args, "load datmo_fusion/device perception")
         self.assertEqual(dict(nodes["device"].remap_args)["scan"], "/front/scan")
+        self.assertEqual(parameters["/device/kind"], "hokuyo")
         self.assertEqual(parameters["/device/address"], "10.0.0.7")
-        self.assertEqual(parameters["/device/port"], 10940)
+        self.assertEqual(parameters["/device/port"], 0)
         self.assertEqual(parameters["/device/frame"], "roof")
+
+    def test_a_scanner_of_sicks_is_served_at_the_address_of_its_factory(self):
+        _, parameters = loaded("lidar:=sick_lms")
+        self.assertEqual(parameters["/device/kind"], "sick_lms")
+        self.assertEqual(parameters["/device/address"], "192.168.0.1")
+
+    def test_a_lidar_of_velodynes_takes_the_place_of_the_scan(self):
+        nodes, parameters = loaded("lidar:=velodyne", "lidar_recording:=/a b/drive.pcap")
+        self.assertEqual(parameters["/device/kind"], "velodyne")
+        self.assertEqual(parameters["/device/address"], "")
+        self.assertEqual(parameters["/device/recording"], "/a b/drive.pcap")
+        self.assertEqual(dict(nodes["device"].remap_args)["points"],
+                         dict(nodes["cloud_to_scan"].remap_args)["cloud"])
+        self.assertEqual(dict(nodes["grid_slam"].remap_args)["scan"], "cloud_scan")
 
     def test_images_of_files_are_played(self):
         nodes, _ = loaded("camera:=images", "left_images:=/a b/left", "left_info:=/l.yaml")
@@ -51,8 +66,19 @@ class LiveLaunch(unittest.TestCase):
         _, parameters = loaded("odometry:=none")
         self.assertEqual(parameters["/motion/source"], "none")
 
+    def test_a_satellite_receiver_and_an_imu_give_the_motion(self):
+        nodes, parameters = loaded("odometry:=gps_imu", "gnss_address:=10.0.0.9", "gnss:=/fix", "twist:=/gnss/twist",
+                                   "imu:=/imu/data")
+        self.assertEqual(parameters["/motion/source"], "imu_and_twist")
+        self.assertEqual(nodes["satellite_receiver"].args, "load datmo_fusion/device perception")
+        self.assertEqual(parameters["/satellite_receiver/kind"], "nmea")
+        self.assertEqual(parameters["/satellite_receiver/address"], "10.0.0.9")
+        self.assertEqual(dict(nodes["satellite_receiver"].remap_args)["gnss"], "/fix")
+        self.assertEqual(dict(nodes["motion"].remap_args)["twist"], "/gnss/twist")
+        self.assertEqual(dict(nodes["motion"].remap_args)["imu"], "/imu/data")
+
     def test_devices_that_there_are_not_end_it(self):
-        for word in ("lidar:=velodyne", "camera:=webcam", "odometry:=can"):
+        for word in ("lidar:=ouster", "camera:=webcam", "odometry:=can"):
             with self.subTest(word):
                 with self.assertRaises(roslaunch.RLException):
                     loaded(word)
@@ -63,10 +89,11 @@ class MissingDevice(unittest.TestCase):
         self.assertIsNone(missing_device(["lidar:=hokuyo", "camera:=external", "odometry:=none"]))
 
     def test_the_sentence_says_what_there_is_and_what_to_do(self):
-        said = missing_device(["lidar:=velodyne"])
-        self.assertIn("lidar:=velodyne: no driver of ours, expected one of external, hokuyo", said)
-        self.assertIn("velodyne_driver", said)
-        self.assertIn("odometry:=magic: no driver of ours, expected one of external, none",
+        said = missing_device(["lidar:=ouster"])
+        self.assertIn("lidar:=ouster: no driver of ours, expected one of external, hokuyo, sick_lms, velodyne; ",
+                      said)
+        self.assertIn("ouster_ros", said)
+        self.assertIn("odometry:=magic: no driver of ours, expected one of external, gps_imu, none",
                       missing_device(["lidar:=external", "odometry:=magic"]))
 
 

@@ -190,9 +190,23 @@ datmo_fusion_add_core_test(fusion
 )
 
 datmo_fusion_add_core_test(device
+  device/capture_file_test.cpp
+  device/capture_sample.cpp
   device/clock_estimator_test.cpp
-  device/fake_scanner.cpp
+  device/cola_test.cpp
+  device/device_runner_test.cpp
+  device/fake_hokuyo.cpp
+  device/fake_lidar.cpp
+  device/fake_server.cpp
+  device/fake_sick.cpp
   device/hokuyo_scanner_test.cpp
+  device/nmea_receiver_test.cpp
+  device/nmea_test.cpp
   device/scip_test.cpp
+  device/sick_scanner_test.cpp
+  device/velodyne_lidar_test.cpp
+  device/velodyne_loopback_test.cpp
+  device/velodyne_packet_test.cpp
+  device/velodyne_packets.cpp
 )
 target_include_directories(unit_device PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})

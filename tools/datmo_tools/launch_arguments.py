@@ -22,13 +22,11 @@ CALLER = "/check_launch"
 # Arguments that take one of a few words: roslaunch takes any.
 CHOICES = {"fusion": ("none", "low", "object", "track", "recommended")}
 # Devices of live.launch: the kinds that there are, and what to do for others that people have.
-DEVICES = {"lidar": ("external", "hokuyo"), "camera": ("none", "external", "images"), "odometry": ("external", "none")}
+DEVICES = {"lidar": ("external", "hokuyo", "sick_lms", "velodyne"), "camera": ("none", "external", "images"), "odometry": ("external", "gps_imu", "none")}
 INSTEAD = {
-    "sick_lms": "start sick_scan or sicktoolbox_wrapper and take lidar:=external",
-    "velodyne": "start velodyne_driver and velodyne_pointcloud and take lidar:=external cloud:=/velodyne_points",
+    "ouster": "start ouster_ros and take lidar:=external cloud:=/ouster/points",
     "usb_stereo": "start the driver of a stereo camera whose images have one trigger, or of one camera (usb_cam), and take camera:=external",
     "can": "let a driver publish odometry and take odometry:=external",
-    "gps_imu": "name the topics (motion/source in the sensor set) and take odometry:=external",
 }
 TIMEOUT = 1.0  # s, for an answer of a node on this machine or near
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "datmo_fusion/device/byte_stream.h"
+
 struct addrinfo;
 
 namespace datmo {
@@ -19,28 +21,23 @@ struct DeviceAddress {
 /// A TCP connection to a device, for the thread that serves it. But for the look-up of a name,
 /// which the system bounds, it never waits longer than the timeout at each of the name's addresses.
 /// POSIX alone.
-class Connection {
+class Connection : public ByteStream {
  public:
   /// `stop`: true ends all waiting; must outlive the connection. Throws DeviceError
   /// (`no_connection`).
   Connection(const DeviceAddress& address, const std::atomic<bool>& stop);
-  ~Connection();
+  ~Connection() override;
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
   /// Throws DeviceError (`lost_connection`).
   void send(std::string_view bytes) const;
 
-  /// What has come, at least one byte; nothing when it is to stop. Throws DeviceError
-  /// (`silent_device`, `lost_connection`).
-  std::string receive() const;
+  std::string receive() override;
 
  private:
   /// One address of the name; sets the socket, or returns why not (errno).
   int connectTo(const addrinfo& found);
-
-  /// Waits until the socket has one of the events of poll(); false after the timeout.
-  bool waitFor(short events) const;
 
   DeviceAddress address_;
   const std::atomic<bool>& stop_;

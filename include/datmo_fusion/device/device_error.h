@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace datmo {
@@ -20,5 +21,17 @@ class DeviceError : public std::runtime_error {
  private:
   std::string reason_;
 };
+
+/// A recording is at its end: there is nothing to connect with again.
+class RecordingEnd : public DeviceError {
+ public:
+  explicit RecordingEnd(const std::string& message) : DeviceError("recording_end", message) {}
+};
+
+/// It is to stop, and waits no more: no error.
+struct DeviceStopped {};
+
+/// What can be shown, in quotes, of bytes that may be anything: the first 40.
+std::string shownBytes(std::string_view bytes);
 
 }  // namespace datmo

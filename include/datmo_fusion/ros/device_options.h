@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "datmo_fusion/device/hokuyo_scanner.h"
+#include "datmo_fusion/device/device_setup.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo {
@@ -12,7 +12,7 @@ namespace datmo {
 struct DeviceOptions {
   std::string frame = "laser";
   StreamOptions input;
-  HokuyoOptions hokuyo;
+  DeviceSetup device;
 
   void visit(OptionVisitor& visitor);
 };

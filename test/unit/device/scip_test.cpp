@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "device/fake_scanner.h"
+#include "device/fake_hokuyo.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/common/angle.h"
@@ -13,7 +13,7 @@
 namespace datmo::scip_test {
 namespace {
 
-using samples::FakeScanner;
+using samples::FakeHokuyo;
 
 ScipAnswer answerOf(const std::string& bytes) {
   ScipReader reader;
@@ -22,7 +22,7 @@ ScipAnswer answerOf(const std::string& bytes) {
 }
 
 ScipModel model() {
-  ScipAnswer answer{"PP", "00", FakeScanner::kModel};
+  ScipAnswer answer{"PP", "00", FakeHokuyo::kModel};
   for (std::string& line : answer.lines) {
     line += ";?";
   }
@@ -67,7 +67,7 @@ TEST(Scip, WhatIsNoAnswerIsRefused) {
 TEST(Scip, AModelHasTheGeometryOfItsSteps) {
   const ScipModel scanner = model();
   EXPECT_EQ(scanner.name, "UST-10LX");
-  EXPECT_EQ(scanner.beams(), FakeScanner::kBeams);
+  EXPECT_EQ(scanner.beams(), FakeHokuyo::kBeams);
   EXPECT_NEAR(scanner.firstBearing(), degrees(-45.0), 1e-9);
   EXPECT_NEAR(scanner.beamSpacing(), degrees(22.5), 1e-9);
   EXPECT_DOUBLE_EQ(scanner.scanTime(), 0.025);
@@ -76,7 +76,7 @@ TEST(Scip, AModelHasTheGeometryOfItsSteps) {
 }
 
 TEST(Scip, AChecksumMayBeASemicolon) {
-  ScipAnswer answer{"PP", "00", FakeScanner::kModel};
+  ScipAnswer answer{"PP", "00", FakeHokuyo::kModel};
   for (std::string& line : answer.lines) {
     line += ";;";
   }
@@ -85,7 +85,7 @@ TEST(Scip, AChecksumMayBeASemicolon) {
 
 TEST(Scip, ADeviceThatIsNoScannerIsRefused) {
   EXPECT_THROW(scipModel({"PP", "00", {"MODL:radio;x"}}), DeviceError);
-  std::vector<std::string> lines = FakeScanner::kModel;
+  std::vector<std::string> lines = FakeHokuyo::kModel;
   lines[3] = "ARES:0";
   for (std::string& line : lines) {
     line += ";?";
@@ -95,7 +95,7 @@ TEST(Scip, ADeviceThatIsNoScannerIsRefused) {
 
 TEST(Scip, AScanHasRangesNoReturnsAndNoMeasurements) {
   const ScipScan scan =
-      scipScan(answerOf(FakeScanner::scan(0x123456, {1000, 29999, 65533, 7, 20})), model());
+      scipScan(answerOf(FakeHokuyo::scan(0x123456, {1000, 29999, 65533, 7, 20})), model());
   EXPECT_EQ(scan.clock, 0x123456U);
   ASSERT_EQ(scan.ranges.size(), 5U);
   EXPECT_FLOAT_EQ(scan.ranges[0], 1.0F);
@@ -106,12 +106,12 @@ TEST(Scip, AScanHasRangesNoReturnsAndNoMeasurements) {
 }
 
 TEST(Scip, BrokenScansAreRefused) {
-  const std::string good = FakeScanner::scan(1, {1000, 1000, 1000, 1000, 1000});
+  const std::string good = FakeHokuyo::scan(1, {1000, 1000, 1000, 1000, 1000});
   EXPECT_EQ(reasonOf(good), "");
   std::string flipped = good;
   ++flipped[flipped.size() - 6];
   EXPECT_EQ(reasonOf(flipped), "bad_answer");
-  EXPECT_EQ(reasonOf(FakeScanner::scan(1, {1000, 1000})), "bad_answer");
+  EXPECT_EQ(reasonOf(FakeHokuyo::scan(1, {1000, 1000})), "bad_answer");
   EXPECT_EQ(reasonOf("MD0006001001000\n99b\n\n"), "bad_answer");
   EXPECT_EQ(reasonOf("MD0006001001000\n0M" + std::string(1, scipChecksum("0M")) + "\n\n"),
             "device_fault");

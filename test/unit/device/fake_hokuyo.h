@@ -6,28 +6,21 @@
 #include <string>
 #include <vector>
 
+#include "device/fake_server.h"
+
 namespace datmo::samples {
 
 /// A scanner of Hokuyo's on the loopback, as its manual has it: 90 degrees ahead in 5 beams, 40
-/// turns a second. It does what the test says, in the test's own thread; nothing sleeps.
-class FakeScanner {
+/// turns a second.
+class FakeHokuyo : public FakeServer {
  public:
-  /// Port 0: any that is free.
-  explicit FakeScanner(int port = 0);
-  ~FakeScanner();
-  FakeScanner(const FakeScanner&) = delete;
-  FakeScanner& operator=(const FakeScanner&) = delete;
-
-  int port() const { return port_; }
-
-  /// The next one that connects.
-  void accept();
+  using FakeServer::FakeServer;
 
   /// Answers all that is asked before scans; `model`: answer to PP, without a status.
   void shakeHands(const std::vector<std::string>& model = kModel);
 
   /// The next command, without its end; empty if the other side has gone.
-  std::string command();
+  std::string command() { return receive('\n'); }
 
   void answer(const std::string& command, const std::string& status,
               const std::vector<std::string>& lines = {});
@@ -35,23 +28,12 @@ class FakeScanner {
   /// A scan's message: `clock` in ms, of 24 bits; ranges in mm, one a beam.
   static std::string scan(std::uint32_t clock, const std::vector<std::uint32_t>& ranges);
 
-  void send(const std::string& bytes) const;
-
-  /// Hangs up.
-  void close();
-
   static const std::vector<std::string> kModel;
   static constexpr std::size_t kBeams = 5;
   static constexpr double kScanTime = 0.025;  ///< s
   /// s, from a scan's first beam to its last.
   static constexpr double kSweep = 4.0 * kScanTime / 16.0;
   static constexpr double kBeamSpacing = 0.39269908;  ///< rad
-
- private:
-  int listener_ = -1;
-  int client_ = -1;
-  int port_ = 0;
-  std::string heard_;
 };
 
 }  // namespace datmo::samples

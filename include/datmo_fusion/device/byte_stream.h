@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace datmo {
+
+/// Where a device's bytes come from, one after the other.
+class ByteStream {
+ public:
+  virtual ~ByteStream() = default;
+
+  /// What has come, at least one byte. Throws DeviceError (`silent_device`, `lost_connection`),
+  /// DeviceStopped.
+  virtual std::string receive() = 0;
+};
+
+}  // namespace datmo

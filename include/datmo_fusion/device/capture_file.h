@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "datmo_fusion/device/packet_source.h"
+
+struct pcap;
+
+namespace datmo {
+
+/// The datagrams to a UDP port in a recording of the network (pcap, pcapng: tcpdump, Wireshark), at
+/// the rate at which they came; as fast as they can be read where that is too fast.
+class CaptureFile : public PacketSource {
+ public:
+  /// `stop`: true ends all waiting; must outlive the file. Throws DeviceError (`bad_recording`).
+  CaptureFile(std::string file, int port, const std::atomic<bool>& stop);
+  ~CaptureFile() override;
+  CaptureFile(const CaptureFile&) = delete;
+  CaptureFile& operator=(const CaptureFile&) = delete;
+
+  /// Throws RecordingEnd, DeviceError (`bad_recording`), DeviceStopped.
+  std::string_view next() override;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  /// What happens first of a recording, on both clocks.
+  struct Start {
+    double recorded;  ///< s
+    Clock::time_point played;
+  };
+
+  /// `recorded`: s, when a packet came.
+  void waitUntil(double recorded);
+
+  std::string file_;
+  int port_;
+  const std::atomic<bool>& stop_;
+  std::unique_ptr<pcap, void (*)(pcap*)> capture_;
+  std::optional<Start> start_;
+};
+
+/// The data of a frame of the network if it is a whole UDP datagram (IPv4) to the port; none
+/// otherwise. `link`: the kind of frame as a capture file has it (DLT_…).
+std::optional<std::string_view> datagramOf(std::string_view frame, int link, int port);
+
+}  // namespace datmo

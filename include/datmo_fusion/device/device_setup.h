@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/device/device_runner.h"
+#include "datmo_fusion/device/nmea_receiver.h"
+#include "datmo_fusion/device/velodyne_lidar.h"
+
+namespace datmo {
+
+/// The makes whose protocols are spoken here.
+enum class DeviceKind { kHokuyo, kSickLms, kVelodyne, kNmea };
+
+/// Which device is where.
+struct DeviceSetup {
+  DeviceKind kind = DeviceKind::kHokuyo;
+  std::string address = "192.168.0.10";
+  int port = 0;           ///< 0: the make's own
+  double timeout = 1.0;   ///< s
+  std::string recording;  ///< of the packets of a lidar; empty: the network
+  DeviceRunnerOptions runner;
+  VelodyneOptions velodyne;
+  NmeaOptions nmea;
+
+  void visit(OptionVisitor& visitor);
+};
+
+DeviceMaker deviceMaker(const Checked<DeviceSetup>& setup);
+
+}  // namespace datmo

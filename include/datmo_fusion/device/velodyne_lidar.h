@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/device/device.h"
+#include "datmo_fusion/device/packet_source.h"
+#include "datmo_fusion/device/velodyne_packet.h"
+
+namespace datmo {
+
+struct VelodyneOptions {
+  std::string model = "auto";  ///< name of a VelodyneModel, or auto: as the packets say
+  double min_range = 0.4;      ///< m
+  double max_range = 130.0;    ///< m
+  double seam = 3.14159;       ///< rad
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Throws DeviceError.
+using PacketOpener = std::function<std::unique_ptr<PacketSource>()>;
+
+/// A rotating lidar of Velodyne's (VLP-16, Puck LITE, Puck Hi-Res, HDL-32E): a cloud each turn, of
+/// one or two returns. The first turn, which is not whole, is left out.
+///
+/// The stamp of a cloud is that of its first firing. Packets carry the lidar's time, and arrive
+/// when their last firing is done.
+class VelodyneLidar : public Device {
+ public:
+  static constexpr int kPort = 2368;
+
+  /// `open`: where its packets come from.
+  VelodyneLidar(PacketOpener open, VelodyneOptions options, const DeviceHost& host);
+
+  std::string connect() override;
+  DeviceMeasurement next() override;
+
+ private:
+  /// A cloud that is not complete yet.
+  struct Turn {
+    Stamp stamp;
+    double age = 0.0;  ///< s, of its first firing when the newest packet's first one was measured
+    DeviceCloud cloud;
+  };
+
+  /// The next packet that is a lidar's. Others are counted; many in a row are none of a lidar's.
+  VelodynePacket nextPacket();
+  const VelodyneModel& modelOf(const VelodynePacket& packet) const;
+  /// Brings time to that of the packet; false if it is older than the last one.
+  bool takeTime(const VelodynePacket& packet);
+  /// Takes the blocks of the packet up to the end of a turn, or of the packet.
+  std::optional<DeviceMeasurement> takeBlocks();
+  std::optional<DeviceMeasurement> endTurn(std::size_t block);
+
+  PacketOpener open_;
+  VelodyneOptions options_;
+  DeviceHost host_;
+  std::unique_ptr<PacketSource> source_;
+  const VelodyneModel* model_ = nullptr;
+  std::optional<VelodynePacket> packet_;  ///< which is taken at present
+  std::size_t next_block_ = 0;            ///< of it
+  Stamp packet_stamp_;                    ///< of its first firing
+  unsigned seam_ = 0;                     ///< hundredths of a degree, clockwise from straight ahead
+  unsigned last_angle_ = 0;               ///< the same from the seam, of the last block
+  std::optional<Turn> turn_;              ///< none before the first seam
+  std::size_t last_points_ = 0;           ///< of the last turn
+  std::uint64_t missed_ = 0;              ///< packets, since the last cloud
+};
+
+}  // namespace datmo

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace datmo {
+
+/// One laser of a rotating lidar, in the order in which they fire.
+struct VelodyneLaser {
+  float cos_elevation = 1.0F;
+  float sin_elevation = 0.0F;
+  float height = 0.0F;     ///< m, of where it leaves above the lidar's origin
+  std::uint16_t ring = 0;  ///< from the lowest, 0
+};
+
+/// How a lidar of Velodyne's measures: from the manuals of each.
+struct VelodyneModel {
+  std::string name;
+  std::uint8_t product = 0;  ///< in its packets
+  std::vector<VelodyneLaser> lasers;
+  double firing_time = 0.0;    ///< s, from a laser to the next
+  double sequence_time = 0.0;  ///< s, from the first laser to the first one again
+  bool stamped_last = false;   ///< a packet's time is of its last firing, not of its first
+
+  /// Of all lasers in one block of a packet.
+  std::size_t sequences() const { return kChannels / lasers.size(); }
+  double blockTime() const { return sequence_time * static_cast<double>(sequences()); }  ///< s
+
+  static constexpr std::size_t kChannels = 32;  ///< of a block
+};
+
+/// All that are known.
+const std::vector<VelodyneModel>& velodyneModels();
+
+}  // namespace datmo

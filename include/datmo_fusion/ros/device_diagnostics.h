@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "datmo_fusion/common/stamp.h"
+#include "datmo_fusion/device/device_clock.h"
+#include "datmo_fusion/device/device_data.h"
+#include "datmo_fusion/device/device_error.h"
+#include "datmo_fusion/ros/stage/stage_monitor.h"
+
+namespace datmo {
+
+/// What the status of a device says of it: connections, faults by reason, measurements and those
+/// that are missing, and the device's clock. `now`: ROS time.
+class DeviceDiagnostics {
+ public:
+  /// `monitor` must outlive it.
+  explicit DeviceDiagnostics(StageMonitor& monitor);
+
+  /// `device`: what it is, for people.
+  void connected(const std::string& device, Stamp now);
+
+  /// Something that ended the connection, or did not.
+  void fault(const DeviceError& error, Stamp now);
+  void warning(const DeviceError& error, Stamp now);
+
+  /// `overtaken`: measurements so far that waited too long.
+  void measured(const DeviceMeasurement& measurement, const ClockState& clock,
+                std::uint64_t overtaken, Stamp now);
+
+ private:
+  void noteMissed(const DeviceMeasurement& measurement);
+  void noteClock(const ClockState& clock);
+
+  StageMonitor& monitor_;
+  std::uint64_t connections_ = 0;
+  std::uint64_t missed_ = 0;
+  std::uint64_t clock_steps_ = 0;
+  std::optional<double> first_offset_;  ///< s, of this connection
+};
+
+}  // namespace datmo

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/device/capture_file.h"
+
+#include <algorithm>
+#include <array>
+#include <thread>
+#include <utility>
+
+#include <pcap/pcap.h>
+
+#include "datmo_fusion/device/device_error.h"
+
+namespace datmo {
+
+namespace {
+
+DeviceError badRecording(const std::string& file, const std::string& cause) {
+  return {"bad_recording",
+          file + " cannot be played (" + cause + "): expected a recording of tcpdump or Wireshark"};
+}
+
+pcap* openCapture(const std::string& file) {
+  std::array<char, PCAP_ERRBUF_SIZE> error{};
+  pcap* const capture = pcap_open_offline(file.c_str(), error.data());
+  if (capture == nullptr) {
+    throw badRecording(file, error.data());
+  }
+  return capture;
+}
+
+/// Two bytes in the network's order; the caller has checked the length.
+unsigned wordAt(std::string_view bytes, std::size_t at) {
+  constexpr unsigned kByte = 8;
+  return static_cast<unsigned>(static_cast<unsigned char>(bytes[at])) << kByte |
+         static_cast<unsigned char>(bytes[at + 1]);
+}
+
+/// Where a frame's IPv4 packet begins; past its end if it has none.
+std::size_t packetStart(std::string_view frame, int link) {
+  constexpr unsigned kIpv4 = 0x0800;
+  constexpr unsigned kTagged = 0x8100;  // 802.1Q
+  constexpr std::size_t kTag = 4;
+  // Where the type of what is inside stands, and what is inside begins 2 bytes later.
+  std::size_t type = 0;
+  switch (link) {
+    case DLT_RAW:
+      return 0;
+    case DLT_EN10MB:
+      type = 12;
+      break;
+    case DLT_LINUX_SLL:
+      type = 14;
+      break;
+    default:
+      return frame.size();
+  }
+  while (type + 2 <= frame.size() && wordAt(frame, type) == kTagged) {
+    type += kTag;
+  }
+  return type + 2 <= frame.size() && wordAt(frame, type) == kIpv4 ? type + 2 : frame.size();
+}
+
+}  // namespace
+
+std::optional<std::string_view> datagramOf(std::string_view frame, int link, int port) {
+  constexpr std::size_t kIpHeader = 20;
+  constexpr std::size_t kUdpHeader = 8;
+  constexpr unsigned kWords = 4;  // bytes, of the unit of the header's length
+  constexpr unsigned kUdp = 17;
+  constexpr unsigned kFragment = 0x3FFF;  // more of them, or an offset
+  const std::string_view packet = frame.substr(std::min(packetStart(frame, link), frame.size()));
+  if (packet.size() < kIpHeader + kUdpHeader) {
+    return std::nullopt;
+  }
+  const auto first = static_cast<unsigned char>(packet[0]);
+  const std::size_t header = (first & 0x0FU) * kWords;
+  if (first >> 4U != 4 || header < kIpHeader || (wordAt(packet, 6) & kFragment) != 0 ||
+      static_cast<unsigned char>(packet[9]) != kUdp || packet.size() < header + kUdpHeader) {
+    return std::nullopt;
+  }
+  const std::string_view datagram = packet.substr(header);
+  const std::size_t length = wordAt(datagram, 4);
+  if (wordAt(datagram, 2) != static_cast<unsigned>(port) || length < kUdpHeader ||
+      length > datagram.size()) {
+    return std::nullopt;
+  }
+  return datagram.substr(kUdpHeader, length - kUdpHeader);
+}
+
+CaptureFile::CaptureFile(std::string file, int port, const std::atomic<bool>& stop)
+    : file_(std::move(file)), port_(port), stop_(stop), capture_(openCapture(file_), &pcap_close) {}
+
+CaptureFile::~CaptureFile() = default;
+
+std::string_view CaptureFile::next() {
+  constexpr double kMicrosecond = 1e-6;  // s
+  while (true) {
+    pcap_pkthdr* header = nullptr;
+    const u_char* bytes = nullptr;
+    const int result = pcap_next_ex(capture_.get(), &header, &bytes);
+    if (result == PCAP_ERROR_BREAK) {
+      throw RecordingEnd(file_ + " was played to its end");
+    }
+    if (result != 1) {
+      throw badRecording(file_, pcap_geterr(capture_.get()));
+    }
+    const std::string_view frame(reinterpret_cast<const char*>(bytes), header->caplen);
+    if (const auto data = datagramOf(frame, pcap_datalink(capture_.get()), port_)) {
+      waitUntil(static_cast<double>(header->ts.tv_sec) +
+                static_cast<double>(header->ts.tv_usec) * kMicrosecond);
+      return *data;
+    }
+    if (stop_) {
+      throw DeviceStopped();
+    }
+  }
+}
+
+void CaptureFile::waitUntil(double recorded) {
+  constexpr std::chrono::milliseconds kSlice(50);  // so late it may be found out that it is to stop
+  start_ = start_.value_or(Start{recorded, Clock::now()});
+  const auto due = start_->played + std::chrono::duration_cast<Clock::duration>(
+                                        std::chrono::duration<double>(recorded - start_->recorded));
+  while (!stop_ && Clock::now() < due) {
+    std::this_thread::sleep_until(std::min<Clock::time_point>(due, Clock::now() + kSlice));
+  }
+  if (stop_) {
+    throw DeviceStopped();
+  }
+}
+
+}  // namespace datmo

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/device/device_setup.h"
+
+#include <memory>
+
+#include "datmo_fusion/device/capture_file.h"
+#include "datmo_fusion/device/datagram_socket.h"
+#include "datmo_fusion/device/hokuyo_scanner.h"
+#include "datmo_fusion/device/serial_line.h"
+#include "datmo_fusion/device/sick_scanner.h"
+
+namespace datmo {
+
+namespace {
+
+DeviceAddress addressOf(const DeviceSetup& setup, int usual_port) {
+  return {setup.address, setup.port == 0 ? usual_port : setup.port, setup.timeout};
+}
+
+template <typename Scanner>
+DeviceMaker scannerMaker(const DeviceSetup& setup) {
+  return [address = addressOf(setup, Scanner::kPort)](const DeviceHost& host) {
+    return std::make_unique<Scanner>(address, host);
+  };
+}
+
+DeviceMaker velodyneMaker(const DeviceSetup& setup) {
+  const DeviceAddress address = addressOf(setup, VelodyneLidar::kPort);
+  return [address, recording = setup.recording, options = setup.velodyne](const DeviceHost& host) {
+    const PacketOpener open = [=, &stop = host.stop]() -> std::unique_ptr<PacketSource> {
+      if (recording.empty()) {
+        return std::make_unique<DatagramSocket>(address, stop);
+      }
+      return std::make_unique<CaptureFile>(recording, address.port, stop);
+    };
+    return std::make_unique<VelodyneLidar>(open, options, host);
+  };
+}
+
+/// A file's name begins by a slash.
+DeviceMaker nmeaMaker(const DeviceSetup& setup) {
+  const DeviceAddress address = addressOf(setup, NmeaReceiver::kPort);
+  return [address, options = setup.nmea](const DeviceHost& host) {
+    const StreamOpener open = [=, &stop = host.stop]() -> std::unique_ptr<ByteStream> {
+      if (address.host.rfind('/', 0) == 0) {
+        return std::make_unique<SerialLine>(
+            SerialSettings{address.host, options.baud, address.timeout}, stop);
+      }
+      return std::make_unique<Connection>(address, stop);
+    };
+    return std::make_unique<NmeaReceiver>(open, options, host);
+  };
+}
+
+}  // namespace
+
+void DeviceSetup::visit(OptionVisitor& visitor) {
+  constexpr double kPorts = 65535.0;
+  visitor.choice({"kind", "", "whose protocol the device speaks"}, kind,
+                 Choices<DeviceKind>{{"hokuyo", DeviceKind::kHokuyo},
+                                     {"sick_lms", DeviceKind::kSickLms},
+                                     {"velodyne", DeviceKind::kVelodyne},
+                                     {"nmea", DeviceKind::kNmea}});
+  visitor.text({"address", "",
+                "the device's name or address on the network; velodyne: empty for any that sends; "
+                "nmea: or the file of a serial port"},
+               address, {});
+  visitor.integer(
+      {"port", "1", "its port; 0: the one that its make has (10940, 2111, 2368, 10110)"}, port,
+      {0.0, kPorts});
+  visitor.number({"timeout", "s", "a device silent for so long is connected again"}, timeout,
+                 {0.05, 60.0});
+  visitor.text({"recording", "",
+                "velodyne: a capture file (pcap) that is played in its place; empty: the network"},
+               recording, {});
+  runner.visit(visitor);
+  visitor.group("velodyne", [&] { velodyne.visit(visitor); });
+  visitor.group("nmea", [&] { nmea.visit(visitor); });
+}
+
+DeviceMaker deviceMaker(const Checked<DeviceSetup>& setup) {
+  switch (setup->kind) {
+    case DeviceKind::kSickLms:
+      return scannerMaker<SickScanner>(*setup);
+    case DeviceKind::kVelodyne:
+      return velodyneMaker(*setup);
+    case DeviceKind::kNmea:
+      return nmeaMaker(*setup);
+    case DeviceKind::kHokuyo:
+      break;
+  }
+  return scannerMaker<HokuyoScanner>(*setup);
+}
+
+}  // namespace datmo

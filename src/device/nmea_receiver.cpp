@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/device/nmea_receiver.h"
+
+#include <utility>
+
+namespace datmo {
+
+namespace {
+
+constexpr TickFormat kNmeaTicks{1e-3, 86400000};  // to midnight
+
+constexpr int kForeignSentences = 20;  ///< in a row: there is no receiver
+
+}  // namespace
+
+void NmeaOptions::visit(OptionVisitor& visitor) {
+  visitor.integer({"baud", "1", "bits per second of a serial port"}, baud, {4800.0, 460800.0});
+  visitor.number({"delay", "s",
+                  "from the time of a position to its first byte: what the receiver takes to "
+                  "compute it (data sheet)"},
+                 delay, {0.0, 1.0});
+  visitor.number({"sigma", "m",
+                  "standard deviation along each axis of a position without corrections where HDOP "
+                  "is 1; corrections make it less by fixed shares"},
+                 sigma, {0.01, 100.0});
+}
+
+NmeaReceiver::NmeaReceiver(StreamOpener open, const NmeaOptions& options, const DeviceHost& host)
+    : open_(std::move(open)), options_(options), host_(host) {}
+
+std::string NmeaReceiver::connect() {
+  stream_ = open_();
+  host_.clock.restart(kNmeaTicks);
+  nextSentence();  // the first one may be half
+  return "a satellite receiver";
+}
+
+NmeaSentence NmeaReceiver::nextSentence() {
+  for (int foreign = 1;;) {
+    try {
+      if (std::optional<NmeaSentence> sentence = reader_.next()) {
+        return *std::move(sentence);
+      }
+    } catch (const DeviceError& error) {
+      if (++foreign > kForeignSentences) {
+        throw;
+      }
+      host_.warn(error);
+      continue;
+    }
+    reader_.feed(stream_->receive());
+  }
+}
+
+DeviceMeasurement NmeaReceiver::next() {
+  while (true) {
+    const NmeaSentence sentence = nextSentence();
+    try {
+      if (std::optional<DeviceMeasurement> measurement = measurementOf(sentence)) {
+        return *std::move(measurement);
+      }
+    } catch (const DeviceError& error) {
+      host_.warn(error);
+    }
+  }
+}
+
+std::optional<DeviceMeasurement> NmeaReceiver::measurementOf(const NmeaSentence& sentence) {
+  const bool is_rmc = sentence.type == "RMC";
+  has_rmc_ = has_rmc_ || is_rmc;
+  if (sentence.type == "GGA") {
+    if (takeTime(sentence.field(0))) {
+      return DeviceMeasurement{stamp_, nmeaFix(sentence, options_.sigma), 0};
+    }
+  } else if (is_rmc ? takeTime(sentence.field(0))
+                    : sentence.type == "VTG" && has_time_ && !has_rmc_) {
+    if (const std::optional<GroundVelocity> velocity = nmeaVelocity(sentence)) {
+      return DeviceMeasurement{stamp_, *velocity, 0};
+    }
+  }
+  return std::nullopt;
+}
+
+bool NmeaReceiver::takeTime(const std::string& field) {
+  constexpr double kOld = 1.0;  // s; what is older is of a clock that was set
+  const std::optional<std::uint64_t> ticks = nmeaTime(field);
+  if (!ticks) {
+    host_.warn({"no_time", "the receiver does not know the time yet: expected satellites in view"});
+    return false;
+  }
+  if (has_time_) {
+    const double since = host_.clock.sinceLast(*ticks);
+    if (since == 0.0) {
+      return true;
+    }
+    if (since < 0.0 && since > -kOld) {
+      host_.warn({"late_sentence", "a sentence " + std::to_string(-since) +
+                                       " s older than the last one: expected them in order"});
+      return false;
+    }
+  }
+  stamp_ = host_.clock.add(*ticks, options_.delay);
+  has_time_ = true;
+  return true;
+}
+
+}  // namespace datmo

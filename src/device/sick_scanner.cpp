@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/device/sick_scanner.h"
+
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace datmo {
+
+namespace {
+
+constexpr TickFormat kSickTicks{1e-6, std::uint64_t{1} << 32U};
+constexpr double kMicrosecond = 1e-6;  // s
+
+constexpr std::string_view kScanTelegram = "sSN LMDscandata";
+
+/// So many scans may still come of what was asked before.
+constexpr int kOldScans = 100;
+
+bool beginsBy(std::string_view text, std::string_view beginning) {
+  return text.substr(0, beginning.size()) == beginning;
+}
+
+}  // namespace
+
+SickScanner::SickScanner(DeviceAddress address, const DeviceHost& host)
+    : address_(std::move(address)), host_(host) {}
+
+std::string SickScanner::connect() {
+  connection_ = std::make_unique<Connection>(address_, host_.stop);
+  host_.clock.restart(kSickTicks);
+  model_ = sickModel(ask("sRN DeviceIdent", "sRA DeviceIdent"));
+  // As user 3, authorized client, by the hash of the password that all scanners leave the factory
+  // with.
+  ask("sMN SetAccessMode 03 F4724744", "sAN SetAccessMode 1");
+  // First echoes with remission, both of 16 bits; neither encoder, position, name, comment nor
+  // date; each scan. It is not kept when the scanner is switched off.
+  ask("sWN LMDscandatacfg 01 00 1 1 0 00 00 0 0 0 0 +1", "sWA LMDscandatacfg");
+  ask("sMN LMCstartmeas", "sAN LMCstartmeas 0");
+  ask("sMN Run", "sAN Run 1");
+  ask("sEN LMDscandata 1", "sEA LMDscandata 1");
+  return model_.name + " at " + address_.host;
+}
+
+std::string SickScanner::ask(const std::string& command, const std::string& expected) {
+  connection_->send(colaTelegram(command));
+  for (int i = 0; i < kOldScans; ++i) {
+    std::string answer = nextTelegram();
+    if (beginsBy(answer, expected)) {
+      return answer;
+    }
+    if (!beginsBy(answer, kScanTelegram)) {
+      throw DeviceError("device_fault", "the device answers " + shownBytes(answer) + " to '" +
+                                            command + "': expected '" + expected +
+                                            "'; is it a scanner of SICK's with the password that "
+                                            "it left the factory with?");
+    }
+  }
+  throw DeviceError("bad_answer", "no answer to '" + command + "' among " +
+                                      std::to_string(kOldScans) + " scans: expected one");
+}
+
+std::string SickScanner::nextTelegram() {
+  while (true) {
+    if (std::optional<std::string> telegram = reader_.next()) {
+      return *std::move(telegram);
+    }
+    reader_.feed(connection_->receive());
+  }
+}
+
+DeviceMeasurement SickScanner::next() {
+  std::string telegram = nextTelegram();
+  while (!beginsBy(telegram, kScanTelegram)) {
+    if (beginsBy(telegram, "sFA")) {
+      throw DeviceError("device_fault", "the scanner says " + shownBytes(telegram) +
+                                            ": expected scans; its manual has the error");
+    }
+    telegram = nextTelegram();
+  }
+  SickScan raw = sickScan(telegram, model_);
+  warnOf(raw.state);
+  DeviceMeasurement measurement;
+  const Stamp sent = host_.clock.add(raw.sent);
+  measurement.stamp = sent + -static_cast<double>(raw.sent - raw.begun) * kMicrosecond;
+  const auto scans = static_cast<std::uint16_t>(raw.counter - last_counter_);
+  last_counter_ = raw.counter;
+  // Without a time since the last one that one was of another clock, and so of another counter.
+  measurement.missed = host_.clock.interval() > 0.0 && scans > 0 ? scans - 1U : 0;
+  measurement.data = std::move(raw.scan);
+  return measurement;
+}
+
+void SickScanner::warnOf(SickState state) const {
+  if (state == SickState::kFault) {
+    host_.warn({"device_error", "'" + model_.name +
+                                    "' says that it has an error: its scans may "
+                                    "be wrong; its display or SOPAS ET has the "
+                                    "cause"});
+  } else if (state == SickState::kDirty) {
+    host_.warn({"dirty_window", "'" + model_.name + "' says that its window is dirty: clean it"});
+  }
+}
+
+}  // namespace datmo

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/device/velodyne_lidar.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "datmo_fusion/common/angle.h"
+
+namespace datmo {
+
+namespace {
+
+constexpr TickFormat kVelodyneTicks{1e-6, 3600000000};  // to the hour
+
+/// s; packets of the past that overtook each other in the network. What is older is of a clock that
+/// was set.
+constexpr double kReordered = 0.1;
+
+constexpr double kLongestTurn = 0.5;  ///< s; the slowest of all lidars takes 0.2 s
+constexpr double kLongestGap = 0.1;   ///< s, in a turn that is published in spite of it
+
+constexpr int kForeignPackets = 100;  ///< in a row: there is no lidar
+
+constexpr const char* kAuto = "auto";
+
+}  // namespace
+
+void VelodyneOptions::visit(OptionVisitor& visitor) {
+  std::vector<std::string> names{kAuto};
+  for (const VelodyneModel& known : velodyneModels()) {
+    names.push_back(known.name);
+  }
+  visitor.text({"model", "", "auto: as its packets say, which those of old firmware do not"}, model,
+               names);
+  visitor.number({"min_range", "m", "nearer returns are left out: the mount and the lidar itself"},
+                 min_range, {0.0, 10.0});
+  visitor.number({"max_range", "m", "farther returns are left out"}, max_range, {1.0, 300.0});
+  visitor.number({"seam", "rad",
+                  "bearing about the lidar where a turn ends and the next begins: best where "
+                  "little happens"},
+                 seam, {-kPi, kPi});
+}
+
+VelodyneLidar::VelodyneLidar(PacketOpener open, VelodyneOptions options, const DeviceHost& host)
+    : open_(std::move(open)), options_(std::move(options)), host_(host) {
+  constexpr double kHundredths = 100.0;
+  // Azimuth is clockwise.
+  const auto seam = std::lround(-toDegrees(options_.seam) * kHundredths);
+  seam_ = static_cast<unsigned>(seam + VelodynePacket::kFullTurn) % VelodynePacket::kFullTurn;
+}
+
+std::string VelodyneLidar::connect() {
+  source_ = open_();
+  host_.clock.restart(kVelodyneTicks);
+  packet_ = nextPacket();
+  model_ = &modelOf(*packet_);
+  takeTime(*packet_);
+  return model_->name + (packet_->isDual() ? ", two returns" : ", one return");
+}
+
+VelodynePacket VelodyneLidar::nextPacket() {
+  for (int foreign = 1;; ++foreign) {
+    try {
+      const VelodynePacket packet(source_->next());
+      const bool is_same =
+          model_ == nullptr || options_.model != kAuto || packet.product() == model_->product;
+      if (is_same) {
+        return packet;
+      }
+      throw DeviceError("wrong_device",
+                        "a packet of another product (" + std::to_string(packet.product()) +
+                            ") than " + model_->name +
+                            ": expected one lidar a port; tell them apart by their addresses");
+    } catch (const RecordingEnd&) {
+      throw;
+    } catch (const DeviceError& error) {
+      const bool is_foreign = error.reason() == "bad_packet" || error.reason() == "wrong_device";
+      if (!is_foreign || foreign >= kForeignPackets) {
+        throw;
+      }
+      host_.warn(error);
+    }
+  }
+}
+
+const VelodyneModel& VelodyneLidar::modelOf(const VelodynePacket& packet) const {
+  const auto& models = velodyneModels();
+  const auto found = std::find_if(models.begin(), models.end(), [&](const VelodyneModel& model) {
+    return options_.model == kAuto ? model.product == packet.product()
+                                   : model.name == options_.model;
+  });
+  if (found == models.end()) {
+    throw DeviceError("wrong_device",
+                      "a lidar of product " + std::to_string(packet.product()) +
+                          ": expected 34 (VLP-16), 36 (Puck Hi-Res) or 33 (HDL-32E); with old "
+                          "firmware, name it (velodyne/model)");
+  }
+  return *found;
+}
+
+bool VelodyneLidar::takeTime(const VelodynePacket& packet) {
+  const std::uint32_t ticks = packet.time();
+  DeviceClock& clock = host_.clock;
+  if (clock.hasMessage()) {
+    const double since = clock.sinceLast(ticks);
+    if (since <= 0.0 && since > -kReordered) {
+      host_.warn({"late_packet", "a packet " + std::to_string(-since) +
+                                     " s older than the last one: expected them in order"});
+      return false;
+    }
+  }
+  const double span = packetSpan(*model_, packet.isDual());
+  const bool is_first = !clock.hasMessage();
+  // It is sent after its last firing.
+  const Stamp stamp = clock.add(ticks, model_->stamped_last ? 0.0 : span);
+  packet_stamp_ = model_->stamped_last ? stamp + -span : stamp;
+  const double interval = clock.interval();
+  const bool is_set = interval <= 0.0 && !is_first;
+  if (is_set || interval > kLongestGap) {
+    turn_.reset();
+  }
+  missed_ += missedIn(interval, blockOffset(*model_, packet.isDual(), VelodynePacket::kBlocks));
+  if (turn_) {
+    turn_->age += interval;
+    if (turn_->age > kLongestTurn) {
+      throw DeviceError("device_fault", "the lidar has not turned once in " +
+                                            std::to_string(kLongestTurn) +
+                                            " s: expected five turns a second or more");
+    }
+  }
+  next_block_ = 0;
+  return true;
+}
+
+DeviceMeasurement VelodyneLidar::next() {
+  while (true) {
+    if (std::optional<DeviceMeasurement> measurement = takeBlocks()) {
+      return *std::move(measurement);
+    }
+    do {
+      packet_ = nextPacket();
+    } while (!takeTime(*packet_));
+  }
+}
+
+std::optional<DeviceMeasurement> VelodyneLidar::takeBlocks() {
+  constexpr unsigned kFullTurn = VelodynePacket::kFullTurn;
+  const RangeLimits limits{options_.min_range, options_.max_range};
+  while (next_block_ < VelodynePacket::kBlocks) {
+    const std::size_t block = next_block_;
+    const unsigned angle = (packet_->azimuth(block) + kFullTurn - seam_) % kFullTurn;
+    // Less by more than the encoder's noise.
+    const bool is_new = angle + kFullTurn / 2 < last_angle_;
+    last_angle_ = angle;
+    if (is_new) {
+      if (std::optional<DeviceMeasurement> measurement = endTurn(block)) {
+        return measurement;  // the block is of the next turn, which has begun
+      }
+    }
+    if (turn_) {
+      appendPoints(*packet_, block, *model_, limits,
+                   turn_->age + blockOffset(*model_, packet_->isDual(), block),
+                   turn_->cloud.points);
+    }
+    ++next_block_;
+  }
+  return std::nullopt;
+}
+
+std::optional<DeviceMeasurement> VelodyneLidar::endTurn(std::size_t block) {
+  const double offset = blockOffset(*model_, packet_->isDual(), block);
+  std::optional<DeviceMeasurement> measurement;
+  if (turn_) {
+    measurement.emplace();
+    measurement->stamp = turn_->stamp;
+    measurement->missed = std::exchange(missed_, 0);
+    last_points_ = turn_->cloud.points.size();
+    measurement->data = std::move(turn_->cloud);
+  }
+  turn_.emplace();
+  turn_->stamp = packet_stamp_ + offset;
+  turn_->age = -offset;
+  turn_->cloud.points.reserve(last_points_ + last_points_ / 8);
+  return measurement;
+}
+
+}  // namespace datmo

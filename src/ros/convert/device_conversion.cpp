@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/convert/device_conversion.h"
+
+#include <cstddef>
+#include <cstdint>
+
+#include <boost/make_shared.hpp>
+
+#include "datmo_fusion/ros/convert/message_conversion.h"
+
+namespace datmo {
+
+namespace {
+
+sensor_msgs::PointField fieldOf(const char* name, std::size_t offset, std::uint8_t type) {
+  sensor_msgs::PointField field;
+  field.name = name;
+  field.offset = static_cast<std::uint32_t>(offset);
+  field.datatype = type;
+  field.count = 1;
+  return field;
+}
+
+std::int8_t statusOf(SatelliteFix::Kind kind) {
+  using sensor_msgs::NavSatStatus;
+  switch (kind) {
+    case SatelliteFix::Kind::kSatellites:
+      return NavSatStatus::STATUS_FIX;
+    case SatelliteFix::Kind::kDifferential:
+      return NavSatStatus::STATUS_SBAS_FIX;
+    case SatelliteFix::Kind::kRealTimeKinematic:
+      return NavSatStatus::STATUS_GBAS_FIX;
+    case SatelliteFix::Kind::kNone:
+      break;
+  }
+  return NavSatStatus::STATUS_NO_FIX;
+}
+
+}  // namespace
+
+sensor_msgs::LaserScanPtr toMessage(const DeviceScan& scan, Stamp stamp, const std::string& frame) {
+  auto message = boost::make_shared<sensor_msgs::LaserScan>();
+  const double last = static_cast<double>(scan.ranges.size()) - 1.0;
+  message->header.stamp = toTime(stamp);
+  message->header.frame_id = frame;
+  message->angle_min = static_cast<float>(scan.first_bearing);
+  message->angle_increment = static_cast<float>(scan.beam_spacing);
+  message->angle_max = static_cast<float>(scan.first_bearing + scan.beam_spacing * last);
+  message->time_increment = static_cast<float>(scan.beam_time);
+  message->scan_time = static_cast<float>(scan.scan_time);
+  message->range_min = static_cast<float>(scan.min_range);
+  message->range_max = static_cast<float>(scan.max_range);
+  message->ranges = scan.ranges;
+  message->intensities = scan.intensities;
+  return message;
+}
+
+sensor_msgs::PointCloud2Ptr toMessage(const DeviceCloud& cloud, Stamp stamp,
+                                      const std::string& frame) {
+  using sensor_msgs::PointField;
+  auto message = boost::make_shared<sensor_msgs::PointCloud2>();
+  message->header.stamp = toTime(stamp);
+  message->header.frame_id = frame;
+  message->fields = {fieldOf("x", offsetof(CloudPoint, x), PointField::FLOAT32),
+                     fieldOf("y", offsetof(CloudPoint, y), PointField::FLOAT32),
+                     fieldOf("z", offsetof(CloudPoint, z), PointField::FLOAT32),
+                     fieldOf("intensity", offsetof(CloudPoint, intensity), PointField::FLOAT32),
+                     fieldOf("ring", offsetof(CloudPoint, ring), PointField::UINT16),
+                     fieldOf("time", offsetof(CloudPoint, time), PointField::FLOAT32)};
+  message->height = 1;
+  message->width = static_cast<std::uint32_t>(cloud.points.size());
+  message->point_step = sizeof(CloudPoint);
+  message->row_step = message->point_step * message->width;
+  message->is_bigendian = 0;
+  message->is_dense = 1;
+  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(cloud.points.data());
+  message->data.assign(bytes, bytes + message->row_step);
+  return message;
+}
+
+sensor_msgs::NavSatFixPtr toMessage(const SatelliteFix& fix, Stamp stamp,
+                                    const std::string& frame) {
+  constexpr std::size_t kNextOfDiagonal = 4;
+  auto message = boost::make_shared<sensor_msgs::NavSatFix>();
+  message->header.stamp = toTime(stamp);
+  message->header.frame_id = frame;
+  message->status.status = statusOf(fix.kind);
+  message->status.service = sensor_msgs::NavSatStatus::SERVICE_GPS;
+  message->latitude = fix.latitude;
+  message->longitude = fix.longitude;
+  message->altitude = fix.altitude;
+  message->position_covariance[0] = fix.sigma * fix.sigma;
+  message->position_covariance[kNextOfDiagonal] = fix.sigma * fix.sigma;
+  message->position_covariance[2 * kNextOfDiagonal] = fix.vertical_sigma * fix.vertical_sigma;
+  message->position_covariance_type = sensor_msgs::NavSatFix::COVARIANCE_TYPE_APPROXIMATED;
+  return message;
+}
+
+geometry_msgs::TwistStampedPtr toMessage(const GroundVelocity& velocity, Stamp stamp,
+                                         const std::string& /*frame*/) {
+  auto message = boost::make_shared<geometry_msgs::TwistStamped>();
+  message->header.stamp = toTime(stamp);
+  message->twist.linear.x = velocity.speed;
+  return message;
+}
+
+}  // namespace datmo

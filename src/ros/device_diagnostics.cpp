@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/device_diagnostics.h"
+
+#include <variant>
+
+#include "datmo_fusion/ros/stage/input_error.h"
+
+namespace datmo {
+
+namespace {
+
+const std::string kInput = "device";
+
+/// What a device sends, of which some may be missing; empty where that is not known.
+std::string partOf(const DeviceData& data) {
+  return std::holds_alternative<DeviceScan>(data)    ? "scans"
+         : std::holds_alternative<DeviceCloud>(data) ? "packets"
+                                                     : "";
+}
+
+}  // namespace
+
+DeviceDiagnostics::DeviceDiagnostics(StageMonitor& monitor) : monitor_(monitor) {
+  monitor_.condition(HealthLevel::kNothing, "not connected yet");
+}
+
+void DeviceDiagnostics::connected(const std::string& device, Stamp now) {
+  monitor_.setTime(now);
+  monitor_.figure("connections", static_cast<double>(++connections_));
+  first_offset_.reset();
+  monitor_.condition(HealthLevel::kGood, "connected with " + device);
+}
+
+void DeviceDiagnostics::fault(const DeviceError& error, Stamp now) {
+  monitor_.setTime(now);
+  monitor_.dropped(InputError(error.reason(), error.what()));
+  monitor_.condition(HealthLevel::kNothing, error.what());
+}
+
+void DeviceDiagnostics::warning(const DeviceError& error, Stamp now) {
+  monitor_.setTime(now);
+  monitor_.warned(InputError(error.reason(), error.what()));
+}
+
+void DeviceDiagnostics::measured(const DeviceMeasurement& measurement, const ClockState& clock,
+                                 std::uint64_t overtaken, Stamp now) {
+  monitor_.received(kInput, now);
+  noteMissed(measurement);
+  if (const auto* const fix = std::get_if<SatelliteFix>(&measurement.data)) {
+    monitor_.figure("satellites", fix->satellites);
+    monitor_.figure("standard deviation [m]", fix->sigma);
+  }
+  noteClock(clock);
+  monitor_.figure("measurements overtaken", static_cast<double>(overtaken));
+  monitor_.figure("rate [Hz]", monitor_.input(kInput, now).rate);
+}
+
+void DeviceDiagnostics::noteMissed(const DeviceMeasurement& measurement) {
+  const std::string part = partOf(measurement.data);
+  if (part.empty()) {
+    return;
+  }
+  missed_ += measurement.missed;
+  if (measurement.missed > 0) {
+    monitor_.warned(InputError("missed_" + part, std::to_string(measurement.missed) + " " + part +
+                                                     " are missing before this: expected all; is "
+                                                     "the network or the computer too busy?"));
+  }
+  monitor_.figure(part + " missed", static_cast<double>(missed_));
+}
+
+void DeviceDiagnostics::noteClock(const ClockState& clock) {
+  constexpr double kPartsPerMillion = 1e6;
+  constexpr double kMilliseconds = 1e3;
+  if (clock.steps > clock_steps_) {
+    monitor_.warned(InputError("clock_step",
+                               "the device's clock or the computer's was set: stamps begin anew"));
+  }
+  clock_steps_ = clock.steps;
+  // The device's clock begins anywhere: what it gains or loses is what tells something.
+  first_offset_ = first_offset_.value_or(clock.offset);
+  monitor_.figure("clock offset since connected [ms]",
+                  kMilliseconds * (clock.offset - *first_offset_));
+  monitor_.figure("clock drift [ppm]", clock.drift * kPartsPerMillion);
+  monitor_.figure("clock steps", static_cast<double>(clock_steps_));
+}
+
+}  // namespace datmo

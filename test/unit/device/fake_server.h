@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace datmo::samples {
+
+/// The loopback's side of a device with TCP. It does what the test says, in the test's own thread;
+/// nothing sleeps.
+class FakeServer {
+ public:
+  /// Port 0: any that is free.
+  explicit FakeServer(int port = 0);
+  ~FakeServer();
+  FakeServer(const FakeServer&) = delete;
+  FakeServer& operator=(const FakeServer&) = delete;
+
+  int port() const { return port_; }
+
+  /// The next one that connects.
+  void accept();
+
+  /// What comes up to `end`, without it; empty if the other side has gone.
+  std::string receive(char end);
+
+  void send(const std::string& bytes) const;
+
+  /// Hangs up.
+  void close();
+
+ private:
+  int listener_ = -1;
+  int client_ = -1;
+  int port_ = 0;
+  std::string heard_;
+};
+
+}  // namespace datmo::samples
