@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-#include <deque>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -15,6 +12,7 @@
 #include <pluginlib/class_list_macros.hpp>
 #include <ros/callback_queue_interface.h>
 
+#include "datmo_fusion/device/device_news.h"
 #include "datmo_fusion/ros/convert/device_conversion.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/device_diagnostics.h"
@@ -44,21 +42,6 @@ class DeviceNodelet : public nodelet::Nodelet {
   }
 
  private:
-  struct Connected {
-    std::string device;
-  };
-  struct Fault {
-    DeviceError error;
-  };
-  struct Warning {
-    DeviceError error;
-  };
-  struct Measured {
-    DeviceMeasurement measurement;
-    ClockState clock;
-  };
-  using News = std::variant<Connected, Fault, Warning, Measured>;
-
   /// Serves the news in the nodelet's queue.
   class Bell : public ros::CallbackInterface {
    public:
@@ -81,12 +64,12 @@ class DeviceNodelet : public nodelet::Nodelet {
         StageTopics{{}, topics()}, options_.input.silence_after);
     diagnostics_ = std::make_unique<DeviceDiagnostics>(*monitor_);
     DeviceHandlers handlers;
-    handlers.connected = [this](const std::string& device) { ring(Connected{device}); };
+    handlers.connected = [this](const std::string& device) { ring(DeviceConnected{device}); };
     handlers.measured = [this](DeviceMeasurement measurement, const ClockState& clock) {
-      ring(Measured{std::move(measurement), clock});
+      ring(DeviceMeasured{std::move(measurement), clock});
     };
-    handlers.fault = [this](const DeviceError& error) { ring(Fault{error}); };
-    handlers.warning = [this](const DeviceError& error) { ring(Warning{error}); };
+    handlers.fault = [this](const DeviceError& error) { ring(DeviceFault{error}); };
+    handlers.warning = [this](const DeviceError& error) { ring(DeviceWarning{error}); };
     handlers.now = now;
     runner_ = std::make_unique<DeviceRunner>(options_.device.runner, deviceMaker(options_.device),
                                              handlers);
@@ -123,54 +106,31 @@ class DeviceNodelet : public nodelet::Nodelet {
 
   std::uint64_t ownId() const { return reinterpret_cast<std::uint64_t>(this); }
 
-  void ring(News news) {
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      news_.push_back(std::move(news));
-      // Reports on the connection are rare, and kept.
-      overtaken_ += keepNewest<Measured>();
-      keepNewest<Warning>();
-    }
+  void ring(DeviceNews news) {
+    news_.put(std::move(news));
     getNodeHandle().getCallbackQueue()->addCallback(boost::make_shared<Bell>(*this), ownId());
   }
 
-  /// Returns how many were left out: none or one.
-  template <typename Kind>
-  std::uint64_t keepNewest() {
-    const auto is_such = [](const News& one) { return std::holds_alternative<Kind>(one); };
-    if (std::count_if(news_.begin(), news_.end(), is_such) <= kQueue) {
-      return 0;
-    }
-    news_.erase(std::find_if(news_.begin(), news_.end(), is_such));
-    return 1;
-  }
-
   void serveAll() {
-    std::deque<News> news;
-    std::uint64_t overtaken = 0;
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      news.swap(news_);
-      overtaken = overtaken_;
-    }
-    for (const News& one : news) {
-      std::visit([this, overtaken](const auto& kind) { serve(kind, overtaken); }, one);
+    const DeviceNewsQueue::Taken taken = news_.takeAll();
+    for (const DeviceNews& one : taken.news) {
+      std::visit([this, &taken](const auto& kind) { serve(kind, taken.overtaken); }, one);
     }
   }
 
-  void serve(const Connected& news, std::uint64_t /*overtaken*/) {
+  void serve(const DeviceConnected& news, std::uint64_t /*overtaken*/) {
     diagnostics_->connected(news.device, now());
   }
 
-  void serve(const Fault& news, std::uint64_t /*overtaken*/) {
+  void serve(const DeviceFault& news, std::uint64_t /*overtaken*/) {
     diagnostics_->fault(news.error, now());
   }
 
-  void serve(const Warning& news, std::uint64_t /*overtaken*/) {
+  void serve(const DeviceWarning& news, std::uint64_t /*overtaken*/) {
     diagnostics_->warning(news.error, now());
   }
 
-  void serve(const Measured& news, std::uint64_t overtaken) {
+  void serve(const DeviceMeasured& news, std::uint64_t overtaken) {
     const Stopwatch watch;
     const Stamp stamp = news.measurement.stamp;
     diagnostics_->measured(news.measurement, news.clock, overtaken, now());
@@ -189,9 +149,7 @@ class DeviceNodelet : public nodelet::Nodelet {
   std::unique_ptr<DeviceDiagnostics> diagnostics_;
   ros::Publisher output_;
   ros::Publisher velocities_;  ///< of a satellite receiver alone
-  std::mutex mutex_;
-  std::deque<News> news_;
-  std::uint64_t overtaken_ = 0;  ///< measurements that waited too long
+  DeviceNewsQueue news_{kQueue};
   std::unique_ptr<DeviceRunner> runner_;
 };
 

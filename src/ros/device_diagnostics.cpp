@@ -9,7 +9,10 @@ namespace datmo {
 
 namespace {
 
-const std::string kInput = "device";
+/// Velocities come beside positions: they have a rate of their own.
+const char* inputOf(const DeviceData& data) {
+  return std::holds_alternative<GroundVelocity>(data) ? "velocities" : "measurements";
+}
 
 /// What a device sends, of which some may be missing; empty where that is not known.
 std::string partOf(const DeviceData& data) {
@@ -44,7 +47,8 @@ void DeviceDiagnostics::warning(const DeviceError& error, Stamp now) {
 
 void DeviceDiagnostics::measured(const DeviceMeasurement& measurement, const ClockState& clock,
                                  std::uint64_t overtaken, Stamp now) {
-  monitor_.received(kInput, now);
+  const std::string input = inputOf(measurement.data);
+  monitor_.received(input, now);
   noteMissed(measurement);
   if (const auto* const fix = std::get_if<SatelliteFix>(&measurement.data)) {
     monitor_.figure("satellites", fix->satellites);
@@ -52,7 +56,9 @@ void DeviceDiagnostics::measured(const DeviceMeasurement& measurement, const Clo
   }
   noteClock(clock);
   monitor_.figure("measurements overtaken", static_cast<double>(overtaken));
-  monitor_.figure("rate [Hz]", monitor_.input(kInput, now).rate);
+  if (!std::holds_alternative<GroundVelocity>(measurement.data)) {
+    monitor_.figure("rate [Hz]", monitor_.input(input, now).rate);
+  }
 }
 
 void DeviceDiagnostics::noteMissed(const DeviceMeasurement& measurement) {

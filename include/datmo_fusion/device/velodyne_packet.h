@@ -24,7 +24,7 @@ class VelodynePacket {
   explicit VelodynePacket(std::string_view bytes);
 
   std::uint32_t time() const;    ///< us past the hour
-  std::uint8_t product() const;  ///< since firmware of 2015
+  std::uint8_t product() const;  ///< but of old firmware (VLP-16: before 3.0.29)
   bool isDual() const;           ///< two blocks of each firing
 
   /// Hundredths of a degree, clockwise from straight ahead, of a block's first firing.

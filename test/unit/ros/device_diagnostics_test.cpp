@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the status of a device says.
+#include "datmo_fusion/ros/device_diagnostics.h"
+
+#include <gtest/gtest.h>
+
+namespace datmo::device_diagnostics_test {
+namespace {
+
+class DeviceDiagnosticsTest : public testing::Test {
+ protected:
+  double figure(const std::string& name) const { return monitor_.figures().at(name); }
+
+  Stamp now_ = Stamp::fromSeconds(1000.0);
+  StageMonitor monitor_{"/device"};
+  DeviceDiagnostics diagnostics_{monitor_};
+};
+
+TEST_F(DeviceDiagnosticsTest, NothingComesUntilItIsConnectedAndAfterAFault) {
+  EXPECT_EQ(monitor_.health(), HealthLevel::kNothing);
+  diagnostics_.connected("a scanner", now_);
+  EXPECT_EQ(monitor_.health(), HealthLevel::kGood);
+  diagnostics_.fault(DeviceError("lost_connection", "it is gone"), now_);
+  EXPECT_EQ(monitor_.health(), HealthLevel::kNothing);
+  EXPECT_EQ(monitor_.healthReason(), "it is gone");
+  EXPECT_EQ(monitor_.drops().at("lost_connection"), 1U);
+  diagnostics_.connected("a scanner", now_);
+  EXPECT_EQ(figure("connections"), 2.0);
+}
+
+TEST_F(DeviceDiagnosticsTest, WhatIsMissingIsCountedByItsKind) {
+  DeviceMeasurement cloud;
+  cloud.data = DeviceCloud();
+  cloud.missed = 7;
+  diagnostics_.measured(cloud, ClockState(), 3, now_);
+  diagnostics_.measured(cloud, ClockState(), 3, now_);
+  EXPECT_EQ(figure("packets missed"), 14.0);
+  EXPECT_EQ(figure("measurements overtaken"), 3.0);
+  EXPECT_EQ(monitor_.warnings().at("missed_packets"), 2U);
+  DeviceMeasurement scan;
+  diagnostics_.measured(scan, ClockState(), 3, now_);
+  EXPECT_EQ(monitor_.warnings().count("missed_scans"), 0U);
+}
+
+TEST_F(DeviceDiagnosticsTest, TheClockIsJudgedByWhatItGainsSinceItWasConnected) {
+  diagnostics_.connected("a scanner", now_);
+  const DeviceMeasurement scan;
+  diagnostics_.measured(scan, {1.7e9, 0.0, 0}, 0, now_);
+  diagnostics_.measured(scan, {1.7e9 + 0.25, 1e-4, 1}, 0, now_);
+  EXPECT_NEAR(figure("clock offset since connected [ms]"), 250.0, 1e-3);
+  EXPECT_NEAR(figure("clock drift [ppm]"), 100.0, 1e-9);
+  EXPECT_EQ(monitor_.warnings().at("clock_step"), 1U);
+  diagnostics_.connected("a scanner", now_);
+  diagnostics_.measured(scan, {5.0, 0.0, 1}, 0, now_);
+  EXPECT_EQ(figure("clock offset since connected [ms]"), 0.0);
+  EXPECT_EQ(monitor_.warnings().at("clock_step"), 1U);
+}
+
+TEST_F(DeviceDiagnosticsTest, VelocitiesDoNotCountAsPositions) {
+  DeviceMeasurement fix;
+  fix.data = SatelliteFix{SatelliteFix::Kind::kSatellites, 45.0, 5.0, 200.0, 3.0, 4.5, 9};
+  DeviceMeasurement velocity;
+  velocity.data = GroundVelocity();
+  for (int i = 0; i < 10; ++i) {
+    const Stamp now = now_ + 0.2 * i;
+    diagnostics_.measured(fix, ClockState(), 0, now);
+    diagnostics_.measured(velocity, ClockState(), 0, now);
+  }
+  EXPECT_NEAR(figure("rate [Hz]"), 5.0, 1e-6);
+  EXPECT_EQ(figure("satellites"), 9.0);
+  EXPECT_EQ(figure("standard deviation [m]"), 3.0);
+}
+
+}  // namespace
+}  // namespace datmo::device_diagnostics_test
