@@ -99,38 +99,37 @@ const VelodyneModel& VelodyneLidar::modelOf(const VelodynePacket& packet) const 
   return *found;
 }
 
-bool VelodyneLidar::takeTime(const VelodynePacket& packet) {
-  const std::uint32_t ticks = packet.time();
-  DeviceClock& clock = host_.clock;
-  if (clock.hasMessage()) {
-    const double since = clock.sinceLast(ticks);
-    if (since <= 0.0 && since > -kReordered) {
-      host_.warn({"late_packet", "a packet " + std::to_string(-since) +
-                                     " s older than the last one: expected them in order"});
-      return false;
-    }
+bool VelodyneLidar::isLate(const VelodynePacket& packet) const {
+  const double since = host_.clock.hasMessage() ? host_.clock.sinceLast(packet.time()) : 1.0;
+  if (since > 0.0 || since <= -kReordered) {
+    return false;
   }
+  host_.warn({"late_packet", "a packet " + std::to_string(-since) +
+                                 " s older than the last one: expected them in order"});
+  return true;
+}
+
+void VelodyneLidar::takeTime(const VelodynePacket& packet) {
   const double span = packetSpan(*model_, packet.isDual());
-  const bool is_first = !clock.hasMessage();
+  const bool is_first = !host_.clock.hasMessage();
   // It is sent after its last firing.
-  const Stamp stamp = clock.add(ticks, model_->stamped_last ? 0.0 : span);
+  const Stamp stamp = host_.clock.add(packet.time(), model_->stamped_last ? 0.0 : span);
   packet_stamp_ = model_->stamped_last ? stamp + -span : stamp;
-  const double interval = clock.interval();
+  next_block_ = 0;
+  const double interval = host_.clock.interval();
+  missed_ += missedIn(interval, blockOffset(*model_, packet.isDual(), VelodynePacket::kBlocks));
   const bool is_set = interval <= 0.0 && !is_first;
   if (is_set || interval > kLongestGap) {
     turn_.reset();
+    age_ = 0.0;
+    return;
   }
-  missed_ += missedIn(interval, blockOffset(*model_, packet.isDual(), VelodynePacket::kBlocks));
-  if (turn_) {
-    turn_->age += interval;
-    if (turn_->age > kLongestTurn) {
-      throw DeviceError("device_fault", "the lidar has not turned once in " +
-                                            std::to_string(kLongestTurn) +
-                                            " s: expected five turns a second or more");
-    }
+  age_ += interval;
+  if (age_ > kLongestTurn) {
+    throw DeviceError("device_fault", "the lidar has not turned once in " +
+                                          std::to_string(kLongestTurn) +
+                                          " s: expected five turns a second or more");
   }
-  next_block_ = 0;
-  return true;
 }
 
 DeviceMeasurement VelodyneLidar::next() {
@@ -140,7 +139,8 @@ DeviceMeasurement VelodyneLidar::next() {
     }
     do {
       packet_ = nextPacket();
-    } while (!takeTime(*packet_));
+    } while (isLate(*packet_));
+    takeTime(*packet_);
   }
 }
 
@@ -160,8 +160,7 @@ std::optional<DeviceMeasurement> VelodyneLidar::takeBlocks() {
     }
     if (turn_) {
       appendPoints(*packet_, block, *model_, limits,
-                   turn_->age + blockOffset(*model_, packet_->isDual(), block),
-                   turn_->cloud.points);
+                   age_ + blockOffset(*model_, packet_->isDual(), block), turn_->cloud.points);
     }
     ++next_block_;
   }
@@ -180,7 +179,7 @@ std::optional<DeviceMeasurement> VelodyneLidar::endTurn(std::size_t block) {
   }
   turn_.emplace();
   turn_->stamp = packet_stamp_ + offset;
-  turn_->age = -offset;
+  age_ = -offset;
   turn_->cloud.points.reserve(last_points_ + last_points_ / 8);
   return measurement;
 }

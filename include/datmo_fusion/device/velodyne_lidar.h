@@ -45,15 +45,15 @@ class VelodyneLidar : public Device {
   /// A cloud that is not complete yet.
   struct Turn {
     Stamp stamp;
-    double age = 0.0;  ///< s, of its first firing when the newest packet's first one was measured
     DeviceCloud cloud;
   };
 
   /// The next packet that is a lidar's. Others are counted; many in a row are none of a lidar's.
   VelodynePacket nextPacket();
   const VelodyneModel& modelOf(const VelodynePacket& packet) const;
-  /// Brings time to that of the packet; false if it is older than the last one.
-  bool takeTime(const VelodynePacket& packet);
+  /// Older than the last one, or the same again; it is said.
+  bool isLate(const VelodynePacket& packet) const;
+  void takeTime(const VelodynePacket& packet);
   /// Takes the blocks of the packet up to the end of a turn, or of the packet.
   std::optional<DeviceMeasurement> takeBlocks();
   std::optional<DeviceMeasurement> endTurn(std::size_t block);
@@ -69,6 +69,7 @@ class VelodyneLidar : public Device {
   unsigned seam_ = 0;                     ///< hundredths of a degree, clockwise from straight ahead
   unsigned last_angle_ = 0;               ///< the same from the seam, of the last block
   std::optional<Turn> turn_;              ///< none before the first seam
+  double age_ = 0.0;                      ///< s, since the seam when the packet's first firing was
   std::size_t last_points_ = 0;           ///< of the last turn
   std::uint64_t missed_ = 0;              ///< packets, since the last cloud
 };

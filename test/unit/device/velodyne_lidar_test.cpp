@@ -307,5 +307,16 @@ TEST_F(VelodyneLidarTest, ALidarThatDoesNotTurnIsSaid) {
   EXPECT_EQ(faultOf(), "device_fault");
 }
 
+TEST_F(VelodyneLidarTest, OneThatDoesNotTurnFromItsStartIsSaid) {
+  VelodyneSample sample;
+  sample.step = 0;
+  VelodyneStream still{sample};
+  for (int i = 0; i < 1000; ++i) {
+    send(still);
+  }
+  connect();
+  EXPECT_EQ(faultOf(), "device_fault");
+}
+
 }  // namespace
 }  // namespace datmo::velodyne_lidar_test
