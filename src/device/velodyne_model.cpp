@@ -20,8 +20,9 @@ struct Banks {
 std::vector<double> elevationsOf(const Banks& banks, std::size_t count) {
   std::vector<double> elevations;
   for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t in_bank = i / 2;
     elevations.push_back((i % 2 == 0 ? banks.first : banks.second) +
-                         banks.spacing * static_cast<double>(i / 2));
+                         banks.spacing * static_cast<double>(in_bank));
   }
   return elevations;
 }

@@ -113,9 +113,11 @@ void appendPoints(const VelodynePacket& packet, std::size_t block, const Velodyn
         (is_second && distance == packet.distance(block - 1, channel))) {
       continue;
     }
-    const VelodyneLaser& laser = model.lasers[channel % lasers];
-    const double offset = model.sequence_time * static_cast<double>(channel / lasers) +
-                          model.firing_time * static_cast<double>(channel % lasers);
+    const std::size_t sequence = channel / lasers;
+    const std::size_t firing = channel % lasers;
+    const double offset = model.sequence_time * static_cast<double>(sequence) +
+                          model.firing_time * static_cast<double>(firing);
+    const VelodyneLaser& laser = model.lasers[firing];
     // A block turns by less than half a degree: of the second order, 1e-7 remains.
     const auto angle = static_cast<float>(turning * offset);
     const float half_square = 0.5F * angle * angle;
