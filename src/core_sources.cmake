@@ -4,6 +4,7 @@ set(DATMO_FUSION_CORE_SOURCES
   common/box2.cpp
   common/box_extent.cpp
   common/class_belief.cpp
+  common/clock_offset.cpp
   common/nearest_name.cpp
   common/object.cpp
   common/object_turn.cpp

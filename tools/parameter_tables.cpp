@@ -21,6 +21,7 @@
 #include "datmo_fusion/ros/stage/mono_grid_stage.h"
 #include "datmo_fusion/ros/stage/moving_objects_stage.h"
 #include "datmo_fusion/ros/stage/object_fusion_stage.h"
+#include "datmo_fusion/ros/stage/part_clocks.h"
 #include "datmo_fusion/ros/stage/point_velocity_stage.h"
 #include "datmo_fusion/ros/stage/risk_stage.h"
 #include "datmo_fusion/ros/stage/road_border_stage.h"
@@ -104,7 +105,8 @@ std::vector<Section> sections() {
           section<MarkersOptions>("`markers`, `lidar_markers`, `stereo_markers`"),
           section<GridViewsOptions>("`grid_views`"),
           section<CameraViewOptions>("`camera_view`"),
-          section<DeviceOptions>("`device`")};
+          section<DeviceOptions>("`device`"),
+          section<PartClocksOptions>("`stack`")};
 }
 
 /// The sections that have such options.

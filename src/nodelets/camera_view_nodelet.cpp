@@ -32,8 +32,11 @@ class CameraViewNodelet : public nodelet::Nodelet {
                                                 options.input.silence_after);
     transform_subscription_ = std::make_unique<TransformSubscription>(node, *transforms_, *monitor_,
                                                                       [this] { publish(); });
-    camera_info_ = node.subscribe("camera_info", kQueue, &CameraViewNodelet::takeCameraInfo, this);
-    tracks_ = node.subscribe("tracks", kQueue, &CameraViewNodelet::takeTracks, this);
+    // The first subscriber to a topic decides for all of its process (risk takes tracks, too).
+    const auto hints = ros::TransportHints().tcpNoDelay();
+    camera_info_ =
+        node.subscribe("camera_info", kQueue, &CameraViewNodelet::takeCameraInfo, this, hints);
+    tracks_ = node.subscribe("tracks", kQueue, &CameraViewNodelet::takeTracks, this, hints);
     const auto look = [this](const ros::SingleSubscriberPublisher& /*who*/) { lookOrNot(); };
     picture_ = node.advertise<sensor_msgs::Image>("camera_view", 1, look, look);
   }
@@ -42,7 +45,8 @@ class CameraViewNodelet : public nodelet::Nodelet {
     if (picture_.getNumSubscribers() == 0) {
       images_.shutdown();
     } else if (!images_) {
-      images_ = getNodeHandle().subscribe("image", kQueue, &CameraViewNodelet::takeImage, this);
+      images_ = getNodeHandle().subscribe("image", kQueue, &CameraViewNodelet::takeImage, this,
+                                          ros::TransportHints().tcpNoDelay());
     }
   }
 

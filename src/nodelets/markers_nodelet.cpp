@@ -30,13 +30,17 @@ class MarkersNodelet : public nodelet::Nodelet {
     markers_ = node.advertise<visualization_msgs::MarkerArray>("markers", kQueue);
     legend_ = node.advertise<sensor_msgs::Image>("legend", 1, true);
     legend_.publish(drawLegend());
-    labeled_scan_ = node.subscribe("labeled_scan", kQueue, &MarkersNodelet::takeLabeledScan, this);
-    borders_ = node.subscribe("road_borders", kQueue, &MarkersNodelet::takeBorders, this);
-    objects_ = node.subscribe("objects", kQueue, &MarkersNodelet::takeObjects, this);
-    dropped_ = node.subscribe("objects/dropped", kQueue, &MarkersNodelet::takeDropped, this);
-    tracks_ = node.subscribe("tracks", kQueue, &MarkersNodelet::takeTracks, this);
-    risks_ = node.subscribe("risks", kQueue, &MarkersNodelet::takeRisks, this);
-    truth_ = node.subscribe("ground_truth/objects", kQueue, &MarkersNodelet::takeTruth, this);
+    // The first subscriber to a topic decides for all of its process (risk takes tracks, too).
+    const auto hints = ros::TransportHints().tcpNoDelay();
+    labeled_scan_ =
+        node.subscribe("labeled_scan", kQueue, &MarkersNodelet::takeLabeledScan, this, hints);
+    borders_ = node.subscribe("road_borders", kQueue, &MarkersNodelet::takeBorders, this, hints);
+    objects_ = node.subscribe("objects", kQueue, &MarkersNodelet::takeObjects, this, hints);
+    dropped_ = node.subscribe("objects/dropped", kQueue, &MarkersNodelet::takeDropped, this, hints);
+    tracks_ = node.subscribe("tracks", kQueue, &MarkersNodelet::takeTracks, this, hints);
+    risks_ = node.subscribe("risks", kQueue, &MarkersNodelet::takeRisks, this, hints);
+    truth_ =
+        node.subscribe("ground_truth/objects", kQueue, &MarkersNodelet::takeTruth, this, hints);
   }
 
   void takeLabeledScan(const LabeledScanConstPtr& message) {

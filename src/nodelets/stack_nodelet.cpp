@@ -7,21 +7,29 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
+#include <std_msgs/Time.h>
 
+#include "datmo_fusion/ros/parameters.h"
+#include "datmo_fusion/ros/stage/part_clocks.h"
 #include "datmo_fusion/ros/stage/stack_health.h"
 #include "datmo_fusion/ros/stage/stage_reporter.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
 
 namespace datmo {
 
 /// Says in one sentence how the stack does, and if nothing comes out of it, why: the first cause in
 /// the chain. In: /diagnostics of the stages, and the topic `tracks` for its name. Out: a status of
 /// its own in /diagnostics, and a line on the console when it changes.
+///
+/// Asks the parts that run on other machines what their clocks show: out clock_question, in
+/// clock_answer.
 class StackNodelet : public nodelet::Nodelet {
  private:
   using DiagnosticStatus = diagnostic_msgs::DiagnosticStatus;
 
   void onInit() override {
     result_ = getNodeHandle().resolveName("tracks");
+    clocks_ = std::make_unique<PartClocks>(loadOptions<PartClocksOptions>(getPrivateNodeHandle()));
     updater_ = std::make_unique<diagnostic_updater::Updater>(
         getNodeHandle(), getPrivateNodeHandle(), getPrivateNodeHandle().getNamespace());
     updater_->setHardwareID("none");
@@ -29,9 +37,30 @@ class StackNodelet : public nodelet::Nodelet {
                   [this](diagnostic_updater::DiagnosticStatusWrapper& status) { report(status); });
     diagnostics_ =
         getNodeHandle().subscribe("/diagnostics", kQueue, &StackNodelet::takeDiagnostics, this);
-    timer_ = getNodeHandle().createSteadyTimer(
-        ros::WallDuration(kPeriod),
-        [this](const ros::SteadyTimerEvent&) { updater_->force_update(); });
+    questions_ = getNodeHandle().advertise<std_msgs::Time>("clock_question", 1);
+    answers_ = getNodeHandle().subscribe("clock_answer", kQueue, &StackNodelet::takeAnswer, this,
+                                         ros::TransportHints().tcpNoDelay());
+    timer_ = getNodeHandle().createSteadyTimer(ros::WallDuration(kPeriod),
+                                               [this](const ros::SteadyTimerEvent&) {
+                                                 updater_->force_update();
+                                                 askClocks();
+                                               });
+  }
+
+  /// The machine's own time: that of messages may be a bag's.
+  static ros::Time machineTime() {
+    const ros::WallTime now = ros::WallTime::now();
+    return {now.sec, now.nsec};
+  }
+
+  void askClocks() {
+    std_msgs::Time question;
+    question.data = machineTime();
+    questions_.publish(question);
+  }
+
+  void takeAnswer(const PartClockConstPtr& answer) {
+    clocks_->take(*answer, toStamp(machineTime()));
   }
 
   void takeDiagnostics(const diagnostic_msgs::DiagnosticArrayConstPtr& list) {
@@ -43,8 +72,13 @@ class StackNodelet : public nodelet::Nodelet {
   }
 
   void report(diagnostic_updater::DiagnosticStatusWrapper& status) {
-    const StackHealth health = stackHealth(stages_.at(since_start_.seconds()), result_);
+    const Stamp now = toStamp(machineTime());
+    const StackHealth health =
+        clocks_->judged(stackHealth(stages_.at(since_start_.seconds()), result_), now);
     status.summary(diagnosticLevel(health.level), health.sentence);
+    for (const auto& [process, description] : clocks_->descriptions(now)) {
+      status.add("clock of " + process, description);
+    }
     const bool may_come_yet = !said_ && health.level != HealthLevel::kGood && ++beats_ < kPatience;
     if (health.level != said_ && !may_come_yet) {
       said_ = health.level;
@@ -60,11 +94,14 @@ class StackNodelet : public nodelet::Nodelet {
 
   std::string result_;
   ReportingStages stages_;
+  std::unique_ptr<PartClocks> clocks_;
   Stopwatch since_start_;
   std::optional<HealthLevel> said_;
   int beats_ = 0;
   std::unique_ptr<diagnostic_updater::Updater> updater_;
   ros::Subscriber diagnostics_;
+  ros::Publisher questions_;
+  ros::Subscriber answers_;
   ros::SteadyTimer timer_;
 };
 

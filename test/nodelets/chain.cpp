@@ -6,10 +6,13 @@
 #include <cstdlib>
 #include <limits>
 
+#include <XmlRpcClient.h>
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <ros/callback_queue.h>
+#include <ros/master.h>
+#include <ros/network.h>
 #include <rosgraph_msgs/Clock.h>
 
 namespace datmo {
@@ -85,20 +88,44 @@ bool Listener::waitForNodelets() {
 }
 
 double Listener::diagnostic(const std::string& nodelet, const std::string& key) const {
+  return std::strtod(diagnosticText(nodelet, key).c_str(), nullptr);
+}
+
+std::string Listener::diagnosticText(const std::string& nodelet, const std::string& key) const {
   const auto found = diagnostics_.find(nodelet);
   if (found != diagnostics_.end()) {
     for (const auto& value : found->second.values) {
       if (value.key == key) {
-        return std::strtod(value.value.c_str(), nullptr);
+        return value.value;
       }
     }
   }
-  return 0.0;
+  return "";
 }
 
 std::string Listener::diagnosticMessage(const std::string& nodelet) const {
   const auto found = diagnostics_.find(nodelet);
   return found == diagnostics_.end() ? "" : found->second.message;
+}
+
+pid_t processOf(const std::string& node) {
+  XmlRpc::XmlRpcValue request;
+  XmlRpc::XmlRpcValue response;
+  XmlRpc::XmlRpcValue uri;
+  request[0] = ros::this_node::getName();
+  request[1] = node;
+  if (!ros::master::execute("lookupNode", request, response, uri, false)) {
+    return 0;
+  }
+  std::string host;
+  std::uint32_t port = 0;
+  ros::network::splitURI(uri, host, port);
+  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port));
+  XmlRpc::XmlRpcValue caller;
+  caller[0] = ros::this_node::getName();
+  XmlRpc::XmlRpcValue answer;
+  const bool answered = client.execute("getPid", caller, answer) && !client.isFault();
+  return answered ? static_cast<pid_t>(static_cast<int>(answer[2])) : 0;
 }
 
 std::string askForChoice(const std::string& nodelet, const std::string& choice,

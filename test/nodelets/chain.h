@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "world.h"
+#include <sys/types.h>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
@@ -38,6 +39,8 @@ class Listener {
 
   /// Value of a key in the diagnostics of a nodelet; 0 before it is there.
   double diagnostic(const std::string& nodelet, const std::string& key) const;
+  /// The same as text; empty before it is there.
+  std::string diagnosticText(const std::string& nodelet, const std::string& key) const;
   std::string diagnosticMessage(const std::string& nodelet) const;
 
   std::vector<geometry_msgs::PoseWithCovarianceStampedConstPtr> poses;
@@ -60,6 +63,9 @@ class Listener {
   ros::Publisher clock_;
   ros::Time now_;
 };
+
+/// Process of a node; 0 if it does not answer.
+pid_t processOf(const std::string& node);
 
 /// What a nodelet keeps after `value` was asked for of one of its live options that are text.
 std::string askForChoice(const std::string& nodelet, const std::string& choice,

@@ -6,35 +6,10 @@
 #include <string>
 
 #include "chain.h"
-#include <XmlRpcClient.h>
 #include <gtest/gtest.h>
-
-#include <ros/master.h>
-#include <ros/network.h>
 
 namespace datmo::manager_test {
 namespace {
-
-/// Process of a node; 0 if it does not answer.
-pid_t processOf(const std::string& node) {
-  XmlRpc::XmlRpcValue request;
-  XmlRpc::XmlRpcValue response;
-  XmlRpc::XmlRpcValue uri;
-  request[0] = ros::this_node::getName();
-  request[1] = node;
-  if (!ros::master::execute("lookupNode", request, response, uri, false)) {
-    return 0;
-  }
-  std::string host;
-  std::uint32_t port = 0;
-  ros::network::splitURI(uri, host, port);
-  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port));
-  XmlRpc::XmlRpcValue caller;
-  caller[0] = ros::this_node::getName();
-  XmlRpc::XmlRpcValue answer;
-  const bool answered = client.execute("getPid", caller, answer) && !client.isFault();
-  return answered ? static_cast<pid_t>(static_cast<int>(answer[2])) : 0;
-}
 
 TEST(ManagerTest, KilledItComesBackWithAllNodelets) {
   const World world;

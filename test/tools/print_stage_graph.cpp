@@ -2,15 +2,51 @@
 // The graph of stages as JSON, for the test that holds perception.launch against it:
 // print_stage_graph [SWITCH...], e.g. low_level_fusion.
 #include <iostream>
+#include <map>
 #include <set>
 #include <string>
 #include <variant>
 
+#include "run_bag/stage_types.h"
 #include <nlohmann/json.hpp>
 
 #include "datmo_fusion/ros/stage/stage_graph.h"
 
 namespace {
+
+std::string nameOf(datmo::StackPart part) {
+  switch (part) {
+    case datmo::StackPart::kSensors:
+      return "sensors";
+    case datmo::StackPart::kStereo:
+      return "stereo";
+    case datmo::StackPart::kPerception:
+      break;
+    case datmo::StackPart::kRisk:
+      return "risk";
+  }
+  return "perception";
+}
+
+/// What a stage takes and makes: the graph's topics with their types.
+class TopicList : public datmo::StagePorts {
+ public:
+  explicit TopicList(const datmo::GraphStage& stage) : stage_(stage) {}
+
+  std::map<std::string, std::string> takes;
+  std::map<std::string, std::string> makes;
+
+ private:
+  void addInput(datmo::StageInput input) override {
+    takes[stage_.resolved(input.topic)] = input.data_type;
+  }
+  datmo::StageOutput::Publish addOutput(datmo::StageOutput output) override {
+    makes[stage_.resolved(output.topic)] = output.data_type;
+    return {};
+  }
+
+  const datmo::GraphStage& stage_;
+};
 
 nlohmann::json toJson(const datmo::GraphStage& stage) {
   nlohmann::json parameters = nlohmann::json::object();
@@ -23,7 +59,14 @@ nlohmann::json toJson(const datmo::GraphStage& stage) {
       remaps[from] = to;
     }
   }
-  return {{"type", stage.type}, {"remaps", remaps}, {"parameters", parameters}};
+  datmo::StageMonitor monitor(stage.name);
+  const datmo::TransformBuffer transforms(datmo::StreamOptions().restart_after);
+  const auto made =
+      datmo::stageTypes().at(stage.type).make(stage.parameters, {}, {transforms, monitor, {}});
+  TopicList topics(stage);
+  made->connect(topics);
+  return {{"type", stage.type},         {"remaps", remaps},      {"parameters", parameters},
+          {"part", nameOf(stage.part)}, {"takes", topics.takes}, {"makes", topics.makes}};
 }
 
 }  // namespace
@@ -34,6 +77,8 @@ int main(int count, char** words) {
   datmo::GraphSwitches switches;
   switches.scan_from_cloud = is_on("cloud");
   switches.merge_scans = is_on("merge_scans");
+  switches.stereo = is_on("rectified_images") ? datmo::StereoPoints::kRectifiedImages
+                                              : datmo::StereoPoints::kClouds;
   switches.low_level_fusion = is_on("low_level_fusion");
   switches.road_border = is_on("road_border");
   switches.cloud_objects = is_on("cloud_objects");

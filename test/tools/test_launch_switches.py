@@ -231,7 +231,7 @@ class LaunchSwitches(unittest.TestCase):
                                         len(nodelets(nodes)))
 
     def test_nothing_of_an_earlier_sensor_set_stays(self):
-        for file in ("perception.launch", "stereo_images.launch"):
+        for file in ("perception.launch", "part.launch", "stereo_images.launch"):
             for tag in ElementTree.parse(PACKAGE / "launch" / file).getroot().iter("node"):
                 if tag.get("name") != "rviz":
                     self.assertEqual(tag.get("clear_params"), "true", tag.get("name"))

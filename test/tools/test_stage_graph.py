@@ -1,19 +1,28 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """perception.launch starts the stages of the graph that run_bag runs, with the same topics and the same
-parameters, for every combination of levels, with and without all that goes with any of them."""
+parameters, for every combination of levels, with and without all that goes with any of them; and each in
+the part of the stack that the graph says, where parts run on machines of their own."""
 
 import itertools
 import json
 import os
+import re
 import subprocess
+import tempfile
 import unittest
+from pathlib import Path
 
-from launch_files import load
+from launch_files import PACKAGE, load
 
 LEVELS = ("low_level_fusion", "stereo_objects", "object_fusion", "track_fusion", "mono")
 OTHERS = ("cloud", "road_border", "static_points", "cloud_objects", "v2x", "risk")
 DISPLAYS = {"markers", "lidar_markers", "stereo_markers", "grid_views", "camera_view", "stack"}
+PARTS = ("sensors", "stereo", "perception", "risk")
+# Nodelets that are no stages of the graph, by part; stereo_points and those of raw images go with stereo_image_proc.
+BESIDE = {"stack": "perception", "stereo_points": "stereo", "left_debayer": "stereo", "left_rectify": "stereo",
+          "right_debayer": "stereo", "right_rectify": "stereo",
+          **{name: "risk" for name in DISPLAYS - {"stack"}}}
 
 
 def graph_stages(switches):
@@ -41,6 +50,20 @@ def launched_stages(switches):
     return stages, {key: parameter.value for key, parameter in config.params.items()}
 
 
+def crossing_topics():
+    """Topics that parts take from drivers or from other parts: type, who publishes them, which parts take them."""
+    crossing = {}
+    for switches in (LEVELS, ["rectified_images", *LEVELS, *OTHERS], ["merge_scans", *LEVELS]):
+        stages = graph_stages(switches).values()
+        makers = {topic: stage["part"] for stage in stages for topic in stage["makes"]}
+        for stage in stages:
+            for topic, kind in stage["takes"].items():
+                maker = makers.get(topic, "drivers")
+                if maker != stage["part"]:
+                    crossing.setdefault((topic, kind, maker), set()).add(stage["part"])
+    return {key: ", ".join(part for part in PARTS if part in takers) for key, takers in crossing.items()}
+
+
 class StageGraph(unittest.TestCase):
     maxDiff = None
 
@@ -65,6 +88,83 @@ class StageGraph(unittest.TestCase):
                 for name, stage in expected.items():
                     for key, value in stage["parameters"].items():
                         self.assertEqual(parameters[f"/{name}/{key}"], value, f"{name}/{key}")
+
+    def test_what_crosses_from_part_to_part_is_in_the_documents(self):
+        """The table of doc/live.md: topic, type, who publishes it, which parts take it."""
+        page = (PACKAGE / "doc/live.md").read_text(encoding="utf-8")
+        rows = re.findall(r"^\| `([\w/]+)` \| `([\w/]+)` \| ([\w ]+) \| ([\w, ]+) \|$", page, re.MULTILINE)
+        self.assertEqual({row[:3]: row[3] for row in rows}, crossing_topics())
+
+
+class Parts(unittest.TestCase):
+    """The parts of the stack on machines of their own."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.machines = Path(folder.name, "machines.launch")
+        tags = "".join(f'<machine name="{part}" address="localhost" />' for part in PARTS)
+        self.machines.write_text(f"<launch>{tags}</launch>", encoding="utf-8")
+
+    def loaded(self, parts, switches, *more):
+        words = [f"{switch}:=true" for switch in switches if switch != "cloud"]
+        words += ["cloud:=cloud"] if "cloud" in switches else []
+        words += [f"{part}_machine:={part}" for part in parts]
+        return load("perception.launch", [*words, f"machines:={self.machines}", *more]).nodes
+
+    @staticmethod
+    def by_name(nodes):
+        """All that a node is but where it runs, by its name; what answers for a clock is left out."""
+        return {node.name: (node.package, node.type, node.args.split()[:2], sorted(node.remap_args), node.respawn)
+                for node in nodes if "part_clock" not in node.args}
+
+    def test_all_parts_together_are_the_whole(self):
+        for switches, images in (([], "none"), (LEVELS, "rectified"), ([*LEVELS, *OTHERS], "raw")):
+            more = ["aggregator:=true", f"stereo_images:={images}"]
+            whole = self.by_name(self.loaded([], switches, *more))
+            for parts in (["stereo"], PARTS):
+                with self.subTest(switches=switches, images=images, parts=parts):
+                    split = self.by_name(self.loaded(parts, switches, *more))
+                    managers = {f"perception_{part}" for part in parts if part != "perception"}
+                    self.assertEqual(set(split) - set(whole), managers)
+                    for name in managers:
+                        self.assertEqual(split[name], whole["perception"])
+                    self.assertEqual({name: split[name] for name in whole}, whole)
+
+    def test_each_part_loads_what_the_graph_says(self):
+        everything = ["rectified_images", "merge_scans", *LEVELS, *OTHERS]
+        expected = {name: stage["part"] for name, stage in graph_stages(everything).items()}
+        expected.update(BESIDE)
+        seen = set()
+        for switches, more in (([*LEVELS, *OTHERS], ["stereo_images:=raw"]), (["merge_scans"], [])):
+            for parts in ([], *([part] for part in PARTS), PARTS):
+                for node in self.loaded(parts, switches, *more):
+                    self.check(node, parts, expected, seen)
+        self.assertEqual(seen, set(expected))
+
+    def check(self, node, parts, expected, seen):
+        """A nodelet is loaded into the process of its part, on the same machine."""
+        words = node.args.split()
+        if words[0] != "load" or "part_clock" in words[1]:
+            return
+        seen.add(node.name)
+        part = expected[node.name]
+        alone = part in parts and part != "perception"
+        with self.subTest(node=node.name, parts=parts):
+            self.assertEqual(words[2], f"perception_{part}" if alone else "perception")
+            self.assertEqual(node.machine_name,
+                             part if alone else "perception" if "perception" in parts else None)
+
+    def test_each_machine_beside_perceptions_answers_for_its_clock(self):
+        nodes = {node.name: node for node in self.loaded(PARTS, ["risk"])}
+        for part in PARTS:
+            manager = "perception" if part == "perception" else f"perception_{part}"
+            self.assertEqual(nodes[manager].machine_name, part)
+            if part == "perception":
+                self.assertNotIn("perception_clock", nodes)
+            else:
+                self.assertEqual(nodes[f"{part}_clock"].args, f"load datmo_fusion/part_clock perception_{part}")
+                self.assertEqual(nodes[f"{part}_clock"].machine_name, part)
 
 
 if __name__ == "__main__":

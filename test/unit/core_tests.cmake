@@ -4,6 +4,7 @@ datmo_fusion_add_core_test(common
   common/angle_test.cpp
   common/box2_test.cpp
   common/class_belief_test.cpp
+  common/clock_offset_test.cpp
   common/options_test.cpp
   common/pose2_test.cpp
   common/quantile_test.cpp

@@ -16,8 +16,8 @@ namespace datmo {
 namespace {
 
 /// Nodes that are no stages: they run live alone.
-const std::vector<std::string> kLiveNodes = {"markers",    "lidar_markers", "stereo_markers",
-                                             "grid_views", "camera_view",   "device"};
+const std::vector<std::string> kLiveNodes = {
+    "markers", "lidar_markers", "stereo_markers", "grid_views", "camera_view", "device", "stack"};
 
 /// All stages that there may be.
 std::vector<GraphStage> wholeGraph() {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/stage/stage_graph.h"
 
+#include <utility>
+
 namespace datmo {
 
 namespace {
@@ -9,6 +11,18 @@ namespace {
 constexpr double kMonoLateBy = 0.4;
 
 using Remaps = std::map<std::string, std::string>;
+
+StackPart partOf(const std::string& type) {
+  static const std::map<std::string, StackPart> parts{
+      {"cloud_objects", StackPart::kSensors},  {"cloud_to_scan", StackPart::kSensors},
+      {"motion", StackPart::kSensors},         {"scan_merge", StackPart::kSensors},
+      {"mono_classifier", StackPart::kStereo}, {"mono_grid", StackPart::kStereo},
+      {"point_velocity", StackPart::kStereo},  {"stereo_alignment", StackPart::kStereo},
+      {"stereo_grid", StackPart::kStereo},     {"stereo_image_proc", StackPart::kStereo},
+      {"stereo_objects", StackPart::kStereo},  {"risk", StackPart::kRisk}};
+  const auto part = parts.find(type);
+  return part == parts.end() ? StackPart::kPerception : part->second;
+}
 
 /// The stereo camera's clouds.
 Remaps cameraRemaps() {
@@ -83,9 +97,10 @@ std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
   const Remaps mono_images{{"image", "stereo/left/image_rect"},
                            {"camera_info", "stereo/left/camera_info"}};
   std::vector<GraphStage> graph;
-  const auto add = [&graph](bool present, const GraphStage& stage) {
+  const auto add = [&graph](bool present, GraphStage stage) {
     if (present) {
-      graph.push_back(stage);
+      stage.part = partOf(stage.type);
+      graph.push_back(std::move(stage));
     }
   };
   const bool low_level = switches.low_level_fusion;

@@ -4,6 +4,7 @@
 #include <datmo_fusion/DroppedObjects.h>
 #include <datmo_fusion/LabeledScan.h>
 #include <datmo_fusion/ObjectArray.h>
+#include <datmo_fusion/PartClock.h>
 #include <datmo_fusion/RoadBorders.h>
 #include <datmo_fusion/StageTiming.h>
 #include <datmo_fusion/StereoAlignment.h>
@@ -38,6 +39,8 @@ using datmo_fusion::LabeledScanPtr;
 using datmo_fusion::ObjectArray;
 using datmo_fusion::ObjectArrayConstPtr;
 using datmo_fusion::ObjectArrayPtr;
+using datmo_fusion::PartClock;
+using datmo_fusion::PartClockConstPtr;
 using datmo_fusion::RoadBorders;
 using datmo_fusion::RoadBordersConstPtr;
 using datmo_fusion::RoadBordersPtr;

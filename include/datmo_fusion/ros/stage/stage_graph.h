@@ -49,12 +49,22 @@ struct FusionSwitches {
 
 FusionSwitches fusionSwitches(FusionLevel level);
 
+/// The parts of the stack that may run on machines of their own (perception.launch): each has what
+/// is near to its data, so that little has to cross from one machine to another.
+enum class StackPart {
+  kSensors,     ///< takes what scanners and the motion's sensors send
+  kStereo,      ///< takes images and points of cameras
+  kPerception,  ///< all else: SLAM, detection, tracking, fusion
+  kRisk,        ///< takes what the others have made
+};
+
 /// One stage of the graph.
 struct GraphStage {
   std::string name;  ///< of the node, and of its section in a sensor set's yaml file
   std::string type;  ///< of the nodelet: several stages may have one
   std::map<std::string, std::string> remaps;  ///< the stage's topic -> the graph's
   OptionValues parameters;                    ///< that the switches set, over the section's
+  StackPart part = StackPart::kPerception;
 
   /// The graph's name of one of the stage's topics.
   std::string resolved(const std::string& topic) const;

@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The stack on three computers, or on one, while a drive is played in real time: what comes out, and when."""
+
+import contextlib
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import NamedTuple
+
+from datmo_tools.errors import InputError
+
+COMPUTERS = 3
+PLACES = {"sensors": 0, "stereo": 1, "perception": 2, "risk": 0}  # which computer has which part
+PORT = 11311
+PATIENCE = 180.0  # s, for all to be loaded; of what it takes on a machine that has much to do many times over
+RUN_UP = 1.0  # s, from the word to start to the first message
+OUTPUT = {"sensors": "tracks", "stereo": "objects/stereo", "perception": "tracks", "risk": "risks"}
+
+
+class Drive(NamedTuple):
+    """What is played, and what is launched for it."""
+
+    bag: Path
+    config: Path
+    arguments: tuple  # words for perception.launch
+    topics: dict  # those that are played, by the part on whose computer their devices are
+    nodelets: tuple  # these have reported before it begins
+
+
+class Kill(NamedTuple):
+    """A part's process is killed."""
+
+    part: str
+    after: float  # s, since the drive began
+
+
+class Result(NamedTuple):
+    """Of one run; times in s."""
+
+    begin: float  # time of the first message
+    messages: dict  # [stamp, arrival, tracks] of each message, by topic
+    stack: list  # [arrival, sentence, values] of each report
+    kills: list  # [part, when]
+
+
+def run(drive, network, split, launch_file, folder, kills=()):
+    """A Result.
+
+    network: LossyNetwork of COMPUTERS; split: each part is at its place, else all are on the first
+    computer; launch_file: perception.launch; folder (Path): where logs are left; kills: in their order.
+    """
+    place = (lambda part: PLACES[part]) if split else (lambda _part: 0)
+    with _Processes(network, folder) as processes:
+        processes.start("roslaunch", 0, _launch_words(drive, network, split, launch_file, folder))
+        recorder = processes.start_tool("record_now", place("perception"), folder / "recorded.json")
+        players = [processes.start_tool("play_now", place(part), drive.bag, "--nodelets", *drive.nodelets,
+                                        "--topics", *topics) for part, topics in drive.topics.items()]
+        for player in players:
+            processes.expect(player, "ready")
+        begin = time.time() + RUN_UP
+        for player in players:
+            player.stdin.write(f"{begin}\n")
+            player.stdin.flush()
+        killed = [[kill.part, _kill(network, place(kill.part), kill, begin, split)] for kill in kills]
+        for player in players:
+            processes.expect(player, "played")
+        recorder.stdin.close()
+        recorder.wait(PATIENCE)
+        recorded = json.loads((folder / "recorded.json").read_text(encoding="utf-8"))
+    return Result(begin, recorded["messages"], recorded["stack"], killed)
+
+
+def recovery(result, kill):
+    """Time (s) from a kill, one of result.kills, until something comes of what was measured after it; None: never."""
+    part, when = kill
+    arrivals = [arrival for stamp, arrival, _ in result.messages[OUTPUT[part]] if stamp > when]
+    return min(arrivals) - when if arrivals else None
+
+
+def latencies(result, topic):
+    """From the measurement to the arrival (s), of each message."""
+    return [arrival - stamp for stamp, arrival, _ in result.messages[topic]]
+
+
+def by_time(result, topic):
+    """Tracks of each message by its time of the drive, ms."""
+    return {round(1e3 * (stamp - result.begin)): tracks for stamp, _, tracks in result.messages[topic]}
+
+
+def _launch_words(drive, network, split, launch_file, folder):
+    words = [str(launch_file), f"config:={drive.config}", *drive.arguments]
+    if split:
+        words += [f"machines:={_write_machines(network, folder)}"]
+        words += [f"{part}_machine:={part}" for part in PLACES]
+    spaces = [f"{network.address(i)}={network.name(i)}" for i in range(COMPUTERS)]
+    return [sys.executable, "-m", "datmo_tools", "experiments.namespaced_roslaunch", *spaces, "--",
+            "--port", str(PORT), *words]
+
+
+def _write_machines(network, folder):
+    """The launch file with the machines, and for each who sets its environment."""
+    tags = ""
+    for part, computer in PLACES.items():
+        loader = folder / f"computer_{computer}.sh"
+        loader.write_text(f'#!/bin/sh\nexport ROS_IP={network.address(computer)}\nexec "$@"\n', encoding="utf-8")
+        loader.chmod(0o755)
+        tags += f'<machine name="{part}" address="{network.address(computer)}" env-loader="{loader}" />'
+    file = folder / "machines.launch"
+    file.write_text(f"<launch>{tags}</launch>", encoding="utf-8")
+    return file
+
+
+def _kill(network, computer, kill, begin, split):
+    """Returns when it was done."""
+    time.sleep(max(0.0, begin + kill.after - time.time()))
+    manager = f"perception_{kill.part}" if split and kill.part != "perception" else "perception"
+    process = _process_of(network.name(computer), manager)
+    when = time.time()
+    os.kill(process, signal.SIGKILL)
+    return when
+
+
+def _process_of(namespace, node):
+    """Process of a node, by the name that roslaunch gave it on its command line."""
+    listed = subprocess.run(["ip", "netns", "pids", namespace], stdout=subprocess.PIPE, encoding="utf-8", check=True)
+    for process in listed.stdout.split():
+        with contextlib.suppress(OSError):
+            words = Path(f"/proc/{process}/cmdline").read_bytes().decode(errors="replace").split("\0")
+            if "manager" in words and f"__name:={node}" in words:
+                return int(process)
+    raise InputError(f"{node}: no such process in {namespace}, expected a nodelet manager")
+
+
+class _Processes:
+    """A context: what is started on the computers, and ends with it."""
+
+    def __init__(self, network, folder):
+        self._network, self._folder = network, folder
+        self._started = []
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        for process in reversed(self._started):  # roslaunch last: it has the master
+            if process.poll() is None:
+                process.send_signal(signal.SIGINT)
+            for pipe in filter(None, (process.stdin, process.stdout)):
+                with contextlib.suppress(OSError):
+                    pipe.close()
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(PATIENCE)
+
+    def start(self, name, computer, words):
+        """What it says goes to a log by its name; what it prints is to be read."""
+        environment = dict(os.environ, ROS_MASTER_URI=f"http://{self._network.address(0)}:{PORT}",
+                           ROS_IP=self._network.address(computer), ROS_LOG_DIR=str(self._folder / "ros"),
+                           ROS_HOME=str(self._folder / "ros"))
+        environment.pop("ROS_HOSTNAME", None)
+        log = self._folder / f"{name}_{len(self._started)}.log"
+        with log.open("wb") as out:
+            process = subprocess.Popen(self._network.command(computer, words), env=environment, text=True,
+                                       stdin=subprocess.PIPE, stdout=out if name == "roslaunch" else subprocess.PIPE,
+                                       stderr=out)
+        self._started.append(process)
+        return process
+
+    def start_tool(self, name, computer, *words):
+        return self.start(name, computer, [sys.executable, "-m", "datmo_tools", f"experiments.{name}", *words])
+
+    @staticmethod
+    def expect(process, word):
+        """Until it has printed a line with the word. Raises InputError if it ends before."""
+        while line := process.stdout.readline():  # rospy says other things, too
+            if line.strip() == word:
+                return
+        raise InputError(f"{' '.join(process.args)}: ended, expected it to say {word}")

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Writes what comes on topics of the running stack, when, and of which stamp; of tracks where they are.
+
+usage: record_now OUT.json
+
+Ends after its standard input has, when nothing comes any more. Times are s of the computer's clock.
+"""
+
+import json
+import sys
+import time
+from pathlib import Path
+
+import rospy
+from diagnostic_msgs.msg import DiagnosticArray
+
+from datmo_fusion.msg import ObjectArray, RiskArray, TrackArray
+from datmo_tools.whole_files import write_whole
+
+QUEUE = 200
+SILENCE = 5.0  # s
+POLL = 0.1  # s
+TOPICS = {"tracks": TrackArray, "risks": RiskArray, "objects/stereo": ObjectArray, "objects": ObjectArray}
+
+
+class Recorder:
+    """What has come: [stamp, arrival, tracks] by topic, and what `stack` says."""
+
+    def __init__(self):
+        self.messages = {topic: [] for topic in TOPICS}
+        self.stack = []
+        self.last = time.time()
+        for topic, kind in TOPICS.items():
+            rospy.Subscriber(topic, kind, self._take, topic, queue_size=QUEUE, tcp_nodelay=True)
+        rospy.Subscriber("/diagnostics", DiagnosticArray, self._diagnose, queue_size=QUEUE)
+
+    def _take(self, message, topic):
+        tracks = [(track.id, track.pose.position.x, track.pose.position.y) for track in getattr(message, "tracks", ())]
+        self.last = time.time()
+        self.messages[topic].append((message.header.stamp.to_sec(), self.last, tracks))
+
+    def _diagnose(self, message):
+        for status in message.status:
+            if status.name.startswith("stack:"):
+                self.stack.append((time.time(), status.message, {value.key: value.value for value in status.values}))
+
+
+def main():
+    """The exit code."""
+    out = Path(sys.argv[1])
+    rospy.init_node("record_now", anonymous=True, disable_signals=True)
+    recorder = Recorder()
+    sys.stdin.read()
+    while time.time() - recorder.last < SILENCE:
+        time.sleep(POLL)
+    write_whole(out.parent, {out.name: json.dumps({"messages": recorder.messages, "stack": recorder.stack})})
+    return 0
