@@ -30,6 +30,10 @@ void GridSlamStageOptions::visit(OptionVisitor& visitor) {
       map_period, {0.0, 3600.0});
   visitor.number({"max_tilt", "rad", "a scan plane tilted by more than this is warned of"},
                  max_tilt, {0.0, kPi / 2.0});
+  visitor.number({"odometry_wait", "s",
+                  "a scan waits for the last odometry before it, so long at most, where they come "
+                  "over a network (perception.launch); 0: it does not"},
+                 odometry_wait, {0.0, 1.0});
   visitor.group("input", [&] { input.visit(visitor); });
   visitor.group("scan", [&] { scan.visit(visitor); });
   visitor.group("prior_map", [&] { prior_map.visit(visitor); });
@@ -59,6 +63,7 @@ GridSlamStage::GridSlamStage(const Checked<GridSlamStageOptions>& options,
       runner_(monitor, options->input, "starts with a new map", [this] { reset(); }),
       odometry_(options->motion, options->frames, "odometry", runner_),
       odometry_poses_(options->motion.hold),
+      odometry_wait_(options->odometry_wait, options->motion.hold),
       scans_(monitor) {
   readPriorMap();
 }
@@ -73,6 +78,7 @@ void GridSlamStage::takeOdometry(const nav_msgs::Odometry& message) {
     sample.speed_measured = options_.motion.hasSpeed();
     slam_.addOdometry(sample);
     odometry_poses_.add(sample.stamp, sample.twist, base_in_odom);
+    odometry_wait_.note(sample.stamp);
   });
 }
 
@@ -130,6 +136,7 @@ void GridSlamStage::reset() {
   scans_.clear();
   odometry_.reset();
   odometry_poses_.clear();
+  odometry_wait_.reset();
   frozen_.reset();
   last_map_.reset();
   degenerate_scans_ = 0;
@@ -274,8 +281,10 @@ void GridSlamStage::connect(StagePorts& ports) {
         options_.motion.odometryTopic(),
         [this](const auto& odometry, Stamp /*now*/) { takeOdometry(*odometry); });
   }
-  const auto take_scan = [this, publish](const auto& scan, Stamp /*now*/) {
-    publish(takeScan(*scan));
+  const auto take_scan = [this, publish](const auto& scan, Stamp now) {
+    odometry_wait_.add(toStamp(scan->header.stamp), now,
+                       [this, publish, scan] { publish(takeScan(*scan)); });
+    publishNext(now);
   };
   ports.in<sensor_msgs::LaserScan>("scan", take_scan);
   ports.inInsteadOf<sensor_msgs::MultiEchoLaserScan>("scan", "echoes", take_scan);

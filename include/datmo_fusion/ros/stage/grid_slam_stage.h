@@ -23,6 +23,7 @@
 #include "datmo_fusion/ros/shared_keys.h"
 #include "datmo_fusion/ros/stage/frozen_sensor.h"
 #include "datmo_fusion/ros/stage/motion_input.h"
+#include "datmo_fusion/ros/stage/odometry_wait.h"
 #include "datmo_fusion/ros/stage/stage.h"
 #include "datmo_fusion/ros/stage/stage_runner.h"
 #include "datmo_fusion/ros/stage/waiting_scans.h"
@@ -38,6 +39,7 @@ struct GridSlamStageOptions {
   bool fused_grid = false;
   double map_period = 1.0;         ///< s
   double max_tilt = degrees(5.0);  ///< rad
+  double odometry_wait = 0.0;      ///< s
   StreamOptions input;
   ScanConversionOptions scan;
   PriorMapOptions prior_map;
@@ -59,6 +61,8 @@ struct GridSlamOutput {
 ///
 /// Bad input is dropped or warned of through the monitor, never thrown. When the clock jumps back
 /// all state is forgotten.
+///
+/// With `odometry_wait` a scan waits for the odometry before it (OdometryWait).
 ///
 /// With low-level fusion (`fused_grid`) scans only wait for the fused grid of their stamp, which
 /// sets the pace.
@@ -104,6 +108,8 @@ class GridSlamStage : public Stage {
   datmo_fusion::SaveMap::Response answer(const datmo_fusion::SaveMap::Request& request) const;
 
   void connect(StagePorts& ports) override;
+  bool publishNext(Stamp now) override { return odometry_wait_.serveNext(now); }
+  double maxWait() const override { return odometry_wait_.maxWait(); }
 
  private:
   bool isOfPriorMap(const std::string& file) const;
@@ -131,6 +137,7 @@ class GridSlamStage : public Stage {
   StageRunner runner_;
   OdometryReader odometry_;
   OdometryPoses odometry_poses_;
+  OdometryWait odometry_wait_;
   FrozenSensor frozen_;
   WaitingScans scans_;
   std::optional<Stamp> last_map_;

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/stage/odometry_wait.h"
+
+#include <cmath>
+#include <utility>
+
+namespace datmo {
+
+namespace {
+
+/// A second of a fast scanner, which is the longest wait.
+constexpr std::size_t kMaxWaiting = 50;
+
+}  // namespace
+
+void OdometryWait::note(Stamp odometry) {
+  period_ = newest_ ? secondsBetween(*newest_, odometry) : 0.0;
+  newest_ = odometry;
+}
+
+void OdometryWait::reset() {
+  newest_.reset();
+  period_ = 0.0;
+}
+
+void OdometryWait::add(Stamp scan, Stamp now, std::function<void()> serve) {
+  waiting_.push_back({scan, now, std::move(serve)});
+}
+
+bool OdometryWait::serveNext(Stamp now) {
+  if (waiting_.empty() || !(waiting_.size() > kMaxWaiting || mayGoOn(waiting_.front(), now))) {
+    return false;
+  }
+  const Waiting first = std::move(waiting_.front());
+  waiting_.pop_front();
+  first.serve();
+  return true;
+}
+
+bool OdometryWait::mayGoOn(const Waiting& waiting, Stamp now) const {
+  // A clock that was set back ends the wait, too.
+  const bool waited = std::abs(secondsBetween(waiting.since, now)) >= max_wait_;
+  if (waited || !newest_) {
+    return true;
+  }
+  const double missing = secondsBetween(*newest_, waiting.scan);
+  return missing <= 0.0 || missing < period_ || missing > hold_;
+}
+
+}  // namespace datmo
