@@ -7,7 +7,7 @@ import shlex
 import unittest
 
 import roslaunch
-from launch_files import load
+from launch_files import PACKAGE, load
 
 from datmo_tools.launch_arguments import missing_device
 
@@ -61,6 +61,14 @@ class LiveLaunch(unittest.TestCase):
                           "right_images:=/r", "right_info:=/r.yaml", "image_options:=--raw")
         self.assertEqual(shlex.split(nodes["play_images"].args),
                          ["--rate", "12.0", "--raw", "/l", "/l.yaml", "/r", "/r.yaml"])
+
+    def test_images_are_played_where_they_are_taken(self):
+        files = ("camera:=images", "left_images:=/l", "left_info:=/l.yaml")
+        nodes, _ = loaded(*files)
+        self.assertIsNone(nodes["play_images"].machine_name)
+        machines = PACKAGE / "test/nodelets/parts_machines.launch"
+        nodes, _ = loaded(*files, f"machines:={machines}", "stereo_machine:=stereo")
+        self.assertEqual(nodes["play_images"].machine_name, "stereo")
 
     def test_without_odometry_the_motion_comes_from_the_scans(self):
         _, parameters = loaded("odometry:=none")

@@ -4,6 +4,7 @@
 parameters, for every combination of levels, with and without all that goes with any of them; and each in
 the part of the stack that the graph says, where parts run on machines of their own."""
 
+import collections
 import itertools
 import json
 import os
@@ -110,7 +111,8 @@ class Parts(unittest.TestCase):
         words = [f"{switch}:=true" for switch in switches if switch != "cloud"]
         words += ["cloud:=cloud"] if "cloud" in switches else []
         words += [f"{part}_machine:={part}" for part in parts]
-        return load("perception.launch", [*words, f"machines:={self.machines}", *more]).nodes
+        self.config = load("perception.launch", [*words, f"machines:={self.machines}", *more])
+        return self.config.nodes
 
     @staticmethod
     def by_name(nodes):
@@ -154,6 +156,13 @@ class Parts(unittest.TestCase):
             self.assertEqual(words[2], f"perception_{part}" if alone else "perception")
             self.assertEqual(node.machine_name,
                              part if alone else "perception" if "perception" in parts else None)
+
+    def test_there_is_a_thread_for_each_nodelet(self):
+        nodes = self.loaded(PARTS, [*LEVELS, *OTHERS], "stereo_images:=raw")
+        loaded = collections.Counter(node.args.split()[2] for node in nodes if node.args.startswith("load "))
+        self.assertEqual(len(loaded), len(PARTS))
+        for manager, nodelets in loaded.items():
+            self.assertGreaterEqual(self.config.params[f"/{manager}/num_worker_threads"].value, nodelets)
 
     def test_each_machine_beside_perceptions_answers_for_its_clock(self):
         nodes = {node.name: node for node in self.loaded(PARTS, ["risk"])}

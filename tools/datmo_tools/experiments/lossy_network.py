@@ -142,6 +142,7 @@ def _end_processes(name):
 def _relay(ways, quality, parent):
     """Carries packets until it is ended, or its parent is. ways: file descriptors by address (4 bytes)."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # of a terminal: the parent ends it
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
     chance = random.Random(quality.seed)
     waiting, number = [], 0
     while os.getppid() == parent:

@@ -3,21 +3,26 @@
 
 import contextlib
 import json
+import math
 import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 from typing import NamedTuple
 
+from datmo_tools.bag_input import opened
 from datmo_tools.errors import InputError
+from datmo_tools.pose_path import read_messages
+from datmo_tools.programs import call
 
 COMPUTERS = 3
 PLACES = {"sensors": 0, "stereo": 1, "perception": 2, "risk": 0}  # which computer has which part
 PORT = 11311
 PATIENCE = 180.0  # s, for all to be loaded; of what it takes on a machine that has much to do many times over
-RUN_UP = 1.0  # s, from the word to start to the first message
+RUN_UP = 5.0  # s, from the word to start to the first message: a first packet that is lost is sent again after 1 s, and 2 s
 OUTPUT = {"sensors": "tracks", "stereo": "objects/stereo", "perception": "tracks", "risk": "risks"}
 
 
@@ -27,8 +32,11 @@ class Drive(NamedTuple):
     bag: Path
     config: Path
     arguments: tuple  # words for perception.launch
+    options: tuple  # the same for run_bag
     topics: dict  # those that are played, by the part on whose computer their devices are
     nodelets: tuple  # these have reported before it begins
+    parts: tuple  # those that have something to do
+    seconds: float = float("inf")  # of the bag
 
 
 class Kill(NamedTuple):
@@ -54,11 +62,12 @@ def run(drive, network, split, launch_file, folder, kills=()):
     computer; launch_file: perception.launch; folder (Path): where logs are left; kills: in their order.
     """
     place = (lambda part: PLACES[part]) if split else (lambda _part: 0)
-    with _Processes(network, folder) as processes:
-        processes.start("roslaunch", 0, _launch_words(drive, network, split, launch_file, folder))
+    with _Processes(network, launch_file.parents[1], folder) as processes:
+        processes.start_roslaunch(_launch_words(drive, network, split, launch_file, folder))
         recorder = processes.start_tool("record_now", place("perception"), folder / "recorded.json")
-        players = [processes.start_tool("play_now", place(part), drive.bag, "--nodelets", *drive.nodelets,
-                                        "--topics", *topics) for part, topics in drive.topics.items()]
+        players = [processes.start_tool("play_now", place(part), drive.bag, "--seconds", str(drive.seconds),
+                                        "--nodelets", *drive.nodelets, "--topics", *topics)
+                   for part, topics in drive.topics.items()]
         for player in players:
             processes.expect(player, "ready")
         begin = time.time() + RUN_UP
@@ -72,6 +81,22 @@ def run(drive, network, split, launch_file, folder, kills=()):
         recorder.wait(PATIENCE)
         recorded = json.loads((folder / "recorded.json").read_text(encoding="utf-8"))
     return Result(begin, recorded["messages"], recorded["stack"], killed)
+
+
+def on_bag(drive, programs, folder):
+    """The Result of run_bag on all of the drive, which no timing changes; arrivals are not known (NaN)."""
+    computed = folder / "computed.bag"
+    call(programs / "run_bag", drive.bag, computed, "--config", drive.config, "--quiet", *drive.options)
+    with opened(drive.bag) as bag:
+        begin = bag.get_start_time()
+    messages = [[message.header.stamp.to_sec(), math.nan, places(message)]
+                for message, _ in read_messages(computed, "/tracks")]
+    return Result(begin, {"tracks": messages}, [], [])
+
+
+def places(message):
+    """Of the tracks in a message: id, x and y (m)."""
+    return [(track.id, track.pose.position.x, track.pose.position.y) for track in getattr(message, "tracks", ())]
 
 
 def recovery(result, kill):
@@ -138,8 +163,8 @@ def _process_of(namespace, node):
 class _Processes:
     """A context: what is started on the computers, and ends with it."""
 
-    def __init__(self, network, folder):
-        self._network, self._folder = network, folder
+    def __init__(self, network, package, folder):
+        self._network, self._package, self._folder = network, package, folder
         self._started = []
 
     def __enter__(self):
@@ -159,7 +184,8 @@ class _Processes:
         """What it says goes to a log by its name; what it prints is to be read."""
         environment = dict(os.environ, ROS_MASTER_URI=f"http://{self._network.address(0)}:{PORT}",
                            ROS_IP=self._network.address(computer), ROS_LOG_DIR=str(self._folder / "ros"),
-                           ROS_HOME=str(self._folder / "ros"))
+                           ROS_HOME=str(self._folder / "ros"),
+                           ROS_PACKAGE_PATH=f"{self._package}:{os.environ.get('ROS_PACKAGE_PATH', '')}")
         environment.pop("ROS_HOSTNAME", None)
         log = self._folder / f"{name}_{len(self._started)}.log"
         with log.open("wb") as out:
@@ -168,6 +194,16 @@ class _Processes:
                                        stderr=out)
         self._started.append(process)
         return process
+
+    def start_roslaunch(self, words):
+        """On the first computer. Where it ends by itself, all else does, too."""
+        launch = self.start("roslaunch", 0, words)
+
+        def watch():
+            launch.wait()
+            for process in self._started:
+                process.terminate()
+        threading.Thread(target=watch, daemon=True).start()
 
     def start_tool(self, name, computer, *words):
         return self.start(name, computer, [sys.executable, "-m", "datmo_tools", f"experiments.{name}", *words])
@@ -178,4 +214,4 @@ class _Processes:
         while line := process.stdout.readline():  # rospy says other things, too
             if line.strip() == word:
                 return
-        raise InputError(f"{' '.join(process.args)}: ended, expected it to say {word}")
+        raise InputError(f"{' '.join(process.args)}: ended, expected it to say {word}; roslaunch has ended, too?")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plays topics of a bag as if they were measured now: all stamps are as much later as the clock is.
 
-usage: play_now BAG --nodelets NAME... --topics TOPIC...
+usage: play_now BAG --seconds S --nodelets NAME... --topics TOPIC...
 
 Waits until the nodelets have reported on /diagnostics and all who subscribe are connected, says `ready`,
 and reads a line: the time (s) at which the first message is of. Several of these play one bag together.
@@ -19,7 +19,8 @@ from datmo_tools.command_line import new_parser, run
 
 QUEUE = 200
 POLL = 0.1  # s
-LATCHED = ("/tf_static", "/stereo/left/camera_info", "/stereo/right/camera_info")
+STATIC = "/tf_static"  # there before it begins
+LATCHED = (STATIC, "/stereo/left/camera_info", "/stereo/right/camera_info")
 
 
 def shift(message, duration):
@@ -31,24 +32,31 @@ def shift(message, duration):
 
 
 def wait_for_nodelets(names):
-    """Until all of them have reported once."""
-    missing = set(names)
+    """Until all of them have reported once; returns what they take: (topic, node of the process)."""
+    missing, takes = set(names), set()
 
     def take(list_of_all):
-        missing.difference_update(status.name.split(":")[0] for status in list_of_all.status)
+        process = list_of_all._connection_header["callerid"]
+        for status in list_of_all.status:
+            missing.discard(status.name.split(":")[0])
+            for value in status.values:
+                if value.key == "takes":
+                    takes.update((topic, process) for topic in value.value.split())
     subscriber = rospy.Subscriber("/diagnostics", DiagnosticArray, take)
     while missing and not rospy.is_shutdown():
         time.sleep(POLL)
     subscriber.unregister()
+    return takes
 
 
-def wait_for_connections(publishers):
-    """Until as many are connected as the master knows subscribers."""
+def wait_for_connections(publishers, takes):
+    """Until all who take the topics are known to the master, and all whom it knows are connected."""
     master = rosgraph.Master(rospy.get_name())
     while not rospy.is_shutdown():
-        subscribers = {topic: len(nodes) for topic, nodes in master.getSystemState()[1]}
-        if all(publisher.get_num_connections() >= subscribers.get(topic, 0)
-               for topic, publisher in publishers.items()):
+        subscribers = {topic: set(nodes) for topic, nodes in master.getSystemState()[1]}
+        known = all(process in subscribers.get(topic, ()) for topic, process in takes if topic in publishers)
+        if known and all(publisher.get_num_connections() >= len(subscribers.get(topic, ()))
+                         for topic, publisher in publishers.items()):
             return
         time.sleep(POLL)
 
@@ -57,17 +65,21 @@ def play(values):
     rospy.init_node("play_now", anonymous=True, disable_signals=True)
     with rosbag.Bag(str(values.bag)) as bag:
         begin = bag.get_start_time()
-        kinds = {topic: kind for topic, kind in bag.get_type_and_topic_info().topics.items() if topic in values.topics}
-        messages = list(bag.read_messages(topics=list(kinds)))
+        messages = [each for each in bag.read_messages(topics=values.topics)
+                    if each.timestamp.to_sec() - begin < values.seconds]
     publishers = {}
-    for topic in kinds:
-        first = next(message for name, message, _ in messages if name == topic)
-        publishers[topic] = rospy.Publisher(topic, type(first), queue_size=QUEUE, latch=topic in LATCHED)
-    wait_for_nodelets(values.nodelets)
-    wait_for_connections(publishers)
+    for topic, message, _ in messages:
+        if topic not in publishers:
+            publishers[topic] = rospy.Publisher(topic, type(message), queue_size=QUEUE, latch=topic in LATCHED)
+    for topic, message, _ in messages:
+        if topic == STATIC:
+            publishers[topic].publish(message)
+    wait_for_connections(publishers, wait_for_nodelets(values.nodelets))
     print("ready", flush=True)
     later = float(sys.stdin.readline()) - begin
     for topic, message, recorded in messages:
+        if topic == STATIC:
+            continue
         time.sleep(max(0.0, recorded.to_sec() + later - time.time()))
         publishers[topic].publish(shift(message, rospy.Duration.from_sec(later)))
     print("played", flush=True)
@@ -78,6 +90,7 @@ def main():
     """The exit code."""
     parser = new_parser("play_now", __doc__)
     parser.add_argument("bag")
+    parser.add_argument("--seconds", type=float, default=float("inf"))
     parser.add_argument("--nodelets", nargs="*", default=[])
     parser.add_argument("--topics", nargs="+", required=True)
     values = parser.parse_args()

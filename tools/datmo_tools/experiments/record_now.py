@@ -15,6 +15,7 @@ import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 
 from datmo_fusion.msg import ObjectArray, RiskArray, TrackArray
+from datmo_tools.experiments.machines_run import places
 from datmo_tools.whole_files import write_whole
 
 QUEUE = 200
@@ -35,9 +36,8 @@ class Recorder:
         rospy.Subscriber("/diagnostics", DiagnosticArray, self._diagnose, queue_size=QUEUE)
 
     def _take(self, message, topic):
-        tracks = [(track.id, track.pose.position.x, track.pose.position.y) for track in getattr(message, "tracks", ())]
         self.last = time.time()
-        self.messages[topic].append((message.header.stamp.to_sec(), self.last, tracks))
+        self.messages[topic].append((message.header.stamp.to_sec(), self.last, places(message)))
 
     def _diagnose(self, message):
         for status in message.status:

@@ -1,0 +1,91 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The experiment with several machines, without any: packets that wait and are lost, and what is counted."""
+
+import os
+import select
+import socket
+import struct
+import time
+import unittest
+
+from datmo_tools.experiments import lossy_network, machines
+from datmo_tools.experiments.lossy_network import Quality
+from datmo_tools.experiments.machines_run import Result, by_time, latencies, recovery
+
+ENOUGH = 30.0  # s, for what is done at once
+
+
+def packet(to, payload=b"payload"):
+    """As an IPv4 packet, as far as the relay looks at it."""
+    return struct.pack("!16s4s", b"\x45", socket.inet_aton(to)) + payload
+
+
+class Relay(unittest.TestCase):
+    def setUp(self):
+        self.ends = {}
+        self.ways = {}
+        for address in ("10.77.0.1", "10.77.0.2"):
+            ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_DGRAM)
+            theirs.setblocking(False)
+            self.addCleanup(ours.close)
+            self.addCleanup(theirs.close)
+            self.ends[address] = ours
+            self.ways[socket.inet_aton(address)] = theirs.fileno()
+
+    def relay(self, quality):
+        child = os.fork()
+        if child == 0:
+            lossy_network._relay(self.ways, quality, os.getppid())
+            os._exit(0)
+        self.addCleanup(os.waitpid, child, 0)
+        self.addCleanup(os.kill, child, 9)
+
+    def comes(self, address, seconds):
+        return bool(select.select([self.ends[address]], [], [], seconds)[0])
+
+    def test_a_packet_comes_where_it_is_to_go_and_not_before_its_time(self):
+        self.relay(Quality(delay=0.2, jitter=0.05))
+        sent = time.monotonic()
+        self.ends["10.77.0.1"].send(packet("10.77.0.2"))
+        self.assertTrue(self.comes("10.77.0.2", ENOUGH))
+        self.assertGreaterEqual(time.monotonic() - sent, 0.15)
+        self.assertEqual(self.ends["10.77.0.2"].recv(100), packet("10.77.0.2"))
+        self.assertFalse(self.comes("10.77.0.1", 0.0))
+
+    def test_some_are_lost(self):
+        self.relay(Quality(loss=0.5, seed=3))
+        for i in range(100):
+            self.ends["10.77.0.1"].send(packet("10.77.0.2", bytes([i])))
+        self.ends["10.77.0.1"].send(packet("10.77.0.9"))  # nobody's
+        came = []
+        while self.comes("10.77.0.2", ENOUGH if len(came) < 30 else 1.0):
+            came.append(self.ends["10.77.0.2"].recv(100)[-1])
+        self.assertGreater(len(came), 30)
+        self.assertLess(len(came), 70)
+
+
+class Figures(unittest.TestCase):
+    def test_tracks_are_paired_with_the_nearest_each_once(self):
+        distances, alone = machines.paired([(1, 0.0, 0.0), (2, 10.0, 0.0)], [(7, 0.0, 0.1), (8, 0.0, 0.2), (9, 30.0, 0.0)])
+        self.assertEqual(len(distances), 1)
+        self.assertAlmostEqual(distances[0], 0.1)
+        self.assertEqual(alone, 3)
+
+    def test_runs_are_compared_by_the_time_of_the_drive(self):
+        one = Result(100.0, {"tracks": [[100.0, 100.5, [(1, 0.0, 0.0)]], [100.06, 100.1, []]]}, [], [])
+        other = Result(500.0, {"tracks": [[500.0, 500.1, [(4, 0.0, 0.03)]]]}, [], [])
+        same = machines.sameness(one, other)
+        self.assertEqual((same["lists"], same["lists_missing"], same["tracks"], same["unpaired"]), (2, 1, 1, 0))
+        self.assertAlmostEqual(same["median_m"], 0.03)
+        self.assertEqual(set(by_time(one, "tracks")), {0, 60})
+        self.assertAlmostEqual(latencies(one, "tracks")[1], 0.04)
+
+    def test_what_was_measured_before_the_kill_is_no_recovery(self):
+        result = Result(0.0, {"risks": [[9.9, 10.1, []], [10.5, 12.0, []], [10.6, 12.1, []]]}, [], [])
+        self.assertAlmostEqual(recovery(result, ("risk", 10.0)), 2.0)
+        self.assertIsNone(recovery(result, ("risk", 11.0)))
+
+
+if __name__ == "__main__":
+    unittest.main()
