@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <utility>
 
 namespace datmo {
@@ -44,6 +45,10 @@ void DeviceRunner::run() {
       waitBeforeNext();
     } catch (const DeviceStopped&) {
       return;
+    } catch (const std::exception& error) {
+      // Whatever it is, the other nodelets of the process go on.
+      handlers_.fault(DeviceError("internal_error", error.what()));
+      waitBeforeNext();
     }
   }
 }

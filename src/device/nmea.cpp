@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/device/nmea.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -153,13 +154,15 @@ std::optional<std::uint64_t> nmeaTime(std::string_view field) {
 
 SatelliteFix nmeaFix(const NmeaSentence& sentence, double sigma) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  constexpr double kQuarter = 90.0;  // deg
+  constexpr double kQuarter = 90.0;        // deg
+  constexpr double kMaxSatellites = 99.0;  // two digits
   const std::string quality = sentence.field(5);
   SatelliteFix fix;
   fix.kind = kindOf(quality);
   fix.latitude = angleOf(sentence, 1, 'S').value_or(kNaN);
   fix.longitude = angleOf(sentence, 3, 'W').value_or(kNaN);
-  fix.satellites = static_cast<int>(sentence.number(6).value_or(0.0));
+  fix.satellites =
+      static_cast<int>(std::clamp(sentence.number(6).value_or(0.0), 0.0, kMaxSatellites));
   // Height above the sea, and of the sea above the ellipsoid.
   fix.altitude = sentence.number(8).value_or(kNaN) + sentence.number(10).value_or(0.0);
   const bool is_there =
@@ -169,7 +172,9 @@ SatelliteFix nmeaFix(const NmeaSentence& sentence, double sigma) {
         "a position at latitude " + sentence.field(1) + ", longitude " + sentence.field(3),
         "one on the earth");
   }
-  fix.sigma = sigma * shareOf(quality) * sentence.number(7).value_or(1.0);
+  const double hdop = sentence.number(7).value_or(1.0);
+  const double dilution = hdop > 0.0 ? hdop : 1.0;  // 0 and nothing: not known
+  fix.sigma = sigma * shareOf(quality) * dilution;
   fix.vertical_sigma = kVerticalShare * fix.sigma;
   return fix;
 }
@@ -177,7 +182,9 @@ SatelliteFix nmeaFix(const NmeaSentence& sentence, double sigma) {
 std::optional<GroundVelocity> nmeaVelocity(const NmeaSentence& sentence) {
   constexpr double kKnot = 1852.0 / 3600.0;  // m/s
   const bool is_rmc = sentence.type == "RMC";
-  if (is_rmc && sentence.field(1) != "A") {
+  // Newer receivers end both with a mode: N is for what is not valid.
+  const bool is_valid = sentence.field(is_rmc ? 11 : 8) != "N";
+  if (!is_valid || (is_rmc && sentence.field(1) != "A")) {
     return std::nullopt;
   }
   const std::optional<double> knots = sentence.number(is_rmc ? 6 : 4);

@@ -37,7 +37,7 @@ std::string SickScanner::connect() {
   // date; each scan. It is not kept when the scanner is switched off.
   ask("sWN LMDscandatacfg 01 00 1 1 0 00 00 0 0 0 0 +1", "sWA LMDscandatacfg");
   ask("sMN LMCstartmeas", "sAN LMCstartmeas 0");
-  ask("sMN Run", "sAN Run 1");
+  ask("sMN Run", "sAN Run");  // manuals differ in what follows; that scans come shows it
   ask("sEN LMDscandata 1", "sEA LMDscandata 1");
   return model_.name + " at " + address_.host;
 }

@@ -18,7 +18,9 @@ constexpr TickFormat kVelodyneTicks{1e-6, 3600000000};  // to the hour
 constexpr double kReordered = 0.1;
 
 constexpr double kLongestTurn = 0.5;  ///< s; the slowest of all lidars takes 0.2 s
-constexpr double kLongestGap = 0.1;   ///< s, in a turn that is published in spite of it
+/// s, in a turn that is published in spite of it: half of the fastest turn, so that no gap hides
+/// where one turn ends.
+constexpr double kLongestGap = 0.025;
 
 constexpr int kForeignPackets = 100;  ///< in a row: there is no lidar
 

@@ -13,6 +13,9 @@ namespace {
 /// aside is rounding; over a longer gap its path may have had any shape.
 constexpr double kBentAfter = 1.0;
 
+/// The longest of these tells when the next sample is due: samples may come in bursts.
+constexpr std::size_t kRecentIntervals = 4;
+
 }  // namespace
 
 void OdometryBuffer::connect(Piece& from, OdometrySample& to) const {
@@ -100,7 +103,11 @@ double OdometryBuffer::overdue(Stamp stamp) const {
   if (pieces_.size() < 2) {
     return 0.0;
   }
-  const double period = pieces_[pieces_.size() - 2].seconds;
+  double period = 0.0;
+  const std::size_t last = pieces_.size() - 1;
+  for (std::size_t i = last - std::min(last, kRecentIntervals); i < last; ++i) {
+    period = std::max(period, pieces_[i].seconds);
+  }
   return std::max(0.0, secondsBetween(pieces_.back().sample.stamp, stamp) - period);
 }
 

@@ -72,7 +72,7 @@ TEST(DeviceTest, AScannersScansComeAndItsFailureIsSaid) {
   scanner.send(samples::FakeHokuyo::scan(175, {1000, 1000, 1000, 1000, 1000}));
   EXPECT_TRUE(door.waitFor([&door] {
     return door.diagnostic("device", "scans missed") == 2.0 &&
-           door.diagnostic("device", "connections") == 1.0;
+           door.diagnostic("device", "connections") >= 1.0;
   }));
 
   scanner.close();
@@ -85,7 +85,7 @@ TEST(DeviceTest, AScannersScansComeAndItsFailureIsSaid) {
   scanner.shakeHands();
   scanner.send(samples::FakeHokuyo::scan(5, {1000, 1000, 1000, 1000, 1000}));
   EXPECT_TRUE(door.waitFor([&door] { return door.scans.size() == 3; }));
-  EXPECT_TRUE(door.waitFor([&door] { return door.diagnostic("device", "connections") == 2.0; }));
+  EXPECT_TRUE(door.waitFor([&door] { return door.diagnostic("device", "connections") >= 2.0; }));
 }
 
 TEST(SickDeviceTest, AScannersScansComeAndItsFailureIsSaid) {
@@ -125,7 +125,7 @@ TEST(SickDeviceTest, AScannersScansComeAndItsFailureIsSaid) {
   scanner.shakeHands();
   scanner.scan(samples::SickTelegram());
   EXPECT_TRUE(door.waitFor([&door] { return door.scans.size() == 3; }));
-  EXPECT_TRUE(door.waitFor([&door] { return door.diagnostic("device", "connections") == 2.0; }));
+  EXPECT_TRUE(door.waitFor([&door] { return door.diagnostic("device", "connections") >= 2.0; }));
 }
 
 /// The clouds of a lidar and the scans that cloud_to_scan makes of them.
@@ -185,7 +185,7 @@ TEST(VelodyneDeviceTest, ALidarsTurnsBecomeCloudsAndScansThatAreDeskewed) {
   EXPECT_LT(door.last->header.stamp, ros::Time::now());
   EXPECT_TRUE(door.waitFor([&] {
     lidar.sendDue();
-    return door.diagnostic("device", "connections") == 1.0;
+    return door.diagnostic("device", "connections") >= 1.0;
   }));
   const sensor_msgs::LaserScan scan = *door.scans.back();
   EXPECT_NEAR(std::abs(scan.time_increment * static_cast<float>(scan.ranges.size())), 0.0995, 5e-3);

@@ -68,7 +68,7 @@ class OdometryBuffer {
   }
 
   /// For how long (s) at this stamp the next sample has been due, if they go on coming as the last
-  /// two did: what the newest one said is extrapolated since then. 0 before that, and before there
+  /// few did: what the newest one said is extrapolated since then. 0 before that, and before there
   /// are two.
   double overdue(Stamp stamp) const;
 

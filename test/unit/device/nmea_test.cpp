@@ -121,6 +121,7 @@ TEST(NmeaTest, VelocitiesAreOfBothKindsOfSentences) {
   EXPECT_NEAR(vtg->speed, 5.5 * 0.514444, 1e-4);
   EXPECT_FALSE(nmeaVelocity(sentence("GPRMC,123519,V,,,,,,,230394,,")));
   EXPECT_FALSE(nmeaVelocity(sentence("GPVTG,,T,,M,,N,,K")));
+  EXPECT_FALSE(nmeaVelocity(sentence("GPVTG,,T,,M,0.00,N,0.00,K,N"))) << "its mode: not valid";
   EXPECT_EQ(reasonOf([] { nmeaVelocity(sentence("GPVTG,0,T,,M,-1,N,,K")); }), "bad_sentence");
 }
 

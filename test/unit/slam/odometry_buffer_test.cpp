@@ -87,6 +87,11 @@ TEST_F(OdometryBufferTest, IsOverdueOnceTheNextSampleShouldHaveCome) {
   EXPECT_EQ(buffer_.overdue(at(1.05)), 0.0);
   EXPECT_EQ(buffer_.overdue(at(1.2)), 0.0);
   EXPECT_NEAR(buffer_.overdue(at(1.25)), 0.05, 1e-9);
+  // In bursts of two.
+  for (const double seconds : {1.2, 1.201, 1.3, 1.301}) {
+    buffer_.add({at(seconds), {1.0, 0.0}});
+  }
+  EXPECT_EQ(buffer_.overdue(at(1.39)), 0.0);
 }
 
 TEST_F(OdometryBufferTest, APoseWithoutATwistServesBackwardsAlone) {

@@ -13,9 +13,9 @@ namespace datmo {
 /// Knows odometry whose driver repeats its last measurement under new stamps: pose and twist bit
 /// for bit the same, though a pose that counts cannot stay while the vehicle moves.
 ///
-/// A measurement is as old as the first message that has it: repeated ones serve as long as one
-/// serves that nothing comes after (MotionOptions::hold). A driver that leaves the pose as it is
-/// all the time is not judged: its twist may stay the same for many reasons.
+/// Repeated ones serve for as long as one serves that nothing comes after (MotionOptions::hold):
+/// some drivers send more often than they measure. A driver that leaves the pose as it is all the
+/// time is not judged: its twist may stay the same for many reasons.
 class FrozenOdometry {
  public:
   /// `max_hold`: s.
