@@ -23,6 +23,7 @@ INSTALL_RULE = re.compile(
     r' FILES((?:\s+"[^"]+")+)'
 )
 LAUNCH_ARGUMENTS = {  # without which a file cannot be read
+    "part.launch": ["part:=risk", "machine:=any"],
     "record.launch": ["bag:=none"],
     "replay.launch": ["bag:=none.bag"],
     "stereo_images.launch": ["images:=raw", "manager:=perception"],
