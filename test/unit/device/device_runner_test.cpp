@@ -11,12 +11,14 @@ namespace {
 
 using samples::DeviceProbe;
 using samples::FakeServer;
+using samples::UnusedPort;
 
 class DeviceRunnerTest : public testing::TestWithParam<DeviceKind> {};
 
 TEST_P(DeviceRunnerTest, WhereNobodyListensIsSaidAndItIsTriedAgain) {
+  const UnusedPort unused;
   DeviceProbe probe(GetParam());
-  probe.start(FakeServer().port());  // closed again
+  probe.start(unused.port());
   EXPECT_EQ(probe.faults.take(), "no_connection");
   EXPECT_EQ(probe.faults.take(), "no_connection");
 }

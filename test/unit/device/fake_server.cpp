@@ -21,24 +21,35 @@ void bePatient(int socket) {
   setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
 }
 
-}  // namespace
-
-FakeServer::FakeServer(int port) {
-  listener_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  const int on = 1;
-  setsockopt(listener_, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-  bePatient(listener_);
+/// Binds a socket to a port of the loopback, 0: a free one; returns the port, negative where that
+/// fails.
+int bound(int socket, int port) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   address.sin_port = htons(static_cast<std::uint16_t>(port));
   socklen_t size = sizeof address;
   auto* const any = reinterpret_cast<sockaddr*>(&address);
-  if (bind(listener_, any, size) != 0 || listen(listener_, 1) != 0 ||
-      getsockname(listener_, any, &size) != 0) {
+  const bool fails = bind(socket, any, size) != 0 || getsockname(socket, any, &size) != 0;
+  return fails ? -1 : ntohs(address.sin_port);
+}
+
+}  // namespace
+
+UnusedPort::UnusedPort()
+    : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)), port_(bound(socket_, 0)) {}
+
+UnusedPort::~UnusedPort() { ::close(socket_); }
+
+FakeServer::FakeServer(int port) {
+  listener_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  const int on = 1;
+  setsockopt(listener_, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+  bePatient(listener_);
+  port_ = bound(listener_, port);
+  if (port_ < 0 || listen(listener_, 1) != 0) {
     throw std::runtime_error("no port for the fake device");
   }
-  port_ = ntohs(address.sin_port);
 }
 
 FakeServer::~FakeServer() {

@@ -5,6 +5,22 @@
 
 namespace datmo::samples {
 
+/// A port of the loopback that nobody listens on, nor can as long as this is there: one that was
+/// closed may be another process's the next moment.
+class UnusedPort {
+ public:
+  UnusedPort();
+  ~UnusedPort();
+  UnusedPort(const UnusedPort&) = delete;
+  UnusedPort& operator=(const UnusedPort&) = delete;
+
+  int port() const { return port_; }
+
+ private:
+  int socket_;
+  int port_;
+};
+
 /// The loopback's side of a device with TCP. It does what the test says, in the test's own thread;
 /// nothing sleeps.
 class FakeServer {
