@@ -59,7 +59,7 @@ VelodyneModel vlp16() {
           false};
 }
 
-/// Puck Hi-Res: VLP-16 Puck Hi-Res User Manual, 63-9318, the same places.
+/// Puck Hi-Res: VLP-16 Puck Hi-Res User Manual, 63-9318, the same sections.
 VelodyneModel puckHiRes() {
   return {"Puck Hi-Res",
           0x24,

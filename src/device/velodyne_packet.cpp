@@ -125,8 +125,8 @@ void appendPoints(const VelodynePacket& packet, std::size_t block, const Velodyn
     points.push_back({horizontal * (cosine - sine * angle - cosine * half_square),
                       -horizontal * (sine + cosine * angle - sine * half_square),
                       range * laser.sin_elevation + laser.height,
-                      static_cast<float>(packet.intensity(block, channel)), laser.ring,
-                      static_cast<float>(time + offset)});
+                      static_cast<float>(packet.intensity(block, channel)),
+                      static_cast<float>(time + offset), laser.ring});
   }
 }
 

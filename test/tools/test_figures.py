@@ -17,6 +17,7 @@ from datmo_tools.figures.main import check, main, write_pages
 from datmo_tools.figures.pass_of_steps import run_steps
 from datmo_tools.figures.step import Bench, Job, Step, by_name
 from datmo_tools.spread import rounded, spread, spread_of
+from datmo_tools.text_table import spread_text
 
 ROOT = Path(__file__).resolve().parents[2]
 README = f"# A\n\n{render.BEGIN}\nold\n{render.END}\nrest\n"
@@ -270,10 +271,10 @@ class Pages(InFolder):
             self.pages(people=PEOPLE)
 
     def test_figures_as_a_reader_sees_them(self):
-        self.assertEqual(render.spread([2, 1, 3]), "2 (1 to 3)")
-        self.assertEqual(render.spread([2.01, 2.0, 2.04], 1), "2.0")
+        self.assertEqual(spread_text([2, 1, 3]), "2 (1 to 3)")
+        self.assertEqual(spread_text([2.01, 2.0, 2.04], 1), "2.0")
         self.assertEqual(render.percent_spread([0.5, 0.25, 0.75]), "50 (25 to 75)")
-        self.assertEqual(render.spread(None), "-")
+        self.assertEqual(spread_text(None), "-")
         self.assertEqual(render.percent(0.1234, 1), "12.3")
         self.assertEqual(render.degrees(3.14159265), "180.0")
 

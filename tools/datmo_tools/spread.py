@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Median and range of what was measured several times."""
+"""What was measured several times: median and range, or added up."""
 
 import math
 import statistics
@@ -21,6 +21,14 @@ def spread_of(trees):
     if isinstance(first, dict):
         return {key: spread_of([tree[key] for tree in trees]) for key in first}
     return spread(trees)
+
+
+def pooled_counts(runs, counts):
+    """Of several runs (dictionaries), the sums of these counts, and the MOTA of all as if they were
+    one; required, misses, false_positives and id_switches must be among the counts."""
+    total = {key: sum(run[key] for run in runs) for key in counts}
+    errors = total["misses"] + total["false_positives"] + total["id_switches"]
+    return {**total, "mota": 1.0 - errors / total["required"]}
 
 
 def rounded(tree):

@@ -19,7 +19,7 @@ def rounded(value, digits):
     return NO_VALUE if value is None else f"{value:.{digits}f}"
 
 
-def spread(values, digits=0, scale=1.0):
+def spread_text(values, digits=0, scale=1.0):
     """[median, min, max] as `median (min to max)`, or the median alone where they look the same;
     NO_VALUE for None."""
     if values is None:

@@ -33,8 +33,10 @@ struct CloudPoint {
   float y = 0.0F;          ///< m
   float z = 0.0F;          ///< m
   float intensity = 0.0F;  ///< 0 to 255
-  std::uint16_t ring = 0;  ///< from the lowest laser, 0
   float time = 0.0F;       ///< s after the stamp
+  std::uint16_t ring = 0;  ///< from the lowest laser, 0
+  /// In place of padding, which would be left to chance: points are published as they are here.
+  std::uint16_t unused = 0;
 };
 
 /// One turn of a rotating lidar: what had a return.

@@ -33,7 +33,7 @@ struct DeviceMeasured {
 
 using DeviceNews = std::variant<DeviceConnected, DeviceFault, DeviceWarning, DeviceMeasured>;
 
-/// What a device's thread says, on its way to another thread. Measurements and warnings that nobody
+/// What a device's thread reports to another thread. Measurements and warnings that nobody
 /// takes are overtaken by newer ones; reports on the connection are rare, and kept. Thread safe.
 class DeviceNewsQueue {
  public:

@@ -4,31 +4,21 @@
 
 #include <filesystem>
 #include <fstream>
-#include <functional>
 
 #include "device/capture_sample.h"
+#include "device/device_reason.h"
 #include <gtest/gtest.h>
 #include <pcap/pcap.h>
-
-#include "datmo_fusion/device/device_error.h"
 
 namespace datmo::capture_file_test {
 namespace {
 
 using samples::CapturedDatagram;
 using samples::ethernetFrame;
+using samples::reasonOf;
 using samples::writeCapture;
 
 constexpr int kPort = 2368;
-
-std::string reasonOf(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const DeviceError& error) {
-    return error.reason();
-  }
-  return "none";
-}
 
 TEST(DatagramTest, TheDataOfADatagramToThePortAreFound) {
   const std::string frame = ethernetFrame({0.0, kPort, "data"});

@@ -3,29 +3,20 @@
 #include "datmo_fusion/device/cola.h"
 
 #include <cmath>
-#include <functional>
 
+#include "device/device_reason.h"
 #include "device/fake_sick.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/common/angle.h"
-#include "datmo_fusion/device/device_error.h"
 
 namespace datmo::cola_test {
 namespace {
 
+using samples::reasonOf;
 using samples::SickTelegram;
 
 const SickModel kModel{"LMS111", 20.0};
-
-std::string reasonOf(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const DeviceError& error) {
-    return error.reason();
-  }
-  return "none";
-}
 
 TEST(ColaTest, BytesBecomeTelegrams) {
   ColaReader reader;

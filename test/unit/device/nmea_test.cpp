@@ -3,27 +3,18 @@
 #include "datmo_fusion/device/nmea.h"
 
 #include <cmath>
-#include <functional>
 
+#include "device/device_reason.h"
 #include "device/nmea_sentences.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/common/angle.h"
-#include "datmo_fusion/device/device_error.h"
 
 namespace datmo::nmea_test {
 namespace {
 
 using samples::nmeaLine;
-
-std::string reasonOf(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const DeviceError& error) {
-    return error.reason();
-  }
-  return "none";
-}
+using samples::reasonOf;
 
 NmeaSentence sentence(const std::string& text) {
   NmeaReader reader;

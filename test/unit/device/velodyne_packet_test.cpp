@@ -4,14 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <set>
 
+#include "device/device_reason.h"
 #include "device/velodyne_packets.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/common/angle.h"
-#include "datmo_fusion/device/device_error.h"
 
 namespace datmo::velodyne_packet_test {
 namespace {
@@ -19,6 +18,7 @@ namespace {
 using samples::kDual;
 using samples::kHdl32e;
 using samples::kVlp16;
+using samples::reasonOf;
 using samples::VelodyneSample;
 
 const VelodyneModel& model(std::uint8_t product) {
@@ -30,15 +30,6 @@ const VelodyneModel& model(std::uint8_t product) {
 double elevation(const VelodyneModel& lidar, std::size_t laser) {
   return toDegrees(
       std::atan2(lidar.lasers[laser].sin_elevation, lidar.lasers[laser].cos_elevation));
-}
-
-std::string reasonOf(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const DeviceError& error) {
-    return error.reason();
-  }
-  return "none";
 }
 
 std::vector<CloudPoint> pointsOf(const VelodyneSample& sample, std::size_t block) {

@@ -83,7 +83,7 @@ def _table_rows(results):
 def _drives(values):
     """The drives, and notes of what is not there."""
     programs.check(values.programs, [*simulated_run.STEPS, LIST_PARAMETERS])
-    drives, notes = data_sets(values.scenes, values.config, values.sets, values.seeds), []
+    drives, notes = data_sets(values.scenes, values.config, values.sets, dict.fromkeys(values.seeds)), []
     for file in [drive.scene for drive in drives] + [values.config, values.kitti_config]:
         if not file.is_file():
             raise InputError(f"{file}: no such file, expected a yaml file")

@@ -5,8 +5,7 @@ import statistics
 
 from datmo_tools.experiments.fusion_table import time_per_scan
 from datmo_tools.spread import spread
-from datmo_tools.text_table import NO_VALUE, aligned, percent
-from datmo_tools.text_table import spread as spread_text
+from datmo_tools.text_table import NO_VALUE, aligned, percent, spread_text
 
 NOTE = """\
 Levels of fusion: none, the scanner alone; low, grids of scanner and stereo camera (thesis 3.2);

@@ -34,7 +34,7 @@ PLOTS = (
 
 
 def comparison_plot(rows, kind):
-    """Bytes of the picture: for each figure a plot with a row for each level, a dot for each drive.
+    """Bytes of the picture: for each figure a plot with a row for each level, a dot for each run.
 
     rows: (name of the drive, level, figures() or None where the run failed); kind: of
     plot_style.KINDS.

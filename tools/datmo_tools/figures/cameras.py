@@ -14,7 +14,7 @@ from datmo_tools.experiments.fusion_drives import ODOMETRY_ERRORS
 from datmo_tools.experiments.fusion_table import IN_VIEW
 from datmo_tools.figures.recordings import DRIVE_0005
 from datmo_tools.figures.step import Job, read_json
-from datmo_tools.spread import spread_of
+from datmo_tools.spread import pooled_counts, spread_of
 
 KITTI = "drive 0005"
 CAMERA_DRIVES = ("3", KITTI)  # whose single objects are scored: it takes a minute a drive
@@ -57,12 +57,8 @@ def fusion_figures(results):
 def _together(drives):
     """Figures by level of several drives (dictionaries by level), as if they were one."""
     counts = ("moving_objects", "missed_objects", "tracks", "false_tracks", *MOTA_COUNTS)
-    together = {}
-    for level in drives[0]:
-        total = {key: sum(drive[level][key] for drive in drives) for key in counts}
-        errors = total["misses"] + total["false_positives"] + total["id_switches"]
-        together[level] = {**total, "mota": 1.0 - errors / total["required"]}
-    return together
+    return {level: pooled_counts([drive[level] for drive in drives], counts)
+            for level in drives[0]}  # fmt: skip
 
 
 def _fusion(bench, name, words, drive, folder):

@@ -10,7 +10,7 @@ from datmo_tools.evaluate.thesis_tables import PUBLISHED
 from datmo_tools.experiments import simulated_run
 from datmo_tools.experiments.border_runs import NEAR_BAND
 from datmo_tools.experiments.data_sets import SCORE_OPTIONS
-from datmo_tools.spread import spread_of
+from datmo_tools.spread import pooled_counts, spread_of
 from datmo_tools.figures.step import Job
 
 NUMBERS = range(len(PUBLISHED), 0, -1)  # the longest first
@@ -81,9 +81,8 @@ def pooled(results):
 
 
 def _pooled_counts(runs):
-    total = {key: sum(run[key] for run in runs) for key in COUNTS if runs[0][key] is not None}
-    errors = total["misses"] + total["false_positives"] + total["id_switches"]
-    return {**{key: total[key] for key in POOLED}, "mota": 1.0 - errors / total["required"]}
+    total = pooled_counts(runs, [key for key in COUNTS if runs[0][key] is not None])
+    return {key: total[key] for key in (*POOLED, "mota")}
 
 
 def _delays(objects):

@@ -7,7 +7,7 @@ from pathlib import Path
 import jinja2
 
 from datmo_tools.errors import InputError
-from datmo_tools.text_table import NO_VALUE, spread
+from datmo_tools.text_table import NO_VALUE, spread_text
 
 BEGIN, END = "<!-- figures: begin -->", "<!-- figures: end -->"  # in README.md
 README, PAGE = "README.md", "doc/results.md"  # below the root of the sources
@@ -40,7 +40,7 @@ def _environment():
     environment = jinja2.Environment(loader=loader, trim_blocks=True, lstrip_blocks=True,
                                      undefined=jinja2.StrictUndefined, autoescape=False,
                                      keep_trailing_newline=False)  # fmt: skip
-    environment.filters.update(number=number, percent=percent, spread=spread, degrees=degrees,
+    environment.filters.update(number=number, percent=percent, spread=spread_text, degrees=degrees,
                                percent_spread=percent_spread)  # fmt: skip
     return environment
 
@@ -62,4 +62,4 @@ def degrees(angle, digits=1):
 
 def percent_spread(values, digits=0):
     """The same of shares, in percent."""
-    return spread(values, digits, 100.0)
+    return spread_text(values, digits, 100.0)

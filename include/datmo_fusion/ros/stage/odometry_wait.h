@@ -10,8 +10,8 @@
 namespace datmo {
 
 /// Scans that wait for the last odometry before their stamp, where the network may deliver them
-/// before it: then the same messages lead to the same poses, however long each of them was on its
-/// way. What is known is the last one if the next is due after the scan only, by the time between
+/// before it: then the same messages lead to the same poses, whatever the delay of
+/// each. What is known is the last one if the next is due after the scan only, by the time between
 /// the newest two.
 ///
 /// A scan waits `max_wait` (s) at most by the caller's clock, and not at all where it is 0, or for
