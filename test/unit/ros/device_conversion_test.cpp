@@ -17,7 +17,7 @@ const Stamp kStamp = Stamp::fromSeconds(1.7e9);
 
 TEST(DeviceConversionTest, ACloudIsReadWithTheTimesOfItsPoints) {
   DeviceCloud cloud;
-  cloud.points = {{1.0F, 2.0F, 3.0F, 77.0F, 5, 0.0F}, {4.0F, 5.0F, 6.0F, 78.0F, 6, 0.05F}};
+  cloud.points = {{1.0F, 2.0F, 3.0F, 77.0F, 0.0F, 5}, {4.0F, 5.0F, 6.0F, 78.0F, 0.05F, 6}};
   const auto message = toMessage(cloud, kStamp, "roof");
   EXPECT_EQ(message->header.frame_id, "roof");
   EXPECT_EQ(message->data.size(), std::size_t{message->row_step} * message->height);
