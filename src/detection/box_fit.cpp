@@ -9,6 +9,7 @@
 #include "near_sides.h"
 
 #include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/common/square.h"
 
 namespace datmo {
 
@@ -84,10 +85,13 @@ Corner refined(const Points& points, const Corner& corner, double sigma) {
   return result;
 }
 
-double noiseOf(const Corner& corner, double sigma) {
+double noiseOf(const Corner& corner, const PointNoise& expected) {
   const double parameters = corner.information > 0.0 ? 3.0 : 2.0;
-  const double freedom = std::max(0.0, corner.weight - parameters);
-  return std::sqrt((corner.squares + kNoisePoints * sigma * sigma) / (freedom + kNoisePoints));
+  const double independent = corner.weight / expected.correlated_points;
+  const double freedom = std::max(0.0, independent - parameters);
+  return std::sqrt(
+      (corner.squares / expected.correlated_points + kNoisePoints * square(expected.sigma)) /
+      (freedom + kNoisePoints));
 }
 
 /// How many points lie on the side across each axis. A side of which most points may as well lie on
@@ -140,46 +144,58 @@ BoxFit boxAround(const Points& points, const Point2& scanner, const Corner& corn
   return fit;
 }
 
-/// Its side is across the line of sight.
-BoxFit boxOfPoint(const Point2& point, const Point2& scanner, double sigma) {
-  const Point2 ray = point - scanner;
-  BoxFit fit;
-  fit.box.center = Pose2(point, std::atan2(ray.y(), ray.x()));
-  fit.noise = sigma;
-  fit.points_on_side[static_cast<std::size_t>(BoxSide::kRear)] = 1;
-  return fit;
-}
-
 }  // namespace
 
-BoxFit fitBox(const std::vector<Point2>& points, const Point2& scanner, double sigma) {
-  if (points.empty()) {
-    throw std::invalid_argument("fitBox: 0 points, expected 1 or more");
-  }
-  if (points.size() == 1) {
-    return boxOfPoint(points.front(), scanner, sigma);
+BoxFit fitBox(const std::vector<Point2>& points, const Point2& scanner,
+              const PointNoise& expected) {
+  if (points.size() <= 1) {
+    return boxAcross(points, scanner, expected.sigma);
   }
   Points seen = points;
   for (Point2& point : seen) {
     point -= scanner;
   }
-  const HeadingSearch search(seen, sigma);
+  const HeadingSearch search(seen, expected);
   const Point2 between = seen.back() - seen.front();
   // Two points are most simply explained by one side; many headings fit them as well.
   const double start =
       seen.size() == 2 ? std::atan2(between.y(), between.x()) + kQuarterTurn : search.best();
   Corner corner{start, extentOf(seen, Axes(start)).nearSides()};
   for (int i = 0; i < kRefinements; ++i) {
-    corner = refined(seen, corner, sigma);
+    corner = refined(seen, corner, expected.sigma);
   }
-  const double noise = noiseOf(corner, sigma);
+  const double noise = noiseOf(corner, expected);
   BoxFit fit = boxAround(seen, scanner, corner, noise);
   if (corner.information > 0.0) {
     fit.heading_variance =
-        std::min(kUnknownHeadingVariance, kMinHeadingStd * kMinHeadingStd +
-                                              noise * noise / corner.information +
-                                              search.spreadAbout(corner.heading));
+        std::min(kUnknownHeadingVariance,
+                 kMinHeadingStd * kMinHeadingStd +
+                     square(noise) * expected.correlated_points / corner.information +
+                     search.spreadAbout(corner.heading));
   }
+  return fit;
+}
+
+BoxFit boxAcross(const std::vector<Point2>& points, const Point2& scanner, double noise) {
+  if (points.empty()) {
+    throw std::invalid_argument("box fit: 0 points, expected 1 or more");
+  }
+  Points seen = points;
+  Point2 sum = Point2::Zero();
+  for (Point2& point : seen) {
+    point -= scanner;
+    sum += point;
+  }
+  const double heading = std::atan2(sum.y(), sum.x());
+  const Axes axes(heading);
+  const Extent extent = extentOf(seen, axes);
+  const Point2 mean = axes(sum / static_cast<double>(points.size()));
+  const Point2 middle(mean.x(), 0.5 * (extent.min.y() + extent.max.y()));
+  BoxFit fit;
+  fit.box = {Pose2(scanner + Pose2(Point2::Zero(), heading).rotate(middle), heading), 0.0,
+             extent.max.y() - extent.min.y()};
+  fit.noise = noise;
+  fit.points_on_side[static_cast<std::size_t>(BoxSide::kRear)] = points.size();
   return fit;
 }
 

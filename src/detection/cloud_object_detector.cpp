@@ -95,7 +95,7 @@ std::vector<std::vector<int>> clusters(const TimedPoints::ConstPtr& points,
 /// The box and its sides, of an object whose points are given.
 void setBox(Object& object, const CloudOutline& outline, const Point2& lidar,
             const CloudObjectDetectorOptions& options) {
-  const BoxFit fit = fitBox(object.points, lidar, options.range_sigma);
+  const BoxFit fit = fitBox(object.points, lidar, {options.range_sigma});
   const double heading_std = std::sqrt(std::min(fit.heading_variance, square(kMaxSlant)));
   SideBox sides(fit);
   for (std::size_t side = 0; side < kBoxSides; ++side) {

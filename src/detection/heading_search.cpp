@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/common/square.h"
 
 namespace datmo {
 
@@ -12,7 +13,7 @@ namespace {
 
 /// Squared distances in standard deviations, each bounded (Geman & McClure 1985). A second side is
 /// one more parameter: it must explain more than that by chance (Schwarz 1978).
-double costOf(const Points& points, double heading, double variance) {
+double costOf(const Points& points, double heading, double variance, double correlated_points) {
   const Axes axes(heading);
   const NearSides sides = extentOf(points, axes).nearSides();
   double cost = 0.0;
@@ -21,21 +22,24 @@ double costOf(const Points& points, double heading, double variance) {
     const Point2 distances = (axes(point) - sides.position).cwiseAbs();
     farthest = farthest.cwiseMax(distances);
     const double nearest = distances.minCoeff();
-    const double square = nearest * nearest;
-    cost += square / (variance + square / kMaxCost);
+    const double distance2 = square(nearest);
+    cost += distance2 / (variance + distance2 / kMaxCost);
   }
   const bool both = farthest.minCoeff() > kOnLine * std::sqrt(variance);
-  return both ? cost + std::log(static_cast<double>(points.size())) : cost;
+  cost /= correlated_points;
+  const double independent = static_cast<double>(points.size()) / correlated_points;
+  return both ? cost + std::log(std::max(1.0, independent)) : cost;
 }
 
 }  // namespace
 
-HeadingSearch::HeadingSearch(const Points& points, double sigma) {
+HeadingSearch::HeadingSearch(const Points& points, const PointNoise& noise) {
   const Extent extent = extentOf(points, Axes(0.0));
   // The best of the headings that are tried is up to half a step off.
   const double slant = 0.25 * heading(1) * (extent.max - extent.min).norm();
   for (std::size_t i = 0; i < kHeadings; ++i) {
-    costs_[i] = costOf(points, heading(i), sigma * sigma + slant * slant);
+    costs_[i] =
+        costOf(points, heading(i), square(noise.sigma) + slant * slant, noise.correlated_points);
   }
   best_ = static_cast<std::size_t>(std::min_element(costs_.begin(), costs_.end()) - costs_.begin());
 }

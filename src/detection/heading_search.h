@@ -6,14 +6,15 @@
 
 #include "near_sides.h"
 
+#include "datmo_fusion/detection/box_fit.h"
+
 namespace datmo {
 
 /// How badly each of some headings over a quarter turn explains points about a scanner, if they lie
 /// on the sides of a rectangle that face it.
 class HeadingSearch {
  public:
-  /// `sigma` (m): standard deviation of a point about its side.
-  HeadingSearch(const Points& points, double sigma);
+  HeadingSearch(const Points& points, const PointNoise& noise);
 
   /// rad, the one that explains them best.
   double best() const { return heading(best_); }

@@ -116,7 +116,7 @@ Object MovingObjectDetector::makeObject(const std::vector<ScanPoint>& points,
 /// The box and its sides, of an object whose points are given, from the first to the last beam.
 void MovingObjectDetector::setBox(Object& object, const ScanPoint& first, const ScanPoint& last,
                                   const LabeledScan& scan) const {
-  const BoxFit fit = fitBox(object.points, scan.scanner_in_base.position(), options_.range_sigma);
+  const BoxFit fit = fitBox(object.points, scan.scanner_in_base.position(), {options_.range_sigma});
   const SegmentEnds ends(scan, options_.range_sigma, options_.segmentation.max_gap);
   const double heading_std =
       std::sqrt(std::min(fit.heading_variance, kMaxScannerSlant * kMaxScannerSlant));

@@ -96,13 +96,15 @@ Eigen::Matrix2d StereoObjectMaker::covarianceOf(const GroupOutline& outline) con
 /// The box and its sides, of an object whose points are given.
 void StereoObjectMaker::setBox(Object& object, const GroupOutline& outline) const {
   const double sigma = std::hypot(columnNoise(outline.depth), options_.noise.body_sigma);
-  BoxFit fit = fitBox(object.points, view_.position(), sigma);
   // Points that share their noise count as fewer.
   const double bundle = static_cast<double>(outline.columns.size()) /
                         static_cast<double>(object.points.size()) * camera_.focal_length /
                         columns_.per_tangent;
   const double alike = std::max(1.0, kCorrelatedShare * options_.noise.correlated_width / bundle);
-  fit.heading_variance = std::min(kUnknownHeadingVariance, alike * fit.heading_variance);
+  BoxFit fit = fitBox(object.points, view_.position(), {sigma, alike});
+  if (fit.heading_variance >= kUnknownAxisVariance) {
+    fit = boxAcross(object.points, view_.position(), fit.noise);
+  }
   const double heading_std = std::sqrt(std::min(fit.heading_variance, square(kMaxCameraSlant)));
   SideBox sides(fit);
   for (std::size_t side = 0; side < kBoxSides; ++side) {

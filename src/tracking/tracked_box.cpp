@@ -8,9 +8,6 @@ namespace datmo {
 
 namespace {
 
-/// Variance of a heading modulo a quarter turn of which nothing is known, rad^2.
-constexpr double kUnknownSideVariance = kQuarterTurn * kQuarterTurn * kUniformVariance;
-
 /// Velocities of successive scans are nearly the same information: logarithm of odds of one.
 constexpr double kMaxOddsOfOneVelocity = 2.0;
 
@@ -173,7 +170,7 @@ Point2 TrackedBox::update(const Object& object, double seconds, const TrackedBox
   const Point2 before = offset();
   size_.classify(object.object_class, object.class_probability);
   // Of a box that is turned by an angle, what seems its width is in part its length.
-  const double slant_variance = std::min(object.heading_variance, kUnknownSideVariance);
+  const double slant_variance = std::min(object.heading_variance, kUnknownAxisVariance);
   const Eigen::Vector2d position_variance =
       inAxes(seen.heading, object.position_covariance).diagonal().cwiseMax(0.0);
   std::array<VisibleExtent, 2> visible = {seen.axes[0].visible(position_variance.x()),
@@ -181,7 +178,7 @@ Point2 TrackedBox::update(const Object& object, double seconds, const TrackedBox
   visible[0].variance += slant_variance * size_.mean().y() * size_.mean().y();
   visible[1].variance += slant_variance * size_.mean().x() * size_.mean().x();
   size_.update(visible, seconds, options.size);
-  if (object.heading_variance < kUnknownSideVariance) {
+  if (object.heading_variance < kUnknownAxisVariance) {
     updateHeading(seen.heading, object.heading_variance);
   }
   Point2 moved = offset() - before;
@@ -207,7 +204,7 @@ Point2 TrackedBox::followVelocity(const Eigen::Vector2d& velocity,
   // Objects move along their length: how much farther is the velocity from the other axis?
   const double apart = std::abs(angleBetween(heading_, nearerDirection(direction, heading_)));
   const double odds = 0.5 * kQuarterTurn * (kQuarterTurn - 2.0 * apart) /
-                      (variance + std::min(heading_variance_, kUnknownSideVariance));
+                      (variance + std::min(heading_variance_, kUnknownAxisVariance));
   size_.addOddsAlongFirst(std::clamp(odds, -kMaxOddsOfOneVelocity, kMaxOddsOfOneVelocity));
   if (size_.probabilityAlongFirst() < 1.0 - kSureOfOtherAxis) {
     turnByQuarters(1);
@@ -226,7 +223,7 @@ Point2 TrackedBox::followVelocity(const Eigen::Vector2d& velocity,
 Eigen::Matrix2d TrackedBox::centerCovariance() const {
   const Eigen::Vector2d lever = offset();
   const Eigen::Vector2d swing(-lever.y(), lever.x());
-  const double turn_variance = std::min(heading_variance_, kUnknownSideVariance);
+  const double turn_variance = std::min(heading_variance_, kUnknownAxisVariance);
   return alongAxes(heading_, anchor_share_.cwiseAbs2().cwiseProduct(size_.variance())) +
          turn_variance * swing * swing.transpose();
 }

@@ -31,6 +31,9 @@ enum class DynamicState : std::uint8_t { kUnknown, kStatic, kMoving };
 /// Variance of a heading modulo pi of which nothing is known, rad^2.
 inline constexpr double kUnknownHeadingVariance = kPi * kPi * kUniformVariance;
 
+/// The same modulo a quarter turn, where one of a rectangle's axes is as likely as the other.
+inline constexpr double kUnknownAxisVariance = kQuarterTurn * kQuarterTurn * kUniformVariance;
+
 /// The sides of a box, in the order of all arrays of sides: front is ahead along its heading.
 enum class BoxSide : std::uint8_t { kFront, kRear, kLeft, kRight };
 inline constexpr std::size_t kBoxSides = 4;

@@ -21,6 +21,12 @@ struct BoxFit {
   std::array<std::size_t, kBoxSides> points_on_side{};
 };
 
+/// Of points about the side that they lie on.
+struct PointNoise {
+  double sigma;                    ///< m, more than 0: expected standard deviation
+  double correlated_points = 1.0;  ///< 1 or more: so many share their noise, and count as one
+};
+
 /// Fits a rectangle to what a scanner saw of an object: one side (I), two sides (L), or a point.
 ///
 /// Of all headings in steps of 6 degrees, the one is taken at which the points lie nearest to the
@@ -32,7 +38,14 @@ struct BoxFit {
 ///
 /// @param points m; none: std::invalid_argument. One: a box without size across the line of sight.
 /// @param scanner m, from where the points were seen, same frame
-/// @param sigma m, more than 0: standard deviation of a point about the side it lies on, expected
-BoxFit fitBox(const std::vector<Point2>& points, const Point2& scanner, double sigma);
+BoxFit fitBox(const std::vector<Point2>& points, const Point2& scanner,
+              const PointNoise& expected);
+
+/// The rectangle across the line of sight, where points do not tell a heading: one side at their
+/// mean distance, its ends at the outermost of them; nothing is known of its heading.
+///
+/// @param points m; none: std::invalid_argument
+/// @param noise m, of one point about the side
+BoxFit boxAcross(const std::vector<Point2>& points, const Point2& scanner, double noise);
 
 }  // namespace datmo

@@ -9,9 +9,6 @@ namespace datmo {
 
 namespace {
 
-/// Variance of a heading modulo a quarter turn of which nothing is known, rad^2.
-constexpr double kUnknownSideVariance = kQuarterTurn * kQuarterTurn * kUniformVariance;
-
 /// rad^2; no box is a perfect rectangle.
 constexpr double kMinHeadingVariance = 1e-6;
 
@@ -20,7 +17,7 @@ constexpr double kMaxTurn = 0.3;
 
 /// Of a heading modulo a quarter turn beyond knowing nothing, 1/rad^2.
 double informationOf(double variance) {
-  return std::max(0.0, 1.0 / std::max(variance, kMinHeadingVariance) - 1.0 / kUnknownSideVariance);
+  return std::max(0.0, 1.0 / std::max(variance, kMinHeadingVariance) - 1.0 / kUnknownAxisVariance);
 }
 
 /// How much an object's box would lose by being turned: length over uncertainty, squared.
@@ -51,7 +48,7 @@ CommonHeading commonHeading(const Object& a, const Object& b) {
   const double known = of_a + of_b;
   double share_of_b = known > 0.0 ? of_b / known : 0.5;
   CommonHeading common;
-  common.variance = known > 0.0 ? 1.0 / (known + 1.0 / kUnknownSideVariance)
+  common.variance = known > 0.0 ? 1.0 / (known + 1.0 / kUnknownAxisVariance)
                                 : std::min(a.heading_variance, b.heading_variance);
   if (std::abs(apart) > kMaxTurn) {
     const double stiffer = stiffnessOf(b) - stiffnessOf(a);

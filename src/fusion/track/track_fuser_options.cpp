@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/fusion/track/track_fuser_options.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace datmo {
@@ -10,6 +11,20 @@ namespace {
 /// m, over which a detection falls from most to little: about as far as a sensor's beams or pixels
 /// on a road user become half as many at the ranges where that begins to matter.
 constexpr double kFalloff = 4.0;
+
+/// How probably it is a road user of each class, or anything else.
+struct RoadUserShares {
+  explicit RoadUserShares(const ClassProbabilities& classes)
+      : pedestrian(classes[static_cast<std::size_t>(ObjectClass::kPedestrian)]),
+        cyclist(classes[static_cast<std::size_t>(ObjectClass::kCyclist)]),
+        vehicle(classes[static_cast<std::size_t>(ObjectClass::kVehicle)]),
+        other(std::max(0.0, 1.0 - pedestrian - cyclist - vehicle)) {}
+
+  double pedestrian;
+  double cyclist;
+  double vehicle;
+  double other;
+};
 
 }  // namespace
 
@@ -30,21 +45,34 @@ void TrackDetectionOptions::visit(OptionVisitor& visitor) {
 }
 
 double TrackDetectionOptions::probability(const ClassProbabilities& classes, double range) const {
-  const auto of = [&](ObjectClass one) { return classes[static_cast<std::size_t>(one)]; };
-  const double of_none =
-      1.0 - of(ObjectClass::kPedestrian) - of(ObjectClass::kCyclist) - of(ObjectClass::kVehicle);
-  const double each = of_none / 3.0;
-  return (of(ObjectClass::kPedestrian) + each) * pedestrian.probability(range) +
-         (of(ObjectClass::kCyclist) + each) * cyclist.probability(range) +
-         (of(ObjectClass::kVehicle) + each) * vehicle.probability(range);
+  const RoadUserShares is(classes);
+  const double each = is.other / 3.0;
+  return (is.pedestrian + each) * pedestrian.probability(range) +
+         (is.cyclist + each) * cyclist.probability(range) +
+         (is.vehicle + each) * vehicle.probability(range);
+}
+
+void TrueShareOptions::visit(OptionVisitor& visitor) {
+  constexpr Bounds kShare{0.01, 0.999};
+  visitor.number({"pedestrian", "1",
+                  "of its tracks of pedestrians, those of what moves: it is not believed more than "
+                  "that alone"},
+                 pedestrian, kShare);
+  visitor.number({"cyclist", "1", "the same of cyclists"}, cyclist, kShare);
+  visitor.number({"vehicle", "1", "the same of vehicles"}, vehicle, kShare);
+  visitor.number({"other", "1", "the same of anything else, and of no class"}, other, kShare);
+}
+
+double TrueShareOptions::of(const ClassProbabilities& classes) const {
+  const RoadUserShares is(classes);
+  return is.pedestrian * pedestrian + is.cyclist * cyclist + is.vehicle * vehicle +
+         is.other * other;
 }
 
 void TrackSourceOptions::visit(OptionVisitor& visitor) {
   visitor.toggle({"use", "", "off: its tracks are not read", Tier::kPublic}, use);
   visitor.group("detection", [&] { detection.visit(visitor); });
-  visitor.number({"true_share", "1",
-                  "of its tracks, that are of what moves: it is not believed more than that alone"},
-                 true_share, {0.01, 0.999});
+  visitor.group("true_share", [&] { true_share.visit(visitor); });
   visitor.number({"false_agreement_probability", "1",
                   "that it has one, by chance, that agrees with a false track of another source"},
                  false_agreement_probability, {0.001, 1.0});

@@ -53,6 +53,15 @@ inline StereoObjectDetectorOptions ofBoxes() {
   return options;
 }
 
+/// Least x and least y of the corners of its box, m: where it begins ahead, and ends to the right.
+inline Point2 leastCorner(const Object& object) {
+  Point2 least = object.box.center.position();
+  for (const Point2& corner : object.box.corners()) {
+    least = least.cwiseMin(corner);
+  }
+  return least;
+}
+
 inline const Object& nearest(const std::vector<Object>& objects) {
   return *std::min_element(objects.begin(), objects.end(), [](const Object& a, const Object& b) {
     return a.box.center.x() < b.box.center.x();

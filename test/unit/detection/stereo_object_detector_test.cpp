@@ -88,7 +88,7 @@ TEST(StereoObjectDetector, MarksAnEndThatSomethingNearerHides) {
   const Object& car = objects[first ? 0 : 1];
   EXPECT_EQ(leftOf(car).variance, kHiddenSide);
   EXPECT_LT(rightOf(car).variance, 0.1);
-  EXPECT_NEAR(rightOf(car).position, 0.9, 0.15);
+  EXPECT_NEAR(leastCorner(car).y(), -0.9, 0.15);
 }
 
 TEST(StereoObjectDetector, MarksAnEndAtTheImagesBorder) {
@@ -142,7 +142,7 @@ TEST(StereoObjectDetector, SeparatesObjectsThatTouchInTheImage) {
   const bool first = objects[0].box.center.y() > objects[1].box.center.y();
   const Object& cyclist = objects[first ? 0 : 1];
   EXPECT_NEAR(cyclist.box.center.y(), -1.9, 0.3);
-  EXPECT_NEAR(-rearOf(cyclist).position, 12.0, 0.3);
+  EXPECT_NEAR(leastCorner(cyclist).x(), 12.0, 0.3);
 }
 
 TEST(StereoObjectDetector, APedestrianAtAPoleIsNotAPartOfIt) {

@@ -77,8 +77,9 @@ TEST(TrackFuserTest, TwoSourcesThatHaveItFromOneSensorCountOnce) {
 }
 
 /// The camera's track of what is surely of a class, where the scanner could see it for long.
-double existenceOf(ObjectClass object_class, double existence = 0.99) {
-  TrackFuser fuser{TrackFuserOptions()};
+double existenceOf(ObjectClass object_class, double existence = 0.99,
+                   const TrackFuserOptions& options = {}) {
+  TrackFuser fuser{options};
   Track track = driving(0.0, 0.0, "stereo");
   track.class_probabilities = {};
   track.class_probabilities[static_cast<std::size_t>(object_class)] = 1.0;
@@ -95,6 +96,22 @@ TEST(TrackFuserTest, WhatOneSourceHasComesOutWhereTheOtherWouldHardlyHaveIt) {
   EXPECT_LT(pedestrian, 0.9);
   EXPECT_EQ(existenceOf(ObjectClass::kVehicle), 0.0) << "the scanner would have it";
   EXPECT_EQ(existenceOf(ObjectClass::kPedestrian, 0.8), 0.0) << "its tracker is not sure";
+}
+
+TEST(TrackFuserTest, ASourceIsBelievedAsMuchAsTheClassThatItClaims) {
+  const auto existenceOfPerson = [](double share) {
+    TrackFuserOptions options;
+    options.sources["stereo"].true_share.pedestrian = share;
+    return existenceOf(ObjectClass::kPedestrian, 0.99, options);
+  };
+  EXPECT_NEAR(existenceOfPerson(0.95), 19.0 * 0.7 / (19.0 * 0.7 + 1.0), 0.02);
+  EXPECT_EQ(existenceOfPerson(0.5), 0.0) << "odds of 0.7: not published";
+}
+
+TEST(TrueShare, IsTheMeanOverTheClassesItMayBeOf) {
+  const TrueShareOptions share{0.9, 0.8, 0.7, 0.4};
+  EXPECT_NEAR(share.of({0.0, 1.0, 0.0, 0.0, 0.0}), 0.9, 1e-12);
+  EXPECT_NEAR(share.of({0.1, 0.0, 0.5, 0.3, 0.1}), 0.5 * 0.8 + 0.3 * 0.7 + 0.2 * 0.4, 1e-12);
 }
 
 TEST(TrackFuserTest, WhatASourceLacksFarAwayCountsLess) {

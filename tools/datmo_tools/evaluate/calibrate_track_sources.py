@@ -9,7 +9,7 @@ from datmo_tools import command_line
 from datmo_tools.errors import InputError
 from datmo_tools.evaluate.arguments import add_region, region_of
 from datmo_tools.evaluate.plot_files import plotter
-from datmo_tools.evaluate.source_tally import CLASSES, SourceTally
+from datmo_tools.evaluate.source_tally import CLASSES, OTHER, SourceTally
 from datmo_tools.evaluate.track_frames import Scene
 from datmo_tools.evaluate.track_lists import read_track_lists
 from datmo_tools.evaluate.truth import ANY, NONE
@@ -23,19 +23,21 @@ track_fusion loads:
   detection    of the frames in which a source could lately see a road user that moves, by its
                published view: the share in which it has a track of it, by class and range, as the
                likeliest near / (1 + exp((range - half_range) / 4 m))
-  true_share   of the frames of its tracks, those on what moves at some time
+  true_share   of its tracks, those on what moves at some time, by the class that they claim
   false_agreement_probability
                of the frames of another source's false tracks that it could see: the share in which
                it has a track there, too
 
-Each with one frame of either kind more than was counted. What was counted in less than --min-frames
-frames is left out: the default stays. Calibrate on other drives than those you measure on."""
+Each with one of either kind more than was counted. What was counted in less than --min-frames frames,
+or of less than --min-tracks tracks, is left out: the default stays. Calibrate on other drives than those you measure on."""
 
 SOURCES = ("lidar", "stereo")
+CLAIMS = (*CLASSES.values(), OTHER)
 RANGE = 50.0  # m
 GATE = 2.0  # m, as score_run's matching/gate
 BIN_WIDTH = 5.0  # m
 MIN_FRAMES = 50  # a share is known to 0.07
+MIN_TRACKS = 10  # one of 0.9 is known to 0.1
 
 
 def main(arguments=None):
@@ -44,13 +46,12 @@ def main(arguments=None):
     return command_line.run("calibrate_track_sources", lambda: _run(values), product="table")
 
 
-def as_yaml(tallies, min_frames):
+def as_yaml(tallies, min_frames, min_tracks):
     """Section of track_fusion; tallies: dictionary name of the source -> SourceTally."""
 
-    def known(shares):
-        return {
-            name: round(share.value, 3) for name, share in shares.items() if share.whole >= min_frames
-        }
+    def known(shares, min_count):
+        return {name: round(float(share.value), 3)
+                for name, share in shares.items() if share.whole >= min_count}  # fmt: skip
 
     sections = {}
     for name, tally in tallies.items():
@@ -59,19 +60,22 @@ def as_yaml(tallies, min_frames):
         detection = {each: {"near": round(law.near, 3), "half_range": round(law.half_range, 1)}
                      for each, law in laws.items()}  # fmt: skip
         section = {"detection": detection} if detection else {}
-        section.update(known({"true_share": tally.true_share,
-                              "false_agreement_probability": tally.false_agreement}))  # fmt: skip
+        true_share = known({each: tally.true_share(each) for each in CLAIMS}, min_tracks)
+        section.update({"true_share": true_share} if true_share else {})
+        section.update(known({"false_agreement_probability": tally.false_agreement}, min_frames))
         sections[name] = section
     return yaml.safe_dump({"track_fusion": {"sources": sections}}, sort_keys=False)
 
 
 def summary(tallies):
     """Text of what was counted."""
-    rows = [["source", "", "share", "frames"]]
+    rows = [["source", "", "share", "counted"]]
     for name, tally in tallies.items():
-        shares = {f"has a {each} that it could see": tally.detection(each) for each in CLASSES.values()}
-        shares["track on what moves"] = tally.true_share
-        shares["track on a false one of another"] = tally.false_agreement
+        shares = {f"frames: has a {each} that it could see": tally.detection(each)
+                  for each in CLASSES.values()}  # fmt: skip
+        shares.update({f"tracks: claimed {each}, on what moves": tally.true_share(each)
+                       for each in CLAIMS})  # fmt: skip
+        shares["frames: track on a false one of another"] = tally.false_agreement
         rows += [[name, what, f"{share.value:.3f}" if share.whole else "-", f"{share.whole:.0f}"]
                  for what, share in shares.items()]  # fmt: skip
     return aligned(rows)
@@ -103,7 +107,7 @@ def _run(values):
     plot = plotter(values.plot, "source_plot", "source_plot")
     tallies = tally_runs(values.runs, drives, values.sources, region_of(values), values.visible_to)
     print(summary(tallies))
-    text = as_yaml(tallies, values.min_frames)
+    text = as_yaml(tallies, values.min_frames, values.min_tracks)
     print(text, end="")
     write_whole(values.out.parent, {values.out.name: text})
     if plot is not None:
@@ -122,7 +126,9 @@ def _parser():
         help="that must see a true object for it to be asked for, "
         f"{ANY}, or {NONE}: not asked (default %(default)s)")  # fmt: skip
     add("--min-frames", type=command_line.count, default=MIN_FRAMES, metavar="N",
-        help="for a share to be written (default %(default)s)")  # fmt: skip
+        help="for a share of frames to be written (default %(default)s)")  # fmt: skip
+    add("--min-tracks", type=command_line.count, default=MIN_TRACKS, metavar="N",
+        help="for a share of tracks to be written (default %(default)s)")  # fmt: skip
     add("--out", type=command_line.output_file, default=Path("track_sources.yaml"),
         metavar="FILE.yaml", help="the table (default %(default)s)")  # fmt: skip
     add("--plot", type=command_line.output_file, metavar="FILE",

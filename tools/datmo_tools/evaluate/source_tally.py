@@ -2,7 +2,7 @@
 """What each source of tracks has, misses and invents, counted on drives with truth."""
 
 import math
-from collections import Counter
+from collections import Counter, defaultdict
 from typing import NamedTuple
 
 import numpy as np
@@ -16,6 +16,7 @@ from datmo_tools.stamps import NANOSECONDS
 
 CLASSES = {Object.CLASS_PEDESTRIAN: "pedestrian", Object.CLASS_CYCLIST: "cyclist",
            Object.CLASS_VEHICLE: "vehicle"}  # fmt: skip
+OTHER = "other"  # of no class, or of one that does not move
 
 FALLOFF = 4.0  # m, of the law of track_fusion
 NEAR = 0.01, 0.99  # bounds of its options
@@ -58,7 +59,9 @@ class SourceTally:
         self.seconds = 0.0
         # Frames by (class, bin), each as much as could be seen of the object lately.
         self.found, self.visible = Counter(), Counter()
-        self.true, self.false = Counter(), Counter()  # frames of tracks, by bin
+        self.false = Counter()  # frames of false tracks, by bin
+        # Tracks by class, each by the probability that it gives to the class on average.
+        self.claimed, self.true = Counter(), Counter()
         self._agreeing, self._invented = 0, 0  # frames of other sources' false tracks
 
     def add(self, frames):
@@ -79,8 +82,22 @@ class SourceTally:
                 self.found[self._binned(key)] += looked[number] * (number in has)
             for row in range(len(frame.tracks)):
                 if frame.counts(row):
-                    kind = self.false if frame.is_false(row) else self.true
-                    kind[self._bin(np.hypot(*frame.positions[row]))] += 1
+                    self.false[self._bin(np.hypot(*frame.positions[row]))] += frame.is_false(row)
+
+        self._add_claims(frames)
+
+    def _add_claims(self, frames):
+        # Each track counts once: the long ones are hardly ever false, but all begin as short ones.
+        of_track = defaultdict(list)  # id -> of (claims, whether it is true) by frame
+        for frame in frames:
+            for row, track in enumerate(frame.tracks):
+                if frame.counts(row):
+                    of_track[track.id].append((_claims(track.classes), not frame.is_false(row)))
+        for looks in of_track.values():
+            for name in (*CLASSES.values(), OTHER):
+                claimed = [(claims.get(name, 0.0), is_true) for claims, is_true in looks]
+                self.claimed[name] += sum(share for share, _ in claimed) / len(looks)
+                self.true[name] += sum(share for share, is_true in claimed if is_true) / len(looks)
 
     def add_agreement(self, frames, others, gate):
         """Counts in how many frames of the false tracks of another source, where this one could
@@ -118,11 +135,9 @@ class SourceTally:
         fits = [minimize(surprise, start, bounds=(NEAR, HALF_RANGE)) for start in starts]
         return DetectionLaw(*map(float, min(fits, key=lambda fit: fit.fun).x))
 
-    @property
-    def true_share(self):
-        """Of the frames of its tracks, those on what moves at some time."""
-        true = sum(self.true.values())
-        return Share(true, true + sum(self.false.values()))
+    def true_share(self, name):
+        """Of its tracks of a class, those on what moves at some time."""
+        return Share(self.true[name], self.claimed[name])
 
     @property
     def false_agreement(self):
@@ -136,7 +151,7 @@ class SourceTally:
     @property
     def bins(self):
         """Number of bins in which anything was counted."""
-        indices = [key[1] for key in self.visible] + [*self.true, *self.false]
+        indices = [key[1] for key in self.visible] + [*self.false]
         return max(indices, default=-1) + 1
 
     def center(self, index):
@@ -149,6 +164,12 @@ class SourceTally:
     def _binned(self, key):
         name, range_of = key
         return name, self._bin(range_of)
+
+
+def _claims(classes):
+    """Dictionary name of a class or OTHER -> probability, of what a track has by Object.CLASS_*."""
+    claims = {name: classes[value] for value, name in CLASSES.items() if value < len(classes)}
+    return {**claims, OTHER: max(0.0, 1.0 - sum(claims.values()))}
 
 
 def _movers(frame):

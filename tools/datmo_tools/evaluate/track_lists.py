@@ -20,6 +20,7 @@ class SeenTrack(NamedTuple):
     velocity: np.ndarray  # m/s: vx, vy
     moving: bool
     sources: tuple  # of (source, id): tracks that it was fused of
+    classes: tuple = ()  # probability by Object.CLASS_*; none: not known
 
     def position_at(self, seconds):
         """x, y (m) so much later (s) at its velocity."""
@@ -74,6 +75,7 @@ def _finite_tracks(message):
             np.array([track.velocity.x, track.velocity.y]),
             track.moving,
             tuple((member.source, member.id) for member in track.sources),
+            tuple(track.class_probabilities),
         )
         for track in message.tracks
     ]

@@ -41,11 +41,25 @@ struct TrackDetectionOptions {
   double probability(const ClassProbabilities& classes, double range) const;
 };
 
+/// Of a source's tracks, the share that are of what moves, by the class that they claim: what is
+/// taken for a person seldom is anything else, a corner of a wall that is passed looks like a car.
+struct TrueShareOptions {
+  double pedestrian = 0.9;  ///< 1
+  double cyclist = 0.9;     ///< 1
+  double vehicle = 0.9;     ///< 1
+  double other = 0.9;       ///< 1, of no class, or of one that does not move
+
+  void visit(OptionVisitor& visitor);
+
+  /// Of what is of each class with its probability.
+  double of(const ClassProbabilities& classes) const;
+};
+
 /// One source of tracks.
 struct TrackSourceOptions {
   bool use = true;
   TrackDetectionOptions detection;
-  double true_share = 0.9;                   ///< 1
+  TrueShareOptions true_share;
   double false_agreement_probability = 0.1;  ///< 1
 
   void visit(OptionVisitor& visitor);
