@@ -103,7 +103,7 @@ void StationTracks::reset() {
 }
 
 bool StationTracks::isNew(const StationTrackList& list) const {
-  const auto known = lists_.find(list.station);
+  const auto known = lists_.find({list.station, list.part});
   return known == lists_.end() || known->second.stamp < list.stamp;
 }
 
@@ -149,9 +149,9 @@ void StationTracks::forgetOld(Stamp now) {
     const bool is_old = secondsBetween(claim->second.stamp, now) > options_.forget_after;
     claim = is_old ? claims_.erase(claim) : std::next(claim);
   }
-  for (auto station = lists_.begin(); station != lists_.end();) {
-    const bool is_old = secondsBetween(station->second.stamp, now) > options_.forget_after;
-    station = is_old ? lists_.erase(station) : std::next(station);
+  for (auto list = lists_.begin(); list != lists_.end();) {
+    const bool is_old = secondsBetween(list->second.stamp, now) > options_.forget_after;
+    list = is_old ? lists_.erase(list) : std::next(list);
   }
 }
 
@@ -224,7 +224,7 @@ TrackList StationTracks::toMap(const StationTrackList& list, const PoseWithCovar
   result.tracks.erase(std::unique(result.tracks.begin(), result.tracks.end(),
                                   [](const Track& a, const Track& b) { return a.id == b.id; }),
                       result.tracks.end());
-  lists_[list.station] = result;
+  lists_[{list.station, list.part}] = result;
   return result;
 }
 
@@ -234,11 +234,11 @@ TrackList StationTracks::merged(Stamp stamp) {
     Track track;
   };
   std::vector<Candidate> candidates;
-  for (const auto& [station, list] : lists_) {
+  for (const auto& [key, list] : lists_) {
     const double seconds = secondsBetween(list.stamp, stamp);
     if (std::abs(seconds) <= options_.serves_for) {
       for (const Track& track : list.tracks) {
-        candidates.push_back({station, predicted(track, seconds, options_.prediction)});
+        candidates.push_back({key.first, predicted(track, seconds, options_.prediction)});
       }
     }
   }

@@ -132,6 +132,7 @@ StationTracksMessage toMessage(const StationTrackList& list, const LocalPlane& p
   StationTracksMessage message;
   message.header.stamp = toTime(list.stamp);
   message.station = list.station;
+  message.part = list.part;
   message.clock_sigma = list.clock_sigma;
   for (const StationTrack& track : list.tracks) {
     message.tracks.push_back(toMessage(track, plane));
@@ -143,6 +144,7 @@ StationTrackList fromMessage(const StationTracksMessage& message, const LocalPla
   StationTrackList list;
   list.stamp = toStamp(message.header.stamp);
   list.station = message.station;
+  list.part = message.part;
   list.clock_sigma = std::isfinite(message.clock_sigma) ? message.clock_sigma : 0.0;
   for (const datmo_fusion::StationTrack& track : message.tracks) {
     list.tracks.push_back(fromMessage(track, plane));

@@ -57,6 +57,26 @@ TEST(StationTracks, KeepTheirPlaceAndGetWhatIsNotKnownOfTheFrame) {
   EXPECT_EQ(track.sensors, (std::vector<std::string>{"station 3"}));
 }
 
+TEST(StationTracks, PartsOfAStationStandBesideEachOther) {
+  StationTracks stations{StationTrackOptions()};
+  StationTrackList first = listAt(0, {walker(pathAt(0))});
+  first.part = 1;
+  StationTrack other = walker(pathAt(0) + Point2(10.0, 0.0));
+  other.id = 8;
+  StationTrackList second = listAt(0, {other});
+  second.part = 2;
+  stations.toMap(first, mapInPlane(), std::nullopt);
+  EXPECT_FALSE(stations.isNew(first));
+  ASSERT_TRUE(stations.isNew(second));
+  stations.toMap(second, mapInPlane(), std::nullopt);
+  EXPECT_EQ(stations.merged(second.stamp).tracks.size(), 2U);
+
+  StationTrackList next = listAt(1, {});
+  next.part = 1;
+  stations.toMap(next, mapInPlane(), std::nullopt);
+  EXPECT_EQ(stations.merged(next.stamp).tracks.size(), 1U);
+}
+
 TEST(StationTracks, CovarianceIsHonest) {
   // Errors drawn as the covariances say: mean NEES of position and velocity, 4 degrees of freedom.
   std::mt19937 random(1);

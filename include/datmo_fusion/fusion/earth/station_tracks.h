@@ -38,6 +38,7 @@ struct StationTrack {
 struct StationTrackList {
   Stamp stamp;
   std::uint32_t station = 0;
+  std::uint32_t part = 0;    ///< of what it tracks, where that comes in several lists
   double clock_sigma = 0.0;  ///< s, of the stamp; 0: not known
   std::vector<StationTrack> tracks;
 };
@@ -91,8 +92,8 @@ class StationTracks {
   /// Throws OptionError.
   explicit StationTracks(const Checked<StationTrackOptions>& options) : options_(*options) {}
 
-  /// Whether a list is a station's next one: it comes after its last one. An old one that is sent
-  /// again is not.
+  /// Whether a list is a station's next one of its part: it comes after its last one. An old one
+  /// that is sent again is not.
   bool isNew(const StationTrackList& list) const;
 
   /// `own`: at the list's stamp; none: not known, nothing is taken for it.
@@ -109,7 +110,7 @@ class StationTracks {
   void reset();
 
  private:
-  using Key = std::pair<std::uint32_t, std::uint32_t>;  ///< station, its id
+  using Key = std::pair<std::uint32_t, std::uint32_t>;  ///< station, and its id or its part
 
   struct Claim {
     std::uint32_t id = 0;  ///< ours
@@ -127,8 +128,8 @@ class StationTracks {
 
   StationTrackOptions options_;
   StationTrackCounts counts_;
-  std::map<std::uint32_t, TrackList> lists_;  ///< by station: what passed of its last one
-  std::map<Key, Claim> claims_;
+  std::map<Key, TrackList> lists_;  ///< by station and part: what passed of its last one
+  std::map<Key, Claim> claims_;     ///< by station and id
   std::uint32_t next_id_ = 1;
 };
 
