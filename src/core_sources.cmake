@@ -58,6 +58,17 @@ set(DATMO_FUSION_CORE_SOURCES
   fusion/earth/earth_frame_filter.cpp
   fusion/earth/local_plane.cpp
   fusion/earth/station_tracks.cpp
+  fusion/wire/cam.cpp
+  fusion/wire/cam_decoding.cpp
+  fusion/wire/cpm.cpp
+  fusion/wire/cpm_decoding.cpp
+  fusion/wire/cpm_skipped.cpp
+  fusion/wire/decoded_state.cpp
+  fusion/wire/its_fields.cpp
+  fusion/wire/its_units.cpp
+  fusion/wire/station_encoding.cpp
+  fusion/wire/station_messages.cpp
+  fusion/wire/uper.cpp
   fusion/grid/grid_fuser.cpp
   fusion/grid/grid_fusion.cpp
   fusion/grid/grid_matcher.cpp

@@ -190,6 +190,15 @@ datmo_fusion_add_core_test(fusion
   fusion/windowed_evidence_test.cpp
 )
 
+datmo_fusion_add_core_test(wire
+  fusion/station_encoding_test.cpp
+  fusion/station_messages_test.cpp
+  fusion/uper_test.cpp
+  fusion/wire_messages_test.cpp
+  fusion/wire_robustness_test.cpp
+)
+target_include_directories(unit_wire PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+
 datmo_fusion_add_core_test(device
   device/capture_file_test.cpp
   device/capture_sample.cpp

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "datmo_fusion/fusion/wire/cpm.h"
+
+namespace datmo {
+
+// Fields of a perceived object that are passed over, and its class, of which little is used (ETSI
+// TS 102 894-2).
+
+/// DF Acceleration3dWithConfidence.
+void skipAccelerationVector(Uper& uper);
+
+/// DF CartesianAngularVelocityComponent.
+void skipAngularVelocity(Uper& uper);
+
+/// DF LowerTriangularPositiveSemidefiniteMatrices.
+void skipCorrelations(Uper& uper, ItsDictionary dictionary);
+
+/// DF SequenceOfIdentifier1B.
+void skipSensors(Uper& uper);
+
+/// DF MapPosition.
+void skipMapPosition(Uper& uper);
+
+/// DF ObjectClass.
+void walkClass(Uper& uper, CpmClass& one, ItsDictionary dictionary);
+
+}  // namespace datmo

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "datmo_fusion/common/stamp.h"
+#include "datmo_fusion/fusion/wire/its_fields.h"
+
+namespace datmo {
+
+// Between the units of the standard and ours.
+
+inline constexpr double kItsCentimeter = 0.01;  ///< m; m/s of speeds
+inline constexpr double kItsDecimeter = 0.1;    ///< m
+inline constexpr double kItsGeodetic = 1e-7;    ///< deg, of latitudes and longitudes
+inline constexpr double kItsPercent = 0.01;     ///< 1
+
+/// TimestampIts: milliseconds since 2004 began in UTC, leap seconds counted; ours are not. With
+/// those since then.
+std::int64_t toItsTime(Stamp stamp, int leap_seconds);
+Stamp fromItsTime(std::int64_t milliseconds, int leap_seconds);
+
+/// TimestampIts modulo 65.536 s, ms.
+std::int64_t toGenerationTime(Stamp stamp, int leap_seconds);
+
+/// The time nearest to `now` that is `generation_time` modulo 65.536 s.
+Stamp fromGenerationTime(std::int64_t generation_time, Stamp now, int leap_seconds);
+
+/// The nearest number of units, within the limits.
+std::int64_t toItsUnits(double value, double unit, std::int64_t min, std::int64_t max);
+
+/// Half of what holds 95 %, rounded up; `out_of_range` and above is that.
+std::int64_t toItsConfidence(double sigma, double unit, std::int64_t out_of_range);
+
+/// Standard deviation; none where it is out of range, of `otherwise` where it is not available.
+std::optional<double> fromItsConfidence(std::int64_t confidence, double unit,
+                                        std::int64_t out_of_range, double otherwise);
+
+/// From east to north, rad, and standard deviation; none where it is not available or out of range.
+struct ItsDirection {
+  double angle = 0.0;
+  double sigma = 0.0;
+};
+std::optional<ItsDirection> fromNorth(const ItsAngle& angle, double otherwise);
+std::optional<ItsDirection> fromEast(const ItsAngle& angle, double otherwise);
+ItsAngle toNorth(double angle, double variance);
+ItsAngle toEast(double angle, double variance);
+
+/// Of east and north, m^2, by the ellipse that holds 95 %; none where that is out of range.
+std::optional<Eigen::Matrix2d> fromEllipse(const ItsPosition& position, double otherwise);
+void setEllipse(const Eigen::Matrix2d& covariance, ItsPosition& position);
+
+}  // namespace datmo
