@@ -24,6 +24,8 @@ set(DATMO_FUSION_CORE_SOURCES
   device/clock_estimator.cpp
   device/cola.cpp
   device/connection.cpp
+  device/datagram_listener.cpp
+  device/datagram_sender.cpp
   device/datagram_socket.cpp
   device/device_clock.cpp
   device/device_error.cpp
@@ -31,6 +33,7 @@ set(DATMO_FUSION_CORE_SOURCES
   device/device_runner.cpp
   device/device_setup.cpp
   device/hokuyo_scanner.cpp
+  device/ipv4_address.cpp
   device/nmea.cpp
   device/nmea_receiver.cpp
   device/scip.cpp

@@ -33,6 +33,7 @@
 #include "datmo_fusion/ros/stage/track_fusion_stage.h"
 #include "datmo_fusion/ros/stage/tracker_stage.h"
 #include "datmo_fusion/ros/stage/v2x_stage.h"
+#include "datmo_fusion/ros/station_wire.h"
 #include "datmo_fusion/ros/stereo_camera_options.h"
 #include "datmo_fusion/ros/vehicle_options.h"
 
@@ -106,6 +107,7 @@ std::vector<Section> sections() {
           section<GridViewsOptions>("`grid_views`"),
           section<CameraViewOptions>("`camera_view`"),
           section<DeviceOptions>("`device`"),
+          section<StationWireOptions>("`v2x_wire`"),
           section<PartClocksOptions>("`stack`")};
 }
 

@@ -6,8 +6,8 @@
 #include <cstring>
 #include <string>
 
+#include "ipv4_address.h"
 #include <arpa/inet.h>
-#include <netdb.h>
 #include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -24,28 +24,12 @@ namespace {
 /// second. The system may allow less (net.core.rmem_max).
 constexpr int kWaitingBytes = 4 * 1024 * 1024;
 
-std::uint32_t addressOf(const std::string& host) {
-  addrinfo wanted{};
-  wanted.ai_family = AF_INET;
-  wanted.ai_socktype = SOCK_DGRAM;
-  addrinfo* found = nullptr;
-  const int error = getaddrinfo(host.c_str(), nullptr, &wanted, &found);
-  if (error != 0) {
-    throw DeviceError("no_connection", "no device is named " + host + " (" + gai_strerror(error) +
-                                           "): expected the name or address of one");
-  }
-  sockaddr_in address{};
-  std::memcpy(&address, found->ai_addr, sizeof address);
-  freeaddrinfo(found);
-  return address.sin_addr.s_addr;
-}
-
 }  // namespace
 
 DatagramSocket::DatagramSocket(const DeviceAddress& device, const std::atomic<bool>& stop)
     : device_(device), stop_(stop) {
   if (!device.host.empty()) {
-    sender_ = addressOf(device.host);
+    sender_ = ipv4Address(device.host, device.port).sin_addr.s_addr;
   }
   open();
 }

@@ -6,11 +6,10 @@
 #include <variant>
 #include <vector>
 
-#include <boost/make_shared.hpp>
+#include "callback_bell.h"
 
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
-#include <ros/callback_queue_interface.h>
 
 #include "datmo_fusion/device/device_news.h"
 #include "datmo_fusion/ros/convert/device_conversion.h"
@@ -31,30 +30,7 @@ constexpr std::uint32_t kQueue = 10;  ///< measurements, a quarter of a second o
 /// A device on the network as messages. What the device's own thread says is handed to the
 /// nodelet's callback queue, where the diagnostics live, too.
 class DeviceNodelet : public nodelet::Nodelet {
- public:
-  /// The device's thread ends before what it calls, and what it has rung for is not served any
-  /// more.
-  ~DeviceNodelet() override {
-    runner_.reset();
-    if (monitor_) {
-      getNodeHandle().getCallbackQueue()->removeByID(ownId());
-    }
-  }
-
  private:
-  /// Serves the news in the nodelet's queue.
-  class Bell : public ros::CallbackInterface {
-   public:
-    explicit Bell(DeviceNodelet& nodelet) : nodelet_(nodelet) {}
-    CallResult call() override {
-      nodelet_.serveAll();
-      return Success;
-    }
-
-   private:
-    DeviceNodelet& nodelet_;
-  };
-
   void onInit() override {
     options_ = loadOptions<DeviceOptions>(getPrivateNodeHandle());
     monitor_ = std::make_unique<StageMonitor>(getName());
@@ -63,6 +39,7 @@ class DeviceNodelet : public nodelet::Nodelet {
         getNodeHandle(), getPrivateNodeHandle(), *monitor_, std::vector<WatchedInput>(),
         StageTopics{{}, topics()}, options_.input.silence_after);
     diagnostics_ = std::make_unique<DeviceDiagnostics>(*monitor_);
+    bell_ = std::make_unique<CallbackBell>(getNodeHandle(), [this] { serveAll(); });
     DeviceHandlers handlers;
     handlers.connected = [this](const std::string& device) { ring(DeviceConnected{device}); };
     handlers.measured = [this](DeviceMeasurement measurement, const ClockState& clock) {
@@ -104,11 +81,9 @@ class DeviceNodelet : public nodelet::Nodelet {
 
   static Stamp now() { return toStamp(ros::Time::now()); }
 
-  std::uint64_t ownId() const { return reinterpret_cast<std::uint64_t>(this); }
-
   void ring(DeviceNews news) {
     news_.put(std::move(news));
-    getNodeHandle().getCallbackQueue()->addCallback(boost::make_shared<Bell>(*this), ownId());
+    bell_->ring();
   }
 
   void serveAll() {
@@ -150,7 +125,8 @@ class DeviceNodelet : public nodelet::Nodelet {
   ros::Publisher output_;
   ros::Publisher velocities_;  ///< of a satellite receiver alone
   DeviceNewsQueue news_{kQueue};
-  std::unique_ptr<DeviceRunner> runner_;
+  std::unique_ptr<CallbackBell> bell_;
+  std::unique_ptr<DeviceRunner> runner_;  ///< its thread ends before what it calls
 };
 
 }  // namespace datmo

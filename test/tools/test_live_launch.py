@@ -85,6 +85,19 @@ class LiveLaunch(unittest.TestCase):
         self.assertEqual(dict(nodes["motion"].remap_args)["twist"], "/gnss/twist")
         self.assertEqual(dict(nodes["motion"].remap_args)["imu"], "/imu/data")
 
+    def test_other_stations_are_heard_and_told(self):
+        nodes, parameters = loaded("v2x_wire:=true", "track_fusion:=true", "v2x_port:=5000",
+                                   "v2x_destination:=10.0.0.5", "stations:=/others")
+        self.assertEqual(nodes["v2x_wire"].args, "load datmo_fusion/v2x_wire perception")
+        self.assertEqual(parameters["/v2x_wire/port"], 5000)
+        self.assertEqual(parameters["/v2x_wire/destination"], "10.0.0.5")
+        self.assertEqual(parameters["/v2x_wire/destination_port"], 37001)
+        self.assertEqual(dict(nodes["v2x"].remap_args)["stations"], "/others")
+        self.assertEqual(dict(nodes["v2x_wire"].remap_args)["stations"], "/others")
+        nodes, _ = loaded()
+        self.assertNotIn("v2x_wire", nodes)
+        self.assertNotIn("v2x", nodes)
+
     def test_devices_that_there_are_not_end_it(self):
         for word in ("lidar:=ouster", "camera:=webcam", "odometry:=can"):
             with self.subTest(word):

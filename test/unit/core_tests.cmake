@@ -204,6 +204,7 @@ datmo_fusion_add_core_test(device
   device/capture_sample.cpp
   device/clock_estimator_test.cpp
   device/cola_test.cpp
+  device/datagram_test.cpp
   device/device_news_test.cpp
   device/device_runner_test.cpp
   device/fake_hokuyo.cpp

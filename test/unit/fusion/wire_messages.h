@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "fusion/wire_bits.h"
+#include "wire_bits.h"
 
 #include "datmo_fusion/common/stamp.h"
 

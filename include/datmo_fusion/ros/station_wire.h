@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/fusion/wire/station_messages.h"
+#include "datmo_fusion/ros/convert/earth_conversion.h"
+#include "datmo_fusion/ros/stage/stage_monitor.h"
+
+namespace datmo {
+
+/// Of the nodelet `v2x_wire`.
+struct StationWireOptions {
+  int port = 37001;
+  std::string source;
+  std::string destination;
+  int destination_port = 37001;
+  double interval = 0.1;  ///< s
+  StationMessageOptions messages;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// StationTracks between messages and datagrams: CAM and CPM. Counts what comes and what cannot be
+/// used, by reason; messages of other kinds, and what we sent ourselves, are no fault.
+class StationWire {
+ public:
+  /// `monitor` must outlive it. Throws OptionError.
+  StationWire(const Checked<StationWireOptions>& options, StageMonitor& monitor);
+
+  /// What a datagram says; null if nothing. `now`: ROS time when it came.
+  StationTracksMessagePtr received(std::string_view bytes, Stamp now);
+
+  /// The datagrams that tell others of ours; none if the last ones are newer than `interval`.
+  std::vector<std::string> toSend(const StationTracksMessage& message);
+
+ private:
+  bool isDue(Stamp stamp);
+
+  StationWireOptions options_;
+  StageMonitor& monitor_;
+  std::optional<std::uint32_t> own_station_;  ///< that we told others
+  std::optional<Stamp> last_sent_;
+  std::optional<Stamp> last_low_frequency_;
+  std::uint64_t others_ = 0;    ///< messages of other kinds
+  std::uint64_t own_ = 0;       ///< messages of ours that came back
+  std::uint64_t left_out_ = 0;  ///< objects without number or position
+};
+
+}  // namespace datmo

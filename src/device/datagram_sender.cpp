@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/device/datagram_sender.h"
+
+#include <cerrno>
+#include <cstring>
+
+#include "ipv4_address.h"
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "datmo_fusion/device/device_error.h"
+
+namespace datmo {
+
+DatagramSender::DatagramSender(const std::string& host, int port)
+    : name_(host + ":" + std::to_string(port)) {
+  const sockaddr_in address = ipv4Address(host, port);
+  socket_ = socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  const int allowed = 1;
+  setsockopt(socket_, SOL_SOCKET, SO_BROADCAST, &allowed, sizeof allowed);
+  if (connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+    const int error = errno;
+    close(socket_);
+    throw DeviceError("no_connection", "no datagram can go to " + name_ + " (" +
+                                           std::strerror(error) + "): expected a network to it");
+  }
+}
+
+DatagramSender::~DatagramSender() { close(socket_); }
+
+void DatagramSender::send(std::string_view bytes) const {
+  // That nobody listened to an earlier one is told by the next one; it is tried again.
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    if (::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) >= 0) {
+      return;
+    }
+    if (errno != ECONNREFUSED) {
+      throw DeviceError("not_sent", "a datagram of " + std::to_string(bytes.size()) + " bytes to " +
+                                        name_ + " was not sent (" + std::strerror(errno) + ")");
+    }
+  }
+}
+
+}  // namespace datmo

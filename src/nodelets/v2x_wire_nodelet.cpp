@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "callback_bell.h"
+
+#include <nodelet/nodelet.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "datmo_fusion/device/datagram_listener.h"
+#include "datmo_fusion/device/datagram_sender.h"
+#include "datmo_fusion/ros/parameters.h"
+#include "datmo_fusion/ros/stage/stage_reporter.h"
+#include "datmo_fusion/ros/station_wire.h"
+
+namespace datmo {
+
+/// CAM and CPM of other stations by UDP to `stations`, and `stations/own` to CAM and CPM. What the
+/// socket's own thread has is handed to the nodelet's callback queue, where the diagnostics live.
+class V2xWireNodelet : public nodelet::Nodelet {
+ private:
+  static constexpr std::uint32_t kQueue = 20;  ///< lists, of ours and of others
+
+  /// Datagrams that wait for the nodelet's thread at most: those of a second among 100 stations.
+  static constexpr std::size_t kWaiting = 1000;
+
+  /// From one look-up of the destination's name to the next, s: it may take some.
+  static constexpr double kLookUpPause = 10.0;
+
+  struct Datagram {
+    std::string bytes;
+    Stamp stamp;  ///< when it came
+  };
+  struct Listening {};
+  using News = std::variant<Datagram, Listening, DeviceError>;
+
+  void onInit() override {
+    options_ = loadOptions<StationWireOptions>(getPrivateNodeHandle());
+    monitor_ = std::make_unique<StageMonitor>(getName());
+    monitor_->condition(HealthLevel::kNothing, "does not listen yet");
+    wire_ = std::make_unique<StationWire>(options_, *monitor_);
+    ros::NodeHandle& node = getNodeHandle();
+    stations_ = node.advertise<StationTracksMessage>("stations", kQueue);
+    own_ = node.subscribe<StationTracksMessage>(
+        "stations/own", kQueue, [this](const auto& tracks) { send(*tracks); }, nullptr,
+        ros::TransportHints().tcpNoDelay());
+    reporter_ = std::make_unique<StageReporter>(
+        node, getPrivateNodeHandle(), *monitor_, std::vector<WatchedInput>(),
+        StageTopics{{own_.getTopic()}, {stations_.getTopic()}}, StreamOptions().silence_after);
+    bell_ = std::make_unique<CallbackBell>(node, [this] { serveAll(); });
+    DatagramHandlers handlers;
+    handlers.listening = [this] { put(Listening()); };
+    handlers.received = [this](std::string_view bytes) {
+      put(Datagram{std::string(bytes), toStamp(ros::Time::now())});
+    };
+    handlers.fault = [this](const DeviceError& error) { put(error); };
+    listener_ =
+        std::make_unique<DatagramListener>(DeviceAddress{options_.source, options_.port}, handlers);
+  }
+
+  void put(News news) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      news_.push_back(std::move(news));
+      if (news_.size() > kWaiting) {
+        news_.pop_front();
+        ++overtaken_;
+      }
+    }
+    bell_->ring();
+  }
+
+  void serveAll() {
+    std::deque<News> news;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      news.swap(news_);
+      monitor_->figure("datagrams overtaken", static_cast<double>(overtaken_));
+    }
+    for (const News& one : news) {
+      std::visit([this](const auto& kind) { serve(kind); }, one);
+    }
+  }
+
+  void serve(const Listening& /*news*/) {
+    monitor_->condition(HealthLevel::kGood, "listens to UDP port " + std::to_string(options_.port));
+  }
+
+  void serve(const DeviceError& error) {
+    monitor_->setTime(toStamp(ros::Time::now()));
+    monitor_->dropped(InputError(error.reason(), error.what()));
+    monitor_->condition(HealthLevel::kNothing, error.what());
+  }
+
+  void serve(const Datagram& datagram) {
+    const Stopwatch watch;
+    if (const StationTracksMessagePtr tracks = wire_->received(datagram.bytes, datagram.stamp)) {
+      stations_.publish(tracks);
+      monitor_->processed({toStamp(tracks->header.stamp), watch.seconds()});
+      reporter_->publishTiming();
+    }
+  }
+
+  void send(const StationTracksMessage& tracks) {
+    if (options_.destination.empty()) {
+      return;
+    }
+    const std::vector<std::string> datagrams = wire_->toSend(tracks);
+    try {
+      for (const std::string& datagram : datagrams) {
+        if (const DatagramSender* const sender = connected()) {
+          sender->send(datagram);
+          monitor_->figure("datagrams sent", static_cast<double>(++sent_));
+        }
+      }
+    } catch (const DeviceError& error) {
+      monitor_->warned(InputError(error.reason(), error.what()));
+    }
+  }
+
+  /// Null shortly after its name was not found. Throws DeviceError (`no_connection`).
+  const DatagramSender* connected() {
+    const bool is_pause = looked_up_ && looked_up_->seconds() < kLookUpPause;
+    if (!sender_ && !is_pause) {
+      looked_up_.emplace();
+      sender_ = std::make_unique<DatagramSender>(options_.destination, options_.destination_port);
+    }
+    return sender_.get();
+  }
+
+  StationWireOptions options_;
+  std::unique_ptr<StageMonitor> monitor_;
+  std::unique_ptr<StageReporter> reporter_;
+  std::unique_ptr<StationWire> wire_;
+  ros::Publisher stations_;
+  ros::Subscriber own_;
+  std::unique_ptr<DatagramSender> sender_;
+  std::optional<Stopwatch> looked_up_;  ///< since the last look-up of the destination
+  std::uint64_t sent_ = 0;
+  std::mutex mutex_;  ///< of the next two
+  std::deque<News> news_;
+  std::uint64_t overtaken_ = 0;
+  std::unique_ptr<CallbackBell> bell_;
+  std::unique_ptr<DatagramListener> listener_;  ///< its thread ends before what it calls
+};
+
+}  // namespace datmo
+
+PLUGINLIB_EXPORT_CLASS(datmo::V2xWireNodelet, nodelet::Nodelet)

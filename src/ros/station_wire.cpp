@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/station_wire.h"
+
+#include <algorithm>
+
+#include <boost/make_shared.hpp>
+
+#include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/fusion/wire/wire_error.h"
+#include "datmo_fusion/ros/stage/input_error.h"
+#include "datmo_fusion/ros/stage/stamp_check.h"
+
+namespace datmo {
+
+namespace {
+
+/// From one low-frequency container to the next (EN 302 637-2, 6.1.3), s.
+constexpr double kLowFrequencyPeriod = 0.5;
+
+/// The plane that touches the earth where we are.
+LocalPlane planeOf(const StationTracksMessage& message) {
+  const auto own = std::find_if(message.tracks.begin(), message.tracks.end(),
+                                [](const auto& track) { return track.id == 0; });
+  GeodeticPosition here;
+  if (own != message.tracks.end()) {
+    here.latitude = degrees(own->latitude);
+    here.longitude = degrees(own->longitude);
+  }
+  return LocalPlane(isValid(here) ? here : GeodeticPosition());
+}
+
+}  // namespace
+
+void StationWireOptions::visit(OptionVisitor& visitor) {
+  constexpr double kPorts = 65535.0;
+  visitor.integer({"port", "1", "UDP port of this computer to which CAM and CPM come"}, port,
+                  {1.0, kPorts});
+  visitor.text({"source", "", "name or address of who sends them; empty: anybody"}, source, {});
+  visitor.text({"destination", "",
+                "name or address to which ours go, a broadcast address too; empty: to nobody"},
+               destination, {});
+  visitor.integer({"destination_port", "1", "UDP port there"}, destination_port, {1.0, kPorts});
+  visitor.number({"interval", "s",
+                  "from a CAM and its CPMs to the next, at least (EN 302 637-2: 0.1 s to 1 s; its "
+                  "rules by motion are not used)"},
+                 interval, {0.1, 1.0});
+  messages.visit(visitor);
+}
+
+StationWire::StationWire(const Checked<StationWireOptions>& options, StageMonitor& monitor)
+    : options_(*options), monitor_(monitor) {}
+
+StationTracksMessagePtr StationWire::received(std::string_view bytes, Stamp now) {
+  monitor_.received("datagrams", now);
+  try {
+    const StationMessage message = decodeStation(bytes, now, options_.messages);
+    left_out_ += message.left_out;
+    monitor_.figure("objects without number or position", static_cast<double>(left_out_));
+    if (message.list.station == own_station_) {
+      monitor_.figure("messages of ours that came back", static_cast<double>(++own_));
+      return nullptr;
+    }
+    return boost::make_shared<StationTracksMessage>(toMessage(message.list, message.plane));
+  } catch (const WireError& error) {
+    if (error.reason() == "other_message") {
+      monitor_.figure("messages of other kinds", static_cast<double>(++others_));
+    } else {
+      monitor_.dropped(InputError(error.reason(), error.what()));
+    }
+    return nullptr;
+  }
+}
+
+bool StationWire::isDue(Stamp stamp) {
+  // Stamps that go back are of a clock that was set.
+  const bool is_early =
+      last_sent_ && stamp >= *last_sent_ && secondsBetween(*last_sent_, stamp) < options_.interval;
+  if (!is_early) {
+    last_sent_ = stamp;
+  }
+  return !is_early;
+}
+
+std::vector<std::string> StationWire::toSend(const StationTracksMessage& message) {
+  const Stamp stamp = toStamp(message.header.stamp);
+  monitor_.received("stations/own", stamp);
+  own_station_ = message.station;
+  if (!isDue(stamp)) {
+    return {};
+  }
+  const bool low_frequency = !last_low_frequency_ || stamp < *last_low_frequency_ ||
+                             secondsBetween(*last_low_frequency_, stamp) >= kLowFrequencyPeriod;
+  try {
+    const LocalPlane plane = planeOf(message);
+    std::vector<std::string> datagrams =
+        encodeStation(fromMessage(message, plane), plane, options_.messages, low_frequency);
+    last_low_frequency_ = low_frequency ? stamp : last_low_frequency_;
+    return datagrams;
+  } catch (const WireError& error) {
+    monitor_.dropped(InputError(error.reason(), error.what()));
+    return {};
+  }
+}
+
+}  // namespace datmo

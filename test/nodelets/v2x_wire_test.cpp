@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Another station's CAM and CPM over the loopback to tracks/v2x, and ours to CAM and CPM.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "chain.h"
+#include "device/device_probe.h"
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/common/angle.h"
+#include "datmo_fusion/device/datagram_listener.h"
+#include "datmo_fusion/device/datagram_sender.h"
+#include "datmo_fusion/fusion/wire/station_messages.h"
+#include "datmo_fusion/risk/host_motion.h"
+#include "datmo_fusion/ros/convert/earth_conversion.h"
+#include "datmo_fusion/ros/convert/message_conversion.h"
+
+namespace datmo::v2x_wire_test {
+namespace {
+
+constexpr int kPort = 37301;     // v2x_wire.test's, of the nodelet
+constexpr int kOurPort = 37302;  // and to which it sends
+constexpr std::uint32_t kOther = 9;
+const LocalPlane kPlane({degrees(45.19), degrees(5.72), 0.0});
+const Pose2 kMap(100.0, 50.0, 0.3);  // in the plane
+
+class Stations : public Listener {
+ public:
+  Stations() {
+    foreign_ = node_.subscribe<TrackArray>(
+        "tracks/v2x", kQueue, [this](const TrackArrayConstPtr& list) { foreign = list; });
+    DatagramHandlers handlers;
+    handlers.listening = [] {};
+    handlers.received = [this](std::string_view bytes) { datagrams.put(std::string(bytes)); };
+    handlers.fault = [](const DeviceError& error) { ADD_FAILURE() << error.what(); };
+    ours_ = std::make_unique<DatagramListener>(DeviceAddress{"", kOurPort}, handlers);
+  }
+
+  bool isConnected() const {
+    return foreign_.getNumPublishers() > 0 && frames_.getNumSubscribers() > 0 &&
+           own_.getNumSubscribers() > 0 && poses_.getNumSubscribers() > 0;
+  }
+
+  /// Where the map and the vehicle are, now.
+  void publishPlace() {
+    const Stamp now = toStamp(ros::Time::now());
+    EarthFrame frame{now, kPlane, {kMap, 1e-4 * Eigen::Matrix3d::Identity()}};
+    frames_.publish(toMessage(frame, "map"));
+    geometry_msgs::PoseWithCovarianceStamped pose;
+    pose.header.stamp = toTime(now);
+    pose.header.frame_id = "map";
+    pose.pose = toMessage(PoseWithCovariance{Pose2(), 1e-4 * Eigen::Matrix3d::Identity()});
+    poses_.publish(pose);
+  }
+
+  /// Our sensors' tracks: none but ourselves goes out.
+  void publishOwn() {
+    TrackArray none;
+    none.header.stamp = ros::Time::now();
+    none.header.frame_id = "map";
+    own_.publish(none);
+  }
+
+  /// A car that stands, and a pedestrian beside it, in the map.
+  void sendOther() const {
+    StationTrackList list;
+    list.stamp = toStamp(ros::Time::now());
+    list.station = kOther;
+    for (std::uint32_t id = 0; id < 2; ++id) {
+      StationTrack track;
+      track.id = id;
+      track.position = kMap * Point2(30.0, 5.0 * id);
+      track.heading = kMap.heading();
+      track.heading_variance = 1e-4;
+      track.covariance *= 0.01;
+      track.length = id == 0 ? 4.0 : 0.5;
+      track.width = id == 0 ? 1.8 : 0.5;
+      const ObjectClass kind = id == 0 ? ObjectClass::kVehicle : ObjectClass::kPedestrian;
+      track.class_probabilities[static_cast<std::size_t>(kind)] = 1.0;
+      list.tracks.push_back(track);
+    }
+    for (const std::string& bytes : encodeStation(list, kPlane, StationMessageOptions(), true)) {
+      sender_.send(bytes);
+    }
+  }
+
+  void sendRubbish() const { sender_.send("no message"); }
+
+  TrackArrayConstPtr foreign;
+  samples::Mailbox<std::string> datagrams;
+
+ private:
+  static constexpr std::uint32_t kQueue = 10;
+
+  ros::NodeHandle node_;
+  ros::Subscriber foreign_;
+  ros::Publisher frames_ = node_.advertise<EarthFrameMessage>("earth_frame", kQueue);
+  ros::Publisher poses_ = node_.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", kQueue);
+  ros::Publisher own_ = node_.advertise<TrackArray>("tracks/own", kQueue);
+  DatagramSender sender_{"127.0.0.1", kPort};
+  std::unique_ptr<DatagramListener> ours_;
+};
+
+TEST(V2xWireTest, StationsHearEachOther) {
+  Stations stations;
+  ASSERT_TRUE(stations.waitFor([&] { return stations.isConnected(); }));
+  // Both a CAM and its CPM have to come through; each time newer ones are sent.
+  ASSERT_TRUE(stations.waitFor([&] {
+    stations.publishPlace();
+    stations.sendOther();
+    return stations.foreign && stations.foreign->tracks.size() == 2;
+  }));
+  EXPECT_EQ(stations.foreign->header.frame_id, "map");
+  for (const TrackMessage& track : stations.foreign->tracks) {
+    const bool is_car = track.size.x > 2.0;
+    EXPECT_NEAR(track.pose.position.x, 30.0, 0.1);
+    EXPECT_NEAR(track.pose.position.y, is_car ? 0.0 : 5.0, 0.1);
+    EXPECT_NEAR(track.size.x, is_car ? 4.0 : 0.5, 1e-5);
+    EXPECT_EQ(track.sensors, (std::vector<std::string>{"station 9"}));
+  }
+
+  stations.sendRubbish();
+  EXPECT_TRUE(stations.waitFor([&] {
+    return stations.diagnostic("v2x_wire", "dropped: other_message") >= 1.0 ||
+           stations.diagnostic("v2x_wire", "messages of other kinds") >= 1.0;
+  }));
+
+  ASSERT_TRUE(stations.waitFor([&] {
+    stations.publishPlace();
+    stations.publishOwn();
+    return !stations.datagrams.isEmpty();
+  }));
+  const Stamp now = toStamp(ros::Time::now());
+  const StationMessage heard =
+      decodeStation(stations.datagrams.take(), now, StationMessageOptions());
+  EXPECT_EQ(heard.list.station, 1U);
+  ASSERT_EQ(heard.list.tracks.size(), 1U);
+  const Point2 in_plane = kPlane.toPlane(heard.plane.toGeodetic(heard.list.tracks[0].position));
+  EXPECT_LT((in_plane - kMap * Point2(HostVehicleOptions().middleAhead(), 0.0)).norm(), 0.05);
+  EXPECT_TRUE(
+      stations.waitFor([&] { return stations.diagnostic("v2x_wire", "datagrams sent") >= 2.0; }));
+}
+
+}  // namespace
+}  // namespace datmo::v2x_wire_test

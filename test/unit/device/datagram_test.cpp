@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Datagrams over the loopback, with the thread that listens.
+#include <memory>
+#include <string>
+
+#include "device/device_probe.h"
+#include "device/fake_lidar.h"
+#include <gtest/gtest.h>
+
+#include "datmo_fusion/device/datagram_listener.h"
+#include "datmo_fusion/device/datagram_sender.h"
+
+namespace datmo::datagram_test {
+namespace {
+
+using samples::FakeLidar;
+using samples::Mailbox;
+
+class DatagramLoopbackTest : public testing::Test {
+ protected:
+  std::unique_ptr<DatagramListener> listen(const std::string& source = "") {
+    DatagramHandlers handlers;
+    handlers.listening = [this] { listening_.put(true); };
+    handlers.received = [this](std::string_view bytes) { received_.put(std::string(bytes)); };
+    handlers.fault = [this](const DeviceError& error) { faults_.put(error.reason()); };
+    return std::make_unique<DatagramListener>(DeviceAddress{source, port_}, handlers);
+  }
+
+  int port_ = FakeLidar::freePort();
+  Mailbox<bool> listening_;
+  Mailbox<std::string> received_;
+  Mailbox<std::string> faults_;
+};
+
+TEST_F(DatagramLoopbackTest, WhatIsSentIsReceived) {
+  const auto listener = listen("127.0.0.1");
+  EXPECT_TRUE(listening_.take());
+  const DatagramSender sender("localhost", port_);
+  sender.send(std::string("\x02\x00\xFF", 3));
+  EXPECT_EQ(received_.take(), std::string("\x02\x00\xFF", 3));
+  sender.send("second");
+  EXPECT_EQ(received_.take(), "second");
+}
+
+TEST_F(DatagramLoopbackTest, WithoutListenerNothingFails) {
+  const DatagramSender sender("127.0.0.1", port_);
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_NO_THROW(sender.send("to nobody"));
+  }
+  const auto listener = listen();
+  EXPECT_TRUE(listening_.take());
+  sender.send("to somebody");
+  EXPECT_EQ(received_.take(), "to somebody");
+}
+
+TEST_F(DatagramLoopbackTest, WhatIsTooLongIsNotSent) {
+  const DatagramSender sender("127.0.0.1", port_);
+  EXPECT_THROW(sender.send(std::string(70000, 'a')), DeviceError);
+}
+
+TEST_F(DatagramLoopbackTest, APortThatIsTakenIsAFault) {
+  const auto first = listen();
+  EXPECT_TRUE(listening_.take());
+  const auto second = listen();
+  EXPECT_EQ(faults_.take(), "no_connection");
+}
+
+TEST_F(DatagramLoopbackTest, ANameThatIsNoneIsAFault) {
+  EXPECT_THROW(DatagramSender("no host is named so", port_), DeviceError);
+  const auto listener = listen("no host is named so");
+  EXPECT_EQ(faults_.take(), "no_connection");
+}
+
+}  // namespace
+}  // namespace datmo::datagram_test
