@@ -14,6 +14,7 @@ set(DATMO_FUSION_CORE_SOURCES
   common/option_table.cpp
   common/options.cpp
   common/renamed_options.cpp
+  common/range_bearing.cpp
   common/stamp_gate.cpp
   common/twist2.cpp
   assignment/assignment.cpp
@@ -50,6 +51,7 @@ set(DATMO_FUSION_CORE_SOURCES
   detection/image_density.cpp
   detection/moving_object_detector.cpp
   detection/object_classifier.cpp
+  detection/radar_object_detector.cpp
   detection/segment_end.cpp
   detection/segmentation.cpp
   detection/side_box.cpp

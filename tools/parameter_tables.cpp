@@ -23,6 +23,7 @@
 #include "datmo_fusion/ros/stage/object_fusion_stage.h"
 #include "datmo_fusion/ros/stage/part_clocks.h"
 #include "datmo_fusion/ros/stage/point_velocity_stage.h"
+#include "datmo_fusion/ros/stage/radar_objects_stage.h"
 #include "datmo_fusion/ros/stage/risk_stage.h"
 #include "datmo_fusion/ros/stage/road_border_stage.h"
 #include "datmo_fusion/ros/stage/scan_merge_stage.h"
@@ -96,6 +97,7 @@ std::vector<Section> sections() {
           section<PointVelocityStageOptions>("`point_velocity`"),
           section<StereoObjectsStageOptions>("`stereo_objects`"),
           section<CloudObjectsStageOptions>("`cloud_objects`"),
+          section<RadarObjectsStageOptions>("`radar_objects`"),
           section<MonoClassifierStageOptions>("`mono_classifier`"),
           section<ObjectFusionStageOptions>("`object_fusion`"),
           section<TrackerStageOptions>("`tracker`, `stereo_tracker`"),

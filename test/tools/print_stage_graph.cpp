@@ -84,6 +84,7 @@ int main(int count, char** words) {
   switches.cloud_objects = is_on("cloud_objects");
   switches.static_points = is_on("static_points");
   switches.stereo_objects = is_on("stereo_objects");
+  switches.radar = is_on("radar");
   switches.mono = is_on("mono");
   switches.object_fusion = is_on("object_fusion");
   switches.stereo_tracker = is_on("track_fusion");

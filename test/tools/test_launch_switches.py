@@ -212,6 +212,19 @@ class LaunchSwitches(unittest.TestCase):
                 self.assertIs(parameters["/object_fusion/sources/mono/use"], True)
                 self.assertIs(parameters.get("/object_fusion/sources/stereo/use", True), objects)
 
+    def test_a_radar_is_one_more_source_of_objects(self):
+        for objects in (False, True):
+            with self.subTest(object_fusion=objects):
+                nodes, parameters = loaded("perception.launch", radar=True, object_fusion=objects,
+                                           radar_scan="/radar_front", odometry="/odom")
+                self.assertEqual(set(nodelets(nodes)), ALWAYS | {"radar_objects", "object_fusion"} | (
+                    OBJECT_LEVEL | {"stereo_alignment"} if objects else set()))
+                self.assertEqual(remapped(nodes["radar_objects"], "radar"), "/radar_front")
+                self.assertEqual(remapped(nodes["radar_objects"], "odometry"), "/odom")
+                self.assertEqual(remapped(nodes["tracker"], "objects"), "objects/fused")
+                self.assertIs(parameters["/object_fusion/sources/radar/use"], True)
+                self.assertIs(parameters.get("/object_fusion/sources/stereo/use", True), objects)
+
     def test_mono_with_grids_is_one_more_grid(self):
         nodes, parameters = loaded("perception.launch", mono=True, low_level_fusion=True,
                                    camera_image="view", camera_info="view_info",

@@ -157,6 +157,7 @@ datmo_fusion_add_core_test(detection
   detection/camera_consistency_test.cpp
   detection/moving_object_detector_test.cpp
   detection/object_classifier_test.cpp
+  detection/radar_object_detector_test.cpp
   detection/segment_end_test.cpp
   detection/segmentation_test.cpp
   detection/stereo_object_detector_test.cpp

@@ -25,6 +25,7 @@ const std::vector<std::string> kInputTopics = {
     "right_image",
     "left_camera_info",
     "right_camera_info",
+    "radar",
     "gnss",
     "stations",
     "front_scan",
@@ -69,7 +70,7 @@ constexpr char kFooter[] =
     "A topic of the bag under another name is given as TOPIC:=TOPIC_OF_THE_BAG, where TOPIC is\n"
     "scan, cloud (a 3D lidar's, in place of scans), object_cloud (one for --cloud-objects beside\n"
     "scans), echoes, odometry, imu, twist, twist_with_covariance, joint_states, points2,\n"
-    "point_velocities, left_image, right_image, left_camera_info, right_camera_info, gnss,\n"
+    "point_velocities, left_image, right_image, left_camera_info, right_camera_info, radar, gnss,\n"
     "stations, front_scan or rear_scan.\n"
     "Exit code: 0 when done; 1 for a command line, yaml file or bag that is wrong or lacks a\n"
     "topic, and when interrupted; 2 when all messages on a topic were refused, no scan could be\n"
@@ -118,14 +119,16 @@ void checkOutputs(const Arguments& arguments) {
 
 void checkStages(const Arguments& arguments) {
   for (const OptionalStage& one : kOptionalStages) {
-    const bool by_mono = one.stage == LastStage::kObjectFusion && arguments.mono;
-    const bool is_given = arguments.*one.is_given || by_mono;
+    const bool is_fusion = one.stage == LastStage::kObjectFusion;
+    const std::string by = is_fusion && arguments.mono    ? "--mono"
+                           : is_fusion && arguments.radar ? "--radar"
+                                                          : one.option;
+    const bool is_given = arguments.*one.is_given || by != one.option;
     if (arguments.last_stage == one.stage && !is_given) {
       throw UsageError("--until " + stageType(one.stage) + ": expected " + one.option + " with it");
     }
     if (arguments.last_stage < one.earliest_end && is_given) {
-      throw UsageError((by_mono ? "--mono" : std::string(one.option)) +
-                       ": expected no --until before " + stageType(one.earliest_end));
+      throw UsageError(by + ": expected no --until before " + stageType(one.earliest_end));
     }
   }
 }
@@ -205,6 +208,9 @@ void addStages(CommandLine& line, Arguments& arguments) {
       "is on front_scan and `rear` on rear_scan, and writes /merged_scan");
   line.add_flag("--cloud-objects", arguments.cloud_objects,
                 "finds objects in a 3D lidar's clouds, and writes /objects/cloud");
+  line.add_flag("--radar", arguments.radar,
+                "finds objects in a radar's detections (radar) and fuses them with the scanner's\n"
+                "before tracker, and writes /objects/radar and /objects/fused");
   line.add_flag("--mono", arguments.mono,
                 "names the scanner's objects by the images of the left camera before tracker, and\n"
                 "writes /objects/mono and /objects/fused; with --low-level-fusion they tell the\n"

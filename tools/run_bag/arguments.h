@@ -27,6 +27,7 @@ struct Arguments {
   bool road_border = false;
   bool static_points = false;
   bool cloud_objects = false;
+  bool radar = false;
   bool mono = false;
   bool object_fusion = false;
   bool track_fusion = false;

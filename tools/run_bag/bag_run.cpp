@@ -93,9 +93,12 @@ SensorSet readSensorsFor(const Arguments& arguments) {
   if (arguments.mono) {
     sensors.set("grid_fusion", "sources/mono/use", true);
     sensors.set("object_fusion", "sources/mono/use", true);
-    if (!arguments.object_fusion) {
-      sensors.set("object_fusion", "sources/stereo/use", false);
-    }
+  }
+  if (arguments.radar) {
+    sensors.set("object_fusion", "sources/radar/use", true);
+  }
+  if ((arguments.mono || arguments.radar) && !arguments.object_fusion) {
+    sensors.set("object_fusion", "sources/stereo/use", false);
   }
   if (arguments.v2x) {
     sensors.set("track_fusion", "sources/v2x/use", true);
@@ -125,6 +128,7 @@ GraphSwitches switchesOf(const Arguments& arguments, const SensorSet& sensors,
   switches.road_border = arguments.road_border;
   switches.static_points = arguments.static_points;
   switches.cloud_objects = arguments.cloud_objects;
+  switches.radar = arguments.radar;
   switches.mono = arguments.mono;
   switches.object_fusion = arguments.object_fusion;
   switches.track_fusion = arguments.track_fusion;

@@ -21,6 +21,7 @@
 #include "datmo_fusion/ros/convert/earth_conversion.h"
 #include "datmo_fusion/ros/convert/risk_conversion.h"
 #include "datmo_fusion/ros/stage/guard.h"
+#include "datmo_fusion/ros/stage/radar_objects_stage.h"
 
 namespace datmo {
 
@@ -36,6 +37,7 @@ BagToGraph::BagToGraph(const InputTopics& topics, GraphRunner& graph, DriveSumma
   readScans(topics);
   readStereo(topics.stereo);
   readMono(topics.mono);
+  on<RadarScanMessage>(topics.radar, "radar");
   on<sensor_msgs::NavSatFix>(topics.v2x.gnss, "gnss");
   on<StationTracksMessage>(topics.v2x.stations, "stations");
   readSources(topics);

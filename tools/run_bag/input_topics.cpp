@@ -50,7 +50,7 @@ void findObjectTopics(const rosbag::Bag& bag, const Arguments& arguments,
     if (source == "stereo" && !external) {
       topics.stereo = neededStereoTopics(bag, arguments, "object_fusion");
     } else if (source != "lidar" && !(source == "cloud" && arguments.cloud_objects) &&
-               !(source == "mono" && arguments.mono)) {
+               !(source == "mono" && arguments.mono) && !(source == "radar" && arguments.radar)) {
       topics.objects[topic] = source;
     }
   }
@@ -154,6 +154,14 @@ std::string objectCloudTopic(const rosbag::Bag& bag, const Arguments& arguments)
   return topic;
 }
 
+std::string radarTopic(const rosbag::Bag& bag, const Arguments& arguments) {
+  const std::string topic = arguments.inputTopic("radar");
+  if (!holdsTopic(bag, topic)) {
+    failForTopic(bag, "no RadarScan on " + topic + " for --radar (radar:=TOPIC names another)");
+  }
+  return topic;
+}
+
 /// Stations may be silent, the receiver not: without it nothing passes.
 V2xTopics v2xTopics(const rosbag::Bag& bag, const Arguments& arguments) {
   const V2xTopics topics{arguments.inputTopic("gnss"), arguments.inputTopic("stations")};
@@ -182,8 +190,8 @@ std::vector<std::string> InputTopics::all() const {
   topics.insert(topics.end(), motion_topics.begin(), motion_topics.end());
   for (const std::string& topic :
        {scan, echoes, cloud, object_cloud, stereo.points, stereo.velocities, stereo.left_image,
-        stereo.right_image, stereo.left_info, stereo.right_info, mono.image, mono.info, v2x.gnss,
-        v2x.stations}) {
+        stereo.right_image, stereo.left_info, stereo.right_info, mono.image, mono.info, radar,
+        v2x.gnss, v2x.stations}) {
     if (!topic.empty()) {
       topics.push_back(topic);
     }
@@ -225,7 +233,10 @@ InputTopics findTopics(const rosbag::Bag& bag, const Arguments& arguments,
   if (arguments.mono) {
     topics.mono = monoTopics(bag, arguments);
   }
-  if (arguments.object_fusion || arguments.mono) {
+  if (arguments.radar) {
+    topics.radar = radarTopic(bag, arguments);
+  }
+  if (arguments.object_fusion || arguments.mono || arguments.radar) {
     findObjectTopics(bag, arguments, sensors.options<ObjectFusionStageOptions>("object_fusion"),
                      topics);
   }

@@ -61,6 +61,7 @@ struct InputTopics {
   MotionTopics motion;
   StereoTopics stereo;
   MonoTopics mono;
+  std::string radar;  ///< empty: not read
   V2xTopics v2x;
   std::map<std::string, std::string> grids;    ///< of sources that no stage makes: topic -> source
   std::map<std::string, std::string> objects;  ///< the same for objects

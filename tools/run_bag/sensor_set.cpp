@@ -27,9 +27,9 @@ std::vector<GraphStage> wholeGraph() {
   for (bool GraphSwitches::*const one :
        {&GraphSwitches::scan_from_cloud, &GraphSwitches::low_level_fusion,
         &GraphSwitches::road_border, &GraphSwitches::static_points, &GraphSwitches::stereo_objects,
-        &GraphSwitches::cloud_objects, &GraphSwitches::mono, &GraphSwitches::object_fusion,
-        &GraphSwitches::stereo_tracker, &GraphSwitches::track_fusion, &GraphSwitches::v2x,
-        &GraphSwitches::risk, &GraphSwitches::merge_scans}) {
+        &GraphSwitches::cloud_objects, &GraphSwitches::radar, &GraphSwitches::mono,
+        &GraphSwitches::object_fusion, &GraphSwitches::stereo_tracker, &GraphSwitches::track_fusion,
+        &GraphSwitches::v2x, &GraphSwitches::risk, &GraphSwitches::merge_scans}) {
     all.*one = true;
   }
   return stageGraph(all);

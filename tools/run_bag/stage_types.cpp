@@ -15,6 +15,7 @@
 #include "datmo_fusion/ros/stage/moving_objects_stage.h"
 #include "datmo_fusion/ros/stage/object_fusion_stage.h"
 #include "datmo_fusion/ros/stage/point_velocity_stage.h"
+#include "datmo_fusion/ros/stage/radar_objects_stage.h"
 #include "datmo_fusion/ros/stage/risk_stage.h"
 #include "datmo_fusion/ros/stage/road_border_stage.h"
 #include "datmo_fusion/ros/stage/scan_merge_stage.h"
@@ -57,6 +58,7 @@ const std::map<std::string, StageType>& stageTypes() {
       {"moving_objects", typeOf<MovingObjectsStage>()},
       {"object_fusion", typeOf<ObjectFusionStage>()},
       {"point_velocity", typeOf<PointVelocityStage>()},
+      {"radar_objects", typeOf<RadarObjectsStage>()},
       {"risk", typeOf<RiskStage>()},
       {"road_border", typeOf<RoadBorderStage>()},
       {"scan_merge", typeOf<ScanMergeStage>()},

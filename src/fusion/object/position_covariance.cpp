@@ -10,25 +10,10 @@ namespace datmo {
 
 namespace {
 
-/// m: nearer to the sensor than this a bearing carries no direction.
-constexpr double kMinRange = 0.1;
-
 /// A covariance must be positive definite.
 constexpr Bounds kVariance{1e-9, 1e6};
 
 }  // namespace
-
-Eigen::Matrix2d rangeBearingCovariance(const Point2& from_sensor, double range_variance,
-                                       double bearing_variance) {
-  const double range = from_sensor.norm();
-  if (range < kMinRange) {
-    return range_variance * Eigen::Matrix2d::Identity();
-  }
-  const Point2 along = from_sensor / range;
-  const Point2 across(-along.y(), along.x());
-  return range_variance * along * along.transpose() +
-         range * range * bearing_variance * across * across.transpose();
-}
 
 void PositionCovarianceOptions::visit(OptionVisitor& visitor) {
   visitor.number({"bin_width", "m", "of the range bins of both lists, from 0 on (thesis 3.3.3)"},

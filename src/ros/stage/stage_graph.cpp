@@ -13,13 +13,19 @@ constexpr double kMonoLateBy = 0.4;
 using Remaps = std::map<std::string, std::string>;
 
 StackPart partOf(const std::string& type) {
-  static const std::map<std::string, StackPart> parts{
-      {"cloud_objects", StackPart::kSensors},  {"cloud_to_scan", StackPart::kSensors},
-      {"motion", StackPart::kSensors},         {"scan_merge", StackPart::kSensors},
-      {"mono_classifier", StackPart::kStereo}, {"mono_grid", StackPart::kStereo},
-      {"point_velocity", StackPart::kStereo},  {"stereo_alignment", StackPart::kStereo},
-      {"stereo_grid", StackPart::kStereo},     {"stereo_image_proc", StackPart::kStereo},
-      {"stereo_objects", StackPart::kStereo},  {"risk", StackPart::kRisk}};
+  static const std::map<std::string, StackPart> parts{{"cloud_objects", StackPart::kSensors},
+                                                      {"cloud_to_scan", StackPart::kSensors},
+                                                      {"motion", StackPart::kSensors},
+                                                      {"scan_merge", StackPart::kSensors},
+                                                      {"radar_objects", StackPart::kSensors},
+                                                      {"mono_classifier", StackPart::kStereo},
+                                                      {"mono_grid", StackPart::kStereo},
+                                                      {"point_velocity", StackPart::kStereo},
+                                                      {"stereo_alignment", StackPart::kStereo},
+                                                      {"stereo_grid", StackPart::kStereo},
+                                                      {"stereo_image_proc", StackPart::kStereo},
+                                                      {"stereo_objects", StackPart::kStereo},
+                                                      {"risk", StackPart::kRisk}};
   const auto part = parts.find(type);
   return part == parts.end() ? StackPart::kPerception : part->second;
 }
@@ -55,9 +61,12 @@ OptionValues fusedSources(const GraphSwitches& switches) {
   if (switches.mono) {
     sources["sources/mono/use"] = true;
     sources["sources/mono/late_by"] = kMonoLateBy;
-    if (!switches.object_fusion) {
-      sources["sources/stereo/use"] = false;
-    }
+  }
+  if (switches.radar) {
+    sources["sources/radar/use"] = true;
+  }
+  if (!switches.object_fusion) {
+    sources["sources/stereo/use"] = false;
   }
   return sources;
 }
@@ -87,7 +96,7 @@ std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
   const std::string scan = switches.scan_from_cloud ? "cloud_scan"
                            : switches.merge_scans   ? "merged_scan"
                                                     : "scan";
-  const bool fuses_objects = switches.object_fusion || switches.mono;
+  const bool fuses_objects = switches.object_fusion || switches.mono || switches.radar;
   const std::string tracked_objects = fuses_objects ? "objects/fused" : "objects";
   const std::string tracks_of_tracker = switches.track_fusion ? "tracks/lidar" : "tracks";
   const Remaps camera = cameraRemaps();
@@ -127,6 +136,7 @@ std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
                                 with(camera, "point_velocities", "stereo/point_velocities"),
                                 {}});
   add(switches.cloud_objects, {"cloud_objects", "cloud_objects", {}, {}});
+  add(switches.radar, {"radar_objects", "radar_objects", {}, {}});
   add(switches.mono, {"mono_classifier", "mono_classifier", mono_images, {}});
   add(fuses_objects,
       {"object_fusion", "object_fusion", {{"objects/lidar", "objects"}}, fusedSources(switches)});

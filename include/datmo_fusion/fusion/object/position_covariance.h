@@ -8,17 +8,9 @@
 
 #include "datmo_fusion/common/options.h"
 #include "datmo_fusion/common/pose2.h"
+#include "datmo_fusion/common/range_bearing.h"
 
 namespace datmo {
-
-/// Covariance of a position measured by range and bearing (thesis 3.3.3), in the frame
-/// of `from_sensor`.
-///
-/// @param from_sensor m, from the sensor to the position
-/// @param range_variance m^2
-/// @param bearing_variance rad^2
-Eigen::Matrix2d rangeBearingCovariance(const Point2& from_sensor, double range_variance,
-                                       double bearing_variance);
 
 /// How well a sensor measures where an object is, by the object's range. Empty lists: as the object
 /// itself says.

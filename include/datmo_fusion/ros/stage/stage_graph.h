@@ -21,6 +21,7 @@ struct GraphSwitches {
   bool static_points = false;   ///< what stands still comes out, for a navigation stack
   bool stereo_objects = false;  ///< objects are found in the stereo camera's points
   bool cloud_objects = false;   ///< objects are found in a 3D lidar's clouds
+  bool radar = false;           ///< objects are found in a radar's detections, and fused
   bool mono = false;            ///< a camera's images name the scanner's objects
   bool object_fusion = false;
   bool stereo_tracker = false;  ///< the stereo camera's objects are tracked by themselves

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/detection/radar_object_detector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "datmo_fusion/common/disjoint_sets.h"
+#include "datmo_fusion/common/range_bearing.h"
+#include "datmo_fusion/common/square.h"
+
+namespace datmo {
+
+namespace {
+
+/// Standard deviations of a bearing by which returns of one thing lie apart at most.
+constexpr double kBearingSigmas = 3.0;
+
+/// Of what shows no extent, m.
+constexpr double kMinExtent = 0.5;
+
+Point2 acrossOf(const Point2& along) { return {-along.y(), along.x()}; }
+
+}  // namespace
+
+void RadarObjectDetectorOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"range_sigma", "m", "standard deviation of a range (data sheet)"}, range_sigma,
+                 {0.001, 10.0});
+  visitor.number({"bearing_sigma", "rad", "the same of a bearing"}, bearing_sigma, {1e-4, 0.5});
+  visitor.number({"range_rate_sigma", "m/s", "the same of a Doppler velocity"}, range_rate_sigma,
+                 {0.001, 10.0});
+  visitor.number({"own_speed_sigma", "m/s", "standard deviation of the vehicle's own speed"},
+                 own_speed_sigma, {0.0, 10.0});
+  visitor.number({"cluster_distance", "m",
+                  "returns that are nearer to each other are of one object, besides what their "
+                  "bearings' noise sets them apart"},
+                 cluster_distance, {0.1, 20.0});
+  visitor.number({"cluster_speed", "m/s", "by how much their velocities differ at most"},
+                 cluster_speed, {0.05, 20.0});
+  visitor.integer({"min_returns", "",
+                   "a return begins or joins clusters if so many are near to it, itself counted"},
+                  min_returns, {1.0, 100.0});
+  visitor.number({"reflection_sigma", "m",
+                  "standard deviation, along each axis, of where on an object it reflects, about "
+                  "its middle: of a car drawn evenly, 1.3 m along and 0.5 m across"},
+                 reflection_sigma, {0.0, 10.0});
+  visitor.number({"tangential_sigma", "m/s",
+                  "standard deviation of the velocity across the line of sight, which is not "
+                  "measured"},
+                 tangential_sigma, {0.1, 100.0});
+  visitor.number({"min_speed", "m/s",
+                  "what is slower along the line of sight stands, or crosses it, and is left out"},
+                 min_speed, {0.0, 50.0});
+  visitor.number(
+      {"wrong_velocity", "1",
+       "probability that a velocity is of something else: a wheel, a leg, a mirror image"},
+      wrong_velocity, {0.0, 1.0});
+}
+
+struct RadarObjectDetector::Echo {
+  Point2 position = Point2::Zero();
+  double range = 0.0;             ///< m, from the radar
+  double speed = 0.0;             ///< m/s over the ground, away from the radar
+  double bearing_variance = 0.0;  ///< (m/s)^2 of the speed, by the bearing
+};
+
+RadarObjectDetector::RadarObjectDetector(const Checked<RadarObjectDetectorOptions>& options)
+    : options_(*options) {}
+
+std::vector<RadarObjectDetector::Echo> RadarObjectDetector::echoesOf(const RadarCycle& cycle,
+                                                                     const Twist2& twist) const {
+  const Point2 lever = cycle.radar_in_base.position();
+  const Point2 own = Point2(twist.forward_speed, 0.0) + twist.yaw_rate * acrossOf(lever);
+  std::vector<Echo> echoes;
+  for (const RadarReturn& one : cycle.returns) {
+    const Point2 along =
+        cycle.radar_in_base.rotate(Point2(std::cos(one.bearing), std::sin(one.bearing)));
+    Echo echo;
+    echo.position = lever + one.range * along;
+    echo.range = one.range;
+    echo.speed = one.range_rate + own.dot(along);
+    // A bearing that is off takes another part of both motions across for one along.
+    echo.bearing_variance = square(options_.bearing_sigma) *
+                            (square(own.dot(acrossOf(along))) + square(options_.tangential_sigma));
+    echoes.push_back(echo);
+  }
+  return echoes;
+}
+
+bool RadarObjectDetector::areNear(const Echo& a, const Echo& b) const {
+  const double apart = options_.cluster_distance +
+                       kBearingSigmas * options_.bearing_sigma * std::max(a.range, b.range);
+  return std::abs(a.speed - b.speed) <= options_.cluster_speed &&
+         (a.position - b.position).squaredNorm() <= square(apart);
+}
+
+std::vector<std::vector<std::size_t>> RadarObjectDetector::clustersOf(
+    const std::vector<Echo>& echoes) const {
+  std::vector<std::vector<std::size_t>> near(echoes.size());
+  for (std::size_t i = 0; i < echoes.size(); ++i) {
+    for (std::size_t j = 0; j < echoes.size(); ++j) {
+      if (areNear(echoes[i], echoes[j])) {
+        near[i].push_back(j);
+      }
+    }
+  }
+  const auto is_core = [&](std::size_t i) {
+    return near[i].size() >= static_cast<std::size_t>(options_.min_returns);
+  };
+  DisjointSets sets(echoes.size());
+  for (std::size_t i = 0; i < echoes.size(); ++i) {
+    // One at the edge is of the first core that is near to it.
+    bool has_core = is_core(i);
+    for (const std::size_t j : near[i]) {
+      if (is_core(j) && (is_core(i) || !has_core)) {
+        sets.join(i, j);
+        has_core = true;
+      }
+    }
+  }
+  std::vector<std::vector<std::size_t>> clusters;
+  for (std::vector<std::size_t>& set : sets.sets()) {
+    if (std::any_of(set.begin(), set.end(), is_core)) {
+      clusters.push_back(std::move(set));
+    }
+  }
+  return clusters;
+}
+
+Object RadarObjectDetector::objectOf(const std::vector<Echo>& echoes,
+                                     const std::vector<std::size_t>& cluster,
+                                     const Point2& radar) const {
+  const auto count = static_cast<double>(cluster.size());
+  Point2 middle = Point2::Zero();
+  double speed = 0.0;
+  double bearing_variance = 0.0;
+  for (const std::size_t i : cluster) {
+    middle += echoes[i].position / count;
+    speed += echoes[i].speed / count;
+    bearing_variance += echoes[i].bearing_variance / count;
+  }
+  const Point2 from_radar = middle - radar;
+  const Point2 along = from_radar.normalized();
+  const Point2 across = acrossOf(along);
+  Eigen::Array2d extent = Eigen::Array2d::Constant(0.5 * kMinExtent);
+  for (const std::size_t i : cluster) {
+    const Point2 off = echoes[i].position - middle;
+    extent = extent.max(Eigen::Array2d(std::abs(off.dot(along)), std::abs(off.dot(across))));
+  }
+  Object object;
+  object.box = {Pose2(middle, std::atan2(along.y(), along.x())), 2.0 * extent[0], 2.0 * extent[1]};
+  object.position_covariance =
+      rangeBearingCovariance(from_radar, square(options_.range_sigma) / count,
+                             square(options_.bearing_sigma) / count) +
+      square(options_.reflection_sigma) * Eigen::Matrix2d::Identity();
+  object.side_variance.fill(kHiddenSide);
+  // The vehicle's speed counts as far as the radar looks that way.
+  const double along_variance = (square(options_.range_rate_sigma) + bearing_variance) / count +
+                                square(options_.own_speed_sigma * along.x());
+  object.velocity =
+      MeasuredVelocity{speed * along,
+                       along_variance * along * along.transpose() +
+                           square(options_.tangential_sigma) * across * across.transpose(),
+                       options_.wrong_velocity};
+  object.sensors = {"radar"};
+  return object;
+}
+
+RadarObjects RadarObjectDetector::detect(const RadarCycle& cycle, const Twist2& twist) const {
+  const std::vector<Echo> echoes = echoesOf(cycle, twist);
+  RadarObjects found;
+  found.list.stamp = cycle.stamp;
+  found.lone = echoes.size();
+  for (const std::vector<std::size_t>& cluster : clustersOf(echoes)) {
+    found.lone -= cluster.size();
+    Object object = objectOf(echoes, cluster, cycle.radar_in_base.position());
+    if (object.velocity->velocity.norm() < options_.min_speed) {
+      ++found.standing;
+    } else {
+      found.list.objects.push_back(std::move(object));
+    }
+  }
+  return found;
+}
+
+}  // namespace datmo

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/ros/stage/radar_objects_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <boost/make_shared.hpp>
+
+#include "datmo_fusion/ros/convert/message_conversion.h"
+#include "datmo_fusion/ros/frames.h"
+#include "datmo_fusion/ros/stage/stage_inputs.h"
+
+namespace datmo {
+
+namespace {
+
+/// Up to the stamp, over which the vehicle's velocity is taken, s: shorter is noise where it comes
+/// from poses.
+constexpr double kTwistTime = 0.1;
+
+/// Nearer to upright a radar's ranges say nothing of where a thing is on the ground, rad.
+constexpr double kMaxElevation = 1.0;
+
+}  // namespace
+
+void RadarObjectsStageOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"min_range", "m", "nearer returns are of the vehicle itself, and left out"},
+                 min_range, {0.2, 100.0});
+  visitor.number({"max_range", "m", "no return is farther (data sheet)"}, max_range, {1.0, 1000.0});
+  visitor.number({"max_doppler", "m/s", "no return is faster (data sheet)"}, max_doppler,
+                 {1.0, 300.0});
+  visitor.integer({"max_returns", "", "of one cycle; of more the first ones are taken"},
+                  max_returns, {1.0, 10000.0});
+  visitor.group("input", [&] { input.visit(visitor); });
+  visitor.group("detector", [&] { detector.visit(visitor); });
+}
+
+RadarObjectsStage::RadarObjectsStage(const Checked<RadarObjectsStageOptions>& options,
+                                     const TransformBuffer& transforms, StageMonitor& monitor)
+    : options_(*options),
+      transforms_(transforms),
+      monitor_(monitor),
+      detector_(options->detector),
+      runner_(monitor, options->input, "starts over", [this] { motion_.reset(); }),
+      motion_(options->motion, options->frames, runner_) {}
+
+RadarCycle RadarObjectsStage::cycleOf(const RadarScanMessage& message) {
+  RadarCycle cycle;
+  cycle.stamp = toStamp(message.header.stamp);
+  cycle.radar_in_base =
+      planarPose(transforms_.core(), options_.frames.base, message.header.frame_id, ros::Time());
+  std::uint64_t bad = 0;
+  for (const datmo_fusion::RadarReturn& one : message.returns) {
+    // NaN compares false with everything.
+    const bool is_good = one.range > 0.0F && one.range <= options_.max_range &&
+                         std::abs(one.azimuth) <= kPi && std::abs(one.elevation) <= kMaxElevation &&
+                         std::abs(one.doppler_velocity) <= options_.max_doppler;
+    const double level = std::cos(static_cast<double>(one.elevation));
+    const bool is_taken = cycle.returns.size() < static_cast<std::size_t>(options_.max_returns);
+    if (!is_good || !is_taken) {
+      ++bad;
+    } else if (one.range * level >= options_.min_range) {
+      cycle.returns.push_back({one.range * level, one.azimuth, one.doppler_velocity / level});
+    }
+  }
+  if (bad > 0) {
+    bad_returns_ += bad;
+    monitor_.warned(InputError("bad_returns", std::to_string(bad) +
+                                                  " returns are not finite, out of range or beyond "
+                                                  "max_returns: left out, the others are used"));
+  }
+  return cycle;
+}
+
+Twist2 RadarObjectsStage::twistAt(Stamp stamp) const {
+  const std::optional<Pose2> motion = motion_.between(stamp + -kTwistTime, stamp);
+  if (!motion) {
+    throw InputError("no_motion",
+                     "the vehicle's motion up to the radar's cycle is not known: expected odometry "
+                     "before it, or without odometry poses of grid_slam");
+  }
+  return twistOf(*motion, kTwistTime);
+}
+
+ObjectArrayPtr RadarObjectsStage::takeScan(const RadarScanMessage& message) {
+  return runner_.serve([&] {
+    monitor_.describe("radar", [&] {
+      return std::to_string(message.returns.size()) + " returns in frame " +
+             message.header.frame_id;
+    });
+    const RadarCycle cycle = cycleOf(message);
+    runner_.check("radar", message.header.stamp);
+    const RadarObjects objects = detector_.detect(cycle, twistAt(cycle.stamp));
+    monitor_.figure("objects", static_cast<double>(objects.list.objects.size()));
+    monitor_.figure("clusters that stand", static_cast<double>(objects.standing));
+    monitor_.figure("returns in no cluster", static_cast<double>(objects.lone));
+    monitor_.figure("bad returns", static_cast<double>(bad_returns_));
+    auto array = boost::make_shared<ObjectArray>(toMessage(objects.list, options_.frames.base));
+    runner_.processed(cycle.stamp);
+    return array;
+  });
+}
+
+void RadarObjectsStage::connect(StagePorts& ports) {
+  const auto objects = ports.out<ObjectArray>("objects/radar");
+  connectMotion(ports, options_.motion, *this);
+  ports.in<RadarScanMessage>("radar", [this, objects](const auto& scan, Stamp /*now*/) {
+    objects.publish(takeScan(*scan));
+  });
+}
+
+}  // namespace datmo
