@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <limits>
 
+#include <strings.h>
+
 #include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/device/device_error.h"
 
@@ -116,7 +118,9 @@ std::optional<NmeaSentence> NmeaReader::next() {
   char checksum[kChecksum];
   std::snprintf(checksum, sizeof checksum, "%02X",
                 star == std::string::npos ? 0U : nmeaChecksum(line.substr(0, star)));
-  if (star == std::string::npos || line.substr(star + 1, 2) != checksum) {
+  // Some receivers write its digits in lower case.
+  if (star == std::string::npos ||
+      strncasecmp(line.c_str() + star + 1, checksum, sizeof checksum - 1) != 0) {
     throw badSentence(shownBytes(line), "one with the checksum " + std::string(checksum));
   }
   NmeaSentence sentence;
@@ -163,8 +167,8 @@ SatelliteFix nmeaFix(const NmeaSentence& sentence, double sigma) {
   fix.longitude = angleOf(sentence, 3, 'W').value_or(kNaN);
   fix.satellites =
       static_cast<int>(std::clamp(sentence.number(6).value_or(0.0), 0.0, kMaxSatellites));
-  // Height above the sea, and of the sea above the ellipsoid.
-  fix.altitude = sentence.number(8).value_or(kNaN) + sentence.number(10).value_or(0.0);
+  // Height above the sea, and of the sea above the ellipsoid: one without the other is not known.
+  fix.altitude = sentence.number(8).value_or(kNaN) + sentence.number(10).value_or(kNaN);
   const bool is_there =
       std::abs(fix.latitude) <= kQuarter && std::abs(fix.longitude) <= 2.0 * kQuarter;
   if (fix.kind != SatelliteFix::Kind::kNone && !is_there) {
