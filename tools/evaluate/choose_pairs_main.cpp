@@ -14,10 +14,11 @@ int main(int count, char** words) {
   using nlohmann::json;
   return datmo::runProgram("choose_pairs", EXIT_FAILURE, count, words, [](const auto& given) {
     std::string file;
-    datmo::CommandLine line("choose_pairs",
-                            "Chooses, of each list of a JSON file, the pairs with the greatest sum "
-                            "of gains in which no row and no column is twice; prints their indices.",
-                            "files");
+    datmo::CommandLine line(
+        "choose_pairs",
+        "Chooses, of each list of a JSON file, the pairs with the greatest sum "
+        "of gains in which no row and no column is twice; prints their indices.",
+        "files");
     line.addFile("LISTS.json", file, "lists of [row, column, gain], gain > 0")->required();
     line.read(given);
     json chosen = json::array();
