@@ -2,12 +2,11 @@
 #include "datmo_fusion/device/nmea.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
-
-#include <strings.h>
 
 #include "datmo_fusion/common/angle.h"
 #include "datmo_fusion/device/device_error.h"
@@ -116,11 +115,12 @@ std::optional<NmeaSentence> NmeaReader::next() {
   }
   const std::size_t star = line.find('*');
   char checksum[kChecksum];
-  std::snprintf(checksum, sizeof checksum, "%02X",
-                star == std::string::npos ? 0U : nmeaChecksum(line.substr(0, star)));
-  // Some receivers write its digits in lower case.
-  if (star == std::string::npos ||
-      strncasecmp(line.c_str() + star + 1, checksum, sizeof checksum - 1) != 0) {
+  std::snprintf(checksum, sizeof checksum, "%02X", nmeaChecksum(line.substr(0, star)));
+  std::string digits = star == std::string::npos ? "" : line.substr(star + 1, 2);
+  // Some receivers write them in lower case.
+  std::transform(digits.begin(), digits.end(), digits.begin(),
+                 [](unsigned char digit) { return static_cast<char>(std::toupper(digit)); });
+  if (digits != checksum) {
     throw badSentence(shownBytes(line), "one with the checksum " + std::string(checksum));
   }
   NmeaSentence sentence;
