@@ -35,29 +35,40 @@ unsigned wordAt(std::string_view bytes, std::size_t at) {
          static_cast<unsigned char>(bytes[at + 1]);
 }
 
+/// A kind of frame: where its EtherType stands, and what is inside begins.
+struct LinkHeader {
+  int link;  ///< DLT_...
+  std::size_t type;
+  std::size_t size;
+};
+/// IEEE 802.3; LINKTYPE_LINUX_SLL and LINKTYPE_LINUX_SLL2 of tcpdump.org, which `tcpdump -i any`
+/// writes.
+constexpr std::array<LinkHeader, 3> kLinkHeaders = {
+    {{DLT_EN10MB, 12, 14}, {DLT_LINUX_SLL, 14, 16}, {DLT_LINUX_SLL2, 0, 20}}};
+
+const LinkHeader* headerOf(int link) {
+  const auto* const found =
+      std::find_if(kLinkHeaders.begin(), kLinkHeaders.end(),
+                   [link](const LinkHeader& header) { return header.link == link; });
+  return found == kLinkHeaders.end() ? nullptr : found;
+}
+
 /// Where a frame's IPv4 packet begins; past its end if it has none.
 std::size_t packetStart(std::string_view frame, int link) {
   constexpr unsigned kIpv4 = 0x0800;
   constexpr unsigned kTagged = 0x8100;  // 802.1Q
   constexpr std::size_t kTag = 4;
-  // Where the type of what is inside stands, and what is inside begins 2 bytes later.
-  std::size_t type = 0;
-  switch (link) {
-    case DLT_RAW:
-      return 0;
-    case DLT_EN10MB:
-      type = 12;
-      break;
-    case DLT_LINUX_SLL:
-      type = 14;
-      break;
-    default:
-      return frame.size();
+  const LinkHeader* const header = headerOf(link);
+  if (header == nullptr) {
+    return link == DLT_RAW ? 0 : frame.size();
   }
+  std::size_t type = header->type;
+  std::size_t start = header->size;
   while (type + 2 <= frame.size() && wordAt(frame, type) == kTagged) {
-    type += kTag;
+    type = start + kTag - 2;
+    start += kTag;
   }
-  return type + 2 <= frame.size() && wordAt(frame, type) == kIpv4 ? type + 2 : frame.size();
+  return type + 2 <= frame.size() && wordAt(frame, type) == kIpv4 ? start : frame.size();
 }
 
 }  // namespace
@@ -88,7 +99,15 @@ std::optional<std::string_view> datagramOf(std::string_view frame, int link, int
 }
 
 CaptureFile::CaptureFile(std::string file, int port, const std::atomic<bool>& stop)
-    : file_(std::move(file)), port_(port), stop_(stop), capture_(openCapture(file_), &pcap_close) {}
+    : file_(std::move(file)), port_(port), stop_(stop), capture_(openCapture(file_), &pcap_close) {
+  const int link = pcap_datalink(capture_.get());
+  if (link != DLT_RAW && headerOf(link) == nullptr) {
+    const char* const name = pcap_datalink_val_to_name(link);
+    throw badRecording(file_, "its frames are of kind " +
+                                  (name == nullptr ? std::to_string(link) : std::string(name)) +
+                                  ", none of Ethernet, Linux cooked and raw IP");
+  }
+}
 
 CaptureFile::~CaptureFile() = default;
 

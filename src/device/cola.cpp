@@ -133,8 +133,7 @@ std::string colaTelegram(std::string_view text) { return kStart + std::string(te
 std::optional<std::string> ColaReader::next() {
   if (waiting_.rfind(std::string(4, kStart), 0) == 0) {
     throw DeviceError("wrong_device",
-                      "the scanner speaks CoLa B: expected CoLa A; set it by SICK's SOPAS ET "
-                      "(network, Ethernet, CoLa dialect: ASCII)");
+                      std::string("the scanner speaks CoLa B: expected ") + kColaDialect);
   }
   const std::size_t end = waiting_.find(kEnd);
   if (end == std::string::npos) {

@@ -54,6 +54,9 @@ Connection::Connection(const DeviceAddress& address, const std::atomic<bool>& st
   for (const addrinfo* one = found.get(); one != nullptr && socket_ < 0; one = one->ai_next) {
     error = connectTo(*one);
   }
+  if (socket_ < 0 && stop_) {
+    throw DeviceStopped();
+  }
   if (socket_ < 0) {
     throw noConnection(address, std::strerror(error));
   }

@@ -2,6 +2,7 @@
 #include "datmo_fusion/device/nmea.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -114,9 +115,12 @@ std::optional<NmeaSentence> NmeaReader::next() {
   }
   const std::size_t star = line.find('*');
   char checksum[kChecksum];
-  std::snprintf(checksum, sizeof checksum, "%02X",
-                star == std::string::npos ? 0U : nmeaChecksum(line.substr(0, star)));
-  if (star == std::string::npos || line.substr(star + 1, 2) != checksum) {
+  std::snprintf(checksum, sizeof checksum, "%02X", nmeaChecksum(line.substr(0, star)));
+  std::string digits = star == std::string::npos ? "" : line.substr(star + 1, 2);
+  // Some receivers write them in lower case.
+  std::transform(digits.begin(), digits.end(), digits.begin(),
+                 [](unsigned char digit) { return static_cast<char>(std::toupper(digit)); });
+  if (digits != checksum) {
     throw badSentence(shownBytes(line), "one with the checksum " + std::string(checksum));
   }
   NmeaSentence sentence;
@@ -163,8 +167,8 @@ SatelliteFix nmeaFix(const NmeaSentence& sentence, double sigma) {
   fix.longitude = angleOf(sentence, 3, 'W').value_or(kNaN);
   fix.satellites =
       static_cast<int>(std::clamp(sentence.number(6).value_or(0.0), 0.0, kMaxSatellites));
-  // Height above the sea, and of the sea above the ellipsoid.
-  fix.altitude = sentence.number(8).value_or(kNaN) + sentence.number(10).value_or(0.0);
+  // Height above the sea, and of the sea above the ellipsoid: one without the other is not known.
+  fix.altitude = sentence.number(8).value_or(kNaN) + sentence.number(10).value_or(kNaN);
   const bool is_there =
       std::abs(fix.latitude) <= kQuarter && std::abs(fix.longitude) <= 2.0 * kQuarter;
   if (fix.kind != SatelliteFix::Kind::kNone && !is_there) {

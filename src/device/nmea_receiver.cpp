@@ -9,7 +9,7 @@ namespace {
 
 constexpr TickFormat kNmeaTicks{1e-3, 86400000};  // to midnight
 
-constexpr int kForeignSentences = 20;  ///< in a row: there is no receiver
+constexpr int kMaxBadSentences = 20;  ///< in a row: there is no receiver
 
 }  // namespace
 
@@ -36,13 +36,13 @@ std::string NmeaReceiver::connect() {
 }
 
 NmeaSentence NmeaReceiver::nextSentence() {
-  for (int foreign = 1;;) {
+  for (int bad = 1;;) {
     try {
       if (std::optional<NmeaSentence> sentence = reader_.next()) {
         return *std::move(sentence);
       }
     } catch (const DeviceError& error) {
-      if (++foreign > kForeignSentences) {
+      if (++bad > kMaxBadSentences) {
         throw;
       }
       host_.warn(error);
@@ -53,6 +53,9 @@ NmeaSentence NmeaReceiver::nextSentence() {
 }
 
 DeviceMeasurement NmeaReceiver::next() {
+  if (pending_) {
+    return *std::exchange(pending_, std::nullopt);
+  }
   while (true) {
     const NmeaSentence sentence = nextSentence();
     try {
@@ -69,16 +72,28 @@ std::optional<DeviceMeasurement> NmeaReceiver::measurementOf(const NmeaSentence&
   const bool is_rmc = sentence.type == "RMC";
   has_rmc_ = has_rmc_ || is_rmc;
   if (sentence.type == "GGA") {
+    const std::optional<GroundVelocity> velocity = std::exchange(waiting_velocity_, std::nullopt);
     if (takeTime(sentence.field(0))) {
+      if (velocity) {
+        pending_ = DeviceMeasurement{stamp_, *velocity, 0};
+      }
       return DeviceMeasurement{stamp_, nmeaFix(sentence, options_.sigma), 0};
     }
   } else if (is_rmc ? takeTime(sentence.field(0))
                     : sentence.type == "VTG" && has_time_ && !has_rmc_) {
-    if (const std::optional<GroundVelocity> velocity = nmeaVelocity(sentence)) {
+    const std::optional<GroundVelocity> velocity = nmeaVelocity(sentence);
+    if (velocity && !is_rmc && isOfNextTime()) {
+      waiting_velocity_ = velocity;
+    } else if (velocity) {
       return DeviceMeasurement{stamp_, *velocity, 0};
     }
   }
   return std::nullopt;
+}
+
+bool NmeaReceiver::isOfNextTime() const {
+  const double period = host_.clock.interval();
+  return period > 0.0 && 2.0 * secondsBetween(arrival_, host_.clock.now()) > period;
 }
 
 bool NmeaReceiver::takeTime(const std::string& field) {
@@ -100,6 +115,7 @@ bool NmeaReceiver::takeTime(const std::string& field) {
     }
   }
   stamp_ = host_.clock.add(*ticks, options_.delay);
+  arrival_ = host_.clock.now();
   has_time_ = true;
   return true;
 }

@@ -13,12 +13,16 @@ constexpr TickFormat kSickTicks{1e-6, std::uint64_t{1} << 32U};
 constexpr double kMicrosecond = 1e-6;  // s
 
 constexpr std::string_view kScanTelegram = "sSN LMDscandata";
+constexpr std::string_view kStateAnswer = "sRA STlms";
+constexpr std::uint32_t kMeasuring = 7;  ///< its first word, of 0 (undefined) to 7
+
+constexpr const char* kSilent = "silent_device";
 
 /// So many scans may still come of what was asked before.
 constexpr int kOldScans = 100;
 
-bool beginsBy(std::string_view text, std::string_view beginning) {
-  return text.substr(0, beginning.size()) == beginning;
+bool startsWith(std::string_view text, std::string_view prefix) {
+  return text.substr(0, prefix.size()) == prefix;
 }
 
 }  // namespace
@@ -29,7 +33,15 @@ SickScanner::SickScanner(DeviceAddress address, const DeviceHost& host)
 std::string SickScanner::connect() {
   connection_ = std::make_unique<Connection>(address_, host_.stop);
   host_.clock.restart(kSickTicks);
-  model_ = sickModel(ask("sRN DeviceIdent", "sRA DeviceIdent"));
+  try {
+    model_ = sickModel(ask("sRN DeviceIdent", "sRA DeviceIdent"));
+  } catch (const DeviceError& error) {
+    if (error.reason() != kSilent) {
+      throw;
+    }
+    // In the other dialect it does not answer at all.
+    throw DeviceError(kSilent, std::string(error.what()) + "; does it speak " + kColaDialect + "?");
+  }
   // As user 3, authorized client, by the hash of the password that all scanners leave the factory
   // with.
   ask("sMN SetAccessMode 03 F4724744", "sAN SetAccessMode 1");
@@ -46,10 +58,10 @@ std::string SickScanner::ask(const std::string& command, const std::string& expe
   connection_->send(colaTelegram(command));
   for (int i = 0; i < kOldScans; ++i) {
     std::string answer = nextTelegram();
-    if (beginsBy(answer, expected)) {
+    if (startsWith(answer, expected)) {
       return answer;
     }
-    if (!beginsBy(answer, kScanTelegram)) {
+    if (!startsWith(answer, kScanTelegram)) {
       throw DeviceError("device_fault", "the device answers " + shownBytes(answer) + " to '" +
                                             command + "': expected '" + expected +
                                             "'; is it a scanner of SICK's with the password that "
@@ -69,14 +81,39 @@ std::string SickScanner::nextTelegram() {
   }
 }
 
+bool SickScanner::isWarmingUp() {
+  connection_->send(colaTelegram("sRN STlms"));
+  const std::string answer = nextTelegram();
+  if (!startsWith(answer, kStateAnswer)) {
+    return false;
+  }
+  ColaWords words(answer);
+  words.text("the kind of answer");
+  words.text("its name");
+  return words.number("the scanner's state") < kMeasuring;
+}
+
+std::string SickScanner::nextTelegramOnceWarm() {
+  while (true) {
+    try {
+      return nextTelegram();
+    } catch (const DeviceError& error) {
+      if (error.reason() != kSilent || !isWarmingUp()) {
+        throw;
+      }
+      host_.warn({"warming_up", "'" + model_.name + "' is not measuring yet: waits for its scans"});
+    }
+  }
+}
+
 DeviceMeasurement SickScanner::next() {
-  std::string telegram = nextTelegram();
-  while (!beginsBy(telegram, kScanTelegram)) {
-    if (beginsBy(telegram, "sFA")) {
+  std::string telegram = nextTelegramOnceWarm();
+  while (!startsWith(telegram, kScanTelegram)) {
+    if (startsWith(telegram, "sFA")) {
       throw DeviceError("device_fault", "the scanner says " + shownBytes(telegram) +
                                             ": expected scans; its manual has the error");
     }
-    telegram = nextTelegram();
+    telegram = nextTelegramOnceWarm();
   }
   SickScan raw = sickScan(telegram, model_);
   warnOf(raw.state);

@@ -22,7 +22,7 @@ constexpr double kLongestTurn = 0.5;  ///< s; the slowest of all lidars takes 0.
 /// where one turn ends.
 constexpr double kLongestGap = 0.025;
 
-constexpr int kForeignPackets = 100;  ///< in a row: there is no lidar
+constexpr int kMaxBadPackets = 100;  ///< in a row: there is no lidar
 
 constexpr const char* kAuto = "auto";
 
@@ -62,12 +62,10 @@ std::string VelodyneLidar::connect() {
 }
 
 VelodynePacket VelodyneLidar::nextPacket() {
-  for (int foreign = 1;; ++foreign) {
+  for (int bad = 1;; ++bad) {
     try {
       const VelodynePacket packet(source_->next());
-      const bool is_same =
-          model_ == nullptr || options_.model != kAuto || packet.product() == model_->product;
-      if (is_same) {
+      if (model_ == nullptr || isOf(*model_, packet)) {
         return packet;
       }
       throw DeviceError("wrong_device",
@@ -77,8 +75,8 @@ VelodynePacket VelodyneLidar::nextPacket() {
     } catch (const RecordingEnd&) {
       throw;
     } catch (const DeviceError& error) {
-      const bool is_foreign = error.reason() == "bad_packet" || error.reason() == "wrong_device";
-      if (!is_foreign || foreign >= kForeignPackets) {
+      const bool is_bad = error.reason() == "bad_packet" || error.reason() == "wrong_device";
+      if (!is_bad || bad >= kMaxBadPackets) {
         throw;
       }
       host_.warn(error);
@@ -86,17 +84,28 @@ VelodynePacket VelodyneLidar::nextPacket() {
   }
 }
 
+bool VelodyneLidar::isOf(const VelodyneModel& model, const VelodynePacket& packet) const {
+  if (packet.product() == model.product) {
+    return true;
+  }
+  // Old firmware has something else there, but hardly another model's product.
+  const auto& models = velodyneModels();
+  return options_.model != kAuto &&
+         std::none_of(models.begin(), models.end(), [&packet](const VelodyneModel& other) {
+           return packet.product() == other.product;
+         });
+}
+
 const VelodyneModel& VelodyneLidar::modelOf(const VelodynePacket& packet) const {
   const auto& models = velodyneModels();
   const auto found = std::find_if(models.begin(), models.end(), [&](const VelodyneModel& model) {
-    return options_.model == kAuto ? model.product == packet.product()
-                                   : model.name == options_.model;
+    return (options_.model == kAuto || options_.model == model.name) && isOf(model, packet);
   });
   if (found == models.end()) {
     throw DeviceError("wrong_device",
                       "a lidar of product " + std::to_string(packet.product()) +
-                          ": expected 34 (VLP-16), 36 (Puck Hi-Res) or 33 (HDL-32E); with old "
-                          "firmware, name it (velodyne/model)");
+                          ": expected 34 (VLP-16), 36 (Puck Hi-Res) or 33 (HDL-32E), and that of "
+                          "velodyne/model if it names one; name it only for old firmware");
   }
   return *found;
 }

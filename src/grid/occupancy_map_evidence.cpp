@@ -95,7 +95,7 @@ OccupancyMap OccupancyMap::restored(const Checked<OccupancyMapOptions>& options,
     cell.refuted = known.refuted;
     cell.believed = known.believed;
     cell.hits = known.hits;
-    map.outside_.putForGood(known.cell, cell);
+    map.outside_.putPermanently(known.cell, cell);
     if (map.window().contains(known.cell)) {
       map.cells_.at(known.cell) = cell;
     }

@@ -11,7 +11,7 @@
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
 
-#include "datmo_fusion/device/device_news.h"
+#include "datmo_fusion/device/device_events.h"
 #include "datmo_fusion/ros/convert/device_conversion.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/device_diagnostics.h"
@@ -41,12 +41,12 @@ class DeviceNodelet : public nodelet::Nodelet {
     diagnostics_ = std::make_unique<DeviceDiagnostics>(*monitor_);
     bell_ = std::make_unique<CallbackBell>(getNodeHandle(), [this] { serveAll(); });
     DeviceHandlers handlers;
-    handlers.connected = [this](const std::string& device) { ring(DeviceConnected{device}); };
+    handlers.connected = [this](const std::string& device) { post(DeviceConnected{device}); };
     handlers.measured = [this](DeviceMeasurement measurement, const ClockState& clock) {
-      ring(DeviceMeasured{std::move(measurement), clock});
+      post(DeviceMeasured{std::move(measurement), clock});
     };
-    handlers.fault = [this](const DeviceError& error) { ring(DeviceFault{error}); };
-    handlers.warning = [this](const DeviceError& error) { ring(DeviceWarning{error}); };
+    handlers.fault = [this](const DeviceError& error) { post(DeviceFault{error}); };
+    handlers.warning = [this](const DeviceError& error) { post(DeviceWarning{error}); };
     handlers.now = now;
     runner_ = std::make_unique<DeviceRunner>(options_.device.runner, deviceMaker(options_.device),
                                              handlers);
@@ -81,39 +81,39 @@ class DeviceNodelet : public nodelet::Nodelet {
 
   static Stamp now() { return toStamp(ros::Time::now()); }
 
-  void ring(DeviceNews news) {
-    news_.put(std::move(news));
+  void post(DeviceEvent event) {
+    events_.put(std::move(event));
     bell_->ring();
   }
 
   void serveAll() {
-    const DeviceNewsQueue::Taken taken = news_.takeAll();
-    for (const DeviceNews& one : taken.news) {
-      std::visit([this, &taken](const auto& kind) { serve(kind, taken.overtaken); }, one);
+    const DeviceEventQueue::Taken taken = events_.takeAll();
+    for (const DeviceEvent& one : taken.events) {
+      std::visit([this, &taken](const auto& kind) { serve(kind, taken.discarded); }, one);
     }
   }
 
-  void serve(const DeviceConnected& news, std::uint64_t /*overtaken*/) {
-    diagnostics_->connected(news.device, now());
+  void serve(const DeviceConnected& event, std::uint64_t /*discarded*/) {
+    diagnostics_->connected(event.device, now());
   }
 
-  void serve(const DeviceFault& news, std::uint64_t /*overtaken*/) {
-    diagnostics_->fault(news.error, now());
+  void serve(const DeviceFault& event, std::uint64_t /*discarded*/) {
+    diagnostics_->fault(event.error, now());
   }
 
-  void serve(const DeviceWarning& news, std::uint64_t /*overtaken*/) {
-    diagnostics_->warning(news.error, now());
+  void serve(const DeviceWarning& event, std::uint64_t /*discarded*/) {
+    diagnostics_->warning(event.error, now());
   }
 
-  void serve(const DeviceMeasured& news, std::uint64_t overtaken) {
+  void serve(const DeviceMeasured& event, std::uint64_t discarded) {
     const Stopwatch watch;
-    const Stamp stamp = news.measurement.stamp;
-    diagnostics_->measured(news.measurement, news.clock, overtaken, now());
+    const Stamp stamp = event.measurement.stamp;
+    diagnostics_->measured(event.measurement, event.clock, discarded, now());
     std::visit(
         [this, stamp](const auto& data) {
           outputOf(data).publish(toMessage(data, stamp, options_.frame));
         },
-        news.measurement.data);
+        event.measurement.data);
     monitor_->processed({stamp, watch.seconds()});
     reporter_->publishTiming();
   }
@@ -124,7 +124,7 @@ class DeviceNodelet : public nodelet::Nodelet {
   std::unique_ptr<DeviceDiagnostics> diagnostics_;
   ros::Publisher output_;
   ros::Publisher velocities_;  ///< of a satellite receiver alone
-  DeviceNewsQueue news_{kQueue};
+  DeviceEventQueue events_{kQueue};
   std::unique_ptr<CallbackBell> bell_;
   std::unique_ptr<DeviceRunner> runner_;  ///< its thread ends before what it calls
 };

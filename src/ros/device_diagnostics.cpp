@@ -46,7 +46,7 @@ void DeviceDiagnostics::warning(const DeviceError& error, Stamp now) {
 }
 
 void DeviceDiagnostics::measured(const DeviceMeasurement& measurement, const ClockState& clock,
-                                 std::uint64_t overtaken, Stamp now) {
+                                 std::uint64_t discarded, Stamp now) {
   const std::string input = inputOf(measurement.data);
   monitor_.received(input, now);
   noteMissed(measurement);
@@ -55,7 +55,7 @@ void DeviceDiagnostics::measured(const DeviceMeasurement& measurement, const Clo
     monitor_.figure("standard deviation [m]", fix->sigma);
   }
   noteClock(clock);
-  monitor_.figure("measurements overtaken", static_cast<double>(overtaken));
+  monitor_.figure("measurements discarded", static_cast<double>(discarded));
   if (!std::holds_alternative<GroundVelocity>(measurement.data)) {
     monitor_.figure("rate [Hz]", monitor_.input(input, now).rate);
   }

@@ -13,7 +13,7 @@ namespace {
 /// aside is rounding; over a longer gap its path may have had any shape.
 constexpr double kBentAfter = 1.0;
 
-/// The longest of these tells when the next sample is due: samples may come in bursts.
+/// In which the longest one is looked for.
 constexpr std::size_t kRecentIntervals = 4;
 
 }  // namespace
@@ -99,16 +99,20 @@ std::optional<Pose2> OdometryBuffer::motion(Stamp from, Stamp to, const Odometry
   return motion;
 }
 
+double OdometryBuffer::period() const {
+  double longest = 0.0;
+  const std::size_t last = pieces_.empty() ? 0 : pieces_.size() - 1;
+  for (std::size_t i = last - std::min(last, kRecentIntervals); i < last; ++i) {
+    longest = std::max(longest, pieces_[i].seconds);
+  }
+  return longest;
+}
+
 double OdometryBuffer::overdue(Stamp stamp) const {
   if (pieces_.size() < 2) {
     return 0.0;
   }
-  double period = 0.0;
-  const std::size_t last = pieces_.size() - 1;
-  for (std::size_t i = last - std::min(last, kRecentIntervals); i < last; ++i) {
-    period = std::max(period, pieces_[i].seconds);
-  }
-  return std::max(0.0, secondsBetween(pieces_.back().sample.stamp, stamp) - period);
+  return std::max(0.0, secondsBetween(pieces_.back().sample.stamp, stamp) - period());
 }
 
 bool OdometryBuffer::hasPoses(Stamp from, Stamp to) const {

@@ -17,7 +17,7 @@ from datmo_tools.evaluate.class_tally import (
     reports_of,
 )
 from datmo_tools.evaluate.object_lists import Seen
-from datmo_tools.evaluate.object_scores import TrueState, score_list
+from datmo_tools.evaluate.object_scores import ListWithTruth, TrueState, score_lists
 from datmo_tools.evaluate.truth import Region
 
 from datmo_fusion.msg import Object
@@ -43,7 +43,8 @@ class Tally(unittest.TestCase):
                    seen(30.0, Object.CLASS_VEHICLE), seen(40.0, Object.CLASS_UNKNOWN),
                    seen(90.0, Object.CLASS_VEHICLE)]  # fmt: skip
         truths = [true(10.0, Object.CLASS_VEHICLE), true(20.0, Object.CLASS_CYCLIST)]
-        found = reports_of(objects, truths, score_list(objects, truths), Region(50.0))
+        score = score_lists([ListWithTruth(objects, truths)])[0]
+        found = reports_of(objects, truths, score, Region(50.0))
         self.assertEqual([(item.said, item.true) for item in found],
                          [("vehicle", "vehicle"), ("pedestrian", "cyclist"), ("vehicle", NOTHING)])
 

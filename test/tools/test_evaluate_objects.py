@@ -9,7 +9,7 @@ import numpy as np
 from datmo_tools import bag_messages, transforms
 from datmo_tools.bag_file import whole_bag
 from datmo_tools.evaluate.object_lists import Seen
-from datmo_tools.evaluate.object_scores import TrueState, score_list
+from datmo_tools.evaluate.object_scores import ListWithTruth, TrueState, score_lists
 from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
 from nav_msgs.msg import OccupancyGrid
 
@@ -34,9 +34,12 @@ def true(x, y, yaw=0.0, velocity=(0.0, 0.0)):
 
 class Lists(unittest.TestCase):
     def assert_near(self, expected, *objects, truths=(true(20.0, 0.0),)):
-        score = score_list(list(objects), list(truths))
+        score = score_lists([ListWithTruth(list(objects), list(truths))])[0]
         self.assertEqual(score.near.tolist(), expected)
         return [(i, j) for i, j, _ in score.matches]
+
+    def errors(self, item, truth):
+        return score_lists([ListWithTruth([item], [truth])])[0].matches[0][2]
 
     def test_near_is_longer_along_the_line_of_sight(self):
         """Near sides at 18 m: 2.2 m along it for an object that seems at 16 m, 1 m across."""
@@ -59,19 +62,18 @@ class Lists(unittest.TestCase):
 
     def test_what_moves_is_where_it_was_then(self):
         """50 ms late, a car at 20 m/s is a meter ahead."""
-        errors = score_list([seen(21.0, 0.0, delay=0.05)], [true(20.0, 0.0, velocity=(20.0, 0.0))])
-        self.assertAlmostEqual(errors.matches[0][2].along, 0.0)
+        errors = self.errors(seen(21.0, 0.0, delay=0.05), true(20.0, 0.0, velocity=(20.0, 0.0)))
+        self.assertAlmostEqual(errors.along, 0.0)
 
     def test_errors_along_and_across_the_line_of_sight(self):
-        score = score_list([seen(0.1, 30.4, math.pi / 2)], [true(0.0, 30.0, math.pi / 2)])
-        errors = score.matches[0][2]
+        errors = self.errors(seen(0.1, 30.4, math.pi / 2), true(0.0, 30.0, math.pi / 2))
         self.assertAlmostEqual(errors.along, 0.4, places=3)
         self.assertAlmostEqual(errors.across, -0.1, delta=0.01)
         self.assertAlmostEqual(errors.nees, 0.1**2 / 0.04 + 0.4**2 / 0.01, delta=0.1)
 
     def test_what_was_not_seen_has_no_error(self):
         sides = (math.inf, 0.0, math.inf, math.inf)
-        errors = score_list([seen(30.4, 0.0, sides=sides)], [true(30.0, 0.0)]).matches[0][2]
+        errors = self.errors(seen(30.4, 0.0, sides=sides), true(30.0, 0.0))
         self.assertAlmostEqual(errors.along, 0.4)
         self.assertTrue(math.isnan(errors.across) and math.isnan(errors.nees))
 

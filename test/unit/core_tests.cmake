@@ -151,6 +151,7 @@ datmo_fusion_add_core_test(slam
   slam/static_scan_test.cpp
   slam/twist_gate_test.cpp
 )
+target_include_directories(unit_slam PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 
 datmo_fusion_add_core_test(detection
   detection/box_fit_test.cpp
@@ -206,7 +207,7 @@ datmo_fusion_add_core_test(device
   device/clock_estimator_test.cpp
   device/cola_test.cpp
   device/datagram_test.cpp
-  device/device_news_test.cpp
+  device/device_events_test.cpp
   device/device_runner_test.cpp
   device/fake_hokuyo.cpp
   device/fake_lidar.cpp
@@ -217,6 +218,7 @@ datmo_fusion_add_core_test(device
   device/nmea_test.cpp
   device/scip_test.cpp
   device/sick_scanner_test.cpp
+  device/velodyne_faults_test.cpp
   device/velodyne_lidar_test.cpp
   device/velodyne_loopback_test.cpp
   device/velodyne_packet_test.cpp

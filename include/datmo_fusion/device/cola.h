@@ -12,6 +12,10 @@
 
 namespace datmo {
 
+/// What a scanner is to speak, and how it is set.
+inline constexpr const char* kColaDialect =
+    "CoLa A; set it by SICK's SOPAS ET (network, Ethernet, CoLa dialect: ASCII)";
+
 /// A telegram between the control characters that SICK's scanners put around it (CoLa A: SICK,
 /// Telegram listing LMS1xx, LMS5xx, TiM5xx, TiM7xx, 8014631, 2020).
 std::string colaTelegram(std::string_view text);

@@ -24,7 +24,7 @@ struct DeviceAddress {
 class Connection : public ByteStream {
  public:
   /// `stop`: true ends all waiting; must outlive the connection. Throws DeviceError
-  /// (`no_connection`).
+  /// (`no_connection`), DeviceStopped.
   Connection(const DeviceAddress& address, const std::atomic<bool>& stop);
   ~Connection() override;
   Connection(const Connection&) = delete;

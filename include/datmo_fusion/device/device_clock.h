@@ -48,6 +48,9 @@ class DeviceClock {
 
   bool hasMessage() const { return has_message_; }
 
+  /// The computer's time.
+  Stamp now() const { return now_(); }
+
   ClockState state() const;
 
  private:

@@ -26,7 +26,8 @@ using StreamOpener = std::function<std::unique_ptr<ByteStream>()>;
 
 /// A satellite receiver that speaks NMEA 0183: positions of GGA, velocities of RMC, or of VTG where
 /// there is no RMC. Sentences carry the time of the measurement, which they all have in common; the
-/// first of them to arrive tells the receiver's clock.
+/// first of them to arrive tells the receiver's clock. A VTG, which has none, belongs to the GGA
+/// nearer to it in time of arrival, and waits for it if that is the next one.
 class NmeaReceiver : public Device {
  public:
   static constexpr int kPort = 10110;  ///< of NMEA 0183 over TCP (IANA)
@@ -44,15 +45,20 @@ class NmeaReceiver : public Device {
   std::optional<DeviceMeasurement> measurementOf(const NmeaSentence& sentence);
   /// Whether it is of the newest time, which it may bring.
   bool takeTime(const std::string& field);
+  /// Whether a sentence that arrives now is nearer to the next time than to the newest one.
+  bool isOfNextTime() const;
 
   StreamOpener open_;
   NmeaOptions options_;
   DeviceHost host_;
   std::unique_ptr<ByteStream> stream_;
   NmeaReader reader_;
-  Stamp stamp_;            ///< of the newest time
-  bool has_time_ = false;  ///< of this connection
-  bool has_rmc_ = false;   ///< the same
+  Stamp stamp_;                                     ///< of the newest time
+  Stamp arrival_;                                   ///< of its first sentence
+  std::optional<GroundVelocity> waiting_velocity_;  ///< of the next time
+  std::optional<DeviceMeasurement> pending_;        ///< after what was returned
+  bool has_time_ = false;                           ///< of this connection
+  bool has_rmc_ = false;                            ///< the same
 };
 
 }  // namespace datmo

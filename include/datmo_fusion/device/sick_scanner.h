@@ -29,6 +29,11 @@ class SickScanner : public Device {
   /// Throws DeviceError (`device_fault`) for another one, an error's (sFA) among them.
   std::string ask(const std::string& command, const std::string& expected);
   std::string nextTelegram();
+  /// Silence is no fault as long as the scanner says that it is not measuring yet, which an LMS1xx
+  /// takes a while for after it was switched on.
+  std::string nextTelegramOnceWarm();
+  /// Asks the scanner for its state; false also for one that does not know the question.
+  bool isWarmingUp();
   void warnOf(SickState state) const;
 
   DeviceAddress address_;

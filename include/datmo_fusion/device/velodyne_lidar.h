@@ -51,6 +51,8 @@ class VelodyneLidar : public Device {
   /// The next packet that is a lidar's. Others are counted; many in a row are none of a lidar's.
   VelodynePacket nextPacket();
   const VelodyneModel& modelOf(const VelodynePacket& packet) const;
+  /// Whether a packet may be one of the model's.
+  bool isOf(const VelodyneModel& model, const VelodynePacket& packet) const;
   /// Older than the last one, or the same again; it is said.
   bool isLate(const VelodynePacket& packet) const;
   void takeTime(const VelodynePacket& packet);

@@ -37,7 +37,7 @@ class TileStore {
   }
 
   /// As put(), in a tile that is never forgotten, and does not count.
-  void putForGood(CellIndex cell, const Cell& content) {
+  void putPermanently(CellIndex cell, const Cell& content) {
     const auto [tile, is_new] = tiles_.try_emplace(keyOf(cell));
     if (is_new) {
       tile->second.assign(rowMajorSize(kSide, kSide), empty_);

@@ -27,9 +27,9 @@ class DeviceDiagnostics {
   void fault(const DeviceError& error, Stamp now);
   void warning(const DeviceError& error, Stamp now);
 
-  /// `overtaken`: measurements so far that waited too long.
+  /// `discarded`: measurements so far that waited too long.
   void measured(const DeviceMeasurement& measurement, const ClockState& clock,
-                std::uint64_t overtaken, Stamp now);
+                std::uint64_t discarded, Stamp now);
 
  private:
   void noteMissed(const DeviceMeasurement& measurement);

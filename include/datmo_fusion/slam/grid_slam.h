@@ -91,6 +91,8 @@ class GridSlam {
   /// the scanner is silent, and pose and movers come from the grid alone.
   SlamResult process(const SensorGrid& grid, const Scan& scan);
 
+  const OdometryBuffer& odometry() const { return odometry_; }
+
   const OccupancyMap& map() const { return map_; }
 
   /// The map to keep: while the vehicle is not located, the one in which it was.

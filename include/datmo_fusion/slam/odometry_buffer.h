@@ -67,9 +67,12 @@ class OdometryBuffer {
     return pieces_.empty() ? nullptr : &pieces_.back().sample;
   }
 
-  /// For how long (s) at this stamp the next sample has been due, if they go on coming as the last
-  /// few did: what the newest one said is extrapolated since then. 0 before that, and before there
-  /// are two.
+  /// Time (s) after the newest sample at which the next one is due: the longest of the last few
+  /// intervals, since samples may come in bursts. 0 before there are two.
+  double period() const;
+
+  /// For how long (s) at this stamp the next sample has been due: what the newest one said is
+  /// extrapolated since then. 0 before that, and before there are two.
   double overdue(Stamp stamp) const;
 
   /// Of the newest sample with a pose; none without one.

@@ -92,7 +92,9 @@ sensor_msgs::NavSatFixPtr toMessage(const SatelliteFix& fix, Stamp stamp,
   message->position_covariance[0] = fix.sigma * fix.sigma;
   message->position_covariance[kNextOfDiagonal] = fix.sigma * fix.sigma;
   message->position_covariance[2 * kNextOfDiagonal] = fix.vertical_sigma * fix.vertical_sigma;
-  message->position_covariance_type = sensor_msgs::NavSatFix::COVARIANCE_TYPE_APPROXIMATED;
+  message->position_covariance_type = fix.kind == SatelliteFix::Kind::kNone
+                                          ? sensor_msgs::NavSatFix::COVARIANCE_TYPE_UNKNOWN
+                                          : sensor_msgs::NavSatFix::COVARIANCE_TYPE_APPROXIMATED;
   return message;
 }
 

@@ -128,4 +128,12 @@ ConvertedCloud toLidarCloud(const PointCloud2& message, double max_sweep) {
   return converted;
 }
 
+void visitMaxSweep(OptionVisitor& visitor, double& max_sweep) {
+  visitor.number(
+      {"max_sweep", "s",
+       "a cloud with points farther from its stamp has no usable times (slow lidars turn "
+       "5 times a second)"},
+      max_sweep, {0.001, 2.0});
+}
+
 }  // namespace datmo

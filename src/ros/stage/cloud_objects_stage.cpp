@@ -12,11 +12,7 @@
 namespace datmo {
 
 void CloudObjectsStageOptions::visit(OptionVisitor& visitor) {
-  visitor.number(
-      {"max_sweep", "s",
-       "a cloud with points farther from its stamp has no usable times (slow lidars turn "
-       "5 times a second)"},
-      max_sweep, {0.001, 2.0});
+  visitMaxSweep(visitor, max_sweep);
   visitor.group("input", [&] { input.visit(visitor); });
   detector.visit(visitor);
 }

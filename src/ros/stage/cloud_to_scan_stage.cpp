@@ -15,11 +15,7 @@ void CloudToScanStageOptions::visit(OptionVisitor& visitor) {
                 "frame of the scan; the stage publishes frames/base -> scan_frame, below the lidar "
                 "in the middle of the band: no other node may"},
                scan_frame, {});
-  visitor.number(
-      {"max_sweep", "s",
-       "a cloud with points farther from its stamp has no usable times (slow lidars turn "
-       "5 times a second)"},
-      max_sweep, {0.001, 2.0});
+  visitMaxSweep(visitor, max_sweep);
   visitor.group("input", [&] { input.visit(visitor); });
   scan.visit(visitor);
 }

@@ -63,7 +63,7 @@ GridSlamStage::GridSlamStage(const Checked<GridSlamStageOptions>& options,
       runner_(monitor, options->input, "starts with a new map", [this] { reset(); }),
       odometry_(options->motion, options->frames, "odometry", runner_),
       odometry_poses_(options->motion.hold),
-      odometry_wait_(options->odometry_wait, options->motion.hold),
+      odometry_wait_(slam_.odometry(), options->odometry_wait, options->motion.hold),
       scans_(monitor) {
   readPriorMap();
 }
@@ -78,7 +78,6 @@ void GridSlamStage::takeOdometry(const nav_msgs::Odometry& message) {
     sample.speed_measured = options_.motion.hasSpeed();
     slam_.addOdometry(sample);
     odometry_poses_.add(sample.stamp, sample.twist, base_in_odom);
-    odometry_wait_.note(sample.stamp);
   });
 }
 
@@ -136,7 +135,6 @@ void GridSlamStage::reset() {
   scans_.clear();
   odometry_.reset();
   odometry_poses_.clear();
-  odometry_wait_.reset();
   frozen_.reset();
   last_map_.reset();
   degenerate_scans_ = 0;

@@ -99,7 +99,7 @@ void MonoClassifierStage::takeImage(const sensor_msgs::ImageConstPtr& message, S
     runner_.check("image", message->header.stamp);
     exposure_.accept(message);
     if (!wait_.addImage(message, now)) {
-      monitor_.dropped(InputError("overtaken_image",
+      monitor_.dropped(InputError("superseded_image",
                                   "a newer image came before objects of its time: expected objects "
                                   "at the rate of the images; goes on with the newer one"));
     }
@@ -154,7 +154,7 @@ void MonoClassifierStage::startIfReady(Stamp now) {
   }
   if (worker_.start({image, camera_.mounted(*image, options_.frames, transforms_),
                      objectsAt(toStamp(image->header.stamp)), run_})) {
-    monitor_.dropped(InputError("overtaken_image",
+    monitor_.dropped(InputError("superseded_image",
                                 "a newer image came before the detector had time for one: expected "
                                 "a faster machine, a smaller network or fewer images a second"));
   }

@@ -90,7 +90,7 @@ void MonoGridStage::takeImage(const sensor_msgs::ImageConstPtr& message, Stamp n
     runner_.check("image", message->header.stamp);
     exposure_.accept(message);
     if (!wait_.addImage(message, now)) {
-      monitor_.dropped(InputError("overtaken_image",
+      monitor_.dropped(InputError("superseded_image",
                                   "a newer image came before the scan of one: expected scans at "
                                   "the rate of the images; goes on with the newer one"));
     }

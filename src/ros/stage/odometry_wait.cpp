@@ -13,16 +13,6 @@ constexpr std::size_t kMaxWaiting = 50;
 
 }  // namespace
 
-void OdometryWait::note(Stamp odometry) {
-  period_ = newest_ ? secondsBetween(*newest_, odometry) : 0.0;
-  newest_ = odometry;
-}
-
-void OdometryWait::reset() {
-  newest_.reset();
-  period_ = 0.0;
-}
-
 void OdometryWait::add(Stamp scan, Stamp now, std::function<void()> serve) {
   waiting_.push_back({scan, now, std::move(serve)});
 }
@@ -40,11 +30,12 @@ bool OdometryWait::serveNext(Stamp now) {
 bool OdometryWait::mayGoOn(const Waiting& waiting, Stamp now) const {
   // A clock that was set back ends the wait, too.
   const bool waited = std::abs(secondsBetween(waiting.since, now)) >= max_wait_;
-  if (waited || !newest_) {
+  const OdometrySample* newest = odometry_.newest();
+  if (waited || newest == nullptr) {
     return true;
   }
-  const double missing = secondsBetween(*newest_, waiting.scan);
-  return missing <= 0.0 || missing < period_ || missing > hold_;
+  const double missing = secondsBetween(newest->stamp, waiting.scan);
+  return missing <= 0.0 || missing < odometry_.period() || missing > hold_;
 }
 
 }  // namespace datmo

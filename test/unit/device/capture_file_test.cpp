@@ -29,6 +29,12 @@ TEST(DatagramTest, TheDataOfADatagramToThePortAreFound) {
   const std::string tag("\x81\x00\x00\x05", 4);
   EXPECT_EQ(datagramOf(frame.substr(0, 12) + tag + frame.substr(12), DLT_EN10MB, kPort), "data");
   EXPECT_EQ(datagramOf(std::string(14, '\0') + frame.substr(12), DLT_LINUX_SLL, kPort), "data");
+  const std::string ip("\x08\x00", 2);
+  const std::string rest(18, '\0');
+  EXPECT_EQ(datagramOf(ip + rest + frame.substr(14), DLT_LINUX_SLL2, kPort), "data");
+  const std::string vlan("\x81\x00", 2);
+  EXPECT_EQ(datagramOf(vlan + rest + tag.substr(2) + ip + frame.substr(14), DLT_LINUX_SLL2, kPort),
+            "data");
 }
 
 TEST(DatagramTest, FramesCutAnywhereAndPartsOfPacketsAreNone) {
@@ -65,6 +71,18 @@ TEST(CaptureFileTest, ItStopsWhileItWaits) {
   EXPECT_EQ(capture.next(), "a");
   stop = true;
   EXPECT_THROW(capture.next(), DeviceStopped);
+}
+
+TEST(CaptureFileTest, FramesOfAnotherKindAreNamed) {
+  const std::string file = testing::TempDir() + "capture_file_link_test.pcap";
+  writeCapture(file, {{1000.0, kPort, "a"}}, DLT_IEEE802_11);
+  const std::atomic<bool> stop{false};
+  try {
+    CaptureFile(file, kPort, stop);
+    FAIL() << "expected a refusal";
+  } catch (const DeviceError& error) {
+    EXPECT_NE(std::string(error.what()).find("IEEE802_11"), std::string::npos) << error.what();
+  }
 }
 
 TEST(CaptureFileTest, FilesThatAreNoneAndThatAreCutAreSaid) {

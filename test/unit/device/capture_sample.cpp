@@ -2,7 +2,6 @@
 #include "device/capture_sample.h"
 
 #include <cmath>
-#include <cstdint>
 #include <fstream>
 
 namespace datmo::samples {
@@ -31,12 +30,12 @@ std::string ethernetFrame(const CapturedDatagram& datagram) {
   return addresses + word(0x0800) + ip + udp + datagram.data;
 }
 
-void writeCapture(const std::string& file, const std::vector<CapturedDatagram>& datagrams) {
+void writeCapture(const std::string& file, const std::vector<CapturedDatagram>& datagrams,
+                  std::uint32_t link) {
   constexpr std::uint32_t kLongest = 65535;
-  constexpr std::uint32_t kEthernet = 1;
   std::ofstream out(file, std::ios::binary);
   out << number(0xA1B2C3D4U) << number(0x00040002U) << number(0) << number(0) << number(kLongest)
-      << number(kEthernet);
+      << number(link);
   for (const CapturedDatagram& datagram : datagrams) {
     const std::string frame = ethernetFrame(datagram);
     const double second = std::floor(datagram.time);

@@ -82,6 +82,9 @@ class DeviceProbe {
     runner_ = std::make_unique<DeviceRunner>(setup.runner, deviceMaker(setup), handlers);
   }
 
+  /// Until the device's thread has ended.
+  void stop() { runner_.reset(); }
+
   DeviceSetup setup;
   std::atomic<double> host{0.0};  ///< s, the computer's time
   Mailbox<std::string> devices;

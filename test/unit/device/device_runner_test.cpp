@@ -38,6 +38,8 @@ TEST_P(DeviceRunnerTest, ItEndsAtOnceWhileItWaits) {
   DeviceProbe probe(GetParam());
   probe.start(fake.port());
   fake.accept();
+  probe.stop();
+  EXPECT_TRUE(probe.faults.isEmpty()) << "it has waited for the device's timeout";
 }
 
 INSTANTIATE_TEST_SUITE_P(Makes, DeviceRunnerTest,

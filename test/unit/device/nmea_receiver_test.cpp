@@ -85,6 +85,27 @@ TEST_F(NmeaReceiverTest, OfTwoSentencesOfVelocityOneCounts) {
   EXPECT_NEAR(speedOf(exchange(rmcLine(1.4, 30.0), 5.4)), 15.4333, 1e-3);
 }
 
+TEST_F(NmeaReceiverTest, AVelocityWithoutATimeBelongsToThePositionNearerToIt) {
+  start();
+  exchange(ggaLine(1.0), 5.0);
+  exchange(ggaLine(1.2), 5.2);
+  const auto vtg = [](int knots) {
+    return nmeaLine("GPVTG,090.0,T,,M," + std::to_string(knots) + ",N,,K");
+  };
+  const Measured behind = exchange(vtg(10), 5.24);
+  EXPECT_NEAR(seconds(behind.stamp), 5.2, 1e-6);
+  probe_.host = 5.36;
+  fake_.send(vtg(20));
+  fake_.send("$GPTXT,broken*00\r\n");
+  EXPECT_EQ(probe_.warnings.take(), "bad_sentence");  // all before it is read
+  EXPECT_TRUE(probe_.measurements.isEmpty());
+  const Measured fix = exchange(ggaLine(1.4), 5.4);
+  EXPECT_EQ(fixOf(fix).satellites, 8);
+  const Measured ahead = probe_.measurements.take();
+  EXPECT_NEAR(speedOf(ahead), 10.28889, 1e-4);
+  EXPECT_EQ(ahead.stamp, fix.stamp);
+}
+
 TEST_F(NmeaReceiverTest, AClockThatDriftsAndOneThatIsSetAreFollowed) {
   start();
   constexpr double kDrift = 1e-4;  // of the computer's

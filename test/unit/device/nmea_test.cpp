@@ -45,6 +45,15 @@ TEST(NmeaTest, SentencesThatDoNotFitTheirChecksumAreRefusedAndTheNextOneIsNot) {
   EXPECT_EQ(reader.next().value().type, "VTG");
 }
 
+TEST(NmeaTest, AChecksumMayBeInLowerCase) {
+  NmeaReader reader;
+  std::string line = nmeaLine("GPGGA,1,8");
+  ASSERT_NE(line.find("*5F"), std::string::npos) << line;
+  line.replace(line.find("*5F"), 3, "*5f");
+  reader.feed(line);
+  EXPECT_TRUE(reader.next());
+}
+
 TEST(NmeaTest, BytesOfAnotherBaudRateAreSaid) {
   NmeaReader reader;
   reader.feed(std::string(300, '\xF8'));
@@ -71,6 +80,10 @@ TEST(NmeaTest, APositionIsReadWithItsHeightAboveTheEllipsoid) {
   EXPECT_NEAR(fix.altitude, 592.3, 1e-9);
   EXPECT_NEAR(fix.sigma, 3.6, 1e-9);
   EXPECT_EQ(fix.satellites, 8);
+  for (const char* text : {"GPGGA,123519,4807.038,N,01131.000,W,1,08,0.9,545.4,M,,M,,",
+                           "GPGGA,123519,4807.038,N,01131.000,W,1,08,0.9,,M,46.9,M,,"}) {
+    EXPECT_TRUE(std::isnan(nmeaFix(sentence(text), 4.0).altitude)) << text;
+  }
 }
 
 TEST(NmeaTest, TheQualityTellsHowGoodAPositionIs) {

@@ -160,6 +160,32 @@ TEST_F(SickScannerTest, APasswordThatWasChangedIsSaid) {
   EXPECT_EQ(probe_.faults.take(), "device_fault");
 }
 
+TEST_F(SickScannerTest, SilenceIsNoFaultWhileItWarmsUp) {
+  probe_.setup.timeout = 0.5;
+  start();
+  EXPECT_EQ(fake_.command(), "sRN STlms");
+  fake_.send(colaTelegram("sRA STlms 5 0 8 00:00:14 8 01.01.00 0 0 0") +
+             colaTelegram(SickTelegram().text()));
+  EXPECT_EQ(probe_.warnings.take(), "warming_up");
+  EXPECT_EQ(probe_.measurements.take().scan().ranges.size(), 4U);
+  EXPECT_EQ(fake_.command(), "sRN STlms");
+  fake_.answer("sRA STlms 7 0 8 00:00:15 8 01.01.00 0 0 0");
+  EXPECT_EQ(probe_.faults.take(), "silent_device");
+}
+
+TEST_F(SickScannerTest, SilenceFromTheStartNamesTheDialect) {
+  const std::atomic<bool> stop{false};
+  DeviceClock clock(ClockOptions(), [] { return Stamp(); });
+  SickScanner scanner({"127.0.0.1", fake_.port(), 0.05}, {stop, clock, {}});
+  try {
+    scanner.connect();
+    FAIL() << "expected a fault";
+  } catch (const DeviceError& error) {
+    EXPECT_EQ(error.reason(), "silent_device");
+    EXPECT_NE(std::string(error.what()).find("CoLa A"), std::string::npos) << error.what();
+  }
+}
+
 TEST_F(SickScannerTest, ADirtyWindowAndAnErrorAreSaidAndScansGoOn) {
   start();
   SickTelegram telegram;

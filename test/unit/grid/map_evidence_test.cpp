@@ -49,7 +49,7 @@ TEST(TileStoreTest, OfTooManyTilesTheFirstIsForgotten) {
 
 TEST(TileStoreTest, WhatIsKeptForGoodIsNotForgotten) {
   TileStore<int> store(2, 0);
-  store.putForGood({0, 0}, 1);
+  store.putPermanently({0, 0}, 1);
   for (int i = 1; i <= 5; ++i) {
     store.put({100 * i, 0}, i);
   }

@@ -37,4 +37,19 @@ inline void updateWith(OccupancyMap& map, const Scan& scan, PointState state = P
   map.update(scan, std::vector<PointState>(scan.rays.size(), state), pose);
 }
 
+/// A map of 10 m x 10 m in cells of 1 m about the origin, with a beam along x through the row above
+/// the x axis that ends in the cell of x = 4.5 m, three times in 2 s.
+inline OccupancyMap mapWithABeam() {
+  OccupancyMapOptions options;
+  options.window = {10.0, 10.0, 1.0};
+  OccupancyMap map(options);
+  for (int i = 0; i < 3; ++i) {
+    Scan scan = scanTo({Point2(4.5, 0.5)}, i);
+    scan.rays[0].origin = Point2(-4.5, 0.5);
+    scan.rays[0].range = 9.0;
+    updateWith(map, scan);
+  }
+  return map;
+}
+
 }  // namespace datmo::samples

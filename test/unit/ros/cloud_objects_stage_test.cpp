@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/stage/cloud_objects_stage.h"
 
-#include "lidar_messages.h"
+#include "cloud_stage_sample.h"
 #include "monitor_counts.h"
 #include <gtest/gtest.h>
 
@@ -10,32 +10,7 @@ namespace {
 
 using samples::kStart;
 
-class CloudObjectsStageTest : public testing::Test {
- protected:
-  CloudObjectsStageTest() {
-    maker_.addGround();
-    maker_.addWall(10.5);
-  }
-
-  /// 0.5 m ahead of the vehicle's origin, 1.7 m above it.
-  void mountLidar() {
-    tf2_msgs::TFMessage message;
-    message.transforms = {samples::transform("base_link", "velodyne", 0.5)};
-    message.transforms[0].transform.translation.z = samples::kLidarHeight;
-    buffer_.addStatic(message);
-  }
-
-  sensor_msgs::PointCloud2 cloudAt(double seconds) const {
-    auto message = samples::lidarMessage(maker_.cloud);
-    message.header.stamp = ros::Time(seconds);
-    return message;
-  }
-
-  samples::LidarCloudMaker maker_;
-  TransformBuffer buffer_{1.0};
-  StageMonitor monitor_{"cloud_objects"};
-  CloudObjectsStage stage_{CloudObjectsStageOptions(), buffer_, monitor_};
-};
+using CloudObjectsStageTest = samples::CloudStageTest<CloudObjectsStage>;
 
 TEST_F(CloudObjectsStageTest, ACloudMakesObjectsOfTheVehiclesFrame) {
   mountLidar();

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "lidar_messages.h"
+#include "cloud_stage_sample.h"
 #include "monitor_counts.h"
 #include <gtest/gtest.h>
 
@@ -14,27 +14,8 @@ namespace {
 
 using samples::kStart;
 
-class CloudToScanStageTest : public testing::Test {
+class CloudToScanStageTest : public samples::CloudStageTest<CloudToScanStage> {
  protected:
-  CloudToScanStageTest() {
-    maker_.addGround();
-    maker_.addWall(10.5);
-  }
-
-  /// 0.5 m ahead of the vehicle's origin, 1.7 m above it.
-  void mountLidar() {
-    tf2_msgs::TFMessage message;
-    message.transforms = {samples::transform("base_link", "velodyne", 0.5)};
-    message.transforms[0].transform.translation.z = samples::kLidarHeight;
-    buffer_.addStatic(message);
-  }
-
-  sensor_msgs::PointCloud2 cloudAt(double seconds) const {
-    auto message = samples::lidarMessage(maker_.cloud);
-    message.header.stamp = ros::Time(seconds);
-    return message;
-  }
-
   /// A time for each point, of a turn to the right that begins behind the lidar.
   std::vector<float> turn() const {
     const SweepTiming sweep{kPi, true, 0.1, -0.05};
@@ -44,11 +25,6 @@ class CloudToScanStageTest : public testing::Test {
     }
     return times;
   }
-
-  samples::LidarCloudMaker maker_;
-  TransformBuffer buffer_{1.0};
-  StageMonitor monitor_{"cloud_to_scan"};
-  CloudToScanStage stage_{CloudToScanStageOptions(), buffer_, monitor_};
 };
 
 TEST_F(CloudToScanStageTest, ACloudMakesAScanBelowTheLidar) {

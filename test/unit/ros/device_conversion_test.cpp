@@ -48,7 +48,9 @@ TEST(DeviceConversionTest, APositionIsTakenAndNoneIsRefused) {
   const auto message = toMessage(fix, kStamp, "antenna");
   EXPECT_NEAR(positionOf(*message).altitude, 250.0, 1e-9);
   EXPECT_NEAR(covarianceOf(*message, 9.0)(1, 1), 2.25, 1e-9);
-  EXPECT_THROW(positionOf(*toMessage(SatelliteFix(), kStamp, "antenna")), InputError);
+  const auto none = toMessage(SatelliteFix(), kStamp, "antenna");
+  EXPECT_EQ(none->position_covariance_type, sensor_msgs::NavSatFix::COVARIANCE_TYPE_UNKNOWN);
+  EXPECT_THROW(positionOf(*none), InputError);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ TEST_F(DeviceDiagnosticsTest, WhatIsMissingIsCountedByItsKind) {
   diagnostics_.measured(cloud, ClockState(), 3, now_);
   diagnostics_.measured(cloud, ClockState(), 3, now_);
   EXPECT_EQ(figure("packets missed"), 14.0);
-  EXPECT_EQ(figure("measurements overtaken"), 3.0);
+  EXPECT_EQ(figure("measurements discarded"), 3.0);
   EXPECT_EQ(monitor_.warnings().at("missed_packets"), 2U);
   DeviceMeasurement scan;
   diagnostics_.measured(scan, ClockState(), 3, now_);

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "grid/small_map.h"
 #include "message_samples.h"
 #include <gtest/gtest.h>
 
@@ -126,19 +127,6 @@ TEST(LabeledScanConversion, AScannerNowhereIsRefused) {
   EXPECT_EQ(samples::reasonOf([&] { fromMessage(message); }), "bad_pose");
 }
 
-/// A beam from the vehicle's origin, `length` ahead.
-Scan beamAhead(double length, Stamp stamp) {
-  Scan scan;
-  scan.stamp = stamp;
-  scan.field.beam_spacing = degrees(2.0);
-  Ray ray;
-  ray.end = Point2(length, 0.0);
-  ray.range = length;
-  ray.hit = true;
-  scan.rays.push_back(ray);
-  return scan;
-}
-
 /// Percent of the cell that holds a point of the map frame, by the message alone.
 int occupancyAt(const nav_msgs::OccupancyGrid& grid, const Point2& point) {
   const auto& origin = grid.info.origin.position;
@@ -156,7 +144,9 @@ TEST(MapConversion, HoldsAfterTheWindowHasMoved) {
   for (const double x : {0.1, 7.3, 14.5}) {
     map.centerOn(Point2(x, -x));
     const Pose2 base_in_map(x, -x, kPi / 2.0);
-    map.update(beamAhead(6.05, kStamp + x), {PointState::kStatic}, base_in_map);
+    Scan scan = samples::scanTo({Point2(6.05, 0.0)});
+    scan.stamp = kStamp + x;
+    map.update(scan, {PointState::kStatic}, base_in_map);
     const auto grid = toMessage(map, kStamp, "map");
     EXPECT_EQ(grid.header.frame_id, "map");
     EXPECT_EQ(grid.data.size(), grid.info.width * grid.info.height);

@@ -149,7 +149,7 @@ TEST_F(MonoClassifierStageTest, OfImagesThatWaitTheNewestStays) {
   stage_->takeCameraInfo(cameraInfo());
   EXPECT_EQ(look(imageAt(kStart)), nullptr);
   EXPECT_EQ(look(imageAt(kStart + 0.05)), nullptr);
-  EXPECT_EQ(drops(monitor_, "overtaken_image"), 1U);
+  EXPECT_EQ(drops(monitor_, "superseded_image"), 1U);
   EXPECT_NE(stage_->next(Stamp::fromSeconds(kStart + 1.0)), nullptr);
 }
 

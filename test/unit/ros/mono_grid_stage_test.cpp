@@ -105,7 +105,7 @@ TEST_F(MonoGridStageTest, OfImagesThatWaitTheNewestStays) {
   mount();
   EXPECT_EQ(look(imageAt(kStart)), nullptr);
   EXPECT_EQ(look(imageAt(kStart + 0.05)), nullptr);
-  EXPECT_EQ(drops(monitor_, "overtaken_image"), 1U);
+  EXPECT_EQ(drops(monitor_, "superseded_image"), 1U);
 }
 
 TEST_F(MonoGridStageTest, BadImagesAreDroppedAndTheNextOneServes) {

@@ -19,43 +19,56 @@ class OdometryWaitTest : public testing::Test {
     wait.add(at(scan), at(now), [this, scan] { served_.push_back(scan); });
   }
 
-  OdometryWait wait_{kMaxWait, kHold};
+  void know(double odometry) { odometry_.add({at(odometry), {1.0, 0.0}}); }
+
+  OdometryBuffer odometry_{kHold, kOdometryMemory};
+  OdometryWait wait_{odometry_, kMaxWait, kHold};
   std::vector<double> served_;
 };
 
 TEST_F(OdometryWaitTest, AScanWaitsForTheOdometryOfItsStamp) {
-  wait_.note(at(10.00));
+  know(10.00);
   add(wait_, 10.02, 500.0);
   EXPECT_FALSE(wait_.serveNext(at(500.0)));
-  wait_.note(at(10.02));
+  know(10.02);
   EXPECT_TRUE(wait_.serveNext(at(500.01)));
   EXPECT_FALSE(wait_.serveNext(at(500.01)));
   EXPECT_EQ(served_, std::vector<double>{10.02});
 }
 
 TEST_F(OdometryWaitTest, NotForTheNextOneThatIsDueAfterIt) {
-  wait_.note(at(10.00));
-  wait_.note(at(10.02));
+  know(10.00);
+  know(10.02);
   add(wait_, 10.03, 500.0);
   EXPECT_TRUE(wait_.serveNext(at(500.0)));
   add(wait_, 10.05, 500.0);
   EXPECT_FALSE(wait_.serveNext(at(500.0))) << "one of 10.04 is on its way";
-  wait_.note(at(10.04));
+  know(10.04);
   EXPECT_TRUE(wait_.serveNext(at(500.0)));
 }
 
+TEST_F(OdometryWaitTest, OdometryInBurstsIsDueAfterTheLongestOfItsLastIntervals) {
+  for (const double seconds : {10.0, 10.001, 10.1, 10.101}) {
+    know(seconds);
+  }
+  add(wait_, 10.15, 500.0);
+  EXPECT_TRUE(wait_.serveNext(at(500.0))) << "the next burst is due at 10.2";
+  add(wait_, 10.21, 500.0);
+  EXPECT_FALSE(wait_.serveNext(at(500.0)));
+}
+
 TEST_F(OdometryWaitTest, NotForEver) {
-  wait_.note(at(10.00));
+  know(10.00);
   add(wait_, 10.02, 500.0);
   EXPECT_FALSE(wait_.serveNext(at(500.09)));
   EXPECT_TRUE(wait_.serveNext(at(500.1)));
 }
 
 TEST_F(OdometryWaitTest, ALaterScanDoesNotOvertake) {
-  wait_.note(at(10.00));
+  know(10.00);
   add(wait_, 10.02, 500.0);
   add(wait_, 10.08, 500.0);
-  wait_.note(at(10.08));
+  know(10.08);
   EXPECT_TRUE(wait_.serveNext(at(500.0)));
   EXPECT_TRUE(wait_.serveNext(at(500.0)));
   EXPECT_EQ(served_, (std::vector<double>{10.02, 10.08}));
@@ -64,24 +77,24 @@ TEST_F(OdometryWaitTest, ALaterScanDoesNotOvertake) {
 TEST_F(OdometryWaitTest, NotForOdometryThatIsSilentOrHasNotBegun) {
   add(wait_, 10.0, 500.0);
   EXPECT_TRUE(wait_.serveNext(at(500.0)));
-  wait_.note(at(9.0));
+  know(9.0);
   add(wait_, 10.0, 500.0);
   EXPECT_TRUE(wait_.serveNext(at(500.0)));
-  wait_.note(at(9.9));
-  wait_.reset();
+  know(9.9);
+  odometry_ = OdometryBuffer(kHold, kOdometryMemory);
   add(wait_, 10.0, 500.0);
   EXPECT_TRUE(wait_.serveNext(at(500.0)));
 }
 
 TEST_F(OdometryWaitTest, NotAtAllWithoutAWait) {
-  OdometryWait wait(0.0, kHold);
-  wait.note(at(10.00));
+  OdometryWait wait(odometry_, 0.0, kHold);
+  know(10.00);
   add(wait, 10.02, 500.0);
   EXPECT_TRUE(wait.serveNext(at(500.0)));
 }
 
 TEST_F(OdometryWaitTest, ABoundedNumberWaits) {
-  wait_.note(at(10.0));
+  know(10.0);
   for (int i = 0; i < 60; ++i) {
     add(wait_, 10.001, 500.0);
     while (wait_.serveNext(at(500.0))) {
@@ -91,7 +104,7 @@ TEST_F(OdometryWaitTest, ABoundedNumberWaits) {
 }
 
 TEST_F(OdometryWaitTest, AClockThatIsSetBackEndsTheWait) {
-  wait_.note(at(10.0));
+  know(10.0);
   add(wait_, 10.02, 500.0);
   EXPECT_TRUE(wait_.serveNext(at(400.0)));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/display/scan_extent.h"
 
+#include "grid/small_map.h"
 #include <gtest/gtest.h>
 
 namespace datmo::scan_extent_test {
@@ -8,15 +9,8 @@ namespace {
 
 /// Ten beams that end this far ahead.
 Scan scanOf(double range, double reach) {
-  Scan scan;
+  Scan scan = samples::scanTo(std::vector<Point2>(10, {range, 0.0}));
   scan.field.range = reach;
-  for (int i = 0; i < 10; ++i) {
-    Ray ray;
-    ray.end = Point2(range, 0.0);
-    ray.range = range;
-    ray.hit = true;
-    scan.rays.push_back(ray);
-  }
   return scan;
 }
 

@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/slam/end_points.h"
 
+#include "grid/small_map.h"
 #include <gtest/gtest.h>
 
 namespace datmo::end_points_test {
 namespace {
 
 Scan scanOf(const std::vector<Point2>& ends) {
-  Scan scan;
+  Scan scan = samples::scanTo(ends);
   scan.field.beam_spacing = 0.1;
-  for (const Point2& end : ends) {
-    Ray ray;
-    ray.end = end;
-    ray.range = end.norm();
-    ray.hit = true;
-    scan.rays.push_back(ray);
-  }
   return scan;
 }
 

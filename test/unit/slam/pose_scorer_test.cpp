@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/slam/pose_scorer.h"
 
+#include "grid/small_map.h"
 #include <gtest/gtest.h>
 
 #include "datmo_fusion/common/random.h"
@@ -25,18 +26,13 @@ std::vector<EndPoint> ends(std::size_t count, Random& random) {
 }
 
 OccupancyMap mapOf(const std::vector<EndPoint>& points) {
-  Scan scan;
+  std::vector<Point2> ends;
   for (const EndPoint& point : points) {
-    Ray ray;
-    ray.end = point.position;
-    ray.range = ray.end.norm();
-    ray.hit = true;
-    scan.rays.push_back(ray);
+    ends.push_back(point.position);
   }
   OccupancyMap map = smallMap();
   for (int i = 0; i < 5; ++i) {
-    scan.stamp = Stamp::fromSeconds(10.0 + 0.1 * i);
-    map.update(scan, std::vector<PointState>(points.size(), PointState::kUnknown), {});
+    samples::updateWith(map, samples::scanTo(ends, 0.1 * i));
   }
   return map;
 }
@@ -91,7 +87,7 @@ TEST(PoseScorer, BestIsTheOneThatAllLookUpsFind) {
     const auto poses = posesAbout(Pose2(0.3, -0.2, 0.02), spread, 300, random);
     const Pose2 best = PoseScorer(map, points).bestOf(poses);
     const Pose2& expected = poses[bestByAll(map, points, poses)];
-    EXPECT_EQ(best.x(), expected.x()) << spread;
+    EXPECT_EQ(best.position(), expected.position()) << spread;
     EXPECT_EQ(best.heading(), expected.heading()) << spread;
   }
 }
@@ -101,7 +97,7 @@ TEST(PoseScorer, OfEqualPosesTheFirstIsBest) {
   const auto points = ends(40, random);
   const OccupancyMap map = smallMap();  // all cells are alike
   const auto poses = posesAbout(Pose2(), 1.0, 10, random);
-  EXPECT_EQ(PoseScorer(map, points).bestOf(poses).x(), poses.front().x());
+  EXPECT_EQ(PoseScorer(map, points).bestOf(poses).position(), poses.front().position());
 }
 
 TEST(PoseScorer, WithoutPointsNothingFits) {

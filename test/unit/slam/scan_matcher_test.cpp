@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/slam/scan_matcher.h"
 
+#include "grid/small_map.h"
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
@@ -32,15 +33,12 @@ std::vector<Point2> corridor() {
 
 /// One scan of the points from this pose.
 Scan scanOf(const std::vector<Point2>& points, const Pose2& pose) {
-  Scan scan;
-  scan.field.beam_spacing = degrees(1.0);
+  std::vector<Point2> ends;
   for (const Point2& point : points) {
-    Ray ray;
-    ray.end = pose.inverse() * point;
-    ray.range = ray.end.norm();
-    ray.hit = true;
-    scan.rays.push_back(ray);
+    ends.push_back(pose.inverse() * point);
   }
+  Scan scan = samples::scanTo(ends);
+  scan.field.beam_spacing = degrees(1.0);
   return scan;
 }
 

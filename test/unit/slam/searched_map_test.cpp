@@ -3,30 +3,13 @@
 
 #include <cmath>
 
+#include "grid/small_map.h"
 #include <gtest/gtest.h>
 
 namespace datmo::searched_map_test {
 namespace {
 
-/// A map of 10 m x 10 m in cells of 1 m about the origin, with a beam along x through the row above
-/// the x axis that ends in the cell of x = 4.5 m, three times in 2 s.
-OccupancyMap mapWithABeam() {
-  OccupancyMapOptions options;
-  options.window = {10.0, 10.0, 1.0};
-  OccupancyMap map(options);
-  for (int i = 0; i < 3; ++i) {
-    Scan scan;
-    scan.stamp = Stamp::fromSeconds(100.0 + i);
-    Ray ray;
-    ray.origin = Point2(-4.5, 0.5);
-    ray.end = Point2(4.5, 0.5);
-    ray.range = 9.0;
-    ray.hit = true;
-    scan.rays = {ray};
-    map.update(scan, {PointState::kUnknown}, Pose2());
-  }
-  return map;
-}
+using samples::mapWithABeam;
 
 TEST(SearchedMapTest, KnowsHowFarSurfacesAre) {
   const SearchedMap map(mapWithABeam());

@@ -15,6 +15,14 @@ def add_truth(parser):
                         help="bag with the truth (default: the run's own, of run_bag --with-truth)")  # fmt: skip
 
 
+def add_grids(parser, topic):
+    """Run and drive of KITTI, and --topic of its grids; topic: the default."""
+    add = parser.add_argument
+    add("run", type=Path, metavar="RUN.bag", help="bag of run_bag --low-level-fusion --write-grids")
+    add("drive", type=Path, metavar="DRIVE.bag", help="bag of kitti_to_bag --points --images")
+    add("--topic", default=topic, help="of the grids (default %(default)s)")
+
+
 def add_region(parser, default_range):
     """The options --range and --half-angle, for region_of(); default_range: m."""
     command_line.add_number(parser, "--range", default_range, "M",

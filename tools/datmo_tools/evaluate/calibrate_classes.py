@@ -11,7 +11,7 @@ from datmo_tools.errors import InputError
 from datmo_tools.evaluate.arguments import add_region, region_of
 from datmo_tools.evaluate.class_tally import NOTHING, reports_of
 from datmo_tools.evaluate.object_lists import read_lists
-from datmo_tools.evaluate.object_scores import score_list
+from datmo_tools.evaluate.object_scores import score_lists
 from datmo_tools.evaluate.truth import NONE, Asked, Truth
 from datmo_tools.whole_files import write_whole
 
@@ -98,13 +98,9 @@ def _reports(run, drive, topic, region):
     lists = read_lists(run, [topic]).get(topic)
     if not lists:
         raise InputError(f"{run}: nothing on {topic}, expected a bag of run_bag --mono")
-    reports = []
-    for item in lists:
-        truths = truth.at(item.stamp, Asked(region, NONE))
-        if truths is not None:
-            score = score_list(item.objects, truths, item.viewpoint)
-            reports += reports_of(item.objects, truths, score, region)
-    return reports
+    judged = truth.beside(lists, Asked(region, NONE))
+    return [report for item, score in zip(judged, score_lists(judged))
+            for report in reports_of(item.objects, item.truths, score, region)]  # fmt: skip
 
 
 def _run(values):

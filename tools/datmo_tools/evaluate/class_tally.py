@@ -32,7 +32,7 @@ def reports_of(objects, truths, score, region):
     """List of Report: the objects of a known class that are in the region and are one true object, or
     near none.
 
-    objects, truths, score: as in score_list; region: in which objects count.
+    objects, truths, score: as in score_lists; region: in which objects count.
     """
     true_of = {i: truths[j] for i, j, _ in score.matches}
     reports = []

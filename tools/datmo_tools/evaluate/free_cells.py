@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """evaluate free_cells."""
 
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -11,6 +10,7 @@ from datmo_tools.bag_input import opened
 from datmo_tools.convert import kitti_messages, kitti_scans
 from datmo_tools.errors import InputError
 from datmo_tools.evaluate import road_plane
+from datmo_tools.evaluate.arguments import add_grids
 from datmo_tools.evaluate.grid_recordings import (
     CAMERA_INFOS,
     MOUNTS,
@@ -187,7 +187,4 @@ def evaluate(values):
 
 def add_arguments(parser):
     """Of this subcommand, for argparse."""
-    add = parser.add_argument
-    add("run", type=Path, metavar="RUN.bag", help="bag of run_bag --low-level-fusion --write-grids")
-    add("drive", type=Path, metavar="DRIVE.bag", help="bag of kitti_to_bag --points --images")
-    add("--topic", default="/grids/mono", help="of the grids (default %(default)s)")
+    add_grids(parser, "/grids/mono")

@@ -1,12 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Objects of one measurement against true ones: what is found, what is false, how far off."""
 
+import json
+import sys
+import tempfile
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
 from shapely.geometry import MultiPoint, Point
 
+from datmo_tools import programs
+from datmo_tools.errors import InputError
 from datmo_tools.evaluate.object_lists import Seen
 from datmo_tools.evaluate.outlines import Outline, corners, offset
 
@@ -65,11 +70,30 @@ class ListScore(NamedTuple):
     near: np.ndarray  # n objects: whether a true object is near
 
 
-def score_list(objects, truths, viewpoint=(0.0, 0.0)):
-    """ListScore.
+class ListWithTruth(NamedTuple):
+    """A list of objects and what was true at its stamp."""
 
-    objects: of Seen; truths: of TrueState at the stamp of the list; viewpoint: of the sensor, m.
-    """
+    objects: list  # of Seen
+    truths: list  # of TrueState
+    viewpoint: tuple = (0.0, 0.0)  # of the sensor, m
+
+
+def score_lists(lists):
+    """ListScore of each ListWithTruth. Matches: as many pairs as can be, each object and each true
+    one once, with the least sum of distances; of equal ones that with the nearer centers. Raises
+    InputError."""
+    distances = [_distances(item) for item in lists]
+    candidates = [_candidates(*both) for both in zip(lists, distances)]
+    return [
+        ListScore([(i, j, _errors(item.objects[i], item.truths[j], item.viewpoint)) for i, j in chosen],
+                  np.any(apart <= 1.0, axis=1))
+        for item, apart, chosen in zip(lists, distances, _chosen(candidates))
+    ]  # fmt: skip
+
+
+def _distances(given):
+    """scaled_distance of each object from each true one, infinity: surely not near."""
+    objects, truths, viewpoint = given
     distances = np.full((len(objects), len(truths)), np.inf)
     positions = np.array([truth.pose[:2] for truth in truths]).reshape(-1, 2)
     velocities = np.array([truth.velocity for truth in truths]).reshape(-1, 2)
@@ -79,11 +103,7 @@ def score_list(objects, truths, viewpoint=(0.0, 0.0)):
         apart = np.linalg.norm(positions + velocities * item.delay - point, axis=1)
         for j in np.flatnonzero(apart <= halves + _along_gate(point, viewpoint)):
             distances[i, j] = scaled_distance(point, truths[j].after(item.delay), viewpoint)
-    matches = [
-        (i, j, _errors(objects[i], truths[j].after(objects[i].delay), viewpoint))
-        for i, j in _pairs(distances, objects, truths)
-    ]
-    return ListScore(matches, np.any(distances <= 1.0, axis=1))
+    return distances
 
 
 def scaled_distance(point, truth, viewpoint):
@@ -104,21 +124,34 @@ def _along_gate(point, viewpoint):
     return max(NEAR_ALONG, THESIS_GATE * reach)
 
 
-def _pairs(distances, objects, truths):
-    """As many pairs as can be, each object and each true one once, with the least sum of distances;
-    of equal ones that with the nearer centers."""
+def _candidates(given, distances):
+    """What is near: list of [object, true one, gain]."""
+    objects, truths, _ = given
     is_near = distances <= 1.0
     centers = [[np.hypot(*(item.pose[:2] - truth.pose[:2])) for truth in truths] for item in objects]
     costs = np.where(is_near, distances + CENTER_WEIGHT * np.reshape(centers, is_near.shape), 0.0)
     # Worth more than any sum of distances: one more match always pays.
-    gains = np.where(is_near, 1.0 + len(truths) + np.sum(costs.max(axis=0, initial=0.0)) - costs, 0.0)
-    found = zip(*linear_sum_assignment(-gains))
-    return [(int(i), int(j)) for i, j in found if is_near[i, j]]
+    gains = 1.0 + len(truths) + np.sum(costs.max(axis=0, initial=0.0)) - costs
+    return [[int(i), int(j), float(gains[i, j])] for i, j in zip(*np.nonzero(is_near))]
+
+
+def _chosen(candidates):
+    """Of each list the pairs (object, true one) that score_run's matcher takes."""
+    with tempfile.TemporaryDirectory(prefix="choose_pairs_") as folder:
+        file = Path(folder) / "lists.json"
+        file.write_text(json.dumps(candidates), encoding="utf-8")
+        program = Path(programs.find("choose_pairs", sys.argv[0]))
+        try:
+            indices = json.loads(programs.output_of(program, file))
+        except programs.StepFailed as error:
+            raise InputError(str(error)) from error
+    return [[pairs[index][:2] for index in taken] for pairs, taken in zip(candidates, indices)]
 
 
 def _errors(item, truth, viewpoint):
     """Of what the object saw of its near side."""
-    apart = offset(Outline(item, viewpoint), Outline(truth.box(), viewpoint))
+    there = truth.after(item.delay).box()
+    apart = offset(Outline(item, viewpoint), Outline(there, viewpoint))
     nees = np.nan
     if not np.any(np.isnan(apart.value)):
         covariance = apart.jacobian @ item.covariance @ apart.jacobian.T

@@ -35,7 +35,7 @@ class ObjectTally:
         self._errors = [[] for _ in range(bands)]
 
     def add(self, objects, truths, score, region):
-        """objects, truths, score: as in score_list; region: in which objects count."""
+        """objects, truths, score: as in score_lists; region: in which objects count."""
         self.lists += 1
         found = {j: i for i, j, _ in score.matches}
         matched = {i for i, _, _ in score.matches}

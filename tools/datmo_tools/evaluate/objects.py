@@ -7,7 +7,7 @@ from datmo_tools.errors import InputError
 from datmo_tools.evaluate.arguments import add_region, add_truth, region_of
 from datmo_tools.evaluate.class_tally import calibration, class_sections, confusion, reports_of
 from datmo_tools.evaluate.object_lists import read_lists
-from datmo_tools.evaluate.object_scores import score_list
+from datmo_tools.evaluate.object_scores import score_lists
 from datmo_tools.evaluate.object_tally import ALL, CLASSES, MOVING, ObjectTally
 from datmo_tools.evaluate.report import Section
 from datmo_tools.evaluate.truth import ANY, NONE, Asked, Region, Truth
@@ -76,12 +76,10 @@ def _score_topic(lists, truth, asked):
     region = asked.region
     tally = ObjectTally([*(edge for edge in BANDS if edge < region.range), region.range])
     reports = []
-    for item in lists:
-        truths = truth.at(item.stamp, asked)
-        if truths is not None:
-            result = score_list(item.objects, truths, item.viewpoint)
-            tally.add(item.objects, truths, result, region)
-            reports += reports_of(item.objects, truths, result, region)
+    judged = truth.beside(lists, asked)
+    for item, result in zip(judged, score_lists(judged)):
+        tally.add(item.objects, item.truths, result, region)
+        reports += reports_of(item.objects, item.truths, result, region)
     without = len(lists) - tally.lists
     return {"visible_to": asked.sensor, "lists_without_truth": without, **tally.result(),
             "confusion": confusion(reports, tally.edges),

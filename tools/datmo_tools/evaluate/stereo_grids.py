@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """evaluate stereo_grids."""
 
-from pathlib import Path
 
 import numpy as np
 
@@ -9,6 +8,7 @@ from datmo_tools import command_line
 from datmo_tools.bag_input import opened
 from datmo_tools.convert import kitti_messages
 from datmo_tools.errors import InputError
+from datmo_tools.evaluate.arguments import add_grids
 from datmo_tools.evaluate.grid_recordings import (
     CAMERA_INFOS,
     MOUNTS,
@@ -179,10 +179,7 @@ def evaluate(values):
 
 def add_arguments(parser):
     """Of this subcommand, for argparse."""
-    add = parser.add_argument
-    add("run", type=Path, metavar="RUN.bag", help="bag of run_bag --low-level-fusion --write-grids")
-    add("drive", type=Path, metavar="DRIVE.bag", help="bag of kitti_to_bag --points --images")
-    add("--topic", default="/grids/stereo", help="of the grids (default %(default)s)")
+    add_grids(parser, "/grids/stereo")
     command_line.add_number(parser, "--disparity-sigma", DISPARITY_SIGMA, "PX",
                             "standard deviation of disparities, px: how far off a cell may "
                             "be")  # fmt: skip

@@ -8,7 +8,7 @@ import numpy as np
 
 from datmo_tools import transforms
 from datmo_tools.errors import InputError
-from datmo_tools.evaluate.object_scores import TrueState
+from datmo_tools.evaluate.object_scores import ListWithTruth, TrueState
 from datmo_tools.pose_path import planar, read_messages, read_path
 from datmo_tools.stamps import NANOSECONDS
 
@@ -92,6 +92,12 @@ class Truth:
         if abs(late) > MAX_GAP or self._poses.distance_from(stamp) > MAX_GAP * NANOSECONDS:
             return None
         return _states(self._objects[nearest], self.base_at(stamp), late, asked)
+
+    def beside(self, lists, asked):
+        """List of ListWithTruth, of each of the lists (SeenList) that has truth near it in time."""
+        states = [(item, self.at(item.stamp, asked)) for item in lists]
+        return [ListWithTruth(item.objects, truths, item.viewpoint)
+                for item, truths in states if truths is not None]  # fmt: skip
 
     def base_at(self, stamp):
         """True pose of base_link in the map (x, y, yaw) at `stamp` (ns)."""

@@ -71,7 +71,7 @@ def stereo_drive(repository, programs, folder):
     arguments = ("fusion:=recommended", "risk:=true", "merge_scans:=true", "front_scan:=scan")
     nodelets = (*SCANNER_NODELETS, "scan_merge", "stereo_objects", "stereo_tracker", "track_fusion", "road_border")
     options = ("--fusion", "recommended", "--merge-scans", "front_scan:=/scan")
-    return Drive(bag, config, arguments, options, STEREO_TOPICS, nodelets, tuple(machines_run.PLACES))
+    return Drive(bag, config, arguments, options, STEREO_TOPICS, nodelets, tuple(machines_run.COMPUTER_OF))
 
 
 def sameness(one, other):

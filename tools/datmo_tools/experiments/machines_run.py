@@ -19,7 +19,7 @@ from datmo_tools.pose_path import read_messages
 from datmo_tools.programs import call
 
 COMPUTERS = 3
-PLACES = {"sensors": 0, "stereo": 1, "perception": 2, "risk": 0}  # which computer has which part
+COMPUTER_OF = {"sensors": 0, "stereo": 1, "perception": 2, "risk": 0}  # which computer has which part
 PORT = 11311
 PATIENCE = 180.0  # s, for all to be loaded; of what it takes on a machine that has much to do many times over
 RUN_UP = 5.0  # s, from the word to start to the first message: a first packet that is lost is sent again after 1 s, and 2 s
@@ -58,14 +58,14 @@ class Result(NamedTuple):
 def run(drive, network, split, launch_file, folder, kills=()):
     """A Result.
 
-    network: LossyNetwork of COMPUTERS; split: each part is at its place, else all are on the first
+    network: LossyNetwork of COMPUTERS; split: each part is on its computer, else all are on the first
     computer; launch_file: perception.launch; folder (Path): where logs are left; kills: in their order.
     """
-    place = (lambda part: PLACES[part]) if split else (lambda _part: 0)
+    computer_of = (lambda part: COMPUTER_OF[part]) if split else (lambda _part: 0)
     with _Processes(network, launch_file.parents[1], folder) as processes:
         processes.start_roslaunch(_launch_words(drive, network, split, launch_file, folder))
-        recorder = processes.start_tool("record_now", place("perception"), folder / "recorded.json")
-        players = [processes.start_tool("play_now", place(part), drive.bag, "--seconds", str(drive.seconds),
+        recorder = processes.start_tool("record_now", computer_of("perception"), folder / "recorded.json")
+        players = [processes.start_tool("play_now", computer_of(part), drive.bag, "--seconds", str(drive.seconds),
                                         "--nodelets", *drive.nodelets, "--topics", *topics)
                    for part, topics in drive.topics.items()]
         for player in players:
@@ -74,7 +74,7 @@ def run(drive, network, split, launch_file, folder, kills=()):
         for player in players:
             player.stdin.write(f"{begin}\n")
             player.stdin.flush()
-        killed = [[kill.part, _kill(network, place(kill.part), kill, begin, split)] for kill in kills]
+        killed = [[kill.part, _kill(network, computer_of(kill.part), kill, begin, split)] for kill in kills]
         for player in players:
             processes.expect(player, "played")
         recorder.stdin.close()
@@ -89,12 +89,12 @@ def on_bag(drive, programs, folder):
     call(programs / "run_bag", drive.bag, computed, "--config", drive.config, "--quiet", *drive.options)
     with opened(drive.bag) as bag:
         begin = bag.get_start_time()
-    messages = [[message.header.stamp.to_sec(), math.nan, places(message)]
+    messages = [[message.header.stamp.to_sec(), math.nan, track_positions(message)]
                 for message, _ in read_messages(computed, "/tracks")]
     return Result(begin, {"tracks": messages}, [], [])
 
 
-def places(message):
+def track_positions(message):
     """Of the tracks in a message: id, x and y (m)."""
     return [(track.id, track.pose.position.x, track.pose.position.y) for track in getattr(message, "tracks", ())]
 
@@ -120,7 +120,7 @@ def _launch_words(drive, network, split, launch_file, folder):
     words = [str(launch_file), f"config:={drive.config}", *drive.arguments]
     if split:
         words += [f"machines:={_write_machines(network, folder)}"]
-        words += [f"{part}_machine:={part}" for part in PLACES]
+        words += [f"{part}_machine:={part}" for part in COMPUTER_OF]
     spaces = [f"{network.address(i)}={network.name(i)}" for i in range(COMPUTERS)]
     return [sys.executable, "-m", "datmo_tools", "experiments.namespaced_roslaunch", *spaces, "--",
             "--port", str(PORT), *words]
@@ -129,7 +129,7 @@ def _launch_words(drive, network, split, launch_file, folder):
 def _write_machines(network, folder):
     """The launch file with the machines, and for each who sets its environment."""
     tags = ""
-    for part, computer in PLACES.items():
+    for part, computer in COMPUTER_OF.items():
         loader = folder / f"computer_{computer}.sh"
         loader.write_text(f'#!/bin/sh\nexport ROS_IP={network.address(computer)}\nexec "$@"\n', encoding="utf-8")
         loader.chmod(0o755)

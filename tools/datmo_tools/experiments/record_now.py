@@ -15,7 +15,7 @@ import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 
 from datmo_fusion.msg import ObjectArray, RiskArray, TrackArray
-from datmo_tools.experiments.machines_run import places
+from datmo_tools.experiments.machines_run import track_positions
 from datmo_tools.whole_files import write_whole
 
 QUEUE = 200
@@ -37,7 +37,7 @@ class Recorder:
 
     def _take(self, message, topic):
         self.last = time.time()
-        self.messages[topic].append((message.header.stamp.to_sec(), self.last, places(message)))
+        self.messages[topic].append((message.header.stamp.to_sec(), self.last, track_positions(message)))
 
     def _diagnose(self, message):
         for status in message.status:

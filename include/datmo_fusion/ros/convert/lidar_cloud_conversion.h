@@ -5,6 +5,7 @@
 
 #include <sensor_msgs/PointCloud2.h>
 
+#include "datmo_fusion/common/options.h"
 #include "datmo_fusion/ros/stage/input_error.h"
 #include "datmo_fusion/sensor_model/lidar_points.h"
 
@@ -27,5 +28,8 @@ struct ConvertedCloud {
 /// Throws InputError as CloudPoints does: `empty_cloud`, `missing_field`, `wrong_field_type`,
 /// `big_endian`, `wrong_size`, `no_valid_point`.
 ConvertedCloud toLidarCloud(const sensor_msgs::PointCloud2& message, double max_sweep);
+
+/// The option of that name.
+void visitMaxSweep(OptionVisitor& visitor, double& max_sweep);
 
 }  // namespace datmo

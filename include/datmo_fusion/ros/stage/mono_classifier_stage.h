@@ -51,7 +51,7 @@ struct MonoClassifierStageOptions {
 ///
 /// Bad input is dropped through the monitor, never thrown: what CameraInput and grayOrColor refuse,
 /// `blank_image` (black, white), `frozen_image` (the same pixels again), `old_image` (older than
-/// the newest objects by more than `max_age`), `overtaken_image` (a newer one came before the
+/// the newest objects by more than `max_age`), `superseded_image` (a newer one came before the
 /// detector had time), `missing_transform`. When the clock jumps back all objects are forgotten.
 class MonoClassifierStage : public Stage {
  public:

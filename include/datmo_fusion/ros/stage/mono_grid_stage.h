@@ -45,7 +45,7 @@ struct MonoGridStageOptions {
 ///
 /// Bad input is dropped or warned of through the monitor, never thrown: what CameraInput,
 /// ExposureCheck and toScan refuse, `no_scan` (none of the image's time came within `max_wait`; an
-/// image that is older than the scans has none either), `no_motion`, `overtaken_image`,
+/// image that is older than the scans has none either), `no_motion`, `superseded_image`,
 /// `missing_transform`. When the clock jumps back the road's colors are forgotten.
 class MonoGridStage : public Stage {
  public:

@@ -31,20 +31,20 @@ struct DeviceMeasured {
   ClockState clock;
 };
 
-using DeviceNews = std::variant<DeviceConnected, DeviceFault, DeviceWarning, DeviceMeasured>;
+using DeviceEvent = std::variant<DeviceConnected, DeviceFault, DeviceWarning, DeviceMeasured>;
 
-/// What a device's thread reports to another thread. Measurements and warnings that nobody
-/// takes are overtaken by newer ones; reports on the connection are rare, and kept. Thread safe.
-class DeviceNewsQueue {
+/// What a device's thread reports to another thread. If nobody takes them, newer measurements and
+/// warnings replace older ones; reports on the connection are rare, and kept. Thread safe.
+class DeviceEventQueue {
  public:
   /// `longest`: measurements that wait at most, and as many warnings.
-  explicit DeviceNewsQueue(std::size_t longest) : longest_(longest) {}
+  explicit DeviceEventQueue(std::size_t longest) : longest_(longest) {}
 
-  void put(DeviceNews news);
+  void put(DeviceEvent event);
 
   struct Taken {
-    std::deque<DeviceNews> news;  ///< in their order
-    std::uint64_t overtaken = 0;  ///< measurements, ever
+    std::deque<DeviceEvent> events;  ///< in their order
+    std::uint64_t discarded = 0;     ///< measurements, ever
   };
   /// All that waits.
   Taken takeAll();
@@ -52,8 +52,8 @@ class DeviceNewsQueue {
  private:
   std::size_t longest_;
   std::mutex mutex_;
-  std::deque<DeviceNews> news_;
-  std::uint64_t overtaken_ = 0;
+  std::deque<DeviceEvent> events_;
+  std::uint64_t discarded_ = 0;
 };
 
 }  // namespace datmo
