@@ -49,7 +49,7 @@ void boxFit(benchmark::State& state) {
   const std::vector<Point2> points = cornerOfCar(static_cast<int>(state.range(0)));
   const Point2 scanner(-10.0, -5.0);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(fitBox(points, scanner, kRangeSigma));
+    benchmark::DoNotOptimize(fitBox(points, scanner, {kRangeSigma}));
   }
 }
 BENCHMARK(boxFit)->ArgName("points")->Arg(3)->Arg(10)->Arg(100)->Unit(benchmark::kMicrosecond);

@@ -7,11 +7,18 @@
 
 #include <Eigen/LU>
 
+#include "datmo_fusion/common/square.h"
+
 namespace datmo {
 
 namespace {
 
 constexpr std::size_t kStanding = static_cast<std::size_t>(MotionMode::kStanding);
+
+/// Standard deviation of the velocity from which something comes to stand, per that with which it
+/// starts (1 m/s): as the filter knows it, which follows hard braking (8 m/s^2) within a third of a
+/// second.
+constexpr double kStopPerStart = 3.0;
 
 /// First and second moments, one below the other, so that mixtures are sums: one column per mode.
 constexpr int kMoments = kTrackState + kTrackState * kTrackState;
@@ -45,6 +52,16 @@ StateEstimate estimateOf(const TrackState& origin, const Moments& moments) {
                                offset * offset.transpose()};
 }
 
+/// Mean over the velocity v of exp(-v^2 / (2 stop_variance)): of what would come to stand within
+/// the step, the share that is slow enough to.
+double stopShare(const StateEstimate& estimate, const ImmStep& step) {
+  const Eigen::Vector2d velocity = estimate.mean.segment<2>(2);
+  Eigen::Matrix2d covariance = estimate.covariance.block<2, 2>(2, 2);
+  covariance.diagonal().array() += step.stop_variance;
+  return step.stop_variance / std::sqrt(covariance.determinant()) *
+         std::exp(-0.5 * velocity.dot(covariance.inverse() * velocity));
+}
+
 }  // namespace
 
 void ImmOptions::visit(OptionVisitor& visitor) {
@@ -57,6 +74,7 @@ void ImmOptions::visit(OptionVisitor& visitor) {
 ImmStep immStep(const ImmOptions& options, double seconds, ObjectClass object_class) {
   const TargetMotionOptions& motion = options.motionOf(object_class);
   return {seconds, targetMotions(motion, seconds), startVariance(motion),
+          square(kStopPerStart * motion.start_speed_std),
           transitionMatrix(countsOfSojourns(options.transitions), seconds)};
 }
 
@@ -86,7 +104,15 @@ void ImmFilter::predict(const ImmStep& step) {
   const ModeMatrix& transition =
       transitions_ ? transitions_->predict(step.seconds) : step.transition;
   const ModeMoments moments = momentsAbout(combined_.mean, modes_, probabilities_);
-  const ModeMatrix joint = probabilities_.asDiagonal() * transition;
+  stop_share_ = stopShare(combined_, step);
+  ModeMatrix joint = probabilities_.asDiagonal() * transition;
+  for (int from = 0; from < kMotionModes; ++from) {
+    if (from != static_cast<int>(kStanding)) {
+      const double too_fast = (1.0 - stop_share_) * joint(from, kStanding);
+      joint(from, kStanding) -= too_fast;
+      joint(from, from) += too_fast;
+    }
+  }
   probabilities_before_ = probabilities_;
   probabilities_ = joint.colwise().sum().transpose();
   for (std::size_t to = 0; to < modes_.size(); ++to) {
@@ -131,12 +157,13 @@ double ImmFilter::updateModes(const Measurement& measured, double min_probabilit
     double& probability = probabilities_[static_cast<int>(mode)];
     if (probability > 0.0) {
       modes_[mode] = datmo::update(modes_[mode], measured);
-      probability = std::max(weights[static_cast<int>(mode)] / total, min_probability);
+      const double min = mode == kStanding ? stop_share_ * min_probability : min_probability;
+      probability = std::max(weights[static_cast<int>(mode)] / total, min);
     }
   }
   probabilities_ /= probabilities_.sum();
   if (transitions_ && learn) {
-    transitions_->update(probabilities_before_, likelihoods.relative);
+    transitions_->update(probabilities_before_, likelihoods.relative, stop_share_);
   }
   combine();
   return likelihoods.log_scale + std::log(total);

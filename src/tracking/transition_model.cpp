@@ -169,11 +169,20 @@ const ModeMatrix& TransitionModel::predict(double seconds) {
   return matrix_;
 }
 
-void TransitionModel::update(const ModeVector& before, const ModeVector& likelihoods) {
+void TransitionModel::update(const ModeVector& before, const ModeVector& likelihoods,
+                             double stop_share) {
   if (seconds_ <= 0.0) {
     return;
   }
-  const ModeMatrix joint = before.asDiagonal() * matrix_ * likelihoods.asDiagonal();
+  constexpr int kStanding = static_cast<int>(MotionMode::kStanding);
+  ModeMatrix joint = before.asDiagonal() * matrix_ * likelihoods.asDiagonal();
+  for (int from = 0; from < kMotionModes; ++from) {
+    if (from != kStanding) {
+      joint(from, kStanding) =
+          before[from] * matrix_(from, kStanding) *
+          (stop_share * likelihoods[kStanding] + (1.0 - stop_share) * likelihoods[from]);
+    }
+  }
   const double evidence = joint.sum();
   if (!(evidence > 0.0)) {
     return;  // less than a double resolves

@@ -24,8 +24,9 @@ struct ImmOptions : ClassMotionOptions {
 struct ImmStep {
   double seconds = 0.0;
   std::array<LinearMotion, kMotionModes> motions;
-  TrackState start_variance;  ///< see startVariance
-  ModeMatrix transition;      ///< of the sojourn times; row: from, column: to; rows sum to 1
+  TrackState start_variance;   ///< see startVariance
+  double stop_variance = 1.0;  ///< m^2/s^2, of the velocity of what may come to stand
+  ModeMatrix transition;       ///< of the sojourn times; row: from, column: to; rows sum to 1
 };
 
 /// The step of `seconds` >= 0.
@@ -43,9 +44,11 @@ ModeVector priorModeProbabilities(const ImmOptions& options);
 /// each step (Blom and Bar-Shalom 1988; Bar-Shalom, Li, Kirubarajan 2001, 11.6.6; thesis 3.3.4).
 ///
 /// A target that ceases to stand may have any velocity: what comes from the standing mode into
-/// another one is mixed in with ImmStep::start_variance on top. A mode of probability 0 takes no
-/// part, and costs nothing, until the transition probabilities lead to it. Of fixed size; copies
-/// are cheap.
+/// another one is mixed in with ImmStep::start_variance on top. Nor does it come to stand within a
+/// step from more than ImmStep::stop_variance: the transition depends on the velocity (Seah and
+/// Hwang, State estimation for stochastic linear hybrid systems with continuous-state-dependent
+/// transitions, 2009). A mode of probability 0 takes no part, and costs nothing, until the
+/// transition probabilities lead to it. Of fixed size; copies are cheap.
 class ImmFilter {
  public:
   /// All modes start from the same estimate. Probabilities sum to 1. With `transitions`, the filter
@@ -96,6 +99,7 @@ class ImmFilter {
   std::array<StateEstimate, kMotionModes> modes_;
   ModeVector probabilities_;
   ModeVector probabilities_before_;  ///< before the last prediction
+  double stop_share_ = 1.0;          ///< 0 to 1, of the jumps into standing that its speed allows
   StateEstimate combined_;
   std::optional<TransitionModel> transitions_;
 };

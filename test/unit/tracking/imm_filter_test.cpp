@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/tracking/imm_filter.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -57,14 +58,20 @@ TEST(ImmFilter, EstimatesVelocityAndAccelerationOfABrakingCar) {
   EXPECT_NEAR(filter.estimate().mean[4], -2.0, 0.7);
 }
 
+/// A step in which the velocity has no say in the modes.
+ImmStep withStopFromAnySpeed() {
+  ImmStep step = immStep(ImmOptions(), kPeriod);
+  step.stop_variance = 1e12;
+  return step;
+}
+
 TEST(ImmFilter, MissesGrowTheCovarianceAndTendToThePriorModes) {
-  const ImmOptions options;
   ImmFilter filter = follow([](double t) { return Point2(5.0 * t, 0.0); }, 4.0);
+  const ImmStep step = withStopFromAnySpeed();
   double trace = filter.estimate().covariance.topLeftCorner<4, 4>().trace();
   for (int i = 0; i < 20; ++i) {
-    const ModeVector expected =
-        immStep(options, kPeriod).transition.transpose() * filter.modeProbabilities();
-    filter.predict(immStep(options, kPeriod));
+    const ModeVector expected = step.transition.transpose() * filter.modeProbabilities();
+    filter.predict(step);
     EXPECT_TRUE(filter.modeProbabilities().isApprox(expected, 1e-12));
     const double expand = filter.estimate().covariance.topLeftCorner<4, 4>().trace();
     EXPECT_GT(expand, trace);
@@ -83,7 +90,7 @@ TEST(ImmFilter, OneMixingByHand) {
 }
 
 TEST(ImmFilter, WithEqualModesItIsOneKalmanFilter) {
-  ImmStep step = immStep(ImmOptions(), kPeriod);
+  ImmStep step = withStopFromAnySpeed();
   step.motions.fill(step.motions[0]);
   step.start_variance.setZero();
   ImmFilter filter(startAt(Point2::Zero()), priorModeProbabilities(ImmOptions()));
@@ -106,7 +113,7 @@ TEST(ImmFilter, WithEqualModesItIsOneKalmanFilter) {
 TEST(ImmFilter, AMeasurementFarAwayUnderflowsNothing) {
   const ImmOptions options;
   ImmFilter filter = follow([](double t) { return Point2(5.0 * t, 0.0); }, 4.0);
-  filter.predict(immStep(options, kPeriod));
+  filter.predict(withStopFromAnySpeed());
   const PositionMeasurement far{Point2(1e4, -1e4), Eigen::Matrix2d::Identity() * 1e-4};
   EXPECT_TRUE(std::isfinite(filter.logLikelihood(far)));
   filter.update(far, options.min_probability);
@@ -220,6 +227,28 @@ TEST(ImmFilter, AMeasuredVelocityTellsAWalkerFromWhatStands) {
     EXPECT_NEAR(filter.estimate().mean[2], speed, 0.2);
     EXPECT_EQ(filter.modeProbabilities()[kStanding] > 0.5, speed == 0.0);
   }
+}
+
+TEST(ImmFilter, WhatIsFastDoesNotStandInTheNextScan) {
+  ImmFilter filter = follow([](double t) { return Point2(8.0 * t, 1.2 * t); }, 3.0);
+  // Of a parked car beside it: the speed along the line of sight is vague, that across is not.
+  const Eigen::Vector2d variance(13.7, 0.09);
+  const MeasuredVelocity of_another{{1.7, 0.0}, variance.asDiagonal()};
+  filter.predict(immStep(ImmOptions(), kPeriod));
+  filter.update(of_another, ImmOptions().min_probability);
+  EXPECT_LT(filter.modeProbabilities()[kStanding], 0.1);
+  EXPECT_GT(filter.estimate().mean[2], 6.0);
+}
+
+TEST(ImmFilter, WhatBrakesToAStopStands) {
+  constexpr double kDeceleration = 4.0;  // m/s^2
+  constexpr double kStopTime = 2.0;      // s
+  const auto braking = [=](double t) {
+    const double braked = std::min(t, kStopTime);
+    return Point2(kDeceleration * (kStopTime - 0.5 * braked) * braked, 0.0);
+  };
+  EXPECT_LT(follow(braking, 1.5).modeProbabilities()[kStanding], 0.1);
+  EXPECT_GT(follow(braking, kStopTime + 1.0).modeProbabilities()[kStanding], 0.5);
 }
 
 }  // namespace

@@ -38,6 +38,9 @@ class JumpSystem {
   void move(const ImmStep& step, const ModeMatrix& transition) {
     const int before = mode_;
     mode_ = drawnMode(transition.row(mode_).transpose());
+    if (mode_ == kStanding && before != kStanding && !isSlow(step)) {
+      mode_ = before;
+    }
     if (before == kStanding && mode_ != kStanding) {
       truth_ += drawn(step.start_variance.asDiagonal());
     }
@@ -65,6 +68,12 @@ class JumpSystem {
       values[i] = std::sqrt(std::max(0.0, solver.eigenvalues()[i])) * normal_(engine_);
     }
     return solver.eigenvectors() * values;
+  }
+
+  /// Whether it may come to stand: the slower, the more often.
+  bool isSlow(const ImmStep& step) {
+    const double squared = truth_.segment<2>(2).squaredNorm() / step.stop_variance;
+    return std::generate_canonical<double, 53>(engine_) < std::exp(-0.5 * squared);
   }
 
   int drawnMode(const ModeVector& probabilities) {
