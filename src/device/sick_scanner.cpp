@@ -14,7 +14,11 @@ constexpr double kMicrosecond = 1e-6;  // s
 
 constexpr std::string_view kScanTelegram = "sSN LMDscandata";
 constexpr std::string_view kStateAnswer = "sRA STlms";
-constexpr std::uint32_t kMeasuring = 7;  ///< its first word, of 0 (undefined) to 7
+
+/// The first word of the answer on its state.
+constexpr std::uint32_t kUndefined = 0;
+constexpr std::uint32_t kIdle = 3;
+constexpr std::uint32_t kMeasuring = 7;
 
 constexpr const char* kSilent = "silent_device";
 
@@ -84,13 +88,18 @@ std::string SickScanner::nextTelegram() {
 bool SickScanner::isWarmingUp() {
   connection_->send(colaTelegram("sRN STlms"));
   const std::string answer = nextTelegram();
+  if (startsWith(answer, kScanTelegram)) {
+    return true;  // it has just begun: the next telegram is a scan's, too
+  }
   if (!startsWith(answer, kStateAnswer)) {
     return false;
   }
   ColaWords words(answer);
   words.text("the kind of answer");
   words.text("its name");
-  return words.number("the scanner's state") < kMeasuring;
+  const auto state = words.number("the scanner's state");
+  // One that was stopped has to be started again, by a new connection.
+  return state > kUndefined && state < kMeasuring && state != kIdle;
 }
 
 std::string SickScanner::nextTelegramOnceWarm() {

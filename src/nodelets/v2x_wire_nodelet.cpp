@@ -70,7 +70,7 @@ class V2xWireNodelet : public nodelet::Nodelet {
       news_.push_back(std::move(news));
       if (news_.size() > kWaiting) {
         news_.pop_front();
-        ++overtaken_;
+        ++discarded_;
       }
     }
     bell_->ring();
@@ -81,7 +81,7 @@ class V2xWireNodelet : public nodelet::Nodelet {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       news.swap(news_);
-      monitor_->figure("datagrams overtaken", static_cast<double>(overtaken_));
+      monitor_->figure("datagrams discarded", static_cast<double>(discarded_));
     }
     for (const News& one : news) {
       std::visit([this](const auto& kind) { serve(kind); }, one);
@@ -145,7 +145,7 @@ class V2xWireNodelet : public nodelet::Nodelet {
   std::uint64_t sent_ = 0;
   std::mutex mutex_;  ///< of the next two
   std::deque<News> news_;
-  std::uint64_t overtaken_ = 0;
+  std::uint64_t discarded_ = 0;
   std::unique_ptr<CallbackBell> bell_;
   std::unique_ptr<DatagramListener> listener_;  ///< its thread ends before what it calls
 };

@@ -67,7 +67,9 @@ double stopShare(const StateEstimate& estimate, const ImmStep& step) {
 void ImmOptions::visit(OptionVisitor& visitor) {
   ClassMotionOptions::visit(visitor);
   visitor.group("transitions", [&] { transitions.visit(visitor); });
-  visitor.number({"min_probability", "1", "no mode becomes less likely, so that it can come back"},
+  visitor.number({"min_probability", "1",
+                  "no mode becomes less likely, so that it can come back; standing does, of what "
+                  "is too fast to stand"},
                  min_probability, {1e-9, 0.1});
 }
 

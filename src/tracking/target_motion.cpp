@@ -80,7 +80,7 @@ void TargetMotionOptions::visit(OptionVisitor& visitor) {
   visitor.number(
       {"start_speed_std", "m/s",
        "standard deviation of each component of the velocity of an object that ceases to "
-       "stand, in the scan in which it does"},
+       "stand, in the scan in which it does; three times this: of one that comes to stand"},
       start_speed_std, {1e-2, 10.0});
 }
 

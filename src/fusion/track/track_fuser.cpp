@@ -247,10 +247,9 @@ void TrackFuser::judge(FusedTarget& target, Stamp stamp,
     // Who has a track far away has one as much against chance as close by: both get rarer.
     const double range = track != nullptr ? 0.0 : target.ranges[source].value_or(0.0);
     reports.push_back({track != nullptr,
-                       track != nullptr
-                           ? std::min(track->existence_probability,
-                                      own.true_share.of(target.track.class_probabilities))
-                           : 0.0,
+                       track != nullptr ? std::min(track->existence_probability,
+                                                   own.true_share.of(track->class_probabilities))
+                                        : 0.0,
                        looked, own.detection.probability(target.track.class_probabilities, range),
                        by_two ? own.false_agreement_probability : kSurelyAgrees});
     seen_by_all = seen_by_all && (track != nullptr || looked < kCanSee);

@@ -27,7 +27,7 @@ LOOKING_TIME = 1.0
 
 
 class Share(NamedTuple):
-    """How many frames of how many; those in which little could be seen count as little."""
+    """How many of how many; what counts in part counts as that part."""
 
     part: float
     whole: float
