@@ -33,13 +33,12 @@ struct PointNoise {
 /// sides that face the scanner (after Zhang, Xu, Dong, Dolan, Efficient L-shape fitting for vehicle
 /// detection using laser scanners, 2017, with a bounded cost of the distance); then heading and
 /// sides are fitted together by robust total least squares. The heading's variance is that of the
-/// least squares, and the spread of the other headings that explain the points as well: few points
-/// may lie on one side or on two.
+/// least squares, as many times as points share their noise, and the spread of the other headings
+/// that explain the points as well: few points may lie on one side or on two.
 ///
 /// @param points m; none: std::invalid_argument. One: a box without size across the line of sight.
 /// @param scanner m, from where the points were seen, same frame
-BoxFit fitBox(const std::vector<Point2>& points, const Point2& scanner,
-              const PointNoise& expected);
+BoxFit fitBox(const std::vector<Point2>& points, const Point2& scanner, const PointNoise& expected);
 
 /// The rectangle across the line of sight, where points do not tell a heading: one side at their
 /// mean distance, its ends at the outermost of them; nothing is known of its heading.
