@@ -24,12 +24,12 @@ bool areDuplicates(const Track& a, const Track& b, double reach) {
   return !sharesSource(a, b) && (reaches(a.box, b.box, reach) || reaches(b.box, a.box, reach));
 }
 
-/// The surer one first. The order of nearly equal existences may change from one time to the next,
-/// and no object changes its id for that.
+/// The surer one first; of two that are published, the older one: their existences change from one
+/// time to the next, and no object changes its id for that.
 bool isSurer(const FusedTarget* a, const FusedTarget* b) {
   const auto rank = [](const FusedTarget& one) {
-    return std::make_tuple(!one.confirmed, !one.published, -one.track.existence_probability,
-                           one.id);
+    const double doubt = one.published ? 0.0 : -one.track.existence_probability;
+    return std::make_tuple(!one.confirmed, !one.published, doubt, one.id);
   };
   return rank(*a) < rank(*b);
 }
