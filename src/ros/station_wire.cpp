@@ -2,6 +2,7 @@
 #include "datmo_fusion/ros/station_wire.h"
 
 #include <algorithm>
+#include <string>
 
 #include <boost/make_shared.hpp>
 
@@ -16,6 +17,18 @@ namespace {
 
 /// From one low-frequency container to the next (EN 302 637-2, 6.1.3), s.
 constexpr double kLowFrequencyPeriod = 0.5;
+
+/// The first second of the year 2100: ros::Time ends in 2106.
+constexpr double kEnd = 4102444800.0;
+
+/// Throws WireError (`bad_time`) for what is no time of ROS: before 1970, as a CAM's short time may
+/// be while a simulated clock has just begun, or far in the future.
+void checkTime(Stamp stamp) {
+  if (stamp.nanoseconds <= 0 || stamp.seconds() >= kEnd) {
+    throw WireError("bad_time", "time " + std::to_string(stamp.seconds()) +
+                                    " s: expected seconds since 1970, before the year 2100");
+  }
+}
 
 /// The plane that touches the earth where we are.
 LocalPlane planeOf(const StationTracksMessage& message) {
@@ -54,6 +67,7 @@ StationTracksMessagePtr StationWire::received(std::string_view bytes, Stamp now)
   monitor_.received("datagrams", now);
   try {
     const StationMessage message = decodeStation(bytes, now, options_.messages);
+    checkTime(message.list.stamp);
     left_out_ += message.left_out;
     monitor_.figure("objects without number or position", static_cast<double>(left_out_));
     if (message.list.station == own_station_) {

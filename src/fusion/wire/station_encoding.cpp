@@ -120,7 +120,7 @@ bool isFinite(const StationTrack& track) {
   return track.position.allFinite() && track.velocity.allFinite() && track.covariance.allFinite() &&
          (track.covariance.diagonal().array() >= 0.0).all() && std::isfinite(track.heading) &&
          std::isfinite(track.heading_variance) && std::isfinite(track.length) &&
-         std::isfinite(track.width);
+         std::isfinite(track.width) && std::isfinite(track.existence_probability);
 }
 
 }  // namespace

@@ -62,6 +62,16 @@ TEST_F(StationWireTest, WhatCannotBeUsedIsCountedByReason) {
   EXPECT_EQ(monitor_.figures().at("messages of other kinds"), 1.0);
 }
 
+TEST_F(StationWireTest, WhatIsNoTimeOfRosIsCounted) {
+  // A CAM's time is told modulo 65.536 s: when a clock begins at 0, half of them lie before it.
+  for (int high_byte = 0; high_byte < 256; high_byte += 16) {
+    std::string cam = samples::wireCam().bytes();
+    cam[6] = static_cast<char>(high_byte);  // of the generation time, after a header of 48 bits
+    EXPECT_NO_THROW(wire_.received(cam, Stamp()));
+  }
+  EXPECT_EQ(samples::drops(monitor_, "bad_time"), 8U);
+}
+
 TEST_F(StationWireTest, OursGoOutAtMostAsOftenAsTheyMay) {
   std::size_t sent = 0;
   for (int step = 0; step <= 16; ++step) {
