@@ -2,7 +2,6 @@
 #include "datmo_fusion/ros/station_wire.h"
 
 #include <algorithm>
-#include <string>
 
 #include <boost/make_shared.hpp>
 
@@ -10,6 +9,7 @@
 #include "datmo_fusion/fusion/wire/wire_error.h"
 #include "datmo_fusion/ros/stage/input_error.h"
 #include "datmo_fusion/ros/stage/stamp_check.h"
+#include "datmo_fusion/ros/stage/stamp_range.h"
 
 namespace datmo {
 
@@ -17,18 +17,6 @@ namespace {
 
 /// From one low-frequency container to the next (EN 302 637-2, 6.1.3), s.
 constexpr double kLowFrequencyPeriod = 0.5;
-
-/// The first second of the year 2100: ros::Time ends in 2106.
-constexpr double kEnd = 4102444800.0;
-
-/// Throws WireError (`bad_time`) for what is no time of ROS: before 1970, as a CAM's short time may
-/// be while a simulated clock has just begun, or far in the future.
-void checkTime(Stamp stamp) {
-  if (stamp.nanoseconds <= 0 || stamp.seconds() >= kEnd) {
-    throw WireError("bad_time", "time " + std::to_string(stamp.seconds()) +
-                                    " s: expected seconds since 1970, before the year 2100");
-  }
-}
 
 /// The plane that touches the earth where we are.
 LocalPlane planeOf(const StationTracksMessage& message) {
@@ -67,7 +55,7 @@ StationTracksMessagePtr StationWire::received(std::string_view bytes, Stamp now)
   monitor_.received("datagrams", now);
   try {
     const StationMessage message = decodeStation(bytes, now, options_.messages);
-    checkTime(message.list.stamp);
+    checkStampRange(message.list.stamp);
     left_out_ += message.left_out;
     monitor_.figure("objects without number or position", static_cast<double>(left_out_));
     if (message.list.station == own_station_) {
@@ -75,6 +63,9 @@ StationTracksMessagePtr StationWire::received(std::string_view bytes, Stamp now)
       return nullptr;
     }
     return boost::make_shared<StationTracksMessage>(toMessage(message.list, message.plane));
+  } catch (const InputError& error) {
+    monitor_.dropped(error);
+    return nullptr;
   } catch (const WireError& error) {
     if (error.reason() == "other_message") {
       monitor_.figure("messages of other kinds", static_cast<double>(++others_));

@@ -250,8 +250,10 @@ TrackList StationTracks::merged(Stamp stamp) {
   std::vector<Candidate> kept;
   for (const Candidate& one : candidates) {
     const bool is_known = std::any_of(kept.begin(), kept.end(), [&](const Candidate& other) {
-      return other.station != one.station &&
-             compare(other.track, one.track, options_.comparison).log_likelihood_ratio > 0.0;
+      // A track that moved to another part of its station's list is in both for a while.
+      return other.station == one.station
+                 ? other.track.id == one.track.id
+                 : compare(other.track, one.track, options_.comparison).log_likelihood_ratio > 0.0;
     });
     counts_.twice += is_known ? 1 : 0;
     if (!is_known) {

@@ -48,8 +48,13 @@ RadarObjectsStage::RadarObjectsStage(const Checked<RadarObjectsStageOptions>& op
 RadarCycle RadarObjectsStage::cycleOf(const RadarScanMessage& message) {
   RadarCycle cycle;
   cycle.stamp = toStamp(message.header.stamp);
-  cycle.radar_in_base =
-      planarPose(transforms_.core(), options_.frames.base, message.header.frame_id, ros::Time());
+  const ScannerMount mount =
+      scannerMount(transforms_.core(), options_.frames.base, message.header.frame_id);
+  if (mount.upside_down) {
+    throw InputError("bad_mount", "frame \"" + message.header.frame_id +
+                                      "\" is upside down: expected a radar whose z axis is up");
+  }
+  cycle.radar_in_base = mount.scanner_in_base;
   std::uint64_t bad = 0;
   for (const datmo_fusion::RadarReturn& one : message.returns) {
     // NaN compares false with everything.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datmo_fusion/ros/stage/stamp_range.h"
 
+#include <cmath>
 #include <string>
 
 #include "datmo_fusion/ros/stage/input_error.h"
@@ -10,13 +11,18 @@ namespace datmo {
 namespace {
 
 /// The first second of the year 2100.
-constexpr std::uint32_t kEnd = 4102444800U;
+constexpr double kEnd = 4102444800.0;
 
 }  // namespace
 
 void checkStampRange(const ros::Time& time) {
-  if (time.sec >= kEnd) {
-    throw InputError("stamp_out_of_range", "stamp " + std::to_string(time.sec) +
+  checkStampRange(Stamp::fromSeconds(static_cast<double>(time.sec)));
+}
+
+void checkStampRange(Stamp stamp) {
+  if (stamp.nanoseconds < 0 || stamp.seconds() >= kEnd) {
+    throw InputError("stamp_out_of_range", "stamp " +
+                                               std::to_string(std::llround(stamp.seconds())) +
                                                " s: expected seconds since 1970, before the year "
                                                "2100; check the clock of who sends it");
   }

@@ -77,6 +77,16 @@ TEST(StationTracks, PartsOfAStationStandBesideEachOther) {
   EXPECT_EQ(stations.merged(next.stamp).tracks.size(), 1U);
 }
 
+TEST(StationTracks, ATrackThatMovesToAnotherPartIsInTheListOnce) {
+  StationTracks stations{StationTrackOptions()};
+  for (const int part : {1, 2}) {
+    StationTrackList list = listAt(0, {walker(pathAt(0))});
+    list.part = static_cast<std::uint32_t>(part);
+    stations.toMap(list, mapInPlane(), std::nullopt);
+  }
+  EXPECT_EQ(stations.merged(listAt(0, {}).stamp).tracks.size(), 1U);
+}
+
 TEST(StationTracks, CovarianceIsHonest) {
   // Errors drawn as the covariances say: mean NEES of position and velocity, 4 degrees of freedom.
   std::mt19937 random(1);

@@ -69,7 +69,7 @@ TEST_F(StationWireTest, WhatIsNoTimeOfRosIsCounted) {
     cam[6] = static_cast<char>(high_byte);  // of the generation time, after a header of 48 bits
     EXPECT_NO_THROW(wire_.received(cam, Stamp()));
   }
-  EXPECT_EQ(samples::drops(monitor_, "bad_time"), 8U);
+  EXPECT_EQ(samples::drops(monitor_, "stamp_out_of_range"), 8U);
 }
 
 TEST_F(StationWireTest, OursGoOutAtMostAsOftenAsTheyMay) {
