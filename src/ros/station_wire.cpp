@@ -2,6 +2,7 @@
 #include "datmo_fusion/ros/station_wire.h"
 
 #include <algorithm>
+#include <cstddef>
 
 #include <boost/make_shared.hpp>
 
@@ -17,6 +18,13 @@ namespace {
 
 /// From one low-frequency container to the next (EN 302 637-2, 6.1.3), s.
 constexpr double kLowFrequencyPeriod = 0.5;
+
+/// Of `interval`: a list may come this much too early and is sent all the same, so that a sender
+/// whose lists come at just that rate, with jitter, loses none.
+constexpr double kJitterShare = 0.2;
+
+/// Datagrams sent of which an echo is known: those of a second, with several CPMs each.
+constexpr std::size_t kMaxRecent = 64;
 
 /// The plane that touches the earth where we are.
 LocalPlane planeOf(const StationTracksMessage& message) {
@@ -53,14 +61,19 @@ StationWire::StationWire(const Checked<StationWireOptions>& options, StageMonito
 
 StationTracksMessagePtr StationWire::received(std::string_view bytes, Stamp now) {
   monitor_.received("datagrams", now);
+  if (std::find(recent_.begin(), recent_.end(), bytes) != recent_.end()) {
+    monitor_.figure("messages of ours that came back", static_cast<double>(++own_));
+    return nullptr;
+  }
   try {
     const StationMessage message = decodeStation(bytes, now, options_.messages);
     checkStampRange(message.list.stamp);
     left_out_ += message.left_out;
     monitor_.figure("objects without number or position", static_cast<double>(left_out_));
     if (message.list.station == own_station_) {
-      monitor_.figure("messages of ours that came back", static_cast<double>(++own_));
-      return nullptr;
+      throw InputError("own_number", "a message from elsewhere has our own station number " +
+                                         std::to_string(*own_station_) +
+                                         ": every station needs a v2x/station of its own");
     }
     return boost::make_shared<StationTracksMessage>(toMessage(message.list, message.plane));
   } catch (const InputError& error) {
@@ -78,12 +91,14 @@ StationTracksMessagePtr StationWire::received(std::string_view bytes, Stamp now)
 
 bool StationWire::isDue(Stamp stamp) {
   // Stamps that go back are of a clock that was set.
-  const bool is_early =
-      last_sent_ && stamp >= *last_sent_ && secondsBetween(*last_sent_, stamp) < options_.interval;
-  if (!is_early) {
-    last_sent_ = stamp;
+  const bool is_restart = !last_sent_ || stamp < *last_sent_;
+  if (!is_restart && secondsBetween(stamp, due_) > kJitterShare * options_.interval) {
+    return false;
   }
-  return !is_early;
+  // One that was early moves the next one no nearer: on average none is sent too often.
+  due_ = (is_restart ? stamp : std::max(due_, stamp)) + options_.interval;
+  last_sent_ = stamp;
+  return true;
 }
 
 std::vector<std::string> StationWire::toSend(const StationTracksMessage& message) {
@@ -100,6 +115,9 @@ std::vector<std::string> StationWire::toSend(const StationTracksMessage& message
     std::vector<std::string> datagrams =
         encodeStation(fromMessage(message, plane), plane, options_.messages, low_frequency);
     last_low_frequency_ = low_frequency ? stamp : last_low_frequency_;
+    recent_.insert(recent_.end(), datagrams.begin(), datagrams.end());
+    recent_.erase(recent_.begin(), recent_.end() - static_cast<std::ptrdiff_t>(
+                                                       std::min(recent_.size(), kMaxRecent)));
     return datagrams;
   } catch (const WireError& error) {
     monitor_.dropped(InputError(error.reason(), error.what()));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,7 +28,8 @@ struct StationWireOptions {
 };
 
 /// StationTracks between messages and datagrams: CAM and CPM. Counts what comes and what cannot be
-/// used, by reason; messages of other kinds, and what we sent ourselves, are no fault.
+/// used, by reason; messages of other kinds, and our own that come back, are no fault. Another
+/// station with our number is one.
 class StationWire {
  public:
   /// `monitor` must outlive it. Throws OptionError.
@@ -36,7 +38,8 @@ class StationWire {
   /// What a datagram says; null if nothing. `now`: ROS time when it came.
   StationTracksMessagePtr received(std::string_view bytes, Stamp now);
 
-  /// The datagrams that tell others of ours; none if the last ones are newer than `interval`.
+  /// The datagrams that tell others of ours; none if the last ones are newer than `interval`,
+  /// on average.
   std::vector<std::string> toSend(const StationTracksMessage& message);
 
  private:
@@ -45,7 +48,9 @@ class StationWire {
   StationWireOptions options_;
   StageMonitor& monitor_;
   std::optional<std::uint32_t> own_station_;  ///< that we told others
+  std::deque<std::string> recent_;            ///< datagrams sent
   std::optional<Stamp> last_sent_;
+  Stamp due_;  ///< of the next that is sent
   std::optional<Stamp> last_low_frequency_;
   std::uint64_t others_ = 0;    ///< messages of other kinds
   std::uint64_t own_ = 0;       ///< messages of ours that came back

@@ -102,6 +102,27 @@ TEST_F(StationWireTest, WhatWeSentOurselvesIsNotTaken) {
   EXPECT_EQ(monitor_.droppedCount(), 0U);
 }
 
+TEST_F(StationWireTest, AnotherStationWithOurNumberIsNamed) {
+  StageMonitor others_monitor{"other"};
+  StationWire other{StationWireOptions(), others_monitor};
+  const std::vector<std::string> sent = other.toSend(ownAt(0.1));
+  ASSERT_FALSE(wire_.toSend(ownAt(0.0)).empty());
+  EXPECT_FALSE(wire_.received(sent.at(0), kNoon));
+  EXPECT_EQ(samples::drops(monitor_, "own_number"), 1U);
+}
+
+TEST_F(StationWireTest, JitterLosesNoListAndFasterOnesAreThinned) {
+  std::size_t sent = 0;
+  for (int step = 0; step < 100; ++step) {
+    sent += wire_.toSend(ownAt(0.1 * step + (step % 2 == 0 ? 0.008 : -0.008))).size();
+  }
+  EXPECT_EQ(sent, 2U * 100U);
+  for (int step = 0; step < 300; ++step) {  // three times as fast
+    sent += wire_.toSend(ownAt(10.0 + step / 30.0)).size();
+  }
+  EXPECT_NEAR(static_cast<double>(sent), 2.0 * 200.0, 2.0);
+}
+
 TEST_F(StationWireTest, WithoutOurOwnPositionNothingGoesOut) {
   StationTracksMessage message = ownAt(0.0);
   message.tracks[0].id = 3;
