@@ -62,15 +62,6 @@ double stopShare(const StateEstimate& estimate, const ImmStep& step) {
          std::exp(-0.5 * velocity.dot(covariance.inverse() * velocity));
 }
 
-/// By the mode that is left; what stands goes on standing at any speed.
-ModeVector stopShares(const std::array<StateEstimate, kMotionModes>& modes, const ImmStep& step) {
-  ModeVector shares;
-  std::transform(modes.begin(), modes.end(), shares.begin(),
-                 [&](const StateEstimate& mode) { return stopShare(mode, step); });
-  shares[static_cast<int>(kStanding)] = 1.0;
-  return shares;
-}
-
 }  // namespace
 
 void ImmOptions::visit(OptionVisitor& visitor) {
@@ -115,11 +106,15 @@ void ImmFilter::predict(const ImmStep& step) {
   const ModeMatrix& transition =
       transitions_ ? transitions_->predict(step.seconds) : step.transition;
   const ModeMoments moments = momentsAbout(combined_.mean, modes_, probabilities_);
-  stop_shares_ = stopShares(modes_, step);
+  stop_share_ = stopShare(combined_, step);
   ModeMatrix joint = probabilities_.asDiagonal() * transition;
-  const ModeVector too_fast = joint.col(kStanding).cwiseProduct(ModeVector::Ones() - stop_shares_);
-  joint.col(kStanding) -= too_fast;
-  joint.diagonal() += too_fast;
+  for (int from = 0; from < kMotionModes; ++from) {
+    if (from != static_cast<int>(kStanding)) {
+      const double too_fast = (1.0 - stop_share_) * joint(from, kStanding);
+      joint(from, kStanding) -= too_fast;
+      joint(from, from) += too_fast;
+    }
+  }
   probabilities_before_ = probabilities_;
   probabilities_ = joint.colwise().sum().transpose();
   for (std::size_t to = 0; to < modes_.size(); ++to) {
@@ -160,18 +155,17 @@ double ImmFilter::updateModes(const Measurement& measured, double min_probabilit
   const ModeLikelihoods likelihoods = likelihoodsOf(measured);
   const ModeVector weights = probabilities_.cwiseProduct(likelihoods.relative);
   const double total = weights.sum();
-  const double could_stand = probabilities_before_.dot(stop_shares_);
   for (std::size_t mode = 0; mode < modes_.size(); ++mode) {
     double& probability = probabilities_[static_cast<int>(mode)];
     if (probability > 0.0) {
       modes_[mode] = datmo::update(modes_[mode], measured);
-      const double min = mode == kStanding ? could_stand * min_probability : min_probability;
+      const double min = mode == kStanding ? stop_share_ * min_probability : min_probability;
       probability = std::max(weights[static_cast<int>(mode)] / total, min);
     }
   }
   probabilities_ /= probabilities_.sum();
   if (transitions_ && learn) {
-    transitions_->update(probabilities_before_, likelihoods.relative, stop_shares_);
+    transitions_->update(probabilities_before_, likelihoods.relative, stop_share_);
   }
   combine();
   return likelihoods.log_scale + std::log(total);
