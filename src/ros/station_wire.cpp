@@ -19,12 +19,16 @@ namespace {
 /// From one low-frequency container to the next (EN 302 637-2, 6.1.3), s.
 constexpr double kLowFrequencyPeriod = 0.5;
 
-/// Of `interval`: a list may come this much too early and is sent all the same, so that a sender
-/// whose lists come at just that rate, with jitter, loses none.
+/// Of `interval`: a list that comes this much early is sent all the same, so that lists of just
+/// that rate, with jitter, lose none.
 constexpr double kJitterShare = 0.2;
 
-/// Datagrams sent of which an echo is known: those of a second, with several CPMs each.
-constexpr std::size_t kMaxRecent = 64;
+/// Later than this many intervals the next list is never due: the clock was set back.
+constexpr double kMaxIntervalsAhead = 2.0;
+
+/// Datagrams whose echo is recognized: those of a second at least, ten lists of a CAM and at most
+/// eight CPMs.
+constexpr std::size_t kMaxRecent = 90;
 
 /// The plane that touches the earth where we are.
 LocalPlane planeOf(const StationTracksMessage& message) {
@@ -90,14 +94,13 @@ StationTracksMessagePtr StationWire::received(std::string_view bytes, Stamp now)
 }
 
 bool StationWire::isDue(Stamp stamp) {
-  // Stamps that go back are of a clock that was set.
-  const bool is_restart = !last_sent_ || stamp < *last_sent_;
-  if (!is_restart && secondsBetween(stamp, due_) > kJitterShare * options_.interval) {
+  const double early = due_ ? secondsBetween(stamp, *due_) : 0.0;
+  const bool is_restart = early > kMaxIntervalsAhead * options_.interval;
+  if (!is_restart && early > kJitterShare * options_.interval) {
     return false;
   }
-  // One that was early moves the next one no nearer: on average none is sent too often.
-  due_ = (is_restart ? stamp : std::max(due_, stamp)) + options_.interval;
-  last_sent_ = stamp;
+  // After an early one the next is due no sooner: on average none is sent too often.
+  due_ = (due_ && !is_restart ? std::max(*due_, stamp) : stamp) + options_.interval;
   return true;
 }
 

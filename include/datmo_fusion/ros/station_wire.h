@@ -28,8 +28,8 @@ struct StationWireOptions {
 };
 
 /// StationTracks between messages and datagrams: CAM and CPM. Counts what comes and what cannot be
-/// used, by reason; messages of other kinds, and our own that come back, are no fault. Another
-/// station with our number is one.
+/// used, by reason. Messages of other kinds and echoes of our own are no fault; a message of
+/// another station with our number is one.
 class StationWire {
  public:
   /// `monitor` must outlive it. Throws OptionError.
@@ -38,8 +38,8 @@ class StationWire {
   /// What a datagram says; null if nothing. `now`: ROS time when it came.
   StationTracksMessagePtr received(std::string_view bytes, Stamp now);
 
-  /// The datagrams that tell others of ours; none if the last ones are newer than `interval`,
-  /// on average.
+  /// The datagrams that tell others of ours; none if these would be more often than
+  /// `interval` allows on average.
   std::vector<std::string> toSend(const StationTracksMessage& message);
 
  private:
@@ -49,8 +49,7 @@ class StationWire {
   StageMonitor& monitor_;
   std::optional<std::uint32_t> own_station_;  ///< that we told others
   std::deque<std::string> recent_;            ///< datagrams sent
-  std::optional<Stamp> last_sent_;
-  Stamp due_;  ///< of the next that is sent
+  std::optional<Stamp> due_;                  ///< of the next list
   std::optional<Stamp> last_low_frequency_;
   std::uint64_t others_ = 0;    ///< messages of other kinds
   std::uint64_t own_ = 0;       ///< messages of ours that came back
