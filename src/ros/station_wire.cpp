@@ -53,10 +53,11 @@ void StationWireOptions::visit(OptionVisitor& visitor) {
                 "name or address to which ours go, a broadcast address too; empty: to nobody"},
                destination, {});
   visitor.integer({"destination_port", "1", "UDP port there"}, destination_port, {1.0, kPorts});
-  visitor.number({"interval", "s",
-                  "from a CAM and its CPMs to the next, at least (EN 302 637-2: 0.1 s to 1 s; its "
-                  "rules by motion are not used)"},
-                 interval, {0.1, 1.0});
+  visitor.number(
+      {"interval", "s",
+       "from a CAM and its CPMs to the next, on average at least; one may be a fifth of it early "
+       "(EN 302 637-2: 0.1 s to 1 s; its rules by motion are not used)"},
+      interval, {0.1, 1.0});
   messages.visit(visitor);
 }
 
