@@ -78,6 +78,9 @@ set(DATMO_FUSION_CORE_SOURCES
   fusion/grid/grid_fusion.cpp
   fusion/grid/grid_matcher.cpp
   fusion/grid/grid_motion.cpp
+  fusion/map/aging_map.cpp
+  fusion/map/map_changes.cpp
+  fusion/map/map_fuser.cpp
   fusion/object/fused_existence.cpp
   fusion/object/fused_sides.cpp
   fusion/object/object_association.cpp

@@ -17,6 +17,7 @@
 #include "datmo_fusion/ros/stage/grid_fusion_stage.h"
 #include "datmo_fusion/ros/stage/grid_slam_stage.h"
 #include "datmo_fusion/ros/stage/lidar_grid_stage.h"
+#include "datmo_fusion/ros/stage/map_fusion_stage.h"
 #include "datmo_fusion/ros/stage/mono_classifier_stage.h"
 #include "datmo_fusion/ros/stage/mono_grid_stage.h"
 #include "datmo_fusion/ros/stage/moving_objects_stage.h"
@@ -91,6 +92,7 @@ std::vector<Section> sections() {
           section<MonoGridStageOptions>("`mono_grid`"),
           section<GridFusionStageOptions>("`grid_fusion`"),
           section<GridSlamStageOptions>("`grid_slam`"),
+          section<MapFusionStageOptions>("`map_fusion`"),
           section<RoadBorderStageOptions>("`road_border`"),
           section<MovingObjectsStageOptions>("`moving_objects`"),
           section<StaticPointsStageOptions>("`static_points`"),

@@ -77,6 +77,7 @@ int main(int count, char** words) {
   datmo::GraphSwitches switches;
   switches.scan_from_cloud = is_on("cloud");
   switches.merge_scans = is_on("merge_scans");
+  switches.map_fusion = is_on("map_fusion");
   switches.stereo = is_on("rectified_images") ? datmo::StereoPoints::kRectifiedImages
                                               : datmo::StereoPoints::kClouds;
   switches.low_level_fusion = is_on("low_level_fusion");

@@ -175,6 +175,7 @@ datmo_fusion_add_core_test(fusion
   fusion/grid_fusion_test.cpp
   fusion/grid_matcher_test.cpp
   fusion/grid_motion_test.cpp
+  fusion/map_fuser_test.cpp
   fusion/object_association_test.cpp
   fusion/object_combination_test.cpp
   fusion/object_consistency_test.cpp

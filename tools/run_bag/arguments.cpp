@@ -134,6 +134,9 @@ void checkStages(const Arguments& arguments) {
 }
 
 void checkMaps(const Arguments& arguments) {
+  if (arguments.last_stage <= LastStage::kGridSlam && arguments.map_fusion) {
+    throw UsageError("--map-fusion: expected no --until before road_border");
+  }
   if (arguments.last_stage < LastStage::kGridSlam &&
       !(arguments.map.empty() && arguments.save_map.empty())) {
     throw UsageError((arguments.map.empty() ? "--save-map" : "--map") +
@@ -142,11 +145,11 @@ void checkMaps(const Arguments& arguments) {
 }
 
 void checkStereo(const Arguments& arguments) {
-  if (arguments.stereo_from_images && !arguments.low_level_fusion && !arguments.object_fusion &&
-      !arguments.track_fusion) {
+  if (arguments.stereo_from_images && !arguments.low_level_fusion && !arguments.map_fusion &&
+      !arguments.object_fusion && !arguments.track_fusion) {
     throw UsageError(
-        "--stereo-from-images: expected --low-level-fusion, --object-fusion or --track-fusion "
-        "with it");
+        "--stereo-from-images: expected --low-level-fusion, --map-fusion, --object-fusion or "
+        "--track-fusion with it");
   }
 }
 
@@ -198,6 +201,10 @@ void addStages(CommandLine& line, Arguments& arguments) {
   line.add_flag("--write-grids", arguments.write_grids,
                 "writes /grids/lidar, /grids/stereo, /grids/fused and /grids/conflict")
       ->needs(low_level);
+  line.add_flag(
+      "--map-fusion", arguments.map_fusion,
+      "a map of each sensor, and of --map, fused: writes /map/fused, /map/conflicts and,\n"
+      "with --map, /map/changes");
   line.add_flag(
       "--road-border", arguments.road_border,
       "finds the borders of the road, on and beyond which objects are less likely to move,\n"

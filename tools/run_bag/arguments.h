@@ -34,6 +34,7 @@ struct Arguments {
   bool v2x = false;
   bool risk = false;
   bool merge_scans = false;
+  bool map_fusion = false;
   bool stereo_from_images = false;  ///< also where the bag has clouds
   bool write_grids = false;
   std::string grid_rule;      ///< of fusion, in place of the yaml file's; empty: that one

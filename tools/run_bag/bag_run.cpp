@@ -92,6 +92,7 @@ SensorSet readSensorsFor(const Arguments& arguments) {
   }
   if (arguments.mono) {
     sensors.set("grid_fusion", "sources/mono/use", true);
+    sensors.set("map_fusion", "sources/mono/use", true);
     sensors.set("object_fusion", "sources/mono/use", true);
   }
   if (arguments.radar) {
@@ -105,6 +106,7 @@ SensorSet readSensorsFor(const Arguments& arguments) {
   }
   if (!arguments.map.empty()) {
     sensors.set("grid_slam", "prior_map/file", arguments.map);
+    sensors.set("map_fusion", "prior_map", arguments.map);
   }
   if (!arguments.start.empty()) {
     sensors.set("grid_slam", "prior_map/anywhere", false);
@@ -135,6 +137,7 @@ GraphSwitches switchesOf(const Arguments& arguments, const SensorSet& sensors,
   switches.v2x = arguments.v2x;
   switches.risk = arguments.risk;
   switches.merge_scans = arguments.merge_scans;
+  switches.map_fusion = arguments.map_fusion;
   switches.stereo_tracker =
       arguments.track_fusion &&
       usesStereo(sensors.options<TrackFusionStageOptions>("track_fusion").fuser.sourcesInUse());

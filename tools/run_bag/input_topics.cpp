@@ -9,6 +9,7 @@
 #include <rosbag/view.h>
 
 #include "datmo_fusion/ros/stage/grid_fusion_stage.h"
+#include "datmo_fusion/ros/stage/map_fusion_stage.h"
 #include "datmo_fusion/ros/stage/object_fusion_stage.h"
 #include "datmo_fusion/ros/stage/scan_merge_stage.h"
 #include "datmo_fusion/ros/stage/track_fusion_stage.h"
@@ -30,11 +31,11 @@ std::vector<std::string> truthTopics(const rosbag::Bag& bag) {
   return topics;
 }
 
-void findLowLevelTopics(const rosbag::Bag& bag, const Arguments& arguments,
-                        const GridFusionStageOptions& fusion, InputTopics& topics) {
-  for (const std::string& source : fusion.fuser.sourcesInUse()) {
+void findGridTopics(const rosbag::Bag& bag, const Arguments& arguments, const std::string& stage,
+                    const std::vector<std::string>& sources, InputTopics& topics) {
+  for (const std::string& source : sources) {
     if (source == "stereo") {
-      topics.stereo = neededStereoTopics(bag, arguments, "grid_fusion");
+      topics.stereo = neededStereoTopics(bag, arguments, stage);
     } else if (source != "lidar" && !(source == "mono" && arguments.mono)) {
       topics.grids["/grids/" + source] = source;
     }
@@ -224,8 +225,12 @@ InputTopics findTopics(const rosbag::Bag& bag, const Arguments& arguments,
   }
   topics.motion = motionTopics(bag, arguments, sensors.shared().motion);
   if (arguments.low_level_fusion) {
-    findLowLevelTopics(bag, arguments, sensors.options<GridFusionStageOptions>("grid_fusion"),
-                       topics);
+    const auto fusion = sensors.options<GridFusionStageOptions>("grid_fusion");
+    findGridTopics(bag, arguments, "grid_fusion", fusion.fuser.sourcesInUse(), topics);
+  }
+  if (arguments.map_fusion) {
+    const auto fusion = sensors.options<MapFusionStageOptions>("map_fusion");
+    findGridTopics(bag, arguments, "map_fusion", fusion.fuser.sourcesInUse(), topics);
   }
   if (arguments.v2x) {
     topics.v2x = v2xTopics(bag, arguments);

@@ -29,7 +29,8 @@ std::vector<GraphStage> wholeGraph() {
         &GraphSwitches::road_border, &GraphSwitches::static_points, &GraphSwitches::stereo_objects,
         &GraphSwitches::cloud_objects, &GraphSwitches::radar, &GraphSwitches::mono,
         &GraphSwitches::object_fusion, &GraphSwitches::stereo_tracker, &GraphSwitches::track_fusion,
-        &GraphSwitches::v2x, &GraphSwitches::risk, &GraphSwitches::merge_scans}) {
+        &GraphSwitches::v2x, &GraphSwitches::risk, &GraphSwitches::merge_scans,
+        &GraphSwitches::map_fusion}) {
     all.*one = true;
   }
   return stageGraph(all);

@@ -50,7 +50,7 @@ Remaps with(Remaps remaps, const std::string& topic, const std::string& graph_to
   return remaps;
 }
 
-/// What grid_fusion fuses beside the sources that its section names.
+/// What grid_fusion and map_fusion fuse beside the sources that their sections name.
 OptionValues fusedGrids(const GraphSwitches& switches) {
   return switches.mono ? OptionValues{{"sources/mono/use", true}} : OptionValues();
 }
@@ -113,6 +113,7 @@ std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
     }
   };
   const bool low_level = switches.low_level_fusion;
+  const bool grids = low_level || switches.map_fusion;
   add(switches.scan_from_cloud, {"cloud_to_scan", "cloud_to_scan", {{"scan", scan}}, {}});
   add(true, {"motion", "motion", {}, {}});
   add(switches.merge_scans, {"scan_merge", "scan_merge", {{"scan", scan}}, {}});
@@ -121,13 +122,14 @@ std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
       {"point_velocity", "point_velocity", images, rectified});
   add(has_images, {"stereo_image_proc", "stereo_image_proc", images, rectified});
   // Before those that take the same clouds.
-  add(low_level || switches.stereo_objects,
+  add(grids || switches.stereo_objects,
       {"stereo_alignment", "stereo_alignment", with(camera, "scan", scan), {}});
-  add(low_level, {"lidar_grid", "lidar_grid", {{"scan", scan}}, {}});
-  add(low_level, {"stereo_grid", "stereo_grid", camera, {}});
-  add(low_level && switches.mono, {"mono_grid", "mono_grid", with(mono_images, "scan", scan), {}});
+  add(grids, {"lidar_grid", "lidar_grid", {{"scan", scan}}, {}});
+  add(grids, {"stereo_grid", "stereo_grid", camera, {}});
+  add(grids && switches.mono, {"mono_grid", "mono_grid", with(mono_images, "scan", scan), {}});
   add(low_level, {"grid_fusion", "grid_fusion", {}, fusedGrids(switches)});
   add(true, {"grid_slam", "grid_slam", {{"scan", scan}}, {{"fused_grid", low_level}}});
+  add(switches.map_fusion, {"map_fusion", "map_fusion", {}, fusedGrids(switches)});
   add(switches.static_points, {"static_points", "static_points", {}, {}});
   add(switches.road_border, {"road_border", "road_border", {}, {}});
   add(true, {"moving_objects", "moving_objects", {}, {{"road_borders", switches.road_border}}});

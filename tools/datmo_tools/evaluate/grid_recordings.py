@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What evaluate grids reads: the grids of a run, and the drive that the run was made from."""
+"""What evaluate reads of grids: those of a run, and the drive that the run was made from."""
 
 import math
 from typing import NamedTuple
@@ -13,12 +13,13 @@ from datmo_tools.bag_messages import BASE
 from datmo_tools.errors import InputError
 from datmo_tools.evaluate.grid_scores import Bodies, Echoes, Grid, StereoView
 from datmo_tools.evaluate.truth import TRUE_OBJECTS, TRUE_POSE, read_true_objects
-from datmo_tools.pose_path import planar
+from datmo_tools.pose_path import planar, read_path
 
 SCANS = ("/echoes", "/scan")
 TRUE_ECHOES = "/ground_truth/echoes"
 CAMERA_INFOS = ("/stereo/left/camera_info", "/stereo/right/camera_info")
 MOUNTS = "/tf_static"
+POSE = "/pose"  # of the run
 
 # As the simulator names them.
 STEREO, POLE = "stereo", "Pole"
@@ -91,8 +92,47 @@ def grid_pairs(path, first_topic, second_topic):
             waiting = {late: kept for late, kept in waiting.items() if late > stamp}
 
 
+def base_grids(path, topic):
+    """Yields stamp (ns) and Grid in base_link of each grid on `topic` of the bag of a run; those of a
+    map are seen from the run's pose. Raises InputError for another type."""
+    poses = None
+    for stamp, frame, grid in grid_messages(path, topic):
+        if frame != BASE:
+            poses = poses or read_path(path, POSE)
+            grid = seen_from(grid, poses.at(stamp))
+        yield stamp, grid
+
+
+def grid_messages(path, topic):
+    """Yields stamp (ns), frame and Grid of each grid on `topic`. Raises InputError for another
+    type."""
+    with opened(path) as bag:
+        for name, raw, _ in bag.read_messages([topic], raw=True):
+            yield _grid_message(path, name, raw)
+
+
+def seen_from(grid, base):
+    """A Grid of a map as seen from a pose (x, y, yaw) in it: square, about the vehicle, with cells of
+    the same size, each as the map has it at its middle."""
+    side = max(grid.cells.shape)
+    origin = np.full(2, -0.5 * side * grid.cell_size)
+    seen = Grid(grid.cell_size, origin, np.full((side, side), -1, dtype=np.int8))
+    rows, columns = np.indices(seen.cells.shape)
+    centers = seen.centers(np.column_stack([columns.ravel(), rows.ravel()]))
+    in_map = transforms.points_in_parent(base, centers)
+    found = np.floor((in_map - grid.origin) / grid.cell_size).astype(int)
+    inside = np.all((found >= 0) & (found < grid.cells.shape[::-1]), axis=1)
+    seen.cells.ravel()[inside] = grid.cells[found[inside, 1], found[inside, 0]]
+    return seen
+
+
 def grid_of(path, topic, raw):
     """Stamp and Grid of a message as it lies in the bag: a grid has 100,000 cells and more."""
+    stamp, _, grid = _grid_message(path, topic, raw)
+    return stamp, grid
+
+
+def _grid_message(path, topic, raw):
     kind, data = raw[0], raw[1]
     if kind != "nav_msgs/OccupancyGrid":
         raise InputError(f"{path}: {topic} is {kind}, expected nav_msgs/OccupancyGrid")
@@ -100,7 +140,8 @@ def grid_of(path, topic, raw):
     info = message.info
     cells = np.asarray(message.data, dtype=np.int8).reshape(info.height, info.width)
     origin = np.array([info.origin.position.x, info.origin.position.y])
-    return message.header.stamp.to_nsec(), Grid(info.resolution, origin, cells)
+    grid = Grid(info.resolution, origin, cells)
+    return message.header.stamp.to_nsec(), message.header.frame_id, grid
 
 
 def _check_same_window(path, stamp, first, second):

@@ -5,14 +5,13 @@
 import numpy as np
 
 from datmo_tools import command_line
-from datmo_tools.bag_input import opened
 from datmo_tools.convert import kitti_messages
 from datmo_tools.errors import InputError
 from datmo_tools.evaluate.arguments import add_grids
 from datmo_tools.evaluate.grid_recordings import (
     CAMERA_INFOS,
     MOUNTS,
-    grid_of,
+    base_grids,
     mount_of,
     mounts_of,
     read_topics,
@@ -68,13 +67,11 @@ def with_clouds(run, drive, topic, clouds):
     `run`; None: no cloud is near. clouds: by stamp, of the bag `drive`. Raises InputError if none has one."""
     stamps = np.array(sorted(clouds))
     found, left_out = False, 0
-    with opened(run) as bag:
-        for name, raw, _ in bag.read_messages([topic], raw=True):
-            stamp, grid = grid_of(run, name, raw)
-            nearest = int(stamps[np.argmin(np.abs(stamps - stamp))])
-            is_near = abs(nearest - stamp) <= MAX_GAP * NANOSECONDS
-            found, left_out = found or is_near, left_out + (not is_near)
-            yield stamp, grid, nearest if is_near else None
+    for stamp, grid in base_grids(run, topic):
+        nearest = int(stamps[np.argmin(np.abs(stamps - stamp))])
+        is_near = abs(nearest - stamp) <= MAX_GAP * NANOSECONDS
+        found, left_out = found or is_near, left_out + (not is_near)
+        yield stamp, grid, nearest if is_near else None
     if not found:
         raise InputError(
             f"{run}: of {left_out} grids on {topic} none is within {MAX_GAP:g} s of a cloud in "

@@ -29,6 +29,7 @@ struct GraphSwitches {
   bool v2x = false;          ///< tracks of other stations come in, and ours go out
   bool risk = false;         ///< of contact between the host and tracks or what stands
   bool merge_scans = false;  ///< the scans are made of those of several scanners
+  bool map_fusion = false;   ///< each sensor keeps a map of its own, and these are fused
 };
 
 /// At which level scanner and stereo camera are fused, as one switch.

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/common/pose2.h"
+#include "datmo_fusion/grid/sensor_grid.h"
+
+namespace datmo {
+
+struct MapChangeOptions {
+  double sure = 0.75;
+  double same_within = 1.5;  ///< cells
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// Values of a grid of changes; all other cells are kUnknownPercent.
+inline constexpr Percent kNewPercent = 100;
+inline constexpr Percent kVanishedPercent = 0;
+
+struct MapChanges {
+  SensorGrid grid;  ///< in the map's frame, of the window of what was compared
+  int appeared = 0;
+  int vanished = 0;
+};
+
+/// What differs between a map that was made before and what sensors see now; both of one window, in
+/// the map's frame (else std::invalid_argument).
+///
+/// A cell is new if `now` is occupied and `before` was free, and vanished if it is the other way
+/// round, each with a probability of `sure` at least; and if the other map has nothing occupied
+/// within `same_within` cells and two standard deviations of the pose, which grow with the distance
+/// from the vehicle by those of the heading: what seems to have moved by less may not have moved.
+/// What one of the two does not know has not changed.
+MapChanges changesBetween(const SensorGrid& before, const SensorGrid& now,
+                          const PoseWithCovariance& base_in_map, const MapChangeOptions& options);
+
+/// Standard deviation of the position in its least certain direction, m.
+double maxPositionSigma(const PoseWithCovariance& pose);
+
+}  // namespace datmo

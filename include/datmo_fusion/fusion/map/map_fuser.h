@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "datmo_fusion/common/options.h"
+#include "datmo_fusion/fusion/map/aging_map.h"
+#include "datmo_fusion/fusion/map/map_changes.h"
+#include "datmo_fusion/grid/occupancy_map.h"
+#include "datmo_fusion/grid/sensor_grid.h"
+
+namespace datmo {
+
+/// How far the map of one source is to be believed.
+struct MapSourceOptions {
+  bool use = true;
+  double reliability = 1.0;
+
+  void visit(OptionVisitor& visitor);
+};
+
+struct MapFuserOptions {
+  AgingMapOptions map;  ///< of each source
+  MapChangeOptions changes;
+  double prior_reliability = 0.7;
+  double conflict_from = 0.25;
+  double mover_margin = 1.0;                        ///< m
+  std::map<std::string, MapSourceOptions> sources;  ///< by name; at first lidar, stereo, mono
+
+  /// With the reliabilities that the low level has for the same sensors (GridFuserOptions).
+  MapFuserOptions();
+
+  void visit(OptionVisitor& visitor);
+
+  /// Names of the sources that are in use and to be believed at all.
+  std::vector<std::string> sourcesInUse() const;
+};
+
+/// The maps of all sources as one; grids in the map's frame.
+struct FusedMaps {
+  SensorGrid fused;
+  SensorGrid conflict;                ///< percent of the evidence that contradicts itself
+  int cells_in_conflict = 0;          ///< of at least `conflict_from`
+  std::optional<MapChanges> changes;  ///< none without a prior map, or while the pose is uncertain
+};
+
+/// Fusion at map level (thesis 2.3.2, named there): each sensor keeps a map of its own, all by one
+/// pose, and the maps are fused cell by cell. Sensors need not measure at one time, and one that is
+/// silent is still there, as far as its evidence has not aged.
+///
+/// The log-odds of the maps add up, each as far as its source is reliable (fuseGrids, kLogOdds):
+/// reliability bounds what a source can say however often it looks, for its systematic errors do
+/// not average out. A prior map is one more source, which does not age.
+///
+/// A pose that in one step becomes far more or less certain (by what MapRecoveryOptions calls a
+/// gap) lies elsewhere than the maps: they begin anew. While it is as uncertain, the prior map is
+/// left out.
+class MapFuser {
+ public:
+  /// Throws OptionError.
+  explicit MapFuser(const Checked<MapFuserOptions>& options);
+
+  /// The map of what was there before; its window must be as that of the grids.
+  void setPrior(OccupancyMap prior) { prior_ = std::move(prior); }
+
+  /// The vehicle's pose from now on, for the window and for what take() and fuse() do.
+  void moveTo(const PoseWithCovariance& base_in_map);
+
+  /// A grid that a source saw from a pose of the vehicle in the map; by rising stamp for each
+  /// source. The window of the first one is that of the maps, about the vehicle. What is occupied
+  /// within `mover_margin` of a mover (m, map frame) is left out: the map is of what stands still.
+  /// Throws std::out_of_range for a source that is not in use.
+  void take(const std::string& source, const SensorGrid& grid, const Pose2& base_in_map,
+            const std::vector<Point2>& movers);
+
+  /// None before the first grid.
+  std::optional<FusedMaps> fuse(Stamp now);
+
+  /// How often the maps began anew since the start.
+  int mapsBegun() const { return maps_begun_; }
+
+  /// Forgets all but the prior map.
+  void reset();
+
+ private:
+  bool isLocated() const;
+
+  MapFuserOptions options_;
+  std::map<std::string, std::optional<AgingMap>> maps_;  ///< none before its first grid
+  std::optional<OccupancyMap> prior_;
+  std::optional<PoseWithCovariance> pose_;
+  int maps_begun_ = 0;
+};
+
+}  // namespace datmo

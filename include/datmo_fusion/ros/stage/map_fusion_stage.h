@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <nav_msgs/Odometry.h>
+
+#include "datmo_fusion/common/scan.h"
+#include "datmo_fusion/fusion/map/map_fuser.h"
+#include "datmo_fusion/ros/convert/messages.h"
+#include "datmo_fusion/ros/stage/fusion_inputs.h"
+#include "datmo_fusion/ros/stage/motion_input.h"
+#include "datmo_fusion/ros/stage/stage.h"
+#include "datmo_fusion/ros/stage/stage_runner.h"
+
+namespace datmo {
+
+struct MapFusionStageOptions {
+  FrameOptions frames;   ///< of all stages
+  MotionOptions motion;  ///< of all stages
+  StreamOptions input;
+  double period = 1.0;     ///< s
+  double tolerance = 0.1;  ///< s
+  double max_wait = 0.1;   ///< s
+  std::string prior_map;   ///< file; empty: none
+  MapFuserOptions fuser;
+
+  void visit(OptionVisitor& visitor);
+};
+
+/// The maps, ready to be published; null while they are not due, `changes` also without a prior
+/// map.
+struct MapFusionOutput {
+  nav_msgs::OccupancyGridPtr fused;
+  nav_msgs::OccupancyGridPtr conflicts;
+  nav_msgs::OccupancyGridPtr changes;
+};
+
+/// MapFuser between messages: the same one serves the nodelet and the bag runner. Instantaneous
+/// grids wait for the labeled scan of about their stamp, which has the pose and says what moves
+/// (SourceMatcher); each is taken in once, by the pose at its own stamp. What is accepted, and how
+/// a missing source is reported: FusionInputs. When the clock jumps back all but the prior map is
+/// forgotten.
+class MapFusionStage : public Stage {
+ public:
+  using Options = MapFusionStageOptions;
+
+  /// `monitor` must outlive the stage. Throws OptionError.
+  MapFusionStage(const Checked<MapFusionStageOptions>& options, StageMonitor& monitor);
+
+  /// The sources in use, by name.
+  std::vector<std::string> sources() const { return options_.fuser.sourcesInUse(); }
+
+  /// One grid of a source (else it is dropped: `unknown_source`); its cells must be of the size of
+  /// the first one's (`wrong_window`). `now`: ROS time.
+  void takeGrid(const std::string& source, const nav_msgs::OccupancyGrid& message, Stamp now);
+
+  /// The pose, and what moves.
+  void takeLabeledScan(const LabeledScanMessage& message, Stamp now);
+
+  /// Newest odometry; not read where the options say that the vehicle has none.
+  void takeOdometry(const nav_msgs::Odometry& message) { inputs_.takeMotion(message); }
+
+  /// Newest pose of the SLAM; read only where the options say that the vehicle has no odometry.
+  void takePose(const geometry_msgs::PoseWithCovarianceStamped& message) {
+    inputs_.takeMotion(message);
+  }
+
+  /// The next set of grids that is ready, taken in; none if there is none. Call it until there is
+  /// none, after each message and from time to time. `now`: ROS time.
+  std::optional<MapFusionOutput> next(Stamp now);
+
+  void connect(StagePorts& ports) override;
+  bool publishNext(Stamp now) override;
+  double maxWait() const override { return options_.max_wait; }
+
+ private:
+  /// What the matcher brings together in time.
+  using Sample = std::variant<SensorGrid, LabeledScan>;
+  using Matched = MatchedSamples<Sample>;
+
+  void checkWindow(const std::string& source, const GridWindow& window);
+  void readPriorMap(const GridWindow& window);
+  MapFusionOutput fuse(const Matched& matched);
+
+  /// Takes in the grids of a set; returns those that were not there or of no use.
+  std::vector<MissingSource> takeIn(const Matched& matched, const LabeledScan& scan);
+  MapFusionOutput outputAt(Stamp stamp);
+  void show(const FusedMaps& maps);
+  void reset();
+
+  MapFusionStageOptions options_;
+  StageMonitor& monitor_;
+  StageRunner runner_;
+  FusionInputs inputs_;
+  SourceMatcher<Sample> matcher_;
+  MapFuser fuser_;
+  std::optional<GridWindow> window_;  ///< of the first grid
+  std::optional<Stamp> last_output_;
+  StagePublisher<nav_msgs::OccupancyGrid> fused_;
+  StagePublisher<nav_msgs::OccupancyGrid> conflicts_;
+  StagePublisher<nav_msgs::OccupancyGrid> changes_;
+};
+
+}  // namespace datmo

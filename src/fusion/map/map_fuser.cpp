@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/fusion/map/map_fuser.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <utility>
+
+#include "datmo_fusion/fusion/grid/grid_fuser.h"
+#include "datmo_fusion/slam/map_recovery.h"
+
+namespace datmo {
+
+namespace {
+
+/// Whether the certainty of two poses differs by what a gap is, or the end of one.
+bool isGapBetween(const PoseWithCovariance& a, const PoseWithCovariance& b) {
+  const MapRecoveryOptions gap;
+  const auto heading_sigma = [](const PoseWithCovariance& pose) {
+    return std::sqrt(std::max(0.0, pose.covariance(2, 2)));
+  };
+  return std::abs(maxPositionSigma(a) - maxPositionSigma(b)) > gap.from_position_sigma ||
+         std::abs(heading_sigma(a) - heading_sigma(b)) > gap.from_heading_sigma;
+}
+
+/// The grid, unknown where it is occupied near a mover (m, the grid's frame).
+SensorGrid withoutMovers(SensorGrid grid, const std::vector<Point2>& movers, double margin) {
+  const GridWindow window = grid.window();
+  const Point2 reach(margin, margin);
+  for (const Point2& mover : movers) {
+    const CellIndex first = window.cellAt(mover - reach);
+    const CellIndex last = window.cellAt(mover + reach);
+    for (int row = first.row; row <= last.row; ++row) {
+      for (int column = first.column; column <= last.column; ++column) {
+        const CellIndex cell{column, row};
+        if (isOccupied(grid.atOrUnknown(cell)) &&
+            (window.centerOf(cell) - mover).norm() <= margin) {
+          grid.at(cell) = kUnknownPercent;
+        }
+      }
+    }
+  }
+  return grid;
+}
+
+/// A map in the window about a position.
+SensorGrid imageOf(OccupancyMap& map, const Point2& center, Stamp stamp) {
+  map.centerOn(center);
+  SensorGrid image(stamp, map.window());
+  image.cells() = map.occupancyImage();
+  return image;
+}
+
+GridSourceOptions believed(double reliability) {
+  GridSourceOptions source;
+  source.reliability = reliability;
+  return source;
+}
+
+}  // namespace
+
+MapFuserOptions::MapFuserOptions() {
+  for (const auto& [name, source] : GridFuserOptions().sources) {
+    sources[name] = {source.use, source.reliability};
+  }
+}
+
+void MapSourceOptions::visit(OptionVisitor& visitor) {
+  visitor.toggle({"use", "", "whether this source has a map that is fused"}, use);
+  visitor.number({"reliability", "1",
+                  "how often the source's map is right; the rest of its evidence is taken for none "
+                  "(Shafer 1976: discounting); 0: it is no source"},
+                 reliability, {0.0, 1.0});
+}
+
+void MapFuserOptions::visit(OptionVisitor& visitor) {
+  visitor.group("map", [&] { map.visit(visitor); });
+  visitor.group("changes", [&] { changes.visit(visitor); });
+  visitor.number({"prior_reliability", "1",
+                  "of the prior map; less than a sensor's, which sees what is there now; 0: it is "
+                  "not fused"},
+                 prior_reliability, {0.0, 1.0});
+  visitor.number({"conflict_from", "1",
+                  "share of evidence that contradicts itself from which on a cell is counted as in "
+                  "conflict: two sources, each half sure of the opposite"},
+                 conflict_from, {0.01, 1.0});
+  visitor.number({"mover_margin", "m",
+                  "what is occupied so near to an end point that moves is not taken into the maps: "
+                  "the rest of its body, and the depth's error of a camera"},
+                 mover_margin, {0.0, 10.0});
+  visitor.each({"sources", "", "the sensors whose maps are fused"}, sources);
+}
+
+std::vector<std::string> MapFuserOptions::sourcesInUse() const {
+  std::vector<std::string> names;
+  for (const auto& [name, source] : sources) {
+    if (source.use && source.reliability > 0.0) {
+      names.push_back(name);
+    }
+  }
+  return names;
+}
+
+MapFuser::MapFuser(const Checked<MapFuserOptions>& options) : options_(*options) { reset(); }
+
+void MapFuser::reset() {
+  maps_.clear();
+  for (const std::string& source : options_.sourcesInUse()) {
+    maps_[source];
+  }
+  pose_.reset();
+}
+
+void MapFuser::moveTo(const PoseWithCovariance& base_in_map) {
+  if (pose_ && isGapBetween(*pose_, base_in_map)) {
+    reset();
+    ++maps_begun_;
+  }
+  pose_ = base_in_map;
+  for (auto& [source, map] : maps_) {
+    if (map) {
+      map->centerOn(base_in_map.pose.position());
+    }
+  }
+}
+
+void MapFuser::take(const std::string& source, const SensorGrid& grid, const Pose2& base_in_map,
+                    const std::vector<Point2>& movers) {
+  std::optional<AgingMap>& map = maps_.at(source);
+  if (!map) {
+    const auto any = std::find_if(maps_.begin(), maps_.end(),
+                                  [](const auto& one) { return one.second.has_value(); });
+    const GridWindow& window = any == maps_.end() ? grid.window() : any->second->window();
+    map.emplace(options_.map, window.columns, window.rows, window.cell_size);
+    map->centerOn(pose_ ? pose_->pose.position() : base_in_map.position());
+  }
+  std::vector<Point2> movers_in_grid;
+  for (const Point2& mover : movers) {
+    movers_in_grid.push_back(base_in_map.inverse() * mover);
+  }
+  map->update(withoutMovers(grid, movers_in_grid, options_.mover_margin), base_in_map);
+}
+
+bool MapFuser::isLocated() const {
+  const MapRecoveryOptions gap;
+  return pose_ && maxPositionSigma(*pose_) <= gap.from_position_sigma &&
+         pose_->covariance(2, 2) <= std::pow(gap.from_heading_sigma, 2);
+}
+
+std::optional<FusedMaps> MapFuser::fuse(Stamp now) {
+  std::deque<SensorGrid> images;  // where `grids` point to
+  std::vector<WeighedGrid> grids;
+  for (const auto& [source, map] : maps_) {
+    if (map) {
+      images.push_back(map->image(now));
+      grids.push_back({&images.back(), believed(options_.sources.at(source).reliability)});
+    }
+  }
+  if (grids.empty()) {
+    return std::nullopt;
+  }
+  FusedGrids fused = fuseGrids(FusionRule::kLogOdds, grids);
+  FusedMaps result;
+  if (prior_ && isLocated()) {
+    images.push_back(imageOf(*prior_, pose_->pose.position(), now));
+    result.changes = changesBetween(images.back(), fused.fused, *pose_, options_.changes);
+    if (options_.prior_reliability > 0.0) {
+      grids.push_back({&images.back(), believed(options_.prior_reliability)});
+      fused = fuseGrids(FusionRule::kLogOdds, grids);
+    }
+  }
+  result.fused = std::move(fused.fused);
+  result.conflict = std::move(fused.conflict);
+  result.cells_in_conflict = static_cast<int>(std::count_if(
+      result.conflict.cells().begin(), result.conflict.cells().end(),
+      [from = toPercent(options_.conflict_from)](Percent percent) { return percent >= from; }));
+  return result;
+}
+
+}  // namespace datmo
