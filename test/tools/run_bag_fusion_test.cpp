@@ -176,6 +176,57 @@ TEST(FusionArguments, AreRead) {
             "/stereo/right/image_rect");
 }
 
+class MapRun : public StereoRunBag {
+ protected:
+  MapRun() {
+    arguments_.map_fusion = true;
+    appendClouds();
+  }
+};
+
+TEST_F(MapRun, EachSensorHasAMapAndTheyComeOnceAPeriod) {
+  EXPECT_FALSE(holds(run(), "dropped"));
+  const std::size_t maps = count(arguments_.output, "/map/fused");
+  EXPECT_GE(maps, 2U);
+  EXPECT_EQ(count(arguments_.output, "/map/conflicts"), maps);
+  EXPECT_EQ(count(arguments_.output, "/map/changes"), 0U) << "there is no map of before";
+  EXPECT_EQ(count(arguments_.output, "/grids/stereo"), 0U) << "only between the stages";
+  EXPECT_EQ(count(arguments_.output, "/tracks"), kScanCount);
+  const std::string first = bytes(arguments_.output);
+  run();
+  EXPECT_EQ(bytes(arguments_.output), first) << "bit for bit";
+}
+
+TEST_F(MapRun, TheOtherOutputsAreAsWithoutIt) {
+  const auto others = [this] {
+    run();
+    std::string bytes;
+    rosbag::Bag bag(arguments_.output);
+    const std::vector<std::string> topics = {"/pose", "/map", "/labeled_scan", "/tracks"};
+    for (const rosbag::MessageInstance& message : rosbag::View(bag, rosbag::TopicQuery(topics))) {
+      std::vector<std::uint8_t> buffer(message.size());
+      ros::serialization::OStream stream(buffer.data(), message.size());
+      message.write(stream);
+      bytes.append(buffer.begin(), buffer.end());
+    }
+    return bytes;
+  };
+  const std::string with = others();
+  EXPECT_FALSE(with.empty());
+  arguments_.map_fusion = false;
+  EXPECT_EQ(others(), with);
+}
+
+TEST(MapFusionArguments, TheStageMustBeAmongThose) {
+  const std::vector<std::string> words = {"a.bag", "b.bag", "--config", "c.yaml", "--map-fusion"};
+  EXPECT_TRUE(parseArguments(words).map_fusion);
+  for (const char* last : {"grid_fusion", "grid_slam"}) {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), {"--low-level-fusion", "--until", last});
+    EXPECT_THROW(parseArguments(all), UsageError) << last;
+  }
+}
+
 TEST(FusionArguments, NeedTheSwitch) {
   const std::vector<std::string> words = {"a.bag", "b.bag", "--config", "c.yaml"};
   const std::vector<std::vector<std::string>> options = {{"--write-grids"},

@@ -6,7 +6,7 @@
 #include <deque>
 #include <utility>
 
-#include "datmo_fusion/fusion/grid/grid_fuser.h"
+#include "datmo_fusion/fusion/grid/grid_fusion.h"
 #include "datmo_fusion/slam/map_recovery.h"
 
 namespace datmo {
@@ -60,26 +60,29 @@ GridSourceOptions believed(double reliability) {
 }  // namespace
 
 MapFuserOptions::MapFuserOptions() {
-  for (const auto& [name, source] : GridFuserOptions().sources) {
-    sources[name] = {source.use, source.reliability};
-  }
+  sources["lidar"].reliability = 0.93;
+  sources["stereo"].reliability = 0.62;
+  sources["mono"] = {false, 0.5};
 }
 
 void MapSourceOptions::visit(OptionVisitor& visitor) {
   visitor.toggle({"use", "", "whether this source has a map that is fused"}, use);
-  visitor.number({"reliability", "1",
-                  "how often the source's map is right; the rest of its evidence is taken for none "
-                  "(Shafer 1976: discounting); 0: it is no source"},
-                 reliability, {0.0, 1.0});
+  visitor.number(
+      {"reliability", "1",
+       "share of the occupied cells of the source's own map that are right (evaluate maps "
+       "with this source alone); the rest of its evidence is taken for none (Shafer 1976: "
+       "discounting); 0: it is no source"},
+      reliability, {0.0, 1.0});
 }
 
 void MapFuserOptions::visit(OptionVisitor& visitor) {
   visitor.group("map", [&] { map.visit(visitor); });
   visitor.group("changes", [&] { changes.visit(visitor); });
-  visitor.number({"prior_reliability", "1",
-                  "of the prior map; less than a sensor's, which sees what is there now; 0: it is "
-                  "not fused"},
-                 prior_reliability, {0.0, 1.0});
+  visitor.number(
+      {"prior_reliability", "1",
+       "of the prior map; less than the scanner's, which sees what is there now; 0: it is "
+       "not fused"},
+      prior_reliability, {0.0, 1.0});
   visitor.number({"conflict_from", "1",
                   "share of evidence that contradicts itself from which on a cell is counted as in "
                   "conflict: two sources, each half sure of the opposite"},

@@ -51,6 +51,8 @@ class MapFusionStageTest : public testing::Test {
  protected:
   MapFusionStageTest() {
     options_.fuser.map.free_probability = 0.2;  // a look at a free cell says as much as a hit
+    options_.fuser.sources["lidar"].reliability = 0.8;
+    options_.fuser.sources["stereo"].reliability = 0.9;
     start();
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
