@@ -237,6 +237,20 @@ class LaunchSwitches(unittest.TestCase):
         self.assertNotIn("mono_grid", without)
         self.assertNotIn("/grid_fusion/sources/mono/use", parameters)
 
+    def test_map_fusion_takes_the_grids_of_single_sensors(self):
+        nodes, parameters = loaded("perception.launch", map_fusion=True, map="/tmp/hall.map",
+                                   odometry="/odom", mono=True)
+        present = {"lidar_grid", "stereo_grid", "mono_grid", "stereo_alignment", "map_fusion"}
+        self.assertLessEqual(present, set(nodelets(nodes)))
+        self.assertNotIn("grid_fusion", nodes)
+        self.assertIs(parameters["/grid_slam/fused_grid"], False)
+        self.assertEqual(remapped(nodes["map_fusion"], "odometry"), "/odom")
+        self.assertEqual(parameters["/map_fusion/prior_map"], "/tmp/hall.map")
+        self.assertIs(parameters["/map_fusion/sources/mono/use"], True)
+        nodes, parameters = loaded("perception.launch", map="/tmp/hall.map")
+        self.assertNotIn("map_fusion", nodes)
+        self.assertNotIn("/map_fusion/prior_map", parameters)
+
     def test_there_is_a_thread_for_each_nodelet(self):
         for switches, nodes, parameters in self.each("perception.launch"):
             with self.subTest(**switches):

@@ -48,7 +48,8 @@ void MapChangeOptions::visit(OptionVisitor& visitor) {
   visitor.number(
       {"sure", "1",
        "probability from which on a cell counts as occupied, and 1 - it as free, to have "
-       "changed: odds of 3 to 1 in both maps"},
+       "changed: more than a stereo camera alone, discounted, can say, whose depth's error puts "
+       "what is occupied where it is free"},
       sure, {0.51, 0.99});
   visitor.number({"same_within", "cells",
                   "what is occupied this near in the other map has not changed: the next cell, "

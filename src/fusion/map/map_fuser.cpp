@@ -43,18 +43,23 @@ SensorGrid withoutMovers(SensorGrid grid, const std::vector<Point2>& movers, dou
   return grid;
 }
 
+/// Each probability drawn toward 1/2 as far as the source is not reliable.
+SensorGrid discounted(SensorGrid grid, double reliability) {
+  for (Percent& percent : grid.cells()) {
+    if (percent != kUnknownPercent) {
+      const double evidence = reliability * (percent - kUndecidedPercent);
+      percent = static_cast<Percent>(std::lround(kUndecidedPercent + evidence));
+    }
+  }
+  return grid;
+}
+
 /// A map in the window about a position.
 SensorGrid imageOf(OccupancyMap& map, const Point2& center, Stamp stamp) {
   map.centerOn(center);
   SensorGrid image(stamp, map.window());
   image.cells() = map.occupancyImage();
   return image;
-}
-
-GridSourceOptions believed(double reliability) {
-  GridSourceOptions source;
-  source.reliability = reliability;
-  return source;
 }
 
 }  // namespace
@@ -155,8 +160,8 @@ std::optional<FusedMaps> MapFuser::fuse(Stamp now) {
   std::vector<WeighedGrid> grids;
   for (const auto& [source, map] : maps_) {
     if (map) {
-      images.push_back(map->image(now));
-      grids.push_back({&images.back(), believed(options_.sources.at(source).reliability)});
+      images.push_back(discounted(map->image(now), options_.sources.at(source).reliability));
+      grids.push_back({&images.back(), {}});
     }
   }
   if (grids.empty()) {
@@ -168,7 +173,8 @@ std::optional<FusedMaps> MapFuser::fuse(Stamp now) {
     images.push_back(imageOf(*prior_, pose_->pose.position(), now));
     result.changes = changesBetween(images.back(), fused.fused, *pose_, options_.changes);
     if (options_.prior_reliability > 0.0) {
-      grids.push_back({&images.back(), believed(options_.prior_reliability)});
+      images.push_back(discounted(images.back(), options_.prior_reliability));
+      grids.push_back({&images.back(), {}});
       fused = fuseGrids(FusionRule::kLogOdds, grids);
     }
   }

@@ -129,13 +129,13 @@ TEST(RoadConversion, WhatIsWrongIsSaidWithItsValue) {
 }
 
 TEST(RoadConversion, DroppedObjectsHaveAReason) {
-  DroppedObject dropped;
+  std::vector<DroppedObject> objects(1);
+  DroppedObject& dropped = objects.front();
   dropped.object.box = {{5.0, 6.0, 0.0}, 4.0, 2.0};
   dropped.reason = DropReason::kBeyondBorder;
   dropped.side = RoadSide::kRight;
   dropped.beyond = 1.5;
-  const DroppedObjects message =
-      toMessage(std::vector<DroppedObject>{dropped}, Stamp::fromSeconds(7.0), "base_link");
+  const DroppedObjects message = toMessage(objects, Stamp::fromSeconds(7.0), "base_link");
   EXPECT_EQ(message.header.frame_id, "base_link");
   EXPECT_EQ(message.header.stamp, ros::Time(7.0));
   ASSERT_EQ(message.objects.size(), 1U);

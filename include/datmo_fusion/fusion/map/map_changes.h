@@ -8,7 +8,7 @@
 namespace datmo {
 
 struct MapChangeOptions {
-  double sure = 0.75;
+  double sure = 0.85;
   double same_within = 1.5;  ///< cells
 
   void visit(OptionVisitor& visitor);

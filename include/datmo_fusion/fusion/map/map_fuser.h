@@ -53,9 +53,10 @@ struct FusedMaps {
 /// pose, and the maps are fused cell by cell. Sensors need not measure at one time, and one that is
 /// silent is still there, as far as its evidence has not aged.
 ///
-/// The log-odds of the maps add up, each as far as its source is reliable (fuseGrids, kLogOdds):
-/// reliability bounds what a source can say however often it looks, for its systematic errors do
-/// not average out. A prior map is one more source, which does not age.
+/// Each map is discounted by its source's reliability, and the log-odds add up (fuseGrids,
+/// kLogOdds): reliability bounds what a source can say however often it looks, and where it is
+/// alone, too, for its systematic errors do not average out. A prior map is one more source, which
+/// does not age.
 ///
 /// A pose that in one step becomes far more or less certain (by what MapRecoveryOptions calls a
 /// gap) lies elsewhere than the maps: they begin anew. While it is as uncertain, the prior map is
