@@ -8,7 +8,7 @@
 
 #include "datmo_fusion/ros/convert/grid_conversion.h"
 
-namespace datmo::map_fusion_test {
+namespace datmo::map_level_test {
 namespace {
 
 constexpr std::uint32_t kQueue = 1000;
@@ -46,7 +46,7 @@ class MapLevel : public StereoChain {
   std::vector<ros::Subscriber> subscribers_;
 };
 
-class MapFusionTest : public StereoDriveTest<MapLevel> {
+class MapLevelTest : public StereoDriveTest<MapLevel> {
  protected:
   /// Until so many maps have come.
   static bool waitForMaps(std::size_t maps) {
@@ -60,7 +60,7 @@ class MapFusionTest : public StereoDriveTest<MapLevel> {
   }
 };
 
-TEST_F(MapFusionTest, BothSensorsLeadToOneMap) {
+TEST_F(MapLevelTest, BothSensorsLeadToOneMap) {
   chain_->sendCameraInfo();
   chain_->mountSensors();
   ASSERT_NO_FATAL_FAILURE(start());
@@ -78,7 +78,7 @@ TEST_F(MapFusionTest, BothSensorsLeadToOneMap) {
   EXPECT_TRUE(chain_->diagnosticMessage("grid_fusion").empty()) << "it is not needed";
 }
 
-TEST_F(MapFusionTest, WhileTheCameraIsSilentItsMapIsStillThere) {
+TEST_F(MapLevelTest, WhileTheCameraIsSilentItsMapIsStillThere) {
   const std::size_t before = chain_->levels["fused"].size();
   for (int i = 0; i < 32; ++i) {
     ASSERT_NO_FATAL_FAILURE(stepWithoutStereo());
@@ -90,4 +90,4 @@ TEST_F(MapFusionTest, WhileTheCameraIsSilentItsMapIsStillThere) {
 }
 
 }  // namespace
-}  // namespace datmo::map_fusion_test
+}  // namespace datmo::map_level_test
