@@ -6,15 +6,11 @@
 
 namespace datmo {
 
-namespace {
-
 std::string describe(const GridWindow& window) {
   return std::to_string(window.columns) + " x " + std::to_string(window.rows) + " cells of " +
          toText(OptionValue(window.cell_size)) + " m from cell (" +
          std::to_string(window.corner.column) + ", " + std::to_string(window.corner.row) + ")";
 }
-
-}  // namespace
 
 GridMatcher::GridMatcher(const SourceMatcherOptions& options,
                          const std::vector<std::string>& sources)

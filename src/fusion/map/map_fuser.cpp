@@ -142,9 +142,11 @@ void MapFuser::take(const std::string& source, const SensorGrid& grid, const Pos
     map.emplace(options_.map, window.columns, window.rows, window.cell_size);
     map->centerOn(pose_ ? pose_->pose.position() : base_in_map.position());
   }
+  const Pose2 map_in_base = base_in_map.inverse();
   std::vector<Point2> movers_in_grid;
+  movers_in_grid.reserve(movers.size());
   for (const Point2& mover : movers) {
-    movers_in_grid.push_back(base_in_map.inverse() * mover);
+    movers_in_grid.push_back(map_in_base * mover);
   }
   map->update(withoutMovers(grid, movers_in_grid, options_.mover_margin), base_in_map);
 }

@@ -6,6 +6,7 @@
 
 #include <boost/make_shared.hpp>
 
+#include "datmo_fusion/fusion/grid/grid_matcher.h"
 #include "datmo_fusion/fusion/sync/relative_motion.h"
 #include "datmo_fusion/ros/convert/grid_conversion.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
@@ -82,11 +83,10 @@ void MapFusionStage::checkWindow(const std::string& source, const GridWindow& wi
     window_ = window;
     readPriorMap(window);
   }
-  if (window.cell_size != window_->cell_size) {
-    throw InputError("wrong_window", "grid of " + source + " with cells of " +
-                                         toText(OptionValue(window.cell_size)) + " m: expected " +
-                                         toText(OptionValue(window_->cell_size)) +
-                                         " m, as the first grid has them");
+  if (window != *window_) {
+    throw InputError("wrong_window", "grid of " + source + " of " + describe(window) +
+                                         ": expected " + describe(*window_) +
+                                         ", as the first grid has them");
   }
 }
 

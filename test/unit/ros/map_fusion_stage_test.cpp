@@ -189,8 +189,12 @@ TEST_F(MapFusionStageTest, WhatIsNoGridOfTheSensorsIsRefusedAndCounted) {
   allAt(100.0, kFree, kFree);
   take("stereo", gridMessage(100.1, kFree, {0.5, 20, 10, {-10, -5}}));
   EXPECT_EQ(drops("wrong_window"), 1U);
-  EXPECT_EQ(monitor_.lastError(),
-            "grid of stereo with cells of 0.5 m: expected 1 m, as the first grid has them");
+  EXPECT_EQ(
+      monitor_.lastError(),
+      "grid of stereo of 20 x 10 cells of 0.5 m from cell (-10, -5): expected 20 x 10 cells of "
+      "1 m from cell (-10, -5), as the first grid has them");
+  take("stereo", gridMessage(100.15, kFree, {1.0, 30, 10, {-15, -5}}));
+  EXPECT_EQ(drops("wrong_window"), 2U) << "of another size";
   auto elsewhere = gridMessage(100.2, kFree);
   elsewhere.header.frame_id = "camera";
   take("stereo", elsewhere);
@@ -205,7 +209,7 @@ TEST_F(MapFusionStageTest, WhatIsNoGridOfTheSensorsIsRefusedAndCounted) {
   EXPECT_EQ(drops("unknown_source"), 1U);
   take(scanMessage(100.2, Pose2(), "other_map"));
   EXPECT_EQ(drops("wrong_frame"), 2U);
-  EXPECT_EQ(monitor_.droppedCount(), 6U);
+  EXPECT_EQ(monitor_.droppedCount(), 7U);
   EXPECT_TRUE(allAt(101.0, kFree, kFree)->fused) << "it goes on";
 }
 

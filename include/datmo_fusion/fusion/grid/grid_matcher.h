@@ -20,6 +20,9 @@ class WrongWindowError : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
+/// For messages: "300 x 360 cells of 0.3 m from cell (-150, -180)".
+std::string describe(const GridWindow& window);
+
 /// Which grids of several sources belong together: those of one window that SourceMatcher says
 /// belong together in time. A grid may be in several sets: it is what is known of the world until
 /// there is a newer one.

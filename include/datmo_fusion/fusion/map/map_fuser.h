@@ -73,7 +73,7 @@ class MapFuser {
   void moveTo(const PoseWithCovariance& base_in_map);
 
   /// A grid that a source saw from a pose of the vehicle in the map; by rising stamp for each
-  /// source. The window of the first one is that of the maps, about the vehicle. What is occupied
+  /// source, and all of one window, which is that of the maps, about the vehicle. What is occupied
   /// within `mover_margin` of a mover (m, map frame) is left out: the map is of what stands still.
   /// Throws std::out_of_range for a source that is not in use.
   void take(const std::string& source, const SensorGrid& grid, const Pose2& base_in_map,

@@ -56,8 +56,8 @@ class MapFusionStage : public Stage {
   /// The sources in use, by name.
   std::vector<std::string> sources() const { return options_.fuser.sourcesInUse(); }
 
-  /// One grid of a source (else it is dropped: `unknown_source`); its cells must be of the size of
-  /// the first one's (`wrong_window`). `now`: ROS time.
+  /// One grid of a source (else it is dropped: `unknown_source`), of the first one's window (else
+  /// `wrong_window`). `now`: ROS time.
   void takeGrid(const std::string& source, const nav_msgs::OccupancyGrid& message, Stamp now);
 
   /// The pose, and what moves.
