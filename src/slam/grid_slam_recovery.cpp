@@ -6,8 +6,6 @@
 #include <string>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
-
 #include "datmo_fusion/slam/grid_slam.h"
 
 namespace datmo {
@@ -37,18 +35,6 @@ Eigen::Matrix3d startCovariance() {
 
 /// Weight of the newest interval in their mean.
 constexpr double kIntervalShare = 0.1;
-
-/// Whether the pose has become so uncertain in between that its scan must be searched for.
-bool grewWider(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to,
-               const MapRecoveryOptions& limits) {
-  const auto max_variance = [](const Eigen::Matrix3d& covariance) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(
-        Eigen::Matrix2d(covariance.topLeftCorner<2, 2>()), Eigen::EigenvaluesOnly);
-    return axes.eigenvalues()[1];
-  };
-  return max_variance(to) - max_variance(from) > std::pow(limits.from_position_sigma, 2) ||
-         to(2, 2) - from(2, 2) > std::pow(limits.from_heading_sigma, 2);
-}
 
 }  // namespace
 

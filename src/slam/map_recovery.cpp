@@ -54,6 +54,19 @@ void MapRecoveryOptions::visit(OptionVisitor& visitor) {
   visitor.group("prior_search", [&] { prior_search.visit(visitor); });
 }
 
+double maxPositionVariance(const Eigen::Matrix3d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(
+      Eigen::Matrix2d(covariance.topLeftCorner<2, 2>()), Eigen::EigenvaluesOnly);
+  return axes.eigenvalues()[1];
+}
+
+bool grewWider(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to,
+               const MapRecoveryOptions& limits) {
+  return maxPositionVariance(to) - maxPositionVariance(from) >
+             std::pow(limits.from_position_sigma, 2) ||
+         to(2, 2) - from(2, 2) > std::pow(limits.from_heading_sigma, 2);
+}
+
 Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Point2& arm) {
   Eigen::Matrix3d lever = Eigen::Matrix3d::Identity();
   lever(0, 2) = -arm.y();
@@ -69,9 +82,7 @@ MapRecovery::MapRecovery(const Checked<MapRecoveryOptions>& options, OccupancyMa
       begun_(stamp),
       next_search_(stamp + options->first_search_after),
       advanced_(stamp) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(
-      Eigen::Matrix2d(start.covariance.topLeftCorner<2, 2>()), Eigen::EigenvaluesOnly);
-  is_searchable_ = std::sqrt(axes.eigenvalues()[1]) <= options_.lost_from_sigma;
+  is_searchable_ = std::sqrt(maxPositionVariance(start.covariance)) <= options_.lost_from_sigma;
   state_ = is_searchable_ ? Localization::kUncertain : Localization::kLost;
 }
 

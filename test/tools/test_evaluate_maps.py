@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""evaluate maps on maps and boxes that are counted by hand."""
+"""evaluate maps and changes on maps and boxes that are counted by hand."""
 
 import math
 import unittest
@@ -26,9 +26,9 @@ NO_BOXES = Boxes(np.zeros((0, 3)), np.zeros((0, 2)))
 CAR = (10.0, 3.0, 0.0, 4.0, 2.0)
 
 
-def grid(occupied=(), free=()):
+def grid(occupied=(), free=(), percents=(90, 10)):
     cells = np.full((SIDE, SIDE), -1, dtype=np.int8)
-    for points, percent in ((occupied, 90), (free, 10)):
+    for points, percent in zip((occupied, free), percents):
         for x, y in points:
             cells[math.floor((y + 30.0) / CELL), math.floor((x + 30.0) / CELL)] = percent
     return Grid(CELL, ORIGIN, cells)
@@ -42,6 +42,21 @@ def moment(standing=(), resting=(), seen=None, thin=None):
         np.array([False] * number if thin is None else thin, dtype=bool),
         lambda points: np.abs(points[:, 1]) < 5.0,
     )  # fmt: skip
+
+
+def add_map(run, topic, frame, occupied, free, percents=(90, 10)):
+    """Of a run that write_drive has written; points in the true map."""
+    in_map = [
+        [transforms.compose(DRIFT, (x, y, 0.0))[:2] for x, y in points] for points in (occupied, free)
+    ]
+    cells = grid(*in_map, percents)
+    stamp = START + frame * PERIOD
+    message = OccupancyGrid(header=bag_messages.header(stamp, "map"))
+    message.info = MapMetaData(resolution=CELL, width=SIDE, height=SIDE)
+    message.info.origin.position.x = message.info.origin.position.y = ORIGIN[0]
+    message.data = cells.cells.ravel().tolist()
+    with rosbag.Bag(run, "a") as bag:
+        bag.write(topic, message, to_ros_time(stamp))
 
 
 class Counting(unittest.TestCase):
@@ -96,16 +111,7 @@ class CommandLine(EvaluateCase):
         x from 13 to 17 m, y from 2 to 4 m."""
         run = self.folder / "run.bag"
         write_drive(run, None, objects=[parked(1, 15.0, 3.0)])
-        in_map = [
-            [transforms.compose(DRIFT, (x, y, 0.0))[:2] for x, y in points] for points in (occupied, free)
-        ]
-        cells = grid(*in_map)
-        message = OccupancyGrid(header=bag_messages.header(START + 10 * PERIOD, "map"))
-        message.info = MapMetaData(resolution=CELL, width=SIDE, height=SIDE)
-        message.info.origin.position.x = message.info.origin.position.y = ORIGIN[0]
-        message.data = cells.cells.ravel().tolist()
-        with rosbag.Bag(run, "a") as bag:
-            bag.write("/map/fused", message, to_ros_time(START + 10 * PERIOD))
+        add_map(run, "/map/fused", 10, occupied, free)
         return run
 
     def test_a_map_is_scored_where_the_run_takes_it_to_be(self):
@@ -121,6 +127,40 @@ class CommandLine(EvaluateCase):
         run = self.write_run([], [])
         _, errors, _ = self.evaluate("maps", run, run, "--topic", "/map/other", code=1)
         self.assertIn("no grid on /map/other", errors)
+
+
+class Changes(EvaluateCase):
+    """Car 1 is gone, cars 3 and 4 are new; the vehicle passes all but the last."""
+
+    def write_drives(self):
+        run, before = self.folder / "run.bag", self.folder / "before.bag"
+        write_drive(before, None, objects=[parked(1, 10.0, 3.0), parked(2, 10.0, -3.0)])
+        objects = [parked(7, 10.0, -3.0), parked(3, 3.0, 3.0), parked(4, 19.0, 3.0)]
+        write_drive(run, None, objects=objects)
+        return run, before
+
+    def test_cells_and_things_are_counted(self):
+        run, before = self.write_drives()
+        vanished = [(10.2, 2.2), (11.2, 2.2), (10.2, -2.2)]  # one of what still stands there
+        add_map(run, "/map/changes", 20, [(15.2, 0.2)], vanished, (100, 0))
+        text, _, result = self.evaluate("changes", run, run, before)
+        self.assertEqual(result["vanished"], {"cells": 3, "cells_right": 2, "things": 1,
+                                              "things_reported": 1, "wrong_cells": 1.0})
+        self.assertEqual(result["new"], {"cells": 1, "cells_right": 0, "things": 1,
+                                         "things_reported": 0, "wrong_cells": 1.0})
+        self.assertIn("vanished", text)
+
+    def test_what_is_reported_before_it_is_passed_is_not_asked_for(self):
+        run, before = self.write_drives()
+        add_map(run, "/map/changes", 10, [], [(10.2, 2.2)], (100, 0))
+        _, _, result = self.evaluate("changes", run, run, before)
+        self.assertEqual(result["vanished"]["things"], 0)
+        self.assertEqual(result["vanished"]["cells_right"], 1)
+
+    def test_a_run_without_changes_is_refused(self):
+        run, before = self.write_drives()
+        _, errors, _ = self.evaluate("changes", run, run, before, code=1)
+        self.assertIn("no grid on /map/changes", errors)
 
 
 if __name__ == "__main__":

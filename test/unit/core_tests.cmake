@@ -166,6 +166,7 @@ datmo_fusion_add_core_test(detection
 target_include_directories(unit_detection PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 
 datmo_fusion_add_core_test(fusion
+  fusion/aging_map_test.cpp
   fusion/cross_covariance_test.cpp
   fusion/earth_frame_test.cpp
   fusion/fused_existence_test.cpp
@@ -175,6 +176,7 @@ datmo_fusion_add_core_test(fusion
   fusion/grid_fusion_test.cpp
   fusion/grid_matcher_test.cpp
   fusion/grid_motion_test.cpp
+  fusion/map_changes_test.cpp
   fusion/map_fuser_test.cpp
   fusion/object_association_test.cpp
   fusion/object_combination_test.cpp

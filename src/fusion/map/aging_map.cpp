@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "datmo_fusion/common/log_odds.h"
 #include "datmo_fusion/grid/grid_resampling.h"
@@ -28,16 +29,40 @@ void AgingMapOptions::visit(OptionVisitor& visitor) {
                  min_probability, {0.0001, 0.3});
 }
 
-double AgingMap::aged(const Cell& cell, float now) const {
-  return static_cast<double>(cell.log_odds) *
-         std::exp(static_cast<double>(cell.seen - now) / options_.time_constant);
-}
+/// What is left of evidence at one time. Most cells were seen last at the same time: the
+/// exponential is made anew only for another one.
+class AgingMap::Decay {
+ public:
+  Decay(float now, double time_constant) : now_(now), time_constant_(time_constant) {}
+
+  double logOddsOf(const Cell& cell) {
+    if (cell.seen != seen_) {
+      seen_ = cell.seen;
+      // What was seen after that (a grid may be later than its pose) is as it was then.
+      left_ = std::exp(std::min(0.0, static_cast<double>(seen_ - now_)) / time_constant_);
+    }
+    return left_ * static_cast<double>(cell.log_odds);
+  }
+
+ private:
+  float now_;
+  double time_constant_;
+  float seen_ = std::numeric_limits<float>::quiet_NaN();  ///< of the last cell
+  double left_ = 0.0;
+};
+
+AgingMap::AgingMap(const Checked<AgingMapOptions>& options, int columns, int rows, double cell_size)
+    : time_constant_(options->time_constant),
+      hit_log_odds_(logOddsOf(options->hit_probability)),
+      free_log_odds_(logOddsOf(options->free_probability)),
+      log_odds_limit_(logOddsOf(1.0 - options->min_probability)),
+      cells_(columns, rows, cell_size, Cell{}) {}
 
 double AgingMap::logOdds(CellIndex cell, Stamp now) const {
-  return aged(cells_.atOrEmpty(cell), timeOf(now));
+  return Decay(timeOf(now), time_constant_).logOddsOf(cells_.atOrEmpty(cell));
 }
 
-void AgingMap::take(CellIndex index, double log_odds_step, float now) {
+void AgingMap::take(CellIndex index, double log_odds_step, float now, Decay& decay) {
   if (!window().contains(index)) {
     return;
   }
@@ -45,8 +70,8 @@ void AgingMap::take(CellIndex index, double log_odds_step, float now) {
   if (cell.seen == now) {
     return;
   }
-  const double limit = logOddsOf(1.0 - options_.min_probability);
-  cell.log_odds = static_cast<float>(std::clamp(aged(cell, now) + log_odds_step, -limit, limit));
+  cell.log_odds = static_cast<float>(
+      std::clamp(decay.logOddsOf(cell) + log_odds_step, -log_odds_limit_, log_odds_limit_));
   cell.seen = now;
 }
 
@@ -55,27 +80,26 @@ void AgingMap::update(const SensorGrid& grid, const Pose2& base_in_map) {
     first_stamp_ = grid.stamp();
   }
   const float now = timeOf(grid.stamp());
-  const double hit = logOddsOf(options_.hit_probability);
-  const double free = logOddsOf(options_.free_probability);
+  Decay decay(now, time_constant_);
   grid.forEach([&](CellIndex cell, Percent percent) {
     if (isOccupied(percent)) {
-      take(window().cellAt(base_in_map * grid.window().centerOf(cell)), hit, now);
+      take(window().cellAt(base_in_map * grid.window().centerOf(cell)), hit_log_odds_, now, decay);
     }
   });
   resample(grid, base_in_map, window(), [&](CellIndex cell, Percent percent) {
     if (isFree(percent)) {
-      take(cell, free, now);
+      take(cell, free_log_odds_, now, decay);
     }
   });
 }
 
 SensorGrid AgingMap::image(Stamp now) const {
   SensorGrid image(now, window());
-  const float time = timeOf(now);
+  Decay decay(timeOf(now), time_constant_);
   const CellIndex corner = window().corner;
   for (int row = corner.row; row < corner.row + window().rows; ++row) {
     for (int column = corner.column; column < corner.column + window().columns; ++column) {
-      const Percent percent = toPercent(probabilityOf(aged(cells_.at({column, row}), time)));
+      const Percent percent = toPercent(probabilityOf(decay.logOddsOf(cells_.at({column, row}))));
       image.at({column, row}) = percent == kUndecidedPercent ? kUnknownPercent : percent;
     }
   }

@@ -6,9 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include <Eigen/Eigenvalues>
-
 #include "datmo_fusion/grid/distance_field.h"
+#include "datmo_fusion/slam/map_recovery.h"
 
 namespace datmo {
 
@@ -28,12 +27,12 @@ class PoseReach {
  public:
   explicit PoseReach(const PoseWithCovariance& pose)
       : position_(pose.pose.position()),
-        position_variance_(std::pow(maxPositionSigma(pose), 2)),
+        position_variance_(std::max(0.0, maxPositionVariance(pose.covariance))),
         heading_variance_(std::max(0.0, pose.covariance(2, 2))) {}
 
   double at(const Point2& point) const {
-    const double distance = (point - position_).squaredNorm();
-    return kSigmas * std::sqrt(position_variance_ + distance * heading_variance_);
+    const double squared_distance = (point - position_).squaredNorm();
+    return kSigmas * std::sqrt(position_variance_ + squared_distance * heading_variance_);
   }
 
  private:
@@ -55,12 +54,6 @@ void MapChangeOptions::visit(OptionVisitor& visitor) {
                   "what is occupied this near in the other map has not changed: the next cell, "
                   "diagonally, too"},
                  same_within, {0.0, 100.0});
-}
-
-double maxPositionSigma(const PoseWithCovariance& pose) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(
-      Eigen::Matrix2d(pose.covariance.topLeftCorner<2, 2>()), Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, axes.eigenvalues()[1]));
 }
 
 MapChanges changesBetween(const SensorGrid& before, const SensorGrid& now,

@@ -13,14 +13,16 @@ namespace datmo {
 
 namespace {
 
-/// Whether the certainty of two poses differs by what a gap is, or the end of one.
-bool isGapBetween(const PoseWithCovariance& a, const PoseWithCovariance& b) {
+/// From one pose to the next no odometry is off by more, m.
+constexpr double kMaxMotionError = 2.0;
+
+/// Whether the certainty of two poses differs by what a gap is, or the end of one. An uncertain
+/// heading of the map itself makes what is farther on more uncertain, and is no gap.
+bool isGapBetween(const PoseWithCovariance& before, const PoseWithCovariance& now) {
   const MapRecoveryOptions gap;
-  const auto heading_sigma = [](const PoseWithCovariance& pose) {
-    return std::sqrt(std::max(0.0, pose.covariance(2, 2)));
-  };
-  return std::abs(maxPositionSigma(a) - maxPositionSigma(b)) > gap.from_position_sigma ||
-         std::abs(heading_sigma(a) - heading_sigma(b)) > gap.from_heading_sigma;
+  const Eigen::Matrix3d expected =
+      carried(before.covariance, now.pose.position() - before.pose.position());
+  return grewWider(expected, now.covariance, gap) || grewWider(now.covariance, expected, gap);
 }
 
 /// The grid, unknown where it is occupied near a mover (m, the grid's frame).
@@ -119,8 +121,19 @@ void MapFuser::reset() {
   pose_.reset();
 }
 
-void MapFuser::moveTo(const PoseWithCovariance& base_in_map) {
-  if (pose_ && isGapBetween(*pose_, base_in_map)) {
+bool MapFuser::isElsewhere(const PoseWithCovariance& base_in_map,
+                           const std::optional<Pose2>& motion) const {
+  if (!pose_) {
+    return false;
+  }
+  const bool has_jumped =
+      motion &&
+      ((pose_->pose * *motion).position() - base_in_map.pose.position()).norm() > kMaxMotionError;
+  return has_jumped || isGapBetween(*pose_, base_in_map);
+}
+
+void MapFuser::moveTo(const PoseWithCovariance& base_in_map, const std::optional<Pose2>& motion) {
+  if (isElsewhere(base_in_map, motion)) {
     reset();
     ++maps_begun_;
   }
@@ -153,8 +166,7 @@ void MapFuser::take(const std::string& source, const SensorGrid& grid, const Pos
 
 bool MapFuser::isLocated() const {
   const MapRecoveryOptions gap;
-  return pose_ && maxPositionSigma(*pose_) <= gap.from_position_sigma &&
-         pose_->covariance(2, 2) <= std::pow(gap.from_heading_sigma, 2);
+  return pose_ && !grewWider(Eigen::Matrix3d::Zero(), pose_->covariance, gap);
 }
 
 std::optional<FusedMaps> MapFuser::fuse(Stamp now) {

@@ -64,7 +64,7 @@ MapFusionStage::MapFusionStage(const Checked<MapFusionStageOptions>& options, St
       monitor_(monitor),
       runner_(monitor, options->input, "forgets the sensors' maps", [this] { reset(); }),
       inputs_({options->frames.base, options->frames, options->motion, options->input,
-               matcherOptions(*options), withPoses(sources()), "grid"},
+               matcherOptions(*options), withPoses(sources()), "message"},
               runner_),
       matcher_(matcherOptions(*options), withPoses(sources()), Serving::kOnce),
       fuser_(options->fuser) {
@@ -75,6 +75,7 @@ void MapFusionStage::reset() {
   inputs_.reset();
   matcher_.reset();
   fuser_.reset();
+  last_pose_.reset();
   last_output_.reset();
 }
 
@@ -148,6 +149,7 @@ MapFusionOutput MapFusionStage::fuse(const Matched& matched) {
   if (!last_output_ || secondsBetween(*last_output_, matched.stamp()) >= options_.period) {
     output = outputAt(matched.stamp());
   }
+  inputs_.reportUnserved(matcher_);
   runner_.processed(matched.stamp());
   return output;
 }
@@ -155,7 +157,9 @@ MapFusionOutput MapFusionStage::fuse(const Matched& matched) {
 std::vector<MissingSource> MapFusionStage::takeIn(const Matched& matched, const LabeledScan& scan) {
   std::vector<MissingSource> missing = matched.missing;
   const std::vector<Point2> movers = moversOf(scan);
-  fuser_.moveTo(scan.base_in_map);
+  fuser_.moveTo(scan.base_in_map,
+                last_pose_ ? inputs_.motion(*last_pose_, scan.stamp) : std::nullopt);
+  last_pose_ = scan.stamp;
   for (const SourceSample<Sample>& sample : matched.samples) {
     const auto* const grid = std::get_if<SensorGrid>(sample.payload.get());
     if (grid == nullptr) {
@@ -189,7 +193,7 @@ MapFusionOutput MapFusionStage::outputAt(Stamp stamp) {
 
 void MapFusionStage::show(const FusedMaps& maps) {
   monitor_.figure("cells in conflict", maps.cells_in_conflict);
-  monitor_.figure("maps begun anew after a gap", fuser_.mapsBegun());
+  monitor_.figure("maps begun anew", fuser_.mapsBegun());
   if (maps.changes) {
     monitor_.figure("cells new since the prior map", maps.changes->appeared);
     monitor_.figure("cells vanished since the prior map", maps.changes->vanished);

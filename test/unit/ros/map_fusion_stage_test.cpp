@@ -221,6 +221,28 @@ TEST_F(MapFusionStageTest, AClockThatJumpsBackBeginsAnew) {
   EXPECT_EQ(warnings("clock_restart"), 1U);
 }
 
+TEST_F(MapFusionStageTest, APoseThatJumpsAwayFromTheMotionBeginsAnew) {
+  for (int i = 0; i <= 20; ++i) {
+    stage_->takeOdometry(samples::odometry(100.0 + 0.02 * i, 20.0));
+  }
+  allAt(100.0, kOccupied, kOccupied);
+  allAt(100.1, kOccupied, kOccupied, Pose2(2.0, 0.0, 0.0));
+  allAt(100.2, kOccupied, kOccupied, Pose2(12.0, 0.0, 0.0));
+  const auto output = allAt(101.0, kFree, kFree, Pose2(14.0, 0.0, 0.0));
+  ASSERT_TRUE(output && output->fused);
+  EXPECT_EQ(monitor_.figures().at("maps begun anew"), 1.0);
+}
+
+TEST_F(MapFusionStageTest, GridsThatNoPoseTakesInAreCounted) {
+  for (int i = 0; i < 3; ++i) {  // a camera that is three times as fast
+    take("stereo", gridMessage(100.0 + 0.03 * i, kFree));
+  }
+  take("lidar", gridMessage(100.06, kFree));
+  take(scanMessage(100.06));
+  ASSERT_TRUE(nextAt(100.06));
+  EXPECT_EQ(monitor_.figures().at("lists of stereo not fused"), 2.0);
+}
+
 TEST_F(MapFusionStageTest, ChangesSinceThePriorMapAreTold) {
   options_.prior_map = priorMap({-4, 1}, 1.0);
   start();

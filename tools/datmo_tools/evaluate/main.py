@@ -7,6 +7,7 @@ from pathlib import Path
 from datmo_tools import command_line
 from datmo_tools.evaluate import (
     borders,
+    changes,
     classes,
     free_cells,
     grids,
@@ -39,6 +40,7 @@ SUBCOMMANDS = {
     "borders": (borders, "the borders of the road"),
     "grids": (grids, "fused grids, on simulated drives"),
     "maps": (maps, "maps of what stands still, on simulated drives"),
+    "changes": (changes, "what is reported to have changed since a prior map, on simulated drives"),
     "stereo_grids": (stereo_grids, "stereo grids, by the Velodyne of a KITTI drive"),
     "free_cells": (free_cells, "free cells of grids, by the Velodyne of a KITTI drive"),
     "risk": (risk, "risks of contact, on simulated drives"),

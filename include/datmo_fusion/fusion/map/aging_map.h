@@ -27,8 +27,7 @@ struct AgingMapOptions {
 class AgingMap {
  public:
   /// A window of at least one cell about the map's origin. Throws OptionError.
-  AgingMap(const Checked<AgingMapOptions>& options, int columns, int rows, double cell_size)
-      : options_(*options), cells_(columns, rows, cell_size, Cell{}) {}
+  AgingMap(const Checked<AgingMapOptions>& options, int columns, int rows, double cell_size);
 
   const GridWindow& window() const { return cells_.window(); }
 
@@ -40,7 +39,8 @@ class AgingMap {
   /// one is never lost by rounding (as in movedGrid).
   void update(const SensorGrid& grid, const Pose2& base_in_map);
 
-  /// Log-odds of a cell as they are worth at this time; 0 where nothing is known.
+  /// Log-odds of a cell as they are worth at this time, not before it was seen; 0 where nothing is
+  /// known.
   double logOdds(CellIndex cell, Stamp now) const;
 
   /// The window at this time, in the map's frame; what is as likely occupied as free, to a percent,
@@ -53,13 +53,17 @@ class AgingMap {
     float seen = -std::numeric_limits<float>::infinity();  ///< s since the first grid
   };
 
-  double aged(const Cell& cell, float now) const;
-  void take(CellIndex cell, double log_odds_step, float now);
+  class Decay;
+
+  void take(CellIndex cell, double log_odds_step, float now, Decay& decay);
   float timeOf(Stamp stamp) const {
     return first_stamp_ ? static_cast<float>(secondsBetween(*first_stamp_, stamp)) : 0.0F;
   }
 
-  AgingMapOptions options_;
+  double time_constant_;  ///< s
+  double hit_log_odds_;
+  double free_log_odds_;
+  double log_odds_limit_;
   RollingGrid<Cell> cells_;
   std::optional<Stamp> first_stamp_;
 };

@@ -35,7 +35,4 @@ struct MapChanges {
 MapChanges changesBetween(const SensorGrid& before, const SensorGrid& now,
                           const PoseWithCovariance& base_in_map, const MapChangeOptions& options);
 
-/// Standard deviation of the position in its least certain direction, m.
-double maxPositionSigma(const PoseWithCovariance& pose);
-
 }  // namespace datmo

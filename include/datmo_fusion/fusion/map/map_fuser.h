@@ -59,8 +59,8 @@ struct FusedMaps {
 /// does not age.
 ///
 /// A pose that in one step becomes far more or less certain (by what MapRecoveryOptions calls a
-/// gap) lies elsewhere than the maps: they begin anew. While it is as uncertain, the prior map is
-/// left out.
+/// gap), or jumps by more than the vehicle's motion, lies elsewhere than the maps: they begin anew.
+/// While it is as uncertain, the prior map is left out.
 class MapFuser {
  public:
   /// Throws OptionError.
@@ -69,8 +69,10 @@ class MapFuser {
   /// The map of what was there before; its window must be as that of the grids.
   void setPrior(OccupancyMap prior) { prior_ = std::move(prior); }
 
-  /// The vehicle's pose from now on, for the window and for what take() and fuse() do.
-  void moveTo(const PoseWithCovariance& base_in_map);
+  /// The vehicle's pose from now on, for the window and for what take() and fuse() do. `motion`: of
+  /// the vehicle since the last pose, as something else than the map knows it; none: nothing does.
+  void moveTo(const PoseWithCovariance& base_in_map,
+              const std::optional<Pose2>& motion = std::nullopt);
 
   /// A grid that a source saw from a pose of the vehicle in the map; by rising stamp for each
   /// source, and all of one window, which is that of the maps, about the vehicle. What is occupied
@@ -82,7 +84,7 @@ class MapFuser {
   /// None before the first grid.
   std::optional<FusedMaps> fuse(Stamp now);
 
-  /// How often the maps began anew since the start.
+  /// How often the maps began anew after such a pose, since the start.
   int mapsBegun() const { return maps_begun_; }
 
   /// Forgets all but the prior map.
@@ -90,6 +92,9 @@ class MapFuser {
 
  private:
   bool isLocated() const;
+
+  /// Whether the maps do not lie where this pose says.
+  bool isElsewhere(const PoseWithCovariance& base_in_map, const std::optional<Pose2>& motion) const;
 
   MapFuserOptions options_;
   std::map<std::string, std::optional<AgingMap>> maps_;  ///< none before its first grid

@@ -101,6 +101,7 @@ class MapFusionStage : public Stage {
   SourceMatcher<Sample> matcher_;
   MapFuser fuser_;
   std::optional<GridWindow> window_;  ///< of the first grid
+  std::optional<Stamp> last_pose_;
   std::optional<Stamp> last_output_;
   StagePublisher<nav_msgs::OccupancyGrid> fused_;
   StagePublisher<nav_msgs::OccupancyGrid> conflicts_;
