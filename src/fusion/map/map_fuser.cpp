@@ -166,7 +166,9 @@ void MapFuser::take(const std::string& source, const SensorGrid& grid, const Pos
 
 bool MapFuser::isLocated() const {
   const MapRecoveryOptions gap;
-  return pose_ && !grewWider(Eigen::Matrix3d::Zero(), pose_->covariance, gap);
+  // Written so that what is not a number is not located.
+  return pose_ && maxPositionVariance(pose_->covariance) <= std::pow(gap.from_position_sigma, 2) &&
+         pose_->covariance(2, 2) <= std::pow(gap.from_heading_sigma, 2);
 }
 
 std::optional<FusedMaps> MapFuser::fuse(Stamp now) {

@@ -11,6 +11,7 @@
 #include "datmo_fusion/ros/convert/grid_conversion.h"
 #include "datmo_fusion/ros/convert/message_conversion.h"
 #include "datmo_fusion/ros/map_files.h"
+#include "datmo_fusion/ros/stage/output_check.h"
 #include "datmo_fusion/ros/stage/stage_inputs.h"
 
 namespace datmo {
@@ -19,6 +20,9 @@ namespace {
 
 /// The source that has the poses.
 constexpr char kPoses[] = "labeled_scan";
+
+/// Rows of a pose's covariance in ROS: x, y, z, roll, pitch, yaw.
+constexpr std::size_t kPoseAxes = 6;
 
 SourceMatcherOptions matcherOptions(const MapFusionStageOptions& options) {
   SourceMatcherOptions matcher;
@@ -124,6 +128,12 @@ void MapFusionStage::takeLabeledScan(const LabeledScanMessage& message, Stamp no
     if (message.map_frame != options_.frames.map) {
       throw InputError("wrong_frame", "labeled scan in a map '" + message.map_frame +
                                           "': expected '" + options_.frames.map + "'");
+    }
+    if (!isCovariance(message.pose.covariance.data(), kPoseAxes)) {
+      throw InputError(
+          "bad_pose",
+          "labeled scan with a pose whose covariance is none: expected finite numbers, "
+          "symmetric, without a negative variance");
     }
     inputs_.take(kPoses, message.header, now);
     const Stamp stamp = scan.stamp;

@@ -2,6 +2,7 @@
 #include "datmo_fusion/fusion/map/map_fuser.h"
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "map_samples.h"
@@ -180,6 +181,9 @@ TEST_F(MapFuserTest, WhileThePoseIsUncertainThePriorMapIsLeftOut) {
   EXPECT_FALSE(maps->changes);
   EXPECT_EQ(maps->fused.at(kCell), kFree);
   EXPECT_EQ(maps->fused.at({0, 0}), kUnknownPercent);
+  fuser_.moveTo(poseOf(Pose2(), std::numeric_limits<double>::quiet_NaN()));
+  take("lidar", kFree, 1.0);
+  EXPECT_FALSE(fuser_.fuse(stampAt(1.0))->changes) << "not a number is not sure";
 }
 
 }  // namespace

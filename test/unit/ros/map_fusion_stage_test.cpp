@@ -209,7 +209,11 @@ TEST_F(MapFusionStageTest, WhatIsNoGridOfTheSensorsIsRefusedAndCounted) {
   EXPECT_EQ(drops("unknown_source"), 1U);
   take(scanMessage(100.2, Pose2(), "other_map"));
   EXPECT_EQ(drops("wrong_frame"), 2U);
-  EXPECT_EQ(monitor_.droppedCount(), 7U);
+  LabeledScanMessage unsure = scanMessage(100.2);
+  unsure.pose.covariance[0] = std::numeric_limits<double>::quiet_NaN();
+  take(unsure);
+  EXPECT_EQ(drops("bad_pose"), 1U);
+  EXPECT_EQ(monitor_.droppedCount(), 8U);
   EXPECT_TRUE(allAt(101.0, kFree, kFree)->fused) << "it goes on";
 }
 
