@@ -156,9 +156,15 @@ set(DATMO_FUSION_CORE_SOURCES
   sensor_model/stereo_view.cpp
   sensor_model/surface_pairs.cpp
   slam/end_points.cpp
+  slam/gradual_correction.cpp
   slam/grid_masked_scan.cpp
   slam/grid_slam.cpp
   slam/grid_slam_recovery.cpp
+  slam/keyframe.cpp
+  slam/keyframe_selector.cpp
+  slam/loop_closer.cpp
+  slam/loop_closer_judgement.cpp
+  slam/loop_closer_results.cpp
   slam/map_recovery.cpp
   slam/map_search.cpp
   slam/map_search_cost.cpp
@@ -170,12 +176,15 @@ set(DATMO_FUSION_CORE_SOURCES
   slam/odometry_buffer.cpp
   slam/odometry_poses.cpp
   slam/pose_filter.cpp
+  slam/pose_graph.cpp
   slam/pose_motion.cpp
   slam/pose_scorer.cpp
   slam/scan_matcher.cpp
   slam/search_region.cpp
   slam/searched_map.cpp
   slam/static_scan.cpp
+  slam/submap.cpp
+  slam/submap_matcher.cpp
   slam/twist_gate.cpp
   tracking/association.cpp
   tracking/association_scan.cpp

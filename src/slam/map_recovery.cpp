@@ -74,6 +74,12 @@ Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Point2& arm) {
   return lever * covariance * lever.transpose();
 }
 
+Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double angle) {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  rotation.topLeftCorner<2, 2>() = Pose2(0.0, 0.0, angle).rotation();
+  return rotation * covariance * rotation.transpose();
+}
+
 MapRecovery::MapRecovery(const Checked<MapRecoveryOptions>& options, OccupancyMap older,
                          const PoseWithCovariance& start, Stamp stamp)
     : options_(*options),

@@ -133,8 +133,11 @@ target_include_directories(unit_sensor_model PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}
 datmo_fusion_add_core_test(slam
   slam/end_points_test.cpp
   slam/fused_slam_test.cpp
+  slam/gradual_correction_test.cpp
   slam/grid_masked_scan_test.cpp
   slam/grid_slam_test.cpp
+  slam/keyframe_test.cpp
+  slam/loop_closer_test.cpp
   slam/map_recovery_test.cpp
   slam/map_search_test.cpp
   slam/motion_compensation_test.cpp
@@ -143,12 +146,14 @@ datmo_fusion_add_core_test(slam
   slam/odometry_buffer_test.cpp
   slam/odometry_poses_test.cpp
   slam/pose_filter_test.cpp
+  slam/pose_graph_test.cpp
   slam/pose_motion_test.cpp
   slam/pose_scorer_test.cpp
   slam/prior_map_test.cpp
   slam/scan_matcher_test.cpp
   slam/searched_map_test.cpp
   slam/static_scan_test.cpp
+  slam/submap_matcher_test.cpp
   slam/twist_gate_test.cpp
 )
 target_include_directories(unit_slam PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})

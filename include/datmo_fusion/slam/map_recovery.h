@@ -51,6 +51,9 @@ bool grewWider(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to,
 /// rigidly connected with it.
 Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Point2& arm);
 
+/// A covariance (x, y, heading) in axes from which its own are turned by this angle (rad).
+Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double angle);
+
 /// Relocalization in a map after a gap in which the vehicle may have gone anywhere within a wide
 /// prior. Scans then build a newer map, which begins at the prior's mean, and the older one is left
 /// as it was; it is searched for the newer one, again and again as that grows, until there is one

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/slam/gradual_correction.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace datmo {
+
+void GradualCorrectionOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"speed", "m/s", "at which a correction moves the vehicle, at the most"}, speed,
+                 {0.001, 1000.0});
+  visitor.number({"turn_rate", "rad/s", "at which it turns it, at the most"}, turn_rate,
+                 {0.0001, 1000.0});
+}
+
+GradualCorrection::GradualCorrection(const Checked<GradualCorrectionOptions>& options)
+    : options_(*options) {}
+
+Pose2 GradualCorrection::advance(Stamp stamp, const Pose2& vehicle, const Pose2& target) {
+  const double seconds = std::max(0.0, secondsBetween(stamp_.value_or(stamp), stamp));
+  stamp_ = stamp;
+  const Pose2 now = inner_in_outer_ * vehicle;
+  const Pose2 goal = target * vehicle;
+  const Point2 way = goal.position() - now.position();
+  const double length = way.norm();
+  const double max_step = options_.speed * seconds;
+  const double max_turn = options_.turn_rate * seconds;
+  const Point2 step = length > max_step ? Point2(way * (max_step / length)) : way;
+  const double turn = std::clamp(angleBetween(now.heading(), goal.heading()), -max_turn, max_turn);
+  inner_in_outer_ = Pose2(now.position() + step, now.heading() + turn) * vehicle.inverse();
+  return inner_in_outer_;
+}
+
+void GradualCorrection::reset() {
+  inner_in_outer_ = {};
+  stamp_.reset();
+}
+
+}  // namespace datmo

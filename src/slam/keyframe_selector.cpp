@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datmo_fusion/slam/keyframe_selector.h"
+
+#include <cmath>
+
+#include "datmo_fusion/common/square.h"
+#include "datmo_fusion/slam/map_recovery.h"
+
+namespace datmo {
+
+namespace {
+
+/// Of the position in the direction in which it is largest, and of the heading.
+Eigen::Vector2d variancesOf(const Eigen::Matrix3d& covariance) {
+  const double mean = 0.5 * (covariance(0, 0) + covariance(1, 1));
+  const double half = 0.5 * (covariance(0, 0) - covariance(1, 1));
+  return {mean + std::hypot(half, covariance(0, 1)), covariance(2, 2)};
+}
+
+}  // namespace
+
+void KeyframeOptions::visit(OptionVisitor& visitor) {
+  visitor.number({"distance", "m", "from one scan that is kept to the next"}, distance,
+                 {0.05, 100.0});
+  visitor.number({"turn", "rad", "or this turn"}, turn, {0.01, kPi});
+  visitor.number({"max_position_sigma", "m",
+                  "a scan of a pose less certain than this (standard deviation) is not kept; as "
+                  "grid_slam's recovery/from_position_sigma, from which it searches its map"},
+                 max_position_sigma, {0.01, 1000.0});
+  visitor.number({"max_heading_sigma", "rad", "the same of the heading"}, max_heading_sigma,
+                 {0.001, 10.0});
+  visitor.number({"new_map_after", "s",
+                  "a pose that stays uncertain for so long is in a new map; more than grid_slam's "
+                  "recovery/give_up_after"},
+                 new_map_after, {0.1, 3600.0});
+}
+
+KeyframeSelector::KeyframeSelector(const Checked<KeyframeOptions>& options) : options_(*options) {}
+
+bool KeyframeSelector::isFarBelow(const Eigen::Matrix3d& known,
+                                  const Eigen::Matrix3d& other) const {
+  const Eigen::Vector2d more = variancesOf(other - known);
+  return more[0] > square(options_.max_position_sigma) ||
+         more[1] > square(options_.max_heading_sigma);
+}
+
+KeyframeSelector::Use KeyframeSelector::startAt(const PoseWithCovariance& base_in_map) {
+  last_ = base_in_map;
+  uncertain_since_.reset();
+  return Use::kFirst;
+}
+
+KeyframeSelector::Use KeyframeSelector::take(Stamp stamp, const PoseWithCovariance& base_in_map) {
+  const Pose2& pose = base_in_map.pose;
+  const Eigen::Matrix3d expected =
+      last_ ? carried(last_->covariance, pose.position() - last_->pose.position())
+            : Eigen::Matrix3d::Zero();
+  if (isFarBelow(expected, base_in_map.covariance)) {
+    uncertain_since_ = uncertain_since_.value_or(stamp);
+    return secondsBetween(*uncertain_since_, stamp) < options_.new_map_after ? Use::kNothing
+                                                                             : startAt(base_in_map);
+  }
+  if (!last_ || isFarBelow(base_in_map.covariance, expected)) {
+    return startAt(base_in_map);
+  }
+  uncertain_since_.reset();
+  const Pose2 since = last_->pose.inverse() * pose;
+  if (since.position().norm() < options_.distance && std::abs(since.heading()) < options_.turn) {
+    return Use::kPose;
+  }
+  last_ = base_in_map;
+  return Use::kKeyframe;
+}
+
+void KeyframeSelector::reset() {
+  last_.reset();
+  uncertain_since_.reset();
+}
+
+}  // namespace datmo

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which of the loops that were found LoopCloser believes.
+#include <algorithm>
+
+#include <Eigen/Cholesky>
+
+#include "datmo_fusion/slam/loop_closer.h"
+#include "datmo_fusion/slam/map_recovery.h"
+
+namespace datmo {
+
+namespace {
+
+/// 99.9 % of a chi-square distribution of three degrees of freedom.
+constexpr double kMaxSquaredError = 16.3;
+
+/// A candidate is forgotten when nothing has confirmed it after this many submap lengths.
+constexpr double kCandidateLife = 5.0;
+
+/// Two candidates confirm each other from this share of a submap's length on.
+constexpr double kApart = 0.4;
+
+}  // namespace
+
+bool LoopCloser::agree(const Candidate& a, const Candidate& b) const {
+  const std::vector<Pose2>& poses = graph_.poses();
+  const Pose2 a_global = poses[a.from] * a.motion;
+  const Pose2 b_global = poses[b.from] * b.motion;
+  const Pose2 expected = a_global * (poses[a.to].inverse() * poses[b.to]);
+  const Eigen::Vector3d error(b_global.x() - expected.x(), b_global.y() - expected.y(),
+                              angleBetween(expected.heading(), b_global.heading()));
+  const double correction = angleBetween(poses[a.to].heading(), a_global.heading());
+  const Eigen::Matrix3d covariance = turned(driftBetween(a.to, b.to), correction) +
+                                     carried(turned(a.covariance, poses[a.from].heading()),
+                                             b_global.position() - a_global.position()) +
+                                     turned(b.covariance, poses[b.from].heading());
+  return error.dot(covariance.llt().solve(error)) <= kMaxSquaredError;
+}
+
+bool LoopCloser::judge(const Candidate& candidate, double prior_sigma) {
+  if (prior_sigma <= options_.trusted_sigma) {
+    graph_.close(candidate);
+    return optimize();
+  }
+  const double at = nodes_[candidate.to].distance;
+  const auto too_old =
+      std::remove_if(candidates_.begin(), candidates_.end(), [&](const Candidate& each) {
+        return at - nodes_[each.to].distance > kCandidateLife * options_.submap_length;
+      });
+  counts_.unconfirmed += static_cast<std::size_t>(candidates_.end() - too_old);
+  candidates_.erase(too_old, candidates_.end());
+  const auto confirmed =
+      std::find_if(candidates_.begin(), candidates_.end(), [&](const Candidate& each) {
+        return at - nodes_[each.to].distance >= kApart * options_.submap_length &&
+               agree(each, candidate);
+      });
+  if (confirmed == candidates_.end()) {
+    candidates_.push_back(candidate);
+    return false;
+  }
+  graph_.close(*confirmed);
+  graph_.close(candidate);
+  counts_.unconfirmed += candidates_.size() - 1;
+  candidates_.clear();
+  return optimize();
+}
+
+bool LoopCloser::optimize() {
+  if (!graph_.optimize()) {
+    return false;
+  }
+  const std::size_t refuted = graph_.removeLoops(kMaxSquaredError);
+  counts_.refuted += refuted;
+  if (refuted > 0) {
+    graph_.optimize();
+  }
+  counts_.closed = graph_.loops().size();
+  last_closed_ = 0;
+  for (const PoseConstraint& loop : graph_.loops()) {
+    last_closed_ = std::max(last_closed_, loop.to);
+  }
+  return true;
+}
+
+}  // namespace datmo
