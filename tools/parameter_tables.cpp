@@ -17,6 +17,7 @@
 #include "datmo_fusion/ros/stage/grid_fusion_stage.h"
 #include "datmo_fusion/ros/stage/grid_slam_stage.h"
 #include "datmo_fusion/ros/stage/lidar_grid_stage.h"
+#include "datmo_fusion/ros/stage/loop_closing_stage.h"
 #include "datmo_fusion/ros/stage/map_fusion_stage.h"
 #include "datmo_fusion/ros/stage/mono_classifier_stage.h"
 #include "datmo_fusion/ros/stage/mono_grid_stage.h"
@@ -95,6 +96,7 @@ std::vector<Section> sections() {
           section<MapFusionStageOptions>("`map_fusion`"),
           section<RoadBorderStageOptions>("`road_border`"),
           section<MovingObjectsStageOptions>("`moving_objects`"),
+          section<LoopClosingStageOptions>("`loop_closing`"),
           section<StaticPointsStageOptions>("`static_points`"),
           section<PointVelocityStageOptions>("`point_velocity`"),
           section<StereoObjectsStageOptions>("`stereo_objects`"),

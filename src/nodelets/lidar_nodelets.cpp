@@ -7,6 +7,7 @@
 
 #include "datmo_fusion/ros/stage/grid_slam_stage.h"
 #include "datmo_fusion/ros/stage/lidar_grid_stage.h"
+#include "datmo_fusion/ros/stage/loop_closing_stage.h"
 #include "datmo_fusion/ros/stage/motion_stage.h"
 #include "datmo_fusion/ros/stage/moving_objects_stage.h"
 #include "datmo_fusion/ros/stage/radar_objects_stage.h"
@@ -19,6 +20,7 @@ namespace datmo {
 
 using GridSlamNodelet = StageNodelet<GridSlamStage>;
 using LidarGridNodelet = StageNodelet<LidarGridStage>;
+using LoopClosingNodelet = StageNodelet<LoopClosingStage>;
 using MotionNodelet = StageNodelet<MotionStage>;
 using MovingObjectsNodelet = StageNodelet<MovingObjectsStage>;
 using RadarObjectsNodelet = StageNodelet<RadarObjectsStage>;
@@ -31,6 +33,7 @@ using TrackerNodelet = StageNodelet<TrackerStage>;
 
 PLUGINLIB_EXPORT_CLASS(datmo::GridSlamNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(datmo::LidarGridNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(datmo::LoopClosingNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(datmo::MotionNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(datmo::MovingObjectsNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(datmo::RadarObjectsNodelet, nodelet::Nodelet)

@@ -84,6 +84,7 @@ int main(int count, char** words) {
   switches.road_border = is_on("road_border");
   switches.cloud_objects = is_on("cloud_objects");
   switches.static_points = is_on("static_points");
+  switches.loop_closing = is_on("loop_closing");
   switches.stereo_objects = is_on("stereo_objects");
   switches.radar = is_on("radar");
   switches.mono = is_on("mono");

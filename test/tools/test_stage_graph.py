@@ -17,7 +17,7 @@ from pathlib import Path
 from launch_files import PACKAGE, load
 
 LEVELS = ("low_level_fusion", "stereo_objects", "object_fusion", "track_fusion", "mono")
-OTHERS = ("cloud", "road_border", "static_points", "cloud_objects", "radar", "v2x", "risk",
+OTHERS = ("cloud", "road_border", "static_points", "loop_closing", "cloud_objects", "radar", "v2x", "risk",
           "map_fusion")
 DISPLAYS = {"markers", "lidar_markers", "stereo_markers", "grid_views", "camera_view", "stack"}
 PARTS = ("sensors", "stereo", "perception", "risk")

@@ -32,11 +32,15 @@ const std::vector<std::string> kInputTopics = {
     "rear_scan",
 };
 
-const Choices<LastStage> kStages = {
-    {"grid_fusion", LastStage::kGridFusion},     {"grid_slam", LastStage::kGridSlam},
-    {"road_border", LastStage::kRoadBorder},     {"moving_objects", LastStage::kMovingObjects},
-    {"object_fusion", LastStage::kObjectFusion}, {"tracker", LastStage::kTracker},
-    {"track_fusion", LastStage::kTrackFusion},   {"risk", LastStage::kRisk}};
+const Choices<LastStage> kStages = {{"grid_fusion", LastStage::kGridFusion},
+                                    {"grid_slam", LastStage::kGridSlam},
+                                    {"loop_closing", LastStage::kLoopClosing},
+                                    {"road_border", LastStage::kRoadBorder},
+                                    {"moving_objects", LastStage::kMovingObjects},
+                                    {"object_fusion", LastStage::kObjectFusion},
+                                    {"tracker", LastStage::kTracker},
+                                    {"track_fusion", LastStage::kTrackFusion},
+                                    {"risk", LastStage::kRisk}};
 
 const Choices<FusionLevel> kFusionLevels = {{"none", FusionLevel::kNone},
                                             {"low", FusionLevel::kLow},
@@ -55,6 +59,7 @@ struct OptionalStage {
 constexpr OptionalStage kOptionalStages[] = {
     {"--low-level-fusion", &Arguments::low_level_fusion, LastStage::kGridFusion,
      LastStage::kGridFusion},
+    {"--loop-closing", &Arguments::loop_closing, LastStage::kLoopClosing, LastStage::kLoopClosing},
     {"--road-border", &Arguments::road_border, LastStage::kRoadBorder, LastStage::kRoadBorder},
     {"--object-fusion", &Arguments::object_fusion, LastStage::kObjectFusion,
      LastStage::kObjectFusion},
@@ -224,6 +229,10 @@ void addStages(CommandLine& line, Arguments& arguments) {
                 "road by its colors, too, and --write-grids writes /grids/mono");
   line.add_flag("--static-points", arguments.static_points,
                 "writes what stands still: /static_points and /static_scan");
+  line.add_flag(
+      "--loop-closing", arguments.loop_closing,
+      "closes loops behind the SLAM, and writes /map/optimized, /trajectory/optimized and\n"
+      "map -> global_map; --save-map then saves the optimized map");
   line.addChoice(
       "--fusion", arguments.fusion, kFusionLevels,
       "none, low, object or track: the level of fusion, as the single options below and\n"

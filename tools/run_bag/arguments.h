@@ -26,6 +26,7 @@ struct Arguments {
   bool low_level_fusion = false;
   bool road_border = false;
   bool static_points = false;
+  bool loop_closing = false;
   bool cloud_objects = false;
   bool radar = false;
   bool mono = false;

@@ -22,6 +22,7 @@
 #include <rosbag/view.h>
 
 #include "datmo_fusion/ros/stage/grid_slam_stage.h"
+#include "datmo_fusion/ros/stage/loop_closing_stage.h"
 #include "datmo_fusion/ros/stage/object_fusion_stage.h"
 #include "datmo_fusion/ros/stage/track_fusion_stage.h"
 #include "datmo_fusion/ros/whole_file.h"
@@ -129,6 +130,7 @@ GraphSwitches switchesOf(const Arguments& arguments, const SensorSet& sensors,
   switches.low_level_fusion = arguments.low_level_fusion;
   switches.road_border = arguments.road_border;
   switches.static_points = arguments.static_points;
+  switches.loop_closing = arguments.loop_closing;
   switches.cloud_objects = arguments.cloud_objects;
   switches.radar = arguments.radar;
   switches.mono = arguments.mono;
@@ -146,6 +148,15 @@ GraphSwitches switchesOf(const Arguments& arguments, const SensorSet& sensors,
       (arguments.object_fusion &&
        usesStereo(sensors.options<ObjectFusionStageOptions>("object_fusion").fuser.sourcesInUse()));
   return switches;
+}
+
+/// The optimized map where there is one.
+void saveMap(const GraphRunner& graph, const std::string& file) {
+  if (graph.has("loop_closing")) {
+    graph.stage<LoopClosingStage>("loop_closing").saveMap(file);
+  } else {
+    graph.stage<GridSlamStage>("grid_slam").saveMap(file);
+  }
 }
 
 }  // namespace
@@ -189,7 +200,7 @@ void runBag(const Arguments& arguments, std::ostream& out, std::ostream* progres
     writeWholeFile(arguments.report, run.report().json(drive, time, toStamp(view.getEndTime())));
   }
   if (!arguments.save_map.empty()) {
-    graph.stage<GridSlamStage>("grid_slam").saveMap(arguments.save_map);
+    saveMap(graph, arguments.save_map);
   }
   run.text().write();
   output.finish();

@@ -123,10 +123,10 @@ void BagToGraph::write(const ros::Time& time, const Publications& published) {
     report_.add(publication);
     if (isResult(publication)) {
       writeAsOneOf<geometry_msgs::PoseWithCovarianceStamped, nav_msgs::OccupancyGrid,
-                   sensor_msgs::LaserScan, sensor_msgs::PointCloud2, tf2_msgs::TFMessage,
-                   LabeledScanMessage, RoadBorders, ObjectArray, DroppedObjects, TrackArray,
-                   RiskArray, StereoAlignmentMessage, EarthFrameMessage, StationTracksMessage>(
-          time, publication);
+                   nav_msgs::Path, sensor_msgs::LaserScan, sensor_msgs::PointCloud2,
+                   tf2_msgs::TFMessage, LabeledScanMessage, RoadBorders, ObjectArray,
+                   DroppedObjects, TrackArray, RiskArray, StereoAlignmentMessage, EarthFrameMessage,
+                   StationTracksMessage>(time, publication);
     }
   }
 }

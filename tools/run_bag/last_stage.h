@@ -7,6 +7,7 @@ namespace datmo {
 enum class LastStage {
   kGridFusion,
   kGridSlam,
+  kLoopClosing,
   kRoadBorder,
   kMovingObjects,
   kObjectFusion,

@@ -30,7 +30,7 @@ std::vector<GraphStage> wholeGraph() {
         &GraphSwitches::cloud_objects, &GraphSwitches::radar, &GraphSwitches::mono,
         &GraphSwitches::object_fusion, &GraphSwitches::stereo_tracker, &GraphSwitches::track_fusion,
         &GraphSwitches::v2x, &GraphSwitches::risk, &GraphSwitches::merge_scans,
-        &GraphSwitches::map_fusion}) {
+        &GraphSwitches::map_fusion, &GraphSwitches::loop_closing}) {
     all.*one = true;
   }
   return stageGraph(all);

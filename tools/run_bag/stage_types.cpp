@@ -9,6 +9,7 @@
 #include "datmo_fusion/ros/stage/grid_fusion_stage.h"
 #include "datmo_fusion/ros/stage/grid_slam_stage.h"
 #include "datmo_fusion/ros/stage/lidar_grid_stage.h"
+#include "datmo_fusion/ros/stage/loop_closing_stage.h"
 #include "datmo_fusion/ros/stage/map_fusion_stage.h"
 #include "datmo_fusion/ros/stage/mono_classifier_stage.h"
 #include "datmo_fusion/ros/stage/mono_grid_stage.h"
@@ -53,6 +54,7 @@ const std::map<std::string, StageType>& stageTypes() {
       {"grid_fusion", typeOf<GridFusionStage>()},
       {"grid_slam", typeOf<GridSlamStage>()},
       {"lidar_grid", typeOf<LidarGridStage>()},
+      {"loop_closing", typeOf<LoopClosingStage>()},
       {"map_fusion", typeOf<MapFusionStage>()},
       {"mono_classifier", typeOf<MonoClassifierStage>()},
       {"mono_grid", typeOf<MonoGridStage>()},

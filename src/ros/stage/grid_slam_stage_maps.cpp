@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What GridSlamStage does with map files.
-#include <filesystem>
-
 #include "datmo_fusion/ros/stage/grid_slam_stage.h"
+#include "datmo_fusion/ros/stage/map_saving.h"
 
 namespace datmo {
 
@@ -21,13 +20,7 @@ void GridSlamStage::readPriorMap() {
 }
 
 std::string GridSlamStage::saveMap(const std::string& file) const {
-  const SavedMap saved = writeMap(file, slam_.lastingMap());
-  std::string text = file + ": " + std::to_string(saved.cells) + " cells";
-  if (saved.forgotten_tiles > 0) {
-    text += "; " + std::to_string(saved.forgotten_tiles) +
-            " tiles were forgotten before, since there are more than map/max_tiles";
-  }
-  return text;
+  return savedMapText(file, slam_.lastingMap());
 }
 
 /// Whether saving there would replace a file of the prior map.
@@ -38,23 +31,12 @@ bool GridSlamStage::isOfPriorMap(const std::string& file) const {
 
 datmo_fusion::SaveMap::Response GridSlamStage::answer(
     const datmo_fusion::SaveMap::Request& request) const {
-  datmo_fusion::SaveMap::Response response;
-  response.success = false;
-  if (!std::filesystem::path(request.file).is_absolute()) {
-    response.message = "file '" + request.file + "': expected an absolute path";
-    return response;
-  }
-  try {
-    if (isOfPriorMap(request.file)) {
-      throw MapFileError(request.file + ": the map in use, expected another name");
+  return answerSaveMap(request, monitor_, [this](const std::string& file) {
+    if (isOfPriorMap(file)) {
+      throw MapFileError(file + ": the map in use, expected another name");
     }
-    response.message = saveMap(request.file);
-    response.success = true;
-  } catch (const std::exception& error) {  // no memory, too
-    response.message = error.what();
-    monitor_.warned(InputError("map_not_saved", error.what()));
-  }
-  return response;
+    return saveMap(file);
+  });
 }
 
 }  // namespace datmo

@@ -131,6 +131,7 @@ std::vector<GraphStage> stageGraph(const GraphSwitches& switches) {
   add(true, {"grid_slam", "grid_slam", {{"scan", scan}}, {{"fused_grid", low_level}}});
   add(switches.map_fusion, {"map_fusion", "map_fusion", {}, fusedGrids(switches)});
   add(switches.static_points, {"static_points", "static_points", {}, {}});
+  add(switches.loop_closing, {"loop_closing", "loop_closing", {}, {}});
   add(switches.road_border, {"road_border", "road_border", {}, {}});
   add(true, {"moving_objects", "moving_objects", {}, {{"road_borders", switches.road_border}}});
   add(switches.stereo_objects, {"stereo_objects",

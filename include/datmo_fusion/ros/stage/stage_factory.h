@@ -26,6 +26,11 @@ inline constexpr bool kTakesClock =
     std::is_constructible_v<MadeStage, const typename MadeStage::Options&, const TransformBuffer&,
                             StageMonitor&, StepClock>;
 
+template <typename MadeStage>
+inline constexpr bool kTakesClockAlone =
+    std::is_constructible_v<MadeStage, const typename MadeStage::Options&, StageMonitor&,
+                            StepClock>;
+
 }  // namespace detail
 
 /// Whether a stage asks tf.
@@ -42,6 +47,8 @@ std::unique_ptr<MadeStage> makeStage(const typename MadeStage::Options& options,
     return std::make_unique<MadeStage>(options, context.transforms, context.monitor, context.clock);
   } else if constexpr (kTakesTransforms<MadeStage>) {
     return std::make_unique<MadeStage>(options, context.transforms, context.monitor);
+  } else if constexpr (detail::kTakesClockAlone<MadeStage>) {
+    return std::make_unique<MadeStage>(options, context.monitor, context.clock);
   } else {
     return std::make_unique<MadeStage>(options, context.monitor);
   }

@@ -19,6 +19,7 @@ struct GraphSwitches {
   bool low_level_fusion = false;
   bool road_border = false;
   bool static_points = false;   ///< what stands still comes out, for a navigation stack
+  bool loop_closing = false;    ///< the drive is optimized behind the live SLAM
   bool stereo_objects = false;  ///< objects are found in the stereo camera's points
   bool cloud_objects = false;   ///< objects are found in a 3D lidar's clouds
   bool radar = false;           ///< objects are found in a radar's detections, and fused

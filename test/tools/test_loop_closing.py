@@ -1,0 +1,44 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""loop_closing without the stack: errors of a path, the table, what is refused."""
+
+import contextlib
+import io
+import math
+import tempfile
+import unittest
+from pathlib import Path
+
+from datmo_tools.experiments.loop_closing import errors, main, table
+from datmo_tools.pose_path import PosePath
+
+
+class LoopClosing(unittest.TestCase):
+    def test_errors_are_those_after_the_first_pose(self):
+        truth = PosePath([0, 10, 20], [[5, 5, 0], [15, 5, 0], [25, 5, 0]])
+        path = PosePath([0, 10, 20], [[0, 0, math.pi / 2], [0, 10, math.pi / 2], [3, 20, 1.5]])
+        found = errors(path, truth)
+        self.assertAlmostEqual(found["end_m"], 3.0)
+        self.assertAlmostEqual(found["end_share"], 3.0 / 20.0)
+        self.assertAlmostEqual(found["end_deg"], math.degrees(math.pi / 2 - 1.5))
+        self.assertAlmostEqual(found["max_m"], 3.0)
+
+    def test_both_paths_stand_in_the_table(self):
+        scored = {"end_m": 3.0, "end_deg": 2.0, "end_share": 0.0125, "max_m": 4.0}
+        time = {stage: {"mean_s": 0.0015} for stage in ("grid_slam", "loop_closing")}
+        text = table([{"seed": 7, "live pose": scored, "with loops closed": scored, "time": time}])
+        self.assertRegex(text, r"7 +live pose +3\.000 +1\.250 +2\.000 +4\.00")
+        self.assertRegex(text, r"7 +with loops closed +3\.000")
+        self.assertIn("loop_closing: 1.50 ms a scan", text)
+
+    def test_a_scene_that_is_not_there_is_refused(self):
+        said = io.StringIO()
+        with tempfile.TemporaryDirectory() as name, contextlib.redirect_stderr(said):
+            scene = Path(name) / "none.yaml"
+            words = [str(scene), "--programs", name, "--config", str(scene)]
+            self.assertEqual(main(words), 1)
+        self.assertIn("none.yaml: no such file", said.getvalue())
+
+
+if __name__ == "__main__":
+    unittest.main()
