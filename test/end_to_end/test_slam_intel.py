@@ -20,6 +20,8 @@ PROGRAMS = Path(os.environ.get("RUN_BAG", "run_bag")).parent
 
 ODOMETRY = (7.370, 14.349)  # m: mean and standard deviation, the known figure
 MAX_TRANSLATION = 0.070  # m, mean: the particle filter's
+MAX_TRANSLATION_WITH_LOOPS = 0.020  # m, mean; ours is 0.015, published graph mapping 0.031
+MIN_RELATIONS_WITH_LOOPS = 2960  # those in a gap, where the pose is not known, have no pose
 RELATIONS = 2984
 
 
@@ -44,6 +46,12 @@ class Intel(unittest.TestCase):
 
     def test_pose(self):
         self.assertLessEqual(self.result["pose"]["translation_m"]["mean"], MAX_TRANSLATION)
+
+    def test_loops_closed(self):
+        scored = self.result["loops_closed"]
+        self.assertLessEqual(scored["translation_m"]["mean"], MAX_TRANSLATION_WITH_LOOPS)
+        self.assertLess(scored["translation_m"]["mean"], self.result["pose"]["translation_m"]["mean"])
+        self.assertGreaterEqual(scored["used"], MIN_RELATIONS_WITH_LOOPS)
 
 
 if __name__ == "__main__":

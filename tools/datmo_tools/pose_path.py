@@ -15,6 +15,7 @@ POSE_OF = {
     "geometry_msgs/PoseWithCovarianceStamped": lambda message: message.pose.pose,
     "geometry_msgs/PoseStamped": lambda message: message.pose,
 }
+PATH = "nav_msgs/Path"
 
 
 class PosePath:
@@ -50,14 +51,16 @@ class PosePath:
 def read_path(bag_path, topic):
     """PosePath of the poses on `topic`, by their header stamps; of equal stamps the first counts.
 
+    Of paths (nav_msgs/Path) the last one counts, which holds all of the drive.
+
     Raises InputError: no such file, no bag, fewer than two poses, a type without a stamped pose, a
     pose that is not finite.
     """
     by_stamp = {}
-    for message, kind in read_messages(bag_path, topic):
+    for message, kind in _stamped(read_messages(bag_path, topic)):
         if kind not in POSE_OF:
             raise InputError(
-                f"{bag_path}: {topic} is {kind}, expected one of {', '.join(sorted(POSE_OF))}"
+                f"{bag_path}: {topic} is {kind}, expected one of {', '.join(sorted([*POSE_OF, PATH]))}"
             )
         stamp, pose = message.header.stamp, planar(POSE_OF[kind](message))
         if not np.all(np.isfinite(pose)):
@@ -70,6 +73,13 @@ def read_path(bag_path, topic):
         raise InputError(f"{bag_path}: {len(by_stamp)} poses on {topic}, expected two or more")
     stamps = sorted(by_stamp)
     return PosePath(stamps, [by_stamp[stamp] for stamp in stamps])
+
+
+def _stamped(messages):
+    """The messages, or the poses of the last path."""
+    if messages and messages[-1][1] == PATH:
+        return [(pose, "geometry_msgs/PoseStamped") for pose in messages[-1][0].poses]
+    return messages
 
 
 def read_messages(bag_path, topic):

@@ -112,7 +112,7 @@ def add_arguments(parser):
     add = parser.add_argument
     add("poses", type=Path, metavar="POSES.bag", help="bag of run_bag, or a recording")
     add("relations", type=Path, metavar="RELATIONS", help="lines of: t1 t2 x y z roll pitch yaw")
-    topics = "Odometry, PoseStamped or PoseWithCovarianceStamped (default %(default)s)"
+    topics = "Odometry, PoseStamped, PoseWithCovarianceStamped or Path (default %(default)s)"
     add("--topic", default="/pose", help=topics)
     recording = f"bag with {LOG_STAMPS_TOPIC}, if the poses' stamps are not the log's"
     add("--recording", type=Path, metavar="BAG", help=recording)

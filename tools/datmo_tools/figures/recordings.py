@@ -108,8 +108,9 @@ def _slam(bench, folder):
     return {
         item["log"]: {
             **{name: {key: _mean_and_std(item[name][key]) for key in keys}
-               for name in ("odometry", "pose")},
+               for name in ("odometry", "pose", "loops_closed")},
             "relations": item["pose"]["used"],
+            "relations_of_loops": item["loops_closed"]["used"],
             "scans": item["time"]["runs"],
             "median_time_ms": 1e3 * item["time"]["median_s"],
         }

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How far off the pose is at the end of a closed course, with and without loops closed: command line
+and runs."""
+
+import json
+import math
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from datmo_tools import command_line, programs, transforms
+from datmo_tools.errors import InputError
+from datmo_tools.experiments import simulated_run
+from datmo_tools.pose_path import read_path
+from datmo_tools.text_table import aligned
+from datmo_tools.whole_files import write_whole
+
+DESCRIPTION = """\
+Drives a scene that leads round a closed course more than once through simulator and run_bag, with
+several seeds, and prints how far off the live pose and the optimized trajectory are at the end and
+at the most, both laid on the true drive at its first pose; and the processor's time of a scan."""
+
+FORMAT = 1  # of the JSON file
+PROGRAMS = ("simulate", "run_bag")
+TRAJECTORY = "/trajectory/optimized"
+PATHS = {"live pose": "/pose", "with loops closed": TRAJECTORY}
+
+
+def main(arguments=None):
+    """Runs the command line; returns its exit code."""
+    values = _parser().parse_args(arguments)
+    return command_line.run("loop_closing", lambda: _run(values), product="report")
+
+
+def errors(path, truth):
+    """How far a PosePath is from the true one (PosePath), with their poses at the path's first stamp
+    laid on each other: dict of end_m, end_deg, end_share (of the distance driven), max_m."""
+    begin = path.stamps[0]
+    to_truth = transforms.compose(
+        truth.at(begin), transforms.relative(path.at(begin), np.zeros(3))
+    )
+    apart = np.array([
+        transforms.relative(truth.at(stamp), transforms.compose(to_truth, pose))
+        for stamp, pose in zip(path.stamps, path.poses)
+    ])  # fmt: skip
+    distances = np.hypot(apart[:, 0], apart[:, 1])
+    return {
+        "end_m": float(distances[-1]),
+        "end_deg": abs(math.degrees(apart[-1, 2])),
+        "end_share": float(distances[-1]) / truth.length(),
+        "max_m": float(distances.max()),
+    }
+
+
+def table(results):
+    """The results (list of dict, one a seed) as text."""
+    rows = [["seed", "", "off at the end, m", "% of the way", "deg", "at the most, m"]]
+    for result in results:
+        for name in PATHS:
+            scored = result[name]
+            figures = scored["end_m"], 100.0 * scored["end_share"], scored["end_deg"]
+            rows.append([str(result["seed"]), name, *(f"{figure:.3f}" for figure in figures),
+                         f"{scored['max_m']:.2f}"])  # fmt: skip
+    times = {stage: np.mean([result["time"][stage]["mean_s"] for result in results])
+             for stage in ("grid_slam", "loop_closing")}  # fmt: skip
+    notes = [f"{stage}: {1e3 * mean:.2f} ms a scan" for stage, mean in times.items()]
+    return "\n".join([aligned(rows), *notes])
+
+
+def _drive(values, seed):
+    """Result (dict) of one seed. Raises StepFailed."""
+    with tempfile.TemporaryDirectory(prefix="loop_closing_") as name:
+        folder = Path(name)
+        recorded, computed, times = (folder / file for file in ("in.bag", "out.bag", "times.json"))
+        drive = simulated_run.SimulatedDrive(values.scene, (f"seed={seed}",))
+        simulated_run.record(drive, values.programs, recorded)
+        programs.call(values.programs / "run_bag", recorded, computed, "--config", values.config,
+                      "--loop-closing", "--until", "loop_closing", "--times", times,
+                      "--quiet")  # fmt: skip
+        truth = read_path(recorded, "/ground_truth/pose")
+        scored = {kind: errors(read_path(computed, topic), truth) for kind, topic in PATHS.items()}
+        return {"seed": seed, **scored, "time": json.loads(times.read_text(encoding="utf-8"))}
+
+
+def _run(values):
+    for file in (values.scene, values.config):
+        if not file.is_file():
+            raise InputError(f"{file}: no such file, expected a scene and a yaml file")
+    programs.check(values.programs, PROGRAMS)
+    with ThreadPoolExecutor(values.jobs) as pool:
+        try:
+            results = list(pool.map(partial(_drive, values), range(1, values.seeds + 1)))
+        except programs.StepFailed as error:
+            raise InputError(str(error)) from error
+    print(table(results))
+    if values.out is not None:
+        report = {"format": FORMAT, "scene": values.scene.stem, "results": results}
+        write_whole(values.out.parent, {values.out.name: json.dumps(report, indent=2) + "\n"})
+
+
+def _parser():
+    parser = command_line.new_parser("loop_closing", DESCRIPTION)
+    add = parser.add_argument
+    add("scene", type=Path, metavar="SCENE.yaml", help="round a closed course")
+    add("--programs", type=Path, required=True, metavar="FOLDER", help="of simulate and run_bag")
+    add("--config", type=Path, required=True, metavar="FILE.yaml", help="the sensor set")
+    add("--seeds", type=int, default=3, metavar="N", help="from 1 on (default %(default)s)")
+    add("--jobs", type=int, default=1, metavar="N", help="at a time (default %(default)s)")
+    add("--out", type=command_line.output_file, metavar="FILE.json", help="writes all figures there")
+    return parser
