@@ -247,6 +247,18 @@ class Pages(InFolder):
         self.assertNotIn("Indoors", pages["doc/results.md"])
         self.assertIn("`0123abcd`", pages["doc/results.md"])
 
+    def test_loops_are_shown_where_they_were_measured(self):
+        scored = {"translation_m": {"mean": 0.5, "std": 0.1}, "rotation_deg": {"mean": 1, "std": 2}}
+        run = {"odometry": scored, "pose": scored, "relations": 9, "scans": 7, "median_time_ms": 0.5}
+        before = self.pages(slam={"intel": run})
+        self.assertIn("0.500 m, 1.00 deg |", before["README.md"])
+        self.assertNotIn("loops closed", before["README.md"] + before["doc/results.md"])
+        loops = {**scored, "translation_m": {"mean": 0.25, "std": 0.1}}
+        after = self.pages(slam={"intel": {**run, "loops_closed": loops, "relations_of_loops": 8}})
+        self.assertIn("1.00 deg; with loops closed 0.250 m |", after["README.md"])
+        self.assertIn("| | | 8 | `loop_closing`, at the end | 0.250 ± 0.100 |", after["doc/results.md"])
+        self.assertIn("with loops closed", after["doc/results.md"])
+
     def test_rendered_twice_is_the_same(self):
         write_pages(self.folder, results(people=PEOPLE))
         first = (self.folder / "README.md").read_text()
